@@ -1,0 +1,3054 @@
+/* shade.h - classic local shading and an exact z-buffer rasterizer in one C99 file.   Public domain or MIT.
+
+   Emission, ambient, Lambert, Phong and Blinn-Phong light ("iteration four" of the graphics courses, over any
+   number of directional, point and spot lights), the vector and matrix maths they need, and a small, fast
+   triangle rasterizer with programmable vertex and fragment shaders to see them with.  It allocates nothing,
+   keeps no global state, starts no thread and draws into memory that you own.  The pixels are the same bits
+   on every compiler and CPU: the arithmetic is IEEE single and double precision, never contracted.
+
+   Use: in exactly one C or C++ file
+
+       #define SHADE_IMPLEMENTATION
+       #include "shade.h"
+
+   and plain #include "shade.h" elsewhere.  Link with -lm (for sqrtf alone; see SHADE_NO_LIBM).
+
+       static uint32_t pixels[480 * 640];  static float depth[480 * 640];
+
+       int main(void) {
+           static const float corner[] = { -1, -1, 0,   1, -1, 0,   0, 1, 0 };
+           shade_target target = { 640, 480 };
+           shade_mesh mesh = { corner };
+           shade_draw_state state = { 0 };
+           shade_light sun = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 0.8f, 0.5f));
+           target.color = pixels, target.depth = depth;
+           mesh.vertex_count = 3;
+           state.projection = shade_mat4_perspective(1, 640 / 480.0f, 0.1f, 10);
+           state.view = shade_mat4_look_at(shade_v3(0, 0, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+           state.lighting.lights = &sun, state.lighting.light_count = 1;
+           shade_clear(&target, shade_v4(0.1f, 0.1f, 0.2f, 1), 1);
+           shade_draw_mesh(&target, &mesh, &state, NULL);
+           return shade_write_ppm("triangle.ppm", &target);
+       }
+
+   It does not open windows, parse model files, start threads, emulate OpenGL, or do shadows, reflections,
+   or physically based materials.                                                                   >>about
+
+   >>contents
+     About      >>about  >>contents  >>conventions  >>model
+     Public     >>config  >>types  >>math  >>light  >>draw
+     Inside     >>base  >>matrix  >>power  >>lighting  >>lanes
+                >>vertex  >>clip  >>setup  >>cover  >>fragment  >>store  >>drive  >>mesh  >>image
+     Sources    >>refs
+
+   >>conventions
+     World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
+     Matrices     column vectors, stored by columns: (float *)&m is what OpenGL, GLM and cglm call a matrix.
+     Clip space   -w <= x, y, z <= w; with depth_zero_to_one 0 <= z <= w.  Near and far both clip.
+     Window       x right, y DOWN, row 0 on top.  Pixel (i,j) has its centre at (i + 1/2, j + 1/2).
+                  X = (x/w + 1) width/2,   Y = (1 - y/w) height/2.
+     Depth        0 near, 1 far, test LESS, cleared to 1.  For reversed depth: shade_mat4_perspective_reversed,
+                  depth_zero_to_one, SHADE_GREATER and a clear value of 0.
+     Front face   counter-clockwise as seen on the screen.
+     Coverage     vertices snapped to floor(256 X + 1/2) / 256, exact integer edges, top-left rule.
+     Directions   N, L, V, H, R are unit and all point AWAY from the surface.
+     Colour       linear light, unclamped.  8 and 5-6-5 bits store clamp(c, 0, 1) to nearest, NaN as 0.
+     Names        _ws world   _cs clip   _ss screen   _fx8 24.8 fixed point   rw 1/w      shade__x private
+
+   >>model   Every equation of light in this file, with its symbols ("iteration four"):
+
+     I = k_e + k_a I_a + SUM over lights j of {
+             k_a I_La,j  +  spot_j / (a_j + b_j r_j + c_j r_j^2)  B_j ( k_d I_d,j (N.L_j)  +  k_s I_s,j (N.H_j)^n ) }
+
+     k_e k_a k_d k_s n   emission, ambient, diffuse, specular, shininess of the shade_material
+     I_a                 ambient light of the scene;   I_La, I_d, I_s: ambient, diffuse, specular of the light
+     a b c, r            attenuation coefficients and distance to the light (lights at infinity: factor 1)
+     spot                (L.S)^e where L.S >= cos(beta), else 0; S is opposite to where the lamp points
+     B                   1 where N.L > 0, else 0
+     H                   (L + V) / |L + V|;  SHADE_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
+*/
+#ifndef SHADE_H
+#define SHADE_H
+
+/*------------------------------------------------------------------------------------------------- >>config
+   Options, each defined before the #include, the same for every file of a program:
+
+     SHADE_IMPLEMENTATION     also compile the function bodies; in one file only
+     SHADE_STATIC             all functions static: a private copy in this file
+     SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
+     SHADE_ASSERT(x)          guards the library's own invariants; default assert(x), nothing under SHADE_NO_LIBM
+     SHADE_LANES              fragments per packet, 8 .. 256, a power of two; default 128; 16 for small stacks
+     SHADE_MAX_VARYINGS       floats a vertex shader can hand to a fragment shader, 1 .. 64; default 16
+     SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
+     SHADE_NO_LIBM            freestanding: only <stddef.h>, <stdint.h>, <float.h>; implies NO_STDIO, NO_DISPATCH
+     SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
+     SHADE_NO_DISPATCH        one build of each loop, for the processor the compiler was told of
+*/
+#include <float.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef SHADE_NO_LIBM
+#ifndef SHADE_NO_STDIO
+#define SHADE_NO_STDIO
+#endif
+#ifndef SHADE_NO_DISPATCH
+#define SHADE_NO_DISPATCH
+#endif
+#define SHADE__SQRT(x) shade__own_sqrt(x)
+#else
+#include <math.h>
+#define SHADE__SQRT(x) sqrtf(x)
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)    /* the builtins are folded with -ffreestanding as well */
+#ifndef SHADE_MEMCPY
+#define SHADE_MEMCPY(d, s, n) __builtin_memcpy(d, s, n)
+#endif
+#ifndef SHADE_MEMSET
+#define SHADE_MEMSET(d, c, n) __builtin_memset(d, c, n)
+#endif
+#elif !defined(SHADE_MEMCPY) || !defined(SHADE_MEMSET)
+#include <string.h>
+#ifndef SHADE_MEMCPY
+#define SHADE_MEMCPY(d, s, n) memcpy(d, s, n)
+#endif
+#ifndef SHADE_MEMSET
+#define SHADE_MEMSET(d, c, n) memset(d, c, n)
+#endif
+#endif
+
+#ifndef SHADE_LANES
+#define SHADE_LANES 128
+#endif
+#ifndef SHADE_MAX_VARYINGS
+#define SHADE_MAX_VARYINGS 16
+#endif
+#if SHADE_LANES < 8 || SHADE_LANES > 256 || (SHADE_LANES & (SHADE_LANES - 1))
+#error "shade.h: SHADE_LANES must be 8, 16, 32, 64, 128 or 256"
+#endif
+#if SHADE_MAX_VARYINGS < 1 || SHADE_MAX_VARYINGS > 64
+#error "shade.h: SHADE_MAX_VARYINGS must be 1 .. 64"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#error "shade.h: floats are evaluated in a wider type; on 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define SHADE__INLINE static inline __attribute__((always_inline))
+#define SHADE__NOINLINE __attribute__((noinline))
+#define SHADE__UNUSED __attribute__((unused))
+#elif defined(_MSC_VER)
+#define SHADE__INLINE static __forceinline
+#define SHADE__NOINLINE __declspec(noinline)
+#define SHADE__UNUSED
+#else
+#define SHADE__INLINE static inline
+#define SHADE__NOINLINE
+#define SHADE__UNUSED
+#endif
+
+#ifndef SHADEDEF
+#ifdef SHADE_STATIC
+#define SHADEDEF SHADE__UNUSED static
+#else
+#define SHADEDEF extern
+#endif
+#endif
+
+#if defined(__cplusplus) || defined(_MSC_VER)
+#define SHADE_RESTRICT __restrict
+#else
+#define SHADE_RESTRICT restrict
+#endif
+
+/* SHADE_EACH_LANE(i) { ... }   runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into vector code
+   when the body is straight arithmetic on arrays indexed by i.  Without the pragma they unroll the loop before
+   they vectorise it: 1.5 to 2.4 times slower.  After an if, put braces around the whole. */
+#if defined(__clang__)
+#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
+#else
+#define SHADE__NO_UNROLL
+#endif
+#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (int i = 0; i < (n); i++)
+#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
+
+/* Contraction of a * b + c to one rounding would give other bits on other processors: off for all of this file
+   with clang, for the implementation with gcc (which decides after inlining, so by its caller). */
+#if defined(__clang__)
+#define SHADE__EXACT_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
+#define SHADE__EXACT_END _Pragma("float_control(pop)")
+#define SHADE__EXACT_INSIDE_BEGIN
+#define SHADE__EXACT_INSIDE_END
+#elif defined(__GNUC__)
+#define SHADE__EXACT_BEGIN
+#define SHADE__EXACT_END
+#define SHADE__EXACT_INSIDE_BEGIN \
+    _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
+#define SHADE__EXACT_INSIDE_END _Pragma("GCC pop_options")
+#elif defined(_MSC_VER)
+#define SHADE__EXACT_BEGIN __pragma(float_control(push)) __pragma(fp_contract(off))
+#define SHADE__EXACT_END __pragma(float_control(pop))
+#define SHADE__EXACT_INSIDE_BEGIN
+#define SHADE__EXACT_INSIDE_END
+#else
+#define SHADE__EXACT_BEGIN
+#define SHADE__EXACT_END
+#define SHADE__EXACT_INSIDE_BEGIN
+#define SHADE__EXACT_INSIDE_END
+#endif
+
+/* Wide code from any build: on x86-64 the bodies of hot loops (name_body, always inlined) are compiled for SSE2, AVX2
+   and AVX-512 and chosen by the processor at each call, without a global of ours.  Same bits on every path: no FMA.
+   SHADE__LEVEL may be defined to an int expression (0, 1, 2) by tests to force a path. */
+#if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
+#ifndef SHADE__LEVEL
+#define SHADE__LEVEL (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
+                      __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
+#endif
+#ifdef __clang__
+#define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#else
+#define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
+#endif
+#define SHADE__AVX2 __attribute__((target("avx2")))
+#define SHADE__DISPATCH(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    SHADE__AVX512 static SHADE__NOINLINE void name##_avx512 parameters { name##_body arguments; } \
+    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters { name##_body arguments; } \
+    static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
+    static name##_fn *name##_pick(void) \
+    { \
+        int level = SHADE__LEVEL; \
+        return level == 2 ? name##_avx512 : level == 1 ? name##_avx2 : name##_any; \
+    }
+#else
+#define SHADE__DISPATCH(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
+    static name##_fn *name##_pick(void) { return name##_any; }
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
+#else
+#define SHADE__LOWEST_BIT(x) shade__lowest_bit(x)
+#endif
+
+#ifndef SHADE_ASSERT
+#ifdef SHADE_NO_LIBM
+#define SHADE_ASSERT(x) ((void)0)
+#else
+#include <assert.h>
+#define SHADE_ASSERT(x) assert(x)
+#endif
+#endif
+#ifndef SHADE_NO_STDIO
+#include <stdio.h>
+#endif
+
+SHADE__EXACT_BEGIN
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*-------------------------------------------------------------------------------------------------- >>types
+   Plain structs, passed by value.  Zeroed fields always mean the default. */
+
+typedef struct shade_vec2 { float x, y; } shade_vec2;
+typedef struct shade_vec3 { float x, y, z; } shade_vec3;
+typedef struct shade_vec4 { float x, y, z, w; } shade_vec4;
+typedef struct shade_mat3 { shade_vec3 col[3]; } shade_mat3;    /* columns */
+typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
+
+typedef enum shade_result {
+    SHADE_OK = 0,
+    SHADE_ERROR_ARGUMENT,    /* NULL where memory is needed, an unknown enum value, a count that makes no sense */
+    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle or strip of the target */
+    SHADE_ERROR_INDEX,       /* an index at or past vertex_count, or no whole number of triangles */
+    SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
+    SHADE_ERROR_IO           /* a file or the caller's write function failed */
+} shade_result;
+
+/* A short English text for a result, never NULL. */
+SHADEDEF const char *shade_result_string(shade_result result);
+
+/* Property of a surface, linear RGB.  For energy's sake k_d + k_s <= 1 per channel is usual, not required. */
+typedef struct shade_material {
+    shade_vec3 emission;     /* k_e */
+    shade_vec3 ambient;      /* k_a */
+    shade_vec3 diffuse;      /* k_d */
+    shade_vec3 specular;     /* k_s */
+    float      shininess;    /* n >= 0; negative counts as 0 */
+} shade_material;
+
+/* One lamp.  shade_directional_light and its sisters below fill it in. */
+typedef struct shade_light {
+    shade_vec4 position;     /* w = 1: a point; w = 0: the direction TOWARD a distant light; else a point, xyz/w */
+    shade_vec3 ambient;      /* I_La: neither attenuated nor limited by the cone, see SHADE_ATTENUATED_AMBIENT */
+    shade_vec3 diffuse;      /* I_d */
+    shade_vec3 specular;     /* I_s */
+    float      constant, linear, quadratic;   /* a, b, c of 1/(a + b r + c r^2); all zero: no attenuation */
+    shade_vec3 spot_direction;                /* where the lamp points, any length; zero: not a spotlight */
+    float      spot_exponent;                 /* e; 0: a cone of even light */
+    float      spot_cos_cutoff;               /* cos(beta), beta from axis to edge of the cone */
+} shade_light;
+
+typedef enum shade_model {
+    SHADE_BLINN_PHONG = 0,   /* iterations three and four: (N.H)^n                       [Blinn77] */
+    SHADE_PHONG,             /* (R.V)^n in place of (N.H)^n                              [Phong75] */
+    SHADE_LAMBERT,           /* iteration two: emission, ambient, diffuse                           */
+    SHADE_AMBIENT,           /* iteration one: emission, ambient                                    */
+    SHADE_EMISSIVE,          /* iteration zero: emission                                            */
+    SHADE_COOL_TO_WARM       /* shade_cool_to_warm toward the first light; k_e is added   [Gooch98] */
+} shade_model;
+
+enum {                                 /* shade_lighting.flags */
+    SHADE_TWO_SIDED          = 1,      /* turn N toward the viewer first, where N.V < 0 */
+    SHADE_TWO_SIDED_ABS      = 2,      /* |N.L| in the diffuse term; the specular one keeps the signed gate */
+    SHADE_UNGATED_SPECULAR   = 4,      /* B leaves the specular term: highlights reach behind the terminator */
+    SHADE_WEIGHTED_SPECULAR  = 8,      /* k_s max(0, N.L) (N.H)^n: the form of a BRDF weighted by N.L */
+    SHADE_ATTENUATED_AMBIENT = 16,     /* I_La takes attenuation and cone too, as OpenGL's fixed function has it */
+    SHADE_INFINITE_VIEWER    = 32      /* eye is the direction toward the viewer, the same for every point */
+};
+enum {                                 /* shade_lighting.terms; 0 = all */
+    SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
+};
+
+/* The light that falls on a scene, and the equation that answers it.  Positions, normals and eye may live in
+   any one space whose axes are orthogonal and of equal scale: world or eye space, never clip space. */
+typedef struct shade_lighting {
+    const shade_light *lights;   /* NULL with a count: no light but in shade_draw_mesh, which refuses it */
+    int        light_count;      /* below 0 counts as 0 */
+    shade_vec3 ambient;          /* I_a, once for the scene */
+    shade_model model;           /* unknown values shade as SHADE_BLINN_PHONG; shade_draw_mesh refuses them */
+    unsigned   flags;
+    unsigned   terms;
+    shade_vec3 cool, warm;       /* for SHADE_COOL_TO_WARM; zero: (.4,.4,.7) and (.8,.6,.6) */
+} shade_lighting;
+
+typedef struct shade_terms { shade_vec3 emission, ambient, diffuse, specular; } shade_terms;
+
+typedef enum shade_format {
+    SHADE_RGBA8 = 0,             /* bytes R, G, B, A in memory order */
+    SHADE_RGB565,                /* a native uint16, red in the high bits */
+    SHADE_RGBA32F                /* four floats, stored as they come */
+} shade_format;
+
+/* An image and its depth buffer in the caller's memory. */
+typedef struct shade_target {
+    int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
+    int   stride;                /* pixels from row to row; 0 = width; what lies between is never touched */
+    shade_format format;
+    void  *color;                /* NULL: depth only */
+    float *depth;                /* stride pixels a row as well; NULL: no depth buffer, every test passes */
+    int   srgb;                  /* non-zero: linear light is encoded to sRGB when stored in 8 or 5-6-5 bits */
+    int   dither;                /* non-zero: 4 x 4 ordered dither when stored in 5-6-5 bits */
+    int   clip_x, clip_y, clip_width, clip_height;   /* draw and clear only here, cut to the picture; all zero:
+                                    everywhere.  An empty rectangle draws nothing; sizes below 0 are refused. */
+    int   row_offset, row_count; /* strips: color and depth hold row_count rows from row_offset on; 0 rows: all */
+} shade_target;
+
+typedef enum shade_interpolation {
+    SHADE_PERSPECTIVE = 0,       /* correct: linear in the plane of the triangle */
+    SHADE_AFFINE,                /* linear on the screen, to show the fault */
+    SHADE_CONSTANT               /* the value of the triangle's first vertex, as submitted */
+} shade_interpolation;
+typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
+typedef enum shade_compare {     /* a fragment passes when its depth is ... than the stored one */
+    SHADE_LESS = 0, SHADE_LESS_EQUAL, SHADE_GREATER, SHADE_GREATER_EQUAL, SHADE_EQUAL, SHADE_ALWAYS
+} shade_compare;
+typedef enum shade_blend {       /* s the fragment's colour, a its alpha, d what is stored; linear light */
+    SHADE_REPLACE = 0,           /* s */
+    SHADE_OVER,                  /* s a + d (1 - a); alpha: a + d_a (1 - a) */
+    SHADE_ADD                    /* s + d, all four channels */
+} shade_blend;
+typedef enum shade_shading {
+    SHADE_PER_FRAGMENT = 0,      /* N and P interpolated, N made unit again, lit per pixel           [Phong75] */
+    SHADE_PER_VERTEX,            /* lit at the vertices, colours interpolated                     [Gouraud71] */
+    SHADE_PER_FACE               /* lit once, at the centroid, with the geometric normal */
+} shade_shading;
+
+/* What became of the triangles of one call; written from zero by each call, whatever the clip rectangle is.
+   triangles = culled + clipped + rejected + drawn. */
+typedef struct shade_stats {
+    long long triangles;
+    long long culled;            /* facing, or zero area after snapping */
+    long long clipped;           /* nothing of it inside the view volume */
+    long long rejected;          /* a position that is NaN, infinite or beyond 1e30 */
+    long long drawn;
+    long long fragments;         /* pixels that passed the depth test (inside the clip rectangle) */
+} shade_stats;
+
+/*--------------------------------------------------------------------------------------------------- >>math
+   Vectors inline; matrices below, their bodies in >>matrix.  Un-suffixed names work on shade_vec3.
+   Any finite input gives finite output while it stays below 1e12 (vectors) and 1e6 (matrices). */
+
+SHADE__INLINE shade_vec2 shade_v2(float x, float y) { shade_vec2 v; v.x = x; v.y = y; return v; }
+SHADE__INLINE shade_vec3 shade_v3(float x, float y, float z)
+{
+    shade_vec3 v; v.x = x; v.y = y; v.z = z; return v;
+}
+SHADE__INLINE shade_vec4 shade_v4(float x, float y, float z, float w)
+{
+    shade_vec4 v; v.x = x; v.y = y; v.z = z; v.w = w; return v;
+}
+
+/* The pattern of a number, and back. */
+SHADE__INLINE float shade__bits_float(uint32_t u) { float f; SHADE_MEMCPY(&f, &u, 4); return f; }
+SHADE__INLINE uint32_t shade__float_bits(float f) { uint32_t u; SHADE_MEMCPY(&u, &f, 4); return u; }
+SHADE__INLINE double shade__bits_double(uint64_t u) { double d; SHADE_MEMCPY(&d, &u, 8); return d; }
+SHADE__INLINE uint64_t shade__double_bits(double d) { uint64_t u; SHADE_MEMCPY(&u, &d, 8); return u; }
+
+/* Correctly rounded square root, as sqrtf.  Newton in double gives 2^-50; then the midpoints between the result
+   and its neighbours, whose squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
+static inline float shade__own_sqrt(float x)
+{
+    if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
+    double d = (double)x, y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(d) >> 1));
+    for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * d * y * y;
+    uint32_t u = shade__float_bits((float)(d * y));
+    double below = ((double)shade__bits_float(u - 1) + (double)shade__bits_float(u)) / 2;
+    double above = ((double)shade__bits_float(u + 1) + (double)shade__bits_float(u)) / 2;
+    return shade__bits_float(below * below > d ? u - 1 : above * above < d ? u + 1 : u);
+}
+SHADE__INLINE float shade__sqrt(float x) { return SHADE__SQRT(x); }
+
+SHADE__INLINE shade_vec3 shade_add(shade_vec3 a, shade_vec3 b) { return shade_v3(a.x + b.x, a.y + b.y, a.z + b.z); }
+SHADE__INLINE shade_vec3 shade_sub(shade_vec3 a, shade_vec3 b) { return shade_v3(a.x - b.x, a.y - b.y, a.z - b.z); }
+/* component by component, as colour times colour */
+SHADE__INLINE shade_vec3 shade_mul(shade_vec3 a, shade_vec3 b) { return shade_v3(a.x * b.x, a.y * b.y, a.z * b.z); }
+SHADE__INLINE shade_vec3 shade_scale(shade_vec3 v, float s) { return shade_v3(v.x * s, v.y * s, v.z * s); }
+/* a + s b */
+SHADE__INLINE shade_vec3 shade_madd(shade_vec3 a, float s, shade_vec3 b)
+{
+    return shade_v3(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
+}
+SHADE__INLINE shade_vec3 shade_neg(shade_vec3 v) { return shade_v3(-v.x, -v.y, -v.z); }
+SHADE__INLINE float shade_dot(shade_vec3 a, shade_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/* right-handed: x cross y = z */
+SHADE__INLINE shade_vec3 shade_cross(shade_vec3 a, shade_vec3 b)
+{
+    return shade_v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+SHADE__INLINE float shade_length(shade_vec3 v) { return shade__sqrt(shade_dot(v, v)); }
+SHADE__INLINE float shade_distance(shade_vec3 a, shade_vec3 b) { return shade_length(shade_sub(a, b)); }
+/* v / |v|; zero where |v| < 1e-18 */
+SHADE__INLINE shade_vec3 shade_normalize(shade_vec3 v)
+{
+    float d = shade_dot(v, v);
+    return shade_scale(v, d >= 1e-36f ? 1 / shade__sqrt(d) : 0);
+}
+/* a + t (b - a): exactly a at t = 0, b to rounding at t = 1; t is not clamped */
+SHADE__INLINE shade_vec3 shade_lerp(shade_vec3 a, shade_vec3 b, float t) { return shade_madd(a, t, shade_sub(b, a)); }
+SHADE__INLINE float shade__minf(float a, float b) { return a < b ? a : b; }
+SHADE__INLINE float shade__maxf(float a, float b) { return a > b ? a : b; }
+SHADE__INLINE shade_vec3 shade_min(shade_vec3 a, shade_vec3 b)
+{
+    return shade_v3(shade__minf(a.x, b.x), shade__minf(a.y, b.y), shade__minf(a.z, b.z));
+}
+SHADE__INLINE shade_vec3 shade_max(shade_vec3 a, shade_vec3 b)
+{
+    return shade_v3(shade__maxf(a.x, b.x), shade__maxf(a.y, b.y), shade__maxf(a.z, b.z));
+}
+/* max(lo, min(v, hi)) by component; a NaN in v gives hi */
+SHADE__INLINE shade_vec3 shade_clamp(shade_vec3 v, shade_vec3 lo, shade_vec3 hi)
+{
+    return shade_max(shade_min(v, hi), lo);
+}
+/* GLSL's reflect: I - 2 (N.I) N.  I arrives AT the surface, the result leaves it.  N unit. */
+SHADE__INLINE shade_vec3 shade_reflect(shade_vec3 incident, shade_vec3 n)
+{
+    return shade_madd(incident, -2 * shade_dot(n, incident), n);
+}
+/* The books' mirror direction R = 2 (N.L) N - L = reflect(-L, N).  L and R both leave the surface.  N unit. */
+SHADE__INLINE shade_vec3 shade_mirror(shade_vec3 to_light, shade_vec3 n)
+{
+    return shade_reflect(shade_neg(to_light), n);
+}
+/* H = (L + V) / |L + V| of unit L and V, both away from the surface; zero where |L + V|^2 < 1e-12.  [Blinn77] */
+SHADE__INLINE shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
+{
+    shade_vec3 h = shade_add(to_light, to_eye);
+    return shade_dot(h, h) < 1e-12f ? shade_v3(0, 0, 0) : shade_normalize(h);
+}
+/* Unit normal (b - a) x (c - a), toward the side that sees a, b, c counter-clockwise; zero for a degenerate one. */
+SHADE__INLINE shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
+{
+    return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)), shade_normalize(shade_sub(c, a))));
+}
+
+SHADE__INLINE shade_vec2 shade_add2(shade_vec2 a, shade_vec2 b) { return shade_v2(a.x + b.x, a.y + b.y); }
+SHADE__INLINE shade_vec2 shade_sub2(shade_vec2 a, shade_vec2 b) { return shade_v2(a.x - b.x, a.y - b.y); }
+SHADE__INLINE shade_vec2 shade_scale2(shade_vec2 v, float s) { return shade_v2(v.x * s, v.y * s); }
+SHADE__INLINE float shade_dot2(shade_vec2 a, shade_vec2 b) { return a.x * b.x + a.y * b.y; }
+SHADE__INLINE shade_vec2 shade_lerp2(shade_vec2 a, shade_vec2 b, float t)
+{
+    return shade_add2(a, shade_scale2(shade_sub2(b, a), t));
+}
+SHADE__INLINE shade_vec4 shade_add4(shade_vec4 a, shade_vec4 b)
+{
+    return shade_v4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w);
+}
+SHADE__INLINE shade_vec4 shade_sub4(shade_vec4 a, shade_vec4 b)
+{
+    return shade_v4(a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w);
+}
+SHADE__INLINE shade_vec4 shade_scale4(shade_vec4 v, float s) { return shade_v4(v.x * s, v.y * s, v.z * s, v.w * s); }
+SHADE__INLINE float shade_dot4(shade_vec4 a, shade_vec4 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
+SHADE__INLINE shade_vec4 shade_lerp4(shade_vec4 a, shade_vec4 b, float t)
+{
+    return shade_add4(a, shade_scale4(shade_sub4(b, a), t));
+}
+
+SHADE__INLINE shade_mat3 shade__m3(shade_vec3 a, shade_vec3 b, shade_vec3 c)
+{
+    shade_mat3 m; m.col[0] = a; m.col[1] = b; m.col[2] = c; return m;
+}
+SHADE__INLINE shade_mat4 shade__m4(shade_vec4 a, shade_vec4 b, shade_vec4 c, shade_vec4 d)
+{
+    shade_mat4 m; m.col[0] = a; m.col[1] = b; m.col[2] = c; m.col[3] = d; return m;
+}
+/* m v */
+SHADE__INLINE shade_vec3 shade_mat3_transform(shade_mat3 m, shade_vec3 v)
+{
+    return shade_v3(m.col[0].x * v.x + m.col[1].x * v.y + m.col[2].x * v.z,
+                    m.col[0].y * v.x + m.col[1].y * v.y + m.col[2].y * v.z,
+                    m.col[0].z * v.x + m.col[1].z * v.y + m.col[2].z * v.z);
+}
+SHADE__INLINE shade_vec4 shade_mat4_transform(shade_mat4 m, shade_vec4 v)
+{
+    return shade_v4(m.col[0].x * v.x + m.col[1].x * v.y + m.col[2].x * v.z + m.col[3].x * v.w,
+                    m.col[0].y * v.x + m.col[1].y * v.y + m.col[2].y * v.z + m.col[3].y * v.w,
+                    m.col[0].z * v.x + m.col[1].z * v.y + m.col[2].z * v.z + m.col[3].z * v.w,
+                    m.col[0].w * v.x + m.col[1].w * v.y + m.col[2].w * v.z + m.col[3].w * v.w);
+}
+/* a b: the transform that does b first */
+SHADE__INLINE shade_mat3 shade_mat3_mul(shade_mat3 a, shade_mat3 b)
+{
+    return shade__m3(shade_mat3_transform(a, b.col[0]), shade_mat3_transform(a, b.col[1]),
+                     shade_mat3_transform(a, b.col[2]));
+}
+SHADE__INLINE shade_mat4 shade_mat4_mul(shade_mat4 a, shade_mat4 b)
+{
+    return shade__m4(shade_mat4_transform(a, b.col[0]), shade_mat4_transform(a, b.col[1]),
+                     shade_mat4_transform(a, b.col[2]), shade_mat4_transform(a, b.col[3]));
+}
+/* m (p, 1), divided by its w; not divided where w = 0 */
+SHADE__INLINE shade_vec3 shade_mat4_transform_point(shade_mat4 m, shade_vec3 p)
+{
+    shade_vec4 h = shade_mat4_transform(m, shade_v4(p.x, p.y, p.z, 1));
+    return h.w == 0 ? shade_v3(h.x, h.y, h.z) : shade_v3(h.x / h.w, h.y / h.w, h.z / h.w);
+}
+/* m (d, 0): translation does not move a direction; not made unit */
+SHADE__INLINE shade_vec3 shade_mat4_transform_direction(shade_mat4 m, shade_vec3 d)
+{
+    shade_vec4 h = shade_mat4_transform(m, shade_v4(d.x, d.y, d.z, 0));
+    return shade_v3(h.x, h.y, h.z);
+}
+
+SHADEDEF shade_mat3 shade_mat3_identity(void);
+SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);             /* the upper left 3 x 3 */
+SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
+SHADEDEF float      shade_mat3_determinant(shade_mat3 m);           /* a . (b x c) of the columns */
+SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);               /* zero matrix where the determinant is 0 */
+SHADEDEF shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m);     /* (m^-1)^T, sign and scale kept; zero as above */
+SHADEDEF shade_mat4 shade_mat4_identity(void);
+SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
+SHADEDEF float      shade_mat4_determinant(shade_mat4 m);           /* computed in double */
+SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);               /* computed in double; zero where determinant 0 */
+SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
+SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
+
+/* Rotation by the right-hand rule about an axis of any length; the identity for a zero axis.  Sine and cosine
+   are the library's own, exact to float rounding for |radians| < 1e5 (beyond 1e9, or NaN, it counts as 0). */
+SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
+
+/* World to eye: eye goes to the origin, center onto the -z axis, up into the upper half of the y-z plane.
+   up parallel to the line of sight: some finite up is taken.  eye = center: looks down -z. */
+SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
+
+/* Eye to clip.  fovy is the whole vertical angle, aspect is width / height, 0 < near < far are distances.
+   perspective, frustum, ortho: z to [-w, w], as OpenGL.  perspective_reversed: no far plane, z = near at every
+   depth and w = -z_eye, so z/w falls from 1 at near to 0 at infinity; use with depth_zero_to_one and GREATER.
+   Degenerate input (near = far, aspect 0, left = right, fovy 0 or a multiple of pi, NaN): the zero matrix. */
+SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z);
+SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z);
+SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f);
+SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f);
+
+/* The matrix that takes normals where m takes points: sign(det) times the cofactors of the upper left 3 x 3.  Equal
+   to the inverse transpose up to the positive factor |det|, and defined for singular m as well (flattening
+   keeps the normal of the plane).  Make the result unit after use. */
+SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m);
+
+/*-------------------------------------------------------------------------------------------------- >>light
+   The equations of >>model.  All vectors point away from the surface.  Everything is defined: no input that is
+   free of NaN and infinity gives one.  Error against exact arithmetic, with I the brightest light arriving:
+   below 5e-5 max(1, |exact|, I) max(1, (n + e) / 100). */
+
+/* color becomes I_d and I_s; ambient 0; no attenuation.  direction_of_travel: the way the light flies. */
+SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color);
+SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
+/* aim: where the lamp points.  cutoff from the axis to the edge of the cone, 0 .. pi.  exponent e >= 0. */
+SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians, float exponent,
+                                      shade_vec3 color);
+
+/* Light leaving P toward eye, term by term.  N is made unit here (zero stays zero: emission and ambient are left).
+   eye: the viewer's position, or the direction toward it with SHADE_INFINITE_VIEWER.  P, N, eye, lights in one space.
+   material NULL: white Lambert (k_d = k_a = 1).  lighting NULL: zeros. */
+SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
+                                    shade_vec3 P, shade_vec3 N, shade_vec3 eye);
+
+/* The sum of the four terms: iteration four. */
+SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
+                              shade_vec3 P, shade_vec3 N, shade_vec3 eye);
+
+/* shade_lit for a packet, what fragment shaders call.  P, N, albedo, rgb: three rows of SHADE_LANES floats each, x row,
+   y row, z row: in->in[k], or N[0] of a float N[3][SHADE_LANES].  albedo multiplies k_d and k_a; NULL: 1.
+   rgb must not overlap the others. */
+SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
+                              const float *P, const float *N, const float *albedo, float *rgb);
+
+/* max(0, N.L)                                                                                  N, L unit */
+SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L);
+/* B max(0, R.V)^n, R = 2 (N.L) N - L;  0 where N.L <= 0                                N, L, V unit   [Phong75] */
+SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
+/* B max(0, N.H)^n, H = (L + V) / |L + V|;  0 where N.L <= 0 or |L + V|^2 < 1e-12       N, L, V unit   [Blinn77] */
+SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
+/* 1 / (a + b r + c r^2), at most 1e20.  a = b = c = 0: 1.  a = 0: r is taken as max(r, 1e-4). */
+SHADEDEF float shade_attenuation(float a, float b, float c, float r);
+/* (L.S)^e where L.S >= cos_cutoff, else 0; S = -aim / |aim|.  L unit, toward the light.  aim zero: 1. */
+SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float exponent);
+
+/* The reflectance f_r that, times irradiance I (N.L), is the reflected light: k_d + k_s (N.H)^n for BLINN_PHONG,
+   k_d + k_s (R.V)^n for PHONG, k_d for LAMBERT, 0 else.  Ungated: the weight N.L does that.  N, L, V unit. */
+SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model,
+                               shade_vec3 N, shade_vec3 L, shade_vec3 V);
+/* cool + k_w (warm - cool), k_w = (1 + N.L) / 2.  N, L unit.                                       [Gooch98] */
+SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool, shade_vec3 warm);
+/* 4 alpha: the Blinn-Phong exponent whose highlight on a front-lit surface looks like Phong's alpha. */
+SHADEDEF float shade_blinn_exponent(float phong_exponent);
+/* x^n for x in [0, 1] (clamped to it), n >= 0 (below 0 counts as 0); x^0 = 1, also 0^0.  Never NaN.
+   Absolute error below 2e-6 for n up to 1e6. */
+SHADEDEF float shade_power(float x, float n);
+
+/* The classic materials of the OpenGL "teapots" program; shininess is its last column times 128. */
+typedef enum shade_preset {
+    SHADE_EMERALD = 0, SHADE_JADE, SHADE_OBSIDIAN, SHADE_PEARL, SHADE_RUBY, SHADE_TURQUOISE,
+    SHADE_BRASS, SHADE_BRONZE, SHADE_CHROME, SHADE_COPPER, SHADE_GOLD, SHADE_SILVER,
+    SHADE_BLACK_PLASTIC, SHADE_CYAN_PLASTIC, SHADE_GREEN_PLASTIC, SHADE_RED_PLASTIC, SHADE_WHITE_PLASTIC,
+    SHADE_YELLOW_PLASTIC, SHADE_BLACK_RUBBER, SHADE_CYAN_RUBBER, SHADE_GREEN_RUBBER, SHADE_RED_RUBBER,
+    SHADE_WHITE_RUBBER, SHADE_YELLOW_RUBBER, SHADE_PRESET_COUNT
+} shade_preset;
+/* Out of range: white Lambert, and "". */
+SHADEDEF shade_material shade_preset_material(shade_preset preset);
+SHADEDEF const char    *shade_preset_name(shade_preset preset);    /* "emerald", "black plastic", ... */
+
+/*--------------------------------------------------------------------------------------------------- >>draw
+   vertex shader -> assemble -> clip -> rasterize -> fragment shader -> depth, blend, store.
+   Bad arguments are refused before any pixel changes, in this order: NULLs, target, other arguments, indices.
+   Nothing is ever written outside the target's rows, width and clip rectangle. */
+
+/* Fills the clip rectangle of both buffers.  A NaN depth is SHADE_ERROR_ARGUMENT. */
+SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
+
+/* The picture (of a strip: its rows) as a binary PPM, "P6".  RGBA32F is clamped, and encoded where srgb is set. */
+typedef int shade_write_fn(void *user, const void *bytes, size_t size);    /* non-zero: failed, stop */
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user, const shade_target *target);
+#ifndef SHADE_NO_STDIO
+SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
+#endif
+
+typedef struct shade_vertex_ids {            /* one packet of vertices to shade */
+    int      count;                          /* live lanes; the rest repeat the last one: compute every lane */
+    uint32_t index[SHADE_LANES];             /* what gl_VertexID is; the shader fetches its own attributes */
+} shade_vertex_ids;
+typedef struct shade_vertices {
+    float clip[4][SHADE_LANES];              /* clip-space position, preset to 0 */
+    float out[SHADE_MAX_VARYINGS][SHADE_LANES];   /* varyings, preset to 0 */
+} shade_vertices;
+typedef struct shade_fragments {             /* one packet of pixels to shade, of any triangles of the draw */
+    int      count;                          /* live lanes; the rest repeat the last one: compute every lane */
+    float    x[SHADE_LANES], y[SHADE_LANES]; /* pixel centre, window space */
+    float    z[SHADE_LANES];                 /* depth as stored */
+    float    in[SHADE_MAX_VARYINGS][SHADE_LANES];   /* interpolated varyings; rows from pipeline.varyings on: unset */
+    uint32_t primitive[SHADE_LANES];         /* index of the triangle in this draw */
+    uint32_t front[SHADE_LANES];             /* 1: front-facing, 0: back-facing */
+} shade_fragments;
+typedef struct shade_colors {
+    float    out[4][SHADE_LANES];            /* linear RGBA, preset to 0, 0, 0, 1 */
+    uint32_t discard[SHADE_LANES];           /* preset to 0; non-zero: the pixel stays (needs may_discard) */
+} shade_colors;
+
+/* Both shaders work on whole packets: write plain loops with SHADE_EACH_LANE and the compiler makes vectors. */
+typedef void shade_vertex_shader(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                 shade_vertices *SHADE_RESTRICT out);
+typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                   shade_colors *SHADE_RESTRICT out);
+
+typedef struct shade_pipeline {
+    shade_vertex_shader   *vertex;
+    shade_fragment_shader *fragment;         /* NULL: depth only */
+    const void            *uniforms;         /* handed to both shaders */
+    int                    varyings;         /* floats per vertex, 0 .. SHADE_MAX_VARYINGS */
+    shade_interpolation    interpolation;
+    shade_cull             cull;
+    shade_compare          depth_test;
+    int                    depth_read_only;  /* non-zero: test, do not write */
+    int                    depth_zero_to_one;
+    int                    may_discard;      /* depth is then tested and written after the shader, in drawing order */
+    float                  depth_bias;       /* added to window depth; what is stored is clamped to [0, 1] */
+    shade_blend            blend;
+} shade_pipeline;
+
+/* Draws index_count / 3 triangles.  indices NULL: vertices 0, 1, 2, ...  A vertex shared by near triangles is shaded
+   about once.  Clipped are near and far, x and y only beyond 3 w.  Facing is decided once per triangle, on the screen.
+   stats may be NULL.  No colour buffer: the fragment shader runs only where may_discard is set.
+   Threads: let each draw the same with its own clip rectangle (or target); same bits as one thread. */
+SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
+                                 const uint32_t *indices, int index_count, int vertex_count, shade_stats *stats);
+
+typedef struct shade_mesh {                  /* caller's arrays; strides in BYTES, 0 = tight, multiples of 4 */
+    const float *positions;  int position_stride;    /* x, y, z */
+    const float *normals;    int normal_stride;      /* x, y, z, any length; NULL: the normal of each face */
+    const float *texcoords;  int texcoord_stride;    /* u, v */
+    const float *colors;     int color_stride;       /* R, G, B: multiplies k_d and k_a; NULL: 1 */
+    int vertex_count;
+    const uint32_t *indices; int index_count;        /* NULL: vertices in threes */
+} shade_mesh;
+
+typedef struct shade_draw_state {            /* how one mesh is drawn */
+    shade_mat4 model, view, projection;      /* a zero matrix means identity; view without scale */
+    const shade_material *material;          /* NULL: white Lambert */
+    shade_lighting lighting;                 /* light positions in world space */
+    shade_shading shading;
+    shade_cull    cull;
+    shade_compare depth_test;
+    shade_blend   blend;
+    int           depth_zero_to_one, depth_read_only;
+    float         depth_bias;
+} shade_draw_state;
+
+/* A whole mesh by the equations of >>model, in world space.  The eye is the camera of view (with
+   SHADE_INFINITE_VIEWER: its backward axis).  Per face: lit at the centroid with the geometric normal, in the colour of
+   the first vertex. */
+SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
+                                      const shade_draw_state *state, shade_stats *stats);
+
+/* Vertex normals: the unit mean of the faces around each vertex, weighted by their angle there; zero for a vertex
+   without faces.  Faces without area add nothing. */
+SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals /* vertex_count */);
+
+#ifdef __cplusplus
+}
+#endif
+SHADE__EXACT_END
+#endif /* SHADE_H */
+
+#ifdef SHADE_IMPLEMENTATION
+#ifndef SHADE__IMPLEMENTED
+#define SHADE__IMPLEMENTED
+SHADE__EXACT_BEGIN
+SHADE__EXACT_INSIDE_BEGIN
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*-------------------------------------------------------------------------------------------- >>base
+   Words the rest is written in: numbers as bit patterns, clamps without branches, dispatch.
+     holds   Loops over lanes select by masks and clamp by integers, because gcc turns float selects
+             into branches and leaves the loop scalar.  A mask is all ones or all zeros.   >>matrix */
+
+SHADE__INLINE int shade__min(int a, int b) { return a < b ? a : b; }
+SHADE__INLINE int shade__max(int a, int b) { return a > b ? a : b; }
+SHADE__INLINE int32_t shade__int_of(float f) { int32_t i; SHADE_MEMCPY(&i, &f, 4); return i; }
+SHADE__INLINE float shade__float_of(int32_t i) { float f; SHADE_MEMCPY(&f, &i, 4); return f; }
+
+/* x where the mask is set, else +0 */
+SHADE__INLINE float shade__keep(float x, uint32_t mask)
+{
+    return shade__bits_float(shade__float_bits(x) & mask);
+}
+/* b where the mask is set, else a */
+SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
+{
+    uint32_t u = shade__float_bits(a), v = shade__float_bits(b);
+    return shade__bits_float(u ^ ((u ^ v) & mask));
+}
+SHADE__INLINE uint32_t shade__mask(int condition) { return 0u - (uint32_t)condition; }
+
+/* clamp(x, lo, hi) by the integer order of bit patterns, which is the order of non-negative floats and puts
+   every negative below them.  pre: 0 <= lo <= hi.  NaN gives hi, or lo with its sign bit set. */
+SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
+{
+    int32_t i = shade__int_of(x), l = shade__int_of(lo), h = shade__int_of(hi);
+    i = i < l ? l : i;
+    return shade__float_of(i > h ? h : i);
+}
+/* |x| finite and at most limit, which is finite */
+SHADE__INLINE int shade__within(float x, float limit)
+{
+    return (shade__float_bits(x) & 0x7FFFFFFFu) <= shade__float_bits(limit);
+}
+SHADE__INLINE int shade__is_zero(shade_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+/* 1/sqrt(x) for lanes; 0 where x < 1e-36, so that vectors shorter than 1e-18 normalise to zero.
+   A bit trick and its tuned Newton step [Kadlec10], error 6.5e-4, then one cubic step
+   y + y e (1/2 + 3/8 e), e = 1 - x y^2.  Relative error below 2e-7 over all normal x.
+   sqrtf would keep the loop scalar: it may set errno. */
+SHADE__INLINE float shade__rsqrt(float x)
+{
+    float y = shade__bits_float(0x5F1FFFF9u - (shade__float_bits(x) >> 1)), e;
+    y *= 0.703952253f * (2.38924456f - x * y * y);
+    e = 1 - x * y * y;
+    y += y * e * (0.5f + 0.375f * e);
+    return shade__keep(y, shade__mask(x >= 1e-36f));
+}
+
+SHADEDEF const char *shade_result_string(shade_result result)
+{
+    switch (result) {
+    case SHADE_OK: return "no error";
+    case SHADE_ERROR_ARGUMENT: return "bad argument";
+    case SHADE_ERROR_TARGET: return "bad target: size, stride, format, clip rectangle, strip or no memory";
+    case SHADE_ERROR_INDEX: return "index past the vertices, or no whole number of triangles";
+    case SHADE_ERROR_CAPACITY: return "not enough room in the caller's memory";
+    case SHADE_ERROR_IO: return "writing failed";
+    default: return "unknown result";
+    }
+}
+
+/*------------------------------------------------------------------------------------------ >>matrix
+   Matrices of the public part: formulas as in GLM, the sums of inverses in double.
+     holds   Degenerate cameras give the zero matrix, which draws nothing.               >>power */
+
+/* Sine and cosine, to 1e-16 of the reduced argument: x - k pi/2 with pi/2 in two parts, the high one of 33 bits
+   so that k times it is exact for |k| < 2^20, and Taylor series on [-pi/4, pi/4] (next terms below 5e-17). */
+static void shade__sincos(float radians, double *sine, double *cosine)
+{
+    if (!shade__within(radians, 1e9f)) radians = 0;
+    double x = (double)radians, q = x * 0.63661977236758134;
+    long long k = (long long)(q < 0 ? q - 0.5 : q + 0.5);
+    double r = (x - (double)k * 1.57079632673412561417) - (double)k * 6.07710050650619224932e-11;
+    double t = r * r, s, c;
+    s = r + r * t * (-1 / 6.0 + t * (1 / 120.0 + t * (-1 / 5040.0 + t * (1 / 362880.0 +
+        t * (-1 / 39916800.0 + t * (1 / 6227020800.0 - t / 1307674368000.0))))));
+    c = 1 - t * (0.5 - t * (1 / 24.0 - t * (1 / 720.0 - t * (1 / 40320.0 - t * (1 / 3628800.0 -
+        t * (1 / 479001600.0 - t * (1 / 87178291200.0 - t / 20922789888000.0)))))));
+    *sine = k & 1 ? c : s, *cosine = k & 1 ? s : c;
+    if (k & 2) *sine = -*sine;
+    if ((k + 1) & 2) *cosine = -*cosine;
+}
+
+SHADEDEF shade_mat3 shade_mat3_identity(void)
+{
+    return shade__m3(shade_v3(1, 0, 0), shade_v3(0, 1, 0), shade_v3(0, 0, 1));
+}
+SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m)
+{
+    return shade__m3(shade_v3(m.col[0].x, m.col[0].y, m.col[0].z),
+                     shade_v3(m.col[1].x, m.col[1].y, m.col[1].z),
+                     shade_v3(m.col[2].x, m.col[2].y, m.col[2].z));
+}
+SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m)
+{
+    return shade__m3(shade_v3(m.col[0].x, m.col[1].x, m.col[2].x),
+                     shade_v3(m.col[0].y, m.col[1].y, m.col[2].y),
+                     shade_v3(m.col[0].z, m.col[1].z, m.col[2].z));
+}
+SHADEDEF float shade_mat3_determinant(shade_mat3 m)
+{
+    return shade_dot(m.col[0], shade_cross(m.col[1], m.col[2]));
+}
+/* det m^-T: the columns are cross products of the columns of m */
+SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
+{
+    return shade__m3(shade_cross(m.col[1], m.col[2]), shade_cross(m.col[2], m.col[0]),
+                     shade_cross(m.col[0], m.col[1]));
+}
+SHADEDEF shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
+{
+    shade_mat3 c = shade__cofactors(m);
+    float det = shade_dot(m.col[0], c.col[0]), s = det != 0 ? 1 / det : 0;
+    if (!shade__within(s, FLT_MAX)) s = 0;
+    return shade__m3(shade_scale(c.col[0], s), shade_scale(c.col[1], s), shade_scale(c.col[2], s));
+}
+SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m)
+{
+    return shade_mat3_transpose(shade_mat3_inverse_transpose(m));
+}
+SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m)
+{
+    shade_mat3 a = shade_mat3_from_mat4(m), c = shade__cofactors(a);
+    float s = shade_dot(a.col[0], c.col[0]) < 0 ? -1.0f : 1.0f;
+    return shade__m3(shade_scale(c.col[0], s), shade_scale(c.col[1], s), shade_scale(c.col[2], s));
+}
+
+static shade_mat4 shade__zero_matrix(void)
+{
+    shade_vec4 o = shade_v4(0, 0, 0, 0);
+    return shade__m4(o, o, o, o);
+}
+SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v)
+{
+    return shade__m4(shade_v4(v.x, 0, 0, 0), shade_v4(0, v.y, 0, 0), shade_v4(0, 0, v.z, 0),
+                     shade_v4(0, 0, 0, 1));
+}
+SHADEDEF shade_mat4 shade_mat4_identity(void) { return shade_mat4_scaling(shade_v3(1, 1, 1)); }
+SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v)
+{
+    shade_mat4 m = shade_mat4_identity();
+    m.col[3] = shade_v4(v.x, v.y, v.z, 1);
+    return m;
+}
+SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m)
+{
+    return shade__m4(shade_v4(m.col[0].x, m.col[1].x, m.col[2].x, m.col[3].x),
+                     shade_v4(m.col[0].y, m.col[1].y, m.col[2].y, m.col[3].y),
+                     shade_v4(m.col[0].z, m.col[1].z, m.col[2].z, m.col[3].z),
+                     shade_v4(m.col[0].w, m.col[1].w, m.col[2].w, m.col[3].w));
+}
+
+/* The 2 x 2 minors of columns a, b, of rows xy xz xw yz yw zw: what determinant and inverse share. */
+static void shade__minors(shade_vec4 a, shade_vec4 b, double *m)
+{
+    double ax = (double)a.x, ay = (double)a.y, az = (double)a.z, aw = (double)a.w;
+    double bx = (double)b.x, by = (double)b.y, bz = (double)b.z, bw = (double)b.w;
+    m[0] = ax * by - bx * ay, m[1] = ax * bz - bx * az, m[2] = ax * bw - bx * aw;
+    m[3] = ay * bz - by * az, m[4] = ay * bw - by * aw, m[5] = az * bw - bz * aw;
+}
+static double shade__determinant(const double *s, const double *c)
+{
+    return s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] + s[5] * c[0];
+}
+SHADEDEF float shade_mat4_determinant(shade_mat4 m)
+{
+    double s[6], c[6];
+    shade__minors(m.col[0], m.col[1], s), shade__minors(m.col[2], m.col[3], c);
+    return (float)shade__determinant(s, c);
+}
+/* Column of the adjugate: v is a row of m without the columns of the minors c. */
+static shade_vec4 shade__adjugate(double p, double q, double r, double t, double scale)
+{
+    return shade_v4((float)(p * scale), (float)(q * scale), (float)(r * scale), (float)(t * scale));
+}
+SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m)
+{
+    double s[6], c[6], det, k, e[4][4];
+    shade__minors(m.col[0], m.col[1], s), shade__minors(m.col[2], m.col[3], c);
+    det = shade__determinant(s, c);
+    if (!(det < 0 || det > 0)) return shade__zero_matrix();
+    for (int j = 0; j < 4; j++) {
+        e[j][0] = (double)m.col[j].x, e[j][1] = (double)m.col[j].y;
+        e[j][2] = (double)m.col[j].z, e[j][3] = (double)m.col[j].w;
+    }
+    k = 1 / det;
+    return shade__m4(
+        shade__adjugate(e[1][1] * c[5] - e[1][2] * c[4] + e[1][3] * c[3],
+                        -e[0][1] * c[5] + e[0][2] * c[4] - e[0][3] * c[3],
+                        e[3][1] * s[5] - e[3][2] * s[4] + e[3][3] * s[3],
+                        -e[2][1] * s[5] + e[2][2] * s[4] - e[2][3] * s[3], k),
+        shade__adjugate(-e[1][0] * c[5] + e[1][2] * c[2] - e[1][3] * c[1],
+                        e[0][0] * c[5] - e[0][2] * c[2] + e[0][3] * c[1],
+                        -e[3][0] * s[5] + e[3][2] * s[2] - e[3][3] * s[1],
+                        e[2][0] * s[5] - e[2][2] * s[2] + e[2][3] * s[1], k),
+        shade__adjugate(e[1][0] * c[4] - e[1][1] * c[2] + e[1][3] * c[0],
+                        -e[0][0] * c[4] + e[0][1] * c[2] - e[0][3] * c[0],
+                        e[3][0] * s[4] - e[3][1] * s[2] + e[3][3] * s[0],
+                        -e[2][0] * s[4] + e[2][1] * s[2] - e[2][3] * s[0], k),
+        shade__adjugate(-e[1][0] * c[3] + e[1][1] * c[1] - e[1][2] * c[0],
+                        e[0][0] * c[3] - e[0][1] * c[1] + e[0][2] * c[0],
+                        -e[3][0] * s[3] + e[3][1] * s[1] - e[3][2] * s[0],
+                        e[2][0] * s[3] - e[2][1] * s[1] + e[2][2] * s[0], k));
+}
+
+SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
+{
+    double sd, cd;
+    shade_vec3 a = shade_normalize(axis), t;
+    if (shade__is_zero(a)) return shade_mat4_identity();
+    shade__sincos(radians, &sd, &cd);
+    float s = (float)sd, c = (float)cd;
+    t = shade_scale(a, (float)(1 - cd));
+    return shade__m4(shade_v4(c + t.x * a.x, t.x * a.y + s * a.z, t.x * a.z - s * a.y, 0),
+                     shade_v4(t.y * a.x - s * a.z, c + t.y * a.y, t.y * a.z + s * a.x, 0),
+                     shade_v4(t.z * a.x + s * a.y, t.z * a.y - s * a.x, c + t.z * a.z, 0),
+                     shade_v4(0, 0, 0, 1));
+}
+
+SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up)
+{
+    shade_vec3 f = shade_normalize(shade_sub(center, eye)), r, u;
+    if (shade__is_zero(f)) f = shade_v3(0, 0, -1);
+    r = shade_normalize(shade_cross(f, shade_normalize(up)));
+    if (shade__is_zero(r))       /* any axis that f is far from stands in for up */
+        r = shade_normalize(shade_cross(f, f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0, 1)));
+    u = shade_cross(r, f);
+    return shade__m4(shade_v4(r.x, u.x, -f.x, 0), shade_v4(r.y, u.y, -f.y, 0),
+                     shade_v4(r.z, u.z, -f.z, 0),
+                     shade_v4(-shade_dot(r, eye), -shade_dot(u, eye), shade_dot(f, eye), 1));
+}
+
+/* A matrix with an entry that is not finite is no camera. */
+static shade_mat4 shade__camera(shade_mat4 m)
+{
+    for (int j = 0; j < 4; j++) {
+        shade_vec4 v = m.col[j];
+        if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
+            !shade__within(v.z, FLT_MAX) || !shade__within(v.w, FLT_MAX))
+            return shade__zero_matrix();
+    }
+    return m;
+}
+/* 1 / tan(fovy / 2), 0 where it is not a positive finite number */
+static double shade__focal(float fovy)
+{
+    double s, c;
+    shade__sincos(fovy / 2, &s, &c);
+    return s * c > 1e-12 ? c / s : 0;
+}
+SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z)
+{
+    double f = shade__focal(fovy), n = (double)near_z, d = n - (double)far_z;
+    if (!(f > 0) || aspect == 0 || !(d < 0 || d > 0)) return shade__zero_matrix();
+    return shade__camera(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
+                                   shade_v4(0, (float)f, 0, 0),
+                                   shade_v4(0, 0, (float)((n + (double)far_z) / d), -1),
+                                   shade_v4(0, 0, (float)(2 * n * (double)far_z / d), 0)));
+}
+SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z)
+{
+    double f = shade__focal(fovy);
+    if (!(f > 0) || aspect == 0 || !(near_z > 0)) return shade__zero_matrix();
+    return shade__camera(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
+                                   shade_v4(0, (float)f, 0, 0), shade_v4(0, 0, 0, -1),
+                                   shade_v4(0, 0, near_z, 0)));
+}
+SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f)
+{
+    double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
+    double n2 = 2 * (double)n;
+    if (w == 0 || h == 0 || d == 0) return shade__zero_matrix();
+    return shade__camera(shade__m4(
+        shade_v4((float)(n2 / w), 0, 0, 0), shade_v4(0, (float)(n2 / h), 0, 0),
+        shade_v4((float)(((double)r + (double)l) / w), (float)(((double)t + (double)b) / h),
+                 (float)(((double)n + (double)f) / d), -1),
+        shade_v4(0, 0, (float)(n2 * (double)f / d), 0)));
+}
+SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f)
+{
+    double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
+    if (w == 0 || h == 0 || d == 0) return shade__zero_matrix();
+    return shade__camera(shade__m4(
+        shade_v4((float)(2 / w), 0, 0, 0), shade_v4(0, (float)(2 / h), 0, 0),
+        shade_v4(0, 0, (float)(2 / d), 0),
+        shade_v4((float)(-((double)r + (double)l) / w), (float)(-((double)t + (double)b) / h),
+                 (float)(((double)n + (double)f) / d), 1)));
+}
+
+/*------------------------------------------------------------------------------------------- >>power
+   x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere, and loops over lanes that vectorise.
+     in      x in [0, 1], n >= 0          out  a value in [0, 1], absolute error below 3e-7
+     method  minimax polynomials: log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1], relative error 2.7e-8;
+             2^-r = 1 + r Q(r) on [-1/2, 1/2], relative error 9.2e-8                    >>lighting */
+
+/* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0.  The addend carries into the exponent where the mantissa is
+   at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is lost. */
+SHADE__INLINE float shade__neg_log2(float x)
+{
+    uint32_t t = shade__float_bits(x) + (0x3F800000u - 0x3F3504F3u);
+    float f = shade__bits_float((t & 0x007FFFFFu) + 0x3F3504F3u) - 1, p = 0.125836968f;
+    p = p * f - 0.207269788f;
+    p = p * f + 0.215715647f;
+    p = p * f - 0.238944814f;
+    p = p * f + 0.287916243f;
+    p = p * f - 0.360703677f;
+    p = p * f + 0.480910629f;
+    p = p * f - 0.721347332f;
+    p = p * f + 1.44269502f;
+    return (float)(127 - (int32_t)(t >> 23)) - f * p;
+}
+/* 2^-u, u >= 0; exactly 1 at 0, exactly 0 from 126 on */
+SHADE__INLINE float shade__exp2_neg(float u)
+{
+    float v = shade__clamp_bits(u, 0, 126), r, q = -0.00132647273f;
+    int32_t k = (int32_t)(v + 0.5f);
+    r = v - (float)k;
+    q = q * r + 0.00967151299f;
+    q = q * r - 0.0555073358f;
+    q = q * r + 0.240222424f;
+    q = q * r - 0.693147004f;
+    q = q * r + 1;
+    return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)),
+                       shade__mask(v < 126));
+}
+/* n (-log2 x); 126 or more where the power is 0: at x = 0 if n > 0, and where x < 0 stands for "undefined".
+   pre: x <= 1, zero is n > 0 ? all ones : 0 */
+SHADE__INLINE float shade__power_log(float x, float n, uint32_t zero)
+{
+    float u = n * shade__neg_log2(x);
+    return shade__select(u, 126.0f, shade__mask(x < 0) | (zero & shade__mask(x <= 0)));
+}
+SHADEDEF float shade_power(float x, float n)
+{
+    float c = shade__clamp_bits(x, 0, 1), small = 0;
+    if (!(n > 0)) return 1;
+    if (!shade__within(n, FLT_MAX)) n = FLT_MAX;
+    if (c > 0 && c < FLT_MIN) c *= 16777216, small = 24 * shade__minf(n, 8);
+    return shade__exp2_neg(shade__power_log(c, n, shade__mask(1)) + small);
+}
+
+/*---------------------------------------------------------------------------------------- >>lighting
+   The equations of >>model for one point, in scalar floats with exact roots and divisions.
+     holds   Names and order are those of >>lanes; a test holds the two together.          >>lanes */
+
+SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
+{
+    shade_light light;
+    shade_vec3 toward = shade_neg(direction_of_travel);
+    SHADE_MEMSET(&light, 0, sizeof light);
+    light.position = shade_v4(toward.x, toward.y, toward.z, 0);
+    light.diffuse = light.specular = color;
+    return light;
+}
+SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color)
+{
+    shade_light light = shade_directional_light(position, color);
+    light.position = shade_v4(position.x, position.y, position.z, 1);
+    return light;
+}
+SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians, float exponent,
+                                      shade_vec3 color)
+{
+    double s, c;
+    shade_light light = shade_point_light(position, color);
+    shade__sincos(cutoff_radians, &s, &c);
+    light.spot_direction = aim;
+    light.spot_exponent = exponent;
+    light.spot_cos_cutoff = (float)c;
+    return light;
+}
+
+/* max(0, min(1, x)) for cosines whose rounding may leave [0, 1] */
+SHADE__INLINE float shade__saturate(float x) { return shade__clamp_bits(x, 0, 1); }
+
+SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L) { return shade__maxf(shade_dot(N, L), 0); }
+SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
+{
+    if (!(shade_dot(N, L) > 0)) return 0;
+    return shade_power(shade__saturate(shade_dot(shade_mirror(L, N), V)), n);
+}
+SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
+{
+    shade_vec3 H = shade_halfway(L, V);
+    if (!(shade_dot(N, L) > 0) || shade__is_zero(H)) return 0;
+    return shade_power(shade__saturate(shade_dot(N, H)), n);
+}
+SHADEDEF float shade_attenuation(float a, float b, float c, float r)
+{
+    if (a == 0 && b == 0 && c == 0) return 1;
+    if (a == 0) r = shade__maxf(r, 1e-4f);
+    return 1 / shade__maxf(a + b * r + c * (r * r), 1e-20f);
+}
+SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float exponent)
+{
+    shade_vec3 S = shade_neg(shade_normalize(aim));
+    float cosine = shade_dot(L, S);
+    if (shade__is_zero(S)) return 1;
+    return cosine >= cos_cutoff ? shade_power(cosine, exponent) : 0;
+}
+SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model,
+                               shade_vec3 N, shade_vec3 L, shade_vec3 V)
+{
+    float s = 0;
+    shade_material white = shade_preset_material(SHADE_PRESET_COUNT);
+    if (!material) material = &white;
+    if (model != SHADE_BLINN_PHONG && model != SHADE_PHONG)
+        return model == SHADE_LAMBERT ? material->diffuse : shade_v3(0, 0, 0);
+    if (model == SHADE_PHONG) s = shade_power(shade_dot(shade_mirror(L, N), V), material->shininess);
+    else if (!shade__is_zero(shade_halfway(L, V)))
+        s = shade_power(shade_dot(N, shade_halfway(L, V)), material->shininess);
+    return shade_madd(material->diffuse, s, material->specular);
+}
+SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool, shade_vec3 warm)
+{
+    return shade_lerp(cool, warm, 0.5f + 0.5f * shade_dot(N, L));
+}
+SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exponent; }
+
+/* One row of the table: name; k_a, k_d, k_s, shininess / 128.                                 [Kilgard94] */
+typedef struct shade__preset_row { const char *name; float k[10]; } shade__preset_row;
+static shade__preset_row shade__preset(int preset)
+{
+    static const shade__preset_row table[SHADE_PRESET_COUNT + 1] = {
+        { "emerald", { 0.0215f, 0.1745f, 0.0215f, 0.07568f, 0.61424f, 0.07568f,
+            0.633f, 0.727811f, 0.633f, 0.6f } },
+        { "jade", { 0.135f, 0.2225f, 0.1575f, 0.54f, 0.89f, 0.63f,
+            0.316228f, 0.316228f, 0.316228f, 0.1f } },
+        { "obsidian", { 0.05375f, 0.05f, 0.06625f, 0.18275f, 0.17f, 0.22525f,
+            0.332741f, 0.328634f, 0.346435f, 0.3f } },
+        { "pearl", { 0.25f, 0.20725f, 0.20725f, 1, 0.829f, 0.829f,
+            0.296648f, 0.296648f, 0.296648f, 0.088f } },
+        { "ruby", { 0.1745f, 0.01175f, 0.01175f, 0.61424f, 0.04136f, 0.04136f,
+            0.727811f, 0.626959f, 0.626959f, 0.6f } },
+        { "turquoise", { 0.1f, 0.18725f, 0.1745f, 0.396f, 0.74151f, 0.69102f,
+            0.297254f, 0.30829f, 0.306678f, 0.1f } },
+        { "brass", { 0.329412f, 0.223529f, 0.027451f, 0.780392f, 0.568627f, 0.113725f,
+            0.992157f, 0.941176f, 0.807843f, 0.21794872f } },
+        { "bronze", { 0.2125f, 0.1275f, 0.054f, 0.714f, 0.4284f, 0.18144f,
+            0.393548f, 0.271906f, 0.166721f, 0.2f } },
+        { "chrome", { 0.25f, 0.25f, 0.25f, 0.4f, 0.4f, 0.4f,
+            0.774597f, 0.774597f, 0.774597f, 0.6f } },
+        { "copper", { 0.19125f, 0.0735f, 0.0225f, 0.7038f, 0.27048f, 0.0828f,
+            0.256777f, 0.137622f, 0.086014f, 0.1f } },
+        { "gold", { 0.24725f, 0.1995f, 0.0745f, 0.75164f, 0.60648f, 0.22648f,
+            0.628281f, 0.555802f, 0.366065f, 0.4f } },
+        { "silver", { 0.19225f, 0.19225f, 0.19225f, 0.50754f, 0.50754f, 0.50754f,
+            0.508273f, 0.508273f, 0.508273f, 0.4f } },
+        { "black plastic", { 0, 0, 0, 0.01f, 0.01f, 0.01f, 0.5f, 0.5f, 0.5f, 0.25f } },
+        { "cyan plastic", { 0, 0.1f, 0.06f, 0, 0.50980392f, 0.50980392f,
+            0.50196078f, 0.50196078f, 0.50196078f, 0.25f } },
+        { "green plastic", { 0, 0, 0, 0.1f, 0.35f, 0.1f, 0.45f, 0.55f, 0.45f, 0.25f } },
+        { "red plastic", { 0, 0, 0, 0.5f, 0, 0, 0.7f, 0.6f, 0.6f, 0.25f } },
+        { "white plastic", { 0, 0, 0, 0.55f, 0.55f, 0.55f, 0.7f, 0.7f, 0.7f, 0.25f } },
+        { "yellow plastic", { 0, 0, 0, 0.5f, 0.5f, 0, 0.6f, 0.6f, 0.5f, 0.25f } },
+        { "black rubber", { 0.02f, 0.02f, 0.02f, 0.01f, 0.01f, 0.01f,
+            0.4f, 0.4f, 0.4f, 0.078125f } },
+        { "cyan rubber", { 0, 0.05f, 0.05f, 0.4f, 0.5f, 0.5f, 0.04f, 0.7f, 0.7f, 0.078125f } },
+        { "green rubber", { 0, 0.05f, 0, 0.4f, 0.5f, 0.4f, 0.04f, 0.7f, 0.04f, 0.078125f } },
+        { "red rubber", { 0.05f, 0, 0, 0.5f, 0.4f, 0.4f, 0.7f, 0.04f, 0.04f, 0.078125f } },
+        { "white rubber", { 0.05f, 0.05f, 0.05f, 0.5f, 0.5f, 0.5f, 0.7f, 0.7f, 0.7f, 0.078125f } },
+        { "yellow rubber", { 0.05f, 0.05f, 0, 0.5f, 0.5f, 0.4f, 0.7f, 0.7f, 0.04f, 0.078125f } },
+        { "", { 1, 1, 1, 1, 1, 1, 0, 0, 0, 0 } }    /* white Lambert */
+    };
+    return table[preset < 0 || preset > SHADE_PRESET_COUNT ? (int)SHADE_PRESET_COUNT : preset];
+}
+SHADEDEF shade_material shade_preset_material(shade_preset preset)
+{
+    shade__preset_row row = shade__preset((int)preset);
+    shade_material m;
+    m.emission = shade_v3(0, 0, 0);
+    m.ambient = shade_v3(row.k[0], row.k[1], row.k[2]);
+    m.diffuse = shade_v3(row.k[3], row.k[4], row.k[5]);
+    m.specular = shade_v3(row.k[6], row.k[7], row.k[8]);
+    m.shininess = row.k[9] * 128;
+    return m;
+}
+SHADEDEF const char *shade_preset_name(shade_preset preset) { return shade__preset((int)preset).name; }
+
+/* What both the scalar and the lane equations read: defaults filled in, terms that are off set to zero. */
+typedef struct shade__surface {
+    shade_vec3 emission, ambient, diffuse, specular, cool, warm;
+    float      shininess;
+    shade_vec3 scene_ambient;
+    unsigned   flags;
+    int        light_count, cool_to_warm, phong;
+} shade__surface;
+
+static shade__surface shade__surface_of(const shade_lighting *lighting, const shade_material *material)
+{
+    shade__surface s;
+    shade_vec3 none = shade_v3(0, 0, 0);
+    shade_material m = shade_preset_material(SHADE_PRESET_COUNT);
+    unsigned terms = lighting->terms ? lighting->terms : ~0u;
+    if (material) m = *material;
+    if (lighting->model == SHADE_EMISSIVE) terms &= SHADE_TERM_EMISSION;
+    if (lighting->model == SHADE_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
+    if (lighting->model == SHADE_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
+    if (lighting->model == SHADE_COOL_TO_WARM) terms &= SHADE_TERM_EMISSION | SHADE_TERM_DIFFUSE;
+    s.emission = terms & SHADE_TERM_EMISSION ? m.emission : none;
+    s.ambient = terms & SHADE_TERM_AMBIENT ? m.ambient : none;
+    s.diffuse = terms & SHADE_TERM_DIFFUSE ? m.diffuse : none;
+    s.specular = terms & SHADE_TERM_SPECULAR ? m.specular : none;
+    s.shininess = shade__minf(m.shininess, FLT_MAX);
+    s.scene_ambient = lighting->ambient;
+    s.flags = lighting->flags;
+    s.light_count = lighting->lights ? lighting->light_count : 0;
+    s.phong = lighting->model == SHADE_PHONG;
+    s.cool_to_warm = lighting->model == SHADE_COOL_TO_WARM && (terms & SHADE_TERM_DIFFUSE);
+    s.cool = shade__is_zero(lighting->cool) ? shade_v3(0.4f, 0.4f, 0.7f) : lighting->cool;
+    s.warm = shade__is_zero(lighting->warm) ? shade_v3(0.8f, 0.6f, 0.6f) : lighting->warm;
+    return s;
+}
+
+/* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at infinity. */
+typedef struct shade__lamp { shade_vec3 at, axis; int infinite, spot; } shade__lamp;
+
+SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
+{
+    shade__lamp p;
+    shade_vec4 at = light->position;
+    p.at = shade_v3(at.x, at.y, at.z);
+    p.infinite = at.w == 0;
+    if (p.infinite) p.at = shade_normalize(p.at);
+    else if (at.w != 1) p.at = shade_v3(at.x / at.w, at.y / at.w, at.z / at.w);
+    p.axis = shade_neg(shade_normalize(light->spot_direction));
+    p.spot = !shade__is_zero(p.axis);
+    return p;
+}
+
+/* Adds the light of one lamp to t.  N unit, facing the viewer where that is asked for; V unit. */
+static void shade__add_light(const shade__surface *s, const shade_light *light, shade_vec3 P,
+                             shade_vec3 N, shade_vec3 V, shade_terms *t)
+{
+    shade__lamp lamp = shade__lamp_of(light);
+    shade_vec3 l = lamp.infinite ? lamp.at : shade_sub(lamp.at, P), L = shade_normalize(l);
+    float att = 1, ambient = 1, nl = shade_dot(N, L), lit = nl > 0 ? nl : 0, gloss = 0;
+    if (!lamp.infinite)
+        att = shade_attenuation(light->constant, light->linear, light->quadratic, shade_length(l));
+    if (lamp.spot) {
+        float cosine = shade_dot(L, lamp.axis);
+        att = cosine >= light->spot_cos_cutoff ? att * shade_power(cosine, light->spot_exponent) : 0;
+    }
+    if (s->flags & SHADE_ATTENUATED_AMBIENT) ambient = att;
+    t->ambient = shade_madd(t->ambient, ambient, shade_mul(s->ambient, light->ambient));
+    if (nl > 0 || (s->flags & SHADE_UNGATED_SPECULAR)) {
+        if (s->phong) gloss = shade_power(shade_dot(shade_mirror(L, N), V), s->shininess);
+        else if (!shade__is_zero(shade_halfway(L, V)))
+            gloss = shade_power(shade_dot(N, shade_halfway(L, V)), s->shininess);
+    }
+    if (s->flags & SHADE_WEIGHTED_SPECULAR) gloss *= lit;
+    if (s->flags & SHADE_TWO_SIDED_ABS) lit = nl < 0 ? -nl : nl;
+    t->diffuse = shade_madd(t->diffuse, att * lit, shade_mul(s->diffuse, light->diffuse));
+    t->specular = shade_madd(t->specular, att * gloss, shade_mul(s->specular, light->specular));
+}
+
+SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
+                                    shade_vec3 P, shade_vec3 N, shade_vec3 eye)
+{
+    shade_terms t;
+    SHADE_MEMSET(&t, 0, sizeof t);
+    if (!lighting) return t;
+    shade__surface s = shade__surface_of(lighting, material);
+    shade_vec3 V = s.flags & SHADE_INFINITE_VIEWER ? eye : shade_sub(eye, P);
+    V = shade_normalize(V), N = shade_normalize(N);
+    if ((s.flags & SHADE_TWO_SIDED) && shade_dot(N, V) < 0) N = shade_neg(N);
+    t.emission = s.emission;
+    if (s.cool_to_warm) {
+        shade_vec3 L = shade_v3(0, 0, 0);
+        if (s.light_count > 0) {
+            shade__lamp lamp = shade__lamp_of(&lighting->lights[0]);
+            L = lamp.infinite ? lamp.at : shade_normalize(shade_sub(lamp.at, P));
+        }
+        t.diffuse = shade_cool_to_warm(N, L, s.cool, s.warm);
+        return t;
+    }
+    t.ambient = shade_mul(s.ambient, s.scene_ambient);
+    for (int j = 0; j < s.light_count; j++) shade__add_light(&s, &lighting->lights[j], P, N, V, &t);
+    return t;
+}
+
+SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
+                              shade_vec3 P, shade_vec3 N, shade_vec3 eye)
+{
+    shade_terms t = shade_evaluate(lighting, material, P, N, eye);
+    return shade_add(shade_add(t.emission, t.ambient), shade_add(t.diffuse, t.specular));
+}
+
+/*------------------------------------------------------------------------------------------- >>lanes
+   The equations of >>lighting for a packet.  The light of one lamp is cut into short loops over rows of
+   temporaries: one fused loop per light measured 1.5 times slower, its many live values outgrow the processor.
+     in      rows of P, N, albedo         out  rows of rgb
+     holds   A lamp that reaches no lane (horizon, cone) is left after its first loops.
+             Error of 1/sqrt and powers: >>base, >>power.                                  >>vertex */
+
+typedef struct shade__rows {
+    float rn[SHADE_LANES];       /* +-1/|N|: minus where N is turned toward the viewer */
+    float rv[SHADE_LANES];       /* 1/|V| */
+    float L[3][SHADE_LANES];     /* unit, toward the lamp */
+    float att[SHADE_LANES];      /* attenuation times cone */
+    float nl[SHADE_LANES];       /* N.L, signed */
+    float x[SHADE_LANES];        /* cosine under a power, its logarithm, the power */
+} shade__rows;
+
+/* Row by row: 1/|N| and 1/|V|.  V = (eye - scale P) rv, so that scale 0 is a viewer at infinity. */
+SHADE__INLINE void shade__lane_viewer(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
+                                      shade_vec3 eye, float scale, uint32_t flip,
+                                      shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) {
+        float x = N[i], y = N[i + SHADE_LANES], z = N[i + 2 * SHADE_LANES];
+        float vx = eye.x - scale * P[i], vy = eye.y - scale * P[i + SHADE_LANES];
+        float vz = eye.z - scale * P[i + 2 * SHADE_LANES], nv = x * vx + y * vy + z * vz;
+        float rn = shade__rsqrt(x * x + y * y + z * z);
+        r->rn[i] = shade__bits_float(shade__float_bits(rn) ^ (shade__mask(nv < 0) & flip));
+        r->rv[i] = shade__rsqrt(vx * vx + vy * vy + vz * vz);
+    }
+}
+
+/* N.L; returns non-zero if some lane faces the lamp */
+SHADE__INLINE uint32_t shade__lane_horizon(const float *SHADE_RESTRICT N, shade__rows *SHADE_RESTRICT r)
+{
+    uint32_t any = 0;
+    SHADE_EACH_LANE(i) {
+        float nl = (N[i] * r->L[0][i] + N[i + SHADE_LANES] * r->L[1][i] +
+                    N[i + 2 * SHADE_LANES] * r->L[2][i]) * r->rn[i];
+        r->nl[i] = nl;
+        any |= shade__mask(nl > 0);
+    }
+    return any;
+}
+
+SHADE__INLINE void shade__lane_directional(shade_vec3 L, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) { r->L[0][i] = L.x, r->L[1][i] = L.y, r->L[2][i] = L.z, r->att[i] = 1; }
+}
+
+SHADE__INLINE void shade__lane_point(const float *SHADE_RESTRICT P, shade_vec3 at,
+                                     float a, float b, float c, shade__rows *SHADE_RESTRICT r)
+{
+    float nearest = a == 0 ? 1e-4f : 0.0f;
+    if (a == 0 && b == 0 && c == 0) a = 1;
+    SHADE_EACH_LANE(i) {
+        float x = at.x - P[i], y = at.y - P[i + SHADE_LANES], z = at.z - P[i + 2 * SHADE_LANES];
+        float d = x * x + y * y + z * z, rl = shade__rsqrt(d);
+        float distance = shade__clamp_bits(d * rl, nearest, FLT_MAX);
+        float den = a + b * distance + c * (distance * distance);
+        r->L[0][i] = x * rl, r->L[1][i] = y * rl, r->L[2][i] = z * rl;
+        r->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
+    }
+}
+
+/* L.S into x, its cone as a mask of the attenuation; returns non-zero if some lane is inside */
+SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff, shade__rows *SHADE_RESTRICT r)
+{
+    uint32_t any = 0;
+    SHADE_EACH_LANE(i) {
+        float cosine = r->L[0][i] * S.x + r->L[1][i] * S.y + r->L[2][i] * S.z;
+        uint32_t inside = shade__mask(cosine >= cos_cutoff);
+        r->x[i] = shade__saturate(cosine);
+        r->att[i] = shade__keep(r->att[i], inside);
+        any |= inside;
+    }
+    return any;
+}
+
+/* x becomes N.H, -1 where H is undefined */
+SHADE__INLINE void shade__lane_half(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
+                                    shade_vec3 eye, float scale, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) {
+        float rv = r->rv[i];
+        float hx = r->L[0][i] + (eye.x - scale * P[i]) * rv;
+        float hy = r->L[1][i] + (eye.y - scale * P[i + SHADE_LANES]) * rv;
+        float hz = r->L[2][i] + (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv;
+        float h2 = hx * hx + hy * hy + hz * hz;
+        float nh = (N[i] * hx + N[i + SHADE_LANES] * hy + N[i + 2 * SHADE_LANES] * hz) *
+                   (r->rn[i] * shade__rsqrt(h2));
+        r->x[i] = shade__select(shade__saturate(nh), -1, shade__mask(h2 < 1e-12f));
+    }
+}
+/* x becomes R.V = 2 (N.L)(N.V) - L.V */
+SHADE__INLINE void shade__lane_mirror(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
+                                      shade_vec3 eye, float scale, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) {
+        float rv = r->rv[i];
+        float vx = (eye.x - scale * P[i]) * rv, vy = (eye.y - scale * P[i + SHADE_LANES]) * rv;
+        float vz = (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv;
+        float nv = (N[i] * vx + N[i + SHADE_LANES] * vy + N[i + 2 * SHADE_LANES] * vz) * r->rn[i];
+        float lv = r->L[0][i] * vx + r->L[1][i] * vy + r->L[2][i] * vz;
+        r->x[i] = shade__saturate(2 * r->nl[i] * nv - lv);
+    }
+}
+
+/* First half of a power: x becomes n (-log2 x). */
+SHADE__INLINE void shade__lane_log(float n, float *SHADE_RESTRICT x)
+{
+    uint32_t zero = shade__mask(n > 0);
+    SHADE_EACH_LANE(i) { x[i] = shade__power_log(x[i], n, zero); }
+}
+/* Second half for the cone: att times (L.S)^e. */
+SHADE__INLINE void shade__lane_spot(shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) { r->att[i] *= shade__exp2_neg(r->x[i]); }
+}
+/* Second half for the highlight: x = B (N.H)^n; open lifts the gate B, weighted multiplies by max(0, N.L). */
+SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) {
+        float nl = r->nl[i], weight = shade__select(1, shade__keep(nl, shade__mask(nl > 0)), weighted);
+        r->x[i] = shade__keep(shade__exp2_neg(r->x[i]) * weight, shade__mask(nl > 0) | open);
+    }
+}
+
+/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s x);  with absolute |N.L|.  Inlined with albedo NULL, the
+   choice and its factor of 1 vanish. */
+SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
+                                       const float *SHADE_RESTRICT albedo,
+                                       const shade__rows *SHADE_RESTRICT r, float *SHADE_RESTRICT rgb)
+{
+    SHADE_EACH_LANE(i) {
+        float nl = r->nl[i], att = r->att[i], gloss = r->x[i] * att;
+        float lit = shade__keep(nl, shade__mask(nl > 0) | absolute);
+        lit = shade__bits_float(shade__float_bits(lit) & 0x7FFFFFFFu) * att;
+        float ar = albedo ? albedo[i] : 1, ag = albedo ? albedo[i + SHADE_LANES] : 1;
+        float ab = albedo ? albedo[i + 2 * SHADE_LANES] : 1;
+        rgb[i] += kd.x * ar * lit + ks.x * gloss;
+        rgb[i + SHADE_LANES] += kd.y * ag * lit + ks.y * gloss;
+        rgb[i + 2 * SHADE_LANES] += kd.z * ab * lit + ks.z * gloss;
+    }
+}
+
+/* rgb = base + k albedo */
+SHADE__INLINE void shade__lane_base(shade_vec3 base, shade_vec3 k, const float *SHADE_RESTRICT albedo,
+                                    float *SHADE_RESTRICT rgb)
+{
+    SHADE_EACH_LANE(i) {
+        rgb[i] = base.x + k.x * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] = base.y + k.y * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] = base.z + k.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+    }
+}
+/* rgb += att k albedo: a light's own ambient, where it is attenuated */
+SHADE__INLINE void shade__lane_ambient(shade_vec3 k, const float *SHADE_RESTRICT albedo,
+                                       const float *SHADE_RESTRICT att, float *SHADE_RESTRICT rgb)
+{
+    SHADE_EACH_LANE(i) {
+        rgb[i] += att[i] * k.x * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] += att[i] * k.y * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] += att[i] * k.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+    }
+}
+/* rgb += albedo (cool + k_w (warm - cool)), k_w = (1 + N.L) / 2 */
+SHADE__INLINE void shade__lane_cool_to_warm(shade_vec3 cool, shade_vec3 warm,
+                                            const float *SHADE_RESTRICT albedo,
+                                            const float *SHADE_RESTRICT nl, float *SHADE_RESTRICT rgb)
+{
+    shade_vec3 d = shade_sub(warm, cool);
+    SHADE_EACH_LANE(i) {
+        float kw = 0.5f + 0.5f * nl[i];
+        rgb[i] += (cool.x + kw * d.x) * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] += (cool.y + kw * d.y) * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] += (cool.z + kw * d.z) * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+    }
+}
+
+/* L and attenuation of one lamp, its cone, N.L.  Returns zero if no lane is both inside and facing. */
+SHADE__INLINE uint32_t shade__lane_lamp(const shade_light *light, const shade__lamp *lamp,
+                                        const float *P, const float *N, shade__rows *r)
+{
+    uint32_t any = shade__mask(1);
+    if (lamp->infinite) shade__lane_directional(lamp->at, r);
+    else shade__lane_point(P, lamp->at, light->constant, light->linear, light->quadratic, r);
+    if (lamp->spot) any = shade__lane_cone(lamp->axis, light->spot_cos_cutoff, r);
+    if (any && lamp->spot && light->spot_exponent > 0) {
+        shade__lane_log(shade__minf(light->spot_exponent, FLT_MAX), r->x);
+        shade__lane_spot(r);
+    }
+    return shade__lane_horizon(N, r) & any;
+}
+/* Adds one lamp to rgb; the same as shade__add_light without the unattenuated ambient term. */
+SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_light *light,
+                                         const float *P, const float *N, const float *albedo,
+                                         shade_vec3 eye, float scale, shade__rows *r, float *rgb)
+{
+    shade__lamp lamp = shade__lamp_of(light);
+    shade_vec3 kd = shade_mul(s->diffuse, light->diffuse), ks = shade_mul(s->specular, light->specular);
+    int ambient = (s->flags & SHADE_ATTENUATED_AMBIENT) != 0, gloss = !shade__is_zero(ks);
+    uint32_t open = shade__mask((s->flags & SHADE_UNGATED_SPECULAR) != 0);
+    uint32_t absolute = shade__mask((s->flags & SHADE_TWO_SIDED_ABS) != 0);
+    uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
+    if (!ambient && !gloss && shade__is_zero(kd)) return;
+    any = shade__lane_lamp(light, &lamp, P, N, r);
+    if (ambient) {
+        shade_vec3 k = shade_mul(s->ambient, light->ambient);
+        if (albedo) shade__lane_ambient(k, albedo, r->att, rgb);
+        else shade__lane_ambient(k, (const float *)0, r->att, rgb);
+    }
+    if (!(any | open | absolute)) return;
+    if (gloss) {
+        if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
+        else shade__lane_half(P, N, eye, scale, r);
+        shade__lane_log(s->shininess, r->x);
+        shade__lane_gloss(open, weighted, r);
+    } else SHADE_MEMSET(r->x, 0, sizeof r->x);
+    if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
+    else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
+}
+
+SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_material *material,
+                                   shade_vec3 eye, const float *P, const float *N, const float *albedo,
+                                   float *rgb)
+{
+    shade__rows r;
+    shade__surface s = shade__surface_of(lighting, material);
+    shade_vec3 ambient = s.scene_ambient;
+    float scale = s.flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
+    shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_TWO_SIDED ? 0x80000000u : 0, &r);
+    if (s.cool_to_warm) {
+        SHADE_MEMSET(r.L, 0, sizeof r.L);
+        if (s.light_count > 0) {
+            shade__lamp lamp = shade__lamp_of(&lighting->lights[0]);
+            if (lamp.infinite) shade__lane_directional(lamp.at, &r);
+            else shade__lane_point(P, lamp.at, 1, 0, 0, &r);
+        }
+        (void)shade__lane_horizon(N, &r);
+        shade__lane_base(s.emission, shade_v3(0, 0, 0), (const float *)0, rgb);
+        if (albedo) shade__lane_cool_to_warm(s.cool, s.warm, albedo, r.nl, rgb);
+        else shade__lane_cool_to_warm(s.cool, s.warm, (const float *)0, r.nl, rgb);
+        return;
+    }
+    if (!(s.flags & SHADE_ATTENUATED_AMBIENT))
+        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lighting->lights[j].ambient);
+    ambient = shade_mul(ambient, s.ambient);
+    if (albedo) shade__lane_base(s.emission, ambient, albedo, rgb);
+    else shade__lane_base(s.emission, ambient, (const float *)0, rgb);
+    for (int j = 0; j < s.light_count; j++)
+        shade__lane_add_light(&s, &lighting->lights[j], P, N, albedo, eye, scale, &r, rgb);
+}
+SHADE__DISPATCH(shade__lit,
+                (const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
+                 const float *P, const float *N, const float *albedo, float *rgb),
+                (lighting, material, eye, P, N, albedo, rgb))
+
+SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
+                              const float *P, const float *N, const float *albedo, float *rgb)
+{
+    if (!lighting || !P || !N || !rgb) {
+        if (rgb) SHADE_MEMSET(rgb, 0, 3 * SHADE_LANES * sizeof *rgb);
+        return;
+    }
+    shade__lit_pick()(lighting, material, eye, P, N, albedo, rgb);
+}
+
+/*------------------------------------------------------------------------------------------- >>store
+   Linear colours to stored pixels and back.  8 bits: floor(255 clamp(c) + 1/2); NaN is 0.
+     in      rows of linear RGBA          out  uint32 pixels, still in registers' order: R in memory first
+     source  sRGB curve [IEC61966]                                                       >>fragment */
+
+/* clamp(x, 0, 1), NaN 0 */
+SHADE__INLINE float shade__unit(float x)
+{
+    return shade__keep(shade__clamp_bits(x, 0, 1), shade__mask(x == x));
+}
+/* 0 <= c <= 1 */
+SHADE__INLINE float shade__srgb_encode(float c)
+{
+    float curve = 1.055f * shade__exp2_neg(shade__neg_log2(c) * (1 / 2.4f)) - 0.055f;
+    return shade__select(12.92f * c, curve, shade__mask(c > 0.0031308f));
+}
+SHADE__INLINE float shade__srgb_decode(float c)
+{
+    float curve = shade__exp2_neg(shade__neg_log2((c + 0.055f) * (1 / 1.055f)) * 2.4f);
+    return shade__select(c * (1 / 12.92f), curve, shade__mask(c > 0.04045f));
+}
+/* where byte k of a pixel lies in a native uint32 */
+SHADE__INLINE int shade__byte_shift(int k)
+{
+    const uint32_t one = 1;
+    uint8_t first;
+    SHADE_MEMCPY(&first, &one, 1);
+    return first ? 8 * k : 24 - 8 * k;
+}
+
+/* width lanes of rgba (4 rows) to pixels of 8 bits a channel */
+SHADE__INLINE void shade__pack_rgba8(const float *SHADE_RESTRICT rgba, int srgb,
+                                     uint32_t *SHADE_RESTRICT pixel, const int width)
+{
+    int r = shade__byte_shift(0), g = shade__byte_shift(1), b = shade__byte_shift(2);
+    int a = shade__byte_shift(3);
+    SHADE__FOR(i, width) {
+        float cr = shade__unit(rgba[i]), cg = shade__unit(rgba[i + SHADE_LANES]);
+        float cb = shade__unit(rgba[i + 2 * SHADE_LANES]), ca = shade__unit(rgba[i + 3 * SHADE_LANES]);
+        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg), cb = shade__srgb_encode(cb);
+        pixel[i] = (uint32_t)(int32_t)(cr * 255 + 0.5f) << r | (uint32_t)(int32_t)(cg * 255 + 0.5f) << g |
+                   (uint32_t)(int32_t)(cb * 255 + 0.5f) << b | (uint32_t)(int32_t)(ca * 255 + 0.5f) << a;
+    }
+}
+/* to 5-6-5 bits; x, y: window positions, which choose the threshold of the 4 x 4 ordered
+   dither: the bits of x ^ y and y, interleaved and reversed */
+SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const float *SHADE_RESTRICT x,
+                                      const float *SHADE_RESTRICT y, int srgb, int dither,
+                                      uint32_t *SHADE_RESTRICT pixel, const int width)
+{
+    SHADE__FOR(i, width) {
+        uint32_t u = (uint32_t)(int32_t)x[i], v = (uint32_t)(int32_t)y[i], d = u ^ v;
+        uint32_t rank = (d & 1) << 3 | (v & 1) << 2 | (d & 2) | (v & 2) >> 1;
+        float t = dither ? ((float)(int32_t)rank + 0.5f) * 0.0625f : 0.5f;
+        float cr = shade__unit(rgba[i]), cg = shade__unit(rgba[i + SHADE_LANES]);
+        float cb = shade__unit(rgba[i + 2 * SHADE_LANES]);
+        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg), cb = shade__srgb_encode(cb);
+        pixel[i] = (uint32_t)(int32_t)(cr * 31 + t) << 11 | (uint32_t)(int32_t)(cg * 63 + t) << 5 |
+                   (uint32_t)(int32_t)(cb * 31 + t);
+    }
+}
+
+SHADE__INLINE void shade__pack(const shade_target *t, const float *rgba, const float *x, const float *y,
+                               uint32_t *pixel, const int width)
+{
+    if (t->format == SHADE_RGB565) shade__pack_rgb565(rgba, x, y, t->srgb, t->dither, pixel, width);
+    else if (t->srgb) shade__pack_rgba8(rgba, 1, pixel, width);
+    else shade__pack_rgba8(rgba, 0, pixel, width);
+}
+static SHADE__NOINLINE void shade__pack8(const shade_target *t, const float *rgba, const float *x,
+                                        const float *y, uint32_t *pixel)
+{
+    shade__pack(t, rgba, x, y, pixel, 8);
+}
+static size_t shade__pixel_bytes(shade_format format)
+{
+    return format == SHADE_RGBA32F ? 16 : format == SHADE_RGB565 ? 2 : 4;
+}
+
+/* The stored pixel at p as linear RGBA. */
+SHADE__INLINE void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
+{
+    if (t->format == SHADE_RGBA32F) {
+        SHADE_MEMCPY(rgba, p, 16);
+        return;
+    }
+    if (t->format == SHADE_RGBA8) {
+        for (int k = 0; k < 4; k++) rgba[k] = (float)p[k] / 255;
+    } else {
+        uint16_t u;
+        SHADE_MEMCPY(&u, p, 2);
+        rgba[0] = (float)(u >> 11) / 31, rgba[1] = (float)(u >> 5 & 63) / 63;
+        rgba[2] = (float)(u & 31) / 31, rgba[3] = 1;
+    }
+    if (t->srgb)
+        for (int k = 0; k < 3; k++) rgba[k] = shade__srgb_decode(rgba[k]);
+}
+
+/*---------------------------------------------------------------------------------------- >>fragment
+   The queue of pixels that passed, over all triangles of a batch; a full packet is shaded and stored.
+   Shading waiting fragments together measured 2 to 3 times faster on dense meshes than a packet per span.
+     in      rows of the queue: varyings times rw, and rw     out  depth (with may_discard), colour
+     holds   The lanes from count on repeat the last one before a shader sees them.
+             Pixels are stored in drawing order.                                            >>setup */
+
+typedef struct shade__queue {
+    shade_fragments f;                /* as the fragment shader gets it */
+    float    rw[SHADE_LANES];         /* 1/w, interpolated */
+    uint32_t offset[SHADE_LANES];     /* pixel in color and depth, from the first of the strip */
+    int      contiguous;              /* offsets count up by one from the first on */
+} shade__queue;
+
+enum { SHADE__TAIL = 2 };             /* floats of a vertex before its varyings: z, rw */
+enum {                                /* 8-lane rows that hold one vertex's interpolated values */
+    SHADE__STRIDE_MAX = (SHADE_MAX_VARYINGS + SHADE__TAIL + 7) / 8 * 8,
+    SHADE__TAIL_FLOATS = SHADE_LANES * 14 + 4 * SHADE__STRIDE_MAX,
+    SHADE__BATCH_TRIANGLES = 2 * SHADE_LANES
+};
+typedef struct shade__head {          /* a vertex after the vertex shader */
+    int32_t  x, y;                    /* window, 24.8 fixed point */
+    uint32_t out;                     /* planes it is outside of: SHADE__OUT_... */
+    float    clip[4];
+} shade__head;
+
+/* All that one draw call knows, on its stack. */
+struct shade__triangle;
+typedef struct shade__draw shade__draw;
+struct shade__draw {
+    void (*flush)(shade__draw *);     /* hot loops, in the widest code the processor runs */
+    void (*push)(shade__draw *, const struct shade__triangle *, int x, int y, int n);
+    void (*cover)(shade__draw *, struct shade__triangle *, const shade__head *const *, const float *const *);
+    const shade_target   *target;
+    const shade_pipeline *pipe;
+    shade_stats stats;
+    uint8_t *color;                   /* NULL: none */
+    float   *depth;                   /* NULL: none */
+    size_t   pixel_bytes;
+    int      stride, row_offset;      /* pixels from row to row; the row that color and depth start with */
+    int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
+    int      varyings, tail_stride;   /* floats a vertex in tails: a multiple of 8 */
+    int      perspective, queued;     /* varyings are divided by w; fragments go to the queue */
+    uint32_t less, equal, greater, always, write;    /* the depth test as masks */
+    float    half_width, half_height; /* of the picture, in 1/256 pixels: below 2^22, exact */
+    shade_vertex_ids ids;
+    shade__head heads[SHADE_LANES];
+    float    tails[SHADE__TAIL_FLOATS];
+    uint8_t  slot_of[2 * SHADE_LANES];                 /* direct-mapped: index -> slot of the batch */
+    uint8_t  corner[3 * SHADE__BATCH_TRIANGLES];       /* slots of the batch's triangles */
+    union { shade_vertices vertices; shade__queue queue; } u;    /* first one, then the other */
+};
+
+/* Depth test and write in drawing order, after a shader that may discard.  Marks the lanes that stay. */
+static void shade__late_depth(shade__draw *d, const uint32_t *discard, uint32_t *alive)
+{
+    const shade__queue *q = &d->u.queue;
+    for (int i = 0; i < q->f.count; i++) {
+        alive[i] = discard[i] == 0;
+        if (alive[i] && d->depth) {
+            float *p = d->depth + q->offset[i], z = q->f.z[i];
+            alive[i] = ((d->less & shade__mask(z < *p)) | (d->equal & shade__mask(z == *p)) |
+                        (d->greater & shade__mask(z > *p)) | d->always) != 0;
+            if (alive[i] && d->write) *p = z;
+        }
+        d->stats.fragments += alive[i] != 0;
+    }
+}
+
+/* Stores lanes first .. last - 1 that are alive (NULL: all). */
+SHADE__INLINE void shade__scatter(const shade__draw *d, const float *rgba, const uint32_t *pixel,
+                                  const uint32_t *alive, int first, int last)
+{
+    const uint32_t *offset = d->u.queue.offset;
+    if (d->target->format == SHADE_RGBA8 && !alive) {
+        if (d->u.queue.contiguous) {
+            SHADE_MEMCPY(d->color + (size_t)offset[first] * 4, pixel + first, (size_t)(last - first) * 4);
+            return;
+        }
+        for (int i = first; i < last; i++) SHADE_MEMCPY(d->color + (size_t)offset[i] * 4, pixel + i, 4);
+        return;
+    }
+    for (int i = first; i < last; i++) {
+        uint8_t *p = d->color + (size_t)offset[i] * d->pixel_bytes;
+        uint16_t u = (uint16_t)pixel[i];
+        if (alive && !alive[i]) continue;
+        if (d->target->format == SHADE_RGBA8) SHADE_MEMCPY(p, pixel + i, 4);
+        else if (d->target->format == SHADE_RGB565) SHADE_MEMCPY(p, &u, 2);
+        else
+            for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + i + k * SHADE_LANES, 4);
+    }
+}
+/* rgba of 8 lanes = blend with what is stored; the lanes belong to one triangle, so no pixel comes twice */
+SHADE__INLINE void shade__blend8(const shade__draw *d, float *SHADE_RESTRICT rgba,
+                                 const float *SHADE_RESTRICT stored)
+{
+    uint32_t add = shade__mask(d->pipe->blend == SHADE_ADD);
+    SHADE__FOR(i, 8) {
+        float a = rgba[i + 3 * SHADE_LANES], s = shade__select(a, 1, add), t = shade__select(1 - a, 1, add);
+        rgba[i] = rgba[i] * s + stored[i] * t;
+        rgba[i + SHADE_LANES] = rgba[i + SHADE_LANES] * s + stored[i + 8] * t;
+        rgba[i + 2 * SHADE_LANES] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 16] * t;
+        rgba[i + 3 * SHADE_LANES] = a + stored[i + 24] * t;
+    }
+}
+/* Blends and stores in pieces of up to 8 lanes of one triangle each, in drawing order. */
+static void shade__store_blended(const shade__draw *d, float *rgba, uint32_t *pixel,
+                                        const uint32_t *alive)
+{
+    const shade__queue *q = &d->u.queue;
+    for (int i = 0, last; i < q->f.count; i = last) {
+        int base = shade__min(i, SHADE_LANES - 8);
+        float stored[32] = { 0 };
+        for (last = i; last < base + 8 && last < q->f.count; last++) {
+            float c[4];
+            if (q->f.primitive[last] != q->f.primitive[i]) break;
+            shade__fetch(d->target, d->color + (size_t)q->offset[last] * d->pixel_bytes, c);
+            for (int k = 0; k < 4; k++) stored[8 * k + last - base] = c[k];
+        }
+        shade__blend8(d, rgba + base, stored);
+        if (d->target->format != SHADE_RGBA32F)
+            shade__pack8(d->target, rgba + base, q->f.x + base, q->f.y + base, pixel + base);
+        shade__scatter(d, rgba, pixel, alive, i, last);
+    }
+}
+
+/* Fills the rest of a packet with its last lane. */
+static void shade__replicate(shade__queue *q, int varyings)
+{
+    int n = q->f.count, last = n - 1;
+    for (int i = n; i < SHADE_LANES; i++) {
+        q->f.x[i] = q->f.x[last], q->f.y[i] = q->f.y[last], q->f.z[i] = q->f.z[last];
+        q->f.primitive[i] = q->f.primitive[last], q->f.front[i] = q->f.front[last];
+        q->rw[i] = q->rw[last], q->offset[i] = q->offset[last];
+        for (int k = 0; k < varyings; k++) q->f.in[k][i] = q->f.in[k][last];
+    }
+}
+
+/* Divides the varyings by rw.  rw of a covered pixel lies between its vertices' and is positive. */
+SHADE__INLINE void shade__divide(shade__queue *SHADE_RESTRICT q, int varyings)
+{
+    SHADE_EACH_LANE(i) { q->rw[i] = 1 / q->rw[i]; }
+    for (int k = 0; k < varyings; k++) {
+        SHADE_EACH_LANE(i) { q->f.in[k][i] *= q->rw[i]; }
+    }
+}
+
+SHADE__INLINE void shade__flush_body(shade__draw *d)
+{
+    shade_colors c;
+    uint32_t pixel[SHADE_LANES], *alive = (uint32_t *)0;
+    shade__queue *q = &d->u.queue;
+    if (q->f.count == 0) return;
+    shade__replicate(q, d->varyings);
+    if (d->perspective) shade__divide(q, d->varyings);
+    SHADE_MEMSET(c.out, 0, sizeof c.out);
+    SHADE_EACH_LANE(i) { c.out[3][i] = 1, c.discard[i] = 0; }
+    d->pipe->fragment(d->pipe->uniforms, &q->f, &c);
+    if (d->pipe->may_discard) shade__late_depth(d, c.discard, c.discard), alive = c.discard;
+    if (d->color && d->pipe->blend != SHADE_REPLACE) shade__store_blended(d, c.out[0], pixel, alive);
+    else if (d->color) {
+        if (d->target->format != SHADE_RGBA32F)
+            shade__pack(d->target, c.out[0], q->f.x, q->f.y, pixel, SHADE_LANES);
+        shade__scatter(d, c.out[0], pixel, alive, 0, q->f.count);
+    }
+    q->f.count = 0;
+}
+SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
+
+/*------------------------------------------------------------------------------------------- >>setup
+   Triangle setup: three snapped vertices to three edge functions and one plane per value.    [Pineda88]
+     in      positions in 24.8 fixed point, |x|, |y| <= 2^24; tails z, rw, varyings times rw
+     out     shade__triangle, its pixel box cut to the clip rectangle
+     holds   For the edge p to q and the pixel centre at 256 (i, j) + 128:
+               256 e(i,j) + remainder = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias,  inside e >= 0,
+             bias 0 on top and left edges, -1 on others; dividing by 256 with floor keeps the sign, since
+             the coefficients of i and j are multiples of 256.  Neighbours get exactly opposite edges.
+             |q - p| < 2^25, |y - p.y| < 2^25: products stay below 2^50.                    >>cover */
+
+typedef struct shade__triangle {
+    int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
+    int      narrow;                  /* at most 16 pixels wide before any clip: 32-bit edges suffice */
+    int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
+    int32_t  dx[3], dy[3];            /* their steps in x and y */
+    float    x_ref, y_ref;            /* 1/2 - position of the reference vertex, pixels; exact */
+    float    z_low, z_high, rw_low, rw_high;
+    uint32_t primitive, front;
+    float    base[SHADE__STRIDE_MAX], gx[SHADE__STRIDE_MAX], gy[SHADE__STRIDE_MAX];
+} shade__triangle;
+
+SHADE__INLINE int32_t shade__min3(int32_t a, int32_t b, int32_t c)
+{
+    int32_t m = a < b ? a : b;
+    return m < c ? m : c;
+}
+SHADE__INLINE int32_t shade__max3(int32_t a, int32_t b, int32_t c)
+{
+    int32_t m = a > b ? a : b;
+    return m > c ? m : c;
+}
+/* floor(v / 256) for any sign */
+SHADE__INLINE int64_t shade__floor256(int64_t v) { return v >= 0 ? v / 256 : -((255 - v) / 256); }
+
+/* Twice the signed area in 1/65536 pixel; positive where a, b, c turn clockwise as seen (y is down). */
+SHADE__INLINE int64_t shade__area(const shade__head *a, const shade__head *b, const shade__head *c)
+{
+    return (int64_t)(b->x - a->x) * (c->y - a->y) - (int64_t)(c->x - a->x) * (b->y - a->y);
+}
+
+/* The box of pixel centres inside the clip rectangle; 0 if it is empty. */
+SHADE__INLINE int shade__box(const shade__draw *d, const shade__head *a, const shade__head *b,
+                             const shade__head *c, shade__triangle *t)
+{
+    int32_t left = shade__min3(a->x, b->x, c->x), right = shade__max3(a->x, b->x, c->x);
+    int32_t top = shade__min3(a->y, b->y, c->y), bottom = shade__max3(a->y, b->y, c->y);
+    t->narrow = right - left <= 16 * 256;
+    t->x0 = shade__max((int)shade__floor256(left + 127), d->x0);
+    t->x1 = shade__min((int)shade__floor256(right - 128), d->x1 - 1);
+    t->y0 = shade__max((int)shade__floor256(top + 127), d->y0);
+    t->y1 = shade__min((int)shade__floor256(bottom - 128), d->y1 - 1);
+    return t->x0 <= t->x1 && t->y0 <= t->y1;
+}
+
+SHADE__INLINE void shade__edge(const shade__head *p, const shade__head *q, int k, shade__triangle *t)
+{
+    int32_t dx = q->x - p->x, dy = q->y - p->y;
+    int64_t x = (int64_t)t->x0 * 256 + 128 - p->x, y = (int64_t)t->y0 * 256 + 128 - p->y;
+    int bias = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
+    t->e[k] = shade__floor256(dx * y - dy * x + bias);
+    t->dx[k] = -dy, t->dy[k] = dx;
+}
+
+/* Planes of all values in one loop: value = base + gy (y - y_ref) + gx (x - x_ref).  The reference vertex v0 is the
+   farthest, whose rw is the smallest: there rounding hurts most. */
+SHADE__INLINE void shade__planes(const shade__head *const *v, const float *const *tail, int64_t area,
+                                 int stride, shade__triangle *t)
+{
+    const float *SHADE_RESTRICT t0 = tail[0], *SHADE_RESTRICT t1 = tail[1], *SHADE_RESTRICT t2 = tail[2];
+    double inverse = 256 / (double)area;
+    float x1 = (float)((v[1]->x - v[0]->x) * inverse), y1 = (float)((v[1]->y - v[0]->y) * inverse);
+    float x2 = (float)((v[2]->x - v[0]->x) * inverse), y2 = (float)((v[2]->y - v[0]->y) * inverse);
+    t->x_ref = 0.5f - (float)v[0]->x * (1 / 256.0f), t->y_ref = 0.5f - (float)v[0]->y * (1 / 256.0f);
+    for (int s = 0; s < stride; s += 8) {
+        SHADE__FOR(k, 8) {
+            float d1 = t1[s + k] - t0[s + k], d2 = t2[s + k] - t0[s + k];
+            t->base[s + k] = t0[s + k];
+            t->gx[s + k] = d1 * y2 - d2 * y1;
+            t->gy[s + k] = d2 * x1 - d1 * x2;
+        }
+    }
+}
+/* Range of z, bias added, and of rw: planes are cut to it, as rounding may leave it at a sliver's edge. */
+SHADE__INLINE void shade__ranges(const shade__draw *d, const float *const *tail, shade__triangle *t)
+{
+    float bias = d->pipe->depth_bias;
+    float low = shade__minf(tail[0][0], shade__minf(tail[1][0], tail[2][0]));
+    float high = shade__maxf(tail[0][0], shade__maxf(tail[1][0], tail[2][0]));
+    t->base[0] += bias;
+    t->z_low = shade__clamp_bits(low + bias, 0, 1), t->z_high = shade__clamp_bits(high + bias, 0, 1);
+    t->rw_low = shade__minf(tail[0][1], shade__minf(tail[1][1], tail[2][1]));
+    t->rw_high = shade__maxf(tail[0][1], shade__maxf(tail[1][1], tail[2][1]));
+}
+
+/* Fills in a triangle whose box, primitive and facing are known.  head, tail: its vertices, as submitted, then the
+   tail that SHADE_CONSTANT takes.  pre: area != 0. */
+SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *head, const float *const *tail,
+                                shade__triangle *t)
+{
+    static const uint8_t turn[2][3][3] = { { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 } },
+                                           { { 0, 2, 1 }, { 1, 0, 2 }, { 2, 1, 0 } } };
+    int64_t area = shade__area(head[0], head[1], head[2]);
+    float r0 = tail[0][1], r1 = tail[1][1], r2 = tail[2][1];
+    const uint8_t *k = turn[area < 0][r1 < r0 ? (r2 < r1 ? 2 : 1) : r2 < r0 ? 2 : 0];
+    const shade__head *v[3] = { head[k[0]], head[k[1]], head[k[2]] };
+    const float *s[3] = { tail[k[0]], tail[k[1]], tail[k[2]] };
+    shade__edge(v[0], v[1], 0, t), shade__edge(v[1], v[2], 1, t), shade__edge(v[2], v[0], 2, t);
+    shade__planes(v, s, area < 0 ? -area : area, d->tail_stride, t);
+    shade__ranges(d, s, t);
+    if (d->pipe->interpolation == SHADE_CONSTANT) {
+        for (int i = SHADE__TAIL; i < d->tail_stride; i++) t->base[i] = tail[3][i], t->gx[i] = t->gy[i] = 0;
+    }
+}
+
+/*------------------------------------------------------------------------------------------- >>cover
+   Which pixels of a triangle are inside and pass the depth test; runs of them go to the queue.
+     in      shade__triangle              out  depth (early test), fragments of the queue
+     method  Up to 16 pixels wide: windows of 8 pixels by 32-bit edges.  |e| <= (2^12 h + 2^24 w) / 256 plus one
+             window: below 2^31 for w <= 24, any height.  Wider: exact ends of each row's span in 64 bits,
+             then windows of 32 and 8.  Both cover the same pixels; a value at a pixel has the same bits on
+             every way: row base, then gx times the exact distance.  Rows of 8 measured twice as fast as
+             pixel by pixel on small triangles, spans twice as fast as rows on big ones.
+     holds   A window stays inside the clip rectangle: stores rewrite only pixels that are this thread's.  >>clip */
+
+/* Edges, planes and test of a window on one row: e(i) = e + i dx for pixels x + i. */
+typedef struct shade__window {
+    int32_t e[3], dx[3];
+    int x, skip;                     /* first pixel; pixels to leave out at the left */
+    float z, gz, x_ref;              /* depth plane of the row */
+} shade__window;
+
+/* Tests width pixels; writes depth; returns the set of those that passed, bit i for pixel x + i. */
+SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d, const shade__window *SHADE_RESTRICT w,
+                                   float z_low, float z_high, float *SHADE_RESTRICT depth, const int width)
+{
+    const int32_t e0 = w->e[0], e1 = w->e[1], e2 = w->e[2], x = w->x, skip = w->skip;
+    const int32_t dx0 = w->dx[0], dx1 = w->dx[1], dx2 = w->dx[2];
+    const uint32_t less = d->less, equal = d->equal, greater = d->greater, always = d->always;
+    const uint32_t write = d->write;
+    const float z0 = w->z, gz = w->gz, x_ref = w->x_ref;
+    uint32_t set = 0;
+    SHADE__FOR(i, width) {
+        int32_t e = (e0 + i * dx0) | (e1 + i * dx1) | (e2 + i * dx2) | (i - skip);
+        uint32_t m = shade__mask(e >= 0);
+        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high), s = depth[i];
+        m &= (shade__mask(z < s) & less) | (shade__mask(z == s) & equal) |
+             (shade__mask(z > s) & greater) | always;
+        depth[i] = shade__select(s, z, m & write);
+        set |= m & (1u << i);
+    }
+    return set;
+}
+
+SHADE__INLINE int shade__count_bits(uint32_t m)
+{
+    m = m - (m >> 1 & 0x55555555u);
+    m = (m & 0x33333333u) + (m >> 2 & 0x33333333u);
+    return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
+}
+
+/* Writes width lanes of the queue from lane c on: pixels x, x + 1, ... of row y. */
+SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q, const shade__triangle *SHADE_RESTRICT t,
+                                 const float *SHADE_RESTRICT row, int varyings, int x, int y,
+                                 uint32_t offset, int c, const int width)
+{
+    const float x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
+    const float rw_low = t->rw_low, rw_high = t->rw_high, centre = (float)y + 0.5f;
+    const float z = row[0], gz = t->gx[0], rw = row[1], grw = t->gx[1];
+    const uint32_t primitive = t->primitive, front = t->front;
+    SHADE__FOR(i, width) {
+        float px = (float)(x + i) + x_ref;
+        q->f.x[c + i] = (float)(x + i) + 0.5f;
+        q->f.y[c + i] = centre;
+        q->f.z[c + i] = shade__clamp_bits(z + gz * px, z_low, z_high);
+        q->rw[c + i] = shade__clamp_bits(rw + grw * px, rw_low, rw_high);
+        q->f.primitive[c + i] = primitive;
+        q->f.front[c + i] = front;
+        q->offset[c + i] = offset + (uint32_t)i;
+    }
+    for (int k = 0; k < varyings; k++) {
+        const float v = row[SHADE__TAIL + k], g = t->gx[SHADE__TAIL + k];
+        float *in = q->f.in[k] + c;
+        SHADE__FOR(i, width) { in[i] = v + g * ((float)(x + i) + x_ref); }
+    }
+}
+
+/* Values of the planes at x = x_ref of row y. */
+SHADE__INLINE void shade__row(const shade__triangle *SHADE_RESTRICT t, int stride, int y,
+                              float *SHADE_RESTRICT row)
+{
+    const float py = (float)y + t->y_ref;
+    for (int s = 0; s < stride; s += 8) {
+        SHADE__FOR(k, 8) { row[s + k] = t->base[s + k] + t->gy[s + k] * py; }
+    }
+}
+
+/* Sends a run of n pixels to the queue, shading it whenever it is full. */
+SHADE__INLINE void shade__push_body(shade__draw *d, const shade__triangle *t, int x, int y, int n)
+{
+    float row[SHADE__STRIDE_MAX];
+    shade__queue *q = &d->u.queue;
+    uint32_t offset = (uint32_t)((size_t)(y - d->row_offset) * (size_t)d->stride + (size_t)x);
+    shade__row(t, d->tail_stride, y, row);
+    while (n > 0) {
+        int c = q->f.count, room = SHADE_LANES - c, take;
+        if (c == 0) q->contiguous = 1;
+        else if (q->offset[c - 1] + 1 != offset) q->contiguous = 0;
+        if (n >= 32 && room >= 32) {
+            shade__append(q, t, row, d->varyings, x, y, offset, c, 32);
+            take = 32;
+        } else if (room >= 8) {
+            shade__append(q, t, row, d->varyings, x, y, offset, c, 8);
+            take = shade__min(n, 8);
+        } else {
+            shade__append(q, t, row, d->varyings, x, y, offset, c, 1);
+            take = 1;
+        }
+        x += take, offset += (uint32_t)take, n -= take;
+        q->f.count = c + take;
+        if (q->f.count == SHADE_LANES) d->flush(d);
+    }
+}
+SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__triangle *t, int x, int y, int n), (d, t, x, y, n))
+
+/* Counts the pixels of a window's set and pushes its runs. */
+SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int x, int y, uint32_t set)
+{
+    d->stats.fragments += shade__count_bits(set);
+    if (!d->queued) return;
+    while (set) {
+        int first = SHADE__LOWEST_BIT(set), n;
+        uint32_t rest = ~(set >> first);
+        n = rest ? SHADE__LOWEST_BIT(rest) : 32;
+        d->push(d, t, x + first, y, n);
+        set = first + n < 32 ? set >> (first + n) << (first + n) : 0;
+    }
+}
+
+/* Tests pixels w->x .. last of row y in windows of width pixels; w->e holds at w->x. */
+SHADE__INLINE void shade__windows(shade__draw *d, const shade__triangle *t, shade__window *w, int y, int last,
+                                  const int width)
+{
+    float *depth = d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
+    for (int x = w->x; x <= last; x += width) {
+        int start = shade__min(x, d->x1 - width), back = start - w->x;
+        uint32_t set;
+        for (int k = 0; k < 3; k++) w->e[k] += back * w->dx[k];
+        w->x = start, w->skip = x - start;
+        set = shade__test(d, w, t->z_low, t->z_high, depth + start, width);
+        if (set) shade__push_set(d, t, start, y, set);
+    }
+}
+
+SHADE__INLINE void shade__cover_narrow(shade__draw *d, const shade__triangle *t)
+{
+    int32_t e[3];
+    for (int k = 0; k < 3; k++) e[k] = (int32_t)t->e[k];
+    for (int y = t->y0; y <= t->y1; y++) {
+        shade__window w;
+        for (int k = 0; k < 3; k++) w.e[k] = e[k], w.dx[k] = t->dx[k], e[k] += t->dy[k];
+        w.x = t->x0, w.x_ref = t->x_ref;
+        w.z = t->base[0] + t->gy[0] * ((float)y + t->y_ref), w.gz = t->gx[0];
+        shade__windows(d, t, &w, y, t->x1, 8);
+    }
+}
+
+/* First (dx > 0) or last (dx < 0) x - x0 in 0 .. n - 1 with e + (x - x0) dx >= 0; n or -1 if none is.  The quotient in
+   double is off by at most one, e being below 2^44; the loops make it exact. */
+SHADE__INLINE int shade__crossing(int64_t e, int32_t dx, double inverse, int n)
+{
+    double q = -(double)e * inverse;
+    int x = q <= 0 ? 0 : q >= n ? n : (int)q;
+    if (dx > 0) {
+        while (x > 0 && e + (int64_t)(x - 1) * dx >= 0) x--;
+        while (x < n && e + (int64_t)x * dx < 0) x++;
+    } else {
+        x = shade__min(x, n - 1);
+        while (x < n - 1 && e + (int64_t)(x + 1) * dx >= 0) x++;
+        while (x >= 0 && e + (int64_t)x * dx < 0) x--;
+    }
+    return x;
+}
+
+/* A span that is known to be inside: the depth test, then the queue. */
+SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int y, int first, int last)
+{
+    shade__window w;
+    int wide = (last - first + 1) / 32 * 32;
+    if (!d->depth || d->pipe->may_discard) {
+        if (!d->pipe->may_discard) d->stats.fragments += last - first + 1;
+        if (d->queued) d->push(d, t, first, y, last - first + 1);
+        return;
+    }
+    SHADE_MEMSET(w.e, 0, sizeof w.e), SHADE_MEMSET(w.dx, 0, sizeof w.dx);
+    w.x = first, w.x_ref = t->x_ref;
+    w.z = t->base[0] + t->gy[0] * ((float)y + t->y_ref), w.gz = t->gx[0];
+    if (d->x1 - d->x0 < 8) {
+        shade__windows(d, t, &w, y, last, 1);
+        return;
+    }
+    if (wide) shade__windows(d, t, &w, y, first + wide - 1, 32);
+    w.x = first + wide, w.e[0] = last - w.x, w.dx[0] = -1;
+    shade__windows(d, t, &w, y, last, 8);
+}
+SHADE__INLINE void shade__cover_wide(shade__draw *d, const shade__triangle *t)
+{
+    int64_t e[3];
+    double inverse[3];
+    for (int k = 0; k < 3; k++) e[k] = t->e[k], inverse[k] = t->dx[k] ? 1.0 / t->dx[k] : 0;
+    for (int y = t->y0; y <= t->y1; y++) {
+        int n = t->x1 - t->x0 + 1, first = 0, last = n - 1;
+        for (int k = 0; k < 3; k++) {
+            if (t->dx[k] > 0) first = shade__max(first, shade__crossing(e[k], t->dx[k], inverse[k], n));
+            else if (t->dx[k] < 0) last = shade__min(last, shade__crossing(e[k], t->dx[k], inverse[k], n));
+            else if (e[k] < 0) last = -1;
+            e[k] += t->dy[k];
+        }
+        if (first <= last) shade__span(d, t, y, t->x0 + first, t->x0 + last);
+    }
+}
+
+/* Sets up and draws a triangle whose box is known.  Windows of 8 need a depth test and room beside each other. */
+SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t, const shade__head *const *head,
+                                     const float *const *tail)
+{
+    shade__setup(d, head, tail, t);
+    if (t->narrow && d->depth && !d->pipe->may_discard && d->x1 - d->x0 >= 8) shade__cover_narrow(d, t);
+    else shade__cover_wide(d, t);
+}
+SHADE__DISPATCH(shade__cover,
+                (shade__draw *d, shade__triangle *t, const shade__head *const *head, const float *const *tail),
+                (d, t, head, tail))
+
+/*-------------------------------------------------------------------------------------------- >>clip
+   Triangles that cross the near or far plane, or the guard band |x|, |y| <= 3 w: a polygon is cut plane by plane and
+   drawn as a fan.                                                                      [Sutherland74]
+     in      three slots of the batch     out  up to 8 triangles for >>setup
+     holds   A new vertex is computed from the inner to the outer end of its edge, so that neighbours get the
+             same bits and no crack opens.  Facing is that of the whole polygon.           >>vertex */
+
+enum {
+    SHADE__OUT_LEFT = 1, SHADE__OUT_RIGHT = 2, SHADE__OUT_BOTTOM = 4, SHADE__OUT_TOP = 8,
+    SHADE__OUT_NEAR = 16, SHADE__OUT_FAR = 32,
+    SHADE__OUT_GUARD = 64 | 128 | 256 | 512,     /* left, right, bottom, top of the guard band */
+    SHADE__OUT_W = 1024,                         /* w < 2^-60 */
+    SHADE__OUT_BAD = 2048,                       /* NaN, infinite or beyond 1e30 */
+    SHADE__OUT_VOLUME = 63 | SHADE__OUT_W,
+    SHADE__OUT_CLIP = SHADE__OUT_NEAR | SHADE__OUT_FAR | SHADE__OUT_GUARD | SHADE__OUT_W,
+    SHADE__OUT_UNPLACED = SHADE__OUT_GUARD | SHADE__OUT_W | SHADE__OUT_BAD,    /* has no window position */
+    SHADE__CLIP_VERTICES = 17                    /* 3 and two for each of 7 planes */
+};
+static const float shade__w_least = 8.67361738e-19f;    /* 2^-60 */
+
+/* Window coordinate in 24.8: floor(256 X + 1/2), X = (c/w + 1) size/2; half is 128 times the size, signed.
+   pre: |c| <= 3 w, about.  The sum is positive below 2^26, so that the cast truncates to floor. */
+SHADE__INLINE int32_t shade__snap(float c, float w, double half, double offset)
+{
+    return (int32_t)(((double)c / (double)w * half + offset + 0.5) + 16777216.0) - 16777216;
+}
+/* z/w to window depth */
+SHADE__INLINE float shade__window_depth(float z, float w, double scale, double offset)
+{
+    return (float)((double)z / (double)w * scale + offset);
+}
+
+/* Signed distance to a plane, times a positive factor; inside >= 0. */
+static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_one)
+{
+    double x = (double)clip[0], y = (double)clip[1], z = (double)clip[2], w = (double)clip[3];
+    switch (plane) {
+    case SHADE__OUT_NEAR: return zero_to_one ? z : z + w;
+    case SHADE__OUT_FAR: return w - z;
+    case 64: return 3 * w + x;
+    case 128: return 3 * w - x;
+    case 256: return 3 * w + y;
+    case 512: return 3 * w - y;
+    default: return w - (double)shade__w_least;
+    }
+}
+
+typedef struct shade__polygon {
+    shade__head head[SHADE__CLIP_VERTICES];
+    float tail[SHADE__CLIP_VERTICES][SHADE__STRIDE_MAX];
+    int   vertex[SHADE__CLIP_VERTICES], count, used;    /* corners in order; vertices made so far */
+} shade__polygon;
+
+static int shade__new_vertex(shade__polygon *p, int in, int out, double d_in, double d_out, int varyings)
+{
+    double t = d_in / (d_in - d_out);
+    int v = p->used++;
+    SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
+    for (int k = 0; k < 4; k++) {
+        double a = (double)p->head[in].clip[k];
+        p->head[v].clip[k] = (float)(a + t * ((double)p->head[out].clip[k] - a));
+    }
+    for (int k = SHADE__TAIL; k < SHADE__TAIL + varyings; k++) {
+        double a = (double)p->tail[in][k];
+        p->tail[v][k] = (float)(a + t * ((double)p->tail[out][k] - a));
+    }
+    return v;
+}
+static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one, int varyings)
+{
+    int kept[SHADE__CLIP_VERTICES], count = 0;
+    for (int i = 0; i < p->count; i++) {
+        int a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+        double da = shade__distance_to(p->head[a].clip, plane, zero_to_one);
+        double db = shade__distance_to(p->head[b].clip, plane, zero_to_one);
+        if (da >= 0) kept[count++] = a;
+        if (da >= 0 && db < 0) kept[count++] = shade__new_vertex(p, a, b, da, db, varyings);
+        if (da < 0 && db >= 0) kept[count++] = shade__new_vertex(p, b, a, db, da, varyings);
+    }
+    p->count = count;
+    for (int i = 0; i < count; i++) p->vertex[i] = kept[i];
+}
+
+/* The polygon of a triangle with its varyings not yet times rw. */
+static void shade__polygon_of(const shade__draw *d, const uint8_t *slot, shade__polygon *p, uint32_t *out)
+{
+    *out = 0, p->count = p->used = 3;
+    SHADE_MEMSET(p->tail, 0, sizeof p->tail);
+    for (int i = 0; i < 3; i++) {
+        const float *tail = d->tails + slot[i] * d->tail_stride;
+        const shade__head *h = &d->heads[slot[i]];
+        float w = d->perspective && !(h->out & SHADE__OUT_UNPLACED) ? h->clip[3] : 1;
+        p->head[i] = *h, p->vertex[i] = i;
+        for (int k = SHADE__TAIL; k < SHADE__TAIL + d->varyings; k++) p->tail[i][k] = tail[k] * w;
+        *out |= h->out;
+    }
+}
+/* Window positions and tails of its corners, as >>vertex makes them. */
+static void shade__place(const shade__draw *d, shade__polygon *p)
+{
+    int zero_to_one = d->pipe->depth_zero_to_one != 0;
+    for (int i = 0; i < p->count; i++) {
+        shade__head *h = &p->head[p->vertex[i]];
+        float *tail = p->tail[p->vertex[i]], w = h->clip[3], rw = d->perspective ? 1 / w : 1;
+        h->x = shade__snap(h->clip[0], w, (double)d->half_width, (double)d->half_width);
+        h->y = shade__snap(h->clip[1], w, -(double)d->half_height, (double)d->half_height);
+        tail[0] = shade__window_depth(h->clip[2], w, zero_to_one ? 1 : 0.5, zero_to_one ? 0 : 0.5);
+        tail[1] = rw;
+        for (int k = SHADE__TAIL; k < SHADE__TAIL + d->varyings; k++) tail[k] *= rw;
+    }
+}
+/* The corner from which no piece of the fan is turned the other way (snapping may dent a polygon): 0 if all fail. */
+static int shade__apex(const shade__polygon *p, int64_t area)
+{
+    for (int a = 0; a < p->count; a++) {
+        int good = 1;
+        for (int i = 1; i + 1 < p->count; i++) {
+            int64_t s = shade__area(&p->head[p->vertex[a]], &p->head[p->vertex[(a + i) % p->count]],
+                                    &p->head[p->vertex[(a + i + 1) % p->count]]);
+            good &= area < 0 ? s <= 0 : s >= 0;
+        }
+        if (good) return a;
+    }
+    return 0;
+}
+/* 0 if a triangle of this area, positive where clockwise on the screen, is culled. */
+SHADE__INLINE int shade__faces(const shade__draw *d, int64_t area)
+{
+    if (area == 0) return 0;
+    return d->pipe->cull == SHADE_CULL_NONE || (d->pipe->cull == SHADE_CULL_BACK) == (area < 0);
+}
+
+/* Clips, then draws or counts one triangle. */
+static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *slot, uint32_t primitive)
+{
+    shade__polygon p;
+    shade__triangle t;
+    uint32_t out;
+    int64_t area = 0;
+    shade__polygon_of(d, slot, &p, &out);
+    for (uint32_t plane = SHADE__OUT_NEAR; plane <= SHADE__OUT_W && p.count; plane *= 2)
+        if (out & plane) shade__clip_plane(&p, plane, d->pipe->depth_zero_to_one != 0, d->varyings);
+    if (p.count < 3) {
+        d->stats.clipped++;
+        return;
+    }
+    shade__place(d, &p);
+    for (int i = 1; i + 1 < p.count; i++)
+        area += shade__area(&p.head[p.vertex[0]], &p.head[p.vertex[i]], &p.head[p.vertex[i + 1]]);
+    if (!shade__faces(d, area)) {
+        d->stats.culled++;
+        return;
+    }
+    d->stats.drawn++;
+    t.primitive = primitive, t.front = area < 0;
+    int apex = shade__apex(&p, area);
+    for (int i = 1; i + 1 < p.count; i++) {
+        int a = p.vertex[apex], b = p.vertex[(apex + i) % p.count], c = p.vertex[(apex + i + 1) % p.count];
+        int64_t piece = shade__area(&p.head[a], &p.head[b], &p.head[c]);
+        if (piece == 0 || (piece < 0) != (area < 0)) continue;
+        const shade__head *head[3] = { &p.head[a], &p.head[b], &p.head[c] };
+        const float *tail[4] = { p.tail[a], p.tail[b], p.tail[c], d->tails + slot[0] * d->tail_stride };
+        if (shade__box(d, head[0], head[1], head[2], &t)) d->cover(d, &t, head, tail);
+    }
+}
+
+/*------------------------------------------------------------------------------------------ >>vertex
+   A batch: up to SHADE_LANES different vertices, shaded and projected as one packet, and the triangles among them.
+     in      indices                      out  heads and tails, one per slot of the batch
+     holds   A vertex is shaded once per batch.  Vertices without a window position get a harmless one and a
+             bit that sends their triangles through >>clip.                                 >>drive */
+
+typedef struct shade__placed {           /* rows of projected vertices */
+    float    x[SHADE_LANES], y[SHADE_LANES], w[SHADE_LANES];     /* clip space, made harmless */
+    int32_t  x_fx8[SHADE_LANES], y_fx8[SHADE_LANES];
+    uint32_t out[SHADE_LANES];
+    float    z[SHADE_LANES], rw[SHADE_LANES];
+} shade__placed;
+
+SHADE__INLINE uint32_t shade__beyond(float c)     /* all ones where |c| > 1e30 or NaN */
+{
+    return shade__mask((int32_t)(shade__float_bits(c) & 0x7FFFFFFFu) > 0x7149F2CA);
+}
+/* Outcodes; x, y, w kept where the vertex has a window position, else 0, 0, 1. */
+SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int zero_to_one,
+                                   shade__placed *SHADE_RESTRICT p)
+{
+    const float *SHADE_RESTRICT cx = v->clip[0], *SHADE_RESTRICT cy = v->clip[1];
+    const float *SHADE_RESTRICT cz = v->clip[2], *SHADE_RESTRICT cw = v->clip[3];
+    SHADE_EACH_LANE(i) {
+        float x = cx[i], y = cy[i], z = cz[i], w = cw[i], w3 = 3 * w, low = zero_to_one ? 0 : -w;
+        uint32_t bad = shade__beyond(x) | shade__beyond(y) | shade__beyond(z) | shade__beyond(w), out;
+        out = (shade__mask(x < -w) & 1) | (shade__mask(x > w) & 2) | (shade__mask(y < -w) & 4) |
+              (shade__mask(y > w) & 8) | (shade__mask(z < low) & 16) | (shade__mask(z > w) & 32);
+        out |= (shade__mask(x < -w3) & 64) | (shade__mask(x > w3) & 128) | (shade__mask(y < -w3) & 256) |
+               (shade__mask(y > w3) & 512) | (shade__mask(w < shade__w_least) & SHADE__OUT_W);
+        out |= bad & SHADE__OUT_BAD;
+        p->out[i] = out;
+        bad = shade__mask((out & SHADE__OUT_UNPLACED) != 0);
+        p->x[i] = shade__keep(x, ~bad), p->y[i] = shade__keep(y, ~bad), p->w[i] = shade__select(w, 1, bad);
+        p->z[i] = shade__keep(z, ~bad);
+    }
+}
+SHADE__INLINE void shade__project(double half_width, double half_height, int zero_to_one,
+                                  shade__placed *SHADE_RESTRICT p)
+{
+    const double scale = zero_to_one ? 1 : 0.5, offset = zero_to_one ? 0 : 0.5;
+    SHADE_EACH_LANE(i) { p->x_fx8[i] = shade__snap(p->x[i], p->w[i], half_width, half_width); }
+    SHADE_EACH_LANE(i) { p->y_fx8[i] = shade__snap(p->y[i], p->w[i], -half_height, half_height); }
+    SHADE_EACH_LANE(i) { p->z[i] = shade__window_depth(p->z[i], p->w[i], scale, offset); }
+    SHADE_EACH_LANE(i) { p->rw[i] = 1 / p->w[i]; }
+}
+/* From rows to one record per vertex: what triangles read lies together. */
+SHADE__INLINE void shade__gather(shade__draw *SHADE_RESTRICT d, const shade__placed *SHADE_RESTRICT p)
+{
+    const shade_vertices *v = &d->u.vertices;
+    int stride = d->tail_stride, n = d->ids.count;
+    for (int i = 0; i < n; i++) {
+        shade__head *h = &d->heads[i];
+        float *tail = d->tails + i * stride;
+        h->x = p->x_fx8[i], h->y = p->y_fx8[i], h->out = p->out[i];
+        for (int k = 0; k < 4; k++) h->clip[k] = v->clip[k][i];
+        tail[0] = p->z[i], tail[1] = d->perspective ? p->rw[i] : 1;
+    }
+    for (int k = 0; k < d->varyings; k++) {
+        float *tail = d->tails + SHADE__TAIL + k;
+        for (int i = 0; i < n; i++) tail[i * stride] = v->out[k][i] * tail[i * stride - k - 1];
+    }
+}
+SHADE__INLINE void shade__place_vertices_body(shade__draw *d)
+{
+    shade__placed p;
+    int zero_to_one = d->pipe->depth_zero_to_one != 0;
+    shade__classify(&d->u.vertices, zero_to_one, &p);
+    shade__project((double)d->half_width, (double)d->half_height, zero_to_one, &p);
+    shade__gather(d, &p);
+}
+SHADE__DISPATCH(shade__place_vertices, (shade__draw *d), (d))
+
+static void shade__shade_vertices(shade__draw *d)
+{
+    shade_vertices *v = &d->u.vertices;
+    for (int i = d->ids.count; i < SHADE_LANES; i++) d->ids.index[i] = d->ids.index[d->ids.count - 1];
+    SHADE_MEMSET(v->clip, 0, sizeof v->clip);
+    if (d->varyings) SHADE_MEMSET(v->out, 0, (size_t)d->varyings * sizeof v->out[0]);
+    d->pipe->vertex(d->pipe->uniforms, &d->ids, v);
+    shade__place_vertices_pick()(d);
+}
+
+/* The slot of a vertex, new or known. */
+SHADE__INLINE int shade__slot(shade__draw *d, uint32_t index)
+{
+    uint8_t *known = &d->slot_of[index & (2 * SHADE_LANES - 1)];
+    if (*known < d->ids.count && d->ids.index[*known] == index) return *known;
+    d->ids.index[d->ids.count] = index;
+    *known = (uint8_t)d->ids.count;
+    return d->ids.count++;
+}
+/* Takes triangles first, ... of count while their vertices find room; returns how many. */
+static int shade__take_batch(shade__draw *d, const uint32_t *indices, int first, int count)
+{
+    int n = 0, capacity = shade__min(SHADE_LANES, (int)SHADE__TAIL_FLOATS / d->tail_stride);
+    d->ids.count = 0;
+    while (n < SHADE__BATCH_TRIANGLES && first + n < count && d->ids.count + 3 <= capacity) {
+        for (int k = 0; k < 3; k++) {
+            int corner = 3 * (first + n) + k;
+            uint32_t index = indices ? indices[corner] : (uint32_t)corner;
+            d->corner[3 * n + k] = (uint8_t)shade__slot(d, index);
+        }
+        n++;
+    }
+    return n;
+}
+
+/* Culls, counts, draws the batch's triangles; the first of them is number primitive. */
+static void shade__triangles(shade__draw *d, int count, uint32_t primitive)
+{
+    shade__triangle t;
+    d->u.queue.f.count = 0;
+    for (int k = 0; k < count; k++) {
+        const uint8_t *slot = d->corner + 3 * k;
+        const shade__head *a = &d->heads[slot[0]], *b = &d->heads[slot[1]], *c = &d->heads[slot[2]];
+        uint32_t any = a->out | b->out | c->out;
+        int64_t area;
+        if (any) {
+            if (any & SHADE__OUT_BAD) {
+                d->stats.rejected++;
+                continue;
+            }
+            if (a->out & b->out & c->out & SHADE__OUT_VOLUME) {
+                d->stats.clipped++;
+                continue;
+            }
+            if (any & SHADE__OUT_CLIP) {
+                shade__clip_triangle(d, slot, primitive + (uint32_t)k);
+                continue;
+            }
+        }
+        area = shade__area(a, b, c);
+        if (!shade__faces(d, area)) {
+            d->stats.culled++;
+            continue;
+        }
+        d->stats.drawn++;
+        if (!shade__box(d, a, b, c, &t)) continue;
+        t.primitive = primitive + (uint32_t)k, t.front = area < 0;
+        const shade__head *head[3] = { a, b, c };
+        const float *first = d->tails + slot[0] * d->tail_stride;
+        const float *tail[4] = { first, d->tails + slot[1] * d->tail_stride,
+                                 d->tails + slot[2] * d->tail_stride, first };
+        d->cover(d, &t, head, tail);
+    }
+    d->flush(d);
+}
+
+/*------------------------------------------------------------------------------------------- >>drive
+   The public calls: arguments checked before any pixel changes, then batch after batch.     >>mesh */
+
+SHADE__INLINE int shade__rows_held(const shade_target *t) { return t->row_count ? t->row_count : t->height; }
+SHADE__INLINE int shade__stride_of(const shade_target *t) { return t->stride ? t->stride : t->width; }
+
+static shade_result shade__check_target(const shade_target *t)
+{
+    if (!t->color && !t->depth) return SHADE_ERROR_TARGET;
+    if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384) return SHADE_ERROR_TARGET;
+    if (t->stride < 0 || (t->stride && t->stride < t->width)) return SHADE_ERROR_TARGET;
+    if ((unsigned)t->format > SHADE_RGBA32F) return SHADE_ERROR_TARGET;
+    if (t->clip_width < 0 || t->clip_height < 0) return SHADE_ERROR_TARGET;
+    if (t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count)) return SHADE_ERROR_TARGET;
+    if (t->row_count && t->row_offset > t->height - t->row_count) return SHADE_ERROR_TARGET;
+    if ((uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t) > 0xFFFFFFFFu) return SHADE_ERROR_TARGET;
+    if ((uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t) > SIZE_MAX / 16) return SHADE_ERROR_TARGET;
+    return SHADE_OK;
+}
+/* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive.  0 if empty. */
+static int shade__clip_rectangle(const shade_target *t, int *r)
+{
+    int64_t x1 = (int64_t)t->clip_x + t->clip_width, y1 = (int64_t)t->clip_y + t->clip_height;
+    int all = !t->clip_x && !t->clip_y && !t->clip_width && !t->clip_height;
+    int top = t->row_offset, bottom = top + shade__rows_held(t);
+    r[0] = all ? 0 : shade__max(t->clip_x, 0);
+    r[1] = all ? top : shade__max(t->clip_y, top);
+    r[2] = all || x1 > t->width ? t->width : (int)x1;
+    r[3] = all || y1 > bottom ? bottom : (int)y1;
+    return r[0] < r[2] && r[1] < r[3];
+}
+
+static shade_result shade__check_pipeline(const shade_pipeline *p)
+{
+    if ((unsigned)p->interpolation > SHADE_CONSTANT || (unsigned)p->cull > SHADE_CULL_FRONT ||
+        (unsigned)p->depth_test > SHADE_ALWAYS || (unsigned)p->blend > SHADE_ADD)
+        return SHADE_ERROR_ARGUMENT;
+    if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
+    return shade__within(p->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
+}
+
+/* All indices below vertex_count?  In pieces of a fixed length, which vectorise. */
+static int shade__indices_fit(const uint32_t *indices, int count, int vertex_count)
+{
+    uint32_t limit = (uint32_t)vertex_count, bad = 0;
+    int i = 0;
+    for (; i + 64 <= count; i += 64) {
+        const uint32_t *p = indices + i;
+        uint32_t any = 0;
+        SHADE__FOR(k, 64) { any |= shade__mask(p[k] >= limit); }
+        bad |= any;
+    }
+    for (; i < count; i++) bad |= shade__mask(indices[i] >= limit);
+    return !bad;
+}
+static shade_result shade__check_indices(const uint32_t *indices, int index_count, int vertex_count)
+{
+    if (index_count % 3) return SHADE_ERROR_INDEX;
+    if (!indices) return index_count <= vertex_count ? SHADE_OK : SHADE_ERROR_INDEX;
+    return shade__indices_fit(indices, index_count, vertex_count) ? SHADE_OK : SHADE_ERROR_INDEX;
+}
+
+static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipeline *p, const int *clip)
+{
+    shade_compare test = p->depth_test;
+    d->flush = shade__flush_pick(), d->push = shade__push_pick(), d->cover = shade__cover_pick();
+    d->target = t, d->pipe = p;
+    SHADE_MEMSET(&d->stats, 0, sizeof d->stats);
+    d->color = p->fragment ? (uint8_t *)t->color : (uint8_t *)0;
+    d->depth = t->depth;
+    d->pixel_bytes = shade__pixel_bytes(t->format);
+    d->stride = shade__stride_of(t), d->row_offset = t->row_offset;
+    d->x0 = clip[0], d->y0 = clip[1], d->x1 = clip[2], d->y1 = clip[3];
+    d->varyings = p->varyings;
+    d->tail_stride = (p->varyings + SHADE__TAIL + 7) / 8 * 8;
+    d->perspective = p->interpolation == SHADE_PERSPECTIVE;
+    d->queued = p->fragment && (d->color || p->may_discard);
+    d->less = shade__mask(test == SHADE_LESS || test == SHADE_LESS_EQUAL);
+    d->greater = shade__mask(test == SHADE_GREATER || test == SHADE_GREATER_EQUAL);
+    d->equal = shade__mask(test == SHADE_EQUAL || test == SHADE_LESS_EQUAL || test == SHADE_GREATER_EQUAL);
+    d->always = shade__mask(test == SHADE_ALWAYS);
+    d->write = shade__mask(!p->depth_read_only);
+    d->half_width = (float)(t->width * 128), d->half_height = (float)(t->height * 128);
+    SHADE_MEMSET(d->tails, 0, sizeof d->tails);
+    SHADE_MEMSET(d->slot_of, 0, sizeof d->slot_of);
+}
+
+SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
+                                 const uint32_t *indices, int index_count, int vertex_count, shade_stats *stats)
+{
+    shade__draw d;
+    shade_pipeline pipe;
+    shade_result result;
+    int clip[4];
+    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
+    if (!target || !pipeline || !pipeline->vertex) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(target);
+    if (result == SHADE_OK) result = shade__check_pipeline(pipeline);
+    if (result != SHADE_OK) return result;
+    if (index_count < 0 || vertex_count < 0) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_indices(indices, index_count, vertex_count);
+    if (result != SHADE_OK) return result;
+    if (!shade__clip_rectangle(target, clip)) clip[0] = clip[1] = clip[2] = clip[3] = 0;
+    pipe = *pipeline;
+    if (!pipe.fragment) pipe.may_discard = 0;
+    if (!pipe.fragment || (!target->color && !pipe.may_discard)) pipe.varyings = 0;    /* nobody reads them */
+    shade__begin(&d, target, &pipe, clip);
+    d.stats.triangles = index_count / 3;
+    for (int first = 0, n; first < index_count / 3; first += n) {
+        n = shade__take_batch(&d, indices, first, index_count / 3);
+        shade__shade_vertices(&d);
+        shade__triangles(&d, n, (uint32_t)first);
+    }
+    if (stats) *stats = d.stats;
+    return SHADE_OK;
+}
+
+/* Fills n bytes with a pattern: once by hand, then doubled by copies. */
+static void shade__fill(uint8_t *p, const void *pattern, size_t bytes, size_t n)
+{
+    size_t done = bytes < n ? bytes : n;
+    SHADE_MEMCPY(p, pattern, done);
+    while (done < n) {
+        size_t piece = done < n - done ? done : n - done;
+        SHADE_MEMCPY(p + done, p, piece);
+        done += piece;
+    }
+}
+/* Eight pixels of a colour at (x, y): the period of the dither divides 8. */
+static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y, uint8_t *pattern)
+{
+    float rgba[4 * SHADE_LANES], px[8], py[8], c[4];
+    uint32_t pixel[8];
+    c[0] = color.x, c[1] = color.y, c[2] = color.z, c[3] = color.w;
+    for (int i = 0; i < 8; i++) {
+        px[i] = (float)(x + i) + 0.5f, py[i] = (float)y + 0.5f;
+        for (int k = 0; k < 4; k++) rgba[i + k * SHADE_LANES] = c[k];
+    }
+    if (t->format != SHADE_RGBA32F) shade__pack8(t, rgba, px, py, pixel);
+    for (int i = 0; i < 8; i++) {
+        uint16_t u = (uint16_t)pixel[i];
+        if (t->format == SHADE_RGBA8) SHADE_MEMCPY(pattern + 4 * i, &pixel[i], 4);
+        else if (t->format == SHADE_RGB565) SHADE_MEMCPY(pattern + 2 * i, &u, 2);
+        else SHADE_MEMCPY(pattern + 16 * i, c, 16);
+    }
+}
+SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
+{
+    shade_result result;
+    int clip[4];
+    uint8_t pattern[8 * 16];
+    if (!target) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(target);
+    if (result == SHADE_OK && depth != depth) result = SHADE_ERROR_ARGUMENT;
+    if (result != SHADE_OK) return result;
+    if (!shade__clip_rectangle(target, clip)) return SHADE_OK;
+    for (int y = clip[1]; y < clip[3]; y++) {
+        size_t n = (size_t)(clip[2] - clip[0]), bytes = shade__pixel_bytes(target->format);
+        size_t at = (size_t)(y - target->row_offset) * (size_t)shade__stride_of(target) + (size_t)clip[0];
+        if (target->depth) shade__fill((uint8_t *)(target->depth + at), &depth, 4, n * 4);
+        if (!target->color) continue;
+        shade__clear_pattern(target, color, clip[0], y, pattern);
+        shade__fill((uint8_t *)target->color + at * bytes, pattern, 8 * bytes, n * bytes);
+    }
+    return SHADE_OK;
+}
+
+/*-------------------------------------------------------------------------------------------- >>mesh
+   The fixed pipeline: a mesh drawn by two ordinary shaders of the programmable one.
+     in      object-space arrays          out  varyings in world space: P, N, albedo; or one lit colour
+     holds   Where each face has values of its own (flat, or no normals), every corner is a vertex: its
+             index is 3 times the triangle's plus the corner, and the shader looks up the mesh's.   >>image */
+
+typedef struct shade__scene {            /* uniforms of the mesh shaders */
+    const shade_mesh *mesh;
+    const shade_draw_state *state;
+    shade_mat4 clip_from_object, world_from_object;
+    shade_mat3 normal_matrix;
+    shade_vec3 eye;
+    int by_corner, face_normals;
+} shade__scene;
+
+enum { SHADE__SCRATCH = SHADE_MAX_VARYINGS < 12 ? 12 : 1 };    /* rows; varyings lend theirs if they are 12 */
+
+/* Element i of an array of vectors with a stride in bytes, 0 = tight. */
+SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t i)
+{
+    float v[3];
+    SHADE_MEMCPY(v, (const char *)array + (size_t)i * (size_t)(stride ? stride : 12), 12);
+    return shade_v3(v[0], v[1], v[2]);
+}
+SHADE__INLINE shade_vec3 shade__position(const shade_mesh *m, uint32_t i)
+{
+    return shade__vec3_at(m->positions, m->position_stride, i);
+}
+SHADE__INLINE uint32_t shade__corner_index(const shade_mesh *m, uint32_t corner)
+{
+    return m->indices ? m->indices[corner] : corner;
+}
+SHADE__INLINE void shade__put(float *rows, int i, shade_vec3 v)
+{
+    rows[i] = v.x, rows[i + SHADE_LANES] = v.y, rows[i + 2 * SHADE_LANES] = v.z;
+}
+
+/* Object-space attributes of a packet to rows of P, N and albedo. */
+static void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in, float *P, float *N, float *albedo)
+{
+    const shade_mesh *m = s->mesh;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        uint32_t v = s->by_corner ? shade__corner_index(m, in->index[i]) : in->index[i];
+        shade__put(P, i, shade__position(m, v));
+        if (!s->face_normals) shade__put(N, i, shade__vec3_at(m->normals, m->normal_stride, v));
+        if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
+    }
+}
+/* The same for faces: their normal (length of twice the area), and with per_face their centroid and first colour. */
+static void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in, int per_face,
+                               float *P, float *N, float *albedo)
+{
+    const shade_mesh *m = s->mesh;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        uint32_t first = in->index[i] / 3 * 3, v = shade__corner_index(m, first);
+        shade_vec3 a = shade__position(m, v), b = shade__position(m, shade__corner_index(m, first + 1));
+        shade_vec3 c = shade__position(m, shade__corner_index(m, first + 2));
+        shade__put(N, i, shade_face_normal(a, b, c));
+        if (!per_face) continue;
+        a = shade_madd(a, 1 / 3.0f, shade_add(shade_sub(b, a), shade_sub(c, a)));
+        shade__put(P, i, a);
+        if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
+    }
+}
+
+/* clip = m (P, 1) */
+SHADE__INLINE void shade__lane_clip(shade_mat4 m, const float *SHADE_RESTRICT P, float *SHADE_RESTRICT clip)
+{
+    SHADE_EACH_LANE(i) {
+        float x = P[i], y = P[i + SHADE_LANES], z = P[i + 2 * SHADE_LANES];
+        clip[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
+        clip[i + SHADE_LANES] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
+        clip[i + 2 * SHADE_LANES] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
+        clip[i + 3 * SHADE_LANES] = m.col[0].w * x + m.col[1].w * y + m.col[2].w * z + m.col[3].w;
+    }
+}
+/* P = m (P, 1); an affine model, so no division */
+SHADE__INLINE void shade__lane_world(shade_mat4 m, float *SHADE_RESTRICT P)
+{
+    SHADE_EACH_LANE(i) {
+        float x = P[i], y = P[i + SHADE_LANES], z = P[i + 2 * SHADE_LANES];
+        P[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
+        P[i + SHADE_LANES] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
+        P[i + 2 * SHADE_LANES] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
+    }
+}
+/* N = m N / |m N|; interpolation between vertices starts from unit normals */
+SHADE__INLINE void shade__lane_normal(shade_mat3 m, float *SHADE_RESTRICT N)
+{
+    SHADE_EACH_LANE(i) {
+        float x = N[i], y = N[i + SHADE_LANES], z = N[i + 2 * SHADE_LANES];
+        float a = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z;
+        float b = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z;
+        float c = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z, r = shade__rsqrt(a * a + b * b + c * c);
+        N[i] = a * r, N[i + SHADE_LANES] = b * r, N[i + 2 * SHADE_LANES] = c * r;
+    }
+}
+
+SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                           shade_vertices *SHADE_RESTRICT out)
+{
+    const shade__scene *s = (const shade__scene *)uniforms;
+    const shade_draw_state *state = s->state;
+    float scratch[SHADE__SCRATCH][SHADE_LANES], *rows = SHADE_MAX_VARYINGS < 12 ? scratch[0] : out->out[0];
+    int lit = state->shading != SHADE_PER_FRAGMENT, per_face = state->shading == SHADE_PER_FACE;
+    float *P = lit ? rows + 3 * SHADE_LANES : out->out[0], *N = P + 3 * SHADE_LANES;
+    float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
+    shade__fetch_vertices(s, in, P, N, albedo);
+    shade__lane_clip(s->clip_from_object, P, out->clip[0]);
+    if (s->face_normals) shade__fetch_faces(s, in, per_face, P, N, albedo);
+    shade__lane_world(s->world_from_object, P);
+    shade__lane_normal(s->normal_matrix, N);
+    if (lit) shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, out->out[0]);
+}
+SHADE__DISPATCH(shade__mesh_vertex,
+                (const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                 shade_vertices *SHADE_RESTRICT out),
+                (uniforms, in, out))
+
+/* Phong interpolation: N and P arrive per pixel. */
+static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                            shade_colors *SHADE_RESTRICT out)
+{
+    const shade__scene *s = (const shade__scene *)uniforms;
+    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, in->in[0], in->in[3],
+                    s->mesh->colors ? in->in[6] : (const float *)0, out->out[0]);
+}
+/* Gouraud and flat: the colour arrives. */
+static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                              shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    SHADE_MEMCPY(out->out, in->in, 3 * sizeof in->in[0]);
+}
+
+static int shade__bad_stride(int stride) { return stride < 0 || stride % 4; }
+static shade_result shade__check_mesh(const shade_mesh *m)
+{
+    if (m->vertex_count < 0 || (m->indices && m->index_count < 0)) return SHADE_ERROR_ARGUMENT;
+    if (shade__bad_stride(m->position_stride) || shade__bad_stride(m->normal_stride) ||
+        shade__bad_stride(m->texcoord_stride) || shade__bad_stride(m->color_stride))
+        return SHADE_ERROR_ARGUMENT;
+    return SHADE_OK;
+}
+static int shade__corner_count(const shade_mesh *m) { return m->indices ? m->index_count : m->vertex_count; }
+
+static int shade__is_zero_matrix(const shade_mat4 *m)
+{
+    for (int j = 0; j < 4; j++)
+        if (m->col[j].x != 0 || m->col[j].y != 0 || m->col[j].z != 0 || m->col[j].w != 0) return 0;
+    return 1;
+}
+static shade_mat4 shade__or_identity(shade_mat4 m)
+{
+    return shade__is_zero_matrix(&m) ? shade_mat4_identity() : m;
+}
+static shade__scene shade__scene_of(const shade_mesh *mesh, const shade_draw_state *state)
+{
+    shade__scene s;
+    shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
+    s.mesh = mesh, s.state = state;
+    s.world_from_object = shade__or_identity(state->model);
+    s.clip_from_object = shade_mat4_mul(shade_mat4_mul(shade__or_identity(state->projection), view),
+                                        s.world_from_object);
+    s.normal_matrix = shade_normal_matrix(s.world_from_object);
+    s.eye = state->lighting.flags & SHADE_INFINITE_VIEWER
+                ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
+                : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+    s.face_normals = !mesh->normals || state->shading == SHADE_PER_FACE;
+    s.by_corner = s.face_normals;
+    return s;
+}
+
+SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
+                                      const shade_draw_state *state, shade_stats *stats)
+{
+    shade_pipeline p;
+    shade__scene scene;
+    shade_result result;
+    int count;
+    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
+    if (!target || !mesh || !state || (!mesh->positions && mesh->vertex_count > 0)) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(target);
+    if (result == SHADE_OK) result = shade__check_mesh(mesh);
+    if (result != SHADE_OK) return result;
+    if ((unsigned)state->shading > SHADE_PER_FACE || (unsigned)state->lighting.model > SHADE_COOL_TO_WARM ||
+        state->lighting.light_count < 0 || (!state->lighting.lights && state->lighting.light_count))
+        return SHADE_ERROR_ARGUMENT;
+    scene = shade__scene_of(mesh, state);
+    SHADE_MEMSET(&p, 0, sizeof p);
+    p.vertex = shade__mesh_vertex_pick();
+    p.fragment = state->shading == SHADE_PER_FRAGMENT ? shade__mesh_lit : shade__mesh_color;
+    p.uniforms = &scene;
+    p.varyings = state->shading != SHADE_PER_FRAGMENT ? 3 : mesh->colors ? 9 : 6;
+    p.interpolation = state->shading == SHADE_PER_FACE ? SHADE_CONSTANT : SHADE_PERSPECTIVE;
+    p.cull = state->cull, p.depth_test = state->depth_test, p.blend = state->blend;
+    p.depth_zero_to_one = state->depth_zero_to_one, p.depth_read_only = state->depth_read_only;
+    p.depth_bias = state->depth_bias;
+    result = shade__check_pipeline(&p);
+    if (result != SHADE_OK) return result;
+    count = shade__corner_count(mesh);
+    result = shade__check_indices(mesh->indices, count, mesh->vertex_count);
+    if (result != SHADE_OK) return result;
+    if (scene.by_corner) return shade_draw(target, &p, (const uint32_t *)0, count, count, stats);
+    return shade_draw(target, &p, mesh->indices, count, mesh->vertex_count, stats);
+}
+
+/* Angle between a vector of length y and components: atan2(y, x), y >= 0, within 1e-9.  atan t = pi/4 + atan((t - 1) / (t
+   + 1)) keeps the argument of the series below tan(pi/8). */
+static double shade__angle(double y, double x)
+{
+    const double quarter = 0.78539816339744830962;
+    double ax = x < 0 ? -x : x, t, s, a = 0;
+    if (!(ax + y > 0)) return 0;
+    t = (y - ax) / (y + ax), s = t < -0.4142135623730951 ? y / ax : t > 0.4142135623730951 ? -ax / y : t;
+    for (int k = 25; k > 0; k -= 2) a = 1.0 / k - a * s * s;
+    a = a * s + (t < -0.4142135623730951 ? 0 : t > 0.4142135623730951 ? 2 * quarter : quarter);
+    return x < 0 ? 4 * quarter - a : a;
+}
+static float shade__angle_between(shade_vec3 a, shade_vec3 b)
+{
+    return (float)shade__angle((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
+}
+
+SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
+{
+    shade_result result;
+    int count;
+    if (!mesh || !normals || (!mesh->positions && mesh->vertex_count > 0)) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_mesh(mesh);
+    if (result != SHADE_OK) return result;
+    count = shade__corner_count(mesh);
+    result = shade__check_indices(mesh->indices, count, mesh->vertex_count);
+    if (result != SHADE_OK) return result;
+    for (int i = 0; i < mesh->vertex_count; i++) normals[i] = shade_v3(0, 0, 0);
+    for (int i = 0; i < count; i += 3) {
+        uint32_t v[3];
+        shade_vec3 p[3], e[3], n;
+        for (int k = 0; k < 3; k++) v[k] = shade__corner_index(mesh, (uint32_t)(i + k));
+        for (int k = 0; k < 3; k++) p[k] = shade__position(mesh, v[k]);
+        for (int k = 0; k < 3; k++) e[k] = shade_normalize(shade_sub(p[(k + 1) % 3], p[k]));
+        n = shade_normalize(shade_cross(e[0], shade_neg(e[2])));
+        if (shade__is_zero(n) || !shade__within(shade_dot(n, n), 2)) continue;
+        for (int k = 0; k < 3; k++)
+            normals[v[k]] = shade_madd(normals[v[k]], shade__angle_between(e[k], shade_neg(e[(k + 2) % 3])), n);
+    }
+    for (int i = 0; i < mesh->vertex_count; i++) normals[i] = shade_normalize(normals[i]);
+    return SHADE_OK;
+}
+
+/*------------------------------------------------------------------------------------------- >>image
+   Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on.    >>refs */
+
+static char *shade__decimal(char *p, int n)
+{
+    if (n > 9) p = shade__decimal(p, n / 10);
+    *p = (char)('0' + n % 10);
+    return p + 1;
+}
+/* Bytes R, G, B of width pixels from x on of a row in memory. */
+static void shade__row_rgb(const shade_target *t, size_t at, int width, uint8_t *rgb)
+{
+    const uint8_t *p = (const uint8_t *)t->color + at * shade__pixel_bytes(t->format);
+    for (int i = 0; i < width; i++, rgb += 3) {
+        if (t->format == SHADE_RGBA8) {
+            rgb[0] = p[4 * i], rgb[1] = p[4 * i + 1], rgb[2] = p[4 * i + 2];
+        } else if (t->format == SHADE_RGB565) {
+            uint16_t u;
+            SHADE_MEMCPY(&u, p + 2 * i, 2);
+            rgb[0] = (uint8_t)(((u >> 11) * 255 + 15) / 31), rgb[1] = (uint8_t)(((u >> 5 & 63) * 255 + 31) / 63);
+            rgb[2] = (uint8_t)(((u & 31) * 255 + 15) / 31);
+        } else {
+            float c[4];
+            SHADE_MEMCPY(c, p + 16 * i, 16);
+            for (int k = 0; k < 3; k++) {
+                float v = shade__unit(c[k]);
+                rgb[k] = (uint8_t)((t->srgb ? shade__srgb_encode(v) : v) * 255 + 0.5f);
+            }
+        }
+    }
+}
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user, const shade_target *target)
+{
+    uint8_t rgb[3 * SHADE_LANES];
+    char head[32] = "P6\n", *p = head + 3;
+    shade_result result;
+    int rows;
+    if (!write || !target) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(target);
+    if (result == SHADE_OK && !target->color) result = SHADE_ERROR_TARGET;
+    if (result != SHADE_OK) return result;
+    rows = shade__rows_held(target);
+    p = shade__decimal(p, target->width), *p++ = ' ', p = shade__decimal(p, rows);
+    SHADE_MEMCPY(p, "\n255\n", 5);
+    if (write(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
+    for (int y = 0; y < rows; y++) {
+        size_t at = (size_t)y * (size_t)shade__stride_of(target);
+        for (int x = 0; x < target->width; x += SHADE_LANES) {
+            int n = shade__min(SHADE_LANES, target->width - x);
+            shade__row_rgb(target, at + (size_t)x, n, rgb);
+            if (write(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
+        }
+    }
+    return SHADE_OK;
+}
+
+#ifndef SHADE_NO_STDIO
+static int shade__write_file(void *user, const void *bytes, size_t size)
+{
+    return fwrite(bytes, 1, size, (FILE *)user) != size;
+}
+SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target)
+{
+    FILE *file;
+    shade_result result;
+    if (!path || !target) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(target);
+    if (result == SHADE_OK && !target->color) result = SHADE_ERROR_TARGET;
+    if (result != SHADE_OK) return result;
+    file = fopen(path, "wb");
+    if (!file) return SHADE_ERROR_IO;
+    result = shade_encode_ppm(shade__write_file, file, target);
+    if (fclose(file) && result == SHADE_OK) result = SHADE_ERROR_IO;
+    if (result != SHADE_OK) (void)remove(path);
+    return result;
+}
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+SHADE__EXACT_INSIDE_END
+SHADE__EXACT_END
+#endif /* SHADE__IMPLEMENTED */
+#endif /* SHADE_IMPLEMENTATION */
+
+/*-------------------------------------------------------------------------------------------- >>refs
+   [Blinn77]      J. F. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977,
+                  Computer Graphics 11(2), 192-198.
+   [Gooch98]      A. Gooch, B. Gooch, P. Shirley, E. Cohen, "A Non-Photorealistic Lighting Model for Automatic
+                  Technical Illustration", SIGGRAPH 1998, 447-452.
+   [Gouraud71]    H. Gouraud, "Continuous Shading of Curved Surfaces", IEEE Transactions on Computers C-20(6), 623-629.
+   [IEC61966]     IEC 61966-2-1:1999, the sRGB colour space.
+   [Kadlec10]     J. Kadlec, "Improving the fast inverse square root", 2010: the constant and its Newton step.
+   [Kilgard94]    The materials of teapots.c, Silicon Graphics 1993, M. J. Kilgard 1994.
+   [Phong75]      B. T. Phong, "Illumination for Computer Generated Pictures", Communications of the ACM 18(6), 311-317.
+   [Pineda88]     J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988,
+                  Computer Graphics 22(4), 17-20.
+   [Sutherland74] I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping", Communications of the ACM 17(1), 32-42.
+   [Thurmer98]    G. Thuermer, C. A. Wuethrich, "Computing Vertex Normals from Polygonal Facets",
+                  Journal of Graphics Tools 3(1), 43-46.
+*/
