@@ -233,7 +233,9 @@
 
 #if defined(__GNUC__) || defined(__clang__)
 #define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
+#define SHADE__PREFETCH(p) __builtin_prefetch(p, 1)
 #else
+#define SHADE__PREFETCH(p) ((void)(p))
 #define SHADE__LOWEST_BIT(x) shade__lowest_bit(x)
 #endif
 
@@ -1665,13 +1667,13 @@ SHADE__INLINE void shade__pack_rgba8(const float *SHADE_RESTRICT rgba, int srgb,
 /* to 5-6-5 bits; x, y: window positions, which choose the threshold of the 4 x 4 ordered
    dither: the bits of x ^ y and y, interleaved and reversed */
 SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const float *SHADE_RESTRICT x,
-                                      const float *SHADE_RESTRICT y, int srgb, int dither,
+                                      const float *SHADE_RESTRICT y, int srgb, uint32_t dither,
                                       uint32_t *SHADE_RESTRICT pixel, const int width)
 {
     SHADE__FOR(i, width) {
         uint32_t u = (uint32_t)(int32_t)x[i], v = (uint32_t)(int32_t)y[i], d = u ^ v;
         uint32_t rank = (d & 1) << 3 | (v & 1) << 2 | (d & 2) | (v & 2) >> 1;
-        float t = dither ? ((float)(int32_t)rank + 0.5f) * 0.0625f : 0.5f;
+        float t = shade__select(0.5f, ((float)(int32_t)rank + 0.5f) * 0.0625f, dither);
         float cr = shade__unit(rgba[i]), cg = shade__unit(rgba[i + SHADE_LANES]);
         float cb = shade__unit(rgba[i + 2 * SHADE_LANES]);
         if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg), cb = shade__srgb_encode(cb);
@@ -1683,7 +1685,9 @@ SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const fl
 SHADE__INLINE void shade__pack(const shade_target *t, const float *rgba, const float *x, const float *y,
                                uint32_t *pixel, const int width)
 {
-    if (t->format == SHADE_RGB565) shade__pack_rgb565(rgba, x, y, t->srgb, t->dither, pixel, width);
+    uint32_t dither = shade__mask(t->dither != 0);
+    if (t->format == SHADE_RGB565 && t->srgb) shade__pack_rgb565(rgba, x, y, 1, dither, pixel, width);
+    else if (t->format == SHADE_RGB565) shade__pack_rgb565(rgba, x, y, 0, dither, pixel, width);
     else if (t->srgb) shade__pack_rgba8(rgba, 1, pixel, width);
     else shade__pack_rgba8(rgba, 0, pixel, width);
 }
@@ -1948,24 +1952,30 @@ SHADE__INLINE void shade__edge(const shade__head *p, const shade__head *q, int k
     t->dx[k] = -dy, t->dy[k] = dx;
 }
 
-/* Planes of all values in one loop: value = base + gy (y - y_ref) + gx (x - x_ref).  The reference vertex v0 is the
-   farthest, whose rw is the smallest: there rounding hurts most. */
-SHADE__INLINE void shade__planes(const shade__head *const *v, const float *const *tail, int64_t area,
-                                 int stride, shade__triangle *t)
+/* Planes of all values in one loop: value = base + gy (y - y_ref) + gx (x - x_ref), with
+   k = dx1, dy1, dx2, dy2 over the area.  The reference vertex t0 is the farthest, whose rw is the smallest: there
+   rounding hurts most. */
+SHADE__INLINE void shade__planes(const float *SHADE_RESTRICT t0, const float *SHADE_RESTRICT t1,
+                                 const float *SHADE_RESTRICT t2, const float *SHADE_RESTRICT k, int stride,
+                                 shade__triangle *SHADE_RESTRICT t)
 {
-    const float *SHADE_RESTRICT t0 = tail[0], *SHADE_RESTRICT t1 = tail[1], *SHADE_RESTRICT t2 = tail[2];
-    double inverse = 256 / (double)area;
-    float x1 = (float)((v[1]->x - v[0]->x) * inverse), y1 = (float)((v[1]->y - v[0]->y) * inverse);
-    float x2 = (float)((v[2]->x - v[0]->x) * inverse), y2 = (float)((v[2]->y - v[0]->y) * inverse);
-    t->x_ref = 0.5f - (float)v[0]->x * (1 / 256.0f), t->y_ref = 0.5f - (float)v[0]->y * (1 / 256.0f);
+    const float x1 = k[0], y1 = k[1], x2 = k[2], y2 = k[3];
     for (int s = 0; s < stride; s += 8) {
-        SHADE__FOR(k, 8) {
-            float d1 = t1[s + k] - t0[s + k], d2 = t2[s + k] - t0[s + k];
-            t->base[s + k] = t0[s + k];
-            t->gx[s + k] = d1 * y2 - d2 * y1;
-            t->gy[s + k] = d2 * x1 - d1 * x2;
+        SHADE__FOR(i, 8) {
+            float d1 = t1[s + i] - t0[s + i], d2 = t2[s + i] - t0[s + i];
+            t->base[s + i] = t0[s + i];
+            t->gx[s + i] = d1 * y2 - d2 * y1;
+            t->gy[s + i] = d2 * x1 - d1 * x2;
         }
     }
+}
+/* The constants of the planes of a triangle, and where its reference vertex is. */
+SHADE__INLINE void shade__slopes(const shade__head *const *v, int64_t area, float *k, shade__triangle *t)
+{
+    double inverse = 256 / (double)area;
+    k[0] = (float)((v[1]->x - v[0]->x) * inverse), k[1] = (float)((v[1]->y - v[0]->y) * inverse);
+    k[2] = (float)((v[2]->x - v[0]->x) * inverse), k[3] = (float)((v[2]->y - v[0]->y) * inverse);
+    t->x_ref = 0.5f - (float)v[0]->x * (1 / 256.0f), t->y_ref = 0.5f - (float)v[0]->y * (1 / 256.0f);
 }
 /* Range of z, bias added, and of rw: planes are cut to it, as rounding may leave it at a sliver's edge. */
 SHADE__INLINE void shade__ranges(const shade__draw *d, const float *const *tail, shade__triangle *t)
@@ -1991,8 +2001,10 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
     const uint8_t *k = turn[area < 0][r1 < r0 ? (r2 < r1 ? 2 : 1) : r2 < r0 ? 2 : 0];
     const shade__head *v[3] = { head[k[0]], head[k[1]], head[k[2]] };
     const float *s[3] = { tail[k[0]], tail[k[1]], tail[k[2]] };
+    float slopes[4];
     shade__edge(v[0], v[1], 0, t), shade__edge(v[1], v[2], 1, t), shade__edge(v[2], v[0], 2, t);
-    shade__planes(v, s, area < 0 ? -area : area, d->tail_stride, t);
+    shade__slopes(v, area < 0 ? -area : area, slopes, t);
+    shade__planes(s[0], s[1], s[2], slopes, d->tail_stride, t);
     shade__ranges(d, s, t);
     if (d->pipe->interpolation == SHADE_CONSTANT) {
         for (int i = SHADE__TAIL; i < d->tail_stride; i++) t->base[i] = tail[3][i], t->gx[i] = t->gy[i] = 0;
@@ -2011,7 +2023,7 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
 
 /* Edges, planes and test of a window on one row: e(i) = e + i dx for pixels x + i. */
 typedef struct shade__window {
-    int32_t e[3], dx[3];
+    int32_t e0, e1, e2, dx0, dx1, dx2;
     int x, skip;                     /* first pixel; pixels to leave out at the left */
     float z, gz, x_ref;              /* depth plane of the row */
 } shade__window;
@@ -2020,8 +2032,8 @@ typedef struct shade__window {
 SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d, const shade__window *SHADE_RESTRICT w,
                                    float z_low, float z_high, float *SHADE_RESTRICT depth, const int width)
 {
-    const int32_t e0 = w->e[0], e1 = w->e[1], e2 = w->e[2], x = w->x, skip = w->skip;
-    const int32_t dx0 = w->dx[0], dx1 = w->dx[1], dx2 = w->dx[2];
+    const int32_t e0 = w->e0, e1 = w->e1, e2 = w->e2, x = w->x, skip = w->skip;
+    const int32_t dx0 = w->dx0, dx1 = w->dx1, dx2 = w->dx2;
     const uint32_t less = d->less, equal = d->equal, greater = d->greater, always = d->always;
     const uint32_t write = d->write;
     const float z0 = w->z, gz = w->gz, x_ref = w->x_ref;
@@ -2131,7 +2143,7 @@ SHADE__INLINE void shade__windows(shade__draw *d, const shade__triangle *t, shad
     for (int x = w->x; x <= last; x += width) {
         int start = shade__min(x, d->x1 - width), back = start - w->x;
         uint32_t set;
-        for (int k = 0; k < 3; k++) w->e[k] += back * w->dx[k];
+        w->e0 += back * w->dx0, w->e1 += back * w->dx1, w->e2 += back * w->dx2;
         w->x = start, w->skip = x - start;
         set = shade__test(d, w, t->z_low, t->z_high, depth + start, width);
         if (set) shade__push_set(d, t, start, y, set);
@@ -2140,14 +2152,15 @@ SHADE__INLINE void shade__windows(shade__draw *d, const shade__triangle *t, shad
 
 SHADE__INLINE void shade__cover_narrow(shade__draw *d, const shade__triangle *t)
 {
-    int32_t e[3];
-    for (int k = 0; k < 3; k++) e[k] = (int32_t)t->e[k];
+    int32_t e0 = (int32_t)t->e[0], e1 = (int32_t)t->e[1], e2 = (int32_t)t->e[2];
+    shade__window w;
+    w.dx0 = t->dx[0], w.dx1 = t->dx[1], w.dx2 = t->dx[2];
+    w.gz = t->gx[0], w.x_ref = t->x_ref;
     for (int y = t->y0; y <= t->y1; y++) {
-        shade__window w;
-        for (int k = 0; k < 3; k++) w.e[k] = e[k], w.dx[k] = t->dx[k], e[k] += t->dy[k];
-        w.x = t->x0, w.x_ref = t->x_ref;
-        w.z = t->base[0] + t->gy[0] * ((float)y + t->y_ref), w.gz = t->gx[0];
+        w.e0 = e0, w.e1 = e1, w.e2 = e2, w.x = t->x0;
+        w.z = t->base[0] + t->gy[0] * ((float)y + t->y_ref);
         shade__windows(d, t, &w, y, t->x1, 8);
+        e0 += t->dy[0], e1 += t->dy[1], e2 += t->dy[2];
     }
 }
 
@@ -2178,7 +2191,7 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int y, 
         if (d->queued) d->push(d, t, first, y, last - first + 1);
         return;
     }
-    SHADE_MEMSET(w.e, 0, sizeof w.e), SHADE_MEMSET(w.dx, 0, sizeof w.dx);
+    w.e0 = w.e1 = w.e2 = w.dx0 = w.dx1 = w.dx2 = 0;
     w.x = first, w.x_ref = t->x_ref;
     w.z = t->base[0] + t->gy[0] * ((float)y + t->y_ref), w.gz = t->gx[0];
     if (d->x1 - d->x0 < 8) {
@@ -2186,7 +2199,7 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int y, 
         return;
     }
     if (wide) shade__windows(d, t, &w, y, first + wide - 1, 32);
-    w.x = first + wide, w.e[0] = last - w.x, w.dx[0] = -1;
+    w.x = first + wide, w.e0 = last - w.x, w.dx0 = -1;
     shade__windows(d, t, &w, y, last, 8);
 }
 SHADE__INLINE void shade__cover_wide(shade__draw *d, const shade__triangle *t)
@@ -2206,10 +2219,18 @@ SHADE__INLINE void shade__cover_wide(shade__draw *d, const shade__triangle *t)
     }
 }
 
+/* Depth rows of a small triangle, asked for while setup computes. */
+SHADE__INLINE void shade__prefetch(const shade__draw *d, const shade__triangle *t)
+{
+    const float *p = d->depth + (size_t)(t->y0 - d->row_offset) * (size_t)d->stride + (size_t)t->x0;
+    for (int y = t->y0; y <= t->y1; y++, p += d->stride) SHADE__PREFETCH(p);
+}
+
 /* Sets up and draws a triangle whose box is known.  Windows of 8 need a depth test and room beside each other. */
 SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t, const shade__head *const *head,
                                      const float *const *tail)
 {
+    if (t->narrow && d->depth) shade__prefetch(d, t);
     shade__setup(d, head, tail, t);
     if (t->narrow && d->depth && !d->pipe->may_discard && d->x1 - d->x0 >= 8) shade__cover_narrow(d, t);
     else shade__cover_wide(d, t);
