@@ -578,7 +578,7 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
 /* Eye to clip.  fovy is the whole vertical angle, aspect is width / height, 0 < near < far are distances.
    perspective, frustum, ortho: z to [-w, w], as OpenGL.  perspective_reversed: no far plane, z = near at every
    depth and w = -z_eye, so z/w falls from 1 at near to 0 at infinity; use with depth_zero_to_one and GREATER.
-   Degenerate input (near = far, aspect 0, left = right, fovy 0 or a multiple of pi, NaN): the zero matrix. */
+   Degenerate input (near = far, aspect 0, left = right, fovy outside (0, pi), NaN): the zero matrix. */
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z);
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z);
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f);
@@ -991,6 +991,7 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
     r = shade_normalize(shade_cross(f, shade_normalize(up)));
     if (shade__is_zero(r))       /* any axis that f is far from stands in for up */
         r = shade_normalize(shade_cross(f, f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0, 1)));
+    r = shade_normalize(shade_madd(r, -shade_dot(r, f), f));    /* square again where up was nearly parallel */
     u = shade_cross(r, f);
     return shade__m4(shade_v4(r.x, u.x, -f.x, 0), shade_v4(r.y, u.y, -f.y, 0),
                      shade_v4(r.z, u.z, -f.z, 0),
@@ -1008,12 +1009,12 @@ static shade_mat4 shade__camera(shade_mat4 m)
     }
     return m;
 }
-/* 1 / tan(fovy / 2), 0 where it is not a positive finite number */
+/* 1 / tan(fovy / 2), 0 for fovy outside (0, pi) */
 static double shade__focal(float fovy)
 {
     double s, c;
     shade__sincos(fovy / 2, &s, &c);
-    return s * c > 1e-12 ? c / s : 0;
+    return fovy > 0 && fovy < 3.2f && s > 0 && c > 0 ? c / s : 0;
 }
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z)
 {
@@ -1250,6 +1251,7 @@ typedef struct shade__surface {
     float      shininess;
     shade_vec3 scene_ambient;
     unsigned   flags;
+    unsigned   terms;
     int        light_count, cool_to_warm, phong;
 } shade__surface;
 
@@ -1269,7 +1271,8 @@ static shade__surface shade__surface_of(const shade_lighting *lighting, const sh
     s.diffuse = terms & SHADE_TERM_DIFFUSE ? m.diffuse : none;
     s.specular = terms & SHADE_TERM_SPECULAR ? m.specular : none;
     s.shininess = shade__minf(m.shininess, FLT_MAX);
-    s.scene_ambient = lighting->ambient;
+    s.terms = terms;
+    s.scene_ambient = terms & SHADE_TERM_AMBIENT ? lighting->ambient : none;
     s.flags = lighting->flags;
     s.light_count = lighting->lights ? lighting->light_count : 0;
     s.phong = lighting->model == SHADE_PHONG;
@@ -1277,6 +1280,12 @@ static shade__surface shade__surface_of(const shade_lighting *lighting, const sh
     s.cool = shade__is_zero(lighting->cool) ? shade_v3(0.4f, 0.4f, 0.7f) : lighting->cool;
     s.warm = shade__is_zero(lighting->warm) ? shade_v3(0.8f, 0.6f, 0.6f) : lighting->warm;
     return s;
+}
+
+/* k I if the term is on, else zero whatever they hold. */
+SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, shade_vec3 k, shade_vec3 I)
+{
+    return s->terms & term ? shade_mul(k, I) : shade_v3(0, 0, 0);
 }
 
 /* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at infinity. */
@@ -1309,16 +1318,19 @@ static void shade__add_light(const shade__surface *s, const shade_light *light, 
         att = cosine >= light->spot_cos_cutoff ? att * shade_power(cosine, light->spot_exponent) : 0;
     }
     if (s->flags & SHADE_ATTENUATED_AMBIENT) ambient = att;
-    t->ambient = shade_madd(t->ambient, ambient, shade_mul(s->ambient, light->ambient));
-    if (nl > 0 || (s->flags & SHADE_UNGATED_SPECULAR)) {
+    t->ambient = shade_madd(t->ambient, ambient,
+                            shade__product(s, SHADE_TERM_AMBIENT, s->ambient, light->ambient));
+    if (nl > 0 || ((s->flags & SHADE_UNGATED_SPECULAR) && !shade__is_zero(N))) {
         if (s->phong) gloss = shade_power(shade_dot(shade_mirror(L, N), V), s->shininess);
         else if (!shade__is_zero(shade_halfway(L, V)))
             gloss = shade_power(shade_dot(N, shade_halfway(L, V)), s->shininess);
     }
     if (s->flags & SHADE_WEIGHTED_SPECULAR) gloss *= lit;
     if (s->flags & SHADE_TWO_SIDED_ABS) lit = nl < 0 ? -nl : nl;
-    t->diffuse = shade_madd(t->diffuse, att * lit, shade_mul(s->diffuse, light->diffuse));
-    t->specular = shade_madd(t->specular, att * gloss, shade_mul(s->specular, light->specular));
+    t->diffuse = shade_madd(t->diffuse, att * lit,
+                            shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse));
+    t->specular = shade_madd(t->specular, att * gloss,
+                             shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular));
 }
 
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
@@ -1475,8 +1487,10 @@ SHADE__INLINE void shade__lane_spot(shade__rows *SHADE_RESTRICT r)
 SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted, shade__rows *SHADE_RESTRICT r)
 {
     SHADE_EACH_LANE(i) {
-        float nl = r->nl[i], weight = shade__select(1, shade__keep(nl, shade__mask(nl > 0)), weighted);
-        r->x[i] = shade__keep(shade__exp2_neg(r->x[i]) * weight, shade__mask(nl > 0) | open);
+        float nl = r->nl[i];
+        uint32_t above = shade__mask(nl > 0), gate = above | (open & shade__mask(r->rn[i] != 0));
+        float weight = shade__select(1, shade__keep(nl, above), weighted);
+        r->x[i] = shade__keep(shade__exp2_neg(r->x[i]) * weight, gate);
     }
 }
 
@@ -1552,8 +1566,9 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
                                          shade_vec3 eye, float scale, shade__rows *r, float *rgb)
 {
     shade__lamp lamp = shade__lamp_of(light);
-    shade_vec3 kd = shade_mul(s->diffuse, light->diffuse), ks = shade_mul(s->specular, light->specular);
-    int ambient = (s->flags & SHADE_ATTENUATED_AMBIENT) != 0, gloss = !shade__is_zero(ks);
+    shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
+    shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
+    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT), gloss = !shade__is_zero(ks);
     uint32_t open = shade__mask((s->flags & SHADE_UNGATED_SPECULAR) != 0);
     uint32_t absolute = shade__mask((s->flags & SHADE_TWO_SIDED_ABS) != 0);
     uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
@@ -1597,7 +1612,7 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_m
         else shade__lane_cool_to_warm(s.cool, s.warm, (const float *)0, r.nl, rgb);
         return;
     }
-    if (!(s.flags & SHADE_ATTENUATED_AMBIENT))
+    if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_ATTENUATED_AMBIENT))
         for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lighting->lights[j].ambient);
     ambient = shade_mul(ambient, s.ambient);
     if (albedo) shade__lane_base(s.emission, ambient, albedo, rgb);
@@ -1812,20 +1827,22 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const float *rgba, const
             for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + i + k * SHADE_LANES, 4);
     }
 }
-/* rgba of 8 lanes = blend with what is stored; the lanes belong to one triangle, so no pixel comes twice */
-SHADE__INLINE void shade__blend8(const shade__draw *d, float *SHADE_RESTRICT rgba,
-                                 const float *SHADE_RESTRICT stored)
+/* rgba of 8 lanes = blend with what is stored, which is zero in lanes that stay as they are, those without live */
+SHADE__INLINE void shade__blend8(shade_blend blend, const uint32_t *SHADE_RESTRICT live,
+                                 const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT rgba)
 {
-    uint32_t add = shade__mask(d->pipe->blend == SHADE_ADD);
+    uint32_t over = shade__mask(blend == SHADE_OVER);
     SHADE__FOR(i, 8) {
-        float a = rgba[i + 3 * SHADE_LANES], s = shade__select(a, 1, add), t = shade__select(1 - a, 1, add);
+        float a = rgba[i + 3 * SHADE_LANES], s = shade__select(1, a, over & live[i]);
+        float t = shade__select(1, 1 - a, over);
         rgba[i] = rgba[i] * s + stored[i] * t;
         rgba[i + SHADE_LANES] = rgba[i + SHADE_LANES] * s + stored[i + 8] * t;
         rgba[i + 2 * SHADE_LANES] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 16] * t;
         rgba[i + 3 * SHADE_LANES] = a + stored[i + 24] * t;
     }
 }
-/* Blends and stores in pieces of up to 8 lanes of one triangle each, in drawing order. */
+/* Blends and stores in pieces of up to 8 lanes, in drawing order.  The lanes of a piece belong to one triangle, so that no
+   pixel comes twice in it. */
 static void shade__store_blended(const shade__draw *d, float *rgba, uint32_t *pixel,
                                         const uint32_t *alive)
 {
@@ -1833,13 +1850,15 @@ static void shade__store_blended(const shade__draw *d, float *rgba, uint32_t *pi
     for (int i = 0, last; i < q->f.count; i = last) {
         int base = shade__min(i, SHADE_LANES - 8);
         float stored[32] = { 0 };
+        uint32_t live[8] = { 0 };
         for (last = i; last < base + 8 && last < q->f.count; last++) {
             float c[4];
             if (q->f.primitive[last] != q->f.primitive[i]) break;
             shade__fetch(d->target, d->color + (size_t)q->offset[last] * d->pixel_bytes, c);
             for (int k = 0; k < 4; k++) stored[8 * k + last - base] = c[k];
+            live[last - base] = shade__mask(1);
         }
-        shade__blend8(d, rgba + base, stored);
+        shade__blend8(d->pipe->blend, live, stored, rgba + base);
         if (d->target->format != SHADE_RGBA32F)
             shade__pack8(d->target, rgba + base, q->f.x + base, q->f.y + base, pixel + base);
         shade__scatter(d, rgba, pixel, alive, i, last);
@@ -2083,6 +2102,8 @@ SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q, const shade__tr
     }
 }
 
+enum { SHADE__CHUNK = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels pushed at once */
+
 /* Values of the planes at x = x_ref of row y. */
 SHADE__INLINE void shade__row(const shade__triangle *SHADE_RESTRICT t, int stride, int y,
                               float *SHADE_RESTRICT row)
@@ -2104,9 +2125,9 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__triangle *t, in
         int c = q->f.count, room = SHADE_LANES - c, take;
         if (c == 0) q->contiguous = 1;
         else if (q->offset[c - 1] + 1 != offset) q->contiguous = 0;
-        if (n >= 32 && room >= 32) {
-            shade__append(q, t, row, d->varyings, x, y, offset, c, 32);
-            take = 32;
+        if (n >= SHADE__CHUNK && room >= SHADE__CHUNK) {
+            shade__append(q, t, row, d->varyings, x, y, offset, c, SHADE__CHUNK);
+            take = SHADE__CHUNK;
         } else if (room >= 8) {
             shade__append(q, t, row, d->varyings, x, y, offset, c, 8);
             take = shade__min(n, 8);
@@ -2907,7 +2928,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     if (result == SHADE_OK) result = shade__check_mesh(mesh);
     if (result != SHADE_OK) return result;
     if ((unsigned)state->shading > SHADE_PER_FACE || (unsigned)state->lighting.model > SHADE_COOL_TO_WARM ||
-        state->lighting.light_count < 0 || (!state->lighting.lights && state->lighting.light_count))
+        (!state->lighting.lights && state->lighting.light_count > 0))
         return SHADE_ERROR_ARGUMENT;
     scene = shade__scene_of(mesh, state);
     SHADE_MEMSET(&p, 0, sizeof p);
