@@ -1,6 +1,7 @@
 /* shade.h - classic local shading and an exact z-buffer rasterizer in one C99 file.   Public domain or MIT.
 
-   Emission, ambient, Lambert, Phong and Blinn-Phong light ("iteration four" of the graphics courses, over any
+   Emission, ambient, Lambert,
+       Phong and Blinn-Phong light ("iteration four" of the graphics courses, over any
    number of directional, point and spot lights), the vector and matrix maths they need, and a small, fast
    triangle rasterizer with programmable vertex and fragment shaders to see them with.  It allocates nothing,
    keeps no global state, starts no thread and draws into memory that you own.  The pixels are the same bits
@@ -43,7 +44,8 @@
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
-     Matrices     column vectors, stored by columns: (float *)&m is what OpenGL, GLM and cglm call a matrix.
+     Matrices     column vectors, stored by columns: (float *)&m is what OpenGL,
+         GLM and cglm call a matrix.
      Clip space   -w <= x, y, z <= w; with depth_zero_to_one 0 <= z <= w.  Near and far both clip.
      Window       x right, y DOWN, row 0 on top.  Pixel (i,j) has its centre at (i + 1/2, j + 1/2).
                   X = (x/w + 1) width/2,   Y = (1 - y/w) height/2.
@@ -52,7 +54,8 @@
      Front face   counter-clockwise as seen on the screen.
      Coverage     vertices snapped to floor(256 X + 1/2) / 256, exact integer edges, top-left rule.
      Directions   N, L, V, H, R are unit and all point AWAY from the surface.
-     Colour       linear light, unclamped.  8 and 5-6-5 bits store clamp(c, 0, 1) to nearest, NaN as 0.
+     Colour       linear light, unclamped.  8 and 5-6-5 bits store clamp(c, 0, 1) to nearest,
+         NaN as 0.
      Names        _ws world   _cs clip   _ss screen   _fx8 24.8 fixed point   rw 1/w      shade__x private
 
    >>model   Every equation of light in this file, with its symbols ("iteration four"):
@@ -63,20 +66,22 @@
      k_e k_a k_d k_s n   emission, ambient, diffuse, specular, shininess of the shade_material
      I_a                 ambient light of the scene;   I_La, I_d, I_s: ambient, diffuse, specular of the light
      a b c, r            attenuation coefficients and distance to the light (lights at infinity: factor 1)
-     spot                (L.S)^e where L.S >= cos(beta), else 0; S is opposite to where the lamp points
+     spot                (L.S)^e where L.S >= cos(beta),
+         else 0; S is opposite to where the lamp points
      B                   1 where N.L > 0, else 0
      H                   (L + V) / |L + V|;  SHADE_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
 */
 #ifndef SHADE_H
 #define SHADE_H
 
-/*------------------------------------------------------------------------------------------------- >>config
+/*----------------------------------------------------------------------------------------- >>config
    Options, each defined before the #include, the same for every file of a program:
 
      SHADE_IMPLEMENTATION     also compile the function bodies; in one file only
      SHADE_STATIC             all functions static: a private copy in this file
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
-     SHADE_ASSERT(x)          guards the library's own invariants; default assert(x), nothing under SHADE_NO_LIBM
+     SHADE_ASSERT(x)          guards the library's own invariants; default assert(x),
+         nothing under SHADE_NO_LIBM
      SHADE_LANES              fragments per packet, 8 .. 256, a power of two; default 128; 16 for small stacks
      SHADE_MAX_VARYINGS       floats a vertex shader can hand to a fragment shader, 1 .. 64; default 16
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
@@ -101,7 +106,8 @@
 #define SHADE__SQRT(x) sqrtf(x)
 #endif
 
-#if defined(__GNUC__) || defined(__clang__)    /* the builtins are folded with -ffreestanding as well */
+/* the builtins are folded with -ffreestanding as well */
+#if defined(__GNUC__) || defined(__clang__)
 #ifndef SHADE_MEMCPY
 #define SHADE_MEMCPY(d, s, n) __builtin_memcpy(d, s, n)
 #endif
@@ -175,8 +181,9 @@
 #define SHADE__FOR(i, n) SHADE__NO_UNROLL for (int i = 0; i < (n); i++)
 #define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
 
-/* Contraction of a * b + c to one rounding would give other bits on other processors: off for all of this file
-   with clang, for the implementation with gcc (which decides after inlining, so by its caller). */
+/* Contraction of a * b + c to one rounding would give other bits on other processors: off for
+   all of this file with clang, for the implementation with gcc (which decides after inlining, so
+   by its caller). */
 #if defined(__clang__)
 #define SHADE__EXACT_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define SHADE__EXACT_END _Pragma("float_control(pop)")
@@ -200,9 +207,10 @@
 #define SHADE__EXACT_INSIDE_END
 #endif
 
-/* Wide code from any build: on x86-64 the bodies of hot loops (name_body, always inlined) are compiled for SSE2, AVX2
-   and AVX-512 and chosen by the processor at each call, without a global of ours.  Same bits on every path: no FMA.
-   SHADE__LEVEL may be defined to an int expression (0, 1, 2) by tests to force a path. */
+/* Wide code from any build: on x86-64 the bodies of hot loops (name_body, always inlined) are
+   compiled for SSE2, AVX2 and AVX-512 and chosen by the processor at each call, without a global
+   of ours. Same bits on every path: no FMA. SHADE__LEVEL may be defined to an int expression (0,
+   1, 2) by tests to force a path. */
 #if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
 #ifndef SHADE__LEVEL
 #define SHADE__LEVEL (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
@@ -211,7 +219,8 @@
 #ifdef __clang__
 #define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
 #else
-#define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
+#define SHADE__AVX512 \
+    __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
 #define SHADE__AVX2 __attribute__((target("avx2")))
 #define SHADE__DISPATCH(name, parameters, arguments) \
@@ -256,7 +265,7 @@ SHADE__EXACT_BEGIN
 extern "C" {
 #endif
 
-/*-------------------------------------------------------------------------------------------------- >>types
+/*------------------------------------------------------------------------------------------ >>types
    Plain structs, passed by value.  Zeroed fields always mean the default. */
 
 typedef struct shade_vec2 { float x, y; } shade_vec2;
@@ -267,7 +276,8 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 
 typedef enum shade_result {
     SHADE_OK = 0,
-    SHADE_ERROR_ARGUMENT,    /* NULL where memory is needed, an unknown enum value, a count that makes no sense */
+    /* NULL where memory is needed, an unknown enum value, a count that makes no sense */
+    SHADE_ERROR_ARGUMENT,
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle or strip of the target */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count, or no whole number of triangles */
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
@@ -277,7 +287,8 @@ typedef enum shade_result {
 /* A short English text for a result, never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
-/* Property of a surface, linear RGB.  For energy's sake k_d + k_s <= 1 per channel is usual, not required. */
+/* Property of a surface, linear RGB. For energy's sake k_d + k_s <= 1 per channel is usual, not
+   required. */
 typedef struct shade_material {
     shade_vec3 emission;     /* k_e */
     shade_vec3 ambient;      /* k_a */
@@ -288,44 +299,54 @@ typedef struct shade_material {
 
 /* One lamp.  shade_directional_light and its sisters below fill it in. */
 typedef struct shade_light {
-    shade_vec4 position;     /* w = 1: a point; w = 0: the direction TOWARD a distant light; else a point, xyz/w */
-    shade_vec3 ambient;      /* I_La: neither attenuated nor limited by the cone, see SHADE_ATTENUATED_AMBIENT */
+    /* w = 1: a point; w = 0: the direction TOWARD a distant light; else a point, xyz/w */
+    shade_vec4 position;
+    /* I_La: neither attenuated nor limited by the cone, see SHADE_ATTENUATED_AMBIENT */
+    shade_vec3 ambient;
     shade_vec3 diffuse;      /* I_d */
     shade_vec3 specular;     /* I_s */
-    float      constant, linear, quadratic;   /* a, b, c of 1/(a + b r + c r^2); all zero: no attenuation */
-    shade_vec3 spot_direction;                /* where the lamp points, any length; zero: not a spotlight */
+    /* a, b, c of 1/(a + b r + c r^2); all zero: no attenuation */
+    float      constant, linear, quadratic;
+    shade_vec3 spot_direction;  /* where the lamp points, any length; zero: not a spotlight */
     float      spot_exponent;                 /* e; 0: a cone of even light */
     float      spot_cos_cutoff;               /* cos(beta), beta from axis to edge of the cone */
 } shade_light;
 
 typedef enum shade_model {
-    SHADE_BLINN_PHONG = 0,   /* iterations three and four: (N.H)^n                       [Blinn77] */
-    SHADE_PHONG,             /* (R.V)^n in place of (N.H)^n                              [Phong75] */
-    SHADE_LAMBERT,           /* iteration two: emission, ambient, diffuse                           */
-    SHADE_AMBIENT,           /* iteration one: emission, ambient                                    */
-    SHADE_EMISSIVE,          /* iteration zero: emission                                            */
-    SHADE_COOL_TO_WARM       /* shade_cool_to_warm toward the first light; k_e is added   [Gooch98] */
+    SHADE_BLINN_PHONG = 0,  /* iterations three and four: (N.H)^n                       [Blinn77] */
+    SHADE_PHONG,  /* (R.V)^n in place of (N.H)^n                              [Phong75] */
+    SHADE_LAMBERT,  /* iteration two: emission, ambient, diffuse                           */
+    SHADE_AMBIENT,  /* iteration one: emission, ambient                                    */
+    SHADE_EMISSIVE,  /* iteration zero: emission                                            */
+    SHADE_COOL_TO_WARM  /* shade_cool_to_warm toward the first light; k_e is added   [Gooch98] */
 } shade_model;
 
 enum {                                 /* shade_lighting.flags */
     SHADE_TWO_SIDED          = 1,      /* turn N toward the viewer first, where N.V < 0 */
-    SHADE_TWO_SIDED_ABS      = 2,      /* |N.L| in the diffuse term; the specular one keeps the signed gate */
-    SHADE_UNGATED_SPECULAR   = 4,      /* B leaves the specular term: highlights reach behind the terminator */
-    SHADE_WEIGHTED_SPECULAR  = 8,      /* k_s max(0, N.L) (N.H)^n: the form of a BRDF weighted by N.L */
-    SHADE_ATTENUATED_AMBIENT = 16,     /* I_La takes attenuation and cone too, as OpenGL's fixed function has it */
-    SHADE_INFINITE_VIEWER    = 32      /* eye is the direction toward the viewer, the same for every point */
+    /* |N.L| in the diffuse term; the specular one keeps the signed gate */
+    SHADE_TWO_SIDED_ABS      = 2,
+    /* B leaves the specular term: highlights reach behind the terminator */
+    SHADE_UNGATED_SPECULAR   = 4,
+    SHADE_WEIGHTED_SPECULAR  = 8,  /* k_s max(0, N.L) (N.H)^n: the form of a BRDF weighted by N.L */
+    /* I_La takes attenuation and cone too, as OpenGL's fixed function has it */
+    SHADE_ATTENUATED_AMBIENT = 16,
+    /* eye is the direction toward the viewer, the same for every point */
+    SHADE_INFINITE_VIEWER    = 32
 };
 enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The light that falls on a scene, and the equation that answers it.  Positions, normals and eye may live in
-   any one space whose axes are orthogonal and of equal scale: world or eye space, never clip space. */
+/* The light that falls on a scene, and the equation that answers it. Positions, normals and eye
+   may live in any one space whose axes are orthogonal and of equal scale: world or eye space,
+   never clip space. */
 typedef struct shade_lighting {
-    const shade_light *lights;   /* NULL with a count: no light but in shade_draw_mesh, which refuses it */
+    /* NULL with a count: no light but in shade_draw_mesh, which refuses it */
+    const shade_light *lights;
     int        light_count;      /* below 0 counts as 0 */
     shade_vec3 ambient;          /* I_a, once for the scene */
-    shade_model model;           /* unknown values shade as SHADE_BLINN_PHONG; shade_draw_mesh refuses them */
+    /* unknown values shade as SHADE_BLINN_PHONG; shade_draw_mesh refuses them */
+    shade_model model;
     unsigned   flags;
     unsigned   terms;
     shade_vec3 cool, warm;       /* for SHADE_COOL_TO_WARM; zero: (.4,.4,.7) and (.8,.6,.6) */
@@ -342,15 +363,16 @@ typedef enum shade_format {
 /* An image and its depth buffer in the caller's memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
-    int   stride;                /* pixels from row to row; 0 = width; what lies between is never touched */
+    int   stride;  /* pixels from row to row; 0 = width; what lies between is never touched */
     shade_format format;
     void  *color;                /* NULL: depth only */
-    float *depth;                /* stride pixels a row as well; NULL: no depth buffer, every test passes */
-    int   srgb;                  /* non-zero: linear light is encoded to sRGB when stored in 8 or 5-6-5 bits */
+    float *depth;  /* stride pixels a row as well; NULL: no depth buffer, every test passes */
+    int   srgb;  /* non-zero: linear light is encoded to sRGB when stored in 8 or 5-6-5 bits */
     int   dither;                /* non-zero: 4 x 4 ordered dither when stored in 5-6-5 bits */
     int   clip_x, clip_y, clip_width, clip_height;   /* draw and clear only here, cut to the picture; all zero:
                                     everywhere.  An empty rectangle draws nothing; sizes below 0 are refused. */
-    int   row_offset, row_count; /* strips: color and depth hold row_count rows from row_offset on; 0 rows: all */
+    /* strips: color and depth hold row_count rows from row_offset on; 0 rows: all */
+    int   row_offset, row_count;
 } shade_target;
 
 typedef enum shade_interpolation {
@@ -362,19 +384,22 @@ typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT
 typedef enum shade_compare {     /* a fragment passes when its depth is ... than the stored one */
     SHADE_LESS = 0, SHADE_LESS_EQUAL, SHADE_GREATER, SHADE_GREATER_EQUAL, SHADE_EQUAL, SHADE_ALWAYS
 } shade_compare;
-typedef enum shade_blend {       /* s the fragment's colour, a its alpha, d what is stored; linear light */
+/* s the fragment's colour, a its alpha, d what is stored; linear light */
+typedef enum shade_blend {
     SHADE_REPLACE = 0,           /* s */
     SHADE_OVER,                  /* s a + d (1 - a); alpha: a + d_a (1 - a) */
     SHADE_ADD                    /* s + d, all four channels */
 } shade_blend;
 typedef enum shade_shading {
-    SHADE_PER_FRAGMENT = 0,      /* N and P interpolated, N made unit again, lit per pixel           [Phong75] */
-    SHADE_PER_VERTEX,            /* lit at the vertices, colours interpolated                     [Gouraud71] */
+    /* N and P interpolated, N made unit again, lit per pixel           [Phong75] */
+    SHADE_PER_FRAGMENT = 0,
+    /* lit at the vertices, colours interpolated                     [Gouraud71] */
+    SHADE_PER_VERTEX,
     SHADE_PER_FACE               /* lit once, at the centroid, with the geometric normal */
 } shade_shading;
 
-/* What became of the triangles of one call; written from zero by each call, whatever the clip rectangle is.
-   triangles = culled + clipped + rejected + drawn. */
+/* What became of the triangles of one call; written from zero by each call, whatever the clip
+   rectangle is. triangles = culled + clipped + rejected + drawn. */
 typedef struct shade_stats {
     long long triangles;
     long long culled;            /* facing, or zero area after snapping */
@@ -384,7 +409,7 @@ typedef struct shade_stats {
     long long fragments;         /* pixels that passed the depth test (inside the clip rectangle) */
 } shade_stats;
 
-/*--------------------------------------------------------------------------------------------------- >>math
+/*------------------------------------------------------------------------------------------- >>math
    Vectors inline; matrices below, their bodies in >>matrix.  Un-suffixed names work on shade_vec3.
    Any finite input gives finite output while it stays below 1e12 (vectors) and 1e6 (matrices). */
 
@@ -402,14 +427,19 @@ SHADE__INLINE shade_vec4 shade_v4(float x, float y, float z, float w)
 SHADE__INLINE float shade__bits_float(uint32_t u) { float f; SHADE_MEMCPY(&f, &u, 4); return f; }
 SHADE__INLINE uint32_t shade__float_bits(float f) { uint32_t u; SHADE_MEMCPY(&u, &f, 4); return u; }
 SHADE__INLINE double shade__bits_double(uint64_t u) { double d; SHADE_MEMCPY(&d, &u, 8); return d; }
-SHADE__INLINE uint64_t shade__double_bits(double d) { uint64_t u; SHADE_MEMCPY(&u, &d, 8); return u; }
+SHADE__INLINE uint64_t shade__double_bits(double d)
+{
+    uint64_t u; SHADE_MEMCPY(&u, &d, 8); return u;
+}
 
-/* Correctly rounded square root, as sqrtf.  Newton in double gives 2^-50; then the midpoints between the result
-   and its neighbours, whose squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
+/* Correctly rounded square root, as sqrtf. Newton in double gives 2^-50; then the midpoints
+   between the result and its neighbours, whose squares are exact in double (50 bits), decide the
+   rounding. x <= 0 or NaN gives 0. */
 static inline float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
-    double d = (double)x, y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(d) >> 1));
+    double d = (double)x,
+        y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(d) >> 1));
     for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * d * y * y;
     uint32_t u = shade__float_bits((float)(d * y));
     double below = ((double)shade__bits_float(u - 1) + (double)shade__bits_float(u)) / 2;
@@ -418,25 +448,43 @@ static inline float shade__own_sqrt(float x)
 }
 SHADE__INLINE float shade__sqrt(float x) { return SHADE__SQRT(x); }
 
-SHADE__INLINE shade_vec3 shade_add(shade_vec3 a, shade_vec3 b) { return shade_v3(a.x + b.x, a.y + b.y, a.z + b.z); }
-SHADE__INLINE shade_vec3 shade_sub(shade_vec3 a, shade_vec3 b) { return shade_v3(a.x - b.x, a.y - b.y, a.z - b.z); }
+SHADE__INLINE shade_vec3 shade_add(shade_vec3 a, shade_vec3 b)
+{
+    return shade_v3(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+SHADE__INLINE shade_vec3 shade_sub(shade_vec3 a, shade_vec3 b)
+{
+    return shade_v3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
 /* component by component, as colour times colour */
-SHADE__INLINE shade_vec3 shade_mul(shade_vec3 a, shade_vec3 b) { return shade_v3(a.x * b.x, a.y * b.y, a.z * b.z); }
-SHADE__INLINE shade_vec3 shade_scale(shade_vec3 v, float s) { return shade_v3(v.x * s, v.y * s, v.z * s); }
+SHADE__INLINE shade_vec3 shade_mul(shade_vec3 a, shade_vec3 b)
+{
+    return shade_v3(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+SHADE__INLINE shade_vec3 shade_scale(shade_vec3 v, float s)
+{
+    return shade_v3(v.x * s, v.y * s, v.z * s);
+}
 /* a + s b */
 SHADE__INLINE shade_vec3 shade_madd(shade_vec3 a, float s, shade_vec3 b)
 {
     return shade_v3(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
 }
 SHADE__INLINE shade_vec3 shade_neg(shade_vec3 v) { return shade_v3(-v.x, -v.y, -v.z); }
-SHADE__INLINE float shade_dot(shade_vec3 a, shade_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+SHADE__INLINE float shade_dot(shade_vec3 a, shade_vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 /* right-handed: x cross y = z */
 SHADE__INLINE shade_vec3 shade_cross(shade_vec3 a, shade_vec3 b)
 {
     return shade_v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 SHADE__INLINE float shade_length(shade_vec3 v) { return shade__sqrt(shade_dot(v, v)); }
-SHADE__INLINE float shade_distance(shade_vec3 a, shade_vec3 b) { return shade_length(shade_sub(a, b)); }
+SHADE__INLINE float shade_distance(shade_vec3 a, shade_vec3 b)
+{
+    return shade_length(shade_sub(a, b));
+}
 /* v / |v|; zero where |v| < 1e-18 */
 SHADE__INLINE shade_vec3 shade_normalize(shade_vec3 v)
 {
@@ -444,7 +492,10 @@ SHADE__INLINE shade_vec3 shade_normalize(shade_vec3 v)
     return shade_scale(v, d >= 1e-36f ? 1 / shade__sqrt(d) : 0);
 }
 /* a + t (b - a): exactly a at t = 0, b to rounding at t = 1; t is not clamped */
-SHADE__INLINE shade_vec3 shade_lerp(shade_vec3 a, shade_vec3 b, float t) { return shade_madd(a, t, shade_sub(b, a)); }
+SHADE__INLINE shade_vec3 shade_lerp(shade_vec3 a, shade_vec3 b, float t)
+{
+    return shade_madd(a, t, shade_sub(b, a));
+}
 SHADE__INLINE float shade__minf(float a, float b) { return a < b ? a : b; }
 SHADE__INLINE float shade__maxf(float a, float b) { return a > b ? a : b; }
 SHADE__INLINE shade_vec3 shade_min(shade_vec3 a, shade_vec3 b)
@@ -465,25 +516,35 @@ SHADE__INLINE shade_vec3 shade_reflect(shade_vec3 incident, shade_vec3 n)
 {
     return shade_madd(incident, -2 * shade_dot(n, incident), n);
 }
-/* The books' mirror direction R = 2 (N.L) N - L = reflect(-L, N).  L and R both leave the surface.  N unit. */
+/* The books' mirror direction R = 2 (N.L) N - L = reflect(-L, N). L and R both leave the
+   surface. N unit. */
 SHADE__INLINE shade_vec3 shade_mirror(shade_vec3 to_light, shade_vec3 n)
 {
     return shade_reflect(shade_neg(to_light), n);
 }
-/* H = (L + V) / |L + V| of unit L and V, both away from the surface; zero where |L + V|^2 < 1e-12.  [Blinn77] */
+/* H = (L + V) / |L + V| of unit L and V, both away from the surface; zero where |L + V|^2 <
+   1e-12. [Blinn77] */
 SHADE__INLINE shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 {
     shade_vec3 h = shade_add(to_light, to_eye);
     return shade_dot(h, h) < 1e-12f ? shade_v3(0, 0, 0) : shade_normalize(h);
 }
-/* Unit normal (b - a) x (c - a), toward the side that sees a, b, c counter-clockwise; zero for a degenerate one. */
+/* Unit normal (b - a) x (c - a), toward the side that sees a, b, c counter-clockwise; zero for a
+   degenerate one. */
 SHADE__INLINE shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
-    return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)), shade_normalize(shade_sub(c, a))));
+    return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)),
+                                       shade_normalize(shade_sub(c, a))));
 }
 
-SHADE__INLINE shade_vec2 shade_add2(shade_vec2 a, shade_vec2 b) { return shade_v2(a.x + b.x, a.y + b.y); }
-SHADE__INLINE shade_vec2 shade_sub2(shade_vec2 a, shade_vec2 b) { return shade_v2(a.x - b.x, a.y - b.y); }
+SHADE__INLINE shade_vec2 shade_add2(shade_vec2 a, shade_vec2 b)
+{
+    return shade_v2(a.x + b.x, a.y + b.y);
+}
+SHADE__INLINE shade_vec2 shade_sub2(shade_vec2 a, shade_vec2 b)
+{
+    return shade_v2(a.x - b.x, a.y - b.y);
+}
 SHADE__INLINE shade_vec2 shade_scale2(shade_vec2 v, float s) { return shade_v2(v.x * s, v.y * s); }
 SHADE__INLINE float shade_dot2(shade_vec2 a, shade_vec2 b) { return a.x * b.x + a.y * b.y; }
 SHADE__INLINE shade_vec2 shade_lerp2(shade_vec2 a, shade_vec2 b, float t)
@@ -498,7 +559,10 @@ SHADE__INLINE shade_vec4 shade_sub4(shade_vec4 a, shade_vec4 b)
 {
     return shade_v4(a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w);
 }
-SHADE__INLINE shade_vec4 shade_scale4(shade_vec4 v, float s) { return shade_v4(v.x * s, v.y * s, v.z * s, v.w * s); }
+SHADE__INLINE shade_vec4 shade_scale4(shade_vec4 v, float s)
+{
+    return shade_v4(v.x * s, v.y * s, v.z * s, v.w * s);
+}
 SHADE__INLINE float shade_dot4(shade_vec4 a, shade_vec4 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
@@ -558,52 +622,61 @@ SHADEDEF shade_mat3 shade_mat3_identity(void);
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);             /* the upper left 3 x 3 */
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
 SHADEDEF float      shade_mat3_determinant(shade_mat3 m);           /* a . (b x c) of the columns */
-SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);               /* zero matrix where the determinant is 0 */
-SHADEDEF shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m);     /* (m^-1)^T, sign and scale kept; zero as above */
+SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);  /* zero matrix where the determinant is 0 */
+/* (m^-1)^T, sign and scale kept; zero as above */
+SHADEDEF shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m);
 SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
 SHADEDEF float      shade_mat4_determinant(shade_mat4 m);           /* computed in double */
-SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);               /* computed in double; zero where determinant 0 */
+/* computed in double; zero where determinant 0 */
+SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);
 SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
 SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
 
-/* Rotation by the right-hand rule about an axis of any length; the identity for a zero axis.  Sine and cosine
-   are the library's own, exact to float rounding for |radians| < 1e5 (beyond 1e9, or NaN, it counts as 0). */
+/* Rotation by the right-hand rule about an axis of any length; the identity for a zero axis.
+   Sine and cosine are the library's own, exact to float rounding for |radians| < 1e5 (beyond
+   1e9, or NaN, it counts as 0). */
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
 
-/* World to eye: eye goes to the origin, center onto the -z axis, up into the upper half of the y-z plane.
-   up parallel to the line of sight: some finite up is taken.  eye = center: looks down -z. */
+/* World to eye: eye goes to the origin, center onto the -z axis, up into the upper half of the
+   y-z plane. up parallel to the line of sight: some finite up is taken. eye = center: looks down
+   -z. */
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
-/* Eye to clip.  fovy is the whole vertical angle, aspect is width / height, 0 < near < far are distances.
-   perspective, frustum, ortho: z to [-w, w], as OpenGL.  perspective_reversed: no far plane, z = near at every
-   depth and w = -z_eye, so z/w falls from 1 at near to 0 at infinity; use with depth_zero_to_one and GREATER.
-   Degenerate input (near = far, aspect 0, left = right, fovy outside (0, pi), NaN): the zero matrix. */
+/* Eye to clip. fovy is the whole vertical angle, aspect is width / height, 0 < near < far are
+   distances. perspective, frustum, ortho: z to [-w, w], as OpenGL. perspective_reversed: no far
+   plane, z = near at every depth and w = -z_eye, so z/w falls from 1 at near to 0 at infinity;
+   use with depth_zero_to_one and GREATER. Degenerate input (near = far, aspect 0, left = right,
+   fovy outside (0, pi), NaN): the zero matrix. */
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z);
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z);
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f);
 SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f);
 
-/* The matrix that takes normals where m takes points: sign(det) times the cofactors of the upper left 3 x 3.  Equal
-   to the inverse transpose up to the positive factor |det|, and defined for singular m as well (flattening
-   keeps the normal of the plane).  Make the result unit after use. */
+/* The matrix that takes normals where m takes points: sign(det) times the cofactors of the upper
+   left 3 x 3. Equal to the inverse transpose up to the positive factor |det|, and defined for
+   singular m as well (flattening keeps the normal of the plane). Make the result unit after use. */
 SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m);
 
-/*-------------------------------------------------------------------------------------------------- >>light
+/*------------------------------------------------------------------------------------------ >>light
    The equations of >>model.  All vectors point away from the surface.  Everything is defined: no input that is
    free of NaN and infinity gives one.  Error against exact arithmetic, with I the brightest light arriving:
    below 5e-5 max(1, |exact|, I) max(1, (n + e) / 100). */
 
-/* color becomes I_d and I_s; ambient 0; no attenuation.  direction_of_travel: the way the light flies. */
+/* color becomes I_d and I_s; ambient 0; no attenuation. direction_of_travel: the way the light
+   flies. */
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color);
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
-/* aim: where the lamp points.  cutoff from the axis to the edge of the cone, 0 .. pi.  exponent e >= 0. */
-SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians, float exponent,
+/* aim: where the lamp points. cutoff from the axis to the edge of the cone, 0 .. pi. exponent e
+   >= 0. */
+SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
+                                      float exponent,
                                       shade_vec3 color);
 
-/* Light leaving P toward eye, term by term.  N is made unit here (zero stays zero: emission and ambient are left).
-   eye: the viewer's position, or the direction toward it with SHADE_INFINITE_VIEWER.  P, N, eye, lights in one space.
-   material NULL: white Lambert (k_d = k_a = 1).  lighting NULL: zeros. */
+/* Light leaving P toward eye, term by term. N is made unit here (zero stays zero: emission and
+   ambient are left). eye: the viewer's position, or the direction toward it with
+   SHADE_INFINITE_VIEWER. P, N, eye, lights in one space. material NULL: white Lambert (k_d = k_a
+   = 1). lighting NULL: zeros. */
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
                                     shade_vec3 P, shade_vec3 N, shade_vec3 eye);
 
@@ -611,30 +684,36 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 P, shade_vec3 N, shade_vec3 eye);
 
-/* shade_lit for a packet, what fragment shaders call.  P, N, albedo, rgb: three rows of SHADE_LANES floats each, x row,
-   y row, z row: in->in[k], or N[0] of a float N[3][SHADE_LANES].  albedo multiplies k_d and k_a; NULL: 1.
-   rgb must not overlap the others. */
-SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
+/* shade_lit for a packet, what fragment shaders call. P, N, albedo, rgb: three rows of
+   SHADE_LANES floats each, x row, y row, z row: in->in[k], or N[0] of a float N[3][SHADE_LANES].
+   albedo multiplies k_d and k_a; NULL: 1. rgb must not overlap the others. */
+SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
+                              shade_vec3 eye,
                               const float *P, const float *N, const float *albedo, float *rgb);
 
 /* max(0, N.L)                                                                                  N, L unit */
 SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L);
-/* B max(0, R.V)^n, R = 2 (N.L) N - L;  0 where N.L <= 0                                N, L, V unit   [Phong75] */
+/* B max(0, R.V)^n, R = 2 (N.L) N - L; 0 where N.L <= 0 N, L, V unit [Phong75] */
 SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
-/* B max(0, N.H)^n, H = (L + V) / |L + V|;  0 where N.L <= 0 or |L + V|^2 < 1e-12       N, L, V unit   [Blinn77] */
+/* B max(0, N.H)^n, H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12 N, L, V unit
+   [Blinn77] */
 SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
 /* 1 / (a + b r + c r^2), at most 1e20.  a = b = c = 0: 1.  a = 0: r is taken as max(r, 1e-4). */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
-/* (L.S)^e where L.S >= cos_cutoff, else 0; S = -aim / |aim|.  L unit, toward the light.  aim zero: 1. */
+/* (L.S)^e where L.S >= cos_cutoff, else 0; S = -aim / |aim|. L unit, toward the light. aim zero:
+   1. */
 SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float exponent);
 
-/* The reflectance f_r that, times irradiance I (N.L), is the reflected light: k_d + k_s (N.H)^n for BLINN_PHONG,
-   k_d + k_s (R.V)^n for PHONG, k_d for LAMBERT, 0 else.  Ungated: the weight N.L does that.  N, L, V unit. */
+/* The reflectance f_r that, times irradiance I (N.L), is the reflected light: k_d + k_s (N.H)^n
+   for BLINN_PHONG, k_d + k_s (R.V)^n for PHONG, k_d for LAMBERT, 0 else. Ungated: the weight N.L
+   does that. N, L, V unit. */
 SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model,
                                shade_vec3 N, shade_vec3 L, shade_vec3 V);
-/* cool + k_w (warm - cool), k_w = (1 + N.L) / 2.  N, L unit.                                       [Gooch98] */
-SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool, shade_vec3 warm);
-/* 4 alpha: the Blinn-Phong exponent whose highlight on a front-lit surface looks like Phong's alpha. */
+/* cool + k_w (warm - cool), k_w = (1 + N.L) / 2. N, L unit. [Gooch98] */
+SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool,
+                                       shade_vec3 warm);
+/* 4 alpha: the Blinn-Phong exponent whose highlight on a front-lit surface looks like Phong's
+   alpha. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
 /* x^n for x in [0, 1] (clamped to it), n >= 0 (below 0 counts as 0); x^0 = 1, also 0^0.  Never NaN.
    Absolute error below 2e-6 for n up to 1e6. */
@@ -650,9 +729,10 @@ typedef enum shade_preset {
 } shade_preset;
 /* Out of range: white Lambert, and "". */
 SHADEDEF shade_material shade_preset_material(shade_preset preset);
-SHADEDEF const char    *shade_preset_name(shade_preset preset);    /* "emerald", "black plastic", ... */
+/* "emerald", "black plastic", ... */
+SHADEDEF const char    *shade_preset_name(shade_preset preset);
 
-/*--------------------------------------------------------------------------------------------------- >>draw
+/*------------------------------------------------------------------------------------------- >>draw
    vertex shader -> assemble -> clip -> rasterize -> fragment shader -> depth, blend, store.
    Bad arguments are refused before any pixel changes, in this order: NULLs, target, other arguments, indices.
    Nothing is ever written outside the target's rows, width and clip rectangle. */
@@ -660,35 +740,40 @@ SHADEDEF const char    *shade_preset_name(shade_preset preset);    /* "emerald",
 /* Fills the clip rectangle of both buffers.  A NaN depth is SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
 
-/* The picture (of a strip: its rows) as a binary PPM, "P6".  RGBA32F is clamped, and encoded where srgb is set. */
-typedef int shade_write_fn(void *user, const void *bytes, size_t size);    /* non-zero: failed, stop */
-SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user, const shade_target *target);
+/* The picture (of a strip: its rows) as a binary PPM, "P6". RGBA32F is clamped, and encoded
+   where srgb is set. */
+/* non-zero: failed, stop */
+typedef int shade_write_fn(void *user, const void *bytes, size_t size);
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
+                                       const shade_target *target);
 #ifndef SHADE_NO_STDIO
 SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
 #endif
 
 typedef struct shade_vertex_ids {            /* one packet of vertices to shade */
-    int      count;                          /* live lanes; the rest repeat the last one: compute every lane */
-    uint32_t index[SHADE_LANES];             /* what gl_VertexID is; the shader fetches its own attributes */
+    int      count;  /* live lanes; the rest repeat the last one: compute every lane */
+    uint32_t index[SHADE_LANES];  /* what gl_VertexID is; the shader fetches its own attributes */
 } shade_vertex_ids;
 typedef struct shade_vertices {
     float clip[4][SHADE_LANES];              /* clip-space position, preset to 0 */
     float out[SHADE_MAX_VARYINGS][SHADE_LANES];   /* varyings, preset to 0 */
 } shade_vertices;
-typedef struct shade_fragments {             /* one packet of pixels to shade, of any triangles of the draw */
-    int      count;                          /* live lanes; the rest repeat the last one: compute every lane */
+typedef struct shade_fragments {  /* one packet of pixels to shade, of any triangles of the draw */
+    int      count;  /* live lanes; the rest repeat the last one: compute every lane */
     float    x[SHADE_LANES], y[SHADE_LANES]; /* pixel centre, window space */
     float    z[SHADE_LANES];                 /* depth as stored */
-    float    in[SHADE_MAX_VARYINGS][SHADE_LANES];   /* interpolated varyings; rows from pipeline.varyings on: unset */
+    /* interpolated varyings; rows from pipeline.varyings on: unset */
+    float    in[SHADE_MAX_VARYINGS][SHADE_LANES];
     uint32_t primitive[SHADE_LANES];         /* index of the triangle in this draw */
     uint32_t front[SHADE_LANES];             /* 1: front-facing, 0: back-facing */
 } shade_fragments;
 typedef struct shade_colors {
     float    out[4][SHADE_LANES];            /* linear RGBA, preset to 0, 0, 0, 1 */
-    uint32_t discard[SHADE_LANES];           /* preset to 0; non-zero: the pixel stays (needs may_discard) */
+    uint32_t discard[SHADE_LANES];  /* preset to 0; non-zero: the pixel stays (needs may_discard) */
 } shade_colors;
 
-/* Both shaders work on whole packets: write plain loops with SHADE_EACH_LANE and the compiler makes vectors. */
+/* Both shaders work on whole packets: write plain loops with SHADE_EACH_LANE and the compiler
+   makes vectors. */
 typedef void shade_vertex_shader(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                  shade_vertices *SHADE_RESTRICT out);
 typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -704,21 +789,25 @@ typedef struct shade_pipeline {
     shade_compare          depth_test;
     int                    depth_read_only;  /* non-zero: test, do not write */
     int                    depth_zero_to_one;
-    int                    may_discard;      /* depth is then tested and written after the shader, in drawing order */
-    float                  depth_bias;       /* added to window depth; what is stored is clamped to [0, 1] */
+    /* depth is then tested and written after the shader, in drawing order */
+    int                    may_discard;
+    /* added to window depth; what is stored is clamped to [0, 1] */
+    float                  depth_bias;
     shade_blend            blend;
 } shade_pipeline;
 
-/* Draws index_count / 3 triangles.  indices NULL: vertices 0, 1, 2, ...  A vertex shared by near triangles is shaded
-   about once.  Clipped are near and far, x and y only beyond 3 w.  Facing is decided once per triangle, on the screen.
-   stats may be NULL.  No colour buffer: the fragment shader runs only where may_discard is set.
-   Threads: let each draw the same with its own clip rectangle (or target); same bits as one thread. */
+/* Draws index_count / 3 triangles. indices NULL: vertices 0, 1, 2, ... A vertex shared by near
+   triangles is shaded about once. Clipped are near and far, x and y only beyond 3 w. Facing is
+   decided once per triangle, on the screen. stats may be NULL. No colour buffer: the fragment
+   shader runs only where may_discard is set. Threads: let each draw the same with its own clip
+   rectangle (or target); same bits as one thread. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count, int vertex_count, shade_stats *stats);
 
-typedef struct shade_mesh {                  /* caller's arrays; strides in BYTES, 0 = tight, multiples of 4 */
+typedef struct shade_mesh {  /* caller's arrays; strides in BYTES, 0 = tight, multiples of 4 */
     const float *positions;  int position_stride;    /* x, y, z */
-    const float *normals;    int normal_stride;      /* x, y, z, any length; NULL: the normal of each face */
+    /* x, y, z, any length; NULL: the normal of each face */
+    const float *normals;    int normal_stride;
     const float *texcoords;  int texcoord_stride;    /* u, v */
     const float *colors;     int color_stride;       /* R, G, B: multiplies k_d and k_a; NULL: 1 */
     int vertex_count;
@@ -743,9 +832,10 @@ typedef struct shade_draw_state {            /* how one mesh is drawn */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
-/* Vertex normals: the unit mean of the faces around each vertex, weighted by their angle there; zero for a vertex
-   without faces.  Faces without area add nothing. */
-SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals /* vertex_count */);
+/* Vertex normals: the unit mean of the faces around each vertex, weighted by their angle there;
+   zero for a vertex without faces. Faces without area add nothing. */
+SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh,
+                                         shade_vec3 *normals /* vertex_count */);
 
 #ifdef __cplusplus
 }
@@ -762,7 +852,7 @@ SHADE__EXACT_INSIDE_BEGIN
 extern "C" {
 #endif
 
-/*-------------------------------------------------------------------------------------------- >>base
+/*------------------------------------------------------------------------------------------- >>base
    Words the rest is written in: numbers as bit patterns, clamps without branches, dispatch.
      holds   Loops over lanes select by masks and clamp by integers, because gcc turns float selects
              into branches and leaves the loop scalar.  A mask is all ones or all zeros.   >>matrix */
@@ -785,8 +875,9 @@ SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
 }
 SHADE__INLINE uint32_t shade__mask(int condition) { return 0u - (uint32_t)condition; }
 
-/* clamp(x, lo, hi) by the integer order of bit patterns, which is the order of non-negative floats and puts
-   every negative below them.  pre: 0 <= lo <= hi.  NaN gives hi, or lo with its sign bit set. */
+/* clamp(x, lo, hi) by the integer order of bit patterns, which is the order of non-negative
+   floats and puts every negative below them. pre: 0 <= lo <= hi. NaN gives hi, or lo with its
+   sign bit set. */
 SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 {
     int32_t i = shade__int_of(x), l = shade__int_of(lo), h = shade__int_of(hi);
@@ -826,12 +917,13 @@ SHADEDEF const char *shade_result_string(shade_result result)
     }
 }
 
-/*------------------------------------------------------------------------------------------ >>matrix
+/*----------------------------------------------------------------------------------------- >>matrix
    Matrices of the public part: formulas as in GLM, the sums of inverses in double.
      holds   Degenerate cameras give the zero matrix, which draws nothing.               >>power */
 
-/* Sine and cosine, to 1e-16 of the reduced argument: x - k pi/2 with pi/2 in two parts, the high one of 33 bits
-   so that k times it is exact for |k| < 2^20, and Taylor series on [-pi/4, pi/4] (next terms below 5e-17). */
+/* Sine and cosine, to 1e-16 of the reduced argument: x - k pi/2 with pi/2 in two parts, the high
+   one of 33 bits so that k times it is exact for |k| < 2^20, and Taylor series on [-pi/4, pi/4]
+   (next terms below 5e-17). */
 static void shade__sincos(float radians, double *sine, double *cosine)
 {
     if (!shade__within(radians, 1e9f)) radians = 0;
@@ -917,7 +1009,8 @@ SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m)
                      shade_v4(m.col[0].w, m.col[1].w, m.col[2].w, m.col[3].w));
 }
 
-/* The 2 x 2 minors of columns a, b, of rows xy xz xw yz yw zw: what determinant and inverse share. */
+/* The 2 x 2 minors of columns a, b, of rows xy xz xw yz yw zw: what determinant and inverse
+   share. */
 static void shade__minors(shade_vec4 a, shade_vec4 b, double *m)
 {
     double ax = (double)a.x, ay = (double)a.y, az = (double)a.z, aw = (double)a.w;
@@ -990,8 +1083,10 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
     if (shade__is_zero(f)) f = shade_v3(0, 0, -1);
     r = shade_normalize(shade_cross(f, shade_normalize(up)));
     if (shade__is_zero(r))       /* any axis that f is far from stands in for up */
-        r = shade_normalize(shade_cross(f, f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0, 1)));
-    r = shade_normalize(shade_madd(r, -shade_dot(r, f), f));    /* square again where up was nearly parallel */
+        r = shade_normalize(shade_cross(f, f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0,
+                                                                                           1)));
+    /* square again where up was nearly parallel */
+    r = shade_normalize(shade_madd(r, -shade_dot(r, f), f));
     u = shade_cross(r, f);
     return shade__m4(shade_v4(r.x, u.x, -f.x, 0), shade_v4(r.y, u.y, -f.y, 0),
                      shade_v4(r.z, u.z, -f.z, 0),
@@ -1055,14 +1150,18 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
                  (float)(((double)n + (double)f) / d), 1)));
 }
 
-/*------------------------------------------------------------------------------------------- >>power
-   x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere, and loops over lanes that vectorise.
+/*------------------------------------------------------------------------------------------ >>power
+   x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere,
+       and loops over lanes that vectorise.
      in      x in [0, 1], n >= 0          out  a value in [0, 1], absolute error below 3e-7
-     method  minimax polynomials: log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1], relative error 2.7e-8;
-             2^-r = 1 + r Q(r) on [-1/2, 1/2], relative error 9.2e-8                    >>lighting */
+     method  minimax polynomials: log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1],
+         relative error 2.7e-8;
+             2^-r = 1 + r Q(r) on [-1/2, 1/2],
+                 relative error 9.2e-8                    >>lighting */
 
-/* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0.  The addend carries into the exponent where the mantissa is
-   at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is lost. */
+/* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0. The addend carries into the exponent where
+   the mantissa is at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is
+   lost. */
 SHADE__INLINE float shade__neg_log2(float x)
 {
     uint32_t t = shade__float_bits(x) + (0x3F800000u - 0x3F3504F3u);
@@ -1091,8 +1190,8 @@ SHADE__INLINE float shade__exp2_neg(float u)
     return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)),
                        shade__mask(v < 126));
 }
-/* n (-log2 x); 126 or more where the power is 0: at x = 0 if n > 0, and where x < 0 stands for "undefined".
-   pre: x <= 1, zero is n > 0 ? all ones : 0 */
+/* n (-log2 x); 126 or more where the power is 0: at x = 0 if n > 0, and where x < 0 stands for
+   "undefined". pre: x <= 1, zero is n > 0 ? all ones : 0 */
 SHADE__INLINE float shade__power_log(float x, float n, uint32_t zero)
 {
     float u = n * shade__neg_log2(x);
@@ -1107,7 +1206,7 @@ SHADEDEF float shade_power(float x, float n)
     return shade__exp2_neg(shade__power_log(c, n, shade__mask(1)) + small);
 }
 
-/*---------------------------------------------------------------------------------------- >>lighting
+/*--------------------------------------------------------------------------------------- >>lighting
    The equations of >>model for one point, in scalar floats with exact roots and divisions.
      holds   Names and order are those of >>lanes; a test holds the two together.          >>lanes */
 
@@ -1126,7 +1225,8 @@ SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color)
     light.position = shade_v4(position.x, position.y, position.z, 1);
     return light;
 }
-SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians, float exponent,
+SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
+                                      float exponent,
                                       shade_vec3 color)
 {
     double s, c;
@@ -1174,7 +1274,8 @@ SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model
     if (!material) material = &white;
     if (model != SHADE_BLINN_PHONG && model != SHADE_PHONG)
         return model == SHADE_LAMBERT ? material->diffuse : shade_v3(0, 0, 0);
-    if (model == SHADE_PHONG) s = shade_power(shade_dot(shade_mirror(L, N), V), material->shininess);
+    if (model == SHADE_PHONG) s = shade_power(shade_dot(shade_mirror(L, N), V),
+                                              material->shininess);
     else if (!shade__is_zero(shade_halfway(L, V)))
         s = shade_power(shade_dot(N, shade_halfway(L, V)), material->shininess);
     return shade_madd(material->diffuse, s, material->specular);
@@ -1185,7 +1286,7 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 co
 }
 SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exponent; }
 
-/* One row of the table: name; k_a, k_d, k_s, shininess / 128.                                 [Kilgard94] */
+/* One row of the table: name; k_a, k_d, k_s, shininess / 128. [Kilgard94] */
 typedef struct shade__preset_row { const char *name; float k[10]; } shade__preset_row;
 static shade__preset_row shade__preset(int preset)
 {
@@ -1245,7 +1346,8 @@ SHADEDEF shade_material shade_preset_material(shade_preset preset)
 }
 SHADEDEF const char *shade_preset_name(shade_preset preset) { return shade__preset((int)preset).name; }
 
-/* What both the scalar and the lane equations read: defaults filled in, terms that are off set to zero. */
+/* What both the scalar and the lane equations read: defaults filled in, terms that are off set
+   to zero. */
 typedef struct shade__surface {
     shade_vec3 emission, ambient, diffuse, specular, cool, warm;
     float      shininess;
@@ -1255,7 +1357,8 @@ typedef struct shade__surface {
     int        light_count, cool_to_warm, phong;
 } shade__surface;
 
-static shade__surface shade__surface_of(const shade_lighting *lighting, const shade_material *material)
+static shade__surface shade__surface_of(const shade_lighting *lighting,
+                                        const shade_material *material)
 {
     shade__surface s;
     shade_vec3 none = shade_v3(0, 0, 0);
@@ -1283,12 +1386,14 @@ static shade__surface shade__surface_of(const shade_lighting *lighting, const sh
 }
 
 /* k I if the term is on, else zero whatever they hold. */
-SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, shade_vec3 k, shade_vec3 I)
+SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, shade_vec3 k,
+                                        shade_vec3 I)
 {
     return s->terms & term ? shade_mul(k, I) : shade_v3(0, 0, 0);
 }
 
-/* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at infinity. */
+/* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at
+   infinity. */
 typedef struct shade__lamp { shade_vec3 at, axis; int infinite, spot; } shade__lamp;
 
 SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
@@ -1315,7 +1420,8 @@ static void shade__add_light(const shade__surface *s, const shade_light *light, 
         att = shade_attenuation(light->constant, light->linear, light->quadratic, shade_length(l));
     if (lamp.spot) {
         float cosine = shade_dot(L, lamp.axis);
-        att = cosine >= light->spot_cos_cutoff ? att * shade_power(cosine, light->spot_exponent) : 0;
+        att = cosine >= light->spot_cos_cutoff ? att * shade_power(cosine,
+                                                                   light->spot_exponent) : 0;
     }
     if (s->flags & SHADE_ATTENUATED_AMBIENT) ambient = att;
     t->ambient = shade_madd(t->ambient, ambient,
@@ -1365,7 +1471,7 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
     return shade_add(shade_add(t.emission, t.ambient), shade_add(t.diffuse, t.specular));
 }
 
-/*------------------------------------------------------------------------------------------- >>lanes
+/*------------------------------------------------------------------------------------------ >>lanes
    The equations of >>lighting for a packet.  The light of one lamp is cut into short loops over rows of
    temporaries: one fused loop per light measured 1.5 times slower, its many live values outgrow the processor.
      in      rows of P, N, albedo         out  rows of rgb
@@ -1397,7 +1503,8 @@ SHADE__INLINE void shade__lane_viewer(const float *SHADE_RESTRICT P, const float
 }
 
 /* N.L; returns non-zero if some lane faces the lamp */
-SHADE__INLINE uint32_t shade__lane_horizon(const float *SHADE_RESTRICT N, shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE uint32_t shade__lane_horizon(const float *SHADE_RESTRICT N,
+                                           shade__rows *SHADE_RESTRICT r)
 {
     uint32_t any = 0;
     SHADE_EACH_LANE(i) {
@@ -1430,7 +1537,8 @@ SHADE__INLINE void shade__lane_point(const float *SHADE_RESTRICT P, shade_vec3 a
 }
 
 /* L.S into x, its cone as a mask of the attenuation; returns non-zero if some lane is inside */
-SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff, shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff,
+                                        shade__rows *SHADE_RESTRICT r)
 {
     uint32_t any = 0;
     SHADE_EACH_LANE(i) {
@@ -1483,8 +1591,10 @@ SHADE__INLINE void shade__lane_spot(shade__rows *SHADE_RESTRICT r)
 {
     SHADE_EACH_LANE(i) { r->att[i] *= shade__exp2_neg(r->x[i]); }
 }
-/* Second half for the highlight: x = B (N.H)^n; open lifts the gate B, weighted multiplies by max(0, N.L). */
-SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted, shade__rows *SHADE_RESTRICT r)
+/* Second half for the highlight: x = B (N.H)^n; open lifts the gate B, weighted multiplies by
+   max(0, N.L). */
+SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted,
+                                     shade__rows *SHADE_RESTRICT r)
 {
     SHADE_EACH_LANE(i) {
         float nl = r->nl[i];
@@ -1494,8 +1604,8 @@ SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted, shade__ro
     }
 }
 
-/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s x);  with absolute |N.L|.  Inlined with albedo NULL, the
-   choice and its factor of 1 vanish. */
+/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s x); with absolute |N.L|. Inlined with albedo
+   NULL, the choice and its factor of 1 vanish. */
 SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
                                        const float *SHADE_RESTRICT albedo,
                                        const shade__rows *SHADE_RESTRICT r, float *SHADE_RESTRICT rgb)
@@ -1513,7 +1623,8 @@ SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t ab
 }
 
 /* rgb = base + k albedo */
-SHADE__INLINE void shade__lane_base(shade_vec3 base, shade_vec3 k, const float *SHADE_RESTRICT albedo,
+SHADE__INLINE void shade__lane_base(shade_vec3 base, shade_vec3 k,
+                                    const float *SHADE_RESTRICT albedo,
                                     float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
@@ -1546,7 +1657,8 @@ SHADE__INLINE void shade__lane_cool_to_warm(shade_vec3 cool, shade_vec3 warm,
     }
 }
 
-/* L and attenuation of one lamp, its cone, N.L.  Returns zero if no lane is both inside and facing. */
+/* L and attenuation of one lamp, its cone, N.L. Returns zero if no lane is both inside and
+   facing. */
 SHADE__INLINE uint32_t shade__lane_lamp(const shade_light *light, const shade__lamp *lamp,
                                         const float *P, const float *N, shade__rows *r)
 {
@@ -1568,7 +1680,8 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
     shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
-    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT), gloss = !shade__is_zero(ks);
+    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT),
+        gloss = !shade__is_zero(ks);
     uint32_t open = shade__mask((s->flags & SHADE_UNGATED_SPECULAR) != 0);
     uint32_t absolute = shade__mask((s->flags & SHADE_TWO_SIDED_ABS) != 0);
     uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
@@ -1613,7 +1726,8 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_m
         return;
     }
     if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_ATTENUATED_AMBIENT))
-        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lighting->lights[j].ambient);
+        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient,
+                                                                    lighting->lights[j].ambient);
     ambient = shade_mul(ambient, s.ambient);
     if (albedo) shade__lane_base(s.emission, ambient, albedo, rgb);
     else shade__lane_base(s.emission, ambient, (const float *)0, rgb);
@@ -1625,7 +1739,8 @@ SHADE__DISPATCH(shade__lit,
                  const float *P, const float *N, const float *albedo, float *rgb),
                 (lighting, material, eye, P, N, albedo, rgb))
 
-SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
+SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
+                              shade_vec3 eye,
                               const float *P, const float *N, const float *albedo, float *rgb)
 {
     if (!lighting || !P || !N || !rgb) {
@@ -1635,7 +1750,7 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
     shade__lit_pick()(lighting, material, eye, P, N, albedo, rgb);
 }
 
-/*------------------------------------------------------------------------------------------- >>store
+/*------------------------------------------------------------------------------------------ >>store
    Linear colours to stored pixels and back.  8 bits: floor(255 clamp(c) + 1/2); NaN is 0.
      in      rows of linear RGBA          out  uint32 pixels, still in registers' order: R in memory first
      source  sRGB curve [IEC61966]                                                       >>fragment */
@@ -1673,15 +1788,18 @@ SHADE__INLINE void shade__pack_rgba8(const float *SHADE_RESTRICT rgba, int srgb,
     int a = shade__byte_shift(3);
     SHADE__FOR(i, width) {
         float cr = shade__unit(rgba[i]), cg = shade__unit(rgba[i + SHADE_LANES]);
-        float cb = shade__unit(rgba[i + 2 * SHADE_LANES]), ca = shade__unit(rgba[i + 3 * SHADE_LANES]);
-        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg), cb = shade__srgb_encode(cb);
+        float cb = shade__unit(rgba[i + 2 * SHADE_LANES]),
+            ca = shade__unit(rgba[i + 3 * SHADE_LANES]);
+        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg),
+            cb = shade__srgb_encode(cb);
         pixel[i] = (uint32_t)(int32_t)(cr * 255 + 0.5f) << r | (uint32_t)(int32_t)(cg * 255 + 0.5f) << g |
                    (uint32_t)(int32_t)(cb * 255 + 0.5f) << b | (uint32_t)(int32_t)(ca * 255 + 0.5f) << a;
     }
 }
 /* to 5-6-5 bits; x, y: window positions, which choose the threshold of the 4 x 4 ordered
    dither: the bits of x ^ y and y, interleaved and reversed */
-SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const float *SHADE_RESTRICT x,
+SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba,
+                                      const float *SHADE_RESTRICT x,
                                       const float *SHADE_RESTRICT y, int srgb, uint32_t dither,
                                       uint32_t *SHADE_RESTRICT pixel, const int width)
 {
@@ -1691,17 +1809,20 @@ SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const fl
         float t = shade__select(0.5f, ((float)(int32_t)rank + 0.5f) * 0.0625f, dither);
         float cr = shade__unit(rgba[i]), cg = shade__unit(rgba[i + SHADE_LANES]);
         float cb = shade__unit(rgba[i + 2 * SHADE_LANES]);
-        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg), cb = shade__srgb_encode(cb);
+        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg),
+            cb = shade__srgb_encode(cb);
         pixel[i] = (uint32_t)(int32_t)(cr * 31 + t) << 11 | (uint32_t)(int32_t)(cg * 63 + t) << 5 |
                    (uint32_t)(int32_t)(cb * 31 + t);
     }
 }
 
-SHADE__INLINE void shade__pack(const shade_target *t, const float *rgba, const float *x, const float *y,
+SHADE__INLINE void shade__pack(const shade_target *t, const float *rgba, const float *x,
+                               const float *y,
                                uint32_t *pixel, const int width)
 {
     uint32_t dither = shade__mask(t->dither != 0);
-    if (t->format == SHADE_RGB565 && t->srgb) shade__pack_rgb565(rgba, x, y, 1, dither, pixel, width);
+    if (t->format == SHADE_RGB565 && t->srgb) shade__pack_rgb565(rgba, x, y, 1, dither, pixel,
+                                                                 width);
     else if (t->format == SHADE_RGB565) shade__pack_rgb565(rgba, x, y, 0, dither, pixel, width);
     else if (t->srgb) shade__pack_rgba8(rgba, 1, pixel, width);
     else shade__pack_rgba8(rgba, 0, pixel, width);
@@ -1735,7 +1856,7 @@ SHADE__INLINE void shade__fetch(const shade_target *t, const uint8_t *p, float *
         for (int k = 0; k < 3; k++) rgba[k] = shade__srgb_decode(rgba[k]);
 }
 
-/*---------------------------------------------------------------------------------------- >>fragment
+/*--------------------------------------------------------------------------------------- >>fragment
    The queue of pixels that passed, over all triangles of a batch; a full packet is shaded and stored.
    Shading waiting fragments together measured 2 to 3 times faster on dense meshes than a packet per span.
      in      rows of the queue: varyings times rw, and rw     out  depth (with may_discard), colour
@@ -1767,14 +1888,16 @@ typedef struct shade__draw shade__draw;
 struct shade__draw {
     void (*flush)(shade__draw *);     /* hot loops, in the widest code the processor runs */
     void (*push)(shade__draw *, const struct shade__triangle *, int x, int y, int n);
-    void (*cover)(shade__draw *, struct shade__triangle *, const shade__head *const *, const float *const *);
+    void (*cover)(shade__draw *, struct shade__triangle *, const shade__head *const *,
+                  const float *const *);
     const shade_target   *target;
     const shade_pipeline *pipe;
     shade_stats stats;
     uint8_t *color;                   /* NULL: none */
     float   *depth;                   /* NULL: none */
     size_t   pixel_bytes;
-    int      stride, row_offset;      /* pixels from row to row; the row that color and depth start with */
+    /* pixels from row to row; the row that color and depth start with */
+    int      stride, row_offset;
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
     int      varyings, tail_stride;   /* floats a vertex in tails: a multiple of 8 */
     int      perspective, queued;     /* varyings are divided by w; fragments go to the queue */
@@ -1783,12 +1906,13 @@ struct shade__draw {
     shade_vertex_ids ids;
     shade__head heads[SHADE_LANES];
     float    tails[SHADE__TAIL_FLOATS];
-    uint8_t  slot_of[2 * SHADE_LANES];                 /* direct-mapped: index -> slot of the batch */
+    uint8_t  slot_of[2 * SHADE_LANES];  /* direct-mapped: index -> slot of the batch */
     uint8_t  corner[3 * SHADE__BATCH_TRIANGLES];       /* slots of the batch's triangles */
     union { shade_vertices vertices; shade__queue queue; } u;    /* first one, then the other */
 };
 
-/* Depth test and write in drawing order, after a shader that may discard.  Marks the lanes that stay. */
+/* Depth test and write in drawing order, after a shader that may discard. Marks the lanes that
+   stay. */
 static void shade__late_depth(shade__draw *d, const uint32_t *discard, uint32_t *alive)
 {
     const shade__queue *q = &d->u.queue;
@@ -1811,10 +1935,12 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const float *rgba, const
     const uint32_t *offset = d->u.queue.offset;
     if (d->target->format == SHADE_RGBA8 && !alive) {
         if (d->u.queue.contiguous) {
-            SHADE_MEMCPY(d->color + (size_t)offset[first] * 4, pixel + first, (size_t)(last - first) * 4);
+            SHADE_MEMCPY(d->color + (size_t)offset[first] * 4, pixel + first,
+                         (size_t)(last - first) * 4);
             return;
         }
-        for (int i = first; i < last; i++) SHADE_MEMCPY(d->color + (size_t)offset[i] * 4, pixel + i, 4);
+        for (int i = first; i < last; i++) SHADE_MEMCPY(d->color + (size_t)offset[i] * 4, pixel + i,
+                                                        4);
         return;
     }
     for (int i = first; i < last; i++) {
@@ -1827,7 +1953,8 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const float *rgba, const
             for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + i + k * SHADE_LANES, 4);
     }
 }
-/* rgba of 8 lanes = blend with what is stored, which is zero in lanes that stay as they are, those without live */
+/* rgba of 8 lanes = blend with what is stored, which is zero in lanes that stay as they are,
+   those without live */
 SHADE__INLINE void shade__blend8(shade_blend blend, const uint32_t *SHADE_RESTRICT live,
                                  const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT rgba)
 {
@@ -1841,8 +1968,8 @@ SHADE__INLINE void shade__blend8(shade_blend blend, const uint32_t *SHADE_RESTRI
         rgba[i + 3 * SHADE_LANES] = a + stored[i + 24] * t;
     }
 }
-/* Blends and stores in pieces of up to 8 lanes, in drawing order.  The lanes of a piece belong to one triangle, so that no
-   pixel comes twice in it. */
+/* Blends and stores in pieces of up to 8 lanes, in drawing order. The lanes of a piece belong to
+   one triangle, so that no pixel comes twice in it. */
 static void shade__store_blended(const shade__draw *d, float *rgba, uint32_t *pixel,
                                         const uint32_t *alive)
 {
@@ -1898,7 +2025,8 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     SHADE_EACH_LANE(i) { c.out[3][i] = 1, c.discard[i] = 0; }
     d->pipe->fragment(d->pipe->uniforms, &q->f, &c);
     if (d->pipe->may_discard) shade__late_depth(d, c.discard, c.discard), alive = c.discard;
-    if (d->color && d->pipe->blend != SHADE_REPLACE) shade__store_blended(d, c.out[0], pixel, alive);
+    if (d->color && d->pipe->blend != SHADE_REPLACE) shade__store_blended(d, c.out[0], pixel,
+                                                                          alive);
     else if (d->color) {
         if (d->target->format != SHADE_RGBA32F)
             shade__pack(d->target, c.out[0], q->f.x, q->f.y, pixel, SHADE_LANES);
@@ -1908,19 +2036,20 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 }
 SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
 
-/*------------------------------------------------------------------------------------------- >>setup
+/*------------------------------------------------------------------------------------------ >>setup
    Triangle setup: three snapped vertices to three edge functions and one plane per value.    [Pineda88]
      in      positions in 24.8 fixed point, |x|, |y| <= 2^24; tails z, rw, varyings times rw
      out     shade__triangle, its pixel box cut to the clip rectangle
      holds   For the edge p to q and the pixel centre at 256 (i, j) + 128:
-               256 e(i,j) + remainder = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias,  inside e >= 0,
+               256 e(i,j) + remainder = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias,
+                   inside e >= 0,
              bias 0 on top and left edges, -1 on others; dividing by 256 with floor keeps the sign, since
              the coefficients of i and j are multiples of 256.  Neighbours get exactly opposite edges.
              |q - p| < 2^25, |y - p.y| < 2^25: products stay below 2^50.                    >>cover */
 
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
-    int      narrow;                  /* at most 16 pixels wide before any clip: 32-bit edges suffice */
+    int      narrow;  /* at most 16 pixels wide before any clip: 32-bit edges suffice */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
     int32_t  dx[3], dy[3];            /* their steps in x and y */
     float    x_ref, y_ref;            /* 1/2 - position of the reference vertex, pixels; exact */
@@ -1942,7 +2071,8 @@ SHADE__INLINE int32_t shade__max3(int32_t a, int32_t b, int32_t c)
 /* floor(v / 256) for any sign */
 SHADE__INLINE int64_t shade__floor256(int64_t v) { return v >= 0 ? v / 256 : -((255 - v) / 256); }
 
-/* Twice the signed area in 1/65536 pixel; positive where a, b, c turn clockwise as seen (y is down). */
+/* Twice the signed area in 1/65536 pixel; positive where a, b, c turn clockwise as seen (y is
+   down). */
 SHADE__INLINE int64_t shade__area(const shade__head *a, const shade__head *b, const shade__head *c)
 {
     return (int64_t)(b->x - a->x) * (c->y - a->y) - (int64_t)(c->x - a->x) * (b->y - a->y);
@@ -1962,7 +2092,8 @@ SHADE__INLINE int shade__box(const shade__draw *d, const shade__head *a, const s
     return t->x0 <= t->x1 && t->y0 <= t->y1;
 }
 
-SHADE__INLINE void shade__edge(const shade__head *p, const shade__head *q, int k, shade__triangle *t)
+SHADE__INLINE void shade__edge(const shade__head *p, const shade__head *q, int k,
+                               shade__triangle *t)
 {
     int32_t dx = q->x - p->x, dy = q->y - p->y;
     int64_t x = (int64_t)t->x0 * 256 + 128 - p->x, y = (int64_t)t->y0 * 256 + 128 - p->y;
@@ -1989,28 +2120,33 @@ SHADE__INLINE void shade__planes(const float *SHADE_RESTRICT t0, const float *SH
     }
 }
 /* The constants of the planes of a triangle, and where its reference vertex is. */
-SHADE__INLINE void shade__slopes(const shade__head *const *v, int64_t area, float *k, shade__triangle *t)
+SHADE__INLINE void shade__slopes(const shade__head *const *v, int64_t area, float *k,
+                                 shade__triangle *t)
 {
     double inverse = 256 / (double)area;
     k[0] = (float)((v[1]->x - v[0]->x) * inverse), k[1] = (float)((v[1]->y - v[0]->y) * inverse);
     k[2] = (float)((v[2]->x - v[0]->x) * inverse), k[3] = (float)((v[2]->y - v[0]->y) * inverse);
-    t->x_ref = 0.5f - (float)v[0]->x * (1 / 256.0f), t->y_ref = 0.5f - (float)v[0]->y * (1 / 256.0f);
+    t->x_ref = 0.5f - (float)v[0]->x * (1 / 256.0f),
+        t->y_ref = 0.5f - (float)v[0]->y * (1 / 256.0f);
 }
-/* Range of z, bias added, and of rw: planes are cut to it, as rounding may leave it at a sliver's edge. */
+/* Range of z, bias added, and of rw: planes are cut to it, as rounding may leave it at a
+   sliver's edge. */
 SHADE__INLINE void shade__ranges(const shade__draw *d, const float *const *tail, shade__triangle *t)
 {
     float bias = d->pipe->depth_bias;
     float low = shade__minf(tail[0][0], shade__minf(tail[1][0], tail[2][0]));
     float high = shade__maxf(tail[0][0], shade__maxf(tail[1][0], tail[2][0]));
     t->base[0] += bias;
-    t->z_low = shade__clamp_bits(low + bias, 0, 1), t->z_high = shade__clamp_bits(high + bias, 0, 1);
+    t->z_low = shade__clamp_bits(low + bias, 0, 1), t->z_high = shade__clamp_bits(high + bias, 0,
+                                                                                  1);
     t->rw_low = shade__minf(tail[0][1], shade__minf(tail[1][1], tail[2][1]));
     t->rw_high = shade__maxf(tail[0][1], shade__maxf(tail[1][1], tail[2][1]));
 }
 
-/* Fills in a triangle whose box, primitive and facing are known.  head, tail: its vertices, as submitted, then the
-   tail that SHADE_CONSTANT takes.  pre: area != 0. */
-SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *head, const float *const *tail,
+/* Fills in a triangle whose box, primitive and facing are known. head, tail: its vertices, as
+   submitted, then the tail that SHADE_CONSTANT takes. pre: area != 0. */
+SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *head,
+                                const float *const *tail,
                                 shade__triangle *t)
 {
     static const uint8_t turn[2][3][3] = { { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 } },
@@ -2026,11 +2162,12 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
     shade__planes(s[0], s[1], s[2], slopes, d->tail_stride, t);
     shade__ranges(d, s, t);
     if (d->pipe->interpolation == SHADE_CONSTANT) {
-        for (int i = SHADE__TAIL; i < d->tail_stride; i++) t->base[i] = tail[3][i], t->gx[i] = t->gy[i] = 0;
+        for (int i = SHADE__TAIL; i < d->tail_stride; i++) t->base[i] = tail[3][i],
+            t->gx[i] = t->gy[i] = 0;
     }
 }
 
-/*------------------------------------------------------------------------------------------- >>cover
+/*------------------------------------------------------------------------------------------ >>cover
    Which pixels of a triangle are inside and pass the depth test; runs of them go to the queue.
      in      shade__triangle              out  depth (early test), fragments of the queue
      method  Up to 16 pixels wide: windows of 8 pixels by 32-bit edges.  |e| <= (2^12 h + 2^24 w) / 256 plus one
@@ -2048,7 +2185,8 @@ typedef struct shade__window {
 } shade__window;
 
 /* Tests width pixels; writes depth; returns the set of those that passed, bit i for pixel x + i. */
-SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d, const shade__window *SHADE_RESTRICT w,
+SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
+                                   const shade__window *SHADE_RESTRICT w,
                                    float z_low, float z_high, float *SHADE_RESTRICT depth, const int width)
 {
     const int32_t e0 = w->e0, e1 = w->e1, e2 = w->e2, x = w->x, skip = w->skip;
@@ -2060,7 +2198,8 @@ SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d, const sh
     SHADE__FOR(i, width) {
         int32_t e = (e0 + i * dx0) | (e1 + i * dx1) | (e2 + i * dx2) | (i - skip);
         uint32_t m = shade__mask(e >= 0);
-        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high), s = depth[i];
+        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high),
+            s = depth[i];
         m &= (shade__mask(z < s) & less) | (shade__mask(z == s) & equal) |
              (shade__mask(z > s) & greater) | always;
         depth[i] = shade__select(s, z, m & write);
@@ -2077,7 +2216,8 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
 }
 
 /* Writes width lanes of the queue from lane c on: pixels x, x + 1, ... of row y. */
-SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q, const shade__triangle *SHADE_RESTRICT t,
+SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
+                                 const shade__triangle *SHADE_RESTRICT t,
                                  const float *SHADE_RESTRICT row, int varyings, int x, int y,
                                  uint32_t offset, int c, const int width)
 {
@@ -2143,7 +2283,8 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__triangle *t, in
 SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__triangle *t, int x, int y, int n), (d, t, x, y, n))
 
 /* Counts the pixels of a window's set and pushes its runs. */
-SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int x, int y, uint32_t set)
+SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int x, int y,
+                                   uint32_t set)
 {
     d->stats.fragments += shade__count_bits(set);
     if (!d->queued) return;
@@ -2157,7 +2298,8 @@ SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int
 }
 
 /* Tests pixels w->x .. last of row y in windows of width pixels; w->e holds at w->x. */
-SHADE__INLINE void shade__windows(shade__draw *d, const shade__triangle *t, shade__window *w, int y, int last,
+SHADE__INLINE void shade__windows(shade__draw *d, const shade__triangle *t, shade__window *w, int y,
+                                  int last,
                                   const int width)
 {
     float *depth = d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
@@ -2185,8 +2327,9 @@ SHADE__INLINE void shade__cover_narrow(shade__draw *d, const shade__triangle *t)
     }
 }
 
-/* First (dx > 0) or last (dx < 0) x - x0 in 0 .. n - 1 with e + (x - x0) dx >= 0; n or -1 if none is.  The quotient in
-   double is off by at most one, e being below 2^44; the loops make it exact. */
+/* First (dx > 0) or last (dx < 0) x - x0 in 0 .. n - 1 with e + (x - x0) dx >= 0; n or -1 if
+   none is. The quotient in double is off by at most one, e being below 2^44; the loops make it
+   exact. */
 SHADE__INLINE int shade__crossing(int64_t e, int32_t dx, double inverse, int n)
 {
     double q = -(double)e * inverse;
@@ -2231,8 +2374,10 @@ SHADE__INLINE void shade__cover_wide(shade__draw *d, const shade__triangle *t)
     for (int y = t->y0; y <= t->y1; y++) {
         int n = t->x1 - t->x0 + 1, first = 0, last = n - 1;
         for (int k = 0; k < 3; k++) {
-            if (t->dx[k] > 0) first = shade__max(first, shade__crossing(e[k], t->dx[k], inverse[k], n));
-            else if (t->dx[k] < 0) last = shade__min(last, shade__crossing(e[k], t->dx[k], inverse[k], n));
+            if (t->dx[k] > 0) first = shade__max(first, shade__crossing(e[k], t->dx[k], inverse[k],
+                                                                        n));
+            else if (t->dx[k] < 0) last = shade__min(last, shade__crossing(e[k], t->dx[k],
+                                                                           inverse[k], n));
             else if (e[k] < 0) last = -1;
             e[k] += t->dy[k];
         }
@@ -2247,8 +2392,10 @@ SHADE__INLINE void shade__prefetch(const shade__draw *d, const shade__triangle *
     for (int y = t->y0; y <= t->y1; y++, p += d->stride) SHADE__PREFETCH(p);
 }
 
-/* Sets up and draws a triangle whose box is known.  Windows of 8 need a depth test and room beside each other. */
-SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t, const shade__head *const *head,
+/* Sets up and draws a triangle whose box is known. Windows of 8 need a depth test and room
+   beside each other. */
+SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t,
+                                     const shade__head *const *head,
                                      const float *const *tail)
 {
     if (t->narrow && d->depth) shade__prefetch(d, t);
@@ -2257,10 +2404,11 @@ SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t, const s
     else shade__cover_wide(d, t);
 }
 SHADE__DISPATCH(shade__cover,
-                (shade__draw *d, shade__triangle *t, const shade__head *const *head, const float *const *tail),
+                (shade__draw *d, shade__triangle *t, const shade__head *const *head,
+                 const float *const *tail),
                 (d, t, head, tail))
 
-/*-------------------------------------------------------------------------------------------- >>clip
+/*------------------------------------------------------------------------------------------- >>clip
    Triangles that cross the near or far plane, or the guard band |x|, |y| <= 3 w: a polygon is cut plane by plane and
    drawn as a fan.                                                                      [Sutherland74]
      in      three slots of the batch     out  up to 8 triangles for >>setup
@@ -2275,13 +2423,15 @@ enum {
     SHADE__OUT_BAD = 2048,                       /* NaN, infinite or beyond 1e30 */
     SHADE__OUT_VOLUME = 63 | SHADE__OUT_W,
     SHADE__OUT_CLIP = SHADE__OUT_NEAR | SHADE__OUT_FAR | SHADE__OUT_GUARD | SHADE__OUT_W,
-    SHADE__OUT_UNPLACED = SHADE__OUT_GUARD | SHADE__OUT_W | SHADE__OUT_BAD,    /* has no window position */
+    /* has no window position */
+    SHADE__OUT_UNPLACED = SHADE__OUT_GUARD | SHADE__OUT_W | SHADE__OUT_BAD,
     SHADE__CLIP_VERTICES = 17                    /* 3 and two for each of 7 planes */
 };
 static const float shade__w_least = 8.67361738e-19f;    /* 2^-60 */
 
-/* Window coordinate in 24.8: floor(256 X + 1/2), X = (c/w + 1) size/2; half is 128 times the size, signed.
-   pre: |c| <= 3 w, about.  The sum is positive below 2^26, so that the cast truncates to floor. */
+/* Window coordinate in 24.8: floor(256 X + 1/2), X = (c/w + 1) size/2; half is 128 times the
+   size, signed. pre: |c| <= 3 w, about. The sum is positive below 2^26, so that the cast
+   truncates to floor. */
 SHADE__INLINE int32_t shade__snap(float c, float w, double half, double offset)
 {
     return (int32_t)(((double)c / (double)w * half + offset + 0.5) + 16777216.0) - 16777216;
@@ -2313,7 +2463,8 @@ typedef struct shade__polygon {
     int   vertex[SHADE__CLIP_VERTICES], count, used;    /* corners in order; vertices made so far */
 } shade__polygon;
 
-static int shade__new_vertex(shade__polygon *p, int in, int out, double d_in, double d_out, int varyings)
+static int shade__new_vertex(shade__polygon *p, int in, int out, double d_in, double d_out,
+                             int varyings)
 {
     double t = d_in / (d_in - d_out);
     int v = p->used++;
@@ -2344,7 +2495,8 @@ static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one
 }
 
 /* The polygon of a triangle with its varyings not yet times rw. */
-static void shade__polygon_of(const shade__draw *d, const uint8_t *slot, shade__polygon *p, uint32_t *out)
+static void shade__polygon_of(const shade__draw *d, const uint8_t *slot, shade__polygon *p,
+                              uint32_t *out)
 {
     *out = 0, p->count = p->used = 3;
     SHADE_MEMSET(p->tail, 0, sizeof p->tail);
@@ -2371,7 +2523,8 @@ static void shade__place(const shade__draw *d, shade__polygon *p)
         for (int k = SHADE__TAIL; k < SHADE__TAIL + d->varyings; k++) tail[k] *= rw;
     }
 }
-/* The corner from which no piece of the fan is turned the other way (snapping may dent a polygon): 0 if all fail. */
+/* The corner from which no piece of the fan is turned the other way (snapping may dent a
+   polygon): 0 if all fail. */
 static int shade__apex(const shade__polygon *p, int64_t area)
 {
     for (int a = 0; a < p->count; a++) {
@@ -2393,7 +2546,8 @@ SHADE__INLINE int shade__faces(const shade__draw *d, int64_t area)
 }
 
 /* Clips, then draws or counts one triangle. */
-static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *slot, uint32_t primitive)
+static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *slot,
+                                                 uint32_t primitive)
 {
     shade__polygon p;
     shade__triangle t;
@@ -2417,7 +2571,8 @@ static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *
     t.primitive = primitive, t.front = area < 0;
     int apex = shade__apex(&p, area);
     for (int i = 1; i + 1 < p.count; i++) {
-        int a = p.vertex[apex], b = p.vertex[(apex + i) % p.count], c = p.vertex[(apex + i + 1) % p.count];
+        int a = p.vertex[apex], b = p.vertex[(apex + i) % p.count],
+            c = p.vertex[(apex + i + 1) % p.count];
         int64_t piece = shade__area(&p.head[a], &p.head[b], &p.head[c]);
         if (piece == 0 || (piece < 0) != (area < 0)) continue;
         const shade__head *head[3] = { &p.head[a], &p.head[b], &p.head[c] };
@@ -2426,7 +2581,7 @@ static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *
     }
 }
 
-/*------------------------------------------------------------------------------------------ >>vertex
+/*----------------------------------------------------------------------------------------- >>vertex
    A batch: up to SHADE_LANES different vertices, shaded and projected as one packet, and the triangles among them.
      in      indices                      out  heads and tails, one per slot of the batch
      holds   A vertex is shaded once per batch.  Vertices without a window position get a harmless one and a
@@ -2451,7 +2606,8 @@ SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int z
     const float *SHADE_RESTRICT cz = v->clip[2], *SHADE_RESTRICT cw = v->clip[3];
     SHADE_EACH_LANE(i) {
         float x = cx[i], y = cy[i], z = cz[i], w = cw[i], w3 = 3 * w, low = zero_to_one ? 0 : -w;
-        uint32_t bad = shade__beyond(x) | shade__beyond(y) | shade__beyond(z) | shade__beyond(w), out;
+        uint32_t bad = shade__beyond(x) | shade__beyond(y) | shade__beyond(z) | shade__beyond(w),
+            out;
         out = (shade__mask(x < -w) & 1) | (shade__mask(x > w) & 2) | (shade__mask(y < -w) & 4) |
               (shade__mask(y > w) & 8) | (shade__mask(z < low) & 16) | (shade__mask(z > w) & 32);
         out |= (shade__mask(x < -w3) & 64) | (shade__mask(x > w3) & 128) | (shade__mask(y < -w3) & 256) |
@@ -2473,7 +2629,8 @@ SHADE__INLINE void shade__project(double half_width, double half_height, int zer
     SHADE_EACH_LANE(i) { p->rw[i] = 1 / p->w[i]; }
 }
 /* From rows to one record per vertex: what triangles read lies together. */
-SHADE__INLINE void shade__gather(shade__draw *SHADE_RESTRICT d, const shade__placed *SHADE_RESTRICT p)
+SHADE__INLINE void shade__gather(shade__draw *SHADE_RESTRICT d,
+                                 const shade__placed *SHADE_RESTRICT p)
 {
     const shade_vertices *v = &d->u.vertices;
     int stride = d->tail_stride, n = d->ids.count;
@@ -2575,11 +2732,17 @@ static void shade__triangles(shade__draw *d, int count, uint32_t primitive)
     d->flush(d);
 }
 
-/*------------------------------------------------------------------------------------------- >>drive
+/*------------------------------------------------------------------------------------------ >>drive
    The public calls: arguments checked before any pixel changes, then batch after batch.     >>mesh */
 
-SHADE__INLINE int shade__rows_held(const shade_target *t) { return t->row_count ? t->row_count : t->height; }
-SHADE__INLINE int shade__stride_of(const shade_target *t) { return t->stride ? t->stride : t->width; }
+SHADE__INLINE int shade__rows_held(const shade_target *t)
+{
+    return t->row_count ? t->row_count : t->height;
+}
+SHADE__INLINE int shade__stride_of(const shade_target *t)
+{
+    return t->stride ? t->stride : t->width;
+}
 
 static shade_result shade__check_target(const shade_target *t)
 {
@@ -2594,7 +2757,8 @@ static shade_result shade__check_target(const shade_target *t)
     if ((uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t) > SIZE_MAX / 16) return SHADE_ERROR_TARGET;
     return SHADE_OK;
 }
-/* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive.  0 if empty. */
+/* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive. 0 if
+   empty. */
 static int shade__clip_rectangle(const shade_target *t, int *r)
 {
     int64_t x1 = (int64_t)t->clip_x + t->clip_width, y1 = (int64_t)t->clip_y + t->clip_height;
@@ -2637,7 +2801,8 @@ static shade_result shade__check_indices(const uint32_t *indices, int index_coun
     return shade__indices_fit(indices, index_count, vertex_count) ? SHADE_OK : SHADE_ERROR_INDEX;
 }
 
-static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipeline *p, const int *clip)
+static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipeline *p,
+                         const int *clip)
 {
     shade_compare test = p->depth_test;
     d->flush = shade__flush_pick(), d->push = shade__push_pick(), d->cover = shade__cover_pick();
@@ -2680,7 +2845,8 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
     if (!shade__clip_rectangle(target, clip)) clip[0] = clip[1] = clip[2] = clip[3] = 0;
     pipe = *pipeline;
     if (!pipe.fragment) pipe.may_discard = 0;
-    if (!pipe.fragment || (!target->color && !pipe.may_discard)) pipe.varyings = 0;    /* nobody reads them */
+    /* nobody reads them */
+    if (!pipe.fragment || (!target->color && !pipe.may_discard)) pipe.varyings = 0;
     shade__begin(&d, target, &pipe, clip);
     d.stats.triangles = index_count / 3;
     for (int first = 0, n; first < index_count / 3; first += n) {
@@ -2704,7 +2870,8 @@ static void shade__fill(uint8_t *p, const void *pattern, size_t bytes, size_t n)
     }
 }
 /* Eight pixels of a colour at (x, y): the period of the dither divides 8. */
-static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y, uint8_t *pattern)
+static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
+                                 uint8_t *pattern)
 {
     float rgba[4 * SHADE_LANES], px[8], py[8], c[4];
     uint32_t pixel[8];
@@ -2742,10 +2909,11 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     return SHADE_OK;
 }
 
-/*-------------------------------------------------------------------------------------------- >>mesh
+/*------------------------------------------------------------------------------------------- >>mesh
    The fixed pipeline: a mesh drawn by two ordinary shaders of the programmable one.
      in      object-space arrays          out  varyings in world space: P, N, albedo; or one lit colour
-     holds   Where each face has values of its own (flat, or no normals), every corner is a vertex: its
+     holds   Where each face has values of its own (flat, or no normals),
+         every corner is a vertex: its
              index is 3 times the triangle's plus the corner, and the shader looks up the mesh's.   >>image */
 
 typedef struct shade__scene {            /* uniforms of the mesh shaders */
@@ -2757,7 +2925,8 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int by_corner, face_normals;
 } shade__scene;
 
-enum { SHADE__SCRATCH = SHADE_MAX_VARYINGS < 12 ? 12 : 1 };    /* rows; varyings lend theirs if they are 12 */
+/* rows; varyings lend theirs if they are 12 */
+enum { SHADE__SCRATCH = SHADE_MAX_VARYINGS < 12 ? 12 : 1 };
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
 SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t i)
@@ -2780,7 +2949,8 @@ SHADE__INLINE void shade__put(float *rows, int i, shade_vec3 v)
 }
 
 /* Object-space attributes of a packet to rows of P, N and albedo. */
-static void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in, float *P, float *N, float *albedo)
+static void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in, float *P,
+                                  float *N, float *albedo)
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -2790,7 +2960,8 @@ static void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids 
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
-/* The same for faces: their normal (length of twice the area), and with per_face their centroid and first colour. */
+/* The same for faces: their normal (length of twice the area), and with per_face their centroid
+   and first colour. */
 static void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in, int per_face,
                                float *P, float *N, float *albedo)
 {
@@ -2808,7 +2979,8 @@ static void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in
 }
 
 /* clip = m (P, 1) */
-SHADE__INLINE void shade__lane_clip(shade_mat4 m, const float *SHADE_RESTRICT P, float *SHADE_RESTRICT clip)
+SHADE__INLINE void shade__lane_clip(shade_mat4 m, const float *SHADE_RESTRICT P,
+                                    float *SHADE_RESTRICT clip)
 {
     SHADE_EACH_LANE(i) {
         float x = P[i], y = P[i + SHADE_LANES], z = P[i + 2 * SHADE_LANES];
@@ -2835,12 +3007,14 @@ SHADE__INLINE void shade__lane_normal(shade_mat3 m, float *SHADE_RESTRICT N)
         float x = N[i], y = N[i + SHADE_LANES], z = N[i + 2 * SHADE_LANES];
         float a = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z;
         float b = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z;
-        float c = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z, r = shade__rsqrt(a * a + b * b + c * c);
+        float c = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z,
+            r = shade__rsqrt(a * a + b * b + c * c);
         N[i] = a * r, N[i + SHADE_LANES] = b * r, N[i + 2 * SHADE_LANES] = c * r;
     }
 }
 
-SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
+                                           const shade_vertex_ids *SHADE_RESTRICT in,
                                            shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
@@ -2949,14 +3123,15 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     return shade_draw(target, &p, mesh->indices, count, mesh->vertex_count, stats);
 }
 
-/* Angle between a vector of length y and components: atan2(y, x), y >= 0, within 1e-9.  atan t = pi/4 + atan((t - 1) / (t
-   + 1)) keeps the argument of the series below tan(pi/8). */
+/* Angle between a vector of length y and components: atan2(y, x), y >= 0, within 1e-9. atan t =
+   pi/4 + atan((t - 1) / (t + 1)) keeps the argument of the series below tan(pi/8). */
 static double shade__angle(double y, double x)
 {
     const double quarter = 0.78539816339744830962;
     double ax = x < 0 ? -x : x, t, s, a = 0;
     if (!(ax + y > 0)) return 0;
-    t = (y - ax) / (y + ax), s = t < -0.4142135623730951 ? y / ax : t > 0.4142135623730951 ? -ax / y : t;
+    t = (y - ax) / (y + ax),
+        s = t < -0.4142135623730951 ? y / ax : t > 0.4142135623730951 ? -ax / y : t;
     for (int k = 25; k > 0; k -= 2) a = 1.0 / k - a * s * s;
     a = a * s + (t < -0.4142135623730951 ? 0 : t > 0.4142135623730951 ? 2 * quarter : quarter);
     return x < 0 ? 4 * quarter - a : a;
@@ -2992,7 +3167,7 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
     return SHADE_OK;
 }
 
-/*------------------------------------------------------------------------------------------- >>image
+/*------------------------------------------------------------------------------------------ >>image
    Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on.    >>refs */
 
 static char *shade__decimal(char *p, int n)
@@ -3011,7 +3186,8 @@ static void shade__row_rgb(const shade_target *t, size_t at, int width, uint8_t 
         } else if (t->format == SHADE_RGB565) {
             uint16_t u;
             SHADE_MEMCPY(&u, p + 2 * i, 2);
-            rgb[0] = (uint8_t)(((u >> 11) * 255 + 15) / 31), rgb[1] = (uint8_t)(((u >> 5 & 63) * 255 + 31) / 63);
+            rgb[0] = (uint8_t)(((u >> 11) * 255 + 15) / 31),
+                rgb[1] = (uint8_t)(((u >> 5 & 63) * 255 + 31) / 63);
             rgb[2] = (uint8_t)(((u & 31) * 255 + 15) / 31);
         } else {
             float c[4];
@@ -3023,7 +3199,8 @@ static void shade__row_rgb(const shade_target *t, size_t at, int width, uint8_t 
         }
     }
 }
-SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user, const shade_target *target)
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
+                                       const shade_target *target)
 {
     uint8_t rgb[3 * SHADE_LANES];
     char head[32] = "P6\n", *p = head + 3;
@@ -3078,19 +3255,22 @@ SHADE__EXACT_END
 #endif /* SHADE__IMPLEMENTED */
 #endif /* SHADE_IMPLEMENTATION */
 
-/*-------------------------------------------------------------------------------------------- >>refs
+/*------------------------------------------------------------------------------------------- >>refs
    [Blinn77]      J. F. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977,
                   Computer Graphics 11(2), 192-198.
    [Gooch98]      A. Gooch, B. Gooch, P. Shirley, E. Cohen, "A Non-Photorealistic Lighting Model for Automatic
                   Technical Illustration", SIGGRAPH 1998, 447-452.
-   [Gouraud71]    H. Gouraud, "Continuous Shading of Curved Surfaces", IEEE Transactions on Computers C-20(6), 623-629.
+   [Gouraud71]    H. Gouraud, "Continuous Shading of Curved Surfaces",
+       IEEE Transactions on Computers C-20(6), 623-629.
    [IEC61966]     IEC 61966-2-1:1999, the sRGB colour space.
    [Kadlec10]     J. Kadlec, "Improving the fast inverse square root", 2010: the constant and its Newton step.
    [Kilgard94]    The materials of teapots.c, Silicon Graphics 1993, M. J. Kilgard 1994.
-   [Phong75]      B. T. Phong, "Illumination for Computer Generated Pictures", Communications of the ACM 18(6), 311-317.
+   [Phong75]      B. T. Phong, "Illumination for Computer Generated Pictures",
+       Communications of the ACM 18(6), 311-317.
    [Pineda88]     J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988,
                   Computer Graphics 22(4), 17-20.
-   [Sutherland74] I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping", Communications of the ACM 17(1), 32-42.
+   [Sutherland74] I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping",
+       Communications of the ACM 17(1), 32-42.
    [Thurmer98]    G. Thuermer, C. A. Wuethrich, "Computing Vertex Normals from Polygonal Facets",
                   Journal of Graphics Tools 3(1), 43-46.
 */
