@@ -1,0 +1,55 @@
+# make            builds the examples and draws the gallery into out/
+# make test       all tests (a C compiler and make are enough); make test T=clip runs one section
+# make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
+# make matrix     the same pictures from other compilers, flags and processors
+# make gallery    the small PNGs of the README (needs pnmtopng or ImageMagick)
+# make vector-report   loops over lanes that the compiler left scalar: none
+
+CC      ?= cc
+CFLAGS  ?= -O2
+WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef
+FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
+# pictures must not depend on the compiler, so neither do the examples' own sums
+EXACT    = -ffp-contract=off
+
+NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
+SHARED   = shade.h $(wildcard examples/*.h)
+
+all: $(NUMBERED:%=out/%.ppm) build/thumbnail
+
+build/%: examples/%.c $(SHARED)
+	@mkdir -p build
+	$(CC) $(FLAGS) $(EXACT) $< -lm -o $@
+out/%.ppm: build/%
+	@mkdir -p out
+	build/$* $@
+
+build/test_main: $(wildcard tests/*.c tests/*.h) shade.h
+	@mkdir -p build
+	$(CC) $(FLAGS) tests/main.c -lm -o $@
+build/golden: tests/golden.c
+	@mkdir -p build
+	$(CC) $(FLAGS) tests/golden.c -o $@
+
+test: build/test_main
+ifdef T
+	build/test_main $(T)
+else
+	@sh tests/all.sh "$(MAKE)" "$(CC)"
+endif
+
+bench:
+	@sh bench/run.sh
+bench-plot:
+	@sh bench/plot.sh
+matrix:
+	@sh tests/matrix.sh
+gallery: all
+	@sh examples/gallery.sh
+vector-report:
+	@sh tests/vector_report.sh
+
+clean:
+	rm -rf build out
+.PHONY: all test bench bench-plot matrix gallery vector-report clean
+.SECONDARY:
