@@ -242,9 +242,7 @@
 
 #if defined(__GNUC__) || defined(__clang__)
 #define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
-#define SHADE__PREFETCH(p) __builtin_prefetch(p, 1)
 #else
-#define SHADE__PREFETCH(p) ((void)(p))
 #define SHADE__LOWEST_BIT(x) shade__lowest_bit(x)
 #endif
 
@@ -1752,8 +1750,8 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
 
 /*------------------------------------------------------------------------------------------ >>store
    Linear colours to stored pixels and back.  8 bits: floor(255 clamp(c) + 1/2); NaN is 0.
-     in      rows of linear RGBA          out  uint32 pixels, still in registers' order: R in memory first
-     source  sRGB curve [IEC61966]                                                       >>fragment */
+     in      four rows of linear RGBA, stride floats apart        out  uint32 pixels
+     source  sRGB curve [IEC61966]                                                     >>fragment */
 
 /* clamp(x, 0, 1), NaN 0 */
 SHADE__INLINE float shade__unit(float x)
@@ -1771,6 +1769,11 @@ SHADE__INLINE float shade__srgb_decode(float c)
     float curve = shade__exp2_neg(shade__neg_log2((c + 0.055f) * (1 / 1.055f)) * 2.4f);
     return shade__select(c * (1 / 12.92f), curve, shade__mask(c > 0.04045f));
 }
+SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, const int n)
+{
+    SHADE__FOR(i, n) { c[i] = shade__srgb_encode(shade__unit(c[i])); }
+}
+
 /* where byte k of a pixel lies in a native uint32 */
 SHADE__INLINE int shade__byte_shift(int k)
 {
@@ -1779,66 +1782,69 @@ SHADE__INLINE int shade__byte_shift(int k)
     SHADE_MEMCPY(&first, &one, 1);
     return first ? 8 * k : 24 - 8 * k;
 }
-
-/* width lanes of rgba (4 rows) to pixels of 8 bits a channel */
-SHADE__INLINE void shade__pack_rgba8(const float *SHADE_RESTRICT rgba, int srgb,
-                                     uint32_t *SHADE_RESTRICT pixel, const int width)
+/* n pixels of 8 bits a channel */
+SHADE__INLINE void shade__pack_rgba8(const float *SHADE_RESTRICT rgba, const int stride,
+                                     uint32_t *SHADE_RESTRICT pixel, const int n)
 {
-    int r = shade__byte_shift(0), g = shade__byte_shift(1), b = shade__byte_shift(2);
-    int a = shade__byte_shift(3);
-    SHADE__FOR(i, width) {
-        float cr = shade__unit(rgba[i]), cg = shade__unit(rgba[i + SHADE_LANES]);
-        float cb = shade__unit(rgba[i + 2 * SHADE_LANES]),
-            ca = shade__unit(rgba[i + 3 * SHADE_LANES]);
-        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg),
-            cb = shade__srgb_encode(cb);
-        pixel[i] = (uint32_t)(int32_t)(cr * 255 + 0.5f) << r | (uint32_t)(int32_t)(cg * 255 + 0.5f) << g |
-                   (uint32_t)(int32_t)(cb * 255 + 0.5f) << b | (uint32_t)(int32_t)(ca * 255 + 0.5f) << a;
+    const int r = shade__byte_shift(0), g = shade__byte_shift(1), b = shade__byte_shift(2);
+    const int a = shade__byte_shift(3);
+    SHADE__FOR(i, n) {
+        int32_t cr = (int32_t)(shade__unit(rgba[i]) * 255 + 0.5f);
+        int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 255 + 0.5f);
+        int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 255 + 0.5f);
+        int32_t ca = (int32_t)(shade__unit(rgba[i + 3 * stride]) * 255 + 0.5f);
+        pixel[i] = (uint32_t)cr << r | (uint32_t)cg << g | (uint32_t)cb << b | (uint32_t)ca << a;
     }
 }
-/* to 5-6-5 bits; x, y: window positions, which choose the threshold of the 4 x 4 ordered
+/* n pixels of 5-6-5 bits; x, y: window positions, which choose the threshold of the 4 x 4 ordered
    dither: the bits of x ^ y and y, interleaved and reversed */
-SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba,
-                                      const float *SHADE_RESTRICT x,
-                                      const float *SHADE_RESTRICT y, int srgb, uint32_t dither,
-                                      uint32_t *SHADE_RESTRICT pixel, const int width)
+SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const int stride,
+                                      const float *SHADE_RESTRICT x, const float *SHADE_RESTRICT y,
+                                      uint32_t dither, uint32_t *SHADE_RESTRICT pixel, const int n)
 {
-    SHADE__FOR(i, width) {
-        uint32_t u = (uint32_t)(int32_t)x[i], v = (uint32_t)(int32_t)y[i], d = u ^ v;
+    SHADE__FOR(i, n) {
+        uint32_t v = (uint32_t)(int32_t)y[i], d = (uint32_t)(int32_t)x[i] ^ v;
         uint32_t rank = (d & 1) << 3 | (v & 1) << 2 | (d & 2) | (v & 2) >> 1;
         float t = shade__select(0.5f, ((float)(int32_t)rank + 0.5f) * 0.0625f, dither);
-        float cr = shade__unit(rgba[i]), cg = shade__unit(rgba[i + SHADE_LANES]);
-        float cb = shade__unit(rgba[i + 2 * SHADE_LANES]);
-        if (srgb) cr = shade__srgb_encode(cr), cg = shade__srgb_encode(cg),
-            cb = shade__srgb_encode(cb);
-        pixel[i] = (uint32_t)(int32_t)(cr * 31 + t) << 11 | (uint32_t)(int32_t)(cg * 63 + t) << 5 |
-                   (uint32_t)(int32_t)(cb * 31 + t);
+        int32_t cr = (int32_t)(shade__unit(rgba[i]) * 31 + t);
+        int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 63 + t);
+        int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 31 + t);
+        pixel[i] = (uint32_t)cr << 11 | (uint32_t)cg << 5 | (uint32_t)cb;
     }
 }
+/* n lanes for the target's format; encodes rgb in place where it asks for sRGB. */
+SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int stride, const float *x,
+                               const float *y, uint32_t *pixel, const int n)
+{
+    if (t->format == SHADE_RGBA32F) return;
+    if (t->srgb) {
+        for (int k = 0; k < 3; k++) shade__encode_row(rgba + k * stride, n);
+    }
+    if (t->format == SHADE_RGBA8) shade__pack_rgba8(rgba, stride, pixel, n);
+    else shade__pack_rgb565(rgba, stride, x, y, shade__mask(t->dither != 0), pixel, n);
+}
+static SHADE__NOINLINE void shade__pack8(const shade_target *t, float *rgba, const float *x,
+                                         const float *y, uint32_t *pixel)
+{
+    shade__pack(t, rgba, 8, x, y, pixel, 8);
+}
 
-SHADE__INLINE void shade__pack(const shade_target *t, const float *rgba, const float *x,
-                               const float *y,
-                               uint32_t *pixel, const int width)
-{
-    uint32_t dither = shade__mask(t->dither != 0);
-    if (t->format == SHADE_RGB565 && t->srgb) shade__pack_rgb565(rgba, x, y, 1, dither, pixel,
-                                                                 width);
-    else if (t->format == SHADE_RGB565) shade__pack_rgb565(rgba, x, y, 0, dither, pixel, width);
-    else if (t->srgb) shade__pack_rgba8(rgba, 1, pixel, width);
-    else shade__pack_rgba8(rgba, 0, pixel, width);
-}
-static SHADE__NOINLINE void shade__pack8(const shade_target *t, const float *rgba, const float *x,
-                                        const float *y, uint32_t *pixel)
-{
-    shade__pack(t, rgba, x, y, pixel, 8);
-}
 static size_t shade__pixel_bytes(shade_format format)
 {
     return format == SHADE_RGBA32F ? 16 : format == SHADE_RGB565 ? 2 : 4;
 }
-
+/* Stores one pixel: its packed form, or its four floats, stride apart. */
+SHADE__INLINE void shade__store(shade_format format, uint8_t *p, uint32_t pixel, const float *rgba,
+                                int stride)
+{
+    uint16_t u = (uint16_t)pixel;
+    if (format == SHADE_RGBA8) SHADE_MEMCPY(p, &pixel, 4);
+    else if (format == SHADE_RGB565) SHADE_MEMCPY(p, &u, 2);
+    else
+        for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + k * stride, 4);
+}
 /* The stored pixel at p as linear RGBA. */
-SHADE__INLINE void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
+static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 {
     if (t->format == SHADE_RGBA32F) {
         SHADE_MEMCPY(rgba, p, 16);
@@ -1857,30 +1863,40 @@ SHADE__INLINE void shade__fetch(const shade_target *t, const uint8_t *p, float *
 }
 
 /*--------------------------------------------------------------------------------------- >>fragment
-   The queue of pixels that passed, over all triangles of a batch; a full packet is shaded and stored.
-   Shading waiting fragments together measured 2 to 3 times faster on dense meshes than a packet per span.
-     in      rows of the queue: varyings times rw, and rw     out  depth (with may_discard), colour
+   The queue of pixels that passed, over the triangles of a batch; a full packet is shaded and
+   stored.  Shading waiting fragments together measured 2 to 3 times faster on dense meshes than a
+   packet per span.
+     in      rows of the queue: varyings times rw, and rw
+     out     depth (with may_discard), colour
      holds   The lanes from count on repeat the last one before a shader sees them.
-             Pixels are stored in drawing order.                                            >>setup */
+             Pixels are stored in drawing order.                                          >>setup */
 
 typedef struct shade__queue {
     shade_fragments f;                /* as the fragment shader gets it */
-    float    rw[SHADE_LANES];         /* 1/w, interpolated */
-    uint32_t offset[SHADE_LANES];     /* pixel in color and depth, from the first of the strip */
-    int      contiguous;              /* offsets count up by one from the first on */
+    union {
+        float    rw[SHADE_LANES];     /* 1/w, interpolated; then, when the varyings are divided, */
+        uint32_t offset[SHADE_LANES]; /* the pixel in color and depth, from the first of the strip */
+    } u;
+    uint32_t next;                    /* offset that would continue the run of the last pixels */
+    int      contiguous;              /* all pixels are one run */
 } shade__queue;
 
 enum { SHADE__TAIL = 2 };             /* floats of a vertex before its varyings: z, rw */
 enum {                                /* 8-lane rows that hold one vertex's interpolated values */
     SHADE__STRIDE_MAX = (SHADE_MAX_VARYINGS + SHADE__TAIL + 7) / 8 * 8,
-    SHADE__TAIL_FLOATS = SHADE_LANES * 14 + 4 * SHADE__STRIDE_MAX,
-    SHADE__BATCH_TRIANGLES = 2 * SHADE_LANES
+    SHADE__TAIL_FLOATS = SHADE_LANES * 9 + 4 * SHADE__STRIDE_MAX,
+    SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2
 };
 typedef struct shade__head {          /* a vertex after the vertex shader */
     int32_t  x, y;                    /* window, 24.8 fixed point */
     uint32_t out;                     /* planes it is outside of: SHADE__OUT_... */
     float    clip[4];
 } shade__head;
+typedef struct shade__incoming {      /* the vertices of a batch until they are placed */
+    shade_vertices   vertices;
+    shade_vertex_ids ids;
+    uint8_t slot_of[2 * SHADE_LANES]; /* direct-mapped: index -> slot of the batch */
+} shade__incoming;
 
 /* All that one draw call knows, on its stack. */
 struct shade__triangle;
@@ -1896,99 +1912,88 @@ struct shade__draw {
     uint8_t *color;                   /* NULL: none */
     float   *depth;                   /* NULL: none */
     size_t   pixel_bytes;
-    /* pixels from row to row; the row that color and depth start with */
-    int      stride, row_offset;
+    int      stride, row_offset;      /* pixels from row to row; the row memory starts with */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
     int      varyings, tail_stride;   /* floats a vertex in tails: a multiple of 8 */
     int      perspective, queued;     /* varyings are divided by w; fragments go to the queue */
     uint32_t less, equal, greater, always, write;    /* the depth test as masks */
     float    half_width, half_height; /* of the picture, in 1/256 pixels: below 2^22, exact */
-    shade_vertex_ids ids;
+    int      vertices;                /* of the batch */
     shade__head heads[SHADE_LANES];
     float    tails[SHADE__TAIL_FLOATS];
-    uint8_t  slot_of[2 * SHADE_LANES];  /* direct-mapped: index -> slot of the batch */
-    uint8_t  corner[3 * SHADE__BATCH_TRIANGLES];       /* slots of the batch's triangles */
-    union { shade_vertices vertices; shade__queue queue; } u;    /* first one, then the other */
+    uint8_t  corner[3 * SHADE__BATCH_TRIANGLES];            /* slots of the batch's triangles */
+    union { shade__incoming in; shade__queue queue; } u;    /* first one, then the other */
 };
 
-/* Depth test and write in drawing order, after a shader that may discard. Marks the lanes that
-   stay. */
-static void shade__late_depth(shade__draw *d, const uint32_t *discard, uint32_t *alive)
+/* Depth test and write in drawing order, after a shader that may discard.  Turns the discard row
+   into marks of the lanes that stay. */
+static void shade__late_depth(shade__draw *d, uint32_t *discard)
 {
     const shade__queue *q = &d->u.queue;
     for (int i = 0; i < q->f.count; i++) {
-        alive[i] = discard[i] == 0;
-        if (alive[i] && d->depth) {
-            float *p = d->depth + q->offset[i], z = q->f.z[i];
-            alive[i] = ((d->less & shade__mask(z < *p)) | (d->equal & shade__mask(z == *p)) |
-                        (d->greater & shade__mask(z > *p)) | d->always) != 0;
-            if (alive[i] && d->write) *p = z;
+        int alive = discard[i] == 0;
+        if (alive && d->depth) {
+            float *p = d->depth + q->u.offset[i], z = q->f.z[i];
+            alive = ((d->less & shade__mask(z < *p)) | (d->equal & shade__mask(z == *p)) |
+                     (d->greater & shade__mask(z > *p)) | d->always) != 0;
+            if (alive && d->write) *p = z;
         }
-        d->stats.fragments += alive[i] != 0;
+        discard[i] = (uint32_t)alive;
+        d->stats.fragments += alive;
     }
 }
 
-/* Stores lanes first .. last - 1 that are alive (NULL: all). */
-SHADE__INLINE void shade__scatter(const shade__draw *d, const float *rgba, const uint32_t *pixel,
-                                  const uint32_t *alive, int first, int last)
+/* Stores lanes first .. last - 1 that are alive (NULL: all); lane i stands at i - base of pixel and
+   of the rows of rgba. */
+SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive, const float *rgba,
+                                  int stride, const uint32_t *pixel, int base, int first, int last)
 {
-    const uint32_t *offset = d->u.queue.offset;
-    if (d->target->format == SHADE_RGBA8 && !alive) {
-        if (d->u.queue.contiguous) {
-            SHADE_MEMCPY(d->color + (size_t)offset[first] * 4, pixel + first,
-                         (size_t)(last - first) * 4);
-            return;
-        }
-        for (int i = first; i < last; i++) SHADE_MEMCPY(d->color + (size_t)offset[i] * 4, pixel + i,
-                                                        4);
+    const uint32_t *offset = d->u.queue.u.offset;
+    const shade_format format = d->target->format;
+    if (format == SHADE_RGBA8 && d->u.queue.contiguous && !alive) {
+        SHADE_MEMCPY(d->color + (size_t)offset[first] * 4, pixel + first - base,
+                     (size_t)(last - first) * 4);
         return;
     }
     for (int i = first; i < last; i++) {
         uint8_t *p = d->color + (size_t)offset[i] * d->pixel_bytes;
-        uint16_t u = (uint16_t)pixel[i];
-        if (alive && !alive[i]) continue;
-        if (d->target->format == SHADE_RGBA8) SHADE_MEMCPY(p, pixel + i, 4);
-        else if (d->target->format == SHADE_RGB565) SHADE_MEMCPY(p, &u, 2);
-        else
-            for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + i + k * SHADE_LANES, 4);
+        if (!alive || alive[i]) shade__store(format, p, pixel[i - base], rgba + i - base, stride);
     }
 }
-/* rgba of 8 lanes = blend with what is stored, which is zero in lanes that stay as they are,
-   those without live */
-SHADE__INLINE void shade__blend8(shade_blend blend, const uint32_t *SHADE_RESTRICT live,
-                                 const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT rgba)
+
+/* out = rgba blended with what is stored, 8 lanes */
+SHADE__INLINE void shade__blend8(shade_blend blend, const float *SHADE_RESTRICT rgba,
+                                 const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT out)
 {
     uint32_t over = shade__mask(blend == SHADE_OVER);
     SHADE__FOR(i, 8) {
-        float a = rgba[i + 3 * SHADE_LANES], s = shade__select(1, a, over & live[i]);
+        float a = rgba[i + 3 * SHADE_LANES], s = shade__select(1, a, over);
         float t = shade__select(1, 1 - a, over);
-        rgba[i] = rgba[i] * s + stored[i] * t;
-        rgba[i + SHADE_LANES] = rgba[i + SHADE_LANES] * s + stored[i + 8] * t;
-        rgba[i + 2 * SHADE_LANES] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 16] * t;
-        rgba[i + 3 * SHADE_LANES] = a + stored[i + 24] * t;
+        out[i] = rgba[i] * s + stored[i] * t;
+        out[i + 8] = rgba[i + SHADE_LANES] * s + stored[i + 8] * t;
+        out[i + 16] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 16] * t;
+        out[i + 24] = a + stored[i + 24] * t;
     }
 }
-/* Blends and stores in pieces of up to 8 lanes, in drawing order. The lanes of a piece belong to
+/* Blends and stores in pieces of up to 8 lanes, in drawing order.  The lanes of a piece belong to
    one triangle, so that no pixel comes twice in it. */
-static void shade__store_blended(const shade__draw *d, float *rgba, uint32_t *pixel,
-                                        const uint32_t *alive)
+static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const float *rgba,
+                                                 const uint32_t *alive)
 {
     const shade__queue *q = &d->u.queue;
     for (int i = 0, last; i < q->f.count; i = last) {
         int base = shade__min(i, SHADE_LANES - 8);
-        float stored[32] = { 0 };
-        uint32_t live[8] = { 0 };
+        float stored[32] = { 0 }, out[32];
+        uint32_t pixel[8] = { 0 };
         for (last = i; last < base + 8 && last < q->f.count; last++) {
             float c[4];
             if (q->f.primitive[last] != q->f.primitive[i]) break;
-            shade__fetch(d->target, d->color + (size_t)q->offset[last] * d->pixel_bytes, c);
+            shade__fetch(d->target, d->color + (size_t)q->u.offset[last] * d->pixel_bytes, c);
             for (int k = 0; k < 4; k++) stored[8 * k + last - base] = c[k];
-            live[last - base] = shade__mask(1);
         }
-        shade__blend8(d->pipe->blend, live, stored, rgba + base);
-        if (d->target->format != SHADE_RGBA32F)
-            shade__pack8(d->target, rgba + base, q->f.x + base, q->f.y + base, pixel + base);
-        shade__scatter(d, rgba, pixel, alive, i, last);
+        shade__blend8(d->pipe->blend, rgba + base, stored, out);
+        shade__pack8(d->target, out, q->f.x + base, q->f.y + base, pixel);
+        shade__scatter(d, alive, out, 8, pixel, base, i, last);
     }
 }
 
@@ -1999,38 +2004,46 @@ static void shade__replicate(shade__queue *q, int varyings)
     for (int i = n; i < SHADE_LANES; i++) {
         q->f.x[i] = q->f.x[last], q->f.y[i] = q->f.y[last], q->f.z[i] = q->f.z[last];
         q->f.primitive[i] = q->f.primitive[last], q->f.front[i] = q->f.front[last];
-        q->rw[i] = q->rw[last], q->offset[i] = q->offset[last];
+        q->u.rw[i] = q->u.rw[last];
         for (int k = 0; k < varyings; k++) q->f.in[k][i] = q->f.in[k][last];
     }
 }
-
-/* Divides the varyings by rw.  rw of a covered pixel lies between its vertices' and is positive. */
-SHADE__INLINE void shade__divide(shade__queue *SHADE_RESTRICT q, int varyings)
+/* Rows of varyings times w = 1/rw.  rw of a covered pixel lies between its vertices' and is positive. */
+SHADE__INLINE void shade__divide(float *SHADE_RESTRICT rw, float *SHADE_RESTRICT in, int varyings)
 {
-    SHADE_EACH_LANE(i) { q->rw[i] = 1 / q->rw[i]; }
-    for (int k = 0; k < varyings; k++) {
-        SHADE_EACH_LANE(i) { q->f.in[k][i] *= q->rw[i]; }
+    SHADE_EACH_LANE(i) { rw[i] = 1 / rw[i]; }
+    for (int k = 0; k < varyings; k++, in += SHADE_LANES) {
+        SHADE_EACH_LANE(i) { in[i] *= rw[i]; }
+    }
+}
+/* Offsets of the pixels; with the strip's first row below 2^14, all sums are exact in 32 bits. */
+SHADE__INLINE void shade__offsets(shade__queue *SHADE_RESTRICT q, uint32_t stride, int32_t row_offset)
+{
+    SHADE_EACH_LANE(i) {
+        uint32_t row = (uint32_t)((int32_t)q->f.y[i] - row_offset);
+        q->u.offset[i] = row * stride + (uint32_t)(int32_t)q->f.x[i];
     }
 }
 
 SHADE__INLINE void shade__flush_body(shade__draw *d)
 {
     shade_colors c;
-    uint32_t pixel[SHADE_LANES], *alive = (uint32_t *)0;
     shade__queue *q = &d->u.queue;
+    const uint32_t *alive = d->pipe->may_discard ? c.discard : (const uint32_t *)0;
+    uint32_t pixel[SHADE_LANES];
     if (q->f.count == 0) return;
-    shade__replicate(q, d->varyings);
-    if (d->perspective) shade__divide(q, d->varyings);
-    SHADE_MEMSET(c.out, 0, sizeof c.out);
-    SHADE_EACH_LANE(i) { c.out[3][i] = 1, c.discard[i] = 0; }
+    if (q->f.count < SHADE_LANES) shade__replicate(q, d->varyings);
+    if (d->perspective && d->varyings) shade__divide(q->u.rw, q->f.in[0], d->varyings);
+    shade__offsets(q, (uint32_t)d->stride, d->row_offset);
+    SHADE_EACH_LANE(i) {
+        c.out[0][i] = c.out[1][i] = c.out[2][i] = 0, c.out[3][i] = 1, c.discard[i] = 0;
+    }
     d->pipe->fragment(d->pipe->uniforms, &q->f, &c);
-    if (d->pipe->may_discard) shade__late_depth(d, c.discard, c.discard), alive = c.discard;
-    if (d->color && d->pipe->blend != SHADE_REPLACE) shade__store_blended(d, c.out[0], pixel,
-                                                                          alive);
+    if (alive) shade__late_depth(d, c.discard);
+    if (d->color && d->pipe->blend != SHADE_REPLACE) shade__store_blended(d, c.out[0], alive);
     else if (d->color) {
-        if (d->target->format != SHADE_RGBA32F)
-            shade__pack(d->target, c.out[0], q->f.x, q->f.y, pixel, SHADE_LANES);
-        shade__scatter(d, c.out[0], pixel, alive, 0, q->f.count);
+        shade__pack(d->target, c.out[0], SHADE_LANES, q->f.x, q->f.y, pixel, SHADE_LANES);
+        shade__scatter(d, alive, c.out[0], SHADE_LANES, pixel, 0, 0, q->f.count);
     }
     q->f.count = 0;
 }
@@ -2049,7 +2062,7 @@ SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
 
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
-    int      narrow;  /* at most 16 pixels wide before any clip: 32-bit edges suffice */
+    int      small;                   /* e stays below 2^30 in the box: 32 bits suffice */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
     int32_t  dx[3], dy[3];            /* their steps in x and y */
     float    x_ref, y_ref;            /* 1/2 - position of the reference vertex, pixels; exact */
@@ -2084,7 +2097,6 @@ SHADE__INLINE int shade__box(const shade__draw *d, const shade__head *a, const s
 {
     int32_t left = shade__min3(a->x, b->x, c->x), right = shade__max3(a->x, b->x, c->x);
     int32_t top = shade__min3(a->y, b->y, c->y), bottom = shade__max3(a->y, b->y, c->y);
-    t->narrow = right - left <= 16 * 256;
     t->x0 = shade__max((int)shade__floor256(left + 127), d->x0);
     t->x1 = shade__min((int)shade__floor256(right - 128), d->x1 - 1);
     t->y0 = shade__max((int)shade__floor256(top + 127), d->y0);
@@ -2100,6 +2112,8 @@ SHADE__INLINE void shade__edge(const shade__head *p, const shade__head *q, int k
     int bias = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
     t->e[k] = shade__floor256(dx * y - dy * x + bias);
     t->dx[k] = -dy, t->dy[k] = dx;
+    t->small &= (t->e[k] < 0 ? -t->e[k] : t->e[k]) + (dy < 0 ? -(int64_t)dy : dy) * (t->x1 - t->x0 + 3) +
+                    (dx < 0 ? -(int64_t)dx : dx) * (t->y1 - t->y0 + 9) < (1 << 30);
 }
 
 /* Planes of all values in one loop: value = base + gy (y - y_ref) + gx (x - x_ref), with
@@ -2157,6 +2171,7 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
     const shade__head *v[3] = { head[k[0]], head[k[1]], head[k[2]] };
     const float *s[3] = { tail[k[0]], tail[k[1]], tail[k[2]] };
     float slopes[4];
+    t->small = 1;
     shade__edge(v[0], v[1], 0, t), shade__edge(v[1], v[2], 1, t), shade__edge(v[2], v[0], 2, t);
     shade__slopes(v, area < 0 ? -area : area, slopes, t);
     shade__planes(s[0], s[1], s[2], slopes, d->tail_stride, t);
@@ -2169,43 +2184,107 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
 
 /*------------------------------------------------------------------------------------------ >>cover
    Which pixels of a triangle are inside and pass the depth test; runs of them go to the queue.
-     in      shade__triangle              out  depth (early test), fragments of the queue
-     method  Up to 16 pixels wide: windows of 8 pixels by 32-bit edges.  |e| <= (2^12 h + 2^24 w) / 256 plus one
-             window: below 2^31 for w <= 24, any height.  Wider: exact ends of each row's span in 64 bits,
-             then windows of 32 and 8.  Both cover the same pixels; a value at a pixel has the same bits on
-             every way: row base, then gx times the exact distance.  Rows of 8 measured twice as fast as
-             pixel by pixel on small triangles, spans twice as fast as rows on big ones.
-     holds   A window stays inside the clip rectangle: stores rewrite only pixels that are this thread's.  >>clip */
+     in      heads and tails of three vertices, the box of the triangle
+     out     depth (early test), fragments of the queue
+     method  Exact spans: the first and last pixel of each row from its three edges, 8 rows at once in
+             lanes where 32 bits hold the edges (w h below about 2^20 pixels), row by row in 64 bits else.
+             Then the depth test in windows of 32 and 8 pixels.  A value at a pixel has the same bits
+             however it is reached: row base, then gx times the exact distance.
+     holds   A window stays inside the clip rectangle: stores rewrite only pixels of this thread.
+                                                                                          >>clip */
 
-/* Edges, planes and test of a window on one row: e(i) = e + i dx for pixels x + i. */
-typedef struct shade__window {
-    int32_t e0, e1, e2, dx0, dx1, dx2;
-    int x, skip;                     /* first pixel; pixels to leave out at the left */
-    float z, gz, x_ref;              /* depth plane of the row */
-} shade__window;
+typedef struct shade__spans { int32_t first[8], last[8]; } shade__spans;    /* from x0; of 8 rows */
 
-/* Tests width pixels; writes depth; returns the set of those that passed, bit i for pixel x + i. */
-SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
-                                   const shade__window *SHADE_RESTRICT w,
-                                   float z_low, float z_high, float *SHADE_RESTRICT depth, const int width)
+/* Pixels 0 .. n - 1 of 8 rows where e + i dx + r dy >= 0 for all three edges.  An edge with dx < 0 is looked at
+   from the right end, so that each asks for the first i with e + i |dx| >= 0.  The quotient in float is off by
+   less than 1/100, so the truncated one is the answer, or one or two below it. */
+SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, int row, int n,
+                                      shade__spans *SHADE_RESTRICT s)
 {
-    const int32_t e0 = w->e0, e1 = w->e1, e2 = w->e2, x = w->x, skip = w->skip;
-    const int32_t dx0 = w->dx0, dx1 = w->dx1, dx2 = w->dx2;
+    SHADE__FOR(r, 8) { s->first[r] = 0, s->last[r] = n - 1; }
+    for (int k = 0; k < 3; k++) {
+        const int32_t dx = t->dx[k], dy = t->dy[k], step = dx < 0 ? -dx : dx;
+        const int32_t e0 = (int32_t)t->e[k] + row * dy + (dx < 0 ? (n - 1) * dx : 0);
+        const float inverse = step ? 1 / (float)step : (float)n, limit = (float)n;
+        const int32_t left = dx < 0 ? 0 : -1, right = dx < 0 ? -1 : 0, end = n - 1;
+        SHADE__FOR(r, 8) {
+            int32_t e = e0 + r * dy, q = (int32_t)shade__clamp_bits((float)-e * inverse, 0, limit);
+            int32_t i = q & left, j;
+            e += q * step;
+            j = e < 0 ? 1 : 0, e += j * step, j += e < 0 ? 1 : 0;
+            i = (q + j) & left, j = end - ((q + j) & right);
+            s->first[r] = s->first[r] > i ? s->first[r] : i;
+            s->last[r] = s->last[r] < j ? s->last[r] : j;
+        }
+    }
+}
+
+/* First (dx > 0) or last (dx < 0) i in 0 .. n - 1 with e + i dx >= 0; n or -1 if none is.  The quotient
+   in double is off by at most one, e being below 2^44; the loops make it exact. */
+static int shade__crossing(int64_t e, int32_t dx, int n)
+{
+    double q = -(double)e / dx;
+    int i = q <= 0 ? 0 : q >= n ? n : (int)q;
+    if (dx > 0) {
+        while (i > 0 && e + (int64_t)(i - 1) * dx >= 0) i--;
+        while (i < n && e + (int64_t)i * dx < 0) i++;
+    } else {
+        i = shade__min(i, n - 1);
+        while (i < n - 1 && e + (int64_t)(i + 1) * dx >= 0) i++;
+        while (i >= 0 && e + (int64_t)i * dx < 0) i--;
+    }
+    return i;
+}
+static void shade__spans_big(const shade__triangle *t, int row, int n, shade__spans *s)
+{
+    for (int r = 0; r < 8; r++) {
+        int first = 0, last = n - 1;
+        for (int k = 0; k < 3; k++) {
+            int64_t e = t->e[k] + (int64_t)(row + r) * t->dy[k];
+            if (t->dx[k] > 0) first = shade__max(first, shade__crossing(e, t->dx[k], n));
+            else if (t->dx[k] < 0) last = shade__min(last, shade__crossing(e, t->dx[k], n));
+            else if (e < 0) last = -1;
+        }
+        s->first[r] = first, s->last[r] = last;
+    }
+}
+
+/* Tests pixels x + skip .. x + skip + n - 1 of a window at x; z: depth of the row's plane at x_ref.  Writes
+   depth; returns the set of those that passed, bit i for pixel x + i. */
+SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
+                                   const shade__triangle *SHADE_RESTRICT t, float z0, int x,
+                                   int skip, int n, float *SHADE_RESTRICT depth, const int width)
+{
     const uint32_t less = d->less, equal = d->equal, greater = d->greater, always = d->always;
     const uint32_t write = d->write;
-    const float z0 = w->z, gz = w->gz, x_ref = w->x_ref;
+    const float gz = t->gx[0], x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
+    const int last = skip + n - 1;
     uint32_t set = 0;
     SHADE__FOR(i, width) {
-        int32_t e = (e0 + i * dx0) | (e1 + i * dx1) | (e2 + i * dx2) | (i - skip);
-        uint32_t m = shade__mask(e >= 0);
-        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high),
-            s = depth[i];
+        uint32_t m = shade__mask(((i - skip) | (last - i)) >= 0);
+        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high), s = depth[i];
         m &= (shade__mask(z < s) & less) | (shade__mask(z == s) & equal) |
              (shade__mask(z > s) & greater) | always;
         depth[i] = shade__select(s, z, m & write);
         set |= m & (1u << i);
     }
     return set;
+}
+/* The same for up to 8 pixels x .. x + n - 1, where a window of 8 may have to begin further left, or, if the clip
+   rectangle is narrower, to work on a copy.  Bit i stands for pixel x + i. */
+SHADE__INLINE uint32_t shade__test8(const shade__draw *d, const shade__triangle *t, float z, int x, int n,
+                                    float *row)
+{
+    int start = shade__min(x, d->x1 - 8);
+    uint32_t set;
+    if (start < d->x0) {
+        float copy[8] = { 0 };
+        SHADE_MEMCPY(copy, row + x, (size_t)n * 4);
+        set = shade__test(d, t, z, x, 0, n, copy, 8);
+        SHADE_MEMCPY(row + x, copy, (size_t)n * 4);
+        return set;
+    }
+    return shade__test(d, t, z, start, x - start, n, row + start, 8) >> (x - start);
 }
 
 SHADE__INLINE int shade__count_bits(uint32_t m)
@@ -2218,8 +2297,7 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
 /* Writes width lanes of the queue from lane c on: pixels x, x + 1, ... of row y. */
 SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
                                  const shade__triangle *SHADE_RESTRICT t,
-                                 const float *SHADE_RESTRICT row, int varyings, int x, int y,
-                                 uint32_t offset, int c, const int width)
+                                 const float *SHADE_RESTRICT row, int varyings, int x, int y, int c, const int width)
 {
     const float x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const float rw_low = t->rw_low, rw_high = t->rw_high, centre = (float)y + 0.5f;
@@ -2230,10 +2308,9 @@ SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
         q->f.x[c + i] = (float)(x + i) + 0.5f;
         q->f.y[c + i] = centre;
         q->f.z[c + i] = shade__clamp_bits(z + gz * px, z_low, z_high);
-        q->rw[c + i] = shade__clamp_bits(rw + grw * px, rw_low, rw_high);
+        q->u.rw[c + i] = shade__clamp_bits(rw + grw * px, rw_low, rw_high);
         q->f.primitive[c + i] = primitive;
         q->f.front[c + i] = front;
-        q->offset[c + i] = offset + (uint32_t)i;
     }
     for (int k = 0; k < varyings; k++) {
         const float v = row[SHADE__TAIL + k], g = t->gx[SHADE__TAIL + k];
@@ -2241,8 +2318,6 @@ SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
         SHADE__FOR(i, width) { in[i] = v + g * ((float)(x + i) + x_ref); }
     }
 }
-
-enum { SHADE__CHUNK = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels pushed at once */
 
 /* Values of the planes at x = x_ref of row y. */
 SHADE__INLINE void shade__row(const shade__triangle *SHADE_RESTRICT t, int stride, int y,
@@ -2254,6 +2329,8 @@ SHADE__INLINE void shade__row(const shade__triangle *SHADE_RESTRICT t, int strid
     }
 }
 
+enum { SHADE__CHUNK = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels pushed at once */
+
 /* Sends a run of n pixels to the queue, shading it whenever it is full. */
 SHADE__INLINE void shade__push_body(shade__draw *d, const shade__triangle *t, int x, int y, int n)
 {
@@ -2263,32 +2340,31 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__triangle *t, in
     shade__row(t, d->tail_stride, y, row);
     while (n > 0) {
         int c = q->f.count, room = SHADE_LANES - c, take;
-        if (c == 0) q->contiguous = 1;
-        else if (q->offset[c - 1] + 1 != offset) q->contiguous = 0;
+        q->contiguous = c == 0 || (q->contiguous && q->next == offset);
         if (n >= SHADE__CHUNK && room >= SHADE__CHUNK) {
-            shade__append(q, t, row, d->varyings, x, y, offset, c, SHADE__CHUNK);
+            shade__append(q, t, row, d->varyings, x, y, c, SHADE__CHUNK);
             take = SHADE__CHUNK;
         } else if (room >= 8) {
-            shade__append(q, t, row, d->varyings, x, y, offset, c, 8);
+            shade__append(q, t, row, d->varyings, x, y, c, 8);
             take = shade__min(n, 8);
         } else {
-            shade__append(q, t, row, d->varyings, x, y, offset, c, 1);
+            shade__append(q, t, row, d->varyings, x, y, c, 1);
             take = 1;
         }
         x += take, offset += (uint32_t)take, n -= take;
-        q->f.count = c + take;
+        q->next = offset, q->f.count = c + take;
         if (q->f.count == SHADE_LANES) d->flush(d);
     }
 }
-SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__triangle *t, int x, int y, int n), (d, t, x, y, n))
+SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__triangle *t, int x, int y, int n),
+                (d, t, x, y, n))
 
-/* Counts the pixels of a window's set and pushes its runs. */
+/* Counts the pixels of a set and pushes its runs; bit i stands for pixel x + i of row y. */
 SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int x, int y,
                                    uint32_t set)
 {
     d->stats.fragments += shade__count_bits(set);
-    if (!d->queued) return;
-    while (set) {
+    while (set && d->queued) {
         int first = SHADE__LOWEST_BIT(set), n;
         uint32_t rest = ~(set >> first);
         n = rest ? SHADE__LOWEST_BIT(rest) : 32;
@@ -2297,111 +2373,45 @@ SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int
     }
 }
 
-/* Tests pixels w->x .. last of row y in windows of width pixels; w->e holds at w->x. */
-SHADE__INLINE void shade__windows(shade__draw *d, const shade__triangle *t, shade__window *w, int y,
-                                  int last,
-                                  const int width)
+/* The depth test of n pixels from x on in row y, then the queue.  All are inside the triangle. */
+SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int x, int y, int n)
 {
-    float *depth = d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
-    for (int x = w->x; x <= last; x += width) {
-        int start = shade__min(x, d->x1 - width), back = start - w->x;
-        uint32_t set;
-        w->e0 += back * w->dx0, w->e1 += back * w->dx1, w->e2 += back * w->dx2;
-        w->x = start, w->skip = x - start;
-        set = shade__test(d, w, t->z_low, t->z_high, depth + start, width);
-        if (set) shade__push_set(d, t, start, y, set);
+    float z = t->base[0] + t->gy[0] * ((float)y + t->y_ref);
+    float *row = d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
+    for (; n >= 32; x += 32, n -= 32) {
+        uint32_t set = shade__test(d, t, z, x, 0, 32, row + x, 32);
+        if (set) shade__push_set(d, t, x, y, set);
+    }
+    if (n > 0) {
+        uint32_t set = 0;
+        for (int i = 0; i < n; i += 8)
+            set |= shade__test8(d, t, z, x + i, shade__min(n - i, 8), row) << i;
+        if (set) shade__push_set(d, t, x, y, set);
     }
 }
 
-SHADE__INLINE void shade__cover_narrow(shade__draw *d, const shade__triangle *t)
-{
-    int32_t e0 = (int32_t)t->e[0], e1 = (int32_t)t->e[1], e2 = (int32_t)t->e[2];
-    shade__window w;
-    w.dx0 = t->dx[0], w.dx1 = t->dx[1], w.dx2 = t->dx[2];
-    w.gz = t->gx[0], w.x_ref = t->x_ref;
-    for (int y = t->y0; y <= t->y1; y++) {
-        w.e0 = e0, w.e1 = e1, w.e2 = e2, w.x = t->x0;
-        w.z = t->base[0] + t->gy[0] * ((float)y + t->y_ref);
-        shade__windows(d, t, &w, y, t->x1, 8);
-        e0 += t->dy[0], e1 += t->dy[1], e2 += t->dy[2];
-    }
-}
-
-/* First (dx > 0) or last (dx < 0) x - x0 in 0 .. n - 1 with e + (x - x0) dx >= 0; n or -1 if
-   none is. The quotient in double is off by at most one, e being below 2^44; the loops make it
-   exact. */
-SHADE__INLINE int shade__crossing(int64_t e, int32_t dx, double inverse, int n)
-{
-    double q = -(double)e * inverse;
-    int x = q <= 0 ? 0 : q >= n ? n : (int)q;
-    if (dx > 0) {
-        while (x > 0 && e + (int64_t)(x - 1) * dx >= 0) x--;
-        while (x < n && e + (int64_t)x * dx < 0) x++;
-    } else {
-        x = shade__min(x, n - 1);
-        while (x < n - 1 && e + (int64_t)(x + 1) * dx >= 0) x++;
-        while (x >= 0 && e + (int64_t)x * dx < 0) x--;
-    }
-    return x;
-}
-
-/* A span that is known to be inside: the depth test, then the queue. */
-SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int y, int first, int last)
-{
-    shade__window w;
-    int wide = (last - first + 1) / 32 * 32;
-    if (!d->depth || d->pipe->may_discard) {
-        if (!d->pipe->may_discard) d->stats.fragments += last - first + 1;
-        if (d->queued) d->push(d, t, first, y, last - first + 1);
-        return;
-    }
-    w.e0 = w.e1 = w.e2 = w.dx0 = w.dx1 = w.dx2 = 0;
-    w.x = first, w.x_ref = t->x_ref;
-    w.z = t->base[0] + t->gy[0] * ((float)y + t->y_ref), w.gz = t->gx[0];
-    if (d->x1 - d->x0 < 8) {
-        shade__windows(d, t, &w, y, last, 1);
-        return;
-    }
-    if (wide) shade__windows(d, t, &w, y, first + wide - 1, 32);
-    w.x = first + wide, w.e0 = last - w.x, w.dx0 = -1;
-    shade__windows(d, t, &w, y, last, 8);
-}
-SHADE__INLINE void shade__cover_wide(shade__draw *d, const shade__triangle *t)
-{
-    int64_t e[3];
-    double inverse[3];
-    for (int k = 0; k < 3; k++) e[k] = t->e[k], inverse[k] = t->dx[k] ? 1.0 / t->dx[k] : 0;
-    for (int y = t->y0; y <= t->y1; y++) {
-        int n = t->x1 - t->x0 + 1, first = 0, last = n - 1;
-        for (int k = 0; k < 3; k++) {
-            if (t->dx[k] > 0) first = shade__max(first, shade__crossing(e[k], t->dx[k], inverse[k],
-                                                                        n));
-            else if (t->dx[k] < 0) last = shade__min(last, shade__crossing(e[k], t->dx[k],
-                                                                           inverse[k], n));
-            else if (e[k] < 0) last = -1;
-            e[k] += t->dy[k];
-        }
-        if (first <= last) shade__span(d, t, y, t->x0 + first, t->x0 + last);
-    }
-}
-
-/* Depth rows of a small triangle, asked for while setup computes. */
-SHADE__INLINE void shade__prefetch(const shade__draw *d, const shade__triangle *t)
-{
-    const float *p = d->depth + (size_t)(t->y0 - d->row_offset) * (size_t)d->stride + (size_t)t->x0;
-    for (int y = t->y0; y <= t->y1; y++, p += d->stride) SHADE__PREFETCH(p);
-}
-
-/* Sets up and draws a triangle whose box is known. Windows of 8 need a depth test and room
-   beside each other. */
+/* Sets up and draws a triangle whose box is known. */
 SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t,
-                                     const shade__head *const *head,
-                                     const float *const *tail)
+                                     const shade__head *const *head, const float *const *tail)
 {
-    if (t->narrow && d->depth) shade__prefetch(d, t);
+    const int n = t->x1 - t->x0 + 1, early = d->depth && !d->pipe->may_discard;
+    shade__spans s;
     shade__setup(d, head, tail, t);
-    if (t->narrow && d->depth && !d->pipe->may_discard && d->x1 - d->x0 >= 8) shade__cover_narrow(d, t);
-    else shade__cover_wide(d, t);
+    for (int y = t->y0; y <= t->y1; y += 8) {
+        int rows = shade__min(8, t->y1 - y + 1);
+        if (t->small) shade__spans_small(t, y - t->y0, n, &s);
+        else shade__spans_big(t, y - t->y0, n, &s);
+        for (int r = 0; r < rows; r++) {
+            int x = t->x0 + s.first[r], length = s.last[r] - s.first[r] + 1;
+            if (length <= 0) continue;
+            if (early) {
+                shade__span(d, t, x, y + r, length);
+                continue;
+            }
+            if (!d->pipe->may_discard) d->stats.fragments += length;
+            if (d->queued) d->push(d, t, x, y + r, length);
+        }
+    }
 }
 SHADE__DISPATCH(shade__cover,
                 (shade__draw *d, shade__triangle *t, const shade__head *const *head,
@@ -2632,8 +2642,8 @@ SHADE__INLINE void shade__project(double half_width, double half_height, int zer
 SHADE__INLINE void shade__gather(shade__draw *SHADE_RESTRICT d,
                                  const shade__placed *SHADE_RESTRICT p)
 {
-    const shade_vertices *v = &d->u.vertices;
-    int stride = d->tail_stride, n = d->ids.count;
+    const shade_vertices *v = &d->u.in.vertices;
+    int stride = d->tail_stride, n = d->u.in.ids.count;
     for (int i = 0; i < n; i++) {
         shade__head *h = &d->heads[i];
         float *tail = d->tails + i * stride;
@@ -2650,7 +2660,7 @@ SHADE__INLINE void shade__place_vertices_body(shade__draw *d)
 {
     shade__placed p;
     int zero_to_one = d->pipe->depth_zero_to_one != 0;
-    shade__classify(&d->u.vertices, zero_to_one, &p);
+    shade__classify(&d->u.in.vertices, zero_to_one, &p);
     shade__project((double)d->half_width, (double)d->half_height, zero_to_one, &p);
     shade__gather(d, &p);
 }
@@ -2658,29 +2668,29 @@ SHADE__DISPATCH(shade__place_vertices, (shade__draw *d), (d))
 
 static void shade__shade_vertices(shade__draw *d)
 {
-    shade_vertices *v = &d->u.vertices;
-    for (int i = d->ids.count; i < SHADE_LANES; i++) d->ids.index[i] = d->ids.index[d->ids.count - 1];
+    shade_vertices *v = &d->u.in.vertices;
+    for (int i = d->u.in.ids.count; i < SHADE_LANES; i++) d->u.in.ids.index[i] = d->u.in.ids.index[d->u.in.ids.count - 1];
     SHADE_MEMSET(v->clip, 0, sizeof v->clip);
     if (d->varyings) SHADE_MEMSET(v->out, 0, (size_t)d->varyings * sizeof v->out[0]);
-    d->pipe->vertex(d->pipe->uniforms, &d->ids, v);
+    d->pipe->vertex(d->pipe->uniforms, &d->u.in.ids, v);
     shade__place_vertices_pick()(d);
 }
 
 /* The slot of a vertex, new or known. */
 SHADE__INLINE int shade__slot(shade__draw *d, uint32_t index)
 {
-    uint8_t *known = &d->slot_of[index & (2 * SHADE_LANES - 1)];
-    if (*known < d->ids.count && d->ids.index[*known] == index) return *known;
-    d->ids.index[d->ids.count] = index;
-    *known = (uint8_t)d->ids.count;
-    return d->ids.count++;
+    uint8_t *known = &d->u.in.slot_of[index & (2 * SHADE_LANES - 1)];
+    if (*known < d->u.in.ids.count && d->u.in.ids.index[*known] == index) return *known;
+    d->u.in.ids.index[d->u.in.ids.count] = index;
+    *known = (uint8_t)d->u.in.ids.count;
+    return d->u.in.ids.count++;
 }
 /* Takes triangles first, ... of count while their vertices find room; returns how many. */
 static int shade__take_batch(shade__draw *d, const uint32_t *indices, int first, int count)
 {
     int n = 0, capacity = shade__min(SHADE_LANES, (int)SHADE__TAIL_FLOATS / d->tail_stride);
-    d->ids.count = 0;
-    while (n < SHADE__BATCH_TRIANGLES && first + n < count && d->ids.count + 3 <= capacity) {
+    d->u.in.ids.count = 0;
+    while (n < SHADE__BATCH_TRIANGLES && first + n < count && d->u.in.ids.count + 3 <= capacity) {
         for (int k = 0; k < 3; k++) {
             int corner = 3 * (first + n) + k;
             uint32_t index = indices ? indices[corner] : (uint32_t)corner;
@@ -2824,7 +2834,7 @@ static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipe
     d->write = shade__mask(!p->depth_read_only);
     d->half_width = (float)(t->width * 128), d->half_height = (float)(t->height * 128);
     SHADE_MEMSET(d->tails, 0, sizeof d->tails);
-    SHADE_MEMSET(d->slot_of, 0, sizeof d->slot_of);
+    SHADE_MEMSET(d->u.in.slot_of, 0, sizeof d->u.in.slot_of);
 }
 
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -2873,20 +2883,15 @@ static void shade__fill(uint8_t *p, const void *pattern, size_t bytes, size_t n)
 static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
                                  uint8_t *pattern)
 {
-    float rgba[4 * SHADE_LANES], px[8], py[8], c[4];
-    uint32_t pixel[8];
-    c[0] = color.x, c[1] = color.y, c[2] = color.z, c[3] = color.w;
+    float rgba[32], px[8], py[8];
+    uint32_t pixel[8] = { 0 };
     for (int i = 0; i < 8; i++) {
         px[i] = (float)(x + i) + 0.5f, py[i] = (float)y + 0.5f;
-        for (int k = 0; k < 4; k++) rgba[i + k * SHADE_LANES] = c[k];
+        rgba[i] = color.x, rgba[i + 8] = color.y, rgba[i + 16] = color.z, rgba[i + 24] = color.w;
     }
-    if (t->format != SHADE_RGBA32F) shade__pack8(t, rgba, px, py, pixel);
-    for (int i = 0; i < 8; i++) {
-        uint16_t u = (uint16_t)pixel[i];
-        if (t->format == SHADE_RGBA8) SHADE_MEMCPY(pattern + 4 * i, &pixel[i], 4);
-        else if (t->format == SHADE_RGB565) SHADE_MEMCPY(pattern + 2 * i, &u, 2);
-        else SHADE_MEMCPY(pattern + 16 * i, c, 16);
-    }
+    shade__pack8(t, rgba, px, py, pixel);
+    for (int i = 0; i < 8; i++)
+        shade__store(t->format, pattern + (size_t)i * shade__pixel_bytes(t->format), pixel[i], rgba + i, 8);
 }
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
