@@ -1408,7 +1408,7 @@ SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
 }
 
 /* Adds the light of one lamp to t.  N unit, facing the viewer where that is asked for; V unit. */
-static void shade__add_light(const shade__surface *s, const shade_light *light, shade_vec3 P,
+static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shade_light *light, shade_vec3 P,
                              shade_vec3 N, shade_vec3 V, shade_terms *t)
 {
     shade__lamp lamp = shade__lamp_of(light);
@@ -1425,9 +1425,9 @@ static void shade__add_light(const shade__surface *s, const shade_light *light, 
     t->ambient = shade_madd(t->ambient, ambient,
                             shade__product(s, SHADE_TERM_AMBIENT, s->ambient, light->ambient));
     if (nl > 0 || ((s->flags & SHADE_UNGATED_SPECULAR) && !shade__is_zero(N))) {
+        shade_vec3 H = shade_halfway(L, V);
         if (s->phong) gloss = shade_power(shade_dot(shade_mirror(L, N), V), s->shininess);
-        else if (!shade__is_zero(shade_halfway(L, V)))
-            gloss = shade_power(shade_dot(N, shade_halfway(L, V)), s->shininess);
+        else if (!shade__is_zero(H)) gloss = shade_power(shade_dot(N, H), s->shininess);
     }
     if (s->flags & SHADE_WEIGHTED_SPECULAR) gloss *= lit;
     if (s->flags & SHADE_TWO_SIDED_ABS) lit = nl < 0 ? -nl : nl;
@@ -1479,10 +1479,9 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
 typedef struct shade__rows {
     float rn[SHADE_LANES];       /* +-1/|N|: minus where N is turned toward the viewer */
     float rv[SHADE_LANES];       /* 1/|V| */
-    float L[3][SHADE_LANES];     /* unit, toward the lamp */
+    float L[3][SHADE_LANES];     /* unit, toward the lamp; in the end L[0] holds the highlight */
     float att[SHADE_LANES];      /* attenuation times cone */
-    float nl[SHADE_LANES];       /* N.L, signed */
-    float x[SHADE_LANES];        /* cosine under a power, its logarithm, the power */
+    float nl[SHADE_LANES];       /* L.S, then N.L, signed */
 } shade__rows;
 
 /* Row by row: 1/|N| and 1/|V|.  V = (eye - scale P) rv, so that scale 0 is a viewer at infinity. */
@@ -1534,7 +1533,7 @@ SHADE__INLINE void shade__lane_point(const float *SHADE_RESTRICT P, shade_vec3 a
     }
 }
 
-/* L.S into x, its cone as a mask of the attenuation; returns non-zero if some lane is inside */
+/* L.S into nl, its cone as a mask of the attenuation; returns non-zero if some lane is inside */
 SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff,
                                         shade__rows *SHADE_RESTRICT r)
 {
@@ -1542,14 +1541,14 @@ SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff,
     SHADE_EACH_LANE(i) {
         float cosine = r->L[0][i] * S.x + r->L[1][i] * S.y + r->L[2][i] * S.z;
         uint32_t inside = shade__mask(cosine >= cos_cutoff);
-        r->x[i] = shade__saturate(cosine);
+        r->nl[i] = shade__saturate(cosine);
         r->att[i] = shade__keep(r->att[i], inside);
         any |= inside;
     }
     return any;
 }
 
-/* x becomes N.H, -1 where H is undefined */
+/* L[0] becomes N.H, -1 where H is undefined */
 SHADE__INLINE void shade__lane_half(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
                                     shade_vec3 eye, float scale, shade__rows *SHADE_RESTRICT r)
 {
@@ -1561,10 +1560,10 @@ SHADE__INLINE void shade__lane_half(const float *SHADE_RESTRICT P, const float *
         float h2 = hx * hx + hy * hy + hz * hz;
         float nh = (N[i] * hx + N[i + SHADE_LANES] * hy + N[i + 2 * SHADE_LANES] * hz) *
                    (r->rn[i] * shade__rsqrt(h2));
-        r->x[i] = shade__select(shade__saturate(nh), -1, shade__mask(h2 < 1e-12f));
+        r->L[0][i] = shade__select(shade__saturate(nh), -1, shade__mask(h2 < 1e-12f));
     }
 }
-/* x becomes R.V = 2 (N.L)(N.V) - L.V */
+/* L[0] becomes R.V = 2 (N.L)(N.V) - L.V */
 SHADE__INLINE void shade__lane_mirror(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
                                       shade_vec3 eye, float scale, shade__rows *SHADE_RESTRICT r)
 {
@@ -1574,7 +1573,7 @@ SHADE__INLINE void shade__lane_mirror(const float *SHADE_RESTRICT P, const float
         float vz = (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv;
         float nv = (N[i] * vx + N[i + SHADE_LANES] * vy + N[i + 2 * SHADE_LANES] * vz) * r->rn[i];
         float lv = r->L[0][i] * vx + r->L[1][i] * vy + r->L[2][i] * vz;
-        r->x[i] = shade__saturate(2 * r->nl[i] * nv - lv);
+        r->L[0][i] = shade__saturate(2 * r->nl[i] * nv - lv);
     }
 }
 
@@ -1587,9 +1586,9 @@ SHADE__INLINE void shade__lane_log(float n, float *SHADE_RESTRICT x)
 /* Second half for the cone: att times (L.S)^e. */
 SHADE__INLINE void shade__lane_spot(shade__rows *SHADE_RESTRICT r)
 {
-    SHADE_EACH_LANE(i) { r->att[i] *= shade__exp2_neg(r->x[i]); }
+    SHADE_EACH_LANE(i) { r->att[i] *= shade__exp2_neg(r->nl[i]); }
 }
-/* Second half for the highlight: x = B (N.H)^n; open lifts the gate B, weighted multiplies by
+/* Second half for the highlight: L[0] = B (N.H)^n; open lifts the gate B, weighted multiplies by
    max(0, N.L). */
 SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted,
                                      shade__rows *SHADE_RESTRICT r)
@@ -1598,18 +1597,18 @@ SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted,
         float nl = r->nl[i];
         uint32_t above = shade__mask(nl > 0), gate = above | (open & shade__mask(r->rn[i] != 0));
         float weight = shade__select(1, shade__keep(nl, above), weighted);
-        r->x[i] = shade__keep(shade__exp2_neg(r->x[i]) * weight, gate);
+        r->L[0][i] = shade__keep(shade__exp2_neg(r->L[0][i]) * weight, gate);
     }
 }
 
-/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s x); with absolute |N.L|. Inlined with albedo
+/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s L[0]); with absolute |N.L|. Inlined with albedo
    NULL, the choice and its factor of 1 vanish. */
 SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
                                        const float *SHADE_RESTRICT albedo,
                                        const shade__rows *SHADE_RESTRICT r, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
-        float nl = r->nl[i], att = r->att[i], gloss = r->x[i] * att;
+        float nl = r->nl[i], att = r->att[i], gloss = r->L[0][i] * att;
         float lit = shade__keep(nl, shade__mask(nl > 0) | absolute);
         lit = shade__bits_float(shade__float_bits(lit) & 0x7FFFFFFFu) * att;
         float ar = albedo ? albedo[i] : 1, ag = albedo ? albedo[i + SHADE_LANES] : 1;
@@ -1620,38 +1619,39 @@ SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t ab
     }
 }
 
-/* rgb = base + k albedo */
-SHADE__INLINE void shade__lane_base(shade_vec3 base, shade_vec3 k,
-                                    const float *SHADE_RESTRICT albedo,
-                                    float *SHADE_RESTRICT rgb)
+/* rgb += L albedo, or rgb += L: what does not depend on a highlight is gathered in L first. */
+SHADE__INLINE void shade__lane_accumulate(const float *SHADE_RESTRICT L, const float *SHADE_RESTRICT albedo,
+                                          float *SHADE_RESTRICT rgb)
 {
-    SHADE_EACH_LANE(i) {
-        rgb[i] = base.x + k.x * (albedo ? albedo[i] : 1);
-        rgb[i + SHADE_LANES] = base.y + k.y * (albedo ? albedo[i + SHADE_LANES] : 1);
-        rgb[i + 2 * SHADE_LANES] = base.z + k.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+    if (albedo) {
+        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i] * albedo[i]; }
+    } else {
+        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i]; }
     }
 }
-/* rgb += att k albedo: a light's own ambient, where it is attenuated */
-SHADE__INLINE void shade__lane_ambient(shade_vec3 k, const float *SHADE_RESTRICT albedo,
-                                       const float *SHADE_RESTRICT att, float *SHADE_RESTRICT rgb)
+SHADE__INLINE void shade__lane_fill(shade_vec3 v, float *SHADE_RESTRICT rows)
 {
     SHADE_EACH_LANE(i) {
-        rgb[i] += att[i] * k.x * (albedo ? albedo[i] : 1);
-        rgb[i + SHADE_LANES] += att[i] * k.y * (albedo ? albedo[i + SHADE_LANES] : 1);
-        rgb[i + 2 * SHADE_LANES] += att[i] * k.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+        rows[i] = v.x, rows[i + SHADE_LANES] = v.y, rows[i + 2 * SHADE_LANES] = v.z;
     }
 }
-/* rgb += albedo (cool + k_w (warm - cool)), k_w = (1 + N.L) / 2 */
+/* L = att k: a light's own ambient, where it is attenuated */
+SHADE__INLINE void shade__lane_ambient(shade_vec3 k, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) {
+        float att = r->att[i];
+        r->L[0][i] = att * k.x, r->L[1][i] = att * k.y, r->L[2][i] = att * k.z;
+    }
+}
+/* L = cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
 SHADE__INLINE void shade__lane_cool_to_warm(shade_vec3 cool, shade_vec3 warm,
-                                            const float *SHADE_RESTRICT albedo,
-                                            const float *SHADE_RESTRICT nl, float *SHADE_RESTRICT rgb)
+                                            shade__rows *SHADE_RESTRICT r)
 {
     shade_vec3 d = shade_sub(warm, cool);
     SHADE_EACH_LANE(i) {
-        float kw = 0.5f + 0.5f * nl[i];
-        rgb[i] += (cool.x + kw * d.x) * (albedo ? albedo[i] : 1);
-        rgb[i + SHADE_LANES] += (cool.y + kw * d.y) * (albedo ? albedo[i + SHADE_LANES] : 1);
-        rgb[i + 2 * SHADE_LANES] += (cool.z + kw * d.z) * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+        float kw = 0.5f + 0.5f * r->nl[i];
+        r->L[0][i] = cool.x + kw * d.x, r->L[1][i] = cool.y + kw * d.y;
+        r->L[2][i] = cool.z + kw * d.z;
     }
 }
 
@@ -1665,7 +1665,7 @@ SHADE__INLINE uint32_t shade__lane_lamp(const shade_light *light, const shade__l
     else shade__lane_point(P, lamp->at, light->constant, light->linear, light->quadratic, r);
     if (lamp->spot) any = shade__lane_cone(lamp->axis, light->spot_cos_cutoff, r);
     if (any && lamp->spot && light->spot_exponent > 0) {
-        shade__lane_log(shade__minf(light->spot_exponent, FLT_MAX), r->x);
+        shade__lane_log(shade__minf(light->spot_exponent, FLT_MAX), r->nl);
         shade__lane_spot(r);
     }
     return shade__lane_horizon(N, r) & any;
@@ -1685,20 +1685,20 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
     uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
     if (!ambient && !gloss && shade__is_zero(kd)) return;
     any = shade__lane_lamp(light, &lamp, P, N, r);
-    if (ambient) {
-        shade_vec3 k = shade_mul(s->ambient, light->ambient);
-        if (albedo) shade__lane_ambient(k, albedo, r->att, rgb);
-        else shade__lane_ambient(k, (const float *)0, r->att, rgb);
+    if (any | open | absolute) {
+        if (gloss) {
+            if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
+            else shade__lane_half(P, N, eye, scale, r);
+            shade__lane_log(s->shininess, r->L[0]);
+            shade__lane_gloss(open, weighted, r);
+        } else SHADE_MEMSET(r->L[0], 0, sizeof r->L[0]);
+        if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
+        else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
     }
-    if (!(any | open | absolute)) return;
-    if (gloss) {
-        if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
-        else shade__lane_half(P, N, eye, scale, r);
-        shade__lane_log(s->shininess, r->x);
-        shade__lane_gloss(open, weighted, r);
-    } else SHADE_MEMSET(r->x, 0, sizeof r->x);
-    if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
-    else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
+    if (ambient) {
+        shade__lane_ambient(shade_mul(s->ambient, light->ambient), r);
+        shade__lane_accumulate(r->L[0], albedo, rgb);
+    }
 }
 
 SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_material *material,
@@ -1710,25 +1710,26 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_m
     shade_vec3 ambient = s.scene_ambient;
     float scale = s.flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
     shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_TWO_SIDED ? 0x80000000u : 0, &r);
+    shade__lane_fill(s.emission, rgb);
     if (s.cool_to_warm) {
-        SHADE_MEMSET(r.L, 0, sizeof r.L);
-        if (s.light_count > 0) {
-            shade__lamp lamp = shade__lamp_of(&lighting->lights[0]);
-            if (lamp.infinite) shade__lane_directional(lamp.at, &r);
-            else shade__lane_point(P, lamp.at, 1, 0, 0, &r);
-        }
+        shade__lamp lamp;
+        SHADE_MEMSET(&lamp, 0, sizeof lamp);
+        if (s.light_count > 0) lamp = shade__lamp_of(&lighting->lights[0]);
+        if (s.light_count <= 0 || lamp.infinite) shade__lane_directional(lamp.at, &r);
+        else shade__lane_point(P, lamp.at, 1, 0, 0, &r);
         (void)shade__lane_horizon(N, &r);
-        shade__lane_base(s.emission, shade_v3(0, 0, 0), (const float *)0, rgb);
-        if (albedo) shade__lane_cool_to_warm(s.cool, s.warm, albedo, r.nl, rgb);
-        else shade__lane_cool_to_warm(s.cool, s.warm, (const float *)0, r.nl, rgb);
+        shade__lane_cool_to_warm(s.cool, s.warm, &r);
+        shade__lane_accumulate(r.L[0], albedo, rgb);
         return;
     }
     if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_ATTENUATED_AMBIENT))
-        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient,
-                                                                    lighting->lights[j].ambient);
+        for (int j = 0; j < s.light_count; j++)
+            ambient = shade_add(ambient, lighting->lights[j].ambient);
     ambient = shade_mul(ambient, s.ambient);
-    if (albedo) shade__lane_base(s.emission, ambient, albedo, rgb);
-    else shade__lane_base(s.emission, ambient, (const float *)0, rgb);
+    if (!shade__is_zero(ambient)) {
+        shade__lane_fill(ambient, r.L[0]);
+        shade__lane_accumulate(r.L[0], albedo, rgb);
+    }
     for (int j = 0; j < s.light_count; j++)
         shade__lane_add_light(&s, &lighting->lights[j], P, N, albedo, eye, scale, &r, rgb);
 }
@@ -2525,7 +2526,10 @@ static void shade__place(const shade__draw *d, shade__polygon *p)
     int zero_to_one = d->pipe->depth_zero_to_one != 0;
     for (int i = 0; i < p->count; i++) {
         shade__head *h = &p->head[p->vertex[i]];
-        float *tail = p->tail[p->vertex[i]], w = h->clip[3], rw = d->perspective ? 1 / w : 1;
+        float w = shade__maxf(h->clip[3], shade__w_least), rw = d->perspective ? 1 / w : 1;
+        float *tail = p->tail[p->vertex[i]];
+        for (int k = 0; k < 3; k++)    /* rounding may leave a new vertex a little outside */
+            h->clip[k] = shade__maxf(-3 * w, shade__minf(h->clip[k], 3 * w));
         h->x = shade__snap(h->clip[0], w, (double)d->half_width, (double)d->half_width);
         h->y = shade__snap(h->clip[1], w, -(double)d->half_height, (double)d->half_height);
         tail[0] = shade__window_depth(h->clip[2], w, zero_to_one ? 1 : 0.5, zero_to_one ? 0 : 0.5);
@@ -2954,7 +2958,7 @@ SHADE__INLINE void shade__put(float *rows, int i, shade_vec3 v)
 }
 
 /* Object-space attributes of a packet to rows of P, N and albedo. */
-static void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in, float *P,
+static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in, float *P,
                                   float *N, float *albedo)
 {
     const shade_mesh *m = s->mesh;
@@ -2967,7 +2971,7 @@ static void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids 
 }
 /* The same for faces: their normal (length of twice the area), and with per_face their centroid
    and first colour. */
-static void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in, int per_face,
+static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in, int per_face,
                                float *P, float *N, float *albedo)
 {
     const shade_mesh *m = s->mesh;
@@ -3045,15 +3049,16 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
                             shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, in->in[0], in->in[3],
-                    s->mesh->colors ? in->in[6] : (const float *)0, out->out[0]);
+    const float *P = in->in[0], *N = P + 3 * SHADE_LANES, *albedo = N + 3 * SHADE_LANES;
+    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N,
+                    s->mesh->colors ? albedo : (const float *)0, out->out[0]);
 }
 /* Gouraud and flat: the colour arrives. */
 static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                               shade_colors *SHADE_RESTRICT out)
 {
     (void)uniforms;
-    SHADE_MEMCPY(out->out, in->in, 3 * sizeof in->in[0]);
+    SHADE_MEMCPY(out->out[0], in->in[0], 3 * sizeof in->in[0]);
 }
 
 static int shade__bad_stride(int stride) { return stride < 0 || stride % 4; }

@@ -1,0 +1,51 @@
+/* 02_iterations.c - one sphere, five times: the lighting equation as it grows from left to right.
+
+   Iteration zero glows; one adds ambient light; two the light of a lamp spread by Lambert's law;
+   three its highlight; four sums many lamps, weakened by distance or held in a cone.
+
+   cc -O2 -I. examples/02_iterations.c -lm -o iterations && ./iterations */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "mesh.h"
+#include "label.h"
+
+int main(int argc, char **argv)
+{
+    static const shade_model model[5] = {
+        SHADE_EMISSIVE, SHADE_AMBIENT, SHADE_LAMBERT, SHADE_BLINN_PHONG, SHADE_BLINN_PHONG
+    };
+    static const char *const name[5] = { "zero", "one", "two", "three", "four" };
+    static const char *const adds[5] = { "emission", "+ ambient", "+ lambert", "+ blinn-phong",
+                                         "+ lamps, cone" };
+    shade_material clay = { { 0.035f, 0.006f, 0.004f }, { 0.75f, 0.16f, 0.09f },
+                            { 0.75f, 0.16f, 0.09f }, { 0.35f, 0.35f, 0.35f }, 40 };
+    shade_light lamps[4];
+    shade_draw_state state = { 0 };
+    owned_mesh sphere = mesh_sphere(96, 48);
+    canvas c = canvas_new(960, 290, 2);
+
+    lamps[0] = shade_point_light(shade_v3(-2.6f, 3, 3.4f), shade_v3(1, 0.96f, 0.9f));
+    lamps[1] = shade_point_light(shade_v3(1.5f, -0.9f, 0.9f), shade_v3(0.15f, 0.5f, 1.4f));
+    lamps[1].constant = 0.2f, lamps[1].quadratic = 0.8f;
+    lamps[2] = shade_point_light(shade_v3(-1.5f, -1, 0.6f), shade_v3(0.2f, 1.2f, 0.35f));
+    lamps[2].quadratic = 1;
+    lamps[3] = shade_spot_light(shade_v3(2, 1, 4), shade_v3(-1.75f, -1.1f, -3.2f), 0.12f, 150,
+                                shade_v3(1.8f, 1.5f, 0.7f));
+    state.view = shade_mat4_look_at(shade_v3(0, 0, 6), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    state.projection = shade_mat4_perspective(0.42f, 192 / 220.0f, 1, 10);
+    state.material = &clay;
+    state.lighting.lights = lamps;
+    state.lighting.ambient = shade_v3(0.11f, 0.12f, 0.15f);
+
+    canvas_gradient(&c.target, shade_v3(0.045f, 0.05f, 0.06f), shade_v3(0.012f, 0.013f, 0.016f));
+    for (int i = 0; i < 5; i++) {
+        shade_target panel = canvas_panel(&c, 192 * i, 10, 192, 220);
+        state.lighting.model = model[i];
+        state.lighting.light_count = i < 4 ? 1 : 4;
+        shade_draw_mesh(&panel, &sphere.view, &state, NULL);
+        label_center(&c.target, 384 * i + 192, 460, 4, shade_v3(0.8f, 0.8f, 0.8f), name[i]);
+        label_center(&c.target, 384 * i + 192, 514, 2, shade_v3(0.42f, 0.43f, 0.45f), adds[i]);
+    }
+    mesh_free(&sphere);
+    return canvas_save(&c, argc, argv, "iterations.ppm");
+}

@@ -1,0 +1,49 @@
+/* 06_materials.c - twenty-four teapots in the twenty-four preset materials.
+
+   cc -O2 -I. examples/06_materials.c -lm -o materials && ./materials        writes materials.ppm */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "mesh.h"
+#include "label.h"
+#include "teapot.h"
+
+/* The presets are older than sRGB: numbers for the screen, not linear light. */
+static shade_vec3 linear(shade_vec3 k)
+{
+    return shade_v3(shade_power(k.x, 2.2f), shade_power(k.y, 2.2f), shade_power(k.z, 2.2f));
+}
+
+int main(int argc, char **argv)
+{
+    const int n = 16, width = 160, height = 140;
+    shade_light lamps[2];
+    shade_draw_state state = { 0 };
+    owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    canvas c = canvas_new(6 * width, 4 * height, 2);
+
+    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
+    lamps[0] = shade_directional_light(shade_v3(0.5f, -0.8f, -0.9f), shade_v3(1.3f, 1.3f, 1.3f));
+    lamps[1] = shade_directional_light(shade_v3(-1, -0.3f, 0.4f), shade_v3(0.35f, 0.4f, 0.5f));
+    state.model = shade_mat4_mul(shade_mat4_rotation(-0.45f, shade_v3(0, 1, 0)),
+                                 shade_mat4_translation(shade_v3(-0.38f, -1.5f, 0)));
+    state.view = shade_mat4_look_at(shade_v3(0, 5, 13), shade_v3(0, -0.25f, 0), shade_v3(0, 1, 0));
+    state.projection = shade_mat4_perspective(0.40f, (float)width / (float)height, 5, 25);
+    state.lighting.lights = lamps, state.lighting.light_count = 2;
+    state.lighting.ambient = shade_v3(0.5f, 0.5f, 0.5f);
+    state.lighting.flags = SHADE_TWO_SIDED;    /* the gap below the lid shows the inside */
+
+    canvas_gradient(&c.target, shade_v3(0.10f, 0.11f, 0.13f), shade_v3(0.035f, 0.037f, 0.045f));
+    for (int i = 0; i < SHADE_PRESET_COUNT; i++) {
+        int x = i % 6 * width, y = i / 6 * height;
+        shade_target panel = canvas_panel(&c, x, y, width, height);
+        shade_material material = shade_preset_material((shade_preset)i);
+        material.ambient = linear(material.ambient), material.diffuse = linear(material.diffuse);
+        material.specular = linear(material.specular);
+        state.material = &material;
+        shade_draw_mesh(&panel, &pot.view, &state, NULL);
+        label_center(&panel, width, 2 * height - 30, 2, shade_v3(0.6f, 0.6f, 0.6f),
+                     shade_preset_name((shade_preset)i));
+    }
+    mesh_free(&pot);
+    return canvas_save(&c, argc, argv, "materials.ppm");
+}

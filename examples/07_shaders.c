@@ -1,0 +1,78 @@
+/* 07_shaders.c - shaders of one's own: a vertex shader sends ripples over a teapot and tilts its
+   normals with them, a fragment shader paints stripes, cuts the light into steps and inks outlines.
+
+   cc -O2 -I. examples/07_shaders.c -lm -o shaders && ./shaders        writes shaders.ppm */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "mesh.h"
+#include "teapot.h"
+
+typedef struct scene {
+    shade_mat4 clip_from_world;
+    shade_vec3 eye;
+    shade_lighting lighting;
+    shade_material material;
+    const float *positions, *normals;
+} scene;
+
+static void ripple(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                   shade_vertices *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    SHADE_EACH_LANE(i) {
+        const float *p = s->positions + 3 * in->index[i], *n = s->normals + 3 * in->index[i];
+        const float height = 0.03f, per_unit = 3.2f;    /* a wave of two parabolas, and its slope */
+        float t = per_unit * p[1], x = 4 * (t - (float)(int)t) - 2, m = x < 0 ? -x : x;
+        float h = height * x * (m - 2), dh = 8 * height * per_unit * (m - 1);
+        shade_vec3 N = shade_v3(n[0], n[1], n[2]);
+        shade_vec3 P = shade_madd(shade_v3(p[0], p[1], p[2]), h, N);
+        shade_vec4 clip = shade_mat4_transform(s->clip_from_world, shade_v4(P.x, P.y, P.z, 1));
+        /* P = p + h(y) N tilts the normal by the part of grad h that lies in the surface. */
+        N = shade_madd(N, -dh, shade_v3(-N.y * N.x, 1 - N.y * N.y, -N.y * N.z));
+        out->clip[0][i] = clip.x, out->clip[1][i] = clip.y;
+        out->clip[2][i] = clip.z, out->clip[3][i] = clip.w;
+        out->out[0][i] = P.x, out->out[1][i] = P.y, out->out[2][i] = P.z;
+        out->out[3][i] = N.x, out->out[4][i] = N.y, out->out[5][i] = N.z;
+    }
+}
+
+static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                 shade_colors *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    float rgb[3][SHADE_LANES];
+    shade_lit_lanes(&s->lighting, &s->material, s->eye, in->in[0], in->in[3], NULL, rgb[0]);
+    SHADE_EACH_LANE(i) {
+        shade_vec3 P = shade_v3(in->in[0][i], in->in[1][i], in->in[2][i]);
+        shade_vec3 N = shade_normalize(shade_v3(in->in[3][i], in->in[4][i], in->in[5][i]));
+        float facing = shade_dot(N, shade_normalize(shade_sub(s->eye, P)));
+        float stripe = 1.6f * P.y - (float)(int)(1.6f * P.y), ink = facing < 0.25f ? 0.1f : 1.0f;
+        float level = ink * (float)(int)(4 * rgb[1][i] + 0.6f) / 4;
+        out->out[0][i] = level * (stripe < 0.5f ? 0.95f : 0.10f) + 0.02f * ink;
+        out->out[1][i] = level * (stripe < 0.5f ? 0.55f : 0.32f) + 0.01f * ink;
+        out->out[2][i] = level * (stripe < 0.5f ? 0.16f : 0.40f) + 0.03f * ink;
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const int n = 40;
+    shade_light lamp = shade_directional_light(shade_v3(0.6f, -0.8f, -0.7f), shade_v3(1, 1, 1));
+    shade_pipeline pipeline = { .vertex = ripple, .fragment = toon, .varyings = 6 };
+    owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    canvas c = canvas_new(640, 480, 4);
+    scene s = { .eye = { -1.2f, 4.6f, 9 }, .positions = pot.positions, .normals = pot.normals };
+    shade_mat4 view = shade_mat4_look_at(s.eye, shade_v3(0.3f, 1.4f, 0), shade_v3(0, 1, 0));
+
+    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
+    s.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.58f, 640 / 480.0f, 4, 20), view);
+    s.lighting.lights = &lamp, s.lighting.light_count = 1;
+    s.material.diffuse = shade_v3(0.85f, 0.85f, 0.85f);
+    s.material.specular = shade_v3(0.5f, 0.5f, 0.5f), s.material.shininess = 60;
+    pipeline.uniforms = &s;
+    canvas_gradient(&c.target, shade_v3(0.75f, 0.80f, 0.80f), shade_v3(0.95f, 0.88f, 0.75f));
+    shade_draw(&c.target, &pipeline, pot.indices, teapot_index_count(n),
+               teapot_vertex_count(n), NULL);
+    mesh_free(&pot);
+    return canvas_save(&c, argc, argv, "shaders.ppm");
+}

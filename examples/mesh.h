@@ -1,0 +1,206 @@
+/* mesh.h - what the examples share: meshes that own their arrays, simple shapes, and a canvas to
+   draw on.
+
+   The shapes and canvases are for examples: they exit where memory runs out.  obj.h reports it
+   instead. */
+#ifndef EXAMPLES_MESH_H
+#define EXAMPLES_MESH_H
+
+#include "shade.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Zeroed: empty.  The arrays may be NULL but for positions; view points into them and is what
+   shade_draw_mesh takes. */
+typedef struct owned_mesh {
+    shade_mesh view;
+    float *positions, *normals, *texcoords, *colors;
+    uint32_t *indices;
+} owned_mesh;
+
+static inline void mesh_free(owned_mesh *m)
+{
+    static const owned_mesh empty;
+    free(m->positions), free(m->normals), free(m->texcoords), free(m->colors), free(m->indices);
+    *m = empty;
+}
+
+/* Points view at what there is. */
+static inline void mesh_link(owned_mesh *m, int vertices, int indices)
+{
+    m->view.positions = m->positions, m->view.normals = m->normals;
+    m->view.texcoords = m->texcoords, m->view.colors = m->colors, m->view.indices = m->indices;
+    m->view.vertex_count = vertices, m->view.index_count = indices;
+}
+
+static inline void *example_memory(size_t count, size_t size)
+{
+    void *memory = calloc(count, size);
+    if (memory) return memory;
+    fprintf(stderr, "out of memory\n");
+    exit(1);
+}
+
+/* positions, normals, texcoords, indices, all zero */
+static inline owned_mesh mesh_new(int vertices, int indices)
+{
+    owned_mesh m = { { 0 }, 0, 0, 0, 0, 0 };
+    m.positions = (float *)example_memory((size_t)vertices, 3 * sizeof(float));
+    m.normals = (float *)example_memory((size_t)vertices, 3 * sizeof(float));
+    m.texcoords = (float *)example_memory((size_t)vertices, 2 * sizeof(float));
+    m.indices = (uint32_t *)example_memory((size_t)indices, sizeof(uint32_t));
+    mesh_link(&m, vertices, indices);
+    return m;
+}
+
+static inline void mesh_put(owned_mesh *m, int at, shade_vec3 p, shade_vec3 n, float u, float v)
+{
+    m->positions[3 * at] = p.x, m->positions[3 * at + 1] = p.y, m->positions[3 * at + 2] = p.z;
+    m->normals[3 * at] = n.x, m->normals[3 * at + 1] = n.y, m->normals[3 * at + 2] = n.z;
+    m->texcoords[2 * at] = u, m->texcoords[2 * at + 1] = v;
+}
+
+/* (cos, sin) of a turn, 0 .. 1, the same bits everywhere: the entries of a rotation about z */
+static inline shade_vec2 mesh_turn(float turn)
+{
+    shade_mat4 m = shade_mat4_rotation(6.2831853f * turn, shade_v3(0, 0, 1));
+    return shade_v2(m.col[0].x, m.col[0].y);
+}
+
+/* Unit sphere: stacks from pole to pole (+y first), slices around; normals are exact, no
+   triangle is without area. */
+static inline owned_mesh mesh_sphere(int slices, int stacks)
+{
+    owned_mesh m = mesh_new((slices + 1) * (stacks + 1), 6 * slices * (stacks - 1));
+    uint32_t *out = m.indices;
+    for (int i = 0; i <= stacks; i++) {
+        shade_vec2 polar = mesh_turn(0.5f * (float)i / (float)stacks);
+        if (i == stacks) polar = shade_v2(-1, 0);
+        for (int j = 0; j <= slices; j++) {
+            shade_vec2 around = mesh_turn((float)(j % slices) / (float)slices);
+            shade_vec3 n = shade_v3(polar.y * around.x, polar.x, -(polar.y * around.y));
+            uint32_t a = (uint32_t)(i * (slices + 1) + j), c = a + (uint32_t)slices + 1;
+            mesh_put(&m, (int)a, n, n, (float)j / (float)slices, (float)i / (float)stacks);
+            if (i == stacks || j == slices) continue;
+            if (i < stacks - 1) *out++ = a, *out++ = c, *out++ = c + 1;
+            if (i > 0) *out++ = a, *out++ = c + 1, *out++ = a + 1;
+        }
+    }
+    return m;
+}
+
+/* Square of cells x cells in the plane y = 0, from -half to half in x and z, facing +y */
+static inline owned_mesh mesh_plane(float half, int cells)
+{
+    owned_mesh m = mesh_new((cells + 1) * (cells + 1), 6 * cells * cells);
+    uint32_t *out = m.indices;
+    for (int i = 0; i <= cells; i++) {
+        for (int j = 0; j <= cells; j++) {
+            float u = (float)j / (float)cells, v = (float)i / (float)cells;
+            uint32_t a = (uint32_t)(i * (cells + 1) + j), c = a + (uint32_t)cells + 1;
+            mesh_put(&m, (int)a, shade_v3(half * (2 * u - 1), 0, half * (2 * v - 1)),
+                     shade_v3(0, 1, 0), u, v);
+            if (i == cells || j == cells) continue;
+            *out++ = a, *out++ = c, *out++ = c + 1, *out++ = a, *out++ = c + 1, *out++ = a + 1;
+        }
+    }
+    return m;
+}
+
+/* Cube from -1 to 1 with the normal of each face: 24 vertices */
+static inline owned_mesh mesh_cube(void)
+{
+    owned_mesh m = mesh_new(24, 36);
+    static const uint32_t quad[6] = { 0, 1, 2, 0, 2, 3 };
+    for (int face = 0; face < 6; face++) {
+        float sign = face & 1 ? -1.0f : 1.0f, e[9] = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+        /* the normal, and two edges whose cross product it is */
+        e[face / 2] = sign, e[3 + (face / 2 + 1) % 3] = sign, e[6 + (face / 2 + 2) % 3] = 1;
+        for (int k = 0; k < 4; k++) {
+            float u = k == 1 || k == 2 ? 1.0f : -1.0f, v = k >= 2 ? 1.0f : -1.0f;
+            shade_vec3 n = shade_v3(e[0], e[1], e[2]), p;
+            p = shade_madd(n, u, shade_v3(e[3], e[4], e[5]));
+            p = shade_madd(p, v, shade_v3(e[6], e[7], e[8]));
+            mesh_put(&m, 4 * face + k, p, n, (1 + u) / 2, (1 - v) / 2);
+        }
+        for (int k = 0; k < 6; k++) m.indices[6 * face + k] = quad[k] + 4 * (uint32_t)face;
+    }
+    return m;
+}
+
+/* A picture of linear light in 32-bit floats, drawn samples times larger both ways and averaged
+   at the end. */
+typedef struct canvas {
+    shade_target target;             /* samples * width by samples * height */
+    int width, height, samples;      /* of the finished picture */
+} canvas;
+
+static inline canvas canvas_new(int width, int height, int samples)
+{
+    canvas c = { { 0 }, width, height, samples };
+    size_t pixels = (size_t)(width * samples) * (size_t)(height * samples);
+    c.target.width = width * samples, c.target.height = height * samples;
+    c.target.format = SHADE_RGBA32F, c.target.srgb = 1;
+    c.target.color = example_memory(pixels, 4 * sizeof(float));
+    c.target.depth = (float *)example_memory(pixels, sizeof(float));
+    return c;
+}
+
+/* A part of the canvas as a target of its own, so that it has its own camera; pixels of the
+   finished picture */
+static inline shade_target canvas_panel(const canvas *c, int x, int y, int width, int height)
+{
+    shade_target t = c->target;
+    size_t at = (size_t)(y * c->samples) * (size_t)c->target.width + (size_t)(x * c->samples);
+    t.color = (float *)c->target.color + 4 * at, t.depth = c->target.depth + at;
+    t.stride = c->target.width, t.width = width * c->samples, t.height = height * c->samples;
+    return t;
+}
+
+/* Clears depth to 1, colour from one at the top to one at the bottom */
+static inline void canvas_gradient(const shade_target *target, shade_vec3 top, shade_vec3 bottom)
+{
+    shade_target row = *target;
+    row.clip_width = row.width, row.clip_height = 1;
+    for (row.clip_y = 0; row.clip_y < row.height; row.clip_y++) {
+        shade_vec3 k = shade_lerp(top, bottom, ((float)row.clip_y + 0.5f) / (float)row.height);
+        shade_clear(&row, shade_v4(k.x, k.y, k.z, 1), 1);
+    }
+}
+
+/* Averages the samples of each pixel in place; the result shares the memory of the canvas.
+   Light is cut to [0, 1] first: one sample of a highlight ten times too bright would otherwise
+   whiten the pixel and undo the antialiasing. */
+static inline shade_target canvas_finish(const canvas *c)
+{
+    shade_target t = c->target;
+    float *out = (float *)t.color;
+    const float *in = (const float *)c->target.color;
+    int s = c->samples;
+    for (int y = 0; y < c->height; y++) {
+        for (int x = 0; x < c->width; x++, out += 4) {
+            float sum[4] = { 0, 0, 0, 0 };
+            for (int k = 0; k < 4 * s * s; k++) {
+                size_t row = (size_t)(y * s + k / 4 / s), column = (size_t)(x * s + k / 4 % s);
+                float v = in[4 * (row * (size_t)c->target.width + column) + (size_t)(k % 4)];
+                sum[k % 4] += v > 0 ? v < 1 ? v : 1 : 0;
+            }
+            for (int k = 0; k < 4; k++) out[k] = sum[k] / (float)(s * s);
+        }
+    }
+    t.width = c->width, t.height = c->height, t.stride = 0, t.depth = NULL;
+    return t;
+}
+
+/* Writes the picture to argv[1] or to path and frees the canvas; what main returns. */
+static inline int canvas_save(canvas *c, int argc, char **argv, const char *path)
+{
+    shade_target picture = canvas_finish(c);
+    shade_result result;
+    if (argc > 1) path = argv[1];
+    result = shade_write_ppm(path, &picture);
+    if (result) fprintf(stderr, "%s: %s\n", path, shade_result_string(result));
+    free(c->target.color), free(c->target.depth);
+    return result != SHADE_OK;
+}
+#endif
