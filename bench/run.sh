@@ -1,0 +1,95 @@
+#!/bin/sh
+# run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
+#
+#   run.sh [compare] [maths] [kernel] [scaling] [size]     all of them where none is named
+#
+# CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an OBJ
+# file instead of the knot) may be set.  Figures for plot.sh are left in BUILD as bench_*.tsv.
+set -e
+cd "$(dirname "$0")/.."
+cc=${CC:-cc}
+cxx=${CXX:-c++}
+flags=${CFLAGS:--O2}
+build=${BUILD:-build}
+rounds=${ROUNDS:+--rounds $ROUNDS}
+standard="-std=c99 -I."
+mkdir -p "$build"
+
+# One processor, so that caches and clock stay the same.
+pin=
+if command -v taskset >/dev/null && taskset -c 0 true 2>/dev/null; then pin="taskset -c 0"; fi
+
+# Can a program with this line be built?  The rest are flags.
+can_build() {
+    printf '%s\nint main(void) { return 0; }\n' "$2" >"$build/probe.$1"
+    shift 2
+    "$@" -o "$build/probe" >/dev/null 2>&1
+}
+
+compare() {
+    peer=
+    if can_build c '#include <GL/osmesa.h>' $cc "$build/probe.c" -lOSMesa; then
+        peer="-DHAVE_OSMESA"
+    fi
+    $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/compare.c bench/peers/osmesa.c \
+        -o "$build/compare" ${peer:+-lOSMesa} -lm
+    echo "## The same pictures with llvmpipe"
+    echo
+    $pin "$build/compare" $rounds ${MESH:+--mesh "$MESH"} --tsv "$build/bench_compare.tsv"
+    echo
+}
+
+# The rest are flags of the compilers.
+maths_with() {
+    cglm= glm=
+    if can_build c '#include <cglm/cglm.h>' $cc "$build/probe.c" -lm; then cglm="-DHAVE_CGLM"; fi
+    if can_build cpp '#include <glm/glm.hpp>' $cxx "$build/probe.cpp"; then glm="-DHAVE_GLM"; fi
+    $cc $standard "$@" "-DBENCH_FLAGS=\"$*\"" -c bench/maths.c -o "$build/maths.o"
+    $cc $standard "$@" -c bench/maths_apart.c -o "$build/maths_apart.o"
+    $cc -std=gnu99 "$@" $cglm -c bench/peers/cglm.c -o "$build/maths_cglm.o"
+    $cxx "$@" $glm -c bench/peers/glm.cpp -o "$build/maths_glm.o"
+    $cxx "$build/maths.o" "$build/maths_apart.o" "$build/maths_cglm.o" "$build/maths_glm.o" -lm \
+        -o "$build/maths"
+    $pin "$build/maths" $rounds --tsv "$build/bench_maths.tsv"
+    echo
+}
+maths() {
+    echo "## Vectors and matrices"
+    echo
+    maths_with -O2
+    maths_with -O3 -march=native
+}
+
+kernel() {
+    $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/kernel.c -o "$build/kernel" -lm
+    echo "## The equations alone"
+    echo
+    $pin "$build/kernel" $rounds --tsv "$build/bench_kernel.tsv"
+    echo
+}
+
+scaling() {
+    $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/scaling.c -o "$build/scaling" -lm -pthread
+    echo "## Larger meshes, larger pictures, more threads"
+    echo
+    "$build/scaling" $rounds --tsv "$build/bench_scaling.tsv"
+    echo
+}
+
+size_of() {
+    echo "## Size"
+    echo
+    CC=$cc BUILD=$build sh bench/size.sh
+    echo
+}
+
+for part in ${*:-compare maths kernel scaling size}; do
+    case $part in
+    compare | maths | kernel | scaling) $part ;;
+    size) size_of ;;
+    *)
+        echo "run.sh: no part is called $part" >&2
+        exit 2
+        ;;
+    esac
+done

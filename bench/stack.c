@@ -1,0 +1,71 @@
+/* stack.c - bytes of stack that draws touch, measured: each runs in a thread whose stack was painted
+   before. */
+#include "clock.h"
+#include <pthread.h>
+#define SHADE_IMPLEMENTATION
+#include "scenes.h"
+
+enum { STACK_BYTES = 1 << 19, PAINT = 0xA7 };
+
+typedef struct job {
+    const scene *s;             /* NULL: nothing is drawn */
+    shade_mesh mesh;
+    shade_target target;
+    unsigned char *entry;       /* the frame of the thread's first function */
+} job;
+
+static void *draw_job(void *user)
+{
+    job *j = (job *)user;
+    unsigned char here = 0;
+    j->entry = &here;
+    if (j->s && shade_draw_mesh(&j->target, &j->mesh, &j->s->state, NULL) != SHADE_OK) exit(1);
+    return NULL;
+}
+
+/* Runs the job in a thread of its own; a thread's end takes stack too, as the empty job shows. */
+static long touched(job *j)
+{
+    static unsigned char *stack;
+    pthread_t thread;
+    pthread_attr_t attributes;
+    size_t low = 0;
+    if (!stack && posix_memalign((void **)(void *)&stack, 4096, STACK_BYTES)) exit(1);
+    draw_job(j);                /* binds the functions of shared libraries, which takes stack once */
+    memset(stack, PAINT, STACK_BYTES);
+    pthread_attr_init(&attributes);
+    if (pthread_attr_setstack(&attributes, stack, STACK_BYTES) ||
+        pthread_create(&thread, &attributes, draw_job, j)) exit(1);
+    pthread_join(thread, NULL);
+    pthread_attr_destroy(&attributes);
+    while (stack[low] == PAINT) low++;
+    return (long)(j->entry - (stack + low));
+}
+
+int main(void)
+{
+    scene s[4];
+    long most = 0, bytes, least;
+    job j;
+    s[0] = scene_teapot("teapot, per pixel", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
+    s[1] = scene_teapot("teapot, per vertex", SHADE_PER_VERTEX, SHADE_CULL_NONE);
+    s[2] = scene_teapot("teapot, per face", SHADE_PER_FACE, SHADE_CULL_NONE);
+    s[3] = scene_teapot("teapot, per pixel, from inside: clipped", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
+    scene_camera(&s[3], shade_v3(0.3f, 1, 0.2f), shade_v3(1, 1.2f, 0), 1.5f);
+    printf("| SHADE_LANES %d, SHADE_MAX_VARYINGS %d | bytes of stack |\n|---|---|\n", SHADE_LANES,
+           SHADE_MAX_VARYINGS);
+    memset(&j, 0, sizeof j);
+    least = touched(&j);
+    for (int i = 0; i < 4; i++) {
+        scene_link(&s[i]);
+        j.s = &s[i], j.target = scene_target(&s[i]), j.mesh = scene_mesh(&s[i]);
+        shade_clear(&j.target, s[i].background, 1);
+        bytes = touched(&j);
+        if (bytes > most) most = bytes;
+        printf("| %s | %ld |\n", s[i].name, bytes);
+        free(j.target.color), free(j.target.depth), scene_free(&s[i]);
+    }
+    if (most <= least) printf("| (a thread alone touches %ld) | |\n", least);
+    printf("| most | %ld |\n", most);
+    return 0;
+}

@@ -1,0 +1,258 @@
+/* canvas.h - pictures between guard bytes, and shaders that draw given clip-space triangles and
+   record what they were handed. */
+#ifndef CANVAS_H
+#define CANVAS_H
+
+#define CANVAS_GUARD 256 /* bytes before and after each buffer */
+#define CANVAS_BYTE 0xA5
+
+typedef struct canvas {
+    shade_target target;
+    unsigned char *color, *depth; /* the blocks, guards included */
+    size_t color_bytes, depth_bytes;
+} canvas;
+
+static size_t canvas_pixel_bytes(shade_format format)
+{
+    return format == SHADE_RGBA8 ? 4 : format == SHADE_RGB565 ? 2 : 16;
+}
+static int canvas_stride(const canvas *c)
+{
+    return c->target.stride ? c->target.stride : c->target.width;
+}
+static int canvas_rows(const canvas *c)
+{
+    return c->target.row_count ? c->target.row_count : c->target.height;
+}
+
+static unsigned char *canvas_block(size_t bytes)
+{
+    unsigned char *block = (unsigned char *)malloc(bytes + 2 * CANVAS_GUARD);
+    if (!block) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    memset(block, CANVAS_BYTE, bytes + 2 * CANVAS_GUARD);
+    return block;
+}
+
+/* A strip of rows of a picture (row_count 0: all of it).  stride 0: width.  with_depth 0: no depth
+   buffer. */
+static canvas canvas_strip(int width, int height, int stride, shade_format format, int with_depth,
+                           int row_offset, int row_count)
+{
+    canvas c;
+    memset(&c, 0, sizeof c);
+    c.target.width = width, c.target.height = height, c.target.stride = stride;
+    c.target.format = format, c.target.row_offset = row_offset, c.target.row_count = row_count;
+    size_t cells = (size_t)canvas_stride(&c) * (size_t)canvas_rows(&c);
+    c.color_bytes = cells * canvas_pixel_bytes(format);
+    c.color = canvas_block(c.color_bytes);
+    c.target.color = c.color + CANVAS_GUARD;
+    c.depth_bytes = cells * 4;
+    c.depth = canvas_block(c.depth_bytes);
+    if (with_depth) c.target.depth = (float *)(void *)(c.depth + CANVAS_GUARD);
+    return c;
+}
+static canvas canvas_open(int width, int height, int stride, shade_format format, int with_depth)
+{
+    return canvas_strip(width, height, stride, format, with_depth, 0, 0);
+}
+
+/* 1 while no byte of the guards and of the padding between width and stride has changed. */
+static int canvas_intact_block(const canvas *c, const unsigned char *block, size_t bytes,
+                               size_t cell)
+{
+    size_t row = (size_t)canvas_stride(c) * cell, used = (size_t)c->target.width * cell;
+    for (size_t i = 0; i < CANVAS_GUARD; i++) {
+        if (block[i] != CANVAS_BYTE || block[CANVAS_GUARD + bytes + i] != CANVAS_BYTE) return 0;
+    }
+    for (size_t at = 0; at < bytes && used < row; at += row) {
+        for (size_t i = used; i < row; i++) {
+            if (block[CANVAS_GUARD + at + i] != CANVAS_BYTE) return 0;
+        }
+    }
+    return 1;
+}
+static int canvas_intact(const canvas *c)
+{
+    return canvas_intact_block(c, c->color, c->color_bytes, canvas_pixel_bytes(c->target.format)) &&
+           canvas_intact_block(c, c->depth, c->depth_bytes, 4);
+}
+static void canvas_close(canvas *c)
+{
+    CHECK_SAY(canvas_intact(c), "bytes around a picture of %d x %d changed", c->target.width,
+              c->target.height);
+    free(c->color);
+    free(c->depth);
+}
+
+/* x, y in the picture; a strip's rows start at row_offset */
+static size_t canvas_index(const canvas *c, int x, int y)
+{
+    return (size_t)(y - c->target.row_offset) * (size_t)canvas_stride(c) + (size_t)x;
+}
+static const unsigned char *canvas_bytes(const canvas *c, int x, int y)
+{
+    return c->color + CANVAS_GUARD + 4 * canvas_index(c, x, y);
+}
+static unsigned canvas_565(const canvas *c, int x, int y)
+{
+    uint16_t v;
+    memcpy(&v, c->color + CANVAS_GUARD + 2 * canvas_index(c, x, y), 2);
+    return v;
+}
+static float canvas_float(const canvas *c, int x, int y, int channel)
+{
+    float v;
+    memcpy(&v, c->color + CANVAS_GUARD + 16 * canvas_index(c, x, y) + 4 * (size_t)channel, 4);
+    return v;
+}
+static float canvas_depth(const canvas *c, int x, int y)
+{
+    float v;
+    memcpy(&v, c->depth + CANVAS_GUARD + 4 * canvas_index(c, x, y), 4);
+    return v;
+}
+static int canvas_same(const canvas *a,
+                       const canvas *b) /* two pictures of one shape, bit for bit */
+{
+    return a->color_bytes == b->color_bytes && a->depth_bytes == b->depth_bytes &&
+           !memcmp(a->color + CANVAS_GUARD, b->color + CANVAS_GUARD, a->color_bytes) &&
+           !memcmp(a->depth + CANVAS_GUARD, b->depth + CANVAS_GUARD, a->depth_bytes);
+}
+static void canvas_clear(canvas *c, float depth)
+{
+    CHECK_INT(shade_clear(&c->target, shade_v4(0, 0, 0, 0), depth), SHADE_OK);
+}
+
+/* -------------------------------------------------------------------------------------- shaders */
+
+typedef struct fragment_record {
+    float x, y, z;
+    uint32_t primitive, front;
+    float in[SHADE_MAX_VARYINGS];
+} fragment_record;
+
+typedef struct recorder {
+    fragment_record *fragments;
+    int count, capacity;
+    long fragment_packets, vertex_packets, vertex_lanes;
+    long bad_counts, bad_tails; /* packets that break the rules of count and of replicated lanes */
+    unsigned char *vertex_seen; /* one byte per vertex, set when shaded; NULL: not wanted */
+} recorder;
+
+typedef struct scene {
+    const shade_vec4 *clip; /* per vertex */
+    const float *attribute; /* varyings floats per vertex */
+    int varyings;
+    const shade_vec4 *color; /* per primitive, for scene_flat */
+    recorder *record;        /* NULL: nothing is recorded */
+} scene;
+
+static recorder recorder_open(int capacity)
+{
+    recorder r;
+    memset(&r, 0, sizeof r);
+    r.capacity = capacity;
+    r.fragments = (fragment_record *)malloc((size_t)capacity * sizeof(fragment_record));
+    if (!r.fragments) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    return r;
+}
+
+static void scene_record_vertices(recorder *r, const shade_vertex_ids *in)
+{
+    r->vertex_packets++;
+    r->vertex_lanes += in->count;
+    if (in->count < 1 || in->count > SHADE_LANES) {
+        r->bad_counts++;
+        return;
+    }
+    for (int i = 0; i < SHADE_LANES; i++) {
+        if (i >= in->count && in->index[i] != in->index[in->count - 1]) r->bad_tails++;
+        if (r->vertex_seen) r->vertex_seen[in->index[i]] = 1;
+    }
+}
+static void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                         shade_vertices *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    if (s->record) scene_record_vertices(s->record, in);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade_vec4 p = s->clip[in->index[i]];
+        out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[2][i] = p.z, out->clip[3][i] = p.w;
+        for (int k = 0; k < s->varyings; k++) {
+            out->out[k][i] = s->attribute[(size_t)in->index[i] * (size_t)s->varyings + (size_t)k];
+        }
+    }
+}
+
+static void scene_record_fragments(const scene *s, const shade_fragments *in)
+{
+    recorder *r = s->record;
+    r->fragment_packets++;
+    if (in->count < 1 || in->count > SHADE_LANES) {
+        r->bad_counts++;
+        return;
+    }
+    int last = in->count - 1;
+    for (int i = in->count; i < SHADE_LANES; i++) {
+        int same = float_bits(in->x[i]) == float_bits(in->x[last]);
+        same &= float_bits(in->y[i]) == float_bits(in->y[last]);
+        same &= float_bits(in->z[i]) == float_bits(in->z[last]);
+        same &= in->primitive[i] == in->primitive[last] && in->front[i] == in->front[last];
+        for (int k = 0; k < s->varyings; k++) {
+            same &= float_bits(in->in[k][i]) == float_bits(in->in[k][last]);
+        }
+        if (!same) r->bad_tails++;
+    }
+    for (int i = 0; i < in->count && r->fragments && r->count < r->capacity; i++) {
+        fragment_record *f = &r->fragments[r->count++];
+        f->x = in->x[i], f->y = in->y[i], f->z = in->z[i];
+        f->primitive = in->primitive[i], f->front = in->front[i];
+        for (int k = 0; k < s->varyings; k++) f->in[k] = in->in[k][i];
+    }
+}
+/* the colour of the primitive */
+static void scene_flat(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                       shade_colors *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    if (s->record) scene_record_fragments(s, in);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade_vec4 c = s->color ? s->color[in->primitive[i]] : shade_v4(1, 1, 1, 1);
+        out->out[0][i] = c.x, out->out[1][i] = c.y, out->out[2][i] = c.z, out->out[3][i] = c.w;
+    }
+}
+/* the first four varyings as colour */
+static void scene_colors(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                         shade_colors *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    if (s->record) scene_record_fragments(s, in);
+    for (int k = 0; k < 4 && k < s->varyings; k++) {
+        for (int i = 0; i < SHADE_LANES; i++) out->out[k][i] = in->in[k][i];
+    }
+}
+
+static shade_pipeline scene_pipeline(const scene *s)
+{
+    shade_pipeline p;
+    memset(&p, 0, sizeof p);
+    p.vertex = scene_vertex, p.fragment = scene_flat, p.uniforms = s;
+    p.varyings = s->varyings;
+    return p;
+}
+
+/* The clip-space place of window point (X, Y) / 256 at clip w and depth z/w.  Reached to 1/2000
+   pixel in pictures of up to 16384 pixels, so that snapping finds X and Y again. */
+static shade_vec4 clip_of_fx8(double X, double Y, int width, int height, double z_ndc, double w)
+{
+    double x = 2 * X / (256.0 * width) - 1, y = 1 - 2 * Y / (256.0 * height);
+    return shade_v4((float)(x * w), (float)(y * w), (float)(z_ndc * w), (float)w);
+}
+
+#endif

@@ -1,0 +1,484 @@
+/* clip.c - what is outside goes, what is inside stays, and the cut leaves no trace. */
+
+/* The allowed move of an edge: snapping moves a corner by at most 1/512 pixel in x and in y
+   (0.71/256 along an edge's normal), clipping an edge by 1/256. */
+#define CLIP_MARGIN (2.0 / 256)
+
+static shade_stats draw_clip_space(canvas *c, const shade_vec4 *clip, int vertices, int zero_to_one,
+                                   recorder *r)
+{
+    scene s = { clip, NULL, 0, NULL, r };
+    shade_pipeline p = scene_pipeline(&s);
+    shade_stats stats;
+    p.depth_zero_to_one = zero_to_one;
+    memset(&stats, 0x55, sizeof stats);
+    CHECK_INT(shade_draw(&c->target, &p, NULL, vertices, vertices, &stats), SHADE_OK);
+    CHECK_INT(stats.triangles, vertices / 3);
+    CHECK_INT(stats.culled + stats.clipped + stats.rejected + stats.drawn, stats.triangles);
+    return stats;
+}
+
+TEST(clip, triangles_outside_one_plane_count_as_clipped)
+{
+    canvas c = canvas_open(40, 30, 43, SHADE_RGBA8, 1);
+    canvas_clear(&c, 1);
+    canvas before = canvas_open(40, 30, 43, SHADE_RGBA8, 1);
+    canvas_clear(&before, 1);
+    for (int i = 0; i < 3000; i++) {
+        shade_vec4 v[3];
+        int axis = rnd_int(0, 2), zero_to_one = rnd_one_in(2), side = rnd_one_in(2);
+        for (int k = 0; k < 3; k++) {
+            double w = (double)rnd_log(0.1, 10), p[3];
+            for (int j = 0; j < 3; j++)
+                p[j] = (double)rnd_float(zero_to_one && j == 2 ? 0.1 : -0.9, 0.9) * w;
+            p[axis] = (side ? 1 : -1) * w * (double)rnd_log(1.01, 100);
+            if (zero_to_one && axis == 2 && !side) p[2] = -w * (double)rnd_log(0.01, 1);
+            v[k] = shade_v4((float)p[0], (float)p[1], (float)p[2], (float)w);
+        }
+        shade_stats stats = draw_clip_space(&c, v, 3, zero_to_one, NULL);
+        CHECK_INT(stats.drawn, 0);
+        CHECK_INT(stats.rejected, 0);
+        CHECK_INT(stats.fragments, 0);
+    }
+    CHECK(canvas_same(&c, &before));
+    canvas_close(&c);
+    canvas_close(&before);
+}
+
+TEST(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled) /* front-facing, big */
+{
+    static const shade_vec4 offsets[] = { { 5, 0, 0, 0 },  { -5, 0, 0, 0 }, { 0, 5, 0, 0 },
+                                          { 0, -5, 0, 0 }, { 0, 0, 5, 0 },  { 0, 0, -5, 0 } };
+    canvas c = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas_clear(&c, 1);
+    for (int i = 0; i < 6; i++) {
+        shade_vec4 v[3];
+        for (int k = 0; k < 3; k++) v[k] = shade_add4(clip_corners[k], offsets[i]);
+        CHECK_INT(draw_clip_space(&c, v, 3, 0, NULL).clipped, 1);
+    }
+    shade_vec4 behind[3] = { { 0, 0, 0, -1 }, { 1, 0, 0, -2 }, { 0, 1, 0, -1 } };
+    CHECK_INT(draw_clip_space(&c, behind, 3, 0, NULL).clipped, 1);
+    canvas_close(&c);
+}
+
+TEST(clip, positions_that_are_no_numbers_are_rejected)
+{
+    static const uint32_t bad[] = { 0x7FC00000u, 0xFFC00000u, 0x7F800000u,
+                                    0xFF800000u, 0x7F7FFFFFu, 0xFF7FFFFFu };
+    canvas c = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas_clear(&c, 1);
+    canvas before = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas_clear(&before, 1);
+    for (int corner = 0; corner < 3; corner++)
+        for (int field = 0; field < 4; field++)
+            for (int k = 0; k < 8; k++) {
+                shade_vec4 v[3];
+                float f[4];
+                memcpy(v, clip_corners, sizeof v);
+                memcpy(f, &v[corner], sizeof f);
+                f[field] = k == 6 ? 1.1e30f : k == 7 ? -1.1e30f : bits_float(bad[k]);
+                memcpy(&v[corner], f, sizeof f);
+                CHECK_INT(draw_clip_space(&c, v, 3, 0, NULL).rejected, 1);
+            }
+    CHECK(canvas_same(&c, &before));
+    shade_vec4 v[3];
+    memcpy(v, clip_corners, sizeof v);
+    v[1].x = 9e29f; /* in range: clipped like any other */
+    CHECK_INT(draw_clip_space(&c, v, 3, 0, NULL).rejected, 0);
+    canvas_close(&c);
+    canvas_close(&before);
+}
+
+TEST(clip, zero_area_counts_as_culled)
+{
+    canvas c = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas_clear(&c, 1);
+    shade_vec4 point[3] = { { 0.1f, 0.2f, 0, 1 }, { 0.1f, 0.2f, 0, 1 }, { 0.1f, 0.2f, 0, 1 } };
+    shade_vec4 line[3] = { { -0.5f, 0, 0, 1 }, { 0.5f, 0, 0, 1 }, { 0, 0, 0, 1 } };
+    shade_vec4 tiny[3] = { { 0, 0, 0, 1 },
+                           { 1e-6f, 0, 0, 1 },
+                           { 0, 1e-6f, 0, 1 } }; /* one point after snapping */
+    CHECK_INT(draw_clip_space(&c, point, 3, 0, NULL).culled, 1);
+    CHECK_INT(draw_clip_space(&c, line, 3, 0, NULL).culled, 1);
+    CHECK_INT(draw_clip_space(&c, tiny, 3, 0, NULL).culled, 1);
+    canvas_close(&c);
+}
+
+/* A triangle of eye space through a perspective camera: some corners behind the eye, some far out.
+   */
+static void random_eye_triangle(shade_vec4 v[3], int zero_to_one, double spread)
+{
+    double near_z = 0.25, far_z = 20;
+    for (int k = 0; k < 3; k++) {
+        double ez = (double)rnd_float(-30, 8), x = (double)rnd_float(-spread, spread);
+        double y = (double)rnd_float(-spread, spread);
+        if (rnd_one_in(4)) ez = (double)rnd_float(-2, 0.5);
+        double a = zero_to_one ? -far_z / (far_z - near_z) : -(far_z + near_z) / (far_z - near_z);
+        double b = (zero_to_one ? -1 : -2) * far_z * near_z / (far_z - near_z);
+        v[k] = shade_v4((float)(1.5 * x), (float)(1.5 * y), (float)(a * ez + b), (float)-ez);
+    }
+}
+
+/* Draws one triangle on a cleared depth buffer and holds it to the exact half-planes of its visible
+   part, and its depth to the plane through its corners.  Returns the number of pixels drawn. */
+static int check_clipped(canvas *c, const shade_vec4 v[3], int zero_to_one)
+{
+    ref_triangle t;
+    canvas_clear(c, 1);
+    shade_stats stats = draw_clip_space(c, v, 3, zero_to_one, NULL);
+    if (!ref_triangle_of(&t, &v[0], &v[1], &v[2], c->target.width, c->target.height)) return 0;
+    int drawn = 0;
+    for (int y = 0; y < c->target.height; y++)
+        for (int x = 0; x < c->target.width; x++) {
+            double X = x + 0.5, Y = y + 0.5;
+            int want = ref_covers(&t, X, Y, CLIP_MARGIN, 1, zero_to_one),
+                got = canvas_bytes(c, x, y)[3] != 0;
+            drawn += got;
+            if (want >= 0 && got != want) {
+                CHECK_SAY(
+                    0, "pixel %d %d: got %d, want %d; (%a %a %a %a) (%a %a %a %a) (%a %a %a %a)", x,
+                    y, got, want, (double)v[0].x, (double)v[0].y, (double)v[0].z, (double)v[0].w,
+                    (double)v[1].x, (double)v[1].y, (double)v[1].z, (double)v[1].w, (double)v[2].x,
+                    (double)v[2].y, (double)v[2].z, (double)v[2].w);
+            }
+            if (!got) continue;
+            double z = ref_depth(&t, X, Y, zero_to_one), zx = ref_depth(&t, X + 1, Y, zero_to_one);
+            double slope = fabs(zx - z) + fabs(ref_depth(&t, X, Y + 1, zero_to_one) - z);
+            CHECK_NEAR(canvas_depth(c, x, y), fmin(1, fmax(0, z)), 2e-6 + slope / 100);
+        }
+    CHECK_INT(stats.fragments, drawn);
+    return drawn;
+}
+
+TEST(clip, near_and_far_cut_where_they_should)
+{
+    int drawn = 0, depths = 0;
+    for (int i = 0; i < 1500; i++) {
+        int zero_to_one = rnd_one_in(2);
+        canvas c = canvas_open(rnd_int(1, 50), rnd_int(1, 50), 0, SHADE_RGBA8, 1);
+        shade_vec4 v[3];
+        random_eye_triangle(v, zero_to_one, 12);
+        int pixels = check_clipped(&c, v, zero_to_one);
+        drawn += pixels > 0, depths += pixels;
+        canvas_close(&c);
+    }
+    CHECK_SAY(drawn > 300 && depths > 50000, "%d triangles, %d pixels", drawn, depths);
+}
+
+TEST(clip, corners_far_outside_the_guard_band_keep_their_edges)
+{
+    int drawn = 0;
+    static const double reach[] = { 2.5, 3.5, 10, 100, 1e4, 1e6 };
+    for (int i = 0; i < 1800; i++) {
+        canvas c = canvas_open(rnd_int(20, 60), rnd_int(20, 60), 0, SHADE_RGBA8, 1);
+        shade_vec4 v[3];
+        double far_out = reach[i % 6];
+        for (int k = 0; k < 3; k++) { /* one corner or two near the picture, the rest far out */
+            double size = rnd_one_in(2) ? far_out : 1,
+                   w = rnd_one_in(2) ? 1 : (double)rnd_log(0.5, 2);
+            v[k] = shade_v4((float)((double)rnd_float(-size, size) * w),
+                            (float)((double)rnd_float(-size, size) * w),
+                            (float)((double)rnd_float(-0.9, 0.9) * w), (float)w);
+        }
+        drawn += check_clipped(&c, v, 0) > 0;
+        canvas_close(&c);
+    }
+    CHECK_SAY(drawn > 400, "%d triangles", drawn);
+}
+
+TEST(clip, eye_space_far_to_the_sides_keeps_its_edges)
+{
+    int drawn = 0;
+    for (int i = 0; i < 1000; i++) {
+        canvas c = canvas_open(48, 36, 0, SHADE_RGBA8, 1);
+        shade_vec4 v[3];
+        random_eye_triangle(v, 0, i % 2 ? 60 : 1000);
+        drawn += check_clipped(&c, v, 0) > 0;
+        canvas_close(&c);
+    }
+    CHECK_SAY(drawn > 100, "%d triangles", drawn);
+}
+
+/* A grid of n x n squares with jittered inner points, in a plane given by its two axes; every
+   square split along a random diagonal, the corners of each triangle in random rotation and
+   winding. */
+static int jittered_grid(int n, shade_vec2 *points, uint32_t *indices)
+{
+    int count = 0;
+    for (int y = 0; y <= n; y++)
+        for (int x = 0; x <= n; x++) {
+            int inner = x > 0 && y > 0 && x < n && y < n;
+            points[y * (n + 1) + x] =
+                shade_v2((float)x / (float)n + (inner ? rnd_float(-0.3, 0.3) / (float)n : 0),
+                         (float)y / (float)n + (inner ? rnd_float(-0.3, 0.3) / (float)n : 0));
+        }
+    for (int y = 0; y < n; y++)
+        for (int x = 0; x < n; x++) {
+            uint32_t q[4], a = (uint32_t)(y * (n + 1) + x);
+            q[0] = a, q[1] = a + 1, q[2] = a + (uint32_t)n + 2, q[3] = a + (uint32_t)n + 1;
+            /* the diagonal must lie inside the quadrilateral: take the one whose two halves turn
+               the same way */
+            shade_vec2 p[4];
+            for (int k = 0; k < 4; k++) p[k] = points[q[k]];
+            int first = rnd_int(0, 1);
+            for (int attempt = 0; attempt < 2; attempt++, first ^= 1) {
+                shade_vec2 d = shade_sub2(p[first + 2], p[first]);
+                shade_vec2 e = shade_sub2(p[first + 1], p[first]),
+                           f = shade_sub2(p[(first + 3) % 4], p[first]);
+                double se = (double)d.x * (double)e.y - (double)d.y * (double)e.x;
+                double sf = (double)d.x * (double)f.y - (double)d.y * (double)f.x;
+                if (se * sf < 0) break;
+            }
+            first &= 1;
+            for (int half = 0; half < 2; half++) {
+                uint32_t t[3];
+                t[0] = q[first], t[1] = q[(first + 1 + half) % 4], t[2] = q[(first + 2 + half) % 4];
+                int turn = rnd_int(0, 2), swap = rnd_int(0, 1);
+                for (int k = 0; k < 3; k++) indices[count++] = t[((swap ? 3 - k : k) + turn) % 3];
+            }
+        }
+    return count;
+}
+
+enum { CLIP_GRID = 12 };
+
+/* How often each pixel is covered, counted by SHADE_ADD of one. */
+static void count_coverage(canvas *c, const shade_vec4 *clip, const uint32_t *indices, int count,
+                           int vertices)
+{
+    scene s = { clip, NULL, 0, NULL, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    p.blend = SHADE_ADD;
+    canvas_clear(c, 1);
+    CHECK_INT(shade_draw(&c->target, &p, indices, count, vertices, NULL), SHADE_OK);
+}
+
+TEST(clip, meshes_beyond_the_guard_band_cover_every_pixel_once)
+{
+    static shade_vec2 points[(CLIP_GRID + 1) * (CLIP_GRID + 1)];
+    static shade_vec4 clip[(CLIP_GRID + 1) * (CLIP_GRID + 1)];
+    static uint32_t indices[CLIP_GRID * CLIP_GRID * 6];
+    int vertices = (CLIP_GRID + 1) * (CLIP_GRID + 1);
+    static const double reach[] = { 1.5, 2.9, 5, 20, 100, 3000 };
+    for (int round = 0; round < 120; round++) {
+        int count = jittered_grid(CLIP_GRID, points, indices);
+        double size = reach[round % 6], cx = (double)rnd_float(-0.4, 0.4),
+               cy = (double)rnd_float(-0.4, 0.4);
+        for (int i = 0; i < vertices; i++) {
+            double w = round % 2 ? (double)rnd_log(0.2, 5) : 1;
+            clip[i] =
+                shade_v4((float)((2 * (double)points[i].x - 1 + cx * 0.1) * size * w),
+                         (float)((2 * (double)points[i].y - 1 + cy * 0.1) * size * w), 0, (float)w);
+        }
+        canvas c = canvas_open(rnd_int(1, 90), rnd_int(1, 90), 0, SHADE_RGBA32F, 0);
+        count_coverage(&c, clip, indices, count, vertices);
+        for (int y = 0; y < c.target.height; y++)
+            for (int x = 0; x < c.target.width; x++) CHECK_NEAR(canvas_float(&c, x, y, 0), 1, 0);
+        canvas_close(&c);
+    }
+}
+
+TEST(clip, meshes_through_the_near_plane_cover_every_pixel_once)
+{
+    static shade_vec2 points[(CLIP_GRID + 1) * (CLIP_GRID + 1)];
+    static shade_vec4 clip[(CLIP_GRID + 1) * (CLIP_GRID + 1)];
+    static uint32_t indices[CLIP_GRID * CLIP_GRID * 6];
+    int vertices = (CLIP_GRID + 1) * (CLIP_GRID + 1), inside = 0;
+    for (int round = 0; round < 120; round++) {
+        int count = jittered_grid(CLIP_GRID, points, indices);
+        /* a floor from behind the eye to beyond the far plane, rolled about the line of sight */
+        double roll = (double)rnd_float(-3.2, 3.2), drop = (double)rnd_log(0.3, 3),
+               tilt = (double)rnd_float(-0.1, 0.1);
+        double width = round % 3 ? 15 : 200, near_z = 0.25, far_z = 20;
+        shade_vec4 corner[4];
+        for (int i = 0; i < vertices; i++) {
+            double x = (2 * (double)points[i].x - 1) * width, z = 10 - 40 * (double)points[i].y;
+            double y = -drop + tilt * z, ex = cos(roll) * x - sin(roll) * y,
+                   ey = sin(roll) * x + cos(roll) * y;
+            clip[i] = shade_v4((float)ex, (float)ey,
+                               (float)(-(far_z + near_z) / (far_z - near_z) * z -
+                                       2 * far_z * near_z / (far_z - near_z)),
+                               (float)-z);
+        }
+        corner[0] = clip[0], corner[1] = clip[CLIP_GRID];
+        corner[2] = clip[vertices - 1], corner[3] = clip[vertices - 1 - CLIP_GRID];
+        ref_triangle half[2];
+        int ok = ref_triangle_of(&half[0], &corner[0], &corner[1], &corner[2], 64, 48);
+        ok &= ref_triangle_of(&half[1], &corner[0], &corner[2], &corner[3], 64, 48);
+        CHECK(ok);
+        canvas c = canvas_open(64, 48, 0, SHADE_RGBA32F, 0);
+        count_coverage(&c, clip, indices, count, vertices);
+        for (int y = 0; y < 48; y++)
+            for (int x = 0; x < 64; x++) {
+                double got = (double)canvas_float(&c, x, y, 0);
+                CHECK_SAY(got <= 1, "pixel %d %d is covered %g times", x, y, got);
+                int a = ref_covers(&half[0], x + 0.5, y + 0.5, 0.25, 1, 0);
+                int b = ref_covers(&half[1], x + 0.5, y + 0.5, 0.25, 1, 0);
+                if (a == 0 && b == 0) CHECK_NEAR(got, 0, 0);
+                int d = ref_covers(&half[0], x + 0.5, y + 0.5, -1e-9, 1, 0) == 1 ||
+                        ref_covers(&half[1], x + 0.5, y + 0.5, -1e-9, 1, 0) == 1;
+                if (!d) continue;
+                /* inside the floor, and away from its border: all eight points around it are inside
+                   as well */
+                int all = 1;
+                for (int k = 0; k < 9 && all; k++) {
+                    double X = x + 0.5 + 0.25 * (k % 3 - 1), Y = y + 0.5 + 0.25 * (k / 3 - 1);
+                    all = ref_covers(&half[0], X, Y, 0, 1, 0) == 1 ||
+                          ref_covers(&half[1], X, Y, 0, 1, 0) == 1;
+                }
+                if (!all) continue;
+                CHECK_NEAR(got, 1, 0);
+                inside++;
+            }
+        canvas_close(&c);
+    }
+    CHECK_SAY(inside > 20000, "%d pixels inside", inside);
+}
+
+/* one facing and one index per triangle, whatever is cut off */
+TEST(clip, facing_survives_the_cut)
+{
+    recorder r = recorder_open(20000);
+    int tested = 0;
+    for (int i = 0; i < 1500; i++) {
+        shade_vec4 v[3];
+        random_eye_triangle(v, 0, 15);
+        ref_triangle t;
+        if (!ref_triangle_of(&t, &v[0], &v[1], &v[2], 64, 48)) continue;
+        canvas c = canvas_open(64, 48, 0, SHADE_RGBA8, 0);
+        canvas_clear(&c, 1);
+        r.count = 0;
+        draw_clip_space(&c, v, 3, 0, &r);
+        for (int k = 0; k < r.count; k++) {
+            CHECK_INT(r.fragments[k].front, r.fragments[0].front);
+            CHECK_INT(r.fragments[k].primitive, 0);
+        }
+        if (r.count > 20) { /* seen as the projective orientation says */
+            CHECK_INT(r.fragments[0].front, t.front);
+            tested++;
+            scene s = { v, NULL, 0, NULL, NULL };
+            shade_pipeline p = scene_pipeline(&s);
+            shade_stats stats;
+            p.cull = t.front ? SHADE_CULL_BACK : SHADE_CULL_FRONT;
+            CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+            CHECK_INT(stats.fragments, r.count);
+            p.cull = t.front ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
+            CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+            CHECK_INT(stats.fragments, 0);
+            CHECK_INT(stats.culled, 1);
+        }
+        canvas_close(&c);
+    }
+    CHECK_SAY(tested > 200, "%d triangles", tested);
+    free(r.fragments);
+}
+
+TEST(clip, varyings_survive_the_cut) /* perspective to the plane, constant to the first corner */
+{
+    recorder r = recorder_open(20000);
+    int tested = 0;
+    for (int i = 0; i < 1500; i++) {
+        shade_vec4 v[3];
+        float attribute[6];
+        random_eye_triangle(v, 0, i % 3 ? 15 : 200);
+        for (int k = 0; k < 6; k++) attribute[k] = rnd_float(-1, 1);
+        ref_triangle t;
+        if (!ref_triangle_of(&t, &v[0], &v[1], &v[2], 48, 48)) continue;
+        canvas c = canvas_open(48, 48, 0, SHADE_RGBA8, 0);
+        scene s = { v, attribute, 2, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        r.count = 0;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        for (int k = 0; k < r.count; k++) {
+            double X = (double)r.fragments[k].x, Y = (double)r.fragments[k].y;
+            for (int j = 0; j < 2; j++) {
+                double v0 = (double)attribute[j], v1 = (double)attribute[2 + j],
+                       v2 = (double)attribute[4 + j];
+                double want = ref_interpolate(&t, X, Y, v0, v1, v2), slope = 0;
+                for (int n = 0; n < 4; n++) {
+                    double moved =
+                        ref_interpolate(&t, X + (n < 2 ? 0.02 * (n * 2 - 1) : 0),
+                                        Y + (n > 1 ? 0.02 * (n * 2 - 5) : 0), v0, v1, v2);
+                    slope = fmax(slope, fabs(moved - want));
+                }
+                if (slope > 0.2) continue;
+                CHECK_NEAR(r.fragments[k].in[j], want, 1e-4 + slope);
+                tested++;
+            }
+        }
+        p.interpolation = SHADE_CONSTANT;
+        r.count = 0;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        for (int k = 0; k < r.count; k++) {
+            CHECK_NEAR(r.fragments[k].in[0], attribute[0], 0);
+            CHECK_NEAR(r.fragments[k].in[1], attribute[1], 0);
+        }
+        canvas_close(&c);
+    }
+    CHECK_SAY(tested > 100000, "%d values", tested);
+    free(r.fragments);
+}
+
+/* stats add up, nothing outside the picture changes */
+TEST(clip, any_position_at_all_is_accounted_for)
+{
+    for (int i = 0; i < 3000; i++) {
+        shade_vec4 v[30];
+        canvas c = canvas_open(rnd_int(1, 40), rnd_int(1, 40), 41, (shade_format)rnd_int(0, 2),
+                               rnd_int(0, 1));
+        canvas_clear(&c, 1);
+        int kind = rnd_int(0, 3);
+        for (int k = 0; k < 30; k++) {
+            float f[4];
+            for (int j = 0; j < 4; j++) {
+                double size = kind == 1   ? (double)rnd_log(1e-30, 1e30)
+                              : kind == 2 ? (double)rnd_log(1e-3, 1e3)
+                                          : 2;
+                f[j] = rnd_float(-size, size);
+                if (kind == 0 && rnd_one_in(6)) f[j] = rnd_nasty();
+                if (kind == 3) f[j] = (float)rnd_int(-2, 2);
+            }
+            v[k] = shade_v4(f[0], f[1], f[2], f[3]);
+        }
+        draw_clip_space(&c, v, 30, rnd_int(0, 1), NULL);
+        canvas_close(&c);
+    }
+}
+
+/* z in [-w, 0) is visible by default only */
+TEST(clip, only_the_volume_decides_between_the_planes_of_zero_to_one)
+{
+    canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 1);
+    shade_vec4 v[3];
+    memcpy(v, clip_corners, sizeof v);
+    for (int k = 0; k < 3; k++) v[k].z = -0.5f;
+    canvas_clear(&c, 1);
+    CHECK_INT(draw_clip_space(&c, v, 3, 0, NULL).fragments, 128);
+    CHECK_NEAR(canvas_depth(&c, 8, 12), 0.25, 1e-7);
+    CHECK_INT(draw_clip_space(&c, v, 3, 1, NULL).clipped, 1);
+    for (int k = 0; k < 3; k++) v[k].z = 0.5f;
+    canvas_clear(&c, 1);
+    CHECK_INT(draw_clip_space(&c, v, 3, 1, NULL).fragments, 128);
+    CHECK_NEAR(canvas_depth(&c, 8, 12), 0.5, 1e-7);
+    for (int k = 0; k < 3; k++) v[k].z = -1; /* on the near plane itself: inside */
+    canvas_clear(&c, 1);
+    CHECK_INT(draw_clip_space(&c, v, 3, 0, NULL).fragments, 128);
+    CHECK_NEAR(canvas_depth(&c, 8, 12), 0, 1e-7);
+    canvas_close(&c);
+}
+
+static const test_case clip_cases[] = {
+    CASE(clip, triangles_outside_one_plane_count_as_clipped),
+    CASE(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled),
+    CASE(clip, positions_that_are_no_numbers_are_rejected),
+    CASE(clip, zero_area_counts_as_culled),
+    CASE(clip, near_and_far_cut_where_they_should),
+    CASE(clip, corners_far_outside_the_guard_band_keep_their_edges),
+    CASE(clip, eye_space_far_to_the_sides_keeps_its_edges),
+    CASE(clip, meshes_beyond_the_guard_band_cover_every_pixel_once),
+    CASE(clip, meshes_through_the_near_plane_cover_every_pixel_once),
+    CASE(clip, facing_survives_the_cut),
+    CASE(clip, varyings_survive_the_cut),
+    CASE(clip, any_position_at_all_is_accounted_for),
+    CASE(clip, only_the_volume_decides_between_the_planes_of_zero_to_one),
+};

@@ -1,0 +1,206 @@
+#!/bin/sh
+# compile.sh - shade.h in every dialect and configuration it promises, without a warning; and what
+# its objects need and export.   CC and CXX choose the compilers; C++ is left out where there is
+# none.  SHADE_FULL=1 adds every option in C++ and holds the built-in scenes to the same bits from
+# other flags, compilers and levels of code.
+cd "$(dirname "$0")/.." || exit 1
+CC=${CC:-cc}
+if [ -z "${CXX:-}" ]; then
+    for c in c++ g++ clang++; do command -v $c >/dev/null 2>&1 && CXX=$c && break; done
+fi
+WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef -Werror"
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT INT TERM
+passed=0 failed=0
+
+check() {                       # name, command ...
+    name=$1; shift
+    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1))
+    else failed=$((failed + 1)); echo "compile: $name: $*"; sed 's/^/    /;20q' "$T/log"; fi
+}
+accepts() { $1 $2 -x "$3" -fsyntax-only - </dev/null >/dev/null 2>&1; }   # compiler, flag, language
+
+printf '#include "shade.h"\nint shade_h_alone;\n' >"$T/header.c"
+printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/impl.c"
+cat >"$T/main.c" <<'END'
+#include "shade.h"
+int other(void);
+int main(void)
+{
+    static float depth[64];
+    static unsigned char pixels[256];
+    shade_target target = { 8, 8, 0, SHADE_RGBA8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+    shade_result cleared;
+    target.color = pixels;
+    target.depth = depth;
+    cleared = shade_clear(&target, shade_v4(1, 1, 1, 1), 1);
+    return cleared != SHADE_OK || pixels[255] != 255 || other() != 0;
+}
+END
+cat >"$T/other.c" <<'END'
+#include "shade.h"
+int other(void);
+int other(void) { return shade_result_string(SHADE_OK)[0] == 0; }
+END
+for f in main other; do
+    { printf '#define SHADE_STATIC\n#define SHADE_IMPLEMENTATION\n'; cat "$T/$f.c"; } >"$T/static_$f.c"
+done
+
+# the header alone and with its implementation, in every dialect
+for std in c99 c11 c17 c23; do
+    accepts "$CC" -std=$std c || { echo "compile: $CC has no -std=$std: left out"; continue; }
+    check "header, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/header.c"
+    check "implementation, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/impl.c"
+done
+if [ -n "${CXX:-}" ] && command -v "$CXX" >/dev/null 2>&1; then
+    for std in c++11 c++17 c++20; do
+        accepts "$CXX" -std=$std c++ || { echo "compile: $CXX has no $std: left out"; continue; }
+        check "header, $std" $CXX -std=$std $WARN -I. -x c++ -fsyntax-only "$T/header.c"
+        check "implementation, $std" $CXX -std=$std $WARN -I. -x c++ -fsyntax-only "$T/impl.c"
+    done
+else
+    CXX=
+    echo "compile: no C++ compiler: C++ left out"
+fi
+
+# programs of two files; C and C++ together
+run() { "$1"; }
+check "implementation, -O2" $CC -std=c99 $WARN -O2 -I. -c "$T/impl.c" -o "$T/impl.o"
+check "two files" $CC -std=c99 $WARN -I. "$T/main.c" "$T/other.c" "$T/impl.o" -lm -o "$T/two"
+check "two files run" run "$T/two"
+check "SHADE_STATIC in two files" $CC -std=c99 $WARN -I. "$T/static_main.c" "$T/static_other.c" -lm \
+      -o "$T/static"
+check "SHADE_STATIC runs" run "$T/static"
+if [ -n "$CXX" ]; then
+    check "C++, implementation" $CXX -std=c++11 $WARN -I. -x c++ -c "$T/impl.c" -o "$T/implxx.o"
+    cxx="$CXX -std=c++11 $WARN -I. -x c++"
+    check "C++ caller, C++ implementation" $cxx "$T/main.c" "$T/other.c" -x none "$T/implxx.o" -lm \
+          -o "$T/xx"
+    check "C++ caller runs" run "$T/xx"
+    check "C++ caller, C implementation" $cxx "$T/main.c" "$T/other.c" -x none "$T/impl.o" -lm \
+          -o "$T/xc"
+    check "C++ caller of C runs" run "$T/xc"
+    check "C caller, C++ implementation" $CC -std=c99 $WARN -I. "$T/main.c" "$T/other.c" \
+          "$T/implxx.o" -lm -lstdc++ -o "$T/cx"
+    check "SHADE_STATIC in C++" $cxx "$T/static_main.c" "$T/static_other.c" -lm -o "$T/sxx"
+    check "SHADE_STATIC in C++ runs" run "$T/sxx"
+fi
+
+# the program in the head of shade.h
+{ printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n'
+  awk '/^ +static uint32_t pixels/ { inside = 1 } inside { print } /^       }/ { inside = 0 }' shade.h
+} >"$T/head.c"
+head_runs() { (cd "$T" && ./head && test "$(wc -c <triangle.ppm)" -gt 900000); }
+check "program in the head comment" $CC -std=c99 -Wall -Wextra -Wno-missing-field-initializers \
+      -Werror -I. "$T/head.c" -lm -o "$T/head"
+check "program in the head comment runs" head_runs
+
+# options
+option() { printf '%s\n' "$@" '#define SHADE_IMPLEMENTATION' '#include "shade.h"' >"$T/option.c"; }
+option_check() {                # name, lines of the file
+    name=$1; shift; option "$@"
+    check "$name" $CC -std=c99 $WARN -I. -fsyntax-only "$T/option.c"
+    [ -z "$CXX" ] || [ "${SHADE_FULL:-0}" = 0 ] || check "$name, C++" $cxx -fsyntax-only "$T/option.c"
+}
+option_check "SHADE_NO_STDIO" '#define SHADE_NO_STDIO'
+option_check "SHADE_NO_LIBM" '#define SHADE_NO_LIBM'
+option_check "SHADE_NO_DISPATCH" '#define SHADE_NO_DISPATCH'
+option_check "SHADE_STATIC" '#define SHADE_STATIC'
+option_check "small packets" '#define SHADE_LANES 16' '#define SHADE_MAX_VARYINGS 8'
+option_check "smallest" '#define SHADE_LANES 8' '#define SHADE_MAX_VARYINGS 1'
+option_check "biggest" '#define SHADE_LANES 256' '#define SHADE_MAX_VARYINGS 64'
+option_check "SHADE_ASSERT empty" '#define SHADE_ASSERT(x) ((void)0)'
+option_check "SHADEDEF" '#define SHADEDEF extern'
+option_check "own memory functions" '#include <string.h>' \
+             '#define SHADE_MEMCPY(d, s, n) memcpy(d, s, n)' '#define SHADE_MEMSET(d, c, n) memset(d, c, n)'
+option_check "everything small" '#define SHADE_NO_LIBM' '#define SHADE_STATIC' \
+             '#define SHADE_LANES 16' '#define SHADE_MAX_VARYINGS 4'
+# without position-independent code constant tables of pointers lie with the other constants
+fixed=-fno-pic
+accepts "$CC" -fno-pic c || fixed=
+option '#define SHADE_NO_LIBM'
+check "freestanding" $CC -std=c99 $fixed -ffreestanding $WARN -O1 -I. -c "$T/option.c" \
+      -o "$T/bare.o"
+refused() {
+    printf '#define %s\n#include "shade.h"\n' "$1" >"$T/option.c"
+    ! $CC -std=c99 -I. -fsyntax-only "$T/option.c"
+}
+check "SHADE_LANES 24 is refused" refused "SHADE_LANES 24"
+check "SHADE_MAX_VARYINGS 65 is refused" refused "SHADE_MAX_VARYINGS 65"
+
+# what objects need and export
+undefined() { nm "$1" | sed -n 's/.* U _*//p' | sort -u; }
+only() {                        # object, allowed names
+    object=$1; shift; bad=
+    for s in $(undefined "$object"); do
+        case " $* " in *" $s "*) ;; *) bad="$bad $s" ;; esac
+    done
+    [ -z "$bad" ] || { echo "undefined:$bad"; return 1; }
+}
+no_mutable_globals() {
+    found=$(nm "$1" | awk '$2 ~ /^[DdBbCGgSs]$/')
+    [ -z "$found" ] || { echo "$found"; return 1; }
+}
+exports_only_shade() {
+    found=$(nm -g "$1" | awk 'NF == 3 { sub(/^_/, "", $3); if ($3 !~ /^shade_[a-z0-9]/) print }')
+    [ -z "$found" ] || { echo "$found"; return 1; }
+}
+if command -v nm >/dev/null 2>&1; then
+    check "freestanding needs four functions" only "$T/bare.o" memcpy memset memmove memcmp
+    check "no malloc, no printing, no exit" only "$T/impl.o" memcpy memset memmove memcmp sqrtf \
+          fopen fclose fwrite ferror remove assert_fail assert_rtn assert stack_chk_fail \
+          stack_chk_fail_local GLOBAL_OFFSET_TABLE_ cpu_model cpu_indicator_init
+    check "fixed position" $CC -std=c99 $fixed $WARN -I. -c "$T/impl.c" -o "$T/fixed.o"
+    check "no mutable globals" no_mutable_globals "$T/fixed.o"
+    check "exports begin with shade_" exports_only_shade "$T/impl.o"
+    check "no mutable globals, freestanding" no_mutable_globals "$T/bare.o"
+    option '#define SHADE_STATIC'
+    check "SHADE_STATIC compiles" $CC -std=c99 $WARN -I. -c "$T/option.c" -o "$T/static.o"
+    check "SHADE_STATIC exports nothing" sh -c "test -z \"\$(nm -g '$T/static.o' | awk 'NF == 3')\""
+else
+    echo "compile: no nm: what objects need and export is left out"
+fi
+
+# names: nothing but shade_ and SHADE_ is defined in the user's file
+names() {
+    for h in float stddef stdint math stdio assert string; do echo "#include <$h.h>"; done >"$T/std.c"
+    $CC -std=c99 -I. -dM -E "$T/header.c" | awk '{ sub(/\(.*/, "", $2); print $2 }' | sort -u >"$T/with"
+    $CC -std=c99 -dM -E "$T/std.c" | awk '{ sub(/\(.*/, "", $2); print $2 }' | sort -u >"$T/without"
+    found=$(comm -23 "$T/with" "$T/without" | grep -v '^SHADE_\|^SHADEDEF$' | grep -v '^_')
+    [ -z "$found" ] || { echo "$found"; return 1; }
+}
+check "macros begin with SHADE_" names
+
+# the built-in scenes: the same bits from other flags, the other compiler and every level of code
+scene_cc() {                    # compiler and flags; prints the hashes
+    $1 -std=c99 $2 -DSCENE_MAIN -I. tests/scene.c -lm -o "$T/scenes" >"$T/log" 2>&1 && "$T/scenes"
+}
+same_scenes() {
+    scene_cc "$1" "$2" >"$T/hashes" || { cat "$T/log"; return 1; }
+    cmp -s "$T/reference" "$T/hashes" || { diff "$T/reference" "$T/hashes"; return 1; }
+}
+if [ "${SHADE_FULL:-0}" != 0 ]; then
+    if scene_cc "$CC" -O1 >"$T/reference"; then
+        check "same bits, -O2" same_scenes "$CC" "-O2"
+        check "same bits, -O2 without dispatch" same_scenes "$CC" "-O2 -DSHADE_NO_DISPATCH"
+        check "same bits, -O3 for this processor" same_scenes "$CC" "-O3 -march=native"
+        check "same bits, SHADE_LANES 16" same_scenes "$CC" "-O1 -DSHADE_LANES=16"
+        check "same bits, SHADE_NO_LIBM" same_scenes "$CC" "-O1 -DSHADE_NO_LIBM"
+        if grep -q SHADE__FORCE_LEVEL shade.h; then
+            levels=0
+            grep -qs ' avx2 ' /proc/cpuinfo && levels="$levels 1"
+            grep -qs ' avx512f ' /proc/cpuinfo && levels="$levels 2"
+            for level in $levels; do
+                check "same bits, level $level" same_scenes "$CC" "-O1 -DSHADE__FORCE_LEVEL=$level"
+            done
+        fi
+        for other in gcc clang; do
+            command -v $other >/dev/null 2>&1 && check "same bits, $other" same_scenes $other -O2
+        done
+    else
+        failed=$((failed + 1)); echo "compile: tests/scene.c does not compile"; cat "$T/log"
+    fi
+fi
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]

@@ -1,0 +1,431 @@
+/* cover.c - which pixels a triangle covers: exactly those of the top-left rule on snapped corners.
+   */
+
+/* Draws triangles given in 24.8 window coordinates, one draw, each adding one; no depth. */
+static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices, int random_w,
+                     shade_stats *stats)
+{
+    shade_vec4 *clip = (shade_vec4 *)malloc((size_t)vertices * sizeof(shade_vec4));
+    if (!clip) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    for (int k = 0; k < vertices; k++) {
+        double w = random_w ? (double)rnd_log(0.5, 2) : 1;
+        clip[k] = clip_of_fx8((double)x[k], (double)y[k], c->target.width, c->target.height, 0, w);
+    }
+    scene s = { clip, NULL, 0, NULL, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    p.blend = SHADE_ADD, p.depth_test = SHADE_ALWAYS;
+    CHECK_INT(shade_draw(&c->target, &p, NULL, vertices, vertices, stats), SHADE_OK);
+    free(clip);
+}
+
+/* The part of the picture the clip rectangle leaves: x0 <= x < x1, y0 <= y < y1. */
+static void clip_bounds(const shade_target *t, int *x0, int *y0, int *x1, int *y1)
+{
+    *x0 = 0, *y0 = 0, *x1 = t->width, *y1 = t->height;
+    if (t->clip_x || t->clip_y || t->clip_width || t->clip_height) {
+        int64_t right = (int64_t)t->clip_x + t->clip_width,
+                below = (int64_t)t->clip_y + t->clip_height;
+        if (t->clip_x > *x0) *x0 = t->clip_x;
+        if (t->clip_y > *y0) *y0 = t->clip_y;
+        if (right < *x1) *x1 = (int)right;
+        if (below < *y1) *y1 = (int)below;
+    }
+}
+
+/* Holds the picture, whose alpha is 255 where covered and whose depth 1/2, to the integer oracle. */
+static void check_coverage(const canvas *c, const int64_t *x, const int64_t *y)
+{
+    int x0, y0, x1, y1, wrong = 0, wi = 0, wj = 0;
+    const shade_target *t = &c->target;
+    clip_bounds(t, &x0, &y0, &x1, &y1);
+    for (int j = 0; j < t->height; j++)
+        for (int i = 0; i < t->width; i++) {
+            int in = i >= x0 && i < x1 && j >= y0 && j < y1 && ref_inside_fx8(x, y, i, j);
+            int got = canvas_bytes(c, i, j)[3] != 0;
+            if (t->depth) got += 2 * (canvas_depth(c, i, j) == 0.5f);
+            if (got == (t->depth ? 3 * in : in)) continue;
+            wrong++, wi = i, wj = j;
+        }
+    CHECK_SAY(wrong == 0,
+              "%d wrong pixels of %d x %d, one of them %d %d, got %d; corners %lld %lld  %lld %lld "
+              " %lld %lld; clip %d %d %d %d",
+              wrong, t->width, t->height, wi, wj, canvas_bytes(c, wi, wj)[3] != 0, (long long)x[0],
+              (long long)y[0], (long long)x[1], (long long)y[1], (long long)x[2], (long long)y[2],
+              t->clip_x, t->clip_y, t->clip_width, t->clip_height);
+}
+
+static void random_clip(shade_target *t)
+{
+    switch (rnd_int(0, 5)) {
+    case 0:
+        break; /* everywhere */
+    case 1:    /* narrower than a row of eight */
+        t->clip_x = rnd_int(0, t->width - 1), t->clip_y = rnd_int(0, t->height - 1);
+        t->clip_width = rnd_int(1, 7), t->clip_height = rnd_int(1, t->height);
+        break;
+    case 2: /* a band */
+        t->clip_y = rnd_int(0, t->height - 1), t->clip_width = t->width,
+        t->clip_height = rnd_int(1, 9);
+        break;
+    case 3: /* over the border on all sides */
+        t->clip_x = -rnd_int(1, 9), t->clip_y = -rnd_int(1, 9);
+        t->clip_width = rnd_int(0, t->width + 20), t->clip_height = rnd_int(0, t->height + 20);
+        break;
+    default:
+        t->clip_x = rnd_int(-3, t->width + 3), t->clip_y = rnd_int(-3, t->height + 3);
+        t->clip_width = rnd_int(0, t->width), t->clip_height = rnd_int(0, t->height);
+    }
+}
+
+/* A corner set of a stated kind in a width x height picture, coordinates in 1/256 pixel within the
+   guard band. */
+static void random_corners(int kind, int width, int height, int64_t x[3], int64_t y[3])
+{
+    static const int widths[] = { 1, 7, 8, 9, 15, 16, 17, 18, 31, 32, 33, 64, 65 };
+    int cx = rnd_int(-256, width * 256 + 256), cy = rnd_int(-256, height * 256 + 256), size;
+    for (int k = 0; k < 3; k++) {
+        switch (kind) {
+        case 0: /* below a pixel, up to two */
+            x[k] = cx + rnd_int(-256, 256), y[k] = cy + rnd_int(-256, 256);
+            break;
+        case 1: /* up to 24 pixels */
+            x[k] = cx + rnd_int(-3000, 3000), y[k] = cy + rnd_int(-3000, 3000);
+            break;
+        case 2: /* all of the picture and around it */
+            x[k] = rnd_int(-width * 128, width * 384), y[k] = rnd_int(-height * 128, height * 384);
+            break;
+        case 3: /* corners on centres and borders: edges through centres */
+            x[k] = rnd_int(0, 2 * width) * 128, y[k] = rnd_int(0, 2 * height) * 128;
+            break;
+        case 4: /* upright boxes of widths around 8, 16, 32, halved */
+            size = widths[(cx & 255) % 13] * 256 + (k == 1 ? rnd_int(-130, 130) : 0);
+            x[k] = cx + (k == 1 ? size : 0),
+            y[k] = cy + (k == 2 ? rnd_int(0, 9000) : rnd_int(-64, 64));
+            break;
+        case 5: /* slivers: a long line and a point beside it */
+            x[k] = k == 2 ? (x[0] + x[1]) / 2 + rnd_int(-40, 40) : rnd_int(0, width * 256);
+            y[k] = k == 2 ? (y[0] + y[1]) / 2 + rnd_int(-40, 40) : rnd_int(0, height * 256);
+            break;
+        default: /* the whole guard band: up to 3 w */
+            x[k] = rnd_int(-width * 255, width * 511), y[k] = rnd_int(-height * 255, height * 511);
+        }
+    }
+    for (int k = 0; k < 3; k++) { /* within 3 w, where nothing is clipped */
+        x[k] = x[k] < -width * 255 ? -width * 255 : x[k] > width * 511 ? width * 511 : x[k];
+        y[k] = y[k] < -height * 255 ? -height * 255 : y[k] > height * 511 ? height * 511 : y[k];
+    }
+}
+
+TEST(cover, random_triangles_cover_exactly_the_top_left_pixels)
+{
+    for (int i = 0; i < 10500; i++) {
+        int big = i % 10 == 9;
+        canvas c = canvas_open(big ? rnd_int(100, 280) : rnd_int(1, 70),
+                               big ? rnd_int(60, 220) : rnd_int(1, 60), 0, SHADE_RGBA8, rnd_int(0, 1));
+        int64_t x[3], y[3];
+        random_corners(i % 7, c.target.width, c.target.height, x, y);
+        canvas_clear(&c, 1);
+        random_clip(&c.target);
+        draw_fx8(&c, x, y, 3, rnd_one_in(2), NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
+TEST(cover,
+     every_small_triangle_on_a_half_pixel_lattice_is_exact) /* edges through centres, all of them */
+{
+    canvas c = canvas_open(8, 8, 0, SHADE_RGBA8, 0);
+    static const int lattice[] = { 128, 256, 384, 640, 896 };
+    for (int a = 0; a < 25; a++)
+        for (int b = 0; b < 25; b++)
+            for (int d = 0; d < 25; d++) {
+                if (a == b || b == d || (a * 7 + b * 3 + d) % 5) continue;
+                int64_t x[3], y[3];
+                x[0] = lattice[a % 5], y[0] = lattice[a / 5], x[1] = lattice[b % 5],
+                y[1] = lattice[b / 5];
+                x[2] = lattice[d % 5], y[2] = lattice[d / 5];
+                canvas_clear(&c, 1);
+                draw_fx8(&c, x, y, 3, 0, NULL);
+                check_coverage(&c, x, y);
+            }
+    canvas_close(&c);
+}
+
+TEST(cover, corners_snap_to_the_nearest_256th_halves_up)
+{
+    canvas c =
+        canvas_open(256, 256, 0, SHADE_RGBA8, 0); /* a power of two: every 1/512 pixel is a float */
+    for (int i = 0; i < 600; i++) {
+        int64_t x2[3], y2[3], x[3], y[3]; /* in 1/512; snapped: floor(v / 2 + 1/2) */
+        shade_vec4 clip[3];
+        for (int k = 0; k < 3; k++) {
+            x2[k] = rnd_int(100, 2500) * 2 + 1, y2[k] = rnd_int(100, 2500) * 2 + 1;
+            if (k == 2) x2[2] = x2[0] + rnd_int(-600, 600) * 2;
+            x[k] = (x2[k] + 1) / 2, y[k] = (y2[k] + 1) / 2;
+            clip[k] = shade_v4((float)((double)x2[k] / (256 * 256) - 1),
+                               (float)(1 - (double)y2[k] / (256 * 256)), 0, 1);
+        }
+        canvas_clear(&c, 1);
+        scene s = { clip, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        check_coverage(&c, x, y);
+    }
+    /* the corner itself: a left edge at 1/512 left of a centre snaps onto it and owns it, for
+       halves go up */
+    static const int offset[] = { -2, -1, 0, 1 };
+    for (int k = 0; k < 4; k++) {
+        double X = 100.5 + offset[k] / 512.0;
+        shade_vec4 clip[3];
+        clip[0] = shade_v4((float)(X / 128 - 1), (float)(1 - 50.0 / 128), 0, 1);
+        clip[1] = shade_v4((float)(X / 128 - 1), (float)(1 - 60.0 / 128), 0, 1);
+        clip[2] = shade_v4((float)(120.0 / 128 - 1), (float)(1 - 55.0 / 128), 0, 1);
+        canvas_clear(&c, 1);
+        scene s = { clip, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        CHECK_INT(canvas_bytes(&c, 100, 54)[3] != 0, offset[k] < 1);
+    }
+    canvas_close(&c);
+}
+
+TEST(cover, winding_and_order_of_corners_do_not_matter)
+{
+    for (int i = 0; i < 1500; i++) {
+        canvas c = canvas_open(40, 40, 0, SHADE_RGBA8, rnd_int(0, 1));
+        int64_t x[3], y[3], x6[18], y6[18];
+        random_corners(i % 7, 40, 40, x, y);
+        static const int order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
+                                         { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 } };
+        for (int k = 0; k < 18; k++) x6[k] = x[order[k / 3][k % 3]], y6[k] = y[order[k / 3][k % 3]];
+        for (int o = 0; o < 6; o++) {
+            canvas_clear(&c, 1);
+            draw_fx8(&c, x6 + 3 * o, y6 + 3 * o, 3, 0, NULL);
+            check_coverage(&c, x, y);
+        }
+        canvas_close(&c);
+    }
+}
+
+TEST(cover, meshes_cover_every_pixel_exactly_once)
+{
+    enum { N = 24 };
+    static shade_vec2 points[(N + 1) * (N + 1)];
+    static shade_vec4 clip[(N + 1) * (N + 1)];
+    static uint32_t indices[N * N * 6];
+    for (int round = 0; round < 100; round++) {
+        int n = rnd_int(1, N), count = jittered_grid(n, points, indices),
+            vertices = (n + 1) * (n + 1);
+        canvas c = canvas_open(rnd_int(1, 200), rnd_int(1, 150), 0, SHADE_RGBA32F, 0);
+        for (int i = 0; i < vertices; i++) {
+            double w = round % 2 ? (double)rnd_log(0.2, 5) : 1;
+            clip[i] = shade_v4((float)((2 * (double)points[i].x - 1) * w),
+                               (float)((2 * (double)points[i].y - 1) * w), 0, (float)w);
+        }
+        count_coverage(&c, clip, indices, count, vertices);
+        for (int y = 0; y < c.target.height; y++)
+            for (int x = 0; x < c.target.width; x++) CHECK_NEAR(canvas_float(&c, x, y, 0), 1, 0);
+        canvas_close(&c);
+    }
+}
+
+TEST(cover, fans_around_one_centre_leave_no_hole) /* many triangles meet in a pixel */
+{
+    for (int round = 0; round < 60; round++) {
+        enum { SPOKES = 40 };
+        shade_vec4 clip[SPOKES + 1];
+        uint32_t indices[SPOKES * 3];
+        int on_centre = round % 2, width = 64, n = rnd_int(3, SPOKES);
+        double cx = on_centre ? 32.5 : (double)rnd_float(20, 44),
+               cy = on_centre ? 32.5 : (double)rnd_float(20, 44);
+        clip[n] = clip_of_fx8(cx * 256, cy * 256, width, width, 0, 1);
+        for (int k = 0; k < n; k++) {
+            double angle = 6.283185307179586 * (k + rnd_unit() * 0.5) / n;
+            clip[k] = clip_of_fx8(floor((cx + 90 * cos(angle)) * 256),
+                                  floor((cy + 90 * sin(angle)) * 256), width, width, 0, 1);
+            indices[3 * k] = (uint32_t)k, indices[3 * k + 1] = (uint32_t)((k + 1) % n),
+                        indices[3 * k + 2] = (uint32_t)n;
+        }
+        canvas c = canvas_open(width, width, 0, SHADE_RGBA32F, 0);
+        count_coverage(&c, clip, indices, 3 * n, n + 1);
+        for (int y = 0; y < width; y++)
+            for (int x = 0; x < width; x++) {
+                double got = (double)canvas_float(&c, x, y, 0);
+                CHECK_SAY(got <= 1, "pixel %d %d is covered %g times", x, y, got);
+                if (n >= 6 && hypot(x + 0.5 - cx, y + 0.5 - cy) < 42) CHECK_NEAR(got, 1, 0);
+            }
+        canvas_close(&c);
+    }
+}
+
+TEST(cover, slivers_a_256th_wide_are_exact)
+{
+    for (int i = 0; i < 2000; i++) {
+        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, rnd_int(0, 1));
+        int64_t x[3], y[3];
+        x[0] = rnd_int(0, 90 * 256), y[0] = rnd_int(0, 70 * 256), x[1] = rnd_int(0, 90 * 256),
+        y[1] = rnd_int(0, 70 * 256);
+        int along = rnd_int(0, 3);
+        if (along == 0) x[0] = x[1] = x[1] / 256 * 256 + 128; /* upright through centres */
+        if (along == 1) y[0] = y[1] = y[1] / 256 * 256 + 128;
+        x[2] = x[rnd_int(0, 1)] + rnd_int(-2, 2), y[2] = y[rnd_int(0, 1)] + rnd_int(-2, 2);
+        canvas_clear(&c, 1);
+        random_clip(&c.target);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
+TEST(cover, many_triangles_of_one_draw_do_not_disturb_each_other)
+{
+    for (int round = 0; round < 40; round++) {
+        enum { N = 60 };
+        canvas c = canvas_open(rnd_int(20, 100), rnd_int(20, 100), 0, SHADE_RGBA32F, rnd_int(0, 1));
+        int64_t x[3 * N], y[3 * N];
+        for (int k = 0; k < N; k++)
+            random_corners(rnd_int(0, 6), c.target.width, c.target.height, x + 3 * k, y + 3 * k);
+        canvas_clear(&c, 1);
+        shade_stats stats;
+        draw_fx8(&c, x, y, 3 * N, 1, &stats);
+        long long covered = 0;
+        for (int j = 0; j < c.target.height; j++)
+            for (int i = 0; i < c.target.width; i++) {
+                int want = 0;
+                for (int k = 0; k < N; k++) want += ref_inside_fx8(x + 3 * k, y + 3 * k, i, j);
+                CHECK_NEAR(canvas_float(&c, i, j, 0), want, 0);
+                covered += want;
+            }
+        CHECK_INT(stats.fragments, covered);
+        canvas_close(&c);
+    }
+}
+
+TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
+{
+    for (int i = 0; i < 60; i++) {
+        int wide = i % 2, rows = rnd_int(1, 5), offset = rnd_int(0, 16384 - rows);
+        canvas c = wide ? canvas_open(16384, rows, 0, SHADE_RGBA8, 0)
+                        : canvas_strip(rnd_int(1, 200), 16384, 0, SHADE_RGBA8, 0, offset, rows);
+        int width = c.target.width, height = c.target.height;
+        int64_t x[3], y[3];
+        for (int k = 0; k < 3; k++) {
+            x[k] = rnd_int(-width * 100, width * 356), y[k] = rnd_int(-height * 100, height * 356);
+            if (i % 3 == 0 && wide) y[k] = rnd_int(0, height * 256);
+            if (i % 3 == 0 && !wide)
+                x[k] = rnd_int(0, width * 256), y[k] = (offset + rnd_int(-2, rows + 2)) * 256;
+        }
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        for (int j = 0; j < rows; j++)
+            for (int a = 0; a < width; a++) {
+                int row = wide ? j : offset + j, want = ref_inside_fx8(x, y, a, row);
+                if ((canvas_bytes(&c, a, row)[3] != 0) == want) continue;
+                CHECK_SAY(
+                    0, "pixel %d %d of %d x %d: want %d; corners %lld %lld  %lld %lld  %lld %lld",
+                    a, row, width, height, want, (long long)x[0], (long long)y[0], (long long)x[1],
+                    (long long)y[1], (long long)x[2], (long long)y[2]);
+            }
+        canvas_close(&c);
+    }
+}
+
+TEST(cover, triangles_of_a_million_pixels_are_exact) /* where 32-bit edges end and 64-bit ones begin */
+{
+    static const int sizes[][2] = { { 1024, 1024 }, { 2000, 520 }, { 524, 2000 }, { 1448, 724 },
+                                    { 2040, 2040 }, { 1100, 950 }, { 1023, 1020 }, { 64, 2040 } };
+    for (int i = 0; i < 16; i++) {
+        canvas c = canvas_open(2048, 2048, 0, SHADE_RGBA8, i % 2);
+        int64_t x[3], y[3], w = sizes[i % 8][0] * 256, h = sizes[i % 8][1] * 256;
+        int64_t left = rnd_int(0, 2048 * 256 - (int)w), top = rnd_int(0, 2048 * 256 - (int)h);
+        int shape = rnd_int(0, 3);
+        for (int k = 0; k < 3; k++) {
+            x[k] = left + (k == 1 ? w : k == 2 ? rnd_int(0, (int)w) : 0);
+            y[k] = top + (k == 2 ? h : shape == 0 ? 0 : rnd_int(0, (int)h));
+            if (shape == 3 && k == 1) x[k] = x[0] + rnd_int(-700, 700);
+        }
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
+TEST(cover, facing_is_counter_clockwise_on_the_screen)
+{
+    recorder r = recorder_open(20000);
+    for (int i = 0; i < 2000; i++) {
+        canvas c = canvas_open(40, 40, 0, SHADE_RGBA8, 0);
+        int64_t x[3], y[3];
+        random_corners(1, 40, 40, x, y);
+        int64_t turn = (x[1] - x[0]) * (y[2] - y[0]) -
+                       (y[1] - y[0]) * (x[2] - x[0]); /* > 0: clockwise, y is down */
+        shade_vec4 clip[3];
+        for (int k = 0; k < 3; k++)
+            clip[k] = clip_of_fx8((double)x[k], (double)y[k], 40, 40, 0, (double)rnd_log(0.5, 2));
+        scene s = { clip, NULL, 0, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        shade_stats stats;
+        r.count = 0;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        CHECK_INT(stats.fragments, r.count);
+        for (int k = 0; k < r.count; k++) CHECK_INT(r.fragments[k].front, turn < 0);
+        int fragments = r.count;
+        p.cull = SHADE_CULL_BACK;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        CHECK_INT(stats.fragments, turn < 0 ? fragments : 0);
+        if (fragments) CHECK_INT(stats.culled, turn < 0 ? 0 : 1);
+        p.cull = SHADE_CULL_FRONT;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        CHECK_INT(stats.fragments, turn > 0 ? fragments : 0);
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
+/* The two integer rules agree: the point moved an instant right and down, and edges that are top or
+   left. */
+TEST(cover, the_oracle_is_the_top_left_rule)
+{
+    int ties = 0;
+    for (int i = 0; i < 200000; i++) {
+        int64_t x[3], y[3], px = rnd_int(0, 9), py = rnd_int(0, 9);
+        for (int k = 0; k < 3; k++) x[k] = rnd_int(0, 19) * 128, y[k] = rnd_int(0, 19) * 128;
+        int64_t area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
+        if (area == 0) {
+            CHECK(!ref_inside_fx8(x, y, (int)px, (int)py));
+            continue;
+        }
+        int b = area > 0 ? 1 : 2, inside = 1; /* clockwise on the screen: 0, b, 3 - b */
+        int order[4];
+        order[0] = 0, order[1] = b, order[2] = 3 - b, order[3] = 0;
+        for (int k = 0; k < 3; k++) {
+            int64_t dx = x[order[k + 1]] - x[order[k]], dy = y[order[k + 1]] - y[order[k]];
+            int64_t e = dx * (py * 256 + 128 - y[order[k]]) - dy * (px * 256 + 128 - x[order[k]]);
+            int top = dy == 0 && dx > 0, left = dy < 0; /* clockwise, left edges go up */
+            ties += e == 0;
+            inside &= e > 0 || (e == 0 && (top || left));
+        }
+        CHECK_INT(ref_inside_fx8(x, y, (int)px, (int)py), inside);
+    }
+    CHECK_SAY(ties > 1000, "%d centres on edges", ties);
+}
+
+static const test_case cover_cases[] = {
+    CASE(cover, the_oracle_is_the_top_left_rule),
+    CASE(cover, random_triangles_cover_exactly_the_top_left_pixels),
+    CASE(cover, every_small_triangle_on_a_half_pixel_lattice_is_exact),
+    CASE(cover, corners_snap_to_the_nearest_256th_halves_up),
+    CASE(cover, winding_and_order_of_corners_do_not_matter),
+    CASE(cover, meshes_cover_every_pixel_exactly_once),
+    CASE(cover, fans_around_one_centre_leave_no_hole),
+    CASE(cover, slivers_a_256th_wide_are_exact),
+    CASE(cover, many_triangles_of_one_draw_do_not_disturb_each_other),
+    CASE(cover, the_biggest_pictures_are_exact),
+    CASE(cover, triangles_of_a_million_pixels_are_exact),
+    CASE(cover, facing_is_counter_clockwise_on_the_screen),
+};

@@ -1,0 +1,601 @@
+/* drive.c - the whole of a draw: arguments, results, stats, bands and strips, memory. */
+
+typedef struct drive_call { /* everything a draw is given, to be spoiled one field at a time */
+    canvas c;
+    shade_vec4 clip[6];
+    uint32_t indices[6];
+    scene s;
+    shade_pipeline p;
+    int index_count, vertex_count;
+} drive_call;
+
+static void drive_open(drive_call *d, shade_format format)
+{
+    memset(d, 0, sizeof *d);
+    d->c = canvas_open(24, 18, 27, format, 1);
+    for (int k = 0; k < 6; k++) d->clip[k] = clip_corners[k % 3], d->indices[k] = (uint32_t)k;
+    d->s.clip = d->clip;
+    d->p = scene_pipeline(&d->s);
+    d->index_count = 6, d->vertex_count = 6;
+    CHECK_INT(shade_clear(&d->c.target, shade_v4(0.5f, 0.25f, 0.75f, 1), 0.9f), SHADE_OK);
+}
+static shade_result drive_draw(drive_call *d)
+{
+    return shade_draw(&d->c.target, &d->p, d->indices, d->index_count, d->vertex_count, NULL);
+}
+
+/* The call fails as stated and changes no byte of either buffer; then the call is made whole again.
+   */
+static void refused(int line, drive_call *d, const shade_target *target, const shade_pipeline *p,
+                    shade_result want)
+{
+    size_t colors = d->c.color_bytes + 2 * CANVAS_GUARD,
+           depths = d->c.depth_bytes + 2 * CANVAS_GUARD;
+    unsigned char *before = (unsigned char *)malloc(colors + depths);
+    if (!before) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    memcpy(before, d->c.color, colors), memcpy(before + colors, d->c.depth, depths);
+    shade_result got = shade_draw(target, p, d->indices, d->index_count, d->vertex_count, NULL);
+    test_int(__FILE__, line, "shade_draw", (long long)got, (long long)want);
+    test_int(__FILE__, line, "unchanged memory",
+             memcmp(before, d->c.color, colors) || memcmp(before + colors, d->c.depth, depths), 0);
+    free(before);
+}
+#define REFUSED(want) refused(__LINE__, &d, &d.c.target, &d.p, want)
+
+TEST(drive, missing_pointers_are_bad_arguments)
+{
+    drive_call d;
+    drive_open(&d, SHADE_RGBA8);
+    CHECK_INT(drive_draw(&d), SHADE_OK);
+    refused(__LINE__, &d, NULL, &d.p, SHADE_ERROR_ARGUMENT);
+    refused(__LINE__, &d, &d.c.target, NULL, SHADE_ERROR_ARGUMENT);
+    refused(__LINE__, &d, NULL, NULL, SHADE_ERROR_ARGUMENT);
+    d.p.vertex = NULL;
+    REFUSED(SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_clear(NULL, shade_v4(0, 0, 0, 0), 1), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_clear(&d.c.target, shade_v4(0, 0, 0, 0), (float)NAN), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(canvas_bytes(&d.c, 0, 0)[0], 128);
+    canvas_close(&d.c);
+}
+
+TEST(drive, bad_targets_are_refused_by_every_call)
+{
+    enum { TARGETS = 19 };
+    for (int k = 0; k < TARGETS; k++) {
+        drive_call d;
+        drive_open(&d, SHADE_RGBA8);
+        shade_target *t = &d.c.target, good = *t;
+        switch (k) {
+        case 0:
+            t->width = 0;
+            break;
+        case 1:
+            t->height = 0;
+            break;
+        case 2:
+            t->width = -24;
+            break;
+        case 3:
+            t->height = -18;
+            break;
+        case 4:
+            t->width = 16385, t->stride = 0;
+            break;
+        case 5:
+            t->height = 16385;
+            break;
+        case 6:
+            t->stride = 23;
+            break;
+        case 7:
+            t->stride = -27;
+            break;
+        case 8:
+            t->format = (shade_format)3;
+            break;
+        case 9:
+            t->format = (shade_format)77;
+            break;
+        case 10:
+            t->color = NULL, t->depth = NULL;
+            break;
+        case 11:
+            t->clip_width = -1, t->clip_height = 5;
+            break;
+        case 12:
+            t->clip_width = 5, t->clip_height = -1;
+            break;
+        case 13:
+            t->row_offset = 3;
+            break;
+        case 14:
+            t->row_count = -1;
+            break;
+        case 15:
+            t->row_offset = -1, t->row_count = 5;
+            break;
+        case 16:
+            t->width = 2147483647, t->stride = 0;
+            break;
+        case 17:
+            t->clip_x = -2147483647 - 1, t->clip_y = 7, t->clip_width = -2147483647 - 1;
+            break;
+        default:
+            t->stride = -2147483647 - 1;
+            break;
+        }
+        shade_target bad = *t;
+        *t = good;
+        refused(__LINE__, &d, &bad, &d.p, SHADE_ERROR_TARGET);
+        CHECK_INT(shade_clear(&bad, shade_v4(1, 1, 1, 1), 0.5f), SHADE_ERROR_TARGET);
+        CHECK_INT(shade_clear(&bad, shade_v4(1, 1, 1, 1), (float)NAN), SHADE_ERROR_TARGET);
+        CHECK_INT(canvas_bytes(&d.c, 0, 0)[0], 128);
+        shade_mesh mesh;
+        shade_draw_state state;
+        static const float position[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
+        memset(&mesh, 0, sizeof mesh), memset(&state, 0, sizeof state);
+        mesh.positions = position, mesh.vertex_count = 3;
+        CHECK_INT(shade_draw_mesh(&bad, &mesh, &state, NULL), SHADE_ERROR_TARGET);
+        CHECK_INT(canvas_bytes(&d.c, 12, 12)[0], 128);
+        canvas_close(&d.c);
+    }
+}
+
+TEST(drive, odd_but_legal_targets_are_taken)
+{
+    static const int huge = 2147483647;
+    for (int k = 0; k < 8; k++) {
+        drive_call d;
+        drive_open(&d, SHADE_RGBA8);
+        shade_target *t = &d.c.target;
+        switch (k) {
+        case 0:
+            t->clip_x = huge, t->clip_y = huge, t->clip_width = huge, t->clip_height = huge;
+            break;
+        case 1:
+            t->clip_x = -huge - 1, t->clip_y = -huge - 1, t->clip_width = huge,
+            t->clip_height = huge;
+            break;
+        case 2:
+            t->clip_x = -5, t->clip_y = -5, t->clip_width = huge, t->clip_height = huge;
+            break;
+        case 3:
+            t->clip_width = 0, t->clip_height = 7;
+            break;
+        case 4:
+            t->clip_x = 1;
+            break; /* an empty rectangle at (1, 0) */
+        case 5:
+            t->row_count = 18;
+            break;
+        case 6:
+            t->clip_x = 24, t->clip_width = 5, t->clip_height = 5;
+            break;
+        default:
+            t->depth = NULL;
+            break;
+        }
+        shade_stats stats;
+        memset(&stats, 0x55, sizeof stats);
+        CHECK_INT(shade_draw(t, &d.p, d.indices, 6, 6, &stats), SHADE_OK);
+        CHECK_INT(shade_clear(t, shade_v4(0, 0, 0, 0), 1), SHADE_OK);
+        int everywhere = k == 2 || k == 5 || k == 7;
+        CHECK_INT(stats.triangles, 2);
+        CHECK_INT(stats.fragments > 0, everywhere);
+        CHECK_INT(canvas_bytes(&d.c, 12, 12)[0], everywhere ? 0 : 128);
+        canvas_close(&d.c);
+    }
+}
+
+TEST(drive, bad_pipelines_are_refused)
+{
+    for (int k = 0; k < 13; k++) {
+        drive_call d;
+        drive_open(&d, SHADE_RGBA8);
+        switch (k) {
+        case 0:
+            d.p.varyings = -1;
+            break;
+        case 1:
+            d.p.varyings = SHADE_MAX_VARYINGS + 1;
+            break;
+        case 2:
+            d.p.interpolation = (shade_interpolation)3;
+            break;
+        case 3:
+            d.p.cull = (shade_cull)3;
+            break;
+        case 4:
+            d.p.depth_test = (shade_compare)6;
+            break;
+        case 5:
+            d.p.blend = (shade_blend)3;
+            break;
+        case 6:
+            d.p.depth_bias = (float)NAN;
+            break;
+        case 7:
+            d.p.varyings = 2147483647;
+            break;
+        case 8:
+            d.p.varyings = -2147483647 - 1;
+            break;
+        case 9:
+            d.index_count = -1;
+            break;
+        case 10:
+            d.index_count = -3;
+            break;
+        case 11:
+            d.p.depth_test = (shade_compare)1000000;
+            break;
+        default:
+            d.index_count = -2147483647 - 1;
+            break;
+        }
+        REFUSED(SHADE_ERROR_ARGUMENT);
+        canvas_close(&d.c);
+    }
+}
+
+TEST(drive, bad_indices_are_refused_before_a_pixel_changes)
+{
+    for (int k = 0; k < 8; k++) {
+        drive_call d;
+        drive_open(&d, SHADE_RGBA8);
+        switch (k) {
+        case 0:
+            d.index_count = 5;
+            break;
+        case 1:
+            d.index_count = 1;
+            break;
+        case 2:
+            d.indices[5] = 6;
+            break; /* the last one: the first triangle must not be drawn */
+        case 3:
+            d.indices[0] = 0xFFFFFFFFu;
+            break;
+        case 4:
+            d.vertex_count = 5;
+            break;
+        case 5:
+            d.vertex_count = 0;
+            break;
+        case 6:
+            d.indices[3] = 0x80000000u;
+            break;
+        default:
+            d.index_count = 4;
+            break;
+        }
+        REFUSED(SHADE_ERROR_INDEX);
+        canvas_close(&d.c);
+    }
+    drive_call d;
+    drive_open(&d, SHADE_RGBA8);
+    CHECK_INT(shade_draw(&d.c.target, &d.p, NULL, 6, 5, NULL), SHADE_ERROR_INDEX);
+    CHECK_INT(shade_draw(&d.c.target, &d.p, NULL, 5, 6, NULL), SHADE_ERROR_INDEX);
+    CHECK_INT(shade_draw(&d.c.target, &d.p, NULL, 3, 6, NULL), SHADE_OK);
+    CHECK(shade_draw(&d.c.target, &d.p, NULL, 3, -6, NULL) != SHADE_OK);
+    CHECK(shade_draw(&d.c.target, &d.p, d.indices, 3, -6, NULL) != SHADE_OK);
+    canvas_close(&d.c);
+}
+
+TEST(drive, checks_come_in_the_stated_order) /* NULLs, target, other arguments, indices */
+{
+    drive_call d;
+    drive_open(&d, SHADE_RGBA8);
+    shade_target bad = d.c.target;
+    bad.width = 0;
+    refused(__LINE__, &d, &bad, NULL, SHADE_ERROR_ARGUMENT);
+    shade_pipeline p = d.p;
+    p.vertex = NULL;
+    refused(__LINE__, &d, &bad, &p, SHADE_ERROR_ARGUMENT);
+    p = d.p, p.varyings = -1;
+    refused(__LINE__, &d, &bad, &p, SHADE_ERROR_TARGET);
+    d.index_count = -1;
+    refused(__LINE__, &d, &bad, &d.p, SHADE_ERROR_TARGET);
+    d.index_count = 5;
+    refused(__LINE__, &d, &bad, &p, SHADE_ERROR_TARGET);
+    refused(__LINE__, &d, &bad, &d.p, SHADE_ERROR_TARGET);
+    refused(__LINE__, &d, &d.c.target, &p, SHADE_ERROR_ARGUMENT);
+    d.index_count = 6, d.indices[0] = 99;
+    refused(__LINE__, &d, &d.c.target, &p, SHADE_ERROR_ARGUMENT);
+    refused(__LINE__, &d, &d.c.target, &d.p, SHADE_ERROR_INDEX);
+    canvas_close(&d.c);
+}
+
+TEST(drive, no_triangles_is_no_error)
+{
+    drive_call d;
+    drive_open(&d, SHADE_RGBA8);
+    shade_stats stats;
+    memset(&stats, 0x55, sizeof stats);
+    CHECK_INT(shade_draw(&d.c.target, &d.p, d.indices, 0, 6, &stats), SHADE_OK);
+    CHECK(stats.triangles == 0 && stats.culled == 0 && stats.clipped == 0 && stats.rejected == 0);
+    CHECK(stats.drawn == 0 && stats.fragments == 0);
+    CHECK_INT(shade_draw(&d.c.target, &d.p, NULL, 0, 0, NULL), SHADE_OK);
+    canvas_close(&d.c);
+}
+
+TEST(drive, results_have_texts)
+{
+    for (int k = -1; k < 9; k++) {
+        const char *text = shade_result_string((shade_result)k);
+        CHECK(text != NULL);
+        if (k >= 0 && k <= SHADE_ERROR_IO) {
+            CHECK(text && text[0]);
+            for (int j = 0; j < k; j++)
+                CHECK(strcmp(text, shade_result_string((shade_result)j)) != 0);
+        }
+    }
+}
+
+/* --------------------------------------------------------------------------- random whole draws */
+
+enum { DRAW_VERTICES = 120, DRAW_INDICES = 450 };
+
+typedef struct random_draw {
+    shade_vec4 clip[DRAW_VERTICES], color[DRAW_INDICES / 3];
+    float attribute[DRAW_VERTICES * 5];
+    uint32_t indices[DRAW_INDICES];
+    scene s;
+    shade_pipeline p;
+    int index_count;
+} random_draw;
+
+static void random_pipeline(random_draw *r, int nasty)
+{
+    memset(&r->s, 0, sizeof r->s);
+    for (int i = 0; i < DRAW_VERTICES; i++) {
+        double w = (double)rnd_log(0.2, 5) * (rnd_one_in(12) ? -1 : 1),
+               far_out = rnd_one_in(10) ? 20 : 1.3;
+        r->clip[i] = shade_v4((float)((double)rnd_float(-far_out, far_out) * w),
+                              (float)((double)rnd_float(-far_out, far_out) * w),
+                              (float)((double)rnd_float(-1.2, 1.2) * w), (float)w);
+        if (nasty && rnd_one_in(15)) fill_nasty(&r->clip[i], sizeof r->clip[i]);
+        if (nasty && rnd_one_in(15)) r->clip[i].x = rnd_sign() * rnd_log(1e20, 2e30);
+    }
+    for (int i = 0; i < DRAW_VERTICES * 5; i++)
+        r->attribute[i] = nasty && rnd_one_in(40) ? rnd_nasty() : rnd_float(0, 1);
+    for (int i = 0; i < DRAW_INDICES / 3; i++) {
+        r->color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
+    }
+    r->index_count = rnd_int(1, DRAW_INDICES / 3) * 3;
+    for (int i = 0; i < r->index_count; i++) {
+        r->indices[i] = (uint32_t)rnd_int(0, DRAW_VERTICES - 1);
+        if (i > 6 && rnd_one_in(3))
+            r->indices[i] = r->indices[i - rnd_int(1, 6)]; /* some without area */
+    }
+    r->s.clip = r->clip, r->s.attribute = r->attribute, r->s.color = r->color;
+    r->s.varyings = SHADE_MAX_VARYINGS < 5 ? SHADE_MAX_VARYINGS : 5;
+    r->p = scene_pipeline(&r->s);
+    static shade_fragment_shader *const shaders[] = { scene_flat, scene_colors, fragment_sieve,
+                                                      NULL };
+    int kind = rnd_int(0, 9);
+    r->p.fragment = shaders[kind < 4 ? 0 : kind < 8 ? 1 : kind - 6];
+    r->p.may_discard = r->p.fragment == fragment_sieve || rnd_one_in(5);
+    r->p.interpolation = (shade_interpolation)(rnd_one_in(2) ? 0 : rnd_int(0, 2));
+    r->p.cull = (shade_cull)rnd_int(0, 2);
+    r->p.depth_test = (shade_compare)rnd_int(0, 5);
+    r->p.depth_read_only = rnd_one_in(5), r->p.depth_zero_to_one = rnd_int(0, 1);
+    r->p.depth_bias = rnd_one_in(3) ? rnd_float(-0.1, 0.1) : 0;
+    r->p.blend = (shade_blend)rnd_int(0, 2);
+}
+static void random_canvas_flags(shade_target *t)
+{
+    t->srgb = rnd_one_in(3), t->dither = rnd_one_in(3);
+}
+static int stats_add_up(const shade_stats *s, int triangles)
+{
+    return s->triangles == triangles && s->culled >= 0 && s->clipped >= 0 && s->rejected >= 0 &&
+           s->drawn >= 0 && s->fragments >= 0 &&
+           s->culled + s->clipped + s->rejected + s->drawn == s->triangles;
+}
+
+TEST(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up)
+{
+    static random_draw r;
+    for (int i = 0; i < 700; i++) {
+        int width = rnd_int(1, 70), height = rnd_int(1, 50);
+        canvas c = canvas_open(width, height, rnd_one_in(2) ? width + rnd_int(0, 9) : 0,
+                               (shade_format)(i % 3), rnd_int(0, 3) > 0);
+        random_pipeline(&r, 1);
+        canvas_clear(&c, 0.5f);
+        random_clip(&c.target), random_canvas_flags(&c.target);
+        canvas before = c;
+        before.color = canvas_block(c.color_bytes), before.depth = canvas_block(c.depth_bytes);
+        memcpy(before.color, c.color, c.color_bytes + 2 * CANVAS_GUARD);
+        memcpy(before.depth, c.depth, c.depth_bytes + 2 * CANVAS_GUARD);
+        shade_stats stats;
+        memset(&stats, 0x55, sizeof stats);
+        CHECK_INT(shade_draw(&c.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &stats),
+                  SHADE_OK);
+        CHECK_SAY(stats_add_up(&stats, r.index_count / 3),
+                  "%lld = %lld culled + %lld clipped + %lld rejected + %lld drawn", stats.triangles,
+                  stats.culled, stats.clipped, stats.rejected, stats.drawn);
+        int x0, y0, x1, y1;
+        size_t cell = canvas_pixel_bytes(c.target.format);
+        clip_bounds(&c.target, &x0, &y0, &x1, &y1);
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < width; x++) {
+                size_t at = CANVAS_GUARD + canvas_index(&c, x, y) * cell,
+                       zat = CANVAS_GUARD + canvas_index(&c, x, y) * 4;
+                int in = x >= x0 && x < x1 && y >= y0 && y < y1;
+                if (!in) CHECK(!memcmp(c.color + at, before.color + at, cell));
+                if (!in || !c.target.depth || r.p.depth_read_only)
+                    CHECK(!memcmp(c.depth + zat, before.depth + zat, 4));
+                if (c.target.depth)
+                    CHECK(canvas_depth(&c, x, y) >= 0 && canvas_depth(&c, x, y) <= 1);
+            }
+        canvas_close(&before);
+        canvas_close(&c);
+    }
+}
+
+/* but fragments, which add up over a partition */
+TEST(drive, stats_do_not_depend_on_the_clip_rectangle)
+{
+    static random_draw r;
+    for (int i = 0; i < 200; i++) {
+        canvas c = canvas_open(64, 48, 0, SHADE_RGBA8, 0);
+        random_pipeline(&r, 1);
+        if (r.p.fragment == fragment_sieve) r.p.fragment = scene_flat;
+        shade_stats whole, part;
+        CHECK_INT(shade_draw(&c.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &whole),
+                  SHADE_OK);
+        long long fragments = 0;
+        int x = rnd_int(0, 64), y = rnd_int(0, 48);
+        for (int k = 0; k < 4; k++) {
+            c.target.clip_x = k % 2 ? x : 0, c.target.clip_width = k % 2 ? 64 - x : x;
+            c.target.clip_y = k / 2 ? y : 0, c.target.clip_height = k / 2 ? 48 - y : y;
+            if (!c.target.clip_x && !c.target.clip_y && !c.target.clip_width &&
+                !c.target.clip_height)
+                continue;
+            CHECK_INT(shade_draw(&c.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &part),
+                      SHADE_OK);
+            CHECK_INT(part.triangles, whole.triangles);
+            CHECK_INT(part.culled, whole.culled);
+            CHECK_INT(part.clipped, whole.clipped);
+            CHECK_INT(part.rejected, whole.rejected);
+            CHECK_INT(part.drawn, whole.drawn);
+            fragments += part.fragments;
+        }
+        CHECK_INT(fragments, whole.fragments);
+        canvas_close(&c);
+    }
+}
+
+TEST(drive, bands_and_rectangles_give_the_bits_of_the_whole)
+{
+    static random_draw r;
+    for (int i = 0; i < 400; i++) {
+        int width = rnd_int(1, 90), height = rnd_int(1, 70),
+            stride = rnd_one_in(2) ? width + rnd_int(0, 9) : 0;
+        canvas whole = canvas_open(width, height, stride, (shade_format)(i % 3), i % 5 != 0);
+        canvas parts = canvas_open(width, height, stride, (shade_format)(i % 3), i % 5 != 0);
+        random_pipeline(&r, 0);
+        random_canvas_flags(&whole.target);
+        parts.target.srgb = whole.target.srgb, parts.target.dither = whole.target.dither;
+        CHECK_INT(shade_clear(&whole.target, shade_v4(0.2f, 0.4f, 0.6f, 0.8f), 0.5f), SHADE_OK);
+        CHECK_INT(shade_draw(&whole.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, NULL),
+                  SHADE_OK);
+        /* cells of a random grid, in order from the last to the first */
+        int xs = rnd_one_in(2) ? 1 : rnd_int(1, 6), ys = rnd_int(1, 6);
+        for (int k = xs * ys - 1; k >= 0; k--) {
+            int x0 = k % xs * width / xs, x1 = (k % xs + 1) * width / xs;
+            int y0 = k / xs * height / ys, y1 = (k / xs + 1) * height / ys;
+            if (x0 == x1 || y0 == y1) continue;
+            parts.target.clip_x = x0, parts.target.clip_width = x1 - x0;
+            parts.target.clip_y = y0, parts.target.clip_height = y1 - y0;
+            CHECK_INT(shade_clear(&parts.target, shade_v4(0.2f, 0.4f, 0.6f, 0.8f), 0.5f), SHADE_OK);
+            CHECK_INT(
+                shade_draw(&parts.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, NULL),
+                SHADE_OK);
+        }
+        CHECK_SAY(canvas_same(&whole, &parts), "%d x %d, format %d, in %d x %d cells", width,
+                  height, i % 3, xs, ys);
+        canvas_close(&whole);
+        canvas_close(&parts);
+    }
+}
+
+TEST(drive, strips_hold_the_rows_of_the_whole)
+{
+    static random_draw r;
+    for (int i = 0; i < 300; i++) {
+        int width = rnd_int(1, 60), height = rnd_int(2, 60), stride = width + rnd_int(0, 5);
+        shade_format format = (shade_format)(i % 3);
+        canvas whole = canvas_open(width, height, stride, format, 1);
+        random_pipeline(&r, 0);
+        random_canvas_flags(&whole.target);
+        CHECK_INT(shade_clear(&whole.target, shade_v4(0.2f, 0.4f, 0.6f, 0.8f), 0.5f), SHADE_OK);
+        CHECK_INT(shade_draw(&whole.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, NULL),
+                  SHADE_OK);
+        int rows = rnd_int(1, height), offset = rnd_int(0, height - rows);
+        canvas strip = canvas_strip(width, height, stride, format, 1, offset, rows);
+        strip.target.srgb = whole.target.srgb, strip.target.dither = whole.target.dither;
+        CHECK_INT(shade_clear(&strip.target, shade_v4(0.2f, 0.4f, 0.6f, 0.8f), 0.5f), SHADE_OK);
+        CHECK_INT(shade_draw(&strip.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, NULL),
+                  SHADE_OK);
+        size_t cell = canvas_pixel_bytes(format);
+        for (int y = offset; y < offset + rows; y++) {
+            size_t a = canvas_index(&whole, 0, y), b = canvas_index(&strip, 0, y),
+                   used = (size_t)width;
+            CHECK(!memcmp(whole.color + CANVAS_GUARD + a * cell,
+                          strip.color + CANVAS_GUARD + b * cell, used * cell));
+            CHECK(!memcmp(whole.depth + CANVAS_GUARD + a * 4, strip.depth + CANVAS_GUARD + b * 4,
+                          used * 4));
+        }
+        canvas_close(&whole);
+        canvas_close(&strip);
+    }
+}
+
+TEST(drive, drawing_twice_gives_the_same_bits)
+{
+    static random_draw r;
+    for (int i = 0; i < 100; i++) {
+        canvas a = canvas_open(50, 40, 0, (shade_format)(i % 3), 1),
+               b = canvas_open(50, 40, 0, (shade_format)(i % 3), 1);
+        random_pipeline(&r, 0);
+        shade_stats sa, sb;
+        canvas_clear(&a, 0.5f), canvas_clear(&b, 0.5f);
+        CHECK_INT(shade_draw(&a.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &sa),
+                  SHADE_OK);
+        CHECK_INT(shade_draw(&b.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &sb),
+                  SHADE_OK);
+        CHECK(canvas_same(&a, &b));
+        CHECK(!memcmp(&sa, &sb, sizeof sa));
+        canvas_close(&a);
+        canvas_close(&b);
+    }
+}
+
+/* the queue never reorders what lies in one pixel */
+TEST(drive, one_draw_equals_its_triangles_drawn_one_by_one)
+{
+    static random_draw r;
+    for (int i = 0; i < 150; i++) {
+        canvas a = canvas_open(40, 30, 0, (shade_format)(i % 3), 1),
+               b = canvas_open(40, 30, 0, (shade_format)(i % 3), 1);
+        random_pipeline(&r, 0);
+        r.p.fragment =
+            r.p.fragment == fragment_sieve ? scene_colors : r.p.fragment; /* no use of primitive */
+        if (r.p.fragment == scene_flat) r.p.fragment = scene_colors;
+        shade_stats whole, one;
+        long long fragments = 0;
+        canvas_clear(&a, 0.5f), canvas_clear(&b, 0.5f);
+        CHECK_INT(shade_draw(&a.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &whole),
+                  SHADE_OK);
+        for (int k = 0; k < r.index_count; k += 3) {
+            CHECK_INT(shade_draw(&b.target, &r.p, r.indices + k, 3, DRAW_VERTICES, &one), SHADE_OK);
+            fragments += one.fragments;
+        }
+        CHECK(canvas_same(&a, &b));
+        CHECK_INT(fragments, whole.fragments);
+        canvas_close(&a);
+        canvas_close(&b);
+    }
+}
+
+static const test_case drive_cases[] = {
+    CASE(drive, missing_pointers_are_bad_arguments),
+    CASE(drive, bad_targets_are_refused_by_every_call),
+    CASE(drive, odd_but_legal_targets_are_taken),
+    CASE(drive, bad_pipelines_are_refused),
+    CASE(drive, bad_indices_are_refused_before_a_pixel_changes),
+    CASE(drive, checks_come_in_the_stated_order),
+    CASE(drive, no_triangles_is_no_error),
+    CASE(drive, results_have_texts),
+    CASE(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up),
+    CASE(drive, stats_do_not_depend_on_the_clip_rectangle),
+    CASE(drive, bands_and_rectangles_give_the_bits_of_the_whole),
+    CASE(drive, strips_hold_the_rows_of_the_whole),
+    CASE(drive, drawing_twice_gives_the_same_bits),
+    CASE(drive, one_draw_equals_its_triangles_drawn_one_by_one),
+};

@@ -1,0 +1,836 @@
+/* fragment.c - what reaches the fragment shader, and what becomes of its colours: interpolation,
+   depth, blending, discard, and the depth test before or after shading. */
+
+/* One triangle on the 1/256 grid, so that the exact planes through its corners are known. */
+typedef struct grid_triangle {
+    shade_vec4 clip[3];
+    int64_t x[3], y[3];
+    double z[3], w[3]; /* z/w in [-1, 1] */
+    double reach;      /* longest side squared over twice the area: how steep values can be */
+} grid_triangle;
+
+static void random_grid_triangle(grid_triangle *t, int width, int height, double w_range)
+{
+    double area;
+    do {
+        for (int k = 0; k < 3; k++) {
+            t->x[k] = rnd_int(-width * 64, width * 320),
+            t->y[k] = rnd_int(-height * 64, height * 320);
+        }
+        area = fabs((double)((t->x[1] - t->x[0]) * (t->y[2] - t->y[0]) -
+                             (t->y[1] - t->y[0]) * (t->x[2] - t->x[0])));
+        double longest = 0;
+        for (int k = 0; k < 3; k++) {
+            double dx = (double)(t->x[k] - t->x[(k + 1) % 3]),
+                   dy = (double)(t->y[k] - t->y[(k + 1) % 3]);
+            longest = fmax(longest, dx * dx + dy * dy);
+        }
+        t->reach = longest / fmax(area, 1);
+    } while (area < 65536 || t->reach > 50);
+    for (int k = 0; k < 3; k++) {
+        t->w[k] = (double)rnd_log(1 / w_range, w_range), t->z[k] = (double)rnd_float(-0.98, 0.98);
+        t->clip[k] = clip_of_fx8((double)t->x[k], (double)t->y[k], width, height, t->z[k], t->w[k]);
+    }
+}
+
+/* The allowed error of an interpolated value: a few float roundings of the greatest value, as much
+   larger as the planes are steeper than the values; a corner's own position is off by up to 1/2000
+   pixel of rounding in x/w. */
+static double plane_error(const grid_triangle *t, double w_range)
+{
+    return 4e-6 * (1 + t->reach) * w_range;
+}
+
+static shade_stats draw_scene(canvas *c, const shade_pipeline *p, int vertices)
+{
+    shade_stats stats;
+    CHECK_INT(shade_draw(&c->target, p, NULL, vertices, vertices, &stats), SHADE_OK);
+    CHECK_INT(stats.culled + stats.clipped + stats.rejected + stats.drawn, stats.triangles);
+    return stats;
+}
+
+TEST(fragment, x_and_y_are_pixel_centres_each_pixel_once)
+{
+    recorder r = recorder_open(20000);
+    static unsigned char seen[90 * 70];
+    for (int i = 0; i < 600; i++) {
+        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, 1);
+        grid_triangle t;
+        random_grid_triangle(&t, 90, 70, 2);
+        scene s = { t.clip, NULL, 0, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        r.count = 0, memset(seen, 0, sizeof seen);
+        canvas_clear(&c, 1);
+        shade_stats stats = draw_scene(&c, &p, 3);
+        CHECK_INT(stats.fragments, r.count);
+        for (int k = 0; k < r.count; k++) {
+            fragment_record *f = &r.fragments[k];
+            int x = (int)f->x, y = (int)f->y;
+            CHECK_NEAR(f->x, x + 0.5, 0);
+            CHECK_NEAR(f->y, y + 0.5, 0);
+            if (x < 0 || x >= 90 || y < 0 || y >= 70) {
+                CHECK_SAY(0, "pixel %d %d", x, y);
+                continue;
+            }
+            CHECK_SAY(!seen[y * 90 + x] && ref_inside_fx8(t.x, t.y, x, y), "pixel %d %d", x, y);
+            seen[y * 90 + x] = 1;
+            CHECK_SAY(float_bits(f->z) == float_bits(canvas_depth(&c, x, y)), "z %a, stored %a",
+                      (double)f->z, (double)canvas_depth(&c, x, y));
+        }
+        CHECK_INT(r.bad_counts, 0);
+        CHECK_INT(r.bad_tails, 0);
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
+TEST(fragment, packets_are_full_but_the_last_of_a_batch) /* pixels queue across triangles */
+{
+    enum { N = 500 };
+    static shade_vec4 clip[3 * N];
+    recorder r = recorder_open(400000);
+    for (int round = 0; round < 20; round++) {
+        canvas c = canvas_open(64, 64, 0, SHADE_RGBA8, 0);
+        for (int i = 0; i < N; i++) {
+            int64_t x[3], y[3];
+            random_corners(round % 2, 64, 64, x, y);
+            for (int k = 0; k < 3; k++)
+                clip[3 * i + k] = clip_of_fx8((double)x[k], (double)y[k], 64, 64, 0, 1);
+        }
+        scene s = { clip, NULL, 0, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        r.count = 0, r.fragment_packets = r.vertex_packets = 0;
+        shade_stats stats = draw_scene(&c, &p, 3 * N);
+        CHECK_INT(r.count, stats.fragments);
+        /* each packet of vertices leaves at most one packet of pixels short */
+        CHECK_SAY(r.fragment_packets <= r.count / SHADE_LANES + r.vertex_packets,
+                  "%ld packets for %d fragments", r.fragment_packets, r.count);
+        CHECK(r.vertex_packets <= 3 * N / (SHADE_LANES - 2) + 1);
+        for (int k = 1; k < r.count; k++)
+            CHECK(r.fragments[k].primitive >= r.fragments[k - 1].primitive);
+        CHECK_INT(r.bad_counts, 0);
+        CHECK_INT(r.bad_tails, 0);
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
+TEST(fragment, perspective_varyings_match_double_for_every_count) /* rows 42, 44, 48 */
+{
+    recorder r = recorder_open(20000);
+    for (int i = 0; i < 700; i++) {
+        int width = rnd_int(10, 120), height = rnd_int(10, 90),
+            varyings = i % (SHADE_MAX_VARYINGS + 1);
+        double w_range = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 10;
+        canvas c = canvas_open(width, height, 0, SHADE_RGBA8, 1);
+        grid_triangle t;
+        float attribute[3 * SHADE_MAX_VARYINGS];
+        random_grid_triangle(&t, width, height, w_range);
+        for (int k = 0; k < 3 * SHADE_MAX_VARYINGS; k++) attribute[k] = rnd_float(-1, 1);
+        ref_triangle e;
+        if (!ref_triangle_of(&e, &t.clip[0], &t.clip[1], &t.clip[2], width, height)) continue;
+        scene s = { t.clip, attribute, varyings, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        r.count = 0;
+        canvas_clear(&c, 1);
+        draw_scene(&c, &p, 3);
+        for (int k = 0; k < r.count; k++) {
+            fragment_record *f = &r.fragments[k];
+            double X = (double)f->x, Y = (double)f->y;
+            CHECK_NEAR(f->z, ref_depth(&e, X, Y, 0), plane_error(&t, 1) / 4);
+            for (int j = 0; j < varyings; j++) {
+                double want =
+                    ref_interpolate(&e, X, Y, (double)attribute[j], (double)attribute[varyings + j],
+                                    (double)attribute[2 * varyings + j]);
+                CHECK_NEAR(f->in[j], want, plane_error(&t, w_range));
+            }
+        }
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
+TEST(fragment, affine_varyings_are_linear_on_the_screen)
+{
+    recorder r = recorder_open(20000);
+    for (int i = 0; i < 200; i++) {
+        canvas c = canvas_open(100, 80, 0, SHADE_RGBA8, 0);
+        grid_triangle t;
+        float attribute[9];
+        random_grid_triangle(&t, 100, 80, 10);
+        for (int k = 0; k < 9; k++) attribute[k] = rnd_float(-1, 1);
+        scene s = { t.clip, attribute, 3, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        p.interpolation = SHADE_AFFINE;
+        r.count = 0;
+        draw_scene(&c, &p, 3);
+        shade_vec4 flat[3];
+        for (int k = 0; k < 3; k++)
+            flat[k] = clip_of_fx8((double)t.x[k], (double)t.y[k], 100, 80, 0, 1);
+        ref_triangle e;
+        if (!ref_triangle_of(&e, &flat[0], &flat[1], &flat[2], 100, 80)) continue;
+        for (int k = 0; k < r.count; k++) {
+            for (int j = 0; j < 3; j++) {
+                double want = ref_interpolate(&e, (double)r.fragments[k].x,
+                                              (double)r.fragments[k].y, (double)attribute[j],
+                                              (double)attribute[3 + j], (double)attribute[6 + j]);
+                CHECK_NEAR(r.fragments[k].in[j], want, plane_error(&t, 1));
+            }
+        }
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
+TEST(fragment, constant_varyings_are_the_first_corner_bit_for_bit)
+{
+    recorder r = recorder_open(100000);
+    enum { N = 20 };
+    for (int i = 0; i < 100; i++) {
+        canvas c = canvas_open(60, 60, 0, SHADE_RGBA8, 0);
+        shade_vec4 clip[3 * N];
+        float attribute[6 * N];
+        for (int k = 0; k < N; k++) {
+            grid_triangle t;
+            random_grid_triangle(&t, 60, 60, 10);
+            memcpy(clip + 3 * k, t.clip, sizeof t.clip);
+        }
+        for (int k = 0; k < 6 * N; k++) attribute[k] = rnd_float(-1, 1) * rnd_log(1e-6, 1e6);
+        scene s = { clip, attribute, 2, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        p.interpolation = SHADE_CONSTANT;
+        r.count = 0;
+        draw_scene(&c, &p, 3 * N);
+        CHECK(r.count > 0);
+        for (int k = 0; k < r.count; k++) {
+            for (int j = 0; j < 2; j++) {
+                CHECK(float_bits(r.fragments[k].in[j]) ==
+                      float_bits(attribute[6 * r.fragments[k].primitive + (uint32_t)j]));
+            }
+        }
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
+TEST(fragment,
+     equal_varyings_stay_equal) /* a value that is the same at all corners does not drift */
+{
+    recorder r = recorder_open(20000);
+    for (int i = 0; i < 300; i++) {
+        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, 0);
+        grid_triangle t;
+        float attribute[6];
+        random_grid_triangle(&t, 90, 70, 10);
+        for (int k = 0; k < 6; k++) attribute[k] = k % 2 ? 1 : 123.25f;
+        scene s = { t.clip, attribute, 2, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        r.count = 0;
+        draw_scene(&c, &p, 3);
+        for (int k = 0; k < r.count; k++) {
+            CHECK_NEAR(r.fragments[k].in[0], 123.25, 123.25 * plane_error(&t, 10) / 4);
+            CHECK_NEAR(r.fragments[k].in[1], 1, plane_error(&t, 10) / 4);
+        }
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
+TEST(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones)
+{
+    recorder r = recorder_open(100000);
+    static shade_vec4 clip[3 * 300];
+    for (int i = 0; i < 300; i++) {
+        memcpy(clip + 3 * i, clip_corners, sizeof clip_corners);
+        if (i % 3 == 1)
+            clip[3 * i] = clip_corners[1], clip[3 * i + 1] = clip_corners[0]; /* back-facing */
+        if (i % 7 == 3) clip[3 * i].x = (float)NAN;
+    }
+    canvas c = canvas_open(10, 10, 0, SHADE_RGBA8, 0);
+    scene s = { clip, NULL, 0, NULL, &r };
+    shade_pipeline p = scene_pipeline(&s);
+    static int seen[300];
+    for (int cull = 0; cull < 3; cull++) {
+        p.cull = (shade_cull)cull;
+        r.count = 0, memset(seen, 0, sizeof seen);
+        draw_scene(&c, &p, 900);
+        for (int k = 0; k < r.count; k++) seen[r.fragments[k].primitive % 300]++;
+        for (int i = 0; i < 300; i++) {
+            int back = i % 3 == 1, hidden = i % 7 == 3 || (cull == SHADE_CULL_BACK && back) ||
+                                            (cull == SHADE_CULL_FRONT && !back);
+            CHECK_INT(seen[i], hidden ? 0 : 50);
+        }
+    }
+    free(r.fragments);
+    canvas_close(&c);
+}
+
+/* ---------------------------------------------------------------------------------------- depth */
+
+static shade_stats draw_at_depth(canvas *c, float z, shade_compare compare, float bias,
+                                 int read_only)
+{
+    shade_vec4 v[3];
+    memcpy(v, clip_corners, sizeof v);
+    for (int k = 0; k < 3; k++) v[k].z = z;
+    scene s = { v, NULL, 0, NULL, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    p.depth_test = compare, p.depth_bias = bias, p.depth_read_only = read_only;
+    return draw_scene(c, &p, 3);
+}
+
+TEST(fragment, comparisons_do_what_their_names_say)
+{
+    static const shade_compare compare[] = { SHADE_LESS,          SHADE_LESS_EQUAL, SHADE_GREATER,
+                                             SHADE_GREATER_EQUAL, SHADE_EQUAL,      SHADE_ALWAYS };
+    static const int nearer[] = { 1, 1, 0, 0, 0, 1 }, same[] = { 0, 1, 0, 1, 1, 1 },
+                     farther[] = { 0, 0, 1, 1, 0, 1 };
+    for (int k = 0; k < 6; k++)
+        for (int mode = 0; mode < 2; mode++) { /* both sides of exact equality */
+            canvas c = canvas_open(16, 16, 19, SHADE_RGBA8, 1);
+            canvas_clear(&c, 0.5f);
+            CHECK_INT(draw_at_depth(&c, -0.25f, compare[k], 0, 1).fragments, nearer[k] * 128);
+            CHECK_INT(draw_at_depth(&c, 0, compare[k], 0, 1).fragments, same[k] * 128);
+            CHECK_INT(draw_at_depth(&c, 0.25f, compare[k], 0, 1).fragments, farther[k] * 128);
+            CHECK_NEAR(canvas_depth(&c, 8, 12), 0.5, 0);
+            float z = mode ? 0.25f : -0.25f;
+            int pass = mode ? farther[k] : nearer[k];
+            CHECK_INT(draw_at_depth(&c, z, compare[k], 0, 0).fragments, pass * 128);
+            CHECK_NEAR(canvas_depth(&c, 8, 12), pass ? 0.5 + (double)z / 2 : 0.5, 0);
+            CHECK_NEAR(canvas_depth(&c, 0, 0), 0.5, 0);
+            canvas_close(&c);
+        }
+}
+
+TEST(fragment, a_second_identical_draw_has_equal_depth)
+{
+    for (int i = 0; i < 100; i++) {
+        canvas c = canvas_open(100, 80, 0, SHADE_RGBA8, 1);
+        grid_triangle t;
+        random_grid_triangle(&t, 100, 80, 10);
+        scene s = { t.clip, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        canvas_clear(&c, 1);
+        long long first = draw_scene(&c, &p, 3).fragments;
+        CHECK_INT(draw_scene(&c, &p, 3).fragments, 0);
+        p.depth_test = SHADE_EQUAL;
+        CHECK_INT(draw_scene(&c, &p, 3).fragments, first);
+        p.depth_test = SHADE_LESS_EQUAL;
+        CHECK_INT(draw_scene(&c, &p, 3).fragments, first);
+        p.depth_test = SHADE_GREATER;
+        CHECK_INT(draw_scene(&c, &p, 3).fragments, 0);
+        canvas_close(&c);
+    }
+}
+
+TEST(fragment, bias_is_added_and_what_is_stored_is_clamped)
+{
+    canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 1);
+    static const struct {
+        float z, bias;
+        double want;
+    } table[] = {
+        { 0, 0, 0.5 },      { 0, 0.125f, 0.625 }, { 0, -0.125f, 0.375 },
+        { 0.5f, 0.5f, 1 },  { -0.5f, -0.5f, 0 },  { 0.25f, 100, 1 },
+        { 0.25f, -100, 0 }, { -1, 0, 0 },         { 1, 0, 1 },
+    };
+    for (int k = 0; k < 9; k++) {
+        canvas_clear(&c, 1);
+        CHECK_INT(draw_at_depth(&c, table[k].z, SHADE_ALWAYS, table[k].bias, 0).fragments, 128);
+        CHECK_NEAR(canvas_depth(&c, 8, 12), table[k].want, 1e-7);
+        CHECK(canvas_depth(&c, 8, 12) >= 0 && canvas_depth(&c, 8, 12) <= 1);
+    }
+    canvas_close(&c);
+}
+
+TEST(fragment, reversed_depth_sees_what_is_nearer)
+{
+    canvas c = canvas_open(32, 32, 0, SHADE_RGBA8, 1);
+    shade_mat4 m = shade_mat4_perspective_reversed(1, 1, 0.25f);
+    static const float distance[] = { 5, 2, 100, 0.5f, 3000, 1 };
+    double nearest = 1e30;
+    canvas_clear(&c, 0);
+    for (int k = 0; k < 6; k++) {
+        shade_vec4 v[3];
+        for (int j = 0; j < 3; j++) {
+            shade_vec4 corner = clip_corners[j];
+            v[j] = shade_mat4_transform(
+                m, shade_v4(corner.x * distance[k], corner.y * distance[k], -distance[k], 1));
+        }
+        scene s = { v, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.depth_zero_to_one = 1, p.depth_test = SHADE_GREATER;
+        long long fragments = draw_scene(&c, &p, 3).fragments;
+        CHECK_INT(fragments > 0, (double)distance[k] < nearest);
+        nearest = fmin(nearest, (double)distance[k]);
+        CHECK_NEAR(canvas_depth(&c, 16, 20), 0.25 / nearest, 1e-6);
+    }
+    canvas_close(&c);
+}
+
+TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer) /* row 46, C12 */
+{
+    for (int round = 0; round < 20; round++) {
+        enum { N = 60 };
+        shade_vec4 clip[3 * N], mirrored[3 * N], color[N];
+        for (int i = 0; i < N; i++) {
+            grid_triangle t;
+            random_grid_triangle(&t, 64, 64, 3);
+            for (int k = 0; k < 3; k++) {
+                clip[3 * i + k] = mirrored[3 * i + k] = t.clip[k];
+                mirrored[3 * i + k].z = -t.clip[k].z;
+            }
+            color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 1);
+        }
+        canvas a = canvas_open(64, 64, 0, SHADE_RGBA8, 1),
+               b = canvas_open(64, 64, 0, SHADE_RGBA8, 1);
+        scene s = { clip, NULL, 0, color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        canvas_clear(&a, 1), canvas_clear(&b, 0);
+        draw_scene(&a, &p, 3 * N);
+        s.clip = mirrored, p.depth_test = SHADE_GREATER;
+        draw_scene(&b, &p, 3 * N);
+        int differ = 0;
+        for (int y = 0; y < 64; y++)
+            for (int x = 0; x < 64; x++)
+                differ += memcmp(canvas_bytes(&a, x, y), canvas_bytes(&b, x, y), 4) != 0;
+        CHECK_SAY(differ < 8, "%d pixels differ", differ); /* intersections, by rounding */
+        canvas_close(&a);
+        canvas_close(&b);
+    }
+}
+
+TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel) /* row 46 */
+{
+    for (int round = 0; round < 40; round++) {
+        enum { N = 40 };
+        shade_vec4 clip[3 * N], color[N];
+        int64_t x[3 * N], y[3 * N];
+        ref_triangle e[N];
+        double worst = 0;
+        for (int i = 0; i < N; i++) {
+            grid_triangle t;
+            do random_grid_triangle(&t, 48, 48, 4);
+            while (!ref_triangle_of(&e[i], &t.clip[0], &t.clip[1], &t.clip[2], 48, 48));
+            memcpy(clip + 3 * i, t.clip, sizeof t.clip), memcpy(x + 3 * i, t.x, sizeof t.x);
+            memcpy(y + 3 * i, t.y, sizeof t.y);
+            color[i] = shade_v4((float)i / 255, 0, 0, 1);
+            worst = fmax(worst, plane_error(&t, 1));
+        }
+        canvas c = canvas_open(48, 48, 50, SHADE_RGBA8, 1);
+        scene s = { clip, NULL, 0, color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        canvas_clear(&c, 1);
+        draw_scene(&c, &p, 3 * N);
+        for (int j = 0; j < 48; j++)
+            for (int i = 0; i < 48; i++) {
+                double nearest = 1, second = 1;
+                int winner = 0;
+                for (int k = 0; k < N; k++) {
+                    if (!ref_inside_fx8(x + 3 * k, y + 3 * k, i, j)) continue;
+                    double z = ref_depth(&e[k], i + 0.5, j + 0.5, 0);
+                    if (z < nearest)
+                        second = nearest, nearest = z, winner = k;
+                    else
+                        second = fmin(second, z);
+                }
+                CHECK_NEAR(canvas_depth(&c, i, j), nearest, worst / 4);
+                if (nearest < 1 && second - nearest > worst)
+                    CHECK_INT(canvas_bytes(&c, i, j)[0], winner);
+                if (nearest == 1) CHECK_INT(canvas_bytes(&c, i, j)[3], 0);
+            }
+        canvas_close(&c);
+    }
+}
+
+TEST(fragment, without_a_depth_buffer_every_test_passes)
+{
+    for (int k = 0; k < 6; k++) {
+        canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 0);
+        canvas_clear(&c, 1);
+        CHECK_INT(draw_at_depth(&c, 0.5f, (shade_compare)k, 0, 0).fragments, 128);
+        CHECK_INT(draw_at_depth(&c, 0.5f, (shade_compare)k, 0, 0).fragments, 128);
+        canvas_close(&c);
+    }
+}
+
+/* ------------------------------------------------------------------------------------- blending */
+
+typedef struct blend_case {
+    shade_vec4 clip[3 * 80], color[80];
+    int64_t x[3 * 80], y[3 * 80];
+} blend_case;
+
+static void random_blend_case(blend_case *b, int n, int size)
+{
+    for (int i = 0; i < n; i++) {
+        random_corners(i % 4 == 0 ? 2 : rnd_int(0, 1), size, size, b->x + 3 * i, b->y + 3 * i);
+        for (int k = 0; k < 3; k++) {
+            b->clip[3 * i + k] =
+                clip_of_fx8((double)b->x[3 * i + k], (double)b->y[3 * i + k], size, size, 0, 1);
+        }
+        b->color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
+    }
+}
+
+/* Blends in submission order, in double; formats: rounds and encodes after every step as a stored
+   pixel must be. */
+static double blend_channel(shade_blend blend, int channel, double s, double a, double d)
+{
+    if (blend == SHADE_REPLACE) return s;
+    if (blend == SHADE_ADD) return s + d;
+    return channel == 3 ? a + d * (1 - a) : s * a + d * (1 - a);
+}
+static double stored_unit(double v, int srgb, int levels)
+{
+    v = v > 0 ? (v < 1 ? v : 1) : 0;
+    if (srgb) v = ref_encode_srgb(v);
+    v = floor(v * levels + 0.5) / levels;
+    return srgb ? ref_decode_srgb(v) : v;
+}
+
+TEST(fragment, blending_follows_submission_order_in_float)
+{
+    static blend_case b;
+    for (int round = 0; round < 60; round++) {
+        shade_blend blend = (shade_blend)(round % 3);
+        int n = rnd_int(2, 80), size = rnd_int(4, 60);
+        random_blend_case(&b, n, size);
+        canvas c = canvas_open(size, size, 0, SHADE_RGBA32F, rnd_int(0, 1));
+        shade_vec4 clear =
+            shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
+        CHECK_INT(shade_clear(&c.target, clear, 1), SHADE_OK);
+        scene s = { b.clip, NULL, 0, b.color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.blend = blend, p.depth_test = SHADE_ALWAYS;
+        draw_scene(&c, &p, 3 * n);
+        for (int j = 0; j < size; j++)
+            for (int i = 0; i < size; i++) {
+                double d[4];
+                d[0] = (double)clear.x, d[1] = (double)clear.y, d[2] = (double)clear.z,
+                d[3] = (double)clear.w;
+                for (int k = 0; k < n; k++) {
+                    if (!ref_inside_fx8(b.x + 3 * k, b.y + 3 * k, i, j)) continue;
+                    double v[4], a = (double)b.color[k].w;
+                    v[0] = (double)b.color[k].x, v[1] = (double)b.color[k].y,
+                    v[2] = (double)b.color[k].z, v[3] = a;
+                    for (int m = 0; m < 4; m++) d[m] = blend_channel(blend, m, v[m], a, d[m]);
+                }
+                for (int m = 0; m < 4; m++)
+                    CHECK_NEAR(canvas_float(&c, i, j, m), d[m], 3e-6 * fmax(1, d[m]));
+            }
+        canvas_close(&c);
+    }
+}
+
+TEST(fragment,
+     blending_of_stored_bytes_follows_submission_order) /* linear light when the target is sRGB */
+{
+    static blend_case b;
+    for (int round = 0; round < 80; round++) {
+        shade_blend blend = round % 2 ? SHADE_OVER : SHADE_ADD;
+        int n = rnd_int(2, 40), size = rnd_int(4, 40), srgb = round % 4 > 1;
+        shade_format format = round % 8 > 3 ? SHADE_RGB565 : SHADE_RGBA8;
+        random_blend_case(&b, n, size);
+        if (blend == SHADE_ADD)
+            for (int i = 0; i < n; i++) b.color[i] = shade_scale4(b.color[i], 0.1f);
+        canvas c = canvas_open(size, size, 0, format, 0);
+        c.target.srgb = srgb;
+        canvas_clear(&c, 1);
+        scene s = { b.clip, NULL, 0, b.color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.blend = blend;
+        draw_scene(&c, &p, 3 * n);
+        int off = 0, pixels = 0;
+        for (int j = 0; j < size; j++)
+            for (int i = 0; i < size; i++) {
+                double d[4] = { 0, 0, 0, 0 };
+                static const int bits565[] = { 31, 63, 31 };
+                int channels = format == SHADE_RGBA8 ? 4 : 3;
+                for (int k = 0; k < n; k++) {
+                    if (!ref_inside_fx8(b.x + 3 * k, b.y + 3 * k, i, j)) continue;
+                    double v[4], a = (double)b.color[k].w;
+                    v[0] = (double)b.color[k].x, v[1] = (double)b.color[k].y,
+                    v[2] = (double)b.color[k].z, v[3] = a;
+                    for (int m = 0; m < channels; m++) {
+                        int levels = format == SHADE_RGBA8 ? 255 : bits565[m];
+                        d[m] = stored_unit(blend_channel(blend, m, v[m], a, d[m]), srgb && m < 3,
+                                           levels);
+                    }
+                }
+                unsigned v565 = format == SHADE_RGB565 ? canvas_565(&c, i, j) : 0;
+                for (int m = 0; m < channels; m++) {
+                    int levels = format == SHADE_RGBA8 ? 255 : bits565[m];
+                    int want =
+                        (int)floor((srgb && m < 3 ? ref_encode_srgb(d[m]) : d[m]) * levels + 0.5);
+                    int got = format == SHADE_RGBA8 ? canvas_bytes(&c, i, j)[m]
+                                                    : (int)(m == 0   ? v565 >> 11
+                                                            : m == 1 ? v565 >> 5 & 63
+                                                                     : v565 & 31);
+                    pixels++, off += got != want;
+                    CHECK_SAY(got - want <= 1 && want - got <= 1,
+                              "pixel %d %d channel %d: got %d, want %d", i, j, m, got, want);
+                }
+            }
+        CHECK_SAY(off <= pixels / 200 + 2, "%d of %d values are off by one", off,
+                  pixels); /* ties by rounding */
+        canvas_close(&c);
+    }
+}
+
+TEST(fragment, alpha_of_over_builds_up)
+{
+    canvas c = canvas_open(16, 16, 0, SHADE_RGBA32F, 0);
+    CHECK_INT(shade_clear(&c.target, shade_v4(0.5f, 0.5f, 0.5f, 0.5f), 1), SHADE_OK);
+    shade_vec4 color[1] = { { 1, 0, 0.25f, 0.25f } };
+    scene s = { clip_corners, NULL, 0, color, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    p.blend = SHADE_OVER;
+    draw_scene(&c, &p, 3);
+    CHECK_NEAR(canvas_float(&c, 8, 12, 0), 0.625, 1e-7);
+    CHECK_NEAR(canvas_float(&c, 8, 12, 1), 0.375, 1e-7);
+    CHECK_NEAR(canvas_float(&c, 8, 12, 2), 0.4375, 1e-7);
+    CHECK_NEAR(canvas_float(&c, 8, 12, 3), 0.625, 1e-7);
+    canvas_close(&c);
+}
+
+/* -------------------------------------------------------------------------------------- discard */
+
+static void fragment_sieve(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                           shade_colors *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    if (s->record) scene_record_fragments(s, in);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        int x = (int)in->x[i], y = (int)in->y[i];
+        out->out[0][i] = s->color[in->primitive[i]].x;
+        out->out[3][i] = 1;
+        out->discard[i] = (x * 7 + y * 5 + (int)in->primitive[i]) % 3 == 0 ? 0x80000000u : 0;
+    }
+}
+
+TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
+{
+    for (int round = 0; round < 60; round++) {
+        enum { N = 40 };
+        shade_vec4 clip[3 * N], color[N];
+        int64_t x[3 * N], y[3 * N];
+        ref_triangle e[N];
+        double worst = 0;
+        int with_depth = round % 3 != 0;
+        for (int i = 0; i < N; i++) {
+            grid_triangle t;
+            do random_grid_triangle(&t, 48, 48, 4);
+            while (!ref_triangle_of(&e[i], &t.clip[0], &t.clip[1], &t.clip[2], 48, 48));
+            memcpy(clip + 3 * i, t.clip, sizeof t.clip), memcpy(x + 3 * i, t.x, sizeof t.x);
+            memcpy(y + 3 * i, t.y, sizeof t.y);
+            color[i] = shade_v4((float)(i + 1) / 255, 0, 0, 1);
+            worst = fmax(worst, plane_error(&t, 1));
+        }
+        canvas c = canvas_open(48, 48, 50, SHADE_RGBA8, with_depth);
+        scene s = { clip, NULL, 0, color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.fragment = fragment_sieve, p.may_discard = 1;
+        canvas_clear(&c, 1);
+        draw_scene(&c, &p, 3 * N);
+        for (int j = 0; j < 48; j++)
+            for (int i = 0; i < 48; i++) {
+                double depth = 1;
+                int want = 0, sure = 1;
+                for (int k = 0; k < N; k++) {
+                    if (!ref_inside_fx8(x + 3 * k, y + 3 * k, i, j) || (i * 7 + j * 5 + k) % 3 == 0)
+                        continue;
+                    double z = ref_depth(&e[k], i + 0.5, j + 0.5, 0);
+                    if (with_depth && fabs(z - depth) < worst) sure = 0;
+                    if (!with_depth || z < depth) depth = z, want = k + 1;
+                }
+                if (!sure) continue;
+                CHECK_INT(canvas_bytes(&c, i, j)[0], want);
+                CHECK_INT(canvas_bytes(&c, i, j)[3], want ? 255 : 0);
+                if (with_depth) CHECK_NEAR(canvas_depth(&c, i, j), depth, worst);
+            }
+        canvas_close(&c);
+    }
+}
+
+TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture) /* row 47 */
+{
+    for (int round = 0; round < 80; round++) {
+        enum { N = 80 };
+        shade_vec4 clip[3 * N], color[N];
+        for (int i = 0; i < N; i++) {
+            grid_triangle t;
+            random_grid_triangle(&t, 64, 48, 4);
+            if (i % 5 == 4 && i > 5)
+                memcpy(clip + 3 * i, clip + 3 * (i - 5), sizeof t.clip); /* equal depths */
+            else
+                memcpy(clip + 3 * i, t.clip, sizeof t.clip);
+            color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
+        }
+        canvas early = canvas_open(64, 48, 0, SHADE_RGBA8, 1),
+               late = canvas_open(64, 48, 0, SHADE_RGBA8, 1);
+        scene s = { clip, NULL, 0, color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.depth_test = (shade_compare)(round % 6), p.blend = (shade_blend)(round / 6 % 3);
+        p.depth_bias = round % 4 == 3 ? 0.01f : 0, p.depth_read_only = round % 10 == 9;
+        float clear = p.depth_test == SHADE_GREATER || p.depth_test == SHADE_GREATER_EQUAL ? 0 : 1;
+        canvas_clear(&early, clear), canvas_clear(&late, clear);
+        shade_stats a = draw_scene(&early, &p, 3 * N);
+        p.may_discard = 1;
+        shade_stats b = draw_scene(&late, &p, 3 * N);
+        CHECK(canvas_same(&early, &late));
+        CHECK_INT(b.fragments, a.fragments);
+        canvas_close(&early);
+        canvas_close(&late);
+    }
+}
+
+TEST(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed)
+{
+    canvas c = canvas_open(30, 30, 0, SHADE_RGBA8, 1);
+    shade_vec4 color[1] = { { 1, 1, 1, 1 } };
+    scene s = { clip_corners, NULL, 0, color, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    p.fragment = fragment_sieve, p.may_discard = 1;
+    canvas_clear(&c, 1);
+    draw_scene(&c, &p, 3);
+    int kept = 0, touched = 0;
+    for (int k = 0; k < 900; k++) {
+        kept += canvas_bytes(&c, k % 30, k / 30)[3] != 0;
+        touched += canvas_depth(&c, k % 30, k / 30) < 1;
+    }
+    CHECK_INT(kept, touched);
+    CHECK_SAY(kept > 200 && kept < 400, "%d pixels kept", kept);
+    canvas_close(&c);
+}
+
+/* ------------------------------------------------------------------------------ missing buffers */
+
+TEST(fragment, without_colour_the_shader_runs_only_where_it_may_discard)
+{
+    recorder r = recorder_open(1000);
+    canvas c = canvas_open(30, 30, 0, SHADE_RGBA8, 1);
+    c.target.color = NULL;
+    shade_vec4 color[1] = { { 1, 1, 1, 1 } };
+    scene s = { clip_corners, NULL, 0, color, &r };
+    shade_pipeline p = scene_pipeline(&s);
+    p.fragment = fragment_sieve;
+    CHECK_INT(shade_clear(&c.target, shade_v4(0, 0, 0, 0), 1), SHADE_OK);
+    shade_stats stats = draw_scene(&c, &p, 3);
+    CHECK_INT(r.fragment_packets, 0);
+    int touched = 0;
+    for (int k = 0; k < 900; k++) touched += canvas_depth(&c, k % 30, k / 30) < 1;
+    CHECK_INT(touched, stats.fragments);
+    CHECK(touched > 400);
+    CHECK_INT(shade_clear(&c.target, shade_v4(0, 0, 0, 0), 1), SHADE_OK);
+    p.may_discard = 1;
+    draw_scene(&c, &p, 3);
+    CHECK(r.fragment_packets > 0);
+    int kept = 0;
+    for (int k = 0; k < 900; k++) kept += canvas_depth(&c, k % 30, k / 30) < 1;
+    CHECK_SAY(kept > 200 && kept < touched, "%d of %d", kept, touched);
+    for (size_t k = 0; k < c.color_bytes; k++) CHECK(c.color[CANVAS_GUARD + k] == CANVAS_BYTE);
+    free(r.fragments);
+    canvas_close(&c);
+}
+
+TEST(fragment, without_a_shader_only_depth_is_written)
+{
+    canvas c = canvas_open(30, 30, 0, SHADE_RGBA8, 1);
+    scene s = { clip_corners, NULL, 0, NULL, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    p.fragment = NULL;
+    CHECK_INT(shade_clear(&c.target, shade_v4(1, 0, 1, 0), 1), SHADE_OK);
+    shade_stats stats = draw_scene(&c, &p, 3);
+    int touched = 0;
+    for (int k = 0; k < 900; k++) {
+        touched += canvas_depth(&c, k % 30, k / 30) == 0.5f;
+        const unsigned char *q = canvas_bytes(&c, k % 30, k / 30);
+        CHECK(q[0] == 255 && q[1] == 0 && q[2] == 255 && q[3] == 0);
+    }
+    CHECK_INT(touched, stats.fragments);
+    CHECK(touched > 400);
+    canvas_close(&c);
+}
+
+static void fragment_first_packet_only(const void *uniforms,
+                                       const shade_fragments *SHADE_RESTRICT in,
+                                       shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    if (in->y[0] > 20) return;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        out->out[0][i] = 1, out->out[1][i] = 1, out->out[2][i] = 1, out->out[3][i] = 0;
+        out->discard[i] = 1;
+    }
+}
+
+TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
+{
+    for (int may_discard = 0; may_discard < 2; may_discard++) {
+        canvas c = canvas_open(64, 64, 0, SHADE_RGBA8, 1);
+        static const shade_vec4 whole[6] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 }, { 1, 1, 0, 1 },
+                                             { -1, -1, 0, 1 }, { 1, 1, 0, 1 },  { -1, 1, 0, 1 } };
+        scene s = { whole, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.fragment = fragment_first_packet_only, p.may_discard = may_discard;
+        CHECK_INT(shade_clear(&c.target, shade_v4(0, 1, 0, 1), 1), SHADE_OK);
+        draw_scene(&c, &p, 6);
+        for (int y = 40; y < 64; y++)
+            for (int x = 0; x < 64; x++) {
+                const unsigned char *q = canvas_bytes(&c, x, y);
+                CHECK_SAY(q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 255,
+                          "pixel %d %d: %d %d %d %d", x, y, q[0], q[1], q[2], q[3]);
+            }
+        CHECK_INT(canvas_bytes(&c, 50, 10)[1], 255);
+        CHECK_INT(canvas_bytes(&c, 50, 10)[0], may_discard ? 0 : 255);
+        canvas_close(&c);
+    }
+}
+
+TEST(fragment, vertex_colours_smear_between_the_corners) /* row 43 */
+{
+    canvas c = canvas_open(200, 200, 0, SHADE_RGBA32F, 0);
+    static const float color[] = { 1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1 };
+    scene s = { clip_corners, color, 4, NULL, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    p.fragment = scene_colors;
+    canvas_clear(&c, 1);
+    draw_scene(&c, &p, 3);
+    for (int y = 0; y < 200; y++)
+        for (int x = 0; x < 200; x++) {
+            if (canvas_float(&c, x, y, 3) == 0) continue;
+            double up = 1 - (y + 0.5) / 200, right = (x + 0.5) / 200 - up / 2;
+            CHECK_NEAR(canvas_float(&c, x, y, 0), 1 - up - right, 1e-5);
+            CHECK_NEAR(canvas_float(&c, x, y, 1), right, 1e-5);
+            CHECK_NEAR(canvas_float(&c, x, y, 2), up, 1e-5);
+        }
+    canvas_close(&c);
+}
+
+static const test_case fragment_cases[] = {
+    CASE(fragment, x_and_y_are_pixel_centres_each_pixel_once),
+    CASE(fragment, packets_are_full_but_the_last_of_a_batch),
+    CASE(fragment, perspective_varyings_match_double_for_every_count),
+    CASE(fragment, affine_varyings_are_linear_on_the_screen),
+    CASE(fragment, constant_varyings_are_the_first_corner_bit_for_bit),
+    CASE(fragment, equal_varyings_stay_equal),
+    CASE(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones),
+    CASE(fragment, comparisons_do_what_their_names_say),
+    CASE(fragment, a_second_identical_draw_has_equal_depth),
+    CASE(fragment, bias_is_added_and_what_is_stored_is_clamped),
+    CASE(fragment, reversed_depth_sees_what_is_nearer),
+    CASE(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer),
+    CASE(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel),
+    CASE(fragment, without_a_depth_buffer_every_test_passes),
+    CASE(fragment, blending_follows_submission_order_in_float),
+    CASE(fragment, blending_of_stored_bytes_follows_submission_order),
+    CASE(fragment, alpha_of_over_builds_up),
+    CASE(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth),
+    CASE(fragment, testing_depth_before_or_after_shading_gives_the_same_picture),
+    CASE(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed),
+    CASE(fragment, without_colour_the_shader_runs_only_where_it_may_discard),
+    CASE(fragment, without_a_shader_only_depth_is_written),
+    CASE(fragment, colours_a_shader_leaves_alone_are_opaque_black),
+    CASE(fragment, vertex_colours_smear_between_the_corners),
+};

@@ -1,0 +1,93 @@
+/* golden.c - holds picture files to recorded hashes.
+
+     golden file ...            compares each file with tests/golden.txt, prints N passed, N failed
+     golden --update file ...   writes tests/golden.txt anew
+
+   tests/golden.txt: one line per picture, its name without folder and its 64-bit FNV-1a hash. */
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#define LIST "tests/golden.txt"
+
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* 0 where the file cannot be read; else 1 and its hash */
+static int hash_file(const char *path, uint64_t *hash)
+{
+    FILE *f = fopen(path, "rb");
+    unsigned char block[65536];
+    size_t size;
+    *hash = 14695981039346656037u;
+    if (!f) return 0;
+    while ((size = fread(block, 1, sizeof block, f)) > 0) {
+        for (size_t i = 0; i < size; i++) *hash = (*hash ^ block[i]) * 1099511628211u;
+    }
+    int ok = !ferror(f);
+    fclose(f);
+    return ok;
+}
+
+static int recorded_hash(const char *name, uint64_t *hash)
+{
+    FILE *f = fopen(LIST, "r");
+    char line[400], recorded[300];
+    unsigned long long value;
+    int found = 0;
+    if (!f) return 0;
+    while (!found && fgets(line, sizeof line, f)) {
+        found = sscanf(line, "%299s %llx", recorded, &value) == 2 && !strcmp(recorded, name);
+    }
+    fclose(f);
+    if (found) *hash = value;
+    return found;
+}
+
+static int update(int count, char **paths)
+{
+    FILE *f = fopen(LIST, "w");
+    int ok = f != NULL;
+    for (int i = 0; i < count && ok; i++) {
+        uint64_t hash;
+        ok = hash_file(paths[i], &hash);
+        if (!ok)
+            printf("%s: cannot be read\n", paths[i]);
+        else
+            fprintf(f, "%s %016llx\n", name_of(paths[i]), (unsigned long long)hash);
+    }
+    if (f && fclose(f)) ok = 0;
+    printf(ok ? "%d hashes written to %s\n" : "%d hashes could not be written to %s\n", count,
+           LIST);
+    return !ok;
+}
+
+int main(int argc, char **argv)
+{
+    int passed = 0, failed = 0;
+    if (argc > 1 && !strcmp(argv[1], "--update")) return update(argc - 2, argv + 2);
+    for (int i = 1; i < argc; i++) {
+        uint64_t got = 0, want = 0;
+        if (!hash_file(argv[i], &got))
+            printf("%s: cannot be read\n", argv[i]);
+        else if (!recorded_hash(name_of(argv[i]), &want))
+            printf("%s: not in %s\n", argv[i], LIST);
+        else if (got != want) {
+            printf("%s: got %016llx, want %016llx\n", argv[i], (unsigned long long)got,
+                   (unsigned long long)want);
+        } else {
+            passed++;
+            continue;
+        }
+        failed++;
+    }
+    if (argc < 2) {
+        printf("golden: no picture given\n");
+        failed = 1;
+    }
+    printf("%d passed, %d failed\n", passed, failed);
+    return failed != 0;
+}

@@ -1,0 +1,231 @@
+/* lanes.c - light on packets, against double precision and against the scalar functions. */
+
+typedef struct lane_packet {
+    float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];
+    shade_vec3 p[SHADE_LANES], n[SHADE_LANES], a[SHADE_LANES];
+} lane_packet;
+
+static void lane_set(float rows[3][SHADE_LANES], int i, shade_vec3 v)
+{
+    rows[0][i] = v.x, rows[1][i] = v.y, rows[2][i] = v.z;
+}
+
+/* Points around the sample's, some of them its very own. */
+static void random_packet(lane_packet *k, const light_sample *s, double size)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        d3 away = d3_scale(rnd_direction(), size * (double)rnd_log(1e-4, 1));
+        k->p[i] = rnd_one_in(8) ? s->P : d3_round(d3_add(d3_from(s->P), away));
+        d3 turned = d3_add(d3_unit(d3_from(s->N)), d3_scale(rnd_direction(), rnd_unit()));
+        k->n[i] = rnd_one_in(8) ? s->N : d3_round(turned);
+        if (rnd_one_in(100)) k->n[i] = shade_v3(0, 0, 0);
+        k->a[i] = random_color(1);
+        lane_set(k->P, i, k->p[i]), lane_set(k->N, i, k->n[i]), lane_set(k->albedo, i, k->a[i]);
+    }
+}
+
+TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
+{
+    static lane_packet k;
+    light_sample s;
+    int sure = 0, total = 0;
+    for (int round = 0; round < 1600; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, d3_length(d3_from(s.P)) * 1e-2 + 1);
+        int with_albedo = rnd_one_in(2);
+        float rgb[3 * SHADE_LANES];
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
+                        with_albedo ? k.albedo[0] : NULL, rgb);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
+            d3 albedo = with_albedo ? d3_from(k.a[i]) : d3_of(1, 1, 1);
+            ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
+                                     d3_from(s.eye), albedo);
+            CHECK(finite3(got));
+            int zero_ungated =
+                d3_length(d3_from(k.n[i])) == 0 && (s.lighting.flags & SHADE_UNGATED_SPECULAR);
+            total++;
+            if (want.unsure || zero_ungated) continue;
+            const shade_light *l = s.lights; /* xyz/w is rounded: near P its direction is lost */
+            int lost = 0;
+            for (int j = 0; j < s.lighting.light_count; j++) {
+                double r, at = d3_length(d3_of((double)l[j].position.x, (double)l[j].position.y,
+                                               (double)l[j].position.z));
+                ref_to_light(&l[j], d3_from(k.p[i]), &r);
+                float w = l[j].position.w;
+                lost |= w != 0 && w != 1 && r * 50 < at / fabs((double)w);
+            }
+            if (lost) continue;
+            sure++;
+            if (check_color(__LINE__, "packet", got, want.total, want.bound)) continue;
+            s.P = k.p[i], s.N = k.n[i];
+            print_lights(&s);
+        }
+    }
+    CHECK_SAY(sure > total / 2, "%d of %d lanes are away from discontinuities", sure, total);
+}
+
+TEST(lanes, packets_and_scalars_agree) /* the two ways of one formula stay together */
+{
+    static lane_packet k;
+    light_sample s;
+    for (int round = 0; round < 600; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, d3_length(d3_from(s.P)) * 1e-2 + 1);
+        float rgb[3 * SHADE_LANES];
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
+            shade_vec3 one = shade_lit(&s.lighting, &s.material, k.p[i], k.n[i], s.eye);
+            ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
+                                     d3_from(s.eye), d3_of(1, 1, 1));
+            if (!want.unsure) check_color(__LINE__, "packet", got, d3_from(one), 2 * want.bound);
+        }
+    }
+}
+
+TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbours or its place */
+{
+    static lane_packet k;
+    light_sample s;
+    for (int round = 0; round < 400; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        float one[3 * SHADE_LANES], other[3 * SHADE_LANES];
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], one);
+        int turn = rnd_int(1, SHADE_LANES - 1);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            int j = (i + turn) % SHADE_LANES;
+            lane_set(k.P, j, k.p[i]), lane_set(k.N, j, k.n[i]), lane_set(k.albedo, j, k.a[i]);
+        }
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], other);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) {
+            int row = i / SHADE_LANES * SHADE_LANES, j = row + (i - row + turn) % SHADE_LANES;
+            CHECK_SAY(float_bits(one[i]) == float_bits(other[j]), "lane %d: %a, moved to %d: %a", i,
+                      (double)one[i], j, (double)other[j]);
+        }
+    }
+}
+
+TEST(lanes, albedo_multiplies_diffuse_and_ambient_only)
+{
+    static lane_packet k;
+    light_sample s;
+    for (int round = 0; round < 200; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        float bare[3 * SHADE_LANES], with[3 * SHADE_LANES], ones[3 * SHADE_LANES];
+        for (int i = 0; i < 3 * SHADE_LANES; i++) ones[i] = 1;
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, bare);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], ones, with);
+        for (int i = 0; i < 3 * SHADE_LANES; i++)
+            CHECK_NEAR(with[i], bare[i], 1e-6 * fabs((double)bare[i]));
+        s.lighting.terms = SHADE_TERM_EMISSION | SHADE_TERM_SPECULAR;
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, bare);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], with);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK(float_bits(with[i]) == float_bits(bare[i]));
+    }
+}
+
+TEST(lanes, nothing_is_written_but_the_three_rows)
+{
+    static lane_packet k;
+    light_sample s;
+    struct {
+        float before[16], rgb[3 * SHADE_LANES], after[16];
+    } box;
+    for (int round = 0; round < 200; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        lane_packet copy = k;
+        memset(&box, CANVAS_BYTE, sizeof box);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], box.rgb);
+        for (int i = 0; i < 16; i++) {
+            CHECK(float_bits(box.before[i]) == 0xA5A5A5A5u &&
+                  float_bits(box.after[i]) == 0xA5A5A5A5u);
+        }
+        CHECK(!memcmp(&copy, &k, sizeof k));
+    }
+}
+
+TEST(lanes, missing_arguments_mean_their_defaults)
+{
+    static lane_packet k;
+    light_sample s;
+    random_sample(&s);
+    random_packet(&k, &s, 2);
+    float rgb[3 * SHADE_LANES];
+    shade_lit_lanes(NULL, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK(rgb[i] == 0);
+    shade_lighting li;
+    memset(&li, 0, sizeof li);
+    li.ambient = shade_v3(0.25f, 0.5f, 0.75f);
+    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, rgb);
+    for (int i = 0; i < 3 * SHADE_LANES; i++)
+        CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
+    li.lights = NULL, li.light_count = 3;
+    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, rgb);
+    for (int i = 0; i < 3 * SHADE_LANES; i++)
+        CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
+}
+
+TEST(lanes, many_lights_add_up)
+{
+    static lane_packet k;
+    static shade_light lights[100];
+    light_sample s;
+    for (int round = 0; round < 30; round++) {
+        random_sample(&s);
+        s.P = shade_v3(0, 0, 0), s.lighting.model = SHADE_BLINN_PHONG, s.lighting.flags = 0,
+        s.lighting.terms = 0;
+        random_packet(&k, &s, 1);
+        for (int j = 0; j < 100; j++) {
+            lights[j] = random_light(s.P, 10);
+            if (lights[j].position.w != 0 && lights[j].position.w != 1) lights[j].position.w = 1;
+        }
+        s.lighting.lights = lights, s.lighting.light_count = rnd_int(5, 100);
+        float rgb[3 * SHADE_LANES];
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
+            ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
+                                     d3_from(s.eye), d3_of(1, 1, 1));
+            if (!want.unsure) check_color(__LINE__, "packet", got, want.total, want.bound);
+        }
+    }
+}
+
+TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
+{
+    static lane_packet k;
+    light_sample s;
+    for (int round = 0; round < 600; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        float one[3 * SHADE_LANES], other[3 * SHADE_LANES];
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, one);
+        int hit = rnd_int(0, SHADE_LANES - 1);
+        float v[6];
+        fill_nasty(v, sizeof v);
+        lane_set(k.P, hit, shade_v3(v[0], v[1], v[2])),
+            lane_set(k.N, hit, shade_v3(v[3], v[4], v[5]));
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, other);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) {
+            if (i % SHADE_LANES != hit) CHECK(float_bits(one[i]) == float_bits(other[i]));
+        }
+        if (round % 4) continue;
+        fill_nasty(s.lights, sizeof s.lights), fill_nasty(&s.material, sizeof s.material);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, other);
+    }
+}
+
+static const test_case lanes_cases[] = {
+    CASE(lanes, a_packet_matches_the_equation_for_every_flag_and_model),
+    CASE(lanes, packets_and_scalars_agree),
+    CASE(lanes, every_lane_is_computed_the_same),
+    CASE(lanes, albedo_multiplies_diffuse_and_ambient_only),
+    CASE(lanes, nothing_is_written_but_the_three_rows),
+    CASE(lanes, missing_arguments_mean_their_defaults),
+    CASE(lanes, many_lights_add_up),
+    CASE(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane),
+};

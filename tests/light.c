@@ -1,0 +1,940 @@
+/* light.c - the equations of light, against double precision over the whole legal range, and the
+   vectors V1 to V8 derived from the lecture notes. */
+
+/* --------------------------------------------------------------------------- random legal input */
+
+static shade_vec3 random_color(double most)
+{
+    return shade_v3(rnd_float(0, most), rnd_float(0, most), rnd_float(0, most));
+}
+static float random_exponent(void)
+{
+    switch (rnd_int(0, 7)) {
+    case 0:
+        return 0;
+    case 1:
+        return rnd_float(0, 1);
+    case 2:
+        return rnd_float(1, 10);
+    case 3:
+        return (float)(1 << rnd_int(0, 8));
+    case 4:
+        return rnd_log(100, 1e4);
+    case 5:
+        return 1e4f;
+    default:
+        return rnd_float(1, 128);
+    }
+}
+static shade_material random_material(void)
+{
+    shade_material m;
+    m.emission = rnd_one_in(2) ? random_color(1) : shade_v3(0, 0, 0);
+    m.ambient = random_color(1), m.diffuse = random_color(1), m.specular = random_color(1);
+    m.shininess = rnd_one_in(20) ? -3 : random_exponent();
+    return m;
+}
+
+/* A lamp seen from P.  Lamps with w other than 0 and 1 stay within 50 times their distance of the
+   origin, for xyz/w is rounded once and a farther one would lose its direction to that rounding. */
+static shade_light random_light(shade_vec3 P, double size)
+{
+    shade_light light;
+    memset(&light, 0, sizeof light);
+    double bright = rnd_one_in(3) ? (double)rnd_log(1e-3, 1e6) : 2;
+    light.diffuse = random_color(bright);
+    light.specular = rnd_one_in(2) ? light.diffuse : random_color(bright);
+    if (rnd_one_in(2)) light.ambient = random_color(bright / 4);
+    shade_vec3 p =
+        d3_round(d3_add(d3_from(P), d3_scale(rnd_direction(), (double)rnd_log(1e-2, 1) * size)));
+    int kind = rnd_int(0, 3);
+    light.position = shade_v4(p.x, p.y, p.z, 1);
+    if (kind == 0) {
+        d3 d = d3_scale(rnd_direction(), (double)rnd_log(1e-3, 1e6));
+        light.position = shade_v4((float)d.x, (float)d.y, (float)d.z, 0);
+    } else if (kind == 1) {
+        double r = d3_length(d3_sub(d3_from(p), d3_from(P)));
+        float w = r * 50 > d3_length(d3_from(p)) ? rnd_sign() * rnd_log(0.1, 10) : 1;
+        light.position = shade_v4(p.x * w, p.y * w, p.z * w, w);
+    }
+    switch (rnd_int(0, 6)) {
+    case 0:
+        break;
+    case 1:
+        light.constant = 1;
+        break;
+    case 2:
+        light.quadratic = 1;
+        break;
+    case 3:
+        light.linear = rnd_log(1e-3, 10);
+        break;
+    case 4:
+        light.constant = 1, light.linear = 0.5f, light.quadratic = 0.25f;
+        break;
+    case 5:
+        light.linear = rnd_log(1e-3, 10), light.quadratic = rnd_log(1e-3, 10);
+        break;
+    default:
+        light.constant = rnd_log(1e-3, 10), light.linear = rnd_log(1e-6, 10);
+        light.quadratic = rnd_log(1e-6, 10);
+    }
+    if (rnd_one_in(2)) return light;
+    double r;
+    d3 L = ref_to_light(&light, d3_from(P), &r); /* often lit, so aimed roughly at P */
+    d3 aim = d3_add(d3_scale(L, -1), d3_scale(rnd_direction(), (double)rnd_float(0, 1.2)));
+    if (rnd_one_in(8)) aim = rnd_direction();
+    light.spot_direction = d3_round(d3_scale(aim, (double)rnd_log(1e-3, 1e3)));
+    light.spot_exponent = random_exponent();
+    light.spot_cos_cutoff = rnd_one_in(4) ? rnd_float(-1, 1) : rnd_float(0.3, 1);
+    return light;
+}
+
+typedef struct light_sample {
+    shade_lighting lighting;
+    shade_light lights[4];
+    shade_material material;
+    shade_vec3 P, N, eye;
+} light_sample;
+
+static void random_sample(light_sample *s)
+{
+    memset(s, 0, sizeof *s);
+    double size = (double)rnd_log(1e-2, 1e6);
+    s->P = rnd_one_in(4) ? shade_v3(0, 0, 0) : random_vector(size);
+    s->N = d3_round(d3_scale(rnd_direction(), rnd_one_in(2) ? 1 : (double)rnd_log(1e-6, 1e6)));
+    s->material = random_material();
+    int count = rnd_one_in(10) ? 0 : rnd_int(1, 4);
+    for (int k = 0; k < count; k++) s->lights[k] = random_light(s->P, size);
+    s->lighting.lights = s->lights, s->lighting.light_count = count;
+    s->lighting.ambient = rnd_one_in(2) ? random_color(1) : shade_v3(0, 0, 0);
+    s->lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
+    s->lighting.flags = rnd_one_in(3) ? 0 : (unsigned)rnd_int(0, 63);
+    s->lighting.terms = rnd_one_in(2) ? 0 : (unsigned)rnd_int(0, 15);
+    if (s->lighting.model == SHADE_COOL_TO_WARM) {
+        s->lighting.flags &= ~(unsigned)SHADE_TWO_SIDED_ABS;
+        if (rnd_one_in(2)) s->lighting.cool = random_color(1);
+        if (rnd_one_in(2)) s->lighting.warm = random_color(1);
+    }
+    /* the viewer: anywhere, or near the mirror direction of the first lamp, where highlights are */
+    d3 V = rnd_direction();
+    if (count && rnd_one_in(2)) {
+        double r;
+        d3 n = d3_unit(d3_from(s->N)), L = ref_to_light(&s->lights[0], d3_from(s->P), &r);
+        d3 R = d3_sub(d3_scale(n, 2 * d3_dot(n, L)), L);
+        V = d3_unit(d3_add(R, d3_scale(rnd_direction(), (double)rnd_log(1e-3, 1))));
+    }
+    d3 from = s->lighting.flags & SHADE_INFINITE_VIEWER ? d3_of(0, 0, 0) : d3_from(s->P);
+    s->eye = d3_round(d3_add(from, d3_scale(V, size * (double)rnd_log(1e-2, 1))));
+}
+
+static void print_lights(const light_sample *s)
+{
+    if (test_now.failures > TEST_MAX_PRINTED) return;
+    printf("    model %d, flags %u, terms %u, n %g\n", (int)s->lighting.model, s->lighting.flags,
+           s->lighting.terms, (double)s->material.shininess);
+    printf("    P %a %a %a  N %a %a %a  eye %a %a %a\n", (double)s->P.x, (double)s->P.y,
+           (double)s->P.z, (double)s->N.x, (double)s->N.y, (double)s->N.z, (double)s->eye.x,
+           (double)s->eye.y, (double)s->eye.z);
+    for (int k = 0; k < s->lighting.light_count; k++) {
+        const shade_light *l = &s->lights[k];
+        printf("    light %d at %a %a %a %a  a b c %g %g %g  I_d %g %g %g\n", k,
+               (double)l->position.x, (double)l->position.y, (double)l->position.z,
+               (double)l->position.w, (double)l->constant, (double)l->linear, (double)l->quadratic,
+               (double)l->diffuse.x, (double)l->diffuse.y, (double)l->diffuse.z);
+        printf("      spot %a %a %a  e %g  cos %.9g\n", (double)l->spot_direction.x,
+               (double)l->spot_direction.y, (double)l->spot_direction.z, (double)l->spot_exponent,
+               (double)l->spot_cos_cutoff);
+    }
+}
+
+static int check_color(int line, const char *what, shade_vec3 got, d3 want, double within)
+{
+    d3 error = d3_sub(d3_from(got), want);
+    test_now.checks++;
+    if (d3_max(error) <= within) return 1; /* false for NaN */
+    test_fail(__FILE__, line, what, "got (%.9g %.9g %.9g), want (%.9g %.9g %.9g) within %.3g",
+              (double)got.x, (double)got.y, (double)got.z, want.x, want.y, want.z, within);
+    return 0;
+}
+
+static d3 no_albedo(void) { return d3_of(1, 1, 1); }
+
+TEST(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model)
+{
+    light_sample s;
+    int sure = 0, lit = 0;
+    for (int i = 0; i < 200000; i++) {
+        random_sample(&s);
+        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
+                                 d3_from(s.eye), no_albedo());
+        shade_terms got = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 sum = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        CHECK(finite3(sum));
+        if (want.unsure) continue;
+        sure++, lit += d3_max(want.specular) > 1e-3;
+        int ok = check_color(__LINE__, "emission", got.emission, want.emission, want.bound);
+        ok &= check_color(__LINE__, "ambient", got.ambient, want.ambient, want.bound);
+        ok &= check_color(__LINE__, "diffuse", got.diffuse, want.diffuse, want.bound);
+        ok &= check_color(__LINE__, "specular", got.specular, want.specular, want.bound);
+        ok &= check_color(__LINE__, "shade_lit", sum, want.total, want.bound);
+        if (!ok) print_lights(&s);
+    }
+    CHECK_SAY(sure > 150000 && lit > 20000, "%d samples, %d with a highlight", sure, lit);
+}
+
+TEST(light, lit_is_the_sum_of_the_four_terms)
+{
+    light_sample s;
+    for (int i = 0; i < 50000; i++) {
+        random_sample(&s);
+        shade_terms t = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        d3 want = d3_add(d3_add(d3_from(t.emission), d3_from(t.ambient)),
+                         d3_add(d3_from(t.diffuse), d3_from(t.specular)));
+        if (!check_color(__LINE__, "sum", got, want, 1e-6 * d3_max(want))) print_lights(&s);
+    }
+}
+
+TEST(light, each_bit_of_terms_selects_its_term_alone)
+{
+    light_sample s;
+    shade_vec3 zero = shade_v3(0, 0, 0);
+    for (int i = 0; i < 20000; i++) {
+        random_sample(&s);
+        s.lighting.terms = 0;
+        shade_terms all = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        s.lighting.terms = (unsigned)rnd_int(1, 15);
+        shade_terms some = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 e = s.lighting.terms & SHADE_TERM_EMISSION ? all.emission : zero;
+        shade_vec3 a = s.lighting.terms & SHADE_TERM_AMBIENT ? all.ambient : zero;
+        shade_vec3 d = s.lighting.terms & SHADE_TERM_DIFFUSE ? all.diffuse : zero;
+        shade_vec3 h = s.lighting.terms & SHADE_TERM_SPECULAR ? all.specular : zero;
+        check_color(__LINE__, "emission", some.emission, d3_from(e), 0);
+        check_color(__LINE__, "ambient", some.ambient, d3_from(a), 0);
+        check_color(__LINE__, "diffuse", some.diffuse, d3_from(d), 0);
+        check_color(__LINE__, "specular", some.specular, d3_from(h), 0);
+    }
+}
+
+/* ------------------------------------------------------------------ the vectors of the lectures */
+
+static shade_lighting one_light(const shade_light *light)
+{
+    shade_lighting li;
+    memset(&li, 0, sizeof li);
+    li.lights = light, li.light_count = light ? 1 : 0;
+    return li;
+}
+static shade_vec3 grey(double v) { return shade_v3((float)v, (float)v, (float)v); }
+static shade_material s1_brass(void) /* row 37 */
+{
+    shade_material m;
+    m.emission = grey(0);
+    m.ambient = shade_v3(0.329412f, 0.223529f, 0.027451f);
+    m.diffuse = shade_v3(0.780392f, 0.568627f, 0.113725f);
+    m.specular = shade_v3(0.992157f, 0.941176f, 0.807843f);
+    m.shininess = 27.89743616f;
+    return m;
+}
+
+TEST(light, brass_lit_head_on_and_from_sixty_degrees) /* V1, V2 */
+{
+    shade_material brass = s1_brass();
+    shade_vec3 origin = grey(0), n = shade_v3(0, 0, 1), eye = shade_v3(0, 0, 5);
+    shade_light head = shade_directional_light(shade_v3(0, 0, -1), grey(1));
+    shade_lighting li = one_light(&head);
+    li.ambient = grey(0.3);
+    check_color(__LINE__, "V1", shade_lit(&li, &brass, origin, n, eye),
+                d3_of(1.871373, 1.576862, 0.929803), 2e-6);
+    li.model = SHADE_PHONG;
+    check_color(__LINE__, "V1", shade_lit(&li, &brass, origin, n, eye),
+                d3_of(1.871373, 1.576862, 0.929803), 2e-6);
+    shade_light side = shade_directional_light(shade_v3((float)-sqrt(0.75), 0, -0.5f), grey(1));
+    li.lights = &side;
+    check_color(__LINE__, "V2", shade_lit(&li, &brass, origin, n, eye),
+                d3_of(0.489020, 0.351372, 0.065098), 2e-6);
+    li.model = SHADE_BLINN_PHONG;
+    check_color(__LINE__, "V2", shade_lit(&li, &brass, origin, n, eye),
+                d3_of(0.506961, 0.368391, 0.079706), 2e-6);
+}
+
+TEST(light, the_gate_stops_highlights_behind_the_terminator) /* V4 */
+{
+    shade_vec3 n = shade_v3(0, 0, 1), l = shade_v3(0.990152f, 0, -0.14f);
+    CHECK_NEAR(shade_blinn_phong_specular(n, l, n, 4), 0, 0);
+    CHECK_NEAR(shade_phong_specular(n, l, n, 4), 0, 0);
+    shade_light light = shade_directional_light(shade_neg(l), grey(1));
+    shade_lighting li = one_light(&light);
+    shade_material m;
+    memset(&m, 0, sizeof m);
+    m.specular = grey(1), m.shininess = 4;
+    check_color(__LINE__, "gated", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 9)),
+                d3_of(0, 0, 0), 0);
+    li.flags = SHADE_UNGATED_SPECULAR;
+    check_color(__LINE__, "ungated", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 9)),
+                d3_of(0.1849, 0.1849, 0.1849), 2e-6);
+    li.flags = SHADE_UNGATED_SPECULAR | SHADE_WEIGHTED_SPECULAR;
+    check_color(__LINE__, "weighted", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 9)),
+                d3_of(0, 0, 0), 0);
+}
+
+TEST(light, the_gate_is_strict_at_grazing_light) /* row 3: N.L = 0 gives 0 */
+{
+    shade_vec3 n = shade_v3(0, 0, 1), l = shade_v3(1, 0, 0);
+    CHECK_NEAR(shade_lambert(n, l), 0, 0);
+    CHECK_NEAR(shade_blinn_phong_specular(n, l, n, 4), 0, 0);
+    CHECK_NEAR(shade_blinn_phong_specular(n, l, n, 0), 0, 0);
+    CHECK_NEAR(shade_phong_specular(n, l, n, 0), 0, 0);
+    shade_light light = shade_directional_light(shade_neg(l), grey(1));
+    shade_lighting li = one_light(&light);
+    shade_material m = s1_brass();
+    m.shininess = 2;
+    shade_terms t = shade_evaluate(&li, &m, grey(0), n, shade_v3(0, 0, 3));
+    check_color(__LINE__, "diffuse", t.diffuse, d3_of(0, 0, 0), 0);
+    check_color(__LINE__, "specular", t.specular, d3_of(0, 0, 0), 0);
+    li.flags = SHADE_UNGATED_SPECULAR;
+    t = shade_evaluate(&li, &m, grey(0), n, shade_v3(0, 0, 3));
+    check_color(__LINE__, "specular", t.specular, d3_scale(d3_from(m.specular), 0.5), 1e-6);
+}
+
+TEST(light, spot_and_attenuation_of_the_lectures) /* V5 */
+{
+    double deg = 3.14159265358979 / 180;
+    shade_vec3 aim = shade_v3(0, 0, -4);
+    shade_vec3 l20 = shade_v3((float)sin(20 * deg), 0, (float)cos(20 * deg));
+    shade_vec3 l31 = shade_v3((float)sin(31 * deg), 0, (float)cos(31 * deg));
+    CHECK_NEAR(shade_spot(l20, aim, (float)cos(30 * deg), 2), 0.883022, 1e-6);
+    CHECK_NEAR(shade_spot(l31, aim, (float)cos(30 * deg), 2), 0, 0);
+    CHECK_NEAR(shade_attenuation(1, 0.5f, 0.25f, 2), 1.0 / 3, 1e-7);
+    shade_light lamp = shade_spot_light(shade_scale(l20, 2), aim, (float)(30 * deg), 2, grey(1));
+    lamp.constant = 1, lamp.linear = 0.5f, lamp.quadratic = 0.25f;
+    shade_lighting li = one_light(&lamp);
+    double want = 0.883022 / 3 * cos(20 * deg);
+    check_color(__LINE__, "lit",
+                shade_lit(&li, NULL, grey(0), shade_v3(0, 0, 1), shade_v3(0, 0, 5)),
+                d3_of(want, want, want), 1e-6);
+}
+
+TEST(light, four_alpha_looks_like_phong) /* V7, row 14 */
+{
+    double deg = 3.14159265358979 / 180;
+    shade_vec3 n = shade_v3(0, 0, 1), v = n,
+               l = shade_v3((float)sin(10 * deg), 0, (float)cos(10 * deg));
+    CHECK_NEAR(shade_blinn_exponent(10), 40, 0);
+    CHECK_NEAR(shade_phong_specular(n, l, v, 10), 0.858054, 3e-6);
+    CHECK_NEAR(shade_blinn_phong_specular(n, l, v, 10), 0.962592, 3e-6);
+    CHECK_NEAR(shade_blinn_phong_specular(n, l, v, shade_blinn_exponent(10)), 0.858557, 3e-6);
+}
+
+TEST(light, cool_to_warm_goes_from_cool_to_warm) /* V8, row 22 */
+{
+    shade_vec3 cool = shade_v3(0.4f, 0.4f, 0.7f), warm = shade_v3(0.8f, 0.6f, 0.6f),
+               n = shade_v3(0, 0, 1);
+    check_color(__LINE__, "1", shade_cool_to_warm(n, n, cool, warm), d3_of(0.8, 0.6, 0.6), 1e-6);
+    check_color(__LINE__, "0", shade_cool_to_warm(n, shade_v3(1, 0, 0), cool, warm),
+                d3_of(0.6, 0.5, 0.65), 1e-6);
+    check_color(__LINE__, "-1", shade_cool_to_warm(n, shade_neg(n), cool, warm),
+                d3_of(0.4, 0.4, 0.7), 1e-6);
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(77));
+    light.spot_direction = shade_v3(1, 0, 0),
+    light.spot_cos_cutoff = 0.9f; /* its cone is ignored */
+    shade_lighting li = one_light(&light);
+    li.model = SHADE_COOL_TO_WARM, li.ambient = grey(5);
+    shade_material m = s1_brass();
+    m.emission = shade_v3(0.1f, 0.2f, 0.3f);
+    check_color(__LINE__, "lit", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)),
+                d3_of(0.9, 0.8, 0.9), 1e-6);
+    li.light_count = 0;
+    check_color(__LINE__, "no light", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)),
+                d3_of(0.7, 0.7, 0.95), 1e-6);
+    li.terms = SHADE_TERM_DIFFUSE;
+    check_color(__LINE__, "diffuse", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)),
+                d3_of(0.6, 0.5, 0.65), 1e-6);
+    li.terms = SHADE_TERM_AMBIENT | SHADE_TERM_SPECULAR;
+    check_color(__LINE__, "none", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)), d3_of(0, 0, 0),
+                0);
+    li.terms = 0;
+    li.cool = shade_v3(0, 0, 1); /* each default alone */
+    check_color(__LINE__, "warm", shade_lit(&li, NULL, grey(0), n, shade_v3(0, 0, 2)),
+                d3_of(0.4, 0.3, 0.8), 1e-6);
+}
+
+/* -------------------------------------------------------------------- the functions of one term */
+
+TEST(light, single_terms_match_double)
+{
+    for (int i = 0; i < 50000; i++) {
+        d3 N = rnd_direction(), L = rnd_direction(), V = rnd_direction();
+        if (rnd_one_in(2)) {
+            d3 R = d3_sub(d3_scale(N, 2 * d3_dot(N, L)), L);
+            V = d3_unit(d3_add(R, d3_scale(rnd_direction(), (double)rnd_log(1e-3, 1))));
+        }
+        shade_vec3 nf = d3_round(N), lf = d3_round(L), vf = d3_round(V);
+        float n = random_exponent();
+        double NL = d3_dot(N, L), bound = 5e-5 * fmax(1, (double)n / 100);
+        CHECK_NEAR(shade_lambert(nf, lf), fmax(0, NL), 1e-6);
+        for (int model = SHADE_BLINN_PHONG; model <= SHADE_PHONG; model++) {
+            int unsure = fabs(NL) < REF_MARGIN;
+            double want = ref_highlight((shade_model)model, N, L, V, (double)n, &unsure);
+            float got = model == SHADE_PHONG ? shade_phong_specular(nf, lf, vf, n)
+                                             : shade_blinn_phong_specular(nf, lf, vf, n);
+            if (!unsure) CHECK_NEAR(got, NL > 0 ? want : 0, bound);
+        }
+        int unsure = 0;
+        d3 aim = d3_scale(rnd_direction(), (double)rnd_log(1e-6, 1e6));
+        float cutoff = rnd_float(-1, 1);
+        double spot = ref_spot(L, d3_from(d3_round(aim)), (double)cutoff, (double)n, &unsure);
+        if (!unsure) CHECK_NEAR(shade_spot(lf, d3_round(aim), cutoff, n), spot, bound);
+        float a = rnd_one_in(3) ? 0 : rnd_log(1e-3, 10), b = rnd_one_in(3) ? 0 : rnd_log(1e-3, 10);
+        float c = rnd_one_in(3) ? 0 : rnd_log(1e-3, 10), r = rnd_one_in(9) ? 0 : rnd_log(1e-6, 1e6);
+        double att = ref_attenuation((double)a, (double)b, (double)c, (double)r);
+        CHECK_NEAR(shade_attenuation(a, b, c, r), att, 1e-6 * att);
+    }
+}
+
+TEST(light, attenuation_is_defined_everywhere) /* rows 26, 27 */
+{
+    CHECK_NEAR(shade_attenuation(0, 0, 0, 0), 1, 0);
+    CHECK_NEAR(shade_attenuation(0, 0, 0, 1e6f), 1, 0);
+    CHECK_NEAR(shade_attenuation(1, 0, 0, 123), 1, 0);
+    CHECK_NEAR(shade_attenuation(0, 1, 0, 4), 0.25, 1e-7);
+    CHECK_NEAR(shade_attenuation(0, 0, 1, 4), 0.0625, 1e-8);
+    CHECK_NEAR(shade_attenuation(0, 0, 1, 0), 1e8, 100);
+    CHECK_NEAR(shade_attenuation(0, 1, 0, 0), 1e4, 0.01);
+    CHECK_NEAR(shade_attenuation(0, 0, 1, 1e-9f), 1e8, 100);
+    CHECK_NEAR(shade_attenuation(2, 1, 1, 0), 0.5, 1e-7);
+    CHECK_NEAR(shade_attenuation(0, 0, 1e-30f, 0), 1e20, 1e14);
+    CHECK_NEAR(shade_attenuation(1e-30f, 0, 0, 5), 1e20, 1e14);
+    CHECK_NEAR(shade_attenuation(1e-45f, 0, 0, 0), 1e20, 1e14);
+    CHECK(shade_attenuation(0, 0, 1, 1e12f) > 0.9e-24f);
+}
+
+TEST(light, the_cone_includes_its_edge) /* row 27 */
+{
+    shade_vec3 aim = shade_v3(0, 0, -1);
+    CHECK_NEAR(shade_spot(shade_v3(0, 0, 1), aim, 1, 0), 1, 0);
+    CHECK_NEAR(shade_spot(shade_v3(0, 0.6f, 0.8f), aim, 0.8f, 0), 1, 0);
+    CHECK_NEAR(shade_spot(shade_v3(0, 0.6f, 0.8f), aim, 0.8f, 1), 0.8, 2e-6);
+    CHECK_NEAR(shade_spot(shade_v3(0, 0.6f, 0.8f), aim, 0.80000013f, 0), 0, 0);
+    CHECK_NEAR(shade_spot(shade_v3(1, 0, 0), aim, 0, 0), 1, 0);
+    CHECK_NEAR(shade_spot(shade_v3(1, 0, 0), aim, 0, 2), 0, 0);
+    CHECK_NEAR(shade_spot(shade_v3(0, 0, -1), aim, -1, 0), 1, 0); /* a power of 0 with exponent 0 */
+    CHECK_NEAR(shade_spot(shade_v3(0, 0, -1), aim, -1, 3), 0, 0);
+    CHECK_NEAR(shade_spot(shade_v3(0, 0, -1), shade_v3(0, 0, 0), 0.9f, 3), 1, 0);
+    CHECK_NEAR(shade_spot(shade_v3(0, 0, -1), shade_v3(0, 1e-19f, 0), 0.9f, 3), 1, 0);
+}
+
+TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
+{
+    for (int i = 0; i < 20000; i++) {
+        d3 N = rnd_direction(), L = rnd_direction(), V = rnd_direction();
+        shade_material m = random_material();
+        shade_model model = (shade_model)rnd_int(0, 5);
+        shade_vec3 f = shade_brdf(&m, model, d3_round(N), d3_round(L), d3_round(V));
+        int unsure = 0;
+        d3 want = model <= SHADE_LAMBERT ? d3_from(m.diffuse) : d3_of(0, 0, 0);
+        if (model <= SHADE_PHONG) {
+            double s = ref_highlight(model, N, L, V, fmax(0, (double)m.shininess), &unsure);
+            want = d3_add(want, d3_scale(d3_from(m.specular), s));
+        }
+        double bound = 5e-5 * fmax(1, (double)m.shininess / 100);
+        if (unsure) continue;
+        check_color(__LINE__, "brdf", f, want, bound * fmax(1, d3_max(want)));
+        if (model > SHADE_LAMBERT || d3_dot(N, L) < REF_MARGIN) continue;
+        shade_light light = shade_directional_light(shade_neg(d3_round(L)), grey(1));
+        shade_lighting li = one_light(&light);
+        li.model = model, li.flags = SHADE_WEIGHTED_SPECULAR | SHADE_INFINITE_VIEWER;
+        li.terms = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
+        check_color(__LINE__, "weighted", shade_lit(&li, &m, grey(0), d3_round(N), d3_round(V)),
+                    d3_scale(want, d3_dot(N, L)), 2 * bound * fmax(1, d3_max(want)));
+    }
+    shade_vec3 white = shade_brdf(NULL, SHADE_BLINN_PHONG, shade_v3(0, 0, 1), shade_v3(0, 0, 1),
+                                  shade_v3(0, 0, 1));
+    check_color(__LINE__, "white Lambert", white, d3_of(1, 1, 1), 0);
+}
+
+/* ----------------------------------------------------------------------------------------- laws */
+
+TEST(light, light_adds_up_and_scales) /* row 18 */
+{
+    for (int i = 0; i < 20000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.lighting.light_count = 2, s.lighting.ambient = grey(0), s.material.emission = grey(0);
+        if (s.lighting.model == SHADE_COOL_TO_WARM) s.lighting.model = SHADE_BLINN_PHONG;
+        s.lights[0] = random_light(s.P, 3), s.lights[1] = random_light(s.P, 3);
+        shade_vec3 both = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        s.lighting.light_count = 1;
+        shade_vec3 first = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        s.lighting.lights = &s.lights[1];
+        shade_vec3 second = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        d3 sum = d3_add(d3_from(first), d3_from(second));
+        check_color(__LINE__, "sum of lights", both, sum, 1e-6 * d3_max(sum) + 1e-37);
+        s.lights[1].ambient = shade_scale(s.lights[1].ambient, 4);
+        s.lights[1].diffuse = shade_scale(s.lights[1].diffuse, 4);
+        s.lights[1].specular = shade_scale(s.lights[1].specular, 4);
+        check_color(__LINE__, "four times", shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye),
+                    d3_scale(d3_from(second), 4), 4e-6 * d3_max(d3_from(second)) + 1e-37);
+    }
+}
+
+TEST(light, two_sided_diffuse_is_two_opposite_lamps) /* row 16 */
+{
+    for (int i = 0; i < 5000; i++) {
+        shade_vec3 n = d3_round(rnd_direction()), d = d3_round(rnd_direction());
+        shade_light lamps[2];
+        lamps[0] = shade_directional_light(d, grey(1)),
+        lamps[1] = shade_directional_light(shade_neg(d), grey(1));
+        shade_lighting li = one_light(lamps);
+        li.model = SHADE_LAMBERT, li.flags = SHADE_TWO_SIDED_ABS;
+        shade_vec3 one = shade_lit(&li, NULL, grey(0), n, grey(1));
+        li.flags = 0, li.light_count = 2;
+        check_color(__LINE__, "abs", one, d3_from(shade_lit(&li, NULL, grey(0), n, grey(1))), 1e-6);
+    }
+}
+
+TEST(light, turning_toward_the_viewer_equals_turning_the_normal) /* row 16, C10 */
+{
+    for (int i = 0; i < 20000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.lighting.flags = (s.lighting.flags | SHADE_TWO_SIDED) & ~(unsigned)SHADE_INFINITE_VIEWER;
+        double NV = d3_dot(d3_unit(d3_from(s.N)), d3_unit(d3_sub(d3_from(s.eye), d3_from(s.P))));
+        if (fabs(NV) < REF_MARGIN) continue;
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 other = shade_lit(&s.lighting, &s.material, s.P, shade_neg(s.N), s.eye);
+        check_color(__LINE__, "either normal", got, d3_from(other), 0);
+        s.lighting.flags &= ~(unsigned)SHADE_TWO_SIDED;
+        shade_vec3 plain =
+            shade_lit(&s.lighting, &s.material, s.P, NV < 0 ? shade_neg(s.N) : s.N, s.eye);
+        check_color(__LINE__, "turned", got, d3_from(plain), 1e-6 * d3_max(d3_from(plain)));
+    }
+}
+
+TEST(light, any_orthogonal_space_gives_the_same_light) /* row 32 */
+{
+    for (int i = 0; i < 5000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.P = random_vector(2), s.lighting.light_count = 2;
+        s.lighting.flags &= ~(unsigned)SHADE_INFINITE_VIEWER;
+        s.eye = random_vector(4);
+        if (s.material.shininess > 100) s.material.shininess = 100;
+        for (int k = 0; k < 2; k++) {
+            s.lights[k] = random_light(s.P, 5);
+            if (s.lights[k].spot_exponent > 50) s.lights[k].spot_exponent = 50;
+        }
+        ref_lit exact = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
+                                  d3_from(s.eye), no_albedo());
+        shade_mat4 m =
+            shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())),
+                           shade_mat4_translation(random_vector(2)));
+        shade_vec3 P = shade_mat4_transform_point(m, s.P),
+                   N = shade_mat4_transform_direction(m, s.N);
+        shade_vec3 eye = shade_mat4_transform_point(m, s.eye);
+        for (int k = 0; k < 2; k++) {
+            s.lights[k].position = shade_mat4_transform(m, s.lights[k].position);
+            s.lights[k].spot_direction =
+                shade_mat4_transform_direction(m, s.lights[k].spot_direction);
+        }
+        ref_lit moved =
+            ref_light(&s.lighting, &s.material, d3_from(P), d3_from(N), d3_from(eye), no_albedo());
+        if (exact.unsure || moved.unsure) continue;
+        if (d3_max(d3_sub(exact.total, moved.total)) > exact.bound)
+            continue; /* lost in rounding m */
+        check_color(__LINE__, "moved", shade_lit(&s.lighting, &s.material, P, N, eye), exact.total,
+                    2 * exact.bound);
+    }
+}
+
+/* ---------------------------------------------------------------------------------- degenerates */
+
+TEST(light, zero_normals_keep_emission_and_ambient_only)
+{
+    for (int i = 0; i < 20000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.N = rnd_one_in(2) ? grey(0) : grey(1e-20);
+        if (s.lighting.model == SHADE_COOL_TO_WARM) s.lighting.model = SHADE_PHONG;
+        s.lighting.flags &= ~(unsigned)SHADE_UNGATED_SPECULAR, s.lighting.terms = 0;
+        shade_terms t = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        check_color(__LINE__, "diffuse", t.diffuse, d3_of(0, 0, 0), 0);
+        check_color(__LINE__, "specular", t.specular, d3_of(0, 0, 0), 0);
+        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_of(0, 0, 0),
+                                 d3_from(s.eye), no_albedo());
+        if (want.unsure) continue;
+        check_color(__LINE__, "ambient", t.ambient, want.ambient, want.bound);
+    }
+}
+
+TEST(light, light_opposite_to_the_viewer_has_no_halfway_vector) /* row 5 */
+{
+    shade_vec3 n = shade_v3(0, 0.6f, 0.8f), l = shade_v3(0, 0, 1);
+    CHECK_NEAR(shade_blinn_phong_specular(n, l, shade_neg(l), 0), 0, 0);
+    CHECK_NEAR(shade_blinn_phong_specular(n, l, shade_neg(l), 12), 0, 0);
+    shade_light light = shade_directional_light(shade_neg(l), grey(1));
+    shade_lighting li = one_light(&light);
+    shade_material m = s1_brass();
+    static const unsigned flags[] = { 0, SHADE_UNGATED_SPECULAR };
+    for (int k = 0; k < 2; k++) {
+        li.flags = flags[k] | SHADE_INFINITE_VIEWER;
+        m.shininess = k ? 0 : 3;
+        shade_terms t = shade_evaluate(&li, &m, grey(0), n, shade_neg(l));
+        check_color(__LINE__, "specular", t.specular, d3_of(0, 0, 0), 0);
+        check_color(__LINE__, "diffuse", t.diffuse, d3_scale(d3_from(m.diffuse), 0.8), 1e-6);
+    }
+}
+
+TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* row 38 */
+{
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(2));
+    shade_lighting li = one_light(&light);
+    shade_material m;
+    memset(&m, 0, sizeof m);
+    m.specular = shade_v3(0.25f, 0.5f, 1);
+    shade_vec3 n = shade_v3(0.6f, 0, 0.8f), eye = shade_v3(-30, 2, 0.5f);
+    check_color(__LINE__, "n 0", shade_lit(&li, &m, grey(0), n, eye), d3_of(0.5, 1, 2), 1e-6);
+    m.shininess = -7;
+    check_color(__LINE__, "n < 0", shade_lit(&li, &m, grey(0), n, eye), d3_of(0.5, 1, 2), 1e-6);
+    m.specular = grey(0), m.diffuse = grey(1), m.shininess = 0;
+    check_color(__LINE__, "planet", shade_lit(&li, &m, grey(0), n, eye), d3_of(1.6, 1.6, 1.6),
+                1e-6);
+}
+
+TEST(light, a_lamp_at_the_point_itself_is_finite) /* r = 0 */
+{
+    for (int i = 0; i < 2000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.lighting.light_count = 1;
+        s.lights[0] = random_light(s.P, 3);
+        s.lights[0].position = shade_v4(s.P.x, s.P.y, s.P.z, 1);
+        if (s.lighting.model == SHADE_COOL_TO_WARM) s.lighting.model = SHADE_PHONG;
+        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
+                                 d3_from(s.eye), no_albedo());
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        CHECK(finite3(got));
+        if (!want.unsure) check_color(__LINE__, "lit", got, want.total, want.bound);
+    }
+}
+
+TEST(light, an_eye_at_the_point_itself_is_finite)
+{
+    for (int i = 0; i < 5000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.eye = s.lighting.flags & SHADE_INFINITE_VIEWER ? grey(0) : s.P;
+        s.lighting.flags &= ~(unsigned)SHADE_TWO_SIDED;
+        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
+                                 d3_from(s.eye), no_albedo());
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        CHECK(finite3(got));
+        if (!want.unsure && !check_color(__LINE__, "lit", got, want.total, want.bound))
+            print_lights(&s);
+    }
+}
+
+TEST(light, missing_arguments_mean_their_defaults)
+{
+    shade_vec3 n = shade_v3(0, 0, 1), eye = shade_v3(1, 2, 3);
+    shade_material m = s1_brass();
+    m.emission = shade_v3(0.5f, 0.25f, 0.125f);
+    shade_light light = shade_point_light(shade_v3(0, 0, 2), shade_v3(1, 2, 3));
+    light.ambient = shade_v3(0.25f, 0.5f, 0.75f);
+    shade_lighting li = one_light(&light);
+    li.ambient = shade_v3(1, 0, 0.5f);
+    check_color(__LINE__, "lighting NULL", shade_lit(NULL, &m, grey(0), n, eye), d3_of(0, 0, 0), 0);
+    shade_terms t = shade_evaluate(NULL, &m, grey(0), n, eye);
+    check_color(__LINE__, "lighting NULL", t.emission, d3_of(0, 0, 0), 0);
+    check_color(__LINE__, "white Lambert", shade_lit(&li, NULL, grey(0), n, eye),
+                d3_of(2.25, 2.5, 4.25), 1e-6);
+    d3 unlit = d3_add(d3_from(m.emission), d3_mul(d3_from(m.ambient), d3_from(li.ambient)));
+    li.lights = NULL;
+    check_color(__LINE__, "lights NULL", shade_lit(&li, &m, grey(0), n, eye), unlit, 1e-6);
+    li.lights = &light, li.light_count = -5;
+    check_color(__LINE__, "count < 0", shade_lit(&li, &m, grey(0), n, eye), unlit, 1e-6);
+    li.light_count = 1;
+    shade_vec3 blinn = shade_lit(&li, &m, grey(0), n, eye);
+    li.model = (shade_model)99;
+    check_color(__LINE__, "unknown model", shade_lit(&li, &m, grey(0), n, eye), d3_from(blinn), 0);
+}
+
+TEST(light, models_drop_the_terms_of_their_iteration) /* rows 1, 2, 3, 6 */
+{
+    shade_material m = s1_brass();
+    m.emission = shade_v3(0.5f, 0.25f, 0.125f);
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
+    light.ambient = grey(0.5);
+    shade_lighting li = one_light(&light);
+    li.ambient = grey(0.25);
+    for (int model = 0; model <= SHADE_EMISSIVE; model++) {
+        li.model = (shade_model)model;
+        shade_terms t = shade_evaluate(&li, &m, grey(0), shade_v3(0, 0, 1), shade_v3(0, 0, 5));
+        check_color(__LINE__, "emission", t.emission, d3_from(m.emission), 0);
+        check_color(__LINE__, "ambient", t.ambient,
+                    d3_scale(d3_from(m.ambient), model <= 3 ? 0.75 : 0), 1e-7);
+        check_color(__LINE__, "diffuse", t.diffuse,
+                    d3_scale(d3_from(m.diffuse), model <= 2 ? 1 : 0), 1e-6);
+        check_color(__LINE__, "specular", t.specular,
+                    d3_scale(d3_from(m.specular), model <= 1 ? 1 : 0), 3e-6);
+    }
+}
+
+TEST(light, a_lamp_of_any_w_stands_at_xyz_over_w) /* row 25 */
+{
+    for (int i = 0; i < 5000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.P = random_vector(2), s.lighting.light_count = 1, s.eye = random_vector(5);
+        s.lights[0] = random_light(s.P, 4);
+        shade_vec3 p = random_vector(4);
+        s.lights[0].position = shade_v4(p.x, p.y, p.z, 1);
+        if (d3_length(d3_sub(d3_from(p), d3_from(s.P))) < 0.5) continue;
+        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
+                                 d3_from(s.eye), no_albedo());
+        static const float w[] = { 1, 2, -1, 0.25f, -8, 1024 };
+        for (int k = 0; k < 6 && !want.unsure; k++) {
+            s.lights[0].position = shade_v4(p.x * w[k], p.y * w[k], p.z * w[k], w[k]);
+            check_color(__LINE__, "lit", shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye),
+                        want.total, want.bound);
+        }
+    }
+}
+
+TEST(light, a_distant_spot_keeps_its_cone)
+{
+    shade_light light = shade_spot_light(grey(0), shade_v3(0, 0, -1), 0.5f, 4, grey(1));
+    light.position = shade_v4(0.28f, 0, 0.96f, 0);
+    light.quadratic = 3; /* without effect at infinity */
+    shade_lighting li = one_light(&light);
+    double want = pow(0.96, 5);
+    for (int i = 0; i < 10; i++) {
+        check_color(__LINE__, "inside",
+                    shade_lit(&li, NULL, random_vector(1e3), shade_v3(0, 0, 1), grey(9)),
+                    d3_of(want, want, want), 2e-6);
+    }
+    light.position = shade_v4(0.6f, 0, 0.8f, 0);
+    check_color(__LINE__, "outside", shade_lit(&li, NULL, grey(0), shade_v3(0, 0, 1), grey(9)),
+                d3_of(0, 0, 0), 0);
+}
+
+TEST(light, ambient_takes_distance_and_cone_only_when_asked) /* rows 7, 11; C5 */
+{
+    shade_light light = shade_spot_light(shade_v3(0, 0, 2), shade_v3(0, 0, -1), 0.5f, 0, grey(1));
+    light.ambient = grey(0.5), light.quadratic = 1;
+    shade_lighting li = one_light(&light);
+    li.ambient = grey(0.125), li.terms = SHADE_TERM_AMBIENT;
+    shade_vec3 n = shade_v3(0, 0, 1), off = shade_v3(5, 0, 0);
+    check_color(__LINE__, "plain", shade_lit(&li, NULL, grey(0), n, grey(9)),
+                d3_of(0.625, 0.625, 0.625), 1e-7);
+    check_color(__LINE__, "plain", shade_lit(&li, NULL, off, n, grey(9)),
+                d3_of(0.625, 0.625, 0.625), 1e-7);
+    li.flags = SHADE_ATTENUATED_AMBIENT;
+    check_color(__LINE__, "near", shade_lit(&li, NULL, grey(0), n, grey(9)),
+                d3_of(0.25, 0.25, 0.25), 1e-6);
+    check_color(__LINE__, "outside", shade_lit(&li, NULL, off, n, grey(9)),
+                d3_of(0.125, 0.125, 0.125), 1e-7);
+}
+
+TEST(light, length_of_the_normal_does_not_matter)
+{
+    for (int i = 0; i < 5000; i++) {
+        light_sample s;
+        random_sample(&s);
+        shade_vec3 a = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 b = shade_lit(&s.lighting, &s.material, s.P, shade_scale(s.N, 1024), s.eye);
+        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
+                                 d3_from(s.eye), no_albedo());
+        if (!want.unsure) check_color(__LINE__, "longer", b, d3_from(a), 2 * want.bound);
+    }
+}
+
+TEST(light, constructors_fill_in_what_they_say) /* row 29, C8 */
+{
+    shade_light d = shade_directional_light(shade_v3(0, -2, 0), shade_v3(1, 2, 3));
+    check_color(__LINE__, "I_d", d.diffuse, d3_of(1, 2, 3), 0);
+    check_color(__LINE__, "I_s", d.specular, d3_of(1, 2, 3), 0);
+    check_color(__LINE__, "I_La", d.ambient, d3_of(0, 0, 0), 0);
+    CHECK(d.position.w == 0 && d.position.x == 0 && d.position.y > 0 && d.position.z == 0);
+    CHECK(d.constant == 0 && d.linear == 0 && d.quadratic == 0);
+    check_color(__LINE__, "no spot", d.spot_direction, d3_of(0, 0, 0), 0);
+    shade_light p = shade_point_light(shade_v3(4, 5, 6), shade_v3(1, 2, 3));
+    CHECK(p.position.x == 4 && p.position.y == 5 && p.position.z == 6 && p.position.w == 1);
+    check_color(__LINE__, "I_s", p.specular, d3_of(1, 2, 3), 0);
+    CHECK(p.constant == 0 && p.linear == 0 && p.quadratic == 0);
+    shade_light s =
+        shade_spot_light(shade_v3(4, 5, 6), shade_v3(0, 0, -3), 0.75f, 8, shade_v3(1, 2, 3));
+    CHECK_NEAR(s.spot_cos_cutoff, cos(0.75), 1e-7);
+    CHECK_NEAR(s.spot_exponent, 8, 0);
+    CHECK_VEC(shade_normalize(s.spot_direction), d3_of(0, 0, -1), 1e-7);
+    CHECK(s.position.w == 1);
+    s = shade_spot_light(grey(0), shade_v3(0, 0, -1), 3.14159265f, 0, grey(1));
+    CHECK_NEAR(s.spot_cos_cutoff, -1, 1e-7);
+    shade_lighting li = one_light(&d); /* travelling down, it lights what faces up */
+    check_color(__LINE__, "up", shade_lit(&li, NULL, grey(0), shade_v3(0, 1, 0), grey(1)),
+                d3_of(1, 2, 3), 1e-6);
+    check_color(__LINE__, "down", shade_lit(&li, NULL, grey(0), shade_v3(0, -1, 0), grey(1)),
+                d3_of(0, 0, 0), 0);
+}
+
+TEST(light, presets_are_the_table_of_teapots) /* row 37 */
+{
+    static const struct {
+        const char *name;
+        double v[10];
+    } table[] = {
+        { "emerald",
+          { 0.0215, 0.1745, 0.0215, 0.07568, 0.61424, 0.07568, 0.633, 0.727811, 0.633, 0.6 } },
+        { "jade", { 0.135, 0.2225, 0.1575, 0.54, 0.89, 0.63, 0.316228, 0.316228, 0.316228, 0.1 } },
+        { "obsidian",
+          { 0.05375, 0.05, 0.06625, 0.18275, 0.17, 0.22525, 0.332741, 0.328634, 0.346435, 0.3 } },
+        { "pearl",
+          { 0.25, 0.20725, 0.20725, 1, 0.829, 0.829, 0.296648, 0.296648, 0.296648, 0.088 } },
+        { "ruby",
+          { 0.1745, 0.01175, 0.01175, 0.61424, 0.04136, 0.04136, 0.727811, 0.626959, 0.626959,
+            0.6 } },
+        { "turquoise",
+          { 0.1, 0.18725, 0.1745, 0.396, 0.74151, 0.69102, 0.297254, 0.30829, 0.306678, 0.1 } },
+        { "brass",
+          { 0.329412, 0.223529, 0.027451, 0.780392, 0.568627, 0.113725, 0.992157, 0.941176,
+            0.807843, 0.21794872 } },
+        { "bronze",
+          { 0.2125, 0.1275, 0.054, 0.714, 0.4284, 0.18144, 0.393548, 0.271906, 0.166721, 0.2 } },
+        { "chrome", { 0.25, 0.25, 0.25, 0.4, 0.4, 0.4, 0.774597, 0.774597, 0.774597, 0.6 } },
+        { "copper",
+          { 0.19125, 0.0735, 0.0225, 0.7038, 0.27048, 0.0828, 0.256777, 0.137622, 0.086014, 0.1 } },
+        { "gold",
+          { 0.24725, 0.1995, 0.0745, 0.75164, 0.60648, 0.22648, 0.628281, 0.555802, 0.366065,
+            0.4 } },
+        { "silver",
+          { 0.19225, 0.19225, 0.19225, 0.50754, 0.50754, 0.50754, 0.508273, 0.508273, 0.508273,
+            0.4 } },
+        { "black plastic", { 0, 0, 0, 0.01, 0.01, 0.01, 0.5, 0.5, 0.5, 0.25 } },
+        { "cyan plastic",
+          { 0, 0.1, 0.06, 0, 0.50980392, 0.50980392, 0.50196078, 0.50196078, 0.50196078, 0.25 } },
+        { "green plastic", { 0, 0, 0, 0.1, 0.35, 0.1, 0.45, 0.55, 0.45, 0.25 } },
+        { "red plastic", { 0, 0, 0, 0.5, 0, 0, 0.7, 0.6, 0.6, 0.25 } },
+        { "white plastic", { 0, 0, 0, 0.55, 0.55, 0.55, 0.7, 0.7, 0.7, 0.25 } },
+        { "yellow plastic", { 0, 0, 0, 0.5, 0.5, 0, 0.6, 0.6, 0.5, 0.25 } },
+        { "black rubber", { 0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.4, 0.4, 0.4, 0.078125 } },
+        { "cyan rubber", { 0, 0.05, 0.05, 0.4, 0.5, 0.5, 0.04, 0.7, 0.7, 0.078125 } },
+        { "green rubber", { 0, 0.05, 0, 0.4, 0.5, 0.4, 0.04, 0.7, 0.04, 0.078125 } },
+        { "red rubber", { 0.05, 0, 0, 0.5, 0.4, 0.4, 0.7, 0.04, 0.04, 0.078125 } },
+        { "white rubber", { 0.05, 0.05, 0.05, 0.5, 0.5, 0.5, 0.7, 0.7, 0.7, 0.078125 } },
+        { "yellow rubber", { 0.05, 0.05, 0, 0.5, 0.5, 0.4, 0.7, 0.7, 0.04, 0.078125 } },
+    };
+    CHECK_INT(SHADE_PRESET_COUNT, sizeof table / sizeof table[0]);
+    for (int k = 0; k < SHADE_PRESET_COUNT; k++) {
+        shade_material m = shade_preset_material((shade_preset)k);
+        const double *v = table[k].v;
+        CHECK_SAY(!strcmp(shade_preset_name((shade_preset)k), table[k].name),
+                  "got \"%s\", want \"%s\"", shade_preset_name((shade_preset)k), table[k].name);
+        check_color(__LINE__, table[k].name, m.emission, d3_of(0, 0, 0), 0);
+        check_color(__LINE__, table[k].name, m.ambient, d3_of(v[0], v[1], v[2]), 1e-7);
+        check_color(__LINE__, table[k].name, m.diffuse, d3_of(v[3], v[4], v[5]), 1e-7);
+        check_color(__LINE__, table[k].name, m.specular, d3_of(v[6], v[7], v[8]), 1e-7);
+        CHECK_NEAR(m.shininess, 128 * v[9], 1e-5);
+    }
+    shade_material none = shade_preset_material((shade_preset)1000);
+    check_color(__LINE__, "white Lambert", none.diffuse, d3_of(1, 1, 1), 0);
+    check_color(__LINE__, "white Lambert", none.ambient, d3_of(1, 1, 1), 0);
+    check_color(__LINE__, "white Lambert", none.specular, d3_of(0, 0, 0), 0);
+    CHECK(shade_preset_name((shade_preset)1000) && !shade_preset_name((shade_preset)1000)[0]);
+    CHECK(shade_preset_name(SHADE_PRESET_COUNT) && !shade_preset_name(SHADE_PRESET_COUNT)[0]);
+}
+
+static void fill_nasty(void *memory, size_t bytes) /* floats, one in three nasty */
+{
+    unsigned char *at = (unsigned char *)memory;
+    for (size_t i = 0; i + 4 <= bytes; i += 4) {
+        float f = rnd_one_in(3) ? rnd_nasty() : rnd_float(-2, 2);
+        memcpy(at + i, &f, 4);
+    }
+}
+
+TEST(light, nan_and_infinity_never_crash)
+{
+    shade_light lights[3];
+    shade_material m;
+    shade_vec3 v[3];
+    for (int i = 0; i < 50000; i++) {
+        shade_lighting li;
+        memset(&li, 0, sizeof li);
+        fill_nasty(lights, sizeof lights), fill_nasty(&m, sizeof m), fill_nasty(v, sizeof v);
+        fill_nasty(&li.ambient, sizeof li.ambient);
+        li.lights = lights, li.light_count = rnd_int(0, 3);
+        li.model = (shade_model)rnd_int(0, 5), li.flags = (unsigned)rnd_bits(),
+        li.terms = (unsigned)rnd_bits();
+        shade_terms t = shade_evaluate(&li, &m, v[0], v[1], v[2]);
+        shade_vec3 sum = shade_lit(&li, &m, v[0], v[1], v[2]);
+        float f[4];
+        fill_nasty(f, sizeof f);
+        float s = shade_spot(v[0], v[1], f[0], f[1]) + shade_attenuation(f[0], f[1], f[2], f[3]);
+        s += shade_phong_specular(v[0], v[1], v[2], f[0]) +
+             shade_blinn_phong_specular(v[0], v[1], v[2], f[0]);
+        s += shade_brdf(&m, li.model, v[0], v[1], v[2]).x +
+             shade_cool_to_warm(v[0], v[1], v[2], v[0]).x;
+        float seen[16];
+        memcpy(seen, &t, sizeof t), memcpy(seen + 12, &sum, sizeof sum), seen[15] = s;
+        uint32_t bits = 0;
+        for (int k = 0; k < 16; k++) bits |= float_bits(seen[k]) & 1u;
+        CHECK(bits <= 1); /* every result was read; the sanitizers judge the rest */
+    }
+}
+
+TEST(light, big_and_tiny_finite_input_stays_finite) /* every function is total up to 1e12 */
+{
+    static const float sizes[] = { 0, 1e-45f, 1e-30f, 1e-18f, 1e-9f, 1, 1e6f, 1e12f };
+    for (int i = 0; i < 50000; i++) {
+        light_sample s;
+        random_sample(&s);
+        shade_vec3 *v[4];
+        v[0] = &s.P, v[1] = &s.N, v[2] = &s.eye, v[3] = &s.lights[0].spot_direction;
+        for (int k = 0; k < 4; k++) {
+            *v[k] = shade_v3(rnd_sign() * sizes[rnd_int(0, 7)], rnd_sign() * sizes[rnd_int(0, 7)],
+                             rnd_sign() * sizes[rnd_int(0, 7)]);
+        }
+        s.lights[0].position =
+            shade_v4(rnd_sign() * sizes[rnd_int(0, 7)], rnd_sign() * sizes[rnd_int(0, 7)],
+                     sizes[rnd_int(0, 7)], (float)rnd_int(0, 1));
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        CHECK(finite3(got));
+        if (!finite3(got)) print_lights(&s);
+    }
+}
+
+static const test_case light_cases[] = {
+    CASE(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model),
+    CASE(light, lit_is_the_sum_of_the_four_terms),
+    CASE(light, each_bit_of_terms_selects_its_term_alone),
+    CASE(light, brass_lit_head_on_and_from_sixty_degrees),
+    CASE(light, the_gate_stops_highlights_behind_the_terminator),
+    CASE(light, the_gate_is_strict_at_grazing_light),
+    CASE(light, spot_and_attenuation_of_the_lectures),
+    CASE(light, four_alpha_looks_like_phong),
+    CASE(light, cool_to_warm_goes_from_cool_to_warm),
+    CASE(light, single_terms_match_double),
+    CASE(light, attenuation_is_defined_everywhere),
+    CASE(light, the_cone_includes_its_edge),
+    CASE(light, brdf_times_cosine_is_the_weighted_light),
+    CASE(light, light_adds_up_and_scales),
+    CASE(light, two_sided_diffuse_is_two_opposite_lamps),
+    CASE(light, turning_toward_the_viewer_equals_turning_the_normal),
+    CASE(light, any_orthogonal_space_gives_the_same_light),
+    CASE(light, zero_normals_keep_emission_and_ambient_only),
+    CASE(light, light_opposite_to_the_viewer_has_no_halfway_vector),
+    CASE(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks),
+    CASE(light, a_lamp_at_the_point_itself_is_finite),
+    CASE(light, an_eye_at_the_point_itself_is_finite),
+    CASE(light, missing_arguments_mean_their_defaults),
+    CASE(light, models_drop_the_terms_of_their_iteration),
+    CASE(light, a_lamp_of_any_w_stands_at_xyz_over_w),
+    CASE(light, a_distant_spot_keeps_its_cone),
+    CASE(light, ambient_takes_distance_and_cone_only_when_asked),
+    CASE(light, length_of_the_normal_does_not_matter),
+    CASE(light, constructors_fill_in_what_they_say),
+    CASE(light, presets_are_the_table_of_teapots),
+    CASE(light, nan_and_infinity_never_crash),
+    CASE(light, big_and_tiny_finite_input_stays_finite),
+};

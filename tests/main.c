@@ -1,0 +1,56 @@
+/* main.c - the test runner.   cc -O2 -I. tests/main.c -lm -o test_main
+
+   test_main [section] [seed]     runs all sections, or one; prints N passed, N failed
+   test_main --scenes [folder]    prints the hashes of the built-in scenes as the lines of
+                                  scenes.h, and writes their pictures into the folder */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+
+#include "test.h"
+#include "oracle.h"
+#include "canvas.h"
+
+#include "math.c"
+#include "matrix.c"
+#include "power.c"
+#include "light.c"
+#include "lanes.c"
+#include "vertex.c"
+#include "clip.c"
+#include "cover.c"
+#include "fragment.c"
+#include "store.c"
+#include "drive.c"
+#include "mesh.c"
+#include "scene.c"
+
+static const test_section sections[] = {
+    SECTION(math),   SECTION(matrix), SECTION(power), SECTION(light),    SECTION(lanes),
+    SECTION(vertex), SECTION(clip),   SECTION(cover), SECTION(fragment), SECTION(store),
+    SECTION(drive),  SECTION(mesh),   SECTION(scene),
+};
+#define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
+
+int main(int argc, char **argv)
+{
+    const char *only = argc > 1 && argv[1][0] ? argv[1] : NULL;
+    int passed = 0, failed = 0, found = 0;
+    test_now.seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 20261120u;
+    if (only && !strcmp(only, "--scenes")) return scene_print(argc > 2 ? argv[2] : NULL);
+    printf("seed %llu\n", (unsigned long long)test_now.seed);
+    for (int i = 0; i < SECTION_COUNT; i++) {
+        if (only && strcmp(only, sections[i].name)) continue;
+        found = 1;
+        for (int k = 0; k < sections[i].count; k++) {
+            test_run_case(&sections[i], &sections[i].cases[k], &passed, &failed);
+        }
+    }
+    if (!found) {
+        printf("no section \"%s\"; there are:", only);
+        for (int i = 0; i < SECTION_COUNT; i++) printf(" %s", sections[i].name);
+        printf("\n");
+        failed = 1;
+    }
+    printf("%d passed, %d failed\n", passed, failed);
+    return failed != 0;
+}

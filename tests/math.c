@@ -1,0 +1,208 @@
+/* math.c - vectors, against double precision and by their laws. */
+
+#define EPS 6e-8 /* half a unit in the last place of a float near 1 */
+
+static shade_vec3 random_vector(double size)
+{
+    return shade_v3(rnd_float(-size, size), rnd_float(-size, size), rnd_float(-size, size));
+}
+static int finite3(shade_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
+
+#define CHECK_VEC(got, want, within)                                                               \
+    do {                                                                                           \
+        shade_vec3 check_got = (got);                                                              \
+        d3 check_want = (want);                                                                    \
+        CHECK_NEAR(check_got.x, check_want.x, within);                                             \
+        CHECK_NEAR(check_got.y, check_want.y, within);                                             \
+        CHECK_NEAR(check_got.z, check_want.z, within);                                             \
+    } while (0)
+
+TEST(math, componentwise_operations_round_once)
+{
+    for (int i = 0; i < 2000; i++) {
+        double size = (double)rnd_log(1e-3, 1e6), eps = 2 * EPS * size;
+        shade_vec3 a = random_vector(size), b = random_vector(size);
+        d3 A = d3_from(a), B = d3_from(b);
+        float t = rnd_float(-2, 2);
+        CHECK_VEC(shade_add(a, b), d3_add(A, B), eps);
+        CHECK_VEC(shade_sub(a, b), d3_sub(A, B), eps);
+        CHECK_VEC(shade_mul(a, b), d3_mul(A, B), eps * size);
+        CHECK_VEC(shade_scale(a, t), d3_scale(A, (double)t), 2 * eps);
+        CHECK_VEC(shade_madd(a, t, b), d3_add(A, d3_scale(B, (double)t)), 6 * eps);
+        CHECK_VEC(shade_neg(a), d3_scale(A, -1), 0);
+        CHECK_VEC(shade_lerp(a, b, t), d3_add(A, d3_scale(d3_sub(B, A), (double)t)), 12 * eps);
+        CHECK_VEC(shade_lerp(a, b, 0), A, 0);
+        CHECK_VEC(shade_lerp(a, b, 1), B, 4 * eps);
+        CHECK_VEC(shade_min(a, b), d3_of(fmin(A.x, B.x), fmin(A.y, B.y), fmin(A.z, B.z)), 0);
+        CHECK_VEC(shade_max(a, b), d3_of(fmax(A.x, B.x), fmax(A.y, B.y), fmax(A.z, B.z)), 0);
+    }
+}
+
+TEST(math, products_of_vectors_match_double)
+{
+    for (int i = 0; i < 2000; i++) {
+        double size = (double)rnd_log(1e-3, 1e6);
+        shade_vec3 a = random_vector(size), b = random_vector(size);
+        d3 A = d3_from(a), B = d3_from(b);
+        double within = 4 * EPS * d3_length(A) * d3_length(B);
+        CHECK_NEAR(shade_dot(a, b), d3_dot(A, B), within);
+        CHECK_VEC(shade_cross(a, b), d3_cross(A, B), within);
+        CHECK_NEAR(shade_length(a), d3_length(A), 4 * EPS * d3_length(A));
+        CHECK_NEAR(shade_distance(a, b), d3_length(d3_sub(A, B)), 8 * EPS * size);
+    }
+    CHECK_VEC(shade_cross(shade_v3(1, 0, 0), shade_v3(0, 1, 0)), d3_of(0, 0, 1), 0);
+}
+
+TEST(math, clamp_holds_both_bounds_and_sends_nan_to_the_upper)
+{
+    shade_vec3 lo = shade_v3(-1, 0, 2), hi = shade_v3(1, 0.5f, 3);
+    CHECK_VEC(shade_clamp(shade_v3(-5, 0.25f, 9), lo, hi), d3_of(-1, 0.25, 3), 0);
+    CHECK_VEC(shade_clamp(shade_v3(5, -0.25f, 2.5f), lo, hi), d3_of(1, 0, 2.5), 0);
+    CHECK_VEC(shade_clamp(shade_v3((float)NAN, (float)NAN, (float)NAN), lo, hi), d3_of(1, 0.5, 3),
+              0);
+}
+
+TEST(math, normalize_gives_unit_length_or_exactly_zero)
+{
+    for (int i = 0; i < 4000; i++) {
+        double size = (double)rnd_log(1e-16, 1e12);
+        d3 v = d3_scale(rnd_direction(), size);
+        CHECK_VEC(shade_normalize(d3_round(v)), d3_unit(v), 4 * EPS);
+    }
+    CHECK_VEC(shade_normalize(shade_v3(0, 0, 0)), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_normalize(shade_v3(9e-19f, 0, 0)), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_normalize(shade_v3(0, -1e-30f, 1e-40f)), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_normalize(shade_v3(0, 2e-18f, 0)), d3_of(0, 1, 0), 4 * EPS);
+}
+
+TEST(math, reflect_takes_incoming_and_mirror_takes_outgoing_light) /* lectures V3, row 31 */
+{
+    shade_vec3 l = shade_v3(0, 0.6f, 0.8f), n = shade_v3(0, 0, 1);
+    CHECK_VEC(shade_mirror(l, n), d3_of(0, -0.6, 0.8), 2 * EPS);
+    CHECK_VEC(shade_reflect(shade_neg(l), n), d3_of(0, -0.6, 0.8), 2 * EPS);
+    CHECK_VEC(shade_reflect(l, n), d3_of(0, 0.6, -0.8), 2 * EPS);
+    for (int i = 0; i < 2000; i++) {
+        d3 N = rnd_direction(), L = rnd_direction();
+        shade_vec3 nf = d3_round(N), lf = d3_round(L);
+        d3 R = d3_sub(d3_scale(N, 2 * d3_dot(N, L)), L);
+        CHECK_VEC(shade_mirror(lf, nf), R, 1e-6);
+        CHECK_VEC(shade_reflect(lf, nf), d3_scale(R, -1), 1e-6);
+        CHECK_VEC(shade_mirror(shade_mirror(lf, nf), nf), L, 2e-6);
+    }
+}
+
+TEST(math, halfway_is_unit_between_or_zero_for_opposites) /* row 5 */
+{
+    for (int i = 0; i < 4000; i++) {
+        d3 L = rnd_direction(), V = rnd_direction(), H = d3_add(L, V);
+        if (d3_length(H) < 1e-2) continue;
+        CHECK_VEC(shade_halfway(d3_round(L), d3_round(V)), d3_unit(H), 1e-7 + 2e-7 / d3_length(H));
+    }
+    CHECK_VEC(shade_halfway(shade_v3(0, 0, 1), shade_v3(0, 0, -1)), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_halfway(shade_v3(0, 0, 1), shade_v3(9e-7f, 0, -1)), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_halfway(shade_v3(0, 0, 1), shade_v3(2e-6f, 0, -1)), d3_of(1, 0, 0), 4 * EPS);
+}
+
+TEST(math, face_normal_is_right_handed_and_zero_without_area) /* row 30 */
+{
+    CHECK_VEC(shade_face_normal(shade_v3(0, 0, 0), shade_v3(1, 0, 0), shade_v3(0, 1, 0)),
+              d3_of(0, 0, 1), EPS);
+    for (int i = 0; i < 2000; i++) {
+        double size = (double)rnd_log(1e-6, 1e6);
+        shade_vec3 a = random_vector(size), b = random_vector(size), c = random_vector(size);
+        d3 e = d3_unit(d3_sub(d3_from(b), d3_from(a))), f = d3_unit(d3_sub(d3_from(c), d3_from(a)));
+        d3 n = d3_cross(e, f);
+        if (d3_length(n) < 0.05) continue;
+        CHECK_VEC(shade_face_normal(a, b, c), d3_unit(n), 1e-5);
+        CHECK_VEC(shade_face_normal(a, c, b), d3_scale(d3_unit(n), -1), 1e-5);
+    }
+    shade_vec3 p = shade_v3(3, -2, 5), q = shade_v3(4, 4, 4);
+    CHECK_VEC(shade_face_normal(p, p, p), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_face_normal(p, p, q), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_face_normal(p, q, q), d3_of(0, 0, 0), 0);
+    CHECK_VEC(shade_face_normal(p, q, p), d3_of(0, 0, 0), 0);
+}
+
+TEST(math, every_function_is_finite_up_to_a_million_million)
+{
+    static const float sizes[] = {
+        0, 1e-45f, 1e-38f, 1e-30f, 1e-19f, 1e-18f, 1e-9f, 1, 1e6f, 1e12f
+    };
+    for (int i = 0; i < 20000; i++) {
+        float s[9];
+        for (int k = 0; k < 9; k++) s[k] = rnd_sign() * sizes[rnd_int(0, 9)];
+        shade_vec3 a = shade_v3(s[0], s[1], s[2]), b = shade_v3(s[3], s[4], s[5]),
+                   c = shade_v3(s[6], s[7], s[8]);
+        CHECK(finite3(shade_normalize(a)) && finite3(shade_cross(a, b)) &&
+              finite3(shade_halfway(a, b)));
+        CHECK(isfinite(shade_dot(a, b)) && isfinite(shade_length(a)) &&
+              isfinite(shade_distance(a, b)));
+        CHECK_SAY(finite3(shade_face_normal(a, b, c)), "(%g %g %g) (%g %g %g) (%g %g %g)",
+                  (double)a.x, (double)a.y, (double)a.z, (double)b.x, (double)b.y, (double)b.z,
+                  (double)c.x, (double)c.y, (double)c.z);
+        CHECK(finite3(shade_reflect(a, b)) && finite3(shade_mirror(a, b)));
+        double length = d3_length(d3_from(shade_normalize(a)));
+        CHECK_SAY(length == 0 || fabs(length - 1) < 1e-6, "|normalize(%g %g %g)| = %g", (double)a.x,
+                  (double)a.y, (double)a.z, length);
+    }
+}
+
+TEST(math, two_and_four_component_vectors_match_double)
+{
+    for (int i = 0; i < 1000; i++) {
+        float a[4], b[4], t = rnd_float(-2, 2);
+        for (int k = 0; k < 4; k++) a[k] = rnd_float(-9, 9), b[k] = rnd_float(-9, 9);
+        shade_vec2 a2 = shade_v2(a[0], a[1]), b2 = shade_v2(b[0], b[1]);
+        shade_vec4 a4 = shade_v4(a[0], a[1], a[2], a[3]), b4 = shade_v4(b[0], b[1], b[2], b[3]);
+        shade_vec2 r2[4];
+        shade_vec4 r4[4];
+        r2[0] = shade_add2(a2, b2), r2[1] = shade_sub2(a2, b2), r2[2] = shade_scale2(a2, t);
+        r2[3] = shade_lerp2(a2, b2, t);
+        r4[0] = shade_add4(a4, b4), r4[1] = shade_sub4(a4, b4), r4[2] = shade_scale4(a4, t);
+        r4[3] = shade_lerp4(a4, b4, t);
+        double dot = 0, dot2 = 0;
+        for (int k = 0; k < 4; k++) {
+            double p = (double)a[k], q = (double)b[k], s = (double)t, want[4];
+            want[0] = p + q, want[1] = p - q, want[2] = p * s, want[3] = p + s * (q - p);
+            dot += p * q;
+            if (k == 1) dot2 = dot;
+            for (int j = 0; j < 4; j++) {
+                float got = k == 0 ? r4[j].x : k == 1 ? r4[j].y : k == 2 ? r4[j].z : r4[j].w;
+                CHECK_NEAR(got, want[j], 1e-5);
+                if (k < 2) CHECK_NEAR(k == 0 ? r2[j].x : r2[j].y, want[j], 1e-5);
+            }
+        }
+        CHECK_NEAR(shade_dot2(a2, b2), dot2, 4e-5);
+        CHECK_NEAR(shade_dot4(a4, b4), dot, 8e-5);
+    }
+}
+
+TEST(math, the_own_square_root_equals_sqrtf) /* what SHADE_NO_LIBM uses gives the same bits */
+{
+    for (int i = 0; i < 400000; i++) {
+        uint32_t u = (uint32_t)rnd_bits() & 0x7FFFFFFFu;
+        float x = bits_float(u);
+        if (!isfinite(x)) continue;
+        CHECK_SAY(float_bits(shade__own_sqrt(x)) == float_bits(sqrtf(x)), "x %a: got %a, want %a",
+                  (double)x, (double)shade__own_sqrt(x), (double)sqrtf(x));
+    }
+    static const float special[] = { 0,       1,       4,      9,           2,         0.25f,
+                                     FLT_MIN, FLT_MAX, 1e-45f, 0.99999994f, 1.0000001f };
+    for (int i = 0; i < 11; i++) {
+        CHECK(float_bits(shade__own_sqrt(special[i])) == float_bits(sqrtf(special[i])));
+    }
+    CHECK(shade__own_sqrt(-1) == 0 && isinf(shade__own_sqrt((float)INFINITY)));
+}
+
+static const test_case math_cases[] = {
+    CASE(math, componentwise_operations_round_once),
+    CASE(math, products_of_vectors_match_double),
+    CASE(math, clamp_holds_both_bounds_and_sends_nan_to_the_upper),
+    CASE(math, normalize_gives_unit_length_or_exactly_zero),
+    CASE(math, reflect_takes_incoming_and_mirror_takes_outgoing_light),
+    CASE(math, halfway_is_unit_between_or_zero_for_opposites),
+    CASE(math, face_normal_is_right_handed_and_zero_without_area),
+    CASE(math, every_function_is_finite_up_to_a_million_million),
+    CASE(math, two_and_four_component_vectors_match_double),
+    CASE(math, the_own_square_root_equals_sqrtf),
+};

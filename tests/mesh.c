@@ -1,0 +1,762 @@
+/* mesh.c - whole meshes: shade_draw_mesh against an oracle that evaluates the equation of light
+   pixel by pixel in double precision, and vertex normals. */
+
+enum { MESH_VERTICES = 200, MESH_INDICES = 600 };
+
+typedef struct test_mesh {
+    float data[MESH_VERTICES * 16]; /* interleaved or one array after the other */
+    uint32_t indices[MESH_INDICES];
+    shade_vec3 position[MESH_VERTICES], normal[MESH_VERTICES], color[MESH_VERTICES];
+    shade_mesh mesh;
+    shade_draw_state state;
+    shade_light lights[3];
+    shade_material material;
+} test_mesh;
+
+static void put3(float *at, shade_vec3 v) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
+
+/* Lays position, normal and colour out with a random stride, or tightly one after the other. */
+static void lay_out_mesh(test_mesh *m, int vertices, int with_normals, int with_colors)
+{
+    int interleaved = rnd_one_in(2), step = interleaved ? 9 + rnd_int(0, 3) : 3;
+    float *p = m->data, *n = interleaved ? p + 3 : p + 3 * MESH_VERTICES;
+    float *c = interleaved ? p + 6 : p + 6 * MESH_VERTICES;
+    for (int i = 0; i < vertices; i++) {
+        put3(p + i * step, m->position[i]), put3(n + i * step, m->normal[i]),
+            put3(c + i * step, m->color[i]);
+    }
+    int stride = interleaved ? step * 4 : rnd_one_in(2) ? 12 : 0;
+    m->mesh.positions = p, m->mesh.position_stride = stride;
+    m->mesh.normals = with_normals ? n : NULL, m->mesh.normal_stride = stride;
+    m->mesh.colors = with_colors ? c : NULL, m->mesh.color_stride = stride;
+    m->mesh.vertex_count = vertices, m->mesh.indices = m->indices;
+}
+
+/* A bumpy ball of latitudes and longitudes, facing outward. */
+static void random_ball(test_mesh *m, int with_normals, int with_colors)
+{
+    int across = rnd_int(4, 12), up = rnd_int(3, 8), vertices = 0, count = 0;
+    for (int j = 0; j <= up; j++)
+        for (int i = 0; i <= across; i++) {
+            double a = 6.283185307179586 * i / across,
+                   b = 3.141592653589793 * ((j + 0.15) / (up + 0.3) - 0.5);
+            d3 n = d3_of(cos(a) * cos(b), sin(b), sin(a) * cos(b));
+            m->position[vertices] = d3_round(d3_scale(n, 1 + 0.1 * rnd_unit()));
+            d3 bent = d3_unit(d3_add(n, d3_scale(rnd_direction(), 0.2)));
+            m->normal[vertices] = d3_round(d3_scale(bent, (double)rnd_log(0.5, 2)));
+            m->color[vertices++] = random_color(1);
+        }
+    for (int j = 0; j < up; j++)
+        for (int i = 0; i < across; i++) {
+            uint32_t a = (uint32_t)(j * (across + 1) + i), b = a + 1, c = a + (uint32_t)across + 1,
+                     d = c + 1;
+            m->indices[count++] = a, m->indices[count++] = c, m->indices[count++] = d;
+            m->indices[count++] = a, m->indices[count++] = d, m->indices[count++] = b;
+        }
+    m->mesh.index_count = count;
+    lay_out_mesh(m, vertices, with_normals, with_colors);
+}
+
+static void random_mesh_scene(test_mesh *m, shade_shading shading, int mirrored)
+{
+    memset(m, 0, sizeof *m);
+    random_ball(m, mirrored || rnd_int(0, 3) > 0, rnd_int(0, 1));
+    d3 eye = d3_scale(rnd_direction(), (double)rnd_float(2.6, 5));
+    d3 center = d3_scale(rnd_direction(), 0.3);
+    m->state.view = shade_mat4_look_at(d3_round(eye), d3_round(center), d3_round(rnd_direction()));
+    m->state.projection = rnd_one_in(4)
+                              ? shade_mat4_ortho(-1.8f, 1.8f, -1.4f, 1.4f, 0.1f, 20)
+                              : shade_mat4_perspective(rnd_float(0.5, 1), 4.0f / 3, 0.1f, 20);
+    if (!rnd_one_in(4)) {
+        shade_vec3 s = shade_v3(rnd_log(0.6, 1.6), rnd_log(0.6, 1.6), rnd_log(0.6, 1.6));
+        if (mirrored) s.x = -s.x;
+        m->state.model = shade_mat4_mul(
+            shade_mat4_translation(random_vector(0.2)),
+            shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())),
+                           shade_mat4_scaling(s)));
+    }
+    for (int k = 0; k < 3; k++) {
+        m->lights[k] = random_light(shade_v3(0, 0, 0), 5);
+        if (m->lights[k].position.w != 0) m->lights[k].position.w = 1;
+        d3 at = d3_of((double)m->lights[k].position.x, (double)m->lights[k].position.y,
+                      (double)m->lights[k].position.z);
+        if (d3_length(at) < 2.5) { /* outside the ball */
+            at = d3_scale(d3_unit(at), 2.5 + rnd_unit());
+            m->lights[k].position.x = (float)at.x, m->lights[k].position.y = (float)at.y,
+            m->lights[k].position.z = (float)at.z;
+        }
+        if (m->lights[k].spot_exponent > 20) m->lights[k].spot_exponent = 20;
+        if (m->lights[k].spot_exponent < 1) m->lights[k].spot_exponent = 0;
+    }
+    m->material = random_material();
+    if (m->material.shininess > 60) m->material.shininess = 60;
+    if (m->material.shininess < 1) m->material.shininess = 0;
+    m->state.material = rnd_one_in(6) ? NULL : &m->material;
+    m->state.lighting.lights = m->lights, m->state.lighting.light_count = rnd_int(0, 3);
+    m->state.lighting.ambient = random_color(0.3);
+    m->state.lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
+    m->state.lighting.flags = rnd_one_in(2) ? 0 : (unsigned)rnd_int(0, 63);
+    if (m->state.lighting.model == SHADE_COOL_TO_WARM)
+        m->state.lighting.flags &= ~(unsigned)SHADE_TWO_SIDED_ABS;
+    m->state.lighting.terms = rnd_one_in(3) ? (unsigned)rnd_int(0, 15) : 0;
+    m->state.shading = shading;
+}
+
+static dmat matrix_or_identity(shade_mat4 m)
+{
+    dmat d = dmat_from(m);
+    return dmat_max(d) == 0 ? dmat_identity() : d;
+}
+
+typedef struct mesh_oracle {
+    dmat model, normals, clip;
+    d3 eye;       /* in world space, or the direction toward the viewer */
+    double bound; /* the greatest bound met while a pixel was made */
+    int unsure;
+} mesh_oracle;
+
+static mesh_oracle mesh_oracle_of(const test_mesh *m)
+{
+    mesh_oracle o;
+    dmat view = matrix_or_identity(m->state.view), inverse;
+    memset(&o, 0, sizeof o);
+    o.model = matrix_or_identity(m->state.model), o.normals = dmat_normals(o.model);
+    o.clip = dmat_mul(matrix_or_identity(m->state.projection), dmat_mul(view, o.model));
+    dmat_invert(view, 4, &inverse);
+    int infinite = (m->state.lighting.flags & SHADE_INFINITE_VIEWER) != 0;
+    o.eye =
+        infinite ? dmat_direction(inverse, d3_of(0, 0, 1)) : dmat_point(inverse, d3_of(0, 0, 0));
+    return o;
+}
+
+static d3 mesh_light(mesh_oracle *o, const test_mesh *m, d3 P, d3 N, d3 albedo)
+{
+    ref_lit lit = ref_light(&m->state.lighting, m->state.material, P, N, o->eye, albedo);
+    o->unsure |= lit.unsure;
+    o->bound = fmax(o->bound, lit.bound);
+    return lit.total;
+}
+
+/* The colour of triangle t at barycentric b. */
+static d3 mesh_color(mesh_oracle *o, const test_mesh *m, int t, const double b[3])
+{
+    d3 P[3], N[3], albedo[3], sum_p = d3_of(0, 0, 0), sum_n = sum_p, sum_a = sum_p, sum_lit = sum_p;
+    for (int k = 0; k < 3; k++) {
+        uint32_t v = m->indices[3 * t + k];
+        P[k] = dmat_point(o->model, d3_from(m->position[v]));
+        N[k] = d3_unit(dmat_direction(o->normals, d3_from(m->normal[v])));
+        albedo[k] = m->mesh.colors ? d3_from(m->color[v]) : d3_of(1, 1, 1);
+    }
+    d3 flat = d3_unit(d3_cross(d3_sub(P[1], P[0]), d3_sub(P[2], P[0])));
+    for (int k = 0; k < 3; k++) {
+        if (!m->mesh.normals) N[k] = flat;
+        sum_p = d3_add(sum_p, d3_scale(P[k], b[k])), sum_n = d3_add(sum_n, d3_scale(N[k], b[k]));
+        sum_a = d3_add(sum_a, d3_scale(albedo[k], b[k]));
+    }
+    if (m->state.shading == SHADE_PER_FRAGMENT) return mesh_light(o, m, sum_p, sum_n, sum_a);
+    if (m->state.shading == SHADE_PER_FACE) {
+        d3 centroid = d3_scale(d3_add(P[0], d3_add(P[1], P[2])), 1.0 / 3);
+        return mesh_light(o, m, centroid, flat, albedo[0]);
+    }
+    for (int k = 0; k < 3; k++)
+        sum_lit = d3_add(sum_lit, d3_scale(mesh_light(o, m, P[k], N[k], albedo[k]), b[k]));
+    return sum_lit;
+}
+
+static d3 mesh_pixel(mesh_oracle *o, const test_mesh *m, const ref_triangle *e, int t, double X,
+                     double Y)
+{
+    double b[3];
+    ref_barycentric(e, X, Y, b);
+    o->bound = 0;
+    return mesh_color(o, m, t, b);
+}
+
+/* Holds every pixel whose triangle is beyond doubt to the oracle; returns how many there were. */
+static int check_mesh(const canvas *c, const test_mesh *m)
+{
+    mesh_oracle o = mesh_oracle_of(m);
+    int triangles = m->mesh.index_count / 3, checked = 0, width = c->target.width,
+        height = c->target.height;
+    static ref_triangle e[MESH_INDICES / 3];
+    static int usable[MESH_INDICES / 3];
+    for (int t = 0; t < triangles; t++) {
+        shade_vec4 corner[3];
+        for (int k = 0; k < 3; k++) {
+            double in[4], out[4];
+            shade_vec3 p = m->position[m->indices[3 * t + k]];
+            in[0] = (double)p.x, in[1] = (double)p.y, in[2] = (double)p.z, in[3] = 1;
+            dmat_apply(o.clip, in, out);
+            corner[k] = shade_v4((float)out[0], (float)out[1], (float)out[2], (float)out[3]);
+        }
+        usable[t] = ref_triangle_of(&e[t], &corner[0], &corner[1], &corner[2], width, height);
+    }
+    ref_margin = 2e-3;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double X = x + 0.5, Y = y + 0.5, nearest = 1, second = 1;
+            int winner = -1, doubt = 0;
+            for (int t = 0; t < triangles; t++) {
+                int in = usable[t] ? ref_covers(&e[t], X, Y, 0.02, 0, 0) : 0;
+                doubt |= in < 0;
+                if (in != 1) continue;
+                double z = ref_depth(&e[t], X, Y, 0);
+                if (z < nearest)
+                    second = nearest, nearest = z, winner = t;
+                else
+                    second = fmin(second, z);
+            }
+            o.unsure = 0;
+            if (doubt || second - nearest < 1e-4) continue;
+            if (winner < 0) {
+                CHECK_NEAR(canvas_float(c, x, y, 3), 0, 0);
+                continue;
+            }
+            d3 want = mesh_pixel(&o, m, &e[winner], winner, X, Y);
+            if (o.unsure) continue;
+            /* beyond the bound of light: rounding of N and P in the planes, and what 1/256 pixel of
+               snapping moves */
+            double bound = o.bound, moved = 0;
+            for (int k = 0; k < 4; k++) {
+                double sx = (k == 0) - (k == 1), sy = (k == 2) - (k == 3);
+                d3 beside = mesh_pixel(&o, m, &e[winner], winner, X + sx / 256, Y + sy / 256);
+                moved = fmax(moved, d3_max(d3_sub(beside, want)));
+            }
+            if (o.unsure || moved > 0.05 * fmax(1, d3_max(want))) continue;
+            shade_vec3 got = shade_v3(canvas_float(c, x, y, 0), canvas_float(c, x, y, 1),
+                                      canvas_float(c, x, y, 2));
+            moved += bound + fmax(1, d3_max(want)) * 1e-4;
+            if (!check_color(__LINE__, "pixel", got, want, moved) &&
+                test_now.failures <= TEST_MAX_PRINTED) {
+                printf("    pixel %d %d, triangle %d, shading %d, model %d, flags %u, normals %d\n",
+                       x, y, winner, (int)m->state.shading, (int)m->state.lighting.model,
+                       m->state.lighting.flags, m->mesh.normals != NULL);
+            }
+            CHECK_NEAR(canvas_float(c, x, y, 3), 1, 0);
+            checked++;
+        }
+    ref_margin = 1e-5;
+    return checked;
+}
+
+static void check_meshes(shade_shading shading, int mirrored)
+{
+    static test_mesh m;
+    int checked = 0;
+    for (int i = 0; i < 40; i++) {
+        canvas c = canvas_open(64, 48, 65, SHADE_RGBA32F, 1);
+        random_mesh_scene(&m, shading, mirrored);
+        canvas_clear(&c, 1);
+        shade_stats stats;
+        CHECK_INT(shade_draw_mesh(&c.target, &m.mesh, &m.state, &stats), SHADE_OK);
+        CHECK_SAY(stats_add_up(&stats, m.mesh.index_count / 3), "%lld triangles", stats.triangles);
+        checked += check_mesh(&c, &m);
+        canvas_close(&c);
+    }
+    CHECK_SAY(checked > 8000, "%d pixels checked", checked);
+}
+
+TEST(mesh, per_fragment_is_the_equation_at_every_pixel)
+{
+    check_meshes(SHADE_PER_FRAGMENT, 0);
+} /* row 42 */
+TEST(mesh, per_vertex_interpolates_the_light_of_the_corners)
+{
+    check_meshes(SHADE_PER_VERTEX, 0);
+} /* row 41 */
+TEST(mesh, per_face_is_lit_once_at_the_centroid) { check_meshes(SHADE_PER_FACE, 0); } /* row 40 */
+TEST(mesh, mirrored_models_keep_their_given_normals)
+{
+    check_meshes(SHADE_PER_FRAGMENT, 1);
+} /* V6 */
+
+static const float big_triangle[] = { -0.9f, -0.9f, 0, 0.9f, -0.8f, 0, 0, 0.9f, 0 };
+
+static shade_draw_state plain_state(const shade_light *light)
+{
+    shade_draw_state s;
+    memset(&s, 0, sizeof s);
+    s.lighting.lights = light, s.lighting.light_count = light ? 1 : 0;
+    return s;
+}
+static shade_mesh plain_mesh(const float *positions, int vertices)
+{
+    shade_mesh m;
+    memset(&m, 0, sizeof m);
+    m.positions = positions, m.vertex_count = vertices;
+    return m;
+}
+
+TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* row 40, exact */
+{
+    shade_material material = s1_brass();
+    for (int i = 0; i < 300; i++) {
+        float p[9];
+        for (int k = 0; k < 9; k++) p[k] = rnd_float(-1, 1);
+        shade_light light = shade_directional_light(d3_round(rnd_direction()), random_color(2));
+        shade_draw_state s = plain_state(&light);
+        shade_mesh mesh = plain_mesh(p, 3);
+        s.material = &material, s.shading = i % 2 ? SHADE_PER_FACE : SHADE_PER_FRAGMENT;
+        s.lighting.flags = SHADE_INFINITE_VIEWER | (i % 3 ? SHADE_TWO_SIDED : 0);
+        s.view = shade_mat4_look_at(shade_v3(0.2f, 0.1f, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+        s.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 10);
+        canvas c = canvas_open(64, 64, 0, SHADE_RGBA32F, 1);
+        canvas_clear(&c, 1);
+        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        float first[4] = { 0, 0, 0, 0 };
+        for (int k = 0; k < 64 * 64; k++) {
+            if (canvas_float(&c, k % 64, k / 64, 3) == 0) continue;
+            for (int j = 0; j < 3; j++) {
+                float v = canvas_float(&c, k % 64, k / 64, j);
+                if (first[3] == 0) first[j] = v;
+                /* per face: lit once; per fragment: N is interpolated, so to rounding */
+                CHECK_NEAR(v, first[j], i % 2 ? 0 : 1e-4);
+            }
+            first[3] = 1;
+        }
+        canvas_close(&c);
+    }
+}
+
+TEST(mesh, per_face_takes_the_colour_of_the_first_vertex)
+{
+    static const float color[] = { 1, 0.5f, 0.25f, 0, 1, 0, 0, 0, 1 };
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
+    shade_draw_state s = plain_state(&light);
+    shade_mesh mesh = plain_mesh(big_triangle, 3);
+    static const uint32_t turned[] = { 1, 2, 0 };
+    mesh.colors = color;
+    s.shading = SHADE_PER_FACE;
+    for (int turn = 0; turn < 2; turn++) {
+        canvas c = canvas_open(20, 20, 0, SHADE_RGBA32F, 0);
+        canvas_clear(&c, 1);
+        if (turn) mesh.indices = turned, mesh.index_count = 3;
+        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        for (int j = 0; j < 3; j++)
+            CHECK_NEAR(canvas_float(&c, 10, 12, j), color[3 * turn + j], 1e-6);
+        canvas_close(&c);
+    }
+}
+
+TEST(mesh, gouraud_misses_the_highlight_that_phong_finds) /* row 41 */
+{
+    shade_light light = shade_point_light(shade_v3(0, -0.2f, 0.5f), grey(1));
+    shade_material m;
+    memset(&m, 0, sizeof m);
+    m.specular = grey(1), m.shininess = 80;
+    shade_draw_state s = plain_state(&light);
+    shade_mesh mesh = plain_mesh(big_triangle, 3);
+    s.material = &m;
+    s.view = shade_mat4_look_at(shade_v3(0, -0.2f, 3), shade_v3(0, -0.2f, 0), shade_v3(0, 1, 0));
+    s.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 10);
+    double most[2] = { 0, 0 };
+    for (int k = 0; k < 2; k++) {
+        canvas c = canvas_open(64, 64, 0, SHADE_RGBA32F, 1);
+        canvas_clear(&c, 1);
+        s.shading = k ? SHADE_PER_VERTEX : SHADE_PER_FRAGMENT;
+        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        for (int i = 0; i < 64 * 64; i++)
+            most[k] = fmax(most[k], (double)canvas_float(&c, i % 64, i / 64, 0));
+        canvas_close(&c);
+    }
+    CHECK_SAY(most[0] > 0.95 && most[1] < 0.2, "Phong %g, Gouraud %g", most[0], most[1]);
+}
+
+TEST(mesh, light_between_gouraud_vertices_is_not_clamped) /* a corner of 3 beside corners of 0 */
+{
+    static const float normal[] = { 0, 0, 1, 0, 0, -1, 0, 0, -1 };
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(3));
+    shade_draw_state s = plain_state(&light);
+    shade_mesh mesh = plain_mesh(big_triangle, 3);
+    mesh.normals = normal;
+    s.shading = SHADE_PER_VERTEX;
+    canvas c = canvas_open(200, 200, 0, SHADE_RGBA32F, 0);
+    canvas_clear(&c, 1);
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+    shade_vec4 corner[3];
+    ref_triangle t;
+    for (int k = 0; k < 3; k++)
+        corner[k] = shade_v4(big_triangle[3 * k], big_triangle[3 * k + 1], 0, 1);
+    CHECK(ref_triangle_of(&t, &corner[0], &corner[1], &corner[2], 200, 200));
+    int bright = 0;
+    for (int i = 0; i < 200 * 200; i++) {
+        if (canvas_float(&c, i % 200, i / 200, 3) == 0) continue;
+        double want = ref_interpolate(&t, i % 200 + 0.5, i / 200 + 0.5, 3, 0, 0);
+        CHECK_NEAR(canvas_float(&c, i % 200, i / 200, 1), want, 2e-4);
+        bright += want > 1.5;
+    }
+    CHECK(bright > 100);
+    canvas_close(&c);
+}
+
+TEST(mesh, every_layout_of_the_same_mesh_gives_the_same_bits)
+{
+    static test_mesh m;
+    for (int i = 0; i < 30; i++) {
+        canvas a = canvas_open(64, 48, 0, SHADE_RGBA32F, 1),
+               b = canvas_open(64, 48, 0, SHADE_RGBA32F, 1);
+        random_mesh_scene(&m, (shade_shading)(i % 3), 0);
+        static float texcoord[MESH_VERTICES * 2];
+        canvas_clear(&a, 1), canvas_clear(&b, 1);
+        CHECK_INT(shade_draw_mesh(&a.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        if (i % 2) {
+            lay_out_mesh(&m, m.mesh.vertex_count, m.mesh.normals != NULL, m.mesh.colors != NULL);
+            m.mesh.texcoords = texcoord, m.mesh.texcoord_stride = 8;
+        } else { /* unrolled: vertices in threes without indices */
+            static shade_vec3 p[MESH_INDICES], n[MESH_INDICES], color[MESH_INDICES];
+            for (int k = 0; k < m.mesh.index_count; k++) {
+                uint32_t v = m.indices[k];
+                p[k] = m.position[v], n[k] = m.normal[v], color[k] = m.color[v];
+            }
+            m.mesh.positions = &p[0].x, m.mesh.position_stride = 0;
+            m.mesh.normals = m.mesh.normals ? &n[0].x : NULL, m.mesh.normal_stride = 12;
+            m.mesh.colors = m.mesh.colors ? &color[0].x : NULL, m.mesh.color_stride = 0;
+            m.mesh.vertex_count = m.mesh.index_count, m.mesh.indices = NULL, m.mesh.index_count = 0;
+        }
+        CHECK_INT(shade_draw_mesh(&b.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        CHECK(canvas_same(&a, &b));
+        canvas_close(&a);
+        canvas_close(&b);
+    }
+}
+
+TEST(mesh, bands_of_a_mesh_give_the_bits_of_the_whole)
+{
+    static test_mesh m;
+    for (int i = 0; i < 60; i++) {
+        canvas a = canvas_open(64, 48, 0, (shade_format)(i % 3), 1),
+               b = canvas_open(64, 48, 0, (shade_format)(i % 3), 1);
+        random_mesh_scene(&m, (shade_shading)(i % 3), 0);
+        canvas_clear(&a, 1), canvas_clear(&b, 1);
+        CHECK_INT(shade_draw_mesh(&a.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        int bands = rnd_int(2, 7);
+        for (int k = 0; k < bands; k++) {
+            b.target.clip_y = 48 * k / bands,
+            b.target.clip_height = 48 * (k + 1) / bands - b.target.clip_y;
+            b.target.clip_width = 64;
+            CHECK_INT(shade_draw_mesh(&b.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        }
+        CHECK(canvas_same(&a, &b));
+        canvas_close(&a);
+        canvas_close(&b);
+    }
+}
+
+TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
+{
+    shade_light light = shade_directional_light(shade_v3(0, -0.6f, -0.8f), shade_v3(0.5f, 1, 2));
+    shade_draw_state s = plain_state(&light);
+    shade_mesh mesh = plain_mesh(big_triangle, 3);
+    s.lighting.ambient = shade_v3(0.1f, 0, 0);
+    canvas c = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas_clear(&c, 1);
+    shade_stats stats;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_INT(stats.drawn, 1);
+    CHECK_NEAR(canvas_float(&c, 10, 12, 0), 0.5, 1e-5);
+    CHECK_NEAR(canvas_float(&c, 10, 12, 1), 0.8, 1e-5);
+    CHECK_NEAR(canvas_float(&c, 10, 12, 2), 1.6, 1e-5);
+    CHECK_NEAR(canvas_float(&c, 10, 12, 3), 1, 0);
+    CHECK_NEAR(canvas_depth(&c, 10, 12), 0.5, 1e-6);
+    canvas_close(&c);
+}
+
+TEST(mesh, the_state_of_the_pipeline_is_handed_on)
+{
+    shade_draw_state s = plain_state(NULL);
+    shade_mesh mesh = plain_mesh(big_triangle, 3);
+    s.lighting.ambient = grey(0.25);
+    canvas c = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas_clear(&c, 0.5f);
+    shade_stats stats;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_INT(stats.fragments, 0); /* at the same depth: LESS fails */
+    s.depth_test = SHADE_LESS_EQUAL, s.blend = SHADE_ADD;
+    for (int k = 0; k < 3; k++) CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_NEAR(canvas_float(&c, 10, 12, 0), 0.75, 1e-6);
+    s.depth_bias = 0.25f;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_INT(stats.fragments, 0);
+    s.depth_bias = -0.25f, s.depth_read_only = 1;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_NEAR(canvas_depth(&c, 10, 12), 0.5, 0);
+    s.depth_read_only = 0;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_NEAR(canvas_depth(&c, 10, 12), 0.25, 1e-6);
+    s.cull = SHADE_CULL_FRONT, s.depth_test = SHADE_ALWAYS;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_INT(stats.culled, 1);
+    s.cull = SHADE_CULL_BACK, s.depth_zero_to_one = 1, s.depth_bias = 0;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_INT(stats.drawn, 1);
+    CHECK_NEAR(canvas_depth(&c, 10, 12), 0, 1e-6);
+    canvas_close(&c);
+}
+
+TEST(mesh, a_nan_in_a_matrix_rejects_every_triangle)
+{
+    shade_mesh mesh = plain_mesh(big_triangle, 3);
+    for (int k = 0; k < 3; k++) {
+        shade_draw_state s = plain_state(NULL);
+        shade_mat4 *m = k == 0 ? &s.model : k == 1 ? &s.view : &s.projection;
+        *m = shade_mat4_identity();
+        m->col[1].x = (float)NAN;
+        canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+        canvas_clear(&c, 1);
+        shade_stats stats;
+        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+        CHECK_INT(stats.rejected, 1);
+        CHECK_INT(stats.fragments, 0);
+        canvas_close(&c);
+    }
+}
+
+TEST(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero)
+{
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3((float)NAN, 1, 1));
+    shade_material m = s1_brass();
+    m.specular = grey(0), m.emission.z = (float)NAN;
+    shade_draw_state s = plain_state(&light);
+    shade_mesh mesh = plain_mesh(big_triangle, 3);
+    s.material = &m;
+    for (int shading = 0; shading < 3; shading++) {
+        canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+        s.shading = (shade_shading)shading;
+        CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 0), 1), SHADE_OK);
+        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        CHECK_INT(canvas_bytes(&c, 10, 12)[0], 0);
+        CHECK_INT(canvas_bytes(&c, 10, 12)[1], 145); /* k_d .568627 of 255 */
+        CHECK_INT(canvas_bytes(&c, 10, 12)[2], 0);
+        CHECK_INT(canvas_bytes(&c, 10, 12)[3], 255);
+        canvas_close(&c);
+    }
+}
+
+TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
+{
+    static const uint32_t good_indices[] = { 0, 1, 2 }, bad_indices[] = { 0, 1, 3 };
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
+    canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+    canvas_clear(&c, 1);
+    shade_mesh good = plain_mesh(big_triangle, 3);
+    shade_draw_state state = plain_state(&light);
+    good.indices = good_indices, good.index_count = 3;
+    CHECK_INT(shade_draw_mesh(NULL, &good, &state, NULL), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_draw_mesh(&c.target, NULL, &state, NULL), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_draw_mesh(&c.target, &good, NULL, NULL), SHADE_ERROR_ARGUMENT);
+    for (int k = 0; k < 24; k++) {
+        shade_mesh m = good;
+        shade_draw_state s = state;
+        shade_result want = SHADE_ERROR_ARGUMENT;
+        m.normals = m.colors = m.texcoords = big_triangle;
+        switch (k) {
+        case 0:
+            m.positions = NULL;
+            break;
+        case 1:
+            m.position_stride = -12;
+            break;
+        case 2:
+            m.position_stride = 13;
+            break;
+        case 3:
+            m.normal_stride = -4;
+            break;
+        case 4:
+            m.normal_stride = 2;
+            break;
+        case 5:
+            m.color_stride = 15;
+            break;
+        case 6:
+            m.texcoord_stride = 7;
+            break;
+        case 7:
+            m.index_count = -3;
+            break;
+        case 8:
+            s.lighting.lights = NULL;
+            break;
+        case 9:
+            s.lighting.model = (shade_model)6;
+            break;
+        case 10:
+            s.shading = (shade_shading)3;
+            break;
+        case 11:
+            s.cull = (shade_cull)3;
+            break;
+        case 12:
+            s.depth_test = (shade_compare)6;
+            break;
+        case 13:
+            s.blend = (shade_blend)3;
+            break;
+        case 14:
+            s.depth_bias = (float)NAN;
+            break;
+        case 15:
+            m.indices = NULL, m.vertex_count = -3;
+            break;
+        case 16:
+            m.color_stride = -12;
+            break;
+        case 17:
+            m.texcoord_stride = -8;
+            break;
+        case 18:
+            m.indices = bad_indices, want = SHADE_ERROR_INDEX;
+            break;
+        case 19:
+            m.vertex_count = 2, want = SHADE_ERROR_INDEX;
+            break;
+        case 20:
+            m.index_count = 2, want = SHADE_ERROR_INDEX;
+            break;
+        case 21:
+            m.indices = NULL, m.vertex_count = 2, want = SHADE_ERROR_INDEX;
+            break;
+        case 22:
+            m.vertex_count = 0, want = SHADE_ERROR_INDEX;
+            break;
+        default:
+            m.indices = bad_indices, s.shading = (shade_shading)3;
+            break; /* arguments before indices */
+        }
+        shade_result got = shade_draw_mesh(&c.target, &m, &s, NULL);
+        CHECK_SAY(got == want, "case %d: got %d, want %d", k, (int)got, (int)want);
+        CHECK_INT(canvas_bytes(&c, 10, 12)[3], 0);
+        CHECK_NEAR(canvas_depth(&c, 10, 12), 1, 0);
+    }
+    state.lighting.light_count = -4; /* counts as none */
+    CHECK_INT(shade_draw_mesh(&c.target, &good, &state, NULL), SHADE_OK);
+    good.index_count = 0;
+    CHECK_INT(shade_draw_mesh(&c.target, &good, &state, NULL), SHADE_OK);
+    canvas_close(&c);
+}
+
+/* ------------------------------------------------------------------------------- vertex normals */
+
+static void ref_vertex_normals(const test_mesh *m, d3 *sum)
+{
+    for (int i = 0; i < m->mesh.vertex_count; i++) sum[i] = d3_of(0, 0, 0);
+    for (int t = 0; t < m->mesh.index_count; t += 3) {
+        d3 p[3];
+        for (int k = 0; k < 3; k++) p[k] = d3_from(m->position[m->indices[t + k]]);
+        d3 n = d3_unit(d3_cross(d3_sub(p[1], p[0]), d3_sub(p[2], p[0])));
+        for (int k = 0; k < 3; k++) {
+            d3 e = d3_unit(d3_sub(p[(k + 1) % 3], p[k])), f = d3_unit(d3_sub(p[(k + 2) % 3], p[k]));
+            double angle = acos(fmax(-1, fmin(1, d3_dot(e, f))));
+            uint32_t v = m->indices[t + k];
+            sum[v] = d3_add(sum[v], d3_scale(n, angle));
+        }
+    }
+}
+
+TEST(mesh, vertex_normals_are_weighted_by_angle_and_unit) /* row 34 */
+{
+    static test_mesh m;
+    static shade_vec3 got[MESH_VERTICES];
+    static d3 want[MESH_VERTICES];
+    for (int i = 0; i < 200; i++) {
+        memset(&m, 0, sizeof m);
+        random_ball(&m, 1, 0);
+        double size = (double)rnd_log(1e-3, 1e3);
+        for (int k = 0; k < MESH_VERTICES; k++)
+            m.position[k] = shade_scale(m.position[k], (float)size);
+        lay_out_mesh(&m, m.mesh.vertex_count, i % 2, 0);
+        if (i % 3 == 0)
+            m.mesh.index_count = m.mesh.index_count / 6 * 3; /* some vertices without faces */
+        for (int k = 0; k < 5 && i % 2; k++) {               /* faces without area */
+            int t = rnd_int(0, m.mesh.index_count / 3 - 1) * 3;
+            m.indices[t] = m.indices[t + rnd_int(1, 2)];
+        }
+        ref_vertex_normals(&m, want);
+        memset(got, CANVAS_BYTE, sizeof got);
+        CHECK_INT(shade_mesh_normals(&m.mesh, got), SHADE_OK);
+        for (int v = 0; v < m.mesh.vertex_count; v++) {
+            if (d3_length(want[v]) == 0)
+                check_color(__LINE__, "no faces", got[v], d3_of(0, 0, 0), 0);
+            else if (d3_length(want[v]) > 0.2)
+                check_color(__LINE__, "normal", got[v], d3_unit(want[v]), 2e-5);
+        }
+        for (int v = m.mesh.vertex_count; v < MESH_VERTICES; v++)
+            CHECK(float_bits(got[v].x) == 0xA5A5A5A5u);
+    }
+}
+
+/* however its faces are split: angles, not areas or counts */
+TEST(mesh, corners_of_a_cube_point_along_its_diagonals)
+{
+    static const float p[] = { -1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1,
+                               -1, -1, 1,  1, -1, 1,  -1, 1, 1,  1, 1, 1 };
+    static const uint32_t faces[6][4] = { { 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 },
+                                          { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } };
+    for (int round = 0; round < 64; round++) {
+        uint32_t indices[36];
+        shade_vec3 n[8];
+        int count = 0;
+        for (int f = 0; f < 6; f++) {
+            int s = round >> f & 1;
+            static const int split[2][6] = { { 0, 1, 2, 0, 2, 3 }, { 1, 2, 3, 1, 3, 0 } };
+            for (int k = 0; k < 6; k++) indices[count++] = faces[f][split[s][k]];
+        }
+        shade_mesh mesh = plain_mesh(p, 8);
+        mesh.indices = indices, mesh.index_count = 36;
+        CHECK_INT(shade_mesh_normals(&mesh, n), SHADE_OK);
+        for (int v = 0; v < 8; v++) {
+            d3 want = d3_unit(d3_of((double)p[3 * v], (double)p[3 * v + 1], (double)p[3 * v + 2]));
+            check_color(__LINE__, "corner", n[v], want, 1e-5);
+        }
+    }
+}
+
+TEST(mesh, vertex_normals_of_bad_meshes_are_refused)
+{
+    static const uint32_t good[] = { 0, 1, 2 }, bad[] = { 0, 1, 3 };
+    shade_vec3 n[3];
+    shade_mesh m = plain_mesh(big_triangle, 3);
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_OK); /* vertices in threes */
+    check_color(__LINE__, "normal", n[1], d3_of(0, 0, 1), 1e-6);
+    CHECK_INT(shade_mesh_normals(NULL, n), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_mesh_normals(&m, NULL), SHADE_ERROR_ARGUMENT);
+    m.indices = bad, m.index_count = 3;
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_INDEX);
+    m.indices = good, m.index_count = 2;
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_INDEX);
+    m.index_count = -3;
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    m.index_count = 3, m.position_stride = 5;
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    m.position_stride = -12;
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    m.position_stride = 0, m.positions = NULL;
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    float strange[9];
+    for (int i = 0; i < 500; i++) { /* NaN and infinity do no harm */
+        fill_nasty(strange, sizeof strange);
+        shade_mesh s = plain_mesh(strange, 3);
+        CHECK_INT(shade_mesh_normals(&s, n), SHADE_OK);
+    }
+}
+
+static const test_case mesh_cases[] = {
+    CASE(mesh, per_fragment_is_the_equation_at_every_pixel),
+    CASE(mesh, per_vertex_interpolates_the_light_of_the_corners),
+    CASE(mesh, per_face_is_lit_once_at_the_centroid),
+    CASE(mesh, mirrored_models_keep_their_given_normals),
+    CASE(mesh, faces_of_distant_light_and_viewer_have_one_colour),
+    CASE(mesh, per_face_takes_the_colour_of_the_first_vertex),
+    CASE(mesh, gouraud_misses_the_highlight_that_phong_finds),
+    CASE(mesh, light_between_gouraud_vertices_is_not_clamped),
+    CASE(mesh, every_layout_of_the_same_mesh_gives_the_same_bits),
+    CASE(mesh, bands_of_a_mesh_give_the_bits_of_the_whole),
+    CASE(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert),
+    CASE(mesh, the_state_of_the_pipeline_is_handed_on),
+    CASE(mesh, a_nan_in_a_matrix_rejects_every_triangle),
+    CASE(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero),
+    CASE(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes),
+    CASE(mesh, vertex_normals_are_weighted_by_angle_and_unit),
+    CASE(mesh, corners_of_a_cube_point_along_its_diagonals),
+    CASE(mesh, vertex_normals_of_bad_meshes_are_refused),
+};

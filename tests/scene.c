@@ -1,0 +1,265 @@
+/* scene.c - built-in scenes whose pixels are the same bits everywhere: models, shadings, blending,
+   clipping, formats. Their input is made of small whole numbers and of functions inside the
+   library, so that no flag of the compiler that builds this file can change them.
+
+   Alone it prints their hashes:   cc -DSCENE_MAIN -I. tests/scene.c -lm -o scenes && ./scenes
+   [folder] */
+#ifdef SCENE_MAIN
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "test.h"
+#include "canvas.h"
+#endif
+
+enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 16 };
+
+typedef struct golden_scene {
+    const char *name;
+    shade_model model;
+    shade_shading shading;
+    shade_format format;
+    shade_blend blend;
+    int srgb, dither, lights;
+    unsigned flags;
+    int inside; /* the camera stands among the shapes: near plane and guard band cut */
+    int reversed;
+} golden_scene;
+
+static const golden_scene golden_scenes[SCENE_COUNT] = {
+    { "blinn_phong", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0,
+      0, 0 },
+    { "phong", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0 },
+    { "lambert", SHADE_LAMBERT, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0 },
+    { "ambient", SHADE_AMBIENT, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3,
+      SHADE_ATTENUATED_AMBIENT, 0, 0 },
+    { "emissive", SHADE_EMISSIVE, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0,
+      0 },
+    { "cool_to_warm", SHADE_COOL_TO_WARM, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 1,
+      0, 0, 0 },
+    { "gouraud", SHADE_BLINN_PHONG, SHADE_PER_VERTEX, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0,
+      0 },
+    { "flat", SHADE_PHONG, SHADE_PER_FACE, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0 },
+    { "srgb", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 2, 0, 0, 0 },
+    { "dither565", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGB565, SHADE_REPLACE, 1, 1, 2, 0,
+      0, 0 },
+    { "float", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 3,
+      SHADE_WEIGHTED_SPECULAR, 0, 0 },
+    { "add", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_ADD, 1, 0, 1,
+      SHADE_INFINITE_VIEWER, 0, 0 },
+    { "over565", SHADE_LAMBERT, SHADE_PER_VERTEX, SHADE_RGB565, SHADE_OVER, 0, 0, 2,
+      SHADE_TWO_SIDED, 0, 0 },
+    { "inside", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 3,
+      SHADE_TWO_SIDED, 1, 0 },
+    { "inside_flat", SHADE_PHONG, SHADE_PER_FACE, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 3,
+      SHADE_TWO_SIDED_ABS, 1, 0 },
+    { "reversed", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 2,
+      SHADE_UNGATED_SPECULAR, 0, 1 },
+};
+
+/* Six square faces of a box, each a lattice of whole numbers; the normal of a vertex is its
+   position, so the box is shaded as a ball.  Bumps: the vertex is pushed out by a whole number. */
+static float scene_position[6 * SCENE_SIDE * SCENE_SIDE * 3],
+    scene_color[6 * SCENE_SIDE * SCENE_SIDE * 3];
+static uint32_t scene_index[6 * (SCENE_SIDE - 1) * (SCENE_SIDE - 1) * 6];
+
+static void scene_build(void)
+{
+    int vertices = 0, count = 0, half = SCENE_SIDE / 2;
+    for (int face = 0; face < 6; face++) {
+        int axis = face / 2, sign = face % 2 ? 1 : -1;
+        for (int j = 0; j < SCENE_SIDE; j++)
+            for (int i = 0; i < SCENE_SIDE; i++) {
+                int p[3], edge = i == 0 || j == 0 || i == SCENE_SIDE - 1 || j == SCENE_SIDE - 1;
+                int bump = edge ? 0 : (i * 5 + j * 3 + face) % 3;
+                p[axis] = sign * (half + bump), p[(axis + 1) % 3] = i - half,
+                p[(axis + 2) % 3] = j - half;
+                for (int k = 0; k < 3; k++) {
+                    scene_position[3 * vertices + k] = (float)p[k];
+                    scene_color[3 * vertices + k] = (float)((i + j * 2 + face + k) % 4 + 1) * 0.25f;
+                }
+                vertices++;
+            }
+        for (int j = 0; j + 1 < SCENE_SIDE; j++)
+            for (int i = 0; i + 1 < SCENE_SIDE; i++) {
+                uint32_t a = (uint32_t)(face * SCENE_SIDE * SCENE_SIDE + j * SCENE_SIDE + i),
+                         b = a + 1;
+                uint32_t c = a + SCENE_SIDE, d = c + 1, t = b;
+                if (sign < 0) b = c, c = t;
+                scene_index[count++] = a, scene_index[count++] = b, scene_index[count++] = d;
+                scene_index[count++] = a, scene_index[count++] = d, scene_index[count++] = c;
+            }
+    }
+}
+
+static void scene_draw(canvas *c, const golden_scene *g)
+{
+    shade_light lights[3];
+    shade_material gold = shade_preset_material(SHADE_GOLD),
+                   plastic = shade_preset_material(SHADE_CYAN_PLASTIC);
+    shade_mesh mesh;
+    shade_draw_state s;
+    memset(&mesh, 0, sizeof mesh), memset(&s, 0, sizeof s);
+    mesh.positions = mesh.normals = scene_position, mesh.colors = scene_color;
+    mesh.vertex_count = 6 * SCENE_SIDE * SCENE_SIDE, mesh.indices = scene_index;
+    mesh.index_count = (int)(sizeof scene_index / sizeof scene_index[0]);
+    lights[0] = shade_directional_light(shade_v3(-1, -2, -2), shade_v3(1, 0.875f, 0.75f));
+    lights[1] = shade_point_light(shade_v3(8, 3, 6), shade_v3(4, 8, 16));
+    lights[1].constant = 1, lights[1].quadratic = 0.125f,
+    lights[1].ambient = shade_v3(0.25f, 0, 0.125f);
+    lights[2] =
+        shade_spot_light(shade_v3(-7, 9, 8), shade_v3(7, -9, -7), 0.25f, 16, shade_v3(2, 1, 1));
+    lights[2].ambient = shade_v3(0, 0.125f, 0);
+    gold.emission = shade_v3(0.0625f, 0, 0.03125f), plastic.emission = shade_v3(0, 0, 0.125f);
+    s.lighting.lights = lights, s.lighting.light_count = g->lights;
+    s.lighting.ambient = shade_v3(0.125f, 0.125f, 0.25f);
+    s.lighting.model = g->model, s.lighting.flags = g->flags, s.shading = g->shading,
+    s.blend = g->blend;
+    s.view = g->inside
+                 ? shade_mat4_look_at(shade_v3(5, 1, 3), shade_v3(-4, 0, -2), shade_v3(0, 1, 0))
+                 : shade_mat4_look_at(shade_v3(9, 7, 14), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    s.projection = g->reversed ? shade_mat4_perspective_reversed(0.75f, 4.0f / 3, 1)
+                               : shade_mat4_perspective(g->inside ? 1.5f : 0.75f, 4.0f / 3, 1, 40);
+    s.depth_zero_to_one = g->reversed, s.depth_test = g->reversed ? SHADE_GREATER : SHADE_LESS;
+    s.model = shade_mat4_rotation(0.5f, shade_v3(1, 2, 3)), s.material = &gold;
+    shade_draw_mesh(&c->target, &mesh, &s, NULL);
+    s.model = shade_mat4_translation(shade_v3(5, -2, -3)), s.material = &plastic;
+    s.cull = SHADE_CULL_BACK, s.lighting.terms = 0;
+    shade_draw_mesh(&c->target, &mesh, &s, NULL);
+}
+
+/* FNV-1a over every number of colour and depth, low byte first whatever the machine. */
+static uint64_t hash_number(uint64_t h, uint32_t v, int bytes)
+{
+    for (int k = 0; k < bytes; k++, v >>= 8) h = (h ^ (v & 255)) * 1099511628211u;
+    return h;
+}
+static uint64_t scene_hash(const canvas *c)
+{
+    uint64_t h = 14695981039346656037u;
+    for (int i = 0; i < SCENE_WIDTH * SCENE_HEIGHT; i++) {
+        int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
+        for (int k = 0; k < 4; k++) {
+            if (c->target.format == SHADE_RGBA8) h = hash_number(h, canvas_bytes(c, x, y)[k], 1);
+            if (c->target.format == SHADE_RGBA32F)
+                h = hash_number(h, float_bits(canvas_float(c, x, y, k)), 4);
+        }
+        if (c->target.format == SHADE_RGB565) h = hash_number(h, canvas_565(c, x, y), 2);
+        h = hash_number(h, float_bits(canvas_depth(c, x, y)), 4);
+    }
+    return h;
+}
+
+static canvas scene_open(const golden_scene *g)
+{
+    canvas c = canvas_open(SCENE_WIDTH, SCENE_HEIGHT, 0, g->format, 1);
+    c.target.srgb = g->srgb, c.target.dither = g->dither;
+    shade_clear(&c.target, shade_v4(0.125f, 0.125f, 0.1875f, 1), g->reversed ? 0 : 1);
+    return c;
+}
+
+static int scene_write(void *file, const void *bytes, size_t size)
+{
+    return fwrite(bytes, 1, size, (FILE *)file) != size;
+}
+
+static int scene_print(const char *folder)
+{
+    scene_build();
+    for (int k = 0; k < SCENE_COUNT; k++) {
+        canvas c = scene_open(&golden_scenes[k]);
+        scene_draw(&c, &golden_scenes[k]);
+        printf("{ \"%s\", 0x%016llx },\n", golden_scenes[k].name,
+               (unsigned long long)scene_hash(&c));
+        char path[300];
+        if (folder) {
+            snprintf(path, sizeof path, "%.200s/%s.ppm", folder, golden_scenes[k].name);
+            FILE *f = fopen(path, "wb");
+            if (!f || shade_encode_ppm(scene_write, f, &c.target))
+                printf("%s: cannot be written\n", path);
+            if (f) fclose(f);
+        }
+        canvas_close(&c);
+    }
+    return 0;
+}
+
+TEST(scene, hashes_are_the_recorded_ones)
+{
+    static const struct {
+        const char *name;
+        uint64_t hash;
+    } recorded[] = {
+#include "scenes.h"
+    };
+    int found = 0;
+    scene_build();
+    for (int k = 0; k < SCENE_COUNT; k++) {
+        canvas c = scene_open(&golden_scenes[k]);
+        scene_draw(&c, &golden_scenes[k]);
+        uint64_t got = scene_hash(&c);
+        for (size_t j = 0; j < sizeof recorded / sizeof recorded[0]; j++) {
+            if (strcmp(recorded[j].name, golden_scenes[k].name) || !recorded[j].hash) continue;
+            found++;
+            CHECK_SAY(got == recorded[j].hash, "%s: got %016llx, want %016llx", recorded[j].name,
+                      (unsigned long long)got, (unsigned long long)recorded[j].hash);
+        }
+        canvas_close(&c);
+    }
+    if (!found)
+        test_skip("no hashes are recorded in scenes.h");
+    else
+        CHECK_INT(found, SCENE_COUNT);
+}
+
+TEST(scene, scenes_are_not_empty_and_differ)
+{
+    uint64_t seen[SCENE_COUNT];
+    scene_build();
+    for (int k = 0; k < SCENE_COUNT; k++) {
+        canvas c = scene_open(&golden_scenes[k]), clear = scene_open(&golden_scenes[k]);
+        scene_draw(&c, &golden_scenes[k]);
+        int touched = 0;
+        for (int i = 0; i < SCENE_WIDTH * SCENE_HEIGHT; i++) {
+            int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
+            touched += float_bits(canvas_depth(&c, x, y)) != float_bits(canvas_depth(&clear, x, y));
+        }
+        CHECK_SAY(touched > 3000, "%s: %d pixels", golden_scenes[k].name, touched);
+        seen[k] = scene_hash(&c);
+        for (int j = 0; j < k; j++)
+            CHECK_SAY(seen[j] != seen[k], "%s and %s", golden_scenes[j].name,
+                      golden_scenes[k].name);
+        canvas_close(&c);
+        canvas_close(&clear);
+    }
+}
+
+TEST(scene, bands_give_the_hash_of_the_whole)
+{
+    scene_build();
+    for (int k = 0; k < SCENE_COUNT; k++) {
+        canvas whole = scene_open(&golden_scenes[k]), bands = scene_open(&golden_scenes[k]);
+        scene_draw(&whole, &golden_scenes[k]);
+        for (int y = 0; y < SCENE_HEIGHT; y += 17) {
+            bands.target.clip_y = y, bands.target.clip_width = SCENE_WIDTH,
+            bands.target.clip_height = 17;
+            scene_draw(&bands, &golden_scenes[k]);
+        }
+        CHECK_SAY(scene_hash(&whole) == scene_hash(&bands), "%s", golden_scenes[k].name);
+        canvas_close(&whole);
+        canvas_close(&bands);
+    }
+}
+
+static const test_case scene_cases[] = {
+    CASE(scene, hashes_are_the_recorded_ones),
+    CASE(scene, scenes_are_not_empty_and_differ),
+    CASE(scene, bands_give_the_hash_of_the_whole),
+};
+
+#ifdef SCENE_MAIN
+int main(int argc, char **argv)
+{
+    (void)scene_cases;
+    return scene_print(argc > 1 ? argv[1] : NULL);
+}
+#endif

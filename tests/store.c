@@ -1,0 +1,501 @@
+/* store.c - colours into pixels: clamping, rounding, sRGB, NaN, dither, clearing, and the PPM file.
+   */
+
+/* Clears a one-row picture pixel by pixel through clip rectangles: each colour goes through the
+   same store. */
+static void store_colors(canvas *c, const shade_vec4 *colors, int count)
+{
+    for (int i = 0; i < count; i++) {
+        c->target.clip_x = i, c->target.clip_y = 0, c->target.clip_width = 1,
+        c->target.clip_height = 1;
+        CHECK_INT(shade_clear(&c->target, colors[i], 1), SHADE_OK);
+    }
+    c->target.clip_x = c->target.clip_width = c->target.clip_height = 0;
+}
+
+/* The same colours as pixels of a triangle that covers the row. */
+static void draw_colors(canvas *c, const shade_vec4 *colors, int count)
+{
+    shade_vec4 *corners = (shade_vec4 *)malloc((size_t)count * 3 * sizeof(shade_vec4));
+    if (!corners) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    scene s = { corners, NULL, 0, colors, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    for (int i = 0; i < count;
+         i++) { /* primitive i covers pixel i alone: a box seen through w = 1 */
+        for (int k = 0; k < 3; k++) {
+            double X = i * 256 + (k == 2 ? 512 : 0), Y = k == 0 ? -256 : 256;
+            corners[3 * i + k] = clip_of_fx8(X, Y, c->target.width, c->target.height, 0, 1);
+        }
+    }
+    shade_stats stats;
+    CHECK_INT(shade_draw(&c->target, &p, NULL, 3 * count, 3 * count, &stats), SHADE_OK);
+    free(corners);
+}
+
+#define STORE_SLACK 1e-4 /* beyond half a step: the float rounding of c times 255 */
+
+static int near_level(double got, double level) { return fabs(got - level) <= 0.5 + STORE_SLACK; }
+
+static void random_store_colors(shade_vec4 *color, int count)
+{
+    for (int i = 0; i < count; i++) {
+        float f[4];
+        for (int k = 0; k < 4; k++) {
+            f[k] = rnd_float(-0.1, 1.1);
+            if (i % 4 == 1)
+                f[k] = (float)((rnd_int(0, 255) + 0.5) / 255 + (double)rnd_float(-1e-6, 1e-6));
+            if (i % 4 == 2) f[k] = rnd_log(1e-9, 1);
+            if (i % 4 == 3) f[k] = (float)ref_decode_srgb((rnd_int(0, 254) + 0.5) / 255);
+        }
+        color[i] = shade_v4(f[0], f[1], f[2], f[3]);
+    }
+}
+static void channels_of(shade_vec4 v, double out[4])
+{
+    out[0] = (double)v.x, out[1] = (double)v.y, out[2] = (double)v.z, out[3] = (double)v.w;
+    for (int k = 0; k < 4; k++) out[k] = out[k] > 0 ? (out[k] < 1 ? out[k] : 1) : 0;
+}
+
+TEST(store, bytes_are_clamped_and_rounded_to_nearest)
+{
+    enum { N = 2000 };
+    static shade_vec4 color[N];
+    for (int srgb = 0; srgb < 2; srgb++)
+        for (int way = 0; way < 2; way++) {
+            random_store_colors(color, N);
+            canvas c = canvas_open(N, 1, 0, SHADE_RGBA8, 0);
+            c.target.srgb = srgb;
+            canvas_clear(&c, 1);
+            if (way)
+                draw_colors(&c, color, N);
+            else
+                store_colors(&c, color, N);
+            for (int i = 0; i < N; i++) {
+                double v[4];
+                channels_of(color[i], v);
+                for (int k = 0; k < 4; k++) {
+                    double level = 255 * (srgb && k < 3 ? ref_encode_srgb(v[k]) : v[k]);
+                    int got = canvas_bytes(&c, i, 0)[k];
+                    CHECK_SAY(near_level(got, level),
+                              "%.9g, sRGB %d, channel %d: got %d, want %.6f", v[k], srgb, k, got,
+                              level);
+                }
+            }
+            canvas_close(&c);
+        }
+}
+
+TEST(store, rgb565_is_clamped_and_rounded_to_nearest)
+{
+    enum { N = 2000 };
+    static shade_vec4 color[N];
+    static const int levels[] = { 31, 63, 31 };
+    for (int srgb = 0; srgb < 2; srgb++)
+        for (int way = 0; way < 2; way++) {
+            random_store_colors(color, N);
+            canvas c = canvas_open(N, 1, 0, SHADE_RGB565, 0);
+            c.target.srgb = srgb;
+            canvas_clear(&c, 1);
+            if (way)
+                draw_colors(&c, color, N);
+            else
+                store_colors(&c, color, N);
+            for (int i = 0; i < N; i++) {
+                double v[4];
+                channels_of(color[i], v);
+                for (int k = 0; k < 3; k++) {
+                    double level = levels[k] * (srgb ? ref_encode_srgb(v[k]) : v[k]);
+                    unsigned p = canvas_565(&c, i, 0);
+                    int got = (int)(k == 0 ? p >> 11 : k == 1 ? p >> 5 & 63 : p & 31);
+                    CHECK_SAY(near_level(got, level),
+                              "%.9g, sRGB %d, channel %d: got %d, want %.6f", v[k], srgb, k, got,
+                              level);
+                }
+            }
+            canvas_close(&c);
+        }
+}
+
+TEST(store, floats_are_stored_as_they_come)
+{
+    enum { N = 600 };
+    static shade_vec4 color[N];
+    for (int way = 0; way < 2; way++) {
+        for (int i = 0; i < N; i++)
+            color[i] = shade_v4(rnd_nasty(), rnd_nasty(), rnd_float(-9, 9), rnd_log(1e-9, 1e9));
+        canvas c = canvas_open(N, 1, 0, SHADE_RGBA32F, 0);
+        c.target.srgb = way; /* without effect on floats */
+        canvas_clear(&c, 1);
+        if (way)
+            draw_colors(&c, color, N);
+        else
+            store_colors(&c, color, N);
+        for (int i = 0; i < N; i++) {
+            float f[4];
+            memcpy(f, &color[i], sizeof f);
+            for (int k = 0; k < 4; k++) {
+                float got = canvas_float(&c, i, 0, k);
+                CHECK_SAY(float_bits(got) == float_bits(f[k]) || (isnan(got) && isnan(f[k])),
+                          "got %a, want %a", (double)got, (double)f[k]);
+            }
+        }
+        canvas_close(&c);
+    }
+}
+
+TEST(store, nan_is_stored_as_zero_and_infinity_clamped)
+{
+    shade_vec4 color[5];
+    float inf = (float)INFINITY, nan = (float)NAN;
+    color[0] = shade_v4(nan, 1, nan, 1), color[1] = shade_v4(inf, -inf, 0.5f, nan),
+    color[2] = shade_v4(1e30f, -1e30f, 1, inf);
+    color[3] = shade_v4(bits_float(0xFFC00000u), bits_float(0x7F800001u), 1, -inf),
+    color[4] = shade_v4(-0.0f, 1e-45f, 2, -1);
+    static const unsigned char want[5][4] = { { 0, 255, 0, 255 },
+                                              { 255, 0, 0, 0 },
+                                              { 255, 0, 255, 255 },
+                                              { 0, 0, 255, 0 },
+                                              { 0, 0, 255, 0 } };
+    for (int srgb = 0; srgb < 2; srgb++)
+        for (int way = 0; way < 2; way++) {
+            canvas c = canvas_open(5, 1, 0, SHADE_RGBA8, 0),
+                   d = canvas_open(5, 1, 0, SHADE_RGB565, 0);
+            c.target.srgb = d.target.srgb = srgb;
+            canvas_clear(&c, 1), canvas_clear(&d, 1);
+            if (way)
+                draw_colors(&c, color, 5), draw_colors(&d, color, 5);
+            else
+                store_colors(&c, color, 5), store_colors(&d, color, 5);
+            for (int i = 0; i < 5; i++)
+                for (int k = 0; k < 4; k++) {
+                    if (i == 1 && k == 2) continue; /* the one ordinary value */
+                    CHECK_INT(canvas_bytes(&c, i, 0)[k], want[i][k]);
+                    unsigned p = canvas_565(&d, i, 0);
+                    if (k == 3) continue;
+                    CHECK_INT(k == 0   ? p >> 11
+                              : k == 1 ? p >> 5 & 63
+                                       : p & 31,
+                              k == 1 ? want[i][k] / 4 : want[i][k] / 8);
+                }
+            canvas_close(&c);
+            canvas_close(&d);
+        }
+}
+
+TEST(store, bytes_lie_in_the_order_r_g_b_a)
+{
+    canvas c = canvas_open(2, 2, 0, SHADE_RGBA8, 0), d = canvas_open(2, 2, 0, SHADE_RGB565, 0);
+    shade_vec4 color = shade_v4(1, 0.6f, 0.2f, 0.4f);
+    CHECK_INT(shade_clear(&c.target, color, 1), SHADE_OK);
+    CHECK_INT(shade_clear(&d.target, color, 1), SHADE_OK);
+    const unsigned char *p = c.color + CANVAS_GUARD;
+    CHECK(p[0] == 255 && p[1] == 153 && p[2] == 51 && p[3] == 102);
+    CHECK_INT(canvas_565(&d, 1, 1), 31 << 11 | 38 << 5 | 6);
+    canvas_close(&c);
+    canvas_close(&d);
+}
+
+TEST(store, every_srgb_byte_comes_back_from_linear_light)
+{
+    static shade_vec4 color[256];
+    for (int i = 0; i < 256; i++) {
+        float v = (float)ref_decode_srgb(i / 255.0);
+        color[i] = shade_v4(v, v, v, (float)(i / 255.0));
+    }
+    canvas c = canvas_open(256, 1, 0, SHADE_RGBA8, 0);
+    c.target.srgb = 1;
+    store_colors(&c, color, 256);
+    for (int i = 0; i < 256; i++)
+        for (int k = 0; k < 4; k++) CHECK_INT(canvas_bytes(&c, i, 0)[k], i);
+    /* read back for blending: nothing added changes nothing */
+    for (int i = 0; i < 256; i++) color[i] = shade_v4(0, 0, 0, 0);
+    for (int blend = SHADE_OVER; blend <= SHADE_ADD; blend++) {
+        shade_vec4 corners[3] = { { -3, -1, 0, 1 }, { 1, -1, 0, 1 }, { 1, 3, 0, 1 } };
+        scene s = { corners, NULL, 0, color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.blend = (shade_blend)blend;
+        shade_stats stats;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        CHECK_INT(stats.fragments, 256);
+        for (int i = 0; i < 256; i++)
+            for (int k = 0; k < 4; k++) CHECK_INT(canvas_bytes(&c, i, 0)[k], i);
+    }
+    canvas_close(&c);
+}
+
+TEST(store, the_srgb_code_is_within_half_a_step_everywhere) /* and never falls as light grows */
+{
+    enum { N = 16384 };
+    static shade_vec4 color[N];
+    canvas c = canvas_open(N, 1, 0, SHADE_RGBA8, 0);
+    c.target.srgb = 1;
+    for (int pass = 0; pass < 3; pass++) {
+        for (int i = 0; i < N; i++) {
+            float v = pass == 0   ? (float)i / (N - 1)
+                      : pass == 1 ? (float)(i * 0.02 / N)
+                                  : (float)pow(10, -6 + 6.0 * i / (N - 1));
+            color[i] = shade_v4(v, v, v, v);
+        }
+        store_colors(&c, color, N);
+        int before = 0;
+        for (int i = 0; i < N; i++) {
+            int got = canvas_bytes(&c, i, 0)[1];
+            double want = 255 * ref_encode_srgb((double)color[i].x);
+            CHECK_SAY(near_level(got, want), "%.9g: got %d, want %.6f", (double)color[i].x, got,
+                      want);
+            CHECK_SAY(got >= before, "%.9g: %d after %d", (double)color[i].x, got, before);
+            before = got;
+        }
+    }
+    canvas_close(&c);
+}
+
+TEST(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels)
+{
+    static const int levels[] = { 31, 63, 31 };
+    for (int i = 0; i < 300; i++) {
+        canvas c = canvas_open(16, 12, 17, SHADE_RGB565, 0);
+        c.target.dither = 1, c.target.srgb = i % 2;
+        double v[3];
+        shade_vec4 color = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 1);
+        if (i % 3 == 0) {
+            int r = rnd_int(0, 31), g = rnd_int(0, 63), b = rnd_int(0, 31);
+            double f[3];
+            f[0] = r / 31.0, f[1] = g / 63.0, f[2] = b / 31.0;
+            for (int k = 0; k < 3; k++) f[k] = c.target.srgb ? ref_decode_srgb(f[k]) : f[k];
+            color = shade_v4((float)f[0], (float)f[1], (float)f[2], 1);
+        }
+        v[0] = (double)color.x, v[1] = (double)color.y, v[2] = (double)color.z;
+        if (i % 5)
+            CHECK_INT(shade_clear(&c.target, color, 1), SHADE_OK);
+        else {
+            static const shade_vec4 whole[3] = { { -3, -1, 0, 1 },
+                                                 { 1, -1, 0, 1 },
+                                                 { 1, 3, 0, 1 } };
+            scene s = { whole, NULL, 0, &color, NULL };
+            shade_pipeline p = scene_pipeline(&s);
+            CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        }
+        for (int k = 0; k < 3; k++) {
+            double level = levels[k] * (c.target.srgb ? ref_encode_srgb(v[k]) : v[k]);
+            for (int by = 0; by < 12; by += 4)
+                for (int bx = 0; bx < 16; bx += 4) {
+                    double sum = 0;
+                    for (int n = 0; n < 16; n++) {
+                        unsigned p = canvas_565(&c, bx + n % 4, by + n / 4);
+                        int got = (int)(k == 0 ? p >> 11 : k == 1 ? p >> 5 & 63 : p & 31);
+                        CHECK_SAY(fabs(got - level) < 1 - 1e-3, "level %.4f: got %d", level, got);
+                        sum += got;
+                    }
+                    CHECK_NEAR(sum / 16, level, 1.0 / 16 + 1e-3);
+                }
+        }
+        canvas_close(&c);
+    }
+}
+
+TEST(store, clear_fills_the_clip_rectangle_of_both_buffers_and_no_more)
+{
+    for (int i = 0; i < 1500; i++) {
+        int width = rnd_int(1, 40), height = rnd_int(1, 30),
+            stride = rnd_one_in(2) ? width + rnd_int(0, 9) : 0;
+        canvas c = canvas_open(width, height, stride, (shade_format)(i % 3), rnd_int(0, 1));
+        CHECK_INT(shade_clear(&c.target, shade_v4(0, 0, 0, 0), 0.25f), SHADE_OK);
+        random_clip(&c.target);
+        CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 1), 0.75f), SHADE_OK);
+        int x0, y0, x1, y1;
+        clip_bounds(&c.target, &x0, &y0, &x1, &y1);
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < width; x++) {
+                int in = x >= x0 && x < x1 && y >= y0 && y < y1;
+                double got = i % 3 == 0   ? canvas_bytes(&c, x, y)[3] / 255.0
+                             : i % 3 == 1 ? canvas_565(&c, x, y) / 65535.0
+                                          : (double)canvas_float(&c, x, y, 3);
+                CHECK_NEAR(got, in, 0);
+                if (c.target.depth) CHECK_NEAR(canvas_depth(&c, x, y), in ? 0.75 : 0.25, 0);
+            }
+        canvas_close(&c);
+    }
+}
+
+TEST(store, clear_needs_only_one_of_the_buffers)
+{
+    canvas c = canvas_open(9, 7, 11, SHADE_RGBA8, 1);
+    c.target.color = NULL;
+    CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 1), 0.5f), SHADE_OK);
+    CHECK_NEAR(canvas_depth(&c, 8, 6), 0.5, 0);
+    CHECK_INT(c.color[CANVAS_GUARD], CANVAS_BYTE);
+    canvas_close(&c);
+    c = canvas_open(9, 7, 11, SHADE_RGBA8, 0);
+    CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 1), 0.5f), SHADE_OK);
+    CHECK_INT(canvas_bytes(&c, 8, 6)[0], 255);
+    canvas_close(&c);
+}
+
+/* ------------------------------------------------------------------------------------------ PPM */
+
+typedef struct ppm_sink {
+    unsigned char bytes[40000];
+    size_t size;
+    int calls, fail_at; /* the call that fails; 0: none */
+} ppm_sink;
+
+static int ppm_write(void *user, const void *bytes, size_t size)
+{
+    ppm_sink *s = (ppm_sink *)user;
+    if (++s->calls == s->fail_at) return 1;
+    if (s->size + size > sizeof s->bytes) return 2;
+    memcpy(s->bytes + s->size, bytes, size);
+    s->size += size;
+    return 0;
+}
+
+/* Checks the header and returns the first pixel byte, or NULL. */
+static const unsigned char *ppm_pixels(const ppm_sink *s, int width, int height)
+{
+    int w = 0, h = 0, most = 0, at = 0;
+    char header[64];
+    memset(header, 0, sizeof header);
+    memcpy(header, s->bytes, s->size < 63 ? s->size : 63);
+    int fields = sscanf(header, "P6 %d %d %d%n", &w, &h, &most, &at);
+    CHECK_INT(fields, 3);
+    CHECK_INT(w, width);
+    CHECK_INT(h, height);
+    CHECK_INT(most, 255);
+    CHECK_INT(s->size, at + 1 + 3 * width * height);
+    return fields == 3 && s->size == (size_t)(at + 1 + 3 * width * height) ? s->bytes + at + 1
+                                                                           : NULL;
+}
+
+TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
+{
+    static ppm_sink sink;
+    for (int i = 0; i < 120; i++) {
+        int width = rnd_int(1, 60), height = rnd_int(1, 40), srgb = i / 3 % 2, rows = height,
+            offset = 0;
+        shade_format format = (shade_format)(i % 3);
+        if (i % 4 == 3) rows = rnd_int(1, height), offset = rnd_int(0, height - rows);
+        canvas c = canvas_strip(width, height, width + rnd_int(0, 5), format, 0, offset,
+                                i % 4 == 3 ? rows : 0);
+        c.target.srgb = srgb;
+        if (i % 4 != 3) rows = height;
+        CHECK_INT(shade_clear(&c.target, shade_v4(0, 0, 0, 1), 1), SHADE_OK);
+        for (int n = 0; n < 30; n++) {
+            c.target.clip_x = rnd_int(0, width - 1), c.target.clip_y = rnd_int(0, height - 1);
+            c.target.clip_width = rnd_int(1, 20), c.target.clip_height = rnd_int(1, 20);
+            shade_vec4 color = shade_v4(rnd_float(-0.2, 1.2), rnd_float(0, 1),
+                                        rnd_one_in(9) ? rnd_nasty() : rnd_float(0, 1), 1);
+            CHECK_INT(shade_clear(&c.target, color, 1), SHADE_OK);
+        }
+        c.target.clip_x = c.target.clip_y = c.target.clip_width = c.target.clip_height = 0;
+        memset(&sink, 0, sizeof sink);
+        CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_OK);
+        const unsigned char *p = ppm_pixels(&sink, width, rows);
+        for (int k = 0; p && k < width * rows * 3; k++) {
+            int x = k / 3 % width, y = offset + k / 3 / width, channel = k % 3;
+            if (format == SHADE_RGBA8) CHECK_INT(p[k], canvas_bytes(&c, x, y)[channel]);
+            if (format == SHADE_RGB565) {
+                unsigned v = canvas_565(&c, x, y);
+                double level = channel == 0   ? (v >> 11) / 31.0
+                               : channel == 1 ? (v >> 5 & 63) / 63.0
+                                              : (v & 31) / 31.0;
+                CHECK_NEAR(p[k], 255 * level, 1); /* rounded or bits repeated */
+                if (level == 0 || level == 1) CHECK_INT(p[k], level * 255);
+            }
+            if (format == SHADE_RGBA32F) {
+                double v = (double)canvas_float(&c, x, y, channel);
+                v = v > 0 ? (v < 1 ? v : 1) : 0;
+                CHECK_SAY(near_level(p[k], 255 * (srgb ? ref_encode_srgb(v) : v)),
+                          "%.9g sRGB %d: got %d", v, srgb, p[k]);
+            }
+        }
+        canvas_close(&c);
+    }
+}
+
+TEST(store, a_failed_write_stops_the_ppm)
+{
+    static ppm_sink sink;
+    canvas c = canvas_open(50, 40, 0, SHADE_RGBA8, 0);
+    canvas_clear(&c, 1);
+    memset(&sink, 0, sizeof sink);
+    CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_OK);
+    int calls = sink.calls;
+    for (int fail_at = 1; fail_at <= calls; fail_at++) {
+        memset(&sink, 0, sizeof sink);
+        sink.fail_at = fail_at;
+        CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_ERROR_IO);
+        CHECK_INT(sink.calls, fail_at);
+    }
+    canvas_close(&c);
+}
+
+#ifndef SHADE_NO_STDIO
+TEST(store, a_ppm_file_holds_the_same_bytes)
+{
+    static ppm_sink sink;
+    static unsigned char file_bytes[40000];
+    canvas c = canvas_open(50, 40, 55, SHADE_RGBA8, 0);
+    CHECK_INT(shade_clear(&c.target, shade_v4(0.3f, 0.6f, 0.9f, 1), 1), SHADE_OK);
+    memset(&sink, 0, sizeof sink);
+    CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_OK);
+    const char *folder = getenv("TMPDIR");
+    char path[300];
+    snprintf(path, sizeof path, "%.200s/shade_test_%08x.ppm", folder ? folder : "/tmp",
+             (unsigned)(uintptr_t)&sink);
+    CHECK_INT(shade_write_ppm(path, &c.target), SHADE_OK);
+    FILE *f = fopen(path, "rb");
+    CHECK(f != NULL);
+    if (f) {
+        size_t size = fread(file_bytes, 1, sizeof file_bytes, f);
+        fclose(f);
+        CHECK_INT(size, sink.size);
+        CHECK(!memcmp(file_bytes, sink.bytes, sink.size));
+    }
+    remove(path);
+    CHECK_INT(shade_write_ppm("/no/such/directory/picture.ppm", &c.target), SHADE_ERROR_IO);
+    CHECK_INT(shade_write_ppm(NULL, &c.target), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_write_ppm(path, NULL), SHADE_ERROR_ARGUMENT);
+    shade_target bad = c.target;
+    bad.width = 0;
+    CHECK_INT(shade_write_ppm(path, &bad), SHADE_ERROR_TARGET);
+    canvas_close(&c);
+}
+#endif
+
+TEST(store, a_ppm_of_nothing_is_refused)
+{
+    static ppm_sink sink;
+    canvas c = canvas_open(50, 40, 55, SHADE_RGBA8, 1);
+    CHECK_INT(shade_encode_ppm(NULL, &sink, &c.target), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_encode_ppm(ppm_write, &sink, NULL), SHADE_ERROR_ARGUMENT);
+    shade_target bad = c.target;
+    bad.width = 0;
+    CHECK_INT(shade_encode_ppm(ppm_write, &sink, &bad), SHADE_ERROR_TARGET);
+    bad = c.target, bad.color = NULL;
+    CHECK(shade_encode_ppm(ppm_write, &sink, &bad) != SHADE_OK);
+    CHECK_INT(sink.calls, 0);
+    canvas_close(&c);
+}
+
+static const test_case store_cases[] = {
+    CASE(store, bytes_are_clamped_and_rounded_to_nearest),
+    CASE(store, rgb565_is_clamped_and_rounded_to_nearest),
+    CASE(store, floats_are_stored_as_they_come),
+    CASE(store, nan_is_stored_as_zero_and_infinity_clamped),
+    CASE(store, bytes_lie_in_the_order_r_g_b_a),
+    CASE(store, every_srgb_byte_comes_back_from_linear_light),
+    CASE(store, the_srgb_code_is_within_half_a_step_everywhere),
+    CASE(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels),
+    CASE(store, clear_fills_the_clip_rectangle_of_both_buffers_and_no_more),
+    CASE(store, clear_needs_only_one_of_the_buffers),
+    CASE(store, a_ppm_holds_the_stored_colours_of_every_row),
+    CASE(store, a_failed_write_stops_the_ppm),
+    CASE(store, a_ppm_of_nothing_is_refused),
+#ifndef SHADE_NO_STDIO
+    CASE(store, a_ppm_file_holds_the_same_bytes),
+#endif
+};

@@ -1,0 +1,175 @@
+/* test.h - a small test runner.
+
+   A case is a function TEST(section, name) named by the property it holds, listed in the section's
+   table with CASE(section, name).  A check that fails prints its place, both values and the seed; a
+   case that checked nothing counts as failed.  Random numbers start anew for each case, from the
+   run's seed and the case's name, so a case gives the same numbers alone as in the whole run. */
+#ifndef TEST_H
+#define TEST_H
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct test_case {
+    const char *name;
+    void (*run)(void);
+} test_case;
+typedef struct test_section {
+    const char *name;
+    const test_case *cases;
+    int count;
+} test_section;
+
+#define TEST(section, name) static void section##__##name(void)
+#define CASE(section, name)                                                                        \
+    {                                                                                              \
+#name, section##__##name                                                                   \
+    }
+#define SECTION(section)                                                                           \
+    {                                                                                              \
+#section, section##_cases, (int)(sizeof section##_cases / sizeof(test_case))               \
+    }
+
+static struct {
+    uint64_t seed, state;  /* of the run; of the generator */
+    long checks, failures; /* in the case that runs */
+    int skipped;
+    const char *section, *name;
+} test_now;
+
+#define TEST_MAX_PRINTED 6 /* failures shown per case */
+
+#if defined(__GNUC__) || defined(__clang__)
+__attribute__((format(printf, 4, 5)))
+#endif
+static void
+test_fail(const char *file, int line, const char *what, const char *format, ...)
+{
+    if (test_now.failures++ >= TEST_MAX_PRINTED) return;
+    va_list arguments;
+    va_start(arguments, format);
+    printf("%s:%d: %s.%s: %s: ", file, line, test_now.section, test_now.name, what);
+    vprintf(format, arguments);
+    printf("   (seed %llu)\n", (unsigned long long)test_now.seed);
+    va_end(arguments);
+}
+
+static void test_near(const char *file, int line, const char *what, double got, double want,
+                      double within)
+{
+    test_now.checks++;
+    if (!(fabs(got - want) <= within)) {
+        test_fail(file, line, what, "got %.9g, want %.9g within %.3g", got, want, within);
+    }
+}
+static void test_int(const char *file, int line, const char *what, long long got, long long want)
+{
+    test_now.checks++;
+    if (got != want) test_fail(file, line, what, "got %lld, want %lld", got, want);
+}
+
+#define CHECK(condition)                                                                           \
+    do {                                                                                           \
+        test_now.checks++;                                                                         \
+        if (!(condition)) test_fail(__FILE__, __LINE__, #condition, "is false");                   \
+    } while (0)
+/* the condition, and a printf of the values it was made of */
+#define CHECK_SAY(condition, ...)                                                                  \
+    do {                                                                                           \
+        test_now.checks++;                                                                         \
+        if (!(condition)) test_fail(__FILE__, __LINE__, #condition, __VA_ARGS__);                  \
+    } while (0)
+#define CHECK_NEAR(got, want, within)                                                              \
+    test_near(__FILE__, __LINE__, #got, (double)(got), (double)(want), (double)(within))
+#define CHECK_INT(got, want) test_int(__FILE__, __LINE__, #got, (long long)(got), (long long)(want))
+
+/* Leaves a case out where the build has no such feature. */
+static void test_skip(const char *why)
+{
+    test_now.skipped = 1;
+    printf("%s.%s: left out: %s\n", test_now.section, test_now.name, why);
+}
+
+/* ------------------------------------------------------------------------------- random numbers */
+
+static uint64_t rnd_bits(void) /* splitmix64 */
+{
+    uint64_t z = test_now.state += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+static double rnd_unit(void)
+{
+    return (double)(rnd_bits() >> 11) / 9007199254740992.0;
+} /* [0, 1) */
+static float rnd_float(double lo, double hi) { return (float)(lo + (hi - lo) * rnd_unit()); }
+static int rnd_int(int lo, int hi) /* lo .. hi, both included */
+{
+    return lo + (int)(rnd_bits() % ((uint64_t)((int64_t)hi - lo) + 1));
+}
+static int rnd_one_in(int n) { return rnd_int(1, n) == 1; }
+static float rnd_sign(void) { return rnd_one_in(2) ? 1.0f : -1.0f; }
+static float rnd_log(double lo, double hi) /* even in the logarithm, lo > 0 */
+{
+    return (float)(lo * pow(hi / lo, rnd_unit()));
+}
+static float bits_float(uint32_t u)
+{
+    float f;
+    memcpy(&f, &u, 4);
+    return f;
+}
+static uint32_t float_bits(float f)
+{
+    uint32_t u;
+    memcpy(&u, &f, 4);
+    return u;
+}
+static float rnd_nasty(void) /* NaN, infinities, zeros, subnormal, huge, ordinary */
+{
+    static const uint32_t pattern[] = { 0x7FC00000u, 0xFFC00001u, 0x7F800001u, 0x7F800000u,
+                                        0xFF800000u, 0x7F7FFFFFu, 0xFF7FFFFFu, 0x00000001u,
+                                        0x80000001u, 0x00000000u, 0x80000000u, 0x00800000u,
+                                        0x3F800000u, 0xBF800000u, 0x7149F2CAu };
+    int k = rnd_int(0, 19);
+    if (k < 15) return bits_float(pattern[k]);
+    if (k < 17) return bits_float((uint32_t)rnd_bits());
+    return rnd_float(-2, 2);
+}
+
+/* ----------------------------------------------------------------------------------- the runner */
+
+static void test_run_case(const test_section *section, const test_case *item, int *passed,
+                          int *failed)
+{
+    uint64_t hash = 14695981039346656037u;
+    for (const char *c = item->name; *c; c++)
+        hash = (hash ^ (uint64_t)(unsigned char)*c) * 1099511628211u;
+    test_now.state = test_now.seed ^ hash;
+    test_now.checks = test_now.failures = 0;
+    test_now.skipped = 0;
+    test_now.section = section->name;
+    test_now.name = item->name;
+    item->run();
+    if (test_now.skipped) return;
+    if (test_now.checks == 0) {
+        printf("%s.%s: checked nothing\n", section->name, item->name);
+        test_now.failures = 1;
+    }
+    if (test_now.failures > TEST_MAX_PRINTED) {
+        printf("%s.%s: %ld of %ld checks failed\n", section->name, item->name, test_now.failures,
+               test_now.checks);
+    }
+    if (test_now.failures)
+        (*failed)++;
+    else
+        (*passed)++;
+    fflush(stdout);
+}
+
+#endif
