@@ -69,12 +69,15 @@ static void print_row(const scene *s, const double *ms, const double *ratio, con
 {
     printf("| %s | %.3g | ", s->name, ms[0]);
     if (skipped) printf("skipped: %s | | |", skipped);
-    else printf("%.3g | %.2f | %.2g %%, at most %.3g |", ms[1], ratio[1], 100 * d->fraction, d->most);
+    else
+        printf("%.3g | %.2f | %.2g %%, at most %.3g |", ms[1], ratio[1], 100 * d->fraction,
+               d->most);
     printf(" %.0f k |\n", (double)fragments / 1000);
     if (s->kind == SCENE_CLEAR)
         printf("| memset over the same bytes | %.3g (memset) | | %.2f | | |\n", ms[2], ratio[2]);
     fflush(stdout);
-    if (tsv) fprintf(tsv, "%s\t%.4f\t%.4f\t%.3f\n", s->name, ms[0], ms[1], skipped ? 0 : ratio[1]);
+    if (tsv)
+        fprintf(tsv, "%s\t%.4f\t%.4f\t%.3f\n", s->name, ms[0], ms[1], skipped ? 0 : ratio[1]);
 }
 
 static void measure(const options *o, const scene *s, const peer *p, const char *skipped, FILE *tsv)
@@ -104,8 +107,9 @@ static void measure(const options *o, const scene *s, const peer *p, const char 
     for (int i = 0; i < o->rounds; i++)
         for (int who = 0; who < WAYS; who++)
             if (on[who]) samples[who][i] = turn(who, frames[who], s, &t, p);
-    for (int who = 1; who < WAYS; who++) {    /* of each round by itself: a machine's speed drifts */
-        for (int i = 0; i < o->rounds; i++) against[i] = samples[who][i] / samples[0][i];
+    for (int who = 1; who < WAYS; who++) {
+        for (int i = 0; i < o->rounds; i++)    /* by rounds: the speed of a machine drifts */
+            against[i] = samples[who][i] / samples[0][i];
         if (on[who]) ratio[who] = clock_median(against, o->rounds);
     }
     for (int who = 0; who < WAYS; who++)

@@ -184,7 +184,14 @@ static void measure(const job *j, double ns[WAYS])
         ns[w] = w < ways && (w || has_plain) ? clock_median(samples[w], rounds) : 0;
 }
 
-static const char *way_name(int way) { return way ? bench_level_name(way - 1) : "plain loop, libm"; }
+static int has_way(int way)
+{
+    return way < 2 || (BENCH_HAS_LEVELS && way - 1 <= bench_best_level());
+}
+static const char *way_name(int way)
+{
+    return way ? bench_level_name(way - 1) : "plain loop, libm";
+}
 
 static void cell(double ns, double yardstick)
 {
@@ -212,7 +219,8 @@ static void table_lights(FILE *tsv)
         for (int w = 0; w < WAYS; w++) {
             if (ns[0][w] <= 0) continue;
             printf("| %s |", way_name(w));
-            for (int i = 0; i < COUNTS; i++) cell(ns[i][w] / counts[i], w ? ns[i][0] / counts[i] : 0);
+            for (int i = 0; i < COUNTS; i++)
+                cell(ns[i][w] / counts[i], w ? ns[i][0] / counts[i] : 0);
             printf("\n");
             if (tsv && kind == POINT)
                 for (int i = 0; i < COUNTS; i++)
@@ -228,10 +236,10 @@ static void table_models(void)
                                         "emission alone", "cool to warm" };
     printf("\nEvery model, 4 attenuated point lights: ns per pixel\n\n|");
     for (int w = 0; w < WAYS; w++)
-        if (w < 2 || (BENCH_HAS_LEVELS && w - 1 <= bench_best_level())) printf(" | %s", way_name(w));
+        if (has_way(w)) printf(" | %s", way_name(w));
     printf(" |\n|---|");
     for (int w = 0; w < WAYS; w++)
-        if (w < 2 || (BENCH_HAS_LEVELS && w - 1 <= bench_best_level())) printf("---|");
+        if (has_way(w)) printf("---|");
     printf("\n");
     for (int m = SHADE_BLINN_PHONG; m <= SHADE_COOL_TO_WARM; m++) {
         job j;
@@ -240,7 +248,7 @@ static void table_models(void)
         measure(&j, ns);
         printf("| %s |", name[m]);
         for (int w = 0; w < WAYS; w++)
-            if (w < 2 || (BENCH_HAS_LEVELS && w - 1 <= bench_best_level())) cell(ns[w], w ? ns[0] : 0);
+            if (has_way(w)) cell(ns[w], w ? ns[0] : 0);
         printf("\n");
         fflush(stdout);
     }
@@ -258,7 +266,8 @@ int main(int argc, char **argv)
     make_pixels();
     clock_machine();
     printf("shade_lit_lanes in packets of %d, every light lit, medians of %d rounds in turns; in "
-           "parentheses: times faster than the plain loop.\n", SHADE_LANES, rounds);
+           "parentheses: times faster than the plain loop.\n",
+           SHADE_LANES, rounds);
     table_lights(tsv);
     table_models();
     if (tsv) fclose(tsv);

@@ -1,4 +1,4 @@
-/* maths_apart.c - shade.h where its implementation is in another file: what is not inline is called. */
+/* maths_apart.c - shade.h with its implementation in another file: what is not inline is called. */
 #include "shade.h"
 #include "maths.h"
 #include "maths_shade.h"

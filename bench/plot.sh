@@ -23,11 +23,14 @@ if [ -s "$build/bench_compare.tsv" ]; then
     # Bars from the top row down: how many times faster than the peer.
     awk -F'\t' '$4 > 0 { print }' "$build/bench_compare.tsv" >"$build/bench_ratio.tsv"
     rows=$(wc -l <"$build/bench_ratio.tsv")
-    [ "$rows" -gt 0 ] && chart bench_compare "900,$((90 + 34 * rows))" <<PLOT
-set title "shade.h beside llvmpipe on one core: times faster, the same pictures" left
+    [ "$rows" -gt 0 ] && chart bench_compare "900,$((110 + 34 * rows))" <<PLOT
+set label "shade.h beside llvmpipe on one core: times faster at the same pictures" \\
+    at screen 0.02, screen 0.96
+set tmargin 3
 set style fill solid 1.0 noborder
 set yrange [$rows - 0.4 : -0.6]
-set xrange [0 : *]
+stats '$build/bench_ratio.tsv' using 4 nooutput
+set xrange [0 : 1.2 * STATS_max]
 set grid x noy
 unset key
 set border 1
@@ -40,7 +43,7 @@ fi
 
 if [ -s "$build/bench_kernel.tsv" ]; then
     chart bench_kernel 760,440 <<PLOT
-set title "Blinn-Phong, attenuated point lights: ns per pixel and light" left
+set title "Blinn-Phong, attenuated point lights: ns per pixel and light"
 set logscale y
 set logscale x 2
 set xlabel "lights"
@@ -54,7 +57,7 @@ fi
 
 if [ -s "$build/bench_scaling.tsv" ]; then
     chart bench_triangles 760,440 <<PLOT
-set title "Knot, Gouraud: ns per triangle" left
+set title "Knot, Gouraud: ns per triangle"
 set logscale xy
 set xlabel "triangles"
 set yrange [10 : *]
@@ -63,7 +66,7 @@ plot "< grep '^triangles' '$build/bench_scaling.tsv'" using 2 : 3 with linespoin
      '' using 2 : 4 with linespoints lw 2 pt 7 title "at 1280 x 720"
 PLOT
     chart bench_pixels 760,440 <<PLOT
-set title "Two triangles over the picture: ns per pixel" left
+set title "Two triangles over the picture: ns per pixel"
 set logscale x
 set xlabel "pixels"
 set yrange [0 : *]

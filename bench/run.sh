@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
 #
-#   run.sh [compare] [maths] [kernel] [scaling] [size]     all of them where none is named
+#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size]     all of them where none is named
 #
 # CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an OBJ
 # file instead of the knot) may be set.  Figures for plot.sh are left in BUILD as bench_*.tsv.
@@ -26,17 +26,31 @@ can_build() {
     "$@" -o "$build/probe" >/dev/null 2>&1
 }
 
-compare() {
+build_compare() {
     peer=
     if can_build c '#include <GL/osmesa.h>' $cc "$build/probe.c" -lOSMesa; then
         peer="-DHAVE_OSMESA"
     fi
     $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/compare.c bench/peers/osmesa.c \
         -o "$build/compare" ${peer:+-lOSMesa} -lm
+}
+compare() {
+    build_compare
     echo "## The same pictures with llvmpipe"
     echo
     $pin "$build/compare" $rounds ${MESH:+--mesh "$MESH"} --tsv "$build/bench_compare.tsv"
     echo
+}
+
+# The library on processors with less: AVX2, then SSE2 as any x86-64 has it.
+levels() {
+    build_compare
+    for level in 1 0; do
+        echo "## The same with narrower vectors: level $level of 2"
+        echo
+        $pin "$build/compare" ${rounds:---rounds 11} ${MESH:+--mesh "$MESH"} --level $level
+        echo
+    done
 }
 
 # The rest are flags of the compilers.
@@ -83,9 +97,9 @@ size_of() {
     echo
 }
 
-for part in ${*:-compare maths kernel scaling size}; do
+for part in ${*:-compare levels maths kernel scaling size}; do
     case $part in
-    compare | maths | kernel | scaling) $part ;;
+    compare | levels | maths | kernel | scaling) $part ;;
     size) size_of ;;
     *)
         echo "run.sh: no part is called $part" >&2

@@ -11,14 +11,14 @@ typedef struct job {
     const scene *s;             /* NULL: nothing is drawn */
     shade_mesh mesh;
     shade_target target;
-    unsigned char *entry;       /* the frame of the thread's first function */
+    uintptr_t entry;            /* the frame of the thread's first function */
 } job;
 
 static void *draw_job(void *user)
 {
     job *j = (job *)user;
     unsigned char here = 0;
-    j->entry = &here;
+    j->entry = (uintptr_t)(void *)&here;
     if (j->s && shade_draw_mesh(&j->target, &j->mesh, &j->s->state, NULL) != SHADE_OK) exit(1);
     return NULL;
 }
@@ -39,7 +39,7 @@ static long touched(job *j)
     pthread_join(thread, NULL);
     pthread_attr_destroy(&attributes);
     while (stack[low] == PAINT) low++;
-    return (long)(j->entry - (stack + low));
+    return (long)(j->entry - (uintptr_t)(void *)(stack + low));
 }
 
 int main(void)

@@ -1,3 +1,17 @@
-/* scenes.h - hashes of the built-in scenes; test_main --scenes prints these lines.  0: not recorded
-   yet. */
-{ "none", 0 },
+/* scenes.h - hashes of the built-in scenes: what "test_main --scenes" prints. */
+{ "blinn_phong", 0x7e0795f62001a9a6 },
+{ "phong", 0x8a64282230ea7cb2 },
+{ "lambert", 0x4d343b90f0e59c5e },
+{ "ambient", 0xd462ef340df802fc },
+{ "emissive", 0x57fbc739b33440d5 },
+{ "cool_to_warm", 0x38f83377e96c3c99 },
+{ "gouraud", 0xfc3edf28a724a029 },
+{ "flat", 0x91bcb36b7bfc4062 },
+{ "srgb", 0x03745d5139f7d454 },
+{ "dither565", 0x92f5ef9fbe57ea11 },
+{ "float", 0xb6748e30fcda807b },
+{ "add", 0x65660af5532f9f23 },
+{ "over565", 0x7522415c28b173dd },
+{ "inside", 0x382513459638268a },
+{ "inside_flat", 0xfad2b6459d046857 },
+{ "reversed", 0xe6dbdf916e6c5718 },

@@ -1,0 +1,50 @@
+#!/bin/sh
+# matrix.sh - the built-in scenes from other compilers, flags, vector widths and processors have the same bits.
+# What is not installed is named and left out.
+cd "$(dirname "$0")/.." || exit 1
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT INT TERM
+passed=0 failed=0 skipped=0
+grep '^{' tests/scenes.h >"$T/want"
+
+# name, runner (or ""), compiler and flags
+one() {
+    name=$1 runner=$2; shift 2
+    if ! command -v "$1" >/dev/null || { [ -n "$runner" ] && ! command -v "${runner%% *}" >/dev/null; }; then
+        skipped=$((skipped + 1)); echo "left out  $name"; return
+    fi
+    if ! "$@" -w -DSCENE_MAIN -I. tests/scene.c -lm -o "$T/scenes" 2>"$T/log"; then
+        failed=$((failed + 1)); echo "FAIL      $name does not compile"; head -n 5 "$T/log"
+    elif $runner "$T/scenes" >"$T/got" 2>&1 && cmp -s "$T/want" "$T/got"; then
+        passed=$((passed + 1)); echo "same      $name"
+    else
+        failed=$((failed + 1)); echo "FAIL      $name"; diff "$T/want" "$T/got" | head -n 6
+    fi
+}
+
+for cc in gcc clang; do
+    for o in -O0 -O1 -O2 -O3 -Os; do one "$cc $o" "" $cc $o; done
+    for flags in "-std=c99 -O2" "-std=gnu17 -O2" "-O3 -march=native" "-O2 -mavx2 -mfma" \
+        "-O2 -DSHADE_NO_DISPATCH" "-O2 -DSHADE__LEVEL=0" "-O2 -DSHADE__LEVEL=1" "-O2 -DSHADE_NO_LIBM" \
+        "-O2 -DSHADE_LANES=8" "-O2 -DSHADE_LANES=16" "-O2 -DSHADE_LANES=64" "-O2 -DSHADE_LANES=256"; do
+        one "$cc $flags" "" $cc $flags
+    done
+done
+# clang's back end fuses whatever the source says under -ffp-contract=fast; gcc heeds the header
+one "gcc -ffp-contract=fast" "" gcc -O2 -ffp-contract=fast -march=native -DSHADE_NO_DISPATCH
+if grep -q avx512vl /proc/cpuinfo 2>/dev/null; then
+    one "gcc -O2, AVX-512 forced" "" gcc -O2 -DSHADE__LEVEL=2
+    one "clang -O2, AVX-512 forced" "" clang -O2 -DSHADE__LEVEL=2
+fi
+one "gcc -m32 -msse2 -mfpmath=sse" "" gcc -m32 -msse2 -mfpmath=sse -O2
+for std in "" "-std=c99"; do
+    one "aarch64 $std" qemu-aarch64 aarch64-linux-gnu-gcc -static -O2 $std
+    one "armhf $std" qemu-arm arm-linux-gnueabihf-gcc -static -O2 $std
+    one "riscv64 $std" qemu-riscv64 riscv64-linux-gnu-gcc -static -O2 $std
+done
+one "s390x, big-endian" qemu-s390x s390x-linux-gnu-gcc -static -O2
+one "aarch64 -O3 -ffp-contract=fast" qemu-aarch64 aarch64-linux-gnu-gcc -static -O3 -ffp-contract=fast
+
+echo "$skipped left out"
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
