@@ -2250,6 +2250,14 @@ static void shade__spans_big(const shade__triangle *t, int row, int n, shade__sp
     }
 }
 
+/* 1 << i: shifts that differ per lane do not vectorise on SSE2 */
+static const uint32_t shade__bit[32] = {
+    1u << 0, 1u << 1, 1u << 2, 1u << 3, 1u << 4, 1u << 5, 1u << 6, 1u << 7,
+    1u << 8, 1u << 9, 1u << 10, 1u << 11, 1u << 12, 1u << 13, 1u << 14, 1u << 15,
+    1u << 16, 1u << 17, 1u << 18, 1u << 19, 1u << 20, 1u << 21, 1u << 22, 1u << 23,
+    1u << 24, 1u << 25, 1u << 26, 1u << 27, 1u << 28, 1u << 29, 1u << 30, 1u << 31
+};
+
 /* Tests pixels x + skip .. x + skip + n - 1 of a window at x; z: depth of the row's plane at x_ref.  Writes
    depth; returns the set of those that passed, bit i for pixel x + i. */
 SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
@@ -2267,7 +2275,7 @@ SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
         m &= (shade__mask(z < s) & less) | (shade__mask(z == s) & equal) |
              (shade__mask(z > s) & greater) | always;
         depth[i] = shade__select(s, z, m & write);
-        set |= m & (1u << i);
+        set |= m & shade__bit[i];
     }
     return set;
 }
@@ -2276,16 +2284,13 @@ SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
 SHADE__INLINE uint32_t shade__test8(const shade__draw *d, const shade__triangle *t, float z, int x, int n,
                                     float *row)
 {
-    int start = shade__min(x, d->x1 - 8);
+    int start = shade__min(x, d->x1 - 8), thin = start < d->x0;
+    float copy[8] = { 0 }, *window = thin ? copy : row + start;
     uint32_t set;
-    if (start < d->x0) {
-        float copy[8] = { 0 };
-        SHADE_MEMCPY(copy, row + x, (size_t)n * 4);
-        set = shade__test(d, t, z, x, 0, n, copy, 8);
-        SHADE_MEMCPY(row + x, copy, (size_t)n * 4);
-        return set;
-    }
-    return shade__test(d, t, z, start, x - start, n, row + start, 8) >> (x - start);
+    if (thin) start = x, SHADE_MEMCPY(copy, row + x, (size_t)n * 4);
+    set = shade__test(d, t, z, start, x - start, n, window, 8);
+    if (thin) SHADE_MEMCPY(row + x, copy, (size_t)n * 4);
+    return set >> (x - start);
 }
 
 SHADE__INLINE int shade__count_bits(uint32_t m)

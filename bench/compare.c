@@ -153,8 +153,8 @@ int main(int argc, char **argv)
     clock_machine();
     printf("One core, %s, medians of %d rounds in turns, processor time, clears included.\n\n",
            bench_level_name(bench_level), o.rounds);
-    printf("| scene | shade.h, ms | %s, ms | times faster | pixels that differ by more than 1/255 | "
-           "pixels passed |\n", p->name);
+    printf("| scene | shade.h, ms | %s, ms | times faster | ", p->name);
+    printf("pixels that differ by more than 1/255 | pixels passed |\n");
     printf("|---|---|---|---|---|---|\n");
     scenes_build(scenes, o.mesh);
     for (int i = 0; i < SCENE_COUNT; i++) {

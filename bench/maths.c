@@ -110,8 +110,9 @@ int main(int argc, char **argv)
         aligned(memory_b)[i] = (float)(seed & 0xFFFFFFu) / 16777216.0f;
     }
     clock_machine();
-    printf("ns for each operation, throughput over arrays of %d, medians of %d rounds in turns.\n\n| "
-           "| shade.h, same file | shade.h, apart |", COUNT, rounds);
+    printf("ns for each operation, throughput over arrays of %d, medians of %d rounds in turns.\n",
+           COUNT, rounds);
+    printf("\n| | shade.h, same file | shade.h, apart |");
     for (int l = 2; l < LIBRARIES; l++)
         printf(" %s |", libraries[l] ? libraries[l]->name : l == 2 ? "cglm" : "GLM");
     printf(" results differ by at most |\n|---|---|---|---|---|---|\n");

@@ -28,15 +28,16 @@ set label "shade.h beside llvmpipe on one core: times faster at the same picture
     at screen 0.02, screen 0.96
 set tmargin 3
 set style fill solid 1.0 noborder
-set yrange [$rows - 0.4 : -0.6]
 stats '$build/bench_ratio.tsv' using 4 nooutput
-set xrange [0 : 1.2 * STATS_max]
+set yrange [$rows - 0.4 : -0.6]
+set xrange [0 : 1.3 * STATS_max]
 set grid x noy
 unset key
 set border 1
 set ytics scale 0
 set arrow from 1, graph 0 to 1, graph 1 nohead lc rgb '#aa3333' dt 2
-plot '$build/bench_ratio.tsv' using (\$4 / 2) : 0 : (\$4 / 2) : (0.3) : ytic(1) with boxxyerror lc rgb '#3b6ea5', \
+plot '$build/bench_ratio.tsv' \
+         using (\$4 / 2) : 0 : (\$4 / 2) : (0.3) : ytic(1) with boxxyerror lc rgb '#3b6ea5', \
      '' using 4 : 0 : (sprintf(' %.1f x   %.3g ms', \$4, \$2)) with labels left offset 0.3, 0
 PLOT
 fi
@@ -51,7 +52,8 @@ set xrange [0.9 : 18]
 set yrange [1 : *]
 set key outside right
 plot for [name in "'plain loop, libm' SSE2 AVX2 AVX-512"] \
-    "< grep '^" . name . "' '$build/bench_kernel.tsv'" using 2 : 3 with linespoints lw 2 pt 7 title name
+    "< grep '^" . name . "' '$build/bench_kernel.tsv'" \
+        using 2 : 3 with linespoints lw 2 pt 7 title name
 PLOT
 fi
 

@@ -3,8 +3,8 @@
 #
 #   run.sh [compare] [levels] [maths] [kernel] [scaling] [size]     all of them where none is named
 #
-# CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an OBJ
-# file instead of the knot) may be set.  Figures for plot.sh are left in BUILD as bench_*.tsv.
+# CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an
+# OBJ file instead of the knot) may be set.  Figures for plot.sh are left in BUILD as bench_*.tsv.
 set -e
 cd "$(dirname "$0")/.."
 cc=${CC:-cc}

@@ -113,8 +113,8 @@ static inline scene scene_teapot(const char *name, shade_shading shading, shade_
     return s;
 }
 
-/* A floor of two triangles that fills 1920 x 1080 under four coloured spotlights with attenuation.
-   With narrow cones each lights a pool of the picture; with wide ones every pixel is in all four. */
+/* A floor of two triangles that fills 1920 x 1080, under four coloured spotlights with attenuation.
+   Of narrow cones each lights a pool; every pixel is inside all of the wide ones. */
 static inline scene scene_floor(const char *name, float cutoff)
 {
     scene s = scene_new(name, SCENE_LIT, 1920, 1080);
@@ -130,7 +130,8 @@ static inline scene scene_floor(const char *name, float cutoff)
     s.material.ambient = s.material.diffuse;
     for (int k = 0; k < 4; k++) {
         float x = k & 1 ? 2.5f : -2.5f, z = k & 2 ? 2.0f : -1.5f;
-        s.lights[k] = shade_spot_light(shade_v3(x, 5, z), shade_v3(-0.2f * x, -5, -0.2f * z), cutoff, 8,
+        shade_vec3 aim = shade_v3(-0.2f * x, -5, -0.2f * z);
+        s.lights[k] = shade_spot_light(shade_v3(x, 5, z), aim, cutoff, 8,
                                        shade_v3(tint[k][0], tint[k][1], tint[k][2]));
         s.lights[k].constant = 0.3f, s.lights[k].linear = 0.05f, s.lights[k].quadratic = 0.01f;
         s.lights[k].ambient = shade_v3(0.01f, 0.01f, 0.01f);
@@ -146,8 +147,7 @@ static inline shade_vec3 scene_knot(double t)
     return shade_v3((float)(r * cos(2 * t)), (float)(r * sin(2 * t)), (float)(1.2 * sin(3 * t)));
 }
 
-/* A knotted tube with bumps, along x around cells: 2 * along * around triangles.  Normals are means of
-   the faces. */
+/* A knotted tube with bumps: 2 * along * around triangles. */
 static inline void scene_tube(scene *s, int along, int around)
 {
     const double turn = 6.283185307179586;
@@ -215,7 +215,8 @@ static inline int scene_read_obj(scene *s, const char *path)
             } else if (line[0] == 'f' && line[1] == ' ') {
                 uint32_t polygon[64];
                 int n = 0;
-                for (char *at = strtok(line + 2, " \t\r\n"); at && n < 64; at = strtok(NULL, " \t\r\n")) {
+                char *at = strtok(line + 2, " \t\r\n");
+                for (; at && n < 64; at = strtok(NULL, " \t\r\n")) {
                     long i = strtol(at, NULL, 10);
                     polygon[n++] = (uint32_t)(i < 0 ? i + vertices : i - 1);
                 }
@@ -234,7 +235,7 @@ static inline int scene_read_obj(scene *s, const char *path)
 static inline scene scene_obj(const char *name, const char *path)
 {
     scene s = scene_new(name, SCENE_LIT, 1280, 720);
-    shade_vec3 low = shade_v3(1e30f, 1e30f, 1e30f), high = shade_neg(low), size;
+    shade_vec3 low = shade_v3(1e30f, 1e30f, 1e30f), high = shade_neg(low), size, center;
     float scale;
     if (!scene_read_obj(&s, path)) {
         fprintf(stderr, "%s: no mesh in it\n", path);
@@ -246,10 +247,10 @@ static inline scene scene_obj(const char *name, const char *path)
         low = shade_min(low, shade_v3(p[0], p[1], p[2]));
         high = shade_max(high, shade_v3(p[0], p[1], p[2]));
     }
-    size = shade_sub(high, low);
+    size = shade_sub(high, low), center = shade_scale(shade_add(low, high), 0.5f);
     scale = 6.5f / (size.x > size.y ? size.x : size.y);
     s.state.model = shade_mat4_mul(shade_mat4_scaling(shade_v3(scale, scale, scale)),
-                                   shade_mat4_translation(shade_scale(shade_add(low, high), -0.5f)));
+                                   shade_mat4_translation(shade_neg(center)));
     scene_camera(&s, shade_v3(0, 0, 9.5f), shade_v3(0, 0, 0), 0.8f);
     scene_dense_look(&s);
     return s;

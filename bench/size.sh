@@ -18,15 +18,18 @@ seconds() {
 }
 # bytes of the sections of size.o whose names begin so
 section() {
-    size -A "$build/size.o" | awk -v name="$1" 'index($1, name) == 1 { n += $2 } END { print n + 0 }'
+    size -A "$build/size.o" |
+        awk -v name="$1" 'index($1, name) == 1 { n += $2 } END { print n + 0 }'
 }
 row() {
     title=$1
     shift
-    s=$(seconds "$@")
-    echo "| $title | \`$*\` | $s | $(section .text) | $(section .rodata) | $(section .data) | $(section .bss) |"
+    printf "| $title | \`$*\` | $(seconds "$@")"
+    for name in .text .rodata .data .bss; do printf " | $(section $name)"; done
+    echo " |"
 }
-echo "| shade.h, $(wc -l <shade.h) lines | flags | seconds to compile | .text | .rodata | .data* | .bss |"
+printf "| shade.h, $(wc -l <shade.h) lines | flags | seconds to compile"
+echo " | .text | .rodata | .data* | .bss |"
 echo "|---|---|---|---|---|---|---|"
 row "as it comes" -O2
 row "no dispatch" -O2 -DSHADE_NO_DISPATCH
@@ -57,6 +60,6 @@ if $cc -std=c99 -O2 -I. -fstack-usage -c "$build/size.c" -o "$build/size.o" 2>/d
     echo
     echo "| function | bytes |"
     echo "|---|---|"
-    awk -F'\t' '{ n = split($1, p, ":"); print $2 "\t" p[n] }' "$build/size.su" | sort -rn | head -8 |
-        awk -F'\t' '{ print "| " $2 " | " $1 " |" }'
+    awk -F'\t' '{ n = split($1, p, ":"); print $2 "\t" p[n] }' "$build/size.su" |
+        sort -rn | head -8 | awk -F'\t' '{ print "| " $2 " | " $1 " |" }'
 fi

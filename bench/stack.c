@@ -1,5 +1,5 @@
-/* stack.c - bytes of stack that draws touch, measured: each runs in a thread whose stack was painted
-   before. */
+/* stack.c - bytes of stack that draws touch, measured: each runs in a thread whose stack was
+   painted before. */
 #include "clock.h"
 #include <pthread.h>
 #define SHADE_IMPLEMENTATION
@@ -31,7 +31,7 @@ static long touched(job *j)
     pthread_attr_t attributes;
     size_t low = 0;
     if (!stack && posix_memalign((void **)(void *)&stack, 4096, STACK_BYTES)) exit(1);
-    draw_job(j);                /* binds the functions of shared libraries, which takes stack once */
+    draw_job(j);    /* binds the functions of shared libraries, which takes stack once */
     memset(stack, PAINT, STACK_BYTES);
     pthread_attr_init(&attributes);
     if (pthread_attr_setstack(&attributes, stack, STACK_BYTES) ||
@@ -50,7 +50,7 @@ int main(void)
     s[0] = scene_teapot("teapot, per pixel", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
     s[1] = scene_teapot("teapot, per vertex", SHADE_PER_VERTEX, SHADE_CULL_NONE);
     s[2] = scene_teapot("teapot, per face", SHADE_PER_FACE, SHADE_CULL_NONE);
-    s[3] = scene_teapot("teapot, per pixel, from inside: clipped", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
+    s[3] = scene_teapot("from inside, clipped", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
     scene_camera(&s[3], shade_v3(0.3f, 1, 0.2f), shade_v3(1, 1.2f, 0), 1.5f);
     printf("| SHADE_LANES %d, SHADE_MAX_VARYINGS %d | bytes of stack |\n|---|---|\n", SHADE_LANES,
            SHADE_MAX_VARYINGS);

@@ -355,6 +355,24 @@ TEST(cover, triangles_of_a_million_pixels_are_exact) /* where 32-bit edges end a
     }
 }
 
+TEST(cover, wide_flat_triangles_are_exact) /* long quotients, whose float rounding must be mended */
+{
+    for (int i = 0; i < 100; i++) {
+        int width = rnd_int(2000, 9000), height = rnd_int(3, 24);
+        canvas c = canvas_open(width, height, 0, SHADE_RGBA8, i % 2);
+        int64_t x[3], y[3];
+        for (int k = 0; k < 3; k++) {
+            x[k] = k == 0 ? rnd_int(0, 3000) : k == 1 ? width * 256 - rnd_int(0, 3000) : rnd_int(0, width * 256);
+            y[k] = rnd_int(-height * 128, height * 384);
+            if (i % 3 == 0) y[k] = rnd_int(0, 2 * height) * 128;
+        }
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
 TEST(cover, facing_is_counter_clockwise_on_the_screen)
 {
     recorder r = recorder_open(20000);
@@ -426,6 +444,7 @@ static const test_case cover_cases[] = {
     CASE(cover, slivers_a_256th_wide_are_exact),
     CASE(cover, many_triangles_of_one_draw_do_not_disturb_each_other),
     CASE(cover, the_biggest_pictures_are_exact),
+    CASE(cover, wide_flat_triangles_are_exact),
     CASE(cover, triangles_of_a_million_pixels_are_exact),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),
 };

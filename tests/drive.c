@@ -285,6 +285,25 @@ TEST(drive, bad_indices_are_refused_before_a_pixel_changes)
     canvas_close(&d.c);
 }
 
+TEST(drive, one_bad_index_anywhere_in_a_long_list_is_found)
+{
+    enum { COUNT = 600 };
+    static uint32_t indices[COUNT];
+    drive_call d;
+    drive_open(&d, SHADE_RGBA8);
+    for (int i = 0; i < COUNT; i++) indices[i] = (uint32_t)(i % 6);
+    for (int i = 0; i < COUNT; i++) {
+        uint32_t good = indices[i];
+        indices[i] = i % 3 == 0 ? 6 : i % 3 == 1 ? 7 : 0xFFFFFFFFu;
+        CHECK_INT(shade_draw(&d.c.target, &d.p, indices, COUNT, 6, NULL), SHADE_ERROR_INDEX);
+        indices[i] = good;
+    }
+    CHECK_INT(canvas_bytes(&d.c, 12, 12)[0], 128);
+    CHECK_INT(shade_draw(&d.c.target, &d.p, indices, COUNT, 6, NULL), SHADE_OK);
+    CHECK(canvas_bytes(&d.c, 12, 12)[0] != 128);
+    canvas_close(&d.c);
+}
+
 TEST(drive, checks_come_in_the_stated_order) /* NULLs, target, other arguments, indices */
 {
     drive_call d;
@@ -589,6 +608,7 @@ static const test_case drive_cases[] = {
     CASE(drive, odd_but_legal_targets_are_taken),
     CASE(drive, bad_pipelines_are_refused),
     CASE(drive, bad_indices_are_refused_before_a_pixel_changes),
+    CASE(drive, one_bad_index_anywhere_in_a_long_list_is_found),
     CASE(drive, checks_come_in_the_stated_order),
     CASE(drive, no_triangles_is_no_error),
     CASE(drive, results_have_texts),

@@ -343,6 +343,29 @@ TEST(fragment, bias_is_added_and_what_is_stored_is_clamped)
     canvas_close(&c);
 }
 
+TEST(fragment, bias_moves_sloping_depth_as_a_whole)
+{
+    for (int i = 0; i < 200; i++) {
+        canvas c = canvas_open(60, 50, 0, SHADE_RGBA8, 1);
+        grid_triangle t;
+        ref_triangle e;
+        random_grid_triangle(&t, 60, 50, 3);
+        if (!ref_triangle_of(&e, &t.clip[0], &t.clip[1], &t.clip[2], 60, 50)) continue;
+        scene s = { t.clip, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.depth_test = SHADE_ALWAYS, p.depth_bias = rnd_float(-0.6, 0.6), p.may_discard = i % 2;
+        canvas_clear(&c, 1);
+        draw_scene(&c, &p, 3);
+        for (int y = 0; y < 50; y++)
+            for (int x = 0; x < 60; x++) {
+                if (canvas_bytes(&c, x, y)[3] == 0) continue;
+                double z = ref_depth(&e, x + 0.5, y + 0.5, 0) + (double)p.depth_bias;
+                CHECK_NEAR(canvas_depth(&c, x, y), fmax(0, fmin(1, z)), plane_error(&t, 1) / 4);
+            }
+        canvas_close(&c);
+    }
+}
+
 TEST(fragment, reversed_depth_sees_what_is_nearer)
 {
     canvas c = canvas_open(32, 32, 0, SHADE_RGBA8, 1);
@@ -819,6 +842,7 @@ static const test_case fragment_cases[] = {
     CASE(fragment, comparisons_do_what_their_names_say),
     CASE(fragment, a_second_identical_draw_has_equal_depth),
     CASE(fragment, bias_is_added_and_what_is_stored_is_clamped),
+    CASE(fragment, bias_moves_sloping_depth_as_a_whole),
     CASE(fragment, reversed_depth_sees_what_is_nearer),
     CASE(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer),
     CASE(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel),

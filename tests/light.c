@@ -425,6 +425,25 @@ TEST(light, the_cone_includes_its_edge) /* row 27 */
     CHECK_NEAR(shade_spot(shade_v3(0, 0, -1), shade_v3(0, 1e-19f, 0), 0.9f, 3), 1, 0);
 }
 
+TEST(light, the_cone_of_a_lamp_includes_its_edge)
+{
+    shade_light light = shade_spot_light(shade_v3(0, 0, 0), shade_v3(0, 0, -2), 0, 0, grey(1));
+    light.position = shade_v4(0, 0, 3, 0); /* on its axis: L.S is 1, to the bit */
+    shade_lighting li = one_light(&light);
+    float P[3][SHADE_LANES], N[3][SHADE_LANES], rgb[3 * SHADE_LANES];
+    memset(P, 0, sizeof P), memset(N, 0, sizeof N);
+    for (int i = 0; i < SHADE_LANES; i++) N[2][i] = 1;
+    static const double cutoff[] = { 1, 1.0000001192092896 };
+    for (int k = 0; k < 2; k++) {
+        double want = k ? 0 : 1;
+        light.spot_cos_cutoff = (float)cutoff[k];
+        check_color(__LINE__, "scalar", shade_lit(&li, NULL, grey(0), shade_v3(0, 0, 1), grey(9)),
+                    d3_of(want, want, want), 1e-6);
+        shade_lit_lanes(&li, NULL, grey(9), P[0], N[0], NULL, rgb);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(rgb[i], want, 1e-6);
+    }
+}
+
 TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
 {
     for (int i = 0; i < 20000; i++) {
@@ -917,6 +936,7 @@ static const test_case light_cases[] = {
     CASE(light, single_terms_match_double),
     CASE(light, attenuation_is_defined_everywhere),
     CASE(light, the_cone_includes_its_edge),
+    CASE(light, the_cone_of_a_lamp_includes_its_edge),
     CASE(light, brdf_times_cosine_is_the_weighted_light),
     CASE(light, light_adds_up_and_scales),
     CASE(light, two_sided_diffuse_is_two_opposite_lamps),

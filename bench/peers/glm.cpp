@@ -12,11 +12,13 @@ template <class T> T *to(float *p) { return reinterpret_cast<T *>(p); }
 
 void mat4_mat4(const float *a, const float *b, float *out, int count)
 {
-    for (int i = 0; i < count; i++) to<glm::mat4>(out)[i] = in<glm::mat4>(a)[i] * in<glm::mat4>(b)[i];
+    for (int i = 0; i < count; i++)
+        to<glm::mat4>(out)[i] = in<glm::mat4>(a)[i] * in<glm::mat4>(b)[i];
 }
 void mat4_vec4(const float *a, const float *b, float *out, int count)
 {
-    for (int i = 0; i < count; i++) to<glm::vec4>(out)[i] = in<glm::mat4>(a)[i] * in<glm::vec4>(b)[i];
+    for (int i = 0; i < count; i++)
+        to<glm::vec4>(out)[i] = in<glm::mat4>(a)[i] * in<glm::vec4>(b)[i];
 }
 void normalize(const float *a, const float *, float *out, int count)
 {
@@ -24,7 +26,8 @@ void normalize(const float *a, const float *, float *out, int count)
 }
 void inverse_transpose(const float *a, const float *, float *out, int count)
 {
-    for (int i = 0; i < count; i++) to<glm::mat3>(out)[i] = glm::inverseTranspose(in<glm::mat3>(a)[i]);
+    for (int i = 0; i < count; i++)
+        to<glm::mat3>(out)[i] = glm::inverseTranspose(in<glm::mat3>(a)[i]);
 }
 }
 

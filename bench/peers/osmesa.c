@@ -1,7 +1,7 @@
 /* osmesa.c - Mesa's llvmpipe, without a window, through OSMesa: OpenGL 3.3 core.
 
-   The shaders are the equations of the scene in hand and nothing else: no attenuation where the scene
-   has none, loops of constant length, light constants as uniforms.  The picture stays in a
+   The shaders are the equations of the scene in hand and nothing else: no attenuation where the
+   scene has none, loops of constant length, light constants as uniforms.  The picture stays in a
    framebuffer object, so glFinish does not copy it. */
 #include "../clock.h"
 #include "../scenes.h"
@@ -20,9 +20,10 @@ static struct {
 
 static const char *osmesa_open(void)
 {
-    static const int want[] = { OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0,
-                                OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
-                                OSMESA_CONTEXT_MINOR_VERSION, 3, 0 };
+    static const int want[] = {
+        OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
+        OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0
+    };
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     setenv("LP_NUM_THREADS", "0", 0);
     gl.context = OSMesaCreateContextAttribs(want, NULL);
@@ -87,7 +88,8 @@ static const char *const gouraud_main =
     "out vec3 shade;\n"
     "void main() {\n"
     "  gl_Position = clip_from_object * vec4(position, 1);\n"
-    "  shade = lit((world_from_object * vec4(position, 1)).xyz, normalize(normal_matrix * normal));\n"
+    "  vec3 P = (world_from_object * vec4(position, 1)).xyz;\n"
+    "  shade = lit(P, normalize(normal_matrix * normal));\n"
     "}\n";
 static const char *const gouraud_fragment =
     "#version 330 core\n"
@@ -174,7 +176,8 @@ static void build_program(const scene *s)
         add_shader(GL_FRAGMENT_SHADER, 1, s->kind == SCENE_FLAT ? &flat_fragment : &depth_fragment);
     } else if (s->state.shading == SHADE_PER_FRAGMENT) {
         add_shader(GL_VERTEX_SHADER, 1, &pixel_vertex);
-        const char *all[5] = { "#version 330 core\n", lights, LIGHT_UNIFORMS, light, pixel_fragment };
+        const char *all[5] = { "#version 330 core\n", lights, LIGHT_UNIFORMS, light,
+                               pixel_fragment };
         add_shader(GL_FRAGMENT_SHADER, 5, all);
     } else {
         const char *all[5] = { MESH_VERTEX, lights, LIGHT_UNIFORMS, light, gouraud_main };
@@ -240,7 +243,8 @@ static void osmesa_load(const scene *s)
 
 static void osmesa_draw(void)
 {
-    glClear(gl.s.kind == SCENE_DEPTH ? GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    GLbitfield color = gl.s.kind == SCENE_DEPTH ? 0 : GL_COLOR_BUFFER_BIT;
+    glClear(color | GL_DEPTH_BUFFER_BIT);
     if (gl.s.kind != SCENE_CLEAR)
         glDrawElements(GL_TRIANGLES, gl.s.index_count, GL_UNSIGNED_INT, NULL);
     glFinish();
@@ -285,6 +289,7 @@ static void osmesa_unload(void) { }
 const peer *osmesa_peer(void);
 const peer *osmesa_peer(void)
 {
-    static const peer p = { "llvmpipe", osmesa_open, osmesa_load, osmesa_draw, osmesa_read, osmesa_unload };
+    static const peer p = { "llvmpipe",  osmesa_open, osmesa_load,
+                            osmesa_draw, osmesa_read, osmesa_unload };
     return &p;
 }
