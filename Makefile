@@ -17,9 +17,12 @@ SHARED   = shade.h $(wildcard examples/*.h)
 
 all: $(NUMBERED:%=out/%.ppm) build/thumbnail
 
-build/%: examples/%.c $(SHARED)
+# each example compiles alone; here they share one build of the implementation
+build/shade.o: shade.h
 	@mkdir -p build
-	$(CC) $(FLAGS) $(EXACT) $< -lm -o $@
+	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
+build/%: examples/%.c build/shade.o $(SHARED)
+	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm -o $@
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@

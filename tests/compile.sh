@@ -171,36 +171,5 @@ names() {
 }
 check "macros begin with SHADE_" names
 
-# the built-in scenes: the same bits from other flags, the other compiler and every level of code
-scene_cc() {                    # compiler and flags; prints the hashes
-    $1 -std=c99 $2 -DSCENE_MAIN -I. tests/scene.c -lm -o "$T/scenes" >"$T/log" 2>&1 && "$T/scenes"
-}
-same_scenes() {
-    scene_cc "$1" "$2" >"$T/hashes" || { cat "$T/log"; return 1; }
-    cmp -s "$T/reference" "$T/hashes" || { diff "$T/reference" "$T/hashes"; return 1; }
-}
-if [ "${SHADE_FULL:-0}" != 0 ]; then
-    if scene_cc "$CC" -O1 >"$T/reference"; then
-        check "same bits, -O2" same_scenes "$CC" "-O2"
-        check "same bits, -O2 without dispatch" same_scenes "$CC" "-O2 -DSHADE_NO_DISPATCH"
-        check "same bits, -O3 for this processor" same_scenes "$CC" "-O3 -march=native"
-        check "same bits, SHADE_LANES 16" same_scenes "$CC" "-O1 -DSHADE_LANES=16"
-        check "same bits, SHADE_NO_LIBM" same_scenes "$CC" "-O1 -DSHADE_NO_LIBM"
-        if grep -q SHADE__FORCE_LEVEL shade.h; then
-            levels=0
-            grep -qs ' avx2 ' /proc/cpuinfo && levels="$levels 1"
-            grep -qs ' avx512f ' /proc/cpuinfo && levels="$levels 2"
-            for level in $levels; do
-                check "same bits, level $level" same_scenes "$CC" "-O1 -DSHADE__FORCE_LEVEL=$level"
-            done
-        fi
-        for other in gcc clang; do
-            command -v $other >/dev/null 2>&1 && check "same bits, $other" same_scenes $other -O2
-        done
-    else
-        failed=$((failed + 1)); echo "compile: tests/scene.c does not compile"; cat "$T/log"
-    fi
-fi
-
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

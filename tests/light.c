@@ -576,7 +576,7 @@ TEST(light, zero_normals_keep_emission_and_ambient_only)
         random_sample(&s);
         s.N = rnd_one_in(2) ? grey(0) : grey(1e-20);
         if (s.lighting.model == SHADE_COOL_TO_WARM) s.lighting.model = SHADE_PHONG;
-        s.lighting.flags &= ~(unsigned)SHADE_UNGATED_SPECULAR, s.lighting.terms = 0;
+        s.lighting.terms = 0;
         shade_terms t = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
         check_color(__LINE__, "diffuse", t.diffuse, d3_of(0, 0, 0), 0);
         check_color(__LINE__, "specular", t.specular, d3_of(0, 0, 0), 0);
