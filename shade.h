@@ -39,7 +39,8 @@
      About      >>about  >>contents  >>conventions  >>model
      Public     >>config  >>types  >>math  >>light  >>draw
      Inside     >>base  >>matrix  >>power  >>lighting  >>lanes
-                >>vertex  >>clip  >>setup  >>cover  >>fragment  >>store  >>drive  >>mesh  >>image
+                >>store  >>texture  >>fragment  >>setup  >>cover  >>clip  >>vertex  >>drive
+                >>mesh  >>lines  >>shape  >>image
      Sources    >>refs
 
    >>conventions
@@ -358,6 +359,26 @@ typedef enum shade_format {
     SHADE_RGBA32F                /* four floats, stored as they come */
 } shade_format;
 
+typedef enum shade_wrap { SHADE_REPEAT = 0, SHADE_CLAMP, SHADE_MIRROR } shade_wrap;
+typedef enum shade_filter {
+    SHADE_BILINEAR = 0,          /* the four nearest texels, weighted by distance */
+    SHADE_NEAREST,               /* the texel that u, v lie in */
+    SHADE_TRILINEAR              /* bilinear in the two nearest mipmaps, weighted     [Williams83] */
+} shade_filter;
+
+/* A picture to sample: u right, v DOWN from the top left corner of row 0; texel (i, j) has its centre at
+   ((i + 1/2) / width, (j + 1/2) / height).  Sizes 1 .. 16384.  A bad texture samples as white. */
+typedef struct shade_texture {
+    const void  *pixels;
+    int          width, height, stride;       /* texels; stride 0 = width */
+    shade_format format;
+    int          srgb;                        /* non-zero: texels are decoded from sRGB, then filtered */
+    shade_wrap   wrap_u, wrap_v;
+    shade_filter filter;
+    const struct shade_texture *mipmaps;      /* levels 1, 2, ..., read by SHADE_TRILINEAR alone */
+    int          mipmap_count;
+} shade_texture;
+
 /* An image and its depth buffer in the caller's memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
@@ -430,16 +451,20 @@ SHADE__INLINE uint64_t shade__double_bits(double d)
     uint64_t u; SHADE_MEMCPY(&u, &d, 8); return u;
 }
 
-/* Correctly rounded square root, as sqrtf. Newton in double gives 2^-50; then the midpoints
-   between the result and its neighbours, whose squares are exact in double (50 bits), decide the
-   rounding. x <= 0 or NaN gives 0. */
+/* Square root of x > 0 in double, to 2^-50. */
+static inline double shade__root(double x)
+{
+    double y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(x) >> 1));
+    for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * x * y * y;
+    return x * y;
+}
+/* Correctly rounded square root, as sqrtf: the midpoints between the result and its neighbours, whose
+   squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
 static inline float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
-    double d = (double)x,
-        y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(d) >> 1));
-    for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * d * y * y;
-    uint32_t u = shade__float_bits((float)(d * y));
+    double d = (double)x;
+    uint32_t u = shade__float_bits((float)shade__root(d));
     double below = ((double)shade__bits_float(u - 1) + (double)shade__bits_float(u)) / 2;
     double above = ((double)shade__bits_float(u + 1) + (double)shade__bits_float(u)) / 2;
     return shade__bits_float(below * below > d ? u - 1 : above * above < d ? u + 1 : u);
@@ -748,6 +773,24 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
 SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
 #endif
 
+/* out = in, averaged over factor x factor pixels in linear light: supersampling.  in is factor times as wide and high
+   (its strip has factor times the rows); factor 2 .. 8.  Depth is left alone; out's clip rectangle holds. */
+SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
+
+/* A texture at u, v, linear RGBA.  lod: level of detail, log2 of texels per pixel; below 0 counts as 0.
+   NaN or infinite u, v, lod count as 0. */
+SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
+/* The same for a packet: rows of SHADE_LANES floats; lod NULL: 0; rgba: 4 rows. */
+SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
+                                 const float *lod, float *rgba);
+/* Levels below the full size, each half as wide and high, rounded down, to 1 x 1; and their bytes, packed tightly. */
+SHADEDEF int    shade_mipmap_count(int width, int height);
+SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
+/* Fills levels[shade_mipmap_count] and memory (aligned to 4, shade_mipmap_bytes) with means in linear light, and points
+   the texture at them. */
+SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels, void *memory,
+                                          size_t bytes);
+
 typedef struct shade_vertex_ids {            /* one packet of vertices to shade */
     int      count;  /* live lanes; the rest repeat the last one: compute every lane */
     uint32_t index[SHADE_LANES];  /* what gl_VertexID is; the shader fetches its own attributes */
@@ -764,6 +807,7 @@ typedef struct shade_fragments {  /* one packet of pixels to shade, of any trian
     float    in[SHADE_MAX_VARYINGS][SHADE_LANES];
     uint32_t primitive[SHADE_LANES];         /* index of the triangle in this draw */
     uint32_t front[SHADE_LANES];             /* 1: front-facing, 0: back-facing */
+    float    lod[SHADE_LANES];       /* level of detail, see pipeline.lod_varying; else unset */
 } shade_fragments;
 typedef struct shade_colors {
     float    out[4][SHADE_LANES];            /* linear RGBA, preset to 0, 0, 0, 1 */
@@ -792,7 +836,12 @@ typedef struct shade_pipeline {
     /* added to window depth; what is stored is clamped to [0, 1] */
     float                  depth_bias;
     shade_blend            blend;
+    int                    lod_varying;      /* 1 + k: varyings k, k + 1 are texture coordinates u, v */
+    float                  lod_width, lod_height;    /* of the texture they address, texels */
 } shade_pipeline;
+
+/* With lod_varying, fragments come with lod = log2 of the longer of the two steps, in texels, that u, v make from a
+   pixel to the next one right and below: the exact derivatives at the pixel, for shade_sample_lanes. */
 
 /* Draws index_count / 3 triangles. indices NULL: vertices 0, 1, 2, ... A vertex shared by near
    triangles is shaded about once. Clipped are near and far, x and y only beyond 3 w. Facing is
@@ -817,6 +866,7 @@ typedef struct shade_draw_state {            /* how one mesh is drawn */
     const shade_material *material;          /* NULL: white Lambert */
     shade_lighting lighting;                 /* light positions in world space */
     shade_shading shading;
+    const shade_texture *diffuse_map;        /* multiplies k_d and k_a; ignored without texcoords */
     shade_cull    cull;
     shade_compare depth_test;
     shade_blend   blend;
@@ -830,10 +880,51 @@ typedef struct shade_draw_state {            /* how one mesh is drawn */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
-/* Vertex normals: the unit mean of the faces around each vertex, weighted by their angle there;
-   zero for a vertex without faces. Faces without area add nothing. */
-SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh,
-                                         shade_vec3 *normals /* vertex_count */);
+typedef enum shade_cap { SHADE_BUTT = 0, SHADE_SQUARE } shade_cap;
+typedef struct shade_line_state {
+    shade_mat4    clip_from_points;          /* zero: identity */
+    float         width;                     /* pixels; 0: 1 */
+    shade_cap     cap;                       /* SHADE_SQUARE: longer by half the width, closes joints */
+    shade_vec4    color;
+    shade_compare depth_test;
+    shade_blend   blend;
+    int           depth_zero_to_one, depth_read_only;
+    float         depth_bias;
+} shade_line_state;
+/* point_count / 2 lines between pairs of points, each the two triangles of its rectangle on the screen; stats count
+   triangles.  Over a filled mesh use SHADE_LESS_EQUAL with a small negative bias. */
+SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points, int point_count,
+                                       const shade_line_state *state, shade_stats *stats);
+
+/* Vertex normals: the unit mean of the faces around each vertex, weighted by their angle there; zero for a vertex without
+   faces.  Faces without area add nothing.                                            [Thurmer98] */
+SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals /* vertex_count */);
+/* A normal per index: the mean, as above, of those faces around the corner's position whose normals have a cosine of
+   at least cos_crease with the corner's own face; vertices of equal position are one.  Time grows with the
+   square of the faces around a position.  memory: aligned to 4, shade_corner_normals_bytes (0 for a bad mesh). */
+SHADEDEF size_t       shade_corner_normals_bytes(const shade_mesh *mesh);
+SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
+                                                shade_vec3 *normals /* index_count */, void *memory, size_t bytes);
+
+typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;    /* a < b; -1: no triangle */
+/* The edges of a mesh, each once, with one or two triangles; a third triangle makes a further entry.  Sorted by
+   a, then b.  Room for index_count entries is enough; less is refused with SHADE_ERROR_CAPACITY and the number in
+   *count. */
+SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity, int *count);
+/* (e.n0)(e.n1) <= 0: one of the faces is seen from the front, the other from behind.  e: from the edge to the eye. */
+SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1);
+/* n0.n1 <= threshold, unit normals. */
+SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
+
+typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;    /* direction unit */
+/* World-space ray through window point x, y (pixel centres at + 1/2): from the eye, or with an orthographic projection
+   from the near plane. */
+SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
+                                   float x, float y);
+/* 1 if the ray meets the triangle, from either side, at origin + t direction, t >= 0, at the point
+   barycentric.x a + barycentric.y b + barycentric.z c.  t and barycentric may be NULL.      [Moller97] */
+SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
+                             shade_vec3 *barycentric);
 
 #ifdef __cplusplus
 }
@@ -1863,6 +1954,241 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
         for (int k = 0; k < 3; k++) rgba[k] = shade__srgb_decode(rgba[k]);
 }
 
+/*---------------------------------------------------------------------------------------- >>texture
+   Texels filtered for blocks of 8 lanes: coordinates and weights in lanes, four fetches a lane, then
+   unpacking and blending in lanes.
+     in      rows u, v, lod               out  rows of linear RGBA
+     holds   Every index lies in the texture whatever u and v are.  Mipmaps are read level by level,
+             each weighted by max(0, 1 - |lod - level|), as trilinear filtering is.    [Williams83]
+                                                                                        >>vertex */
+
+static int shade__texture_good(const shade_texture *t)
+{
+    return t && t->pixels && t->width > 0 && t->width <= 16384 && t->height > 0 && t->height <= 16384 &&
+           (t->stride == 0 || t->stride >= t->width) && (unsigned)t->format <= SHADE_RGBA32F &&
+           (unsigned)t->wrap_u <= SHADE_MIRROR && (unsigned)t->wrap_v <= SHADE_MIRROR &&
+           (unsigned)t->filter <= SHADE_TRILINEAR;
+}
+
+/* One axis of 8 lanes: texel before and after, and the weight of the one after.  c: coordinates. */
+typedef struct shade__axis { int32_t i0[8], i1[8]; float f[8]; } shade__axis;
+
+/* floor(x) for |x| < 2^23 */
+SHADE__INLINE int32_t shade__floor(float x)
+{
+    int32_t i = (int32_t)x;
+    return i - (x < (float)i ? 1 : 0);
+}
+SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int size, shade_wrap wrap, int nearest,
+                                  shade__axis *SHADE_RESTRICT a)
+{
+    const uint32_t clamped = shade__mask(wrap == SHADE_CLAMP), mirrored = shade__mask(wrap == SHADE_MIRROR);
+    const int32_t cyclic = wrap == SHADE_REPEAT ? -1 : 0, last = size - 1;
+    const float n = (float)size, half = nearest ? 0.0f : 0.5f, period = wrap == SHADE_MIRROR ? 0.5f : 1.0f;
+    const uint32_t smooth = shade__mask(!nearest);
+    SHADE__FOR(i, 8) {
+        /* from 2^24 on all floats are even wholes, where a period begins; NaN and infinity join them */
+        uint32_t usable = shade__mask((int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu) < 0x4B800000);
+        uint32_t finite = shade__mask((int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu) < 0x7F800000);
+        float x = shade__keep(c[i], usable) * period, inside = x - (float)shade__floor(x);
+        float twice = 2 * inside, back = shade__select(twice, 2 - twice, shade__mask(twice > 1));
+        inside = shade__select(inside, back, mirrored);
+        inside = shade__select(inside, shade__clamp_bits(shade__keep(c[i], finite), 0, 1), clamped);
+        float s = inside * n - half;
+        int32_t i0 = shade__floor(s), i1 = i0 + 1, below = i0 < 0 ? -1 : 0, above = i1 > last ? -1 : 0;
+        a->f[i] = shade__keep(s - (float)i0, smooth);
+        i0 = i0 > last ? last : i0;
+        a->i0[i] = (i0 & ~below) | (last & below & cyclic);
+        a->i1[i] = (i1 & ~above) | (last & above & ~cyclic);
+    }
+}
+
+/* texel[corner][lane] of a texture with pixels of 2 or 4 bytes, as native integers */
+static void shade__fetch_texels(const shade_texture *t, const shade__axis *x, const shade__axis *y,
+                                uint32_t texel[4][8])
+{
+    const uint8_t *p = (const uint8_t *)t->pixels;
+    size_t stride = (size_t)(t->stride ? t->stride : t->width);
+    for (int i = 0; i < 8; i++) {
+        size_t top = (size_t)y->i0[i] * stride, low = (size_t)y->i1[i] * stride, at[4];
+        at[0] = top + (size_t)x->i0[i], at[1] = top + (size_t)x->i1[i];
+        at[2] = low + (size_t)x->i0[i], at[3] = low + (size_t)x->i1[i];
+        for (int k = 0; k < 4; k++) {
+            uint16_t u;
+            if (t->format == SHADE_RGBA8) SHADE_MEMCPY(&texel[k][i], p + 4 * at[k], 4);
+            else SHADE_MEMCPY(&u, p + 2 * at[k], 2), texel[k][i] = u;
+        }
+    }
+}
+/* One channel of 8 texels: (texel >> shift & mask) / mask, decoded */
+SHADE__INLINE void shade__unpack(const uint32_t *SHADE_RESTRICT texel, int shift, uint32_t mask, int srgb,
+                                 float *SHADE_RESTRICT c)
+{
+    const float scale = 1 / (float)(int32_t)mask;
+    SHADE__FOR(i, 8) { c[i] = (float)(int32_t)(texel[i] >> shift & mask) * scale; }
+    if (srgb) {
+        SHADE__FOR(i, 8) { c[i] = shade__srgb_decode(c[i]); }
+    }
+}
+/* out += weight times the bilinear blend of c[corner][lane] */
+SHADE__INLINE void shade__blend_texels(float c[4][8], const shade__axis *SHADE_RESTRICT x,
+                                       const shade__axis *SHADE_RESTRICT y, const float *SHADE_RESTRICT weight,
+                                       float *SHADE_RESTRICT out)
+{
+    const float *SHADE_RESTRICT c0 = c[0], *SHADE_RESTRICT c1 = c[1];
+    const float *SHADE_RESTRICT c2 = c[2], *SHADE_RESTRICT c3 = c[3];
+    SHADE__FOR(i, 8) {
+        float top = c0[i] + x->f[i] * (c1[i] - c0[i]), low = c2[i] + x->f[i] * (c3[i] - c2[i]);
+        out[i] += weight[i] * (top + y->f[i] * (low - top));
+    }
+}
+/* out (4 rows of 8) += weight times one level at u, v; how it wraps and filters comes from the base */
+SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_texture *level, const float *u,
+                                       const float *v, const float *weight, float *out)
+{
+    shade__axis x, y;
+    uint32_t texel[4][8];
+    float c[4][8];
+    int nearest = base->filter == SHADE_NEAREST;
+    shade__address(u, level->width, base->wrap_u, nearest, &x);
+    shade__address(v, level->height, base->wrap_v, nearest, &y);
+    if (level->format != SHADE_RGBA32F) shade__fetch_texels(level, &x, &y, texel);
+    for (int k = 0; k < 4; k++) {
+        static const uint8_t shift565[4] = { 11, 5, 0, 0 };
+        int wide = level->format == SHADE_RGBA8, shift = wide ? shade__byte_shift(k) : shift565[k];
+        uint32_t mask = wide ? 255 : k == 1 ? 63 : 31;
+        for (int j = 0; j < 4; j++) {
+            const int32_t *ix = j & 1 ? x.i1 : x.i0, *iy = j & 2 ? y.i1 : y.i0;
+            size_t stride = (size_t)(level->stride ? level->stride : level->width);
+            if (level->format == SHADE_RGBA32F) {
+                for (int i = 0; i < 8; i++)
+                    SHADE_MEMCPY(&c[j][i], (const float *)level->pixels +
+                                 4 * ((size_t)iy[i] * stride + (size_t)ix[i]) + k, 4);
+            } else if (!wide && k == 3) {
+                for (int i = 0; i < 8; i++) c[j][i] = 1;
+            } else shade__unpack(texel[j], shift, mask, level->srgb && k < 3, c[j]);
+        }
+        shade__blend_texels(c, &x, &y, weight, out + 8 * k);
+    }
+}
+/* 8 lanes of a good texture */
+SHADE__INLINE void shade__sample8_body(const shade_texture *t, const float *u, const float *v,
+                                       const float *lod, float *out)
+{
+    int levels = t->filter == SHADE_TRILINEAR && t->mipmaps && t->mipmap_count > 0 ? t->mipmap_count : 0;
+    float level[8], weight[8], lowest = 32, highest = 0;
+    SHADE_MEMSET(out, 0, 32 * sizeof *out);
+    for (int i = 0; i < 8; i++) {
+        level[i] = lod && lod[i] > 0 ? shade__minf(lod[i], (float)shade__min(levels, 16)) : 0;
+        if (lod && !shade__within(lod[i], FLT_MAX)) level[i] = 0;
+        lowest = shade__minf(lowest, level[i]), highest = shade__maxf(highest, level[i]);
+    }
+    for (int k = (int)lowest; k <= shade__min((int)highest + 1, shade__min(levels, 16)); k++) {
+        const shade_texture *source = k ? &t->mipmaps[k - 1] : t;
+        int used = 0;
+        for (int i = 0; i < 8; i++) {
+            float away = level[i] < (float)k ? (float)k - level[i] : level[i] - (float)k;
+            weight[i] = away < 1 ? 1 - away : 0;
+            used |= weight[i] > 0;
+        }
+        if (used) shade__sample_level(t, shade__texture_good(source) ? source : t, u, v, weight, out);
+    }
+}
+SHADE__DISPATCH(shade__sample8,
+                (const shade_texture *t, const float *u, const float *v, const float *lod, float *out),
+                (t, u, v, lod, out))
+
+SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
+                                 const float *lod, float *rgba)
+{
+    float out[32];
+    shade__sample8_fn *sample = shade__sample8_pick();
+    int good = shade__texture_good(texture);
+    if (!u || !v || !rgba) return;
+    for (int i = 0; i < 32; i++) out[i] = 1;
+    for (int i = 0; i < SHADE_LANES; i += 8) {
+        if (good) sample(texture, u + i, v + i, lod ? lod + i : lod, out);
+        for (int k = 0; k < 4; k++) SHADE_MEMCPY(rgba + k * SHADE_LANES + i, out + 8 * k, 32);
+    }
+}
+SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod)
+{
+    float us[8], vs[8], lods[8], out[32];
+    if (!shade__texture_good(texture)) return shade_v4(1, 1, 1, 1);
+    for (int i = 0; i < 8; i++) us[i] = u, vs[i] = v, lods[i] = lod;
+    shade__sample8_pick()(texture, us, vs, lods, out);
+    return shade_v4(out[0], out[8], out[16], out[24]);
+}
+
+SHADEDEF int shade_mipmap_count(int width, int height)
+{
+    int n = 0;
+    if (width < 1 || height < 1) return 0;
+    for (int size = shade__max(width, height); size > 1; size /= 2) n++;
+    return n;
+}
+SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
+{
+    size_t bytes = 0;
+    if ((unsigned)format > SHADE_RGBA32F) return 0;
+    for (int k = shade_mipmap_count(width, height); k > 0; k--) {
+        width = shade__max(width / 2, 1), height = shade__max(height / 2, 1);
+        bytes += (size_t)width * (size_t)height * shade__pixel_bytes(format);
+    }
+    return bytes;
+}
+/* The mean of the part of a picture that texel (x, y) of one with the given size covers, in linear light. */
+static void shade__shrink(const shade_target *from, const shade_texture *to, int x, int y, float *mean)
+{
+    double sum[4] = { 0, 0, 0, 0 }, sx = (double)from->width / to->width, all = 0;
+    double sy = (double)from->height / to->height;
+    for (int j = (int)(y * sy); j < from->height && j < (y + 1) * sy; j++)
+        for (int i = (int)(x * sx); i < from->width && i < (x + 1) * sx; i++) {
+            double left = i > x * sx ? i : x * sx, right = i + 1 < (x + 1) * sx ? i + 1 : (x + 1) * sx;
+            double top = j > y * sy ? j : y * sy, low = j + 1 < (y + 1) * sy ? j + 1 : (y + 1) * sy;
+            double share = (right - left) * (low - top);
+            float c[4];
+            shade__fetch(from, (const uint8_t *)from->color + ((size_t)j * (size_t)from->stride + (size_t)i) *
+                                   shade__pixel_bytes(from->format), c);
+            for (int k = 0; k < 4; k++) sum[k] += (double)c[k] * share;
+            all += share;
+        }
+    for (int k = 0; k < 4; k++) mean[k] = (float)(sum[k] / all);
+}
+SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels, void *memory,
+                                          size_t bytes)
+{
+    uint8_t *p = (uint8_t *)memory;
+    int count;
+    if (!texture) return SHADE_ERROR_ARGUMENT;
+    if (!shade__texture_good(texture)) return SHADE_ERROR_ARGUMENT;
+    count = shade_mipmap_count(texture->width, texture->height);
+    if (count && (!levels || !memory || (uintptr_t)memory % 4)) return SHADE_ERROR_ARGUMENT;
+    if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format)) return SHADE_ERROR_CAPACITY;
+    for (int n = 0; n < count; n++) {
+        const shade_texture *up = n ? &levels[n - 1] : texture;
+        size_t size = shade__pixel_bytes(texture->format);
+        shade_target from;
+        SHADE_MEMSET(&from, 0, sizeof from);
+        from.width = up->width, from.height = up->height, from.format = up->format, from.srgb = up->srgb;
+        from.stride = up->stride ? up->stride : up->width, from.color = (void *)(uintptr_t)up->pixels;
+        levels[n] = *texture;
+        levels[n].pixels = p, levels[n].stride = 0, levels[n].mipmaps = (shade_texture *)0;
+        levels[n].mipmap_count = 0;
+        levels[n].width = shade__max(up->width / 2, 1), levels[n].height = shade__max(up->height / 2, 1);
+        for (int i = 0; i < levels[n].width * levels[n].height; i++, p += size) {
+            float c[4], rgba[32] = { 0 }, zero[8] = { 0 };
+            uint32_t pixel[8] = { 0 };
+            shade__shrink(&from, &levels[n], i % levels[n].width, i / levels[n].width, c);
+            for (int k = 0; k < 4; k++) rgba[8 * k] = c[k];
+            shade__pack8(&from, rgba, zero, zero, pixel);
+            shade__store(from.format, p, pixel[0], rgba, 8);
+        }
+    }
+    texture->mipmaps = levels, texture->mipmap_count = count;
+    return SHADE_OK;
+}
+
 /*--------------------------------------------------------------------------------------- >>fragment
    The queue of pixels that passed, over the triangles of a batch; a full packet is shaded and
    stored.  Shading waiting fragments together measured 2 to 3 times faster on dense meshes than a
@@ -2005,7 +2331,7 @@ static void shade__replicate(shade__queue *q, int varyings)
     for (int i = n; i < SHADE_LANES; i++) {
         q->f.x[i] = q->f.x[last], q->f.y[i] = q->f.y[last], q->f.z[i] = q->f.z[last];
         q->f.primitive[i] = q->f.primitive[last], q->f.front[i] = q->f.front[last];
-        q->u.rw[i] = q->u.rw[last];
+        q->u.rw[i] = q->u.rw[last], q->f.lod[i] = q->f.lod[last];
         for (int k = 0; k < varyings; k++) q->f.in[k][i] = q->f.in[k][last];
     }
 }
@@ -2015,6 +2341,13 @@ SHADE__INLINE void shade__divide(float *SHADE_RESTRICT rw, float *SHADE_RESTRICT
     SHADE_EACH_LANE(i) { rw[i] = 1 / rw[i]; }
     for (int k = 0; k < varyings; k++, in += SHADE_LANES) {
         SHADE_EACH_LANE(i) { in[i] *= rw[i]; }
+    }
+}
+/* lod from the squared step times rw^4, once rw holds w */
+SHADE__INLINE void shade__levels(const float *SHADE_RESTRICT w, uint32_t perspective, float *SHADE_RESTRICT lod)
+{
+    SHADE_EACH_LANE(i) {
+        lod[i] = -0.5f * shade__neg_log2(lod[i]) - 2 * shade__keep(shade__neg_log2(w[i]), perspective);
     }
 }
 /* Offsets of the pixels; with the strip's first row below 2^14, all sums are exact in 32 bits. */
@@ -2035,6 +2368,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (q->f.count == 0) return;
     if (q->f.count < SHADE_LANES) shade__replicate(q, d->varyings);
     if (d->perspective && d->varyings) shade__divide(q->u.rw, q->f.in[0], d->varyings);
+    if (d->pipe->lod_varying) shade__levels(q->u.rw, shade__mask(d->perspective), q->f.lod);
     shade__offsets(q, (uint32_t)d->stride, d->row_offset);
     SHADE_EACH_LANE(i) {
         c.out[0][i] = c.out[1][i] = c.out[2][i] = 0, c.out[3][i] = 1, c.discard[i] = 0;
@@ -2069,6 +2403,8 @@ typedef struct shade__triangle {
     float    x_ref, y_ref;            /* 1/2 - position of the reference vertex, pixels; exact */
     float    z_low, z_high, rw_low, rw_high;
     uint32_t primitive, front;
+    int      lod;                     /* value whose step is measured, and the next; 0: none */
+    float    lod_width, lod_height;
     float    base[SHADE__STRIDE_MAX], gx[SHADE__STRIDE_MAX], gy[SHADE__STRIDE_MAX];
 } shade__triangle;
 
@@ -2172,7 +2508,8 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
     const shade__head *v[3] = { head[k[0]], head[k[1]], head[k[2]] };
     const float *s[3] = { tail[k[0]], tail[k[1]], tail[k[2]] };
     float slopes[4];
-    t->small = 1;
+    t->small = 1, t->lod = d->pipe->lod_varying ? SHADE__TAIL + d->pipe->lod_varying - 1 : 0;
+    t->lod_width = d->pipe->lod_width, t->lod_height = d->pipe->lod_height;
     shade__edge(v[0], v[1], 0, t), shade__edge(v[1], v[2], 1, t), shade__edge(v[2], v[0], 2, t);
     shade__slopes(v, area < 0 ? -area : area, slopes, t);
     shade__planes(s[0], s[1], s[2], slopes, d->tail_stride, t);
@@ -2300,6 +2637,24 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
+/* The longer step of u, v to the next pixel, squared, in texels, times rw^4: with u = U / q, q = rw,
+   du/dx = (U_x q - U q_x) / q^2. */
+SHADE__INLINE void shade__append_lod(float *SHADE_RESTRICT lod, const shade__triangle *SHADE_RESTRICT t,
+                                     const float *SHADE_RESTRICT row, int x, const int width)
+{
+    const int k = t->lod;
+    const float u0 = row[k], v0 = row[k + 1], q0 = row[1], x_ref = t->x_ref;
+    const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
+    const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1], w = t->lod_width, h = t->lod_height;
+    SHADE__FOR(i, width) {
+        float px = (float)(x + i) + x_ref, u = u0 + ux * px, v = v0 + vx * px, q = q0 + qx * px;
+        float a = (ux * q - u * qx) * w, b = (vx * q - v * qx) * h;
+        float c = (uy * q - u * qy) * w, e = (vy * q - v * qy) * h;
+        float right = a * a + b * b, below = c * c + e * e;
+        lod[i] = shade__select(right, below, shade__mask(below > right));
+    }
+}
+
 /* Writes width lanes of the queue from lane c on: pixels x, x + 1, ... of row y. */
 SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
                                  const shade__triangle *SHADE_RESTRICT t,
@@ -2323,6 +2678,7 @@ SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
         float *in = q->f.in[k] + c;
         SHADE__FOR(i, width) { in[i] = v + g * ((float)(x + i) + x_ref); }
     }
+    if (t->lod) shade__append_lod(q->f.lod + c, t, row, x, width);
 }
 
 /* Values of the planes at x = x_ref of row y. */
@@ -2796,6 +3152,7 @@ static shade_result shade__check_pipeline(const shade_pipeline *p)
         (unsigned)p->depth_test > SHADE_ALWAYS || (unsigned)p->blend > SHADE_ADD)
         return SHADE_ERROR_ARGUMENT;
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
+    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying + 1 > p->varyings)) return SHADE_ERROR_ARGUMENT;
     return shade__within(p->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
 }
 
@@ -2864,8 +3221,8 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
     if (!shade__clip_rectangle(target, clip)) clip[0] = clip[1] = clip[2] = clip[3] = 0;
     pipe = *pipeline;
     if (!pipe.fragment) pipe.may_discard = 0;
-    /* nobody reads them */
-    if (!pipe.fragment || (!target->color && !pipe.may_discard)) pipe.varyings = 0;
+    if (!pipe.fragment || (!target->color && !pipe.may_discard))
+        pipe.varyings = pipe.lod_varying = 0;    /* nobody reads them */
     shade__begin(&d, target, &pipe, clip);
     d.stats.triangles = index_count / 3;
     for (int first = 0, n; first < index_count / 3; first += n) {
@@ -2923,12 +3280,50 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     return SHADE_OK;
 }
 
+/* Pixels x .. x + n - 1 of row y, n <= 8: means of factor x factor pixels each. */
+static void shade__resolve8(const shade_target *out, const shade_target *in, int factor, int x, int y, int n)
+{
+    float rgba[32] = { 0 }, px[8], py[8], c[4];
+    uint32_t pixel[8] = { 0 };
+    uint8_t *to = (uint8_t *)out->color;
+    size_t bytes = shade__pixel_bytes(out->format);
+    to += ((size_t)(y - out->row_offset) * (size_t)shade__stride_of(out) + (size_t)x) * bytes;
+    for (int i = 0; i < 8; i++) px[i] = (float)(x + i) + 0.5f, py[i] = (float)y + 0.5f;
+    for (int i = 0; i < n * factor * factor; i++) {
+        int p = i / (factor * factor), row = i / factor % factor + (y - out->row_offset) * factor;
+        size_t at = (size_t)row * (size_t)shade__stride_of(in) + (size_t)((x + p) * factor + i % factor);
+        shade__fetch(in, (const uint8_t *)in->color + at * shade__pixel_bytes(in->format), c);
+        for (int k = 0; k < 4; k++) rgba[8 * k + p] += c[k];
+    }
+    for (int i = 0; i < 32; i++) rgba[i] /= (float)(factor * factor);
+    shade__pack8(out, rgba, px, py, pixel);
+    for (int i = 0; i < n; i++) shade__store(out->format, to + (size_t)i * bytes, pixel[i], rgba + i, 8);
+}
+SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
+{
+    shade_result result;
+    int clip[4];
+    if (!out || !in) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(out);
+    if (result == SHADE_OK) result = shade__check_target(in);
+    if (result == SHADE_OK && (!out->color || !in->color)) result = SHADE_ERROR_TARGET;
+    if (result != SHADE_OK) return result;
+    if (factor < 2 || factor > 8 || in->width != out->width * factor || in->height != out->height * factor ||
+        in->row_offset != out->row_offset * factor || shade__rows_held(in) != shade__rows_held(out) * factor)
+        return SHADE_ERROR_ARGUMENT;
+    if (!shade__clip_rectangle(out, clip)) return SHADE_OK;
+    for (int y = clip[1]; y < clip[3]; y++)
+        for (int x = clip[0]; x < clip[2]; x += 8)
+            shade__resolve8(out, in, factor, x, y, shade__min(8, clip[2] - x));
+    return SHADE_OK;
+}
+
 /*------------------------------------------------------------------------------------------- >>mesh
    The fixed pipeline: a mesh drawn by two ordinary shaders of the programmable one.
      in      object-space arrays          out  varyings in world space: P, N, albedo; or one lit colour
      holds   Where each face has values of its own (flat, or no normals),
          every corner is a vertex: its
-             index is 3 times the triangle's plus the corner, and the shader looks up the mesh's.   >>image */
+             index is 3 times the triangle's plus the corner, and the shader looks up the mesh's.   >>lines */
 
 typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_mesh *mesh;
@@ -2936,11 +3331,14 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_mat4 clip_from_object, world_from_object;
     shade_mat3 normal_matrix;
     shade_vec3 eye;
-    int by_corner, face_normals;
+    int face_normals;                    /* then every corner is a vertex of its own */
+    const shade_texture *map;            /* NULL: none */
+    shade_lighting matte, gloss;         /* with a map, lit vertices: what it multiplies, and the rest */
 } shade__scene;
 
 /* rows; varyings lend theirs if they are 12 */
-enum { SHADE__SCRATCH = SHADE_MAX_VARYINGS < 12 ? 12 : 1 };
+enum { SHADE__TERM_NONE = 128 };         /* a bit of no term, since terms of 0 mean all */
+enum { SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 15 : 1 };    /* rows; varyings lend theirs if they are 15 */
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
 SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t i)
@@ -2968,7 +3366,7 @@ static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const s
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
-        uint32_t v = s->by_corner ? shade__corner_index(m, in->index[i]) : in->index[i];
+        uint32_t v = s->face_normals ? shade__corner_index(m, in->index[i]) : in->index[i];
         shade__put(P, i, shade__position(m, v));
         if (!s->face_normals) shade__put(N, i, shade__vec3_at(m->normals, m->normal_stride, v));
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
@@ -3027,43 +3425,83 @@ SHADE__INLINE void shade__lane_normal(shade_mat3 m, float *SHADE_RESTRICT N)
     }
 }
 
-SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
-                                           const shade_vertex_ids *SHADE_RESTRICT in,
+static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s, const shade_vertex_ids *in, float *u)
+{
+    const shade_mesh *m = s->mesh;
+    for (int i = 0; i < SHADE_LANES; i++) {
+        uint32_t v = s->face_normals ? shade__corner_index(m, in->index[i]) : in->index[i];
+        const char *p = (const char *)m->texcoords;
+        float uv[2];
+        SHADE_MEMCPY(uv, p + (size_t)v * (size_t)(m->texcoord_stride ? m->texcoord_stride : 8), 8);
+        u[i] = uv[0], u[i + SHADE_LANES] = uv[1];
+    }
+}
+/* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or with a map what it
+   multiplies, the rest, u, v; then P, N, albedo stand in the rows behind, which nobody reads. */
+SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                            shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_draw_state *state = s->state;
-    float scratch[SHADE__SCRATCH][SHADE_LANES], *rows = SHADE_MAX_VARYINGS < 12 ? scratch[0] : out->out[0];
+    float scratch[SHADE__SCRATCH][SHADE_LANES];
+    float *rows = SHADE_MAX_VARYINGS < 15 ? scratch[0] : out->out[0];
     int lit = state->shading != SHADE_PER_FRAGMENT, per_face = state->shading == SHADE_PER_FACE;
-    float *P = lit ? rows + 3 * SHADE_LANES : out->out[0], *N = P + 3 * SHADE_LANES;
+    float *P = lit ? rows + 6 * SHADE_LANES : out->out[0], *N = P + 3 * SHADE_LANES;
     float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip[0]);
     if (s->face_normals) shade__fetch_faces(s, in, per_face, P, N, albedo);
     shade__lane_world(s->world_from_object, P);
     shade__lane_normal(s->normal_matrix, N);
-    if (lit) shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, out->out[0]);
+    if (lit && s->map) {
+        float *rgb = out->out[0];
+        shade_lit_lanes(&s->matte, state->material, s->eye, P, N, albedo, rgb);
+        shade_lit_lanes(&s->gloss, state->material, s->eye, P, N, albedo, rgb + 3 * SHADE_LANES);
+        shade__fetch_texcoords(s, in, rgb + 6 * SHADE_LANES);
+    } else if (lit) shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, out->out[0]);
+    else if (s->map) shade__fetch_texcoords(s, in, out->out[0] + (albedo ? 9 : 6) * SHADE_LANES);
 }
 SHADE__DISPATCH(shade__mesh_vertex,
                 (const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                  shade_vertices *SHADE_RESTRICT out),
                 (uniforms, in, out))
 
-/* Phong interpolation: N and P arrive per pixel. */
+/* The map at the texture coordinates in rows u and u + 1 of a packet. */
+static void shade__sample_map(const shade__scene *s, const shade_fragments *in, const float *u, float *rgba)
+{
+    shade_sample_lanes(s->map, u, u + SHADE_LANES, s->map->mipmap_count ? in->lod : (const float *)0, rgba);
+}
+/* Phong interpolation: N and P arrive per pixel.  The map's colour takes rows of the packet that have no varying. */
 static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                             shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const float *P = in->in[0], *N = P + 3 * SHADE_LANES, *albedo = N + 3 * SHADE_LANES;
-    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N,
-                    s->mesh->colors ? albedo : (const float *)0, out->out[0]);
+    float local[SHADE_MAX_VARYINGS < 16 ? 4 : 1][SHADE_LANES];
+    float *texel = SHADE_MAX_VARYINGS < 16 ? local[0] : (float *)(uintptr_t)P + 12 * SHADE_LANES;
+    int colored = s->mesh->colors != (const float *)0;
+    if (s->map) {
+        shade__sample_map(s, in, albedo + (colored ? 3 : 0) * SHADE_LANES, texel);
+        for (int i = 0; colored && i < 3 * SHADE_LANES; i++) texel[i] *= albedo[i];
+    }
+    if (s->map) albedo = texel;
+    else if (!colored) albedo = (const float *)0;
+    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo, out->out[0]);
 }
 /* Gouraud and flat: the colour arrives. */
 static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                               shade_colors *SHADE_RESTRICT out)
 {
-    (void)uniforms;
-    SHADE_MEMCPY(out->out[0], in->in[0], 3 * sizeof in->in[0]);
+    const shade__scene *s = (const shade__scene *)uniforms;
+    const float *rgb = in->in[0];
+    float *to = out->out[0];
+    if (!s->map) {
+        SHADE_MEMCPY(to, rgb, 3 * sizeof in->in[0]);
+        return;
+    }
+    shade__sample_map(s, in, rgb + 6 * SHADE_LANES, to);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = rgb[i] * to[i] + rgb[i + 3 * SHADE_LANES];
+    SHADE_EACH_LANE(i) { out->out[3][i] = 1; }
 }
 
 static int shade__bad_stride(int stride) { return stride < 0 || stride % 4; }
@@ -3100,7 +3538,11 @@ static shade__scene shade__scene_of(const shade_mesh *mesh, const shade_draw_sta
                 ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
                 : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
     s.face_normals = !mesh->normals || state->shading == SHADE_PER_FACE;
-    s.by_corner = s.face_normals;
+    s.map = mesh->texcoords ? state->diffuse_map : (const shade_texture *)0;
+    s.matte = s.gloss = state->lighting;
+    if (!s.matte.terms) s.matte.terms = s.gloss.terms = ~0u;
+    s.matte.terms = (s.matte.terms & (SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE)) | SHADE__TERM_NONE;
+    s.gloss.terms = (s.gloss.terms & (SHADE_TERM_EMISSION | SHADE_TERM_SPECULAR)) | SHADE__TERM_NONE;
     return s;
 }
 
@@ -3120,12 +3562,18 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         (!state->lighting.lights && state->lighting.light_count > 0))
         return SHADE_ERROR_ARGUMENT;
     scene = shade__scene_of(mesh, state);
+    if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
     SHADE_MEMSET(&p, 0, sizeof p);
     p.vertex = shade__mesh_vertex_pick();
     p.fragment = state->shading == SHADE_PER_FRAGMENT ? shade__mesh_lit : shade__mesh_color;
     p.uniforms = &scene;
-    p.varyings = state->shading != SHADE_PER_FRAGMENT ? 3 : mesh->colors ? 9 : 6;
-    p.interpolation = state->shading == SHADE_PER_FACE ? SHADE_CONSTANT : SHADE_PERSPECTIVE;
+    p.varyings = state->shading != SHADE_PER_FRAGMENT ? (scene.map ? 6 : 3) : mesh->colors ? 9 : 6;
+    if (scene.map) {
+        if (scene.map->mipmap_count) p.lod_varying = p.varyings + 1;
+        p.lod_width = (float)scene.map->width, p.lod_height = (float)scene.map->height;
+        p.varyings += 2;
+    }
+    p.interpolation = state->shading == SHADE_PER_FACE && !scene.map ? SHADE_CONSTANT : SHADE_PERSPECTIVE;
     p.cull = state->cull, p.depth_test = state->depth_test, p.blend = state->blend;
     p.depth_zero_to_one = state->depth_zero_to_one, p.depth_read_only = state->depth_read_only;
     p.depth_bias = state->depth_bias;
@@ -3134,8 +3582,131 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     count = shade__corner_count(mesh);
     result = shade__check_indices(mesh->indices, count, mesh->vertex_count);
     if (result != SHADE_OK) return result;
-    if (scene.by_corner) return shade_draw(target, &p, (const uint32_t *)0, count, count, stats);
+    if (scene.face_normals) return shade_draw(target, &p, (const uint32_t *)0, count, count, stats);
     return shade_draw(target, &p, mesh->indices, count, mesh->vertex_count, stats);
+}
+
+/*------------------------------------------------------------------------------------------ >>lines
+   Lines as rectangles of the screen, two triangles each, drawn by the pipeline above.
+     in      pairs of points              out  what triangles give: same coverage, depth test, blending
+     holds   A segment is cut at the near and far planes first, so that both ends have a place on the
+             screen.  One that lies outside becomes a triangle outside, and is counted as clipped.
+                                                                                          >>shape */
+
+typedef struct shade__stroke {           /* uniforms of the line shaders */
+    const shade_vec3 *points;
+    const shade_line_state *state;
+    shade_mat4 clip_from_points;
+    double half_x, half_y;               /* half the picture, pixels */
+    double half_width;
+} shade__stroke;
+
+/* The part t0 .. t1 of a segment with distances a, b to a plane at its ends that is inside. */
+static void shade__cut(double a, double b, double *t0, double *t1)
+{
+    if (a < 0 && b < 0) *t1 = -1;
+    else if (a < 0 && a / (a - b) > *t0) *t0 = a / (a - b);
+    else if (b < 0 && a / (a - b) < *t1) *t1 = a / (a - b);
+}
+
+/* Corner 0 .. 3 of the rectangle around points 2 i and 2 i + 1, in clip space. */
+static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner, float *clip)
+{
+    double end[2][4], t[2] = { 0, 1 }, at[2][2], dx, dy, length, side, along, e[4];
+    int k = corner & 1, zero_to_one = s->state->depth_zero_to_one != 0;
+    for (int j = 0; j < 2; j++) {
+        shade_vec3 p = s->points[2 * (size_t)segment + (size_t)j];
+        shade_vec4 c = shade_mat4_transform(s->clip_from_points, shade_v4(p.x, p.y, p.z, 1));
+        end[j][0] = (double)c.x, end[j][1] = (double)c.y, end[j][2] = (double)c.z, end[j][3] = (double)c.w;
+    }
+    shade__cut(end[0][2] + (zero_to_one ? 0 : end[0][3]), end[1][2] + (zero_to_one ? 0 : end[1][3]), &t[0], &t[1]);
+    shade__cut(end[0][3] - end[0][2], end[1][3] - end[1][2], &t[0], &t[1]);
+    shade__cut(end[0][3] - 1e-12, end[1][3] - 1e-12, &t[0], &t[1]);
+    clip[0] = clip[1] = clip[2] = 2, clip[3] = 1;
+    if (t[0] > t[1]) return;
+    for (int j = 0; j < 2; j++) {
+        for (int i = 0; i < 4; i++) e[i] = end[0][i] + t[j] * (end[1][i] - end[0][i]);
+        at[j][0] = e[0] / e[3] * s->half_x, at[j][1] = e[1] / e[3] * s->half_y;
+        if (j == k)
+            for (int i = 0; i < 4; i++) clip[i] = (float)e[i];
+    }
+    dx = at[1][0] - at[0][0], dy = at[1][1] - at[0][1], length = dx * dx + dy * dy;
+    length = length > 0 ? shade__root(length) : 0;
+    dx = length > 0 ? dx / length : 1, dy = length > 0 ? dy / length : 0;
+    side = corner & 2 ? s->half_width : -s->half_width;
+    along = s->state->cap != SHADE_SQUARE ? 0 : k ? s->half_width : -s->half_width;
+    clip[0] = (float)((at[k][0] + dx * along - dy * side) / s->half_x * (double)clip[3]);
+    clip[1] = (float)((at[k][1] + dy * along + dx * side) / s->half_y * (double)clip[3]);
+}
+static void shade__stroke_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                 shade_vertices *SHADE_RESTRICT out)
+{
+    static const uint8_t corner[6] = { 0, 1, 3, 0, 3, 2 };
+    for (int i = 0; i < SHADE_LANES; i++) {
+        float clip[4];
+        shade__stroke_corner((const shade__stroke *)uniforms, in->index[i] / 6, corner[in->index[i] % 6], clip);
+        for (int k = 0; k < 4; k++) out->clip[k][i] = clip[k];
+    }
+}
+static void shade__stroke_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                shade_colors *SHADE_RESTRICT out)
+{
+    shade_vec4 c = ((const shade__stroke *)uniforms)->state->color;
+    (void)in;
+    SHADE_EACH_LANE(i) {
+        out->out[0][i] = c.x, out->out[1][i] = c.y, out->out[2][i] = c.z, out->out[3][i] = c.w;
+    }
+}
+
+SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points, int point_count,
+                                       const shade_line_state *state, shade_stats *stats)
+{
+    shade_pipeline p;
+    shade__stroke s;
+    shade_result result;
+    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
+    if (!target || !state || (!points && point_count > 0)) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(target);
+    if (result != SHADE_OK) return result;
+    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_ARGUMENT;
+    if (!(state->width >= 0) || !shade__within(state->width, FLT_MAX) || (unsigned)state->cap > SHADE_SQUARE)
+        return SHADE_ERROR_ARGUMENT;
+    s.points = points, s.state = state;
+    s.clip_from_points = shade__or_identity(state->clip_from_points);
+    s.half_x = target->width / 2.0, s.half_y = target->height / 2.0;
+    s.half_width = (state->width > 0 ? (double)state->width : 1) / 2;
+    SHADE_MEMSET(&p, 0, sizeof p);
+    p.vertex = shade__stroke_vertex, p.fragment = shade__stroke_color, p.uniforms = &s;
+    p.depth_test = state->depth_test, p.blend = state->blend, p.depth_bias = state->depth_bias;
+    p.depth_zero_to_one = state->depth_zero_to_one, p.depth_read_only = state->depth_read_only;
+    return shade_draw(target, &p, (const uint32_t *)0, point_count * 3, point_count * 3, stats);
+}
+
+/*------------------------------------------------------------------------------------------ >>shape
+   What a mesh knows of its shape: normals of vertices and corners, edges; and rays through it.
+     in      meshes, the caller's memory         out  the caller's arrays
+     method  normals of faces weighted by their angle at the vertex [Thurmer98]; edges by sorting; rays
+             against triangles by Cramer's rule [Moller97]                                 >>image */
+
+/* Sorts n records of size bytes by a heap, in place. */
+typedef int shade__less_fn(const void *context, const void *a, const void *b);
+static void shade__swap(uint8_t *a, uint8_t *b, size_t size)
+{
+    uint8_t t[sizeof(shade_edge)];
+    SHADE_MEMCPY(t, a, size), SHADE_MEMCPY(a, b, size), SHADE_MEMCPY(b, t, size);
+}
+static void shade__sort(void *records, size_t n, size_t size, shade__less_fn *less, const void *context)
+{
+    uint8_t *p = (uint8_t *)records;
+    for (size_t start = n / 2, end = n; end > 1;) {
+        if (start > 0) start--;
+        else shade__swap(p, p + --end * size, size);
+        for (size_t root = start, child; (child = 2 * root + 1) < end; root = child) {
+            if (child + 1 < end && less(context, p + child * size, p + (child + 1) * size)) child++;
+            if (!less(context, p + root * size, p + child * size)) break;
+            shade__swap(p + root * size, p + child * size, size);
+        }
+    }
 }
 
 /* Angle between a vector of length y and components: atan2(y, x), y >= 0, within 1e-9. atan t =
@@ -3151,35 +3722,188 @@ static double shade__angle(double y, double x)
     a = a * s + (t < -0.4142135623730951 ? 0 : t > 0.4142135623730951 ? 2 * quarter : quarter);
     return x < 0 ? 4 * quarter - a : a;
 }
-static float shade__angle_between(shade_vec3 a, shade_vec3 b)
+/* Unit normal of triangle t; zero without area or with a corner that is not finite. */
+static shade_vec3 shade__triangle_normal(const shade_mesh *m, uint32_t t)
 {
+    shade_vec3 n = shade_face_normal(shade__position(m, shade__corner_index(m, 3 * t)),
+                                     shade__position(m, shade__corner_index(m, 3 * t + 1)),
+                                     shade__position(m, shade__corner_index(m, 3 * t + 2)));
+    return shade__within(shade_dot(n, n), 2) ? n : shade_v3(0, 0, 0);
+}
+/* Angle of a triangle at a corner, radians. */
+static float shade__corner_angle(const shade_mesh *m, uint32_t corner)
+{
+    uint32_t t = corner / 3 * 3, k = corner % 3;
+    shade_vec3 p = shade__position(m, shade__corner_index(m, corner));
+    shade_vec3 a = shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 1) % 3)), p));
+    shade_vec3 b = shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 2) % 3)), p));
     return (float)shade__angle((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
+}
+static shade_result shade__check_shape(const shade_mesh *m, const void *out)
+{
+    shade_result result;
+    if (!m || !out || (!m->positions && m->vertex_count > 0)) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_mesh(m);
+    return result ? result : shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count);
 }
 
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
-    shade_result result;
-    int count;
-    if (!mesh || !normals || (!mesh->positions && mesh->vertex_count > 0)) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_mesh(mesh);
-    if (result != SHADE_OK) return result;
-    count = shade__corner_count(mesh);
-    result = shade__check_indices(mesh->indices, count, mesh->vertex_count);
+    shade_result result = shade__check_shape(mesh, normals);
     if (result != SHADE_OK) return result;
     for (int i = 0; i < mesh->vertex_count; i++) normals[i] = shade_v3(0, 0, 0);
-    for (int i = 0; i < count; i += 3) {
-        uint32_t v[3];
-        shade_vec3 p[3], e[3], n;
-        for (int k = 0; k < 3; k++) v[k] = shade__corner_index(mesh, (uint32_t)(i + k));
-        for (int k = 0; k < 3; k++) p[k] = shade__position(mesh, v[k]);
-        for (int k = 0; k < 3; k++) e[k] = shade_normalize(shade_sub(p[(k + 1) % 3], p[k]));
-        n = shade_normalize(shade_cross(e[0], shade_neg(e[2])));
-        if (shade__is_zero(n) || !shade__within(shade_dot(n, n), 2)) continue;
-        for (int k = 0; k < 3; k++)
-            normals[v[k]] = shade_madd(normals[v[k]], shade__angle_between(e[k], shade_neg(e[(k + 2) % 3])), n);
+    for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
+        shade_vec3 n = shade__triangle_normal(mesh, t);
+        if (shade__is_zero(n)) continue;
+        for (uint32_t k = 3 * t; k < 3 * t + 3; k++) {
+            shade_vec3 *sum = &normals[shade__corner_index(mesh, k)];
+            *sum = shade_madd(*sum, shade__corner_angle(mesh, k), n);
+        }
     }
     for (int i = 0; i < mesh->vertex_count; i++) normals[i] = shade_normalize(normals[i]);
     return SHADE_OK;
+}
+
+/* Corners ordered by the position of their vertex, then by number. */
+static int shade__corner_less(const void *context, const void *a, const void *b)
+{
+    const shade_mesh *m = (const shade_mesh *)context;
+    uint32_t i, j;
+    SHADE_MEMCPY(&i, a, 4), SHADE_MEMCPY(&j, b, 4);
+    shade_vec3 p = shade__position(m, shade__corner_index(m, i)), q = shade__position(m, shade__corner_index(m, j));
+    uint32_t u[3], v[3];
+    SHADE_MEMCPY(u, &p, 12), SHADE_MEMCPY(v, &q, 12);
+    for (int k = 0; k < 3; k++) {
+        if (u[k] == 0x80000000u) u[k] = 0;               /* -0 is 0 */
+        if (v[k] == 0x80000000u) v[k] = 0;
+        if (u[k] != v[k]) return u[k] < v[k];
+    }
+    return i < j;
+}
+static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
+{
+    shade_vec3 p = shade__position(m, shade__corner_index(m, i)), q = shade__position(m, shade__corner_index(m, j));
+    return p.x == q.x && p.y == q.y && p.z == q.z;
+}
+SHADEDEF size_t shade_corner_normals_bytes(const shade_mesh *mesh)
+{
+    if (shade__check_shape(mesh, &mesh) != SHADE_OK) return 0;
+    return (size_t)shade__corner_count(mesh) * 4 + (size_t)(shade__corner_count(mesh) / 3) * 12 + 4;
+}
+SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease, shade_vec3 *out,
+                                                void *memory, size_t bytes)
+{
+    shade_result result = shade__check_shape(mesh, out);
+    uint32_t *order = (uint32_t *)memory, count;
+    shade_vec3 *face;
+    if (result != SHADE_OK) return result;
+    if (!memory || (uintptr_t)memory % 4 || cos_crease != cos_crease) return SHADE_ERROR_ARGUMENT;
+    if (bytes < shade_corner_normals_bytes(mesh)) return SHADE_ERROR_CAPACITY;
+    count = (uint32_t)shade__corner_count(mesh), face = (shade_vec3 *)(void *)(order + count);
+    for (uint32_t i = 0; i < count; i++) order[i] = i;
+    for (uint32_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, t);
+    shade__sort(order, count, 4, shade__corner_less, mesh);
+    for (uint32_t first = 0, last; first < count; first = last) {
+        for (last = first + 1; last < count && shade__same_position(mesh, order[first], order[last]);) last++;
+        for (uint32_t i = first; i < last; i++) {
+            shade_vec3 n = face[order[i] / 3], sum = shade_v3(0, 0, 0);
+            for (uint32_t j = first; j < last; j++) {
+                shade_vec3 other = face[order[j] / 3];
+                if (order[j] == order[i] || shade_dot(n, other) >= cos_crease)
+                    sum = shade_madd(sum, shade__corner_angle(mesh, order[j]), other);
+            }
+            out[order[i]] = shade_normalize(sum);
+        }
+    }
+    return SHADE_OK;
+}
+
+static int shade__edge_less(const void *context, const void *a, const void *b)
+{
+    const shade_edge *p = (const shade_edge *)a, *q = (const shade_edge *)b;
+    (void)context;
+    if (p->a != q->a) return p->a < q->a;
+    return p->b != q->b ? p->b < q->b : p->triangle[0] < q->triangle[0];
+}
+SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity, int *count)
+{
+    shade_result result;
+    int corners, n = 0, kept = 0;
+    if (count) *count = 0;
+    if (!count) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_shape(mesh, capacity > 0 ? (const void *)edges : (const void *)count);
+    if (result != SHADE_OK) return result;
+    if (capacity < 0) return SHADE_ERROR_ARGUMENT;
+    corners = shade__corner_count(mesh);
+    if (capacity < corners) {
+        *count = corners;
+        return SHADE_ERROR_CAPACITY;
+    }
+    for (int i = 0; i < corners; i++) {
+        uint32_t a = shade__corner_index(mesh, (uint32_t)i);
+        uint32_t b = shade__corner_index(mesh, (uint32_t)(i % 3 == 2 ? i - 2 : i + 1));
+        if (a == b) continue;                            /* of a triangle without area */
+        edges[n].a = a < b ? a : b, edges[n].b = a < b ? b : a;
+        edges[n].triangle[0] = i / 3, edges[n++].triangle[1] = -1;
+    }
+    if (n) shade__sort(edges, (size_t)n, sizeof *edges, shade__edge_less, (const void *)0);
+    for (int i = 0; i < n; i++) {
+        shade_edge *last = kept ? &edges[kept - 1] : (shade_edge *)0;
+        if (last && last->a == edges[i].a && last->b == edges[i].b && last->triangle[1] < 0 &&
+            last->triangle[0] != edges[i].triangle[0])
+            last->triangle[1] = edges[i].triangle[0];
+        else edges[kept++] = edges[i];
+    }
+    *count = kept;
+    return SHADE_OK;
+}
+SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1)
+{
+    return shade_dot(to_eye, n0) * shade_dot(to_eye, n1) <= 0;
+}
+SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
+{
+    return shade_dot(n0, n1) <= threshold;
+}
+
+SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height, float x, float y)
+{
+    shade_ray ray;
+    shade_mat4 camera = shade_mat4_inverse(view), m = shade_mat4_inverse(shade_mat4_mul(projection, view));
+    float nx = 2 * x / (float)shade__max(width, 1) - 1, ny = 1 - 2 * y / (float)shade__max(height, 1);
+    shade_vec4 near_h = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
+    shade_vec4 far_h = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
+    shade_vec3 forward = shade_mat4_transform_direction(camera, shade_v3(0, 0, -1)), d;
+    if (projection.col[0].w != 0 || projection.col[1].w != 0 || projection.col[2].w != 0) {
+        ray.origin = shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+        d = shade_sub(shade_v3(far_h.x, far_h.y, far_h.z), shade_scale(ray.origin, far_h.w));
+    } else {
+        ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
+        d = shade_sub(shade_scale(shade_v3(far_h.x, far_h.y, far_h.z), near_h.w),
+                      shade_scale(shade_v3(near_h.x, near_h.y, near_h.z), far_h.w));
+    }
+    ray.direction = shade_normalize(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
+    return ray;
+}
+
+SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
+                             shade_vec3 *barycentric)
+{
+    double e[3] = { (double)b.x - (double)a.x, (double)b.y - (double)a.y, (double)b.z - (double)a.z };
+    double f[3] = { (double)c.x - (double)a.x, (double)c.y - (double)a.y, (double)c.z - (double)a.z };
+    double d[3] = { (double)ray.direction.x, (double)ray.direction.y, (double)ray.direction.z };
+    double s[3] = { (double)ray.origin.x - (double)a.x, (double)ray.origin.y - (double)a.y,
+                    (double)ray.origin.z - (double)a.z };
+    double p[3] = { d[1] * f[2] - d[2] * f[1], d[2] * f[0] - d[0] * f[2], d[0] * f[1] - d[1] * f[0] };
+    double q[3] = { s[1] * e[2] - s[2] * e[1], s[2] * e[0] - s[0] * e[2], s[0] * e[1] - s[1] * e[0] };
+    double det = e[0] * p[0] + e[1] * p[1] + e[2] * p[2], u, v, at;
+    if (!(det < 0 || det > 0)) return 0;
+    u = (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) / det, v = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det;
+    at = (f[0] * q[0] + f[1] * q[1] + f[2] * q[2]) / det;
+    if (!(u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 3e38)) return 0;
+    if (t) *t = (float)at;
+    if (barycentric) *barycentric = shade_v3((float)(1 - u - v), (float)u, (float)v);
+    return 1;
 }
 
 /*------------------------------------------------------------------------------------------ >>image
@@ -3280,6 +4004,8 @@ SHADE__EXACT_END
    [IEC61966]     IEC 61966-2-1:1999, the sRGB colour space.
    [Kadlec10]     J. Kadlec, "Improving the fast inverse square root", 2010: the constant and its Newton step.
    [Kilgard94]    The materials of teapots.c, Silicon Graphics 1993, M. J. Kilgard 1994.
+   [Moller97]     T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection",
+                  Journal of Graphics Tools 2(1), 21-28.
    [Phong75]      B. T. Phong, "Illumination for Computer Generated Pictures",
        Communications of the ACM 18(6), 311-317.
    [Pineda88]     J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988,
@@ -3288,4 +4014,5 @@ SHADE__EXACT_END
        Communications of the ACM 17(1), 32-42.
    [Thurmer98]    G. Thuermer, C. A. Wuethrich, "Computing Vertex Normals from Polygonal Facets",
                   Journal of Graphics Tools 3(1), 43-46.
+   [Williams83]   L. Williams, "Pyramidal Parametrics", SIGGRAPH 1983, Computer Graphics 17(3), 1-11.
 */

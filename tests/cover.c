@@ -35,7 +35,7 @@ static void clip_bounds(const shade_target *t, int *x0, int *y0, int *x1, int *y
     }
 }
 
-/* Holds the picture, whose alpha is 255 where covered and whose depth 1/2, to the integer oracle. */
+/* Holds the picture, alpha 255 and depth 1/2 where covered, to the integer oracle. */
 static void check_coverage(const canvas *c, const int64_t *x, const int64_t *y)
 {
     int x0, y0, x1, y1, wrong = 0, wi = 0, wj = 0;
@@ -123,8 +123,9 @@ TEST(cover, random_triangles_cover_exactly_the_top_left_pixels)
 {
     for (int i = 0; i < 10500; i++) {
         int big = i % 10 == 9;
-        canvas c = canvas_open(big ? rnd_int(100, 280) : rnd_int(1, 70),
-                               big ? rnd_int(60, 220) : rnd_int(1, 60), 0, SHADE_RGBA8, rnd_int(0, 1));
+        canvas c =
+            canvas_open(big ? rnd_int(100, 280) : rnd_int(1, 70),
+                        big ? rnd_int(60, 220) : rnd_int(1, 60), 0, SHADE_RGBA8, rnd_int(0, 1));
         int64_t x[3], y[3];
         random_corners(i % 7, c.target.width, c.target.height, x, y);
         canvas_clear(&c, 1);
@@ -135,8 +136,8 @@ TEST(cover, random_triangles_cover_exactly_the_top_left_pixels)
     }
 }
 
-TEST(cover,
-     every_small_triangle_on_a_half_pixel_lattice_is_exact) /* edges through centres, all of them */
+/* edges through centres, all of them */
+TEST(cover, every_small_triangle_on_a_half_pixel_lattice_is_exact)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_RGBA8, 0);
     static const int lattice[] = { 128, 256, 384, 640, 896 };
@@ -334,9 +335,39 @@ TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
     }
 }
 
-TEST(cover, triangles_of_a_million_pixels_are_exact) /* where 32-bit edges end and 64-bit ones begin */
+/* An edge from a corner at one end of a wide picture that passes a pixel centre near the other end
+   at less than 1/1000 pixel: the quotient that finds the span's end is nearly a whole number. */
+TEST(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact)
 {
-    static const int sizes[][2] = { { 1024, 1024 }, { 2000, 520 }, { 524, 2000 }, { 1448, 724 },
+    for (int i = 0; i < 120; i++) {
+        int width = rnd_int(6000, 8000), height = rnd_int(40, 60), attempts = 0;
+        canvas c = canvas_open(width, height, 0, SHADE_RGBA8, i % 2);
+        int64_t x[3], y[3], u, v, dy;
+        do { /* to the centre: (u, v); along the edge: (dy u / v rounded, dy) */
+            x[0] = rnd_int(-300, 300), y[0] = rnd_int(0, 500);
+            u = (int64_t)rnd_int(width * 2 / 3, width - 1) * 256 + 128 - x[0];
+            v = (int64_t)rnd_int(height / 2, height - 1) * 256 + 128 - y[0];
+            dy = rnd_int(height * 200, height * 256);
+        } while (dy * u % v > 300 && ++attempts < 1000);
+        x[1] = x[0] + dy * u / v, y[1] = y[0] + dy;
+        x[2] = i % 3 ? rnd_int(0, width * 256) : x[1];
+        y[2] = i % 3 ? -height * 200 : y[0];
+        if (i % 5 == 1) x[2] = x[0], y[2] = y[1];
+        for (int k = 0; k < 3; k++) {
+            if (i % 4 > 1) x[k] = width * 256 - x[k];
+            if (i % 8 > 3) y[k] = height * 256 - y[k];
+        }
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
+/* where 32-bit edges end and 64-bit ones begin */
+TEST(cover, triangles_of_a_million_pixels_are_exact)
+{
+    static const int sizes[][2] = { { 1024, 1024 }, { 2000, 520 }, { 524, 2000 },  { 1448, 724 },
                                     { 2040, 2040 }, { 1100, 950 }, { 1023, 1020 }, { 64, 2040 } };
     for (int i = 0; i < 16; i++) {
         canvas c = canvas_open(2048, 2048, 0, SHADE_RGBA8, i % 2);
@@ -357,12 +388,14 @@ TEST(cover, triangles_of_a_million_pixels_are_exact) /* where 32-bit edges end a
 
 TEST(cover, wide_flat_triangles_are_exact) /* long quotients, whose float rounding must be mended */
 {
-    for (int i = 0; i < 100; i++) {
+    for (int i = 0; i < 50; i++) {
         int width = rnd_int(2000, 9000), height = rnd_int(3, 24);
         canvas c = canvas_open(width, height, 0, SHADE_RGBA8, i % 2);
         int64_t x[3], y[3];
         for (int k = 0; k < 3; k++) {
-            x[k] = k == 0 ? rnd_int(0, 3000) : k == 1 ? width * 256 - rnd_int(0, 3000) : rnd_int(0, width * 256);
+            x[k] = k == 0   ? rnd_int(0, 3000)
+                   : k == 1 ? width * 256 - rnd_int(0, 3000)
+                            : rnd_int(0, width * 256);
             y[k] = rnd_int(-height * 128, height * 384);
             if (i % 3 == 0) y[k] = rnd_int(0, 2 * height) * 128;
         }
@@ -445,6 +478,7 @@ static const test_case cover_cases[] = {
     CASE(cover, many_triangles_of_one_draw_do_not_disturb_each_other),
     CASE(cover, the_biggest_pictures_are_exact),
     CASE(cover, wide_flat_triangles_are_exact),
+    CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
     CASE(cover, triangles_of_a_million_pixels_are_exact),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),
 };

@@ -213,8 +213,8 @@ TEST(fragment, constant_varyings_are_the_first_corner_bit_for_bit)
     free(r.fragments);
 }
 
-TEST(fragment,
-     equal_varyings_stay_equal) /* a value that is the same at all corners does not drift */
+/* a value that is the same at all corners does not drift */
+TEST(fragment, equal_varyings_stay_equal)
 {
     recorder r = recorder_open(20000);
     for (int i = 0; i < 300; i++) {
@@ -546,8 +546,8 @@ TEST(fragment, blending_follows_submission_order_in_float)
     }
 }
 
-TEST(fragment,
-     blending_of_stored_bytes_follows_submission_order) /* linear light when the target is sRGB */
+/* linear light when the target is sRGB */
+TEST(fragment, blending_of_stored_bytes_follows_submission_order)
 {
     static blend_case b;
     for (int round = 0; round < 80; round++) {
