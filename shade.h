@@ -182,7 +182,8 @@
 #define SHADE__FOR(i, n) SHADE__NO_UNROLL for (int i = 0; i < (n); i++)
 #define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
 
-/* Contraction of a * b + c to one rounding would give other bits on other processors: off for
+/* gcc would also turn loops that fill rows into calls or rep stos: 9 % of a flat fill.
+   Contraction of a * b + c to one rounding would give other bits on other processors: off for
    all of this file with clang, for the implementation with gcc (which decides after inlining, so
    by its caller). */
 #if defined(__clang__)
@@ -194,7 +195,8 @@
 #define SHADE__EXACT_BEGIN
 #define SHADE__EXACT_END
 #define SHADE__EXACT_INSIDE_BEGIN \
-    _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
+    _Pragma("GCC push_options") \
+    _Pragma("GCC optimize(\"fp-contract=off\", \"no-tree-loop-distribute-patterns\")")
 #define SHADE__EXACT_INSIDE_END _Pragma("GCC pop_options")
 #elif defined(_MSC_VER)
 #define SHADE__EXACT_BEGIN __pragma(float_control(push)) __pragma(fp_contract(off))
@@ -243,8 +245,10 @@
 
 #if defined(__GNUC__) || defined(__clang__)
 #define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
+#define SHADE__PREFETCH(p) __builtin_prefetch(p, 1)
 #else
 #define SHADE__LOWEST_BIT(x) shade__lowest_bit(x)
+#define SHADE__PREFETCH(p) ((void)(p))
 #endif
 
 #ifndef SHADE_ASSERT
@@ -372,7 +376,7 @@ typedef struct shade_texture {
     const void  *pixels;
     int          width, height, stride;       /* texels; stride 0 = width */
     shade_format format;
-    int          srgb;                        /* non-zero: texels are decoded from sRGB, then filtered */
+    int          srgb;                        /* non-zero: 8 and 5-6-5 bits are sRGB, decoded before filtering */
     shade_wrap   wrap_u, wrap_v;
     shade_filter filter;
     const struct shade_texture *mipmaps;      /* levels 1, 2, ..., read by SHADE_TRILINEAR alone */
@@ -641,13 +645,27 @@ SHADE__INLINE shade_vec3 shade_mat4_transform_direction(shade_mat4 m, shade_vec3
     return shade_v3(h.x, h.y, h.z);
 }
 
+/* det m^-T: the columns are cross products of the columns of m */
+SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
+{
+    return shade__m3(shade_cross(m.col[1], m.col[2]), shade_cross(m.col[2], m.col[0]),
+                     shade_cross(m.col[0], m.col[1]));
+}
+/* (m^-1)^T, sign and scale kept; the zero matrix where the determinant is 0 */
+SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
+{
+    shade_mat3 c = shade__cofactors(m);
+    float det = shade_dot(m.col[0], c.col[0]), s = det != 0 ? 1 / det : 0;
+    if (!(s <= FLT_MAX && s >= -FLT_MAX)) s = 0;
+    return shade__m3(shade_scale(c.col[0], s), shade_scale(c.col[1], s), shade_scale(c.col[2], s));
+}
+
+/* Matrices by formula; their bodies stand in >>matrix. */
 SHADEDEF shade_mat3 shade_mat3_identity(void);
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);             /* the upper left 3 x 3 */
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
 SHADEDEF float      shade_mat3_determinant(shade_mat3 m);           /* a . (b x c) of the columns */
 SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);  /* zero matrix where the determinant is 0 */
-/* (m^-1)^T, sign and scale kept; zero as above */
-SHADEDEF shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m);
 SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
 SHADEDEF float      shade_mat4_determinant(shade_mat4 m);           /* computed in double */
@@ -951,6 +969,13 @@ SHADE__INLINE int shade__max(int a, int b) { return a > b ? a : b; }
 SHADE__INLINE int32_t shade__int_of(float f) { int32_t i; SHADE_MEMCPY(&i, &f, 4); return i; }
 SHADE__INLINE float shade__float_of(int32_t i) { float f; SHADE_MEMCPY(&f, &i, 4); return f; }
 
+/* index of the lowest bit set; x != 0 */
+SHADE__INLINE int shade__lowest_bit(uint32_t x)
+{
+    int n = 0;
+    while (!(x >> n & 1)) n++;
+    return n;
+}
 /* x where the mask is set, else +0 */
 SHADE__INLINE float shade__keep(float x, uint32_t mask)
 {
@@ -1048,19 +1073,6 @@ SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m)
 SHADEDEF float shade_mat3_determinant(shade_mat3 m)
 {
     return shade_dot(m.col[0], shade_cross(m.col[1], m.col[2]));
-}
-/* det m^-T: the columns are cross products of the columns of m */
-SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
-{
-    return shade__m3(shade_cross(m.col[1], m.col[2]), shade_cross(m.col[2], m.col[0]),
-                     shade_cross(m.col[0], m.col[1]));
-}
-SHADEDEF shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
-{
-    shade_mat3 c = shade__cofactors(m);
-    float det = shade_dot(m.col[0], c.col[0]), s = det != 0 ? 1 / det : 0;
-    if (!shade__within(s, FLT_MAX)) s = 0;
-    return shade__m3(shade_scale(c.col[0], s), shade_scale(c.col[1], s), shade_scale(c.col[2], s));
 }
 SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m)
 {
@@ -1327,6 +1339,14 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
     return light;
 }
 
+/* R.V of unit N, L, V, as (|R|^2 + |V|^2 - |R - V|^2) / 2, |R| = |L|: near 1, where a power magnifies
+   errors, those of the vectors' lengths cancel.  Zero L or V: 0. */
+SHADE__INLINE float shade__mirror_cosine(shade_vec3 N, shade_vec3 L, shade_vec3 V)
+{
+    shade_vec3 d = shade_sub(shade_scale(N, 2 * shade_dot(N, L)), shade_add(L, V));
+    return shade__is_zero(L) || shade__is_zero(V) ? 0 : 1 - 0.5f * shade_dot(d, d);
+}
+
 /* max(0, min(1, x)) for cosines whose rounding may leave [0, 1] */
 SHADE__INLINE float shade__saturate(float x) { return shade__clamp_bits(x, 0, 1); }
 
@@ -1334,7 +1354,7 @@ SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L) { return shade__maxf(sh
 SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
 {
     if (!(shade_dot(N, L) > 0)) return 0;
-    return shade_power(shade__saturate(shade_dot(shade_mirror(L, N), V)), n);
+    return shade_power(shade__mirror_cosine(N, L, V), n);
 }
 SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
 {
@@ -1363,7 +1383,7 @@ SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model
     if (!material) material = &white;
     if (model != SHADE_BLINN_PHONG && model != SHADE_PHONG)
         return model == SHADE_LAMBERT ? material->diffuse : shade_v3(0, 0, 0);
-    if (model == SHADE_PHONG) s = shade_power(shade_dot(shade_mirror(L, N), V),
+    if (model == SHADE_PHONG) s = shade_power(shade__mirror_cosine(N, L, V),
                                               material->shininess);
     else if (!shade__is_zero(shade_halfway(L, V)))
         s = shade_power(shade_dot(N, shade_halfway(L, V)), material->shininess);
@@ -1498,9 +1518,36 @@ SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
     return p;
 }
 
+/* A vector of doubles made unit; zero below 1e-18. */
+static void shade__unit3(double *v)
+{
+    double d = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], k = d >= 1e-36 ? 1 / shade__root(d) : 0;
+    v[0] *= k, v[1] *= k, v[2] *= k;
+}
+/* N.H from the positions, in double: where L and V are nearly opposite, their sum keeps few digits in float.
+   -2 where H is undefined; *h2 = |L + V|^2. */
+static float shade__half_cosine(const shade_light *light, shade_vec3 P, shade_vec3 N, shade_vec3 eye,
+                                float scale, double *h2)
+{
+    shade_vec4 at = light->position;
+    double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1;
+    double l[3], v[3], n[3], h[3];
+    l[0] = (double)at.x / w - k * (double)P.x, v[0] = (double)eye.x - (double)scale * (double)P.x;
+    l[1] = (double)at.y / w - k * (double)P.y, v[1] = (double)eye.y - (double)scale * (double)P.y;
+    l[2] = (double)at.z / w - k * (double)P.z, v[2] = (double)eye.z - (double)scale * (double)P.z;
+    n[0] = (double)N.x, n[1] = (double)N.y, n[2] = (double)N.z;
+    shade__unit3(l), shade__unit3(v), shade__unit3(n);
+    for (int i = 0; i < 3; i++) h[i] = l[i] + v[i];
+    *h2 = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
+    if (*h2 < 1e-12) return -2;
+    shade__unit3(h);
+    return (float)(n[0] * h[0] + n[1] * h[1] + n[2] * h[2]);
+}
+
 /* Adds the light of one lamp to t.  N unit, facing the viewer where that is asked for; V unit. */
 static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shade_light *light, shade_vec3 P,
-                             shade_vec3 N, shade_vec3 V, shade_terms *t)
+                             shade_vec3 N, shade_vec3 V, shade_vec3 eye,
+                                            shade_terms *t)
 {
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 l = lamp.infinite ? lamp.at : shade_sub(lamp.at, P), L = shade_normalize(l);
@@ -1516,9 +1563,11 @@ static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shad
     t->ambient = shade_madd(t->ambient, ambient,
                             shade__product(s, SHADE_TERM_AMBIENT, s->ambient, light->ambient));
     if (nl > 0 || ((s->flags & SHADE_UNGATED_SPECULAR) && !shade__is_zero(N))) {
-        shade_vec3 H = shade_halfway(L, V);
-        if (s->phong) gloss = shade_power(shade_dot(shade_mirror(L, N), V), s->shininess);
-        else if (!shade__is_zero(H)) gloss = shade_power(shade_dot(N, H), s->shininess);
+        float scale = s->flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
+        double h2;
+        float x = s->phong ? shade__mirror_cosine(N, L, V)
+                           : shade__half_cosine(light, P, N, eye, scale, &h2);
+        gloss = x == -2 ? 0 : shade_power(x, s->shininess);
     }
     if (s->flags & SHADE_WEIGHTED_SPECULAR) gloss *= lit;
     if (s->flags & SHADE_TWO_SIDED_ABS) lit = nl < 0 ? -nl : nl;
@@ -1549,7 +1598,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
         return t;
     }
     t.ambient = shade_mul(s.ambient, s.scene_ambient);
-    for (int j = 0; j < s.light_count; j++) shade__add_light(&s, &lighting->lights[j], P, N, V, &t);
+    for (int j = 0; j < s.light_count; j++) shade__add_light(&s, &lighting->lights[j], P, N, V, eye, &t);
     return t;
 }
 
@@ -1639,10 +1688,13 @@ SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff,
     return any;
 }
 
-/* L[0] becomes N.H, -1 where H is undefined */
-SHADE__INLINE void shade__lane_half(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
-                                    shade_vec3 eye, float scale, shade__rows *SHADE_RESTRICT r)
+/* L[0] becomes N.H, -1 where H is undefined.  Returns non-zero if some lane (with N.L > 0, or open) has |L + V|^2 below
+   1e-3, for shade__lane_half_near. */
+SHADE__INLINE uint32_t shade__lane_half(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
+                                        shade_vec3 eye, float scale, uint32_t open,
+                                        shade__rows *SHADE_RESTRICT r)
 {
+    uint32_t near_zero = 0;
     SHADE_EACH_LANE(i) {
         float rv = r->rv[i];
         float hx = r->L[0][i] + (eye.x - scale * P[i]) * rv;
@@ -1651,20 +1703,37 @@ SHADE__INLINE void shade__lane_half(const float *SHADE_RESTRICT P, const float *
         float h2 = hx * hx + hy * hy + hz * hz;
         float nh = (N[i] * hx + N[i + SHADE_LANES] * hy + N[i + 2 * SHADE_LANES] * hz) *
                    (r->rn[i] * shade__rsqrt(h2));
+        near_zero |= shade__mask(h2 < 1e-3f) & (shade__mask(r->nl[i] > 0) | open);
         r->L[0][i] = shade__select(shade__saturate(nh), -1, shade__mask(h2 < 1e-12f));
     }
+    return near_zero;
 }
-/* L[0] becomes R.V = 2 (N.L)(N.V) - L.V */
+/* The lanes where L and V are nearly opposite, again, in double. */
+static SHADE__NOINLINE void shade__lane_half_near(const shade_light *light, const float *P, const float *N,
+                                                  shade_vec3 eye, float scale, shade__rows *r)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        float sign = r->rn[i] < 0 ? -1.0f : 1.0f, x;
+        shade_vec3 p = shade_v3(P[i], P[i + SHADE_LANES], P[i + 2 * SHADE_LANES]);
+        shade_vec3 n = shade_v3(N[i] * sign, N[i + SHADE_LANES] * sign, N[i + 2 * SHADE_LANES] * sign);
+        double h2;
+        x = shade__half_cosine(light, p, n, eye, scale, &h2);
+        if (h2 < 1e-3) r->L[0][i] = x == -2 ? -1 : shade__saturate(x);
+    }
+}
+/* L[0] becomes R.V, as shade__mirror_cosine */
 SHADE__INLINE void shade__lane_mirror(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
                                       shade_vec3 eye, float scale, shade__rows *SHADE_RESTRICT r)
 {
     SHADE_EACH_LANE(i) {
-        float rv = r->rv[i];
-        float vx = (eye.x - scale * P[i]) * rv, vy = (eye.y - scale * P[i + SHADE_LANES]) * rv;
-        float vz = (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv;
-        float nv = (N[i] * vx + N[i + SHADE_LANES] * vy + N[i + 2 * SHADE_LANES] * vz) * r->rn[i];
-        float lv = r->L[0][i] * vx + r->L[1][i] * vy + r->L[2][i] * vz;
-        r->L[0][i] = shade__saturate(2 * r->nl[i] * nv - lv);
+        float rv = r->rv[i], k = 2 * r->nl[i] * r->rn[i];
+        float lx = r->L[0][i], ly = r->L[1][i], lz = r->L[2][i];
+        float dx = k * N[i] - (lx + (eye.x - scale * P[i]) * rv);
+        float dy = k * N[i + SHADE_LANES] - (ly + (eye.y - scale * P[i + SHADE_LANES]) * rv);
+        float dz = k * N[i + 2 * SHADE_LANES] - (lz + (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv);
+        uint32_t exists = shade__mask(rv > 0) & shade__mask(lx * lx + ly * ly + lz * lz > 0);
+        float x = 1 - 0.5f * (dx * dx + dy * dy + dz * dz);
+        r->L[0][i] = shade__keep(shade__saturate(x), exists);
     }
 }
 
@@ -1779,7 +1848,8 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
     if (any | open | absolute) {
         if (gloss) {
             if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
-            else shade__lane_half(P, N, eye, scale, r);
+            else if (shade__lane_half(P, N, eye, scale, open, r))
+                shade__lane_half_near(light, P, N, eye, scale, r);
             shade__lane_log(s->shininess, r->L[0]);
             shade__lane_gloss(open, weighted, r);
         } else SHADE_MEMSET(r->L[0], 0, sizeof r->L[0]);
@@ -1999,7 +2069,7 @@ SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int size, shade
         a->f[i] = shade__keep(s - (float)i0, smooth);
         i0 = i0 > last ? last : i0;
         a->i0[i] = (i0 & ~below) | (last & below & cyclic);
-        a->i1[i] = (i1 & ~above) | (last & above & ~cyclic);
+        a->i1[i] = nearest ? a->i0[i] : (i1 & ~above) | (last & above & ~cyclic);
     }
 }
 
@@ -2030,7 +2100,8 @@ SHADE__INLINE void shade__unpack(const uint32_t *SHADE_RESTRICT texel, int shift
         SHADE__FOR(i, 8) { c[i] = shade__srgb_decode(c[i]); }
     }
 }
-/* out += weight times the bilinear blend of c[corner][lane] */
+/* out += weight times the bilinear blend of c[corner][lane]; texels that have no weight are not touched, so
+   that an infinite one stays where it is */
 SHADE__INLINE void shade__blend_texels(float c[4][8], const shade__axis *SHADE_RESTRICT x,
                                        const shade__axis *SHADE_RESTRICT y, const float *SHADE_RESTRICT weight,
                                        float *SHADE_RESTRICT out)
@@ -2038,8 +2109,11 @@ SHADE__INLINE void shade__blend_texels(float c[4][8], const shade__axis *SHADE_R
     const float *SHADE_RESTRICT c0 = c[0], *SHADE_RESTRICT c1 = c[1];
     const float *SHADE_RESTRICT c2 = c[2], *SHADE_RESTRICT c3 = c[3];
     SHADE__FOR(i, 8) {
-        float top = c0[i] + x->f[i] * (c1[i] - c0[i]), low = c2[i] + x->f[i] * (c3[i] - c2[i]);
-        out[i] += weight[i] * (top + y->f[i] * (low - top));
+        uint32_t right = shade__mask(x->f[i] > 0), below = shade__mask(y->f[i] > 0);
+        float top = c0[i] + shade__keep(x->f[i] * (c1[i] - c0[i]), right);
+        float low = c2[i] + shade__keep(x->f[i] * (c3[i] - c2[i]), right);
+        float all = top + shade__keep(y->f[i] * (low - top), below);
+        out[i] += shade__keep(weight[i] * all, shade__mask(weight[i] > 0));
     }
 }
 /* out (4 rows of 8) += weight times one level at u, v; how it wraps and filters comes from the base */
@@ -2280,6 +2354,12 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive, c
     if (format == SHADE_RGBA8 && d->u.queue.contiguous && !alive) {
         SHADE_MEMCPY(d->color + (size_t)offset[first] * 4, pixel + first - base,
                      (size_t)(last - first) * 4);
+        return;
+    }
+    if (format == SHADE_RGBA8 && !alive) {
+        uint8_t *color = d->color;
+        for (int i = first; i < last; i++)
+            SHADE_MEMCPY(color + (size_t)offset[i] * 4, pixel + i - base, 4);
         return;
     }
     for (int i = first; i < last; i++) {
@@ -2741,7 +2821,10 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int x, 
     float z = t->base[0] + t->gy[0] * ((float)y + t->y_ref);
     float *row = d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
     for (; n >= 32; x += 32, n -= 32) {
-        uint32_t set = shade__test(d, t, z, x, 0, 32, row + x, 32);
+        uint32_t set;
+        /* each row is a new page to the processor's own prefetcher: 23 % less at 163 Mpixel of overdraw */
+        if (y < t->y1) SHADE__PREFETCH(row + x + d->stride), SHADE__PREFETCH(row + x + d->stride + 16);
+        set = shade__test(d, t, z, x, 0, 32, row + x, 32);
         if (set) shade__push_set(d, t, x, y, set);
     }
     if (n > 0) {
@@ -2855,6 +2938,10 @@ static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one
 {
     int kept[SHADE__CLIP_VERTICES], count = 0;
     for (int i = 0; i < p->count; i++) {
+        if (count > SHADE__CLIP_VERTICES - 2 || p->used > SHADE__CLIP_VERTICES - 1) {
+            p->count = 0;    /* coordinates so far apart that rounding bent the polygon: nothing is left */
+            return;
+        }
         int a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
         double da = shade__distance_to(p->head[a].clip, plane, zero_to_one);
         double db = shade__distance_to(p->head[b].clip, plane, zero_to_one);
@@ -3849,9 +3936,9 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     if (n) shade__sort(edges, (size_t)n, sizeof *edges, shade__edge_less, (const void *)0);
     for (int i = 0; i < n; i++) {
         shade_edge *last = kept ? &edges[kept - 1] : (shade_edge *)0;
-        if (last && last->a == edges[i].a && last->b == edges[i].b && last->triangle[1] < 0 &&
-            last->triangle[0] != edges[i].triangle[0])
-            last->triangle[1] = edges[i].triangle[0];
+        int same = last && last->a == edges[i].a && last->b == edges[i].b;
+        if (same && edges[i].triangle[0] == shade__max(last->triangle[0], last->triangle[1])) continue;
+        if (same && last->triangle[1] < 0) last->triangle[1] = edges[i].triangle[0];
         else edges[kept++] = edges[i];
     }
     *count = kept;
@@ -3902,7 +3989,7 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
     at = (f[0] * q[0] + f[1] * q[1] + f[2] * q[2]) / det;
     if (!(u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 3e38)) return 0;
     if (t) *t = (float)at;
-    if (barycentric) *barycentric = shade_v3((float)(1 - u - v), (float)u, (float)v);
+    if (barycentric) *barycentric = shade_v3((float)(1 - (u + v)), (float)u, (float)v);
     return 1;
 }
 

@@ -128,6 +128,32 @@ static inline owned_mesh mesh_cube(void)
     return m;
 }
 
+/* What mesh_vertex draws.  A struct that begins with it can hold the fragment shader's uniforms. */
+typedef struct mesh_scene {
+    const owned_mesh *mesh;
+    shade_mat4 model, clip_from_world;
+} mesh_scene;
+
+/* A vertex shader of eight varyings: P and N in world space (model without scale), u, v */
+static inline void mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                               shade_vertices *SHADE_RESTRICT out)
+{
+    const mesh_scene *s = (const mesh_scene *)uniforms;
+    SHADE_EACH_LANE(i) {
+        const float *p = s->mesh->positions + 3 * in->index[i];
+        const float *n = s->mesh->normals + 3 * in->index[i];
+        const float *uv = s->mesh->texcoords + 2 * in->index[i];
+        shade_vec4 P = shade_mat4_transform(s->model, shade_v4(p[0], p[1], p[2], 1));
+        shade_vec4 clip = shade_mat4_transform(s->clip_from_world, P);
+        shade_vec3 N = shade_mat4_transform_direction(s->model, shade_v3(n[0], n[1], n[2]));
+        out->clip[0][i] = clip.x, out->clip[1][i] = clip.y;
+        out->clip[2][i] = clip.z, out->clip[3][i] = clip.w;
+        out->out[0][i] = P.x, out->out[1][i] = P.y, out->out[2][i] = P.z;
+        out->out[3][i] = N.x, out->out[4][i] = N.y, out->out[5][i] = N.z;
+        out->out[6][i] = uv[0], out->out[7][i] = uv[1];
+    }
+}
+
 /* A picture of linear light in 32-bit floats, drawn samples times larger both ways and averaged
    at the end. */
 typedef struct canvas {

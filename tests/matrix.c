@@ -225,7 +225,7 @@ TEST(matrix, rotation_follows_the_right_hand)
         float angle = rnd_sign() * rnd_log(1e-4, 1e5);
         shade_vec3 axis = d3_round(d3_scale(rnd_direction(), (double)rnd_log(1e-6, 1e6)));
         CHECK_MAT4(shade_mat4_rotation(angle, axis), ref_rotation((double)angle, d3_from(axis)),
-                   5e-7);
+                   1e-6);
     }
     shade_mat4 quarter = shade_mat4_rotation((float)(3.14159265358979 / 2), shade_v3(0, 0, 5));
     CHECK_VEC(shade_mat4_transform_point(quarter, shade_v3(1, 0, 0)), d3_of(0, 1, 0), 2e-7);

@@ -40,7 +40,8 @@ TEST(vertex, vertices_of_a_grid_are_shaded_once_per_batch)
         canvas_clear(&c, 1);
         CHECK_INT(shade_draw(&c.target, &p, indices, count, vertices, &stats), SHADE_OK);
         CHECK_SAY(r.vertex_lanes >= vertices &&
-                      r.vertex_lanes <= (n <= 10 ? vertices + vertices / 4 : vertices * 21 / 10) + 2,
+                      r.vertex_lanes <=
+                          (n <= 10 ? vertices + vertices / 4 : vertices * 21 / 10) + 2,
                   "%ld lanes for %d vertices", r.vertex_lanes, vertices);
         for (int i = 0; i < vertices; i++) CHECK(seen[i]);
         CHECK_INT(r.bad_counts, 0);

@@ -1,0 +1,62 @@
+/* 14_two_sided.c - a ribbon, open on both sides.  Its normals all point to one side: lit as they
+   are, the other side stays dark.  Two-sided light turns N toward the viewer; the absolute value
+   of N.L lights a sheet from behind as well, like paper; last, each side has a material of its own,
+   the ribbon drawn twice with the other side culled.
+
+   cc -O2 -I. examples/14_two_sided.c -lm -o two_sided && ./two_sided */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "mesh.h"
+#include "label.h"
+
+/* A strip about the x axis that turns once and a half along it */
+static owned_mesh ribbon(int cells)
+{
+    const float turns = 1.5f, length = 6, width = 1;
+    owned_mesh m = mesh_plane(1, cells);
+    for (int i = 0; i < m.view.vertex_count; i++) {
+        float u = m.texcoords[2 * i], r = width * (1 - 2 * m.texcoords[2 * i + 1]);
+        shade_vec2 a = mesh_turn(turns * u + 0.1f);
+        float spin = turns * 6.2831853f * r;
+        shade_vec3 du = shade_v3(length, -a.y * spin, a.x * spin), dr = shade_v3(0, a.x, a.y);
+        mesh_put(&m, i, shade_v3(length * (u - 0.5f), r * a.x, r * a.y),
+                 shade_normalize(shade_cross(du, dr)), u, r);
+    }
+    return m;
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const name[4] = { "one-sided", "two-sided", "absolute value",
+                                         "two materials" };
+    static const unsigned flags[4] = { 0, SHADE_TWO_SIDED, SHADE_TWO_SIDED_ABS, SHADE_TWO_SIDED };
+    shade_material silk[2];
+    shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.9f, -0.7f), shade_v3(1, 1, 1));
+    shade_draw_state state = { 0 };
+    owned_mesh m = ribbon(96);
+    canvas c = canvas_new(960, 480, 3);
+
+    silk[0] = silk[1] = shade_preset_material(SHADE_RED_PLASTIC);
+    for (int k = 0; k < 2; k++) {
+        silk[k].diffuse = k ? shade_v3(0.05f, 0.25f, 0.45f) : shade_v3(0.60f, 0.12f, 0.05f);
+        silk[k].ambient = silk[k].diffuse, silk[k].specular = shade_v3(0.4f, 0.4f, 0.4f);
+    }
+    state.model = shade_mat4_rotation(0.3f, shade_v3(0, 1, 0.4f));
+    state.view = shade_mat4_look_at(shade_v3(0, 2, 10), shade_v3(-0.1f, -0.25f, 0), shade_v3(0, 1, 0));
+    state.projection = shade_mat4_perspective(0.33f, 480 / 240.0f, 4, 20);
+    state.lighting.lights = &lamp, state.lighting.light_count = 1;
+    state.lighting.ambient = shade_v3(0.04f, 0.04f, 0.05f);
+    canvas_gradient(&c.target, shade_v3(0.10f, 0.11f, 0.13f), shade_v3(0.035f, 0.037f, 0.045f));
+    for (int i = 0; i < 4; i++) {
+        shade_target panel = canvas_panel(&c, 480 * (i % 2), 240 * (i / 2), 480, 240);
+        state.lighting.flags = flags[i];
+        for (int side = 0; side < (i < 3 ? 1 : 2); side++) {
+            state.material = &silk[side];
+            state.cull = i < 3 ? SHADE_CULL_NONE : side ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
+            shade_draw_mesh(&panel, &m.view, &state, NULL);
+        }
+        label_center(&panel, 720, 655, 6, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+    }
+    mesh_free(&m);
+    return canvas_save(&c, argc, argv, "two_sided.ppm");
+}

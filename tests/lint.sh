@@ -1,0 +1,40 @@
+#!/bin/sh
+# lint.sh - the house rules that a script can hold shade.h to.
+cd "$(dirname "$0")/.." || exit 1
+H=shade.h
+passed=0 failed=0
+check() {                                    # what, the lines that offend
+    if [ -z "$2" ]; then passed=$((passed + 1)); return; fi
+    failed=$((failed + 1)); echo "lint: $1"; printf '%s\n' "$2" | head -n 12 | sed 's/^/    /'
+}
+
+check "lines within 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR ": " length " columns" }' \
+    $H Makefile README.md examples/*.[ch] tests/*.[ch] 2>/dev/null | grep -v README)"
+check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H examples/*.[ch] tests/*.[ch])"
+check "at most 4200 lines" "$(awk 'END { if (NR > 4200) print NR " lines" }' $H)"
+
+# contents table equals banners, in order
+sed -n '/>>contents$/,/^$/p' $H | grep -oE '>>[a-z]+' | grep -v '>>contents' >/tmp/lint_contents.$$
+grep -oE '^/\*-+ >>[a-z]+' $H | grep -oE '>>[a-z]+' >/tmp/lint_banners.$$
+printf '>>about\n>>contents\n>>conventions\n>>model\n' | cat - /tmp/lint_banners.$$ | grep -v '>>contents' >/tmp/lint_want.$$
+check "contents table equals banners" "$(diff /tmp/lint_contents.$$ /tmp/lint_want.$$)"
+rm -f /tmp/lint_contents.$$ /tmp/lint_banners.$$ /tmp/lint_want.$$
+
+check "sections of at most 420 lines" "$(awk '/^\/\*-+ >>/ { if (name && FNR - start > 420) print name, FNR - start; name = $2; start = FNR }' $H)"
+check "functions of at most 80 lines" "$(awk '/^\{$/ { start = FNR } /^\}$/ && start { if (FNR - start > 80) print FNR ": " FNR - start; start = 0 }' $H)"
+check "#if on compilers and targets only in >>config" "$(awk '
+    /^\/\*-+ >>/ { section = $2 }
+    /^#[ \t]*(if|ifdef|ifndef|elif)/ && section != ">>config" &&
+        !/SHADE_H$|SHADE_IMPLEMENTATION|SHADE__IMPLEMENTED|SHADE_NO_STDIO|__cplusplus/ { print FNR ": " $0 }' $H)"
+check "no forward declarations of private functions" "$(grep -nE '^static [^=]*\);$' $H)"
+check "every source key stands in >>refs" "$(grep -oE '\[[A-Z][A-Za-z]+[0-9]+\]' $H | sort -u | while read -r k; do
+    sed -n '/>>refs$/,$p' $H | grep -qF "$k" || echo "$k"; done)"
+check "every reference is used" "$(sed -n '/>>refs$/,$p' $H | grep -oE '^ +\[[A-Za-z0-9]+\]' | tr -d ' ' | while read -r k; do
+    [ "$(grep -cF "$k" $H)" -gt 1 ] || echo "$k"; done)"
+check "public functions have a comment in their section's table or above" "$(awk '
+    /^SHADEDEF .*\(/ && !/\{/ && FNR < 1050 { if (prev !~ /\*\/[ ]*$/ && prev !~ /^(SHADEDEF|   )/ && $0 !~ /\/\*/ && prev !~ /^#/) print FNR ": " $0 }
+    { prev = $0 }' $H)"
+check "no heap, no exit, no print" "$(grep -nE '\b(malloc|calloc|realloc|free|exit|abort|printf|fprintf|puts)[ ]*\(' $H)"
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

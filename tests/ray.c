@@ -1,0 +1,413 @@
+/* ray.c - rays through pixels, rays against triangles, and pictures drawn both ways. */
+
+/* ---------------------------------------------------------------------------------------- rays */
+
+typedef struct ray_camera {
+    shade_mat4 view, projection;
+    int width, height;
+    int ortho, reversed; /* infinite, z to [0, w] */
+} ray_camera;
+
+static ray_camera random_camera(int kind)
+{
+    ray_camera c;
+    memset(&c, 0, sizeof c);
+    c.width = rnd_int(1, 400), c.height = rnd_int(1, 300);
+    d3 eye = d3_scale(rnd_direction(), (double)rnd_log(0.5, 10));
+    c.view = shade_mat4_look_at(d3_round(eye), shade_v3(rnd_float(-0.2, 0.2), 0, 0),
+                                d3_round(rnd_direction()));
+    float n = rnd_log(0.1, 1), f = n * rnd_log(2, 50), x = rnd_float(-1, 1), y = rnd_float(-1, 1);
+    float a = rnd_log(0.3, 1) * n, b = rnd_log(0.3, 1) * n;
+    switch (kind) {
+    case 0: c.projection = shade_mat4_perspective(rnd_float(0.2, 2.5), 1.3f, n, f); break;
+    case 1: c.projection = shade_mat4_frustum(x * n - a, x * n + a, y * n - b, y * n + b, n, f); break;
+    case 2:
+        c.projection = shade_mat4_perspective_reversed(rnd_float(0.2, 2.5), 1.3f, n);
+        c.reversed = 1;
+        break;
+    default:
+        c.projection = shade_mat4_ortho(x - 2 * a, x + 2 * a, y - 2 * b, y + 2 * b, n, f);
+        c.ortho = 1;
+        break;
+    }
+    if (rnd_one_in(5)) c.view = shade_mat4_identity();
+    return c;
+}
+static d3 ray_unproject(const ray_camera *c, double X, double Y, double z)
+{
+    dmat inverse;
+    dmat_invert(dmat_mul(dmat_from(c->projection), dmat_from(c->view)), 4, &inverse);
+    double in[4] = { 2 * X / c->width - 1, 1 - 2 * Y / c->height, z, 1 }, out[4];
+    dmat_apply(inverse, in, out);
+    return d3_of(out[0] / out[3], out[1] / out[3], out[2] / out[3]);
+}
+static d3 ray_eye(const ray_camera *c)
+{
+    dmat inverse;
+    dmat_invert(dmat_from(c->view), 4, &inverse);
+    return d3_of(inverse.m[0][3], inverse.m[1][3], inverse.m[2][3]);
+}
+/* Every point of the ray projects to the window point it was asked for. */
+static void check_rays(int kind)
+{
+    for (int i = 0; i < 4000; i++) {
+        ray_camera c = random_camera(kind);
+        float x = rnd_float(0, c.width), y = rnd_float(0, c.height);
+        if (rnd_one_in(3)) x = (float)(int)x + 0.5f, y = (float)(int)y + 0.5f;
+        if (rnd_one_in(10)) x = x * 3 - (float)c.width, y = y * 3 - (float)c.height;
+        shade_ray ray = shade_pixel_ray(c.view, c.projection, c.width, c.height, x, y);
+        d3 origin, at = ray_unproject(&c, (double)x, (double)y, 0.5), eye = ray_eye(&c), d;
+        d = c.ortho ? d3_sub(at, ray_unproject(&c, (double)x, (double)y, -1)) : d3_sub(at, eye);
+        origin = c.ortho ? ray_unproject(&c, (double)x, (double)y, -1) : eye;
+        d = d3_unit(d);
+        CHECK_NEAR(d3_length(d3_from(ray.direction)), 1, 1e-6);
+        CHECK_SAY(shape_off(ray.direction, d) < 1e-5, "camera %d: direction off by %g", kind,
+                  shape_off(ray.direction, d));
+        CHECK_SAY(shape_off(ray.origin, origin) < 1e-5 * (1 + d3_length(origin)),
+                  "camera %d: origin off by %g of %g", kind, shape_off(ray.origin, origin),
+                  d3_length(origin));
+    }
+}
+TEST(ray, perspective_rays_leave_the_eye_through_the_pixel) { check_rays(0); }
+TEST(ray, off_centre_frustums_bend_their_rays) { check_rays(1); }
+TEST(ray, rays_of_an_infinite_reversed_projection_point_forward) { check_rays(2); }
+TEST(ray, orthographic_rays_are_parallel_and_leave_the_near_plane) { check_rays(3); }
+
+TEST(ray, the_middle_of_a_picture_is_straight_ahead)
+{
+    shade_mat4 p = shade_mat4_perspective(1, 2, 1, 10), one = shade_mat4_identity();
+    shade_ray r = shade_pixel_ray(one, p, 20, 10, 10, 5);
+    CHECK(shape_off(r.origin, d3_of(0, 0, 0)) < 1e-6);
+    CHECK(shape_off(r.direction, d3_of(0, 0, -1)) < 1e-6);
+    r = shade_pixel_ray(one, p, 20, 10, 20, 5);
+    CHECK(r.direction.x > 0 && fabsf(r.direction.y) < 1e-6f); /* x right */
+    r = shade_pixel_ray(one, p, 20, 10, 10, 0);
+    CHECK(r.direction.y > 0 && fabsf(r.direction.x) < 1e-6f); /* row 0 on top */
+    CHECK_NEAR(r.direction.y / -r.direction.z, tan(0.5), 1e-6);
+    r = shade_pixel_ray(one, shade_mat4_ortho(-2, 2, -1, 1, 1, 10), 20, 10, 0, 10);
+    CHECK(shape_off(r.origin, d3_of(-2, -1, -1)) < 1e-5);
+    CHECK(shape_off(r.direction, d3_of(0, 0, -1)) < 1e-6);
+}
+TEST(ray, any_matrices_give_a_ray_without_a_crash)
+{
+    for (int i = 0; i < 3000; i++) {
+        ray_camera c = random_camera(rnd_int(0, 3));
+        float m[16];
+        for (int n = rnd_int(1, 4); n > 0; n--) {
+            shade_mat4 *spoiled = rnd_one_in(2) ? &c.view : &c.projection;
+            memcpy(m, spoiled, sizeof m);
+            m[rnd_int(0, 15)] = rnd_nasty();
+            memcpy(spoiled, m, sizeof m);
+        }
+        if (rnd_one_in(10)) memset(&c.projection, 0, sizeof c.projection);
+        shade_ray r = shade_pixel_ray(c.view, c.projection, rnd_int(-1, 3), rnd_int(-1, 3),
+                                      rnd_nasty(), rnd_nasty());
+        double length = d3_length(d3_from(r.direction));
+        CHECK(isnan(length) || length <= 1 + 1e-5);
+    }
+}
+
+/* ------------------------------------------------------------------------------- intersections */
+
+/* 1 hit, 0 miss, -1 too near an edge, the plane or the origin to tell; t and barycentrics */
+static int ref_intersect(const shade_ray *ray, const d3 p[3], double *t, double b[3])
+{
+    d3 o = d3_from(ray->origin), d = d3_from(ray->direction);
+    d3 n = d3_cross(d3_sub(p[1], p[0]), d3_sub(p[2], p[0]));
+    double area = d3_dot(n, n), slope = d3_dot(n, d), least = 1e300;
+    if (area == 0) return 0;
+    if (fabs(slope) < 1e-6 * sqrt(area)) return -1;
+    *t = d3_dot(n, d3_sub(p[0], o)) / slope;
+    d3 at = d3_add(o, d3_scale(d, *t));
+    for (int k = 0; k < 3; k++) {
+        d3 e = d3_cross(d3_sub(p[(k + 2) % 3], p[(k + 1) % 3]), d3_sub(at, p[(k + 1) % 3]));
+        b[k] = d3_dot(e, n) / area;
+        least = fmin(least, b[k]);
+    }
+    if (fabs(least) < 1e-9 || fabs(*t) < 1e-9) return -1;
+    return least > 0 && *t > 0;
+}
+TEST(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say)
+{
+    long hits = 0, misses = 0;
+    for (int i = 0; i < 60000; i++) {
+        double scale = (double)rnd_log(1e-3, 1e3), t = 0, b[3];
+        shade_vec3 v[3], got_b;
+        shade_ray ray;
+        d3 p[3];
+        float got_t;
+        for (int k = 0; k < 3; k++) {
+            v[k] = d3_round(d3_scale(rnd_direction(), scale));
+            p[k] = d3_from(v[k]);
+        }
+        d3 o = d3_scale(rnd_direction(), scale * (double)rnd_log(0.1, 20));
+        d3 aim = d3_add(p[0], d3_add(d3_scale(d3_sub(p[1], p[0]), rnd_unit()),
+                                     d3_scale(d3_sub(p[2], p[0]), rnd_unit())));
+        ray.origin = d3_round(o);
+        ray.direction = d3_round(d3_scale(d3_unit(d3_sub(aim, o)), rnd_one_in(6) ? -1 : 1));
+        int want = ref_intersect(&ray, p, &t, b);
+        if (want < 0) continue;
+        int got = shade_intersect(ray, v[0], v[1], v[2], &got_t, &got_b);
+        CHECK_SAY(got == want, "got %d, t %g, barycentric %g %g %g", got, t, b[0], b[1], b[2]);
+        CHECK_INT(shade_intersect(ray, v[0], v[1], v[2], NULL, NULL), got);
+        CHECK_INT(shade_intersect(ray, v[2], v[1], v[0], NULL, NULL), got); /* either side */
+        hits += want, misses += !want;
+        if (!got || !want) continue;
+        CHECK_NEAR(got_t, t, 2e-7 * t);
+        CHECK_NEAR(got_b.x, b[0], 2e-7);
+        CHECK_NEAR(got_b.y, b[1], 2e-7);
+        CHECK_NEAR(got_b.z, b[2], 2e-7);
+    }
+    CHECK_SAY(hits > 10000 && misses > 10000, "%ld hits, %ld misses", hits, misses);
+}
+TEST(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle)
+{
+    shade_vec3 a = shade_v3(0, 0, 0), b = shade_v3(4, 0, 0), c = shade_v3(0, 4, 0), bary;
+    shade_ray r;
+    float t;
+    static const float at[7][2] = { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 2, 0 }, { 0, 2 }, { 2, 2 },
+                                    { 1, 1 } };
+    r.direction = shade_v3(0, 0, -1);
+    for (int k = 0; k < 7; k++)
+        for (int z = 0; z < 3; z++) { /* from the plane itself too: t = 0 */
+            r.origin = shade_v3(at[k][0], at[k][1], (float)z);
+            CHECK_INT(shade_intersect(r, a, b, c, &t, &bary), 1);
+            CHECK_NEAR(t, z, 0);
+            CHECK_NEAR(bary.y, at[k][0] / 4, 0);
+            CHECK_NEAR(bary.z, at[k][1] / 4, 0);
+        }
+    r.origin = shade_v3(1, 1, -1); /* behind */
+    CHECK_INT(shade_intersect(r, a, b, c, NULL, NULL), 0);
+    r.origin = shade_v3(1, 1, 5), r.direction = shade_v3(1, 0, 0); /* parallel */
+    CHECK_INT(shade_intersect(r, a, b, c, NULL, NULL), 0);
+    r.origin = shade_v3(-1, 1, 0); /* in the plane: no one point */
+    CHECK_INT(shade_intersect(r, a, b, c, NULL, NULL), 0);
+    r.direction = shade_v3(0, 0, -1), r.origin = shade_v3(1, 0, 1);
+    CHECK_INT(shade_intersect(r, a, b, b, NULL, NULL), 0); /* no area */
+    CHECK_INT(shade_intersect(r, a, a, a, NULL, NULL), 0);
+}
+TEST(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at)
+{
+    /* Aimed at points of edges, a ray meets at least one of the two triangles in most cases, and
+       never both far inside; aimed at the middle it meets exactly two. */
+    for (int i = 0; i < 2000; i++) {
+        shade_vec3 p[6];
+        static const int face[8][3] = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 },
+                                        { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+        int hits = 0;
+        for (int k = 0; k < 6; k++) {
+            float q[3] = { 0, 0, 0 };
+            q[k / 2] = k & 1 ? -1.0f : 1.0f;
+            p[k] = shade_v3(q[0], q[1], q[2]);
+        }
+        d3 o = d3_scale(rnd_direction(), 5), aim = d3_scale(rnd_direction(), 0.2);
+        shade_ray r = { d3_round(o), d3_round(d3_unit(d3_sub(aim, o))) };
+        for (int k = 0; k < 8; k++) {
+            hits += shade_intersect(r, p[face[k][0]], p[face[k][1]], p[face[k][2]], NULL, NULL);
+        }
+        CHECK_INT(hits, 2);
+    }
+}
+TEST(ray, no_numbers_meet_nothing_or_something_finite)
+{
+    for (int i = 0; i < 20000; i++) {
+        float f[15], t = 0;
+        shade_vec3 v[5], b = shade_v3(0, 0, 0);
+        for (int k = 0; k < 15; k++) f[k] = rnd_one_in(3) ? rnd_nasty() : rnd_float(-2, 2);
+        memcpy(v, f, sizeof v);
+        shade_ray r = { v[0], v[1] };
+        if (shade_intersect(r, v[2], v[3], v[4], &t, &b)) {
+            CHECK(t >= 0 && isfinite(t));
+            CHECK_SAY(b.x >= 0 && b.y >= 0 && b.z >= 0 && b.x <= 1 && b.y <= 1 && b.z <= 1,
+                      "%g %g %g", (double)b.x, (double)b.y, (double)b.z);
+        } else CHECK_NEAR(t, 0, 0);
+    }
+}
+
+/* ------------------------------------------------------------------------------ drawn both ways */
+
+enum { RAY_WIDTH = 80, RAY_HEIGHT = 60, RAY_TRIANGLES = 400 };
+
+typedef struct ray_scene {
+    shade_vec3 position[3 * RAY_TRIANGLES], normal[3 * RAY_TRIANGLES], color[3 * RAY_TRIANGLES];
+    shade_vec4 clip[3 * RAY_TRIANGLES], id[RAY_TRIANGLES];
+    ref_triangle seen[RAY_TRIANGLES];
+    int count;
+    shade_light lights[2];
+    shade_material material;
+    shade_mesh mesh;
+    shade_draw_state state;
+    ray_camera camera;
+} ray_scene;
+
+static void ray_triangle(ray_scene *s, const d3 p[3], const d3 n[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int at = 3 * s->count + k;
+        s->position[at] = d3_round(p[k]), s->normal[at] = d3_round(n[k]);
+        d3 c = d3_scale(p[k], 0.06); /* smooth, so that slivers have no steep colours */
+        s->color[at] = shade_v3((float)(0.6 + c.x), (float)(0.6 + c.y), (float)(0.6 + c.z));
+    }
+    s->count++;
+}
+static void ray_ball(ray_scene *s, d3 centre, double radius, int across, int up)
+{
+    for (int j = 0; j < up; j++)
+        for (int i = 0; i < across; i++) {
+            d3 n[4], p[4];
+            for (int k = 0; k < 4; k++) {
+                double a = 6.283185307179586 * ((i + (k == 1 || k == 2)) % across) / across;
+                double b = 3.141592653589793 * ((j + k / 2 + 0.0) / up - 0.5);
+                if (j + k / 2 == 0 || j + k / 2 == up) a = 0;
+                n[k] = d3_of(cos(b) * cos(a), sin(b), -cos(b) * sin(a));
+                p[k] = d3_add(centre, d3_scale(n[k], radius));
+            }
+            d3 pa[3] = { p[0], p[1], p[2] }, na[3] = { n[0], n[1], n[2] };
+            d3 pb[3] = { p[0], p[2], p[3] }, nb[3] = { n[0], n[2], n[3] };
+            if (j > 0) ray_triangle(s, pa, na);
+            if (j < up - 1) ray_triangle(s, pb, nb);
+        }
+}
+/* Balls apart from each other, some of them cut by the near plane or the borders, and a floor */
+static void random_ray_scene(ray_scene *s, int kind)
+{
+    memset(s, 0, sizeof *s);
+    s->camera.width = RAY_WIDTH, s->camera.height = RAY_HEIGHT;
+    s->camera.view = shade_mat4_look_at(shade_v3(rnd_float(-2, 2), rnd_float(1, 3), 5),
+                                        shade_v3(rnd_float(-0.5, 0.5), 0, 0), shade_v3(0, 1, 0));
+    float aspect = (float)RAY_WIDTH / RAY_HEIGHT;
+    s->camera.projection = kind == 0   ? shade_mat4_perspective(0.9f, aspect, 2, 20)
+                           : kind == 1 ? shade_mat4_frustum(-0.3f, 0.7f, -0.2f, 0.5f, 1, 20)
+                           : kind == 2 ? shade_mat4_perspective_reversed(0.8f, aspect, 0.5f)
+                                       : shade_mat4_ortho(-3, 3, -2, 2.5f, 1, 20);
+    s->camera.ortho = kind == 3, s->camera.reversed = kind == 2;
+    for (int k = 0; k < 4; k++) {
+        d3 centre = d3_of(1.7 * (k % 2) - 0.8, 0.3 + 0.2 * rnd_unit(), 1.7 * (k / 2) - 0.8);
+        ray_ball(s, centre, 0.4 + 0.3 * rnd_unit(), rnd_int(5, 9), rnd_int(3, 5));
+    }
+    d3 up[3] = { d3_of(0, 1, 0), d3_of(0, 1, 0), d3_of(0, 1, 0) };
+    for (int k = 0; k < 8; k++) { /* a quarter each, in two */
+        double x = k & 1 ? 6 : 0, z = k & 2 ? 6 : 0, y = -0.9;
+        d3 a = d3_of(x - 6, y, z - 6), b = d3_of(x - 6, y, z), c = d3_of(x, y, z);
+        d3 d = d3_of(x, y, z - 6), p[3] = { a, k & 4 ? c : b, k & 4 ? d : c };
+        ray_triangle(s, p, up);
+    }
+    s->lights[0] = shade_directional_light(shade_v3(-0.5f, -1, -0.4f), shade_v3(0.7f, 0.7f, 0.6f));
+    s->lights[1] = shade_point_light(shade_v3(2, 4, 3), shade_v3(0.3f, 0.3f, 0.4f));
+    s->material.diffuse = shade_v3(0.8f, 0.8f, 0.8f), s->material.ambient = shade_v3(1, 1, 1);
+    s->material.specular = shade_v3(0.3f, 0.3f, 0.3f), s->material.shininess = 10;
+    s->mesh.positions = &s->position[0].x, s->mesh.normals = &s->normal[0].x;
+    s->mesh.colors = &s->color[0].x, s->mesh.vertex_count = 3 * s->count;
+    s->state.view = s->camera.view, s->state.projection = s->camera.projection;
+    s->state.material = &s->material;
+    s->state.lighting.lights = s->lights, s->state.lighting.light_count = 2;
+    s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.15f);
+    if (kind == 2) s->state.depth_zero_to_one = 1, s->state.depth_test = SHADE_GREATER;
+    shade_mat4 m = shade_mat4_mul(s->camera.projection, s->camera.view);
+    for (int k = 0; k < 3 * s->count; k++) {
+        shade_vec3 p = s->position[k];
+        s->clip[k] = shade_mat4_transform(m, shade_v4(p.x, p.y, p.z, 1));
+        s->id[k / 3] = shade_v4((float)(k / 3 + 1), 0, 0, 1);
+    }
+    for (int t = 0; t < s->count; t++) {
+        if (!ref_triangle_of(&s->seen[t], &s->clip[3 * t], &s->clip[3 * t + 1],
+                             &s->clip[3 * t + 2], RAY_WIDTH, RAY_HEIGHT))
+            CHECK_SAY(0, "triangle %d has no area", t);
+    }
+}
+/* The first triangle on the ray, -1: none.  With a projection through the eye a hit counts from
+   the near plane on. */
+static int ray_cast(const ray_scene *s, const shade_ray *ray, shade_vec3 *barycentric)
+{
+    int first = -1;
+    float nearest = 0;
+    dmat m = dmat_mul(dmat_from(s->camera.projection), dmat_from(s->camera.view));
+    for (int t = 0; t < s->count; t++) {
+        float at;
+        shade_vec3 b;
+        const shade_vec3 *p = &s->position[3 * t];
+        if (!shade_intersect(*ray, p[0], p[1], p[2], &at, &b)) continue;
+        if (first >= 0 && at >= nearest) continue;
+        d3 hit = d3_add(d3_from(ray->origin), d3_scale(d3_from(ray->direction), (double)at));
+        double in[4] = { hit.x, hit.y, hit.z, 1 }, clip[4];
+        dmat_apply(m, in, clip);
+        if (s->camera.reversed ? clip[2] > clip[3] : clip[2] < -clip[3]) continue;
+        first = t, nearest = at, *barycentric = b;
+    }
+    return first;
+}
+static shade_vec3 ray_mix(const shade_vec3 *v, shade_vec3 b)
+{
+    return shade_madd(shade_madd(shade_scale(v[0], b.x), b.y, v[1]), b.z, v[2]);
+}
+static int near_an_edge(const ray_scene *s, double X, double Y)
+{
+    for (int t = 0; t < s->count; t++) {
+        if (ref_covers(&s->seen[t], X, Y, 1 / 256.0, 1, s->camera.reversed) < 0) return 1;
+    }
+    return 0;
+}
+static void check_both_ways(int kind)
+{
+    static ray_scene s;
+    long compared = 0, hits = 0;
+    for (int i = 0; i < 3; i++) {
+        canvas ids = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_RGBA32F, 1);
+        canvas lit = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_RGBA8, 1);
+        random_ray_scene(&s, kind);
+        scene flat = { s.clip, NULL, 0, s.id, NULL };
+        shade_pipeline p = scene_pipeline(&flat);
+        float far = s.camera.reversed ? 0.0f : 1.0f;
+        p.depth_zero_to_one = s.state.depth_zero_to_one, p.depth_test = s.state.depth_test;
+        canvas_clear(&ids, far), canvas_clear(&lit, far);
+        CHECK_INT(shade_draw(&ids.target, &p, NULL, 3 * s.count, 3 * s.count, NULL), SHADE_OK);
+        CHECK_INT(shade_draw_mesh(&lit.target, &s.mesh, &s.state, NULL), SHADE_OK);
+        d3 eye = ray_eye(&s.camera);
+        for (int k = 0; k < RAY_WIDTH * RAY_HEIGHT; k++) {
+            int x = k % RAY_WIDTH, y = k / RAY_WIDTH;
+            if (near_an_edge(&s, x + 0.5, y + 0.5)) continue;
+            shade_vec3 b = shade_v3(0, 0, 0);
+            shade_ray ray = shade_pixel_ray(s.camera.view, s.camera.projection, RAY_WIDTH,
+                                            RAY_HEIGHT, (float)x + 0.5f, (float)y + 0.5f);
+            int cast = ray_cast(&s, &ray, &b), drawn = (int)canvas_float(&ids, x, y, 0) - 1;
+            compared++;
+            CHECK_SAY(cast == drawn, "pixel %d %d: triangle %d drawn, %d cast", x, y, drawn, cast);
+            if (cast < 0 || cast != drawn) continue;
+            hits++;
+            shade_material m = s.material;
+            shade_vec3 albedo = ray_mix(&s.color[3 * cast], b);
+            m.diffuse = shade_mul(m.diffuse, albedo), m.ambient = shade_mul(m.ambient, albedo);
+            shade_vec3 c = shade_lit(&s.state.lighting, &m, ray_mix(&s.position[3 * cast], b),
+                                     ray_mix(&s.normal[3 * cast], b), d3_round(eye));
+            const float channel[3] = { c.x, c.y, c.z };
+            for (int n = 0; n < 3; n++) {
+                double want = floor(fmax(0, fmin(1, (double)channel[n])) * 255 + 0.5);
+                CHECK_NEAR(canvas_bytes(&lit, x, y)[n], want, 1);
+            }
+        }
+        canvas_close(&ids), canvas_close(&lit);
+    }
+    CHECK_SAY(compared > 3 * RAY_WIDTH * RAY_HEIGHT * 8 / 10 && hits > 5000,
+              "%ld compared, %ld hits", compared, hits);
+}
+TEST(ray, cast_and_drawn_pictures_agree_in_perspective) { check_both_ways(0); } /* row 49 */
+TEST(ray, cast_and_drawn_pictures_agree_off_centre) { check_both_ways(1); }
+TEST(ray, cast_and_drawn_pictures_agree_in_reversed_depth) { check_both_ways(2); }
+TEST(ray, cast_and_drawn_pictures_agree_without_perspective) { check_both_ways(3); }
+
+static const test_case ray_cases[] = {
+    CASE(ray, perspective_rays_leave_the_eye_through_the_pixel),
+    CASE(ray, off_centre_frustums_bend_their_rays),
+    CASE(ray, rays_of_an_infinite_reversed_projection_point_forward),
+    CASE(ray, orthographic_rays_are_parallel_and_leave_the_near_plane),
+    CASE(ray, the_middle_of_a_picture_is_straight_ahead),
+    CASE(ray, any_matrices_give_a_ray_without_a_crash),
+    CASE(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say),
+    CASE(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle),
+    CASE(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at),
+    CASE(ray, no_numbers_meet_nothing_or_something_finite),
+    CASE(ray, cast_and_drawn_pictures_agree_in_perspective),
+    CASE(ray, cast_and_drawn_pictures_agree_off_centre),
+    CASE(ray, cast_and_drawn_pictures_agree_in_reversed_depth),
+    CASE(ray, cast_and_drawn_pictures_agree_without_perspective),
+};

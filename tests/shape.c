@@ -1,0 +1,497 @@
+/* shape.c - normals of corners and edges of meshes, against oracles that compare every face with
+   every other. */
+
+enum { SHAPE_VERTICES = 128, SHAPE_CORNERS = 480 };
+
+typedef struct shape_mesh {
+    shade_vec3 position[SHAPE_VERTICES];
+    uint32_t index[SHAPE_CORNERS];
+    shade_mesh mesh;
+} shape_mesh;
+
+static void shape_close(shape_mesh *s, int vertices, int corners)
+{
+    memset(&s->mesh, 0, sizeof s->mesh);
+    s->mesh.positions = &s->position[0].x, s->mesh.vertex_count = vertices;
+    s->mesh.indices = s->index, s->mesh.index_count = corners;
+}
+static d3 shape_at(const shade_mesh *m, int corner)
+{
+    float p[3];
+    size_t stride = m->position_stride ? (size_t)m->position_stride : 12;
+    size_t v = m->indices ? m->indices[corner] : (size_t)corner;
+    memcpy(p, (const char *)m->positions + v * stride, 12);
+    return d3_of((double)p[0], (double)p[1], (double)p[2]);
+}
+static int shape_corners(const shade_mesh *m)
+{
+    return m->indices ? m->index_count : m->vertex_count;
+}
+static d3 ref_face(const shade_mesh *m, int t)
+{
+    d3 a = shape_at(m, 3 * t), b = shape_at(m, 3 * t + 1), c = shape_at(m, 3 * t + 2);
+    return d3_unit(d3_cross(d3_unit(d3_sub(b, a)), d3_unit(d3_sub(c, a))));
+}
+static double ref_angle(const shade_mesh *m, int corner)
+{
+    int t = corner / 3 * 3, k = corner % 3;
+    d3 p = shape_at(m, corner);
+    d3 a = d3_unit(d3_sub(shape_at(m, t + (k + 1) % 3), p));
+    d3 b = d3_unit(d3_sub(shape_at(m, t + (k + 2) % 3), p));
+    return atan2(d3_length(d3_cross(a, b)), d3_dot(a, b));
+}
+/* The normal of a corner; unsure where a cosine lies within rounding of the threshold or the sum
+   nearly cancels. */
+static d3 ref_corner_normal(const shade_mesh *m, int corner, double cos_crease, int *unsure)
+{
+    d3 own = ref_face(m, corner / 3), sum = d3_of(0, 0, 0), p = shape_at(m, corner);
+    for (int k = 0; k < shape_corners(m); k++) {
+        d3 q = shape_at(m, k), other = ref_face(m, k / 3);
+        if (q.x != p.x || q.y != p.y || q.z != p.z) continue;
+        double c = d3_dot(own, other);
+        if (k != corner && fabs(c - cos_crease) < 1e-5) *unsure = 1;
+        if (k == corner || c >= cos_crease)
+            sum = d3_add(sum, d3_scale(other, ref_angle(m, k)));
+    }
+    if (d3_length(sum) < 0.05) *unsure = 1;
+    return d3_unit(sum);
+}
+static void corner_normals(const shade_mesh *m, float cos_crease, shade_vec3 *out)
+{
+    size_t bytes = shade_corner_normals_bytes(m);
+    unsigned char *block = canvas_block(bytes);
+    CHECK_INT(shade_mesh_corner_normals(m, cos_crease, out, block + CANVAS_GUARD, bytes),
+              SHADE_OK);
+    for (int k = 0; k < CANVAS_GUARD; k++) {
+        CHECK(block[k] == CANVAS_BYTE && block[CANVAS_GUARD + bytes + (size_t)k] == CANVAS_BYTE);
+    }
+    free(block);
+}
+static double shape_off(shade_vec3 got, d3 want) { return d3_length(d3_sub(d3_from(got), want)); }
+
+/* A cube: vertices shared, or four to a face. */
+static void shape_cube(shape_mesh *s, int split)
+{
+    int vertices = 0, corners = 0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = 0; side < 2; side++) {
+            uint32_t at[4];
+            for (int k = 0; k < 4; k++) {
+                float p[3];
+                int found = -1, a = k == 1 || k == 2, b = k >> 1;
+                p[axis] = side ? 1.0f : -1.0f;
+                p[(axis + 1) % 3] = (side ? a : b) ? 1.0f : -1.0f;
+                p[(axis + 2) % 3] = (side ? b : a) ? 1.0f : -1.0f;
+                for (int n = 0; n < vertices && !split; n++) {
+                    if (!memcmp(&s->position[n], p, 12)) found = n;
+                }
+                if (found < 0) found = vertices++, memcpy(&s->position[found], p, 12);
+                at[k] = (uint32_t)found;
+            }
+            for (int k = 0; k < 6; k++) s->index[corners++] = at[k < 3 ? k : k == 3 ? 0 : k - 2];
+        }
+    shape_close(s, vertices, corners);
+}
+/* A bent sheet with some triangles flipped, doubled, without area, or of vertices that repeat
+   the place of others, with zeros of either sign. */
+static void random_shape(shape_mesh *s)
+{
+    int across = rnd_int(2, 6), vertices = 0, corners = 0;
+    for (int j = 0; j < across; j++)
+        for (int i = 0; i < across; i++) {
+            s->position[vertices++] = shade_v3((float)(i - 2), (float)(j - 2),
+                                               rnd_one_in(3) ? 0 : rnd_float(-1, 1));
+        }
+    for (int k = rnd_int(0, 12); k > 0; k--) { /* doubles */
+        shade_vec3 p = s->position[rnd_int(0, vertices - 1)];
+        if (p.x == 0 && rnd_one_in(2)) p.x = -p.x;
+        if (p.y == 0 && rnd_one_in(2)) p.y = -p.y;
+        if (p.z == 0 && rnd_one_in(2)) p.z = -p.z;
+        s->position[vertices++] = p;
+    }
+    for (int j = 0; j + 1 < across; j++)
+        for (int i = 0; i + 1 < across; i++) {
+            uint32_t a = (uint32_t)(j * across + i), q[6];
+            q[0] = a, q[1] = a + 1, q[2] = a + (uint32_t)across + 1;
+            q[3] = a, q[4] = q[2], q[5] = q[2] - 1;
+            for (int k = 0; k < 6; k++) {
+                for (int n = across * across; n < vertices; n++) { /* a double in its place */
+                    shade_vec3 x = s->position[n], y = s->position[q[k]];
+                    if (x.x == y.x && x.y == y.y && x.z == y.z && rnd_one_in(2))
+                        q[k] = (uint32_t)n;
+                }
+                s->index[corners++] = q[k];
+            }
+        }
+    for (int k = rnd_int(0, 8); k > 0; k--) {
+        for (int n = 0; n < 3; n++) s->index[corners + n] = (uint32_t)rnd_int(0, vertices - 1);
+        if (rnd_one_in(3)) s->index[corners + 1] = s->index[corners];
+        if (rnd_one_in(4)) memcpy(s->index + corners, s->index + rnd_int(0, 1) * 3, 12);
+        corners += 3;
+    }
+    shape_close(s, vertices, corners);
+}
+
+/* ------------------------------------------------------------------------------------- normals */
+
+TEST(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above)
+{
+    static shape_mesh s;
+    shade_vec3 out[SHAPE_CORNERS];
+    for (int split = 0; split < 2; split++) {
+        shape_cube(&s, split);
+        CHECK_INT(s.mesh.vertex_count, split ? 24 : 8);
+        for (int smooth = 0; smooth < 2; smooth++) {
+            corner_normals(&s.mesh, smooth ? -0.5f : 0.5f, out);
+            for (int k = 0; k < 36; k++) {
+                d3 want = smooth ? d3_unit(shape_at(&s.mesh, k)) : ref_face(&s.mesh, k / 3);
+                CHECK(shape_off(out[k], want) < 2e-6);
+                CHECK(d3_dot(d3_from(out[k]), shape_at(&s.mesh, k)) > 0); /* outward */
+            }
+        }
+    }
+}
+TEST(shape, corner_normals_are_the_weighted_mean_of_the_near_faces)
+{
+    static shape_mesh s;
+    static shade_vec3 out[SHAPE_CORNERS];
+    long checked = 0;
+    for (int i = 0; i < 150; i++) {
+        random_shape(&s);
+        float threshold = rnd_one_in(4) ? (float)rnd_int(-1, 1) : rnd_float(-1.1, 1.1);
+        if (threshold > 0.99f && threshold < 1.01f) threshold = 0.9f;
+        corner_normals(&s.mesh, threshold, out);
+        for (int k = 0; k < s.mesh.index_count; k++) {
+            int unsure = 0;
+            d3 want = ref_corner_normal(&s.mesh, k, (double)threshold, &unsure);
+            double length = d3_length(d3_from(out[k]));
+            CHECK_SAY(length <= 1 + 1e-6 && (length > 1 - 1e-6 || length <= 0), "length %g",
+                      length);
+            if (unsure || d3_length(ref_face(&s.mesh, k / 3)) < 0.5) continue;
+            checked++;
+            CHECK_SAY(shape_off(out[k], want) < 3e-5, "corner %d threshold %g: off by %g", k,
+                      (double)threshold, shape_off(out[k], want));
+        }
+    }
+    CHECK_SAY(checked > 5000, "%ld", checked);
+}
+TEST(shape, vertices_of_equal_position_are_one_whatever_the_sign_of_zero)
+{
+    shade_vec3 p[6] = { { 0, 0, 0 },      { 1, 0, 0 },     { 0, 1, 0.5f },
+                        { -0.0f, 0, -0.0f }, { 0, 1, 0.5f }, { -1, 0, 0 } };
+    shade_vec3 out[6];
+    shade_mesh m;
+    memset(&m, 0, sizeof m);
+    m.positions = &p[0].x, m.vertex_count = 6; /* no indices */
+    corner_normals(&m, -1, out);
+    for (int k = 0; k < 6; k++) {
+        int unsure = 0;
+        CHECK(shape_off(out[k], ref_corner_normal(&m, k, -1, &unsure)) < 2e-6);
+    }
+    CHECK(!memcmp(&out[0], &out[3], 12) && !memcmp(&out[2], &out[4], 12));
+}
+TEST(shape, faces_without_area_change_no_neighbour)
+{
+    static shape_mesh s;
+    static shade_vec3 before[SHAPE_CORNERS], after[SHAPE_CORNERS];
+    static shade_vec3 vertex[SHAPE_VERTICES];
+    for (int i = 0; i < 60; i++) {
+        random_shape(&s);
+        float threshold = rnd_float(-1, 0.9);
+        int corners = s.mesh.index_count, vertices = s.mesh.vertex_count;
+        corner_normals(&s.mesh, threshold, before);
+        for (int k = 0; k < 5; k++) {
+            uint32_t a = (uint32_t)rnd_int(0, vertices - 1), b = (uint32_t)rnd_int(0, vertices - 1);
+            uint32_t *at = s.index + s.mesh.index_count;
+            at[0] = a, at[1] = k & 1 ? a : b, at[2] = k & 2 ? a : b;
+            if (k == 4) { /* corners that are no numbers */
+                s.position[vertices] = shade_v3((float)NAN, rnd_nasty(), INFINITY);
+                s.mesh.vertex_count = vertices + 1, at[1] = (uint32_t)vertices;
+            }
+            s.mesh.index_count += 3;
+        }
+        corner_normals(&s.mesh, threshold, after);
+        for (int k = 0; k < corners; k++) {
+            if (d3_length(ref_face(&s.mesh, k / 3)) < 0.5) continue;
+            CHECK_SAY(shape_off(after[k], d3_from(before[k])) < 1e-6, "corner %d: off by %g", k,
+                      shape_off(after[k], d3_from(before[k])));
+        }
+        for (int k = 0; k < s.mesh.index_count; k++) {
+            CHECK(isfinite(after[k].x) && isfinite(after[k].y) && isfinite(after[k].z));
+        }
+        CHECK_INT(shade_mesh_normals(&s.mesh, vertex), SHADE_OK);
+        for (int k = 0; k < s.mesh.vertex_count; k++) {
+            CHECK(isfinite(vertex[k].x) && isfinite(vertex[k].y) && isfinite(vertex[k].z));
+        }
+    }
+}
+TEST(shape, any_positions_give_finite_corner_normals)
+{
+    static shape_mesh s;
+    static shade_vec3 out[SHAPE_CORNERS];
+    for (int i = 0; i < 300; i++) {
+        random_shape(&s);
+        for (int k = 0; k < s.mesh.vertex_count; k++) {
+            if (rnd_one_in(3)) s.position[k] = shade_v3(rnd_nasty(), rnd_nasty(), rnd_nasty());
+        }
+        corner_normals(&s.mesh, rnd_float(-1, 1), out);
+        for (int k = 0; k < s.mesh.index_count; k++) {
+            double length = d3_length(d3_from(out[k]));
+            CHECK_SAY(length <= 1 + 1e-5, "length %g", length);
+        }
+    }
+}
+TEST(shape, strides_and_missing_indices_give_the_same_corner_normals)
+{
+    static shape_mesh s;
+    static shade_vec3 tight[SHAPE_CORNERS], wide[SHAPE_CORNERS], soup[SHAPE_CORNERS];
+    static float spread[SHAPE_VERTICES * 5], flat[SHAPE_CORNERS * 3];
+    for (int i = 0; i < 20; i++) {
+        random_shape(&s);
+        shade_mesh m = s.mesh, n = s.mesh;
+        for (int k = 0; k < s.mesh.vertex_count; k++) memcpy(spread + 5 * k, &s.position[k], 12);
+        for (int k = 0; k < s.mesh.index_count; k++)
+            memcpy(flat + 3 * k, &s.position[s.index[k]], 12);
+        m.positions = spread, m.position_stride = 20;
+        n.positions = flat, n.indices = NULL, n.vertex_count = s.mesh.index_count;
+        n.index_count = 7; /* not looked at */
+        corner_normals(&s.mesh, 0.3f, tight), corner_normals(&m, 0.3f, wide);
+        corner_normals(&n, 0.3f, soup);
+        CHECK(!memcmp(tight, wide, (size_t)s.mesh.index_count * 12));
+        CHECK(!memcmp(tight, soup, (size_t)s.mesh.index_count * 12));
+    }
+}
+TEST(shape, bad_corner_normal_calls_are_refused)
+{
+    static shape_mesh s;
+    shade_vec3 out[36];
+    static uint32_t memory[200];
+    shape_cube(&s, 0);
+    size_t bytes = shade_corner_normals_bytes(&s.mesh);
+    CHECK(bytes >= 36 * 4 && bytes <= sizeof memory - 4);
+    for (int k = 0; k < 14; k++) {
+        shade_mesh m = s.mesh;
+        const shade_mesh *mesh = &m;
+        shade_vec3 *normals = out;
+        void *at = memory;
+        size_t room = bytes;
+        float threshold = 0;
+        shade_result want = SHADE_ERROR_ARGUMENT;
+        uint32_t bad[3] = { 0, 1, 8 };
+        int bad_mesh = 0;
+        memset(out, CANVAS_BYTE, sizeof out);
+        switch (k) {
+        case 0: mesh = NULL, bad_mesh = 1; break;
+        case 1: normals = NULL; break;
+        case 2: at = NULL; break;
+        case 3: at = (char *)memory + 1; break;
+        case 4: at = (char *)memory + 2; break;
+        case 5: room--, want = SHADE_ERROR_CAPACITY; break;
+        case 6: room = 0, want = SHADE_ERROR_CAPACITY; break;
+        case 7: threshold = (float)NAN; break;
+        case 8: m.positions = NULL, bad_mesh = 1; break;
+        case 9: m.vertex_count = -1, bad_mesh = 1; break;
+        case 10: m.index_count = -3, bad_mesh = 1; break;
+        case 11: m.position_stride = 13, bad_mesh = 1; break;
+        case 12: m.index_count = 35, bad_mesh = 1, want = SHADE_ERROR_INDEX; break;
+        default:
+            m.indices = bad, m.index_count = 3, bad_mesh = 1, want = SHADE_ERROR_INDEX;
+            break;
+        }
+        CHECK_INT(shade_mesh_corner_normals(mesh, threshold, normals, at, room), want);
+        if (bad_mesh) CHECK_INT(shade_corner_normals_bytes(mesh), 0);
+        for (size_t i = 0; i < sizeof out; i++) CHECK(((unsigned char *)out)[i] == CANVAS_BYTE);
+    }
+}
+
+/* --------------------------------------------------------------------------------------- edges */
+
+/* The triangles that have the edge, each once, by rising number. */
+static int ref_edge(const shade_mesh *m, uint32_t a, uint32_t b, int *triangles)
+{
+    int n = 0;
+    for (int t = 0; t < shape_corners(m) / 3; t++) {
+        int has = 0;
+        for (int k = 0; k < 3; k++) {
+            uint32_t p = (uint32_t)(3 * t + k), q = (uint32_t)(3 * t + (k + 1) % 3);
+            if (m->indices) p = m->indices[p], q = m->indices[q];
+            has |= (p == a && q == b) || (p == b && q == a);
+        }
+        if (has) triangles[n++] = t;
+    }
+    return n;
+}
+static void check_edges(const shade_mesh *m)
+{
+    static shade_edge edges[SHAPE_CORNERS + 1];
+    int corners = shape_corners(m), count = -1, at = 0, triangles[SHAPE_CORNERS];
+    memset(edges, CANVAS_BYTE, sizeof edges);
+    CHECK_INT(shade_mesh_edges(m, edges, corners, &count), SHADE_OK);
+    CHECK(((unsigned char *)&edges[corners])[0] == CANVAS_BYTE);
+    for (uint32_t a = 0; a < (uint32_t)m->vertex_count; a++)
+        for (uint32_t b = a + 1; b < (uint32_t)m->vertex_count; b++) {
+            int n = ref_edge(m, a, b, triangles), listed = 0;
+            for (; at < count && edges[at].a == a && edges[at].b == b; at++) {
+                for (int k = 0; k < 2; k++) {
+                    int t = edges[at].triangle[k];
+                    if (k == 1 && t == -1) continue;
+                    CHECK_SAY(listed < n && t == triangles[listed],
+                              "edge %u %u: triangle %d as number %d of %d", (unsigned)a,
+                              (unsigned)b, t, listed, n);
+                    listed++;
+                    /* only the last entry of an edge may be half full */
+                    if (k == 0) CHECK(edges[at].triangle[1] >= 0 || listed == n);
+                }
+            }
+            CHECK_INT(listed, n);
+        }
+    CHECK_INT(at, count); /* sorted, and nothing else */
+}
+TEST(shape, edges_are_those_that_the_triangles_have_sorted_each_once)
+{
+    static shape_mesh s;
+    for (int i = 0; i < 120; i++) {
+        random_shape(&s);
+        check_edges(&s.mesh);
+    }
+}
+TEST(shape, a_closed_mesh_has_two_triangles_at_every_edge)
+{
+    static shape_mesh s;
+    shade_edge edges[36];
+    int count;
+    shape_cube(&s, 0);
+    CHECK_INT(shade_mesh_edges(&s.mesh, edges, 36, &count), SHADE_OK);
+    CHECK_INT(count, 18); /* 12 and 6 diagonals */
+    for (int k = 0; k < count; k++) CHECK(edges[k].triangle[0] >= 0 && edges[k].triangle[1] >= 0);
+    check_edges(&s.mesh);
+    shape_cube(&s, 1);
+    CHECK_INT(shade_mesh_edges(&s.mesh, edges, 36, &count), SHADE_OK);
+    CHECK_INT(count, 30); /* each face has a border of its own */
+    check_edges(&s.mesh);
+}
+TEST(shape, a_third_triangle_at_an_edge_makes_a_further_entry)
+{
+    static const uint32_t book[15] = { 0, 1, 2, 1, 0, 3, 0, 1, 4, 0, 1, 5, 1, 0, 6 };
+    shade_vec3 p[7];
+    shade_mesh m;
+    shade_edge edges[15];
+    int count;
+    memset(&m, 0, sizeof m), memset(p, 0, sizeof p);
+    m.positions = &p[0].x, m.vertex_count = 7, m.indices = book;
+    for (int n = 1; n <= 5; n++) {
+        m.index_count = 3 * n;
+        CHECK_INT(shade_mesh_edges(&m, edges, 3 * n, &count), SHADE_OK);
+        CHECK_INT(count, (n + 1) / 2 + 2 * n);
+        check_edges(&m);
+    }
+}
+TEST(shape, doubled_and_degenerate_triangles_keep_edges_single)
+{
+    static const uint32_t list[][6] = {
+        { 0, 1, 2, 0, 1, 2 }, { 0, 1, 2, 2, 1, 0 }, { 0, 0, 0, 0, 1, 2 },
+        { 0, 1, 1, 0, 1, 2 }, { 0, 1, 0, 1, 0, 2 }, { 1, 1, 0, 1, 0, 1 },
+    };
+    shade_vec3 p[3];
+    shade_mesh m;
+    memset(&m, 0, sizeof m), memset(p, 0, sizeof p);
+    m.positions = &p[0].x, m.vertex_count = 3, m.index_count = 6;
+    for (size_t k = 0; k < sizeof list / sizeof list[0]; k++) {
+        m.indices = list[k];
+        check_edges(&m);
+    }
+    m.indices = NULL; /* vertices in threes */
+    check_edges(&m);
+    m.vertex_count = 0;
+    check_edges(&m);
+}
+TEST(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes)
+{
+    static shape_mesh s;
+    shade_edge edges[36];
+    shape_cube(&s, 0);
+    memset(edges, CANVAS_BYTE, sizeof edges);
+    for (int room = 0; room < 18; room++) { /* less than there are edges */
+        int count = -1;
+        CHECK_INT(shade_mesh_edges(&s.mesh, room ? edges : NULL, room, &count),
+                  SHADE_ERROR_CAPACITY);
+        CHECK(count >= 18 && count <= 36);
+        for (size_t i = (size_t)room * sizeof edges[0]; i < sizeof edges; i++)
+            CHECK(((unsigned char *)edges)[i] == CANVAS_BYTE);
+        if (room == 0) {
+            int again = -1;
+            CHECK_INT(shade_mesh_edges(&s.mesh, edges, count, &again), SHADE_OK);
+            CHECK_INT(again, 18);
+            memset(edges, CANVAS_BYTE, sizeof edges);
+        }
+    }
+}
+TEST(shape, bad_edge_calls_are_refused)
+{
+    static shape_mesh s;
+    shade_edge edges[36];
+    shape_cube(&s, 0);
+    for (int k = 0; k < 9; k++) {
+        shade_mesh m = s.mesh;
+        const shade_mesh *mesh = &m;
+        shade_edge *list = edges;
+        int count = 77, *where = &count, room = 36;
+        shade_result want = SHADE_ERROR_ARGUMENT;
+        memset(edges, CANVAS_BYTE, sizeof edges);
+        switch (k) {
+        case 0: mesh = NULL; break;
+        case 1: list = NULL; break;
+        case 2: where = NULL; break;
+        case 3: room = -1; break;
+        case 4: m.positions = NULL; break;
+        case 5: m.vertex_count = 7, want = SHADE_ERROR_INDEX; break;
+        case 6: m.index_count = 34, want = SHADE_ERROR_INDEX; break;
+        case 7: m.index_count = -6; break;
+        default: m.position_stride = -12; break;
+        }
+        CHECK_INT(shade_mesh_edges(mesh, list, room, where), want);
+        if (where) CHECK_INT(count, 0);
+        for (size_t i = 0; i < sizeof edges; i++) CHECK(((unsigned char *)edges)[i] == CANVAS_BYTE);
+    }
+}
+TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
+{
+    for (int i = 0; i < 20000; i++) {
+        d3 e = d3_scale(rnd_direction(), (double)rnd_log(0.1, 100)), a = rnd_direction();
+        d3 b = rnd_direction();
+        float threshold = rnd_float(-1, 1);
+        double s = d3_dot(e, a) * d3_dot(e, b), c = d3_dot(a, b);
+        if (fabs(s) > 1e-5 * d3_dot(e, e)) {
+            CHECK_INT(shade_is_silhouette(d3_round(e), d3_round(a), d3_round(b)), s < 0);
+        }
+        if (fabs(c - (double)threshold) > 1e-6) {
+            CHECK_INT(shade_is_crease(d3_round(a), d3_round(b), threshold), c < (double)threshold);
+        }
+    }
+    shade_vec3 x = shade_v3(1, 0, 0), y = shade_v3(0, 1, 0), minus = shade_v3(-1, 0, 0);
+    CHECK_INT(shade_is_silhouette(x, y, x), 1); /* a face seen edge-on counts */
+    CHECK_INT(shade_is_silhouette(x, x, minus), 1);
+    CHECK_INT(shade_is_silhouette(x, x, x), 0);
+    CHECK_INT(shade_is_silhouette(x, minus, minus), 0);
+    CHECK_INT(shade_is_crease(x, y, 0), 1); /* equality counts */
+    CHECK_INT(shade_is_crease(x, x, 1), 1);
+    CHECK_INT(shade_is_crease(x, x, 0.99f), 0);
+    CHECK_INT(shade_is_crease(x, minus, -1), 1);
+}
+
+static const test_case shape_cases[] = {
+    CASE(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above),
+    CASE(shape, corner_normals_are_the_weighted_mean_of_the_near_faces),
+    CASE(shape, vertices_of_equal_position_are_one_whatever_the_sign_of_zero),
+    CASE(shape, faces_without_area_change_no_neighbour),
+    CASE(shape, any_positions_give_finite_corner_normals),
+    CASE(shape, strides_and_missing_indices_give_the_same_corner_normals),
+    CASE(shape, bad_corner_normal_calls_are_refused),
+    CASE(shape, edges_are_those_that_the_triangles_have_sorted_each_once),
+    CASE(shape, a_closed_mesh_has_two_triangles_at_every_edge),
+    CASE(shape, a_third_triangle_at_an_edge_makes_a_further_entry),
+    CASE(shape, doubled_and_degenerate_triangles_keep_edges_single),
+    CASE(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes),
+    CASE(shape, bad_edge_calls_are_refused),
+    CASE(shape, silhouettes_part_front_from_back_and_creases_bend_enough),
+};
