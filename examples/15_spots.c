@@ -9,10 +9,10 @@
 
 int main(int argc, char **argv)
 {
-    static const float exponent[5] = { 0, 10, 40, 160, 640 }, degrees[5] = { 5, 9, 13, 18, 24 };
+    static const float exponent[5] = { 0, 20, 60, 180, 540 }, degrees[5] = { 4, 7, 10, 13, 16 };
     static const char *const name[2][5] = {
-        { "e = 0", "e = 10", "e = 40", "e = 160", "e = 640" },
-        { "5 deg", "9 deg", "13 deg", "18 deg", "24 deg" }
+        { "e = 0", "e = 20", "e = 60", "e = 180", "e = 540" },
+        { "4 deg", "7 deg", "10 deg", "13 deg", "16 deg" }
     };
     shade_material wall = { { 0, 0, 0 }, { 0.6f, 0.55f, 0.5f }, { 0.6f, 0.55f, 0.5f },
                             { 0.1f, 0.1f, 0.1f }, 20 };
@@ -23,17 +23,17 @@ int main(int argc, char **argv)
     canvas c = canvas_new(960, 520, 3);
 
     state.view = shade_mat4_look_at(shade_v3(0, 0, 12), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.25f, 960 / 260.0f, 4, 20);
+    state.projection = shade_mat4_perspective(0.29f, 960 / 260.0f, 4, 20);
     state.lighting.lights = lamps, state.lighting.light_count = 5;
     state.lighting.ambient = shade_v3(0.012f, 0.014f, 0.02f);
     for (int row = 0; row < 2; row++) {
         shade_target panel = canvas_panel(&c, 0, 260 * row, 960, 260);
         shade_clear(&panel, shade_v4(0, 0, 0, 1), 1);
         for (int i = 0; i < 5; i++) {
-            shade_vec3 at = shade_v3(2.1f * (float)(i - 2), 1.3f, 0.9f);
+            shade_vec3 at = shade_v3(2.45f * (float)(i - 2), 1.35f, 0.9f);
             lamps[i] = shade_spot_light(at, shade_v3(0, -1, -0.72f),
-                                        (row ? degrees[i] : 20) * 0.017453293f,
-                                        row ? 0 : exponent[i], shade_v3(2.2f, 1.85f, 1.4f));
+                                        (row ? degrees[i] : 16) * 0.017453293f,
+                                        row ? 0 : exponent[i], shade_v3(2.6f, 2.2f, 1.7f));
             lamps[i].constant = 0.8f, lamps[i].quadratic = 0.35f;
         }
         state.model = shade_mat4_rotation(1.5707963f, shade_v3(1, 0, 0)), state.material = &wall;
@@ -44,7 +44,7 @@ int main(int argc, char **argv)
             state.model = shade_mat4_mul(shade_mat4_translation(shade_v3(at.x, at.y, at.z)),
                                          shade_mat4_scaling(shade_v3(0.05f, 0.05f, 0.05f)));
             shade_draw_mesh(&panel, &ball.view, &state, NULL);
-            label_center(&panel, 1440 + 567 * (i - 2), 710, 6, shade_v3(0.6f, 0.6f, 0.6f),
+            label_center(&panel, 1440 + 560 * (i - 2), 710, 6, shade_v3(0.6f, 0.6f, 0.6f),
                          name[row][i]);
         }
     }

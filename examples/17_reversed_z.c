@@ -34,19 +34,21 @@ int main(int argc, char **argv)
     static const char *const name[2] = { "standard depth", "reversed depth" };
     static const float place[8][3] = {    /* x per distance, distance, size */
         { -0.18f, 0.6f, 0.08f }, { 0.22f, 0.9f, 0.10f }, { -0.05f, 1.6f, 0.16f },
-        { 0.30f, 2.6f, 0.3f }, { -0.28f, 4, 0.5f }, { 0.1f, 8, 1 }, { -0.12f, 20, 3 }, { 0.3f, 40, 7 }
+        { 0.3f, 2.6f, 0.3f }, { -0.28f, 4, 0.5f }, { 0.1f, 8, 1 }, { -0.12f, 20, 3 },
+        { 0.3f, 40, 7 }
     };
-    const float near_z = 0.01f, far_z = 1e6f;
+    const float near_z = 0.02f, far_z = 1e6f;
     shade_material ground = shade_preset_material(SHADE_WHITE_RUBBER), water = ground;
     shade_light sun = shade_directional_light(shade_v3(-0.8f, -0.6f, -0.5f),
                                               shade_v3(1.2f, 1.1f, 0.95f));
     shade_draw_state state = { 0 };
-    owned_mesh land = island(64), sea = mesh_plane(4e5f, 1);
+    owned_mesh land = island(64), sea = mesh_plane(3e5f, 300);
     canvas c = canvas_new(960, 400, 2);
 
     ground.diffuse = ground.ambient = shade_v3(1, 1, 1), ground.specular = shade_v3(0, 0, 0);
     water.diffuse = water.ambient = shade_v3(0.02f, 0.12f, 0.20f);
-    state.view = shade_mat4_look_at(shade_v3(0, 700, 0), shade_v3(0, 0, -4000), shade_v3(0, 1, 0));
+    state.view = shade_mat4_look_at(shade_v3(0, 700, 0), shade_v3(0, 0, -4000),
+                                    shade_v3(0, 1, 0));
     state.lighting.lights = &sun, state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.3f, 0.35f, 0.45f);
     for (int i = 0; i < 2; i++) {

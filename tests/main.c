@@ -22,12 +22,17 @@
 #include "store.c"
 #include "drive.c"
 #include "mesh.c"
+#include "texture.c"
+#include "lines.c"
+#include "shape.c"
+#include "ray.c"
 #include "scene.c"
 
 static const test_section sections[] = {
     SECTION(math),   SECTION(matrix), SECTION(power), SECTION(light),    SECTION(lanes),
     SECTION(vertex), SECTION(clip),   SECTION(cover), SECTION(fragment), SECTION(store),
-    SECTION(drive),  SECTION(mesh),   SECTION(scene),
+    SECTION(drive),  SECTION(mesh),   SECTION(texture), SECTION(lines),  SECTION(shape),
+    SECTION(ray),    SECTION(scene),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

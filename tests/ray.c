@@ -109,19 +109,41 @@ TEST(ray, any_matrices_give_a_ray_without_a_crash)
 
 /* ------------------------------------------------------------------------------- intersections */
 
-/* 1 hit, 0 miss, -1 too near an edge, the plane or the origin to tell; t and barycentrics */
+static long double ld_dot(const long double *a, const long double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+static void ld_cross(const long double *a, const long double *b, long double *out)
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+}
+static void ld_of(d3 a, d3 minus, long double *out)
+{
+    out[0] = (long double)a.x - minus.x, out[1] = (long double)a.y - minus.y;
+    out[2] = (long double)a.z - minus.z;
+}
+/* 1 hit, 0 miss, -1 too near an edge, the plane or the origin to tell; t and barycentrics.  The plane first, then
+   areas, in long double: where rays graze, double loses half its digits this way. */
 static int ref_intersect(const shade_ray *ray, const d3 p[3], double *t, double b[3])
 {
-    d3 o = d3_from(ray->origin), d = d3_from(ray->direction);
-    d3 n = d3_cross(d3_sub(p[1], p[0]), d3_sub(p[2], p[0]));
-    double area = d3_dot(n, n), slope = d3_dot(n, d), least = 1e300;
+    long double d[3], n[3], e[3], f[3], from[3], area, slope, at[3], tt;
+    double least = 1e300;
+    d3 o = d3_from(ray->origin);
+    ld_of(d3_from(ray->direction), d3_of(0, 0, 0), d);
+    ld_of(p[1], p[0], e), ld_of(p[2], p[0], f), ld_of(p[0], o, from);
+    ld_cross(e, f, n);
+    area = ld_dot(n, n), slope = ld_dot(n, d);
     if (area == 0) return 0;
-    if (fabs(slope) < 1e-6 * sqrt(area)) return -1;
-    *t = d3_dot(n, d3_sub(p[0], o)) / slope;
-    d3 at = d3_add(o, d3_scale(d, *t));
+    if (fabs((double)slope) < 1e-6 * sqrt((double)area)) return -1;
+    tt = ld_dot(n, from) / slope, *t = (double)tt;
     for (int k = 0; k < 3; k++) {
-        d3 e = d3_cross(d3_sub(p[(k + 2) % 3], p[(k + 1) % 3]), d3_sub(at, p[(k + 1) % 3]));
-        b[k] = d3_dot(e, n) / area;
+        const d3 *q = &p[(k + 1) % 3];
+        ld_of(o, *q, at);
+        for (int i = 0; i < 3; i++) at[i] += tt * d[i];
+        ld_of(p[(k + 2) % 3], *q, e), ld_cross(e, at, f);
+        b[k] = (double)(ld_dot(f, n) / area);
         least = fmin(least, b[k]);
     }
     if (fabs(least) < 1e-9 || fabs(*t) < 1e-9) return -1;
