@@ -22,15 +22,15 @@ int main(int argc, char **argv)
     owned_mesh plane = mesh_plane(20, 1), ball = mesh_sphere(32, 16);
     canvas c = canvas_new(960, 520, 3);
 
-    state.view = shade_mat4_look_at(shade_v3(0, 0, 12), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.29f, 960 / 260.0f, 4, 20);
+    state.view = shade_mat4_look_at(shade_v3(0, 0, 36), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    state.projection = shade_mat4_perspective(0.0965f, 960 / 260.0f, 20, 50);
     state.lighting.lights = lamps, state.lighting.light_count = 5;
     state.lighting.ambient = shade_v3(0.012f, 0.014f, 0.02f);
     for (int row = 0; row < 2; row++) {
         shade_target panel = canvas_panel(&c, 0, 260 * row, 960, 260);
         shade_clear(&panel, shade_v4(0, 0, 0, 1), 1);
         for (int i = 0; i < 5; i++) {
-            shade_vec3 at = shade_v3(2.45f * (float)(i - 2), 1.35f, 0.9f);
+            shade_vec3 at = shade_v3(2.4f * (float)(i - 2), 1.35f, 0.9f);
             lamps[i] = shade_spot_light(at, shade_v3(0, -1, -0.72f),
                                         (row ? degrees[i] : 16) * 0.017453293f,
                                         row ? 0 : exponent[i], shade_v3(2.6f, 2.2f, 1.7f));
@@ -44,7 +44,7 @@ int main(int argc, char **argv)
             state.model = shade_mat4_mul(shade_mat4_translation(shade_v3(at.x, at.y, at.z)),
                                          shade_mat4_scaling(shade_v3(0.05f, 0.05f, 0.05f)));
             shade_draw_mesh(&panel, &ball.view, &state, NULL);
-            label_center(&panel, 1440 + 560 * (i - 2), 710, 6, shade_v3(0.6f, 0.6f, 0.6f),
+            label_center(&panel, 1440 + 553 * (i - 2), 710, 6, shade_v3(0.6f, 0.6f, 0.6f),
                          name[row][i]);
         }
     }

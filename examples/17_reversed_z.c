@@ -37,7 +37,7 @@ int main(int argc, char **argv)
         { 0.3f, 2.6f, 0.3f }, { -0.28f, 4, 0.5f }, { 0.1f, 8, 1 }, { -0.12f, 20, 3 },
         { 0.3f, 40, 7 }
     };
-    const float near_z = 0.02f, far_z = 1e6f;
+    const float near_z = 0.005f, far_z = 1e6f;
     shade_material ground = shade_preset_material(SHADE_WHITE_RUBBER), water = ground;
     shade_light sun = shade_directional_light(shade_v3(-0.8f, -0.6f, -0.5f),
                                               shade_v3(1.2f, 1.1f, 0.95f));

@@ -373,10 +373,34 @@ static int near_an_edge(const ray_scene *s, double X, double Y)
     }
     return 0;
 }
+/* The stored levels of a channel of triangle t at a window point, least and greatest; with spread,
+   at points 1/256 pixel to each side as well. */
+static void ray_levels(const ray_scene *s, int t, double X, double Y, int channel, int spread,
+                       double level[2])
+{
+    static const int side[5][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
+    const shade_vec3 *p = &s->position[3 * t];
+    level[0] = 255, level[1] = 0;
+    for (int k = 0; k < (spread ? 5 : 1); k++) {
+        shade_material m = s->material;
+        shade_vec3 b;
+        shade_ray ray = shade_pixel_ray(s->camera.view, s->camera.projection, RAY_WIDTH, RAY_HEIGHT,
+                                        (float)(X + side[k][0] / 256.0),
+                                        (float)(Y + side[k][1] / 256.0));
+        if (!shade_intersect(ray, p[0], p[1], p[2], NULL, &b)) continue;
+        shade_vec3 albedo = ray_mix(&s->color[3 * t], b);
+        m.diffuse = shade_mul(m.diffuse, albedo), m.ambient = shade_mul(m.ambient, albedo);
+        shade_vec3 c = shade_lit(&s->state.lighting, &m, ray_mix(p, b), ray_mix(&s->normal[3 * t], b),
+                                 d3_round(ray_eye(&s->camera)));
+        const float rgb[3] = { c.x, c.y, c.z };
+        double v = floor(fmax(0, fmin(1, (double)rgb[channel])) * 255 + 0.5);
+        level[0] = fmin(level[0], v), level[1] = fmax(level[1], v);
+    }
+}
 static void check_both_ways(int kind)
 {
     static ray_scene s;
-    long compared = 0, hits = 0;
+    long compared = 0, hits = 0, close_by = 0;
     for (int i = 0; i < 3; i++) {
         canvas ids = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_RGBA32F, 1);
         canvas lit = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_RGBA8, 1);
@@ -388,7 +412,6 @@ static void check_both_ways(int kind)
         canvas_clear(&ids, far), canvas_clear(&lit, far);
         CHECK_INT(shade_draw(&ids.target, &p, NULL, 3 * s.count, 3 * s.count, NULL), SHADE_OK);
         CHECK_INT(shade_draw_mesh(&lit.target, &s.mesh, &s.state, NULL), SHADE_OK);
-        d3 eye = ray_eye(&s.camera);
         for (int k = 0; k < RAY_WIDTH * RAY_HEIGHT; k++) {
             int x = k % RAY_WIDTH, y = k / RAY_WIDTH;
             if (near_an_edge(&s, x + 0.5, y + 0.5)) continue;
@@ -400,21 +423,21 @@ static void check_both_ways(int kind)
             CHECK_SAY(cast == drawn, "pixel %d %d: triangle %d drawn, %d cast", x, y, drawn, cast);
             if (cast < 0 || cast != drawn) continue;
             hits++;
-            shade_material m = s.material;
-            shade_vec3 albedo = ray_mix(&s.color[3 * cast], b);
-            m.diffuse = shade_mul(m.diffuse, albedo), m.ambient = shade_mul(m.ambient, albedo);
-            shade_vec3 c = shade_lit(&s.state.lighting, &m, ray_mix(&s.position[3 * cast], b),
-                                     ray_mix(&s.normal[3 * cast], b), d3_round(eye));
-            const float channel[3] = { c.x, c.y, c.z };
             for (int n = 0; n < 3; n++) {
-                double want = floor(fmax(0, fmin(1, (double)channel[n])) * 255 + 0.5);
-                CHECK_NEAR(canvas_bytes(&lit, x, y)[n], want, 1);
+                double got = canvas_bytes(&lit, x, y)[n], want[2];
+                ray_levels(&s, cast, x + 0.5, y + 0.5, n, 0, want);
+                close_by += fabs(got - want[0]) <= 1;
+                /* corners snap by up to 1/512 pixel, which steep faces turn into more than a level */
+                if (fabs(got - want[0]) > 1) ray_levels(&s, cast, x + 0.5, y + 0.5, n, 1, want);
+                CHECK_SAY(got >= want[0] - 1 && got <= want[1] + 1,
+                          "pixel %d %d: %g drawn, %g .. %g cast", x, y, got, want[0], want[1]);
             }
         }
         canvas_close(&ids), canvas_close(&lit);
     }
     CHECK_SAY(compared > 3 * RAY_WIDTH * RAY_HEIGHT * 8 / 10 && hits > 5000,
               "%ld compared, %ld hits", compared, hits);
+    CHECK_SAY(close_by >= 3 * hits * 9995 / 10000, "%ld of %ld colours", close_by, 3 * hits);
 }
 TEST(ray, cast_and_drawn_pictures_agree_in_perspective) { check_both_ways(0); } /* row 49 */
 TEST(ray, cast_and_drawn_pictures_agree_off_centre) { check_both_ways(1); }
