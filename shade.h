@@ -3531,9 +3531,9 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms, const shade_ver
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_draw_state *state = s->state;
     float scratch[SHADE__SCRATCH][SHADE_LANES];
-    float *rows = SHADE_MAX_VARYINGS < 15 ? scratch[0] : out->out[0];
+    float *rows = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out;
     int lit = state->shading != SHADE_PER_FRAGMENT, per_face = state->shading == SHADE_PER_FACE;
-    float *P = lit ? rows + 6 * SHADE_LANES : out->out[0], *N = P + 3 * SHADE_LANES;
+    float *P = lit ? rows + 6 * SHADE_LANES : (float *)out->out, *N = P + 3 * SHADE_LANES;
     float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip[0]);
@@ -3541,12 +3541,12 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms, const shade_ver
     shade__lane_world(s->world_from_object, P);
     shade__lane_normal(s->normal_matrix, N);
     if (lit && s->map) {
-        float *rgb = out->out[0];
+        float *rgb = (float *)out->out;
         shade_lit_lanes(&s->matte, state->material, s->eye, P, N, albedo, rgb);
         shade_lit_lanes(&s->gloss, state->material, s->eye, P, N, albedo, rgb + 3 * SHADE_LANES);
         shade__fetch_texcoords(s, in, rgb + 6 * SHADE_LANES);
-    } else if (lit) shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, out->out[0]);
-    else if (s->map) shade__fetch_texcoords(s, in, out->out[0] + (albedo ? 9 : 6) * SHADE_LANES);
+    } else if (lit) shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (float *)out->out);
+    else if (s->map) shade__fetch_texcoords(s, in, out->out[albedo ? 9 : 6]);
 }
 SHADE__DISPATCH(shade__mesh_vertex,
                 (const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
@@ -3563,7 +3563,7 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
                             shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const float *P = in->in[0], *N = P + 3 * SHADE_LANES, *albedo = N + 3 * SHADE_LANES;
+    const float *P = (const float *)in->in, *N = P + 3 * SHADE_LANES, *albedo = N + 3 * SHADE_LANES;
     float local[SHADE_MAX_VARYINGS < 16 ? 4 : 1][SHADE_LANES];
     float *texel = SHADE_MAX_VARYINGS < 16 ? local[0] : (float *)(uintptr_t)P + 12 * SHADE_LANES;
     int colored = s->mesh->colors != (const float *)0;
@@ -3573,15 +3573,15 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
     }
     if (s->map) albedo = texel;
     else if (!colored) albedo = (const float *)0;
-    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo, out->out[0]);
+    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo, (float *)out->out);
 }
 /* Gouraud and flat: the colour arrives. */
 static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                               shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const float *rgb = in->in[0];
-    float *to = out->out[0];
+    const float *rgb = (const float *)in->in;
+    float *to = (float *)out->out;
     if (!s->map) {
         SHADE_MEMCPY(to, rgb, 3 * sizeof in->in[0]);
         return;
