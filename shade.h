@@ -1467,9 +1467,8 @@ static shade__surface shade__surface_of(const shade_lighting *lighting,
 {
     shade__surface s;
     shade_vec3 none = shade_v3(0, 0, 0);
-    shade_material m = shade_preset_material(SHADE_PRESET_COUNT);
+    shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
     unsigned terms = lighting->terms ? lighting->terms : ~0u;
-    if (material) m = *material;
     if (lighting->model == SHADE_EMISSIVE) terms &= SHADE_TERM_EMISSION;
     if (lighting->model == SHADE_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
     if (lighting->model == SHADE_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
@@ -1781,40 +1780,27 @@ SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t ab
     }
 }
 
-/* rgb += L albedo, or rgb += L: what does not depend on a highlight is gathered in L first. */
-SHADE__INLINE void shade__lane_accumulate(const float *SHADE_RESTRICT L,
-                                          const float *SHADE_RESTRICT albedo,
-                                          float *SHADE_RESTRICT rgb)
-{
-    if (albedo) {
-        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i] * albedo[i]; }
-    } else {
-        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i]; }
-    }
-}
-SHADE__INLINE void shade__lane_fill(shade_vec3 v, float *SHADE_RESTRICT rows)
+/* rgb = emission + ambient albedo */
+SHADE__INLINE void shade__lane_begin(shade_vec3 emission, shade_vec3 ambient,
+                                     const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
-        rows[i] = v.x, rows[i + SHADE_LANES] = v.y, rows[i + 2 * SHADE_LANES] = v.z;
+        rgb[i] = emission.x + ambient.x * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] = emission.y + ambient.y * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] =
+            emission.z + ambient.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
     }
 }
-/* L = att k: a light's own ambient, where it is attenuated */
-SHADE__INLINE void shade__lane_ambient(shade_vec3 k, shade__rows *SHADE_RESTRICT r)
+/* rgb += (base + x slope) albedo */
+SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope, const float *SHADE_RESTRICT x,
+                                    const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
-        float att = r->att[i];
-        r->L[0][i] = att * k.x, r->L[1][i] = att * k.y, r->L[2][i] = att * k.z;
-    }
-}
-/* L = cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
-SHADE__INLINE void shade__lane_cool_to_warm(shade_vec3 cool, shade_vec3 warm,
-                                            shade__rows *SHADE_RESTRICT r)
-{
-    shade_vec3 d = shade_sub(warm, cool);
-    SHADE_EACH_LANE(i) {
-        float kw = 0.5f + 0.5f * r->nl[i];
-        r->L[0][i] = cool.x + kw * d.x, r->L[1][i] = cool.y + kw * d.y;
-        r->L[2][i] = cool.z + kw * d.z;
+        float k = x[i];
+        rgb[i] += (base.x + k * slope.x) * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] += (base.y + k * slope.y) * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] +=
+            (base.z + k * slope.z) * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
     }
 }
 
@@ -1841,14 +1827,19 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
     shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
-    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT),
-        gloss = !shade__is_zero(ks);
+    shade_vec3 base = shade_v3(0, 0, 0), slope = base;
+    const float *x = r->att;
+    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT);
+    int gloss = !shade__is_zero(ks);
     uint32_t open = shade__mask((s->flags & SHADE_UNGATED_SPECULAR) != 0);
     uint32_t absolute = shade__mask((s->flags & SHADE_TWO_SIDED_ABS) != 0);
     uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
-    if (!ambient && !gloss && shade__is_zero(kd)) return;
+    if (!ambient && !gloss && shade__is_zero(kd) && !s->cool_to_warm) return;
     any = shade__lane_lamp(light, &lamp, P, N, r);
-    if (any | open | absolute) {
+    if (s->cool_to_warm) {    /* cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
+        SHADE_EACH_LANE(i) { r->nl[i] = 0.5f + 0.5f * r->nl[i]; }
+        base = s->cool, slope = shade_sub(s->warm, s->cool), x = r->nl;
+    } else if (any | open | absolute) {
         if (gloss) {
             if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
             else if (shade__lane_half(P, N, eye, scale, open, r))
@@ -1859,10 +1850,10 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
         if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
         else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
     }
-    if (ambient) {
-        shade__lane_ambient(shade_mul(s->ambient, light->ambient), r);
-        shade__lane_accumulate(r->L[0], albedo, rgb);
-    }
+    if (ambient) slope = shade_mul(s->ambient, light->ambient);
+    if (!ambient && !s->cool_to_warm) return;
+    if (albedo) shade__lane_ramp(base, slope, x, albedo, rgb);
+    else shade__lane_ramp(base, slope, x, (const float *)0, rgb);
 }
 
 SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_material *material,
@@ -1871,31 +1862,23 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_m
 {
     shade__rows r;
     shade__surface s = shade__surface_of(lighting, material);
+    const shade_light *lights = lighting->lights;
+    shade_light toward;
     shade_vec3 ambient = s.scene_ambient;
     float scale = s.flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
     shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_TWO_SIDED ? 0x80000000u : 0, &r);
-    shade__lane_fill(s.emission, rgb);
-    if (s.cool_to_warm) {
-        shade__lamp lamp;
-        SHADE_MEMSET(&lamp, 0, sizeof lamp);
-        if (s.light_count > 0) lamp = shade__lamp_of(&lighting->lights[0]);
-        if (s.light_count <= 0 || lamp.infinite) shade__lane_directional(lamp.at, &r);
-        else shade__lane_point(P, lamp.at, 1, 0, 0, &r);
-        (void)shade__lane_horizon(N, &r);
-        shade__lane_cool_to_warm(s.cool, s.warm, &r);
-        shade__lane_accumulate(r.L[0], albedo, rgb);
-        return;
+    if (s.cool_to_warm) {    /* only where the first light comes from counts */
+        SHADE_MEMSET(&toward, 0, sizeof toward);
+        if (s.light_count > 0) toward.position = lights[0].position;
+        lights = &toward, s.light_count = 1;
     }
     if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_ATTENUATED_AMBIENT))
-        for (int j = 0; j < s.light_count; j++)
-            ambient = shade_add(ambient, lighting->lights[j].ambient);
+        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lights[j].ambient);
     ambient = shade_mul(ambient, s.ambient);
-    if (!shade__is_zero(ambient)) {
-        shade__lane_fill(ambient, r.L[0]);
-        shade__lane_accumulate(r.L[0], albedo, rgb);
-    }
+    if (albedo && !shade__is_zero(ambient)) shade__lane_begin(s.emission, ambient, albedo, rgb);
+    else shade__lane_begin(s.emission, ambient, (const float *)0, rgb);
     for (int j = 0; j < s.light_count; j++)
-        shade__lane_add_light(&s, &lighting->lights[j], P, N, albedo, eye, scale, &r, rgb);
+        shade__lane_add_light(&s, &lights[j], P, N, albedo, eye, scale, &r, rgb);
 }
 SHADE__DISPATCH(shade__lit,
                 (const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
