@@ -239,11 +239,18 @@
         int level = SHADE__LEVEL; \
         return level == 2 ? name##_avx512 : level == 1 ? name##_avx2 : name##_any; \
     }
+/* for loops of 8 lanes and fetches, which AVX-512 made no faster */
+#define SHADE__DISPATCH_AVX2(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters { name##_body arguments; } \
+    static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
+    static name##_fn *name##_pick(void) { return (SHADE__LEVEL) ? name##_avx2 : name##_any; }
 #else
 #define SHADE__DISPATCH(name, parameters, arguments) \
     typedef void name##_fn parameters; \
     static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
     static name##_fn *name##_pick(void) { return name##_any; }
+#define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
 #endif
 
 #if defined(__GNUC__) || defined(__clang__)
@@ -2165,7 +2172,7 @@ SHADE__INLINE void shade__sample8_body(const shade_texture *t, const float *u, c
             shade__sample_level(t, shade__texture_good(source) ? source : t, u, v, weight, out);
     }
 }
-SHADE__DISPATCH(shade__sample8,
+SHADE__DISPATCH_AVX2(shade__sample8,
                 (const shade_texture *t, const float *u, const float *v, const float *lod,
                  float *out),
                 (t, u, v, lod, out))
@@ -3142,7 +3149,7 @@ SHADE__INLINE void shade__place_vertices_body(shade__draw *d)
     shade__project((double)d->half_width, (double)d->half_height, zero_to_one, &p);
     shade__gather(d, &p);
 }
-SHADE__DISPATCH(shade__place_vertices, (shade__draw *d), (d))
+SHADE__DISPATCH_AVX2(shade__place_vertices, (shade__draw *d), (d))
 
 static void shade__shade_vertices(shade__draw *d)
 {
@@ -3592,7 +3599,7 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
         shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (float *)out->out);
     else if (s->map) shade__fetch_texcoords(s, in, out->out[albedo ? 9 : 6]);
 }
-SHADE__DISPATCH(shade__mesh_vertex,
+SHADE__DISPATCH_AVX2(shade__mesh_vertex,
                 (const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                  shade_vertices *SHADE_RESTRICT out),
                 (uniforms, in, out))
