@@ -3470,7 +3470,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
 
 enum {
     SHADE__TERM_NONE = 128,                              /* no term at all, since 0 means all */
-    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 15 : 1    /* rows; 15 varyings lend theirs instead */
+    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 9 : 1     /* rows; 15 varyings lend theirs instead */
 };
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
@@ -3581,9 +3581,9 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_draw_state *state = s->state;
     float scratch[SHADE__SCRATCH][SHADE_LANES];
-    float *rows = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out;
     int lit = state->shading != SHADE_PER_FRAGMENT, per_face = state->shading == SHADE_PER_FACE;
-    float *P = lit ? rows + 6 * SHADE_LANES : (float *)out->out, *N = P + 3 * SHADE_LANES;
+    float *spare = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out + 6 * SHADE_LANES;
+    float *P = lit ? spare : (float *)out->out, *N = P + 3 * SHADE_LANES;
     float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip[0]);
@@ -3670,7 +3670,9 @@ static shade_mat4 shade__or_identity(shade_mat4 m)
 {
     return shade__is_zero_matrix(&m) ? shade_mat4_identity() : m;
 }
-static shade__scene shade__scene_of(const shade_mesh *mesh, const shade_draw_state *state)
+/* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
+static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
+                                                    const shade_draw_state *state)
 {
     shade__scene s;
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
