@@ -459,16 +459,12 @@ static inline double shade__root(double x)
     for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * x * y * y;
     return x * y;
 }
-/* Correctly rounded square root, as sqrtf: the midpoints between the result and its neighbours,
-   whose squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
+/* Correctly rounded square root, as sqrtf: the root of a float is at least 2^-51 from the middle
+   between two floats, and shade__root errs by less.  x <= 0 or NaN gives 0. */
 static inline float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
-    double d = (double)x;
-    uint32_t u = shade__float_bits((float)shade__root(d));
-    double below = ((double)shade__bits_float(u - 1) + (double)shade__bits_float(u)) / 2;
-    double above = ((double)shade__bits_float(u + 1) + (double)shade__bits_float(u)) / 2;
-    return shade__bits_float(below * below > d ? u - 1 : above * above < d ? u + 1 : u);
+    return (float)shade__root((double)x);
 }
 SHADE__INLINE float shade__sqrt(float x) { return SHADE__SQRT(x); }
 
@@ -777,7 +773,7 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 
 /* The picture (of a strip: its rows) as a binary PPM, "P6".  RGBA32F is clamped, and encoded where
    srgb is set.  A write function that returns non-zero ends it with SHADE_ERROR_IO; a file that
-   could not be written whole is removed. */
+   could not be written whole stays behind. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
                                        const shade_target *target);
@@ -1202,7 +1198,7 @@ static shade_mat4 shade__camera(shade_mat4 m)
     for (int j = 0; j < 4; j++) {
         shade_vec4 v = m.col[j];
         if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
-            !shade__within(v.z, FLT_MAX) || !shade__within(v.w, FLT_MAX))
+            !shade__within(v.z, FLT_MAX))
             return shade__zero_matrix();
     }
     return m;
@@ -1799,7 +1795,8 @@ SHADE__INLINE void shade__lane_begin(shade_vec3 emission, shade_vec3 ambient,
     }
 }
 /* rgb += (base + x slope) albedo */
-SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope, const float *SHADE_RESTRICT x,
+SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope,
+                                    const float *SHADE_RESTRICT x,
                                     const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
@@ -2660,20 +2657,14 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
 }
 
 /* First (dx > 0) or last (dx < 0) i in 0 .. n - 1 with e + i dx >= 0; n or -1 if none is.  The
-   quotient in double is off by at most one, e being below 2^44; the loops make it exact. */
+   quotient, correctly rounded and below 2^14, is whole or at least 2^-25 from a whole number: so
+   truncation is exact. */
 static int shade__crossing(int64_t e, int32_t dx, int n)
 {
     double q = -(double)e / dx;
     int i = q <= 0 ? 0 : q >= n ? n : (int)q;
-    if (dx > 0) {
-        while (i > 0 && e + (int64_t)(i - 1) * dx >= 0) i--;
-        while (i < n && e + (int64_t)i * dx < 0) i++;
-    } else {
-        i = shade__min(i, n - 1);
-        while (i < n - 1 && e + (int64_t)(i + 1) * dx >= 0) i++;
-        while (i >= 0 && e + (int64_t)i * dx < 0) i--;
-    }
-    return i;
+    if (dx > 0) return i < n && e + (int64_t)i * dx < 0 ? i + 1 : i;
+    return q < 0 ? -1 : shade__min(i, n - 1);
 }
 static void shade__spans_big(const shade__triangle *t, int row, int n, shade__spans *s)
 {
@@ -2909,7 +2900,7 @@ enum {
     SHADE__OUT_CLIP = SHADE__OUT_NEAR | SHADE__OUT_FAR | SHADE__OUT_GUARD | SHADE__OUT_W,
     /* has no window position */
     SHADE__OUT_UNPLACED = SHADE__OUT_GUARD | SHADE__OUT_W | SHADE__OUT_BAD,
-    SHADE__CLIP_VERTICES = 17                    /* 3 and two for each of 7 planes */
+    SHADE__CLIP_VERTICES = 18    /* 3, two for each of 7 planes, one that only bent ones reach */
 };
 static const float shade__w_least = 8.67361738e-19f;    /* 2^-60 */
 
@@ -2967,7 +2958,7 @@ static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one
 {
     int kept[SHADE__CLIP_VERTICES], count = 0;
     for (int i = 0; i < p->count; i++) {
-        if (count > SHADE__CLIP_VERTICES - 2 || p->used > SHADE__CLIP_VERTICES - 1) {
+        if (p->used > SHADE__CLIP_VERTICES - 1) {    /* and so count is below that */
             p->count = 0;    /* coordinates so far apart that rounding bent the polygon */
             return;
         }
@@ -4157,7 +4148,6 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
     if (!file) return SHADE_ERROR_IO;
     result = shade_encode_ppm(shade__write_file, file, target);
     if (fclose(file) && result == SHADE_OK) result = SHADE_ERROR_IO;
-    if (result != SHADE_OK) (void)remove(path);
     return result;
 }
 #endif
