@@ -44,14 +44,17 @@ tight() { sed 's/^\([-+]\)/\1:/' "$1" | tr -d ' \n'; }
 sed '/^#/d; /^$/d; s/^\([-+]\)/\1:/' tests/mutation.txt | tr -d ' ' |
     sed 'N; s/\n//' >"$T/listed"
 mkdir "$T/plain" && cp shade.h "$T/plain/"
-build "$T/plain" implementation && "$T/run" --stop >"$T/log" 2>&1 || { cat "$T/log"; exit 1; }
+build "$T/plain" implementation || exit 1
+start=$(date +%s)
+"$T/run" --stop >"$T/log" 2>&1 || { cat "$T/log"; exit 1; }
+limit=$((2 * ($(date +%s) - start) + 5))    # seconds: what runs twice as long does not end
 killed=0 survived=0 same=0 listed=0 broken=0 n=0
 while [ $((killed + survived)) -lt "$want" ] && [ -f "$T/$n.h" ]; do
     read -r part section <"$T/$n.where"
     rm -rf "$T/mutant" && mkdir "$T/mutant" && mv "$T/$n.h" "$T/mutant/shade.h"
     if tight "$T/$n.diff" | grep -qxFf - "$T/listed"; then listed=$((listed + 1))
     elif ! build "$T/mutant" "$part" >/dev/null 2>&1; then broken=$((broken + 1))
-    elif ! timeout 120 "$T/run" --stop $(first "$section") >"$T/log" 2>&1; then
+    elif ! timeout $limit "$T/run" --stop $(first "$section") >"$T/log" 2>&1; then
         killed=$((killed + 1))
         [ -z "${MUTATION_VERBOSE:-}" ] || { cat "$T/$n.diff"; tail -n 1 "$T/log"; }
     else
