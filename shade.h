@@ -1,11 +1,12 @@
-/* shade.h - classic local shading and an exact z-buffer rasterizer in one C99 file.   Public domain or MIT.
+/* shade.h - classic local shading and an exact z-buffer rasterizer in one C99 file
+   Public domain or MIT, as you like: the end of the file has both.
 
-   Emission, ambient, Lambert,
-       Phong and Blinn-Phong light ("iteration four" of the graphics courses, over any
-   number of directional, point and spot lights), the vector and matrix maths they need, and a small, fast
-   triangle rasterizer with programmable vertex and fragment shaders to see them with.  It allocates nothing,
-   keeps no global state, starts no thread and draws into memory that you own.  The pixels are the same bits
-   on every compiler and CPU: the arithmetic is IEEE single and double precision, never contracted.
+   Emission, ambient, Lambert, Phong and Blinn-Phong light ("iteration four" of the graphics
+   courses, over any number of directional, point and spot lights), the vector and matrix maths
+   they need, and a small, fast triangle rasterizer with programmable vertex and fragment shaders
+   to see them with.  It allocates nothing, keeps no global state, starts no thread and draws into
+   memory that you own.  The pixels are the same bits on every compiler and processor: the
+   arithmetic is IEEE single and double precision, never contracted.
 
    Use: in exactly one C or C++ file
 
@@ -32,8 +33,8 @@
            return shade_write_ppm("triangle.ppm", &target);
        }
 
-   It does not open windows, parse model files, start threads, emulate OpenGL, or do shadows, reflections,
-   or physically based materials.                                                                   >>about
+   It does not open windows, parse model files, start threads, emulate OpenGL, or do shadows,
+   reflections or physically based materials.                                            >>about
 
    >>contents
      About      >>about  >>contents  >>conventions  >>model
@@ -41,36 +42,36 @@
      Inside     >>base  >>matrix  >>power  >>lighting  >>lanes
                 >>store  >>texture  >>fragment  >>setup  >>cover  >>clip  >>vertex  >>drive
                 >>mesh  >>lines  >>shape  >>image
-     Sources    >>refs
+     Sources    >>refs  >>license
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
-     Matrices     column vectors, stored by columns: (float *)&m is what OpenGL,
-         GLM and cglm call a matrix.
+     Matrices     column vectors, stored by columns: (float *)&m is a matrix of OpenGL, GLM, cglm.
      Clip space   -w <= x, y, z <= w; with depth_zero_to_one 0 <= z <= w.  Near and far both clip.
      Window       x right, y DOWN, row 0 on top.  Pixel (i,j) has its centre at (i + 1/2, j + 1/2).
                   X = (x/w + 1) width/2,   Y = (1 - y/w) height/2.
-     Depth        0 near, 1 far, test LESS, cleared to 1.  For reversed depth: shade_mat4_perspective_reversed,
-                  depth_zero_to_one, SHADE_GREATER and a clear value of 0.
+     Depth        0 near, 1 far, test LESS, cleared to 1.  Reversed: depth_zero_to_one,
+                  shade_mat4_perspective_reversed, SHADE_GREATER and a clear value of 0.
      Front face   counter-clockwise as seen on the screen.
      Coverage     vertices snapped to floor(256 X + 1/2) / 256, exact integer edges, top-left rule.
      Directions   N, L, V, H, R are unit and all point AWAY from the surface.
-     Colour       linear light, unclamped.  8 and 5-6-5 bits store clamp(c, 0, 1) to nearest,
-         NaN as 0.
-     Names        _ws world   _cs clip   _ss screen   _fx8 24.8 fixed point   rw 1/w      shade__x private
+     Colour       linear light, unclamped; stored in 8 and 5-6-5 bits as clamp(c, 0, 1) to nearest,
+                  NaN as 0.
+     Names        _ws world   _cs clip   _ss screen   _fx8 24.8 fixed point   rw 1/w
+                  shade__x private
 
    >>model   Every equation of light in this file, with its symbols ("iteration four"):
 
-     I = k_e + k_a I_a + SUM over lights j of {
-             k_a I_La,j  +  spot_j / (a_j + b_j r_j + c_j r_j^2)  B_j ( k_d I_d,j (N.L_j)  +  k_s I_s,j (N.H_j)^n ) }
+     I = k_e + k_a I_a + SUM over lights j of { k_a I_La,j
+             + spot_j / (a_j + b_j r_j + c_j r_j^2) B_j (k_d I_d,j (N.L_j) + k_s I_s,j (N.H_j)^n) }
 
      k_e k_a k_d k_s n   emission, ambient, diffuse, specular, shininess of the shade_material
-     I_a                 ambient light of the scene;   I_La, I_d, I_s: ambient, diffuse, specular of the light
-     a b c, r            attenuation coefficients and distance to the light (lights at infinity: factor 1)
-     spot                (L.S)^e where L.S >= cos(beta),
-         else 0; S is opposite to where the lamp points
+     I_a                 ambient light of the scene
+     I_La I_d I_s        ambient, diffuse and specular light of one lamp
+     a b c, r            attenuation coefficients, distance to the lamp (at infinity: factor 1)
+     spot                (L.S)^e where L.S >= cos(beta), else 0; -S is where the lamp points
      B                   1 where N.L > 0, else 0
-     H                   (L + V) / |L + V|;  SHADE_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
+     H                   (L + V) / |L + V|; SHADE_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
 */
 #ifndef SHADE_H
 #define SHADE_H
@@ -81,15 +82,19 @@
      SHADE_IMPLEMENTATION     also compile the function bodies; in one file only
      SHADE_STATIC             all functions static: a private copy in this file
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
-     SHADE_ASSERT(x)          guards the library's own invariants; default assert(x),
-         nothing under SHADE_NO_LIBM
-     SHADE_LANES              fragments per packet, 8 .. 256, a power of two; default 128; 16 for small stacks
-     SHADE_MAX_VARYINGS       floats a vertex shader can hand to a fragment shader, 1 .. 64; default 16
+     SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
+     SHADE_LANES              fragments a packet, a power of two from 8 to 256; default 128;
+                              16 for small stacks
+     SHADE_MAX_VARYINGS       floats a vertex can hand to fragments, 1 .. 64; default 16; meshes
+                              lit per fragment need 6, 9 with colours, 8 or 11 with a map
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
-     SHADE_NO_LIBM            freestanding: only <stddef.h>, <stdint.h>, <float.h>; implies NO_STDIO, NO_DISPATCH
+     SHADE_NO_LIBM            freestanding: only <stddef.h>, <stdint.h>, <float.h>; implies
+                              NO_STDIO, NO_DISPATCH and no assertions
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        one build of each loop, for the processor the compiler was told of
-*/
+
+   Not for -ffast-math, and not for clang -ffp-contract=fast, which fuses against the pragma below:
+   they give other bits (and -ffast-math drops NaN, so bad data is no longer caught). */
 #include <float.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -138,7 +143,7 @@
 #error "shade.h: SHADE_MAX_VARYINGS must be 1 .. 64"
 #endif
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
-#error "shade.h: floats are evaluated in a wider type; on 32-bit x86 compile with -msse2 -mfpmath=sse"
+#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse"
 #endif
 
 #if defined(__GNUC__) || defined(__clang__)
@@ -169,9 +174,10 @@
 #define SHADE_RESTRICT restrict
 #endif
 
-/* SHADE_EACH_LANE(i) { ... }   runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into vector code
-   when the body is straight arithmetic on arrays indexed by i.  Without the pragma they unroll the loop before
-   they vectorise it: 1.5 to 2.4 times slower.  After an if, put braces around the whole. */
+/* SHADE_EACH_LANE(i) { ... }   runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
+   vector code when the body is straight arithmetic on arrays indexed by i.  Without the pragma they
+   unroll the loop before they vectorise it: 1.5 to 2.4 times slower.  After an if, put braces
+   around the whole. */
 #if defined(__clang__)
 #define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
 #elif defined(__GNUC__) && __GNUC__ >= 8
@@ -189,23 +195,19 @@
 #if defined(__clang__)
 #define SHADE__EXACT_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define SHADE__EXACT_END _Pragma("float_control(pop)")
-#define SHADE__EXACT_INSIDE_BEGIN
-#define SHADE__EXACT_INSIDE_END
-#elif defined(__GNUC__)
+#elif defined(_MSC_VER)
+#define SHADE__EXACT_BEGIN __pragma(float_control(push)) __pragma(fp_contract(off))
+#define SHADE__EXACT_END __pragma(float_control(pop))
+#else
 #define SHADE__EXACT_BEGIN
 #define SHADE__EXACT_END
+#endif
+#if defined(__GNUC__) && !defined(__clang__)
 #define SHADE__EXACT_INSIDE_BEGIN \
     _Pragma("GCC push_options") \
     _Pragma("GCC optimize(\"fp-contract=off\", \"no-tree-loop-distribute-patterns\")")
 #define SHADE__EXACT_INSIDE_END _Pragma("GCC pop_options")
-#elif defined(_MSC_VER)
-#define SHADE__EXACT_BEGIN __pragma(float_control(push)) __pragma(fp_contract(off))
-#define SHADE__EXACT_END __pragma(float_control(pop))
-#define SHADE__EXACT_INSIDE_BEGIN
-#define SHADE__EXACT_INSIDE_END
 #else
-#define SHADE__EXACT_BEGIN
-#define SHADE__EXACT_END
 #define SHADE__EXACT_INSIDE_BEGIN
 #define SHADE__EXACT_INSIDE_END
 #endif
@@ -216,8 +218,9 @@
    1, 2) by tests to force a path. */
 #if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
 #ifndef SHADE__LEVEL
-#define SHADE__LEVEL (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
-                      __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
+#define SHADE__LEVEL \
+    (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
+     __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
 #endif
 #ifdef __clang__
 #define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
@@ -279,8 +282,7 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 
 typedef enum shade_result {
     SHADE_OK = 0,
-    /* NULL where memory is needed, an unknown enum value, a count that makes no sense */
-    SHADE_ERROR_ARGUMENT,
+    SHADE_ERROR_ARGUMENT,    /* NULL, an unknown enum value, a count that makes no sense */
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle or strip of the target */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count, or no whole number of triangles */
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
@@ -290,8 +292,8 @@ typedef enum shade_result {
 /* A short English text for a result, never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
-/* Property of a surface, linear RGB. For energy's sake k_d + k_s <= 1 per channel is usual, not
-   required. */
+/* Property of a surface, linear RGB.  For energy's sake k_d + k_s <= 1 in each channel is usual,
+   not required. */
 typedef struct shade_material {
     shade_vec3 emission;     /* k_e */
     shade_vec3 ambient;      /* k_a */
@@ -302,57 +304,49 @@ typedef struct shade_material {
 
 /* One lamp.  shade_directional_light and its sisters below fill it in. */
 typedef struct shade_light {
-    /* w = 1: a point; w = 0: the direction TOWARD a distant light; else a point, xyz/w */
-    shade_vec4 position;
-    /* I_La: neither attenuated nor limited by the cone, see SHADE_ATTENUATED_AMBIENT */
-    shade_vec3 ambient;
-    shade_vec3 diffuse;      /* I_d */
-    shade_vec3 specular;     /* I_s */
-    /* a, b, c of 1/(a + b r + c r^2); all zero: no attenuation */
-    float      constant, linear, quadratic;
-    shade_vec3 spot_direction;  /* where the lamp points, any length; zero: not a spotlight */
-    float      spot_exponent;                 /* e; 0: a cone of even light */
-    float      spot_cos_cutoff;               /* cos(beta), beta from axis to edge of the cone */
+    shade_vec4 position;           /* w = 0: the direction TOWARD a distant light; else at xyz/w */
+    shade_vec3 ambient;            /* I_La: not attenuated, see SHADE_ATTENUATED_AMBIENT */
+    shade_vec3 diffuse;            /* I_d */
+    shade_vec3 specular;           /* I_s */
+    float      constant, linear, quadratic;    /* a, b, c of 1/(a + b r + c r^2); all zero: 1 */
+    shade_vec3 spot_direction;     /* where the lamp points, any length; zero: not a spotlight */
+    float      spot_exponent;      /* e; 0: a cone of even light */
+    float      spot_cos_cutoff;    /* cos(beta), beta from the axis to the edge of the cone */
 } shade_light;
 
 typedef enum shade_model {
-    SHADE_BLINN_PHONG = 0,  /* iterations three and four: (N.H)^n                       [Blinn77] */
-    SHADE_PHONG,  /* (R.V)^n in place of (N.H)^n                              [Phong75] */
-    SHADE_LAMBERT,  /* iteration two: emission, ambient, diffuse                           */
-    SHADE_AMBIENT,  /* iteration one: emission, ambient                                    */
-    SHADE_EMISSIVE,  /* iteration zero: emission                                            */
-    SHADE_COOL_TO_WARM  /* shade_cool_to_warm toward the first light; k_e is added   [Gooch98] */
+    SHADE_BLINN_PHONG = 0,    /* iterations three and four: (N.H)^n               [Blinn77] */
+    SHADE_PHONG,              /* (R.V)^n in place of (N.H)^n                      [Phong75] */
+    SHADE_LAMBERT,            /* iteration two: emission, ambient, diffuse */
+    SHADE_AMBIENT,            /* iteration one: emission, ambient */
+    SHADE_EMISSIVE,           /* iteration zero: emission */
+    SHADE_COOL_TO_WARM        /* shade_cool_to_warm to the first light, and k_e    [Gooch98] */
 } shade_model;
 
 enum {                                 /* shade_lighting.flags */
     SHADE_TWO_SIDED          = 1,      /* turn N toward the viewer first, where N.V < 0 */
-    /* |N.L| in the diffuse term; the specular one keeps the signed gate */
-    SHADE_TWO_SIDED_ABS      = 2,
-    /* B leaves the specular term: highlights reach behind the terminator */
-    SHADE_UNGATED_SPECULAR   = 4,
-    SHADE_WEIGHTED_SPECULAR  = 8,  /* k_s max(0, N.L) (N.H)^n: the form of a BRDF weighted by N.L */
-    /* I_La takes attenuation and cone too, as OpenGL's fixed function has it */
-    SHADE_ATTENUATED_AMBIENT = 16,
-    /* eye is the direction toward the viewer, the same for every point */
-    SHADE_INFINITE_VIEWER    = 32
+    SHADE_TWO_SIDED_ABS      = 2,      /* |N.L| in the diffuse term alone */
+    SHADE_UNGATED_SPECULAR   = 4,      /* no B: highlights reach behind the terminator */
+    SHADE_WEIGHTED_SPECULAR  = 8,      /* k_s max(0, N.L) (N.H)^n, as a BRDF is weighted */
+    SHADE_ATTENUATED_AMBIENT = 16,     /* I_La by distance and cone, as OpenGL's fixed function */
+    SHADE_INFINITE_VIEWER    = 32      /* eye is the direction toward the viewer, at every point */
 };
 enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
 };
 
-/* The light that falls on a scene, and the equation that answers it. Positions, normals and eye
+/* The light that falls on a scene, and the equation that answers it.  Positions, normals and eye
    may live in any one space whose axes are orthogonal and of equal scale: world or eye space,
-   never clip space. */
+   never clip space.  SHADE_TWO_SIDED with interpolated normals flips some on the outline of a
+   coarse mesh, where they already point away from the viewer: specks that a finer mesh loses. */
 typedef struct shade_lighting {
-    /* NULL with a count: no light but in shade_draw_mesh, which refuses it */
-    const shade_light *lights;
-    int        light_count;      /* below 0 counts as 0 */
-    shade_vec3 ambient;          /* I_a, once for the scene */
-    /* unknown values shade as SHADE_BLINN_PHONG; shade_draw_mesh refuses them */
-    shade_model model;
-    unsigned   flags;
-    unsigned   terms;
-    shade_vec3 cool, warm;       /* for SHADE_COOL_TO_WARM; zero: (.4,.4,.7) and (.8,.6,.6) */
+    const shade_light *lights;         /* NULL with a count: none (shade_draw_mesh refuses it) */
+    int         light_count;           /* below 0 counts as 0 */
+    shade_vec3  ambient;               /* I_a, once for the scene */
+    shade_model model;                 /* unknown: BLINN_PHONG (shade_draw_mesh refuses it) */
+    unsigned    flags;
+    unsigned    terms;
+    shade_vec3  cool, warm;            /* of SHADE_COOL_TO_WARM; zero: (.4,.4,.7), (.8,.6,.6) */
 } shade_lighting;
 
 typedef struct shade_terms { shade_vec3 emission, ambient, diffuse, specular; } shade_terms;
@@ -360,42 +354,41 @@ typedef struct shade_terms { shade_vec3 emission, ambient, diffuse, specular; } 
 typedef enum shade_format {
     SHADE_RGBA8 = 0,             /* bytes R, G, B, A in memory order */
     SHADE_RGB565,                /* a native uint16, red in the high bits */
-    SHADE_RGBA32F                /* four floats, stored as they come */
+    SHADE_RGBA32F                /* four floats, stored as they come; srgb does not touch them */
 } shade_format;
 
 typedef enum shade_wrap { SHADE_REPEAT = 0, SHADE_CLAMP, SHADE_MIRROR } shade_wrap;
 typedef enum shade_filter {
     SHADE_BILINEAR = 0,          /* the four nearest texels, weighted by distance */
     SHADE_NEAREST,               /* the texel that u, v lie in */
-    SHADE_TRILINEAR              /* bilinear in the two nearest mipmaps, weighted     [Williams83] */
+    SHADE_TRILINEAR              /* bilinear in the two nearest mipmaps, weighted [Williams83] */
 } shade_filter;
 
-/* A picture to sample: u right, v DOWN from the top left corner of row 0; texel (i, j) has its centre at
-   ((i + 1/2) / width, (j + 1/2) / height).  Sizes 1 .. 16384.  A bad texture samples as white. */
+/* A picture to sample: u right, v DOWN from the top left corner of row 0; texel (i, j) has its
+   centre at ((i + 1/2) / width, (j + 1/2) / height).  A bad texture samples as white. */
 typedef struct shade_texture {
     const void  *pixels;
-    int          width, height, stride;       /* texels; stride 0 = width */
+    int          width, height, stride;    /* texels, sizes 1 .. 16384; stride 0 = width */
     shade_format format;
-    int          srgb;                        /* non-zero: 8 and 5-6-5 bits are sRGB, decoded before filtering */
+    int          srgb;                     /* non-zero: 8 and 5-6-5 bits decoded before filtering */
     shade_wrap   wrap_u, wrap_v;
     shade_filter filter;
-    const struct shade_texture *mipmaps;      /* levels 1, 2, ..., read by SHADE_TRILINEAR alone */
+    const struct shade_texture *mipmaps;   /* levels 1, 2, ..., read by SHADE_TRILINEAR alone */
     int          mipmap_count;
 } shade_texture;
 
-/* An image and its depth buffer in the caller's memory. */
+/* A picture and its depth buffer in the caller's memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
-    int   stride;  /* pixels from row to row; 0 = width; what lies between is never touched */
+    int   stride;                /* pixels from row to row, of depth too; 0 = width */
     shade_format format;
     void  *color;                /* NULL: depth only */
-    float *depth;  /* stride pixels a row as well; NULL: no depth buffer, every test passes */
-    int   srgb;  /* non-zero: linear light is encoded to sRGB when stored in 8 or 5-6-5 bits */
+    float *depth;                /* NULL: no depth buffer, every test passes */
+    int   srgb;                  /* non-zero: 8 and 5-6-5 bits are encoded to sRGB when stored */
     int   dither;                /* non-zero: 4 x 4 ordered dither when stored in 5-6-5 bits */
-    int   clip_x, clip_y, clip_width, clip_height;   /* draw and clear only here, cut to the picture; all zero:
-                                    everywhere.  An empty rectangle draws nothing; sizes below 0 are refused. */
-    /* strips: color and depth hold row_count rows from row_offset on; 0 rows: all */
-    int   row_offset, row_count;
+    int   clip_x, clip_y;        /* draw and clear only here, cut to the picture; all four zero: */
+    int   clip_width, clip_height;         /* everywhere.  Empty: nothing is drawn */
+    int   row_offset, row_count; /* a strip: color and depth hold these rows alone; count 0: all */
 } shade_target;
 
 typedef enum shade_interpolation {
@@ -407,22 +400,19 @@ typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT
 typedef enum shade_compare {     /* a fragment passes when its depth is ... than the stored one */
     SHADE_LESS = 0, SHADE_LESS_EQUAL, SHADE_GREATER, SHADE_GREATER_EQUAL, SHADE_EQUAL, SHADE_ALWAYS
 } shade_compare;
-/* s the fragment's colour, a its alpha, d what is stored; linear light */
-typedef enum shade_blend {
+typedef enum shade_blend {       /* s the fragment's colour, a its alpha, d what is there; linear */
     SHADE_REPLACE = 0,           /* s */
     SHADE_OVER,                  /* s a + d (1 - a); alpha: a + d_a (1 - a) */
     SHADE_ADD                    /* s + d, all four channels */
 } shade_blend;
 typedef enum shade_shading {
-    /* N and P interpolated, N made unit again, lit per pixel           [Phong75] */
-    SHADE_PER_FRAGMENT = 0,
-    /* lit at the vertices, colours interpolated                     [Gouraud71] */
-    SHADE_PER_VERTEX,
+    SHADE_PER_FRAGMENT = 0,      /* N and P interpolated, N made unit again, lit      [Phong75] */
+    SHADE_PER_VERTEX,            /* lit at the vertices, colours interpolated         [Gouraud71] */
     SHADE_PER_FACE               /* lit once, at the centroid, with the geometric normal */
 } shade_shading;
 
 /* What became of the triangles of one call; written from zero by each call, whatever the clip
-   rectangle is. triangles = culled + clipped + rejected + drawn. */
+   rectangle is.  triangles = culled + clipped + rejected + drawn. */
 typedef struct shade_stats {
     long long triangles;
     long long culled;            /* facing, or zero area after snapping */
@@ -462,8 +452,8 @@ static inline double shade__root(double x)
     for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * x * y * y;
     return x * y;
 }
-/* Correctly rounded square root, as sqrtf: the midpoints between the result and its neighbours, whose
-   squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
+/* Correctly rounded square root, as sqrtf: the midpoints between the result and its neighbours,
+   whose squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
 static inline float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
@@ -668,9 +658,8 @@ SHADEDEF float      shade_mat3_determinant(shade_mat3 m);           /* a . (b x 
 SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);  /* zero matrix where the determinant is 0 */
 SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
-SHADEDEF float      shade_mat4_determinant(shade_mat4 m);           /* computed in double */
-/* computed in double; zero where determinant 0 */
-SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);
+SHADEDEF float      shade_mat4_determinant(shade_mat4 m);  /* computed in double */
+SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* in double; zero where that is 0 */
 SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
 SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
 
@@ -700,24 +689,22 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
 SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m);
 
 /*------------------------------------------------------------------------------------------ >>light
-   The equations of >>model.  All vectors point away from the surface.  Everything is defined: no input that is
-   free of NaN and infinity gives one.  Error against exact arithmetic, with I the brightest light arriving:
-   below 5e-5 max(1, |exact|, I) max(1, (n + e) / 100). */
+   The equations of >>model.  All vectors point away from the surface.  Everything is defined: no
+   input that is free of NaN and infinity gives one.  Error against exact arithmetic, with I the
+   brightest light arriving: below 5e-5 max(1, |exact|, I) max(1, (n + e) / 100). */
 
-/* color becomes I_d and I_s; ambient 0; no attenuation. direction_of_travel: the way the light
-   flies. */
+/* color becomes I_d and I_s; ambient 0, no attenuation.  direction_of_travel: the way light flies;
+   aim: where the lamp points; both of any length.  cutoff: from the axis to the edge of the cone,
+   0 .. pi.  exponent: e >= 0. */
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color);
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
-/* aim: where the lamp points. cutoff from the axis to the edge of the cone, 0 .. pi. exponent e
-   >= 0. */
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
-                                      float exponent,
-                                      shade_vec3 color);
+                                      float exponent, shade_vec3 color);
 
-/* Light leaving P toward eye, term by term. N is made unit here (zero stays zero: emission and
-   ambient are left). eye: the viewer's position, or the direction toward it with
-   SHADE_INFINITE_VIEWER. P, N, eye, lights in one space. material NULL: white Lambert (k_d = k_a
-   = 1). lighting NULL: zeros. */
+/* Light leaving P toward eye, term by term.  N is made unit here (zero stays zero: emission and
+   ambient are left).  eye: the viewer's position, or the direction toward it with
+   SHADE_INFINITE_VIEWER.  P, N, eye, lights in one space.  material NULL: white Lambert, that is
+   k_d = k_a = 1; lighting NULL: zeros. */
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
                                     shade_vec3 P, shade_vec3 N, shade_vec3 eye);
 
@@ -725,65 +712,65 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 P, shade_vec3 N, shade_vec3 eye);
 
-/* shade_lit for a packet, what fragment shaders call. P, N, albedo, rgb: three rows of
+/* shade_lit for a packet, what fragment shaders call.  P, N, albedo, rgb: three rows of
    SHADE_LANES floats each, x row, y row, z row: in->in[k], or N[0] of a float N[3][SHADE_LANES].
-   albedo multiplies k_d and k_a; NULL: 1. rgb must not overlap the others. */
+   albedo multiplies k_d and k_a; NULL: 1.  rgb must not overlap the others. */
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 eye,
-                              const float *P, const float *N, const float *albedo, float *rgb);
+                              shade_vec3 eye, const float *P, const float *N, const float *albedo,
+                              float *rgb);
 
-/* max(0, N.L)                                                                                  N, L unit */
+/* The terms one by one.  N, L, V unit, taken as given. */
+/* max(0, N.L) */
 SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L);
-/* B max(0, R.V)^n, R = 2 (N.L) N - L; 0 where N.L <= 0 N, L, V unit [Phong75] */
+/* B max(0, R.V)^n, R = 2 (N.L) N - L; 0 where N.L <= 0                               [Phong75] */
 SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
-/* B max(0, N.H)^n, H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12 N, L, V unit
-   [Blinn77] */
+/* B max(0, N.H)^n, H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12      [Blinn77] */
 SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
 /* 1 / (a + b r + c r^2), at most 1e20.  a = b = c = 0: 1.  a = 0: r is taken as max(r, 1e-4). */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
-/* (L.S)^e where L.S >= cos_cutoff, else 0; S = -aim / |aim|. L unit, toward the light. aim zero:
-   1. */
+/* (L.S)^e where L.S >= cos_cutoff, else 0; S = -aim / |aim|.  L toward the light.  aim zero: 1. */
 SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float exponent);
 
-/* The reflectance f_r that, times irradiance I (N.L), is the reflected light: k_d + k_s (N.H)^n
-   for BLINN_PHONG, k_d + k_s (R.V)^n for PHONG, k_d for LAMBERT, 0 else. Ungated: the weight N.L
-   does that. N, L, V unit. */
-SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model,
-                               shade_vec3 N, shade_vec3 L, shade_vec3 V);
-/* cool + k_w (warm - cool), k_w = (1 + N.L) / 2. N, L unit. [Gooch98] */
+/* The reflectance f_r that, times irradiance I (N.L), is the reflected light: k_d + k_s (N.H)^n for
+   BLINN_PHONG, k_d + k_s (R.V)^n for PHONG, k_d for LAMBERT, 0 else.  Ungated: the weight N.L does
+   that.  N, L, V unit. */
+SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model, shade_vec3 N,
+                               shade_vec3 L, shade_vec3 V);
+/* cool + k_w (warm - cool), k_w = (1 + N.L) / 2.  N, L unit.                         [Gooch98] */
 SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool,
                                        shade_vec3 warm);
-/* 4 alpha: the Blinn-Phong exponent whose highlight on a front-lit surface looks like Phong's
-   alpha. */
+/* 4 alpha: the Blinn-Phong exponent whose highlight, lit from the front, looks like Phong's. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
-/* x^n for x in [0, 1] (clamped to it), n >= 0 (below 0 counts as 0); x^0 = 1, also 0^0.  Never NaN.
-   Absolute error below 2e-6 for n up to 1e6. */
+/* x^n for x in [0, 1] (clamped to it), n >= 0 (below 0 counts as 0); x^0 = 1, also 0^0.  Never
+   NaN.  Absolute error below 2e-6 for n up to 1e6. */
 SHADEDEF float shade_power(float x, float n);
 
-/* The classic materials of the OpenGL "teapots" program; shininess is its last column times 128. */
+/* The classic materials of the OpenGL "teapots" program; shininess is its last column times 128.
+                                                                                      [Kilgard94] */
 typedef enum shade_preset {
     SHADE_EMERALD = 0, SHADE_JADE, SHADE_OBSIDIAN, SHADE_PEARL, SHADE_RUBY, SHADE_TURQUOISE,
     SHADE_BRASS, SHADE_BRONZE, SHADE_CHROME, SHADE_COPPER, SHADE_GOLD, SHADE_SILVER,
-    SHADE_BLACK_PLASTIC, SHADE_CYAN_PLASTIC, SHADE_GREEN_PLASTIC, SHADE_RED_PLASTIC, SHADE_WHITE_PLASTIC,
-    SHADE_YELLOW_PLASTIC, SHADE_BLACK_RUBBER, SHADE_CYAN_RUBBER, SHADE_GREEN_RUBBER, SHADE_RED_RUBBER,
-    SHADE_WHITE_RUBBER, SHADE_YELLOW_RUBBER, SHADE_PRESET_COUNT
+    SHADE_BLACK_PLASTIC, SHADE_CYAN_PLASTIC, SHADE_GREEN_PLASTIC,
+    SHADE_RED_PLASTIC, SHADE_WHITE_PLASTIC, SHADE_YELLOW_PLASTIC,
+    SHADE_BLACK_RUBBER, SHADE_CYAN_RUBBER, SHADE_GREEN_RUBBER,
+    SHADE_RED_RUBBER, SHADE_WHITE_RUBBER, SHADE_YELLOW_RUBBER, SHADE_PRESET_COUNT
 } shade_preset;
-/* Out of range: white Lambert, and "". */
+/* The material, and its name: "emerald", "black plastic", ...  Out of range: white Lambert, "". */
 SHADEDEF shade_material shade_preset_material(shade_preset preset);
-/* "emerald", "black plastic", ... */
 SHADEDEF const char    *shade_preset_name(shade_preset preset);
 
 /*------------------------------------------------------------------------------------------- >>draw
    vertex shader -> assemble -> clip -> rasterize -> fragment shader -> depth, blend, store.
-   Bad arguments are refused before any pixel changes, in this order: NULLs, target, other arguments, indices.
-   Nothing is ever written outside the target's rows, width and clip rectangle. */
+   Bad arguments are refused before any pixel changes, in this order: NULLs, target, other
+   arguments, indices.  Nothing is ever written outside the target's rows, width and clip
+   rectangle. */
 
 /* Fills the clip rectangle of both buffers.  A NaN depth is SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
 
-/* The picture (of a strip: its rows) as a binary PPM, "P6". RGBA32F is clamped, and encoded
-   where srgb is set. */
-/* non-zero: failed, stop */
+/* The picture (of a strip: its rows) as a binary PPM, "P6".  RGBA32F is clamped, and encoded where
+   srgb is set.  A write function that returns non-zero ends it with SHADE_ERROR_IO; a file that
+   could not be written whole is removed. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
                                        const shade_target *target);
@@ -791,100 +778,100 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
 SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
 #endif
 
-/* out = in, averaged over factor x factor pixels in linear light: supersampling.  in is factor times as wide and high
-   (its strip has factor times the rows); factor 2 .. 8.  Depth is left alone; out's clip rectangle holds. */
+/* out = in, averaged over factor x factor pixels in linear light: supersampling.  in is factor
+   times as wide and high (its strip has factor times the rows); factor 2 .. 8.  Depth is left
+   alone; out's clip rectangle holds. */
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
 
-/* A texture at u, v, linear RGBA.  lod: level of detail, log2 of texels per pixel; below 0 counts as 0.
-   NaN or infinite u, v, lod count as 0. */
+/* A texture at u, v, linear RGBA.  lod: level of detail, log2 of texels per pixel; below 0 counts
+   as 0.  NaN or infinite u, v, lod count as 0. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
 /* The same for a packet: rows of SHADE_LANES floats; lod NULL: 0; rgba: 4 rows. */
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba);
-/* Levels below the full size, each half as wide and high, rounded down, to 1 x 1; and their bytes, packed tightly. */
+/* Levels below the full size, each half as wide and high, rounded down, to 1 x 1; and their bytes,
+   packed tightly.  0 for sizes or formats that no texture has. */
 SHADEDEF int    shade_mipmap_count(int width, int height);
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
-/* Fills levels[shade_mipmap_count] and memory (aligned to 4, shade_mipmap_bytes) with means in linear light, and points
-   the texture at them. */
-SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels, void *memory,
-                                          size_t bytes);
+/* Fills levels[shade_mipmap_count] and memory (aligned to 4, shade_mipmap_bytes) with means in
+   linear light, and points the texture at them. */
+SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
+                                          void *memory, size_t bytes);
 
-typedef struct shade_vertex_ids {            /* one packet of vertices to shade */
-    int      count;  /* live lanes; the rest repeat the last one: compute every lane */
-    uint32_t index[SHADE_LANES];  /* what gl_VertexID is; the shader fetches its own attributes */
+/* Packets.  The lanes from count on repeat the last live one: compute every lane. */
+typedef struct shade_vertex_ids {                 /* vertices to shade */
+    int      count;
+    uint32_t index[SHADE_LANES];                  /* gl_VertexID; fetch your own attributes by it */
 } shade_vertex_ids;
 typedef struct shade_vertices {
-    float clip[4][SHADE_LANES];              /* clip-space position, preset to 0 */
+    float clip[4][SHADE_LANES];                   /* clip-space position, preset to 0 */
     float out[SHADE_MAX_VARYINGS][SHADE_LANES];   /* varyings, preset to 0 */
 } shade_vertices;
-typedef struct shade_fragments {  /* one packet of pixels to shade, of any triangles of the draw */
-    int      count;  /* live lanes; the rest repeat the last one: compute every lane */
-    float    x[SHADE_LANES], y[SHADE_LANES]; /* pixel centre, window space */
-    float    z[SHADE_LANES];                 /* depth as stored */
-    /* interpolated varyings; rows from pipeline.varyings on: unset */
-    float    in[SHADE_MAX_VARYINGS][SHADE_LANES];
-    uint32_t primitive[SHADE_LANES];         /* index of the triangle in this draw */
-    uint32_t front[SHADE_LANES];             /* 1: front-facing, 0: back-facing */
-    float    lod[SHADE_LANES];       /* level of detail, see pipeline.lod_varying; else unset */
+typedef struct shade_fragments {                  /* pixels to shade, of any triangles of a draw */
+    int      count;
+    float    x[SHADE_LANES], y[SHADE_LANES];      /* pixel centre, window space */
+    float    z[SHADE_LANES];                      /* depth as stored */
+    float    in[SHADE_MAX_VARYINGS][SHADE_LANES]; /* varyings; rows past pipeline.varyings: unset */
+    uint32_t primitive[SHADE_LANES];              /* index of the triangle in this draw */
+    uint32_t front[SHADE_LANES];                  /* 1: front-facing, 0: back-facing */
+    float    lod[SHADE_LANES];                    /* set with pipeline.lod_varying */
 } shade_fragments;
 typedef struct shade_colors {
-    float    out[4][SHADE_LANES];            /* linear RGBA, preset to 0, 0, 0, 1 */
-    uint32_t discard[SHADE_LANES];  /* preset to 0; non-zero: the pixel stays (needs may_discard) */
+    float    out[4][SHADE_LANES];                 /* linear RGBA, preset to 0, 0, 0, 1 */
+    uint32_t discard[SHADE_LANES];                /* preset to 0; else: the pixel stays as it was */
 } shade_colors;
 
-/* Both shaders work on whole packets: write plain loops with SHADE_EACH_LANE and the compiler
-   makes vectors. */
+/* Shaders work on whole packets: write plain loops with SHADE_EACH_LANE and the compiler makes
+   vectors. */
 typedef void shade_vertex_shader(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                  shade_vertices *SHADE_RESTRICT out);
 typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                    shade_colors *SHADE_RESTRICT out);
 
+/* With lod_varying, fragments come with lod = log2 of the longer of the two steps, in texels, that
+   u, v make from a pixel to the next one right and below: the exact derivatives at the pixel, for
+   shade_sample_lanes. */
 typedef struct shade_pipeline {
     shade_vertex_shader   *vertex;
-    shade_fragment_shader *fragment;         /* NULL: depth only */
-    const void            *uniforms;         /* handed to both shaders */
-    int                    varyings;         /* floats per vertex, 0 .. SHADE_MAX_VARYINGS */
+    shade_fragment_shader *fragment;              /* NULL: depth only */
+    const void            *uniforms;              /* handed to both shaders */
+    int                    varyings;              /* floats per vertex, 0 .. SHADE_MAX_VARYINGS */
     shade_interpolation    interpolation;
     shade_cull             cull;
     shade_compare          depth_test;
-    int                    depth_read_only;  /* non-zero: test, do not write */
-    int                    depth_zero_to_one;
-    /* depth is then tested and written after the shader, in drawing order */
-    int                    may_discard;
-    /* added to window depth; what is stored is clamped to [0, 1] */
-    float                  depth_bias;
+    int                    depth_read_only;       /* non-zero: test, do not write */
+    int                    depth_zero_to_one;     /* non-zero: clip space has 0 <= z <= w */
+    int                    may_discard;           /* depth is tested and written after the shader */
+    float                  depth_bias;            /* added to depth, then clamped to [0, 1] */
     shade_blend            blend;
-    int                    lod_varying;      /* 1 + k: varyings k, k + 1 are texture coordinates u, v */
-    float                  lod_width, lod_height;    /* of the texture they address, texels */
+    int                    lod_varying;           /* 1 + k: varyings k, k + 1 are u, v */
+    float                  lod_width, lod_height; /* of the texture they address, texels */
 } shade_pipeline;
 
-/* With lod_varying, fragments come with lod = log2 of the longer of the two steps, in texels, that u, v make from a
-   pixel to the next one right and below: the exact derivatives at the pixel, for shade_sample_lanes. */
-
-/* Draws index_count / 3 triangles. indices NULL: vertices 0, 1, 2, ... A vertex shared by near
-   triangles is shaded about once. Clipped are near and far, x and y only beyond 3 w. Facing is
-   decided once per triangle, on the screen. stats may be NULL. No colour buffer: the fragment
-   shader runs only where may_discard is set. Threads: let each draw the same with its own clip
+/* Draws index_count / 3 triangles.  indices NULL: vertices 0, 1, 2, ...  A vertex shared by near
+   triangles is shaded about once.  Clipped are near and far, x and y only beyond 3 w.  Facing is
+   decided once per triangle, on the screen.  stats may be NULL.  No colour buffer: the fragment
+   shader runs only where may_discard is set.  Threads: let each draw the same with its own clip
    rectangle (or target); same bits as one thread. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                 const uint32_t *indices, int index_count, int vertex_count, shade_stats *stats);
+                                 const uint32_t *indices, int index_count, int vertex_count,
+                                 shade_stats *stats);
 
-typedef struct shade_mesh {  /* caller's arrays; strides in BYTES, 0 = tight, multiples of 4 */
+typedef struct shade_mesh {       /* caller's arrays; strides in BYTES, 0 = tight, multiples of 4 */
     const float *positions;  int position_stride;    /* x, y, z */
-    /* x, y, z, any length; NULL: the normal of each face */
-    const float *normals;    int normal_stride;
+    const float *normals;    int normal_stride;      /* any length; NULL: the normal of each face */
     const float *texcoords;  int texcoord_stride;    /* u, v */
     const float *colors;     int color_stride;       /* R, G, B: multiplies k_d and k_a; NULL: 1 */
     int vertex_count;
     const uint32_t *indices; int index_count;        /* NULL: vertices in threes */
 } shade_mesh;
 
-typedef struct shade_draw_state {            /* how one mesh is drawn */
-    shade_mat4 model, view, projection;      /* a zero matrix means identity; view without scale */
-    const shade_material *material;          /* NULL: white Lambert */
-    shade_lighting lighting;                 /* light positions in world space */
+typedef struct shade_draw_state {                 /* how one mesh is drawn */
+    shade_mat4 model, view, projection;           /* zero: identity; view without scale */
+    const shade_material *material;               /* NULL: white Lambert */
+    shade_lighting lighting;                      /* light positions in world space */
     shade_shading shading;
-    const shade_texture *diffuse_map;        /* multiplies k_d and k_a; ignored without texcoords */
+    const shade_texture *diffuse_map;             /* times k_d and k_a; ignored without texcoords */
     shade_cull    cull;
     shade_compare depth_test;
     shade_blend   blend;
@@ -893,54 +880,59 @@ typedef struct shade_draw_state {            /* how one mesh is drawn */
 } shade_draw_state;
 
 /* A whole mesh by the equations of >>model, in world space.  The eye is the camera of view (with
-   SHADE_INFINITE_VIEWER: its backward axis).  Per face: lit at the centroid with the geometric normal, in the colour of
-   the first vertex. */
+   SHADE_INFINITE_VIEWER: its backward axis).  Per face: lit at the centroid with the geometric
+   normal, in the colour of the first vertex. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
 typedef enum shade_cap { SHADE_BUTT = 0, SHADE_SQUARE } shade_cap;
 typedef struct shade_line_state {
-    shade_mat4    clip_from_points;          /* zero: identity */
-    float         width;                     /* pixels; 0: 1 */
-    shade_cap     cap;                       /* SHADE_SQUARE: longer by half the width, closes joints */
+    shade_mat4    clip_from_points;               /* zero: identity */
+    float         width;                          /* pixels; 0: 1 */
+    shade_cap     cap;                            /* SQUARE: half the width longer, closes joints */
     shade_vec4    color;
     shade_compare depth_test;
     shade_blend   blend;
     int           depth_zero_to_one, depth_read_only;
     float         depth_bias;
 } shade_line_state;
-/* point_count / 2 lines between pairs of points, each the two triangles of its rectangle on the screen; stats count
-   triangles.  Over a filled mesh use SHADE_LESS_EQUAL with a small negative bias. */
-SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points, int point_count,
-                                       const shade_line_state *state, shade_stats *stats);
+/* point_count / 2 lines between pairs of points, each the two triangles of its rectangle on the
+   screen; stats count triangles.  Over a filled mesh use SHADE_LESS_EQUAL with a small negative
+   bias. */
+SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
+                                       int point_count, const shade_line_state *state,
+                                       shade_stats *stats);
 
-/* Vertex normals: the unit mean of the faces around each vertex, weighted by their angle there; zero for a vertex without
-   faces.  Faces without area add nothing.                                            [Thurmer98] */
-SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals /* vertex_count */);
-/* A normal per index: the mean, as above, of those faces around the corner's position whose normals have a cosine of
-   at least cos_crease with the corner's own face; vertices of equal position are one.  Time grows with the
-   square of the faces around a position.  memory: aligned to 4, shade_corner_normals_bytes (0 for a bad mesh). */
+/* normals[vertex_count]: the unit mean of the faces around each vertex, weighted by their angle
+   there; zero for a vertex without faces.  Faces without area add nothing.           [Thurmer98] */
+SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals);
+/* normals[index_count]: the mean, as above, of those faces around the corner's position whose
+   normals have a cosine of at least cos_crease with the corner's own face; vertices of equal
+   position are one.  Time grows with the square of the faces around a position.  memory: aligned
+   to 4, shade_corner_normals_bytes (0 for a bad mesh). */
 SHADEDEF size_t       shade_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
-                                                shade_vec3 *normals /* index_count */, void *memory, size_t bytes);
+                                                shade_vec3 *normals, void *memory, size_t bytes);
 
-typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;    /* a < b; -1: no triangle */
-/* The edges of a mesh, each once, with one or two triangles; a third triangle makes a further entry.  Sorted by
-   a, then b.  Room for index_count entries is enough; less is refused with SHADE_ERROR_CAPACITY and the number in
-   *count. */
-SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity, int *count);
-/* (e.n0)(e.n1) <= 0: one of the faces is seen from the front, the other from behind.  e: from the edge to the eye. */
+/* The edges of a mesh, each once, a < b, with one or two triangles (-1: none); a third triangle
+   makes a further entry.  Sorted by a, then b.  Room for index_count entries is enough; less is
+   refused with SHADE_ERROR_CAPACITY and the number in *count. */
+typedef struct shade_edge { uint32_t a, b; int32_t triangle[2]; } shade_edge;
+SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
+                                       int *count);
+/* (e.n0)(e.n1) <= 0: one face is seen from the front, the other from behind.  e: edge to eye. */
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1);
 /* n0.n1 <= threshold, unit normals. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
-typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;    /* direction unit */
-/* World-space ray through window point x, y (pixel centres at + 1/2): from the eye, or with an orthographic projection
-   from the near plane. */
+/* World-space ray through window point x, y (pixel centres at + 1/2), direction unit: from the
+   eye, or with an orthographic projection from the near plane. */
+typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
 /* 1 if the ray meets the triangle, from either side, at origin + t direction, t >= 0, at the point
-   barycentric.x a + barycentric.y b + barycentric.z c.  t and barycentric may be NULL.      [Moller97] */
+   barycentric.x a + barycentric.y b + barycentric.z c.  t and barycentric may be NULL.
+                                                                                      [Moller97] */
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric);
 
@@ -962,7 +954,7 @@ extern "C" {
 /*------------------------------------------------------------------------------------------- >>base
    Words the rest is written in: numbers as bit patterns, clamps without branches, dispatch.
      holds   Loops over lanes select by masks and clamp by integers, because gcc turns float selects
-             into branches and leaves the loop scalar.  A mask is all ones or all zeros.   >>matrix */
+             into branches and leaves the loop scalar.  A mask is all ones or zeros.   >>matrix */
 
 SHADE__INLINE int shade__min(int a, int b) { return a < b ? a : b; }
 SHADE__INLINE int shade__max(int a, int b) { return a > b ? a : b; }
@@ -1023,7 +1015,8 @@ SHADEDEF const char *shade_result_string(shade_result result)
     switch (result) {
     case SHADE_OK: return "no error";
     case SHADE_ERROR_ARGUMENT: return "bad argument";
-    case SHADE_ERROR_TARGET: return "bad target: size, stride, format, clip rectangle, strip or no memory";
+    case SHADE_ERROR_TARGET:
+        return "bad target: size, stride, format, clip rectangle, strip or no memory";
     case SHADE_ERROR_INDEX: return "index past the vertices, or no whole number of triangles";
     case SHADE_ERROR_CAPACITY: return "not enough room in the caller's memory";
     case SHADE_ERROR_IO: return "writing failed";
@@ -1033,7 +1026,7 @@ SHADEDEF const char *shade_result_string(shade_result result)
 
 /*----------------------------------------------------------------------------------------- >>matrix
    Matrices of the public part: formulas as in GLM, the sums of inverses in double.
-     holds   Degenerate cameras give the zero matrix, which draws nothing.               >>power */
+     holds   Degenerate cameras give the zero matrix, which draws nothing.              >>power */
 
 /* Sine and cosine, to 1e-16 of the reduced argument: x - k pi/2 with pi/2 in two parts, the high
    one of 33 bits so that k times it is exact for |k| < 2^20, and Taylor series on [-pi/4, pi/4]
@@ -1134,7 +1127,9 @@ static shade_vec4 shade__adjugate(double p, double q, double r, double t, double
 {
     return shade_v4((float)(p * scale), (float)(q * scale), (float)(r * scale), (float)(t * scale));
 }
-SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m)
+/* Not inlined: gcc 12 drops the rounding where doubles become floats and two of them doubles again
+   next to each other (its SLP vectoriser), as they would in shade_pixel_ray. */
+SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     double s[6], c[6], det, k, e[4][4];
     shade__minors(m.col[0], m.col[1], s), shade__minors(m.col[2], m.col[3], c);
@@ -1252,13 +1247,11 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
 }
 
 /*------------------------------------------------------------------------------------------ >>power
-   x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere,
-       and loops over lanes that vectorise.
+   x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere, and loops over lanes that
+   vectorise.
      in      x in [0, 1], n >= 0          out  a value in [0, 1], absolute error below 3e-7
-     method  minimax polynomials: log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1],
-         relative error 2.7e-8;
-             2^-r = 1 + r Q(r) on [-1/2, 1/2],
-                 relative error 9.2e-8                    >>lighting */
+     method  minimax polynomials: log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1], relative
+             error 2.7e-8; 2^-r = 1 + r Q(r) on [-1/2, 1/2], relative error 9.2e-8   >>lighting */
 
 /* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0. The addend carries into the exponent where
    the mantissa is at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is
@@ -1309,7 +1302,7 @@ SHADEDEF float shade_power(float x, float n)
 
 /*--------------------------------------------------------------------------------------- >>lighting
    The equations of >>model for one point, in scalar floats with exact roots and divisions.
-     holds   Names and order are those of >>lanes; a test holds the two together.          >>lanes */
+     holds   Names and order are those of >>lanes; a test holds the two together.       >>lanes */
 
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
 {
@@ -1339,8 +1332,8 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
     return light;
 }
 
-/* R.V of unit N, L, V, as (|R|^2 + |V|^2 - |R - V|^2) / 2, |R| = |L|: near 1, where a power magnifies
-   errors, those of the vectors' lengths cancel.  Zero L or V: 0. */
+/* R.V of unit N, L, V, as (|R|^2 + |V|^2 - |R - V|^2) / 2, |R| = |L|: near 1, where a power
+   magnifies errors, those of the vectors' lengths cancel.  Zero L or V: 0. */
 SHADE__INLINE float shade__mirror_cosine(shade_vec3 N, shade_vec3 L, shade_vec3 V)
 {
     shade_vec3 d = shade_sub(shade_scale(N, 2 * shade_dot(N, L)), shade_add(L, V));
@@ -1453,7 +1446,10 @@ SHADEDEF shade_material shade_preset_material(shade_preset preset)
     m.shininess = row.k[9] * 128;
     return m;
 }
-SHADEDEF const char *shade_preset_name(shade_preset preset) { return shade__preset((int)preset).name; }
+SHADEDEF const char *shade_preset_name(shade_preset preset)
+{
+    return shade__preset((int)preset).name;
+}
 
 /* What both the scalar and the lane equations read: defaults filled in, terms that are off set
    to zero. */
@@ -1471,9 +1467,8 @@ static shade__surface shade__surface_of(const shade_lighting *lighting,
 {
     shade__surface s;
     shade_vec3 none = shade_v3(0, 0, 0);
-    shade_material m = shade_preset_material(SHADE_PRESET_COUNT);
+    shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
     unsigned terms = lighting->terms ? lighting->terms : ~0u;
-    if (material) m = *material;
     if (lighting->model == SHADE_EMISSIVE) terms &= SHADE_TERM_EMISSION;
     if (lighting->model == SHADE_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
     if (lighting->model == SHADE_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
@@ -1524,10 +1519,10 @@ static void shade__unit3(double *v)
     double d = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], k = d >= 1e-36 ? 1 / shade__root(d) : 0;
     v[0] *= k, v[1] *= k, v[2] *= k;
 }
-/* N.H from the positions, in double: where L and V are nearly opposite, their sum keeps few digits in float.
-   -2 where H is undefined; *h2 = |L + V|^2. */
-static float shade__half_cosine(const shade_light *light, shade_vec3 P, shade_vec3 N, shade_vec3 eye,
-                                float scale, double *h2)
+/* N.H from the positions, in double: where L and V are nearly opposite, their sum keeps few digits
+   in float.  -2 where H is undefined; *h2 = |L + V|^2. */
+static float shade__half_cosine(const shade_light *light, shade_vec3 P, shade_vec3 N,
+                                shade_vec3 eye, float scale, double *h2)
 {
     shade_vec4 at = light->position;
     double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1;
@@ -1545,9 +1540,9 @@ static float shade__half_cosine(const shade_light *light, shade_vec3 P, shade_ve
 }
 
 /* Adds the light of one lamp to t.  N unit, facing the viewer where that is asked for; V unit. */
-static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shade_light *light, shade_vec3 P,
-                             shade_vec3 N, shade_vec3 V, shade_vec3 eye,
-                                            shade_terms *t)
+static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shade_light *light,
+                                             shade_vec3 P, shade_vec3 N, shade_vec3 V,
+                                             shade_vec3 eye, shade_terms *t)
 {
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 l = lamp.infinite ? lamp.at : shade_sub(lamp.at, P), L = shade_normalize(l);
@@ -1598,7 +1593,8 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
         return t;
     }
     t.ambient = shade_mul(s.ambient, s.scene_ambient);
-    for (int j = 0; j < s.light_count; j++) shade__add_light(&s, &lighting->lights[j], P, N, V, eye, &t);
+    for (int j = 0; j < s.light_count; j++)
+        shade__add_light(&s, &lighting->lights[j], P, N, V, eye, &t);
     return t;
 }
 
@@ -1610,11 +1606,12 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
 }
 
 /*------------------------------------------------------------------------------------------ >>lanes
-   The equations of >>lighting for a packet.  The light of one lamp is cut into short loops over rows of
-   temporaries: one fused loop per light measured 1.5 times slower, its many live values outgrow the processor.
+   The equations of >>lighting for a packet.  The light of one lamp is cut into short loops over
+   rows of temporaries: one fused loop per light measured 1.5 times slower, its many live values
+   outgrow the processor.
      in      rows of P, N, albedo         out  rows of rgb
      holds   A lamp that reaches no lane (horizon, cone) is left after its first loops.
-             Error of 1/sqrt and powers: >>base, >>power.                                  >>vertex */
+             Error of 1/sqrt and powers: >>base, >>power.                               >>store */
 
 typedef struct shade__rows {
     float rn[SHADE_LANES];       /* +-1/|N|: minus where N is turned toward the viewer */
@@ -1688,11 +1685,11 @@ SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff,
     return any;
 }
 
-/* L[0] becomes N.H, -1 where H is undefined.  Returns non-zero if some lane (with N.L > 0, or open) has |L + V|^2 below
-   1e-3, for shade__lane_half_near. */
-SHADE__INLINE uint32_t shade__lane_half(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
-                                        shade_vec3 eye, float scale, uint32_t open,
-                                        shade__rows *SHADE_RESTRICT r)
+/* L[0] becomes N.H, -1 where H is undefined.  Returns non-zero if some lane (with N.L > 0, or open)
+   has |L + V|^2 below 1e-3, for shade__lane_half_near. */
+SHADE__INLINE uint32_t shade__lane_half(const float *SHADE_RESTRICT P,
+                                        const float *SHADE_RESTRICT N, shade_vec3 eye, float scale,
+                                        uint32_t open, shade__rows *SHADE_RESTRICT r)
 {
     uint32_t near_zero = 0;
     SHADE_EACH_LANE(i) {
@@ -1709,13 +1706,15 @@ SHADE__INLINE uint32_t shade__lane_half(const float *SHADE_RESTRICT P, const flo
     return near_zero;
 }
 /* The lanes where L and V are nearly opposite, again, in double. */
-static SHADE__NOINLINE void shade__lane_half_near(const shade_light *light, const float *P, const float *N,
-                                                  shade_vec3 eye, float scale, shade__rows *r)
+static SHADE__NOINLINE void shade__lane_half_near(const shade_light *light, const float *P,
+                                                  const float *N, shade_vec3 eye, float scale,
+                                                  shade__rows *r)
 {
     for (int i = 0; i < SHADE_LANES; i++) {
         float sign = r->rn[i] < 0 ? -1.0f : 1.0f, x;
         shade_vec3 p = shade_v3(P[i], P[i + SHADE_LANES], P[i + 2 * SHADE_LANES]);
-        shade_vec3 n = shade_v3(N[i] * sign, N[i + SHADE_LANES] * sign, N[i + 2 * SHADE_LANES] * sign);
+        shade_vec3 n =
+            shade_v3(N[i] * sign, N[i + SHADE_LANES] * sign, N[i + 2 * SHADE_LANES] * sign);
         double h2;
         x = shade__half_cosine(light, p, n, eye, scale, &h2);
         if (h2 < 1e-3) r->L[0][i] = x == -2 ? -1 : shade__saturate(x);
@@ -1730,7 +1729,8 @@ SHADE__INLINE void shade__lane_mirror(const float *SHADE_RESTRICT P, const float
         float lx = r->L[0][i], ly = r->L[1][i], lz = r->L[2][i];
         float dx = k * N[i] - (lx + (eye.x - scale * P[i]) * rv);
         float dy = k * N[i + SHADE_LANES] - (ly + (eye.y - scale * P[i + SHADE_LANES]) * rv);
-        float dz = k * N[i + 2 * SHADE_LANES] - (lz + (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv);
+        float dz =
+            k * N[i + 2 * SHADE_LANES] - (lz + (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv);
         uint32_t exists = shade__mask(rv > 0) & shade__mask(lx * lx + ly * ly + lz * lz > 0);
         float x = 1 - 0.5f * (dx * dx + dy * dy + dz * dz);
         r->L[0][i] = shade__keep(shade__saturate(x), exists);
@@ -1765,7 +1765,8 @@ SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted,
    NULL, the choice and its factor of 1 vanish. */
 SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
                                        const float *SHADE_RESTRICT albedo,
-                                       const shade__rows *SHADE_RESTRICT r, float *SHADE_RESTRICT rgb)
+                                       const shade__rows *SHADE_RESTRICT r,
+                                       float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
         float nl = r->nl[i], att = r->att[i], gloss = r->L[0][i] * att;
@@ -1779,39 +1780,27 @@ SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t ab
     }
 }
 
-/* rgb += L albedo, or rgb += L: what does not depend on a highlight is gathered in L first. */
-SHADE__INLINE void shade__lane_accumulate(const float *SHADE_RESTRICT L, const float *SHADE_RESTRICT albedo,
-                                          float *SHADE_RESTRICT rgb)
-{
-    if (albedo) {
-        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i] * albedo[i]; }
-    } else {
-        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i]; }
-    }
-}
-SHADE__INLINE void shade__lane_fill(shade_vec3 v, float *SHADE_RESTRICT rows)
+/* rgb = emission + ambient albedo */
+SHADE__INLINE void shade__lane_begin(shade_vec3 emission, shade_vec3 ambient,
+                                     const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
-        rows[i] = v.x, rows[i + SHADE_LANES] = v.y, rows[i + 2 * SHADE_LANES] = v.z;
+        rgb[i] = emission.x + ambient.x * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] = emission.y + ambient.y * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] =
+            emission.z + ambient.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
     }
 }
-/* L = att k: a light's own ambient, where it is attenuated */
-SHADE__INLINE void shade__lane_ambient(shade_vec3 k, shade__rows *SHADE_RESTRICT r)
+/* rgb += (base + x slope) albedo */
+SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope, const float *SHADE_RESTRICT x,
+                                    const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
-        float att = r->att[i];
-        r->L[0][i] = att * k.x, r->L[1][i] = att * k.y, r->L[2][i] = att * k.z;
-    }
-}
-/* L = cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
-SHADE__INLINE void shade__lane_cool_to_warm(shade_vec3 cool, shade_vec3 warm,
-                                            shade__rows *SHADE_RESTRICT r)
-{
-    shade_vec3 d = shade_sub(warm, cool);
-    SHADE_EACH_LANE(i) {
-        float kw = 0.5f + 0.5f * r->nl[i];
-        r->L[0][i] = cool.x + kw * d.x, r->L[1][i] = cool.y + kw * d.y;
-        r->L[2][i] = cool.z + kw * d.z;
+        float k = x[i];
+        rgb[i] += (base.x + k * slope.x) * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] += (base.y + k * slope.y) * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] +=
+            (base.z + k * slope.z) * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
     }
 }
 
@@ -1838,14 +1827,19 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
     shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
-    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT),
-        gloss = !shade__is_zero(ks);
+    shade_vec3 base = shade_v3(0, 0, 0), slope = base;
+    const float *x = r->att;
+    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT);
+    int gloss = !shade__is_zero(ks);
     uint32_t open = shade__mask((s->flags & SHADE_UNGATED_SPECULAR) != 0);
     uint32_t absolute = shade__mask((s->flags & SHADE_TWO_SIDED_ABS) != 0);
     uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
-    if (!ambient && !gloss && shade__is_zero(kd)) return;
+    if (!ambient && !gloss && shade__is_zero(kd) && !s->cool_to_warm) return;
     any = shade__lane_lamp(light, &lamp, P, N, r);
-    if (any | open | absolute) {
+    if (s->cool_to_warm) {    /* cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
+        SHADE_EACH_LANE(i) { r->nl[i] = 0.5f + 0.5f * r->nl[i]; }
+        base = s->cool, slope = shade_sub(s->warm, s->cool), x = r->nl;
+    } else if (any | open | absolute) {
         if (gloss) {
             if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
             else if (shade__lane_half(P, N, eye, scale, open, r))
@@ -1856,43 +1850,35 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
         if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
         else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
     }
-    if (ambient) {
-        shade__lane_ambient(shade_mul(s->ambient, light->ambient), r);
-        shade__lane_accumulate(r->L[0], albedo, rgb);
-    }
+    if (ambient) slope = shade_mul(s->ambient, light->ambient);
+    if (!ambient && !s->cool_to_warm) return;
+    if (albedo) shade__lane_ramp(base, slope, x, albedo, rgb);
+    else shade__lane_ramp(base, slope, x, (const float *)0, rgb);
 }
 
 SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_material *material,
-                                   shade_vec3 eye, const float *P, const float *N, const float *albedo,
-                                   float *rgb)
+                                   shade_vec3 eye, const float *P, const float *N,
+                                   const float *albedo, float *rgb)
 {
     shade__rows r;
     shade__surface s = shade__surface_of(lighting, material);
+    const shade_light *lights = lighting->lights;
+    shade_light toward;
     shade_vec3 ambient = s.scene_ambient;
     float scale = s.flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
     shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_TWO_SIDED ? 0x80000000u : 0, &r);
-    shade__lane_fill(s.emission, rgb);
-    if (s.cool_to_warm) {
-        shade__lamp lamp;
-        SHADE_MEMSET(&lamp, 0, sizeof lamp);
-        if (s.light_count > 0) lamp = shade__lamp_of(&lighting->lights[0]);
-        if (s.light_count <= 0 || lamp.infinite) shade__lane_directional(lamp.at, &r);
-        else shade__lane_point(P, lamp.at, 1, 0, 0, &r);
-        (void)shade__lane_horizon(N, &r);
-        shade__lane_cool_to_warm(s.cool, s.warm, &r);
-        shade__lane_accumulate(r.L[0], albedo, rgb);
-        return;
+    if (s.cool_to_warm) {    /* only where the first light comes from counts */
+        SHADE_MEMSET(&toward, 0, sizeof toward);
+        if (s.light_count > 0) toward.position = lights[0].position;
+        lights = &toward, s.light_count = 1;
     }
     if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_ATTENUATED_AMBIENT))
-        for (int j = 0; j < s.light_count; j++)
-            ambient = shade_add(ambient, lighting->lights[j].ambient);
+        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lights[j].ambient);
     ambient = shade_mul(ambient, s.ambient);
-    if (!shade__is_zero(ambient)) {
-        shade__lane_fill(ambient, r.L[0]);
-        shade__lane_accumulate(r.L[0], albedo, rgb);
-    }
+    if (albedo && !shade__is_zero(ambient)) shade__lane_begin(s.emission, ambient, albedo, rgb);
+    else shade__lane_begin(s.emission, ambient, (const float *)0, rgb);
     for (int j = 0; j < s.light_count; j++)
-        shade__lane_add_light(&s, &lighting->lights[j], P, N, albedo, eye, scale, &r, rgb);
+        shade__lane_add_light(&s, &lights[j], P, N, albedo, eye, scale, &r, rgb);
 }
 SHADE__DISPATCH(shade__lit,
                 (const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
@@ -1913,7 +1899,7 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
 /*------------------------------------------------------------------------------------------ >>store
    Linear colours to stored pixels and back.  8 bits: floor(255 clamp(c) + 1/2); NaN is 0.
      in      four rows of linear RGBA, stride floats apart        out  uint32 pixels
-     source  sRGB curve [IEC61966]                                                     >>fragment */
+     source  sRGB curve [IEC61966]                                                    >>texture */
 
 /* clamp(x, 0, 1), NaN 0 */
 SHADE__INLINE float shade__unit(float x)
@@ -2025,19 +2011,19 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 }
 
 /*---------------------------------------------------------------------------------------- >>texture
-   Texels filtered for blocks of 8 lanes: coordinates and weights in lanes, four fetches a lane, then
-   unpacking and blending in lanes.
+   Texels filtered for blocks of 8 lanes: coordinates and weights in lanes, four fetches a lane,
+   then unpacking and blending in lanes.
      in      rows u, v, lod               out  rows of linear RGBA
      holds   Every index lies in the texture whatever u and v are.  Mipmaps are read level by level,
              each weighted by max(0, 1 - |lod - level|), as trilinear filtering is.    [Williams83]
-                                                                                        >>vertex */
+                                                                                     >>fragment */
 
 static int shade__texture_good(const shade_texture *t)
 {
-    return t && t->pixels && t->width > 0 && t->width <= 16384 && t->height > 0 && t->height <= 16384 &&
-           (t->stride == 0 || t->stride >= t->width) && (unsigned)t->format <= SHADE_RGBA32F &&
-           (unsigned)t->wrap_u <= SHADE_MIRROR && (unsigned)t->wrap_v <= SHADE_MIRROR &&
-           (unsigned)t->filter <= SHADE_TRILINEAR;
+    return t && t->pixels && t->width > 0 && t->width <= 16384 && t->height > 0 &&
+           t->height <= 16384 && (t->stride == 0 || t->stride >= t->width) &&
+           (unsigned)t->format <= SHADE_RGBA32F && (unsigned)t->wrap_u <= SHADE_MIRROR &&
+           (unsigned)t->wrap_v <= SHADE_MIRROR && (unsigned)t->filter <= SHADE_TRILINEAR;
 }
 
 /* One axis of 8 lanes: texel before and after, and the weight of the one after.  c: coordinates. */
@@ -2049,23 +2035,29 @@ SHADE__INLINE int32_t shade__floor(float x)
     int32_t i = (int32_t)x;
     return i - (x < (float)i ? 1 : 0);
 }
-SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int size, shade_wrap wrap, int nearest,
-                                  shade__axis *SHADE_RESTRICT a)
+SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int size, shade_wrap wrap,
+                                  int nearest, shade__axis *SHADE_RESTRICT a)
 {
-    const uint32_t clamped = shade__mask(wrap == SHADE_CLAMP), mirrored = shade__mask(wrap == SHADE_MIRROR);
+    const uint32_t clamped = shade__mask(wrap == SHADE_CLAMP),
+                   mirrored = shade__mask(wrap == SHADE_MIRROR);
     const int32_t cyclic = wrap == SHADE_REPEAT ? -1 : 0, last = size - 1;
-    const float n = (float)size, half = nearest ? 0.0f : 0.5f, period = wrap == SHADE_MIRROR ? 0.5f : 1.0f;
+    const float n = (float)size, half = nearest ? 0.0f : 0.5f,
+                period = wrap == SHADE_MIRROR ? 0.5f : 1.0f;
     const uint32_t smooth = shade__mask(!nearest);
     SHADE__FOR(i, 8) {
-        /* from 2^24 on all floats are even wholes, where a period begins; NaN and infinity join them */
-        uint32_t usable = shade__mask((int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu) < 0x4B800000);
-        uint32_t finite = shade__mask((int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu) < 0x7F800000);
+        /* from 2^24 on all floats are even wholes, where a period begins; NaN and infinity join
+           them */
+        uint32_t usable =
+            shade__mask((int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu) < 0x4B800000);
+        uint32_t finite =
+            shade__mask((int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu) < 0x7F800000);
         float x = shade__keep(c[i], usable) * period, inside = x - (float)shade__floor(x);
         float twice = 2 * inside, back = shade__select(twice, 2 - twice, shade__mask(twice > 1));
         inside = shade__select(inside, back, mirrored);
         inside = shade__select(inside, shade__clamp_bits(shade__keep(c[i], finite), 0, 1), clamped);
         float s = inside * n - half;
-        int32_t i0 = shade__floor(s), i1 = i0 + 1, below = i0 < 0 ? -1 : 0, above = i1 > last ? -1 : 0;
+        int32_t i0 = shade__floor(s), i1 = i0 + 1, below = i0 < 0 ? -1 : 0,
+                above = i1 > last ? -1 : 0;
         a->f[i] = shade__keep(s - (float)i0, smooth);
         i0 = i0 > last ? last : i0;
         a->i0[i] = (i0 & ~below) | (last & below & cyclic);
@@ -2091,8 +2083,8 @@ static void shade__fetch_texels(const shade_texture *t, const shade__axis *x, co
     }
 }
 /* One channel of 8 texels: (texel >> shift & mask) / mask, decoded */
-SHADE__INLINE void shade__unpack(const uint32_t *SHADE_RESTRICT texel, int shift, uint32_t mask, int srgb,
-                                 float *SHADE_RESTRICT c)
+SHADE__INLINE void shade__unpack(const uint32_t *SHADE_RESTRICT texel, int shift, uint32_t mask,
+                                 int srgb, float *SHADE_RESTRICT c)
 {
     const float scale = 1 / (float)(int32_t)mask;
     SHADE__FOR(i, 8) { c[i] = (float)(int32_t)(texel[i] >> shift & mask) * scale; }
@@ -2100,10 +2092,11 @@ SHADE__INLINE void shade__unpack(const uint32_t *SHADE_RESTRICT texel, int shift
         SHADE__FOR(i, 8) { c[i] = shade__srgb_decode(c[i]); }
     }
 }
-/* out += weight times the bilinear blend of c[corner][lane]; texels that have no weight are not touched, so
-   that an infinite one stays where it is */
+/* out += weight times the bilinear blend of c[corner][lane]; texels that have no weight are not
+   touched, so that an infinite one stays where it is */
 SHADE__INLINE void shade__blend_texels(float c[4][8], const shade__axis *SHADE_RESTRICT x,
-                                       const shade__axis *SHADE_RESTRICT y, const float *SHADE_RESTRICT weight,
+                                       const shade__axis *SHADE_RESTRICT y,
+                                       const float *SHADE_RESTRICT weight,
                                        float *SHADE_RESTRICT out)
 {
     const float *SHADE_RESTRICT c0 = c[0], *SHADE_RESTRICT c1 = c[1];
@@ -2116,9 +2109,11 @@ SHADE__INLINE void shade__blend_texels(float c[4][8], const shade__axis *SHADE_R
         out[i] += shade__keep(weight[i] * all, shade__mask(weight[i] > 0));
     }
 }
-/* out (4 rows of 8) += weight times one level at u, v; how it wraps and filters comes from the base */
-SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_texture *level, const float *u,
-                                       const float *v, const float *weight, float *out)
+/* out (4 rows of 8) += weight times one level at u, v; how it wraps and filters comes from the base
+   */
+SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_texture *level,
+                                       const float *u, const float *v, const float *weight,
+                                       float *out)
 {
     shade__axis x, y;
     uint32_t texel[4][8];
@@ -2149,7 +2144,8 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
 SHADE__INLINE void shade__sample8_body(const shade_texture *t, const float *u, const float *v,
                                        const float *lod, float *out)
 {
-    int levels = t->filter == SHADE_TRILINEAR && t->mipmaps && t->mipmap_count > 0 ? t->mipmap_count : 0;
+    int levels =
+        t->filter == SHADE_TRILINEAR && t->mipmaps && t->mipmap_count > 0 ? t->mipmap_count : 0;
     float level[8], weight[8], lowest = 32, highest = 0;
     SHADE_MEMSET(out, 0, 32 * sizeof *out);
     for (int i = 0; i < 8; i++) {
@@ -2165,11 +2161,13 @@ SHADE__INLINE void shade__sample8_body(const shade_texture *t, const float *u, c
             weight[i] = away < 1 ? 1 - away : 0;
             used |= weight[i] > 0;
         }
-        if (used) shade__sample_level(t, shade__texture_good(source) ? source : t, u, v, weight, out);
+        if (used)
+            shade__sample_level(t, shade__texture_good(source) ? source : t, u, v, weight, out);
     }
 }
 SHADE__DISPATCH(shade__sample8,
-                (const shade_texture *t, const float *u, const float *v, const float *lod, float *out),
+                (const shade_texture *t, const float *u, const float *v, const float *lod,
+                 float *out),
                 (t, u, v, lod, out))
 
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
@@ -2211,26 +2209,32 @@ SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
     }
     return bytes;
 }
-/* The mean of the part of a picture that texel (x, y) of one with the given size covers, in linear light. */
-static void shade__shrink(const shade_target *from, const shade_texture *to, int x, int y, float *mean)
+/* The mean of the part of a picture that texel (x, y) of one with the given size covers, in linear
+   light. */
+static void shade__shrink(const shade_target *from, const shade_texture *to, int x, int y,
+                          float *mean)
 {
     double sum[4] = { 0, 0, 0, 0 }, sx = (double)from->width / to->width, all = 0;
     double sy = (double)from->height / to->height;
     for (int j = (int)(y * sy); j < from->height && j < (y + 1) * sy; j++)
         for (int i = (int)(x * sx); i < from->width && i < (x + 1) * sx; i++) {
-            double left = i > x * sx ? i : x * sx, right = i + 1 < (x + 1) * sx ? i + 1 : (x + 1) * sx;
+            double left = i > x * sx ? i : x * sx,
+                   right = i + 1 < (x + 1) * sx ? i + 1 : (x + 1) * sx;
             double top = j > y * sy ? j : y * sy, low = j + 1 < (y + 1) * sy ? j + 1 : (y + 1) * sy;
             double share = (right - left) * (low - top);
             float c[4];
-            shade__fetch(from, (const uint8_t *)from->color + ((size_t)j * (size_t)from->stride + (size_t)i) *
-                                   shade__pixel_bytes(from->format), c);
+            shade__fetch(from,
+                         (const uint8_t *)from->color +
+                             ((size_t)j * (size_t)from->stride + (size_t)i) *
+                                 shade__pixel_bytes(from->format),
+                         c);
             for (int k = 0; k < 4; k++) sum[k] += (double)c[k] * share;
             all += share;
         }
     for (int k = 0; k < 4; k++) mean[k] = (float)(sum[k] / all);
 }
-SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels, void *memory,
-                                          size_t bytes)
+SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
+                                          void *memory, size_t bytes)
 {
     uint8_t *p = (uint8_t *)memory;
     int count;
@@ -2238,18 +2242,22 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
     if (!shade__texture_good(texture)) return SHADE_ERROR_ARGUMENT;
     count = shade_mipmap_count(texture->width, texture->height);
     if (count && (!levels || !memory || (uintptr_t)memory % 4)) return SHADE_ERROR_ARGUMENT;
-    if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format)) return SHADE_ERROR_CAPACITY;
+    if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format))
+        return SHADE_ERROR_CAPACITY;
     for (int n = 0; n < count; n++) {
         const shade_texture *up = n ? &levels[n - 1] : texture;
         size_t size = shade__pixel_bytes(texture->format);
         shade_target from;
         SHADE_MEMSET(&from, 0, sizeof from);
-        from.width = up->width, from.height = up->height, from.format = up->format, from.srgb = up->srgb;
-        from.stride = up->stride ? up->stride : up->width, from.color = (void *)(uintptr_t)up->pixels;
+        from.width = up->width, from.height = up->height, from.format = up->format,
+        from.srgb = up->srgb;
+        from.stride = up->stride ? up->stride : up->width,
+        from.color = (void *)(uintptr_t)up->pixels;
         levels[n] = *texture;
         levels[n].pixels = p, levels[n].stride = 0, levels[n].mipmaps = (shade_texture *)0;
         levels[n].mipmap_count = 0;
-        levels[n].width = shade__max(up->width / 2, 1), levels[n].height = shade__max(up->height / 2, 1);
+        levels[n].width = shade__max(up->width / 2, 1),
+        levels[n].height = shade__max(up->height / 2, 1);
         for (int i = 0; i < levels[n].width * levels[n].height; i++, p += size) {
             float c[4], rgba[32] = { 0 }, zero[8] = { 0 };
             uint32_t pixel[8] = { 0 };
@@ -2270,13 +2278,13 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
      in      rows of the queue: varyings times rw, and rw
      out     depth (with may_discard), colour
      holds   The lanes from count on repeat the last one before a shader sees them.
-             Pixels are stored in drawing order.                                          >>setup */
+             Pixels are stored in drawing order.                                        >>setup */
 
 typedef struct shade__queue {
     shade_fragments f;                /* as the fragment shader gets it */
     union {
         float    rw[SHADE_LANES];     /* 1/w, interpolated; then, when the varyings are divided, */
-        uint32_t offset[SHADE_LANES]; /* the pixel in color and depth, from the first of the strip */
+        uint32_t offset[SHADE_LANES]; /* the pixel in color and depth, from the strip's first */
     } u;
     uint32_t next;                    /* offset that would continue the run of the last pixels */
     int      contiguous;              /* all pixels are one run */
@@ -2415,7 +2423,8 @@ static void shade__replicate(shade__queue *q, int varyings)
         for (int k = 0; k < varyings; k++) q->f.in[k][i] = q->f.in[k][last];
     }
 }
-/* Rows of varyings times w = 1/rw.  rw of a covered pixel lies between its vertices' and is positive. */
+/* Rows of varyings times w = 1/rw.  rw of a covered pixel lies between its vertices' and is
+   positive. */
 SHADE__INLINE void shade__divide(float *SHADE_RESTRICT rw, float *SHADE_RESTRICT in, int varyings)
 {
     SHADE_EACH_LANE(i) { rw[i] = 1 / rw[i]; }
@@ -2424,14 +2433,17 @@ SHADE__INLINE void shade__divide(float *SHADE_RESTRICT rw, float *SHADE_RESTRICT
     }
 }
 /* lod from the squared step times rw^4, once rw holds w */
-SHADE__INLINE void shade__levels(const float *SHADE_RESTRICT w, uint32_t perspective, float *SHADE_RESTRICT lod)
+SHADE__INLINE void shade__levels(const float *SHADE_RESTRICT w, uint32_t perspective,
+                                 float *SHADE_RESTRICT lod)
 {
     SHADE_EACH_LANE(i) {
-        lod[i] = -0.5f * shade__neg_log2(lod[i]) - 2 * shade__keep(shade__neg_log2(w[i]), perspective);
+        lod[i] =
+            -0.5f * shade__neg_log2(lod[i]) - 2 * shade__keep(shade__neg_log2(w[i]), perspective);
     }
 }
 /* Offsets of the pixels; with the strip's first row below 2^14, all sums are exact in 32 bits. */
-SHADE__INLINE void shade__offsets(shade__queue *SHADE_RESTRICT q, uint32_t stride, int32_t row_offset)
+SHADE__INLINE void shade__offsets(shade__queue *SHADE_RESTRICT q, uint32_t stride,
+                                  int32_t row_offset)
 {
     SHADE_EACH_LANE(i) {
         uint32_t row = (uint32_t)((int32_t)q->f.y[i] - row_offset);
@@ -2465,15 +2477,15 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
 
 /*------------------------------------------------------------------------------------------ >>setup
-   Triangle setup: three snapped vertices to three edge functions and one plane per value.    [Pineda88]
+   Triangle setup: three snapped vertices to three edge functions, a plane per value. [Pineda88]
      in      positions in 24.8 fixed point, |x|, |y| <= 2^24; tails z, rw, varyings times rw
      out     shade__triangle, its pixel box cut to the clip rectangle
      holds   For the edge p to q and the pixel centre at 256 (i, j) + 128:
-               256 e(i,j) + remainder = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias,
-                   inside e >= 0,
-             bias 0 on top and left edges, -1 on others; dividing by 256 with floor keeps the sign, since
-             the coefficients of i and j are multiples of 256.  Neighbours get exactly opposite edges.
-             |q - p| < 2^25, |y - p.y| < 2^25: products stay below 2^50.                    >>cover */
+               256 e(i,j) + rest = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias
+             is inside where e >= 0; bias 0 on top and left edges, -1 on others; dividing by 256
+             with floor keeps the sign, since the coefficients of i and j are multiples of 256.
+             Neighbours get exactly opposite edges.  |q - p| < 2^25, |y - p.y| < 2^25: products stay
+             below 2^50.                                                                >>cover */
 
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
@@ -2529,16 +2541,18 @@ SHADE__INLINE void shade__edge(const shade__head *p, const shade__head *q, int k
     int bias = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
     t->e[k] = shade__floor256(dx * y - dy * x + bias);
     t->dx[k] = -dy, t->dy[k] = dx;
-    t->small &= (t->e[k] < 0 ? -t->e[k] : t->e[k]) + (dy < 0 ? -(int64_t)dy : dy) * (t->x1 - t->x0 + 3) +
-                    (dx < 0 ? -(int64_t)dx : dx) * (t->y1 - t->y0 + 9) < (1 << 30);
+    t->small &= (t->e[k] < 0 ? -t->e[k] : t->e[k]) +
+                    (dy < 0 ? -(int64_t)dy : dy) * (t->x1 - t->x0 + 3) +
+                    (dx < 0 ? -(int64_t)dx : dx) * (t->y1 - t->y0 + 9) <
+                (1 << 30);
 }
 
-/* Planes of all values in one loop: value = base + gy (y - y_ref) + gx (x - x_ref), with
-   k = dx1, dy1, dx2, dy2 over the area.  The reference vertex t0 is the farthest, whose rw is the smallest: there
-   rounding hurts most. */
+/* Planes of all values in one loop: value = base + gy (y - y_ref) + gx (x - x_ref), with k = dx1,
+   dy1, dx2, dy2 over the area.  The reference vertex t0 is the farthest, whose rw is the smallest:
+   there rounding hurts most. */
 SHADE__INLINE void shade__planes(const float *SHADE_RESTRICT t0, const float *SHADE_RESTRICT t1,
-                                 const float *SHADE_RESTRICT t2, const float *SHADE_RESTRICT k, int stride,
-                                 shade__triangle *SHADE_RESTRICT t)
+                                 const float *SHADE_RESTRICT t2, const float *SHADE_RESTRICT k,
+                                 int stride, shade__triangle *SHADE_RESTRICT t)
 {
     const float x1 = k[0], y1 = k[1], x2 = k[2], y2 = k[3];
     for (int s = 0; s < stride; s += 8) {
@@ -2604,18 +2618,19 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
    Which pixels of a triangle are inside and pass the depth test; runs of them go to the queue.
      in      heads and tails of three vertices, the box of the triangle
      out     depth (early test), fragments of the queue
-     method  Exact spans: the first and last pixel of each row from its three edges, 8 rows at once in
-             lanes where 32 bits hold the edges (w h below about 2^20 pixels), row by row in 64 bits else.
-             Then the depth test in windows of 32 and 8 pixels.  A value at a pixel has the same bits
-             however it is reached: row base, then gx times the exact distance.
+     method  Exact spans: the first and last pixel of each row from its three edges, 8 rows at once
+             in lanes where 32 bits hold the edges (w h below about 2^20 pixels), row by row in 64
+             bits else.  Then the depth test in windows of 32 and 8 pixels.  A value at a pixel has
+             the same bits however it is reached: row base, then gx times the exact distance.
      holds   A window stays inside the clip rectangle: stores rewrite only pixels of this thread.
-                                                                                          >>clip */
+                                                                                         >>clip */
 
 typedef struct shade__spans { int32_t first[8], last[8]; } shade__spans;    /* from x0; of 8 rows */
 
-/* Pixels 0 .. n - 1 of 8 rows where e + i dx + r dy >= 0 for all three edges.  An edge with dx < 0 is looked at
-   from the right end, so that each asks for the first i with e + i |dx| >= 0.  The quotient in float is off by
-   less than 1/100, so the truncated one is the answer, or one or two below it. */
+/* Pixels 0 .. n - 1 of 8 rows where e + i dx + r dy >= 0 for all three edges.  An edge with dx < 0
+   is looked at from the right end, so that each asks for the first i with e + i |dx| >= 0.  The
+   quotient in float is off by less than 1/100, so the truncated one is the answer, or one or two
+   below it. */
 SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, int row, int n,
                                       shade__spans *SHADE_RESTRICT s)
 {
@@ -2637,8 +2652,8 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
     }
 }
 
-/* First (dx > 0) or last (dx < 0) i in 0 .. n - 1 with e + i dx >= 0; n or -1 if none is.  The quotient
-   in double is off by at most one, e being below 2^44; the loops make it exact. */
+/* First (dx > 0) or last (dx < 0) i in 0 .. n - 1 with e + i dx >= 0; n or -1 if none is.  The
+   quotient in double is off by at most one, e being below 2^44; the loops make it exact. */
 static int shade__crossing(int64_t e, int32_t dx, int n)
 {
     double q = -(double)e / dx;
@@ -2675,8 +2690,8 @@ static const uint32_t shade__bit[32] = {
     1u << 24, 1u << 25, 1u << 26, 1u << 27, 1u << 28, 1u << 29, 1u << 30, 1u << 31
 };
 
-/* Tests pixels x + skip .. x + skip + n - 1 of a window at x; z: depth of the row's plane at x_ref.  Writes
-   depth; returns the set of those that passed, bit i for pixel x + i. */
+/* Tests pixels x + skip .. x + skip + n - 1 of a window at x; z: depth of the row's plane at x_ref.
+   Writes depth; returns the set of those that passed, bit i for pixel x + i. */
 SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
                                    const shade__triangle *SHADE_RESTRICT t, float z0, int x,
                                    int skip, int n, float *SHADE_RESTRICT depth, const int width)
@@ -2688,7 +2703,8 @@ SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
     uint32_t set = 0;
     SHADE__FOR(i, width) {
         uint32_t m = shade__mask(((i - skip) | (last - i)) >= 0);
-        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high), s = depth[i];
+        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high),
+              s = depth[i];
         m &= (shade__mask(z < s) & less) | (shade__mask(z == s) & equal) |
              (shade__mask(z > s) & greater) | always;
         depth[i] = shade__select(s, z, m & write);
@@ -2696,10 +2712,10 @@ SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
     }
     return set;
 }
-/* The same for up to 8 pixels x .. x + n - 1, where a window of 8 may have to begin further left, or, if the clip
-   rectangle is narrower, to work on a copy.  Bit i stands for pixel x + i. */
-SHADE__INLINE uint32_t shade__test8(const shade__draw *d, const shade__triangle *t, float z, int x, int n,
-                                    float *row)
+/* The same for up to 8 pixels x .. x + n - 1, where a window of 8 may have to begin further left,
+   or, if the clip rectangle is narrower, to work on a copy.  Bit i stands for pixel x + i. */
+SHADE__INLINE uint32_t shade__test8(const shade__draw *d, const shade__triangle *t, float z, int x,
+                                    int n, float *row)
 {
     int start = shade__min(x, d->x1 - 8), thin = start < d->x0;
     float copy[8] = { 0 }, *window = thin ? copy : row + start;
@@ -2717,15 +2733,17 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* The longer step of u, v to the next pixel, squared, in texels, times rw^4: with u = U / q, q = rw,
-   du/dx = (U_x q - U q_x) / q^2. */
-SHADE__INLINE void shade__append_lod(float *SHADE_RESTRICT lod, const shade__triangle *SHADE_RESTRICT t,
+/* The longer step of u, v to the next pixel, squared, in texels, times rw^4: with u = U / q, q =
+   rw, du/dx = (U_x q - U q_x) / q^2. */
+SHADE__INLINE void shade__append_lod(float *SHADE_RESTRICT lod,
+                                     const shade__triangle *SHADE_RESTRICT t,
                                      const float *SHADE_RESTRICT row, int x, const int width)
 {
     const int k = t->lod;
     const float u0 = row[k], v0 = row[k + 1], q0 = row[1], x_ref = t->x_ref;
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
-    const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1], w = t->lod_width, h = t->lod_height;
+    const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1], w = t->lod_width,
+                h = t->lod_height;
     SHADE__FOR(i, width) {
         float px = (float)(x + i) + x_ref, u = u0 + ux * px, v = v0 + vx * px, q = q0 + qx * px;
         float a = (ux * q - u * qx) * w, b = (vx * q - v * qx) * h;
@@ -2738,7 +2756,8 @@ SHADE__INLINE void shade__append_lod(float *SHADE_RESTRICT lod, const shade__tri
 /* Writes width lanes of the queue from lane c on: pixels x, x + 1, ... of row y. */
 SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
                                  const shade__triangle *SHADE_RESTRICT t,
-                                 const float *SHADE_RESTRICT row, int varyings, int x, int y, int c, const int width)
+                                 const float *SHADE_RESTRICT row, int varyings, int x, int y, int c,
+                                 const int width)
 {
     const float x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const float rw_low = t->rw_low, rw_high = t->rw_high, centre = (float)y + 0.5f;
@@ -2822,8 +2841,10 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int x, 
     float *row = d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
     for (; n >= 32; x += 32, n -= 32) {
         uint32_t set;
-        /* each row is a new page to the processor's own prefetcher: 23 % less at 163 Mpixel of overdraw */
-        if (y < t->y1) SHADE__PREFETCH(row + x + d->stride), SHADE__PREFETCH(row + x + d->stride + 16);
+        /* each row is a new page to the processor's own prefetcher: 23 % less at 163 Mpixel of
+           overdraw */
+        if (y < t->y1)
+            SHADE__PREFETCH(row + x + d->stride), SHADE__PREFETCH(row + x + d->stride + 16);
         set = shade__test(d, t, z, x, 0, 32, row + x, 32);
         if (set) shade__push_set(d, t, x, y, set);
     }
@@ -2864,11 +2885,12 @@ SHADE__DISPATCH(shade__cover,
                 (d, t, head, tail))
 
 /*------------------------------------------------------------------------------------------- >>clip
-   Triangles that cross the near or far plane, or the guard band |x|, |y| <= 3 w: a polygon is cut plane by plane and
-   drawn as a fan.                                                                      [Sutherland74]
+   Triangles that cross the near or far plane, or the guard band |x|, |y| <= 3 w: a polygon is cut
+   plane by plane and drawn as a fan.                                              [Sutherland74]
      in      three slots of the batch     out  up to 8 triangles for >>setup
-     holds   A new vertex is computed from the inner to the outer end of its edge, so that neighbours get the
-             same bits and no crack opens.  Facing is that of the whole polygon.           >>vertex */
+     holds   A new vertex is computed from the inner to the outer end of its edge, so that
+             neighbours get the same bits and no crack opens.  Facing is that of the whole polygon.
+                                                                                       >>vertex */
 
 enum {
     SHADE__OUT_LEFT = 1, SHADE__OUT_RIGHT = 2, SHADE__OUT_BOTTOM = 4, SHADE__OUT_TOP = 8,
@@ -2939,7 +2961,7 @@ static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one
     int kept[SHADE__CLIP_VERTICES], count = 0;
     for (int i = 0; i < p->count; i++) {
         if (count > SHADE__CLIP_VERTICES - 2 || p->used > SHADE__CLIP_VERTICES - 1) {
-            p->count = 0;    /* coordinates so far apart that rounding bent the polygon: nothing is left */
+            p->count = 0;    /* coordinates so far apart that rounding bent the polygon */
             return;
         }
         int a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
@@ -3038,16 +3060,18 @@ static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *
         int64_t piece = shade__area(&p.head[a], &p.head[b], &p.head[c]);
         if (piece == 0 || (piece < 0) != (area < 0)) continue;
         const shade__head *head[3] = { &p.head[a], &p.head[b], &p.head[c] };
-        const float *tail[4] = { p.tail[a], p.tail[b], p.tail[c], d->tails + slot[0] * d->tail_stride };
+        const float *tail[4] = { p.tail[a], p.tail[b], p.tail[c],
+                                 d->tails + slot[0] * d->tail_stride };
         if (shade__box(d, head[0], head[1], head[2], &t)) d->cover(d, &t, head, tail);
     }
 }
 
 /*----------------------------------------------------------------------------------------- >>vertex
-   A batch: up to SHADE_LANES different vertices, shaded and projected as one packet, and the triangles among them.
+   A batch: up to SHADE_LANES different vertices, shaded and projected as one packet, and the
+   triangles among them.
      in      indices                      out  heads and tails, one per slot of the batch
-     holds   A vertex is shaded once per batch.  Vertices without a window position get a harmless one and a
-             bit that sends their triangles through >>clip.                                 >>drive */
+     holds   A vertex is shaded once per batch.  Vertices without a window position get a harmless
+             one and a bit that sends their triangles through >>clip.                   >>drive */
 
 typedef struct shade__placed {           /* rows of projected vertices */
     float    x[SHADE_LANES], y[SHADE_LANES], w[SHADE_LANES];     /* clip space, made harmless */
@@ -3072,12 +3096,14 @@ SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int z
             out;
         out = (shade__mask(x < -w) & 1) | (shade__mask(x > w) & 2) | (shade__mask(y < -w) & 4) |
               (shade__mask(y > w) & 8) | (shade__mask(z < low) & 16) | (shade__mask(z > w) & 32);
-        out |= (shade__mask(x < -w3) & 64) | (shade__mask(x > w3) & 128) | (shade__mask(y < -w3) & 256) |
-               (shade__mask(y > w3) & 512) | (shade__mask(w < shade__w_least) & SHADE__OUT_W);
+        out |= (shade__mask(x < -w3) & 64) | (shade__mask(x > w3) & 128) |
+               (shade__mask(y < -w3) & 256) | (shade__mask(y > w3) & 512) |
+               (shade__mask(w < shade__w_least) & SHADE__OUT_W);
         out |= bad & SHADE__OUT_BAD;
         p->out[i] = out;
         bad = shade__mask((out & SHADE__OUT_UNPLACED) != 0);
-        p->x[i] = shade__keep(x, ~bad), p->y[i] = shade__keep(y, ~bad), p->w[i] = shade__select(w, 1, bad);
+        p->x[i] = shade__keep(x, ~bad), p->y[i] = shade__keep(y, ~bad),
+        p->w[i] = shade__select(w, 1, bad);
         p->z[i] = shade__keep(z, ~bad);
     }
 }
@@ -3121,7 +3147,8 @@ SHADE__DISPATCH(shade__place_vertices, (shade__draw *d), (d))
 static void shade__shade_vertices(shade__draw *d)
 {
     shade_vertices *v = &d->u.in.vertices;
-    for (int i = d->u.in.ids.count; i < SHADE_LANES; i++) d->u.in.ids.index[i] = d->u.in.ids.index[d->u.in.ids.count - 1];
+    for (int i = d->u.in.ids.count; i < SHADE_LANES; i++)
+        d->u.in.ids.index[i] = d->u.in.ids.index[d->u.in.ids.count - 1];
     SHADE_MEMSET(v->clip, 0, sizeof v->clip);
     if (d->varyings) SHADE_MEMSET(v->out, 0, (size_t)d->varyings * sizeof v->out[0]);
     d->pipe->vertex(d->pipe->uniforms, &d->u.in.ids, v);
@@ -3195,7 +3222,7 @@ static void shade__triangles(shade__draw *d, int count, uint32_t primitive)
 }
 
 /*------------------------------------------------------------------------------------------ >>drive
-   The public calls: arguments checked before any pixel changes, then batch after batch.     >>mesh */
+   The public calls: arguments checked before any pixel changes, then batch after batch. >>mesh */
 
 SHADE__INLINE int shade__rows_held(const shade_target *t)
 {
@@ -3208,16 +3235,18 @@ SHADE__INLINE int shade__stride_of(const shade_target *t)
 
 static shade_result shade__check_target(const shade_target *t)
 {
+    uint64_t pixels;
     if (!t->color && !t->depth) return SHADE_ERROR_TARGET;
-    if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384) return SHADE_ERROR_TARGET;
+    if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
+        return SHADE_ERROR_TARGET;
     if (t->stride < 0 || (t->stride && t->stride < t->width)) return SHADE_ERROR_TARGET;
     if ((unsigned)t->format > SHADE_RGBA32F) return SHADE_ERROR_TARGET;
     if (t->clip_width < 0 || t->clip_height < 0) return SHADE_ERROR_TARGET;
-    if (t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count)) return SHADE_ERROR_TARGET;
+    if (t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count))
+        return SHADE_ERROR_TARGET;
     if (t->row_count && t->row_offset > t->height - t->row_count) return SHADE_ERROR_TARGET;
-    if ((uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t) > 0xFFFFFFFFu) return SHADE_ERROR_TARGET;
-    if ((uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t) > SIZE_MAX / 16) return SHADE_ERROR_TARGET;
-    return SHADE_OK;
+    pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
+    return pixels > 0xFFFFFFFFu || pixels > SIZE_MAX / 16 ? SHADE_ERROR_TARGET : SHADE_OK;
 }
 /* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive. 0 if
    empty. */
@@ -3239,7 +3268,8 @@ static shade_result shade__check_pipeline(const shade_pipeline *p)
         (unsigned)p->depth_test > SHADE_ALWAYS || (unsigned)p->blend > SHADE_ADD)
         return SHADE_ERROR_ARGUMENT;
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
-    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying + 1 > p->varyings)) return SHADE_ERROR_ARGUMENT;
+    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying + 1 > p->varyings))
+        return SHADE_ERROR_ARGUMENT;
     return shade__within(p->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
 }
 
@@ -3282,7 +3312,8 @@ static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipe
     d->queued = p->fragment && (d->color || p->may_discard);
     d->less = shade__mask(test == SHADE_LESS || test == SHADE_LESS_EQUAL);
     d->greater = shade__mask(test == SHADE_GREATER || test == SHADE_GREATER_EQUAL);
-    d->equal = shade__mask(test == SHADE_EQUAL || test == SHADE_LESS_EQUAL || test == SHADE_GREATER_EQUAL);
+    d->equal =
+        shade__mask(test == SHADE_EQUAL || test == SHADE_LESS_EQUAL || test == SHADE_GREATER_EQUAL);
     d->always = shade__mask(test == SHADE_ALWAYS);
     d->write = shade__mask(!p->depth_read_only);
     d->half_width = (float)(t->width * 128), d->half_height = (float)(t->height * 128);
@@ -3291,7 +3322,8 @@ static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipe
 }
 
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                 const uint32_t *indices, int index_count, int vertex_count, shade_stats *stats)
+                                 const uint32_t *indices, int index_count, int vertex_count,
+                                 shade_stats *stats)
 {
     shade__draw d;
     shade_pipeline pipe;
@@ -3344,7 +3376,8 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
     }
     shade__pack8(t, rgba, px, py, pixel);
     for (int i = 0; i < 8; i++)
-        shade__store(t->format, pattern + (size_t)i * shade__pixel_bytes(t->format), pixel[i], rgba + i, 8);
+        shade__store(t->format, pattern + (size_t)i * shade__pixel_bytes(t->format), pixel[i],
+                     rgba + i, 8);
 }
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
@@ -3358,7 +3391,8 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     if (!shade__clip_rectangle(target, clip)) return SHADE_OK;
     for (int y = clip[1]; y < clip[3]; y++) {
         size_t n = (size_t)(clip[2] - clip[0]), bytes = shade__pixel_bytes(target->format);
-        size_t at = (size_t)(y - target->row_offset) * (size_t)shade__stride_of(target) + (size_t)clip[0];
+        size_t at =
+            (size_t)(y - target->row_offset) * (size_t)shade__stride_of(target) + (size_t)clip[0];
         if (target->depth) shade__fill((uint8_t *)(target->depth + at), &depth, 4, n * 4);
         if (!target->color) continue;
         shade__clear_pattern(target, color, clip[0], y, pattern);
@@ -3368,7 +3402,8 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 }
 
 /* Pixels x .. x + n - 1 of row y, n <= 8: means of factor x factor pixels each. */
-static void shade__resolve8(const shade_target *out, const shade_target *in, int factor, int x, int y, int n)
+static void shade__resolve8(const shade_target *out, const shade_target *in, int factor, int x,
+                            int y, int n)
 {
     float rgba[32] = { 0 }, px[8], py[8], c[4];
     uint32_t pixel[8] = { 0 };
@@ -3378,13 +3413,15 @@ static void shade__resolve8(const shade_target *out, const shade_target *in, int
     for (int i = 0; i < 8; i++) px[i] = (float)(x + i) + 0.5f, py[i] = (float)y + 0.5f;
     for (int i = 0; i < n * factor * factor; i++) {
         int p = i / (factor * factor), row = i / factor % factor + (y - out->row_offset) * factor;
-        size_t at = (size_t)row * (size_t)shade__stride_of(in) + (size_t)((x + p) * factor + i % factor);
+        size_t at =
+            (size_t)row * (size_t)shade__stride_of(in) + (size_t)((x + p) * factor + i % factor);
         shade__fetch(in, (const uint8_t *)in->color + at * shade__pixel_bytes(in->format), c);
         for (int k = 0; k < 4; k++) rgba[8 * k + p] += c[k];
     }
     for (int i = 0; i < 32; i++) rgba[i] /= (float)(factor * factor);
     shade__pack8(out, rgba, px, py, pixel);
-    for (int i = 0; i < n; i++) shade__store(out->format, to + (size_t)i * bytes, pixel[i], rgba + i, 8);
+    for (int i = 0; i < n; i++)
+        shade__store(out->format, to + (size_t)i * bytes, pixel[i], rgba + i, 8);
 }
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
 {
@@ -3395,8 +3432,9 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
     if (result == SHADE_OK) result = shade__check_target(in);
     if (result == SHADE_OK && (!out->color || !in->color)) result = SHADE_ERROR_TARGET;
     if (result != SHADE_OK) return result;
-    if (factor < 2 || factor > 8 || in->width != out->width * factor || in->height != out->height * factor ||
-        in->row_offset != out->row_offset * factor || shade__rows_held(in) != shade__rows_held(out) * factor)
+    if (factor < 2 || factor > 8 || in->width != out->width * factor ||
+        in->height != out->height * factor || in->row_offset != out->row_offset * factor ||
+        shade__rows_held(in) != shade__rows_held(out) * factor)
         return SHADE_ERROR_ARGUMENT;
     if (!shade__clip_rectangle(out, clip)) return SHADE_OK;
     for (int y = clip[1]; y < clip[3]; y++)
@@ -3407,10 +3445,10 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
 
 /*------------------------------------------------------------------------------------------- >>mesh
    The fixed pipeline: a mesh drawn by two ordinary shaders of the programmable one.
-     in      object-space arrays          out  varyings in world space: P, N, albedo; or one lit colour
-     holds   Where each face has values of its own (flat, or no normals),
-         every corner is a vertex: its
-             index is 3 times the triangle's plus the corner, and the shader looks up the mesh's.   >>lines */
+     in      object-space arrays       out  varyings in world space: P, N, albedo; or one lit colour
+     holds   Where each face has values of its own (flat, or no normals), every corner is a vertex:
+             its index is 3 times the triangle's plus the corner, and the shader looks up the
+             mesh's.                                                                    >>lines */
 
 typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_mesh *mesh;
@@ -3420,12 +3458,13 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_vec3 eye;
     int face_normals;                    /* then every corner is a vertex of its own */
     const shade_texture *map;            /* NULL: none */
-    shade_lighting matte, gloss;         /* with a map, lit vertices: what it multiplies, and the rest */
+    shade_lighting matte, gloss;    /* with a map, lit vertices: what it multiplies, and the rest */
 } shade__scene;
 
-/* rows; varyings lend theirs if they are 12 */
-enum { SHADE__TERM_NONE = 128 };         /* a bit of no term, since terms of 0 mean all */
-enum { SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 15 : 1 };    /* rows; varyings lend theirs if they are 15 */
+enum {
+    SHADE__TERM_NONE = 128,                              /* no term at all, since 0 means all */
+    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 15 : 1    /* rows; 15 varyings lend theirs instead */
+};
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
 SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t i)
@@ -3448,8 +3487,8 @@ SHADE__INLINE void shade__put(float *rows, int i, shade_vec3 v)
 }
 
 /* Object-space attributes of a packet to rows of P, N and albedo. */
-static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in, float *P,
-                                  float *N, float *albedo)
+static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in,
+                                                  float *P, float *N, float *albedo)
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -3461,13 +3500,14 @@ static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const s
 }
 /* The same for faces: their normal (length of twice the area), and with per_face their centroid
    and first colour. */
-static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in, int per_face,
-                               float *P, float *N, float *albedo)
+static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in,
+                                               int per_face, float *P, float *N, float *albedo)
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
         uint32_t first = in->index[i] / 3 * 3, v = shade__corner_index(m, first);
-        shade_vec3 a = shade__position(m, v), b = shade__position(m, shade__corner_index(m, first + 1));
+        shade_vec3 a = shade__position(m, v),
+                   b = shade__position(m, shade__corner_index(m, first + 1));
         shade_vec3 c = shade__position(m, shade__corner_index(m, first + 2));
         shade__put(N, i, shade_face_normal(a, b, c));
         if (!per_face) continue;
@@ -3512,7 +3552,8 @@ SHADE__INLINE void shade__lane_normal(shade_mat3 m, float *SHADE_RESTRICT N)
     }
 }
 
-static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s, const shade_vertex_ids *in, float *u)
+static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
+                                                   const shade_vertex_ids *in, float *u)
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -3523,9 +3564,11 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s, const 
         u[i] = uv[0], u[i + SHADE_LANES] = uv[1];
     }
 }
-/* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or with a map what it
-   multiplies, the rest, u, v; then P, N, albedo stand in the rows behind, which nobody reads. */
-SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+/* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or
+   with a map what it multiplies, the rest, u, v; then P, N, albedo stand in the rows behind, which
+   nobody reads. */
+SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
+                                           const shade_vertex_ids *SHADE_RESTRICT in,
                                            shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
@@ -3545,7 +3588,8 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms, const shade_ver
         shade_lit_lanes(&s->matte, state->material, s->eye, P, N, albedo, rgb);
         shade_lit_lanes(&s->gloss, state->material, s->eye, P, N, albedo, rgb + 3 * SHADE_LANES);
         shade__fetch_texcoords(s, in, rgb + 6 * SHADE_LANES);
-    } else if (lit) shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (float *)out->out);
+    } else if (lit)
+        shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (float *)out->out);
     else if (s->map) shade__fetch_texcoords(s, in, out->out[albedo ? 9 : 6]);
 }
 SHADE__DISPATCH(shade__mesh_vertex,
@@ -3554,11 +3598,14 @@ SHADE__DISPATCH(shade__mesh_vertex,
                 (uniforms, in, out))
 
 /* The map at the texture coordinates in rows u and u + 1 of a packet. */
-static void shade__sample_map(const shade__scene *s, const shade_fragments *in, const float *u, float *rgba)
+static void shade__sample_map(const shade__scene *s, const shade_fragments *in, const float *u,
+                              float *rgba)
 {
-    shade_sample_lanes(s->map, u, u + SHADE_LANES, s->map->mipmap_count ? in->lod : (const float *)0, rgba);
+    shade_sample_lanes(s->map, u, u + SHADE_LANES,
+                       s->map->mipmap_count ? in->lod : (const float *)0, rgba);
 }
-/* Phong interpolation: N and P arrive per pixel.  The map's colour takes rows of the packet that have no varying. */
+/* Phong interpolation: N and P arrive per pixel.  The map's colour takes rows of the packet that
+   have no varying. */
 static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                             shade_colors *SHADE_RESTRICT out)
 {
@@ -3573,7 +3620,8 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
     }
     if (s->map) albedo = texel;
     else if (!colored) albedo = (const float *)0;
-    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo, (float *)out->out);
+    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo,
+                    (float *)out->out);
 }
 /* Gouraud and flat: the colour arrives. */
 static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -3600,7 +3648,10 @@ static shade_result shade__check_mesh(const shade_mesh *m)
         return SHADE_ERROR_ARGUMENT;
     return SHADE_OK;
 }
-static int shade__corner_count(const shade_mesh *m) { return m->indices ? m->index_count : m->vertex_count; }
+static int shade__corner_count(const shade_mesh *m)
+{
+    return m->indices ? m->index_count : m->vertex_count;
+}
 
 static int shade__is_zero_matrix(const shade_mat4 *m)
 {
@@ -3629,7 +3680,8 @@ static shade__scene shade__scene_of(const shade_mesh *mesh, const shade_draw_sta
     s.matte = s.gloss = state->lighting;
     if (!s.matte.terms) s.matte.terms = s.gloss.terms = ~0u;
     s.matte.terms = (s.matte.terms & (SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE)) | SHADE__TERM_NONE;
-    s.gloss.terms = (s.gloss.terms & (SHADE_TERM_EMISSION | SHADE_TERM_SPECULAR)) | SHADE__TERM_NONE;
+    s.gloss.terms =
+        (s.gloss.terms & (SHADE_TERM_EMISSION | SHADE_TERM_SPECULAR)) | SHADE__TERM_NONE;
     return s;
 }
 
@@ -3641,11 +3693,13 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     shade_result result;
     int count;
     if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
-    if (!target || !mesh || !state || (!mesh->positions && mesh->vertex_count > 0)) return SHADE_ERROR_ARGUMENT;
+    if (!target || !mesh || !state || (!mesh->positions && mesh->vertex_count > 0))
+        return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
     if (result == SHADE_OK) result = shade__check_mesh(mesh);
     if (result != SHADE_OK) return result;
-    if ((unsigned)state->shading > SHADE_PER_FACE || (unsigned)state->lighting.model > SHADE_COOL_TO_WARM ||
+    if ((unsigned)state->shading > SHADE_PER_FACE ||
+        (unsigned)state->lighting.model > SHADE_COOL_TO_WARM ||
         (!state->lighting.lights && state->lighting.light_count > 0))
         return SHADE_ERROR_ARGUMENT;
     scene = shade__scene_of(mesh, state);
@@ -3660,7 +3714,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         p.lod_width = (float)scene.map->width, p.lod_height = (float)scene.map->height;
         p.varyings += 2;
     }
-    p.interpolation = state->shading == SHADE_PER_FACE && !scene.map ? SHADE_CONSTANT : SHADE_PERSPECTIVE;
+    p.interpolation =
+        state->shading == SHADE_PER_FACE && !scene.map ? SHADE_CONSTANT : SHADE_PERSPECTIVE;
     p.cull = state->cull, p.depth_test = state->depth_test, p.blend = state->blend;
     p.depth_zero_to_one = state->depth_zero_to_one, p.depth_read_only = state->depth_read_only;
     p.depth_bias = state->depth_bias;
@@ -3675,10 +3730,10 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 
 /*------------------------------------------------------------------------------------------ >>lines
    Lines as rectangles of the screen, two triangles each, drawn by the pipeline above.
-     in      pairs of points              out  what triangles give: same coverage, depth test, blending
-     holds   A segment is cut at the near and far planes first, so that both ends have a place on the
+     in      pairs of points           out  what triangles give: same coverage, depth test, blending
+     holds  A segment is cut at the near and far planes first, so that both ends have a place on the
              screen.  One that lies outside becomes a triangle outside, and is counted as clipped.
-                                                                                          >>shape */
+                                                                                        >>shape */
 
 typedef struct shade__stroke {           /* uniforms of the line shaders */
     const shade_vec3 *points;
@@ -3704,9 +3759,11 @@ static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int c
     for (int j = 0; j < 2; j++) {
         shade_vec3 p = s->points[2 * (size_t)segment + (size_t)j];
         shade_vec4 c = shade_mat4_transform(s->clip_from_points, shade_v4(p.x, p.y, p.z, 1));
-        end[j][0] = (double)c.x, end[j][1] = (double)c.y, end[j][2] = (double)c.z, end[j][3] = (double)c.w;
+        end[j][0] = (double)c.x, end[j][1] = (double)c.y, end[j][2] = (double)c.z,
+        end[j][3] = (double)c.w;
     }
-    shade__cut(end[0][2] + (zero_to_one ? 0 : end[0][3]), end[1][2] + (zero_to_one ? 0 : end[1][3]), &t[0], &t[1]);
+    shade__cut(end[0][2] + (zero_to_one ? 0 : end[0][3]), end[1][2] + (zero_to_one ? 0 : end[1][3]),
+               &t[0], &t[1]);
     shade__cut(end[0][3] - end[0][2], end[1][3] - end[1][2], &t[0], &t[1]);
     shade__cut(end[0][3] - 1e-12, end[1][3] - 1e-12, &t[0], &t[1]);
     clip[0] = clip[1] = clip[2] = 2, clip[3] = 1;
@@ -3731,7 +3788,8 @@ static void shade__stroke_vertex(const void *uniforms, const shade_vertex_ids *S
     static const uint8_t corner[6] = { 0, 1, 3, 0, 3, 2 };
     for (int i = 0; i < SHADE_LANES; i++) {
         float clip[4];
-        shade__stroke_corner((const shade__stroke *)uniforms, in->index[i] / 6, corner[in->index[i] % 6], clip);
+        shade__stroke_corner((const shade__stroke *)uniforms, in->index[i] / 6,
+                             corner[in->index[i] % 6], clip);
         for (int k = 0; k < 4; k++) out->clip[k][i] = clip[k];
     }
 }
@@ -3745,8 +3803,9 @@ static void shade__stroke_color(const void *uniforms, const shade_fragments *SHA
     }
 }
 
-SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points, int point_count,
-                                       const shade_line_state *state, shade_stats *stats)
+SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
+                                       int point_count, const shade_line_state *state,
+                                       shade_stats *stats)
 {
     shade_pipeline p;
     shade__stroke s;
@@ -3755,8 +3814,10 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     if (!target || !state || (!points && point_count > 0)) return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
     if (result != SHADE_OK) return result;
-    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_ARGUMENT;
-    if (!(state->width >= 0) || !shade__within(state->width, FLT_MAX) || (unsigned)state->cap > SHADE_SQUARE)
+    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3)
+        return SHADE_ERROR_ARGUMENT;
+    if (!(state->width >= 0) || !shade__within(state->width, FLT_MAX) ||
+        (unsigned)state->cap > SHADE_SQUARE)
         return SHADE_ERROR_ARGUMENT;
     s.points = points, s.state = state;
     s.clip_from_points = shade__or_identity(state->clip_from_points);
@@ -3772,8 +3833,8 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
 /*------------------------------------------------------------------------------------------ >>shape
    What a mesh knows of its shape: normals of vertices and corners, edges; and rays through it.
      in      meshes, the caller's memory         out  the caller's arrays
-     method  normals of faces weighted by their angle at the vertex [Thurmer98]; edges by sorting; rays
-             against triangles by Cramer's rule [Moller97]                                 >>image */
+     method  normals of faces weighted by their angle at the vertex [Thurmer98]; edges by sorting;
+             rays against triangles by Cramer's rule [Moller97]                         >>image */
 
 /* Sorts n records of size bytes by a heap, in place. */
 typedef int shade__less_fn(const void *context, const void *a, const void *b);
@@ -3782,7 +3843,8 @@ static void shade__swap(uint8_t *a, uint8_t *b, size_t size)
     uint8_t t[sizeof(shade_edge)];
     SHADE_MEMCPY(t, a, size), SHADE_MEMCPY(a, b, size), SHADE_MEMCPY(b, t, size);
 }
-static void shade__sort(void *records, size_t n, size_t size, shade__less_fn *less, const void *context)
+static void shade__sort(void *records, size_t n, size_t size, shade__less_fn *less,
+                        const void *context)
 {
     uint8_t *p = (uint8_t *)records;
     for (size_t start = n / 2, end = n; end > 1;) {
@@ -3822,8 +3884,10 @@ static float shade__corner_angle(const shade_mesh *m, uint32_t corner)
 {
     uint32_t t = corner / 3 * 3, k = corner % 3;
     shade_vec3 p = shade__position(m, shade__corner_index(m, corner));
-    shade_vec3 a = shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 1) % 3)), p));
-    shade_vec3 b = shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 2) % 3)), p));
+    shade_vec3 a =
+        shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 1) % 3)), p));
+    shade_vec3 b =
+        shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 2) % 3)), p));
     return (float)shade__angle((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
 }
 static shade_result shade__check_shape(const shade_mesh *m, const void *out)
@@ -3831,7 +3895,8 @@ static shade_result shade__check_shape(const shade_mesh *m, const void *out)
     shade_result result;
     if (!m || !out || (!m->positions && m->vertex_count > 0)) return SHADE_ERROR_ARGUMENT;
     result = shade__check_mesh(m);
-    return result ? result : shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count);
+    return result ? result
+                  : shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count);
 }
 
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
@@ -3857,7 +3922,8 @@ static int shade__corner_less(const void *context, const void *a, const void *b)
     const shade_mesh *m = (const shade_mesh *)context;
     uint32_t i, j;
     SHADE_MEMCPY(&i, a, 4), SHADE_MEMCPY(&j, b, 4);
-    shade_vec3 p = shade__position(m, shade__corner_index(m, i)), q = shade__position(m, shade__corner_index(m, j));
+    shade_vec3 p = shade__position(m, shade__corner_index(m, i)),
+               q = shade__position(m, shade__corner_index(m, j));
     uint32_t u[3], v[3];
     SHADE_MEMCPY(u, &p, 12), SHADE_MEMCPY(v, &q, 12);
     for (int k = 0; k < 3; k++) {
@@ -3869,7 +3935,8 @@ static int shade__corner_less(const void *context, const void *a, const void *b)
 }
 static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
 {
-    shade_vec3 p = shade__position(m, shade__corner_index(m, i)), q = shade__position(m, shade__corner_index(m, j));
+    shade_vec3 p = shade__position(m, shade__corner_index(m, i)),
+               q = shade__position(m, shade__corner_index(m, j));
     return p.x == q.x && p.y == q.y && p.z == q.z;
 }
 SHADEDEF size_t shade_corner_normals_bytes(const shade_mesh *mesh)
@@ -3877,8 +3944,8 @@ SHADEDEF size_t shade_corner_normals_bytes(const shade_mesh *mesh)
     if (shade__check_shape(mesh, &mesh) != SHADE_OK) return 0;
     return (size_t)shade__corner_count(mesh) * 4 + (size_t)(shade__corner_count(mesh) / 3) * 12 + 4;
 }
-SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease, shade_vec3 *out,
-                                                void *memory, size_t bytes)
+SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
+                                                shade_vec3 *out, void *memory, size_t bytes)
 {
     shade_result result = shade__check_shape(mesh, out);
     uint32_t *order = (uint32_t *)memory, count;
@@ -3891,7 +3958,9 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     for (uint32_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, t);
     shade__sort(order, count, 4, shade__corner_less, mesh);
     for (uint32_t first = 0, last; first < count; first = last) {
-        for (last = first + 1; last < count && shade__same_position(mesh, order[first], order[last]);) last++;
+        for (last = first + 1;
+             last < count && shade__same_position(mesh, order[first], order[last]);)
+            last++;
         for (uint32_t i = first; i < last; i++) {
             shade_vec3 n = face[order[i] / 3], sum = shade_v3(0, 0, 0);
             for (uint32_t j = first; j < last; j++) {
@@ -3912,7 +3981,8 @@ static int shade__edge_less(const void *context, const void *a, const void *b)
     if (p->a != q->a) return p->a < q->a;
     return p->b != q->b ? p->b < q->b : p->triangle[0] < q->triangle[0];
 }
-SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity, int *count)
+SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
+                                       int *count)
 {
     shade_result result;
     int corners, n = 0, kept = 0;
@@ -3937,7 +4007,8 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     for (int i = 0; i < n; i++) {
         shade_edge *last = kept ? &edges[kept - 1] : (shade_edge *)0;
         int same = last && last->a == edges[i].a && last->b == edges[i].b;
-        if (same && edges[i].triangle[0] == shade__max(last->triangle[0], last->triangle[1])) continue;
+        if (same && edges[i].triangle[0] == shade__max(last->triangle[0], last->triangle[1]))
+            continue;
         if (same && last->triangle[1] < 0) last->triangle[1] = edges[i].triangle[0];
         else edges[kept++] = edges[i];
     }
@@ -3953,11 +4024,14 @@ SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
     return shade_dot(n0, n1) <= threshold;
 }
 
-SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height, float x, float y)
+SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
+                                   float x, float y)
 {
     shade_ray ray;
-    shade_mat4 camera = shade_mat4_inverse(view), m = shade_mat4_inverse(shade_mat4_mul(projection, view));
-    float nx = 2 * x / (float)shade__max(width, 1) - 1, ny = 1 - 2 * y / (float)shade__max(height, 1);
+    shade_mat4 camera = shade_mat4_inverse(view),
+               m = shade_mat4_inverse(shade_mat4_mul(projection, view));
+    float nx = 2 * x / (float)shade__max(width, 1) - 1,
+          ny = 1 - 2 * y / (float)shade__max(height, 1);
     shade_vec4 near_h = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
     shade_vec4 far_h = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
     shade_vec3 forward = shade_mat4_transform_direction(camera, shade_v3(0, 0, -1)), d;
@@ -3976,16 +4050,21 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric)
 {
-    double e[3] = { (double)b.x - (double)a.x, (double)b.y - (double)a.y, (double)b.z - (double)a.z };
-    double f[3] = { (double)c.x - (double)a.x, (double)c.y - (double)a.y, (double)c.z - (double)a.z };
+    double e[3] = { (double)b.x - (double)a.x, (double)b.y - (double)a.y,
+                    (double)b.z - (double)a.z };
+    double f[3] = { (double)c.x - (double)a.x, (double)c.y - (double)a.y,
+                    (double)c.z - (double)a.z };
     double d[3] = { (double)ray.direction.x, (double)ray.direction.y, (double)ray.direction.z };
     double s[3] = { (double)ray.origin.x - (double)a.x, (double)ray.origin.y - (double)a.y,
                     (double)ray.origin.z - (double)a.z };
-    double p[3] = { d[1] * f[2] - d[2] * f[1], d[2] * f[0] - d[0] * f[2], d[0] * f[1] - d[1] * f[0] };
-    double q[3] = { s[1] * e[2] - s[2] * e[1], s[2] * e[0] - s[0] * e[2], s[0] * e[1] - s[1] * e[0] };
+    double p[3] = { d[1] * f[2] - d[2] * f[1], d[2] * f[0] - d[0] * f[2],
+                    d[0] * f[1] - d[1] * f[0] };
+    double q[3] = { s[1] * e[2] - s[2] * e[1], s[2] * e[0] - s[0] * e[2],
+                    s[0] * e[1] - s[1] * e[0] };
     double det = e[0] * p[0] + e[1] * p[1] + e[2] * p[2], u, v, at;
     if (!(det < 0 || det > 0)) return 0;
-    u = (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) / det, v = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det;
+    u = (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) / det,
+    v = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det;
     at = (f[0] * q[0] + f[1] * q[1] + f[2] * q[2]) / det;
     if (!(u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 3e38)) return 0;
     if (t) *t = (float)at;
@@ -3994,7 +4073,8 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 }
 
 /*------------------------------------------------------------------------------------------ >>image
-   Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on.    >>refs */
+   Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on.
+                                                                                         >>refs */
 
 static char *shade__decimal(char *p, int n)
 {
@@ -4082,24 +4162,69 @@ SHADE__EXACT_END
 #endif /* SHADE_IMPLEMENTATION */
 
 /*------------------------------------------------------------------------------------------- >>refs
-   [Blinn77]      J. F. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977,
-                  Computer Graphics 11(2), 192-198.
-   [Gooch98]      A. Gooch, B. Gooch, P. Shirley, E. Cohen, "A Non-Photorealistic Lighting Model for Automatic
-                  Technical Illustration", SIGGRAPH 1998, 447-452.
-   [Gouraud71]    H. Gouraud, "Continuous Shading of Curved Surfaces",
-       IEEE Transactions on Computers C-20(6), 623-629.
+   [Blinn77]      J. F. Blinn, "Models of Light Reflection for Computer Synthesized Pictures",
+                  SIGGRAPH 1977, Computer Graphics 11(2), 192-198.
+   [Gooch98]      A. Gooch, B. Gooch, P. Shirley, E. Cohen, "A Non-Photorealistic Lighting Model
+                  for Automatic Technical Illustration", SIGGRAPH 1998, 447-452.
+   [Gouraud71]    H. Gouraud, "Continuous Shading of Curved Surfaces", IEEE Transactions on
+                  Computers C-20(6), 623-629.
    [IEC61966]     IEC 61966-2-1:1999, the sRGB colour space.
-   [Kadlec10]     J. Kadlec, "Improving the fast inverse square root", 2010: the constant and its Newton step.
+   [Kadlec10]     J. Kadlec, "Improving the fast inverse square root", 2010: the constant and its
+                  Newton step.
    [Kilgard94]    The materials of teapots.c, Silicon Graphics 1993, M. J. Kilgard 1994.
    [Moller97]     T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection",
                   Journal of Graphics Tools 2(1), 21-28.
-   [Phong75]      B. T. Phong, "Illumination for Computer Generated Pictures",
-       Communications of the ACM 18(6), 311-317.
+   [Phong75]      B. T. Phong, "Illumination for Computer Generated Pictures", Communications of the
+                  ACM 18(6), 311-317.
    [Pineda88]     J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988,
                   Computer Graphics 22(4), 17-20.
-   [Sutherland74] I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping",
-       Communications of the ACM 17(1), 32-42.
+   [Sutherland74] I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping", Communications of
+                  the ACM 17(1), 32-42.
    [Thurmer98]    G. Thuermer, C. A. Wuethrich, "Computing Vertex Normals from Polygonal Facets",
                   Journal of Graphics Tools 3(1), 43-46.
-   [Williams83]   L. Williams, "Pyramidal Parametrics", SIGGRAPH 1983, Computer Graphics 17(3), 1-11.
+   [Williams83]   L. Williams, "Pyramidal Parametrics", SIGGRAPH 1983, Computer Graphics 17(3),
+                  1-11.
+*/
+
+/*---------------------------------------------------------------------------------------- >>license
+   shade.h is available under two licences; choose the one you like.
+
+   Alternative A - Public Domain (www.unlicense.org)
+
+   This is free and unencumbered software released into the public domain.
+
+   Anyone is free to copy, modify, publish, use, compile, sell, or distribute this software, either
+   in source code form or as a compiled binary, for any purpose, commercial or non-commercial, and
+   by any means.
+
+   In jurisdictions that recognize copyright laws, the author or authors of this software dedicate
+   any and all copyright interest in the software to the public domain. We make this dedication for
+   the benefit of the public at large and to the detriment of our heirs and successors. We intend
+   this dedication to be an overt act of relinquishment in perpetuity of all present and future
+   rights to this software under copyright law.
+
+   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING
+   BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+   NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER
+   LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM, OUT OF OR IN
+   CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
+
+   Alternative B - MIT License
+
+   Copyright (c) 2026 the authors of shade.h
+
+   Permission is hereby granted, free of charge, to any person obtaining a copy of this software
+   and associated documentation files (the "Software"), to deal in the Software without
+   restriction, including without limitation the rights to use, copy, modify, merge, publish,
+   distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
+   Software is furnished to do so, subject to the following conditions:
+
+   The above copyright notice and this permission notice shall be included in all copies or
+   substantial portions of the Software.
+
+   THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING
+   BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+   NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM,
+   DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM,
+   OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
 */

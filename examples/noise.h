@@ -24,8 +24,8 @@ static inline float noise(shade_vec3 p)
     return sum;
 }
 
-/* A map of land, water and ice for the texture coordinates of mesh_sphere: linear colour; alpha is 1
-   on water, 0 on land. */
+/* A map of land, water and ice for the texture coordinates of mesh_sphere: linear colour; alpha is
+   1 on water, 0 on land. */
 static inline void noise_planet(float (*texel)[4], int width, int height)
 {
     for (int i = 0; i < width * height; i++, texel++) {

@@ -23,5 +23,6 @@ step runner build/test_main
 step pictures build/golden out/*.ppm
 step compile sh tests/compile.sh
 step readme sh tests/readme.sh
+step lint sh tests/lint.sh
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -90,8 +90,9 @@ TEST(lines, coverage_is_the_pixels_of_the_rectangle_exactly)
             int in = ref_inside_fx8(u, v, k % 60, k / 60);
             in |= ref_inside_fx8(x + 2, y + 2, k % 60, k / 60);
             fragments += in;
-            CHECK_SAY(line_pixel(&c, k % 60, k / 60) == in, "pixel %d %d: want %d; way %d %d, half %d",
-                      k % 60, k / 60, in, w[0], w[1], half);
+            CHECK_SAY(line_pixel(&c, k % 60, k / 60) == in,
+                      "pixel %d %d: want %d; way %d %d, half %d", k % 60, k / 60, in, w[0], w[1],
+                      half);
         }
         CHECK_INT(stats.fragments, fragments);
         CHECK_INT(stats.drawn + stats.clipped, 2);

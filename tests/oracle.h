@@ -37,6 +37,10 @@ static double d3_max(d3 a) /* the greatest magnitude */
 {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
+/* Inlined, gcc 12 at -O2 drops the rounding of two neighbours that become doubles again. */
+#ifdef __GNUC__
+__attribute__((noinline))
+#endif
 static shade_vec3 d3_round(d3 a) { return shade_v3((float)a.x, (float)a.y, (float)a.z); }
 static d3 rnd_direction(void)
 {

@@ -20,7 +20,9 @@ static ray_camera random_camera(int kind)
     float a = rnd_log(0.3, 1) * n, b = rnd_log(0.3, 1) * n;
     switch (kind) {
     case 0: c.projection = shade_mat4_perspective(rnd_float(0.2, 2.5), 1.3f, n, f); break;
-    case 1: c.projection = shade_mat4_frustum(x * n - a, x * n + a, y * n - b, y * n + b, n, f); break;
+    case 1:
+        c.projection = shade_mat4_frustum(x * n - a, x * n + a, y * n - b, y * n + b, n, f);
+        break;
     case 2:
         c.projection = shade_mat4_perspective_reversed(rnd_float(0.2, 2.5), 1.3f, n);
         c.reversed = 1;
@@ -124,8 +126,9 @@ static void ld_of(d3 a, d3 minus, long double *out)
     out[0] = (long double)a.x - minus.x, out[1] = (long double)a.y - minus.y;
     out[2] = (long double)a.z - minus.z;
 }
-/* 1 hit, 0 miss, -1 too near an edge, the plane or the origin to tell; t and barycentrics.  The plane first, then
-   areas, in long double: where rays graze, double loses half its digits this way. */
+/* 1 hit, 0 miss, -1 too near an edge, the plane or the origin to tell; t and barycentrics.  The
+   plane first, then areas, in long double: where rays graze, double loses half its digits this
+   way. */
 static int ref_intersect(const shade_ray *ray, const d3 p[3], double *t, double b[3])
 {
     long double d[3], n[3], e[3], f[3], from[3], area, slope, at[3], tt;
@@ -149,10 +152,6 @@ static int ref_intersect(const shade_ray *ray, const d3 p[3], double *t, double 
     if (fabs(least) < 1e-9 || fabs(*t) < 1e-9) return -1;
     return least > 0 && *t > 0;
 }
-/* gcc 12 at -O2 compiles this test function to other numbers than at -O0, -O1 or without its SLP vectoriser. */
-#if defined(__GNUC__) && !defined(__clang__)
-__attribute__((optimize("no-tree-slp-vectorize")))
-#endif
 TEST(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say)
 {
     long hits = 0, misses = 0;
@@ -390,8 +389,8 @@ static void ray_levels(const ray_scene *s, int t, double X, double Y, int channe
         if (!shade_intersect(ray, p[0], p[1], p[2], NULL, &b)) continue;
         shade_vec3 albedo = ray_mix(&s->color[3 * t], b);
         m.diffuse = shade_mul(m.diffuse, albedo), m.ambient = shade_mul(m.ambient, albedo);
-        shade_vec3 c = shade_lit(&s->state.lighting, &m, ray_mix(p, b), ray_mix(&s->normal[3 * t], b),
-                                 d3_round(ray_eye(&s->camera)));
+        shade_vec3 c = shade_lit(&s->state.lighting, &m, ray_mix(p, b),
+                                 ray_mix(&s->normal[3 * t], b), d3_round(ray_eye(&s->camera)));
         const float rgb[3] = { c.x, c.y, c.z };
         double v = floor(fmax(0, fmin(1, (double)rgb[channel])) * 255 + 0.5);
         level[0] = fmin(level[0], v), level[1] = fmax(level[1], v);
@@ -427,8 +426,9 @@ static void check_both_ways(int kind)
                 double got = canvas_bytes(&lit, x, y)[n], want[2];
                 ray_levels(&s, cast, x + 0.5, y + 0.5, n, 0, want);
                 close_by += fabs(got - want[0]) <= 1;
-                /* corners snap by up to 1/512 pixel, which steep faces turn into more than a level */
-                if (fabs(got - want[0]) > 1) ray_levels(&s, cast, x + 0.5, y + 0.5, n, 1, want);
+                /* corners snap by up to 1/512 pixel: on steep faces more than a level */
+                if (fabs(got - want[0]) > 1)
+                    ray_levels(&s, cast, x + 0.5, y + 0.5, n, 1, want);
                 CHECK_SAY(got >= want[0] - 1 && got <= want[1] + 1,
                           "pixel %d %d: %g drawn, %g .. %g cast", x, y, got, want[0], want[1]);
             }

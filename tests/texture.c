@@ -844,7 +844,7 @@ TEST(texture, coordinates_that_stand_still_have_no_detail) /* and no NaN */
     }
 }
 
-/* -------------------------------------------------------------------------------- maps of meshes */
+/* ------------------------------------------------------------------------------- maps of meshes */
 
 typedef struct map_scene {
     shade_vec3 position[3], normal[3], color[3];
