@@ -19,6 +19,7 @@
 #include "vertex.c"
 #include "clip.c"
 #include "cover.c"
+#include "exact.c"
 #include "fragment.c"
 #include "store.c"
 #include "drive.c"
@@ -33,7 +34,7 @@ static const test_section sections[] = {
     SECTION(math),   SECTION(matrix), SECTION(power), SECTION(light),    SECTION(lanes),
     SECTION(vertex), SECTION(clip),   SECTION(cover), SECTION(fragment), SECTION(store),
     SECTION(drive),  SECTION(mesh),   SECTION(texture), SECTION(lines),  SECTION(shape),
-    SECTION(ray),    SECTION(scene),
+    SECTION(ray),    SECTION(scene),  SECTION(exact),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

@@ -466,7 +466,8 @@ TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
 TEST(mesh, matrices_that_begin_with_zeros_are_used)
 {
     shade_draw_state s = plain_state(NULL);
-    canvas a = canvas_open(20, 20, 0, SHADE_RGBA32F, 1), b = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas a = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas b = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
     s.lighting.ambient = grey(0.25);
     for (int first = 0; first < 4; first++) { /* the row of the one in the first column */
         float moved[9];

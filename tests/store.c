@@ -340,7 +340,7 @@ TEST(store, clear_needs_only_one_of_the_buffers)
     canvas_close(&c);
 }
 
-/* ---------------------------------------------------------------------------------- supersampling */
+/* ------------------------------------------------------------------------------- supersampling */
 
 /* Linear light of a stored pixel. */
 static void ref_stored(const canvas *c, int x, int y, double v[4])
