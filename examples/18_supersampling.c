@@ -1,4 +1,4 @@
-/* 18_supersampling.c - one, 2 x 2 and 4 x 4 samples a pixel; below, the handle eight times as large.
+/* 18_supersampling.c - one, 2 x 2 and 4 x 4 samples a pixel; below, the handle eight times larger.
    The large picture never exists as a whole: strips of it, as high as 16 rows of the small one, are
    drawn and averaged in linear light by shade_resolve, in a sixteenth of the memory.
 
