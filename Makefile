@@ -11,6 +11,8 @@ WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wu
 FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
 # pictures must not depend on the compiler, so neither do the examples' own sums
 EXACT    = -ffp-contract=off
+OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
+                   $(CC) -fopenmp -x c - -o build/openmp 2>/dev/null && echo -fopenmp)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
@@ -23,6 +25,8 @@ build/shade.o: shade.h
 	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
 build/%: examples/%.c build/shade.o $(SHARED)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm -o $@
+build/19_threads: EXACT += -pthread
+build/20_openmp:  EXACT += $(OPENMP)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@
