@@ -17,7 +17,7 @@ OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
 
-all: $(NUMBERED:%=out/%.ppm) build/thumbnail
+all: $(NUMBERED:%=out/%.ppm) build/thumbnail out/gallery.ppm
 
 # each example compiles alone; here they share one build of the implementation
 build/shade.o: shade.h
@@ -30,6 +30,8 @@ build/20_openmp:  EXACT += $(OPENMP)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@
+out/gallery.ppm: build/contact $(NUMBERED:%=out/%.ppm)
+	build/contact $@ $(NUMBERED:%=out/%.ppm)
 
 build/test_main: $(wildcard tests/*.c tests/*.h) shade.h
 	@mkdir -p build
