@@ -2,7 +2,7 @@
 # make test       all tests (a C compiler and make are enough); make test T=clip runs one section
 # make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
 # make matrix     the same pictures from other compilers, flags and processors
-# make gallery    the small PNGs of the README (needs pnmtopng or ImageMagick)
+# make gallery    the small PNGs of the README (needs netpbm)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
 CC      ?= cc

@@ -4,9 +4,11 @@
 mkdir -p examples/pictures
 command -v pamscale >/dev/null && command -v pnmtopng >/dev/null ||
     { echo "gallery: no netpbm here"; exit 1; }
-for ppm in out/[0-9]*.ppm out/gallery.ppm; do
+make -s -C examples/microcontroller ../../build/microcontroller/picture.565 || exit 1
+for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller/picture.ppm; do
     name=$(basename "$ppm" .ppm) width=480
-    case $name in 01_* | 07_*) width=360 ;; 06_*) width=520 ;; gallery) width=850 ;; esac
+    case $name in 01_* | 07_*) width=360 ;; 06_*) width=520 ;; gallery) width=850 ;;
+        picture) name=microcontroller width=320 ;; esac
     for levels in 127 63; do
         png=examples/pictures/$name.png
         pamscale -xsize $width -filter box "$ppm" 2>/dev/null | pamdepth $levels 2>/dev/null |
