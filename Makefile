@@ -2,6 +2,7 @@
 # make test       all tests (a C compiler and make are enough); make test T=clip runs one section
 # make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
 # make matrix     the same pictures from other compilers, flags and processors
+# make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
 # make gallery    the small PNGs of the README (needs netpbm)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
@@ -55,10 +56,12 @@ matrix:
 	@sh tests/matrix.sh
 gallery: all
 	@sh examples/gallery.sh
+coverage:
+	@sh tests/coverage.sh
 vector-report:
 	@sh tests/vector_report.sh
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix gallery vector-report clean
+.PHONY: all test bench bench-plot matrix coverage gallery vector-report clean
 .SECONDARY:

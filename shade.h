@@ -239,11 +239,18 @@
         int level = SHADE__LEVEL; \
         return level == 2 ? name##_avx512 : level == 1 ? name##_avx2 : name##_any; \
     }
+/* for loops of 8 lanes and fetches, which AVX-512 made no faster */
+#define SHADE__DISPATCH_AVX2(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters { name##_body arguments; } \
+    static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
+    static name##_fn *name##_pick(void) { return (SHADE__LEVEL) ? name##_avx2 : name##_any; }
 #else
 #define SHADE__DISPATCH(name, parameters, arguments) \
     typedef void name##_fn parameters; \
     static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
     static name##_fn *name##_pick(void) { return name##_any; }
+#define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
 #endif
 
 #if defined(__GNUC__) || defined(__clang__)
@@ -452,16 +459,12 @@ static inline double shade__root(double x)
     for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * x * y * y;
     return x * y;
 }
-/* Correctly rounded square root, as sqrtf: the midpoints between the result and its neighbours,
-   whose squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
+/* Correctly rounded square root, as sqrtf: the root of a float is at least 2^-51 from the middle
+   between two floats, and shade__root errs by less.  x <= 0 or NaN gives 0. */
 static inline float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
-    double d = (double)x;
-    uint32_t u = shade__float_bits((float)shade__root(d));
-    double below = ((double)shade__bits_float(u - 1) + (double)shade__bits_float(u)) / 2;
-    double above = ((double)shade__bits_float(u + 1) + (double)shade__bits_float(u)) / 2;
-    return shade__bits_float(below * below > d ? u - 1 : above * above < d ? u + 1 : u);
+    return (float)shade__root((double)x);
 }
 SHADE__INLINE float shade__sqrt(float x) { return SHADE__SQRT(x); }
 
@@ -770,7 +773,7 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 
 /* The picture (of a strip: its rows) as a binary PPM, "P6".  RGBA32F is clamped, and encoded where
    srgb is set.  A write function that returns non-zero ends it with SHADE_ERROR_IO; a file that
-   could not be written whole is removed. */
+   could not be written whole stays behind. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
                                        const shade_target *target);
@@ -1195,7 +1198,7 @@ static shade_mat4 shade__camera(shade_mat4 m)
     for (int j = 0; j < 4; j++) {
         shade_vec4 v = m.col[j];
         if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
-            !shade__within(v.z, FLT_MAX) || !shade__within(v.w, FLT_MAX))
+            !shade__within(v.z, FLT_MAX))
             return shade__zero_matrix();
     }
     return m;
@@ -1467,9 +1470,8 @@ static shade__surface shade__surface_of(const shade_lighting *lighting,
 {
     shade__surface s;
     shade_vec3 none = shade_v3(0, 0, 0);
-    shade_material m = shade_preset_material(SHADE_PRESET_COUNT);
+    shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
     unsigned terms = lighting->terms ? lighting->terms : ~0u;
-    if (material) m = *material;
     if (lighting->model == SHADE_EMISSIVE) terms &= SHADE_TERM_EMISSION;
     if (lighting->model == SHADE_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
     if (lighting->model == SHADE_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
@@ -1781,40 +1783,28 @@ SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t ab
     }
 }
 
-/* rgb += L albedo, or rgb += L: what does not depend on a highlight is gathered in L first. */
-SHADE__INLINE void shade__lane_accumulate(const float *SHADE_RESTRICT L,
-                                          const float *SHADE_RESTRICT albedo,
-                                          float *SHADE_RESTRICT rgb)
-{
-    if (albedo) {
-        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i] * albedo[i]; }
-    } else {
-        SHADE__FOR(i, 3 * SHADE_LANES) { rgb[i] += L[i]; }
-    }
-}
-SHADE__INLINE void shade__lane_fill(shade_vec3 v, float *SHADE_RESTRICT rows)
+/* rgb = emission + ambient albedo */
+SHADE__INLINE void shade__lane_begin(shade_vec3 emission, shade_vec3 ambient,
+                                     const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
-        rows[i] = v.x, rows[i + SHADE_LANES] = v.y, rows[i + 2 * SHADE_LANES] = v.z;
+        rgb[i] = emission.x + ambient.x * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] = emission.y + ambient.y * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] =
+            emission.z + ambient.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
     }
 }
-/* L = att k: a light's own ambient, where it is attenuated */
-SHADE__INLINE void shade__lane_ambient(shade_vec3 k, shade__rows *SHADE_RESTRICT r)
+/* rgb += (base + x slope) albedo */
+SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope,
+                                    const float *SHADE_RESTRICT x,
+                                    const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
-        float att = r->att[i];
-        r->L[0][i] = att * k.x, r->L[1][i] = att * k.y, r->L[2][i] = att * k.z;
-    }
-}
-/* L = cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
-SHADE__INLINE void shade__lane_cool_to_warm(shade_vec3 cool, shade_vec3 warm,
-                                            shade__rows *SHADE_RESTRICT r)
-{
-    shade_vec3 d = shade_sub(warm, cool);
-    SHADE_EACH_LANE(i) {
-        float kw = 0.5f + 0.5f * r->nl[i];
-        r->L[0][i] = cool.x + kw * d.x, r->L[1][i] = cool.y + kw * d.y;
-        r->L[2][i] = cool.z + kw * d.z;
+        float k = x[i];
+        rgb[i] += (base.x + k * slope.x) * (albedo ? albedo[i] : 1);
+        rgb[i + SHADE_LANES] += (base.y + k * slope.y) * (albedo ? albedo[i + SHADE_LANES] : 1);
+        rgb[i + 2 * SHADE_LANES] +=
+            (base.z + k * slope.z) * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
     }
 }
 
@@ -1841,14 +1831,19 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
     shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
-    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT),
-        gloss = !shade__is_zero(ks);
+    shade_vec3 base = shade_v3(0, 0, 0), slope = base;
+    const float *x = r->att;
+    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT);
+    int gloss = !shade__is_zero(ks);
     uint32_t open = shade__mask((s->flags & SHADE_UNGATED_SPECULAR) != 0);
     uint32_t absolute = shade__mask((s->flags & SHADE_TWO_SIDED_ABS) != 0);
     uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
-    if (!ambient && !gloss && shade__is_zero(kd)) return;
+    if (!ambient && !gloss && shade__is_zero(kd) && !s->cool_to_warm) return;
     any = shade__lane_lamp(light, &lamp, P, N, r);
-    if (any | open | absolute) {
+    if (s->cool_to_warm) {    /* cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
+        SHADE_EACH_LANE(i) { r->nl[i] = 0.5f + 0.5f * r->nl[i]; }
+        base = s->cool, slope = shade_sub(s->warm, s->cool), x = r->nl;
+    } else if (any | open | absolute) {
         if (gloss) {
             if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
             else if (shade__lane_half(P, N, eye, scale, open, r))
@@ -1859,10 +1854,10 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
         if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
         else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
     }
-    if (ambient) {
-        shade__lane_ambient(shade_mul(s->ambient, light->ambient), r);
-        shade__lane_accumulate(r->L[0], albedo, rgb);
-    }
+    if (ambient) slope = shade_mul(s->ambient, light->ambient);
+    if (!ambient && !s->cool_to_warm) return;
+    if (albedo) shade__lane_ramp(base, slope, x, albedo, rgb);
+    else shade__lane_ramp(base, slope, x, (const float *)0, rgb);
 }
 
 SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_material *material,
@@ -1871,31 +1866,23 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_m
 {
     shade__rows r;
     shade__surface s = shade__surface_of(lighting, material);
+    const shade_light *lights = lighting->lights;
+    shade_light toward;
     shade_vec3 ambient = s.scene_ambient;
     float scale = s.flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
     shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_TWO_SIDED ? 0x80000000u : 0, &r);
-    shade__lane_fill(s.emission, rgb);
-    if (s.cool_to_warm) {
-        shade__lamp lamp;
-        SHADE_MEMSET(&lamp, 0, sizeof lamp);
-        if (s.light_count > 0) lamp = shade__lamp_of(&lighting->lights[0]);
-        if (s.light_count <= 0 || lamp.infinite) shade__lane_directional(lamp.at, &r);
-        else shade__lane_point(P, lamp.at, 1, 0, 0, &r);
-        (void)shade__lane_horizon(N, &r);
-        shade__lane_cool_to_warm(s.cool, s.warm, &r);
-        shade__lane_accumulate(r.L[0], albedo, rgb);
-        return;
+    if (s.cool_to_warm) {    /* only where the first light comes from counts */
+        SHADE_MEMSET(&toward, 0, sizeof toward);
+        if (s.light_count > 0) toward.position = lights[0].position;
+        lights = &toward, s.light_count = 1;
     }
     if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_ATTENUATED_AMBIENT))
-        for (int j = 0; j < s.light_count; j++)
-            ambient = shade_add(ambient, lighting->lights[j].ambient);
+        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lights[j].ambient);
     ambient = shade_mul(ambient, s.ambient);
-    if (!shade__is_zero(ambient)) {
-        shade__lane_fill(ambient, r.L[0]);
-        shade__lane_accumulate(r.L[0], albedo, rgb);
-    }
+    if (albedo && !shade__is_zero(ambient)) shade__lane_begin(s.emission, ambient, albedo, rgb);
+    else shade__lane_begin(s.emission, ambient, (const float *)0, rgb);
     for (int j = 0; j < s.light_count; j++)
-        shade__lane_add_light(&s, &lighting->lights[j], P, N, albedo, eye, scale, &r, rgb);
+        shade__lane_add_light(&s, &lights[j], P, N, albedo, eye, scale, &r, rgb);
 }
 SHADE__DISPATCH(shade__lit,
                 (const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
@@ -2182,7 +2169,7 @@ SHADE__INLINE void shade__sample8_body(const shade_texture *t, const float *u, c
             shade__sample_level(t, shade__texture_good(source) ? source : t, u, v, weight, out);
     }
 }
-SHADE__DISPATCH(shade__sample8,
+SHADE__DISPATCH_AVX2(shade__sample8,
                 (const shade_texture *t, const float *u, const float *v, const float *lod,
                  float *out),
                 (t, u, v, lod, out))
@@ -2670,20 +2657,14 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
 }
 
 /* First (dx > 0) or last (dx < 0) i in 0 .. n - 1 with e + i dx >= 0; n or -1 if none is.  The
-   quotient in double is off by at most one, e being below 2^44; the loops make it exact. */
+   quotient, correctly rounded and below 2^14, is whole or at least 2^-25 from a whole number: so
+   truncation is exact. */
 static int shade__crossing(int64_t e, int32_t dx, int n)
 {
     double q = -(double)e / dx;
     int i = q <= 0 ? 0 : q >= n ? n : (int)q;
-    if (dx > 0) {
-        while (i > 0 && e + (int64_t)(i - 1) * dx >= 0) i--;
-        while (i < n && e + (int64_t)i * dx < 0) i++;
-    } else {
-        i = shade__min(i, n - 1);
-        while (i < n - 1 && e + (int64_t)(i + 1) * dx >= 0) i++;
-        while (i >= 0 && e + (int64_t)i * dx < 0) i--;
-    }
-    return i;
+    if (dx > 0) return i < n && e + (int64_t)i * dx < 0 ? i + 1 : i;
+    return q < 0 ? -1 : shade__min(i, n - 1);
 }
 static void shade__spans_big(const shade__triangle *t, int row, int n, shade__spans *s)
 {
@@ -2919,7 +2900,7 @@ enum {
     SHADE__OUT_CLIP = SHADE__OUT_NEAR | SHADE__OUT_FAR | SHADE__OUT_GUARD | SHADE__OUT_W,
     /* has no window position */
     SHADE__OUT_UNPLACED = SHADE__OUT_GUARD | SHADE__OUT_W | SHADE__OUT_BAD,
-    SHADE__CLIP_VERTICES = 17                    /* 3 and two for each of 7 planes */
+    SHADE__CLIP_VERTICES = 18    /* 3, two for each of 7 planes, one that only bent ones reach */
 };
 static const float shade__w_least = 8.67361738e-19f;    /* 2^-60 */
 
@@ -2977,7 +2958,7 @@ static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one
 {
     int kept[SHADE__CLIP_VERTICES], count = 0;
     for (int i = 0; i < p->count; i++) {
-        if (count > SHADE__CLIP_VERTICES - 2 || p->used > SHADE__CLIP_VERTICES - 1) {
+        if (p->used > SHADE__CLIP_VERTICES - 1) {    /* and so count is below that */
             p->count = 0;    /* coordinates so far apart that rounding bent the polygon */
             return;
         }
@@ -3159,7 +3140,7 @@ SHADE__INLINE void shade__place_vertices_body(shade__draw *d)
     shade__project((double)d->half_width, (double)d->half_height, zero_to_one, &p);
     shade__gather(d, &p);
 }
-SHADE__DISPATCH(shade__place_vertices, (shade__draw *d), (d))
+SHADE__DISPATCH_AVX2(shade__place_vertices, (shade__draw *d), (d))
 
 static void shade__shade_vertices(shade__draw *d)
 {
@@ -3480,7 +3461,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
 
 enum {
     SHADE__TERM_NONE = 128,                              /* no term at all, since 0 means all */
-    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 15 : 1    /* rows; 15 varyings lend theirs instead */
+    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 9 : 1     /* rows; 15 varyings lend theirs instead */
 };
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
@@ -3591,9 +3572,9 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_draw_state *state = s->state;
     float scratch[SHADE__SCRATCH][SHADE_LANES];
-    float *rows = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out;
     int lit = state->shading != SHADE_PER_FRAGMENT, per_face = state->shading == SHADE_PER_FACE;
-    float *P = lit ? rows + 6 * SHADE_LANES : (float *)out->out, *N = P + 3 * SHADE_LANES;
+    float *spare = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out + 6 * SHADE_LANES;
+    float *P = lit ? spare : (float *)out->out, *N = P + 3 * SHADE_LANES;
     float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip[0]);
@@ -3609,7 +3590,7 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
         shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (float *)out->out);
     else if (s->map) shade__fetch_texcoords(s, in, out->out[albedo ? 9 : 6]);
 }
-SHADE__DISPATCH(shade__mesh_vertex,
+SHADE__DISPATCH_AVX2(shade__mesh_vertex,
                 (const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                  shade_vertices *SHADE_RESTRICT out),
                 (uniforms, in, out))
@@ -3680,7 +3661,9 @@ static shade_mat4 shade__or_identity(shade_mat4 m)
 {
     return shade__is_zero_matrix(&m) ? shade_mat4_identity() : m;
 }
-static shade__scene shade__scene_of(const shade_mesh *mesh, const shade_draw_state *state)
+/* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
+static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
+                                                    const shade_draw_state *state)
 {
     shade__scene s;
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
@@ -4165,7 +4148,6 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
     if (!file) return SHADE_ERROR_IO;
     result = shade_encode_ppm(shade__write_file, file, target);
     if (fclose(file) && result == SHADE_OK) result = SHADE_ERROR_IO;
-    if (result != SHADE_OK) (void)remove(path);
     return result;
 }
 #endif

@@ -209,6 +209,39 @@ TEST(lanes, missing_arguments_mean_their_defaults)
     shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
+    for (int row = 0; row < 2; row++) {
+        for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = 7;
+        shade_lit_lanes(&li, NULL, s.eye, row ? k.P[0] : NULL, row ? NULL : k.N[0], NULL, rgb);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(rgb[i], 0, 0);
+    }
+    lane_packet before = k;
+    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], k.albedo[0], NULL); /* nowhere to write */
+    CHECK(!memcmp(&before, &k, sizeof k));
+}
+
+/* L = -V exactly: no halfway vector, so no highlight, whatever the exponent and the gate */
+TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
+{
+    static lane_packet k;
+    float rgb[3 * SHADE_LANES];
+    for (int round = 0; round < 8; round++) {
+        shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
+        shade_material m;
+        shade_lighting li;
+        memset(&li, 0, sizeof li), memset(&m, 0, sizeof m);
+        li.lights = &light, li.light_count = 1, li.flags = round & 1 ? SHADE_INFINITE_VIEWER : 0;
+        if (round & 2) li.flags |= SHADE_UNGATED_SPECULAR;
+        m.specular = shade_v3(1, 1, 1), m.shininess = round & 4 ? 5 : 0;
+        for (int i = 0; i < SHADE_LANES; i++) { /* every other lane: seen from beside the lamp */
+            lane_set(k.P, i, i % 2 && !(round & 1) ? shade_v3(3, 0, -3) : shade_v3(0, 0, 0));
+            lane_set(k.N, i, shade_v3(0, 0.6f, 0.8f));
+        }
+        shade_lit_lanes(&li, &m, shade_v3(0, 0, -1), k.P[0], k.N[0], NULL, rgb);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) {
+            if (i % 2 && !(round & 1)) CHECK(rgb[i] > 0);
+            else CHECK_NEAR(rgb[i], 0, 0);
+        }
+    }
 }
 
 TEST(lanes, many_lights_add_up)
@@ -262,6 +295,7 @@ TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
 }
 
 static const test_case lanes_cases[] = {
+    CASE(lanes, light_opposite_to_the_viewer_has_no_halfway_vector),
     CASE(lanes, a_packet_matches_the_equation_for_every_flag_and_model),
     CASE(lanes, packets_and_scalars_agree),
     CASE(lanes, every_lane_is_computed_the_same),
