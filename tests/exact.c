@@ -163,11 +163,12 @@ TEST(exact, lattice_meshes_cover_every_pixel_once)
     static shade_vec2 points[(N + 1) * (N + 1)];
     static shade_vec4 clip[(N + 1) * (N + 1)];
     static uint32_t indices[N * N * 6];
+    static int64_t x[(N + 1) * (N + 1)], y[(N + 1) * (N + 1)];
     int used = 0;
     for (int round = 0; round < 300; round++) {
         int n = rnd_int(1, N), size = n * rnd_int(2, 6), vertices = (n + 1) * (n + 1);
         int count = jittered_grid(n, points, indices);
-        int64_t x[(N + 1) * (N + 1)], y[(N + 1) * (N + 1)], all = 0;
+        int64_t all = 0;
         for (int i = 0; i < vertices; i++) {
             x[i] = (int64_t)floor((double)points[i].x * size * 4 + 0.5) * 64;
             y[i] = (int64_t)floor((double)points[i].y * size * 4 + 0.5) * 64;
