@@ -3,6 +3,8 @@
 # make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
 # make matrix     the same pictures from other compilers, flags and processors
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
+# make mutation   small changes of shade.h, one at a time, that the tests must notice
+# make static     clang-tidy and cppcheck
 # make gallery    the small PNGs of the README (needs netpbm)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
@@ -58,10 +60,14 @@ gallery: all
 	@sh examples/gallery.sh
 coverage:
 	@sh tests/coverage.sh
+mutation:
+	@sh tests/mutation.sh
+static:
+	@sh tests/static.sh
 vector-report:
 	@sh tests/vector_report.sh
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix coverage gallery vector-report clean
+.PHONY: all test bench bench-plot matrix coverage mutation static gallery vector-report clean
 .SECONDARY:
