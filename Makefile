@@ -3,6 +3,8 @@
 # make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
 # make matrix     the same pictures from other compilers, flags and processors
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
+# make mutation   small changes of shade.h, one at a time, that the tests must notice
+# make static     clang-tidy and cppcheck
 # make gallery    the small PNGs of the README (needs netpbm)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
@@ -13,7 +15,7 @@ FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
 # pictures must not depend on the compiler, so neither do the examples' own sums
 EXACT    = -ffp-contract=off
 OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
-                   $(CC) -fopenmp -x c - -o build/openmp 2>/dev/null && echo -fopenmp)
+                   $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
@@ -58,10 +60,14 @@ gallery: all
 	@sh examples/gallery.sh
 coverage:
 	@sh tests/coverage.sh
+mutation:
+	@sh tests/mutation.sh
+static:
+	@sh tests/static.sh
 vector-report:
 	@sh tests/vector_report.sh
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix coverage gallery vector-report clean
+.PHONY: all test bench bench-plot matrix coverage mutation static gallery vector-report clean
 .SECONDARY:

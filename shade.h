@@ -2646,7 +2646,7 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
         const int32_t left = dx < 0 ? 0 : -1, right = dx < 0 ? -1 : 0, end = n - 1;
         SHADE__FOR(r, 8) {
             int32_t e = e0 + r * dy, q = (int32_t)shade__clamp_bits((float)-e * inverse, 0, limit);
-            int32_t i = q & left, j;
+            int32_t i, j;
             e += q * step;
             j = e < 0 ? 1 : 0, e += j * step, j += e < 0 ? 1 : 0;
             i = (q + j) & left, j = end - ((q + j) & right);
@@ -3266,7 +3266,7 @@ static shade_result shade__check_pipeline(const shade_pipeline *p)
         (unsigned)p->depth_test > SHADE_ALWAYS || (unsigned)p->blend > SHADE_ADD)
         return SHADE_ERROR_ARGUMENT;
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
-    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying + 1 > p->varyings))
+    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying >= p->varyings))
         return SHADE_ERROR_ARGUMENT;
     return shade__within(p->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
 }

@@ -358,8 +358,8 @@ TEST(drive, results_have_texts)
     for (int k = -1; k < 9; k++) {
         const char *text = shade_result_string((shade_result)k);
         CHECK(text != NULL);
-        if (k >= 0 && k <= SHADE_ERROR_IO) {
-            CHECK(text && text[0]);
+        if (text && k >= 0 && k <= SHADE_ERROR_IO) {
+            CHECK(text[0] != 0);
             for (int j = 0; j < k; j++)
                 CHECK(strcmp(text, shade_result_string((shade_result)j)) != 0);
         }

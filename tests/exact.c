@@ -163,23 +163,18 @@ TEST(exact, lattice_meshes_cover_every_pixel_once)
     static shade_vec2 points[(N + 1) * (N + 1)];
     static shade_vec4 clip[(N + 1) * (N + 1)];
     static uint32_t indices[N * N * 6];
+    static int64_t x[(N + 1) * (N + 1)], y[(N + 1) * (N + 1)];
     int used = 0;
     for (int round = 0; round < 300; round++) {
         int n = rnd_int(1, N), size = n * rnd_int(2, 6), vertices = (n + 1) * (n + 1);
         int count = jittered_grid(n, points, indices);
-        int64_t x[(N + 1) * (N + 1)], y[(N + 1) * (N + 1)], all = 0;
         for (int i = 0; i < vertices; i++) {
             x[i] = (int64_t)floor((double)points[i].x * size * 4 + 0.5) * 64;
             y[i] = (int64_t)floor((double)points[i].y * size * 4 + 0.5) * 64;
             clip[i] = clip_of_fx8((double)x[i], (double)y[i], size, size, 0,
                                   round % 2 ? (double)rnd_log(0.5, 2) : 1);
         }
-        for (int k = 0; k < count; k += 3) {
-            uint32_t a = indices[k], b = indices[k + 1], d = indices[k + 2];
-            int64_t area = (x[b] - x[a]) * (y[d] - y[a]) - (y[b] - y[a]) * (x[d] - x[a]);
-            all += area < 0 ? -area : area;
-        }
-        if (all != (int64_t)size * size * 256 * 256 * 2) continue; /* folded by the rounding */
+        if (!covers_square(x, y, indices, count, (int64_t)size * 256)) continue; /* folded */
         used++;
         canvas c = canvas_open(size, size, 0, SHADE_RGBA32F, 0);
         count_coverage(&c, clip, indices, count, vertices);

@@ -81,16 +81,17 @@ def sites(text):
     tokens = list(tokens_of(text))
     marks = bodies(tokens)
     found, statement, declares, sized = [], 0, False, False
-    parens, braces = 0, []
+    parens, braces, of_value = 0, [], 0
     for i, (kind, word, at) in enumerate(tokens):
         before = tokens[i - 1] if i else ("", "", 0)
-        if before[1] in ("{", "}", ";") and parens == 0:
+        if parens == 0 and (before[1] in ("{", ";") or before[1] == "}" and not of_value):
             statement, declares, sized = i, is_type(word), False
         if word == "{":                         # of an initializer, or of a block
             braces.append(int(before[1] == "=" or parens > 0))
             parens += braces[-1]
         elif word == "}" and braces:
-            parens -= braces.pop()
+            of_value = braces.pop()
+            parens -= of_value
         parens += {"(": 1, ")": -1}.get(word, 0)
         if not marks[i] or tokens[statement][1] in ("SHADE_ASSERT", "typedef", "struct", "case"):
             continue
