@@ -459,16 +459,12 @@ static inline double shade__root(double x)
     for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * x * y * y;
     return x * y;
 }
-/* Correctly rounded square root, as sqrtf: the midpoints between the result and its neighbours,
-   whose squares are exact in double (50 bits), decide the rounding.  x <= 0 or NaN gives 0. */
+/* Correctly rounded square root, as sqrtf: the root of a float is at least 2^-51 from the middle
+   between two floats, and shade__root errs by less.  x <= 0 or NaN gives 0. */
 static inline float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
-    double d = (double)x;
-    uint32_t u = shade__float_bits((float)shade__root(d));
-    double below = ((double)shade__bits_float(u - 1) + (double)shade__bits_float(u)) / 2;
-    double above = ((double)shade__bits_float(u + 1) + (double)shade__bits_float(u)) / 2;
-    return shade__bits_float(below * below > d ? u - 1 : above * above < d ? u + 1 : u);
+    return (float)shade__root((double)x);
 }
 SHADE__INLINE float shade__sqrt(float x) { return SHADE__SQRT(x); }
 
@@ -777,7 +773,7 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 
 /* The picture (of a strip: its rows) as a binary PPM, "P6".  RGBA32F is clamped, and encoded where
    srgb is set.  A write function that returns non-zero ends it with SHADE_ERROR_IO; a file that
-   could not be written whole is removed. */
+   could not be written whole stays behind. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
                                        const shade_target *target);
@@ -1202,7 +1198,7 @@ static shade_mat4 shade__camera(shade_mat4 m)
     for (int j = 0; j < 4; j++) {
         shade_vec4 v = m.col[j];
         if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
-            !shade__within(v.z, FLT_MAX) || !shade__within(v.w, FLT_MAX))
+            !shade__within(v.z, FLT_MAX))
             return shade__zero_matrix();
     }
     return m;
@@ -1799,7 +1795,8 @@ SHADE__INLINE void shade__lane_begin(shade_vec3 emission, shade_vec3 ambient,
     }
 }
 /* rgb += (base + x slope) albedo */
-SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope, const float *SHADE_RESTRICT x,
+SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope,
+                                    const float *SHADE_RESTRICT x,
                                     const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
 {
     SHADE_EACH_LANE(i) {
@@ -2649,7 +2646,7 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
         const int32_t left = dx < 0 ? 0 : -1, right = dx < 0 ? -1 : 0, end = n - 1;
         SHADE__FOR(r, 8) {
             int32_t e = e0 + r * dy, q = (int32_t)shade__clamp_bits((float)-e * inverse, 0, limit);
-            int32_t i = q & left, j;
+            int32_t i, j;
             e += q * step;
             j = e < 0 ? 1 : 0, e += j * step, j += e < 0 ? 1 : 0;
             i = (q + j) & left, j = end - ((q + j) & right);
@@ -2660,20 +2657,14 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
 }
 
 /* First (dx > 0) or last (dx < 0) i in 0 .. n - 1 with e + i dx >= 0; n or -1 if none is.  The
-   quotient in double is off by at most one, e being below 2^44; the loops make it exact. */
+   quotient, correctly rounded and below 2^14, is whole or at least 2^-25 from a whole number: so
+   truncation is exact. */
 static int shade__crossing(int64_t e, int32_t dx, int n)
 {
     double q = -(double)e / dx;
     int i = q <= 0 ? 0 : q >= n ? n : (int)q;
-    if (dx > 0) {
-        while (i > 0 && e + (int64_t)(i - 1) * dx >= 0) i--;
-        while (i < n && e + (int64_t)i * dx < 0) i++;
-    } else {
-        i = shade__min(i, n - 1);
-        while (i < n - 1 && e + (int64_t)(i + 1) * dx >= 0) i++;
-        while (i >= 0 && e + (int64_t)i * dx < 0) i--;
-    }
-    return i;
+    if (dx > 0) return i < n && e + (int64_t)i * dx < 0 ? i + 1 : i;
+    return q < 0 ? -1 : shade__min(i, n - 1);
 }
 static void shade__spans_big(const shade__triangle *t, int row, int n, shade__spans *s)
 {
@@ -2909,7 +2900,7 @@ enum {
     SHADE__OUT_CLIP = SHADE__OUT_NEAR | SHADE__OUT_FAR | SHADE__OUT_GUARD | SHADE__OUT_W,
     /* has no window position */
     SHADE__OUT_UNPLACED = SHADE__OUT_GUARD | SHADE__OUT_W | SHADE__OUT_BAD,
-    SHADE__CLIP_VERTICES = 17                    /* 3 and two for each of 7 planes */
+    SHADE__CLIP_VERTICES = 18    /* 3, two for each of 7 planes, one that only bent ones reach */
 };
 static const float shade__w_least = 8.67361738e-19f;    /* 2^-60 */
 
@@ -2967,7 +2958,7 @@ static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one
 {
     int kept[SHADE__CLIP_VERTICES], count = 0;
     for (int i = 0; i < p->count; i++) {
-        if (count > SHADE__CLIP_VERTICES - 2 || p->used > SHADE__CLIP_VERTICES - 1) {
+        if (p->used > SHADE__CLIP_VERTICES - 1) {    /* and so count is below that */
             p->count = 0;    /* coordinates so far apart that rounding bent the polygon */
             return;
         }
@@ -3275,7 +3266,7 @@ static shade_result shade__check_pipeline(const shade_pipeline *p)
         (unsigned)p->depth_test > SHADE_ALWAYS || (unsigned)p->blend > SHADE_ADD)
         return SHADE_ERROR_ARGUMENT;
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
-    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying + 1 > p->varyings))
+    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying >= p->varyings))
         return SHADE_ERROR_ARGUMENT;
     return shade__within(p->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
 }
@@ -3470,7 +3461,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
 
 enum {
     SHADE__TERM_NONE = 128,                              /* no term at all, since 0 means all */
-    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 15 : 1    /* rows; 15 varyings lend theirs instead */
+    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 9 : 1     /* rows; 15 varyings lend theirs instead */
 };
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
@@ -3581,9 +3572,9 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_draw_state *state = s->state;
     float scratch[SHADE__SCRATCH][SHADE_LANES];
-    float *rows = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out;
     int lit = state->shading != SHADE_PER_FRAGMENT, per_face = state->shading == SHADE_PER_FACE;
-    float *P = lit ? rows + 6 * SHADE_LANES : (float *)out->out, *N = P + 3 * SHADE_LANES;
+    float *spare = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out + 6 * SHADE_LANES;
+    float *P = lit ? spare : (float *)out->out, *N = P + 3 * SHADE_LANES;
     float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip[0]);
@@ -3670,7 +3661,9 @@ static shade_mat4 shade__or_identity(shade_mat4 m)
 {
     return shade__is_zero_matrix(&m) ? shade_mat4_identity() : m;
 }
-static shade__scene shade__scene_of(const shade_mesh *mesh, const shade_draw_state *state)
+/* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
+static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
+                                                    const shade_draw_state *state)
 {
     shade__scene s;
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
@@ -4155,7 +4148,6 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
     if (!file) return SHADE_ERROR_IO;
     result = shade_encode_ppm(shade__write_file, file, target);
     if (fclose(file) && result == SHADE_OK) result = SHADE_ERROR_IO;
-    if (result != SHADE_OK) (void)remove(path);
     return result;
 }
 #endif

@@ -44,7 +44,9 @@ static long touched(job *j)
 
 int main(void)
 {
-    scene s[4];
+    static uint32_t texel[4 * 4], half[4 + 1];
+    shade_texture map, level[2];
+    scene s[5];
     long most = 0, bytes, least;
     job j;
     s[0] = scene_teapot("teapot, per pixel", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
@@ -52,13 +54,21 @@ int main(void)
     s[2] = scene_teapot("teapot, per face", SHADE_PER_FACE, SHADE_CULL_NONE);
     s[3] = scene_teapot("from inside, clipped", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
     scene_camera(&s[3], shade_v3(0.3f, 1, 0.2f), shade_v3(1, 1.2f, 0), 1.5f);
+    s[4] = scene_teapot("with a trilinear map", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
+    memset(&map, 0, sizeof map);
+    map.pixels = texel, map.width = map.height = 4, map.filter = SHADE_TRILINEAR;
+    if (shade_build_mipmaps(&map, level, half, sizeof half)) exit(1);
     printf("| SHADE_LANES %d, SHADE_MAX_VARYINGS %d | bytes of stack |\n|---|---|\n", SHADE_LANES,
            SHADE_MAX_VARYINGS);
     memset(&j, 0, sizeof j);
     least = touched(&j);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         scene_link(&s[i]);
         j.s = &s[i], j.target = scene_target(&s[i]), j.mesh = scene_mesh(&s[i]);
+        if (i == 4) {    /* normals serve as texture coordinates */
+            s[i].state.diffuse_map = &map;
+            j.mesh.texcoords = j.mesh.normals, j.mesh.texcoord_stride = 12;
+        }
         shade_clear(&j.target, s[i].background, 1);
         bytes = touched(&j);
         if (bytes > most) most = bytes;

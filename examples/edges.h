@@ -68,10 +68,10 @@ static inline edge_lines edges_sort(const owned_mesh *m, shade_vec3 eye, float c
     shade_mesh_edges(&m->view, edge, room, &count);
     for (int i = 0; i < count; i++) {
         shade_vec3 a = edges_point(m, edge[i].a), b = edges_point(m, edge[i].b);
-        shade_vec3 n0 = edges_normal(m, edge[i].triangle[0]), n1 = n0;
         int kind = EDGE_BOUNDARY;
         if (edge[i].triangle[1] >= 0) {
-            n1 = edges_normal(m, edge[i].triangle[1]);
+            shade_vec3 n0 = edges_normal(m, edge[i].triangle[0]);
+            shade_vec3 n1 = edges_normal(m, edge[i].triangle[1]);
             kind = shade_is_silhouette(shade_sub(eye, a), n0, n1) ? EDGE_SILHOUETTE
                  : shade_is_crease(n0, n1, crease) ? EDGE_CREASE : EDGE_OTHER;
         }

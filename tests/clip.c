@@ -502,7 +502,94 @@ TEST(clip, only_the_volume_decides_between_the_planes_of_zero_to_one)
     canvas_close(&c);
 }
 
+/* Up to 3 w nothing is cut, so that an even varying keeps the bits it gets from 1/w: cut, it would
+   be multiplied and divided once more. */
+TEST(clip, up_to_three_w_nothing_is_cut)
+{
+    recorder r = recorder_open(4000);
+    long fragments = 0;
+    for (int i = 0; i < 600; i++) {
+        shade_vec4 v[3];
+        float even[3], w = rnd_float(2, 4), rw = 1 / w;
+        int side = i % 4, seen = 0;
+        even[0] = even[1] = even[2] = rnd_float(1, 2);
+        for (int k = 0; k < 3; k++) { /* one corner far out on one side, one on another */
+            double far_out = k < 2 ? (double)rnd_float(1.1, 2.99) : 0;
+            double across = (double)rnd_float(-0.9, 0.9);
+            int out = (side + k) % 4;
+            double x = out == 0 ? -far_out : out == 1 ? far_out : across;
+            double y = out == 2 ? -far_out : out == 3 ? far_out : across;
+            v[k] = shade_v4((float)(x * (double)w), (float)(y * (double)w), 0, w);
+        }
+        canvas c = canvas_open(30, 20, 0, SHADE_RGBA8, 0);
+        scene s = { v, even, 1, NULL, &r };
+        shade_pipeline p = scene_pipeline(&s);
+        r.count = 0;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        for (int k = 0; k < r.count; k++) {
+            float product = even[0] * rw, back = 1 / rw, want = product * back;
+            seen += float_bits(r.fragments[k].in[0]) != float_bits(want);
+            fragments++;
+        }
+        CHECK_INT(seen, 0);
+        canvas_close(&c);
+    }
+    CHECK_SAY(fragments > 10000, "%ld fragments", fragments);
+    free(r.fragments);
+}
+
+/* Whether the triangles of a mesh within a square fill it without a fold. */
+static int covers_square(const int64_t *x, const int64_t *y, const uint32_t *indices, int count,
+                         int64_t side)
+{
+    int64_t all = 0;
+    for (int k = 0; k < count; k += 3) {
+        uint32_t a = indices[k], b = indices[k + 1], d = indices[k + 2];
+        int64_t area = (x[b] - x[a]) * (y[d] - y[a]) - (y[b] - y[a]) * (x[d] - x[a]);
+        all += area < 0 ? -area : area;
+    }
+    return all == 2 * side * side;
+}
+
+/* Corners just before and just behind the near plane: the cut puts new corners within 1/256 pixel
+   of old ones, where snapping dents the polygon.  Its pieces do not overlap; where snapping turns a
+   corner over, at the cut alone, a pixel in 100,000 may be covered twice. */
+TEST(clip, dents_by_snapping_are_filled_without_overlap)
+{
+    enum { N = 4 };
+    static shade_vec2 points[(N + 1) * (N + 1)];
+    static shade_vec4 clip[(N + 1) * (N + 1)];
+    static uint32_t indices[N * N * 6];
+    int vertices = (N + 1) * (N + 1), twice = 0;
+    long covered = 0;
+    for (int round = 0; round < 20000; round++) {
+        int count = jittered_grid(N, points, indices), size = rnd_int(6, 16);
+        int64_t X[(N + 1) * (N + 1)], Y[(N + 1) * (N + 1)];
+        for (int i = 0; i < vertices; i++) {
+            double x = (double)points[i].x * size, y = (double)points[i].y * size, z;
+            int inner = i / (N + 1) % N && i % (N + 1) % N;
+            if (inner && rnd_one_in(3)) x = floor(x) + 0.5, y = floor(y) + 0.5; /* on a centre */
+            X[i] = (int64_t)floor(x * 256 + 0.5), Y[i] = (int64_t)floor(y * 256 + 0.5);
+            z = rnd_one_in(3) ? -1 + (double)(rnd_sign() * rnd_log(1e-5, 1e-1))
+                              : (double)rnd_float(-2, 0.5);
+            clip[i] = clip_of_fx8((double)X[i], (double)Y[i], size, size, z, 1);
+        }
+        if (!covers_square(X, Y, indices, count, (int64_t)size * 256)) continue;
+        canvas c = canvas_open(size, size, 0, SHADE_RGBA32F, 0);
+        count_coverage(&c, clip, indices, count, vertices);
+        for (int k = 0; k < size * size; k++) {
+            double got = (double)canvas_float(&c, k % size, k / size, 0);
+            twice += got > 1, covered += got > 0;
+        }
+        canvas_close(&c);
+    }
+    CHECK_SAY(twice * 100000L < covered, "%d of %ld pixels", twice, covered);
+    CHECK(covered > 1000000);
+}
+
 static const test_case clip_cases[] = {
+    CASE(clip, up_to_three_w_nothing_is_cut),
+    CASE(clip, dents_by_snapping_are_filled_without_overlap),
     CASE(clip, triangles_outside_one_plane_count_as_clipped),
     CASE(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled),
     CASE(clip, positions_that_are_no_numbers_are_rejected),

@@ -148,7 +148,7 @@ exports_only_shade() {
 if command -v nm >/dev/null 2>&1; then
     check "freestanding needs four functions" only "$T/bare.o" memcpy memset memmove memcmp
     check "no malloc, no printing, no exit" only "$T/impl.o" memcpy memset memmove memcmp sqrtf \
-          fopen fclose fwrite ferror remove assert_fail assert_rtn assert stack_chk_fail \
+          fopen fclose fwrite ferror assert_fail assert_rtn assert stack_chk_fail \
           stack_chk_fail_local GLOBAL_OFFSET_TABLE_ cpu_model cpu_indicator_init
     check "fixed position" $CC -std=c99 $fixed $WARN -I. -c "$T/impl.c" -o "$T/fixed.o"
     check "no mutable globals" no_mutable_globals "$T/fixed.o"

@@ -386,6 +386,23 @@ TEST(cover, triangles_of_a_million_pixels_are_exact)
     }
 }
 
+/* 64-bit edges, level ones among them, through centres: a top edge owns them, a bottom edge not */
+TEST(cover, level_edges_of_big_triangles_follow_the_rule)
+{
+    for (int i = 0; i < 8; i++) {
+        canvas c = canvas_open(1500, 1500, 0, SHADE_RGBA8, i & 1);
+        int64_t x[3] = { 300, 1499 * 256, 0 }, y[3], level = 128 + 256 * (int64_t)rnd_int(5, 40);
+        x[2] = rnd_int(0, 1499 * 256);
+        y[0] = y[1] = level, y[2] = 1480 * 256 + rnd_int(0, 999);
+        for (int k = 0; k < 3; k++) y[k] = i & 2 ? 1500 * 256 - y[k] : y[k];
+        if (i & 4) x[0] = 1499 * 256, x[1] = 300;
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
 TEST(cover, wide_flat_triangles_are_exact) /* long quotients, whose float rounding must be mended */
 {
     for (int i = 0; i < 50; i++) {
@@ -480,5 +497,6 @@ static const test_case cover_cases[] = {
     CASE(cover, wide_flat_triangles_are_exact),
     CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
     CASE(cover, triangles_of_a_million_pixels_are_exact),
+    CASE(cover, level_edges_of_big_triangles_follow_the_rule),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),
 };

@@ -63,7 +63,7 @@ TEST(drive, missing_pointers_are_bad_arguments)
 
 TEST(drive, bad_targets_are_refused_by_every_call)
 {
-    enum { TARGETS = 19 };
+    enum { TARGETS = 23 };
     for (int k = 0; k < TARGETS; k++) {
         drive_call d;
         drive_open(&d, SHADE_RGBA8);
@@ -122,6 +122,18 @@ TEST(drive, bad_targets_are_refused_by_every_call)
             break;
         case 17:
             t->clip_x = -2147483647 - 1, t->clip_y = 7, t->clip_width = -2147483647 - 1;
+            break;
+        case 18: /* a row below the picture */
+            t->row_offset = 10, t->row_count = 9;
+            break;
+        case 19:
+            t->row_offset = 2147483647, t->row_count = 2147483647;
+            break;
+        case 20: /* more pixels than 32 bits count */
+            t->height = 16384, t->stride = 262144;
+            break;
+        case 21:
+            t->height = 16384, t->row_offset = 1, t->row_count = 16383, t->stride = 2147483647;
             break;
         default:
             t->stride = -2147483647 - 1;
@@ -346,8 +358,8 @@ TEST(drive, results_have_texts)
     for (int k = -1; k < 9; k++) {
         const char *text = shade_result_string((shade_result)k);
         CHECK(text != NULL);
-        if (k >= 0 && k <= SHADE_ERROR_IO) {
-            CHECK(text && text[0]);
+        if (text && k >= 0 && k <= SHADE_ERROR_IO) {
+            CHECK(text[0] != 0);
             for (int j = 0; j < k; j++)
                 CHECK(strcmp(text, shade_result_string((shade_result)j)) != 0);
         }

@@ -149,6 +149,83 @@ TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
     CHECK_SAY(worst[1] < 1, "scalars: %g of the bound", worst[1]);
 }
 
+/* Lamp and viewer at the two horizons: L + V is short, its direction is left to the last digits of
+   L and V, and N may lie along it. */
+TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
+{
+    static lane_packet k;
+    light_sample s;
+    double worst[2] = { 0, 0 };
+    long checked = 0;
+    memset(&s, 0, sizeof s);
+    s.material.specular = shade_v3(1, 1, 1);
+    s.lighting.lights = s.lights, s.lighting.light_count = 1;
+    s.lighting.terms = SHADE_TERM_SPECULAR;
+    for (int round = 0; round < 400; round++) {
+        static const unsigned flags[] = { 0, SHADE_UNGATED_SPECULAR, SHADE_TWO_SIDED };
+        d3 away = rnd_direction();
+        double narrow = (double)rnd_log(3e-4, 0.05);
+        s.lights[0] = shade_point_light(d3_round(d3_scale(away, (double)rnd_log(1, 30))), grey(1));
+        d3 beside = d3_scale(rnd_direction(), narrow);
+        s.eye = d3_round(d3_scale(d3_unit(d3_sub(beside, away)), (double)rnd_log(1, 30)));
+        s.material.shininess = rnd_float(1, 120), s.lighting.flags = flags[round % 3];
+        for (int i = 0; i < SHADE_LANES; i++) {
+            k.p[i] = d3_round(d3_scale(rnd_direction(), narrow * rnd_unit()));
+            d3 P = d3_from(k.p[i]);
+            double r;
+            d3 L = ref_to_light(&s.lights[0], P, &r), V = d3_unit(d3_sub(d3_from(s.eye), P));
+            d3 H = d3_unit(d3_add(L, V));
+            k.n[i] = d3_round(d3_unit(d3_add(H, d3_scale(rnd_direction(), 0.3 * rnd_unit()))));
+            lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
+        }
+        float rgb[3 * SHADE_LANES];
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            double r;
+            d3 P = d3_from(k.p[i]), L = ref_to_light(&s.lights[0], P, &r);
+            d3 V = d3_unit(d3_sub(d3_from(s.eye), P));
+            ref_lit want = ref_light(&s.lighting, &s.material, P, d3_from(k.n[i]), d3_from(s.eye),
+                                     d3_of(1, 1, 1));
+            shade_vec3 one = shade_lit(&s.lighting, &s.material, k.p[i], k.n[i], s.eye);
+            if (want.unsure || d3_length(d3_add(L, V)) < 1e-4) continue; /* exempt */
+            worst[0] = fmax(worst[0], fabs((double)rgb[i] - want.total.x) / want.bound);
+            worst[1] = fmax(worst[1], fabs((double)one.x - want.total.x) / want.bound);
+            checked += want.total.x > 0.01;
+        }
+    }
+    CHECK_SAY(worst[0] < 1, "packets: %g of the bound", worst[0]);
+    CHECK_SAY(worst[1] < 1, "scalars: %g of the bound", worst[1]);
+    CHECK_SAY(checked > 50L * SHADE_LANES, "%ld highlights", checked);
+}
+
+/* V or L is zero: no direction, so no highlight but that of exponent 0 where there is a mirror */
+TEST(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too)
+{
+    static lane_packet k;
+    light_sample s;
+    for (int round = 0; round < 300; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, 1);
+        s.lighting.model = round % 2 ? SHADE_PHONG : SHADE_BLINN_PHONG;
+        s.lighting.flags &= ~(unsigned)(SHADE_TWO_SIDED | SHADE_INFINITE_VIEWER);
+        s.lighting.light_count = 1;
+        if (s.lights[0].position.w != 0) s.lights[0].position.w = 1;
+        for (int i = 0; i < SHADE_LANES; i++) {
+            shade_vec4 at = s.lights[0].position;
+            k.p[i] = i % 2 && at.w == 1 ? shade_v3(at.x, at.y, at.z) : s.eye;
+            lane_set(k.P, i, k.p[i]);
+        }
+        float rgb[3 * SHADE_LANES];
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
+            ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
+                                     d3_from(s.eye), d3_of(1, 1, 1));
+            if (!want.unsure) check_color(__LINE__, "packet", got, want.total, want.bound);
+        }
+    }
+}
+
 TEST(lanes, albedo_multiplies_diffuse_and_ambient_only)
 {
     static lane_packet k;
@@ -209,6 +286,39 @@ TEST(lanes, missing_arguments_mean_their_defaults)
     shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
+    for (int row = 0; row < 2; row++) {
+        for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = 7;
+        shade_lit_lanes(&li, NULL, s.eye, row ? k.P[0] : NULL, row ? NULL : k.N[0], NULL, rgb);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(rgb[i], 0, 0);
+    }
+    lane_packet before = k;
+    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], k.albedo[0], NULL); /* nowhere to write */
+    CHECK(!memcmp(&before, &k, sizeof k));
+}
+
+/* L = -V exactly: no halfway vector, so no highlight, whatever the exponent and the gate */
+TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
+{
+    static lane_packet k;
+    float rgb[3 * SHADE_LANES];
+    for (int round = 0; round < 8; round++) {
+        shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
+        shade_material m;
+        shade_lighting li;
+        memset(&li, 0, sizeof li), memset(&m, 0, sizeof m);
+        li.lights = &light, li.light_count = 1, li.flags = round & 1 ? SHADE_INFINITE_VIEWER : 0;
+        if (round & 2) li.flags |= SHADE_UNGATED_SPECULAR;
+        m.specular = shade_v3(1, 1, 1), m.shininess = round & 4 ? 5 : 0;
+        for (int i = 0; i < SHADE_LANES; i++) { /* every other lane: seen from beside the lamp */
+            lane_set(k.P, i, i % 2 && !(round & 1) ? shade_v3(3, 0, -3) : shade_v3(0, 0, 0));
+            lane_set(k.N, i, shade_v3(0, 0.6f, 0.8f));
+        }
+        shade_lit_lanes(&li, &m, shade_v3(0, 0, -1), k.P[0], k.N[0], NULL, rgb);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) {
+            if (i % 2 && !(round & 1)) CHECK(rgb[i] > 0);
+            else CHECK_NEAR(rgb[i], 0, 0);
+        }
+    }
 }
 
 TEST(lanes, many_lights_add_up)
@@ -262,6 +372,9 @@ TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
 }
 
 static const test_case lanes_cases[] = {
+    CASE(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite),
+    CASE(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too),
+    CASE(lanes, light_opposite_to_the_viewer_has_no_halfway_vector),
     CASE(lanes, a_packet_matches_the_equation_for_every_flag_and_model),
     CASE(lanes, packets_and_scalars_agree),
     CASE(lanes, every_lane_is_computed_the_same),

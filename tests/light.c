@@ -859,6 +859,9 @@ TEST(light, presets_are_the_table_of_teapots) /* row 37 */
     check_color(__LINE__, "white Lambert", none.diffuse, d3_of(1, 1, 1), 0);
     check_color(__LINE__, "white Lambert", none.ambient, d3_of(1, 1, 1), 0);
     check_color(__LINE__, "white Lambert", none.specular, d3_of(0, 0, 0), 0);
+    none = shade_preset_material((shade_preset)-1);
+    check_color(__LINE__, "diffuse", none.diffuse, d3_of(1, 1, 1), 0);
+    CHECK(shade_preset_name((shade_preset)-1) && !shade_preset_name((shade_preset)-1)[0]);
     CHECK(shade_preset_name((shade_preset)1000) && !shade_preset_name((shade_preset)1000)[0]);
     CHECK(shade_preset_name(SHADE_PRESET_COUNT) && !shade_preset_name(SHADE_PRESET_COUNT)[0]);
 }

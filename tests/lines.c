@@ -384,7 +384,7 @@ TEST(lines, colour_and_blending_are_the_state_s)
 
 TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
 {
-    for (int k = 0; k < 19; k++) {
+    for (int k = 0; k < 20; k++) {
         canvas c = canvas_open(16, 12, 0, SHADE_RGBA8, 1);
         shade_vec3 p[4] = { { -1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { 1, -1, 0 } };
         const shade_vec3 *points = p;
@@ -413,6 +413,7 @@ TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
         case 14: c.target.width = 0, want = SHADE_ERROR_TARGET; break;
         case 15: c.target.stride = 3, want = SHADE_ERROR_TARGET; break;
         case 16: c.target.format = (shade_format)9, want = SHADE_ERROR_TARGET; break;
+        case 18: count = 2147483646; break; /* more corners than an int counts */
         case 17: count = 0, points = NULL, want = SHADE_OK; break;
         default: c.target.height = -1, count = 3, want = SHADE_ERROR_TARGET; break;
         }

@@ -1,6 +1,7 @@
 /* main.c - the test runner.   cc -O2 -I. tests/main.c -lm -o test_main
 
    test_main [section] [seed]     runs all sections, or one; prints N passed, N failed
+   test_main --stop [section ...] runs these sections, then the others, up to the first failure
    test_main --scenes [folder]    prints the hashes of the built-in scenes as the lines of
                                   scenes.h, and writes their pictures into the folder */
 #define SHADE_IMPLEMENTATION
@@ -18,6 +19,7 @@
 #include "vertex.c"
 #include "clip.c"
 #include "cover.c"
+#include "exact.c"
 #include "fragment.c"
 #include "store.c"
 #include "drive.c"
@@ -26,15 +28,46 @@
 #include "lines.c"
 #include "shape.c"
 #include "ray.c"
+#include "resolve.c"
 #include "scene.c"
 
 static const test_section sections[] = {
-    SECTION(math),   SECTION(matrix), SECTION(power), SECTION(light),    SECTION(lanes),
-    SECTION(vertex), SECTION(clip),   SECTION(cover), SECTION(fragment), SECTION(store),
-    SECTION(drive),  SECTION(mesh),   SECTION(texture), SECTION(lines),  SECTION(shape),
-    SECTION(ray),    SECTION(scene),
+    SECTION(math),   SECTION(matrix),  SECTION(power),   SECTION(light),    SECTION(lanes),
+    SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
+    SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
+    SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
+
+static int is_among(const char *name, char **names, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (!strcmp(names[i], name)) return 1;
+    }
+    return 0;
+}
+static void run_section(const test_section *section, int *passed, int *failed)
+{
+    for (int k = 0; k < section->count; k++) {
+        test_run_case(section, &section->cases[k], passed, failed);
+        if (test_now.stop && *failed) exit(1);
+    }
+}
+static int run_until_failure(char **names, int count)
+{
+    int passed = 0, failed = 0;
+    test_now.stop = 1;
+    for (int i = 0; i < count; i++) {
+        for (int s = 0; s < SECTION_COUNT; s++) {
+            if (!strcmp(names[i], sections[s].name)) run_section(&sections[s], &passed, &failed);
+        }
+    }
+    for (int s = 0; s < SECTION_COUNT; s++) {
+        if (!is_among(sections[s].name, names, count)) run_section(&sections[s], &passed, &failed);
+    }
+    printf("%d passed, %d failed\n", passed, failed);
+    return failed != 0;
+}
 
 int main(int argc, char **argv)
 {
@@ -42,13 +75,15 @@ int main(int argc, char **argv)
     int passed = 0, failed = 0, found = 0;
     test_now.seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 20261120u;
     if (only && !strcmp(only, "--scenes")) return scene_print(argc > 2 ? argv[2] : NULL);
+    if (only && !strcmp(only, "--stop")) {
+        test_now.seed = 20261120u;
+        return run_until_failure(argv + 2, argc - 2);
+    }
     printf("seed %llu\n", (unsigned long long)test_now.seed);
     for (int i = 0; i < SECTION_COUNT; i++) {
         if (only && strcmp(only, sections[i].name)) continue;
         found = 1;
-        for (int k = 0; k < sections[i].count; k++) {
-            test_run_case(&sections[i], &sections[i].cases[k], &passed, &failed);
-        }
+        run_section(&sections[i], &passed, &failed);
     }
     if (!found) {
         printf("no section \"%s\"; there are:", only);

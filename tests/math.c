@@ -177,6 +177,17 @@ TEST(math, two_and_four_component_vectors_match_double)
     }
 }
 
+/* all mantissas, at an even and an odd exponent: at the others the same sums are scaled by powers
+   of two */
+TEST(math, the_own_square_root_equals_sqrtf_at_every_mantissa)
+{
+    long wrong = 0;
+    uint32_t u;
+    for (u = 0x3F800000u; u < 0x40800000u; u++) {
+        wrong += float_bits(shade__own_sqrt(bits_float(u))) != float_bits(sqrtf(bits_float(u)));
+    }
+    CHECK_INT(wrong, 0);
+}
 TEST(math, the_own_square_root_equals_sqrtf) /* what SHADE_NO_LIBM uses gives the same bits */
 {
     for (int i = 0; i < 400000; i++) {
@@ -205,4 +216,5 @@ static const test_case math_cases[] = {
     CASE(math, every_function_is_finite_up_to_a_million_million),
     CASE(math, two_and_four_component_vectors_match_double),
     CASE(math, the_own_square_root_equals_sqrtf),
+    CASE(math, the_own_square_root_equals_sqrtf_at_every_mantissa),
 };

@@ -166,6 +166,10 @@ TEST(matrix, the_inverse_of_a_singular_matrix_is_zero)
     CHECK_MAT3(shade_mat3_inverse(shade_mat3_from_mat4(m)), zero3, 0);
     CHECK_MAT3(shade_mat3_inverse_transpose(shade_mat3_from_mat4(m)), zero3, 0);
     CHECK_NEAR(shade_mat3_determinant(shade_mat3_from_mat4(m)), 0, 0);
+    for (int side = -1; side <= 1; side += 2) { /* a determinant whose reciprocal is infinite */
+        m = shade_mat4_scaling(shade_v3(1e-13f, 1e-13f, (float)side * 1e-13f));
+        CHECK_MAT3(shade_mat3_inverse_transpose(shade_mat3_from_mat4(m)), zero3, 0);
+    }
     memset(&m, 0, sizeof m);
     CHECK_MAT4(shade_mat4_inverse(m), dmat_zero(), 0);
     for (int i = 0; i < 100; i++) { /* small integers: a repeated column is found exactly */
@@ -400,6 +404,7 @@ TEST(matrix, degenerate_projections_are_the_zero_matrix)
     CHECK_MAT4(shade_mat4_perspective(0, 1, 1, 2), zero, 0);
     CHECK_MAT4(shade_mat4_perspective(pi, 1, 1, 2), zero, 0);
     CHECK_MAT4(shade_mat4_perspective(2 * pi, 1, 1, 2), zero, 0);
+    CHECK_MAT4(shade_mat4_perspective(bits_float(1), 1, 1, 2), zero, 0); /* half of it is 0 */
     CHECK_MAT4(shade_mat4_perspective(bad, 1, 1, 2), zero, 0);
     CHECK_MAT4(shade_mat4_perspective(1, bad, 1, 2), zero, 0);
     CHECK_MAT4(shade_mat4_perspective(1, 1, bad, 2), zero, 0);

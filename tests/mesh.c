@@ -461,6 +461,68 @@ TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
     canvas_close(&c);
 }
 
+/* A matrix is the identity only where all of its sixteen numbers are 0: columns that begin with
+   zeros are no sign of it. */
+TEST(mesh, matrices_that_begin_with_zeros_are_used)
+{
+    shade_draw_state s = plain_state(NULL);
+    canvas a = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas b = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    s.lighting.ambient = grey(0.25);
+    for (int first = 0; first < 4; first++) { /* the row of the one in the first column */
+        float moved[9];
+        shade_mat4 m;
+        memset(&m, 0, sizeof m);
+        for (int k = 0; k < 4; k++) {
+            float column[4] = { 0, 0, 0, 0 };
+            column[(first + k) % 4] = 1;
+            m.col[k] = shade_v4(column[0], column[1], column[2], column[3]);
+        }
+        for (int k = 0; k < 3; k++) { /* corners that the matrix takes into view */
+            static const float seen[3][4] = { { 0.1f, 0.2f, 0.5f, 1 },
+                                              { 0.9f, 0.3f, 0.5f, 1 },
+                                              { 0.4f, 0.8f, 0.5f, 1 } };
+            for (int j = 0; j < 3; j++) {
+                moved[3 * k + j] = seen[k][(first + j) % 4] / seen[k][(first + 3) % 4];
+            }
+        }
+        shade_mesh turned = plain_mesh(moved, 3);
+        s.projection = m;
+        canvas_clear(&a, 1), canvas_clear(&b, 1);
+        shade_stats stats;
+        CHECK_INT(shade_draw_mesh(&a.target, &turned, &s, &stats), SHADE_OK);
+        CHECK(stats.fragments > 10);
+        scene plain;
+        shade_vec4 clip[3];
+        memset(&plain, 0, sizeof plain);
+        for (int k = 0; k < 3; k++) {
+            clip[k] = shade_mat4_transform(
+                m, shade_v4(moved[3 * k], moved[3 * k + 1], moved[3 * k + 2], 1));
+        }
+        shade_vec4 color = shade_v4(0.25f, 0.25f, 0.25f, 1);
+        plain.clip = clip, plain.color = &color;
+        shade_pipeline p = scene_pipeline(&plain);
+        CHECK_INT(shade_draw(&b.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        CHECK(canvas_same(&a, &b));
+    }
+    canvas_close(&a), canvas_close(&b);
+}
+TEST(mesh, a_mesh_of_nothing_needs_no_positions)
+{
+    canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+    shade_draw_state s = plain_state(NULL);
+    shade_mesh mesh = plain_mesh(NULL, 0);
+    shade_stats stats;
+    shade_vec3 normal;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    CHECK_INT(stats.triangles, 0);
+    CHECK_INT(shade_mesh_normals(&mesh, &normal), SHADE_OK);
+    mesh.vertex_count = 3;
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_mesh_normals(&mesh, &normal), SHADE_ERROR_ARGUMENT);
+    canvas_close(&c);
+}
+
 TEST(mesh, the_state_of_the_pipeline_is_handed_on)
 {
     shade_draw_state s = plain_state(NULL);
@@ -741,6 +803,8 @@ TEST(mesh, vertex_normals_of_bad_meshes_are_refused)
 }
 
 static const test_case mesh_cases[] = {
+    CASE(mesh, matrices_that_begin_with_zeros_are_used),
+    CASE(mesh, a_mesh_of_nothing_needs_no_positions),
     CASE(mesh, per_fragment_is_the_equation_at_every_pixel),
     CASE(mesh, per_vertex_interpolates_the_light_of_the_corners),
     CASE(mesh, per_face_is_lit_once_at_the_centroid),

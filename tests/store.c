@@ -1,6 +1,11 @@
 /* store.c - colours into pixels: clamping, rounding, sRGB, NaN, dither, clearing, and the PPM file.
    */
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <signal.h>
+#include <sys/resource.h>
+#endif
+
 /* Clears a one-row picture pixel by pixel through clip rectangles: each colour goes through the
    same store. */
 static void store_colors(canvas *c, const shade_vec4 *colors, int count)
@@ -335,6 +340,130 @@ TEST(store, clear_needs_only_one_of_the_buffers)
     canvas_close(&c);
 }
 
+/* ------------------------------------------------------------------------------- supersampling */
+
+/* Linear light of a stored pixel. */
+static void ref_stored(const canvas *c, int x, int y, double v[4])
+{
+    if (c->target.format == SHADE_RGBA32F) {
+        for (int k = 0; k < 4; k++) v[k] = (double)canvas_float(c, x, y, k);
+        return;
+    }
+    if (c->target.format == SHADE_RGBA8) {
+        for (int k = 0; k < 4; k++) v[k] = canvas_bytes(c, x, y)[k] / 255.0;
+    } else {
+        unsigned p = canvas_565(c, x, y);
+        v[0] = (p >> 11) / 31.0, v[1] = (p >> 5 & 63) / 63.0, v[2] = (p & 31) / 31.0, v[3] = 1;
+    }
+    for (int k = 0; k < 3 && c->target.srgb; k++) v[k] = ref_decode_srgb(v[k]);
+}
+/* Whether a pixel holds linear light v, to the nearest level or, dithered, the next. */
+static void check_stored(const canvas *c, int x, int y, const double v[4])
+{
+    static const int levels[] = { 31, 63, 31 };
+    int format = c->target.format, channels = format == SHADE_RGB565 ? 3 : 4;
+    for (int k = 0; k < channels; k++) {
+        double code = c->target.srgb && k < 3 ? ref_encode_srgb(v[k]) : v[k];
+        if (format == SHADE_RGBA32F) CHECK_NEAR(canvas_float(c, x, y, k), v[k], 1e-6);
+        else if (format == SHADE_RGBA8)
+            CHECK_NEAR(canvas_bytes(c, x, y)[k], 255 * code, 0.5 + 1e-3);
+        else {
+            unsigned p = canvas_565(c, x, y);
+            unsigned got = k == 0 ? p >> 11 : k == 1 ? p >> 5 & 63 : p & 31;
+            CHECK_NEAR(got, levels[k] * code, c->target.dither ? 1 : 0.5 + 1e-3);
+        }
+    }
+}
+TEST(store, a_resolved_pixel_is_the_mean_of_its_samples_in_linear_light)
+{
+    for (int i = 0; i < 200; i++) {
+        int factor = 2 + i % 7, width = rnd_int(1, 20), height = rnd_int(1, 12);
+        int rows = i % 3 ? 0 : rnd_int(1, height), top = rows ? rnd_int(0, height - rows) : 0;
+        canvas out = canvas_strip(width, height, rnd_one_in(2) ? width + 3 : 0,
+                                  (shade_format)rnd_int(0, 2), rnd_int(0, 1), top, rows);
+        canvas in = canvas_strip(width * factor, height * factor,
+                                 rnd_one_in(2) ? width * factor + 5 : 0,
+                                 (shade_format)rnd_int(0, 2), 0, top * factor, rows * factor);
+        int held = canvas_rows(&out), x0, y0, x1, y1;
+        out.target.srgb = rnd_int(0, 1), out.target.dither = rnd_int(0, 1);
+        in.target.srgb = rnd_int(0, 1);
+        for (int y = top * factor; y < (top + held) * factor; y++) {
+            for (int x = 0; x < width * factor; x++) {
+                float f[4];
+                unsigned char *at = in.color + CANVAS_GUARD;
+                size_t size = canvas_pixel_bytes(in.target.format);
+                for (int k = 0; k < 4; k++) f[k] = rnd_float(0, 1);
+                at += size * canvas_index(&in, x, y);
+                if (size == 16) memcpy(at, f, 16);
+                else for (size_t k = 0; k < size; k++) at[k] = (unsigned char)rnd_bits();
+            }
+        }
+        random_clip(&out.target);
+        clip_bounds(&out.target, &x0, &y0, &x1, &y1);
+        canvas before = canvas_strip(width, height, out.target.stride, out.target.format, 0, top,
+                                     rows);
+        CHECK_INT(shade_resolve(&out.target, &in.target, factor), SHADE_OK);
+        for (int y = top; y < top + held; y++)
+            for (int x = 0; x < width; x++) {
+                double mean[4] = { 0, 0, 0, 0 }, v[4];
+                size_t size = canvas_pixel_bytes(out.target.format);
+                if (x < x0 || x >= x1 || y < y0 || y >= y1) { /* outside: as it was */
+                    size_t at = CANVAS_GUARD + size * canvas_index(&out, x, y);
+                    CHECK(!memcmp(out.color + at, before.color + at, size));
+                    continue;
+                }
+                for (int n = 0; n < factor * factor; n++) {
+                    ref_stored(&in, x * factor + n % factor, y * factor + n / factor, v);
+                    for (int k = 0; k < 4; k++) mean[k] += v[k] / (factor * factor);
+                }
+                check_stored(&out, x, y, mean);
+            }
+        for (size_t k = 0; k < out.depth_bytes; k++) { /* depth is left alone */
+            if (out.depth[CANVAS_GUARD + k] != CANVAS_BYTE) CHECK_INT(k, -1);
+        }
+        canvas_close(&out), canvas_close(&in), canvas_close(&before);
+    }
+}
+TEST(store, a_resolve_that_does_not_fit_is_refused)
+{
+    for (int k = 0; k < 17; k++) {
+        canvas out = canvas_strip(6, 8, 0, SHADE_RGBA8, 1, 2, 4);
+        canvas in = canvas_strip(18, 24, 0, SHADE_RGBA32F, 1, 6, 12);
+        shade_target a = out.target, b = in.target;
+        const shade_target *to = &a, *from = &b;
+        int factor = 3;
+        shade_result want = SHADE_ERROR_ARGUMENT;
+        switch (k) {
+        case 0: to = NULL; break;
+        case 1: from = NULL; break;
+        case 2: a.width = 0, want = SHADE_ERROR_TARGET; break;
+        case 3: b.height = 0, want = SHADE_ERROR_TARGET; break;
+        case 4: a.color = NULL, want = SHADE_ERROR_TARGET; break;
+        case 5: b.color = NULL, want = SHADE_ERROR_TARGET; break;
+        case 6: factor = 1; break;
+        case 7: factor = 9; break;
+        case 8: factor = 0; break;
+        case 9: a.width = 5, a.stride = 6; break;
+        case 10: b.height = 23; break;
+        case 11: b.row_offset = 5; break;
+        case 12: a.row_count = 3; break;
+        case 13: factor = 2; break;
+        case 14: a.clip_x = 6, a.clip_width = 3, a.clip_height = 8, want = SHADE_OK; break;
+        case 15: factor = 1, a.width = b.width = 6, a.height = b.height = 8; /* a copy is none */
+            b.row_offset = 2, b.row_count = 4;
+            break;
+        default: factor = 9, a.width = 2, b.width = 18, a.height = 8, b.height = 72; /* too many */
+            a.row_offset = b.row_offset = 0, a.row_count = 1, b.row_count = 9;
+            break;
+        }
+        CHECK_INT(shade_resolve(to, from, factor), want);
+        for (size_t i = 0; i < out.color_bytes; i++) {
+            if (out.color[CANVAS_GUARD + i] != CANVAS_BYTE) CHECK_INT(i, -1);
+        }
+        canvas_close(&out), canvas_close(&in);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------ PPM */
 
 typedef struct ppm_sink {
@@ -462,7 +591,43 @@ TEST(store, a_ppm_file_holds_the_same_bytes)
     shade_target bad = c.target;
     bad.width = 0;
     CHECK_INT(shade_write_ppm(path, &bad), SHADE_ERROR_TARGET);
+    bad = c.target, bad.color = NULL, bad.depth = (float *)(void *)(c.depth + CANVAS_GUARD);
+    CHECK_INT(shade_write_ppm(path, &bad), SHADE_ERROR_TARGET);
+    f = fopen(path, "rb");
+    CHECK(f == NULL); /* refused before a file is made */
+    if (f) fclose(f);
     canvas_close(&c);
+}
+
+/* No file may grow: a picture larger than the buffer of a FILE fails at once, one that fits at
+   closing. */
+TEST(store, a_full_disk_is_an_error)
+{
+#if defined(__unix__) || defined(__APPLE__)
+    const char *folder = getenv("TMPDIR");
+    char path[300];
+    snprintf(path, sizeof path, "%.200s/shade_full_%08x.ppm", folder ? folder : "/tmp",
+             (unsigned)(uintptr_t)path);
+    for (int big = 0; big < 2; big++) {
+        canvas c = canvas_open(big ? 600 : 4, big ? 400 : 3, 0, SHADE_RGBA8, 0);
+        struct rlimit limit, none;
+        canvas_clear(&c, 1);
+        fflush(stdout);
+        CHECK_INT(getrlimit(RLIMIT_FSIZE, &limit), 0);
+        void (*before)(int) = signal(SIGXFSZ, SIG_IGN);
+        none = limit, none.rlim_cur = 0;
+        int set = setrlimit(RLIMIT_FSIZE, &none);
+        shade_result result = shade_write_ppm(path, &c.target);
+        setrlimit(RLIMIT_FSIZE, &limit);
+        signal(SIGXFSZ, before);
+        CHECK_INT(set, 0);
+        CHECK_INT(result, SHADE_ERROR_IO);
+        canvas_close(&c);
+    }
+    remove(path);
+#else
+    test_skip("no limit on the size of files");
+#endif
 }
 #endif
 
@@ -482,6 +647,8 @@ TEST(store, a_ppm_of_nothing_is_refused)
 }
 
 static const test_case store_cases[] = {
+    CASE(store, a_resolved_pixel_is_the_mean_of_its_samples_in_linear_light),
+    CASE(store, a_resolve_that_does_not_fit_is_refused),
     CASE(store, bytes_are_clamped_and_rounded_to_nearest),
     CASE(store, rgb565_is_clamped_and_rounded_to_nearest),
     CASE(store, floats_are_stored_as_they_come),
@@ -497,5 +664,6 @@ static const test_case store_cases[] = {
     CASE(store, a_ppm_of_nothing_is_refused),
 #ifndef SHADE_NO_STDIO
     CASE(store, a_ppm_file_holds_the_same_bytes),
+    CASE(store, a_full_disk_is_an_error),
 #endif
 };

@@ -37,7 +37,7 @@ typedef struct test_section {
 static struct {
     uint64_t seed, state;  /* of the run; of the generator */
     long checks, failures; /* in the case that runs */
-    int skipped;
+    int skipped, stop;     /* stop: end the run at the first failure */
     const char *section, *name;
 } test_now;
 
@@ -56,6 +56,7 @@ test_fail(const char *file, int line, const char *what, const char *format, ...)
     vprintf(format, arguments);
     printf("   (seed %llu)\n", (unsigned long long)test_now.seed);
     va_end(arguments);
+    if (test_now.stop) exit(1);
 }
 
 static void test_near(const char *file, int line, const char *what, double got, double want,

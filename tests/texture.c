@@ -497,6 +497,42 @@ TEST(texture, mipmaps_are_read_by_trilinear_alone_and_only_where_there_are_some)
     }
 }
 
+TEST(texture, a_bad_level_is_replaced_by_the_full_size)
+{
+    for (int i = 0; i < 100; i++) {
+        shade_texture t = random_texture(20), levels[16], full;
+        if (t.width < 2 || t.height < 2) {    /* has no level */
+            free_texture(&t);
+            continue;
+        }
+        void *memory = add_mipmaps(&t, levels);
+        t.filter = SHADE_TRILINEAR, full = t, full.filter = SHADE_BILINEAR;
+        if (i % 2) levels[0].width = 0;
+        else levels[0].pixels = NULL;
+        float u = random_coordinate(), v = random_coordinate(), got[4], want[4];
+        sample_to(&full, u, v, 0, want);
+        for (int n = 0; n < 5; n++) { /* a blend of the full size with itself */
+            sample_to(&t, u, v, 0.25f * (float)n, got);
+            for (int k = 0; k < 4; k++) {
+                CHECK_NEAR(got[k], want[k], 1e-6 * fmax(1, fabs((double)want[k])));
+            }
+        }
+        free(memory);
+        free_texture(&t);
+    }
+}
+TEST(texture, sampling_a_packet_needs_coordinates_and_a_place)
+{
+    float u[SHADE_LANES] = { 0 }, rgba[4 * SHADE_LANES];
+    shade_texture t = random_texture(8);
+    for (int i = 0; i < 4 * SHADE_LANES; i++) rgba[i] = 7;
+    shade_sample_lanes(&t, NULL, u, NULL, rgba);
+    shade_sample_lanes(&t, u, NULL, NULL, rgba);
+    shade_sample_lanes(&t, u, u, NULL, NULL);
+    for (int i = 0; i < 4 * SHADE_LANES; i++) CHECK_NEAR(rgba[i], 7, 0);
+    free_texture(&t);
+}
+
 /* ------------------------------------------------------------------------------------- mipmaps */
 
 TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
@@ -1083,6 +1119,25 @@ TEST(texture, a_map_without_texcoords_is_ignored)
         canvas_close(&a), canvas_close(&b);
     }
 }
+TEST(texture, texcoords_of_any_stride_give_the_same_bits)
+{
+    static map_scene s;
+    for (int i = 0; i < 30; i++) {
+        canvas a = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA32F, 1);
+        canvas b = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA32F, 1);
+        float apart[3 * 5];
+        random_map_scene(&s, (shade_shading)(i % 3));
+        canvas_clear(&a, 1), canvas_clear(&b, 1);
+        CHECK_INT(shade_draw_mesh(&a.target, &s.mesh, &s.state, NULL), SHADE_OK);
+        for (int k = 0; k < 15; k++) apart[k] = (float)NAN;
+        for (int k = 0; k < 3; k++) memcpy(apart + 5 * k, s.uv[k], 8);
+        s.mesh.texcoords = apart, s.mesh.texcoord_stride = 20;
+        CHECK_INT(shade_draw_mesh(&b.target, &s.mesh, &s.state, NULL), SHADE_OK);
+        CHECK(canvas_same(&a, &b));
+        close_map_scene(&s);
+        canvas_close(&a), canvas_close(&b);
+    }
+}
 TEST(texture, bad_texture_coordinates_draw_a_defined_texel)
 {
     static map_scene s;
@@ -1099,6 +1154,9 @@ TEST(texture, bad_texture_coordinates_draw_a_defined_texel)
 }
 
 static const test_case texture_cases[] = {
+    CASE(texture, a_bad_level_is_replaced_by_the_full_size),
+    CASE(texture, sampling_a_packet_needs_coordinates_and_a_place),
+    CASE(texture, texcoords_of_any_stride_give_the_same_bits),
     CASE(texture, bilinear_blends_the_four_nearest_texels),
     CASE(texture, trilinear_blends_the_two_nearest_levels),
     CASE(texture, nearest_is_the_texel_that_the_point_lies_in),

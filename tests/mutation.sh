@@ -1,0 +1,69 @@
+#!/bin/sh
+# mutation.sh [mutants [seed]] - small changes of shade.h, one at a time: do the tests notice?
+# Not counted: what does not compile, what compiles to the same code (gcc -O2 -S), and what
+# tests/mutation.txt shows to be equivalent.  Needs gcc, timeout and python3.
+cd "$(dirname "$0")/.." || exit 1
+want=${1:-200} seed=${2:-$(date +%s)}
+H=$PWD
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT INT TERM
+for tool in gcc timeout python3; do
+    command -v $tool >/dev/null || { echo "left out: no $tool"; exit 0; }
+done
+echo "seed $seed"
+python3 tests/mutate.py shade.h "$seed" $((want * 2)) "$T" || exit 1
+
+# Mutants of the implementation are linked to tests compiled once; of inline functions, to all.
+FLAGS="-std=c99 -w -DSHADE_NO_DISPATCH"
+gcc $FLAGS -O2 -I. -DSHADE__IMPLEMENTED -c tests/main.c -o "$T/tests.o" || exit 1
+build() {                       # the folder of a shade.h, public or implementation
+    if [ "$2" = public ]; then gcc $FLAGS -O1 -I"$1" tests/main.c -lm -o "$T/run"
+    else
+        gcc $FLAGS -O1 -DSHADE_IMPLEMENTATION -x c -c "$1/shade.h" -o "$T/shade.o" &&
+            gcc "$T/tests.o" "$T/shade.o" -lm -o "$T/run"
+    fi
+}
+assembly() {                    # the folder of a shade.h, public or implementation
+    if [ "$2" = public ]; then (gcc $FLAGS -O2 -S -I"$1" tests/main.c -o -)
+    else (cd "$1" && gcc $FLAGS -O2 -S -DSHADE_IMPLEMENTATION -x c shade.h -o -); fi |
+        grep -v '\.file\|\.ident' | md5sum
+}
+first() {                       # sections of the tests that know a section of shade.h best
+    case $1 in
+    math) echo math matrix ;; matrix) echo matrix ;; power) echo power light ;;
+    base) echo power lanes store ;; lighting) echo light lanes ;; lanes) echo lanes light ;;
+    store) echo store texture ;; texture) echo texture ;; fragment) echo fragment store ;;
+    setup) echo fragment cover ;; cover) echo cover fragment ;; clip) echo clip ;;
+    vertex) echo vertex clip ;; drive) echo drive ;; mesh) echo mesh texture ;;
+    lines) echo lines ;; shape) echo shape ray ;; image) echo drive store ;;
+    esac
+}
+
+tight() { sed 's/^\([-+]\)/\1:/' "$1" | tr -d ' \n'; }
+# an entry of mutation.txt: reasons as #, then - and + lines
+sed '/^#/d; /^$/d; s/^\([-+]\)/\1:/' tests/mutation.txt | tr -d ' ' |
+    sed 'N; s/\n//' >"$T/listed"
+mkdir "$T/plain" && cp shade.h "$T/plain/"
+build "$T/plain" implementation || exit 1
+start=$(date +%s)
+"$T/run" --stop >"$T/log" 2>&1 || { cat "$T/log"; exit 1; }
+limit=$((2 * ($(date +%s) - start) + 5))    # seconds: what runs twice as long does not end
+killed=0 survived=0 same=0 listed=0 broken=0 n=0
+while [ $((killed + survived)) -lt "$want" ] && [ -f "$T/$n.h" ]; do
+    read -r part section <"$T/$n.where"
+    rm -rf "$T/mutant" && mkdir "$T/mutant" && mv "$T/$n.h" "$T/mutant/shade.h"
+    if tight "$T/$n.diff" | grep -qxFf - "$T/listed"; then listed=$((listed + 1))
+    elif ! build "$T/mutant" "$part" >/dev/null 2>&1; then broken=$((broken + 1))
+    elif ! timeout $limit "$T/run" --stop $(first "$section") >"$T/log" 2>&1; then
+        killed=$((killed + 1))
+        [ -z "${MUTATION_VERBOSE:-}" ] || { cat "$T/$n.diff"; tail -n 1 "$T/log"; }
+    else
+        [ -f "$T/$part.s" ] || assembly "$T/plain" "$part" >"$T/$part.s"
+        if assembly "$T/mutant" "$part" | cmp -s - "$T/$part.s"; then same=$((same + 1))
+        else survived=$((survived + 1)); echo "survived in >>$section:"; cat "$T/$n.diff"; fi
+    fi
+    n=$((n + 1))
+done
+echo "not counted: $broken do not compile, $same compile to the same code, $listed listed"
+echo "$killed killed, $survived survived of $((killed + survived)) (seed $seed)"
+[ $((survived * 20)) -lt $((killed + survived)) ]
