@@ -14,7 +14,9 @@ typedef struct draw_scene {
     const shade_pipeline *pipeline;      /* &p, or NULL */
 } draw_scene;
 
-enum { DRAW_FLAT, DRAW_VARYINGS, DRAW_SIEVE, DRAW_SPECIAL, DRAW_SILENT, DRAW_DEPTH_ONLY, DRAW_KINDS };
+enum {
+    DRAW_FLAT, DRAW_VARYINGS, DRAW_SIEVE, DRAW_SPECIAL, DRAW_SILENT, DRAW_DEPTH_ONLY, DRAW_KINDS
+};
 
 static void draw_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                         shade_vertices *SHADE_RESTRICT out)
@@ -70,12 +72,13 @@ static void draw_fragment(const void *uniforms, const shade_fragments *SHADE_RES
         for (int k = 0; k < 4; k++) {
             HOLDS(out->out[k][i] == (k == 3));
             HOLDS(!out->discard[i]);
-            if (s->kind == DRAW_SPECIAL) out->out[k][i] = fuzz_float_of(special[(n + (uint32_t)k) % 8]);
+            uint32_t of = n * 5 + (uint32_t)k * 3;
+            if (s->kind == DRAW_SPECIAL) out->out[k][i] = fuzz_float_of(special[of % 8]);
             else if (s->kind == DRAW_VARYINGS && k < s->p.varyings) out->out[k][i] = in->in[k][i];
-            else if (s->kind != DRAW_SILENT) out->out[k][i] = (float)(n * 5 + (uint32_t)k * 3 & 15) / 15;
+            else if (s->kind != DRAW_SILENT) out->out[k][i] = (float)(of % 16) / 15;
         }
-        if (s->kind == DRAW_SIEVE)
-            out->discard[i] = ((uint32_t)in->x[i] + (uint32_t)in->y[i] + n) % 3 == 0 ? 1u << n % 32 : 0;
+        if (s->kind == DRAW_SIEVE && ((uint32_t)in->x[i] + (uint32_t)in->y[i] + n) % 3 == 0)
+            out->discard[i] = 1u << n % 32;
     }
 }
 
@@ -101,7 +104,7 @@ static shade_vec4 draw_position(fuzz_input *in, const shade_target *t, const sha
     float w = kind & 128 ? 1 + (float)(kind >> 4 & 7) : 1, x, y, z;
     shade_vec4 p;
     switch (kind % 8) {
-    case 0: case 1: case 2:              /* to a half or a sixteenth of a pixel; or bytes of clip space */
+    case 0: case 1: case 2:              /* to a half or a sixteenth of a pixel, or half a pixel */
         x = (float)fuzz_byte(in) / (kind % 8 == 0 ? 2 : 16) - 2;
         y = (float)fuzz_byte(in) / (kind % 8 == 0 ? 2 : 16) - 2;
         if (kind % 8 == 2) x *= 8, y *= 8;

@@ -100,7 +100,7 @@ static int mesh_map(fuzz_input *in, mesh_scene *s, int tame)    /* 0: refused */
     if (kind & 1) {
         size_t bytes = texture_is_good(&s->map)
                            ? shade_mipmap_bytes(s->map.width, s->map.height, s->map.format) : 0;
-        void *memory = guard_take(bytes + 3 & ~(size_t)3, kind >> 1 & 1);
+        void *memory = guard_take((bytes + 3) & ~(size_t)3, kind >> 1 & 1);
         HOLDS((shade_build_mipmaps(&s->map, s->levels, memory, bytes) == SHADE_OK) ==
               texture_is_good(&s->map));
         if (!tame && (kind & 4) && s->map.mipmap_count > 1)    /* a level of another kind */

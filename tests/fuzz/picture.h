@@ -82,7 +82,8 @@ static inline void picture_shape(fuzz_input *in, shade_target *t, int most)
     if (kind & 4) t->stride = t->width + fuzz_int(in, 0, 6);
     if (kind & 8) {
         t->clip_x = fuzz_int(in, -6, t->width + 1), t->clip_width = fuzz_int(in, 0, t->width + 4);
-        t->clip_y = fuzz_int(in, -6, t->height + 1), t->clip_height = fuzz_int(in, 0, t->height + 4);
+        t->clip_y = fuzz_int(in, -6, t->height + 1);
+        t->clip_height = fuzz_int(in, 0, t->height + 4);
     }
     if (kind & 16) {
         t->row_offset = fuzz_int(in, 0, t->height - 1);
@@ -103,13 +104,13 @@ static inline void picture_memory(fuzz_input *in, picture *p)
     p->rows = t->row_count ? t->row_count : t->height, p->stride = t->stride ? t->stride : t->width;
     if (p->want == SHADE_OK && fuzz_cells(p->rows, p->stride, t->width) > GUARD_ROOM / 16) {
         t->stride = 0, p->stride = t->width;
-        if (fuzz_cells(p->rows, p->stride, t->width) > GUARD_ROOM / 16) t->height = p->rows = 1,
-            t->row_count = t->row_offset = 0;
+        if (fuzz_cells(p->rows, p->stride, t->width) > GUARD_ROOM / 16)
+            t->height = p->rows = 1, t->row_count = t->row_offset = 0;
     }
     if (p->want == SHADE_OK) {
         cells = fuzz_cells(p->rows, p->stride, t->width);
-        if ((kind & 4) && p->stride < 1 << 15 && (size_t)p->rows * (size_t)p->stride <=
-            GUARD_ROOM / 16) cells = (size_t)p->rows * (size_t)p->stride;
+        if ((kind & 4) && (size_t)p->rows * (size_t)p->stride <= GUARD_ROOM / 16)
+            cells = (size_t)p->rows * (size_t)p->stride;
     } else p->rows = 1, p->stride = 4;
     p->color_bytes = t->color ? cells * fuzz_pixel_bytes(t->format) : 0;
     p->depth_bytes = t->depth ? cells * 4 : 0;
@@ -181,7 +182,8 @@ static inline void picture_check(const picture *p)
     size_t cell = fuzz_pixel_bytes(p->target.format), stride = (size_t)p->stride;
     picture_clip(&p->target, &x0, &y0, &x1, &y1);
     for (int row = 0; row < p->rows; row++) {
-        int y = row + p->target.row_offset, in = y >= y0 && y < y1, l = in ? x0 : 0, r = in ? x1 : 0;
+        int y = row + p->target.row_offset, in = y >= y0 && y < y1;
+        int l = in ? x0 : 0, r = in ? x1 : 0;
         size_t at = (size_t)row * stride, end = at + stride;
         if (p->color) picture_row_outside(p->color, p->before, p->color_bytes, at * cell,
                                           end * cell, l, r, cell);
@@ -264,8 +266,8 @@ static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, v
 
 static inline int texture_is_good(const shade_texture *t)
 {
-    return t->pixels && t->width >= 1 && t->width <= 16384 && t->height >= 1 && t->height <= 16384 &&
-           (!t->stride || t->stride >= t->width) && (int)t->format >= 0 && (int)t->format <= 2 &&
+    return t->pixels && t->width >= 1 && t->width <= 16384 && t->height >= 1 &&
+           t->height <= 16384 && (!t->stride || t->stride >= t->width) && (int)t->format >= 0 && (int)t->format <= 2 &&
            (int)t->wrap_u >= 0 && (int)t->wrap_u <= 2 && (int)t->wrap_v >= 0 &&
            (int)t->wrap_v <= 2 && (int)t->filter >= 0 && (int)t->filter <= 2;
 }

@@ -79,8 +79,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bytes = (uint8_t *)guard_take(n, kind >> 2 & 1), error = (char *)guard_take(error_size, 1);
     if (n) memcpy(bytes, in.at, n);
     guard_seal(bytes);
-    result = mesh_read_progress(n ? bytes : NULL, n, name, &m, error_size ? error : NULL, error_size,
-                                reader_progress, &calls);
+    result = mesh_read_progress(n ? bytes : NULL, n, name, &m, error_size ? error : NULL,
+                                error_size, reader_progress, &calls);
     if (result) {
         reader_check_error(error, error_size, name);
         HOLDS(!m.positions && !m.indices && !m.view.vertex_count);
