@@ -5,7 +5,7 @@
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
 # make mutation   small changes of shade.h, one at a time, that the tests must notice
 # make static     clang-tidy and cppcheck
-# make fuzz       fuzzes drawing, textures, mesh helpers and readers for FUZZ_SECONDS
+# make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the small PNGs of the README (needs netpbm)
 # make vector-report   loops over lanes that the compiler left scalar: none
 

@@ -245,6 +245,7 @@ static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, v
     HOLDS(draw(user, &p->target, &stats) == want);
     if (want != SHADE_OK) {
         HOLDS(picture_unchanged(p));
+        HOLDS(!stats.triangles && !stats.drawn && !stats.fragments);
         return;
     }
     picture_stats(&stats, triangles);
@@ -267,7 +268,8 @@ static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, v
 static inline int texture_is_good(const shade_texture *t)
 {
     return t->pixels && t->width >= 1 && t->width <= 16384 && t->height >= 1 &&
-           t->height <= 16384 && (!t->stride || t->stride >= t->width) && (int)t->format >= 0 && (int)t->format <= 2 &&
+           t->height <= 16384 && (!t->stride || t->stride >= t->width) && (int)t->format >= 0 &&
+           (int)t->format <= 2 &&
            (int)t->wrap_u >= 0 && (int)t->wrap_u <= 2 && (int)t->wrap_v >= 0 &&
            (int)t->wrap_v <= 2 && (int)t->filter >= 0 && (int)t->filter <= 2;
 }
