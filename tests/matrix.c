@@ -210,7 +210,7 @@ TEST(matrix, everything_is_finite_up_to_a_million)
 TEST(matrix, inverses_beyond_floats_stay_finite)
 {
     for (int side = -1; side <= 1; side += 2) {
-        float tiny = (float)side * 1e-39f; /* 1/tiny is infinite; 1/determinant is not in the second */
+        float tiny = (float)side * 1e-39f; /* 1/tiny is infinite; 1/determinant only in m */
         shade_mat4 m = shade_mat4_scaling(shade_v3(tiny, 1, 1));
         shade_mat4 n = shade_mat4_scaling(shade_v3(tiny, 1e6f, 1e6f));
         CHECK(finite_mat4(shade_mat4_inverse(m)) && finite_mat4(shade_mat4_inverse(n)));
