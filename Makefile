@@ -5,6 +5,7 @@
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
 # make mutation   small changes of shade.h, one at a time, that the tests must notice
 # make static     clang-tidy and cppcheck
+# make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the small PNGs of the README (needs netpbm)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
@@ -66,8 +67,11 @@ static:
 	@sh tests/static.sh
 vector-report:
 	@sh tests/vector_report.sh
+FUZZ_SECONDS ?= 300
+fuzz:
+	@sh tests/fuzz.sh $(FUZZ_SECONDS)
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix coverage mutation static gallery vector-report clean
+.PHONY: all test bench bench-plot matrix coverage mutation static fuzz gallery vector-report clean
 .SECONDARY:

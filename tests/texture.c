@@ -854,6 +854,8 @@ TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
         p.lod_varying = k, p.lod_width = p.lod_height = 4;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL),
                   k < 0 || k > 4 ? SHADE_ERROR_ARGUMENT : SHADE_OK);
+        p.lod_varying = 2147483647 - (k + 2);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_ARGUMENT);
     }
     canvas_close(&c);
 }
