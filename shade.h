@@ -658,14 +658,14 @@ SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
 /* Matrices by formula; their bodies stand in >>matrix.  An inverse with an entry beyond FLT_MAX is
    the zero matrix as well. */
 SHADEDEF shade_mat3 shade_mat3_identity(void);
-SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);             /* the upper left 3 x 3 */
+SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);    /* the upper left 3 x 3 */
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
-SHADEDEF float      shade_mat3_determinant(shade_mat3 m);           /* a . (b x c) of the columns */
+SHADEDEF float      shade_mat3_determinant(shade_mat3 m);  /* a . (b x c) of the columns */
 SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);      /* zero where the determinant is 0 */
 SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
 SHADEDEF float      shade_mat4_determinant(shade_mat4 m);  /* computed in double */
-SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* in double; zero where it is singular */
+SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* in double; zero where singular */
 SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
 SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
 

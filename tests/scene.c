@@ -1,6 +1,6 @@
 /* scene.c - built-in scenes whose pixels are the same bits everywhere: models, shadings, blending,
-   clipping, formats, maps, lines. Their input is made of small whole numbers and of functions inside the
-   library, so that no flag of the compiler that builds this file can change them.
+   clipping, formats, maps, lines. Their input is made of small whole numbers and of functions
+   inside the library, so that no flag of the compiler that builds this file can change them.
 
    Alone it prints their hashes:   cc -DSCENE_MAIN -I. tests/scene.c -lm -o scenes && ./scenes
    [folder] */
