@@ -16,7 +16,7 @@ FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
 # pictures must not depend on the compiler, so neither do the examples' own sums
 EXACT    = -ffp-contract=off
 OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
-                   $(CC) -fopenmp -x c - -o build/openmp 2>/dev/null && echo -fopenmp)
+                   $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)

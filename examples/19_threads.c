@@ -3,7 +3,6 @@
    tinted they are compared with the left picture; the program fails where a bit differs.
 
    cc -O2 -pthread -I. examples/19_threads.c -lm -o threads && ./threads       writes threads.ppm */
-#define _POSIX_C_SOURCE 200809L
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "mesh.h"
@@ -58,8 +57,8 @@ int main(int argc, char **argv)
     canvas_gradient(&c.target, shade_v3(0.045f, 0.05f, 0.06f), shade_v3(0.012f, 0.013f, 0.016f));
     work(&alone);
     for (int i = 0; i < THREADS; i++) {
+        jobs[i] = alone, jobs[i].band = canvas_panel(&c, WIDTH, 0, WIDTH, HEIGHT);
         shade_target *band = &jobs[i].band;
-        jobs[i] = alone, *band = canvas_panel(&c, WIDTH, 0, WIDTH, HEIGHT);
         band->clip_y = band->height * i / THREADS, band->clip_width = band->width;
         band->clip_height = band->height * (i + 1) / THREADS - band->clip_y;
         if (pthread_create(&jobs[i].thread, NULL, work, &jobs[i])) return 1;

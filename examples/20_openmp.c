@@ -16,7 +16,7 @@ static shade_mat4 turn(float radians, float x, float y, float z)
 }
 
 /* A ball, and on it nine balls a third as large that each carry nine */
-static void flake(const shade_target *target, const owned_mesh *ball, shade_draw_state *state,
+static void flake(const shade_target *target, const owned_mesh *ball, shade_draw_state state,
                   shade_mat4 at, int depth)
 {
     static const shade_vec3 paint[DEPTH] = {
@@ -26,8 +26,8 @@ static void flake(const shade_target *target, const owned_mesh *ball, shade_draw
                              .specular = { 0.5f, 0.5f, 0.5f }, .shininess = 60 };
     shade_mat4 up = shade_mat4_mul(shade_mat4_translation(shade_v3(0, 4 / 3.0f, 0)),
                                    shade_mat4_scaling(shade_v3(1 / 3.0f, 1 / 3.0f, 1 / 3.0f)));
-    state->model = at, state->material = &glaze;
-    shade_draw_mesh(target, &ball[depth].view, state, NULL);
+    state.model = at, state.material = &glaze;
+    shade_draw_mesh(target, &ball[depth].view, &state, NULL);
     for (int i = 0; i < 9 && depth > 0; i++) {    /* six about the waist, three above */
         float around = i < 6 ? (float)i / 6 : (float)i / 3 + 1 / 12.0f;
         shade_mat4 m = shade_mat4_mul(turn(6.2831853f * around, 0, 1, 0),
@@ -45,7 +45,7 @@ static void draw(shade_target target, const owned_mesh *ball)
     state.lighting.ambient = shade_v3(0.10f, 0.11f, 0.13f);
     state.view = shade_mat4_look_at(shade_v3(0, 4, 9), shade_v3(0, 0.1f, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.39f, (float)WIDTH / HEIGHT, 4, 20);
-    flake(&target, ball, &state, turn(0.3f, 0, 1, 0), DEPTH - 1);
+    flake(&target, ball, state, turn(0.3f, 0, 1, 0), DEPTH - 1);
 }
 
 int main(int argc, char **argv)

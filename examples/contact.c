@@ -50,8 +50,8 @@ int main(int argc, char **argv)
 {
     float linear[256];
     int rows = (argc - 2 + COLUMNS - 1) / COLUMNS;
-    canvas c = canvas_new(COLUMNS * (WIDTH + GAP) + GAP, rows * (HEIGHT + CAPTION + GAP) + GAP, 1);
     if (argc < 3) return fprintf(stderr, "contact sheet.ppm picture.ppm ...\n"), 1;
+    canvas c = canvas_new(COLUMNS * (WIDTH + GAP) + GAP, rows * (HEIGHT + CAPTION + GAP) + GAP, 1);
     for (int i = 0; i < 256; i++) {
         unsigned char grey[4] = { (unsigned char)i, 0, 0, 0 };
         shade_texture texel = { .pixels = grey, .width = 1, .height = 1, .srgb = 1 };
@@ -63,7 +63,7 @@ int main(int argc, char **argv)
         int y = GAP + (i - 2) / COLUMNS * (HEIGHT + CAPTION + GAP);
         picture p = read_ppm(argv[i]);
         char name[20] = "";
-        if (!p.bytes) return fprintf(stderr, "%s: no binary PPM\n", argv[i]), 1;
+        if (!p.bytes) fprintf(stderr, "%s: no binary PPM\n", argv[i]), exit(1);
         if (p.width * h > p.height * w) h = (p.height * w + p.width / 2) / p.width;
         else w = (p.width * h + p.height / 2) / p.height;
         for (int k = 0; k < w * h; k++) {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# coverage.sh - lines and branches of shade.h that the tests and the numbered examples reach, by gcov.
+# coverage.sh - lines and branches of shade.h that tests and numbered examples reach, by gcov.
 # Counted once each: hot loops are built for one processor here, inline functions are not inlined,
 # and assertions (SHADE_ASSERT) are no branches.  A branch is a side of a condition of the source.
 # tests/coverage.txt names what cannot be reached, with the reason.  Needs gcc, gcov and python3.
@@ -19,7 +19,7 @@ build() {
     gcc $FLAGS '-DSHADE_ASSERT(x)=((void)0)' $options -I"$H" "$H/tests/main.c" -lm -o run || exit 1
     for section in "$@"; do
         # option builds draw with fewer lanes: what they must do is the business of make test
-        (cd "$H" && "$dir/run" $section 2>&1 | tail -n 1 | sed "s|^|$options $section: |")
+        (cd "$H" && "$dir/run" $section 2>&1 | tail -n 1 | sed "s|^|${dir##*/} $section: |")
     done
 }
 examples() {
@@ -37,7 +37,8 @@ examples() {
 # every level of the dispatch in turn, whatever this processor has: the bodies are plain at -O0
 echo 'static int cover_level(void) { static int n; return n++ % 3; }' >"$T/level.h"
 build plain -DSHADE_NO_DISPATCH ""
-build small "-DSHADE_LANES=16 -DSHADE_MAX_VARYINGS=12 -DSHADE__LEVEL=cover_level() -include $T/level.h" \
+build small \
+    "-DSHADE_LANES=16 -DSHADE_MAX_VARYINGS=12 -DSHADE__LEVEL=cover_level() -include $T/level.h" \
     lanes fragment drive mesh texture scene
 build freestanding -DSHADE_NO_LIBM math light mesh
 examples

@@ -4,8 +4,8 @@ folder/N.h      the mutant       folder/N.diff   its line before and after
 folder/N.where  "public" or "implementation", and the section (>>name) of the change
 
 Changed are the bodies of functions, as many places of each kind: comparisons, constants, signs and
-arithmetic, && || and !, bit operations, statements taken out.  Comments, strings, preprocessor lines, assertions,
-types and the sizes of arrays stay as they are."""
+arithmetic, && || and !, bit operations, statements taken out.  Comments, strings, preprocessor
+lines, assertions, types and the sizes of arrays stay as they are."""
 import os
 import random
 import re
@@ -40,9 +40,7 @@ def tokens_of(text):
 
 
 def is_type(word):
-    return word in TYPES or word.startswith("SHADE_RESTRICT") or (
-        word.startswith("shade_") and not word.startswith("shade__") and word in NAMED_TYPES) or (
-        word.startswith("shade__") and word in NAMED_TYPES)
+    return word in TYPES or word == "SHADE_RESTRICT" or word in NAMED_TYPES
 
 
 def bodies(tokens):
@@ -71,7 +69,9 @@ def number_variants(text):
     if re.search(r"[.eEfF]", text):
         value = float(digits)
         number = lambda v: repr(v) if re.search(r"[.e]", repr(v)) else repr(v) + ".0"
-        return [number(value * 2) + suffix, number(value / 2) + suffix] if value else ["1.0" + suffix]
+        if not value:
+            return ["1.0" + suffix]
+        return [number(value * 2) + suffix, number(value / 2) + suffix]
     value = int(digits)
     return ["%d%s" % (value + 1, suffix)] + (["%d%s" % (value - 1, suffix)] if value else [])
 
@@ -124,7 +124,7 @@ def sites(text):
             begin = tokens[statement][2]
             if first in ("return", "else", "do", "while", "for", "switch", "default", "goto"):
                 continue
-            if first == "if":                   # what the condition guards, if that is one statement
+            if first == "if":                   # what it guards, if that is one statement
                 level, j = 0, statement + 1
                 while j < i:
                     level += {"(": 1, ")": -1}.get(tokens[j][1], 0)

@@ -40,9 +40,13 @@ first() {                       # sections of the tests that know a section of s
 }
 
 tight() { sed 's/^\([-+]\)/\1:/' "$1" | tr -d ' \n'; }
-# an entry of mutation.txt: reasons as #, then - and + lines
-sed '/^#/d; /^$/d; s/^\([-+]\)/\1:/' tests/mutation.txt | tr -d ' ' |
-    sed 'N; s/\n//' >"$T/listed"
+# an entry of mutation.txt: the reason after #, then the line before after - and the one after +,
+# either continued on lines that begin with a blank
+awk '/^#/ || /^$/ { next }
+     /^-/ { if (entry) print entry; entry = "-:" substr($0, 2); next }
+     /^\+/ { entry = entry "+:" substr($0, 2); next }
+     { entry = entry $0 }
+     END { print entry }' tests/mutation.txt | tr -d ' ' >"$T/listed"
 mkdir "$T/plain" && cp shade.h "$T/plain/"
 build "$T/plain" implementation || exit 1
 start=$(date +%s)
