@@ -5,7 +5,8 @@
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
 # make mutation   small changes of shade.h, one at a time, that the tests must notice
 # make static     clang-tidy and cppcheck
-# make gallery    the small PNGs of the README (needs pnmtopng or ImageMagick)
+# make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
+# make gallery    the small PNGs of the README (needs netpbm)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
@@ -14,11 +15,13 @@ WARN     = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wu
 FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
 # pictures must not depend on the compiler, so neither do the examples' own sums
 EXACT    = -ffp-contract=off
+OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
+                   $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
 
-all: $(NUMBERED:%=out/%.ppm) build/thumbnail
+all: $(NUMBERED:%=out/%.ppm) build/thumbnail out/gallery.ppm
 
 # each example compiles alone; here they share one build of the implementation
 build/shade.o: shade.h
@@ -26,9 +29,13 @@ build/shade.o: shade.h
 	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
 build/%: examples/%.c build/shade.o $(SHARED)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm -o $@
+build/19_threads: EXACT += -pthread
+build/20_openmp:  EXACT += $(OPENMP)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@
+out/gallery.ppm: build/contact $(NUMBERED:%=out/%.ppm)
+	build/contact $@ $(NUMBERED:%=out/%.ppm)
 
 build/test_main: $(wildcard tests/*.c tests/*.h) shade.h
 	@mkdir -p build
@@ -60,8 +67,11 @@ static:
 	@sh tests/static.sh
 vector-report:
 	@sh tests/vector_report.sh
+FUZZ_SECONDS ?= 300
+fuzz:
+	@sh tests/fuzz.sh $(FUZZ_SECONDS)
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix coverage mutation static gallery vector-report clean
+.PHONY: all test bench bench-plot matrix coverage mutation static fuzz gallery vector-report clean
 .SECONDARY:

@@ -644,25 +644,28 @@ SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
     return shade__m3(shade_cross(m.col[1], m.col[2]), shade_cross(m.col[2], m.col[0]),
                      shade_cross(m.col[0], m.col[1]));
 }
-/* (m^-1)^T, sign and scale kept; the zero matrix where the determinant is 0 */
+/* (m^-1)^T, sign and scale kept; the zero matrix where the determinant is 0 or floats end */
 SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
 {
     shade_mat3 c = shade__cofactors(m);
     float det = shade_dot(m.col[0], c.col[0]), s = det != 0 ? 1 / det : 0;
-    if (!(s <= FLT_MAX && s >= -FLT_MAX)) s = 0;
-    return shade__m3(shade_scale(c.col[0], s), shade_scale(c.col[1], s), shade_scale(c.col[2], s));
+    shade_vec3 a = shade_scale(c.col[0], s), b = shade_scale(c.col[1], s);
+    shade_vec3 d = shade_scale(c.col[2], s), none = shade_v3(0, 0, 0);
+    float zero = shade_dot(a, none) + shade_dot(b, none) + shade_dot(d, none);
+    return zero == 0 ? shade__m3(a, b, d) : shade__m3(none, none, none);    /* NaN: not finite */
 }
 
-/* Matrices by formula; their bodies stand in >>matrix. */
+/* Matrices by formula; their bodies stand in >>matrix.  An inverse with an entry beyond FLT_MAX is
+   the zero matrix as well. */
 SHADEDEF shade_mat3 shade_mat3_identity(void);
-SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);             /* the upper left 3 x 3 */
+SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);    /* the upper left 3 x 3 */
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
-SHADEDEF float      shade_mat3_determinant(shade_mat3 m);           /* a . (b x c) of the columns */
-SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);  /* zero matrix where the determinant is 0 */
+SHADEDEF float      shade_mat3_determinant(shade_mat3 m);  /* a . (b x c) of the columns */
+SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);      /* zero where the determinant is 0 */
 SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
 SHADEDEF float      shade_mat4_determinant(shade_mat4 m);  /* computed in double */
-SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* in double; zero where that is 0 */
+SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* in double; zero where singular */
 SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
 SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
 
@@ -1125,6 +1128,17 @@ SHADEDEF float shade_mat4_determinant(shade_mat4 m)
     shade__minors(m.col[0], m.col[1], s), shade__minors(m.col[2], m.col[3], c);
     return (float)shade__determinant(s, c);
 }
+/* The zero matrix where an entry is not finite. */
+static shade_mat4 shade__finite(shade_mat4 m)
+{
+    for (int j = 0; j < 4; j++) {
+        shade_vec4 v = m.col[j];
+        if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
+            !shade__within(v.z, FLT_MAX) || !shade__within(v.w, FLT_MAX))
+            return shade__zero_matrix();
+    }
+    return m;
+}
 /* Column of the adjugate: v is a row of m without the columns of the minors c. */
 static shade_vec4 shade__adjugate(double p, double q, double r, double t, double scale)
 {
@@ -1143,7 +1157,7 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
         e[j][2] = (double)m.col[j].z, e[j][3] = (double)m.col[j].w;
     }
     k = 1 / det;
-    return shade__m4(
+    return shade__finite(shade__m4(
         shade__adjugate(e[1][1] * c[5] - e[1][2] * c[4] + e[1][3] * c[3],
                         -e[0][1] * c[5] + e[0][2] * c[4] - e[0][3] * c[3],
                         e[3][1] * s[5] - e[3][2] * s[4] + e[3][3] * s[3],
@@ -1159,7 +1173,7 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
         shade__adjugate(-e[1][0] * c[3] + e[1][1] * c[1] - e[1][2] * c[0],
                         e[0][0] * c[3] - e[0][1] * c[1] + e[0][2] * c[0],
                         -e[3][0] * s[3] + e[3][1] * s[1] - e[3][2] * s[0],
-                        e[2][0] * s[3] - e[2][1] * s[1] + e[2][2] * s[0], k));
+                        e[2][0] * s[3] - e[2][1] * s[1] + e[2][2] * s[0], k)));
 }
 
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
@@ -1192,17 +1206,6 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
                      shade_v4(-shade_dot(r, eye), -shade_dot(u, eye), shade_dot(f, eye), 1));
 }
 
-/* A matrix with an entry that is not finite is no camera. */
-static shade_mat4 shade__camera(shade_mat4 m)
-{
-    for (int j = 0; j < 4; j++) {
-        shade_vec4 v = m.col[j];
-        if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
-            !shade__within(v.z, FLT_MAX))
-            return shade__zero_matrix();
-    }
-    return m;
-}
 /* 1 / tan(fovy / 2), 0 for fovy outside (0, pi) */
 static double shade__focal(float fovy)
 {
@@ -1214,7 +1217,7 @@ SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_
 {
     double f = shade__focal(fovy), n = (double)near_z, d = n - (double)far_z;
     if (!(f > 0) || aspect == 0 || !(d < 0 || d > 0)) return shade__zero_matrix();
-    return shade__camera(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
+    return shade__finite(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
                                    shade_v4(0, (float)f, 0, 0),
                                    shade_v4(0, 0, (float)((n + (double)far_z) / d), -1),
                                    shade_v4(0, 0, (float)(2 * n * (double)far_z / d), 0)));
@@ -1223,7 +1226,7 @@ SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, fl
 {
     double f = shade__focal(fovy);
     if (!(f > 0) || aspect == 0 || !(near_z > 0)) return shade__zero_matrix();
-    return shade__camera(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
+    return shade__finite(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
                                    shade_v4(0, (float)f, 0, 0), shade_v4(0, 0, 0, -1),
                                    shade_v4(0, 0, near_z, 0)));
 }
@@ -1232,7 +1235,7 @@ SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float
     double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
     double n2 = 2 * (double)n;
     if (w == 0 || h == 0 || d == 0) return shade__zero_matrix();
-    return shade__camera(shade__m4(
+    return shade__finite(shade__m4(
         shade_v4((float)(n2 / w), 0, 0, 0), shade_v4(0, (float)(n2 / h), 0, 0),
         shade_v4((float)(((double)r + (double)l) / w), (float)(((double)t + (double)b) / h),
                  (float)(((double)n + (double)f) / d), -1),
@@ -1242,7 +1245,7 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
 {
     double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
     if (w == 0 || h == 0 || d == 0) return shade__zero_matrix();
-    return shade__camera(shade__m4(
+    return shade__finite(shade__m4(
         shade_v4((float)(2 / w), 0, 0, 0), shade_v4(0, (float)(2 / h), 0, 0),
         shade_v4(0, 0, (float)(2 / d), 0),
         shade_v4((float)(-((double)r + (double)l) / w), (float)(-((double)t + (double)b) / h),
@@ -2646,7 +2649,7 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
         const int32_t left = dx < 0 ? 0 : -1, right = dx < 0 ? -1 : 0, end = n - 1;
         SHADE__FOR(r, 8) {
             int32_t e = e0 + r * dy, q = (int32_t)shade__clamp_bits((float)-e * inverse, 0, limit);
-            int32_t i = q & left, j;
+            int32_t i, j;
             e += q * step;
             j = e < 0 ? 1 : 0, e += j * step, j += e < 0 ? 1 : 0;
             i = (q + j) & left, j = end - ((q + j) & right);
@@ -3266,7 +3269,7 @@ static shade_result shade__check_pipeline(const shade_pipeline *p)
         (unsigned)p->depth_test > SHADE_ALWAYS || (unsigned)p->blend > SHADE_ADD)
         return SHADE_ERROR_ARGUMENT;
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
-    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying + 1 > p->varyings))
+    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying >= p->varyings))
         return SHADE_ERROR_ARGUMENT;
     return shade__within(p->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
 }
@@ -4147,7 +4150,7 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
     file = fopen(path, "wb");
     if (!file) return SHADE_ERROR_IO;
     result = shade_encode_ppm(shade__write_file, file, target);
-    if (fclose(file) && result == SHADE_OK) result = SHADE_ERROR_IO;
+    if (fclose(file)) result = SHADE_ERROR_IO;
     return result;
 }
 #endif

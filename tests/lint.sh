@@ -9,8 +9,8 @@ check() {                                    # what, the lines that offend
 }
 
 check "lines within 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR ": " length " columns" }' \
-    $H Makefile README.md examples/*.[ch] tests/*.[ch] 2>/dev/null | grep -v README)"
-check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H examples/*.[ch] tests/*.[ch])"
+    $H Makefile README.md examples/*.[ch] examples/*/*.[ch] tests/*.[ch] tests/fuzz/*.[ch] 2>/dev/null | grep -v README)"
+check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H examples/*.[ch] examples/*/*.[ch] tests/*.[ch] tests/fuzz/*.[ch])"
 check "at most 4230 lines before the licence" "$(awk '/>>license$/ && /^\/\*-/ { exit } { n++ }
     END { if (n > 4230) print n " lines" }' $H)"
 

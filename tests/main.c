@@ -30,13 +30,14 @@
 #include "lines.c"
 #include "shape.c"
 #include "ray.c"
+#include "resolve.c"
 #include "scene.c"
 
 static const test_section sections[] = {
-    SECTION(math),   SECTION(matrix), SECTION(power), SECTION(light),    SECTION(lanes),
-    SECTION(vertex), SECTION(clip),   SECTION(cover), SECTION(fragment), SECTION(store),
-    SECTION(drive),  SECTION(mesh),   SECTION(texture), SECTION(lines),  SECTION(shape),
-    SECTION(ray),    SECTION(scene),  SECTION(exact),
+    SECTION(math),   SECTION(matrix),  SECTION(power),   SECTION(light),    SECTION(lanes),
+    SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
+    SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
+    SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

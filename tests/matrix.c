@@ -207,6 +207,19 @@ TEST(matrix, everything_is_finite_up_to_a_million)
     }
 }
 
+TEST(matrix, inverses_beyond_floats_stay_finite)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        float tiny = (float)side * 1e-39f; /* 1/tiny is infinite; 1/determinant only in m */
+        shade_mat4 m = shade_mat4_scaling(shade_v3(tiny, 1, 1));
+        shade_mat4 n = shade_mat4_scaling(shade_v3(tiny, 1e6f, 1e6f));
+        CHECK(finite_mat4(shade_mat4_inverse(m)) && finite_mat4(shade_mat4_inverse(n)));
+        CHECK(finite_mat4(widen(shade_mat3_inverse(shade_mat3_from_mat4(m)))));
+        CHECK(finite_mat4(widen(shade_mat3_inverse(shade_mat3_from_mat4(n)))));
+        CHECK(finite_mat4(widen(shade_mat3_inverse_transpose(shade_mat3_from_mat4(n)))));
+    }
+}
+
 static dmat ref_rotation(double angle, d3 axis) /* Rodrigues: cos I + sin [k] + (1-cos) k k^T */
 {
     d3 k = d3_unit(axis);
@@ -434,6 +447,7 @@ static const test_case matrix_cases[] = {
     CASE(matrix, inverses_match_elimination),
     CASE(matrix, the_inverse_of_a_singular_matrix_is_zero),
     CASE(matrix, everything_is_finite_up_to_a_million),
+    CASE(matrix, inverses_beyond_floats_stay_finite),
     CASE(matrix, rotation_follows_the_right_hand),
     CASE(matrix, sine_and_cosine_are_exact_to_float_rounding),
     CASE(matrix, rotations_invert_by_transposing_and_keep_their_normals),

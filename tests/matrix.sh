@@ -45,6 +45,14 @@ done
 one "s390x, big-endian" qemu-s390x s390x-linux-gnu-gcc -static -O2
 one "aarch64 -O3 -ffp-contract=fast" qemu-aarch64 aarch64-linux-gnu-gcc -static -O3 -ffp-contract=fast
 
+wasi="node --no-warnings --experimental-wasi-unstable-preview1 tests/wasi.js"
+if echo '#include <stdio.h>' | clang --target=wasm32-wasi -x c -fsyntax-only - 2>/dev/null; then
+    one "wasm32 under Node" "$wasi" clang --target=wasm32-wasi -O2
+    one "wasm32 with SIMD" "$wasi" clang --target=wasm32-wasi -O2 -msimd128
+else
+    skipped=$((skipped + 1)); echo "left out  wasm32: no wasi-libc"
+fi
+
 echo "$skipped left out"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -1,6 +1,6 @@
 /* scene.c - built-in scenes whose pixels are the same bits everywhere: models, shadings, blending,
-   clipping, formats. Their input is made of small whole numbers and of functions inside the
-   library, so that no flag of the compiler that builds this file can change them.
+   clipping, formats, maps, lines. Their input is made of small whole numbers and of functions
+   inside the library, so that no flag of the compiler that builds this file can change them.
 
    Alone it prints their hashes:   cc -DSCENE_MAIN -I. tests/scene.c -lm -o scenes && ./scenes
    [folder] */
@@ -11,7 +11,7 @@
 #include "canvas.h"
 #endif
 
-enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 16 };
+enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 20 };
 
 typedef struct golden_scene {
     const char *name;
@@ -23,37 +23,50 @@ typedef struct golden_scene {
     unsigned flags;
     int inside; /* the camera stands among the shapes: near plane and guard band cut */
     int reversed;
+    int map; /* 1: nearest, 2: bilinear, 3: trilinear */
+    int lines;
 } golden_scene;
 
 static const golden_scene golden_scenes[SCENE_COUNT] = {
     { "blinn_phong", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0,
+      0, 0, 0, 0 },
+    { "phong", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0
+      },
+    { "lambert", SHADE_LAMBERT, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
       0, 0 },
-    { "phong", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0 },
-    { "lambert", SHADE_LAMBERT, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0 },
     { "ambient", SHADE_AMBIENT, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3,
-      SHADE_ATTENUATED_AMBIENT, 0, 0 },
-    { "emissive", SHADE_EMISSIVE, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0,
-      0 },
-    { "cool_to_warm", SHADE_COOL_TO_WARM, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 1,
-      0, 0, 0 },
-    { "gouraud", SHADE_BLINN_PHONG, SHADE_PER_VERTEX, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0,
-      0 },
-    { "flat", SHADE_PHONG, SHADE_PER_FACE, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0 },
-    { "srgb", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 2, 0, 0, 0 },
-    { "dither565", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGB565, SHADE_REPLACE, 1, 1, 2, 0,
+      SHADE_ATTENUATED_AMBIENT, 0, 0, 0, 0 },
+    { "emissive", SHADE_EMISSIVE, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
       0, 0 },
+    { "cool_to_warm", SHADE_COOL_TO_WARM, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 1,
+      0, 0, 0, 0, 0 },
+    { "gouraud", SHADE_BLINN_PHONG, SHADE_PER_VERTEX, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
+      0, 0 },
+    { "flat", SHADE_PHONG, SHADE_PER_FACE, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
+    { "srgb", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 2, 0, 0, 0,
+      0, 0 },
+    { "dither565", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGB565, SHADE_REPLACE, 1, 1, 2, 0,
+      0, 0, 0, 0 },
     { "float", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 3,
-      SHADE_WEIGHTED_SPECULAR, 0, 0 },
+      SHADE_WEIGHTED_SPECULAR, 0, 0, 0, 0 },
     { "add", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_ADD, 1, 0, 1,
-      SHADE_INFINITE_VIEWER, 0, 0 },
+      SHADE_INFINITE_VIEWER, 0, 0, 0, 0 },
     { "over565", SHADE_LAMBERT, SHADE_PER_VERTEX, SHADE_RGB565, SHADE_OVER, 0, 0, 2,
-      SHADE_TWO_SIDED, 0, 0 },
+      SHADE_TWO_SIDED, 0, 0, 0, 0 },
     { "inside", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 3,
-      SHADE_TWO_SIDED, 1, 0 },
+      SHADE_TWO_SIDED, 1, 0, 0, 0 },
     { "inside_flat", SHADE_PHONG, SHADE_PER_FACE, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 3,
-      SHADE_TWO_SIDED_ABS, 1, 0 },
+      SHADE_TWO_SIDED_ABS, 1, 0, 0, 0 },
     { "reversed", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 2,
-      SHADE_UNGATED_SPECULAR, 0, 1 },
+      SHADE_UNGATED_SPECULAR, 0, 1, 0, 0 },
+    { "nearest", SHADE_BLINN_PHONG, SHADE_PER_VERTEX, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
+      1, 0 },
+    { "bilinear", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 3, 0, 1,
+      0, 2, 0 },
+    { "trilinear", SHADE_LAMBERT, SHADE_PER_FRAGMENT, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 2, 0, 0,
+      1, 3, 0 },
+    { "lines", SHADE_COOL_TO_WARM, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 1, 0, 1,
+      0, 0, 1 },
 };
 
 /* Six square faces of a box, each a lattice of whole numbers; the normal of a vertex is its
@@ -91,8 +104,53 @@ static void scene_build(void)
     }
 }
 
+/* 16 x 8 texels: nearest from 5-6-5 bits mirrored, bilinear from sRGB bytes repeated, trilinear
+   from floats clamped. */
+static float scene_texels[16 * 8 * 4], scene_levels[16 * 8 * 4];
+static shade_texture scene_map(int kind, shade_texture *levels)
+{
+    shade_texture t;
+    memset(&t, 0, sizeof t);
+    for (uint32_t i = 0; i < 16 * 8; i++) {
+        uint32_t x = i % 16, y = i / 16, n = (x * 7 + y * 13 + x * y) % 16;
+        uint16_t rgb = (uint16_t)(n << 12 | (15 - n) << 6 | (x ^ y));
+        unsigned char *bytes = (unsigned char *)scene_texels + 4 * i;
+        if (kind == 1) memcpy((char *)scene_texels + 2 * i, &rgb, 2);
+        if (kind == 2) {
+            bytes[0] = (unsigned char)(n * 17), bytes[1] = (unsigned char)(x * 16);
+            bytes[2] = (unsigned char)(y * 32), bytes[3] = 255;
+        }
+        for (uint32_t k = 0; kind == 3 && k < 4; k++)
+            scene_texels[4 * i + k] = (float)((n + k * x) % 16) * 0.125f;
+    }
+    t.pixels = scene_texels, t.width = 16, t.height = 8, t.srgb = kind == 2;
+    t.format = kind == 1 ? SHADE_RGB565 : kind == 2 ? SHADE_RGBA8 : SHADE_RGBA32F;
+    t.wrap_u = kind == 1 ? SHADE_MIRROR : kind == 2 ? SHADE_REPEAT : SHADE_CLAMP;
+    t.wrap_v = t.wrap_u;
+    t.filter = kind == 1 ? SHADE_NEAREST : kind == 2 ? SHADE_BILINEAR : SHADE_TRILINEAR;
+    if (kind == 3) shade_build_mipmaps(&t, levels, scene_levels, sizeof scene_levels);
+    return t;
+}
+static void scene_lines(canvas *c, const shade_draw_state *s)
+{
+    shade_line_state line;
+    memset(&line, 0, sizeof line);
+    line.clip_from_points = shade_mat4_mul(shade_mat4_mul(s->projection, s->view), s->model);
+    line.width = 1.5f, line.cap = SHADE_SQUARE, line.color = shade_v4(0.0625f, 0, 0.125f, 1);
+    line.depth_test = SHADE_LESS_EQUAL, line.depth_bias = -0.001953125f;
+    for (int k = 0; k < (int)(sizeof scene_index / sizeof scene_index[0]); k += 3) {
+        shade_vec3 ends[2];
+        for (int j = 0; j < 2; j++) {
+            const float *p = scene_position + 3 * scene_index[k + j];
+            ends[j] = shade_v3(p[0], p[1], p[2]);
+        }
+        shade_draw_lines(&c->target, ends, 2, &line, NULL);
+    }
+}
+
 static void scene_draw(canvas *c, const golden_scene *g)
 {
+    shade_texture levels[5], map = scene_map(g->map, levels);
     shade_light lights[3];
     shade_material gold = shade_preset_material(SHADE_GOLD),
                    plastic = shade_preset_material(SHADE_CYAN_PLASTIC);
@@ -120,8 +178,13 @@ static void scene_draw(canvas *c, const golden_scene *g)
     s.projection = g->reversed ? shade_mat4_perspective_reversed(0.75f, 4.0f / 3, 1)
                                : shade_mat4_perspective(g->inside ? 1.5f : 0.75f, 4.0f / 3, 1, 40);
     s.depth_zero_to_one = g->reversed, s.depth_test = g->reversed ? SHADE_GREATER : SHADE_LESS;
+    if (g->map) { /* positions serve as texture coordinates */
+        mesh.texcoords = scene_position, mesh.texcoord_stride = 12;
+        s.diffuse_map = &map;
+    }
     s.model = shade_mat4_rotation(0.5f, shade_v3(1, 2, 3)), s.material = &gold;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
+    if (g->lines) scene_lines(c, &s);
     s.model = shade_mat4_translation(shade_v3(5, -2, -3)), s.material = &plastic;
     s.cull = SHADE_CULL_BACK, s.lighting.terms = 0;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);

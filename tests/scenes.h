@@ -15,3 +15,7 @@
 { "inside", 0x382513459638268a },
 { "inside_flat", 0xaf8de813b0c0e395 },
 { "reversed", 0xe6dbdf916e6c5718 },
+{ "nearest", 0x45f7da45975998f2 },
+{ "bilinear", 0x5e04505ea768e2dc },
+{ "trilinear", 0x76c41066ff32898b },
+{ "lines", 0xc154426d19ee5267 },

@@ -501,7 +501,10 @@ TEST(texture, a_bad_level_is_replaced_by_the_full_size)
 {
     for (int i = 0; i < 100; i++) {
         shade_texture t = random_texture(20), levels[16], full;
-        if (t.width < 2 || t.height < 2) t.width = t.height = 2, t.stride = 0;
+        if (t.width < 2 || t.height < 2) {    /* has no level */
+            free_texture(&t);
+            continue;
+        }
         void *memory = add_mipmaps(&t, levels);
         t.filter = SHADE_TRILINEAR, full = t, full.filter = SHADE_BILINEAR;
         if (i % 2) levels[0].width = 0;
@@ -851,6 +854,8 @@ TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
         p.lod_varying = k, p.lod_width = p.lod_height = 4;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL),
                   k < 0 || k > 4 ? SHADE_ERROR_ARGUMENT : SHADE_OK);
+        p.lod_varying = 2147483647 - (k + 2);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_ARGUMENT);
     }
     canvas_close(&c);
 }

@@ -1,0 +1,92 @@
+/* reader.c - the OBJ and STL readers of examples/obj.h: any bytes give a valid mesh or an error. */
+#include "input.h"
+#include "obj.h"
+
+static void reader_check_mesh(const owned_mesh *m)
+{
+    const shade_mesh *v = &m->view;
+    HOLDS(v->vertex_count > 0 && v->index_count > 0 && v->index_count % 3 == 0);
+    HOLDS(m->positions && m->normals && m->indices);
+    HOLDS(v->positions == m->positions && v->normals == m->normals && v->indices == m->indices);
+    for (int i = 0; i < v->index_count; i++) HOLDS(m->indices[i] < (uint32_t)v->vertex_count);
+    for (size_t i = 0; i < 3 * (size_t)v->vertex_count; i++) {
+        HOLDS(fuzz_finite(m->positions[i]) && fuzz_finite(m->normals[i]));
+        HOLDS(!m->colors || fuzz_finite(m->colors[i]));
+    }
+    for (size_t i = 0; m->texcoords && i < 2 * (size_t)v->vertex_count; i++)
+        HOLDS(fuzz_finite(m->texcoords[i]));
+}
+static void reader_check_error(const char *error, size_t size, const char *name)
+{
+    size_t length = 0, prefix = strlen(name);
+    if (!size) return;
+    while (length < size && error[length]) length++;
+    HOLDS(length > 0 || size == 1);
+    HOLDS(length < size);
+    for (size_t i = 0; i < length; i++) HOLDS(error[i] != '\n' && error[i] != '\r');
+    if (size > prefix) HOLDS(!strncmp(error, name, prefix));
+}
+static int reader_same(const owned_mesh *a, const owned_mesh *b)
+{
+    size_t n = (size_t)a->view.vertex_count, i = (size_t)a->view.index_count;
+    return a->view.vertex_count == b->view.vertex_count &&
+           a->view.index_count == b->view.index_count && !a->colors == !b->colors &&
+           !a->texcoords == !b->texcoords && !memcmp(a->positions, b->positions, 12 * n) &&
+           !memcmp(a->normals, b->normals, 12 * n) && !memcmp(a->indices, b->indices, 4 * i) &&
+           (!a->colors || !memcmp(a->colors, b->colors, 12 * n)) &&
+           (!a->texcoords || !memcmp(a->texcoords, b->texcoords, 8 * n));
+}
+/* Text says the same with other line ends.  Binary STL is left out: its bytes are no lines. */
+static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name, int result,
+                             const owned_mesh *m)
+{
+    uint8_t *other = (uint8_t *)malloc(2 * size + 1);
+    size_t n = 0;
+    owned_mesh again;
+    char error[64];
+    int returns = memchr(bytes, '\r', size) != NULL, zeros = memchr(bytes, 0, size) != NULL;
+    if (!other) exit(2);
+    for (size_t i = 0; i < size; i++) {
+        if (bytes[i] == '\n') other[n++] = '\r';
+        other[n++] = bytes[i];
+    }
+    if (!returns && !zeros && !mesh_is_stl(name, bytes, size)) {
+        HOLDS(mesh_read_memory(other, n, name, &again, error, sizeof error) == result);
+        if (!result) HOLDS(reader_same(m, &again));
+        if (!result) mesh_free(&again);
+    }
+    free(other);
+}
+
+static void reader_progress(void *user, double part)
+{
+    HOLDS(part >= 0 && part <= 1);
+    ++*(int *)user;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const char *const names[4] = { "a.obj", "a.stl", "a", "A.STL" };
+    fuzz_input in = { data, data + size };
+    uint32_t kind = fuzz_byte(&in);
+    const char *name = names[kind % 4];
+    size_t n = (size_t)(in.end - in.at), error_size = kind & 16 ? kind >> 5 : 200;
+    int result, calls = 0;
+    uint8_t *bytes;
+    char *error;
+    owned_mesh m;
+    if (n > GUARD_ROOM) return 0;
+    bytes = (uint8_t *)guard_take(n, kind >> 2 & 1), error = (char *)guard_take(error_size, 1);
+    if (n) memcpy(bytes, in.at, n);
+    guard_seal(bytes);
+    result = mesh_read_progress(n ? bytes : NULL, n, name, &m, error_size ? error : NULL,
+                                error_size, reader_progress, &calls);
+    if (result) {
+        reader_check_error(error, error_size, name);
+        HOLDS(!m.positions && !m.indices && !m.view.vertex_count);
+    } else reader_check_mesh(&m);
+    if ((kind & 8) && n) reader_line_ends(bytes, n, name, result, &m);
+    if (!result) mesh_free(&m);
+    guard_close();
+    return 0;
+}

@@ -1,0 +1,269 @@
+/* shape.c - what a mesh knows of its shape, rays, supersampling, clearing and pictures as PPM. */
+#include "picture.h"
+#include <math.h>
+
+enum { SHAPE_VERTICES = 48, SHAPE_TRIANGLES = 64 };
+
+typedef struct shape_mesh {
+    shade_mesh m;
+    int corners;
+    shade_result want;                   /* of the mesh alone */
+    float most;                          /* bound of the positions; 0: none */
+} shape_mesh;
+
+static uint32_t shape_corner(const shade_mesh *m, int i)
+{
+    return m->indices ? m->indices[i] : (uint32_t)i;
+}
+static shade_vec3 shape_position(const shade_mesh *m, uint32_t v)
+{
+    shade_vec3 p;
+    size_t step = m->position_stride ? (size_t)m->position_stride : 12;
+    memcpy(&p, (const char *)m->positions + step * v, 12);
+    return p;
+}
+static shape_mesh shape_open(fuzz_input *in)
+{
+    shape_mesh s;
+    uint32_t kind = fuzz_byte(in), *indices = NULL;
+    int n = fuzz_int(in, 0, SHAPE_VERTICES);
+    size_t step = kind & 1 ? 12 + 4 * (size_t)fuzz_int(in, 0, 3) : 12;
+    char *p = (char *)guard_take(n ? ((size_t)n - 1) * step + 12 : 0, kind >> 1 & 1);
+    memset(&s, 0, sizeof s);
+    s.most = kind & 4 ? 1e6f : 0, s.want = SHADE_OK;
+    if (n) memset(p, 0xEE, ((size_t)n - 1) * step + 12);
+    for (int i = 0; i < n; i++) {
+        uint32_t again = fuzz_byte(in);
+        shade_vec3 v;
+        if (again > 127 && i) memcpy(&v, p + step * (again % (uint32_t)i), 12);    /* a seam */
+        else v = fuzz_vec3(in, s.most);
+        memcpy(p + step * (size_t)i, &v, 12);
+    }
+    guard_seal(p);
+    s.m.positions = (float *)(void *)p, s.m.vertex_count = n;
+    s.m.position_stride = kind & 1 ? (int)step : 0;
+    s.corners = n;
+    if (kind & 8) {
+        s.corners = 3 * fuzz_int(in, 0, SHAPE_TRIANGLES) + (fuzz_one_in(in, 32) ? 1 : 0);
+        indices = (uint32_t *)guard_take((size_t)s.corners * 4, kind >> 4 & 1);
+        for (int i = 0; i < s.corners; i++) {
+            uint32_t k = fuzz_byte(in);
+            indices[i] = k == 255 ? (uint32_t)fuzz_wild_int(in) : n ? k % (uint32_t)n : 0;
+            if (indices[i] >= (uint32_t)n) s.want = SHADE_ERROR_INDEX;
+        }
+        guard_seal(indices);
+    }
+    s.m.indices = indices, s.m.index_count = indices ? s.corners : fuzz_wild_int(in);
+    if (s.corners % 3) s.want = SHADE_ERROR_INDEX;
+    if ((kind & 0xE0) != 0xE0) return s;
+    switch (fuzz_byte(in) % 8) {
+    case 0: s.m.vertex_count = -1, s.want = SHADE_ERROR_ARGUMENT; break;
+    case 1: s.m.position_stride = -4, s.want = SHADE_ERROR_ARGUMENT; break;
+    case 2: s.m.color_stride = 6, s.want = SHADE_ERROR_ARGUMENT; break;
+    case 3: if (n) s.m.positions = NULL, s.want = SHADE_ERROR_ARGUMENT; break;
+    case 4: if (indices) s.m.index_count = -3, s.want = SHADE_ERROR_ARGUMENT; break;
+    default: break;
+    }
+    return s;
+}
+
+/* unit or zero, where the positions are tame */
+static void shape_check_normals(const shape_mesh *s, const shade_vec3 *n, int count)
+{
+    for (int i = 0; s->most > 0 && i < count; i++) {
+        float l = shade_length(n[i]);
+        HOLDS(l == 0 || fabsf(l - 1) < 1e-4f);
+    }
+}
+static void shape_normals(fuzz_input *in, const shape_mesh *s)
+{
+    uint32_t kind = fuzz_byte(in);
+    int n = s->m.vertex_count > 0 ? s->m.vertex_count : 0;
+    shade_vec3 *out = (shade_vec3 *)guard_take((size_t)n * 12, kind & 1);
+    fuzz_noise(out, (size_t)n * 12, 3);
+    HOLDS(shade_mesh_normals(&s->m, NULL) == SHADE_ERROR_ARGUMENT);
+    HOLDS(shade_mesh_normals(&s->m, out) == s->want);
+    if (s->want == SHADE_OK) shape_check_normals(s, out, n);
+}
+static void shape_corner_normals(fuzz_input *in, const shape_mesh *s)
+{
+    uint32_t kind = fuzz_byte(in);
+    float crease = kind & 4 ? fuzz_float(in) : (float)((int)fuzz_byte(in) - 128) / 127;
+    size_t need = shade_corner_normals_bytes(&s->m), bytes = need;
+    shade_vec3 *out = (shade_vec3 *)guard_take((size_t)s->corners * 12, kind & 1);
+    void *memory;
+    shade_result want = s->want;
+    HOLDS((need == 0) == (s->want != SHADE_OK));
+    if ((kind & 0xF0) == 0xF0 && need) bytes = fuzz_byte(in) % need;
+    memory = guard_take((bytes + 3) & ~(size_t)3, kind >> 1 & 1);
+    fuzz_noise(memory, (bytes + 3) & ~(size_t)3, 4);
+    if (want == SHADE_OK && crease != crease) want = SHADE_ERROR_ARGUMENT;
+    if (want == SHADE_OK && bytes < need) want = SHADE_ERROR_CAPACITY;
+    HOLDS(shade_mesh_corner_normals(&s->m, crease, out, memory, bytes) == want);
+    if (want == SHADE_OK) shape_check_normals(s, out, s->corners);
+}
+/* How many entries of an edge name a triangle */
+static int shape_named(const shade_edge *edges, int count, uint32_t a, uint32_t b, int triangle)
+{
+    int named = 0;
+    for (int i = 0; i < count; i++)
+        if (edges[i].a == (a < b ? a : b) && edges[i].b == (a < b ? b : a))
+            named += (edges[i].triangle[0] == triangle) + (edges[i].triangle[1] == triangle);
+    return named;
+}
+static void shape_edges(fuzz_input *in, const shape_mesh *s)
+{
+    uint32_t kind = fuzz_byte(in);
+    int capacity = s->corners, count = 77, shape = s->corners / 3;
+    shade_edge *edges;
+    shade_result want = s->want;
+    if (kind & 2) capacity = fuzz_int(in, -1, s->corners);
+    edges = (shade_edge *)guard_take(sizeof *edges * (size_t)(capacity > 0 ? capacity : 0),
+                                     kind & 1);
+    if (want == SHADE_OK && capacity < 0) want = SHADE_ERROR_ARGUMENT;
+    if (want == SHADE_OK && capacity < s->corners) want = SHADE_ERROR_CAPACITY;
+    HOLDS(shade_mesh_edges(&s->m, edges, capacity, NULL) == SHADE_ERROR_ARGUMENT);
+    HOLDS(shade_mesh_edges(&s->m, edges, capacity, &count) == want);
+    if (want == SHADE_ERROR_CAPACITY) HOLDS(count > capacity && count <= s->corners);
+    if (want != SHADE_OK) return;
+    HOLDS(count >= 0 && count <= capacity);
+    for (int i = 0; i < count; i++) {
+        const shade_edge *e = &edges[i];
+        HOLDS(e->a < e->b && e->b < (uint32_t)s->m.vertex_count);
+        HOLDS(e->triangle[0] >= 0 && e->triangle[0] < shape);
+        HOLDS(e->triangle[1] >= -1 && e->triangle[1] < shape && e->triangle[1] != e->triangle[0]);
+        if (i) HOLDS(e[-1].a < e->a || (e[-1].a == e->a && e[-1].b <= e->b));
+    }
+    for (int i = 0; i < s->corners; i++) {
+        uint32_t a = shape_corner(&s->m, i);
+        uint32_t b = shape_corner(&s->m, i % 3 == 2 ? i - 2 : i + 1);
+        HOLDS(shape_named(edges, count, a, b, i / 3) == (a != b));
+    }
+}
+static void shape_rays(fuzz_input *in, const shape_mesh *s)
+{
+    uint32_t kind = fuzz_byte(in);
+    float most = kind & 1 ? 1e3f : 0;
+    shade_mat4 view = fuzz_matrix(in, most), projection = fuzz_matrix(in, most);
+    int w = kind & 2 ? fuzz_wild_int(in) : 40, h = kind & 4 ? fuzz_wild_int(in) : 30;
+    float x = fuzz_value(in, most), y = fuzz_value(in, most), t = -7, l;
+    shade_ray ray = shade_pixel_ray(view, projection, w, h, x, y);
+    shade_vec3 at = shade_v3(-7, -7, -7);
+    l = shade_length(ray.direction);
+    if (most > 0 && fuzz_finite3(ray.direction)) HOLDS(l == 0 || fabsf(l - 1) < 1e-4f);
+    if (kind & 8) ray.origin = fuzz_vec3(in, most), ray.direction = fuzz_vec3(in, most);
+    for (int i = 0; s->want == SHADE_OK && i + 2 < s->corners; i += 3) {
+        int hit = shade_intersect(ray, shape_position(&s->m, shape_corner(&s->m, i)),
+                                  shape_position(&s->m, shape_corner(&s->m, i + 1)),
+                                  shape_position(&s->m, shape_corner(&s->m, i + 2)),
+                                  kind & 16 ? NULL : &t, kind & 32 ? NULL : &at);
+        HOLDS(hit == 0 || hit == 1);
+        if (!hit) continue;
+        if (!(kind & 16)) HOLDS(t >= 0 && t <= FLT_MAX);
+        if (kind & 32) continue;
+        HOLDS(at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x <= 1 && at.y <= 1 && at.z <= 1);
+        HOLDS(fabsf(at.x + at.y + at.z - 1) < 1e-5f);
+    }
+}
+
+/* in is a picture of its own; the smaller one is made for it, and its neighbours stay. */
+static void shape_resolve(fuzz_input *in)
+{
+    picture out, big;
+    int factor = fuzz_int(in, 1, 9);
+    shade_result want;
+    picture_open(in, &out, 9);
+    memset(&big, 0, sizeof big);
+    big.target = out.target;
+    big.target.clip_x = big.target.clip_y = big.target.clip_width = big.target.clip_height = 0;
+    if (out.want == SHADE_OK && out.target.width <= 40 && out.target.height <= 40) {
+        big.target.width *= factor, big.target.height *= factor, big.target.stride = 0;
+        big.target.row_count *= factor, big.target.row_offset *= factor;
+        big.target.format = (shade_format)(fuzz_byte(in) % 3);
+        if (fuzz_one_in(in, 4)) big.target.stride = big.target.width + fuzz_int(in, 0, 5);
+    }
+    if (fuzz_one_in(in, 16)) picture_spoil(in, &big.target);
+    picture_memory(in, &big);
+    want = out.want != SHADE_OK ? out.want : big.want;
+    if (want == SHADE_OK && (!out.color || !big.color)) want = SHADE_ERROR_TARGET;
+    if (want == SHADE_OK &&
+        (factor < 2 || factor > 8 || big.target.width != out.target.width * factor ||
+         big.target.height != out.target.height * factor ||
+         big.target.row_offset != out.target.row_offset * factor || big.rows != out.rows * factor))
+        want = SHADE_ERROR_ARGUMENT;
+    HOLDS(shade_resolve(&out.target, &big.target, factor) == want);
+    HOLDS(picture_unchanged(&big));
+    if (want != SHADE_OK) HOLDS(picture_unchanged(&out));
+    else picture_check(&out);
+    if (out.depth) HOLDS(!memcmp(out.depth, out.before + out.color_bytes, out.depth_bytes));
+    picture_close(&out), picture_close(&big);
+}
+
+typedef struct shape_sink { size_t bytes, fails_at; int calls; } shape_sink;
+static int shape_write(void *user, const void *bytes, size_t size)
+{
+    shape_sink *s = (shape_sink *)user;
+    const uint8_t *p = (const uint8_t *)bytes;
+    uint32_t sum = 0;
+    for (size_t i = 0; i < size; i++) sum += p[i];    /* touches all of them */
+    s->calls++, s->bytes += size;
+    return s->bytes > s->fails_at ? 1 + (int)(sum & 1) : 0;
+}
+static void shape_clear_and_encode(fuzz_input *in)
+{
+    picture p;
+    shape_sink sink = { 0, SIZE_MAX, 0 };
+    char head[32];
+    shade_vec4 color = fuzz_vec4(in, 0);
+    float depth = fuzz_float(in);
+    size_t size;
+    shade_result want;
+    int x0, y0, x1, y1, n;
+    picture_open(in, &p, 40);
+    if (fuzz_one_in(in, 4)) sink.fails_at = fuzz_byte(in);
+    want = p.want == SHADE_OK && depth != depth ? SHADE_ERROR_ARGUMENT : p.want;
+    HOLDS(shade_clear(&p.target, color, depth) == want);
+    if (want != SHADE_OK) HOLDS(picture_unchanged(&p));
+    else {
+        size_t cell = fuzz_pixel_bytes(p.target.format);
+        picture_clip(&p.target, &x0, &y0, &x1, &y1);
+        for (int y = p.target.row_offset; y < p.target.row_offset + p.rows; y++) {
+            size_t at = (size_t)(y - p.target.row_offset) * (size_t)p.stride;
+            int row = y >= y0 && y < y1, l = row ? x0 : 0, r = row ? x1 : 0;
+            if (p.color) picture_row_outside(p.color, p.before, p.color_bytes, at * cell,
+                                             (at + (size_t)p.stride) * cell, l, r, cell);
+            if (p.depth) picture_row_outside(p.depth, p.before + p.color_bytes, p.depth_bytes,
+                                             at * 4, (at + (size_t)p.stride) * 4, l, r, 4);
+            for (int x = l; x < r && p.depth; x++)
+                HOLDS(!memcmp(p.depth + (at + (size_t)x) * 4, &depth, 4));
+        }
+    }
+    picture_keep(&p);
+    want = p.want == SHADE_OK && !p.color ? SHADE_ERROR_TARGET : p.want;
+    n = snprintf(head, sizeof head, "P6\n%d %d\n255\n", p.target.width, p.rows);
+    size = (size_t)n + (want == SHADE_OK ? 3 * (size_t)p.target.width * (size_t)p.rows : 0);
+    if (want == SHADE_OK && sink.fails_at < size) want = SHADE_ERROR_IO;
+    HOLDS(shade_encode_ppm(shape_write, &sink, &p.target) == want);
+    if (want == SHADE_OK) HOLDS(sink.bytes == size);
+    else if (want != SHADE_ERROR_IO) HOLDS(!sink.calls);
+    HOLDS(picture_same(&p));
+    picture_close(&p);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_input in = { data, data + size };
+    uint32_t kind = fuzz_byte(&in);
+    fuzz_level = (int)(kind >> 4) % (fuzz_widest() + 1);
+    if (kind % 8 == 6) shape_resolve(&in);
+    else if (kind % 8 == 7) shape_clear_and_encode(&in);
+    else {
+        shape_mesh s = shape_open(&in);
+        shape_normals(&in, &s);
+        shape_corner_normals(&in, &s);
+        shape_edges(&in, &s);
+        shape_rays(&in, &s);
+    }
+    guard_close();
+    return 0;
+}
