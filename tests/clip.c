@@ -502,42 +502,6 @@ TEST(clip, only_the_volume_decides_between_the_planes_of_zero_to_one)
     canvas_close(&c);
 }
 
-/* Up to 3 w nothing is cut, so that an even varying keeps the bits it gets from 1/w: cut, it would
-   be multiplied and divided once more. */
-TEST(clip, up_to_three_w_nothing_is_cut)
-{
-    recorder r = recorder_open(4000);
-    long fragments = 0;
-    for (int i = 0; i < 600; i++) {
-        shade_vec4 v[3];
-        float even[3], w = rnd_float(2, 4), rw = 1 / w;
-        int side = i % 4, seen = 0;
-        even[0] = even[1] = even[2] = rnd_float(1, 2);
-        for (int k = 0; k < 3; k++) { /* one corner far out on one side, one on another */
-            double far_out = k < 2 ? (double)rnd_float(1.1, 2.99) : 0;
-            double across = (double)rnd_float(-0.9, 0.9);
-            int out = (side + k) % 4;
-            double x = out == 0 ? -far_out : out == 1 ? far_out : across;
-            double y = out == 2 ? -far_out : out == 3 ? far_out : across;
-            v[k] = shade_v4((float)(x * (double)w), (float)(y * (double)w), 0, w);
-        }
-        canvas c = canvas_open(30, 20, 0, SHADE_RGBA8, 0);
-        scene s = { v, even, 1, NULL, &r };
-        shade_pipeline p = scene_pipeline(&s);
-        r.count = 0;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
-        for (int k = 0; k < r.count; k++) {
-            float product = even[0] * rw, back = 1 / rw, want = product * back;
-            seen += float_bits(r.fragments[k].in[0]) != float_bits(want);
-            fragments++;
-        }
-        CHECK_INT(seen, 0);
-        canvas_close(&c);
-    }
-    CHECK_SAY(fragments > 10000, "%ld fragments", fragments);
-    free(r.fragments);
-}
-
 /* Whether the triangles of a mesh within a square fill it without a fold. */
 static int covers_square(const int64_t *x, const int64_t *y, const uint32_t *indices, int count,
                          int64_t side)
@@ -588,7 +552,6 @@ TEST(clip, dents_by_snapping_are_filled_without_overlap)
 }
 
 static const test_case clip_cases[] = {
-    CASE(clip, up_to_three_w_nothing_is_cut),
     CASE(clip, dents_by_snapping_are_filled_without_overlap),
     CASE(clip, triangles_outside_one_plane_count_as_clipped),
     CASE(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled),

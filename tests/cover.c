@@ -386,6 +386,29 @@ TEST(cover, triangles_of_a_million_pixels_are_exact)
     }
 }
 
+/* Long thin triangles across nearly nine million pixels: their area would fit 32 bits, their edges
+   in the far corners of the box do not. */
+TEST(cover, thin_triangles_across_nine_million_pixels_are_exact)
+{
+    canvas c = canvas_open(2950, 2950, 0, SHADE_RGB565, 0);
+    for (int i = 0; i < 4; i++) {
+        int64_t side = 2950 * 256, x[3] = { 0, side, side }, y[3] = { 0, side, side - 9000 };
+        for (int k = 0; k < 3; k++) {
+            if (i & 1) x[k] = side - x[k];
+            if (i & 2) y[k] = side - y[k];
+        }
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        long wrong = 0;
+        for (int j = 0; j < 2950; j++)
+            for (int k = 0; k < 2950; k++) {
+                wrong += (canvas_565(&c, k, j) != 0) != ref_inside_fx8(x, y, k, j);
+            }
+        CHECK_INT(wrong, 0);
+    }
+    canvas_close(&c);
+}
+
 /* 64-bit edges, level ones among them, through centres: a top edge owns them, a bottom edge not */
 TEST(cover, level_edges_of_big_triangles_follow_the_rule)
 {
@@ -497,6 +520,7 @@ static const test_case cover_cases[] = {
     CASE(cover, wide_flat_triangles_are_exact),
     CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
     CASE(cover, triangles_of_a_million_pixels_are_exact),
+    CASE(cover, thin_triangles_across_nine_million_pixels_are_exact),
     CASE(cover, level_edges_of_big_triangles_follow_the_rule),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),
 };

@@ -226,6 +226,40 @@ TEST(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too)
     }
 }
 
+/* What belongs to a term that is off may hold anything: NaN there changes no bit of the rest. */
+TEST(lanes, a_term_that_is_off_reads_nothing)
+{
+    static lane_packet k;
+    light_sample s;
+    shade_vec3 bad = shade_v3((float)NAN, (float)NAN, (float)NAN);
+    for (int round = 0; round < 320; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, 1);
+        s.lighting.terms = (unsigned)(round % 15 + 1), s.lighting.model = SHADE_BLINN_PHONG;
+        shade_lighting li = s.lighting;
+        shade_material m = s.material;
+        shade_light lights[sizeof s.lights / sizeof s.lights[0]];
+        memcpy(lights, s.lights, sizeof s.lights);
+        li.lights = lights;
+        if (!(li.terms & SHADE_TERM_EMISSION)) m.emission = bad;
+        if (!(li.terms & SHADE_TERM_AMBIENT)) m.ambient = li.ambient = bad;
+        if (!(li.terms & SHADE_TERM_DIFFUSE)) m.diffuse = bad;
+        if (!(li.terms & SHADE_TERM_SPECULAR)) m.specular = bad;
+        for (int j = 0; j < li.light_count; j++) {
+            if (!(li.terms & SHADE_TERM_AMBIENT)) lights[j].ambient = bad;
+            if (!(li.terms & SHADE_TERM_DIFFUSE)) lights[j].diffuse = bad;
+            if (!(li.terms & SHADE_TERM_SPECULAR)) lights[j].specular = bad;
+        }
+        float got[3 * SHADE_LANES], want[3 * SHADE_LANES];
+        shade_lit_lanes(&li, &m, s.eye, k.P[0], k.N[0], NULL, got);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, want);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(got[i], want[i], 0);
+        shade_vec3 a = shade_lit(&li, &m, s.P, s.N, s.eye);
+        shade_vec3 b = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        CHECK(a.x == b.x && a.y == b.y && a.z == b.z);
+    }
+}
+
 TEST(lanes, albedo_multiplies_diffuse_and_ambient_only)
 {
     static lane_packet k;
@@ -372,6 +406,7 @@ TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
 }
 
 static const test_case lanes_cases[] = {
+    CASE(lanes, a_term_that_is_off_reads_nothing),
     CASE(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite),
     CASE(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too),
     CASE(lanes, light_opposite_to_the_viewer_has_no_halfway_vector),

@@ -4,6 +4,8 @@
    test_main --stop [section ...] runs these sections, then the others, up to the first failure
    test_main --scenes [folder]    prints the hashes of the built-in scenes as the lines of
                                   scenes.h, and writes their pictures into the folder */
+#include <time.h>
+
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 
@@ -65,6 +67,7 @@ static int run_until_failure(char **names, int count)
     for (int s = 0; s < SECTION_COUNT; s++) {
         if (!is_among(sections[s].name, names, count)) run_section(&sections[s], &passed, &failed);
     }
+    printf("%.1f seconds of processor time\n", (double)clock() / CLOCKS_PER_SEC);
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;
 }

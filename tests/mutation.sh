@@ -1,13 +1,13 @@
 #!/bin/sh
 # mutation.sh [mutants [seed]] - small changes of shade.h, one at a time: do the tests notice?
 # Not counted: what does not compile, what compiles to the same code (gcc -O2 -S), and what
-# tests/mutation.txt shows to be equivalent.  Needs gcc, timeout and python3.
+# tests/mutation.txt shows to be equivalent.  Needs gcc and python3.
 cd "$(dirname "$0")/.." || exit 1
 want=${1:-200} seed=${2:-$(date +%s)}
 H=$PWD
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT INT TERM
-for tool in gcc timeout python3; do
+for tool in gcc python3; do
     command -v $tool >/dev/null || { echo "left out: no $tool"; exit 0; }
 done
 echo "seed $seed"
@@ -49,16 +49,16 @@ awk '/^#/ || /^$/ { next }
      END { print entry }' tests/mutation.txt | tr -d ' ' >"$T/listed"
 mkdir "$T/plain" && cp shade.h "$T/plain/"
 build "$T/plain" implementation || exit 1
-start=$(date +%s)
 "$T/run" --stop >"$T/log" 2>&1 || { cat "$T/log"; exit 1; }
-limit=$((2 * ($(date +%s) - start) + 5))    # seconds: what runs twice as long does not end
+# processor seconds: what runs twice as long does not end
+limit=$(awk '/seconds of processor time/ { print int(2 * $1) + 5 }' "$T/log")
 killed=0 survived=0 same=0 listed=0 broken=0 n=0
 while [ $((killed + survived)) -lt "$want" ] && [ -f "$T/$n.h" ]; do
     read -r part section <"$T/$n.where"
     rm -rf "$T/mutant" && mkdir "$T/mutant" && mv "$T/$n.h" "$T/mutant/shade.h"
     if tight "$T/$n.diff" | grep -qxFf - "$T/listed"; then listed=$((listed + 1))
     elif ! build "$T/mutant" "$part" >/dev/null 2>&1; then broken=$((broken + 1))
-    elif ! timeout $limit "$T/run" --stop $(first "$section") >"$T/log" 2>&1; then
+    elif ! (ulimit -t "$limit"; "$T/run" --stop $(first "$section")) >"$T/log" 2>&1; then
         killed=$((killed + 1))
         [ -z "${MUTATION_VERBOSE:-}" ] || { cat "$T/$n.diff"; tail -n 1 "$T/log"; }
     else
