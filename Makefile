@@ -2,6 +2,7 @@
 # make test       all tests (a C compiler and make are enough); make test T=clip runs one section
 # make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
 # make matrix     the same pictures from other compilers, flags and processors
+# make conformance    scenes drawn with Mesa's OSMesa as well, pixel by pixel
 # make gallery    the small PNGs of the README (needs pnmtopng or ImageMagick)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
@@ -47,6 +48,8 @@ bench-plot:
 	@sh bench/plot.sh
 matrix:
 	@sh tests/matrix.sh
+conformance:
+	@sh tests/conformance.sh
 gallery: all
 	@sh examples/gallery.sh
 vector-report:
@@ -54,5 +57,5 @@ vector-report:
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix gallery vector-report clean
+.PHONY: all test bench bench-plot matrix conformance gallery vector-report clean
 .SECONDARY:

@@ -14,8 +14,9 @@
 enum { PIXELS = WIDTH * HEIGHT, UNEXPLAINED_SHOWN = 8 };
 
 static scene now;
-static uint32_t got[PIXELS];
-static float depth[PIXELS], want[4 * PIXELS];
+static uint32_t bytes[PIXELS];
+static float depth[PIXELS], floats[4 * PIXELS], want[4 * PIXELS];
+static double got[4 * PIXELS];    /* times 255, whatever the format */
 
 /* ---------------------------------------------------------------------------------- with shade.h */
 
@@ -59,13 +60,18 @@ static shade_result draw_lit(const shade_target *t, const draw *d, shade_stats *
     m.indices = d->mesh.indices, m.index_count = d->mesh.index_count;
     return shade_draw_mesh(t, &m, &d->state, stats);
 }
+static double unit(double x) { return x > 0 ? x < 1 ? x : 1 : 0; }
+
 /* fragments drawn, or -1 */
 static long long shade_picture(const scene *s)
 {
     shade_target t;
     long long fragments = 0;
     memset(&t, 0, sizeof t);
-    t.width = WIDTH, t.height = HEIGHT, t.color = got, t.depth = depth, t.srgb = s->srgb;
+    t.width = WIDTH, t.height = HEIGHT, t.depth = depth, t.srgb = s->srgb;
+    t.format = s->format;
+    if (s->format == SHADE_RGBA8) t.color = bytes;
+    else t.color = floats;
     if (shade_clear(&t, s->background, s->clear_depth) != SHADE_OK) return -1;
     for (int k = 0; k < s->draw_count; k++) {
         const draw *d = &s->draws[k];
@@ -74,6 +80,9 @@ static long long shade_picture(const scene *s)
         if (result != SHADE_OK) return -1;
         fragments += stats.fragments;
     }
+    for (int i = 0; i < 4 * PIXELS; i++)
+        got[i] = s->format == SHADE_RGBA8 ? ((const unsigned char *)bytes)[i]
+                                          : 255 * unit((double)floats[i]);
     return fragments;
 }
 
@@ -170,15 +179,12 @@ static int explained(const scene *s, int i)
 
 /* ------------------------------------------------------------------------------------ comparison */
 
-static double unit(double x) { return x > 0 ? x < 1 ? x : 1 : 0; }
-
 /* largest difference of a channel, in steps of 1/255; 0.5 is the rounding to 8 bits */
 static double difference(int i)
 {
-    const unsigned char *a = (const unsigned char *)&got[i];
     double most = 0;
     for (int k = 0; k < 4; k++) {
-        double off = fabs(a[k] - 255 * unit((double)want[4 * i + k]));
+        double off = fabs(got[4 * i + k] - 255 * unit((double)want[4 * i + k]));
         if (!(off <= most)) most = off;
     }
     return most;
@@ -196,7 +202,7 @@ static void write_ppm(const char *folder, const char *scene_name, const char *wh
     if (!f) return;
     fprintf(f, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
     for (int i = 0; i < PIXELS; i++) {
-        const unsigned char *a = (const unsigned char *)&got[i];
+        const double *a = got + 4 * i;
         for (int k = 0; k < 3; k++) {
             double b = 255 * unit((double)want[4 * i + k]), off = 32 * fabs(a[k] - b);
             double v = which == 0 ? a[k] : which == 1 ? b : off < 33 ? 0 : off < 255 ? off : 255;
@@ -222,9 +228,9 @@ static int compare(const scene *s, const char *folder, int keep)
         over++;
         if (explained(s, i)) ties++;
         else if (over - ties <= UNEXPLAINED_SHOWN) {
-            const unsigned char *a = (const unsigned char *)&got[i];
+            const double *a = got + 4 * i;
             const float *b = want + 4 * i;
-            printf("    %s: pixel %d, %d: %d %d %d %d, OpenGL has %.2f %.2f %.2f %.2f\n", s->name,
+            printf("    %s: pixel %d, %d: %.2f %.2f %.2f %.2f, OpenGL has %.2f %.2f %.2f %.2f\n", s->name,
                    i % WIDTH, i / WIDTH, a[0], a[1], a[2], a[3], 255 * (double)b[0],
                    255 * (double)b[1], 255 * (double)b[2], 255 * (double)b[3]);
         }

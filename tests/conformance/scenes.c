@@ -406,15 +406,22 @@ static void scene_greater(scene *s)
     d->state.projection = shade_mat4_perspective_reversed(0.8f, (float)WIDTH / HEIGHT, 0.5f);
     d->state.depth_zero_to_one = 1, d->state.depth_test = SHADE_GREATER, s->clear_depth = 0;
 }
+/* Many layers need a picture of floats: in 8 bits each adds a rounding of 1/2. */
 static void scene_over(scene *s)
 {
-    draw *d = paint(s, "blend OVER", 12, 0.4f);
+    draw *d = paint(s, "blend OVER, 12 layers, floats", 12, 0.4f);
+    d->state.blend = SHADE_OVER, d->state.depth_test = SHADE_ALWAYS, s->format = SHADE_RGBA32F;
+}
+/* 1/2 (1 + 0.6 + 0.6^2) = 0.98 of rounding: two layers and the background */
+static void scene_over_8(scene *s)
+{
+    draw *d = paint(s, "blend OVER, 2 layers, 8 bits", 2, 0.4f);
     d->state.blend = SHADE_OVER, d->state.depth_test = SHADE_ALWAYS;
 }
 static void scene_add(scene *s)
 {
-    draw *d = paint(s, "blend ADD, depth not written", 8, 0.1f);
-    d->state.blend = SHADE_ADD, d->state.depth_read_only = 1;
+    draw *d = paint(s, "blend ADD, depth kept, floats", 8, 0.1f);
+    d->state.blend = SHADE_ADD, d->state.depth_read_only = 1, s->format = SHADE_RGBA32F;
     for (int i = 0; i < 3 * d->mesh.vertex_count; i++) d->mesh.colors[i] *= 0.3f;
 }
 /* A floor and, in its plane but cut otherwise, a smaller one that only the bias brings forward;
@@ -472,8 +479,9 @@ static const char sampled[] =
     "vec3 surface(vec3 color, vec2 uv) { return color * textureLod(map, uv, 0.0).rgb; }\n";
 static void scene_nearest(scene *s)
 {
-    floor_of(&textured(s, "nearest, perspective", SHADE_NEAREST)->mesh, 4, 0, 1, 0.21f);
-    s->seam = 0.21f, s->surface = sampled;
+    /* texels of 20 pixels and more: the fewer borders, the fewer ties */
+    floor_of(&textured(s, "nearest, perspective", SHADE_NEAREST)->mesh, 4, 0, 1, 0.4f);
+    s->seam = 0.4f, s->surface = sampled;
 }
 static void scene_bilinear(scene *s)
 {
@@ -517,7 +525,8 @@ static void (*const builders[])(scene *) = {
     scene_emissive,   scene_ambient,      scene_lambert,       scene_blinn_phong, scene_phong,
     scene_lights,     scene_spots,        scene_cool_to_warm,  scene_two_sided,   scene_two_sided_abs,
     scene_weighted,   scene_gouraud,      scene_flat,          scene_front_culled,
-    scene_scaled,     scene_less,         scene_greater,       scene_over,        scene_add,
+    scene_scaled,     scene_less,         scene_greater,       scene_over,        scene_over_8,
+    scene_add,
     scene_bias,       scene_near,         scene_guard_band,    scene_nearest,     scene_bilinear,
     scene_trilinear,  scene_srgb
 };

@@ -37,6 +37,7 @@ typedef struct scene {
     shade_vec4 background;
     float clear_depth;
     int srgb;
+    shade_format format;       /* of shade.h's picture: RGBA8 or RGBA32F */
     float seam;                /* texels are seen as squares of this side on the plane y = 0; 0: none */
     int has_map;
     shade_texture map, levels[MAP_LEVELS];
