@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIXELS = WIDTH * HEIGHT, UNEXPLAINED_SHOWN = 8 };
+/* past MOST_EXPLAINED differences a scene has failed, and reasons cost time */
+enum { PIXELS = WIDTH * HEIGHT, UNEXPLAINED_SHOWN = 8, MOST_EXPLAINED = 500 };
 
 static scene now;
 static uint32_t bytes[PIXELS];
@@ -226,7 +227,7 @@ static int compare(const scene *s, const char *folder, int keep)
         if (off <= 1 && off > most_plain) most_plain = off;
         if (off <= 1) continue;
         over++;
-        if (explained(s, i)) ties++;
+        if (over <= MOST_EXPLAINED && explained(s, i)) ties++;
         else if (over - ties <= UNEXPLAINED_SHOWN) {
             const double *a = got + 4 * i;
             const float *b = want + 4 * i;

@@ -422,7 +422,7 @@ static void scene_add(scene *s)
 {
     draw *d = paint(s, "blend ADD, depth kept, floats", 8, 0.1f);
     d->state.blend = SHADE_ADD, d->state.depth_read_only = 1, s->format = SHADE_RGBA32F;
-    for (int i = 0; i < 3 * d->mesh.vertex_count; i++) d->mesh.colors[i] *= 0.3f;
+    for (int i = 0; i < 3 * d->mesh.vertex_count; i++) d->mesh.colors[i] *= 0.15f;
 }
 /* A floor and, in its plane but cut otherwise, a smaller one that only the bias brings forward;
    LESS on the same plane alone would be noise. */
@@ -446,7 +446,7 @@ static void scene_near(scene *s)
     draw *d = usual(s, "near plane", SHADE_BLINN_PHONG);
     s->equation = blinn_phong;
     camera(s, shade_v3(0.05f, 0.8f, 2.4f), shade_v3(0.6f, -0.1f, 0), 1.1f);
-    d->state.projection = shade_mat4_perspective(1.1f, (float)WIDTH / HEIGHT, 0.7f, 60);
+    d->state.projection = shade_mat4_perspective(1.1f, (float)WIDTH / HEIGHT, 1.1f, 60);
     sun(s);
 }
 /* corners some hundred pictures away, behind the eye and past the far plane */
@@ -485,7 +485,7 @@ static void scene_nearest(scene *s)
 }
 static void scene_bilinear(scene *s)
 {
-    floor_of(&textured(s, "bilinear, mirrored, clamped", SHADE_BILINEAR)->mesh, 6, 0, 1, 0.21f);
+    floor_of(&textured(s, "bilinear, mirrored, clamped", SHADE_BILINEAR)->mesh, 6, 0, 1, 0.09f);
     s->map.wrap_u = SHADE_MIRROR, s->map.wrap_v = SHADE_CLAMP, s->surface = sampled;
 }
 /* GL may take its lod from differences over four pixels.  Here it is exact: u/w, v/w and 1/w are
