@@ -1,5 +1,5 @@
 #!/bin/sh
-# conformance.sh - the scenes of tests/conformance with shade.h and with Mesa (OSMesa), pixel by pixel.
+# conformance.sh - tests/conformance: shade.h beside Mesa (OSMesa), pixel by pixel.
 # Arguments go to the program: --only TEXT, --pictures FOLDER.
 cd "$(dirname "$0")/.." || exit 1
 cc=${CC:-cc}

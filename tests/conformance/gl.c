@@ -2,7 +2,7 @@
 
    The vertex shader turns y over and rows are read as they come, so that window coordinates are
    those of shade.h: y down, top-left rule, the same grid of 1/256 pixel.  Facing turns with it.
-   Colour is stored as floats: whatever differs is the equation's, not the rounding of two blends. */
+   Colour is stored as floats: what differs is the equation's, not the rounding of two blends. */
 #include "scenes.h"
 #define GL_GLEXT_PROTOTYPES 1
 #include <GL/osmesa.h>
@@ -52,7 +52,7 @@ const char *gl_open(void)
 }
 const char *gl_name(void) { return (const char *)glGetString(GL_VERSION); }
 
-/* ---------------------------------------------------------------------------------- the shaders */
+/* -------------------------------------------------------------------------------- the shaders */
 
 static const char uniforms[] =
     "uniform vec3 k_e, k_a, k_d, k_s, I_a, eye, cool, warm;\n"
@@ -169,7 +169,7 @@ static void set_uniforms(const scene *s, const draw *d)
     }
 }
 
-/* ------------------------------------------------------------------------- geometry and textures */
+/* ----------------------------------------------------------------------- geometry and textures */
 
 /* One row of attributes per corner; no index, so that a face can have values of its own. */
 typedef struct corner { float position[3], normal[3], texcoord[2], color[3], center[3]; } corner;

@@ -19,7 +19,7 @@ static uint32_t bytes[PIXELS];
 static float depth[PIXELS], floats[4 * PIXELS], want[4 * PIXELS];
 static double got[4 * PIXELS];    /* times 255, whatever the format */
 
-/* ---------------------------------------------------------------------------------- with shade.h */
+/* -------------------------------------------------------------------------------- with shade.h */
 
 static void paint_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                          shade_vertices *SHADE_RESTRICT out)
@@ -27,7 +27,8 @@ static void paint_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
     const draw *d = (const draw *)uniforms;
     shade_mat4 m = shade_mat4_mul(d->state.projection, d->state.view);
     for (int i = 0; i < SHADE_LANES; i++) {
-        const float *p = d->mesh.positions + 3 * in->index[i], *c = d->mesh.colors + 3 * in->index[i];
+        const float *p = d->mesh.positions + 3 * in->index[i];
+        const float *c = d->mesh.colors + 3 * in->index[i];
         shade_vec4 q = shade_mat4_transform(m, shade_v4(p[0], p[1], p[2], 1));
         out->clip[0][i] = q.x, out->clip[1][i] = q.y, out->clip[2][i] = q.z, out->clip[3][i] = q.w;
         for (int k = 0; k < 3; k++) out->out[k][i] = c[k];
@@ -87,7 +88,7 @@ static long long shade_picture(const scene *s)
     return fragments;
 }
 
-/* ------------------------------------------------------------------------------------------ ties */
+/* ---------------------------------------------------------------------------------------- ties */
 
 typedef struct point { double x, y, z, w; } point;
 
@@ -178,7 +179,7 @@ static int explained(const scene *s, int i)
     return texel_tie(s, X, Y);
 }
 
-/* ------------------------------------------------------------------------------------ comparison */
+/* ---------------------------------------------------------------------------------- comparison */
 
 /* largest difference of a channel, in steps of 1/255; 0.5 is the rounding to 8 bits */
 static double difference(int i)
@@ -231,8 +232,8 @@ static int compare(const scene *s, const char *folder, int keep)
         else if (over - ties <= UNEXPLAINED_SHOWN) {
             const double *a = got + 4 * i;
             const float *b = want + 4 * i;
-            printf("    %s: pixel %d, %d: %.2f %.2f %.2f %.2f, OpenGL has %.2f %.2f %.2f %.2f\n", s->name,
-                   i % WIDTH, i / WIDTH, a[0], a[1], a[2], a[3], 255 * (double)b[0],
+            printf("    %s: pixel %d, %d: %.2f %.2f %.2f %.2f, OpenGL has %.2f %.2f %.2f %.2f\n",
+                   s->name, i % WIDTH, i / WIDTH, a[0], a[1], a[2], a[3], 255 * (double)b[0],
                    255 * (double)b[1], 255 * (double)b[2], 255 * (double)b[3]);
         }
     }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ------------------------------------------------------------------------------------- geometry */
+/* ----------------------------------------------------------------------------------- geometry */
 
 static void put(shape *m, shade_vec3 p, shade_vec3 n, float u, float v)
 {
@@ -94,7 +94,7 @@ static void layers(shape *m, int count)
     m->has_colors = 1;
 }
 
-/* ---------------------------------------------------------------------------------------- state */
+/* -------------------------------------------------------------------------------------- state */
 
 static draw *add_draw(scene *s)
 {
@@ -155,7 +155,7 @@ static void checked_map(scene *s, shade_filter filter)
     s->has_map = 1;
 }
 
-/* --------------------------------------------------------------------------------------- models */
+/* ------------------------------------------------------------------------------------- models */
 
 /* iteration zero: k_e */
 static const char emissive[] =
@@ -353,7 +353,7 @@ static void scene_weighted(scene *s)
     lamp(s, shade_v3(2, 4, 3), shade_v3(2, 2, 2));
 }
 
-/* ------------------------------------------------------------------------- shading and transforms */
+/* ----------------------------------------------------------------------- shading and transforms */
 
 static void scene_gouraud(scene *s)
 {
@@ -386,7 +386,7 @@ static void scene_scaled(scene *s)
     sun(s), lamp(s, shade_v3(-2, 3, 3), shade_v3(0.8f, 0.4f, 1));
 }
 
-/* --------------------------------------------------------------------------------------- buffers */
+/* ------------------------------------------------------------------------------------- buffers */
 
 static const char painted[] = "vec3 lit(vec3 P, vec3 N, vec3 albedo) { return albedo; }\n";
 static draw *paint(scene *s, const char *name, int count, float alpha)
@@ -439,7 +439,7 @@ static void scene_bias(scene *s)
     d->state.model = shade_mat4_rotation(0.5f, shade_v3(0, 1, 0));
 }
 
-/* ------------------------------------------------------------------------------------- clipping */
+/* ----------------------------------------------------------------------------------- clipping */
 
 static void scene_near(scene *s)
 {
@@ -460,7 +460,7 @@ static void scene_guard_band(scene *s)
     lamp(s, shade_v3(1, 2, -3), shade_v3(2, 1.6f, 1.2f));
 }
 
-/* ------------------------------------------------------------------------------------- textures */
+/* ----------------------------------------------------------------------------------- textures */
 
 static draw *textured(scene *s, const char *name, shade_filter filter)
 {
@@ -519,11 +519,12 @@ static void scene_srgb(scene *s)
     s->name = "sRGB target, four lights", s->stored = encoded, s->srgb = 1;
 }
 
-/* ------------------------------------------------------------------------------------------------ */
+/* ---------------------------------------------------------------------------------------------- */
 
 static void (*const builders[])(scene *) = {
     scene_emissive,   scene_ambient,      scene_lambert,       scene_blinn_phong, scene_phong,
-    scene_lights,     scene_spots,        scene_cool_to_warm,  scene_two_sided,   scene_two_sided_abs,
+    scene_lights,     scene_spots,        scene_cool_to_warm,  scene_two_sided,
+    scene_two_sided_abs,
     scene_weighted,   scene_gouraud,      scene_flat,          scene_front_culled,
     scene_scaled,     scene_less,         scene_greater,       scene_over,        scene_over_8,
     scene_add,

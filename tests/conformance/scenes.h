@@ -22,7 +22,7 @@ typedef struct draw {
     shape mesh;
     shade_material material;
     shade_draw_state state;    /* material, lights and map are linked by scene_link */
-    float alpha;               /* not 0: paint of this alpha and the vertices' colours, no lighting */
+    float alpha;               /* not 0: paint of this alpha in the vertices' colours, unlit */
 } draw;
 
 typedef struct scene {
@@ -38,7 +38,7 @@ typedef struct scene {
     float clear_depth;
     int srgb;
     shade_format format;       /* of shade.h's picture: RGBA8 or RGBA32F */
-    float seam;                /* texels are seen as squares of this side on the plane y = 0; 0: none */
+    float seam;                /* texels are squares of this side on the plane y = 0; 0: no map there */
     int has_map;
     shade_texture map, levels[MAP_LEVELS];
     uint32_t texels[MAP_SIDE * MAP_SIDE], level_texels[MAP_SIDE * MAP_SIDE];
