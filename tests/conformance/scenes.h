@@ -38,7 +38,7 @@ typedef struct scene {
     float clear_depth;
     int srgb;
     shade_format format;       /* of shade.h's picture: RGBA8 or RGBA32F */
-    float seam;                /* texels are squares of this side on the plane y = 0; 0: no map there */
+    float seam;                /* texels are squares of this side on the floor y = 0; 0: none */
     int has_map;
     shade_texture map, levels[MAP_LEVELS];
     uint32_t texels[MAP_SIDE * MAP_SIDE], level_texels[MAP_SIDE * MAP_SIDE];
