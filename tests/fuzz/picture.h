@@ -8,7 +8,7 @@ typedef struct picture {
     shade_target target;
     shade_result want;                   /* SHADE_OK, or what a call has to say of the target */
     int rows, stride;                    /* in memory */
-    int one_width;                       /* what is drawn may hold a NaN, whose sign is not IEEE's */
+    int one_width;                       /* a NaN may arise, whose sign IEEE leaves open */
     uint8_t *color, *depth;              /* NULL: none */
     size_t color_bytes, depth_bytes;
     uint8_t *before, *after;             /* copies: color, then depth */
