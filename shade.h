@@ -3856,28 +3856,6 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
      method  normals of faces weighted by their angle at the vertex [Thurmer98]; edges by sorting;
              rays against triangles by Cramer's rule [Moller97]                         >>image */
 
-/* Sorts n records of size bytes by a heap, in place. */
-typedef int shade__less_fn(const void *context, const void *a, const void *b);
-static void shade__swap(uint8_t *a, uint8_t *b, size_t size)
-{
-    uint8_t t[sizeof(shade_edge)];
-    SHADE_MEMCPY(t, a, size), SHADE_MEMCPY(a, b, size), SHADE_MEMCPY(b, t, size);
-}
-static void shade__sort(void *records, size_t n, size_t size, shade__less_fn *less,
-                        const void *context)
-{
-    uint8_t *p = (uint8_t *)records;
-    for (size_t start = n / 2, end = n; end > 1;) {
-        if (start > 0) start--;
-        else shade__swap(p, p + --end * size, size);
-        for (size_t root = start, child; (child = 2 * root + 1) < end; root = child) {
-            if (child + 1 < end && less(context, p + child * size, p + (child + 1) * size)) child++;
-            if (!less(context, p + root * size, p + child * size)) break;
-            shade__swap(p + root * size, p + child * size, size);
-        }
-    }
-}
-
 /* Angle between a vector of length y and components: atan2(y, x), y >= 0, within 1e-9. atan t =
    pi/4 + atan((t - 1) / (t + 1)) keeps the argument of the series below tan(pi/8). */
 static double shade__angle(double y, double x)
@@ -3936,70 +3914,85 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
     return SHADE_OK;
 }
 
-/* Corners ordered by the position of their vertex, then by number. */
-static int shade__corner_less(const void *context, const void *a, const void *b)
-{
-    const shade_mesh *m = (const shade_mesh *)context;
-    uint32_t i, j;
-    SHADE_MEMCPY(&i, a, 4), SHADE_MEMCPY(&j, b, 4);
-    shade_vec3 p = shade__position(m, shade__corner_index(m, i)),
-               q = shade__position(m, shade__corner_index(m, j));
-    uint32_t u[3], v[3];
-    SHADE_MEMCPY(u, &p, 12), SHADE_MEMCPY(v, &q, 12);
-    for (int k = 0; k < 3; k++) {
-        if (u[k] == 0x80000000u) u[k] = 0;               /* -0 is 0 */
-        if (v[k] == 0x80000000u) v[k] = 0;
-        if (u[k] != v[k]) return u[k] < v[k];
-    }
-    return i < j;
-}
 static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
 {
     shade_vec3 p = shade__position(m, shade__corner_index(m, i)),
                q = shade__position(m, shade__corner_index(m, j));
     return p.x == q.x && p.y == q.y && p.z == q.z;
 }
+/* Bucket of a corner by the position of its vertex; -0 + 0 is 0. */
+static uint32_t shade__bucket(const shade_mesh *m, uint32_t corner, int bits)
+{
+    shade_vec3 p = shade__position(m, shade__corner_index(m, corner));
+    uint32_t h = shade__float_bits(p.x + 0) * 0x9E3779B1u;
+    h = (h ^ h >> 15) * 0x85EBCA77u + shade__float_bits(p.y + 0);
+    h = (h ^ h >> 15) * 0x2C1B3C6Du + shade__float_bits(p.z + 0);
+    h = (h ^ h >> 15) * 0x297A2D39u;
+    return bits ? h >> (32 - bits) : 0;
+}
 SHADEDEF size_t shade_corner_normals_bytes(const shade_mesh *mesh)
 {
     if (shade__check_shape(mesh, &mesh) != SHADE_OK) return 0;
-    return (size_t)shade__corner_count(mesh) * 4 + (size_t)(shade__corner_count(mesh) / 3) * 12 + 4;
+    return (size_t)shade__corner_count(mesh) * 12 + (size_t)shade__corner_count(mesh) / 3 * 12 + 8;
 }
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *out, void *memory, size_t bytes)
 {
     shade_result result = shade__check_shape(mesh, out);
-    uint32_t *order = (uint32_t *)memory, count;
+    uint32_t *end, *order, count, sum = 0;    /* corners by bucket, ascending; one past each */
+    float *angle;
     shade_vec3 *face;
+    int bits = 0;
     if (result != SHADE_OK) return result;
     if (!memory || (uintptr_t)memory % 4 || cos_crease != cos_crease) return SHADE_ERROR_ARGUMENT;
     if (bytes < shade_corner_normals_bytes(mesh)) return SHADE_ERROR_CAPACITY;
-    count = (uint32_t)shade__corner_count(mesh), face = (shade_vec3 *)(void *)(order + count);
-    for (uint32_t i = 0; i < count; i++) order[i] = i;
+    count = (uint32_t)shade__corner_count(mesh);
+    while (2u << bits <= count) bits++;
+    end = (uint32_t *)memory, order = end + (1u << bits);
+    angle = (float *)(void *)(order + count), face = (shade_vec3 *)(void *)(angle + count);
+    SHADE_MEMSET(end, 0, (size_t)4 << bits);
     for (uint32_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, t);
-    shade__sort(order, count, 4, shade__corner_less, mesh);
-    for (uint32_t first = 0, last; first < count; first = last) {
-        for (last = first + 1;
-             last < count && shade__same_position(mesh, order[first], order[last]);)
-            last++;
-        for (uint32_t i = first; i < last; i++) {
-            shade_vec3 n = face[order[i] / 3], sum = shade_v3(0, 0, 0);
-            for (uint32_t j = first; j < last; j++) {
+    for (uint32_t i = 0; i < count; i++) {
+        angle[i] = shade__corner_angle(mesh, i);
+        end[shade__bucket(mesh, i, bits)]++;
+    }
+    for (uint32_t b = 0; b < 1u << bits; b++) sum += end[b], end[b] = sum - end[b];
+    for (uint32_t i = 0; i < count; i++) order[end[shade__bucket(mesh, i, bits)]++] = i;
+    for (uint32_t b = 0, first = 0; b < 1u << bits; first = end[b++]) {
+        for (uint32_t i = first; i < end[b]; i++) {
+            shade_vec3 n = face[order[i] / 3], mean = shade_v3(0, 0, 0);
+            for (uint32_t j = first; j < end[b]; j++) {
                 shade_vec3 other = face[order[j] / 3];
-                if (order[j] == order[i] || shade_dot(n, other) >= cos_crease)
-                    sum = shade_madd(sum, shade__corner_angle(mesh, order[j]), other);
+                if (i == j || (shade_dot(n, other) >= cos_crease &&
+                               shade__same_position(mesh, order[i], order[j])))
+                    mean = shade_madd(mean, angle[order[j]], other);
             }
-            out[order[i]] = shade_normalize(sum);
+            out[order[i]] = shade_normalize(mean);
         }
     }
     return SHADE_OK;
 }
 
-static int shade__edge_less(const void *context, const void *a, const void *b)
+static int shade__edge_less(const shade_edge *p, const shade_edge *q)
 {
-    const shade_edge *p = (const shade_edge *)a, *q = (const shade_edge *)b;
-    (void)context;
     if (p->a != q->a) return p->a < q->a;
     return p->b != q->b ? p->b < q->b : p->triangle[0] < q->triangle[0];
+}
+/* By a heap, in place. */
+static void shade__sort_edges(shade_edge *p, int n)
+{
+    for (int start = n / 2, end = n; end > 1;) {
+        shade_edge moved;
+        int root, child;
+        if (start > 0) moved = p[--start];
+        else moved = p[--end], p[end] = p[0];
+        for (root = start; (child = 2 * root + 1) < end; root = child) {
+            if (child + 1 < end && shade__edge_less(&p[child], &p[child + 1])) child++;
+            if (!shade__edge_less(&moved, &p[child])) break;
+            p[root] = p[child];
+        }
+        p[root] = moved;
+    }
 }
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count)
@@ -4023,7 +4016,7 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
         edges[n].a = a < b ? a : b, edges[n].b = a < b ? b : a;
         edges[n].triangle[0] = i / 3, edges[n++].triangle[1] = -1;
     }
-    if (n) shade__sort(edges, (size_t)n, sizeof *edges, shade__edge_less, (const void *)0);
+    shade__sort_edges(edges, n);
     for (int i = 0; i < n; i++) {
         shade_edge *last = kept ? &edges[kept - 1] : (shade_edge *)0;
         int same = last && last->a == edges[i].a && last->b == edges[i].b;
