@@ -239,7 +239,7 @@
         int level = SHADE__LEVEL; \
         return level == 2 ? name##_avx512 : level == 1 ? name##_avx2 : name##_any; \
     }
-/* for loops of 8 lanes and fetches, which AVX-512 made no faster */
+/* for loops that mostly fetch, which AVX-512 made no faster */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments) \
     typedef void name##_fn parameters; \
     SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters { name##_body arguments; } \
@@ -2018,7 +2018,7 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 }
 
 /*---------------------------------------------------------------------------------------- >>texture
-   Texels filtered for blocks of 8 lanes: coordinates and weights in lanes, four fetches a lane,
+   Texels filtered for blocks of lanes: coordinates and weights in lanes, four fetches a lane,
    then unpacking and blending in lanes.
      in      rows u, v, lod               out  rows of linear RGBA
      holds   Every index lies in the texture whatever u and v are.  Mipmaps are read level by level,
@@ -2034,11 +2034,14 @@ static int shade__texture_good(const shade_texture *t)
 }
 
 /* Lanes filtered at a time: enough of them hide the latency of their fetches (1.2 times faster than
-   8).  Loops run over blocks of 8, so that a single sample costs one block. */
-enum { SHADE__TEXELS = SHADE_LANES < 32 ? SHADE_LANES : 32 };
+   8).  Loops run over blocks, so that a single sample costs one of them. */
+enum {
+    SHADE__TEXELS = SHADE_LANES < 32 ? SHADE_LANES : 32,
+    SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16
+};
 #define SHADE__EACH_BLOCK(i, blocks) \
-    for (int i##_block = 0; i##_block < 8 * (blocks); i##_block += 8) \
-        SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + 8; i++)
+    for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
+        SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
 
 /* One axis: texel before and after, and the weight of the one after. */
 typedef struct shade__axis {
@@ -2095,7 +2098,7 @@ SHADE__INLINE void shade__fetch_texels(const uint8_t *p, size_t stride, const sh
                                        const shade__axis *y, int blocks, size_t step, int bytes,
                                        uint32_t texel[4][SHADE__TEXELS])
 {
-    for (int i = 0; i < 8 * blocks; i++) {
+    for (int i = 0; i < SHADE__BLOCK * blocks; i++) {
         size_t top = (size_t)y->i0[i] * stride, low = (size_t)y->i1[i] * stride;
         size_t left = (size_t)x->i0[i], right = (size_t)x->i1[i];
         texel[0][i] = shade__texel(p, top + left, step, bytes);
@@ -2155,15 +2158,15 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
         else if (!k) shade__fetch_texels(p, stride, &x, &y, blocks, 2, 2, texel);
         for (int j = 0; j < 4; j++) {
             if (level->format == SHADE_RGBA32F) {
-                SHADE_MEMCPY(c[j], texel[j], 32 * (size_t)blocks);
+                SHADE_MEMCPY(c[j], texel[j], 4 * SHADE__BLOCK * (size_t)blocks);
             } else if (!wide && k == 3) {
-                for (int i = 0; i < 8 * blocks; i++) c[j][i] = 1;
+                for (int i = 0; i < SHADE__BLOCK * blocks; i++) c[j][i] = 1;
             } else shade__unpack(texel[j], blocks, shift, mask, srgb, c[j]);
         }
         shade__blend_texels(c, blocks, &x, &y, weight, out + k * SHADE__TEXELS);
     }
 }
-/* Blocks of 8 lanes of a good texture; out: 4 rows of SHADE__TEXELS. */
+/* Blocks of lanes of a good texture; out: 4 rows of SHADE__TEXELS. */
 SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, const float *v,
                                       const float *lod, int blocks, float *out)
 {
@@ -2172,14 +2175,14 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
     float level[SHADE__TEXELS], weight[SHADE__TEXELS], lowest = levels ? 32.0f : 0.0f, highest = 0;
     SHADE__FOR(i, 4 * SHADE__TEXELS) { out[i] = 0; }
     SHADE__FOR(i, SHADE__TEXELS) { level[i] = 0, weight[i] = 1; }
-    for (int i = 0; levels && i < 8 * blocks; i++) {
+    for (int i = 0; levels && i < SHADE__BLOCK * blocks; i++) {
         if (lod[i] > 0 && lod[i] <= FLT_MAX) level[i] = shade__minf(lod[i], (float)levels);
         lowest = shade__minf(lowest, level[i]), highest = shade__maxf(highest, level[i]);
     }
     for (int k = (int)lowest; k <= shade__min((int)highest + 1, levels); k++) {
         const shade_texture *source = k ? &t->mipmaps[k - 1] : t;
         int used = !levels;
-        for (int i = 0; levels && i < 8 * blocks; i++) {
+        for (int i = 0; levels && i < SHADE__BLOCK * blocks; i++) {
             float away = level[i] < (float)k ? (float)k - level[i] : level[i] - (float)k;
             weight[i] = away < 1 ? 1 - away : 0;
             used |= weight[i] > 0;
@@ -2188,10 +2191,10 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
         if (used) shade__sample_level(t, source, u, v, blocks, weight, out);
     }
 }
-SHADE__DISPATCH_AVX2(shade__sample,
-                     (const shade_texture *t, const float *u, const float *v, const float *lod,
-                      int blocks, float *out),
-                     (t, u, v, lod, blocks, out))
+SHADE__DISPATCH(shade__sample,
+                (const shade_texture *t, const float *u, const float *v, const float *lod,
+                 int blocks, float *out),
+                (t, u, v, lod, blocks, out))
 
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba)
@@ -2202,16 +2205,17 @@ SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, c
     if (!u || !v || !rgba) return;
     for (int i = 0; i < 4 * SHADE__TEXELS; i++) out[i] = 1;
     for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS) {
-        if (good) sample(texture, u + i, v + i, lod ? lod + i : lod, SHADE__TEXELS / 8, out);
+        if (good) sample(texture, u + i, v + i, lod ? lod + i : lod,
+                         SHADE__TEXELS / SHADE__BLOCK, out);
         for (int k = 0; k < 4; k++)
             SHADE_MEMCPY(rgba + k * SHADE_LANES + i, out + k * SHADE__TEXELS, 4 * SHADE__TEXELS);
     }
 }
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod)
 {
-    float us[8], vs[8], lods[8], out[4 * SHADE__TEXELS];
+    float us[SHADE__BLOCK], vs[SHADE__BLOCK], lods[SHADE__BLOCK], out[4 * SHADE__TEXELS];
     if (!shade__texture_good(texture)) return shade_v4(1, 1, 1, 1);
-    for (int i = 0; i < 8; i++) us[i] = u, vs[i] = v, lods[i] = lod;
+    for (int i = 0; i < SHADE__BLOCK; i++) us[i] = u, vs[i] = v, lods[i] = lod;
     shade__sample_pick()(texture, us, vs, lods, 1, out);
     return shade_v4(out[0], out[SHADE__TEXELS], out[2 * SHADE__TEXELS], out[3 * SHADE__TEXELS]);
 }
