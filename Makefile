@@ -2,6 +2,7 @@
 # make test       all tests (a C compiler and make are enough); make test T=clip runs one section
 # make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
 # make matrix     the same pictures from other compilers, flags and processors
+# make conformance   scenes drawn with Mesa's OSMesa as well, pixel by pixel
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
 # make mutation   small changes of shade.h, one at a time, that the tests must notice
 # make static     clang-tidy and cppcheck
@@ -57,6 +58,8 @@ bench-plot:
 	@sh bench/plot.sh
 matrix:
 	@sh tests/matrix.sh
+conformance:
+	@sh tests/conformance.sh
 gallery: all
 	@sh examples/gallery.sh
 coverage:
@@ -73,5 +76,6 @@ fuzz:
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix coverage mutation static fuzz gallery vector-report clean
+.PHONY: all test bench bench-plot matrix conformance coverage mutation static fuzz gallery \
+        vector-report clean
 .SECONDARY:

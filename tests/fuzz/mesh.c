@@ -176,6 +176,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int bad = 0, bad_index = 0, good_light, good_map = 1, triangles;
     shade_result want;
     picture_open(&in, &pic, 32);
+    pic.one_width = !(most > 0);
     want = pic.want;
     memset(&s, 0, sizeof s);
     s.mesh = &s.m, s.state = &s.s;
