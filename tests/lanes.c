@@ -175,7 +175,10 @@ TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
             double r;
             d3 L = ref_to_light(&s.lights[0], P, &r), V = d3_unit(d3_sub(d3_from(s.eye), P));
             d3 H = d3_unit(d3_add(L, V));
-            k.n[i] = d3_round(d3_unit(d3_add(H, d3_scale(rnd_direction(), 0.3 * rnd_unit()))));
+            do { /* in every other round all lanes face the lamp */
+                d3 turned = d3_add(H, d3_scale(rnd_direction(), 0.3 * rnd_unit()));
+                k.n[i] = d3_round(d3_unit(turned));
+            } while (round % 2 && d3_dot(d3_from(k.n[i]), L) <= 0);
             lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
         }
         float rgb[3 * SHADE_LANES];

@@ -1,6 +1,6 @@
 """mutate.py header seed count folder - writes mutants of a header, one change each.
 
-folder/N.h      the mutant       folder/N.diff   its line before and after
+folder/N.h      the mutant       folder/N.diff   its section (>>name), its line before and after
 folder/N.where  "public" or "implementation", and the section (>>name) of the change
 
 Changed are the bodies of functions, as many places of each kind: comparisons, constants, signs and
@@ -161,7 +161,7 @@ for n, (kind, start, end, new) in enumerate(chosen[:count]):
     banner = re.findall(r"^/\*-+ >>(\w+)", text[:start], re.M)
     name = os.path.join(folder, str(n))
     open(name + ".h", "w").write(mutant)
-    open(name + ".diff", "w").write("- %s\n+ %s\n" % (
-        text[first:last].strip(), mutant[first:last + len(new) - (end - start)].strip()))
+    open(name + ".diff", "w").write(">>%s\n- %s\n+ %s\n" % (
+        banner[-1] if banner else "about", text[first:last].strip(), mutant[first:last + len(new) - (end - start)].strip()))
     open(name + ".where", "w").write("%s %s\n" % (
         "implementation" if start > private else "public", banner[-1] if banner else "about"))

@@ -39,11 +39,12 @@ first() {                       # sections of the tests that know a section of s
     esac
 }
 
-tight() { sed 's/^\([-+]\)/\1:/' "$1" | tr -d ' \n'; }
+tight() { sed "s/^\([-+]\)/\1:/" "$1" | tr -d " \n"; }
 # an entry of mutation.txt: the reason after #, then the line before after - and the one after +,
-# either continued on lines that begin with a blank
+# either continued on lines that begin with a blank; >>name is the section they stand in
 awk '/^#/ || /^$/ { next }
-     /^-/ { if (entry) print entry; entry = "-:" substr($0, 2); next }
+     /^>>/ { section = $0; next }
+     /^-/ { if (entry) print entry; entry = section "-:" substr($0, 2); next }
      /^\+/ { entry = entry "+:" substr($0, 2); next }
      { entry = entry $0 }
      END { print entry }' tests/mutation.txt | tr -d ' ' >"$T/listed"
@@ -64,7 +65,7 @@ while [ $((killed + survived)) -lt "$want" ] && [ -f "$T/$n.h" ]; do
     else
         [ -f "$T/$part.s" ] || assembly "$T/plain" "$part" >"$T/$part.s"
         if assembly "$T/mutant" "$part" | cmp -s - "$T/$part.s"; then same=$((same + 1))
-        else survived=$((survived + 1)); echo "survived in >>$section:"; cat "$T/$n.diff"; fi
+        else survived=$((survived + 1)); echo "survived:"; cat "$T/$n.diff"; fi
     fi
     n=$((n + 1))
 done
