@@ -651,8 +651,9 @@ SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
     float det = shade_dot(m.col[0], c.col[0]), s = det != 0 ? 1 / det : 0;
     shade_vec3 a = shade_scale(c.col[0], s), b = shade_scale(c.col[1], s);
     shade_vec3 d = shade_scale(c.col[2], s), none = shade_v3(0, 0, 0);
-    float zero = shade_dot(a, none) + shade_dot(b, none) + shade_dot(d, none);
-    return zero == 0 ? shade__m3(a, b, d) : shade__m3(none, none, none);    /* NaN: not finite */
+    if (s <= 1e15f && s >= -1e15f) return shade__m3(a, b, d);    /* products stay below 1e28 */
+    s = shade_dot(a, none) + shade_dot(b, none) + shade_dot(d, none);
+    return s == 0 ? shade__m3(a, b, d) : shade__m3(none, none, none);    /* NaN: not finite */
 }
 
 /* Matrices by formula; their bodies stand in >>matrix.  An inverse with an entry beyond FLT_MAX is
