@@ -13,6 +13,7 @@
 
 typedef enum scene_kind {
     SCENE_LIT,      /* shade_draw_mesh; positions, normals, indices in object space */
+    SCENE_MAP,      /* a bilinear texture; positions in the world, u and v in the normals */
     SCENE_FLAT,     /* one colour; positions are clip-space x, y, z with w = 1 */
     SCENE_DEPTH,    /* the same, depth only */
     SCENE_CLEAR     /* no triangle at all */
@@ -23,7 +24,7 @@ typedef struct scene {
     scene_kind kind;
     int width, height;
     float *positions, *normals;
-    uint32_t *indices;
+    uint32_t *indices, *texels;    /* SCENE_TEXELS squared */
     int vertex_count, index_count;
     shade_material material;
     shade_light lights[4];
@@ -32,7 +33,7 @@ typedef struct scene {
     shade_vec4 background, color;
 } scene;
 
-enum { SCENE_COUNT = 10 };
+enum { SCENE_COUNT = 11, SCENE_TEXELS = 512 };
 
 static inline void scene_link(scene *s)
 {
@@ -58,8 +59,8 @@ static inline void scene_geometry(scene *s, int vertices, int indices)
 
 static inline void scene_free(scene *s)
 {
-    free(s->positions), free(s->normals), free(s->indices);
-    s->positions = s->normals = NULL, s->indices = NULL;
+    free(s->positions), free(s->normals), free(s->indices), free(s->texels);
+    s->positions = s->normals = NULL, s->indices = s->texels = NULL;
 }
 
 static inline void scene_put(scene *s, int at, shade_vec3 p, shade_vec3 n)
@@ -286,6 +287,29 @@ static inline scene scene_fill(const char *name)
     return s;
 }
 
+/* A floor to the horizon's edge under one texture, without steps between texels that 8-bit weights
+   of a filter would show. */
+static inline scene scene_map(const char *name)
+{
+    scene s = scene_new(name, SCENE_MAP, 1920, 1080);
+    scene_geometry(&s, 4, 6);
+    for (int k = 0; k < 4; k++) {
+        float x = k & 1 ? 20.0f : -20.0f, z = k & 2 ? 20.0f : -20.0f;
+        scene_put(&s, k, shade_v3(x, 0, z), shade_v3(x / 4, z / 4, 0));
+    }
+    scene_cells(&s, 1, 1);
+    s.texels = (uint32_t *)scene_memory(SCENE_TEXELS * SCENE_TEXELS, 4);
+    for (int i = 0; i < SCENE_TEXELS * SCENE_TEXELS; i++) {
+        int x = i % SCENE_TEXELS, y = i / SCENE_TEXELS, c[3] = { 8 * x + 4 * y, 4 * x, 8 * y };
+        unsigned char *rgba = (unsigned char *)&s.texels[i];
+        for (int k = 0; k < 3; k++)
+            rgba[k] = (unsigned char)(c[k] & 256 ? 255 - (c[k] & 255) : c[k] & 255);
+        rgba[3] = 255;
+    }
+    scene_camera(&s, shade_v3(0, 3, 0.1f), shade_v3(0, 0, -1.5f), 1);
+    return s;
+}
+
 /* obj: NULL for the knot */
 static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
 {
@@ -300,6 +324,7 @@ static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
     out[7] = scene_overdraw("1000 big triangles 1080p, depth only");
     out[8] = scene_fill("flat fill with depth 1080p");
     out[9] = scene_new("clear colour and depth 1080p", SCENE_CLEAR, 1920, 1080);
+    out[10] = scene_map("bilinear texture 1080p");
     for (int i = 0; i < SCENE_COUNT; i++) scene_link(&out[i]);
 }
 
@@ -343,6 +368,30 @@ static inline void scene_fragment(const void *uniforms, const shade_fragments *S
     SHADE_EACH_LANE(i) { out->out[0][i] = c.x, out->out[1][i] = c.y, out->out[2][i] = c.z; }
 }
 
+static inline void scene_map_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                    shade_vertices *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    const shade_mat4 m = shade_mat4_mul(s->state.projection, s->state.view);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const float *p = s->positions + 3 * (size_t)in->index[i];
+        const float *uv = s->normals + 3 * (size_t)in->index[i];
+        shade_vec4 c = shade_mat4_transform(m, shade_v4(p[0], p[1], p[2], 1));
+        out->clip[0][i] = c.x, out->clip[1][i] = c.y, out->clip[2][i] = c.z, out->clip[3][i] = c.w;
+        out->out[0][i] = uv[0], out->out[1][i] = uv[1];
+    }
+}
+static inline void scene_map_fragment(const void *uniforms,
+                                      const shade_fragments *SHADE_RESTRICT in,
+                                      shade_colors *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    shade_texture t;
+    memset(&t, 0, sizeof t);
+    t.pixels = s->texels, t.width = t.height = SCENE_TEXELS;
+    shade_sample_lanes(&t, in->in[0], in->in[1], NULL, (float *)out->out);
+}
+
 /* One whole frame, from the clear on. */
 static inline shade_stats scene_draw(const scene *s, const shade_target *t)
 {
@@ -357,6 +406,8 @@ static inline shade_stats scene_draw(const scene *s, const shade_target *t)
         memset(&p, 0, sizeof p);
         p.vertex = scene_vertex, p.uniforms = s;
         p.fragment = s->kind == SCENE_FLAT ? scene_fragment : NULL;
+        if (s->kind == SCENE_MAP)
+            p.vertex = scene_map_vertex, p.fragment = scene_map_fragment, p.varyings = 2;
         result = shade_draw(t, &p, s->indices, s->index_count, s->vertex_count, &stats);
     }
     if (result != SHADE_OK) {

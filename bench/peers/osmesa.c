@@ -14,7 +14,7 @@
 static struct {
     OSMesaContext context;
     uint32_t window[16];        /* OSMesa wants a default framebuffer; nothing is drawn there */
-    GLuint frame, color, depth, array, buffers[3], program;
+    GLuint frame, color, depth, array, buffers[3], texture, program;
     scene s;
 } gl;
 
@@ -96,6 +96,18 @@ static const char *const gouraud_fragment =
     "in vec3 shade;\n"
     "out vec4 color;\n"
     "void main() { color = vec4(shade, 1); }\n";
+static const char *const map_vertex = MESH_VERTEX
+    "out vec2 uv;\n"
+    "void main() {\n"
+    "  gl_Position = clip_from_object * vec4(position, 1);\n"
+    "  uv = normal.xy;\n"
+    "}\n";
+static const char *const map_fragment =
+    "#version 330 core\n"
+    "uniform sampler2D map;\n"
+    "in vec2 uv;\n"
+    "out vec4 color;\n"
+    "void main() { color = texture(map, uv); }\n";
 static const char *const flat_vertex =
     "#version 330 core\n"
     "layout(location = 0) in vec3 position;\n"
@@ -171,7 +183,10 @@ static void build_program(const scene *s)
     GLint good = 0;
     snprintf(lights, sizeof lights, "#define LIGHTS %d\n", s->state.lighting.light_count);
     gl.program = glCreateProgram();
-    if (s->kind != SCENE_LIT) {
+    if (s->kind == SCENE_MAP) {
+        add_shader(GL_VERTEX_SHADER, 1, &map_vertex);
+        add_shader(GL_FRAGMENT_SHADER, 1, &map_fragment);
+    } else if (s->kind != SCENE_LIT) {
         add_shader(GL_VERTEX_SHADER, 1, &flat_vertex);
         add_shader(GL_FRAGMENT_SHADER, 1, s->kind == SCENE_FLAT ? &flat_fragment : &depth_fragment);
     } else if (s->state.shading == SHADE_PER_FRAGMENT) {
@@ -234,7 +249,15 @@ static void osmesa_load(const scene *s)
     glBindVertexArray(gl.array);
     glGenBuffers(3, gl.buffers);
     attribute(0, gl.buffers[0], s->positions, s->vertex_count);
-    if (s->kind == SCENE_LIT) attribute(1, gl.buffers[1], s->normals, s->vertex_count);
+    if (s->kind == SCENE_LIT || s->kind == SCENE_MAP)
+        attribute(1, gl.buffers[1], s->normals, s->vertex_count);
+    if (s->kind == SCENE_MAP) {
+        glGenTextures(1, &gl.texture);
+        glBindTexture(GL_TEXTURE_2D, gl.texture);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, SCENE_TEXELS, SCENE_TEXELS, 0, GL_RGBA,
+                     GL_UNSIGNED_BYTE, s->texels);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    }
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.buffers[2]);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)s->index_count * 4), s->indices,
                  GL_STATIC_DRAW);
@@ -276,6 +299,7 @@ static void osmesa_unload(void)
     if (gl.s.kind == SCENE_CLEAR) return;
     glDeleteVertexArrays(1, &gl.array), glDeleteBuffers(3, gl.buffers);
     glUseProgram(0), glDeleteProgram(gl.program);
+    if (gl.s.kind == SCENE_MAP) glDeleteTextures(1, &gl.texture);
 }
 
 #else
