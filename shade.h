@@ -793,7 +793,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
 /* A texture at u, v, linear RGBA.  lod: level of detail, log2 of texels per pixel; below 0 counts
    as 0.  NaN or infinite u, v, lod count as 0. */
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod);
-/* The same for a packet: rows of SHADE_LANES floats; lod NULL: 0; rgba: 4 rows. */
+/* The same for a packet: rows of SHADE_LANES floats; lod NULL: 0; rgba: 4 rows that do not overlap
+   the others. */
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba);
 /* Levels below the full size, each half as wide and high, rounded down, to 1 x 1; and their bytes,
@@ -2136,17 +2137,18 @@ SHADE__INLINE void shade__blend_texels(float c[4][SHADE__TEXELS], int blocks,
         out[i] += shade__keep(weight[i] * all, shade__mask(weight[i] > 0));
     }
 }
-/* out (4 rows) += weight times one level at u, v; how it wraps and filters comes from the base */
+/* out (4 rows, stride apart) += weight times one level at u, v; how it wraps and filters comes from
+   the base */
 SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_texture *level,
                                        const float *u, const float *v, int blocks,
-                                       const float *weight, float *out)
+                                       const float *weight, float *out, int stride)
 {
     static const uint8_t shift565[4] = { 11, 5, 0, 0 };
     shade__axis x, y;
     uint32_t texel[4][SHADE__TEXELS];
     float c[4][SHADE__TEXELS];
     const uint8_t *p = (const uint8_t *)level->pixels;
-    const size_t stride = (size_t)(level->stride ? level->stride : level->width);
+    const size_t pitch = (size_t)(level->stride ? level->stride : level->width);
     int nearest = base->filter == SHADE_NEAREST, wide = level->format == SHADE_RGBA8;
     shade__address(u, blocks, level->width, base->wrap_u, nearest, &x);
     shade__address(v, blocks, level->height, base->wrap_v, nearest, &y);
@@ -2154,9 +2156,9 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
         int shift = wide ? shade__byte_shift(k) : shift565[k], srgb = level->srgb && k < 3;
         uint32_t mask = wide ? 255 : k == 1 ? 63 : 31;
         if (level->format == SHADE_RGBA32F)
-            shade__fetch_texels(p + 4 * k, stride, &x, &y, blocks, 16, 4, texel);
-        else if (!k && wide) shade__fetch_texels(p, stride, &x, &y, blocks, 4, 4, texel);
-        else if (!k) shade__fetch_texels(p, stride, &x, &y, blocks, 2, 2, texel);
+            shade__fetch_texels(p + 4 * k, pitch, &x, &y, blocks, 16, 4, texel);
+        else if (!k && wide) shade__fetch_texels(p, pitch, &x, &y, blocks, 4, 4, texel);
+        else if (!k) shade__fetch_texels(p, pitch, &x, &y, blocks, 2, 2, texel);
         for (int j = 0; j < 4; j++) {
             if (level->format == SHADE_RGBA32F) {
                 SHADE_MEMCPY(c[j], texel[j], 4 * SHADE__BLOCK * (size_t)blocks);
@@ -2164,17 +2166,19 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
                 for (int i = 0; i < SHADE__BLOCK * blocks; i++) c[j][i] = 1;
             } else shade__unpack(texel[j], blocks, shift, mask, srgb, c[j]);
         }
-        shade__blend_texels(c, blocks, &x, &y, weight, out + k * SHADE__TEXELS);
+        shade__blend_texels(c, blocks, &x, &y, weight, out + k * stride);
     }
 }
-/* Blocks of lanes of a good texture; out: 4 rows of SHADE__TEXELS. */
+/* Blocks of lanes of a good texture; out: 4 rows, stride apart. */
 SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, const float *v,
-                                      const float *lod, int blocks, float *out)
+                                      const float *lod, int blocks, float *out, int stride)
 {
     int levels = t->filter == SHADE_TRILINEAR && t->mipmaps && t->mipmap_count > 0 && lod
                      ? shade__min(t->mipmap_count, 16) : 0;
     float level[SHADE__TEXELS], weight[SHADE__TEXELS], lowest = levels ? 32.0f : 0.0f, highest = 0;
-    SHADE__FOR(i, 4 * SHADE__TEXELS) { out[i] = 0; }
+    for (int k = 0; k < 4; k++) {
+        SHADE__EACH_BLOCK(i, blocks) { out[k * stride + i] = 0; }
+    }
     SHADE__FOR(i, SHADE__TEXELS) { level[i] = 0, weight[i] = 1; }
     for (int i = 0; levels && i < SHADE__BLOCK * blocks; i++) {
         if (lod[i] > 0 && lod[i] <= FLT_MAX) level[i] = shade__minf(lod[i], (float)levels);
@@ -2189,36 +2193,34 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
             used |= weight[i] > 0;
         }
         if (!shade__texture_good(source)) source = t;
-        if (used) shade__sample_level(t, source, u, v, blocks, weight, out);
+        if (used) shade__sample_level(t, source, u, v, blocks, weight, out, stride);
     }
 }
 SHADE__DISPATCH(shade__sample,
                 (const shade_texture *t, const float *u, const float *v, const float *lod,
-                 int blocks, float *out),
-                (t, u, v, lod, blocks, out))
+                 int blocks, float *out, int stride),
+                (t, u, v, lod, blocks, out, stride))
 
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba)
 {
-    float out[4 * SHADE__TEXELS];
     shade__sample_fn *sample = shade__sample_pick();
-    int good = shade__texture_good(texture);
     if (!u || !v || !rgba) return;
-    for (int i = 0; i < 4 * SHADE__TEXELS; i++) out[i] = 1;
-    for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS) {
-        if (good) sample(texture, u + i, v + i, lod ? lod + i : lod,
-                         SHADE__TEXELS / SHADE__BLOCK, out);
-        for (int k = 0; k < 4; k++)
-            SHADE_MEMCPY(rgba + k * SHADE_LANES + i, out + k * SHADE__TEXELS, 4 * SHADE__TEXELS);
+    if (!shade__texture_good(texture)) {
+        for (int i = 0; i < 4 * SHADE_LANES; i++) rgba[i] = 1;
+        return;
     }
+    for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS)
+        sample(texture, u + i, v + i, lod ? lod + i : lod, SHADE__TEXELS / SHADE__BLOCK, rgba + i,
+               SHADE_LANES);
 }
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod)
 {
-    float us[SHADE__BLOCK], vs[SHADE__BLOCK], lods[SHADE__BLOCK], out[4 * SHADE__TEXELS];
+    float us[SHADE__BLOCK], vs[SHADE__BLOCK], lods[SHADE__BLOCK], out[4 * SHADE__BLOCK];
     if (!shade__texture_good(texture)) return shade_v4(1, 1, 1, 1);
     for (int i = 0; i < SHADE__BLOCK; i++) us[i] = u, vs[i] = v, lods[i] = lod;
-    shade__sample_pick()(texture, us, vs, lods, 1, out);
-    return shade_v4(out[0], out[SHADE__TEXELS], out[2 * SHADE__TEXELS], out[3 * SHADE__TEXELS]);
+    shade__sample_pick()(texture, us, vs, lods, 1, out, SHADE__BLOCK);
+    return shade_v4(out[0], out[SHADE__BLOCK], out[2 * SHADE__BLOCK], out[3 * SHADE__BLOCK]);
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
