@@ -3927,7 +3927,7 @@ static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
                q = shade__position(m, shade__corner_index(m, j));
     return p.x == q.x && p.y == q.y && p.z == q.z;
 }
-/* Bucket of a corner by the position of its vertex; -0 + 0 is 0. */
+/* Bucket of a corner by the position of its vertex; -0 + 0 is 0.  pre: bits > 0. */
 static uint32_t shade__bucket(const shade_mesh *m, uint32_t corner, int bits)
 {
     shade_vec3 p = shade__position(m, shade__corner_index(m, corner));
@@ -3935,7 +3935,7 @@ static uint32_t shade__bucket(const shade_mesh *m, uint32_t corner, int bits)
     h = (h ^ h >> 15) * 0x85EBCA77u + shade__float_bits(p.y + 0);
     h = (h ^ h >> 15) * 0x2C1B3C6Du + shade__float_bits(p.z + 0);
     h = (h ^ h >> 15) * 0x297A2D39u;
-    return bits ? h >> (32 - bits) : 0;
+    return h >> (32 - bits);
 }
 SHADEDEF size_t shade_corner_normals_bytes(const shade_mesh *mesh)
 {

@@ -135,14 +135,14 @@ static void scene_lines(canvas *c, const shade_draw_state *s)
 {
     shade_line_state line;
     memset(&line, 0, sizeof line);
-    line.clip_from_points = shade_mat4_mul(shade_mat4_mul(s->projection, s->view), s->model);
+    line.clip_from_points = s->projection; /* products in this file would follow its flags */
     line.width = 1.5f, line.cap = SHADE_SQUARE, line.color = shade_v4(0.0625f, 0, 0.125f, 1);
-    line.depth_test = SHADE_LESS_EQUAL, line.depth_bias = -0.001953125f;
+    line.depth_test = SHADE_LESS_EQUAL, line.depth_bias = -0.015625f;
     for (int k = 0; k < (int)(sizeof scene_index / sizeof scene_index[0]); k += 3) {
         shade_vec3 ends[2];
         for (int j = 0; j < 2; j++) {
             const float *p = scene_position + 3 * scene_index[k + j];
-            ends[j] = shade_v3(p[0], p[1], p[2]);
+            ends[j] = shade_v3(p[0], p[1], p[2] - 9);
         }
         shade_draw_lines(&c->target, ends, 2, &line, NULL);
     }

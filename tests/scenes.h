@@ -18,4 +18,4 @@
 { "nearest", 0x45f7da45975998f2 },
 { "bilinear", 0x5e04505ea768e2dc },
 { "trilinear", 0x76c41066ff32898b },
-{ "lines", 0xc154426d19ee5267 },
+{ "lines", 0xc154912777559f91 },
