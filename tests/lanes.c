@@ -384,6 +384,26 @@ TEST(lanes, many_lights_add_up)
     }
 }
 
+TEST(lanes, a_lamp_without_an_axis_is_no_spot) /* whatever the exponent says */
+{
+    static lane_packet k;
+    light_sample s;
+    for (int round = 0; round < 60; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, d3_length(d3_from(s.P)) * 1e-2 + 1);
+        float even[3 * SHADE_LANES], spot[3 * SHADE_LANES];
+        for (int pass = 0; pass < 2; pass++) {
+            for (int j = 0; j < s.lighting.light_count; j++) {
+                s.lights[j].spot_direction = shade_v3(0, 0, 0);
+                s.lights[j].spot_exponent = pass ? 0.5f + (float)j : 0;
+                s.lights[j].spot_cos_cutoff = pass ? 0.75f : 0;
+            }
+            shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL,
+                            pass ? spot : even);
+        }
+        CHECK(!memcmp(even, spot, sizeof even));
+    }
+}
 TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
 {
     static lane_packet k;
@@ -421,5 +441,6 @@ static const test_case lanes_cases[] = {
     CASE(lanes, nothing_is_written_but_the_three_rows),
     CASE(lanes, missing_arguments_mean_their_defaults),
     CASE(lanes, many_lights_add_up),
+    CASE(lanes, a_lamp_without_an_axis_is_no_spot),
     CASE(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane),
 };
