@@ -404,6 +404,24 @@ TEST(lanes, a_lamp_without_an_axis_is_no_spot) /* whatever the exponent says */
         CHECK(!memcmp(even, spot, sizeof even));
     }
 }
+TEST(lanes, emission_alone_reads_no_albedo)
+{
+    static lane_packet k;
+    light_sample s;
+    for (int round = 0; round < 20; round++) {
+        float rgb[3 * SHADE_LANES];
+        random_sample(&s);
+        random_packet(&k, &s, 1);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) k.albedo[0][i] = i % 2 ? NAN : INFINITY;
+        s.lighting.model = SHADE_EMISSIVE, s.lighting.terms = 0;
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], rgb);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            CHECK_NEAR(rgb[i], s.material.emission.x, 0);
+            CHECK_NEAR(rgb[SHADE_LANES + i], s.material.emission.y, 0);
+            CHECK_NEAR(rgb[2 * SHADE_LANES + i], s.material.emission.z, 0);
+        }
+    }
+}
 TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
 {
     static lane_packet k;
@@ -442,5 +460,6 @@ static const test_case lanes_cases[] = {
     CASE(lanes, missing_arguments_mean_their_defaults),
     CASE(lanes, many_lights_add_up),
     CASE(lanes, a_lamp_without_an_axis_is_no_spot),
+    CASE(lanes, emission_alone_reads_no_albedo),
     CASE(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane),
 };
