@@ -412,7 +412,8 @@ TEST(lanes, emission_alone_reads_no_albedo)
         float rgb[3 * SHADE_LANES];
         random_sample(&s);
         random_packet(&k, &s, 1);
-        for (int i = 0; i < 3 * SHADE_LANES; i++) k.albedo[0][i] = i % 2 ? NAN : INFINITY;
+        for (int i = 0; i < 3 * SHADE_LANES; i++)
+            k.albedo[i / SHADE_LANES][i % SHADE_LANES] = (float)(i % 2 ? NAN : INFINITY);
         s.lighting.model = SHADE_EMISSIVE, s.lighting.terms = 0;
         shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
