@@ -2339,6 +2339,8 @@ typedef struct shade__incoming {      /* the vertices of a batch until they are 
     uint8_t slot_of[2 * SHADE_LANES]; /* direct-mapped: index -> slot of the batch */
 } shade__incoming;
 
+typedef struct shade__compare { uint32_t less, equal, greater, always, write; } shade__compare;
+
 /* All that one draw call knows, on its stack. */
 struct shade__triangle;
 typedef struct shade__draw shade__draw;
@@ -2357,7 +2359,7 @@ struct shade__draw {
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
     int      varyings, tail_stride;   /* floats a vertex in tails: a multiple of 8 */
     int      perspective, queued;     /* varyings are divided by w; fragments go to the queue */
-    uint32_t less, equal, greater, always, write;    /* the depth test as masks */
+    shade__compare compare;
     float    toward;                  /* 1, -1: greater, less depth is farther; 0: no blocks kept */
     int      block_w, block_h, blocks_x;    /* log2 of a block's size; blocks side by side */
     int      blocks;                  /* how many; 0: not yet begun */
@@ -2370,6 +2372,12 @@ struct shade__draw {
     union { shade__incoming in; shade__queue queue; } u;    /* first one, then the other */
 };
 
+/* The depth test of z against the stored s, as masks. */
+SHADE__INLINE uint32_t shade__passes(shade__compare c, float z, float s)
+{
+    return (shade__mask(z < s) & c.less) | (shade__mask(z == s) & c.equal) |
+           (shade__mask(z > s) & c.greater) | c.always;
+}
 /* Depth test and write in drawing order, after a shader that may discard.  Turns the discard row
    into marks of the lanes that stay. */
 static void shade__late_depth(shade__draw *d, uint32_t *discard)
@@ -2379,9 +2387,8 @@ static void shade__late_depth(shade__draw *d, uint32_t *discard)
         int alive = discard[i] == 0;
         if (alive && d->depth) {
             float *p = d->depth + q->u.offset[i], z = q->f.z[i];
-            alive = ((d->less & shade__mask(z < *p)) | (d->equal & shade__mask(z == *p)) |
-                     (d->greater & shade__mask(z > *p)) | d->always) != 0;
-            if (alive && d->write) *p = z;
+            alive = shade__passes(d->compare, z, *p) != 0;
+            if (alive && d->compare.write) *p = z;
         }
         discard[i] = (uint32_t)alive;
         d->stats.fragments += alive;
@@ -2714,6 +2721,16 @@ static void shade__spans_big(const shade__triangle *t, int row, int n, shade__sp
     }
 }
 
+/* Depth of the triangle's plane at x = x_ref of row y; and where the row begins in depth. */
+SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
+{
+    return t->base[0] + t->gy[0] * ((float)y + t->y_ref);
+}
+SHADE__INLINE float *shade__depth_row(const shade__draw *d, int y)
+{
+    return d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
+}
+
 /* 1 << i: shifts that differ per lane do not vectorise on SSE2 */
 static const uint32_t shade__bit[32] = {
     1u << 0, 1u << 1, 1u << 2, 1u << 3, 1u << 4, 1u << 5, 1u << 6, 1u << 7,
@@ -2728,38 +2745,18 @@ SHADE__INLINE uint32_t shade__test(const shade__draw *SHADE_RESTRICT d,
                                    const shade__triangle *SHADE_RESTRICT t, float z0, int x,
                                    int skip, int n, float *SHADE_RESTRICT depth, const int width)
 {
-    const uint32_t less = d->less, equal = d->equal, greater = d->greater, always = d->always;
-    const uint32_t write = d->write;
+    const shade__compare c = d->compare;
     const float gz = t->gx[0], x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const int last = skip + n - 1;
     uint32_t set = 0;
     SHADE__FOR(i, width) {
-        uint32_t m = shade__mask(((i - skip) | (last - i)) >= 0);
-        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high),
-              s = depth[i];
-        m &= (shade__mask(z < s) & less) | (shade__mask(z == s) & equal) |
-             (shade__mask(z > s) & greater) | always;
-        depth[i] = shade__select(s, z, m & write);
+        float z = shade__clamp_bits(z0 + gz * ((float)(x + i) + x_ref), z_low, z_high);
+        uint32_t m = shade__mask(((i - skip) | (last - i)) >= 0) & shade__passes(c, z, depth[i]);
+        depth[i] = shade__select(depth[i], z, m & c.write);
         set |= m & shade__bit[i];
     }
     return set;
 }
-/* Pixels x .. x + n - 1 of a row, n <= 32, in windows of 8 that may have to begin further left, or,
-   in a narrower clip rectangle, of 1.  Bit i stands for pixel x + i. */
-SHADE__INLINE uint32_t shade__test_few(const shade__draw *d, const shade__triangle *t, float z,
-                                       int x, int n, float *row)
-{
-    uint32_t set = 0;
-    for (int i = 0; i < n; i += 8) {
-        int start = shade__min(x + i, d->x1 - 8), skip = x + i - start;
-        if (start < d->x0) break;
-        set |= shade__test(d, t, z, start, skip, shade__min(n - i, 8), row + start, 8) >> skip << i;
-    }
-    for (int i = 0; i < n && d->x1 - d->x0 < 8; i++)
-        set |= shade__test(d, t, z, x + i, 0, 1, row + x + i, 1) << i;
-    return set;
-}
-
 SHADE__INLINE int shade__count_bits(uint32_t m)
 {
     m = m - (m >> 1 & 0x55555555u);
@@ -2869,38 +2866,27 @@ SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int
     }
 }
 
-/* Depth of the triangle's plane at x = x_ref of row y; and where the row begins in depth. */
-SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
-{
-    return t->base[0] + t->gy[0] * ((float)y + t->y_ref);
-}
-SHADE__INLINE float *shade__depth_row(const shade__draw *d, int y)
-{
-    return d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;
-}
-/* The pixels x .. x + n - 1, n <= 32, of row y that pass; all are inside the triangle. */
-SHADE__INLINE uint32_t shade__passing(const shade__draw *d, const shade__triangle *t, int x, int y,
-                                      int n)
-{
-    if (n < 32) return shade__test_few(d, t, shade__row_depth(t, y), x, n, shade__depth_row(d, y));
-    return shade__test(d, t, shade__row_depth(t, y), x, 0, 32, shade__depth_row(d, y) + x, 32);
-}
-/* The depth test of a row of n pixels, then the queue; neighbours that all pass go there
-   together. */
+/* The depth test of n pixels from x on in row y, all inside the triangle, then the queue.  They are
+   taken in windows of 32, the last of them in windows of 8 that may have to begin further left, or,
+   where the clip rectangle is narrower, one by one.  Neighbours that all pass are pushed together. */
 SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int x, int y, int n)
 {
+    float z = shade__row_depth(t, y), *row = shade__depth_row(d, y);
     int run = 0;
-    for (; n > 0; x += 32, n -= 32) {
+    for (int take; n > 0; x += take, n -= take) {
+        int skip = shade__max(x + 8 - d->x1, 0), at = x - skip;
         uint32_t set;
-        set = shade__passing(d, t, x, y, shade__min(n, 32));
+        take = n >= 32 ? 32 : at < d->x0 ? 1 : shade__min(n, 8);
+        if (take == 32) set = shade__test(d, t, z, x, 0, 32, row + x, 32);
+        else if (at >= d->x0) set = shade__test(d, t, z, at, skip, take, row + at, 8) >> skip;
+        else set = shade__test(d, t, z, x, 0, 1, row + x, 1);
         d->stats.fragments += shade__count_bits(set);
         if (!d->queued) continue;
-        if (set == 0xFFFFFFFFu) {
-            run += 32;
-            continue;
+        if (set == 0xFFFFFFFFu >> (32 - take)) run += take;
+        else {
+            if (run) d->push(d, t, x - run, y, run), run = 0;
+            shade__push_set(d, t, x, y, set);
         }
-        if (run) d->push(d, t, x - run, y, run), run = 0;
-        shade__push_set(d, t, x, y, set);
     }
     if (run) d->push(d, t, x - run, y, run);
 }
@@ -2969,67 +2955,62 @@ SHADE__INLINE void shade__cover_part(shade__draw *d, const shade__triangle *t, i
     shade__spans s;
     for (; y <= y1; y += 8) {
         int rows = shade__min(8, y1 - y + 1);
-        uint32_t set[8];
         if (t->small) shade__spans_small(t, y - t->y0, n, &s);
         else shade__spans_big(t, y - t->y0, n, &s);
         for (int r = 0; r < rows && early; r++) {    /* worth 4 to 7 % of a teapot 600 pixels wide */
             const float *at = shade__depth_row(d, y + r) + t->x0 + shade__max(s.first[r], low);
-            for (uintptr_t k = 0; k < 3; k++) SHADE__PREFETCH((const char *)((uintptr_t)at + 64 * k));
+            for (uintptr_t k = 0; k < 192; k += 64) SHADE__PREFETCH((char *)((uintptr_t)at + k));
         }
         for (int r = 0; r < rows; r++) {
             int first = shade__max(s.first[r], low), x = t->x0 + first;
             int length = shade__min(s.last[r], high) - first + 1;
-            set[r] = 0, s.first[r] = x;
             if (length <= 0) continue;
-            if (!early) {
-                if (!d->pipe->may_discard) d->stats.fragments += length;
-                if (d->queued) d->push(d, t, x, y + r, length);
-            } else if (length > 32) shade__span(d, t, x, y + r, length);
-            else {
-                set[r] = shade__passing(d, t, x, y + r, length);
-                d->stats.fragments += shade__count_bits(set[r]);
+            if (early) {
+                shade__span(d, t, x, y + r, length);
+                continue;
             }
+            if (!d->pipe->may_discard) d->stats.fragments += length;
+            if (d->queued) d->push(d, t, x, y + r, length);
         }
-        for (int r = 0; r < rows && d->queued; r++) shade__push_set(d, t, s.first[r], y + r, set[r]);
     }
 }
 
-/* The pixels of a triangle at most 8 wide, with the early depth test: all of its window is looked
-   at, row by row, by the edge functions in 32 bits. */
+/* A triangle at most 8 pixels wide, with the early depth test: row by row the three edges of a
+   window of 8, in 32 bits.  1.25 times as fast on meshes of such triangles; testing 8 rows before
+   the first is pushed is 6 % of that. */
 SHADE__INLINE void shade__cover_narrow(shade__draw *d, const shade__triangle *SHADE_RESTRICT t)
 {
-    const int start = shade__min(t->x0, d->x1 - 8);
-    const uint32_t less = d->less, equal = d->equal, greater = d->greater, always = d->always;
-    const uint32_t write = d->write;
+    const shade__compare test = d->compare;
+    const int start = shade__min(t->x0, d->x1 - 8), step = start - t->x0;
     const float gz = t->gx[0], x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
-    const int32_t dy0 = t->dy[0], dy1 = t->dy[1], dy2 = t->dy[2];
-    int32_t e0[8], e1[8], e2[8];
-    float zx[8], *depth = shade__depth_row(d, t->y0) + start;
-    uint32_t set[8];
+    const int32_t a = (int32_t)t->e[0], adx = t->dx[0], ady = t->dy[0];
+    const int32_t b = (int32_t)t->e[1], bdx = t->dx[1], bdy = t->dy[1];
+    const int32_t c = (int32_t)t->e[2], cdx = t->dx[2], cdy = t->dy[2];
+    int32_t e[3][8];
+    float zx[8];
     SHADE__FOR(i, 8) {
-        int32_t step = start - t->x0 + i;
-        e0[i] = (int32_t)t->e[0] + step * t->dx[0], e1[i] = (int32_t)t->e[1] + step * t->dx[1];
-        e2[i] = (int32_t)t->e[2] + step * t->dx[2];
-        zx[i] = gz * ((float)(start + i) + x_ref);
+        e[0][i] = a + (step + i) * adx, e[1][i] = b + (step + i) * bdx;
+        e[2][i] = c + (step + i) * cdx, zx[i] = gz * ((float)(start + i) + x_ref);
     }
-    for (int y = t->y0; y <= t->y1; y += 8) {
-        int rows = shade__min(8, t->y1 - y + 1);
-        for (int r = 0; r < rows; r++, depth += d->stride) {
+    for (int y = t->y0, end; y <= t->y1; y = end) {
+        uint32_t set[8];
+        end = shade__min(y + 8, t->y1 + 1);
+        for (int r = 0; r < end - y; r++) {
             const float z0 = shade__row_depth(t, y + r);
-            uint32_t passed = 0;
+            float *depth = shade__depth_row(d, y + r) + start;
+            uint32_t any = 0;
             SHADE__FOR(i, 8) {
-                uint32_t m = shade__mask((e0[i] | e1[i] | e2[i]) >= 0);
-                float z = shade__clamp_bits(z0 + zx[i], z_low, z_high), s = depth[i];
-                m &= (shade__mask(z < s) & less) | (shade__mask(z == s) & equal) |
-                     (shade__mask(z > s) & greater) | always;
-                depth[i] = shade__select(s, z, m & write);
-                passed |= m & shade__bit[i];
-                e0[i] += dy0, e1[i] += dy1, e2[i] += dy2;
+                float z = shade__clamp_bits(z0 + zx[i], z_low, z_high);
+                uint32_t m = shade__mask((e[0][i] | e[1][i] | e[2][i]) >= 0);
+                m &= shade__passes(test, z, depth[i]);
+                depth[i] = shade__select(depth[i], z, m & test.write);
+                any |= m & shade__bit[i];
+                e[0][i] += ady, e[1][i] += bdy, e[2][i] += cdy;
             }
-            set[r] = passed;
-            d->stats.fragments += shade__count_bits(passed);
+            set[r] = any;
+            d->stats.fragments += shade__count_bits(any);
         }
-        for (int r = 0; r < rows && d->queued; r++) shade__push_set(d, t, start, y + r, set[r]);
+        for (int r = 0; r < end - y && d->queued; r++) shade__push_set(d, t, start, y + r, set[r]);
     }
 }
 
@@ -3488,14 +3469,14 @@ static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipe
     d->tail_stride = (p->varyings + SHADE__TAIL + 7) / 8 * 8;
     d->perspective = p->interpolation == SHADE_PERSPECTIVE;
     d->queued = p->fragment && (d->color || p->may_discard);
-    d->less = shade__mask(test == SHADE_LESS || test == SHADE_LESS_EQUAL);
-    d->greater = shade__mask(test == SHADE_GREATER || test == SHADE_GREATER_EQUAL);
-    d->equal =
+    d->compare.less = shade__mask(test == SHADE_LESS || test == SHADE_LESS_EQUAL);
+    d->compare.greater = shade__mask(test == SHADE_GREATER || test == SHADE_GREATER_EQUAL);
+    d->compare.equal =
         shade__mask(test == SHADE_EQUAL || test == SHADE_LESS_EQUAL || test == SHADE_GREATER_EQUAL);
-    d->always = shade__mask(test == SHADE_ALWAYS);
-    d->write = shade__mask(!p->depth_read_only);
-    d->toward = d->depth && !p->may_discard && !p->depth_read_only
-                    ? (float)(int)(d->less & 1) - (float)(int)(d->greater & 1) : 0;
+    d->compare.always = shade__mask(test == SHADE_ALWAYS);
+    d->compare.write = shade__mask(!p->depth_read_only);
+    d->toward = (float)((d->compare.less != 0) - (d->compare.greater != 0));
+    if (!d->depth || p->may_discard || p->depth_read_only) d->toward = 0;
     d->blocks = 0;
     d->half_width = (float)(t->width * 128), d->half_height = (float)(t->height * 128);
     SHADE_MEMSET(d->tails, 0, sizeof d->tails);
