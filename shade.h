@@ -40,8 +40,8 @@
      About      >>about  >>contents  >>conventions  >>model
      Public     >>config  >>types  >>math  >>light  >>draw
      Inside     >>base  >>matrix  >>power  >>lighting  >>lanes
-                >>store  >>texture  >>fragment  >>setup  >>cover  >>clip  >>vertex  >>drive
-                >>mesh  >>lines  >>shape  >>image
+                >>store  >>texture  >>fragment  >>setup  >>blocks  >>cover  >>clip  >>vertex
+                >>drive  >>mesh  >>lines  >>shape  >>image
      Sources    >>refs  >>license
 
    >>conventions
@@ -2361,8 +2361,8 @@ struct shade__draw {
     int      perspective, queued;     /* varyings are divided by w; fragments go to the queue */
     shade__compare compare;
     float    toward;                  /* 1, -1: greater, less depth is farther; 0: no blocks kept */
-    int      block_w, block_h, blocks_x;    /* log2 of a block's size; blocks side by side */
-    int      blocks;                  /* how many; 0: not yet begun */
+    int      block_w, block_h;        /* log2 of a block's size */
+    int      blocks_x;                /* blocks side by side; 0: not yet begun */
     float    half_width, half_height; /* of the picture, in 1/256 pixels: below 2^22, exact */
     int      vertices;                /* of the batch */
     shade__head heads[SHADE_LANES];
@@ -2528,11 +2528,11 @@ SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
              is inside where e >= 0; bias 0 on top and left edges, -1 on others; dividing by 256
              with floor keeps the sign, since the coefficients of i and j are multiples of 256.
              Neighbours get exactly opposite edges.  |q - p| < 2^25, |y - p.y| < 2^25: products stay
-             below 2^50.                                                                >>cover */
+             below 2^50.                                                               >>blocks */
 
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
-    int      small;                   /* e stays below 2^30 in the box: 32 bits suffice */
+    int      small;                   /* |e| < 2^30 in and 9 pixels around the box */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
     int32_t  dx[3], dy[3];            /* their steps in x and y */
     float    x_ref, y_ref;            /* 1/2 - position of the reference vertex, pixels; exact */
@@ -2576,6 +2576,7 @@ SHADE__INLINE int shade__box(const shade__draw *d, const shade__head *a, const s
     t->x1 = shade__min((int)shade__floor256(right - 128), d->x1 - 1);
     t->y0 = shade__max((int)shade__floor256(top + 127), d->y0);
     t->y1 = shade__min((int)shade__floor256(bottom - 128), d->y1 - 1);
+    /* |256 e| <= |q.x - p.x| |y - p.y| + |q.y - p.y| |x - p.x|, 10 pixels around the vertices */
     t->small = ((int64_t)right - left) * (bottom - top + 2560) +
                    ((int64_t)bottom - top) * (right - left + 2560) <
                ((int64_t)1 << 38);
@@ -2659,14 +2660,76 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
     }
 }
 
+/*----------------------------------------------------------------------------------------- >>blocks
+   What a big triangle hides from those after it in the same draw: a bound of depth for each block
+   of pixels, so that hidden blocks are left out whole.                                   [Greene93]
+     in      triangles at least 32 x 8 pixels           out  the blocks to look at
+     holds   With the tests that only ever bring depth nearer (less, greater, or equal), no pixel of
+             a block is farther than the farthest corner of a triangle that filled it.  Slopes are
+             below 2^34, so all sums are finite; rounding is monotonic, so corners bound every depth
+             between, to the bit.  1000 big triangles, 163 Mpixel of overdraw: 3.7 times as fast,
+             with SSE2 6.2 times.                                                       >>cover */
+
+/* Cuts the clip rectangle into blocks of 32 x 8 pixels or more, SHADE__BLOCKS at most. */
+static void shade__begin_blocks(shade__draw *d)
+{
+    int w = d->x1 - d->x0 - 1, h = d->y1 - d->y0 - 1;
+    d->block_w = 5, d->block_h = 3;
+    while (((w >> d->block_w) + 1) * ((h >> d->block_h) + 1) > SHADE__BLOCKS) {
+        if (d->block_h < d->block_w) d->block_h++;
+        else d->block_w++;
+    }
+    d->blocks_x = (w >> d->block_w) + 1;
+    for (int i = 0; i < SHADE__BLOCKS; i++) d->farthest[i] = FLT_MAX;
+}
+/* toward times the depth of the triangle's plane at a pixel: the bits that >>cover tests */
+SHADE__INLINE float shade__key(const shade__draw *d, const shade__triangle *t, int x, int y)
+{
+    float z = t->base[0] + t->gy[0] * ((float)y + t->y_ref);
+    z += t->gx[0] * ((float)x + t->x_ref);
+    return d->toward * shade__clamp_bits(z, t->z_low, t->z_high);
+}
+/* In rows y .. bottom of the triangle's box, of one row of blocks: moves *x to the next block that
+   has a pixel of the triangle and is not hidden, beyond the box if there is none, and returns the
+   last pixel before one that has not or is. */
+static SHADE__NOINLINE int shade__next_blocks(shade__draw *d, const shade__triangle *t, int *x,
+                                              int y, int bottom)
+{
+    const int right = d->toward * t->gx[0] > 0, down = d->toward * t->gy[0] > 0;
+    const int row = (y - d->y0) >> d->block_h, size = 1 << d->block_w;
+    const int whole = y == d->y0 + (row << d->block_h) &&
+                      bottom == shade__min(d->y0 + ((row + 1) << d->block_h), d->y1) - 1;
+    for (int from = *x, to; from <= t->x1; from = to + 1) {
+        const int column = (from - d->x0) >> d->block_w, first = d->x0 + column * size;
+        const int last = shade__min(first + size, d->x1) - 1;
+        float *farthest = &d->farthest[row * d->blocks_x + column];
+        int skip, full;
+        to = shade__min(last, t->x1), full = whole && from == first && to == last;
+        skip = shade__key(d, t, right ? from : to, down ? y : bottom) > *farthest;
+        for (int k = 0; k < 3 && !skip; k++) {
+            int64_t dx = t->dx[k], dy = t->dy[k], across = dx * (to - from), up = dy * (bottom - y);
+            int64_t e = t->e[k] + dx * (from - t->x0) + dy * (y - t->y0);
+            skip = e + (across > 0 ? across : 0) + (up > 0 ? up : 0) < 0;
+            full &= e + (across < 0 ? across : 0) + (up < 0 ? up : 0) >= 0;
+        }
+        if (skip && from > *x) return from - 1;
+        if (skip) *x = to + 1;
+        else if (full)
+            *farthest =
+                shade__minf(*farthest, shade__key(d, t, right ? to : from, down ? bottom : y));
+    }
+    return t->x1;
+}
+
 /*------------------------------------------------------------------------------------------ >>cover
    Which pixels of a triangle are inside and pass the depth test; runs of them go to the queue.
      in      heads and tails of three vertices, the box of the triangle
      out     depth (early test), fragments of the queue
      method  Exact spans: the first and last pixel of each row from its three edges, 8 rows at once
-             in lanes where 32 bits hold the edges (w h below about 2^20 pixels), row by row in 64
+             in lanes where 32 bits hold the edges (w h below about 2^21 pixels), row by row in 64
              bits else.  Then the depth test in windows of 32 and 8 pixels.  A value at a pixel has
              the same bits however it is reached: row base, then gx times the exact distance.
+             Narrow triangles ask the edges of all pixels of a window instead.
      holds   A window stays inside the clip rectangle: stores rewrite only pixels of this thread.
                                                                                          >>clip */
 
@@ -2853,22 +2916,21 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__triangle *t, in
 SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__triangle *t, int x, int y, int n),
                 (d, t, x, y, n))
 
-/* Pushes the runs of a set; bit i stands for pixel x + i of row y. */
+/* Pushes the runs of a set that lacks one of 32; bit i stands for pixel x + i of row y. */
 SHADE__INLINE void shade__push_set(shade__draw *d, const shade__triangle *t, int x, int y,
                                    uint32_t set)
 {
     while (set) {
         int first = SHADE__LOWEST_BIT(set), n;
-        uint32_t rest = ~(set >> first);
-        n = rest ? SHADE__LOWEST_BIT(rest) : 32;
+        n = SHADE__LOWEST_BIT(~(set >> first));
         d->push(d, t, x + first, y, n);
         set = first + n < 32 ? set >> (first + n) << (first + n) : 0;
     }
 }
 
 /* The depth test of n pixels from x on in row y, all inside the triangle, then the queue.  They are
-   taken in windows of 32, the last of them in windows of 8 that may have to begin further left, or,
-   where the clip rectangle is narrower, one by one.  Neighbours that all pass are pushed together. */
+   taken in windows of 32, the last in windows of 8 that may have to begin further left, or, where
+   the clip rectangle is narrower, one by one.  Neighbours that all pass are pushed together. */
 SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int x, int y, int n)
 {
     float z = shade__row_depth(t, y), *row = shade__depth_row(d, y);
@@ -2891,65 +2953,9 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, int x, 
     if (run) d->push(d, t, x - run, y, run);
 }
 
-/* Cuts the clip rectangle into blocks of 32 x 8 pixels or more, as few as SHADE__BLOCKS. */
-static void shade__begin_blocks(shade__draw *d)
-{
-    int w = d->x1 - d->x0, h = d->y1 - d->y0;
-    d->block_w = 5, d->block_h = 3;
-    for (;;) {
-        d->blocks_x = ((w - 1) >> d->block_w) + 1;
-        d->blocks = d->blocks_x * (((h - 1) >> d->block_h) + 1);
-        if (d->blocks <= SHADE__BLOCKS) break;
-        if (d->block_h < d->block_w) d->block_h++;
-        else d->block_w++;
-    }
-    for (int i = 0; i < d->blocks; i++) d->farthest[i] = FLT_MAX;
-}
-/* toward times the depth of the triangle at a pixel, as shade__test has it */
-SHADE__INLINE float shade__key(const shade__draw *d, const shade__triangle *t, int x, int y)
-{
-    float z = t->base[0] + t->gy[0] * ((float)y + t->y_ref);
-    z += t->gx[0] * ((float)x + t->x_ref);
-    return d->toward * shade__clamp_bits(z, t->z_low, t->z_high);
-}
-/* The next run of blocks, in a row of blocks of which the box holds rows y .. bottom, that have a
-   pixel of the triangle and are not hidden: moves *x to its first pixel and returns its last; *x is
-   beyond the box if there is none.  A block that the triangle fills holds nothing farther than its
-   farthest corner from then on. */
-static SHADE__NOINLINE int shade__next_blocks(shade__draw *d, const shade__triangle *t, int *x,
-                                              int y, int bottom)
-{
-    const int right = d->toward * t->gx[0] > 0, down = d->toward * t->gy[0] > 0;
-    const int top = (y - d->y0) >> d->block_h, size = 1 << d->block_w;
-    const int whole = y == d->y0 + (top << d->block_h) &&
-                      bottom == shade__min(d->y0 + ((top + 1) << d->block_h), d->y1) - 1;
-    for (int from = *x, to; from <= t->x1; from = to + 1) {
-        const int column = (from - d->x0) >> d->block_w, first = d->x0 + column * size;
-        const int last = shade__min(first + size, d->x1) - 1;
-        float *farthest = &d->farthest[top * d->blocks_x + column];
-        int skip, full;
-        to = shade__min(last, t->x1), full = whole && from == first && to == last;
-        skip = shade__key(d, t, right ? from : to, down ? y : bottom) > *farthest;
-        for (int k = 0; k < 3 && !skip; k++) {
-            int64_t e = t->e[k] + (int64_t)t->dx[k] * (from - t->x0) +
-                        (int64_t)t->dy[k] * (y - t->y0);
-            int64_t across = (int64_t)t->dx[k] * (to - from);
-            int64_t below = (int64_t)t->dy[k] * (bottom - y);
-            skip = e + (across > 0 ? across : 0) + (below > 0 ? below : 0) < 0;
-            full &= e + (across < 0 ? across : 0) + (below < 0 ? below : 0) >= 0;
-        }
-        if (skip && from > *x) return from - 1;
-        if (skip) *x = to + 1;
-        else if (full)
-            *farthest = shade__minf(
-                *farthest, shade__key(d, t, right ? to : from, down ? bottom : y));
-    }
-    return t->x1;
-}
-
 /* Draws the triangle's pixels in columns x0 .. x1 and rows y .. y1 of its box. */
-SHADE__INLINE void shade__cover_part(shade__draw *d, const shade__triangle *t, int x0, int y, int x1,
-                                     int y1, int early)
+SHADE__INLINE void shade__cover_part(shade__draw *d, const shade__triangle *t, int x0, int y,
+                                     int x1, int y1, int early)
 {
     const int n = t->x1 - t->x0 + 1, low = x0 - t->x0, high = x1 - t->x0;
     shade__spans s;
@@ -2957,9 +2963,11 @@ SHADE__INLINE void shade__cover_part(shade__draw *d, const shade__triangle *t, i
         int rows = shade__min(8, y1 - y + 1);
         if (t->small) shade__spans_small(t, y - t->y0, n, &s);
         else shade__spans_big(t, y - t->y0, n, &s);
-        for (int r = 0; r < rows && early; r++) {    /* worth 4 to 7 % of a teapot 600 pixels wide */
-            const float *at = shade__depth_row(d, y + r) + t->x0 + shade__max(s.first[r], low);
-            for (uintptr_t k = 0; k < 192; k += 64) SHADE__PREFETCH((char *)((uintptr_t)at + k));
+        for (int r = 0; r < rows && early; r++) {    /* 4 to 7 % of a teapot's time */
+            uintptr_t at = (uintptr_t)(shade__depth_row(d, y + r) + t->x0 +
+                                       shade__max(s.first[r], low));
+            SHADE__PREFETCH((char *)at), SHADE__PREFETCH((char *)(at + 64));
+            SHADE__PREFETCH((char *)(at + 128));
         }
         for (int r = 0; r < rows; r++) {
             int first = shade__max(s.first[r], low), x = t->x0 + first;
@@ -3025,10 +3033,8 @@ SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t,
         shade__cover_narrow(d, t);
         return;
     }
-    blocks = n >= 32 && t->y1 - t->y0 >= 7 && d->toward != 0 &&
-             shade__within(t->base[0], 1e30f) && shade__within(t->gx[0], 1e30f) &&
-             shade__within(t->gy[0], 1e30f);
-    if (blocks && !d->blocks) shade__begin_blocks(d);
+    blocks = n >= 32 && t->y1 - t->y0 >= 7 && d->toward != 0;
+    if (blocks && !d->blocks_x) shade__begin_blocks(d);
     for (int y = t->y0, bottom; y <= t->y1; y = bottom + 1) {
         bottom = t->y1;
         if (blocks) bottom = shade__min(bottom, d->y0 + ((y - d->y0) | ((1 << d->block_h) - 1)));
@@ -3477,7 +3483,7 @@ static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipe
     d->compare.write = shade__mask(!p->depth_read_only);
     d->toward = (float)((d->compare.less != 0) - (d->compare.greater != 0));
     if (!d->depth || p->may_discard || p->depth_read_only) d->toward = 0;
-    d->blocks = 0;
+    d->blocks_x = 0;
     d->half_width = (float)(t->width * 128), d->half_height = (float)(t->height * 128);
     SHADE_MEMSET(d->tails, 0, sizeof d->tails);
     SHADE_MEMSET(d->u.in.slot_of, 0, sizeof d->u.in.slot_of);
@@ -4324,6 +4330,7 @@ SHADE__EXACT_END
                   for Automatic Technical Illustration", SIGGRAPH 1998, 447-452.
    [Gouraud71]    H. Gouraud, "Continuous Shading of Curved Surfaces", IEEE Transactions on
                   Computers C-20(6), 623-629.
+   [Greene93]     N. Greene, M. Kass, G. Miller, "Hierarchical Z-Buffer Visibility", SIGGRAPH 1993.
    [IEC61966]     IEC 61966-2-1:1999, the sRGB colour space.
    [Kadlec10]     J. Kadlec, "Improving the fast inverse square root", 2010: the constant and its
                   Newton step.

@@ -1,7 +1,7 @@
 /* cover.c - which pixels a triangle covers: exactly those of the top-left rule on snapped corners.
    */
 
-/* Draws triangles given in 24.8 window coordinates, one draw, each adding one; no depth. */
+/* Draws triangles given in 24.8 window coordinates, one draw, each adding one; all at depth 1/2. */
 static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices, int random_w,
                      shade_stats *stats)
 {
@@ -16,7 +16,8 @@ static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices
     }
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    p.blend = SHADE_ADD, p.depth_test = SHADE_ALWAYS;
+    p.blend = SHADE_ADD;
+    p.depth_test = vertices == 3 && rnd_one_in(2) ? SHADE_LESS : SHADE_ALWAYS;
     CHECK_INT(shade_draw(&c->target, &p, NULL, vertices, vertices, stats), SHADE_OK);
     free(clip);
 }
@@ -409,6 +410,22 @@ TEST(cover, thin_triangles_across_nine_million_pixels_are_exact)
     canvas_close(&c);
 }
 
+/* Of which the clip rectangle leaves a few columns: as narrow as small ones, in 64 bits. */
+TEST(cover, borders_of_huge_triangles_are_exact)
+{
+    for (int i = 0; i < 60; i++) {
+        canvas c = canvas_open(1600, 600, 0, SHADE_RGBA8, 1);
+        int64_t x[3] = { rnd_int(-1600 * 255, 0), 1600 * 511, rnd_int(0, 1600 * 256) };
+        int64_t y[3] = { rnd_int(-600 * 255, 0), rnd_int(0, 600 * 511), 600 * 511 };
+        canvas_clear(&c, 1);
+        c.target.clip_width = rnd_int(1, 12), c.target.clip_height = 600;
+        c.target.clip_x = i % 2 ? rnd_int(0, 1588) : i % 4 ? 0 : 1600 - c.target.clip_width;
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
 /* 64-bit edges, level ones among them, through centres: a top edge owns them, a bottom edge not */
 TEST(cover, level_edges_of_big_triangles_follow_the_rule)
 {
@@ -521,6 +538,7 @@ static const test_case cover_cases[] = {
     CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
     CASE(cover, triangles_of_a_million_pixels_are_exact),
     CASE(cover, thin_triangles_across_nine_million_pixels_are_exact),
+    CASE(cover, borders_of_huge_triangles_are_exact),
     CASE(cover, level_edges_of_big_triangles_follow_the_rule),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),
 };

@@ -24,6 +24,7 @@
 #include "exact.c"
 #include "fragment.c"
 #include "store.c"
+#include "blocks.c"
 #include "drive.c"
 #include "mesh.c"
 #include "texture.c"
@@ -37,7 +38,7 @@ static const test_section sections[] = {
     SECTION(math),   SECTION(matrix),  SECTION(power),   SECTION(light),    SECTION(lanes),
     SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
-    SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),
+    SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

@@ -1,0 +1,119 @@
+/* blocks.c - leaving out hidden blocks of a draw changes no bit of its picture. */
+
+enum { BLOCKS_MOST = 60 };
+
+/* Corners of count triangles, most of them big, at depths that slope or are level. */
+static void random_walls(shade_vec4 *clip, int count, int width, int height)
+{
+    static const int kinds[] = { 2, 2, 2, 6, 6, 3, 5, 1 };
+    for (int i = 0; i < count; i++) {
+        int64_t x[3], y[3];
+        double level = 2 * rnd_unit() - 1, slope = rnd_one_in(3) ? 0 : rnd_unit();
+        random_corners(kinds[rnd_int(0, 7)], width, height, x, y);
+        if (i % 12 == 3) {    /* all of the picture, to its corners */
+            x[0] = x[1] = -width * 200, x[2] = width * 500;
+            y[0] = -height * 250, y[1] = height * 510, y[2] = height * 128;
+        }
+        for (int k = 0; k < 3; k++) {
+            double z = level + slope * (2 * rnd_unit() - 1);
+            z = z < -1 ? -1 : z > 1 ? 1 : z;
+            clip[3 * i + k] = clip_of_fx8((double)x[k], (double)y[k], width, height, z,
+                                          (double)rnd_log(0.5, 2));
+        }
+    }
+}
+
+/* A draw that may discard tests depth at the end, pixel by pixel; one triangle hides none. */
+TEST(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test)
+{
+    shade_vec4 clip[3 * BLOCKS_MOST], color[BLOCKS_MOST];
+    for (int i = 0; i < BLOCKS_MOST; i++)
+        color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
+    for (int round = 0; round < 240; round++) {
+        int big = round % 20 == 19, count = big ? 20 : BLOCKS_MOST, strip = rnd_one_in(3);
+        int width = big ? rnd_int(1000, 1500) : rnd_int(20, 200);
+        int height = big ? rnd_int(600, 1100) : rnd_int(8, 120);
+        int first = strip ? rnd_int(0, height - 1) : 0;
+        int rows = strip ? rnd_int(1, height - first) : 0;
+        canvas whole = canvas_strip(width, height, 0, SHADE_RGBA8, 1, first, rows);
+        canvas turns = canvas_strip(width, height, 0, SHADE_RGBA8, 1, first, rows);
+        canvas late = canvas_strip(width, height, 0, SHADE_RGBA8, 1, first, rows);
+        scene s = { clip, NULL, 0, color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        shade_stats a, b, one;
+        long long fragments = 0;
+        float clear = rnd_one_in(2) ? rnd_float(0, 1) : round % 6 / 2 == 1 ? 0.0f : 1.0f;
+        p.fragment = scene_flat;
+        p.depth_test = (shade_compare)(round % 6), p.depth_read_only = rnd_one_in(8);
+        p.depth_bias = rnd_one_in(4) ? rnd_float(-0.1, 0.1) : rnd_one_in(20) ? -FLT_MAX : 0;
+        canvas_clear(&whole, clear), canvas_clear(&turns, clear), canvas_clear(&late, clear);
+        if (rnd_one_in(2)) random_clip(&whole.target);
+        late.target.clip_x = turns.target.clip_x = whole.target.clip_x;
+        late.target.clip_y = turns.target.clip_y = whole.target.clip_y;
+        late.target.clip_width = turns.target.clip_width = whole.target.clip_width;
+        late.target.clip_height = turns.target.clip_height = whole.target.clip_height;
+        random_walls(clip, count, width, height);
+        CHECK_INT(shade_draw(&whole.target, &p, NULL, 3 * count, 3 * count, &a), SHADE_OK);
+        for (int i = 0; i < count; i++) {
+            scene part = { clip + 3 * i, NULL, 0, color + i, NULL };
+            p.uniforms = &part;
+            CHECK_INT(shade_draw(&turns.target, &p, NULL, 3, 3, &one), SHADE_OK);
+            fragments += one.fragments;
+        }
+        p.uniforms = &s, p.may_discard = 1;
+        CHECK_INT(shade_draw(&late.target, &p, NULL, 3 * count, 3 * count, &b), SHADE_OK);
+        CHECK(canvas_same(&whole, &turns));
+        CHECK(canvas_same(&whole, &late));
+        CHECK_INT(a.fragments, fragments);
+        CHECK_INT(a.fragments, b.fragments);
+        CHECK_INT(a.drawn, b.drawn);
+        canvas_close(&whole), canvas_close(&turns), canvas_close(&late);
+    }
+}
+
+/* Walls before and behind each other, filling whole blocks: each pixel holds the nearest. */
+TEST(blocks, level_walls_keep_the_nearest)
+{
+    enum { WALLS = 40, WIDTH = 300, HEIGHT = 90 };
+    shade_vec4 clip[6 * WALLS], color[2 * WALLS];
+    for (int round = 0; round < 24; round++) {
+        int left[WALLS], right[WALLS], top[WALLS], bottom[WALLS], reversed = round % 2;
+        float depth[WALLS];
+        canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_RGBA8, 1);
+        scene s = { clip, NULL, 0, color, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        for (int i = 0; i < WALLS; i++) {
+            static const int corner[6][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 },
+                                              { 0, 0 }, { 1, 1 }, { 1, 0 } };
+            left[i] = rnd_int(0, WIDTH - 40), right[i] = rnd_int(left[i] + 1, WIDTH);
+            top[i] = rnd_int(0, HEIGHT - 20), bottom[i] = rnd_int(top[i] + 1, HEIGHT);
+            depth[i] = (float)rnd_int(1, 255) / 256;
+            color[2 * i] = color[2 * i + 1] = shade_v4((float)(i + 1) / 255, 0, 0, 1);
+            for (int k = 0; k < 6; k++)
+                clip[6 * i + k] = clip_of_fx8((corner[k][0] ? right[i] : left[i]) * 256.0,
+                                              (corner[k][1] ? bottom[i] : top[i]) * 256.0, WIDTH,
+                                              HEIGHT, 2 * (double)depth[i] - 1, 1);
+        }
+        p.fragment = scene_flat;
+        p.depth_test = (shade_compare)(round % 4 / 2 + 2 * reversed);
+        canvas_clear(&c, reversed ? 0.0f : 1.0f);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 6 * WALLS, 6 * WALLS, NULL), SHADE_OK);
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                int nearest = -1, or_equal = p.depth_test % 2;
+                for (int i = 0; i < WALLS; i++) {
+                    if (x < left[i] || x >= right[i] || y < top[i] || y >= bottom[i]) continue;
+                    float gain = nearest < 0 ? 1.0f : depth[nearest] - depth[i];
+                    if (nearest >= 0 && reversed) gain = -gain;
+                    if (gain > 0 || (gain == 0 && or_equal)) nearest = i;
+                }
+                CHECK_INT(canvas_bytes(&c, x, y)[0], nearest + 1);
+            }
+        canvas_close(&c);
+    }
+}
+
+static const test_case blocks_cases[] = {
+    CASE(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test),
+    CASE(blocks, level_walls_keep_the_nearest),
+};
