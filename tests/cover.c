@@ -283,6 +283,88 @@ TEST(cover, slivers_a_256th_wide_are_exact)
     }
 }
 
+/* Along an edge of one depth rounding would leave the range of the corners, on either side. */
+TEST(cover, depth_of_slivers_stays_between_their_corners)
+{
+    long low = 0, high = 0;
+    for (int i = 0; i < 2000; i++) {
+        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, 1);
+        int64_t x[3], y[3];
+        shade_vec4 clip[3];
+        float nearest = 1, farthest = 0;
+        scene s = { clip, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        x[0] = rnd_int(0, 89) * 256 + 128, y[0] = rnd_int(0, 69) * 256 + 128;
+        x[1] = x[0] + rnd_int(-9, 9) * (i % 2 ? 256 : 2048);    /* through centres */
+        y[1] = y[0] + rnd_int(-9, 9) * 2048;
+        x[2] = x[rnd_int(0, 1)] + rnd_int(-2, 2), y[2] = y[rnd_int(0, 1)] + rnd_int(-2, 2);
+        for (int k = 0; k < 3; k++) {
+            float depth = k == 1 ? nearest : rnd_float(0.25, 0.75);
+            clip[k] = clip_of_fx8((double)x[k], (double)y[k], 90, 70, 2 * (double)depth - 1, 1);
+            nearest = depth < nearest ? depth : nearest;
+            farthest = depth > farthest ? depth : farthest;
+        }
+        p.fragment = NULL, p.depth_test = SHADE_ALWAYS;
+        canvas_clear(&c, 2);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        for (int k = 0; k < 90 * 70; k++) {
+            float z = c.target.depth[k];
+            if (z > 1) continue;
+            low += z == nearest, high += z == farthest;
+            CHECK_SAY(z >= nearest && z <= farthest, "depth %.9g beyond %g .. %g", (double)z,
+                      (double)nearest, (double)farthest);
+        }
+        canvas_close(&c);
+    }
+    CHECK_SAY(low > 100 && high > 100, "%ld on the nearest, %ld on the farthest", low, high);
+}
+
+/* Between two corners a million times as far as the third, 1/w would be rounded to 0 and below. */
+TEST(cover, varyings_of_slivers_are_finite)
+{
+    long infinite = 0;
+    for (int i = 0; i < 1500; i++) {
+        canvas c = canvas_open(90, 70, 0, SHADE_RGBA32F, 0);
+        float values[3] = { 1, 2, 3 };
+        shade_vec4 clip[3];
+        scene s = { clip, values, 1, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        double far = rnd_log(1, 1e12);
+        int x = rnd_int(0, 89) * 256 + 128, y = rnd_int(0, 69) * 256 + 128;
+        int dx = rnd_int(-9, 9) * 2048, dy = rnd_int(-9, 9) * 2048;
+        clip[0] = clip_of_fx8(x, y, 90, 70, 0, far);
+        clip[1] = clip_of_fx8(x + dx, y + dy, 90, 70, 0, far);
+        clip[2] = clip_of_fx8(x + rnd_int(-2, 2), y + rnd_int(-2, 2), 90, 70, 0, 1);
+        p.fragment = scene_colors;
+        canvas_clear(&c, 1);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        for (int k = 0; k < 90 * 70; k++) infinite += !isfinite(canvas_float(&c, k % 90, k / 90, 0));
+        canvas_close(&c);
+    }
+    CHECK_INT(infinite, 0);
+}
+
+TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing)
+{
+    canvas c = canvas_strip(16384, 16384, 0, SHADE_RGBA8, 1, 8000, 16);
+    canvas_clear(&c, 1);
+    for (int i = 0; i < 400; i++) {
+        int64_t x[3], y[3];
+        shade_stats stats;
+        int left = i % 2;
+        for (int k = 0; k < 3; k++) {
+            x[k] = (left ? 0 : 16384 * 256) + rnd_int(-1100, 1100);
+            y[k] = rnd_int(0, 16384 * 256);
+        }
+        c.target.clip_x = left ? rnd_int(8, 16000) : 0, c.target.clip_y = 8000;
+        c.target.clip_width = left ? 16384 - c.target.clip_x : rnd_int(384, 16370);
+        c.target.clip_height = 16;
+        draw_fx8(&c, x, y, 3, 0, &stats);
+        CHECK_INT(stats.fragments, 0);
+    }
+    canvas_close(&c);
+}
+
 TEST(cover, many_triangles_of_one_draw_do_not_disturb_each_other)
 {
     for (int round = 0; round < 40; round++) {
@@ -532,6 +614,9 @@ static const test_case cover_cases[] = {
     CASE(cover, meshes_cover_every_pixel_exactly_once),
     CASE(cover, fans_around_one_centre_leave_no_hole),
     CASE(cover, slivers_a_256th_wide_are_exact),
+    CASE(cover, depth_of_slivers_stays_between_their_corners),
+    CASE(cover, varyings_of_slivers_are_finite),
+    CASE(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing),
     CASE(cover, many_triangles_of_one_draw_do_not_disturb_each_other),
     CASE(cover, the_biggest_pictures_are_exact),
     CASE(cover, wide_flat_triangles_are_exact),

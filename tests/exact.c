@@ -1,14 +1,16 @@
-/* exact.c - coverage without samples: every triangle on a quarter-pixel lattice, and shared edges
-   whose corners are lattice points or lie thousands of pixels apart. */
+/* exact.c - coverage without samples: every triangle on a lattice, and shared edges whose corners
+   are lattice points or lie thousands of pixels apart. */
 
 enum {
-    EXACT_SIDE = 13,                        /* points along 3 pixels, 1/4 apart, both ends */
-    EXACT_POINTS = EXACT_SIDE * EXACT_SIDE,
+    EXACT_POINTS = 13 * 13,                 /* of a lattice, at most */
     EXACT_PICTURE = 1024,                   /* a power of two: lattice points are floats */
     EXACT_CELL = 4,                         /* 3 pixels and one that stays empty */
     EXACT_ROW = EXACT_PICTURE / EXACT_CELL,
     EXACT_CELLS = EXACT_ROW * EXACT_ROW
 };
+
+/* side x side points over the 3 x 3 pixels of a cell; in 1/256 pixel */
+typedef struct exact_lattice { int side, first, step; } exact_lattice;
 
 /* One draw: a triangle in each cell.  The fragment shader marks pixel (i, j) of the cell of its
    primitive as bit 3 j + i. */
@@ -48,9 +50,9 @@ static void exact_fragment(const void *uniforms, const shade_fragments *SHADE_RE
     }
 }
 
-/* Lattice point p in 1/256 pixel. */
-static int64_t exact_x(int p) { return p % EXACT_SIDE * 64; }
-static int64_t exact_y(int p) { return p / EXACT_SIDE * 64; }
+/* Lattice point p. */
+static int64_t exact_x(exact_lattice l, int p) { return l.first + p % l.side * l.step; }
+static int64_t exact_y(exact_lattice l, int p) { return l.first + p / l.side * l.step; }
 
 /* Draws what the sheet holds and compares; returns the number of wrong triangles. */
 static long exact_draw(exact_sheet *s, canvas *c)
@@ -72,12 +74,13 @@ static long exact_draw(exact_sheet *s, canvas *c)
     s->count = 0;
     return wrong;
 }
-static void exact_add(exact_sheet *s, const int corner[3], unsigned want, int front)
+static void exact_add(exact_sheet *s, exact_lattice l, const int corner[3], unsigned want,
+                      int front)
 {
     int cell = s->count++;
     for (int k = 0; k < 3; k++) {
-        int64_t x = exact_x(corner[k]) + cell % EXACT_ROW * EXACT_CELL * 256;
-        int64_t y = exact_y(corner[k]) + cell / EXACT_ROW * EXACT_CELL * 256;
+        int64_t x = exact_x(l, corner[k]) + cell % EXACT_ROW * EXACT_CELL * 256;
+        int64_t y = exact_y(l, corner[k]) + cell / EXACT_ROW * EXACT_CELL * 256;
         s->clip[3 * cell + k] = clip_of_fx8((double)x, (double)y, EXACT_PICTURE, EXACT_PICTURE, 0,
                                             1);
     }
@@ -85,39 +88,40 @@ static void exact_add(exact_sheet *s, const int corner[3], unsigned want, int fr
 }
 
 /* The nine pixels on either side of the edge from a to b, ties as the top-left rule has them. */
-static unsigned exact_side(int a, int b, int side)
+static unsigned exact_side(exact_lattice l, int a, int b, int side)
 {
     unsigned set = 0;
     for (int n = 0; n < 9; n++) {
-        int sign = ref_edge_sign(exact_x(a), exact_y(a), exact_x(b), exact_y(b),
+        int sign = ref_edge_sign(exact_x(l, a), exact_y(l, a), exact_x(l, b), exact_y(l, b),
                                  n % 3 * 256 + 128, n / 3 * 256 + 128);
         set |= (unsigned)(sign == side) << n;
     }
     return set;
 }
 
-/* All of the 169 * 168 * 167 / 6 triangles between points of a 1/4-pixel lattice over 3 x 3 pixels,
-   flat ones among them, wound both ways, in every rotation in turn; with and without a depth
-   buffer, which take different ways to the queue. */
-TEST(exact, every_triangle_on_a_quarter_pixel_lattice)
+/* All triangles between points of the lattice, flat ones among them, wound both ways, in every
+   rotation in turn; with and without a depth buffer, which take different ways to the queue. */
+static long exact_all(exact_lattice l)
 {
     static exact_sheet sheet;
     static uint16_t left[EXACT_POINTS][EXACT_POINTS], right[EXACT_POINTS][EXACT_POINTS];
+    const int points = l.side * l.side;
     long triangles = 0, wrong = 0;
-    for (int a = 0; a < EXACT_POINTS; a++)
-        for (int b = 0; b < EXACT_POINTS; b++) {
-            left[a][b] = (uint16_t)exact_side(a, b, 1);
-            right[a][b] = (uint16_t)exact_side(a, b, -1);
+    for (int a = 0; a < points; a++)
+        for (int b = 0; b < points; b++) {
+            left[a][b] = (uint16_t)exact_side(l, a, b, 1);
+            right[a][b] = (uint16_t)exact_side(l, a, b, -1);
         }
     for (int with_depth = 0; with_depth < 2; with_depth++) {
         canvas c = canvas_open(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_RGBA8, with_depth);
         canvas_clear(&c, 1);
         memset(&sheet, 0, sizeof sheet);
-        for (int a = 0; a < EXACT_POINTS; a++)
-            for (int b = a + 1; b < EXACT_POINTS; b++)
-                for (int d = b + 1; d < EXACT_POINTS; d++) {
-                    int64_t area = (exact_x(b) - exact_x(a)) * (exact_y(d) - exact_y(a)) -
-                                   (exact_y(b) - exact_y(a)) * (exact_x(d) - exact_x(a));
+        for (int a = 0; a < points; a++)
+            for (int b = a + 1; b < points; b++)
+                for (int d = b + 1; d < points; d++) {
+                    int64_t abx = exact_x(l, b) - exact_x(l, a), aby = exact_y(l, b) - exact_y(l, a);
+                    int64_t adx = exact_x(l, d) - exact_x(l, a), ady = exact_y(l, d) - exact_y(l, a);
+                    int64_t area = abx * ady - aby * adx;
                     unsigned want = left[a][b] & left[b][d] & left[d][a];
                     want |= (unsigned)right[a][b] & right[b][d] & right[d][a];
                     if (area == 0) want = 0;
@@ -125,10 +129,10 @@ TEST(exact, every_triangle_on_a_quarter_pixel_lattice)
                         static const int order[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 2, 0 },
                                                          { 2, 1, 0 }, { 2, 0, 1 }, { 1, 0, 2 } };
                         const int *o = order[(2 * (triangles / 2) + turn) % 6];
-                        int points[3], corner[3];
-                        points[0] = a, points[1] = b, points[2] = d;
-                        for (int k = 0; k < 3; k++) corner[k] = points[o[k]];
-                        exact_add(&sheet, corner, want, turn ? area > 0 : area < 0);
+                        int point[3], corner[3];
+                        point[0] = a, point[1] = b, point[2] = d;
+                        for (int k = 0; k < 3; k++) corner[k] = point[o[k]];
+                        exact_add(&sheet, l, corner, want, turn ? area > 0 : area < 0);
                         triangles++;
                         if (sheet.count == EXACT_CELLS) wrong += exact_draw(&sheet, &c);
                     }
@@ -140,7 +144,17 @@ TEST(exact, every_triangle_on_a_quarter_pixel_lattice)
         canvas_close(&c);
     }
     CHECK_INT(wrong, 0);
-    CHECK_INT(triangles, 2L * 2 * (169L * 168 * 167 / 6));
+    return triangles;
+}
+TEST(exact, every_triangle_on_a_quarter_pixel_lattice)
+{
+    exact_lattice l = { 13, 0, 64 };    /* 3 pixels, both ends */
+    CHECK_INT(exact_all(l), 2L * 2 * (169L * 168 * 167 / 6));
+}
+TEST(exact, every_triangle_of_256ths_around_a_centre)
+{
+    exact_lattice l = { 7, 256 + 128 - 3, 1 };
+    CHECK_INT(exact_all(l), 2L * 2 * (49L * 48 * 47 / 6));
 }
 
 /* Every pixel of a picture has been covered want times. */
@@ -250,6 +264,7 @@ TEST(exact, fans_of_slivers_cover_every_pixel_once)
 
 static const test_case exact_cases[] = {
     CASE(exact, every_triangle_on_a_quarter_pixel_lattice),
+    CASE(exact, every_triangle_of_256ths_around_a_centre),
     CASE(exact, lattice_meshes_cover_every_pixel_once),
     CASE(exact, strips_across_the_biggest_pictures_cover_every_pixel_once),
     CASE(exact, fans_of_slivers_cover_every_pixel_once),

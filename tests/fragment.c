@@ -124,19 +124,22 @@ TEST(fragment, perspective_varyings_match_double_for_every_count) /* rows 42, 44
         double w_range = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 10;
         canvas c = canvas_open(width, height, 0, SHADE_RGBA8, 1);
         grid_triangle t;
-        float attribute[3 * SHADE_MAX_VARYINGS];
+        float attributes[6 * SHADE_MAX_VARYINGS], *attribute = attributes + 3 * varyings;
+        shade_vec4 clip[6];
         random_grid_triangle(&t, width, height, w_range);
-        for (int k = 0; k < 3 * SHADE_MAX_VARYINGS; k++) attribute[k] = rnd_float(-1, 1);
+        for (int k = 0; k < 6; k++) clip[k] = t.clip[k < 3 ? 0 : k - 3];    /* a point before it */
+        for (int k = 0; k < 6 * SHADE_MAX_VARYINGS; k++) attributes[k] = rnd_float(-1, 1);
         ref_triangle e;
         if (!ref_triangle_of(&e, &t.clip[0], &t.clip[1], &t.clip[2], width, height)) continue;
-        scene s = { t.clip, attribute, varyings, NULL, &r };
+        scene s = { clip, attributes, varyings, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         r.count = 0;
         canvas_clear(&c, 1);
-        draw_scene(&c, &p, 3);
+        draw_scene(&c, &p, 6);
         for (int k = 0; k < r.count; k++) {
             fragment_record *f = &r.fragments[k];
             double X = (double)f->x, Y = (double)f->y;
+            CHECK_INT(f->primitive, 1);
             CHECK_NEAR(f->z, ref_depth(&e, X, Y, 0), plane_error(&t, 1) / 4);
             for (int j = 0; j < varyings; j++) {
                 double want =
