@@ -338,7 +338,8 @@ TEST(cover, varyings_of_slivers_are_finite)
         p.fragment = scene_colors;
         canvas_clear(&c, 1);
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
-        for (int k = 0; k < 90 * 70; k++) infinite += !isfinite(canvas_float(&c, k % 90, k / 90, 0));
+        for (int k = 0; k < 90 * 70; k++)
+            infinite += !isfinite(canvas_float(&c, k % 90, k / 90, 0));
         canvas_close(&c);
     }
     CHECK_INT(infinite, 0);

@@ -119,9 +119,9 @@ static long exact_all(exact_lattice l)
         for (int a = 0; a < points; a++)
             for (int b = a + 1; b < points; b++)
                 for (int d = b + 1; d < points; d++) {
-                    int64_t abx = exact_x(l, b) - exact_x(l, a), aby = exact_y(l, b) - exact_y(l, a);
-                    int64_t adx = exact_x(l, d) - exact_x(l, a), ady = exact_y(l, d) - exact_y(l, a);
-                    int64_t area = abx * ady - aby * adx;
+                    int64_t ax = exact_x(l, a), bx = exact_x(l, b) - ax, dx = exact_x(l, d) - ax;
+                    int64_t ay = exact_y(l, a), by = exact_y(l, b) - ay, dy = exact_y(l, d) - ay;
+                    int64_t area = bx * dy - by * dx;
                     unsigned want = left[a][b] & left[b][d] & left[d][a];
                     want |= (unsigned)right[a][b] & right[b][d] & right[d][a];
                     if (area == 0) want = 0;
