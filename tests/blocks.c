@@ -71,6 +71,68 @@ TEST(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test)
     }
 }
 
+/* Forgets all depths drawn so far, once, when a pixel of triangle 1 is shaded. */
+typedef struct forgetful {
+    scene s;    /* first, for scene_vertex */
+    const shade_target *target;
+    float cleared;
+    int *done;
+} forgetful;
+static void forgetful_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                               shade_colors *SHADE_RESTRICT out)
+{
+    const forgetful *f = (const forgetful *)uniforms;
+    const shade_target *t = f->target;
+    (void)out;
+    if (*f->done || in->primitive[in->count - 1] != 1) return;
+    for (int i = 0; i < t->width * t->height; i++) t->depth[i] = f->cleared;
+    *f->done = 1;
+}
+
+/* Two triangles fill the clip rectangle, or up to a line between blocks, level; then all depths are
+   cleared behind the draw's back.  A third, farther one draws the rest alone: filled blocks are not
+   looked at again.  They are 32 x 8 pixels from the corner of the rectangle on, and 32 x 16 where
+   that would be one column too many. */
+TEST(blocks, filled_blocks_are_left_out)
+{
+    enum { SIDE = SHADE_LANES / 4, EDGE = 48, WIDTH = 32 * SIDE + 1 + EDGE };
+    enum { HEIGHT = 8 * SIDE + EDGE };
+    canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_RGBA8, 1);
+    for (int i = 0; i < 96; i++) {
+        const int most = i % 4 / 2, more = i % 4 == 3, by_columns = i / 4 % 2, reversed = i / 8 % 2;
+        const int w = most ? 32 * SIDE + more : i % 8 == 1 ? 32 : rnd_int(32, 32 * SIDE);
+        const int h = most ? 8 * SIDE : i % 8 == 1 ? 8 : rnd_int(8, 8 * SIDE);
+        const int x = rnd_int(0, EDGE - 1), y = rnd_int(0, EDGE - 1), size = more ? 16 : 8;
+        int columns = w, rows = h, done = 0;
+        double cut_x, cut_y, far_x = WIDTH * 256.0, far_y = HEIGHT * 256.0;
+        shade_vec4 clip[9];
+        shade_stats stats;
+        forgetful f = { { clip, NULL, 0, NULL, NULL }, &c.target, reversed ? 0.0f : 1.0f, &done };
+        shade_pipeline p = scene_pipeline(&f.s);
+        if (by_columns && w >= 64) columns = 32 * rnd_int(1, w / 32);
+        if (!by_columns && h >= 2 * size) rows = size * rnd_int(1, h / size);
+        cut_x = (x + columns) * 256.0, cut_y = (y + rows) * 256.0;
+        for (int k = 0; k < 9; k++) {
+            static const int corner[3][2] = { { 0, 0 }, { 2, 0 }, { 1, 1 } };
+            double along = corner[k % 3][0], X, Y, z = k < 3 ? 0.5 : k < 6 ? 0.25 : 0.75;
+            if (k >= 6) cut_x = 1.99 * far_x, cut_y = 1.99 * far_y;
+            X = by_columns ? (corner[k % 3][1] ? -0.99 * far_x : cut_x) : (1.5 * along - 1) * far_x;
+            Y = by_columns ? (1.5 * along - 1) * far_y : corner[k % 3][1] ? -0.99 * far_y : cut_y;
+            z = reversed ? 1 - z : z;
+            clip[k] = clip_of_fx8(floor(X), floor(Y), WIDTH, HEIGHT, 2 * z - 1, 1);
+        }
+        p.fragment = forgetful_fragment;
+        p.depth_test = (shade_compare)(i / 16 % 2 + 2 * reversed);
+        c.target.clip_x = x, c.target.clip_y = y;
+        c.target.clip_width = w, c.target.clip_height = h;
+        canvas_clear(&c, f.cleared);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 9, 9, &stats), SHADE_OK);
+        CHECK(done);
+        CHECK_INT(stats.fragments, 2 * columns * rows + w * h - columns * rows);
+    }
+    canvas_close(&c);
+}
+
 /* Walls before and behind each other, filling whole blocks: each pixel holds the nearest. */
 TEST(blocks, level_walls_keep_the_nearest)
 {
@@ -115,5 +177,6 @@ TEST(blocks, level_walls_keep_the_nearest)
 
 static const test_case blocks_cases[] = {
     CASE(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test),
+    CASE(blocks, filled_blocks_are_left_out),
     CASE(blocks, level_walls_keep_the_nearest),
 };
