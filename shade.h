@@ -644,14 +644,15 @@ SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
     return shade__m3(shade_cross(m.col[1], m.col[2]), shade_cross(m.col[2], m.col[0]),
                      shade_cross(m.col[0], m.col[1]));
 }
-/* (m^-1)^T, sign and scale kept; the zero matrix where the determinant is 0 or floats end */
+/* (m^-1)^T, sign and scale kept; the zero matrix where the determinant is 0 or its reciprocal or,
+   for entries up to 1e6, the result is beyond floats */
 SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
 {
     shade_mat3 c = shade__cofactors(m);
     float det = shade_dot(m.col[0], c.col[0]), s = det != 0 ? 1 / det : 0;
     shade_vec3 a = shade_scale(c.col[0], s), b = shade_scale(c.col[1], s);
     shade_vec3 d = shade_scale(c.col[2], s), none = shade_v3(0, 0, 0);
-    if (s <= 1e15f && s >= -1e15f) return shade__m3(a, b, d);    /* products stay below 1e28 */
+    if (s * s <= 1e30f) return shade__m3(a, b, d);    /* |entries| <= 1e6: products below 1e28 */
     s = shade_dot(a, none) + shade_dot(b, none) + shade_dot(d, none);
     return s == 0 ? shade__m3(a, b, d) : shade__m3(none, none, none);    /* NaN: not finite */
 }

@@ -220,6 +220,25 @@ TEST(matrix, inverses_beyond_floats_stay_finite)
     }
 }
 
+TEST(matrix, inverse_transposes_of_small_numbers_are_finite)
+{
+    int zero = 0, most = 20000;
+    for (int i = 0; i < most; i++) {
+        shade_vec3 c[3];
+        double lo = i % 4 ? 1e-38 : 1e-6, hi = 1e6;
+        for (int k = 0; k < 3; k++) {
+            c[k] = shade_v3(rnd_one_in(3) ? 0 : rnd_sign() * rnd_log(lo, hi),
+                            rnd_one_in(3) ? 0 : rnd_sign() * rnd_log(lo, hi),
+                            rnd_one_in(3) ? 0 : rnd_sign() * rnd_log(lo, hi));
+        }
+        shade_mat3 m = { { c[0], c[1], c[2] } }, inverse = shade_mat3_inverse_transpose(m);
+        CHECK(finite_mat4(widen(inverse)));
+        CHECK(finite_mat4(widen(shade_mat3_inverse(m))));
+        zero += shade_dot(inverse.col[0], inverse.col[0]) == 0;
+    }
+    CHECK_SAY(zero < most * 3 / 4, "%d of %d are zero", zero, most);
+}
+
 static dmat ref_rotation(double angle, d3 axis) /* Rodrigues: cos I + sin [k] + (1-cos) k k^T */
 {
     d3 k = d3_unit(axis);
@@ -448,6 +467,7 @@ static const test_case matrix_cases[] = {
     CASE(matrix, the_inverse_of_a_singular_matrix_is_zero),
     CASE(matrix, everything_is_finite_up_to_a_million),
     CASE(matrix, inverses_beyond_floats_stay_finite),
+    CASE(matrix, inverse_transposes_of_small_numbers_are_finite),
     CASE(matrix, rotation_follows_the_right_hand),
     CASE(matrix, sine_and_cosine_are_exact_to_float_rounding),
     CASE(matrix, rotations_invert_by_transposing_and_keep_their_normals),
