@@ -45,10 +45,11 @@ build/golden: tests/golden.c
 	@mkdir -p build
 	$(CC) $(FLAGS) tests/golden.c -o $@
 
-test: build/test_main
 ifdef T
+test: build/test_main
 	build/test_main $(T)
 else
+test:
 	@sh tests/all.sh "$(MAKE)" "$(CC)"
 endif
 
