@@ -2661,6 +2661,12 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
     }
 }
 
+/* Depth of the triangle's plane at x = x_ref of row y. */
+SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
+{
+    return t->base[0] + t->gy[0] * ((float)y + t->y_ref);
+}
+
 /*----------------------------------------------------------------------------------------- >>blocks
    What a big triangle hides from those after it in the same draw: a bound of depth for each block
    of pixels, so that hidden blocks are left out whole.                                   [Greene93]
@@ -2686,8 +2692,7 @@ static void shade__begin_blocks(shade__draw *d)
 /* toward times the depth of the triangle's plane at a pixel: the bits that >>cover tests */
 SHADE__INLINE float shade__key(const shade__draw *d, const shade__triangle *t, int x, int y)
 {
-    float z = t->base[0] + t->gy[0] * ((float)y + t->y_ref);
-    z += t->gx[0] * ((float)x + t->x_ref);
+    float z = shade__row_depth(t, y) + t->gx[0] * ((float)x + t->x_ref);
     return d->toward * shade__clamp_bits(z, t->z_low, t->z_high);
 }
 /* In rows y .. bottom of the triangle's box, of one row of blocks: moves *x to the next block that
@@ -2785,11 +2790,7 @@ static void shade__spans_big(const shade__triangle *t, int row, int n, shade__sp
     }
 }
 
-/* Depth of the triangle's plane at x = x_ref of row y; and where the row begins in depth. */
-SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
-{
-    return t->base[0] + t->gy[0] * ((float)y + t->y_ref);
-}
+/* Where row y begins in depth. */
 SHADE__INLINE float *shade__depth_row(const shade__draw *d, int y)
 {
     return d->depth + (size_t)(y - d->row_offset) * (size_t)d->stride;

@@ -29,7 +29,7 @@ step compile sh tests/compile.sh
 step board sh tests/microcontroller.sh
 step readme sh tests/readme.sh
 step lint sh tests/lint.sh
-"$make" -s -j"$cores" build/test_main build/golden all || { echo "0 passed, 1 failed"; exit 1; }
+"$make" -s -j"$cores" build/test_main build/golden all || { wait; echo "0 passed, 1 failed"; exit 1; }
 step runner build/test_main
 step pictures build/golden out/*.ppm
 wait
