@@ -42,7 +42,7 @@
      Inside     >>base  >>matrix  >>power  >>lighting  >>lanes
                 >>store  >>texture  >>fragment  >>setup  >>blocks  >>cover  >>clip  >>vertex
                 >>drive  >>mesh  >>lines  >>shape  >>image
-     Sources    >>refs  >>license
+     Sources    >>refs  >>history  >>license
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -51,7 +51,7 @@
      Window       x right, y DOWN, row 0 on top.  Pixel (i,j) has its centre at (i + 1/2, j + 1/2).
                   X = (x/w + 1) width/2,   Y = (1 - y/w) height/2.
      Depth        0 near, 1 far, test LESS, cleared to 1.  Reversed: depth_zero_to_one,
-                  shade_mat4_perspective_reversed, SHADE_GREATER and a clear value of 0.
+                  shade_mat4_perspective_reversed, SHADE_COMPARE_GREATER and a clear value of 0.
      Front face   counter-clockwise as seen on the screen.
      Coverage     vertices snapped to floor(256 X + 1/2) / 256, exact integer edges, top-left rule.
      Directions   N, L, V, H, R are unit and all point AWAY from the surface.
@@ -71,10 +71,11 @@
      a b c, r            attenuation coefficients, distance to the lamp (at infinity: factor 1)
      spot                (L.S)^e where L.S >= cos(beta), else 0; -S is where the lamp points
      B                   1 where N.L > 0, else 0
-     H                   (L + V) / |L + V|; SHADE_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
+     H                   (L + V) / |L + V|; SHADE_MODEL_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
 */
 #ifndef SHADE_H
 #define SHADE_H
+#define SHADE_VERSION 10000    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options, each defined before the #include, the same for every file of a program:
@@ -191,10 +192,14 @@
 /* gcc would also turn loops that fill rows into calls or rep stos: 9 % of a flat fill.
    Contraction of a * b + c to one rounding would give other bits on other processors: off for
    all of this file with clang, for the implementation with gcc (which decides after inlining, so
-   by its caller). */
-#if defined(__clang__)
+   by its caller).  clang keeps a stack of such states for x86 alone; elsewhere the code behind
+   this file contracts as the compiler's options say. */
+#if defined(__clang__) && (defined(__x86_64__) || defined(__i386__))
 #define SHADE__EXACT_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define SHADE__EXACT_END _Pragma("float_control(pop)")
+#elif defined(__clang__)
+#define SHADE__EXACT_BEGIN _Pragma("STDC FP_CONTRACT OFF")
+#define SHADE__EXACT_END _Pragma("STDC FP_CONTRACT DEFAULT")
 #elif defined(_MSC_VER)
 #define SHADE__EXACT_BEGIN __pragma(float_control(push)) __pragma(fp_contract(off))
 #define SHADE__EXACT_END __pragma(float_control(pop))
@@ -312,7 +317,7 @@ typedef struct shade_material {
 /* One lamp.  shade_directional_light and its sisters below fill it in. */
 typedef struct shade_light {
     shade_vec4 position;           /* w = 0: the direction TOWARD a distant light; else at xyz/w */
-    shade_vec3 ambient;            /* I_La: not attenuated, see SHADE_ATTENUATED_AMBIENT */
+    shade_vec3 ambient;            /* I_La: not attenuated, see SHADE_FLAG_ATTENUATED_AMBIENT */
     shade_vec3 diffuse;            /* I_d */
     shade_vec3 specular;           /* I_s */
     float      constant, linear, quadratic;    /* a, b, c of 1/(a + b r + c r^2); all zero: 1 */
@@ -322,21 +327,21 @@ typedef struct shade_light {
 } shade_light;
 
 typedef enum shade_model {
-    SHADE_BLINN_PHONG = 0,    /* iterations three and four: (N.H)^n               [Blinn77] */
-    SHADE_PHONG,              /* (R.V)^n in place of (N.H)^n                      [Phong75] */
-    SHADE_LAMBERT,            /* iteration two: emission, ambient, diffuse */
-    SHADE_AMBIENT,            /* iteration one: emission, ambient */
-    SHADE_EMISSIVE,           /* iteration zero: emission */
-    SHADE_COOL_TO_WARM        /* shade_cool_to_warm to the first light, and k_e    [Gooch98] */
+    SHADE_MODEL_BLINN_PHONG = 0,     /* iterations three and four: (N.H)^n             [Blinn77] */
+    SHADE_MODEL_PHONG,               /* (R.V)^n in place of (N.H)^n                    [Phong75] */
+    SHADE_MODEL_LAMBERT,             /* iteration two: emission, ambient, diffuse */
+    SHADE_MODEL_AMBIENT,             /* iteration one: emission, ambient */
+    SHADE_MODEL_EMISSIVE,            /* iteration zero: emission */
+    SHADE_MODEL_COOL_TO_WARM         /* shade_cool_to_warm to the first light, k_e     [Gooch98] */
 } shade_model;
 
 enum {                                 /* shade_lighting.flags */
-    SHADE_TWO_SIDED          = 1,      /* turn N toward the viewer first, where N.V < 0 */
-    SHADE_TWO_SIDED_ABS      = 2,      /* |N.L| in the diffuse term alone */
-    SHADE_UNGATED_SPECULAR   = 4,      /* no B: highlights reach behind the terminator */
-    SHADE_WEIGHTED_SPECULAR  = 8,      /* k_s max(0, N.L) (N.H)^n, as a BRDF is weighted */
-    SHADE_ATTENUATED_AMBIENT = 16,     /* I_La by distance and cone, as OpenGL's fixed function */
-    SHADE_INFINITE_VIEWER    = 32      /* eye is the direction toward the viewer, at every point */
+    SHADE_FLAG_TWO_SIDED          = 1,     /* turn N toward the viewer first, where N.V < 0 */
+    SHADE_FLAG_TWO_SIDED_ABS      = 2,     /* |N.L| in the diffuse term alone */
+    SHADE_FLAG_UNGATED_SPECULAR   = 4,     /* no B: highlights reach behind the terminator */
+    SHADE_FLAG_WEIGHTED_SPECULAR  = 8,     /* k_s max(0, N.L) (N.H)^n, as a BRDF is weighted */
+    SHADE_FLAG_ATTENUATED_AMBIENT = 16,    /* I_La by distance and cone, as OpenGL's fixed part */
+    SHADE_FLAG_INFINITE_VIEWER    = 32     /* eye: direction toward the viewer, at every point */
 };
 enum {                                 /* shade_lighting.terms; 0 = all */
     SHADE_TERM_EMISSION = 1, SHADE_TERM_AMBIENT = 2, SHADE_TERM_DIFFUSE = 4, SHADE_TERM_SPECULAR = 8
@@ -344,7 +349,7 @@ enum {                                 /* shade_lighting.terms; 0 = all */
 
 /* The light that falls on a scene, and the equation that answers it.  Positions, normals and eye
    may live in any one space whose axes are orthogonal and of equal scale: world or eye space,
-   never clip space.  SHADE_TWO_SIDED with interpolated normals flips some on the outline of a
+   never clip space.  SHADE_FLAG_TWO_SIDED with interpolated normals flips some on the outline of a
    coarse mesh, where they already point away from the viewer: specks that a finer mesh loses. */
 typedef struct shade_lighting {
     const shade_light *lights;         /* NULL with a count: none (shade_draw_mesh refuses it) */
@@ -353,22 +358,26 @@ typedef struct shade_lighting {
     shade_model model;                 /* unknown: BLINN_PHONG (shade_draw_mesh refuses it) */
     unsigned    flags;
     unsigned    terms;
-    shade_vec3  cool, warm;            /* of SHADE_COOL_TO_WARM; zero: (.4,.4,.7), (.8,.6,.6) */
+    shade_vec3  cool, warm;            /* of COOL_TO_WARM; zero: (.4,.4,.7), (.8,.6,.6) */
 } shade_lighting;
 
 typedef struct shade_terms { shade_vec3 emission, ambient, diffuse, specular; } shade_terms;
 
 typedef enum shade_format {
-    SHADE_RGBA8 = 0,             /* bytes R, G, B, A in memory order */
-    SHADE_RGB565,                /* a native uint16, red in the high bits */
-    SHADE_RGBA32F                /* four floats, stored as they come; srgb does not touch them */
+    SHADE_FORMAT_RGBA8 = 0,      /* bytes R, G, B, A in memory order */
+    SHADE_FORMAT_BGRA8,          /* bytes B, G, R, A: windows of Win32, X11, Cairo, Qt */
+    SHADE_FORMAT_RGB565,         /* a native uint16, red in the high bits */
+    SHADE_FORMAT_RGB565_SWAPPED, /* its two bytes exchanged: displays on a serial bus */
+    SHADE_FORMAT_RGBA32F         /* four floats, stored as they come; srgb does not touch them */
 } shade_format;
 
-typedef enum shade_wrap { SHADE_REPEAT = 0, SHADE_CLAMP, SHADE_MIRROR } shade_wrap;
+typedef enum shade_wrap {
+    SHADE_WRAP_REPEAT = 0, SHADE_WRAP_CLAMP, SHADE_WRAP_MIRROR
+} shade_wrap;
 typedef enum shade_filter {
-    SHADE_BILINEAR = 0,          /* the four nearest texels, weighted by distance */
-    SHADE_NEAREST,               /* the texel that u, v lie in */
-    SHADE_TRILINEAR              /* bilinear in the two nearest mipmaps, weighted [Williams83] */
+    SHADE_FILTER_BILINEAR = 0,   /* the four nearest texels, weighted by distance */
+    SHADE_FILTER_NEAREST,        /* the texel that u, v lie in */
+    SHADE_FILTER_TRILINEAR       /* bilinear in the two nearest mipmaps, weighted [Williams83] */
 } shade_filter;
 
 /* A picture to sample: u right, v DOWN from the top left corner of row 0; texel (i, j) has its
@@ -380,7 +389,7 @@ typedef struct shade_texture {
     int          srgb;                     /* non-zero: 8 and 5-6-5 bits decoded before filtering */
     shade_wrap   wrap_u, wrap_v;
     shade_filter filter;
-    const struct shade_texture *mipmaps;   /* levels 1, 2, ..., read by SHADE_TRILINEAR alone */
+    const struct shade_texture *mipmaps;   /* levels 1, 2, ..., read by TRILINEAR alone */
     int          mipmap_count;
 } shade_texture;
 
@@ -399,23 +408,36 @@ typedef struct shade_target {
 } shade_target;
 
 typedef enum shade_interpolation {
-    SHADE_PERSPECTIVE = 0,       /* correct: linear in the plane of the triangle */
-    SHADE_AFFINE,                /* linear on the screen, to show the fault */
-    SHADE_CONSTANT               /* the value of the triangle's first vertex, as submitted */
+    SHADE_INTERPOLATION_PERSPECTIVE = 0,    /* correct: linear in the plane of the triangle */
+    SHADE_INTERPOLATION_AFFINE,             /* linear on the screen, to show the fault */
+    SHADE_INTERPOLATION_CONSTANT            /* the value of the first vertex, as submitted */
 } shade_interpolation;
 typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
 typedef enum shade_compare {     /* a fragment passes when its depth is ... than the stored one */
-    SHADE_LESS = 0, SHADE_LESS_EQUAL, SHADE_GREATER, SHADE_GREATER_EQUAL, SHADE_EQUAL, SHADE_ALWAYS
+    SHADE_COMPARE_LESS = 0, SHADE_COMPARE_LESS_EQUAL, SHADE_COMPARE_GREATER,
+    SHADE_COMPARE_GREATER_EQUAL, SHADE_COMPARE_EQUAL, SHADE_COMPARE_ALWAYS
 } shade_compare;
 typedef enum shade_blend {       /* s the fragment's colour, a its alpha, d what is there; linear */
-    SHADE_REPLACE = 0,           /* s */
-    SHADE_OVER,                  /* s a + d (1 - a); alpha: a + d_a (1 - a) */
-    SHADE_ADD                    /* s + d, all four channels */
+    SHADE_BLEND_REPLACE = 0,     /* s */
+    SHADE_BLEND_OVER,            /* straight alpha: s a + d (1 - a); alpha: a + d_a (1 - a) */
+    SHADE_BLEND_ADD              /* s + d, all four channels */
 } shade_blend;
+
+/* What happens to triangles and pixels, in every kind of draw.  Depth decides by positions alone:
+   passes over one mesh give the same depth to the bit, whatever they shade and interpolate. */
+typedef struct shade_raster {
+    shade_cull    cull;
+    shade_compare depth_test;
+    shade_blend   blend;
+    int   depth_read_only;       /* non-zero: test, do not write */
+    int   depth_zero_to_one;     /* non-zero: clip space has 0 <= z <= w */
+    float depth_bias;            /* added to window depth; what is stored is clamped to [0, 1] */
+} shade_raster;
+
 typedef enum shade_shading {
-    SHADE_PER_FRAGMENT = 0,      /* N and P interpolated, N made unit again, lit      [Phong75] */
-    SHADE_PER_VERTEX,            /* lit at the vertices, colours interpolated         [Gouraud71] */
-    SHADE_PER_FACE               /* lit once, at the centroid, with the geometric normal */
+    SHADE_SHADING_PER_FRAGMENT = 0,    /* N, P interpolated, N made unit again, lit   [Phong75] */
+    SHADE_SHADING_PER_VERTEX,          /* lit at the vertices, colours interpolated [Gouraud71] */
+    SHADE_SHADING_PER_FACE             /* lit once, at the centroid, with the geometric normal */
 } shade_shading;
 
 /* What became of the triangles of one call; written from zero by each call, whatever the clip
@@ -681,11 +703,12 @@ SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
    -z. */
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
-/* Eye to clip. fovy is the whole vertical angle, aspect is width / height, 0 < near < far are
-   distances. perspective, frustum, ortho: z to [-w, w], as OpenGL. perspective_reversed: no far
-   plane, z = near at every depth and w = -z_eye, so z/w falls from 1 at near to 0 at infinity;
-   use with depth_zero_to_one and GREATER. Degenerate input (near = far, aspect 0, left = right,
-   fovy outside (0, pi), NaN): the zero matrix. */
+/* Eye to clip. fovy is the whole vertical angle, aspect is width / height, near and far are
+   distances. perspective, frustum, ortho: z to [-w, w], as OpenGL; near beyond far turns depth
+   round. perspective_reversed: no far plane, z = near at every depth and w = -z_eye, so z/w falls
+   from 1 at near to 0 at infinity; use with depth_zero_to_one and GREATER. Degenerate input
+   (near = far, aspect 0, left = right, fovy outside (0, pi), NaN, near or far <= 0 but in ortho):
+   the matrix that takes every point to (0, 0, 2, 1), so that nothing is drawn. */
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z);
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z);
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f);
@@ -709,23 +732,36 @@ SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
                                       float exponent, shade_vec3 color);
 
+/* How much of a lamp arrives at P when nothing is in the way: spot / (a + b r + c r^2), to be
+   multiplied by I_d or I_s; 1 for a lamp at infinity without a cone.  *L: unit, from P toward the
+   lamp, zero where P is the lamp (which is dark then if it has a cone with cos(beta) > 0).
+   *distance: r, or FLT_MAX at infinity.  Either may be NULL.  light NULL: all zero. */
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
+                              float *distance);
+/* The same for a packet: P and L three rows of SHADE_LANES floats, amount one; L or amount may be
+   NULL. */
+SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
+                                   float *amount);
+
 /* Light leaving P toward eye, term by term.  N is made unit here (zero stays zero: emission and
    ambient are left).  eye: the viewer's position, or the direction toward it with
-   SHADE_INFINITE_VIEWER.  P, N, eye, lights in one space.  material NULL: white Lambert, that is
-   k_d = k_a = 1; lighting NULL: zeros. */
+   SHADE_FLAG_INFINITE_VIEWER.  P, N, eye, lights in one space.  material NULL: white Lambert, that
+   is k_d = k_a = 1; lighting NULL: zeros. */
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
-                                    shade_vec3 P, shade_vec3 N, shade_vec3 eye);
+                                    shade_vec3 eye, shade_vec3 P, shade_vec3 N);
 
 /* The sum of the four terms: iteration four. */
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 P, shade_vec3 N, shade_vec3 eye);
+                              shade_vec3 eye, shade_vec3 P, shade_vec3 N);
 
 /* shade_lit for a packet, what fragment shaders call.  P, N, albedo, rgb: three rows of
-   SHADE_LANES floats each, x row, y row, z row: in->in[k], or N[0] of a float N[3][SHADE_LANES].
-   albedo multiplies k_d and k_a; NULL: 1.  rgb must not overlap the others. */
+   SHADE_LANES floats each, x row, y row, z row: in->varying[k], or N[0] of a float
+   N[3][SHADE_LANES].  albedo multiplies k_d and k_a; NULL: 1.  visibility: a row per light, which
+   multiplies its I_d and I_s as it is, 0 in full shadow; NULL: 1.  Ambient light is never hidden;
+   COOL_TO_WARM knows no shadow.  rgb must not overlap the others. */
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const float *P, const float *N, const float *albedo,
-                              float *rgb);
+                              const float *visibility, float *rgb);
 
 /* The terms one by one.  N, L, V unit, taken as given. */
 /* max(0, N.L) */
@@ -753,19 +789,33 @@ SHADEDEF float shade_blinn_exponent(float phong_exponent);
    NaN.  Absolute error below 2e-6 for n up to 1e6. */
 SHADEDEF float shade_power(float x, float n);
 
-/* The classic materials of the OpenGL "teapots" program; shininess is its last column times 128.
+/* The classic materials of the OpenGL "teapots" program, in its own numbers: colours as a display
+   shows them.  A target without srgb takes them as they are; one with srgb takes what
+   shade_linear_material makes of them.  Shininess is the table's last column times 128.
                                                                                       [Kilgard94] */
 typedef enum shade_preset {
-    SHADE_EMERALD = 0, SHADE_JADE, SHADE_OBSIDIAN, SHADE_PEARL, SHADE_RUBY, SHADE_TURQUOISE,
-    SHADE_BRASS, SHADE_BRONZE, SHADE_CHROME, SHADE_COPPER, SHADE_GOLD, SHADE_SILVER,
-    SHADE_BLACK_PLASTIC, SHADE_CYAN_PLASTIC, SHADE_GREEN_PLASTIC,
-    SHADE_RED_PLASTIC, SHADE_WHITE_PLASTIC, SHADE_YELLOW_PLASTIC,
-    SHADE_BLACK_RUBBER, SHADE_CYAN_RUBBER, SHADE_GREEN_RUBBER,
-    SHADE_RED_RUBBER, SHADE_WHITE_RUBBER, SHADE_YELLOW_RUBBER, SHADE_PRESET_COUNT
+    SHADE_PRESET_EMERALD = 0, SHADE_PRESET_JADE, SHADE_PRESET_OBSIDIAN, SHADE_PRESET_PEARL,
+    SHADE_PRESET_RUBY, SHADE_PRESET_TURQUOISE,
+    SHADE_PRESET_BRASS, SHADE_PRESET_BRONZE, SHADE_PRESET_CHROME, SHADE_PRESET_COPPER,
+    SHADE_PRESET_GOLD, SHADE_PRESET_SILVER,
+    SHADE_PRESET_BLACK_PLASTIC, SHADE_PRESET_CYAN_PLASTIC, SHADE_PRESET_GREEN_PLASTIC,
+    SHADE_PRESET_RED_PLASTIC, SHADE_PRESET_WHITE_PLASTIC, SHADE_PRESET_YELLOW_PLASTIC,
+    SHADE_PRESET_BLACK_RUBBER, SHADE_PRESET_CYAN_RUBBER, SHADE_PRESET_GREEN_RUBBER,
+    SHADE_PRESET_RED_RUBBER, SHADE_PRESET_WHITE_RUBBER, SHADE_PRESET_YELLOW_RUBBER,
+    SHADE_PRESET_COUNT
 } shade_preset;
 /* The material, and its name: "emerald", "black plastic", ...  Out of range: white Lambert, "". */
 SHADEDEF shade_material shade_preset_material(shade_preset preset);
 SHADEDEF const char    *shade_preset_name(shade_preset preset);
+
+/* Between a display's colours and linear light: the sRGB curve of each component, clamped to
+   [0, 1], NaN as 0; absolute error below 4e-6.                                       [IEC61966] */
+SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 display);
+SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 linear);
+/* The linear colour of 0xRRGGBB as a display shows it; bits above 24 are ignored. */
+SHADEDEF shade_vec3 shade_rgb(uint32_t rrggbb);
+/* The four colours of a material through shade_linear_from_srgb; shininess stays. */
+SHADEDEF shade_material shade_linear_material(shade_material display);
 
 /*------------------------------------------------------------------------------------------- >>draw
    vertex shader -> assemble -> clip -> rasterize -> fragment shader -> depth, blend, store.
@@ -787,8 +837,9 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
 #endif
 
 /* out = in, averaged over factor x factor pixels in linear light: supersampling.  in is factor
-   times as wide and high (its strip has factor times the rows); factor 2 .. 8.  Depth is left
-   alone; out's clip rectangle holds. */
+   times as wide and high (its strip has factor times the rows); factor 1 .. 8, 1 converts formats
+   and may do so in place where pixels are of equal size.  Depth is left alone; out's clip
+   rectangle holds. */
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
 
 /* A texture at u, v, linear RGBA.  lod: level of detail, log2 of texels per pixel; below 0 counts
@@ -814,19 +865,19 @@ typedef struct shade_vertex_ids {                 /* vertices to shade */
 } shade_vertex_ids;
 typedef struct shade_vertices {
     float clip[4][SHADE_LANES];                   /* clip-space position, preset to 0 */
-    float out[SHADE_MAX_VARYINGS][SHADE_LANES];   /* varyings, preset to 0 */
+    float varying[SHADE_MAX_VARYINGS][SHADE_LANES];    /* preset to 0 */
 } shade_vertices;
 typedef struct shade_fragments {                  /* pixels to shade, of any triangles of a draw */
     int      count;
     float    x[SHADE_LANES], y[SHADE_LANES];      /* pixel centre, window space */
     float    z[SHADE_LANES];                      /* depth as stored */
-    float    in[SHADE_MAX_VARYINGS][SHADE_LANES]; /* varyings; rows past pipeline.varyings: unset */
+    float    varying[SHADE_MAX_VARYINGS][SHADE_LANES];    /* rows past pipeline.varyings: unset */
     uint32_t primitive[SHADE_LANES];              /* index of the triangle in this draw */
     uint32_t front[SHADE_LANES];                  /* 1: front-facing, 0: back-facing */
-    float    lod[SHADE_LANES];                    /* set with pipeline.lod_varying */
+    float    lod[SHADE_LANES];                    /* set with pipeline.lod_texture */
 } shade_fragments;
 typedef struct shade_colors {
-    float    out[4][SHADE_LANES];                 /* linear RGBA, preset to 0, 0, 0, 1 */
+    float    color[4][SHADE_LANES];               /* linear RGBA, preset to 0, 0, 0, 1 */
     uint32_t discard[SHADE_LANES];                /* preset to 0; else: the pixel stays as it was */
 } shade_colors;
 
@@ -837,24 +888,19 @@ typedef void shade_vertex_shader(const void *uniforms, const shade_vertex_ids *S
 typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                    shade_colors *SHADE_RESTRICT out);
 
-/* With lod_varying, fragments come with lod = log2 of the longer of the two steps, in texels, that
-   u, v make from a pixel to the next one right and below: the exact derivatives at the pixel, for
-   shade_sample_lanes. */
+/* With lod_texture, fragments come with lod = log2 of the longer of the two steps, in its texels,
+   that u, v make from a pixel to the next one right and below: the exact derivatives of the
+   perspective interpolation at the pixel, whatever interpolation is, for shade_sample_lanes. */
 typedef struct shade_pipeline {
     shade_vertex_shader   *vertex;
     shade_fragment_shader *fragment;              /* NULL: depth only */
     const void            *uniforms;              /* handed to both shaders */
     int                    varyings;              /* floats per vertex, 0 .. SHADE_MAX_VARYINGS */
     shade_interpolation    interpolation;
-    shade_cull             cull;
-    shade_compare          depth_test;
-    int                    depth_read_only;       /* non-zero: test, do not write */
-    int                    depth_zero_to_one;     /* non-zero: clip space has 0 <= z <= w */
+    shade_raster           raster;
     int                    may_discard;           /* depth is tested and written after the shader */
-    float                  depth_bias;            /* added to depth, then clamped to [0, 1] */
-    shade_blend            blend;
-    int                    lod_varying;           /* 1 + k: varyings k, k + 1 are u, v */
-    float                  lod_width, lod_height; /* of the texture they address, texels */
+    const shade_texture   *lod_texture;           /* NULL: no lod */
+    int                    lod_varying;           /* k: varyings k, k + 1 are its u, v */
 } shade_pipeline;
 
 /* Draws index_count / 3 triangles.  indices NULL: vertices 0, 1, 2, ...  A vertex shared by near
@@ -881,33 +927,32 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
     shade_lighting lighting;                      /* light positions in world space */
     shade_shading shading;
     const shade_texture *diffuse_map;             /* times k_d and k_a; ignored without texcoords */
-    shade_cull    cull;
-    shade_compare depth_test;
-    shade_blend   blend;
-    int           depth_zero_to_one, depth_read_only;
-    float         depth_bias;
+    float transparency;                           /* 0 opaque .. 1 invisible */
+    float alpha_cutoff;                           /* pixels of less alpha are cut; 0 .. 1 */
+    shade_raster raster;
 } shade_draw_state;
 
 /* A whole mesh by the equations of >>model, in world space.  The eye is the camera of view (with
-   SHADE_INFINITE_VIEWER: its backward axis).  Per face: lit at the centroid with the geometric
-   normal, in the colour of the first vertex. */
+   SHADE_FLAG_INFINITE_VIEWER: its backward axis).  Per face: lit at the centroid with the
+   geometric normal, in the colour of the first vertex; a map still varies by the pixel.
+     Alpha is (1 - transparency) times the map's.  REPLACE stores colour and alpha, OVER blends by
+   alpha, ADD adds the colour times alpha.  Pixels whose alpha is below alpha_cutoff keep colour
+   and depth, in depth-only draws too, and are no fragments of stats; equal alpha is drawn.  Draw
+   what is opaque first, the rest from back to front; transparency 1 still writes depth. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
-typedef enum shade_cap { SHADE_BUTT = 0, SHADE_SQUARE } shade_cap;
+typedef enum shade_cap { SHADE_CAP_BUTT = 0, SHADE_CAP_SQUARE } shade_cap;
 typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
     float         width;                          /* pixels; 0: 1 */
     shade_cap     cap;                            /* SQUARE: half the width longer, closes joints */
     shade_vec4    color;
-    shade_compare depth_test;
-    shade_blend   blend;
-    int           depth_zero_to_one, depth_read_only;
-    float         depth_bias;
+    shade_raster  raster;                         /* cull is ignored */
 } shade_line_state;
 /* point_count / 2 lines between pairs of points, each the two triangles of its rectangle on the
-   screen; stats count triangles.  Over a filled mesh use SHADE_LESS_EQUAL with a small negative
-   bias. */
+   screen; stats count triangles.  Over a filled mesh use SHADE_COMPARE_LESS_EQUAL with a small
+   negative bias. */
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
@@ -918,8 +963,8 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
 /* normals[index_count]: the mean, as above, of those faces around the corner's position whose
    normals have a cosine of at least cos_crease with the corner's own face; vertices of equal
    position are one.  Time grows with the square of the faces around a position.  memory: aligned
-   to 4, shade_corner_normals_bytes (0 for a bad mesh). */
-SHADEDEF size_t       shade_corner_normals_bytes(const shade_mesh *mesh);
+   to 4, shade_mesh_corner_normals_bytes (0 for a bad mesh). */
+SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
 
@@ -935,7 +980,8 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* World-space ray through window point x, y (pixel centres at + 1/2), direction unit: from the
-   eye, or with an orthographic projection from the near plane. */
+   eye, or with an orthographic projection from the near plane.  A degenerate camera: direction
+   zero. */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -944,6 +990,12 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
                                                                                       [Moller97] */
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric);
+/* The index of the nearest triangle of a mesh that a world-space ray meets, as shade_intersect
+   does, with the mesh placed by model (zero: identity); of equal ones the first.  -1: none, or a
+   bad mesh; *t and *barycentric are left alone then.  Either may be NULL.  Looks at every
+   triangle. */
+SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
+                        shade_vec3 *barycentric);
 
 #ifdef __cplusplus
 }
@@ -1035,7 +1087,8 @@ SHADEDEF const char *shade_result_string(shade_result result)
 
 /*----------------------------------------------------------------------------------------- >>matrix
    Matrices of the public part: formulas as in GLM, the sums of inverses in double.
-     holds   Degenerate cameras give the zero matrix, which draws nothing.              >>power */
+     holds   Degenerate cameras put every point at z = 2, w = 1, outside near or far in every
+             convention of depth: nothing is drawn.                                     >>power */
 
 /* Sine and cosine, to 1e-16 of the reduced argument: x - k pi/2 with pi/2 in two parts, the high
    one of 33 bits so that k times it is exact for |k| < 2^20, and Taylor series on [-pi/4, pi/4]
@@ -1131,16 +1184,22 @@ SHADEDEF float shade_mat4_determinant(shade_mat4 m)
     shade__minors(m.col[0], m.col[1], s), shade__minors(m.col[2], m.col[3], c);
     return (float)shade__determinant(s, c);
 }
-/* The zero matrix where an entry is not finite. */
-static shade_mat4 shade__finite(shade_mat4 m)
+static int shade__is_finite(const shade_mat4 *m)
 {
     for (int j = 0; j < 4; j++) {
-        shade_vec4 v = m.col[j];
+        shade_vec4 v = m->col[j];
         if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
             !shade__within(v.z, FLT_MAX) || !shade__within(v.w, FLT_MAX))
-            return shade__zero_matrix();
+            return 0;
     }
-    return m;
+    return 1;
+}
+/* The camera itself, or the degenerate one where it is none or an entry is not finite. */
+static shade_mat4 shade__camera(int exists, shade_mat4 m)
+{
+    shade_mat4 none = shade__zero_matrix();
+    none.col[3] = shade_v4(0, 0, 2, 1);
+    return exists && shade__is_finite(&m) ? m : none;
 }
 /* Column of the adjugate: v is a row of m without the columns of the minors c. */
 static shade_vec4 shade__adjugate(double p, double q, double r, double t, double scale)
@@ -1160,7 +1219,7 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
         e[j][2] = (double)m.col[j].z, e[j][3] = (double)m.col[j].w;
     }
     k = 1 / det;
-    return shade__finite(shade__m4(
+    m = shade__m4(
         shade__adjugate(e[1][1] * c[5] - e[1][2] * c[4] + e[1][3] * c[3],
                         -e[0][1] * c[5] + e[0][2] * c[4] - e[0][3] * c[3],
                         e[3][1] * s[5] - e[3][2] * s[4] + e[3][3] * s[3],
@@ -1176,7 +1235,8 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
         shade__adjugate(-e[1][0] * c[3] + e[1][1] * c[1] - e[1][2] * c[0],
                         e[0][0] * c[3] - e[0][1] * c[1] + e[0][2] * c[0],
                         -e[3][0] * s[3] + e[3][1] * s[1] - e[3][2] * s[0],
-                        e[2][0] * s[3] - e[2][1] * s[1] + e[2][2] * s[0], k)));
+                        e[2][0] * s[3] - e[2][1] * s[1] + e[2][2] * s[0], k));
+    return shade__is_finite(&m) ? m : shade__zero_matrix();
 }
 
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
@@ -1219,8 +1279,9 @@ static double shade__focal(float fovy)
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z)
 {
     double f = shade__focal(fovy), n = (double)near_z, d = n - (double)far_z;
-    if (!(f > 0) || aspect == 0 || !(d < 0 || d > 0)) return shade__zero_matrix();
-    return shade__finite(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
+    int exists = f > 0 && aspect != 0 && near_z > 0 && far_z > 0 && d != 0;
+    return shade__camera(exists,
+                         shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
                                    shade_v4(0, (float)f, 0, 0),
                                    shade_v4(0, 0, (float)((n + (double)far_z) / d), -1),
                                    shade_v4(0, 0, (float)(2 * n * (double)far_z / d), 0)));
@@ -1228,8 +1289,8 @@ SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z)
 {
     double f = shade__focal(fovy);
-    if (!(f > 0) || aspect == 0 || !(near_z > 0)) return shade__zero_matrix();
-    return shade__finite(shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
+    return shade__camera(f > 0 && aspect != 0 && near_z > 0,
+                         shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
                                    shade_v4(0, (float)f, 0, 0), shade_v4(0, 0, 0, -1),
                                    shade_v4(0, 0, near_z, 0)));
 }
@@ -1237,22 +1298,24 @@ SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float
 {
     double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
     double n2 = 2 * (double)n;
-    if (w == 0 || h == 0 || d == 0) return shade__zero_matrix();
-    return shade__finite(shade__m4(
-        shade_v4((float)(n2 / w), 0, 0, 0), shade_v4(0, (float)(n2 / h), 0, 0),
-        shade_v4((float)(((double)r + (double)l) / w), (float)(((double)t + (double)b) / h),
-                 (float)(((double)n + (double)f) / d), -1),
-        shade_v4(0, 0, (float)(n2 * (double)f / d), 0)));
+    return shade__camera(
+        w != 0 && h != 0 && d != 0 && n > 0 && f > 0,
+        shade__m4(shade_v4((float)(n2 / w), 0, 0, 0), shade_v4(0, (float)(n2 / h), 0, 0),
+                  shade_v4((float)(((double)r + (double)l) / w),
+                           (float)(((double)t + (double)b) / h),
+                           (float)(((double)n + (double)f) / d), -1),
+                  shade_v4(0, 0, (float)(n2 * (double)f / d), 0)));
 }
 SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f)
 {
     double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
-    if (w == 0 || h == 0 || d == 0) return shade__zero_matrix();
-    return shade__finite(shade__m4(
-        shade_v4((float)(2 / w), 0, 0, 0), shade_v4(0, (float)(2 / h), 0, 0),
-        shade_v4(0, 0, (float)(2 / d), 0),
-        shade_v4((float)(-((double)r + (double)l) / w), (float)(-((double)t + (double)b) / h),
-                 (float)(((double)n + (double)f) / d), 1)));
+    return shade__camera(
+        w != 0 && h != 0 && d != 0,
+        shade__m4(shade_v4((float)(2 / w), 0, 0, 0), shade_v4(0, (float)(2 / h), 0, 0),
+                  shade_v4(0, 0, (float)(2 / d), 0),
+                  shade_v4((float)(-((double)r + (double)l) / w),
+                           (float)(-((double)t + (double)b) / h),
+                           (float)(((double)n + (double)f) / d), 1)));
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -1302,11 +1365,14 @@ SHADE__INLINE float shade__power_log(float x, float n, uint32_t zero)
 }
 SHADEDEF float shade_power(float x, float n)
 {
-    float c = shade__clamp_bits(x, 0, 1), small = 0;
+    float c = shade__clamp_bits(x, 0, 1), subnormal = 0;
     if (!(n > 0)) return 1;
     if (!shade__within(n, FLT_MAX)) n = FLT_MAX;
-    if (c > 0 && c < FLT_MIN) c *= 16777216, small = 24 * shade__minf(n, 8);
-    return shade__exp2_neg(shade__power_log(c, n, shade__mask(1)) + small);
+    if (c > 0 && c < FLT_MIN) {
+        c *= 16777216;
+        subnormal = 24 * shade__minf(n, 8);
+    }
+    return shade__exp2_neg(shade__power_log(c, n, shade__mask(1)) + subnormal);
 }
 
 /*--------------------------------------------------------------------------------------- >>lighting
@@ -1383,9 +1449,9 @@ SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model
     float s = 0;
     shade_material white = shade_preset_material(SHADE_PRESET_COUNT);
     if (!material) material = &white;
-    if (model != SHADE_BLINN_PHONG && model != SHADE_PHONG)
-        return model == SHADE_LAMBERT ? material->diffuse : shade_v3(0, 0, 0);
-    if (model == SHADE_PHONG) s = shade_power(shade__mirror_cosine(N, L, V),
+    if (model != SHADE_MODEL_BLINN_PHONG && model != SHADE_MODEL_PHONG)
+        return model == SHADE_MODEL_LAMBERT ? material->diffuse : shade_v3(0, 0, 0);
+    if (model == SHADE_MODEL_PHONG) s = shade_power(shade__mirror_cosine(N, L, V),
                                               material->shininess);
     else if (!shade__is_zero(shade_halfway(L, V)))
         s = shade_power(shade_dot(N, shade_halfway(L, V)), material->shininess);
@@ -1478,10 +1544,11 @@ static shade__surface shade__surface_of(const shade_lighting *lighting,
     shade_vec3 none = shade_v3(0, 0, 0);
     shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
     unsigned terms = lighting->terms ? lighting->terms : ~0u;
-    if (lighting->model == SHADE_EMISSIVE) terms &= SHADE_TERM_EMISSION;
-    if (lighting->model == SHADE_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
-    if (lighting->model == SHADE_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
-    if (lighting->model == SHADE_COOL_TO_WARM) terms &= SHADE_TERM_EMISSION | SHADE_TERM_DIFFUSE;
+    if (lighting->model == SHADE_MODEL_EMISSIVE) terms &= SHADE_TERM_EMISSION;
+    if (lighting->model == SHADE_MODEL_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
+    if (lighting->model == SHADE_MODEL_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
+    if (lighting->model == SHADE_MODEL_COOL_TO_WARM)
+        terms &= SHADE_TERM_EMISSION | SHADE_TERM_DIFFUSE;
     s.emission = terms & SHADE_TERM_EMISSION ? m.emission : none;
     s.ambient = terms & SHADE_TERM_AMBIENT ? m.ambient : none;
     s.diffuse = terms & SHADE_TERM_DIFFUSE ? m.diffuse : none;
@@ -1491,8 +1558,8 @@ static shade__surface shade__surface_of(const shade_lighting *lighting,
     s.scene_ambient = terms & SHADE_TERM_AMBIENT ? lighting->ambient : none;
     s.flags = lighting->flags;
     s.light_count = lighting->lights ? lighting->light_count : 0;
-    s.phong = lighting->model == SHADE_PHONG;
-    s.cool_to_warm = lighting->model == SHADE_COOL_TO_WARM && (terms & SHADE_TERM_DIFFUSE);
+    s.phong = lighting->model == SHADE_MODEL_PHONG;
+    s.cool_to_warm = lighting->model == SHADE_MODEL_COOL_TO_WARM && (terms & SHADE_TERM_DIFFUSE);
     s.cool = shade__is_zero(lighting->cool) ? shade_v3(0.4f, 0.4f, 0.7f) : lighting->cool;
     s.warm = shade__is_zero(lighting->warm) ? shade_v3(0.8f, 0.6f, 0.6f) : lighting->warm;
     return s;
@@ -1500,9 +1567,9 @@ static shade__surface shade__surface_of(const shade_lighting *lighting,
 
 /* k I if the term is on, else zero whatever they hold. */
 SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, shade_vec3 k,
-                                        shade_vec3 I)
+                                        shade_vec3 light)
 {
-    return s->terms & term ? shade_mul(k, I) : shade_v3(0, 0, 0);
+    return s->terms & term ? shade_mul(k, light) : shade_v3(0, 0, 0);
 }
 
 /* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at
@@ -1548,33 +1615,51 @@ static float shade__half_cosine(const shade_light *light, shade_vec3 P, shade_ve
     return (float)(n[0] * h[0] + n[1] * h[1] + n[2] * h[2]);
 }
 
+/* What of a lamp arrives at P: spot times attenuation.  *L: unit toward it, zero where P is the
+   lamp; *distance: FLT_MAX at infinity. */
+static float shade__arriving(const shade_light *light, shade_vec3 P, shade_vec3 *L,
+                             float *distance)
+{
+    shade__lamp lamp = shade__lamp_of(light);
+    shade_vec3 l = lamp.infinite ? lamp.at : shade_sub(lamp.at, P);
+    float cosine, att = 1;
+    *L = shade_normalize(l), *distance = lamp.infinite ? FLT_MAX : shade_length(l);
+    if (!lamp.infinite)
+        att = shade_attenuation(light->constant, light->linear, light->quadratic, *distance);
+    if (!lamp.spot) return att;
+    cosine = shade_dot(*L, lamp.axis);
+    return cosine >= light->spot_cos_cutoff ? att * shade_power(cosine, light->spot_exponent) : 0;
+}
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
+                              float *distance)
+{
+    shade_vec3 toward = shade_v3(0, 0, 0);
+    float away = 0, amount = light ? shade__arriving(light, P, &toward, &away) : 0;
+    if (L) *L = toward;
+    if (distance) *distance = away;
+    return amount;
+}
+
 /* Adds the light of one lamp to t.  N unit, facing the viewer where that is asked for; V unit. */
 static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shade_light *light,
                                              shade_vec3 P, shade_vec3 N, shade_vec3 V,
                                              shade_vec3 eye, shade_terms *t)
 {
-    shade__lamp lamp = shade__lamp_of(light);
-    shade_vec3 l = lamp.infinite ? lamp.at : shade_sub(lamp.at, P), L = shade_normalize(l);
-    float att = 1, ambient = 1, nl = shade_dot(N, L), lit = nl > 0 ? nl : 0, gloss = 0;
-    if (!lamp.infinite)
-        att = shade_attenuation(light->constant, light->linear, light->quadratic, shade_length(l));
-    if (lamp.spot) {
-        float cosine = shade_dot(L, lamp.axis);
-        att = cosine >= light->spot_cos_cutoff ? att * shade_power(cosine,
-                                                                   light->spot_exponent) : 0;
-    }
-    if (s->flags & SHADE_ATTENUATED_AMBIENT) ambient = att;
+    shade_vec3 L;
+    float distance, att = shade__arriving(light, P, &L, &distance);
+    float ambient = 1, nl = shade_dot(N, L), lit = nl > 0 ? nl : 0, gloss = 0;
+    if (s->flags & SHADE_FLAG_ATTENUATED_AMBIENT) ambient = att;
     t->ambient = shade_madd(t->ambient, ambient,
                             shade__product(s, SHADE_TERM_AMBIENT, s->ambient, light->ambient));
-    if (nl > 0 || ((s->flags & SHADE_UNGATED_SPECULAR) && !shade__is_zero(N))) {
-        float scale = s->flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
+    if (nl > 0 || ((s->flags & SHADE_FLAG_UNGATED_SPECULAR) && !shade__is_zero(N))) {
+        float scale = s->flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f;
         double h2;
         float x = s->phong ? shade__mirror_cosine(N, L, V)
                            : shade__half_cosine(light, P, N, eye, scale, &h2);
         gloss = x == -2 ? 0 : shade_power(x, s->shininess);
     }
-    if (s->flags & SHADE_WEIGHTED_SPECULAR) gloss *= lit;
-    if (s->flags & SHADE_TWO_SIDED_ABS) lit = nl < 0 ? -nl : nl;
+    if (s->flags & SHADE_FLAG_WEIGHTED_SPECULAR) gloss *= lit;
+    if (s->flags & SHADE_FLAG_TWO_SIDED_ABS) lit = nl < 0 ? -nl : nl;
     t->diffuse = shade_madd(t->diffuse, att * lit,
                             shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse));
     t->specular = shade_madd(t->specular, att * gloss,
@@ -1582,22 +1667,19 @@ static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shad
 }
 
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
-                                    shade_vec3 P, shade_vec3 N, shade_vec3 eye)
+                                    shade_vec3 eye, shade_vec3 P, shade_vec3 N)
 {
     shade_terms t;
     SHADE_MEMSET(&t, 0, sizeof t);
     if (!lighting) return t;
     shade__surface s = shade__surface_of(lighting, material);
-    shade_vec3 V = s.flags & SHADE_INFINITE_VIEWER ? eye : shade_sub(eye, P);
+    shade_vec3 V = s.flags & SHADE_FLAG_INFINITE_VIEWER ? eye : shade_sub(eye, P);
     V = shade_normalize(V), N = shade_normalize(N);
-    if ((s.flags & SHADE_TWO_SIDED) && shade_dot(N, V) < 0) N = shade_neg(N);
+    if ((s.flags & SHADE_FLAG_TWO_SIDED) && shade_dot(N, V) < 0) N = shade_neg(N);
     t.emission = s.emission;
     if (s.cool_to_warm) {
         shade_vec3 L = shade_v3(0, 0, 0);
-        if (s.light_count > 0) {
-            shade__lamp lamp = shade__lamp_of(&lighting->lights[0]);
-            L = lamp.infinite ? lamp.at : shade_normalize(shade_sub(lamp.at, P));
-        }
+        if (s.light_count > 0) shade_light_at(&lighting->lights[0], P, &L, (float *)0);
         t.diffuse = shade_cool_to_warm(N, L, s.cool, s.warm);
         return t;
     }
@@ -1608,9 +1690,9 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 }
 
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 P, shade_vec3 N, shade_vec3 eye)
+                              shade_vec3 eye, shade_vec3 P, shade_vec3 N)
 {
-    shade_terms t = shade_evaluate(lighting, material, P, N, eye);
+    shade_terms t = shade_evaluate(lighting, material, eye, P, N);
     return shade_add(shade_add(t.emission, t.ambient), shade_add(t.diffuse, t.specular));
 }
 
@@ -1814,10 +1896,9 @@ SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope,
     }
 }
 
-/* L and attenuation of one lamp, its cone, N.L. Returns zero if no lane is both inside and
-   facing. */
-SHADE__INLINE uint32_t shade__lane_lamp(const shade_light *light, const shade__lamp *lamp,
-                                        const float *P, const float *N, shade__rows *r)
+/* L and att of one lamp: attenuation times cone.  Returns zero if no lane is inside. */
+SHADE__INLINE uint32_t shade__lane_arriving(const shade_light *light, const shade__lamp *lamp,
+                                            const float *P, shade__rows *r)
 {
     uint32_t any = shade__mask(1);
     if (lamp->infinite) shade__lane_directional(lamp->at, r);
@@ -1827,25 +1908,37 @@ SHADE__INLINE uint32_t shade__lane_lamp(const shade_light *light, const shade__l
         shade__lane_log(shade__minf(light->spot_exponent, FLT_MAX), r->nl);
         shade__lane_spot(r);
     }
-    return shade__lane_horizon(N, r) & any;
+    return any;
 }
-/* Adds one lamp to rgb; the same as shade__add_light without the unattenuated ambient term. */
+/* att times visibility; att as it was goes to a row that is free by then, for ambient light. */
+SHADE__INLINE void shade__lane_visibility(const float *SHADE_RESTRICT visibility,
+                                          shade__rows *SHADE_RESTRICT r)
+{
+    SHADE_EACH_LANE(i) {
+        r->L[1][i] = r->att[i];
+        r->att[i] *= visibility[i];
+    }
+}
+/* Adds one lamp to rgb; the same as shade__add_light without the unattenuated ambient term.
+   visibility: the lamp's row, or NULL. */
 SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_light *light,
                                          const float *P, const float *N, const float *albedo,
-                                         shade_vec3 eye, float scale, shade__rows *r, float *rgb)
+                                         const float *visibility, shade_vec3 eye, float scale,
+                                         shade__rows *r, float *rgb)
 {
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
     shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
     shade_vec3 base = shade_v3(0, 0, 0), slope = base;
     const float *x = r->att;
-    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_ATTENUATED_AMBIENT);
+    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_FLAG_ATTENUATED_AMBIENT);
     int gloss = !shade__is_zero(ks);
-    uint32_t open = shade__mask((s->flags & SHADE_UNGATED_SPECULAR) != 0);
-    uint32_t absolute = shade__mask((s->flags & SHADE_TWO_SIDED_ABS) != 0);
-    uint32_t weighted = shade__mask((s->flags & SHADE_WEIGHTED_SPECULAR) != 0), any;
+    uint32_t open = shade__mask((s->flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
+    uint32_t absolute = shade__mask((s->flags & SHADE_FLAG_TWO_SIDED_ABS) != 0);
+    uint32_t weighted = shade__mask((s->flags & SHADE_FLAG_WEIGHTED_SPECULAR) != 0), any;
     if (!ambient && !gloss && shade__is_zero(kd) && !s->cool_to_warm) return;
-    any = shade__lane_lamp(light, &lamp, P, N, r);
+    any = shade__lane_arriving(light, &lamp, P, r);
+    any &= shade__lane_horizon(N, r);
     if (s->cool_to_warm) {    /* cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
         SHADE_EACH_LANE(i) { r->nl[i] = 0.5f + 0.5f * r->nl[i]; }
         base = s->cool, slope = shade_sub(s->warm, s->cool), x = r->nl;
@@ -1857,6 +1950,10 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
             shade__lane_log(s->shininess, r->L[0]);
             shade__lane_gloss(open, weighted, r);
         } else SHADE_MEMSET(r->L[0], 0, sizeof r->L[0]);
+        if (visibility) {
+            shade__lane_visibility(visibility, r);
+            x = r->L[1];
+        }
         if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
         else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
     }
@@ -1868,42 +1965,65 @@ SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_li
 
 SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_material *material,
                                    shade_vec3 eye, const float *P, const float *N,
-                                   const float *albedo, float *rgb)
+                                   const float *albedo, const float *visibility, float *rgb)
 {
     shade__rows r;
     shade__surface s = shade__surface_of(lighting, material);
     const shade_light *lights = lighting->lights;
     shade_light toward;
     shade_vec3 ambient = s.scene_ambient;
-    float scale = s.flags & SHADE_INFINITE_VIEWER ? 0.0f : 1.0f;
-    shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_TWO_SIDED ? 0x80000000u : 0, &r);
+    float scale = s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f;
+    shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_FLAG_TWO_SIDED ? 0x80000000u : 0, &r);
     if (s.cool_to_warm) {    /* only where the first light comes from counts */
         SHADE_MEMSET(&toward, 0, sizeof toward);
         if (s.light_count > 0) toward.position = lights[0].position;
         lights = &toward, s.light_count = 1;
+        visibility = (const float *)0;
     }
-    if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_ATTENUATED_AMBIENT))
+    if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_FLAG_ATTENUATED_AMBIENT))
         for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lights[j].ambient);
     ambient = shade_mul(ambient, s.ambient);
     if (albedo && !shade__is_zero(ambient)) shade__lane_begin(s.emission, ambient, albedo, rgb);
     else shade__lane_begin(s.emission, ambient, (const float *)0, rgb);
-    for (int j = 0; j < s.light_count; j++)
-        shade__lane_add_light(&s, &lights[j], P, N, albedo, eye, scale, &r, rgb);
+    for (int j = 0; j < s.light_count; j++) {
+        const float *seen = visibility ? visibility + (size_t)j * SHADE_LANES : visibility;
+        shade__lane_add_light(&s, &lights[j], P, N, albedo, seen, eye, scale, &r, rgb);
+    }
 }
 SHADE__DISPATCH(shade__lit,
                 (const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
-                 const float *P, const float *N, const float *albedo, float *rgb),
-                (lighting, material, eye, P, N, albedo, rgb))
+                 const float *P, const float *N, const float *albedo, const float *visibility,
+                 float *rgb),
+                (lighting, material, eye, P, N, albedo, visibility, rgb))
 
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 eye,
-                              const float *P, const float *N, const float *albedo, float *rgb)
+                              shade_vec3 eye, const float *P, const float *N, const float *albedo,
+                              const float *visibility, float *rgb)
 {
     if (!lighting || !P || !N || !rgb) {
         if (rgb) SHADE_MEMSET(rgb, 0, 3 * SHADE_LANES * sizeof *rgb);
         return;
     }
-    shade__lit_pick()(lighting, material, eye, P, N, albedo, rgb);
+    shade__lit_pick()(lighting, material, eye, P, N, albedo, visibility, rgb);
+}
+
+SHADE__INLINE void shade__light_at_body(const shade_light *light, const float *P,
+                                        shade__rows *r)
+{
+    shade__lamp lamp = shade__lamp_of(light);
+    shade__lane_arriving(light, &lamp, P, r);
+}
+SHADE__DISPATCH(shade__light_at, (const shade_light *light, const float *P, shade__rows *r),
+                (light, P, r))
+
+SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
+                                   float *amount)
+{
+    shade__rows r;
+    if (light && P) shade__light_at_pick()(light, P, &r);
+    else SHADE_MEMSET(&r, 0, sizeof r);
+    if (L) SHADE_MEMCPY(L, r.L, sizeof r.L);
+    if (amount) SHADE_MEMCPY(amount, r.att, sizeof r.att);
 }
 
 /*------------------------------------------------------------------------------------------ >>store
@@ -1932,20 +2052,55 @@ SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, const int n)
     SHADE__FOR(i, n) { c[i] = shade__srgb_encode(shade__unit(c[i])); }
 }
 
-/* where byte k of a pixel lies in a native uint32 */
-SHADE__INLINE int shade__byte_shift(int k)
+SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 c)
+{
+    return shade_v3(shade__unit(shade__srgb_encode(shade__unit(c.x))),
+                    shade__unit(shade__srgb_encode(shade__unit(c.y))),
+                    shade__unit(shade__srgb_encode(shade__unit(c.z))));
+}
+SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 c)
+{
+    return shade_v3(shade__unit(shade__srgb_decode(shade__unit(c.x))),
+                    shade__unit(shade__srgb_decode(shade__unit(c.y))),
+                    shade__unit(shade__srgb_decode(shade__unit(c.z))));
+}
+SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
+{
+    return shade_linear_from_srgb(shade_v3((float)(rgb >> 16 & 255) / 255,
+                                           (float)(rgb >> 8 & 255) / 255,
+                                           (float)(rgb & 255) / 255));
+}
+SHADEDEF shade_material shade_linear_material(shade_material display)
+{
+    display.emission = shade_linear_from_srgb(display.emission);
+    display.ambient = shade_linear_from_srgb(display.ambient);
+    display.diffuse = shade_linear_from_srgb(display.diffuse);
+    display.specular = shade_linear_from_srgb(display.specular);
+    return display;
+}
+
+static size_t shade__pixel_bytes(shade_format format)
+{
+    if (format == SHADE_FORMAT_RGBA32F) return 16;
+    return format == SHADE_FORMAT_RGB565 || format == SHADE_FORMAT_RGB565_SWAPPED ? 2 : 4;
+}
+SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 255) << 8; }
+
+/* where channel k (R, G, B, A) of a pixel of 4 bytes lies in a native uint32 */
+SHADE__INLINE int shade__channel_shift(shade_format format, int k)
 {
     const uint32_t one = 1;
+    const int byte = format == SHADE_FORMAT_BGRA8 && k < 3 ? 2 - k : k;
     uint8_t first;
     SHADE_MEMCPY(&first, &one, 1);
-    return first ? 8 * k : 24 - 8 * k;
+    return first ? 8 * byte : 24 - 8 * byte;
 }
 /* n pixels of 8 bits a channel */
-SHADE__INLINE void shade__pack_rgba8(const float *SHADE_RESTRICT rgba, const int stride,
-                                     uint32_t *SHADE_RESTRICT pixel, const int n)
+SHADE__INLINE void shade__pack_8888(shade_format format, const float *SHADE_RESTRICT rgba,
+                                    const int stride, uint32_t *SHADE_RESTRICT pixel, const int n)
 {
-    const int r = shade__byte_shift(0), g = shade__byte_shift(1), b = shade__byte_shift(2);
-    const int a = shade__byte_shift(3);
+    const int r = shade__channel_shift(format, 0), g = shade__channel_shift(format, 1);
+    const int b = shade__channel_shift(format, 2), a = shade__channel_shift(format, 3);
     SHADE__FOR(i, n) {
         int32_t cr = (int32_t)(shade__unit(rgba[i]) * 255 + 0.5f);
         int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 255 + 0.5f);
@@ -1974,12 +2129,16 @@ SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const in
 SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int stride, const float *x,
                                const float *y, uint32_t *pixel, const int n)
 {
-    if (t->format == SHADE_RGBA32F) return;
+    if (t->format == SHADE_FORMAT_RGBA32F) return;
     if (t->srgb) {
         for (int k = 0; k < 3; k++) shade__encode_row(rgba + k * stride, n);
     }
-    if (t->format == SHADE_RGBA8) shade__pack_rgba8(rgba, stride, pixel, n);
+    if (shade__pixel_bytes(t->format) == 4)
+        shade__pack_8888(t->format, rgba, stride, pixel, n);
     else shade__pack_rgb565(rgba, stride, x, y, shade__mask(t->dither != 0), pixel, n);
+    if (t->format == SHADE_FORMAT_RGB565_SWAPPED) {
+        SHADE__FOR(i, n) { pixel[i] = shade__swap16(pixel[i]); }
+    }
 }
 static SHADE__NOINLINE void shade__pack8(const shade_target *t, float *rgba, const float *x,
                                          const float *y, uint32_t *pixel)
@@ -1987,37 +2146,50 @@ static SHADE__NOINLINE void shade__pack8(const shade_target *t, float *rgba, con
     shade__pack(t, rgba, 8, x, y, pixel, 8);
 }
 
-static size_t shade__pixel_bytes(shade_format format)
-{
-    return format == SHADE_RGBA32F ? 16 : format == SHADE_RGB565 ? 2 : 4;
-}
 /* Stores one pixel: its packed form, or its four floats, stride apart. */
 SHADE__INLINE void shade__store(shade_format format, uint8_t *p, uint32_t pixel, const float *rgba,
                                 int stride)
 {
+    const size_t bytes = shade__pixel_bytes(format);
     uint16_t u = (uint16_t)pixel;
-    if (format == SHADE_RGBA8) SHADE_MEMCPY(p, &pixel, 4);
-    else if (format == SHADE_RGB565) SHADE_MEMCPY(p, &u, 2);
+    if (bytes == 4) SHADE_MEMCPY(p, &pixel, 4);
+    else if (bytes == 2) SHADE_MEMCPY(p, &u, 2);
     else
         for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + k * stride, 4);
+}
+/* The pixel at p as numbers 0 .. full of its channels, alpha 1 where it has none.  Not RGBA32F. */
+SHADE__INLINE void shade__unpack_pixel(shade_format format, const uint8_t *p, uint32_t *c)
+{
+    if (shade__pixel_bytes(format) == 4) {
+        const int bgra = format == SHADE_FORMAT_BGRA8;
+        c[0] = p[bgra ? 2 : 0], c[1] = p[1], c[2] = p[bgra ? 0 : 2], c[3] = p[3];
+    } else {
+        uint16_t native;
+        uint32_t u;
+        SHADE_MEMCPY(&native, p, 2);
+        u = format == SHADE_FORMAT_RGB565_SWAPPED ? shade__swap16(native) : native;
+        c[0] = u >> 11, c[1] = u >> 5 & 63, c[2] = u & 31, c[3] = 1;
+    }
+}
+/* The full value of channel k of a packed format. */
+SHADE__INLINE uint32_t shade__channel_full(shade_format format, int k)
+{
+    if (shade__pixel_bytes(format) == 4) return 255;
+    return k == 3 ? 1 : k == 1 ? 63 : 31;
 }
 /* The stored pixel at p as linear RGBA. */
 static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 {
-    if (t->format == SHADE_RGBA32F) {
+    uint32_t c[4];
+    if (t->format == SHADE_FORMAT_RGBA32F) {
         SHADE_MEMCPY(rgba, p, 16);
         return;
     }
-    if (t->format == SHADE_RGBA8) {
-        for (int k = 0; k < 4; k++) rgba[k] = (float)p[k] / 255;
-    } else {
-        uint16_t u;
-        SHADE_MEMCPY(&u, p, 2);
-        rgba[0] = (float)(u >> 11) / 31, rgba[1] = (float)(u >> 5 & 63) / 63;
-        rgba[2] = (float)(u & 31) / 31, rgba[3] = 1;
+    shade__unpack_pixel(t->format, p, c);
+    for (int k = 0; k < 4; k++) {
+        rgba[k] = (float)(int32_t)c[k] / (float)(int32_t)shade__channel_full(t->format, k);
+        if (t->srgb && k < 3) rgba[k] = shade__srgb_decode(rgba[k]);
     }
-    if (t->srgb)
-        for (int k = 0; k < 3; k++) rgba[k] = shade__srgb_decode(rgba[k]);
 }
 
 /*---------------------------------------------------------------------------------------- >>texture
@@ -2032,8 +2204,9 @@ static int shade__texture_good(const shade_texture *t)
 {
     return t && t->pixels && t->width > 0 && t->width <= 16384 && t->height > 0 &&
            t->height <= 16384 && (t->stride == 0 || t->stride >= t->width) &&
-           (unsigned)t->format <= SHADE_RGBA32F && (unsigned)t->wrap_u <= SHADE_MIRROR &&
-           (unsigned)t->wrap_v <= SHADE_MIRROR && (unsigned)t->filter <= SHADE_TRILINEAR;
+           (unsigned)t->format <= SHADE_FORMAT_RGBA32F &&
+           (unsigned)t->wrap_u <= SHADE_WRAP_MIRROR && (unsigned)t->wrap_v <= SHADE_WRAP_MIRROR &&
+           (unsigned)t->filter <= SHADE_FILTER_TRILINEAR;
 }
 
 /* Lanes filtered at a time: enough of them hide the latency of their fetches (1.2 times faster than
@@ -2062,11 +2235,13 @@ SHADE__INLINE int32_t shade__floor(float x)
 SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int size,
                                   shade_wrap wrap, int nearest, shade__axis *SHADE_RESTRICT a)
 {
-    const uint32_t clamped = shade__mask(wrap == SHADE_CLAMP);
-    const uint32_t mirrored = shade__mask(wrap == SHADE_MIRROR), smooth = shade__mask(!nearest);
-    const int32_t cyclic = wrap == SHADE_REPEAT ? -1 : 0, last = size - 1, sharp = ~(int32_t)smooth;
+    const uint32_t clamped = shade__mask(wrap == SHADE_WRAP_CLAMP);
+    const uint32_t mirrored = shade__mask(wrap == SHADE_WRAP_MIRROR);
+    const uint32_t smooth = shade__mask(!nearest);
+    const int32_t cyclic = wrap == SHADE_WRAP_REPEAT ? -1 : 0;
+    const int32_t last = size - 1, sharp = ~(int32_t)smooth;
     const float n = (float)size, half = nearest ? 0.0f : 0.5f;
-    const float period = wrap == SHADE_MIRROR ? 0.5f : 1.0f;
+    const float period = wrap == SHADE_WRAP_MIRROR ? 0.5f : 1.0f;
     SHADE__EACH_BLOCK(i, blocks) {
         /* from 2^24 on all floats are even wholes, where a period begins; NaN and infinity join
            them */
@@ -2092,9 +2267,12 @@ SHADE__INLINE uint32_t shade__texel(const uint8_t *p, size_t at, size_t step, in
     uint32_t word;
     uint16_t half;
     p += at * step;
-    if (bytes == 4) SHADE_MEMCPY(&word, p, 4);
-    else SHADE_MEMCPY(&half, p, 2), word = half;
-    return word;
+    if (bytes == 4) {
+        SHADE_MEMCPY(&word, p, 4);
+        return word;
+    }
+    SHADE_MEMCPY(&half, p, 2);
+    return half;
 }
 /* texel[corner][lane], bytes of each, as native integers; step: from texel to texel */
 SHADE__INLINE void shade__fetch_texels(const uint8_t *p, size_t stride, const shade__axis *x,
@@ -2150,18 +2328,24 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
     float c[4][SHADE__TEXELS];
     const uint8_t *p = (const uint8_t *)level->pixels;
     const size_t pitch = (size_t)(level->stride ? level->stride : level->width);
-    int nearest = base->filter == SHADE_NEAREST, wide = level->format == SHADE_RGBA8;
+    const size_t bytes = shade__pixel_bytes(level->format);
+    const int nearest = base->filter == SHADE_FILTER_NEAREST, wide = bytes == 4;
+    const int swapped = level->format == SHADE_FORMAT_RGB565_SWAPPED;
     shade__address(u, blocks, level->width, base->wrap_u, nearest, &x);
     shade__address(v, blocks, level->height, base->wrap_v, nearest, &y);
     for (int k = 0; k < 4; k++) {
-        int shift = wide ? shade__byte_shift(k) : shift565[k], srgb = level->srgb && k < 3;
-        uint32_t mask = wide ? 255 : k == 1 ? 63 : 31;
-        if (level->format == SHADE_RGBA32F)
-            shade__fetch_texels(p + 4 * k, pitch, &x, &y, blocks, 16, 4, texel);
+        int shift = wide ? shade__channel_shift(level->format, k) : shift565[k];
+        int srgb = level->srgb && k < 3;
+        uint32_t mask = shade__channel_full(level->format, k);
+        if (bytes == 16) shade__fetch_texels(p + 4 * k, pitch, &x, &y, blocks, 16, 4, texel);
         else if (!k && wide) shade__fetch_texels(p, pitch, &x, &y, blocks, 4, 4, texel);
         else if (!k) shade__fetch_texels(p, pitch, &x, &y, blocks, 2, 2, texel);
+        for (int j = 0; j < 4 && !k && swapped; j++) {
+            for (int i = 0; i < SHADE__BLOCK * blocks; i++)
+                texel[j][i] = shade__swap16(texel[j][i]);
+        }
         for (int j = 0; j < 4; j++) {
-            if (level->format == SHADE_RGBA32F) {
+            if (bytes == 16) {
                 SHADE_MEMCPY(c[j], texel[j], 4 * SHADE__BLOCK * (size_t)blocks);
             } else if (!wide && k == 3) {
                 for (int i = 0; i < SHADE__BLOCK * blocks; i++) c[j][i] = 1;
@@ -2174,7 +2358,7 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
 SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, const float *v,
                                       const float *lod, int blocks, float *out, int stride)
 {
-    int levels = t->filter == SHADE_TRILINEAR && t->mipmaps && t->mipmap_count > 0 && lod
+    int levels = t->filter == SHADE_FILTER_TRILINEAR && t->mipmaps && t->mipmap_count > 0 && lod
                      ? shade__min(t->mipmap_count, 16) : 0;
     float level[SHADE__TEXELS], weight[SHADE__TEXELS], lowest = levels ? 32.0f : 0.0f, highest = 0;
     for (int k = 0; k < 4; k++) {
@@ -2234,7 +2418,7 @@ SHADEDEF int shade_mipmap_count(int width, int height)
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
 {
     size_t bytes = 0;
-    if ((unsigned)format > SHADE_RGBA32F) return 0;
+    if ((unsigned)format > SHADE_FORMAT_RGBA32F) return 0;
     for (int k = shade_mipmap_count(width, height); k > 0; k--) {
         width = shade__max(width / 2, 1), height = shade__max(height / 2, 1);
         bytes += (size_t)width * (size_t)height * shade__pixel_bytes(format);
@@ -2322,9 +2506,11 @@ typedef struct shade__queue {
     int      contiguous;              /* all pixels are one run */
 } shade__queue;
 
-enum { SHADE__TAIL = 2 };             /* floats of a vertex before its varyings: z, rw */
-enum {                                /* 8-lane rows that hold one vertex's interpolated values */
-    SHADE__STRIDE_MAX = (SHADE_MAX_VARYINGS + SHADE__TAIL + 7) / 8 * 8,
+/* A vertex's interpolated values are z, rw, the varyings, and where the level of detail is asked
+   for without perspective, two varyings once more, times rw. */
+enum { SHADE__TAIL = 2 };             /* floats before the varyings */
+enum {                                /* 8-lane rows that hold one vertex's values */
+    SHADE__STRIDE_MAX = (SHADE_MAX_VARYINGS + SHADE__TAIL + 2 + 7) / 8 * 8,
     SHADE__TAIL_FLOATS = SHADE_LANES * 9 + 4 * SHADE__STRIDE_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
     SHADE__BLOCKS = SHADE_LANES * SHADE_LANES / 16
@@ -2358,7 +2544,10 @@ struct shade__draw {
     size_t   pixel_bytes;
     int      stride, row_offset;      /* pixels from row to row; the row memory starts with */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
-    int      varyings, tail_stride;   /* floats a vertex in tails: a multiple of 8 */
+    int      varyings, values;        /* floats of a tail in use: z, rw, varyings, u v times rw */
+    int      tail_stride;             /* floats a vertex in tails: a multiple of 8 */
+    int      divided;                 /* the first value that is kept times rw */
+    int      lod;                     /* the value that is u times rw, v behind it; 0: no lod */
     int      perspective, queued;     /* varyings are divided by w; fragments go to the queue */
     shade__compare compare;
     float    toward;                  /* 1, -1: greater, less depth is farther; 0: no blocks kept */
@@ -2403,12 +2592,12 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive, c
 {
     const uint32_t *offset = d->u.queue.u.offset;
     const shade_format format = d->target->format;
-    if (format == SHADE_RGBA8 && d->u.queue.contiguous && !alive) {
+    if (d->pixel_bytes == 4 && d->u.queue.contiguous && !alive) {
         SHADE_MEMCPY(d->color + (size_t)offset[first] * 4, pixel + first - base,
                      (size_t)(last - first) * 4);
         return;
     }
-    if (format == SHADE_RGBA8 && !alive) {
+    if (d->pixel_bytes == 4 && !alive) {
         uint8_t *color = d->color;
         for (int i = first; i < last; i++)
             SHADE_MEMCPY(color + (size_t)offset[i] * 4, pixel + i - base, 4);
@@ -2424,7 +2613,7 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive, c
 SHADE__INLINE void shade__blend8(shade_blend blend, const float *SHADE_RESTRICT rgba,
                                  const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT out)
 {
-    uint32_t over = shade__mask(blend == SHADE_OVER);
+    uint32_t over = shade__mask(blend == SHADE_BLEND_OVER);
     SHADE__FOR(i, 8) {
         float a = rgba[i + 3 * SHADE_LANES], s = shade__select(1, a, over);
         float t = shade__select(1, 1 - a, over);
@@ -2450,7 +2639,7 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const flo
             shade__fetch(d->target, d->color + (size_t)q->u.offset[last] * d->pixel_bytes, c);
             for (int k = 0; k < 4; k++) stored[8 * k + last - base] = c[k];
         }
-        shade__blend8(d->pipe->blend, rgba + base, stored, out);
+        shade__blend8(d->pipe->raster.blend, rgba + base, stored, out);
         shade__pack8(d->target, out, q->f.x + base, q->f.y + base, pixel);
         shade__scatter(d, alive, out, 8, pixel, base, i, last);
     }
@@ -2464,7 +2653,7 @@ static void shade__replicate(shade__queue *q, int varyings)
         q->f.x[i] = q->f.x[last], q->f.y[i] = q->f.y[last], q->f.z[i] = q->f.z[last];
         q->f.primitive[i] = q->f.primitive[last], q->f.front[i] = q->f.front[last];
         q->u.rw[i] = q->u.rw[last], q->f.lod[i] = q->f.lod[last];
-        for (int k = 0; k < varyings; k++) q->f.in[k][i] = q->f.in[k][last];
+        for (int k = 0; k < varyings; k++) q->f.varying[k][i] = q->f.varying[k][last];
     }
 }
 /* Rows of varyings times w = 1/rw.  rw of a covered pixel lies between its vertices' and is
@@ -2476,14 +2665,10 @@ SHADE__INLINE void shade__divide(float *SHADE_RESTRICT rw, float *SHADE_RESTRICT
         SHADE_EACH_LANE(i) { in[i] *= rw[i]; }
     }
 }
-/* lod from the squared step times rw^4, once rw holds w */
-SHADE__INLINE void shade__levels(const float *SHADE_RESTRICT w, uint32_t perspective,
-                                 float *SHADE_RESTRICT lod)
+/* lod from the squared step */
+SHADE__INLINE void shade__levels(float *SHADE_RESTRICT lod)
 {
-    SHADE_EACH_LANE(i) {
-        lod[i] =
-            -0.5f * shade__neg_log2(lod[i]) - 2 * shade__keep(shade__neg_log2(w[i]), perspective);
-    }
+    SHADE_EACH_LANE(i) { lod[i] = -0.5f * shade__neg_log2(lod[i]); }
 }
 /* Offsets of the pixels; with the strip's first row below 2^14, all sums are exact in 32 bits. */
 SHADE__INLINE void shade__offsets(shade__queue *SHADE_RESTRICT q, uint32_t stride,
@@ -2503,18 +2688,19 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     uint32_t pixel[SHADE_LANES];
     if (q->f.count == 0) return;
     if (q->f.count < SHADE_LANES) shade__replicate(q, d->varyings);
-    if (d->perspective && d->varyings) shade__divide(q->u.rw, q->f.in[0], d->varyings);
-    if (d->pipe->lod_varying) shade__levels(q->u.rw, shade__mask(d->perspective), q->f.lod);
+    if (d->perspective && d->varyings) shade__divide(q->u.rw, q->f.varying[0], d->varyings);
+    if (d->lod) shade__levels(q->f.lod);
     shade__offsets(q, (uint32_t)d->stride, d->row_offset);
     SHADE_EACH_LANE(i) {
-        c.out[0][i] = c.out[1][i] = c.out[2][i] = 0, c.out[3][i] = 1, c.discard[i] = 0;
+        c.color[0][i] = c.color[1][i] = c.color[2][i] = 0, c.color[3][i] = 1, c.discard[i] = 0;
     }
     d->pipe->fragment(d->pipe->uniforms, &q->f, &c);
     if (alive) shade__late_depth(d, c.discard);
-    if (d->color && d->pipe->blend != SHADE_REPLACE) shade__store_blended(d, c.out[0], alive);
+    if (d->color && d->pipe->raster.blend != SHADE_BLEND_REPLACE)
+        shade__store_blended(d, c.color[0], alive);
     else if (d->color) {
-        shade__pack(d->target, c.out[0], SHADE_LANES, q->f.x, q->f.y, pixel, SHADE_LANES);
-        shade__scatter(d, alive, c.out[0], SHADE_LANES, pixel, 0, 0, q->f.count);
+        shade__pack(d->target, c.color[0], SHADE_LANES, q->f.x, q->f.y, pixel, SHADE_LANES);
+        shade__scatter(d, alive, c.color[0], SHADE_LANES, pixel, 0, 0, q->f.count);
     }
     q->f.count = 0;
 }
@@ -2533,14 +2719,12 @@ SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
 
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
-    int      small;                   /* |e| < 2^30 in and 9 pixels around the box */
+    int      in_32_bits;              /* |e| < 2^30 in and 9 pixels around the box */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
     int32_t  dx[3], dy[3];            /* their steps in x and y */
     float    x_ref, y_ref;            /* 1/2 - position of the reference vertex, pixels; exact */
     float    z_low, z_high, rw_low, rw_high;
     uint32_t primitive, front;
-    int      lod;                     /* value whose step is measured, and the next; 0: none */
-    float    lod_width, lod_height;
     float    base[SHADE__STRIDE_MAX], gx[SHADE__STRIDE_MAX], gy[SHADE__STRIDE_MAX];
 } shade__triangle;
 
@@ -2578,7 +2762,7 @@ SHADE__INLINE int shade__box(const shade__draw *d, const shade__head *a, const s
     t->y0 = shade__max((int)shade__floor256(top + 127), d->y0);
     t->y1 = shade__min((int)shade__floor256(bottom - 128), d->y1 - 1);
     /* |256 e| <= |q.x - p.x| |y - p.y| + |q.y - p.y| |x - p.x|, 10 pixels around the vertices */
-    t->small = ((int64_t)right - left) * (bottom - top + 2560) +
+    t->in_32_bits = ((int64_t)right - left) * (bottom - top + 2560) +
                    ((int64_t)bottom - top) * (right - left + 2560) <
                ((int64_t)1 << 38);
     return t->x0 <= t->x1 && t->y0 <= t->y1;
@@ -2625,7 +2809,7 @@ SHADE__INLINE void shade__slopes(const shade__head *const *v, int64_t area, floa
    sliver's edge. */
 SHADE__INLINE void shade__ranges(const shade__draw *d, const float *const *tail, shade__triangle *t)
 {
-    float bias = d->pipe->depth_bias;
+    float bias = d->pipe->raster.depth_bias;
     float low = shade__minf(tail[0][0], shade__minf(tail[1][0], tail[2][0]));
     float high = shade__maxf(tail[0][0], shade__maxf(tail[1][0], tail[2][0]));
     t->base[0] += bias;
@@ -2636,7 +2820,7 @@ SHADE__INLINE void shade__ranges(const shade__draw *d, const float *const *tail,
 }
 
 /* Fills in a triangle whose box, primitive and facing are known. head, tail: its vertices, as
-   submitted, then the tail that SHADE_CONSTANT takes. pre: area != 0. */
+   submitted, then the tail that SHADE_INTERPOLATION_CONSTANT takes. pre: area != 0. */
 SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *head,
                                 const float *const *tail,
                                 shade__triangle *t)
@@ -2649,15 +2833,15 @@ SHADE__INLINE void shade__setup(const shade__draw *d, const shade__head *const *
     const shade__head *v[3] = { head[k[0]], head[k[1]], head[k[2]] };
     const float *s[3] = { tail[k[0]], tail[k[1]], tail[k[2]] };
     float slopes[4];
-    t->lod = d->pipe->lod_varying ? SHADE__TAIL + d->pipe->lod_varying - 1 : 0;
-    t->lod_width = d->pipe->lod_width, t->lod_height = d->pipe->lod_height;
     shade__edge(v[0], v[1], 0, t), shade__edge(v[1], v[2], 1, t), shade__edge(v[2], v[0], 2, t);
     shade__slopes(v, area < 0 ? -area : area, slopes, t);
     shade__planes(s[0], s[1], s[2], slopes, d->tail_stride, t);
     shade__ranges(d, s, t);
-    if (d->pipe->interpolation == SHADE_CONSTANT) {
-        for (int i = SHADE__TAIL; i < d->tail_stride; i++) t->base[i] = tail[3][i],
+    if (d->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
+        for (int i = SHADE__TAIL; i < d->divided; i++) {
+            t->base[i] = tail[3][i];
             t->gx[i] = t->gy[i] = 0;
+        }
     }
 }
 
@@ -2829,36 +3013,40 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* The longer step of u, v to the next pixel, squared, in texels, times rw^4: with u = U / q, q =
-   rw, du/dx = (U_x q - U q_x) / q^2. */
-SHADE__INLINE void shade__append_lod(float *SHADE_RESTRICT lod,
+/* The longer step of u, v to the next pixel, squared, in texels: with u = U / q, q = rw, the
+   derivative du/dx is (U_x - u q_x) / q, quotients that keep their size whatever w is. */
+SHADE__INLINE void shade__append_lod(const shade__draw *SHADE_RESTRICT d,
                                      const shade__triangle *SHADE_RESTRICT t,
-                                     const float *SHADE_RESTRICT row, int x, const int width)
+                                     const float *SHADE_RESTRICT row, int x,
+                                     const float *SHADE_RESTRICT rw, float *SHADE_RESTRICT lod,
+                                     const int width)
 {
-    const int k = t->lod;
-    const float u0 = row[k], v0 = row[k + 1], q0 = row[1], x_ref = t->x_ref;
+    const int k = d->lod;
+    const float w = (float)d->pipe->lod_texture->width, h = (float)d->pipe->lod_texture->height;
+    const float u0 = row[k], v0 = row[k + 1], x_ref = t->x_ref;
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
-    const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1], w = t->lod_width,
-                h = t->lod_height;
+    const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1];
     SHADE__FOR(i, width) {
-        float px = (float)(x + i) + x_ref, u = u0 + ux * px, v = v0 + vx * px, q = q0 + qx * px;
-        float a = (ux * q - u * qx) * w, b = (vx * q - v * qx) * h;
-        float c = (uy * q - u * qy) * w, e = (vy * q - v * qy) * h;
+        float px = (float)(x + i) + x_ref, r = 1 / rw[i];
+        float u = (u0 + ux * px) * r, v = (v0 + vx * px) * r;
+        float a = (ux - u * qx) * r * w, b = (vx - v * qx) * r * h;
+        float c = (uy - u * qy) * r * w, e = (vy - v * qy) * r * h;
         float right = a * a + b * b, below = c * c + e * e;
         lod[i] = shade__select(right, below, shade__mask(below > right));
     }
 }
 
 /* Writes width lanes of the queue from lane c on: pixels x, x + 1, ... of row y. */
-SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
+SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
                                  const shade__triangle *SHADE_RESTRICT t,
-                                 const float *SHADE_RESTRICT row, int varyings, int x, int y, int c,
+                                 const float *SHADE_RESTRICT row, int x, int y, int c,
                                  const int width)
 {
     const float x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const float rw_low = t->rw_low, rw_high = t->rw_high, centre = (float)y + 0.5f;
     const float z = row[0], gz = t->gx[0], rw = row[1], grw = t->gx[1];
     const uint32_t primitive = t->primitive, front = t->front;
+    shade__queue *SHADE_RESTRICT q = &d->u.queue;
     float px[32];
     SHADE__FOR(i, width) {
         px[i] = (float)(x + i) + x_ref;
@@ -2869,12 +3057,12 @@ SHADE__INLINE void shade__append(shade__queue *SHADE_RESTRICT q,
         q->f.primitive[c + i] = primitive;
         q->f.front[c + i] = front;
     }
-    for (int k = 0; k < varyings; k++) {
+    for (int k = 0; k < d->varyings; k++) {
         const float v = row[SHADE__TAIL + k], g = t->gx[SHADE__TAIL + k];
-        float *in = q->f.in[k] + c;
+        float *in = q->f.varying[k] + c;
         SHADE__FOR(i, width) { in[i] = v + g * px[i]; }
     }
-    if (t->lod) shade__append_lod(q->f.lod + c, t, row, x, width);
+    if (d->lod) shade__append_lod(d, t, row, x, q->u.rw + c, q->f.lod + c, width);
 }
 
 /* Values of the planes at x = x_ref of row y. */
@@ -2901,13 +3089,13 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__triangle *t, in
         int c = q->f.count, room = SHADE_LANES - c, back = shade__max(8 - room, 0), take;
         q->contiguous = c == 0 || (q->contiguous && q->next == offset);
         if (n >= SHADE__CHUNK && room >= SHADE__CHUNK) {
-            shade__append(q, t, row, d->varyings, x, y, c, SHADE__CHUNK);
+            shade__append(d, t, row, x, y, c, SHADE__CHUNK);
             take = SHADE__CHUNK;
         } else if (back <= x - start) {    /* the last lanes of the run may be written twice */
-            shade__append(q, t, row, d->varyings, x - back, y, c - back, 8);
+            shade__append(d, t, row, x - back, y, c - back, 8);
             take = shade__min(n, 8 - back);
         } else {
-            shade__append(q, t, row, d->varyings, x, y, c, 1);
+            shade__append(d, t, row, x, y, c, 1);
             take = 1;
         }
         x += take, offset += (uint32_t)take, n -= take;
@@ -2963,7 +3151,7 @@ SHADE__INLINE void shade__cover_part(shade__draw *d, const shade__triangle *t, i
     shade__spans s;
     for (; y <= y1; y += 8) {
         int rows = shade__min(8, y1 - y + 1);
-        if (t->small) shade__spans_small(t, y - t->y0, n, &s);
+        if (t->in_32_bits) shade__spans_small(t, y - t->y0, n, &s);
         else shade__spans_big(t, y - t->y0, n, &s);
         for (int r = 0; r < rows && early; r++) {    /* 4 to 7 % of a teapot's time */
             uintptr_t at = (uintptr_t)(shade__depth_row(d, y + r) + t->x0 +
@@ -3031,7 +3219,7 @@ SHADE__INLINE void shade__cover_body(shade__draw *d, shade__triangle *t,
     const int n = t->x1 - t->x0 + 1, early = d->depth && !d->pipe->may_discard;
     int blocks;
     shade__setup(d, head, tail, t);
-    if (n <= 8 && early && t->small && d->x1 - d->x0 >= 8) {
+    if (n <= 8 && early && t->in_32_bits && d->x1 - d->x0 >= 8) {
         shade__cover_narrow(d, t);
         return;
     }
@@ -3105,26 +3293,32 @@ typedef struct shade__polygon {
     shade__head head[SHADE__CLIP_VERTICES];
     float tail[SHADE__CLIP_VERTICES][SHADE__STRIDE_MAX];
     int   vertex[SHADE__CLIP_VERTICES], count, used;    /* corners in order; vertices made so far */
+    int   on_screen;    /* values before d->divided are linear on the screen: all w > 0 */
 } shade__polygon;
 
-static int shade__new_vertex(shade__polygon *p, int in, int out, double d_in, double d_out,
-                             int varyings)
+/* The vertex where an edge leaves through a plane, t of the way from in to out; on the screen that
+   is t w_out / (w_in + t (w_out - w_in)) of the way. */
+static int shade__new_vertex(const shade__draw *d, shade__polygon *p, int in, int out, double d_in,
+                             double d_out)
 {
-    double t = d_in / (d_in - d_out);
+    double t = d_in / (d_in - d_out), s = t;
+    double w_in = (double)p->head[in].clip[3], w_out = (double)p->head[out].clip[3];
     int v = p->used++;
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
+    if (p->on_screen) s = t * w_out / (w_in + t * (w_out - w_in));
     for (int k = 0; k < 4; k++) {
         double a = (double)p->head[in].clip[k];
         p->head[v].clip[k] = (float)(a + t * ((double)p->head[out].clip[k] - a));
     }
-    for (int k = SHADE__TAIL; k < SHADE__TAIL + varyings; k++) {
-        double a = (double)p->tail[in][k];
-        p->tail[v][k] = (float)(a + t * ((double)p->tail[out][k] - a));
+    for (int k = SHADE__TAIL; k < d->values; k++) {
+        double a = (double)p->tail[in][k], way = k < d->divided ? s : t;
+        p->tail[v][k] = (float)(a + way * ((double)p->tail[out][k] - a));
     }
     return v;
 }
-static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one, int varyings)
+static void shade__clip_plane(const shade__draw *d, shade__polygon *p, uint32_t plane)
 {
+    const int zero_to_one = d->pipe->raster.depth_zero_to_one != 0;
     int kept[SHADE__CLIP_VERTICES], count = 0;
     for (int i = 0; i < p->count; i++) {
         if (p->used > SHADE__CLIP_VERTICES - 1) {    /* and so count is below that */
@@ -3135,35 +3329,37 @@ static void shade__clip_plane(shade__polygon *p, uint32_t plane, int zero_to_one
         double da = shade__distance_to(p->head[a].clip, plane, zero_to_one);
         double db = shade__distance_to(p->head[b].clip, plane, zero_to_one);
         if (da >= 0) kept[count++] = a;
-        if (da >= 0 && db < 0) kept[count++] = shade__new_vertex(p, a, b, da, db, varyings);
-        if (da < 0 && db >= 0) kept[count++] = shade__new_vertex(p, b, a, db, da, varyings);
+        if (da >= 0 && db < 0) kept[count++] = shade__new_vertex(d, p, a, b, da, db);
+        if (da < 0 && db >= 0) kept[count++] = shade__new_vertex(d, p, b, a, db, da);
     }
     p->count = count;
     for (int i = 0; i < count; i++) p->vertex[i] = kept[i];
 }
 
-/* The polygon of a triangle with its varyings not yet times rw. */
+/* The polygon of a triangle with its values not yet times rw. */
 static void shade__polygon_of(const shade__draw *d, const uint8_t *slot, shade__polygon *p,
                               uint32_t *out)
 {
-    *out = 0, p->count = p->used = 3;
+    *out = 0, p->count = p->used = 3, p->on_screen = 1;
     SHADE_MEMSET(p->tail, 0, sizeof p->tail);
     for (int i = 0; i < 3; i++) {
         const float *tail = d->tails + slot[i] * d->tail_stride;
         const shade__head *h = &d->heads[slot[i]];
-        float w = d->perspective && !(h->out & SHADE__OUT_UNPLACED) ? h->clip[3] : 1;
+        float w = h->out & SHADE__OUT_UNPLACED ? 1 : h->clip[3];
         p->head[i] = *h, p->vertex[i] = i;
-        for (int k = SHADE__TAIL; k < SHADE__TAIL + d->varyings; k++) p->tail[i][k] = tail[k] * w;
+        for (int k = SHADE__TAIL; k < d->values; k++)
+            p->tail[i][k] = tail[k] * (k < d->divided ? 1 : w);
         *out |= h->out;
+        p->on_screen &= h->clip[3] > 0;
     }
 }
 /* Window positions and tails of its corners, as >>vertex makes them. */
 static void shade__place(const shade__draw *d, shade__polygon *p)
 {
-    int zero_to_one = d->pipe->depth_zero_to_one != 0;
+    int zero_to_one = d->pipe->raster.depth_zero_to_one != 0;
     for (int i = 0; i < p->count; i++) {
         shade__head *h = &p->head[p->vertex[i]];
-        float w = shade__maxf(h->clip[3], shade__w_least), rw = d->perspective ? 1 / w : 1;
+        float w = shade__maxf(h->clip[3], shade__w_least), rw = 1 / w;
         float *tail = p->tail[p->vertex[i]];
         for (int k = 0; k < 3; k++)    /* rounding may leave a new vertex a little outside */
             h->clip[k] = shade__maxf(-3 * w, shade__minf(h->clip[k], 3 * w));
@@ -3171,7 +3367,7 @@ static void shade__place(const shade__draw *d, shade__polygon *p)
         h->y = shade__snap(h->clip[1], w, -(double)d->half_height, (double)d->half_height);
         tail[0] = shade__window_depth(h->clip[2], w, zero_to_one ? 1 : 0.5, zero_to_one ? 0 : 0.5);
         tail[1] = rw;
-        for (int k = SHADE__TAIL; k < SHADE__TAIL + d->varyings; k++) tail[k] *= rw;
+        for (int k = d->divided; k < d->values; k++) tail[k] *= rw;
     }
 }
 /* The corner from which no piece of the fan is turned the other way (snapping may dent a
@@ -3193,7 +3389,8 @@ static int shade__apex(const shade__polygon *p, int64_t area)
 SHADE__INLINE int shade__faces(const shade__draw *d, int64_t area)
 {
     if (area == 0) return 0;
-    return d->pipe->cull == SHADE_CULL_NONE || (d->pipe->cull == SHADE_CULL_BACK) == (area < 0);
+    return d->pipe->raster.cull == SHADE_CULL_NONE ||
+           (d->pipe->raster.cull == SHADE_CULL_BACK) == (area < 0);
 }
 
 /* Clips, then draws or counts one triangle. */
@@ -3206,7 +3403,7 @@ static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *
     int64_t area = 0;
     shade__polygon_of(d, slot, &p, &out);
     for (uint32_t plane = SHADE__OUT_NEAR; plane <= SHADE__OUT_W && p.count; plane *= 2)
-        if (out & plane) shade__clip_plane(&p, plane, d->pipe->depth_zero_to_one != 0, d->varyings);
+        if (out & plane) shade__clip_plane(d, &p, plane);
     if (p.count < 3) {
         d->stats.clipped++;
         return;
@@ -3294,17 +3491,23 @@ SHADE__INLINE void shade__gather(shade__draw *SHADE_RESTRICT d,
         float *tail = d->tails + i * stride;
         h->x = p->x_fx8[i], h->y = p->y_fx8[i], h->out = p->out[i];
         for (int k = 0; k < 4; k++) h->clip[k] = v->clip[k][i];
-        tail[0] = p->z[i], tail[1] = d->perspective ? p->rw[i] : 1;
+        tail[0] = p->z[i], tail[1] = p->rw[i];
     }
-    for (int k = 0; k < d->varyings; k++) {
-        float *tail = d->tails + SHADE__TAIL + k;
-        for (int i = 0; i < n; i++) tail[i * stride] = v->out[k][i] * tail[i * stride - k - 1];
+    for (int k = SHADE__TAIL; k < d->values; k++) {
+        const int again = k - d->varyings - SHADE__TAIL;    /* of u and v, a second time */
+        const float *value = v->varying[again < 0 ? k - SHADE__TAIL
+                                                  : d->pipe->lod_varying + again];
+        float *tail = d->tails + k;
+        if (k < d->divided)
+            for (int i = 0; i < n; i++) tail[i * stride] = value[i];
+        else
+            for (int i = 0; i < n; i++) tail[i * stride] = value[i] * p->rw[i];
     }
 }
 SHADE__INLINE void shade__place_vertices_body(shade__draw *d)
 {
     shade__placed p;
-    int zero_to_one = d->pipe->depth_zero_to_one != 0;
+    int zero_to_one = d->pipe->raster.depth_zero_to_one != 0;
     shade__classify(&d->u.in.vertices, zero_to_one, &p);
     shade__project((double)d->half_width, (double)d->half_height, zero_to_one, &p);
     shade__gather(d, &p);
@@ -3317,7 +3520,7 @@ static void shade__shade_vertices(shade__draw *d)
     for (int i = d->u.in.ids.count; i < SHADE_LANES; i++)
         d->u.in.ids.index[i] = d->u.in.ids.index[d->u.in.ids.count - 1];
     SHADE_MEMSET(v->clip, 0, sizeof v->clip);
-    if (d->varyings) SHADE_MEMSET(v->out, 0, (size_t)d->varyings * sizeof v->out[0]);
+    if (d->varyings) SHADE_MEMSET(v->varying, 0, (size_t)d->varyings * sizeof v->varying[0]);
     d->pipe->vertex(d->pipe->uniforms, &d->u.in.ids, v);
     shade__place_vertices_pick()(d);
 }
@@ -3407,7 +3610,7 @@ static shade_result shade__check_target(const shade_target *t)
     if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
         return SHADE_ERROR_TARGET;
     if (t->stride < 0 || (t->stride && t->stride < t->width)) return SHADE_ERROR_TARGET;
-    if ((unsigned)t->format > SHADE_RGBA32F) return SHADE_ERROR_TARGET;
+    if ((unsigned)t->format > SHADE_FORMAT_RGBA32F) return SHADE_ERROR_TARGET;
     if (t->clip_width < 0 || t->clip_height < 0) return SHADE_ERROR_TARGET;
     if (t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count))
         return SHADE_ERROR_TARGET;
@@ -3431,13 +3634,16 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
 
 static shade_result shade__check_pipeline(const shade_pipeline *p)
 {
-    if ((unsigned)p->interpolation > SHADE_CONSTANT || (unsigned)p->cull > SHADE_CULL_FRONT ||
-        (unsigned)p->depth_test > SHADE_ALWAYS || (unsigned)p->blend > SHADE_ADD)
+    const shade_raster *r = &p->raster;
+    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT ||
+        (unsigned)r->cull > SHADE_CULL_FRONT || (unsigned)r->depth_test > SHADE_COMPARE_ALWAYS ||
+        (unsigned)r->blend > SHADE_BLEND_ADD)
         return SHADE_ERROR_ARGUMENT;
     if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
-    if (p->lod_varying < 0 || (p->lod_varying && p->lod_varying >= p->varyings))
+    if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
+                           p->lod_varying >= p->varyings - 1))
         return SHADE_ERROR_ARGUMENT;
-    return shade__within(p->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
+    return shade__within(r->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
 }
 
 /* All indices below vertex_count?  In pieces of a fixed length, which vectorise. */
@@ -3464,7 +3670,7 @@ static shade_result shade__check_indices(const uint32_t *indices, int index_coun
 static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipeline *p,
                          const int *clip)
 {
-    shade_compare test = p->depth_test;
+    shade_compare test = p->raster.depth_test;
     d->flush = shade__flush_pick(), d->push = shade__push_pick(), d->cover = shade__cover_pick();
     d->target = t, d->pipe = p;
     SHADE_MEMSET(&d->stats, 0, sizeof d->stats);
@@ -3473,45 +3679,42 @@ static void shade__begin(shade__draw *d, const shade_target *t, const shade_pipe
     d->pixel_bytes = shade__pixel_bytes(t->format);
     d->stride = shade__stride_of(t), d->row_offset = t->row_offset;
     d->x0 = clip[0], d->y0 = clip[1], d->x1 = clip[2], d->y1 = clip[3];
-    d->varyings = p->varyings;
-    d->tail_stride = (p->varyings + SHADE__TAIL + 7) / 8 * 8;
-    d->perspective = p->interpolation == SHADE_PERSPECTIVE;
+    d->varyings = p->varyings, d->values = SHADE__TAIL + p->varyings;
+    d->perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
+    d->divided = d->perspective ? SHADE__TAIL : d->values, d->lod = 0;
+    if (p->lod_texture) d->lod = d->divided + (d->perspective ? p->lod_varying : 0);
+    if (p->lod_texture && !d->perspective) d->values += 2;
+    d->tail_stride = (d->values + 7) / 8 * 8;
     d->queued = p->fragment && (d->color || p->may_discard);
-    d->compare.less = shade__mask(test == SHADE_LESS || test == SHADE_LESS_EQUAL);
-    d->compare.greater = shade__mask(test == SHADE_GREATER || test == SHADE_GREATER_EQUAL);
+    d->compare.less = shade__mask(test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_LESS_EQUAL);
+    d->compare.greater =
+        shade__mask(test == SHADE_COMPARE_GREATER || test == SHADE_COMPARE_GREATER_EQUAL);
     d->compare.equal =
-        shade__mask(test == SHADE_EQUAL || test == SHADE_LESS_EQUAL || test == SHADE_GREATER_EQUAL);
-    d->compare.always = shade__mask(test == SHADE_ALWAYS);
-    d->compare.write = shade__mask(!p->depth_read_only);
+        shade__mask(test == SHADE_COMPARE_EQUAL || test == SHADE_COMPARE_LESS_EQUAL ||
+                    test == SHADE_COMPARE_GREATER_EQUAL);
+    d->compare.always = shade__mask(test == SHADE_COMPARE_ALWAYS);
+    d->compare.write = shade__mask(!p->raster.depth_read_only);
     d->toward = (float)((d->compare.less != 0) - (d->compare.greater != 0));
-    if (!d->depth || p->may_discard || p->depth_read_only) d->toward = 0;
+    if (!d->depth || p->may_discard || p->raster.depth_read_only) d->toward = 0;
     d->blocks_x = 0;
     d->half_width = (float)(t->width * 128), d->half_height = (float)(t->height * 128);
     SHADE_MEMSET(d->tails, 0, sizeof d->tails);
     SHADE_MEMSET(d->u.in.slot_of, 0, sizeof d->u.in.slot_of);
 }
 
-SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                 const uint32_t *indices, int index_count, int vertex_count,
-                                 shade_stats *stats)
+/* The draw itself; all its arguments have been checked. */
+static shade_result shade__run(const shade_target *target, const shade_pipeline *pipeline,
+                               const uint32_t *indices, int index_count, shade_stats *stats)
 {
     shade__draw d;
-    shade_pipeline pipe;
-    shade_result result;
+    shade_pipeline pipe = *pipeline;
     int clip[4];
-    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
-    if (!target || !pipeline || !pipeline->vertex) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(target);
-    if (result == SHADE_OK) result = shade__check_pipeline(pipeline);
-    if (result != SHADE_OK) return result;
-    if (index_count < 0 || vertex_count < 0) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_indices(indices, index_count, vertex_count);
-    if (result != SHADE_OK) return result;
     if (!shade__clip_rectangle(target, clip)) clip[0] = clip[1] = clip[2] = clip[3] = 0;
-    pipe = *pipeline;
     if (!pipe.fragment) pipe.may_discard = 0;
-    if (!pipe.fragment || (!target->color && !pipe.may_discard))
-        pipe.varyings = pipe.lod_varying = 0;    /* nobody reads them */
+    if (!pipe.fragment || (!target->color && !pipe.may_discard)) {    /* nobody reads them */
+        pipe.varyings = 0;
+        pipe.lod_texture = (const shade_texture *)0;
+    }
     shade__begin(&d, target, &pipe, clip);
     d.stats.triangles = index_count / 3;
     for (int first = 0, n; first < index_count / 3; first += n) {
@@ -3521,6 +3724,20 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
     }
     if (stats) *stats = d.stats;
     return SHADE_OK;
+}
+SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
+                                 const uint32_t *indices, int index_count, int vertex_count,
+                                 shade_stats *stats)
+{
+    shade_result result;
+    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
+    if (!target || !pipeline || !pipeline->vertex) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_target(target);
+    if (result == SHADE_OK) result = shade__check_pipeline(pipeline);
+    if (result != SHADE_OK) return result;
+    if (index_count < 0 || vertex_count < 0) return SHADE_ERROR_ARGUMENT;
+    result = shade__check_indices(indices, index_count, vertex_count);
+    return result == SHADE_OK ? shade__run(target, pipeline, indices, index_count, stats) : result;
 }
 
 /* Fills n bytes with a pattern: once by hand, then doubled by copies. */
@@ -3602,7 +3819,7 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
     if (result == SHADE_OK) result = shade__check_target(in);
     if (result == SHADE_OK && (!out->color || !in->color)) result = SHADE_ERROR_TARGET;
     if (result != SHADE_OK) return result;
-    if (factor < 2 || factor > 8 || in->width != out->width * factor ||
+    if (factor < 1 || factor > 8 || in->width != out->width * factor ||
         in->height != out->height * factor || in->row_offset != out->row_offset * factor ||
         shade__rows_held(in) != shade__rows_held(out) * factor)
         return SHADE_ERROR_ARGUMENT;
@@ -3628,6 +3845,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_vec3 eye;
     int face_normals;                    /* then every corner is a vertex of its own */
     const shade_texture *map;            /* NULL: none */
+    int uv;                              /* the varying that is u, v behind it */
     shade_lighting matte, gloss;    /* with a map, lit vertices: what it multiplies, and the rest */
 } shade__scene;
 
@@ -3744,9 +3962,10 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_draw_state *state = s->state;
     float scratch[SHADE__SCRATCH][SHADE_LANES];
-    int lit = state->shading != SHADE_PER_FRAGMENT, per_face = state->shading == SHADE_PER_FACE;
-    float *spare = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->out + 6 * SHADE_LANES;
-    float *P = lit ? spare : (float *)out->out, *N = P + 3 * SHADE_LANES;
+    int lit = state->shading != SHADE_SHADING_PER_FRAGMENT;
+    int per_face = state->shading == SHADE_SHADING_PER_FACE;
+    float *spare = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->varying + 6 * SHADE_LANES;
+    float *P = lit ? spare : (float *)out->varying, *N = P + 3 * SHADE_LANES;
     float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip[0]);
@@ -3754,25 +3973,40 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     shade__lane_world(s->world_from_object, P);
     shade__lane_normal(s->normal_matrix, N);
     if (lit && s->map) {
-        float *rgb = (float *)out->out;
-        shade_lit_lanes(&s->matte, state->material, s->eye, P, N, albedo, rgb);
-        shade_lit_lanes(&s->gloss, state->material, s->eye, P, N, albedo, rgb + 3 * SHADE_LANES);
-        shade__fetch_texcoords(s, in, rgb + 6 * SHADE_LANES);
+        float *rgb = (float *)out->varying;
+        shade_lit_lanes(&s->matte, state->material, s->eye, P, N, albedo, (const float *)0, rgb);
+        shade_lit_lanes(&s->gloss, state->material, s->eye, P, N, albedo, (const float *)0,
+                        rgb + 3 * SHADE_LANES);
     } else if (lit)
-        shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (float *)out->out);
-    else if (s->map) shade__fetch_texcoords(s, in, out->out[albedo ? 9 : 6]);
+        shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (const float *)0,
+                        (float *)out->varying);
+    if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
 SHADE__DISPATCH_AVX2(shade__mesh_vertex,
                 (const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                  shade_vertices *SHADE_RESTRICT out),
                 (uniforms, in, out))
 
-/* The map at the texture coordinates in rows u and u + 1 of a packet. */
-static void shade__sample_map(const shade__scene *s, const shade_fragments *in, const float *u,
-                              float *rgba)
+/* The map at the texture coordinates of a packet. */
+static void shade__sample_map(const shade__scene *s, const shade_fragments *in, float *rgba)
 {
-    shade_sample_lanes(s->map, u, u + SHADE_LANES,
+    shade_sample_lanes(s->map, in->varying[s->uv], in->varying[s->uv + 1],
                        s->map->mipmap_count ? in->lod : (const float *)0, rgba);
+}
+/* Alpha of a packet, map: its row of the map or NULL; what is cut by it; what ADD is to add. */
+static void shade__mesh_alpha(const shade__scene *s, const float *map,
+                              shade_colors *SHADE_RESTRICT out)
+{
+    const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
+    const int add = s->state->raster.blend == SHADE_BLEND_ADD;
+    if (!map && opacity == 1 && !(cutoff > 0)) return;
+    SHADE_EACH_LANE(i) { out->color[3][i] = map ? opacity * map[i] : opacity; }
+    if (cutoff > 0) {
+        SHADE_EACH_LANE(i) { out->discard[i] = out->color[3][i] >= cutoff ? 0 : 1; }
+    }
+    for (int k = 0; k < 3 && add; k++) {
+        SHADE_EACH_LANE(i) { out->color[k][i] *= out->color[3][i]; }
+    }
 }
 /* Phong interpolation: N and P arrive per pixel.  The map's colour takes rows of the packet that
    have no varying. */
@@ -3780,33 +4014,40 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
                             shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const float *P = (const float *)in->in, *N = P + 3 * SHADE_LANES, *albedo = N + 3 * SHADE_LANES;
+    const float *P = in->varying[0], *N = P + 3 * SHADE_LANES, *albedo = N + 3 * SHADE_LANES;
     float local[SHADE_MAX_VARYINGS < 16 ? 4 : 1][SHADE_LANES];
     float *texel = SHADE_MAX_VARYINGS < 16 ? local[0] : (float *)(uintptr_t)P + 12 * SHADE_LANES;
     int colored = s->mesh->colors != (const float *)0;
     if (s->map) {
-        shade__sample_map(s, in, albedo + (colored ? 3 : 0) * SHADE_LANES, texel);
+        shade__sample_map(s, in, texel);
         for (int i = 0; colored && i < 3 * SHADE_LANES; i++) texel[i] *= albedo[i];
     }
     if (s->map) albedo = texel;
     else if (!colored) albedo = (const float *)0;
     shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo,
-                    (float *)out->out);
+                    (const float *)0, out->color[0]);
+    shade__mesh_alpha(s, s->map ? texel + 3 * SHADE_LANES : (const float *)0, out);
 }
 /* Gouraud and flat: the colour arrives. */
 static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                               shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const float *rgb = (const float *)in->in;
-    float *to = (float *)out->out;
-    if (!s->map) {
-        SHADE_MEMCPY(to, rgb, 3 * sizeof in->in[0]);
-        return;
-    }
-    shade__sample_map(s, in, rgb + 6 * SHADE_LANES, to);
-    for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = rgb[i] * to[i] + rgb[i + 3 * SHADE_LANES];
-    SHADE_EACH_LANE(i) { out->out[3][i] = 1; }
+    const float *rgb = (const float *)in->varying;
+    float *to = (float *)out->color;
+    if (s->map) {
+        shade__sample_map(s, in, to);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = rgb[i] * to[i] + rgb[i + 3 * SHADE_LANES];
+    } else SHADE_MEMCPY(to, rgb, 3 * sizeof in->varying[0]);
+    shade__mesh_alpha(s, s->map ? out->color[3] : (const float *)0, out);
+}
+/* Depth alone, with holes where alpha is below the cutoff. */
+static void shade__mesh_cut(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                            shade_colors *SHADE_RESTRICT out)
+{
+    const shade__scene *s = (const shade__scene *)uniforms;
+    if (s->map) shade__sample_map(s, in, out->color[0]);
+    shade__mesh_alpha(s, s->map ? out->color[3] : (const float *)0, out);
 }
 
 static int shade__bad_stride(int stride) { return stride < 0 || stride % 4; }
@@ -3844,11 +4085,13 @@ static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
     s.clip_from_object = shade_mat4_mul(shade_mat4_mul(shade__or_identity(state->projection), view),
                                         s.world_from_object);
     s.normal_matrix = shade_normal_matrix(s.world_from_object);
-    s.eye = state->lighting.flags & SHADE_INFINITE_VIEWER
+    s.eye = state->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
                 ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
                 : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
-    s.face_normals = !mesh->normals || state->shading == SHADE_PER_FACE;
+    s.face_normals = !mesh->normals || state->shading == SHADE_SHADING_PER_FACE;
     s.map = mesh->texcoords ? state->diffuse_map : (const shade_texture *)0;
+    if (state->shading == SHADE_SHADING_PER_FRAGMENT) s.uv = mesh->colors ? 9 : 6;
+    else s.uv = s.map ? 6 : 3;
     s.matte = s.gloss = state->lighting;
     if (!s.matte.terms) s.matte.terms = s.gloss.terms = ~0u;
     s.matte.terms = (s.matte.terms & (SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE)) | SHADE__TERM_NONE;
@@ -3863,41 +4106,41 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     shade_pipeline p;
     shade__scene scene;
     shade_result result;
-    int count;
+    int count, lit;
     if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
     if (!target || !mesh || !state || (!mesh->positions && mesh->vertex_count > 0))
         return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
     if (result == SHADE_OK) result = shade__check_mesh(mesh);
     if (result != SHADE_OK) return result;
-    if ((unsigned)state->shading > SHADE_PER_FACE ||
-        (unsigned)state->lighting.model > SHADE_COOL_TO_WARM ||
-        (!state->lighting.lights && state->lighting.light_count > 0))
+    if ((unsigned)state->shading > SHADE_SHADING_PER_FACE ||
+        (unsigned)state->lighting.model > SHADE_MODEL_COOL_TO_WARM ||
+        (!state->lighting.lights && state->lighting.light_count > 0) ||
+        !(state->transparency >= 0 && state->transparency <= 1) ||
+        !(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
         return SHADE_ERROR_ARGUMENT;
     scene = shade__scene_of(mesh, state);
     if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
     SHADE_MEMSET(&p, 0, sizeof p);
+    lit = state->shading == SHADE_SHADING_PER_FRAGMENT;
     p.vertex = shade__mesh_vertex_pick();
-    p.fragment = state->shading == SHADE_PER_FRAGMENT ? shade__mesh_lit : shade__mesh_color;
+    p.may_discard = state->alpha_cutoff > 0;
+    p.fragment = lit ? shade__mesh_lit : shade__mesh_color;
+    if (!target->color && p.may_discard) p.fragment = shade__mesh_cut;
     p.uniforms = &scene;
-    p.varyings = state->shading != SHADE_PER_FRAGMENT ? (scene.map ? 6 : 3) : mesh->colors ? 9 : 6;
-    if (scene.map) {
-        if (scene.map->mipmap_count) p.lod_varying = p.varyings + 1;
-        p.lod_width = (float)scene.map->width, p.lod_height = (float)scene.map->height;
-        p.varyings += 2;
-    }
-    p.interpolation =
-        state->shading == SHADE_PER_FACE && !scene.map ? SHADE_CONSTANT : SHADE_PERSPECTIVE;
-    p.cull = state->cull, p.depth_test = state->depth_test, p.blend = state->blend;
-    p.depth_zero_to_one = state->depth_zero_to_one, p.depth_read_only = state->depth_read_only;
-    p.depth_bias = state->depth_bias;
+    p.varyings = scene.uv + (scene.map ? 2 : 0);
+    if (scene.map && scene.map->mipmap_count) p.lod_texture = scene.map;
+    p.lod_varying = scene.uv;
+    if (state->shading == SHADE_SHADING_PER_FACE && !scene.map)
+        p.interpolation = SHADE_INTERPOLATION_CONSTANT;
+    p.raster = state->raster;
     result = shade__check_pipeline(&p);
     if (result != SHADE_OK) return result;
     count = shade__corner_count(mesh);
     result = shade__check_indices(mesh->indices, count, mesh->vertex_count);
     if (result != SHADE_OK) return result;
-    if (scene.face_normals) return shade_draw(target, &p, (const uint32_t *)0, count, count, stats);
-    return shade_draw(target, &p, mesh->indices, count, mesh->vertex_count, stats);
+    return shade__run(target, &p, scene.face_normals ? (const uint32_t *)0 : mesh->indices, count,
+                      stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>lines
@@ -3922,37 +4165,61 @@ static void shade__cut(double a, double b, double *t0, double *t1)
     else if (a < 0 && a / (a - b) > *t0) *t0 = a / (a - b);
     else if (b < 0 && a / (a - b) < *t1) *t1 = a / (a - b);
 }
-
+/* The point t of the way, and where it lies from the middle of the picture, in pixels, y up. */
+static void shade__stroke_point(const shade__stroke *s, double end[2][4], double t, double *p,
+                                double *at)
+{
+    for (int i = 0; i < 4; i++) p[i] = end[0][i] + t * (end[1][i] - end[0][i]);
+    at[0] = p[0] / p[3] * s->half_x;
+    at[1] = p[1] / p[3] * s->half_y;
+}
+/* What of a segment is drawn, t[0] .. t[1], and its direction on the screen: cut where it leaves
+   near, far and w > 0, then a margin outside the picture that its width and caps do not reach
+   across, so that far ends keep their 1/256 pixel.  0: nothing. */
+static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *t, double *dir)
+{
+    const double margin = 3 * s->half_width + 2, w0 = end[0][3], w1 = end[1][3];
+    const double right = 1 + margin / s->half_x, up = 1 + margin / s->half_y;
+    const int zero_to_one = s->state->raster.depth_zero_to_one != 0;
+    double p[4], at[2][2], length;
+    t[0] = 0, t[1] = 1;
+    shade__cut(end[0][2] + (zero_to_one ? 0 : w0), end[1][2] + (zero_to_one ? 0 : w1), t, t + 1);
+    shade__cut(w0 - end[0][2], w1 - end[1][2], t, t + 1);
+    shade__cut(w0 - 1e-12, w1 - 1e-12, t, t + 1);
+    if (!(t[0] <= t[1])) return 0;
+    for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
+    dir[0] = at[1][0] - at[0][0], dir[1] = at[1][1] - at[0][1];
+    length = dir[0] * dir[0] + dir[1] * dir[1];
+    length = length > 0 && length <= DBL_MAX ? shade__root(length) : 0;
+    dir[0] = length > 0 ? dir[0] / length : 1, dir[1] = length > 0 ? dir[1] / length : 0;
+    shade__cut(right * w0 - end[0][0], right * w1 - end[1][0], t, t + 1);
+    shade__cut(right * w0 + end[0][0], right * w1 + end[1][0], t, t + 1);
+    shade__cut(up * w0 - end[0][1], up * w1 - end[1][1], t, t + 1);
+    shade__cut(up * w0 + end[0][1], up * w1 + end[1][1], t, t + 1);
+    return t[0] <= t[1];
+}
 /* Corner 0 .. 3 of the rectangle around points 2 i and 2 i + 1, in clip space. */
 static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner, float *clip)
 {
-    double end[2][4], t[2] = { 0, 1 }, at[2][2], dx, dy, length, side, along, e[4];
-    int k = corner & 1, zero_to_one = s->state->depth_zero_to_one != 0;
+    const shade_vec4 *m = s->clip_from_points.col;
+    const int k = corner & 1;
+    double end[2][4], t[2], p[4], at[2], dir[2], side, along;
     for (int j = 0; j < 2; j++) {
-        shade_vec3 p = s->points[2 * (size_t)segment + (size_t)j];
-        shade_vec4 c = shade_mat4_transform(s->clip_from_points, shade_v4(p.x, p.y, p.z, 1));
-        end[j][0] = (double)c.x, end[j][1] = (double)c.y, end[j][2] = (double)c.z,
-        end[j][3] = (double)c.w;
+        shade_vec3 v = s->points[2 * (size_t)segment + (size_t)j];
+        double x = (double)v.x, y = (double)v.y, z = (double)v.z;
+        end[j][0] = (double)m[0].x * x + (double)m[1].x * y + (double)m[2].x * z + (double)m[3].x;
+        end[j][1] = (double)m[0].y * x + (double)m[1].y * y + (double)m[2].y * z + (double)m[3].y;
+        end[j][2] = (double)m[0].z * x + (double)m[1].z * y + (double)m[2].z * z + (double)m[3].z;
+        end[j][3] = (double)m[0].w * x + (double)m[1].w * y + (double)m[2].w * z + (double)m[3].w;
     }
-    shade__cut(end[0][2] + (zero_to_one ? 0 : end[0][3]), end[1][2] + (zero_to_one ? 0 : end[1][3]),
-               &t[0], &t[1]);
-    shade__cut(end[0][3] - end[0][2], end[1][3] - end[1][2], &t[0], &t[1]);
-    shade__cut(end[0][3] - 1e-12, end[1][3] - 1e-12, &t[0], &t[1]);
     clip[0] = clip[1] = clip[2] = 2, clip[3] = 1;
-    if (t[0] > t[1]) return;
-    for (int j = 0; j < 2; j++) {
-        for (int i = 0; i < 4; i++) e[i] = end[0][i] + t[j] * (end[1][i] - end[0][i]);
-        at[j][0] = e[0] / e[3] * s->half_x, at[j][1] = e[1] / e[3] * s->half_y;
-        if (j == k)
-            for (int i = 0; i < 4; i++) clip[i] = (float)e[i];
-    }
-    dx = at[1][0] - at[0][0], dy = at[1][1] - at[0][1], length = dx * dx + dy * dy;
-    length = length > 0 ? shade__root(length) : 0;
-    dx = length > 0 ? dx / length : 1, dy = length > 0 ? dy / length : 0;
+    if (!shade__stroke_part(s, end, t, dir)) return;
+    shade__stroke_point(s, end, t[k], p, at);
     side = corner & 2 ? s->half_width : -s->half_width;
-    along = s->state->cap != SHADE_SQUARE ? 0 : k ? s->half_width : -s->half_width;
-    clip[0] = (float)((at[k][0] + dx * along - dy * side) / s->half_x * (double)clip[3]);
-    clip[1] = (float)((at[k][1] + dy * along + dx * side) / s->half_y * (double)clip[3]);
+    along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? s->half_width : -s->half_width;
+    clip[2] = (float)p[2], clip[3] = (float)p[3];
+    clip[0] = (float)((at[0] + dir[0] * along - dir[1] * side) / s->half_x * (double)clip[3]);
+    clip[1] = (float)((at[1] + dir[1] * along + dir[0] * side) / s->half_y * (double)clip[3]);
 }
 static void shade__stroke_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                  shade_vertices *SHADE_RESTRICT out)
@@ -3971,7 +4238,8 @@ static void shade__stroke_color(const void *uniforms, const shade_fragments *SHA
     shade_vec4 c = ((const shade__stroke *)uniforms)->state->color;
     (void)in;
     SHADE_EACH_LANE(i) {
-        out->out[0][i] = c.x, out->out[1][i] = c.y, out->out[2][i] = c.z, out->out[3][i] = c.w;
+        out->color[0][i] = c.x, out->color[1][i] = c.y;
+        out->color[2][i] = c.z, out->color[3][i] = c.w;
     }
 }
 
@@ -3989,7 +4257,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3)
         return SHADE_ERROR_ARGUMENT;
     if (!(state->width >= 0) || !shade__within(state->width, FLT_MAX) ||
-        (unsigned)state->cap > SHADE_SQUARE)
+        (unsigned)state->cap > SHADE_CAP_SQUARE)
         return SHADE_ERROR_ARGUMENT;
     s.points = points, s.state = state;
     s.clip_from_points = shade__or_identity(state->clip_from_points);
@@ -3997,9 +4265,10 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     s.half_width = (state->width > 0 ? (double)state->width : 1) / 2;
     SHADE_MEMSET(&p, 0, sizeof p);
     p.vertex = shade__stroke_vertex, p.fragment = shade__stroke_color, p.uniforms = &s;
-    p.depth_test = state->depth_test, p.blend = state->blend, p.depth_bias = state->depth_bias;
-    p.depth_zero_to_one = state->depth_zero_to_one, p.depth_read_only = state->depth_read_only;
-    return shade_draw(target, &p, (const uint32_t *)0, point_count * 3, point_count * 3, stats);
+    p.raster = state->raster, p.raster.cull = SHADE_CULL_NONE;
+    result = shade__check_pipeline(&p);
+    if (result != SHADE_OK) return result;
+    return shade__run(target, &p, (const uint32_t *)0, point_count * 3, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
@@ -4068,55 +4337,70 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
 
 static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
 {
-    shade_vec3 p = shade__position(m, shade__corner_index(m, i)),
-               q = shade__position(m, shade__corner_index(m, j));
+    shade_vec3 p = shade__position(m, shade__corner_index(m, i));
+    shade_vec3 q = shade__position(m, shade__corner_index(m, j));
     return p.x == q.x && p.y == q.y && p.z == q.z;
 }
-/* Bucket of a corner by the position of its vertex; -0 + 0 is 0.  pre: bits > 0. */
-static uint32_t shade__bucket(const shade_mesh *m, uint32_t corner, int bits)
+/* Byte k of 12 of the position of a corner; -0 + 0 is 0. */
+SHADE__INLINE uint32_t shade__position_byte(const shade_mesh *m, uint32_t corner, int k)
 {
     shade_vec3 p = shade__position(m, shade__corner_index(m, corner));
-    uint32_t h = shade__float_bits(p.x + 0) * 0x9E3779B1u;
-    h = (h ^ h >> 15) * 0x85EBCA77u + shade__float_bits(p.y + 0);
-    h = (h ^ h >> 15) * 0x2C1B3C6Du + shade__float_bits(p.z + 0);
-    h = (h ^ h >> 15) * 0x297A2D39u;
-    return h >> (32 - bits);
+    float c = k < 4 ? p.x : k < 8 ? p.y : p.z;
+    return shade__float_bits(c + 0) >> 8 * (k & 3) & 255;
 }
-SHADEDEF size_t shade_corner_normals_bytes(const shade_mesh *mesh)
+/* Corners 0 .. count - 1 so that equal positions stand together, ascending: sorted byte by byte,
+   which takes the same time whatever the positions are.  Returns one of the two arrays. */
+static uint32_t *shade__sort_corners(const shade_mesh *m, uint32_t count, uint32_t *order,
+                                     uint32_t *other)
+{
+    for (uint32_t i = 0; i < count; i++) order[i] = i;
+    for (int k = 0; k < 12; k++) {
+        uint32_t start[256] = { 0 }, sum = 0, *swap = order;
+        for (uint32_t i = 0; i < count; i++) start[shade__position_byte(m, i, k)]++;
+        if (start[shade__position_byte(m, 0, k)] == count) continue;    /* all alike */
+        for (int b = 0; b < 256; b++) {
+            uint32_t n = start[b];
+            start[b] = sum;
+            sum += n;
+        }
+        for (uint32_t i = 0; i < count; i++)
+            other[start[shade__position_byte(m, order[i], k)]++] = order[i];
+        order = other, other = swap;
+    }
+    return order;
+}
+SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
 {
     if (shade__check_shape(mesh, &mesh) != SHADE_OK) return 0;
-    return (size_t)shade__corner_count(mesh) * 12 + (size_t)shade__corner_count(mesh) / 3 * 12 + 8;
+    return (size_t)shade__corner_count(mesh) * 12 + (size_t)shade__corner_count(mesh) / 3 * 12;
 }
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *out, void *memory, size_t bytes)
 {
     shade_result result = shade__check_shape(mesh, out);
-    uint32_t *end, *order, count, sum = 0;    /* corners by bucket, ascending; one past each */
+    uint32_t *order, count;
     float *angle;
     shade_vec3 *face;
-    int bits = 0;
     if (result != SHADE_OK) return result;
-    if (!memory || (uintptr_t)memory % 4 || cos_crease != cos_crease) return SHADE_ERROR_ARGUMENT;
-    if (bytes < shade_corner_normals_bytes(mesh)) return SHADE_ERROR_CAPACITY;
     count = (uint32_t)shade__corner_count(mesh);
-    while (2u << bits <= count) bits++;
-    end = (uint32_t *)memory, order = end + (1u << bits);
-    angle = (float *)(void *)(order + count), face = (shade_vec3 *)(void *)(angle + count);
-    SHADE_MEMSET(end, 0, (size_t)4 << bits);
+    if ((!memory && count) || (uintptr_t)memory % 4 || cos_crease != cos_crease)
+        return SHADE_ERROR_ARGUMENT;
+    if (bytes < shade_mesh_corner_normals_bytes(mesh)) return SHADE_ERROR_CAPACITY;
+    if (!count) return SHADE_OK;
+    order = (uint32_t *)memory;
+    angle = (float *)(void *)(order + 2 * (size_t)count);
+    face = (shade_vec3 *)(void *)(angle + count);
+    order = shade__sort_corners(mesh, count, order, order + count);
     for (uint32_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, t);
-    for (uint32_t i = 0; i < count; i++) {
-        angle[i] = shade__corner_angle(mesh, i);
-        end[shade__bucket(mesh, i, bits)]++;
-    }
-    for (uint32_t b = 0; b < 1u << bits; b++) sum += end[b], end[b] = sum - end[b];
-    for (uint32_t i = 0; i < count; i++) order[end[shade__bucket(mesh, i, bits)]++] = i;
-    for (uint32_t b = 0, first = 0; b < 1u << bits; first = end[b++]) {
-        for (uint32_t i = first; i < end[b]; i++) {
+    for (uint32_t i = 0; i < count; i++) angle[i] = shade__corner_angle(mesh, i);
+    for (uint32_t first = 0, end; first < count; first = end) {
+        for (end = first + 1; end < count; end++)
+            if (!shade__same_position(mesh, order[first], order[end])) break;
+        for (uint32_t i = first; i < end; i++) {
             shade_vec3 n = face[order[i] / 3], mean = shade_v3(0, 0, 0);
-            for (uint32_t j = first; j < end[b]; j++) {
+            for (uint32_t j = first; j < end; j++) {
                 shade_vec3 other = face[order[j] / 3];
-                if (i == j || (shade_dot(n, other) >= cos_crease &&
-                               shade__same_position(mesh, order[i], order[j])))
+                if (i == j || shade_dot(n, other) >= cos_crease)
                     mean = shade_madd(mean, angle[order[j]], other);
             }
             out[order[i]] = shade_normalize(mean);
@@ -4212,29 +4496,68 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
     return ray;
 }
 
+static void shade__cross3(const double *a, const double *b, double *c)
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+static double shade__dot3(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+static void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
+{
+    c[0] = (double)a.x - (double)b.x;
+    c[1] = (double)a.y - (double)b.y;
+    c[2] = (double)a.z - (double)b.z;
+}
+/* With e = b - a, f = c - a, s = origin - a, n = e x f, q = d x s and D = d.n, Cramer's rule gives
+   t = -s.n / D, u = f.q / D, v = -e.q / D.  n of a triangle without area is exactly zero where
+   the differences of its floats are exact in double, and so is D. */
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric)
 {
-    double e[3] = { (double)b.x - (double)a.x, (double)b.y - (double)a.y,
-                    (double)b.z - (double)a.z };
-    double f[3] = { (double)c.x - (double)a.x, (double)c.y - (double)a.y,
-                    (double)c.z - (double)a.z };
-    double d[3] = { (double)ray.direction.x, (double)ray.direction.y, (double)ray.direction.z };
-    double s[3] = { (double)ray.origin.x - (double)a.x, (double)ray.origin.y - (double)a.y,
-                    (double)ray.origin.z - (double)a.z };
-    double p[3] = { d[1] * f[2] - d[2] * f[1], d[2] * f[0] - d[0] * f[2],
-                    d[0] * f[1] - d[1] * f[0] };
-    double q[3] = { s[1] * e[2] - s[2] * e[1], s[2] * e[0] - s[0] * e[2],
-                    s[0] * e[1] - s[1] * e[0] };
-    double det = e[0] * p[0] + e[1] * p[1] + e[2] * p[2], u, v, at;
+    double d[3], e[3], f[3], s[3], n[3], q[3], det, u, v, at;
+    shade__sub3(ray.direction, shade_v3(0, 0, 0), d);
+    shade__sub3(b, a, e);
+    shade__sub3(c, a, f);
+    shade__sub3(ray.origin, a, s);
+    shade__cross3(e, f, n);
+    shade__cross3(d, s, q);
+    det = shade__dot3(d, n);
     if (!(det < 0 || det > 0)) return 0;
-    u = (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) / det,
-    v = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det;
-    at = (f[0] * q[0] + f[1] * q[1] + f[2] * q[2]) / det;
+    u = shade__dot3(f, q) / det;
+    v = -shade__dot3(e, q) / det;
+    at = -shade__dot3(s, n) / det;
     if (!(u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 3e38)) return 0;
     if (t) *t = (float)at;
     if (barycentric) *barycentric = shade_v3((float)(1 - (u + v)), (float)u, (float)v);
     return 1;
+}
+
+SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
+                        shade_vec3 *barycentric)
+{
+    float nearest = FLT_MAX, at;
+    shade_vec3 where, inside;
+    int found = -1;
+    if (shade__check_shape(mesh, &ray) != SHADE_OK) return -1;
+    model = shade__or_identity(model);
+    for (int i = 0; i < shade__corner_count(mesh) / 3; i++) {
+        shade_vec3 p[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t corner = shade__corner_index(mesh, 3 * (uint32_t)i + k);
+            p[k] = shade_mat4_transform_point(model, shade__position(mesh, corner));
+        }
+        if (!shade_intersect(ray, p[0], p[1], p[2], &at, &where)) continue;
+        if (found >= 0 && at >= nearest) continue;
+        found = i, nearest = at, inside = where;
+    }
+    if (found < 0) return -1;
+    if (t) *t = nearest;
+    if (barycentric) *barycentric = inside;
+    return found;
 }
 
 /*------------------------------------------------------------------------------------------ >>image
@@ -4250,23 +4573,18 @@ static char *shade__decimal(char *p, int n)
 /* Bytes R, G, B of width pixels from x on of a row in memory. */
 static void shade__row_rgb(const shade_target *t, size_t at, int width, uint8_t *rgb)
 {
-    const uint8_t *p = (const uint8_t *)t->color + at * shade__pixel_bytes(t->format);
-    for (int i = 0; i < width; i++, rgb += 3) {
-        if (t->format == SHADE_RGBA8) {
-            rgb[0] = p[4 * i], rgb[1] = p[4 * i + 1], rgb[2] = p[4 * i + 2];
-        } else if (t->format == SHADE_RGB565) {
-            uint16_t u;
-            SHADE_MEMCPY(&u, p + 2 * i, 2);
-            rgb[0] = (uint8_t)(((u >> 11) * 255 + 15) / 31),
-                rgb[1] = (uint8_t)(((u >> 5 & 63) * 255 + 31) / 63);
-            rgb[2] = (uint8_t)(((u & 31) * 255 + 15) / 31);
-        } else {
-            float c[4];
-            SHADE_MEMCPY(c, p + 16 * i, 16);
-            for (int k = 0; k < 3; k++) {
-                float v = shade__unit(c[k]);
-                rgb[k] = (uint8_t)((t->srgb ? shade__srgb_encode(v) : v) * 255 + 0.5f);
-            }
+    const size_t bytes = shade__pixel_bytes(t->format);
+    const uint8_t *p = (const uint8_t *)t->color + at * bytes;
+    for (int i = 0; i < width; i++, rgb += 3, p += bytes) {
+        uint32_t c[4];
+        float f[4];
+        if (bytes == 16) SHADE_MEMCPY(f, p, 16);
+        else shade__unpack_pixel(t->format, p, c);
+        for (int k = 0; k < 3; k++) {
+            uint32_t full = shade__channel_full(t->format, k);
+            float v = bytes == 16 ? shade__unit(f[k]) : 0;
+            if (bytes != 16) rgb[k] = (uint8_t)((c[k] * 255 + full / 2) / full);
+            else rgb[k] = (uint8_t)((t->srgb ? shade__srgb_encode(v) : v) * 255 + 0.5f);
         }
     }
 }
@@ -4349,6 +4667,11 @@ SHADE__EXACT_END
                   Journal of Graphics Tools 3(1), 43-46.
    [Williams83]   L. Williams, "Pyramidal Parametrics", SIGGRAPH 1983, Computer Graphics 17(3),
                   1-11.
+*/
+
+/*---------------------------------------------------------------------------------------- >>history
+   1.0    2026-11-21   First numbered version: the equations of >>model for points and packets,
+                       meshes, programmable shaders, textures, lines, normals, edges, rays.
 */
 
 /*---------------------------------------------------------------------------------------- >>license

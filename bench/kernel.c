@@ -47,10 +47,10 @@ static vec plain_lit(const lamp *lamps, int count, const surface *s, vec P, vec 
         }
         nl = dot(N, L);
         if (nl <= 0) continue;
-        if (s->model == SHADE_BLINN_PHONG) {
+        if (s->model == SHADE_MODEL_BLINN_PHONG) {
             H = unit(add(L, V));
             gloss = powf(fmaxf(dot(N, H), 0), s->shininess);
-        } else if (s->model == SHADE_PHONG)
+        } else if (s->model == SHADE_MODEL_PHONG)
             gloss = powf(fmaxf(dot(sub(scale(N, 2 * nl), L), V), 0), s->shininess);
         sum = add(sum, scale(times(s->diffuse, l->diffuse), att * nl));
         sum = add(sum, scale(times(s->specular, l->specular), att * gloss));
@@ -91,7 +91,7 @@ static vec plain(shade_vec3 v) { return (vec){ v.x, v.y, v.z }; }
 static void make_job(job *j, shade_model model, light_kind kind, int count)
 {
     memset(j, 0, sizeof *j);
-    j->material = shade_preset_material(SHADE_GOLD);
+    j->material = shade_preset_material(SHADE_PRESET_GOLD);
     for (int i = 0; i < count; i++) {
         float x = (float)(i % 4) - 1.5f, y = (float)(i / 4 % 4) - 1.5f;
         shade_vec3 at = shade_v3(x, y, 7), color = shade_v3(0.3f + 0.1f * x, 0.4f, 0.3f - 0.1f * y);
@@ -120,7 +120,7 @@ static void make_job(job *j, shade_model model, light_kind kind, int count)
 static void run_lanes(const job *j)
 {
     for (int p = 0; p < PACKETS; p++)
-        shade_lit_lanes(&j->lighting, &j->material, eye, points[p][0], normals[p][0], NULL,
+        shade_lit_lanes(&j->lighting, &j->material, eye, points[p][0], normals[p][0], NULL, NULL,
                         out_lanes[p][0]);
 }
 
@@ -169,7 +169,7 @@ static void measure(const job *j, double ns[WAYS])
 {
     static double samples[WAYS][MOST_ROUNDS];
     int repeats[WAYS], ways = BENCH_HAS_LEVELS ? 2 + bench_best_level() : 2;
-    int has_plain = j->lighting.model <= SHADE_LAMBERT;
+    int has_plain = j->lighting.model <= SHADE_MODEL_LAMBERT;
     for (int w = 0; w < ways; w++) {
         double one = once(j, w, 3) * PIXELS;
         repeats[w] = 1 + (int)(1e6 / one);
@@ -211,7 +211,7 @@ static void table_lights(FILE *tsv)
         printf("\nBlinn-Phong, %s: ns per pixel and light\n\n| |", name[kind]);
         for (int i = 0; i < COUNTS; i++) {
             job j;
-            make_job(&j, SHADE_BLINN_PHONG, (light_kind)kind, counts[i]);
+            make_job(&j, SHADE_MODEL_BLINN_PHONG, (light_kind)kind, counts[i]);
             measure(&j, ns[i]);
             printf(counts[i] == 1 ? " %d light |" : " %d lights |", counts[i]);
         }
@@ -241,7 +241,7 @@ static void table_models(void)
     for (int w = 0; w < WAYS; w++)
         if (has_way(w)) printf("---|");
     printf("\n");
-    for (int m = SHADE_BLINN_PHONG; m <= SHADE_COOL_TO_WARM; m++) {
+    for (int m = SHADE_MODEL_BLINN_PHONG; m <= SHADE_MODEL_COOL_TO_WARM; m++) {
         job j;
         double ns[WAYS];
         make_job(&j, (shade_model)m, POINT, 4);

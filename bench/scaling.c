@@ -126,7 +126,7 @@ static void threads(void)
     scene s[3];
     s[0] = scene_floor("floor 1080p, 4 spotlights, every pixel in every cone", 1.5f);
     s[1] = scene_dense("knot of 124k triangles 720p, Gouraud", 1240, 50);
-    s[2] = scene_teapot("teapot 720p, per pixel", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
+    s[2] = scene_teapot("teapot 720p, per pixel", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
     printf("\nThreads, each with a band of rows, made and joined in every frame; wall clock, best "
            "of %d rounds in turns (the machine has %ld processors).\n\n| scene | 1 thread, ms |",
            rounds, sysconf(_SC_NPROCESSORS_ONLN));

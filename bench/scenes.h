@@ -107,10 +107,10 @@ static inline scene scene_teapot(const char *name, shade_shading shading, shade_
     scene_geometry(&s, teapot_vertex_count(10), teapot_index_count(10));
     teapot_build(10, s.positions, s.normals, NULL, s.indices);
     scene_camera(&s, shade_v3(0.2f, 1.6f, 5.7f), shade_v3(0.2f, 1.55f, 0), 0.75f);
-    s.material = shade_preset_material(SHADE_GOLD);
+    s.material = shade_preset_material(SHADE_PRESET_GOLD);
     s.lights[0] = shade_point_light(shade_v3(4, 6, 5), shade_v3(1, 1, 1));
     s.state.lighting.light_count = 1, s.state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
-    s.state.shading = shading, s.state.cull = cull;
+    s.state.shading = shading, s.state.raster.cull = cull;
     return s;
 }
 
@@ -127,7 +127,7 @@ static inline scene scene_floor(const char *name, float cutoff)
                   shade_v3(0, 1, 0));
     scene_cells(&s, 1, 1);
     scene_camera(&s, shade_v3(0, 7, 7), shade_v3(0, 0, 0.6f), 0.8f);
-    s.material = shade_preset_material(SHADE_WHITE_PLASTIC);
+    s.material = shade_preset_material(SHADE_PRESET_WHITE_PLASTIC);
     s.material.ambient = s.material.diffuse;
     for (int k = 0; k < 4; k++) {
         float x = k & 1 ? 2.5f : -2.5f, z = k & 2 ? 2.0f : -1.5f;
@@ -181,10 +181,10 @@ static inline void scene_smooth(scene *s)
 
 static inline void scene_dense_look(scene *s)
 {
-    s->material = shade_preset_material(SHADE_TURQUOISE);
+    s->material = shade_preset_material(SHADE_PRESET_TURQUOISE);
     s->lights[0] = shade_point_light(shade_v3(4, 6, 8), shade_v3(1, 1, 1));
     s->state.lighting.light_count = 1, s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
-    s->state.shading = SHADE_PER_VERTEX;
+    s->state.shading = SHADE_SHADING_PER_VERTEX;
 }
 
 static inline scene scene_dense(const char *name, int along, int around)
@@ -313,11 +313,12 @@ static inline scene scene_map(const char *name)
 /* obj: NULL for the knot */
 static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
 {
-    out[0] = scene_teapot("teapot 720p, per pixel", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
-    out[1] = scene_teapot("the same, back faces culled", SHADE_PER_FRAGMENT, SHADE_CULL_BACK);
+    out[0] = scene_teapot("teapot 720p, per pixel", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
+    out[1] =
+        scene_teapot("the same, back faces culled", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_BACK);
     out[2] = scene_floor("floor 1080p, 4 spotlights, pools", 0.5f);
     out[3] = scene_floor("the same, every pixel in every cone", 1.5f);
-    out[4] = scene_teapot("teapot 720p, Gouraud", SHADE_PER_VERTEX, SHADE_CULL_NONE);
+    out[4] = scene_teapot("teapot 720p, Gouraud", SHADE_SHADING_PER_VERTEX, SHADE_CULL_NONE);
     out[5] = obj ? scene_obj("mesh 720p, Gouraud", obj)
                  : scene_dense("knot of 124k triangles 720p, Gouraud", 1240, 50);
     out[6] = scene_dense("knot of 70k triangles 720p, Gouraud", 875, 40);
@@ -365,7 +366,7 @@ static inline void scene_fragment(const void *uniforms, const shade_fragments *S
 {
     shade_vec4 c = ((const scene *)uniforms)->color;
     (void)in;
-    SHADE_EACH_LANE(i) { out->out[0][i] = c.x, out->out[1][i] = c.y, out->out[2][i] = c.z; }
+    SHADE_EACH_LANE(i) { out->color[0][i] = c.x, out->color[1][i] = c.y, out->color[2][i] = c.z; }
 }
 
 static inline void scene_map_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
@@ -378,7 +379,7 @@ static inline void scene_map_vertex(const void *uniforms, const shade_vertex_ids
         const float *uv = s->normals + 3 * (size_t)in->index[i];
         shade_vec4 c = shade_mat4_transform(m, shade_v4(p[0], p[1], p[2], 1));
         out->clip[0][i] = c.x, out->clip[1][i] = c.y, out->clip[2][i] = c.z, out->clip[3][i] = c.w;
-        out->out[0][i] = uv[0], out->out[1][i] = uv[1];
+        out->varying[0][i] = uv[0], out->varying[1][i] = uv[1];
     }
 }
 static inline void scene_map_fragment(const void *uniforms,
@@ -389,7 +390,7 @@ static inline void scene_map_fragment(const void *uniforms,
     shade_texture t;
     memset(&t, 0, sizeof t);
     t.pixels = s->texels, t.width = t.height = SCENE_TEXELS;
-    shade_sample_lanes(&t, in->in[0], in->in[1], NULL, (float *)out->out);
+    shade_sample_lanes(&t, in->varying[0], in->varying[1], NULL, (float *)out->color);
 }
 
 /* One whole frame, from the clear on. */

@@ -49,14 +49,14 @@ int main(void)
     scene s[5];
     long most = 0, bytes, least;
     job j;
-    s[0] = scene_teapot("teapot, per pixel", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
-    s[1] = scene_teapot("teapot, per vertex", SHADE_PER_VERTEX, SHADE_CULL_NONE);
-    s[2] = scene_teapot("teapot, per face", SHADE_PER_FACE, SHADE_CULL_NONE);
-    s[3] = scene_teapot("from inside, clipped", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
+    s[0] = scene_teapot("teapot, per pixel", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
+    s[1] = scene_teapot("teapot, per vertex", SHADE_SHADING_PER_VERTEX, SHADE_CULL_NONE);
+    s[2] = scene_teapot("teapot, per face", SHADE_SHADING_PER_FACE, SHADE_CULL_NONE);
+    s[3] = scene_teapot("from inside, clipped", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
     scene_camera(&s[3], shade_v3(0.3f, 1, 0.2f), shade_v3(1, 1.2f, 0), 1.5f);
-    s[4] = scene_teapot("with a trilinear map", SHADE_PER_FRAGMENT, SHADE_CULL_NONE);
+    s[4] = scene_teapot("with a trilinear map", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
     memset(&map, 0, sizeof map);
-    map.pixels = texel, map.width = map.height = 4, map.filter = SHADE_TRILINEAR;
+    map.pixels = texel, map.width = map.height = 4, map.filter = SHADE_FILTER_TRILINEAR;
     if (shade_build_mipmaps(&map, level, half, sizeof half)) exit(1);
     printf("| SHADE_LANES %d, SHADE_MAX_VARYINGS %d | bytes of stack |\n|---|---|\n", SHADE_LANES,
            SHADE_MAX_VARYINGS);

@@ -11,9 +11,9 @@
 
 int main(int argc, char **argv)
 {
-    static const shade_model model[5] = {
-        SHADE_EMISSIVE, SHADE_AMBIENT, SHADE_LAMBERT, SHADE_BLINN_PHONG, SHADE_BLINN_PHONG
-    };
+    static const shade_model model[5] = { SHADE_MODEL_EMISSIVE, SHADE_MODEL_AMBIENT,
+                                          SHADE_MODEL_LAMBERT, SHADE_MODEL_BLINN_PHONG,
+                                          SHADE_MODEL_BLINN_PHONG };
     static const char *const name[5] = { "zero", "one", "two", "three", "four" };
     static const char *const adds[5] = { "emission", "+ ambient", "+ lambert", "+ blinn-phong",
                                          "+ lamps, cone" };

@@ -11,7 +11,8 @@ int main(int argc, char **argv)
 {
     static const char *const name[3] = { "phong, n = 16", "blinn-phong, n = 16",
                                          "blinn-phong, n = 64" };
-    static const shade_model model[3] = { SHADE_PHONG, SHADE_BLINN_PHONG, SHADE_BLINN_PHONG };
+    static const shade_model model[3] = { SHADE_MODEL_PHONG, SHADE_MODEL_BLINN_PHONG,
+                                          SHADE_MODEL_BLINN_PHONG };
     const float n = 16;
     shade_material teal = { { 0, 0, 0 }, { 0.03f, 0.22f, 0.25f }, { 0.03f, 0.22f, 0.25f },
                             { 0.75f, 0.75f, 0.75f }, 0 };

@@ -11,9 +11,8 @@
 
 int main(int argc, char **argv)
 {
-    static const shade_shading shading[3] = {
-        SHADE_PER_FACE, SHADE_PER_VERTEX, SHADE_PER_FRAGMENT
-    };
+    static const shade_shading shading[3] = { SHADE_SHADING_PER_FACE, SHADE_SHADING_PER_VERTEX,
+                                              SHADE_SHADING_PER_FRAGMENT };
     static const char *const name[3] = { "flat", "gouraud", "phong" };
     shade_material orange = { { 0, 0, 0 }, { 0.62f, 0.20f, 0.03f }, { 0.62f, 0.20f, 0.03f },
                               { 0.7f, 0.7f, 0.7f }, 90 };

@@ -30,7 +30,7 @@ int main(int argc, char **argv)
     state.projection = shade_mat4_perspective(0.40f, (float)width / (float)height, 5, 25);
     state.lighting.lights = lamps, state.lighting.light_count = 2;
     state.lighting.ambient = shade_v3(0.5f, 0.5f, 0.5f);
-    state.lighting.flags = SHADE_TWO_SIDED;    /* the gap below the lid shows the inside */
+    state.lighting.flags = SHADE_FLAG_TWO_SIDED; /* the gap below the lid shows the inside */
 
     canvas_gradient(&c.target, shade_v3(0.10f, 0.11f, 0.13f), shade_v3(0.035f, 0.037f, 0.045f));
     for (int i = 0; i < SHADE_PRESET_COUNT; i++) {

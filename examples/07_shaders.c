@@ -31,8 +31,8 @@ static void ripple(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT 
         N = shade_madd(N, -dh, shade_v3(-N.y * N.x, 1 - N.y * N.y, -N.y * N.z));
         out->clip[0][i] = clip.x, out->clip[1][i] = clip.y;
         out->clip[2][i] = clip.z, out->clip[3][i] = clip.w;
-        out->out[0][i] = P.x, out->out[1][i] = P.y, out->out[2][i] = P.z;
-        out->out[3][i] = N.x, out->out[4][i] = N.y, out->out[5][i] = N.z;
+        out->varying[0][i] = P.x, out->varying[1][i] = P.y, out->varying[2][i] = P.z;
+        out->varying[3][i] = N.x, out->varying[4][i] = N.y, out->varying[5][i] = N.z;
     }
 }
 
@@ -41,16 +41,18 @@ static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
 {
     const scene *s = (const scene *)uniforms;
     float rgb[3][SHADE_LANES];
-    shade_lit_lanes(&s->lighting, &s->material, s->eye, in->in[0], in->in[3], NULL, rgb[0]);
+    shade_lit_lanes(&s->lighting, &s->material, s->eye, in->varying[0], in->varying[3], NULL, NULL,
+                    rgb[0]);
     SHADE_EACH_LANE(i) {
-        shade_vec3 P = shade_v3(in->in[0][i], in->in[1][i], in->in[2][i]);
-        shade_vec3 N = shade_normalize(shade_v3(in->in[3][i], in->in[4][i], in->in[5][i]));
+        shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
+        shade_vec3 N =
+            shade_normalize(shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]));
         float facing = shade_dot(N, shade_normalize(shade_sub(s->eye, P)));
         float stripe = 1.6f * P.y - (float)(int)(1.6f * P.y), ink = facing < 0.25f ? 0.1f : 1.0f;
         float level = ink * (float)(int)(4 * rgb[1][i] + 0.6f) / 4;
-        out->out[0][i] = level * (stripe < 0.5f ? 0.95f : 0.10f) + 0.02f * ink;
-        out->out[1][i] = level * (stripe < 0.5f ? 0.55f : 0.32f) + 0.01f * ink;
-        out->out[2][i] = level * (stripe < 0.5f ? 0.16f : 0.40f) + 0.03f * ink;
+        out->color[0][i] = level * (stripe < 0.5f ? 0.95f : 0.10f) + 0.02f * ink;
+        out->color[1][i] = level * (stripe < 0.5f ? 0.55f : 0.32f) + 0.01f * ink;
+        out->color[2][i] = level * (stripe < 0.5f ? 0.16f : 0.40f) + 0.03f * ink;
     }
 }
 

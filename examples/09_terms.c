@@ -16,7 +16,7 @@ static void look(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
 {
     const scene *s = (const scene *)uniforms;
     SHADE_EACH_LANE(i) {
-        shade_vec3 N = shade_v3(in->in[3][i], in->in[4][i], in->in[5][i]);
+        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
         uint32_t h = (in->primitive[i] + 1) * 2654435761u;
         N = shade_normalize(shade_mat3_transform(s->eye_from_world, N));
         float x = s->view == 5 ? N.x : 3.1f - 4.4f * in->z[i];
@@ -25,8 +25,8 @@ static void look(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
         if (s->view == 7) x = (float)(h >> 24) / 160 - 1, y = (float)(h >> 16 & 255) / 160 - 1;
         if (s->view == 7) z = (float)(h >> 8 & 255) / 160 - 1;
         /* the squares cancel the encoding for the screen, nearly */
-        out->out[0][i] = (1 + x) * (1 + x) / 4, out->out[1][i] = (1 + y) * (1 + y) / 4;
-        out->out[2][i] = (1 + z) * (1 + z) / 4;
+        out->color[0][i] = (1 + x) * (1 + x) / 4, out->color[1][i] = (1 + y) * (1 + y) / 4;
+        out->color[2][i] = (1 + z) * (1 + z) / 4;
     }
 }
 

@@ -22,12 +22,14 @@ static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
                   shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
-    const float *P = in->in[0], *N = in->in[3];
+    const float *P = in->varying[0], *N = in->varying[3];
     float t[4][SHADE_LANES], g[3][SHADE_LANES];
-    shade_sample_lanes(s->look.diffuse_map, in->in[6], in->in[7], NULL, t[0]);
-    shade_lit_lanes(&s->look.lighting, s->look.material, eye[1], P, N, t[0], out->out[0]);
-    shade_lit_lanes(&s->gleam, s->look.material, eye[1], P, N, NULL, g[0]);
-    for (int k = 0; k < 3; k++) { SHADE_EACH_LANE(i) out->out[k][i] += t[3][i] * g[k][i]; }
+    shade_sample_lanes(s->look.diffuse_map, in->varying[6], in->varying[7], NULL, t[0]);
+    shade_lit_lanes(&s->look.lighting, s->look.material, eye[1], P, N, t[0], NULL, out->color[0]);
+    shade_lit_lanes(&s->gleam, s->look.material, eye[1], P, N, NULL, NULL, g[0]);
+    for (int k = 0; k < 3; k++) {
+        SHADE_EACH_LANE(i) out->color[k][i] += t[3][i] * g[k][i];
+    }
 }
 
 int main(int argc, char **argv)
@@ -38,13 +40,13 @@ int main(int argc, char **argv)
     shade_material white = { .diffuse = { 1, 1, 1 }, .ambient = { 1, 1, 1 },
                              .specular = { 0.8f, 0.8f, 0.7f }, .shininess = 60 };
     shade_texture map[2] = {
-        { .pixels = tiles, .width = 8, .height = 8, .filter = SHADE_NEAREST, .srgb = 1 },
-        { .pixels = planet, .width = WIDTH, .height = HEIGHT, .format = SHADE_RGBA32F }
+        { .pixels = tiles, .width = 8, .height = 8, .filter = SHADE_FILTER_NEAREST, .srgb = 1 },
+        { .pixels = planet, .width = WIDTH, .height = HEIGHT, .format = SHADE_FORMAT_RGBA32F }
     };
     shade_light sun = shade_directional_light(shade_v3(1, -0.7f, -1), shade_v3(1.3f, 1.25f, 1.2f));
     shade_pipeline pipeline = { .vertex = mesh_vertex, .fragment = paint, .varyings = 8 };
     owned_mesh mesh[2] = { mesh_plane(1, 1), mesh_sphere(96, 48) };
-    scene s = { .look = { .lighting = { .lights = &sun, .model = SHADE_LAMBERT } } };
+    scene s = { .look = { .lighting = { .lights = &sun, .model = SHADE_MODEL_LAMBERT } } };
     canvas c = canvas_new(960, 560, 3);
 
     noise_planet(planet, WIDTH, HEIGHT);
@@ -62,10 +64,11 @@ int main(int argc, char **argv)
         look->lighting.light_count = i / 2, look->diffuse_map = &map[i / 2];
         look->lighting.ambient = i < 2 ? shade_v3(1, 1, 1) : shade_v3(0.02f, 0.02f, 0.03f);
         look->material = &white, s.gleam = look->lighting;
-        s.gleam.model = SHADE_BLINN_PHONG, s.gleam.terms = SHADE_TERM_SPECULAR;
+        s.gleam.model = SHADE_MODEL_BLINN_PHONG, s.gleam.terms = SHADE_TERM_SPECULAR;
         s.place.mesh = &mesh[i / 2], s.place.model = look->model;
         s.place.clip_from_world = shade_mat4_mul(look->projection, look->view);
-        pipeline.uniforms = &s, pipeline.interpolation = i ? SHADE_PERSPECTIVE : SHADE_AFFINE;
+        pipeline.uniforms = &s,
+        pipeline.interpolation = i ? SHADE_INTERPOLATION_PERSPECTIVE : SHADE_INTERPOLATION_AFFINE;
         if (i == 2) shade_draw_mesh(&panel, &mesh[1].view, look, NULL);
         else shade_draw(&panel, &pipeline, mesh[i / 2].indices, mesh[i / 2].view.index_count,
                         mesh[i / 2].view.vertex_count, NULL);

@@ -40,8 +40,9 @@ int main(int argc, char **argv)
 {
     static const char *const name[3] = { "bilinear", "trilinear", "bilinear, 64 samples" };
     static float texels[SIZE * SIZE][4], smaller[SIZE * SIZE][4];
-    shade_texture tiles = { .pixels = texels, .width = SIZE, .height = SIZE,
-                            .format = SHADE_RGBA32F };
+    shade_texture tiles = {
+        .pixels = texels, .width = SIZE, .height = SIZE, .format = SHADE_FORMAT_RGBA32F
+    };
     shade_texture levels[16];
     owned_mesh floor = mesh_plane(1000, 1);
     canvas c = canvas_new(960, 480, 1), fine = canvas_new(310, 280, 8);
@@ -53,7 +54,7 @@ int main(int argc, char **argv)
     for (int i = 0; i < 3; i++) {
         shade_target panel = canvas_panel(&c, 5 + 320 * i, 5, 310, 280);
         const float *from = (const float *)panel.color + 4 * (116 + 66 * 960);
-        tiles.filter = i == 1 ? SHADE_TRILINEAR : SHADE_BILINEAR;
+        tiles.filter = i == 1 ? SHADE_FILTER_TRILINEAR : SHADE_FILTER_BILINEAR;
         if (i < 2) draw(&panel, &floor.view, &tiles);
         else draw(&fine.target, &floor.view, &tiles), shade_resolve(&panel, &fine.target, 8);
         for (int k = 0; k < 77 * 36; k++) {    /* each pixel as a block of 4 x 4 */

@@ -54,13 +54,13 @@ int main(int argc, char **argv)
     state.view = shade_mat4_look_at(eye, shade_v3(0.15f, 0.6f, 0.8f), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.56f, 320 / 340.0f, 5, 25);
     pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
-    pen.cap = SHADE_SQUARE, pen.depth_test = SHADE_LESS_EQUAL;
+    pen.cap = SHADE_CAP_SQUARE, pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
     canvas_gradient(&c.target, shade_v3(0.92f, 0.90f, 0.84f), shade_v3(0.80f, 0.76f, 0.68f));
     for (int i = 0; i < 3; i++) {
         shade_target panel = canvas_panel(&c, 320 * i, 0, 320, 340), fill = panel;
         fill.color = NULL;
         if (i > 0) shade_draw_mesh(&fill, &scene.view, &state, NULL);
-        pen.depth_bias = i > 0 ? -0.0015f : 0;
+        pen.raster.depth_bias = i > 0 ? -0.0015f : 0;
         for (int k = i < 2 ? EDGE_OTHER : EDGE_BOUNDARY; k >= 0; k--) {
             pen.color = ink[i < 2 ? EDGE_OTHER : k], pen.width = i < 2 ? 2.5f : 6;
             shade_draw_lines(&panel, lines.points[k], lines.count[k], &pen, NULL);

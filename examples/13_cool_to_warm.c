@@ -36,7 +36,7 @@ int main(int argc, char **argv)
     canvas_gradient(&c.target, shade_v3(0.86f, 0.87f, 0.88f), shade_v3(0.66f, 0.67f, 0.70f));
     for (int i = 0; i < 2; i++) {
         shade_target panel = canvas_panel(&c, 480 * i, 0, 480, 400);
-        state.lighting.model = i ? SHADE_COOL_TO_WARM : SHADE_BLINN_PHONG;
+        state.lighting.model = i ? SHADE_MODEL_COOL_TO_WARM : SHADE_MODEL_BLINN_PHONG;
         shade_draw_mesh(&panel, &pot.view, &state, NULL);
         label_center(&panel, 960, 1500, 8, shade_v3(0.08f, 0.08f, 0.1f), name[i]);
         if (!i) continue;
@@ -44,8 +44,8 @@ int main(int argc, char **argv)
         edges_add(&joined, pot, shade_mat4_identity());
         lines = edges_sort(&joined, eye, 0.3f);
         pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
-        pen.width = 10, pen.cap = SHADE_SQUARE, pen.color = shade_v4(0.01f, 0.01f, 0.015f, 1);
-        pen.depth_test = SHADE_LESS_EQUAL, pen.depth_bias = -0.002f;
+        pen.width = 10, pen.cap = SHADE_CAP_SQUARE, pen.color = shade_v4(0.01f, 0.01f, 0.015f, 1);
+        pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, pen.raster.depth_bias = -0.002f;
         for (int k = EDGE_SILHOUETTE; k <= EDGE_BOUNDARY; k++)
             shade_draw_lines(&panel, lines.points[k], lines.count[k], &pen, NULL);
         edges_free(&lines);

@@ -29,14 +29,15 @@ int main(int argc, char **argv)
 {
     static const char *const name[4] = { "one-sided", "two-sided", "absolute value",
                                          "two materials" };
-    static const unsigned flags[4] = { 0, SHADE_TWO_SIDED, SHADE_TWO_SIDED_ABS, SHADE_TWO_SIDED };
+    static const unsigned flags[4] = { 0, SHADE_FLAG_TWO_SIDED, SHADE_FLAG_TWO_SIDED_ABS,
+                                       SHADE_FLAG_TWO_SIDED };
     shade_material silk[2];
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.9f, -0.7f), shade_v3(1, 1, 1));
     shade_draw_state state = { 0 };
     owned_mesh m = ribbon(96);
     canvas c = canvas_new(960, 480, 3);
 
-    silk[0] = silk[1] = shade_preset_material(SHADE_RED_PLASTIC);
+    silk[0] = silk[1] = shade_preset_material(SHADE_PRESET_RED_PLASTIC);
     for (int k = 0; k < 2; k++) {
         silk[k].diffuse = k ? shade_v3(0.05f, 0.25f, 0.45f) : shade_v3(0.60f, 0.12f, 0.05f);
         silk[k].ambient = silk[k].diffuse, silk[k].specular = shade_v3(0.4f, 0.4f, 0.4f);
@@ -53,7 +54,7 @@ int main(int argc, char **argv)
         state.lighting.flags = flags[i];
         for (int side = 0; side < (i < 3 ? 1 : 2); side++) {
             state.material = &silk[side];
-            state.cull = i < 3 ? SHADE_CULL_NONE : side ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
+            state.raster.cull = i < 3 ? SHADE_CULL_NONE : side ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
             shade_draw_mesh(&panel, &m.view, &state, NULL);
         }
         label_center(&panel, 720, 655, 6, shade_v3(0.7f, 0.7f, 0.7f), name[i]);

@@ -24,7 +24,7 @@ static void cast(const owned_mesh *m, const shade_draw_state *s, shade_vec3 eye,
         nearest = t, P = shade_madd(ray.origin, t, ray.direction);
         N = shade_madd(shade_scale(fetch(n + 3 * v[0]), b.x), b.y, fetch(n + 3 * v[1]));
         N = shade_madd(N, b.z, fetch(n + 3 * v[2]));
-        rgb = shade_lit(&s->lighting, s->material, P, N, eye);
+        rgb = shade_lit(&s->lighting, s->material, eye, P, N);
         color[0] = rgb.x, color[1] = rgb.y, color[2] = rgb.z;
     }
 }

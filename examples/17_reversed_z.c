@@ -38,7 +38,7 @@ int main(int argc, char **argv)
         { 0.3f, 40, 7 }
     };
     const float near_z = 0.005f, far_z = 1e6f;
-    shade_material ground = shade_preset_material(SHADE_WHITE_RUBBER), water = ground;
+    shade_material ground = shade_preset_material(SHADE_PRESET_WHITE_RUBBER), water = ground;
     shade_light sun = shade_directional_light(shade_v3(-0.8f, -0.6f, -0.5f),
                                               shade_v3(1.2f, 1.1f, 0.95f));
     shade_draw_state state = { 0 };
@@ -57,7 +57,7 @@ int main(int argc, char **argv)
         state.projection = shade_mat4_perspective(0.7f, 480 / 400.0f, near_z, far_z);
         if (i) {
             state.projection = shade_mat4_perspective_reversed(0.7f, 480 / 400.0f, near_z);
-            state.depth_zero_to_one = 1, state.depth_test = SHADE_GREATER;
+            state.raster.depth_zero_to_one = 1, state.raster.depth_test = SHADE_COMPARE_GREATER;
             clear.color = NULL;
             shade_clear(&clear, shade_v4(0, 0, 0, 0), 0);
         }

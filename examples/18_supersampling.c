@@ -51,7 +51,7 @@ int main(int argc, char **argv)
             shade_target out = panel, strip = { .width = f * WIDTH, .height = f * HEIGHT };
             out.color = (float *)panel.color + 4 * 960 * y;
             out.row_offset = y, out.row_count = ROWS;
-            strip.format = SHADE_RGBA32F, strip.color = color, strip.depth = depth;
+            strip.format = SHADE_FORMAT_RGBA32F, strip.color = color, strip.depth = depth;
             strip.row_offset = f * y, strip.row_count = f * ROWS;
             if (f == 1) strip = out;
             shade_clear(&strip, shade_v4(0.03f, 0.035f, 0.045f, 1), 1);

@@ -148,9 +148,9 @@ static inline void mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
         shade_vec3 N = shade_mat4_transform_direction(s->model, shade_v3(n[0], n[1], n[2]));
         out->clip[0][i] = clip.x, out->clip[1][i] = clip.y;
         out->clip[2][i] = clip.z, out->clip[3][i] = clip.w;
-        out->out[0][i] = P.x, out->out[1][i] = P.y, out->out[2][i] = P.z;
-        out->out[3][i] = N.x, out->out[4][i] = N.y, out->out[5][i] = N.z;
-        out->out[6][i] = uv[0], out->out[7][i] = uv[1];
+        out->varying[0][i] = P.x, out->varying[1][i] = P.y, out->varying[2][i] = P.z;
+        out->varying[3][i] = N.x, out->varying[4][i] = N.y, out->varying[5][i] = N.z;
+        out->varying[6][i] = uv[0], out->varying[7][i] = uv[1];
     }
 }
 
@@ -166,7 +166,7 @@ static inline canvas canvas_new(int width, int height, int samples)
     canvas c = { { 0 }, width, height, samples };
     size_t pixels = (size_t)(width * samples) * (size_t)(height * samples);
     c.target.width = width * samples, c.target.height = height * samples;
-    c.target.format = SHADE_RGBA32F, c.target.srgb = 1;
+    c.target.format = SHADE_FORMAT_RGBA32F, c.target.srgb = 1;
     c.target.color = example_memory(pixels, 4 * sizeof(float));
     c.target.depth = (float *)example_memory(pixels, sizeof(float));
     return c;

@@ -265,9 +265,9 @@ static shade_result draw_portions(const shade_target *target, shade_draw_state *
     shade_result result = SHADE_OK;
     for (int done = 0; done < count && !result; done += mesh.index_count) {
         mesh.index_count = count - done < 3 << 18 ? count - done : 3 << 18;
-        state->cull = SHADE_CULL_BACK, state->lighting.flags = 0;
+        state->raster.cull = SHADE_CULL_BACK, state->lighting.flags = 0;
         result = shade_draw_mesh(target, &mesh, state, NULL);
-        state->cull = SHADE_CULL_FRONT, state->lighting.flags = SHADE_TWO_SIDED;
+        state->raster.cull = SHADE_CULL_FRONT, state->lighting.flags = SHADE_FLAG_TWO_SIDED;
         if (!result) result = shade_draw_mesh(target, &mesh, state, NULL);
         mesh.indices += mesh.index_count;
         report(p, (double)done / count);

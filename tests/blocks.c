@@ -35,17 +35,17 @@ TEST(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test)
         int height = big ? rnd_int(600, 1100) : rnd_int(8, 120);
         int first = strip ? rnd_int(0, height - 1) : 0;
         int rows = strip ? rnd_int(1, height - first) : 0;
-        canvas whole = canvas_strip(width, height, 0, SHADE_RGBA8, 1, first, rows);
-        canvas turns = canvas_strip(width, height, 0, SHADE_RGBA8, 1, first, rows);
-        canvas late = canvas_strip(width, height, 0, SHADE_RGBA8, 1, first, rows);
+        canvas whole = canvas_strip(width, height, 0, SHADE_FORMAT_RGBA8, 1, first, rows);
+        canvas turns = canvas_strip(width, height, 0, SHADE_FORMAT_RGBA8, 1, first, rows);
+        canvas late = canvas_strip(width, height, 0, SHADE_FORMAT_RGBA8, 1, first, rows);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         shade_stats a, b, one;
         long long fragments = 0;
         float clear = rnd_one_in(2) ? rnd_float(0, 1) : round % 6 / 2 == 1 ? 0.0f : 1.0f;
         p.fragment = scene_flat;
-        p.depth_test = (shade_compare)(round % 6), p.depth_read_only = rnd_one_in(8);
-        p.depth_bias = rnd_one_in(4) ? rnd_float(-0.1, 0.1) : rnd_one_in(20) ? -FLT_MAX : 0;
+        p.raster.depth_test = (shade_compare)(round % 6), p.raster.depth_read_only = rnd_one_in(8);
+        p.raster.depth_bias = rnd_one_in(4) ? rnd_float(-0.1, 0.1) : rnd_one_in(20) ? -FLT_MAX : 0;
         canvas_clear(&whole, clear), canvas_clear(&turns, clear), canvas_clear(&late, clear);
         if (rnd_one_in(2)) random_clip(&whole.target);
         late.target.clip_x = turns.target.clip_x = whole.target.clip_x;
@@ -97,7 +97,7 @@ TEST(blocks, filled_blocks_are_left_out)
 {
     enum { SIDE = SHADE_LANES / 4, EDGE = 48, WIDTH = 32 * SIDE + 1 + EDGE };
     enum { HEIGHT = 8 * SIDE + EDGE };
-    canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
     for (int i = 0; i < 96; i++) {
         const int most = i % 4 / 2, more = i % 4 == 3, by_columns = i / 4 % 2, reversed = i / 8 % 2;
         const int w = most ? 32 * SIDE + more : i % 8 == 1 ? 32 : rnd_int(32, 32 * SIDE);
@@ -122,7 +122,7 @@ TEST(blocks, filled_blocks_are_left_out)
             clip[k] = clip_of_fx8(floor(X), floor(Y), WIDTH, HEIGHT, 2 * z - 1, 1);
         }
         p.fragment = forgetful_fragment;
-        p.depth_test = (shade_compare)(i / 16 % 2 + 2 * reversed);
+        p.raster.depth_test = (shade_compare)(i / 16 % 2 + 2 * reversed);
         c.target.clip_x = x, c.target.clip_y = y;
         c.target.clip_width = w, c.target.clip_height = h;
         canvas_clear(&c, f.cleared);
@@ -141,7 +141,7 @@ TEST(blocks, level_walls_keep_the_nearest)
     for (int round = 0; round < 24; round++) {
         int left[WALLS], right[WALLS], top[WALLS], bottom[WALLS], reversed = round % 2;
         float depth[WALLS];
-        canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         for (int i = 0; i < WALLS; i++) {
@@ -157,12 +157,12 @@ TEST(blocks, level_walls_keep_the_nearest)
                                               HEIGHT, 2 * (double)depth[i] - 1, 1);
         }
         p.fragment = scene_flat;
-        p.depth_test = (shade_compare)(round % 4 / 2 + 2 * reversed);
+        p.raster.depth_test = (shade_compare)(round % 4 / 2 + 2 * reversed);
         canvas_clear(&c, reversed ? 0.0f : 1.0f);
         CHECK_INT(shade_draw(&c.target, &p, NULL, 6 * WALLS, 6 * WALLS, NULL), SHADE_OK);
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++) {
-                int nearest = -1, or_equal = p.depth_test % 2;
+                int nearest = -1, or_equal = p.raster.depth_test % 2;
                 for (int i = 0; i < WALLS; i++) {
                     if (x < left[i] || x >= right[i] || y < top[i] || y >= bottom[i]) continue;
                     float gain = nearest < 0 ? 1.0f : depth[nearest] - depth[i];

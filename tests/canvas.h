@@ -14,7 +14,7 @@ typedef struct canvas {
 
 static size_t canvas_pixel_bytes(shade_format format)
 {
-    return format == SHADE_RGBA8 ? 4 : format == SHADE_RGB565 ? 2 : 16;
+    return format == SHADE_FORMAT_RGBA8 ? 4 : format == SHADE_FORMAT_RGB565 ? 2 : 16;
 }
 static int canvas_stride(const canvas *c)
 {
@@ -185,7 +185,8 @@ static void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
         shade_vec4 p = s->clip[in->index[i]];
         out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[2][i] = p.z, out->clip[3][i] = p.w;
         for (int k = 0; k < s->varyings; k++) {
-            out->out[k][i] = s->attribute[(size_t)in->index[i] * (size_t)s->varyings + (size_t)k];
+            out->varying[k][i] =
+                s->attribute[(size_t)in->index[i] * (size_t)s->varyings + (size_t)k];
         }
     }
 }
@@ -205,7 +206,7 @@ static void scene_record_fragments(const scene *s, const shade_fragments *in)
         same &= float_bits(in->z[i]) == float_bits(in->z[last]);
         same &= in->primitive[i] == in->primitive[last] && in->front[i] == in->front[last];
         for (int k = 0; k < s->varyings; k++) {
-            same &= float_bits(in->in[k][i]) == float_bits(in->in[k][last]);
+            same &= float_bits(in->varying[k][i]) == float_bits(in->varying[k][last]);
         }
         if (!same) r->bad_tails++;
     }
@@ -213,7 +214,7 @@ static void scene_record_fragments(const scene *s, const shade_fragments *in)
         fragment_record *f = &r->fragments[r->count++];
         f->x = in->x[i], f->y = in->y[i], f->z = in->z[i];
         f->primitive = in->primitive[i], f->front = in->front[i];
-        for (int k = 0; k < s->varyings; k++) f->in[k] = in->in[k][i];
+        for (int k = 0; k < s->varyings; k++) f->in[k] = in->varying[k][i];
     }
 }
 /* the colour of the primitive */
@@ -224,7 +225,8 @@ static void scene_flat(const void *uniforms, const shade_fragments *SHADE_RESTRI
     if (s->record) scene_record_fragments(s, in);
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 c = s->color ? s->color[in->primitive[i]] : shade_v4(1, 1, 1, 1);
-        out->out[0][i] = c.x, out->out[1][i] = c.y, out->out[2][i] = c.z, out->out[3][i] = c.w;
+        out->color[0][i] = c.x, out->color[1][i] = c.y, out->color[2][i] = c.z,
+        out->color[3][i] = c.w;
     }
 }
 /* the first four varyings as colour */
@@ -234,7 +236,7 @@ static void scene_colors(const void *uniforms, const shade_fragments *SHADE_REST
     const scene *s = (const scene *)uniforms;
     if (s->record) scene_record_fragments(s, in);
     for (int k = 0; k < 4 && k < s->varyings; k++) {
-        for (int i = 0; i < SHADE_LANES; i++) out->out[k][i] = in->in[k][i];
+        for (int i = 0; i < SHADE_LANES; i++) out->color[k][i] = in->varying[k][i];
     }
 }
 

@@ -10,7 +10,7 @@ static shade_stats draw_clip_space(canvas *c, const shade_vec4 *clip, int vertic
     scene s = { clip, NULL, 0, NULL, r };
     shade_pipeline p = scene_pipeline(&s);
     shade_stats stats;
-    p.depth_zero_to_one = zero_to_one;
+    p.raster.depth_zero_to_one = zero_to_one;
     memset(&stats, 0x55, sizeof stats);
     CHECK_INT(shade_draw(&c->target, &p, NULL, vertices, vertices, &stats), SHADE_OK);
     CHECK_INT(stats.triangles, vertices / 3);
@@ -20,9 +20,9 @@ static shade_stats draw_clip_space(canvas *c, const shade_vec4 *clip, int vertic
 
 TEST(clip, triangles_outside_one_plane_count_as_clipped)
 {
-    canvas c = canvas_open(40, 30, 43, SHADE_RGBA8, 1);
+    canvas c = canvas_open(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&c, 1);
-    canvas before = canvas_open(40, 30, 43, SHADE_RGBA8, 1);
+    canvas before = canvas_open(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&before, 1);
     for (int i = 0; i < 3000; i++) {
         shade_vec4 v[3];
@@ -49,7 +49,7 @@ TEST(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled) /* front-f
 {
     static const shade_vec4 offsets[] = { { 5, 0, 0, 0 },  { -5, 0, 0, 0 }, { 0, 5, 0, 0 },
                                           { 0, -5, 0, 0 }, { 0, 0, 5, 0 },  { 0, 0, -5, 0 } };
-    canvas c = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&c, 1);
     for (int i = 0; i < 6; i++) {
         shade_vec4 v[3];
@@ -65,9 +65,9 @@ TEST(clip, positions_that_are_no_numbers_are_rejected)
 {
     static const uint32_t bad[] = { 0x7FC00000u, 0xFFC00000u, 0x7F800000u,
                                     0xFF800000u, 0x7F7FFFFFu, 0xFF7FFFFFu };
-    canvas c = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&c, 1);
-    canvas before = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas before = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&before, 1);
     for (int corner = 0; corner < 3; corner++)
         for (int field = 0; field < 4; field++)
@@ -91,7 +91,7 @@ TEST(clip, positions_that_are_no_numbers_are_rejected)
 
 TEST(clip, zero_area_counts_as_culled)
 {
-    canvas c = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&c, 1);
     shade_vec4 point[3] = { { 0.1f, 0.2f, 0, 1 }, { 0.1f, 0.2f, 0, 1 }, { 0.1f, 0.2f, 0, 1 } };
     shade_vec4 line[3] = { { -0.5f, 0, 0, 1 }, { 0.5f, 0, 0, 1 }, { 0, 0, 0, 1 } };
@@ -155,7 +155,7 @@ TEST(clip, near_and_far_cut_where_they_should)
     int drawn = 0, depths = 0;
     for (int i = 0; i < 1500; i++) {
         int zero_to_one = rnd_one_in(2);
-        canvas c = canvas_open(rnd_int(1, 50), rnd_int(1, 50), 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(rnd_int(1, 50), rnd_int(1, 50), 0, SHADE_FORMAT_RGBA8, 1);
         shade_vec4 v[3];
         random_eye_triangle(v, zero_to_one, 12);
         int pixels = check_clipped(&c, v, zero_to_one);
@@ -170,7 +170,7 @@ TEST(clip, corners_far_outside_the_guard_band_keep_their_edges)
     int drawn = 0;
     static const double reach[] = { 2.5, 3.5, 10, 100, 1e4, 1e6 };
     for (int i = 0; i < 1800; i++) {
-        canvas c = canvas_open(rnd_int(20, 60), rnd_int(20, 60), 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(rnd_int(20, 60), rnd_int(20, 60), 0, SHADE_FORMAT_RGBA8, 1);
         shade_vec4 v[3];
         double far_out = reach[i % 6];
         for (int k = 0; k < 3; k++) { /* one corner or two near the picture, the rest far out */
@@ -190,7 +190,7 @@ TEST(clip, eye_space_far_to_the_sides_keeps_its_edges)
 {
     int drawn = 0;
     for (int i = 0; i < 1000; i++) {
-        canvas c = canvas_open(48, 36, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(48, 36, 0, SHADE_FORMAT_RGBA8, 1);
         shade_vec4 v[3];
         random_eye_triangle(v, 0, i % 2 ? 60 : 1000);
         drawn += check_clipped(&c, v, 0) > 0;
@@ -242,13 +242,13 @@ static int jittered_grid(int n, shade_vec2 *points, uint32_t *indices)
 
 enum { CLIP_GRID = 12 };
 
-/* How often each pixel is covered, counted by SHADE_ADD of one. */
+/* How often each pixel is covered, counted by SHADE_BLEND_ADD of one. */
 static void count_coverage(canvas *c, const shade_vec4 *clip, const uint32_t *indices, int count,
                            int vertices)
 {
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    p.blend = SHADE_ADD;
+    p.raster.blend = SHADE_BLEND_ADD;
     canvas_clear(c, 1);
     CHECK_INT(shade_draw(&c->target, &p, indices, count, vertices, NULL), SHADE_OK);
 }
@@ -270,7 +270,7 @@ TEST(clip, meshes_beyond_the_guard_band_cover_every_pixel_once)
                 shade_v4((float)((2 * (double)points[i].x - 1 + cx * 0.1) * size * w),
                          (float)((2 * (double)points[i].y - 1 + cy * 0.1) * size * w), 0, (float)w);
         }
-        canvas c = canvas_open(rnd_int(1, 90), rnd_int(1, 90), 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(rnd_int(1, 90), rnd_int(1, 90), 0, SHADE_FORMAT_RGBA32F, 0);
         count_coverage(&c, clip, indices, count, vertices);
         for (int y = 0; y < c.target.height; y++)
             for (int x = 0; x < c.target.width; x++) CHECK_NEAR(canvas_float(&c, x, y, 0), 1, 0);
@@ -306,7 +306,7 @@ TEST(clip, meshes_through_the_near_plane_cover_every_pixel_once)
         int ok = ref_triangle_of(&half[0], &corner[0], &corner[1], &corner[2], 64, 48);
         ok &= ref_triangle_of(&half[1], &corner[0], &corner[2], &corner[3], 64, 48);
         CHECK(ok);
-        canvas c = canvas_open(64, 48, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA32F, 0);
         count_coverage(&c, clip, indices, count, vertices);
         for (int y = 0; y < 48; y++)
             for (int x = 0; x < 64; x++) {
@@ -346,7 +346,7 @@ TEST(clip, facing_survives_the_cut)
         random_eye_triangle(v, 0, 15);
         ref_triangle t;
         if (!ref_triangle_of(&t, &v[0], &v[1], &v[2], 64, 48)) continue;
-        canvas c = canvas_open(64, 48, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
         canvas_clear(&c, 1);
         r.count = 0;
         draw_clip_space(&c, v, 3, 0, &r);
@@ -360,10 +360,10 @@ TEST(clip, facing_survives_the_cut)
             scene s = { v, NULL, 0, NULL, NULL };
             shade_pipeline p = scene_pipeline(&s);
             shade_stats stats;
-            p.cull = t.front ? SHADE_CULL_BACK : SHADE_CULL_FRONT;
+            p.raster.cull = t.front ? SHADE_CULL_BACK : SHADE_CULL_FRONT;
             CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
             CHECK_INT(stats.fragments, r.count);
-            p.cull = t.front ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
+            p.raster.cull = t.front ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
             CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
             CHECK_INT(stats.fragments, 0);
             CHECK_INT(stats.culled, 1);
@@ -385,7 +385,7 @@ TEST(clip, varyings_survive_the_cut) /* perspective to the plane, constant to th
         for (int k = 0; k < 6; k++) attribute[k] = rnd_float(-1, 1);
         ref_triangle t;
         if (!ref_triangle_of(&t, &v[0], &v[1], &v[2], 48, 48)) continue;
-        canvas c = canvas_open(48, 48, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(48, 48, 0, SHADE_FORMAT_RGBA8, 0);
         scene s = { v, attribute, 2, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         r.count = 0;
@@ -407,7 +407,7 @@ TEST(clip, varyings_survive_the_cut) /* perspective to the plane, constant to th
                 tested++;
             }
         }
-        p.interpolation = SHADE_CONSTANT;
+        p.interpolation = SHADE_INTERPOLATION_CONSTANT;
         r.count = 0;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
         for (int k = 0; k < r.count; k++) {
@@ -439,7 +439,7 @@ TEST(clip, polygons_dented_by_rounding_are_survived)
           { 0x1.5cb7e6p-1f, -0x1.b98b2cp+0f, 0x1.0a2b5p+0f, 0x1.805886p-1f } },
         { { -2, 2, 2, -2 }, { 0, -2, 2, -2 }, { 2, -2, -2, 2 } }, /* through w = 0 at the origin */
     };
-    canvas c = canvas_open(33, 29, 35, SHADE_RGBA8, 1);
+    canvas c = canvas_open(33, 29, 35, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&c, 1);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) draw_clip_space(&c, bad[i], 3, 0, NULL);
     for (int i = 0; i < 30000; i++) {
@@ -483,7 +483,7 @@ TEST(clip, any_position_at_all_is_accounted_for)
 /* z in [-w, 0) is visible by default only */
 TEST(clip, only_the_volume_decides_between_the_planes_of_zero_to_one)
 {
-    canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 v[3];
     memcpy(v, clip_corners, sizeof v);
     for (int k = 0; k < 3; k++) v[k].z = -0.5f;
@@ -539,7 +539,7 @@ TEST(clip, dents_by_snapping_are_filled_without_overlap)
             clip[i] = clip_of_fx8((double)X[i], (double)Y[i], size, size, z, 1);
         }
         if (!covers_square(X, Y, indices, count, (int64_t)size * 256)) continue;
-        canvas c = canvas_open(size, size, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(size, size, 0, SHADE_FORMAT_RGBA32F, 0);
         count_coverage(&c, clip, indices, count, vertices);
         for (int k = 0; k < size * size; k++) {
             double got = (double)canvas_float(&c, k % size, k / size, 0);

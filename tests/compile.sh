@@ -29,7 +29,7 @@ int main(void)
 {
     static float depth[64];
     static unsigned char pixels[256];
-    shade_target target = { 8, 8, 0, SHADE_RGBA8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+    shade_target target = { 8, 8, 0, SHADE_FORMAT_RGBA8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
     shade_result cleared;
     target.color = pixels;
     target.depth = depth;

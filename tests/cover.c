@@ -16,8 +16,9 @@ static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices
     }
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    p.blend = SHADE_ADD;
-    p.depth_test = vertices == 3 && rnd_one_in(2) ? SHADE_LESS : SHADE_ALWAYS;
+    p.raster.blend = SHADE_BLEND_ADD;
+    p.raster.depth_test =
+        vertices == 3 && rnd_one_in(2) ? SHADE_COMPARE_LESS : SHADE_COMPARE_ALWAYS;
     CHECK_INT(shade_draw(&c->target, &p, NULL, vertices, vertices, stats), SHADE_OK);
     free(clip);
 }
@@ -124,9 +125,9 @@ TEST(cover, random_triangles_cover_exactly_the_top_left_pixels)
 {
     for (int i = 0; i < 10500; i++) {
         int big = i % 10 == 9;
-        canvas c =
-            canvas_open(big ? rnd_int(100, 280) : rnd_int(1, 70),
-                        big ? rnd_int(60, 220) : rnd_int(1, 60), 0, SHADE_RGBA8, rnd_int(0, 1));
+        canvas c = canvas_open(big ? rnd_int(100, 280) : rnd_int(1, 70),
+                               big ? rnd_int(60, 220) : rnd_int(1, 60), 0, SHADE_FORMAT_RGBA8,
+                               rnd_int(0, 1));
         int64_t x[3], y[3];
         random_corners(i % 7, c.target.width, c.target.height, x, y);
         canvas_clear(&c, 1);
@@ -140,7 +141,7 @@ TEST(cover, random_triangles_cover_exactly_the_top_left_pixels)
 /* edges through centres, all of them */
 TEST(cover, every_small_triangle_on_a_half_pixel_lattice_is_exact)
 {
-    canvas c = canvas_open(8, 8, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
     static const int lattice[] = { 128, 256, 384, 640, 896 };
     for (int a = 0; a < 25; a++)
         for (int b = 0; b < 25; b++)
@@ -159,8 +160,8 @@ TEST(cover, every_small_triangle_on_a_half_pixel_lattice_is_exact)
 
 TEST(cover, corners_snap_to_the_nearest_256th_halves_up)
 {
-    canvas c =
-        canvas_open(256, 256, 0, SHADE_RGBA8, 0); /* a power of two: every 1/512 pixel is a float */
+    canvas c = canvas_open(256, 256, 0, SHADE_FORMAT_RGBA8,
+                           0); /* a power of two: every 1/512 pixel is a float */
     for (int i = 0; i < 600; i++) {
         int64_t x2[3], y2[3], x[3], y[3]; /* in 1/512; snapped: floor(v / 2 + 1/2) */
         shade_vec4 clip[3];
@@ -198,7 +199,7 @@ TEST(cover, corners_snap_to_the_nearest_256th_halves_up)
 TEST(cover, winding_and_order_of_corners_do_not_matter)
 {
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(40, 40, 0, SHADE_RGBA8, rnd_int(0, 1));
+        canvas c = canvas_open(40, 40, 0, SHADE_FORMAT_RGBA8, rnd_int(0, 1));
         int64_t x[3], y[3], x6[18], y6[18];
         random_corners(i % 7, 40, 40, x, y);
         static const int order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
@@ -222,7 +223,7 @@ TEST(cover, meshes_cover_every_pixel_exactly_once)
     for (int round = 0; round < 100; round++) {
         int n = rnd_int(1, N), count = jittered_grid(n, points, indices),
             vertices = (n + 1) * (n + 1);
-        canvas c = canvas_open(rnd_int(1, 200), rnd_int(1, 150), 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(rnd_int(1, 200), rnd_int(1, 150), 0, SHADE_FORMAT_RGBA32F, 0);
         for (int i = 0; i < vertices; i++) {
             double w = round % 2 ? (double)rnd_log(0.2, 5) : 1;
             clip[i] = shade_v4((float)((2 * (double)points[i].x - 1) * w),
@@ -252,7 +253,7 @@ TEST(cover, fans_around_one_centre_leave_no_hole) /* many triangles meet in a pi
             indices[3 * k] = (uint32_t)k, indices[3 * k + 1] = (uint32_t)((k + 1) % n),
                         indices[3 * k + 2] = (uint32_t)n;
         }
-        canvas c = canvas_open(width, width, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(width, width, 0, SHADE_FORMAT_RGBA32F, 0);
         count_coverage(&c, clip, indices, 3 * n, n + 1);
         for (int y = 0; y < width; y++)
             for (int x = 0; x < width; x++) {
@@ -267,7 +268,7 @@ TEST(cover, fans_around_one_centre_leave_no_hole) /* many triangles meet in a pi
 TEST(cover, slivers_a_256th_wide_are_exact)
 {
     for (int i = 0; i < 2000; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, rnd_int(0, 1));
+        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, rnd_int(0, 1));
         int64_t x[3], y[3];
         x[0] = rnd_int(0, 90 * 256), y[0] = rnd_int(0, 70 * 256), x[1] = rnd_int(0, 90 * 256),
         y[1] = rnd_int(0, 70 * 256);
@@ -288,7 +289,7 @@ TEST(cover, depth_of_slivers_stays_between_their_corners)
 {
     long low = 0, high = 0;
     for (int i = 0; i < 2000; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, 1);
         int64_t x[3], y[3];
         shade_vec4 clip[3];
         float nearest = 1, farthest = 0;
@@ -304,7 +305,7 @@ TEST(cover, depth_of_slivers_stays_between_their_corners)
             nearest = depth < nearest ? depth : nearest;
             farthest = depth > farthest ? depth : farthest;
         }
-        p.fragment = NULL, p.depth_test = SHADE_ALWAYS;
+        p.fragment = NULL, p.raster.depth_test = SHADE_COMPARE_ALWAYS;
         canvas_clear(&c, 2);
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
         for (int k = 0; k < 90 * 70; k++) {
@@ -324,7 +325,7 @@ TEST(cover, varyings_of_slivers_are_finite)
 {
     long infinite = 0;
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA32F, 0);
         float values[3] = { 1, 2, 3 };
         shade_vec4 clip[3];
         scene s = { clip, values, 1, NULL, NULL };
@@ -347,7 +348,7 @@ TEST(cover, varyings_of_slivers_are_finite)
 
 TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing)
 {
-    canvas c = canvas_strip(16384, 16384, 0, SHADE_RGBA8, 1, 8000, 16);
+    canvas c = canvas_strip(16384, 16384, 0, SHADE_FORMAT_RGBA8, 1, 8000, 16);
     canvas_clear(&c, 1);
     for (int i = 0; i < 400; i++) {
         int64_t x[3], y[3];
@@ -370,7 +371,8 @@ TEST(cover, many_triangles_of_one_draw_do_not_disturb_each_other)
 {
     for (int round = 0; round < 40; round++) {
         enum { N = 60 };
-        canvas c = canvas_open(rnd_int(20, 100), rnd_int(20, 100), 0, SHADE_RGBA32F, rnd_int(0, 1));
+        canvas c =
+            canvas_open(rnd_int(20, 100), rnd_int(20, 100), 0, SHADE_FORMAT_RGBA32F, rnd_int(0, 1));
         int64_t x[3 * N], y[3 * N];
         for (int k = 0; k < N; k++)
             random_corners(rnd_int(0, 6), c.target.width, c.target.height, x + 3 * k, y + 3 * k);
@@ -394,8 +396,9 @@ TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
 {
     for (int i = 0; i < 60; i++) {
         int wide = i % 2, rows = rnd_int(1, 5), offset = rnd_int(0, 16384 - rows);
-        canvas c = wide ? canvas_open(16384, rows, 0, SHADE_RGBA8, 0)
-                        : canvas_strip(rnd_int(1, 200), 16384, 0, SHADE_RGBA8, 0, offset, rows);
+        canvas c =
+            wide ? canvas_open(16384, rows, 0, SHADE_FORMAT_RGBA8, 0)
+                 : canvas_strip(rnd_int(1, 200), 16384, 0, SHADE_FORMAT_RGBA8, 0, offset, rows);
         int width = c.target.width, height = c.target.height;
         int64_t x[3], y[3];
         for (int k = 0; k < 3; k++) {
@@ -425,7 +428,7 @@ TEST(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact)
 {
     for (int i = 0; i < 120; i++) {
         int width = rnd_int(6000, 8000), height = rnd_int(40, 60), attempts = 0;
-        canvas c = canvas_open(width, height, 0, SHADE_RGBA8, i % 2);
+        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3], u, v, dy;
         do { /* to the centre: (u, v); along the edge: (dy u / v rounded, dy) */
             x[0] = rnd_int(-300, 300), y[0] = rnd_int(0, 500);
@@ -454,7 +457,7 @@ TEST(cover, triangles_of_a_million_pixels_are_exact)
     static const int sizes[][2] = { { 1024, 1024 }, { 2000, 520 }, { 524, 2000 },  { 1448, 724 },
                                     { 2040, 2040 }, { 1100, 950 }, { 1023, 1020 }, { 64, 2040 } };
     for (int i = 0; i < 16; i++) {
-        canvas c = canvas_open(2048, 2048, 0, SHADE_RGBA8, i % 2);
+        canvas c = canvas_open(2048, 2048, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3], w = sizes[i % 8][0] * 256, h = sizes[i % 8][1] * 256;
         int64_t left = rnd_int(0, 2048 * 256 - (int)w), top = rnd_int(0, 2048 * 256 - (int)h);
         int shape = rnd_int(0, 3);
@@ -474,7 +477,7 @@ TEST(cover, triangles_of_a_million_pixels_are_exact)
    in the far corners of the box do not. */
 TEST(cover, thin_triangles_across_nine_million_pixels_are_exact)
 {
-    canvas c = canvas_open(2950, 2950, 0, SHADE_RGB565, 0);
+    canvas c = canvas_open(2950, 2950, 0, SHADE_FORMAT_RGB565, 0);
     for (int i = 0; i < 4; i++) {
         int64_t side = 2950 * 256, x[3] = { 0, side, side }, y[3] = { 0, side, side - 9000 };
         for (int k = 0; k < 3; k++) {
@@ -497,7 +500,7 @@ TEST(cover, thin_triangles_across_nine_million_pixels_are_exact)
 TEST(cover, borders_of_huge_triangles_are_exact)
 {
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(1600, 600, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(1600, 600, 0, SHADE_FORMAT_RGBA8, 1);
         int64_t x[3] = { rnd_int(-1600 * 255, 0), 1600 * 511, rnd_int(0, 1600 * 256) };
         int64_t y[3] = { rnd_int(-600 * 255, 0), rnd_int(0, 600 * 511), 600 * 511 };
         canvas_clear(&c, 1);
@@ -513,7 +516,7 @@ TEST(cover, borders_of_huge_triangles_are_exact)
 TEST(cover, level_edges_of_big_triangles_follow_the_rule)
 {
     for (int i = 0; i < 8; i++) {
-        canvas c = canvas_open(1500, 1500, 0, SHADE_RGBA8, i & 1);
+        canvas c = canvas_open(1500, 1500, 0, SHADE_FORMAT_RGBA8, i & 1);
         int64_t x[3] = { 300, 1499 * 256, 0 }, y[3], level = 128 + 256 * (int64_t)rnd_int(5, 40);
         x[2] = rnd_int(0, 1499 * 256);
         y[0] = y[1] = level, y[2] = 1480 * 256 + rnd_int(0, 999);
@@ -530,7 +533,7 @@ TEST(cover, wide_flat_triangles_are_exact) /* long quotients, whose float roundi
 {
     for (int i = 0; i < 50; i++) {
         int width = rnd_int(2000, 9000), height = rnd_int(3, 24);
-        canvas c = canvas_open(width, height, 0, SHADE_RGBA8, i % 2);
+        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3];
         for (int k = 0; k < 3; k++) {
             x[k] = k == 0   ? rnd_int(0, 3000)
@@ -550,7 +553,7 @@ TEST(cover, facing_is_counter_clockwise_on_the_screen)
 {
     recorder r = recorder_open(20000);
     for (int i = 0; i < 2000; i++) {
-        canvas c = canvas_open(40, 40, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(40, 40, 0, SHADE_FORMAT_RGBA8, 0);
         int64_t x[3], y[3];
         random_corners(1, 40, 40, x, y);
         int64_t turn = (x[1] - x[0]) * (y[2] - y[0]) -
@@ -566,11 +569,11 @@ TEST(cover, facing_is_counter_clockwise_on_the_screen)
         CHECK_INT(stats.fragments, r.count);
         for (int k = 0; k < r.count; k++) CHECK_INT(r.fragments[k].front, turn < 0);
         int fragments = r.count;
-        p.cull = SHADE_CULL_BACK;
+        p.raster.cull = SHADE_CULL_BACK;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
         CHECK_INT(stats.fragments, turn < 0 ? fragments : 0);
         if (fragments) CHECK_INT(stats.culled, turn < 0 ? 0 : 1);
-        p.cull = SHADE_CULL_FRONT;
+        p.raster.cull = SHADE_CULL_FRONT;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
         CHECK_INT(stats.fragments, turn > 0 ? fragments : 0);
         canvas_close(&c);

@@ -48,7 +48,7 @@ static void refused(int line, drive_call *d, const shade_target *target, const s
 TEST(drive, missing_pointers_are_bad_arguments)
 {
     drive_call d;
-    drive_open(&d, SHADE_RGBA8);
+    drive_open(&d, SHADE_FORMAT_RGBA8);
     CHECK_INT(drive_draw(&d), SHADE_OK);
     refused(__LINE__, &d, NULL, &d.p, SHADE_ERROR_ARGUMENT);
     refused(__LINE__, &d, &d.c.target, NULL, SHADE_ERROR_ARGUMENT);
@@ -66,7 +66,7 @@ TEST(drive, bad_targets_are_refused_by_every_call)
     enum { TARGETS = 23 };
     for (int k = 0; k < TARGETS; k++) {
         drive_call d;
-        drive_open(&d, SHADE_RGBA8);
+        drive_open(&d, SHADE_FORMAT_RGBA8);
         shade_target *t = &d.c.target, good = *t;
         switch (k) {
         case 0:
@@ -161,7 +161,7 @@ TEST(drive, odd_but_legal_targets_are_taken)
     static const int huge = 2147483647;
     for (int k = 0; k < 8; k++) {
         drive_call d;
-        drive_open(&d, SHADE_RGBA8);
+        drive_open(&d, SHADE_FORMAT_RGBA8);
         shade_target *t = &d.c.target;
         switch (k) {
         case 0:
@@ -206,7 +206,7 @@ TEST(drive, bad_pipelines_are_refused)
 {
     for (int k = 0; k < 13; k++) {
         drive_call d;
-        drive_open(&d, SHADE_RGBA8);
+        drive_open(&d, SHADE_FORMAT_RGBA8);
         switch (k) {
         case 0:
             d.p.varyings = -1;
@@ -218,16 +218,16 @@ TEST(drive, bad_pipelines_are_refused)
             d.p.interpolation = (shade_interpolation)3;
             break;
         case 3:
-            d.p.cull = (shade_cull)3;
+            d.p.raster.cull = (shade_cull)3;
             break;
         case 4:
-            d.p.depth_test = (shade_compare)6;
+            d.p.raster.depth_test = (shade_compare)6;
             break;
         case 5:
-            d.p.blend = (shade_blend)3;
+            d.p.raster.blend = (shade_blend)3;
             break;
         case 6:
-            d.p.depth_bias = (float)NAN;
+            d.p.raster.depth_bias = (float)NAN;
             break;
         case 7:
             d.p.varyings = 2147483647;
@@ -242,7 +242,7 @@ TEST(drive, bad_pipelines_are_refused)
             d.index_count = -3;
             break;
         case 11:
-            d.p.depth_test = (shade_compare)1000000;
+            d.p.raster.depth_test = (shade_compare)1000000;
             break;
         default:
             d.index_count = -2147483647 - 1;
@@ -257,7 +257,7 @@ TEST(drive, bad_indices_are_refused_before_a_pixel_changes)
 {
     for (int k = 0; k < 8; k++) {
         drive_call d;
-        drive_open(&d, SHADE_RGBA8);
+        drive_open(&d, SHADE_FORMAT_RGBA8);
         switch (k) {
         case 0:
             d.index_count = 5;
@@ -288,7 +288,7 @@ TEST(drive, bad_indices_are_refused_before_a_pixel_changes)
         canvas_close(&d.c);
     }
     drive_call d;
-    drive_open(&d, SHADE_RGBA8);
+    drive_open(&d, SHADE_FORMAT_RGBA8);
     CHECK_INT(shade_draw(&d.c.target, &d.p, NULL, 6, 5, NULL), SHADE_ERROR_INDEX);
     CHECK_INT(shade_draw(&d.c.target, &d.p, NULL, 5, 6, NULL), SHADE_ERROR_INDEX);
     CHECK_INT(shade_draw(&d.c.target, &d.p, NULL, 3, 6, NULL), SHADE_OK);
@@ -302,7 +302,7 @@ TEST(drive, one_bad_index_anywhere_in_a_long_list_is_found)
     enum { COUNT = 600 };
     static uint32_t indices[COUNT];
     drive_call d;
-    drive_open(&d, SHADE_RGBA8);
+    drive_open(&d, SHADE_FORMAT_RGBA8);
     for (int i = 0; i < COUNT; i++) indices[i] = (uint32_t)(i % 6);
     for (int i = 0; i < COUNT; i++) {
         uint32_t good = indices[i];
@@ -319,7 +319,7 @@ TEST(drive, one_bad_index_anywhere_in_a_long_list_is_found)
 TEST(drive, checks_come_in_the_stated_order) /* NULLs, target, other arguments, indices */
 {
     drive_call d;
-    drive_open(&d, SHADE_RGBA8);
+    drive_open(&d, SHADE_FORMAT_RGBA8);
     shade_target bad = d.c.target;
     bad.width = 0;
     refused(__LINE__, &d, &bad, NULL, SHADE_ERROR_ARGUMENT);
@@ -343,7 +343,7 @@ TEST(drive, checks_come_in_the_stated_order) /* NULLs, target, other arguments, 
 TEST(drive, no_triangles_is_no_error)
 {
     drive_call d;
-    drive_open(&d, SHADE_RGBA8);
+    drive_open(&d, SHADE_FORMAT_RGBA8);
     shade_stats stats;
     memset(&stats, 0x55, sizeof stats);
     CHECK_INT(shade_draw(&d.c.target, &d.p, d.indices, 0, 6, &stats), SHADE_OK);
@@ -411,11 +411,11 @@ static void random_pipeline(random_draw *r, int nasty)
     r->p.fragment = shaders[kind < 4 ? 0 : kind < 8 ? 1 : kind - 6];
     r->p.may_discard = r->p.fragment == fragment_sieve || rnd_one_in(5);
     r->p.interpolation = (shade_interpolation)(rnd_one_in(2) ? 0 : rnd_int(0, 2));
-    r->p.cull = (shade_cull)rnd_int(0, 2);
-    r->p.depth_test = (shade_compare)rnd_int(0, 5);
-    r->p.depth_read_only = rnd_one_in(5), r->p.depth_zero_to_one = rnd_int(0, 1);
-    r->p.depth_bias = rnd_one_in(3) ? rnd_float(-0.1, 0.1) : 0;
-    r->p.blend = (shade_blend)rnd_int(0, 2);
+    r->p.raster.cull = (shade_cull)rnd_int(0, 2);
+    r->p.raster.depth_test = (shade_compare)rnd_int(0, 5);
+    r->p.raster.depth_read_only = rnd_one_in(5), r->p.raster.depth_zero_to_one = rnd_int(0, 1);
+    r->p.raster.depth_bias = rnd_one_in(3) ? rnd_float(-0.1, 0.1) : 0;
+    r->p.raster.blend = (shade_blend)rnd_int(0, 2);
 }
 static void random_canvas_flags(shade_target *t)
 {
@@ -458,7 +458,7 @@ TEST(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up)
                        zat = CANVAS_GUARD + canvas_index(&c, x, y) * 4;
                 int in = x >= x0 && x < x1 && y >= y0 && y < y1;
                 if (!in) CHECK(!memcmp(c.color + at, before.color + at, cell));
-                if (!in || !c.target.depth || r.p.depth_read_only)
+                if (!in || !c.target.depth || r.p.raster.depth_read_only)
                     CHECK(!memcmp(c.depth + zat, before.depth + zat, 4));
                 if (c.target.depth)
                     CHECK(canvas_depth(&c, x, y) >= 0 && canvas_depth(&c, x, y) <= 1);
@@ -473,7 +473,7 @@ TEST(drive, stats_do_not_depend_on_the_clip_rectangle)
 {
     static random_draw r;
     for (int i = 0; i < 200; i++) {
-        canvas c = canvas_open(64, 48, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
         random_pipeline(&r, 1);
         if (r.p.fragment == fragment_sieve) r.p.fragment = scene_flat;
         shade_stats whole, part;

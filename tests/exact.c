@@ -63,7 +63,7 @@ static long exact_draw(exact_sheet *s, canvas *c)
     long long covered = 0;
     memset(&p, 0, sizeof p);
     p.vertex = exact_vertex, p.fragment = exact_fragment, p.uniforms = &s;
-    p.depth_test = SHADE_ALWAYS;
+    p.raster.depth_test = SHADE_COMPARE_ALWAYS;
     memset(s->got, 0, sizeof s->got);
     CHECK_INT(shade_draw(&c->target, &p, NULL, 3 * s->count, 3 * s->count, &stats), SHADE_OK);
     for (int k = 0; k < s->count; k++) {
@@ -113,7 +113,7 @@ static long exact_all(exact_lattice l)
             right[a][b] = (uint16_t)exact_side(l, a, b, -1);
         }
     for (int with_depth = 0; with_depth < 2; with_depth++) {
-        canvas c = canvas_open(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_RGBA8, with_depth);
+        canvas c = canvas_open(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_FORMAT_RGBA8, with_depth);
         canvas_clear(&c, 1);
         memset(&sheet, 0, sizeof sheet);
         for (int a = 0; a < points; a++)
@@ -190,7 +190,7 @@ TEST(exact, lattice_meshes_cover_every_pixel_once)
         }
         if (!covers_square(x, y, indices, count, (int64_t)size * 256)) continue; /* folded */
         used++;
-        canvas c = canvas_open(size, size, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(size, size, 0, SHADE_FORMAT_RGBA32F, 0);
         count_coverage(&c, clip, indices, count, vertices);
         check_covered(&c, 1);
         canvas_close(&c);
@@ -209,7 +209,7 @@ TEST(exact, strips_across_the_biggest_pictures_cover_every_pixel_once)
         uint32_t indices[6 * N];
         int upright = round % 2, n = rnd_int(1, N), rows = rnd_int(1, 3);
         double reach = reaches[round % 5], at[2] = { -reach, -reach };
-        canvas c = canvas_strip(upright ? 64 : 16384, 16384, 0, SHADE_RGBA32F, 0,
+        canvas c = canvas_strip(upright ? 64 : 16384, 16384, 0, SHADE_FORMAT_RGBA32F, 0,
                                 rnd_int(0, 16384 - rows), rows);
         for (int i = 0; i <= n; i++) { /* zigzag between two lines at -reach and reach */
             for (int k = 0; k < 2; k++) {
@@ -255,7 +255,7 @@ TEST(exact, fans_of_slivers_cover_every_pixel_once)
             indices[3 * k] = (uint32_t)k, indices[3 * k + 1] = (uint32_t)((k + 1) % n);
             indices[3 * k + 2] = (uint32_t)n;
         }
-        canvas c = canvas_open(width, height, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA32F, 0);
         count_coverage(&c, clip, indices, 3 * n, n + 1);
         check_covered(&c, 1); /* the polygon through the spokes' ends holds the whole picture */
         canvas_close(&c);

@@ -54,7 +54,7 @@ TEST(fragment, x_and_y_are_pixel_centres_each_pixel_once)
     recorder r = recorder_open(20000);
     static unsigned char seen[90 * 70];
     for (int i = 0; i < 600; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, 1);
         grid_triangle t;
         random_grid_triangle(&t, 90, 70, 2);
         scene s = { t.clip, NULL, 0, NULL, &r };
@@ -90,7 +90,7 @@ TEST(fragment, packets_are_full_but_the_last_of_a_batch) /* pixels queue across 
     static shade_vec4 clip[3 * N];
     recorder r = recorder_open(400000);
     for (int round = 0; round < 20; round++) {
-        canvas c = canvas_open(64, 64, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
         for (int i = 0; i < N; i++) {
             int64_t x[3], y[3];
             random_corners(round % 2, 64, 64, x, y);
@@ -122,7 +122,7 @@ TEST(fragment, perspective_varyings_match_double_for_every_count) /* rows 42, 44
         int width = rnd_int(10, 120), height = rnd_int(10, 90),
             varyings = i % (SHADE_MAX_VARYINGS + 1);
         double w_range = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 10;
-        canvas c = canvas_open(width, height, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, 1);
         grid_triangle t;
         float attributes[6 * SHADE_MAX_VARYINGS], *attribute = attributes + 3 * varyings;
         shade_vec4 clip[6];
@@ -157,14 +157,14 @@ TEST(fragment, affine_varyings_are_linear_on_the_screen)
 {
     recorder r = recorder_open(20000);
     for (int i = 0; i < 200; i++) {
-        canvas c = canvas_open(100, 80, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(100, 80, 0, SHADE_FORMAT_RGBA8, 0);
         grid_triangle t;
         float attribute[9];
         random_grid_triangle(&t, 100, 80, 10);
         for (int k = 0; k < 9; k++) attribute[k] = rnd_float(-1, 1);
         scene s = { t.clip, attribute, 3, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
-        p.interpolation = SHADE_AFFINE;
+        p.interpolation = SHADE_INTERPOLATION_AFFINE;
         r.count = 0;
         draw_scene(&c, &p, 3);
         shade_vec4 flat[3];
@@ -190,7 +190,7 @@ TEST(fragment, constant_varyings_are_the_first_corner_bit_for_bit)
     recorder r = recorder_open(100000);
     enum { N = 20 };
     for (int i = 0; i < 100; i++) {
-        canvas c = canvas_open(60, 60, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(60, 60, 0, SHADE_FORMAT_RGBA8, 0);
         shade_vec4 clip[3 * N];
         float attribute[6 * N];
         for (int k = 0; k < N; k++) {
@@ -201,7 +201,7 @@ TEST(fragment, constant_varyings_are_the_first_corner_bit_for_bit)
         for (int k = 0; k < 6 * N; k++) attribute[k] = rnd_float(-1, 1) * rnd_log(1e-6, 1e6);
         scene s = { clip, attribute, 2, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
-        p.interpolation = SHADE_CONSTANT;
+        p.interpolation = SHADE_INTERPOLATION_CONSTANT;
         r.count = 0;
         draw_scene(&c, &p, 3 * N);
         CHECK(r.count > 0);
@@ -221,7 +221,7 @@ TEST(fragment, equal_varyings_stay_equal)
 {
     recorder r = recorder_open(20000);
     for (int i = 0; i < 300; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, 0);
         grid_triangle t;
         float attribute[6];
         random_grid_triangle(&t, 90, 70, 10);
@@ -249,12 +249,12 @@ TEST(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones)
             clip[3 * i] = clip_corners[1], clip[3 * i + 1] = clip_corners[0]; /* back-facing */
         if (i % 7 == 3) clip[3 * i].x = (float)NAN;
     }
-    canvas c = canvas_open(10, 10, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(10, 10, 0, SHADE_FORMAT_RGBA8, 0);
     scene s = { clip, NULL, 0, NULL, &r };
     shade_pipeline p = scene_pipeline(&s);
     static int seen[300];
     for (int cull = 0; cull < 3; cull++) {
-        p.cull = (shade_cull)cull;
+        p.raster.cull = (shade_cull)cull;
         r.count = 0, memset(seen, 0, sizeof seen);
         draw_scene(&c, &p, 900);
         for (int k = 0; k < r.count; k++) seen[r.fragments[k].primitive % 300]++;
@@ -278,19 +278,20 @@ static shade_stats draw_at_depth(canvas *c, float z, shade_compare compare, floa
     for (int k = 0; k < 3; k++) v[k].z = z;
     scene s = { v, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    p.depth_test = compare, p.depth_bias = bias, p.depth_read_only = read_only;
+    p.raster.depth_test = compare, p.raster.depth_bias = bias, p.raster.depth_read_only = read_only;
     return draw_scene(c, &p, 3);
 }
 
 TEST(fragment, comparisons_do_what_their_names_say)
 {
-    static const shade_compare compare[] = { SHADE_LESS,          SHADE_LESS_EQUAL, SHADE_GREATER,
-                                             SHADE_GREATER_EQUAL, SHADE_EQUAL,      SHADE_ALWAYS };
+    static const shade_compare compare[] = { SHADE_COMPARE_LESS,    SHADE_COMPARE_LESS_EQUAL,
+                                             SHADE_COMPARE_GREATER, SHADE_COMPARE_GREATER_EQUAL,
+                                             SHADE_COMPARE_EQUAL,   SHADE_COMPARE_ALWAYS };
     static const int nearer[] = { 1, 1, 0, 0, 0, 1 }, same[] = { 0, 1, 0, 1, 1, 1 },
                      farther[] = { 0, 0, 1, 1, 0, 1 };
     for (int k = 0; k < 6; k++)
         for (int mode = 0; mode < 2; mode++) { /* both sides of exact equality */
-            canvas c = canvas_open(16, 16, 19, SHADE_RGBA8, 1);
+            canvas c = canvas_open(16, 16, 19, SHADE_FORMAT_RGBA8, 1);
             canvas_clear(&c, 0.5f);
             CHECK_INT(draw_at_depth(&c, -0.25f, compare[k], 0, 1).fragments, nearer[k] * 128);
             CHECK_INT(draw_at_depth(&c, 0, compare[k], 0, 1).fragments, same[k] * 128);
@@ -308,7 +309,7 @@ TEST(fragment, comparisons_do_what_their_names_say)
 TEST(fragment, a_second_identical_draw_has_equal_depth)
 {
     for (int i = 0; i < 100; i++) {
-        canvas c = canvas_open(100, 80, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(100, 80, 0, SHADE_FORMAT_RGBA8, 1);
         grid_triangle t;
         random_grid_triangle(&t, 100, 80, 10);
         scene s = { t.clip, NULL, 0, NULL, NULL };
@@ -316,11 +317,11 @@ TEST(fragment, a_second_identical_draw_has_equal_depth)
         canvas_clear(&c, 1);
         long long first = draw_scene(&c, &p, 3).fragments;
         CHECK_INT(draw_scene(&c, &p, 3).fragments, 0);
-        p.depth_test = SHADE_EQUAL;
+        p.raster.depth_test = SHADE_COMPARE_EQUAL;
         CHECK_INT(draw_scene(&c, &p, 3).fragments, first);
-        p.depth_test = SHADE_LESS_EQUAL;
+        p.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
         CHECK_INT(draw_scene(&c, &p, 3).fragments, first);
-        p.depth_test = SHADE_GREATER;
+        p.raster.depth_test = SHADE_COMPARE_GREATER;
         CHECK_INT(draw_scene(&c, &p, 3).fragments, 0);
         canvas_close(&c);
     }
@@ -328,7 +329,7 @@ TEST(fragment, a_second_identical_draw_has_equal_depth)
 
 TEST(fragment, bias_is_added_and_what_is_stored_is_clamped)
 {
-    canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 1);
     static const struct {
         float z, bias;
         double want;
@@ -339,7 +340,8 @@ TEST(fragment, bias_is_added_and_what_is_stored_is_clamped)
     };
     for (int k = 0; k < 9; k++) {
         canvas_clear(&c, 1);
-        CHECK_INT(draw_at_depth(&c, table[k].z, SHADE_ALWAYS, table[k].bias, 0).fragments, 128);
+        CHECK_INT(draw_at_depth(&c, table[k].z, SHADE_COMPARE_ALWAYS, table[k].bias, 0).fragments,
+                  128);
         CHECK_NEAR(canvas_depth(&c, 8, 12), table[k].want, 1e-7);
         CHECK(canvas_depth(&c, 8, 12) >= 0 && canvas_depth(&c, 8, 12) <= 1);
     }
@@ -349,20 +351,21 @@ TEST(fragment, bias_is_added_and_what_is_stored_is_clamped)
 TEST(fragment, bias_moves_sloping_depth_as_a_whole)
 {
     for (int i = 0; i < 200; i++) {
-        canvas c = canvas_open(60, 50, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(60, 50, 0, SHADE_FORMAT_RGBA8, 1);
         grid_triangle t;
         ref_triangle e;
         random_grid_triangle(&t, 60, 50, 3);
         if (!ref_triangle_of(&e, &t.clip[0], &t.clip[1], &t.clip[2], 60, 50)) continue;
         scene s = { t.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.depth_test = SHADE_ALWAYS, p.depth_bias = rnd_float(-0.6, 0.6), p.may_discard = i % 2;
+        p.raster.depth_test = SHADE_COMPARE_ALWAYS, p.raster.depth_bias = rnd_float(-0.6, 0.6),
+        p.may_discard = i % 2;
         canvas_clear(&c, 1);
         draw_scene(&c, &p, 3);
         for (int y = 0; y < 50; y++)
             for (int x = 0; x < 60; x++) {
                 if (canvas_bytes(&c, x, y)[3] == 0) continue;
-                double z = ref_depth(&e, x + 0.5, y + 0.5, 0) + (double)p.depth_bias;
+                double z = ref_depth(&e, x + 0.5, y + 0.5, 0) + (double)p.raster.depth_bias;
                 CHECK_NEAR(canvas_depth(&c, x, y), fmax(0, fmin(1, z)), plane_error(&t, 1) / 4);
             }
         canvas_close(&c);
@@ -371,7 +374,7 @@ TEST(fragment, bias_moves_sloping_depth_as_a_whole)
 
 TEST(fragment, reversed_depth_sees_what_is_nearer)
 {
-    canvas c = canvas_open(32, 32, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
     shade_mat4 m = shade_mat4_perspective_reversed(1, 1, 0.25f);
     static const float distance[] = { 5, 2, 100, 0.5f, 3000, 1 };
     double nearest = 1e30;
@@ -385,7 +388,7 @@ TEST(fragment, reversed_depth_sees_what_is_nearer)
         }
         scene s = { v, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.depth_zero_to_one = 1, p.depth_test = SHADE_GREATER;
+        p.raster.depth_zero_to_one = 1, p.raster.depth_test = SHADE_COMPARE_GREATER;
         long long fragments = draw_scene(&c, &p, 3).fragments;
         CHECK_INT(fragments > 0, (double)distance[k] < nearest);
         nearest = fmin(nearest, (double)distance[k]);
@@ -408,13 +411,13 @@ TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer) /* row 4
             }
             color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 1);
         }
-        canvas a = canvas_open(64, 64, 0, SHADE_RGBA8, 1),
-               b = canvas_open(64, 64, 0, SHADE_RGBA8, 1);
+        canvas a = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1),
+               b = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         canvas_clear(&a, 1), canvas_clear(&b, 0);
         draw_scene(&a, &p, 3 * N);
-        s.clip = mirrored, p.depth_test = SHADE_GREATER;
+        s.clip = mirrored, p.raster.depth_test = SHADE_COMPARE_GREATER;
         draw_scene(&b, &p, 3 * N);
         int differ = 0;
         for (int y = 0; y < 64; y++)
@@ -443,7 +446,7 @@ TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel) /* row 46 */
             color[i] = shade_v4((float)i / 255, 0, 0, 1);
             worst = fmax(worst, plane_error(&t, 1));
         }
-        canvas c = canvas_open(48, 48, 50, SHADE_RGBA8, 1);
+        canvas c = canvas_open(48, 48, 50, SHADE_FORMAT_RGBA8, 1);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         canvas_clear(&c, 1);
@@ -472,7 +475,7 @@ TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel) /* row 46 */
 TEST(fragment, without_a_depth_buffer_every_test_passes)
 {
     for (int k = 0; k < 6; k++) {
-        canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
         canvas_clear(&c, 1);
         CHECK_INT(draw_at_depth(&c, 0.5f, (shade_compare)k, 0, 0).fragments, 128);
         CHECK_INT(draw_at_depth(&c, 0.5f, (shade_compare)k, 0, 0).fragments, 128);
@@ -503,8 +506,8 @@ static void random_blend_case(blend_case *b, int n, int size)
    pixel must be. */
 static double blend_channel(shade_blend blend, int channel, double s, double a, double d)
 {
-    if (blend == SHADE_REPLACE) return s;
-    if (blend == SHADE_ADD) return s + d;
+    if (blend == SHADE_BLEND_REPLACE) return s;
+    if (blend == SHADE_BLEND_ADD) return s + d;
     return channel == 3 ? a + d * (1 - a) : s * a + d * (1 - a);
 }
 static double stored_unit(double v, int srgb, int levels)
@@ -522,13 +525,13 @@ TEST(fragment, blending_follows_submission_order_in_float)
         shade_blend blend = (shade_blend)(round % 3);
         int n = rnd_int(2, 80), size = rnd_int(4, 60);
         random_blend_case(&b, n, size);
-        canvas c = canvas_open(size, size, 0, SHADE_RGBA32F, rnd_int(0, 1));
+        canvas c = canvas_open(size, size, 0, SHADE_FORMAT_RGBA32F, rnd_int(0, 1));
         shade_vec4 clear =
             shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
         CHECK_INT(shade_clear(&c.target, clear, 1), SHADE_OK);
         scene s = { b.clip, NULL, 0, b.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.blend = blend, p.depth_test = SHADE_ALWAYS;
+        p.raster.blend = blend, p.raster.depth_test = SHADE_COMPARE_ALWAYS;
         draw_scene(&c, &p, 3 * n);
         for (int j = 0; j < size; j++)
             for (int i = 0; i < size; i++) {
@@ -554,45 +557,45 @@ TEST(fragment, blending_of_stored_bytes_follows_submission_order)
 {
     static blend_case b;
     for (int round = 0; round < 80; round++) {
-        shade_blend blend = round % 2 ? SHADE_OVER : SHADE_ADD;
+        shade_blend blend = round % 2 ? SHADE_BLEND_OVER : SHADE_BLEND_ADD;
         int n = rnd_int(2, 40), size = rnd_int(4, 40), srgb = round % 4 > 1;
-        shade_format format = round % 8 > 3 ? SHADE_RGB565 : SHADE_RGBA8;
+        shade_format format = round % 8 > 3 ? SHADE_FORMAT_RGB565 : SHADE_FORMAT_RGBA8;
         random_blend_case(&b, n, size);
-        if (blend == SHADE_ADD)
+        if (blend == SHADE_BLEND_ADD)
             for (int i = 0; i < n; i++) b.color[i] = shade_scale4(b.color[i], 0.1f);
         canvas c = canvas_open(size, size, 0, format, 0);
         c.target.srgb = srgb;
         canvas_clear(&c, 1);
         scene s = { b.clip, NULL, 0, b.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.blend = blend;
+        p.raster.blend = blend;
         draw_scene(&c, &p, 3 * n);
         int off = 0, pixels = 0;
         for (int j = 0; j < size; j++)
             for (int i = 0; i < size; i++) {
                 double d[4] = { 0, 0, 0, 0 };
                 static const int bits565[] = { 31, 63, 31 };
-                int channels = format == SHADE_RGBA8 ? 4 : 3;
+                int channels = format == SHADE_FORMAT_RGBA8 ? 4 : 3;
                 for (int k = 0; k < n; k++) {
                     if (!ref_inside_fx8(b.x + 3 * k, b.y + 3 * k, i, j)) continue;
                     double v[4], a = (double)b.color[k].w;
                     v[0] = (double)b.color[k].x, v[1] = (double)b.color[k].y,
                     v[2] = (double)b.color[k].z, v[3] = a;
                     for (int m = 0; m < channels; m++) {
-                        int levels = format == SHADE_RGBA8 ? 255 : bits565[m];
+                        int levels = format == SHADE_FORMAT_RGBA8 ? 255 : bits565[m];
                         d[m] = stored_unit(blend_channel(blend, m, v[m], a, d[m]), srgb && m < 3,
                                            levels);
                     }
                 }
-                unsigned v565 = format == SHADE_RGB565 ? canvas_565(&c, i, j) : 0;
+                unsigned v565 = format == SHADE_FORMAT_RGB565 ? canvas_565(&c, i, j) : 0;
                 for (int m = 0; m < channels; m++) {
-                    int levels = format == SHADE_RGBA8 ? 255 : bits565[m];
+                    int levels = format == SHADE_FORMAT_RGBA8 ? 255 : bits565[m];
                     int want =
                         (int)floor((srgb && m < 3 ? ref_encode_srgb(d[m]) : d[m]) * levels + 0.5);
-                    int got = format == SHADE_RGBA8 ? canvas_bytes(&c, i, j)[m]
-                                                    : (int)(m == 0   ? v565 >> 11
-                                                            : m == 1 ? v565 >> 5 & 63
-                                                                     : v565 & 31);
+                    int got = format == SHADE_FORMAT_RGBA8 ? canvas_bytes(&c, i, j)[m]
+                                                           : (int)(m == 0   ? v565 >> 11
+                                                                   : m == 1 ? v565 >> 5 & 63
+                                                                            : v565 & 31);
                     pixels++, off += got != want;
                     CHECK_SAY(got - want <= 1 && want - got <= 1,
                               "pixel %d %d channel %d: got %d, want %d", i, j, m, got, want);
@@ -606,12 +609,12 @@ TEST(fragment, blending_of_stored_bytes_follows_submission_order)
 
 TEST(fragment, alpha_of_over_builds_up)
 {
-    canvas c = canvas_open(16, 16, 0, SHADE_RGBA32F, 0);
+    canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA32F, 0);
     CHECK_INT(shade_clear(&c.target, shade_v4(0.5f, 0.5f, 0.5f, 0.5f), 1), SHADE_OK);
     shade_vec4 color[1] = { { 1, 0, 0.25f, 0.25f } };
     scene s = { clip_corners, NULL, 0, color, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    p.blend = SHADE_OVER;
+    p.raster.blend = SHADE_BLEND_OVER;
     draw_scene(&c, &p, 3);
     CHECK_NEAR(canvas_float(&c, 8, 12, 0), 0.625, 1e-7);
     CHECK_NEAR(canvas_float(&c, 8, 12, 1), 0.375, 1e-7);
@@ -629,8 +632,8 @@ static void fragment_sieve(const void *uniforms, const shade_fragments *SHADE_RE
     if (s->record) scene_record_fragments(s, in);
     for (int i = 0; i < SHADE_LANES; i++) {
         int x = (int)in->x[i], y = (int)in->y[i];
-        out->out[0][i] = s->color[in->primitive[i]].x;
-        out->out[3][i] = 1;
+        out->color[0][i] = s->color[in->primitive[i]].x;
+        out->color[3][i] = 1;
         out->discard[i] = (x * 7 + y * 5 + (int)in->primitive[i]) % 3 == 0 ? 0x80000000u : 0;
     }
 }
@@ -653,7 +656,7 @@ TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
             color[i] = shade_v4((float)(i + 1) / 255, 0, 0, 1);
             worst = fmax(worst, plane_error(&t, 1));
         }
-        canvas c = canvas_open(48, 48, 50, SHADE_RGBA8, with_depth);
+        canvas c = canvas_open(48, 48, 50, SHADE_FORMAT_RGBA8, with_depth);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         p.fragment = fragment_sieve, p.may_discard = 1;
@@ -693,13 +696,18 @@ TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture) /* 
                 memcpy(clip + 3 * i, t.clip, sizeof t.clip);
             color[i] = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
         }
-        canvas early = canvas_open(64, 48, 0, SHADE_RGBA8, 1),
-               late = canvas_open(64, 48, 0, SHADE_RGBA8, 1);
+        canvas early = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1),
+               late = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.depth_test = (shade_compare)(round % 6), p.blend = (shade_blend)(round / 6 % 3);
-        p.depth_bias = round % 4 == 3 ? 0.01f : 0, p.depth_read_only = round % 10 == 9;
-        float clear = p.depth_test == SHADE_GREATER || p.depth_test == SHADE_GREATER_EQUAL ? 0 : 1;
+        p.raster.depth_test = (shade_compare)(round % 6),
+        p.raster.blend = (shade_blend)(round / 6 % 3);
+        p.raster.depth_bias = round % 4 == 3 ? 0.01f : 0,
+        p.raster.depth_read_only = round % 10 == 9;
+        float clear = p.raster.depth_test == SHADE_COMPARE_GREATER ||
+                              p.raster.depth_test == SHADE_COMPARE_GREATER_EQUAL
+                          ? 0
+                          : 1;
         canvas_clear(&early, clear), canvas_clear(&late, clear);
         shade_stats a = draw_scene(&early, &p, 3 * N);
         p.may_discard = 1;
@@ -713,7 +721,7 @@ TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture) /* 
 
 TEST(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed)
 {
-    canvas c = canvas_open(30, 30, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(30, 30, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 color[1] = { { 1, 1, 1, 1 } };
     scene s = { clip_corners, NULL, 0, color, NULL };
     shade_pipeline p = scene_pipeline(&s);
@@ -735,7 +743,7 @@ TEST(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed)
 TEST(fragment, without_colour_the_shader_runs_only_where_it_may_discard)
 {
     recorder r = recorder_open(1000);
-    canvas c = canvas_open(30, 30, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(30, 30, 0, SHADE_FORMAT_RGBA8, 1);
     c.target.color = NULL;
     shade_vec4 color[1] = { { 1, 1, 1, 1 } };
     scene s = { clip_corners, NULL, 0, color, &r };
@@ -762,7 +770,7 @@ TEST(fragment, without_colour_the_shader_runs_only_where_it_may_discard)
 
 TEST(fragment, without_a_shader_only_depth_is_written)
 {
-    canvas c = canvas_open(30, 30, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(30, 30, 0, SHADE_FORMAT_RGBA8, 1);
     scene s = { clip_corners, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
     p.fragment = NULL;
@@ -786,7 +794,7 @@ static void fragment_first_packet_only(const void *uniforms,
     (void)uniforms;
     if (in->y[0] > 20) return;
     for (int i = 0; i < SHADE_LANES; i++) {
-        out->out[0][i] = 1, out->out[1][i] = 1, out->out[2][i] = 1, out->out[3][i] = 0;
+        out->color[0][i] = 1, out->color[1][i] = 1, out->color[2][i] = 1, out->color[3][i] = 0;
         out->discard[i] = 1;
     }
 }
@@ -794,7 +802,7 @@ static void fragment_first_packet_only(const void *uniforms,
 TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
 {
     for (int may_discard = 0; may_discard < 2; may_discard++) {
-        canvas c = canvas_open(64, 64, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
         static const shade_vec4 whole[6] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 }, { 1, 1, 0, 1 },
                                              { -1, -1, 0, 1 }, { 1, 1, 0, 1 },  { -1, 1, 0, 1 } };
         scene s = { whole, NULL, 0, NULL, NULL };
@@ -816,7 +824,7 @@ TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
 
 TEST(fragment, vertex_colours_smear_between_the_corners) /* row 43 */
 {
-    canvas c = canvas_open(200, 200, 0, SHADE_RGBA32F, 0);
+    canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
     static const float color[] = { 1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1 };
     scene s = { clip_corners, color, 4, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);

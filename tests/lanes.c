@@ -35,7 +35,7 @@ TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
         int with_albedo = rnd_one_in(2);
         float rgb[3 * SHADE_LANES];
         shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
-                        with_albedo ? k.albedo[0] : NULL, rgb);
+                        with_albedo ? k.albedo[0] : NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
             d3 albedo = with_albedo ? d3_from(k.a[i]) : d3_of(1, 1, 1);
@@ -71,10 +71,10 @@ TEST(lanes, packets_and_scalars_agree) /* the two ways of one formula stay toget
         random_sample(&s);
         random_packet(&k, &s, d3_length(d3_from(s.P)) * 1e-2 + 1);
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
-            shade_vec3 one = shade_lit(&s.lighting, &s.material, k.p[i], k.n[i], s.eye);
+            shade_vec3 one = shade_lit(&s.lighting, &s.material, s.eye, k.p[i], k.n[i]);
             ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
                                      d3_from(s.eye), d3_of(1, 1, 1));
             if (!want.unsure) check_color(__LINE__, "packet", got, d3_from(one), 2 * want.bound);
@@ -90,13 +90,13 @@ TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbour
         random_sample(&s);
         random_packet(&k, &s, 2);
         float one[3 * SHADE_LANES], other[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], one);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, one);
         int turn = rnd_int(1, SHADE_LANES - 1);
         for (int i = 0; i < SHADE_LANES; i++) {
             int j = (i + turn) % SHADE_LANES;
             lane_set(k.P, j, k.p[i]), lane_set(k.N, j, k.n[i]), lane_set(k.albedo, j, k.a[i]);
         }
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], other);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, other);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
             int row = i / SHADE_LANES * SHADE_LANES, j = row + (i - row + turn) % SHADE_LANES;
             CHECK_SAY(float_bits(one[i]) == float_bits(other[j]), "lane %d: %a, moved to %d: %a", i,
@@ -121,7 +121,7 @@ TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
         s.lights[0] = rnd_one_in(2) ? shade_directional_light(d3_round(at), grey(1))
                                     : shade_point_light(d3_round(at), grey(1));
         s.material.shininess = rnd_float(80, 130);
-        s.lighting.model = round % 2 ? SHADE_PHONG : SHADE_BLINN_PHONG;
+        s.lighting.model = round % 2 ? SHADE_MODEL_PHONG : SHADE_MODEL_BLINN_PHONG;
         double r;
         d3 N = rnd_direction(), L = ref_to_light(&s.lights[0], d3_of(0, 0, 0), &r);
         if (d3_dot(N, L) < 0) N = d3_scale(N, -1);
@@ -135,11 +135,11 @@ TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
             lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
         }
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
                                      d3_from(s.eye), d3_of(1, 1, 1));
-            shade_vec3 one = shade_lit(&s.lighting, &s.material, k.p[i], k.n[i], s.eye);
+            shade_vec3 one = shade_lit(&s.lighting, &s.material, s.eye, k.p[i], k.n[i]);
             if (want.unsure) continue;
             worst[0] = fmax(worst[0], fabs((double)rgb[i] - want.total.x) / want.bound);
             worst[1] = fmax(worst[1], fabs((double)one.x - want.total.x) / want.bound);
@@ -162,7 +162,7 @@ TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
     s.lighting.lights = s.lights, s.lighting.light_count = 1;
     s.lighting.terms = SHADE_TERM_SPECULAR;
     for (int round = 0; round < 400; round++) {
-        static const unsigned flags[] = { 0, SHADE_UNGATED_SPECULAR, SHADE_TWO_SIDED };
+        static const unsigned flags[] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_TWO_SIDED };
         d3 away = rnd_direction();
         double narrow = (double)rnd_log(3e-4, 0.05);
         s.lights[0] = shade_point_light(d3_round(d3_scale(away, (double)rnd_log(1, 30))), grey(1));
@@ -182,14 +182,14 @@ TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
             lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
         }
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             double r;
             d3 P = d3_from(k.p[i]), L = ref_to_light(&s.lights[0], P, &r);
             d3 V = d3_unit(d3_sub(d3_from(s.eye), P));
             ref_lit want = ref_light(&s.lighting, &s.material, P, d3_from(k.n[i]), d3_from(s.eye),
                                      d3_of(1, 1, 1));
-            shade_vec3 one = shade_lit(&s.lighting, &s.material, k.p[i], k.n[i], s.eye);
+            shade_vec3 one = shade_lit(&s.lighting, &s.material, s.eye, k.p[i], k.n[i]);
             if (want.unsure || d3_length(d3_add(L, V)) < 1e-4) continue; /* exempt */
             worst[0] = fmax(worst[0], fabs((double)rgb[i] - want.total.x) / want.bound);
             worst[1] = fmax(worst[1], fabs((double)one.x - want.total.x) / want.bound);
@@ -209,8 +209,8 @@ TEST(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too)
     for (int round = 0; round < 300; round++) {
         random_sample(&s);
         random_packet(&k, &s, 1);
-        s.lighting.model = round % 2 ? SHADE_PHONG : SHADE_BLINN_PHONG;
-        s.lighting.flags &= ~(unsigned)(SHADE_TWO_SIDED | SHADE_INFINITE_VIEWER);
+        s.lighting.model = round % 2 ? SHADE_MODEL_PHONG : SHADE_MODEL_BLINN_PHONG;
+        s.lighting.flags &= ~(unsigned)(SHADE_FLAG_TWO_SIDED | SHADE_FLAG_INFINITE_VIEWER);
         s.lighting.light_count = 1;
         if (s.lights[0].position.w != 0) s.lights[0].position.w = 1;
         for (int i = 0; i < SHADE_LANES; i++) {
@@ -219,7 +219,7 @@ TEST(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too)
             lane_set(k.P, i, k.p[i]);
         }
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
             ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
@@ -238,7 +238,7 @@ TEST(lanes, a_term_that_is_off_reads_nothing)
     for (int round = 0; round < 320; round++) {
         random_sample(&s);
         random_packet(&k, &s, 1);
-        s.lighting.terms = (unsigned)(round % 15 + 1), s.lighting.model = SHADE_BLINN_PHONG;
+        s.lighting.terms = (unsigned)(round % 15 + 1), s.lighting.model = SHADE_MODEL_BLINN_PHONG;
         shade_lighting li = s.lighting;
         shade_material m = s.material;
         shade_light lights[sizeof s.lights / sizeof s.lights[0]];
@@ -254,11 +254,11 @@ TEST(lanes, a_term_that_is_off_reads_nothing)
             if (!(li.terms & SHADE_TERM_SPECULAR)) lights[j].specular = bad;
         }
         float got[3 * SHADE_LANES], want[3 * SHADE_LANES];
-        shade_lit_lanes(&li, &m, s.eye, k.P[0], k.N[0], NULL, got);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, want);
+        shade_lit_lanes(&li, &m, s.eye, k.P[0], k.N[0], NULL, NULL, got);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, want);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(got[i], want[i], 0);
-        shade_vec3 a = shade_lit(&li, &m, s.P, s.N, s.eye);
-        shade_vec3 b = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 a = shade_lit(&li, &m, s.eye, s.P, s.N);
+        shade_vec3 b = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(a.x == b.x && a.y == b.y && a.z == b.z);
     }
 }
@@ -272,13 +272,13 @@ TEST(lanes, albedo_multiplies_diffuse_and_ambient_only)
         random_packet(&k, &s, 2);
         float bare[3 * SHADE_LANES], with[3 * SHADE_LANES], ones[3 * SHADE_LANES];
         for (int i = 0; i < 3 * SHADE_LANES; i++) ones[i] = 1;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, bare);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], ones, with);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, bare);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], ones, NULL, with);
         for (int i = 0; i < 3 * SHADE_LANES; i++)
             CHECK_NEAR(with[i], bare[i], 1e-6 * fabs((double)bare[i]));
         s.lighting.terms = SHADE_TERM_EMISSION | SHADE_TERM_SPECULAR;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, bare);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], with);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, bare);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, with);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK(float_bits(with[i]) == float_bits(bare[i]));
     }
 }
@@ -295,7 +295,8 @@ TEST(lanes, nothing_is_written_but_the_three_rows)
         random_packet(&k, &s, 2);
         lane_packet copy = k;
         memset(&box, CANVAS_BYTE, sizeof box);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], box.rgb);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL,
+                        box.rgb);
         for (int i = 0; i < 16; i++) {
             CHECK(float_bits(box.before[i]) == 0xA5A5A5A5u &&
                   float_bits(box.after[i]) == 0xA5A5A5A5u);
@@ -311,25 +312,27 @@ TEST(lanes, missing_arguments_mean_their_defaults)
     random_sample(&s);
     random_packet(&k, &s, 2);
     float rgb[3 * SHADE_LANES];
-    shade_lit_lanes(NULL, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+    shade_lit_lanes(NULL, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK(rgb[i] == 0);
     shade_lighting li;
     memset(&li, 0, sizeof li);
     li.ambient = shade_v3(0.25f, 0.5f, 0.75f);
-    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, rgb);
+    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
     li.lights = NULL, li.light_count = 3;
-    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, rgb);
+    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
     for (int row = 0; row < 2; row++) {
         for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = 7;
-        shade_lit_lanes(&li, NULL, s.eye, row ? k.P[0] : NULL, row ? NULL : k.N[0], NULL, rgb);
+        shade_lit_lanes(&li, NULL, s.eye, row ? k.P[0] : NULL, row ? NULL : k.N[0], NULL, NULL,
+                        rgb);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(rgb[i], 0, 0);
     }
     lane_packet before = k;
-    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], k.albedo[0], NULL); /* nowhere to write */
+    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], k.albedo[0], NULL,
+                    NULL); /* nowhere to write */
     CHECK(!memcmp(&before, &k, sizeof k));
 }
 
@@ -343,14 +346,15 @@ TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
         shade_material m;
         shade_lighting li;
         memset(&li, 0, sizeof li), memset(&m, 0, sizeof m);
-        li.lights = &light, li.light_count = 1, li.flags = round & 1 ? SHADE_INFINITE_VIEWER : 0;
-        if (round & 2) li.flags |= SHADE_UNGATED_SPECULAR;
+        li.lights = &light, li.light_count = 1,
+        li.flags = round & 1 ? SHADE_FLAG_INFINITE_VIEWER : 0;
+        if (round & 2) li.flags |= SHADE_FLAG_UNGATED_SPECULAR;
         m.specular = shade_v3(1, 1, 1), m.shininess = round & 4 ? 5 : 0;
         for (int i = 0; i < SHADE_LANES; i++) { /* every other lane: seen from beside the lamp */
             lane_set(k.P, i, i % 2 && !(round & 1) ? shade_v3(3, 0, -3) : shade_v3(0, 0, 0));
             lane_set(k.N, i, shade_v3(0, 0.6f, 0.8f));
         }
-        shade_lit_lanes(&li, &m, shade_v3(0, 0, -1), k.P[0], k.N[0], NULL, rgb);
+        shade_lit_lanes(&li, &m, shade_v3(0, 0, -1), k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
             if (i % 2 && !(round & 1)) CHECK(rgb[i] > 0);
             else CHECK_NEAR(rgb[i], 0, 0);
@@ -365,7 +369,7 @@ TEST(lanes, many_lights_add_up)
     light_sample s;
     for (int round = 0; round < 30; round++) {
         random_sample(&s);
-        s.P = shade_v3(0, 0, 0), s.lighting.model = SHADE_BLINN_PHONG, s.lighting.flags = 0,
+        s.P = shade_v3(0, 0, 0), s.lighting.model = SHADE_MODEL_BLINN_PHONG, s.lighting.flags = 0,
         s.lighting.terms = 0;
         random_packet(&k, &s, 1);
         for (int j = 0; j < 100; j++) {
@@ -374,7 +378,7 @@ TEST(lanes, many_lights_add_up)
         }
         s.lighting.lights = lights, s.lighting.light_count = rnd_int(5, 100);
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
             ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
@@ -398,7 +402,7 @@ TEST(lanes, a_lamp_without_an_axis_is_no_spot) /* whatever the exponent says */
                 s.lights[j].spot_exponent = pass ? 0.5f + (float)j : 0;
                 s.lights[j].spot_cos_cutoff = pass ? 0.75f : 0;
             }
-            shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, rgb[pass]);
+            shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb[pass]);
         }
         CHECK(!memcmp(rgb[0], rgb[1], sizeof rgb[0]));
     }
@@ -413,8 +417,8 @@ TEST(lanes, emission_alone_reads_no_albedo)
         random_packet(&k, &s, 1);
         for (int i = 0; i < 3 * SHADE_LANES; i++)
             k.albedo[i / SHADE_LANES][i % SHADE_LANES] = (float)(i % 2 ? NAN : INFINITY);
-        s.lighting.model = SHADE_EMISSIVE, s.lighting.terms = 0;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], rgb);
+        s.lighting.model = SHADE_MODEL_EMISSIVE, s.lighting.terms = 0;
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             CHECK_NEAR(rgb[i], s.material.emission.x, 0);
             CHECK_NEAR(rgb[SHADE_LANES + i], s.material.emission.y, 0);
@@ -430,19 +434,19 @@ TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
         random_sample(&s);
         random_packet(&k, &s, 2);
         float one[3 * SHADE_LANES], other[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, one);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, one);
         int hit = rnd_int(0, SHADE_LANES - 1);
         float v[6];
         fill_nasty(v, sizeof v);
         lane_set(k.P, hit, shade_v3(v[0], v[1], v[2])),
             lane_set(k.N, hit, shade_v3(v[3], v[4], v[5]));
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, other);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
             if (i % SHADE_LANES != hit) CHECK(float_bits(one[i]) == float_bits(other[i]));
         }
         if (round % 4) continue;
         fill_nasty(s.lights, sizeof s.lights), fill_nasty(&s.material, sizeof s.material);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, other);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
     }
 }
 

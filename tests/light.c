@@ -111,8 +111,8 @@ static void random_sample(light_sample *s)
     s->lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
     s->lighting.flags = rnd_one_in(3) ? 0 : (unsigned)rnd_int(0, 63);
     s->lighting.terms = rnd_one_in(2) ? 0 : (unsigned)rnd_int(0, 15);
-    if (s->lighting.model == SHADE_COOL_TO_WARM) {
-        s->lighting.flags &= ~(unsigned)SHADE_TWO_SIDED_ABS;
+    if (s->lighting.model == SHADE_MODEL_COOL_TO_WARM) {
+        s->lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED_ABS;
         if (rnd_one_in(2)) s->lighting.cool = random_color(1);
         if (rnd_one_in(2)) s->lighting.warm = random_color(1);
     }
@@ -124,7 +124,7 @@ static void random_sample(light_sample *s)
         d3 R = d3_sub(d3_scale(n, 2 * d3_dot(n, L)), L);
         V = d3_unit(d3_add(R, d3_scale(rnd_direction(), (double)rnd_log(1e-3, 1))));
     }
-    d3 from = s->lighting.flags & SHADE_INFINITE_VIEWER ? d3_of(0, 0, 0) : d3_from(s->P);
+    d3 from = s->lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? d3_of(0, 0, 0) : d3_from(s->P);
     s->eye = d3_round(d3_add(from, d3_scale(V, size * (double)rnd_log(1e-2, 1))));
 }
 
@@ -168,8 +168,8 @@ TEST(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model)
         random_sample(&s);
         ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
                                  d3_from(s.eye), no_albedo());
-        shade_terms got = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
-        shade_vec3 sum = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_terms got = shade_evaluate(&s.lighting, &s.material, s.eye, s.P, s.N);
+        shade_vec3 sum = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(sum));
         if (want.unsure) continue;
         sure++, lit += d3_max(want.specular) > 1e-3;
@@ -188,8 +188,8 @@ TEST(light, lit_is_the_sum_of_the_four_terms)
     light_sample s;
     for (int i = 0; i < 50000; i++) {
         random_sample(&s);
-        shade_terms t = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
-        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_terms t = shade_evaluate(&s.lighting, &s.material, s.eye, s.P, s.N);
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         d3 want = d3_add(d3_add(d3_from(t.emission), d3_from(t.ambient)),
                          d3_add(d3_from(t.diffuse), d3_from(t.specular)));
         if (!check_color(__LINE__, "sum", got, want, 1e-6 * d3_max(want))) print_lights(&s);
@@ -203,9 +203,9 @@ TEST(light, each_bit_of_terms_selects_its_term_alone)
     for (int i = 0; i < 20000; i++) {
         random_sample(&s);
         s.lighting.terms = 0;
-        shade_terms all = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_terms all = shade_evaluate(&s.lighting, &s.material, s.eye, s.P, s.N);
         s.lighting.terms = (unsigned)rnd_int(1, 15);
-        shade_terms some = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_terms some = shade_evaluate(&s.lighting, &s.material, s.eye, s.P, s.N);
         shade_vec3 e = s.lighting.terms & SHADE_TERM_EMISSION ? all.emission : zero;
         shade_vec3 a = s.lighting.terms & SHADE_TERM_AMBIENT ? all.ambient : zero;
         shade_vec3 d = s.lighting.terms & SHADE_TERM_DIFFUSE ? all.diffuse : zero;
@@ -245,17 +245,17 @@ TEST(light, brass_lit_head_on_and_from_sixty_degrees) /* V1, V2 */
     shade_light head = shade_directional_light(shade_v3(0, 0, -1), grey(1));
     shade_lighting li = one_light(&head);
     li.ambient = grey(0.3);
-    check_color(__LINE__, "V1", shade_lit(&li, &brass, origin, n, eye),
+    check_color(__LINE__, "V1", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(1.871373, 1.576862, 0.929803), 2e-6);
-    li.model = SHADE_PHONG;
-    check_color(__LINE__, "V1", shade_lit(&li, &brass, origin, n, eye),
+    li.model = SHADE_MODEL_PHONG;
+    check_color(__LINE__, "V1", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(1.871373, 1.576862, 0.929803), 2e-6);
     shade_light side = shade_directional_light(shade_v3((float)-sqrt(0.75), 0, -0.5f), grey(1));
     li.lights = &side;
-    check_color(__LINE__, "V2", shade_lit(&li, &brass, origin, n, eye),
+    check_color(__LINE__, "V2", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(0.489020, 0.351372, 0.065098), 2e-6);
-    li.model = SHADE_BLINN_PHONG;
-    check_color(__LINE__, "V2", shade_lit(&li, &brass, origin, n, eye),
+    li.model = SHADE_MODEL_BLINN_PHONG;
+    check_color(__LINE__, "V2", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(0.506961, 0.368391, 0.079706), 2e-6);
 }
 
@@ -269,13 +269,13 @@ TEST(light, the_gate_stops_highlights_behind_the_terminator) /* V4 */
     shade_material m;
     memset(&m, 0, sizeof m);
     m.specular = grey(1), m.shininess = 4;
-    check_color(__LINE__, "gated", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 9)),
+    check_color(__LINE__, "gated", shade_lit(&li, &m, shade_v3(0, 0, 9), grey(0), n),
                 d3_of(0, 0, 0), 0);
-    li.flags = SHADE_UNGATED_SPECULAR;
-    check_color(__LINE__, "ungated", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 9)),
+    li.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    check_color(__LINE__, "ungated", shade_lit(&li, &m, shade_v3(0, 0, 9), grey(0), n),
                 d3_of(0.1849, 0.1849, 0.1849), 2e-6);
-    li.flags = SHADE_UNGATED_SPECULAR | SHADE_WEIGHTED_SPECULAR;
-    check_color(__LINE__, "weighted", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 9)),
+    li.flags = SHADE_FLAG_UNGATED_SPECULAR | SHADE_FLAG_WEIGHTED_SPECULAR;
+    check_color(__LINE__, "weighted", shade_lit(&li, &m, shade_v3(0, 0, 9), grey(0), n),
                 d3_of(0, 0, 0), 0);
 }
 
@@ -290,11 +290,11 @@ TEST(light, the_gate_is_strict_at_grazing_light) /* row 3: N.L = 0 gives 0 */
     shade_lighting li = one_light(&light);
     shade_material m = s1_brass();
     m.shininess = 2;
-    shade_terms t = shade_evaluate(&li, &m, grey(0), n, shade_v3(0, 0, 3));
+    shade_terms t = shade_evaluate(&li, &m, shade_v3(0, 0, 3), grey(0), n);
     check_color(__LINE__, "diffuse", t.diffuse, d3_of(0, 0, 0), 0);
     check_color(__LINE__, "specular", t.specular, d3_of(0, 0, 0), 0);
-    li.flags = SHADE_UNGATED_SPECULAR;
-    t = shade_evaluate(&li, &m, grey(0), n, shade_v3(0, 0, 3));
+    li.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    t = shade_evaluate(&li, &m, shade_v3(0, 0, 3), grey(0), n);
     check_color(__LINE__, "specular", t.specular, d3_scale(d3_from(m.specular), 0.5), 1e-6);
 }
 
@@ -312,7 +312,7 @@ TEST(light, spot_and_attenuation_of_the_lectures) /* V5 */
     shade_lighting li = one_light(&lamp);
     double want = 0.883022 / 3 * cos(20 * deg);
     check_color(__LINE__, "lit",
-                shade_lit(&li, NULL, grey(0), shade_v3(0, 0, 1), shade_v3(0, 0, 5)),
+                shade_lit(&li, NULL, shade_v3(0, 0, 5), grey(0), shade_v3(0, 0, 1)),
                 d3_of(want, want, want), 1e-6);
 }
 
@@ -340,23 +340,23 @@ TEST(light, cool_to_warm_goes_from_cool_to_warm) /* V8, row 22 */
     light.spot_direction = shade_v3(1, 0, 0),
     light.spot_cos_cutoff = 0.9f; /* its cone is ignored */
     shade_lighting li = one_light(&light);
-    li.model = SHADE_COOL_TO_WARM, li.ambient = grey(5);
+    li.model = SHADE_MODEL_COOL_TO_WARM, li.ambient = grey(5);
     shade_material m = s1_brass();
     m.emission = shade_v3(0.1f, 0.2f, 0.3f);
-    check_color(__LINE__, "lit", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)),
+    check_color(__LINE__, "lit", shade_lit(&li, &m, shade_v3(0, 0, 2), grey(0), n),
                 d3_of(0.9, 0.8, 0.9), 1e-6);
     li.light_count = 0;
-    check_color(__LINE__, "no light", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)),
+    check_color(__LINE__, "no light", shade_lit(&li, &m, shade_v3(0, 0, 2), grey(0), n),
                 d3_of(0.7, 0.7, 0.95), 1e-6);
     li.terms = SHADE_TERM_DIFFUSE;
-    check_color(__LINE__, "diffuse", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)),
+    check_color(__LINE__, "diffuse", shade_lit(&li, &m, shade_v3(0, 0, 2), grey(0), n),
                 d3_of(0.6, 0.5, 0.65), 1e-6);
     li.terms = SHADE_TERM_AMBIENT | SHADE_TERM_SPECULAR;
-    check_color(__LINE__, "none", shade_lit(&li, &m, grey(0), n, shade_v3(0, 0, 2)), d3_of(0, 0, 0),
+    check_color(__LINE__, "none", shade_lit(&li, &m, shade_v3(0, 0, 2), grey(0), n), d3_of(0, 0, 0),
                 0);
     li.terms = 0;
     li.cool = shade_v3(0, 0, 1); /* each default alone */
-    check_color(__LINE__, "warm", shade_lit(&li, NULL, grey(0), n, shade_v3(0, 0, 2)),
+    check_color(__LINE__, "warm", shade_lit(&li, NULL, shade_v3(0, 0, 2), grey(0), n),
                 d3_of(0.4, 0.3, 0.8), 1e-6);
 }
 
@@ -374,11 +374,11 @@ TEST(light, single_terms_match_double)
         float n = random_exponent();
         double NL = d3_dot(N, L), bound = 5e-5 * fmax(1, (double)n / 100);
         CHECK_NEAR(shade_lambert(nf, lf), fmax(0, NL), 1e-6);
-        for (int model = SHADE_BLINN_PHONG; model <= SHADE_PHONG; model++) {
+        for (int model = SHADE_MODEL_BLINN_PHONG; model <= SHADE_MODEL_PHONG; model++) {
             int unsure = fabs(NL) < REF_MARGIN;
             double want = ref_highlight((shade_model)model, N, L, V, (double)n, &unsure);
-            float got = model == SHADE_PHONG ? shade_phong_specular(nf, lf, vf, n)
-                                             : shade_blinn_phong_specular(nf, lf, vf, n);
+            float got = model == SHADE_MODEL_PHONG ? shade_phong_specular(nf, lf, vf, n)
+                                                   : shade_blinn_phong_specular(nf, lf, vf, n);
             if (!unsure) CHECK_NEAR(got, NL > 0 ? want : 0, bound);
         }
         int unsure = 0;
@@ -437,9 +437,9 @@ TEST(light, the_cone_of_a_lamp_includes_its_edge)
     for (int k = 0; k < 2; k++) {
         double want = k ? 0 : 1;
         light.spot_cos_cutoff = (float)cutoff[k];
-        check_color(__LINE__, "scalar", shade_lit(&li, NULL, grey(0), shade_v3(0, 0, 1), grey(9)),
+        check_color(__LINE__, "scalar", shade_lit(&li, NULL, grey(9), grey(0), shade_v3(0, 0, 1)),
                     d3_of(want, want, want), 1e-6);
-        shade_lit_lanes(&li, NULL, grey(9), P[0], N[0], NULL, rgb);
+        shade_lit_lanes(&li, NULL, grey(9), P[0], N[0], NULL, NULL, rgb);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(rgb[i], want, 1e-6);
     }
 }
@@ -452,24 +452,24 @@ TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
         shade_model model = (shade_model)rnd_int(0, 5);
         shade_vec3 f = shade_brdf(&m, model, d3_round(N), d3_round(L), d3_round(V));
         int unsure = 0;
-        d3 want = model <= SHADE_LAMBERT ? d3_from(m.diffuse) : d3_of(0, 0, 0);
-        if (model <= SHADE_PHONG) {
+        d3 want = model <= SHADE_MODEL_LAMBERT ? d3_from(m.diffuse) : d3_of(0, 0, 0);
+        if (model <= SHADE_MODEL_PHONG) {
             double s = ref_highlight(model, N, L, V, fmax(0, (double)m.shininess), &unsure);
             want = d3_add(want, d3_scale(d3_from(m.specular), s));
         }
         double bound = 5e-5 * fmax(1, (double)m.shininess / 100);
         if (unsure) continue;
         check_color(__LINE__, "brdf", f, want, bound * fmax(1, d3_max(want)));
-        if (model > SHADE_LAMBERT || d3_dot(N, L) < REF_MARGIN) continue;
+        if (model > SHADE_MODEL_LAMBERT || d3_dot(N, L) < REF_MARGIN) continue;
         shade_light light = shade_directional_light(shade_neg(d3_round(L)), grey(1));
         shade_lighting li = one_light(&light);
-        li.model = model, li.flags = SHADE_WEIGHTED_SPECULAR | SHADE_INFINITE_VIEWER;
+        li.model = model, li.flags = SHADE_FLAG_WEIGHTED_SPECULAR | SHADE_FLAG_INFINITE_VIEWER;
         li.terms = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
-        check_color(__LINE__, "weighted", shade_lit(&li, &m, grey(0), d3_round(N), d3_round(V)),
+        check_color(__LINE__, "weighted", shade_lit(&li, &m, d3_round(V), grey(0), d3_round(N)),
                     d3_scale(want, d3_dot(N, L)), 2 * bound * fmax(1, d3_max(want)));
     }
-    shade_vec3 white = shade_brdf(NULL, SHADE_BLINN_PHONG, shade_v3(0, 0, 1), shade_v3(0, 0, 1),
-                                  shade_v3(0, 0, 1));
+    shade_vec3 white = shade_brdf(NULL, SHADE_MODEL_BLINN_PHONG, shade_v3(0, 0, 1),
+                                  shade_v3(0, 0, 1), shade_v3(0, 0, 1));
     check_color(__LINE__, "white Lambert", white, d3_of(1, 1, 1), 0);
 }
 
@@ -481,19 +481,20 @@ TEST(light, light_adds_up_and_scales) /* row 18 */
         light_sample s;
         random_sample(&s);
         s.lighting.light_count = 2, s.lighting.ambient = grey(0), s.material.emission = grey(0);
-        if (s.lighting.model == SHADE_COOL_TO_WARM) s.lighting.model = SHADE_BLINN_PHONG;
+        if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM)
+            s.lighting.model = SHADE_MODEL_BLINN_PHONG;
         s.lights[0] = random_light(s.P, 3), s.lights[1] = random_light(s.P, 3);
-        shade_vec3 both = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 both = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         s.lighting.light_count = 1;
-        shade_vec3 first = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 first = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         s.lighting.lights = &s.lights[1];
-        shade_vec3 second = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 second = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         d3 sum = d3_add(d3_from(first), d3_from(second));
         check_color(__LINE__, "sum of lights", both, sum, 1e-6 * d3_max(sum) + 1e-37);
         s.lights[1].ambient = shade_scale(s.lights[1].ambient, 4);
         s.lights[1].diffuse = shade_scale(s.lights[1].diffuse, 4);
         s.lights[1].specular = shade_scale(s.lights[1].specular, 4);
-        check_color(__LINE__, "four times", shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye),
+        check_color(__LINE__, "four times", shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N),
                     d3_scale(d3_from(second), 4), 4e-6 * d3_max(d3_from(second)) + 1e-37);
     }
 }
@@ -506,10 +507,10 @@ TEST(light, two_sided_diffuse_is_two_opposite_lamps) /* row 16 */
         lamps[0] = shade_directional_light(d, grey(1)),
         lamps[1] = shade_directional_light(shade_neg(d), grey(1));
         shade_lighting li = one_light(lamps);
-        li.model = SHADE_LAMBERT, li.flags = SHADE_TWO_SIDED_ABS;
-        shade_vec3 one = shade_lit(&li, NULL, grey(0), n, grey(1));
+        li.model = SHADE_MODEL_LAMBERT, li.flags = SHADE_FLAG_TWO_SIDED_ABS;
+        shade_vec3 one = shade_lit(&li, NULL, grey(1), grey(0), n);
         li.flags = 0, li.light_count = 2;
-        check_color(__LINE__, "abs", one, d3_from(shade_lit(&li, NULL, grey(0), n, grey(1))), 1e-6);
+        check_color(__LINE__, "abs", one, d3_from(shade_lit(&li, NULL, grey(1), grey(0), n)), 1e-6);
     }
 }
 
@@ -518,15 +519,16 @@ TEST(light, turning_toward_the_viewer_equals_turning_the_normal) /* row 16, C10 
     for (int i = 0; i < 20000; i++) {
         light_sample s;
         random_sample(&s);
-        s.lighting.flags = (s.lighting.flags | SHADE_TWO_SIDED) & ~(unsigned)SHADE_INFINITE_VIEWER;
+        s.lighting.flags =
+            (s.lighting.flags | SHADE_FLAG_TWO_SIDED) & ~(unsigned)SHADE_FLAG_INFINITE_VIEWER;
         double NV = d3_dot(d3_unit(d3_from(s.N)), d3_unit(d3_sub(d3_from(s.eye), d3_from(s.P))));
         if (fabs(NV) < REF_MARGIN) continue;
-        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
-        shade_vec3 other = shade_lit(&s.lighting, &s.material, s.P, shade_neg(s.N), s.eye);
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
+        shade_vec3 other = shade_lit(&s.lighting, &s.material, s.eye, s.P, shade_neg(s.N));
         check_color(__LINE__, "either normal", got, d3_from(other), 0);
-        s.lighting.flags &= ~(unsigned)SHADE_TWO_SIDED;
+        s.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED;
         shade_vec3 plain =
-            shade_lit(&s.lighting, &s.material, s.P, NV < 0 ? shade_neg(s.N) : s.N, s.eye);
+            shade_lit(&s.lighting, &s.material, s.eye, s.P, NV < 0 ? shade_neg(s.N) : s.N);
         check_color(__LINE__, "turned", got, d3_from(plain), 1e-6 * d3_max(d3_from(plain)));
     }
 }
@@ -537,7 +539,7 @@ TEST(light, any_orthogonal_space_gives_the_same_light) /* row 32 */
         light_sample s;
         random_sample(&s);
         s.P = random_vector(2), s.lighting.light_count = 2;
-        s.lighting.flags &= ~(unsigned)SHADE_INFINITE_VIEWER;
+        s.lighting.flags &= ~(unsigned)SHADE_FLAG_INFINITE_VIEWER;
         s.eye = random_vector(4);
         if (s.material.shininess > 100) s.material.shininess = 100;
         for (int k = 0; k < 2; k++) {
@@ -562,7 +564,7 @@ TEST(light, any_orthogonal_space_gives_the_same_light) /* row 32 */
         if (exact.unsure || moved.unsure) continue;
         if (d3_max(d3_sub(exact.total, moved.total)) > exact.bound)
             continue; /* lost in rounding m */
-        check_color(__LINE__, "moved", shade_lit(&s.lighting, &s.material, P, N, eye), exact.total,
+        check_color(__LINE__, "moved", shade_lit(&s.lighting, &s.material, eye, P, N), exact.total,
                     2 * exact.bound);
     }
 }
@@ -575,9 +577,9 @@ TEST(light, zero_normals_keep_emission_and_ambient_only)
         light_sample s;
         random_sample(&s);
         s.N = rnd_one_in(2) ? grey(0) : grey(1e-20);
-        if (s.lighting.model == SHADE_COOL_TO_WARM) s.lighting.model = SHADE_PHONG;
+        if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM) s.lighting.model = SHADE_MODEL_PHONG;
         s.lighting.terms = 0;
-        shade_terms t = shade_evaluate(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_terms t = shade_evaluate(&s.lighting, &s.material, s.eye, s.P, s.N);
         check_color(__LINE__, "diffuse", t.diffuse, d3_of(0, 0, 0), 0);
         check_color(__LINE__, "specular", t.specular, d3_of(0, 0, 0), 0);
         ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_of(0, 0, 0),
@@ -595,11 +597,11 @@ TEST(light, light_opposite_to_the_viewer_has_no_halfway_vector) /* row 5 */
     shade_light light = shade_directional_light(shade_neg(l), grey(1));
     shade_lighting li = one_light(&light);
     shade_material m = s1_brass();
-    static const unsigned flags[] = { 0, SHADE_UNGATED_SPECULAR };
+    static const unsigned flags[] = { 0, SHADE_FLAG_UNGATED_SPECULAR };
     for (int k = 0; k < 2; k++) {
-        li.flags = flags[k] | SHADE_INFINITE_VIEWER;
+        li.flags = flags[k] | SHADE_FLAG_INFINITE_VIEWER;
         m.shininess = k ? 0 : 3;
-        shade_terms t = shade_evaluate(&li, &m, grey(0), n, shade_neg(l));
+        shade_terms t = shade_evaluate(&li, &m, shade_neg(l), grey(0), n);
         check_color(__LINE__, "specular", t.specular, d3_of(0, 0, 0), 0);
         check_color(__LINE__, "diffuse", t.diffuse, d3_scale(d3_from(m.diffuse), 0.8), 1e-6);
     }
@@ -613,11 +615,11 @@ TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* 
     memset(&m, 0, sizeof m);
     m.specular = shade_v3(0.25f, 0.5f, 1);
     shade_vec3 n = shade_v3(0.6f, 0, 0.8f), eye = shade_v3(-30, 2, 0.5f);
-    check_color(__LINE__, "n 0", shade_lit(&li, &m, grey(0), n, eye), d3_of(0.5, 1, 2), 1e-6);
+    check_color(__LINE__, "n 0", shade_lit(&li, &m, eye, grey(0), n), d3_of(0.5, 1, 2), 1e-6);
     m.shininess = -7;
-    check_color(__LINE__, "n < 0", shade_lit(&li, &m, grey(0), n, eye), d3_of(0.5, 1, 2), 1e-6);
+    check_color(__LINE__, "n < 0", shade_lit(&li, &m, eye, grey(0), n), d3_of(0.5, 1, 2), 1e-6);
     m.specular = grey(0), m.diffuse = grey(1), m.shininess = 0;
-    check_color(__LINE__, "planet", shade_lit(&li, &m, grey(0), n, eye), d3_of(1.6, 1.6, 1.6),
+    check_color(__LINE__, "planet", shade_lit(&li, &m, eye, grey(0), n), d3_of(1.6, 1.6, 1.6),
                 1e-6);
 }
 
@@ -629,10 +631,10 @@ TEST(light, a_lamp_at_the_point_itself_is_finite) /* r = 0 */
         s.lighting.light_count = 1;
         s.lights[0] = random_light(s.P, 3);
         s.lights[0].position = shade_v4(s.P.x, s.P.y, s.P.z, 1);
-        if (s.lighting.model == SHADE_COOL_TO_WARM) s.lighting.model = SHADE_PHONG;
+        if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM) s.lighting.model = SHADE_MODEL_PHONG;
         ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
                                  d3_from(s.eye), no_albedo());
-        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(got));
         if (!want.unsure) check_color(__LINE__, "lit", got, want.total, want.bound);
     }
@@ -643,11 +645,11 @@ TEST(light, an_eye_at_the_point_itself_is_finite)
     for (int i = 0; i < 5000; i++) {
         light_sample s;
         random_sample(&s);
-        s.eye = s.lighting.flags & SHADE_INFINITE_VIEWER ? grey(0) : s.P;
-        s.lighting.flags &= ~(unsigned)SHADE_TWO_SIDED;
+        s.eye = s.lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? grey(0) : s.P;
+        s.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED;
         ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
                                  d3_from(s.eye), no_albedo());
-        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(got));
         if (!want.unsure && !check_color(__LINE__, "lit", got, want.total, want.bound))
             print_lights(&s);
@@ -663,20 +665,20 @@ TEST(light, missing_arguments_mean_their_defaults)
     light.ambient = shade_v3(0.25f, 0.5f, 0.75f);
     shade_lighting li = one_light(&light);
     li.ambient = shade_v3(1, 0, 0.5f);
-    check_color(__LINE__, "lighting NULL", shade_lit(NULL, &m, grey(0), n, eye), d3_of(0, 0, 0), 0);
-    shade_terms t = shade_evaluate(NULL, &m, grey(0), n, eye);
+    check_color(__LINE__, "lighting NULL", shade_lit(NULL, &m, eye, grey(0), n), d3_of(0, 0, 0), 0);
+    shade_terms t = shade_evaluate(NULL, &m, eye, grey(0), n);
     check_color(__LINE__, "lighting NULL", t.emission, d3_of(0, 0, 0), 0);
-    check_color(__LINE__, "white Lambert", shade_lit(&li, NULL, grey(0), n, eye),
+    check_color(__LINE__, "white Lambert", shade_lit(&li, NULL, eye, grey(0), n),
                 d3_of(2.25, 2.5, 4.25), 1e-6);
     d3 unlit = d3_add(d3_from(m.emission), d3_mul(d3_from(m.ambient), d3_from(li.ambient)));
     li.lights = NULL;
-    check_color(__LINE__, "lights NULL", shade_lit(&li, &m, grey(0), n, eye), unlit, 1e-6);
+    check_color(__LINE__, "lights NULL", shade_lit(&li, &m, eye, grey(0), n), unlit, 1e-6);
     li.lights = &light, li.light_count = -5;
-    check_color(__LINE__, "count < 0", shade_lit(&li, &m, grey(0), n, eye), unlit, 1e-6);
+    check_color(__LINE__, "count < 0", shade_lit(&li, &m, eye, grey(0), n), unlit, 1e-6);
     li.light_count = 1;
-    shade_vec3 blinn = shade_lit(&li, &m, grey(0), n, eye);
+    shade_vec3 blinn = shade_lit(&li, &m, eye, grey(0), n);
     li.model = (shade_model)99;
-    check_color(__LINE__, "unknown model", shade_lit(&li, &m, grey(0), n, eye), d3_from(blinn), 0);
+    check_color(__LINE__, "unknown model", shade_lit(&li, &m, eye, grey(0), n), d3_from(blinn), 0);
 }
 
 TEST(light, models_drop_the_terms_of_their_iteration) /* rows 1, 2, 3, 6 */
@@ -687,9 +689,9 @@ TEST(light, models_drop_the_terms_of_their_iteration) /* rows 1, 2, 3, 6 */
     light.ambient = grey(0.5);
     shade_lighting li = one_light(&light);
     li.ambient = grey(0.25);
-    for (int model = 0; model <= SHADE_EMISSIVE; model++) {
+    for (int model = 0; model <= SHADE_MODEL_EMISSIVE; model++) {
         li.model = (shade_model)model;
-        shade_terms t = shade_evaluate(&li, &m, grey(0), shade_v3(0, 0, 1), shade_v3(0, 0, 5));
+        shade_terms t = shade_evaluate(&li, &m, shade_v3(0, 0, 5), grey(0), shade_v3(0, 0, 1));
         check_color(__LINE__, "emission", t.emission, d3_from(m.emission), 0);
         check_color(__LINE__, "ambient", t.ambient,
                     d3_scale(d3_from(m.ambient), model <= 3 ? 0.75 : 0), 1e-7);
@@ -715,7 +717,7 @@ TEST(light, a_lamp_of_any_w_stands_at_xyz_over_w) /* row 25 */
         static const float w[] = { 1, 2, -1, 0.25f, -8, 1024 };
         for (int k = 0; k < 6 && !want.unsure; k++) {
             s.lights[0].position = shade_v4(p.x * w[k], p.y * w[k], p.z * w[k], w[k]);
-            check_color(__LINE__, "lit", shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye),
+            check_color(__LINE__, "lit", shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N),
                         want.total, want.bound);
         }
     }
@@ -730,11 +732,11 @@ TEST(light, a_distant_spot_keeps_its_cone)
     double want = pow(0.96, 5);
     for (int i = 0; i < 10; i++) {
         check_color(__LINE__, "inside",
-                    shade_lit(&li, NULL, random_vector(1e3), shade_v3(0, 0, 1), grey(9)),
+                    shade_lit(&li, NULL, grey(9), random_vector(1e3), shade_v3(0, 0, 1)),
                     d3_of(want, want, want), 2e-6);
     }
     light.position = shade_v4(0.6f, 0, 0.8f, 0);
-    check_color(__LINE__, "outside", shade_lit(&li, NULL, grey(0), shade_v3(0, 0, 1), grey(9)),
+    check_color(__LINE__, "outside", shade_lit(&li, NULL, grey(9), grey(0), shade_v3(0, 0, 1)),
                 d3_of(0, 0, 0), 0);
 }
 
@@ -745,14 +747,14 @@ TEST(light, ambient_takes_distance_and_cone_only_when_asked) /* rows 7, 11; C5 *
     shade_lighting li = one_light(&light);
     li.ambient = grey(0.125), li.terms = SHADE_TERM_AMBIENT;
     shade_vec3 n = shade_v3(0, 0, 1), off = shade_v3(5, 0, 0);
-    check_color(__LINE__, "plain", shade_lit(&li, NULL, grey(0), n, grey(9)),
+    check_color(__LINE__, "plain", shade_lit(&li, NULL, grey(9), grey(0), n),
                 d3_of(0.625, 0.625, 0.625), 1e-7);
-    check_color(__LINE__, "plain", shade_lit(&li, NULL, off, n, grey(9)),
+    check_color(__LINE__, "plain", shade_lit(&li, NULL, grey(9), off, n),
                 d3_of(0.625, 0.625, 0.625), 1e-7);
-    li.flags = SHADE_ATTENUATED_AMBIENT;
-    check_color(__LINE__, "near", shade_lit(&li, NULL, grey(0), n, grey(9)),
+    li.flags = SHADE_FLAG_ATTENUATED_AMBIENT;
+    check_color(__LINE__, "near", shade_lit(&li, NULL, grey(9), grey(0), n),
                 d3_of(0.25, 0.25, 0.25), 1e-6);
-    check_color(__LINE__, "outside", shade_lit(&li, NULL, off, n, grey(9)),
+    check_color(__LINE__, "outside", shade_lit(&li, NULL, grey(9), off, n),
                 d3_of(0.125, 0.125, 0.125), 1e-7);
 }
 
@@ -761,8 +763,8 @@ TEST(light, length_of_the_normal_does_not_matter)
     for (int i = 0; i < 5000; i++) {
         light_sample s;
         random_sample(&s);
-        shade_vec3 a = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
-        shade_vec3 b = shade_lit(&s.lighting, &s.material, s.P, shade_scale(s.N, 1024), s.eye);
+        shade_vec3 a = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
+        shade_vec3 b = shade_lit(&s.lighting, &s.material, s.eye, s.P, shade_scale(s.N, 1024));
         ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
                                  d3_from(s.eye), no_albedo());
         if (!want.unsure) check_color(__LINE__, "longer", b, d3_from(a), 2 * want.bound);
@@ -791,9 +793,9 @@ TEST(light, constructors_fill_in_what_they_say) /* row 29, C8 */
     s = shade_spot_light(grey(0), shade_v3(0, 0, -1), 3.14159265f, 0, grey(1));
     CHECK_NEAR(s.spot_cos_cutoff, -1, 1e-7);
     shade_lighting li = one_light(&d); /* travelling down, it lights what faces up */
-    check_color(__LINE__, "up", shade_lit(&li, NULL, grey(0), shade_v3(0, 1, 0), grey(1)),
+    check_color(__LINE__, "up", shade_lit(&li, NULL, grey(1), grey(0), shade_v3(0, 1, 0)),
                 d3_of(1, 2, 3), 1e-6);
-    check_color(__LINE__, "down", shade_lit(&li, NULL, grey(0), shade_v3(0, -1, 0), grey(1)),
+    check_color(__LINE__, "down", shade_lit(&li, NULL, grey(1), grey(0), shade_v3(0, -1, 0)),
                 d3_of(0, 0, 0), 0);
 }
 
@@ -888,8 +890,8 @@ TEST(light, nan_and_infinity_never_crash)
         li.lights = lights, li.light_count = rnd_int(0, 3);
         li.model = (shade_model)rnd_int(0, 5), li.flags = (unsigned)rnd_bits(),
         li.terms = (unsigned)rnd_bits();
-        shade_terms t = shade_evaluate(&li, &m, v[0], v[1], v[2]);
-        shade_vec3 sum = shade_lit(&li, &m, v[0], v[1], v[2]);
+        shade_terms t = shade_evaluate(&li, &m, v[2], v[0], v[1]);
+        shade_vec3 sum = shade_lit(&li, &m, v[2], v[0], v[1]);
         float f[4];
         fill_nasty(f, sizeof f);
         float s = shade_spot(v[0], v[1], f[0], f[1]) + shade_attenuation(f[0], f[1], f[2], f[3]);
@@ -920,7 +922,7 @@ TEST(light, big_and_tiny_finite_input_stays_finite) /* every function is total u
         s.lights[0].position =
             shade_v4(rnd_sign() * sizes[rnd_int(0, 7)], rnd_sign() * sizes[rnd_int(0, 7)],
                      sizes[rnd_int(0, 7)], (float)rnd_int(0, 1));
-        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.P, s.N, s.eye);
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(got));
         if (!finite3(got)) print_lights(&s);
     }

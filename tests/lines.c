@@ -10,7 +10,7 @@ static line_places ref_rectangle(double ax, double ay, double bx, double by, dou
     line_places r;
     double dx = bx - ax, dy = by - ay, length = hypot(dx, dy), h = width / 2;
     dx = length > 0 ? dx / length : 1, dy = length > 0 ? dy / length : 0;
-    if (cap == SHADE_SQUARE) ax -= dx * h, ay -= dy * h, bx += dx * h, by += dy * h;
+    if (cap == SHADE_CAP_SQUARE) ax -= dx * h, ay -= dy * h, bx += dx * h, by += dy * h;
     r.x[0] = ax + dy * h, r.y[0] = ay - dx * h, r.x[1] = bx + dy * h, r.y[1] = by - dx * h;
     r.x[2] = bx - dy * h, r.y[2] = by + dx * h, r.x[3] = ax - dy * h, r.y[3] = ay + dx * h;
     return r;
@@ -65,7 +65,7 @@ TEST(lines, coverage_is_the_pixels_of_the_rectangle_exactly)
                                     { -3, 4 }, { 4, -3 }, { 3, -4 }, { -4, 3 }, { -3, -4 },
                                     { -4, -3 } };
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(60, 44, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(60, 44, 0, SHADE_FORMAT_RGBA8, 0);
         const int *w = way[rnd_int(0, 11)];
         int half = rnd_one_in(3) ? 128 * rnd_int(1, 8) : rnd_int(1, 900); /* 5/256 of half width */
         int64_t ax = rnd_int(0, 60 * 256), ay = rnd_int(0, 44 * 256), x[5], y[5];
@@ -79,7 +79,7 @@ TEST(lines, coverage_is_the_pixels_of_the_rectangle_exactly)
         p[1] = line_point((double)bx / 256, (double)by / 256, 0, 60, 44);
         canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
-        int64_t reach = s.cap == SHADE_SQUARE ? half : 0;
+        int64_t reach = s.cap == SHADE_CAP_SQUARE ? half : 0;
         ax -= w[0] * reach, ay -= w[1] * reach, bx += w[0] * reach, by += w[1] * reach;
         int64_t ox = (int64_t)w[1] * half, oy = -(int64_t)w[0] * half;
         x[0] = ax + ox, y[0] = ay + oy, x[1] = bx + ox, y[1] = by + oy;
@@ -103,7 +103,7 @@ TEST(lines, coverage_is_the_rectangle_in_any_direction)
 {
     for (int i = 0; i < 1500; i++) {
         int width = rnd_int(1, 70), height = rnd_int(1, 50);
-        canvas c = canvas_open(width, height, width + rnd_int(0, 3), SHADE_RGBA8, 0);
+        canvas c = canvas_open(width, height, width + rnd_int(0, 3), SHADE_FORMAT_RGBA8, 0);
         double reach = rnd_one_in(4) ? 20 : 1, x[2], y[2];
         for (int k = 0; k < 2; k++) {
             x[k] = (rnd_unit() - 0.5) * reach * width + 0.5 * width;
@@ -130,7 +130,8 @@ TEST(lines, coverage_is_the_rectangle_in_any_direction)
 }
 TEST(lines, no_width_is_one_pixel)
 {
-    canvas a = canvas_open(40, 30, 0, SHADE_RGBA8, 0), b = canvas_open(40, 30, 0, SHADE_RGBA8, 0);
+    canvas a = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 0),
+           b = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 0);
     shade_vec3 p[40];
     for (int k = 0; k < 40; k++) p[k] = shade_v3(rnd_float(-1, 1), rnd_float(-1, 1), 0);
     shade_line_state zero = line_state(0), one = line_state(1);
@@ -141,7 +142,7 @@ TEST(lines, no_width_is_one_pixel)
 }
 TEST(lines, square_ends_close_the_joints_of_a_path)
 {
-    canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 0);
     shade_line_state s = line_state(4);
     shade_vec3 p[4];
     p[0] = p[3] = line_point(6, 6, 0, 20, 20);
@@ -161,7 +162,7 @@ TEST(lines, square_ends_close_the_joints_of_a_path)
 TEST(lines, a_line_without_length_is_nothing_or_a_square)
 {
     for (int i = 0; i < 200; i++) {
-        canvas c = canvas_open(32, 32, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 0);
         int x = rnd_int(8, 24), y = rnd_int(8, 24), half = rnd_int(1, 6), count = 0;
         shade_line_state s = line_state((float)(2 * half));
         shade_vec3 p[2];
@@ -205,12 +206,12 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
     enum { W = 64, H = 48 };
     long cut = 0;
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(W, H, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA8, 0);
         shade_line_state s = line_state(rnd_log(0.5, 10));
         double e[2][4], t[2], x[2], y[2], w[2];
         shade_vec3 p[2];
-        s.cap = (shade_cap)rnd_int(0, 1), s.depth_zero_to_one = rnd_one_in(2);
-        s.clip_from_points = s.depth_zero_to_one
+        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        s.clip_from_points = s.raster.depth_zero_to_one
                                  ? shade_mat4_perspective_reversed(1, (float)W / H, 0.5f)
                                  : shade_mat4_perspective(1, (float)W / H, 0.5f, 8);
         for (int k = 0; k < 2; k++) {
@@ -222,7 +223,7 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
         }
         canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
-        int left = ref_line_cut(e, s.depth_zero_to_one, t);
+        int left = ref_line_cut(e, s.raster.depth_zero_to_one, t);
         if (!left) {
             CHECK_INT(stats.clipped, 2);
             CHECK_INT(stats.fragments, 0);
@@ -251,7 +252,7 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
 TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
 {
     for (int i = 0; i < 500; i++) {
-        canvas c = canvas_open(32, 24, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(32, 24, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_one_in(3) ? rnd_log(1e-30, 3e38) : 2);
         shade_vec3 p[6];
         s.cap = (shade_cap)rnd_int(0, 1);
@@ -273,8 +274,8 @@ TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
 TEST(lines, nothing_is_drawn_outside_the_clip_rectangle)
 {
     for (int i = 0; i < 200; i++) {
-        canvas whole = canvas_open(40, 30, 0, SHADE_RGBA8, 1);
-        canvas part = canvas_open(40, 30, 43, SHADE_RGBA8, 1);
+        canvas whole = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas part = canvas_open(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(rnd_float(0, 9));
         shade_vec3 p[10];
         for (int k = 0; k < 10; k++)
@@ -298,31 +299,36 @@ TEST(lines, depth_runs_from_end_to_end_and_is_tested)
 {
     enum { W = 200, H = 9 };
     for (int i = 0; i < 100; i++) {
-        canvas c = canvas_open(W, H, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(5);
         float z[2] = { rnd_float(-1, 1), rnd_float(-1, 1) }, wall = rnd_float(0, 1);
         shade_vec3 p[2];
-        s.depth_zero_to_one = i & 1;
+        s.raster.depth_zero_to_one = i & 1;
         for (int k = 0; k < 2; k++) {
             if (i & 1) z[k] = fabsf(z[k]);
             p[k] = line_point(k * W, 4.5, (double)z[k], W, H);
         }
-        s.depth_test = (shade_compare)rnd_int(0, 5), s.depth_read_only = rnd_one_in(3);
-        s.depth_bias = rnd_one_in(2) ? 0 : rnd_float(-0.2, 0.2);
+        s.raster.depth_test = (shade_compare)rnd_int(0, 5),
+        s.raster.depth_read_only = rnd_one_in(3);
+        s.raster.depth_bias = rnd_one_in(2) ? 0 : rnd_float(-0.2, 0.2);
         canvas_clear(&c, wall);
         draw_lines(&c, p, 2, &s);
         for (int x = 0; x < W; x++) {
             double at = (double)z[0] + (x + 0.5) / W * ((double)z[1] - (double)z[0]), d;
-            d = (i & 1 ? at : at / 2 + 0.5) + (double)s.depth_bias;
+            d = (i & 1 ? at : at / 2 + 0.5) + (double)s.raster.depth_bias;
             d = fmax(0, fmin(1, d));
             if (fabs(d - (double)wall) < 1e-5) continue;
             int less = d < (double)wall, pass = 1;
-            if (s.depth_test <= SHADE_LESS_EQUAL) pass = less;
-            else if (s.depth_test <= SHADE_GREATER_EQUAL) pass = !less;
-            else if (s.depth_test == SHADE_EQUAL) pass = 0;
+            if (s.raster.depth_test <= SHADE_COMPARE_LESS_EQUAL)
+                pass = less;
+            else if (s.raster.depth_test <= SHADE_COMPARE_GREATER_EQUAL)
+                pass = !less;
+            else if (s.raster.depth_test == SHADE_COMPARE_EQUAL)
+                pass = 0;
             CHECK_SAY(line_pixel(&c, x, 4) == pass, "test %d: depth %g against %g",
-                      (int)s.depth_test, d, (double)wall);
-            CHECK_NEAR(canvas_depth(&c, x, 4), pass && !s.depth_read_only ? d : (double)wall, 2e-6);
+                      (int)s.raster.depth_test, d, (double)wall);
+            CHECK_NEAR(canvas_depth(&c, x, 4), pass && !s.raster.depth_read_only ? d : (double)wall,
+                       2e-6);
         }
         canvas_close(&c);
     }
@@ -331,7 +337,7 @@ TEST(lines, depth_runs_from_end_to_end_and_is_tested)
 TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
 {
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(80, 60, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(80, 60, 0, SHADE_FORMAT_RGBA8, 1);
         shade_vec3 p[3], pairs[6], behind[2];
         shade_mesh mesh;
         shade_draw_state fill;
@@ -346,8 +352,8 @@ TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
         mesh.positions = &p[0].x, mesh.vertex_count = 3;
         canvas_clear(&c, 1);
         CHECK_INT(shade_draw_mesh(&c.target, &mesh, &fill, NULL), SHADE_OK);
-        s.depth_test = SHADE_LESS_EQUAL, s.depth_bias = -0.02f;
-        canvas plain = canvas_open(80, 60, 0, SHADE_RGBA8, 0);
+        s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, s.raster.depth_bias = -0.02f;
+        canvas plain = canvas_open(80, 60, 0, SHADE_FORMAT_RGBA8, 0);
         canvas_clear(&plain, 1);
         draw_lines(&plain, pairs, 6, &s), draw_lines(&c, pairs, 6, &s);
         for (int k = 0; k < 80 * 60; k++) {
@@ -362,7 +368,7 @@ TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
 }
 TEST(lines, colour_and_blending_are_the_state_s)
 {
-    canvas c = canvas_open(8, 8, 0, SHADE_RGBA32F, 0);
+    canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA32F, 0);
     shade_line_state s = line_state(100);
     shade_vec3 p[2] = { { -1, 0, 0 }, { 1, 0, 0 } };
     s.color = shade_v4(2, -1, 0.5f, 0.25f);
@@ -371,10 +377,10 @@ TEST(lines, colour_and_blending_are_the_state_s)
     CHECK_NEAR(canvas_float(&c, 3, 3, 0), 2, 0);
     CHECK_NEAR(canvas_float(&c, 3, 3, 1), -1, 0);
     CHECK_NEAR(canvas_float(&c, 3, 3, 3), 0.25, 0);
-    s.blend = SHADE_ADD;
+    s.raster.blend = SHADE_BLEND_ADD;
     draw_lines(&c, p, 2, &s);
     CHECK_NEAR(canvas_float(&c, 3, 3, 0), 4, 0);
-    s.blend = SHADE_OVER;
+    s.raster.blend = SHADE_BLEND_OVER;
     draw_lines(&c, p, 2, &s);
     CHECK_NEAR(canvas_float(&c, 3, 3, 0), 2 * 0.25 + 4 * 0.75, 1e-6);
     canvas_close(&c);
@@ -385,7 +391,7 @@ TEST(lines, colour_and_blending_are_the_state_s)
 TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
 {
     for (int k = 0; k < 20; k++) {
-        canvas c = canvas_open(16, 12, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
         shade_vec3 p[4] = { { -1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { 1, -1, 0 } };
         const shade_vec3 *points = p;
         shade_line_state s = line_state(3);
@@ -407,9 +413,15 @@ TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
         case 8: s.width = INFINITY; break;
         case 9: s.cap = (shade_cap)2; break;
         case 10: s.cap = (shade_cap)-1; break;
-        case 11: s.depth_test = (shade_compare)6; break;
-        case 12: s.blend = (shade_blend)3; break;
-        case 13: s.depth_bias = (float)NAN; break;
+        case 11:
+            s.raster.depth_test = (shade_compare)6;
+            break;
+        case 12:
+            s.raster.blend = (shade_blend)3;
+            break;
+        case 13:
+            s.raster.depth_bias = (float)NAN;
+            break;
         case 14: c.target.width = 0, want = SHADE_ERROR_TARGET; break;
         case 15: c.target.stride = 3, want = SHADE_ERROR_TARGET; break;
         case 16: c.target.format = (shade_format)9, want = SHADE_ERROR_TARGET; break;
@@ -428,7 +440,7 @@ TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
 }
 TEST(lines, depth_only_targets_take_lines_too)
 {
-    canvas c = canvas_open(16, 12, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
     shade_line_state s = line_state(2);
     shade_vec3 p[2] = { { -1, 0, 0 }, { 1, 0, 0 } };
     canvas_clear(&c, 1);

@@ -12,8 +12,6 @@ C="examples/*.[ch] examples/*/*.[ch] tests/*.[ch] tests/*/*.[ch] bench/*.[ch] be
 check "lines within 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR ": " length " columns" }' \
     $H Makefile $C)"
 check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H $C)"
-check "at most 4360 lines before the licence" "$(awk '/>>license$/ && /^\/\*-/ { exit } { n++ }
-    END { if (n > 4360) print n " lines" }' $H)"
 
 # contents table equals banners, in order
 sed -n '/>>contents$/,/^$/p' $H | grep -oE '>>[a-z]+' | grep -v '>>contents' >/tmp/lint_contents.$$

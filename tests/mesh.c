@@ -96,8 +96,8 @@ static void random_mesh_scene(test_mesh *m, shade_shading shading, int mirrored)
     m->state.lighting.ambient = random_color(0.3);
     m->state.lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
     m->state.lighting.flags = rnd_one_in(2) ? 0 : (unsigned)rnd_int(0, 63);
-    if (m->state.lighting.model == SHADE_COOL_TO_WARM)
-        m->state.lighting.flags &= ~(unsigned)SHADE_TWO_SIDED_ABS;
+    if (m->state.lighting.model == SHADE_MODEL_COOL_TO_WARM)
+        m->state.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED_ABS;
     m->state.lighting.terms = rnd_one_in(3) ? (unsigned)rnd_int(0, 15) : 0;
     m->state.shading = shading;
 }
@@ -123,7 +123,7 @@ static mesh_oracle mesh_oracle_of(const test_mesh *m)
     o.model = matrix_or_identity(m->state.model), o.normals = dmat_normals(o.model);
     o.clip = dmat_mul(matrix_or_identity(m->state.projection), dmat_mul(view, o.model));
     dmat_invert(view, 4, &inverse);
-    int infinite = (m->state.lighting.flags & SHADE_INFINITE_VIEWER) != 0;
+    int infinite = (m->state.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
     o.eye =
         infinite ? dmat_direction(inverse, d3_of(0, 0, 1)) : dmat_point(inverse, d3_of(0, 0, 0));
     return o;
@@ -153,8 +153,9 @@ static d3 mesh_color(mesh_oracle *o, const test_mesh *m, int t, const double b[3
         sum_p = d3_add(sum_p, d3_scale(P[k], b[k])), sum_n = d3_add(sum_n, d3_scale(N[k], b[k]));
         sum_a = d3_add(sum_a, d3_scale(albedo[k], b[k]));
     }
-    if (m->state.shading == SHADE_PER_FRAGMENT) return mesh_light(o, m, sum_p, sum_n, sum_a);
-    if (m->state.shading == SHADE_PER_FACE) {
+    if (m->state.shading == SHADE_SHADING_PER_FRAGMENT)
+        return mesh_light(o, m, sum_p, sum_n, sum_a);
+    if (m->state.shading == SHADE_SHADING_PER_FACE) {
         d3 centroid = d3_scale(d3_add(P[0], d3_add(P[1], P[2])), 1.0 / 3);
         return mesh_light(o, m, centroid, flat, albedo[0]);
     }
@@ -244,7 +245,7 @@ static void check_meshes(shade_shading shading, int mirrored)
     static test_mesh m;
     int checked = 0;
     for (int i = 0; i < 40; i++) {
-        canvas c = canvas_open(64, 48, 65, SHADE_RGBA32F, 1);
+        canvas c = canvas_open(64, 48, 65, SHADE_FORMAT_RGBA32F, 1);
         random_mesh_scene(&m, shading, mirrored);
         canvas_clear(&c, 1);
         shade_stats stats;
@@ -258,16 +259,19 @@ static void check_meshes(shade_shading shading, int mirrored)
 
 TEST(mesh, per_fragment_is_the_equation_at_every_pixel)
 {
-    check_meshes(SHADE_PER_FRAGMENT, 0);
+    check_meshes(SHADE_SHADING_PER_FRAGMENT, 0);
 } /* row 42 */
 TEST(mesh, per_vertex_interpolates_the_light_of_the_corners)
 {
-    check_meshes(SHADE_PER_VERTEX, 0);
+    check_meshes(SHADE_SHADING_PER_VERTEX, 0);
 } /* row 41 */
-TEST(mesh, per_face_is_lit_once_at_the_centroid) { check_meshes(SHADE_PER_FACE, 0); } /* row 40 */
+TEST(mesh, per_face_is_lit_once_at_the_centroid)
+{
+    check_meshes(SHADE_SHADING_PER_FACE, 0);
+} /* row 40 */
 TEST(mesh, mirrored_models_keep_their_given_normals)
 {
-    check_meshes(SHADE_PER_FRAGMENT, 1);
+    check_meshes(SHADE_SHADING_PER_FRAGMENT, 1);
 } /* V6 */
 
 static const float big_triangle[] = { -0.9f, -0.9f, 0, 0.9f, -0.8f, 0, 0, 0.9f, 0 };
@@ -296,11 +300,12 @@ TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* row 40, exact *
         shade_light light = shade_directional_light(d3_round(rnd_direction()), random_color(2));
         shade_draw_state s = plain_state(&light);
         shade_mesh mesh = plain_mesh(p, 3);
-        s.material = &material, s.shading = i % 2 ? SHADE_PER_FACE : SHADE_PER_FRAGMENT;
-        s.lighting.flags = SHADE_INFINITE_VIEWER | (i % 3 ? SHADE_TWO_SIDED : 0);
+        s.material = &material,
+        s.shading = i % 2 ? SHADE_SHADING_PER_FACE : SHADE_SHADING_PER_FRAGMENT;
+        s.lighting.flags = SHADE_FLAG_INFINITE_VIEWER | (i % 3 ? SHADE_FLAG_TWO_SIDED : 0);
         s.view = shade_mat4_look_at(shade_v3(0.2f, 0.1f, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
         s.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 10);
-        canvas c = canvas_open(64, 64, 0, SHADE_RGBA32F, 1);
+        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
         canvas_clear(&c, 1);
         CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
         float first[4] = { 0, 0, 0, 0 };
@@ -326,9 +331,9 @@ TEST(mesh, per_face_takes_the_colour_of_the_first_vertex)
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     static const uint32_t turned[] = { 1, 2, 0 };
     mesh.colors = color;
-    s.shading = SHADE_PER_FACE;
+    s.shading = SHADE_SHADING_PER_FACE;
     for (int turn = 0; turn < 2; turn++) {
-        canvas c = canvas_open(20, 20, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 0);
         canvas_clear(&c, 1);
         if (turn) mesh.indices = turned, mesh.index_count = 3;
         CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
@@ -351,9 +356,9 @@ TEST(mesh, gouraud_misses_the_highlight_that_phong_finds) /* row 41 */
     s.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 10);
     double most[2] = { 0, 0 };
     for (int k = 0; k < 2; k++) {
-        canvas c = canvas_open(64, 64, 0, SHADE_RGBA32F, 1);
+        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
         canvas_clear(&c, 1);
-        s.shading = k ? SHADE_PER_VERTEX : SHADE_PER_FRAGMENT;
+        s.shading = k ? SHADE_SHADING_PER_VERTEX : SHADE_SHADING_PER_FRAGMENT;
         CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
         for (int i = 0; i < 64 * 64; i++)
             most[k] = fmax(most[k], (double)canvas_float(&c, i % 64, i / 64, 0));
@@ -369,8 +374,8 @@ TEST(mesh, light_between_gouraud_vertices_is_not_clamped) /* a corner of 3 besid
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     mesh.normals = normal;
-    s.shading = SHADE_PER_VERTEX;
-    canvas c = canvas_open(200, 200, 0, SHADE_RGBA32F, 0);
+    s.shading = SHADE_SHADING_PER_VERTEX;
+    canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
     canvas_clear(&c, 1);
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
     shade_vec4 corner[3];
@@ -393,8 +398,8 @@ TEST(mesh, every_layout_of_the_same_mesh_gives_the_same_bits)
 {
     static test_mesh m;
     for (int i = 0; i < 30; i++) {
-        canvas a = canvas_open(64, 48, 0, SHADE_RGBA32F, 1),
-               b = canvas_open(64, 48, 0, SHADE_RGBA32F, 1);
+        canvas a = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA32F, 1),
+               b = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA32F, 1);
         random_mesh_scene(&m, (shade_shading)(i % 3), 0);
         static float texcoord[MESH_VERTICES * 2];
         canvas_clear(&a, 1), canvas_clear(&b, 1);
@@ -448,7 +453,7 @@ TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.lighting.ambient = shade_v3(0.1f, 0, 0);
-    canvas c = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
     canvas_clear(&c, 1);
     shade_stats stats;
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
@@ -466,8 +471,8 @@ TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
 TEST(mesh, matrices_that_begin_with_zeros_are_used)
 {
     shade_draw_state s = plain_state(NULL);
-    canvas a = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
-    canvas b = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas a = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
+    canvas b = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
     s.lighting.ambient = grey(0.25);
     for (int first = 0; first < 4; first++) { /* the row of the one in the first column */
         float moved[9];
@@ -509,7 +514,7 @@ TEST(mesh, matrices_that_begin_with_zeros_are_used)
 }
 TEST(mesh, a_mesh_of_nothing_needs_no_positions)
 {
-    canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
     shade_draw_state s = plain_state(NULL);
     shade_mesh mesh = plain_mesh(NULL, 0);
     shade_stats stats;
@@ -528,27 +533,27 @@ TEST(mesh, the_state_of_the_pipeline_is_handed_on)
     shade_draw_state s = plain_state(NULL);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.lighting.ambient = grey(0.25);
-    canvas c = canvas_open(20, 20, 0, SHADE_RGBA32F, 1);
+    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
     canvas_clear(&c, 0.5f);
     shade_stats stats;
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
     CHECK_INT(stats.fragments, 0); /* at the same depth: LESS fails */
-    s.depth_test = SHADE_LESS_EQUAL, s.blend = SHADE_ADD;
+    s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, s.raster.blend = SHADE_BLEND_ADD;
     for (int k = 0; k < 3; k++) CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
     CHECK_NEAR(canvas_float(&c, 10, 12, 0), 0.75, 1e-6);
-    s.depth_bias = 0.25f;
+    s.raster.depth_bias = 0.25f;
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
     CHECK_INT(stats.fragments, 0);
-    s.depth_bias = -0.25f, s.depth_read_only = 1;
+    s.raster.depth_bias = -0.25f, s.raster.depth_read_only = 1;
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
     CHECK_NEAR(canvas_depth(&c, 10, 12), 0.5, 0);
-    s.depth_read_only = 0;
+    s.raster.depth_read_only = 0;
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
     CHECK_NEAR(canvas_depth(&c, 10, 12), 0.25, 1e-6);
-    s.cull = SHADE_CULL_FRONT, s.depth_test = SHADE_ALWAYS;
+    s.raster.cull = SHADE_CULL_FRONT, s.raster.depth_test = SHADE_COMPARE_ALWAYS;
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
     CHECK_INT(stats.culled, 1);
-    s.cull = SHADE_CULL_BACK, s.depth_zero_to_one = 1, s.depth_bias = 0;
+    s.raster.cull = SHADE_CULL_BACK, s.raster.depth_zero_to_one = 1, s.raster.depth_bias = 0;
     CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
     CHECK_INT(stats.drawn, 1);
     CHECK_NEAR(canvas_depth(&c, 10, 12), 0, 1e-6);
@@ -563,7 +568,7 @@ TEST(mesh, a_nan_in_a_matrix_rejects_every_triangle)
         shade_mat4 *m = k == 0 ? &s.model : k == 1 ? &s.view : &s.projection;
         *m = shade_mat4_identity();
         m->col[1].x = (float)NAN;
-        canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
         canvas_clear(&c, 1);
         shade_stats stats;
         CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
@@ -582,7 +587,7 @@ TEST(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero)
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.material = &m;
     for (int shading = 0; shading < 3; shading++) {
-        canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
         s.shading = (shade_shading)shading;
         CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 0), 1), SHADE_OK);
         CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
@@ -598,7 +603,7 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
 {
     static const uint32_t good_indices[] = { 0, 1, 2 }, bad_indices[] = { 0, 1, 3 };
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
-    canvas c = canvas_open(20, 20, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&c, 1);
     shade_mesh good = plain_mesh(big_triangle, 3);
     shade_draw_state state = plain_state(&light);
@@ -646,16 +651,16 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
             s.shading = (shade_shading)3;
             break;
         case 11:
-            s.cull = (shade_cull)3;
+            s.raster.cull = (shade_cull)3;
             break;
         case 12:
-            s.depth_test = (shade_compare)6;
+            s.raster.depth_test = (shade_compare)6;
             break;
         case 13:
-            s.blend = (shade_blend)3;
+            s.raster.blend = (shade_blend)3;
             break;
         case 14:
-            s.depth_bias = (float)NAN;
+            s.raster.depth_bias = (float)NAN;
             break;
         case 15:
             m.indices = NULL, m.vertex_count = -3;

@@ -214,7 +214,7 @@ static double ref_spot(d3 L, d3 aim, double cos_cutoff, double exponent, int *un
 /* B and the weight apart: the power of the highlight */
 static double ref_highlight(shade_model model, d3 N, d3 L, d3 V, double n, int *unsure)
 {
-    if (model == SHADE_PHONG) {
+    if (model == SHADE_MODEL_PHONG) {
         d3 R = d3_sub(d3_scale(N, 2 * d3_dot(N, L)), L);
         if (ref_steep(d3_dot(R, V), n)) *unsure = 1;
         return ref_power(d3_dot(R, V), n);
@@ -263,23 +263,24 @@ static ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3
     }
     ka = d3_mul(ka, albedo), kd = d3_mul(kd, albedo);
     N = d3_unit(N);
-    d3 V = d3_unit(li->flags & SHADE_INFINITE_VIEWER ? eye : d3_sub(eye, P));
-    if (li->flags & SHADE_TWO_SIDED) {
+    d3 V = d3_unit(li->flags & SHADE_FLAG_INFINITE_VIEWER ? eye : d3_sub(eye, P));
+    if (li->flags & SHADE_FLAG_TWO_SIDED) {
         double NV = d3_dot(N, V);
         if (fabs(NV) < REF_MARGIN) out.unsure = 1;
         if (NV < 0) N = d3_scale(N, -1);
     }
     int count = li->lights && li->light_count > 0 ? li->light_count : 0;
-    shade_model model = li->model > SHADE_COOL_TO_WARM ? SHADE_BLINN_PHONG : li->model;
+    shade_model model = li->model > SHADE_MODEL_COOL_TO_WARM ? SHADE_MODEL_BLINN_PHONG : li->model;
 
     out.emission = ke;
-    if (model == SHADE_COOL_TO_WARM) {
+    if (model == SHADE_MODEL_COOL_TO_WARM) {
         double NL = 0, r;
         if (count) NL = d3_dot(N, ref_to_light(&li->lights[0], P, &r));
         out.diffuse = d3_mul(albedo, ref_cool_to_warm(NL, d3_from(li->cool), d3_from(li->warm)));
     }
-    int has_ambient = model <= SHADE_AMBIENT, has_diffuse = model <= SHADE_LAMBERT;
-    int has_specular = model <= SHADE_PHONG && (terms & SHADE_TERM_SPECULAR) && d3_length(N) > 0;
+    int has_ambient = model <= SHADE_MODEL_AMBIENT, has_diffuse = model <= SHADE_MODEL_LAMBERT;
+    int has_specular =
+        model <= SHADE_MODEL_PHONG && (terms & SHADE_TERM_SPECULAR) && d3_length(N) > 0;
     if (has_ambient) out.ambient = d3_mul(ka, d3_from(li->ambient));
     for (int k = 0; k < count && has_ambient; k++) {
         const shade_light *light = &li->lights[k];
@@ -292,7 +293,7 @@ static ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3
         if (d3_length(d3_from(light->spot_direction)) >= 1e-18) e = (double)light->spot_exponent;
         factor *= ref_spot(L, d3_from(light->spot_direction), (double)light->spot_cos_cutoff, e,
                            &out.unsure);
-        double own = li->flags & SHADE_ATTENUATED_AMBIENT ? factor : 1;
+        double own = li->flags & SHADE_FLAG_ATTENUATED_AMBIENT ? factor : 1;
         out.ambient = d3_add(out.ambient, d3_scale(d3_mul(ka, d3_from(light->ambient)), own));
         brightest = fmax(brightest, own * d3_max(d3_from(light->ambient)));
         e_max = fmax(e_max, e);
@@ -300,17 +301,17 @@ static ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3
         if (!has_diffuse) continue;
 
         double NL = d3_dot(N, L), weight = NL > 0 ? NL : 0;
-        double kd_weight = li->flags & SHADE_TWO_SIDED_ABS ? fabs(NL) : weight;
+        double kd_weight = li->flags & SHADE_FLAG_TWO_SIDED_ABS ? fabs(NL) : weight;
         out.diffuse =
             d3_add(out.diffuse, d3_scale(d3_mul(kd, d3_from(light->diffuse)), factor * kd_weight));
         brightest = fmax(brightest, factor * d3_max(d3_from(light->diffuse)));
         if (!has_specular) continue;
 
         double s = ref_highlight(model, N, L, V, n, &out.unsure);
-        int gated = !(li->flags & SHADE_UNGATED_SPECULAR);
+        int gated = !(li->flags & SHADE_FLAG_UNGATED_SPECULAR);
         if (gated && fabs(NL) < REF_MARGIN && d3_length(L) > 0) out.unsure = 1;
         if (gated && !(NL > 0)) s = 0;
-        if (li->flags & SHADE_WEIGHTED_SPECULAR) s *= weight;
+        if (li->flags & SHADE_FLAG_WEIGHTED_SPECULAR) s *= weight;
         out.specular =
             d3_add(out.specular, d3_scale(d3_mul(ks, d3_from(light->specular)), factor * s));
         brightest = fmax(brightest, factor * d3_max(d3_from(light->specular)));

@@ -327,7 +327,8 @@ static void random_ray_scene(ray_scene *s, int kind)
     s->state.material = &s->material;
     s->state.lighting.lights = s->lights, s->state.lighting.light_count = 2;
     s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.15f);
-    if (kind == 2) s->state.depth_zero_to_one = 1, s->state.depth_test = SHADE_GREATER;
+    if (kind == 2)
+        s->state.raster.depth_zero_to_one = 1, s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     shade_mat4 m = shade_mat4_mul(s->camera.projection, s->camera.view);
     for (int k = 0; k < 3 * s->count; k++) {
         shade_vec3 p = s->position[k];
@@ -389,8 +390,8 @@ static void ray_levels(const ray_scene *s, int t, double X, double Y, int channe
         if (!shade_intersect(ray, p[0], p[1], p[2], NULL, &b)) continue;
         shade_vec3 albedo = ray_mix(&s->color[3 * t], b);
         m.diffuse = shade_mul(m.diffuse, albedo), m.ambient = shade_mul(m.ambient, albedo);
-        shade_vec3 c = shade_lit(&s->state.lighting, &m, ray_mix(p, b),
-                                 ray_mix(&s->normal[3 * t], b), d3_round(ray_eye(&s->camera)));
+        shade_vec3 c = shade_lit(&s->state.lighting, &m, d3_round(ray_eye(&s->camera)),
+                                 ray_mix(p, b), ray_mix(&s->normal[3 * t], b));
         const float rgb[3] = { c.x, c.y, c.z };
         double v = floor(fmax(0, fmin(1, (double)rgb[channel])) * 255 + 0.5);
         level[0] = fmin(level[0], v), level[1] = fmax(level[1], v);
@@ -401,13 +402,14 @@ static void check_both_ways(int kind)
     static ray_scene s;
     long compared = 0, hits = 0, close_by = 0;
     for (int i = 0; i < 3; i++) {
-        canvas ids = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_RGBA32F, 1);
-        canvas lit = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_RGBA8, 1);
+        canvas ids = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas lit = canvas_open(RAY_WIDTH, RAY_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         random_ray_scene(&s, kind);
         scene flat = { s.clip, NULL, 0, s.id, NULL };
         shade_pipeline p = scene_pipeline(&flat);
         float far = s.camera.reversed ? 0.0f : 1.0f;
-        p.depth_zero_to_one = s.state.depth_zero_to_one, p.depth_test = s.state.depth_test;
+        p.raster.depth_zero_to_one = s.state.raster.depth_zero_to_one,
+        p.raster.depth_test = s.state.raster.depth_test;
         canvas_clear(&ids, far), canvas_clear(&lit, far);
         CHECK_INT(shade_draw(&ids.target, &p, NULL, 3 * s.count, 3 * s.count, NULL), SHADE_OK);
         CHECK_INT(shade_draw_mesh(&lit.target, &s.mesh, &s.state, NULL), SHADE_OK);

@@ -4,11 +4,11 @@
 static void ref_linear(const canvas *c, int x, int y, double rgba[4])
 {
     const shade_target *t = &c->target;
-    if (t->format == SHADE_RGBA32F) {
+    if (t->format == SHADE_FORMAT_RGBA32F) {
         for (int k = 0; k < 4; k++) rgba[k] = (double)canvas_float(c, x, y, k);
         return;
     }
-    if (t->format == SHADE_RGBA8) {
+    if (t->format == SHADE_FORMAT_RGBA8) {
         for (int k = 0; k < 4; k++) rgba[k] = canvas_bytes(c, x, y)[k] / 255.0;
     } else {
         unsigned u = canvas_565(c, x, y);
@@ -20,10 +20,10 @@ static void ref_linear(const canvas *c, int x, int y, double rgba[4])
 static void resolve_fill(canvas *c)
 {
     for (size_t i = 0; i < c->color_bytes; i++) {
-        if (c->target.format == SHADE_RGBA32F) break;
+        if (c->target.format == SHADE_FORMAT_RGBA32F) break;
         c->color[CANVAS_GUARD + i] = (unsigned char)rnd_bits();
     }
-    for (size_t i = 0; i < c->color_bytes / 4 && c->target.format == SHADE_RGBA32F; i++) {
+    for (size_t i = 0; i < c->color_bytes / 4 && c->target.format == SHADE_FORMAT_RGBA32F; i++) {
         float f = rnd_float(-0.5, 2);
         memcpy(c->color + CANVAS_GUARD + 4 * i, &f, 4);
     }
@@ -45,12 +45,12 @@ static void check_resolved(const canvas *out, const canvas *in, int factor, int 
         }
     for (int k = 0; k < 4; k++) {
         double want = mean[k], got;
-        if (out->target.format == SHADE_RGBA32F) {
+        if (out->target.format == SHADE_FORMAT_RGBA32F) {
             /* float sums of up to 64, of texels that may come through the library's sRGB curve */
             CHECK_NEAR(canvas_float(out, x, y, k), want, 5e-6);
             continue;
         }
-        int wide = out->target.format == SHADE_RGBA8;
+        int wide = out->target.format == SHADE_FORMAT_RGBA8;
         if (!wide && k == 3) continue;
         unsigned u = wide ? canvas_bytes(out, x, y)[k] : canvas_565(out, x, y);
         got = wide ? u : k == 0 ? u >> 11 : k == 1 ? u >> 5 & 63 : u & 31;
@@ -92,9 +92,9 @@ TEST(resolve, one_colour_stays_itself)
         for (size_t k = size; k < in.color_bytes; k++)
             in.color[CANVAS_GUARD + k] = in.color[CANVAS_GUARD + k - size];
         CHECK_INT(shade_resolve(&out.target, &in.target, factor), SHADE_OK);
-        for (size_t k = 0; k < out.color_bytes && format != SHADE_RGBA32F; k++)
+        for (size_t k = 0; k < out.color_bytes && format != SHADE_FORMAT_RGBA32F; k++)
             CHECK(out.color[CANVAS_GUARD + k] == in.color[CANVAS_GUARD + k % size]);
-        for (int k = 0; k < 4 && format == SHADE_RGBA32F; k++)
+        for (int k = 0; k < 4 && format == SHADE_FORMAT_RGBA32F; k++)
             CHECK_NEAR(canvas_float(&out, 2, 1, k), canvas_float(&in, 0, 0, k), 5e-6);
         resolve_close(&in);
         canvas_close(&out);
@@ -105,7 +105,7 @@ TEST(resolve, only_the_clip_rectangle_of_out_is_written)
     for (int i = 0; i < 300; i++) {
         int factor = rnd_int(2, 4), w = rnd_int(1, 30), h = rnd_int(1, 12);
         shade_format format = (shade_format)rnd_int(0, 2);
-        canvas in = canvas_open(w * factor, h * factor, 0, SHADE_RGBA8, 0);
+        canvas in = canvas_open(w * factor, h * factor, 0, SHADE_FORMAT_RGBA8, 0);
         canvas out = canvas_open(w, h, w + 2, format, 0);
         canvas whole = canvas_open(w, h, w + 2, format, 0);
         resolve_fill(&in);
@@ -162,7 +162,8 @@ TEST(resolve, strips_give_the_bits_of_the_whole)
 }
 TEST(resolve, nan_and_infinity_store_as_they_do_elsewhere)
 {
-    canvas in = canvas_open(4, 2, 0, SHADE_RGBA32F, 0), out = canvas_open(2, 1, 0, SHADE_RGBA8, 0);
+    canvas in = canvas_open(4, 2, 0, SHADE_FORMAT_RGBA32F, 0),
+           out = canvas_open(2, 1, 0, SHADE_FORMAT_RGBA8, 0);
     float f[32];
     for (int i = 0; i < 32; i++) f[i] = 0.5f;
     f[0] = (float)NAN, f[8] = INFINITY, f[9] = -INFINITY;
@@ -177,8 +178,8 @@ TEST(resolve, nan_and_infinity_store_as_they_do_elsewhere)
 TEST(resolve, what_does_not_fit_is_refused_before_a_pixel_changes)
 {
     for (int k = 0; k < 20; k++) {
-        canvas in = canvas_open(24, 18, 0, SHADE_RGBA8, 1);
-        canvas out = canvas_open(8, 6, 0, SHADE_RGBA8, 1);
+        canvas in = canvas_open(24, 18, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas out = canvas_open(8, 6, 0, SHADE_FORMAT_RGBA8, 1);
         shade_target a = out.target, b = in.target;
         const shade_target *to = &a, *from = &b;
         int factor = 3;
@@ -216,8 +217,8 @@ TEST(resolve, factors_of_two_to_eight_are_taken)
 {
     for (int factor = -1; factor <= 10; factor++) {
         int times = factor > 0 ? factor : 1;
-        canvas in = canvas_open(5 * times, 3 * times, 0, SHADE_RGBA8, 0);
-        canvas out = canvas_open(5, 3, 0, SHADE_RGBA8, 0);
+        canvas in = canvas_open(5 * times, 3 * times, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas out = canvas_open(5, 3, 0, SHADE_FORMAT_RGBA8, 0);
         CHECK_INT(shade_resolve(&out.target, &in.target, factor),
                   factor >= 2 && factor <= 8 ? SHADE_OK : SHADE_ERROR_ARGUMENT);
         canvas_close(&in), canvas_close(&out);
@@ -226,8 +227,8 @@ TEST(resolve, factors_of_two_to_eight_are_taken)
 /* The edge of a half plane drawn at 4 x 4 comes out as the covered share of each pixel. */
 TEST(resolve, supersampled_edges_are_shares_of_sixteenths)
 {
-    canvas in = canvas_open(64, 64, 0, SHADE_RGBA8, 0);
-    canvas out = canvas_open(16, 16, 0, SHADE_RGBA8, 0);
+    canvas in = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
+    canvas out = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
     shade_vec4 clip[3] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 }, { -1, 1, 0, 1 } };
     scene s = { clip, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
@@ -277,12 +278,12 @@ static void random_strip_scene(strip_scene *s)
         shade_mat4_look_at(shade_v3(0, 0.5f, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     s->state.projection = shade_mat4_perspective(1, 4.0f / 3, 0.5f, 10);
     s->state.lighting.lights = &s->light, s->state.lighting.light_count = 1;
-    s->state.lighting.flags = SHADE_TWO_SIDED;
+    s->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
     s->state.lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f);
     s->state.diffuse_map = &s->map, s->state.shading = (shade_shading)rnd_int(0, 2);
     s->lines.clip_from_points = shade_mat4_mul(s->state.projection, s->state.view);
     s->lines.width = 2.5f, s->lines.color = shade_v4(0.3f, 0.6f, 0.9f, 0.5f);
-    s->lines.blend = SHADE_OVER;
+    s->lines.raster.blend = SHADE_BLEND_OVER;
 }
 static void strip_draw(const strip_scene *s, const shade_target *t)
 {
@@ -295,7 +296,7 @@ TEST(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit)
 {
     static strip_scene s;
     for (int i = 0; i < 6; i++) {
-        canvas whole = canvas_open(320, 240, 0, SHADE_RGB565, 1);
+        canvas whole = canvas_open(320, 240, 0, SHADE_FORMAT_RGB565, 1);
         int rows;
         random_strip_scene(&s);
         whole.target.dither = 1, whole.target.srgb = i & 1;
@@ -303,7 +304,7 @@ TEST(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit)
         for (int y = 0; y < 240; y += rows) {
             rows = i < 3 ? 10 : rnd_int(1, 10);
             if (rows > 240 - y) rows = 240 - y;
-            canvas strip = canvas_strip(320, 240, 0, SHADE_RGB565, 1, y, rows);
+            canvas strip = canvas_strip(320, 240, 0, SHADE_FORMAT_RGB565, 1, y, rows);
             strip.target.dither = 1, strip.target.srgb = i & 1;
             strip_draw(&s, &strip.target);
             CHECK_SAY(!memcmp(strip.color + CANVAS_GUARD, whole.color + CANVAS_GUARD + 640 * y,

@@ -28,45 +28,46 @@ typedef struct golden_scene {
 } golden_scene;
 
 static const golden_scene golden_scenes[SCENE_COUNT] = {
-    { "blinn_phong", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0,
-      0, 0, 0, 0 },
-    { "phong", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0
-      },
-    { "lambert", SHADE_LAMBERT, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
-      0, 0 },
-    { "ambient", SHADE_AMBIENT, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3,
-      SHADE_ATTENUATED_AMBIENT, 0, 0, 0, 0 },
-    { "emissive", SHADE_EMISSIVE, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
-      0, 0 },
-    { "cool_to_warm", SHADE_COOL_TO_WARM, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 1,
-      0, 0, 0, 0, 0 },
-    { "gouraud", SHADE_BLINN_PHONG, SHADE_PER_VERTEX, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
-      0, 0 },
-    { "flat", SHADE_PHONG, SHADE_PER_FACE, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
-    { "srgb", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 2, 0, 0, 0,
-      0, 0 },
-    { "dither565", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGB565, SHADE_REPLACE, 1, 1, 2, 0,
-      0, 0, 0, 0 },
-    { "float", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 3,
-      SHADE_WEIGHTED_SPECULAR, 0, 0, 0, 0 },
-    { "add", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_ADD, 1, 0, 1,
-      SHADE_INFINITE_VIEWER, 0, 0, 0, 0 },
-    { "over565", SHADE_LAMBERT, SHADE_PER_VERTEX, SHADE_RGB565, SHADE_OVER, 0, 0, 2,
-      SHADE_TWO_SIDED, 0, 0, 0, 0 },
-    { "inside", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 3,
-      SHADE_TWO_SIDED, 1, 0, 0, 0 },
-    { "inside_flat", SHADE_PHONG, SHADE_PER_FACE, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 3,
-      SHADE_TWO_SIDED_ABS, 1, 0, 0, 0 },
-    { "reversed", SHADE_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 2,
-      SHADE_UNGATED_SPECULAR, 0, 1, 0, 0 },
-    { "nearest", SHADE_BLINN_PHONG, SHADE_PER_VERTEX, SHADE_RGBA8, SHADE_REPLACE, 0, 0, 3, 0, 0, 0,
-      1, 0 },
-    { "bilinear", SHADE_BLINN_PHONG, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 3, 0, 1,
-      0, 2, 0 },
-    { "trilinear", SHADE_LAMBERT, SHADE_PER_FRAGMENT, SHADE_RGBA32F, SHADE_REPLACE, 0, 0, 2, 0, 0,
-      1, 3, 0 },
-    { "lines", SHADE_COOL_TO_WARM, SHADE_PER_FRAGMENT, SHADE_RGBA8, SHADE_REPLACE, 1, 0, 1, 0, 1,
-      0, 0, 1 },
+    { "blinn_phong", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
+    { "phong", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
+    { "lambert", SHADE_MODEL_LAMBERT, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
+    { "ambient", SHADE_MODEL_AMBIENT, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 3, SHADE_FLAG_ATTENUATED_AMBIENT, 0, 0, 0, 0 },
+    { "emissive", SHADE_MODEL_EMISSIVE, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
+    { "cool_to_warm", SHADE_MODEL_COOL_TO_WARM, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 1, 0, 0, 0, 0, 0 },
+    { "gouraud", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_VERTEX, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
+    { "flat", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FACE, SHADE_FORMAT_RGBA8, SHADE_BLEND_REPLACE, 0,
+      0, 3, 0, 0, 0, 0, 0 },
+    { "srgb", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 1, 0, 2, 0, 0, 0, 0, 0 },
+    { "dither565", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGB565,
+      SHADE_BLEND_REPLACE, 1, 1, 2, 0, 0, 0, 0, 0 },
+    { "float", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA32F,
+      SHADE_BLEND_REPLACE, 0, 0, 3, SHADE_FLAG_WEIGHTED_SPECULAR, 0, 0, 0, 0 },
+    { "add", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_ADD, 1, 0, 1, SHADE_FLAG_INFINITE_VIEWER, 0, 0, 0, 0 },
+    { "over565", SHADE_MODEL_LAMBERT, SHADE_SHADING_PER_VERTEX, SHADE_FORMAT_RGB565,
+      SHADE_BLEND_OVER, 0, 0, 2, SHADE_FLAG_TWO_SIDED, 0, 0, 0, 0 },
+    { "inside", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 1, 0, 3, SHADE_FLAG_TWO_SIDED, 1, 0, 0, 0 },
+    { "inside_flat", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FACE, SHADE_FORMAT_RGBA32F,
+      SHADE_BLEND_REPLACE, 0, 0, 3, SHADE_FLAG_TWO_SIDED_ABS, 1, 0, 0, 0 },
+    { "reversed", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 2, SHADE_FLAG_UNGATED_SPECULAR, 0, 1, 0, 0 },
+    { "nearest", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_VERTEX, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 1, 0 },
+    { "bilinear", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 1, 0, 3, 0, 1, 0, 2, 0 },
+    { "trilinear", SHADE_MODEL_LAMBERT, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA32F,
+      SHADE_BLEND_REPLACE, 0, 0, 2, 0, 0, 1, 3, 0 },
+    { "lines", SHADE_MODEL_COOL_TO_WARM, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
+      SHADE_BLEND_REPLACE, 1, 0, 1, 0, 1, 0, 0, 1 },
 };
 
 /* Six square faces of a box, each a lattice of whole numbers; the normal of a vertex is its
@@ -124,10 +125,14 @@ static shade_texture scene_map(int kind, shade_texture *levels)
             scene_texels[4 * i + k] = (float)((n + k * x) % 16) * 0.125f;
     }
     t.pixels = scene_texels, t.width = 16, t.height = 8, t.srgb = kind == 2;
-    t.format = kind == 1 ? SHADE_RGB565 : kind == 2 ? SHADE_RGBA8 : SHADE_RGBA32F;
-    t.wrap_u = kind == 1 ? SHADE_MIRROR : kind == 2 ? SHADE_REPEAT : SHADE_CLAMP;
+    t.format = kind == 1   ? SHADE_FORMAT_RGB565
+               : kind == 2 ? SHADE_FORMAT_RGBA8
+                           : SHADE_FORMAT_RGBA32F;
+    t.wrap_u = kind == 1 ? SHADE_WRAP_MIRROR : kind == 2 ? SHADE_WRAP_REPEAT : SHADE_WRAP_CLAMP;
     t.wrap_v = t.wrap_u;
-    t.filter = kind == 1 ? SHADE_NEAREST : kind == 2 ? SHADE_BILINEAR : SHADE_TRILINEAR;
+    t.filter = kind == 1   ? SHADE_FILTER_NEAREST
+               : kind == 2 ? SHADE_FILTER_BILINEAR
+                           : SHADE_FILTER_TRILINEAR;
     if (kind == 3) shade_build_mipmaps(&t, levels, scene_levels, sizeof scene_levels);
     return t;
 }
@@ -136,8 +141,8 @@ static void scene_lines(canvas *c, const shade_draw_state *s)
     shade_line_state line;
     memset(&line, 0, sizeof line);
     line.clip_from_points = s->projection; /* products in this file would follow its flags */
-    line.width = 1.5f, line.cap = SHADE_SQUARE, line.color = shade_v4(0.0625f, 0, 0.125f, 1);
-    line.depth_test = SHADE_LESS_EQUAL, line.depth_bias = -0.015625f;
+    line.width = 1.5f, line.cap = SHADE_CAP_SQUARE, line.color = shade_v4(0.0625f, 0, 0.125f, 1);
+    line.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, line.raster.depth_bias = -0.015625f;
     for (int k = 0; k < (int)(sizeof scene_index / sizeof scene_index[0]); k += 3) {
         shade_vec3 ends[2];
         for (int j = 0; j < 2; j++) {
@@ -152,8 +157,8 @@ static void scene_draw(canvas *c, const golden_scene *g)
 {
     shade_texture levels[5], map = scene_map(g->map, levels);
     shade_light lights[3];
-    shade_material gold = shade_preset_material(SHADE_GOLD),
-                   plastic = shade_preset_material(SHADE_CYAN_PLASTIC);
+    shade_material gold = shade_preset_material(SHADE_PRESET_GOLD),
+                   plastic = shade_preset_material(SHADE_PRESET_CYAN_PLASTIC);
     shade_mesh mesh;
     shade_draw_state s;
     memset(&mesh, 0, sizeof mesh), memset(&s, 0, sizeof s);
@@ -171,13 +176,14 @@ static void scene_draw(canvas *c, const golden_scene *g)
     s.lighting.lights = lights, s.lighting.light_count = g->lights;
     s.lighting.ambient = shade_v3(0.125f, 0.125f, 0.25f);
     s.lighting.model = g->model, s.lighting.flags = g->flags, s.shading = g->shading,
-    s.blend = g->blend;
+    s.raster.blend = g->blend;
     s.view = g->inside
                  ? shade_mat4_look_at(shade_v3(5, 1, 3), shade_v3(-4, 0, -2), shade_v3(0, 1, 0))
                  : shade_mat4_look_at(shade_v3(9, 7, 14), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     s.projection = g->reversed ? shade_mat4_perspective_reversed(0.75f, 4.0f / 3, 1)
                                : shade_mat4_perspective(g->inside ? 1.5f : 0.75f, 4.0f / 3, 1, 40);
-    s.depth_zero_to_one = g->reversed, s.depth_test = g->reversed ? SHADE_GREATER : SHADE_LESS;
+    s.raster.depth_zero_to_one = g->reversed,
+    s.raster.depth_test = g->reversed ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
     if (g->map) { /* positions serve as texture coordinates */
         mesh.texcoords = scene_position, mesh.texcoord_stride = 12;
         s.diffuse_map = &map;
@@ -186,7 +192,7 @@ static void scene_draw(canvas *c, const golden_scene *g)
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
     if (g->lines) scene_lines(c, &s);
     s.model = shade_mat4_translation(shade_v3(5, -2, -3)), s.material = &plastic;
-    s.cull = SHADE_CULL_BACK, s.lighting.terms = 0;
+    s.raster.cull = SHADE_CULL_BACK, s.lighting.terms = 0;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
 }
 
@@ -202,11 +208,12 @@ static uint64_t scene_hash(const canvas *c)
     for (int i = 0; i < SCENE_WIDTH * SCENE_HEIGHT; i++) {
         int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
         for (int k = 0; k < 4; k++) {
-            if (c->target.format == SHADE_RGBA8) h = hash_number(h, canvas_bytes(c, x, y)[k], 1);
-            if (c->target.format == SHADE_RGBA32F)
+            if (c->target.format == SHADE_FORMAT_RGBA8)
+                h = hash_number(h, canvas_bytes(c, x, y)[k], 1);
+            if (c->target.format == SHADE_FORMAT_RGBA32F)
                 h = hash_number(h, float_bits(canvas_float(c, x, y, k)), 4);
         }
-        if (c->target.format == SHADE_RGB565) h = hash_number(h, canvas_565(c, x, y), 2);
+        if (c->target.format == SHADE_FORMAT_RGB565) h = hash_number(h, canvas_565(c, x, y), 2);
         h = hash_number(h, float_bits(canvas_depth(c, x, y)), 4);
     }
     return h;

@@ -58,7 +58,7 @@ static d3 ref_corner_normal(const shade_mesh *m, int corner, double cos_crease, 
 }
 static void corner_normals(const shade_mesh *m, float cos_crease, shade_vec3 *out)
 {
-    size_t bytes = shade_corner_normals_bytes(m);
+    size_t bytes = shade_mesh_corner_normals_bytes(m);
     unsigned char *block = canvas_block(bytes);
     CHECK_INT(shade_mesh_corner_normals(m, cos_crease, out, block + CANVAS_GUARD, bytes),
               SHADE_OK);
@@ -267,7 +267,7 @@ TEST(shape, bad_corner_normal_calls_are_refused)
     shade_vec3 out[36];
     static uint32_t memory[200];
     shape_cube(&s, 0);
-    size_t bytes = shade_corner_normals_bytes(&s.mesh);
+    size_t bytes = shade_mesh_corner_normals_bytes(&s.mesh);
     CHECK(bytes >= 36 * 4 && bytes <= sizeof memory - 4);
     for (int k = 0; k < 14; k++) {
         shade_mesh m = s.mesh;
@@ -299,7 +299,7 @@ TEST(shape, bad_corner_normal_calls_are_refused)
             break;
         }
         CHECK_INT(shade_mesh_corner_normals(mesh, threshold, normals, at, room), want);
-        if (bad_mesh) CHECK_INT(shade_corner_normals_bytes(mesh), 0);
+        if (bad_mesh) CHECK_INT(shade_mesh_corner_normals_bytes(mesh), 0);
         for (size_t i = 0; i < sizeof out; i++) CHECK(((unsigned char *)out)[i] == CANVAS_BYTE);
     }
 }

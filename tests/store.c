@@ -70,7 +70,7 @@ static void check_levels(shade_format format)
     enum { N = 2000 };
     static shade_vec4 color[N];
     static const int most[2][4] = { { 255, 255, 255, 255 }, { 31, 63, 31, 0 } };
-    const int rgb565 = format == SHADE_RGB565;
+    const int rgb565 = format == SHADE_FORMAT_RGB565;
     for (int srgb = 0; srgb < 2; srgb++)
         for (int way = 0; way < 2; way++) {
             random_store_colors(color, N);
@@ -96,8 +96,8 @@ static void check_levels(shade_format format)
             canvas_close(&c);
         }
 }
-TEST(store, bytes_are_clamped_and_rounded_to_nearest) { check_levels(SHADE_RGBA8); }
-TEST(store, rgb565_is_clamped_and_rounded_to_nearest) { check_levels(SHADE_RGB565); }
+TEST(store, bytes_are_clamped_and_rounded_to_nearest) { check_levels(SHADE_FORMAT_RGBA8); }
+TEST(store, rgb565_is_clamped_and_rounded_to_nearest) { check_levels(SHADE_FORMAT_RGB565); }
 
 TEST(store, floats_are_stored_as_they_come)
 {
@@ -106,7 +106,7 @@ TEST(store, floats_are_stored_as_they_come)
     for (int way = 0; way < 2; way++) {
         for (int i = 0; i < N; i++)
             color[i] = shade_v4(rnd_nasty(), rnd_nasty(), rnd_float(-9, 9), rnd_log(1e-9, 1e9));
-        canvas c = canvas_open(N, 1, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(N, 1, 0, SHADE_FORMAT_RGBA32F, 0);
         c.target.srgb = way; /* without effect on floats */
         canvas_clear(&c, 1);
         if (way)
@@ -141,8 +141,8 @@ TEST(store, nan_is_stored_as_zero_and_infinity_clamped)
                                               { 0, 0, 255, 0 } };
     for (int srgb = 0; srgb < 2; srgb++)
         for (int way = 0; way < 2; way++) {
-            canvas c = canvas_open(5, 1, 0, SHADE_RGBA8, 0),
-                   d = canvas_open(5, 1, 0, SHADE_RGB565, 0);
+            canvas c = canvas_open(5, 1, 0, SHADE_FORMAT_RGBA8, 0),
+                   d = canvas_open(5, 1, 0, SHADE_FORMAT_RGB565, 0);
             c.target.srgb = d.target.srgb = srgb;
             canvas_clear(&c, 1), canvas_clear(&d, 1);
             if (way)
@@ -167,7 +167,8 @@ TEST(store, nan_is_stored_as_zero_and_infinity_clamped)
 
 TEST(store, bytes_lie_in_the_order_r_g_b_a)
 {
-    canvas c = canvas_open(2, 2, 0, SHADE_RGBA8, 0), d = canvas_open(2, 2, 0, SHADE_RGB565, 0);
+    canvas c = canvas_open(2, 2, 0, SHADE_FORMAT_RGBA8, 0),
+           d = canvas_open(2, 2, 0, SHADE_FORMAT_RGB565, 0);
     shade_vec4 color = shade_v4(1, 0.6f, 0.2f, 0.4f);
     CHECK_INT(shade_clear(&c.target, color, 1), SHADE_OK);
     CHECK_INT(shade_clear(&d.target, color, 1), SHADE_OK);
@@ -185,18 +186,18 @@ TEST(store, every_srgb_byte_comes_back_from_linear_light)
         float v = (float)ref_decode_srgb(i / 255.0);
         color[i] = shade_v4(v, v, v, (float)(i / 255.0));
     }
-    canvas c = canvas_open(256, 1, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(256, 1, 0, SHADE_FORMAT_RGBA8, 0);
     c.target.srgb = 1;
     store_colors(&c, color, 256);
     for (int i = 0; i < 256; i++)
         for (int k = 0; k < 4; k++) CHECK_INT(canvas_bytes(&c, i, 0)[k], i);
     /* read back for blending: nothing added changes nothing */
     for (int i = 0; i < 256; i++) color[i] = shade_v4(0, 0, 0, 0);
-    for (int blend = SHADE_OVER; blend <= SHADE_ADD; blend++) {
+    for (int blend = SHADE_BLEND_OVER; blend <= SHADE_BLEND_ADD; blend++) {
         shade_vec4 corners[3] = { { -3, -1, 0, 1 }, { 1, -1, 0, 1 }, { 1, 3, 0, 1 } };
         scene s = { corners, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.blend = (shade_blend)blend;
+        p.raster.blend = (shade_blend)blend;
         shade_stats stats;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
         CHECK_INT(stats.fragments, 256);
@@ -210,7 +211,7 @@ TEST(store, the_srgb_code_is_within_half_a_step_everywhere) /* and never falls a
 {
     enum { N = 16384 };
     static shade_vec4 color[N];
-    canvas c = canvas_open(N, 1, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(N, 1, 0, SHADE_FORMAT_RGBA8, 0);
     c.target.srgb = 1;
     for (int pass = 0; pass < 3; pass++) {
         for (int i = 0; i < N; i++) {
@@ -237,7 +238,7 @@ TEST(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels)
 {
     static const int levels[] = { 31, 63, 31 };
     for (int i = 0; i < 300; i++) {
-        canvas c = canvas_open(16, 12, 17, SHADE_RGB565, 0);
+        canvas c = canvas_open(16, 12, 17, SHADE_FORMAT_RGB565, 0);
         c.target.dither = 1, c.target.srgb = i % 2;
         double v[3];
         shade_vec4 color = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 1);
@@ -303,13 +304,13 @@ TEST(store, clear_fills_the_clip_rectangle_of_both_buffers_and_no_more)
 
 TEST(store, clear_needs_only_one_of_the_buffers)
 {
-    canvas c = canvas_open(9, 7, 11, SHADE_RGBA8, 1);
+    canvas c = canvas_open(9, 7, 11, SHADE_FORMAT_RGBA8, 1);
     c.target.color = NULL;
     CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 1), 0.5f), SHADE_OK);
     CHECK_NEAR(canvas_depth(&c, 8, 6), 0.5, 0);
     CHECK_INT(c.color[CANVAS_GUARD], CANVAS_BYTE);
     canvas_close(&c);
-    c = canvas_open(9, 7, 11, SHADE_RGBA8, 0);
+    c = canvas_open(9, 7, 11, SHADE_FORMAT_RGBA8, 0);
     CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 1), 0.5f), SHADE_OK);
     CHECK_INT(canvas_bytes(&c, 8, 6)[0], 255);
     canvas_close(&c);
@@ -320,11 +321,11 @@ TEST(store, clear_needs_only_one_of_the_buffers)
 /* Linear light of a stored pixel. */
 static void ref_stored(const canvas *c, int x, int y, double v[4])
 {
-    if (c->target.format == SHADE_RGBA32F) {
+    if (c->target.format == SHADE_FORMAT_RGBA32F) {
         for (int k = 0; k < 4; k++) v[k] = (double)canvas_float(c, x, y, k);
         return;
     }
-    if (c->target.format == SHADE_RGBA8) {
+    if (c->target.format == SHADE_FORMAT_RGBA8) {
         for (int k = 0; k < 4; k++) v[k] = canvas_bytes(c, x, y)[k] / 255.0;
     } else {
         unsigned p = canvas_565(c, x, y);
@@ -336,11 +337,12 @@ static void ref_stored(const canvas *c, int x, int y, double v[4])
 static void check_stored(const canvas *c, int x, int y, const double v[4])
 {
     static const int levels[] = { 31, 63, 31 };
-    int format = c->target.format, channels = format == SHADE_RGB565 ? 3 : 4;
+    int format = c->target.format, channels = format == SHADE_FORMAT_RGB565 ? 3 : 4;
     for (int k = 0; k < channels; k++) {
         double code = c->target.srgb && k < 3 ? ref_encode_srgb(v[k]) : v[k];
-        if (format == SHADE_RGBA32F) CHECK_NEAR(canvas_float(c, x, y, k), v[k], 1e-6);
-        else if (format == SHADE_RGBA8)
+        if (format == SHADE_FORMAT_RGBA32F)
+            CHECK_NEAR(canvas_float(c, x, y, k), v[k], 1e-6);
+        else if (format == SHADE_FORMAT_RGBA8)
             CHECK_NEAR(canvas_bytes(c, x, y)[k], 255 * code, 0.5 + 1e-3);
         else {
             unsigned p = canvas_565(c, x, y);
@@ -402,8 +404,8 @@ TEST(store, a_resolved_pixel_is_the_mean_of_its_samples_in_linear_light)
 TEST(store, a_resolve_that_does_not_fit_is_refused)
 {
     for (int k = 0; k < 17; k++) {
-        canvas out = canvas_strip(6, 8, 0, SHADE_RGBA8, 1, 2, 4);
-        canvas in = canvas_strip(18, 24, 0, SHADE_RGBA32F, 1, 6, 12);
+        canvas out = canvas_strip(6, 8, 0, SHADE_FORMAT_RGBA8, 1, 2, 4);
+        canvas in = canvas_strip(18, 24, 0, SHADE_FORMAT_RGBA32F, 1, 6, 12);
         shade_target a = out.target, b = in.target;
         const shade_target *to = &a, *from = &b;
         int factor = 3;
@@ -500,8 +502,8 @@ TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
         const unsigned char *p = ppm_pixels(&sink, width, rows);
         for (int k = 0; p && k < width * rows * 3; k++) {
             int x = k / 3 % width, y = offset + k / 3 / width, channel = k % 3;
-            if (format == SHADE_RGBA8) CHECK_INT(p[k], canvas_bytes(&c, x, y)[channel]);
-            if (format == SHADE_RGB565) {
+            if (format == SHADE_FORMAT_RGBA8) CHECK_INT(p[k], canvas_bytes(&c, x, y)[channel]);
+            if (format == SHADE_FORMAT_RGB565) {
                 unsigned v = canvas_565(&c, x, y);
                 double level = channel == 0   ? (v >> 11) / 31.0
                                : channel == 1 ? (v >> 5 & 63) / 63.0
@@ -509,7 +511,7 @@ TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
                 CHECK_NEAR(p[k], 255 * level, 1); /* rounded or bits repeated */
                 if (level == 0 || level == 1) CHECK_INT(p[k], level * 255);
             }
-            if (format == SHADE_RGBA32F) {
+            if (format == SHADE_FORMAT_RGBA32F) {
                 double v = (double)canvas_float(&c, x, y, channel);
                 v = v > 0 ? (v < 1 ? v : 1) : 0;
                 CHECK_SAY(near_level(p[k], 255 * (srgb ? ref_encode_srgb(v) : v)),
@@ -523,7 +525,7 @@ TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
 TEST(store, a_failed_write_stops_the_ppm)
 {
     static ppm_sink sink;
-    canvas c = canvas_open(50, 40, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(50, 40, 0, SHADE_FORMAT_RGBA8, 0);
     canvas_clear(&c, 1);
     memset(&sink, 0, sizeof sink);
     CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_OK);
@@ -542,7 +544,7 @@ TEST(store, a_ppm_file_holds_the_same_bytes)
 {
     static ppm_sink sink;
     static unsigned char file_bytes[40000];
-    canvas c = canvas_open(50, 40, 55, SHADE_RGBA8, 0);
+    canvas c = canvas_open(50, 40, 55, SHADE_FORMAT_RGBA8, 0);
     CHECK_INT(shade_clear(&c.target, shade_v4(0.3f, 0.6f, 0.9f, 1), 1), SHADE_OK);
     memset(&sink, 0, sizeof sink);
     CHECK_INT(shade_encode_ppm(ppm_write, &sink, &c.target), SHADE_OK);
@@ -584,7 +586,7 @@ TEST(store, a_full_disk_is_an_error)
     snprintf(path, sizeof path, "%.200s/shade_full_%08x.ppm", folder ? folder : "/tmp",
              (unsigned)(uintptr_t)path);
     for (int big = 0; big < 2; big++) {
-        canvas c = canvas_open(big ? 600 : 4, big ? 400 : 3, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(big ? 600 : 4, big ? 400 : 3, 0, SHADE_FORMAT_RGBA8, 0);
         struct rlimit limit, none;
         canvas_clear(&c, 1);
         fflush(stdout);
@@ -609,7 +611,7 @@ TEST(store, a_full_disk_is_an_error)
 TEST(store, a_ppm_of_nothing_is_refused)
 {
     static ppm_sink sink;
-    canvas c = canvas_open(50, 40, 55, SHADE_RGBA8, 1);
+    canvas c = canvas_open(50, 40, 55, SHADE_FORMAT_RGBA8, 1);
     CHECK_INT(shade_encode_ppm(NULL, &sink, &c.target), SHADE_ERROR_ARGUMENT);
     CHECK_INT(shade_encode_ppm(ppm_write, &sink, NULL), SHADE_ERROR_ARGUMENT);
     shade_target bad = c.target;

@@ -26,13 +26,13 @@ static size_t texture_cells(const shade_texture *t) /* no padding after the last
 static void ref_texel(const shade_texture *t, int i, int j, double c[4])
 {
     size_t at = (size_t)j * texture_stride(t) + (size_t)i;
-    if (t->format == SHADE_RGBA32F) {
+    if (t->format == SHADE_FORMAT_RGBA32F) {
         float f[4];
         memcpy(f, (const unsigned char *)t->pixels + 16 * at, 16);
         for (int k = 0; k < 4; k++) c[k] = (double)f[k];
         return;
     }
-    if (t->format == SHADE_RGBA8) {
+    if (t->format == SHADE_FORMAT_RGBA8) {
         const unsigned char *p = (const unsigned char *)t->pixels + 4 * at;
         for (int k = 0; k < 4; k++) c[k] = p[k] / 255.0;
     } else {
@@ -47,14 +47,14 @@ static void ref_texel(const shade_texture *t, int i, int j, double c[4])
 static double ref_place(double c, int n, shade_wrap wrap)
 {
     if (!(fabs(c) <= 1e300)) c = 0;
-    if (wrap == SHADE_CLAMP) return fmax(0, fmin(1, c)) * n;
-    if (wrap == SHADE_REPEAT) return (c - floor(c)) * n;
+    if (wrap == SHADE_WRAP_CLAMP) return fmax(0, fmin(1, c)) * n;
+    if (wrap == SHADE_WRAP_REPEAT) return (c - floor(c)) * n;
     c = fmod(fabs(c), 2);
     return (c > 1 ? 2 - c : c) * n;
 }
 static int ref_wrapped(int i, int n, shade_wrap wrap) /* -1 <= i <= n */
 {
-    if (wrap == SHADE_REPEAT) return (i + n) % n;
+    if (wrap == SHADE_WRAP_REPEAT) return (i + n) % n;
     return i < 0 ? 0 : i >= n ? n - 1 : i;
 }
 
@@ -82,7 +82,7 @@ static void ref_bilinear(const shade_texture *base, const shade_texture *t, doub
 static void ref_sample(const shade_texture *t, double u, double v, double lod, double c[4],
                        double *span)
 {
-    int levels = t->filter == SHADE_TRILINEAR && t->mipmaps ? t->mipmap_count : 0;
+    int levels = t->filter == SHADE_FILTER_TRILINEAR && t->mipmaps ? t->mipmap_count : 0;
     double level = fabs(lod) <= 1e300 ? fmax(0, fmin(levels, lod)) : 0, low[4], high[4];
     int k = (int)floor(level);
     *span = 0;
@@ -105,7 +105,7 @@ static double texture_bound(const shade_texture *t, double span, const double c[
 static void fill_texels(shade_texture *t, void *pixels) /* padding too */
 {
     size_t cells = texture_cells(t);
-    if (t->format == SHADE_RGBA32F) {
+    if (t->format == SHADE_FORMAT_RGBA32F) {
         float *f = (float *)pixels;
         for (size_t i = 0; i < 4 * cells; i++) f[i] = rnd_float(-1, 3);
     } else {
@@ -195,7 +195,7 @@ TEST(texture, trilinear_blends_the_two_nearest_levels)
 {
     for (int i = 0; i < 250; i++) {
         shade_texture t = random_texture(40), levels[16];
-        t.filter = SHADE_TRILINEAR;
+        t.filter = SHADE_FILTER_TRILINEAR;
         void *memory = add_mipmaps(&t, levels);
         if (rnd_one_in(4)) t.mipmap_count = rnd_int(0, t.mipmap_count);
         for (int k = 0; k < 50; k++) {
@@ -213,7 +213,7 @@ TEST(texture, nearest_is_the_texel_that_the_point_lies_in)
 {
     for (int i = 0; i < 500; i++) {
         shade_texture t = random_texture(i % 8 ? 20 : 300);
-        t.filter = SHADE_NEAREST;
+        t.filter = SHADE_FILTER_NEAREST;
         for (int k = 0; k < 60; k++) {
             float u = random_coordinate(), v = random_coordinate(), got[4];
             double x = ref_place((double)u, t.width, t.wrap_u);
@@ -229,8 +229,9 @@ TEST(texture, nearest_is_the_texel_that_the_point_lies_in)
                 ref_texel(&t, ref_wrapped(a, t.width, t.wrap_u),
                           ref_wrapped(b, t.height, t.wrap_v), c);
                 for (int n = 0; n < 4; n++)
-                    same &= fabs((double)got[n] - c[n]) <=
-                            (t.format == SHADE_RGBA32F ? 0 : t.srgb ? 3e-6 : 1.2e-7);
+                    same &= fabs((double)got[n] - c[n]) <= (t.format == SHADE_FORMAT_RGBA32F ? 0
+                                                            : t.srgb                         ? 3e-6
+                                                                     : 1.2e-7);
                 found |= same;
             }
             CHECK_SAY(found, "%d x %d format %d srgb %d wrap %d %d at %a %a: %.9g %.9g %.9g %.9g",
@@ -244,18 +245,18 @@ TEST(texture, nearest_is_the_texel_that_the_point_lies_in)
 TEST(texture, nearest_and_whole_texel_centres_are_exact)
 {
     for (int i = 0; i < 200; i++) {
-        shade_texture t = texture_of(1 << rnd_int(0, 6), 1 << rnd_int(0, 6), SHADE_RGBA32F);
+        shade_texture t = texture_of(1 << rnd_int(0, 6), 1 << rnd_int(0, 6), SHADE_FORMAT_RGBA32F);
         t.filter = (shade_filter)rnd_int(0, 2);
         t.wrap_u = (shade_wrap)rnd_int(0, 2), t.wrap_v = (shade_wrap)rnd_int(0, 2);
         for (int k = 0; k < 50; k++) {
             int x = rnd_int(0, t.width - 1), y = rnd_int(0, t.height - 1);
-            int round = t.wrap_u == SHADE_REPEAT ? rnd_int(-5, 5) : 0;
+            int round = t.wrap_u == SHADE_WRAP_REPEAT ? rnd_int(-5, 5) : 0;
             float u = ((float)x + 0.5f) / (float)t.width + (float)round, got[4];
             float v = ((float)y + 0.5f) / (float)t.height;
             double want[4];
             ref_texel(&t, x, y, want);
-            if (t.wrap_v == SHADE_MIRROR) v += 2 * (float)rnd_int(-3, 3);
-            if (t.wrap_v == SHADE_MIRROR && rnd_one_in(2)) v = -v;
+            if (t.wrap_v == SHADE_WRAP_MIRROR) v += 2 * (float)rnd_int(-3, 3);
+            if (t.wrap_v == SHADE_WRAP_MIRROR && rnd_one_in(2)) v = -v;
             sample_to(&t, u, v, 0, got);
             for (int n = 0; n < 4; n++) CHECK_NEAR(got[n], want[n], 0);
         }
@@ -270,8 +271,8 @@ TEST(texture, nearest_takes_nothing_from_other_texels)
         float pixels[3][3][4];
         shade_texture t;
         memset(&t, 0, sizeof t);
-        t.pixels = pixels, t.width = t.height = 3, t.format = SHADE_RGBA32F;
-        t.filter = SHADE_NEAREST;
+        t.pixels = pixels, t.width = t.height = 3, t.format = SHADE_FORMAT_RGBA32F;
+        t.filter = SHADE_FILTER_NEAREST;
         for (int i = 0; i < 36; i++) (&pixels[0][0][0])[i] = odd[k];
         for (int n = 0; n < 4; n++) pixels[1][1][n] = k == 3 ? -3e38f : 0.25f * (float)n;
         for (int n = 0; n < 100; n++) {
@@ -290,7 +291,7 @@ TEST(texture, full_texels_are_exactly_one_and_empty_ones_zero)
         shade_texture t;
         memset(&t, 0, sizeof t);
         t.pixels = pixels, t.width = t.height = 4, t.srgb = i & 1, t.filter = (shade_filter)(i / 4);
-        t.format = i & 2 ? SHADE_RGB565 : SHADE_RGBA8;
+        t.format = i & 2 ? SHADE_FORMAT_RGB565 : SHADE_FORMAT_RGBA8;
         for (int full = 0; full < 2; full++) {
             memset(pixels, full ? 255 : 0, sizeof pixels);
             for (int k = 0; k < 30; k++) {
@@ -325,7 +326,8 @@ TEST(texture, beyond_the_edges_each_axis_wraps_by_its_own_rule)
     float pixels[4][4];
     shade_texture t;
     memset(&t, 0, sizeof t);
-    t.pixels = pixels, t.width = 4, t.height = 1, t.format = SHADE_RGBA32F, t.wrap_v = SHADE_CLAMP;
+    t.pixels = pixels, t.width = 4, t.height = 1, t.format = SHADE_FORMAT_RGBA32F,
+    t.wrap_v = SHADE_WRAP_CLAMP;
     for (int i = 0; i < 16; i++) pixels[i / 4][i % 4] = (float)(i / 4);
     static const struct {
         float u, repeat, clamp, mirror;
@@ -364,7 +366,7 @@ TEST(texture, a_bad_texture_is_white)
         shade_texture t;
         const shade_texture *p = &t;
         memset(&t, 0, sizeof t);
-        t.pixels = pixels, t.width = t.height = 4, t.format = SHADE_RGBA32F;
+        t.pixels = pixels, t.width = t.height = 4, t.format = SHADE_FORMAT_RGBA32F;
         switch (k) {
         case 0: break;
         case 1: p = NULL; break;
@@ -408,7 +410,7 @@ TEST(texture, no_texel_outside_the_picture_is_read)
             for (int x = 0; x < w; x++)
                 for (int c = 0; c < 4; c++) all[4 * (FRAME + y * stride + x) + c] = rnd_float(0, 1);
         t.pixels = all + 4 * FRAME, t.width = w, t.height = h, t.stride = stride;
-        t.format = SHADE_RGBA32F, t.filter = (shade_filter)rnd_int(0, 2);
+        t.format = SHADE_FORMAT_RGBA32F, t.filter = (shade_filter)rnd_int(0, 2);
         t.wrap_u = (shade_wrap)rnd_int(0, 2), t.wrap_v = (shade_wrap)rnd_int(0, 2);
         for (int k = 0; k < 100; k++) {
             float u = random_coordinate(), v = random_coordinate(), got[4];
@@ -452,9 +454,9 @@ TEST(texture, lanes_stay_apart_when_texels_are_not_finite)
 {
     for (int i = 0; i < 100; i++) {
         static float u[SHADE_LANES], v[SHADE_LANES], lod[SHADE_LANES], rgba[4 * SHADE_LANES];
-        shade_texture t = texture_of(8, 8, SHADE_RGBA32F), levels[16];
+        shade_texture t = texture_of(8, 8, SHADE_FORMAT_RGBA32F), levels[16];
         float *memory = (float *)add_mipmaps(&t, levels);
-        t.filter = SHADE_TRILINEAR;
+        t.filter = SHADE_FILTER_TRILINEAR;
         for (int k = 0; k < 5; k++) memory[rnd_int(0, 4 * 21 - 1)] = k & 1 ? INFINITY : (float)NAN;
         for (int k = 0; k < SHADE_LANES; k++) {
             u[k] = rnd_float(-1, 1), v[k] = rnd_float(-1, 1);
@@ -483,9 +485,9 @@ TEST(texture, mipmaps_are_read_by_trilinear_alone_and_only_where_there_are_some)
         plain = t, plain.mipmaps = NULL, plain.mipmap_count = 0;
         for (int k = 0; k < 4; k++) {
             shade_texture a = t, b = plain;
-            a.filter = b.filter = k == 1 ? SHADE_NEAREST : SHADE_BILINEAR;
-            if (k == 2) a = plain, a.filter = SHADE_TRILINEAR, a.mipmap_count = 5;
-            if (k == 3) a.filter = SHADE_TRILINEAR, a.mipmap_count = -3;
+            a.filter = b.filter = k == 1 ? SHADE_FILTER_NEAREST : SHADE_FILTER_BILINEAR;
+            if (k == 2) a = plain, a.filter = SHADE_FILTER_TRILINEAR, a.mipmap_count = 5;
+            if (k == 3) a.filter = SHADE_FILTER_TRILINEAR, a.mipmap_count = -3;
             for (int n = 0; n < 10; n++) {
                 float u = random_coordinate(), v = random_coordinate(), x[4], y[4];
                 sample_to(&a, u, v, rnd_float(-2, 9), x), sample_to(&b, u, v, 0, y);
@@ -506,7 +508,7 @@ TEST(texture, a_bad_level_is_replaced_by_the_full_size)
             continue;
         }
         void *memory = add_mipmaps(&t, levels);
-        t.filter = SHADE_TRILINEAR, full = t, full.filter = SHADE_BILINEAR;
+        t.filter = SHADE_FILTER_TRILINEAR, full = t, full.filter = SHADE_FILTER_BILINEAR;
         if (i % 2) levels[0].width = 0;
         else levels[0].pixels = NULL;
         float u = random_coordinate(), v = random_coordinate(), got[4], want[4];
@@ -554,7 +556,7 @@ TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
     CHECK_INT(shade_mipmap_count(16384, 16384), 14);
     CHECK_INT(shade_mipmap_count(0, 5), 0);
     CHECK_INT(shade_mipmap_count(5, -1), 0);
-    CHECK_INT(shade_mipmap_bytes(0, 5, SHADE_RGBA8), 0);
+    CHECK_INT(shade_mipmap_bytes(0, 5, SHADE_FORMAT_RGBA8), 0);
     CHECK_INT(shade_mipmap_bytes(8, 8, (shade_format)3), 0);
 }
 /* Texel (x, y) of a level of w x h texels: the mean of the rectangle of the level above that it
@@ -582,12 +584,13 @@ static void check_level(const shade_texture *up, const shade_texture *t)
             ref_shrunk(up, t->width, t->height, x, y, want);
             for (int k = 0; k < 4; k++) {
                 shade_texture raw = *t;
-                double got[4], steps = t->format == SHADE_RGBA8 ? 255 : k == 1 ? 63 : 31;
+                double got[4], steps = t->format == SHADE_FORMAT_RGBA8 ? 255 : k == 1 ? 63 : 31;
                 raw.srgb = 0;
                 ref_texel(&raw, x, y, got);
-                if (t->format == SHADE_RGBA32F) {
+                if (t->format == SHADE_FORMAT_RGBA32F) {
                     CHECK_NEAR(got[k], want[k], 1e-6);
-                } else if (t->format == SHADE_RGBA8 || k < 3) { /* half a step, and roundings */
+                } else if (t->format == SHADE_FORMAT_RGBA8 ||
+                           k < 3) { /* half a step, and roundings */
                     double stored = t->srgb && k < 3 ? ref_encode_srgb(want[k]) : want[k];
                     CHECK_NEAR(got[k] * steps, stored * steps, 0.502);
                 }
@@ -672,7 +675,7 @@ TEST(texture, bad_mipmap_calls_are_refused_and_change_nothing)
         for (size_t i = 0; i < 4096; i++) CHECK(((unsigned char *)memory)[i] == CANVAS_BYTE);
         free_texture(&good);
     }
-    shade_texture one = texture_of(1, 1, SHADE_RGBA8);
+    shade_texture one = texture_of(1, 1, SHADE_FORMAT_RGBA8);
     CHECK_INT(shade_build_mipmaps(&one, NULL, NULL, 0), SHADE_OK);
     CHECK_INT(one.mipmap_count, 0);
     free_texture(&one);
@@ -680,6 +683,8 @@ TEST(texture, bad_mipmap_calls_are_refused_and_change_nothing)
 }
 
 /* ------------------------------------------------------------------------------ level of detail */
+
+static const uint32_t map_of_no_texels;
 
 typedef struct lod_scene {
     shade_vec4 clip[3];
@@ -695,7 +700,7 @@ static void lod_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTR
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 p = s->clip[in->index[i]];
         out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[2][i] = p.z, out->clip[3][i] = p.w;
-        for (int k = 0; k < 5; k++) out->out[k][i] = s->attribute[in->index[i]][k];
+        for (int k = 0; k < 5; k++) out->varying[k][i] = s->attribute[in->index[i]][k];
     }
 }
 static void lod_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -714,14 +719,13 @@ typedef struct lod_planes {
     double u[3], v[3], d[3];
 } lod_planes;
 
-static lod_planes lod_planes_of(const lod_scene *s, const ref_triangle *t, int affine)
+static lod_planes lod_planes_of(const lod_scene *s, const ref_triangle *t)
 {
     lod_planes p;
     memset(&p, 0, sizeof p);
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < 3; j++) {
-            /* barycentric over w, times w where the screen's own are meant */
-            double e = t->e[k][j] * (affine ? t->w[k] : 1);
+            double e = t->e[k][j]; /* barycentric over w */
             p.u[j] += e * (double)s->attribute[k][s->first];
             p.v[j] += e * (double)s->attribute[k][s->first + 1];
             p.d[j] += e;
@@ -750,14 +754,24 @@ static double ref_lod(const lod_planes *p, double X, double Y, double w, double 
     return log2(best);
 }
 
+/* a map of which nothing but the size is read */
+static shade_texture lod_map(int width, int height)
+{
+    shade_texture map;
+    memset(&map, 0, sizeof map);
+    map.pixels = &map_of_no_texels, map.width = width, map.height = height;
+    return map;
+}
+
 /* clip_of_fx8 leaves corners up to 1/2000 pixel off the ones that are drawn, and planes have some
-   float roundings: 2e-4 of the terms that cancel. */
-static void check_lod(shade_interpolation interpolation, int flat)
+   float roundings: 2e-4 of the terms that cancel.  scale: of the whole scene, which changes
+   nothing. */
+static void check_lod(shade_interpolation interpolation, int flat, double scale)
 {
     static float lod[48][64];
     long checked = 0;
     for (int i = 0; i < 400; i++) {
-        canvas c = canvas_open(64, 48, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
         lod_scene s;
         ref_triangle t;
         int64_t x[3], y[3];
@@ -769,7 +783,7 @@ static void check_lod(shade_interpolation interpolation, int flat)
             area = fabs((double)((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0])));
         } while (area < 65536.0 * 600);
         for (int k = 0; k < 3; k++) {
-            double w = flat ? 2 : (double)rnd_log(0.3, 3);
+            double w = scale * (flat ? 2 : (double)rnd_log(0.3, 3));
             s.clip[k] = clip_of_fx8((double)x[k], (double)y[k], 64, 48, 0, w);
             for (int n = 0; n < 5; n++) s.attribute[k][n] = rnd_float(-2, 2);
         }
@@ -778,15 +792,15 @@ static void check_lod(shade_interpolation interpolation, int flat)
         shade_pipeline p;
         memset(&p, 0, sizeof p);
         p.vertex = lod_vertex, p.fragment = lod_fragment, p.uniforms = &s, p.varyings = 5;
-        p.interpolation = interpolation, p.lod_varying = 1 + s.first;
-        p.lod_width = (float)rnd_int(1, 600), p.lod_height = (float)rnd_int(1, 600);
+        shade_texture map = lod_map(rnd_int(1, 600), rnd_int(1, 600));
+        p.interpolation = interpolation, p.lod_texture = &map, p.lod_varying = s.first;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
         CHECK(ref_triangle_of(&t, &s.clip[0], &s.clip[1], &s.clip[2], 64, 48));
-        lod_planes planes = lod_planes_of(&s, &t, interpolation == SHADE_AFFINE);
+        lod_planes planes = lod_planes_of(&s, &t);
         for (int k = 0; k < 48 * 64; k++) {
             if (isnan(lod[k / 64][k % 64])) continue;
-            double slack, want = ref_lod(&planes, k % 64 + 0.5, k / 64 + 0.5, (double)p.lod_width,
-                                         (double)p.lod_height, &slack);
+            double slack, want = ref_lod(&planes, k % 64 + 0.5, k / 64 + 0.5, (double)map.width,
+                                         (double)map.height, &slack);
             if (slack > 100) continue; /* the step is lost in the roundings */
             checked++;
             CHECK_NEAR(lod[k / 64][k % 64], want, 1e-3 + 4e-4 * slack);
@@ -797,10 +811,24 @@ static void check_lod(shade_interpolation interpolation, int flat)
 }
 TEST(texture, lod_is_the_log_of_the_longer_step_under_perspective)
 {
-    check_lod(SHADE_PERSPECTIVE, 0);
+    check_lod(SHADE_INTERPOLATION_PERSPECTIVE, 0, 1);
 }
-TEST(texture, lod_of_affine_interpolation_is_that_of_a_plane) { check_lod(SHADE_AFFINE, 0); }
-TEST(texture, lod_without_perspective_is_one_number) { check_lod(SHADE_PERSPECTIVE, 1); }
+TEST(texture, lod_is_that_of_the_perspective_interpolation_whatever_is_interpolated)
+{
+    check_lod(SHADE_INTERPOLATION_AFFINE, 0, 1);
+    check_lod(SHADE_INTERPOLATION_CONSTANT, 0, 1);
+}
+TEST(texture, lod_without_perspective_is_one_number)
+{
+    check_lod(SHADE_INTERPOLATION_PERSPECTIVE, 1, 1);
+}
+TEST(texture, lod_is_the_same_in_scenes_of_any_size)
+{
+    for (int k = 0; k < 4; k++) {
+        double scale = k % 2 ? 1e-12 : 1e12;
+        check_lod(k < 2 ? SHADE_INTERPOLATION_PERSPECTIVE : SHADE_INTERPOLATION_AFFINE, 0, scale);
+    }
+}
 
 TEST(texture, the_lod_oracle_agrees_with_finite_differences)
 {
@@ -815,8 +843,8 @@ TEST(texture, the_lod_oracle_agrees_with_finite_differences)
         }
         s.first = 1, s.lod = NULL;
         CHECK(ref_triangle_of(&t, &s.clip[0], &s.clip[1], &s.clip[2], 64, 48));
-        for (int affine = 0; affine < 2; affine++) {
-            lod_planes p = lod_planes_of(&s, &t, affine);
+        {
+            lod_planes p = lod_planes_of(&s, &t);
             double X = rnd_unit() * 20 + 20, Y = rnd_unit() * 20 + 14, slack, step[2];
             for (int axis = 0; axis < 2; axis++) {
                 double h = 1e-4, dx = axis ? 0 : h, dy = axis ? h : 0, d[2];
@@ -833,8 +861,7 @@ TEST(texture, the_lod_oracle_agrees_with_finite_differences)
             double b[3], u = 0, sum = 0;
             ref_barycentric(&t, X, Y, b);
             for (int k = 0; k < 3; k++) {
-                double share = affine ? ref_at(t.e[k], X, Y) * t.w[k] : b[k];
-                u += share * (double)s.attribute[k][1], sum += share;
+                u += b[k] * (double)s.attribute[k][1], sum += b[k];
             }
             CHECK_NEAR(ref_at(p.u, X, Y) / ref_at(p.d, X, Y), u / sum, 1e-9);
         }
@@ -842,20 +869,25 @@ TEST(texture, the_lod_oracle_agrees_with_finite_differences)
 }
 TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
 {
-    canvas c = canvas_open(8, 8, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
     lod_scene s;
     static float lod[48][64];
     memset(&s, 0, sizeof s);
     s.lod = lod;
     for (int k = -2; k < 8; k++) {
+        shade_texture map = lod_map(4, 4);
         shade_pipeline p;
         memset(&p, 0, sizeof p);
         p.vertex = lod_vertex, p.fragment = lod_fragment, p.uniforms = &s, p.varyings = 5;
-        p.lod_varying = k, p.lod_width = p.lod_height = 4;
+        p.lod_texture = &map, p.lod_varying = k;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL),
-                  k < 0 || k > 4 ? SHADE_ERROR_ARGUMENT : SHADE_OK);
-        p.lod_varying = 2147483647 - (k + 2);
+                  k < 0 || k > 3 ? SHADE_ERROR_ARGUMENT : SHADE_OK);
+        map.stride = 3;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_ARGUMENT);
+        map.stride = 0, p.lod_varying = 2147483647 - (k + 2);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_ARGUMENT);
+        p.lod_texture = NULL;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
     }
     canvas_close(&c);
 }
@@ -863,7 +895,7 @@ TEST(texture, coordinates_that_stand_still_have_no_detail) /* and no NaN */
 {
     static float lod[48][64];
     for (int i = 0; i < 20; i++) {
-        canvas c = canvas_open(64, 48, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
         lod_scene s;
         memset(&s, 0, sizeof s);
         for (int k = 0; k < 3; k++) {
@@ -875,7 +907,8 @@ TEST(texture, coordinates_that_stand_still_have_no_detail) /* and no NaN */
         shade_pipeline p;
         memset(&p, 0, sizeof p);
         p.vertex = lod_vertex, p.fragment = lod_fragment, p.uniforms = &s, p.varyings = 5;
-        p.lod_varying = 2, p.lod_width = p.lod_height = 256;
+        shade_texture map = lod_map(256, 256);
+        p.lod_texture = &map, p.lod_varying = 1;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
         for (int k = 0; k < 48 * 64; k++) CHECK(lod[k / 64][k % 64] <= 0);
         canvas_close(&c);
@@ -946,7 +979,8 @@ static void random_map_scene(map_scene *s, shade_shading shading)
     s->map = texture_of(rnd_int(1, 12), rnd_int(1, 12), (shade_format)rnd_int(0, 2));
     s->map.srgb = rnd_one_in(2);
     s->map.wrap_u = (shade_wrap)rnd_int(0, 2), s->map.wrap_v = (shade_wrap)rnd_int(0, 2);
-    if (rnd_one_in(2)) s->memory = add_mipmaps(&s->map, s->levels), s->map.filter = SHADE_TRILINEAR;
+    if (rnd_one_in(2))
+        s->memory = add_mipmaps(&s->map, s->levels), s->map.filter = SHADE_FILTER_TRILINEAR;
     for (int k = 0; k < 2; k++) {
         d3 at = d3_scale(rnd_direction(), 5);
         s->lights[k] = k ? shade_directional_light(d3_round(rnd_direction()), map_color(1))
@@ -994,12 +1028,12 @@ static d3 map_pixel(const map_scene *s, const double b[3], d3 texel, int *unsure
     }
     d3 face = d3_unit(d3_cross(d3_sub(P[1], P[0]), d3_sub(P[2], P[0])));
     if (!s->mesh.normals) N[0] = N[1] = N[2] = face;
-    if (s->state.shading == SHADE_PER_FRAGMENT) {
+    if (s->state.shading == SHADE_SHADING_PER_FRAGMENT) {
         return map_light(s, mix3(P, b), mix3(N, b), d3_mul(mix3(C, b), texel), unsure).total;
     }
     for (int k = 0; k < 3; k++) {
         static const double third[3] = { 1 / 3.0, 1 / 3.0, 1 / 3.0 };
-        int flat = s->state.shading == SHADE_PER_FACE;
+        int flat = s->state.shading == SHADE_SHADING_PER_FACE;
         ref_lit l = map_light(s, flat ? mix3(P, third) : P[k], flat ? face : N[k],
                               flat ? C[0] : C[k], unsure);
         matte[k] = d3_add(l.ambient, l.diffuse), gloss[k] = d3_add(l.emission, l.specular);
@@ -1017,7 +1051,7 @@ static double map_texel(const map_scene *s, const ref_triangle *t, const double 
         planes.attribute[k][0] = s->uv[k][0], planes.attribute[k][1] = s->uv[k][1];
     }
     planes.first = 0;
-    lod_planes p = lod_planes_of(&planes, t, 0);
+    lod_planes p = lod_planes_of(&planes, t);
     double lod = ref_lod(&p, X, Y, s->map.width, s->map.height, &slack);
     if (!s->map.mipmap_count) lod = 0;
     ref_sample(&s->map, u, v, lod, c, &span);
@@ -1034,7 +1068,7 @@ static void check_maps(shade_shading shading)
     static map_scene s;
     long checked = 0;
     for (int i = 0; i < 120; i++) {
-        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA32F, 0);
+        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 0);
         ref_triangle t;
         shade_vec4 clip[3];
         random_map_scene(&s, shading);
@@ -1068,16 +1102,16 @@ static void check_maps(shade_shading shading)
 }
 TEST(texture, a_map_multiplies_the_diffuse_and_ambient_terms_per_fragment)
 {
-    check_maps(SHADE_PER_FRAGMENT);
+    check_maps(SHADE_SHADING_PER_FRAGMENT);
 }
-TEST(texture, a_map_varies_per_pixel_under_gouraud_light) { check_maps(SHADE_PER_VERTEX); }
-TEST(texture, a_map_varies_per_pixel_on_flat_faces) { check_maps(SHADE_PER_FACE); }
+TEST(texture, a_map_varies_per_pixel_under_gouraud_light) { check_maps(SHADE_SHADING_PER_VERTEX); }
+TEST(texture, a_map_varies_per_pixel_on_flat_faces) { check_maps(SHADE_SHADING_PER_FACE); }
 
 TEST(texture, a_bad_map_is_refused_before_a_pixel_changes)
 {
     static map_scene s;
     for (int k = 0; k < 3 * 9; k++) {
-        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         shade_stats stats;
         random_map_scene(&s, (shade_shading)(k % 3));
         shade_texture bad = s.map;
@@ -1106,8 +1140,8 @@ TEST(texture, a_map_without_texcoords_is_ignored)
 {
     static map_scene s;
     for (int i = 0; i < 30; i++) {
-        canvas a = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA32F, 1);
-        canvas b = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA32F, 1);
+        canvas a = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas b = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
         random_map_scene(&s, (shade_shading)(i % 3));
         canvas_clear(&a, 1), canvas_clear(&b, 1);
         s.mesh.texcoords = NULL;
@@ -1123,8 +1157,8 @@ TEST(texture, texcoords_of_any_stride_give_the_same_bits)
 {
     static map_scene s;
     for (int i = 0; i < 30; i++) {
-        canvas a = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA32F, 1);
-        canvas b = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA32F, 1);
+        canvas a = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas b = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
         float apart[3 * 5];
         random_map_scene(&s, (shade_shading)(i % 3));
         canvas_clear(&a, 1), canvas_clear(&b, 1);
@@ -1142,7 +1176,7 @@ TEST(texture, bad_texture_coordinates_draw_a_defined_texel)
 {
     static map_scene s;
     for (int i = 0; i < 60; i++) {
-        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         random_map_scene(&s, (shade_shading)(i % 3));
         for (int k = 0; k < 6; k++)
             if (rnd_one_in(2)) s.uv[k / 2][k % 2] = rnd_nasty();
@@ -1175,7 +1209,8 @@ static const test_case texture_cases[] = {
     CASE(texture, mipmaps_of_one_colour_are_that_colour),
     CASE(texture, bad_mipmap_calls_are_refused_and_change_nothing),
     CASE(texture, lod_is_the_log_of_the_longer_step_under_perspective),
-    CASE(texture, lod_of_affine_interpolation_is_that_of_a_plane),
+    CASE(texture, lod_is_that_of_the_perspective_interpolation_whatever_is_interpolated),
+    CASE(texture, lod_is_the_same_in_scenes_of_any_size),
     CASE(texture, lod_without_perspective_is_one_number),
     CASE(texture, the_lod_oracle_agrees_with_finite_differences),
     CASE(texture, a_lod_varying_beyond_the_varyings_is_refused),

@@ -30,7 +30,7 @@ TEST(vertex, vertices_of_a_grid_are_shaded_once_per_batch)
     static const int sizes[] = { 1, 3, 10, 30, 64, 100 };
     for (int k = 0; k < 6; k++) {
         int n = sizes[k], vertices = (n + 1) * (n + 1), count = grid_of(n, clip, indices);
-        canvas c = canvas_open(64, 64, 0, SHADE_RGBA8, 1);
+        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
         recorder r;
         memset(&r, 0, sizeof r), memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
@@ -61,7 +61,7 @@ TEST(vertex, without_indices_each_vertex_is_shaded_once_in_order)
         recorder r;
         memset(&r, 0, sizeof r), memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
-        canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         CHECK_INT(shade_draw(&c.target, &p, NULL, count, count, NULL), SHADE_OK);
@@ -84,7 +84,7 @@ TEST(vertex, only_referenced_vertices_are_shaded)
         recorder r;
         memset(&r, 0, sizeof r);
         r.vertex_seen = seen;
-        canvas c = canvas_open(8, 8, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         CHECK_INT(shade_draw(&c.target, &p, indices, 300, 1000, NULL), SHADE_OK);
@@ -112,10 +112,10 @@ TEST(vertex, every_triangle_gets_its_own_three_vertices) /* any index order, nea
             indices[i] = (uint32_t)((near_by + VERTICES) % VERTICES);
         }
         recorder r = recorder_open(400000);
-        canvas c = canvas_open(48, 48, 0, SHADE_RGBA8, 0);
+        canvas c = canvas_open(48, 48, 0, SHADE_FORMAT_RGBA8, 0);
         scene s = { clip, attribute, 1, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
-        p.interpolation = SHADE_CONSTANT;
+        p.interpolation = SHADE_INTERPOLATION_CONSTANT;
         CHECK_INT(shade_draw(&c.target, &p, indices, TRIANGLES * 3, VERTICES, NULL), SHADE_OK);
         CHECK_SAY(r.count > 1000, "%d fragments", r.count);
         for (int i = 0; i < r.count; i++) {
@@ -139,7 +139,7 @@ static void vertex_positions_only(const void *uniforms, const shade_vertex_ids *
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 p = s->clip[in->index[i]];
         out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[2][i] = p.z, out->clip[3][i] = p.w;
-        if (in->index[i] < 1000) out->out[0][i] = 7, out->out[2][i] = 7;
+        if (in->index[i] < 1000) out->varying[0][i] = 7, out->varying[2][i] = 7;
     }
 }
 static void vertex_nothing(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
@@ -153,7 +153,7 @@ TEST(vertex, what_a_shader_leaves_alone_is_zero)
     static shade_vec4 clip[6000];
     for (int i = 0; i < 6000; i++) clip[i] = clip_corners[i % 3];
     recorder r = recorder_open(400000);
-    canvas c = canvas_open(8, 8, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
     scene s = { clip, NULL, SHADE_MAX_VARYINGS < 3 ? SHADE_MAX_VARYINGS : 3, NULL, &r };
     shade_pipeline p = scene_pipeline(&s);
     p.vertex = vertex_positions_only;
@@ -193,7 +193,7 @@ TEST(vertex, indices_reach_up_to_the_greatest_count)
 {
     static const uint32_t indices[] = { 2147483646u, 2147483644u, 2147483645u, 0,          1,
                                         2,           2147483643u, 0,           2147483645u };
-    canvas c = canvas_open(16, 16, 0, SHADE_RGBA8, 0);
+    canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
     scene s = { NULL, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
     shade_stats stats;
@@ -207,7 +207,7 @@ TEST(vertex, indices_reach_up_to_the_greatest_count)
 
 TEST(vertex, a_position_behind_the_eye_is_survived) /* row 50: vec4(1, -1, 0, -1) */
 {
-    canvas c = canvas_open(32, 32, 0, SHADE_RGBA8, 1);
+    canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 clip[3];
     for (int k = 0; k < 3; k++) clip[k] = shade_v4(1, -1, 0, -1);
     scene s = { clip, NULL, 0, NULL, NULL };

@@ -189,7 +189,7 @@ static void build_program(const scene *s)
     } else if (s->kind != SCENE_LIT) {
         add_shader(GL_VERTEX_SHADER, 1, &flat_vertex);
         add_shader(GL_FRAGMENT_SHADER, 1, s->kind == SCENE_FLAT ? &flat_fragment : &depth_fragment);
-    } else if (s->state.shading == SHADE_PER_FRAGMENT) {
+    } else if (s->state.shading == SHADE_SHADING_PER_FRAGMENT) {
         add_shader(GL_VERTEX_SHADER, 1, &pixel_vertex);
         const char *all[5] = { "#version 330 core\n", lights, LIGHT_UNIFORMS, light,
                                pixel_fragment };
@@ -237,7 +237,8 @@ static void osmesa_load(const scene *s)
     glDisable(GL_DITHER);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
-    if (s->state.cull == SHADE_CULL_BACK) glEnable(GL_CULL_FACE);
+    if (s->state.raster.cull == SHADE_CULL_BACK)
+        glEnable(GL_CULL_FACE);
     else glDisable(GL_CULL_FACE);
     if (s->kind == SCENE_DEPTH) {
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

@@ -18,8 +18,11 @@ int main(int argc, char **argv)
 {
     static uint16_t color[PICTURE_WIDTH * PICTURE_HEIGHT];
     static float depth[PICTURE_WIDTH * PICTURE_HEIGHT];
-    shade_target whole = { .width = PICTURE_WIDTH, .height = PICTURE_HEIGHT,
-                           .format = SHADE_RGB565, .srgb = 1, .dither = 1 };
+    shade_target whole = { .width = PICTURE_WIDTH,
+                           .height = PICTURE_HEIGHT,
+                           .format = SHADE_FORMAT_RGB565,
+                           .srgb = 1,
+                           .dither = 1 };
     int different = 0;
     FILE *f;
     if (argc != 3) return fprintf(stderr, "desktop picture.565 picture.ppm\n"), 1;

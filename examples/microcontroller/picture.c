@@ -17,8 +17,8 @@ static void put(shade_vertices *SHADE_RESTRICT out, int i, const scene *s, shade
 {
     shade_vec4 c = shade_mat4_transform(s->clip_from_world, shade_v4(P.x, P.y, P.z, 1));
     out->clip[0][i] = c.x, out->clip[1][i] = c.y, out->clip[2][i] = c.z, out->clip[3][i] = c.w;
-    out->out[0][i] = P.x, out->out[1][i] = P.y, out->out[2][i] = P.z;
-    out->out[3][i] = N.x, out->out[4][i] = N.y, out->out[5][i] = N.z;
+    out->varying[0][i] = P.x, out->varying[1][i] = P.y, out->varying[2][i] = P.z;
+    out->varying[3][i] = N.x, out->varying[4][i] = N.y, out->varying[5][i] = N.z;
 }
 static void pot_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                        shade_vertices *SHADE_RESTRICT out)
@@ -45,7 +45,8 @@ static void pot_fragment(const void *uniforms, const shade_fragments *SHADE_REST
                          shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
-    shade_lit_lanes(&s->lighting, &s->material, eye, in->in[0], in->in[3], NULL, out->out[0]);
+    shade_lit_lanes(&s->lighting, &s->material, eye, in->varying[0], in->varying[3], NULL, NULL,
+                    out->color[0]);
 }
 static void floor_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                            shade_colors *SHADE_RESTRICT out)
@@ -53,11 +54,12 @@ static void floor_fragment(const void *uniforms, const shade_fragments *SHADE_RE
     const scene *s = (const scene *)uniforms;
     float tile[3][SHADE_LANES];
     SHADE_EACH_LANE(i) {
-        int odd = ((int)(0.6f * in->in[0][i] + 64) + (int)(0.6f * in->in[2][i] + 64)) & 1;
+        int odd = ((int)(0.6f * in->varying[0][i] + 64) + (int)(0.6f * in->varying[2][i] + 64)) & 1;
         tile[0][i] = odd ? 0.5f : 0.10f, tile[1][i] = odd ? 0.46f : 0.13f;
         tile[2][i] = odd ? 0.38f : 0.18f;
     }
-    shade_lit_lanes(&s->lighting, &s->material, eye, in->in[0], in->in[3], tile[0], out->out[0]);
+    shade_lit_lanes(&s->lighting, &s->material, eye, in->varying[0], in->varying[3], tile[0], NULL,
+                    out->color[0]);
 }
 
 void picture_draw(const shade_target *target)
@@ -86,8 +88,11 @@ void picture_strips(picture_send *send)
 {
     static uint16_t color[PICTURE_WIDTH * PICTURE_ROWS];
     static float depth[PICTURE_WIDTH * PICTURE_ROWS];
-    shade_target strip = { .width = PICTURE_WIDTH, .height = PICTURE_HEIGHT,
-                           .format = SHADE_RGB565, .srgb = 1, .dither = 1 };
+    shade_target strip = { .width = PICTURE_WIDTH,
+                           .height = PICTURE_HEIGHT,
+                           .format = SHADE_FORMAT_RGB565,
+                           .srgb = 1,
+                           .dither = 1 };
     uint8_t *bytes = (uint8_t *)color;
     strip.color = color, strip.depth = depth, strip.row_count = PICTURE_ROWS;
     for (; strip.row_offset < PICTURE_HEIGHT; strip.row_offset += PICTURE_ROWS) {

@@ -150,8 +150,8 @@ static void set_uniforms(const scene *s, const draw *d)
     shade_mat4 clip = shade_mat4_mul(shade_mat4_mul(state->projection, state->view), world);
     glUniformMatrix4fv(where("clip_from_object"), 1, GL_FALSE, &clip.col[0].x);
     glUniformMatrix4fv(where("world_from_object"), 1, GL_FALSE, &world.col[0].x);
-    glUniform1f(where("depth_bias"), state->depth_bias);
-    glUniform1i(where("lit_at_vertex"), state->shading != SHADE_PER_FRAGMENT);
+    glUniform1f(where("depth_bias"), state->raster.depth_bias);
+    glUniform1i(where("lit_at_vertex"), state->shading != SHADE_SHADING_PER_FRAGMENT);
     glUniform1f(where("alpha"), d->alpha);
     set3("k_e", d->material.emission), set3("k_a", d->material.ambient);
     set3("k_d", d->material.diffuse), set3("k_s", d->material.specular);
@@ -203,7 +203,7 @@ static void load_corners(const draw *d)
         memcpy(c->color, m->colors + 3 * v, 12);
         for (int k = 0; k < 3 && !m->has_colors; k++) c->color[k] = 1;
     }
-    for (int i = 0; i < m->index_count && d->state.shading == SHADE_PER_FACE; i += 3)
+    for (int i = 0; i < m->index_count && d->state.shading == SHADE_SHADING_PER_FACE; i += 3)
         face_of_its_own(&corners[i]);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof(corner) * m->index_count, corners,
                  GL_STATIC_DRAW);
@@ -239,24 +239,27 @@ static GLuint load_map(const scene *s)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap[s->map.wrap_v]);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, least[s->map.filter]);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER,
-                    s->map.filter == SHADE_NEAREST ? GL_NEAREST : GL_LINEAR);
+                    s->map.filter == SHADE_FILTER_NEAREST ? GL_NEAREST : GL_LINEAR);
     return id;
 }
 
 static void set_state(const shade_draw_state *state)
 {
     static const GLenum test[] = { GL_LESS, GL_LEQUAL, GL_GREATER, GL_GEQUAL, GL_EQUAL, GL_ALWAYS };
-    glDepthFunc(test[state->depth_test]);
-    glDepthMask(!state->depth_read_only);
-    gl.clip_control(GL_LOWER_LEFT, state->depth_zero_to_one ? GL_ZERO_TO_ONE
-                                                            : GL_NEGATIVE_ONE_TO_ONE);
+    glDepthFunc(test[state->raster.depth_test]);
+    glDepthMask(!state->raster.depth_read_only);
+    gl.clip_control(GL_LOWER_LEFT,
+                    state->raster.depth_zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glFrontFace(GL_CW);    /* y is turned over */
-    glCullFace(state->cull == SHADE_CULL_FRONT ? GL_FRONT : GL_BACK);
-    if (state->cull) glEnable(GL_CULL_FACE);
+    glCullFace(state->raster.cull == SHADE_CULL_FRONT ? GL_FRONT : GL_BACK);
+    if (state->raster.cull)
+        glEnable(GL_CULL_FACE);
     else glDisable(GL_CULL_FACE);
-    if (state->blend) glEnable(GL_BLEND);
+    if (state->raster.blend)
+        glEnable(GL_BLEND);
     else glDisable(GL_BLEND);
-    if (state->blend == SHADE_ADD) glBlendFunc(GL_ONE, GL_ONE);
+    if (state->raster.blend == SHADE_BLEND_ADD)
+        glBlendFunc(GL_ONE, GL_ONE);
     else glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
                              GL_ONE_MINUS_SRC_ALPHA);
 }

@@ -31,24 +31,26 @@ static void paint_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
         const float *c = d->mesh.colors + 3 * in->index[i];
         shade_vec4 q = shade_mat4_transform(m, shade_v4(p[0], p[1], p[2], 1));
         out->clip[0][i] = q.x, out->clip[1][i] = q.y, out->clip[2][i] = q.z, out->clip[3][i] = q.w;
-        for (int k = 0; k < 3; k++) out->out[k][i] = c[k];
+        for (int k = 0; k < 3; k++) out->varying[k][i] = c[k];
     }
 }
 static void paint_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                            shade_colors *SHADE_RESTRICT out)
 {
     float alpha = ((const draw *)uniforms)->alpha;
-    for (int k = 0; k < 3; k++) memcpy(out->out[k], in->in[k], sizeof in->in[k]);
-    SHADE_EACH_LANE(i) { out->out[3][i] = alpha; }
+    for (int k = 0; k < 3; k++) memcpy(out->color[k], in->varying[k], sizeof in->varying[k]);
+    SHADE_EACH_LANE(i) { out->color[3][i] = alpha; }
 }
 static shade_result draw_painted(const shade_target *t, const draw *d, shade_stats *stats)
 {
     shade_pipeline p;
     memset(&p, 0, sizeof p);
     p.vertex = paint_vertex, p.fragment = paint_fragment, p.uniforms = d, p.varyings = 3;
-    p.cull = d->state.cull, p.depth_test = d->state.depth_test, p.blend = d->state.blend;
-    p.depth_zero_to_one = d->state.depth_zero_to_one;
-    p.depth_read_only = d->state.depth_read_only, p.depth_bias = d->state.depth_bias;
+    p.raster.cull = d->state.raster.cull, p.raster.depth_test = d->state.raster.depth_test,
+    p.raster.blend = d->state.raster.blend;
+    p.raster.depth_zero_to_one = d->state.raster.depth_zero_to_one;
+    p.raster.depth_read_only = d->state.raster.depth_read_only,
+    p.raster.depth_bias = d->state.raster.depth_bias;
     return shade_draw(t, &p, d->mesh.indices, d->mesh.index_count, d->mesh.vertex_count, stats);
 }
 static shade_result draw_lit(const shade_target *t, const draw *d, shade_stats *stats)
@@ -72,7 +74,8 @@ static long long shade_picture(const scene *s)
     memset(&t, 0, sizeof t);
     t.width = WIDTH, t.height = HEIGHT, t.depth = depth, t.srgb = s->srgb;
     t.format = s->format;
-    if (s->format == SHADE_RGBA8) t.color = bytes;
+    if (s->format == SHADE_FORMAT_RGBA8)
+        t.color = bytes;
     else t.color = floats;
     if (shade_clear(&t, s->background, s->clear_depth) != SHADE_OK) return -1;
     for (int k = 0; k < s->draw_count; k++) {
@@ -83,8 +86,8 @@ static long long shade_picture(const scene *s)
         fragments += stats.fragments;
     }
     for (int i = 0; i < 4 * PIXELS; i++)
-        got[i] = s->format == SHADE_RGBA8 ? ((const unsigned char *)bytes)[i]
-                                          : 255 * unit((double)floats[i]);
+        got[i] = s->format == SHADE_FORMAT_RGBA8 ? ((const unsigned char *)bytes)[i]
+                                                 : 255 * unit((double)floats[i]);
     return fragments;
 }
 
@@ -149,8 +152,8 @@ static int edge_tie(const draw *d, double X, double Y)
         for (int k = 0; k < 3; k++) {
             const float *v = d->mesh.positions + 3 * d->mesh.indices[i + k];
             p[k] = to_clip(&d->state, (double)v[0], (double)v[1], (double)v[2]);
-            near_d[k] = d->state.depth_zero_to_one ? p[k].z : p[k].z + p[k].w;
-            if (d->state.depth_test == SHADE_GREATER) near_d[k] = p[k].w - p[k].z;
+            near_d[k] = d->state.raster.depth_zero_to_one ? p[k].z : p[k].z + p[k].w;
+            if (d->state.raster.depth_test == SHADE_COMPARE_GREATER) near_d[k] = p[k].w - p[k].z;
             far_d[k] = p[k].w - p[k].z;
         }
         for (int k = 0; k < 3; k++)
@@ -159,7 +162,7 @@ static int edge_tie(const draw *d, double X, double Y)
     }
     return 0;
 }
-/* SHADE_NEAREST: the border between two texels is an edge too; their grid on the floor */
+/* SHADE_FILTER_NEAREST: the border between two texels is an edge too; their grid on the floor */
 static int texel_tie(const scene *s, double X, double Y)
 {
     const draw *d = &s->draws[0];

@@ -101,7 +101,7 @@ static draw *add_draw(scene *s)
     draw *d = &s->draws[s->draw_count++];
     d->state.view = s->draws[0].state.view, d->state.projection = s->draws[0].state.projection;
     d->state.lighting = s->draws[0].state.lighting;
-    d->material = shade_preset_material(SHADE_BRONZE);
+    d->material = shade_preset_material(SHADE_PRESET_BRONZE);
     return d;
 }
 static void camera(scene *s, shade_vec3 eye, shade_vec3 center, float fovy)
@@ -121,7 +121,7 @@ static draw *usual(scene *s, const char *name, shade_model model)
     d->state.model = shade_mat4_rotation(0.4f, shade_v3(1, 0.3f, 0.6f));
     d->state.lighting.model = model;
     d->state.lighting.ambient = shade_v3(0.2f, 0.25f, 0.3f);
-    d->material = shade_preset_material(SHADE_GOLD);
+    d->material = shade_preset_material(SHADE_PRESET_GOLD);
     d->material.emission = shade_v3(0.03f, 0.01f, 0.05f);
     return d;
 }
@@ -150,7 +150,7 @@ static void checked_map(scene *s, shade_filter filter)
             to[1] = (unsigned char)(dark ? 60 + (x * y) % 90 : 210), to[2] = (unsigned char)(7 * y);
         }
     t->pixels = s->texels, t->width = t->height = MAP_SIDE, t->filter = filter;
-    if (filter == SHADE_TRILINEAR)
+    if (filter == SHADE_FILTER_TRILINEAR)
         shade_build_mipmaps(t, s->levels, s->level_texels, sizeof s->level_texels);
     s->has_map = 1;
 }
@@ -162,7 +162,7 @@ static const char emissive[] =
     "vec3 lit(vec3 P, vec3 N, vec3 albedo) { return k_e; }\n";
 static void scene_emissive(scene *s)
 {
-    usual(s, "emissive", SHADE_EMISSIVE)->material.emission = shade_v3(0.9f, 0.5f, 0.2f);
+    usual(s, "emissive", SHADE_MODEL_EMISSIVE)->material.emission = shade_v3(0.9f, 0.5f, 0.2f);
     s->equation = emissive;
     sun(s);
 }
@@ -176,7 +176,7 @@ static const char ambient[] =
     "}\n";
 static void scene_ambient(scene *s)
 {
-    draw *d = usual(s, "ambient, vertex colours", SHADE_AMBIENT);
+    draw *d = usual(s, "ambient, vertex colours", SHADE_MODEL_AMBIENT);
     s->equation = ambient;
     d->mesh.has_colors = 1, d->material.ambient = shade_v3(0.8f, 0.7f, 0.9f);
     d->state.lighting.ambient = shade_v3(0.6f, 0.6f, 0.5f);
@@ -197,7 +197,7 @@ static const char lambert[] =
     "}\n";
 static void scene_lambert(scene *s)
 {
-    draw *d = usual(s, "Lambert, sun, vertex colours", SHADE_LAMBERT);
+    draw *d = usual(s, "Lambert, sun, vertex colours", SHADE_MODEL_LAMBERT);
     s->equation = lambert;
     d->mesh.has_colors = 1, d->material.diffuse = shade_v3(0.9f, 0.95f, 1);
     sun(s);
@@ -219,13 +219,13 @@ static const char blinn_phong[] =
     "}\n";
 static void scene_blinn_phong(scene *s)
 {
-    usual(s, "Blinn-Phong, sun", SHADE_BLINN_PHONG);
+    usual(s, "Blinn-Phong, sun", SHADE_MODEL_BLINN_PHONG);
     s->equation = blinn_phong;
     sun(s);
 }
 static void scene_lights(scene *s)
 {
-    usual(s, "sun, lamps that fade, spot", SHADE_BLINN_PHONG);
+    usual(s, "sun, lamps that fade, spot", SHADE_MODEL_BLINN_PHONG);
     s->equation = blinn_phong;
     sun(s);
     lamp(s, shade_v3(2.5f, 1, 2), shade_v3(0.9f, 0.2f, 0.1f));
@@ -235,7 +235,7 @@ static void scene_lights(scene *s)
 }
 static void scene_spots(scene *s)
 {
-    draw *d = usual(s, "spots on a floor", SHADE_BLINN_PHONG);
+    draw *d = usual(s, "spots on a floor", SHADE_MODEL_BLINN_PHONG);
     memset(&d->mesh, 0, sizeof d->mesh);
     floor_of(&d->mesh, 6, 0, 1, 1);
     camera(s, shade_v3(0.4f, 5, 5.5f), shade_v3(0.1f, 0, 0.2f), 0.8f);
@@ -266,7 +266,7 @@ static const char phong[] =
     "}\n";
 static void scene_phong(scene *s)
 {
-    usual(s, "Phong, a lamp", SHADE_PHONG)->material.shininess = 18;
+    usual(s, "Phong, a lamp", SHADE_MODEL_PHONG)->material.shininess = 18;
     s->equation = phong;
     lamp(s, shade_v3(3, 4, 3), shade_v3(2, 2, 2));
 }
@@ -279,7 +279,7 @@ static const char cool_to_warm[] =
     "}\n";
 static void scene_cool_to_warm(scene *s)
 {
-    draw *d = usual(s, "cool to warm", SHADE_COOL_TO_WARM);
+    draw *d = usual(s, "cool to warm", SHADE_MODEL_COOL_TO_WARM);
     s->equation = cool_to_warm;
     d->mesh.has_colors = 1;
     d->state.lighting.cool = shade_v3(0.1f, 0.2f, 0.75f);
@@ -287,7 +287,7 @@ static void scene_cool_to_warm(scene *s)
     sun(s);
 }
 
-/* SHADE_TWO_SIDED: N toward the viewer first */
+/* SHADE_FLAG_TWO_SIDED: N toward the viewer first */
 static const char two_sided[] =
     "vec3 lit(vec3 P, vec3 N, vec3 albedo) {\n"
     "  vec3 V = normalize(eye - P), I = k_e + albedo * k_a * I_a;\n"
@@ -302,18 +302,18 @@ static const char two_sided[] =
     "}\n";
 static void scene_two_sided(scene *s)
 {
-    draw *d = usual(s, "two-sided cloth, flat", SHADE_BLINN_PHONG);
+    draw *d = usual(s, "two-sided cloth, flat", SHADE_MODEL_BLINN_PHONG);
     memset(&d->mesh, 0, sizeof d->mesh);
     cloth(&d->mesh, 16);
     d->state.model = shade_mat4_rotation(1.2f, shade_v3(1, 0.2f, 0.1f));
-    d->state.lighting.flags = SHADE_TWO_SIDED, d->state.shading = SHADE_PER_FACE;
+    d->state.lighting.flags = SHADE_FLAG_TWO_SIDED, d->state.shading = SHADE_SHADING_PER_FACE;
     s->equation = two_sided;
     sun(s);
     s->lights[s->light_count++] = shade_directional_light(shade_v3(0.7f, 1, -1),
                                                           shade_v3(0.3f, 0.5f, 0.9f));
 }
 
-/* SHADE_TWO_SIDED_ABS: |N.L| on the diffuse term alone */
+/* SHADE_FLAG_TWO_SIDED_ABS: |N.L| on the diffuse term alone */
 static const char two_sided_abs[] =
     "vec3 lit(vec3 P, vec3 N, vec3 albedo) {\n"
     "  vec3 V = normalize(eye - P), I = k_e + albedo * k_a * I_a;\n"
@@ -327,12 +327,12 @@ static const char two_sided_abs[] =
     "}\n";
 static void scene_two_sided_abs(scene *s)
 {
-    usual(s, "|N.L|", SHADE_BLINN_PHONG)->state.lighting.flags = SHADE_TWO_SIDED_ABS;
+    usual(s, "|N.L|", SHADE_MODEL_BLINN_PHONG)->state.lighting.flags = SHADE_FLAG_TWO_SIDED_ABS;
     s->equation = two_sided_abs;
     sun(s);
 }
 
-/* SHADE_WEIGHTED_SPECULAR: k_s (N.L) (N.H)^n */
+/* SHADE_FLAG_WEIGHTED_SPECULAR: k_s (N.L) (N.H)^n */
 static const char weighted[] =
     "vec3 lit(vec3 P, vec3 N, vec3 albedo) {\n"
     "  vec3 V = normalize(eye - P), I = k_e + albedo * k_a * I_a;\n"
@@ -347,8 +347,8 @@ static const char weighted[] =
     "}\n";
 static void scene_weighted(scene *s)
 {
-    usual(s, "specular weighted by N.L", SHADE_BLINN_PHONG)->state.lighting.flags =
-        SHADE_WEIGHTED_SPECULAR;
+    usual(s, "specular weighted by N.L", SHADE_MODEL_BLINN_PHONG)->state.lighting.flags =
+        SHADE_FLAG_WEIGHTED_SPECULAR;
     s->equation = weighted;
     lamp(s, shade_v3(2, 4, 3), shade_v3(2, 2, 2));
 }
@@ -359,27 +359,28 @@ static void scene_gouraud(scene *s)
 {
     scene_lights(s);
     s->name = "Gouraud, four lights";
-    s->draws[0].state.shading = SHADE_PER_VERTEX;
+    s->draws[0].state.shading = SHADE_SHADING_PER_VERTEX;
 }
 static void scene_flat(scene *s)
 {
     scene_lights(s);
     s->name = "flat, four lights, back culled";
-    s->draws[0].state.shading = SHADE_PER_FACE, s->draws[0].state.cull = SHADE_CULL_BACK;
+    s->draws[0].state.shading = SHADE_SHADING_PER_FACE,
+    s->draws[0].state.raster.cull = SHADE_CULL_BACK;
     s->draws[0].mesh.has_colors = 1;
 }
 static void scene_front_culled(scene *s)
 {
-    draw *d = usual(s, "front culled", SHADE_BLINN_PHONG);
+    draw *d = usual(s, "front culled", SHADE_MODEL_BLINN_PHONG);
     s->equation = two_sided;
-    d->state.lighting.flags = SHADE_TWO_SIDED;
-    d->state.cull = SHADE_CULL_FRONT, d->state.lighting.terms = 0;
+    d->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
+    d->state.raster.cull = SHADE_CULL_FRONT, d->state.lighting.terms = 0;
     sun(s);
 }
 /* gl.c has transpose(inverse(model)), shade.h has sign(det) times the cofactors */
 static void scene_scaled(scene *s)
 {
-    draw *d = usual(s, "non-uniform scale, mirrored", SHADE_BLINN_PHONG);
+    draw *d = usual(s, "non-uniform scale, mirrored", SHADE_MODEL_BLINN_PHONG);
     s->equation = blinn_phong;
     d->state.model = shade_mat4_mul(shade_mat4_rotation(0.6f, shade_v3(1, 0.2f, 0.5f)),
                                     shade_mat4_scaling(shade_v3(-1.2f, 0.5f, 0.8f)));
@@ -391,7 +392,7 @@ static void scene_scaled(scene *s)
 static const char painted[] = "vec3 lit(vec3 P, vec3 N, vec3 albedo) { return albedo; }\n";
 static draw *paint(scene *s, const char *name, int count, float alpha)
 {
-    draw *d = usual(s, name, SHADE_LAMBERT);
+    draw *d = usual(s, name, SHADE_MODEL_LAMBERT);
     s->equation = painted;
     memset(&d->mesh, 0, sizeof d->mesh), memset(&d->state.model, 0, sizeof d->state.model);
     layers(&d->mesh, count);
@@ -404,38 +405,41 @@ static void scene_greater(scene *s)
 {
     draw *d = paint(s, "depth GREATER, reversed", 24, 1);
     d->state.projection = shade_mat4_perspective_reversed(0.8f, (float)WIDTH / HEIGHT, 0.5f);
-    d->state.depth_zero_to_one = 1, d->state.depth_test = SHADE_GREATER, s->clear_depth = 0;
+    d->state.raster.depth_zero_to_one = 1, d->state.raster.depth_test = SHADE_COMPARE_GREATER,
+    s->clear_depth = 0;
 }
 /* Many layers need a picture of floats: in 8 bits each adds a rounding of 1/2. */
 static void scene_over(scene *s)
 {
     draw *d = paint(s, "blend OVER, 12 layers, floats", 12, 0.4f);
-    d->state.blend = SHADE_OVER, d->state.depth_test = SHADE_ALWAYS, s->format = SHADE_RGBA32F;
+    d->state.raster.blend = SHADE_BLEND_OVER, d->state.raster.depth_test = SHADE_COMPARE_ALWAYS,
+    s->format = SHADE_FORMAT_RGBA32F;
 }
 /* 1/2 (1 + 0.6 + 0.6^2) = 0.98 of rounding: two layers and the background */
 static void scene_over_8(scene *s)
 {
     draw *d = paint(s, "blend OVER, 2 layers, 8 bits", 2, 0.4f);
-    d->state.blend = SHADE_OVER, d->state.depth_test = SHADE_ALWAYS;
+    d->state.raster.blend = SHADE_BLEND_OVER, d->state.raster.depth_test = SHADE_COMPARE_ALWAYS;
 }
 static void scene_add(scene *s)
 {
     draw *d = paint(s, "blend ADD, depth kept, floats", 8, 0.1f);
-    d->state.blend = SHADE_ADD, d->state.depth_read_only = 1, s->format = SHADE_RGBA32F;
+    d->state.raster.blend = SHADE_BLEND_ADD, d->state.raster.depth_read_only = 1,
+    s->format = SHADE_FORMAT_RGBA32F;
     for (int i = 0; i < 3 * d->mesh.vertex_count; i++) d->mesh.colors[i] *= 0.15f;
 }
 /* A floor and, in its plane but cut otherwise, a smaller one that only the bias brings forward;
    LESS on the same plane alone would be noise. */
 static void scene_bias(scene *s)
 {
-    draw *d = usual(s, "depth bias", SHADE_LAMBERT);
+    draw *d = usual(s, "depth bias", SHADE_MODEL_LAMBERT);
     s->equation = lambert;
     memset(&d->mesh, 0, sizeof d->mesh), memset(&d->state.model, 0, sizeof d->state.model);
     floor_of(&d->mesh, 3, 0, 1, 1);
     sun(s);
     d = add_draw(s);
     floor_of(&d->mesh, 1.5f, 0, 7, 1);
-    d->material = shade_preset_material(SHADE_RUBY), d->state.depth_bias = -0.0005f;
+    d->material = shade_preset_material(SHADE_PRESET_RUBY), d->state.raster.depth_bias = -0.0005f;
     d->state.model = shade_mat4_rotation(0.5f, shade_v3(0, 1, 0));
 }
 
@@ -443,7 +447,7 @@ static void scene_bias(scene *s)
 
 static void scene_near(scene *s)
 {
-    draw *d = usual(s, "near plane", SHADE_BLINN_PHONG);
+    draw *d = usual(s, "near plane", SHADE_MODEL_BLINN_PHONG);
     s->equation = blinn_phong;
     camera(s, shade_v3(0.05f, 0.8f, 2.4f), shade_v3(0.6f, -0.1f, 0), 1.1f);
     d->state.projection = shade_mat4_perspective(1.1f, (float)WIDTH / HEIGHT, 1.1f, 60);
@@ -452,7 +456,7 @@ static void scene_near(scene *s)
 /* corners some hundred pictures away, behind the eye and past the far plane */
 static void scene_guard_band(scene *s)
 {
-    draw *d = usual(s, "guard band, far plane", SHADE_BLINN_PHONG);
+    draw *d = usual(s, "guard band, far plane", SHADE_MODEL_BLINN_PHONG);
     s->equation = blinn_phong;
     memset(&d->mesh, 0, sizeof d->mesh), memset(&d->state.model, 0, sizeof d->state.model);
     floor_of(&d->mesh, 900, -1, 1, 1);
@@ -464,7 +468,7 @@ static void scene_guard_band(scene *s)
 
 static draw *textured(scene *s, const char *name, shade_filter filter)
 {
-    draw *d = usual(s, name, SHADE_LAMBERT);
+    draw *d = usual(s, name, SHADE_MODEL_LAMBERT);
     memset(&d->mesh, 0, sizeof d->mesh), memset(&d->state.model, 0, sizeof d->state.model);
     d->mesh.has_texcoords = 1;
     s->equation = lambert;
@@ -480,13 +484,14 @@ static const char sampled[] =
 static void scene_nearest(scene *s)
 {
     /* texels of 20 pixels and more: the fewer borders, the fewer ties */
-    floor_of(&textured(s, "nearest, perspective", SHADE_NEAREST)->mesh, 4, 0, 1, 0.4f);
+    floor_of(&textured(s, "nearest, perspective", SHADE_FILTER_NEAREST)->mesh, 4, 0, 1, 0.4f);
     s->seam = 0.4f, s->surface = sampled;
 }
 static void scene_bilinear(scene *s)
 {
-    floor_of(&textured(s, "bilinear, mirrored, clamped", SHADE_BILINEAR)->mesh, 6, 0, 1, 0.09f);
-    s->map.wrap_u = SHADE_MIRROR, s->map.wrap_v = SHADE_CLAMP, s->surface = sampled;
+    floor_of(&textured(s, "bilinear, mirrored, clamped", SHADE_FILTER_BILINEAR)->mesh, 6, 0, 1,
+             0.09f);
+    s->map.wrap_u = SHADE_WRAP_MIRROR, s->map.wrap_v = SHADE_WRAP_CLAMP, s->surface = sampled;
 }
 /* GL may take its lod from differences over four pixels.  Here it is exact: u/w, v/w and 1/w are
    linear on the screen, so that their differences are their derivatives wherever they are taken. */
@@ -502,7 +507,7 @@ static const char exact_lod[] =
     "}\n";
 static void scene_trilinear(scene *s)
 {
-    floor_of(&textured(s, "trilinear, exact lod", SHADE_TRILINEAR)->mesh, 20, 0, 1, 0.05f);
+    floor_of(&textured(s, "trilinear, exact lod", SHADE_FILTER_TRILINEAR)->mesh, 20, 0, 1, 0.05f);
     s->surface = exact_lod;
 }
 

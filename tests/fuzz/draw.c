@@ -30,7 +30,7 @@ static void draw_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
         out->clip[0][i] = s->clip[v].x, out->clip[1][i] = s->clip[v].y;
         out->clip[2][i] = s->clip[v].z, out->clip[3][i] = s->clip[v].w;
         for (int k = 0; k < s->p.varyings; k++)
-            out->out[k][i] = s->attribute[v * (size_t)s->p.varyings + (size_t)k];
+            out->varying[k][i] = s->attribute[v * (size_t)s->p.varyings + (size_t)k];
     }
 }
 static void draw_check_fragment(const draw_scene *s, const shade_fragments *in, int i)
@@ -41,11 +41,12 @@ static void draw_check_fragment(const draw_scene *s, const shade_fragments *in, 
     HOLDS(y >= (float)s->y0 && y < (float)s->y1 && y == (float)(int)y);
     HOLDS(z >= 0 && z <= 1);
     HOLDS(in->primitive[i] < (uint32_t)s->index_count / 3 && in->front[i] <= 1);
-    HOLDS(s->p.cull == SHADE_CULL_NONE || in->front[i] == (s->p.cull == SHADE_CULL_BACK));
-    if (s->p.interpolation != SHADE_CONSTANT) return;
+    HOLDS(s->p.raster.cull == SHADE_CULL_NONE ||
+          in->front[i] == (s->p.raster.cull == SHADE_CULL_BACK));
+    if (s->p.interpolation != SHADE_INTERPOLATION_CONSTANT) return;
     first = s->indices ? s->indices[3 * in->primitive[i]] : 3 * in->primitive[i];
     for (int k = 0; k < s->p.varyings; k++) {    /* -0 may come as 0 */
-        float v = in->in[k][i], a = s->attribute[first * (size_t)s->p.varyings + (size_t)k];
+        float v = in->varying[k][i], a = s->attribute[first * (size_t)s->p.varyings + (size_t)k];
         HOLDS(v == a || fuzz_same(v, a));
     }
 }
@@ -54,7 +55,8 @@ static void draw_check_tail(const draw_scene *s, const shade_fragments *in, int 
     int last = in->count - 1;
     HOLDS(in->x[i] == in->x[last] && in->y[i] == in->y[last] && in->z[i] == in->z[last]);
     HOLDS(in->primitive[i] == in->primitive[last] && in->front[i] == in->front[last]);
-    for (int k = 0; k < s->p.varyings; k++) HOLDS(fuzz_same(in->in[k][i], in->in[k][last]));
+    for (int k = 0; k < s->p.varyings; k++)
+        HOLDS(fuzz_same(in->varying[k][i], in->varying[k][last]));
     HOLDS(!s->p.lod_varying || fuzz_same(in->lod[i], in->lod[last]));
 }
 static void draw_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -70,12 +72,15 @@ static void draw_fragment(const void *uniforms, const shade_fragments *SHADE_RES
         if (i < in->count) draw_check_fragment(s, in, i);
         else draw_check_tail(s, in, i);
         for (int k = 0; k < 4; k++) {
-            HOLDS(out->out[k][i] == (k == 3));
+            HOLDS(out->color[k][i] == (k == 3));
             HOLDS(!out->discard[i]);
             uint32_t of = n * 5 + (uint32_t)k * 3;
-            if (s->kind == DRAW_SPECIAL) out->out[k][i] = fuzz_float_of(special[of % 8]);
-            else if (s->kind == DRAW_VARYINGS && k < s->p.varyings) out->out[k][i] = in->in[k][i];
-            else if (s->kind != DRAW_SILENT) out->out[k][i] = (float)(of % 16) / 15;
+            if (s->kind == DRAW_SPECIAL)
+                out->color[k][i] = fuzz_float_of(special[of % 8]);
+            else if (s->kind == DRAW_VARYINGS && k < s->p.varyings)
+                out->color[k][i] = in->varying[k][i];
+            else if (s->kind != DRAW_SILENT)
+                out->color[k][i] = (float)(of % 16) / 15;
         }
         if (s->kind == DRAW_SIEVE && ((uint32_t)in->x[i] + (uint32_t)in->y[i] + n) % 3 == 0)
             out->discard[i] = 1u << n % 32;
@@ -171,17 +176,18 @@ static int draw_pipeline(fuzz_input *in, shade_pipeline *p)    /* 0: refused */
     if (kind == 255) p->varyings = fuzz_int(in, -2, SHADE_MAX_VARYINGS + 2);
     else if (kind > 240) p->varyings = SHADE_MAX_VARYINGS;
     p->interpolation = (shade_interpolation)fuzz_enum(in, 3, &bad);
-    p->cull = (shade_cull)fuzz_enum(in, 3, &bad);
-    p->depth_test = (shade_compare)fuzz_enum(in, 6, &bad);
-    p->blend = (shade_blend)fuzz_enum(in, 3, &bad);
-    p->depth_read_only = kind & 1, p->depth_zero_to_one = kind >> 1 & 1;
+    p->raster.cull = (shade_cull)fuzz_enum(in, 3, &bad);
+    p->raster.depth_test = (shade_compare)fuzz_enum(in, 6, &bad);
+    p->raster.blend = (shade_blend)fuzz_enum(in, 3, &bad);
+    p->raster.depth_read_only = kind & 1, p->raster.depth_zero_to_one = kind >> 1 & 1;
     p->may_discard = kind >> 2 & 1;
-    if (kind & 8) p->depth_bias = fuzz_float(in);
+    if (kind & 8) p->raster.depth_bias = fuzz_float(in);
     if (kind & 16) {
         p->lod_varying = fuzz_one_in(in, 8) ? fuzz_wild_int(in) : fuzz_int(in, 0, 5);
         p->lod_width = fuzz_float(in), p->lod_height = fuzz_float(in);
     }
-    bad |= p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS || !fuzz_finite(p->depth_bias);
+    bad |=
+        p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS || !fuzz_finite(p->raster.depth_bias);
     return !(bad || p->lod_varying < 0 || (p->lod_varying && p->lod_varying >= p->varyings));
 }
 
@@ -214,7 +220,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (want == SHADE_OK && (s.index_count % 3 || bad_index)) want = SHADE_ERROR_INDEX;
     if (kind == 0xF0) s.p.vertex = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xF1) s.pipeline = NULL, want = SHADE_ERROR_ARGUMENT;
-    picture_try(&in, &pic, draw_call, &s, want, s.index_count / 3, s.p.depth_read_only);
+    picture_try(&in, &pic, draw_call, &s, want, s.index_count / 3, s.p.raster.depth_read_only);
     picture_close(&pic);
     guard_close();
     return 0;

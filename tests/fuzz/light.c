@@ -123,18 +123,18 @@ static void light_scene(fuzz_input *in, int tame)
     }
     for (int k = 0; k < 3; k++) guard_seal(rows[k]);
     shade_lit_lanes(&l, kind & 8 ? &m : NULL, eye, rows[0], rows[1], kind & 4 ? rows[2] : NULL,
-                    rows[3]);
+                    NULL, rows[3]);
     fuzz_level = (fuzz_level + 1) % (fuzz_widest() + 1);
     shade_lit_lanes(&l, kind & 8 ? &m : NULL, eye, rows[0], rows[1], kind & 4 ? rows[2] : NULL,
-                    again);
+                    NULL, again);
     for (int i = 0; i < 3 * SHADE_LANES; i++) {
         HOLDS(!tame || (fuzz_same(rows[3][i], again[i]) && fuzz_finite(rows[3][i])));
     }
     for (int i = 0; i < 8; i++) {
         shade_vec3 P = shade_v3(rows[0][i], rows[0][i + SHADE_LANES], rows[0][i + 2 * SHADE_LANES]);
         shade_vec3 N = shade_v3(rows[1][i], rows[1][i + SHADE_LANES], rows[1][i + 2 * SHADE_LANES]);
-        terms = shade_evaluate(kind & 128 ? NULL : &l, &m, P, N, eye);
-        sum = shade_lit(&l, &m, P, N, eye);
+        terms = shade_evaluate(kind & 128 ? NULL : &l, &m, eye, P, N);
+        sum = shade_lit(&l, &m, eye, P, N);
         if (!tame) continue;
         HOLDS(fuzz_finite3(terms.emission) && fuzz_finite3(terms.ambient) && fuzz_finite3(sum));
         HOLDS(fuzz_finite3(terms.diffuse) && fuzz_finite3(terms.specular));

@@ -51,11 +51,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (kind & 2) s.state.width = kind & 4 ? fuzz_float(&in) : (float)fuzz_byte(&in) / 4;
     s.state.cap = (shade_cap)fuzz_enum(&in, 2, &bad);
     s.state.color = fuzz_vec4(&in, 0);
-    s.state.depth_test = (shade_compare)fuzz_enum(&in, 6, &bad);
-    s.state.blend = (shade_blend)fuzz_enum(&in, 3, &bad);
-    if (kind & 8) s.state.depth_bias = fuzz_float(&in);
-    s.state.depth_read_only = kind >> 4 & 1, s.state.depth_zero_to_one = kind >> 5 & 1;
-    bad |= !(s.state.width >= 0 && fuzz_finite(s.state.width) && fuzz_finite(s.state.depth_bias));
+    s.state.raster.depth_test = (shade_compare)fuzz_enum(&in, 6, &bad);
+    s.state.raster.blend = (shade_blend)fuzz_enum(&in, 3, &bad);
+    if (kind & 8) s.state.raster.depth_bias = fuzz_float(&in);
+    s.state.raster.depth_read_only = kind >> 4 & 1,
+    s.state.raster.depth_zero_to_one = kind >> 5 & 1;
+    bad |= !(s.state.width >= 0 && fuzz_finite(s.state.width) &&
+             fuzz_finite(s.state.raster.depth_bias));
     n = 2 * fuzz_int(&in, 1, LINES_POINTS / 2);
     points = (shade_vec3 *)guard_take((size_t)n * sizeof *points, kind & 1);
     for (int i = 0; i < n; i++) before = points[i] = lines_point(&in, before);
@@ -68,7 +70,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (want == SHADE_OK && (bad || s.point_count < 0 || s.point_count % 2))
         want = SHADE_ERROR_ARGUMENT;
     if (fuzz_one_in(&in, 128)) s.given = NULL, want = SHADE_ERROR_ARGUMENT;
-    picture_try(&in, &pic, lines_call, &s, want, s.point_count, s.state.depth_read_only);
+    picture_try(&in, &pic, lines_call, &s, want, s.point_count, s.state.raster.depth_read_only);
     picture_close(&pic);
     guard_close();
     return 0;

@@ -158,7 +158,7 @@ static shade_result mesh_spoil(fuzz_input *in, mesh_scene *s)
 /* Tame scenes give finite colours, drawn over finite ones. */
 static void mesh_finite(const picture *p, const shade_target *t)
 {
-    if (t->format != SHADE_RGBA32F || !p->color) return;
+    if (t->format != SHADE_FORMAT_RGBA32F || !p->color) return;
     for (size_t i = 0; i < p->color_bytes; i += 4) {
         float now, before;
         memcpy(&now, p->color + i, 4), memcpy(&before, p->before + i, 4);
@@ -183,11 +183,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     s.s.model = fuzz_matrix(&in, most), s.s.view = fuzz_matrix(&in, most);
     s.s.projection = fuzz_matrix(&in, most);
     s.s.shading = (shade_shading)fuzz_enum(&in, 3, &bad);
-    s.s.cull = (shade_cull)fuzz_enum(&in, 3, &bad);
-    s.s.depth_test = (shade_compare)fuzz_enum(&in, 6, &bad);
-    s.s.blend = (shade_blend)fuzz_enum(&in, 3, &bad);
-    s.s.depth_zero_to_one = kind >> 1 & 1, s.s.depth_read_only = kind >> 2 & 1;
-    if (kind & 8) s.s.depth_bias = fuzz_float(&in), bad |= !fuzz_finite(s.s.depth_bias);
+    s.s.raster.cull = (shade_cull)fuzz_enum(&in, 3, &bad);
+    s.s.raster.depth_test = (shade_compare)fuzz_enum(&in, 6, &bad);
+    s.s.raster.blend = (shade_blend)fuzz_enum(&in, 3, &bad);
+    s.s.raster.depth_zero_to_one = kind >> 1 & 1, s.s.raster.depth_read_only = kind >> 2 & 1;
+    if (kind & 8)
+        s.s.raster.depth_bias = fuzz_float(&in), bad |= !fuzz_finite(s.s.raster.depth_bias);
     good_light = mesh_lighting(&in, &s, most);
     mesh_arrays(&in, &s, most, &bad_index);
     if (kind & 16) good_map = mesh_map(&in, &s, most > 0);
@@ -201,7 +202,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (kind == 0xE0) s.mesh = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xE2) s.state = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xE4 && s.m.vertex_count > 0) s.m.positions = NULL, want = SHADE_ERROR_ARGUMENT;
-    picture_try(&in, &pic, mesh_call, &s, want, triangles, s.s.depth_read_only);
+    picture_try(&in, &pic, mesh_call, &s, want, triangles, s.s.raster.depth_read_only);
     if (most > 0 && want == SHADE_OK) mesh_finite(&pic, &pic.target);
     picture_close(&pic);
     guard_close();

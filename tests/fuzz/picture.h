@@ -16,7 +16,7 @@ typedef struct picture {
 
 static inline size_t fuzz_pixel_bytes(shade_format format)
 {
-    return format == SHADE_RGBA8 ? 4 : format == SHADE_RGB565 ? 2 : 16;
+    return format == SHADE_FORMAT_RGBA8 ? 4 : format == SHADE_FORMAT_RGB565 ? 2 : 16;
 }
 static inline size_t fuzz_cells(int rows, int stride, int width)
 {
@@ -161,7 +161,7 @@ static inline int picture_same(const picture *p)
 {
     if (p->depth && memcmp(p->depth, p->after + p->color_bytes, p->depth_bytes)) return 0;
     if (!p->color || !memcmp(p->color, p->after, p->color_bytes)) return 1;
-    if (p->target.format != SHADE_RGBA32F) return 0;
+    if (p->target.format != SHADE_FORMAT_RGBA32F) return 0;
     for (size_t i = 0; i < p->color_bytes; i += 4) {
         float a, b;
         memcpy(&a, p->color + i, 4), memcpy(&b, p->after + i, 4);
@@ -297,7 +297,7 @@ static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
     bytes = cells * fuzz_pixel_bytes(t.format);
     pixels = (uint8_t *)guard_take(bytes, kind >> 2 & 1);
     fuzz_noise(pixels, bytes, fuzz_byte(in));
-    if (t.format == SHADE_RGBA32F && (tame || (kind & 16)))
+    if (t.format == SHADE_FORMAT_RGBA32F && (tame || (kind & 16)))
         for (size_t i = 0; i < bytes; i += 4) {
             float f = (float)pixels[i] / 128;
             memcpy(pixels + i, &f, 4);

@@ -89,7 +89,7 @@ static void shape_corner_normals(fuzz_input *in, const shape_mesh *s)
 {
     uint32_t kind = fuzz_byte(in);
     float crease = kind & 4 ? fuzz_float(in) : (float)((int)fuzz_byte(in) - 128) / 127;
-    size_t need = shade_corner_normals_bytes(&s->m), bytes = need;
+    size_t need = shade_mesh_corner_normals_bytes(&s->m), bytes = need;
     shade_vec3 *out = (shade_vec3 *)guard_take((size_t)s->corners * 12, kind & 1);
     void *memory;
     shade_result want = s->want;

@@ -41,7 +41,7 @@ static void texture_mipmaps(fuzz_input *in, shade_texture *t, shade_texture *lev
 }
 static int texture_nan_free(const shade_texture *t)
 {
-    if (t->format != SHADE_RGBA32F) return 1;
+    if (t->format != SHADE_FORMAT_RGBA32F) return 1;
     for (int y = 0; y < t->height; y++)
         for (int i = 0; i < 4 * t->width; i++) {
             size_t stride = (size_t)(t->stride ? t->stride : t->width);
@@ -88,8 +88,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         for (int i = 0; i < 4 * SHADE_LANES; i++) {
             HOLDS(fuzz_same(rgba[i], again[i]));
             if (!good) HOLDS(rgba[i] == 1);
-            if (bounded) HOLDS(rgba[i] >= -1e-5f && rgba[i] <= (t.format == SHADE_RGBA32F ||
-                               t.mipmap_count > 0 ? 2.0001f : 1.00001f));
+            if (bounded)
+                HOLDS(rgba[i] >= -1e-5f &&
+                      rgba[i] <= (t.format == SHADE_FORMAT_RGBA32F || t.mipmap_count > 0
+                                      ? 2.0001f
+                                      : 1.00001f));
         }
         for (int i = 0; i < SHADE_LANES; i += 3) {
             shade_vec4 c = shade_sample(&t, u[i], v[i], with_lod ? lod[i] : 0);
