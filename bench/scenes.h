@@ -33,7 +33,7 @@ typedef struct scene {
     shade_vec4 background, color;
 } scene;
 
-enum { SCENE_COUNT = 11, SCENE_TEXELS = 512 };
+enum { SCENE_COUNT = 12, SCENE_TEXELS = 512 };
 
 static inline void scene_link(scene *s)
 {
@@ -276,9 +276,9 @@ static inline scene scene_overdraw(const char *name)
     return s;
 }
 
-static inline scene scene_fill(const char *name)
+static inline scene scene_fill(const char *name, int width, int height)
 {
-    scene s = scene_new(name, SCENE_FLAT, 1920, 1080);
+    scene s = scene_new(name, SCENE_FLAT, width, height);
     scene_geometry(&s, 4, 6);
     for (int k = 0; k < 4; k++)
         scene_put(&s, k, shade_v3(k & 1 ? 1.0f : -1.0f, k & 2 ? -1.0f : 1.0f, k & 1 ? 0.5f : -0.5f),
@@ -323,9 +323,10 @@ static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
                  : scene_dense("knot of 124k triangles 720p, Gouraud", 1240, 50);
     out[6] = scene_dense("knot of 70k triangles 720p, Gouraud", 875, 40);
     out[7] = scene_overdraw("1000 big triangles 1080p, depth only");
-    out[8] = scene_fill("flat fill with depth 1080p");
-    out[9] = scene_new("clear colour and depth 1080p", SCENE_CLEAR, 1920, 1080);
-    out[10] = scene_map("bilinear texture 1080p");
+    out[8] = scene_fill("flat fill with depth 1080p", 1920, 1080);
+    out[9] = scene_fill("flat fill with depth 320 x 180, in cache", 320, 180);
+    out[10] = scene_new("clear colour and depth 1080p", SCENE_CLEAR, 1920, 1080);
+    out[11] = scene_map("bilinear texture 1080p");
     for (int i = 0; i < SCENE_COUNT; i++) scene_link(&out[i]);
 }
 
