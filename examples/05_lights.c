@@ -21,7 +21,7 @@ int main(int argc, char **argv)
                                          "fall-off 1", "fall-off 1/r", "fall-off 1/r^2" };
     const shade_vec3 white = { 1, 0.95f, 0.85f };
     const int n = 10;
-    shade_material paint[4];
+    shade_material paint[4] = { 0 };
     shade_light lamp[6];
     shade_draw_state state = { 0 };
     owned_mesh shape[4];
@@ -38,7 +38,6 @@ int main(int argc, char **argv)
             { 0.45f, 0.43f, 0.40f }, { 0.55f, 0.07f, 0.05f },
             { 0.08f, 0.22f, 0.5f }, { 0.5f, 0.42f, 0.3f }
         };
-        paint[i] = shade_preset_material(SHADE_PRESET_WHITE_PLASTIC);
         paint[i].ambient = paint[i].diffuse = albedo[i];
         paint[i].specular = i ? shade_v3(0.4f, 0.4f, 0.4f) : shade_v3(0, 0, 0);
         paint[i].shininess = 48;

@@ -1,4 +1,5 @@
-/* 06_materials.c - twenty-four teapots in the twenty-four preset materials.
+/* 06_materials.c - twenty-four teapots in the twenty-four preset materials.  Their table is older
+   than sRGB: its numbers are colours of a display, and become linear light before they are lit.
 
    cc -O2 -I. examples/06_materials.c -lm -o materials && ./materials        writes materials.ppm */
 #define SHADE_IMPLEMENTATION
@@ -6,12 +7,6 @@
 #include "mesh.h"
 #include "label.h"
 #include "teapot.h"
-
-/* The presets are older than sRGB: numbers for the screen, not linear light. */
-static shade_vec3 linear(shade_vec3 k)
-{
-    return shade_v3(shade_power(k.x, 2.2f), shade_power(k.y, 2.2f), shade_power(k.z, 2.2f));
-}
 
 int main(int argc, char **argv)
 {
@@ -36,9 +31,7 @@ int main(int argc, char **argv)
     for (int i = 0; i < SHADE_PRESET_COUNT; i++) {
         int x = i % 6 * width, y = i / 6 * height;
         shade_target panel = canvas_panel(&c, x, y, width, height);
-        shade_material material = shade_preset_material((shade_preset)i);
-        material.ambient = linear(material.ambient), material.diffuse = linear(material.diffuse);
-        material.specular = linear(material.specular);
+        shade_material material = shade_linear_material(shade_preset_material((shade_preset)i));
         state.material = &material;
         shade_draw_mesh(&panel, &pot.view, &state, NULL);
         label_center(&panel, width, 2 * height - 30, 2, shade_v3(0.6f, 0.6f, 0.6f),

@@ -24,9 +24,9 @@ static void look(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
         h = (h ^ h >> 15) * 2246822519u;
         if (s->view == 7) x = (float)(h >> 24) / 160 - 1, y = (float)(h >> 16 & 255) / 160 - 1;
         if (s->view == 7) z = (float)(h >> 8 & 255) / 160 - 1;
-        /* the squares cancel the encoding for the screen, nearly */
-        out->color[0][i] = (1 + x) * (1 + x) / 4, out->color[1][i] = (1 + y) * (1 + y) / 4;
-        out->color[2][i] = (1 + z) * (1 + z) / 4;
+        /* -1 .. 1 as a display's 0 .. 1, which the target encodes again */
+        N = shade_linear_from_srgb(shade_v3((1 + x) / 2, (1 + y) / 2, (1 + z) / 2));
+        out->color[0][i] = N.x, out->color[1][i] = N.y, out->color[2][i] = N.z;
     }
 }
 

@@ -31,16 +31,16 @@ int main(int argc, char **argv)
                                          "two materials" };
     static const unsigned flags[4] = { 0, SHADE_FLAG_TWO_SIDED, SHADE_FLAG_TWO_SIDED_ABS,
                                        SHADE_FLAG_TWO_SIDED };
-    shade_material silk[2];
+    shade_material silk[2] = { 0 };
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.9f, -0.7f), shade_v3(1, 1, 1));
     shade_draw_state state = { 0 };
     owned_mesh m = ribbon(96);
     canvas c = canvas_new(960, 480, 3);
 
-    silk[0] = silk[1] = shade_preset_material(SHADE_PRESET_RED_PLASTIC);
     for (int k = 0; k < 2; k++) {
         silk[k].diffuse = k ? shade_v3(0.05f, 0.25f, 0.45f) : shade_v3(0.60f, 0.12f, 0.05f);
         silk[k].ambient = silk[k].diffuse, silk[k].specular = shade_v3(0.4f, 0.4f, 0.4f);
+        silk[k].shininess = 32;
     }
     state.model = shade_mat4_rotation(0.3f, shade_v3(0, 1, 0.4f));
     state.view = shade_mat4_look_at(shade_v3(0, 2, 10), shade_v3(-0.1f, -0.25f, 0),

@@ -38,15 +38,15 @@ int main(int argc, char **argv)
         { 0.3f, 40, 7 }
     };
     const float near_z = 0.005f, far_z = 1e6f;
-    shade_material ground = shade_preset_material(SHADE_PRESET_WHITE_RUBBER), water = ground;
+    shade_material ground = { .diffuse = { 1, 1, 1 }, .ambient = { 1, 1, 1 } };
+    const shade_vec3 blue = { 0.02f, 0.12f, 0.20f }, sheen = { 0.7f, 0.7f, 0.7f };
+    shade_material water = { .diffuse = blue, .ambient = blue, .specular = sheen, .shininess = 10 };
     shade_light sun = shade_directional_light(shade_v3(-0.8f, -0.6f, -0.5f),
                                               shade_v3(1.2f, 1.1f, 0.95f));
     shade_draw_state state = { 0 };
     owned_mesh land = island(64), sea = mesh_plane(3e5f, 300);
     canvas c = canvas_new(960, 400, 2);
 
-    ground.diffuse = ground.ambient = shade_v3(1, 1, 1), ground.specular = shade_v3(0, 0, 0);
-    water.diffuse = water.ambient = shade_v3(0.02f, 0.12f, 0.20f);
     state.view = shade_mat4_look_at(shade_v3(0, 700, 0), shade_v3(0, 0, -4000),
                                     shade_v3(0, 1, 0));
     state.lighting.lights = &sun, state.lighting.light_count = 1;

@@ -53,11 +53,10 @@ int main(int argc, char **argv)
             out.row_offset = y, out.row_count = ROWS;
             strip.format = SHADE_FORMAT_RGBA32F, strip.color = color, strip.depth = depth;
             strip.row_offset = f * y, strip.row_count = f * ROWS;
-            if (f == 1) strip = out;
             shade_clear(&strip, shade_v4(0.03f, 0.035f, 0.045f, 1), 1);
             state.material = NULL, shade_draw_mesh(&strip, &rays.view, &state, NULL);
             state.material = &glaze, shade_draw_mesh(&strip, &pot.view, &state, NULL);
-            if (f > 1) shade_resolve(&out, &strip, f);
+            shade_resolve(&out, &strip, f);
         }
         for (int k = 0; k < 38 * 22; k++) {    /* each pixel as a block of 8 x 8 */
             shade_target block = canvas_panel(&c, 8 + 320 * i + k % 38 * 8, 268 + k / 38 * 8, 8, 8);

@@ -52,11 +52,7 @@ int main(int argc, char **argv)
     int rows = (argc - 2 + COLUMNS - 1) / COLUMNS;
     if (argc < 3) return fprintf(stderr, "contact sheet.ppm picture.ppm ...\n"), 1;
     canvas c = canvas_new(COLUMNS * (WIDTH + GAP) + GAP, rows * (HEIGHT + CAPTION + GAP) + GAP, 1);
-    for (int i = 0; i < 256; i++) {
-        unsigned char grey[4] = { (unsigned char)i, 0, 0, 0 };
-        shade_texture texel = { .pixels = grey, .width = 1, .height = 1, .srgb = 1 };
-        linear[i] = shade_sample(&texel, 0, 0, 0).x;
-    }
+    for (int i = 0; i < 256; i++) linear[i] = shade_rgb((uint32_t)i).z;
     shade_clear(&c.target, shade_v4(0.010f, 0.011f, 0.014f, 1), 1);
     for (int i = 2; i < argc; i++) {
         int x = GAP + (i - 2) % COLUMNS * (WIDTH + GAP), w = WIDTH, h = HEIGHT;

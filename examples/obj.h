@@ -333,25 +333,17 @@ static inline int obj_numbers(mesh_reader *r, float *out, int wanted, int allowe
     return 0;
 }
 
-/* Colours of vertices are what image editors show: sRGB. */
-static inline float obj_linear(float c)
-{
-    if (!(c > 0)) return 0;
-    if (c >= 1) return 1;
-    return c <= 0.04045f ? c / 12.92f : shade_power((c + 0.055f) / 1.055f, 2.4f);
-}
-
 static inline int obj_vertex(mesh_reader *r, obj_data *o)
 {
     static const float white[3] = { 1, 1, 1 };
     float v[7];
     int count;
     if (obj_numbers(r, v, 3, 7, &count)) return 1;
-    if (count >= 6) {
-        float rgb[3] = { obj_linear(v[3]), obj_linear(v[4]), obj_linear(v[5]) };
+    if (count >= 6) {    /* colours as image editors show them */
+        shade_vec3 rgb = shade_linear_from_srgb(shade_v3(v[3], v[4], v[5]));
         while (o->color.count < o->list[OBJ_V].count)
             if (mesh_push(&o->color, white, 3)) return mesh_fail(r, "out of memory");
-        if (mesh_push(&o->color, rgb, 3)) return mesh_fail(r, "out of memory");
+        if (mesh_push(&o->color, (const float *)&rgb, 3)) return mesh_fail(r, "out of memory");
     }
     if (mesh_push(&o->list[OBJ_V], v, 3)) return mesh_fail(r, "out of memory");
     return 0;

@@ -82,12 +82,6 @@ static shade_material clay(void)
     return m;
 }
 
-/* The presets are older than sRGB: numbers for the screen, not linear light. */
-static shade_vec3 linear(shade_vec3 k)
-{
-    return shade_v3(shade_power(k.x, 2.2f), shade_power(k.y, 2.2f), shade_power(k.z, 2.2f));
-}
-
 /* Returns 0 where the name is none. */
 static int find_material(const char *name, shade_material *out)
 {
@@ -96,9 +90,7 @@ static int find_material(const char *name, shade_material *out)
         int i = 0;
         while (i < SHADE_PRESET_COUNT && !same_name(name, shade_preset_name((shade_preset)i))) i++;
         if (i == SHADE_PRESET_COUNT) return 0;
-        *out = shade_preset_material((shade_preset)i);
-        out->ambient = linear(out->ambient), out->diffuse = linear(out->diffuse);
-        out->specular = linear(out->specular);
+        *out = shade_linear_material(shade_preset_material((shade_preset)i));
     }
     return 1;
 }
