@@ -4,23 +4,14 @@
    cc -O2 -I. examples/05_lights.c -lm -o lights && ./lights        writes lights.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
+#include "shapes.h"
 #include "label.h"
-#include "teapot.h"
-
-static shade_mat4 place(float x, float y, float z, float size, float turn)
-{
-    shade_mat4 m = shade_mat4_mul(shade_mat4_rotation(turn, shade_v3(0, 1, 0)),
-                                  shade_mat4_scaling(shade_v3(size, size, size)));
-    return shade_mat4_mul(shade_mat4_translation(shade_v3(x, y, z)), m);
-}
 
 int main(int argc, char **argv)
 {
     static const char *const name[6] = { "directional", "point", "spot",
                                          "fall-off 1", "fall-off 1/r", "fall-off 1/r^2" };
     const shade_vec3 white = { 1, 0.95f, 0.85f };
-    const int n = 10;
     shade_material paint[4] = { 0 };
     shade_light lamp[6];
     shade_draw_state state = { 0 };
@@ -29,10 +20,9 @@ int main(int argc, char **argv)
     canvas c = canvas_new(960, 540, 2);
 
     shape[0] = mesh_plane(3.2f, 1), shape[1] = mesh_sphere(64, 32), shape[2] = mesh_cube();
-    shape[3] = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
-    teapot_build(n, shape[3].positions, shape[3].normals, NULL, shape[3].indices);
-    at[0] = place(0, 0, 0, 1, 0), at[1] = place(-2, 0.8f, 0.8f, 0.8f, 0);
-    at[2] = place(2, 0.7f, 0.2f, 0.7f, 0.6f), at[3] = place(0, 0, 0, 0.5f, -0.5f);
+    shape[3] = shape_teapot(10);
+    at[0] = shape_at(0, 0, 0, 1, 0), at[1] = shape_at(-2, 0.8f, 0.8f, 0.8f, 0);
+    at[2] = shape_at(2, 0.7f, 0.2f, 0.7f, 0.6f), at[3] = shape_at(0, 0, 0, 0.5f, -0.5f);
     for (int i = 0; i < 4; i++) {
         static const shade_vec3 albedo[4] = {
             { 0.45f, 0.43f, 0.40f }, { 0.55f, 0.07f, 0.05f },

@@ -4,19 +4,17 @@
    cc -O2 -I. examples/06_materials.c -lm -o materials && ./materials        writes materials.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
+#include "shapes.h"
 #include "label.h"
-#include "teapot.h"
 
 int main(int argc, char **argv)
 {
-    const int n = 16, width = 160, height = 140;
+    const int width = 160, height = 140;
     shade_light lamps[2];
     shade_draw_state state = { 0 };
-    owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    owned_mesh pot = shape_teapot(16);
     canvas c = canvas_new(6 * width, 4 * height, 2);
 
-    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
     lamps[0] = shade_directional_light(shade_v3(0.5f, -0.8f, -0.9f), shade_v3(1.3f, 1.3f, 1.3f));
     lamps[1] = shade_directional_light(shade_v3(-1, -0.3f, 0.4f), shade_v3(0.35f, 0.4f, 0.5f));
     state.model = shade_mat4_mul(shade_mat4_rotation(-0.45f, shade_v3(0, 1, 0)),

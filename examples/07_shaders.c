@@ -4,8 +4,7 @@
    cc -O2 -I. examples/07_shaders.c -lm -o shaders && ./shaders        writes shaders.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "teapot.h"
+#include "shapes.h"
 
 typedef struct scene {
     shade_mat4 clip_from_world;
@@ -58,23 +57,21 @@ static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
 
 int main(int argc, char **argv)
 {
-    const int n = 40;
     shade_light lamp = shade_directional_light(shade_v3(0.6f, -0.8f, -0.7f), shade_v3(1, 1, 1));
     shade_pipeline pipeline = { .vertex = ripple, .fragment = toon, .varyings = 6 };
-    owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    owned_mesh pot = shape_teapot(40);
     canvas c = canvas_new(640, 480, 4);
     scene s = { .eye = { -1.2f, 4.6f, 9 }, .positions = pot.positions, .normals = pot.normals };
     shade_mat4 view = shade_mat4_look_at(s.eye, shade_v3(0.3f, 1.4f, 0), shade_v3(0, 1, 0));
 
-    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
     s.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.58f, 640 / 480.0f, 4, 20), view);
     s.lighting.lights = &lamp, s.lighting.light_count = 1;
     s.material.diffuse = shade_v3(0.85f, 0.85f, 0.85f);
     s.material.specular = shade_v3(0.5f, 0.5f, 0.5f), s.material.shininess = 60;
     pipeline.uniforms = &s;
     canvas_gradient(&c.target, shade_v3(0.75f, 0.80f, 0.80f), shade_v3(0.95f, 0.88f, 0.75f));
-    shade_draw(&c.target, &pipeline, pot.indices, teapot_index_count(n),
-               teapot_vertex_count(n), NULL);
+    shade_draw(&c.target, &pipeline, pot.indices, pot.view.index_count, pot.view.vertex_count,
+               NULL);
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "shaders.ppm");
 }

@@ -5,14 +5,12 @@
    cc -O2 -I. examples/08_normal_matrix.c -lm -o normal_matrix && ./normal_matrix */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
+#include "shapes.h"
 #include "label.h"
-#include "teapot.h"
 
 int main(int argc, char **argv)
 {
     static const char *const name[3] = { "matrix of points", "normal matrix", "true normals" };
-    const int n = 40;
     shade_material gold = { { 0, 0, 0 }, { 0.30f, 0.17f, 0.04f }, { 0.45f, 0.26f, 0.06f },
                             { 0.75f, 0.58f, 0.3f }, 40 };
     shade_mat4 squash = shade_mat4_scaling(shade_v3(1, 0.35f, 1));
@@ -31,8 +29,7 @@ int main(int argc, char **argv)
     canvas_gradient(&c.target, shade_v3(0.045f, 0.05f, 0.06f), shade_v3(0.012f, 0.013f, 0.016f));
     for (int i = 0; i < 3; i++) {
         shade_target panel = canvas_panel(&c, 320 * i, 0, 320, 260);
-        owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
-        teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
+        owned_mesh pot = shape_teapot(40);
         for (int k = 0; k < pot.view.vertex_count; k++) {
             float *p = pot.positions + 3 * k, *q = pot.normals + 3 * k;
             shade_vec3 P = shade_mat4_transform_point(squash, shade_v3(p[0], p[1], p[2]));

@@ -5,9 +5,8 @@
    cc -O2 -I. examples/09_terms.c -lm -o terms && ./terms        writes terms.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
+#include "shapes.h"
 #include "label.h"
-#include "teapot.h"
 
 typedef struct scene { mesh_scene place; shade_mat3 eye_from_world; int view; } scene;
 
@@ -34,18 +33,16 @@ int main(int argc, char **argv)
 {
     static const char *const name[8] = { "emission", "+ ambient", "+ diffuse", "+ specular",
                                          "= sum", "normals", "depth", "triangles" };
-    const int n = 10;
     shade_material glaze = { { 0.06f, 0.008f, 0.003f }, { 0.03f, 0.20f, 0.24f },
                              { 0.03f, 0.20f, 0.24f }, { 0.6f, 0.6f, 0.6f }, 50 };
     shade_light lamps[2];
     shade_draw_state state = { 0 };
     shade_pipeline pipeline = { .vertex = mesh_vertex, .fragment = look,
                                 .varyings = 8 };
-    owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    owned_mesh pot = shape_teapot(10);
     scene s = { .place = { .mesh = &pot } };
     canvas c = canvas_new(960, 460, 4);
 
-    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
     lamps[0] = shade_directional_light(shade_v3(0.5f, -0.8f, -0.9f), shade_v3(1, 0.96f, 0.9f));
     lamps[1] = shade_directional_light(shade_v3(-1, -0.3f, 0.1f), shade_v3(0.25f, 0.3f, 0.45f));
     state.model = shade_mat4_mul(shade_mat4_rotation(-0.45f, shade_v3(0, 1, 0)),

@@ -6,10 +6,9 @@
    cc -O2 -I. examples/12_edges.c -lm -o edges && ./edges        writes edges.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
+#include "shapes.h"
 #include "edges.h"
 #include "label.h"
-#include "teapot.h"
 
 static owned_mesh tube(int columns)
 {
@@ -22,13 +21,6 @@ static owned_mesh tube(int columns)
     return m;
 }
 
-static shade_mat4 at(float x, float y, float z, float size, float turn)
-{
-    shade_mat4 m = shade_mat4_mul(shade_mat4_rotation(turn, shade_v3(0, 1, 0)),
-                                  shade_mat4_scaling(shade_v3(size, size, size)));
-    return shade_mat4_mul(shade_mat4_translation(shade_v3(x, y, z)), m);
-}
-
 int main(int argc, char **argv)
 {
     static const char *const name[3] = { "all edges", "hidden ones removed", "the drawing" };
@@ -36,20 +28,17 @@ int main(int argc, char **argv)
         { 0.01f, 0.01f, 0.02f, 1 }, { 0.01f, 0.08f, 0.5f, 1 }, { 0.7f, 0.03f, 0.01f, 1 },
         { 0.1f, 0.12f, 0.16f, 1 }
     };
-    const int n = 6;
     const shade_vec3 eye = { 2.5f, 7, 12 };
-    owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
     owned_mesh scene = mesh_new(4000, 16000);
     shade_draw_state state = { 0 };
     shade_line_state pen = { 0 };
     edge_lines lines;
     canvas c = canvas_new(960, 340, 4);
 
-    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
     scene.view.vertex_count = scene.view.index_count = 0;
-    edges_add(&scene, pot, at(0, 0, -0.5f, 1, -0.35f));
-    edges_add(&scene, mesh_cube(), at(-1.5f, 0.65f, 2.9f, 0.65f, 0.5f));
-    edges_add(&scene, tube(12), at(1.3f, 0, 3, 0.7f, 0));
+    edges_add(&scene, shape_teapot(6), shape_at(0, 0, -0.5f, 1, -0.35f));
+    edges_add(&scene, mesh_cube(), shape_at(-1.5f, 0.65f, 2.9f, 0.65f, 0.5f));
+    edges_add(&scene, tube(12), shape_at(1.3f, 0, 3, 0.7f, 0));
     lines = edges_sort(&scene, eye, 0.5f);
     state.view = shade_mat4_look_at(eye, shade_v3(0.15f, 0.6f, 0.8f), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.56f, 320 / 340.0f, 5, 25);

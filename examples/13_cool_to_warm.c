@@ -5,27 +5,24 @@
    cc -O2 -I. examples/13_cool_to_warm.c -lm -o cool_to_warm && ./cool_to_warm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
+#include "shapes.h"
 #include "edges.h"
 #include "label.h"
-#include "teapot.h"
 
 int main(int argc, char **argv)
 {
     static const char *const name[2] = { "blinn-phong", "cool to warm" };
-    const int n = 40;
     const shade_vec3 eye = { -1.5f, 5.5f, 14 };
     shade_material clay = { { 0, 0, 0 }, { 0.45f, 0.42f, 0.38f }, { 0.45f, 0.42f, 0.38f },
                             { 0.3f, 0.3f, 0.3f }, 40 };
     shade_light lamp = shade_directional_light(shade_v3(-1, -0.8f, -0.3f), shade_v3(1, 1, 1));
     shade_draw_state state = { 0 };
     shade_line_state pen = { 0 };
-    owned_mesh pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
-    owned_mesh joined = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    owned_mesh pot = shape_teapot(40);
+    owned_mesh joined = mesh_new(pot.view.vertex_count, pot.view.index_count);
     edge_lines lines;
     canvas c = canvas_new(960, 400, 4);
 
-    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
     state.view = shade_mat4_look_at(eye, shade_v3(0.2f, 1.2f, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.40f, 480 / 400.0f, 8, 22);
     state.material = &clay;

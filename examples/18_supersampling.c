@@ -5,9 +5,8 @@
    cc -O2 -I. examples/18_supersampling.c -lm -o supersampling && ./supersampling */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
+#include "shapes.h"
 #include "label.h"
-#include "teapot.h"
 
 enum { WIDTH = 310, HEIGHT = 256, ROWS = 16, MOST = 4 };
 
@@ -29,15 +28,13 @@ int main(int argc, char **argv)
     static const char *const name[3] = { "one sample", "2 by 2", "4 by 4" };
     static float color[WIDTH * MOST * ROWS * MOST * 4];
     static float depth[WIDTH * MOST * ROWS * MOST];
-    const int n = 20;
     shade_material glaze = { { 0, 0, 0 }, { 0.5f, 0.16f, 0.02f }, { 0.5f, 0.16f, 0.02f },
                              { 0.6f, 0.6f, 0.6f }, 60 };
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.8f, -0.7f), shade_v3(1, 1, 1));
     shade_draw_state state = { 0 };
-    owned_mesh rays = star(90), pot = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    owned_mesh rays = star(90), pot = shape_teapot(20);
     canvas c = canvas_new(960, 480, 1);
 
-    teapot_build(n, pot.positions, pot.normals, NULL, pot.indices);
     state.view = shade_mat4_look_at(shade_v3(-1, 7, 12), shade_v3(0.1f, 1, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.50f, (float)WIDTH / HEIGHT, 5, 25);
     state.lighting.lights = &lamp, state.lighting.light_count = 1;

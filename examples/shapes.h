@@ -1,0 +1,78 @@
+/* shapes.h - more meshes: the teapot, forms turned on a lathe, two meshes as one. */
+#ifndef EXAMPLES_SHAPES_H
+#define EXAMPLES_SHAPES_H
+
+#include "mesh.h"
+#include "teapot.h"
+
+/* n pieces along each edge of a patch */
+static inline owned_mesh shape_teapot(int n)
+{
+    owned_mesh m = mesh_new(teapot_vertex_count(n), teapot_index_count(n));
+    teapot_build(n, m.positions, m.normals, m.texcoords, m.indices);
+    return m;
+}
+
+/* A profile of (radius, height), from above down as one sees it right of the axis, turned about y.
+   A point given twice makes a sharp edge; u goes round, v down the profile. */
+static inline owned_mesh shape_turned(const shade_vec2 *profile, int points, int slices)
+{
+    owned_mesh m = mesh_new((slices + 1) * points, 6 * slices * (points - 1));
+    uint32_t *out = m.indices;
+    for (int i = 0; i < points; i++) {
+        shade_vec2 p = profile[i], before = profile[i > 0 ? i - 1 : 0];
+        shade_vec2 after = profile[i < points - 1 ? i + 1 : i], along = { 0, 0 };
+        if (p.x != before.x || p.y != before.y) along = shade_sub2(p, before);
+        if (p.x != after.x || p.y != after.y) along = shade_add2(along, shade_sub2(after, p));
+        for (int j = 0; j <= slices; j++) {
+            shade_vec2 a = mesh_turn((float)(j % slices) / (float)slices);
+            shade_vec3 n = shade_v3(-along.y * a.x, along.x, along.y * a.y);
+            uint32_t k = (uint32_t)(i * (slices + 1) + j), below = k + (uint32_t)slices + 1;
+            mesh_put(&m, (int)k, shade_v3(p.x * a.x, p.y, -p.x * a.y), shade_normalize(n),
+                     (float)j / (float)slices, (float)i / (float)(points - 1));
+            if (i == points - 1 || j == slices) continue;
+            *out++ = k, *out++ = below, *out++ = below + 1;
+            *out++ = k, *out++ = below + 1, *out++ = k + 1;
+        }
+    }
+    return m;
+}
+
+/* Made as large as size, turned about y and put there */
+static inline shade_mat4 shape_at(float x, float y, float z, float size, float turn)
+{
+    shade_mat4 m = shade_mat4_mul(shade_mat4_rotation(turn, shade_v3(0, 1, 0)),
+                                  shade_mat4_scaling(shade_v3(size, size, size)));
+    return shade_mat4_mul(shade_mat4_translation(shade_v3(x, y, z)), m);
+}
+
+/* Moves points and normals; at without scale */
+static inline owned_mesh shape_moved(owned_mesh m, shade_mat4 at)
+{
+    for (int i = 0; i < m.view.vertex_count; i++) {
+        const float *p = m.positions + 3 * i, *n = m.normals + 3 * i;
+        mesh_put(&m, i, shade_mat4_transform_point(at, shade_v3(p[0], p[1], p[2])),
+                 shade_mat4_transform_direction(at, shade_v3(n[0], n[1], n[2])),
+                 m.texcoords[2 * i], m.texcoords[2 * i + 1]);
+    }
+    return m;
+}
+
+/* The triangles of a, then those of b, in one mesh; frees both. */
+static inline owned_mesh shape_join(owned_mesh a, owned_mesh b)
+{
+    int first = a.view.vertex_count, corners = a.view.index_count;
+    owned_mesh m = mesh_new(first + b.view.vertex_count, corners + b.view.index_count);
+    for (int i = 0; i < m.view.vertex_count; i++) {
+        const owned_mesh *from = i < first ? &a : &b;
+        int k = i < first ? i : i - first;
+        const float *p = from->positions + 3 * k, *n = from->normals + 3 * k;
+        mesh_put(&m, i, shade_v3(p[0], p[1], p[2]), shade_v3(n[0], n[1], n[2]),
+                 from->texcoords[2 * k], from->texcoords[2 * k + 1]);
+    }
+    for (int i = 0; i < m.view.index_count; i++)
+        m.indices[i] = i < corners ? a.indices[i] : b.indices[i - corners] + (uint32_t)first;
+    mesh_free(&a), mesh_free(&b);
+    return m;
+}
+#endif
