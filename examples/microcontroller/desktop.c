@@ -20,7 +20,7 @@ int main(int argc, char **argv)
     static float depth[PICTURE_WIDTH * PICTURE_HEIGHT];
     shade_target whole = { .width = PICTURE_WIDTH,
                            .height = PICTURE_HEIGHT,
-                           .format = SHADE_FORMAT_RGB565,
+                           .format = SHADE_FORMAT_RGB565_SWAPPED,
                            .srgb = 1,
                            .dither = 1 };
     int different = 0;
@@ -30,7 +30,7 @@ int main(int argc, char **argv)
     picture_draw(&whole);
     picture_strips(keep);
     for (int i = 0; i < PICTURE_WIDTH * PICTURE_HEIGHT; i++)
-        different += color[i] != (sent[2 * i] << 8 | sent[2 * i + 1]);
+        different += memcmp(&color[i], sent + 2 * i, 2) != 0;
     if (different) fprintf(stderr, "%d pixels of the strips differ from the whole\n", different);
     f = fopen(argv[1], "wb");
     if (!f || fwrite(sent, 1, sent_size, f) != sent_size || fclose(f))

@@ -90,17 +90,12 @@ void picture_strips(picture_send *send)
     static float depth[PICTURE_WIDTH * PICTURE_ROWS];
     shade_target strip = { .width = PICTURE_WIDTH,
                            .height = PICTURE_HEIGHT,
-                           .format = SHADE_FORMAT_RGB565,
+                           .format = SHADE_FORMAT_RGB565_SWAPPED,
                            .srgb = 1,
                            .dither = 1 };
-    uint8_t *bytes = (uint8_t *)color;
     strip.color = color, strip.depth = depth, strip.row_count = PICTURE_ROWS;
     for (; strip.row_offset < PICTURE_HEIGHT; strip.row_offset += PICTURE_ROWS) {
         picture_draw(&strip);
-        for (int i = 0; i < PICTURE_WIDTH * PICTURE_ROWS; i++) {
-            uint16_t pixel = color[i];
-            bytes[2 * i] = (uint8_t)(pixel >> 8), bytes[2 * i + 1] = (uint8_t)(pixel & 255);
-        }
-        send(bytes, sizeof color);
+        send((const uint8_t *)color, sizeof color);
     }
 }

@@ -7,7 +7,8 @@
 /* A strip takes WIDTH x ROWS x (2 bytes of colour + 4 of depth) = 11,520 bytes. */
 enum { PICTURE_WIDTH = 320, PICTURE_HEIGHT = 240, PICTURE_ROWS = 6 };
 
-/* Pixels in order, two bytes each, the high one first: what display controllers take. */
+/* Pixels in order, two bytes each, the high one first (from a little-endian machine): what display
+   controllers take, so that a strip goes to the bus as it is. */
 typedef void picture_send(const uint8_t *bytes, size_t size);
 
 /* The whole scene into a target of the picture's size, or into a strip of it */
