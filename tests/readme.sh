@@ -1,54 +1,145 @@
 #!/bin/sh
-# readme.sh - every ```c block of README.md compiles.
-# A block with main is a whole program: compiled, linked with the implementation.  Others are tried
-# at file scope after the #include, then at file scope after readme_prelude.h, then inside a
-# function after it.
+# readme.sh [README] - what the README shows compiles and does what it says.
+# Its one block with main is the program: C99, gnu17 behind other headers, C++20; it is run.  The
+# other blocks of C make one file, in their order, behind readme_prelude.h, and readme_run.c runs
+# them.  SDL2, stb, CMake, Meson and a C++ compiler are used where they are.  Names, keys and files
+# that the README speaks of exist; every public function stands in it, an example or the bench; every
+# example in examples/README.md.
 cd "$(dirname "$0")/.." || exit 1
 CC=${CC:-cc}
+if [ -z "${CXX:-}" ]; then
+    for c in c++ g++ clang++; do command -v $c >/dev/null 2>&1 && CXX=$c && break; done
+fi
 README=${1:-README.md}
-WARN="-std=c99 -Wall -Wextra -Werror -Wno-missing-field-initializers"
-FRAGMENT="$WARN -Wno-unused -Wno-unused-parameter"
+WARN="-Wall -Wextra -Werror -Wno-missing-field-initializers"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT INT TERM
 passed=0 failed=0
 
-awk -v dir="$T" '
-    /^[ \t]*```/ {
-        if (inside) { inside = 0; close(file) }
-        else if ($0 ~ /^[ \t]*```[cC][ \t]*$/) {
-            inside = 1; file = sprintf("%s/block%03d.c", dir, ++n)
-            print NR > (file ".line")
-        } else { inside = 2; file = "/dev/null" }
+check() {                       # what, command ...
+    name=$1; shift
+    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1))
+    else failed=$((failed + 1)); echo "readme: $name"; sed 's/^/    /;20q' "$T/log"; fi
+}
+left_out() { echo "readme: no $1: left out"; }
+accepts() {                     # compiler, flags, c or c++, text
+    printf '%s\n' "$4" | $1 $2 -x "$3" -c - -o "$T/accepted.o" >/dev/null 2>&1
+}
+
+# the blocks: program.c once, then snippets, each behind its place in the README
+: >"$T/readme_snippets.h"
+awk -v dir="$T" -v readme="$README" '
+    function put(   file) {
+        file = "readme_snippets.h"
+        if (text ~ /SDL_/) file = "readme_sdl.h"
+        if (text ~ /stbi_/) file = "readme_stb.h"
+        if (text ~ /int main\(/) file = "program.c"
+        printf "#line %d \"%s\"\n%s", line, readme, text > (dir "/" file)
+        blocks[file]++
+    }
+    /^```/ {
+        if (inside) { if (kind == "c") put(); else if (kind) printf "%s", text > (dir "/" kind) }
+        inside = !inside; kind = substr($0, 4); text = ""; line = NR + 1
         next
     }
-    inside == 1 { print > file }
+    inside { text = text $0 "\n" }
+    END { if (blocks["program.c"] != 1) print blocks["program.c"] + 0 > (dir "/programs") }
 ' "$README"
+check "one program" test ! -f "$T/programs"
 
-program() {                                # block
-    { grep -q 'define[ \t]*SHADE_IMPLEMENTATION' "$1" || echo '#define SHADE_IMPLEMENTATION'
-      grep -q 'include[ \t]*"shade.h"' "$1" || echo '#include "shade.h"'
-      cat "$1"; } >"$T/program.c"
-    $CC $WARN -I. "$T/program.c" -lm -o "$T/program" 2>"$T/log"
-}
-fragment() {                               # block; the log of the last attempt is kept
-    { echo '#include "shade.h"'; cat "$1"; } >"$T/fragment.c"
-    $CC $FRAGMENT -I. -fsyntax-only "$T/fragment.c" 2>/dev/null && return 0
-    { echo '#include "tests/readme_prelude.h"'; cat "$1"; } >"$T/fragment.c"
-    $CC $FRAGMENT -I. -fsyntax-only "$T/fragment.c" 2>"$T/log.file" && return 0
-    { printf '#include "tests/readme_prelude.h"\nvoid readme_block(void)\n{\n'; cat "$1"; printf '\n}\n'
-    } >"$T/fragment.c"
-    $CC $FRAGMENT -I. -fsyntax-only "$T/fragment.c" 2>"$T/log"
-}
+# the program
+in_t() { (cd "$T" && "$@"); }
+check "the program, C99" $CC -std=c99 $WARN -I. "$T/program.c" -lm -o "$T/program"
+check "the program runs" in_t ./program
+headers='#include <string.h>
+#include <math.h>
+#include <complex.h>'
+{ echo "$headers"; cat "$T/program.c"; } >"$T/behind.c"
+if accepts "$CC" -std=gnu17 c "$headers"; then
+    check "the program, gnu17 behind other headers" $CC -std=gnu17 $WARN -I. -fsyntax-only "$T/behind.c"
+else left_out "gnu17 with complex.h in $CC"; fi
+if [ -n "${CXX:-}" ] && accepts "$CXX" -std=c++20 c++ 'struct { int a; } x = { .a = 1 };'; then
+    check "the program, C++20" $CXX -std=c++20 $WARN -I. -x c++ -fsyntax-only "$T/program.c"
+else left_out "C++20"; fi
 
-for block in "$T"/block*.c; do
-    [ -f "$block" ] || continue
-    if grep -q 'int[ \t][ \t]*main[ \t]*(' "$block"; then program "$block"; else fragment "$block"; fi
-    if [ $? = 0 ]; then passed=$((passed + 1)); continue; fi
-    failed=$((failed + 1))
-    echo "readme: the block at line $(cat "$block.line") of $README does not compile:"
-    sed 's/^/    /;15q' "$T/log"
+# the snippets
+sdl=$(sdl2-config --cflags 2>/dev/null)
+if [ -n "$sdl" ] && accepts "$CC" "$sdl" c '#include <SDL.h>'; then
+    sdl="-DREADME_SDL $sdl $(sdl2-config --libs)"
+else sdl=''; fi
+stb=''
+for dir in $(pkg-config --cflags-only-I stb 2>/dev/null | sed 's/-I//g') /usr/include/stb; do
+    accepts "$CC" "-I$dir" c '#include "stb_image_write.h"' && stb="-DREADME_STB -isystem $dir" && break
 done
-[ $((passed + failed)) -gt 0 ] || { echo "readme: no blocks of C in $README"; failed=1; }
+for part in sdl stb; do    # a README without such a snippet fails
+    check "a snippet for $part" test -s "$T/readme_$part.h"
+done
+check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -DSHADE_NO_DISPATCH -I. -Itests \
+      -I"$T" tests/readme_run.c $stb $sdl -lm -o "$T/readme_run"
+if [ -x "$T/readme_run" ]; then
+    (cd "$T" && SDL_VIDEODRIVER=dummy ./readme_run teapot.ppm) >"$T/run" 2>&1
+    grep -vE '^[0-9]+ passed, ' "$T/run"
+    p=$(sed -n 's/^\([0-9]*\) passed, .*/\1/p' "$T/run")
+    f=$(sed -n 's/.* passed, \([0-9]*\) failed$/\1/p' "$T/run")
+    passed=$((passed + ${p:-0})) failed=$((failed + ${f:-1}))
+fi
+
+# build systems find the header
+printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\nint main(void) { return SHADE_OK; }\n' \
+    >"$T/program_of_a_user.c"
+if command -v cmake >/dev/null 2>&1 && command -v cc >/dev/null 2>&1; then
+    mkdir -p "$T/with_cmake"
+    cp "$T/program_of_a_user.c" "$T/with_cmake/program.c"
+    { echo 'cmake_minimum_required(VERSION 3.14)'; echo 'project(user C)'
+      echo 'add_executable(program program.c)'; cat "$T/cmake"; } >"$T/with_cmake/CMakeLists.txt"
+    check "CMake configures" env CC=cc cmake -S "$T/with_cmake" -B "$T/with_cmake/b" \
+          -DFETCHCONTENT_SOURCE_DIR_SHADE="$PWD"
+    check "CMake builds" cmake --build "$T/with_cmake/b"
+    check "CMake's program runs" "$T/with_cmake/b/program"
+else left_out CMake; fi
+if command -v meson >/dev/null 2>&1 && command -v ninja >/dev/null 2>&1 &&
+    command -v cc >/dev/null 2>&1; then
+    mkdir -p "$T/with_meson/shade"
+    cp "$T/program_of_a_user.c" "$T/with_meson/program.c"
+    cp shade.h "$T/with_meson/shade"
+    { echo "project('user', 'c')"; cat "$T/meson"; } >"$T/with_meson/meson.build"
+    check "Meson configures" env CC=cc meson setup "$T/with_meson/b" "$T/with_meson"
+    check "Meson builds" ninja -C "$T/with_meson/b"
+    check "Meson's program runs" "$T/with_meson/b/program"
+else left_out Meson; fi
+
+# names
+none() { [ -z "$1" ] || { printf '%s\n' "$1"; return 1; }; }
+words() { tr -c 'A-Za-z0-9_' '\n' <"$1" | sort -u; }
+words shade.h >"$T/known"
+check "every name is one of shade.h" none "$(
+    words "$README" | grep -E '^(shade|SHADE)_' | grep -v '^shade_SOURCE_DIR$' |
+    comm -23 - "$T/known")"
+check "every place is one of shade.h" none "$(
+    grep -oE '>>[a-z]+' "$README" | sort -u | while read -r place; do
+        grep -qE "^(/\*-+ |   )$place" shade.h || echo "$place"
+    done)"
+check "every source is one of shade.h" none "$(
+    grep -oE '\[[A-Z][a-z]+[0-9]+\]' "$README" | sort -u | while read -r key; do
+        grep -qF -- "$key" shade.h || echo "$key"
+    done)"
+check "every file is there" none "$(
+    grep -oE '(^|[^A-Za-z/])(examples|tests|bench|\.ci)/[A-Za-z0-9_./]*' "$README" |
+    sed 's/^[^a-z.]//; s/[.]$//' | sort -u | while read -r file; do [ -e "$file" ] || echo "$file"; done)"
+check "every example is listed" none "$(
+    for file in examples/[0-9]*.c; do
+        name=$(basename "$file" .c)
+        grep -qF "](pictures/$name.png) | \`$name\`" examples/README.md || echo "$name"
+    done)"
+awk '/^#ifdef SHADE_IMPLEMENTATION/ { exit }
+     /^(SHADEDEF|SHADE__INLINE) / && match($0, /shade_[a-z0-9_]+\(/) {
+         print substr($0, RSTART, RLENGTH - 1)
+     }' shade.h | grep -v shade__ | sort -u >"$T/functions"
+cat "$README" examples/*.[ch] examples/*/*.[ch] bench/*.[ch] bench/*/*.[ch] >"$T/shown"
+words "$T/shown" >"$T/shown_words"
+check "more than 90 public functions" test "$(wc -l <"$T/functions")" -gt 90
+check "every public function is shown" none "$(comm -23 "$T/functions" "$T/shown_words")"
+
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]
