@@ -12,10 +12,33 @@ typedef struct canvas {
     size_t color_bytes, depth_bytes;
 } canvas;
 
+enum { CANVAS_FORMATS = 5 };
+
 static size_t canvas_pixel_bytes(shade_format format)
 {
-    return format == SHADE_FORMAT_RGBA8 ? 4 : format == SHADE_FORMAT_RGB565 ? 2 : 16;
+    return format <= SHADE_FORMAT_BGRA8 ? 4 : format <= SHADE_FORMAT_RGB565_SWAPPED ? 2 : 16;
 }
+/* The greatest code of channel k (R, G, B, A); 0: no such channel, or floats. */
+static int canvas_most(shade_format format, int k)
+{
+    static const int most565[4] = { 31, 63, 31, 0 };
+    if (format == SHADE_FORMAT_RGBA32F) return 0;
+    return format <= SHADE_FORMAT_BGRA8 ? 255 : most565[k];
+}
+/* The code of channel k in the bytes of a pixel; not RGBA32F. */
+static int canvas_code_at(shade_format format, const unsigned char *p, int k)
+{
+    const int swapped = format == SHADE_FORMAT_RGB565_SWAPPED;
+    unsigned char native[2];
+    uint16_t v;
+    if (format == SHADE_FORMAT_RGBA8) return p[k];
+    if (format == SHADE_FORMAT_BGRA8) return p[k < 3 ? 2 - k : k];
+    native[0] = p[swapped], native[1] = p[!swapped];
+    memcpy(&v, native, 2);
+    return k == 0 ? v >> 11 : k == 1 ? v >> 5 & 63 : k == 2 ? v & 31 : 0;
+}
+static shade_format rnd_format(void) { return (shade_format)rnd_int(0, CANVAS_FORMATS - 1); }
+
 static int canvas_stride(const canvas *c)
 {
     return c->target.stride ? c->target.stride : c->target.width;
@@ -92,20 +115,28 @@ static size_t canvas_index(const canvas *c, int x, int y)
 {
     return (size_t)(y - c->target.row_offset) * (size_t)canvas_stride(c) + (size_t)x;
 }
-static const unsigned char *canvas_bytes(const canvas *c, int x, int y)
+static unsigned char *canvas_pixel(const canvas *c, int x, int y)
 {
-    return c->color + CANVAS_GUARD + 4 * canvas_index(c, x, y);
+    return c->color + CANVAS_GUARD + canvas_pixel_bytes(c->target.format) * canvas_index(c, x, y);
 }
-static unsigned canvas_565(const canvas *c, int x, int y)
+static const unsigned char *canvas_bytes(const canvas *c, int x, int y) /* formats of 4 bytes */
+{
+    return canvas_pixel(c, x, y);
+}
+static unsigned canvas_565(const canvas *c, int x, int y) /* the uint16 of a pixel */
 {
     uint16_t v;
-    memcpy(&v, c->color + CANVAS_GUARD + 2 * canvas_index(c, x, y), 2);
+    memcpy(&v, canvas_pixel(c, x, y), 2);
     return v;
+}
+static int canvas_code(const canvas *c, int x, int y, int channel)
+{
+    return canvas_code_at(c->target.format, canvas_pixel(c, x, y), channel);
 }
 static float canvas_float(const canvas *c, int x, int y, int channel)
 {
     float v;
-    memcpy(&v, c->color + CANVAS_GUARD + 16 * canvas_index(c, x, y) + 4 * (size_t)channel, 4);
+    memcpy(&v, canvas_pixel(c, x, y) + 4 * channel, 4);
     return v;
 }
 static float canvas_depth(const canvas *c, int x, int y)

@@ -459,8 +459,7 @@ TEST(clip, any_position_at_all_is_accounted_for)
 {
     for (int i = 0; i < 3000; i++) {
         shade_vec4 v[30];
-        canvas c = canvas_open(rnd_int(1, 40), rnd_int(1, 40), 41, (shade_format)rnd_int(0, 2),
-                               rnd_int(0, 1));
+        canvas c = canvas_open(rnd_int(1, 40), rnd_int(1, 40), 41, rnd_format(), rnd_int(0, 1));
         canvas_clear(&c, 1);
         int kind = rnd_int(0, 3);
         for (int k = 0; k < 30; k++) {

@@ -93,9 +93,7 @@ TEST(drive, bad_targets_are_refused_by_every_call)
         case 7:
             t->stride = -27;
             break;
-        case 8:
-            t->format = (shade_format)3;
-            break;
+        case 8: t->format = (shade_format)CANVAS_FORMATS; break;
         case 9:
             t->format = (shade_format)77;
             break;
@@ -434,7 +432,7 @@ TEST(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up)
     for (int i = 0; i < 700; i++) {
         int width = rnd_int(1, 70), height = rnd_int(1, 50);
         canvas c = canvas_open(width, height, rnd_one_in(2) ? width + rnd_int(0, 9) : 0,
-                               (shade_format)(i % 3), rnd_int(0, 3) > 0);
+                               (shade_format)(i % CANVAS_FORMATS), rnd_int(0, 3) > 0);
         random_pipeline(&r, 1);
         canvas_clear(&c, 0.5f);
         random_clip(&c.target), random_canvas_flags(&c.target);
@@ -506,9 +504,10 @@ TEST(drive, bands_and_rectangles_give_the_bits_of_the_whole)
     static random_draw r;
     for (int i = 0; i < 400; i++) {
         int width = rnd_int(1, 90), height = rnd_int(1, 70),
-            stride = rnd_one_in(2) ? width + rnd_int(0, 9) : 0;
-        canvas whole = canvas_open(width, height, stride, (shade_format)(i % 3), i % 5 != 0);
-        canvas parts = canvas_open(width, height, stride, (shade_format)(i % 3), i % 5 != 0);
+            stride = rnd_one_in(2) ? width + rnd_int(0, 9) : 0, with_depth = !rnd_one_in(5);
+        shade_format format = (shade_format)(i % CANVAS_FORMATS);
+        canvas whole = canvas_open(width, height, stride, format, with_depth);
+        canvas parts = canvas_open(width, height, stride, format, with_depth);
         random_pipeline(&r, 0);
         random_canvas_flags(&whole.target);
         parts.target.srgb = whole.target.srgb, parts.target.dither = whole.target.dither;
@@ -529,7 +528,7 @@ TEST(drive, bands_and_rectangles_give_the_bits_of_the_whole)
                 SHADE_OK);
         }
         CHECK_SAY(canvas_same(&whole, &parts), "%d x %d, format %d, in %d x %d cells", width,
-                  height, i % 3, xs, ys);
+                  height, (int)format, xs, ys);
         canvas_close(&whole);
         canvas_close(&parts);
     }
@@ -540,7 +539,7 @@ TEST(drive, strips_hold_the_rows_of_the_whole)
     static random_draw r;
     for (int i = 0; i < 300; i++) {
         int width = rnd_int(1, 60), height = rnd_int(2, 60), stride = width + rnd_int(0, 5);
-        shade_format format = (shade_format)(i % 3);
+        shade_format format = (shade_format)(i % CANVAS_FORMATS);
         canvas whole = canvas_open(width, height, stride, format, 1);
         random_pipeline(&r, 0);
         random_canvas_flags(&whole.target);
@@ -571,8 +570,8 @@ TEST(drive, drawing_twice_gives_the_same_bits)
 {
     static random_draw r;
     for (int i = 0; i < 100; i++) {
-        canvas a = canvas_open(50, 40, 0, (shade_format)(i % 3), 1),
-               b = canvas_open(50, 40, 0, (shade_format)(i % 3), 1);
+        canvas a = canvas_open(50, 40, 0, (shade_format)(i % CANVAS_FORMATS), 1),
+               b = canvas_open(50, 40, 0, (shade_format)(i % CANVAS_FORMATS), 1);
         random_pipeline(&r, 0);
         shade_stats sa, sb;
         canvas_clear(&a, 0.5f), canvas_clear(&b, 0.5f);
@@ -592,8 +591,8 @@ TEST(drive, one_draw_equals_its_triangles_drawn_one_by_one)
 {
     static random_draw r;
     for (int i = 0; i < 150; i++) {
-        canvas a = canvas_open(40, 30, 0, (shade_format)(i % 3), 1),
-               b = canvas_open(40, 30, 0, (shade_format)(i % 3), 1);
+        canvas a = canvas_open(40, 30, 0, (shade_format)(i % CANVAS_FORMATS), 1),
+               b = canvas_open(40, 30, 0, (shade_format)(i % CANVAS_FORMATS), 1);
         random_pipeline(&r, 0);
         r.p.fragment =
             r.p.fragment == fragment_sieve ? scene_colors : r.p.fragment; /* no use of primitive */

@@ -559,7 +559,7 @@ TEST(fragment, blending_of_stored_bytes_follows_submission_order)
     for (int round = 0; round < 80; round++) {
         shade_blend blend = round % 2 ? SHADE_BLEND_OVER : SHADE_BLEND_ADD;
         int n = rnd_int(2, 40), size = rnd_int(4, 40), srgb = round % 4 > 1;
-        shade_format format = round % 8 > 3 ? SHADE_FORMAT_RGB565 : SHADE_FORMAT_RGBA8;
+        shade_format format = (shade_format)(round / 4 % SHADE_FORMAT_RGBA32F);
         random_blend_case(&b, n, size);
         if (blend == SHADE_BLEND_ADD)
             for (int i = 0; i < n; i++) b.color[i] = shade_scale4(b.color[i], 0.1f);
@@ -574,28 +574,21 @@ TEST(fragment, blending_of_stored_bytes_follows_submission_order)
         for (int j = 0; j < size; j++)
             for (int i = 0; i < size; i++) {
                 double d[4] = { 0, 0, 0, 0 };
-                static const int bits565[] = { 31, 63, 31 };
-                int channels = format == SHADE_FORMAT_RGBA8 ? 4 : 3;
+                int channels = canvas_most(format, 3) ? 4 : 3;
                 for (int k = 0; k < n; k++) {
                     if (!ref_inside_fx8(b.x + 3 * k, b.y + 3 * k, i, j)) continue;
                     double v[4], a = (double)b.color[k].w;
                     v[0] = (double)b.color[k].x, v[1] = (double)b.color[k].y,
                     v[2] = (double)b.color[k].z, v[3] = a;
                     for (int m = 0; m < channels; m++) {
-                        int levels = format == SHADE_FORMAT_RGBA8 ? 255 : bits565[m];
                         d[m] = stored_unit(blend_channel(blend, m, v[m], a, d[m]), srgb && m < 3,
-                                           levels);
+                                           canvas_most(format, m));
                     }
                 }
-                unsigned v565 = format == SHADE_FORMAT_RGB565 ? canvas_565(&c, i, j) : 0;
                 for (int m = 0; m < channels; m++) {
-                    int levels = format == SHADE_FORMAT_RGBA8 ? 255 : bits565[m];
-                    int want =
-                        (int)floor((srgb && m < 3 ? ref_encode_srgb(d[m]) : d[m]) * levels + 0.5);
-                    int got = format == SHADE_FORMAT_RGBA8 ? canvas_bytes(&c, i, j)[m]
-                                                           : (int)(m == 0   ? v565 >> 11
-                                                                   : m == 1 ? v565 >> 5 & 63
-                                                                            : v565 & 31);
+                    double code = srgb && m < 3 ? ref_encode_srgb(d[m]) : d[m];
+                    int want = (int)floor(code * canvas_most(format, m) + 0.5);
+                    int got = canvas_code(&c, i, j, m);
                     pixels++, off += got != want;
                     CHECK_SAY(got - want <= 1 && want - got <= 1,
                               "pixel %d %d channel %d: got %d, want %d", i, j, m, got, want);
@@ -640,8 +633,9 @@ static void fragment_sieve(const void *uniforms, const shade_fragments *SHADE_RE
 
 TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
 {
-    for (int round = 0; round < 60; round++) {
-        enum { N = 40 };
+    for (int round = 0; round < 75; round++) {
+        enum { N = 31 };
+        shade_format format = (shade_format)(round / 3 % CANVAS_FORMATS);
         shade_vec4 clip[3 * N], color[N];
         int64_t x[3 * N], y[3 * N];
         ref_triangle e[N];
@@ -653,10 +647,10 @@ TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
             while (!ref_triangle_of(&e[i], &t.clip[0], &t.clip[1], &t.clip[2], 48, 48));
             memcpy(clip + 3 * i, t.clip, sizeof t.clip), memcpy(x + 3 * i, t.x, sizeof t.x);
             memcpy(y + 3 * i, t.y, sizeof t.y);
-            color[i] = shade_v4((float)(i + 1) / 255, 0, 0, 1);
+            color[i] = shade_v4((float)(i + 1) / N, 0, 0, 1);
             worst = fmax(worst, plane_error(&t, 1));
         }
-        canvas c = canvas_open(48, 48, 50, SHADE_FORMAT_RGBA8, with_depth);
+        canvas c = canvas_open(48, 48, 50, format, with_depth);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         p.fragment = fragment_sieve, p.may_discard = 1;
@@ -674,8 +668,14 @@ TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
                     if (!with_depth || z < depth) depth = z, want = k + 1;
                 }
                 if (!sure) continue;
-                CHECK_INT(canvas_bytes(&c, i, j)[0], want);
-                CHECK_INT(canvas_bytes(&c, i, j)[3], want ? 255 : 0);
+                if (format == SHADE_FORMAT_RGBA32F) {
+                    CHECK_NEAR(canvas_float(&c, i, j, 0), (float)want / N, 0);
+                    CHECK_NEAR(canvas_float(&c, i, j, 3), want != 0, 0);
+                } else {
+                    int most = canvas_most(format, 0);
+                    CHECK_INT(canvas_code(&c, i, j, 0), (2 * want * most + N) / (2 * N));
+                    CHECK_INT(canvas_code(&c, i, j, 3), want ? canvas_most(format, 3) : 0);
+                }
                 if (with_depth) CHECK_NEAR(canvas_depth(&c, i, j), depth, worst);
             }
         canvas_close(&c);

@@ -1,31 +1,16 @@
-/* resolve.c - supersampled pictures brought down, and pictures drawn in strips. */
+/* resolve.c - supersampled pictures brought down, formats converted, and pictures drawn in strips.
+   */
 
-/* A stored pixel in linear light. */
-static void ref_linear(const canvas *c, int x, int y, double rgba[4])
-{
-    const shade_target *t = &c->target;
-    if (t->format == SHADE_FORMAT_RGBA32F) {
-        for (int k = 0; k < 4; k++) rgba[k] = (double)canvas_float(c, x, y, k);
-        return;
-    }
-    if (t->format == SHADE_FORMAT_RGBA8) {
-        for (int k = 0; k < 4; k++) rgba[k] = canvas_bytes(c, x, y)[k] / 255.0;
-    } else {
-        unsigned u = canvas_565(c, x, y);
-        rgba[0] = (u >> 11) / 31.0, rgba[1] = (u >> 5 & 63) / 63.0, rgba[2] = (u & 31) / 31.0;
-        rgba[3] = 1;
-    }
-    for (int k = 0; k < 3 && t->srgb; k++) rgba[k] = ref_decode_srgb(rgba[k]);
-}
 static void resolve_fill(canvas *c)
 {
-    for (size_t i = 0; i < c->color_bytes; i++) {
-        if (c->target.format == SHADE_FORMAT_RGBA32F) break;
-        c->color[CANVAS_GUARD + i] = (unsigned char)rnd_bits();
+    unsigned char *p = c->color + CANVAS_GUARD;
+    if (c->target.format != SHADE_FORMAT_RGBA32F) {
+        for (size_t i = 0; i < c->color_bytes; i++) p[i] = (unsigned char)rnd_bits();
+        return;
     }
-    for (size_t i = 0; i < c->color_bytes / 4 && c->target.format == SHADE_FORMAT_RGBA32F; i++) {
+    for (size_t i = 0; i < c->color_bytes; i += 4) {
         float f = rnd_float(-0.5, 2);
-        memcpy(c->color + CANVAS_GUARD + 4 * i, &f, 4);
+        memcpy(p + i, &f, 4);
     }
 }
 /* The padding of what is read may hold anything. */
@@ -36,54 +21,65 @@ static void resolve_close(canvas *c)
 }
 static void check_resolved(const canvas *out, const canvas *in, int factor, int x, int y)
 {
+    const shade_format format = out->target.format;
     double mean[4] = { 0, 0, 0, 0 };
-    for (int j = 0; j < factor; j++)
-        for (int i = 0; i < factor; i++) {
-            double c[4];
-            ref_linear(in, x * factor + i, y * factor + j, c);
-            for (int k = 0; k < 4; k++) mean[k] += c[k] / (factor * factor);
-        }
+    for (int n = 0; n < factor * factor; n++) {
+        double c[4];
+        ref_pixel(in->target.format, in->target.srgb,
+                  canvas_pixel(in, x * factor + n % factor, y * factor + n / factor), c);
+        for (int k = 0; k < 4; k++) mean[k] += c[k] / (factor * factor);
+    }
     for (int k = 0; k < 4; k++) {
-        double want = mean[k], got;
-        if (out->target.format == SHADE_FORMAT_RGBA32F) {
+        double want = mean[k];
+        if (format == SHADE_FORMAT_RGBA32F) {
             /* float sums of up to 64, of texels that may come through the library's sRGB curve */
             CHECK_NEAR(canvas_float(out, x, y, k), want, 5e-6);
             continue;
         }
-        int wide = out->target.format == SHADE_FORMAT_RGBA8;
-        if (!wide && k == 3) continue;
-        unsigned u = wide ? canvas_bytes(out, x, y)[k] : canvas_565(out, x, y);
-        got = wide ? u : k == 0 ? u >> 11 : k == 1 ? u >> 5 & 63 : u & 31;
         if (out->target.srgb && k < 3) want = ref_encode_srgb(want);
-        want = fmax(0, fmin(1, want)) * (wide ? 255 : k == 1 ? 63 : 31);
+        want = fmax(0, fmin(1, want)) * canvas_most(format, k);
         /* to nearest, where the sRGB curve steepens its argument's error; dithered: to either */
-        CHECK_NEAR(got, want, !wide && out->target.dither ? 1 : 0.51);
+        int either = out->target.dither && canvas_pixel_bytes(format) == 2;
+        CHECK_NEAR(canvas_code(out, x, y, k), want, either ? 1 : 0.51);
     }
+}
+/* Random pictures, strips and clip rectangles. */
+static void check_resolve(int factor, shade_format to, shade_format from)
+{
+    int w = rnd_int(1, 25), h = rnd_int(1, 12), rows = rnd_one_in(3) ? rnd_int(1, h) : 0;
+    int top = rows ? rnd_int(0, h - rows) : 0, x0, y0, x1, y1;
+    canvas in = canvas_strip(w * factor, h * factor, rnd_one_in(2) ? 0 : w * factor + 5, from,
+                             rnd_one_in(2), top * factor, rows * factor);
+    canvas out =
+        canvas_strip(w, h, rnd_one_in(2) ? 0 : w + rnd_int(0, 9), to, rnd_one_in(2), top, rows);
+    in.target.srgb = rnd_one_in(2), out.target.srgb = rnd_one_in(2);
+    in.target.dither = rnd_one_in(2), out.target.dither = rnd_one_in(3);
+    resolve_fill(&in);
+    if (rnd_one_in(2)) random_clip(&out.target);
+    clip_bounds(&out.target, &x0, &y0, &x1, &y1);
+    CHECK_INT(shade_resolve(&out.target, &in.target, factor), SHADE_OK);
+    for (int k = 0; k < w * canvas_rows(&out); k++) {
+        int x = k % w, y = top + k / w;
+        const unsigned char *p = canvas_pixel(&out, x, y);
+        if (x >= x0 && x < x1 && y >= y0 && y < y1)
+            check_resolved(&out, &in, factor, x, y);
+        else
+            for (size_t n = 0; n < canvas_pixel_bytes(to); n++) CHECK(p[n] == CANVAS_BYTE);
+    }
+    for (size_t k = 0; k < out.depth_bytes; k++)
+        CHECK(out.depth[CANVAS_GUARD + k] == CANVAS_BYTE); /* depth is left alone */
+    resolve_close(&in);
+    canvas_close(&out);
 }
 TEST(resolve, pixels_are_means_in_linear_light)
 {
-    for (int i = 0; i < 500; i++) {
-        int factor = 2 + i % 7, w = rnd_int(1, 25), h = rnd_int(1, 12);
-        canvas in = canvas_open(w * factor, h * factor, rnd_one_in(2) ? 0 : w * factor + 5,
-                                (shade_format)rnd_int(0, 2), rnd_one_in(2));
-        canvas out = canvas_open(w, h, rnd_one_in(2) ? 0 : w + rnd_int(0, 9),
-                                 (shade_format)rnd_int(0, 2), rnd_one_in(2));
-        in.target.srgb = rnd_one_in(2), out.target.srgb = rnd_one_in(2);
-        out.target.dither = rnd_one_in(3);
-        resolve_fill(&in);
-        CHECK_INT(shade_resolve(&out.target, &in.target, factor), SHADE_OK);
-        for (int k = 0; k < w * h; k++) check_resolved(&out, &in, factor, k % w, k / w);
-        for (size_t k = 0; k < out.depth_bytes; k++)
-            CHECK(out.depth[CANVAS_GUARD + k] == CANVAS_BYTE); /* depth is left alone */
-        resolve_close(&in);
-        canvas_close(&out);
-    }
+    for (int i = 0; i < 700; i++) check_resolve(2 + i % 7, rnd_format(), rnd_format());
 }
 TEST(resolve, one_colour_stays_itself)
 {
     for (int i = 0; i < 300; i++) {
         int factor = 2 + i % 7;
-        shade_format format = (shade_format)rnd_int(0, 2);
+        shade_format format = rnd_format();
         canvas in = canvas_open(3 * factor, 2 * factor, 0, format, 0);
         canvas out = canvas_open(3, 2, 0, format, 0);
         in.target.srgb = out.target.srgb = rnd_one_in(2);
@@ -104,7 +100,7 @@ TEST(resolve, only_the_clip_rectangle_of_out_is_written)
 {
     for (int i = 0; i < 300; i++) {
         int factor = rnd_int(2, 4), w = rnd_int(1, 30), h = rnd_int(1, 12);
-        shade_format format = (shade_format)rnd_int(0, 2);
+        shade_format format = rnd_format();
         canvas in = canvas_open(w * factor, h * factor, 0, SHADE_FORMAT_RGBA8, 0);
         canvas out = canvas_open(w, h, w + 2, format, 0);
         canvas whole = canvas_open(w, h, w + 2, format, 0);
@@ -121,9 +117,8 @@ TEST(resolve, only_the_clip_rectangle_of_out_is_written)
         for (int k = 0; k < w * h; k++) {
             int px = k % w, py = k / w;
             int written = px >= x && px < x + cw && py >= y && py < y + ch;
-            const unsigned char *at = out.color + CANVAS_GUARD + size * canvas_index(&out, px, py);
-            const unsigned char *full =
-                whole.color + CANVAS_GUARD + size * canvas_index(&whole, px, py);
+            const unsigned char *at = canvas_pixel(&out, px, py);
+            const unsigned char *full = canvas_pixel(&whole, px, py);
             for (size_t n = 0; n < size; n++) CHECK(at[n] == (written ? full[n] : CANVAS_BYTE));
         }
         resolve_close(&in);
@@ -134,8 +129,8 @@ TEST(resolve, strips_give_the_bits_of_the_whole)
 {
     for (int i = 0; i < 100; i++) {
         int factor = rnd_int(2, 5), w = rnd_int(1, 30), h = rnd_int(2, 20), rows;
-        shade_format format = (shade_format)rnd_int(0, 2);
-        canvas in = canvas_open(w * factor, h * factor, 0, (shade_format)rnd_int(0, 2), 0);
+        shade_format format = rnd_format();
+        canvas in = canvas_open(w * factor, h * factor, 0, rnd_format(), 0);
         canvas whole = canvas_open(w, h, 0, format, 0);
         size_t in_row = (size_t)(w * factor) * canvas_pixel_bytes(in.target.format);
         size_t out_row = (size_t)w * canvas_pixel_bytes(format);
@@ -162,22 +157,165 @@ TEST(resolve, strips_give_the_bits_of_the_whole)
 }
 TEST(resolve, nan_and_infinity_store_as_they_do_elsewhere)
 {
-    canvas in = canvas_open(4, 2, 0, SHADE_FORMAT_RGBA32F, 0),
-           out = canvas_open(2, 1, 0, SHADE_FORMAT_RGBA8, 0);
-    float f[32];
-    for (int i = 0; i < 32; i++) f[i] = 0.5f;
-    f[0] = (float)NAN, f[8] = INFINITY, f[9] = -INFINITY;
-    memcpy(in.color + CANVAS_GUARD, f, sizeof f);
-    CHECK_INT(shade_resolve(&out.target, &in.target, 2), SHADE_OK);
-    CHECK_INT(canvas_bytes(&out, 0, 0)[0], 0);
-    CHECK_INT(canvas_bytes(&out, 0, 0)[1], 128);
-    CHECK_INT(canvas_bytes(&out, 1, 0)[0], 255);
-    CHECK_INT(canvas_bytes(&out, 1, 0)[1], 0);
+    for (int i = 0; i < 2 * SHADE_FORMAT_RGBA32F; i++) {
+        const int factor = 1 + i % 2;
+        shade_format format = (shade_format)(i / 2);
+        canvas in = canvas_open(4, 2, 0, SHADE_FORMAT_RGBA32F, 0);
+        canvas out = canvas_open(4 / factor, 2 / factor, 0, format, 0);
+        float f[32];
+        for (int k = 0; k < 32; k++) f[k] = 0.5f;
+        f[0] = (float)NAN, f[8] = INFINITY, f[9] = -INFINITY;
+        memcpy(in.color + CANVAS_GUARD, f, sizeof f);
+        CHECK_INT(shade_resolve(&out.target, &in.target, factor), SHADE_OK);
+        CHECK_INT(canvas_code(&out, 0, 0, 0), 0);
+        CHECK_INT(canvas_code(&out, 0, 0, 1), (canvas_most(format, 1) + 1) / 2);
+        CHECK_INT(canvas_code(&out, 2 / factor, 0, 0), canvas_most(format, 0));
+        CHECK_INT(canvas_code(&out, 2 / factor, 0, 1), 0);
+        CHECK_INT(canvas_code(&out, 2 / factor, 0, 2), (canvas_most(format, 2) + 1) / 2);
+        canvas_close(&in), canvas_close(&out);
+    }
+}
+
+/* ----------------------------------------------------------------------------------- conversion */
+
+TEST(resolve, factor_one_converts_between_all_formats)
+{
+    for (int i = 0; i < 20 * CANVAS_FORMATS * CANVAS_FORMATS; i++)
+        check_resolve(1, (shade_format)(i % CANVAS_FORMATS),
+                      (shade_format)(i / CANVAS_FORMATS % CANVAS_FORMATS));
+}
+/* every code in every channel, beside any others */
+TEST(resolve, codes_come_back_from_formats_that_hold_them)
+{
+    for (int i = 0; i < 4 * CANVAS_FORMATS * CANVAS_FORMATS; i++) {
+        shade_format first = (shade_format)(i / 4 % CANVAS_FORMATS);
+        shade_format second = (shade_format)(i / 4 / CANVAS_FORMATS);
+        const int held = canvas_pixel_bytes(second) >= canvas_pixel_bytes(first);
+        if (!held || first == SHADE_FORMAT_RGBA32F) continue;
+        canvas a = canvas_open(256, 9, 0, first, 0), b = canvas_open(256, 9, 0, second, 0);
+        canvas back = canvas_open(256, 9, 0, first, 0);
+        a.target.srgb = b.target.srgb = back.target.srgb = i & 1;
+        back.target.dither = i & 2 && canvas_pixel_bytes(second) != 4; /* which 8 bits may tip */
+        resolve_fill(&a);
+        for (int k = 0; k < 256; k++) memset(canvas_pixel(&a, k, 8), k, canvas_pixel_bytes(first));
+        CHECK_INT(shade_resolve(&b.target, &a.target, 1), SHADE_OK);
+        CHECK_INT(shade_resolve(&back.target, &b.target, 1), SHADE_OK);
+        CHECK_SAY(canvas_same(&a, &back), "format %d by %d, sRGB %d, dither %d", (int)first,
+                  (int)second, i & 1, back.target.dither);
+        canvas_close(&a), canvas_close(&b), canvas_close(&back);
+    }
+}
+TEST(resolve, bytes_change_places_between_rgba8_and_bgra8)
+{
+    for (int srgb = 0; srgb < 2; srgb++) {
+        canvas a = canvas_open(256, 256, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas b = canvas_open(256, 256, 0, SHADE_FORMAT_BGRA8, 0);
+        a.target.srgb = b.target.srgb = srgb;
+        for (int k = 0; k < 256 * 256; k++) {
+            unsigned char *p = canvas_pixel(&a, k % 256, k / 256);
+            p[0] = (unsigned char)k, p[1] = (unsigned char)(k / 256);
+            p[2] = (unsigned char)(k * 7), p[3] = (unsigned char)(k / 256 + k);
+        }
+        CHECK_INT(shade_resolve(&b.target, &a.target, 1), SHADE_OK);
+        for (int k = 0; k < 256 * 256; k++) {
+            const unsigned char *p = canvas_bytes(&a, k % 256, k / 256);
+            const unsigned char *q = canvas_bytes(&b, k % 256, k / 256);
+            CHECK(q[0] == p[2] && q[1] == p[1] && q[2] == p[0] && q[3] == p[3]);
+        }
+        canvas_close(&a), canvas_close(&b);
+    }
+}
+TEST(resolve, floats_stay_what_they_are)
+{
+    canvas in = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA32F, 0);
+    canvas out = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA32F, 0);
+    for (int k = 0; k < 4 * 40 * 30; k++) {
+        float f = rnd_one_in(3) ? rnd_nasty() : rnd_sign() * rnd_log(1e-30, 1e30);
+        memcpy(in.color + CANVAS_GUARD + 4 * k, &f, 4);
+    }
+    in.target.srgb = 1; /* without effect on floats */
+    CHECK_INT(shade_resolve(&out.target, &in.target, 1), SHADE_OK);
+    for (int k = 0; k < 4 * 40 * 30; k++) {
+        float want = canvas_float(&in, k / 4 % 40, k / 160, k % 4);
+        float got = canvas_float(&out, k / 4 % 40, k / 160, k % 4);
+        CHECK_SAY(isnan(want) ? isnan(got) : got >= want && got <= want, "got %a, want %a",
+                  (double)got, (double)want);
+    }
     canvas_close(&in), canvas_close(&out);
 }
+/* Two targets of one memory, rows of one stride: what two memories give. */
+TEST(resolve, pixels_of_one_size_are_converted_in_place)
+{
+    for (int i = 0; i < 20 * CANVAS_FORMATS * CANVAS_FORMATS; i++) {
+        shade_format from = (shade_format)(i % CANVAS_FORMATS);
+        shade_format to = (shade_format)(i / CANVAS_FORMATS % CANVAS_FORMATS);
+        if (canvas_pixel_bytes(from) != canvas_pixel_bytes(to)) continue;
+        int w = rnd_int(1, 40), h = rnd_int(1, 10), stride = rnd_one_in(2) ? 0 : w + rnd_int(0, 5);
+        canvas in = canvas_open(w, h, stride, from, 0), out = canvas_open(w, h, stride, to, 0);
+        resolve_fill(&in);
+        in.target.srgb = rnd_one_in(2), out.target.srgb = rnd_one_in(2);
+        out.target.dither = rnd_one_in(2);
+        if (rnd_one_in(2)) random_clip(&out.target);
+        memcpy(out.color, in.color, in.color_bytes + 2 * CANVAS_GUARD);
+        CHECK_INT(shade_resolve(&out.target, &in.target, 1), SHADE_OK);
+        shade_target place = out.target;
+        place.color = in.target.color;
+        CHECK_INT(shade_resolve(&place, &in.target, 1), SHADE_OK);
+        CHECK(!memcmp(in.color, out.color, in.color_bytes + 2 * CANVAS_GUARD));
+        resolve_close(&in), resolve_close(&out);
+    }
+}
+/* The target itself: nothing changes, with sRGB or without. */
+TEST(resolve, a_picture_resolved_into_itself_stays)
+{
+    for (int i = 0; i < 4 * CANVAS_FORMATS; i++) {
+        shade_format format = (shade_format)(i / 4);
+        canvas c = canvas_open(37, 11, 0, format, 0), before = canvas_open(37, 11, 0, format, 0);
+        c.target.srgb = i & 1, c.target.dither = i >> 1 & 1;
+        resolve_fill(&c);
+        memcpy(before.color, c.color, c.color_bytes + 2 * CANVAS_GUARD);
+        CHECK_INT(shade_resolve(&c.target, &c.target, 1), SHADE_OK);
+        CHECK_SAY(canvas_same(&c, &before), "format %d", (int)format);
+        canvas_close(&c), canvas_close(&before);
+    }
+}
+TEST(resolve, conversion_is_refused_where_sizes_or_strips_differ)
+{
+    for (int k = 0; k < 12; k++) {
+        canvas in = canvas_open(24, 18, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas out = canvas_open(24, 18, 0, SHADE_FORMAT_BGRA8, 0);
+        shade_target a = out.target, b = in.target;
+        shade_result want = SHADE_ERROR_ARGUMENT;
+        memset(in.color + CANVAS_GUARD, 1, in.color_bytes);
+        switch (k) {
+        case 0: a.width = 23, a.stride = 24; break;
+        case 1: b.width = 23, b.stride = 24; break;
+        case 2: a.height = 17; break;
+        case 3: b.height = 17; break;
+        case 4: a.row_offset = 3, a.row_count = 6; break;
+        case 5: b.row_offset = 3, b.row_count = 6; break;
+        case 6: a.row_offset = 3, a.row_count = b.row_count = 6; break;
+        case 7: a.row_offset = b.row_offset = 3, a.row_count = 6, b.row_count = 7; break;
+        case 8: a.height = b.height = 6, b.row_offset = 0, b.row_count = 5; break;
+        case 9:
+            a.row_offset = b.row_offset = 3, a.row_count = b.row_count = 6, want = SHADE_OK;
+            break;
+        case 10: a.row_count = 18, want = SHADE_OK; break;
+        default: a.stride = 24, a.height = b.height = 9, want = SHADE_OK; break;
+        }
+        CHECK_INT(shade_resolve(&a, &b, 1), want);
+        CHECK_INT(out.color[CANVAS_GUARD], want == SHADE_OK ? 1 : CANVAS_BYTE);
+        for (size_t i = 0; want && i < out.color_bytes; i++)
+            CHECK(out.color[CANVAS_GUARD + i] == CANVAS_BYTE);
+        canvas_close(&in), canvas_close(&out);
+    }
+}
+
+/* ------------------------------------------------------------------------------------ arguments */
+
 TEST(resolve, what_does_not_fit_is_refused_before_a_pixel_changes)
 {
-    for (int k = 0; k < 20; k++) {
+    for (int k = 0; k < 21; k++) {
         canvas in = canvas_open(24, 18, 0, SHADE_FORMAT_RGBA8, 1);
         canvas out = canvas_open(8, 6, 0, SHADE_FORMAT_RGBA8, 1);
         shade_target a = out.target, b = in.target;
@@ -201,9 +339,10 @@ TEST(resolve, what_does_not_fit_is_refused_before_a_pixel_changes)
         case 13: b.color = NULL, want = SHADE_ERROR_TARGET; break;
         case 14: a.width = 0, want = SHADE_ERROR_TARGET; break;
         case 15: b.stride = 5, want = SHADE_ERROR_TARGET; break;
-        case 16: a.format = (shade_format)3, want = SHADE_ERROR_TARGET; break;
+        case 16: a.format = (shade_format)CANVAS_FORMATS, want = SHADE_ERROR_TARGET; break;
         case 17: b.format = (shade_format)-1, want = SHADE_ERROR_TARGET; break;
         case 18: a.clip_width = -1, want = SHADE_ERROR_TARGET; break;
+        case 19: a.row_offset = 2, a.row_count = 3, b.row_offset = 6, b.row_count = 12; break;
         default: factor = INT32_MAX; break;
         }
         CHECK_INT(shade_resolve(to, from, factor), want);
@@ -212,18 +351,19 @@ TEST(resolve, what_does_not_fit_is_refused_before_a_pixel_changes)
         canvas_close(&in), canvas_close(&out);
     }
 }
-/* Factor 1 is no supersampling, and 8 the most. */
-TEST(resolve, factors_of_two_to_eight_are_taken)
+TEST(resolve, factors_of_one_to_eight_are_taken)
 {
     for (int factor = -1; factor <= 10; factor++) {
         int times = factor > 0 ? factor : 1;
         canvas in = canvas_open(5 * times, 3 * times, 0, SHADE_FORMAT_RGBA8, 0);
         canvas out = canvas_open(5, 3, 0, SHADE_FORMAT_RGBA8, 0);
         CHECK_INT(shade_resolve(&out.target, &in.target, factor),
-                  factor >= 2 && factor <= 8 ? SHADE_OK : SHADE_ERROR_ARGUMENT);
+                  factor >= 1 && factor <= 8 ? SHADE_OK : SHADE_ERROR_ARGUMENT);
         canvas_close(&in), canvas_close(&out);
     }
 }
+/* ------------------------------------------------------------------------------- supersampling */
+
 /* The edge of a half plane drawn at 4 x 4 comes out as the covered share of each pixel. */
 TEST(resolve, supersampled_edges_are_shares_of_sixteenths)
 {
@@ -296,7 +436,8 @@ TEST(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit)
 {
     static strip_scene s;
     for (int i = 0; i < 6; i++) {
-        canvas whole = canvas_open(320, 240, 0, SHADE_FORMAT_RGB565, 1);
+        shade_format format = i % 4 < 2 ? SHADE_FORMAT_RGB565 : SHADE_FORMAT_RGB565_SWAPPED;
+        canvas whole = canvas_open(320, 240, 0, format, 1);
         int rows;
         random_strip_scene(&s);
         whole.target.dither = 1, whole.target.srgb = i & 1;
@@ -304,7 +445,7 @@ TEST(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit)
         for (int y = 0; y < 240; y += rows) {
             rows = i < 3 ? 10 : rnd_int(1, 10);
             if (rows > 240 - y) rows = 240 - y;
-            canvas strip = canvas_strip(320, 240, 0, SHADE_FORMAT_RGB565, 1, y, rows);
+            canvas strip = canvas_strip(320, 240, 0, format, 1, y, rows);
             strip.target.dither = 1, strip.target.srgb = i & 1;
             strip_draw(&s, &strip.target);
             CHECK_SAY(!memcmp(strip.color + CANVAS_GUARD, whole.color + CANVAS_GUARD + 640 * y,
@@ -326,7 +467,14 @@ static const test_case resolve_cases[] = {
     CASE(resolve, strips_give_the_bits_of_the_whole),
     CASE(resolve, nan_and_infinity_store_as_they_do_elsewhere),
     CASE(resolve, what_does_not_fit_is_refused_before_a_pixel_changes),
-    CASE(resolve, factors_of_two_to_eight_are_taken),
+    CASE(resolve, factor_one_converts_between_all_formats),
+    CASE(resolve, codes_come_back_from_formats_that_hold_them),
+    CASE(resolve, bytes_change_places_between_rgba8_and_bgra8),
+    CASE(resolve, floats_stay_what_they_are),
+    CASE(resolve, pixels_of_one_size_are_converted_in_place),
+    CASE(resolve, a_picture_resolved_into_itself_stays),
+    CASE(resolve, conversion_is_refused_where_sizes_or_strips_differ),
+    CASE(resolve, factors_of_one_to_eight_are_taken),
     CASE(resolve, supersampled_edges_are_shares_of_sixteenths),
     CASE(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit),
 };

@@ -22,25 +22,12 @@ static size_t texture_cells(const shade_texture *t) /* no padding after the last
     return texture_stride(t) * (size_t)(t->height - 1) + (size_t)t->width;
 }
 
-/* Texel (i, j) in linear light. Floats are linear whatever srgb says. */
+/* Texel (i, j) in linear light. */
 static void ref_texel(const shade_texture *t, int i, int j, double c[4])
 {
     size_t at = (size_t)j * texture_stride(t) + (size_t)i;
-    if (t->format == SHADE_FORMAT_RGBA32F) {
-        float f[4];
-        memcpy(f, (const unsigned char *)t->pixels + 16 * at, 16);
-        for (int k = 0; k < 4; k++) c[k] = (double)f[k];
-        return;
-    }
-    if (t->format == SHADE_FORMAT_RGBA8) {
-        const unsigned char *p = (const unsigned char *)t->pixels + 4 * at;
-        for (int k = 0; k < 4; k++) c[k] = p[k] / 255.0;
-    } else {
-        uint16_t u;
-        memcpy(&u, (const unsigned char *)t->pixels + 2 * at, 2);
-        c[0] = (u >> 11) / 31.0, c[1] = (u >> 5 & 63) / 63.0, c[2] = (u & 31) / 31.0, c[3] = 1;
-    }
-    for (int k = 0; k < 3 && t->srgb; k++) c[k] = ref_decode_srgb(c[k]);
+    ref_pixel(t->format, t->srgb,
+              (const unsigned char *)t->pixels + canvas_pixel_bytes(t->format) * at, c);
 }
 
 /* The place on an axis of n texels that a coordinate names, 0 .. n. */
@@ -130,7 +117,7 @@ static shade_texture random_texture(int most)
 {
     int w = rnd_one_in(5) ? 1 : rnd_int(1, most), h = rnd_one_in(5) ? 1 : rnd_int(1, most);
     if (rnd_one_in(4)) w = h = 1 << rnd_int(0, 4);
-    shade_texture t = texture_of(w, h, (shade_format)rnd_int(0, 2));
+    shade_texture t = texture_of(w, h, rnd_format());
     t.srgb = rnd_one_in(2);
     t.wrap_u = (shade_wrap)rnd_int(0, 2), t.wrap_v = (shade_wrap)rnd_int(0, 2);
     return t;
@@ -286,19 +273,19 @@ TEST(texture, nearest_takes_nothing_from_other_texels)
 }
 TEST(texture, full_texels_are_exactly_one_and_empty_ones_zero)
 {
-    for (int i = 0; i < 2 * 3 * 2; i++) {
+    for (int i = 0; i < 2 * 3 * SHADE_FORMAT_RGBA32F; i++) {
         unsigned char pixels[4 * 4 * 4];
         shade_texture t;
         memset(&t, 0, sizeof t);
-        t.pixels = pixels, t.width = t.height = 4, t.srgb = i & 1, t.filter = (shade_filter)(i / 4);
-        t.format = i & 2 ? SHADE_FORMAT_RGB565 : SHADE_FORMAT_RGBA8;
+        t.pixels = pixels, t.width = t.height = 4, t.srgb = i & 1;
+        t.filter = (shade_filter)(i / 2 % 3), t.format = (shade_format)(i / 6);
         for (int full = 0; full < 2; full++) {
             memset(pixels, full ? 255 : 0, sizeof pixels);
             for (int k = 0; k < 30; k++) {
                 float got[4];
                 sample_to(&t, rnd_float(-2, 2), rnd_float(-2, 2), 0, got);
                 for (int n = 0; n < 4; n++) {
-                    double want = n == 3 && i & 2 ? 1 : full;
+                    double want = canvas_most(t.format, n) ? full : 1;
                     CHECK_NEAR(got[n], want, t.srgb && full && n < 3 ? 2e-6 : 0);
                 }
             }
@@ -379,7 +366,7 @@ TEST(texture, a_bad_texture_is_white)
         case 8: t.height = 16385; break;
         case 9: t.stride = 3; break;
         case 10: t.stride = -4; break;
-        case 11: t.format = (shade_format)3; break;
+        case 11: t.format = (shade_format)CANVAS_FORMATS; break;
         case 12: t.wrap_u = (shade_wrap)3; break;
         case 13: t.wrap_v = (shade_wrap)99; break;
         case 14: t.filter = (shade_filter)3; break;
@@ -539,7 +526,7 @@ TEST(texture, sampling_a_packet_needs_coordinates_and_a_place)
 
 TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
 {
-    static const size_t cell[3] = { 4, 2, 16 };
+    static const size_t cell[CANVAS_FORMATS] = { 4, 4, 2, 2, 16 };
     for (int i = 0; i < 3000; i++) {
         int w = rnd_one_in(3) ? rnd_int(1, 16384) : rnd_int(1, 40), n = 0;
         int h = rnd_one_in(3) ? rnd_int(1, 16384) : rnd_int(1, 40);
@@ -549,7 +536,7 @@ TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
             cells += (size_t)a * (size_t)b;
         }
         CHECK_INT(shade_mipmap_count(w, h), n);
-        for (int f = 0; f < 3; f++)
+        for (int f = 0; f < CANVAS_FORMATS; f++)
             CHECK_INT(shade_mipmap_bytes(w, h, (shade_format)f), cells * cell[f]);
     }
     CHECK_INT(shade_mipmap_count(1, 1), 0);
@@ -557,7 +544,7 @@ TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
     CHECK_INT(shade_mipmap_count(0, 5), 0);
     CHECK_INT(shade_mipmap_count(5, -1), 0);
     CHECK_INT(shade_mipmap_bytes(0, 5, SHADE_FORMAT_RGBA8), 0);
-    CHECK_INT(shade_mipmap_bytes(8, 8, (shade_format)3), 0);
+    CHECK_INT(shade_mipmap_bytes(8, 8, (shade_format)CANVAS_FORMATS), 0);
 }
 /* Texel (x, y) of a level of w x h texels: the mean of the rectangle of the level above that it
    covers, by area. */
@@ -584,16 +571,14 @@ static void check_level(const shade_texture *up, const shade_texture *t)
             ref_shrunk(up, t->width, t->height, x, y, want);
             for (int k = 0; k < 4; k++) {
                 shade_texture raw = *t;
-                double got[4], steps = t->format == SHADE_FORMAT_RGBA8 ? 255 : k == 1 ? 63 : 31;
+                double got[4], stored = t->srgb && k < 3 ? ref_encode_srgb(want[k]) : want[k];
+                double steps = canvas_most(t->format, k);
                 raw.srgb = 0;
                 ref_texel(&raw, x, y, got);
-                if (t->format == SHADE_FORMAT_RGBA32F) {
+                if (t->format == SHADE_FORMAT_RGBA32F)
                     CHECK_NEAR(got[k], want[k], 1e-6);
-                } else if (t->format == SHADE_FORMAT_RGBA8 ||
-                           k < 3) { /* half a step, and roundings */
-                    double stored = t->srgb && k < 3 ? ref_encode_srgb(want[k]) : want[k];
-                    CHECK_NEAR(got[k] * steps, stored * steps, 0.502);
-                }
+                else
+                    CHECK_NEAR(got[k] * steps, stored * steps, 0.502); /* half, and roundings */
             }
         }
 }
@@ -650,7 +635,7 @@ TEST(texture, bad_mipmap_calls_are_refused_and_change_nothing)
     unsigned char *block = canvas_block(4096);
     void *memory = block + CANVAS_GUARD;
     for (int k = 0; k < 12; k++) {
-        shade_texture t = texture_of(13, 7, (shade_format)(k % 3)), levels[16], good;
+        shade_texture t = texture_of(13, 7, rnd_format()), levels[16], good;
         shade_texture *list = levels, *texture = &t;
         void *at = memory;
         size_t bytes = shade_mipmap_bytes(13, 7, t.format);
@@ -976,7 +961,7 @@ static void random_map_scene(map_scene *s, shade_shading shading)
         s->color[k] = map_color(1);
         s->uv[k][0] = rnd_float(-0.3, 1.5), s->uv[k][1] = rnd_float(-0.3, 1.5);
     }
-    s->map = texture_of(rnd_int(1, 12), rnd_int(1, 12), (shade_format)rnd_int(0, 2));
+    s->map = texture_of(rnd_int(1, 12), rnd_int(1, 12), rnd_format());
     s->map.srgb = rnd_one_in(2);
     s->map.wrap_u = (shade_wrap)rnd_int(0, 2), s->map.wrap_v = (shade_wrap)rnd_int(0, 2);
     if (rnd_one_in(2))
@@ -1000,6 +985,7 @@ static void random_map_scene(map_scene *s, shade_shading shading)
     state->lighting.model = (shade_model)(rnd_one_in(2) ? 0 : rnd_int(0, 5));
     state->lighting.terms = rnd_one_in(3) ? (unsigned)rnd_int(1, 15) : 0;
     state->shading = shading, state->diffuse_map = &s->map;
+    state->transparency = rnd_one_in(2) ? 0 : rnd_float(0, 1);
 }
 static void close_map_scene(map_scene *s)
 {
@@ -1042,10 +1028,10 @@ static d3 map_pixel(const map_scene *s, const double b[3], d3 texel, int *unsure
 }
 /* How far u, v and lod, 1e-5 off, move the texel; noise of the steps as in check_lod. */
 static double map_texel(const map_scene *s, const ref_triangle *t, const double b[3], double X,
-                        double Y, d3 *texel)
+                        double Y, double c[4])
 {
     lod_scene planes;
-    double u = 0, v = 0, c[4], near_by[4], span, moved = 0, slack;
+    double u = 0, v = 0, near_by[4], span, moved = 0, slack;
     for (int k = 0; k < 3; k++) {
         u += b[k] * (double)s->uv[k][0], v += b[k] * (double)s->uv[k][1];
         planes.attribute[k][0] = s->uv[k][0], planes.attribute[k][1] = s->uv[k][1];
@@ -1058,9 +1044,8 @@ static double map_texel(const map_scene *s, const ref_triangle *t, const double 
     for (int k = 0; k < 3; k++) {
         ref_sample(&s->map, u + (k == 0) * 1e-5, v + (k == 1) * 1e-5,
                    lod + (k == 2) * (1e-4 + 1e-5 * slack), near_by, &span);
-        for (int n = 0; n < 3; n++) moved = fmax(moved, fabs(near_by[n] - c[n]));
+        for (int n = 0; n < 4; n++) moved = fmax(moved, fabs(near_by[n] - c[n]));
     }
-    *texel = d3_of(c[0], c[1], c[2]);
     return 3 * moved;
 }
 static void check_maps(shade_shading shading)
@@ -1083,17 +1068,18 @@ static void check_maps(shade_shading shading)
             int x = k % MAP_WIDTH, y = k / MAP_WIDTH, unsure = 0;
             double X = x + 0.5, Y = y + 0.5, b[3];
             if (ref_covers(&t, X, Y, 0.01, 1, 0) != 1) continue;
-            d3 texel, want;
+            double texel[4];
             ref_barycentric(&t, X, Y, b);
-            double moved = map_texel(&s, &t, b, X, Y, &texel);
-            want = map_pixel(&s, b, texel, &unsure);
+            double moved = map_texel(&s, &t, b, X, Y, texel);
+            d3 want = map_pixel(&s, b, d3_of(texel[0], texel[1], texel[2]), &unsure);
             if (unsure) continue;
             checked++;
             double within = 2e-4 + 4 * moved; /* light of up to 3, highlights of exponent 30 */
             CHECK_NEAR(canvas_float(&c, x, y, 0), want.x, within);
             CHECK_NEAR(canvas_float(&c, x, y, 1), want.y, within);
             CHECK_NEAR(canvas_float(&c, x, y, 2), want.z, within);
-            CHECK_NEAR(canvas_float(&c, x, y, 3), 1, 0);
+            CHECK_NEAR(canvas_float(&c, x, y, 3), (1 - (double)s.state.transparency) * texel[3],
+                       within);
         }
         close_map_scene(&s);
         canvas_close(&c);
@@ -1121,7 +1107,7 @@ TEST(texture, a_bad_map_is_refused_before_a_pixel_changes)
         case 2: bad.height = -1; break;
         case 3: bad.width = 16385, bad.stride = 0; break;
         case 4: bad.stride = bad.width - 1 ? bad.width - 1 : -1; break;
-        case 5: bad.format = (shade_format)3; break;
+        case 5: bad.format = (shade_format)CANVAS_FORMATS; break;
         case 6: bad.wrap_u = (shade_wrap)5; break;
         case 7: bad.wrap_v = (shade_wrap)-1; break;
         default: bad.filter = (shade_filter)3; break;
