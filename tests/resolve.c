@@ -281,7 +281,7 @@ TEST(resolve, a_picture_resolved_into_itself_stays)
 }
 TEST(resolve, conversion_is_refused_where_sizes_or_strips_differ)
 {
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < 13; k++) {
         canvas in = canvas_open(24, 18, 0, SHADE_FORMAT_RGBA8, 0);
         canvas out = canvas_open(24, 18, 0, SHADE_FORMAT_BGRA8, 0);
         shade_target a = out.target, b = in.target;
@@ -301,6 +301,7 @@ TEST(resolve, conversion_is_refused_where_sizes_or_strips_differ)
             a.row_offset = b.row_offset = 3, a.row_count = b.row_count = 6, want = SHADE_OK;
             break;
         case 10: a.row_count = 18, want = SHADE_OK; break;
+        case 11: a.row_count = b.row_count = 6, a.height = 17; break; /* strips of other pictures */
         default: a.stride = 24, a.height = b.height = 9, want = SHADE_OK; break;
         }
         CHECK_INT(shade_resolve(&a, &b, 1), want);
@@ -315,7 +316,7 @@ TEST(resolve, conversion_is_refused_where_sizes_or_strips_differ)
 
 TEST(resolve, what_does_not_fit_is_refused_before_a_pixel_changes)
 {
-    for (int k = 0; k < 21; k++) {
+    for (int k = 0; k < 22; k++) {
         canvas in = canvas_open(24, 18, 0, SHADE_FORMAT_RGBA8, 1);
         canvas out = canvas_open(8, 6, 0, SHADE_FORMAT_RGBA8, 1);
         shade_target a = out.target, b = in.target;
@@ -343,6 +344,7 @@ TEST(resolve, what_does_not_fit_is_refused_before_a_pixel_changes)
         case 17: b.format = (shade_format)-1, want = SHADE_ERROR_TARGET; break;
         case 18: a.clip_width = -1, want = SHADE_ERROR_TARGET; break;
         case 19: a.row_offset = 2, a.row_count = 3, b.row_offset = 6, b.row_count = 12; break;
+        case 20: a.row_count = 4, b.row_count = 12, b.height = 21; break;
         default: factor = INT32_MAX; break;
         }
         CHECK_INT(shade_resolve(to, from, factor), want);

@@ -266,6 +266,95 @@ TEST(store, the_srgb_code_is_within_half_a_step_everywhere) /* and never falls a
     canvas_close(&c);
 }
 
+/* -------------------------------------------------------------------------- colours as numbers */
+
+static float curve_value(int i)
+{
+    static const float seam[2] = { 0.04045f, 0.0031308f };
+    switch (i % 6) {
+    case 0: return rnd_log(1e-9, 1);
+    case 1: return bits_float(float_bits(seam[i / 6 % 2]) + (uint32_t)rnd_int(0, 40) - 20);
+    case 2: return bits_float(0x3F800000u - (uint32_t)rnd_int(0, 100)); /* just below 1 */
+    case 3: return rnd_one_in(2) ? -rnd_log(1e-30, 1e30) : rnd_log(1, 1e30);
+    case 4: return rnd_nasty();
+    default: return rnd_float(0, 1);
+    }
+}
+/* by component */
+static void check_curve(shade_vec3 (*curve)(shade_vec3), double (*ref)(double))
+{
+    for (int i = 0; i < 100000; i++) {
+        float in[3], out[3];
+        for (int k = 0; k < 3; k++) in[k] = curve_value(rnd_int(0, 11));
+        shade_vec3 c = curve(shade_v3(in[0], in[1], in[2]));
+        out[0] = c.x, out[1] = c.y, out[2] = c.z;
+        for (int k = 0; k < 3; k++) {
+            double v = (double)in[k], want = ref(v > 0 ? (v < 1 ? v : 1) : 0);
+            CHECK_SAY(fabs((double)out[k] - want) <= (isnan(v) ? 0 : 4e-6),
+                      "%a: got %.9g, want %.9g", v, (double)out[k], want);
+            CHECK_SAY(out[k] >= 0 && out[k] <= 1 && !(float_bits(out[k]) >> 31), "%a: got %a", v,
+                      (double)out[k]);
+        }
+    }
+}
+TEST(store, colours_follow_the_srgb_curve_within_zero_and_one)
+{
+    check_curve(shade_linear_from_srgb, ref_decode_srgb);
+    check_curve(shade_srgb_from_linear, ref_encode_srgb);
+}
+TEST(store, nan_is_no_light_and_infinity_is_full)
+{
+    shade_vec3 c = shade_v3((float)NAN, INFINITY, -INFINITY);
+    for (int i = 0; i < 2; i++) {
+        shade_vec3 got = i ? shade_linear_from_srgb(c) : shade_srgb_from_linear(c);
+        CHECK_NEAR(got.x, 0, 0);
+        CHECK_NEAR(got.y, 1, 4e-6);
+        CHECK_NEAR(got.z, 0, 0);
+        got = i ? shade_linear_from_srgb(shade_v3(0, 1, 0))
+                : shade_srgb_from_linear(shade_v3(0, 1, 0));
+        CHECK_NEAR(got.x, 0, 0);
+        CHECK_NEAR(got.y, 1, 4e-6);
+    }
+}
+/* red on top, whatever is above it */
+TEST(store, rgb_is_the_linear_colour_of_its_codes)
+{
+    for (uint32_t i = 0; i < 256; i++) {
+        uint32_t code[3] = { i, (i * 77 + 5) % 256, 255 - i }, rgb;
+        for (int turn = 0; turn < 3; turn++) {
+            uint32_t r = code[turn], g = code[(turn + 1) % 3], b = code[(turn + 2) % 3];
+            rgb = r << 16 | g << 8 | b;
+            shade_vec3 c = shade_rgb(rgb), above = shade_rgb(rgb | (uint32_t)rnd_bits() << 24);
+            shade_vec3 back = shade_srgb_from_linear(c);
+            CHECK_NEAR(c.x, ref_decode_srgb(r / 255.0), 4e-6);
+            CHECK_NEAR(c.y, ref_decode_srgb(g / 255.0), 4e-6);
+            CHECK_NEAR(c.z, ref_decode_srgb(b / 255.0), 4e-6);
+            CHECK(!memcmp(&c, &above, sizeof c));
+            CHECK_INT(back.x * 255 + 0.5f, r);
+            CHECK_INT(back.y * 255 + 0.5f, g);
+            CHECK_INT(back.z * 255 + 0.5f, b);
+        }
+    }
+}
+TEST(store, a_material_becomes_linear_by_its_four_colours)
+{
+    for (int k = 0; k < SHADE_PRESET_COUNT; k++) {
+        shade_material m = shade_preset_material((shade_preset)k), got;
+        m.emission = shade_v3(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
+        got = shade_linear_material(m);
+        const shade_vec3 *from[4] = { &m.emission, &m.ambient, &m.diffuse, &m.specular };
+        const shade_vec3 *to[4] = { &got.emission, &got.ambient, &got.diffuse, &got.specular };
+        for (int i = 0; i < 4; i++) {
+            CHECK_NEAR(to[i]->x, ref_decode_srgb((double)from[i]->x), 4e-6);
+            CHECK_NEAR(to[i]->y, ref_decode_srgb((double)from[i]->y), 4e-6);
+            CHECK_NEAR(to[i]->z, ref_decode_srgb((double)from[i]->z), 4e-6);
+        }
+        CHECK_NEAR(got.shininess, m.shininess, 0);
+    }
+}
+
+/* ------------------------------------------------------------------------- dither and clearing */
+
 TEST(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels)
 {
     for (int i = 0; i < 600; i++) {
@@ -534,6 +623,10 @@ static const test_case store_cases[] = {
     CASE(store, bytes_lie_in_the_order_that_formats_name),
     CASE(store, every_srgb_byte_comes_back_from_linear_light),
     CASE(store, the_srgb_code_is_within_half_a_step_everywhere),
+    CASE(store, colours_follow_the_srgb_curve_within_zero_and_one),
+    CASE(store, nan_is_no_light_and_infinity_is_full),
+    CASE(store, rgb_is_the_linear_colour_of_its_codes),
+    CASE(store, a_material_becomes_linear_by_its_four_colours),
     CASE(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels),
     CASE(store, clear_fills_the_clip_rectangle_of_both_buffers_and_no_more),
     CASE(store, clear_needs_only_one_of_the_buffers),
