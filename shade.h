@@ -2036,7 +2036,7 @@ SHADE__INLINE float shade__unit(float x)
 {
     return shade__keep(shade__clamp_bits(x, 0, 1), shade__mask(x == x));
 }
-/* 0 <= c <= 1 */
+/* 0 <= c <= 1, and so is the result, of either: held for every such float */
 SHADE__INLINE float shade__srgb_encode(float c)
 {
     float curve = 1.055f * shade__exp2_neg(shade__neg_log2(c) * (1 / 2.4f)) - 0.055f;
@@ -2054,15 +2054,13 @@ SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, const int n)
 
 SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 c)
 {
-    return shade_v3(shade__unit(shade__srgb_encode(shade__unit(c.x))),
-                    shade__unit(shade__srgb_encode(shade__unit(c.y))),
-                    shade__unit(shade__srgb_encode(shade__unit(c.z))));
+    return shade_v3(shade__srgb_encode(shade__unit(c.x)), shade__srgb_encode(shade__unit(c.y)),
+                    shade__srgb_encode(shade__unit(c.z)));
 }
 SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 c)
 {
-    return shade_v3(shade__unit(shade__srgb_decode(shade__unit(c.x))),
-                    shade__unit(shade__srgb_decode(shade__unit(c.y))),
-                    shade__unit(shade__srgb_decode(shade__unit(c.z))));
+    return shade_v3(shade__srgb_decode(shade__unit(c.x)), shade__srgb_decode(shade__unit(c.y)),
+                    shade__srgb_decode(shade__unit(c.z)));
 }
 SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
 {
