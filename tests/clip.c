@@ -420,6 +420,195 @@ TEST(clip, varyings_survive_the_cut) /* perspective to the plane, constant to th
     free(r.fragments);
 }
 
+/* ------------------------------------------------------------------------ affine interpolation */
+
+/* The linear function on the screen through three values at the places of clip-space corners. */
+typedef struct screen_plane {
+    double x, y, v, dx, dy; /* v at (x, y), and its slopes */
+    double reach;           /* longest side squared over twice the area, pixels */
+} screen_plane;
+
+static screen_plane screen_plane_of(double clip[3][4], const double v[3], int width, int height)
+{
+    screen_plane p;
+    double x[3], y[3], longest = 0;
+    for (int k = 0; k < 3; k++) {
+        x[k] = (clip[k][0] / clip[k][3] + 1) * width / 2;
+        y[k] = (1 - clip[k][1] / clip[k][3]) * height / 2;
+    }
+    for (int k = 0; k < 3; k++) {
+        double a = x[(k + 1) % 3] - x[k], b = y[(k + 1) % 3] - y[k];
+        longest = fmax(longest, a * a + b * b);
+    }
+    double x1 = x[1] - x[0], y1 = y[1] - y[0], x2 = x[2] - x[0], y2 = y[2] - y[0];
+    double area = x1 * y2 - x2 * y1, v1 = v[1] - v[0], v2 = v[2] - v[0];
+    p.x = x[0], p.y = y[0], p.v = v[0];
+    p.dx = (v1 * y2 - v2 * y1) / area, p.dy = (v2 * x1 - v1 * x2) / area;
+    p.reach = longest / fabs(area);
+    return p;
+}
+static double screen_plane_at(const screen_plane *p, double X, double Y)
+{
+    return p->v + p->dx * (X - p->x) + p->dy * (Y - p->y);
+}
+static void clip_doubles(const shade_vec4 v[3], double out[3][4])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k][0] = (double)v[k].x, out[k][1] = (double)v[k].y;
+        out[k][2] = (double)v[k].z, out[k][3] = (double)v[k].w;
+    }
+}
+static void draw_affine(canvas *c, const shade_vec4 v[3], const float value[3], int zero_to_one,
+                        recorder *r)
+{
+    scene s = { v, value, 1, NULL, r };
+    shade_pipeline p = scene_pipeline(&s);
+    p.interpolation = SHADE_INTERPOLATION_AFFINE, p.raster.depth_zero_to_one = zero_to_one;
+    p.fragment = scene_colors;
+    if (r) r->count = 0;
+    CHECK_INT(shade_draw(&c->target, &p, NULL, 3, 3, NULL), SHADE_OK);
+}
+
+/* Cut by the guard band, by near, and by the guard band again, far out. */
+TEST(clip, affine_is_linear_on_the_screen_in_three_examples)
+{
+    static const shade_vec4 apex[3] = { { 0, 16, 0, 4 }, { 0, 4, -8, 4 }, { 0, 4, 0, 0.1f } };
+    static const double want[3] = { 23.5 / 160, 23.5 / 64, 23.5 / 1312 };
+    static const float red[3] = { 0, 0, 1 };
+    for (int k = 0; k < 3; k++) {
+        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
+        shade_vec4 v[3] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 } };
+        v[2] = apex[k];
+        canvas_clear(&c, 1);
+        draw_affine(&c, v, red, 0, NULL);
+        CHECK_NEAR(canvas_float(&c, 32, 40, 0), want[k], 2e-6);
+        canvas_close(&c);
+    }
+}
+
+/* Corners in front of the eye, some of them outside of planes of one kind: 0 near, 1 far, 2 the
+   guard band, 3 any. */
+static void random_cut_triangle(int kind, int zero_to_one, shade_vec4 v[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double w = (double)rnd_log(0.2, 5), x = (double)rnd_float(-1.5, 1.5);
+        double y = (double)rnd_float(-1.5, 1.5);
+        double z = (double)rnd_float(zero_to_one ? 0.05 : -0.9, 0.9);
+        int out = rnd_one_in(2) ? kind == 3 ? rnd_int(0, 2) : kind : -1;
+        if (out == 0) z = zero_to_one ? -(double)rnd_log(0.01, 20) : -(double)rnd_log(1.01, 20);
+        if (out == 1) z = (double)rnd_log(1.01, 20);
+        if (out == 2 && rnd_one_in(2))
+            x = (double)(rnd_sign() * rnd_log(3.1, 300));
+        else if (out == 2)
+            y = (double)(rnd_sign() * rnd_log(3.1, 300));
+        v[k] = shade_v4((float)(x * w), (float)(y * w), (float)(z * w), (float)w);
+    }
+}
+/* Snapping moves new corners as any others, their values with them; a slice of a cut polygon is
+   steeper, in floats, than the triangle. */
+TEST(clip, affine_is_linear_on_the_screen_whatever_is_cut)
+{
+    recorder r = recorder_open(20000);
+    long tested[4] = { 0, 0, 0, 0 };
+    for (int i = 0; i < 4000; i++) {
+        int kind = i % 4, zero_to_one = rnd_one_in(2);
+        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
+        shade_vec4 v[3];
+        float value[3];
+        double clip[3][4], exact[3];
+        random_cut_triangle(kind, zero_to_one, v);
+        for (int k = 0; k < 3; k++) value[k] = rnd_float(-1, 1), exact[k] = (double)value[k];
+        clip_doubles(v, clip);
+        screen_plane p = screen_plane_of(clip, exact, 64, 48);
+        draw_affine(&c, v, value, zero_to_one, &r);
+        for (int k = 0; k < r.count && p.reach < 50; k++) {
+            double want = screen_plane_at(&p, (double)r.fragments[k].x, (double)r.fragments[k].y);
+            CHECK_NEAR(r.fragments[k].in[0], want, 1e-4 + hypot(p.dx, p.dy) / 256);
+            tested[kind]++;
+        }
+        canvas_close(&c);
+    }
+    for (int kind = 0; kind < 4; kind++)
+        CHECK_SAY(tested[kind] > 50000, "kind %d: %ld pixels", kind, tested[kind]);
+    free(r.fragments);
+}
+
+/* A corner without a place on the screen: then new corners have the value of the perspective
+   interpolation, a part t of the way in clip space.  Two such corners leave one triangle. */
+TEST(clip, affine_behind_the_eye_is_linear_between_perspective_values)
+{
+    recorder r = recorder_open(20000);
+    long tested = 0;
+    for (int i = 0; i < 4000; i++) {
+        canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
+        shade_vec4 v[3];
+        float value[3];
+        double clip[3][4], cut[3][4], exact[3];
+        int whole = 1;
+        for (int k = 0; k < 3; k++) {
+            double w = k ? -(double)rnd_log(1e-3, 5) : (double)rnd_log(0.2, 5);
+            if (k && rnd_one_in(8)) w = 0;
+            v[k] = shade_v4(rnd_float(-2, 2), rnd_float(-2, 2),
+                            k ? (float)-w - rnd_log(0.1, 5) : rnd_float(-0.5, 0.5) * (float)w,
+                            (float)w);
+            value[k] = rnd_float(-1, 1);
+        }
+        clip_doubles(v, clip);
+        for (int k = 0; k < 3; k++) { /* corner 0, and where its edges leave */
+            double d0 = clip[0][2] + clip[0][3], dk = clip[k][2] + clip[k][3];
+            double t = k ? d0 / (d0 - dk) : 0;
+            for (int n = 0; n < 4; n++) cut[k][n] = clip[0][n] + t * (clip[k][n] - clip[0][n]);
+            exact[k] = (double)value[0] + t * ((double)value[k] - (double)value[0]);
+            whole &= fmax(fabs(cut[k][0]), fabs(cut[k][1])) < 2.9 * cut[k][3];
+        }
+        if (rnd_one_in(2)) { /* another first corner */
+            shade_vec4 last = v[0];
+            float last_value = value[0];
+            v[0] = v[1], v[1] = v[2], v[2] = last;
+            value[0] = value[1], value[1] = value[2], value[2] = last_value;
+        }
+        screen_plane p = screen_plane_of(cut, exact, 64, 48);
+        draw_affine(&c, v, value, 0, &r);
+        for (int k = 0; k < r.count && whole && p.reach < 50; k++) {
+            double want = screen_plane_at(&p, (double)r.fragments[k].x, (double)r.fragments[k].y);
+            CHECK_NEAR(r.fragments[k].in[0], want, 1e-4 + hypot(p.dx, p.dy) / 256);
+            tested++;
+        }
+        canvas_close(&c);
+    }
+    CHECK_SAY(tested > 50000, "%ld pixels", tested);
+    free(r.fragments);
+}
+TEST(clip, affine_behind_the_eye_stays_between_the_corners)
+{
+    recorder r = recorder_open(20000);
+    long tested = 0;
+    for (int i = 0; i < 3000; i++) {
+        canvas c = canvas_open(48, 48, 0, SHADE_FORMAT_RGBA8, 0);
+        int zero_to_one = rnd_one_in(2);
+        float value[3], least = 1, most = -1;
+        shade_vec4 v[3];
+        random_eye_triangle(v, zero_to_one, i % 3 ? 15 : 200);
+        if (rnd_one_in(6)) v[rnd_int(0, 2)].w = 0;
+        for (int k = 0; k < 3; k++) {
+            value[k] = rnd_float(-1, 1);
+            least = value[k] < least ? value[k] : least, most = value[k] > most ? value[k] : most;
+        }
+        draw_affine(&c, v, value, zero_to_one, &r);
+        for (int k = 0; k < r.count; k++) {
+            float got = r.fragments[k].in[0];
+            CHECK_SAY(got >= least - 1e-2f && got <= most + 1e-2f, "%g, of %g .. %g", (double)got,
+                      (double)least, (double)most);
+            tested++;
+        }
+        canvas_close(&c);
+    }
+    CHECK_SAY(tested > 100000, "%ld pixels", tested);
+    free(r.fragments);
+}
+
+/* ----------------------------------------------------------------------------- any coordinates */
+
 /* Corners of w = 1e30 beside ordinary ones: rounding dents the cut polygon, so that a further plane
    may leave and enter it more than once. */
 TEST(clip, polygons_dented_by_rounding_are_survived)
@@ -563,6 +752,10 @@ static const test_case clip_cases[] = {
     CASE(clip, meshes_through_the_near_plane_cover_every_pixel_once),
     CASE(clip, facing_survives_the_cut),
     CASE(clip, varyings_survive_the_cut),
+    CASE(clip, affine_is_linear_on_the_screen_in_three_examples),
+    CASE(clip, affine_is_linear_on_the_screen_whatever_is_cut),
+    CASE(clip, affine_behind_the_eye_is_linear_between_perspective_values),
+    CASE(clip, affine_behind_the_eye_stays_between_the_corners),
     CASE(clip, polygons_dented_by_rounding_are_survived),
     CASE(clip, any_position_at_all_is_accounted_for),
     CASE(clip, only_the_volume_decides_between_the_planes_of_zero_to_one),

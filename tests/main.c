@@ -28,6 +28,7 @@
 #include "drive.c"
 #include "mesh.c"
 #include "texture.c"
+#include "depth.c"
 #include "lines.c"
 #include "shape.c"
 #include "ray.c"
@@ -39,6 +40,7 @@ static const test_section sections[] = {
     SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
+    SECTION(depth),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 
