@@ -344,37 +344,43 @@ TEST(texture, beyond_the_edges_each_axis_wraps_by_its_own_rule)
         }
     }
 }
+/* Makes a good texture, more than a texel wide, a bad one. */
+enum { TEXTURE_FAULTS = 18 };
+static void spoil_texture(shade_texture *t, int fault)
+{
+    switch (fault) {
+    case 0: t->pixels = NULL; break;
+    case 1: t->width = 0; break;
+    case 2: t->height = 0; break;
+    case 3: t->width = -4; break;
+    case 4: t->height = -4; break;
+    case 5: t->width = 16385, t->stride = 0; break;
+    case 6: t->height = 16385; break;
+    case 7: t->stride = t->width - 1; break;
+    case 8: t->stride = -4; break;
+    case 9: t->format = (shade_format)CANVAS_FORMATS; break;
+    case 10: t->format = (shade_format)-1; break;
+    case 11: t->wrap_u = (shade_wrap)3; break;
+    case 12: t->wrap_v = (shade_wrap)99; break;
+    case 13: t->filter = (shade_filter)3; break;
+    case 14: t->width = INT32_MAX; break;
+    case 15: t->height = INT32_MIN; break;
+    case 16: t->stride = INT32_MIN; break;
+    default: t->wrap_v = (shade_wrap)-1; break;
+    }
+}
 TEST(texture, a_bad_texture_is_white)
 {
     float pixels[64], u[SHADE_LANES], v[SHADE_LANES], rgba[4 * SHADE_LANES];
     for (int i = 0; i < 64; i++) pixels[i] = 0.25f;
     for (int i = 0; i < SHADE_LANES; i++) u[i] = v[i] = 0.3f;
-    for (int k = 0; k < 18; k++) {
+    for (int k = -2; k < TEXTURE_FAULTS; k++) {
         shade_texture t;
-        const shade_texture *p = &t;
+        const shade_texture *p = k == -1 ? NULL : &t;
         memset(&t, 0, sizeof t);
         t.pixels = pixels, t.width = t.height = 4, t.format = SHADE_FORMAT_RGBA32F;
-        switch (k) {
-        case 0: break;
-        case 1: p = NULL; break;
-        case 2: t.pixels = NULL; break;
-        case 3: t.width = 0; break;
-        case 4: t.height = 0; break;
-        case 5: t.width = -4; break;
-        case 6: t.height = -4; break;
-        case 7: t.width = 16385, t.stride = 0; break;
-        case 8: t.height = 16385; break;
-        case 9: t.stride = 3; break;
-        case 10: t.stride = -4; break;
-        case 11: t.format = (shade_format)CANVAS_FORMATS; break;
-        case 12: t.wrap_u = (shade_wrap)3; break;
-        case 13: t.wrap_v = (shade_wrap)99; break;
-        case 14: t.filter = (shade_filter)3; break;
-        case 15: t.width = INT32_MAX; break;
-        case 16: t.height = INT32_MIN; break;
-        default: t.stride = INT32_MIN; break;
-        }
-        float want = k ? 1.0f : 0.25f, got[4];
+        if (k >= 0) spoil_texture(&t, k);
+        float want = k == -2 ? 0.25f : 1.0f, got[4];
         sample_to(p, 0.3f, 0.3f, 0, got);
         shade_sample_lanes(p, u, v, NULL, rgba);
         for (int n = 0; n < 4; n++) CHECK_NEAR(got[n], want, 0);
@@ -815,6 +821,66 @@ TEST(texture, lod_is_the_same_in_scenes_of_any_size)
     }
 }
 
+/* Draws lod into rows that begin as NaN. */
+static void draw_lod(const lod_scene *s, const shade_texture *map, shade_interpolation how)
+{
+    canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 0);
+    shade_pipeline p;
+    memset(&p, 0, sizeof p);
+    p.vertex = lod_vertex, p.fragment = lod_fragment, p.uniforms = s, p.varyings = 5;
+    p.interpolation = how, p.lod_texture = map, p.lod_varying = s->first;
+    for (int k = 0; k < 48 * 64; k++) s->lod[k / 64][k % 64] = (float)NAN;
+    CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+    canvas_close(&c);
+}
+/* Cut triangles: the same bits in every interpolation, and in scenes 2^40 times as large or small,
+   where all products are; 1e12 times rounds otherwise.  Corners at the cut are snapped, so that
+   slices of a cut polygon, few pixels wide, have steps of their own. */
+TEST(texture, lod_of_cut_triangles_is_that_of_the_whole)
+{
+    static const double scale[5] = { 1, 1099511627776.0, 1 / 1099511627776.0, 1e12, 1e-12 };
+    static float lod[15][48][64];
+    long checked = 0, apart = 0, moved = 0;
+    for (int i = 0; i < 1500; i++) {
+        shade_texture map = lod_map(rnd_int(1, 600), rnd_int(1, 600));
+        shade_vec4 clip[3];
+        lod_scene s;
+        ref_triangle t;
+        if (i % 4 == 3)
+            random_eye_triangle(clip, 0, 15); /* behind the eye as well */
+        else
+            random_cut_triangle(i % 4, 0, clip);
+        for (int k = 0; k < 15; k++) s.attribute[k / 5][k % 5] = rnd_float(-2, 2);
+        s.first = rnd_int(0, 3);
+        for (int k = 0; k < 15; k++) {
+            for (int n = 0; n < 3; n++) {
+                const shade_vec4 p = clip[n];
+                const double by = scale[k / 3];
+                s.clip[n] = shade_v4((float)((double)p.x * by), (float)((double)p.y * by),
+                                     (float)((double)p.z * by), (float)((double)p.w * by));
+            }
+            s.lod = lod[k];
+            draw_lod(&s, &map, (shade_interpolation)(k % 3));
+            if (k % 3) CHECK(!memcmp(lod[k], lod[k - 1], sizeof lod[k]));
+            if (k / 3 == 1 || k / 3 == 2) CHECK(!memcmp(lod[k], lod[0], sizeof lod[k]));
+        }
+        if (!ref_triangle_of(&t, &clip[0], &clip[1], &clip[2], 64, 48)) continue;
+        lod_planes planes = lod_planes_of(&s, &t);
+        for (int k = 0; k < 48 * 64; k++) {
+            int x = k % 64, y = k / 64;
+            double slack, want = ref_lod(&planes, x + 0.5, y + 0.5, (double)map.width,
+                                         (double)map.height, &slack);
+            if (isnan(lod[0][y][x]) || slack > 20) continue;
+            checked++;
+            apart += fabs((double)lod[0][y][x] - want) > 0.02;
+            for (int n = 9; n < 15; n += 3)
+                moved += !(fabs((double)lod[n][y][x] - (double)lod[0][y][x]) <= 0.02);
+        }
+    }
+    CHECK_SAY(checked > 300000 && apart < checked / 2000 && moved < checked / 20000,
+              "%ld of %ld pixels are off, %ld move", apart, checked, moved);
+}
+
 TEST(texture, the_lod_oracle_agrees_with_finite_differences)
 {
     for (int i = 0; i < 300; i++) {
@@ -852,6 +918,34 @@ TEST(texture, the_lod_oracle_agrees_with_finite_differences)
         }
     }
 }
+/* before a pixel changes, in depth-only draws as well */
+TEST(texture, a_bad_lod_texture_is_refused)
+{
+    canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 1);
+    lod_scene s;
+    static float lod[48][64];
+    memset(&s, 0, sizeof s);
+    for (int k = 0; k < 3; k++) s.clip[k] = clip_corners[k];
+    s.lod = lod;
+    for (int k = 0; k <= 2 * TEXTURE_FAULTS; k++) {
+        shade_texture map = lod_map(4, 4);
+        shade_pipeline p;
+        shade_stats stats;
+        memset(&p, 0, sizeof p);
+        p.vertex = lod_vertex, p.fragment = k % 2 ? NULL : lod_fragment, p.uniforms = &s;
+        p.varyings = 5, p.lod_texture = &map, p.lod_varying = 1;
+        p.interpolation = (shade_interpolation)(k % 3), p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        if (k < 2 * TEXTURE_FAULTS) spoil_texture(&map, k / 2);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats),
+                  k < 2 * TEXTURE_FAULTS ? SHADE_ERROR_ARGUMENT : SHADE_OK);
+        CHECK_INT(c.color[CANVAS_GUARD + 4 * 36], k < 2 * TEXTURE_FAULTS ? CANVAS_BYTE : 0);
+        CHECK_INT(stats.triangles, k == 2 * TEXTURE_FAULTS);
+        if (k == 2 * TEXTURE_FAULTS) break;
+        for (size_t i = 0; i < c.color_bytes; i++) CHECK(c.color[CANVAS_GUARD + i] == CANVAS_BYTE);
+        for (size_t i = 0; i < c.depth_bytes; i++) CHECK(c.depth[CANVAS_GUARD + i] == CANVAS_BYTE);
+    }
+    canvas_close(&c);
+}
 TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
@@ -867,9 +961,7 @@ TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
         p.lod_texture = &map, p.lod_varying = k;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL),
                   k < 0 || k > 3 ? SHADE_ERROR_ARGUMENT : SHADE_OK);
-        map.stride = 3;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_ARGUMENT);
-        map.stride = 0, p.lod_varying = 2147483647 - (k + 2);
+        p.lod_varying = 2147483647 - (k + 2);
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_ARGUMENT);
         p.lod_texture = NULL;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
@@ -1096,22 +1188,13 @@ TEST(texture, a_map_varies_per_pixel_on_flat_faces) { check_maps(SHADE_SHADING_P
 TEST(texture, a_bad_map_is_refused_before_a_pixel_changes)
 {
     static map_scene s;
-    for (int k = 0; k < 3 * 9; k++) {
+    for (int k = 0; k < 3 * TEXTURE_FAULTS; k++) {
         canvas c = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
         shade_stats stats;
         random_map_scene(&s, (shade_shading)(k % 3));
         shade_texture bad = s.map;
-        switch (k / 3) {
-        case 0: bad.pixels = NULL; break;
-        case 1: bad.width = 0; break;
-        case 2: bad.height = -1; break;
-        case 3: bad.width = 16385, bad.stride = 0; break;
-        case 4: bad.stride = bad.width - 1 ? bad.width - 1 : -1; break;
-        case 5: bad.format = (shade_format)CANVAS_FORMATS; break;
-        case 6: bad.wrap_u = (shade_wrap)5; break;
-        case 7: bad.wrap_v = (shade_wrap)-1; break;
-        default: bad.filter = (shade_filter)3; break;
-        }
+        spoil_texture(&bad, k / 3);
+        if (bad.stride == 0 && bad.width == 1) bad.stride = -1; /* width - 1, but tight */
         s.state.diffuse_map = &bad;
         CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, &stats), SHADE_ERROR_ARGUMENT);
         for (size_t i = 0; i < c.color_bytes; i++) CHECK(c.color[CANVAS_GUARD + i] == CANVAS_BYTE);
@@ -1198,7 +1281,9 @@ static const test_case texture_cases[] = {
     CASE(texture, lod_is_that_of_the_perspective_interpolation_whatever_is_interpolated),
     CASE(texture, lod_is_the_same_in_scenes_of_any_size),
     CASE(texture, lod_without_perspective_is_one_number),
+    CASE(texture, lod_of_cut_triangles_is_that_of_the_whole),
     CASE(texture, the_lod_oracle_agrees_with_finite_differences),
+    CASE(texture, a_bad_lod_texture_is_refused),
     CASE(texture, a_lod_varying_beyond_the_varyings_is_refused),
     CASE(texture, coordinates_that_stand_still_have_no_detail),
     CASE(texture, a_map_multiplies_the_diffuse_and_ambient_terms_per_fragment),
