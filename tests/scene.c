@@ -1,6 +1,7 @@
 /* scene.c - built-in scenes whose pixels are the same bits everywhere: models, shadings, blending,
-   clipping, formats, maps, lines. Their input is made of small whole numbers and of functions
-   inside the library, so that no flag of the compiler that builds this file can change them.
+   clipping, interpolations, formats, maps, alpha, lines. Their input is made of small whole numbers
+   and of functions inside the library, so that no flag of the compiler that builds this file can
+   change them.
 
    Alone it prints their hashes:   cc -DSCENE_MAIN -I. tests/scene.c -lm -o scenes && ./scenes
    [folder] */
@@ -11,9 +12,9 @@
 #include "canvas.h"
 #endif
 
-enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 20 };
+enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 25 };
 
-typedef struct golden_scene {
+typedef struct golden_scene { /* fields that are left out: 0, the default */
     const char *name;
     shade_model model;
     shade_shading shading;
@@ -23,51 +24,101 @@ typedef struct golden_scene {
     unsigned flags;
     int inside; /* the camera stands among the shapes: near plane and guard band cut */
     int reversed;
-    int map; /* 1: nearest, 2: bilinear, 3: trilinear */
-    int lines;
+    int map; /* kinds of scene_map */
+    int lines, affine;
+    float transparency, alpha_cutoff;
 } golden_scene;
 
 static const golden_scene golden_scenes[SCENE_COUNT] = {
-    { "blinn_phong", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
-    { "phong", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
-    { "lambert", SHADE_MODEL_LAMBERT, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
-    { "ambient", SHADE_MODEL_AMBIENT, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 3, SHADE_FLAG_ATTENUATED_AMBIENT, 0, 0, 0, 0 },
-    { "emissive", SHADE_MODEL_EMISSIVE, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
-    { "cool_to_warm", SHADE_MODEL_COOL_TO_WARM, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 1, 0, 0, 0, 0, 0 },
-    { "gouraud", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_VERTEX, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 0, 0 },
-    { "flat", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FACE, SHADE_FORMAT_RGBA8, SHADE_BLEND_REPLACE, 0,
-      0, 3, 0, 0, 0, 0, 0 },
-    { "srgb", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 1, 0, 2, 0, 0, 0, 0, 0 },
-    { "dither565", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGB565,
-      SHADE_BLEND_REPLACE, 1, 1, 2, 0, 0, 0, 0, 0 },
-    { "float", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA32F,
-      SHADE_BLEND_REPLACE, 0, 0, 3, SHADE_FLAG_WEIGHTED_SPECULAR, 0, 0, 0, 0 },
-    { "add", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_ADD, 1, 0, 1, SHADE_FLAG_INFINITE_VIEWER, 0, 0, 0, 0 },
-    { "over565", SHADE_MODEL_LAMBERT, SHADE_SHADING_PER_VERTEX, SHADE_FORMAT_RGB565,
-      SHADE_BLEND_OVER, 0, 0, 2, SHADE_FLAG_TWO_SIDED, 0, 0, 0, 0 },
-    { "inside", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 1, 0, 3, SHADE_FLAG_TWO_SIDED, 1, 0, 0, 0 },
-    { "inside_flat", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FACE, SHADE_FORMAT_RGBA32F,
-      SHADE_BLEND_REPLACE, 0, 0, 3, SHADE_FLAG_TWO_SIDED_ABS, 1, 0, 0, 0 },
-    { "reversed", SHADE_MODEL_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 2, SHADE_FLAG_UNGATED_SPECULAR, 0, 1, 0, 0 },
-    { "nearest", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_VERTEX, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 0, 0, 3, 0, 0, 0, 1, 0 },
-    { "bilinear", SHADE_MODEL_BLINN_PHONG, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 1, 0, 3, 0, 1, 0, 2, 0 },
-    { "trilinear", SHADE_MODEL_LAMBERT, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA32F,
-      SHADE_BLEND_REPLACE, 0, 0, 2, 0, 0, 1, 3, 0 },
-    { "lines", SHADE_MODEL_COOL_TO_WARM, SHADE_SHADING_PER_FRAGMENT, SHADE_FORMAT_RGBA8,
-      SHADE_BLEND_REPLACE, 1, 0, 1, 0, 1, 0, 0, 1 },
+    { .name = "blinn_phong", .lights = 3 },
+    { .name = "phong", .model = SHADE_MODEL_PHONG, .lights = 3 },
+    { .name = "lambert", .model = SHADE_MODEL_LAMBERT, .lights = 3 },
+    { .name = "ambient",
+      .model = SHADE_MODEL_AMBIENT,
+      .lights = 3,
+      .flags = SHADE_FLAG_ATTENUATED_AMBIENT },
+    { .name = "emissive", .model = SHADE_MODEL_EMISSIVE, .lights = 3 },
+    { .name = "cool_to_warm", .model = SHADE_MODEL_COOL_TO_WARM, .lights = 1 },
+    { .name = "gouraud", .shading = SHADE_SHADING_PER_VERTEX, .lights = 3 },
+    { .name = "flat", .model = SHADE_MODEL_PHONG, .shading = SHADE_SHADING_PER_FACE, .lights = 3 },
+    { .name = "srgb", .srgb = 1, .lights = 2 },
+    { .name = "dither565", .format = SHADE_FORMAT_RGB565, .srgb = 1, .dither = 1, .lights = 2 },
+    { .name = "float",
+      .model = SHADE_MODEL_PHONG,
+      .format = SHADE_FORMAT_RGBA32F,
+      .lights = 3,
+      .flags = SHADE_FLAG_WEIGHTED_SPECULAR },
+    { .name = "add",
+      .blend = SHADE_BLEND_ADD,
+      .srgb = 1,
+      .lights = 1,
+      .flags = SHADE_FLAG_INFINITE_VIEWER },
+    { .name = "over565",
+      .model = SHADE_MODEL_LAMBERT,
+      .shading = SHADE_SHADING_PER_VERTEX,
+      .format = SHADE_FORMAT_RGB565,
+      .blend = SHADE_BLEND_OVER,
+      .lights = 2,
+      .flags = SHADE_FLAG_TWO_SIDED },
+    { .name = "inside", .srgb = 1, .lights = 3, .flags = SHADE_FLAG_TWO_SIDED, .inside = 1 },
+    { .name = "inside_flat",
+      .model = SHADE_MODEL_PHONG,
+      .shading = SHADE_SHADING_PER_FACE,
+      .format = SHADE_FORMAT_RGBA32F,
+      .lights = 3,
+      .flags = SHADE_FLAG_TWO_SIDED_ABS,
+      .inside = 1 },
+    { .name = "reversed",
+      .model = SHADE_MODEL_PHONG,
+      .lights = 2,
+      .flags = SHADE_FLAG_UNGATED_SPECULAR,
+      .reversed = 1 },
+    { .name = "nearest", .shading = SHADE_SHADING_PER_VERTEX, .lights = 3, .map = 1 },
+    { .name = "bilinear", .srgb = 1, .lights = 3, .inside = 1, .map = 2 },
+    { .name = "trilinear",
+      .model = SHADE_MODEL_LAMBERT,
+      .format = SHADE_FORMAT_RGBA32F,
+      .lights = 2,
+      .reversed = 1,
+      .map = 3 },
+    { .name = "lines",
+      .model = SHADE_MODEL_COOL_TO_WARM,
+      .srgb = 1,
+      .lights = 1,
+      .inside = 1,
+      .lines = 1 },
+    { .name = "glass",
+      .format = SHADE_FORMAT_BGRA8,
+      .blend = SHADE_BLEND_OVER,
+      .srgb = 1,
+      .lights = 3,
+      .transparency = 0.375f },
+    { .name = "leaves",
+      .model = SHADE_MODEL_LAMBERT,
+      .shading = SHADE_SHADING_PER_VERTEX,
+      .format = SHADE_FORMAT_RGB565_SWAPPED,
+      .srgb = 1,
+      .dither = 1,
+      .lights = 2,
+      .map = 4,
+      .alpha_cutoff = 0.5f },
+    { .name = "smoke",
+      .format = SHADE_FORMAT_RGBA32F,
+      .blend = SHADE_BLEND_OVER,
+      .lights = 3,
+      .flags = SHADE_FLAG_TWO_SIDED,
+      .inside = 1,
+      .map = 4,
+      .transparency = 0.25f },
+    { .name = "glow",
+      .model = SHADE_MODEL_PHONG,
+      .shading = SHADE_SHADING_PER_FACE,
+      .format = SHADE_FORMAT_BGRA8,
+      .blend = SHADE_BLEND_ADD,
+      .lights = 1,
+      .map = 5,
+      .transparency = 0.5f },
+    { .name = "affine", .model = SHADE_MODEL_EMISSIVE, .format = SHADE_FORMAT_BGRA8, .affine = 1 },
 };
 
 /* Six square faces of a box, each a lattice of whole numbers; the normal of a vertex is its
@@ -105,34 +156,37 @@ static void scene_build(void)
     }
 }
 
-/* 16 x 8 texels: nearest from 5-6-5 bits mirrored, bilinear from sRGB bytes repeated, trilinear
-   from floats clamped. */
+/* 16 x 8 texels: 1 from 5-6-5 bits, nearest, mirrored; 2 from sRGB bytes, bilinear, repeated; 3
+   from floats, trilinear, clamped; 4 as 2, but B, G, R, and alpha; 5 as 1, with bytes exchanged. */
 static float scene_texels[16 * 8 * 4], scene_levels[16 * 8 * 4];
 static shade_texture scene_map(int kind, shade_texture *levels)
 {
+    static const shade_format formats[6] = { SHADE_FORMAT_RGBA32F, SHADE_FORMAT_RGB565,
+                                             SHADE_FORMAT_RGBA8,   SHADE_FORMAT_RGBA32F,
+                                             SHADE_FORMAT_BGRA8,   SHADE_FORMAT_RGB565_SWAPPED };
+    const int wide = kind == 2 || kind == 4, narrow = kind == 1 || kind == 5;
     shade_texture t;
     memset(&t, 0, sizeof t);
     for (uint32_t i = 0; i < 16 * 8; i++) {
         uint32_t x = i % 16, y = i / 16, n = (x * 7 + y * 13 + x * y) % 16;
-        uint16_t rgb = (uint16_t)(n << 12 | (15 - n) << 6 | (x ^ y));
+        uint32_t rgb = n << 12 | (15 - n) << 6 | (x ^ y);
+        uint16_t stored = (uint16_t)(kind == 5 ? (rgb & 255) << 8 | rgb >> 8 : rgb);
         unsigned char *bytes = (unsigned char *)scene_texels + 4 * i;
-        if (kind == 1) memcpy((char *)scene_texels + 2 * i, &rgb, 2);
-        if (kind == 2) {
+        if (narrow) memcpy((char *)scene_texels + 2 * i, &stored, 2);
+        if (wide) {
             bytes[0] = (unsigned char)(n * 17), bytes[1] = (unsigned char)(x * 16);
-            bytes[2] = (unsigned char)(y * 32), bytes[3] = 255;
+            bytes[2] = (unsigned char)(y * 32);
+            bytes[3] = (unsigned char)(kind == 4 ? 255 - n * 15 : 255);
         }
         for (uint32_t k = 0; kind == 3 && k < 4; k++)
             scene_texels[4 * i + k] = (float)((n + k * x) % 16) * 0.125f;
     }
-    t.pixels = scene_texels, t.width = 16, t.height = 8, t.srgb = kind == 2;
-    t.format = kind == 1   ? SHADE_FORMAT_RGB565
-               : kind == 2 ? SHADE_FORMAT_RGBA8
-                           : SHADE_FORMAT_RGBA32F;
-    t.wrap_u = kind == 1 ? SHADE_WRAP_MIRROR : kind == 2 ? SHADE_WRAP_REPEAT : SHADE_WRAP_CLAMP;
-    t.wrap_v = t.wrap_u;
-    t.filter = kind == 1   ? SHADE_FILTER_NEAREST
-               : kind == 2 ? SHADE_FILTER_BILINEAR
-                           : SHADE_FILTER_TRILINEAR;
+    t.pixels = scene_texels, t.width = 16, t.height = 8, t.srgb = wide;
+    t.format = formats[kind];
+    t.wrap_u = t.wrap_v = narrow ? SHADE_WRAP_MIRROR : wide ? SHADE_WRAP_REPEAT : SHADE_WRAP_CLAMP;
+    t.filter = narrow ? SHADE_FILTER_NEAREST
+               : wide ? SHADE_FILTER_BILINEAR
+                      : SHADE_FILTER_TRILINEAR;
     if (kind == 3) shade_build_mipmaps(&t, levels, scene_levels, sizeof scene_levels);
     return t;
 }
@@ -151,6 +205,29 @@ static void scene_lines(canvas *c, const shade_draw_state *s)
         }
         shade_draw_lines(&c->target, ends, 2, &line, NULL);
     }
+}
+
+/* A wheel of 16 triangles, linear on the screen: rim corners before near, beyond far, outside the
+   guard band, one of them behind the eye. */
+static void scene_wheel(canvas *c)
+{
+    shade_vec4 clip[48];
+    float color[48][3];
+    scene s = { clip, color[0], 3, NULL, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    for (int i = 0; i < 48; i++) {
+        const int k = (i / 3 + i % 3 + 15) % 16, side = k / 4, along = k % 4 - 2; /* on a square */
+        const int x = side == 0 ? along : side == 1 ? 2 : side == 2 ? -along : -2;
+        const int y = side == 0 ? -2 : side == 1 ? along : side == 2 ? 2 : -along;
+        const int w = k == 5 ? -1 : 1 << k % 3, far_out = k % 5 == 2 ? 8 : 1, z = k % 3 - 1;
+        clip[i] = shade_v4((float)(x * far_out * w), (float)(y * far_out * w), (float)(3 * z * w),
+                           (float)w);
+        color[i][0] = (float)(k & 1), color[i][1] = (float)(k >> 1 & 1);
+        color[i][2] = (float)(k >> 2 & 1);
+        if (i % 3 == 0) clip[i] = shade_v4(0, 0, 0, 1), color[i][0] = color[i][1] = color[i][2] = 1;
+    }
+    p.fragment = scene_colors, p.interpolation = SHADE_INTERPOLATION_AFFINE;
+    shade_draw(&c->target, &p, NULL, 48, 48, NULL);
 }
 
 static void scene_draw(canvas *c, const golden_scene *g)
@@ -177,6 +254,7 @@ static void scene_draw(canvas *c, const golden_scene *g)
     s.lighting.ambient = shade_v3(0.125f, 0.125f, 0.25f);
     s.lighting.model = g->model, s.lighting.flags = g->flags, s.shading = g->shading,
     s.raster.blend = g->blend;
+    s.transparency = g->transparency, s.alpha_cutoff = g->alpha_cutoff;
     s.view = g->inside
                  ? shade_mat4_look_at(shade_v3(5, 1, 3), shade_v3(-4, 0, -2), shade_v3(0, 1, 0))
                  : shade_mat4_look_at(shade_v3(9, 7, 14), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
@@ -191,6 +269,7 @@ static void scene_draw(canvas *c, const golden_scene *g)
     s.model = shade_mat4_rotation(0.5f, shade_v3(1, 2, 3)), s.material = &gold;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
     if (g->lines) scene_lines(c, &s);
+    if (g->affine) scene_wheel(c);
     s.model = shade_mat4_translation(shade_v3(5, -2, -3)), s.material = &plastic;
     s.raster.cull = SHADE_CULL_BACK, s.lighting.terms = 0;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
@@ -207,13 +286,12 @@ static uint64_t scene_hash(const canvas *c)
     uint64_t h = 14695981039346656037u;
     for (int i = 0; i < SCENE_WIDTH * SCENE_HEIGHT; i++) {
         int x = i % SCENE_WIDTH, y = i / SCENE_WIDTH;
+        size_t bytes = canvas_pixel_bytes(c->target.format);
         for (int k = 0; k < 4; k++) {
-            if (c->target.format == SHADE_FORMAT_RGBA8)
-                h = hash_number(h, canvas_bytes(c, x, y)[k], 1);
-            if (c->target.format == SHADE_FORMAT_RGBA32F)
-                h = hash_number(h, float_bits(canvas_float(c, x, y, k)), 4);
+            if (bytes == 4) h = hash_number(h, canvas_bytes(c, x, y)[k], 1);
+            if (bytes == 16) h = hash_number(h, float_bits(canvas_float(c, x, y, k)), 4);
         }
-        if (c->target.format == SHADE_FORMAT_RGB565) h = hash_number(h, canvas_565(c, x, y), 2);
+        if (bytes == 2) h = hash_number(h, canvas_565(c, x, y), 2);
         h = hash_number(h, float_bits(canvas_depth(c, x, y)), 4);
     }
     return h;
