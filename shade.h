@@ -1978,7 +1978,6 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_m
         SHADE_MEMSET(&toward, 0, sizeof toward);
         if (s.light_count > 0) toward.position = lights[0].position;
         lights = &toward, s.light_count = 1;
-        visibility = (const float *)0;
     }
     if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_FLAG_ATTENUATED_AMBIENT))
         for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lights[j].ambient);

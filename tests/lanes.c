@@ -283,6 +283,210 @@ TEST(lanes, albedo_multiplies_diffuse_and_ambient_only)
     }
 }
 
+/* ------------------------------------------------------------------------------- light, shadows */
+
+/* Every lane has a place of its own; every lane is the equation, L and amount. */
+TEST(lanes, light_at_lanes_is_what_arrives_at_each_lane)
+{
+    static lane_packet k;
+    light_sample s;
+    long checked = 0, dark = 0;
+    for (int round = 0; round < 1500; round++) {
+        random_sample(&s);
+        double size = d3_length(d3_from(s.P)) * 1e-2 + 1;
+        random_packet(&k, &s, size);
+        s.lights[0] = random_light(s.P, size);
+        shade_vec4 at = s.lights[0].position;
+        float L[3 * SHADE_LANES], amount[SHADE_LANES];
+        if (at.w == 1) { /* one lane at the lamp itself */
+            int i = rnd_int(0, SHADE_LANES - 1);
+            k.p[i] = shade_v3(at.x, at.y, at.z);
+            lane_set(k.P, i, k.p[i]);
+        }
+        shade_light_at_lanes(&s.lights[0], k.P[0], L, amount);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            ref_arrival want = ref_arriving(&s.lights[0], d3_from(k.p[i]));
+            shade_vec3 toward = shade_v3(L[i], L[SHADE_LANES + i], L[2 * SHADE_LANES + i]);
+            CHECK(finite3(toward) && isfinite(amount[i]));
+            if (want.lost) continue;
+            check_color(__LINE__, "L", toward, want.L, at.w == 0 || at.w == 1 ? 1e-6 : 2e-5);
+            if (want.unsure) continue;
+            checked++, dark += want.amount == 0;
+            CHECK_NEAR(amount[i], want.amount, want.bound);
+        }
+    }
+    CHECK_SAY(checked > 500L * SHADE_LANES && dark > 50L * SHADE_LANES, "%ld, %ld dark", checked,
+              dark);
+}
+
+TEST(lanes, light_at_lanes_writes_the_rows_it_is_given_and_no_more)
+{
+    static lane_packet k;
+    light_sample s;
+    struct {
+        float before[16], rows[3 * SHADE_LANES], after[16];
+    } L, amount;
+    for (int round = 0; round < 200; round++) {
+        float both[3 * SHADE_LANES], much[SHADE_LANES];
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        const shade_light *light = round % 5 ? &s.lights[0] : NULL;
+        const float *P = round % 7 ? k.P[0] : NULL;
+        s.lights[0] = random_light(s.P, 2);
+        lane_packet copy = k;
+        shade_light_at_lanes(light, P, both, much);
+        for (int i = 0; i < SHADE_LANES && !(light && P); i++)
+            CHECK(both[i] == 0 && both[SHADE_LANES + i] == 0 && both[2 * SHADE_LANES + i] == 0 &&
+                  much[i] == 0);
+        memset(&L, CANVAS_BYTE, sizeof L), memset(&amount, CANVAS_BYTE, sizeof amount);
+        shade_light_at_lanes(light, P, L.rows, NULL);
+        shade_light_at_lanes(light, P, NULL, amount.rows);
+        shade_light_at_lanes(light, P, NULL, NULL);
+        CHECK(!memcmp(L.rows, both, sizeof both) && !memcmp(amount.rows, much, sizeof much));
+        for (int i = 0; i < 16; i++) {
+            CHECK(float_bits(L.before[i]) == 0xA5A5A5A5u && float_bits(L.after[i]) == 0xA5A5A5A5u);
+            CHECK(float_bits(amount.before[i]) == 0xA5A5A5A5u);
+        }
+        for (int i = SHADE_LANES; i < 3 * SHADE_LANES; i++)
+            CHECK(float_bits(amount.rows[i]) == 0xA5A5A5A5u);
+        CHECK(!memcmp(&copy, &k, sizeof k));
+    }
+}
+
+/* k_d I_d max(0, N.L) amount: a shader of one's own gets what shade_lit_lanes gives. */
+TEST(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light)
+{
+    static lane_packet k;
+    light_sample s;
+    long lit = 0;
+    for (int round = 0; round < 400; round++) {
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        s.lights[0] = random_light(s.P, 2);
+        s.lighting.light_count = 1, s.lighting.model = SHADE_MODEL_LAMBERT;
+        s.lighting.flags = 0, s.lighting.terms = SHADE_TERM_DIFFUSE;
+        float L[3][SHADE_LANES], amount[SHADE_LANES], rgb[3 * SHADE_LANES];
+        shade_light_at_lanes(&s.lights[0], k.P[0], L[0], amount);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+        d3 light = d3_mul(d3_from(s.material.diffuse), d3_from(s.lights[0].diffuse));
+        for (int i = 0; i < SHADE_LANES; i++) {
+            d3 toward = d3_of((double)L[0][i], (double)L[1][i], (double)L[2][i]);
+            double NL = d3_dot(d3_unit(d3_from(k.n[i])), toward), arriving = (double)amount[i];
+            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
+            d3 want = d3_scale(light, arriving * fmax(0, NL));
+            lit += d3_max(want) > 1e-3;
+            check_color(__LINE__, "diffuse", got, want, 2e-6 * arriving * d3_max(light) + 1e-37);
+        }
+    }
+    CHECK_SAY(lit > 50L * SHADE_LANES, "%ld", lit);
+}
+
+/* The rows of each lamp, in a block of exactly their size. */
+static float *random_visibility(int light_count)
+{
+    static const float plain[] = { 0, 1, 0.5f, 0.25f, 2, -1 };
+    float *v = (float *)malloc((size_t)light_count * SHADE_LANES * sizeof *v + 1);
+    if (!v) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    for (int j = 0; j < light_count; j++) {
+        int kind = rnd_int(0, 3); /* in full shadow, in none, either, anything */
+        for (int i = 0; i < SHADE_LANES; i++) {
+            float any = rnd_one_in(2) ? plain[rnd_int(0, 5)] : rnd_float(-2, 3);
+            v[j * SHADE_LANES + i] = kind < 2 ? (float)kind
+                                     : kind < 3 ? (float)rnd_int(0, 1)
+                                                : any;
+        }
+    }
+    return v;
+}
+
+/* Against the equation of lamps whose I_d and I_s are multiplied by what is seen of them, lane by
+   lane; their ambient light stays, and cool to warm knows no shadow. */
+TEST(lanes, visibility_multiplies_the_diffuse_and_specular_light_of_its_lamp)
+{
+    static lane_packet k;
+    light_sample s;
+    long sure = 0, attenuated = 0, models[6] = { 0, 0, 0, 0, 0, 0 };
+    for (int round = 0; round < 1500; round++) {
+        random_sample(&s);
+        s.lighting.model = (shade_model)(round % 6);
+        if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM)
+            s.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED_ABS;
+        random_packet(&k, &s, 1);
+        for (int j = 0; j < s.lighting.light_count; j++) {
+            s.lights[j] = random_light(s.P, 3);
+            if (s.lights[j].position.w != 0 && s.lights[j].position.w != 1)
+                s.lights[j].position = shade_v4(s.P.x + 1, s.P.y, s.P.z, 1);
+        }
+        float *seen = random_visibility(s.lighting.light_count), rgb[3 * SHADE_LANES];
+        int with_albedo = rnd_one_in(2);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
+                        with_albedo ? k.albedo[0] : NULL, seen, rgb);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            shade_light lights[4];
+            shade_lighting li = s.lighting;
+            memcpy(lights, s.lights, sizeof lights);
+            li.lights = lights;
+            for (int j = 0; j < li.light_count; j++) {
+                float v = seen[j * SHADE_LANES + i];
+                lights[j].diffuse = shade_scale(lights[j].diffuse, v);
+                lights[j].specular = shade_scale(lights[j].specular, v);
+            }
+            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
+            d3 albedo = with_albedo ? d3_from(k.a[i]) : d3_of(1, 1, 1);
+            ref_lit want = ref_light(&li, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
+                                     d3_from(s.eye), albedo);
+            if (want.unsure) continue;
+            sure++, models[li.model]++;
+            attenuated += (li.flags & SHADE_FLAG_ATTENUATED_AMBIENT) && d3_max(want.ambient) > 0;
+            if (check_color(__LINE__, "packet", got, want.total, want.bound)) continue;
+            s.P = k.p[i], s.N = k.n[i];
+            print_lights(&s);
+        }
+        free(seen);
+    }
+    CHECK_SAY(sure > 750L * SHADE_LANES && attenuated > 30L * SHADE_LANES, "%ld, %ld", sure,
+              attenuated);
+    for (int m = 0; m < 6; m++) CHECK(models[m] > 50L * SHADE_LANES);
+}
+
+TEST(lanes, all_lamps_in_full_sight_are_the_bits_without_visibility)
+{
+    static lane_packet k;
+    light_sample s;
+    float ones[4 * SHADE_LANES];
+    for (int i = 0; i < 4 * SHADE_LANES; i++) ones[i] = 1;
+    for (int round = 0; round < 600; round++) {
+        float plain[3 * SHADE_LANES], with[3 * SHADE_LANES];
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        const float *albedo = round % 2 ? k.albedo[0] : NULL;
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], albedo, NULL, plain);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], albedo, ones, with);
+        CHECK(!memcmp(plain, with, sizeof plain));
+    }
+}
+
+/* Cool to warm and emission know no shadow: not even NaN there changes a bit. */
+TEST(lanes, models_without_light_of_lamps_read_no_visibility)
+{
+    static lane_packet k;
+    light_sample s;
+    float none[4 * SHADE_LANES];
+    for (int i = 0; i < 4 * SHADE_LANES; i++) none[i] = (float)NAN;
+    for (int round = 0; round < 300; round++) {
+        float plain[3 * SHADE_LANES], with[3 * SHADE_LANES];
+        random_sample(&s);
+        random_packet(&k, &s, 2);
+        s.lighting.model = round % 2 ? SHADE_MODEL_COOL_TO_WARM : SHADE_MODEL_EMISSIVE;
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, plain);
+        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, none, with);
+        CHECK(!memcmp(plain, with, sizeof plain));
+    }
+}
+
 TEST(lanes, nothing_is_written_but_the_three_rows)
 {
     static lane_packet k;
@@ -460,6 +664,12 @@ static const test_case lanes_cases[] = {
     CASE(lanes, every_lane_is_computed_the_same),
     CASE(lanes, highlights_hold_the_bound_where_it_is_tightest),
     CASE(lanes, albedo_multiplies_diffuse_and_ambient_only),
+    CASE(lanes, light_at_lanes_is_what_arrives_at_each_lane),
+    CASE(lanes, light_at_lanes_writes_the_rows_it_is_given_and_no_more),
+    CASE(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light),
+    CASE(lanes, visibility_multiplies_the_diffuse_and_specular_light_of_its_lamp),
+    CASE(lanes, all_lamps_in_full_sight_are_the_bits_without_visibility),
+    CASE(lanes, models_without_light_of_lamps_read_no_visibility),
     CASE(lanes, nothing_is_written_but_the_three_rows),
     CASE(lanes, missing_arguments_mean_their_defaults),
     CASE(lanes, many_lights_add_up),

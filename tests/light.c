@@ -473,6 +473,123 @@ TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
     check_color(__LINE__, "white Lambert", white, d3_of(1, 1, 1), 0);
 }
 
+/* -------------------------------------------------------------------- what arrives from one lamp */
+
+/* In double; the amount and its allowed error.  lost: xyz/w, rounded once, is not far enough from
+   P for its direction. */
+typedef struct ref_arrival {
+    double amount, distance, bound;
+    d3 L;
+    int unsure, lost;
+} ref_arrival;
+
+static ref_arrival ref_arriving(const shade_light *light, d3 P)
+{
+    ref_arrival a;
+    double e = (double)light->spot_exponent, w = (double)light->position.w;
+    d3 at =
+        d3_of((double)light->position.x, (double)light->position.y, (double)light->position.z);
+    memset(&a, 0, sizeof a);
+    a.L = ref_to_light(light, P, &a.distance), a.amount = 1;
+    if (w != 0) {
+        a.amount = ref_attenuation((double)light->constant, (double)light->linear,
+                                   (double)light->quadratic, a.distance);
+        a.lost = w != 1 && a.distance * 50 < d3_length(at) / fabs(w);
+    }
+    a.amount *= ref_spot(a.L, d3_from(light->spot_direction), (double)light->spot_cos_cutoff, e,
+                         &a.unsure);
+    a.bound = 5e-5 * fmax(1, a.amount) * fmax(1, e / 100);
+    return a;
+}
+
+TEST(light, light_at_is_what_arrives_where_from_and_how_far)
+{
+    long kinds[3] = { 0, 0, 0 }, cones = 0, dark = 0;
+    for (int i = 0; i < 100000; i++) {
+        double size = (double)rnd_log(1e-2, 1e6);
+        shade_vec3 P = rnd_one_in(4) ? grey(0) : random_vector(size), L, other;
+        shade_light light = random_light(P, size);
+        float r, amount = shade_light_at(&light, P, &L, &r), again;
+        ref_arrival want = ref_arriving(&light, d3_from(P));
+        int kind = light.position.w == 0 ? 0 : light.position.w == 1 ? 1 : 2;
+        CHECK(finite3(L) && isfinite(amount) && isfinite(r));
+        if (want.lost) continue;
+        kinds[kind]++;
+        double near = kind < 2 ? 5e-7 : 2e-5; /* xyz/w is rounded once more */
+        check_color(__LINE__, "L", L, want.L, near);
+        if (kind == 0) CHECK(r == FLT_MAX);
+        else CHECK_NEAR(r, want.distance, near * want.distance);
+        again = shade_light_at(&light, P, &other, NULL);
+        CHECK(float_bits(again) == float_bits(amount) && !memcmp(&other, &L, sizeof L));
+        again = shade_light_at(&light, P, NULL, &r);
+        CHECK(float_bits(again) == float_bits(amount));
+        CHECK(float_bits(shade_light_at(&light, P, NULL, NULL)) == float_bits(amount));
+        if (want.unsure) continue;
+        CHECK_NEAR(amount, want.amount, want.bound);
+        if (d3_length(d3_from(light.spot_direction)) == 0) continue;
+        cones++, dark += want.amount == 0;
+    }
+    CHECK_SAY(kinds[0] > 10000 && kinds[1] > 10000 && kinds[2] > 10000, "%ld %ld %ld", kinds[0],
+              kinds[1], kinds[2]);
+    CHECK_SAY(dark > 5000 && cones - dark > 5000, "%ld of %ld outside the cone", dark, cones);
+}
+
+TEST(light, no_lamp_is_dark_and_nowhere)
+{
+    shade_vec3 L = grey(7);
+    float r = 7;
+    CHECK_NEAR(shade_light_at(NULL, grey(1), &L, &r), 0, 0);
+    check_color(__LINE__, "L", L, d3_of(0, 0, 0), 0);
+    CHECK_NEAR(r, 0, 0);
+    CHECK_NEAR(shade_light_at(NULL, grey(1), NULL, NULL), 0, 0);
+}
+
+/* A point, a lamp behind any w, and a lamp at infinity that shines from nowhere. */
+TEST(light, at_the_lamp_itself_there_is_no_direction_and_so_no_cone_above_the_horizon)
+{
+    static const float cutoff[] = { 1, 0.5f, 1e-6f, 0, -1e-6f, -0.5f, -1 };
+    for (int kind = 0; kind < 3; kind++)
+        for (int k = 0; k < 8; k++)
+            for (int e = 0; e < 3; e++) {
+                shade_vec3 L = grey(7), P = shade_v3(3, -5, 0.25f);
+                shade_light light = shade_point_light(P, grey(1));
+                float r = 7;
+                light.constant = 4, light.linear = 9; /* 1/4 at r = 0 */
+                if (kind == 1) light.position = shade_v4(-1.5f, 2.5f, -0.125f, -0.5f);
+                if (kind == 2) light.position = shade_v4(0, 0, 0, 0);
+                if (k < 7) light.spot_direction = shade_v3(0, 2, 0);
+                light.spot_cos_cutoff = k < 7 ? cutoff[k] : 1;
+                light.spot_exponent = (float)e;
+                double want = kind == 2 ? 1 : 0.25;
+                if (k < 7 && (cutoff[k] > 0 || e > 0)) want = 0;
+                CHECK_NEAR(shade_light_at(&light, P, &L, &r), want, 0);
+                check_color(__LINE__, "L", L, d3_of(0, 0, 0), 0);
+                if (kind == 2) CHECK(r == FLT_MAX);
+                else CHECK_NEAR(r, 0, 0);
+            }
+}
+
+/* k_d I_d max(0, N.L) amount, with L and amount from shade_light_at, is what shade_lit reflects. */
+TEST(light, light_at_times_the_cosine_is_the_diffuse_light)
+{
+    long lit = 0;
+    for (int i = 0; i < 50000; i++) {
+        light_sample s;
+        random_sample(&s);
+        s.lighting.light_count = 1, s.lighting.model = SHADE_MODEL_LAMBERT;
+        s.lighting.flags = 0, s.lighting.terms = SHADE_TERM_DIFFUSE;
+        s.lights[0] = random_light(s.P, 3);
+        shade_vec3 L, got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
+        double amount = (double)shade_light_at(&s.lights[0], s.P, &L, NULL);
+        double NL = d3_dot(d3_unit(d3_from(s.N)), d3_from(L));
+        d3 light = d3_mul(d3_from(s.material.diffuse), d3_from(s.lights[0].diffuse));
+        d3 want = d3_scale(light, amount * fmax(0, NL));
+        lit += d3_max(want) > 1e-3;
+        check_color(__LINE__, "diffuse", got, want, 5e-7 * amount * d3_max(light) + 1e-37);
+    }
+    CHECK_SAY(lit > 15000, "%ld", lit);
+}
+
 /* ----------------------------------------------------------------------------------------- laws */
 
 TEST(light, light_adds_up_and_scales) /* row 18 */
@@ -868,6 +985,32 @@ TEST(light, presets_are_the_table_of_teapots) /* row 37 */
     CHECK(shade_preset_name(SHADE_PRESET_COUNT) && !shade_preset_name(SHADE_PRESET_COUNT)[0]);
 }
 
+/* Colours of a display to linear light: the curve of each of four colours, and no more. */
+TEST(light, linear_material_decodes_its_four_colours_and_keeps_the_shininess)
+{
+    static const float odd[] = { 0, 0.04045f, 1, -0.5f, 1.5f, -INFINITY, INFINITY, 1e-30f };
+    for (int i = 0; i < 5000; i++) {
+        shade_material m = random_material();
+        if (i < SHADE_PRESET_COUNT) m = shade_preset_material((shade_preset)i);
+        shade_vec3 *in[4] = { &m.emission, &m.ambient, &m.diffuse, &m.specular };
+        if (i >= SHADE_PRESET_COUNT) m.shininess = rnd_nasty();
+        for (int k = 0; k < 4 && i > 100; k++) {
+            if (rnd_one_in(3)) in[k]->x = odd[rnd_int(0, 7)];
+            if (rnd_one_in(3)) in[k]->y = rnd_float(-0.1, 1.1);
+            if (rnd_one_in(9)) in[k]->z = (float)NAN;
+        }
+        shade_material got = shade_linear_material(m);
+        const shade_vec3 out[4] = { got.emission, got.ambient, got.diffuse, got.specular };
+        for (int k = 0; k < 4; k++) {
+            double x = fmax(0, fmin(1, (double)in[k]->x)), y = fmax(0, fmin(1, (double)in[k]->y));
+            double z = isnan(in[k]->z) ? 0 : fmax(0, fmin(1, (double)in[k]->z));
+            check_color(__LINE__, "colour", out[k],
+                        d3_of(ref_decode_srgb(x), ref_decode_srgb(y), ref_decode_srgb(z)), 4e-6);
+        }
+        CHECK(float_bits(got.shininess) == float_bits(m.shininess) || isnan(m.shininess));
+    }
+}
+
 static void fill_nasty(void *memory, size_t bytes) /* floats, one in three nasty */
 {
     unsigned char *at = (unsigned char *)memory;
@@ -943,6 +1086,10 @@ static const test_case light_cases[] = {
     CASE(light, the_cone_includes_its_edge),
     CASE(light, the_cone_of_a_lamp_includes_its_edge),
     CASE(light, brdf_times_cosine_is_the_weighted_light),
+    CASE(light, light_at_is_what_arrives_where_from_and_how_far),
+    CASE(light, no_lamp_is_dark_and_nowhere),
+    CASE(light, at_the_lamp_itself_there_is_no_direction_and_so_no_cone_above_the_horizon),
+    CASE(light, light_at_times_the_cosine_is_the_diffuse_light),
     CASE(light, light_adds_up_and_scales),
     CASE(light, two_sided_diffuse_is_two_opposite_lamps),
     CASE(light, turning_toward_the_viewer_equals_turning_the_normal),
@@ -960,6 +1107,7 @@ static const test_case light_cases[] = {
     CASE(light, length_of_the_normal_does_not_matter),
     CASE(light, constructors_fill_in_what_they_say),
     CASE(light, presets_are_the_table_of_teapots),
+    CASE(light, linear_material_decodes_its_four_colours_and_keeps_the_shininess),
     CASE(light, nan_and_infinity_never_crash),
     CASE(light, big_and_tiny_finite_input_stays_finite),
 };

@@ -427,33 +427,118 @@ TEST(matrix, reversed_projection_falls_from_one_at_near_to_zero)
     }
 }
 
-TEST(matrix, degenerate_projections_are_the_zero_matrix)
+/* Projections that are none: perspective, reversed, frustum, ortho, and their arguments. */
+enum { DEGENERATE_CAMERAS = 62 };
+static shade_mat4 degenerate_camera(int k)
 {
-    dmat zero = dmat_zero();
-    float bad = (float)NAN, pi = 3.14159265f;
-    CHECK_MAT4(shade_mat4_perspective(1, 1, 2, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(1, 0, 1, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(0, 1, 1, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(pi, 1, 1, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(2 * pi, 1, 1, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(bits_float(1), 1, 1, 2), zero, 0); /* half of it is 0 */
-    CHECK_MAT4(shade_mat4_perspective(bad, 1, 1, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(1, bad, 1, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(1, 1, bad, 2), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective(1, 1, 1, bad), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective_reversed(1, 0, 1), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective_reversed(0, 1, 1), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective_reversed(pi, 1, 1), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective_reversed(bad, 1, 1), zero, 0);
-    CHECK_MAT4(shade_mat4_perspective_reversed(1, 1, bad), zero, 0);
-    for (int which = 0; which < 6; which++) {
-        float v[6] = { -1, 1, -1, 1, 1, 10 };
-        v[which] = bad;
-        CHECK_MAT4(shade_mat4_frustum(v[0], v[1], v[2], v[3], v[4], v[5]), zero, 0);
-        CHECK_MAT4(shade_mat4_ortho(v[0], v[1], v[2], v[3], v[4], v[5]), zero, 0);
-        v[which] = v[which ^ 1]; /* left = right, bottom = top, near = far */
-        CHECK_MAT4(shade_mat4_frustum(v[0], v[1], v[2], v[3], v[4], v[5]), zero, 0);
-        CHECK_MAT4(shade_mat4_ortho(v[0], v[1], v[2], v[3], v[4], v[5]), zero, 0);
+    static const float no = NAN, inf = INFINITY, pi = 3.14159274f; /* the float above pi */
+    const struct {
+        char kind;
+        float v[6];
+    } list[DEGENERATE_CAMERAS] = {
+        { 'p', { 1, 1, 2, 2 } },             { 'p', { 1, 0, 1, 2 } },
+        { 'p', { 1, -0.0f, 1, 2 } },         { 'p', { 0, 1, 1, 2 } },
+        { 'p', { -1, 1, 1, 2 } },            { 'p', { -7, 1, 1, 2 } },
+        { 'p', { pi, 1, 1, 2 } },            { 'p', { 2 * pi, 1, 1, 2 } },
+        { 'p', { 2 * pi + 1, 1, 1, 2 } },    { 'p', { 100, 1, 1, 2 } },
+        { 'p', { inf, 1, 1, 2 } },           { 'p', { 1, 1, 0, 2 } },
+        { 'p', { 1, 1, -1, 2 } },            { 'p', { 1, 1, -2, -1 } },
+        { 'p', { 1, 1, 1, 0 } },             { 'p', { 1, 1, 1, -2 } },
+        { 'p', { no, 1, 1, 2 } },            { 'p', { 1, no, 1, 2 } },
+        { 'p', { 1, 1, no, 2 } },            { 'p', { 1, 1, 1, no } },
+        { 'p', { 1e-45f, 1, 1, 2 } },        { 'p', { 1, 1e-45f, 1, 2 } },
+        { 'p', { 1, 1, 3e38f, 2.9e38f } },   { 'r', { 1, 0, 1 } },
+        { 'r', { 0, 1, 1 } },                { 'r', { -1, 1, 1 } },
+        { 'r', { pi, 1, 1 } },               { 'r', { 2 * pi + 1, 1, 1 } },
+        { 'r', { inf, 1, 1 } },              { 'r', { 1, 1, 0 } },
+        { 'r', { 1, 1, -1 } },               { 'r', { no, 1, 1 } },
+        { 'r', { 1, no, 1 } },               { 'r', { 1, 1, no } },
+        { 'r', { 1, 1e-45f, 1 } },           { 'f', { 1, 1, -1, 1, 1, 9 } },
+        { 'f', { -1, 1, 1, 1, 1, 9 } },      { 'f', { -1, 1, -1, 1, 9, 9 } },
+        { 'f', { -1, 1, -1, 1, 0, 9 } },     { 'f', { -1, 1, -1, 1, -1, 9 } },
+        { 'f', { -1, 1, -1, 1, 1, 0 } },     { 'f', { -1, 1, -1, 1, 1, -9 } },
+        { 'f', { -1, 1, -1, 1, -1, -9 } },   { 'f', { no, 1, -1, 1, 1, 9 } },
+        { 'f', { -1, no, -1, 1, 1, 9 } },    { 'f', { -1, 1, no, 1, 1, 9 } },
+        { 'f', { -1, 1, -1, no, 1, 9 } },    { 'f', { -1, 1, -1, 1, no, 9 } },
+        { 'f', { -1, 1, -1, 1, 1, no } },    { 'f', { 0, 1e-45f, -1, 1, 1, 9 } },
+        { 'f', { 0, 0.1f, -1, 1, 3e38f, 9 } }, { 'o', { 1, 1, -1, 1, 1, 9 } },
+        { 'o', { -1, 1, 1, 1, 1, 9 } },      { 'o', { -1, 1, -1, 1, 9, 9 } },
+        { 'o', { -1, 1, -1, 1, 0, 0 } },     { 'o', { no, 1, -1, 1, 1, 9 } },
+        { 'o', { -1, no, -1, 1, 1, 9 } },    { 'o', { -1, 1, no, 1, 1, 9 } },
+        { 'o', { -1, 1, -1, no, 1, 9 } },    { 'o', { -1, 1, -1, 1, no, 9 } },
+        { 'o', { -1, 1, -1, 1, 1, no } },    { 'o', { 0, 1e-45f, -1, 1, 1, 9 } },
+    };
+    const float *v = list[k].v;
+    switch (list[k].kind) {
+    case 'p':
+        return shade_mat4_perspective(v[0], v[1], v[2], v[3]);
+    case 'r':
+        return shade_mat4_perspective_reversed(v[0], v[1], v[2]);
+    case 'f':
+        return shade_mat4_frustum(v[0], v[1], v[2], v[3], v[4], v[5]);
+    default:
+        return shade_mat4_ortho(v[0], v[1], v[2], v[3], v[4], v[5]);
+    }
+}
+
+/* (0, 0, 2, 1) for every point: outside near or far whether z/w is in [-1, 1] or [0, 1]. */
+TEST(matrix, degenerate_projections_put_every_point_outside)
+{
+    dmat want = dmat_zero();
+    want.m[2][3] = 2, want.m[3][3] = 1;
+    for (int k = 0; k < DEGENERATE_CAMERAS; k++) CHECK_MAT4(degenerate_camera(k), want, 0);
+    for (int i = 0; i < 2000; i++) { /* whatever the other arguments are */
+        float v[6], x = rnd_log(1e-3, 1e3), wide = 3.14159274f + x;
+        for (int k = 0; k < 6; k++) v[k] = rnd_one_in(3) ? rnd_nasty() : rnd_float(-3, 3);
+        CHECK_MAT4(shade_mat4_perspective(v[0], v[1], x, x), want, 0);
+        CHECK_MAT4(shade_mat4_perspective(v[0], v[1], -x, v[2]), want, 0);
+        CHECK_MAT4(shade_mat4_perspective(v[0], v[1], v[2], -x), want, 0);
+        CHECK_MAT4(shade_mat4_perspective(v[0], 0, v[1], v[2]), want, 0);
+        CHECK_MAT4(shade_mat4_perspective(-x, v[0], v[1], v[2]), want, 0);
+        CHECK_MAT4(shade_mat4_perspective(wide, v[0], v[1], v[2]), want, 0);
+        CHECK_MAT4(shade_mat4_perspective_reversed(v[0], v[1], -x), want, 0);
+        CHECK_MAT4(shade_mat4_perspective_reversed(v[0], 0, v[1]), want, 0);
+        CHECK_MAT4(shade_mat4_perspective_reversed(wide, v[0], v[1]), want, 0);
+        CHECK_MAT4(shade_mat4_frustum(x, x, v[0], v[1], v[2], v[3]), want, 0);
+        CHECK_MAT4(shade_mat4_frustum(v[0], v[1], x, x, v[2], v[3]), want, 0);
+        CHECK_MAT4(shade_mat4_frustum(v[0], v[1], v[2], v[3], v[4], -x), want, 0);
+        CHECK_MAT4(shade_mat4_frustum(v[0], v[1], v[2], v[3], -x, v[4]), want, 0);
+        CHECK_MAT4(shade_mat4_ortho(v[0], v[1], v[2], v[3], x, x), want, 0);
+        CHECK_MAT4(shade_mat4_ortho(x, x, v[0], v[1], v[2], v[3]), want, 0);
+    }
+}
+
+/* near beyond far turns depth round, and a mirrored or flipped picture is one as well; an
+   orthographic view may begin behind the eye. */
+TEST(matrix, near_beyond_far_and_left_beyond_right_are_cameras)
+{
+    for (int i = 0; i < 1000; i++) {
+        double f = (double)rnd_log(0.01, 10), n = f * (double)rnd_log(1.5, 1000);
+        double nf = (double)(float)n, ff = (double)(float)f;
+        double fovy = (double)rnd_float(0.2, 2.8), aspect = (double)(rnd_sign() * rnd_log(0.3, 3));
+        double half = nf * tan(fovy / 2);
+        dmat want = ref_frustum(-half * aspect, half * aspect, -half, half, nf, ff);
+        shade_mat4 m = shade_mat4_perspective((float)fovy, (float)aspect, (float)n, (float)f);
+        CHECK_MAT4(m, want, 1e-6 * dmat_max(want));
+        for (int end = 0; end < 2; end++) {
+            shade_vec4 h = shade_mat4_transform(m, shade_v4(0, 0, end ? (float)-f : (float)-n, 1));
+            CHECK_NEAR(h.z / h.w, end ? 1 : -1, 2e-5 * n / f);
+            CHECK(h.w > 0);
+        }
+        double r = (double)rnd_float(-3, 0), l = r + (double)rnd_float(1, 5);
+        double t = (double)rnd_float(-3, 0), b = t + (double)rnd_float(1, 5);
+        l = (double)(float)l, b = (double)(float)b;
+        want = ref_frustum(l, r, b, t, nf, ff);
+        CHECK_MAT4(shade_mat4_frustum((float)l, (float)r, (float)b, (float)t, (float)n, (float)f),
+                   want, 4e-6 * dmat_max(want));
+        double from = (double)rnd_float(-9, 9), to = from + (double)(rnd_sign() * rnd_log(0.1, 9));
+        to = (double)(float)to;
+        want = dmat_identity();
+        want.m[0][0] = 2 / (r - l), want.m[0][3] = -(r + l) / (r - l);
+        want.m[1][1] = 2 / (t - b), want.m[1][3] = -(t + b) / (t - b);
+        want.m[2][2] = -2 / (to - from), want.m[2][3] = -(to + from) / (to - from);
+        CHECK_MAT4(shade_mat4_ortho((float)l, (float)r, (float)b, (float)t, (float)from, (float)to),
+                   want, 4e-6 * dmat_max(want));
     }
 }
 
@@ -476,5 +561,6 @@ static const test_case matrix_cases[] = {
     CASE(matrix, degenerate_cameras_are_finite_rotations),
     CASE(matrix, projections_match_double),
     CASE(matrix, reversed_projection_falls_from_one_at_near_to_zero),
-    CASE(matrix, degenerate_projections_are_the_zero_matrix),
+    CASE(matrix, degenerate_projections_put_every_point_outside),
+    CASE(matrix, near_beyond_far_and_left_beyond_right_are_cameras),
 };
