@@ -3990,14 +3990,14 @@ static void shade__sample_map(const shade__scene *s, const shade_fragments *in, 
     shade_sample_lanes(s->map, in->varying[s->uv], in->varying[s->uv + 1],
                        s->map->mipmap_count ? in->lod : (const float *)0, rgba);
 }
-/* Alpha of a packet, map: its row of the map or NULL; what is cut by it; what ADD is to add. */
-static void shade__mesh_alpha(const shade__scene *s, const float *map,
-                              shade_colors *SHADE_RESTRICT out)
+/* The row of alpha holds the map's, or 1: what is stored, what is cut by it, what ADD is to add. */
+static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
     const int add = s->state->raster.blend == SHADE_BLEND_ADD;
-    if (!map && opacity == 1 && !(cutoff > 0)) return;
-    SHADE_EACH_LANE(i) { out->color[3][i] = map ? opacity * map[i] : opacity; }
+    if (opacity != 1) {
+        SHADE_EACH_LANE(i) { out->color[3][i] *= opacity; }
+    }
     if (cutoff > 0) {
         SHADE_EACH_LANE(i) { out->discard[i] = out->color[3][i] >= cutoff ? 0 : 1; }
     }
@@ -4023,7 +4023,8 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
     else if (!colored) albedo = (const float *)0;
     shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo,
                     (const float *)0, out->color[0]);
-    shade__mesh_alpha(s, s->map ? texel + 3 * SHADE_LANES : (const float *)0, out);
+    if (s->map) SHADE_MEMCPY(out->color[3], texel + 3 * SHADE_LANES, sizeof out->color[3]);
+    shade__mesh_alpha(s, out);
 }
 /* Gouraud and flat: the colour arrives. */
 static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -4036,7 +4037,7 @@ static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE
         shade__sample_map(s, in, to);
         for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = rgb[i] * to[i] + rgb[i + 3 * SHADE_LANES];
     } else SHADE_MEMCPY(to, rgb, 3 * sizeof in->varying[0]);
-    shade__mesh_alpha(s, s->map ? out->color[3] : (const float *)0, out);
+    shade__mesh_alpha(s, out);
 }
 /* Depth alone, with holes where alpha is below the cutoff. */
 static void shade__mesh_cut(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -4044,7 +4045,7 @@ static void shade__mesh_cut(const void *uniforms, const shade_fragments *SHADE_R
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     if (s->map) shade__sample_map(s, in, out->color[0]);
-    shade__mesh_alpha(s, s->map ? out->color[3] : (const float *)0, out);
+    shade__mesh_alpha(s, out);
 }
 
 static int shade__bad_stride(int stride) { return stride < 0 || stride % 4; }

@@ -291,6 +291,11 @@ static shade_mesh plain_mesh(const float *positions, int vertices)
     return m;
 }
 
+static shade_shading random_shading(void) /* that this build has varyings for */
+{
+    return (shade_shading)rnd_int(SHADE_MAX_VARYINGS < 6 ? SHADE_SHADING_PER_VERTEX : 0, 2);
+}
+
 TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* row 40, exact */
 {
     shade_material material = s1_brass();
@@ -702,6 +707,348 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
     canvas_close(&c);
 }
 
+/* NULLs, target, other arguments, indices: of all that is wrong the first is said. */
+TEST(mesh, what_is_wrong_is_told_in_one_order)
+{
+    static const uint32_t bad_indices[] = { 0, 1, 3 };
+    static const float out_of_range[] = { -0.001f, 1.0000001f, -INFINITY, INFINITY, NAN, -1, 2 };
+    for (int i = 0; i < 16 * 24; i++) {
+        int wrong = i % 16, how = i / 16;
+        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_draw_state s = plain_state(NULL);
+        shade_mesh m = plain_mesh(big_triangle, 3);
+        shade_stats stats;
+        const shade_target *target = &c.target;
+        const shade_mesh *mesh = &m;
+        const shade_draw_state *state = &s;
+        shade_result want = wrong & 1   ? SHADE_ERROR_ARGUMENT
+                            : wrong & 2 ? SHADE_ERROR_TARGET
+                            : wrong & 4 ? SHADE_ERROR_ARGUMENT
+                            : wrong & 8 ? SHADE_ERROR_INDEX
+                                        : SHADE_OK;
+        s.shading = random_shading();
+        memset(&stats, CANVAS_BYTE, sizeof stats);
+        if (wrong & 1) {
+            if (how % 4 == 0) target = NULL;
+            else if (how % 4 == 1) mesh = NULL;
+            else if (how % 4 == 2) state = NULL;
+            else m.positions = NULL;
+        }
+        if ((wrong & 2) && how % 3 == 0) c.target.stride = 19;
+        else if ((wrong & 2) && how % 3 == 1) c.target.color = NULL, c.target.depth = NULL;
+        else if (wrong & 2) c.target.format = (shade_format)5;
+        if (wrong & 4) {
+            if (how < 7) s.transparency = out_of_range[how];
+            else if (how < 14) s.alpha_cutoff = out_of_range[how - 7];
+            else if (how == 14) m.position_stride = -12;
+            else if (how == 15) s.lighting.light_count = 1;
+            else if (how == 16) s.shading = (shade_shading)3;
+            else if (how == 17) s.lighting.model = (shade_model)6;
+            else if (how == 18) s.raster.blend = (shade_blend)3;
+            else if (how == 19) s.raster.cull = (shade_cull)-1;
+            else if (how == 20) s.raster.depth_bias = (float)NAN;
+            else if (how == 21) s.transparency = 2, s.alpha_cutoff = (float)NAN;
+            else if (how == 22) m.texcoord_stride = 6;
+            else s.raster.depth_test = (shade_compare)6;
+        }
+        if ((wrong & 8) && how % 2) m.indices = bad_indices, m.index_count = 3;
+        else if (wrong & 8) m.vertex_count = 2;
+        m.normals = how % 3 ? big_triangle : NULL;
+        CHECK_INT(shade_draw_mesh(target, mesh, state, &stats), want);
+        CHECK_INT(stats.triangles, want == SHADE_OK);
+        for (size_t k = 0; k < c.color_bytes && want != SHADE_OK; k++)
+            CHECK(c.color[CANVAS_GUARD + k] == CANVAS_BYTE);
+        for (size_t k = 0; k < c.depth_bytes && want != SHADE_OK; k++)
+            CHECK(c.depth[CANVAS_GUARD + k] == CANVAS_BYTE);
+        c.target.stride = 0, c.target.format = SHADE_FORMAT_RGBA8;
+        canvas_close(&c);
+    }
+    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
+    shade_draw_state s = plain_state(NULL);
+    shade_mesh m = plain_mesh(big_triangle, 3);
+    s.shading = SHADE_SHADING_PER_FACE;
+    s.transparency = -0.0f, s.alpha_cutoff = -0.0f; /* are 0 */
+    CHECK_INT(shade_draw_mesh(&c.target, &m, &s, NULL), SHADE_OK);
+    s.transparency = s.alpha_cutoff = 1;
+    CHECK_INT(shade_draw_mesh(&c.target, &m, &s, NULL), SHADE_OK);
+    canvas_close(&c);
+}
+
+/* One bad index, anywhere in lists that are checked in pieces; corners looked up by index or one
+   by one. */
+TEST(mesh, a_bad_index_is_found_wherever_it_stands)
+{
+    static uint32_t list[600];
+    for (int i = 0; i < 2000; i++) {
+        int count = 3 * rnd_int(1, 200), at = rnd_int(0, count - 1);
+        canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
+        shade_draw_state s = plain_state(NULL);
+        shade_mesh m = plain_mesh(big_triangle, 3);
+        shade_stats stats;
+        for (int k = 0; k < count; k++) list[k] = (uint32_t)rnd_int(0, 2);
+        s.shading = random_shading();
+        m.normals = rnd_one_in(2) ? big_triangle : NULL;
+        m.indices = list, m.index_count = count;
+        if (i % 4 == 0) {
+            CHECK_INT(shade_draw_mesh(&c.target, &m, &s, &stats), SHADE_OK);
+            CHECK_INT(stats.triangles, count / 3);
+        }
+        memset(c.color, CANVAS_BYTE, c.color_bytes + 2 * CANVAS_GUARD);
+        list[at] = i % 3 == 0 ? 0xFFFFFFFFu : i % 3 == 1 ? 0x80000000u : 3;
+        CHECK_INT(shade_draw_mesh(&c.target, &m, &s, &stats), SHADE_ERROR_INDEX);
+        CHECK_INT(stats.triangles, 0);
+        for (size_t k = 0; k < c.color_bytes; k++) CHECK(c.color[CANVAS_GUARD + k] == CANVAS_BYTE);
+        canvas_close(&c);
+    }
+}
+
+/* z in [-1, 1] or [0, 1], forward or reversed; whatever model and view are. */
+TEST(mesh, a_degenerate_camera_draws_nothing_in_any_depth_convention)
+{
+    static const float p[] = { -0.9f, -0.9f, 0.5f, 0.9f, -0.8f, 0.4f, 0, 0.9f, 0.6f,
+                               0.8f,  0.9f,  0.1f, 0.9f, 0.2f,  0.9f, 0, 0.1f, 0.3f };
+    shade_mesh mesh = plain_mesh(p, 6);
+    long drawn = 0;
+    for (int i = 0; i < DEGENERATE_CAMERAS * 24; i++) {
+        int reversed = i / 2 % 2, nowhere = i % 6 != 5; /* or no camera at all: the identity */
+        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_draw_state s = plain_state(NULL);
+        shade_stats stats;
+        if (nowhere) s.projection = degenerate_camera(i / 24);
+        s.raster.depth_zero_to_one = i % 2;
+        s.raster.depth_test = reversed ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
+        if (i % 3 == 0) s.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        s.shading = random_shading();
+        if (nowhere && rnd_one_in(2))
+            s.view = shade_mat4_look_at(random_vector(3), random_vector(1), shade_v3(0, 1, 0));
+        if (rnd_one_in(2))
+            s.model = shade_mat4_mul(shade_mat4_translation(shade_v3(0.05f, 0, 0)),
+                                     shade_mat4_scaling(shade_v3(1, 1, 0.5f)));
+        canvas_clear(&c, reversed ? 0.0f : 1.0f);
+        canvas before = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas_clear(&before, reversed ? 0.0f : 1.0f);
+        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+        CHECK_INT(stats.triangles, 2);
+        CHECK_INT(stats.clipped, nowhere ? 2 : 0);
+        CHECK_SAY((stats.fragments == 0) == nowhere, "camera %d: %lld pixels", i / 24,
+                  stats.fragments);
+        CHECK(canvas_same(&c, &before) == nowhere);
+        drawn += stats.fragments > 0;
+        canvas_close(&c), canvas_close(&before);
+    }
+    CHECK_SAY(drawn == DEGENERATE_CAMERAS * 4, "%ld", drawn);
+}
+
+/* ---------------------------------------------------------------------------------------- alpha */
+
+enum { ALPHA_W = 16, ALPHA_H = 12 };
+
+/* A sloping sheet over the whole picture, a texel for each pixel: what the mesh, its colours and
+   its map are at pixel (x, y) is known without drawing. */
+typedef struct alpha_scene {
+    shade_mesh mesh;
+    shade_draw_state state;
+    shade_material material;
+    shade_texture map;
+    float position[4][3], color[4][3], normal[4][3], texcoord[4][2];
+    float texel[ALPHA_H][ALPHA_W][4];
+    int needs; /* varyings */
+} alpha_scene;
+
+static const uint32_t alpha_corners[6] = { 0, 1, 2, 0, 2, 3 };
+
+static d3 alpha_color(double x, double y) /* of the vertices, linear in between */
+{
+    return d3_of(0.5 + 0.3 * x, 0.5 - 0.2 * y, 0.4 + 0.1 * x + 0.1 * y);
+}
+static float random_alpha(void)
+{
+    static const float plain[] = { 0, 0.25f, 0.5f, 0.75f, 1, 0.125f };
+    return rnd_one_in(3) ? rnd_float(0, 1) : plain[rnd_int(0, 5)];
+}
+static void random_alpha_scene(alpha_scene *s)
+{
+    static const float corner[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    memset(s, 0, sizeof *s);
+    for (int k = 0; k < 4; k++) {
+        double x = (double)corner[k][0], y = (double)corner[k][1];
+        put3(s->position[k], shade_v3((float)x, (float)y, (float)(0.25 * x)));
+        put3(s->normal[k], shade_v3(0, 0, 1));
+        put3(s->color[k], d3_round(alpha_color(x, y)));
+        s->texcoord[k][0] = (float)((x + 1) / 2), s->texcoord[k][1] = (float)((1 - y) / 2);
+    }
+    for (int k = 0; k < ALPHA_W * ALPHA_H; k++) {
+        float *t = s->texel[k / ALPHA_W][k % ALPHA_W];
+        for (int n = 0; n < 3; n++) t[n] = rnd_float(0, 1);
+        t[3] = rnd_one_in(40) ? (float)NAN : random_alpha();
+    }
+    s->map.pixels = s->texel, s->map.width = ALPHA_W, s->map.height = ALPHA_H;
+    s->map.format = SHADE_FORMAT_RGBA32F, s->map.filter = SHADE_FILTER_NEAREST;
+    s->mesh.positions = s->position[0], s->mesh.vertex_count = 4;
+    s->mesh.indices = alpha_corners, s->mesh.index_count = 6;
+    if (rnd_one_in(2)) s->mesh.normals = s->normal[0];
+    if (rnd_one_in(2)) s->mesh.colors = s->color[0];
+    if (rnd_int(0, 3)) s->mesh.texcoords = s->texcoord[0];
+    if (rnd_int(0, 3)) s->state.diffuse_map = &s->map;
+    s->material.emission = random_color(0.25), s->material.ambient = random_color(1);
+    s->state.material = &s->material, s->state.lighting.ambient = random_color(1);
+    s->state.shading = (shade_shading)rnd_int(0, 2);
+    s->state.raster.blend = (shade_blend)rnd_int(0, 2);
+    s->state.transparency = rnd_one_in(3) ? 0 : random_alpha();
+    s->state.alpha_cutoff = rnd_one_in(3) ? 0 : random_alpha();
+    int maps = s->mesh.texcoords && s->state.diffuse_map;
+    s->needs = maps ? 8 : 3;
+    if (s->state.shading == SHADE_SHADING_PER_FRAGMENT)
+        s->needs = 6 + (s->mesh.colors ? 3 : 0) + (maps ? 2 : 0);
+}
+/* The colour at a pixel in rgb, its alpha. */
+static double alpha_pixel(const alpha_scene *s, int x, int y, double rgb[3])
+{
+    const float *t = s->texel[y][x];
+    int maps = s->mesh.texcoords && s->state.diffuse_map;
+    double X = 2 * (x + 0.5) / ALPHA_W - 1, Y = 1 - 2 * (y + 0.5) / ALPHA_H;
+    d3 albedo = d3_of(1, 1, 1), ke = d3_from(s->material.emission), lit;
+    if (s->mesh.colors) albedo = alpha_color(X, Y);
+    if (s->mesh.colors && s->state.shading == SHADE_SHADING_PER_FACE) albedo = alpha_color(-1, -1);
+    if (maps) albedo = d3_mul(albedo, d3_of((double)t[0], (double)t[1], (double)t[2]));
+    lit = d3_mul(d3_from(s->material.ambient), d3_from(s->state.lighting.ambient));
+    lit = d3_add(ke, d3_mul(lit, albedo));
+    rgb[0] = lit.x, rgb[1] = lit.y, rgb[2] = lit.z;
+    return (1 - (double)s->state.transparency) * (maps ? (double)t[3] : 1);
+}
+static int alpha_is_cut(const alpha_scene *s, double alpha)
+{
+    return s->state.alpha_cutoff > 0 && !(alpha >= (double)s->state.alpha_cutoff);
+}
+static double alpha_blend(const alpha_scene *s, double c, double a, double d, int channel)
+{
+    if (s->state.raster.blend == SHADE_BLEND_REPLACE) return channel < 3 ? c : a;
+    if (s->state.raster.blend == SHADE_BLEND_OVER)
+        return channel < 3 ? c * a + d * (1 - a) : a + d * (1 - a);
+    return channel < 3 ? c * a + d : a + d;
+}
+static double stored_channel(const canvas *c, int x, int y, int channel)
+{
+    if (c->target.format == SHADE_FORMAT_RGBA32F) return (double)canvas_float(c, x, y, channel);
+    return canvas_bytes(c, x, y)[channel] / 255.0;
+}
+
+TEST(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut)
+{
+    static alpha_scene s;
+    long refused = 0, cut = 0, blended[3] = { 0, 0, 0 }, equal = 0;
+    for (int i = 0; i < 3000; i++) {
+        shade_format format = rnd_one_in(2) ? SHADE_FORMAT_RGBA32F : SHADE_FORMAT_RGBA8;
+        canvas c = canvas_open(ALPHA_W, ALPHA_H, 0, format, 1);
+        float wall = rnd_one_in(3) ? 0.5f : 1; /* the left half is before 0.5 */
+        shade_vec4 back = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 0.25f);
+        shade_stats stats;
+        long fragments = 0;
+        random_alpha_scene(&s);
+        CHECK_INT(shade_clear(&c.target, back, wall), SHADE_OK);
+        double d[4];
+        for (int n = 0; n < 4; n++) d[n] = stored_channel(&c, 0, 0, n);
+        int depth_only = rnd_one_in(4), fits = s.needs <= SHADE_MAX_VARYINGS;
+        if (depth_only) c.target.color = NULL;
+        CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, &stats),
+                  fits ? SHADE_OK : SHADE_ERROR_ARGUMENT);
+        refused += !fits;
+        for (int k = 0; k < ALPHA_W * ALPHA_H; k++) {
+            int x = k % ALPHA_W, y = k / ALPHA_W;
+            double rgb[3], alpha = alpha_pixel(&s, x, y, rgb);
+            double depth = (0.25 * (2 * (x + 0.5) / ALPHA_W - 1) + 1) / 2;
+            double near = format == SHADE_FORMAT_RGBA32F ? 2e-6 : 0.502 / 255;
+            if (fabs(alpha - (double)s.state.alpha_cutoff) < 1e-7) {
+                if (alpha != (double)s.state.alpha_cutoff) continue;
+                equal += s.state.alpha_cutoff > 0;
+            }
+            int gone = alpha_is_cut(&s, alpha), seen = fits && !gone && depth < (double)wall;
+            fragments += seen, cut += gone;
+            CHECK_NEAR(canvas_depth(&c, x, y), seen ? depth : (double)wall, seen ? 1e-6 : 0);
+            if (isnan(alpha) && seen) continue;
+            for (int n = 0; n < 4; n++) {
+                double got = stored_channel(&c, x, y, n);
+                double want = alpha_blend(&s, n < 3 ? rgb[n] : 0, alpha, d[n], n);
+                if (format == SHADE_FORMAT_RGBA8) want = fmax(0, fmin(1, want));
+                if (!seen || depth_only) want = d[n];
+                CHECK_SAY(fabs(got - want) <= near,
+                          "channel %d: got %g, want %g; shading %d, blend %d, map %d, "
+                          "transparency %g, cutoff %g, alpha %g",
+                          n, got, want, (int)s.state.shading, (int)s.state.raster.blend,
+                          s.state.diffuse_map != NULL, (double)s.state.transparency,
+                          (double)s.state.alpha_cutoff, alpha);
+            }
+            blended[s.state.raster.blend] += seen && alpha > 0 && alpha < 1;
+        }
+        CHECK_INT(stats.fragments, fragments);
+        CHECK_INT(stats.triangles, fits ? 2 : 0);
+        canvas_close(&c);
+    }
+    CHECK_SAY(cut > 50000 && equal > 5000, "%ld cut, %ld equal", cut, equal);
+    for (int k = 0; k < 3; k++) CHECK(blended[k] > 20000 || SHADE_MAX_VARYINGS < 11);
+    CHECK_SAY((refused > 0) == (SHADE_MAX_VARYINGS < 11), "%ld", refused);
+}
+
+/* A level of the map is one of its alpha too: sixteen texels a pixel, in pictures and depth alone. */
+TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
+{
+    enum { W = 4 * ALPHA_W, H = 4 * ALPHA_H };
+    static alpha_scene s;
+    static float texel[H][W][4], memory[H * W * 4];
+    shade_texture levels[8];
+    shade_result want = SHADE_MAX_VARYINGS < 8 ? SHADE_ERROR_ARGUMENT : SHADE_OK;
+    long holes = 0, drawn = 0;
+    for (int i = 0; i < 60; i++) {
+        canvas c = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA32F, 1);
+        random_alpha_scene(&s);
+        s.mesh.colors = NULL, s.mesh.texcoords = s.texcoord[0], s.state.diffuse_map = &s.map;
+        s.state.transparency = 0, s.state.alpha_cutoff = 0.53125f; /* between sixteenths */
+        s.state.raster.blend = SHADE_BLEND_REPLACE;
+        for (int k = 0; k < W * H; k++)
+            for (int n = 0; n < 4; n++) texel[k / W][k % W][n] = (float)rnd_int(0, 1);
+        s.map.pixels = texel, s.map.width = W, s.map.height = H;
+        s.map.filter = SHADE_FILTER_TRILINEAR;
+        CHECK_INT(shade_build_mipmaps(&s.map, levels, memory, sizeof memory), SHADE_OK);
+        canvas_clear(&c, 1);
+        if (i % 2) c.target.color = NULL;
+        CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, NULL), want);
+        for (int k = 0; k < ALPHA_W * ALPHA_H && want == SHADE_OK; k++) {
+            int x = k % ALPHA_W, y = k / ALPHA_W;
+            double alpha = 0;
+            for (int n = 0; n < 16; n++)
+                alpha += (double)texel[4 * y + n / 4][4 * x + n % 4][3] / 16;
+            CHECK_SAY((canvas_depth(&c, x, y) < 1) == (alpha > 0.53), "mean alpha %g", alpha);
+            holes += alpha < 0.53, drawn += alpha > 0.53;
+            if (i % 2 == 0) CHECK_NEAR(canvas_float(&c, x, y, 3), alpha > 0.53 ? alpha : 0, 1e-4);
+        }
+        canvas_close(&c);
+    }
+    CHECK(SHADE_MAX_VARYINGS < 8 || (holes > 2000 && drawn > 2000));
+}
+
+/* Passes over a mesh with holes agree: depth alone, then colour where depth is EQUAL. */
+TEST(mesh, depth_alone_has_the_holes_of_the_picture)
+{
+    static alpha_scene s;
+    for (int i = 0; i < 300; i++) {
+        canvas a = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas b = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_stats once, before, after;
+        random_alpha_scene(&s);
+        canvas_clear(&a, 1), canvas_clear(&b, 1);
+        shade_result result = shade_draw_mesh(&a.target, &s.mesh, &s.state, &once);
+        void *color = b.target.color;
+        b.target.color = NULL;
+        CHECK_INT(shade_draw_mesh(&b.target, &s.mesh, &s.state, &before), result);
+        CHECK(!memcmp(a.depth, b.depth, a.depth_bytes));
+        b.target.color = color, s.state.raster.depth_test = SHADE_COMPARE_EQUAL;
+        CHECK_INT(shade_draw_mesh(&b.target, &s.mesh, &s.state, &after), result);
+        CHECK(canvas_same(&a, &b));
+        CHECK(once.fragments == before.fragments && once.fragments == after.fragments);
+        canvas_close(&a), canvas_close(&b);
+    }
+}
+
 /* ------------------------------------------------------------------------------- vertex normals */
 
 static void ref_vertex_normals(const test_mesh *m, d3 *sum)
@@ -825,6 +1172,12 @@ static const test_case mesh_cases[] = {
     CASE(mesh, a_nan_in_a_matrix_rejects_every_triangle),
     CASE(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero),
     CASE(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes),
+    CASE(mesh, what_is_wrong_is_told_in_one_order),
+    CASE(mesh, a_bad_index_is_found_wherever_it_stands),
+    CASE(mesh, a_degenerate_camera_draws_nothing_in_any_depth_convention),
+    CASE(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut),
+    CASE(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn),
+    CASE(mesh, depth_alone_has_the_holes_of_the_picture),
     CASE(mesh, vertex_normals_are_weighted_by_angle_and_unit),
     CASE(mesh, corners_of_a_cube_point_along_its_diagonals),
     CASE(mesh, vertex_normals_of_bad_meshes_are_refused),
