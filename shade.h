@@ -4001,8 +4001,13 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
     if (cutoff > 0) {
         SHADE_EACH_LANE(i) { out->discard[i] = out->color[3][i] >= cutoff ? 0 : 1; }
     }
-    for (int k = 0; k < 3 && add; k++) {
-        SHADE_EACH_LANE(i) { out->color[k][i] *= out->color[3][i]; }
+    if (add) {
+        SHADE_EACH_LANE(i) {
+            float a = out->color[3][i];
+            out->color[0][i] *= a;
+            out->color[1][i] *= a;
+            out->color[2][i] *= a;
+        }
     }
 }
 /* Phong interpolation: N and P arrive per pixel.  The map's colour takes rows of the packet that
