@@ -2081,7 +2081,8 @@ static size_t shade__pixel_bytes(shade_format format)
     if (format == SHADE_FORMAT_RGBA32F) return 16;
     return format == SHADE_FORMAT_RGB565 || format == SHADE_FORMAT_RGB565_SWAPPED ? 2 : 4;
 }
-SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 255) << 8; }
+/* the two bytes of u < 2^16 exchanged */
+SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return u >> 8 | (u & 255) << 8; }
 
 /* where channel k (R, G, B, A) of a pixel of 4 bytes lies in a native uint32 */
 SHADE__INLINE int shade__channel_shift(shade_format format, int k)
