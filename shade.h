@@ -3295,15 +3295,18 @@ typedef struct shade__polygon {
 } shade__polygon;
 
 /* The vertex where an edge leaves through a plane, t of the way from in to out; on the screen that
-   is t w_out / (w_in + t (w_out - w_in)) of the way. */
+   is t w_out / (w_in + t (w_out - w_in)) of the way, here without a difference: no digit is lost
+   however far apart the two w are.  pre: d_in >= 0 > d_out */
 static int shade__new_vertex(const shade__draw *d, shade__polygon *p, int in, int out, double d_in,
                              double d_out)
 {
     double t = d_in / (d_in - d_out), s = t;
-    double w_in = (double)p->head[in].clip[3], w_out = (double)p->head[out].clip[3];
     int v = p->used++;
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
-    if (p->on_screen) s = t * w_out / (w_in + t * (w_out - w_in));
+    if (p->on_screen) {    /* rounding may leave a new vertex without w */
+        double inner = d_in * (double)shade__maxf(p->head[out].clip[3], shade__w_least);
+        s = inner / (inner - d_out * (double)shade__maxf(p->head[in].clip[3], shade__w_least));
+    }
     for (int k = 0; k < 4; k++) {
         double a = (double)p->head[in].clip[k];
         p->head[v].clip[k] = (float)(a + t * ((double)p->head[out].clip[k] - a));

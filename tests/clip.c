@@ -739,7 +739,70 @@ TEST(clip, dents_by_snapping_are_filled_without_overlap)
     CHECK(covered > 1000000);
 }
 
+/* What SHADE_INTERPOLATION_AFFINE gives at a point of the screen: with c from [x y w] c = (X, Y, 1)
+   the screen's barycentric coordinates are c_i w_i, however far apart the w are. */
+static double affine_at(const shade_vec4 v[3], const float *value, double X, double Y)
+{
+    double m[3][3], want[3] = { X, Y, 1 }, det, sum = 0;
+    for (int k = 0; k < 3; k++) {
+        m[0][k] = (double)v[k].x, m[1][k] = (double)v[k].y, m[2][k] = (double)v[k].w;
+    }
+    det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        double c = want[0] * (m[1][a] * m[2][b] - m[1][b] * m[2][a]) -
+                   want[1] * (m[0][a] * m[2][b] - m[0][b] * m[2][a]) +
+                   want[2] * (m[0][a] * m[1][b] - m[0][b] * m[1][a]);
+        sum += c / det * m[2][k] * (double)value[k];
+    }
+    return sum;
+}
+/* Two corners before the near plane, far and near, one behind it next to w = 0: the cut is reckoned
+   from products of one sign, so that no digit is lost and nothing is divided by zero. */
+TEST(clip, affine_values_survive_a_cut_between_any_two_w)
+{
+    enum { SIDE = 32 };
+    int compared = 0;
+    canvas c = canvas_open(SIDE, SIDE, 0, SHADE_FORMAT_RGBA32F, 0);
+    for (int round = 0; round < 4000; round++) {
+        shade_vec4 v[3];
+        float value[3];
+        double w = (double)rnd_log(1e-3, 1e12);
+        shade_stats stats;
+        int beyond = round % 2 ? 2 : 1; /* corners behind the plane */
+        for (int k = 0; k < 3; k++) {
+            double at = k < beyond ? (double)rnd_log(1e-28, 1e-2) * (w < 1 ? w : 1) : w;
+            v[k].w = (float)at;
+            v[k].x = (float)((double)rnd_float(-2, 2) * (at > w * 1e-6 ? at : w * 1e-6));
+            v[k].y = (float)((double)rnd_float(-2, 2) * (at > w * 1e-6 ? at : w * 1e-6));
+            v[k].z = (float)(k < beyond ? -(double)rnd_log(1.1, 1e4) * at : 0);
+            value[k] = rnd_float(-1, 1);
+        }
+        scene s = { v, value, 1, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        p.fragment = scene_colors, p.interpolation = SHADE_INTERPOLATION_AFFINE;
+        canvas_clear(&c, 1);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            int x = i % SIDE, y = i / SIDE;
+            float got = canvas_float(&c, x, y, 0);
+            if (canvas_float(&c, x, y, 3) == 0) continue;
+            CHECK_SAY(got - got == 0, "%g at %d, %d", (double)got, x, y);
+            if (stats.fragments < 60) continue;
+            CHECK_NEAR(got,
+                       affine_at(v, value, (x + 0.5) / (SIDE / 2) - 1, 1 - (y + 0.5) / (SIDE / 2)),
+                       2e-3);
+            compared++;
+        }
+    }
+    CHECK_SAY(compared > 10000, "%d pixels", compared);
+    canvas_close(&c);
+}
+
 static const test_case clip_cases[] = {
+    CASE(clip, affine_values_survive_a_cut_between_any_two_w),
     CASE(clip, dents_by_snapping_are_filled_without_overlap),
     CASE(clip, triangles_outside_one_plane_count_as_clipped),
     CASE(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled),
