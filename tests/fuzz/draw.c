@@ -9,6 +9,8 @@ typedef struct draw_scene {
     const float *attribute;              /* p.varyings a vertex */
     const uint32_t *indices;
     int index_count, vertex_count, kind;
+    int tame;                            /* attributes are multiples of 1/50, positions <= 1e12 */
+    shade_texture texture;               /* of the level of detail */
     int x0, y0, x1, y1;                  /* clip rectangle of the call */
     long long shaded;                    /* fragments handed to the shader */
     const shade_pipeline *pipeline;      /* &p, or NULL */
@@ -43,6 +45,8 @@ static void draw_check_fragment(const draw_scene *s, const shade_fragments *in, 
     HOLDS(in->primitive[i] < (uint32_t)s->index_count / 3 && in->front[i] <= 1);
     HOLDS(s->p.raster.cull == SHADE_CULL_NONE ||
           in->front[i] == (s->p.raster.cull == SHADE_CULL_BACK));
+    for (int k = 0; s->tame && k < s->p.varyings; k++) HOLDS(fuzz_finite(in->varying[k][i]));
+    HOLDS(!s->tame || !s->p.lod_texture || fuzz_finite(in->lod[i]));
     if (s->p.interpolation != SHADE_INTERPOLATION_CONSTANT) return;
     first = s->indices ? s->indices[3 * in->primitive[i]] : 3 * in->primitive[i];
     for (int k = 0; k < s->p.varyings; k++) {    /* -0 may come as 0 */
@@ -57,7 +61,7 @@ static void draw_check_tail(const draw_scene *s, const shade_fragments *in, int 
     HOLDS(in->primitive[i] == in->primitive[last] && in->front[i] == in->front[last]);
     for (int k = 0; k < s->p.varyings; k++)
         HOLDS(fuzz_same(in->varying[k][i], in->varying[k][last]));
-    HOLDS(!s->p.lod_varying || fuzz_same(in->lod[i], in->lod[last]));
+    HOLDS(!s->p.lod_texture || fuzz_same(in->lod[i], in->lod[last]));
 }
 static void draw_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                           shade_colors *SHADE_RESTRICT out)
@@ -102,6 +106,21 @@ static shade_result draw_call(void *user, const shade_target *target, shade_stat
     return result;
 }
 
+/* The same triangles for another interpolation, or for nobody. */
+static shade_result draw_otherwise(void *user, const shade_target *target, shade_stats *stats)
+{
+    draw_scene *s = (draw_scene *)user;
+    shade_pipeline p = s->p;
+    shade_result result;
+    s->p.interpolation = (shade_interpolation)((s->p.interpolation + 1) % 3);
+    if (s->kind == DRAW_FLAT) s->p.fragment = NULL;
+    if (s->kind == DRAW_SILENT) s->p.may_discard = !s->p.may_discard;
+    if (s->kind != DRAW_VARYINGS) s->p.varyings = 0, s->p.lod_texture = NULL;
+    result = draw_call(user, target, stats);
+    s->p = p;
+    return result;
+}
+
 /* the places on which coverage and clipping turn: pixel corners and centres, planes, far away */
 static shade_vec4 draw_position(fuzz_input *in, const shade_target *t, const shade_vec4 *before)
 {
@@ -135,16 +154,21 @@ static shade_vec4 *draw_positions(fuzz_input *in, draw_scene *s, const shade_tar
 {
     size_t bytes = (size_t)(s->vertex_count > 0 ? s->vertex_count : 0) * sizeof(shade_vec4);
     shade_vec4 *clip = (shade_vec4 *)guard_take(bytes, right), before = shade_v4(0, 0, 0, 1);
-    for (int i = 0; i < s->vertex_count; i++) before = clip[i] = draw_position(in, t, &before);
+    for (int i = 0; i < s->vertex_count; i++) {
+        const float *p = &clip[i].x;
+        before = clip[i] = draw_position(in, t, &before);
+        for (int k = 0; k < 4; k++) s->tame &= p[k] >= -1e12f && p[k] <= 1e12f;
+    }
     guard_seal(clip);
     return clip;
 }
-static const float *draw_attributes(fuzz_input *in, const draw_scene *s, int right)
+static const float *draw_attributes(fuzz_input *in, draw_scene *s, int right)
 {
     uint32_t kind = fuzz_byte(in);
     size_t n = s->vertex_count > 0 && s->p.varyings > 0 ? (size_t)s->vertex_count : 0;
     float *a;
     n = s->p.varyings > SHADE_MAX_VARYINGS ? 0 : n * (size_t)s->p.varyings;
+    s->tame &= kind % 8 != 7;
     a = (float *)guard_take(n * 4, right);
     for (size_t i = 0; i < n; i++) {
         if (kind % 8 == 7 && i < 64) a[i] = fuzz_float(in);
@@ -168,7 +192,8 @@ static const uint32_t *draw_indices(fuzz_input *in, draw_scene *s, int right, in
     return indices;
 }
 
-static int draw_pipeline(fuzz_input *in, shade_pipeline *p)    /* 0: refused */
+/* texture: where that of the level of detail is kept */
+static int draw_pipeline(fuzz_input *in, shade_pipeline *p, shade_texture *texture) /* 0: refused */
 {
     int bad = 0;
     uint32_t kind = fuzz_byte(in);
@@ -183,12 +208,13 @@ static int draw_pipeline(fuzz_input *in, shade_pipeline *p)    /* 0: refused */
     p->may_discard = kind >> 2 & 1;
     if (kind & 8) p->raster.depth_bias = fuzz_float(in);
     if (kind & 16) {
-        p->lod_varying = fuzz_one_in(in, 8) ? fuzz_wild_int(in) : fuzz_int(in, 0, 5);
-        p->lod_width = fuzz_float(in), p->lod_height = fuzz_float(in);
+        p->lod_varying = fuzz_one_in(in, 8) ? fuzz_wild_int(in) : fuzz_int(in, 0, 4);
+        *texture = texture_open(in, 40, 0), p->lod_texture = kind & 32 ? texture : NULL;
     }
-    bad |=
-        p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS || !fuzz_finite(p->raster.depth_bias);
-    return !(bad || p->lod_varying < 0 || (p->lod_varying && p->lod_varying >= p->varyings));
+    if (p->lod_texture)
+        bad |= !texture_is_good(texture) || p->lod_varying < 0 || p->lod_varying >= p->varyings - 1;
+    return !(bad || p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS ||
+             !fuzz_finite(p->raster.depth_bias));
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -201,10 +227,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     shade_result want;
     picture_open(&in, &pic, 40);
     memset(&s, 0, sizeof s);
-    s.p.vertex = draw_vertex, s.p.uniforms = &s, s.pipeline = &s.p;
+    s.p.vertex = draw_vertex, s.p.uniforms = &s, s.pipeline = &s.p, s.tame = 1;
     s.kind = (int)(fuzz_byte(&in) % DRAW_KINDS);
     s.p.fragment = s.kind == DRAW_DEPTH_ONLY ? NULL : draw_fragment;
-    good_pipeline = draw_pipeline(&in, &s.p);
+    good_pipeline = draw_pipeline(&in, &s.p, &s.texture);
     s.vertex_count = fuzz_int(&in, 3, DRAW_VERTICES);
     s.index_count = 3 * fuzz_int(&in, 1, DRAW_TRIANGLES);
     if (fuzz_one_in(&in, 32)) s.vertex_count = fuzz_int(&in, -2, 2);
@@ -220,7 +246,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (want == SHADE_OK && (s.index_count % 3 || bad_index)) want = SHADE_ERROR_INDEX;
     if (kind == 0xF0) s.p.vertex = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xF1) s.pipeline = NULL, want = SHADE_ERROR_ARGUMENT;
-    picture_try(&in, &pic, draw_call, &s, want, s.index_count / 3, s.p.raster.depth_read_only);
+    picture_try(&in, &pic, draw_call,
+                s.kind == DRAW_SIEVE && s.p.may_discard ? NULL : draw_otherwise, &s, want,
+                s.index_count / 3, s.p.raster.depth_read_only);
     picture_close(&pic);
     guard_close();
     return 0;

@@ -116,13 +116,45 @@ static inline shade_vec4 fuzz_vec4(fuzz_input *in, float most)
     float x = fuzz_value(in, most), y = fuzz_value(in, most), z = fuzz_value(in, most);
     return shade_v4(x, y, z, fuzz_value(in, most));
 }
-/* zero, the usual cameras, turned and stretched axes, or sixteen floats */
+/* The matrix that stands for a camera that there is none of: every point goes to (0, 0, 2, 1). */
+static inline int fuzz_is_no_camera(shade_mat4 m)
+{
+    const float *f = &m.col[0].x;
+    for (int k = 0; k < 16; k++)
+        if (f[k] != (k == 14 ? 2 : k == 15 ? 1 : 0)) return 0;
+    return 1;
+}
+/* A camera of four to six numbers, which is none where they do not fulfil what they must; its
+   entries are bounded as they are. */
+static inline shade_mat4 fuzz_camera(fuzz_input *in, float most)
+{
+    uint32_t kind = fuzz_byte(in);
+    shade_mat4 m;
+    float x = fuzz_value(in, most), y = fuzz_value(in, most), z = fuzz_value(in, most);
+    float a = fuzz_value(in, most), b, c;
+    int good = x > 0 && x < 3.1415927f && y != 0 && z > 0; /* the float above pi */
+    if (kind % 4 == 0)
+        m = shade_mat4_perspective(x, y, z, a), good = good && a > 0 && z != a;
+    else if (kind % 4 == 1)
+        m = shade_mat4_perspective_reversed(x, y, z);
+    else {
+        b = fuzz_value(in, most), c = fuzz_value(in, most), good = x != y && z != a && b != c;
+        if (kind % 4 == 3)
+            m = shade_mat4_ortho(x, y, z, a, b, c);
+        else
+            m = shade_mat4_frustum(x, y, z, a, b, c), good = good && b > 0 && c > 0;
+    }
+    HOLDS(good || fuzz_is_no_camera(m));
+    for (int k = 0; k < 16; k++) good &= (&m.col[0].x)[k] >= -most && (&m.col[0].x)[k] <= most;
+    return good || !(most > 0) ? m : shade_mat4_ortho(1, 1, 1, 1, 1, 1);
+}
+/* zero, the usual cameras, turned and stretched axes, any camera, or sixteen floats */
 static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
 {
     shade_mat4 m;
     shade_vec3 a, b;
     memset(&m, 0, sizeof m);
-    switch (fuzz_byte(in) % 12) {
+    switch (fuzz_byte(in) % 13) {
     case 1: case 2: return shade_mat4_perspective(1, 1.25f, 0.5f, 20);
     case 3: return shade_mat4_look_at(shade_v3(0, 1, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     case 4: a = fuzz_vec3(in, most); return shade_mat4_translation(a);
@@ -137,6 +169,8 @@ static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
         for (int k = 0; k < 4; k++) m.col[k] = fuzz_vec4(in, most);
         break;
     case 11: return shade_mat4_identity();
+    case 12:
+        return fuzz_camera(in, most);
     default: break;
     }
     return m;

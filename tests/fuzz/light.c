@@ -1,5 +1,5 @@
-/* light.c - vectors, matrices and the equations of light: total for all input, finite for input
-   that is not beyond 1e6 in matrices and 1e12 in vectors. */
+/* light.c - vectors, matrices, colours and the equations of light: total for all input, finite for
+   input that is not beyond 1e6 in matrices and 1e12 in vectors. */
 #include "input.h"
 #include <math.h>
 
@@ -77,10 +77,111 @@ static void light_scalars(fuzz_input *in)
         fuzz_finite(c) && fuzz_finite(r)) HOLDS(f >= 0);
 }
 
+/* [IEC61966], in double; what the contract makes of any float before */
+static double light_clamped(float c) { return c > 0 ? c < 1 ? (double)c : 1 : 0; }
+static double light_encoded(double c)
+{
+    return c > 0.0031308 ? 1.055 * pow(c, 1 / 2.4) - 0.055 : 12.92 * c;
+}
+static double light_decoded(double c)
+{
+    return c > 0.04045 ? pow((c + 0.055) / 1.055, 2.4) : c / 12.92;
+}
+static void light_check_colour(shade_vec3 from, shade_vec3 got, double (*curve)(double))
+{
+    const float *a = &from.x, *b = &got.x;
+    for (int k = 0; k < 3; k++) {
+        HOLDS(b[k] >= 0 && b[k] <= 1);
+        HOLDS(fabs((double)b[k] - curve(light_clamped(a[k]))) < 4e-6);
+    }
+}
+static void light_colours(fuzz_input *in)
+{
+    shade_vec3 c = fuzz_vec3(in, 0), low = shade_v3(0, 0, 0), high = shade_v3(1, 1, 1), bytes;
+    uint32_t rgb = fuzz_word(in);
+    shade_material m, linear;
+    shade_vec3 *display = &m.emission, *made = &linear.emission;
+    light_check_colour(c, shade_linear_from_srgb(c), light_decoded);
+    light_check_colour(c, shade_srgb_from_linear(c), light_encoded);
+    bytes = shade_v3((float)(rgb >> 16 & 255), (float)(rgb >> 8 & 255), (float)(rgb & 255));
+    light_check_colour(shade_scale(bytes, 1 / 255.0f), shade_rgb(rgb), light_decoded);
+    c = shade_clamp(c, low, high);
+    m.emission = c, m.ambient = shade_v3(c.y, c.z, c.x), m.diffuse = shade_v3(c.z, c.x, c.y);
+    m.specular = fuzz_vec3(in, 0), m.shininess = fuzz_float(in);
+    linear = shade_linear_material(m);
+    for (int k = 0; k < 4; k++) light_check_colour(display[k], made[k], light_decoded);
+    HOLDS(fuzz_same(linear.shininess, m.shininess));
+}
+
+/* Rows of one lamp and the scalar form say the same, but at the edge of its cone. */
+static void light_arriving(const shade_light *lamp, const float *P, int tame)
+{
+    float L[3][SHADE_LANES], amount[SHADE_LANES], alone[SHADE_LANES], none[3][SHADE_LANES];
+    int fades = lamp->constant >= 0 && lamp->linear >= 0 && lamp->quadratic >= 0;
+    double power = lamp->spot_exponent > 100 ? (double)lamp->spot_exponent / 100 : 1;
+    memset(amount, 0xAA, sizeof amount), memset(none, 0xAA, sizeof none);
+    shade_light_at_lanes(lamp, P, L[0], amount);
+    shade_light_at_lanes(lamp, P, NULL, alone), shade_light_at_lanes(lamp, P, NULL, NULL);
+    HOLDS(!memcmp(amount, alone, sizeof amount));
+    shade_light_at_lanes(NULL, P, none[0], alone);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade_vec3 p = shade_v3(P[i], P[i + SHADE_LANES], P[i + 2 * SHADE_LANES]), l;
+        float r = -1, one = shade_light_at(lamp, p, &l, &r), cosine;
+        HOLDS(fuzz_same(shade_light_at(lamp, p, NULL, NULL), one));
+        HOLDS(none[0][i] == 0 && none[1][i] == 0 && none[2][i] == 0 && alone[i] == 0);
+        if (!tame) continue;
+        HOLDS(fuzz_finite(one) && fuzz_finite(amount[i]) && fuzz_finite3(l));
+        HOLDS(r >= 0 && (r == FLT_MAX) == (lamp->position.w == 0));
+        light_unit(l);
+        HOLDS(fabsf(l.x - L[0][i]) < 1e-5f && fabsf(l.y - L[1][i]) < 1e-5f);
+        HOLDS(fabsf(l.z - L[2][i]) < 1e-5f);
+        cosine = -shade_dot(l, shade_normalize(lamp->spot_direction)) - lamp->spot_cos_cutoff;
+        if (!fades || fabsf(cosine) < 1e-5f) continue;
+        HOLDS(one >= 0 && amount[i] >= 0);
+        HOLDS(fabs((double)one - (double)amount[i]) <= 1e-4 * power * (one > 1 ? (double)one : 1));
+    }
+    HOLDS(shade_light_at(NULL, shade_v3(1, 2, 3), NULL, NULL) == 0);
+}
+
+/* Rows of visibility, or NULL */
+static const float *light_visibility(fuzz_input *in, int lamps, float most)
+{
+    uint32_t kind = fuzz_byte(in);
+    float *rows;
+    if (kind & 1 || lamps < 0 || lamps > LIGHT_LAMPS) return NULL;
+    rows = (float *)guard_take((size_t)lamps * SHADE_LANES * sizeof(float), kind >> 1 & 1);
+    for (int i = 0; i < lamps * SHADE_LANES; i++)
+        rows[i] = i % SHADE_LANES < 3 ? fuzz_value(in, most) : 1 - rows[i - 3];
+    guard_seal(rows);
+    return rows;
+}
+/* Hidden lamps give their ambient light alone; lamps fully seen what they give without rows. */
+static void light_hidden(const shade_lighting *l, const shade_material *m, shade_vec3 eye,
+                         float *const *rows, const float *albedo)
+{
+    float visibility[LIGHT_LAMPS * SHADE_LANES], a[3 * SHADE_LANES], b[3 * SHADE_LANES];
+    shade_light dark[LIGHT_LAMPS];
+    shade_lighting ambient = *l;
+    int lamps = l->lights && l->light_count > 0 ? l->light_count : 0;
+    if (lamps) memcpy(dark, l->lights, (size_t)lamps * sizeof dark[0]);
+    for (int j = 0; j < lamps; j++) dark[j].diffuse = dark[j].specular = shade_v3(0, 0, 0);
+    ambient.lights = dark, ambient.light_count = lamps;
+    memset(visibility, 0, sizeof visibility);
+    shade_lit_lanes(l, m, eye, rows[0], rows[1], albedo, visibility, a);
+    shade_lit_lanes(&ambient, m, eye, rows[0], rows[1], albedo, NULL, b);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) HOLDS(a[i] == b[i]);
+    for (int i = 0; i < LIGHT_LAMPS * SHADE_LANES; i++) visibility[i] = 1;
+    shade_lit_lanes(l, m, eye, rows[0], rows[1], albedo, visibility, a);
+    shade_lit_lanes(l, m, eye, rows[0], rows[1], albedo, NULL, b);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) HOLDS(a[i] == b[i]);
+}
+
 /* scalar: finite where tame; packets as well, and the same bits in every width */
 static void light_scene(fuzz_input *in, int tame)
 {
     float most = tame ? 1e6f : 0, bright = tame ? 1e3f : 0, *rows[5], *again;
+    const float *albedo, *seen;
+    const shade_material *given;
     uint32_t kind = fuzz_byte(in);
     int bad = 0;
     shade_light lamps[LIGHT_LAMPS];
@@ -122,14 +223,16 @@ static void light_scene(fuzz_input *in, int tame)
         rows[3][i] = rows[4][i] = -1;
     }
     for (int k = 0; k < 3; k++) guard_seal(rows[k]);
-    shade_lit_lanes(&l, kind & 8 ? &m : NULL, eye, rows[0], rows[1], kind & 4 ? rows[2] : NULL,
-                    NULL, rows[3]);
+    albedo = kind & 4 ? rows[2] : NULL, given = kind & 8 ? &m : NULL;
+    seen = light_visibility(in, l.light_count, bright);
+    shade_lit_lanes(&l, given, eye, rows[0], rows[1], albedo, seen, rows[3]);
     fuzz_level = (fuzz_level + 1) % (fuzz_widest() + 1);
-    shade_lit_lanes(&l, kind & 8 ? &m : NULL, eye, rows[0], rows[1], kind & 4 ? rows[2] : NULL,
-                    NULL, again);
+    shade_lit_lanes(&l, given, eye, rows[0], rows[1], albedo, seen, again);
     for (int i = 0; i < 3 * SHADE_LANES; i++) {
         HOLDS(!tame || (fuzz_same(rows[3][i], again[i]) && fuzz_finite(rows[3][i])));
     }
+    if (tame) light_hidden(&l, given, eye, rows, albedo);
+    if (l.lights && l.light_count > 0) light_arriving(&l.lights[0], rows[0], tame);
     for (int i = 0; i < 8; i++) {
         shade_vec3 P = shade_v3(rows[0][i], rows[0][i + SHADE_LANES], rows[0][i + 2 * SHADE_LANES]);
         shade_vec3 N = shade_v3(rows[1][i], rows[1][i + SHADE_LANES], rows[1][i + 2 * SHADE_LANES]);
@@ -149,6 +252,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     light_vectors(&in, kind & 1);
     light_matrices(&in, kind & 1);
     light_scalars(&in);
+    light_colours(&in);
     light_scene(&in, kind & 1);
     guard_close();
     return 0;

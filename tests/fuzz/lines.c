@@ -1,5 +1,6 @@
 /* lines.c - shade_draw_lines: any segments, widths and caps on any target. */
 #include "picture.h"
+#include <math.h>
 
 enum { LINES_POINTS = 80 };
 
@@ -17,8 +18,17 @@ static shade_result lines_call(void *user, const shade_target *target, shade_sta
 }
 static shade_vec3 lines_point(fuzz_input *in, shade_vec3 before)
 {
+    static const float away[] = { 1e5f, 1e6f, 1e9f, 1e12f, 1e20f, 1e30f, 3e38f, INFINITY };
     uint32_t kind = fuzz_byte(in);
     float x, y;
+    if (kind >= 192) { /* straight, or askew, far away */
+        float far = away[kind & 7];
+        x = (float)fuzz_byte(in) / 64 - 2, y = (float)fuzz_byte(in) / 64 - 2;
+        if (kind & 8) before.x = far < 1e38f ? x * far : x < 0 ? -far : far;
+        if (kind & 16) before.y = far < 1e38f ? y * far : y < 0 ? -far : far;
+        if (kind & 32) before.z += x;
+        return before;
+    }
     switch (kind % 4) {
     case 0:
         x = (float)fuzz_byte(in) / 64 - 2, y = (float)fuzz_byte(in) / 64 - 2;
@@ -54,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     s.state.raster.depth_test = (shade_compare)fuzz_enum(&in, 6, &bad);
     s.state.raster.blend = (shade_blend)fuzz_enum(&in, 3, &bad);
     if (kind & 8) s.state.raster.depth_bias = fuzz_float(&in);
-    s.state.raster.depth_read_only = kind >> 4 & 1,
+    s.state.raster.depth_read_only = kind >> 4 & 1;
     s.state.raster.depth_zero_to_one = kind >> 5 & 1;
     bad |= !(s.state.width >= 0 && fuzz_finite(s.state.width) &&
              fuzz_finite(s.state.raster.depth_bias));
@@ -70,7 +80,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (want == SHADE_OK && (bad || s.point_count < 0 || s.point_count % 2))
         want = SHADE_ERROR_ARGUMENT;
     if (fuzz_one_in(&in, 128)) s.given = NULL, want = SHADE_ERROR_ARGUMENT;
-    picture_try(&in, &pic, lines_call, &s, want, s.point_count, s.state.raster.depth_read_only);
+    picture_try(&in, &pic, lines_call, NULL, &s, want, s.point_count,
+                s.state.raster.depth_read_only);
     picture_close(&pic);
     guard_close();
     return 0;

@@ -16,7 +16,23 @@ typedef struct mesh_scene {
 static shade_result mesh_call(void *user, const shade_target *target, shade_stats *stats)
 {
     mesh_scene *s = (mesh_scene *)user;
-    return shade_draw_mesh(target, s->mesh, s->state, stats);
+    shade_result result = shade_draw_mesh(target, s->mesh, s->state, stats);
+    HOLDS(result != SHADE_OK || !fuzz_is_no_camera(s->s.projection) || !stats->drawn);
+    return result;
+}
+/* The same triangles in another shading, or into depth alone: the same alpha, the same depth. */
+static shade_result mesh_otherwise(void *user, const shade_target *target, shade_stats *stats)
+{
+    mesh_scene *s = (mesh_scene *)user;
+    shade_target t = *target;
+    shade_draw_state state = s->s;
+    shade_result result;
+    if (t.depth && state.shading == SHADE_SHADING_PER_FACE) t.color = NULL;
+    s->s.shading = (shade_shading)((state.shading + 1) % 3);
+    s->s.lighting.model = SHADE_MODEL_EMISSIVE, s->s.raster.blend = SHADE_BLEND_REPLACE;
+    result = shade_draw_mesh(&t, s->mesh, s->state, stats);
+    s->s = state;
+    return result;
 }
 
 /* An array that ends with its last vector, with its stride; noise between the vectors. */
@@ -138,6 +154,15 @@ static void mesh_arrays(fuzz_input *in, mesh_scene *s, float most, int *bad_inde
         *bad_index = m->vertex_count % 3;
     }
 }
+static int mesh_alpha(fuzz_input *in, mesh_scene *s) /* 0: refused */
+{
+    uint32_t kind = fuzz_byte(in);
+    float *t = &s->s.transparency, *cutoff = &s->s.alpha_cutoff;
+    if (kind & 1) *t = kind & 8 ? fuzz_float(in) : (float)fuzz_byte(in) / 255;
+    if (kind & 2) *cutoff = kind & 16 ? fuzz_float(in) : (float)fuzz_byte(in) / 255;
+    if ((kind & 7) == 7) *cutoff = 1 - *t; /* equal alpha is drawn */
+    return *t >= 0 && *t <= 1 && *cutoff >= 0 && *cutoff <= 1;
+}
 /* One field that has to be refused: its result, or SHADE_OK where nothing was spoilt. */
 static shade_result mesh_spoil(fuzz_input *in, mesh_scene *s)
 {
@@ -173,7 +198,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     picture pic;
     uint32_t kind = fuzz_byte(&in);
     float most = kind & 1 ? 1e5f : 0;
-    int bad = 0, bad_index = 0, good_light, good_map = 1, triangles;
+    int bad = 0, bad_index = 0, good_light, good_map = 1, good_alpha, triangles;
     shade_result want;
     picture_open(&in, &pic, 32);
     pic.one_width = !(most > 0);
@@ -192,8 +217,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     good_light = mesh_lighting(&in, &s, most);
     mesh_arrays(&in, &s, most, &bad_index);
     if (kind & 16) good_map = mesh_map(&in, &s, most > 0);
+    good_alpha = mesh_alpha(&in, &s);
     triangles = (s.m.indices ? s.m.index_count : s.m.vertex_count) / 3;
-    if (want == SHADE_OK && (bad || !good_light || !good_map)) want = SHADE_ERROR_ARGUMENT;
+    if (want == SHADE_OK && (bad || !good_light || !good_map || !good_alpha))
+        want = SHADE_ERROR_ARGUMENT;
     if (want == SHADE_OK && bad_index) want = SHADE_ERROR_INDEX;
     if (fuzz_one_in(&in, 32)) {
         shade_result spoilt = mesh_spoil(&in, &s);
@@ -202,7 +229,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (kind == 0xE0) s.mesh = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xE2) s.state = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xE4 && s.m.vertex_count > 0) s.m.positions = NULL, want = SHADE_ERROR_ARGUMENT;
-    picture_try(&in, &pic, mesh_call, &s, want, triangles, s.s.raster.depth_read_only);
+    picture_try(&in, &pic, mesh_call, mesh_otherwise, &s, want, triangles,
+                s.s.raster.depth_read_only);
     if (most > 0 && want == SHADE_OK) mesh_finite(&pic, &pic.target);
     picture_close(&pic);
     guard_close();

@@ -14,9 +14,11 @@ typedef struct picture {
     uint8_t *before, *after;             /* copies: color, then depth */
 } picture;
 
+enum { FUZZ_FORMATS = 5 };
 static inline size_t fuzz_pixel_bytes(shade_format format)
 {
-    return format == SHADE_FORMAT_RGBA8 ? 4 : format == SHADE_FORMAT_RGB565 ? 2 : 16;
+    static const uint8_t bytes[FUZZ_FORMATS] = { 4, 4, 2, 2, 16 };
+    return (unsigned)format < FUZZ_FORMATS ? bytes[format] : 16;
 }
 static inline size_t fuzz_cells(int rows, int stride, int width)
 {
@@ -30,7 +32,7 @@ static inline shade_result picture_verdict(const shade_target *t)
     if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
         return SHADE_ERROR_TARGET;
     if (t->stride && t->stride < t->width) return SHADE_ERROR_TARGET;
-    if ((int)t->format < 0 || (int)t->format > 2) return SHADE_ERROR_TARGET;
+    if ((int)t->format < 0 || (int)t->format >= FUZZ_FORMATS) return SHADE_ERROR_TARGET;
     if (t->clip_width < 0 || t->clip_height < 0) return SHADE_ERROR_TARGET;
     if (t->row_count < 0 || t->row_offset < 0) return SHADE_ERROR_TARGET;
     if (t->row_offset && !t->row_count) return SHADE_ERROR_TARGET;
@@ -59,7 +61,9 @@ static inline void picture_spoil(fuzz_input *in, shade_target *t)
     case 0: t->width = fuzz_wild_int(in); break;
     case 1: t->height = fuzz_wild_int(in); break;
     case 2: t->stride = fuzz_wild_int(in); break;
-    case 3: t->format = (shade_format)fuzz_enum(in, 3, &bad); break;
+    case 3:
+        t->format = (shade_format)fuzz_enum(in, FUZZ_FORMATS, &bad);
+        break;
     case 4: t->clip_x = fuzz_wild_int(in), t->clip_width = fuzz_wild_int(in); break;
     case 5: t->clip_y = fuzz_wild_int(in), t->clip_height = fuzz_wild_int(in); break;
     case 6: t->clip_width = fuzz_wild_int(in); break;
@@ -78,7 +82,7 @@ static inline void picture_shape(fuzz_input *in, shade_target *t, int most)
     uint32_t kind = fuzz_byte(in);
     memset(t, 0, sizeof *t);
     t->width = fuzz_int(in, 1, most), t->height = fuzz_int(in, 1, most);
-    t->format = (shade_format)(fuzz_byte(in) % 3);
+    t->format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS);
     t->srgb = kind & 1, t->dither = kind >> 1 & 1;
     if (kind & 4) t->stride = t->width + fuzz_int(in, 0, 6);
     if (kind & 8) {
@@ -235,9 +239,9 @@ static inline void picture_in_parts(fuzz_input *in, picture *p, picture_draw *dr
     HOLDS(b.culled == whole->culled && b.clipped == whole->clipped && b.drawn == whole->drawn);
 }
 /* want: what the contract says of the whole call; then, for some inputs, the same again in another
-   vector width, and in two parts. */
-static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, void *user,
-                               shade_result want, long long triangles, int read_only)
+   vector width, otherwise shaded by twin (NULL: none), and in two parts. */
+static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, picture_draw *twin,
+                               void *user, shade_result want, long long triangles, int read_only)
 {
     shade_stats stats, again;
     uint32_t kind = fuzz_byte(in);
@@ -262,6 +266,12 @@ static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, v
         HOLDS(picture_same(p));
         HOLDS(!memcmp(&stats, &again, sizeof stats));
     }
+    if (twin && (kind & 32)) { /* depth depends on positions alone */
+        picture_restore(p);
+        HOLDS(twin(user, &p->target, &again) == SHADE_OK);
+        HOLDS(!p->depth || !memcmp(p->depth, p->after + p->color_bytes, p->depth_bytes));
+        HOLDS(!memcmp(&stats, &again, sizeof stats));
+    }
     if (kind & 128) picture_in_parts(in, p, draw, user, &stats);
 }
 
@@ -271,9 +281,8 @@ static inline int texture_is_good(const shade_texture *t)
 {
     return t->pixels && t->width >= 1 && t->width <= 16384 && t->height >= 1 &&
            t->height <= 16384 && (!t->stride || t->stride >= t->width) && (int)t->format >= 0 &&
-           (int)t->format <= 2 &&
-           (int)t->wrap_u >= 0 && (int)t->wrap_u <= 2 && (int)t->wrap_v >= 0 &&
-           (int)t->wrap_v <= 2 && (int)t->filter >= 0 && (int)t->filter <= 2;
+           (int)t->format < FUZZ_FORMATS && (int)t->wrap_u >= 0 && (int)t->wrap_u <= 2 &&
+           (int)t->wrap_v >= 0 && (int)t->wrap_v <= 2 && (int)t->filter >= 0 && (int)t->filter <= 2;
 }
 /* Pixels end with the last one.  tame: good, and its floats are in [0, 2). */
 static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
@@ -285,7 +294,7 @@ static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
     uint8_t *pixels;
     memset(&t, 0, sizeof t);
     t.width = fuzz_int(in, 1, most), t.height = fuzz_int(in, 1, most);
-    t.format = (shade_format)(fuzz_byte(in) % 3), t.srgb = kind & 1;
+    t.format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS), t.srgb = kind & 1;
     t.wrap_u = (shade_wrap)(fuzz_byte(in) % 3), t.wrap_v = (shade_wrap)(fuzz_byte(in) % 3);
     t.filter = (shade_filter)(fuzz_byte(in) % 3);
     if (kind & 2) t.stride = t.width + fuzz_int(in, 0, 5);
@@ -313,7 +322,9 @@ static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
     case 4: t.width = -fuzz_int(in, 0, 4); break;
     case 5: t.height = 16385; break;
     case 6: t.stride = fuzz_one_in(in, 2) ? INT_MIN : t.width > 1 ? t.width - 1 : -1; break;
-    default: t.format = (shade_format)(3 + fuzz_byte(in)); break;
+    default:
+        t.format = (shade_format)(FUZZ_FORMATS + fuzz_byte(in));
+        break;
     }
     return t;
 }

@@ -1,4 +1,5 @@
-/* shape.c - what a mesh knows of its shape, rays, supersampling, clearing and pictures as PPM. */
+/* shape.c - what a mesh knows of its shape, rays and what they meet, supersampling and other
+   formats, clearing and pictures as PPM. */
 #include "picture.h"
 #include <math.h>
 
@@ -22,6 +23,15 @@ static shade_vec3 shape_position(const shade_mesh *m, uint32_t v)
     memcpy(&p, (const char *)m->positions + step * v, 12);
     return p;
 }
+/* Nearly the same position: the sign of a zero, or a single bit. */
+static void shape_nudge(shade_vec3 *v, uint32_t kind)
+{
+    float *c = kind & 1 ? &v->x : kind & 2 ? &v->y : &v->z;
+    uint32_t bits;
+    memcpy(&bits, c, 4);
+    bits ^= bits << 1 ? (kind & 4 ? 1u : kind & 8 ? 0x100u : 0x10000u) : 0x80000000u;
+    memcpy(c, &bits, 4);
+}
 static shape_mesh shape_open(fuzz_input *in)
 {
     shape_mesh s;
@@ -37,6 +47,7 @@ static shape_mesh shape_open(fuzz_input *in)
         shade_vec3 v;
         if (again > 127 && i) memcpy(&v, p + step * (again % (uint32_t)i), 12);    /* a seam */
         else v = fuzz_vec3(in, s.most);
+        if (again > 191) shape_nudge(&v, again);
         memcpy(p + step * (size_t)i, &v, 12);
     }
     guard_seal(p);
@@ -85,6 +96,46 @@ static void shape_normals(fuzz_input *in, const shape_mesh *s)
     HOLDS(shade_mesh_normals(&s->m, out) == s->want);
     if (s->want == SHADE_OK) shape_check_normals(s, out, n);
 }
+static shade_vec3 shape_at(const shape_mesh *s, int corner)
+{
+    return shape_position(&s->m, shape_corner(&s->m, corner));
+}
+static shade_vec3 shape_face(const shape_mesh *s, int t)
+{
+    shade_vec3 n =
+        shade_face_normal(shape_at(s, 3 * t), shape_at(s, 3 * t + 1), shape_at(s, 3 * t + 2));
+    return shade_dot(n, n) <= 2 ? n : shade_v3(0, 0, 0);
+}
+static double shape_angle(const shape_mesh *s, int corner)
+{
+    int t = corner / 3 * 3, k = corner % 3;
+    shade_vec3 p = shape_at(s, corner);
+    shade_vec3 a = shade_normalize(shade_sub(shape_at(s, t + (k + 1) % 3), p));
+    shade_vec3 b = shade_normalize(shade_sub(shape_at(s, t + (k + 2) % 3), p));
+    return atan2((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
+}
+/* Every pair of corners: where the mean is not next to nothing, it is what all of them say. */
+static void shape_check_corner_normals(const shape_mesh *s, float crease, const shade_vec3 *got)
+{
+    for (int i = 0; i < s->corners; i++) {
+        shade_vec3 p = shape_at(s, i), n = shape_face(s, i / 3);
+        double mean[3] = { 0, 0, 0 }, length, weights = 0;
+        for (int j = 0; j < s->corners; j++) {
+            shade_vec3 q = shape_at(s, j), other = shape_face(s, j / 3);
+            double angle = shape_angle(s, j);
+            if (i != j && !(p.x == q.x && p.y == q.y && p.z == q.z)) continue;
+            if (i != j && !(shade_dot(n, other) >= crease)) continue;
+            if (!(angle >= 0)) angle = 0; /* beside a corner that is not finite */
+            mean[0] += angle * (double)other.x, mean[1] += angle * (double)other.y;
+            mean[2] += angle * (double)other.z, weights += angle;
+        }
+        length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
+        if (!(length > 1e-3 * weights && length > 1e-6)) continue;
+        HOLDS(fabs((double)got[i].x - mean[0] / length) < 1e-3);
+        HOLDS(fabs((double)got[i].y - mean[1] / length) < 1e-3);
+        HOLDS(fabs((double)got[i].z - mean[2] / length) < 1e-3);
+    }
+}
 static void shape_corner_normals(fuzz_input *in, const shape_mesh *s)
 {
     uint32_t kind = fuzz_byte(in);
@@ -93,14 +144,16 @@ static void shape_corner_normals(fuzz_input *in, const shape_mesh *s)
     shade_vec3 *out = (shade_vec3 *)guard_take((size_t)s->corners * 12, kind & 1);
     void *memory;
     shade_result want = s->want;
-    HOLDS((need == 0) == (s->want != SHADE_OK));
+    HOLDS((need == 0) == (s->want != SHADE_OK || !s->corners));
     if ((kind & 0xF0) == 0xF0 && need) bytes = fuzz_byte(in) % need;
     memory = guard_take((bytes + 3) & ~(size_t)3, kind >> 1 & 1);
     fuzz_noise(memory, (bytes + 3) & ~(size_t)3, 4);
     if (want == SHADE_OK && crease != crease) want = SHADE_ERROR_ARGUMENT;
     if (want == SHADE_OK && bytes < need) want = SHADE_ERROR_CAPACITY;
     HOLDS(shade_mesh_corner_normals(&s->m, crease, out, memory, bytes) == want);
-    if (want == SHADE_OK) shape_check_normals(s, out, s->corners);
+    if (want != SHADE_OK) return;
+    shape_check_normals(s, out, s->corners);
+    if (s->corners <= 48) shape_check_corner_normals(s, crease, out);
 }
 /* How many entries of an edge name a triangle */
 static int shape_named(const shade_edge *edges, int count, uint32_t a, uint32_t b, int triangle)
@@ -140,6 +193,34 @@ static void shape_edges(fuzz_input *in, const shape_mesh *s)
         HOLDS(shape_named(edges, count, a, b, i / 3) == (a != b));
     }
 }
+/* The nearest of the triangles that shade_intersect hits, of equal ones the first. */
+static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
+{
+    uint32_t kind = fuzz_byte(in);
+    shade_mat4 model = fuzz_matrix(in, kind & 1 ? s->most : 0), place = model;
+    float t = -7, nearest = -7, at;
+    shade_vec3 where = shade_v3(-7, -7, -7), want = where, inside, d = ray.direction,
+               o = ray.origin;
+    int got, found = -1, zeros = 0;
+    for (int k = 0; k < 16; k++) zeros += (&model.col[0].x)[k] == 0;
+    if (zeros == 16) place = shade_mat4_identity();
+    if (s->want == SHADE_OK) {
+        for (int i = 0; i < s->corners / 3; i++) {
+            shade_vec3 p[3];
+            for (int k = 0; k < 3; k++)
+                p[k] = shade_mat4_transform_point(place, shape_at(s, 3 * i + k));
+            if (!shade_intersect(ray, p[0], p[1], p[2], &at, &inside)) continue;
+            if (found < 0 || at < nearest) found = i, nearest = at, want = inside;
+        }
+    }
+    got = shade_pick(&s->m, model, ray, kind & 4 ? NULL : &t, kind & 8 ? NULL : &where);
+    HOLDS(got == found);
+    HOLDS(shade_pick(NULL, model, ray, &at, &inside) == -1);
+    if ((d.x == 0 && d.y == 0 && d.z == 0) || !fuzz_finite3(d) || !fuzz_finite3(o))
+        HOLDS(got == -1);
+    HOLDS(t == (kind & 4 ? -7 : nearest));
+    HOLDS(kind & 8 ? where.x == -7 : !memcmp(&where, &want, sizeof want));
+}
 static void shape_rays(fuzz_input *in, const shape_mesh *s)
 {
     uint32_t kind = fuzz_byte(in);
@@ -150,12 +231,12 @@ static void shape_rays(fuzz_input *in, const shape_mesh *s)
     shade_ray ray = shade_pixel_ray(view, projection, w, h, x, y);
     shade_vec3 at = shade_v3(-7, -7, -7);
     l = shade_length(ray.direction);
+    if (most > 0 && fuzz_is_no_camera(projection)) HOLDS(l == 0);
     if (most > 0 && fuzz_finite3(ray.direction)) HOLDS(l == 0 || fabsf(l - 1) < 1e-4f);
     if (kind & 8) ray.origin = fuzz_vec3(in, most), ray.direction = fuzz_vec3(in, most);
+    shape_pick(in, s, ray);
     for (int i = 0; s->want == SHADE_OK && i + 2 < s->corners; i += 3) {
-        int hit = shade_intersect(ray, shape_position(&s->m, shape_corner(&s->m, i)),
-                                  shape_position(&s->m, shape_corner(&s->m, i + 1)),
-                                  shape_position(&s->m, shape_corner(&s->m, i + 2)),
+        int hit = shade_intersect(ray, shape_at(s, i), shape_at(s, i + 1), shape_at(s, i + 2),
                                   kind & 16 ? NULL : &t, kind & 32 ? NULL : &at);
         HOLDS(hit == 0 || hit == 1);
         if (!hit) continue;
@@ -179,7 +260,8 @@ static void shape_resolve(fuzz_input *in)
     if (out.want == SHADE_OK && out.target.width <= 40 && out.target.height <= 40) {
         big.target.width *= factor, big.target.height *= factor, big.target.stride = 0;
         big.target.row_count *= factor, big.target.row_offset *= factor;
-        big.target.format = (shade_format)(fuzz_byte(in) % 3);
+        big.target.format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS);
+        big.target.srgb = fuzz_byte(in) & 1;
         if (fuzz_one_in(in, 4)) big.target.stride = big.target.width + fuzz_int(in, 0, 5);
     }
     if (fuzz_one_in(in, 16)) picture_spoil(in, &big.target);
@@ -187,7 +269,7 @@ static void shape_resolve(fuzz_input *in)
     want = out.want != SHADE_OK ? out.want : big.want;
     if (want == SHADE_OK && (!out.color || !big.color)) want = SHADE_ERROR_TARGET;
     if (want == SHADE_OK &&
-        (factor < 2 || factor > 8 || big.target.width != out.target.width * factor ||
+        (factor > 8 || big.target.width != out.target.width * factor ||
          big.target.height != out.target.height * factor ||
          big.target.row_offset != out.target.row_offset * factor || big.rows != out.rows * factor))
         want = SHADE_ERROR_ARGUMENT;
@@ -197,6 +279,39 @@ static void shape_resolve(fuzz_input *in)
     else picture_check(&out);
     if (out.depth) HOLDS(!memcmp(out.depth, out.before + out.color_bytes, out.depth_bytes));
     picture_close(&out), picture_close(&big);
+}
+
+/* A picture in another format of equal pixels, where it lies: as into a picture of its own. */
+static void shape_convert(fuzz_input *in)
+{
+    static const uint8_t twin[FUZZ_FORMATS] = { 1, 0, 3, 2, 4 };
+    picture p;
+    shade_target from, apart;
+    uint32_t kind;
+    uint8_t *copy;
+    picture_open(in, &p, 24);
+    kind = fuzz_byte(in), from = apart = p.target;
+    if (p.want == SHADE_OK && p.color) {
+        if (kind & 1) from.format = (shade_format)twin[from.format];
+        if (kind & 2) from.srgb = !from.srgb;
+        copy = (uint8_t *)guard_take(p.color_bytes, kind >> 2 & 1);
+        memcpy(copy, p.color, p.color_bytes);
+        apart.color = copy;
+        HOLDS(shade_resolve(&apart, &from, 1) == SHADE_OK);
+        HOLDS(picture_unchanged(&p));
+        HOLDS(shade_resolve(&p.target, &from, 1) == SHADE_OK);
+        HOLDS(!memcmp(copy, p.color, p.color_bytes));
+        picture_check(&p);
+        if (!p.target.dither && !(kind & 2) && p.target.format != SHADE_FORMAT_RGBA32F) {
+            from.format = p.target.format; /* and nothing is lost on the way back */
+            apart.format = kind & 1 ? (shade_format)twin[from.format] : from.format;
+            from.color = apart.color = p.color;
+            from.dither = apart.dither = 0;
+            HOLDS(shade_resolve(&apart, &from, 1) == SHADE_OK);
+            HOLDS(picture_unchanged(&p));
+        }
+    }
+    picture_close(&p);
 }
 
 typedef struct shape_sink { size_t bytes, fails_at; int calls; } shape_sink;
@@ -255,7 +370,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_input in = { data, data + size };
     uint32_t kind = fuzz_byte(&in);
     fuzz_level = (int)(kind >> 4) % (fuzz_widest() + 1);
-    if (kind % 8 == 6) shape_resolve(&in);
+    if (kind % 8 == 5)
+        shape_convert(&in);
+    else if (kind % 8 == 6)
+        shape_resolve(&in);
     else if (kind % 8 == 7) shape_clear_and_encode(&in);
     else {
         shape_mesh s = shape_open(&in);

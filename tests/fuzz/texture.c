@@ -52,6 +52,31 @@ static int texture_nan_free(const shade_texture *t)
     return 1;
 }
 
+/* A packed texture whose bytes stand the other way round gives the same colours. */
+static void texture_turned(const shade_texture *t, const float *u, const float *v,
+                           const float *rgba)
+{
+    static const shade_format other[] = { SHADE_FORMAT_BGRA8, SHADE_FORMAT_RGBA8,
+                                          SHADE_FORMAT_RGB565_SWAPPED, SHADE_FORMAT_RGB565 };
+    shade_texture turned = *t;
+    size_t bytes = fuzz_pixel_bytes(t->format), cells;
+    const uint8_t *from = (const uint8_t *)t->pixels;
+    float again[4 * SHADE_LANES];
+    uint8_t *to;
+    if (t->format == SHADE_FORMAT_RGBA32F) return;
+    cells = fuzz_cells(t->height, t->stride ? t->stride : t->width, t->width);
+    to = (uint8_t *)malloc(cells * bytes);
+    if (!to) exit(2);
+    for (size_t i = 0; i < cells * bytes; i += bytes) {
+        memcpy(to + i, from + i, bytes);
+        to[i] = from[i + bytes / 2], to[i + bytes / 2] = from[i];
+    }
+    turned.pixels = to, turned.format = other[t->format];
+    shade_sample_lanes(&turned, u, v, NULL, again);
+    for (int i = 0; i < 4 * SHADE_LANES; i++) HOLDS(again[i] == rgba[i]);
+    free(to);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_input in = { data, data + size };
@@ -82,6 +107,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             lod[i] = i % 4 ? lod[i - 1] + 0.6f : fuzz_float(&in);
         }
         fuzz_noise(rgba, 4 * rows, kind), fuzz_noise(again, 4 * rows, kind + 1);
+        if (good && !round) {
+            shade_sample_lanes(&t, u, v, NULL, rgba);
+            texture_turned(&t, u, v, rgba);
+        }
         shade_sample_lanes(&t, u, v, with_lod ? lod : NULL, rgba);
         fuzz_level = (fuzz_level + 1) % (fuzz_widest() + 1);
         shade_sample_lanes(&t, u, v, with_lod ? lod : NULL, again);
