@@ -60,7 +60,9 @@ static const char uniforms[] =
     "struct lamp { vec4 position; vec3 I_La, I_d, I_s, abc, aim; float e, cos_beta; };\n"
     "uniform lamp light[LIGHTS];\n"
     "uniform bool lit_at_vertex;\n"
-    "uniform float alpha;\n"
+    "uniform float alpha, opacity, cutoff;\n"
+    "uniform bool mapped;\n"
+    "uniform vec4 ball;\n"
     /* shade_attenuation */
     "float attenuation(lamp j, float r) {\n"
     "  if (j.position.w == 0.0 || j.abc == vec3(0)) return 1.0;\n"
@@ -99,9 +101,11 @@ static const char fragment_main[] =
     "in vec2 uv;\n"
     "out vec4 pixel;\n"
     "void main() {\n"
-    "  vec3 color = surface(albedo, uv);\n"
+    "  vec4 t = mapped ? texel(uv) : vec4(1);\n"
+    "  vec3 color = albedo * t.rgb;\n"
     "  if (!lit_at_vertex && alpha == 0.0) color = lit(P, normalize(N), color);\n"
-    "  pixel = vec4(stored(color), alpha == 0.0 ? 1.0 : alpha);\n"
+    "  pixel = vec4(stored(color), alpha == 0.0 ? opacity * t.a : alpha);\n"
+    "  if (pixel.a < cutoff) discard;\n"
     "}\n";
 
 static void compile(GLenum stage, const scene *s, const char *body)
@@ -113,7 +117,7 @@ static void compile(GLenum stage, const scene *s, const char *body)
     snprintf(head, sizeof head, "#version 450 core\n#define LIGHTS %d\n",
              s->light_count > 0 ? s->light_count : 1);
     text[0] = head, text[1] = uniforms, text[2] = s->equation;
-    text[3] = s->surface ? s->surface : "vec3 surface(vec3 color, vec2 uv) { return color; }\n";
+    text[3] = s->texel ? s->texel : "vec4 texel(vec2 uv) { return vec4(1); }\n";
     text[4] = s->stored ? s->stored : "vec3 stored(vec3 rgb) { return rgb; }\n";
     if (stage == GL_VERTEX_SHADER) text[3] = text[4] = "";    /* there are no derivatives there */
     text[5] = body;
@@ -153,6 +157,10 @@ static void set_uniforms(const scene *s, const draw *d)
     glUniform1f(where("depth_bias"), state->raster.depth_bias);
     glUniform1i(where("lit_at_vertex"), state->shading != SHADE_SHADING_PER_FRAGMENT);
     glUniform1f(where("alpha"), d->alpha);
+    glUniform1f(where("opacity"), 1 - state->transparency);
+    glUniform1f(where("cutoff"), state->alpha_cutoff);
+    glUniform1i(where("mapped"), s->has_map && d->mesh.has_texcoords);
+    glUniform4f(where("ball"), s->ball.x, s->ball.y, s->ball.z, s->ball.w);
     set3("k_e", d->material.emission), set3("k_a", d->material.ambient);
     set3("k_d", d->material.diffuse), set3("k_s", d->material.specular);
     glUniform1f(where("n"), d->material.shininess);
@@ -220,8 +228,10 @@ static void load_corners(const draw *d)
 static void load_level(const shade_texture *t, int level)
 {
     static float texel[4 * MAP_SIDE * MAP_SIDE];
+    static const int of[2][4] = { { 0, 1, 2, 3 }, { 2, 1, 0, 3 } }; /* RGBA8, BGRA8 */
     const unsigned char *from = (const unsigned char *)t->pixels;
-    for (int i = 0; i < 4 * t->width * t->height; i++) texel[i] = (float)from[i] / 255;
+    for (int i = 0; i < 4 * t->width * t->height; i++)
+        texel[i] = (float)from[i / 4 * 4 + of[t->format == SHADE_FORMAT_BGRA8][i % 4]] / 255;
     glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA32F, t->width, t->height, 0, GL_RGBA, GL_FLOAT,
                  texel);
 }
@@ -243,11 +253,14 @@ static GLuint load_map(const scene *s)
     return id;
 }
 
-static void set_state(const shade_draw_state *state)
+static void set_state(const draw *d)
 {
+    const shade_draw_state *state = &d->state;
+    const GLboolean stored = !d->depth_only;
     static const GLenum test[] = { GL_LESS, GL_LEQUAL, GL_GREATER, GL_GEQUAL, GL_EQUAL, GL_ALWAYS };
     glDepthFunc(test[state->raster.depth_test]);
     glDepthMask(!state->raster.depth_read_only);
+    glColorMask(stored, stored, stored, stored);
     gl.clip_control(GL_LOWER_LEFT,
                     state->raster.depth_zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glFrontFace(GL_CW);    /* y is turned over */
@@ -258,8 +271,8 @@ static void set_state(const shade_draw_state *state)
     if (state->raster.blend)
         glEnable(GL_BLEND);
     else glDisable(GL_BLEND);
-    if (state->raster.blend == SHADE_BLEND_ADD)
-        glBlendFunc(GL_ONE, GL_ONE);
+    if (state->raster.blend == SHADE_BLEND_ADD) /* meshes add their colour times alpha */
+        glBlendFuncSeparate(d->alpha > 0 ? GL_ONE : GL_SRC_ALPHA, GL_ONE, GL_ONE, GL_ONE);
     else glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
                              GL_ONE_MINUS_SRC_ALPHA);
 }
@@ -287,13 +300,13 @@ void gl_draw(const scene *s, float *rgba)
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     if (s->has_map) map = load_map(s);
-    glDepthMask(GL_TRUE);
+    glDepthMask(GL_TRUE), glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     background = s->srgb ? encoded(s->background) : s->background;
     glClearColor(background.x, background.y, background.z, background.w);
     glClearDepth((double)s->clear_depth);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (int k = 0; k < s->draw_count; k++) {
-        set_state(&s->draws[k].state);
+        set_state(&s->draws[k]);
         set_uniforms(s, &s->draws[k]);
         load_corners(&s->draws[k]);
         glDrawArrays(GL_TRIANGLES, 0, s->draws[k].mesh.index_count);

@@ -2,9 +2,10 @@
 
    conformance [--only TEXT] [--pictures FOLDER]
    A pixel agrees within 1/255 in each of R, G, B, A.  Fewer than 1 in 10,000 may not, and each of
-   them must have a tie: its centre within 1/256 pixel of an edge of a triangle.  Snapping to the
-   grid of 1/256 moves a vertex by at most sqrt(2)/512 = 0.71/256, so that only there can two
-   rasterizers that snap 1/256 apart at most put a pixel on different sides. */
+   them must have a tie: its centre within 1/256 pixel of an edge of a triangle, of a texel that is
+   not filtered, or of what a cutoff of alpha leaves.  Snapping to the grid of 1/256 moves a vertex
+   by at most sqrt(2)/512 = 0.71/256, so that only there can two rasterizers that snap 1/256 apart
+   at most put a pixel on different sides. */
 #define SHADE_IMPLEMENTATION
 #include "scenes.h"
 #include <math.h>
@@ -66,6 +67,56 @@ static shade_result draw_lit(const shade_target *t, const draw *d, shade_stats *
 }
 static double unit(double x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 
+/* What the ball hides of each lamp, by shade_light_at_lanes; then what is left of the light */
+static void ball_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                        shade_vertices *SHADE_RESTRICT out)
+{
+    const draw *d = ((const scene *)uniforms)->draws;
+    paint_vertex(d, in, out);
+    for (int i = 0; i < SHADE_LANES; i++)
+        for (int k = 0; k < 3; k++) {
+            out->varying[k][i] = d->mesh.positions[3 * in->index[i] + (uint32_t)k];
+            out->varying[k + 3][i] = d->mesh.normals[3 * in->index[i] + (uint32_t)k];
+        }
+}
+static void ball_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                          shade_colors *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    const shade_draw_state *state = &s->draws[0].state;
+    const shade_vec4 b = s->ball;
+    float seen[MAX_LIGHTS][SHADE_LANES], L[3][SHADE_LANES];
+    for (int j = 0; j < s->light_count; j++) {
+        shade_light_at_lanes(&s->lights[j], in->varying[0], L[0], NULL);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
+            shade_vec3 c = shade_sub(shade_v3(b.x, b.y, b.z), P);
+            shade_vec3 l = shade_v3(L[0][i], L[1][i], L[2][i]);
+            float away = shade_length(shade_madd(c, -shade_dot(c, l), l));
+            seen[j][i] = (float)unit((double)((away - b.w) / (0.5f * b.w)));
+        }
+    }
+    shade_lit_lanes(&state->lighting, state->material, s->eye, in->varying[0], in->varying[3], NULL,
+                    seen[0], out->color[0]);
+}
+static shade_result draw_behind_ball(const shade_target *t, const scene *s, shade_stats *stats)
+{
+    const shape *m = &s->draws[0].mesh;
+    shade_pipeline p;
+    memset(&p, 0, sizeof p);
+    p.vertex = ball_vertex, p.fragment = ball_fragment, p.uniforms = s, p.varyings = 6;
+    return shade_draw(t, &p, m->indices, m->index_count, m->vertex_count, stats);
+}
+static shade_result draw_any(const shade_target *t, const scene *s, const draw *d,
+                             shade_stats *stats)
+{
+    shade_target depth_only = *t;
+    depth_only.color = NULL;
+    if (s->ball.w > 0) return draw_behind_ball(t, s, stats);
+    if (d->alpha > 0) return draw_painted(t, d, stats);
+    return draw_lit(d->depth_only ? &depth_only : t, d, stats);
+}
+
 /* fragments drawn, or -1 */
 static long long shade_picture(const scene *s)
 {
@@ -74,20 +125,19 @@ static long long shade_picture(const scene *s)
     memset(&t, 0, sizeof t);
     t.width = WIDTH, t.height = HEIGHT, t.depth = depth, t.srgb = s->srgb;
     t.format = s->format;
-    if (s->format == SHADE_FORMAT_RGBA8)
-        t.color = bytes;
-    else t.color = floats;
+    t.color = s->format == SHADE_FORMAT_RGBA32F ? (void *)floats : (void *)bytes;
     if (shade_clear(&t, s->background, s->clear_depth) != SHADE_OK) return -1;
     for (int k = 0; k < s->draw_count; k++) {
         const draw *d = &s->draws[k];
         shade_stats stats;
-        shade_result result = d->alpha > 0 ? draw_painted(&t, d, &stats) : draw_lit(&t, d, &stats);
-        if (result != SHADE_OK) return -1;
+        if (draw_any(&t, s, d, &stats) != SHADE_OK) return -1;
         fragments += stats.fragments;
     }
-    for (int i = 0; i < 4 * PIXELS; i++)
-        got[i] = s->format == SHADE_FORMAT_RGBA8 ? ((const unsigned char *)bytes)[i]
-                                                 : 255 * unit((double)floats[i]);
+    for (int i = 0; i < 4 * PIXELS; i++) {
+        int turned = s->format == SHADE_FORMAT_BGRA8 && i % 4 != 3 ? i / 4 * 4 + 2 - i % 4 : i;
+        got[i] = s->format == SHADE_FORMAT_RGBA32F ? 255 * unit((double)floats[i])
+                                                   : ((const unsigned char *)bytes)[turned];
+    }
     return fragments;
 }
 
@@ -162,12 +212,44 @@ static int edge_tie(const draw *d, double X, double Y)
     }
     return 0;
 }
+/* Alpha of the map at a point of the window, on the floor: a bilinear blend, in double */
+static double floor_alpha(const scene *s, double X, double Y)
+{
+    const shade_draw_state *t = &s->draws[0].state;
+    const unsigned char *texel = (const unsigned char *)s->texels;
+    point o = to_clip(t, 0, 0, 0), x = to_clip(t, 1, 0, 0), z = to_clip(t, 0, 0, 1);
+    double nx = 2 * X / WIDTH - 1, ny = 1 - 2 * Y / HEIGHT, side = (double)s->seam, f[2], sum = 0;
+    double a = x.x - o.x - nx * (x.w - o.w), b = z.x - o.x - nx * (z.w - o.w), p = nx * o.w - o.x;
+    double c = x.y - o.y - ny * (x.w - o.w), d = z.y - o.y - ny * (z.w - o.w), q = ny * o.w - o.y;
+    double at[2] = { (p * d - q * b) / (a * d - b * c) / side - 0.5,
+                     (a * q - c * p) / (a * d - b * c) / side - 0.5 };
+    for (int k = 0; k < 2; k++) f[k] = at[k] - floor(at[k]);
+    for (int k = 0; k < 4; k++) {
+        int i = (int)floor(at[0]) + (k & 1), j = (int)floor(at[1]) + (k >> 1);
+        i = (i % MAP_SIDE + MAP_SIDE) % MAP_SIDE, j = (j % MAP_SIDE + MAP_SIDE) % MAP_SIDE;
+        sum += (k & 1 ? f[0] : 1 - f[0]) * (k >> 1 ? f[1] : 1 - f[1]) *
+               texel[4 * (j * MAP_SIDE + i) + 3];
+    }
+    return sum / 255 * (1 - (double)t->transparency);
+}
+/* the line on which alpha is the cutoff passes within 1/256 of the centre of the pixel */
+static int cutoff_tie(const scene *s, double X, double Y)
+{
+    const double step = 1.0 / 256, cutoff = (double)s->draws[0].state.alpha_cutoff;
+    int above = 0;
+    if (!(cutoff > 0 && s->seam > 0) || s->map.filter == SHADE_FILTER_NEAREST) return 0;
+    for (int k = 0; k < 4; k++)
+        above += floor_alpha(s, X + step * ((k == 0) - (k == 1)),
+                             Y + step * ((k == 2) - (k == 3))) >= cutoff;
+    return above > 0 && above < 4;
+}
 /* SHADE_FILTER_NEAREST: the border between two texels is an edge too; their grid on the floor */
 static int texel_tie(const scene *s, double X, double Y)
 {
     const draw *d = &s->draws[0];
     double half = fabs((double)d->mesh.positions[0]), step = (double)s->seam;
-    for (double at = -step * floor(half / step); s->seam > 0 && at <= half; at += step) {
+    if (!(s->seam > 0) || s->map.filter != SHADE_FILTER_NEAREST) return 0;
+    for (double at = -step * floor(half / step); at <= half; at += step) {
         const shade_draw_state *t = &d->state;
         if (line_tie(to_clip(t, at, 0, -half), to_clip(t, at, 0, half), X, Y)) return 1;
         if (line_tie(to_clip(t, -half, 0, at), to_clip(t, half, 0, at), X, Y)) return 1;
@@ -179,7 +261,7 @@ static int explained(const scene *s, int i)
     double X = i % WIDTH + 0.5, Y = i / WIDTH + 0.5;
     for (int k = 0; k < s->draw_count; k++)
         if (edge_tie(&s->draws[k], X, Y)) return 1;
-    return texel_tie(s, X, Y);
+    return texel_tie(s, X, Y) || cutoff_tie(s, X, Y);
 }
 
 /* ---------------------------------------------------------------------------------- comparison */
@@ -242,7 +324,7 @@ static int compare(const scene *s, const char *folder, int keep)
     }
     /* a picture with next to nothing in it would prove nothing */
     good = fragments > PIXELS / 20 && over == ties && over * 10000LL <= PIXELS;
-    printf("%-4s  %-30s %7d  %8.2f  %8.2f %6d %6d\n", good ? "ok" : "FAIL", s->name, PIXELS,
+    printf("%-4s  %-35s %7d  %8.2f  %8.2f %6d %6d\n", good ? "ok" : "FAIL", s->name, PIXELS,
            most_plain, most, over, ties);
     if (!good || keep) {
         write_ppm(folder, s->name, "got", 0), write_ppm(folder, s->name, "want", 1);
@@ -264,7 +346,7 @@ int main(int count, char **argument)
         return 0;
     }
     printf("shade.h and OpenGL %s; differences in steps of 1/255\n", gl_name());
-    printf("      %-30s %7s  %8s  %8s %6s %6s\n", "scene", "pixels", "max <= 1", "max", "over 1",
+    printf("      %-35s %7s  %8s  %8s %6s %6s\n", "scene", "pixels", "max <= 1", "max", "over 1",
            "ties");
     for (int i = 0; i < scene_count(); i++) {
         scene_build(&now, i);

@@ -480,35 +480,35 @@ static draw *textured(scene *s, const char *name, shade_filter filter)
 }
 static const char sampled[] =
     "uniform sampler2D map;\n"
-    "vec3 surface(vec3 color, vec2 uv) { return color * textureLod(map, uv, 0.0).rgb; }\n";
+    "vec4 texel(vec2 uv) { return textureLod(map, uv, 0.0); }\n";
 static void scene_nearest(scene *s)
 {
     /* texels of 20 pixels and more: the fewer borders, the fewer ties */
     floor_of(&textured(s, "nearest, perspective", SHADE_FILTER_NEAREST)->mesh, 4, 0, 1, 0.4f);
-    s->seam = 0.4f, s->surface = sampled;
+    s->seam = 0.4f, s->texel = sampled;
 }
 static void scene_bilinear(scene *s)
 {
     floor_of(&textured(s, "bilinear, mirrored, clamped", SHADE_FILTER_BILINEAR)->mesh, 6, 0, 1,
              0.09f);
-    s->map.wrap_u = SHADE_WRAP_MIRROR, s->map.wrap_v = SHADE_WRAP_CLAMP, s->surface = sampled;
+    s->map.wrap_u = SHADE_WRAP_MIRROR, s->map.wrap_v = SHADE_WRAP_CLAMP, s->texel = sampled;
 }
 /* GL may take its lod from differences over four pixels.  Here it is exact: u/w, v/w and 1/w are
    linear on the screen, so that their differences are their derivatives wherever they are taken. */
 static const char exact_lod[] =
     "uniform sampler2D map;\n"
-    "vec3 surface(vec3 color, vec2 uv) {\n"
+    "vec4 texel(vec2 uv) {\n"
     "  float q = gl_FragCoord.w;\n"
     "  vec2 size = vec2(textureSize(map, 0));\n"
     "  vec2 dx = size * (dFdx(uv * q) - uv * dFdx(q)) / q;\n"
     "  vec2 dy = size * (dFdy(uv * q) - uv * dFdy(q)) / q;\n"
     "  float lod = 0.5 * log2(max(dot(dx, dx), dot(dy, dy)));\n"
-    "  return color * textureLod(map, uv, lod).rgb;\n"
+    "  return textureLod(map, uv, lod);\n"
     "}\n";
 static void scene_trilinear(scene *s)
 {
     floor_of(&textured(s, "trilinear, exact lod", SHADE_FILTER_TRILINEAR)->mesh, 20, 0, 1, 0.05f);
-    s->surface = exact_lod;
+    s->texel = exact_lod;
 }
 
 /* [IEC61966] */
@@ -524,17 +524,161 @@ static void scene_srgb(scene *s)
     s->name = "sRGB target, four lights", s->stored = encoded, s->srgb = 1;
 }
 
+/* --------------------------------------------------------------------------- alpha and its uses */
+
+/* The map as it is, with alpha: a soft spot of each 16 x 16 texels, or whole texels out of it. */
+static void spots_of(scene *s, shade_format format, int holes)
+{
+    unsigned char *at = (unsigned char *)s->texels;
+    for (int y = 0; y < MAP_SIDE; y++)
+        for (int x = 0; x < MAP_SIDE; x++, at += 4) {
+            int dx = x % 16 - 7, dy = y % 16 - 7, away = dx * dx + dy * dy;
+            unsigned char red = at[0];
+            at[3] = (unsigned char)(away > 60 ? 50 : 255 - 3 * away);
+            if (holes) at[3] = (unsigned char)((x / 2 + 3 * (y / 2)) % 5 < 2 ? 90 : 200);
+            if (format == SHADE_FORMAT_BGRA8) at[0] = at[2], at[2] = red;
+        }
+    s->map.format = format;
+}
+/* Opaque first, then what lets it through, its depth kept. */
+static draw *over_a_torus(scene *s, const char *name, shade_blend blend)
+{
+    draw *d = textured(s, name, SHADE_FILTER_BILINEAR);
+    shade_material torn = d->material;
+    d->mesh.has_texcoords = 0;
+    torus(&d->mesh, 40, 24);
+    d->material = shade_preset_material(SHADE_PRESET_RUBY);
+    s->texel = sampled, s->format = SHADE_FORMAT_RGBA32F;
+    camera(s, shade_v3(0.2f, 3.4f, 4.2f), shade_v3(0, 0, 0), 0.8f);
+    d = add_draw(s);
+    d->material = torn, d->mesh.has_texcoords = 1;
+    d->state.raster.blend = blend, d->state.raster.depth_read_only = 1;
+    d->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    d->state.model = shade_mat4_translation(shade_v3(0.1f, 0.9f, 0.5f));
+    return d;
+}
+static void scene_glass(scene *s)
+{
+    draw *d = over_a_torus(s, "OVER, alpha of a BGRA8 map", SHADE_BLEND_OVER);
+    spots_of(s, SHADE_FORMAT_BGRA8, 0);
+    cloth(&d->mesh, 12), d->state.transparency = 0.3f;
+}
+static void scene_glow(scene *s)
+{
+    draw *d = over_a_torus(s, "ADD, alpha of a map", SHADE_BLEND_ADD);
+    spots_of(s, SHADE_FORMAT_RGBA8, 0);
+    cloth(&d->mesh, 12), d->state.transparency = 0.55f;
+}
+/* and, in 8 bits, through one layer: two roundings of 1/2, one of them times 1 - a */
+static void scene_pane(scene *s)
+{
+    draw *d = over_a_torus(s, "OVER, transparency, Gouraud, BGRA8", SHADE_BLEND_OVER);
+    d->mesh.has_texcoords = 0, s->format = SHADE_FORMAT_BGRA8;
+    floor_of(&d->mesh, 1.1f, 0, 3, 0.1f);
+    d->state.transparency = 0.6f, d->state.shading = SHADE_SHADING_PER_VERTEX;
+    d->material = shade_preset_material(SHADE_PRESET_CYAN_PLASTIC);
+    s->equation = lambert, d->material.specular = shade_v3(0, 0, 0);
+}
+/* Holes of whole texels, through which lies what is below; depth stays open there. */
+static draw *sieve(scene *s, const char *name, shade_filter filter, float length)
+{
+    draw *d = textured(s, name, filter);
+    floor_of(&d->mesh, 4, 0, 1, length);
+    s->texel = sampled;
+    d->state.alpha_cutoff = 0.5f;
+    return d;
+}
+static void scene_cutoff(scene *s)
+{
+    draw *d = sieve(s, "alpha cutoff, nearest", SHADE_FILTER_NEAREST, 0.4f);
+    spots_of(s, SHADE_FORMAT_RGBA8, 1), s->seam = 0.4f;
+    d = add_draw(s);
+    floor_of(&d->mesh, 6, -0.8f, 4, 1);
+}
+/* the same with the alpha's own value stored */
+static void scene_cutoff_over(scene *s)
+{
+    draw *d = sieve(s, "alpha cutoff and OVER, bilinear", SHADE_FILTER_BILINEAR, 0.07f);
+    spots_of(s, SHADE_FORMAT_RGBA8, 0), s->seam = 0.07f;
+    d->state.raster.blend = SHADE_BLEND_OVER, d->state.transparency = 0.2f;
+    d->state.alpha_cutoff = 0.3f, s->format = SHADE_FORMAT_RGBA32F;
+}
+
+/* ------------------------------------------------------------------------------ passes of depth */
+
+/* Depth alone first, then only what equals it, in another shading each time: a bit of difference
+   would tear holes. */
+static void scene_passes(scene *s)
+{
+    scene_lights(s);
+    s->name = "depth alone, LESS_EQUAL flat", s->draws[0].depth_only = 1;
+    draw *d = add_draw(s);
+    d->mesh = s->draws[0].mesh, d->state.model = s->draws[0].state.model;
+    d->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    d->state.shading = SHADE_SHADING_PER_FACE;
+}
+static void scene_more_passes(scene *s)
+{
+    scene_passes(s);
+    s->name = "depth, EQUAL Gouraud, EQUAL ADD";
+    s->draws[1].state.raster.depth_test = SHADE_COMPARE_EQUAL;
+    s->draws[1].state.shading = SHADE_SHADING_PER_VERTEX;
+    draw *d = add_draw(s);
+    d->mesh = s->draws[0].mesh, d->state.model = s->draws[0].state.model;
+    d->state.raster.depth_test = SHADE_COMPARE_EQUAL, d->state.raster.blend = SHADE_BLEND_ADD;
+    d->state.transparency = 0.5f, s->format = SHADE_FORMAT_RGBA32F;
+}
+static void scene_bgra(scene *s)
+{
+    scene_lights(s);
+    s->name = "BGRA8, sRGB, four lights", s->format = SHADE_FORMAT_BGRA8;
+    s->stored = encoded, s->srgb = 1;
+}
+
+/* -------------------------------------------------------------------------------------- shadows */
+
+/* Blinn-Phong, and the soft shadow of a ball before the lamps; ambient light is not hidden */
+static const char shadowed[] =
+    "float seen(lamp j, vec3 P) {\n"
+    "  vec3 L = normalize(toward(j, P)), c = ball.xyz - P;\n"
+    "  return clamp((length(c - dot(c, L) * L) - ball.w) / (0.5 * ball.w), 0.0, 1.0);\n"
+    "}\n"
+    "vec3 lit(vec3 P, vec3 N, vec3 albedo) {\n"
+    "  vec3 V = normalize(eye - P), I = k_e + albedo * k_a * I_a;\n"
+    "  for (int j = 0; j < LIGHTS; j++) {\n"
+    "    vec3 l = toward(light[j], P), L = normalize(l), H = normalize(L + V);\n"
+    "    float fade = attenuation(light[j], length(l)) * spot(light[j], L) * seen(light[j], P);\n"
+    "    float B = dot(N, L) > 0.0 ? 1.0 : 0.0;\n"
+    "    I += albedo * k_a * light[j].I_La;\n"
+    "    I += fade * B * (albedo * k_d * light[j].I_d * dot(N, L) +\n"
+    "                     k_s * light[j].I_s * pow(max(dot(N, H), 0.0), n));\n"
+    "  }\n"
+    "  return I;\n"
+    "}\n";
+static void scene_shadows(scene *s)
+{
+    draw *d = usual(s, "sun, lamp, spot behind a ball", SHADE_MODEL_BLINN_PHONG);
+    memset(&d->mesh, 0, sizeof d->mesh);
+    floor_of(&d->mesh, 6, 0, 1, 1);
+    camera(s, shade_v3(0.4f, 5, 5.5f), shade_v3(0.1f, 0, 0.2f), 0.8f);
+    memset(&d->state.model, 0, sizeof d->state.model);
+    s->equation = shadowed, s->ball = shade_v4(0.1f, 1, 0.2f, 0.5f);
+    sun(s), lamp(s, shade_v3(2.5f, 3, 1), shade_v3(1.4f, 0.8f, 0.4f));
+    s->lights[s->light_count++] = shade_spot_light(shade_v3(-2, 4, 0), shade_v3(2, -4, 0.3f), 0.6f,
+                                                   6, shade_v3(0.4f, 0.8f, 1.6f));
+}
+
 /* ---------------------------------------------------------------------------------------------- */
 
 static void (*const builders[])(scene *) = {
-    scene_emissive,   scene_ambient,      scene_lambert,       scene_blinn_phong, scene_phong,
-    scene_lights,     scene_spots,        scene_cool_to_warm,  scene_two_sided,
-    scene_two_sided_abs,
-    scene_weighted,   scene_gouraud,      scene_flat,          scene_front_culled,
-    scene_scaled,     scene_less,         scene_greater,       scene_over,        scene_over_8,
-    scene_add,
-    scene_bias,       scene_near,         scene_guard_band,    scene_nearest,     scene_bilinear,
-    scene_trilinear,  scene_srgb
+    scene_emissive,  scene_ambient,     scene_lambert,      scene_blinn_phong,  scene_phong,
+    scene_lights,    scene_spots,       scene_cool_to_warm, scene_two_sided,    scene_two_sided_abs,
+    scene_weighted,  scene_gouraud,     scene_flat,         scene_front_culled, scene_scaled,
+    scene_less,      scene_greater,     scene_over,         scene_over_8,       scene_add,
+    scene_bias,      scene_near,        scene_guard_band,   scene_nearest,      scene_bilinear,
+    scene_trilinear, scene_srgb,        scene_glass,        scene_glow,         scene_pane,
+    scene_cutoff,    scene_cutoff_over, scene_passes,       scene_more_passes,  scene_bgra,
+    scene_shadows
 };
 
 int scene_count(void) { return (int)(sizeof builders / sizeof builders[0]); }

@@ -6,7 +6,7 @@
 
 enum {
     WIDTH = 400, HEIGHT = 300,
-    MAX_VERTICES = 4096, MAX_INDICES = 16384, MAX_LIGHTS = 4, MAX_DRAWS = 2,
+    MAX_VERTICES = 4096, MAX_INDICES = 16384, MAX_LIGHTS = 4, MAX_DRAWS = 3,
     MAP_SIDE = 32, MAP_LEVELS = 5                /* levels 1 .. 5 of a map of 32 x 32 */
 };
 
@@ -23,12 +23,13 @@ typedef struct draw {
     shade_material material;
     shade_draw_state state;    /* material, lights and map are linked by scene_link */
     float alpha;               /* not 0: paint of this alpha in the vertices' colours, unlit */
+    int depth_only;            /* nothing is stored but depth */
 } draw;
 
 typedef struct scene {
     const char *name;
     const char *equation;      /* GLSL: vec3 lit(vec3 P, vec3 N, vec3 albedo) */
-    const char *surface;       /* GLSL: vec3 surface(vec3 color, vec2 uv); NULL: color */
+    const char *texel;         /* GLSL: vec4 texel(vec2 uv), times albedo and alpha; NULL: 1 */
     const char *stored;        /* GLSL: vec3 stored(vec3 rgb); NULL: rgb */
     draw draws[MAX_DRAWS];
     int draw_count, light_count;
@@ -37,7 +38,8 @@ typedef struct scene {
     shade_vec4 background;
     float clear_depth;
     int srgb;
-    shade_format format;       /* of shade.h's picture: RGBA8 or RGBA32F */
+    shade_format format;       /* of shade.h's picture: RGBA8, BGRA8 or RGBA32F */
+    shade_vec4 ball;           /* centre and radius of what hides lamps; radius 0: none */
     float seam;                /* texels are squares of this side on the floor y = 0; 0: none */
     int has_map;
     shade_texture map, levels[MAP_LEVELS];
