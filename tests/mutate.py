@@ -1,11 +1,13 @@
-"""mutate.py header seed count folder - writes mutants of a header, one change each.
+"""mutate.py header seed count folder [lines] - writes mutants of a header, one change each.
+mutate.py --check header entries - are the lines of mutation.txt still in the header?
 
 folder/N.h      the mutant       folder/N.diff   its section (>>name), its line before and after
 folder/N.where  "public" or "implementation", and the section (>>name) of the change
 
 Changed are the bodies of functions, as many places of each kind: comparisons, constants, signs and
 arithmetic, && || and !, bit operations, statements taken out.  Comments, strings, preprocessor
-lines, assertions, types and the sizes of arrays stay as they are."""
+lines, assertions, types and the sizes of arrays stay as they are.  lines: a file of "first count",
+as a diff has them; then only functions that have one of these lines are changed."""
 import os
 import random
 import re
@@ -139,12 +141,77 @@ def sites(text):
     return found
 
 
+def functions_with(text, ranges):
+    """Whether an offset is in a function, from its first word to its brace, that has one of the
+    lines."""
+    tokens, changed, spans, start = list(tokens_of(text)), set(), [], None
+    number = lambda at: text.count("\n", 0, at) + 1
+    for first, n in ranges:
+        changed.update(range(first, first + n))
+    marks = bodies(tokens) + [False]
+    for i, (_, word, at) in enumerate(tokens):
+        start = at if start is None else start
+        if marks[i] and not marks[i + 1]:
+            if any(n in changed for n in range(number(start), number(at) + 1)):
+                spans.append((start, at))
+            start = None
+        elif not marks[i] and word in ";}":
+            start = None
+    return lambda at: any(first <= at < last for first, last in spans)
+
+
+def check_entries(header, entries):
+    """Sections in the header's order, every line before in its section, no entry twice."""
+    text, problems, seen = open(header).read(), [], set()
+    tight = lambda line: "".join(line.split())
+    banners = [(m.start(), m.group(1)) for m in re.finditer(r"^/\*-+ >>(\w+)", text, re.M)]
+    ends = [at for at, _ in banners[1:]] + [len(text)]
+    order = [name for _, name in banners]
+    lines = {name: set(map(tight, text[at:end].split("\n")))
+             for (at, name), end in zip(banners, ends)}
+    section, entry = "", []                     # entry: its line before, its line after
+
+    def close():
+        if not entry:
+            return
+        name, (before, after) = section, (entry + [""])[:2]
+        if before not in lines.get(name, ()):
+            problems.append(">>%s has no line  %s" % (name, before))
+        if not after or before == after or (name, before, after) in seen:
+            problems.append(">>%s has twice, or without a change  %s" % (name, before))
+        seen.add((name, before, after))
+        entry.clear()
+
+    for line in open(entries).read().split("\n"):
+        if line.startswith(">>"):
+            close()
+            if line[2:] not in order or section and order.index(section) >= order.index(line[2:]):
+                problems.append("not in the header's order  " + line)
+            section = line[2:]
+        elif line.startswith("-"):
+            close()
+            entry.append(tight(line[1:]))
+        elif line.startswith("+"):
+            entry.append(tight(line[1:]))
+        elif line.startswith(" ") and entry:
+            entry[-1] += tight(line)
+    close()
+    print("\n".join(entries + ": " + p for p in problems) or "%d entries" % len(seen))
+    return bool(problems)
+
+
+if sys.argv[1] == "--check":
+    sys.exit(check_entries(sys.argv[2], sys.argv[3]))
 header, seed, count, folder = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), sys.argv[4]
 text = open(header).read()
 NAMED_TYPES = set(re.findall(r"\}\s*(shade_\w+);", text)) | set(
     re.findall(r"typedef\s+(?:struct|enum|union)\s+\w+\s+(shade_\w+);", text))
 random.seed(seed)
 all_sites = sites(text)
+if len(sys.argv) > 5:
+    ranges = [tuple(map(int, line.split())) for line in open(sys.argv[5])]
+    wanted = functions_with(text, ranges)
+    all_sites = [site for site in all_sites if wanted(site[1])]
 private = text.index("#ifdef SHADE_IMPLEMENTATION")
 random.shuffle(all_sites)
 kinds = {}

@@ -1,9 +1,10 @@
 #!/bin/sh
-# mutation.sh [mutants [seed]] - small changes of shade.h, one at a time: do the tests notice?
+# mutation.sh [mutants [seed [commit]]] - small changes of shade.h, one at a time: do the tests
+# notice?  With a commit only the functions are changed that have changed since then.
 # Not counted: what does not compile, what compiles to the same code (gcc -O2 -S), and what
 # tests/mutation.txt shows to be equivalent.  Needs gcc and python3.
 cd "$(dirname "$0")/.." || exit 1
-want=${1:-200} seed=${2:-$(date +%s)}
+want=${1:-200} seed=${2:-$(date +%s)} since=${3:-}
 H=$PWD
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT INT TERM
@@ -11,7 +12,14 @@ for tool in gcc python3; do
     command -v $tool >/dev/null || { echo "left out: no $tool"; exit 0; }
 done
 echo "seed $seed"
-python3 tests/mutate.py shade.h "$seed" $((want * 2)) "$T" || exit 1
+python3 tests/mutate.py --check shade.h tests/mutation.txt || exit 1
+if [ -n "$since" ]; then
+    git diff -U0 "$since" -- shade.h |
+        sed -nE 's/^@@ [^+]*\+([0-9]+)(,([0-9]+))? @@.*/\1 \3/p' |
+        awk '{ print $1, (NF > 1 ? $2 : 1) }' >"$T/lines"
+    [ -s "$T/lines" ] || { echo "nothing has changed since $since"; exit 0; }
+fi
+python3 tests/mutate.py shade.h "$seed" $((want * 2)) "$T" ${since:+"$T/lines"} || exit 1
 
 # Mutants of the implementation are linked to tests compiled once; of inline functions, to all.
 FLAGS="-std=c99 -w -DSHADE_NO_DISPATCH"
