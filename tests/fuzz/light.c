@@ -57,6 +57,26 @@ static void light_matrices(fuzz_input *in, int tame)
     HOLDS(light_finite_mat3(w) && light_finite_mat3(it) && light_finite_mat3(normal));
     HOLDS(fuzz_finite3(q) && fuzz_finite(det) && fuzz_finite(det3));
 }
+/* f_r lies between k_d and k_d + k_s for reflecting models; the ramp between its ends */
+static void light_reflectance(fuzz_input *in, shade_vec3 N, shade_vec3 L, shade_vec3 V)
+{
+    int bad = 0, which = fuzz_int(in, -2, SHADE_PRESET_COUNT + 1);
+    shade_model model = (shade_model)fuzz_enum(in, 6, &bad);
+    shade_material m = shade_preset_material((shade_preset)which);
+    shade_vec3 f = shade_brdf(which & 32 ? NULL : &m, model, N, L, V);
+    shade_vec3 ramp = shade_cool_to_warm(N, L, m.ambient, shade_add(m.ambient, m.diffuse));
+    const float *got = &f.x, *kd = &m.diffuse.x, *ks = &m.specular.x;
+    for (int k = 0; k < 3; k++) {
+        if (bad || model > SHADE_MODEL_LAMBERT)
+            HOLDS(got[k] == 0);
+        else
+            HOLDS(got[k] >= kd[k] && got[k] <= kd[k] + ks[k] * 1.0001f);
+        HOLDS((&ramp.x)[k] >= (&m.ambient.x)[k] - 1e-6f && (&ramp.x)[k] <= 2.00001f);
+    }
+    HOLDS((shade_preset_name((shade_preset)which)[0] == 0) ==
+          (which < 0 || which >= SHADE_PRESET_COUNT));
+    HOLDS(shade_result_string((shade_result)which)[0] != 0);
+}
 static void light_scalars(fuzz_input *in)
 {
     float x = fuzz_float(in), n = fuzz_float(in), p = shade_power(x, n), a, b, c, r, f;
@@ -70,6 +90,7 @@ static void light_scalars(fuzz_input *in)
     HOLDS(phong >= 0 && phong <= 1 && blinn >= 0 && blinn <= 1);
     if (fuzz_finite3(aim) && !fuzz_is_nan(x)) HOLDS(spot >= 0 && spot <= 1);
     HOLDS(shade_lambert(N, L) >= 0 && shade_lambert(N, L) < 1.0001f);
+    light_reflectance(in, N, L, V);
     a = fuzz_float(in), b = fuzz_float(in), c = fuzz_float(in), r = fuzz_float(in);
     f = shade_attenuation(a, b, c, r);
     HOLDS(fuzz_is_nan(f) || f <= 1.0001e20f);

@@ -57,7 +57,7 @@ static inline int picture_clip(const shade_target *t, int *x0, int *y0, int *x1,
 static inline void picture_spoil(fuzz_input *in, shade_target *t)
 {
     int bad = 0;
-    switch (fuzz_byte(in) % 14) {
+    switch (fuzz_byte(in) % 15) {
     case 0: t->width = fuzz_wild_int(in); break;
     case 1: t->height = fuzz_wild_int(in); break;
     case 2: t->stride = fuzz_wild_int(in); break;
@@ -72,6 +72,10 @@ static inline void picture_spoil(fuzz_input *in, shade_target *t)
     case 9: t->row_offset = fuzz_wild_int(in), t->row_count = fuzz_wild_int(in); break;
     case 10: t->width = 16384, t->height = 1, t->row_count = t->row_offset = 0; break;
     case 11: t->width = 1, t->height = 16384, t->row_count = t->row_offset = 0; break;
+    case 12: /* a strip of a tall picture: edges need 64 bits */
+        t->height = 16384, t->row_offset = fuzz_int(in, 0, 16376);
+        t->row_count = fuzz_int(in, 1, 8);
+        break;
     default: break;
     }
 }
