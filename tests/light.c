@@ -473,7 +473,7 @@ TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
     check_color(__LINE__, "white Lambert", white, d3_of(1, 1, 1), 0);
 }
 
-/* -------------------------------------------------------------------- what arrives from one lamp */
+/* ------------------------------------------------------------------- what arrives from one lamp */
 
 /* In double; the amount and its allowed error.  lost: xyz/w, rounded once, is not far enough from
    P for its direction. */
