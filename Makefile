@@ -1,6 +1,7 @@
 # make            builds the examples and draws the gallery into out/
 # make test       all tests (a C compiler and make are enough); make test T=clip runs one section
-# make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it
+# make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it;
+#                 make bench BASE=revision: against the shade.h of another revision
 # make matrix     the same pictures from other compilers, flags and processors
 # make conformance   scenes drawn with Mesa's OSMesa as well, pixel by pixel
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
@@ -54,7 +55,7 @@ test:
 endif
 
 bench:
-	@sh bench/run.sh
+	@BASE="$(BASE)" sh bench/run.sh
 bench-plot:
 	@sh bench/plot.sh
 matrix:

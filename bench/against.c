@@ -84,7 +84,8 @@ int main(int argc, char **argv)
     }
     rounds = rounds < 3 ? 3 : rounds > 1001 ? 1001 : rounds;
     clock_machine();
-    printf("\n| scene | ms | before | times faster | by medians | bits |\n|---|---|---|---|---|---|\n");
+    printf("\n| scene | ms | before | times faster | by medians | bits |\n");
+    printf("|---|---|---|---|---|---|\n");
     sides[1].count();
     for (scene[0] = 0; scene[0] < sides[0].count(); scene[0]++) {
         const char *name = sides[0].name(scene[0]);

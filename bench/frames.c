@@ -1,5 +1,5 @@
-/* frames.c - the scenes of scenes.h as a shared object, so that two revisions of shade.h can be timed
-   in one process: compiled once with each, loaded by against.c. */
+/* frames.c - the scenes of scenes.h as a shared object, so that two revisions of shade.h can be
+   timed in one process: compiled once with each, loaded by against.c. */
 #include "level.h"
 #define SHADE_STATIC
 #define SHADE_IMPLEMENTATION

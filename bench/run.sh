@@ -2,6 +2,7 @@
 # run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
 #
 #   run.sh [compare] [levels] [maths] [kernel] [scaling] [size]     all of them where none is named
+#   BASE=revision run.sh     this shade.h against that of another revision, frames in turns
 #
 # CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an
 # OBJ file instead of the knot) may be set.  Figures for plot.sh are left in BUILD as bench_*.tsv.
@@ -96,6 +97,30 @@ size_of() {
     CC=$cc BUILD=$build sh bench/size.sh
     echo
 }
+
+# The scenes of today with the header of another revision, whose names must be those of 1.0.
+against() {
+    old=$build/base
+    rm -rf "$old" && mkdir -p "$old/bench" "$old/examples"
+    git show "$BASE:shade.h" >"$old/shade.h"
+    cp bench/frames.c bench/level.h bench/scenes.h "$old/bench/"
+    cp examples/teapot.h "$old/examples/"
+    for side in . "$old"; do
+        (cd "$side" && $cc $standard $flags -fPIC -shared bench/frames.c -o frames.so -lm)
+    done
+    mv frames.so "$build/frames.so"
+    $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/against.c -o "$build/against" -ldl
+    for level in ${LEVELS:-2 1 0}; do
+        echo "## Against $BASE, level $level of 2"
+        echo
+        $pin "$build/against" "$build/frames.so" "$old/frames.so" $rounds --level "$level"
+        echo
+    done
+}
+if [ -n "${BASE:-}" ]; then
+    against
+    exit
+fi
 
 for part in ${*:-compare levels maths kernel scaling size}; do
     case $part in
