@@ -3111,7 +3111,7 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int plain, float z,
    x_ref.  Writes depth; returns the set of those that passed, bit i for pixel x + i. */
 SHADE__INLINE uint32_t shade__test(shade__compare c, const shade__triangle *SHADE_RESTRICT t,
                                    float z0, int x, int skip, int n, float *SHADE_RESTRICT depth,
-                                   const int width)
+                                   const int width, const int plain)
 {
     const float z_dx = t->z_dx, x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const int last = skip + n - 1;
@@ -3119,8 +3119,8 @@ SHADE__INLINE uint32_t shade__test(shade__compare c, const shade__triangle *SHAD
     SHADE__FOR(i, width) {
         float z = shade__clamp_bits(z0 + z_dx * ((float)(x + i) + x_ref), z_low, z_high);
         uint32_t m = shade__mask(((i - skip) | (last - i)) >= 0);
-        m &= shade__passes(c, 0, z, depth[i]);
-        depth[i] = shade__select(depth[i], z, m & c.write);
+        m &= shade__passes(c, plain, z, depth[i]);
+        depth[i] = shade__select(depth[i], z, plain ? m : m & c.write);
         set |= m & shade__bit[i];
     }
     return set;
@@ -3155,10 +3155,12 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, shade__
         take = shade__min(n, width - skip);
         if (at < plan->x0) {
             take = 1;
-            set = shade__test(plan->compare, t, z, x, 0, 1, row + x, 1);
+            set = shade__test(plan->compare, t, z, x, 0, 1, row + x, 1, 0);
         } else if (width == 16)
-            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 16) >> skip;
-        else set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32) >> skip;
+            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 16, 0) >> skip;
+        else if (plan->plain)
+            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 1) >> skip;
+        else set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 0) >> skip;
         d->stats.fragments += shade__count_bits(set);
         if (!plan->queued) continue;
         if (set == 0xFFFFFFFFu >> (32 - take)) {
