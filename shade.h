@@ -1119,6 +1119,9 @@ SHADE__INLINE float shade__rsqrt(float x)
     return shade__keep(y, shade__mask(x >= 1e-36f));
 }
 
+/* Rows of vectors. */
+typedef struct shade__v3 { float x[SHADE_LANES], y[SHADE_LANES], z[SHADE_LANES]; } shade__v3;
+
 SHADEDEF const char *shade_result_string(shade_result result)
 {
     switch (result) {
@@ -1404,8 +1407,9 @@ SHADE__INLINE float shade__exp2_neg(float u)
     return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)),
                        shade__mask(v < 126));
 }
-/* n (-log2 x); 126 or more where the power is 0: at x = 0 if n > 0, and where x < 0 stands for
-   "undefined". pre: x <= 1, zero is n > 0 ? all ones : 0 */
+#define SHADE__NO_HALF -1.0f    /* in the place of a cosine: there is no H, the power is 0 */
+/* n (-log2 x); 126 or more where the power is 0: at x = 0 if n > 0, and where x is
+   SHADE__NO_HALF. pre: x <= 1, zero is n > 0 ? all ones : 0 */
 SHADE__INLINE float shade__power_log(float x, float n, uint32_t zero)
 {
     float u = n * shade__neg_log2(x);
@@ -1539,8 +1543,8 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 }
 
 /*--------------------------------------------------------------------------------------- >>lighting
-   The equations of >>model for one point, in scalar floats with exact roots and divisions.
-     holds   Names and order are those of >>lanes; a test holds the two together.       >>lanes */
+   Lamps, single terms, presets: what is computed for one point, with exact roots and divisions;
+   and the surface that >>lanes lights.                                                 >>lanes */
 
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
 {
@@ -1735,6 +1739,14 @@ SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, 
     return s->terms & term ? shade_mul(k, light) : shade_v3(0, 0, 0);
 }
 
+/*------------------------------------------------------------------------------------------ >>lanes
+   The equations of >>model for a packet, or for one point as a short block of it.  The light of
+   one lamp is cut into short loops over rows of temporaries: one fused loop per light measured 1.5
+   times slower, its many live values outgrow the processor.
+     in      rows of P, N, albedo, visibility         out  rows of rgb
+     holds   A lamp that reaches no lane (horizon, cone) is left after its first loops.
+             Error of 1/sqrt and powers: >>base, >>power.                               >>state */
+
 /* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at
    infinity. */
 typedef struct shade__lamp { shade_vec3 at, axis; int infinite, spot; } shade__lamp;
@@ -1752,440 +1764,431 @@ SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
     return p;
 }
 
-/* A vector of doubles made unit; zero below 1e-18. */
-static void shade__unit3(double *v)
-{
-    double d = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], k = d >= 1e-36 ? 1 / shade__root(d) : 0;
-    v[0] *= k, v[1] *= k, v[2] *= k;
-}
-/* N.H from the positions, in double: where L and V are nearly opposite, their sum keeps few digits
-   in float.  -2 where H is undefined; *h2 = |L + V|^2. */
-static float shade__half_cosine(const shade_light *light, shade_vec3 P, shade_vec3 N,
-                                shade_vec3 eye, float scale, double *h2)
-{
-    shade_vec4 at = light->position;
-    double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1;
-    double l[3], v[3], n[3], h[3];
-    l[0] = (double)at.x / w - k * (double)P.x, v[0] = (double)eye.x - (double)scale * (double)P.x;
-    l[1] = (double)at.y / w - k * (double)P.y, v[1] = (double)eye.y - (double)scale * (double)P.y;
-    l[2] = (double)at.z / w - k * (double)P.z, v[2] = (double)eye.z - (double)scale * (double)P.z;
-    n[0] = (double)N.x, n[1] = (double)N.y, n[2] = (double)N.z;
-    shade__unit3(l), shade__unit3(v), shade__unit3(n);
-    for (int i = 0; i < 3; i++) h[i] = l[i] + v[i];
-    *h2 = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
-    if (*h2 < 1e-12) return -2;
-    shade__unit3(h);
-    return (float)(n[0] * h[0] + n[1] * h[1] + n[2] * h[2]);
-}
-
-/* What of a lamp arrives at P: spot times attenuation.  *L: unit toward it, zero where P is the
-   lamp; *distance: FLT_MAX at infinity. */
-static float shade__arriving(const shade_light *light, shade_vec3 P, shade_vec3 *L,
-                             float *distance)
-{
-    shade__lamp lamp = shade__lamp_of(light);
-    shade_vec3 l = lamp.infinite ? lamp.at : shade_sub(lamp.at, P);
-    float cosine, att = 1;
-    *L = shade_normalize(l), *distance = lamp.infinite ? FLT_MAX : shade_length(l);
-    if (!lamp.infinite)
-        att = shade_attenuation(light->constant, light->linear, light->quadratic, *distance);
-    if (!lamp.spot) return att;
-    cosine = shade_dot(*L, lamp.axis);
-    return cosine >= light->spot_cos_cutoff ? att * shade_power(cosine, light->spot_exponent) : 0;
-}
-SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
-                              float *distance)
-{
-    shade_vec3 toward = shade_v3(0, 0, 0);
-    float away = 0, amount = light ? shade__arriving(light, P, &toward, &away) : 0;
-    if (L) *L = toward;
-    if (distance) *distance = away;
-    return amount;
-}
-
-/* Adds the light of one lamp to t.  N unit, facing the viewer where that is asked for; V unit. */
-static SHADE__NOINLINE void shade__add_light(const shade__surface *s, const shade_light *light,
-                                             shade_vec3 P, shade_vec3 N, shade_vec3 V,
-                                             shade_vec3 eye, shade_terms *t)
-{
-    shade_vec3 L;
-    float distance, att = shade__arriving(light, P, &L, &distance);
-    float ambient = 1, nl = shade_dot(N, L), lit = nl > 0 ? nl : 0, gloss = 0;
-    if (s->flags & SHADE_FLAG_ATTENUATED_AMBIENT) ambient = att;
-    t->ambient = shade_madd(t->ambient, ambient,
-                            shade__product(s, SHADE_TERM_AMBIENT, s->ambient, light->ambient));
-    if (nl > 0 || ((s->flags & SHADE_FLAG_UNGATED_SPECULAR) && !shade__is_zero(N))) {
-        float scale = s->flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f;
-        double h2;
-        float x = s->phong ? shade__mirror_cosine(N, L, V)
-                           : shade__half_cosine(light, P, N, eye, scale, &h2);
-        gloss = x == -2 ? 0 : shade_power(x, s->shininess);
-    }
-    if (s->flags & SHADE_FLAG_WEIGHTED_SPECULAR) gloss *= lit;
-    if (s->flags & SHADE_FLAG_TWO_SIDED_ABS) lit = nl < 0 ? -nl : nl;
-    t->diffuse = shade_madd(t->diffuse, att * lit,
-                            shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse));
-    t->specular = shade_madd(t->specular, att * gloss,
-                             shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular));
-}
-
-SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
-                                    shade_vec3 eye, shade_vec3 P, shade_vec3 N)
-{
-    shade_terms t;
-    SHADE_MEMSET(&t, 0, sizeof t);
-    if (!lighting) return t;
-    shade__surface s = shade__surface_of(lighting, material);
-    shade_vec3 V = s.flags & SHADE_FLAG_INFINITE_VIEWER ? eye : shade_sub(eye, P);
-    V = shade_normalize(V), N = shade_normalize(N);
-    if ((s.flags & SHADE_FLAG_TWO_SIDED) && shade_dot(N, V) < 0) N = shade_neg(N);
-    t.emission = s.emission;
-    if (s.cool_to_warm) {
-        shade_vec3 L = shade_v3(0, 0, 0);
-        if (s.light_count > 0) shade_light_at(&lighting->lights[0], P, &L, (float *)0);
-        t.diffuse = shade_cool_to_warm(N, L, s.cool, s.warm);
-        return t;
-    }
-    t.ambient = shade_mul(s.ambient, s.scene_ambient);
-    for (int j = 0; j < s.light_count; j++)
-        shade__add_light(&s, &lighting->lights[j], P, N, V, eye, &t);
-    return t;
-}
-
-SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 eye, shade_vec3 P, shade_vec3 N)
-{
-    shade_terms t = shade_evaluate(lighting, material, eye, P, N);
-    return shade_add(shade_add(t.emission, t.ambient), shade_add(t.diffuse, t.specular));
-}
-
-/*------------------------------------------------------------------------------------------ >>lanes
-   The equations of >>lighting for a packet.  The light of one lamp is cut into short loops over
-   rows of temporaries: one fused loop per light measured 1.5 times slower, its many live values
-   outgrow the processor.
-     in      rows of P, N, albedo         out  rows of rgb
-     holds   A lamp that reaches no lane (horizon, cone) is left after its first loops.
-             Error of 1/sqrt and powers: >>base, >>power.                               >>store */
-
+/* What of a lamp arrives at a block of points. */
+typedef struct shade__arrival {
+    SHADE_ALIGNED shade__v3 L;    /* unit, toward the lamp */
+    float att[SHADE_LANES];       /* attenuation times cone */
+    float cosine[SHADE_LANES];    /* L.S, where there is a cone */
+} shade__arrival;
 typedef struct shade__rows {
-    SHADE_ALIGNED float rn[SHADE_LANES];    /* +-1/|N|: minus where N is turned toward the viewer */
-    float rv[SHADE_LANES];       /* 1/|V| */
-    float L[3][SHADE_LANES];     /* unit, toward the lamp; in the end L[0] holds the highlight */
-    float att[SHADE_LANES];      /* attenuation times cone */
-    float nl[SHADE_LANES];       /* L.S, then N.L, signed */
+    shade__arrival a;             /* of one lamp; in the end a.L.x holds its highlight */
+    float nl[SHADE_LANES];        /* N.L, signed */
+    float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
+    float rv[SHADE_LANES];        /* 1/|V| */
 } shade__rows;
 
-/* Row by row: 1/|N| and 1/|V|.  V = (eye - scale P) rv, so that scale 0 is a viewer at infinity. */
-SHADE__INLINE void shade__lane_viewer(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
-                                      shade_vec3 eye, float scale, uint32_t flip,
-                                      shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE void shade__directional(shade_vec3 L, const int n, shade__arrival *SHADE_RESTRICT a)
 {
-    SHADE_EACH_LANE(i) {
-        float x = N[i], y = N[i + SHADE_LANES], z = N[i + 2 * SHADE_LANES];
-        float vx = eye.x - scale * P[i], vy = eye.y - scale * P[i + SHADE_LANES];
-        float vz = eye.z - scale * P[i + 2 * SHADE_LANES], nv = x * vx + y * vy + z * vz;
+    SHADE__FOR(i, n) {
+        a->L.x[i] = L.x;
+        a->L.y[i] = L.y;
+        a->L.z[i] = L.z;
+        a->att[i] = 1;
+    }
+}
+SHADE__INLINE void shade__point(const shade__v3 *SHADE_RESTRICT P, shade_vec3 at, float a, float b,
+                                float c, const int n, shade__arrival *SHADE_RESTRICT to)
+{
+    float nearest = a == 0 ? 1e-4f : 0.0f;
+    if (a == 0 && b == 0 && c == 0) a = 1;
+    SHADE__FOR(i, n) {
+        float x = at.x - P->x[i], y = at.y - P->y[i], z = at.z - P->z[i];
+        float d = x * x + y * y + z * z, rl = shade__rsqrt(d);
+        float distance = shade__clamp_bits(d * rl, nearest, FLT_MAX);
+        float den = a + b * distance + c * (distance * distance);
+        to->L.x[i] = x * rl;
+        to->L.y[i] = y * rl;
+        to->L.z[i] = z * rl;
+        to->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
+    }
+}
+/* L.S, and the cone as a mask of the attenuation; returns non-zero if some lane is inside */
+SHADE__INLINE uint32_t shade__cone(shade_vec3 S, float cos_cutoff, const int n,
+                                   shade__arrival *SHADE_RESTRICT a)
+{
+    uint32_t any = 0;
+    SHADE__FOR(i, n) {
+        float cosine = a->L.x[i] * S.x + a->L.y[i] * S.y + a->L.z[i] * S.z;
+        uint32_t inside = shade__mask(cosine >= cos_cutoff);
+        a->cosine[i] = shade__saturate(cosine);
+        a->att[i] = shade__keep(a->att[i], inside);
+        any |= inside;
+    }
+    return any;
+}
+/* First half of a power: x becomes n (-log2 x). */
+SHADE__INLINE void shade__log_row(float exponent, const int n, float *SHADE_RESTRICT x)
+{
+    uint32_t zero = shade__mask(exponent > 0);
+    SHADE__FOR(i, n) { x[i] = shade__power_log(x[i], exponent, zero); }
+}
+/* Second half for the cone: att times (L.S)^e. */
+SHADE__INLINE void shade__gather_beam(const int n, shade__arrival *SHADE_RESTRICT a)
+{
+    SHADE__FOR(i, n) { a->att[i] *= shade__exp2_neg(a->cosine[i]); }
+}
+/* L and att of one lamp.  Returns zero if no lane is inside its cone. */
+SHADE__INLINE uint32_t shade__arrive(const shade_light *light, const shade__lamp *lamp,
+                                     const shade__v3 *P, const int n, shade__arrival *a)
+{
+    uint32_t any = shade__mask(1);
+    if (lamp->infinite) shade__directional(lamp->at, n, a);
+    else shade__point(P, lamp->at, light->constant, light->linear, light->quadratic, n, a);
+    if (lamp->spot) any = shade__cone(lamp->axis, light->spot_cos_cutoff, n, a);
+    if (any && lamp->spot && light->spot_exponent > 0) {
+        shade__log_row(shade__minf(light->spot_exponent, FLT_MAX), n, a->cosine);
+        shade__gather_beam(n, a);
+    }
+    return any;
+}
+
+/* 1/|N| and 1/|V|.  V = (eye - scale P) rv, so that scale 0 is a viewer at infinity. */
+SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P,
+                                 const shade__v3 *SHADE_RESTRICT N, shade_vec3 eye, float scale,
+                                 uint32_t flip, const int n, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE__FOR(i, n) {
+        float x = N->x[i], y = N->y[i], z = N->z[i];
+        float vx = eye.x - scale * P->x[i], vy = eye.y - scale * P->y[i];
+        float vz = eye.z - scale * P->z[i], nv = x * vx + y * vy + z * vz;
         float rn = shade__rsqrt(x * x + y * y + z * z);
         r->rn[i] = shade__bits_float(shade__float_bits(rn) ^ (shade__mask(nv < 0) & flip));
         r->rv[i] = shade__rsqrt(vx * vx + vy * vy + vz * vz);
     }
 }
-
 /* N.L; returns non-zero if some lane faces the lamp */
-SHADE__INLINE uint32_t shade__lane_horizon(const float *SHADE_RESTRICT N,
-                                           shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const int n,
+                                      shade__rows *SHADE_RESTRICT r)
 {
     uint32_t any = 0;
-    SHADE_EACH_LANE(i) {
-        float nl = (N[i] * r->L[0][i] + N[i + SHADE_LANES] * r->L[1][i] +
-                    N[i + 2 * SHADE_LANES] * r->L[2][i]) * r->rn[i];
+    SHADE__FOR(i, n) {
+        const float x = r->a.L.x[i], y = r->a.L.y[i], z = r->a.L.z[i];
+        float nl = (N->x[i] * x + N->y[i] * y + N->z[i] * z) * r->rn[i];
         r->nl[i] = nl;
         any |= shade__mask(nl > 0);
     }
     return any;
 }
 
-SHADE__INLINE void shade__lane_directional(shade_vec3 L, shade__rows *SHADE_RESTRICT r)
-{
-    SHADE_EACH_LANE(i) { r->L[0][i] = L.x, r->L[1][i] = L.y, r->L[2][i] = L.z, r->att[i] = 1; }
-}
-
-SHADE__INLINE void shade__lane_point(const float *SHADE_RESTRICT P, shade_vec3 at,
-                                     float a, float b, float c, shade__rows *SHADE_RESTRICT r)
-{
-    float nearest = a == 0 ? 1e-4f : 0.0f;
-    if (a == 0 && b == 0 && c == 0) a = 1;
-    SHADE_EACH_LANE(i) {
-        float x = at.x - P[i], y = at.y - P[i + SHADE_LANES], z = at.z - P[i + 2 * SHADE_LANES];
-        float d = x * x + y * y + z * z, rl = shade__rsqrt(d);
-        float distance = shade__clamp_bits(d * rl, nearest, FLT_MAX);
-        float den = a + b * distance + c * (distance * distance);
-        r->L[0][i] = x * rl, r->L[1][i] = y * rl, r->L[2][i] = z * rl;
-        r->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
-    }
-}
-
-/* L.S into nl, its cone as a mask of the attenuation; returns non-zero if some lane is inside */
-SHADE__INLINE uint32_t shade__lane_cone(shade_vec3 S, float cos_cutoff,
-                                        shade__rows *SHADE_RESTRICT r)
-{
-    uint32_t any = 0;
-    SHADE_EACH_LANE(i) {
-        float cosine = r->L[0][i] * S.x + r->L[1][i] * S.y + r->L[2][i] * S.z;
-        uint32_t inside = shade__mask(cosine >= cos_cutoff);
-        r->nl[i] = shade__saturate(cosine);
-        r->att[i] = shade__keep(r->att[i], inside);
-        any |= inside;
-    }
-    return any;
-}
-
-/* L[0] becomes N.H, -1 where H is undefined.  Returns non-zero if some lane (with N.L > 0, or open)
-   has |L + V|^2 below 1e-3, for shade__lane_half_near. */
-SHADE__INLINE uint32_t shade__lane_half(const float *SHADE_RESTRICT P,
-                                        const float *SHADE_RESTRICT N, shade_vec3 eye, float scale,
-                                        uint32_t open, shade__rows *SHADE_RESTRICT r)
+/* a.L.x becomes N.H, or SHADE__NO_HALF.  Returns non-zero if some lane (with N.L > 0, or open) has
+   |L + V|^2 below 1e-3, for shade__half_near. */
+SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT P,
+                                   const shade__v3 *SHADE_RESTRICT N, shade_vec3 eye, float scale,
+                                   uint32_t open, const int n, shade__rows *SHADE_RESTRICT r)
 {
     uint32_t near_zero = 0;
-    SHADE_EACH_LANE(i) {
+    SHADE__FOR(i, n) {
         float rv = r->rv[i];
-        float hx = r->L[0][i] + (eye.x - scale * P[i]) * rv;
-        float hy = r->L[1][i] + (eye.y - scale * P[i + SHADE_LANES]) * rv;
-        float hz = r->L[2][i] + (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv;
+        float hx = r->a.L.x[i] + (eye.x - scale * P->x[i]) * rv;
+        float hy = r->a.L.y[i] + (eye.y - scale * P->y[i]) * rv;
+        float hz = r->a.L.z[i] + (eye.z - scale * P->z[i]) * rv;
         float h2 = hx * hx + hy * hy + hz * hz;
-        float nh = (N[i] * hx + N[i + SHADE_LANES] * hy + N[i + 2 * SHADE_LANES] * hz) *
-                   (r->rn[i] * shade__rsqrt(h2));
+        float nh = (N->x[i] * hx + N->y[i] * hy + N->z[i] * hz) * (r->rn[i] * shade__rsqrt(h2));
         near_zero |= shade__mask(h2 < 1e-3f) & (shade__mask(r->nl[i] > 0) | open);
-        r->L[0][i] = shade__select(shade__saturate(nh), -1, shade__mask(h2 < 1e-12f));
+        r->a.L.x[i] =
+            shade__select(shade__saturate(nh), SHADE__NO_HALF, shade__mask(h2 < 1e-12f));
     }
     return near_zero;
 }
-/* The lanes where L and V are nearly opposite, again, in double. */
-static SHADE__NOINLINE void shade__lane_half_near(const shade_light *light, const float *P,
-                                                  const float *N, shade_vec3 eye, float scale,
-                                                  shade__rows *r)
+/* A vector of doubles made unit; zero below 1e-18. */
+static void shade__unit3(double *v)
 {
-    for (int i = 0; i < SHADE_LANES; i++) {
-        float sign = r->rn[i] < 0 ? -1.0f : 1.0f, x;
-        shade_vec3 p = shade_v3(P[i], P[i + SHADE_LANES], P[i + 2 * SHADE_LANES]);
-        shade_vec3 n =
-            shade_v3(N[i] * sign, N[i + SHADE_LANES] * sign, N[i + 2 * SHADE_LANES] * sign);
-        double h2;
-        x = shade__half_cosine(light, p, n, eye, scale, &h2);
-        if (h2 < 1e-3) r->L[0][i] = x == -2 ? -1 : shade__saturate(x);
+    double d = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], k = d >= 1e-36 ? 1 / shade__root(d) : 0;
+    for (int i = 0; i < 3; i++) v[i] *= k;
+}
+/* The lanes where L and V are nearly opposite, again from the positions, in double: their sum keeps
+   few digits in float. */
+static SHADE__NOINLINE void shade__half_near(const shade_light *light, const shade__v3 *P,
+                                             const shade__v3 *N, shade_vec3 eye, float scale,
+                                             const int n, shade__rows *r)
+{
+    const shade_vec4 at = light->position;
+    const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)scale;
+    for (int i = 0; i < n; i++) {
+        const double p[3] = { (double)P->x[i], (double)P->y[i], (double)P->z[i] };
+        double l[3] = { (double)at.x / w - k * p[0], (double)at.y / w - k * p[1],
+                        (double)at.z / w - k * p[2] };
+        double v[3] = { (double)eye.x - s * p[0], (double)eye.y - s * p[1],
+                        (double)eye.z - s * p[2] };
+        double m[3] = { (double)N->x[i], (double)N->y[i], (double)N->z[i] }, h2 = 0, nh = 0;
+        shade__unit3(l);
+        shade__unit3(v);
+        shade__unit3(m);
+        for (int j = 0; j < 3; j++) {
+            l[j] += v[j];
+            h2 += l[j] * l[j];
+        }
+        if (!(h2 < 1e-3)) continue;
+        shade__unit3(l);
+        for (int j = 0; j < 3; j++) nh += m[j] * l[j];
+        if (r->rn[i] < 0) nh = -nh;
+        r->a.L.x[i] = h2 < 1e-12 ? SHADE__NO_HALF : shade__saturate((float)nh);
     }
 }
-/* L[0] becomes R.V, as shade__mirror_cosine */
-SHADE__INLINE void shade__lane_mirror(const float *SHADE_RESTRICT P, const float *SHADE_RESTRICT N,
-                                      shade_vec3 eye, float scale, shade__rows *SHADE_RESTRICT r)
+/* a.L.x becomes R.V, as shade__mirror_cosine */
+SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT P,
+                                   const shade__v3 *SHADE_RESTRICT N, shade_vec3 eye, float scale,
+                                   const int n, shade__rows *SHADE_RESTRICT r)
 {
-    SHADE_EACH_LANE(i) {
+    SHADE__FOR(i, n) {
         float rv = r->rv[i], k = 2 * r->nl[i] * r->rn[i];
-        float lx = r->L[0][i], ly = r->L[1][i], lz = r->L[2][i];
-        float dx = k * N[i] - (lx + (eye.x - scale * P[i]) * rv);
-        float dy = k * N[i + SHADE_LANES] - (ly + (eye.y - scale * P[i + SHADE_LANES]) * rv);
-        float dz =
-            k * N[i + 2 * SHADE_LANES] - (lz + (eye.z - scale * P[i + 2 * SHADE_LANES]) * rv);
+        float lx = r->a.L.x[i], ly = r->a.L.y[i], lz = r->a.L.z[i];
+        float dx = k * N->x[i] - (lx + (eye.x - scale * P->x[i]) * rv);
+        float dy = k * N->y[i] - (ly + (eye.y - scale * P->y[i]) * rv);
+        float dz = k * N->z[i] - (lz + (eye.z - scale * P->z[i]) * rv);
         uint32_t exists = shade__mask(rv > 0) & shade__mask(lx * lx + ly * ly + lz * lz > 0);
         float x = 1 - 0.5f * (dx * dx + dy * dy + dz * dz);
-        r->L[0][i] = shade__keep(shade__saturate(x), exists);
+        r->a.L.x[i] = shade__keep(shade__saturate(x), exists);
     }
 }
-
-/* First half of a power: x becomes n (-log2 x). */
-SHADE__INLINE void shade__lane_log(float n, float *SHADE_RESTRICT x)
+/* Second half of a power for the highlight: a.L.x = B (N.H)^n; open lifts the gate B, weighted
+   multiplies by max(0, N.L). */
+SHADE__INLINE void shade__gloss(uint32_t open, uint32_t weighted, const int n,
+                                shade__rows *SHADE_RESTRICT r)
 {
-    uint32_t zero = shade__mask(n > 0);
-    SHADE_EACH_LANE(i) { x[i] = shade__power_log(x[i], n, zero); }
-}
-/* Second half for the cone: att times (L.S)^e. */
-SHADE__INLINE void shade__lane_spot(shade__rows *SHADE_RESTRICT r)
-{
-    SHADE_EACH_LANE(i) { r->att[i] *= shade__exp2_neg(r->nl[i]); }
-}
-/* Second half for the highlight: L[0] = B (N.H)^n; open lifts the gate B, weighted multiplies by
-   max(0, N.L). */
-SHADE__INLINE void shade__lane_gloss(uint32_t open, uint32_t weighted,
-                                     shade__rows *SHADE_RESTRICT r)
-{
-    SHADE_EACH_LANE(i) {
+    SHADE__FOR(i, n) {
         float nl = r->nl[i];
         uint32_t above = shade__mask(nl > 0), gate = above | (open & shade__mask(r->rn[i] != 0));
         float weight = shade__select(1, shade__keep(nl, above), weighted);
-        r->L[0][i] = shade__keep(shade__exp2_neg(r->L[0][i]) * weight, gate);
+        r->a.L.x[i] = shade__keep(shade__exp2_neg(r->a.L.x[i]) * weight, gate);
     }
 }
 
-/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s L[0]); with absolute |N.L|. Inlined with albedo
-   NULL, the choice and its factor of 1 vanish. */
-SHADE__INLINE void shade__lane_combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
-                                       const float *SHADE_RESTRICT albedo,
-                                       const shade__rows *SHADE_RESTRICT r,
-                                       float *SHADE_RESTRICT rgb)
+/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s gloss); with absolute |N.L|.  Inlined with
+   albedo NULL, the choice and its factor of 1 vanish, here and in the next two. */
+SHADE__INLINE void shade__combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
+                                  const shade__v3 *SHADE_RESTRICT albedo, const int n,
+                                  const shade__rows *SHADE_RESTRICT r,
+                                  shade__v3 *SHADE_RESTRICT rgb)
 {
-    SHADE_EACH_LANE(i) {
-        float nl = r->nl[i], att = r->att[i], gloss = r->L[0][i] * att;
+    SHADE__FOR(i, n) {
+        float nl = r->nl[i], att = r->a.att[i], gloss = r->a.L.x[i] * att;
         float lit = shade__keep(nl, shade__mask(nl > 0) | absolute);
         lit = shade__bits_float(shade__float_bits(lit) & 0x7FFFFFFFu) * att;
-        float ar = albedo ? albedo[i] : 1, ag = albedo ? albedo[i + SHADE_LANES] : 1;
-        float ab = albedo ? albedo[i + 2 * SHADE_LANES] : 1;
-        rgb[i] += kd.x * ar * lit + ks.x * gloss;
-        rgb[i + SHADE_LANES] += kd.y * ag * lit + ks.y * gloss;
-        rgb[i + 2 * SHADE_LANES] += kd.z * ab * lit + ks.z * gloss;
+        rgb->x[i] += kd.x * (albedo ? albedo->x[i] : 1) * lit + ks.x * gloss;
+        rgb->y[i] += kd.y * (albedo ? albedo->y[i] : 1) * lit + ks.y * gloss;
+        rgb->z[i] += kd.z * (albedo ? albedo->z[i] : 1) * lit + ks.z * gloss;
     }
 }
-
-/* rgb = emission + ambient albedo */
-SHADE__INLINE void shade__lane_begin(shade_vec3 emission, shade_vec3 ambient,
-                                     const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
+/* rgb = base + slope albedo */
+SHADE__INLINE void shade__begin_light(shade_vec3 base, shade_vec3 slope,
+                                      const shade__v3 *SHADE_RESTRICT albedo, const int n,
+                                      shade__v3 *SHADE_RESTRICT rgb)
 {
-    SHADE_EACH_LANE(i) {
-        rgb[i] = emission.x + ambient.x * (albedo ? albedo[i] : 1);
-        rgb[i + SHADE_LANES] = emission.y + ambient.y * (albedo ? albedo[i + SHADE_LANES] : 1);
-        rgb[i + 2 * SHADE_LANES] =
-            emission.z + ambient.z * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+    SHADE__FOR(i, n) {
+        rgb->x[i] = base.x + slope.x * (albedo ? albedo->x[i] : 1);
+        rgb->y[i] = base.y + slope.y * (albedo ? albedo->y[i] : 1);
+        rgb->z[i] = base.z + slope.z * (albedo ? albedo->z[i] : 1);
     }
 }
 /* rgb += (base + x slope) albedo */
-SHADE__INLINE void shade__lane_ramp(shade_vec3 base, shade_vec3 slope,
-                                    const float *SHADE_RESTRICT x,
-                                    const float *SHADE_RESTRICT albedo, float *SHADE_RESTRICT rgb)
+SHADE__INLINE void shade__ramp(shade_vec3 base, shade_vec3 slope, const float *SHADE_RESTRICT x,
+                               const shade__v3 *SHADE_RESTRICT albedo, const int n,
+                               shade__v3 *SHADE_RESTRICT rgb)
 {
-    SHADE_EACH_LANE(i) {
-        float k = x[i];
-        rgb[i] += (base.x + k * slope.x) * (albedo ? albedo[i] : 1);
-        rgb[i + SHADE_LANES] += (base.y + k * slope.y) * (albedo ? albedo[i + SHADE_LANES] : 1);
-        rgb[i + 2 * SHADE_LANES] +=
-            (base.z + k * slope.z) * (albedo ? albedo[i + 2 * SHADE_LANES] : 1);
+    SHADE__FOR(i, n) {
+        rgb->x[i] += (base.x + x[i] * slope.x) * (albedo ? albedo->x[i] : 1);
+        rgb->y[i] += (base.y + x[i] * slope.y) * (albedo ? albedo->y[i] : 1);
+        rgb->z[i] += (base.z + x[i] * slope.z) * (albedo ? albedo->z[i] : 1);
     }
+}
+/* att times visibility */
+SHADE__INLINE void shade__hide(const float *SHADE_RESTRICT visibility, const int n,
+                               float *SHADE_RESTRICT att)
+{
+    SHADE__FOR(i, n) { att[i] *= visibility[i]; }
 }
 
-/* L and att of one lamp: attenuation times cone.  Returns zero if no lane is inside. */
-SHADE__INLINE uint32_t shade__lane_arriving(const shade_light *light, const shade__lamp *lamp,
-                                            const float *P, shade__rows *r)
+/* What a packet is lit by, and where it is. */
+typedef struct shade__job {
+    shade__surface s;
+    const shade__v3 *P, *N, *albedo;
+    shade_vec3 eye;
+    float      scale;             /* of P in V: 0 for a viewer at infinity */
+} shade__job;
+
+/* Adds one lamp to rgb, but its unattenuated ambient light.  visibility: its row, or NULL. */
+SHADE__INLINE void shade__add_light(const shade__job *j, const shade_light *light,
+                                    const float *visibility, const int n, shade__rows *r,
+                                    shade__v3 *rgb)
 {
-    uint32_t any = shade__mask(1);
-    if (lamp->infinite) shade__lane_directional(lamp->at, r);
-    else shade__lane_point(P, lamp->at, light->constant, light->linear, light->quadratic, r);
-    if (lamp->spot) any = shade__lane_cone(lamp->axis, light->spot_cos_cutoff, r);
-    if (any && lamp->spot && light->spot_exponent > 0) {
-        shade__lane_log(shade__minf(light->spot_exponent, FLT_MAX), r->nl);
-        shade__lane_spot(r);
-    }
-    return any;
-}
-/* att times visibility; att as it was goes to a row that is free by then, for ambient light. */
-SHADE__INLINE void shade__lane_visibility(const float *SHADE_RESTRICT visibility,
-                                          shade__rows *SHADE_RESTRICT r)
-{
-    SHADE_EACH_LANE(i) {
-        r->L[1][i] = r->att[i];
-        r->att[i] *= visibility[i];
-    }
-}
-/* Adds one lamp to rgb; the same as shade__add_light without the unattenuated ambient term.
-   visibility: the lamp's row, or NULL. */
-SHADE__INLINE void shade__lane_add_light(const shade__surface *s, const shade_light *light,
-                                         const float *P, const float *N, const float *albedo,
-                                         const float *visibility, shade_vec3 eye, float scale,
-                                         shade__rows *r, float *rgb)
-{
+    const shade__surface *s = &j->s;
     shade__lamp lamp = shade__lamp_of(light);
     shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
     shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
-    shade_vec3 base = shade_v3(0, 0, 0), slope = base;
-    const float *x = r->att;
-    int ambient = (s->terms & SHADE_TERM_AMBIENT) && (s->flags & SHADE_FLAG_ATTENUATED_AMBIENT);
-    int gloss = !shade__is_zero(ks);
-    uint32_t open = shade__mask((s->flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
-    uint32_t absolute = shade__mask((s->flags & SHADE_FLAG_TWO_SIDED_ABS) != 0);
-    uint32_t weighted = shade__mask((s->flags & SHADE_FLAG_WEIGHTED_SPECULAR) != 0), any;
-    if (!ambient && !gloss && shade__is_zero(kd) && !s->cool_to_warm) return;
-    any = shade__lane_arriving(light, &lamp, P, r);
-    any &= shade__lane_horizon(N, r);
-    if (s->cool_to_warm) {    /* cool + k_w (warm - cool), k_w = (1 + N.L) / 2 */
-        SHADE_EACH_LANE(i) { r->nl[i] = 0.5f + 0.5f * r->nl[i]; }
-        base = s->cool, slope = shade_sub(s->warm, s->cool), x = r->nl;
-    } else if (any | open | absolute) {
-        if (gloss) {
-            if (s->phong) shade__lane_mirror(P, N, eye, scale, r);
-            else if (shade__lane_half(P, N, eye, scale, open, r))
-                shade__lane_half_near(light, P, N, eye, scale, r);
-            shade__lane_log(s->shininess, r->L[0]);
-            shade__lane_gloss(open, weighted, r);
-        } else SHADE_MEMSET(r->L[0], 0, sizeof r->L[0]);
-        if (visibility) {
-            shade__lane_visibility(visibility, r);
-            x = r->L[1];
-        }
-        if (albedo) shade__lane_combine(kd, ks, absolute, albedo, r, rgb);
-        else shade__lane_combine(kd, ks, absolute, (const float *)0, r, rgb);
+    shade_vec3 ka = shade__product(s, SHADE_TERM_AMBIENT, s->ambient, light->ambient);
+    const int ambient = (s->flags & SHADE_FLAG_ATTENUATED_AMBIENT) && !shade__is_zero(ka);
+    const int gloss = !shade__is_zero(ks);
+    const uint32_t open = shade__mask((s->flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
+    const uint32_t absolute = shade__mask((s->flags & SHADE_FLAG_TWO_SIDED_ABS) != 0);
+    const uint32_t weighted = shade__mask((s->flags & SHADE_FLAG_WEIGHTED_SPECULAR) != 0);
+    uint32_t any;
+    if (!ambient && !gloss && shade__is_zero(kd)) return;
+    any = shade__arrive(light, &lamp, j->P, n, &r->a);
+    any &= shade__horizon(j->N, n, r);
+    if (ambient) {
+        const shade_vec3 none = shade_v3(0, 0, 0);
+        if (j->albedo) shade__ramp(none, ka, r->a.att, j->albedo, n, rgb);
+        else shade__ramp(none, ka, r->a.att, (const shade__v3 *)0, n, rgb);
     }
-    if (ambient) slope = shade_mul(s->ambient, light->ambient);
-    if (!ambient && !s->cool_to_warm) return;
-    if (albedo) shade__lane_ramp(base, slope, x, albedo, rgb);
-    else shade__lane_ramp(base, slope, x, (const float *)0, rgb);
+    if (!(any | open | absolute)) return;
+    if (gloss) {
+        if (s->phong) shade__mirrored(j->P, j->N, j->eye, j->scale, n, r);
+        else if (shade__half(j->P, j->N, j->eye, j->scale, open, n, r))
+            shade__half_near(light, j->P, j->N, j->eye, j->scale, n, r);
+        shade__log_row(s->shininess, n, r->a.L.x);
+        shade__gloss(open, weighted, n, r);
+    } else SHADE_MEMSET(r->a.L.x, 0, sizeof r->a.L.x);
+    if (visibility) shade__hide(visibility, n, r->a.att);
+    if (j->albedo) shade__combine(kd, ks, absolute, j->albedo, n, r, rgb);
+    else shade__combine(kd, ks, absolute, (const shade__v3 *)0, n, r, rgb);
+}
+/* Adds the tone: cool + k_w (warm - cool), k_w = (1 + N.L) / 2, L toward the first light.
+                                                                                      [Gooch98] */
+SHADE__INLINE void shade__add_tone(const shade__job *j, const shade_light *light, const int n,
+                                   shade__rows *r, shade__v3 *rgb)
+{
+    const shade__surface *s = &j->s;
+    const shade_vec3 slope = shade_sub(s->warm, s->cool);
+    shade_light toward;
+    shade__lamp lamp;
+    SHADE_MEMSET(&toward, 0, sizeof toward);
+    if (light) toward.position = light->position;
+    lamp = shade__lamp_of(&toward);
+    shade__arrive(&toward, &lamp, j->P, n, &r->a);
+    shade__horizon(j->N, n, r);
+    SHADE__FOR(i, n) { r->nl[i] = 0.5f + 0.5f * r->nl[i]; }
+    if (j->albedo) shade__ramp(s->cool, slope, r->nl, j->albedo, n, rgb);
+    else shade__ramp(s->cool, slope, r->nl, (const shade__v3 *)0, n, rgb);
 }
 
-SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade_material *material,
-                                   shade_vec3 eye, const float *P, const float *N,
-                                   const float *albedo, const float *visibility, float *rgb)
+SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__job *j,
+                                   const float *visibility, const int n, shade__v3 *rgb)
 {
-    shade__rows r;
-    shade__surface s = shade__surface_of(lighting, material);
+    const shade__surface *s = &j->s;
     const shade_light *lights = lighting->lights;
-    shade_light toward;
-    shade_vec3 ambient = s.scene_ambient;
-    float scale = s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f;
-    shade__lane_viewer(P, N, eye, scale, s.flags & SHADE_FLAG_TWO_SIDED ? 0x80000000u : 0, &r);
-    if (s.cool_to_warm) {    /* only where the first light comes from counts */
-        SHADE_MEMSET(&toward, 0, sizeof toward);
-        if (s.light_count > 0) toward.position = lights[0].position;
-        lights = &toward, s.light_count = 1;
+    const uint32_t flip = s->flags & SHADE_FLAG_TWO_SIDED ? 0x80000000u : 0;
+    shade_vec3 ambient = s->scene_ambient;
+    shade__rows r;
+    shade__viewer(j->P, j->N, j->eye, j->scale, flip, n, &r);
+    if ((s->terms & SHADE_TERM_AMBIENT) && !(s->flags & SHADE_FLAG_ATTENUATED_AMBIENT))
+        for (int k = 0; k < s->light_count; k++) ambient = shade_add(ambient, lights[k].ambient);
+    ambient = shade_mul(ambient, s->ambient);
+    if (j->albedo && !shade__is_zero(ambient))
+        shade__begin_light(s->emission, ambient, j->albedo, n, rgb);
+    else shade__begin_light(s->emission, ambient, (const shade__v3 *)0, n, rgb);
+    if (s->cool_to_warm) {
+        shade__add_tone(j, s->light_count > 0 ? lights : (const shade_light *)0, n, &r, rgb);
+        return;
     }
-    if ((s.terms & SHADE_TERM_AMBIENT) && !(s.flags & SHADE_FLAG_ATTENUATED_AMBIENT))
-        for (int j = 0; j < s.light_count; j++) ambient = shade_add(ambient, lights[j].ambient);
-    ambient = shade_mul(ambient, s.ambient);
-    if (albedo && !shade__is_zero(ambient)) shade__lane_begin(s.emission, ambient, albedo, rgb);
-    else shade__lane_begin(s.emission, ambient, (const float *)0, rgb);
-    for (int j = 0; j < s.light_count; j++) {
-        const float *seen = visibility ? visibility + (size_t)j * SHADE_LANES : visibility;
-        shade__lane_add_light(&s, &lights[j], P, N, albedo, seen, eye, scale, &r, rgb);
+    for (int k = 0; k < s->light_count; k++) {
+        const float *seen = visibility ? visibility + (size_t)k * SHADE_LANES : visibility;
+        shade__add_light(j, &lights[k], seen, n, &r, rgb);
     }
 }
 SHADE__DISPATCH(shade__lit,
-                (const shade_lighting *lighting, const shade_material *material, shade_vec3 eye,
-                 const float *P, const float *N, const float *albedo, const float *visibility,
-                 float *rgb),
-                (lighting, material, eye, P, N, albedo, visibility, rgb))
+                (const shade_lighting *lighting, const shade__job *j, const float *visibility,
+                 shade__v3 *rgb),
+                (lighting, j, visibility, SHADE_LANES, rgb))
+SHADE__INLINE void shade__light_at_body(const shade_light *light, const shade__v3 *P, const int n,
+                                        shade__arrival *a)
+{
+    shade__lamp lamp = shade__lamp_of(light);
+    shade__arrive(light, &lamp, P, n, a);
+}
+SHADE__DISPATCH_AVX2(shade__light_at,
+                     (const shade_light *light, const shade__v3 *P, shade__arrival *a),
+                     (light, P, SHADE_LANES, a))
 
+/* Three rows of floats as the public functions take them. */
+SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
+{
+    return (const shade__v3 *)(const void *)rows;
+}
+static shade__job shade__job_of(const shade_lighting *lighting, const shade_material *material,
+                                shade_vec3 eye, const shade__v3 *P, const shade__v3 *N)
+{
+    shade__job j;
+    j.s = shade__surface_of(lighting, material);
+    j.P = P, j.N = N, j.albedo = (const shade__v3 *)0, j.eye = eye;
+    j.scale = j.s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f;
+    return j;
+}
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const float *P, const float *N, const float *albedo,
                               const float *visibility, float *rgb)
 {
+    shade__job j;
     if (!lighting || !P || !N || !rgb) {
         if (rgb) SHADE_MEMSET(rgb, 0, 3 * SHADE_LANES * sizeof *rgb);
         return;
     }
-    shade__lit_pick()(lighting, material, eye, P, N, albedo, visibility, rgb);
+    j = shade__job_of(lighting, material, eye, shade__rows_of(P), shade__rows_of(N));
+    j.albedo = shade__rows_of(albedo);
+    shade__lit_pick()(lighting, &j, visibility, (shade__v3 *)(void *)rgb);
 }
-
-SHADE__INLINE void shade__light_at_body(const shade_light *light, const float *P,
-                                        shade__rows *r)
-{
-    shade__lamp lamp = shade__lamp_of(light);
-    shade__lane_arriving(light, &lamp, P, r);
-}
-SHADE__DISPATCH_AVX2(shade__light_at, (const shade_light *light, const float *P, shade__rows *r),
-                (light, P, r))
-
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
                                    float *amount)
 {
-    shade__rows r;
-    if (light && P) shade__light_at_pick()(light, P, &r);
-    else SHADE_MEMSET(&r, 0, sizeof r);
-    if (L) SHADE_MEMCPY(L, r.L, sizeof r.L);
-    if (amount) SHADE_MEMCPY(amount, r.att, sizeof r.att);
+    shade__arrival a;
+    if (light && P) shade__light_at_pick()(light, shade__rows_of(P), &a);
+    else SHADE_MEMSET(&a, 0, sizeof a);
+    if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
+    if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
+}
+
+/* A point takes the few lanes that every processor has in one vector. */
+enum { SHADE__POINT = 4 };
+static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
+{
+    for (int i = 0; i < SHADE__POINT; i++) {
+        rows->x[i] = v.x;
+        rows->y[i] = v.y;
+        rows->z[i] = v.z;
+    }
+}
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
+                              float *distance)
+{
+    shade__arrival a;
+    shade__v3 point;
+    shade_vec3 at = shade_v3(0, 0, 0);
+    a.att[0] = 0;
+    shade__fill_point(P, &point);
+    if (light) shade__light_at_body(light, &point, SHADE__POINT, &a);
+    if (light) at = shade_v3(a.L.x[0], a.L.y[0], a.L.z[0]);
+    if (L) *L = at;
+    if (distance && light) {
+        shade__lamp lamp = shade__lamp_of(light);
+        *distance = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
+    } else if (distance) *distance = 0;
+    return a.att[0];
+}
+SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
+                              shade_vec3 eye, shade_vec3 P, shade_vec3 N)
+{
+    shade__v3 p, n, rgb;
+    shade__job j;
+    if (!lighting) return shade_v3(0, 0, 0);
+    shade__fill_point(P, &p);
+    shade__fill_point(N, &n);
+    j = shade__job_of(lighting, material, eye, &p, &n);
+    shade__lit_body(lighting, &j, (const float *)0, SHADE__POINT, &rgb);
+    return shade_v3(rgb.x[0], rgb.y[0], rgb.z[0]);
+}
+SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
+                                    shade_vec3 eye, shade_vec3 P, shade_vec3 N)
+{
+    shade_terms t;
+    shade_vec3 *term[4] = { &t.emission, &t.ambient, &t.diffuse, &t.specular };
+    SHADE_MEMSET(&t, 0, sizeof t);
+    for (unsigned k = 0; k < 4 && lighting; k++) {
+        shade_lighting one = *lighting;
+        one.terms = 1u << k;
+        if (!lighting->terms || (lighting->terms & one.terms))
+            *term[k] = shade_lit(&one, material, eye, P, N);
+    }
+    return t;
 }
 
 /*------------------------------------------------------------------------------------------ >>state
@@ -3583,11 +3586,11 @@ static int shade__texture_good(const shade_texture *t)
 }
 
 /* Lanes filtered at a time: enough of them hide the latency of their fetches (1.2 times faster than
-   8).  Loops run over blocks, so that a single sample costs one of them. */
-enum {
-    SHADE__TEXELS = SHADE_LANES < 32 ? SHADE_LANES : 32,
-    SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16
-};
+   8). */
+enum { SHADE__TEXELS = SHADE_LANES < 32 ? SHADE_LANES : 32 };
+
+/* Loops run over blocks, so that a single sample costs one of them. */
+enum { SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16 };
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
