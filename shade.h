@@ -4362,10 +4362,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_lighting matte, gloss;    /* with a map, lit vertices: what it multiplies, and the rest */
 } shade__scene;
 
-enum {
-    SHADE__TERM_NONE = 128,                              /* no term at all, since 0 means all */
-    SHADE__SCRATCH = SHADE_MAX_VARYINGS < 15 ? 9 : 1     /* rows; 15 varyings lend theirs instead */
-};
+enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
 SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t i)
@@ -4382,14 +4379,18 @@ SHADE__INLINE uint32_t shade__corner_index(const shade_mesh *m, uint32_t corner)
 {
     return m->indices ? m->indices[corner] : corner;
 }
-SHADE__INLINE void shade__put(float *rows, int i, shade_vec3 v)
+SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
 {
-    rows[i] = v.x, rows[i + SHADE_LANES] = v.y, rows[i + 2 * SHADE_LANES] = v.z;
+    rows->x[i] = v.x;
+    rows->y[i] = v.y;
+    rows->z[i] = v.z;
 }
+/* Three rows of a packet, from one on. */
+SHADE__INLINE shade__v3 *shade__three_rows(float *row) { return (shade__v3 *)(void *)row; }
 
 /* Object-space attributes of a packet to rows of P, N and albedo. */
 static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in,
-                                                  float *P, float *N, float *albedo)
+                                                  shade__v3 *P, shade__v3 *N, shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -4402,7 +4403,8 @@ static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const s
 /* The same for faces: their normal (length of twice the area), and with per_face their centroid
    and first colour. */
 static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in,
-                                               int per_face, float *P, float *N, float *albedo)
+                                               int per_face, shade__v3 *P, shade__v3 *N,
+                                               shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -4419,37 +4421,41 @@ static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shad
 }
 
 /* clip = m (P, 1) */
-SHADE__INLINE void shade__lane_clip(shade_mat4 m, const float *SHADE_RESTRICT P,
-                                    float *SHADE_RESTRICT clip)
+SHADE__INLINE void shade__lane_clip(shade_mat4 m, const shade__v3 *SHADE_RESTRICT P,
+                                    float clip[4][SHADE_LANES])
 {
+    float *SHADE_RESTRICT cx = clip[0], *SHADE_RESTRICT cy = clip[1];
+    float *SHADE_RESTRICT cz = clip[2], *SHADE_RESTRICT cw = clip[3];
     SHADE_EACH_LANE(i) {
-        float x = P[i], y = P[i + SHADE_LANES], z = P[i + 2 * SHADE_LANES];
-        clip[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
-        clip[i + SHADE_LANES] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
-        clip[i + 2 * SHADE_LANES] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
-        clip[i + 3 * SHADE_LANES] = m.col[0].w * x + m.col[1].w * y + m.col[2].w * z + m.col[3].w;
+        float x = P->x[i], y = P->y[i], z = P->z[i];
+        cx[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
+        cy[i] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
+        cz[i] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
+        cw[i] = m.col[0].w * x + m.col[1].w * y + m.col[2].w * z + m.col[3].w;
     }
 }
 /* P = m (P, 1); an affine model, so no division */
-SHADE__INLINE void shade__lane_world(shade_mat4 m, float *SHADE_RESTRICT P)
+SHADE__INLINE void shade__lane_world(shade_mat4 m, shade__v3 *SHADE_RESTRICT P)
 {
     SHADE_EACH_LANE(i) {
-        float x = P[i], y = P[i + SHADE_LANES], z = P[i + 2 * SHADE_LANES];
-        P[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
-        P[i + SHADE_LANES] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
-        P[i + 2 * SHADE_LANES] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
+        float x = P->x[i], y = P->y[i], z = P->z[i];
+        P->x[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
+        P->y[i] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
+        P->z[i] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
     }
 }
 /* N = m N / |m N|; interpolation between vertices starts from unit normals */
-SHADE__INLINE void shade__lane_normal(shade_mat3 m, float *SHADE_RESTRICT N)
+SHADE__INLINE void shade__lane_normal(shade_mat3 m, shade__v3 *SHADE_RESTRICT N)
 {
     SHADE_EACH_LANE(i) {
-        float x = N[i], y = N[i + SHADE_LANES], z = N[i + 2 * SHADE_LANES];
+        float x = N->x[i], y = N->y[i], z = N->z[i];
         float a = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z;
         float b = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z;
-        float c = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z,
-            r = shade__rsqrt(a * a + b * b + c * c);
-        N[i] = a * r, N[i + SHADE_LANES] = b * r, N[i + 2 * SHADE_LANES] = c * r;
+        float c = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z;
+        float r = shade__rsqrt(a * a + b * b + c * c);
+        N->x[i] = a * r;
+        N->y[i] = b * r;
+        N->z[i] = c * r;
     }
 }
 
@@ -4465,34 +4471,40 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
         u[i] = uv[0], u[i + SHADE_LANES] = uv[1];
     }
 }
+/* Light leaving lit vertices, term by term what a map multiplies and what it does not. */
+static void shade__light_vertices(const shade__scene *s, const shade_lighting *lighting,
+                                  const shade__v3 *P, const shade__v3 *N, const shade__v3 *albedo,
+                                  float *rgb)
+{
+    shade_lit_lanes(lighting, s->state->material, s->eye, P->x, N->x,
+                    albedo ? albedo->x : (const float *)0, (const float *)0, rgb);
+}
 /* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or
-   with a map what it multiplies, the rest, u, v; then P, N, albedo stand in the rows behind, which
-   nobody reads. */
+   with a map what it multiplies, the rest, u, v. */
 SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
                                            const shade_vertex_ids *SHADE_RESTRICT in,
                                            shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const shade_draw_state *state = s->state;
-    float scratch[SHADE__SCRATCH][SHADE_LANES];
-    int lit = state->shading != SHADE_SHADING_PER_FRAGMENT;
-    int per_face = state->shading == SHADE_SHADING_PER_FACE;
-    float *spare = SHADE_MAX_VARYINGS < 15 ? scratch[0] : (float *)out->varying + 6 * SHADE_LANES;
-    float *P = lit ? spare : (float *)out->varying, *N = P + 3 * SHADE_LANES;
-    float *albedo = s->mesh->colors ? N + 3 * SHADE_LANES : (float *)0;
+    const shade_shading shading = s->state->shading;
+    const int lit = shading != SHADE_SHADING_PER_FRAGMENT, colored = s->mesh->colors != 0;
+    shade__v3 own[3], *P = &own[0], *N = &own[1], *albedo = &own[2];
+    if (!lit) {
+        P = shade__three_rows(out->varying[0]), N = P + 1;
+        if (colored) albedo = N + 1;
+    }
     shade__fetch_vertices(s, in, P, N, albedo);
-    shade__lane_clip(s->clip_from_object, P, out->clip[0]);
-    if (s->face_normals) shade__fetch_faces(s, in, per_face, P, N, albedo);
+    shade__lane_clip(s->clip_from_object, P, out->clip);
+    if (s->face_normals)
+        shade__fetch_faces(s, in, shading == SHADE_SHADING_PER_FACE, P, N, albedo);
     shade__lane_world(s->world_from_object, P);
     shade__lane_normal(s->normal_matrix, N);
+    if (!colored) albedo = (shade__v3 *)0;
     if (lit && s->map) {
-        float *rgb = (float *)out->varying;
-        shade_lit_lanes(&s->matte, state->material, s->eye, P, N, albedo, (const float *)0, rgb);
-        shade_lit_lanes(&s->gloss, state->material, s->eye, P, N, albedo, (const float *)0,
-                        rgb + 3 * SHADE_LANES);
+        shade__light_vertices(s, &s->matte, P, N, albedo, out->varying[0]);
+        shade__light_vertices(s, &s->gloss, P, N, albedo, out->varying[3]);
     } else if (lit)
-        shade_lit_lanes(&state->lighting, state->material, s->eye, P, N, albedo, (const float *)0,
-                        (float *)out->varying);
+        shade__light_vertices(s, &s->state->lighting, P, N, albedo, out->varying[0]);
     if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
 SHADE__DISPATCH_AVX2(shade__mesh_vertex,
@@ -4526,25 +4538,22 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
         }
     }
 }
-/* Phong interpolation: N and P arrive per pixel.  The map's colour takes rows of the packet that
-   have no varying. */
+/* Phong interpolation: N and P arrive per pixel. */
 static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                             shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const float *P = in->varying[0], *N = P + 3 * SHADE_LANES, *albedo = N + 3 * SHADE_LANES;
-    float local[SHADE_MAX_VARYINGS < 16 ? 4 : 1][SHADE_LANES];
-    float *texel = SHADE_MAX_VARYINGS < 16 ? local[0] : (float *)(uintptr_t)P + 12 * SHADE_LANES;
-    int colored = s->mesh->colors != (const float *)0;
-    if (s->map) {
-        shade__sample_map(s, in, texel);
-        for (int i = 0; colored && i < 3 * SHADE_LANES; i++) texel[i] *= albedo[i];
+    const float *P = in->varying[0], *N = P + 3 * SHADE_LANES, *colors = N + 3 * SHADE_LANES;
+    const float *albedo = s->mesh->colors ? colors : (const float *)0;
+    float both[3 * SHADE_LANES];
+    if (s->map) {    /* its alpha stays in the row of alpha */
+        shade__sample_map(s, in, out->color[0]);
+        SHADE_MEMCPY(both, out->color[0], sizeof both);
+        for (int i = 0; albedo && i < 3 * SHADE_LANES; i++) both[i] *= albedo[i];
+        albedo = both;
     }
-    if (s->map) albedo = texel;
-    else if (!colored) albedo = (const float *)0;
     shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo,
                     (const float *)0, out->color[0]);
-    if (s->map) SHADE_MEMCPY(out->color[3], texel + 3 * SHADE_LANES, sizeof out->color[3]);
     shade__mesh_alpha(s, out);
 }
 /* Gouraud and flat: the colour arrives. */
