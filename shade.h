@@ -176,8 +176,10 @@
 #endif
 
 /* Rows of packets begin with a vector: unaligned they straddle two lines of cache, 4 % of a lit
-   floor, 12 % of a flat fill in cache. */
-#if defined(__GNUC__) || defined(__clang__)
+   floor, 12 % of a flat fill in cache.  Small packets are for small stacks. */
+#if SHADE_LANES < 64
+#define SHADE_ALIGNED
+#elif defined(__GNUC__) || defined(__clang__)
 #define SHADE_ALIGNED __attribute__((aligned(64)))
 #elif defined(_MSC_VER)
 #define SHADE_ALIGNED __declspec(align(64))
@@ -1768,11 +1770,10 @@ SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
 typedef struct shade__arrival {
     SHADE_ALIGNED shade__v3 L;    /* unit, toward the lamp */
     float att[SHADE_LANES];       /* attenuation times cone */
-    float cosine[SHADE_LANES];    /* L.S, where there is a cone */
+    float cosine[SHADE_LANES];    /* L.S, where there is a cone; then N.L, signed */
 } shade__arrival;
 typedef struct shade__rows {
     shade__arrival a;             /* of one lamp; in the end a.L.x holds its highlight */
-    float nl[SHADE_LANES];        /* N.L, signed */
     float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
     float rv[SHADE_LANES];        /* 1/|V| */
 } shade__rows;
@@ -1864,7 +1865,7 @@ SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const i
     SHADE__FOR(i, n) {
         const float x = r->a.L.x[i], y = r->a.L.y[i], z = r->a.L.z[i];
         float nl = (N->x[i] * x + N->y[i] * y + N->z[i] * z) * r->rn[i];
-        r->nl[i] = nl;
+        r->a.cosine[i] = nl;
         any |= shade__mask(nl > 0);
     }
     return any;
@@ -1884,7 +1885,7 @@ SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT P,
         float hz = r->a.L.z[i] + (eye.z - scale * P->z[i]) * rv;
         float h2 = hx * hx + hy * hy + hz * hz;
         float nh = (N->x[i] * hx + N->y[i] * hy + N->z[i] * hz) * (r->rn[i] * shade__rsqrt(h2));
-        near_zero |= shade__mask(h2 < 1e-3f) & (shade__mask(r->nl[i] > 0) | open);
+        near_zero |= shade__mask(h2 < 1e-3f) & (shade__mask(r->a.cosine[i] > 0) | open);
         r->a.L.x[i] =
             shade__select(shade__saturate(nh), SHADE__NO_HALF, shade__mask(h2 < 1e-12f));
     }
@@ -1931,7 +1932,7 @@ SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT P,
                                    const int n, shade__rows *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
-        float rv = r->rv[i], k = 2 * r->nl[i] * r->rn[i];
+        float rv = r->rv[i], k = 2 * r->a.cosine[i] * r->rn[i];
         float lx = r->a.L.x[i], ly = r->a.L.y[i], lz = r->a.L.z[i];
         float dx = k * N->x[i] - (lx + (eye.x - scale * P->x[i]) * rv);
         float dy = k * N->y[i] - (ly + (eye.y - scale * P->y[i]) * rv);
@@ -1947,7 +1948,7 @@ SHADE__INLINE void shade__gloss(uint32_t open, uint32_t weighted, const int n,
                                 shade__rows *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
-        float nl = r->nl[i];
+        float nl = r->a.cosine[i];
         uint32_t above = shade__mask(nl > 0), gate = above | (open & shade__mask(r->rn[i] != 0));
         float weight = shade__select(1, shade__keep(nl, above), weighted);
         r->a.L.x[i] = shade__keep(shade__exp2_neg(r->a.L.x[i]) * weight, gate);
@@ -1962,7 +1963,7 @@ SHADE__INLINE void shade__combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolut
                                   shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
-        float nl = r->nl[i], att = r->a.att[i], gloss = r->a.L.x[i] * att;
+        float nl = r->a.cosine[i], att = r->a.att[i], gloss = r->a.L.x[i] * att;
         float lit = shade__keep(nl, shade__mask(nl > 0) | absolute);
         lit = shade__bits_float(shade__float_bits(lit) & 0x7FFFFFFFu) * att;
         rgb->x[i] += kd.x * (albedo ? albedo->x[i] : 1) * lit + ks.x * gloss;
@@ -2057,9 +2058,9 @@ SHADE__INLINE void shade__add_tone(const shade__job *j, const shade_light *light
     lamp = shade__lamp_of(&toward);
     shade__arrive(&toward, &lamp, j->P, n, &r->a);
     shade__horizon(j->N, n, r);
-    SHADE__FOR(i, n) { r->nl[i] = 0.5f + 0.5f * r->nl[i]; }
-    if (j->albedo) shade__ramp(s->cool, slope, r->nl, j->albedo, n, rgb);
-    else shade__ramp(s->cool, slope, r->nl, (const shade__v3 *)0, n, rgb);
+    SHADE__FOR(i, n) { r->a.cosine[i] = 0.5f + 0.5f * r->a.cosine[i]; }
+    if (j->albedo) shade__ramp(s->cool, slope, r->a.cosine, j->albedo, n, rgb);
+    else shade__ramp(s->cool, slope, r->a.cosine, (const shade__v3 *)0, n, rgb);
 }
 
 SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__job *j,
@@ -2230,7 +2231,7 @@ enum {
     SHADE__VALUES_MAX = (SHADE_MAX_VARYINGS + SHADE__FIRST + 2 + 7) / 8 * 8,
     SHADE__BATCH_FLOATS = SHADE_LANES * 8 + 4 * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
-    SHADE__TRIANGLES = SHADE_LANES < 32 ? SHADE_LANES : 32,
+    SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,
     SHADE__BLOCKS = SHADE_LANES * SHADE_LANES / 16
 };
 
@@ -3009,7 +3010,7 @@ SHADE__INLINE void shade__triangle_of(const shade__packet *p, int i, shade__tria
 }
 
 /* Runs of pixels on their way to the queue, handed over when there are as many as fit. */
-enum { SHADE__RUNS = 64, SHADE__WINDOW = 32 };
+enum { SHADE__RUNS = SHADE__TRIANGLES + 8, SHADE__WINDOW = 32 };
 struct shade__runs { shade__run run[SHADE__RUNS]; int count; };
 
 SHADE__INLINE void shade__send(shade__draw *d, shade__runs *r)
@@ -3335,6 +3336,10 @@ SHADE__DISPATCH(shade__cover, (shade__draw *d, int count), (d, count, shade__wid
      holds   Values of the queue are times rw until the packet is shaded.  The lanes from count on
              repeat the last one before a shader sees them.                            >>texture */
 
+enum {    /* most pixels appended at once */
+    SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32,
+    SHADE__NARROW = SHADE_LANES < 16 ? SHADE_LANES : 16
+};
 /* The planes of a triangle's values: value = base + gy (y + y_ref) + gx (x + x_ref). */
 typedef struct shade__planes {
     float    x_ref, y_ref;            /* 1/2 - position of corner 0, pixels; exact */
@@ -3452,7 +3457,7 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
     shade__queue *SHADE_RESTRICT q = &d->u.queue;
     const float x_ref = t->x_ref, rw0 = row[1], rw_dx = t->gx[1];
     const uint32_t offset = (uint32_t)(y - plan->row_offset) * (uint32_t)plan->stride + (uint32_t)x;
-    float px[32];
+    float px[SHADE__WIDE];
     SHADE__FOR(i, width) {
         const uint32_t keep = shade__mask(i < back);
         float rw;
@@ -3479,10 +3484,6 @@ SHADE__INLINE void shade__row(const shade__planes *SHADE_RESTRICT t, int stride,
     }
 }
 
-enum {    /* most pixels appended at once */
-    SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32,
-    SHADE__NARROW = SHADE_LANES < 16 ? SHADE_LANES : 16
-};
 /* Appends one run, shading the queue whenever it is full. */
 SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const float *row, int x,
                                    int y, int n)
@@ -4362,7 +4363,12 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_lighting matte, gloss;    /* with a map, lit vertices: what it multiplies, and the rest */
 } shade__scene;
 
-enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
+enum {
+    SHADE__TERM_NONE = 128,    /* no term at all, since 0 means all */
+    /* vectors that lit vertices keep on the stack; with 15 varyings they lie in rows of the output
+       that nobody reads, 4 kB less */
+    SHADE__OWN = SHADE_MAX_VARYINGS < 15 ? 3 : 1
+};
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
 SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t i)
@@ -4488,11 +4494,9 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_shading shading = s->state->shading;
     const int lit = shading != SHADE_SHADING_PER_FRAGMENT, colored = s->mesh->colors != 0;
-    shade__v3 own[3], *P = &own[0], *N = &own[1], *albedo = &own[2];
-    if (!lit) {
-        P = shade__three_rows(out->varying[0]), N = P + 1;
-        if (colored) albedo = N + 1;
-    }
+    shade__v3 own[SHADE__OWN], *P = &own[0], *N, *albedo;
+    if (!lit || SHADE__OWN == 1) P = shade__three_rows(out->varying[lit ? 6 : 0]);
+    N = P + 1, albedo = N + 1;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip);
     if (s->face_normals)
