@@ -2622,13 +2622,17 @@ SHADE__INLINE void shade__depth_plane(const shade__packet *SHADE_RESTRICT p, flo
     }
 }
 /* Whether 32 bits hold the edge functions within 44 pixels of the vertices, where
-   |256 e| <= |q.x - p.x| |y - p.y| + |q.y - p.y| |x - p.x|; with 2 % for rounding. */
-SHADE__INLINE void shade__sizes(const float *SHADE_RESTRICT w, const float *SHADE_RESTRICT h,
+   |256 e| <= |q.x - p.x| |y - p.y| + |q.y - p.y| |x - p.x|; with 2 % for rounding.  Not where the
+   box is empty: its corner may be far from them. */
+SHADE__INLINE void shade__sizes(const shade__packet *SHADE_RESTRICT p,
+                                const float *SHADE_RESTRICT w, const float *SHADE_RESTRICT h,
                                 int32_t *SHADE_RESTRICT fits)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
         float most = w[i] * (h[i] + 11264) + h[i] * (w[i] + 11264);
-        fits[i] = (int32_t)shade__mask(most < 2.7e11f);    /* 2^38 */
+        int32_t across = p->box[2][i] - p->box[0][i], down = p->box[3][i] - p->box[1][i];
+        fits[i] = (int32_t)(shade__mask(most < 2.7e11f) &    /* 2^38 */
+                            shade__mask((across | down) >= 0));
     }
 }
 
@@ -2653,7 +2657,7 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
     shade__turn_floats(p->z[0], p->z[1], p->z[2], one, two, mirrored);
     shade__box(p->x[0], p->x[1], p->x[2], plan->x0, plan->x1 - 1, p->box[0], p->box[2], w);
     shade__box(p->y[0], p->y[1], p->y[2], plan->y0, plan->y1 - 1, p->box[1], p->box[3], h);
-    shade__sizes(w, h, fits);
+    shade__sizes(p, w, h, fits);
     for (int k = 0; k < 3; k++) {
         const int q = k < 2 ? k + 1 : 0;
         shade__edge(p->x[k], p->y[k], p->x[q], p->y[q], p->box[0], p->box[1], fits, p->e[k],
