@@ -128,6 +128,37 @@ static inline owned_mesh mesh_cube(void)
     return m;
 }
 
+/* Moves the middle of the mesh's box to the origin and makes its largest distance from there 1;
+   z up becomes y up.  In double: the place of a model can be far greater than its size. */
+static inline void mesh_normalize(owned_mesh *m, int z_up)
+{
+    double low[3] = { 1e300, 1e300, 1e300 }, high[3] = { -1e300, -1e300, -1e300 }, radius = 0;
+    size_t n = 3 * (size_t)m->view.vertex_count;
+    for (size_t i = 0; i < n; i++) {
+        double v = (double)m->positions[i];
+        if (v < low[i % 3]) low[i % 3] = v;
+        if (v > high[i % 3]) high[i % 3] = v;
+    }
+    for (size_t i = 0; i < n; i += 3) {
+        double square = 0;
+        for (size_t k = 0; k < 3; k++) {
+            double d = (double)m->positions[i + k] - (low[k] + high[k]) / 2;
+            square += d * d;
+        }
+        if (square > radius) radius = square;
+    }
+    radius = radius > 0 ? sqrt(radius) : 1;
+    for (size_t i = 0; i < n; i++) {
+        size_t k = i % 3;
+        m->positions[i] = (float)(((double)m->positions[i] - (low[k] + high[k]) / 2) / radius);
+    }
+    for (size_t i = 0; z_up && i < n; i += 3) {
+        float y = m->positions[i + 1], ny = m->normals[i + 1];
+        m->positions[i + 1] = m->positions[i + 2], m->positions[i + 2] = -y;
+        m->normals[i + 1] = m->normals[i + 2], m->normals[i + 2] = -ny;
+    }
+}
+
 /* What mesh_vertex draws.  A struct that begins with it can hold the fragment shader's uniforms. */
 typedef struct mesh_scene {
     const owned_mesh *mesh;

@@ -187,37 +187,6 @@ static void report_next(progress *p, const char *what)
 
 /* ---- the scene ------------------------------------------------------------------------------ */
 
-/* Moves the middle of the model's box to the origin and makes its largest distance from there 1;
-   z up becomes y up.  In double: the place of a model can be far greater than its size. */
-static void normalize_mesh(owned_mesh *m, int z_up)
-{
-    double low[3] = { 1e300, 1e300, 1e300 }, high[3] = { -1e300, -1e300, -1e300 }, radius = 0;
-    size_t n = 3 * (size_t)m->view.vertex_count;
-    for (size_t i = 0; i < n; i++) {
-        double v = (double)m->positions[i];
-        if (v < low[i % 3]) low[i % 3] = v;
-        if (v > high[i % 3]) high[i % 3] = v;
-    }
-    for (size_t i = 0; i < n; i += 3) {
-        double square = 0;
-        for (size_t k = 0; k < 3; k++) {
-            double d = (double)m->positions[i + k] - (low[k] + high[k]) / 2;
-            square += d * d;
-        }
-        if (square > radius) radius = square;
-    }
-    radius = radius > 0 ? sqrt(radius) : 1;
-    for (size_t i = 0; i < n; i++) {
-        size_t k = i % 3;
-        m->positions[i] = (float)(((double)m->positions[i] - (low[k] + high[k]) / 2) / radius);
-    }
-    for (size_t i = 0; z_up && i < n; i += 3) {
-        float y = m->positions[i + 1], ny = m->normals[i + 1];
-        m->positions[i + 1] = m->positions[i + 2], m->positions[i + 2] = -y;
-        m->normals[i + 1] = m->normals[i + 2], m->normals[i + 2] = -ny;
-    }
-}
-
 /* The camera looks along a fixed direction.  Every point must lie inside four planes through the
    eye, and each plane gives one linear bound: their extremes give the nearest eye, and the
    sideways shift that centres. */
@@ -331,7 +300,7 @@ int main(int argc, char **argv)
         report_next(&p, "");
         return complain("%s", error);
     }
-    normalize_mesh(&m, o.z_up < 0 ? mesh_is_stl(o.input, NULL, 0) : o.z_up);
+    mesh_normalize(&m, o.z_up < 0 ? mesh_is_stl(o.input, NULL, 0) : o.z_up);
     report_next(&p, "drawing");
     c = canvas_new(o.width, o.height, o.samples);
     result = draw_scene(&c, &m, &o, &p);
