@@ -19,20 +19,28 @@ FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
 EXACT    = -ffp-contract=off
 OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
                    $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
+# view needs POSIX; its window SDL2 (libsdl2-dev)
+VIEW     = $(shell echo | $(CC) -fsyntax-only -include termios.h -x c - 2>/dev/null && \
+                   echo build/view || echo 'no termios.h: view is left out' >&2)
+SDL2     = $(shell flags="$$(sdl2-config --cflags --libs 2>/dev/null | sed 's/-I/-isystem /g')"; \
+                   echo 'int main(int n, char **v) { return v && SDL_Init(0) > n; }' | \
+                   $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && \
+                   echo -DVIEW_SDL $$flags || echo 'no SDL2: the window of view is left out' >&2)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
 
-all: $(NUMBERED:%=out/%.ppm) build/thumbnail out/gallery.ppm
+all: $(NUMBERED:%=out/%.ppm) build/thumbnail $(VIEW) out/gallery.ppm
 
 # each example compiles alone; here they share one build of the implementation
 build/shade.o: shade.h
 	@mkdir -p build
 	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
 build/%: examples/%.c build/shade.o $(SHARED)
-	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm -o $@
+	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm $(LIBRARIES) -o $@
 build/19_threads: EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
+build/view: LIBRARIES = $(SDL2)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@

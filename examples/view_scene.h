@@ -1,0 +1,391 @@
+/* view_scene.h - what view shows, on whatever it shows it: a model above its soft shadow, turning
+   between lamps that stay with the viewer, and the keys that change how it is lit. */
+#ifndef EXAMPLES_VIEW_SCENE_H
+#define EXAMPLES_VIEW_SCENE_H
+
+#include "ground.h"
+#include "obj.h"
+#include "teapot.h"
+#include "view_options.h"
+
+/* Keys beyond characters */
+enum { KEY_UP = 256, KEY_DOWN, KEY_LEFT, KEY_RIGHT };
+
+/* What keys step through: a small letter forward, its capital back */
+enum {
+    CHOICE_MATERIAL, CHOICE_SHADING, CHOICE_LAMP, CHOICE_TERM, CHOICE_MODEL, CHOICE_FLAG,
+    CHOICE_BACKDROP, CHOICE_WIRE, CHOICE_GROUND, CHOICES
+};
+enum { LAMP_STUDIO, LAMP_SUN, LAMP_NEAR, LAMP_SPOT, LAMP_COLORS, LAMP_EYE };
+enum { BACKDROP_DUSK, BACKDROP_DAYLIGHT, BACKDROP_BLACK };
+enum { WIRE_OFF, WIRE_OVER, WIRE_ALONE };
+
+typedef struct scene_choice {
+    char key;
+    const char *what;
+    int count;
+    const char *name[6];
+} scene_choice;
+static const scene_choice scene_choices[CHOICES] = {
+    { 'm', "material", 1 + SHADE_PRESET_COUNT, { "clay" } },
+    { 's', "shading", 3, { "per fragment", "per vertex", "per face" } },
+    { 'l', "lamp", 6, { "studio", "sun", "near", "spot", "two colors", "at the eye" } },
+    { 't', "terms", 4, { "all", "ambient", "diffuse", "specular" } },
+    { 'e', "model", 6,
+      { "Blinn-Phong", "Phong", "Lambert", "ambient", "emissive", "cool to warm" } },
+    { 'f', "flag", 5,
+      { "none", "ungated specular", "weighted specular", "two-sided abs", "infinite viewer" } },
+    { 'b', "background", 3, { "dusk", "daylight", "black" } },
+    { 'w', "wires", 3, { "off", "over", "alone" } },
+    { 'g', "ground", 2, { "shadow", "none" } },
+};
+
+static const char *const scene_help[] = {
+    "arrows mouse   turn",
+    "+ - wheel      zoom",
+    "space          turn by itself, or not",
+    "m s l t        material, shading, lamp, terms",
+    "e f            model, flag",
+    "b w g          background, wires, ground",
+    "capitals       step back",
+    "r              as at first",
+    "h ?            this help",
+    "q              quit",
+};
+enum { SCENE_HELP = sizeof scene_help / sizeof *scene_help };
+
+#define SCENE_PITCH 0.36f   /* the camera looks down so far, radians, */
+#define SCENE_LENS 0.42f    /* through this vertical angle */
+
+typedef struct scene {
+    owned_mesh mesh; /* about the origin, the farthest point at distance 1 */
+    float yaw, pitch, zoom;
+    int turning, choice[CHOICES];
+    int turning_at_home, home[CHOICES];
+    const char *title; /* of the model: its file's name */
+    char said[64];     /* what the last key did */
+    ground shadow;
+    shade_vec3 *wires;  /* pairs; NULL until asked for */
+    int wire_points;
+} scene;
+
+/* Where the scene stands for a picture of a given shape */
+typedef struct scene_camera {
+    shade_mat4 model, view, projection;
+} scene_camera;
+
+/* Frames a second, counted over half seconds; 0: not yet */
+typedef struct frame_rate {
+    double since;
+    int counted, rate;
+} frame_rate;
+
+static void frame_rate_count(frame_rate *f, double now)
+{
+    f->counted++;
+    if (now - f->since < 0.5) return;
+    f->rate = f->since > 0 ? (int)(f->counted / (now - f->since) + 0.5) : 0;
+    f->counted = 0, f->since = now;
+}
+
+/* ---- the model ------------------------------------------------------------------------------ */
+
+static owned_mesh scene_teapot(void)
+{
+    enum { PIECES = 20 };
+    owned_mesh m = mesh_new(teapot_vertex_count(PIECES), teapot_index_count(PIECES));
+    teapot_build(PIECES, m.positions, m.normals, m.texcoords, m.indices);
+    return m;
+}
+
+/* As it was when loaded */
+static void scene_go_home(scene *s)
+{
+    s->yaw = -0.5f, s->pitch = SCENE_PITCH, s->zoom = 1;
+    s->turning = s->turning_at_home;
+    memcpy(s->choice, s->home, sizeof s->choice);
+}
+
+/* The name of a file without its folders */
+static const char *scene_title(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+/* Into a zeroed scene.  Returns 1 where it has complained. */
+static int scene_load(scene *s, const view_options *o, mesh_progress *progress, void *user)
+{
+    char error[400];
+    int z_up = o->z_up >= 0 ? o->z_up : o->model && mesh_is_stl(o->model, NULL, 0);
+    if (!o->model)
+        s->mesh = scene_teapot();
+    else if (mesh_read_file_progress(o->model, &s->mesh, error, sizeof error, progress, user))
+        return view_complain("%s", error);
+    mesh_normalize(&s->mesh, z_up);
+    s->title = o->model ? scene_title(o->model) : "teapot";
+    s->turning_at_home = !o->still;
+    if (!o->model) s->home[CHOICE_MATERIAL] = 1 + SHADE_PRESET_BRONZE;
+    if (o->colors == VIEW_PLAIN) s->home[CHOICE_BACKDROP] = BACKDROP_BLACK;
+    scene_go_home(s);
+    ground_cast(&s->shadow, &s->mesh.view);
+    return 0;
+}
+static void scene_close(scene *s) { mesh_free(&s->mesh), free(s->wires); }
+
+/* Every edge once, as pairs of points; none where there are more than memory holds */
+static void scene_find_wires(scene *s)
+{
+    const shade_mesh *m = &s->mesh.view;
+    size_t room = (size_t)m->index_count;
+    shade_edge *edge = (shade_edge *)malloc(room * sizeof *edge);
+    int count = 0;
+    if (edge && !shade_mesh_edges(m, edge, m->index_count, &count))
+        s->wires = (shade_vec3 *)malloc(2 * (size_t)count * sizeof *s->wires);
+    for (int i = 0; s->wires && i < count; i++) {
+        memcpy(&s->wires[2 * i], m->positions + 3 * (size_t)edge[i].a, sizeof *s->wires);
+        memcpy(&s->wires[2 * i + 1], m->positions + 3 * (size_t)edge[i].b, sizeof *s->wires);
+    }
+    s->wire_points = s->wires && count <= INT_MAX / 2 ? 2 * count : 0;
+    free(edge);
+}
+
+/* The model's name and size */
+typedef struct scene_words {
+    char text[64];
+} scene_words;
+static scene_words scene_caption(const scene *s)
+{
+    scene_words w;
+    int n = s->mesh.view.index_count / 3;
+    snprintf(w.text, sizeof w.text, "%.32s, %d triangle%s", s->title, n, n == 1 ? "" : "s");
+    return w;
+}
+
+/* ---- keys ----------------------------------------------------------------------------------- */
+
+static const char *scene_choice_name(int choice, int value)
+{
+    if (choice == CHOICE_MATERIAL && value) return shade_preset_name((shade_preset)(value - 1));
+    return scene_choices[choice].name[value];
+}
+
+static void scene_step(scene *s, int choice, int step)
+{
+    const scene_choice *c = &scene_choices[choice];
+    s->choice[choice] = (s->choice[choice] + step + c->count) % c->count;
+    snprintf(s->said, sizeof s->said, "%s %s", c->what,
+             scene_choice_name(choice, s->choice[choice]));
+    if (choice == CHOICE_WIRE && s->choice[choice] && !s->wires) scene_find_wires(s);
+}
+
+static void scene_turn(scene *s, float right, float down)
+{
+    s->yaw = fmodf(s->yaw + right, 6.2831853f);
+    s->pitch = fmaxf(-1.57f, fminf(1.57f, s->pitch + down));
+}
+static void scene_zoom(scene *s, float factor)
+{
+    s->zoom = fmaxf(0.2f, fminf(20, s->zoom * factor));
+}
+
+/* 1 where the key is the scene's */
+static int scene_key(scene *s, int key)
+{
+    const float step = 0.12f;
+    *s->said = 0;
+    switch (key) {
+    case KEY_UP:
+        scene_turn(s, 0, -step);
+        return 1;
+    case KEY_DOWN:
+        scene_turn(s, 0, step);
+        return 1;
+    case KEY_LEFT:
+        scene_turn(s, -step, 0);
+        return 1;
+    case KEY_RIGHT:
+        scene_turn(s, step, 0);
+        return 1;
+    case '+':
+    case '=':
+        scene_zoom(s, 1.1f);
+        return 1;
+    case '-':
+    case '_':
+        scene_zoom(s, 1 / 1.1f);
+        return 1;
+    case ' ':
+        s->turning = !s->turning;
+        return 1;
+    case 'r':
+        scene_go_home(s);
+        return 1;
+    }
+    for (int k = 0; k < CHOICES; k++) {
+        if (key != scene_choices[k].key && key != scene_choices[k].key - 'a' + 'A') continue;
+        scene_step(s, k, key == scene_choices[k].key ? 1 : -1);
+        return 1;
+    }
+    return 0;
+}
+
+/* ---- drawing -------------------------------------------------------------------------------- */
+
+/* The nearest distance from which the model stays in the picture however it turns about its upright
+   axis, and the height that centres it.  A point at radius r, height y travels a circle; against
+   the four planes of the view its extremes have a closed form. */
+static void scene_fit(const scene *s, float slope_x, float slope_y, float *distance, float *rise)
+{
+    shade_vec2 tilt;
+    float side = 0, above = -9, below = -9;
+    shade_mat4 turn = shade_mat4_rotation(SCENE_PITCH, shade_v3(1, 0, 0));
+    tilt = shade_v2(turn.col[1].y, turn.col[1].z); /* cosine, sine */
+    for (int i = 0; i < s->mesh.view.vertex_count; i++) {
+        const float *p = s->mesh.positions + 3 * (size_t)i;
+        float r = sqrtf(p[0] * p[0] + p[2] * p[2]), y = p[1];
+        side =
+            fmaxf(side, r * sqrtf(1 + slope_x * slope_x * tilt.x * tilt.x) + slope_x * y * tilt.y);
+        above =
+            fmaxf(above, y * (tilt.x + slope_y * tilt.y) + r * fabsf(slope_y * tilt.x - tilt.y));
+        below =
+            fmaxf(below, y * (slope_y * tilt.y - tilt.x) + r * fabsf(slope_y * tilt.x + tilt.y));
+    }
+    *distance = 1.06f * fmaxf(side / slope_x, (above + below) / (2 * slope_y));
+    *distance = fmaxf(*distance, 1.1f);
+    *rise = (below - above) / 2;
+}
+
+/* aspect: width by height of the picture as it is seen */
+static scene_camera scene_place_camera(const scene *s, float aspect)
+{
+    scene_camera c;
+    shade_mat4 lens = shade_mat4_perspective(SCENE_LENS, aspect, 1, 2);
+    float distance, rise;
+    scene_fit(s, 1 / lens.col[0].x, 1 / lens.col[1].y, &distance, &rise);
+    c.model = shade_mat4_mul(shade_mat4_rotation(s->pitch, shade_v3(1, 0, 0)),
+                             shade_mat4_rotation(s->yaw, shade_v3(0, 1, 0)));
+    c.view = shade_mat4_translation(shade_v3(0, rise, -distance));
+    c.projection =
+        shade_mat4_perspective(SCENE_LENS, aspect, fmaxf(0.02f, distance - 2.2f), distance + 2.2f);
+    c.projection.col[0].x *= s->zoom, c.projection.col[1].y *= s->zoom;
+    return c;
+}
+
+/* Colours of text before the picture, and of the box behind longer ones */
+static uint32_t scene_ink(const scene *s)
+{
+    return s->choice[CHOICE_BACKDROP] == BACKDROP_DAYLIGHT ? 0x2a323a : 0xc3ccd6;
+}
+enum { SCENE_BOX = 0x14191e, SCENE_BOX_INK = 0xe6ebf0 };
+
+static void scene_backdrop(const scene *s, const shade_target *target, int rows)
+{
+    static const uint32_t top[3] = { 0x20262e, 0xdfe6ec, 0 }, bottom[3] = { 0x59626d, 0x9aa5b0, 0 };
+    int b = s->choice[CHOICE_BACKDROP];
+    shade_target band = *target;
+    band.clip_width = band.width, band.clip_height = rows;
+    for (band.clip_y = 0; band.clip_y < band.height; band.clip_y += rows) {
+        float part = ((float)band.clip_y + 0.5f * (float)rows) / (float)band.height;
+        shade_vec3 k = shade_lerp(shade_rgb(top[b]), shade_rgb(bottom[b]), part);
+        shade_clear(&band, shade_v4(k.x, k.y, k.z, 1), 1);
+    }
+}
+
+/* Lamps stay with the viewer, who stands on +z.  Returns how many, at most 4.  The studio's are a
+   key from above, a fill from beside it, one from behind for the outline and the ground's own. */
+static int scene_lamps(const scene *s, shade_light *light, shade_vec3 *ambient)
+{
+    shade_vec3 white = shade_v3(1.5f, 1.5f, 1.5f);
+    *ambient = shade_v3(0.08f, 0.08f, 0.09f);
+    switch (s->choice[CHOICE_LAMP]) {
+    case LAMP_SUN:
+        light[0] = shade_directional_light(shade_v3(-0.7f, -0.9f, -0.6f), white);
+        return 1;
+    case LAMP_NEAR:
+        light[0] = shade_point_light(shade_v3(0.9f, 1, 1), white);
+        light[0].constant = 0.3f, light[0].quadratic = 0.6f;
+        return 1;
+    case LAMP_SPOT:
+        light[0] = shade_spot_light(shade_v3(-1, 2.5f, 1.5f), shade_v3(1, -2.5f, -1.5f), 0.3f, 20,
+                                    shade_scale(white, 1.5f));
+        return 1;
+    case LAMP_COLORS:
+        light[0] = shade_directional_light(shade_v3(-1, -0.5f, -0.4f), shade_v3(1.6f, 0.6f, 0.2f));
+        light[1] = shade_directional_light(shade_v3(1, -0.3f, -0.2f), shade_v3(0.1f, 0.6f, 1.3f));
+        return 2;
+    case LAMP_EYE:
+        light[0] = shade_directional_light(shade_v3(0, 0, -1), white);
+        return 1;
+    }
+    light[0] = shade_directional_light(shade_v3(0.7f, -0.9f, -0.6f), shade_v3(1.35f, 1.27f, 1.15f));
+    light[1] = shade_directional_light(shade_v3(-1, -0.15f, -0.35f), shade_v3(0.12f, 0.16f, 0.24f));
+    light[2] = shade_directional_light(shade_v3(-0.6f, -0.5f, 1), shade_v3(0.55f, 0.62f, 0.72f));
+    light[3] = shade_directional_light(shade_v3(-0.2f, 1, -0.3f), shade_v3(0.13f, 0.13f, 0.14f));
+    return 4;
+}
+
+static shade_material scene_material(const scene *s)
+{
+    shade_material clay = {
+        { 0, 0, 0 }, { 0.46f, 0.41f, 0.36f }, { 0.46f, 0.41f, 0.36f }, { 0.10f, 0.10f, 0.10f }, 30
+    };
+    int m = s->choice[CHOICE_MATERIAL];
+    return m ? shade_linear_material(shade_preset_material((shade_preset)(m - 1))) : clay;
+}
+
+/* Front faces first; back faces (of sheets, or seen through holes) with normals turned to the
+   viewer.  Turned on front faces too, they would leave dark specks along the outline of a coarse
+   mesh, where they lean away. */
+static shade_result scene_draw_model(const scene *s, const shade_target *target,
+                                     shade_draw_state *state)
+{
+    static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
+                                      SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
+    unsigned flags = flag[s->choice[CHOICE_FLAG]];
+    shade_result result;
+    state->raster.cull = SHADE_CULL_BACK, state->lighting.flags = flags;
+    result = shade_draw_mesh(target, &s->mesh.view, state, NULL);
+    state->raster.cull = SHADE_CULL_FRONT, state->lighting.flags = flags | SHADE_FLAG_TWO_SIDED;
+    return result ? result : shade_draw_mesh(target, &s->mesh.view, state, NULL);
+}
+
+static shade_line_state scene_pen(const scene_camera *c, float width, shade_vec3 color)
+{
+    shade_line_state pen = { 0 };
+    pen.clip_from_points = shade_mat4_mul(c->projection, shade_mat4_mul(c->view, c->model));
+    pen.width = width, pen.color = shade_v4(color.x, color.y, color.z, 1);
+    pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, pen.raster.depth_bias = -0.0008f;
+    return pen;
+}
+
+/* target: samples times as wide and high as the picture */
+static shade_result scene_draw(const scene *s, const shade_target *target, const scene_camera *c,
+                               int samples)
+{
+    static const unsigned terms[4] = { 0, SHADE_TERM_AMBIENT, SHADE_TERM_DIFFUSE,
+                                       SHADE_TERM_SPECULAR };
+    static const shade_shading shadings[3] = { SHADE_SHADING_PER_FRAGMENT, SHADE_SHADING_PER_VERTEX,
+                                               SHADE_SHADING_PER_FACE };
+    shade_draw_state state = { .model = c->model, .view = c->view, .projection = c->projection };
+    shade_material material = scene_material(s);
+    shade_light lamps[4];
+    shade_line_state pen = scene_pen(c, (float)samples * 0.6f, shade_rgb(0x0d1216));
+    shade_result result = SHADE_OK;
+    state.material = &material, state.shading = shadings[s->choice[CHOICE_SHADING]];
+    state.lighting.light_count = scene_lamps(s, lamps, &state.lighting.ambient);
+    state.lighting.lights = lamps;
+    state.lighting.model = (shade_model)s->choice[CHOICE_MODEL];
+    state.lighting.terms = terms[s->choice[CHOICE_TERM]];
+    scene_backdrop(s, target, samples);
+    if (s->choice[CHOICE_WIRE] != WIRE_ALONE)
+        result = scene_draw_model(s, target, &state);
+    else
+        pen.color = shade_v4(0.8f, 0.85f, 0.9f, 1);
+    if (!result && s->choice[CHOICE_GROUND] == 0) 
+        result = ground_draw(&s->shadow, target, c->model, c->view, c->projection);
+    if (!result && s->choice[CHOICE_WIRE])
+        result = shade_draw_lines(target, s->wires, s->wire_points, &pen, NULL);
+    return result;
+}
+#endif

@@ -1,0 +1,354 @@
+/* view_window.h - a scene in a window of SDL2: drawn by shade.h into a texture, with the triangle
+   under the mouse marked. */
+#ifndef EXAMPLES_VIEW_WINDOW_H
+#define EXAMPLES_VIEW_WINDOW_H
+
+#define SDL_MAIN_HANDLED
+#include <SDL.h>
+#include "label.h"
+#include "view_scene.h"
+
+typedef struct window {
+    SDL_Window *window;
+    SDL_Renderer *renderer;
+    SDL_Texture *texture; /* BGRA8, as large as the window in pixels */
+    scene *scene;
+    const view_options *options;
+    int width, height;         /* pixels */
+    float scale;               /* pixels to a unit of the mouse */
+    shade_target large;        /* room for most samples */
+    int most, quick, samples;  /* along an edge of a pixel: at rest, in motion, now */
+    int help, changed, closed; /* changed: draw even if nothing turns */
+    int mouse_inside, mouse_x, mouse_y, dragging;
+    int picked; /* triangle under the mouse; -1: none */
+    frame_rate rate;
+    int frames;
+} window;
+
+/* ---- the window ------------------------------------------------------------------------------ */
+
+/* Returns 1 where it has complained. */
+static int window_open(window *w)
+{
+    SDL_SetMainReady();
+    if (SDL_Init(SDL_INIT_VIDEO)) return view_complain("no window: %s", SDL_GetError());
+    w->window = SDL_CreateWindow("view", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, 960, 720,
+                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    if (w->window) w->renderer = SDL_CreateRenderer(w->window, -1, 0);
+    if (!w->renderer) return view_complain("no window: %s", SDL_GetError());
+    SDL_StartTextInput();
+    return 0;
+}
+
+static void window_close(window *w)
+{
+    free(w->large.color), free(w->large.depth);
+    if (w->texture) SDL_DestroyTexture(w->texture);
+    if (w->renderer) SDL_DestroyRenderer(w->renderer);
+    if (w->window) SDL_DestroyWindow(w->window);
+    SDL_Quit();
+}
+
+/* Makes texture and samples fit the window.  Returns 0 where it has no area, or complained. */
+static int window_fit(window *w)
+{
+    int width = 0, height = 0, mouse_width = 1, mouse_height = 1;
+    size_t pixels;
+    SDL_GetRendererOutputSize(w->renderer, &width, &height);
+    SDL_GetWindowSize(w->window, &mouse_width, &mouse_height);
+    w->scale = (float)width / (float)(mouse_width ? mouse_width : 1);
+    if (width < 1 || height < 1 || width > 16384 || height > 16384) return 0;
+    if (w->texture && width == w->width && height == w->height) return 1;
+    if (w->texture) SDL_DestroyTexture(w->texture);
+    w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_BGRA32, SDL_TEXTUREACCESS_STREAMING,
+                                   width, height);
+    free(w->large.color), free(w->large.depth);
+    pixels = (size_t)width * (size_t)height;
+    for (w->most = 3; w->most > 1 && pixels * (size_t)(w->most * w->most) > 7000000;) w->most--;
+    pixels *= (size_t)(w->most * w->most);
+    w->large.color = malloc(16 * pixels), w->large.depth = (float *)malloc(4 * pixels);
+    w->large.format = SHADE_FORMAT_RGBA32F;
+    w->width = width, w->height = height, w->quick = w->samples = 1, w->changed = 1;
+    if (w->texture && w->large.color && w->large.depth) return 1;
+    w->closed = 2;
+    return 0;
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+/* Pixels to a dot of the letters */
+static int window_dot(const window *w) { return w->scale > 1 ? (int)(1.5f * w->scale + 0.5f) : 2; }
+
+static void window_text(const window *w, const shade_target *t, int column, int row, uint32_t color,
+                        const char *text)
+{
+    int dot = window_dot(w), margin = 4 * dot;
+    int x = margin + 6 * dot * column, y = margin + 10 * dot * row;
+    if (column < 0) x = t->width - margin - label_width(text) * dot;
+    if (row < 0) y = t->height - margin - 7 * dot;
+    label_draw(t, x, y, dot, shade_rgb(color), text);
+}
+
+static void window_help(const window *w, const shade_target *t)
+{
+    int dot = window_dot(w);
+    shade_target box = *t;
+    box.clip_x = 2 * dot, box.clip_y = 22 * dot;
+    box.clip_width = 6 * 54 * dot, box.clip_height = 10 * (SCENE_HELP + 2) * dot;
+    shade_clear(&box, shade_v4(0.007f, 0.01f, 0.013f, 1), 1);
+    for (int k = 0; k < SCENE_HELP; k++) window_text(w, t, 1, k + 3, SCENE_BOX_INK, scene_help[k]);
+}
+
+static void window_words(const window *w, const shade_target *t)
+{
+    uint32_t ink = scene_ink(w->scene);
+    char text[80];
+    window_text(w, t, 0, 0, ink, scene_caption(w->scene).text);
+    if (w->scene->turning && w->rate.rate) {
+        snprintf(text, sizeof text, "%d fps", w->rate.rate);
+        window_text(w, t, -1, 0, ink, text);
+    }
+    if (w->picked >= 0) {
+        snprintf(text, sizeof text, "triangle %d", w->picked);
+        window_text(w, t, -1, -1, 0xffb454, text);
+    } else if (!w->help) {
+        window_text(w, t, -1, -1, ink, "h  help");
+    }
+    window_text(w, t, 0, -1, ink, w->scene->said);
+    if (w->help) window_help(w, t);
+}
+
+/* The triangle under the mouse gets a bright edge that what is before it hides. */
+static void window_mark(window *w, const shade_target *target, const scene_camera *c)
+{
+    const shade_mesh *m = &w->scene->mesh.view;
+    shade_line_state pen = scene_pen(c, 2 * w->scale * (float)w->samples, shade_rgb(0xff9a1f));
+    shade_vec3 corner[3], edge[6];
+    shade_ray ray;
+    w->picked = -1;
+    if (!w->mouse_inside || w->dragging) return;
+    ray = shade_pixel_ray(c->view, c->projection, w->width, w->height,
+                          w->scale * ((float)w->mouse_x + 0.5f),
+                          w->scale * ((float)w->mouse_y + 0.5f));
+    w->picked = shade_pick(m, c->model, ray, NULL, NULL);
+    if (w->picked < 0) return;
+    for (int k = 0; k < 3; k++) {
+        size_t at = m->indices[3 * (size_t)w->picked + (size_t)k];
+        memcpy(&corner[k], m->positions + 3 * at, sizeof corner[k]);
+    }
+    for (int k = 0; k < 3; k++) edge[2 * k] = corner[k], edge[2 * k + 1] = corner[(k + 1) % 3];
+    pen.cap = SHADE_CAP_SQUARE;
+    shade_draw_lines(target, edge, 6, &pen, NULL);
+}
+
+/* Draws with as many samples as w->samples into the texture and shows it.  1: it cannot. */
+static int window_frame(window *w)
+{
+    shade_target out = { .width = w->width, .height = w->height, .format = SHADE_FORMAT_BGRA8 };
+    scene_camera camera = scene_place_camera(w->scene, (float)w->width / (float)w->height);
+    void *pixels;
+    int pitch;
+    w->large.width = w->width * w->samples, w->large.height = w->height * w->samples;
+    scene_draw(w->scene, &w->large, &camera, w->samples);
+    window_mark(w, &w->large, &camera);
+    if (SDL_LockTexture(w->texture, NULL, &pixels, &pitch)) return 1;
+    out.color = pixels, out.stride = pitch / 4, out.srgb = 1;
+    shade_resolve(&out, &w->large, w->samples);
+    window_words(w, &out);
+    SDL_UnlockTexture(w->texture);
+    SDL_RenderCopy(w->renderer, w->texture, NULL, NULL);
+    SDL_RenderPresent(w->renderer);
+    return 0;
+}
+
+/* ---- events ---------------------------------------------------------------------------------- */
+
+static int window_key(SDL_Keycode key)
+{
+    static const SDL_Keycode arrow[4] = { SDLK_UP, SDLK_DOWN, SDLK_LEFT, SDLK_RIGHT };
+    for (int k = 0; k < 4; k++)
+        if (key == arrow[k]) return KEY_UP + k;
+    return 0;
+}
+
+static void window_press(window *w, int key)
+{
+    if (key == 'q' || key == 'Q')
+        w->closed = 1;
+    else if (key == '?' || key == 'h')
+        w->help = !w->help, w->changed = 1;
+    else if (w->scene->mesh.view.index_count && scene_key(w->scene, key))
+        w->changed = 1;
+}
+
+static void window_mouse(window *w, const SDL_MouseMotionEvent *e)
+{
+    w->mouse_inside = 1, w->mouse_x = e->x, w->mouse_y = e->y;
+    w->dragging = (e->state & SDL_BUTTON_LMASK) != 0;
+    if (w->dragging) scene_turn(w->scene, 0.008f * (float)e->xrel, 0.008f * (float)e->yrel);
+    w->changed = 1;
+}
+
+static void window_event(window *w, const SDL_Event *e)
+{
+    switch (e->type) {
+    case SDL_QUIT:
+        w->closed = 1;
+        break;
+    case SDL_KEYDOWN:
+        window_press(w, window_key(e->key.keysym.sym));
+        break;
+    case SDL_TEXTINPUT:
+        window_press(w, (unsigned char)e->text.text[0]);
+        break;
+    case SDL_MOUSEMOTION:
+        window_mouse(w, &e->motion);
+        break;
+    case SDL_MOUSEBUTTONUP:
+        w->dragging = 0, w->changed = 1;
+        break;
+    case SDL_MOUSEWHEEL:
+        scene_zoom(w->scene, e->wheel.y > 0 ? 1.1f : 1 / 1.1f);
+        w->changed = 1;
+        break;
+    case SDL_WINDOWEVENT:
+        if (e->window.event == SDL_WINDOWEVENT_LEAVE) w->mouse_inside = 0;
+        w->changed = 1;
+        break;
+    default:
+        break;
+    }
+}
+
+/* Takes what has come, waiting for the first at most so long. */
+static void window_events(window *w, double seconds)
+{
+    SDL_Event e;
+    int some =
+        seconds > 0 ? SDL_WaitEventTimeout(&e, (int)(1000 * seconds) + 1) : SDL_PollEvent(&e);
+    for (; some; some = SDL_PollEvent(&e)) window_event(w, &e);
+}
+
+/* ---- loading --------------------------------------------------------------------------------- */
+
+/* The file is read by a thread: the window answers meanwhile, however slow the file is. */
+typedef struct window_loading {
+    scene *scene;
+    const view_options *options;
+    SDL_atomic_t percent, done;
+    int failed;
+} window_loading;
+
+static void window_progress(void *user, double part)
+{
+    SDL_AtomicSet(&((window_loading *)user)->percent, (int)(100 * part));
+}
+
+static int window_load_thread(void *user)
+{
+    window_loading *l = (window_loading *)user;
+    l->failed = scene_load(l->scene, l->options, window_progress, l);
+    SDL_AtomicSet(&l->done, 1);
+    return 0;
+}
+
+static void window_show_progress(window *w, int percent)
+{
+    shade_target out = { .width = w->width, .height = w->height, .format = SHADE_FORMAT_BGRA8 };
+    char text[40];
+    void *pixels;
+    int pitch;
+    snprintf(text, sizeof text, "reading %d", percent);
+    if (!window_fit(w) || SDL_LockTexture(w->texture, NULL, &pixels, &pitch)) return;
+    out.width = w->width, out.height = w->height;
+    out.color = pixels, out.stride = pitch / 4, out.srgb = 1;
+    scene_backdrop(w->scene, &out, 1);
+    window_text(w, &out, 0, 0, scene_ink(w->scene), text);
+    SDL_UnlockTexture(w->texture);
+    SDL_RenderCopy(w->renderer, w->texture, NULL, NULL);
+    SDL_RenderPresent(w->renderer);
+}
+
+/* Returns 1 where it has complained.  A window closed meanwhile ends the program here: the thread
+   may be stuck in a read, and exit() would wait for the file that it holds. */
+static int window_load(window *w)
+{
+    static scene loaded;
+    static window_loading l;
+    SDL_Thread *thread;
+    l.scene = &loaded, l.options = w->options;
+    thread = SDL_CreateThread(window_load_thread, "reader", &l);
+    if (!thread) return view_complain("no thread: %s", SDL_GetError());
+    while (!SDL_AtomicGet(&l.done)) {
+        window_events(w, 0.05);
+        if (w->closed) {
+            window_close(w);
+            _Exit(0);
+        }
+        window_show_progress(w, SDL_AtomicGet(&l.percent));
+    }
+    SDL_WaitThread(thread, NULL);
+    *w->scene = loaded;
+    return l.failed;
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+static double window_now(void)
+{
+    return (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();
+}
+
+/* In motion as many samples as keep it fluent */
+static void window_keep_pace(window *w, double seconds)
+{
+    if (w->samples == 1)
+        w->quick = seconds < 0.008 && w->most > 1 ? 2 : 1;
+    else if (w->samples == 2 && seconds > 0.035)
+        w->quick = 1;
+}
+
+static int window_step(window *w, double passed)
+{
+    double begin = window_now();
+    if (w->scene->turning) scene_turn(w->scene, 0.6f * (float)passed, 0);
+    w->changed = 0;
+    if (window_frame(w)) return view_complain("no frame: %s", SDL_GetError());
+    window_keep_pace(w, window_now() - begin);
+    frame_rate_count(&w->rate, begin);
+    w->frames++;
+    return 0;
+}
+
+/* At rest the last frame is drawn once more with all samples, as soon as nothing has happened for
+   a while. */
+static int window_run(window *w)
+{
+    double step = 1.0 / w->options->rate, before = window_now(), next = before, now = before;
+    while (!w->closed && !(w->options->frames && w->frames >= w->options->frames)) {
+        int active = w->scene->turning || w->changed;
+        window_events(w, active ? next - now : w->samples < w->most ? 0.15 : 0.5);
+        now = window_now();
+        if (!window_fit(w)) continue;
+        active = w->scene->turning || w->changed;
+        if (active ? now < next : w->samples >= w->most) continue;
+        w->samples = active ? w->quick : w->most;
+        if (window_step(w, now - before)) return 1;
+        before = now, next = fmax(next + step, now);
+    }
+    return w->closed > 1 ? view_complain("%s", "no memory for the window's pixels") : 0;
+}
+
+/* What main returns */
+static int show_in_window(scene *s, const view_options *o)
+{
+    static window w;
+    int failed;
+    w.scene = s, w.options = o, w.picked = -1;
+    failed = window_open(&w) || window_load(&w) || window_run(&w);
+    if (!failed && o->frames) fprintf(stderr, "%d frames\n", w.frames);
+    window_close(&w);
+    scene_close(s);
+    return failed;
+}
+#endif
