@@ -8,7 +8,7 @@
    A character of the terminal shows two pixels, each the mean of 16 samples.  Only what changed is
    sent, and never more than two frames ahead of what the terminal has shown: over a slow line the
    picture turns in larger steps, but does not lag behind the keys. */
-#define _DEFAULT_SOURCE /* SIGWINCH, which POSIX has since 2024 */
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for SIGWINCH with -std=c99 */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "view_options.h"
@@ -36,7 +36,7 @@ static void report(void *user, double part)
 int main(int argc, char **argv)
 {
     static scene s;
-    view_options o = { .colors = VIEW_COLORS_ASKED, .z_up = -1 };
+    static view_options o = { .colors = VIEW_COLORS_ASKED, .z_up = -1 };
     double begin = terminal_now();
     const char *lack;
     int said = view_read_options(&o, argc, argv);
@@ -44,7 +44,10 @@ int main(int argc, char **argv)
     if (o.window) return show_in_window(&s, &o);
     lack = terminal_lacks();
     if (lack) return view_complain("%s", lack);
-    if (o.colors == VIEW_COLORS_ASKED) o.colors = terminal_colors();
+    if (o.colors == VIEW_COLORS_ASKED) {
+        o.colors = terminal_colors();
+        if (o.colors == VIEW_PLAIN) strcpy(s.said, "TERM tells of no colors: try --colors 256");
+    }
     if (scene_load(&s, &o, isatty(STDERR_FILENO) ? report : NULL, &begin)) return 1;
     said = show_in_terminal(&s, &o);
     scene_close(&s);

@@ -32,7 +32,7 @@ enum { CELL_NONE = 0x7fffffff };
    fits into CELL_FRAME. */
 enum { CELL_MOVE = 10, CELL_BYTES = CELL_MOVE + 39, CELL_FRAME = 64 };
 
-static void cells_resize(cell_screen *s, int columns, int rows)
+static inline void cells_resize(cell_screen *s, int columns, int rows)
 {
     size_t count = (size_t)columns * (size_t)rows;
     free(s->wanted), free(s->bytes);
@@ -40,12 +40,12 @@ static void cells_resize(cell_screen *s, int columns, int rows)
     s->wanted = (cell *)example_memory(2 * count, sizeof(cell)), s->shown = s->wanted + count;
     s->bytes = (char *)example_memory(CELL_BYTES * count + CELL_FRAME, 1);
 }
-static void cells_free(cell_screen *s) { free(s->wanted), free(s->bytes); }
+static inline void cells_free(cell_screen *s) { free(s->wanted), free(s->bytes); }
 
 /* ---- colours -------------------------------------------------------------------------------- */
 
 /* Squared, weighted about as the eye does */
-static int cells_distance(const int *a, const int *b)
+static inline int cells_distance(const int *a, const int *b)
 {
     static const int weight[3] = { 3, 6, 2 };
     int sum = 0;
@@ -55,7 +55,7 @@ static int cells_distance(const int *a, const int *b)
 
 /* The nearest of those of 256 colours that are the same on every terminal: 16 .. 231, a cube of
    6 x 6 x 6, and 232 .. 255, greys between its black and white */
-static uint32_t cells_nearest(uint32_t rgb)
+static inline uint32_t cells_nearest(uint32_t rgb)
 {
     static const int level[6] = { 0, 95, 135, 175, 215, 255 };
     int color[3], step[3], cube[3], grey[3], g;
@@ -72,13 +72,13 @@ static uint32_t cells_nearest(uint32_t rgb)
 }
 
 /* What a display colour becomes */
-static uint32_t cells_color(const cell_screen *s, uint32_t rgb)
+static inline uint32_t cells_color(const cell_screen *s, uint32_t rgb)
 {
     if (s->colors == VIEW_PLAIN) return 0;
     return s->colors == VIEW_256 ? cells_nearest(rgb) : rgb;
 }
 
-static uint32_t cells_pack(const uint8_t *rgba)
+static inline uint32_t cells_pack(const uint8_t *rgba)
 {
     return (uint32_t)rgba[0] << 16 | (uint32_t)rgba[1] << 8 | rgba[2];
 }
@@ -87,7 +87,7 @@ static uint32_t cells_pack(const uint8_t *rgba)
 
 /* Brightness of two pixels, 0 .. 8 each, as the character whose halves hold about as much ink: rows
    by the upper pixel, columns by the lower one */
-static uint32_t cells_character(const uint8_t *upper, const uint8_t *lower)
+static inline uint32_t cells_character(const uint8_t *upper, const uint8_t *lower)
 {
     static const char ink[9][10] = {
         " ..~__+++", "`-:~+++uw", "`::;++uuw", "\"!!+|Lyyw", "^^?lx{oep",
@@ -105,7 +105,7 @@ static uint32_t cells_character(const uint8_t *upper, const uint8_t *lower)
 /* ---- from a picture -------------------------------------------------------------------------- */
 
 /* pixels: RGBA8 as displayed, columns by 2 * rows */
-static void cells_picture(cell_screen *s, const uint8_t *pixels)
+static inline void cells_picture(cell_screen *s, const uint8_t *pixels)
 {
     for (int y = 0; y < s->rows; y++) {
         for (int x = 0; x < s->columns; x++) {
@@ -123,8 +123,8 @@ static void cells_picture(cell_screen *s, const uint8_t *pixels)
 
 /* Writes over the picture, cut at its edges; paper CELL_NONE: on the colour that is there.  What is
    not printable ASCII becomes "?". */
-static void cells_text(cell_screen *s, int column, int row, uint32_t ink, uint32_t paper,
-                       const char *text)
+static inline void cells_text(cell_screen *s, int column, int row, uint32_t ink, uint32_t paper,
+                              const char *text)
 {
     if (row < 0 || row >= s->rows) return;
     for (; *text && column < s->columns; text++, column++) {
@@ -138,12 +138,12 @@ static void cells_text(cell_screen *s, int column, int row, uint32_t ink, uint32
 
 /* ---- to bytes -------------------------------------------------------------------------------- */
 
-static void cells_put(cell_screen *s, const char *text, size_t size)
+static inline void cells_put(cell_screen *s, const char *text, size_t size)
 {
     memcpy(s->bytes + s->size, text, size);
     s->size += size;
 }
-static void cells_put_number(cell_screen *s, int n)
+static inline void cells_put_number(cell_screen *s, int n)
 {
     char digit[12];
     int k = 12;
@@ -153,7 +153,7 @@ static void cells_put_number(cell_screen *s, int n)
 }
 
 /* The colour behind "38;" or "48;" */
-static void cells_put_color(cell_screen *s, int which, uint32_t color)
+static inline void cells_put_color(cell_screen *s, int which, uint32_t color)
 {
     cells_put_number(s, which);
     if (s->colors == VIEW_256) {
@@ -169,7 +169,7 @@ static void cells_put_color(cell_screen *s, int which, uint32_t color)
 }
 
 /* Whether one colour may stand for the other */
-static int cells_alike(const cell_screen *s, uint32_t a, uint32_t b)
+static inline int cells_alike(const cell_screen *s, uint32_t a, uint32_t b)
 {
     if (a == b || s->colors != VIEW_TRUE || (a | b) > 0xffffff) return a == b;
     for (int shift = 16; shift >= 0; shift -= 8)
@@ -177,14 +177,14 @@ static int cells_alike(const cell_screen *s, uint32_t a, uint32_t b)
     return 1;
 }
 
-static int cells_same(const cell_screen *s, const cell *a, const cell *b)
+static inline int cells_same(const cell_screen *s, const cell *a, const cell *b)
 {
     return a->glyph == b->glyph && cells_alike(s, a->upper, b->upper) &&
            cells_alike(s, a->lower, b->lower);
 }
 
 /* Changes the terminal's colours to these, where they are others. */
-static void cells_dip(cell_screen *s, uint32_t ink, uint32_t paper)
+static inline void cells_dip(cell_screen *s, uint32_t ink, uint32_t paper)
 {
     int new_ink = ink != s->ink, new_paper = paper != s->paper;
     if (s->colors == VIEW_PLAIN || !(new_ink || new_paper)) return;
@@ -197,7 +197,7 @@ static void cells_dip(cell_screen *s, uint32_t ink, uint32_t paper)
 
 /* Two pixels: an upper or a lower half block, whichever asks for fewer new colours; where they are
    alike a blank, or a full block if the ink is like both.  They become what is shown. */
-static void cells_put_pixels(cell_screen *s, uint32_t *upper, uint32_t *lower)
+static inline void cells_put_pixels(cell_screen *s, uint32_t *upper, uint32_t *lower)
 {
     int upper_ink = cells_alike(s, *upper, s->ink), upper_paper = cells_alike(s, *upper, s->paper);
     int lower_ink = cells_alike(s, *lower, s->ink), lower_paper = cells_alike(s, *lower, s->paper);
@@ -221,7 +221,7 @@ static void cells_put_pixels(cell_screen *s, uint32_t *upper, uint32_t *lower)
 }
 
 /* Writes the wanted cell where the terminal writes next, and keeps what it shows then. */
-static void cells_put_cell(cell_screen *s)
+static inline void cells_put_cell(cell_screen *s)
 {
     int at = s->pen_row * s->columns + s->pen_column;
     cell *c = &s->shown[at];
@@ -233,11 +233,12 @@ static void cells_put_cell(cell_screen *s)
         cells_dip(s, glyph == ' ' ? s->ink : c->upper, c->lower);
         cells_put(s, &glyph, 1);
     }
-    if (++s->pen_column == s->columns) s->pen_row = -1; /* terminals differ at the edge */
+    s->pen_column++;
 }
 
-/* The cursor: forward in its row, or to a row and column */
-static void cells_move(cell_screen *s, int row, int column)
+/* The cursor: forward in its row, or to a row and column (always at the edge of a row, where
+   terminals differ) */
+static inline void cells_move(cell_screen *s, int row, int column)
 {
     int forward = s->pen_row == row ? column - s->pen_column : 0;
     cells_put(s, "\033[", 2);
@@ -254,7 +255,7 @@ static void cells_move(cell_screen *s, int row, int column)
 
 /* To the next cell that changes: over what lies between, or by writing that again if it is not
    longer */
-static void cells_reach(cell_screen *s, int row, int column)
+static inline void cells_reach(cell_screen *s, int row, int column)
 {
     cell_screen before = *s;
     cell kept[CELL_MOVE], *from;
@@ -275,7 +276,7 @@ static void cells_reach(cell_screen *s, int row, int column)
 }
 
 /* Fills bytes with what turns shown into wanted. */
-static void cells_encode(cell_screen *s)
+static inline void cells_encode(cell_screen *s)
 {
     s->size = 0;
     s->pen_row = -1;

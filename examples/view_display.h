@@ -10,7 +10,7 @@
 /* ---- what the terminal can --------------------------------------------------------------- */
 
 /* NULL: it can show pictures */
-static const char *terminal_lacks(void)
+static inline const char *terminal_lacks(void)
 {
     const char *term = getenv("TERM");
     if (!isatty(STDIN_FILENO)) return "standard input is no terminal (--window needs none)";
@@ -22,7 +22,7 @@ static const char *terminal_lacks(void)
 
 /* The colours that a terminal says it has.  Some never had fewer, and over ssh only TERM tells.
    GNU screen (STY) hands on the COLORTERM of the terminal round it, not its colours. */
-static view_colors terminal_colors(void)
+static inline view_colors terminal_colors(void)
 {
     static const char *const name[] = {
         "direct", "kitty", "alacritty", "foot", "ghostty", "wezterm"
@@ -30,6 +30,7 @@ static view_colors terminal_colors(void)
     const char *color = getenv("COLORTERM"), *term = getenv("TERM");
     if (color && (!strcmp(color, "truecolor") || !strcmp(color, "24bit")))
         return getenv("STY") ? VIEW_256 : VIEW_TRUE;
+    if (!term) return VIEW_PLAIN;
     for (size_t k = 0; k < sizeof name / sizeof *name; k++)
         if (strstr(term, name[k])) return VIEW_TRUE;
     return strstr(term, "256color") ? VIEW_256 : VIEW_PLAIN;
@@ -37,7 +38,7 @@ static view_colors terminal_colors(void)
 
 /* 0 where the locale names another character set than UTF-8; the C locale, which names none, is
    taken for a container without a setting. */
-static int terminal_has_blocks(void)
+static inline int terminal_has_blocks(void)
 {
     static const char *const name[3] = { "LC_ALL", "LC_CTYPE", "LANG" };
     const char *locale = NULL;
@@ -66,18 +67,18 @@ typedef struct display {
     size_t bytes, first_bytes;
 } display;
 
-static void display_free(display *d)
+static inline void display_free(display *d)
 {
     cells_free(&d->screen);
     free(d->large.color), free(d->large.depth), free(d->small.color);
 }
 
-/* Takes over the size of the terminal: as many samples as 2 million of them allow. */
-static void display_resize(display *d)
+/* As many samples as 2 million of them allow */
+static inline void display_resize(display *d, terminal_size size)
 {
     static const shade_target none;
     size_t pixels, n = 4;
-    d->size = terminal_measure();
+    d->size = size;
     pixels = 2 * (size_t)d->size.columns * (size_t)d->size.rows;
     while (n > 1 && pixels * n * n > 2000000) n--;
     free(d->large.color), free(d->large.depth), free(d->small.color);
@@ -91,7 +92,16 @@ static void display_resize(display *d)
     d->changed = 1;
 }
 
-static void display_help(display *d)
+static inline void display_picture(display *d)
+{
+    float aspect = (float)d->size.columns * d->size.shape / (float)(2 * d->size.rows);
+    scene_camera camera = scene_place_camera(d->scene, aspect);
+    scene_draw(d->scene, &d->large, &camera, d->samples);
+    shade_resolve(&d->small, &d->large, d->samples);
+    cells_picture(&d->screen, (const uint8_t *)d->small.color);
+}
+
+static inline void display_help(display *d)
 {
     int width = 0, row = (d->size.rows - SCENE_HELP) / 2, column;
     char line[80];
@@ -110,7 +120,7 @@ static void display_help(display *d)
 
 /* Name and frame rate above, what the last key did and the way to help below; as much as there is
    room for */
-static void display_words(display *d)
+static inline void display_words(display *d)
 {
     cell_screen *s = &d->screen;
     uint32_t ink = scene_ink(d->scene);
@@ -128,7 +138,7 @@ static void display_words(display *d)
 
 /* Sends what changed, as one (terminals that know mode 2026 show it at once), and asks for a
    report that tells when it has been shown.  1: the terminal takes no more. */
-static int display_send(display *d)
+static inline int display_send(display *d)
 {
     static const char begin[] = "\033[?2026h", end[] = "\033[?2026l", ask[] = "\033[5n";
     cell_screen *s = &d->screen;
@@ -145,17 +155,12 @@ static int display_send(display *d)
 
 /* While the model turns, colours off by one pass for right, which saves half of the bytes.  At rest
    they are sent as they are. */
-static int display_frame(display *d, double now)
+static inline int display_frame(display *d, double now)
 {
-    scene *s = d->scene;
-    float aspect = (float)d->size.columns * d->size.shape / (float)(2 * d->size.rows);
-    scene_camera camera = scene_place_camera(s, aspect);
     int failed;
-    scene_draw(s, &d->large, &camera, d->samples);
-    shade_resolve(&d->small, &d->large, d->samples);
-    cells_picture(&d->screen, (const uint8_t *)d->small.color);
+    display_picture(d);
     display_words(d);
-    d->screen.slack = s->turning ? 1 : 0;
+    d->screen.slack = d->scene->turning ? 1 : 0;
     failed = display_send(d);
     if (!d->frames++) d->first_bytes = d->bytes;
     d->changed = 0, d->sent_at = now;
@@ -166,7 +171,7 @@ static int display_frame(display *d, double now)
 /* ---- keys, mouse, signals -------------------------------------------------------------------- */
 
 /* Dragging turns, the wheel zooms. */
-static void display_mouse(display *d, input in)
+static inline void display_mouse(display *d, input in)
 {
     float step = 4.0f / (float)d->size.columns;
     if (in.button & MOUSE_WHEEL)
@@ -179,7 +184,7 @@ static void display_mouse(display *d, input in)
 }
 
 /* 1: the end is asked for */
-static int display_key(display *d, int key)
+static inline int display_key(display *d, int key)
 {
     if (key == 'q' || key == 'Q') return 1;
     if (key == '?' || key == 'h')
@@ -191,7 +196,7 @@ static int display_key(display *d, int key)
     return 0;
 }
 
-static int display_input(display *d)
+static inline int display_input(display *d)
 {
     for (;;) {
         input in = terminal_next(&d->keys);
@@ -205,16 +210,16 @@ static int display_input(display *d)
 }
 
 /* What signals have asked for */
-static void display_signals(display *d)
+static inline void display_signals(display *d)
 {
     if (terminal_stopped) terminal_stop();
     if (terminal_continued) terminal_continued = 0, terminal_enter();
-    if (terminal_resized) terminal_resized = 0, display_resize(d);
+    if (terminal_resized) terminal_resized = 0, display_resize(d, terminal_measure());
 }
 
 /* Two frames that were not reported shown: wait.  A terminal that does not report within two
    seconds is not asked again. */
-static int display_behind(display *d, double now)
+static inline int display_behind(display *d, double now)
 {
     if (terminal_asked < 2) return 0;
     if (now - d->sent_at < 2) return 1;
@@ -223,7 +228,7 @@ static int display_behind(display *d, double now)
 }
 
 /* Until the user ends it (0) or the terminal is gone (1) */
-static int display_run(display *d, const sigset_t *mask)
+static inline int display_run(display *d, const sigset_t *mask)
 {
     double step = 1.0 / d->options->rate, before = terminal_now();
     for (;;) {
@@ -246,7 +251,7 @@ static int display_run(display *d, const sigset_t *mask)
     }
 }
 
-static void display_tell_cost(const display *d, double seconds)
+static inline void display_tell_cost(const display *d, double seconds)
 {
     size_t more = d->frames > 1 ? (size_t)d->frames - 1 : 1;
     fprintf(stderr, "%d frames in %.2f s, the first of %lu bytes, the others of %lu on average\n",
@@ -255,13 +260,13 @@ static void display_tell_cost(const display *d, double seconds)
 }
 
 /* What main returns */
-static int show_in_terminal(scene *s, const view_options *o)
+static inline int show_in_terminal(scene *s, const view_options *o)
 {
     static display d;
     sigset_t mask;
     double begin = terminal_now();
     int gone;
-    d.scene = s, d.options = o, d.paced = 1;
+    d.scene = s, d.options = o, d.paced = 1, d.said_until = begin + 6;
     d.screen.colors = o->colors;
     d.screen.whole = !terminal_has_blocks();
     atexit(terminal_leave);

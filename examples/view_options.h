@@ -29,7 +29,7 @@ static const char view_usage[] =
     "The key ? lists the others.\n";
 
 /* One line, and the exit code for it */
-static int view_complain(const char *format, const char *what)
+static inline int view_complain(const char *format, const char *what)
 {
     fputs("view: ", stderr);
     fprintf(stderr, format, what);
@@ -37,7 +37,7 @@ static int view_complain(const char *format, const char *what)
     return 1;
 }
 
-static int view_read_number(const char *text, int lowest, int highest, int *out)
+static inline int view_read_number(const char *text, int lowest, int highest, int *out)
 {
     char *end;
     long value = strtol(text, &end, 10);
@@ -46,7 +46,7 @@ static int view_read_number(const char *text, int lowest, int highest, int *out)
 }
 
 /* One option and its value.  Returns 0 where the value is none of its. */
-static int view_set_option(view_options *o, const char *name, const char *value)
+static inline int view_set_option(view_options *o, const char *name, const char *value)
 {
     if (!strcmp(name, "--rate")) return view_read_number(value, 1, 240, &o->rate);
     if (!strcmp(name, "--frames")) return view_read_number(value, 1, 1000000, &o->frames);
@@ -59,7 +59,7 @@ static int view_set_option(view_options *o, const char *name, const char *value)
 }
 
 /* An option without a value.  Returns 0 where there is no such. */
-static int view_set_flag(view_options *o, const char *name)
+static inline int view_set_flag(view_options *o, const char *name)
 {
     if (!strcmp(name, "--window"))
         o->window = 1;
@@ -73,7 +73,7 @@ static int view_set_flag(view_options *o, const char *name)
 }
 
 /* 0: go on; 1: failed; -1: all said */
-static int view_read_options(view_options *o, int argc, char **argv)
+static inline int view_read_options(view_options *o, int argc, char **argv)
 {
     static const char *const valued[4] = { "--rate", "--frames", "--up", "--colors" };
     for (int i = 1; i < argc; i++) {

@@ -21,23 +21,24 @@ enum { BACKDROP_DUSK, BACKDROP_DAYLIGHT, BACKDROP_BLACK };
 enum { WIRE_OFF, WIRE_OVER, WIRE_ALONE };
 
 typedef struct scene_choice {
-    char key;
-    const char *what;
+    const char *what, *name[6];
     int count;
-    const char *name[6];
+    char key;
 } scene_choice;
 static const scene_choice scene_choices[CHOICES] = {
-    { 'm', "material", 1 + SHADE_PRESET_COUNT, { "clay" } },
-    { 's', "shading", 3, { "per fragment", "per vertex", "per face" } },
-    { 'l', "lamp", 6, { "studio", "sun", "near", "spot", "two colors", "at the eye" } },
-    { 't', "terms", 4, { "all", "ambient", "diffuse", "specular" } },
-    { 'e', "model", 6,
-      { "Blinn-Phong", "Phong", "Lambert", "ambient", "emissive", "cool to warm" } },
-    { 'f', "flag", 5,
-      { "none", "ungated specular", "weighted specular", "two-sided abs", "infinite viewer" } },
-    { 'b', "background", 3, { "dusk", "daylight", "black" } },
-    { 'w', "wires", 3, { "off", "over", "alone" } },
-    { 'g', "ground", 2, { "shadow", "none" } },
+    { "material", { "clay" }, 1 + SHADE_PRESET_COUNT, 'm' },
+    { "shading", { "per fragment", "per vertex", "per face" }, 3, 's' },
+    { "lamp", { "studio", "sun", "near", "spot", "two colors", "at the eye" }, 6, 'l' },
+    { "terms", { "all", "ambient", "diffuse", "specular" }, 4, 't' },
+    { "model",
+      { "Blinn-Phong", "Phong", "Lambert", "ambient", "emissive", "cool to warm" },
+      6, 'e' },
+    { "flag",
+      { "none", "ungated specular", "weighted specular", "two-sided abs", "infinite viewer" },
+      5, 'f' },
+    { "background", { "dusk", "daylight", "black" }, 3, 'b' },
+    { "wires", { "off", "over", "alone" }, 3, 'w' },
+    { "ground", { "shadow", "none" }, 2, 'g' },
 };
 
 static const char *const scene_help[] = {
@@ -80,7 +81,7 @@ typedef struct frame_rate {
     int counted, rate;
 } frame_rate;
 
-static void frame_rate_count(frame_rate *f, double now)
+static inline void frame_rate_count(frame_rate *f, double now)
 {
     f->counted++;
     if (now - f->since < 0.5) return;
@@ -90,7 +91,7 @@ static void frame_rate_count(frame_rate *f, double now)
 
 /* ---- the model ------------------------------------------------------------------------------ */
 
-static owned_mesh scene_teapot(void)
+static inline owned_mesh scene_teapot(void)
 {
     enum { PIECES = 20 };
     owned_mesh m = mesh_new(teapot_vertex_count(PIECES), teapot_index_count(PIECES));
@@ -99,7 +100,7 @@ static owned_mesh scene_teapot(void)
 }
 
 /* As it was when loaded */
-static void scene_go_home(scene *s)
+static inline void scene_go_home(scene *s)
 {
     s->yaw = -0.5f, s->pitch = SCENE_PITCH, s->zoom = 1;
     s->turning = s->turning_at_home;
@@ -107,14 +108,14 @@ static void scene_go_home(scene *s)
 }
 
 /* The name of a file without its folders */
-static const char *scene_title(const char *path)
+static inline const char *scene_title(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash && slash[1] ? slash + 1 : path;
 }
 
 /* Into a zeroed scene.  Returns 1 where it has complained. */
-static int scene_load(scene *s, const view_options *o, mesh_progress *progress, void *user)
+static inline int scene_load(scene *s, const view_options *o, mesh_progress *progress, void *user)
 {
     char error[400];
     int z_up = o->z_up >= 0 ? o->z_up : o->model && mesh_is_stl(o->model, NULL, 0);
@@ -131,10 +132,10 @@ static int scene_load(scene *s, const view_options *o, mesh_progress *progress, 
     ground_cast(&s->shadow, &s->mesh.view);
     return 0;
 }
-static void scene_close(scene *s) { mesh_free(&s->mesh), free(s->wires); }
+static inline void scene_close(scene *s) { mesh_free(&s->mesh), free(s->wires); }
 
 /* Every edge once, as pairs of points; none where there are more than memory holds */
-static void scene_find_wires(scene *s)
+static inline void scene_find_wires(scene *s)
 {
     const shade_mesh *m = &s->mesh.view;
     size_t room = (size_t)m->index_count;
@@ -154,7 +155,7 @@ static void scene_find_wires(scene *s)
 typedef struct scene_words {
     char text[64];
 } scene_words;
-static scene_words scene_caption(const scene *s)
+static inline scene_words scene_caption(const scene *s)
 {
     scene_words w;
     int n = s->mesh.view.index_count / 3;
@@ -164,13 +165,13 @@ static scene_words scene_caption(const scene *s)
 
 /* ---- keys ----------------------------------------------------------------------------------- */
 
-static const char *scene_choice_name(int choice, int value)
+static inline const char *scene_choice_name(int choice, int value)
 {
     if (choice == CHOICE_MATERIAL && value) return shade_preset_name((shade_preset)(value - 1));
     return scene_choices[choice].name[value];
 }
 
-static void scene_step(scene *s, int choice, int step)
+static inline void scene_step(scene *s, int choice, int step)
 {
     const scene_choice *c = &scene_choices[choice];
     s->choice[choice] = (s->choice[choice] + step + c->count) % c->count;
@@ -179,18 +180,18 @@ static void scene_step(scene *s, int choice, int step)
     if (choice == CHOICE_WIRE && s->choice[choice] && !s->wires) scene_find_wires(s);
 }
 
-static void scene_turn(scene *s, float right, float down)
+static inline void scene_turn(scene *s, float right, float down)
 {
     s->yaw = fmodf(s->yaw + right, 6.2831853f);
     s->pitch = fmaxf(-1.57f, fminf(1.57f, s->pitch + down));
 }
-static void scene_zoom(scene *s, float factor)
+static inline void scene_zoom(scene *s, float factor)
 {
     s->zoom = fmaxf(0.2f, fminf(20, s->zoom * factor));
 }
 
 /* 1 where the key is the scene's */
-static int scene_key(scene *s, int key)
+static inline int scene_key(scene *s, int key)
 {
     const float step = 0.12f;
     *s->said = 0;
@@ -235,7 +236,8 @@ static int scene_key(scene *s, int key)
 /* The nearest distance from which the model stays in the picture however it turns about its upright
    axis, and the height that centres it.  A point at radius r, height y travels a circle; against
    the four planes of the view its extremes have a closed form. */
-static void scene_fit(const scene *s, float slope_x, float slope_y, float *distance, float *rise)
+static inline void scene_fit(const scene *s, float slope_x, float slope_y, float *distance,
+                             float *rise)
 {
     shade_vec2 tilt;
     float side = 0, above = -9, below = -9;
@@ -257,7 +259,7 @@ static void scene_fit(const scene *s, float slope_x, float slope_y, float *dista
 }
 
 /* aspect: width by height of the picture as it is seen */
-static scene_camera scene_place_camera(const scene *s, float aspect)
+static inline scene_camera scene_place_camera(const scene *s, float aspect)
 {
     scene_camera c;
     shade_mat4 lens = shade_mat4_perspective(SCENE_LENS, aspect, 1, 2);
@@ -273,13 +275,13 @@ static scene_camera scene_place_camera(const scene *s, float aspect)
 }
 
 /* Colours of text before the picture, and of the box behind longer ones */
-static uint32_t scene_ink(const scene *s)
+static inline uint32_t scene_ink(const scene *s)
 {
     return s->choice[CHOICE_BACKDROP] == BACKDROP_DAYLIGHT ? 0x2a323a : 0xc3ccd6;
 }
 enum { SCENE_BOX = 0x14191e, SCENE_BOX_INK = 0xe6ebf0 };
 
-static void scene_backdrop(const scene *s, const shade_target *target, int rows)
+static inline void scene_backdrop(const scene *s, const shade_target *target, int rows)
 {
     static const uint32_t top[3] = { 0x20262e, 0xdfe6ec, 0 }, bottom[3] = { 0x59626d, 0x9aa5b0, 0 };
     int b = s->choice[CHOICE_BACKDROP];
@@ -294,7 +296,7 @@ static void scene_backdrop(const scene *s, const shade_target *target, int rows)
 
 /* Lamps stay with the viewer, who stands on +z.  Returns how many, at most 4.  The studio's are a
    key from above, a fill from beside it, one from behind for the outline and the ground's own. */
-static int scene_lamps(const scene *s, shade_light *light, shade_vec3 *ambient)
+static inline int scene_lamps(const scene *s, shade_light *light, shade_vec3 *ambient)
 {
     shade_vec3 white = shade_v3(1.5f, 1.5f, 1.5f);
     *ambient = shade_v3(0.08f, 0.08f, 0.09f);
@@ -325,7 +327,7 @@ static int scene_lamps(const scene *s, shade_light *light, shade_vec3 *ambient)
     return 4;
 }
 
-static shade_material scene_material(const scene *s)
+static inline shade_material scene_material(const scene *s)
 {
     shade_material clay = {
         { 0, 0, 0 }, { 0.46f, 0.41f, 0.36f }, { 0.46f, 0.41f, 0.36f }, { 0.10f, 0.10f, 0.10f }, 30
@@ -337,8 +339,8 @@ static shade_material scene_material(const scene *s)
 /* Front faces first; back faces (of sheets, or seen through holes) with normals turned to the
    viewer.  Turned on front faces too, they would leave dark specks along the outline of a coarse
    mesh, where they lean away. */
-static shade_result scene_draw_model(const scene *s, const shade_target *target,
-                                     shade_draw_state *state)
+static inline shade_result scene_draw_model(const scene *s, const shade_target *target,
+                                            shade_draw_state *state)
 {
     static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
                                       SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
@@ -350,7 +352,7 @@ static shade_result scene_draw_model(const scene *s, const shade_target *target,
     return result ? result : shade_draw_mesh(target, &s->mesh.view, state, NULL);
 }
 
-static shade_line_state scene_pen(const scene_camera *c, float width, shade_vec3 color)
+static inline shade_line_state scene_pen(const scene_camera *c, float width, shade_vec3 color)
 {
     shade_line_state pen = { 0 };
     pen.clip_from_points = shade_mat4_mul(c->projection, shade_mat4_mul(c->view, c->model));
@@ -360,8 +362,8 @@ static shade_line_state scene_pen(const scene_camera *c, float width, shade_vec3
 }
 
 /* target: samples times as wide and high as the picture */
-static shade_result scene_draw(const scene *s, const shade_target *target, const scene_camera *c,
-                               int samples)
+static inline shade_result scene_draw(const scene *s, const shade_target *target,
+                                      const scene_camera *c, int samples)
 {
     static const unsigned terms[4] = { 0, SHADE_TERM_AMBIENT, SHADE_TERM_DIFFUSE,
                                        SHADE_TERM_SPECULAR };

@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-static double terminal_now(void)
+static inline double terminal_now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -35,7 +35,7 @@ static volatile sig_atomic_t terminal_entered, terminal_resized, terminal_stoppe
 static volatile sig_atomic_t terminal_asked; /* reports that the terminal still owes us */
 
 /* 1: it takes no more */
-static int terminal_write(const char *bytes, size_t size)
+static inline int terminal_write(const char *bytes, size_t size)
 {
     while (size > 0) {
         ssize_t n = write(STDOUT_FILENO, bytes, size);
@@ -51,7 +51,7 @@ static int terminal_write(const char *bytes, size_t size)
 
 /* Takes in the reports on their way (each ends in n), so that the shell does not: waits 0.3 s at
    most. */
-static void terminal_drain(void)
+static inline void terminal_drain(void)
 {
     struct pollfd in = { STDIN_FILENO, POLLIN, 0 };
     for (int tries = 0; terminal_asked > 0 && tries < 3; tries++) {
@@ -64,7 +64,7 @@ static void terminal_drain(void)
 }
 
 /* Safe in a signal handler, and to be called twice */
-static void terminal_leave(void)
+static inline void terminal_leave(void)
 {
     int error = errno;
     if (!terminal_entered) return;
@@ -75,7 +75,7 @@ static void terminal_leave(void)
     errno = error;
 }
 
-static void terminal_enter(void)
+static inline void terminal_enter(void)
 {
     struct termios mode;
     if (!terminal_entered && tcgetattr(STDIN_FILENO, &terminal_before)) return;
@@ -92,19 +92,19 @@ static void terminal_enter(void)
 /* ---- signals -------------------------------------------------------------------------------- */
 
 /* SA_RESETHAND has put the default action back, which does the rest. */
-static void terminal_die(int number)
+static inline void terminal_die(int number)
 {
     terminal_leave();
     raise(number);
 }
-static void terminal_note(int number)
+static inline void terminal_note(int number)
 {
     if (number == SIGWINCH) terminal_resized = 1;
     if (number == SIGTSTP) terminal_stopped = 1;
     if (number == SIGCONT) terminal_continued = 1;
 }
 
-static void terminal_catch(int number, void (*handler)(int), int flags)
+static inline void terminal_catch(int number, void (*handler)(int), int flags)
 {
     struct sigaction action, before;
     memset(&action, 0, sizeof action);
@@ -117,7 +117,7 @@ static void terminal_catch(int number, void (*handler)(int), int flags)
 /* Every signal that ends a program leaves the terminal first, on a stack of its own: the program's
    may be what has run out.  Those that do not are held back until terminal_wait, whose mask this
    fills in. */
-static void terminal_catch_all(sigset_t *mask)
+static inline void terminal_catch_all(sigset_t *mask)
 {
     static const int fatal[] = { SIGHUP, SIGINT,  SIGQUIT, SIGILL,    SIGABRT, SIGFPE,  SIGSEGV,
                                  SIGBUS, SIGTERM, SIGPIPE, SIGALRM,   SIGUSR1, SIGUSR2, SIGTRAP,
@@ -141,7 +141,7 @@ static void terminal_catch_all(sigset_t *mask)
 }
 
 /* Stops as the terminal's ^Z asks, and comes back. */
-static void terminal_stop(void)
+static inline void terminal_stop(void)
 {
     sigset_t stop, before;
     struct sigaction action, ours;
@@ -166,7 +166,7 @@ typedef struct terminal_size {
     float shape;
 } terminal_size;
 
-static terminal_size terminal_measure(void)
+static inline terminal_size terminal_measure(void)
 {
     terminal_size s = { 80, 24, 1 };
     struct winsize w;
@@ -195,7 +195,7 @@ typedef struct terminal_keys {
 } terminal_keys;
 
 /* The next numbers of a sequence such as <0;12;5 */
-static void terminal_numbers(const unsigned char *p, const unsigned char *end, int number[3])
+static inline void terminal_numbers(const unsigned char *p, const unsigned char *end, int number[3])
 {
     number[0] = number[1] = number[2] = 0;
     for (int k = 0; p < end && k < 3; p++) {
@@ -207,7 +207,7 @@ static void terminal_numbers(const unsigned char *p, const unsigned char *end, i
 }
 
 /* A control sequence whose last byte is *end */
-static input terminal_sequence(const unsigned char *begin, const unsigned char *end)
+static inline input terminal_sequence(const unsigned char *begin, const unsigned char *end)
 {
     input in = { INPUT_NONE, 0, 0, 0, 0 };
     int number[3];
@@ -224,9 +224,19 @@ static input terminal_sequence(const unsigned char *begin, const unsigned char *
     return in;
 }
 
+/* The old form of the mouse, for terminals that know no other: ESC [ M and three bytes */
+static inline size_t terminal_old_mouse(const unsigned char *p, size_t size, input *in)
+{
+    if (size < 6) return 0;
+    in->kind = INPUT_MOUSE;
+    in->button = p[3] - 32, in->column = p[4] - 32, in->row = p[5] - 32;
+    if ((in->button & 3) == 3 && !(in->button & MOUSE_MOVED)) in->kind = INPUT_NONE;
+    return 6;
+}
+
 /* Takes one key, click or report off the front.  Returns the bytes it had, 0: not all of it is
    here. */
-static size_t terminal_parse(const unsigned char *p, size_t size, input *in)
+static inline size_t terminal_parse(const unsigned char *p, size_t size, input *in)
 {
     size_t n = 2;
     in->kind = INPUT_KEY, in->key = *p;
@@ -236,12 +246,13 @@ static size_t terminal_parse(const unsigned char *p, size_t size, input *in)
     if (p[1] != '[' && p[1] != 'O') return 1;
     while (n < size && p[n] >= ' ' && p[n] < '@') n++;
     if (n == size) return size < 64 ? 0 : size;
+    if (n == 2 && p[1] == '[' && p[n] == 'M') return terminal_old_mouse(p, size, in);
     if (p[n] < 127 && p[n] >= '@') *in = terminal_sequence(p + 2, p + n);
     return n + 1;
 }
 
 /* What has arrived, one at a time; INPUT_NONE: nothing more */
-static input terminal_next(terminal_keys *k)
+static inline input terminal_next(terminal_keys *k)
 {
     input in = { INPUT_NONE, 0, 0, 0, 0 };
     struct pollfd arrived = { STDIN_FILENO, POLLIN, 0 };
@@ -263,7 +274,7 @@ static input terminal_next(terminal_keys *k)
 }
 
 /* Until a key, a signal or the end of so many seconds */
-static void terminal_wait(double seconds, const sigset_t *mask)
+static inline void terminal_wait(double seconds, const sigset_t *mask)
 {
     fd_set in;
     struct timespec t;

@@ -28,7 +28,7 @@ typedef struct window {
 /* ---- the window ------------------------------------------------------------------------------ */
 
 /* Returns 1 where it has complained. */
-static int window_open(window *w)
+static inline int window_open(window *w)
 {
     SDL_SetMainReady();
     if (SDL_Init(SDL_INIT_VIDEO)) return view_complain("no window: %s", SDL_GetError());
@@ -40,7 +40,7 @@ static int window_open(window *w)
     return 0;
 }
 
-static void window_close(window *w)
+static inline void window_close(window *w)
 {
     free(w->large.color), free(w->large.depth);
     if (w->texture) SDL_DestroyTexture(w->texture);
@@ -50,7 +50,7 @@ static void window_close(window *w)
 }
 
 /* Makes texture and samples fit the window.  Returns 0 where it has no area, or complained. */
-static int window_fit(window *w)
+static inline int window_fit(window *w)
 {
     int width = 0, height = 0, mouse_width = 1, mouse_height = 1;
     size_t pixels;
@@ -77,10 +77,13 @@ static int window_fit(window *w)
 /* ---- frames ---------------------------------------------------------------------------------- */
 
 /* Pixels to a dot of the letters */
-static int window_dot(const window *w) { return w->scale > 1 ? (int)(1.5f * w->scale + 0.5f) : 2; }
+static inline int window_dot(const window *w)
+{
+    return w->scale > 1 ? (int)(1.5f * w->scale + 0.5f) : 2;
+}
 
-static void window_text(const window *w, const shade_target *t, int column, int row, uint32_t color,
-                        const char *text)
+static inline void window_text(const window *w, const shade_target *t, int column, int row,
+                               uint32_t color, const char *text)
 {
     int dot = window_dot(w), margin = 4 * dot;
     int x = margin + 6 * dot * column, y = margin + 10 * dot * row;
@@ -89,7 +92,7 @@ static void window_text(const window *w, const shade_target *t, int column, int 
     label_draw(t, x, y, dot, shade_rgb(color), text);
 }
 
-static void window_help(const window *w, const shade_target *t)
+static inline void window_help(const window *w, const shade_target *t)
 {
     int dot = window_dot(w);
     shade_target box = *t;
@@ -99,7 +102,7 @@ static void window_help(const window *w, const shade_target *t)
     for (int k = 0; k < SCENE_HELP; k++) window_text(w, t, 1, k + 3, SCENE_BOX_INK, scene_help[k]);
 }
 
-static void window_words(const window *w, const shade_target *t)
+static inline void window_words(const window *w, const shade_target *t)
 {
     uint32_t ink = scene_ink(w->scene);
     char text[80];
@@ -119,7 +122,7 @@ static void window_words(const window *w, const shade_target *t)
 }
 
 /* The triangle under the mouse gets a bright edge that what is before it hides. */
-static void window_mark(window *w, const shade_target *target, const scene_camera *c)
+static inline void window_mark(window *w, const shade_target *target, const scene_camera *c)
 {
     const shade_mesh *m = &w->scene->mesh.view;
     shade_line_state pen = scene_pen(c, 2 * w->scale * (float)w->samples, shade_rgb(0xff9a1f));
@@ -141,37 +144,42 @@ static void window_mark(window *w, const shade_target *target, const scene_camer
     shade_draw_lines(target, edge, 6, &pen, NULL);
 }
 
-/* Draws with as many samples as w->samples into the texture and shows it.  1: it cannot. */
-static int window_frame(window *w)
+/* The texture's pixels, to be drawn into and shown.  1: there are none. */
+static inline int window_lock(const window *w, shade_target *out)
 {
-    shade_target out = { .width = w->width, .height = w->height, .format = SHADE_FORMAT_BGRA8 };
-    scene_camera camera = scene_place_camera(w->scene, (float)w->width / (float)w->height);
-    void *pixels;
+    static const shade_target none;
     int pitch;
-    w->large.width = w->width * w->samples, w->large.height = w->height * w->samples;
-    scene_draw(w->scene, &w->large, &camera, w->samples);
-    window_mark(w, &w->large, &camera);
-    if (SDL_LockTexture(w->texture, NULL, &pixels, &pitch)) return 1;
-    out.color = pixels, out.stride = pitch / 4, out.srgb = 1;
-    shade_resolve(&out, &w->large, w->samples);
-    window_words(w, &out);
+    *out = none;
+    if (SDL_LockTexture(w->texture, NULL, &out->color, &pitch)) return 1;
+    out->width = w->width, out->height = w->height, out->stride = pitch / 4;
+    out->format = SHADE_FORMAT_BGRA8, out->srgb = 1;
+    return 0;
+}
+static inline void window_show(const window *w)
+{
     SDL_UnlockTexture(w->texture);
     SDL_RenderCopy(w->renderer, w->texture, NULL, NULL);
     SDL_RenderPresent(w->renderer);
+}
+
+/* With as many samples as w->samples.  1: it cannot. */
+static inline int window_frame(window *w)
+{
+    scene_camera camera = scene_place_camera(w->scene, (float)w->width / (float)w->height);
+    shade_target out;
+    w->large.width = w->width * w->samples, w->large.height = w->height * w->samples;
+    scene_draw(w->scene, &w->large, &camera, w->samples);
+    window_mark(w, &w->large, &camera);
+    if (window_lock(w, &out)) return 1;
+    shade_resolve(&out, &w->large, w->samples);
+    window_words(w, &out);
+    window_show(w);
     return 0;
 }
 
 /* ---- events ---------------------------------------------------------------------------------- */
 
-static int window_key(SDL_Keycode key)
-{
-    static const SDL_Keycode arrow[4] = { SDLK_UP, SDLK_DOWN, SDLK_LEFT, SDLK_RIGHT };
-    for (int k = 0; k < 4; k++)
-        if (key == arrow[k]) return KEY_UP + k;
-    return 0;
-}
-
-static void window_press(window *w, int key)
+static inline void window_press(window *w, int key)
 {
     if (key == 'q' || key == 'Q')
         w->closed = 1;
@@ -181,7 +189,15 @@ static void window_press(window *w, int key)
         w->changed = 1;
 }
 
-static void window_mouse(window *w, const SDL_MouseMotionEvent *e)
+/* Other keys come as text. */
+static inline void window_arrow(window *w, SDL_Keycode key)
+{
+    static const SDL_Keycode arrow[4] = { SDLK_UP, SDLK_DOWN, SDLK_LEFT, SDLK_RIGHT };
+    for (int k = 0; k < 4; k++)
+        if (key == arrow[k]) window_press(w, KEY_UP + k);
+}
+
+static inline void window_mouse(window *w, const SDL_MouseMotionEvent *e)
 {
     w->mouse_inside = 1, w->mouse_x = e->x, w->mouse_y = e->y;
     w->dragging = (e->state & SDL_BUTTON_LMASK) != 0;
@@ -189,14 +205,14 @@ static void window_mouse(window *w, const SDL_MouseMotionEvent *e)
     w->changed = 1;
 }
 
-static void window_event(window *w, const SDL_Event *e)
+static inline void window_event(window *w, const SDL_Event *e)
 {
     switch (e->type) {
     case SDL_QUIT:
         w->closed = 1;
         break;
     case SDL_KEYDOWN:
-        window_press(w, window_key(e->key.keysym.sym));
+        window_arrow(w, e->key.keysym.sym);
         break;
     case SDL_TEXTINPUT:
         window_press(w, (unsigned char)e->text.text[0]);
@@ -221,7 +237,7 @@ static void window_event(window *w, const SDL_Event *e)
 }
 
 /* Takes what has come, waiting for the first at most so long. */
-static void window_events(window *w, double seconds)
+static inline void window_events(window *w, double seconds)
 {
     SDL_Event e;
     int some =
@@ -239,12 +255,12 @@ typedef struct window_loading {
     int failed;
 } window_loading;
 
-static void window_progress(void *user, double part)
+static inline void window_progress(void *user, double part)
 {
     SDL_AtomicSet(&((window_loading *)user)->percent, (int)(100 * part));
 }
 
-static int window_load_thread(void *user)
+static inline int window_load_thread(void *user)
 {
     window_loading *l = (window_loading *)user;
     l->failed = scene_load(l->scene, l->options, window_progress, l);
@@ -252,26 +268,20 @@ static int window_load_thread(void *user)
     return 0;
 }
 
-static void window_show_progress(window *w, int percent)
+static inline void window_show_progress(window *w, int percent)
 {
-    shade_target out = { .width = w->width, .height = w->height, .format = SHADE_FORMAT_BGRA8 };
+    shade_target out;
     char text[40];
-    void *pixels;
-    int pitch;
     snprintf(text, sizeof text, "reading %d", percent);
-    if (!window_fit(w) || SDL_LockTexture(w->texture, NULL, &pixels, &pitch)) return;
-    out.width = w->width, out.height = w->height;
-    out.color = pixels, out.stride = pitch / 4, out.srgb = 1;
+    if (!window_fit(w) || window_lock(w, &out)) return;
     scene_backdrop(w->scene, &out, 1);
     window_text(w, &out, 0, 0, scene_ink(w->scene), text);
-    SDL_UnlockTexture(w->texture);
-    SDL_RenderCopy(w->renderer, w->texture, NULL, NULL);
-    SDL_RenderPresent(w->renderer);
+    window_show(w);
 }
 
 /* Returns 1 where it has complained.  A window closed meanwhile ends the program here: the thread
    may be stuck in a read, and exit() would wait for the file that it holds. */
-static int window_load(window *w)
+static inline int window_load(window *w)
 {
     static scene loaded;
     static window_loading l;
@@ -289,18 +299,19 @@ static int window_load(window *w)
     }
     SDL_WaitThread(thread, NULL);
     *w->scene = loaded;
+    if (!l.failed) SDL_SetWindowTitle(w->window, w->scene->title);
     return l.failed;
 }
 
 /* ---- all of it ------------------------------------------------------------------------------- */
 
-static double window_now(void)
+static inline double window_now(void)
 {
     return (double)SDL_GetPerformanceCounter() / (double)SDL_GetPerformanceFrequency();
 }
 
 /* In motion as many samples as keep it fluent */
-static void window_keep_pace(window *w, double seconds)
+static inline void window_keep_pace(window *w, double seconds)
 {
     if (w->samples == 1)
         w->quick = seconds < 0.008 && w->most > 1 ? 2 : 1;
@@ -308,7 +319,7 @@ static void window_keep_pace(window *w, double seconds)
         w->quick = 1;
 }
 
-static int window_step(window *w, double passed)
+static inline int window_step(window *w, double passed)
 {
     double begin = window_now();
     if (w->scene->turning) scene_turn(w->scene, 0.6f * (float)passed, 0);
@@ -322,7 +333,7 @@ static int window_step(window *w, double passed)
 
 /* At rest the last frame is drawn once more with all samples, as soon as nothing has happened for
    a while. */
-static int window_run(window *w)
+static inline int window_run(window *w)
 {
     double step = 1.0 / w->options->rate, before = window_now(), next = before, now = before;
     while (!w->closed && !(w->options->frames && w->frames >= w->options->frames)) {
@@ -340,7 +351,7 @@ static int window_run(window *w)
 }
 
 /* What main returns */
-static int show_in_window(scene *s, const view_options *o)
+static inline int show_in_window(scene *s, const view_options *o)
 {
     static window w;
     int failed;

@@ -1,0 +1,79 @@
+# window.sh - part of view.sh: the window of view with SDL's dummy driver, and under Xvfb with
+# xdotool at keys and mouse.
+
+if ! grep -q SDL_Init "$VIEW"; then
+    check "--window without SDL2" refused "built without SDL2" "$VIEW" --window
+    echo "no SDL2: the window is left out"
+    return
+fi
+dummy="env SDL_VIDEODRIVER=dummy SDL_RENDER_DRIVER=software $VIEW --window"
+ended() { ! kill -0 "$window" 2>/dev/null; }
+# The window has ended by itself, with status 0.
+closed() { soon ended && wait "$window"; }
+check "no display" refused "no window" env SDL_VIDEODRIVER=x11 "$VIEW" --window
+check "ten frames without a screen" $dummy --frames 10
+check "of a file, at rest" $dummy --frames 2 --still "$T/one.obj"
+for file in missing.obj "$T" "$T/empty.obj" "$T/cut.obj" "$T/cut.stl"; do
+    check "in a window: ${file##*/}" refused "$file" $dummy "$file"
+done
+mkfifo "$T/slow.obj"
+$dummy "$T/slow.obj" & window=$!
+sleep 1
+kill -TERM "$window"
+check "closed while it waits for its file" closed
+
+for tool in Xvfb xdotool xwd; do
+    command -v $tool >/dev/null || { echo "no $tool: the window on a screen is left out"; return; }
+done
+Xvfb -displayfd 3 -noreset -screen 0 1000x800x24 3>"$T/display" >/dev/null 2>&1 &
+X=$!
+soon test -s "$T/display"
+DISPLAY=:$(cat "$T/display")
+export DISPLAY SDL_RENDER_DRIVER=software SDL_VIDEODRIVER=x11
+number() { xdotool search --onlyvisible --name "$1" | tail -n 1; }
+# The window's width, height, changes of colour and pixels of one color, once it holds a picture
+look() {
+    xwd -silent -id "$(number .)" >"$T/picture" && found=$("$T/check" window "$1" <"$T/picture") &&
+        [ "$(echo "$found" | cut -d ' ' -f 3)" -gt 100 ]
+}
+picture() { look 000000; }
+open() { "$VIEW" --window "$@" & window=$!; soon picture; }
+more() { look "$2" && [ "${found##* }" -gt "$1" ]; }
+size() { picture && same "${found% * *}" "$1"; }
+keep() { sleep 0.7; picture; cp "$T/picture" "$T/kept"; }
+changed() { picture && ! cmp -s "$T/picture" "$T/kept"; }
+as_kept() { picture && cmp "$T/picture" "$T/kept"; }
+
+open --still "$T/two.obj"
+check "a picture in the window" picture
+xdotool mousemove 999 799
+keep
+check "the mouse elsewhere marks no triangle" no more 0 ffb454
+xdotool mousemove 420 420
+check "the mouse on the model tells the triangle" soon more 20 ffb454
+check "and marks its edge" soon more 100 ff9a1f
+cp "$T/kept" "$T/bare"
+keep
+xdotool mousemove 520 380
+check "another triangle, another mark" soon changed
+cp "$T/bare" "$T/kept"
+xdotool mousemove 999 799
+check "and no longer" soon as_kept
+for key in m s l e b w g Left Up plus h; do
+    keep
+    xdotool key $key
+    check "key $key in the window" soon changed
+done
+xdotool key h r
+keep
+xdotool mousemove 400 400 mousedown 1 mousemove 500 420 mouseup 1 mousemove 999 799
+check "dragging turns" soon changed
+xdotool windowsize "$(number .)" 500 300
+check "resized: a picture of that size" soon size "500 300"
+xdotool key q
+check "q closes the window" closed
+open
+keep
+check "it turns by itself" soon changed
+kill -TERM "$window"
+check "closing ends the program" closed
