@@ -24,7 +24,7 @@ VIEW     = $(shell echo | $(CC) -fsyntax-only -include termios.h -x c - 2>/dev/n
                    echo build/view || echo 'no termios.h: view is left out' >&2)
 SDL2     = $(shell flags="$$(sdl2-config --cflags --libs 2>/dev/null | sed 's/-I/-isystem /g')"; \
                    echo 'int main(int n, char **v) { return v && SDL_Init(0) > n; }' | \
-                   $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && \
+                   $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && rm -f $@.sdl2 && \
                    echo -DVIEW_SDL $$flags || echo 'no SDL2: the window of view is left out' >&2)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))

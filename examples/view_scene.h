@@ -253,7 +253,7 @@ static inline void scene_fit(const scene *s, float slope_x, float slope_y, float
         below =
             fmaxf(below, y * (slope_y * tilt.y - tilt.x) + r * fabsf(slope_y * tilt.x + tilt.y));
     }
-    *distance = 1.06f * fmaxf(side / slope_x, (above + below) / (2 * slope_y));
+    *distance = 1.12f * fmaxf(side / slope_x, (above + below) / (2 * slope_y));
     *distance = fmaxf(*distance, 1.1f);
     *rise = (below - above) / 2;
 }
@@ -372,19 +372,21 @@ static inline shade_result scene_draw(const scene *s, const shade_target *target
     shade_draw_state state = { .model = c->model, .view = c->view, .projection = c->projection };
     shade_material material = scene_material(s);
     shade_light lamps[4];
-    shade_line_state pen = scene_pen(c, (float)samples * 0.6f, shade_rgb(0x0d1216));
-    shade_result result = SHADE_OK;
+    shade_line_state pen = scene_pen(c, (float)samples * 0.5f, shade_rgb(0x0d1216));
+    shade_target body = *target; /* without colours where it only hides wires */
+    shade_result result;
     state.material = &material, state.shading = shadings[s->choice[CHOICE_SHADING]];
     state.lighting.light_count = scene_lamps(s, lamps, &state.lighting.ambient);
     state.lighting.lights = lamps;
     state.lighting.model = (shade_model)s->choice[CHOICE_MODEL];
     state.lighting.terms = terms[s->choice[CHOICE_TERM]];
+    state.lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
+    state.lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
     scene_backdrop(s, target, samples);
-    if (s->choice[CHOICE_WIRE] != WIRE_ALONE)
-        result = scene_draw_model(s, target, &state);
-    else
-        pen.color = shade_v4(0.8f, 0.85f, 0.9f, 1);
-    if (!result && s->choice[CHOICE_GROUND] == 0) 
+    if (s->choice[CHOICE_WIRE] == WIRE_ALONE)
+        body.color = NULL, pen.color = shade_v4(0.8f, 0.85f, 0.9f, 1);
+    result = scene_draw_model(s, &body, &state);
+    if (!result && s->choice[CHOICE_GROUND] == 0)
         result = ground_draw(&s->shadow, target, c->model, c->view, c->projection);
     if (!result && s->choice[CHOICE_WIRE])
         result = shade_draw_lines(target, s->wires, s->wire_points, &pen, NULL);
