@@ -2733,7 +2733,8 @@ static void shade__triangles(shade__draw *d)
              neighbours get the same bits and no crack opens.  Facing is that of the whole polygon.
                                                                                        >>blocks */
 
-enum { SHADE__CLIP_VERTICES = 18 };    /* 3, two for each of 7 planes, one only bent ones reach */
+/* 3, one more for each of 7 planes, two while one cuts, and the first, for CONSTANT */
+enum { SHADE__CLIP_VERTICES = 13 };
 
 /* Signed distance to a plane, times a positive factor; inside >= 0. */
 static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_one)
@@ -2754,7 +2755,8 @@ typedef struct shade__polygon {
     shade__vertex vertex[SHADE__CLIP_VERTICES];
     float   value[SHADE__CLIP_VERTICES * SHADE__VALUES_MAX];
     uint8_t corner[SHADE__CLIP_VERTICES];
-    int     count, used;    /* corners, in order; vertices made so far */
+    int     count;          /* corners, in order */
+    uint32_t taken;         /* vertices in use: bit v */
     int     on_screen;      /* values before plan.divided are linear on the screen: all w > 0 */
 } shade__polygon;
 
@@ -2765,8 +2767,9 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
                                  double d_in, double d_out)
 {
     double t = d_in / (d_in - d_out), s = t;
-    const int v = p->used++, stride = plan->value_stride;
+    const int v = SHADE__LOWEST_BIT(~p->taken), stride = plan->value_stride;
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
+    p->taken |= 1u << v;
     if (p->on_screen) {    /* rounding may leave a new vertex without w */
         double inner = d_in * (double)shade__maxf(p->vertex[out].clip[3], shade__w_least);
         s = inner / (inner - d_out * (double)shade__maxf(p->vertex[in].clip[3], shade__w_least));
@@ -2787,7 +2790,7 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32
     uint8_t kept[SHADE__CLIP_VERTICES];
     int count = 0;
     for (int i = 0; i < p->count; i++) {
-        if (p->used > SHADE__CLIP_VERTICES - 1) {    /* and so count is below that */
+        if (count > SHADE__CLIP_VERTICES - 2 || p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {
             p->count = 0;    /* coordinates so far apart that rounding bent the polygon */
             return;
         }
@@ -2799,7 +2802,11 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32
         if (da < 0 && db >= 0) kept[count++] = shade__new_vertex(plan, p, b, a, db, da);
     }
     p->count = count;
-    for (int i = 0; i < count; i++) p->corner[i] = kept[i];
+    p->taken = 1;
+    for (int i = 0; i < count; i++) {
+        p->corner[i] = kept[i];
+        p->taken |= 1u << kept[i];
+    }
 }
 
 /* The polygon of a triangle with its values not yet times rw.  Returns the planes it crosses. */
@@ -2808,7 +2815,7 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
 {
     const int stride = plan->value_stride;
     uint32_t out = 0;
-    p->count = p->used = 3, p->on_screen = 1;
+    p->count = 3, p->taken = 7, p->on_screen = 1;
     SHADE_MEMSET(p->value, 0, sizeof p->value);
     for (int i = 0; i < 3; i++) {
         const float *value = b->value + corner[i] * stride;
