@@ -39,7 +39,7 @@
    >>contents
      About      >>about  >>contents  >>conventions  >>model
      Public     >>config  >>types  >>math  >>light  >>draw
-     Inside     >>base  >>matrix  >>power  >>color  >>lighting  >>lanes
+     Inside     >>base  >>matrix  >>power  >>color  >>lighting  >>arrival  >>lanes
                 >>state  >>vertices  >>triangles  >>clip  >>blocks  >>cover  >>fragments  >>texture
                 >>store  >>drive  >>mesh  >>lines  >>shape  >>image
      Sources    >>refs  >>history  >>license
@@ -1546,7 +1546,7 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 
 /*--------------------------------------------------------------------------------------- >>lighting
    Lamps, single terms, presets: what is computed for one point, with exact roots and divisions;
-   and the surface that >>lanes lights.                                                 >>lanes */
+   and the surface that >>lanes lights.                                               >>arrival */
 
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
 {
@@ -1741,13 +1741,14 @@ SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, 
     return s->terms & term ? shade_mul(k, light) : shade_v3(0, 0, 0);
 }
 
-/*------------------------------------------------------------------------------------------ >>lanes
-   The equations of >>model for a packet, or for one point as a short block of it.  The light of
-   one lamp is cut into short loops over rows of temporaries: one fused loop per light measured 1.5
-   times slower, its many live values outgrow the processor.
-     in      rows of P, N, albedo, visibility         out  rows of rgb
-     holds   A lamp that reaches no lane (horizon, cone) is left after its first loops.
-             Error of 1/sqrt and powers: >>base, >>power.                               >>state */
+/*---------------------------------------------------------------------------------------- >>arrival
+   What of a lamp arrives at the points of a packet: direction, attenuation, cone.
+     in      rows of P                    out  shade__arrival
+     holds   Lanes are SHADE_LANES for packets, SHADE__POINT for a point alone, which takes the same
+             way.  Error of 1/sqrt and powers: >>base, >>power.                         >>lanes */
+
+/* A point takes a few lanes, which compilers still make vectors of. */
+enum { SHADE__POINT = 8 };
 
 /* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at
    infinity. */
@@ -1772,12 +1773,6 @@ typedef struct shade__arrival {
     float att[SHADE_LANES];       /* attenuation times cone */
     float cosine[SHADE_LANES];    /* L.S, where there is a cone; then N.L, signed */
 } shade__arrival;
-typedef struct shade__rows {
-    shade__arrival a;             /* of one lamp; in the end a.L.x holds its highlight */
-    float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
-    float rv[SHADE_LANES];        /* 1/|V| */
-} shade__rows;
-
 SHADE__INLINE void shade__directional(shade_vec3 L, const int n, shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
@@ -1842,6 +1837,75 @@ SHADE__INLINE uint32_t shade__arrive(const shade_light *light, const shade__lamp
     }
     return any;
 }
+
+SHADE__INLINE void shade__light_at_body(const shade_light *light, const shade__v3 *P, const int n,
+                                        shade__arrival *a)
+{
+    shade__lamp lamp = shade__lamp_of(light);
+    shade__arrive(light, &lamp, P, n, a);
+}
+SHADE__DISPATCH_AVX2(shade__light_at,
+                     (const shade_light *light, const shade__v3 *P, shade__arrival *a),
+                     (light, P, SHADE_LANES, a))
+
+/* Three rows of floats as the public functions take them. */
+SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
+{
+    return (const shade__v3 *)(const void *)rows;
+}
+SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
+                                   float *amount)
+{
+    shade__arrival a;
+    if (light && P) shade__light_at_pick()(light, shade__rows_of(P), &a);
+    else SHADE_MEMSET(&a, 0, sizeof a);
+    if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
+    if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
+}
+
+static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
+{
+    for (int i = 0; i < SHADE__POINT; i++) {
+        rows->x[i] = v.x;
+        rows->y[i] = v.y;
+        rows->z[i] = v.z;
+    }
+}
+static SHADE__NOINLINE void shade__light_at_point(const shade_light *light, const shade__v3 *P,
+                                                  shade__arrival *a)
+{
+    shade__light_at_body(light, P, SHADE__POINT, a);
+}
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
+                              float *distance)
+{
+    shade__arrival a;
+    shade__v3 point;
+    shade_vec3 at = shade_v3(0, 0, 0);
+    a.att[0] = 0;
+    shade__fill_point(P, &point);
+    if (light) shade__light_at_point(light, &point, &a);
+    if (light) at = shade_v3(a.L.x[0], a.L.y[0], a.L.z[0]);
+    if (L) *L = at;
+    if (distance && light) {
+        shade__lamp lamp = shade__lamp_of(light);
+        *distance = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
+    } else if (distance) *distance = 0;
+    return a.att[0];
+}
+/*------------------------------------------------------------------------------------------ >>lanes
+   The equations of >>model for a packet, or for one point.  The light of one lamp is cut into short
+   loops over rows of temporaries: one fused loop per light measured 1.5 times slower, its many
+   live values outgrow the processor.
+     in      rows of P, N, albedo, visibility         out  rows of rgb
+     holds   A lamp that reaches no lane (horizon, cone) is left after its first loops.
+                                                                                        >>state */
+
+typedef struct shade__rows {
+    shade__arrival a;             /* of one lamp; in the end a.L.x holds its highlight */
+    float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
+    float rv[SHADE_LANES];        /* 1/|V| */
+} shade__rows;
 
 /* 1/|N| and 1/|V|.  V = (eye - scale P) rv, so that scale 0 is a viewer at infinity. */
 SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P,
@@ -2091,21 +2155,6 @@ SHADE__DISPATCH(shade__lit,
                 (const shade_lighting *lighting, const shade__job *j, const float *visibility,
                  shade__v3 *rgb),
                 (lighting, j, visibility, SHADE_LANES, rgb))
-SHADE__INLINE void shade__light_at_body(const shade_light *light, const shade__v3 *P, const int n,
-                                        shade__arrival *a)
-{
-    shade__lamp lamp = shade__lamp_of(light);
-    shade__arrive(light, &lamp, P, n, a);
-}
-SHADE__DISPATCH_AVX2(shade__light_at,
-                     (const shade_light *light, const shade__v3 *P, shade__arrival *a),
-                     (light, P, SHADE_LANES, a))
-
-/* Three rows of floats as the public functions take them. */
-SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
-{
-    return (const shade__v3 *)(const void *)rows;
-}
 static shade__job shade__job_of(const shade_lighting *lighting, const shade_material *material,
                                 shade_vec3 eye, const shade__v3 *P, const shade__v3 *N)
 {
@@ -2128,42 +2177,10 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
     j.albedo = shade__rows_of(albedo);
     shade__lit_pick()(lighting, &j, visibility, (shade__v3 *)(void *)rgb);
 }
-SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
-                                   float *amount)
+static SHADE__NOINLINE void shade__lit_point(const shade_lighting *lighting, const shade__job *j,
+                                             shade__v3 *rgb)
 {
-    shade__arrival a;
-    if (light && P) shade__light_at_pick()(light, shade__rows_of(P), &a);
-    else SHADE_MEMSET(&a, 0, sizeof a);
-    if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
-    if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
-}
-
-/* A point takes the few lanes that every processor has in one vector. */
-enum { SHADE__POINT = 4 };
-static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
-{
-    for (int i = 0; i < SHADE__POINT; i++) {
-        rows->x[i] = v.x;
-        rows->y[i] = v.y;
-        rows->z[i] = v.z;
-    }
-}
-SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
-                              float *distance)
-{
-    shade__arrival a;
-    shade__v3 point;
-    shade_vec3 at = shade_v3(0, 0, 0);
-    a.att[0] = 0;
-    shade__fill_point(P, &point);
-    if (light) shade__light_at_body(light, &point, SHADE__POINT, &a);
-    if (light) at = shade_v3(a.L.x[0], a.L.y[0], a.L.z[0]);
-    if (L) *L = at;
-    if (distance && light) {
-        shade__lamp lamp = shade__lamp_of(light);
-        *distance = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
-    } else if (distance) *distance = 0;
-    return a.att[0];
+    shade__lit_body(lighting, j, (const float *)0, SHADE__POINT, rgb);
 }
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 P, shade_vec3 N)
@@ -2174,7 +2191,7 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
     shade__fill_point(P, &p);
     shade__fill_point(N, &n);
     j = shade__job_of(lighting, material, eye, &p, &n);
-    shade__lit_body(lighting, &j, (const float *)0, SHADE__POINT, &rgb);
+    shade__lit_point(lighting, &j, &rgb);
     return shade_v3(rgb.x[0], rgb.y[0], rgb.z[0]);
 }
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
