@@ -169,7 +169,7 @@ def check_entries(header, entries):
     order = [name for _, name in banners]
     lines = {name: set(map(tight, text[at:end].split("\n")))
              for (at, name), end in zip(banners, ends)}
-    section, entry = "", []                     # entry: its line before, its line after
+    section, since, entry = "", 0, []           # entry: its line before, its line after
 
     def close():
         if not entry:
@@ -185,9 +185,11 @@ def check_entries(header, entries):
     for line in open(entries).read().split("\n"):
         if line.startswith(">>"):
             close()
-            if line[2:] not in order or section and order.index(section) >= order.index(line[2:]):
-                problems.append("not in the header's order  " + line)
             section = line[2:]
+            if section not in order[since:]:
+                problems.append("not in the header, or not in its order  " + line)
+            else:
+                since = order.index(section) + 1
         elif line.startswith("-"):
             close()
             entry.append(tight(line[1:]))
