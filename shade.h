@@ -3906,33 +3906,46 @@ SHADE__INLINE void shade__pack_8888(shade_format format, const float *SHADE_REST
         pixel[i] = (uint32_t)cr << r | (uint32_t)cg << g | (uint32_t)cb << b | (uint32_t)ca << a;
     }
 }
-/* n pixels of 5-6-5 bits; x, y: window positions, which choose the threshold of the 4 x 4 ordered
-   dither: the bits of x ^ y and y, interleaved and reversed */
-SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const int stride,
-                                      const float *SHADE_RESTRICT x, const float *SHADE_RESTRICT y,
-                                      uint32_t dither, uint32_t *SHADE_RESTRICT pixel, const int n)
+/* Thresholds of the 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and y,
+   interleaved and reversed */
+SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHADE_RESTRICT y,
+                                 float *SHADE_RESTRICT threshold, const int n)
 {
     SHADE__FOR(i, n) {
         uint32_t v = (uint32_t)(int32_t)y[i], d = (uint32_t)(int32_t)x[i] ^ v;
         uint32_t rank = (d & 1) << 3 | (v & 1) << 2 | (d & 2) | (v & 2) >> 1;
-        float t = shade__select(0.5f, ((float)(int32_t)rank + 0.5f) * 0.0625f, dither);
-        int32_t cr = (int32_t)(shade__unit(rgba[i]) * 31 + t);
-        int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 63 + t);
-        int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 31 + t);
+        threshold[i] = ((float)(int32_t)rank + 0.5f) * 0.0625f;
+    }
+}
+/* n pixels of 5-6-5 bits */
+SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const int stride,
+                                      const float *SHADE_RESTRICT threshold,
+                                      uint32_t *SHADE_RESTRICT pixel, const int n)
+{
+    SHADE__FOR(i, n) {
+        int32_t cr = (int32_t)(shade__unit(rgba[i]) * 31 + threshold[i]);
+        int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 63 + threshold[i]);
+        int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 31 + threshold[i]);
         pixel[i] = (uint32_t)cr << 11 | (uint32_t)cg << 5 | (uint32_t)cb;
     }
 }
-/* n lanes for the target's format; encodes rgb in place where it asks for sRGB. */
+/* n lanes for the target's format; encodes rgb in place where it asks for sRGB.  x, y are read
+   where it asks for dither. */
 SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int stride, const float *x,
                                const float *y, uint32_t *pixel, const int n)
 {
+    SHADE_ALIGNED float threshold[SHADE_LANES];
     if (t->format == SHADE_FORMAT_RGBA32F) return;
     if (t->srgb) {
         for (int k = 0; k < 3; k++) shade__encode_row(rgba + k * stride, n);
     }
-    if (shade__pixel_bytes(t->format) == 4)
+    if (shade__pixel_bytes(t->format) == 4) {
         shade__pack_8888(t->format, rgba, stride, pixel, n);
-    else shade__pack_rgb565(rgba, stride, x, y, shade__mask(t->dither != 0), pixel, n);
+        return;
+    }
+    SHADE__FOR(i, n) { threshold[i] = 0.5f; }
+    if (t->dither) shade__dither(x, y, threshold, n);
+    shade__pack_rgb565(rgba, stride, threshold, pixel, n);
     if (t->format == SHADE_FORMAT_RGB565_SWAPPED) {
         SHADE__FOR(i, n) { pixel[i] = shade__swap16(pixel[i]); }
     }
