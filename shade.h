@@ -879,7 +879,7 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
    srgb is set.  A write function that returns non-zero ends it with SHADE_ERROR_IO; a file that
    could not be written whole stays behind. */
 typedef int shade_write_fn(void *user, const void *bytes, size_t size);
-SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target);
 #ifndef SHADE_NO_STDIO
 SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target);
@@ -1499,12 +1499,12 @@ SHADE__INLINE int shade__channel_shift(shade_format format, int k)
     return first ? 8 * byte : 24 - 8 * byte;
 }
 /* Stores one pixel: its packed form, or its four floats, stride apart. */
-SHADE__INLINE void shade__store_pixel(shade_format format, uint8_t *p, uint32_t pixel,
+SHADE__INLINE void shade__store_pixel(shade_format format, uint8_t *p, uint32_t packed,
                                       const float *rgba, int stride)
 {
     const size_t bytes = shade__pixel_bytes(format);
-    uint16_t u = (uint16_t)pixel;
-    if (bytes == 4) SHADE_MEMCPY(p, &pixel, 4);
+    uint16_t u = (uint16_t)packed;
+    if (bytes == 4) SHADE_MEMCPY(p, &packed, 4);
     else if (bytes == 2) SHADE_MEMCPY(p, &u, 2);
     else
         for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + k * stride, 4);
@@ -3894,7 +3894,7 @@ SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, const int n)
 }
 /* n pixels of 8 bits a channel */
 SHADE__INLINE void shade__pack_8888(shade_format format, const float *SHADE_RESTRICT rgba,
-                                    const int stride, uint32_t *SHADE_RESTRICT pixel, const int n)
+                                    const int stride, uint32_t *SHADE_RESTRICT packed, const int n)
 {
     const int r = shade__channel_shift(format, 0), g = shade__channel_shift(format, 1);
     const int b = shade__channel_shift(format, 2), a = shade__channel_shift(format, 3);
@@ -3903,7 +3903,7 @@ SHADE__INLINE void shade__pack_8888(shade_format format, const float *SHADE_REST
         int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 255 + 0.5f);
         int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 255 + 0.5f);
         int32_t ca = (int32_t)(shade__unit(rgba[i + 3 * stride]) * 255 + 0.5f);
-        pixel[i] = (uint32_t)cr << r | (uint32_t)cg << g | (uint32_t)cb << b | (uint32_t)ca << a;
+        packed[i] = (uint32_t)cr << r | (uint32_t)cg << g | (uint32_t)cb << b | (uint32_t)ca << a;
     }
 }
 /* Thresholds of the 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and y,
@@ -3920,19 +3920,19 @@ SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHA
 /* n pixels of 5-6-5 bits */
 SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const int stride,
                                       const float *SHADE_RESTRICT threshold,
-                                      uint32_t *SHADE_RESTRICT pixel, const int n)
+                                      uint32_t *SHADE_RESTRICT packed, const int n)
 {
     SHADE__FOR(i, n) {
         int32_t cr = (int32_t)(shade__unit(rgba[i]) * 31 + threshold[i]);
         int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 63 + threshold[i]);
         int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 31 + threshold[i]);
-        pixel[i] = (uint32_t)cr << 11 | (uint32_t)cg << 5 | (uint32_t)cb;
+        packed[i] = (uint32_t)cr << 11 | (uint32_t)cg << 5 | (uint32_t)cb;
     }
 }
 /* n lanes for the target's format; encodes rgb in place where it asks for sRGB.  x, y are read
    where it asks for dither. */
 SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int stride, const float *x,
-                               const float *y, uint32_t *pixel, const int n)
+                               const float *y, uint32_t *packed, const int n)
 {
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (t->format == SHADE_FORMAT_RGBA32F) return;
@@ -3940,20 +3940,20 @@ SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int str
         for (int k = 0; k < 3; k++) shade__encode_row(rgba + k * stride, n);
     }
     if (shade__pixel_bytes(t->format) == 4) {
-        shade__pack_8888(t->format, rgba, stride, pixel, n);
+        shade__pack_8888(t->format, rgba, stride, packed, n);
         return;
     }
     SHADE__FOR(i, n) { threshold[i] = 0.5f; }
     if (t->dither) shade__dither(x, y, threshold, n);
-    shade__pack_rgb565(rgba, stride, threshold, pixel, n);
+    shade__pack_rgb565(rgba, stride, threshold, packed, n);
     if (t->format == SHADE_FORMAT_RGB565_SWAPPED) {
-        SHADE__FOR(i, n) { pixel[i] = shade__swap16(pixel[i]); }
+        SHADE__FOR(i, n) { packed[i] = shade__swap16(packed[i]); }
     }
 }
 static SHADE__NOINLINE void shade__pack8(const shade_target *t, float *rgba, const float *x,
-                                         const float *y, uint32_t *pixel)
+                                         const float *y, uint32_t *packed)
 {
-    shade__pack(t, rgba, 8, x, y, pixel, 8);
+    shade__pack(t, rgba, 8, x, y, packed, 8);
 }
 
 /* Depth test and write in drawing order, after a shader that may discard.  Turns the discard row
@@ -3974,22 +3974,23 @@ static void shade__late_depth(shade__draw *d, uint32_t *discard)
     }
 }
 
-/* Stores lanes first .. last - 1 that are alive (NULL: all); lane i stands at i - base of pixel and
-   of the rows of rgba. */
+/* Stores lanes first .. last - 1 that are alive (NULL: all); lane i stands at i - base of packed
+   and of the rows of rgba. */
 SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive, const float *rgba,
-                                  int stride, const uint32_t *pixel, int base, int first, int last)
+                                  int stride, const uint32_t *packed, int base, int first, int last)
 {
     const uint32_t *offset = d->u.queue.offset;
     for (int i = first; i < last; i++) {
         uint8_t *p = d->plan.color + (size_t)offset[i] * d->plan.pixel_bytes;
         if (!alive || alive[i])
-            shade__store_pixel(d->plan.target->format, p, pixel[i - base], rgba + i - base, stride);
+            shade__store_pixel(d->plan.target->format, p, packed[i - base],
+                               rgba + i - base, stride);
     }
 }
 /* The whole packet in pixels of 4 bytes: neighbours that lie side by side together. */
 SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
                                         const uint32_t *SHADE_RESTRICT offset,
-                                        const uint32_t *SHADE_RESTRICT pixel, int count)
+                                        const uint32_t *SHADE_RESTRICT packed, int count)
 {
     int i = 0;
     for (; i + SHADE__NARROW <= count; i += SHADE__NARROW) {
@@ -3997,13 +3998,13 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
         uint32_t apart = 0;
         SHADE__FOR(k, SHADE__NARROW) { apart |= offset[i + k] - (first + (uint32_t)k); }
         if (!apart) {
-            SHADE_MEMCPY(color + (size_t)first * 4, pixel + i, SHADE__NARROW * 4);
+            SHADE_MEMCPY(color + (size_t)first * 4, packed + i, SHADE__NARROW * 4);
             continue;
         }
         for (int k = i; k < i + SHADE__NARROW; k++)
-            SHADE_MEMCPY(color + (size_t)offset[k] * 4, pixel + k, 4);
+            SHADE_MEMCPY(color + (size_t)offset[k] * 4, packed + k, 4);
     }
-    for (; i < count; i++) SHADE_MEMCPY(color + (size_t)offset[i] * 4, pixel + i, 4);
+    for (; i < count; i++) SHADE_MEMCPY(color + (size_t)offset[i] * 4, packed + i, 4);
 }
 
 /* out = rgba blended with what is stored, 8 lanes */
@@ -4030,7 +4031,7 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const flo
     for (int i = 0, last; i < q->f.count; i = last) {
         int base = shade__min(i, SHADE_LANES - 8);
         float stored[32] = { 0 }, out[32];
-        uint32_t pixel[8] = { 0 };
+        uint32_t packed[8] = { 0 };
         for (last = i; last < base + 8 && last < q->f.count; last++) {
             float c[4];
             if (q->f.primitive[last] != q->f.primitive[i]) break;
@@ -4039,8 +4040,8 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const flo
             for (int k = 0; k < 4; k++) stored[8 * k + last - base] = c[k];
         }
         shade__blend8(plan->pipe->raster.blend, rgba + base, stored, out);
-        shade__pack8(plan->target, out, q->f.x + base, q->f.y + base, pixel);
-        shade__scatter(d, alive, out, 8, pixel, base, i, last);
+        shade__pack8(plan->target, out, q->f.x + base, q->f.y + base, packed);
+        shade__scatter(d, alive, out, 8, packed, base, i, last);
     }
 }
 
@@ -4050,17 +4051,17 @@ SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
     const uint32_t *alive = plan->pipe->may_discard ? c->discard : (const uint32_t *)0;
-    SHADE_ALIGNED uint32_t pixel[SHADE_LANES];
+    SHADE_ALIGNED uint32_t packed[SHADE_LANES];
     if (alive) shade__late_depth(d, c->discard);
     if (!plan->color) return;
     if (plan->pipe->raster.blend != SHADE_BLEND_REPLACE) {
         shade__store_blended(d, c->color[0], alive);
         return;
     }
-    shade__pack(plan->target, c->color[0], SHADE_LANES, q->f.x, q->f.y, pixel, SHADE_LANES);
+    shade__pack(plan->target, c->color[0], SHADE_LANES, q->f.x, q->f.y, packed, SHADE_LANES);
     if (plan->pixel_bytes == 4 && !alive)
-        shade__scatter_words(plan->color, q->offset, pixel, q->f.count);
-    else shade__scatter(d, alive, c->color[0], SHADE_LANES, pixel, 0, 0, q->f.count);
+        shade__scatter_words(plan->color, q->offset, packed, q->f.count);
+    else shade__scatter(d, alive, c->color[0], SHADE_LANES, packed, 0, 0, q->f.count);
 }
 SHADE__DISPATCH(shade__store, (shade__draw *d, shade_colors *c), (d, c))
 
@@ -4246,14 +4247,14 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
 {
     const size_t bytes = shade__pixel_bytes(t->format);
     float rgba[32], px[8], py[8];
-    uint32_t pixel[8] = { 0 };
+    uint32_t packed[8] = { 0 };
     for (int i = 0; i < 8; i++) {
         px[i] = (float)(x + i) + 0.5f, py[i] = (float)y + 0.5f;
         rgba[i] = color.x, rgba[i + 8] = color.y, rgba[i + 16] = color.z, rgba[i + 24] = color.w;
     }
-    shade__pack8(t, rgba, px, py, pixel);
+    shade__pack8(t, rgba, px, py, packed);
     for (size_t i = 0; i < 256 / bytes; i++)
-        shade__store_pixel(t->format, pattern + i * bytes, pixel[i & 7], rgba + (i & 7), 8);
+        shade__store_pixel(t->format, pattern + i * bytes, packed[i & 7], rgba + (i & 7), 8);
 }
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
@@ -4286,7 +4287,7 @@ static void shade__resolve8(const shade_target *out, const shade_target *in, int
                             int y, int n)
 {
     float rgba[32] = { 0 }, px[8], py[8], c[4];
-    uint32_t pixel[8] = { 0 };
+    uint32_t packed[8] = { 0 };
     uint8_t *to = (uint8_t *)out->color;
     size_t bytes = shade__pixel_bytes(out->format);
     to += ((size_t)(y - out->row_offset) * (size_t)shade__stride_of(out) + (size_t)x) * bytes;
@@ -4299,9 +4300,9 @@ static void shade__resolve8(const shade_target *out, const shade_target *in, int
         for (int k = 0; k < 4; k++) rgba[8 * k + p] += c[k];
     }
     for (int i = 0; i < 32; i++) rgba[i] /= (float)(factor * factor);
-    shade__pack8(out, rgba, px, py, pixel);
+    shade__pack8(out, rgba, px, py, packed);
     for (int i = 0; i < n; i++)
-        shade__store_pixel(out->format, to + (size_t)i * bytes, pixel[i], rgba + i, 8);
+        shade__store_pixel(out->format, to + (size_t)i * bytes, packed[i], rgba + i, 8);
 }
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
 {
@@ -4374,11 +4375,11 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         levels[n].height = shade__max(up->height / 2, 1);
         for (int i = 0; i < levels[n].width * levels[n].height; i++, p += size) {
             float c[4], rgba[32] = { 0 }, zero[8] = { 0 };
-            uint32_t pixel[8] = { 0 };
+            uint32_t packed[8] = { 0 };
             shade__shrink(&from, &levels[n], i % levels[n].width, i / levels[n].width, c);
             for (int k = 0; k < 4; k++) rgba[8 * k] = c[k];
-            shade__pack8(&from, rgba, zero, zero, pixel);
-            shade__store_pixel(from.format, p, pixel[0], rgba, 8);
+            shade__pack8(&from, rgba, zero, zero, packed);
+            shade__store_pixel(from.format, p, packed[0], rgba, 8);
         }
     }
     texture->mipmaps = levels, texture->mipmap_count = count;
@@ -5161,27 +5162,27 @@ static void shade__row_rgb(const shade_target *t, size_t at, int width, uint8_t 
         }
     }
 }
-SHADEDEF shade_result shade_encode_ppm(shade_write_fn *write, void *user,
+SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target)
 {
     uint8_t rgb[3 * SHADE_LANES];
     char head[32] = "P6\n", *p = head + 3;
     shade_result result;
     int rows;
-    if (!write || !target) return SHADE_ERROR_ARGUMENT;
+    if (!sink || !target) return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
     if (result == SHADE_OK && !target->color) result = SHADE_ERROR_TARGET;
     if (result != SHADE_OK) return result;
     rows = shade__rows_held(target);
     p = shade__decimal(p, target->width), *p++ = ' ', p = shade__decimal(p, rows);
     SHADE_MEMCPY(p, "\n255\n", 5);
-    if (write(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
+    if (sink(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
     for (int y = 0; y < rows; y++) {
         size_t at = (size_t)y * (size_t)shade__stride_of(target);
         for (int x = 0; x < target->width; x += SHADE_LANES) {
             int n = shade__min(SHADE_LANES, target->width - x);
             shade__row_rgb(target, at + (size_t)x, n, rgb);
-            if (write(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
+            if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
         }
     }
     return SHADE_OK;

@@ -63,6 +63,45 @@ else
     echo "compile: no C++ compiler: C++ left out"
 fi
 
+# words that other headers define as macros: complex.h, altivec.h, iso646.h, ctype.h and termios.h
+# of BSD, curses, sys/param.h, X11, Windows, Arduino, Qt, Objective-C; socket calls of lwIP
+words="I complex imaginary vector pixel _B _C _L _N _P _S _U _X B0 B1 B10 B110 CR0 NL0 TAB0 FF0
+    VT0 BS0 ECHO FLUSHO near far huge small hyper interface pascal cdecl NEAR FAR IN OUT OPTIONAL
+    CONST VOID BOOL TRUE FALSE ERROR STRICT ABSOLUTE RELATIVE TRANSPARENT OPAQUE ALTERNATE WINDING
+    DELETE PI HALF_PI TWO_PI EULER DEG_TO_RAD RAD_TO_DEG HIGH LOW INPUT OUTPUT CHANGE RISING FALLING
+    DEFAULT EXTERNAL INTERNAL None True False Bool Status Success Always Above Below unix linux sun
+    nil signals slots emit forever LINES COLS MIN_INT environ"
+calls="min max abs round radians degrees bit F word sq constrain map lowByte highByte bitRead bitSet
+    major minor makedev index rindex bcopy bzero bcmp MIN MAX howmany roundup setbit clrbit isset
+    clear move erase refresh border filter scroll box timeout check verify require foreach RGB TEXT
+    LoadImage DrawText GetObject CreateWindow sqrt fabs floor ceil pow exp log sin cos tan fmin fmax
+    read write open close select accept send signal"
+{
+    for h in float stddef stdint math stdio string assert; do echo "#include <$h.h>"; done
+    for w in $words $calls; do echo "#undef $w"; done
+    for w in $words; do echo "#define $w !a macro!"; done
+    for w in $calls; do echo "#define $w(...) !a macro!"; done
+    cat "$T/impl.c"
+} >"$T/poison.c"
+check "words that are macros" $CC -std=c99 $WARN -I. -fsyntax-only "$T/poison.c"
+[ -z "$CXX" ] ||
+    check "words that are macros, C++" $CXX -std=c++11 $WARN -I. -x c++ -fsyntax-only "$T/poison.c"
+
+# names that other headers declare, with the extensions of POSIX and GNU in sight
+: >"$T/crowd.c"
+for h in complex math tgmath string strings stdlib time signal setjmp unistd termios pthread \
+         sys/param sys/stat sys/socket sys/select sys/time sys/sysmacros; do
+    printf '#include <%s.h>\n' "$h" >"$T/option.c"
+    if $CC -fsyntax-only "$T/option.c" 2>/dev/null; then echo "#include <$h.h>" >>"$T/crowd.c"; fi
+done
+cat "$T/impl.c" >>"$T/crowd.c"
+if accepts "$CC" -std=gnu17 c; then
+    check "behind other headers" $CC -std=gnu17 $WARN -I. -fsyntax-only "$T/crowd.c"
+fi
+if [ -n "$CXX" ] && accepts "$CXX" -std=gnu++17 c++; then
+    check "behind other headers, C++" $CXX -std=gnu++17 $WARN -I. -x c++ -fsyntax-only "$T/crowd.c"
+fi
+
 # programs of two files; C and C++ together
 run() { "$1"; }
 check "implementation, -O2" $CC -std=c99 $WARN -O2 -I. -c "$T/impl.c" -o "$T/impl.o"
