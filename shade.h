@@ -204,9 +204,11 @@
 /* gcc would also turn loops that fill rows into calls or rep stos: 9 % of a flat fill.
    Contraction of a * b + c to one rounding would give other bits on other processors: off for
    all of this file with clang, for the implementation with gcc (which decides after inlining, so
-   by its caller).  clang keeps a stack of such states for x86 alone; elsewhere the code behind
-   this file contracts as the compiler's options say. */
-#if defined(__clang__) && (defined(__x86_64__) || defined(__i386__))
+   by its caller).  Where clang keeps a stack of such states the one before comes back at the end,
+   elsewhere that of the compiler's options. */
+#if defined(__clang__) && \
+    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
+     (__clang_major__ >= 16 && defined(__aarch64__)))
 #define SHADE__EXACT_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define SHADE__EXACT_END _Pragma("float_control(pop)")
 #elif defined(__clang__)

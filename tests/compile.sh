@@ -102,6 +102,37 @@ if [ -n "$CXX" ] && accepts "$CXX" -std=gnu++17 c++; then
     check "behind other headers, C++" $CXX -std=gnu++17 $WARN -I. -x c++ -fsyntax-only "$T/crowd.c"
 fi
 
+# a * b + c behind the header is contracted as it would be without it; inside never (with clang
+# -ffp-contract=fast, which no pragma stops, as well)
+cat >"$T/behind.c" <<'END'
+float behind(float a, float b, float c);
+float behind(float a, float b, float c) { return a * b + c; }
+END
+cat "$T/impl.c" "$T/behind.c" >"$T/both.c"
+fma=; accepts "$CC" -mfma c && fma=-mfma
+assembly() { $CC -std=c99 -O2 $fma -ffp-contract=$2 -DSHADE_NO_DISPATCH -I. -S "$1" -o "$3"; }
+body() {                        # file: the instructions of behind()
+    sed -n '/^_*behind:/,/^[[:space:]]*\.size\|^[[:space:]]*\.cfi_endproc/p' "$1" |
+        grep '^[[:space:]][[:space:]]*[a-z]'
+}
+rest() { sed '/^_*behind:/,/^[[:space:]]*\.size\|^[[:space:]]*\.cfi_endproc/d' "$1"; }
+behind_as_alone() {
+    body "$T/alone.s" >"$T/alone" && body "$T/contracted.s" >"$T/behind" && diff "$T/alone" "$T/behind"
+}
+inside_never() {
+    rest "$T/contracted.s" >"$T/contracted" && rest "$T/off.s" >"$T/off" && cmp "$T/contracted" "$T/off"
+}
+if accepts "$CC" -ffp-contract=fast c; then
+    contract=fast; $CC --version 2>/dev/null | grep -q clang && contract=on
+    check "contraction: function" assembly "$T/behind.c" $contract "$T/alone.s"
+    check "contraction: header" assembly "$T/both.c" $contract "$T/contracted.s"
+    check "contraction: header without" assembly "$T/both.c" off "$T/off.s"
+    check "contraction behind the header" behind_as_alone
+    check "no contraction inside the header" inside_never
+else
+    echo "compile: $CC has no -ffp-contract: left out"
+fi
+
 # programs of two files; C and C++ together
 run() { "$1"; }
 check "implementation, -O2" $CC -std=c99 $WARN -O2 -I. -c "$T/impl.c" -o "$T/impl.o"
