@@ -252,6 +252,14 @@ typedef uint32_t shade__word;
 #define SHADE__ANY_WIDTH 4
 #endif
 #endif
+/* __builtin_cpu_supports asks __cpu_model, which the libraries that clang links for Microsoft's
+   ABI and those of zig do not have.  zig has no macro: its headers lie beside its own library. */
+#if defined(__clang__) && !defined(SHADE_NO_DISPATCH)
+#if defined(_MSC_VER) || __has_include(<../std/std.zig>)
+#define SHADE_NO_DISPATCH
+#endif
+#endif
+
 /* Wide code from any build: on x86-64 the bodies of hot loops (name_body, always inlined) are
    compiled for SSE2, AVX2 and AVX-512 and chosen by the processor at each call, without a global
    of ours. Same bits on every path: no FMA. SHADE__LEVEL may be defined to an int expression (0,
