@@ -92,10 +92,13 @@
      SHADE_NO_LIBM            freestanding: only <stddef.h>, <stdint.h>, <float.h>; implies
                               NO_STDIO, NO_DISPATCH and no assertions
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
-     SHADE_NO_DISPATCH        one build of each loop, for the processor the compiler was told of
+     SHADE_NO_DISPATCH        one build of each loop, for the processor the compiler was told of;
+                              set by itself with zig and with clang for Microsoft's ABI
 
    Not for -ffast-math, and not for clang -ffp-contract=fast, which fuses against the pragma below:
-   they give other bits (and -ffast-math drops NaN, so bad data is no longer caught). */
+   they give other bits (and -ffast-math drops NaN, so bad data is no longer caught).
+   tcc 0.9.27 on x86-64 stores 16 bytes for the 12 of a returned shade_vec3, over an int or float
+   declared last before the call, in your functions too; loops here count in 8 bytes therefore. */
 #include <float.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -252,6 +255,7 @@ typedef uint32_t shade__word;
 #define SHADE__ANY_WIDTH 4
 #endif
 #endif
+
 /* __builtin_cpu_supports asks __cpu_model, which the libraries that clang links for Microsoft's
    ABI and those of zig do not have.  zig has no macro: its headers lie beside its own library. */
 #if defined(__clang__) && !defined(SHADE_NO_DISPATCH)
@@ -2147,7 +2151,8 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__
     shade__rows r;
     shade__viewer(j->P, j->N, j->eye, j->scale, flip, n, &r);
     if ((s->terms & SHADE_TERM_AMBIENT) && !(s->flags & SHADE_FLAG_ATTENUATED_AMBIENT))
-        for (int k = 0; k < s->light_count; k++) ambient = shade_add(ambient, lights[k].ambient);
+        for (ptrdiff_t k = 0; k < s->light_count; k++)
+            ambient = shade_add(ambient, lights[k].ambient);
     ambient = shade_mul(ambient, s->ambient);
     if (j->albedo && !shade__is_zero(ambient))
         shade__begin_light(s->emission, ambient, j->albedo, n, rgb);
@@ -4906,7 +4911,7 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
 {
     shade_result result = shade__check_shape(mesh, normals);
     if (result != SHADE_OK) return result;
-    for (int i = 0; i < mesh->vertex_count; i++) normals[i] = shade_v3(0, 0, 0);
+    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade_v3(0, 0, 0);
     for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
         shade_vec3 n = shade__triangle_normal(mesh, t);
         if (shade__is_zero(n)) continue;
@@ -4915,7 +4920,7 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
             *sum = shade_madd(*sum, shade__corner_angle(mesh, k), n);
         }
     }
-    for (int i = 0; i < mesh->vertex_count; i++) normals[i] = shade_normalize(normals[i]);
+    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade_normalize(normals[i]);
     return SHADE_OK;
 }
 
@@ -4975,7 +4980,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     angle = (float *)(void *)(order + 2 * (size_t)count);
     face = (shade_vec3 *)(void *)(angle + count);
     order = shade__sort_corners(mesh, count, order, order + count);
-    for (uint32_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, t);
+    for (size_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, (uint32_t)t);
     for (uint32_t i = 0; i < count; i++) angle[i] = shade__corner_angle(mesh, i);
     for (uint32_t first = 0, end; first < count; first = end) {
         for (end = first + 1; end < count; end++)
