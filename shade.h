@@ -2785,7 +2785,7 @@ static double shade__distance_to(const float *clip, uint32_t plane, int zero_to_
 
 typedef struct shade__polygon {
     shade__vertex vertex[SHADE__CLIP_VERTICES];
-    float   value[SHADE__CLIP_VERTICES * SHADE__VALUES_MAX];
+    float   value[(int)SHADE__CLIP_VERTICES * (int)SHADE__VALUES_MAX];
     uint8_t corner[SHADE__CLIP_VERTICES];
     int     count;          /* corners, in order */
     uint32_t taken;         /* vertices in use: bit v */
@@ -3868,8 +3868,8 @@ SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, c
         return;
     }
     for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS)
-        sample(texture, u + i, v + i, lod ? lod + i : lod, SHADE__TEXELS / SHADE__BLOCK, rgba + i,
-               SHADE_LANES);
+        sample(texture, u + i, v + i, lod ? lod + i : lod, (int)SHADE__TEXELS / (int)SHADE__BLOCK,
+               rgba + i, SHADE_LANES);
 }
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod)
 {
