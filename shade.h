@@ -4563,7 +4563,7 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     if (!colored) albedo = (shade__v3 *)0;
     if (lit && s->map) {
         shade__light_vertices(s, &s->matte, P, N, albedo, out->varying[0]);
-        shade__light_vertices(s, &s->gloss, P, N, albedo, out->varying[3]);
+        shade__light_vertices(s, &s->gloss, P, N, albedo, out->varying[0] + 3 * SHADE_LANES);
     } else if (lit)
         shade__light_vertices(s, &s->state->lighting, P, N, albedo, out->varying[0]);
     if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
