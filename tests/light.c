@@ -476,7 +476,7 @@ TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
 /* ------------------------------------------------------------------- what arrives from one lamp */
 
 /* In double; the amount and its allowed error.  lost: xyz/w, rounded once, is not far enough from
-   P for its direction. */
+   P for its direction, of which a steep cone asks more. */
 typedef struct ref_arrival {
     double amount, distance, bound;
     d3 L;
@@ -494,7 +494,7 @@ static ref_arrival ref_arriving(const shade_light *light, d3 P)
     if (w != 0) {
         a.amount = ref_attenuation((double)light->constant, (double)light->linear,
                                    (double)light->quadratic, a.distance);
-        a.lost = w != 1 && a.distance * 50 < d3_length(at) / fabs(w);
+        a.lost = w != 1 && a.distance * 50 < d3_length(at) / fabs(w) * fmax(1, e / 10);
     }
     a.amount *= ref_spot(a.L, d3_from(light->spot_direction), (double)light->spot_cos_cutoff, e,
                          &a.unsure);

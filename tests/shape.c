@@ -261,6 +261,223 @@ TEST(shape, strides_and_missing_indices_give_the_same_corner_normals)
         CHECK(!memcmp(tight, soup, (size_t)s.mesh.index_count * 12));
     }
 }
+/* A mesh of triangles without any vertex in common, each with its place: a bump of its own. */
+typedef struct shape_soup {
+    shade_mesh mesh;
+    shade_vec3 *position, *out;
+    int triangles;
+} shape_soup;
+
+static shape_soup shape_soup_open(int triangles)
+{
+    shape_soup s;
+    size_t bytes = (size_t)triangles * 3 * sizeof(shade_vec3);
+    memset(&s, 0, sizeof s);
+    s.position = (shade_vec3 *)malloc(bytes), s.out = (shade_vec3 *)malloc(bytes);
+    if (!s.position || !s.out) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    s.triangles = triangles;
+    s.mesh.positions = &s.position[0].x, s.mesh.vertex_count = 3 * triangles;
+    return s;
+}
+static void shape_soup_close(shape_soup *s) { free(s->position), free(s->out); }
+
+/* Where the sum of the bits is the same for all, or only the lowest, or the highest bits differ;
+   where multiplying and mixing the three words, as hashes of positions do, ends in one
+   number for all; small whole numbers; and NaN, which is like no other. */
+static void shape_place(int kind, uint32_t i, shade_vec3 *p)
+{
+    uint32_t h, z;
+    switch (kind) {
+    case 0:
+        h = (i & 1023) << 13, z = (i >> 10) << 13;
+        *p = shade_v3(bits_float(0x3F800000u + h), bits_float(0x3F800000u + z),
+                      bits_float(0x41000000u - h - z));
+        break;
+    case 1:
+        *p = shade_v3(1, 2, bits_float(0x40400000u + i));
+        break;
+    case 2:
+        *p = shade_v3(bits_float(0x3A000000u + (i & 127) * 0x00100000u),
+                      bits_float(0x3A000000u + (i >> 7 & 127) * 0x00100000u),
+                      bits_float(0x3A000000u + (i >> 14) * 0x00080000u));
+        break;
+    case 3:
+        do {
+            p->x = rnd_float(-1, 1), p->y = rnd_float(-1, 1);
+            h = float_bits(p->x) * 0x9E3779B1u;
+            h = (h ^ h >> 15) * 0x85EBCA77u + float_bits(p->y);
+            z = 0x12345678u - (h ^ h >> 15) * 0x2C1B3C6Du;
+        } while ((z & 0x7FFFFFFFu) < 0x3A000000u || (z & 0x7FFFFFFFu) > 0x42000000u);
+        p->z = bits_float(z);
+        break;
+    case 4:
+        *p = shade_v3((float)(i % 71), (float)(i / 71 % 71), (float)(i / 71 / 71));
+        break;
+    default:
+        *p = shade_v3(i & 1 ? 1 : (float)NAN, 2, i & 1 ? (float)NAN : 3);
+        break;
+    }
+}
+
+/* All positions differ, so each corner has the normal of its own face alone.  What compares each
+   corner with all others, or with a part of them that grows with their number, takes minutes. */
+TEST(shape, a_hundred_thousand_triangles_apart_are_told_apart_whatever_their_bits_are)
+{
+    enum { TRIANGLES = 120000 };
+    shape_soup s = shape_soup_open(TRIANGLES);
+    for (int kind = 0; kind < 6; kind++) {
+        long checked = 0;
+        for (int k = 0; k < 3 * TRIANGLES; k++) shape_place(kind, (uint32_t)k, &s.position[k]);
+        for (int k = 3 * TRIANGLES - 1; k > 0; k--) { /* in any order */
+            int other = rnd_int(0, k);
+            shade_vec3 p = s.position[k];
+            s.position[k] = s.position[other], s.position[other] = p;
+        }
+        corner_normals(&s.mesh, -1, s.out);
+        for (int t = 0; t < TRIANGLES; t++) {
+            d3 a = shape_at(&s.mesh, 3 * t), e = d3_sub(shape_at(&s.mesh, 3 * t + 1), a);
+            d3 f = d3_sub(shape_at(&s.mesh, 3 * t + 2), a), n = d3_cross(d3_unit(e), d3_unit(f));
+            if (!(d3_length(n) > 1e-2)) continue; /* a sliver, or no number */
+            checked++;
+            for (int k = 3 * t; k < 3 * t + 3; k++)
+                CHECK_SAY(shape_off(s.out[k], d3_unit(n)) < 5e-5, "kind %d, corner %d: off by %g",
+                          kind, k, shape_off(s.out[k], d3_unit(n)));
+        }
+        CHECK_SAY(kind == 1 || kind == 5 ? checked == 0 : checked > TRIANGLES / 4, "kind %d: %ld",
+                  kind, checked);
+    }
+    shape_soup_close(&s);
+}
+
+/* Pairs of faces around one edge, far from all others; which corners meet is known beforehand. */
+TEST(shape, corners_that_meet_find_each_other_among_a_hundred_thousand)
+{
+    enum { PAIRS = 50000 };
+    static uint32_t place[2 * PAIRS];
+    shape_soup s = shape_soup_open(2 * PAIRS);
+    for (uint32_t k = 0; k < 2 * PAIRS; k++) place[k] = k;
+    for (int k = 2 * PAIRS - 1; k > 0; k--) {
+        int other = rnd_int(0, k);
+        uint32_t p = place[k];
+        place[k] = place[other], place[other] = p;
+    }
+    for (int k = 0; k < PAIRS; k++) {
+        float x = (float)(k % 500) * 4, y = (float)(k / 500) * 4, bent = (float)(k % 7) / 4;
+        shade_vec3 *p = s.position + 3 * place[2 * k], *q = s.position + 3 * place[2 * k + 1];
+        p[0] = shade_v3(x, y, 0), p[1] = shade_v3(x + 1, y, 0), p[2] = shade_v3(x, y + 1, bent);
+        q[0] = p[1], q[1] = p[0], q[2] = shade_v3(x, y - 1, bent);
+        if (k % 3 == 0 && k % 500 == 0) q[1].x = -0.0f; /* is 0 */
+    }
+    corner_normals(&s.mesh, 0.25f, s.out);
+    for (int k = 0; k < PAIRS; k++) {
+        int a = (int)place[2 * k], b = (int)place[2 * k + 1];
+        d3 na = ref_face(&s.mesh, a), nb = ref_face(&s.mesh, b);
+        int smooth = d3_dot(na, nb) >= 0.25;
+        for (int n = 0; n < 2; n++) { /* the two ends of the edge */
+            double wa = smooth ? ref_angle(&s.mesh, 3 * a + n) : 0;
+            double wb = smooth ? ref_angle(&s.mesh, 3 * b + 1 - n) : 0;
+            d3 mean_a = d3_unit(d3_add(d3_scale(na, smooth ? wa : 1), d3_scale(nb, wb)));
+            d3 mean_b = d3_unit(d3_add(d3_scale(na, wa), d3_scale(nb, smooth ? wb : 1)));
+            CHECK(shape_off(s.out[3 * a + n], mean_a) < 2e-6);
+            CHECK(shape_off(s.out[3 * b + 1 - n], mean_b) < 2e-6);
+        }
+        CHECK(shape_off(s.out[3 * a + 2], na) < 2e-6 && shape_off(s.out[3 * b + 2], nb) < 2e-6);
+    }
+    shape_soup_close(&s);
+}
+
+/* Fans around places that differ from one in a single byte of their twelve. */
+TEST(shape, positions_that_differ_in_one_byte_differ)
+{
+    enum { FACES = 150 };
+    shape_soup s = shape_soup_open(FACES);
+    shade_vec3 tip[14];
+    for (int k = 0; k < 14; k++) {
+        float c[3] = { 1.25f, -0.75f, 1.5f };
+        if (k < 12) {
+            uint32_t flip = (k & 3) == 3 ? 0x01000000u : 1u << 8 * (k & 3);
+            c[k / 4] = bits_float(float_bits(c[k / 4]) ^ flip);
+        }
+        tip[k] = shade_v3(c[0], c[1], c[2]);
+    }
+    for (int i = 0; i < 20; i++) {
+        for (int k = 0; k < 3 * FACES; k++) {
+            double a = (k / 3 + 0.1 * rnd_unit()) * 0.7 + k % 3 * 1.5;
+            s.position[k] = shade_v3((float)(3 * cos(a)), (float)(3 * sin(a)), rnd_float(4, 6));
+            if (k % 3 == 0) s.position[k] = tip[rnd_int(0, 13)];
+        }
+        float threshold = rnd_float(-1, 0.9);
+        corner_normals(&s.mesh, threshold, s.out);
+        for (int k = 0; k < 3 * FACES; k++) {
+            int unsure = 0;
+            d3 want = ref_corner_normal(&s.mesh, k, (double)threshold, &unsure);
+            if (unsure) continue;
+            CHECK_SAY(shape_off(s.out[k], want) < 3e-5, "corner %d: off by %g", k,
+                      shape_off(s.out[k], want));
+        }
+    }
+    shape_soup_close(&s);
+}
+
+/* A position that holds a NaN is like no other, not even like its own bits; its faces have no
+   normal, so its corners get none, and those around it lose nothing. */
+TEST(shape, positions_that_are_no_numbers_equal_nothing)
+{
+    enum { FACES = 200 };
+    shape_soup s = shape_soup_open(FACES);
+    for (int i = 0; i < 40; i++) {
+        for (int k = 0; k < 3 * FACES; k++) {
+            s.position[k] = shade_v3((float)rnd_int(0, 2), (float)rnd_int(0, 2), rnd_float(-1, 1));
+            if (rnd_one_in(2)) s.position[k].z = rnd_one_in(2) ? 0.0f : -0.0f;
+            if (rnd_one_in(6)) s.position[k].x = bits_float(0x7FC00000u);
+            if (rnd_one_in(6)) s.position[k].y = rnd_one_in(2) ? INFINITY : -INFINITY;
+        }
+        corner_normals(&s.mesh, -2, s.out);
+        for (int k = 0; k < 3 * FACES; k++) {
+            d3 sum = d3_of(0, 0, 0), p = shape_at(&s.mesh, k);
+            for (int n = 0; n < 3 * FACES; n++) {
+                d3 q = shape_at(&s.mesh, n), face = ref_face(&s.mesh, n / 3);
+                if (n != k && (p.x != q.x || p.y != q.y || p.z != q.z)) continue;
+                if (!isfinite(d3_length(face)) || !isfinite(p.y)) continue;
+                sum = d3_add(sum, d3_scale(face, ref_angle(&s.mesh, n)));
+            }
+            if (d3_length(sum) > 0 && d3_length(sum) < 0.05) continue;
+            CHECK_SAY(shape_off(s.out[k], d3_unit(sum)) < 3e-5, "corner %d: off by %g", k,
+                      shape_off(s.out[k], d3_unit(sum)));
+        }
+    }
+    shape_soup_close(&s);
+}
+
+/* 16 bytes a corner: two arrays of indices, an angle, and a third of a face's normal. */
+TEST(shape, corner_normals_say_how_much_memory_they_take)
+{
+    static uint32_t list[300];
+    static shade_vec3 p[3], out[300];
+    shade_mesh m;
+    memset(&m, 0, sizeof m);
+    m.positions = &p[0].x, m.vertex_count = 3, m.indices = list;
+    for (int n = 0; n <= 300; n += 3) {
+        m.index_count = n;
+        CHECK_INT(shade_mesh_corner_normals_bytes(&m), 16 * n);
+        corner_normals(&m, 0, out); /* in a block of that size */
+        if (!n) continue;
+        unsigned char *block = canvas_block((size_t)(16 * n));
+        CHECK_INT(shade_mesh_corner_normals(&m, 0, out, block + CANVAS_GUARD, (size_t)(16 * n - 1)),
+                  SHADE_ERROR_CAPACITY);
+        free(block);
+    }
+    out[0] = shade_v3(7, 7, 7);
+    m.index_count = 0; /* nothing to do, and nothing needed for it */
+    CHECK_INT(shade_mesh_corner_normals(&m, 0, out, NULL, 0), SHADE_OK);
+    m.indices = NULL, m.vertex_count = 0, m.positions = NULL;
+    CHECK_INT(shade_mesh_corner_normals_bytes(&m), 0);
+    CHECK_INT(shade_mesh_corner_normals(&m, 0, out, NULL, 0), SHADE_OK);
+    CHECK_NEAR(out[0].x, 7, 0);
+}
 TEST(shape, bad_corner_normal_calls_are_refused)
 {
     static shape_mesh s;
@@ -486,6 +703,11 @@ static const test_case shape_cases[] = {
     CASE(shape, faces_without_area_change_no_neighbour),
     CASE(shape, any_positions_give_finite_corner_normals),
     CASE(shape, strides_and_missing_indices_give_the_same_corner_normals),
+    CASE(shape, a_hundred_thousand_triangles_apart_are_told_apart_whatever_their_bits_are),
+    CASE(shape, corners_that_meet_find_each_other_among_a_hundred_thousand),
+    CASE(shape, positions_that_differ_in_one_byte_differ),
+    CASE(shape, positions_that_are_no_numbers_equal_nothing),
+    CASE(shape, corner_normals_say_how_much_memory_they_take),
     CASE(shape, bad_corner_normal_calls_are_refused),
     CASE(shape, edges_are_those_that_the_triangles_have_sorted_each_once),
     CASE(shape, a_closed_mesh_has_two_triangles_at_every_edge),
