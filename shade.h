@@ -4774,12 +4774,12 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     t[0] = 0, t[1] = 1;
     shade__cut(end[0][2] + (zero_to_one ? 0 : w0), end[1][2] + (zero_to_one ? 0 : w1), t, t + 1);
     shade__cut(w0 - end[0][2], w1 - end[1][2], t, t + 1);
-    shade__cut(w0 - 1e-12, w1 - 1e-12, t, t + 1);
+    shade__cut(w0 - (double)shade__w_least, w1 - (double)shade__w_least, t, t + 1);
     if (!(t[0] <= t[1])) return 0;
     for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
     dir[0] = at[1][0] - at[0][0], dir[1] = at[1][1] - at[0][1];
     length = dir[0] * dir[0] + dir[1] * dir[1];
-    length = length > 0 && length <= DBL_MAX ? shade__root(length) : 0;
+    length = length > 0 ? shade__root(length) : 0;
     dir[0] = length > 0 ? dir[0] / length : 1, dir[1] = length > 0 ? dir[1] / length : 0;
     shade__cut(right * w0 - end[0][0], right * w1 - end[1][0], t, t + 1);
     shade__cut(right * w0 + end[0][0], right * w1 + end[1][0], t, t + 1);
@@ -4792,6 +4792,7 @@ static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int c
 {
     const shade_vec4 *m = s->clip_from_points.col;
     const int k = corner & 1;
+    int placed = 1;
     double end[2][4], t[2], p[4], at[2], dir[2], side, along;
     for (int j = 0; j < 2; j++) {
         shade_vec3 v = s->points[2 * (size_t)segment + (size_t)j];
@@ -4800,9 +4801,11 @@ static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int c
         end[j][1] = (double)m[0].y * x + (double)m[1].y * y + (double)m[2].y * z + (double)m[3].y;
         end[j][2] = (double)m[0].z * x + (double)m[1].z * y + (double)m[2].z * z + (double)m[3].z;
         end[j][3] = (double)m[0].w * x + (double)m[1].w * y + (double)m[2].w * z + (double)m[3].w;
+        for (int i = 0; i < 4; i++) placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
     }
-    clip[0] = clip[1] = clip[2] = 2, clip[3] = 1;
-    if (!shade__stroke_part(s, end, t, dir)) return;
+    clip[0] = placed ? 2 : FLT_MAX;    /* outside, or rejected */
+    clip[1] = clip[2] = 2, clip[3] = 1;
+    if (!placed || !shade__stroke_part(s, end, t, dir)) return;
     shade__stroke_point(s, end, t[k], p, at);
     side = corner & 2 ? s->half_width : -s->half_width;
     along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? s->half_width : -s->half_width;

@@ -394,9 +394,7 @@ static float *random_visibility(int light_count)
         int kind = rnd_int(0, 3); /* in full shadow, in none, either, anything */
         for (int i = 0; i < SHADE_LANES; i++) {
             float any = rnd_one_in(2) ? plain[rnd_int(0, 5)] : rnd_float(-2, 3);
-            v[j * SHADE_LANES + i] = kind < 2 ? (float)kind
-                                     : kind < 3 ? (float)rnd_int(0, 1)
-                                                : any;
+            v[j * SHADE_LANES + i] = kind < 2 ? (float)kind : kind < 3 ? (float)rnd_int(0, 1) : any;
         }
     }
     return v;

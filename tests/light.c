@@ -487,8 +487,7 @@ static ref_arrival ref_arriving(const shade_light *light, d3 P)
 {
     ref_arrival a;
     double e = (double)light->spot_exponent, w = (double)light->position.w;
-    d3 at =
-        d3_of((double)light->position.x, (double)light->position.y, (double)light->position.z);
+    d3 at = d3_of((double)light->position.x, (double)light->position.y, (double)light->position.z);
     memset(&a, 0, sizeof a);
     a.L = ref_to_light(light, P, &a.distance), a.amount = 1;
     if (w != 0) {
@@ -496,8 +495,8 @@ static ref_arrival ref_arriving(const shade_light *light, d3 P)
                                    (double)light->quadratic, a.distance);
         a.lost = w != 1 && a.distance * 50 < d3_length(at) / fabs(w) * fmax(1, e / 10);
     }
-    a.amount *= ref_spot(a.L, d3_from(light->spot_direction), (double)light->spot_cos_cutoff, e,
-                         &a.unsure);
+    a.amount *=
+        ref_spot(a.L, d3_from(light->spot_direction), (double)light->spot_cos_cutoff, e, &a.unsure);
     a.bound = 5e-5 * fmax(1, a.amount) * fmax(1, e / 100);
     return a;
 }
@@ -517,8 +516,10 @@ TEST(light, light_at_is_what_arrives_where_from_and_how_far)
         kinds[kind]++;
         double near = kind < 2 ? 5e-7 : 2e-5; /* xyz/w is rounded once more */
         check_color(__LINE__, "L", L, want.L, near);
-        if (kind == 0) CHECK(r == FLT_MAX);
-        else CHECK_NEAR(r, want.distance, near * want.distance);
+        if (kind == 0)
+            CHECK(r == FLT_MAX);
+        else
+            CHECK_NEAR(r, want.distance, near * want.distance);
         again = shade_light_at(&light, P, &other, NULL);
         CHECK(float_bits(again) == float_bits(amount) && !memcmp(&other, &L, sizeof L));
         again = shade_light_at(&light, P, NULL, &r);
@@ -564,8 +565,10 @@ TEST(light, at_the_lamp_itself_there_is_no_direction_and_so_no_cone_above_the_ho
                 if (k < 7 && (cutoff[k] > 0 || e > 0)) want = 0;
                 CHECK_NEAR(shade_light_at(&light, P, &L, &r), want, 0);
                 check_color(__LINE__, "L", L, d3_of(0, 0, 0), 0);
-                if (kind == 2) CHECK(r == FLT_MAX);
-                else CHECK_NEAR(r, 0, 0);
+                if (kind == 2)
+                    CHECK(r == FLT_MAX);
+                else
+                    CHECK_NEAR(r, 0, 0);
             }
 }
 

@@ -293,6 +293,252 @@ TEST(lines, nothing_is_drawn_outside_the_clip_rectangle)
     }
 }
 
+/* -------------------------------------------------------------------------------------- far ends */
+
+/* What near and far leave of a line, in window pixels and depth; left: 0 if nothing. */
+typedef struct ref_line {
+    double x[2], y[2], z[2];
+    int left;
+} ref_line;
+
+static ref_line ref_line_of(const shade_line_state *s, const shade_vec3 p[2], int width, int height)
+{
+    ref_line r;
+    double e[2][4], t[2];
+    dmat m = matrix_or_identity(s->clip_from_points);
+    int zero_to_one = s->raster.depth_zero_to_one != 0;
+    memset(&r, 0, sizeof r);
+    for (int k = 0; k < 2; k++) {
+        const double in[4] = { (double)p[k].x, (double)p[k].y, (double)p[k].z, 1 };
+        dmat_apply(m, in, e[k]);
+    }
+    r.left = ref_line_cut(e, zero_to_one, t);
+    for (int k = 0; k < 2 && r.left; k++) {
+        double v[4];
+        for (int n = 0; n < 4; n++) v[n] = e[0][n] + t[k] * (e[1][n] - e[0][n]);
+        r.x[k] = (v[0] / v[3] + 1) * width / 2, r.y[k] = (1 - v[1] / v[3]) * height / 2;
+        r.z[k] = zero_to_one ? v[2] / v[3] : (v[2] / v[3] + 1) / 2;
+    }
+    return r;
+}
+/* Adds 1 to each pixel of the line, then: is each pixel of the rectangle 1, each outside 0, with
+   1/256 pixel of doubt?  The depth too, which runs along the line.  Returns the pixels inside. */
+static long check_line(canvas *c, const shade_line_state *state, const shade_vec3 p[2])
+{
+    int width = c->target.width, height = c->target.height, half_pixels = 0;
+    double h = (state->width > 0 ? (double)state->width : 1) / 2;
+    shade_line_state s = *state;
+    long inside = 0;
+    s.color = shade_v4(1, 1, 1, 1), s.raster.blend = SHADE_BLEND_ADD;
+    s.raster.depth_test = SHADE_COMPARE_ALWAYS;
+    canvas_clear(c, 1);
+    shade_stats stats = draw_lines(c, p, 2, &s);
+    ref_line r = ref_line_of(&s, p, width, height);
+    line_places place = ref_rectangle(r.x[0], r.y[0], r.x[1], r.y[1], 2 * h, s.cap);
+    double dx = r.x[1] - r.x[0], dy = r.y[1] - r.y[0], length = hypot(dx, dy), depth;
+    for (int k = 0; k < width * height; k++) {
+        double X = k % width + 0.5, Y = k / width + 0.5;
+        int in = r.left ? ref_in_rectangle(&place, X, Y, 1 / 256.0) : 0;
+        float got = canvas_float(c, k % width, k / width, 0);
+        half_pixels += in == -1, inside += in == 1;
+        CHECK_SAY(in < 0 ? got == 0 || got == 1 : got == (float)in,
+                  "pixel %d %d of %d x %d: got %g, want %d; %.9g %.9g to %.9g %.9g width %g cap %d",
+                  k % width, k / width, width, height, (double)got, in, r.x[0], r.y[0], r.x[1],
+                  r.y[1], (double)s.width, (int)s.cap);
+        if (in < 1 || got != 1 || length == 0) continue;
+        double along = ((X - r.x[0]) * dx + (Y - r.y[0]) * dy) / length, slope;
+        slope = (r.z[1] - r.z[0]) / length;
+        depth = r.z[0] + along * slope;
+        if (s.cap == SHADE_CAP_SQUARE) /* within half a width of its place */
+            depth = fmin(fmax(r.z[0], r.z[1]), fmax(fmin(r.z[0], r.z[1]), depth));
+        double near = 2e-6 + fabs(slope) * (s.cap == SHADE_CAP_SQUARE ? h + 0.01 : 0.01);
+        CHECK_SAY(fabs((double)canvas_depth(c, k % width, k / width) - depth) <= near,
+                  "pixel %d %d: depth %.9g, want %.9g within %.3g; %g %g to %g %g, depth %g to %g",
+                  k % width, k / width, (double)canvas_depth(c, k % width, k / width), depth, near,
+                  r.x[0], r.y[0], r.x[1], r.y[1], r.z[0], r.z[1]);
+    }
+    CHECK_INT(stats.rejected, 0);
+    if (!r.left) CHECK_INT(stats.clipped, 2);
+    CHECK(stats.fragments >= inside && stats.fragments <= inside + half_pixels);
+    return inside;
+}
+
+/* Through the picture or past it, both ends up to a million pictures away. */
+TEST(lines, ends_a_million_pictures_away_keep_their_pixels)
+{
+    static const int sizes[][2] = { { 60, 44 }, { 1, 1 },   { 2, 3 },     { 64, 64 },
+                                    { 390, 4 }, { 5, 300 }, { 16384, 2 }, { 3, 16384 } };
+    long inside = 0, far = 0;
+    for (int i = 0; i < 4000; i++) {
+        int kind = i % 40 ? rnd_int(0, 5) : rnd_int(6, 7);
+        int width = sizes[kind][0], height = sizes[kind][1], most = width > height ? width : height;
+        canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA32F, 1);
+        shade_line_state s = line_state(rnd_one_in(6) ? 0 : rnd_log(0.3, rnd_one_in(2) ? 5 : 2e4));
+        double X = rnd_unit() * width, Y = rnd_unit() * height;
+        double a = rnd_unit() * 6.283185307179586, reach[2];
+        shade_vec3 p[2];
+        if (rnd_one_in(4))
+            a = rnd_int(0, 7) * 0.7853981633974483; /* along rows, columns, diagonals */
+        if (rnd_one_in(6))
+            X += width * (rnd_unit() - 0.5) * 4, Y += height * (rnd_unit() - 0.5) * 4;
+        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        for (int k = 0; k < 2; k++) {
+            reach[k] = most * (double)rnd_log(1e-3, 1e6) * (k ? 1 : rnd_one_in(4) ? 0.01 : -1);
+            p[k] = line_point(X + cos(a) * reach[k], Y + sin(a) * reach[k],
+                              s.raster.depth_zero_to_one ? rnd_unit() : 2 * rnd_unit() - 1, width,
+                              height);
+        }
+        far += fabs(reach[0]) > 1e4 * most || fabs(reach[1]) > 1e4 * most;
+        inside += check_line(&c, &s, p);
+        canvas_close(&c);
+    }
+    CHECK_SAY(inside > 100000 && far > 1000, "%ld pixels, %ld far lines", inside, far);
+}
+
+/* The same behind a camera: ends beside, above, far before and behind the eye. */
+TEST(lines, far_ends_seen_by_a_camera_keep_their_pixels)
+{
+    enum { W = 64, H = 48 };
+    long inside = 0, far = 0;
+    for (int i = 0; i < 4000; i++) {
+        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
+        shade_line_state s = line_state(rnd_log(0.3, rnd_one_in(3) ? 300 : 5));
+        double size = (double)rnd_log(1e-3, 1e3), way;
+        float aspect = (float)W / H, near = (float)(0.1 * size);
+        shade_vec3 p[2], eye = d3_round(d3_scale(rnd_direction(), 4 * size));
+        shade_mat4 view = shade_mat4_look_at(eye, shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = i % 3 == 0;
+        s.clip_from_points = shade_mat4_mul(
+            i % 3 == 0   ? shade_mat4_perspective_reversed(1, aspect, near)
+            : i % 3 == 1 ? shade_mat4_perspective(1, aspect, near, (float)(1e3 * size))
+                         : shade_mat4_ortho(-2 * (float)size, 2 * (float)size, -1.5f * (float)size,
+                                            1.5f * (float)size, near, (float)(1e3 * size)),
+            view);
+        d3 through = d3_scale(rnd_direction(), 1.5 * size), along = rnd_direction();
+        for (int k = 0; k < 2; k++) {
+            way = size * (double)rnd_log(0.1, rnd_one_in(2) ? 10 : 1e6);
+            p[k] = d3_round(d3_add(through, d3_scale(along, k ? way : -way)));
+            far += way > 1e3 * size;
+        }
+        inside += check_line(&c, &s, p);
+        canvas_close(&c);
+    }
+    CHECK_SAY(inside > 100000 && far > 1000, "%ld pixels, %ld far ends", inside, far);
+}
+
+/* A scene a million million times smaller or larger gives the same pixels. */
+TEST(lines, the_scale_of_a_scene_does_not_matter)
+{
+    static const int power[] = { 0, -43, -40, -20, 20, 40, 43 };
+    canvas first = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
+    for (int i = 0; i < 100; i++) {
+        shade_vec3 p[20], moved[20];
+        for (int k = 0; k < 20; k++) p[k] = random_vector(3), p[k].z -= 3;
+        for (int n = 0; n < 7; n++) {
+            canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
+            float scale = (float)ldexp(1, power[n]);
+            shade_line_state s = line_state(3);
+            s.clip_from_points = shade_mat4_perspective(1, 4.0f / 3, 0.125f * scale, 16 * scale);
+            for (int k = 0; k < 20; k++) moved[k] = shade_scale(p[k], scale);
+            canvas_clear(&c, 1);
+            shade_stats stats = draw_lines(&c, moved, 20, &s);
+            if (n)
+                CHECK_SAY(canvas_same(&first, &c), "2^%d", power[n]);
+            else {
+                CHECK(stats.drawn > 2 && stats.fragments > 20);
+                memcpy(first.color, c.color, c.color_bytes + 2 * CANVAS_GUARD);
+                memcpy(first.depth, c.depth, c.depth_bytes + 2 * CANVAS_GUARD);
+            }
+            canvas_close(&c);
+        }
+    }
+    canvas_close(&first);
+}
+
+/* A NaN, an infinity or a place beyond 1e30 is counted as rejected, before or behind the eye, in
+   the points or in the matrix; the lines beside it are drawn. */
+TEST(lines, places_that_are_none_are_rejected_wherever_they_lie)
+{
+    static const float none[] = { NAN, INFINITY, -INFINITY, 3e38f, -3e38f };
+    for (int i = 0; i < 4000; i++) {
+        canvas c = canvas_open(32, 24, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_line_state s = line_state(rnd_log(0.3, 2000));
+        shade_vec3 p[4];
+        float bad = none[rnd_int(0, 4)], f[16];
+        int in_matrix = rnd_one_in(3), k = rnd_int(0, 15);
+        shade_mat4 m = random_mat4(2);
+        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        for (int n = 0; n < 4; n++) p[n] = random_vector(rnd_one_in(2) ? 1 : 10);
+        memcpy(f, &m, sizeof f);
+        for (int n = 0; n < 16; n++) /* no zeros, which would make NaN of an infinity */
+            if (fabsf(f[n]) < 0.1f) f[n] = 0.5f;
+        if (in_matrix) {
+            f[k] = bad;
+            for (int n = 0; n < 4; n++) p[n] = shade_v3(1, 0.5f, -2);
+        }
+        memcpy(&s.clip_from_points, f, sizeof f);
+        if (!in_matrix) {
+            float *at[3] = { &p[k & 1].x, &p[k & 1].y, &p[k & 1].z };
+            *at[rnd_int(0, 2)] = bad;
+        }
+        canvas_clear(&c, 1);
+        shade_stats stats = draw_lines(&c, p, 4, &s);
+        CHECK_SAY(stats.rejected == (in_matrix ? 4 : 2), "%lld rejected, %lld clipped, %g",
+                  stats.rejected, stats.clipped, (double)bad);
+        if (in_matrix) CHECK_INT(stats.fragments, 0);
+        shade_stats other = draw_lines(&c, p + 2, 2, &s);
+        if (!in_matrix) CHECK(other.drawn + other.clipped + other.culled == stats.triangles - 2);
+        canvas_close(&c);
+    }
+}
+
+/* Any finite numbers whatever: each triangle is counted once, nothing is written outside. */
+TEST(lines, any_finite_numbers_keep_to_the_picture_and_the_count)
+{
+    for (int i = 0; i < 20000; i++) {
+        canvas c = canvas_open(i % 3 ? 17 : 1, i % 5 ? 9 : 1, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_line_state s = line_state(rnd_one_in(3) ? 0 : rnd_log(1e-38, 3e38));
+        float f[16];
+        shade_vec3 p[6];
+        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        for (int n = 0; n < 16; n++) {
+            double most = rnd_one_in(3) ? 38 : rnd_one_in(2) ? 10 : 1;
+            f[n] = rnd_one_in(4) ? 0 : rnd_sign() * (float)pow(10, most * (2 * rnd_unit() - 1));
+        }
+        if (rnd_one_in(2)) memcpy(&s.clip_from_points, f, sizeof f);
+        for (int n = 0; n < 6; n++) {
+            double most = rnd_one_in(3) ? 38 : rnd_one_in(2) ? 10 : 1;
+            p[n] = shade_v3(rnd_sign() * (float)pow(10, most * (2 * rnd_unit() - 1)),
+                            rnd_sign() * (float)pow(10, most * (2 * rnd_unit() - 1)),
+                            rnd_one_in(2) ? 0 : rnd_sign() * (float)pow(10, most * -rnd_unit()));
+            if (rnd_one_in(5) && n) p[n] = p[n - 1];
+        }
+        canvas_clear(&c, 1);
+        draw_lines(&c, p, 6, &s);
+        canvas_close(&c);
+    }
+}
+
+/* Near = far, no angle, no aspect: no line, whatever the convention of depth is. */
+TEST(lines, a_degenerate_camera_draws_no_line)
+{
+    shade_vec3 p[4] = { { -1, -1, 0.25f }, { 1, 1, 0.5f }, { -9, 0, -1 }, { 9, 1, -5 } };
+    for (int i = 0; i < DEGENERATE_CAMERAS * 8; i++) {
+        canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_line_state s = line_state(i % 5 ? 3 : 500);
+        s.clip_from_points = degenerate_camera(i / 8), s.raster.depth_zero_to_one = i & 1;
+        s.raster.depth_test = i & 2 ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
+        s.cap = (shade_cap)(i / 4 % 2);
+        canvas_clear(&c, i & 2 ? 0.0f : 1.0f);
+        shade_stats stats = draw_lines(&c, p, 4, &s);
+        CHECK_INT(stats.clipped, 4);
+        CHECK_INT(stats.fragments, 0);
+        memset(&s.clip_from_points, 0, sizeof s.clip_from_points); /* is no camera: the identity */
+        CHECK(draw_lines(&c, p, 2, &s).fragments > 10);
+        canvas_close(&c);
+    }
+}
+
 /* --------------------------------------------------------------------------------------- depth */
 
 TEST(lines, depth_runs_from_end_to_end_and_is_tested)
@@ -459,6 +705,12 @@ static const test_case lines_cases[] = {
     CASE(lines, a_line_without_length_is_nothing_or_a_square),
     CASE(lines, near_and_far_cut_the_segment_before_it_gets_its_width),
     CASE(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn),
+    CASE(lines, ends_a_million_pictures_away_keep_their_pixels),
+    CASE(lines, far_ends_seen_by_a_camera_keep_their_pixels),
+    CASE(lines, the_scale_of_a_scene_does_not_matter),
+    CASE(lines, places_that_are_none_are_rejected_wherever_they_lie),
+    CASE(lines, any_finite_numbers_keep_to_the_picture_and_the_count),
+    CASE(lines, a_degenerate_camera_draws_no_line),
     CASE(lines, nothing_is_drawn_outside_the_clip_rectangle),
     CASE(lines, depth_runs_from_end_to_end_and_is_tested),
     CASE(lines, a_small_negative_bias_lifts_lines_off_their_own_faces),

@@ -729,30 +729,51 @@ TEST(mesh, what_is_wrong_is_told_in_one_order)
         s.shading = random_shading();
         memset(&stats, CANVAS_BYTE, sizeof stats);
         if (wrong & 1) {
-            if (how % 4 == 0) target = NULL;
-            else if (how % 4 == 1) mesh = NULL;
-            else if (how % 4 == 2) state = NULL;
-            else m.positions = NULL;
+            if (how % 4 == 0)
+                target = NULL;
+            else if (how % 4 == 1)
+                mesh = NULL;
+            else if (how % 4 == 2)
+                state = NULL;
+            else
+                m.positions = NULL;
         }
-        if ((wrong & 2) && how % 3 == 0) c.target.stride = 19;
-        else if ((wrong & 2) && how % 3 == 1) c.target.color = NULL, c.target.depth = NULL;
-        else if (wrong & 2) c.target.format = (shade_format)5;
+        if ((wrong & 2) && how % 3 == 0)
+            c.target.stride = 19;
+        else if ((wrong & 2) && how % 3 == 1)
+            c.target.color = NULL, c.target.depth = NULL;
+        else if (wrong & 2)
+            c.target.format = (shade_format)5;
         if (wrong & 4) {
-            if (how < 7) s.transparency = out_of_range[how];
-            else if (how < 14) s.alpha_cutoff = out_of_range[how - 7];
-            else if (how == 14) m.position_stride = -12;
-            else if (how == 15) s.lighting.light_count = 1;
-            else if (how == 16) s.shading = (shade_shading)3;
-            else if (how == 17) s.lighting.model = (shade_model)6;
-            else if (how == 18) s.raster.blend = (shade_blend)3;
-            else if (how == 19) s.raster.cull = (shade_cull)-1;
-            else if (how == 20) s.raster.depth_bias = (float)NAN;
-            else if (how == 21) s.transparency = 2, s.alpha_cutoff = (float)NAN;
-            else if (how == 22) m.texcoord_stride = 6;
-            else s.raster.depth_test = (shade_compare)6;
+            if (how < 7)
+                s.transparency = out_of_range[how];
+            else if (how < 14)
+                s.alpha_cutoff = out_of_range[how - 7];
+            else if (how == 14)
+                m.position_stride = -12;
+            else if (how == 15)
+                s.lighting.light_count = 1;
+            else if (how == 16)
+                s.shading = (shade_shading)3;
+            else if (how == 17)
+                s.lighting.model = (shade_model)6;
+            else if (how == 18)
+                s.raster.blend = (shade_blend)3;
+            else if (how == 19)
+                s.raster.cull = (shade_cull)-1;
+            else if (how == 20)
+                s.raster.depth_bias = (float)NAN;
+            else if (how == 21)
+                s.transparency = 2, s.alpha_cutoff = (float)NAN;
+            else if (how == 22)
+                m.texcoord_stride = 6;
+            else
+                s.raster.depth_test = (shade_compare)6;
         }
-        if ((wrong & 8) && how % 2) m.indices = bad_indices, m.index_count = 3;
-        else if (wrong & 8) m.vertex_count = 2;
+        if ((wrong & 8) && how % 2)
+            m.indices = bad_indices, m.index_count = 3;
+        else if (wrong & 8)
+            m.vertex_count = 2;
         m.normals = how % 3 ? big_triangle : NULL;
         CHECK_INT(shade_draw_mesh(target, mesh, state, &stats), want);
         CHECK_INT(stats.triangles, want == SHADE_OK);
@@ -1018,7 +1039,7 @@ TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
             for (int n = 0; n < 16; n++)
                 alpha += (double)texel[4 * y + n / 4][4 * x + n % 4][3] / 16;
             CHECK_SAY((canvas_depth(&c, x, y) < 1) == (alpha > 0.53), "mean alpha %g", alpha);
-            holes += alpha < 0.53, drawn += alpha > 0.53;
+            holes += alpha<0.53, drawn += alpha> 0.53;
             if (i % 2 == 0) CHECK_NEAR(canvas_float(&c, x, y, 3), alpha > 0.53 ? alpha : 0, 1e-4);
         }
         canvas_close(&c);
