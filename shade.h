@@ -5104,18 +5104,24 @@ static void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
     c[1] = (double)a.y - (double)b.y;
     c[2] = (double)a.z - (double)b.z;
 }
-/* With e = b - a, f = c - a, s = origin - a, n = e x f, q = d x s and D = d.n, Cramer's rule gives
-   t = -s.n / D, u = f.q / D, v = -e.q / D.  n of a triangle without area is exactly zero where
-   the differences of its floats are exact in double, and so is D. */
+/* e = b - a, f = c - a, n = e x f; 0 if n is zero.  It is for a triangle without area where the
+   differences of its floats are exact in double. */
+static int shade__edges3(shade_vec3 a, shade_vec3 b, shade_vec3 c, double *e, double *f, double *n)
+{
+    shade__sub3(b, a, e);
+    shade__sub3(c, a, f);
+    shade__cross3(e, f, n);
+    return n[0] != 0 || n[1] != 0 || n[2] != 0;
+}
+/* With s = origin - a, q = d x s and D = d.n, Cramer's rule gives t = -s.n / D, u = f.q / D,
+   v = -e.q / D. */
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric)
 {
     double d[3], e[3], f[3], s[3], n[3], q[3], det, u, v, at;
+    shade__edges3(a, b, c, e, f, n);
     shade__sub3(ray.direction, shade_v3(0, 0, 0), d);
-    shade__sub3(b, a, e);
-    shade__sub3(c, a, f);
     shade__sub3(ray.origin, a, s);
-    shade__cross3(e, f, n);
     shade__cross3(d, s, q);
     det = shade__dot3(d, n);
     if (!(det < 0 || det > 0)) return 0;
@@ -5134,16 +5140,19 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
     float nearest = FLT_MAX, at;
     shade_vec3 where, inside;
     int found = -1;
+    double e[3], f[3], n[3];
     if (shade__check_shape(mesh, &ray) != SHADE_OK) return -1;
     model = shade__or_identity(model);
     for (int i = 0; i < shade__corner_count(mesh) / 3; i++) {
-        shade_vec3 p[3];
+        shade_vec3 p[3], q[3];
         for (uint32_t k = 0; k < 3; k++) {
-            uint32_t corner = shade__corner_index(mesh, 3 * (uint32_t)i + k);
-            p[k] = shade_mat4_transform_point(model, shade__position(mesh, corner));
+            q[k] = shade__position(mesh, shade__corner_index(mesh, 3 * (uint32_t)i + k));
+            p[k] = shade_mat4_transform_point(model, q[k]);
         }
         if (!shade_intersect(ray, p[0], p[1], p[2], &at, &where)) continue;
         if (found >= 0 && at >= nearest) continue;
+        /* three points of a line, which rounding parts when they are turned */
+        if (!shade__edges3(q[0], q[1], q[2], e, f, n)) continue;
         found = i, nearest = at, inside = where;
     }
     if (found < 0) return -1;

@@ -293,7 +293,7 @@ TEST(lines, nothing_is_drawn_outside_the_clip_rectangle)
     }
 }
 
-/* -------------------------------------------------------------------------------------- far ends */
+/* ------------------------------------------------------------------------------------ far ends */
 
 /* What near and far leave of a line, in window pixels and depth; left: 0 if nothing. */
 typedef struct ref_line {

@@ -1010,7 +1010,7 @@ TEST(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut)
     CHECK_SAY((refused > 0) == (SHADE_MAX_VARYINGS < 11), "%ld", refused);
 }
 
-/* A level of the map is one of its alpha too: sixteen texels a pixel, in pictures and depth alone. */
+/* A level of the map is one of its alpha too: 16 texels a pixel, in pictures and depth alone. */
 TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
 {
     enum { W = 4 * ALPHA_W, H = 4 * ALPHA_H };

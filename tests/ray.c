@@ -109,6 +109,26 @@ TEST(ray, any_matrices_give_a_ray_without_a_crash)
     }
 }
 
+/* A ray through no camera has no direction, and meets nothing. */
+TEST(ray, a_degenerate_camera_has_rays_without_direction)
+{
+    shade_vec3 p[3] = { { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 } };
+    shade_mesh m;
+    memset(&m, 0, sizeof m);
+    m.positions = &p[0].x, m.vertex_count = 3;
+    for (int i = 0; i < DEGENERATE_CAMERAS * 20; i++) {
+        ray_camera c = random_camera(rnd_int(0, 3));
+        float x = rnd_float(-9, c.width + 9), y = rnd_float(-9, c.height + 9), t = 7;
+        shade_vec3 b = shade_v3(7, 7, 7);
+        shade_ray r = shade_pixel_ray(c.view, degenerate_camera(i / 20), c.width, c.height, x, y);
+        CHECK_VEC(r.direction, d3_of(0, 0, 0), 0);
+        CHECK(finite3(r.origin));
+        CHECK_INT(shade_pick(&m, shade_mat4_identity(), r, &t, &b), -1);
+        CHECK_INT(shade_intersect(r, p[0], p[1], p[2], &t, &b), 0);
+        CHECK(t == 7 && b.x == 7 && b.y == 7 && b.z == 7);
+    }
+}
+
 /* ------------------------------------------------------------------------------- intersections */
 
 static long double ld_dot(const long double *a, const long double *b)
@@ -211,6 +231,37 @@ TEST(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle)
     CHECK_INT(shade_intersect(r, a, b, b, NULL, NULL), 0); /* no area */
     CHECK_INT(shade_intersect(r, a, a, a, NULL, NULL), 0);
 }
+/* Three points of one line have no area, wherever they lie: no ray meets them, not even one that
+   aims at a point of theirs. */
+TEST(ray, triangles_without_area_are_never_hit)
+{
+    for (int i = 0; i < 100000; i++) {
+        int a[3], d[3], n[3] = { 0, 1, rnd_int(-3, 4) }; /* a + n d, exact */
+        double unit = ldexp(1, rnd_int(-20, 20)), b[3];
+        shade_vec3 v[3];
+        shade_ray r;
+        float t = 7;
+        for (int k = 0; k < 3; k++) a[k] = rnd_int(-1000, 1000), d[k] = rnd_int(-1000, 1000);
+        for (int k = 0; k < 3; k++)
+            v[k] =
+                shade_v3((float)((a[0] + n[k] * d[0]) * unit), (float)((a[1] + n[k] * d[1]) * unit),
+                         (float)((a[2] + n[k] * d[2]) * unit));
+        d3 o = d3_scale(rnd_direction(), 3000 * unit), at = d3_from(v[rnd_int(0, 2)]);
+        double f = rnd_unit();
+        if (rnd_one_in(2)) at = d3_add(d3_scale(d3_from(v[0]), f), d3_scale(d3_from(v[1]), 1 - f));
+        r.origin = d3_round(o), r.direction = d3_round(d3_sub(at, d3_from(r.origin)));
+        if (i % 3 == 0) /* with an origin that is exact as well */
+            r.origin = shade_v3((float)(rnd_int(-99, 99) * unit), 0, (float)(5 * unit)),
+            r.direction = shade_sub(v[rnd_int(0, 2)], r.origin);
+        int order = rnd_int(0, 2);
+        CHECK_INT(shade_intersect(r, v[order], v[(order + 1) % 3], v[(order + 2) % 3], &t, NULL),
+                  0);
+        CHECK(t == 7);
+        d3 p[3] = { d3_from(v[0]), d3_from(v[1]), d3_from(v[2]) };
+        double exact;
+        CHECK(ref_intersect(&r, p, &exact, b) <= 0);
+    }
+}
 TEST(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at)
 {
     /* Aimed at points of edges, a ray meets at least one of the two triangles in most cases, and
@@ -247,6 +298,369 @@ TEST(ray, no_numbers_meet_nothing_or_something_finite)
                       "%g %g %g", (double)b.x, (double)b.y, (double)b.z);
         } else CHECK_NEAR(t, 0, 0);
     }
+}
+
+/* -------------------------------------------------------------------------------------- picking */
+
+enum { PICK_VERTICES = 60, PICK_TRIANGLES = 90 };
+
+typedef struct pick_scene {
+    float data[PICK_VERTICES * 3 * 7];
+    shade_vec3 position[PICK_VERTICES];
+    uint32_t index[3 * PICK_TRIANGLES];
+    shade_mesh mesh;
+    shade_mat4 model;
+} pick_scene;
+
+/* Triangles anywhere in a box of 2 size, some of them twice; indexed or in threes; spread out;
+   placed by a model that turns, scales, mirrors, or is left out. */
+static void random_pick_scene(pick_scene *s, double size)
+{
+    int stride = rnd_one_in(2) ? 0 : 3 + rnd_int(0, 4), indexed = rnd_int(0, 1);
+    memset(s, 0, sizeof *s);
+    for (int k = 0; k < PICK_VERTICES; k++) {
+        s->position[k] = random_vector(size);
+        put3(s->data + k * (stride ? stride : 3), s->position[k]);
+    }
+    for (int k = 0; k < 3 * PICK_TRIANGLES; k++) s->index[k] = (uint32_t)rnd_int(0, 59);
+    for (int k = 3; k < 3 * PICK_TRIANGLES; k += 3)
+        if (rnd_one_in(5)) memcpy(s->index + k, s->index + 3 * rnd_int(0, k / 3 - 1), 12);
+    s->mesh.positions = s->data, s->mesh.position_stride = 4 * stride;
+    s->mesh.vertex_count = PICK_VERTICES;
+    if (indexed)
+        s->mesh.indices = s->index, s->mesh.index_count = 3 * PICK_TRIANGLES;
+    else
+        s->mesh.index_count = -5; /* not looked at */
+    if (rnd_one_in(4)) return;
+    shade_vec3 scale = shade_v3(rnd_sign() * rnd_log(0.3, 3), rnd_sign() * rnd_log(0.3, 3),
+                                rnd_sign() * rnd_log(0.3, 3));
+    if (rnd_one_in(3)) scale.y = scale.z = scale.x;
+    s->model = shade_mat4_scaling(scale);
+    if (rnd_one_in(3)) return;
+    s->model =
+        shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())), s->model);
+    s->model = shade_mat4_mul(shade_mat4_translation(random_vector(size)), s->model);
+}
+static int pick_triangles(const pick_scene *s)
+{
+    return s->mesh.indices ? PICK_TRIANGLES : PICK_VERTICES / 3;
+}
+static d3 pick_corner(const pick_scene *s, int triangle, int k)
+{
+    uint32_t v = s->mesh.indices ? s->index[3 * triangle + k] : (uint32_t)(3 * triangle + k);
+    return dmat_point(matrix_or_identity(s->model), d3_from(s->position[v]));
+}
+/* The nearest triangle in long double, -1: none; -2: within margin of an edge, the origin or the
+   next nearest. */
+static int ref_pick(const pick_scene *s, const shade_ray *ray, double margin, double *t,
+                    double barycentric[3])
+{
+    int found = -1, unsure = 0;
+    double nearest = 1e300, second = 1e300;
+    for (int n = 0; n < pick_triangles(s); n++) {
+        double at = 0, b[3] = { 0, 0, 0 };
+        d3 p[3] = { pick_corner(s, n, 0), pick_corner(s, n, 1), pick_corner(s, n, 2) };
+        d3 area = d3_cross(d3_unit(d3_sub(p[1], p[0])), d3_unit(d3_sub(p[2], p[0])));
+        if (d3_length(area) == 0) continue;
+        int hit = ref_intersect(ray, p, &at, b);
+        double least = fmin(b[0], fmin(b[1], b[2]));
+        if (hit < 0 || d3_length(area) < 100 * margin || fabs(least) < margin ||
+            (least > 0 && fabs(at) < margin)) {
+            unsure = 1; /* unless something lies surely before it */
+            continue;
+        }
+        if (!hit) continue;
+        int same = 0; /* as the nearest: the first counts */
+        for (int k = 0; k < 3 && found >= 0; k++)
+            same += d3_length(d3_sub(p[k], pick_corner(s, found, k))) == 0;
+        if (same == 3) continue;
+        if (at < nearest) {
+            second = nearest, nearest = at, found = n;
+            memcpy(barycentric, b, sizeof b);
+        } else
+            second = fmin(second, at);
+    }
+    *t = nearest;
+    if (found >= 0 && second - nearest < margin * (1 + nearest)) return -2;
+    return unsure ? -2 : found;
+}
+static void check_picks(int exact)
+{
+    static pick_scene s;
+    long hits = 0, misses = 0;
+    for (int i = 0; i < 400; i++) {
+        double size = (double)rnd_log(1e-3, 1e3), margin = exact ? 1e-6 : 3e-4, scale;
+        random_pick_scene(&s, size);
+        if (exact && rnd_one_in(2))
+            s.model = shade_mat4_identity();
+        else if (exact)
+            memset(&s.model, 0, sizeof s.model);
+        scale = 1e-5 * fmax(1, dmat_max(dmat_from(s.model)) / size);
+        for (int n = 0; n < 25; n++) {
+            d3 aim = d3_scale(rnd_direction(), size * rnd_unit());
+            d3 o = d3_scale(rnd_direction(), size * (double)rnd_log(0.1, 5));
+            shade_ray ray;
+            ray.origin = d3_round(o);
+            ray.direction = d3_round(d3_scale(d3_sub(aim, o), (double)rnd_log(0.01, 10) / size));
+            double want_t, want_b[3] = { 0, 0, 0 };
+            int want = ref_pick(&s, &ray, margin, &want_t, want_b);
+            float t = -7;
+            shade_vec3 b = shade_v3(-7, -7, -7);
+            if (want == -2) continue;
+            int got = shade_pick(&s.mesh, s.model, ray, &t, &b);
+            CHECK_SAY(got == want, "got %d, want %d at %g", got, want, want_t);
+            CHECK_INT(shade_pick(&s.mesh, s.model, ray, NULL, NULL), got);
+            hits += want >= 0, misses += want < 0;
+            if (want < 0) CHECK(t == -7 && b.x == -7 && b.y == -7 && b.z == -7);
+            if (want < 0 || got != want) continue;
+            CHECK_NEAR(t, want_t, exact ? 1e-6 * want_t : scale * (1 + want_t) * 30);
+            double near = exact ? 1e-6 : 30 * margin;
+            CHECK_VEC(b, d3_of(want_b[0], want_b[1], want_b[2]), near);
+        }
+    }
+    CHECK_SAY(hits > 1000 && misses > 300, "%ld hits, %ld misses", hits, misses);
+}
+TEST(ray, pick_is_the_nearest_triangle_of_all) { check_picks(1); }
+TEST(ray, pick_places_the_mesh_by_its_model) { check_picks(0); }
+
+/* Equal triangles, whichever way round, and crossing ones met where they cross: the first. */
+TEST(ray, of_triangles_met_at_one_place_the_first_is_picked)
+{
+    for (int i = 0; i < 2000; i++) {
+        shade_vec3 p[24], near[3];
+        shade_mesh m;
+        int first = rnd_int(0, 7), count = 0;
+        float z = (float)rnd_int(-4, 4), t;
+        memset(&m, 0, sizeof m);
+        for (int k = 0; k < 8; k++) { /* from first on, every other time at z, else behind */
+            float at = k == first || (k > first && rnd_one_in(2)) ? z : z - (float)rnd_int(1, 3);
+            near[0] = shade_v3(-8, -8, at), near[1] = shade_v3(8, -8, at);
+            near[2] = shade_v3(0, 8, at);
+            int turn = rnd_int(0, 2), back = rnd_int(0, 1);
+            for (int n = 0; n < 3; n++) p[count++] = near[(turn + (back ? 3 - n : n)) % 3];
+        }
+        m.positions = &p[0].x, m.vertex_count = 24;
+        shade_ray r = { { (float)rnd_int(-2, 2), (float)rnd_int(-2, 2), 16 }, { 0, 0, -0.5f } };
+        CHECK_INT(shade_pick(&m, shade_mat4_identity(), r, &t, NULL), first);
+        CHECK_NEAR(t, 2 * (16 - z), 0);
+        r.origin.z = -16, r.direction.z = 2; /* from behind, the first of the lowest */
+        int back = shade_pick(&m, shade_mat4_identity(), r, &t, NULL);
+        CHECK(back >= 0);
+        for (int k = 0; k < 8 && back >= 0; k++) {
+            float lowest = p[3 * back].z;
+            CHECK(k < back ? p[3 * k].z > lowest : p[3 * k].z >= lowest);
+        }
+    }
+}
+
+/* t counts directions as they are given. */
+TEST(ray, the_length_of_a_direction_scales_t)
+{
+    static const float p[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
+    shade_mesh m = plain_mesh(p, 3);
+    for (int e = -60; e <= 60; e++) {
+        float length = (float)ldexp(1, e), t;
+        shade_ray r = { { 0, 0, 4 }, { 0, 0, -length } };
+        CHECK_INT(shade_pick(&m, shade_mat4_identity(), r, &t, NULL), 0);
+        CHECK_NEAR(t, 4 / (double)length, 0);
+        r.direction.z = length;
+        CHECK_INT(shade_pick(&m, shade_mat4_identity(), r, &t, NULL), -1);
+    }
+}
+
+TEST(ray, pick_finds_nothing_in_bad_meshes_and_on_bad_rays)
+{
+    static const float p[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
+    static const uint32_t good[] = { 0, 1, 2 }, bad[] = { 0, 1, 3 };
+    shade_ray r = { { 0, 0, 4 }, { 0, 0, -1 } };
+    for (int k = 0; k < 24; k++) {
+        shade_mesh m = plain_mesh(p, 3);
+        const shade_mesh *mesh = &m;
+        shade_mat4 model = shade_mat4_identity();
+        shade_ray ray = r;
+        float t = 7, moved[9];
+        shade_vec3 b = shade_v3(7, 7, 7);
+        int want = -1;
+        m.indices = good, m.index_count = 3;
+        memcpy(moved, p, sizeof moved);
+        switch (k) {
+        case 0:
+            mesh = NULL;
+            break;
+        case 1:
+            m.positions = NULL;
+            break;
+        case 2:
+            m.vertex_count = -1;
+            break;
+        case 3:
+            m.index_count = -3;
+            break;
+        case 4:
+            m.index_count = 2;
+            break;
+        case 5:
+            m.indices = bad;
+            break;
+        case 6:
+            m.vertex_count = 2;
+            break;
+        case 7:
+            m.position_stride = -12;
+            break;
+        case 8:
+            m.position_stride = 13;
+            break;
+        case 9:
+            m.index_count = 0;
+            break;
+        case 10:
+            ray.direction = shade_v3(0, 0, 0);
+            break;
+        case 11:
+            ray.direction.x = (float)NAN;
+            break;
+        case 12:
+            ray.direction.z = (float)NAN;
+            break;
+        case 13:
+            ray.origin.y = (float)NAN;
+            break;
+        case 14:
+            moved[rnd_int(0, 8)] = (float)NAN;
+            break;
+        case 15:
+            moved[rnd_int(0, 8)] = INFINITY;
+            break;
+        case 16:
+            model.col[rnd_int(0, 3)].y = (float)NAN;
+            break;
+        case 17:
+            model = shade_mat4_scaling(shade_v3(1, 0, 1));
+            break; /* flat: seen edge-on */
+        case 18:
+            m.normal_stride = 5;
+            break;
+        case 19:
+            ray.origin = shade_v3(0, 0, -1);
+            break; /* behind */
+        case 20:
+            m.indices = NULL, m.vertex_count = 2;
+            break;
+        case 21:
+            memset(&m, 0, sizeof m);
+            break;
+        case 22:
+            memset(&model, 0, sizeof model), want = 0;
+            break;
+        default:
+            want = 0;
+            break;
+        }
+        if (k == 14 || k == 15) m.positions = moved;
+        CHECK_SAY(shade_pick(mesh, model, ray, &t, &b) == want, "case %d", k);
+        if (want < 0) CHECK(t == 7 && b.x == 7 && b.y == 7 && b.z == 7);
+    }
+    for (int i = 0; i < 5000; i++) { /* anything in one triangle takes none of the others away */
+        float v[18];
+        for (int k = 0; k < 9; k++) v[9 + k] = p[k], v[k] = rnd_nasty();
+        shade_mesh m = plain_mesh(v, 6);
+        float t = 0;
+        int got = shade_pick(&m, shade_mat4_identity(), r, &t, NULL);
+        CHECK(got == 1 || (got == 0 && t <= 4));
+        if (got == 1) CHECK_NEAR(t, 4, 0);
+    }
+}
+
+/* Meshes with three points of a line, placed by any model: what is flat stays unhit. */
+TEST(ray, pick_never_meets_a_triangle_without_area)
+{
+    for (int i = 0; i < 20000; i++) {
+        static pick_scene s;
+        shade_vec3 p[3];
+        shade_ray r;
+        int a[3], d[3], n = rnd_int(2, 5);
+        for (int k = 0; k < 3; k++) a[k] = rnd_int(-100, 100), d[k] = rnd_int(-100, 100);
+        for (int k = 0; k < 3; k++) {
+            int at = k == 2 ? n : k;
+            p[k] = shade_v3((float)(a[0] + at * d[0]), (float)(a[1] + at * d[1]),
+                            (float)(a[2] + at * d[2]));
+        }
+        random_pick_scene(&s, 1);
+        shade_mesh m = plain_mesh(&p[0].x, 3);
+        d3 aim = dmat_point(matrix_or_identity(s.model), d3_from(p[rnd_int(0, 2)]));
+        r.origin = random_vector(300), r.direction = d3_round(d3_sub(aim, d3_from(r.origin)));
+        CHECK_INT(shade_pick(&m, s.model, r, NULL, NULL), -1);
+    }
+}
+
+/* The picture of the numbers of a mesh's triangles, as a fragment shader sees them, says at each
+   pixel what the ray through it meets. */
+static void pick_ids(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                     shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    for (int i = 0; i < SHADE_LANES; i++) out->color[0][i] = (float)in->primitive[i] + 1;
+}
+TEST(ray, pick_says_what_is_drawn_at_every_pixel)
+{
+    enum { W = 40, H = 30 };
+    static pick_scene s;
+    long compared = 0, hits = 0;
+    for (int i = 0; i < 60; i++) {
+        shade_vec4 clip[PICK_VERTICES];
+        static ref_triangle seen[PICK_TRIANGLES];
+        static int usable[PICK_TRIANGLES];
+        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
+        shade_mat4 view = shade_mat4_look_at(d3_round(d3_scale(rnd_direction(), 12)),
+                                             random_vector(0.5), d3_round(rnd_direction()));
+        shade_mat4 projection = i % 3 ? shade_mat4_perspective(0.6f, (float)W / H, 1, 40)
+                                      : shade_mat4_ortho(-4, 4, -3, 3, 1, 40);
+        scene flat = { clip, NULL, 0, NULL, NULL };
+        random_pick_scene(&s, 1.5);
+        shade_mat4 m =
+            shade_mat4_mul(shade_mat4_mul(projection, view),
+                           dmat_max(dmat_from(s.model)) > 0 ? s.model : shade_mat4_identity());
+        int triangles = pick_triangles(&s);
+        for (int k = 0; k < PICK_VERTICES; k++) {
+            shade_vec3 p = s.position[k];
+            clip[k] = shade_mat4_transform(m, shade_v4(p.x, p.y, p.z, 1));
+        }
+        for (int n = 0; n < triangles; n++) {
+            uint32_t v[3];
+            for (int k = 0; k < 3; k++)
+                v[k] = s.mesh.indices ? s.index[3 * n + k] : (uint32_t)(3 * n + k);
+            usable[n] = ref_triangle_of(&seen[n], &clip[v[0]], &clip[v[1]], &clip[v[2]], W, H);
+        }
+        shade_pipeline p = scene_pipeline(&flat);
+        p.fragment = pick_ids;
+        canvas_clear(&c, 1);
+        CHECK_INT(shade_draw(&c.target, &p, s.mesh.indices, 3 * triangles, PICK_VERTICES, NULL),
+                  SHADE_OK);
+        for (int k = 0; k < W * H; k++) {
+            double X = k % W + 0.5, Y = k / W + 0.5, nearest = 1, second = 1;
+            int doubt = 0, covered = 0;
+            for (int n = 0; n < triangles; n++) {
+                int in = usable[n] ? ref_covers(&seen[n], X, Y, 0.02, 0, 0) : 0;
+                doubt |= in < 0;
+                if (in != 1) continue;
+                covered = 1;
+                double z = ref_depth(&seen[n], X, Y, 0);
+                if (z < nearest - 1e-12)
+                    second = nearest, nearest = z; /* doubles stay one */
+                else if (z > nearest + 1e-12)
+                    second = fmin(second, z);
+            }
+            if (doubt || (covered && second - nearest < 1e-4)) continue;
+            shade_ray ray = shade_pixel_ray(view, projection, W, H, (float)X, (float)Y);
+            int drawn = (int)canvas_float(&c, k % W, k / W, 0) - 1;
+            int got = shade_pick(&s.mesh, s.model, ray, NULL, NULL);
+            CHECK_SAY(got == drawn, "pixel %d %d: %d drawn, %d picked", k % W, k / W, drawn, got);
+            compared++, hits += got >= 0;
+        }
+        canvas_close(&c);
+    }
+    CHECK_SAY(hits > 5000 && compared - hits > 5000, "%ld compared, %ld hits", compared, hits);
 }
 
 /* ------------------------------------------------------------------------------ drawn both ways */
@@ -453,10 +867,19 @@ static const test_case ray_cases[] = {
     CASE(ray, orthographic_rays_are_parallel_and_leave_the_near_plane),
     CASE(ray, the_middle_of_a_picture_is_straight_ahead),
     CASE(ray, any_matrices_give_a_ray_without_a_crash),
+    CASE(ray, a_degenerate_camera_has_rays_without_direction),
     CASE(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say),
     CASE(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle),
+    CASE(ray, triangles_without_area_are_never_hit),
     CASE(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at),
     CASE(ray, no_numbers_meet_nothing_or_something_finite),
+    CASE(ray, pick_is_the_nearest_triangle_of_all),
+    CASE(ray, pick_places_the_mesh_by_its_model),
+    CASE(ray, of_triangles_met_at_one_place_the_first_is_picked),
+    CASE(ray, the_length_of_a_direction_scales_t),
+    CASE(ray, pick_finds_nothing_in_bad_meshes_and_on_bad_rays),
+    CASE(ray, pick_never_meets_a_triangle_without_area),
+    CASE(ray, pick_says_what_is_drawn_at_every_pixel),
     CASE(ray, cast_and_drawn_pictures_agree_in_perspective),
     CASE(ray, cast_and_drawn_pictures_agree_off_centre),
     CASE(ray, cast_and_drawn_pictures_agree_in_reversed_depth),
