@@ -612,6 +612,28 @@ TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
         canvas_close(&c), canvas_close(&plain);
     }
 }
+/* Lines have no back: cull, even one there is not, changes nothing. */
+TEST(lines, cull_is_ignored)
+{
+    for (int i = 0; i < 60; i++) {
+        canvas plain = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_line_state s = line_state(rnd_float(0, 9));
+        shade_vec3 p[10];
+        for (int k = 0; k < 10; k++) p[k] = random_vector(1.5);
+        canvas_clear(&plain, 1);
+        shade_stats stats = draw_lines(&plain, p, 10, &s);
+        CHECK(stats.drawn > 0);
+        for (int cull = 1; cull < 4; cull++) {
+            canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+            s.raster.cull = (shade_cull)cull;
+            canvas_clear(&c, 1);
+            shade_stats other = draw_lines(&c, p, 10, &s);
+            CHECK(canvas_same(&c, &plain) && !memcmp(&stats, &other, sizeof stats));
+            canvas_close(&c);
+        }
+        canvas_close(&plain);
+    }
+}
 TEST(lines, colour_and_blending_are_the_state_s)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA32F, 0);
@@ -714,6 +736,7 @@ static const test_case lines_cases[] = {
     CASE(lines, nothing_is_drawn_outside_the_clip_rectangle),
     CASE(lines, depth_runs_from_end_to_end_and_is_tested),
     CASE(lines, a_small_negative_bias_lifts_lines_off_their_own_faces),
+    CASE(lines, cull_is_ignored),
     CASE(lines, colour_and_blending_are_the_state_s),
     CASE(lines, bad_arguments_are_refused_before_a_pixel_changes),
     CASE(lines, depth_only_targets_take_lines_too),
