@@ -43,8 +43,8 @@ int main(int argc, char **argv)
         state.lighting.model = model[i];
         state.lighting.light_count = i < 4 ? 1 : 4;
         shade_draw_mesh(&panel, &sphere.view, &state, NULL);
-        label_center(&c.target, 384 * i + 192, 460, 4, shade_v3(0.8f, 0.8f, 0.8f), name[i]);
-        label_center(&c.target, 384 * i + 192, 514, 2, shade_v3(0.42f, 0.43f, 0.45f), adds[i]);
+        label_center(&c, 192 * i + 96, 244, 22, shade_v3(0.8f, 0.8f, 0.8f), name[i]);
+        label_center(&c, 192 * i + 96, 269, 19, shade_v3(0.42f, 0.43f, 0.45f), adds[i]);
     }
     mesh_free(&sphere);
     return canvas_save(&c, argc, argv, "iterations.ppm");

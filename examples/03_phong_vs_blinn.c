@@ -34,7 +34,7 @@ int main(int argc, char **argv)
         teal.shininess = i < 2 ? n : shade_blinn_exponent(n);
         state.lighting.model = model[i];
         shade_draw_mesh(&panel, &sphere.view, &state, NULL);
-        label_center(&c.target, 640 * i + 320, 690, 4, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 320 * i + 160, 359, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
     }
     mesh_free(&sphere);
     return canvas_save(&c, argc, argv, "phong_vs_blinn.ppm");

@@ -37,7 +37,7 @@ int main(int argc, char **argv)
         shade_target panel = canvas_panel(&c, 320 * i, 12, 320, 320);
         state.shading = shading[i];
         shade_draw_mesh(&panel, &sphere.view, &state, NULL);
-        label_center(&c.target, 640 * i + 320, 690, 4, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 320 * i + 160, 359, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
     }
     mesh_free(&sphere);
     return canvas_save(&c, argc, argv, "interpolation.ppm");

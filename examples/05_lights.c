@@ -53,7 +53,7 @@ int main(int argc, char **argv)
             state.model = at[k], state.material = &paint[k];
             shade_draw_mesh(&panel, &shape[k].view, &state, NULL);
         }
-        label_center(&panel, 320, 500, 4, shade_v3(0.8f, 0.8f, 0.8f), name[i]);
+        label_center(&c, 320 * (i % 3) + 160, 270 * (i / 3) + 260, 22, shade_v3(0.8f, 0.8f, 0.8f), name[i]);
     }
     for (int k = 0; k < 4; k++) mesh_free(&shape[k]);
     return canvas_save(&c, argc, argv, "lights.ppm");

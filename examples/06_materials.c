@@ -32,7 +32,7 @@ int main(int argc, char **argv)
         shade_material material = shade_linear_material(shade_preset_material((shade_preset)i));
         state.material = &material;
         shade_draw_mesh(&panel, &pot.view, &state, NULL);
-        label_center(&panel, width, 2 * height - 30, 2, shade_v3(0.6f, 0.6f, 0.6f),
+        label_center(&c, x + width / 2, y + height - 10, 18, shade_v3(0.6f, 0.6f, 0.6f),
                      shade_preset_name((shade_preset)i));
     }
     mesh_free(&pot);

@@ -5,6 +5,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"
+#include "canvas.h"
 
 typedef struct scene {
     shade_mat4 clip_from_world;

@@ -38,7 +38,7 @@ int main(int argc, char **argv)
         }
         if (i == 2) pot.view.normals = NULL;    /* of each face, then */
         shade_draw_mesh(&panel, &pot.view, &state, NULL);
-        label_center(&panel, 320, 460, 4, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 320 * i + 160, 244, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
         mesh_free(&pot);
     }
     return canvas_save(&c, argc, argv, "normal_matrix.ppm");

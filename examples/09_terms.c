@@ -63,7 +63,7 @@ int main(int argc, char **argv)
         if (i <= 4) shade_draw_mesh(&panel, &pot.view, &state, NULL);
         else shade_draw(&panel, &pipeline, pot.indices, pot.view.index_count,
                         pot.view.vertex_count, NULL);
-        label_center(&panel, 480, 830, 8, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 240 * (i % 4) + 120, 230 * (i / 4) + 220, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
     }
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "terms.ppm");

@@ -72,7 +72,7 @@ int main(int argc, char **argv)
         if (i == 2) shade_draw_mesh(&panel, &mesh[1].view, look, NULL);
         else shade_draw(&panel, &pipeline, mesh[i / 2].indices, mesh[i / 2].view.index_count,
                         mesh[i / 2].view.vertex_count, NULL);
-        label_center(&panel, 720, 780, 6, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 480 * (i % 2) + 240, i / 2 * 280 + 272, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
     }
     mesh_free(&mesh[0]), mesh_free(&mesh[1]);
     return canvas_save(&c, argc, argv, "textures.ppm");

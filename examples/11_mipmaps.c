@@ -62,7 +62,7 @@ int main(int argc, char **argv)
             const float *p = from + 4 * (k % 77 + k / 77 * 960);
             shade_clear(&block, shade_v4(p[0], p[1], p[2], 1), 1);
         }
-        label_center(&c.target, 320 * i + 160, 452, 2, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 320 * i + 160, 466, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
     }
     mesh_free(&floor), free(fine.target.color), free(fine.target.depth);
     return canvas_save(&c, argc, argv, "mipmaps.ppm");

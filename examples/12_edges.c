@@ -54,7 +54,7 @@ int main(int argc, char **argv)
             pen.color = ink[i < 2 ? EDGE_OTHER : k], pen.width = i < 2 ? 2.5f : 6;
             shade_draw_lines(&panel, lines.points[k], lines.count[k], &pen, NULL);
         }
-        label_center(&panel, 640, 1250, 8, shade_v3(0.1f, 0.1f, 0.12f), name[i]);
+        label_center(&c, 320 * i + 160, 326, 22, shade_v3(0.1f, 0.1f, 0.12f), name[i]);
     }
     edges_free(&lines), mesh_free(&scene);
     return canvas_save(&c, argc, argv, "edges.ppm");

@@ -35,7 +35,7 @@ int main(int argc, char **argv)
         shade_target panel = canvas_panel(&c, 480 * i, 0, 480, 400);
         state.lighting.model = i ? SHADE_MODEL_COOL_TO_WARM : SHADE_MODEL_BLINN_PHONG;
         shade_draw_mesh(&panel, &pot.view, &state, NULL);
-        label_center(&panel, 960, 1500, 8, shade_v3(0.08f, 0.08f, 0.1f), name[i]);
+        label_center(&c, 480 * i + 240, 388, 22, shade_v3(0.08f, 0.08f, 0.1f), name[i]);
         if (!i) continue;
         joined.view.vertex_count = joined.view.index_count = 0;
         edges_add(&joined, pot, shade_mat4_identity());

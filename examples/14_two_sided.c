@@ -57,7 +57,7 @@ int main(int argc, char **argv)
             state.raster.cull = i < 3 ? SHADE_CULL_NONE : side ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
             shade_draw_mesh(&panel, &m.view, &state, NULL);
         }
-        label_center(&panel, 720, 655, 6, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 480 * (i % 2) + 240, 240 * (i / 2) + 232, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
     }
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "two_sided.ppm");

@@ -44,7 +44,7 @@ int main(int argc, char **argv)
             state.model = shade_mat4_mul(shade_mat4_translation(shade_v3(at.x, at.y, at.z)),
                                          shade_mat4_scaling(shade_v3(0.05f, 0.05f, 0.05f)));
             shade_draw_mesh(&panel, &ball.view, &state, NULL);
-            label_center(&panel, 1440 + 553 * (i - 2), 710, 6, shade_v3(0.6f, 0.6f, 0.6f),
+            label_center(&c, 480 + 184 * (i - 2), 260 * row + 250, 22, shade_v3(0.6f, 0.6f, 0.6f),
                          name[row][i]);
         }
     }

@@ -73,7 +73,7 @@ int main(int argc, char **argv)
         lit += !shadows, different += !shadows && worst > 1 / 255.0f;
     }
     sprintf(text, "%d of %d lit differ", different, lit);
-    for (int i = 0; i < 3; i++) label_center(&c.target, 160 + 320 * i, 272, 2, grey, name[i]);
+    for (int i = 0; i < 3; i++) label_center(&c, 160 + 320 * i, 286, 22, grey, name[i]);
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "ray_cast.ppm");
 }

@@ -70,7 +70,7 @@ int main(int argc, char **argv)
                                          shade_mat4_scaling(shade_v3(size, size, size)));
             shade_draw_mesh(&panel, &land.view, &state, NULL);
         }
-        label_center(&panel, 480, 750, 4, shade_v3(0.9f, 0.9f, 0.9f), name[i]);
+        label_center(&c, 480 * i + 240, 390, 22, shade_v3(0.9f, 0.9f, 0.9f), name[i]);
     }
     mesh_free(&land), mesh_free(&sea);
     return canvas_save(&c, argc, argv, "reversed_z.ppm");

@@ -60,7 +60,7 @@ int main(int argc, char **argv)
             const float *p = from + 4 * (k % 38 + k / 38 * 960);
             shade_clear(&block, shade_v4(p[0], p[1], p[2], 1), 1);
         }
-        label_center(&c.target, 320 * i + 160, 456, 2, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_center(&c, 320 * i + 160, 470, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
     }
     mesh_free(&rays), mesh_free(&pot);
     return canvas_save(&c, argc, argv, "supersampling.ppm");

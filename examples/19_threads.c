@@ -71,8 +71,8 @@ int main(int argc, char **argv)
         different |= memcmp(left, right, sizeof(float[4]) * SAMPLES * WIDTH) != 0;
         for (int i = 0; i < row; i++) right[i] *= tint[i % 4];
     }
-    label_center(&c.target, 720, 1240, 6, shade_v3(0.7f, 0.7f, 0.7f), "one thread");
-    label_center(&c.target, 2160, 1240, 6, shade_v3(0.7f, 0.7f, 0.7f), "eight threads");
+    label_center(&c, 240, 427, 22, shade_v3(0.7f, 0.7f, 0.7f), "one thread");
+    label_center(&c, 720, 427, 22, shade_v3(0.7f, 0.7f, 0.7f), "eight threads");
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "threads.ppm") | different;
 }

@@ -72,8 +72,8 @@ int main(int argc, char **argv)
         different |= memcmp(one, other, sizeof(float[4]) * SAMPLES * WIDTH) != 0;
         for (int i = 0; i < row && y * BANDS / (SAMPLES * HEIGHT) % 2; i++) other[i] *= 1.6f;
     }
-    label_center(&c.target, 720, 1240, 6, shade_v3(0.7f, 0.7f, 0.7f), "at once");
-    label_center(&c.target, 2160, 1240, 6, shade_v3(0.7f, 0.7f, 0.7f), "in twelve bands");
+    label_center(&c, 240, 427, 22, shade_v3(0.7f, 0.7f, 0.7f), "at once");
+    label_center(&c, 720, 427, 22, shade_v3(0.7f, 0.7f, 0.7f), "in twelve bands");
     for (int i = 0; i < DEPTH; i++) mesh_free(&ball[i]);
     return canvas_save(&c, argc, argv, "openmp.ppm") | different;
 }

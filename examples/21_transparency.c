@@ -7,6 +7,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"
+#include "canvas.h"
 #include "paint.h"
 
 enum { SIZE = 256, LEAVES = 260, RINGS = 40 };

@@ -6,6 +6,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"
+#include "canvas.h"
 
 enum { MAP = 1024, SLICES = 96, STACKS = 48 };
 enum { BALL = 2, POT = BALL + 2 * SLICES * (STACKS - 1) };    /* first triangles */

@@ -26,13 +26,6 @@ static picture read_ppm(const char *path)
     return p;
 }
 
-/* How much of i .. i + 1 lies in a .. b */
-static float share(int i, float a, float b)
-{
-    float from = (float)i > a ? (float)i : a, to = (float)i + 1 < b ? (float)i + 1 : b;
-    return to > from ? to - from : 0;
-}
-
 /* The mean of the square from x, y to x + size, y + size, pixels at its rim by their share */
 static shade_vec4 mean(const picture *p, const float *light, float x, float y, float size)
 {
@@ -40,7 +33,7 @@ static shade_vec4 mean(const picture *p, const float *light, float x, float y, f
     for (int j = (int)y; j < p->height && (float)j < y + size; j++)
         for (int i = (int)x; i < p->width && (float)i < x + size; i++) {
             const unsigned char *c = p->bytes + 3 * (j * p->width + i);
-            float a = share(i, x, x + size) * share(j, y, y + size);
+            float a = label_share(i, x, x + size) * label_share(j, y, y + size);
             sum = shade_add4(sum, shade_v4(a * light[c[0]], a * light[c[1]], a * light[c[2]], a));
         }
     return shade_scale4(sum, 1 / sum.w);
@@ -68,7 +61,8 @@ int main(int argc, char **argv)
             ((shade_vec4 *)c.target.color)[at] = mean(&p, linear, u, size * (float)(k / w), size);
         }
         sscanf(strrchr(argv[i], '/') ? strrchr(argv[i], '/') + 1 : argv[i], "%19[^.]", name);
-        label_center(&c.target, x + WIDTH / 2, y + HEIGHT + 6, 2, shade_v3(0.4f, 0.4f, 0.4f), name);
+        for (char *space = name; (space = strchr(space, '_')) != NULL;) *space = ' ';
+        label_center(&c, x + WIDTH / 2, y + HEIGHT + 17, 16, shade_v3(0.4f, 0.4f, 0.4f), name);
         free(p.bytes);
     }
     return canvas_save(&c, argc, argv, "contact.ppm");

@@ -1,65 +1,121 @@
-/* label.h - short captions in a 5 x 7 font of capitals, figures and + - = . / ^ ( ) ,
+/* label.h - captions and formulas on a canvas.
 
-   Small letters are written as capitals; what the font lacks, as a blank. */
+   Text is UTF-8.  A character behind _ is set lower and smaller, one behind ^ higher, or several in
+   braces: "k_a I_{La}", "(N·H)^n".  A character that font.h lacks leaves a blank. */
 #ifndef EXAMPLES_LABEL_H
 #define EXAMPLES_LABEL_H
 
-#include "shade.h"
+#include "canvas.h"
+#include "font.h"
 #include <string.h>
 
-/* The shapes in the order of label_order, fifteen to a band of seven rows, one column apart */
-static const char label_order[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-=./^(),";
-static const char *const label_shape[21] = {
-    " ###  ####   #### ####  ##### #####  #### #   #  ###      # #   # #     #   # #   #  ###  ",
-    "#   # #   # #     #   # #     #     #     #   #   #       # #  #  #     ## ## ##  # #   # ",
-    "#   # #   # #     #   # #     #     #     #   #   #       # # #   #     # # # # # # #   # ",
-    "##### ####  #     #   # ####  ####  #  ## #####   #       # ##    #     # # # # # # #   # ",
-    "#   # #   # #     #   # #     #     #   # #   #   #       # # #   #     #   # #  ## #   # ",
-    "#   # #   # #     #   # #     #     #   # #   #   #   #   # #  #  #     #   # #   # #   # ",
-    "#   # ####   #### ####  ##### #      #### #   #  ###   ###  #   # ##### #   # #   #  ###  ",
-
-    "####   ###  ####   #### ##### #   # #   # #   # #   # #   # #####  ###    #    ###  ####  ",
-    "#   # #   # #   # #       #   #   # #   # #   # #   # #   #     # #   #  ##   #   #     # ",
-    "#   # #   # #   # #       #   #   # #   # #   #  # #   # #     #  #  ##   #       #     # ",
-    "####  #   # ####   ###    #   #   # #   # # # #   #     #     #   # # #   #     ##   ###  ",
-    "#     # # # # #       #   #   #   #  # #  # # #  # #    #    #    ##  #   #    #        # ",
-    "#     #  #  #  #      #   #   #   #  # #  ## ## #   #   #   #     #   #   #   #         # ",
-    "#      ## # #   # ####    #    ###    #   #   # #   #   #   #####  ###   ###  ##### ####  ",
-
-    "   #  #####  ###  #####  ###   ###                              #   #      #   #          ",
-    "  ##  #     #         # #   # #   #   #                        #   # #    #     #         ",
-    " # #  ####  #        #  #   # #   #   #         #####          #  #   #  #       #        ",
-    "#  #      # ####     #   ###   #### #####  ###                #          #       #        ",
-    "#####     # #   #   #   #   #     #   #         #####        #           #       #   ##   ",
-    "   #  #   # #   #   #   #   #     #   #                ##    #            #     #    ##   ",
-    "   #   ###   ###    #    ###   ###                     ##   #              #   #     #    ",
-};
-
-/* Width in units of dot: 6 for each letter, but none after the last */
-static inline int label_width(const char *text) { return 6 * (int)strlen(text) - 1; }
-
-/* Top left corner at pixel x, y; each dot of the font is dot x dot pixels.  Depth is left alone. */
-static inline void label_draw(const shade_target *target, int x, int y, int dot, shade_vec3 color,
-                              const char *text)
+/* The number of the character at *text, which moves behind it */
+static inline int label_code(const char **text)
 {
-    shade_target t = *target;
-    t.depth = NULL, t.clip_width = t.clip_height = dot;
-    for (; *text; text++, x += 6 * dot) {
-        char letter = (char)(*text >= 'a' && *text <= 'z' ? *text - 'a' + 'A' : *text);
-        const char *found = strchr(label_order, letter);
-        int number = found ? (int)(found - label_order) : 0;
-        for (int k = 0; found && k < 35; k++) {
-            if (label_shape[number / 15 * 7 + k / 5][number % 15 * 6 + k % 5] != '#') continue;
-            t.clip_x = x + k % 5 * dot, t.clip_y = y + k / 5 * dot;
-            shade_clear(&t, shade_v4(color.x, color.y, color.z, 1), 1);
+    int first = (unsigned char)*(*text)++;
+    int more = first < 0xC0 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+    int code = more ? first & (0x3F >> more) : first;
+    for (; more > 0 && **text; more--) code = code << 6 | (*(*text)++ & 0x3F);
+    return code;
+}
+
+/* How much of pixel i .. i + 1 lies in a .. b */
+static inline float label_share(int i, float a, float b)
+{
+    float from = (float)i > a ? (float)i : a, to = (float)i + 1 < b ? (float)i + 1 : b;
+    return to > from ? to - from : 0;
+}
+
+/* The mean grey, 0 .. 1, over the square from u, v to u + size, v + size of a glyph's box; shape
+   is the number of its first character. */
+static inline float label_grey(const font_glyph *g, int shape, float u, float v, float size)
+{
+    float sum = 0;
+    for (int y = v > 0 ? (int)v : 0; y < g->height && (float)y < v + size; y++) {
+        for (int x = u > 0 ? (int)u : 0; x < g->width && (float)x < u + size; x++) {
+            int k = y * g->width + x, at = shape + k / 2;
+            char digit = font_shapes[at / FONT_COLUMNS][at % FONT_COLUMNS];
+            int pair = (int)(strchr(font_digits, digit) - font_digits);
+            float grey = (float)(k % 2 ? pair % 8 : pair / 8) / 7;
+            sum += grey * label_share(x, u, u + size) * label_share(y, v, v + size);
+        }
+    }
+    return sum / (size * size);
+}
+
+/* One glyph, its pen at x, y of the target, every pixel of the font scale pixels wide */
+static inline void label_glyph(const shade_target *t, const font_glyph *g, int shape, float x,
+                               float y, float scale, shade_vec3 color)
+{
+    float left = x + scale * (float)g->left, top = y - scale * (float)g->top;
+    int right = (int)(left + scale * (float)g->width) + 1;
+    int bottom = (int)(top + scale * (float)g->height) + 1;
+    for (int j = top > 0 ? (int)top : 0; j < bottom && j < t->height; j++) {
+        for (int i = left > 0 ? (int)left : 0; i < right && i < t->width; i++) {
+            size_t at = (size_t)j * (size_t)(t->stride ? t->stride : t->width) + (size_t)i;
+            float u = ((float)i - left) / scale, v = ((float)j - top) / scale;
+            float grey = label_grey(g, shape, u, v, 1 / scale);
+            shade_vec4 *p = (shade_vec4 *)t->color + at;
+            *p = shade_lerp4(*p, shade_v4(color.x, color.y, color.z, 1), grey);
         }
     }
 }
 
-/* The same, centred about column x */
-static inline void label_center(const shade_target *target, int x, int y, int dot, shade_vec3 color,
+/* Sets text from x on, y its baseline, on c or, where that is NULL, nowhere; returns the width. */
+static inline float label_set(const canvas *c, float x, float y, float size, shade_vec3 color,
+                              const char *text)
+{
+    const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
+    float start = x, small = 0.68f * size, rise = 0, em = size;
+    int apart = 0; /* 1: one character set apart, 2: a group in braces */
+    while (*text) {
+        int code = label_code(&text), k = 0, shape = 0, end = apart == 1;
+        if (!apart && *text && (code == '_' || code == '^')) {
+            apart = *text == '{' ? 2 : 1, text += apart - 1;
+            em = small, rise = code == '_' ? -0.17f * size : 0.33f * size;
+            continue;
+        }
+        if (apart == 2 && code == '}') {
+            end = 1;
+        } else {
+            while (k < glyphs && font_glyphs[k].code != code) k++;
+            const font_glyph *g = &font_glyphs[k < glyphs ? k : 0]; /* the first is a blank */
+            for (int i = 0; i < g - font_glyphs; i++)
+                shape += (font_glyphs[i].width * font_glyphs[i].height + 1) / 2;
+            float s = c ? (float)c->samples : 0;
+            if (c) label_glyph(&c->target, g, shape, s * x, s * (y - rise), s * em / 24, color);
+            x += em * (float)g->advance / 240;
+        }
+        if (end) apart = 0, em = size, rise = 0;
+    }
+    return x - start;
+}
+
+/* All in pixels of the finished picture: x, y where the baseline begins; size is the em, of which
+   capitals are .7 high. */
+static inline void label_draw(const canvas *c, int x, int y, int size, shade_vec3 color,
+                              const char *text)
+{
+    label_set(c, (float)x, (float)y, (float)size, color, text);
+}
+
+static inline float label_width(int size, const char *text)
+{
+    return label_set(NULL, 0, 0, (float)size, shade_v3(0, 0, 0), text);
+}
+
+/* The same, centred about x */
+static inline void label_center(const canvas *c, int x, int y, int size, shade_vec3 color,
                                 const char *text)
 {
-    label_draw(target, x - label_width(text) * dot / 2, y, dot, color, text);
+    label_set(c, (float)x - label_width(size, text) / 2, (float)y, (float)size, color, text);
+}
+
+/* A name and, smaller, the formula below it, centred about x; y is the first baseline. */
+static inline void label_caption(const canvas *c, int x, int y, shade_vec3 color, const char *name,
+                                 const char *formula)
+{
+    label_center(c, x, y, 22, color, name);
+    label_center(c, x, y + 25, 19, color, formula);
 }
 #endif

@@ -1,8 +1,6 @@
-/* mesh.h - what the examples share: meshes that own their arrays, simple shapes, and a canvas to
-   draw on.
+/* mesh.h - meshes that own their arrays, the first shapes, and a vertex shader for them.
 
-   The shapes and canvases are for examples: they exit where memory runs out.  obj.h reports it
-   instead. */
+   The shapes are for examples: they exit where memory runs out.  obj.h reports it instead. */
 #ifndef EXAMPLES_MESH_H
 #define EXAMPLES_MESH_H
 
@@ -183,81 +181,5 @@ static inline void mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
         out->varying[3][i] = N.x, out->varying[4][i] = N.y, out->varying[5][i] = N.z;
         out->varying[6][i] = uv[0], out->varying[7][i] = uv[1];
     }
-}
-
-/* A picture of linear light in 32-bit floats, drawn samples times larger both ways and averaged
-   at the end. */
-typedef struct canvas {
-    shade_target target;             /* samples * width by samples * height */
-    int width, height, samples;      /* of the finished picture */
-} canvas;
-
-static inline canvas canvas_new(int width, int height, int samples)
-{
-    canvas c = { { 0 }, width, height, samples };
-    size_t pixels = (size_t)(width * samples) * (size_t)(height * samples);
-    c.target.width = width * samples, c.target.height = height * samples;
-    c.target.format = SHADE_FORMAT_RGBA32F, c.target.srgb = 1;
-    c.target.color = example_memory(pixels, 4 * sizeof(float));
-    c.target.depth = (float *)example_memory(pixels, sizeof(float));
-    return c;
-}
-
-/* A part of the canvas as a target of its own, so that it has its own camera; pixels of the
-   finished picture */
-static inline shade_target canvas_panel(const canvas *c, int x, int y, int width, int height)
-{
-    shade_target t = c->target;
-    size_t at = (size_t)(y * c->samples) * (size_t)c->target.width + (size_t)(x * c->samples);
-    t.color = (float *)c->target.color + 4 * at, t.depth = c->target.depth + at;
-    t.stride = c->target.width, t.width = width * c->samples, t.height = height * c->samples;
-    return t;
-}
-
-/* Clears depth to 1, colour from one at the top to one at the bottom */
-static inline void canvas_gradient(const shade_target *target, shade_vec3 top, shade_vec3 bottom)
-{
-    shade_target row = *target;
-    row.clip_width = row.width, row.clip_height = 1;
-    for (row.clip_y = 0; row.clip_y < row.height; row.clip_y++) {
-        shade_vec3 k = shade_lerp(top, bottom, ((float)row.clip_y + 0.5f) / (float)row.height);
-        shade_clear(&row, shade_v4(k.x, k.y, k.z, 1), 1);
-    }
-}
-
-/* Averages the samples of each pixel in place; the result shares the memory of the canvas.
-   Light is cut to [0, 1] first: one sample of a highlight ten times too bright would otherwise
-   whiten the pixel and undo the antialiasing. */
-static inline shade_target canvas_finish(const canvas *c)
-{
-    shade_target t = c->target;
-    float *out = (float *)t.color;
-    const float *in = (const float *)c->target.color;
-    int s = c->samples;
-    for (int y = 0; y < c->height; y++) {
-        for (int x = 0; x < c->width; x++, out += 4) {
-            float sum[4] = { 0, 0, 0, 0 };
-            for (int k = 0; k < 4 * s * s; k++) {
-                size_t row = (size_t)(y * s + k / 4 / s), column = (size_t)(x * s + k / 4 % s);
-                float v = in[4 * (row * (size_t)c->target.width + column) + (size_t)(k % 4)];
-                sum[k % 4] += v > 0 ? v < 1 ? v : 1 : 0;
-            }
-            for (int k = 0; k < 4; k++) out[k] = sum[k] / (float)(s * s);
-        }
-    }
-    t.width = c->width, t.height = c->height, t.stride = 0, t.depth = NULL;
-    return t;
-}
-
-/* Writes the picture to argv[1] or to path and frees the canvas; what main returns. */
-static inline int canvas_save(canvas *c, int argc, char **argv, const char *path)
-{
-    shade_target picture = canvas_finish(c);
-    shade_result result;
-    if (argc > 1) path = argv[1];
-    result = shade_write_ppm(path, &picture);
-    if (result) fprintf(stderr, "%s: %s\n", path, shade_result_string(result));
-    free(c->target.color), free(c->target.depth);
-    return result != SHADE_OK;
 }
 #endif

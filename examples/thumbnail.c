@@ -9,6 +9,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "mesh.h"
+#include "canvas.h"
 #include "obj.h"
 #include <time.h>
 
