@@ -48,26 +48,54 @@ static inline void canvas_gradient(const shade_target *target, shade_vec3 top, s
     }
 }
 
-/* Averages the samples of each pixel in place; the result shares the memory of the canvas.
-   Light is cut to [0, 1] first: one sample of a highlight ten times too bright would otherwise
-   whiten the pixel and undo the antialiasing. */
+/* The grey ground of most pictures here */
+static inline void canvas_dark(const shade_target *target)
+{
+    canvas_gradient(target, shade_v3(0.045f, 0.05f, 0.06f), shade_v3(0.012f, 0.013f, 0.016f));
+}
+
+/* A pixel of the finished picture: the mean of its samples, in linear light.  They are cut to
+   [0, 1] first: one sample of a highlight ten times too bright would otherwise whiten the pixel and
+   undo the antialiasing. */
+static inline shade_vec4 canvas_pixel(const canvas *c, int x, int y)
+{
+    int s = c->samples;
+    float sum[4] = { 0, 0, 0, 0 };
+    for (int k = 0; k < 4 * s * s; k++) {
+        size_t row = (size_t)(y * s + k / 4 / s), column = (size_t)(x * s + k / 4 % s);
+        size_t at = row * (size_t)c->target.width + column;
+        float v = ((const float *)c->target.color)[4 * at + (size_t)(k % 4)];
+        sum[k % 4] += v > 0 ? v < 1 ? v : 1 : 0;
+    }
+    for (int k = 0; k < 4; k++) sum[k] /= (float)(s * s);
+    return shade_v4(sum[0], sum[1], sum[2], sum[3]);
+}
+
+/* Shows w x h finished pixels from x, y on once more from to_x, to_y on, each as a block of
+   size x size. */
+static inline void canvas_zoom(const canvas *c, int x, int y, int w, int h, int to_x, int to_y,
+                               int size)
+{
+    for (int k = 0; k < w * h; k++) {
+        int i = k % w, j = k / w;
+        shade_target block = canvas_panel(c, to_x + i * size, to_y + j * size, size, size);
+        shade_clear(&block, canvas_pixel(c, x + i, y + j), 1);
+    }
+}
+
+/* Takes pixels of the finished picture to clip space, for shade_draw_lines. */
+static inline shade_mat4 canvas_from_pixels(const canvas *c)
+{
+    return shade_mat4_ortho(0, (float)c->width, (float)c->height, 0, -1, 1);
+}
+
+/* Averages the samples of each pixel in place; the result shares the memory of the canvas. */
 static inline shade_target canvas_finish(const canvas *c)
 {
     shade_target t = c->target;
-    float *out = (float *)t.color;
-    const float *in = (const float *)c->target.color;
-    int s = c->samples;
-    for (int y = 0; y < c->height; y++) {
-        for (int x = 0; x < c->width; x++, out += 4) {
-            float sum[4] = { 0, 0, 0, 0 };
-            for (int k = 0; k < 4 * s * s; k++) {
-                size_t row = (size_t)(y * s + k / 4 / s), column = (size_t)(x * s + k / 4 % s);
-                float v = in[4 * (row * (size_t)c->target.width + column) + (size_t)(k % 4)];
-                sum[k % 4] += v > 0 ? v < 1 ? v : 1 : 0;
-            }
-            for (int k = 0; k < 4; k++) out[k] = sum[k] / (float)(s * s);
-        }
-    }
+    shade_vec4 *out = (shade_vec4 *)t.color;
+    for (int y = 0; y < c->height; y++)
+        for (int x = 0; x < c->width; x++) *out++ = canvas_pixel(c, x, y);
     t.width = c->width, t.height = c->height, t.stride = 0, t.depth = NULL;
     return t;
 }
