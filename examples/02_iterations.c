@@ -1,7 +1,7 @@
-/* 02_iterations.c - one sphere, five times: the lighting equation as it grows from left to right.
-
-   Iteration zero glows; one adds ambient light; two the light of a lamp spread by Lambert's law;
-   three its highlight; four sums many lamps, weakened by distance or held in a cone.
+/* 02_iterations.c - one sphere, five times: the lighting equation as UW builds it up, from left to
+   right.  Iteration zero glows; one adds ambient light; two the light of a lamp spread by Lambert's
+   law; three its highlight; four sums many lamps, weakened by distance or held in a cone.
+   Try shininess 5 for 40: the highlight spreads over the whole lit half.
 
    cc -O2 -I. examples/02_iterations.c -lm -o iterations && ./iterations */
 #define SHADE_IMPLEMENTATION
@@ -15,14 +15,15 @@ int main(int argc, char **argv)
                                           SHADE_MODEL_LAMBERT, SHADE_MODEL_BLINN_PHONG,
                                           SHADE_MODEL_BLINN_PHONG };
     static const char *const name[5] = { "zero", "one", "two", "three", "four" };
-    static const char *const adds[5] = { "emission", "+ ambient", "+ lambert", "+ blinn-phong",
-                                         "+ lamps, cone" };
+    static const char *const adds[5] = { "k_e", "+ k_a I_a", "+ k_d I B (N·L)",
+                                         "+ k_s I B (N·H)^n", "Σ I_j / (a + b r_j + c r_j^2)" };
     shade_material clay = { { 0.035f, 0.006f, 0.004f }, { 0.75f, 0.16f, 0.09f },
                             { 0.75f, 0.16f, 0.09f }, { 0.35f, 0.35f, 0.35f }, 40 };
+    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     shade_light lamps[4];
     shade_draw_state state = { 0 };
     owned_mesh sphere = mesh_sphere(96, 48);
-    canvas c = canvas_new(960, 290, 2);
+    canvas c = canvas_new(960, 270, 3);
 
     lamps[0] = shade_point_light(shade_v3(-2.6f, 3, 3.4f), shade_v3(1, 0.96f, 0.9f));
     lamps[1] = shade_point_light(shade_v3(1.5f, -0.9f, 0.9f), shade_v3(0.15f, 0.5f, 1.4f));
@@ -32,19 +33,18 @@ int main(int argc, char **argv)
     lamps[3] = shade_spot_light(shade_v3(2, 1, 4), shade_v3(-1.75f, -1.1f, -3.2f), 0.12f, 150,
                                 shade_v3(1.8f, 1.5f, 0.7f));
     state.view = shade_mat4_look_at(shade_v3(0, 0, 6), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.42f, 192 / 220.0f, 1, 10);
+    state.projection = shade_mat4_perspective(0.355f, 1, 1, 10);
     state.material = &clay;
     state.lighting.lights = lamps;
     state.lighting.ambient = shade_v3(0.11f, 0.12f, 0.15f);
 
-    canvas_gradient(&c.target, shade_v3(0.045f, 0.05f, 0.06f), shade_v3(0.012f, 0.013f, 0.016f));
+    canvas_dark(&c.target);
     for (int i = 0; i < 5; i++) {
-        shade_target panel = canvas_panel(&c, 192 * i, 10, 192, 220);
+        shade_target panel = canvas_panel(&c, 192 * i, 8, 192, 192);
         state.lighting.model = model[i];
         state.lighting.light_count = i < 4 ? 1 : 4;
         shade_draw_mesh(&panel, &sphere.view, &state, NULL);
-        label_center(&c, 192 * i + 96, 244, 22, shade_v3(0.8f, 0.8f, 0.8f), name[i]);
-        label_center(&c, 192 * i + 96, 269, 19, shade_v3(0.42f, 0.43f, 0.45f), adds[i]);
+        label_caption(&c, 192 * i + 96, 226, grey, name[i], adds[i]);
     }
     mesh_free(&sphere);
     return canvas_save(&c, argc, argv, "iterations.ppm");
