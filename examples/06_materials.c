@@ -1,5 +1,8 @@
-/* 06_materials.c - twenty-four teapots in the twenty-four preset materials.  Their table is older
-   than sRGB: its numbers are colours of a display, and become linear light before they are lit.
+/* 06_materials.c - twenty-four teapots in the twenty-four materials of the OpenGL teapots, Massey's
+   brass among them (n = 27.9): k_a, k_d, k_s and n alone make metal, stone, plastic and rubber.
+   Their table is older than sRGB: its numbers are colours of a display, and become linear light
+   before they are lit.
+   Try the presets without shade_linear_material: everything is pale, gold is khaki.
 
    cc -O2 -I. examples/06_materials.c -lm -o materials && ./materials        writes materials.ppm */
 #define SHADE_IMPLEMENTATION

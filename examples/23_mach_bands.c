@@ -1,4 +1,4 @@
-/* 23_mach_bands.c - a drum of twelve sides, and below it what a display gets across its middle, 0 to
+/* 23_mach_bands.c - a drum of twelve sides, below it what a display gets across its middle, 0 to
    255.  Where this profile has a step or a kink the eye adds a line of its own, a Mach band.  Flat
    shading has steps, Gouraud's has kinks on the edges: a bright line in the middle, dark ones
    beside it.  Phong's is smooth: each pixel has the normal of a round drum (UW, Massey, Shirley).

@@ -1,0 +1,89 @@
+/* balls.h - balls on a floor under lamps, each with the shadow it casts: visibility by a ray from
+   every pixel to every lamp. */
+#ifndef EXAMPLES_BALLS_H
+#define EXAMPLES_BALLS_H
+
+#include "mesh.h"
+
+enum { BALLS_LAMPS = 2 };    /* the most */
+
+typedef struct balls {
+    int count;
+    const shade_vec4 *at;        /* centres and, as w, radii */
+    const shade_vec3 *color;
+    shade_vec3 floor;            /* colour of the plane y = 0 */
+    shade_lighting lighting;
+    shade_vec3 eye, center;      /* where the camera is, what it looks at */
+    float fovy;
+} balls;
+
+typedef struct balls_uniforms {
+    mesh_scene place;
+    const balls *scene;
+    shade_material material;
+} balls_uniforms;
+
+/* 1 where no ball stands between P and the lamp.  A ball does not hide its own lit side, whose rays
+   leave it. */
+static inline float balls_visibility(const balls *b, const shade_light *lamp, shade_vec3 P)
+{
+    shade_vec3 L;
+    float r;
+    shade_light_at(lamp, P, &L, &r);
+    for (int i = 0; i < b->count; i++) {
+        shade_vec3 to = shade_sub(shade_v3(b->at[i].x, b->at[i].y, b->at[i].z), P);
+        float along = shade_dot(to, L), beside = shade_dot(to, to) - along * along;
+        if (along > 0 && along < r && beside < b->at[i].w * b->at[i].w) return 0;
+    }
+    return 1;
+}
+
+static inline void balls_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                  shade_colors *SHADE_RESTRICT out)
+{
+    const balls_uniforms *u = (const balls_uniforms *)uniforms;
+    const shade_lighting *lighting = &u->scene->lighting;
+    float visibility[BALLS_LAMPS][SHADE_LANES];
+    for (int k = 0; k < lighting->light_count; k++) {
+        SHADE_EACH_LANE(i) {
+            shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
+            visibility[k][i] = balls_visibility(u->scene, &lighting->lights[k], P);
+        }
+    }
+    shade_lit_lanes(lighting, &u->material, u->scene->eye, in->varying[0], in->varying[3], NULL,
+                    visibility[0], out->color[0]);
+}
+
+/* Floor and balls; and the lamps as small ones of light where they are not at infinity. */
+static inline void balls_draw(const shade_target *target, const balls *b)
+{
+    owned_mesh plane = mesh_plane(60, 1), sphere = mesh_sphere(96, 48);
+    balls_uniforms u = { .scene = b };
+    shade_pipeline pipeline = { mesh_vertex, balls_fragment, &u, .varyings = 8 };
+    float aspect = (float)target->width / (float)target->height;
+    u.place.clip_from_world = shade_mat4_mul(
+        shade_mat4_perspective(b->fovy, aspect, 0.5f, 80),
+        shade_mat4_look_at(b->eye, b->center, shade_v3(0, 1, 0)));
+    for (int i = -1; i < b->count + b->lighting.light_count; i++) {
+        int lamp = i - b->count;
+        shade_vec4 at = { 0, 0, 0, 1 };
+        shade_vec3 k = i < 0 ? b->floor : shade_v3(0, 0, 0);
+        const shade_vec3 none = { 0, 0, 0 }, gloss = { 0.4f, 0.4f, 0.4f };
+        if (lamp < 0 && i >= 0) at = b->at[i], k = b->color[i];
+        if (lamp >= 0) at = b->lighting.lights[lamp].position;
+        if (at.w == 0) continue;    /* a lamp at infinity */
+        if (lamp >= 0) at.w = 0.07f;
+        u.material.emission = lamp >= 0 ? shade_v3(1, 0.95f, 0.85f) : none;
+        u.material.ambient = u.material.diffuse = k;
+        u.material.specular = i < 0 || lamp >= 0 ? none : gloss, u.material.shininess = 60;
+        u.place.mesh = i < 0 ? &plane : &sphere;
+        u.place.model = shade_mat4_translation(shade_v3(at.x, at.y, at.z));
+        /* scaled spheres: mesh_vertex keeps the normals' direction, and they are made unit */
+        u.place.model = shade_mat4_mul(u.place.model,
+                                       shade_mat4_scaling(shade_v3(at.w, at.w, at.w)));
+        shade_draw(target, &pipeline, u.place.mesh->indices, u.place.mesh->view.index_count,
+                   u.place.mesh->view.vertex_count, NULL);
+    }
+    mesh_free(&plane), mesh_free(&sphere);
+}
+#endif
