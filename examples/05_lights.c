@@ -33,8 +33,9 @@ int main(int argc, char **argv)
     lamp[1] = shade_point_light(shade_v3(0.2f, 1.7f, 0), white);
     lamp[2] = shade_spot_light(shade_v3(-1, 4, 1.5f), shade_v3(1.3f, -4, -1.3f), 0.36f, 8,
                                shade_scale(white, 1.3f));
-    scene.eye = shade_v3(0, 5, 5.2f), scene.center = shade_v3(0.08f, 0.1f, 0.1f), scene.fovy = 0.60f;
-    scene.lighting.light_count = 1, scene.lighting.ambient = shade_v3(0.04f, 0.045f, 0.06f);
+    scene.eye = shade_v3(0, 5, 5.2f), scene.center = shade_v3(0.08f, 0.1f, 0.1f);
+    scene.fovy = 0.60f, scene.lighting.light_count = 1;
+    scene.lighting.ambient = shade_v3(0.04f, 0.045f, 0.06f);
     canvas_dark(&c.target);
     for (int i = 0; i < 3; i++) {
         shade_target panel = canvas_panel(&c, 321 * i, 0, 318, 330);

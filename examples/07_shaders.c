@@ -1,11 +1,12 @@
-/* 07_shaders.c - shaders of one's own: a vertex shader sends ripples over a teapot and tilts its
-   normals with them, a fragment shader paints stripes, cuts the light into steps and inks outlines.
+/* 07_shaders.c - shaders of one's own, as UW and Massey write them in GLSL: the vertex shader moves
+   points and tilts normals, the fragment shader paints stripes, cuts light into steps, inks rims.
+   Try leaving out the line that tilts N: the ripples stay in the outline, the light ignores them.
 
    cc -O2 -I. examples/07_shaders.c -lm -o shaders && ./shaders        writes shaders.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"
-#include "canvas.h"
+#include "label.h"
 
 typedef struct scene {
     shade_mat4 clip_from_world;
@@ -45,9 +46,8 @@ static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                     rgb[0]);
     SHADE_EACH_LANE(i) {
         shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
-        shade_vec3 N =
-            shade_normalize(shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]));
-        float facing = shade_dot(N, shade_normalize(shade_sub(s->eye, P)));
+        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
+        float facing = shade_dot(shade_normalize(N), shade_normalize(shade_sub(s->eye, P)));
         float stripe = 1.6f * P.y - (float)(int)(1.6f * P.y), ink = facing < 0.25f ? 0.1f : 1.0f;
         float level = ink * (float)(int)(4 * rgb[1][i] + 0.6f) / 4;
         out->color[0][i] = level * (stripe < 0.5f ? 0.95f : 0.10f) + 0.02f * ink;
@@ -59,20 +59,21 @@ static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
 int main(int argc, char **argv)
 {
     shade_light lamp = shade_directional_light(shade_v3(0.6f, -0.8f, -0.7f), shade_v3(1, 1, 1));
-    shade_pipeline pipeline = { .vertex = ripple, .fragment = toon, .varyings = 6 };
     owned_mesh pot = shape_teapot(40);
-    canvas c = canvas_new(640, 480, 4);
+    canvas c = canvas_new(960, 640, 3);
     scene s = { .eye = { -1.2f, 4.6f, 9 }, .positions = pot.positions, .normals = pot.normals };
-    shade_mat4 view = shade_mat4_look_at(s.eye, shade_v3(0.3f, 1.4f, 0), shade_v3(0, 1, 0));
+    shade_pipeline pipeline = { ripple, toon, &s, .varyings = 6 };
+    shade_mat4 view = shade_mat4_look_at(s.eye, shade_v3(0.3f, 1.3f, 0), shade_v3(0, 1, 0));
+    const shade_vec3 ink = { 0, 0, 0 };
 
-    s.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.58f, 640 / 480.0f, 4, 20), view);
+    s.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.52f, 960 / 640.0f, 4, 20), view);
     s.lighting.lights = &lamp, s.lighting.light_count = 1;
     s.material.diffuse = shade_v3(0.85f, 0.85f, 0.85f);
     s.material.specular = shade_v3(0.5f, 0.5f, 0.5f), s.material.shininess = 60;
-    pipeline.uniforms = &s;
     canvas_gradient(&c.target, shade_v3(0.75f, 0.80f, 0.80f), shade_v3(0.95f, 0.88f, 0.75f));
-    shade_draw(&c.target, &pipeline, pot.indices, pot.view.index_count, pot.view.vertex_count,
-               NULL);
+    shade_draw(&c.target, &pipeline, pot.indices, pot.view.index_count, pot.view.vertex_count, 0);
+    label_draw(&c, 24, 594, 22, ink, "vertex shader: P + h(y) N, N tilted to match");
+    label_draw(&c, 24, 622, 22, ink, "fragment shader: light in 4 steps, ink where N·V < 1/4");
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "shaders.ppm");
 }

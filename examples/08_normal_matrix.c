@@ -1,45 +1,76 @@
-/* 08_normal_matrix.c - a teapot squashed to a third of its height.  Left: its normals went through
-   the matrix of its points and lean the wrong way, the pot still shines like a tall one.  Middle:
-   through shade_normal_matrix.  Right, to compare: the normals of the squashed triangles.
+/* 08_normal_matrix.c - a sphere whose points went through M, that presses it to a third.  Left: its
+   normals went through M as well and no longer stand on the surface: it shines like an egg.  Right:
+   through the normal matrix, (M^-1)^T but for its length, shade_normal_matrix (Massey).  The
+   numbers: the mean angle to the normals of the pressed triangles.
+   Try scaling by (0.7f, 0.7f, 0.7f): both are right, since M scales evenly.
 
    cc -O2 -I. examples/08_normal_matrix.c -lm -o normal_matrix && ./normal_matrix */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
+#include "mesh.h"
 #include "label.h"
+#include <math.h>
+
+/* A sphere of 2 n slices, its points moved by M and its normals by of_normals */
+static owned_mesh pressed(int n, shade_mat4 M, shade_mat3 of_normals)
+{
+    owned_mesh m = mesh_sphere(2 * n, n);
+    for (int k = 0; k < m.view.vertex_count; k++) {
+        const float *p = m.positions + 3 * k, *q = m.normals + 3 * k;
+        shade_vec3 N = shade_mat3_transform(of_normals, shade_v3(q[0], q[1], q[2]));
+        mesh_put(&m, k, shade_mat4_transform_point(M, shade_v3(p[0], p[1], p[2])),
+                 shade_normalize(N), 0, 0);
+    }
+    return m;
+}
+
+/* Mean angle in degrees between the normals of corners and those of their triangles */
+static double mean_angle(const owned_mesh *m)
+{
+    const shade_vec3 *p = (const shade_vec3 *)(const void *)m->positions;
+    const shade_vec3 *n = (const shade_vec3 *)(const void *)m->normals;
+    double sum = 0;
+    for (int i = 0; i < m->view.index_count; i++) {
+        const uint32_t *v = m->indices + i - i % 3;
+        shade_vec3 face = shade_face_normal(p[v[0]], p[v[1]], p[v[2]]);
+        sum += acos(fmin(1, (double)shade_dot(n[v[i % 3]], face)));
+    }
+    return sum / m->view.index_count * 57.29578;
+}
 
 int main(int argc, char **argv)
 {
-    static const char *const name[3] = { "matrix of points", "normal matrix", "true normals" };
-    shade_material gold = { { 0, 0, 0 }, { 0.30f, 0.17f, 0.04f }, { 0.45f, 0.26f, 0.06f },
-                            { 0.75f, 0.58f, 0.3f }, 40 };
-    shade_mat4 squash = shade_mat4_scaling(shade_v3(1, 0.35f, 1));
-    shade_mat3 of_normals[2] = { shade_mat3_from_mat4(squash), shade_normal_matrix(squash) };
-    shade_light lamp = shade_directional_light(shade_v3(0.35f, -1, -0.55f),
-                                               shade_v3(1, 0.97f, 0.92f));
-    shade_draw_state state = { 0 };
-    canvas c = canvas_new(960, 260, 2);
+    static const char *const name[2] = { "normals by M", "normals by (M^{−1})^T" };
+    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, white = { 1, 0.97f, 0.92f };
+    const shade_material gold = { { 0, 0, 0 }, { 0.30f, 0.17f, 0.04f }, { 0.45f, 0.26f, 0.06f },
+                                  { 0.75f, 0.58f, 0.3f }, 40 };
+    const shade_mat4 M = shade_mat4_scaling(shade_v3(1, 0.35f, 1));
+    const shade_mat3 by[2] = { shade_mat3_from_mat4(M), shade_normal_matrix(M) };
+    const shade_light lamp = shade_directional_light(shade_v3(0.35f, -1, -0.55f), white);
+    shade_draw_state state = { .material = &gold,
+                               .lighting = { &lamp, 1, .ambient = { 0.20f, 0.21f, 0.25f } } };
+    shade_line_state pen = { .width = 4, .color = { 0.3f, 0.75f, 0.9f, 1 } };
+    canvas c = canvas_new(960, 380, 3);
+    char text[60];
 
-    state.view = shade_mat4_look_at(shade_v3(0, 6, 11), shade_v3(0.22f, 0.2f, 0),
+    state.view = shade_mat4_look_at(shade_v3(0, 3.2f, 7), shade_v3(0, 0.05f, 0),
                                     shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.46f, 320 / 260.0f, 5, 25);
-    state.material = &gold;
-    state.lighting.lights = &lamp, state.lighting.light_count = 1;
-    state.lighting.ambient = shade_v3(0.20f, 0.21f, 0.25f);
-    canvas_gradient(&c.target, shade_v3(0.045f, 0.05f, 0.06f), shade_v3(0.012f, 0.013f, 0.016f));
-    for (int i = 0; i < 3; i++) {
-        shade_target panel = canvas_panel(&c, 320 * i, 0, 320, 260);
-        owned_mesh pot = shape_teapot(40);
-        for (int k = 0; k < pot.view.vertex_count; k++) {
-            float *p = pot.positions + 3 * k, *q = pot.normals + 3 * k;
-            shade_vec3 P = shade_mat4_transform_point(squash, shade_v3(p[0], p[1], p[2]));
-            shade_vec3 N = shade_mat3_transform(of_normals[i > 0], shade_v3(q[0], q[1], q[2]));
-            mesh_put(&pot, k, P, shade_normalize(N), 0, 0);
+    state.projection = shade_mat4_perspective(0.24f, 480 / 310.0f, 5, 25);
+    pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
+    canvas_dark(&c.target);
+    for (int i = 0; i < 2; i++) {
+        shade_target panel = canvas_panel(&c, 480 * i, 0, 480, 310);
+        owned_mesh body = pressed(48, M, by[i]), few = pressed(10, M, by[i]);
+        const shade_vec3 *p = (const shade_vec3 *)(const void *)few.positions;
+        const shade_vec3 *n = (const shade_vec3 *)(const void *)few.normals;
+        shade_draw_mesh(&panel, &body.view, &state, NULL);
+        for (int k = 0; k < few.view.vertex_count; k++) {    /* a normal of each */
+            shade_vec3 stick[2] = { p[k], shade_madd(p[k], 0.22f, n[k]) };
+            shade_draw_lines(&panel, stick, 2, &pen, NULL);
         }
-        if (i == 2) pot.view.normals = NULL;    /* of each face, then */
-        shade_draw_mesh(&panel, &pot.view, &state, NULL);
-        label_center(&c, 320 * i + 160, 244, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
-        mesh_free(&pot);
+        sprintf(text, "%.1f° off on average", mean_angle(&body));
+        label_caption(&c, 480 * i + 240, 340, grey, name[i], text);
+        mesh_free(&body), mesh_free(&few);
     }
     return canvas_save(&c, argc, argv, "normal_matrix.ppm");
 }

@@ -50,11 +50,14 @@ static inline void label_glyph(const shade_target *t, const font_glyph *g, int s
     float left = x + scale * (float)g->left, top = y - scale * (float)g->top;
     int right = (int)(left + scale * (float)g->width) + 1;
     int bottom = (int)(top + scale * (float)g->height) + 1;
+    int dark = color.x + color.y + color.z < 0.6f;
     for (int j = top > 0 ? (int)top : 0; j < bottom && j < t->height; j++) {
         for (int i = left > 0 ? (int)left : 0; i < right && i < t->width; i++) {
             size_t at = (size_t)j * (size_t)(t->stride ? t->stride : t->width) + (size_t)i;
             float u = ((float)i - left) / scale, v = ((float)j - top) / scale;
             float grey = label_grey(g, shape, u, v, 1 / scale);
+            /* mixed in linear light, dark strokes look thinner than light ones */
+            if (dark) grey = grey * (2 - grey);
             shade_vec4 *p = (shade_vec4 *)t->color + at;
             *p = shade_lerp4(*p, shade_v4(color.x, color.y, color.z, 1), grey);
         }
