@@ -2,7 +2,7 @@
 #ifndef EXAMPLES_PAINT_H
 #define EXAMPLES_PAINT_H
 
-#include "shade.h"
+#include "noise.h"
 #include <math.h>
 
 static inline float paint_part(float x) { return x - (float)(int)x; }    /* x >= 0 */
@@ -34,6 +34,19 @@ static inline void paint_flame(float (*texel)[4], int size)
         float glow = 0.35f * shade_power(1 - sqrtf(x * x + y * y), 4);
         texel[0][0] = 1.4f * core + glow, texel[0][1] = (1.1f - 0.6f * t) * core + 0.5f * glow;
         texel[0][2] = 0.4f * (1 - t) * core + 0.15f * glow, texel[0][3] = 1;
+    }
+}
+
+/* Two by two tiles, red and cream, with dark joints */
+static inline void paint_tiles(float (*texel)[4], int size)
+{
+    for (int i = 0; i < size * size; i++, texel++) {
+        int x = i % size * 128 / size, y = i / size * 128 / size, red = (x / 64 + y / 64) % 2;
+        int joint = x % 64 < 3 || y % 64 < 3;
+        float grain = 0.8f + 0.4f * noise(shade_v3((float)x / 6, (float)y / 6, 0));
+        shade_vec3 c = red ? shade_v3(0.30f, 0.045f, 0.02f) : shade_v3(0.62f, 0.5f, 0.34f);
+        c = joint ? shade_v3(0.05f, 0.05f, 0.05f) : shade_scale(c, grain);
+        texel[0][0] = c.x, texel[0][1] = c.y, texel[0][2] = c.z, texel[0][3] = 1;
     }
 }
 #endif
