@@ -3,7 +3,7 @@
    smaller pictures of the texture, as fine as the pixels are, and fades to the mean.  To compare:
    64 bilinear samples a pixel.  Below each, the horizon four times as large, and how far it is from
    that of the 64 samples on average, of 255.
-   Try SHADE_FILTER_NEAREST for both: a little worse than bilinear, near the eye too.
+   Try SHADE_FILTER_NEAREST for BILINEAR: 27.3 for 26.0, and joints near the eye get steps.
 
    cc -O2 -I. examples/11_mipmaps.c -lm -o mipmaps && ./mipmaps        writes mipmaps.ppm */
 #define SHADE_IMPLEMENTATION
