@@ -1,7 +1,9 @@
 /* 14_two_sided.c - a ribbon, open on both sides.  Its normals all point to one side: lit as they
-   are, the other side stays dark.  Two-sided light turns N toward the viewer; the absolute value
-   of N.L lights a sheet from behind as well, like paper; last, each side has a material of its own,
-   the ribbon drawn twice with the other side culled.
+   are, the other side stays dark.  Two-sided light turns N toward the viewer; |N.L|, Shirley's
+   (10.4), lights a sheet from behind as well, like paper, which Berkeley's notes dispute.  Last,
+   each side has a material of its own: the ribbon is drawn twice, with the other side culled.
+   Try a second lamp opposite the first and no flags: the diffuse light of |N.L| everywhere, and
+   highlights of that lamp.
 
    cc -O2 -I. examples/14_two_sided.c -lm -o two_sided && ./two_sided */
 #define SHADE_IMPLEMENTATION
@@ -29,13 +31,16 @@ int main(int argc, char **argv)
 {
     static const char *const name[4] = { "one-sided", "two-sided", "absolute value",
                                          "two materials" };
+    static const char *const formula[4] = { "N·L", "N → −N where N·V < 0", "| N·L |",
+                                            "k_d of the side one sees" };
     static const unsigned flags[4] = { 0, SHADE_FLAG_TWO_SIDED, SHADE_FLAG_TWO_SIDED_ABS,
                                        SHADE_FLAG_TWO_SIDED };
+    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     shade_material silk[2] = { 0 };
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.9f, -0.7f), shade_v3(1, 1, 1));
     shade_draw_state state = { 0 };
     owned_mesh m = ribbon(96);
-    canvas c = canvas_new(960, 480, 3);
+    canvas c = canvas_new(960, 550, 3);
 
     for (int k = 0; k < 2; k++) {
         silk[k].diffuse = k ? shade_v3(0.05f, 0.25f, 0.45f) : shade_v3(0.60f, 0.12f, 0.05f);
@@ -43,21 +48,21 @@ int main(int argc, char **argv)
         silk[k].shininess = 32;
     }
     state.model = shade_mat4_rotation(0.3f, shade_v3(0, 1, 0.4f));
-    state.view = shade_mat4_look_at(shade_v3(0, 2, 10), shade_v3(-0.1f, -0.25f, 0),
+    state.view = shade_mat4_look_at(shade_v3(0, 2, 10), shade_v3(-0.1f, -0.05f, 0),
                                     shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.33f, 480 / 240.0f, 4, 20);
+    state.projection = shade_mat4_perspective(0.285f, 480 / 215.0f, 4, 20);
     state.lighting.lights = &lamp, state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.04f, 0.04f, 0.05f);
     canvas_gradient(&c.target, shade_v3(0.10f, 0.11f, 0.13f), shade_v3(0.035f, 0.037f, 0.045f));
     for (int i = 0; i < 4; i++) {
-        shade_target panel = canvas_panel(&c, 480 * (i % 2), 240 * (i / 2), 480, 240);
+        shade_target panel = canvas_panel(&c, 480 * (i % 2), 275 * (i / 2), 480, 215);
         state.lighting.flags = flags[i];
         for (int side = 0; side < (i < 3 ? 1 : 2); side++) {
             state.material = &silk[side];
             state.raster.cull = i < 3 ? SHADE_CULL_NONE : side ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
             shade_draw_mesh(&panel, &m.view, &state, NULL);
         }
-        label_center(&c, 480 * (i % 2) + 240, 240 * (i / 2) + 232, 22, shade_v3(0.7f, 0.7f, 0.7f), name[i]);
+        label_caption(&c, 480 * (i % 2) + 240, 275 * (i / 2) + 236, grey, name[i], formula[i]);
     }
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "two_sided.ppm");

@@ -1,4 +1,4 @@
-/* shapes.h - more meshes: the teapot, forms turned on a lathe, two meshes as one. */
+/* shapes.h - more meshes: the teapot, forms turned on a lathe, a star, a knot; two meshes as one. */
 #ifndef EXAMPLES_SHAPES_H
 #define EXAMPLES_SHAPES_H
 
@@ -34,6 +34,39 @@ static inline owned_mesh shape_turned(const shade_vec2 *profile, int points, int
             *out++ = k, *out++ = below, *out++ = below + 1;
             *out++ = k, *out++ = below + 1, *out++ = k + 1;
         }
+    }
+    return m;
+}
+
+/* Triangles from the middle outward in the plane y = 0, as wide as the gaps between them */
+static inline owned_mesh shape_star(int rays)
+{
+    owned_mesh m = mesh_new(3 * rays, 3 * rays);
+    for (int i = 0; i < 3 * rays; i++) {
+        shade_vec2 a = mesh_turn(((float)(i / 3) + (i % 3 == 2 ? 0.5f : 0)) / (float)rays);
+        float r = i % 3 ? 5.0f : 0.0f;
+        mesh_put(&m, i, shade_v3(r * a.x, 0, -r * a.y), shade_v3(0, 1, 0), 0, 0);
+        m.indices[i] = (uint32_t)i;
+    }
+    return m;
+}
+
+/* A tube that winds thrice around a torus while going twice along it, striped like candy */
+static inline owned_mesh shape_knot(int cells)
+{
+    owned_mesh m = mesh_plane(1, cells);
+    m.view.colors = m.colors = (float *)example_memory((size_t)m.view.vertex_count, 12);
+    for (int i = 0; i < m.view.vertex_count; i++) {
+        int u = i % (cells + 1) % cells, v = i / (cells + 1) % cells, pale = v * 8 / cells % 2;
+        float t = (float)u / (float)cells, s = (float)v / (float)cells;
+        shade_vec2 a = mesh_turn(2 * t), b = mesh_turn(3 * t), c = mesh_turn(s + 6 * t);
+        float r = 2.1f + b.x;
+        shade_vec3 up = shade_v3(b.x * a.x, b.x * a.y, b.y);
+        shade_vec3 T = shade_v3(-3 * b.y * a.x - 2 * r * a.y, 2 * r * a.x - 3 * b.y * a.y, 3 * b.x);
+        shade_vec3 N = shade_madd(shade_scale(up, c.x), c.y, shade_cross(shade_normalize(T), up));
+        mesh_put(&m, i, shade_madd(shade_v3(r * a.x, r * a.y, b.y), 0.55f, N), N, 0, 0);
+        m.colors[3 * i] = pale ? 0.82f : 0.62f, m.colors[3 * i + 1] = pale ? 0.72f : 0.02f;
+        m.colors[3 * i + 2] = pale ? 0.58f : 0.03f;
     }
     return m;
 }
