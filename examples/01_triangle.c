@@ -1,19 +1,21 @@
-/* 01_triangle.c - a triangle whose corners are red, green and blue: the smallest whole program.
+/* 01_triangle.c - a triangle whose corners are red, green and blue, linear in between, which UW
+   calls smearing: the smallest whole program.
+   Try .srgb = 0: everything gets darker, since a display takes light for codes.
 
    cc -O2 -I. examples/01_triangle.c -lm -o triangle && ./triangle        writes triangle.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include <stdio.h>
 
-static uint32_t pixels[480 * 640];
-static float depth[480 * 640];
+static uint32_t pixels[640 * 960];
+static float depth[640 * 960];
 
 int main(int argc, char **argv)
 {
     static const float corners[] = { -0.9f, -0.75f, 0,   0.9f, -0.75f, 0,   0, 0.85f, 0 };
     static const float colors[] = { 1, 0.02f, 0.02f,   0.02f, 0.7f, 0.05f,   0.03f, 0.1f, 1 };
     const char *path = argc > 1 ? argv[1] : "triangle.ppm";
-    shade_target target = { .width = 640, .height = 480, .srgb = 1 };
+    shade_target target = { .width = 960, .height = 640, .srgb = 1 };
     shade_mesh mesh = { .positions = corners, .colors = colors, .vertex_count = 3 };
     shade_draw_state state = { 0 };
 

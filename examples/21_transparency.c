@@ -2,12 +2,13 @@
    alpha is below alpha_cutoff neither colour nor depth is written, so leaves come in any order.
    Then what lets light through, from back to front and without writing depth: the far half of the
    glass (OVER), the flame, which only adds its light (ADD), the near half.
+   Try alpha_cutoff 0: each leaf shows the square it is.
 
    cc -O2 -I. examples/21_transparency.c -lm -o transparency && ./transparency */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"
-#include "canvas.h"
+#include "label.h"
 #include "paint.h"
 
 enum { SIZE = 256, LEAVES = 260, RINGS = 40 };
@@ -50,10 +51,9 @@ int main(int argc, char **argv)
     flame.view = solid.view, flame.projection = solid.projection, glass = solid;
     canvas_gradient(&c.target, shade_rgb(0x101828), shade_rgb(0x506080));
 
-    solid.model = shape_at(0, 0, 0, 30, 0), solid.material = &earth;
+    solid.material = &wax, shade_draw_mesh(&c.target, &candle.view, &solid, NULL);
+    solid.material = &earth, solid.model = shape_at(0, 0, 0, 30, 0);
     shade_draw_mesh(&c.target, &plane.view, &solid, NULL);
-    solid.model = shade_mat4_identity(), solid.material = &wax;
-    shade_draw_mesh(&c.target, &candle.view, &solid, NULL);
     solid.material = &paper, solid.diffuse_map = &map[0], solid.alpha_cutoff = 0.5f;
     solid.lighting.flags = SHADE_FLAG_TWO_SIDED_ABS;    /* light shines through them a little */
     for (int i = 0; i < LEAVES; i++) {
@@ -69,11 +69,11 @@ int main(int argc, char **argv)
     glass.material = &pane, glass.transparency = 0.88f, glass.lighting.flags = SHADE_FLAG_TWO_SIDED;
     glass.raster.depth_read_only = flame.raster.depth_read_only = 1;
     glass.raster.blend = SHADE_BLEND_OVER, flame.raster.blend = SHADE_BLEND_ADD;
-    flame.model = shape_at(0, 1.25f, 0, 1.2f, 0);
-    flame.model = shade_mat4_mul(flame.model, shade_mat4_rotation(1.5707963f, x));    /* upright */
+    flame.model = shade_mat4_mul(shape_at(0, 1.25f, 0, 1.2f, 0), shade_mat4_rotation(1.5708f, x));
     glass.raster.cull = SHADE_CULL_FRONT, shade_draw_mesh(&c.target, &jar.view, &glass, NULL);
     shade_draw_mesh(&c.target, &plane.view, &flame, NULL);
     glass.raster.cull = SHADE_CULL_BACK, shade_draw_mesh(&c.target, &jar.view, &glass, NULL);
+    label_draw(&c, 24, 40, 22, tallow, "glass: α s + (1 − α) d;   flame: α s + d");
     mesh_free(&plane), mesh_free(&candle), mesh_free(&jar);
     return canvas_save(&c, argc, argv, "transparency.ppm");
 }

@@ -1,16 +1,15 @@
-/* 22_shadow.c - a shadow by two draws.  The first, from the lamp, writes depth alone: how far light
-   gets.  The second asks for every pixel which of 3 x 3 texels of that depth let the light pass
-   (percentage-closer filtering): the visibility of the lamp.  A faint blue one casts no shadow.
+/* 22_shadow.c - a shadow, which local light does not know (UW, Berkeley), by two draws.  The first,
+   from the lamp, writes depth alone: how far light gets.  The second asks for every pixel which of
+   3 x 3 texels of that depth let light pass: the visibility of the lamp.
+   Try MAP 128: the shadow's rim shows texels, and lit faces shadow themselves.
 
    cc -O2 -I. examples/22_shadow.c -lm -o shadow && ./shadow                   writes shadow.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"
-#include "canvas.h"
-
-enum { MAP = 1024, SLICES = 96, STACKS = 48 };
-enum { BALL = 2, POT = BALL + 2 * SLICES * (STACKS - 1) };    /* first triangles */
-static const shade_vec3 eye = { 4.1f, 7, 12.4f }, up = { 0, 1, 0 };
+#include "label.h"
+enum { MAP = 1024, BALL = 2, POT = BALL + 2 * 96 * 47 };    /* the last two: first triangles */
+static const shade_vec3 eye = { 4.1f, 7, 12.4f }, up = { 0, 1, 0 }, grey = { 0.6f, 0.6f, 0.6f };
 typedef struct scene { mesh_scene place; shade_lighting lighting; shade_mat4 from_lamp; } scene;
 static float map[MAP][MAP];
 
@@ -19,8 +18,8 @@ static float passes(shade_vec3 p)
 {
     float x = (1 + p.x) * MAP / 2, y = (1 - p.y) * MAP / 2, sum = 0;
     if (!(x >= 1 && y >= 1 && x < MAP - 1 && y < MAP - 1)) return 0;    /* outside the cone */
-    float u = x - (float)(int)x, v = y - (float)(int)y;
-    const float across[3] = { 1 - u, 1, u }, down[3] = { 1 - v, 1, v };
+    const float u = x - (float)(int)x, across[3] = { 1 - u, 1, u };
+    const float v = y - (float)(int)y, down[3] = { 1 - v, 1, v };
     for (int k = 0; k < 9; k++)
         if ((1 + p.z) / 2 <= map[(int)y + k / 3 - 1][(int)x + k % 3 - 1])
             sum += across[k % 3] * down[k / 3] / 4;
@@ -40,10 +39,10 @@ static void light(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
         shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
         shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
         float sine = shade_length(shade_cross(N, shade_v3(L[0][i], L[1][i], L[2][i])));
-        /* A texel, here up to .018 wide, knows the depth at its centre, up to 2.1 texels from P: a
+        /* A texel, up to .018 wide here, knows the depth at its centre, up to 2.1 texels from P: a
            face that leans by theta may be .04 tan(theta) nearer there and would shadow itself.  P
            moved by .04 sin(theta) along N gains just that, and a fifth more for facets, which lean
-           from N.  Shadows begin .05 late at most, too little to part from what casts them. */
+           from N.  Shadows begin at most .05 late. */
         P = shade_mat4_transform_point(s->from_lamp, shade_madd(P, 0.04f * (sine + 0.2f), N));
         visibility[0][i] = passes(P), visibility[1][i] = 1;
         albedo[0][i] = k.x, albedo[1][i] = k.y, albedo[2][i] = k.z;
@@ -57,15 +56,14 @@ int main(int argc, char **argv)
     const shade_vec3 at = { -3, 10, 6.5f }, aim = { 3, -9.2f, -6.5f }, blue = shade_rgb(0x506888);
     const shade_light lamps[2] = { shade_spot_light(at, aim, 0.42f, 12, shade_v3(2.2f, 2, 1.8f)),
                                    shade_directional_light(shade_v3(-1, -1, 0), blue) };
-    owned_mesh ball = mesh_sphere(SLICES, STACKS), m;
+    owned_mesh m = shape_moved(mesh_sphere(96, 48), shape_at(4.1f, 1, 0.4f, 1, 0));
     scene s = { .place = { .mesh = &m, .model = shade_mat4_identity() },
                 .lighting = { lamps, 2, .ambient = { 0.04f, 0.04f, 0.05f } } };
     shade_pipeline pipeline = { mesh_vertex, light, &s, .varyings = 8 };
     shade_target from_lamp = { .width = MAP, .height = MAP, .depth = map[0] };
     canvas c = canvas_new(960, 540, 2);
 
-    ball = shape_moved(ball, shade_mat4_translation(shade_v3(4.1f, 1, 0.4f)));
-    m = shape_join(shape_join(mesh_plane(60, 1), ball), shape_teapot(16));
+    m = shape_join(shape_join(mesh_plane(60, 1), m), shape_teapot(16));
     s.from_lamp = shade_mat4_mul(shade_mat4_perspective(0.9f, 1, 4, 40),
                                  shade_mat4_look_at(at, shade_add(at, aim), up));
     s.place.clip_from_world = s.from_lamp;    /* a cone of .84 and some texels around */
@@ -75,6 +73,7 @@ int main(int argc, char **argv)
                                              shade_mat4_look_at(eye, shade_v3(0.5f, 1, -0.2f), up));
     shade_clear(&c.target, shade_v4(0, 0, 0, 1), 1);
     shade_draw(&c.target, &pipeline, m.indices, m.view.index_count, m.view.vertex_count, NULL);
+    label_draw(&c, 24, 40, 22, grey, "visibility: the share of 3 × 3 texels the lamp sees");
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "shadow.ppm");
 }
