@@ -1,4 +1,4 @@
-/* label.h - captions and formulas on a canvas.
+/* label.h - captions and formulas, on a canvas or any target of 8 or 32 bits a channel.
 
    Text is UTF-8.  A character behind _ is set lower and smaller, one behind ^ higher, or several in
    braces: "k_a I_{La}", "(N·H)^n".  A character that font.h lacks leaves a blank. */
@@ -43,30 +43,45 @@ static inline float label_grey(const font_glyph *g, int shape, float u, float v,
     return sum / (size * size);
 }
 
+/* Mixes ink into a pixel: in linear light, or in the bytes that a display gets. */
+static inline void label_mix(const shade_target *t, size_t at, shade_vec3 ink, float share)
+{
+    unsigned char *byte = (unsigned char *)t->color + 4 * at;
+    const int bgra = t->format == SHADE_FORMAT_BGRA8;
+    const float code[3] = { bgra ? ink.z : ink.x, ink.y, bgra ? ink.x : ink.z };
+    if (t->format == SHADE_FORMAT_RGBA32F) {
+        shade_vec4 *p = (shade_vec4 *)t->color + at;
+        *p = shade_lerp4(*p, shade_v4(ink.x, ink.y, ink.z, 1), share);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        byte[k] = (unsigned char)((float)byte[k] * (1 - share) + 255 * code[k] * share + 0.5f);
+}
+
 /* One glyph, its pen at x, y of the target, every pixel of the font scale pixels wide */
 static inline void label_glyph(const shade_target *t, const font_glyph *g, int shape, float x,
                                float y, float scale, shade_vec3 color)
 {
+    int light = t->format == SHADE_FORMAT_RGBA32F, dark = color.x + color.y + color.z < 0.6f;
+    shade_vec3 ink = !light && t->srgb ? shade_srgb_from_linear(color) : color;
     float left = x + scale * (float)g->left, top = y - scale * (float)g->top;
     int right = (int)(left + scale * (float)g->width) + 1;
     int bottom = (int)(top + scale * (float)g->height) + 1;
-    int dark = color.x + color.y + color.z < 0.6f;
     for (int j = top > 0 ? (int)top : 0; j < bottom && j < t->height; j++) {
         for (int i = left > 0 ? (int)left : 0; i < right && i < t->width; i++) {
             size_t at = (size_t)j * (size_t)(t->stride ? t->stride : t->width) + (size_t)i;
             float u = ((float)i - left) / scale, v = ((float)j - top) / scale;
-            float grey = label_grey(g, shape, u, v, 1 / scale);
+            float share = label_grey(g, shape, u, v, 1 / scale);
             /* mixed in linear light, dark strokes look thinner than light ones */
-            if (dark) grey = grey * (2 - grey);
-            shade_vec4 *p = (shade_vec4 *)t->color + at;
-            *p = shade_lerp4(*p, shade_v4(color.x, color.y, color.z, 1), grey);
+            label_mix(t, at, ink, light && dark ? share * (2 - share) : share);
         }
     }
 }
 
-/* Sets text from x on, y its baseline, on c or, where that is NULL, nowhere; returns the width. */
-static inline float label_set(const canvas *c, float x, float y, float size, shade_vec3 color,
-                              const char *text)
+/* Sets text from x on, y its baseline, on t or, where that is NULL, nowhere; size is the em, of
+   which capitals are .7 high; all in pixels of t.  Returns the width. */
+static inline float label_set(const shade_target *t, float x, float y, float size,
+                              shade_vec3 color, const char *text)
 {
     const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
     float start = x, small = 0.68f * size, rise = 0, em = size;
@@ -85,8 +100,7 @@ static inline float label_set(const canvas *c, float x, float y, float size, sha
             const font_glyph *g = &font_glyphs[k < glyphs ? k : 0]; /* the first is a blank */
             for (int i = 0; i < g - font_glyphs; i++)
                 shape += (font_glyphs[i].width * font_glyphs[i].height + 1) / 2;
-            float s = c ? (float)c->samples : 0;
-            if (c) label_glyph(&c->target, g, shape, s * x, s * (y - rise), s * em / 24, color);
+            if (t) label_glyph(t, g, shape, x, y - rise, em / 24, color);
             x += em * (float)g->advance / 240;
         }
         if (end) apart = 0, em = size, rise = 0;
@@ -94,24 +108,25 @@ static inline float label_set(const canvas *c, float x, float y, float size, sha
     return x - start;
 }
 
-/* All in pixels of the finished picture: x, y where the baseline begins; size is the em, of which
-   capitals are .7 high. */
+static inline float label_width(float size, const char *text)
+{
+    return label_set(NULL, 0, 0, size, shade_v3(0, 0, 0), text);
+}
+
+/* On a canvas, x, y and size in pixels of the finished picture */
 static inline void label_draw(const canvas *c, int x, int y, int size, shade_vec3 color,
                               const char *text)
 {
-    label_set(c, (float)x, (float)y, (float)size, color, text);
-}
-
-static inline float label_width(int size, const char *text)
-{
-    return label_set(NULL, 0, 0, (float)size, shade_v3(0, 0, 0), text);
+    float s = (float)c->samples;
+    label_set(&c->target, s * (float)x, s * (float)y, s * (float)size, color, text);
 }
 
 /* The same, centred about x */
 static inline void label_center(const canvas *c, int x, int y, int size, shade_vec3 color,
                                 const char *text)
 {
-    label_set(c, (float)x - label_width(size, text) / 2, (float)y, (float)size, color, text);
+    float s = (float)c->samples, left = s * (float)x - label_width(s * (float)size, text) / 2;
+    label_set(&c->target, left, s * (float)y, s * (float)size, color, text);
 }
 
 /* A name and, smaller, the formula below it, centred about x; y is the first baseline. */

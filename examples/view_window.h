@@ -76,30 +76,33 @@ static inline int window_fit(window *w)
 
 /* ---- frames ---------------------------------------------------------------------------------- */
 
-/* Pixels to a dot of the letters */
-static inline int window_dot(const window *w)
-{
-    return w->scale > 1 ? (int)(1.5f * w->scale + 0.5f) : 2;
-}
+/* Pixels of the letters' em */
+static inline float window_em(const window *w) { return w->scale > 1 ? 16 * w->scale : 18; }
 
-static inline void window_text(const window *w, const shade_target *t, int column, int row,
+/* column: ems from the left; below 0: at the right edge.  row: below 0: the last one */
+static inline void window_text(const window *w, const shade_target *t, float column, int row,
                                uint32_t color, const char *text)
 {
-    int dot = window_dot(w), margin = 4 * dot;
-    int x = margin + 6 * dot * column, y = margin + 10 * dot * row;
-    if (column < 0) x = t->width - margin - label_width(text) * dot;
-    if (row < 0) y = t->height - margin - 7 * dot;
-    label_draw(t, x, y, dot, shade_rgb(color), text);
+    float em = window_em(w), x = em * (column + 0.5f), y = em * (1.1f + 1.3f * (float)row);
+    if (column < 0) x = (float)t->width - em / 2 - label_width(em, text);
+    if (row < 0) y = (float)t->height - em / 2;
+    label_set(t, x, y, em, shade_rgb(color), text);
 }
 
+/* The keys, and from the fifteenth character on what they do */
 static inline void window_help(const window *w, const shade_target *t)
 {
-    int dot = window_dot(w);
+    float em = window_em(w);
     shade_target box = *t;
-    box.clip_x = 2 * dot, box.clip_y = 22 * dot;
-    box.clip_width = 6 * 54 * dot, box.clip_height = 10 * (SCENE_HELP + 2) * dot;
+    box.clip_x = (int)(0.5f * em), box.clip_y = (int)(2.6f * em);
+    box.clip_width = (int)(26 * em), box.clip_height = (int)(1.3f * (SCENE_HELP + 2) * em);
     shade_clear(&box, shade_v4(0.007f, 0.01f, 0.013f, 1), 1);
-    for (int k = 0; k < SCENE_HELP; k++) window_text(w, t, 1, k + 3, SCENE_BOX_INK, scene_help[k]);
+    for (int k = 0; k < SCENE_HELP; k++) {
+        char keys[16];
+        snprintf(keys, sizeof keys, "%.15s", scene_help[k]);
+        window_text(w, t, 1, k + 3, SCENE_BOX_INK, keys);
+        window_text(w, t, 8.5f, k + 3, SCENE_BOX_INK, scene_help[k] + 15);
+    }
 }
 
 static inline void window_words(const window *w, const shade_target *t)

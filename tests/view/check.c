@@ -6,7 +6,7 @@
                                                       tmux capture-pane -e -N -p prints it
        check window RRGGBB                            a window on standard input, as xwd writes it:
                                                       prints its width, height, how many colours
-                                                      follow one another, and the pixels of one */
+                                                      follow one another, and pixels near one */
 #define _DEFAULT_SOURCE
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
@@ -450,6 +450,17 @@ static uint32_t xwd_word(const char *p)
     return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
 }
 
+/* Letters mix with what is behind them. */
+static int same_ink(uint32_t a, uint32_t b)
+{
+    int most = 0;
+    for (int k = 0; k < 24; k += 8) {
+        int d = abs((int)(a >> k & 255) - (int)(b >> k & 255));
+        most = d > most ? d : most;
+    }
+    return most <= 24;
+}
+
 /* An X window dump: a header of 25 words, its colour map of 12 bytes an entry, rows of BGRX */
 static int check_window(const char *color)
 {
@@ -464,7 +475,7 @@ static int check_window(const char *color)
         for (uint32_t x = 0; x < word[4]; x++) {
             const unsigned char *p = (unsigned char *)text + at + y * word[12] + 4 * x;
             uint32_t rgb = (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
-            changes += rgb != last, count += rgb == wanted;
+            changes += rgb != last, count += same_ink(rgb, wanted);
             last = rgb;
         }
     }
