@@ -2482,7 +2482,8 @@ static void shade__take_batch(shade__draw *d, const uint32_t *indices, int first
         for (int k = 0; k < 3; k++) {
             uint32_t at = (uint32_t)(3 * (first + n) + k), index = indices ? indices[at] : at;
             uint8_t *known = &in->slot_of[index & (2 * SHADE_LANES - 1)];
-            const int old = *known, hit = (old < vertices) & (index_of[old] == index);
+            const int old = *known & (SHADE_LANES - 1);    /* the queue lay there before */
+            const int hit = (old < vertices) & (index_of[old] == index);
             const int slot = vertices + ((old - vertices) & -hit);
             index_of[vertices] = index;
             vertices += 1 - hit;
