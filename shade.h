@@ -4770,18 +4770,23 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
 {
     const double margin = 3 * s->half_width + 2, w0 = end[0][3], w1 = end[1][3];
     const double right = 1 + margin / s->half_x, up = 1 + margin / s->half_y;
+    /* w of a place: what rounding leaves of it in t */
+    const double least = (w0 > w1 ? w0 - w1 : w1 - w0) * 1e-14 + (double)shade__w_least;
     const int zero_to_one = s->state->raster.depth_zero_to_one != 0;
     double p[4], at[2][2], length;
     t[0] = 0, t[1] = 1;
     shade__cut(end[0][2] + (zero_to_one ? 0 : w0), end[1][2] + (zero_to_one ? 0 : w1), t, t + 1);
     shade__cut(w0 - end[0][2], w1 - end[1][2], t, t + 1);
-    shade__cut(w0 - (double)shade__w_least, w1 - (double)shade__w_least, t, t + 1);
+    shade__cut(w0 - least, w1 - least, t, t + 1);
     if (!(t[0] <= t[1])) return 0;
     for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
     dir[0] = at[1][0] - at[0][0], dir[1] = at[1][1] - at[0][1];
     length = dir[0] * dir[0] + dir[1] * dir[1];
-    length = length > 0 ? shade__root(length) : 0;
-    dir[0] = length > 0 ? dir[0] / length : 1, dir[1] = length > 0 ? dir[1] / length : 0;
+    if (length > 0) {
+        length = shade__root(length);
+        dir[0] /= length;
+        dir[1] /= length;
+    } else dir[0] = 1;
     shade__cut(right * w0 - end[0][0], right * w1 - end[1][0], t, t + 1);
     shade__cut(right * w0 + end[0][0], right * w1 + end[1][0], t, t + 1);
     shade__cut(up * w0 - end[0][1], up * w1 - end[1][1], t, t + 1);

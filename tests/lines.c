@@ -377,8 +377,9 @@ TEST(lines, ends_a_million_pictures_away_keep_their_pixels)
         double X = rnd_unit() * width, Y = rnd_unit() * height;
         double a = rnd_unit() * 6.283185307179586, reach[2];
         shade_vec3 p[2];
-        if (rnd_one_in(4))
-            a = rnd_int(0, 7) * 0.7853981633974483; /* along rows, columns, diagonals */
+        if (rnd_one_in(4)) a = rnd_int(0, 7) * 0.7853981633974483; /* as rows, columns, diagonals */
+        if (rnd_one_in(4))                                         /* nearly as a row or a column */
+            a = rnd_int(0, 3) * 1.5707963267948966 + (double)(rnd_sign() * rnd_log(1e-8, 1e-2));
         if (rnd_one_in(6))
             X += width * (rnd_unit() - 0.5) * 4, Y += height * (rnd_unit() - 0.5) * 4;
         s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
@@ -424,6 +425,56 @@ TEST(lines, far_ends_seen_by_a_camera_keep_their_pixels)
         canvas_close(&c);
     }
     CHECK_SAY(inside > 100000 && far > 1000, "%ld pixels, %ld far ends", inside, far);
+}
+
+/* What touches a plane from outside is a point there. */
+TEST(lines, an_end_that_touches_near_or_far_is_a_point)
+{
+    for (int i = 0; i < 16; i++) {
+        canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_line_state s = line_state(4);
+        int far = i & 1, zero_to_one = i >> 1 & 1, square = i >> 2 & 1, swapped = i >> 3 & 1;
+        double on = far ? 1 : zero_to_one ? 0 : -1;
+        shade_vec3 p[2];
+        p[swapped] = line_point(8, 6, on, 16, 12);
+        p[!swapped] = line_point(12, 6, on + (far ? 1 : -1), 16, 12);
+        s.cap = (shade_cap)square, s.raster.depth_zero_to_one = zero_to_one;
+        s.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        canvas_clear(&c, 1);
+        shade_stats stats = draw_lines(&c, p, 2, &s);
+        CHECK_INT(square ? stats.drawn : stats.culled, 2);
+        CHECK_INT(stats.fragments, square ? 16 : 0);
+        canvas_close(&c);
+    }
+}
+/* From w = 0, where a line has a direction but no place, or from behind it, to the middle. */
+TEST(lines, a_line_from_infinitely_far_enters_from_its_direction)
+{
+    enum { W = 40, H = 40 };
+    for (int i = 0; i < 400; i++) {
+        canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_line_state s = line_state(rnd_float(0.5, 6));
+        double a = rnd_unit() * 6.283185307179586, behind = rnd_one_in(2) ? 0 : rnd_unit();
+        shade_vec3 p[2] = { { (float)cos(a), (float)sin(a), (float)-behind }, { 0, 0, 1 } };
+        int swapped = rnd_int(0, 1);
+        shade_vec3 first = p[swapped], second = p[!swapped];
+        p[0] = first, p[1] = second;
+        memset(&s.clip_from_points, 0, sizeof s.clip_from_points);
+        s.clip_from_points.col[0].x = s.clip_from_points.col[1].y = 1; /* x, y, 0, z */
+        s.clip_from_points.col[2].w = 1;
+        s.raster.depth_zero_to_one = rnd_int(0, 1);
+        canvas_clear(&c, 1);
+        shade_stats stats = draw_lines(&c, p, 2, &s);
+        line_places r = ref_rectangle(W / 2, H / 2, W / 2 + cos(a) * 100, H / 2 - sin(a) * 100,
+                                      (double)s.width, SHADE_CAP_BUTT);
+        CHECK_INT(stats.drawn, 2);
+        for (int k = 0; k < W * H; k++) {
+            int in = ref_in_rectangle(&r, k % W + 0.5, k / W + 0.5, 1 / 256.0);
+            CHECK_SAY(in < 0 || line_pixel(&c, k % W, k / W) == in,
+                      "pixel %d %d: want %d, angle %g", k % W, k / W, in, a);
+        }
+        canvas_close(&c);
+    }
 }
 
 /* A scene a million million times smaller or larger gives the same pixels. */
@@ -729,6 +780,8 @@ static const test_case lines_cases[] = {
     CASE(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn),
     CASE(lines, ends_a_million_pictures_away_keep_their_pixels),
     CASE(lines, far_ends_seen_by_a_camera_keep_their_pixels),
+    CASE(lines, an_end_that_touches_near_or_far_is_a_point),
+    CASE(lines, a_line_from_infinitely_far_enters_from_its_direction),
     CASE(lines, the_scale_of_a_scene_does_not_matter),
     CASE(lines, places_that_are_none_are_rejected_wherever_they_lie),
     CASE(lines, any_finite_numbers_keep_to_the_picture_and_the_count),
