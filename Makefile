@@ -8,7 +8,7 @@
 # make mutation   small changes of shade.h, one at a time, that the tests must notice
 # make static     clang-tidy and cppcheck
 # make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
-# make gallery    the small PNGs of the README (needs netpbm)
+# make gallery    the PNGs of the README (needs netpbm and pngquant)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
 CC      ?= cc

@@ -20,25 +20,45 @@ chart() {
 }
 
 if [ -s "$build/bench_compare.tsv" ]; then
-    # Bars from the top row down: how many times faster than the peer.
-    awk -F'\t' '$4 > 0 { print }' "$build/bench_compare.tsv" >"$build/bench_ratio.tsv"
+    # Bars from the top row down: how many times faster than the peer, with the widest vectors and,
+    # where run.sh measured levels, with SSE2; slower ones are red.
+    [ -s "$build/bench_level_0.tsv" ] || : >"$build/bench_level_0.tsv"
+    awk -F'\t' -v OFS='\t' 'FILENAME == ARGV[1] { narrow[$1] = $4; next }
+        $4 > 0 { print $1, $2, $4, narrow[$1] + 0 }' \
+        "$build/bench_level_0.tsv" "$build/bench_compare.tsv" >"$build/bench_ratio.tsv"
     rows=$(wc -l <"$build/bench_ratio.tsv")
-    [ "$rows" -gt 0 ] && chart bench_compare "900,$((110 + 34 * rows))" <<PLOT
-set label "shade.h beside llvmpipe on one core: times faster at the same pictures" \\
-    at screen 0.02, screen 0.96
-set tmargin 3
+    [ "$rows" -gt 0 ] && chart bench_compare "960,$((150 + 44 * rows))" <<PLOT
+set label 1 "shade.h beside llvmpipe, one core each, the same pictures: how many times as fast" \\
+    at screen 0.02, screen 0.965 font ',13'
+set label 2 "1: as fast as llvmpipe" at 1, graph 1.012 center tc rgb '#aa3333'
+set label 3 "thick: the widest vectors, and ms a frame" right \\
+    at graph 0.99, graph 0.62 tc rgb '#3b6ea5'
+stats '$build/bench_ratio.tsv' using 4 name 'NARROW' nooutput
+if (NARROW_max > 0) {
+    set label 4 "thin: SSE2 alone, as any x86-64 has it" right \\
+        at graph 0.99, graph 0.57 tc rgb '#7799bb'
+}
+set label 5 "red: slower than llvmpipe" right at graph 0.99, graph 0.52 tc rgb '#cc4433'
+set tmargin 4.5
 set style fill solid 1.0 noborder
-stats '$build/bench_ratio.tsv' using 4 nooutput
+stats '$build/bench_ratio.tsv' using 3 nooutput
 set yrange [$rows - 0.4 : -0.6]
-set xrange [0 : 1.3 * STATS_max]
+set xrange [0 : 1.25 * STATS_max]
 set grid x noy
 unset key
 set border 1
 set ytics scale 0
-set arrow from 1, graph 0 to 1, graph 1 nohead lc rgb '#aa3333' dt 2
+set arrow from 1, graph 0 to 1, graph 1 nohead front lw 1.5 lc rgb '#aa3333' dt 2
+color(x, wide) = x < 1 ? 0xcc4433 : wide ? 0x3b6ea5 : 0x99b5d0
 plot '$build/bench_ratio.tsv' \
-         using (\$4 / 2) : 0 : (\$4 / 2) : (0.3) : ytic(1) with boxxyerror lc rgb '#3b6ea5', \
-     '' using 4 : 0 : (sprintf(' %.1f x   %.3g ms', \$4, \$2)) with labels left offset 0.3, 0
+         using (\$3 / 2) : (\$0 - 0.1) : (\$3 / 2) : (0.22) : (color(\$3, 1)) : ytic(1) \
+         with boxxyerror lc rgb variable, \
+     '' using (\$4 / 2) : (\$0 + 0.24) : (\$4 / 2) : (0.09) : (color(\$4, 0)) \
+         with boxxyerror lc rgb variable, \
+     '' using 3 : (\$0 - 0.1) : (sprintf(' %.1f   %.3g ms', \$3, \$2)) \
+         with labels left offset 0.3, 0, \
+     '' using (\$4 > 0 ? \$4 : NaN) : (\$0 + 0.25) : (sprintf(' %.2g', \$4)) \
+         with labels left offset 0.3, 0 font ',9' tc rgb '#666666'
 PLOT
 fi
 

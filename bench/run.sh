@@ -49,7 +49,8 @@ levels() {
     for level in 1 0; do
         echo "## The same with narrower vectors: level $level of 2"
         echo
-        $pin "$build/compare" ${rounds:---rounds 11} ${MESH:+--mesh "$MESH"} --level $level
+        $pin "$build/compare" ${rounds:---rounds 11} ${MESH:+--mesh "$MESH"} --level $level \
+            --tsv "$build/bench_level_$level.tsv"
         echo
     done
 }

@@ -20,7 +20,7 @@ int main(int argc, char **argv)
     const shade_material clay = { { 0, 0, 0 }, { 0.6f, 0.55f, 0.5f }, { 0.6f, 0.55f, 0.5f },
                                   { 0.3f, 0.3f, 0.3f }, 20 };
     const shade_light lamp = shade_directional_light(shade_v3(-1, -0.8f, -0.3f), shade_v3(1, 1, 1));
-    shade_draw_state state = { .material = &clay, .lighting = { &lamp, 1 } };
+    shade_draw_state state = { .material = &clay };
     shade_line_state pen = { .width = 9, .cap = SHADE_CAP_SQUARE,
                              .color = { 0.02f, 0.02f, 0.03f, 1 } };
     owned_mesh pot = shape_teapot(40);
@@ -28,7 +28,7 @@ int main(int argc, char **argv)
     edge_lines lines;
     canvas c = canvas_new(960, 296, 4);
 
-    c.target.srgb = 0;
+    c.target.srgb = 0, state.lighting.lights = &lamp, state.lighting.light_count = 1;
     state.lighting.cool = shade_v3(0.4f, 0.4f, 0.7f);
     state.lighting.warm = shade_v3(0.8f, 0.6f, 0.6f);
     state.view = shade_mat4_look_at(eye, shade_v3(0.16f, 1.5f, 0), shade_v3(0, 1, 0));

@@ -1,4 +1,4 @@
-/* contact.c - a contact sheet of the pictures named on the command line, four to a row: each made
+/* contact.c - a contact sheet of the pictures named on the command line, five to a row: each made
    small by the mean over areas, in linear light, with the name of its file below.
 
    cc -O2 -I. examples/contact.c -lm -o contact && ./contact sheet.ppm one.ppm two.ppm ... */
@@ -7,7 +7,7 @@
 #include "mesh.h"
 #include "label.h"
 
-enum { COLUMNS = 4, WIDTH = 200, HEIGHT = 117, CAPTION = 22, GAP = 10 };    /* pixels */
+enum { COLUMNS = 5, WIDTH = 190, HEIGHT = 112, CAPTION = 22, GAP = 10 };    /* pixels */
 typedef struct picture { int width, height; unsigned char *bytes; } picture;
 
 /* A binary PPM of 8 bits; bytes is NULL where the file is something else. */

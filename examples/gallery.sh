@@ -1,20 +1,21 @@
 #!/bin/sh
-# gallery.sh - the pictures of the README: out/*.ppm made smaller, as PNG of 7 bits a channel, or 6
-# where that takes more than 60 kB (70 for one that is dark, where steps show).  Needs netpbm
-# (pamscale, pamdepth, pnmtopng).
+# gallery.sh - the pictures of the README: out/*.ppm as PNG, in 256 colours where dither hides that
+# (pngquant's 99 of 100), else in 7 bits a channel.  The picture for the microcontroller's display is
+# shown three times as large.  Needs netpbm (pnmenlarge, pamdepth, pnmtopng) and pngquant.
 mkdir -p examples/pictures
-command -v pamscale >/dev/null && command -v pnmtopng >/dev/null ||
-    { echo "gallery: no netpbm here"; exit 1; }
+for tool in pnmenlarge pamdepth pnmtopng pngquant; do
+    command -v $tool >/dev/null || { echo "gallery: no $tool here"; exit 1; }
+done
 make -s -C examples/microcontroller ../../build/microcontroller/picture.565 || exit 1
-for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller/picture.ppm; do
-    name=$(basename "$ppm" .ppm) width=480 most=60000
-    case $name in 01_* | 07_*) width=360 ;; 06_*) width=520 ;; 21_*) most=70000 ;; gallery) width=850 ;;
-        picture) name=microcontroller width=320 ;; esac
-    for levels in 127 63; do
-        png=examples/pictures/$name.png
-        pamscale -xsize $width -filter box "$ppm" 2>/dev/null | pamdepth $levels 2>/dev/null |
-            pnmtopng -compression 9 >"$png" 2>/dev/null || exit 1
-        [ "$(wc -c <"$png")" -gt "$most" ] || break
-    done
+pnmenlarge 3 build/microcontroller/picture.ppm >build/microcontroller.ppm || exit 1
+for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller.ppm; do
+    least=99
+    case $ppm in */20_*) least=97 ;; esac    # large; looked at
+    png=examples/pictures/$(basename "$ppm" .ppm).png
+    if ! pnmtopng "$ppm" 2>/dev/null |
+        pngquant --quality $least-100 --speed 1 --strip 256 - >"$png" 2>/dev/null; then
+        pamdepth 127 "$ppm" 2>/dev/null | pnmtopng -compression 9 >"$png" 2>/dev/null || exit 1
+    fi
     echo "$png $(wc -c <"$png")"
 done
+echo "$(cat examples/pictures/*.png | wc -c) bytes of PNG in all"
