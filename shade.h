@@ -224,15 +224,22 @@
 #define SHADE__EXACT_BEGIN
 #define SHADE__EXACT_END
 #endif
-#if defined(__GNUC__) && !defined(__clang__)
+/* whether what is only faster has code of its own */
 #ifdef __OPTIMIZE_SIZE__
-#define SHADE__O2
+#define SHADE__TWICE 0
 #else
-#define SHADE__O2 _Pragma("GCC optimize(\"O2\")")
+#define SHADE__TWICE 1
 #endif
+#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__OPTIMIZE_SIZE__) || defined(SHADE__AS_COMPILED)    /* that for counting branches */
 #define SHADE__EXACT_INSIDE_BEGIN \
-    _Pragma("GCC push_options") SHADE__O2 \
+    _Pragma("GCC push_options") \
     _Pragma("GCC optimize(\"fp-contract=off\", \"no-tree-loop-distribute-patterns\")")
+#else
+#define SHADE__EXACT_INSIDE_BEGIN \
+    _Pragma("GCC push_options") \
+    _Pragma("GCC optimize(\"O2\", \"fp-contract=off\", \"no-tree-loop-distribute-patterns\")")
+#endif
 #define SHADE__EXACT_INSIDE_END _Pragma("GCC pop_options")
 #else
 #define SHADE__EXACT_INSIDE_BEGIN
@@ -2976,7 +2983,7 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
     return t->z + t->z_dy * ((float)y + t->y_ref);
 }
 /* Cuts the clip rectangle into blocks of 32 x 8 pixels or more, SHADE__BLOCKS at most. */
-static void shade__begin_blocks(const shade__plan *plan, shade__hidden *hidden)
+static SHADE__UNUSED void shade__begin_blocks(const shade__plan *plan, shade__hidden *hidden)
 {
     int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
     hidden->log_width = 5, hidden->log_height = 3;
@@ -2996,7 +3003,7 @@ SHADE__INLINE float shade__key(float toward, const shade__triangle *t, int x, in
 /* In rows y .. bottom of the triangle's box, of one row of blocks: moves *x to the next block that
    has a pixel of the triangle and is not hidden, beyond the box if there is none, and returns the
    last pixel before one that has not or is. */
-static SHADE__NOINLINE int shade__next_blocks(const shade__plan *plan, shade__hidden *hidden,
+static SHADE__NOINLINE SHADE__UNUSED int shade__next_blocks(const shade__plan *plan, shade__hidden *hidden,
                                               const shade__triangle *t, const int64_t *edge, int *x,
                                               int y, int bottom)
 {
@@ -3074,8 +3081,7 @@ static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int l
 {
     while (set) {
         const int first = SHADE__LOWEST_BIT(set);
-        const uint32_t rest = ~(set >> first);    /* 0: all 32 */
-        const int n = rest ? SHADE__LOWEST_BIT(rest) : 32;
+        const int n = SHADE__LOWEST_BIT(~(set >> first));    /* the set lacks one of 32 */
         if (r->count == SHADE__RUNS) shade__send(d, r);
         shade__add_run(r, lane, x + first, y, n);
         set &= set + (set & (0u - set));    /* without its lowest run */
@@ -3198,15 +3204,16 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, shade__
     float *row = shade__depth_row(plan, y);
     int length = 0;
     for (int take; n > 0; x += take, n -= take) {
-        const int width = n > 16 ? 32 : 16, at = shade__min(x, plan->x1 - width), skip = x - at;
+        const int width = SHADE__TWICE && n > 16 ? 32 : 16;
+        const int at = shade__min(x, plan->x1 - width), skip = x - at;
         uint32_t set;
         take = shade__min(n, width - skip);
         if (at < plan->x0) {
             take = 1;
             set = shade__test(plan->compare, t, z, x, 0, 1, row + x, 1, 0);
-        } else if (width == 16)
+        } else if (!SHADE__TWICE || width == 16)
             set = shade__test(plan->compare, t, z, at, skip, take, row + at, 16, 0) >> skip;
-        else if (plan->plain)
+        else if (SHADE__TWICE && plan->plain)
             set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 1) >> skip;
         else set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 0) >> skip;
         d->stats.fragments += shade__count_bits(set);
@@ -3331,7 +3338,7 @@ SHADE__INLINE void shade__spans_body(shade__draw *d, shade__runs *runs, int lane
     int blocks;
     shade__triangle_of(&d->packet, lane, &t);
     shade__wide_edges(&d->packet, &t, edge);
-    blocks = t.x1 - t.x0 >= 31 && t.y1 - t.y0 >= 7 && plan->toward != 0;
+    blocks = SHADE__TWICE && t.x1 - t.x0 >= 31 && t.y1 - t.y0 >= 7 && plan->toward != 0;
     if (blocks && !d->hidden.across) shade__begin_blocks(plan, &d->hidden);
     for (int y = t.y0, bottom; y <= t.y1; y = bottom + 1) {
         const int below = blocks ? (y - plan->y0) | ((1 << d->hidden.log_height) - 1) : 16384;
@@ -3366,7 +3373,7 @@ SHADE__INLINE void shade__cover_packet(shade__draw *d, int count, const int widt
 }
 SHADE__INLINE void shade__cover_body(shade__draw *d, int count, const int width)
 {
-    if (d->plan.plain) shade__cover_packet(d, count, width, 1);
+    if (SHADE__TWICE && d->plan.plain) shade__cover_packet(d, count, width, 1);
     else shade__cover_packet(d, count, width, 0);
 }
 SHADE__DISPATCH(shade__cover, (shade__draw *d, int count), (d, count, shade__width))
@@ -3386,12 +3393,11 @@ enum {    /* most pixels appended at once */
 };
 /* The planes of a triangle's values: value = base + gy (y + y_ref) + gx (x + x_ref). */
 typedef struct shade__planes {
+    SHADE_ALIGNED float base[SHADE__VALUES_MAX];
+    float    gx[SHADE__VALUES_MAX], gy[SHADE__VALUES_MAX];
     float    x_ref, y_ref;            /* 1/2 - position of corner 0, pixels; exact */
     float    z_low, z_high, rw_low, rw_high;    /* planes are cut to these */
     uint32_t primitive, front;
-    SHADE_ALIGNED float base[SHADE__VALUES_MAX];
-    SHADE_ALIGNED float gx[SHADE__VALUES_MAX];
-    SHADE_ALIGNED float gy[SHADE__VALUES_MAX];
 } shade__planes;
 
 /* All in one loop, with k = dx1, dy1, dx2, dy2 over the area. */
@@ -3536,7 +3542,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
     while (n > 0) {
         const int c = q->f.count, room = SHADE_LANES - c;
         int take;
-        if (n > 8 && room >= SHADE__WIDE) {
+        if (SHADE__TWICE && n > 8 && room >= SHADE__WIDE) {
             shade__append(d, t, row, x, y, c, 0, SHADE__WIDE);
             take = shade__min(n, SHADE__WIDE);
         } else if (room >= 8) {
@@ -3830,7 +3836,7 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
     SHADE_ALIGNED float level[SHADE__TEXELS];
     SHADE_ALIGNED float weight[SHADE__TEXELS];
     float lowest = levels ? 32.0f : 0.0f, highest = 0;
-    if (shade__is_plain_map(t, levels)) {
+    if (SHADE__TWICE && shade__is_plain_map(t, levels)) {
         shade__sample_plain(t, u, v, blocks, out, stride);
         return;
     }
@@ -4552,8 +4558,8 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_shading shading = s->state->shading;
     const int lit = shading != SHADE_SHADING_PER_FRAGMENT, colored = s->mesh->colors != 0;
-    shade__v3 own[SHADE__OWN], *P = &own[0], *N, *albedo;
-    if (!lit || SHADE__OWN == 1) P = shade__three_rows(out->varying[lit ? 6 : 0]);
+    shade__v3 own[SHADE__OWN], *P, *N, *albedo;
+    P = lit && SHADE__OWN > 1 ? own : shade__three_rows(out->varying[lit ? 6 : 0]);
     N = P + 1, albedo = N + 1;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip);
@@ -4563,10 +4569,10 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     shade__lane_normal(s->normal_matrix, N);
     if (!colored) albedo = (shade__v3 *)0;
     if (lit && s->map) {
-        shade__light_vertices(s, &s->matte, P, N, albedo, out->varying[0]);
-        shade__light_vertices(s, &s->gloss, P, N, albedo, out->varying[0] + 3 * SHADE_LANES);
+        shade__light_vertices(s, &s->matte, P, N, albedo, (float *)out->varying);
+        shade__light_vertices(s, &s->gloss, P, N, albedo, (float *)out->varying + 3 * SHADE_LANES);
     } else if (lit)
-        shade__light_vertices(s, &s->state->lighting, P, N, albedo, out->varying[0]);
+        shade__light_vertices(s, &s->state->lighting, P, N, albedo, (float *)out->varying);
     if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
 SHADE__DISPATCH_AVX2(shade__mesh_vertex,
