@@ -3003,9 +3003,9 @@ SHADE__INLINE float shade__key(float toward, const shade__triangle *t, int x, in
 /* In rows y .. bottom of the triangle's box, of one row of blocks: moves *x to the next block that
    has a pixel of the triangle and is not hidden, beyond the box if there is none, and returns the
    last pixel before one that has not or is. */
-static SHADE__NOINLINE SHADE__UNUSED int shade__next_blocks(const shade__plan *plan, shade__hidden *hidden,
-                                              const shade__triangle *t, const int64_t *edge, int *x,
-                                              int y, int bottom)
+SHADE__UNUSED static SHADE__NOINLINE int shade__next_blocks(
+    const shade__plan *plan, shade__hidden *hidden, const shade__triangle *t, const int64_t *edge,
+    int *x, int y, int bottom)
 {
     const float toward = plan->toward;
     const int right = toward * t->z_dx > 0, down = toward * t->z_dy > 0;

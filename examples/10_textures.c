@@ -52,7 +52,7 @@ int main(int argc, char **argv)
         const float *q = (const float *)panel[1].color + 4 * at;
         covered += panel[0].depth[at] < 1, wrong += panel[0].depth[at] < 1 && p[0] != q[0];
     }
-    sprintf(text[0], "another tile at %d %% of the pixels", 100 * wrong / covered);
+    sprintf(text[0], "another tile at %d %% of the pixels", covered ? 100 * wrong / covered : 0);
     for (int i = 0; i < 2; i++) label_caption(&c, 483 * i + 238, 340, grey, name[i], text[i]);
     mesh_free(&floor);
     return canvas_save(&c, argc, argv, "textures.ppm");

@@ -42,10 +42,10 @@ int main(int argc, char **argv)
     canvas_dark(&one.target), canvas_dark(&c.target);
     draw(&whole);
     for (int i = 0; i < THREADS; i++) {
-        shade_target *band = &jobs[i].target;
-        jobs[i] = whole, *band = c.target;
-        band->clip_y = band->height * i / THREADS, band->clip_width = band->width;
-        band->clip_height = band->height * (i + 1) / THREADS - band->clip_y;
+        shade_target band = c.target;
+        band.clip_y = band.height * i / THREADS, band.clip_width = band.width;
+        band.clip_height = band.height * (i + 1) / THREADS - band.clip_y;
+        jobs[i].target = band, jobs[i].mesh = whole.mesh;
         if (pthread_create(&thread[i], NULL, draw, &jobs[i])) return 1;
     }
     for (int i = 0; i < THREADS; i++) pthread_join(thread[i], NULL);

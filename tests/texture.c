@@ -376,8 +376,9 @@ TEST(texture, a_bad_texture_is_white)
     for (int i = 0; i < SHADE_LANES; i++) u[i] = v[i] = 0.3f;
     for (int k = -2; k < TEXTURE_FAULTS; k++) {
         shade_texture t;
-        const shade_texture *p = k == -1 ? NULL : &t;
+        const shade_texture *p;
         memset(&t, 0, sizeof t);
+        p = k == -1 ? NULL : &t;
         t.pixels = pixels, t.width = t.height = 4, t.format = SHADE_FORMAT_RGBA32F;
         if (k >= 0) spoil_texture(&t, k);
         float want = k == -2 ? 0.25f : 1.0f, got[4];
