@@ -2830,7 +2830,7 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32
     uint8_t kept[SHADE__CLIP_VERTICES];
     int count = 0;
     for (int i = 0; i < p->count; i++) {
-        if (count > SHADE__CLIP_VERTICES - 2 || p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {
+        if (p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {    /* an edge makes one at most */
             p->count = 0;    /* coordinates so far apart that rounding bent the polygon */
             return;
         }
@@ -4559,7 +4559,7 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade_shading shading = s->state->shading;
     const int lit = shading != SHADE_SHADING_PER_FRAGMENT, colored = s->mesh->colors != 0;
     shade__v3 own[SHADE__OWN], *P, *N, *albedo;
-    P = lit && SHADE__OWN > 1 ? own : shade__three_rows(out->varying[lit ? 6 : 0]);
+    P = SHADE__OWN == 1 || !lit ? shade__three_rows(out->varying[lit ? 6 : 0]) : own;
     N = P + 1, albedo = N + 1;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip);

@@ -444,6 +444,15 @@ TEST(light, the_cone_of_a_lamp_includes_its_edge)
     }
 }
 
+TEST(light, a_reflectance_without_a_direction_is_the_diffuse_one)
+{
+    shade_material m = shade_preset_material(SHADE_PRESET_GOLD);
+    const shade_vec3 n = shade_v3(0, 0, 1), none = shade_v3(0, 0, 0);
+    for (int k = 0; k < 2; k++) {
+        shade_vec3 f = shade_brdf(&m, SHADE_MODEL_PHONG, n, k ? none : n, k ? n : none);
+        check_color(__LINE__, "no direction", f, d3_from(m.diffuse), 0);
+    }
+}
 TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
 {
     for (int i = 0; i < 20000; i++) {
@@ -1088,6 +1097,7 @@ static const test_case light_cases[] = {
     CASE(light, attenuation_is_defined_everywhere),
     CASE(light, the_cone_includes_its_edge),
     CASE(light, the_cone_of_a_lamp_includes_its_edge),
+    CASE(light, a_reflectance_without_a_direction_is_the_diffuse_one),
     CASE(light, brdf_times_cosine_is_the_weighted_light),
     CASE(light, light_at_is_what_arrives_where_from_and_how_far),
     CASE(light, no_lamp_is_dark_and_nowhere),

@@ -369,6 +369,33 @@ static void spoil_texture(shade_texture *t, int fault)
     default: t->wrap_v = (shade_wrap)-1; break;
     }
 }
+/* the same bits by the way of the commonest texture and by that of all others */
+TEST(texture, any_address_and_any_stride_give_the_same_bits)
+{
+    enum { WIDE = 262144 };
+    static uint32_t aligned[2 * WIDE];
+    static unsigned char bytes[4 * 64 + 1];
+    for (int i = 0; i < 8; i++) {
+        aligned[i] = (uint32_t)rnd_bits(), aligned[WIDE + i] = (uint32_t)rnd_bits();
+    }
+    for (int row = 0; row < 8; row++) memcpy(bytes + 1 + 32 * row, aligned + (row & 1) * WIDE, 32);
+    for (int i = 0; i < 300; i++) {
+        shade_texture near_rows, far_rows, odd;
+        memset(&near_rows, 0, sizeof near_rows);
+        near_rows.pixels = aligned, near_rows.width = 8, near_rows.height = 2;
+        near_rows.stride = WIDE;
+        far_rows = odd = near_rows;
+        far_rows.height = 16384; /* rows * stride beyond 2^31: only the first two are there */
+        odd.pixels = bytes + 1, odd.stride = 8;
+        float u = rnd_float(-3, 3), v = rnd_float(0.25, 0.75);
+        shade_vec4 want = shade_sample(&near_rows, u, v, 0);
+        shade_vec4 got = shade_sample(&odd, u, v, 0);
+        CHECK(!memcmp(&got, &want, sizeof got));
+        got = shade_sample(&far_rows, u, v / 8192, 0);
+        CHECK_NEAR(got.x, want.x, 1e-5);
+        CHECK_NEAR(got.w, want.w, 1e-5);
+    }
+}
 TEST(texture, a_bad_texture_is_white)
 {
     float pixels[64], u[SHADE_LANES], v[SHADE_LANES], rgba[4 * SHADE_LANES];
@@ -1269,6 +1296,7 @@ static const test_case texture_cases[] = {
     CASE(texture, full_texels_are_exactly_one_and_empty_ones_zero),
     CASE(texture, srgb_texels_are_decoded_before_they_are_blended),
     CASE(texture, beyond_the_edges_each_axis_wraps_by_its_own_rule),
+    CASE(texture, any_address_and_any_stride_give_the_same_bits),
     CASE(texture, a_bad_texture_is_white),
     CASE(texture, no_texel_outside_the_picture_is_read),
     CASE(texture, lanes_are_the_scalar_samples_bit_for_bit),
