@@ -9,6 +9,7 @@
 # make static     clang-tidy and cppcheck
 # make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
+# make playground   the equation as a web page, build/playground/index.html (needs clang and lld)
 # make vector-report   loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
@@ -72,6 +73,8 @@ conformance:
 	@sh tests/conformance.sh
 gallery: all
 	@sh examples/gallery.sh
+playground:
+	@sh examples/playground/build.sh
 coverage:
 	@sh tests/coverage.sh
 mutation:
@@ -87,5 +90,5 @@ fuzz:
 clean:
 	rm -rf build out
 .PHONY: all test bench bench-plot matrix conformance coverage mutation static fuzz gallery \
-        vector-report clean
+        playground vector-report clean
 .SECONDARY:
