@@ -1,0 +1,470 @@
+// playground.mjs - the playground in a real browser: every control is moved, and after each move
+// the module's pixels are those of the native build.   node playground.mjs page native cc browser
+import { chromium } from 'playwright-core';
+import { execFileSync } from 'child_process';
+import fs from 'fs';
+import http from 'http';
+import path from 'path';
+
+const [page_file, native, cc, browser_path] = process.argv.slice(2);
+const T = fs.mkdtempSync(path.join(path.dirname(page_file), 'test-'));
+let passed = 0, failed = 0;
+function check(what, good, more = '') {
+    if (good) { passed++; return; }
+    failed++;
+    console.log(`playground: ${what} ${more}`);
+}
+
+// every lamp on, near, coned and attenuated, so that each slider shows
+const RICH = 'turn=0&Ia=.3,.3,.3&ke=.05,.02,.01&n=30&' + [1, 2, 3].map(j =>
+    `on${j}=1&far${j}=0&p${j}=${[[2, 2.5, 3], [-3, 1, 2], [0.5, -3, 2]][j - 1]}&I${j}=1,.9,.8&` +
+    `A${j}=.2,.1,.1&a${j}=.5&b${j}=.1&c${j}=.05&beta${j}=5&e${j}=4`).join('&');
+
+// the fields of the rows, in their order; the lamp's number follows from I on
+const SYMBOLS = ['ke', 'ka', 'kd', 'ks', 'n', 'Ia', 'I', 'A', 'p', 'p', 'p', 'a', 'b', 'c', 'beta',
+    'e'];
+
+const browser = await chromium.launch({ executablePath: browser_path, args: ['--no-sandbox',
+    '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync'] });
+const server = http.createServer((request, answer) => {
+    answer.setHeader('content-type', 'text/html');
+    answer.end(fs.readFileSync(page_file));
+});
+await new Promise(ready => server.listen(0, '127.0.0.1', ready));
+const served = `http://127.0.0.1:${server.address().port}/`, opened = 'file://' + page_file;
+const complaints = [], requests = [];
+
+async function open(hash, options = {}, url = opened) {
+    const context = await browser.newContext({ viewport: { width: 960, height: 700 }, ...options });
+    const page = await context.newPage();
+    page.on('console', line => complaints.push(line.text()));
+    page.on('pageerror', error => complaints.push(error.stack));
+    page.on('request', request => requests.push(request.url()));
+    await page.goto(url + '#' + hash);
+    await page.waitForFunction(() => document.querySelectorAll('.presets canvas').length === 24 &&
+        document.querySelector('#speed').textContent);
+    return page;
+}
+
+// Goes to another address in the same page, until its picture stands.
+async function go(page, hash) {
+    await page.evaluate(hash => new Promise(done => {
+        addEventListener('hashchange', () => setTimeout(done), { once: true });
+        location.hash = hash + '&';
+    }), hash);
+    await page.waitForFunction(() =>
+        !requested && !stale && performance.now() > probeAfter + 100);
+}
+
+// The state's floats and the module's picture of it
+async function draws(page, width = 160, height = 120) {
+    const got = await page.evaluate(([w, h]) => {
+        const text = bytes => btoa(Array.from(bytes, b => String.fromCharCode(b)).join(''));
+        const pixels = text(draw(w, h, 1));    // which also builds the mesh, for its bounds
+        return { words: text(new Uint8Array(Float32Array.from(words(w, h, 1)).buffer)), pixels };
+    }, [width, height]);
+    return { words: Buffer.from(got.words, 'base64'), pixels: Buffer.from(got.pixels, 'base64') };
+}
+async function same(page, what, model = []) {
+    const { words, pixels } = await draws(page), file = path.join(T, 'state');
+    fs.writeFileSync(file, words);
+    const want = execFileSync(native, ['draw', file, ...model], { maxBuffer: 1 << 28 });
+    let differ = 0;
+    for (let i = 0; i < want.length; i++) differ += want[i] !== pixels[i];
+    check('pixels are the native build\'s: ' + what, want.length === pixels.length && !differ,
+        `${differ} bytes differ`);
+    return pixels;
+}
+
+// The program of the page compiles without a warning and writes the page's picture.
+async function compiles(page, what, files = []) {
+    const [text, width, height, want] = await page.evaluate(() => {
+        const [w, h] = size(finest());
+        return [program(), w, h, Array.from(draw(w, h, round(finest())))];
+    });
+    for (const [name, bytes] of files) fs.writeFileSync(path.join(T, name), bytes);
+    fs.writeFileSync(path.join(T, 'picture.c'), text);
+    try {
+        execFileSync(cc, ['-std=c99', '-O2', '-Wall', '-Wextra', '-Werror', '-I.', '-Iexamples',
+            '-DSHADE__IMPLEMENTED', '-Wno-missing-field-initializers', T + '/picture.c',
+            native + '-shade.o', '-lm', '-o', T + '/picture'], { stdio: 'pipe' });
+        execFileSync('./picture', { cwd: T });
+    } catch (error) {
+        check('the program compiles and runs: ' + what, false, String(error.stderr || error));
+        return;
+    }
+    const got = fs.readFileSync(T + '/picture.ppm').subarray(-3 * width * height);
+    let differ = 0;
+    for (let i = 0; i < width * height; i++)
+        for (let k = 0; k < 3; k++) differ += got[3 * i + k] !== want[4 * i + k];
+    check('the program draws the picture: ' + what, !differ, `${differ} bytes differ`);
+    check('lines of 100 columns: ' + what, text.split('\n').every(line => line.length <= 100));
+}
+
+// ---- it loads from a file and from a host, moves, and asks nobody else for anything -------------
+
+for (const [url, name] of [[opened, 'a file'], [served, 'a host']]) {
+    const begin = Date.now(), page = await open('', {}, url);
+    const shot = () => page.locator('canvas').first().screenshot();
+    const total = () => page.locator('#formula .v').first().textContent();
+    const first = await shot(), value = await total();
+    await page.waitForTimeout(300);
+    check('moves, from ' + name, !first.equals(await shot()));
+    check('within ten seconds, from ' + name, Date.now() - begin < 10000, Date.now() - begin);
+    check('values change, from ' + name, value !== await total());
+    check('no address until something is done', await page.evaluate(() => !location.hash));
+    await page.context().close();
+}
+
+for (const simd of [1, 0]) {
+    const page = await open(`${RICH}&simd=${simd}`, { viewport: { width: 910, height: 460 } });
+    const kind = simd ? 'simd' : 'plain';
+    check('module', await page.evaluate(() => kind) === kind);
+    await same(page, kind);
+
+    // ---- sliders and colours, of every lamp -----------------------------------------------------
+    for (const lamp of simd ? [1, 2, 3] : [1]) {
+        await page.locator(`input[name=lamp][value="${lamp}"] + span`).click();
+        const rows = page.locator('.row'), from = lamp > 1 ? 6 : 0;    // the lamp's alone
+        for (let i = from; i < await rows.count(); i++) {
+            const input = rows.nth(i).locator('input[type=range]');
+            const name = `${await input.getAttribute('aria-label')}, lamp ${lamp}, ${kind}`;
+            const before = await draws(page), shown = rows.nth(i).locator('.number');
+            const number = await shown.innerText();
+            const [value, most] = await input.evaluate(node => [+node.value, +node.max]);
+            const state = () => page.evaluate(() => ({ ...S })), was = await state();
+            await input.focus();
+            await input.press(value > most * 0.8 ? 'PageDown' : 'PageUp');
+            const now = await state(), moved = Object.keys(now).filter(field =>
+                String(now[field]) !== String(was[field]));
+            check('the slider moves its symbol alone: ' + name,
+                moved.join() === SYMBOLS[i] + (i > 5 ? lamp : ''), moved);
+            check('the slider moves its number: ' + name,
+                number !== await shown.innerText());
+            check('and the picture: ' + name, !before.pixels.equals(await same(page, name)));
+            const picker = rows.nth(i).locator('input[type=color]');
+            if (!await picker.count()) continue;
+            await picker.fill('#7fd0a0');
+            check('so does its colour: ' + name, await picker.inputValue() === '#7fd0a0' &&
+                String((await state())[moved[0]]) === '0.2122,0.6308,0.3515');
+            await same(page, name + ', colour');
+        }
+    }
+
+    // ---- buttons --------------------------------------------------------------------------------
+    const radios = page.locator('input[type=radio]:not(:disabled)');
+    for (let i = 0; i < await radios.count(); i++) {
+        const input = radios.nth(i), name = await input.getAttribute('name');
+        await input.locator('+ span').click();
+        check('button ' + name, await page.evaluate(name => S[name], name) ===
+            +await input.getAttribute('value') && await input.isChecked());
+        await same(page, `${name} ${await input.getAttribute('value')}, ${kind}`);
+    }
+    for (const name of ['shape', 'view', 'model', 'shading'])
+        await page.locator(`input[name=${name}][value="0"] + span`).click();
+    const boxes = page.locator('input[type=checkbox]');
+    for (let i = 0; i < await boxes.count(); i++) {
+        const input = boxes.nth(i), name = await input.getAttribute('name');
+        const before = await page.evaluate(() => JSON.stringify(S)), was = await input.isChecked();
+        await input.locator('+ span').click();
+        check('switch ' + name, was !== await input.isChecked() &&
+            before !== await page.evaluate(() => JSON.stringify(S)));
+        await page.evaluate(() => { S.turn = 0; });
+        await same(page, `${name}, ${kind}`);
+        if (name !== 'turn') await input.locator('+ span').click();
+    }
+    for (let i = 0; i < 4; i++) await page.locator(`#sum input`).nth(i).locator('+ span').click();
+    check('the last term turns all on', await page.evaluate(() => S.terms) === 15);
+    for (const [i, button] of (await page.locator('.presets button').all()).entries()) {
+        await button.click();
+        await same(page, `${await button.getAttribute('aria-label')}, ${kind}`);
+        if (i === 10) check('gold', await page.evaluate(() => S.n) === 51.2);
+    }
+
+    // ---- the values under the formula -----------------------------------------------------------
+    for (const hash of ['', 'model=1', 'shading=1', 'shading=2', 'compare=1&shape=1', 'flags=1',
+        'flags=4', 'flags=40', 'flags=16', 'model=2', 'model=5', 'terms=6', 'shape=1&view=0']) {
+        await go(page, `${RICH}&simd=${simd}&${hash}`);
+        const far = await page.evaluate(() => {
+            const w = 320, h = 240, picture = draw(w, h, 1).slice(), pixels = [];
+            let hits = 0, off = 0, wrong = 0;
+            for (let y = 2; y < h; y += 9) for (let x = 2; x < w; x += 9) {
+                const a = probe(x + 0.5, y + 0.5);
+                if (!a.hit) continue;
+                hits++;
+                for (let k = 0; k < 3; k++) {
+                    const sum = a.emission[k] + a.ambient[k] + a.diffuse[k] + a.specular[k];
+                    const shown = 255 * encode(Math.min(1, Math.max(0, sum)));
+                    if (Math.abs(shown - picture[4 * (y * w + x) + k]) > 2) off++, k = 3;
+                }
+                // the printed equation, in double, from the factors the page shows
+                if (S.shading || S.flags || S.model > 1 || S.compare || S.terms < 15) continue;
+                const arrives = a.spot / (S.a1 + S.b1 * a.r + S.c1 * a.r * a.r) * a.gate;
+                for (let k = 0; k < 3; k++) {
+                    const d = arrives * S.kd[k] * S.I1[k] * Math.max(0, a.nl);
+                    const s = arrives * S.ks[k] * S.I1[k] * Math.max(0, a.base) ** S.n;
+                    if (Math.abs(d - a.lampDiffuse[k]) > 1e-4) wrong++;
+                    if (Math.abs(s - a.lampSpecular[k]) > 1e-4) wrong++;
+                    if (Math.abs(S.ka[k] * S.Ia[k] - a.sceneAmbient[k]) > 1e-6) wrong++;
+                }
+            }
+            return { hits, off, wrong };
+        });
+        check(`the terms make the pixel: ${hash} ${kind}`,
+            far.hits > 50 && far.off <= far.hits / 50, JSON.stringify(far));
+        check(`the factors make the terms: ${hash} ${kind}`, !far.wrong, far.wrong);
+    }
+    await page.evaluate(() => { spot = [0.5, 0.5]; });
+    await go(page, 'turn=0');
+    const texts = await page.evaluate(() => {
+        const a = probe(spot[0] * canvas.width, spot[1] * canvas.height);
+        return TERMS.map(n => [cells['sum' + n].values.textContent, a[n].map(figure).join(' ')]);
+    });
+    check('the text is the values', texts[2][1] !== '.00 .00 .00' &&
+        texts.every(([shown, want]) => shown === want), texts);
+    await page.context().close();
+}
+
+// ---- programs -----------------------------------------------------------------------------------
+
+const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
+    'v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n' +
+    'f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n';
+{
+    const page = await open('turn=0', { viewport: { width: 960, height: 620 } });
+    for (const hash of ['', 'shape=1&compare=1&n=16', 'wire=1', 'view=1', 'view=2&wire=1',
+        'shading=2&flags=63&terms=13', 'shading=1&model=1&wire=1&compare=1', 'model=5',
+        RICH + '&zoom=2.3&pitch=-.7', 'on1=0&on2=0&ke=.1,.2,.3']) {
+        await go(page, 'turn=0&' + hash);
+        await compiles(page, hash);
+    }
+    await page.locator('#code').click();
+    check('the program is shown', await page.evaluate(() =>
+        $('dialog pre').textContent === program() && $('dialog').open));
+    await page.keyboard.press('Escape');
+    check('and goes', !await page.locator('dialog').isVisible());
+    await page.context().close();
+}
+
+// ---- files --------------------------------------------------------------------------------------
+
+{
+    const page = await open('turn=0', { viewport: { width: 960, height: 620 } });
+    const drop = async (name, content) => {
+        const bytes = Buffer.from(content);
+        await page.evaluate(async ([name, base64]) => {
+            const data = new DataTransfer();
+            const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
+            data.items.add(new File([bytes], name));
+            dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true }));
+        }, [name, bytes.toString('base64')]);
+        await page.waitForFunction(() => !/^(Reading .*|)$/.test($('#message').textContent),
+            null, { timeout: 60000 });
+        return page.locator('#message').innerText();
+    };
+    const noise = Buffer.alloc(5000);
+    for (let i = 0; i < noise.length; i++) noise[i] = (i * i * 31 + i * 17) >> 3;
+    for (const [name, content, line] of [
+        ['empty.obj', '', /^empty\.obj:.*the file is empty$/],
+        ['noise.obj', noise, /^noise\.obj:/], ['noise.stl', noise, /^noise\.stl: ends after/],
+        ['faces.obj', 'f 1 2 3\n', /^faces\.obj:1: there is no v number/],
+        ['cut.obj', cube.slice(0, 60), /^cut\.obj:.*expected a number/],
+        ['big.obj', 'v 1e39 0 0\n', /^big\.obj:1: expected a number/],
+        ['far.obj', 'v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n', /^far\.obj: larger than/],
+        ['point.obj', 'v 1 1 1\nf 1 1 1\n', /^point\.obj: larger than .* or smaller/],
+        ['<b>\u00e9"\\.obj', 'v x', /^<b>_"\\\.obj:1: expected a number/],
+        ['text.stl', 'solid\nfacet', /^text\.stl:2: expected normal/]]) {
+        const said = await drop(name, content);
+        check('a bad file gets one line: ' + name, line.test(said), said);
+        check('and the picture stays: ' + name, await page.evaluate(() => S.shape) === 0);
+    }
+    await same(page, 'after bad files');
+    await page.evaluate(() => openFile({ name: 'folder', size: 0,
+        arrayBuffer: () => Promise.reject(new DOMException('', 'NotReadableError')) }));
+    check('a folder', await page.locator('#message').innerText() === 'folder: cannot be read');
+    await page.evaluate(() => openFile({ name: 'disk.obj', size: 2e9 }));
+    check('too large', /^disk\.obj: too large/.test(await page.locator('#message').innerText()));
+    check('memory ends with a word', await page.evaluate(() => wasm.page_room(0xfffff000)) === 0);
+
+    check('a cube', await drop('a "cube".obj', cube) === 'a "cube".obj: 12 triangles');
+    fs.writeFileSync(T + '/cube.obj', cube);
+    await same(page, 'a dropped OBJ', [T + '/cube.obj']);
+    await compiles(page, 'a dropped OBJ', [['a "cube".obj', cube]]);
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'),
+        page.locator('.open span').click()]);
+    const pieces = 20000, disc = [], corners = [];
+    for (let i = 0; i < pieces; i++) {
+        const angle = i * 2 * Math.PI / pieces;
+        disc.push(`v ${Math.cos(angle)} ${Math.sin(angle)} 0`), corners.push(i + 1);
+    }
+    fs.writeFileSync(T + '/disc.obj', disc.join('\n') + '\nf ' + corners.join(' '));
+    await chooser.setFiles(T + '/disc.obj');
+    await page.waitForFunction(() => /^disc/.test($('#message').textContent));
+    check('a polygon of many corners',
+        await page.evaluate(() => wasm.page_triangles(2)) === pieces - 2);
+    await same(page, 'an opened OBJ', [T + '/disc.obj']);
+
+    // 500,000 triangles, 22 MB; and again, in the memory of the first
+    const side = 501, lines = [];
+    for (let i = 0; i < side * side; i++)
+        lines.push(`v ${i % side} ${Math.floor(i / side)} ${(Math.sin(i * 0.01) * 20).toFixed(3)}`);
+    for (let i = 0; i < (side - 1) * side; i++) {
+        const a = i + 1;
+        if (i % side < side - 1) lines.push(`f ${a} ${a + 1} ${a + side + 1} ${a + side}`);
+    }
+    fs.writeFileSync(T + '/grid.obj', lines.join('\n'));
+    const memory = () => page.evaluate(() => wasm.memory.buffer.byteLength);
+    const memories = [];
+    for (let k = 0; k < 3; k++) {
+        await page.evaluate(() => say(''));
+        await page.locator('input[type=file]').setInputFiles(T + '/grid.obj');
+        await page.waitForFunction(() => /^grid.*500,000/.test($('#message').textContent), null,
+            { timeout: 60000 });
+        memories.push(await memory());
+    }
+    await same(page, 'half a million triangles', [T + '/grid.obj']);
+    check('memory is used again', memories[2] === memories[1], memories);
+    await page.context().close();
+}
+
+// ---- the address --------------------------------------------------------------------------------
+
+{
+    const page = await open('yaw=nan&n=1e999&kd=1,2&ks=9,-3,.5&shape=77&p1=,,&view=1.4&zoom=1e-9&' +
+        'lamp=-5&terms=0&flags=1e9&__proto__=1&I2=<script>,0,0&model=0x5&shading=', {});
+    check('a bad address gives a state in its limits', await page.evaluate(() =>
+        Object.entries(FIELDS).every(([name, [low, high, ...first]]) =>
+            [S[name]].flat().length === first.length &&
+            [S[name]].flat().every(v => v >= low && v <= high))));
+    await same(page, 'a bad address');
+    await go(page, RICH + '&shape=1&model=1&wire=1&yaw=-2.5');
+    await page.locator('input[name=flags4] + span').click();
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await page.locator('#share').click();
+    const address = await page.evaluate(() => navigator.clipboard.readText());
+    const second = await open(address.split('#')[1]);
+    check('an address brings the state back',
+        (await draws(page)).words.equals((await draws(second)).words), address);
+    await page.context().close(), await second.context().close();
+}
+
+// ---- mouse, keys, fingers -----------------------------------------------------------------------
+
+{
+    const page = await open(''), canvas = page.locator('canvas').first();
+    const state = () => page.evaluate(() => ({ ...S, spot }));
+    const box = await canvas.boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2;
+    const start = await state();
+    await page.mouse.move(x, y), await page.mouse.down(), await page.mouse.move(x + 80, y + 30);
+    await page.mouse.up();
+    const dragged = await state();
+    check('a drag turns', dragged.pitch > start.pitch && dragged.yaw > start.yaw + 0.5 &&
+        dragged.turn === 0);
+    await page.mouse.wheel(0, -300);
+    await page.waitForTimeout(100);
+    check('the wheel zooms', (await state()).zoom > dragged.zoom);
+    await canvas.focus();
+    const before = await state();
+    for (const key of ['ArrowRight', 'ArrowDown', '+', '+', '-', 'Shift+ArrowLeft', ' '])
+        await page.keyboard.press(key);
+    const after = await state();
+    check('keys', after.yaw > before.yaw && after.pitch > before.pitch &&
+        after.zoom > before.zoom && after.spot[0] < before.spot[0] && after.turn === 1,
+        JSON.stringify([before, after]));
+    await page.waitForFunction(() => /emission .*specular/.test($('#spoken').textContent));
+    await page.keyboard.press('Tab');
+    check('Tab goes on', await page.evaluate(() => document.activeElement.tagName) === 'INPUT');
+    const nameless = await page.evaluate(() =>
+        [...document.querySelectorAll('button, input')].filter(node => !(node.ariaLabel ||
+            node.textContent.trim() || node.labels?.[0]?.textContent.trim())).length);
+    check('every control has a name', nameless === 0, nameless);
+    await page.context().close();
+
+    const calm = await open('', { reducedMotion: 'reduce' });
+    check('still where motion is unwelcome', await calm.evaluate(() => S.turn) === 0);
+    await calm.context().close();
+
+    const phone = await open('turn=0', { viewport: { width: 360, height: 740 },
+        deviceScaleFactor: 3, isMobile: true, hasTouch: true });
+    await phone.waitForTimeout(600);
+    check('nothing is wider than a telephone', await phone.evaluate(() =>
+        document.scrollingElement.scrollWidth <= innerWidth));
+    check('sharp on a dense screen', await phone.evaluate(() =>
+        canvas.width === 3 * canvas.clientWidth));
+    const raw = await phone.context().newCDPSession(phone);
+    const touch = (type, ...points) => raw.send('Input.dispatchTouchEvent', { type,
+        touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const read = () => phone.evaluate(() => ({ ...S }));
+    const first = await read();
+    await touch('touchStart', [150, 200]), await touch('touchMove', [190, 215]);
+    await touch('touchEnd');
+    const turned = await read();
+    check('a finger turns', turned.yaw > first.yaw && turned.pitch > first.pitch);
+    await touch('touchStart', [150, 200], [200, 200]);
+    await touch('touchMove', [110, 200], [240, 200]);
+    await touch('touchEnd');
+    check('two zoom', (await read()).zoom > turned.zoom);
+    await phone.context().close();
+}
+
+// ---- light and dark -----------------------------------------------------------------------------
+
+{
+    const papers = [];
+    for (const colorScheme of ['light', 'dark']) {
+        const page = await open('turn=0', { colorScheme });
+        const { worst, paper } = await page.evaluate(() => {
+            const style = getComputedStyle(document.documentElement);
+            const light = name => luminance(fromHex(style.getPropertyValue(name).trim())) + 0.05;
+            const ratios = ['--ink', '--quiet', '--e', '--a', '--d', '--s'].flatMap(text =>
+                ['--paper', '--panel'].map(back => light(text) / light(back)));
+            return { worst: Math.min(...ratios.map(r => Math.max(r, 1 / r))), paper };
+        });
+        check('contrast of text, ' + colorScheme, worst >= 4.5, worst);
+        papers.push(String(paper));
+        await same(page, colorScheme);
+        await page.emulateMedia({ colorScheme: colorScheme === 'dark' ? 'light' : 'dark' });
+        await page.waitForFunction(old => String(paper) !== old, String(paper));
+        await page.context().close();
+    }
+    check('two papers', papers[0] !== papers[1]);
+}
+
+// ---- time ---------------------------------------------------------------------------------------
+
+for (const simd of [1, 0]) {
+    const page = await open('turn=0&simd=' + simd);
+    fs.writeFileSync(T + '/state', (await draws(page, 640, 480)).words);
+    const [median, late] = await page.evaluate(async () => {
+        const spent = [];
+        const put = document.createElement('canvas').getContext('2d', { alpha: false });
+        put.canvas.width = 640, put.canvas.height = 480;
+        for (let i = -20; i < 300; i++) {
+            await new Promise(requestAnimationFrame);
+            const begin = performance.now();
+            S.yaw = round((i * 0.02) % 6);
+            put.putImageData(new ImageData(draw(640, 480, 1), 640), 0, 0);
+            showAnswer(probe(350, 220));
+            if (i >= 0) spent.push(performance.now() - begin);
+        }
+        spent.sort((a, b) => a - b);
+        return [spent[150], spent[297]];
+    });
+    const name = simd ? 'with simd128' : 'without';
+    console.log(`640 x 480, ${name}: median ${median.toFixed(2)} ms, 99th percentile ` +
+        `${late.toFixed(2)} ms a frame`);
+    if (simd) check('60 frames a second', median < 1000 / 60, median);
+    await page.context().close();
+}
+process.stdout.write(execFileSync(native, ['bench', T + '/state']));
+
+const asked = requests.filter(url => !url.startsWith(opened) && url !== served &&
+    !url.startsWith(served + '#') && !url.startsWith('data:'));
+check('no request to anywhere else', !asked.length, asked);
+check('no word in the console', !complaints.length, complaints.slice(0, 5).join('\n'));
+await browser.close();
+server.close();
+fs.rmSync(T, { recursive: true });
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed ? 1 : 0);
