@@ -4559,7 +4559,7 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const shade_shading shading = s->state->shading;
     const int lit = shading != SHADE_SHADING_PER_FRAGMENT, colored = s->mesh->colors != 0;
     shade__v3 own[SHADE__OWN], *P, *N, *albedo;
-    P = SHADE__OWN == 1 || !lit ? shade__three_rows(out->varying[lit ? 6 : 0]) : own;
+    P = SHADE__OWN == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : own;
     N = P + 1, albedo = N + 1;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip);
