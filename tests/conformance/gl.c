@@ -121,6 +121,12 @@ static void compile(GLenum stage, const scene *s, const char *body)
     text[4] = s->stored ? s->stored : "vec3 stored(vec3 rgb) { return rgb; }\n";
     if (stage == GL_VERTEX_SHADER) text[3] = text[4] = "";    /* there are no derivatives there */
     text[5] = body;
+    if (s->twin) {
+        const int vertex = stage == GL_VERTEX_SHADER;
+        text[1] = twin_uniforms_glsl, text[2] = vertex ? twin_inputs_glsl : twin_outputs_glsl;
+        text[3] = twin_brass_glsl, text[4] = "";
+        text[5] = (vertex ? twin_vertex_glsl : twin_fragment_glsl)[s->twin - 1];
+    }
     glShaderSource(shader, 6, text, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -175,6 +181,18 @@ static void set_uniforms(const scene *s, const draw *d)
         glUniform1f(where_of(j, "e"), at->spot_exponent);
         glUniform1f(where_of(j, "cos_beta"), at->spot_cos_cutoff);
     }
+}
+
+/* The notes' own: y is turned over by the projection, not in the shader. */
+static void set_twin_uniforms(const scene *s)
+{
+    twin_uniforms u = scene_twin(s);
+    u.Projection = shade_mat4_mul(shade_mat4_scaling(shade_v3(1, -1, 1)), u.Projection);
+    glUniformMatrix4fv(where("Model"), 1, GL_FALSE, &u.Model.col[0].x);
+    glUniformMatrix4fv(where("View"), 1, GL_FALSE, &u.View.col[0].x);
+    glUniformMatrix4fv(where("Projection"), 1, GL_FALSE, &u.Projection.col[0].x);
+    glUniformMatrix3fv(where("Normal"), 1, GL_FALSE, &u.Normal.col[0].x);
+    glUniform4f(where("direction"), u.direction.x, u.direction.y, u.direction.z, u.direction.w);
 }
 
 /* ----------------------------------------------------------------------- geometry and textures */
@@ -307,7 +325,10 @@ void gl_draw(const scene *s, float *rgba)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (int k = 0; k < s->draw_count; k++) {
         set_state(&s->draws[k]);
-        set_uniforms(s, &s->draws[k]);
+        if (s->twin)
+            set_twin_uniforms(s);
+        else
+            set_uniforms(s, &s->draws[k]);
         load_corners(&s->draws[k]);
         glDrawArrays(GL_TRIANGLES, 0, s->draws[k].mesh.index_count);
     }

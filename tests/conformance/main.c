@@ -107,11 +107,20 @@ static shade_result draw_behind_ball(const shade_target *t, const scene *s, shad
     p.vertex = ball_vertex, p.fragment = ball_fragment, p.uniforms = s, p.varyings = 6;
     return shade_draw(t, &p, m->indices, m->index_count, m->vertex_count, stats);
 }
+static shade_result draw_twin(const shade_target *t, const scene *s, shade_stats *stats)
+{
+    const shape *m = &s->draws[0].mesh;
+    twin_uniforms u = scene_twin(s);
+    shade_pipeline p = twin_pipeline(s->twin - 1);
+    p.uniforms = &u;
+    return shade_draw(t, &p, m->indices, m->index_count, m->vertex_count, stats);
+}
 static shade_result draw_any(const shade_target *t, const scene *s, const draw *d,
                              shade_stats *stats)
 {
     shade_target depth_only = *t;
     depth_only.color = NULL;
+    if (s->twin) return draw_twin(t, s, stats);
     if (s->ball.w > 0) return draw_behind_ball(t, s, stats);
     if (d->alpha > 0) return draw_painted(t, d, stats);
     return draw_lit(d->depth_only ? &depth_only : t, d, stats);

@@ -668,6 +668,35 @@ static void scene_shadows(scene *s)
                                                    6, shade_v3(0.4f, 0.8f, 1.6f));
 }
 
+/* -------------------------------------------------- the notes' shaders and their twins, twins.h */
+
+/* Massey's camera and light, a coarse torus, as in examples/41_glsl_twins.c */
+static void twin(scene *s, const char *name, int k)
+{
+    draw *d = add_draw(s);
+    s->name = name, s->twin = 1 + k;
+    torus(&d->mesh, 20, 8);
+    d->mesh.has_colors = 1;
+    camera(s, shade_v3(0, 0, 5), shade_v3(0, 0, 0), 67 * 0.01745329252f);
+    d->state.model = shade_mat4_rotation(0.8f, shade_v3(1, 0, 0));
+    s->lights[s->light_count++] = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
+}
+static void scene_twin_color(scene *s) { twin(s, "notes: colours of vertices", TWIN_COLOR); }
+static void scene_twin_gouraud(scene *s) { twin(s, "notes: brass, vertex shader", TWIN_GOURAUD); }
+static void scene_twin_phong(scene *s) { twin(s, "notes: brass, fragment shader", TWIN_PHONG); }
+
+twin_uniforms scene_twin(const scene *s)
+{
+    const draw *d = &s->draws[0];
+    shade_vec4 to = s->lights[0].position;
+    twin_uniforms u;
+    u.Model = d->state.model, u.View = d->state.view, u.Projection = d->state.projection;
+    u.Normal = shade_normal_matrix(shade_mat4_mul(u.View, u.Model));
+    u.direction = shade_v4(-to.x, -to.y, -to.z, 0);
+    u.p = d->mesh.positions, u.n = d->mesh.normals, u.color = d->mesh.colors;
+    return u;
+}
+
 /* ---------------------------------------------------------------------------------------------- */
 
 static void (*const builders[])(scene *) = {
@@ -678,7 +707,7 @@ static void (*const builders[])(scene *) = {
     scene_bias,      scene_near,        scene_guard_band,   scene_nearest,      scene_bilinear,
     scene_trilinear, scene_srgb,        scene_glass,        scene_glow,         scene_pane,
     scene_cutoff,    scene_cutoff_over, scene_passes,       scene_more_passes,  scene_bgra,
-    scene_shadows
+    scene_shadows,   scene_twin_color,  scene_twin_gouraud, scene_twin_phong
 };
 
 int scene_count(void) { return (int)(sizeof builders / sizeof builders[0]); }

@@ -2,7 +2,7 @@
 #ifndef CONFORMANCE_SCENES_H
 #define CONFORMANCE_SCENES_H
 
-#include "shade.h"
+#include "examples/twins.h"
 
 enum {
     WIDTH = 400, HEIGHT = 300,
@@ -40,6 +40,7 @@ typedef struct scene {
     int srgb;
     shade_format format;       /* of shade.h's picture: RGBA8, BGRA8 or RGBA32F */
     shade_vec4 ball;           /* centre and radius of what hides lamps; radius 0: none */
+    int twin;                  /* 1 + a number of twins.h: those shaders, not the equation */
     float seam;                /* texels are squares of this side on the floor y = 0; 0: none */
     int has_map;
     shade_texture map, levels[MAP_LEVELS];
@@ -48,6 +49,7 @@ typedef struct scene {
 
 int scene_count(void);
 void scene_build(scene *s, int which);    /* everything, from zero */
+twin_uniforms scene_twin(const scene *s);
 
 /* The other renderer: NULL, or why there is none; then WIDTH x HEIGHT float RGBA, top row first. */
 const char *gl_open(void);
