@@ -1,0 +1,59 @@
+/* 32_grazing.c - where Phong and Blinn-Phong part: a floor seen in the mirror direction of a far
+   lamp, theta = 20 and 80 degrees off the normal.  With 4n for n Blinn's highlight is as high as
+   Phong's and cos(theta) times as wide: at 20 degrees one hardly sees it, at 80 it is drawn out
+   like a lamp's reflection on water, while Phong's stays round.  Massey: 4n looks alike unless
+   viewed from a very steep angle.  The numbers: pixels brighter than half, across and down.
+   Try theta[1] = 60: half as wide as high.
+
+   cc -O2 -I. examples/32_grazing.c -lm -o grazing && ./grazing               writes grazing.ppm */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "mesh.h"
+#include "label.h"
+
+enum { WIDTH = 472, HEIGHT = 240 };
+static const float theta[2] = { 20, 80 }, n = 100;
+
+/* Pixels brighter than half on the way across (dx 1) or down (dy 1) through the panel's centre */
+static int extent(const shade_target *t, int dx, int dy)
+{
+    const float *p = (const float *)t->color;
+    int count = 0;
+    for (int k = -t->height / 2; k < t->height / 2; k++) {
+        int x = t->width / 2 + k * dx, y = t->height / 2 + k * dy;
+        count += p[4 * (y * t->stride + x)] > 0.5f;
+    }
+    return count;
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const name[2] = { "Phong, (R·V)^n", "Blinn-Phong, (N·H)^{4n}" };
+    const shade_vec3 origin = { 0, 0, 0 }, up = { 0, 1, 0 };
+    shade_material water = { .ambient = { 0, 0.035f, 0.06f }, .specular = { 1, 0.95f, 0.8f } };
+    shade_draw_state state = { .material = &water, .lighting = { .ambient = { 1, 1, 1 } } };
+    owned_mesh floor = mesh_plane(200, 1);
+    canvas c = canvas_new(960, 590, 2);
+    char text[60];
+
+    state.projection = shade_mat4_perspective(0.48f, (float)WIDTH / HEIGHT, 0.1f, 1000);
+    for (int i = 0; i < 4; i++) {
+        int x = i % 2 * (960 - WIDTH), y = i / 2 * 295;
+        shade_target panel = canvas_panel(&c, x, y, WIDTH, HEIGHT);
+        shade_vec2 t = mesh_turn(theta[i / 2] / 360);
+        shade_light lamp = shade_directional_light(shade_v3(0, -t.x, t.y), shade_v3(1, 1, 1));
+        state.lighting.lights = &lamp, state.lighting.light_count = 1;
+        state.lighting.model = i % 2 ? SHADE_MODEL_BLINN_PHONG : SHADE_MODEL_PHONG;
+        water.shininess = i % 2 ? shade_blinn_exponent(n) : n;
+        /* in the middle of the panel V = R */
+        state.view = shade_mat4_look_at(shade_v3(0, t.x, t.y), origin, up);
+        canvas_gradient(&panel, shade_v3(0.02f, 0.03f, 0.06f), shade_v3(0.2f, 0.25f, 0.3f));
+        shade_draw_mesh(&panel, &floor.view, &state, NULL);
+        sprintf(text, "θ = %.0f°: %d × %d pixels", (double)theta[i / 2],
+                extent(&panel, 1, 0) / 2, extent(&panel, 0, 1) / 2);
+        label_caption(&c, x + WIDTH / 2, y + HEIGHT + 22, shade_v3(0.7f, 0.7f, 0.7f), name[i % 2],
+                      text);
+    }
+    mesh_free(&floor);
+    return canvas_save(&c, argc, argv, "grazing.ppm");
+}

@@ -1,0 +1,77 @@
+/* 34_warped_space.c - what the projection does to space.  Left: eye, lines of sight, the frustum
+   between near and far, three equal cubes in it.  Middle: the same points after projection and
+   division by w: the frustum is a cube, lines of sight are parallel, what is near is large, and
+   planes are still planes.  Right: z dropped (kept for the z-buffer alone): the picture.  Colours
+   were computed before the warp, where angles are angles still.  UW's "warped space".
+   Try near_z = 0.2: all crowds toward the far end, where few values of depth are left.
+
+   cc -O2 -I. examples/34_warped_space.c -lm -o warped_space && ./warped_space */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "shapes.h"
+#include "label.h"
+
+static const float near_z = 2, far_z = 6;
+
+/* Cube k: lit, then taken through m */
+static void cube(const shade_target *t, const shade_draw_state *state, int k, shade_mat4 m)
+{
+    static const float at[3][3] = { { -0.35f, -0.25f, -2.75f }, { 0.65f, -0.1f, -3.9f },
+                                    { -0.5f, 0.75f, -5.2f } };
+    static const uint32_t paint[3] = { 0xE08040, 0xD0B030, 0x5090E0 };
+    shade_light lamp = shade_directional_light(shade_v3(-0.3f, -1, -0.5f), shade_rgb(paint[k]));
+    shade_lighting lighting = { &lamp, 1, .ambient = shade_scale(lamp.diffuse, 0.2f) };
+    owned_mesh c = shape_moved(mesh_cube(), shape_at(at[k][0], at[k][1], at[k][2], 0.35f, 0.5f));
+    shade_vec3 *P = (shade_vec3 *)(void *)c.positions, *N = (shade_vec3 *)(void *)c.normals;
+    shade_vec3 *color = (shade_vec3 *)example_memory(24, sizeof *color);
+    for (int i = 0; i < 24; i++) {
+        color[i] = shade_lit(&lighting, NULL, N[i], P[i], N[i]);
+        P[i] = shade_mat4_transform_point(m, P[i]);
+    }
+    c.view.colors = c.colors = &color->x;
+    shade_draw_mesh(t, &c.view, state, NULL);
+    mesh_free(&c);
+}
+
+/* Corner 0 .. 7 of the cube from -1 to 1, through m */
+static shade_vec3 corner(shade_mat4 m, int k)
+{
+    shade_vec3 p = shade_v3((float)(k & 1), (float)(k >> 1 & 1), (float)(k >> 2));
+    return shade_mat4_transform_point(m, shade_madd(shade_v3(-1, -1, -1), 2, p));
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const name[3] = { "world", "warped", "picture" };
+    static const char *const formula[3] = { "x, y, z", "x/w, y/w, z/w", "x/w, y/w" };
+    const int left[4] = { 0, 380, 700, 960 };
+    const shade_vec3 up = { 0, 1, 0 }, grey = { 0.7f, 0.7f, 0.7f };
+    shade_mat4 project = shade_mat4_perspective(0.7f, 1, near_z, far_z), space[3], view[3];
+    shade_draw_state state = { .lighting.ambient = { 1, 1, 1 } };
+    shade_line_state pen = { .color = { 0.5f, 0.5f, 0.5f, 1 }, .width = 3 };
+    canvas c = canvas_new(960, 400, 3);
+
+    view[0] = shade_mat4_look_at(shade_v3(10.5f, 5.5f, 2), shade_v3(0, -0.1f, -3.1f), up);
+    view[1] = shade_mat4_look_at(shade_v3(4.3f, 2.4f, 3.4f), shade_v3(0, 0, 0), up);
+    view[2] = space[0] = shade_mat4_identity();
+    /* z/w grows away from the eye: turned round, so that the space is right-handed again */
+    space[1] = space[2] = shade_mat4_mul(shade_mat4_scaling(shade_v3(1, 1, -1)), project);
+    canvas_dark(&c.target);
+    for (int i = 0; i < 3; i++) {
+        int width = left[i + 1] - left[i];
+        shade_target panel = canvas_panel(&c, left[i], 0, width, 345);
+        float aspect = (float)width / 345, x = 1.55f * aspect;
+        shade_mat4 out = shade_mat4_mul(space[i], shade_mat4_inverse(project));
+        state.view = view[i], state.projection = shade_mat4_perspective(0.62f, aspect, 1, 30);
+        if (i == 2) state.projection = shade_mat4_ortho(-x, x, -1.55f, 1.55f, -2, 2);
+        for (int k = 0; k < 3; k++) cube(&panel, &state, k, space[i]);
+        pen.clip_from_points = shade_mat4_mul(state.projection, view[i]);
+        for (int k = 0; k < 24; k++) {    /* edges join corners that differ in one bit */
+            shade_vec3 ends[2] = { corner(out, k % 8), corner(out, k % 8 | 1 << k / 8) };
+            if (i == 0 && k >= 16) ends[0] = shade_v3(0, 0, 0);    /* lines of sight */
+            shade_draw_lines(&panel, ends, 2, &pen, NULL);
+        }
+        label_caption(&c, left[i] + width / 2, 362, grey, name[i], formula[i]);
+    }
+    return canvas_save(&c, argc, argv, "warped_space.ppm");
+}
