@@ -1,0 +1,61 @@
+/* 41_glsl_twins.c - shaders of the lecture notes, drawn by their twins in C; both stand in twins.h,
+   the GLSL also below each picture.  Left: colours of vertices, smeared between them (UW).  Middle
+   and right: brass, lit in the vertex shader and in the fragment shader, with Massey's camera (67
+   degrees, 5 away), turn (.8 about x) and light; the first loses a highlight and tears the other.
+   Where OSMesa is, make conformance draws a ring by each GLSL as well: of 255 no pixel is off by
+   more than .53, of which .5 is rounding.  Try p.interpolation = SHADE_INTERPOLATION_CONSTANT.
+
+   cc -O2 -I. examples/41_glsl_twins.c -lm -o glsl_twins && ./glsl_twins */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "shapes.h"
+#include "label.h"
+#include "twins.h"
+
+static const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
+
+/* Line by line, _ as itself; returns where the next text may begin. */
+static int listing(const canvas *c, int x, int y, const char *text)
+{
+    for (; *text; text++, y += 19) {
+        char line[200] = "", *end = line;
+        int indent = (int)strspn(text, " ");
+        for (; *text != '\n'; text++) end += sprintf(end, *text == '_' ? "_{%c}" : "%c", *text);
+        label_draw(c, x + 7 * indent, y, 15, grey, line + indent);
+    }
+    return y + 10;
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const name[TWINS] = { "colours", "lit in the vertex shader",
+                                             "lit in the fragment shader" };
+    shade_vec2 profile[9];
+    canvas c = canvas_new(960, 550, 2);
+
+    for (int i = 0; i < 9; i++) {
+        shade_vec2 t = mesh_turn((float)(i % 8) / 8);
+        profile[i] = shade_v2(1.6f + 0.85f * t.y, 0.85f * t.x);
+    }
+    owned_mesh ring = shape_turned(profile, 9, 20);
+    size_t vertices = (size_t)ring.view.vertex_count;
+    twin_uniforms u = { .direction = { 0, 0, -1, 0 }, .p = ring.positions, .n = ring.normals };
+    u.View = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    u.Projection = shade_mat4_perspective(67 * 0.01745329252f, 320 / 270.0f, 0.2f, 10);
+    u.Model = shade_mat4_rotation(0.8f, shade_v3(1, 0, 0));
+    u.Normal = shade_normal_matrix(shade_mat4_mul(u.View, u.Model));
+    u.color = ring.colors = (float *)example_memory(vertices, 3 * sizeof(float));
+    for (size_t i = 0; i < 3 * vertices; i++) ring.colors[i] = 0.5f + 0.5f * ring.normals[i];
+    canvas_dark(&c.target);
+    for (int k = 0; k < TWINS; k++) {
+        shade_target panel = canvas_panel(&c, 320 * k, 0, 320, 270);
+        shade_pipeline p = twin_pipeline(k);
+        p.uniforms = &u;
+        shade_draw(&panel, &p, ring.indices, ring.view.index_count, ring.view.vertex_count, NULL);
+        label_center(&c, 160 + 320 * k, 303, 22, grey, name[k]);
+        int y = listing(&c, 320 * k + 14, 345, twin_vertex_glsl[k]);
+        listing(&c, 320 * k + 14, y, twin_fragment_glsl[k]);
+    }
+    mesh_free(&ring);
+    return canvas_save(&c, argc, argv, "glsl_twins.ppm");
+}
