@@ -17,6 +17,7 @@
 #include "matrix.c"
 #include "power.c"
 #include "light.c"
+#include "course.c"
 #include "lanes.c"
 #include "vertex.c"
 #include "clip.c"
@@ -40,7 +41,7 @@ static const test_section sections[] = {
     SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
-    SECTION(depth),
+    SECTION(depth),  SECTION(course),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 
