@@ -53,8 +53,7 @@ int main(int argc, char **argv)
     canvas c = canvas_new(960, 380, 3);
     char text[60];
 
-    state.view = shade_mat4_look_at(shade_v3(0, 3.2f, 7), shade_v3(0, 0.05f, 0),
-                                    shade_v3(0, 1, 0));
+    state.view = shade_mat4_look_at(shade_v3(0, 3.2f, 7), shade_v3(0, 0.05f, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.24f, 480 / 310.0f, 5, 25);
     pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
     canvas_dark(&c.target);

@@ -38,8 +38,7 @@ int main(int argc, char **argv)
     static const shade_vec2 side[2] = { { 1, 0.8f }, { 1, -0.8f } };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, blue = { 0.1f, 0.14f, 0.3f };
     const shade_material paint = { { 0, 0, 0 }, blue, blue, { 0.5f, 0.5f, 0.5f }, 20 };
-    const shade_light lamp = shade_directional_light(shade_v3(0, 0, -1),
-                                                     shade_v3(1, 1, 1));
+    const shade_light lamp = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
     shade_draw_state state = { .material = &paint,
                                .lighting = { &lamp, 1, .ambient = { 0.02f, 0.02f, 0.02f },
                                              .flags = SHADE_FLAG_INFINITE_VIEWER } };

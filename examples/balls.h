@@ -3,17 +3,17 @@
 #ifndef EXAMPLES_BALLS_H
 #define EXAMPLES_BALLS_H
 
-#include "mesh.h"
+#include "shapes.h"
 
 enum { BALLS_LAMPS = 2 };    /* the most */
 
 typedef struct balls {
     int count;
-    const shade_vec4 *at;        /* centres and, as w, radii */
+    const shade_vec4 *at; /* centres and, as w, radii */
     const shade_vec3 *color;
-    shade_vec3 floor;            /* colour of the plane y = 0 */
+    shade_vec3 floor; /* colour of the plane y = 0 */
     shade_lighting lighting;
-    shade_vec3 eye, center;      /* where the camera is, what it looks at */
+    shade_vec3 eye, center; /* where the camera is, what it looks at */
     float fovy;
 } balls;
 
@@ -54,35 +54,36 @@ static inline void balls_fragment(const void *uniforms, const shade_fragments *S
                     visibility[0], out->color[0]);
 }
 
-/* Floor and balls; and the lamps as small ones of light where they are not at infinity. */
+/* A mesh, as large as at.w, where at says */
+static inline void balls_part(const shade_target *target, balls_uniforms *u, const owned_mesh *m,
+                              shade_vec4 at)
+{
+    shade_pipeline pipeline = { mesh_vertex, balls_fragment, u, .varyings = 8 };
+    u->place.mesh = m, u->place.model = shape_at(at.x, at.y, at.z, at.w, 0);
+    shade_draw(target, &pipeline, m->indices, m->view.index_count, m->view.vertex_count, NULL);
+}
+
+/* Floor and balls, and the lamps as small bright ones where they are not at infinity */
 static inline void balls_draw(const shade_target *target, const balls *b)
 {
     owned_mesh plane = mesh_plane(60, 1), sphere = mesh_sphere(96, 48);
-    balls_uniforms u = { .scene = b };
-    shade_pipeline pipeline = { mesh_vertex, balls_fragment, &u, .varyings = 8 };
     float aspect = (float)target->width / (float)target->height;
-    u.place.clip_from_world = shade_mat4_mul(
-        shade_mat4_perspective(b->fovy, aspect, 0.5f, 80),
-        shade_mat4_look_at(b->eye, b->center, shade_v3(0, 1, 0)));
-    for (int i = -1; i < b->count + b->lighting.light_count; i++) {
-        int lamp = i - b->count;
-        shade_vec4 at = { 0, 0, 0, 1 };
-        shade_vec3 k = i < 0 ? b->floor : shade_v3(0, 0, 0);
-        const shade_vec3 none = { 0, 0, 0 }, gloss = { 0.4f, 0.4f, 0.4f };
-        if (lamp < 0 && i >= 0) at = b->at[i], k = b->color[i];
-        if (lamp >= 0) at = b->lighting.lights[lamp].position;
-        if (at.w == 0) continue;    /* a lamp at infinity */
-        if (lamp >= 0) at.w = 0.07f;
-        u.material.emission = lamp >= 0 ? shade_v3(1, 0.95f, 0.85f) : none;
-        u.material.ambient = u.material.diffuse = k;
-        u.material.specular = i < 0 || lamp >= 0 ? none : gloss, u.material.shininess = 60;
-        u.place.mesh = i < 0 ? &plane : &sphere;
-        u.place.model = shade_mat4_translation(shade_v3(at.x, at.y, at.z));
-        /* scaled spheres: mesh_vertex keeps the normals' direction, and they are made unit */
-        u.place.model = shade_mat4_mul(u.place.model,
-                                       shade_mat4_scaling(shade_v3(at.w, at.w, at.w)));
-        shade_draw(target, &pipeline, u.place.mesh->indices, u.place.mesh->view.index_count,
-                   u.place.mesh->view.vertex_count, NULL);
+    balls_uniforms u = { .scene = b };
+    u.place.clip_from_world =
+        shade_mat4_mul(shade_mat4_perspective(b->fovy, aspect, 0.5f, 80),
+                       shade_mat4_look_at(b->eye, b->center, shade_v3(0, 1, 0)));
+    u.material.ambient = u.material.diffuse = b->floor;
+    balls_part(target, &u, &plane, shade_v4(0, 0, 0, 1));
+    u.material.specular = shade_v3(0.4f, 0.4f, 0.4f), u.material.shininess = 60;
+    for (int i = 0; i < b->count; i++) {
+        u.material.ambient = u.material.diffuse = b->color[i];
+        balls_part(target, &u, &sphere, b->at[i]);
+    }
+    u.material.ambient = u.material.diffuse = u.material.specular = shade_v3(0, 0, 0);
+    u.material.emission = shade_v3(1, 0.95f, 0.85f);
+    for (int i = 0; i < b->lighting.light_count; i++) {
+        shade_vec4 at = b->lighting.lights[i].position;
+        if (at.w != 0) balls_part(target, &u, &sphere, shade_v4(at.x, at.y, at.z, 0.07f));
     }
     mesh_free(&plane), mesh_free(&sphere);
 }

@@ -1,4 +1,4 @@
-/* canvas.h - a picture to draw on, its parts, and its file.  Programs exit without memory. */
+/* canvas.h - a picture to draw on, its parts, and its file.  A program ends where memory does. */
 #ifndef EXAMPLES_CANVAS_H
 #define EXAMPLES_CANVAS_H
 

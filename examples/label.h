@@ -80,8 +80,8 @@ static inline void label_glyph(const shade_target *t, const font_glyph *g, int s
 
 /* Sets text from x on, y its baseline, on t or, where that is NULL, nowhere; size is the em, of
    which capitals are .7 high; all in pixels of t.  Returns the width. */
-static inline float label_set(const shade_target *t, float x, float y, float size,
-                              shade_vec3 color, const char *text)
+static inline float label_set(const shade_target *t, float x, float y, float size, shade_vec3 color,
+                              const char *text)
 {
     const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
     float start = x, small = 0.68f * size, rise = 0, em = size;

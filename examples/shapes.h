@@ -1,4 +1,4 @@
-/* shapes.h - more meshes: the teapot, forms turned on a lathe, a star, a knot; two joined. */
+/* shapes.h - more meshes: the teapot, forms of a lathe, a star, a knot; two meshes as one. */
 #ifndef EXAMPLES_SHAPES_H
 #define EXAMPLES_SHAPES_H
 
