@@ -801,7 +801,50 @@ TEST(clip, affine_values_survive_a_cut_between_any_two_w)
     canvas_close(&c);
 }
 
+/* Triangles of which snapping dents what the near plane leaves, behind a corner that lies on a pixel
+   centre and is cut off: another corner begins the fan, and the centre stays outside. */
+TEST(clip, a_dent_keeps_out_the_centre_that_is_cut_off)
+{
+    enum { SIDE = 8 };
+    static const shade_vec4 dented[][3] = {
+        { { 0.176757812f, 0.612304688f, -0.375946552f, 1 },
+          { 0.125f, 0.125f, -1.00054812f, 1 },
+          { -0.555664062f, -0.655273438f, -0.216137663f, 1 } },
+        { { 0.758789062f, 0.120117188f, -0.719977498f, 1 },
+          { -0.375f, 0.125f, -1.00022936f, 1 },
+          { 0.122070312f, 0.509765625f, -0.259102821f, 1 } },
+        { { 0.9296875f, 0.807617188f, -0.653490901f, 1 },
+          { 0.875f, 0.375f, -1.0018363f, 1 },
+          { 0.708007812f, -0.0888671875f, -0.195387617f, 1 } },
+        { { -0.227539062f, -0.990234375f, -0.752052069f, 1 },
+          { -0.875f, -0.875f, -1.00044608f, 1 },
+          { -0.37109375f, -0.8671875f, -0.284014106f, 1 } },
+    };
+    for (int n = 0; n < (int)(sizeof dented / sizeof dented[0]); n++) {
+        const shade_vec4 *v = dented[n];
+        canvas c = canvas_open(SIDE, SIDE, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas_clear(&c, 1);
+        draw_clip_space(&c, v, 3, 0, NULL);
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            double X = (i % SIDE + 0.5) / (SIDE / 2) - 1, Y = 1 - (i / SIDE + 0.5) / (SIDE / 2);
+            double area = 0, z = 0;
+            int left = 0, right = 0;
+            for (int k = 0; k < 3; k++) {
+                const shade_vec4 a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+                double e = ((double)b.x - (double)a.x) * (Y - (double)a.y) -
+                           ((double)b.y - (double)a.y) * (X - (double)a.x);
+                area += e, z += e * (double)v[k].z, left += e > 0, right += e < 0;
+            }
+            int inside = !(left && right) && z / area > -1;
+            CHECK_SAY(canvas_bytes(&c, i % SIDE, i / SIDE)[0] == 255 * inside,
+                      "triangle %d, pixel %d, %d", n, i % SIDE, i / SIDE);
+        }
+        canvas_close(&c);
+    }
+}
+
 static const test_case clip_cases[] = {
+    CASE(clip, a_dent_keeps_out_the_centre_that_is_cut_off),
     CASE(clip, affine_values_survive_a_cut_between_any_two_w),
     CASE(clip, dents_by_snapping_are_filled_without_overlap),
     CASE(clip, triangles_outside_one_plane_count_as_clipped),
