@@ -58,6 +58,9 @@ TEST(power, clamps_its_base_and_negative_exponents)
     CHECK_NEAR(shade_power(-0.5f, 2), 0, 0);
     CHECK_NEAR(shade_power(-0.0f, 2), 0, 0);
     CHECK_NEAR(shade_power((float)-INFINITY, 0.5f), 0, 0);
+    CHECK_NEAR(shade_power(1, (float)INFINITY), 1, 0);
+    CHECK_NEAR(shade_power(0.999999f, (float)INFINITY), 0, 0);
+    CHECK_NEAR(shade_power(0, (float)INFINITY), 0, 0);
     CHECK_NEAR(shade_power(-3, 0), 1, 0);
     CHECK_NEAR(shade_power(0.5f, -1), 1, 0);
     CHECK_NEAR(shade_power(0.5f, -1e30f), 1, 0);
