@@ -801,8 +801,8 @@ TEST(clip, affine_values_survive_a_cut_between_any_two_w)
     canvas_close(&c);
 }
 
-/* Triangles of which snapping dents what the near plane leaves, behind a corner that lies on a pixel
-   centre and is cut off: another corner begins the fan, and the centre stays outside. */
+/* Triangles of which snapping dents what the near plane leaves, behind a corner that lies on the
+   centre of a pixel and is cut off: another corner begins the fan, and the centre stays outside. */
 TEST(clip, a_dent_keeps_out_the_centre_that_is_cut_off)
 {
     enum { SIDE = 8 };
