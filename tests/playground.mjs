@@ -26,7 +26,8 @@ const SYMBOLS = ['ke', 'ka', 'kd', 'ks', 'n', 'Ia', 'I', 'A', 'p', 'p', 'p', 'a'
 
 const browser = await chromium.launch({ executablePath: browser_path, args: ['--no-sandbox',
     '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync'] });
+    '--disable-component-update', '--disable-sync', '--disable-gpu-watchdog',
+    '--disable-hang-monitor'] });
 const server = http.createServer((request, answer) => {
     answer.setHeader('content-type', 'text/html');
     answer.end(fs.readFileSync(page_file));
