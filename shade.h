@@ -545,7 +545,7 @@ SHADE__INLINE uint64_t shade__double_bits(double d)
 }
 
 /* Square root of x > 0 in double, to 2^-50. */
-static inline double shade__root(double x)
+SHADE__INLINE double shade__root(double x)
 {
     double y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(x) >> 1));
     for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * x * y * y;

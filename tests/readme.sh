@@ -3,7 +3,8 @@
 # Its one block with main is the program: C99, gnu17 behind other headers, C++20; it is run.  The
 # other blocks of C make one file, in their order, behind readme_prelude.h, and readme_run.c runs
 # them.  SDL2, stb, CMake, Meson and a C++ compiler are used where they are.  Names, keys and files
-# that the README speaks of exist; every public function stands in it, an example or the bench; every
+# that the README and examples/README.md speak of exist; the C of the latter is recipes.h, which
+# tests/course.c holds; every public function stands in the README, an example or the bench; every
 # example in examples/README.md.
 cd "$(dirname "$0")/.." || exit 1
 CC=${CC:-cc}
@@ -113,20 +114,28 @@ else left_out Meson; fi
 none() { [ -z "$1" ] || { printf '%s\n' "$1"; return 1; }; }
 words() { tr -c 'A-Za-z0-9_' '\n' <"$1" | sort -u; }
 words shade.h >"$T/known"
+cat "$README" examples/README.md >"$T/text"
 check "every name is one of shade.h" none "$(
-    words "$README" | grep -E '^(shade|SHADE)_' | grep -v '^shade_SOURCE_DIR$' |
+    words "$T/text" | grep -E '^(shade|SHADE)_' | grep -v '^shade_SOURCE_DIR$' |
     comm -23 - "$T/known")"
 check "every place is one of shade.h" none "$(
-    grep -oE '>>[a-z]+' "$README" | sort -u | while read -r place; do
+    grep -oE '>>[a-z]+' "$T/text" | sort -u | while read -r place; do
         grep -qE "^(/\*-+ |   )$place" shade.h || echo "$place"
     done)"
 check "every source is one of shade.h" none "$(
-    grep -oE '\[[A-Z][a-z]+[0-9]+\]' "$README" | sort -u | while read -r key; do
+    grep -oE '\[[A-Z][a-z]+[0-9]+\]' "$T/text" | sort -u | while read -r key; do
         grep -qF -- "$key" shade.h || echo "$key"
     done)"
 check "every file is there" none "$(
-    grep -oE '(^|[^A-Za-z/])(examples|tests|bench|\.ci)/[A-Za-z0-9_./]*' "$README" |
+    grep -oE '(^|[^A-Za-z/])(examples|tests|bench|\.ci)/[A-Za-z0-9_./]*' "$T/text" |
     sed 's/^[^a-z.]//; s/[.]$//' | sort -u | while read -r file; do [ -e "$file" ] || echo "$file"; done)"
+check "every example spoken of is there" none "$(
+    grep -oE '`[0-9][0-9]_[a-z_]+`' "$T/text" | tr -d '`' | sort -u | while read -r name; do
+        [ -f "examples/$name.c" ] || echo "$name"
+    done)"
+sed -n '/^```c/,/^```/p' examples/README.md | sed '1d;$d' >"$T/recipes"
+sed '1,/^#include/d;/^#endif/d' examples/recipes.h | sed 1d >"$T/recipes_tested"
+check "the recipes shown are those tested" diff "$T/recipes" "$T/recipes_tested"
 check "every example is listed" none "$(
     for file in examples/[0-9]*.c; do
         name=$(basename "$file" .c)
