@@ -1,4 +1,4 @@
-/* 37_cook_torrance.c - gold as paint and as metal.  Left: Blinn-Phong.  Right, by a fragment shader
+/* 34_cook_torrance.c - gold as paint and as metal.  Left: Blinn-Phong.  Right, by a fragment shader
    of one's own, Cook and Torrance (ACM Transactions on Graphics 1 (1982), 7-24):
        I = SUM of I_s (N.L) D F G / (4 (N.L) (N.V)),   D = e^-((tan a / m)^2) / (pi m^2 cos^4 a),
        G = min(1, 2 (N.H) (N.V) / (V.H), 2 (N.H) (N.L) / (V.H)),   cos a = N.H
@@ -8,7 +8,7 @@
    n = 2/m^2 - 4 bends both lobes alike at their peak.  UW and Shirley name the model.
    Try F_0 = { 0.04f, 0.04f, 0.04f }: varnish, brightest at its rims.
 
-   cc -O2 -I. examples/37_cook_torrance.c -lm -o cook_torrance && ./cook_torrance */
+   cc -O2 -I. examples/34_cook_torrance.c -lm -o cook_torrance && ./cook_torrance */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"

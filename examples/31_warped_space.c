@@ -1,11 +1,11 @@
-/* 34_warped_space.c - what the projection does to space.  Left: eye, lines of sight, the frustum
+/* 31_warped_space.c - what the projection does to space.  Left: eye, lines of sight, the frustum
    between near and far, three equal cubes in it.  Middle: the same points after projection and
    division by w: the frustum is a cube, lines of sight are parallel, what is near is large, and
    planes are still planes.  Right: z dropped (kept for the z-buffer alone): the picture.  Colours
    were computed before the warp, where angles are angles still.  UW's "warped space".
    Try near_z = 0.2: all crowds toward the far end, where few values of depth are left.
 
-   cc -O2 -I. examples/34_warped_space.c -lm -o warped_space && ./warped_space */
+   cc -O2 -I. examples/31_warped_space.c -lm -o warped_space && ./warped_space */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"

@@ -1,11 +1,11 @@
-/* 41_glsl_twins.c - shaders of the lecture notes, drawn by their twins in C; both stand in twins.h,
+/* 38_glsl_twins.c - shaders of the lecture notes, drawn by their twins in C; both stand in twins.h,
    the GLSL also below each picture.  Left: colours of vertices, smeared between them (UW).  Middle
    and right: brass, lit in the vertex shader and in the fragment shader, with Massey's camera (67
    degrees, 5 away), turn (.8 about x) and light; the first loses a highlight and tears the other.
    Where OSMesa is, make conformance draws a ring by each GLSL as well: of 255 no pixel is off by
    more than .53, of which .5 is rounding.  Try p.interpolation = SHADE_INTERPOLATION_CONSTANT.
 
-   cc -O2 -I. examples/41_glsl_twins.c -lm -o glsl_twins && ./glsl_twins */
+   cc -O2 -I. examples/38_glsl_twins.c -lm -o glsl_twins && ./glsl_twins */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"

@@ -1,11 +1,11 @@
-/* 33_sharp_edges.c - one mesh, three sets of normals: a block whose corners are rounded by four
+/* 30_sharp_edges.c - one mesh, three sets of normals: a block whose corners are rounded by four
    facets each.  Left: the normals of faces, which show the facets.  Middle: at each vertex the mean
    of all faces around it; rims look soft, flats bent.  Right: the mean of those alone that meet at
    less than 45 degrees: round where it is round, sharp where it is sharp, and a vertex of the rim
    has two normals.  Below: their greatest angle to those of the true, round block.  Berkeley asks
    for this threshold.  Try 0.94f, the cosine of 20 degrees, on the right: facets meet at 22.5.
 
-   cc -O2 -I. examples/33_sharp_edges.c -lm -o sharp_edges && ./sharp_edges */
+   cc -O2 -I. examples/30_sharp_edges.c -lm -o sharp_edges && ./sharp_edges */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "mesh.h"

@@ -1,4 +1,4 @@
-/* 39_tone_mapping.c - light is as bright as it is, a picture holds 0 to 1.  One drawing in floats
+/* 36_tone_mapping.c - light is as bright as it is, a picture holds 0 to 1.  One drawing in floats
    of a lamp beside a pot, developed three times: exposed for the dark and cut at 1, exposed for the
    pool of light and cut at 1, and by a curve that bends luminance below 1,
        L_d = L (1 + L / L_w^2) / (1 + L),   L_w: the least luminance shown as white
@@ -7,7 +7,7 @@
    whose red is above their luminance.  Massey: light can be arbitrarily large; Shirley: keep
    c_a + c_l <= 1, or clamp.  Try L_w = 1: the curve is L, the first picture again.
 
-   cc -O2 -I. examples/39_tone_mapping.c -lm -o tone_mapping && ./tone_mapping */
+   cc -O2 -I. examples/36_tone_mapping.c -lm -o tone_mapping && ./tone_mapping */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"

@@ -1,4 +1,4 @@
-/* 36_not_lambert.c - two surfaces that Lambert's law does not fit, by a fragment shader of one's
+/* 33_not_lambert.c - two surfaces that Lambert's law does not fit, by a fragment shader of one's
    own.  The full moon is as bright at its rim as in its middle, velvet is brightest at its rims.
    Both are a layer of grains or fibres, each scattering light once, over a ground:
        I = k_d (N.L) T + k (N.L) / ((N.L) + (N.V)) (1 - T),   T = e^-(tau / (N.L) + tau / (N.V))
@@ -9,7 +9,7 @@
    Try the moon's sun from the side, shade_v3(1, 0, 0): half moons, the right one's edge to the
    night twice as steep.
 
-   cc -O2 -I. examples/36_not_lambert.c -lm -o not_lambert && ./not_lambert */
+   cc -O2 -I. examples/33_not_lambert.c -lm -o not_lambert && ./not_lambert */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"

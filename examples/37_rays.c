@@ -1,9 +1,9 @@
-/* 40_rays.c - what local shading leaves out.  Left: the equation alone, shade_lit.  Right: the same
+/* 37_rays.c - what local shading leaves out.  Left: the equation alone, shade_lit.  Right: the same
    behind a ray to each lamp, which finds the shadows, and one bounce off what is shiny: k_s times
    what the bounced ray sees.  UW's next project traces rays; Berkeley says what is "not local".
    Try DEPTH = 3: each mirror shows what the other one mirrors.
 
-   cc -O2 -I. examples/40_rays.c -lm -o rays && ./rays                           writes rays.ppm */
+   cc -O2 -I. examples/37_rays.c -lm -o rays && ./rays                           writes rays.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"

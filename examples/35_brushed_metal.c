@@ -1,4 +1,4 @@
-/* 38_brushed_metal.c - metal brushed in one direction shines in streaks across it.  Left: equally
+/* 35_brushed_metal.c - metal brushed in one direction shines in streaks across it.  Left: equally
    rough in all.  Middle: brushed round, as on a lathe: a bow tie on the lid, a streak down the
    side.  Right: brushed outward from the axis: the bow tie turns by 90 degrees.  By a fragment
    shader of one's own, G. Ward's model ("Measuring and Modeling Anisotropic Reflection", SIGGRAPH
@@ -8,7 +8,7 @@
    a_x a_y = .04 in all three.  UW names anisotropic models.
    Try 0.9f for 0.45f of the lamp: H is N all over the lids, which blaze, and the ties are gone.
 
-   cc -O2 -I. examples/38_brushed_metal.c -lm -o brushed_metal && ./brushed_metal */
+   cc -O2 -I. examples/35_brushed_metal.c -lm -o brushed_metal && ./brushed_metal */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"

@@ -1,11 +1,10 @@
-/* 35_z_buffer.c - the z-buffer, seen.  Above: the picture, and the depth of every pixel, near is
-   bright, what was cleared (z = 1, FAR) is black.  Below: z along the marked row, near is low, in
-   the picture's colours: straight pieces, one for each face, for z/w is linear on the screen.  So
-   a row needs one addition a pixel, z + dz + dz ...: the label says how far that strays from the
-   z stored, in steps of 24 bits, over the longest piece.  UW's z-buffer and its incremental z.
+/* 32_z_buffer.c - the z-buffer, seen.  Above: the picture, and the depth of every pixel, near is
+   bright, what was cleared (z = 1, FAR) is black.  Below: z along the marked row, near is low:
+   straight pieces, one for each face, for z/w is linear on the screen.  So a row needs one addition
+   a pixel, z + dz + dz ...: how far that strays, over the longest piece.  UW's incremental z.
    Try near_z = 0.4: the pieces flatten against FAR, for most depth went to the space before them.
 
-   cc -O2 -I. examples/35_z_buffer.c -lm -o z_buffer && ./z_buffer           writes z_buffer.ppm */
+   cc -O2 -I. examples/32_z_buffer.c -lm -o z_buffer && ./z_buffer           writes z_buffer.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "shapes.h"
@@ -49,7 +48,6 @@ int main(int argc, char **argv)
     shade_target picture = canvas_panel(&c, 0, 0, W / 2, H / 2);
     const float *z = picture.depth + ROW * 2 * W, *color = picture.color;
     char text[80];
-    int begin = 0, steps;
 
     state.view = shade_mat4_look_at(shade_v3(0, 2, 6.5f), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.6f, (float)W / H, near_z, far_z);
@@ -68,10 +66,12 @@ int main(int argc, char **argv)
         int y = (int)(760 * (1 - z[i]));
         fill(&c.target, 2 * i - 2, H + 6 + y, 6, 6, y ? color + 4 * (ROW * 2 * W + i) : grey);
     }
-    steps = longest_run(z, &begin);
+    int begin = 0, steps = longest_run(z, &begin);
     float dz = (z[begin + steps] - z[begin]) / (float)steps, sum = z[begin], worst = 0;
     for (int i = 0; i <= steps; i++, sum += dz) worst = fmaxf(worst, fabsf(sum - z[begin + i]));
-    sprintf(text, "%d times z += dz: off by %d of 2^{24}", steps, (int)(worst * 16777216));
+    sprintf(text, "z along the row; %d times z += dz: off by %d of 2^{24}", steps,
+            (int)(worst * 16777216));
+    label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer");
     label_draw(&c, 12, H - 14, 22, white, text);
     fill(&c.target, 0, ROW, 2 * W, 2, grey);
     mesh_free(&cube);

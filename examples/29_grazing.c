@@ -1,11 +1,11 @@
-/* 32_grazing.c - where Phong and Blinn-Phong part: a floor seen in the mirror direction of a far
+/* 29_grazing.c - where Phong and Blinn-Phong part: a floor seen in the mirror direction of a far
    lamp, theta = 20 and 80 degrees off the normal.  With 4n for n Blinn's highlight is as high as
    Phong's and cos(theta) times as wide: at 20 degrees one hardly sees it, at 80 it is drawn out
    like a lamp's reflection on water, while Phong's stays round.  Massey: 4n looks alike unless
    viewed from a very steep angle.  The numbers: pixels brighter than half, across and down.
    Try theta[1] = 60: half as wide as high.
 
-   cc -O2 -I. examples/32_grazing.c -lm -o grazing && ./grazing               writes grazing.ppm */
+   cc -O2 -I. examples/29_grazing.c -lm -o grazing && ./grazing               writes grazing.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "mesh.h"

@@ -1,10 +1,10 @@
-/* 31_lobes.c - the goniometric diagram: how much of the light from L leaves toward each V, drawn as
+/* 28_lobes.c - the goniometric diagram: how much of the light from L leaves toward each V, drawn as
    the length of a ray, from shade_brdf.  Phong's lobe, Blinn's for the same n, and Blinn's for 4n
    (dashes), which all but covers Phong's; k_d is the half circle they stand on.  V is 20 degrees
    off R, so H is 10 off N: half as far, hence four times n.  UW, Massey and Shirley draw lobes.
-   Try theta = 75: they still agree in this plane; for what happens across it see 32_grazing.
+   Try theta = 75: they still agree in this plane; for what happens across it see 29_grazing.
 
-   cc -O2 -I. examples/31_lobes.c -lm -o lobes && ./lobes                       writes lobes.ppm */
+   cc -O2 -I. examples/28_lobes.c -lm -o lobes && ./lobes                       writes lobes.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "mesh.h"
