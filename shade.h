@@ -23,11 +23,13 @@
            shade_mesh mesh = { corner };
            shade_draw_state state = { 0 };
            shade_light sun = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 0.8f, 0.5f));
-           target.color = pixels, target.depth = depth;
+           target.color = pixels;
+           target.depth = depth;
            mesh.vertex_count = 3;
            state.projection = shade_mat4_perspective(1, 640 / 480.0f, 0.1f, 10);
            state.view = shade_mat4_look_at(shade_v3(0, 0, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-           state.lighting.lights = &sun, state.lighting.light_count = 1;
+           state.lighting.lights = &sun;
+           state.lighting.light_count = 1;
            shade_clear(&target, shade_v4(0.1f, 0.1f, 0.2f, 1), 1);
            shade_draw_mesh(&target, &mesh, &state, NULL);
            return shade_write_ppm("triangle.ppm", &target);
@@ -1178,7 +1180,8 @@ static void shade__sincos(float radians, double *sine, double *cosine)
         t * (-1 / 39916800.0 + t * (1 / 6227020800.0 - t / 1307674368000.0))))));
     c = 1 - t * (0.5 - t * (1 / 24.0 - t * (1 / 720.0 - t * (1 / 40320.0 - t * (1 / 3628800.0 -
         t * (1 / 479001600.0 - t * (1 / 87178291200.0 - t / 20922789888000.0)))))));
-    *sine = k & 1 ? c : s, *cosine = k & 1 ? s : c;
+    *sine = k & 1 ? c : s;
+    *cosine = k & 1 ? s : c;
     if (k & 2) *sine = -*sine;
     if ((k + 1) & 2) *cosine = -*cosine;
 }
@@ -1245,8 +1248,12 @@ static void shade__minors(shade_vec4 a, shade_vec4 b, double *m)
 {
     double ax = (double)a.x, ay = (double)a.y, az = (double)a.z, aw = (double)a.w;
     double bx = (double)b.x, by = (double)b.y, bz = (double)b.z, bw = (double)b.w;
-    m[0] = ax * by - bx * ay, m[1] = ax * bz - bx * az, m[2] = ax * bw - bx * aw;
-    m[3] = ay * bz - by * az, m[4] = ay * bw - by * aw, m[5] = az * bw - bz * aw;
+    m[0] = ax * by - bx * ay;
+    m[1] = ax * bz - bx * az;
+    m[2] = ax * bw - bx * aw;
+    m[3] = ay * bz - by * az;
+    m[4] = ay * bw - by * aw;
+    m[5] = az * bw - bz * aw;
 }
 static double shade__determinant(const double *s, const double *c)
 {
@@ -1255,7 +1262,8 @@ static double shade__determinant(const double *s, const double *c)
 SHADEDEF float shade_mat4_determinant(shade_mat4 m)
 {
     double s[6], c[6];
-    shade__minors(m.col[0], m.col[1], s), shade__minors(m.col[2], m.col[3], c);
+    shade__minors(m.col[0], m.col[1], s);
+    shade__minors(m.col[2], m.col[3], c);
     return (float)shade__determinant(s, c);
 }
 static int shade__is_finite(const shade_mat4 *m)
@@ -1285,12 +1293,15 @@ static shade_vec4 shade__adjugate(double p, double q, double r, double t, double
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     double s[6], c[6], det, k, e[4][4];
-    shade__minors(m.col[0], m.col[1], s), shade__minors(m.col[2], m.col[3], c);
+    shade__minors(m.col[0], m.col[1], s);
+    shade__minors(m.col[2], m.col[3], c);
     det = shade__determinant(s, c);
     if (!(det < 0 || det > 0)) return shade__zero_matrix();
     for (int j = 0; j < 4; j++) {
-        e[j][0] = (double)m.col[j].x, e[j][1] = (double)m.col[j].y;
-        e[j][2] = (double)m.col[j].z, e[j][3] = (double)m.col[j].w;
+        e[j][0] = (double)m.col[j].x;
+        e[j][1] = (double)m.col[j].y;
+        e[j][2] = (double)m.col[j].z;
+        e[j][3] = (double)m.col[j].w;
     }
     k = 1 / det;
     m = shade__m4(
@@ -1535,13 +1546,19 @@ SHADE__INLINE void shade__unpack_pixel(shade_format format, const uint8_t *p, ui
 {
     if (shade__pixel_bytes(format) == 4) {
         const int bgra = format == SHADE_FORMAT_BGRA8;
-        c[0] = p[bgra ? 2 : 0], c[1] = p[1], c[2] = p[bgra ? 0 : 2], c[3] = p[3];
+        c[0] = p[bgra ? 2 : 0];
+        c[1] = p[1];
+        c[2] = p[bgra ? 0 : 2];
+        c[3] = p[3];
     } else {
         uint16_t native;
         uint32_t u;
         SHADE_MEMCPY(&native, p, 2);
         u = format == SHADE_FORMAT_RGB565_SWAPPED ? shade__swap16(native) : native;
-        c[0] = u >> 11, c[1] = u >> 5 & 63, c[2] = u & 31, c[3] = 1;
+        c[0] = u >> 11;
+        c[1] = u >> 5 & 63;
+        c[2] = u & 31;
+        c[3] = 1;
     }
 }
 /* The full value of channel k of a packed format. */
@@ -2182,7 +2199,10 @@ static shade__job shade__job_of(const shade_lighting *lighting, const shade_mate
 {
     shade__job j;
     j.s = shade__surface_of(lighting, material);
-    j.P = P, j.N = N, j.albedo = (const shade__v3 *)0, j.eye = eye;
+    j.P = P;
+    j.N = N;
+    j.albedo = (const shade__v3 *)0;
+    j.eye = eye;
     j.scale = j.s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f;
     return j;
 }
@@ -2414,8 +2434,10 @@ SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int z
         out |= bad & SHADE__OUT_BAD;
         p->out[i] = out;
         bad = shade__mask((out & SHADE__OUT_UNPLACED) != 0);
-        p->x[i] = shade__keep(x, ~bad), p->y[i] = shade__keep(y, ~bad);
-        p->z[i] = shade__keep(z, ~bad), p->w[i] = shade__select(w, 1, bad);
+        p->x[i] = shade__keep(x, ~bad);
+        p->y[i] = shade__keep(y, ~bad);
+        p->z[i] = shade__keep(z, ~bad);
+        p->w[i] = shade__select(w, 1, bad);
     }
 }
 SHADE__INLINE void shade__project(double half_width, double half_height, int zero_to_one,
@@ -2437,9 +2459,12 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
     for (int i = 0; i < n; i++) {
         shade__vertex *to = &b->vertex[i];
         float *value = b->value + i * stride;
-        to->x = p->x_fx8[i], to->y = p->y_fx8[i], to->out = p->out[i];
+        to->x = p->x_fx8[i];
+        to->y = p->y_fx8[i];
+        to->out = p->out[i];
         for (int k = 0; k < 4; k++) to->clip[k] = v->clip[k][i];
-        value[0] = p->z[i], value[1] = p->rw[i];
+        value[0] = p->z[i];
+        value[1] = p->rw[i];
     }
     for (int k = SHADE__FIRST; k < plan->values; k++) {
         const int again = k - varyings - SHADE__FIRST;    /* of u and v, a second time */
@@ -2499,7 +2524,8 @@ static void shade__take_batch(shade__draw *d, const uint32_t *indices, int first
         }
     }
     in->ids.count = vertices;
-    d->batch.count = n, d->batch.primitive = (uint32_t)first;
+    d->batch.count = n;
+    d->batch.primitive = (uint32_t)first;
 }
 
 /*-------------------------------------------------------------------------------------- >>triangles
@@ -2591,7 +2617,8 @@ SHADE__INLINE void shade__turns(const shade__packet *SHADE_RESTRICT p,
         float r0 = p->rw[0][i], r1 = p->rw[1][i], r2 = p->rw[2][i];
         uint32_t below = shade__mask(r1 < r0);
         uint32_t last = (below & shade__mask(r2 < r1)) | (~below & shade__mask(r2 < r0));
-        two[i] = last, one[i] = below & ~last;
+        two[i] = last;
+        one[i] = below & ~last;
         mirrored[i] = shade__mask(area[i] < 0);
     }
 }
@@ -2633,7 +2660,8 @@ SHADE__INLINE void shade__edge(const int32_t *SHADE_RESTRICT px, const int32_t *
         double v = (double)dx * (double)y - (double)dy * (double)x + (double)bias;
         v = shade__bits_double(shade__double_bits(v) & (uint64_t)(int64_t)fits[i]);
         e[i] = (int32_t)(v * (1 / 256.0) + 1073741824.0) - 1073741824;
-        step_x[i] = -dy, step_y[i] = dx;
+        step_x[i] = -dy;
+        step_y[i] = dx;
     }
 }
 /* Depth: its plane, and its range, to which planes are cut, as rounding may leave it at a
@@ -2708,7 +2736,8 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
     for (int i = 0; i < n; i++) {
         const int back = !mirrored[i], culled = cull == (back ? SHADE_CULL_BACK : SHADE_CULL_FRONT);
         const int counted = !p->pieces, drawn = !counted || (area[i] != 0 && !culled);
-        d->stats.culled += !drawn, d->stats.drawn += drawn & counted;
+        d->stats.culled += !drawn;
+        d->stats.drawn += drawn & counted;
         p->visible[i] = drawn && p->box[0][i] <= p->box[2][i] && p->box[1][i] <= p->box[3][i];
         p->turn[i] = (uint8_t)((one[i] & 1) + (two[i] & 2) + (mirrored[i] & 3));
         p->in_32_bits[i] = fits[i] != 0;
@@ -2726,8 +2755,10 @@ SHADE__INLINE void shade__add_triangle(shade__packet *p, const shade__vertex *v,
     for (int k = 0; k < 3; k++) {
         const float *value = p->value + corner[k] * stride;
         p->corner[n][k] = corner[k];
-        p->x[k][n] = v[corner[k]].x, p->y[k][n] = v[corner[k]].y;
-        p->z[k][n] = value[0], p->rw[k][n] = value[1];
+        p->x[k][n] = v[corner[k]].x;
+        p->y[k][n] = v[corner[k]].y;
+        p->z[k][n] = value[0];
+        p->rw[k][n] = value[1];
     }
     p->corner[n][3] = (uint8_t)first;
     p->primitive[n] = primitive;
@@ -2738,7 +2769,9 @@ static void shade__triangles(shade__draw *d)
     const shade__batch *b = &d->batch;
     shade__packet *p = &d->packet;
     const int stride = d->plan.value_stride;
-    p->value = b->value, p->count = 0, p->pieces = 0;
+    p->value = b->value;
+    p->count = 0;
+    p->pieces = 0;
     d->u.queue.f.count = 0;
     for (int k = 0; k < b->count; k++) {
         const uint8_t *corner = b->corner + 3 * k;
@@ -2855,13 +2888,16 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
 {
     const int stride = plan->value_stride;
     uint32_t out = 0;
-    p->count = 3, p->taken = 7, p->on_screen = 1;
+    p->count = 3;
+    p->taken = 7;
+    p->on_screen = 1;
     SHADE_MEMSET(p->value, 0, sizeof p->value);
     for (int i = 0; i < 3; i++) {
         const float *value = b->value + corner[i] * stride;
         const shade__vertex *v = &b->vertex[corner[i]];
         float w = v->out & SHADE__OUT_UNPLACED ? 1 : v->clip[3];
-        p->vertex[i] = *v, p->corner[i] = (uint8_t)i;
+        p->vertex[i] = *v;
+        p->corner[i] = (uint8_t)i;
         for (int k = SHADE__FIRST; k < plan->values; k++)
             p->value[i * stride + k] = value[k] * (k < plan->divided ? 1 : w);
         out |= v->out;
@@ -2932,7 +2968,8 @@ static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *
     }
     d->stats.drawn++;
     plan->stage.setup(d);    /* what was submitted before */
-    packet->value = p.value, packet->pieces = 1;
+    packet->value = p.value;
+    packet->pieces = 1;
     apex = shade__apex(&p, area);
     for (int i = 1; i + 1 < p.count; i++) {
         const int64_t piece = shade__fan_area(&p, apex, i);
@@ -2943,7 +2980,8 @@ static SHADE__NOINLINE void shade__clip_triangle(shade__draw *d, const uint8_t *
         if (packet->count == SHADE__TRIANGLES) plan->stage.setup(d);
     }
     plan->stage.setup(d);
-    packet->value = d->batch.value, packet->pieces = 0;
+    packet->value = d->batch.value;
+    packet->pieces = 0;
 }
 
 /*----------------------------------------------------------------------------------------- >>blocks
@@ -2986,7 +3024,8 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 static SHADE__UNUSED void shade__begin_blocks(const shade__plan *plan, shade__hidden *hidden)
 {
     int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
-    hidden->log_width = 5, hidden->log_height = 3;
+    hidden->log_width = 5;
+    hidden->log_height = 3;
     while (((w >> hidden->log_width) + 1) * ((h >> hidden->log_height) + 1) > SHADE__BLOCKS) {
         if (hidden->log_height < hidden->log_width) hidden->log_height++;
         else hidden->log_width++;
@@ -3018,7 +3057,8 @@ SHADE__UNUSED static SHADE__NOINLINE int shade__next_blocks(
         const int first = plan->x0 + column * size, last = shade__min(first + size, plan->x1) - 1;
         float *farthest = &hidden->farthest[row * hidden->across + column];
         int skip, full;
-        to = shade__min(last, t->x1), full = whole && from == first && to == last;
+        to = shade__min(last, t->x1);
+        full = whole && from == first && to == last;
         skip = shade__key(toward, t, right ? from : to, down ? y : bottom) > *farthest;
         for (int k = 0; k < 3 && !skip; k++) {
             int64_t dx = t->dx[k], dy = t->dy[k], across = dx * (to - from), up = dy * (bottom - y);
@@ -3050,14 +3090,24 @@ SHADE__UNUSED static SHADE__NOINLINE int shade__next_blocks(
 /* The triangle of a lane of the packet. */
 SHADE__INLINE void shade__triangle_of(const shade__packet *p, int i, shade__triangle *t)
 {
-    t->x0 = p->box[0][i], t->y0 = p->box[1][i], t->x1 = p->box[2][i], t->y1 = p->box[3][i];
-    for (int k = 0; k < 3; k++)
-        t->e[k] = p->e[k][i], t->dx[k] = p->dx[k][i], t->dy[k] = p->dy[k][i];
-    t->lane = i, t->in_32_bits = p->in_32_bits[i];
+    t->x0 = p->box[0][i];
+    t->y0 = p->box[1][i];
+    t->x1 = p->box[2][i];
+    t->y1 = p->box[3][i];
+    for (int k = 0; k < 3; k++) {
+        t->e[k] = p->e[k][i];
+        t->dx[k] = p->dx[k][i];
+        t->dy[k] = p->dy[k][i];
+    }
+    t->lane = i;
+    t->in_32_bits = p->in_32_bits[i];
     t->x_ref = 0.5f - (float)p->x[0][i] * (1 / 256.0f);
     t->y_ref = 0.5f - (float)p->y[0][i] * (1 / 256.0f);
-    t->z = p->z[0][i], t->z_dx = p->z[1][i], t->z_dy = p->z[2][i];
-    t->z_low = p->rw[0][i], t->z_high = p->rw[1][i];
+    t->z = p->z[0][i];
+    t->z_dx = p->z[1][i];
+    t->z_dy = p->z[2][i];
+    t->z_low = p->rw[0][i];
+    t->z_high = p->rw[1][i];
 }
 
 /* Runs of pixels on their way to the queue, handed over when there are as many as fit. */
@@ -3073,7 +3123,10 @@ SHADE__INLINE void shade__send(shade__draw *d, shade__runs *r)
 SHADE__INLINE void shade__add_run(shade__runs *r, int lane, int x, int y, int n)
 {
     shade__run *run = &r->run[r->count++];
-    run->x = x, run->y = y, run->n = n, run->lane = lane;
+    run->x = x;
+    run->y = y;
+    run->n = n;
+    run->lane = lane;
 }
 /* The runs of a set; bit i stands for pixel x + i of row y. */
 static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r, int lane, int x, int y,
@@ -3097,7 +3150,10 @@ typedef struct shade__rows8 { int32_t first[8], last[8]; } shade__rows8;    /* f
 SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, int row, int n,
                                       shade__rows8 *SHADE_RESTRICT s)
 {
-    SHADE__FOR(r, 8) { s->first[r] = 0, s->last[r] = n - 1; }
+    SHADE__FOR(r, 8) {
+        s->first[r] = 0;
+        s->last[r] = n - 1;
+    }
     for (int k = 0; k < 3; k++) {
         const int32_t dx = t->dx[k], dy = t->dy[k], step = dx < 0 ? -dx : dx;
         const int32_t e0 = t->e[k] + row * dy + (dx < 0 ? (n - 1) * dx : 0);
@@ -3107,8 +3163,11 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
             int32_t e = e0 + r * dy, q = (int32_t)shade__clamp_bits((float)-e * inverse, 0, limit);
             int32_t i, j;
             e += q * step;
-            j = e < 0 ? 1 : 0, e += j * step, j += e < 0 ? 1 : 0;
-            i = (q + j) & left, j = end - ((q + j) & right);
+            j = e < 0 ? 1 : 0;
+            e += j * step;
+            j += e < 0 ? 1 : 0;
+            i = (q + j) & left;
+            j = end - ((q + j) & right);
             s->first[r] = s->first[r] > i ? s->first[r] : i;
             s->last[r] = s->last[r] < j ? s->last[r] : j;
         }
@@ -3136,7 +3195,8 @@ static void shade__spans_big(const shade__triangle *t, const int64_t *edge, int 
             else if (t->dx[k] < 0) last = shade__min(last, shade__crossing(e, t->dx[k], n));
             else if (e < 0) last = -1;
         }
-        s->first[r] = first, s->last[r] = last;
+        s->first[r] = first;
+        s->last[r] = last;
     }
 }
 
@@ -3274,7 +3334,9 @@ SHADE__INLINE void shade__cover_column(const shade__plan *SHADE_RESTRICT plan,
     int32_t e0[16], e1[16], e2[16];
     float zx[16];
     SHADE__FOR(i, width) {
-        e0[i] = a + i * adx, e1[i] = b + i * bdx, e2[i] = c + i * cdx;
+        e0[i] = a + i * adx;
+        e1[i] = b + i * bdx;
+        e2[i] = c + i * cdx;
         zx[i] = z_dx * ((float)(x + i) + x_ref);
     }
     for (int r = 0; r < rows; r++, depth += stride) {
@@ -3286,7 +3348,9 @@ SHADE__INLINE void shade__cover_column(const shade__plan *SHADE_RESTRICT plan,
             m &= shade__passes(test, plain, z, depth[i]);
             depth[i] = shade__select(depth[i], z, plain ? m : m & test.write);
             any |= m & shade__bit[i];
-            e0[i] += ady, e1[i] += bdy, e2[i] += cdy;
+            e0[i] += ady;
+            e1[i] += bdy;
+            e2[i] += cdy;
         }
         set[r] |= any << at;
     }
@@ -3433,11 +3497,14 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     k[3] = (float)((p->y[2][i] - p->y[0][i]) * inverse);
     shade__slopes(v0, v1, v2, k, stride, t);
     t->base[0] = p->z[0][i];    /* with the bias */
-    t->z_low = p->rw[0][i], t->z_high = p->rw[1][i];
-    t->rw_low = v0[1], t->rw_high = shade__maxf(v0[1], shade__maxf(v1[1], v2[1]));
+    t->z_low = p->rw[0][i];
+    t->z_high = p->rw[1][i];
+    t->rw_low = v0[1];
+    t->rw_high = shade__maxf(v0[1], shade__maxf(v1[1], v2[1]));
     t->x_ref = 0.5f - (float)p->x[0][i] * (1 / 256.0f);
     t->y_ref = 0.5f - (float)p->y[0][i] * (1 / 256.0f);
-    t->primitive = p->primitive[i], t->front = p->turn[i] > 2;
+    t->primitive = p->primitive[i];
+    t->front = p->turn[i] > 2;
     if (plan->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
         const float *value = p->value + corner[3] * stride;
         for (int s = SHADE__FIRST; s < plan->divided; s++) {
@@ -3553,7 +3620,8 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
             shade__append(d, t, row, x - back, y, c - back, back, 8);
             take = shade__min(n, room);
         }
-        x += take, n -= take;
+        x += take;
+        n -= take;
         q->f.count = c + take;
         if (q->f.count == SHADE_LANES) d->plan.stage.flush(d);
     }
@@ -3580,10 +3648,16 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
     for (int k = 0; k < plan->varyings; k++) {
         for (int i = n; i < SHADE_LANES; i++) q->f.varying[k][i] = q->f.varying[k][last];
     }
-    for (int i = n; i < SHADE_LANES; i++) q->rw[i] = q->rw[last], q->f.lod[i] = q->f.lod[last];
+    for (int i = n; i < SHADE_LANES; i++) {
+        q->rw[i] = q->rw[last];
+        q->f.lod[i] = q->f.lod[last];
+    }
     for (int i = n; i < SHADE_LANES && !plan->bare; i++) {
-        q->f.x[i] = q->f.x[last], q->f.y[i] = q->f.y[last], q->f.z[i] = q->f.z[last];
-        q->f.primitive[i] = q->f.primitive[last], q->f.front[i] = q->f.front[last];
+        q->f.x[i] = q->f.x[last];
+        q->f.y[i] = q->f.y[last];
+        q->f.z[i] = q->f.z[last];
+        q->f.primitive[i] = q->f.primitive[last];
+        q->f.front[i] = q->f.front[last];
     }
 }
 /* Rows of varyings times w = 1/rw.  rw of a covered pixel lies between its vertices' and is
@@ -3611,7 +3685,10 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (plan->divided == SHADE__FIRST && plan->varyings)
         shade__divide(q->rw, q->f.varying[0], plan->varyings);
     if (plan->lod) shade__levels(q->f.lod);
-    SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0, c.color[3][i] = 1; }
+    SHADE_EACH_LANE(i) {
+        c.color[0][i] = c.color[1][i] = c.color[2][i] = 0;
+        c.color[3][i] = 1;
+    }
     SHADE_EACH_LANE(i) { c.discard[i] = 0; }
     plan->pipe->fragment(plan->pipe->uniforms, &q->f, &c);
     plan->stage.store(d, &c);
@@ -3686,7 +3763,8 @@ SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int
         i0 = i0 > last ? last : i0;
         i0 = (i0 & ~below) | (last & below & cyclic);
         i1 = (i1 & ~above) | (last & above & ~cyclic);
-        a->i0[i] = i0, a->i1[i] = (i0 & sharp) | (i1 & ~sharp);
+        a->i0[i] = i0;
+        a->i1[i] = (i0 & sharp) | (i1 & ~sharp);
     }
 }
 
@@ -3843,10 +3921,14 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
     for (int k = 0; k < 4; k++) {
         SHADE__EACH_BLOCK(i, blocks) { out[k * stride + i] = 0; }
     }
-    SHADE__FOR(i, SHADE__TEXELS) { level[i] = 0, weight[i] = 1; }
+    SHADE__FOR(i, SHADE__TEXELS) {
+        level[i] = 0;
+        weight[i] = 1;
+    }
     for (int i = 0; levels && i < SHADE__BLOCK * blocks; i++) {
         if (lod[i] > 0 && lod[i] <= FLT_MAX) level[i] = shade__minf(lod[i], (float)levels);
-        lowest = shade__minf(lowest, level[i]), highest = shade__maxf(highest, level[i]);
+        lowest = shade__minf(lowest, level[i]);
+        highest = shade__maxf(highest, level[i]);
     }
     for (int k = (int)lowest; k <= shade__min((int)highest + 1, levels); k++) {
         const shade_texture *source = k ? &t->mipmaps[k - 1] : t;
@@ -3882,7 +3964,11 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
 {
     float us[SHADE__BLOCK], vs[SHADE__BLOCK], lods[SHADE__BLOCK], out[4 * SHADE__BLOCK];
     if (!shade__texture_good(texture)) return shade_v4(1, 1, 1, 1);
-    for (int i = 0; i < SHADE__BLOCK; i++) us[i] = u, vs[i] = v, lods[i] = lod;
+    for (int i = 0; i < SHADE__BLOCK; i++) {
+        us[i] = u;
+        vs[i] = v;
+        lods[i] = lod;
+    }
     shade__sample_pick()(texture, us, vs, lods, 1, out, SHADE__BLOCK);
     return shade_v4(out[0], out[SHADE__BLOCK], out[2 * SHADE__BLOCK], out[3 * SHADE__BLOCK]);
 }
@@ -3899,7 +3985,8 @@ SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
     size_t bytes = 0;
     if ((unsigned)format > SHADE_FORMAT_RGBA32F) return 0;
     for (int k = shade_mipmap_count(width, height); k > 0; k--) {
-        width = shade__max(width / 2, 1), height = shade__max(height / 2, 1);
+        width = shade__max(width / 2, 1);
+        height = shade__max(height / 2, 1);
         bytes += (size_t)width * (size_t)height * shade__pixel_bytes(format);
     }
     return bytes;
@@ -4181,18 +4268,27 @@ static void shade__make_plan(const shade_target *t, const shade_pipeline *p, int
     const int perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
     int clip[4];
     if (!shade__clip_rectangle(t, clip)) clip[0] = clip[1] = clip[2] = clip[3] = 0;
-    plan->target = t, plan->pipe = p;
-    plan->stage.place = shade__place_pick(), plan->stage.setup = shade__setup_pick();
-    plan->stage.clip = shade__clip_triangle, plan->stage.cover = shade__cover_pick();
+    plan->target = t;
+    plan->pipe = p;
+    plan->stage.place = shade__place_pick();
+    plan->stage.setup = shade__setup_pick();
+    plan->stage.clip = shade__clip_triangle;
+    plan->stage.cover = shade__cover_pick();
     plan->stage.spans = shade__spans_pick();
-    plan->stage.push = shade__push_pick(), plan->stage.flush = shade__flush_pick();
+    plan->stage.push = shade__push_pick();
+    plan->stage.flush = shade__flush_pick();
     plan->stage.store = shade__store_pick();
     plan->color = p->fragment ? (uint8_t *)t->color : (uint8_t *)0;
     plan->depth = t->depth;
     plan->pixel_bytes = shade__pixel_bytes(t->format);
-    plan->stride = shade__stride_of(t), plan->row_offset = t->row_offset;
-    plan->x0 = clip[0], plan->y0 = clip[1], plan->x1 = clip[2], plan->y1 = clip[3];
-    plan->varyings = p->varyings, plan->values = SHADE__FIRST + p->varyings;
+    plan->stride = shade__stride_of(t);
+    plan->row_offset = t->row_offset;
+    plan->x0 = clip[0];
+    plan->y0 = clip[1];
+    plan->x1 = clip[2];
+    plan->y1 = clip[3];
+    plan->varyings = p->varyings;
+    plan->values = SHADE__FIRST + p->varyings;
     plan->divided = perspective ? SHADE__FIRST : plan->values;
     plan->lod = p->lod_texture ? plan->divided + (perspective ? p->lod_varying : 0) : 0;
     if (p->lod_texture && !perspective) plan->values += 2;
@@ -4207,7 +4303,8 @@ static void shade__make_plan(const shade_target *t, const shade_pipeline *p, int
     plan->bare = own && plan->early && p->raster.blend == SHADE_BLEND_REPLACE && !t->dither;
     plan->toward = (float)((plan->compare.less != 0) - (plan->compare.greater != 0));
     if (!plan->early || p->raster.depth_read_only) plan->toward = 0;
-    plan->half_width = (float)(t->width * 128), plan->half_height = (float)(t->height * 128);
+    plan->half_width = (float)(t->width * 128);
+    plan->half_height = (float)(t->height * 128);
 }
 
 /* The draw itself; all its arguments have been checked.  own: the shaders are of this file. */
@@ -4271,8 +4368,12 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
     float rgba[32], px[8], py[8];
     uint32_t packed[8] = { 0 };
     for (int i = 0; i < 8; i++) {
-        px[i] = (float)(x + i) + 0.5f, py[i] = (float)y + 0.5f;
-        rgba[i] = color.x, rgba[i + 8] = color.y, rgba[i + 16] = color.z, rgba[i + 24] = color.w;
+        px[i] = (float)(x + i) + 0.5f;
+        py[i] = (float)y + 0.5f;
+        rgba[i] = color.x;
+        rgba[i + 8] = color.y;
+        rgba[i + 16] = color.z;
+        rgba[i + 24] = color.w;
     }
     shade__pack8(t, rgba, px, py, packed);
     for (size_t i = 0; i < 256 / bytes; i++)
@@ -4290,7 +4391,8 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     if (result == SHADE_OK && depth != depth) result = SHADE_ERROR_ARGUMENT;
     if (result != SHADE_OK) return result;
     if (!shade__clip_rectangle(target, clip)) return SHADE_OK;
-    bytes = shade__pixel_bytes(target->format), n = (size_t)(clip[2] - clip[0]);
+    bytes = shade__pixel_bytes(target->format);
+    n = (size_t)(clip[2] - clip[0]);
     for (int i = 0; i < 64; i++) depths[i] = depth;
     for (int y = clip[1]; y < clip[3]; y++) {
         size_t at = (size_t)(y - target->row_offset) * (size_t)shade__stride_of(target) +
@@ -4313,7 +4415,10 @@ static void shade__resolve8(const shade_target *out, const shade_target *in, int
     uint8_t *to = (uint8_t *)out->color;
     size_t bytes = shade__pixel_bytes(out->format);
     to += ((size_t)(y - out->row_offset) * (size_t)shade__stride_of(out) + (size_t)x) * bytes;
-    for (int i = 0; i < 8; i++) px[i] = (float)(x + i) + 0.5f, py[i] = (float)y + 0.5f;
+    for (int i = 0; i < 8; i++) {
+        px[i] = (float)(x + i) + 0.5f;
+        py[i] = (float)y + 0.5f;
+    }
     for (int i = 0; i < n * factor * factor; i++) {
         int p = i / (factor * factor), row = i / factor % factor + (y - out->row_offset) * factor;
         size_t at =
@@ -4386,14 +4491,18 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         size_t size = shade__pixel_bytes(texture->format);
         shade_target from;
         SHADE_MEMSET(&from, 0, sizeof from);
-        from.width = up->width, from.height = up->height, from.format = up->format,
+        from.width = up->width;
+        from.height = up->height;
+        from.format = up->format;
         from.srgb = up->srgb;
-        from.stride = up->stride ? up->stride : up->width,
+        from.stride = up->stride ? up->stride : up->width;
         from.color = (void *)(uintptr_t)up->pixels;
         levels[n] = *texture;
-        levels[n].pixels = p, levels[n].stride = 0, levels[n].mipmaps = (shade_texture *)0;
+        levels[n].pixels = p;
+        levels[n].stride = 0;
+        levels[n].mipmaps = (shade_texture *)0;
         levels[n].mipmap_count = 0;
-        levels[n].width = shade__max(up->width / 2, 1),
+        levels[n].width = shade__max(up->width / 2, 1);
         levels[n].height = shade__max(up->height / 2, 1);
         for (int i = 0; i < levels[n].width * levels[n].height; i++, p += size) {
             float c[4], rgba[32] = { 0 }, zero[8] = { 0 };
@@ -4404,7 +4513,8 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
             shade__store_pixel(from.format, p, packed[0], rgba, 8);
         }
     }
-    texture->mipmaps = levels, texture->mipmap_count = count;
+    texture->mipmaps = levels;
+    texture->mipmap_count = count;
     return SHADE_OK;
 }
 
@@ -4538,7 +4648,8 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
         const char *p = (const char *)m->texcoords;
         float uv[2];
         SHADE_MEMCPY(uv, p + (size_t)v * (size_t)(m->texcoord_stride ? m->texcoord_stride : 8), 8);
-        u[i] = uv[0], u[i + SHADE_LANES] = uv[1];
+        u[i] = uv[0];
+        u[i + SHADE_LANES] = uv[1];
     }
 }
 /* Light leaving lit vertices, term by term what a map multiplies and what it does not. */
@@ -4560,7 +4671,8 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
     const int lit = shading != SHADE_SHADING_PER_FRAGMENT, colored = s->mesh->colors != 0;
     shade__v3 own[SHADE__OWN], *P, *N, *albedo;
     P = SHADE__OWN == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : own;
-    N = P + 1, albedo = N + 1;
+    N = P + 1;
+    albedo = N + 1;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip);
     if (s->face_normals)
@@ -4676,7 +4788,8 @@ static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
 {
     shade__scene s;
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
-    s.mesh = mesh, s.state = state;
+    s.mesh = mesh;
+    s.state = state;
     s.world_from_object = shade__or_identity(state->model);
     s.clip_from_object = shade_mat4_mul(shade_mat4_mul(shade__or_identity(state->projection), view),
                                         s.world_from_object);
@@ -4780,13 +4893,15 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     const double least = (w0 > w1 ? w0 - w1 : w1 - w0) * 1e-14 + (double)shade__w_least;
     const int zero_to_one = s->state->raster.depth_zero_to_one != 0;
     double p[4], at[2][2], length;
-    t[0] = 0, t[1] = 1;
+    t[0] = 0;
+    t[1] = 1;
     shade__cut(end[0][2] + (zero_to_one ? 0 : w0), end[1][2] + (zero_to_one ? 0 : w1), t, t + 1);
     shade__cut(w0 - end[0][2], w1 - end[1][2], t, t + 1);
     shade__cut(w0 - least, w1 - least, t, t + 1);
     if (!(t[0] <= t[1])) return 0;
     for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
-    dir[0] = at[1][0] - at[0][0], dir[1] = at[1][1] - at[0][1];
+    dir[0] = at[1][0] - at[0][0];
+    dir[1] = at[1][1] - at[0][1];
     length = dir[0] * dir[0] + dir[1] * dir[1];
     if (length > 0) {
         length = shade__root(length);
@@ -4816,12 +4931,14 @@ static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int c
         for (int i = 0; i < 4; i++) placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
     }
     clip[0] = placed ? 2 : FLT_MAX;    /* outside, or rejected */
-    clip[1] = clip[2] = 2, clip[3] = 1;
+    clip[1] = clip[2] = 2;
+    clip[3] = 1;
     if (!placed || !shade__stroke_part(s, end, t, dir)) return;
     shade__stroke_point(s, end, t[k], p, at);
     side = corner & 2 ? s->half_width : -s->half_width;
     along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? s->half_width : -s->half_width;
-    clip[2] = (float)p[2], clip[3] = (float)p[3];
+    clip[2] = (float)p[2];
+    clip[3] = (float)p[3];
     clip[0] = (float)((at[0] + dir[0] * along - dir[1] * side) / s->half_x * (double)clip[3]);
     clip[1] = (float)((at[1] + dir[1] * along + dir[0] * side) / s->half_y * (double)clip[3]);
 }
@@ -4842,8 +4959,10 @@ static void shade__stroke_color(const void *uniforms, const shade_fragments *SHA
     shade_vec4 c = ((const shade__stroke *)uniforms)->state->color;
     (void)in;
     SHADE_EACH_LANE(i) {
-        out->color[0][i] = c.x, out->color[1][i] = c.y;
-        out->color[2][i] = c.z, out->color[3][i] = c.w;
+        out->color[0][i] = c.x;
+        out->color[1][i] = c.y;
+        out->color[2][i] = c.z;
+        out->color[3][i] = c.w;
     }
 }
 
@@ -4863,13 +4982,18 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     if (!(state->width >= 0) || !shade__within(state->width, FLT_MAX) ||
         (unsigned)state->cap > SHADE_CAP_SQUARE)
         return SHADE_ERROR_ARGUMENT;
-    s.points = points, s.state = state;
+    s.points = points;
+    s.state = state;
     s.clip_from_points = shade__or_identity(state->clip_from_points);
-    s.half_x = target->width / 2.0, s.half_y = target->height / 2.0;
+    s.half_x = target->width / 2.0;
+    s.half_y = target->height / 2.0;
     s.half_width = (state->width > 0 ? (double)state->width : 1) / 2;
     SHADE_MEMSET(&p, 0, sizeof p);
-    p.vertex = shade__stroke_vertex, p.fragment = shade__stroke_color, p.uniforms = &s;
-    p.raster = state->raster, p.raster.cull = SHADE_CULL_NONE;
+    p.vertex = shade__stroke_vertex;
+    p.fragment = shade__stroke_color;
+    p.uniforms = &s;
+    p.raster = state->raster;
+    p.raster.cull = SHADE_CULL_NONE;
     result = shade__check_pipeline(&p);
     if (result != SHADE_OK) return result;
     return shade__run_draw(target, &p, 1, (const uint32_t *)0, point_count * 3, stats);
@@ -4888,8 +5012,8 @@ static double shade__angle(double y, double x)
     const double quarter = 0.78539816339744830962;
     double ax = x < 0 ? -x : x, t, s, a = 0;
     if (!(ax + y > 0)) return 0;
-    t = (y - ax) / (y + ax),
-        s = t < -0.4142135623730951 ? y / ax : t > 0.4142135623730951 ? -ax / y : t;
+    t = (y - ax) / (y + ax);
+    s = t < -0.4142135623730951 ? y / ax : t > 0.4142135623730951 ? -ax / y : t;
     for (int k = 25; k > 0; k -= 2) a = 1.0 / k - a * s * s;
     a = a * s + (t < -0.4142135623730951 ? 0 : t > 0.4142135623730951 ? 2 * quarter : quarter);
     return x < 0 ? 4 * quarter - a : a;
@@ -4969,7 +5093,8 @@ static uint32_t *shade__sort_corners(const shade_mesh *m, uint32_t count, uint32
         }
         for (uint32_t i = 0; i < count; i++)
             other[start[shade__position_byte(m, order[i], k)]++] = order[i];
-        order = other, other = swap;
+        order = other;
+        other = swap;
     }
     return order;
 }
@@ -5025,7 +5150,10 @@ static void shade__sort_edges(shade_edge *p, int n)
         shade_edge moved;
         int root, child;
         if (start > 0) moved = p[--start];
-        else moved = p[--end], p[end] = p[0];
+        else {
+            moved = p[--end];
+            p[end] = p[0];
+        }
         for (root = start; (child = 2 * root + 1) < end; root = child) {
             if (child + 1 < end && shade__edge_less(&p[child], &p[child + 1])) child++;
             if (!shade__edge_less(&moved, &p[child])) break;
@@ -5053,8 +5181,10 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
         uint32_t a = shade__corner_index(mesh, (uint32_t)i);
         uint32_t b = shade__corner_index(mesh, (uint32_t)(i % 3 == 2 ? i - 2 : i + 1));
         if (a == b) continue;                            /* of a triangle without area */
-        edges[n].a = a < b ? a : b, edges[n].b = a < b ? b : a;
-        edges[n].triangle[0] = i / 3, edges[n++].triangle[1] = -1;
+        edges[n].a = a < b ? a : b;
+        edges[n].b = a < b ? b : a;
+        edges[n].triangle[0] = i / 3;
+        edges[n++].triangle[1] = -1;
     }
     shade__sort_edges(edges, n);
     for (int i = 0; i < n; i++) {
@@ -5165,7 +5295,9 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
         if (found >= 0 && at >= nearest) continue;
         /* three points of a line, which rounding parts when they are turned */
         if (!shade__edges3(q[0], q[1], q[2], e, f, n)) continue;
-        found = i, nearest = at, inside = where;
+        found = i;
+        nearest = at;
+        inside = where;
     }
     if (found < 0) return -1;
     if (t) *t = nearest;
@@ -5213,7 +5345,9 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
     if (result == SHADE_OK && !target->color) result = SHADE_ERROR_TARGET;
     if (result != SHADE_OK) return result;
     rows = shade__rows_held(target);
-    p = shade__decimal(p, target->width), *p++ = ' ', p = shade__decimal(p, rows);
+    p = shade__decimal(p, target->width);
+    *p++ = ' ';
+    p = shade__decimal(p, rows);
     SHADE_MEMCPY(p, "\n255\n", 5);
     if (sink(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
     for (int y = 0; y < rows; y++) {

@@ -35,6 +35,10 @@ check "a comment above every public declaration, or beside it" "$(awk '
     /^#ifdef SHADE_IMPLEMENTATION/ { exit }
     /^SHADEDEF .*\(/ && !/\/\*/ && prev !~ /\*\/$|^SHADEDEF |^ .*\);$|^(typedef|#if)/ { print FNR ": " $0 }
     NF { prev = $0 } !NF { prev = "" }' $H)"
+if command -v clang >/dev/null; then
+    check "no comma expressions but in the head of a for" "$(
+        clang -std=c99 -Wcomma -fsyntax-only -DSHADE_IMPLEMENTATION -x c $H 2>&1 | grep Wcomma)"
+else echo "left out: comma expressions (no clang)"; fi
 check "no heap, no exit, no print" "$(grep -nE '\b(malloc|calloc|realloc|free|exit|abort|printf|fprintf|puts)[ ]*\(' $H)"
 
 echo "$passed passed, $failed failed"
