@@ -20,7 +20,6 @@ printf '>>about\n>>contents\n>>conventions\n>>model\n' | cat - /tmp/lint_banners
 check "contents table equals banners" "$(diff /tmp/lint_contents.$$ /tmp/lint_want.$$)"
 rm -f /tmp/lint_contents.$$ /tmp/lint_banners.$$ /tmp/lint_want.$$
 
-check "sections of at most 420 lines" "$(awk '/^\/\*-+ >>/ { if (name && FNR - start > 420) print name, FNR - start; name = $2; start = FNR }' $H)"
 check "functions of at most 80 lines" "$(awk '/^\{$/ { start = FNR } /^\}$/ && start { if (FNR - start > 80) print FNR ": " FNR - start; start = 0 }' $H)"
 check "#if on compilers and targets only in >>config" "$(awk '
     /^\/\*-+ >>/ { section = $2 }
