@@ -40,8 +40,8 @@
 
    >>contents
      About      >>about  >>contents  >>conventions  >>model
-     Public     >>config  >>types  >>math  >>light  >>draw
-     Inside     >>base  >>matrix  >>power  >>color  >>lighting  >>arrival  >>lanes
+     Public     >>config  >>types  >>inline  >>math  >>light  >>draw
+     Inside     >>target  >>base  >>matrix  >>power  >>color  >>lighting  >>arrival  >>lanes
                 >>state  >>vertices  >>triangles  >>clip  >>blocks  >>cover  >>fragments  >>texture
                 >>store  >>drive  >>mesh  >>lines  >>shape  >>image
      Sources    >>refs  >>history  >>license
@@ -105,37 +105,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef SHADE_NO_LIBM
-#ifndef SHADE_NO_STDIO
-#define SHADE_NO_STDIO
-#endif
-#ifndef SHADE_NO_DISPATCH
-#define SHADE_NO_DISPATCH
-#endif
-#define SHADE__SQRT(x) shade__own_sqrt(x)
-#else
-#include <math.h>
-#define SHADE__SQRT(x) sqrtf(x)
-#endif
-
-/* the builtins are folded with -ffreestanding as well */
-#if defined(__GNUC__) || defined(__clang__)
-#ifndef SHADE_MEMCPY
-#define SHADE_MEMCPY(d, s, n) __builtin_memcpy(d, s, n)
-#endif
-#ifndef SHADE_MEMSET
-#define SHADE_MEMSET(d, c, n) __builtin_memset(d, c, n)
-#endif
-#elif !defined(SHADE_MEMCPY) || !defined(SHADE_MEMSET)
-#include <string.h>
-#ifndef SHADE_MEMCPY
-#define SHADE_MEMCPY(d, s, n) memcpy(d, s, n)
-#endif
-#ifndef SHADE_MEMSET
-#define SHADE_MEMSET(d, c, n) memset(d, c, n)
-#endif
-#endif
-
 #ifndef SHADE_LANES
 #define SHADE_LANES 128
 #endif
@@ -148,211 +117,9 @@
 #if SHADE_MAX_VARYINGS < 1 || SHADE_MAX_VARYINGS > 64
 #error "shade.h: SHADE_MAX_VARYINGS must be 1 .. 64"
 #endif
-#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
-#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse"
-#endif
-
-#if defined(__GNUC__) || defined(__clang__)
-#define SHADE__INLINE static inline __attribute__((always_inline))
-#define SHADE__NOINLINE __attribute__((noinline))
-#define SHADE__UNUSED __attribute__((unused))
-#elif defined(_MSC_VER)
-#define SHADE__INLINE static __forceinline
-#define SHADE__NOINLINE __declspec(noinline)
-#define SHADE__UNUSED
-#else
-#define SHADE__INLINE static inline
-#define SHADE__NOINLINE
-#define SHADE__UNUSED
-#endif
-
-#ifndef SHADEDEF
-#ifdef SHADE_STATIC
-#define SHADEDEF SHADE__UNUSED static
-#else
-#define SHADEDEF extern
-#endif
-#endif
-
-#if defined(__cplusplus) || defined(_MSC_VER)
-#define SHADE_RESTRICT __restrict
-#else
-#define SHADE_RESTRICT restrict
-#endif
-
-/* Rows of packets begin with a vector: unaligned they straddle two lines of cache, 4 % of a lit
-   floor, 12 % of a flat fill in cache.  Small packets are for small stacks. */
-#if SHADE_LANES < 64
-#define SHADE_ALIGNED
-#elif defined(__GNUC__) || defined(__clang__)
-#define SHADE_ALIGNED __attribute__((aligned(64)))
-#elif defined(_MSC_VER)
-#define SHADE_ALIGNED __declspec(align(64))
-#else
-#define SHADE_ALIGNED
-#endif
-
-/* SHADE_EACH_LANE(i) { ... }   runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
-   vector code when the body is straight arithmetic on arrays indexed by i.  Without the pragma they
-   unroll the loop before they vectorise it: 1.5 to 2.4 times slower.  After an if, put braces
-   around the whole. */
-#if defined(__clang__)
-#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
-#elif defined(__GNUC__) && __GNUC__ >= 8
-#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
-#else
-#define SHADE__NO_UNROLL
-#endif
-#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (int i = 0; i < (n); i++)
-#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
-
-/* gcc would also turn loops that fill rows into calls or rep stos: 9 % of a flat fill.
-   Contraction of a * b + c to one rounding would give other bits on other processors: off for
-   all of this file with clang, for the implementation with gcc (which decides after inlining, so
-   by its caller).  Where clang keeps a stack of such states the one before comes back at the end,
-   elsewhere that of the compiler's options. */
-#if defined(__clang__) && \
-    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
-     (__clang_major__ >= 16 && defined(__aarch64__)))
-#define SHADE__EXACT_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
-#define SHADE__EXACT_END _Pragma("float_control(pop)")
-#elif defined(__clang__)
-#define SHADE__EXACT_BEGIN _Pragma("STDC FP_CONTRACT OFF")
-#define SHADE__EXACT_END _Pragma("STDC FP_CONTRACT DEFAULT")
-#elif defined(_MSC_VER)
-#define SHADE__EXACT_BEGIN __pragma(float_control(push)) __pragma(fp_contract(off))
-#define SHADE__EXACT_END __pragma(float_control(pop))
-#else
-#define SHADE__EXACT_BEGIN
-#define SHADE__EXACT_END
-#endif
-/* whether what is only faster has code of its own */
-#ifdef __OPTIMIZE_SIZE__
-#define SHADE__TWICE 0
-#else
-#define SHADE__TWICE 1
-#endif
-#if defined(__GNUC__) && !defined(__clang__)
-#if defined(__OPTIMIZE_SIZE__) || defined(SHADE__AS_COMPILED)    /* that for counting branches */
-#define SHADE__EXACT_INSIDE_BEGIN \
-    _Pragma("GCC push_options") \
-    _Pragma("GCC optimize(\"fp-contract=off\", \"no-tree-loop-distribute-patterns\")")
-#else
-#define SHADE__EXACT_INSIDE_BEGIN \
-    _Pragma("GCC push_options") \
-    _Pragma("GCC optimize(\"O2\", \"fp-contract=off\", \"no-tree-loop-distribute-patterns\")")
-#endif
-#define SHADE__EXACT_INSIDE_END _Pragma("GCC pop_options")
-#else
-#define SHADE__EXACT_INSIDE_BEGIN
-#define SHADE__EXACT_INSIDE_END
-#endif
-
-/* a word of memory of any type */
-#if defined(__GNUC__) || defined(__clang__)
-typedef uint32_t __attribute__((may_alias)) shade__word;
-#else
-typedef uint32_t shade__word;
-#endif
-
-#ifndef SHADE__ANY_WIDTH
-#ifdef __AVX512VL__
-#define SHADE__ANY_WIDTH 16
-#elif defined(__AVX2__)
-#define SHADE__ANY_WIDTH 8
-#else
-#define SHADE__ANY_WIDTH 4
-#endif
-#endif
-
-/* __builtin_cpu_supports asks __cpu_model, which the libraries that clang links for Microsoft's
-   ABI and those of zig do not have.  zig has no macro: its headers lie beside its own library. */
-#if defined(__clang__) && !defined(SHADE_NO_DISPATCH)
-#if defined(_MSC_VER) || __has_include(<../std/std.zig>)
-#define SHADE_NO_DISPATCH
-#endif
-#endif
-
-/* Wide code from any build: on x86-64 the bodies of hot loops (name_body, always inlined) are
-   compiled for SSE2, AVX2 and AVX-512 and chosen by the processor at each call, without a global
-   of ours. Same bits on every path: no FMA. SHADE__LEVEL may be defined to an int expression (0,
-   1, 2) by tests to force a path. */
-#if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
-#ifndef SHADE__LEVEL
-#define SHADE__LEVEL \
-    (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
-     __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
-#endif
-#ifdef __clang__
-#define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
-#else
-#define SHADE__AVX512 \
-    __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
-#endif
-#define SHADE__AVX2 __attribute__((target("avx2")))
-#define SHADE__DISPATCH(name, parameters, arguments) \
-    typedef void name##_fn parameters; \
-    SHADE__AVX512 static SHADE__NOINLINE void name##_avx512 parameters \
-    { \
-        enum { shade__width = 16 }; \
-        name##_body arguments; \
-    } \
-    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters \
-    { \
-        enum { shade__width = 8 }; \
-        name##_body arguments; \
-    } \
-    static SHADE__NOINLINE void name##_any parameters \
-    { \
-        enum { shade__width = SHADE__ANY_WIDTH }; \
-        name##_body arguments; \
-    } \
-    static name##_fn *name##_pick(void) \
-    { \
-        int level = SHADE__LEVEL; \
-        return level == 2 ? name##_avx512 : level == 1 ? name##_avx2 : name##_any; \
-    }
-/* for loops that mostly fetch, which AVX-512 made no faster */
-#define SHADE__DISPATCH_AVX2(name, parameters, arguments) \
-    typedef void name##_fn parameters; \
-    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters { name##_body arguments; } \
-    static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
-    static name##_fn *name##_pick(void) { return (SHADE__LEVEL) ? name##_avx2 : name##_any; }
-#else
-#define SHADE__DISPATCH(name, parameters, arguments) \
-    typedef void name##_fn parameters; \
-    static SHADE__NOINLINE void name##_any parameters \
-    { \
-        enum { shade__width = SHADE__ANY_WIDTH }; \
-        name##_body arguments; \
-    } \
-    static name##_fn *name##_pick(void) { return name##_any; }
-#define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
-#endif
-
-#if defined(__GNUC__) || defined(__clang__)
-#define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
-#define SHADE__UNLIKELY(x) __builtin_expect((x) != 0, 0)
-#else
-#define SHADE__UNLIKELY(x) (x)
-#define SHADE__LOWEST_BIT(x) shade__lowest_bit(x)
-#endif
-
-#ifndef SHADE_ASSERT
 #ifdef SHADE_NO_LIBM
-#define SHADE_ASSERT(x) ((void)0)
-#else
-#include <assert.h>
-#define SHADE_ASSERT(x) assert(x)
-#endif
-#endif
-#ifndef SHADE_NO_STDIO
-#include <stdio.h>
-#endif
-
-SHADE__EXACT_BEGIN
-#ifdef __cplusplus
-extern "C" {
+#undef SHADE_NO_STDIO
+#define SHADE_NO_STDIO
 #endif
 
 /*------------------------------------------------------------------------------------------ >>types
@@ -372,9 +139,6 @@ typedef enum shade_result {
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
     SHADE_ERROR_IO           /* a file or the caller's write function failed */
 } shade_result;
-
-/* A short English text for a result, never NULL. */
-SHADEDEF const char *shade_result_string(shade_result result);
 
 /* Property of a surface, linear RGB.  For energy's sake k_d + k_s <= 1 in each channel is usual,
    not required. */
@@ -522,6 +286,111 @@ typedef struct shade_stats {
     long long drawn;
     long long fragments;         /* pixels that passed the depth test (inside the clip rectangle) */
 } shade_stats;
+
+/*----------------------------------------------------------------------------------------- >>inline
+   What declarations and inline functions need of compilers. */
+
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse"
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define SHADE__INLINE static inline __attribute__((always_inline))
+#define SHADE__UNUSED __attribute__((unused))
+#define SHADE__64_BYTES __attribute__((aligned(64)))
+#elif defined(_MSC_VER)
+#define SHADE__INLINE static __forceinline
+#define SHADE__UNUSED
+#define SHADE__64_BYTES __declspec(align(64))
+#else
+#define SHADE__INLINE static inline
+#define SHADE__UNUSED
+#define SHADE__64_BYTES
+#endif
+
+/* Rows of packets begin with a vector: unaligned they straddle two lines of cache, 4 % of a lit
+   floor, 12 % of a flat fill in cache.  Small packets are for small stacks. */
+#if SHADE_LANES < 64
+#define SHADE_ALIGNED
+#else
+#define SHADE_ALIGNED SHADE__64_BYTES
+#endif
+
+#ifndef SHADEDEF
+#ifdef SHADE_STATIC
+#define SHADEDEF SHADE__UNUSED static
+#else
+#define SHADEDEF extern
+#endif
+#endif
+
+#if defined(__cplusplus) || defined(_MSC_VER)
+#define SHADE_RESTRICT __restrict
+#else
+#define SHADE_RESTRICT restrict
+#endif
+
+/* the builtin is folded with -ffreestanding as well */
+#ifndef SHADE_MEMCPY
+#if defined(__GNUC__) || defined(__clang__)
+#define SHADE_MEMCPY(d, s, n) __builtin_memcpy(d, s, n)
+#else
+#include <string.h>
+#define SHADE_MEMCPY(d, s, n) memcpy(d, s, n)
+#endif
+#endif
+#ifdef SHADE_NO_LIBM
+#define SHADE__SQRT(x) shade__own_sqrt(x)
+#else
+#include <math.h>
+#define SHADE__SQRT(x) sqrtf(x)
+#endif
+
+/* SHADE_EACH_LANE(i) { ... }   runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
+   vector code when the body is straight arithmetic on arrays indexed by i.  Without the pragma they
+   unroll the loop before they vectorise it: 1.5 to 2.4 times slower.  After an if, put braces
+   around the whole. */
+#if defined(__clang__)
+#define SHADE__NO_UNROLL _Pragma("clang loop unroll(disable)")
+#elif defined(__GNUC__) && __GNUC__ >= 8
+#define SHADE__NO_UNROLL _Pragma("GCC unroll 1")
+#else
+#define SHADE__NO_UNROLL
+#endif
+#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (int i = 0; i < (n); i++)
+#define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
+
+/* C linkage; and no contraction of a * b + c to one rounding, which would give other bits on other
+   processors: off for all of this file with clang, for the implementation with gcc (which decides
+   after inlining, so by its caller).  Where clang keeps a stack of such states the one before comes
+   back at the end, elsewhere that of the compiler's options. */
+#ifdef __cplusplus
+#define SHADE__OPEN extern "C" {
+#define SHADE__CLOSE }
+#else
+#define SHADE__OPEN
+#define SHADE__CLOSE
+#endif
+#if defined(__clang__) && \
+    ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
+     (__clang_major__ >= 16 && defined(__aarch64__)))
+#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
+#elif defined(__clang__)
+#define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
+#elif defined(_MSC_VER)
+#define SHADE__BEGIN __pragma(float_control(push)) __pragma(fp_contract(off)) SHADE__OPEN
+#define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
+#elif defined(__GNUC__)
+#define SHADE__BEGIN _Pragma("GCC push_options") SHADE__OPEN
+#define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
+#else
+#define SHADE__BEGIN SHADE__OPEN
+#define SHADE__END SHADE__CLOSE
+#endif
+
+SHADE__BEGIN
 
 /*------------------------------------------------------------------------------------------- >>math
    Vectors inline; matrices below, their bodies in >>matrix.  Un-suffixed names work on shade_vec3.
@@ -895,6 +764,9 @@ SHADEDEF shade_material shade_linear_material(shade_material display);
    arguments, indices.  Nothing is ever written outside the target's rows, width and clip
    rectangle. */
 
+/* A short English text for a result, never NULL. */
+SHADEDEF const char *shade_result_string(shade_result result);
+
 /* Fills the clip rectangle of both buffers.  A NaN depth is SHADE_ERROR_ARGUMENT. */
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth);
 
@@ -1070,19 +942,147 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
 
-#ifdef __cplusplus
-}
-#endif
-SHADE__EXACT_END
+SHADE__END
 #endif /* SHADE_H */
 
 #ifdef SHADE_IMPLEMENTATION
 #ifndef SHADE__IMPLEMENTED
 #define SHADE__IMPLEMENTED
-SHADE__EXACT_BEGIN
-SHADE__EXACT_INSIDE_BEGIN
-#ifdef __cplusplus
-extern "C" {
+
+/*----------------------------------------------------------------------------------------- >>target
+   What the implementation needs of compilers and processors.                              >>base */
+
+#ifndef SHADE_NO_STDIO
+#include <stdio.h>
+#endif
+#ifndef SHADE_ASSERT
+#ifdef SHADE_NO_LIBM
+#define SHADE_ASSERT(x) ((void)0)
+#else
+#include <assert.h>
+#define SHADE_ASSERT(x) assert(x)
+#endif
+#endif
+#ifndef SHADE_MEMSET
+#if defined(__GNUC__) || defined(__clang__)
+#define SHADE_MEMSET(d, c, n) __builtin_memset(d, c, n)
+#else
+#include <string.h>
+#define SHADE_MEMSET(d, c, n) memset(d, c, n)
+#endif
+#endif
+
+SHADE__BEGIN
+
+/* whether what is only faster has code of its own */
+#ifdef __OPTIMIZE_SIZE__
+#define SHADE__TWICE 0
+#else
+#define SHADE__TWICE 1
+#endif
+
+/* gcc would also turn loops that fill rows into calls or rep stos: 9 % of a flat fill.
+   Not as for counting branches. */
+#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__OPTIMIZE_SIZE__) || defined(SHADE__AS_COMPILED)
+#pragma GCC optimize("fp-contract=off", "no-tree-loop-distribute-patterns")
+#else
+#pragma GCC optimize("O2", "fp-contract=off", "no-tree-loop-distribute-patterns")
+#endif
+#endif
+
+#if defined(__GNUC__) || defined(__clang__)
+#define SHADE__NOINLINE __attribute__((noinline))
+#define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
+#define SHADE__UNLIKELY(x) __builtin_expect((x) != 0, 0)
+typedef uint32_t __attribute__((may_alias)) shade__word;    /* of memory of any type */
+#else
+#ifdef _MSC_VER
+#define SHADE__NOINLINE __declspec(noinline)
+#else
+#define SHADE__NOINLINE
+#endif
+#define SHADE__LOWEST_BIT(x) shade__lowest_bit(x)
+#define SHADE__UNLIKELY(x) (x)
+typedef uint32_t shade__word;
+#endif
+
+#ifndef SHADE__ANY_WIDTH
+#ifdef __AVX512VL__
+#define SHADE__ANY_WIDTH 16
+#elif defined(__AVX2__)
+#define SHADE__ANY_WIDTH 8
+#else
+#define SHADE__ANY_WIDTH 4
+#endif
+#endif
+
+/* __builtin_cpu_supports asks __cpu_model, which the libraries that clang links for Microsoft's
+   ABI and those of zig do not have.  zig has no macro: its headers lie beside its own library. */
+#ifdef SHADE_NO_LIBM
+#undef SHADE_NO_DISPATCH
+#define SHADE_NO_DISPATCH
+#elif defined(__clang__) && !defined(SHADE_NO_DISPATCH)
+#if defined(_MSC_VER) || __has_include(<../std/std.zig>)
+#define SHADE_NO_DISPATCH
+#endif
+#endif
+
+/* Wide code from any build: on x86-64 the bodies of hot loops (name_body, always inlined) are
+   compiled for SSE2, AVX2 and AVX-512 and chosen by the processor at each call, without a global
+   of ours. Same bits on every path: no FMA. SHADE__LEVEL may be defined to an int expression (0,
+   1, 2) by tests to force a path. */
+#if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
+#ifndef SHADE__LEVEL
+#define SHADE__LEVEL \
+    (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
+     __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
+#endif
+#ifdef __clang__
+#define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
+#else
+#define SHADE__AVX512 \
+    __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
+#endif
+#define SHADE__AVX2 __attribute__((target("avx2")))
+#define SHADE__DISPATCH(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    SHADE__AVX512 static SHADE__NOINLINE void name##_avx512 parameters \
+    { \
+        enum { shade__width = 16 }; \
+        name##_body arguments; \
+    } \
+    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters \
+    { \
+        enum { shade__width = 8 }; \
+        name##_body arguments; \
+    } \
+    static SHADE__NOINLINE void name##_any parameters \
+    { \
+        enum { shade__width = SHADE__ANY_WIDTH }; \
+        name##_body arguments; \
+    } \
+    static name##_fn *name##_pick(void) \
+    { \
+        int level = SHADE__LEVEL; \
+        return level == 2 ? name##_avx512 : level == 1 ? name##_avx2 : name##_any; \
+    }
+/* for loops that mostly fetch, which AVX-512 made no faster */
+#define SHADE__DISPATCH_AVX2(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters { name##_body arguments; } \
+    static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
+    static name##_fn *name##_pick(void) { return (SHADE__LEVEL) ? name##_avx2 : name##_any; }
+#else
+#define SHADE__DISPATCH(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    static SHADE__NOINLINE void name##_any parameters \
+    { \
+        enum { shade__width = SHADE__ANY_WIDTH }; \
+        name##_body arguments; \
+    } \
+    static name##_fn *name##_pick(void) { return name##_any; }
+#define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
 #endif
 
 /*------------------------------------------------------------------------------------------- >>base
@@ -5382,11 +5382,7 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
 }
 #endif
 
-#ifdef __cplusplus
-}
-#endif
-SHADE__EXACT_INSIDE_END
-SHADE__EXACT_END
+SHADE__END
 #endif /* SHADE__IMPLEMENTED */
 #endif /* SHADE_IMPLEMENTATION */
 

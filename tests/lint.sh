@@ -21,9 +21,9 @@ check "contents table equals banners" "$(diff /tmp/lint_contents.$$ /tmp/lint_wa
 rm -f /tmp/lint_contents.$$ /tmp/lint_banners.$$ /tmp/lint_want.$$
 
 check "functions of at most 80 lines" "$(awk '/^\{$/ { start = FNR } /^\}$/ && start { if (FNR - start > 80) print FNR ": " FNR - start; start = 0 }' $H)"
-check "#if on compilers and targets only in >>config" "$(awk '
+check "#if on compilers and targets only in >>config, >>inline and >>target" "$(awk '
     /^\/\*-+ >>/ { section = $2 }
-    /^#[ \t]*(if|ifdef|ifndef|elif)/ && section != ">>config" &&
+    /^#[ \t]*(if|ifdef|ifndef|elif)/ && section !~ /^>>(config|inline|target)$/ &&
         !/SHADE_H$|SHADE_IMPLEMENTATION|SHADE__IMPLEMENTED|SHADE_NO_STDIO|__cplusplus/ { print FNR ": " $0 }' $H)"
 check "no forward declarations of private functions" "$(grep -nE '^static [^=]*\);$' $H)"
 check "every source key stands in >>refs" "$(grep -oE '\[[A-Z][A-Za-z]+[0-9]+\]' $H | sort -u | while read -r k; do
@@ -38,6 +38,14 @@ if command -v clang >/dev/null; then
     check "no comma expressions but in the head of a for" "$(
         clang -std=c99 -Wcomma -fsyntax-only -DSHADE_IMPLEMENTATION -x c $H 2>&1 | grep Wcomma)"
 else echo "left out: comma expressions (no clang)"; fi
+if command -v gcc >/dev/null && ctags --version 2>/dev/null | grep -q Universal; then
+    gcc -std=c99 -w -fsyntax-only -aux-info /tmp/lint_aux.$$ -DSHADE_IMPLEMENTATION -x c $H
+    sed -n 's/ (.*//; s|^/\* shade.h:[0-9]*:.F .*[ *]||p' /tmp/lint_aux.$$ | sort -u >/tmp/lint_functions.$$
+    ctags -x $H | awk '$2 == "function" { print $1 }' | sort -u | cat - /tmp/lint_functions.$$ | sort | uniq -u |
+        grep -vE '_(any|avx2|avx512|fn|pick)$' >/tmp/lint_missed.$$    # those of SHADE__DISPATCH
+    check "ctags sees every function" "$(cat /tmp/lint_missed.$$)"
+    rm -f /tmp/lint_aux.$$ /tmp/lint_functions.$$ /tmp/lint_missed.$$
+else echo "left out: ctags (no gcc or no Universal Ctags)"; fi
 check "no heap, no exit, no print" "$(grep -nE '\b(malloc|calloc|realloc|free|exit|abort|printf|fprintf|puts)[ ]*\(' $H)"
 
 echo "$passed passed, $failed failed"
