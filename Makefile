@@ -28,10 +28,16 @@ SDL2     = $(shell flags="$$(sdl2-config --cflags --libs 2>/dev/null | sed 's/-I
                    $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && rm -f $@.sdl2 && \
                    echo -DVIEW_SDL $$flags || echo 'no SDL2: the window of view is left out' >&2)
 
+# compare reads PNG and its like by stb (libstb-dev)
+STB      = $(shell flags="$$(pkg-config --cflags stb 2>/dev/null | sed 's/-I/-isystem /g')"; \
+                   flags="$$flags -isystem /usr/include/stb"; \
+                   echo | $(CC) -fsyntax-only $$flags -include stb_image.h -x c - 2>/dev/null && \
+                   echo -DCOMPARE_STB $$flags || echo 'no stb: PNG of compare is left out' >&2)
+
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
 
-all: $(NUMBERED:%=out/%.ppm) build/thumbnail $(VIEW) out/gallery.ppm
+all: $(NUMBERED:%=out/%.ppm) build/thumbnail build/compare $(VIEW) out/gallery.ppm
 
 # each example compiles alone; here they share one build of the implementation
 build/shade.o: shade.h
@@ -42,6 +48,7 @@ build/%: examples/%.c build/shade.o $(SHARED)
 build/19_threads: EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
 build/view: LIBRARIES = $(SDL2)
+build/compare: LIBRARIES = $(STB)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@

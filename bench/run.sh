@@ -33,13 +33,13 @@ build_compare() {
         peer="-DHAVE_OSMESA"
     fi
     $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/compare.c bench/peers/osmesa.c \
-        -o "$build/compare" ${peer:+-lOSMesa} -lm
+        -o "$build/bench_compare" ${peer:+-lOSMesa} -lm
 }
 compare() {
     build_compare
     echo "## The same pictures with llvmpipe"
     echo
-    $pin "$build/compare" $rounds ${MESH:+--mesh "$MESH"} --tsv "$build/bench_compare.tsv"
+    $pin "$build/bench_compare" $rounds ${MESH:+--mesh "$MESH"} --tsv "$build/bench_compare.tsv"
     echo
 }
 
@@ -49,7 +49,7 @@ levels() {
     for level in 1 0; do
         echo "## The same with narrower vectors: level $level of 2"
         echo
-        $pin "$build/compare" ${rounds:---rounds 11} ${MESH:+--mesh "$MESH"} --level $level \
+        $pin "$build/bench_compare" ${rounds:---rounds 11} ${MESH:+--mesh "$MESH"} --level $level \
             --tsv "$build/bench_level_$level.tsv"
         echo
     done

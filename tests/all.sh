@@ -28,6 +28,7 @@ report() {
 step compile sh tests/compile.sh
 step board sh tests/microcontroller.sh
 step readme sh tests/readme.sh
+step compare sh tests/compare.sh
 step lint sh tests/lint.sh
 "$make" -s -j"$cores" build/test_main build/golden all || { wait; echo "0 passed, 1 failed"; exit 1; }
 step runner build/test_main
