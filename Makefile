@@ -10,6 +10,8 @@
 # make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
 # make playground   the equation as a web page, build/playground/index.html (needs clang and lld)
+# make install    header, shade.pc, shade-thumbnail and shade.thumbnailer for file managers, below
+#                 PREFIX (/usr/local) in DESTDIR; make uninstall removes them
 # make vector-report   loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
@@ -94,8 +96,32 @@ FUZZ_SECONDS ?= 300
 fuzz:
 	@sh tests/fuzz.sh $(FUZZ_SECONDS)
 
+# the program has a name of its own, "thumbnail" is anybody's; MIME: what it reads
+PREFIX  ?= /usr/local
+INSTALL ?= install
+MIME     = model/obj model/stl
+INSTALLED = bin/shade-thumbnail include/shade.h share/pkgconfig/shade.pc \
+            share/thumbnailers/shade.thumbnailer
+install: build/thumbnail
+	@v=$$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h); \
+	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' '' 'Name: shade' \
+	    'Description: Phong and Blinn-Phong light and an exact z-buffer rasterizer, one header' \
+	    "Version: $$((v / 10000)).$$((v / 100 % 100)).$$((v % 100))" \
+	    'Cflags: -I$${includedir}' 'Libs: -lm' >build/shade.pc
+	@png=$$(build/thumbnail --help | grep -q -e --png && echo ' --png'); \
+	printf '%s\n' '[Thumbnailer Entry]' 'TryExec=$(PREFIX)/bin/shade-thumbnail' \
+	    "Exec=$(PREFIX)/bin/shade-thumbnail$$png --size %sx%s %i %o" \
+	    "MimeType=$$(printf '%s;' $(MIME))" >build/shade.thumbnailer
+	for f in $(INSTALLED); do $(INSTALL) -d "$(DESTDIR)$(PREFIX)/$${f%/*}" || exit 1; done
+	$(INSTALL) -m 755 build/thumbnail "$(DESTDIR)$(PREFIX)/bin/shade-thumbnail"
+	$(INSTALL) -m 644 shade.h "$(DESTDIR)$(PREFIX)/include"
+	$(INSTALL) -m 644 build/shade.pc "$(DESTDIR)$(PREFIX)/share/pkgconfig"
+	$(INSTALL) -m 644 build/shade.thumbnailer "$(DESTDIR)$(PREFIX)/share/thumbnailers"
+uninstall:
+	for f in $(INSTALLED); do rm -f "$(DESTDIR)$(PREFIX)/$$f" || exit 1; done
+
 clean:
 	rm -rf build out
 .PHONY: all test bench bench-plot matrix conformance coverage mutation static fuzz gallery \
-        playground vector-report clean
+        playground vector-report install uninstall clean
 .SECONDARY:

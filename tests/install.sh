@@ -1,0 +1,134 @@
+#!/bin/sh
+# install.sh - make install into scratch directories: which files, a client that finds the header
+# through pkg-config, the thumbnailer's line run as a file manager runs it; make uninstall.
+cd "$(dirname "$0")/.." || exit 1
+CC=${CC:-cc} MAKE=${MAKE:-make}
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT INT TERM
+passed=0 failed=0
+
+check() {                       # what, command ...
+    what=$1; shift
+    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
+    failed=$((failed + 1)); echo "install: $what"; sed 's/^/    /;12q' "$T/log"
+}
+same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
+modes() {
+    (cd "$1" && find . ! -type d -exec ls -l {} +) | awk '{ print substr($1, 1, 10), $NF }' | sort -k 2
+}
+files='-rwxr-xr-x ./bin/shade-thumbnail
+-rw-r--r-- ./include/shade.h
+-rw-r--r-- ./share/pkgconfig/shade.pc
+-rw-r--r-- ./share/thumbnailers/shade.thumbnailer'
+
+# ---- into a prefix ------------------------------------------------------------------------------
+P=$T/prefix
+strict_umask() { (umask 077 && $MAKE -s install PREFIX="$P"); }
+check "make install" strict_umask
+check "four files, readable by all" same "$(modes "$P")" "$files"
+check "in directories open to all" same "$(find "$P" -type d ! -perm -755)" ""
+check "the header is this one" cmp shade.h "$P/include/shade.h"
+check "the program is the one built" cmp build/thumbnail "$P/bin/shade-thumbnail"
+
+# ---- a client -----------------------------------------------------------------------------------
+cat >"$T/client.c" <<'END'
+#define SHADE_IMPLEMENTATION
+#include <shade.h>
+int main(void)
+{
+    shade_vec3 to_light = shade_normalize(shade_v3(0, 3, 4));
+    printf("%d.%d.%d", SHADE_VERSION / 10000, SHADE_VERSION / 100 % 100, SHADE_VERSION % 100);
+    return shade_lambert(shade_v3(0, 0, 1), to_light) != 0.8f;
+}
+END
+if command -v pkg-config >/dev/null 2>&1; then
+    PKG_CONFIG_PATH=$P/share/pkgconfig
+    export PKG_CONFIG_PATH
+    check "pkg-config finds it" pkg-config --print-errors --exists 'shade >= 1.0' 'shade < 2'
+    check "a client compiles" $CC -std=c99 "$T/client.c" $(pkg-config --cflags --libs shade) \
+        -o "$T/client"
+    check "and runs" "$T/client"
+    check "one version" same "$(pkg-config --modversion shade)" "$("$T/client")"
+else echo "install: no pkg-config: the client is left out"
+fi
+
+# ---- the thumbnailer ----------------------------------------------------------------------------
+mkdir "$T/models"
+input="$T/models/it's a model (1)"
+printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >"$input.obj"
+printf 'solid s\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 0\n' \
+    >"$input.stl"
+printf 'endloop\nendfacet\nendsolid s\n' >>"$input.stl"
+sample() {                      # the file of a MIME type
+    case $1 in
+    model/obj) echo "$input.obj" ;;
+    model/stl) echo "$input.stl" ;;
+    *) return 1 ;;
+    esac
+}
+entry() { sed -n "s/^$1=//p" "$P/share/thumbnailers/shade.thumbnailer"; }
+# Exec with %i, %o and %s put in, word by word; the output is there already, empty
+thumbnail() {                   # input, output, size
+    : >"$2"
+    set -- "$1" "$2" "$3" $(entry Exec)
+    in=$1 out=$2 size=$3
+    shift 3
+    for word; do
+        case $word in
+        %i) word=$in ;;
+        %o) word=$out ;;
+        *) word=$(printf '%s' "$word" | sed "s/%s/$size/g") ;;
+        esac
+        set -- "$@" "$word"
+        shift
+    done
+    "$@"
+}
+# A PPM or PNG of 64 x 64 with more than one colour
+picture() {
+    case $(head -c 4 "$1" | od -An -c | tr -d ' ') in
+    P6*) same "$(head -n 2 "$1" | tr '\n' ' ')" "P6 64 64 " || return 1 ;;
+    '211PNG')
+        same "$(head -c 24 "$1" | tail -c 8 | od -An -tu1 | tr -s ' ')" " 0 0 0 64 0 0 0 64" || return 1
+        ;;
+    *) echo "neither PPM nor PNG"; return 1 ;;
+    esac
+    [ "$(od -An -v -tx1 -w3 "$1" | sort -u | wc -l)" -gt 9 ]
+}
+check "a group and three keys" same "$(sed 's/=.*//' "$P/share/thumbnailers/shade.thumbnailer" |
+    tr '\n' ' ')" "[Thumbnailer Entry] TryExec Exec MimeType "
+check "TryExec is a program" test -x "$(entry TryExec)"
+check "Exec is the same" same "$(entry Exec | cut -d ' ' -f 1)" "$(entry TryExec)"
+check "types, each with a semicolon" same "$(entry MimeType | tr -d 'a-z0-9+./-' | tr -s ';')" ";"
+for type in $(entry MimeType | tr ';' ' '); do
+    file=$(sample "$type")
+    check "a file of type $type" test -f "$file"
+    check "a thumbnail of $type" thumbnail "$file" "$T/models/out put.png" 64
+    check "that is a picture" picture "$T/models/out put.png"
+    if [ -f /usr/share/mime/globs2 ]; then
+        check "$type is the type of .${file##*.}" grep -q ":$type:\*\.${file##*.}$" \
+            /usr/share/mime/globs2
+    fi
+done
+[ -f /usr/share/mime/globs2 ] || echo "install: no shared-mime-info: names of types left out"
+
+# ---- for a package, and away --------------------------------------------------------------------
+S="$T/stage of a package"
+check "make install with DESTDIR" $MAKE -s install DESTDIR="$S" PREFIX=/usr
+check "the same files below it" same "$(modes "$S/usr")" "$files"
+check "which do not know of it" sh -c "! grep -r 'stage of' '$S'"
+check "pkg-config file of the prefix" grep -qx 'prefix=/usr' "$S/usr/share/pkgconfig/shade.pc"
+check "thumbnailer of the prefix" grep -q '^Exec=/usr/bin/shade-thumbnail ' \
+    "$S/usr/share/thumbnailers/shade.thumbnailer"
+: >"$P/include/other.h"
+: >"$P/bin/thumbnail"
+for again in "" " again"; do
+    check "make uninstall$again" $MAKE -s uninstall PREFIX="$P"
+done
+check "what is not ours stays" same "$(cd "$P" && find . -type f | sort | tr '\n' ' ')" \
+    "./bin/thumbnail ./include/other.h "
+check "make uninstall with DESTDIR" $MAKE -s uninstall DESTDIR="$S" PREFIX=/usr
+check "nothing stays there" same "$(find "$S" -type f)" ""
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
