@@ -2131,7 +2131,7 @@ SHADE__INLINE void shade__add_light(const shade__job *j, const shade_light *ligh
     any &= shade__horizon(j->N, n, r);
     if (ambient) {
         const shade_vec3 none = shade_v3(0, 0, 0);
-        if (j->albedo) shade__ramp(none, ka, r->a.att, j->albedo, n, rgb);
+        if (!SHADE__TWICE || j->albedo) shade__ramp(none, ka, r->a.att, j->albedo, n, rgb);
         else shade__ramp(none, ka, r->a.att, (const shade__v3 *)0, n, rgb);
     }
     if (!(any | open | absolute)) return;
@@ -2143,7 +2143,7 @@ SHADE__INLINE void shade__add_light(const shade__job *j, const shade_light *ligh
         shade__gloss(open, weighted, n, r);
     } else SHADE_MEMSET(r->a.L.x, 0, sizeof r->a.L.x);
     if (visibility) shade__hide(visibility, n, r->a.att);
-    if (j->albedo) shade__combine(kd, ks, absolute, j->albedo, n, r, rgb);
+    if (!SHADE__TWICE || j->albedo) shade__combine(kd, ks, absolute, j->albedo, n, r, rgb);
     else shade__combine(kd, ks, absolute, (const shade__v3 *)0, n, r, rgb);
 }
 /* Adds the tone: cool + k_w (warm - cool), k_w = (1 + N.L) / 2, L toward the first light.
@@ -2161,7 +2161,7 @@ SHADE__INLINE void shade__add_tone(const shade__job *j, const shade_light *light
     shade__arrive(&toward, &lamp, j->P, n, &r->a);
     shade__horizon(j->N, n, r);
     SHADE__FOR(i, n) { r->a.cosine[i] = 0.5f + 0.5f * r->a.cosine[i]; }
-    if (j->albedo) shade__ramp(s->cool, slope, r->a.cosine, j->albedo, n, rgb);
+    if (!SHADE__TWICE || j->albedo) shade__ramp(s->cool, slope, r->a.cosine, j->albedo, n, rgb);
     else shade__ramp(s->cool, slope, r->a.cosine, (const shade__v3 *)0, n, rgb);
 }
 
@@ -2171,6 +2171,7 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__
     const shade__surface *s = &j->s;
     const shade_light *lights = lighting->lights;
     const uint32_t flip = s->flags & SHADE_FLAG_TWO_SIDED ? 0x80000000u : 0;
+    const shade__v3 *albedo = j->albedo;
     shade_vec3 ambient = s->scene_ambient;
     shade__rows r;
     shade__viewer(j->P, j->N, j->eye, j->scale, flip, n, &r);
@@ -2178,8 +2179,8 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__
         for (ptrdiff_t k = 0; k < s->light_count; k++)
             ambient = shade_add(ambient, lights[k].ambient);
     ambient = shade_mul(ambient, s->ambient);
-    if (j->albedo && !shade__is_zero(ambient))
-        shade__begin_light(s->emission, ambient, j->albedo, n, rgb);
+    if (shade__is_zero(ambient)) albedo = (const shade__v3 *)0;
+    if (!SHADE__TWICE || albedo) shade__begin_light(s->emission, ambient, albedo, n, rgb);
     else shade__begin_light(s->emission, ambient, (const shade__v3 *)0, n, rgb);
     if (s->cool_to_warm) {
         shade__add_tone(j, s->light_count > 0 ? lights : (const shade_light *)0, n, &r, rgb);
@@ -3264,18 +3265,22 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, shade__
     float *row = shade__depth_row(plan, y);
     int length = 0;
     for (int take; n > 0; x += take, n -= take) {
-        const int width = SHADE__TWICE && n > 16 ? 32 : 16;
-        const int at = shade__min(x, plan->x1 - width), skip = x - at;
+        int width = SHADE__TWICE && n > 16 ? 32 : 16, at = shade__min(x, plan->x1 - width), skip;
         uint32_t set;
-        take = shade__min(n, width - skip);
         if (at < plan->x0) {
-            take = 1;
-            set = shade__test(plan->compare, t, z, x, 0, 1, row + x, 1, 0);
-        } else if (!SHADE__TWICE || width == 16)
-            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 16, 0) >> skip;
-        else if (SHADE__TWICE && plan->plain)
-            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 1) >> skip;
-        else set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 0) >> skip;
+            width = 1;
+            at = x;
+        }
+        skip = x - at;
+        take = shade__min(n, width - skip);
+        if (SHADE__TWICE && width == 32 && plan->plain)
+            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 1);
+        else if (SHADE__TWICE && width == 32)
+            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 0);
+        else if (SHADE__TWICE && width == 16)
+            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 16, 0);
+        else set = shade__test(plan->compare, t, z, at, skip, take, row + at, width, 0);
+        set >>= skip;
         d->stats.fragments += shade__count_bits(set);
         if (!plan->queued) continue;
         if (set == 0xFFFFFFFFu >> (32 - take)) {
@@ -3612,13 +3617,13 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
         if (SHADE__TWICE && n > 8 && room >= SHADE__WIDE) {
             shade__append(d, t, row, x, y, c, 0, SHADE__WIDE);
             take = shade__min(n, SHADE__WIDE);
-        } else if (room >= 8) {
+        } else if (SHADE__TWICE && room >= 8) {
             shade__append(d, t, row, x, y, c, 0, 8);
             take = shade__min(n, 8);
-        } else {    /* the packet ends inside the window */
-            const int back = 8 - room;
+        } else {    /* the packet may end inside the window */
+            const int back = shade__max(0, 8 - room);
             shade__append(d, t, row, x - back, y, c - back, back, 8);
-            take = shade__min(n, room);
+            take = shade__min(n, 8 - back);
         }
         x += take;
         n -= take;

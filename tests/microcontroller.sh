@@ -22,8 +22,8 @@ make="make -s -C examples/microcontroller CC=$CC"
 check "strips are the picture drawn at once" $make ../../$B/picture.565
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     check "builds for the board" $make ../../$B/board.elf
-    check "less than 32 kB of code" \
-        below 32768 "$(arm-none-eabi-size -A $B/board.elf | number '\.text')"
+    check "less than 30 kB of code" \
+        below 30720 "$(arm-none-eabi-size -A $B/board.elf | number '\.text')"
     if command -v qemu-system-arm >/dev/null 2>&1; then
         check "runs" timeout 120 $make ../../$B/board.565
         check "less than 20 kB of RAM, static and stack" below 20000 "$(number together <$B/board.txt)"
