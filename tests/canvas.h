@@ -160,7 +160,7 @@ static void canvas_clear(canvas *c, float depth)
 /* -------------------------------------------------------------------------------------- shaders */
 
 typedef struct fragment_record {
-    float x, y, z;
+    float x, y, z, lod;
     uint32_t primitive, front;
     float in[SHADE_MAX_VARYINGS];
 } fragment_record;
@@ -243,7 +243,7 @@ static void scene_record_fragments(const scene *s, const shade_fragments *in)
     }
     for (int i = 0; i < in->count && r->fragments && r->count < r->capacity; i++) {
         fragment_record *f = &r->fragments[r->count++];
-        f->x = in->x[i], f->y = in->y[i], f->z = in->z[i];
+        f->x = in->x[i], f->y = in->y[i], f->z = in->z[i], f->lod = in->lod[i];
         f->primitive = in->primitive[i], f->front = in->front[i];
         for (int k = 0; k < s->varyings; k++) f->in[k] = in->varying[k][i];
     }

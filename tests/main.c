@@ -24,6 +24,7 @@
 #include "cover.c"
 #include "exact.c"
 #include "fragment.c"
+#include "packets.c"
 #include "store.c"
 #include "blocks.c"
 #include "drive.c"
@@ -41,7 +42,7 @@ static const test_section sections[] = {
     SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
-    SECTION(depth),  SECTION(course),
+    SECTION(depth),  SECTION(course),  SECTION(packets),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

@@ -41,7 +41,7 @@ first() {                       # sections of the tests that know a section of s
     math) echo math matrix ;; matrix) echo matrix ;; power) echo power light ;;
     base) echo power lanes store ;; lighting) echo light lanes ;; lanes) echo lanes light ;;
     color | store) echo store resolve texture ;; texture) echo texture ;;
-    fragments) echo fragment store ;; triangles) echo fragment depth cover ;;
+    fragments) echo packets fragment store ;; triangles) echo packets depth cover ;;
     blocks) echo blocks cover ;; cover) echo cover blocks fragment ;; clip) echo clip depth ;;
     vertices) echo vertex clip ;; drive) echo drive resolve ;; mesh) echo mesh texture ;;
     lines) echo lines ;; shape) echo shape ray ;; image) echo drive store ;;
