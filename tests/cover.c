@@ -330,7 +330,7 @@ TEST(cover, varyings_of_slivers_are_finite)
         shade_vec4 clip[3];
         scene s = { clip, values, 1, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        double far = rnd_log(1, 1e12);
+        double far = (double)rnd_log(1, 1e12);
         int x = rnd_int(0, 89) * 256 + 128, y = rnd_int(0, 69) * 256 + 128;
         int dx = rnd_int(-9, 9) * 2048, dy = rnd_int(-9, 9) * 2048;
         clip[0] = clip_of_fx8(x, y, 90, 70, 0, far);

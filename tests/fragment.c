@@ -115,7 +115,7 @@ TEST(fragment, packets_are_full_but_the_last_of_a_batch) /* pixels queue across 
     free(r.fragments);
 }
 
-TEST(fragment, perspective_varyings_match_double_for_every_count) /* rows 42, 44, 48 */
+TEST(fragment, perspective_varyings_match_double_for_every_count) /* sum b v/w over sum b/w */
 {
     recorder r = recorder_open(20000);
     for (int i = 0; i < 700; i++) {
@@ -397,7 +397,7 @@ TEST(fragment, reversed_depth_sees_what_is_nearer)
     canvas_close(&c);
 }
 
-TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer) /* row 46, C12 */
+TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer)
 {
     for (int round = 0; round < 20; round++) {
         enum { N = 60 };
@@ -429,7 +429,7 @@ TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer) /* row 4
     }
 }
 
-TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel) /* row 46 */
+TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel)
 {
     for (int round = 0; round < 40; round++) {
         enum { N = 40 };
@@ -682,7 +682,7 @@ TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
     }
 }
 
-TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture) /* row 47 */
+TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture)
 {
     for (int round = 0; round < 80; round++) {
         enum { N = 80 };
@@ -822,7 +822,7 @@ TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
     }
 }
 
-TEST(fragment, vertex_colours_smear_between_the_corners) /* row 43 */
+TEST(fragment, vertex_colours_smear_between_the_corners)
 {
     canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
     static const float color[] = { 1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1 };

@@ -1,5 +1,5 @@
-/* light.c - the equations of light, against double precision over the whole legal range, and the
-   vectors V1 to V8 derived from the lecture notes. */
+/* light.c - the equations of light, against double precision over the whole legal range, and
+   against numbers worked out from them. */
 
 /* --------------------------------------------------------------------------- random legal input */
 
@@ -217,7 +217,7 @@ TEST(light, each_bit_of_terms_selects_its_term_alone)
     }
 }
 
-/* ------------------------------------------------------------------ the vectors of the lectures */
+/* ------------------------------------------------------------------ numbers worked out by hand */
 
 static shade_lighting one_light(const shade_light *light)
 {
@@ -227,7 +227,7 @@ static shade_lighting one_light(const shade_light *light)
     return li;
 }
 static shade_vec3 grey(double v) { return shade_v3((float)v, (float)v, (float)v); }
-static shade_material s1_brass(void) /* row 37 */
+static shade_material teapot_brass(void) /* [Kilgard94] */
 {
     shade_material m;
     m.emission = grey(0);
@@ -238,28 +238,28 @@ static shade_material s1_brass(void) /* row 37 */
     return m;
 }
 
-TEST(light, brass_lit_head_on_and_from_sixty_degrees) /* V1, V2 */
+TEST(light, brass_lit_head_on_and_from_sixty_degrees) /* I_a = 0.3 */
 {
-    shade_material brass = s1_brass();
+    shade_material brass = teapot_brass();
     shade_vec3 origin = grey(0), n = shade_v3(0, 0, 1), eye = shade_v3(0, 0, 5);
     shade_light head = shade_directional_light(shade_v3(0, 0, -1), grey(1));
     shade_lighting li = one_light(&head);
     li.ambient = grey(0.3);
-    check_color(__LINE__, "V1", shade_lit(&li, &brass, eye, origin, n),
+    check_color(__LINE__, "0.3 k_a + k_d + k_s", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(1.871373, 1.576862, 0.929803), 2e-6);
     li.model = SHADE_MODEL_PHONG;
-    check_color(__LINE__, "V1", shade_lit(&li, &brass, eye, origin, n),
+    check_color(__LINE__, "0.3 k_a + k_d + k_s", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(1.871373, 1.576862, 0.929803), 2e-6);
     shade_light side = shade_directional_light(shade_v3((float)-sqrt(0.75), 0, -0.5f), grey(1));
     li.lights = &side;
-    check_color(__LINE__, "V2", shade_lit(&li, &brass, eye, origin, n),
+    check_color(__LINE__, "R.V = 0.5", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(0.489020, 0.351372, 0.065098), 2e-6);
     li.model = SHADE_MODEL_BLINN_PHONG;
-    check_color(__LINE__, "V2", shade_lit(&li, &brass, eye, origin, n),
+    check_color(__LINE__, "N.H = cos 30", shade_lit(&li, &brass, eye, origin, n),
                 d3_of(0.506961, 0.368391, 0.079706), 2e-6);
 }
 
-TEST(light, the_gate_stops_highlights_behind_the_terminator) /* V4 */
+TEST(light, the_gate_stops_highlights_behind_the_terminator) /* N.L = -0.14, (N.H)^4 = 0.1849 */
 {
     shade_vec3 n = shade_v3(0, 0, 1), l = shade_v3(0.990152f, 0, -0.14f);
     CHECK_NEAR(shade_blinn_phong_specular(n, l, n, 4), 0, 0);
@@ -279,7 +279,7 @@ TEST(light, the_gate_stops_highlights_behind_the_terminator) /* V4 */
                 d3_of(0, 0, 0), 0);
 }
 
-TEST(light, the_gate_is_strict_at_grazing_light) /* row 3: N.L = 0 gives 0 */
+TEST(light, the_gate_is_strict_at_grazing_light) /* N.L = 0 gives 0 */
 {
     shade_vec3 n = shade_v3(0, 0, 1), l = shade_v3(1, 0, 0);
     CHECK_NEAR(shade_lambert(n, l), 0, 0);
@@ -288,7 +288,7 @@ TEST(light, the_gate_is_strict_at_grazing_light) /* row 3: N.L = 0 gives 0 */
     CHECK_NEAR(shade_phong_specular(n, l, n, 0), 0, 0);
     shade_light light = shade_directional_light(shade_neg(l), grey(1));
     shade_lighting li = one_light(&light);
-    shade_material m = s1_brass();
+    shade_material m = teapot_brass();
     m.shininess = 2;
     shade_terms t = shade_evaluate(&li, &m, shade_v3(0, 0, 3), grey(0), n);
     check_color(__LINE__, "diffuse", t.diffuse, d3_of(0, 0, 0), 0);
@@ -298,7 +298,7 @@ TEST(light, the_gate_is_strict_at_grazing_light) /* row 3: N.L = 0 gives 0 */
     check_color(__LINE__, "specular", t.specular, d3_scale(d3_from(m.specular), 0.5), 1e-6);
 }
 
-TEST(light, spot_and_attenuation_of_the_lectures) /* V5 */
+TEST(light, spot_and_attenuation_multiply) /* cos(20)^2 / (1 + 0.5 r + 0.25 r^2), r = 2 */
 {
     double deg = 3.14159265358979 / 180;
     shade_vec3 aim = shade_v3(0, 0, -4);
@@ -316,7 +316,7 @@ TEST(light, spot_and_attenuation_of_the_lectures) /* V5 */
                 d3_of(want, want, want), 1e-6);
 }
 
-TEST(light, four_alpha_looks_like_phong) /* V7, row 14 */
+TEST(light, four_alpha_looks_like_phong) /* cos(10)^10, cos(5)^10, cos(5)^40 */
 {
     double deg = 3.14159265358979 / 180;
     shade_vec3 n = shade_v3(0, 0, 1), v = n,
@@ -327,7 +327,7 @@ TEST(light, four_alpha_looks_like_phong) /* V7, row 14 */
     CHECK_NEAR(shade_blinn_phong_specular(n, l, v, shade_blinn_exponent(10)), 0.858557, 3e-6);
 }
 
-TEST(light, cool_to_warm_goes_from_cool_to_warm) /* V8, row 22 */
+TEST(light, cool_to_warm_goes_from_cool_to_warm) /* (1 + N.L) / 2 of warm */
 {
     shade_vec3 cool = shade_v3(0.4f, 0.4f, 0.7f), warm = shade_v3(0.8f, 0.6f, 0.6f),
                n = shade_v3(0, 0, 1);
@@ -341,7 +341,7 @@ TEST(light, cool_to_warm_goes_from_cool_to_warm) /* V8, row 22 */
     light.spot_cos_cutoff = 0.9f; /* its cone is ignored */
     shade_lighting li = one_light(&light);
     li.model = SHADE_MODEL_COOL_TO_WARM, li.ambient = grey(5);
-    shade_material m = s1_brass();
+    shade_material m = teapot_brass();
     m.emission = shade_v3(0.1f, 0.2f, 0.3f);
     check_color(__LINE__, "lit", shade_lit(&li, &m, shade_v3(0, 0, 2), grey(0), n),
                 d3_of(0.9, 0.8, 0.9), 1e-6);
@@ -393,7 +393,7 @@ TEST(light, single_terms_match_double)
     }
 }
 
-TEST(light, attenuation_is_defined_everywhere) /* rows 26, 27 */
+TEST(light, attenuation_is_defined_everywhere) /* 1 / (a + b r + c r^2) */
 {
     CHECK_NEAR(shade_attenuation(0, 0, 0, 0), 1, 0);
     CHECK_NEAR(shade_attenuation(0, 0, 0, 1e6f), 1, 0);
@@ -410,7 +410,7 @@ TEST(light, attenuation_is_defined_everywhere) /* rows 26, 27 */
     CHECK(shade_attenuation(0, 0, 1, 1e12f) > 0.9e-24f);
 }
 
-TEST(light, the_cone_includes_its_edge) /* row 27 */
+TEST(light, the_cone_includes_its_edge) /* L.S >= cos(beta) */
 {
     shade_vec3 aim = shade_v3(0, 0, -1);
     CHECK_NEAR(shade_spot(shade_v3(0, 0, 1), aim, 1, 0), 1, 0);
@@ -453,7 +453,7 @@ TEST(light, a_reflectance_without_a_direction_is_the_diffuse_one)
         check_color(__LINE__, "no direction", f, d3_from(m.diffuse), 0);
     }
 }
-TEST(light, brdf_times_cosine_is_the_weighted_light) /* rows 9, 10 */
+TEST(light, brdf_times_cosine_is_the_weighted_light) /* I_L (N.L) f_r */
 {
     for (int i = 0; i < 20000; i++) {
         d3 N = rnd_direction(), L = rnd_direction(), V = rnd_direction();
@@ -604,7 +604,7 @@ TEST(light, light_at_times_the_cosine_is_the_diffuse_light)
 
 /* ----------------------------------------------------------------------------------------- laws */
 
-TEST(light, light_adds_up_and_scales) /* row 18 */
+TEST(light, light_adds_up_and_scales)
 {
     for (int i = 0; i < 20000; i++) {
         light_sample s;
@@ -628,7 +628,7 @@ TEST(light, light_adds_up_and_scales) /* row 18 */
     }
 }
 
-TEST(light, two_sided_diffuse_is_two_opposite_lamps) /* row 16 */
+TEST(light, two_sided_diffuse_is_two_opposite_lamps) /* |N.L| */
 {
     for (int i = 0; i < 5000; i++) {
         shade_vec3 n = d3_round(rnd_direction()), d = d3_round(rnd_direction());
@@ -643,7 +643,7 @@ TEST(light, two_sided_diffuse_is_two_opposite_lamps) /* row 16 */
     }
 }
 
-TEST(light, turning_toward_the_viewer_equals_turning_the_normal) /* row 16, C10 */
+TEST(light, turning_toward_the_viewer_equals_turning_the_normal)
 {
     for (int i = 0; i < 20000; i++) {
         light_sample s;
@@ -662,7 +662,7 @@ TEST(light, turning_toward_the_viewer_equals_turning_the_normal) /* row 16, C10 
     }
 }
 
-TEST(light, any_orthogonal_space_gives_the_same_light) /* row 32 */
+TEST(light, any_orthogonal_space_gives_the_same_light)
 {
     for (int i = 0; i < 5000; i++) {
         light_sample s;
@@ -718,14 +718,14 @@ TEST(light, zero_normals_keep_emission_and_ambient_only)
     }
 }
 
-TEST(light, light_opposite_to_the_viewer_has_no_halfway_vector) /* row 5 */
+TEST(light, light_opposite_to_the_viewer_has_no_halfway_vector) /* L + V = 0 */
 {
     shade_vec3 n = shade_v3(0, 0.6f, 0.8f), l = shade_v3(0, 0, 1);
     CHECK_NEAR(shade_blinn_phong_specular(n, l, shade_neg(l), 0), 0, 0);
     CHECK_NEAR(shade_blinn_phong_specular(n, l, shade_neg(l), 12), 0, 0);
     shade_light light = shade_directional_light(shade_neg(l), grey(1));
     shade_lighting li = one_light(&light);
-    shade_material m = s1_brass();
+    shade_material m = teapot_brass();
     static const unsigned flags[] = { 0, SHADE_FLAG_UNGATED_SPECULAR };
     for (int k = 0; k < 2; k++) {
         li.flags = flags[k] | SHADE_FLAG_INFINITE_VIEWER;
@@ -736,7 +736,7 @@ TEST(light, light_opposite_to_the_viewer_has_no_halfway_vector) /* row 5 */
     }
 }
 
-TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* row 38 */
+TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* 0^0 = 1 */
 {
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(2));
     shade_lighting li = one_light(&light);
@@ -788,7 +788,7 @@ TEST(light, an_eye_at_the_point_itself_is_finite)
 TEST(light, missing_arguments_mean_their_defaults)
 {
     shade_vec3 n = shade_v3(0, 0, 1), eye = shade_v3(1, 2, 3);
-    shade_material m = s1_brass();
+    shade_material m = teapot_brass();
     m.emission = shade_v3(0.5f, 0.25f, 0.125f);
     shade_light light = shade_point_light(shade_v3(0, 0, 2), shade_v3(1, 2, 3));
     light.ambient = shade_v3(0.25f, 0.5f, 0.75f);
@@ -810,9 +810,9 @@ TEST(light, missing_arguments_mean_their_defaults)
     check_color(__LINE__, "unknown model", shade_lit(&li, &m, eye, grey(0), n), d3_from(blinn), 0);
 }
 
-TEST(light, models_drop_the_terms_of_their_iteration) /* rows 1, 2, 3, 6 */
+TEST(light, models_drop_the_terms_of_their_iteration) /* k_e; k_a; k_d; k_s */
 {
-    shade_material m = s1_brass();
+    shade_material m = teapot_brass();
     m.emission = shade_v3(0.5f, 0.25f, 0.125f);
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
     light.ambient = grey(0.5);
@@ -831,7 +831,7 @@ TEST(light, models_drop_the_terms_of_their_iteration) /* rows 1, 2, 3, 6 */
     }
 }
 
-TEST(light, a_lamp_of_any_w_stands_at_xyz_over_w) /* row 25 */
+TEST(light, a_lamp_of_any_w_stands_at_xyz_over_w)
 {
     for (int i = 0; i < 5000; i++) {
         light_sample s;
@@ -869,7 +869,7 @@ TEST(light, a_distant_spot_keeps_its_cone)
                 d3_of(0, 0, 0), 0);
 }
 
-TEST(light, ambient_takes_distance_and_cone_only_when_asked) /* rows 7, 11; C5 */
+TEST(light, ambient_takes_distance_and_cone_only_when_asked)
 {
     shade_light light = shade_spot_light(shade_v3(0, 0, 2), shade_v3(0, 0, -1), 0.5f, 0, grey(1));
     light.ambient = grey(0.5), light.quadratic = 1;
@@ -900,7 +900,7 @@ TEST(light, length_of_the_normal_does_not_matter)
     }
 }
 
-TEST(light, constructors_fill_in_what_they_say) /* row 29, C8 */
+TEST(light, constructors_fill_in_what_they_say)
 {
     shade_light d = shade_directional_light(shade_v3(0, -2, 0), shade_v3(1, 2, 3));
     check_color(__LINE__, "I_d", d.diffuse, d3_of(1, 2, 3), 0);
@@ -928,7 +928,7 @@ TEST(light, constructors_fill_in_what_they_say) /* row 29, C8 */
                 d3_of(0, 0, 0), 0);
 }
 
-TEST(light, presets_are_the_table_of_teapots) /* row 37 */
+TEST(light, presets_are_the_table_of_teapots) /* [Kilgard94] */
 {
     static const struct {
         const char *name;
@@ -1090,7 +1090,7 @@ static const test_case light_cases[] = {
     CASE(light, brass_lit_head_on_and_from_sixty_degrees),
     CASE(light, the_gate_stops_highlights_behind_the_terminator),
     CASE(light, the_gate_is_strict_at_grazing_light),
-    CASE(light, spot_and_attenuation_of_the_lectures),
+    CASE(light, spot_and_attenuation_multiply),
     CASE(light, four_alpha_looks_like_phong),
     CASE(light, cool_to_warm_goes_from_cool_to_warm),
     CASE(light, single_terms_match_double),

@@ -75,7 +75,7 @@ TEST(math, normalize_gives_unit_length_or_exactly_zero)
     CHECK_VEC(shade_normalize(shade_v3(0, 2e-18f, 0)), d3_of(0, 1, 0), 4 * EPS);
 }
 
-TEST(math, reflect_takes_incoming_and_mirror_takes_outgoing_light) /* lectures V3, row 31 */
+TEST(math, reflect_takes_incoming_and_mirror_takes_outgoing_light)
 {
     shade_vec3 l = shade_v3(0, 0.6f, 0.8f), n = shade_v3(0, 0, 1);
     CHECK_VEC(shade_mirror(l, n), d3_of(0, -0.6, 0.8), 2 * EPS);
@@ -91,7 +91,7 @@ TEST(math, reflect_takes_incoming_and_mirror_takes_outgoing_light) /* lectures V
     }
 }
 
-TEST(math, halfway_is_unit_between_or_zero_for_opposites) /* row 5 */
+TEST(math, halfway_is_unit_between_or_zero_for_opposites)
 {
     for (int i = 0; i < 4000; i++) {
         d3 L = rnd_direction(), V = rnd_direction(), H = d3_add(L, V);
@@ -103,7 +103,7 @@ TEST(math, halfway_is_unit_between_or_zero_for_opposites) /* row 5 */
     CHECK_VEC(shade_halfway(shade_v3(0, 0, 1), shade_v3(2e-6f, 0, -1)), d3_of(1, 0, 0), 4 * EPS);
 }
 
-TEST(math, face_normal_is_right_handed_and_zero_without_area) /* row 30 */
+TEST(math, face_normal_is_right_handed_and_zero_without_area) /* (b - a) x (c - a) */
 {
     CHECK_VEC(shade_face_normal(shade_v3(0, 0, 0), shade_v3(1, 0, 0), shade_v3(0, 1, 0)),
               d3_of(0, 0, 1), EPS);

@@ -52,7 +52,7 @@ static dmat block3(dmat a) /* the upper left 3 x 3 in an identity */
     return r;
 }
 
-TEST(matrix, columns_are_stored_one_after_the_other) /* row 35: GLM and OpenGL order */
+TEST(matrix, columns_are_stored_one_after_the_other) /* as GLM and OpenGL have them */
 {
     shade_mat4 t = shade_mat4_translation(shade_v3(7, 8, 9));
     float f[16];
@@ -283,7 +283,7 @@ TEST(matrix, sine_and_cosine_are_exact_to_float_rounding)
     }
 }
 
-TEST(matrix, rotations_invert_by_transposing_and_keep_their_normals) /* row 33 */
+TEST(matrix, rotations_invert_by_transposing_and_keep_their_normals)
 {
     for (int i = 0; i < 300; i++) {
         shade_mat4 r = shade_mat4_rotation(rnd_float(-9, 9), d3_round(rnd_direction()));
@@ -302,7 +302,7 @@ TEST(matrix, rotations_invert_by_transposing_and_keep_their_normals) /* row 33 *
     }
 }
 
-TEST(matrix, normal_matrix_is_signed_cofactors) /* V6, row 33 */
+TEST(matrix, normal_matrix_is_signed_cofactors) /* sign(det) of them */
 {
     double h = sqrt(0.5);
     shade_mat3 m = shade_normal_matrix(shade_mat4_scaling(shade_v3(2, 1, 1)));
@@ -346,11 +346,11 @@ TEST(matrix, look_at_puts_eye_center_and_up_where_it_says)
         CHECK_MAT4(got, want, 1e-4);
         CHECK_VEC(shade_mat4_transform_point(got, d3_round(eye)), d3_of(0, 0, 0), 1e-4);
     }
-    shade_mat4 s1 =
-        shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 4), shade_v3(0, 1, 0)); /* row 36 */
+    shade_mat4 ahead =
+        shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 4), shade_v3(0, 1, 0));
     dmat want = dmat_identity();
     want.m[2][3] = -5;
-    CHECK_MAT4(s1, want, 0);
+    CHECK_MAT4(ahead, want, 0);
 }
 
 TEST(matrix, degenerate_cameras_are_finite_rotations)
@@ -409,11 +409,11 @@ TEST(matrix, projections_match_double)
         CHECK_MAT4(shade_mat4_ortho((float)l, (float)r, (float)b, (float)t, (float)n, (float)f),
                    want, 4e-6 * dmat_max(want));
     }
-    dmat s1 = ref_frustum(
+    dmat square = ref_frustum(
         -0.2 * tan(67 * 3.14159265358979 / 360), 0.2 * tan(67 * 3.14159265358979 / 360),
         -0.2 * tan(67 * 3.14159265358979 / 360), 0.2 * tan(67 * 3.14159265358979 / 360), 0.2, 10);
-    CHECK_MAT4(shade_mat4_perspective((float)(67 * 3.14159265358979 / 180), 1, 0.2f, 10), s1,
-               1e-6); /* row 36 */
+    CHECK_MAT4(shade_mat4_perspective((float)(67 * 3.14159265358979 / 180), 1, 0.2f, 10),
+               square, 1e-6);
 }
 
 TEST(matrix, reversed_projection_falls_from_one_at_near_to_zero)

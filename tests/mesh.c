@@ -260,19 +260,19 @@ static void check_meshes(shade_shading shading, int mirrored)
 TEST(mesh, per_fragment_is_the_equation_at_every_pixel)
 {
     check_meshes(SHADE_SHADING_PER_FRAGMENT, 0);
-} /* row 42 */
+}
 TEST(mesh, per_vertex_interpolates_the_light_of_the_corners)
 {
     check_meshes(SHADE_SHADING_PER_VERTEX, 0);
-} /* row 41 */
+}
 TEST(mesh, per_face_is_lit_once_at_the_centroid)
 {
     check_meshes(SHADE_SHADING_PER_FACE, 0);
-} /* row 40 */
+}
 TEST(mesh, mirrored_models_keep_their_given_normals)
 {
     check_meshes(SHADE_SHADING_PER_FRAGMENT, 1);
-} /* V6 */
+}
 
 static const float big_triangle[] = { -0.9f, -0.9f, 0, 0.9f, -0.8f, 0, 0, 0.9f, 0 };
 
@@ -296,9 +296,9 @@ static shade_shading random_shading(void) /* that this build has varyings for */
     return (shade_shading)rnd_int(SHADE_MAX_VARYINGS < 6 ? SHADE_SHADING_PER_VERTEX : 0, 2);
 }
 
-TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* row 40, exact */
+TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* to the bit */
 {
-    shade_material material = s1_brass();
+    shade_material material = teapot_brass();
     for (int i = 0; i < 300; i++) {
         float p[9];
         for (int k = 0; k < 9; k++) p[k] = rnd_float(-1, 1);
@@ -348,7 +348,7 @@ TEST(mesh, per_face_takes_the_colour_of_the_first_vertex)
     }
 }
 
-TEST(mesh, gouraud_misses_the_highlight_that_phong_finds) /* row 41 */
+TEST(mesh, gouraud_misses_the_highlight_that_phong_finds)
 {
     shade_light light = shade_point_light(shade_v3(0, -0.2f, 0.5f), grey(1));
     shade_material m;
@@ -586,7 +586,7 @@ TEST(mesh, a_nan_in_a_matrix_rejects_every_triangle)
 TEST(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero)
 {
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3((float)NAN, 1, 1));
-    shade_material m = s1_brass();
+    shade_material m = teapot_brass();
     m.specular = grey(0), m.emission.z = (float)NAN;
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
@@ -1088,7 +1088,7 @@ static void ref_vertex_normals(const test_mesh *m, d3 *sum)
     }
 }
 
-TEST(mesh, vertex_normals_are_weighted_by_angle_and_unit) /* row 34 */
+TEST(mesh, vertex_normals_are_weighted_by_angle_and_unit)
 {
     static test_mesh m;
     static shade_vec3 got[MESH_VERTICES];

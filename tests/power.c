@@ -83,7 +83,7 @@ TEST(power, stays_in_the_unit_interval_and_is_never_nan)
     }
 }
 
-TEST(power, whole_exponents_equal_repeated_squaring) /* row 20 */
+TEST(power, whole_exponents_equal_repeated_squaring)
 {
     for (int i = 0; i < 20000; i++) {
         float x = rnd_float(0, 1), n = 1;

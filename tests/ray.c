@@ -855,7 +855,7 @@ static void check_both_ways(int kind)
               "%ld compared, %ld hits", compared, hits);
     CHECK_SAY(close_by >= 3 * hits * 9995 / 10000, "%ld of %ld colours", close_by, 3 * hits);
 }
-TEST(ray, cast_and_drawn_pictures_agree_in_perspective) { check_both_ways(0); } /* row 49 */
+TEST(ray, cast_and_drawn_pictures_agree_in_perspective) { check_both_ways(0); }
 TEST(ray, cast_and_drawn_pictures_agree_off_centre) { check_both_ways(1); }
 TEST(ray, cast_and_drawn_pictures_agree_in_reversed_depth) { check_both_ways(2); }
 TEST(ray, cast_and_drawn_pictures_agree_without_perspective) { check_both_ways(3); }

@@ -206,7 +206,7 @@ TEST(vertex, indices_reach_up_to_the_greatest_count)
     canvas_close(&c);
 }
 
-TEST(vertex, a_position_behind_the_eye_is_survived) /* row 50: vec4(1, -1, 0, -1) */
+TEST(vertex, a_position_behind_the_eye_is_survived) /* w = -1 */
 {
     canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 clip[3];
