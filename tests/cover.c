@@ -138,26 +138,6 @@ TEST(cover, random_triangles_cover_exactly_the_top_left_pixels)
     }
 }
 
-/* edges through centres, all of them */
-TEST(cover, every_small_triangle_on_a_half_pixel_lattice_is_exact)
-{
-    canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA8, 0);
-    static const int lattice[] = { 128, 256, 384, 640, 896 };
-    for (int a = 0; a < 25; a++)
-        for (int b = 0; b < 25; b++)
-            for (int d = 0; d < 25; d++) {
-                if (a == b || b == d || (a * 7 + b * 3 + d) % 5) continue;
-                int64_t x[3], y[3];
-                x[0] = lattice[a % 5], y[0] = lattice[a / 5], x[1] = lattice[b % 5],
-                y[1] = lattice[b / 5];
-                x[2] = lattice[d % 5], y[2] = lattice[d / 5];
-                canvas_clear(&c, 1);
-                draw_fx8(&c, x, y, 3, 0, NULL);
-                check_coverage(&c, x, y);
-            }
-    canvas_close(&c);
-}
-
 TEST(cover, corners_snap_to_the_nearest_256th_halves_up)
 {
     canvas c = canvas_open(256, 256, 0, SHADE_FORMAT_RGBA8,
@@ -196,24 +176,6 @@ TEST(cover, corners_snap_to_the_nearest_256th_halves_up)
     canvas_close(&c);
 }
 
-TEST(cover, winding_and_order_of_corners_do_not_matter)
-{
-    for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(40, 40, 0, SHADE_FORMAT_RGBA8, rnd_int(0, 1));
-        int64_t x[3], y[3], x6[18], y6[18];
-        random_corners(i % 7, 40, 40, x, y);
-        static const int order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
-                                         { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 } };
-        for (int k = 0; k < 18; k++) x6[k] = x[order[k / 3][k % 3]], y6[k] = y[order[k / 3][k % 3]];
-        for (int o = 0; o < 6; o++) {
-            canvas_clear(&c, 1);
-            draw_fx8(&c, x6 + 3 * o, y6 + 3 * o, 3, 0, NULL);
-            check_coverage(&c, x, y);
-        }
-        canvas_close(&c);
-    }
-}
-
 TEST(cover, meshes_cover_every_pixel_exactly_once)
 {
     enum { N = 24 };
@@ -232,35 +194,6 @@ TEST(cover, meshes_cover_every_pixel_exactly_once)
         count_coverage(&c, clip, indices, count, vertices);
         for (int y = 0; y < c.target.height; y++)
             for (int x = 0; x < c.target.width; x++) CHECK_NEAR(canvas_float(&c, x, y, 0), 1, 0);
-        canvas_close(&c);
-    }
-}
-
-TEST(cover, fans_around_one_centre_leave_no_hole) /* many triangles meet in a pixel */
-{
-    for (int round = 0; round < 60; round++) {
-        enum { SPOKES = 40 };
-        shade_vec4 clip[SPOKES + 1];
-        uint32_t indices[SPOKES * 3];
-        int on_centre = round % 2, width = 64, n = rnd_int(3, SPOKES);
-        double cx = on_centre ? 32.5 : (double)rnd_float(20, 44),
-               cy = on_centre ? 32.5 : (double)rnd_float(20, 44);
-        clip[n] = clip_of_fx8(cx * 256, cy * 256, width, width, 0, 1);
-        for (int k = 0; k < n; k++) {
-            double angle = 6.283185307179586 * (k + rnd_unit() * 0.5) / n;
-            clip[k] = clip_of_fx8(floor((cx + 90 * cos(angle)) * 256),
-                                  floor((cy + 90 * sin(angle)) * 256), width, width, 0, 1);
-            indices[3 * k] = (uint32_t)k, indices[3 * k + 1] = (uint32_t)((k + 1) % n),
-                        indices[3 * k + 2] = (uint32_t)n;
-        }
-        canvas c = canvas_open(width, width, 0, SHADE_FORMAT_RGBA32F, 0);
-        count_coverage(&c, clip, indices, 3 * n, n + 1);
-        for (int y = 0; y < width; y++)
-            for (int x = 0; x < width; x++) {
-                double got = (double)canvas_float(&c, x, y, 0);
-                CHECK_SAY(got <= 1, "pixel %d %d is covered %g times", x, y, got);
-                if (n >= 6 && hypot(x + 0.5 - cx, y + 0.5 - cy) < 42) CHECK_NEAR(got, 1, 0);
-            }
         canvas_close(&c);
     }
 }
@@ -365,31 +298,6 @@ TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing
         CHECK_INT(stats.fragments, 0);
     }
     canvas_close(&c);
-}
-
-TEST(cover, many_triangles_of_one_draw_do_not_disturb_each_other)
-{
-    for (int round = 0; round < 40; round++) {
-        enum { N = 60 };
-        canvas c =
-            canvas_open(rnd_int(20, 100), rnd_int(20, 100), 0, SHADE_FORMAT_RGBA32F, rnd_int(0, 1));
-        int64_t x[3 * N], y[3 * N];
-        for (int k = 0; k < N; k++)
-            random_corners(rnd_int(0, 6), c.target.width, c.target.height, x + 3 * k, y + 3 * k);
-        canvas_clear(&c, 1);
-        shade_stats stats;
-        draw_fx8(&c, x, y, 3 * N, 1, &stats);
-        long long covered = 0;
-        for (int j = 0; j < c.target.height; j++)
-            for (int i = 0; i < c.target.width; i++) {
-                int want = 0;
-                for (int k = 0; k < N; k++) want += ref_inside_fx8(x + 3 * k, y + 3 * k, i, j);
-                CHECK_NEAR(canvas_float(&c, i, j, 0), want, 0);
-                covered += want;
-            }
-        CHECK_INT(stats.fragments, covered);
-        canvas_close(&c);
-    }
 }
 
 TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
@@ -612,16 +520,12 @@ TEST(cover, the_oracle_is_the_top_left_rule)
 static const test_case cover_cases[] = {
     CASE(cover, the_oracle_is_the_top_left_rule),
     CASE(cover, random_triangles_cover_exactly_the_top_left_pixels),
-    CASE(cover, every_small_triangle_on_a_half_pixel_lattice_is_exact),
     CASE(cover, corners_snap_to_the_nearest_256th_halves_up),
-    CASE(cover, winding_and_order_of_corners_do_not_matter),
     CASE(cover, meshes_cover_every_pixel_exactly_once),
-    CASE(cover, fans_around_one_centre_leave_no_hole),
     CASE(cover, slivers_a_256th_wide_are_exact),
     CASE(cover, depth_of_slivers_stays_between_their_corners),
     CASE(cover, varyings_of_slivers_are_finite),
     CASE(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing),
-    CASE(cover, many_triangles_of_one_draw_do_not_disturb_each_other),
     CASE(cover, the_biggest_pictures_are_exact),
     CASE(cover, wide_flat_triangles_are_exact),
     CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),

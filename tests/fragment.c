@@ -49,41 +49,6 @@ static shade_stats draw_scene(canvas *c, const shade_pipeline *p, int vertices)
     return stats;
 }
 
-TEST(fragment, x_and_y_are_pixel_centres_each_pixel_once)
-{
-    recorder r = recorder_open(20000);
-    static unsigned char seen[90 * 70];
-    for (int i = 0; i < 600; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, 1);
-        grid_triangle t;
-        random_grid_triangle(&t, 90, 70, 2);
-        scene s = { t.clip, NULL, 0, NULL, &r };
-        shade_pipeline p = scene_pipeline(&s);
-        r.count = 0, memset(seen, 0, sizeof seen);
-        canvas_clear(&c, 1);
-        shade_stats stats = draw_scene(&c, &p, 3);
-        CHECK_INT(stats.fragments, r.count);
-        for (int k = 0; k < r.count; k++) {
-            fragment_record *f = &r.fragments[k];
-            int x = (int)f->x, y = (int)f->y;
-            CHECK_NEAR(f->x, x + 0.5, 0);
-            CHECK_NEAR(f->y, y + 0.5, 0);
-            if (x < 0 || x >= 90 || y < 0 || y >= 70) {
-                CHECK_SAY(0, "pixel %d %d", x, y);
-                continue;
-            }
-            CHECK_SAY(!seen[y * 90 + x] && ref_inside_fx8(t.x, t.y, x, y), "pixel %d %d", x, y);
-            seen[y * 90 + x] = 1;
-            CHECK_SAY(float_bits(f->z) == float_bits(canvas_depth(&c, x, y)), "z %a, stored %a",
-                      (double)f->z, (double)canvas_depth(&c, x, y));
-        }
-        CHECK_INT(r.bad_counts, 0);
-        CHECK_INT(r.bad_tails, 0);
-        canvas_close(&c);
-    }
-    free(r.fragments);
-}
-
 TEST(fragment, packets_are_full_but_the_last_of_a_batch) /* pixels queue across triangles */
 {
     enum { N = 500 };
@@ -147,92 +112,6 @@ TEST(fragment, perspective_varyings_match_double_for_every_count) /* sum b v/w o
                                     (double)attribute[2 * varyings + j]);
                 CHECK_NEAR(f->in[j], want, plane_error(&t, w_range));
             }
-        }
-        canvas_close(&c);
-    }
-    free(r.fragments);
-}
-
-TEST(fragment, affine_varyings_are_linear_on_the_screen)
-{
-    recorder r = recorder_open(20000);
-    for (int i = 0; i < 200; i++) {
-        canvas c = canvas_open(100, 80, 0, SHADE_FORMAT_RGBA8, 0);
-        grid_triangle t;
-        float attribute[9];
-        random_grid_triangle(&t, 100, 80, 10);
-        for (int k = 0; k < 9; k++) attribute[k] = rnd_float(-1, 1);
-        scene s = { t.clip, attribute, 3, NULL, &r };
-        shade_pipeline p = scene_pipeline(&s);
-        p.interpolation = SHADE_INTERPOLATION_AFFINE;
-        r.count = 0;
-        draw_scene(&c, &p, 3);
-        shade_vec4 flat[3];
-        for (int k = 0; k < 3; k++)
-            flat[k] = clip_of_fx8((double)t.x[k], (double)t.y[k], 100, 80, 0, 1);
-        ref_triangle e;
-        if (!ref_triangle_of(&e, &flat[0], &flat[1], &flat[2], 100, 80)) continue;
-        for (int k = 0; k < r.count; k++) {
-            for (int j = 0; j < 3; j++) {
-                double want = ref_interpolate(&e, (double)r.fragments[k].x,
-                                              (double)r.fragments[k].y, (double)attribute[j],
-                                              (double)attribute[3 + j], (double)attribute[6 + j]);
-                CHECK_NEAR(r.fragments[k].in[j], want, plane_error(&t, 1));
-            }
-        }
-        canvas_close(&c);
-    }
-    free(r.fragments);
-}
-
-TEST(fragment, constant_varyings_are_the_first_corner_bit_for_bit)
-{
-    recorder r = recorder_open(100000);
-    enum { N = 20 };
-    for (int i = 0; i < 100; i++) {
-        canvas c = canvas_open(60, 60, 0, SHADE_FORMAT_RGBA8, 0);
-        shade_vec4 clip[3 * N];
-        float attribute[6 * N];
-        for (int k = 0; k < N; k++) {
-            grid_triangle t;
-            random_grid_triangle(&t, 60, 60, 10);
-            memcpy(clip + 3 * k, t.clip, sizeof t.clip);
-        }
-        for (int k = 0; k < 6 * N; k++) attribute[k] = rnd_float(-1, 1) * rnd_log(1e-6, 1e6);
-        scene s = { clip, attribute, 2, NULL, &r };
-        shade_pipeline p = scene_pipeline(&s);
-        p.interpolation = SHADE_INTERPOLATION_CONSTANT;
-        r.count = 0;
-        draw_scene(&c, &p, 3 * N);
-        CHECK(r.count > 0);
-        for (int k = 0; k < r.count; k++) {
-            for (int j = 0; j < 2; j++) {
-                CHECK(float_bits(r.fragments[k].in[j]) ==
-                      float_bits(attribute[6 * r.fragments[k].primitive + (uint32_t)j]));
-            }
-        }
-        canvas_close(&c);
-    }
-    free(r.fragments);
-}
-
-/* a value that is the same at all corners does not drift */
-TEST(fragment, equal_varyings_stay_equal)
-{
-    recorder r = recorder_open(20000);
-    for (int i = 0; i < 300; i++) {
-        canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, 0);
-        grid_triangle t;
-        float attribute[6];
-        random_grid_triangle(&t, 90, 70, 10);
-        for (int k = 0; k < 6; k++) attribute[k] = k % 2 ? 1 : 123.25f;
-        scene s = { t.clip, attribute, 2, NULL, &r };
-        shade_pipeline p = scene_pipeline(&s);
-        r.count = 0;
-        draw_scene(&c, &p, 3);
-        for (int k = 0; k < r.count; k++) {
-            CHECK_NEAR(r.fragments[k].in[0], 123.25, 123.25 * plane_error(&t, 10) / 4);
-            CHECK_NEAR(r.fragments[k].in[1], 1, plane_error(&t, 10) / 4);
         }
         canvas_close(&c);
     }
@@ -843,12 +722,8 @@ TEST(fragment, vertex_colours_smear_between_the_corners)
 }
 
 static const test_case fragment_cases[] = {
-    CASE(fragment, x_and_y_are_pixel_centres_each_pixel_once),
     CASE(fragment, packets_are_full_but_the_last_of_a_batch),
     CASE(fragment, perspective_varyings_match_double_for_every_count),
-    CASE(fragment, affine_varyings_are_linear_on_the_screen),
-    CASE(fragment, constant_varyings_are_the_first_corner_bit_for_bit),
-    CASE(fragment, equal_varyings_stay_equal),
     CASE(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones),
     CASE(fragment, comparisons_do_what_their_names_say),
     CASE(fragment, a_second_identical_draw_has_equal_depth),

@@ -63,25 +63,6 @@ TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
     CHECK_SAY(sure > total / 2, "%d of %d lanes are away from discontinuities", sure, total);
 }
 
-TEST(lanes, packets_and_scalars_agree) /* the two ways of one formula stay together */
-{
-    static lane_packet k;
-    light_sample s;
-    for (int round = 0; round < 600; round++) {
-        random_sample(&s);
-        random_packet(&k, &s, d3_length(d3_from(s.P)) * 1e-2 + 1);
-        float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
-        for (int i = 0; i < SHADE_LANES; i++) {
-            shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
-            shade_vec3 one = shade_lit(&s.lighting, &s.material, s.eye, k.p[i], k.n[i]);
-            ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
-                                     d3_from(s.eye), d3_of(1, 1, 1));
-            if (!want.unsure) check_color(__LINE__, "packet", got, d3_from(one), 2 * want.bound);
-        }
-    }
-}
-
 TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbours or its place */
 {
     static lane_packet k;
@@ -658,7 +639,6 @@ static const test_case lanes_cases[] = {
     CASE(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too),
     CASE(lanes, light_opposite_to_the_viewer_has_no_halfway_vector),
     CASE(lanes, a_packet_matches_the_equation_for_every_flag_and_model),
-    CASE(lanes, packets_and_scalars_agree),
     CASE(lanes, every_lane_is_computed_the_same),
     CASE(lanes, highlights_hold_the_bound_where_it_is_tightest),
     CASE(lanes, albedo_multiplies_diffuse_and_ambient_only),

@@ -287,7 +287,8 @@ static void packets_check_fragment(const packets_triangle *t, const packets_view
     const int i = (int)floorf(f->x), j = (int)floorf(f->y);
     const float bias = p->raster.depth_bias;
     double want, error;
-    CHECK_INT(f->front != 0, t->front);
+    CHECK(f->x == (float)i + 0.5f && f->y == (float)j + 0.5f);
+    CHECK_INT(f->front, t->front);
     if (packets_is_cut(t)) {
         const double X = (double)f->x, Y = (double)f->y;
         const double z = packets_cut_value(t, v, 1, p->interpolation, 0, X, Y) + (double)bias;

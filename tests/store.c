@@ -336,23 +336,6 @@ TEST(store, rgb_is_the_linear_colour_of_its_codes)
         }
     }
 }
-TEST(store, a_material_becomes_linear_by_its_four_colours)
-{
-    for (int k = 0; k < SHADE_PRESET_COUNT; k++) {
-        shade_material m = shade_preset_material((shade_preset)k), got;
-        m.emission = shade_v3(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
-        got = shade_linear_material(m);
-        const shade_vec3 *from[4] = { &m.emission, &m.ambient, &m.diffuse, &m.specular };
-        const shade_vec3 *to[4] = { &got.emission, &got.ambient, &got.diffuse, &got.specular };
-        for (int i = 0; i < 4; i++) {
-            CHECK_NEAR(to[i]->x, ref_decode_srgb((double)from[i]->x), 4e-6);
-            CHECK_NEAR(to[i]->y, ref_decode_srgb((double)from[i]->y), 4e-6);
-            CHECK_NEAR(to[i]->z, ref_decode_srgb((double)from[i]->z), 4e-6);
-        }
-        CHECK_NEAR(got.shininess, m.shininess, 0);
-    }
-}
-
 /* ------------------------------------------------------------------------- dither and clearing */
 
 TEST(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels)
@@ -626,7 +609,6 @@ static const test_case store_cases[] = {
     CASE(store, colours_follow_the_srgb_curve_within_zero_and_one),
     CASE(store, nan_is_no_light_and_infinity_is_full),
     CASE(store, rgb_is_the_linear_colour_of_its_codes),
-    CASE(store, a_material_becomes_linear_by_its_four_colours),
     CASE(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels),
     CASE(store, clear_fills_the_clip_rectangle_of_both_buffers_and_no_more),
     CASE(store, clear_needs_only_one_of_the_buffers),
