@@ -1,4 +1,4 @@
-/* lanes.c - light on packets, against double precision and against the scalar functions. */
+/* lanes.c - light on packets, against double precision. */
 
 typedef struct lane_packet {
     float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];

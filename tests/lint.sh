@@ -48,5 +48,16 @@ if command -v gcc >/dev/null && ctags --version 2>/dev/null | grep -q Universal;
 else echo "left out: ctags (no gcc or no Universal Ctags)"; fi
 check "no heap, no exit, no print" "$(grep -nE '\b(malloc|calloc|realloc|free|exit|abort|printf|fprintf|puts)[ ]*\(' $H)"
 
+check "every file of tests stands in tests/README.md" "$(for file in tests/*.c tests/*.sh; do
+    grep -qF "\`${file#tests/}\`" tests/README.md || echo "$file"; done)"
+check "tests/README.md speaks of files that are there, in 40 lines" "$(
+    grep -oE '`[a-z_]+\.[a-z]+`' tests/README.md | tr -d '`' | sort -u | while read -r file; do
+        [ -e "tests/$file" ] || [ -e "$file" ] || echo "$file"; done
+    awk 'END { if (NR > 40) print NR " lines" }' tests/README.md)"
+if command -v python3 >/dev/null; then
+    check "entries of mutation.txt are current" "$(
+        python3 tests/mutate.py --check $H tests/mutation.txt 2>&1 | grep -v '^[0-9]* entries$')"
+else echo "left out: entries of mutation.txt (no python3)"; fi
+
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
