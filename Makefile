@@ -7,6 +7,7 @@
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
 # make mutation   small changes of shade.h, one at a time, that the tests must notice
 # make static     clang-tidy and cppcheck
+# make prove      no overflow, no access outside an array, over whole ranges of values (Frama-C)
 # make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
 # make playground   the equation as a web page, build/playground/index.html (needs clang and lld)
@@ -92,6 +93,8 @@ static:
 	@sh tests/static.sh
 vector-report:
 	@sh tests/vector_report.sh
+prove:
+	@sh tests/prove.sh
 FUZZ_SECONDS ?= 300
 fuzz:
 	@sh tests/fuzz.sh $(FUZZ_SECONDS)
@@ -122,6 +125,6 @@ uninstall:
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix conformance coverage mutation static fuzz gallery \
+.PHONY: all test bench bench-plot matrix conformance coverage mutation static prove fuzz gallery \
         playground vector-report install uninstall clean
 .SECONDARY:

@@ -1,0 +1,74 @@
+/* pack.c - pixels of every format from any floats, and back from any bytes. */
+#include "prove.h"
+
+static void prove_target(shade_target *t)
+{
+    float rgba[32], x[8], y[8], c[4];
+    uint32_t packed[8] = { 0 };
+    uint8_t pixel[16];
+    const size_t bytes = shade__pixel_bytes(t->format);
+    any_floats(rgba, 32);
+    for (int i = 0; i < 8; i++) {    /* pixel centres of a picture, and what resolve may ask */
+        x[i] = Frama_C_float_interval(0, 16400);
+        y[i] = Frama_C_float_interval(0, 16400);
+    }
+    shade__pack8(t, rgba, x, y, packed);
+    if (bytes == 2) {
+        /*@ assert packed[0] <= 65535 && packed[7] <= 65535; */
+    }
+    /* a pixel that ends where the array does */
+    shade__store_pixel(t->format, pixel + (sizeof pixel - bytes), packed[0], rgba, 8);
+    for (int i = 0; i < 16; i++) pixel[i] = Frama_C_unsigned_char_interval(0, 255);
+    shade__fetch(t, pixel + (sizeof pixel - bytes), c);
+    if (t->format != SHADE_FORMAT_RGBA32F && !t->srgb) {
+        /*@ assert 0 <= c[0] <= 1 && 0 <= c[1] <= 1 && 0 <= c[2] <= 1 && 0 <= c[3] <= 1; */
+    }
+}
+static void prove_formats(int srgb, int dither)
+{
+    shade_target t;
+    memset(&t, 0, sizeof t);
+    t.srgb = srgb;
+    t.dither = dither;
+    t.format = SHADE_FORMAT_RGBA8;
+    prove_target(&t);
+    t.format = SHADE_FORMAT_BGRA8;
+    prove_target(&t);
+    t.format = SHADE_FORMAT_RGB565;
+    prove_target(&t);
+    t.format = SHADE_FORMAT_RGB565_SWAPPED;
+    prove_target(&t);
+    t.format = SHADE_FORMAT_RGBA32F;
+    prove_target(&t);
+}
+/* the channels of 8 bits, and the thresholds of the dither */
+static void prove_parts(void)
+{
+    float rgba[32], x[8], y[8], threshold[8];
+    uint32_t packed[8];
+    any_floats(rgba, 32);
+    shade__pack_8888(SHADE_FORMAT_RGBA8, rgba, 8, packed, 8);
+    for (int i = 0; i < 8; i++) {
+        float unit = shade__unit(rgba[i]);
+        /*@ assert 0 <= unit <= 1; */
+        x[i] = Frama_C_float_interval(0, 16400);
+        y[i] = Frama_C_float_interval(0, 16400);
+    }
+    shade__dither(x, y, threshold, 8);
+    for (int i = 0; i < 8; i++) {
+        /*@ assert 0 < threshold[i] < 1; */
+    }
+    shade__pack_rgb565(rgba, 8, threshold, packed, 8);
+    for (int i = 0; i < 8; i++) {
+        /*@ assert packed[i] <= 65535; */
+        uint32_t swapped = shade__swap16(packed[i]);
+        /*@ assert swapped <= 65535; */
+    }
+}
+int main(void)
+{
+    prove_parts();
+    for (int srgb = 0; srgb < 2; srgb++)
+        for (int dither = 0; dither < 2; dither++) prove_formats(srgb, dither);
+    return 0;
+}

@@ -1,0 +1,148 @@
+/* setup.c - triangle setup of >>triangles: positions within 2^24, clip rectangles within 16384,
+   depths and 1/w any floats. */
+#include "prove.h"
+
+enum { N = SHADE__TRIANGLES, FAR = 1 << 24 };
+
+static shade__packet p;
+
+static void any_packet(void)
+{
+    for (int k = 0; k < 3; k++) {
+        any_ints(p.x[k], N, -FAR, FAR);
+        any_ints(p.y[k], N, -FAR, FAR);
+        any_floats(p.z[k], N);
+        any_floats(p.rw[k], N);
+    }
+}
+static void prove_areas(void)
+{
+    float area[N];
+    uint32_t one[N], two[N], mirrored[N];
+    shade__areas(&p, area, p.inverse);
+    shade__turns(&p, area, one, two, mirrored);
+    for (int i = 0; i < N; i++) {
+        /*@ assert -2251799813685248. <= area[i] <= 2251799813685248.; */
+        /*@ assert !(p.inverse[i] < 0); */
+    }
+}
+/* turned rows keep their range: by the signs of the three, in each order */
+static void prove_turns(void)
+{
+    int32_t a[N], b[N], c[N];
+    uint32_t one[N], two[N], mirrored[N];
+    for (int k = 0; k < 48; k++) {
+        for (int i = 0; i < N; i++) {
+            one[i] = 0u - (uint32_t)(k / 8 % 3 == 1);
+            two[i] = 0u - (uint32_t)(k / 8 % 3 == 2);
+            mirrored[i] = 0u - (uint32_t)(k / 24);
+        }
+        any_ints(a, N, k & 1 ? -FAR : 0, k & 1 ? -1 : FAR);
+        any_ints(b, N, k & 2 ? -FAR : 0, k & 2 ? -1 : FAR);
+        any_ints(c, N, k & 4 ? -FAR : 0, k & 4 ? -1 : FAR);
+        shade__turn_ints(a, b, c, one, two, mirrored);
+        for (int i = 0; i < N; i++) {
+            /*@ assert -FAR <= a[i] <= FAR && -FAR <= b[i] <= FAR && -FAR <= c[i] <= FAR; */
+        }
+    }
+    shade__turn_floats(p.z[0], p.z[1], p.z[2], one, two, mirrored);
+}
+static void prove_boxes(void)
+{
+    float w[N], h[N];
+    int32_t fits[N];
+    const int x0 = ANY_OF(0, 16384), x1 = ANY_OF(0, 16384);
+    shade__box(p.x[0], p.x[1], p.x[2], x0, x1 - 1, p.box[0], p.box[2], w);
+    shade__box(p.y[0], p.y[1], p.y[2], x0, x1 - 1, p.box[1], p.box[3], h);
+    for (int i = 0; i < N; i++) {
+        /*@ assert 0 <= p.box[0][i] <= 65536 && -65537 <= p.box[2][i] <= 16383; */
+        /*@ assert -33554432 <= w[i] <= 33554432; */
+    }
+    shade__sizes(&p, w, h, fits);
+    for (int i = 0; i < N; i++) {
+        /*@ assert fits[i] == 0 || fits[i] == -1; */
+    }
+}
+/* an edge that 32 bits do not hold */
+static void prove_wide_edge(void)
+{
+    int32_t x0[N], y0[N], fits[N] = { 0 };
+    int64_t wide[3];
+    shade__triangle t;
+    any_ints(x0, N, 0, 65536);
+    any_ints(y0, N, 0, 65536);
+    shade__edge(p.x[0], p.y[0], p.x[1], p.y[1], x0, y0, fits, p.e[0], p.dx[0], p.dy[0]);
+    for (int k = 0; k < 3; k++) {
+        t.dx[k] = ANY_WITHIN(2 * FAR);
+        t.dy[k] = ANY_WITHIN(2 * FAR);
+    }
+    t.x0 = ANY_OF(0, 65536);
+    t.y0 = ANY_OF(0, 65536);
+    t.lane = ANY_OF(0, N - 1);
+    shade__wide_edges(&p, &t, wide);
+    for (int k = 0; k < 3; k++) {
+        /*@ assert -17592186044416 <= wide[k] <= 17592186044416; */
+    }
+    for (int i = 0; i < N; i++) {
+        /*@ assert p.e[0][i] == 0; */
+        /*@ assert -2 * FAR <= p.dx[0][i] <= 2 * FAR && -2 * FAR <= p.dy[0][i] <= 2 * FAR; */
+    }
+}
+/* edges that 32 bits hold, by the extents w, h of their triangles in steps of 1/100: p within a
+   pixel of the origin (only differences count), q and the box's corner no farther than w, h */
+static void prove_edge(void)
+{
+    int32_t px[N], py[N], qx[N], qy[N], x0[N], y0[N], fits[N], e[N], dx[N], dy[N];
+    for (int i = 0; i < N; i++) {
+        px[i] = py[i] = qx[i] = qy[i] = x0[i] = y0[i] = 0;
+        fits[i] = -1;
+    }
+    px[0] = ANY_OF(0, 255);
+    py[0] = ANY_OF(0, 255);
+    /*@ loop unroll 1200; */
+    for (int w = 1, wider; w < 2 * FAR; w = wider) {
+        const double most = (2.7e11 * 1.00001 - 11264.0 * w) / (2.0 * w + 11264);
+        const int h = most < 0 ? 0 : most > 2 * FAR ? 2 * FAR : (int)most;
+        wider = w < 1000 ? w + 100 : w + w / 64;
+        if (h == 0) break;
+        qx[0] = ANY_OF(-wider, wider + 255);
+        qy[0] = ANY_OF(-h, h + 255);
+        x0[0] = ANY_OF((-wider - 128) / 256, (wider + 127) / 256);
+        y0[0] = ANY_OF((-h - 128) / 256, (h + 127) / 256);
+        shade__edge(px, py, qx, qy, x0, y0, fits, e, dx, dy);
+        /*@ assert -1073741824 <= e[0] <= 1073741824; */
+    }
+}
+static void prove_depth(void)
+{
+    float low[N], high[N];
+    for (int i = 0; i < N; i++) {
+        float f = any_float();
+        p.inverse[i] = f;
+    }
+    shade__depth_plane(&p, any_float(), p.z[0], p.z[1], p.z[2], low, high);
+    for (int i = 0; i < N; i++) {
+        /*@ assert 0 <= low[i] <= 1 && 0 <= high[i] <= 1; */
+    }
+}
+static void prove_floors(void)
+{
+    int64_t v = Frama_C_long_long_interval(-0x3FFFFFFFFFFFFFFF, 0x3FFFFFFFFFFFFFFF);
+    int64_t f = shade__floor256(v);
+    /*@ assert -0x40000000000000 <= f <= 0x3FFFFFFFFFFFFF; */
+    int32_t g = shade__floor256_32(ANY_WITHIN(0x3FFFFFFF));
+    /*@ assert -0x400000 <= g <= 0x3FFFFF; */
+}
+int main(void)
+{
+    any_packet();
+    prove_areas();
+    prove_boxes();
+    prove_wide_edge();
+    prove_depth();
+    any_packet();
+    prove_turns();
+    prove_edge();
+    prove_floors();
+    return 0;
+}
