@@ -1412,7 +1412,7 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n
 
 /* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0. The addend carries into the exponent where
    the mantissa is at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is
-   lost. */
+   lost.   post: >= 0 for those x, finite for any bits */
 SHADE__INLINE float shade__neg_log2(float x)
 {
     uint32_t t = shade__float_bits(x) + (0x3F800000u - 0x3F3504F3u);
@@ -1427,7 +1427,7 @@ SHADE__INLINE float shade__neg_log2(float x)
     p = p * f + 1.44269502f;
     return (float)(127 - (int32_t)(t >> 23)) - f * p;
 }
-/* 2^-u, u >= 0; exactly 1 at 0, exactly 0 from 126 on */
+/* 2^-u, u >= 0; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 for any bits */
 SHADE__INLINE float shade__exp2_neg(float u)
 {
     float v = shade__clamp_bits(u, 0, 126), r, q = -0.00132647273f;
@@ -2544,18 +2544,18 @@ static void shade__take_batch(shade__draw *d, const uint32_t *indices, int first
              Corner 0 is the farthest, whose 1/w is the smallest: there rounding hurts most.
                                                                                          >>clip */
 
-/* floor(v / 256), |v| < 2^62 */
+/* floor(v / 256)   pre: |v| < 2^62 */
 SHADE__INLINE int64_t shade__floor256(int64_t v)
 {
     return (int64_t)((uint64_t)(v + ((int64_t)1 << 62)) >> 8) - ((int64_t)1 << 54);
 }
-/* the same for |v| < 2^30, in lanes */
+/* the same in lanes   pre: |v| < 2^30 */
 SHADE__INLINE int32_t shade__floor256_32(int32_t v)
 {
     return (int32_t)((uint32_t)(v + 0x40000000) >> 8) - 0x400000;
 }
 /* Twice the signed area in 1/65536 pixel; positive where a, b, c turn clockwise as seen (y is
-   down). */
+   down).   pre: |x|, |y| <= 2^24   post: |area| <= 2^51 */
 SHADE__INLINE int64_t shade__area(const shade__vertex *a, const shade__vertex *b,
                                   const shade__vertex *c)
 {
@@ -2633,7 +2633,9 @@ SHADE__INLINE int32_t shade__max3(int32_t a, int32_t b, int32_t c)
     int32_t m = a > b ? a : b;
     return m > c ? m : c;
 }
-/* Pixel centres between the extremes of one axis, in lo .. hi, both included; and the extent. */
+/* Pixel centres between the extremes of one axis, in lo .. hi, both included; and the extent.
+   pre: |a|, |b|, |c| <= 2^24, 0 <= lo, hi < 2^14
+   post: 0 <= first <= 2^16, -2^16 - 1 <= last < 2^14; the box is empty where first > last */
 SHADE__INLINE void shade__box(const int32_t *SHADE_RESTRICT a, const int32_t *SHADE_RESTRICT b,
                               const int32_t *SHADE_RESTRICT c, int32_t lo, int32_t hi,
                               int32_t *SHADE_RESTRICT first, int32_t *SHADE_RESTRICT last,
@@ -2647,7 +2649,9 @@ SHADE__INLINE void shade__box(const int32_t *SHADE_RESTRICT a, const int32_t *SH
         extent[i] = (float)(most - least);
     }
 }
-/* The edge from p to q at pixel (x0, y0), 0 where 32 bits do not hold it, and its steps. */
+/* The edge from p to q at pixel (x0, y0), 0 where 32 bits do not hold it, and its steps.
+   pre: where fits is set, |q - p| and the way from p to the centre of (x0, y0) are at most the
+   extents that shade__sizes found to fit   post: |e| <= 2^30, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const int32_t *SHADE_RESTRICT px, const int32_t *SHADE_RESTRICT py,
                                const int32_t *SHADE_RESTRICT qx, const int32_t *SHADE_RESTRICT qy,
                                const int32_t *SHADE_RESTRICT x0, const int32_t *SHADE_RESTRICT y0,
@@ -2666,7 +2670,7 @@ SHADE__INLINE void shade__edge(const int32_t *SHADE_RESTRICT px, const int32_t *
     }
 }
 /* Depth: its plane, and its range, to which planes are cut, as rounding may leave it at a
-   sliver's edge. */
+   sliver's edge.   post: low, high in [0, 1] */
 SHADE__INLINE void shade__depth_plane(const shade__packet *SHADE_RESTRICT p, float bias,
                                       float *SHADE_RESTRICT z, float *SHADE_RESTRICT z1,
                                       float *SHADE_RESTRICT z2, float *SHADE_RESTRICT low,
@@ -2836,7 +2840,7 @@ typedef struct shade__polygon {
 
 /* The vertex where an edge leaves through a plane, t of the way from in to out; on the screen that
    is t w_out / (w_in + t (w_out - w_in)) of the way, here without a difference: no digit is lost
-   however far apart the two w are.   pre: d_in >= 0 > d_out */
+   however far apart the two w are.   pre: d_in >= 0 > d_out, a bit of taken is free */
 static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int in, int out,
                                  double d_in, double d_out)
 {
@@ -2858,6 +2862,8 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p, int
     }
     return (uint8_t)v;
 }
+/* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, as each new
+   one takes a bit */
 static void shade__clip_plane(const shade__plan *plan, shade__polygon *p, uint32_t plane)
 {
     const int zero_to_one = plan->zero_to_one;
@@ -2906,7 +2912,8 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
     }
     return out;
 }
-/* Window positions and values of its corners, as >>vertices makes them. */
+/* Window positions and values of its corners, as >>vertices makes them.
+   post: |x|, |y| <= 2^24 */
 static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
 {
     const int zero_to_one = plan->zero_to_one;
@@ -3005,7 +3012,7 @@ typedef struct shade__triangle {
     float    z_low, z_high;
 } shade__triangle;
 
-/* The edge functions at pixel (x0, y0) in 64 bits. */
+/* The edge functions at pixel (x0, y0) in 64 bits.   post: |e| <= 2^44 */
 static void shade__wide_edges(const shade__packet *p, const shade__triangle *t, int64_t *e)
 {
     for (int k = 0; k < 3; k++) {
@@ -3021,7 +3028,8 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 {
     return t->z + t->z_dy * ((float)y + t->y_ref);
 }
-/* Cuts the clip rectangle into blocks of 32 x 8 pixels or more, SHADE__BLOCKS at most. */
+/* Cuts the clip rectangle into blocks of 32 x 8 pixels or more, SHADE__BLOCKS at most.
+   pre: the rectangle is not empty, within 2^14   post: neither logarithm is above 14 */
 static SHADE__UNUSED void shade__begin_blocks(const shade__plan *plan, shade__hidden *hidden)
 {
     int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
@@ -3042,7 +3050,7 @@ SHADE__INLINE float shade__key(float toward, const shade__triangle *t, int x, in
 }
 /* In rows y .. bottom of the triangle's box, of one row of blocks: moves *x to the next block that
    has a pixel of the triangle and is not hidden, beyond the box if there is none, and returns the
-   last pixel before one that has not or is. */
+   last pixel before one that has not or is.   pre: |edge| <= 2^44 */
 SHADE__UNUSED static SHADE__NOINLINE int shade__next_blocks(
     const shade__plan *plan, shade__hidden *hidden, const shade__triangle *t, const int64_t *edge,
     int *x, int y, int bottom)
@@ -3147,7 +3155,8 @@ typedef struct shade__rows8 { int32_t first[8], last[8]; } shade__rows8;    /* f
 /* Pixels 0 .. n - 1 of 8 rows where e + i dx + r dy >= 0 for all three edges.  An edge with dx < 0
    is looked at from the right end, so that each asks for the first i with e + i |dx| >= 0.  The
    quotient in float is off by less than 1/100, so the truncated one is the answer, or one or two
-   below it.   pre: in_32_bits */
+   below it.
+   pre: in_32_bits, rows and n within the box   post: 0 <= first <= n + 2, -3 <= last < n */
 SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, int row, int n,
                                       shade__rows8 *SHADE_RESTRICT s)
 {
@@ -3177,7 +3186,7 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
 
 /* First (dx > 0) or last (dx < 0) i in 0 .. n - 1 with e + i dx >= 0; n or -1 if none is.  The
    quotient, correctly rounded and below 2^14, is whole or at least 2^-25 from a whole number: so
-   truncation is exact. */
+   truncation is exact.   pre: |e| <= 2^45, 0 < |dx| <= 2^25, 1 <= n <= 2^14 */
 static int shade__crossing(int64_t e, int32_t dx, int n)
 {
     double q = -(double)e / dx;
@@ -3321,7 +3330,9 @@ SHADE__INLINE void shade__cover_part(shade__draw *d, const shade__triangle *t, c
 
 /* Rows y .. y + rows - 1 of a column of width pixels from x on, of a triangle whose edges 32 bits
    hold: the three edges asked for every pixel, then the depth test.  Adds to set bit at + i for
-   pixel x + i of each row. */
+   pixel x + i of each row.
+   pre: the rows and columns are in the clip rectangle, at most 40 pixels from the box; rows <= 8,
+   at + width <= 32 */
 SHADE__INLINE void shade__cover_column(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
                                        const float *SHADE_RESTRICT row_z, int x, int y, int rows,
@@ -3606,7 +3617,7 @@ SHADE__INLINE void shade__row(const shade__planes *SHADE_RESTRICT t, int stride,
     }
 }
 
-/* Appends one run, shading the queue whenever it is full. */
+/* Appends one run, shading the queue whenever it is full.   post: it is not full */
 SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const float *row, int x,
                                    int y, int n)
 {
@@ -3741,7 +3752,7 @@ SHADE__INLINE int32_t shade__floor(float x)
     int32_t i = (int32_t)x;
     return i - (x < (float)i ? 1 : 0);
 }
-/* c: coordinates */
+/* c: coordinates, any bits   post: 0 <= i0, i1 < size */
 SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int size,
                                   shade_wrap wrap, int nearest, shade__axis *SHADE_RESTRICT a)
 {
@@ -4006,7 +4017,7 @@ SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, const int n)
 {
     SHADE__FOR(i, n) { c[i] = shade__srgb_encode(shade__unit(c[i])); }
 }
-/* n pixels of 8 bits a channel */
+/* n pixels of 8 bits a channel; any bits, as in all of packing */
 SHADE__INLINE void shade__pack_8888(shade_format format, const float *SHADE_RESTRICT rgba,
                                     const int stride, uint32_t *SHADE_RESTRICT packed, const int n)
 {
@@ -4021,7 +4032,7 @@ SHADE__INLINE void shade__pack_8888(shade_format format, const float *SHADE_REST
     }
 }
 /* Thresholds of the 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and y,
-   interleaved and reversed */
+   interleaved and reversed   pre: 0 <= x, y < 2^31   post: in (0, 1) */
 SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHADE_RESTRICT y,
                                  float *SHADE_RESTRICT threshold, const int n)
 {
@@ -4031,7 +4042,7 @@ SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHA
         threshold[i] = ((float)(int32_t)rank + 0.5f) * 0.0625f;
     }
 }
-/* n pixels of 5-6-5 bits */
+/* n pixels of 5-6-5 bits   post: packed < 2^16 */
 SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const int stride,
                                       const float *SHADE_RESTRICT threshold,
                                       uint32_t *SHADE_RESTRICT packed, const int n)
