@@ -117,7 +117,7 @@ typedef struct result { double most, sum, squares, beyond; int x, y; } result;
    up, red by how far it is beyond */
 static void mark(unsigned char *out, const double *golden, double difference, double limit)
 {
-    double grey = (golden[0] + 2 * golden[1] + golden[2]) / 16;
+    double grey = (golden[0] + 2 * golden[1] + golden[2]) / 8;
     double far = difference > limit ? 155 + difference * 100 / 255 : 0;
     double near = difference > limit || difference <= 0 ? 0 : 60 + 120 * difference / limit;
     out[0] = (unsigned char)(near + far + (near + far > 0 ? 0 : grey));

@@ -100,7 +100,7 @@ colors() {
     status 1 "$compare" --limit 2 --difference "$T/d.ppm" "$T/g.ppm" "$T/h.ppm" || return 1
     same "$(head -c 11 "$T/d.ppm" | tr '\n' ' ')" "P6 4 1 255 " &&
         same "$(tail -c +12 "$T/d.ppm" | od -An -v -tu1 | tr -s ' \n' ' ')" \
-            " 20 20 20 120 120 0 156 0 0 223 0 0 "
+            " 40 40 40 120 120 0 156 0 0 223 0 0 "
 }
 check "grey, yellow, red by the difference" colors
 check "the numbers stay" grep -q '^count  2 of 4 pixels beyond 2, 0 allowed$' "$T/out"
