@@ -1,0 +1,25 @@
+#!/bin/sh
+# golden.sh - a test by picture: draws, compares with the picture kept beside this script, and
+# fails where more than a few pixels differ by more than a little.
+#
+#   sh golden.sh             exit status 0: the same; 1: see difference.ppm; 2: it does not build
+#   sh golden.sh --accept    keeps what is drawn now; look at it first
+#
+# SHADE is the directory of shade.h, OUT where pictures and programs go, CC the compiler.
+cd "$(dirname "$0")" || exit 2
+SHADE=${SHADE:-../../..} OUT=${OUT:-$SHADE/build/golden} CC=${CC:-cc}
+mkdir -p "$OUT" || exit 2
+
+# the program under test, and what compares
+$CC -std=c99 -O2 -I"$SHADE" ../cmake/*.c -lm -o "$OUT/saddle" || exit 2
+$CC -std=c99 -O2 "$SHADE/examples/compare.c" -lm -o "$OUT/compare" || exit 2
+
+# small pictures: less to keep, and a fault that matters shows in them as well
+"$OUT/saddle" "$OUT/picture.ppm" 64 48 || exit 2
+if [ "${1:-}" = --accept ]; then
+    cp "$OUT/picture.ppm" golden.ppm
+    exit
+fi
+
+# shade.h gives the same bits everywhere; shaders and sums of your own follow your compiler
+"$OUT/compare" --limit 2 --count 10 --difference "$OUT/difference.ppm" golden.ppm "$OUT/picture.ppm"
