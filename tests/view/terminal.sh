@@ -130,8 +130,8 @@ keys '?'
 check "? shows the keys" soon shows "this help"
 keys h
 check "h hides them" soon lacks "this help"
-capture; cp "$T/pane" "$T/still"; sleep 1; capture
-check "at rest nothing moves" cmp "$T/still" "$T/pane"
+at_rest() { capture; cp "$T/pane" "$T/still"; sleep 1; capture; cmp "$T/still" "$T/pane"; }
+check "at rest nothing moves" soon at_rest
 keys Space
 check "space turns, at a rate" soon shows "[1-9][0-9]* fps"
 turning() { capture; cp "$T/pane" "$T/one"; sleep 0.3; capture; ! cmp -s "$T/one" "$T/pane"; }

@@ -18,9 +18,12 @@ for file in missing.obj "$T" "$T/empty.obj" "$T/cut.obj" "$T/cut.stl"; do
 done
 mkfifo "$T/slow.obj"
 $dummy "$T/slow.obj" & window=$!
-sleep 1
+# opened for writing as soon as view has opened it for reading
+{ : >"$T/opened"; exec sleep 600; } >"$T/slow.obj" & writer=$!
+soon test -e "$T/opened"
 kill -TERM "$window"
 check "closed while it waits for its file" closed
+kill "$writer" 2>/dev/null
 
 for tool in Xvfb xdotool xwd; do
     command -v $tool >/dev/null || { echo "no $tool: the window on a screen is left out"; return; }
@@ -40,7 +43,16 @@ picture() { look 000000; }
 open() { "$VIEW" --window "$@" & window=$!; soon picture; }
 more() { look "$2" && [ "${found##* }" -gt "$1" ]; }
 size() { picture && same "${found% * *}" "$1"; }
-keep() { sleep 0.7; picture; cp "$T/picture" "$T/kept"; }
+# Keeps the picture once it has been the same for a second: at rest it is drawn again, finer.
+keep() {
+    alike=0
+    for i in $(seq 100); do
+        picture; cmp -s "$T/picture" "$T/kept" && alike=$((alike + 1)) || alike=0
+        [ $alike -lt 5 ] || return 0
+        cp "$T/picture" "$T/kept"
+        sleep 0.2
+    done
+}
 changed() { picture && ! cmp -s "$T/picture" "$T/kept"; }
 as_kept() { picture && cmp "$T/picture" "$T/kept"; }
 
@@ -73,7 +85,7 @@ check "resized: a picture of that size" soon size "500 300"
 xdotool key q
 check "q closes the window" closed
 open
-keep
+cp "$T/picture" "$T/kept"
 check "it turns by itself" soon changed
 kill -TERM "$window"
 check "closing ends the program" closed
