@@ -1147,6 +1147,22 @@ SHADE__INLINE float shade__rsqrt(float x)
 /* Rows of vectors. */
 typedef struct shade__v3 { float x[SHADE_LANES], y[SHADE_LANES], z[SHADE_LANES]; } shade__v3;
 
+SHADE__INLINE shade_vec3 shade__at(const shade__v3 *rows, int i)
+{
+    return shade_v3(rows->x[i], rows->y[i], rows->z[i]);
+}
+SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
+{
+    rows->x[i] = v.x;
+    rows->y[i] = v.y;
+    rows->z[i] = v.z;
+}
+/* Three rows of floats as the public functions take them. */
+SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
+{
+    return (const shade__v3 *)(const void *)rows;
+}
+
 SHADEDEF const char *shade_result_string(shade_result result)
 {
     switch (result) {
@@ -1814,9 +1830,7 @@ typedef struct shade__arrival {
 SHADE__INLINE void shade__directional(shade_vec3 L, const int n, shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
-        a->L.x[i] = L.x;
-        a->L.y[i] = L.y;
-        a->L.z[i] = L.z;
+        shade__put(&a->L, i, L);
         a->att[i] = 1;
     }
 }
@@ -1826,13 +1840,11 @@ SHADE__INLINE void shade__point(const shade__v3 *SHADE_RESTRICT P, shade_vec3 at
     float nearest = a == 0 ? 1e-4f : 0.0f;
     if (a == 0 && b == 0 && c == 0) a = 1;
     SHADE__FOR(i, n) {
-        float x = at.x - P->x[i], y = at.y - P->y[i], z = at.z - P->z[i];
-        float d = x * x + y * y + z * z, rl = shade__rsqrt(d);
+        shade_vec3 L = shade_sub(at, shade__at(P, i));
+        float d = shade_dot(L, L), rl = shade__rsqrt(d);
         float distance = shade__clamp_bits(d * rl, nearest, FLT_MAX);
         float den = a + b * distance + c * (distance * distance);
-        to->L.x[i] = x * rl;
-        to->L.y[i] = y * rl;
-        to->L.z[i] = z * rl;
+        shade__put(&to->L, i, shade_scale(L, rl));
         to->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
     }
 }
@@ -1842,7 +1854,7 @@ SHADE__INLINE uint32_t shade__cone(shade_vec3 S, float cos_cutoff, const int n,
 {
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float cosine = a->L.x[i] * S.x + a->L.y[i] * S.y + a->L.z[i] * S.z;
+        float cosine = shade_dot(shade__at(&a->L, i), S);
         uint32_t inside = shade__mask(cosine >= cos_cutoff);
         a->cosine[i] = shade__saturate(cosine);
         a->att[i] = shade__keep(a->att[i], inside);
@@ -1886,11 +1898,6 @@ SHADE__DISPATCH_AVX2(shade__light_at,
                      (const shade_light *light, const shade__v3 *P, shade__arrival *a),
                      (light, P, SHADE_LANES, a))
 
-/* Three rows of floats as the public functions take them. */
-SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
-{
-    return (const shade__v3 *)(const void *)rows;
-}
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
                                    float *amount)
 {
@@ -1903,11 +1910,7 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, flo
 
 static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
 {
-    for (int i = 0; i < SHADE__POINT; i++) {
-        rows->x[i] = v.x;
-        rows->y[i] = v.y;
-        rows->z[i] = v.z;
-    }
+    for (int i = 0; i < SHADE__POINT; i++) shade__put(rows, i, v);
 }
 static SHADE__NOINLINE void shade__light_at_point(const shade_light *light, const shade__v3 *P,
                                                   shade__arrival *a)
@@ -1945,18 +1948,22 @@ typedef struct shade__rows {
     float rv[SHADE_LANES];        /* 1/|V| */
 } shade__rows;
 
-/* 1/|N| and 1/|V|.  V = (eye - scale P) rv, so that scale 0 is a viewer at infinity. */
+/* Toward the viewer, not unit.  eye.w is 0 for a viewer at infinity, else 1. */
+SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 P)
+{
+    return shade_madd(shade_v3(eye.x, eye.y, eye.z), -eye.w, P);
+}
+/* 1/|N| and 1/|V| */
 SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P,
-                                 const shade__v3 *SHADE_RESTRICT N, shade_vec3 eye, float scale,
-                                 uint32_t flip, const int n, shade__rows *SHADE_RESTRICT r)
+                                 const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, uint32_t flip,
+                                 const int n, shade__rows *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
-        float x = N->x[i], y = N->y[i], z = N->z[i];
-        float vx = eye.x - scale * P->x[i], vy = eye.y - scale * P->y[i];
-        float vz = eye.z - scale * P->z[i], nv = x * vx + y * vy + z * vz;
-        float rn = shade__rsqrt(x * x + y * y + z * z);
-        r->rn[i] = shade__bits_float(shade__float_bits(rn) ^ (shade__mask(nv < 0) & flip));
-        r->rv[i] = shade__rsqrt(vx * vx + vy * vy + vz * vz);
+        shade_vec3 m = shade__at(N, i), V = shade__view(eye, shade__at(P, i));
+        uint32_t turned = shade__mask(shade_dot(m, V) < 0) & flip;
+        float rn = shade__rsqrt(shade_dot(m, m));
+        r->rn[i] = shade__bits_float(shade__float_bits(rn) ^ turned);
+        r->rv[i] = shade__rsqrt(shade_dot(V, V));
     }
 }
 /* N.L; returns non-zero if some lane faces the lamp */
@@ -1965,8 +1972,7 @@ SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const i
 {
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        const float x = r->a.L.x[i], y = r->a.L.y[i], z = r->a.L.z[i];
-        float nl = (N->x[i] * x + N->y[i] * y + N->z[i] * z) * r->rn[i];
+        float nl = shade_dot(shade__at(N, i), shade__at(&r->a.L, i)) * r->rn[i];
         r->a.cosine[i] = nl;
         any |= shade__mask(nl > 0);
     }
@@ -1976,17 +1982,15 @@ SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const i
 /* a.L.x becomes N.H, or SHADE__NO_HALF.  Returns non-zero if some lane (with N.L > 0, or open) has
    |L + V|^2 below 1e-3, for shade__half_near. */
 SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT P,
-                                   const shade__v3 *SHADE_RESTRICT N, shade_vec3 eye, float scale,
+                                   const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye,
                                    uint32_t open, const int n, shade__rows *SHADE_RESTRICT r)
 {
     uint32_t near_zero = 0;
     SHADE__FOR(i, n) {
-        float rv = r->rv[i];
-        float hx = r->a.L.x[i] + (eye.x - scale * P->x[i]) * rv;
-        float hy = r->a.L.y[i] + (eye.y - scale * P->y[i]) * rv;
-        float hz = r->a.L.z[i] + (eye.z - scale * P->z[i]) * rv;
-        float h2 = hx * hx + hy * hy + hz * hz;
-        float nh = (N->x[i] * hx + N->y[i] * hy + N->z[i] * hz) * (r->rn[i] * shade__rsqrt(h2));
+        shade_vec3 V = shade__view(eye, shade__at(P, i));
+        shade_vec3 H = shade_madd(shade__at(&r->a.L, i), r->rv[i], V);
+        float h2 = shade_dot(H, H);
+        float nh = shade_dot(shade__at(N, i), H) * (r->rn[i] * shade__rsqrt(h2));
         near_zero |= shade__mask(h2 < 1e-3f) & (shade__mask(r->a.cosine[i] > 0) | open);
         r->a.L.x[i] =
             shade__select(shade__saturate(nh), SHADE__NO_HALF, shade__mask(h2 < 1e-12f));
@@ -2002,11 +2006,11 @@ static void shade__unit3(double *v)
 /* The lanes where L and V are nearly opposite, again from the positions, in double: their sum keeps
    few digits in float. */
 static SHADE__NOINLINE void shade__half_near(const shade_light *light, const shade__v3 *P,
-                                             const shade__v3 *N, shade_vec3 eye, float scale,
-                                             const int n, shade__rows *r)
+                                             const shade__v3 *N, shade_vec4 eye, const int n,
+                                             shade__rows *r)
 {
     const shade_vec4 at = light->position;
-    const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)scale;
+    const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)eye.w;
     for (int i = 0; i < n; i++) {
         const double p[3] = { (double)P->x[i], (double)P->y[i], (double)P->z[i] };
         double l[3] = { (double)at.x / w - k * p[0], (double)at.y / w - k * p[1],
@@ -2030,18 +2034,15 @@ static SHADE__NOINLINE void shade__half_near(const shade_light *light, const sha
 }
 /* a.L.x becomes R.V, as shade__mirror_cosine */
 SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT P,
-                                   const shade__v3 *SHADE_RESTRICT N, shade_vec3 eye, float scale,
-                                   const int n, shade__rows *SHADE_RESTRICT r)
+                                   const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, const int n,
+                                   shade__rows *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
         float rv = r->rv[i], k = 2 * r->a.cosine[i] * r->rn[i];
-        float lx = r->a.L.x[i], ly = r->a.L.y[i], lz = r->a.L.z[i];
-        float dx = k * N->x[i] - (lx + (eye.x - scale * P->x[i]) * rv);
-        float dy = k * N->y[i] - (ly + (eye.y - scale * P->y[i]) * rv);
-        float dz = k * N->z[i] - (lz + (eye.z - scale * P->z[i]) * rv);
-        uint32_t exists = shade__mask(rv > 0) & shade__mask(lx * lx + ly * ly + lz * lz > 0);
-        float x = 1 - 0.5f * (dx * dx + dy * dy + dz * dz);
-        r->a.L.x[i] = shade__keep(shade__saturate(x), exists);
+        shade_vec3 L = shade__at(&r->a.L, i), V = shade__view(eye, shade__at(P, i));
+        shade_vec3 d = shade_sub(shade_scale(shade__at(N, i), k), shade_madd(L, rv, V));
+        uint32_t exists = shade__mask(rv > 0) & shade__mask(shade_dot(L, L) > 0);
+        r->a.L.x[i] = shade__keep(shade__saturate(1 - 0.5f * shade_dot(d, d)), exists);
     }
 }
 /* Second half of a power for the highlight: a.L.x = B (N.H)^n; open lifts the gate B, weighted
@@ -2057,20 +2058,27 @@ SHADE__INLINE void shade__gloss(uint32_t open, uint32_t weighted, const int n,
     }
 }
 
-/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s gloss); with absolute |N.L|.  Inlined with
-   albedo NULL, the choice and its factor of 1 vanish, here and in the next two. */
+/* Of a lane.  Inlined with rows NULL, the choice and its factor of 1 vanish. */
+SHADE__INLINE shade_vec3 shade__albedo(const shade__v3 *rows, int i)
+{
+    return rows ? shade__at(rows, i) : shade_v3(1, 1, 1);
+}
+SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light)
+{
+    shade__put(rgb, i, shade_add(shade__at(rgb, i), light));
+}
+/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s gloss); with absolute |N.L|. */
 SHADE__INLINE void shade__combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
                                   const shade__v3 *SHADE_RESTRICT albedo, const int n,
                                   const shade__rows *SHADE_RESTRICT r,
                                   shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
-        float nl = r->a.cosine[i], att = r->a.att[i], gloss = r->a.L.x[i] * att;
+        float nl = r->a.cosine[i], att = r->a.att[i];
         float lit = shade__keep(nl, shade__mask(nl > 0) | absolute);
-        lit = shade__bits_float(shade__float_bits(lit) & 0x7FFFFFFFu) * att;
-        rgb->x[i] += kd.x * (albedo ? albedo->x[i] : 1) * lit + ks.x * gloss;
-        rgb->y[i] += kd.y * (albedo ? albedo->y[i] : 1) * lit + ks.y * gloss;
-        rgb->z[i] += kd.z * (albedo ? albedo->z[i] : 1) * lit + ks.z * gloss;
+        shade_vec3 diffuse = shade_mul(kd, shade__albedo(albedo, i));
+        diffuse = shade_scale(diffuse, shade__keep(lit, 0x7FFFFFFFu) * att);
+        shade__add_to(rgb, i, shade_madd(diffuse, r->a.L.x[i] * att, ks));
     }
 }
 /* rgb = base + slope albedo */
@@ -2079,9 +2087,7 @@ SHADE__INLINE void shade__begin_light(shade_vec3 base, shade_vec3 slope,
                                       shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
-        rgb->x[i] = base.x + slope.x * (albedo ? albedo->x[i] : 1);
-        rgb->y[i] = base.y + slope.y * (albedo ? albedo->y[i] : 1);
-        rgb->z[i] = base.z + slope.z * (albedo ? albedo->z[i] : 1);
+        shade__put(rgb, i, shade_add(base, shade_mul(slope, shade__albedo(albedo, i))));
     }
 }
 /* rgb += (base + x slope) albedo */
@@ -2090,9 +2096,8 @@ SHADE__INLINE void shade__ramp(shade_vec3 base, shade_vec3 slope, const float *S
                                shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
-        rgb->x[i] += (base.x + x[i] * slope.x) * (albedo ? albedo->x[i] : 1);
-        rgb->y[i] += (base.y + x[i] * slope.y) * (albedo ? albedo->y[i] : 1);
-        rgb->z[i] += (base.z + x[i] * slope.z) * (albedo ? albedo->z[i] : 1);
+        shade_vec3 tone = shade_madd(base, x[i], slope);
+        shade__add_to(rgb, i, shade_mul(tone, shade__albedo(albedo, i)));
     }
 }
 /* att times visibility */
@@ -2106,8 +2111,7 @@ SHADE__INLINE void shade__hide(const float *SHADE_RESTRICT visibility, const int
 typedef struct shade__job {
     shade__surface s;
     const shade__v3 *P, *N, *albedo;
-    shade_vec3 eye;
-    float      scale;             /* of P in V: 0 for a viewer at infinity */
+    shade_vec4 eye;               /* w = 0: a viewer at infinity */
 } shade__job;
 
 /* Adds one lamp to rgb, but its unattenuated ambient light.  visibility: its row, or NULL. */
@@ -2132,19 +2136,19 @@ SHADE__INLINE void shade__add_light(const shade__job *j, const shade_light *ligh
     if (ambient) {
         const shade_vec3 none = shade_v3(0, 0, 0);
         if (!SHADE__TWICE || j->albedo) shade__ramp(none, ka, r->a.att, j->albedo, n, rgb);
-        else shade__ramp(none, ka, r->a.att, (const shade__v3 *)0, n, rgb);
+        else shade__ramp(none, ka, r->a.att, NULL, n, rgb);
     }
     if (!(any | open | absolute)) return;
     if (gloss) {
-        if (s->phong) shade__mirrored(j->P, j->N, j->eye, j->scale, n, r);
-        else if (shade__half(j->P, j->N, j->eye, j->scale, open, n, r))
-            shade__half_near(light, j->P, j->N, j->eye, j->scale, n, r);
+        if (s->phong) shade__mirrored(j->P, j->N, j->eye, n, r);
+        else if (shade__half(j->P, j->N, j->eye, open, n, r))
+            shade__half_near(light, j->P, j->N, j->eye, n, r);
         shade__log_row(s->shininess, n, r->a.L.x);
         shade__gloss(open, weighted, n, r);
     } else SHADE_MEMSET(r->a.L.x, 0, sizeof r->a.L.x);
     if (visibility) shade__hide(visibility, n, r->a.att);
     if (!SHADE__TWICE || j->albedo) shade__combine(kd, ks, absolute, j->albedo, n, r, rgb);
-    else shade__combine(kd, ks, absolute, (const shade__v3 *)0, n, r, rgb);
+    else shade__combine(kd, ks, absolute, NULL, n, r, rgb);
 }
 /* Adds the tone: cool + k_w (warm - cool), k_w = (1 + N.L) / 2, L toward the first light.
                                                                                       [Gooch98] */
@@ -2162,7 +2166,7 @@ SHADE__INLINE void shade__add_tone(const shade__job *j, const shade_light *light
     shade__horizon(j->N, n, r);
     SHADE__FOR(i, n) { r->a.cosine[i] = 0.5f + 0.5f * r->a.cosine[i]; }
     if (!SHADE__TWICE || j->albedo) shade__ramp(s->cool, slope, r->a.cosine, j->albedo, n, rgb);
-    else shade__ramp(s->cool, slope, r->a.cosine, (const shade__v3 *)0, n, rgb);
+    else shade__ramp(s->cool, slope, r->a.cosine, NULL, n, rgb);
 }
 
 SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__job *j,
@@ -2174,16 +2178,16 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__
     const shade__v3 *albedo = j->albedo;
     shade_vec3 ambient = s->scene_ambient;
     shade__rows r;
-    shade__viewer(j->P, j->N, j->eye, j->scale, flip, n, &r);
+    shade__viewer(j->P, j->N, j->eye, flip, n, &r);
     if ((s->terms & SHADE_TERM_AMBIENT) && !(s->flags & SHADE_FLAG_ATTENUATED_AMBIENT))
         for (ptrdiff_t k = 0; k < s->light_count; k++)
             ambient = shade_add(ambient, lights[k].ambient);
     ambient = shade_mul(ambient, s->ambient);
-    if (shade__is_zero(ambient)) albedo = (const shade__v3 *)0;
+    if (shade__is_zero(ambient)) albedo = NULL;
     if (!SHADE__TWICE || albedo) shade__begin_light(s->emission, ambient, albedo, n, rgb);
-    else shade__begin_light(s->emission, ambient, (const shade__v3 *)0, n, rgb);
+    else shade__begin_light(s->emission, ambient, NULL, n, rgb);
     if (s->cool_to_warm) {
-        shade__add_tone(j, s->light_count > 0 ? lights : (const shade_light *)0, n, &r, rgb);
+        shade__add_tone(j, s->light_count > 0 ? lights : NULL, n, &r, rgb);
         return;
     }
     for (int k = 0; k < s->light_count; k++) {
@@ -2202,9 +2206,8 @@ static shade__job shade__job_of(const shade_lighting *lighting, const shade_mate
     j.s = shade__surface_of(lighting, material);
     j.P = P;
     j.N = N;
-    j.albedo = (const shade__v3 *)0;
-    j.eye = eye;
-    j.scale = j.s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f;
+    j.albedo = NULL;
+    j.eye = shade_v4(eye.x, eye.y, eye.z, j.s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
     return j;
 }
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
@@ -2223,7 +2226,7 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
 static SHADE__NOINLINE void shade__lit_point(const shade_lighting *lighting, const shade__job *j,
                                              shade__v3 *rgb)
 {
-    shade__lit_body(lighting, j, (const float *)0, SHADE__POINT, rgb);
+    shade__lit_body(lighting, j, NULL, SHADE__POINT, rgb);
 }
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 P, shade_vec3 N)
@@ -4175,7 +4178,7 @@ SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
 {
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
-    const uint32_t *alive = plan->pipe->may_discard ? c->discard : (const uint32_t *)0;
+    const uint32_t *alive = plan->pipe->may_discard ? c->discard : NULL;
     SHADE_ALIGNED uint32_t packed[SHADE_LANES];
     if (alive) shade__late_depth(d, c->discard);
     if (!plan->color) return;
@@ -4294,7 +4297,7 @@ static void shade__make_plan(const shade_target *t, const shade_pipeline *p, int
     plan->stage.push = shade__push_pick();
     plan->stage.flush = shade__flush_pick();
     plan->stage.store = shade__store_pick();
-    plan->color = p->fragment ? (uint8_t *)t->color : (uint8_t *)0;
+    plan->color = p->fragment ? (uint8_t *)t->color : NULL;
     plan->depth = t->depth;
     plan->pixel_bytes = shade__pixel_bytes(t->format);
     plan->stride = shade__stride_of(t);
@@ -4333,7 +4336,7 @@ static shade_result shade__run_draw(const shade_target *target, const shade_pipe
     if (!pipe.fragment) pipe.may_discard = 0;
     if (!pipe.fragment || (!target->color && !pipe.may_discard)) {    /* nobody reads them */
         pipe.varyings = 0;
-        pipe.lod_texture = (const shade_texture *)0;
+        pipe.lod_texture = NULL;
     }
     shade__make_plan(target, &pipe, own, &d.plan);
     SHADE_MEMSET(&d.stats, 0, sizeof d.stats);
@@ -4516,7 +4519,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         levels[n] = *texture;
         levels[n].pixels = p;
         levels[n].stride = 0;
-        levels[n].mipmaps = (shade_texture *)0;
+        levels[n].mipmaps = NULL;
         levels[n].mipmap_count = 0;
         levels[n].width = shade__max(up->width / 2, 1);
         levels[n].height = shade__max(up->height / 2, 1);
@@ -4574,12 +4577,6 @@ SHADE__INLINE shade_vec3 shade__position(const shade_mesh *m, uint32_t i)
 SHADE__INLINE uint32_t shade__corner_index(const shade_mesh *m, uint32_t corner)
 {
     return m->indices ? m->indices[corner] : corner;
-}
-SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
-{
-    rows->x[i] = v.x;
-    rows->y[i] = v.y;
-    rows->z[i] = v.z;
 }
 /* Three rows of a packet, from one on. */
 SHADE__INLINE shade__v3 *shade__three_rows(float *row) { return (shade__v3 *)(void *)row; }
@@ -4674,7 +4671,7 @@ static void shade__light_vertices(const shade__scene *s, const shade_lighting *l
                                   float *rgb)
 {
     shade_lit_lanes(lighting, s->state->material, s->eye, P->x, N->x,
-                    albedo ? albedo->x : (const float *)0, (const float *)0, rgb);
+                    albedo ? albedo->x : NULL, NULL, rgb);
 }
 /* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or
    with a map what it multiplies, the rest, u, v. */
@@ -4695,7 +4692,7 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
         shade__fetch_faces(s, in, shading == SHADE_SHADING_PER_FACE, P, N, albedo);
     shade__lane_world(s->world_from_object, P);
     shade__lane_normal(s->normal_matrix, N);
-    if (!colored) albedo = (shade__v3 *)0;
+    if (!colored) albedo = NULL;
     if (lit && s->map) {
         shade__light_vertices(s, &s->matte, P, N, albedo, (float *)out->varying);
         shade__light_vertices(s, &s->gloss, P, N, albedo, (float *)out->varying + 3 * SHADE_LANES);
@@ -4712,7 +4709,7 @@ SHADE__DISPATCH_AVX2(shade__mesh_vertex,
 static void shade__sample_map(const shade__scene *s, const shade_fragments *in, float *rgba)
 {
     shade_sample_lanes(s->map, in->varying[s->uv], in->varying[s->uv + 1],
-                       s->map->mipmap_count ? in->lod : (const float *)0, rgba);
+                       s->map->mipmap_count ? in->lod : NULL, rgba);
 }
 /* The row of alpha holds the map's, or 1: what is stored, what is cut by it, what ADD is to add. */
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
@@ -4740,7 +4737,7 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const float *P = in->varying[0], *N = P + 3 * SHADE_LANES, *colors = N + 3 * SHADE_LANES;
-    const float *albedo = s->mesh->colors ? colors : (const float *)0;
+    const float *albedo = s->mesh->colors ? colors : NULL;
     float both[3 * SHADE_LANES];
     if (s->map) {    /* its alpha stays in the row of alpha */
         shade__sample_map(s, in, out->color[0]);
@@ -4749,7 +4746,7 @@ static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_R
         albedo = both;
     }
     shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo,
-                    (const float *)0, out->color[0]);
+                    NULL, out->color[0]);
     shade__mesh_alpha(s, out);
 }
 /* Gouraud and flat: the colour arrives. */
@@ -4814,7 +4811,7 @@ static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
                 ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
                 : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
     s.face_normals = !mesh->normals || state->shading == SHADE_SHADING_PER_FACE;
-    s.map = mesh->texcoords ? state->diffuse_map : (const shade_texture *)0;
+    s.map = mesh->texcoords ? state->diffuse_map : NULL;
     if (state->shading == SHADE_SHADING_PER_FRAGMENT) s.uv = mesh->colors ? 9 : 6;
     else s.uv = s.map ? 6 : 3;
     s.matte = s.gloss = state->lighting;
@@ -4865,7 +4862,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     result = shade__check_indices(mesh->indices, count, mesh->vertex_count);
     if (result != SHADE_OK) return result;
     return shade__run_draw(target, &p, 1,
-                           scene.face_normals ? (const uint32_t *)0 : mesh->indices, count, stats);
+                           scene.face_normals ? NULL : mesh->indices, count, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>lines
@@ -5012,7 +5009,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     p.raster.cull = SHADE_CULL_NONE;
     result = shade__check_pipeline(&p);
     if (result != SHADE_OK) return result;
-    return shade__run_draw(target, &p, 1, (const uint32_t *)0, point_count * 3, stats);
+    return shade__run_draw(target, &p, 1, NULL, point_count * 3, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
@@ -5204,7 +5201,7 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     }
     shade__sort_edges(edges, n);
     for (int i = 0; i < n; i++) {
-        shade_edge *last = kept ? &edges[kept - 1] : (shade_edge *)0;
+        shade_edge *last = kept ? &edges[kept - 1] : NULL;
         int same = last && last->a == edges[i].a && last->b == edges[i].b;
         if (same && edges[i].triangle[0] == shade__max(last->triangle[0], last->triangle[1]))
             continue;
