@@ -555,6 +555,8 @@ SHADE__INLINE shade_vec4 shade_lerp4(shade_vec4 a, shade_vec4 b, float t)
     return shade_add4(a, shade_scale4(shade_sub4(b, a), t));
 }
 
+SHADE__INLINE shade_vec3 shade__xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
+SHADE__INLINE shade_vec4 shade__xyzw(shade_vec3 v, float w) { return shade_v4(v.x, v.y, v.z, w); }
 SHADE__INLINE shade_mat3 shade__m3(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
     shade_mat3 m; m.col[0] = a; m.col[1] = b; m.col[2] = c; return m;
@@ -591,14 +593,13 @@ SHADE__INLINE shade_mat4 shade_mat4_mul(shade_mat4 a, shade_mat4 b)
 /* m (p, 1), divided by its w; not divided where w = 0 */
 SHADE__INLINE shade_vec3 shade_mat4_transform_point(shade_mat4 m, shade_vec3 p)
 {
-    shade_vec4 h = shade_mat4_transform(m, shade_v4(p.x, p.y, p.z, 1));
-    return h.w == 0 ? shade_v3(h.x, h.y, h.z) : shade_v3(h.x / h.w, h.y / h.w, h.z / h.w);
+    shade_vec4 h = shade_mat4_transform(m, shade__xyzw(p, 1));
+    return h.w == 0 ? shade__xyz(h) : shade_v3(h.x / h.w, h.y / h.w, h.z / h.w);
 }
 /* m (d, 0): translation does not move a direction; not made unit */
 SHADE__INLINE shade_vec3 shade_mat4_transform_direction(shade_mat4 m, shade_vec3 d)
 {
-    shade_vec4 h = shade_mat4_transform(m, shade_v4(d.x, d.y, d.z, 0));
-    return shade_v3(h.x, h.y, h.z);
+    return shade__xyz(shade_mat4_transform(m, shade__xyzw(d, 0)));
 }
 
 /* det m^-T: the columns are cross products of the columns of m */
@@ -1208,15 +1209,13 @@ SHADEDEF shade_mat3 shade_mat3_identity(void)
 }
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m)
 {
-    return shade__m3(shade_v3(m.col[0].x, m.col[0].y, m.col[0].z),
-                     shade_v3(m.col[1].x, m.col[1].y, m.col[1].z),
-                     shade_v3(m.col[2].x, m.col[2].y, m.col[2].z));
+    return shade__m3(shade__xyz(m.col[0]), shade__xyz(m.col[1]), shade__xyz(m.col[2]));
 }
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m)
 {
-    return shade__m3(shade_v3(m.col[0].x, m.col[1].x, m.col[2].x),
-                     shade_v3(m.col[0].y, m.col[1].y, m.col[2].y),
-                     shade_v3(m.col[0].z, m.col[1].z, m.col[2].z));
+    shade_mat3 t;
+    for (int k = 0; k < 9; k++) ((float *)&t)[k] = ((const float *)&m)[k % 3 * 3 + k / 3];
+    return t;
 }
 SHADEDEF float shade_mat3_determinant(shade_mat3 m)
 {
@@ -1247,29 +1246,27 @@ SHADEDEF shade_mat4 shade_mat4_identity(void) { return shade_mat4_scaling(shade_
 SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v)
 {
     shade_mat4 m = shade_mat4_identity();
-    m.col[3] = shade_v4(v.x, v.y, v.z, 1);
+    m.col[3] = shade__xyzw(v, 1);
     return m;
 }
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m)
 {
-    return shade__m4(shade_v4(m.col[0].x, m.col[1].x, m.col[2].x, m.col[3].x),
-                     shade_v4(m.col[0].y, m.col[1].y, m.col[2].y, m.col[3].y),
-                     shade_v4(m.col[0].z, m.col[1].z, m.col[2].z, m.col[3].z),
-                     shade_v4(m.col[0].w, m.col[1].w, m.col[2].w, m.col[3].w));
+    shade_mat4 t;
+    for (int k = 0; k < 16; k++) ((float *)&t)[k] = ((const float *)&m)[k % 4 * 4 + k / 4];
+    return t;
+}
+
+static void shade__doubles(const shade_mat4 *m, double *e)
+{
+    for (int k = 0; k < 16; k++) e[k] = (double)((const float *)m)[k];
 }
 
 /* The 2 x 2 minors of columns a, b, of rows xy xz xw yz yw zw: what determinant and inverse
    share. */
-static void shade__minors(shade_vec4 a, shade_vec4 b, double *m)
+static void shade__minors(const double *a, const double *b, double *m)
 {
-    double ax = (double)a.x, ay = (double)a.y, az = (double)a.z, aw = (double)a.w;
-    double bx = (double)b.x, by = (double)b.y, bz = (double)b.z, bw = (double)b.w;
-    m[0] = ax * by - bx * ay;
-    m[1] = ax * bz - bx * az;
-    m[2] = ax * bw - bx * aw;
-    m[3] = ay * bz - by * az;
-    m[4] = ay * bw - by * aw;
-    m[5] = az * bw - bz * aw;
+    for (int i = 0; i < 3; i++)
+        for (int k = i + 1; k < 4; k++) *m++ = a[i] * b[k] - b[i] * a[k];
 }
 static double shade__determinant(const double *s, const double *c)
 {
@@ -1277,66 +1274,50 @@ static double shade__determinant(const double *s, const double *c)
 }
 SHADEDEF float shade_mat4_determinant(shade_mat4 m)
 {
-    double s[6], c[6];
-    shade__minors(m.col[0], m.col[1], s);
-    shade__minors(m.col[2], m.col[3], c);
+    double e[16], s[6], c[6];
+    shade__doubles(&m, e);
+    shade__minors(e, e + 4, s);
+    shade__minors(e + 8, e + 12, c);
     return (float)shade__determinant(s, c);
 }
 static int shade__is_finite(const shade_mat4 *m)
 {
-    for (int j = 0; j < 4; j++) {
-        shade_vec4 v = m->col[j];
-        if (!shade__within(v.x, FLT_MAX) || !shade__within(v.y, FLT_MAX) ||
-            !shade__within(v.z, FLT_MAX) || !shade__within(v.w, FLT_MAX))
-            return 0;
-    }
+    for (int k = 0; k < 16; k++)
+        if (!shade__within(((const float *)m)[k], FLT_MAX)) return 0;
     return 1;
 }
-/* The camera itself, or the degenerate one where it is none or an entry is not finite. */
-static shade_mat4 shade__camera(int exists, shade_mat4 m)
+/* The matrix of a camera, or the degenerate one where it is none or an entry is not finite. */
+static shade_mat4 shade__camera(int exists, double xx, double yy, shade_vec4 z, shade_vec4 w)
 {
     shade_mat4 none = shade__zero_matrix();
+    shade_mat4 m = shade__m4(shade_v4((float)xx, 0, 0, 0), shade_v4(0, (float)yy, 0, 0), z, w);
     none.col[3] = shade_v4(0, 0, 2, 1);
     return exists && shade__is_finite(&m) ? m : none;
 }
-/* Column of the adjugate: v is a row of m without the columns of the minors c. */
-static shade_vec4 shade__adjugate(double p, double q, double r, double t, double scale)
-{
-    return shade_v4((float)(p * scale), (float)(q * scale), (float)(r * scale), (float)(t * scale));
-}
-/* Not inlined: gcc 12 drops the rounding where doubles become floats and two of them doubles again
+/* Cramer's rule: entry (i, j) is a sum over the rows but j of the other column of its pair (0, 1
+   or 2, 3) times minors of the other pair.
+   Not inlined: gcc 12 drops the rounding where doubles become floats and two of them doubles again
    next to each other (its SLP vectoriser), as they would in shade_pixel_ray. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
-    double s[6], c[6], det, k, e[4][4];
-    shade__minors(m.col[0], m.col[1], s);
-    shade__minors(m.col[2], m.col[3], c);
+    static const uint8_t row[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
+    static const uint8_t minor[4][3] = { { 5, 4, 3 }, { 5, 2, 1 }, { 4, 2, 0 }, { 3, 1, 0 } };
+    double e[16], s[6], c[6], det, k;
+    shade__doubles(&m, e);
+    shade__minors(e, e + 4, s);
+    shade__minors(e + 8, e + 12, c);
     det = shade__determinant(s, c);
     if (!(det < 0 || det > 0)) return shade__zero_matrix();
-    for (int j = 0; j < 4; j++) {
-        e[j][0] = (double)m.col[j].x;
-        e[j][1] = (double)m.col[j].y;
-        e[j][2] = (double)m.col[j].z;
-        e[j][3] = (double)m.col[j].w;
-    }
     k = 1 / det;
-    m = shade__m4(
-        shade__adjugate(e[1][1] * c[5] - e[1][2] * c[4] + e[1][3] * c[3],
-                        -e[0][1] * c[5] + e[0][2] * c[4] - e[0][3] * c[3],
-                        e[3][1] * s[5] - e[3][2] * s[4] + e[3][3] * s[3],
-                        -e[2][1] * s[5] + e[2][2] * s[4] - e[2][3] * s[3], k),
-        shade__adjugate(-e[1][0] * c[5] + e[1][2] * c[2] - e[1][3] * c[1],
-                        e[0][0] * c[5] - e[0][2] * c[2] + e[0][3] * c[1],
-                        -e[3][0] * s[5] + e[3][2] * s[2] - e[3][3] * s[1],
-                        e[2][0] * s[5] - e[2][2] * s[2] + e[2][3] * s[1], k),
-        shade__adjugate(e[1][0] * c[4] - e[1][1] * c[2] + e[1][3] * c[0],
-                        -e[0][0] * c[4] + e[0][1] * c[2] - e[0][3] * c[0],
-                        e[3][0] * s[4] - e[3][1] * s[2] + e[3][3] * s[0],
-                        -e[2][0] * s[4] + e[2][1] * s[2] - e[2][3] * s[0], k),
-        shade__adjugate(-e[1][0] * c[3] + e[1][1] * c[1] - e[1][2] * c[0],
-                        e[0][0] * c[3] - e[0][1] * c[1] + e[0][2] * c[0],
-                        -e[3][0] * s[3] + e[3][1] * s[1] - e[3][2] * s[0],
-                        e[2][0] * s[3] - e[2][1] * s[1] + e[2][2] * s[0], k));
+    for (int j = 0; j < 4; j++) {
+        for (int i = 0; i < 4; i++) {
+            const double *v = e + 4 * (i ^ 1), *other = i < 2 ? c : s, sign = (i + j) & 1 ? -1 : 1;
+            double sum = sign * v[row[j][0]] * other[minor[j][0]];
+            sum -= sign * v[row[j][1]] * other[minor[j][1]];
+            sum += sign * v[row[j][2]] * other[minor[j][2]];
+            ((float *)&m)[4 * j + i] = (float)(sum * k);
+        }
+    }
     return shade__is_finite(&m) ? m : shade__zero_matrix();
 }
 
@@ -1379,44 +1360,37 @@ static double shade__focal(float fovy)
 }
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z)
 {
-    double f = shade__focal(fovy), n = (double)near_z, d = n - (double)far_z;
-    int exists = f > 0 && aspect != 0 && near_z > 0 && far_z > 0 && d != 0;
-    return shade__camera(exists,
-                         shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
-                                   shade_v4(0, (float)f, 0, 0),
-                                   shade_v4(0, 0, (float)((n + (double)far_z) / d), -1),
-                                   shade_v4(0, 0, (float)(2 * n * (double)far_z / d), 0)));
+    double y = shade__focal(fovy), n = (double)near_z, f = (double)far_z, d = n - f;
+    return shade__camera(y > 0 && aspect != 0 && n > 0 && f > 0 && d != 0, y / (double)aspect, y,
+                         shade_v4(0, 0, (float)((n + f) / d), -1),
+                         shade_v4(0, 0, (float)(2 * n * f / d), 0));
 }
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z)
 {
-    double f = shade__focal(fovy);
-    return shade__camera(f > 0 && aspect != 0 && near_z > 0,
-                         shade__m4(shade_v4((float)(f / (double)aspect), 0, 0, 0),
-                                   shade_v4(0, (float)f, 0, 0), shade_v4(0, 0, 0, -1),
-                                   shade_v4(0, 0, near_z, 0)));
+    double y = shade__focal(fovy);
+    return shade__camera(y > 0 && aspect != 0 && near_z > 0, y / (double)aspect, y,
+                         shade_v4(0, 0, 0, -1), shade_v4(0, 0, near_z, 0));
+}
+/* A box of eye space, or the frustum whose face at near is that of the box. */
+static shade_mat4 shade__box_camera(int frustum, double l, double r, double b, double t, double n,
+                                    double f)
+{
+    const double w = r - l, h = t - b, d = n - f, k = frustum ? 2 * n : 2;
+    const float x = (float)((r + l) / w), y = (float)((t + b) / h), z = (float)((n + f) / d);
+    const int exists = w != 0 && h != 0 && d != 0;
+    if (!frustum)
+        return shade__camera(exists, k / w, k / h, shade_v4(0, 0, (float)(k / d), 0),
+                             shade_v4(-x, -y, z, 1));
+    return shade__camera(exists && n > 0 && f > 0, k / w, k / h, shade_v4(x, y, z, -1),
+                         shade_v4(0, 0, (float)(k * f / d), 0));
 }
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f)
 {
-    double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
-    double n2 = 2 * (double)n;
-    return shade__camera(
-        w != 0 && h != 0 && d != 0 && n > 0 && f > 0,
-        shade__m4(shade_v4((float)(n2 / w), 0, 0, 0), shade_v4(0, (float)(n2 / h), 0, 0),
-                  shade_v4((float)(((double)r + (double)l) / w),
-                           (float)(((double)t + (double)b) / h),
-                           (float)(((double)n + (double)f) / d), -1),
-                  shade_v4(0, 0, (float)(n2 * (double)f / d), 0)));
+    return shade__box_camera(1, (double)l, (double)r, (double)b, (double)t, (double)n, (double)f);
 }
 SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t, float n, float f)
 {
-    double w = (double)r - (double)l, h = (double)t - (double)b, d = (double)n - (double)f;
-    return shade__camera(
-        w != 0 && h != 0 && d != 0,
-        shade__m4(shade_v4((float)(2 / w), 0, 0, 0), shade_v4(0, (float)(2 / h), 0, 0),
-                  shade_v4(0, 0, (float)(2 / d), 0),
-                  shade_v4((float)(-((double)r + (double)l) / w),
-                           (float)(-((double)t + (double)b) / h),
-                           (float)(((double)n + (double)f) / d), 1)));
+    return shade__box_camera(0, (double)l, (double)r, (double)b, (double)t, (double)n, (double)f);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -1605,16 +1579,15 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
 {
     shade_light light;
-    shade_vec3 toward = shade_neg(direction_of_travel);
     SHADE_MEMSET(&light, 0, sizeof light);
-    light.position = shade_v4(toward.x, toward.y, toward.z, 0);
+    light.position = shade__xyzw(shade_neg(direction_of_travel), 0);
     light.diffuse = light.specular = color;
     return light;
 }
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color)
 {
     shade_light light = shade_directional_light(position, color);
-    light.position = shade_v4(position.x, position.y, position.z, 1);
+    light.position = shade__xyzw(position, 1);
     return light;
 }
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
@@ -1812,7 +1785,7 @@ SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
 {
     shade__lamp p;
     shade_vec4 at = light->position;
-    p.at = shade_v3(at.x, at.y, at.z);
+    p.at = shade__xyz(at);
     p.infinite = at.w == 0;
     if (p.infinite) p.at = shade_normalize(p.at);
     else if (at.w != 1) p.at = shade_v3(at.x / at.w, at.y / at.w, at.z / at.w);
@@ -1951,7 +1924,7 @@ typedef struct shade__rows {
 /* Toward the viewer, not unit.  eye.w is 0 for a viewer at infinity, else 1. */
 SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 P)
 {
-    return shade_madd(shade_v3(eye.x, eye.y, eye.z), -eye.w, P);
+    return shade_madd(shade__xyz(eye), -eye.w, P);
 }
 /* 1/|N| and 1/|V| */
 SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P,
@@ -2207,7 +2180,7 @@ static shade__job shade__job_of(const shade_lighting *lighting, const shade_mate
     j.P = P;
     j.N = N;
     j.albedo = NULL;
-    j.eye = shade_v4(eye.x, eye.y, eye.z, j.s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
+    j.eye = shade__xyzw(eye, j.s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
     return j;
 }
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
@@ -4617,38 +4590,27 @@ static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shad
 SHADE__INLINE void shade__lane_clip(shade_mat4 m, const shade__v3 *SHADE_RESTRICT P,
                                     float clip[4][SHADE_LANES])
 {
-    float *SHADE_RESTRICT cx = clip[0], *SHADE_RESTRICT cy = clip[1];
-    float *SHADE_RESTRICT cz = clip[2], *SHADE_RESTRICT cw = clip[3];
     SHADE_EACH_LANE(i) {
-        float x = P->x[i], y = P->y[i], z = P->z[i];
-        cx[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
-        cy[i] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
-        cz[i] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
-        cw[i] = m.col[0].w * x + m.col[1].w * y + m.col[2].w * z + m.col[3].w;
+        shade_vec4 c = shade_mat4_transform(m, shade__xyzw(shade__at(P, i), 1));
+        clip[0][i] = c.x;
+        clip[1][i] = c.y;
+        clip[2][i] = c.z;
+        clip[3][i] = c.w;
     }
 }
 /* P = m (P, 1); an affine model, so no division */
 SHADE__INLINE void shade__lane_world(shade_mat4 m, shade__v3 *SHADE_RESTRICT P)
 {
     SHADE_EACH_LANE(i) {
-        float x = P->x[i], y = P->y[i], z = P->z[i];
-        P->x[i] = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z + m.col[3].x;
-        P->y[i] = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z + m.col[3].y;
-        P->z[i] = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z + m.col[3].z;
+        shade__put(P, i, shade__xyz(shade_mat4_transform(m, shade__xyzw(shade__at(P, i), 1))));
     }
 }
 /* N = m N / |m N|; interpolation between vertices starts from unit normals */
 SHADE__INLINE void shade__lane_normal(shade_mat3 m, shade__v3 *SHADE_RESTRICT N)
 {
     SHADE_EACH_LANE(i) {
-        float x = N->x[i], y = N->y[i], z = N->z[i];
-        float a = m.col[0].x * x + m.col[1].x * y + m.col[2].x * z;
-        float b = m.col[0].y * x + m.col[1].y * y + m.col[2].y * z;
-        float c = m.col[0].z * x + m.col[1].z * y + m.col[2].z * z;
-        float r = shade__rsqrt(a * a + b * b + c * c);
-        N->x[i] = a * r;
-        N->y[i] = b * r;
-        N->z[i] = c * r;
+        shade_vec3 n = shade_mat3_transform(m, shade__at(N, i));
+        shade__put(N, i, shade_scale(n, shade__rsqrt(shade_dot(n, n))));
     }
 }
 
@@ -4787,8 +4749,8 @@ static int shade__corner_count(const shade_mesh *m)
 
 static int shade__is_zero_matrix(const shade_mat4 *m)
 {
-    for (int j = 0; j < 4; j++)
-        if (m->col[j].x != 0 || m->col[j].y != 0 || m->col[j].z != 0 || m->col[j].w != 0) return 0;
+    for (int k = 0; k < 16; k++)
+        if (((const float *)m)[k] != 0) return 0;
     return 1;
 }
 static shade_mat4 shade__or_identity(shade_mat4 m)
@@ -5233,11 +5195,11 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
     shade_vec3 forward = shade_mat4_transform_direction(camera, shade_v3(0, 0, -1)), d;
     if (projection.col[0].w != 0 || projection.col[1].w != 0 || projection.col[2].w != 0) {
         ray.origin = shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
-        d = shade_sub(shade_v3(far_h.x, far_h.y, far_h.z), shade_scale(ray.origin, far_h.w));
+        d = shade_sub(shade__xyz(far_h), shade_scale(ray.origin, far_h.w));
     } else {
         ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
-        d = shade_sub(shade_scale(shade_v3(far_h.x, far_h.y, far_h.z), near_h.w),
-                      shade_scale(shade_v3(near_h.x, near_h.y, near_h.z), far_h.w));
+        d = shade_sub(shade_scale(shade__xyz(far_h), near_h.w),
+                      shade_scale(shade__xyz(near_h), far_h.w));
     }
     ray.direction = shade_normalize(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
     return ray;
