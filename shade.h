@@ -1091,6 +1091,8 @@ typedef uint32_t shade__word;
      holds   Loops over lanes select by masks and clamp by integers, because gcc turns float selects
              into branches and leaves the loop scalar.  A mask is all ones or zeros.   >>matrix */
 
+#define SHADE__ZERO(x) SHADE_MEMSET(&(x), 0, sizeof(x))
+
 SHADE__INLINE int shade__min(int a, int b) { return a < b ? a : b; }
 SHADE__INLINE int shade__max(int a, int b) { return a > b ? a : b; }
 SHADE__INLINE int32_t shade__int_of(float f) { int32_t i; SHADE_MEMCPY(&i, &f, 4); return i; }
@@ -1511,12 +1513,13 @@ static size_t shade__pixel_bytes(shade_format format)
 /* the two bytes of u < 2^16 exchanged */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return u >> 8 | (u & 255) << 8; }
 
-/* where channel k (R, G, B, A) of a pixel of 4 bytes lies in a native uint32 */
+/* where channel k (R, G, B, A) lies in a packed pixel: a native uint16, or a native uint32 */
 SHADE__INLINE int shade__channel_shift(shade_format format, int k)
 {
     const uint32_t one = 1;
     const int byte = format == SHADE_FORMAT_BGRA8 && k < 3 ? 2 - k : k;
     uint8_t first;
+    if (shade__pixel_bytes(format) == 2) return k == 0 ? 11 : k == 1 ? 5 : 0;
     SHADE_MEMCPY(&first, &one, 1);
     return first ? 8 * byte : 24 - 8 * byte;
 }
@@ -1571,6 +1574,23 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
         if (t->srgb && k < 3) rgba[k] = shade__srgb_decode(rgba[k]);
     }
 }
+SHADE__INLINE int shade__rows_held(const shade_target *t)
+{
+    return t->row_count ? t->row_count : t->height;
+}
+SHADE__INLINE int shade__stride_of(const shade_target *t)
+{
+    return t->stride ? t->stride : t->width;
+}
+/* Index of a pixel in color and depth. */
+SHADE__INLINE size_t shade__offset_of(const shade_target *t, int x, int y)
+{
+    return (size_t)(y - t->row_offset) * (size_t)shade__stride_of(t) + (size_t)x;
+}
+SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
+{
+    return (uint8_t *)t->color + shade__offset_of(t, x, y) * shade__pixel_bytes(t->format);
+}
 
 /*--------------------------------------------------------------------------------------- >>lighting
    Lamps, single terms, presets: what is computed for one point, with exact roots and divisions;
@@ -1579,7 +1599,7 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
 {
     shade_light light;
-    SHADE_MEMSET(&light, 0, sizeof light);
+    SHADE__ZERO(light);
     light.position = shade__xyzw(shade_neg(direction_of_travel), 0);
     light.diffuse = light.specular = color;
     return light;
@@ -1876,7 +1896,7 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, flo
 {
     shade__arrival a;
     if (light && P) shade__light_at_pick()(light, shade__rows_of(P), &a);
-    else SHADE_MEMSET(&a, 0, sizeof a);
+    else SHADE__ZERO(a);
     if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
     if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
 }
@@ -2118,7 +2138,7 @@ SHADE__INLINE void shade__add_light(const shade__job *j, const shade_light *ligh
             shade__half_near(light, j->P, j->N, j->eye, n, r);
         shade__log_row(s->shininess, n, r->a.L.x);
         shade__gloss(open, weighted, n, r);
-    } else SHADE_MEMSET(r->a.L.x, 0, sizeof r->a.L.x);
+    } else SHADE__ZERO(r->a.L.x);
     if (visibility) shade__hide(visibility, n, r->a.att);
     if (!SHADE__TWICE || j->albedo) shade__combine(kd, ks, absolute, j->albedo, n, r, rgb);
     else shade__combine(kd, ks, absolute, NULL, n, r, rgb);
@@ -2132,7 +2152,7 @@ SHADE__INLINE void shade__add_tone(const shade__job *j, const shade_light *light
     const shade_vec3 slope = shade_sub(s->warm, s->cool);
     shade_light toward;
     shade__lamp lamp;
-    SHADE_MEMSET(&toward, 0, sizeof toward);
+    SHADE__ZERO(toward);
     if (light) toward.position = light->position;
     lamp = shade__lamp_of(&toward);
     shade__arrive(&toward, &lamp, j->P, n, &r->a);
@@ -2218,7 +2238,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
 {
     shade_terms t;
     shade_vec3 *term[4] = { &t.emission, &t.ambient, &t.diffuse, &t.specular };
-    SHADE_MEMSET(&t, 0, sizeof t);
+    SHADE__ZERO(t);
     for (unsigned k = 0; k < 4 && lighting; k++) {
         shade_lighting one = *lighting;
         one.terms = 1u << k;
@@ -2470,7 +2490,7 @@ static void shade__shade_vertices(shade__draw *d)
     const int varyings = d->plan.varyings;
     for (int i = d->u.in.ids.count; i < SHADE_LANES; i++)
         d->u.in.ids.index[i] = d->u.in.ids.index[d->u.in.ids.count - 1];
-    SHADE_MEMSET(v->clip, 0, sizeof v->clip);
+    SHADE__ZERO(v->clip);
     if (varyings) SHADE_MEMSET(v->varying, 0, (size_t)varyings * sizeof v->varying[0]);
     d->plan.pipe->vertex(d->plan.pipe->uniforms, &d->u.in.ids, v);
     d->plan.stage.place(d, v);
@@ -2874,7 +2894,7 @@ static uint32_t shade__polygon_of(const shade__plan *plan, const shade__batch *b
     p->count = 3;
     p->taken = 7;
     p->on_screen = 1;
-    SHADE_MEMSET(p->value, 0, sizeof p->value);
+    SHADE__ZERO(p->value);
     for (int i = 0; i < 3; i++) {
         const float *value = b->value + corner[i] * stride;
         const shade__vertex *v = &b->vertex[corner[i]];
@@ -3189,7 +3209,7 @@ static void shade__spans_big(const shade__triangle *t, const int64_t *edge, int 
 /* Where row y begins in depth. */
 SHADE__INLINE float *shade__depth_row(const shade__plan *plan, int y)
 {
-    return plan->depth + (size_t)(y - plan->row_offset) * (size_t)plan->stride;
+    return plan->depth + shade__offset_of(plan->target, 0, y);
 }
 
 /* 1 << i: shifts that differ per lane do not vectorise on SSE2 */
@@ -3820,7 +3840,6 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
                                        const float *u, const float *v, int blocks,
                                        const float *weight, float *out, int stride)
 {
-    static const uint8_t shift565[4] = { 11, 5, 0, 0 };
     shade__axis x, y;
     SHADE_ALIGNED uint32_t texel[4][SHADE__TEXELS];
     SHADE_ALIGNED float c[4][SHADE__TEXELS];
@@ -3832,7 +3851,7 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
     shade__address(u, blocks, level->width, base->wrap_u, nearest, &x);
     shade__address(v, blocks, level->height, base->wrap_v, nearest, &y);
     for (int k = 0; k < 4; k++) {
-        int shift = wide ? shade__channel_shift(level->format, k) : shift565[k];
+        int shift = shade__channel_shift(level->format, k);
         int srgb = level->srgb && k < 3;
         uint32_t mask = shade__channel_full(level->format, k);
         if (bytes == 16) shade__fetch_texels(p + 4 * k, pitch, &x, &y, blocks, 16, 4, texel);
@@ -3993,20 +4012,6 @@ SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, const int n)
 {
     SHADE__FOR(i, n) { c[i] = shade__srgb_encode(shade__unit(c[i])); }
 }
-/* n pixels of 8 bits a channel; any bits, as in all of packing */
-SHADE__INLINE void shade__pack_8888(shade_format format, const float *SHADE_RESTRICT rgba,
-                                    const int stride, uint32_t *SHADE_RESTRICT packed, const int n)
-{
-    const int r = shade__channel_shift(format, 0), g = shade__channel_shift(format, 1);
-    const int b = shade__channel_shift(format, 2), a = shade__channel_shift(format, 3);
-    SHADE__FOR(i, n) {
-        int32_t cr = (int32_t)(shade__unit(rgba[i]) * 255 + 0.5f);
-        int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 255 + 0.5f);
-        int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 255 + 0.5f);
-        int32_t ca = (int32_t)(shade__unit(rgba[i + 3 * stride]) * 255 + 0.5f);
-        packed[i] = (uint32_t)cr << r | (uint32_t)cg << g | (uint32_t)cb << b | (uint32_t)ca << a;
-    }
-}
 /* Thresholds of the 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and y,
    interleaved and reversed   pre: 0 <= x, y < 2^31   post: in (0, 1) */
 SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHADE_RESTRICT y,
@@ -4018,16 +4023,22 @@ SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHA
         threshold[i] = ((float)(int32_t)rank + 0.5f) * 0.0625f;
     }
 }
-/* n pixels of 5-6-5 bits   post: packed < 2^16 */
-SHADE__INLINE void shade__pack_rgb565(const float *SHADE_RESTRICT rgba, const int stride,
-                                      const float *SHADE_RESTRICT threshold,
-                                      uint32_t *SHADE_RESTRICT packed, const int n)
+/* n pixels of any bits: clamp(c, 0, 1) in steps of 1 / full, up from the threshold on. */
+SHADE__INLINE void shade__pack_channels(shade_format format, const float *SHADE_RESTRICT rgba,
+                                        const int stride, const float *SHADE_RESTRICT threshold,
+                                        uint32_t *SHADE_RESTRICT packed, const int n)
 {
+    const int r = shade__channel_shift(format, 0), g = shade__channel_shift(format, 1);
+    const int b = shade__channel_shift(format, 2), a = shade__channel_shift(format, 3);
+    const int wide = shade__pixel_bytes(format) == 4;
+    const float full = wide ? 255 : 31, full_g = wide ? 255 : 63, full_a = wide ? 255 : 0;
     SHADE__FOR(i, n) {
-        int32_t cr = (int32_t)(shade__unit(rgba[i]) * 31 + threshold[i]);
-        int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * 63 + threshold[i]);
-        int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * 31 + threshold[i]);
-        packed[i] = (uint32_t)cr << 11 | (uint32_t)cg << 5 | (uint32_t)cb;
+        float half = threshold[i];
+        int32_t cr = (int32_t)(shade__unit(rgba[i]) * full + half);
+        int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * full_g + half);
+        int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * full + half);
+        int32_t ca = (int32_t)(shade__unit(rgba[i + 3 * stride]) * full_a + half);
+        packed[i] = (uint32_t)cr << r | (uint32_t)cg << g | (uint32_t)cb << b | (uint32_t)ca << a;
     }
 }
 /* n lanes for the target's format; encodes rgb in place where it asks for sRGB.  x, y are read
@@ -4037,16 +4048,10 @@ SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int str
 {
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (t->format == SHADE_FORMAT_RGBA32F) return;
-    if (t->srgb) {
-        for (int k = 0; k < 3; k++) shade__encode_row(rgba + k * stride, n);
-    }
-    if (shade__pixel_bytes(t->format) == 4) {
-        shade__pack_8888(t->format, rgba, stride, packed, n);
-        return;
-    }
+    for (int k = 0; k < 3 && t->srgb; k++) shade__encode_row(rgba + k * stride, n);
     SHADE__FOR(i, n) { threshold[i] = 0.5f; }
-    if (t->dither) shade__dither(x, y, threshold, n);
-    shade__pack_rgb565(rgba, stride, threshold, packed, n);
+    if (t->dither && shade__pixel_bytes(t->format) == 2) shade__dither(x, y, threshold, n);
+    shade__pack_channels(t->format, rgba, stride, threshold, packed, n);
     if (t->format == SHADE_FORMAT_RGB565_SWAPPED) {
         SHADE__FOR(i, n) { packed[i] = shade__swap16(packed[i]); }
     }
@@ -4055,6 +4060,20 @@ static SHADE__NOINLINE void shade__pack8(const shade_target *t, float *rgba, con
                                          const float *y, uint32_t *packed)
 {
     shade__pack(t, rgba, 8, x, y, packed, 8);
+}
+/* Packs 8 pixels and stores the first n of them at p; x, y of the first are read where the target
+   dithers. */
+static void shade__store8(const shade_target *t, float *rgba, int x, int y, int n, uint8_t *p)
+{
+    float px[8], py[8];
+    uint32_t packed[8] = { 0 };
+    for (int i = 0; i < 8; i++) {
+        px[i] = (float)(x + i) + 0.5f;
+        py[i] = (float)y + 0.5f;
+    }
+    shade__pack8(t, rgba, px, py, packed);
+    for (int i = 0; i < n; i++, p += shade__pixel_bytes(t->format))
+        shade__store_pixel(t->format, p, packed[i], rgba + i, 8);
 }
 
 /* Depth test and write in drawing order, after a shader that may discard.  Turns the discard row
@@ -4169,29 +4188,23 @@ SHADE__DISPATCH(shade__store, (shade__draw *d, shade_colors *c), (d, c))
 /*------------------------------------------------------------------------------------------ >>drive
    The public calls: arguments checked before any pixel changes, then batch after batch. >>mesh */
 
-SHADE__INLINE int shade__rows_held(const shade_target *t)
-{
-    return t->row_count ? t->row_count : t->height;
-}
-SHADE__INLINE int shade__stride_of(const shade_target *t)
-{
-    return t->stride ? t->stride : t->width;
-}
 
 static shade_result shade__check_target(const shade_target *t)
 {
-    uint64_t pixels;
-    if (!t->color && !t->depth) return SHADE_ERROR_TARGET;
-    if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
+    uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
+    if ((!t->color && !t->depth) || t->width < 1 || t->width > 16384 || t->height < 1 ||
+        t->height > 16384 || t->stride < 0 || (t->stride && t->stride < t->width) ||
+        (unsigned)t->format > SHADE_FORMAT_RGBA32F || t->clip_width < 0 || t->clip_height < 0 ||
+        t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count) ||
+        (t->row_count && t->row_offset > t->height - t->row_count))
         return SHADE_ERROR_TARGET;
-    if (t->stride < 0 || (t->stride && t->stride < t->width)) return SHADE_ERROR_TARGET;
-    if ((unsigned)t->format > SHADE_FORMAT_RGBA32F) return SHADE_ERROR_TARGET;
-    if (t->clip_width < 0 || t->clip_height < 0) return SHADE_ERROR_TARGET;
-    if (t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count))
-        return SHADE_ERROR_TARGET;
-    if (t->row_count && t->row_offset > t->height - t->row_count) return SHADE_ERROR_TARGET;
-    pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
     return pixels > 0xFFFFFFFFu || pixels > SIZE_MAX / 16 ? SHADE_ERROR_TARGET : SHADE_OK;
+}
+/* The same for a target whose colours are asked for. */
+static shade_result shade__check_picture(const shade_target *t)
+{
+    if (!t) return SHADE_ERROR_ARGUMENT;
+    return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
 /* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive. 0 if
    empty. */
@@ -4207,19 +4220,6 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
     return r[0] < r[2] && r[1] < r[3];
 }
 
-static shade_result shade__check_pipeline(const shade_pipeline *p)
-{
-    const shade_raster *r = &p->raster;
-    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT ||
-        (unsigned)r->cull > SHADE_CULL_FRONT || (unsigned)r->depth_test > SHADE_COMPARE_ALWAYS ||
-        (unsigned)r->blend > SHADE_BLEND_ADD)
-        return SHADE_ERROR_ARGUMENT;
-    if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS) return SHADE_ERROR_ARGUMENT;
-    if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
-                           p->lod_varying >= p->varyings - 1))
-        return SHADE_ERROR_ARGUMENT;
-    return shade__within(r->depth_bias, FLT_MAX) ? SHADE_OK : SHADE_ERROR_ARGUMENT;
-}
 
 /* All indices below vertex_count?  In pieces of a fixed length, which vectorise. */
 static int shade__indices_fit(const uint32_t *indices, int count, int vertex_count)
@@ -4237,9 +4237,9 @@ static int shade__indices_fit(const uint32_t *indices, int count, int vertex_cou
 }
 static shade_result shade__check_indices(const uint32_t *indices, int index_count, int vertex_count)
 {
-    if (index_count % 3) return SHADE_ERROR_INDEX;
-    if (!indices) return index_count <= vertex_count ? SHADE_OK : SHADE_ERROR_INDEX;
-    return shade__indices_fit(indices, index_count, vertex_count) ? SHADE_OK : SHADE_ERROR_INDEX;
+    const int fit = indices ? shade__indices_fit(indices, index_count, vertex_count)
+                            : index_count <= vertex_count;
+    return fit && index_count % 3 == 0 ? SHADE_OK : SHADE_ERROR_INDEX;
 }
 
 static shade__compare shade__compare_of(const shade_raster *r)
@@ -4312,11 +4312,11 @@ static shade_result shade__run_draw(const shade_target *target, const shade_pipe
         pipe.lod_texture = NULL;
     }
     shade__make_plan(target, &pipe, own, &d.plan);
-    SHADE_MEMSET(&d.stats, 0, sizeof d.stats);
-    SHADE_MEMSET(d.batch.value, 0, sizeof d.batch.value);
-    SHADE_MEMSET(&d.packet, 0, sizeof d.packet);
-    SHADE_MEMSET(&d.u.in.ids, 0, sizeof d.u.in.ids);
-    SHADE_MEMSET(d.u.in.slot_of, 0, sizeof d.u.in.slot_of);
+    SHADE__ZERO(d.stats);
+    SHADE__ZERO(d.batch.value);
+    SHADE__ZERO(d.packet);
+    SHADE__ZERO(d.u.in.ids);
+    SHADE__ZERO(d.u.in.slot_of);
     d.hidden.across = 0;
     d.stats.triangles = index_count / 3;
     for (int first = 0; first < index_count / 3; first += d.batch.count) {
@@ -4327,18 +4327,31 @@ static shade_result shade__run_draw(const shade_target *target, const shade_pipe
     if (stats) *stats = d.stats;
     return SHADE_OK;
 }
+/* How a draw may be, and its indices. */
+static shade_result shade__check_draw(const shade_pipeline *p, const uint32_t *indices,
+                                      int index_count, int vertex_count)
+{
+    const shade_raster *r = &p->raster;
+    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT ||
+        (unsigned)r->cull > SHADE_CULL_FRONT || (unsigned)r->depth_test > SHADE_COMPARE_ALWAYS ||
+        (unsigned)r->blend > SHADE_BLEND_ADD || p->varyings < 0 ||
+        p->varyings > SHADE_MAX_VARYINGS || !shade__within(r->depth_bias, FLT_MAX) ||
+        (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
+                            p->lod_varying >= p->varyings - 1)) ||
+        index_count < 0 || vertex_count < 0)
+        return SHADE_ERROR_ARGUMENT;
+    return shade__check_indices(indices, index_count, vertex_count);
+}
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count, int vertex_count,
                                  shade_stats *stats)
 {
     shade_result result;
-    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
+    if (stats) SHADE__ZERO(*stats);
     if (!target || !pipeline || !pipeline->vertex) return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
-    if (result == SHADE_OK) result = shade__check_pipeline(pipeline);
-    if (result != SHADE_OK) return result;
-    if (index_count < 0 || vertex_count < 0) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_indices(indices, index_count, vertex_count);
+    if (result == SHADE_OK)
+        result = shade__check_draw(pipeline, indices, index_count, vertex_count);
     if (result != SHADE_OK) return result;
     return shade__run_draw(target, pipeline, 0, indices, index_count, stats);
 }
@@ -4356,20 +4369,16 @@ SHADE__DISPATCH_AVX2(shade__fill, (uint8_t *p, const float *pattern, size_t n), 
 static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
                                  uint8_t *pattern)
 {
-    const size_t bytes = shade__pixel_bytes(t->format);
-    float rgba[32], px[8], py[8];
-    uint32_t packed[8] = { 0 };
+    const size_t period = 8 * shade__pixel_bytes(t->format);
+    float rgba[32];
     for (int i = 0; i < 8; i++) {
-        px[i] = (float)(x + i) + 0.5f;
-        py[i] = (float)y + 0.5f;
         rgba[i] = color.x;
         rgba[i + 8] = color.y;
         rgba[i + 16] = color.z;
         rgba[i + 24] = color.w;
     }
-    shade__pack8(t, rgba, px, py, packed);
-    for (size_t i = 0; i < 256 / bytes; i++)
-        shade__store_pixel(t->format, pattern + i * bytes, packed[i & 7], rgba + (i & 7), 8);
+    shade__store8(t, rgba, x, y, 8, pattern);
+    for (size_t i = period; i < 256; i++) pattern[i] = pattern[i - period];
 }
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
@@ -4381,14 +4390,12 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     if (!target) return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
     if (result == SHADE_OK && depth != depth) result = SHADE_ERROR_ARGUMENT;
-    if (result != SHADE_OK) return result;
-    if (!shade__clip_rectangle(target, clip)) return SHADE_OK;
+    if (result != SHADE_OK || !shade__clip_rectangle(target, clip)) return result;
     bytes = shade__pixel_bytes(target->format);
     n = (size_t)(clip[2] - clip[0]);
     for (int i = 0; i < 64; i++) depths[i] = depth;
     for (int y = clip[1]; y < clip[3]; y++) {
-        size_t at = (size_t)(y - target->row_offset) * (size_t)shade__stride_of(target) +
-                    (size_t)clip[0];
+        size_t at = shade__offset_of(target, clip[0], y);
         if (target->depth) fill((uint8_t *)(target->depth + at), depths, n * 4);
         if (!target->color) continue;
         if (y == clip[1] || target->dither)
@@ -4402,35 +4409,23 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 static void shade__resolve8(const shade_target *out, const shade_target *in, int factor, int x,
                             int y, int n)
 {
-    float rgba[32] = { 0 }, px[8], py[8], c[4];
-    uint32_t packed[8] = { 0 };
-    uint8_t *to = (uint8_t *)out->color;
-    size_t bytes = shade__pixel_bytes(out->format);
-    to += ((size_t)(y - out->row_offset) * (size_t)shade__stride_of(out) + (size_t)x) * bytes;
-    for (int i = 0; i < 8; i++) {
-        px[i] = (float)(x + i) + 0.5f;
-        py[i] = (float)y + 0.5f;
-    }
-    for (int i = 0; i < n * factor * factor; i++) {
-        int p = i / (factor * factor), row = i / factor % factor + (y - out->row_offset) * factor;
-        size_t at =
-            (size_t)row * (size_t)shade__stride_of(in) + (size_t)((x + p) * factor + i % factor);
-        shade__fetch(in, (const uint8_t *)in->color + at * shade__pixel_bytes(in->format), c);
+    const int area = factor * factor;
+    float rgba[32] = { 0 }, c[4];
+    for (int i = 0; i < n * area; i++) {
+        int p = i / area, column = (x + p) * factor + i % factor;
+        shade__fetch(in, shade__pixel_at(in, column, y * factor + i / factor % factor), c);
         for (int k = 0; k < 4; k++) rgba[8 * k + p] += c[k];
     }
-    for (int i = 0; i < 32; i++) rgba[i] /= (float)(factor * factor);
-    shade__pack8(out, rgba, px, py, packed);
-    for (int i = 0; i < n; i++)
-        shade__store_pixel(out->format, to + (size_t)i * bytes, packed[i], rgba + i, 8);
+    for (int i = 0; i < 32; i++) rgba[i] /= (float)area;
+    shade__store8(out, rgba, x, y, n, shade__pixel_at(out, x, y));
 }
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
 {
     shade_result result;
     int clip[4];
     if (!out || !in) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(out);
-    if (result == SHADE_OK) result = shade__check_target(in);
-    if (result == SHADE_OK && (!out->color || !in->color)) result = SHADE_ERROR_TARGET;
+    result = shade__check_picture(out);
+    if (result == SHADE_OK) result = shade__check_picture(in);
     if (result != SHADE_OK) return result;
     if (factor < 1 || factor > 8 || in->width != out->width * factor ||
         in->height != out->height * factor || in->row_offset != out->row_offset * factor ||
@@ -4443,66 +4438,66 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
     return SHADE_OK;
 }
 
-/* The mean of the part of a picture that texel (x, y) of one with the given size covers, in linear
-   light. */
-static void shade__shrink(const shade_target *from, const shade_texture *to, int x, int y,
+/* How much of first .. first + 1 lies in from .. to. */
+static double shade__overlap(int first, double from, double to)
+{
+    return (first + 1 < to ? first + 1 : to) - (first > from ? first : from);
+}
+/* The mean of the part of a picture that texel (x, y) of a smaller one covers, in linear light. */
+static void shade__shrink(const shade_target *from, const shade_target *to, int x, int y,
                           float *mean)
 {
-    double sum[4] = { 0, 0, 0, 0 }, sx = (double)from->width / to->width, all = 0;
-    double sy = (double)from->height / to->height;
+    double sum[4] = { 0, 0, 0, 0 }, all = 0;
+    const double sx = (double)from->width / to->width, sy = (double)from->height / to->height;
     for (int j = (int)(y * sy); j < from->height && j < (y + 1) * sy; j++)
         for (int i = (int)(x * sx); i < from->width && i < (x + 1) * sx; i++) {
-            double left = i > x * sx ? i : x * sx,
-                   right = i + 1 < (x + 1) * sx ? i + 1 : (x + 1) * sx;
-            double top = j > y * sy ? j : y * sy, low = j + 1 < (y + 1) * sy ? j + 1 : (y + 1) * sy;
-            double share = (right - left) * (low - top);
+            double share = shade__overlap(i, x * sx, (x + 1) * sx);
             float c[4];
-            shade__fetch(from,
-                         (const uint8_t *)from->color +
-                             ((size_t)j * (size_t)from->stride + (size_t)i) *
-                                 shade__pixel_bytes(from->format),
-                         c);
+            share *= shade__overlap(j, y * sy, (y + 1) * sy);
+            shade__fetch(from, shade__pixel_at(from, i, j), c);
             for (int k = 0; k < 4; k++) sum[k] += (double)c[k] * share;
             all += share;
         }
-    for (int k = 0; k < 4; k++) mean[k] = (float)(sum[k] / all);
+    for (int k = 0; k < 4; k++) mean[8 * k] = (float)(sum[k] / all);
+}
+/* Where the texels of a texture lie, as a target. */
+static shade_target shade__target_of(const shade_texture *t)
+{
+    shade_target to;
+    SHADE__ZERO(to);
+    to.width = t->width;
+    to.height = t->height;
+    to.stride = t->stride;
+    to.format = t->format;
+    to.srgb = t->srgb;
+    to.color = (void *)(uintptr_t)t->pixels;
+    return to;
 }
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes)
 {
     uint8_t *p = (uint8_t *)memory;
     int count;
-    if (!texture) return SHADE_ERROR_ARGUMENT;
     if (!shade__texture_good(texture)) return SHADE_ERROR_ARGUMENT;
     count = shade_mipmap_count(texture->width, texture->height);
     if (count && (!levels || !memory || (uintptr_t)memory % 4)) return SHADE_ERROR_ARGUMENT;
     if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format))
         return SHADE_ERROR_CAPACITY;
     for (int n = 0; n < count; n++) {
-        const shade_texture *up = n ? &levels[n - 1] : texture;
-        size_t size = shade__pixel_bytes(texture->format);
-        shade_target from;
-        SHADE_MEMSET(&from, 0, sizeof from);
-        from.width = up->width;
-        from.height = up->height;
-        from.format = up->format;
-        from.srgb = up->srgb;
-        from.stride = up->stride ? up->stride : up->width;
-        from.color = (void *)(uintptr_t)up->pixels;
+        const shade_target from = shade__target_of(n ? &levels[n - 1] : texture);
+        shade_target to;
         levels[n] = *texture;
         levels[n].pixels = p;
         levels[n].stride = 0;
         levels[n].mipmaps = NULL;
         levels[n].mipmap_count = 0;
-        levels[n].width = shade__max(up->width / 2, 1);
-        levels[n].height = shade__max(up->height / 2, 1);
-        for (int i = 0; i < levels[n].width * levels[n].height; i++, p += size) {
-            float c[4], rgba[32] = { 0 }, zero[8] = { 0 };
-            uint32_t packed[8] = { 0 };
-            shade__shrink(&from, &levels[n], i % levels[n].width, i / levels[n].width, c);
-            for (int k = 0; k < 4; k++) rgba[8 * k] = c[k];
-            shade__pack8(&from, rgba, zero, zero, packed);
-            shade__store_pixel(from.format, p, packed[0], rgba, 8);
+        levels[n].width = shade__max(from.width / 2, 1);
+        levels[n].height = shade__max(from.height / 2, 1);
+        to = shade__target_of(&levels[n]);
+        for (int i = 0; i < to.width * to.height; i++, p += shade__pixel_bytes(to.format)) {
+            float rgba[32] = { 0 };
+            shade__shrink(&from, &to, i % to.width, i / to.width, rgba);
+            shade__store8(&to, rgba, 0, 0, 1, p);
         }
     }
     texture->mipmaps = levels;
@@ -4791,7 +4786,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     shade__scene scene;
     shade_result result;
     int count, lit;
-    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
+    if (stats) SHADE__ZERO(*stats);
     if (!target || !mesh || !state || (!mesh->positions && mesh->vertex_count > 0))
         return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
@@ -4805,7 +4800,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         return SHADE_ERROR_ARGUMENT;
     scene = shade__scene_of(mesh, state);
     if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
-    SHADE_MEMSET(&p, 0, sizeof p);
+    SHADE__ZERO(p);
     lit = state->shading == SHADE_SHADING_PER_FRAGMENT;
     p.vertex = shade__mesh_vertex_pick();
     p.may_discard = state->alpha_cutoff > 0;
@@ -4818,10 +4813,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     if (state->shading == SHADE_SHADING_PER_FACE && !scene.map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
-    result = shade__check_pipeline(&p);
-    if (result != SHADE_OK) return result;
     count = shade__corner_count(mesh);
-    result = shade__check_indices(mesh->indices, count, mesh->vertex_count);
+    result = shade__check_draw(&p, mesh->indices, count, mesh->vertex_count);
     if (result != SHADE_OK) return result;
     return shade__run_draw(target, &p, 1,
                            scene.face_normals ? NULL : mesh->indices, count, stats);
@@ -4948,7 +4941,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     shade_pipeline p;
     shade__stroke s;
     shade_result result;
-    if (stats) SHADE_MEMSET(stats, 0, sizeof *stats);
+    if (stats) SHADE__ZERO(*stats);
     if (!target || !state || (!points && point_count > 0)) return SHADE_ERROR_ARGUMENT;
     result = shade__check_target(target);
     if (result != SHADE_OK) return result;
@@ -4963,13 +4956,13 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     s.half_x = target->width / 2.0;
     s.half_y = target->height / 2.0;
     s.half_width = (state->width > 0 ? (double)state->width : 1) / 2;
-    SHADE_MEMSET(&p, 0, sizeof p);
+    SHADE__ZERO(p);
     p.vertex = shade__stroke_vertex;
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
     p.raster = state->raster;
     p.raster.cull = SHADE_CULL_NONE;
-    result = shade__check_pipeline(&p);
+    result = shade__check_draw(&p, NULL, 3 * point_count, 3 * point_count);
     if (result != SHADE_OK) return result;
     return shade__run_draw(target, &p, 1, NULL, point_count * 3, stats);
 }
@@ -5290,12 +5283,11 @@ static char *shade__decimal(char *p, int n)
     *p = (char)('0' + n % 10);
     return p + 1;
 }
-/* Bytes R, G, B of width pixels from x on of a row in memory. */
-static void shade__row_rgb(const shade_target *t, size_t at, int width, uint8_t *rgb)
+/* Bytes R, G, B of n pixels. */
+static void shade__row_rgb(const shade_target *t, const uint8_t *p, int n, uint8_t *rgb)
 {
     const size_t bytes = shade__pixel_bytes(t->format);
-    const uint8_t *p = (const uint8_t *)t->color + at * bytes;
-    for (int i = 0; i < width; i++, rgb += 3, p += bytes) {
+    for (int i = 0; i < n; i++, rgb += 3, p += bytes) {
         uint32_t c[4];
         float f[4];
         if (bytes == 16) SHADE_MEMCPY(f, p, 16);
@@ -5313,23 +5305,17 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
 {
     uint8_t rgb[3 * SHADE_LANES];
     char head[32] = "P6\n", *p = head + 3;
-    shade_result result;
-    int rows;
-    if (!sink || !target) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(target);
-    if (result == SHADE_OK && !target->color) result = SHADE_ERROR_TARGET;
+    shade_result result = sink ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
     if (result != SHADE_OK) return result;
-    rows = shade__rows_held(target);
     p = shade__decimal(p, target->width);
     *p++ = ' ';
-    p = shade__decimal(p, rows);
+    p = shade__decimal(p, shade__rows_held(target));
     SHADE_MEMCPY(p, "\n255\n", 5);
     if (sink(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
-    for (int y = 0; y < rows; y++) {
-        size_t at = (size_t)y * (size_t)shade__stride_of(target);
+    for (int y = 0; y < shade__rows_held(target); y++) {
         for (int x = 0; x < target->width; x += SHADE_LANES) {
             int n = shade__min(SHADE_LANES, target->width - x);
-            shade__row_rgb(target, at + (size_t)x, n, rgb);
+            shade__row_rgb(target, shade__pixel_at(target, x, y + target->row_offset), n, rgb);
             if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
         }
     }
@@ -5344,10 +5330,7 @@ static int shade__write_file(void *user, const void *bytes, size_t size)
 SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *target)
 {
     FILE *file;
-    shade_result result;
-    if (!path || !target) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(target);
-    if (result == SHADE_OK && !target->color) result = SHADE_ERROR_TARGET;
+    shade_result result = path ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
     if (result != SHADE_OK) return result;
     file = fopen(path, "wb");
     if (!file) return SHADE_ERROR_IO;
