@@ -2,10 +2,10 @@
 # readme.sh [README] - what the README shows compiles and does what it says.
 # Its one block with main is the program: C99, gnu17 behind other headers, C++20; it is run.  The
 # other blocks of C make one file, in their order, behind readme_prelude.h, and readme_run.c runs
-# them.  SDL2, stb, CMake, Meson and a C++ compiler are used where they are.  Names, keys and files
-# that the README and examples/README.md speak of exist; the C of the latter is recipes.h, which
-# tests/course.c holds; every public function stands in the README, an example or the bench; every
-# example in examples/README.md.
+# them.  SDL2, stb and a C++ compiler are used where they are.  Names, keys and files that the README
+# and examples/README.md speak of exist; the C of the latter is recipes.h, which tests/course.c
+# holds; every public function stands in the README, an example or the bench; every example in
+# examples/README.md.
 cd "$(dirname "$0")/.." || exit 1
 CC=${CC:-cc}
 if [ -z "${CXX:-}" ]; then
@@ -40,7 +40,7 @@ awk -v dir="$T" -v readme="$README" '
         blocks[file]++
     }
     /^```/ {
-        if (inside) { if (kind == "c") put(); else if (kind) printf "%s", text > (dir "/" kind) }
+        if (inside && kind == "c") put()
         inside = !inside; kind = substr($0, 4); text = ""; line = NR + 1
         next
     }
@@ -86,37 +86,13 @@ if [ -x "$T/readme_run" ]; then
     passed=$((passed + ${p:-0})) failed=$((failed + ${f:-1}))
 fi
 
-# build systems find the header
-printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\nint main(void) { return SHADE_OK; }\n' \
-    >"$T/program_of_a_user.c"
-if command -v cmake >/dev/null 2>&1 && command -v cc >/dev/null 2>&1; then
-    mkdir -p "$T/with_cmake"
-    cp "$T/program_of_a_user.c" "$T/with_cmake/program.c"
-    { echo 'cmake_minimum_required(VERSION 3.14)'; echo 'project(user C)'
-      echo 'add_executable(program program.c)'; cat "$T/cmake"; } >"$T/with_cmake/CMakeLists.txt"
-    check "CMake configures" env CC=cc cmake -S "$T/with_cmake" -B "$T/with_cmake/b" \
-          -DFETCHCONTENT_SOURCE_DIR_SHADE="$PWD"
-    check "CMake builds" cmake --build "$T/with_cmake/b"
-    check "CMake's program runs" "$T/with_cmake/b/program"
-else left_out CMake; fi
-if command -v meson >/dev/null 2>&1 && command -v ninja >/dev/null 2>&1 &&
-    command -v cc >/dev/null 2>&1; then
-    mkdir -p "$T/with_meson/shade"
-    cp "$T/program_of_a_user.c" "$T/with_meson/program.c"
-    cp shade.h "$T/with_meson/shade"
-    { echo "project('user', 'c')"; cat "$T/meson"; } >"$T/with_meson/meson.build"
-    check "Meson configures" env CC=cc meson setup "$T/with_meson/b" "$T/with_meson"
-    check "Meson builds" ninja -C "$T/with_meson/b"
-    check "Meson's program runs" "$T/with_meson/b/program"
-else left_out Meson; fi
-
 # names
 none() { [ -z "$1" ] || { printf '%s\n' "$1"; return 1; }; }
 words() { tr -c 'A-Za-z0-9_' '\n' <"$1" | sort -u; }
 words shade.h >"$T/known"
 cat "$README" examples/README.md >"$T/text"
 check "every name is one of shade.h" none "$(
-    words "$T/text" | grep -E '^(shade|SHADE)_' | grep -v '^shade_SOURCE_DIR$' |
+    words "$T/text" | grep -E '^(shade|SHADE)_' |
     comm -23 - "$T/known")"
 check "every place is one of shade.h" none "$(
     grep -oE '>>[a-z]+' "$T/text" | sort -u | while read -r place; do
