@@ -47,7 +47,6 @@ static void prove_parts(void)
     float rgba[32], x[8], y[8], threshold[8];
     uint32_t packed[8];
     any_floats(rgba, 32);
-    shade__pack_8888(SHADE_FORMAT_RGBA8, rgba, 8, packed, 8);
     for (int i = 0; i < 8; i++) {
         float unit = shade__unit(rgba[i]);
         /*@ assert 0 <= unit <= 1; */
@@ -58,7 +57,8 @@ static void prove_parts(void)
     for (int i = 0; i < 8; i++) {
         /*@ assert 0 < threshold[i] < 1; */
     }
-    shade__pack_rgb565(rgba, 8, threshold, packed, 8);
+    shade__pack_channels(SHADE_FORMAT_RGBA8, rgba, 8, threshold, packed, 8);
+    shade__pack_channels(SHADE_FORMAT_RGB565, rgba, 8, threshold, packed, 8);
     for (int i = 0; i < 8; i++) {
         /*@ assert packed[i] <= 65535; */
         uint32_t swapped = shade__swap16(packed[i]);
