@@ -1795,7 +1795,7 @@ SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, 
              way.  Error of 1/sqrt and powers: >>base, >>power.                         >>lanes */
 
 /* A point takes a few lanes, which compilers still make vectors of. */
-enum { SHADE__POINT = 8 };
+enum { SHADE__POINT = 4 };
 
 /* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at
    infinity. */
