@@ -1,6 +1,6 @@
 /* mesh.h - meshes that own their arrays, the first shapes, and a vertex shader for them.
 
-   The shapes are for examples: they exit where memory runs out.  obj.h reports it instead. */
+   The shapes are for examples: they exit where memory runs out.  model_read.h says so instead. */
 #ifndef EXAMPLES_MESH_H
 #define EXAMPLES_MESH_H
 

@@ -10,7 +10,7 @@
 #include "shade.h"
 #include "mesh.h"
 #include "canvas.h"
-#include "obj.h"
+#include "model_read.h"
 #include <time.h>
 
 #define DEGREE 0.017453292f

@@ -4,7 +4,7 @@
 #define EXAMPLES_VIEW_SCENE_H
 
 #include "ground.h"
-#include "obj.h"
+#include "model_read.h"
 #include "teapot.h"
 #include "view_options.h"
 

@@ -1,5 +1,5 @@
-/* libc.h - as much of C's library as obj.h, mesh.h and shapes.h ask for, so that they compile for
-   wasm32 where there is none.  The build puts this file in the place of <stdio.h>, <stdlib.h>,
+/* libc.h - as much of C's library as the readers, mesh.h and shapes.h ask for, so that they compile
+   for wasm32 where there is none.  The build puts this file in the place of <stdio.h>, <stdlib.h>,
    <string.h>, <math.h> and <errno.h>; one .c file includes it, so it holds the bodies as well.
    Files do not exist here: what opens them compiles, and is dropped because nobody calls it. */
 #ifndef PLAYGROUND_LIBC_H

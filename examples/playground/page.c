@@ -10,7 +10,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "mesh.h"
-#include "obj.h"
+#include "model_read.h"
 #include "shapes.h"
 #include "look.h"
 

@@ -44,7 +44,7 @@ function program() {
         '#define SHADE_IMPLEMENTATION',
         '#include "shade.h"',
         '#include "mesh.h"',
-        ['#include "shapes.h"', false, '#include "obj.h"'][S.shape],
+        ['#include "shapes.h"', false, '#include "model_read.h"'][S.shape],
         '',
         `enum { WIDTH = ${width}, HEIGHT = ${height} };`,
         'static uint32_t pixels[WIDTH * HEIGHT];',

@@ -1,6 +1,7 @@
-/* reader.c - the OBJ and STL readers of examples/obj.h: any bytes give a valid mesh or an error. */
+/* reader.c - the OBJ, STL and PLY readers of examples/model_read.h: any bytes give a valid model or
+   an error. */
 #include "input.h"
-#include "obj.h"
+#include "model_read.h"
 
 static void reader_check_mesh(const owned_mesh *m)
 {
@@ -15,6 +16,18 @@ static void reader_check_mesh(const owned_mesh *m)
     }
     for (size_t i = 0; m->texcoords && i < 2 * (size_t)v->vertex_count; i++)
         HOLDS(fuzz_finite(m->texcoords[i]));
+}
+/* The parts hold every triangle once, each of a surface that is there. */
+static void reader_check_parts(const model *m)
+{
+    int next = 0;
+    for (int i = 0; i < m->part_count; i++) {
+        const model_part *p = &m->part[i];
+        HOLDS(p->first == next && p->count > 0 && p->count % 3 == 0);
+        HOLDS(p->surface >= 0 && (p->surface < m->surface_count || !p->surface));
+        next += p->count;
+    }
+    HOLDS(next == m->mesh.view.index_count);
 }
 static void reader_check_error(const char *error, size_t size, const char *name)
 {
@@ -36,7 +49,7 @@ static int reader_same(const owned_mesh *a, const owned_mesh *b)
            (!a->colors || !memcmp(a->colors, b->colors, 12 * n)) &&
            (!a->texcoords || !memcmp(a->texcoords, b->texcoords, 8 * n));
 }
-/* Text says the same with other line ends.  Binary STL is left out: its bytes are no lines. */
+/* Text says the same with other line ends.  STL and PLY are left out: binary ones are no lines. */
 static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name, int result,
                              const owned_mesh *m)
 {
@@ -45,12 +58,13 @@ static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name
     owned_mesh again;
     char error[64];
     int returns = memchr(bytes, '\r', size) != NULL, zeros = memchr(bytes, 0, size) != NULL;
+    int binary = mesh_is_stl(name, bytes, size) || mesh_is_ply(name, bytes, size);
     if (!other) exit(2);
     for (size_t i = 0; i < size; i++) {
         if (bytes[i] == '\n') other[n++] = '\r';
         other[n++] = bytes[i];
     }
-    if (!returns && !zeros && !mesh_is_stl(name, bytes, size)) {
+    if (!returns && !zeros && !binary) {
         HOLDS(mesh_read_memory(other, n, name, &again, error, sizeof error) == result);
         if (!result) HOLDS(reader_same(m, &again));
         if (!result) mesh_free(&again);
@@ -74,19 +88,26 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int result, calls = 0;
     uint8_t *bytes;
     char *error;
-    owned_mesh m;
+    model m;
+    model_request request = { NULL, error_size, reader_progress, &calls, 0 };
     if (n > GUARD_ROOM) return 0;
     bytes = (uint8_t *)guard_take(n, kind >> 2 & 1), error = (char *)guard_take(error_size, 1);
     if (n) memcpy(bytes, in.at, n);
     guard_seal(bytes);
-    result = mesh_read_progress(n ? bytes : NULL, n, name, &m, error_size ? error : NULL,
-                                error_size, reader_progress, &calls);
+    request.error = error_size ? error : NULL;
+    request.most = kind & 32 ? 4 : 0;
+    result = model_read_memory(n ? bytes : NULL, n, name, &m, &request);
     if (result) {
         reader_check_error(error, error_size, name);
-        HOLDS(!m.positions && !m.indices && !m.view.vertex_count);
-    } else reader_check_mesh(&m);
-    if ((kind & 8) && n) reader_line_ends(bytes, n, name, result, &m);
-    if (!result) mesh_free(&m);
+        HOLDS(!m.mesh.positions && !m.mesh.indices && !m.mesh.view.vertex_count);
+        HOLDS(!m.part && !m.surface && !m.library);
+    } else {
+        reader_check_mesh(&m.mesh);
+        reader_check_parts(&m);
+        HOLDS(!request.most || m.mesh.view.index_count <= 3 * 4);
+    }
+    if ((kind & 8) && n && !request.most) reader_line_ends(bytes, n, name, result, &m.mesh);
+    if (!result) model_free(&m);
     guard_close();
     return 0;
 }

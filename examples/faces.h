@@ -1,0 +1,85 @@
+/* faces.h - the polygons of a file as they come, each of a surface, and as triangles at the end,
+   sorted by surface into the parts of a model. */
+#ifndef EXAMPLES_FACES_H
+#define EXAMPLES_FACES_H
+
+#include "ears.h"
+#include "model.h"
+
+typedef struct faces {
+    mesh_uints stream;                   /* of each face: how many corners, then the corners */
+    mesh_uints change;                   /* pairs: from this place of the stream on, this surface */
+    size_t open, triangles;              /* where the last face's count stands */
+} faces;
+
+static inline void faces_free(faces *f) { free(f->stream.v), free(f->change.v); }
+
+static inline int faces_surface(faces *f, int surface)
+{
+    return mesh_push_uint(&f->change, (uint32_t)f->stream.count)
+        || mesh_push_uint(&f->change, (uint32_t)surface);
+}
+
+/* A face: begin, its corners, end.  They return non-zero where memory or the numbers run out. */
+static inline int faces_begin(faces *f)
+{
+    f->open = f->stream.count;
+    return f->open > UINT32_MAX / 2 || mesh_push_uint(&f->stream, 0);
+}
+static inline int faces_corner(faces *f, uint32_t corner)
+{
+    return f->stream.count > UINT32_MAX / 2 || mesh_push_uint(&f->stream, corner);
+}
+/* How many corners the face has; without three it is none. */
+static inline size_t faces_end(faces *f)
+{
+    size_t corners = f->stream.count - f->open - 1;
+    f->stream.v[f->open] = (uint32_t)corners;
+    if (corners < 3) f->stream.count = f->open;
+    else f->triangles += corners - 2;
+    return corners;
+}
+
+/* Counts the indices of each surface (out NULL), or writes them from its place in first on. */
+static inline int faces_walk(const faces *f, const float *positions, size_t *first, uint32_t *out)
+{
+    static const ears empty;
+    ears scratch = empty;
+    size_t change = 0, surface = 0;
+    int failed = 0;
+    for (size_t at = 0; at < f->stream.count && !failed; at += f->stream.v[at] + (size_t)1) {
+        size_t corners = f->stream.v[at], indices = 3 * (corners - 2);
+        while (change < f->change.count && f->change.v[change] <= at)
+            surface = f->change.v[change + 1], change += 2;
+        if (out)
+            failed = ears_cut(&scratch, positions, f->stream.v + at + 1, corners,
+                              out + first[surface]);
+        first[surface] += indices;
+    }
+    ears_free(&scratch);
+    return failed;
+}
+
+/* The triangles into mesh.indices and parts, one for each surface that has any.  The positions
+   must stand, the corners below their number.  Non-zero: out of memory. */
+static inline int faces_finish(const faces *f, model *m)
+{
+    size_t surfaces = m->surface_count ? (size_t)m->surface_count : 1, sum = 0;
+    size_t *first = (size_t *)calloc(surfaces, sizeof *first);
+    int failed = 1;
+    m->part = (model_part *)calloc(surfaces, sizeof *m->part);
+    m->mesh.indices = (uint32_t *)malloc(3 * f->triangles * sizeof(uint32_t));
+    if (!first || !m->part || !m->mesh.indices) goto done;
+    faces_walk(f, NULL, first, NULL);
+    for (size_t s = 0; s < surfaces; s++) {
+        size_t count = first[s];
+        const model_part part = { (int)sum, (int)count, (int)s };
+        if (count) m->part[m->part_count++] = part;
+        first[s] = sum, sum += count;
+    }
+    failed = faces_walk(f, m->mesh.positions, first, m->mesh.indices);
+done:
+    free(first);
+    return failed;
+}
+#endif
