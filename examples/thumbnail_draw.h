@@ -1,0 +1,377 @@
+/* thumbnail_draw.h - the model in the light of the studio: camera, shaders, the order of its parts,
+   the shadow on the ground. */
+#ifndef EXAMPLES_THUMBNAIL_DRAW_H
+#define EXAMPLES_THUMBNAIL_DRAW_H
+
+#include "canvas.h"
+#include "thumbnail_light.h"
+#include "thumbnail_options.h"
+
+/* Uniforms of both shaders, for one surface */
+typedef struct look {
+    const studio *studio;
+    const shade_mesh *mesh;
+    const shade_texture *map;            /* NULL: none */
+    shade_material material;             /* without emission, which the map multiplies too */
+    shade_vec3 emission;
+    shade_lighting lighting;
+    shade_mat4 clip_from_world;
+    shade_vec3 eye;
+    float alpha, alpha_cutoff;
+    int per_vertex, map_is_opaque;
+} look;
+
+/* Varyings: P, N, the albedo of the vertex, u, v; lit per vertex, the light stands in P's place. */
+enum { LOOK_P, LOOK_N = 3, LOOK_ALBEDO = 6, LOOK_UV = 9, LOOK_VARYINGS = 11 };
+typedef float look_rows[3][SHADE_LANES];
+
+/* Bends what is brighter toward white instead of cutting it off; 3 gives 1. */
+#define SHOULDER 0.6f
+static float shoulder(float light)
+{
+    float over = (light - SHOULDER) / 0.5f;
+    return SHOULDER + 0.5f * over / (1 + over);
+}
+
+/* The light that leaves P toward the eye.  The first count lanes are looked at. */
+static void look_light(const look *k, const float *P, const float *N, const float *albedo,
+                       int count, look_rows out)
+{
+    float visibility[2][SHADE_LANES];
+    look_rows sky;
+    int shadows = k->lighting.model != SHADE_MODEL_EMISSIVE
+               && k->lighting.model != SHADE_MODEL_COOL_TO_WARM;
+    SHADE_EACH_LANE(i) {
+        int lane = i < count ? i : count - 1;
+        const float *p = P + lane, *n = N + lane;
+        shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]), E = shade_v3(0, 0, 0);
+        shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
+        normal = shade_normalize(normal);
+        visibility[0][i] = visibility[1][i] = 1;
+        if (shadows && i < count) {
+            E = studio_sky(k->studio, at, normal);
+            visibility[0][i] = studio_lamp(k->studio, at, normal);
+        }
+        sky[0][i] = E.x, sky[1][i] = E.y, sky[2][i] = E.z;
+    }
+    shade_lit_lanes(&k->lighting, &k->material, k->eye, P, N, albedo, visibility[0], out[0]);
+    for (int a = 0; a < 3; a++) {
+        const float ambient = (&k->material.ambient.x)[a], emission = (&k->emission.x)[a];
+        SHADE_EACH_LANE(i) {
+            float own = albedo[i + a * SHADE_LANES];
+            float light = out[a][i] + own * (ambient * sky[a][i] + emission);
+            out[a][i] = light > SHOULDER ? shoulder(light) : light;
+        }
+    }
+}
+
+static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                        shade_vertices *SHADE_RESTRICT out)
+{
+    const look *k = (const look *)uniforms;
+    SHADE_EACH_LANE(i) {
+        size_t at = in->index[i];
+        const float *p = k->mesh->positions + 3 * at, *n = k->mesh->normals + 3 * at;
+        const float *c = k->mesh->colors, *uv = k->mesh->texcoords;
+        shade_vec4 clip = shade_mat4_transform(k->clip_from_world, shade_v4(p[0], p[1], p[2], 1));
+        out->clip[0][i] = clip.x, out->clip[1][i] = clip.y;
+        out->clip[2][i] = clip.z, out->clip[3][i] = clip.w;
+        for (size_t a = 0; a < 3; a++) {
+            out->varying[LOOK_P + a][i] = p[a], out->varying[LOOK_N + a][i] = n[a];
+            out->varying[LOOK_ALBEDO + a][i] = c ? c[3 * at + a] : 1;
+        }
+        out->varying[LOOK_UV][i] = uv ? uv[2 * at] : 0;
+        out->varying[LOOK_UV + 1][i] = uv ? uv[2 * at + 1] : 0;
+    }
+    if (k->per_vertex) {
+        look_rows light;
+        look_light(k, out->varying[LOOK_P], out->varying[LOOK_N], out->varying[LOOK_ALBEDO],
+                   in->count, light);
+        SHADE_MEMCPY(out->varying[LOOK_P], light, sizeof light);
+    }
+}
+
+static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                          shade_colors *SHADE_RESTRICT out)
+{
+    const look *k = (const look *)uniforms;
+    float texel[4][SHADE_LANES];
+    look_rows N, albedo, light;
+    if (k->map)
+        shade_sample_lanes(k->map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], in->lod,
+                           texel[0]);
+    for (int a = 0; a < 3; a++) {
+        SHADE_EACH_LANE(i) {
+            /* backs are lit as fronts; fronts keep their normals, which on the outline of a
+               coarse mesh lean away from the viewer */
+            N[a][i] = in->front[i] ? in->varying[LOOK_N + a][i] : -in->varying[LOOK_N + a][i];
+            albedo[a][i] = in->varying[LOOK_ALBEDO + a][i] * (k->map ? texel[a][i] : 1);
+        }
+    }
+    if (!k->per_vertex)
+        look_light(k, in->varying[LOOK_P], N[0], albedo[0], in->count, light);
+    SHADE_EACH_LANE(i) {
+        float alpha = k->alpha * (k->map && !k->map_is_opaque ? texel[3][i] : 1);
+        for (int a = 0; a < 3; a++)
+            out->color[a][i] = !k->per_vertex ? light[a][i]
+                             : in->varying[LOOK_P + a][i] * (k->map ? texel[a][i] : 1);
+        out->color[3][i] = alpha;
+        out->discard[i] = alpha < k->alpha_cutoff;
+    }
+}
+
+/* ---- the camera ----------------------------------------------------------------------------- */
+
+typedef struct camera { shade_mat4 view, projection; shade_vec3 eye; } camera;
+
+/* The camera looks along a fixed direction.  Every point must lie inside four planes through the
+   eye, and each plane gives one linear bound: their extremes give the nearest eye, and the
+   sideways shift that centres. */
+static camera camera_frame(const owned_mesh *m, float aspect)
+{
+    const float half = 14 * 0.017453292f, margin = 1.10f;
+    shade_mat4 turn = shade_mat4_look_at(shade_v3(0, 0.36f, 1), shade_v3(0, 0, 0),
+                                         shade_v3(0, 1, 0));
+    shade_mat4 lens, world;
+    float slope_y, slope_x, left = -9, right = -9, below = -9, above = -9, front = -9, back = 9, d;
+    camera c;
+    turn.col[3] = shade_v4(0, 0, 0, 1);
+    lens = shade_mat4_perspective(2 * half, 1, 1, 2);
+    slope_y = 1 / lens.col[1].y, slope_x = slope_y * aspect;
+    for (size_t i = 0; i < 3 * (size_t)m->view.vertex_count; i += 3) {
+        const float *p = m->positions + i;
+        shade_vec3 q = shade_mat4_transform_direction(turn, shade_v3(p[0], p[1], p[2]));
+        right = fmaxf(right, q.x + slope_x * q.z), left = fmaxf(left, -q.x + slope_x * q.z);
+        above = fmaxf(above, q.y + slope_y * q.z), below = fmaxf(below, -q.y + slope_y * q.z);
+        front = fmaxf(front, q.z), back = fminf(back, q.z);
+    }
+    d = fmaxf((right + left) / (2 * slope_x), (above + below) / (2 * slope_y)) * margin;
+    d = fmaxf(d, front + 0.05f);
+    c.view = shade_mat4_mul(
+        shade_mat4_translation(shade_v3((left - right) / 2, (below - above) / 2, -d)), turn);
+    c.projection = shade_mat4_perspective(2 * half, aspect, (d - front) * 0.9f + 0.001f,
+                                          d - back + 4);
+    world = shade_mat4_inverse(c.view);
+    c.eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
+    return c;
+}
+
+/* ---- parts ---------------------------------------------------------------------------------- */
+
+static shade_result look_draw(const shade_target *target, look *k, const shade_mesh *mesh,
+                              int see_through)
+{
+    shade_pipeline p = { .vertex = look_vertex, .fragment = look_fragment };
+    p.uniforms = k, p.varyings = LOOK_VARYINGS;
+    k->mesh = mesh;
+    p.may_discard = k->alpha_cutoff > 0;
+    if (k->map) p.lod_texture = k->map, p.lod_varying = LOOK_UV;
+    if (see_through) p.raster.blend = SHADE_BLEND_OVER, p.raster.depth_read_only = 1;
+    return shade_draw(target, &p, mesh->indices, mesh->index_count, mesh->vertex_count, NULL);
+}
+
+/* The surface of a part; what the file leaves open and what the command line asks for */
+static void look_dress(look *k, const options *o, const model *m, int surface)
+{
+    const model_surface *s = m->surface_count ? &m->surface[surface] : NULL;
+    k->map = NULL, k->alpha = 1, k->alpha_cutoff = 0, k->map_is_opaque = 0;
+    k->material = o->material, k->emission = o->material.emission;
+    k->material.emission = shade_v3(0, 0, 0);
+    if (!s || !s->set || o->plain) return;
+    k->material = s->material, k->emission = s->material.emission;
+    k->material.emission = shade_v3(0, 0, 0), k->alpha = 1 - s->transparency;
+    k->alpha_cutoff = s->alpha_cutoff, k->map_is_opaque = s->opaque;
+    if (s->picture >= 0 && m->mesh.texcoords && m->picture[s->picture].map.pixels)
+        k->map = &m->picture[s->picture].map;
+}
+
+typedef struct far_triangle { float distance; uint32_t first; int surface; } far_triangle;
+
+static int far_first(const void *a, const void *b)
+{
+    float x = ((const far_triangle *)a)->distance, y = ((const far_triangle *)b)->distance;
+    return (x < y) - (x > y);
+}
+
+/* The transparent triangles, the farthest first; those in a row of one surface are one draw */
+static shade_result draw_far_first(const shade_target *target, look *k, const options *o,
+                                   const model *m, far_triangle *list, size_t n)
+{
+    uint32_t *indices = (uint32_t *)malloc(3 * n * sizeof *indices);
+    shade_result result = indices ? SHADE_OK : SHADE_ERROR_CAPACITY;
+    qsort(list, n, sizeof *list, far_first);
+    for (size_t i = 0, end; i < n && !result; i = end) {
+        shade_mesh mesh = m->mesh.view;
+        for (end = i; end < n && list[end].surface == list[i].surface; end++)
+            memcpy(indices + 3 * (end - i), m->mesh.indices + list[end].first, 12);
+        mesh.indices = indices, mesh.index_count = (int)(3 * (end - i));
+        look_dress(k, o, m, list[i].surface);
+        result = look_draw(target, k, &mesh, 1);
+    }
+    free(indices);
+    return result;
+}
+
+static shade_result draw_see_through(const shade_target *target, look *k, const options *o,
+                                     const model *m, const char *see_through)
+{
+    size_t n = 0, room = 0;
+    far_triangle *list;
+    shade_result result;
+    for (int i = 0; i < m->part_count; i++)
+        if (see_through[i]) room += (size_t)m->part[i].count / 3;
+    if (!room) return SHADE_OK;
+    list = (far_triangle *)malloc(room * sizeof *list);
+    if (!list) return SHADE_ERROR_CAPACITY;
+    for (int i = 0; i < m->part_count; i++) {
+        int end = see_through[i] ? m->part[i].first + m->part[i].count : 0;
+        for (int t = m->part[i].first; t < end; t += 3, n++) {
+            shade_vec3 sum = shade_v3(0, 0, 0), p;
+            for (int c = 0; c < 3; c++) {
+                memcpy(&p, m->mesh.positions + 3 * (size_t)m->mesh.indices[t + c], sizeof p);
+                sum = shade_add(sum, p);
+            }
+            list[n].distance = shade_distance(shade_scale(sum, 1 / 3.0f), k->eye);
+            list[n].first = (uint32_t)t, list[n].surface = m->part[i].surface;
+        }
+    }
+    result = draw_far_first(target, k, o, m, list, n);
+    free(list);
+    return result;
+}
+
+/* Opaque parts, in portions so that progress can be told */
+static shade_result draw_opaque(const shade_target *target, look *k, const options *o,
+                                const model *m, const char *see_through, mesh_progress *progress,
+                                void *user)
+{
+    const int portion = 3 << 16;
+    shade_result result = SHADE_OK;
+    for (int i = 0; i < m->part_count && !result; i++) {
+        shade_mesh mesh = m->mesh.view;
+        int end = m->part[i].first + m->part[i].count;
+        if (see_through[i]) continue;
+        look_dress(k, o, m, m->part[i].surface);
+        for (int at = m->part[i].first; at < end && !result; at += portion) {
+            mesh.indices = m->mesh.indices + at;
+            mesh.index_count = end - at < portion ? end - at : portion;
+            result = look_draw(target, k, &mesh, 0);
+            progress(user, (double)at / m->mesh.view.index_count);
+        }
+    }
+    return result;
+}
+
+/* ---- the ground ----------------------------------------------------------------------------- */
+
+enum { GROUND_SIZE = 256 };              /* texels along an edge of the shadow */
+#define GROUND_REACH 2.2f                /* half that edge; the shadow fades out toward it */
+
+/* Means over three texels along a line of steps */
+static void ground_blur(float *line, int step)
+{
+    float before = line[0];
+    for (int i = 1; i < GROUND_SIZE - 1; i++) {
+        float here = line[i * step];
+        line[i * step] = 0.25f * before + 0.5f * here + 0.25f * line[(i + 1) * step];
+        before = here;
+    }
+}
+
+/* How much of the light of open ground is missing: RGBA8, black, in shadow; dark is scratch. */
+static void ground_cast(const studio *light, float level, float *dark, uint8_t *shadow)
+{
+    const shade_vec3 up = shade_v3(0, 1, 0), open = studio_sky(light, shade_v3(0, 9, 0), up);
+    for (int i = 0; i < GROUND_SIZE * GROUND_SIZE; i++) {
+        float step = 2 * GROUND_REACH / GROUND_SIZE, sky, lamp, fade;
+        shade_vec3 P = shade_v3(((float)(i % GROUND_SIZE) + 0.5f) * step - GROUND_REACH, level,
+                                ((float)(i / GROUND_SIZE) + 0.5f) * step - GROUND_REACH);
+        fade = 1 - (P.x * P.x + P.z * P.z) / (GROUND_REACH * GROUND_REACH);
+        dark[i] = 0;
+        if (fade <= 0) continue;
+        sky = studio_sky(light, P, up).y / open.y, lamp = studio_lamp(light, P, up);
+        dark[i] = fade * (1 - (0.72f * sky + 0.28f) * (0.4f * lamp + 0.6f));
+    }
+    for (int k = 0; k < 4 * GROUND_SIZE; k++) {
+        ground_blur(dark + k % GROUND_SIZE * GROUND_SIZE, 1);
+        ground_blur(dark + k % GROUND_SIZE, GROUND_SIZE);
+    }
+    memset(shadow, 0, 4 * GROUND_SIZE * GROUND_SIZE);
+    for (int i = 0; i < GROUND_SIZE * GROUND_SIZE; i++)
+        shadow[4 * i + 3] = (uint8_t)(255 * dark[i] + 0.5f);
+}
+
+static shade_result draw_ground(const shade_target *target, const studio *light, const camera *c,
+                                const owned_mesh *m)
+{
+    enum { TEXELS = GROUND_SIZE * GROUND_SIZE };
+    static const uint32_t quad[6] = { 0, 1, 2, 0, 2, 3 };
+    static const float texcoords[8] = { 0, 0, 0, 1, 1, 1, 1, 0 };
+    const shade_material black = { .shininess = 0 };
+    const float h = GROUND_REACH;
+    float *dark = (float *)malloc(TEXELS * sizeof *dark), y = 1;
+    uint8_t *shadow = (uint8_t *)malloc(4 * TEXELS);
+    shade_result result = SHADE_ERROR_CAPACITY;
+    for (int i = 0; i < m->view.vertex_count; i++)
+        y = fminf(y, m->positions[3 * (size_t)i + 1]);
+    y -= 0.002f;
+    if (dark && shadow) {
+        const float positions[12] = { -h, y, -h, -h, y, h, h, y, h, h, y, -h };
+        shade_texture map = { .pixels = shadow, .width = GROUND_SIZE, .height = GROUND_SIZE };
+        shade_mesh mesh = { .positions = positions, .texcoords = texcoords, .indices = quad };
+        shade_draw_state state = { .view = c->view, .projection = c->projection };
+        ground_cast(light, y, dark, shadow);
+        mesh.vertex_count = 4, mesh.index_count = 6;
+        map.wrap_u = map.wrap_v = SHADE_WRAP_CLAMP;
+        state.material = &black, state.diffuse_map = &map;
+        state.raster.cull = SHADE_CULL_BACK, state.raster.blend = SHADE_BLEND_OVER;
+        state.raster.depth_read_only = 1;
+        result = shade_draw_mesh(target, &mesh, &state, NULL);
+    }
+    free(dark), free(shadow);
+    return result;
+}
+
+/* ---- the picture ---------------------------------------------------------------------------- */
+
+static void draw_background(const shade_target *target, const options *o)
+{
+    const shade_vec3 c = o->background_color;
+    if (o->background == THUMBNAIL_GRADIENT)
+        canvas_gradient(target, shade_rgb(0xEEF0F3), shade_rgb(0xC3C8CF));
+    else if (o->background == THUMBNAIL_PLAIN)
+        shade_clear(target, shade_v4(c.x, c.y, c.z, 1), 1);
+    else shade_clear(target, shade_v4(0, 0, 0, 0), 1);
+}
+
+/* Whether anything shows through a part: its transparency, or alpha between 0 and 1 in its map */
+static int part_is_clear(const model *m, const options *o, int part)
+{
+    const model_surface *s = m->surface_count ? &m->surface[m->part[part].surface] : NULL;
+    if (!s || !s->set || o->plain) return 0;
+    return s->transparency > 0 || (s->blended && s->picture >= 0);
+}
+
+static shade_result draw_picture(const canvas *c, const model *m, const studio *light,
+                                 const options *o, mesh_progress *progress, void *user)
+{
+    camera cam = camera_frame(&m->mesh, (float)o->width / (float)o->height);
+    char *see_through = (char *)calloc((size_t)m->part_count, 1);
+    look k = { .studio = light, .eye = cam.eye };
+    shade_result result;
+    if (!see_through) return SHADE_ERROR_CAPACITY;
+    k.clip_from_world = shade_mat4_mul(cam.projection, cam.view);
+    k.lighting.lights = light->lamp, k.lighting.light_count = 2;
+    k.lighting.model = o->model;
+    k.lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
+    k.lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
+    k.per_vertex = o->shading == SHADE_SHADING_PER_VERTEX;
+    for (int i = 0; i < m->part_count; i++) see_through[i] = (char)part_is_clear(m, o, i);
+    draw_background(&c->target, o);
+    result = draw_opaque(&c->target, &k, o, m, see_through, progress, user);
+    if (!result && !o->no_shadow) result = draw_ground(&c->target, light, &cam, &m->mesh);
+    if (!result) result = draw_see_through(&c->target, &k, o, m, see_through);
+    free(see_through);
+    return result;
+}
+#endif

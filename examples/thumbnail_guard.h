@@ -1,0 +1,65 @@
+/* thumbnail_guard.h - ends the program with one line and nothing half-written, whatever happens:
+   time that is up, an interrupt, a library that fails on a file made to break it.  Where there are
+   no POSIX signals, only memory and files are watched. */
+#ifndef EXAMPLES_THUMBNAIL_GUARD_H
+#define EXAMPLES_THUMBNAIL_GUARD_H
+
+#include <stdio.h>
+#include <string.h>
+
+#if defined(__unix__) || defined(__APPLE__)
+#define THUMBNAIL_POSIX
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* What a signal handler may need: the file that is being written, and what is being done. */
+static char guard_part[4096];
+static const char *volatile guard_doing = "starting";
+
+static void guard_say(const char *text)
+{
+    size_t n = strlen(text);
+    while (n) {
+        ssize_t said = write(2, text, n);
+        if (said <= 0) return;
+        text += said, n -= (size_t)said;
+    }
+}
+
+static void guard_end(int signal_number)
+{
+    if (guard_part[0]) unlink(guard_part);
+    guard_say("thumbnail: ");
+    if (signal_number == SIGALRM) guard_say("gave up after --max-seconds while ");
+    else if (signal_number == SIGINT || signal_number == SIGTERM || signal_number == SIGHUP)
+        guard_say("interrupted while ");
+    else guard_say("crashed while ");
+    guard_say(guard_doing);
+    guard_say("\n");
+    _exit(1);
+}
+
+static void guard_begin(int max_seconds)
+{
+    static const int ends[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL,
+                                SIGABRT };
+    static char stack[65536];            /* one's own may be what ran out */
+    stack_t other = { 0 };
+    struct sigaction action = { 0 };
+    other.ss_sp = stack, other.ss_size = sizeof stack;
+    sigaltstack(&other, NULL);
+    action.sa_handler = guard_end, action.sa_flags = SA_ONSTACK;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) sigaction(ends[i], &action, NULL);
+    signal(SIGPIPE, SIG_IGN);            /* write says so instead */
+    if (max_seconds) alarm((unsigned)max_seconds);
+}
+
+static int guard_terminal(void) { return isatty(2); }
+#else
+static const char *guard_doing;
+static void guard_begin(int max_seconds) { (void)max_seconds; }
+static int guard_terminal(void) { return 0; }
+#endif
+#endif
