@@ -36,6 +36,15 @@ STB      = $(shell flags="$$(pkg-config --cflags stb 2>/dev/null | sed 's/-I/-is
                    flags="$$flags -isystem /usr/include/stb"; \
                    echo | $(CC) -fsyntax-only $$flags -include stb_image.h -x c - 2>/dev/null && \
                    echo -DCOMPARE_STB $$flags || echo 'no stb: PNG of compare is left out' >&2)
+# thumbnail's pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL and PLY
+# assimp's (libassimp-dev)
+STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include \
+                   stb/stb_image_write.h -x c - 2>/dev/null && echo -DTHUMBNAIL_STB || \
+                   echo 'no stb: PNG and textures of thumbnail are left out' >&2)
+ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | \
+                   $(CC) -include assimp/cimport.h -x c - -lassimp -o $@.assimp 2>/dev/null && \
+                   rm -f $@.assimp && echo -DTHUMBNAIL_ASSIMP -lassimp || \
+                   echo 'no assimp: thumbnail reads OBJ, STL and PLY alone' >&2)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
@@ -51,6 +60,7 @@ build/%: examples/%.c build/shade.o $(SHARED)
 build/19_threads: EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
 build/view: LIBRARIES = $(SDL2)
+build/thumbnail: LIBRARIES = $(STB) $(ASSIMP)
 build/compare: LIBRARIES = $(STB)
 out/%.ppm: build/%
 	@mkdir -p out
