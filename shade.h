@@ -1111,10 +1111,13 @@ SHADE__INLINE float shade__keep(float x, uint32_t mask)
     return shade__bits_float(shade__float_bits(x) & mask);
 }
 /* b where the mask is set, else a */
+SHADE__INLINE uint32_t shade__choose(uint32_t a, uint32_t b, uint32_t mask)
+{
+    return a ^ ((a ^ b) & mask);
+}
 SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
 {
-    uint32_t u = shade__float_bits(a), v = shade__float_bits(b);
-    return shade__bits_float(u ^ ((u ^ v) & mask));
+    return shade__bits_float(shade__choose(shade__float_bits(a), shade__float_bits(b), mask));
 }
 SHADE__INLINE uint32_t shade__mask(int condition) { return 0u - (uint32_t)condition; }
 
@@ -1513,13 +1516,12 @@ static size_t shade__pixel_bytes(shade_format format)
 /* the two bytes of u < 2^16 exchanged */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return u >> 8 | (u & 255) << 8; }
 
-/* where channel k (R, G, B, A) lies in a packed pixel: a native uint16, or a native uint32 */
+/* where channel k (R, G, B, A) of a pixel of 4 bytes lies in a native uint32 */
 SHADE__INLINE int shade__channel_shift(shade_format format, int k)
 {
     const uint32_t one = 1;
     const int byte = format == SHADE_FORMAT_BGRA8 && k < 3 ? 2 - k : k;
     uint8_t first;
-    if (shade__pixel_bytes(format) == 2) return k == 0 ? 11 : k == 1 ? 5 : 0;
     SHADE_MEMCPY(&first, &one, 1);
     return first ? 8 * byte : 24 - 8 * byte;
 }
@@ -2558,40 +2560,23 @@ SHADE__INLINE int64_t shade__area(const shade__vertex *a, const shade__vertex *b
     return (int64_t)(b->x - a->x) * (c->y - a->y) - (int64_t)(c->x - a->x) * (b->y - a->y);
 }
 
-SHADE__INLINE int32_t shade__pick_int(int32_t a, int32_t b, uint32_t mask)
-{
-    return (int32_t)(((uint32_t)a & ~mask) | ((uint32_t)b & mask));
-}
-/* Rows a, b, c of one value turned in place: first is 0, 1 or 2, then the order of submission, or
-   the reverse where mirrored is set. */
-SHADE__INLINE void shade__turn_ints(int32_t *SHADE_RESTRICT a, int32_t *SHADE_RESTRICT b,
-                                    int32_t *SHADE_RESTRICT c, const uint32_t *SHADE_RESTRICT one,
-                                    const uint32_t *SHADE_RESTRICT two,
-                                    const uint32_t *SHADE_RESTRICT mirrored)
+/* Three rows of one value turned in place: first comes corner 0, 1 or 2, then the others in the
+   order of submission, or the reverse where mirrored is set. */
+SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v, const uint32_t *SHADE_RESTRICT one,
+                               const uint32_t *SHADE_RESTRICT two,
+                               const uint32_t *SHADE_RESTRICT mirrored)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
-        int32_t u = a[i], v = b[i], w = c[i], next, last;
-        a[i] = shade__pick_int(shade__pick_int(u, v, one[i]), w, two[i]);
-        next = shade__pick_int(shade__pick_int(v, w, one[i]), u, two[i]);
-        last = shade__pick_int(shade__pick_int(w, u, one[i]), v, two[i]);
-        b[i] = shade__pick_int(next, last, mirrored[i]);
-        c[i] = shade__pick_int(last, next, mirrored[i]);
+        uint32_t a = v[i], b = v[i + SHADE__TRIANGLES], c = v[i + 2 * SHADE__TRIANGLES];
+        uint32_t next = shade__choose(shade__choose(b, c, one[i]), a, two[i]);
+        uint32_t last = shade__choose(shade__choose(c, a, one[i]), b, two[i]);
+        v[i] = shade__choose(shade__choose(a, b, one[i]), c, two[i]);
+        v[i + SHADE__TRIANGLES] = shade__choose(next, last, mirrored[i]);
+        v[i + 2 * SHADE__TRIANGLES] = shade__choose(last, next, mirrored[i]);
     }
 }
-SHADE__INLINE void shade__turn_floats(float *SHADE_RESTRICT a, float *SHADE_RESTRICT b,
-                                      float *SHADE_RESTRICT c, const uint32_t *SHADE_RESTRICT one,
-                                      const uint32_t *SHADE_RESTRICT two,
-                                      const uint32_t *SHADE_RESTRICT mirrored)
-{
-    SHADE__FOR(i, SHADE__TRIANGLES) {
-        float u = a[i], v = b[i], w = c[i], next, last;
-        a[i] = shade__select(shade__select(u, v, one[i]), w, two[i]);
-        next = shade__select(shade__select(v, w, one[i]), u, two[i]);
-        last = shade__select(shade__select(w, u, one[i]), v, two[i]);
-        b[i] = shade__select(next, last, mirrored[i]);
-        c[i] = shade__select(last, next, mirrored[i]);
-    }
-}
+/* The rows of a value of the packet. */
+SHADE__INLINE shade__word *shade__words(void *rows) { return (shade__word *)rows; }
 
 /* Twice the area, in doubles (exact), and 256 over its size. */
 SHADE__INLINE void shade__areas(const shade__packet *SHADE_RESTRICT p, float *SHADE_RESTRICT area,
@@ -2619,16 +2604,6 @@ SHADE__INLINE void shade__turns(const shade__packet *SHADE_RESTRICT p,
         mirrored[i] = shade__mask(area[i] < 0);
     }
 }
-SHADE__INLINE int32_t shade__min3(int32_t a, int32_t b, int32_t c)
-{
-    int32_t m = a < b ? a : b;
-    return m < c ? m : c;
-}
-SHADE__INLINE int32_t shade__max3(int32_t a, int32_t b, int32_t c)
-{
-    int32_t m = a > b ? a : b;
-    return m > c ? m : c;
-}
 /* Pixel centres between the extremes of one axis, in lo .. hi, both included; and the extent.
    pre: |a|, |b|, |c| <= 2^24, 0 <= lo, hi < 2^14
    post: 0 <= first <= 2^16, -2^16 - 1 <= last < 2^14; the box is empty where first > last */
@@ -2638,10 +2613,10 @@ SHADE__INLINE void shade__box(const int32_t *SHADE_RESTRICT a, const int32_t *SH
                               float *SHADE_RESTRICT extent)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
-        int32_t least = shade__min3(a[i], b[i], c[i]), most = shade__max3(a[i], b[i], c[i]);
-        int32_t from = shade__floor256_32(least + 127), to = shade__floor256_32(most - 128);
-        first[i] = from > lo ? from : lo;
-        last[i] = to < hi ? to : hi;
+        int32_t least = shade__min(shade__min(a[i], b[i]), c[i]);
+        int32_t most = shade__max(shade__max(a[i], b[i]), c[i]);
+        first[i] = shade__max(shade__floor256_32(least + 127), lo);
+        last[i] = shade__min(shade__floor256_32(most - 128), hi);
         extent[i] = (float)(most - least);
     }
 }
@@ -2665,6 +2640,15 @@ SHADE__INLINE void shade__edge(const int32_t *SHADE_RESTRICT px, const int32_t *
         step_y[i] = dx;
     }
 }
+/* The sides from corner 0 to 1 and to 2, over the area: x1, y1, x2, y2. */
+SHADE__INLINE shade_vec4 shade__sides(const shade__packet *p, int i)
+{
+    const double k = p->inverse[i];
+    return shade_v4((float)((p->x[1][i] - p->x[0][i]) * k),
+                    (float)((p->y[1][i] - p->y[0][i]) * k),
+                    (float)((p->x[2][i] - p->x[0][i]) * k),
+                    (float)((p->y[2][i] - p->y[0][i]) * k));
+}
 /* Depth: its plane, and its range, to which planes are cut, as rounding may leave it at a
    sliver's edge.   post: low, high in [0, 1] */
 SHADE__INLINE void shade__depth_plane(const shade__packet *SHADE_RESTRICT p, float bias,
@@ -2673,21 +2657,17 @@ SHADE__INLINE void shade__depth_plane(const shade__packet *SHADE_RESTRICT p, flo
                                       float *SHADE_RESTRICT high)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
-        double k = p->inverse[i];
-        float x1 = (float)((p->x[1][i] - p->x[0][i]) * k);
-        float y1 = (float)((p->y[1][i] - p->y[0][i]) * k);
-        float x2 = (float)((p->x[2][i] - p->x[0][i]) * k);
-        float y2 = (float)((p->y[2][i] - p->y[0][i]) * k);
+        const shade_vec4 k = shade__sides(p, i);
         float a = z[i], b = z1[i], c = z2[i], d1 = b - a, d2 = c - a;
-        uint32_t less = shade__mask(b < a), more = shade__mask(b > a);
-        float least = shade__select(a, b, less), most = shade__select(a, b, more);
+        float least = shade__select(a, b, shade__mask(b < a));
+        float most = shade__select(a, b, shade__mask(b > a));
         least = shade__select(least, c, shade__mask(c < least));
         most = shade__select(most, c, shade__mask(c > most));
         low[i] = shade__clamp_bits(least + bias, 0, 1);
         high[i] = shade__clamp_bits(most + bias, 0, 1);
         z[i] = a + bias;
-        z1[i] = d1 * y2 - d2 * y1;
-        z2[i] = d2 * x1 - d1 * x2;
+        z1[i] = d1 * k.w - d2 * k.y;
+        z2[i] = d2 * k.x - d1 * k.z;
     }
 }
 /* Whether 32 bits hold the edge functions within 44 pixels of the vertices, where
@@ -2721,9 +2701,9 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
     const int n = p->count;
     shade__areas(p, area, p->inverse);
     shade__turns(p, area, one, two, mirrored);
-    shade__turn_ints(p->x[0], p->x[1], p->x[2], one, two, mirrored);
-    shade__turn_ints(p->y[0], p->y[1], p->y[2], one, two, mirrored);
-    shade__turn_floats(p->z[0], p->z[1], p->z[2], one, two, mirrored);
+    shade__turn(shade__words(p->x), one, two, mirrored);
+    shade__turn(shade__words(p->y), one, two, mirrored);
+    shade__turn(shade__words(p->z), one, two, mirrored);
     shade__box(p->x[0], p->x[1], p->x[2], plan->x0, plan->x1 - 1, p->box[0], p->box[2], w);
     shade__box(p->y[0], p->y[1], p->y[2], plan->y0, plan->y1 - 1, p->box[1], p->box[3], h);
     shade__sizes(p, w, h, fits);
@@ -3008,6 +2988,8 @@ typedef struct shade__triangle {
     float    z_low, z_high;
 } shade__triangle;
 
+/* From a position in 24.8 to the centre of pixel 0: exact. */
+SHADE__INLINE float shade__reference(int32_t v) { return 0.5f - (float)v * (1 / 256.0f); }
 /* The edge functions at pixel (x0, y0) in 64 bits.   post: |e| <= 2^44 */
 static void shade__wide_edges(const shade__packet *p, const shade__triangle *t, int64_t *e)
 {
@@ -3106,8 +3088,8 @@ SHADE__INLINE void shade__triangle_of(const shade__packet *p, int i, shade__tria
     }
     t->lane = i;
     t->in_32_bits = p->in_32_bits[i];
-    t->x_ref = 0.5f - (float)p->x[0][i] * (1 / 256.0f);
-    t->y_ref = 0.5f - (float)p->y[0][i] * (1 / 256.0f);
+    t->x_ref = shade__reference(p->x[0][i]);
+    t->y_ref = shade__reference(p->y[0][i]);
     t->z = p->z[0][i];
     t->z_dx = p->z[1][i];
     t->z_dy = p->z[2][i];
@@ -3174,8 +3156,8 @@ SHADE__INLINE void shade__spans_small(const shade__triangle *SHADE_RESTRICT t, i
             j += e < 0 ? 1 : 0;
             i = (q + j) & left;
             j = end - ((q + j) & right);
-            s->first[r] = s->first[r] > i ? s->first[r] : i;
-            s->last[r] = s->last[r] < j ? s->last[r] : j;
+            s->first[r] = shade__max(s->first[r], i);
+            s->last[r] = shade__min(s->last[r], j);
         }
     }
 }
@@ -3209,15 +3191,14 @@ static void shade__spans_big(const shade__triangle *t, const int64_t *edge, int 
 /* Where row y begins in depth. */
 SHADE__INLINE float *shade__depth_row(const shade__plan *plan, int y)
 {
-    return plan->depth + shade__offset_of(plan->target, 0, y);
+    return plan->depth + (size_t)(y - plan->row_offset) * (size_t)plan->stride;
 }
 
 /* 1 << i: shifts that differ per lane do not vectorise on SSE2 */
 static const uint32_t shade__bit[32] = {
-    1u << 0, 1u << 1, 1u << 2, 1u << 3, 1u << 4, 1u << 5, 1u << 6, 1u << 7,
-    1u << 8, 1u << 9, 1u << 10, 1u << 11, 1u << 12, 1u << 13, 1u << 14, 1u << 15,
-    1u << 16, 1u << 17, 1u << 18, 1u << 19, 1u << 20, 1u << 21, 1u << 22, 1u << 23,
-    1u << 24, 1u << 25, 1u << 26, 1u << 27, 1u << 28, 1u << 29, 1u << 30, 1u << 31
+    0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80, 0x100, 0x200, 0x400, 0x800, 0x1000, 0x2000,
+    0x4000, 0x8000, 0x10000, 0x20000, 0x40000, 0x80000, 0x100000, 0x200000, 0x400000, 0x800000,
+    0x1000000, 0x2000000, 0x4000000, 0x8000000, 0x10000000, 0x20000000, 0x40000000, 0x80000000
 };
 
 /* The depth test of z against the stored s, as masks.  plain: LESS. */
@@ -3476,18 +3457,17 @@ typedef struct shade__planes {
     uint32_t primitive, front;
 } shade__planes;
 
-/* All in one loop, with k = dx1, dy1, dx2, dy2 over the area. */
+/* All in one loop; k: shade__sides. */
 SHADE__INLINE void shade__slopes(const float *SHADE_RESTRICT v0, const float *SHADE_RESTRICT v1,
-                                 const float *SHADE_RESTRICT v2, const float *SHADE_RESTRICT k,
-                                 int stride, shade__planes *SHADE_RESTRICT t)
+                                 const float *SHADE_RESTRICT v2, shade_vec4 k, int stride,
+                                 shade__planes *SHADE_RESTRICT t)
 {
-    const float x1 = k[0], y1 = k[1], x2 = k[2], y2 = k[3];
     for (int s = 0; s < stride; s += 8) {
         SHADE__FOR(i, 8) {
             float d1 = v1[s + i] - v0[s + i], d2 = v2[s + i] - v0[s + i];
             t->base[s + i] = v0[s + i];
-            t->gx[s + i] = d1 * y2 - d2 * y1;
-            t->gy[s + i] = d2 * x1 - d1 * x2;
+            t->gx[s + i] = d1 * k.w - d2 * k.y;
+            t->gy[s + i] = d2 * k.x - d1 * k.z;
         }
     }
 }
@@ -3501,20 +3481,14 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     const float *v0 = p->value + corner[turn[0]] * stride;
     const float *v1 = p->value + corner[turn[1]] * stride;
     const float *v2 = p->value + corner[turn[2]] * stride;
-    const double inverse = p->inverse[i];
-    float k[4];
-    k[0] = (float)((p->x[1][i] - p->x[0][i]) * inverse);
-    k[1] = (float)((p->y[1][i] - p->y[0][i]) * inverse);
-    k[2] = (float)((p->x[2][i] - p->x[0][i]) * inverse);
-    k[3] = (float)((p->y[2][i] - p->y[0][i]) * inverse);
-    shade__slopes(v0, v1, v2, k, stride, t);
+    shade__slopes(v0, v1, v2, shade__sides(p, i), stride, t);
     t->base[0] = p->z[0][i];    /* with the bias */
     t->z_low = p->rw[0][i];
     t->z_high = p->rw[1][i];
     t->rw_low = v0[1];
     t->rw_high = shade__maxf(v0[1], shade__maxf(v1[1], v2[1]));
-    t->x_ref = 0.5f - (float)p->x[0][i] * (1 / 256.0f);
-    t->y_ref = 0.5f - (float)p->y[0][i] * (1 / 256.0f);
+    t->x_ref = shade__reference(p->x[0][i]);
+    t->y_ref = shade__reference(p->y[0][i]);
     t->primitive = p->primitive[i];
     t->front = p->turn[i] > 2;
     if (plan->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
@@ -3571,8 +3545,8 @@ SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, fl
         f->x[c + i] = shade__select((float)(x + i) + 0.5f, f->x[c + i], keep);
         f->y[c + i] = shade__select(centre, f->y[c + i], keep);
         f->z[c + i] = shade__select(z, f->z[c + i], keep);
-        f->primitive[c + i] = (t->primitive & ~keep) | (f->primitive[c + i] & keep);
-        f->front[c + i] = (t->front & ~keep) | (f->front[c + i] & keep);
+        f->primitive[c + i] = shade__choose(t->primitive, f->primitive[c + i], keep);
+        f->front[c + i] = shade__choose(t->front, f->front[c + i], keep);
     }
 }
 /* Writes width lanes of the queue from lane c on: pixels x, x + 1, ... of row y.  The first back of
@@ -3593,7 +3567,7 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
         px[i] = (float)(x + i) + x_ref;
         rw = shade__clamp_bits(rw0 + rw_dx * px[i], t->rw_low, t->rw_high);
         q->rw[c + i] = shade__select(rw, q->rw[c + i], keep);
-        q->offset[c + i] = ((offset + (uint32_t)i) & ~keep) | (q->offset[c + i] & keep);
+        q->offset[c + i] = shade__choose(offset + (uint32_t)i, q->offset[c + i], keep);
     }
     for (int k = 0; k < plan->varyings; k++)
         shade__append_plane(row[SHADE__FIRST + k], t->gx[SHADE__FIRST + k], px, back,
@@ -3653,24 +3627,25 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
 SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs),
                 (d, run, runs))
 
+/* The lanes of a row from n on. */
+static void shade__repeat(void *row, int n)
+{
+    shade__word *to = shade__words(row);
+    for (int i = n; i < SHADE_LANES; i++) to[i] = to[n - 1];
+}
 /* Fills the rest of a packet with its last lane. */
 static void shade__replicate(shade__queue *q, const shade__plan *plan)
 {
-    int n = q->f.count, last = n - 1;
-    for (int k = 0; k < plan->varyings; k++) {
-        for (int i = n; i < SHADE_LANES; i++) q->f.varying[k][i] = q->f.varying[k][last];
-    }
-    for (int i = n; i < SHADE_LANES; i++) {
-        q->rw[i] = q->rw[last];
-        q->f.lod[i] = q->f.lod[last];
-    }
-    for (int i = n; i < SHADE_LANES && !plan->bare; i++) {
-        q->f.x[i] = q->f.x[last];
-        q->f.y[i] = q->f.y[last];
-        q->f.z[i] = q->f.z[last];
-        q->f.primitive[i] = q->f.primitive[last];
-        q->f.front[i] = q->f.front[last];
-    }
+    const int n = q->f.count;
+    for (int k = 0; k < plan->varyings; k++) shade__repeat(q->f.varying[k], n);
+    shade__repeat(q->rw, n);
+    shade__repeat(q->f.lod, n);
+    if (plan->bare) return;
+    shade__repeat(q->f.x, n);
+    shade__repeat(q->f.y, n);
+    shade__repeat(q->f.z, n);
+    shade__repeat(q->f.primitive, n);
+    shade__repeat(q->f.front, n);
 }
 /* Rows of varyings times w = 1/rw.  rw of a covered pixel lies between its vertices' and is
    positive. */
@@ -3840,6 +3815,7 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
                                        const float *u, const float *v, int blocks,
                                        const float *weight, float *out, int stride)
 {
+    static const uint8_t shift565[4] = { 11, 5, 0, 0 };
     shade__axis x, y;
     SHADE_ALIGNED uint32_t texel[4][SHADE__TEXELS];
     SHADE_ALIGNED float c[4][SHADE__TEXELS];
@@ -3851,7 +3827,7 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
     shade__address(u, blocks, level->width, base->wrap_u, nearest, &x);
     shade__address(v, blocks, level->height, base->wrap_v, nearest, &y);
     for (int k = 0; k < 4; k++) {
-        int shift = shade__channel_shift(level->format, k);
+        int shift = wide ? shade__channel_shift(level->format, k) : shift565[k];
         int srgb = level->srgb && k < 3;
         uint32_t mask = shade__channel_full(level->format, k);
         if (bytes == 16) shade__fetch_texels(p + 4 * k, pitch, &x, &y, blocks, 16, 4, texel);
@@ -4023,17 +3999,20 @@ SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHA
         threshold[i] = ((float)(int32_t)rank + 0.5f) * 0.0625f;
     }
 }
-/* n pixels of any bits: clamp(c, 0, 1) in steps of 1 / full, up from the threshold on. */
+/* n pixels of 5-6-5 bits: clamp(c, 0, 1) in steps of 1 / full, up from the threshold on; or, where
+   that is NULL, of 8 bits a channel to nearest.  Any bits of floats.   post: 5-6-5 below 2^16 */
 SHADE__INLINE void shade__pack_channels(shade_format format, const float *SHADE_RESTRICT rgba,
                                         const int stride, const float *SHADE_RESTRICT threshold,
                                         uint32_t *SHADE_RESTRICT packed, const int n)
 {
-    const int r = shade__channel_shift(format, 0), g = shade__channel_shift(format, 1);
-    const int b = shade__channel_shift(format, 2), a = shade__channel_shift(format, 3);
-    const int wide = shade__pixel_bytes(format) == 4;
+    const int wide = !threshold;
+    const int r = wide ? shade__channel_shift(format, 0) : 11;
+    const int g = wide ? shade__channel_shift(format, 1) : 5;
+    const int b = wide ? shade__channel_shift(format, 2) : 0;
+    const int a = wide ? shade__channel_shift(format, 3) : 0;
     const float full = wide ? 255 : 31, full_g = wide ? 255 : 63, full_a = wide ? 255 : 0;
     SHADE__FOR(i, n) {
-        float half = threshold[i];
+        float half = threshold ? threshold[i] : 0.5f;
         int32_t cr = (int32_t)(shade__unit(rgba[i]) * full + half);
         int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * full_g + half);
         int32_t cb = (int32_t)(shade__unit(rgba[i + 2 * stride]) * full + half);
@@ -4049,8 +4028,12 @@ SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int str
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (t->format == SHADE_FORMAT_RGBA32F) return;
     for (int k = 0; k < 3 && t->srgb; k++) shade__encode_row(rgba + k * stride, n);
+    if (shade__pixel_bytes(t->format) == 4) {
+        shade__pack_channels(t->format, rgba, stride, NULL, packed, n);
+        return;
+    }
     SHADE__FOR(i, n) { threshold[i] = 0.5f; }
-    if (t->dither && shade__pixel_bytes(t->format) == 2) shade__dither(x, y, threshold, n);
+    if (t->dither) shade__dither(x, y, threshold, n);
     shade__pack_channels(t->format, rgba, stride, threshold, packed, n);
     if (t->format == SHADE_FORMAT_RGB565_SWAPPED) {
         SHADE__FOR(i, n) { packed[i] = shade__swap16(packed[i]); }

@@ -57,7 +57,7 @@ static void prove_parts(void)
     for (int i = 0; i < 8; i++) {
         /*@ assert 0 < threshold[i] < 1; */
     }
-    shade__pack_channels(SHADE_FORMAT_RGBA8, rgba, 8, threshold, packed, 8);
+    shade__pack_channels(SHADE_FORMAT_RGBA8, rgba, 8, NULL, packed, 8);
     shade__pack_channels(SHADE_FORMAT_RGB565, rgba, 8, threshold, packed, 8);
     for (int i = 0; i < 8; i++) {
         /*@ assert packed[i] <= 65535; */
