@@ -268,7 +268,8 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
     int missing = 0;
     if (!p->faces.triangles)
         return mesh_fail(r, n ? "points without faces" : "neither vertices nor faces in it");
-    if (p->highest >= (double)n) return mesh_fail(r, "there is no vertex %lu", (unsigned long)p->highest);
+    if (p->highest >= (double)n)
+        return mesh_fail(r, "there is no vertex %lu", (unsigned long)p->highest);
     m->positions = (float *)malloc(3 * sizeof(float) * n);
     m->normals = (float *)malloc(3 * sizeof(float) * n);
     if (p->has[PLY_U]) m->texcoords = (float *)malloc(2 * sizeof(float) * n);
