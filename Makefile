@@ -2,7 +2,8 @@
 # make test       all tests (a C compiler and make are enough); make test T=clip runs one section
 # make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it;
 #                 make bench BASE=revision: against the shade.h of another revision
-# make matrix     the same pictures from other compilers, flags and processors
+# make matrix     the same pictures from other compilers, flags and processors; and every compiler
+#                 that is there without a warning
 # make conformance   scenes drawn with Mesa's OSMesa as well, pixel by pixel
 # make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
 # make mutation   small changes of shade.h, one at a time, that the tests must notice
@@ -88,7 +89,7 @@ bench:
 bench-plot:
 	@sh bench/plot.sh
 matrix:
-	@sh tests/matrix.sh
+	@sh tests/matrix.sh; same=$$?; sh tests/compilers.sh && exit $$same
 conformance:
 	@sh tests/conformance.sh
 gallery: all

@@ -1,6 +1,6 @@
 #!/bin/sh
 # compile.sh - shade.h in every dialect and configuration it promises, without a warning; and what
-# its objects need and export.   CC and CXX choose the compilers; C++ is left out where there is
+# its objects need and export.  CC and CXX choose the compilers; C++ is left out where there is
 # none.  What nothing links or reads is not compiled further than to its warnings, and one object
 # serves all programs.
 cd "$(dirname "$0")/.." || exit 1
@@ -47,13 +47,13 @@ for f in main other; do
 done
 
 # the header alone and with its implementation, in every dialect
-for std in c99 c11 c17 c23; do
+for std in c99 c11 c17 c2x; do
     accepts "$CC" -std=$std c || { echo "compile: $CC has no -std=$std: left out"; continue; }
     check "header, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/header.c"
     check "implementation, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/impl.c"
 done
 if [ -n "${CXX:-}" ] && command -v "$CXX" >/dev/null 2>&1; then
-    for std in c++11 c++17 c++20; do
+    for std in c++11 c++14 c++17 c++20; do
         accepts "$CXX" -std=$std c++ || { echo "compile: $CXX has no $std: left out"; continue; }
         check "header, $std" $CXX -std=$std $WARN -I. -x c++ -fsyntax-only "$T/header.c"
         check "implementation, $std" $CXX -std=$std $WARN -I. -x c++ -fsyntax-only "$T/impl.c"

@@ -2,23 +2,20 @@
 # matrix.sh - the built-in scenes from other compilers, flags, vector widths and processors have the same bits.
 # What is not installed is named and left out.
 cd "$(dirname "$0")/.." || exit 1
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
-passed=0 failed=0 skipped=0
+. tests/tools.sh
 grep '^{' tests/scenes.h >"$T/want"
 
 # name, runner (or ""), compiler and flags
 one() {
     name=$1 runner=$2; shift 2
-    if ! command -v "$1" >/dev/null || { [ -n "$runner" ] && ! command -v "${runner%% *}" >/dev/null; }; then
-        skipped=$((skipped + 1)); echo "left out  $name"; return
-    fi
-    if ! "$@" -w -DSCENE_MAIN -I. tests/scene.c -lm -o "$T/scenes" 2>"$T/log"; then
-        failed=$((failed + 1)); echo "FAIL      $name does not compile"; head -n 5 "$T/log"
+    if ! there "$1" || { [ -n "$runner" ] && ! there "${runner%% *}"; }; then
+        left_out "$name"
+    elif ! "$@" -w -DSCENE_MAIN -I. tests/scene.c -lm -o "$T/scenes" 2>"$T/log"; then
+        fail "$name does not compile" "$T/log"
     elif $runner "$T/scenes" >"$T/got" 2>&1 && cmp -s "$T/want" "$T/got"; then
         passed=$((passed + 1)); echo "same      $name"
     else
-        failed=$((failed + 1)); echo "FAIL      $name"; diff "$T/want" "$T/got" | head -n 6
+        diff "$T/want" "$T/got" >"$T/log"; fail "$name" "$T/log"
     fi
 }
 
@@ -50,9 +47,7 @@ if echo '#include <stdio.h>' | clang --target=wasm32-wasi -x c -fsyntax-only - 2
     one "wasm32 under Node" "$wasi" clang --target=wasm32-wasi -O2
     one "wasm32 with SIMD" "$wasi" clang --target=wasm32-wasi -O2 -msimd128
 else
-    skipped=$((skipped + 1)); echo "left out  wasm32: no wasi-libc"
+    left_out "wasm32: no wasi-libc"
 fi
 
-echo "$skipped left out"
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish
