@@ -17,7 +17,7 @@ annotate() {
     awk -v driver="[$1]" -v facts="$T/facts" '
         BEGIN { printf "" > facts }
         NR == FNR && /^\[/ { mine = $1 == driver; sub(/^[^ ]* /, ""); place = $0; next }
-        NR == FNR && mine && $1 == "hint:" { sub(/^ *hint: */, ""); add[place] = add[place] "/*@ " $0 " */ " }
+        NR == FNR && mine && $1 == "hint:" { sub(/^ *hint: */, ""); add[place] = add[place] "/*@ " $0 " */; " }
         NR == FNR && mine && $1 == "fact:" {
             sub(/^ *fact: */, "")
             add[place] = add[place] "/*@ assert fact_" FNR ": " $0 "; */ "

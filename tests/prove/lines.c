@@ -1,0 +1,32 @@
+/* lines.c - ends of lines: any points, matrix and width; points read inside their array. */
+/* eva: -eva-slevel 20 -eva-split-return-function shade__stroke_part:0 */
+#include "prove.h"
+
+int main(void)
+{
+    static float coordinates[4 * 3];
+    static shade_vertex_ids ids;
+    static shade_vertices out;
+    shade_line_state state;
+    shade__stroke s;
+    memset(&state, 0, sizeof state);
+    state.raster.depth_zero_to_one = ANY_OF(0, 1);
+    state.cap = (shade_cap)ANY_OF(SHADE_CAP_BUTT, SHADE_CAP_SQUARE);
+    any_floats(coordinates, 12);
+    any_floats((float *)&s.clip_from_points, 16);
+    s.points = (const shade_vec3 *)coordinates;
+    s.state = &state;
+    s.half_x = Frama_C_double_interval(0.5, 8192);
+    s.half_y = Frama_C_double_interval(0.5, 8192);
+    s.half_width = Frama_C_double_interval(0, 1.8e38);
+    /* 4 points are 12 corners */
+    for (int i = 0; i < SHADE_LANES; i++)
+        ids.index[i] = Frama_C_unsigned_int_interval(0, 11);
+    shade__stroke_vertex(&s, &ids, &out);
+    /* what shade_draw_lines makes of a count that it has found good */
+    const int count = ANY_OF(0, INT32_MAX / 3) * 3;
+    const uint32_t last = Frama_C_unsigned_int_interval(0, (uint32_t)count);
+    const size_t point = 2 * (size_t)(last / 6) + 1;
+    /*@ assert point <= 715827883; */
+    return 0;
+}
