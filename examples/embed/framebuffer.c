@@ -7,11 +7,11 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/fb.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
-#include <unistd.h>
 
 /* The format of a pixel; -1: none of ours */
 static int format_of(const struct fb_var_screeninfo *v)
@@ -39,8 +39,7 @@ int main(int argc, char **argv)
         ioctl(device, FBIOGET_FSCREENINFO, &f))
         return fail(path, strerror(errno));
     if (format_of(&v) < 0) return fail(path, "pixels are neither 5-6-5 bits nor RGBA or BGRA");
-    if ((v.yoffset + v.yres) * (size_t)f.line_length > f.smem_len)
-        return fail(path, "rows beyond its memory");
+    if ((v.yoffset + v.yres) * (size_t)f.line_length > f.smem_len) return fail(path, "too small");
 
     /* drawn in memory of our own, which is faster to read than the device's, and shown whole */
     size_t size = v.bits_per_pixel / 8, row = v.xres * size;

@@ -1,5 +1,6 @@
 /* main.c - draws the saddle into a file:   saddle [saddle.ppm [width height]] */
 #include "saddle.h"
+#include <stdio.h>
 #include <stdlib.h>
 
 int main(int argc, char **argv)

@@ -2,6 +2,7 @@
    No target, no mesh, nothing drawn. */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
+#include <stdio.h>
 
 int main(void)
 {
