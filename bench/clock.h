@@ -39,6 +39,33 @@ static inline double clock_median(double *v, int n)
     return n % 2 ? v[n / 2] : (v[n / 2 - 1] + v[n / 2]) / 2;
 }
 
+/* A line of Markdown: how fast this core fills and copies memory that no cache holds.  Large
+   pictures of little arithmetic come to no more. */
+static inline void clock_memory(void)
+{
+    enum { MEGABYTES = 256, ROUNDS = 9 };
+    size_t size = (size_t)MEGABYTES << 20;
+    unsigned char *block = (unsigned char *)malloc(size);
+    volatile unsigned char seen = 0;
+    double fills[ROUNDS], copies[ROUNDS];
+    if (!block) return;
+    memset(block, 1, size);
+    for (int i = 0; i < ROUNDS; i++) {
+        double start = clock_cpu();
+        memset(block, i, size);
+        seen = block[seen];
+        fills[i] = clock_cpu() - start;
+        start = clock_cpu();
+        memcpy(block + size / 2, block, size / 2);
+        seen = block[size / 2 + seen];
+        copies[i] = clock_cpu() - start;
+    }
+    printf("Memory, one core: %d MB filled at %.1f GB/s, %d MB copied at %.1f GB/s.\n", MEGABYTES,
+           (double)size / clock_median(fills, ROUNDS), MEGABYTES / 2,
+           (double)size / 2 / clock_median(copies, ROUNDS));
+    free(block);
+}
+
 /* Two lines of Markdown: the processor, the compiler and its flags.  Makefiles and scripts hand the
    flags over as BENCH_FLAGS. */
 #ifndef BENCH_FLAGS

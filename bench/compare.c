@@ -161,6 +161,8 @@ int main(int argc, char **argv)
         if (!o.only || strstr(scenes[i].name, o.only)) measure(&o, &scenes[i], p, skipped, tsv);
         scene_free(&scenes[i]);
     }
+    printf("\n");
+    clock_memory();
     if (tsv) fclose(tsv);
     return 0;
 }
