@@ -75,10 +75,11 @@ static void pixels(void)
            "| picture | flat, ms | ns per pixel | floor, ms | ns per pixel |\n"
            "|---|---|---|---|---|\n");
     for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
-        scene flat = scene_fill("flat"), ground = scene_floor("floor", 0.5f);
+        scene flat = scene_fill("flat", size[i][0], size[i][1]);
+        scene ground = scene_floor("floor", 0.5f);
         double count = (double)size[i][0] * size[i][1], a, b;
         shade_target t;
-        flat.width = ground.width = size[i][0], flat.height = ground.height = size[i][1];
+        ground.width = size[i][0], ground.height = size[i][1];
         scene_link(&flat), scene_link(&ground);
         t = scene_target(&flat);
         a = frame_ms(&flat, &t), b = frame_ms(&ground, &t);
