@@ -32,16 +32,12 @@ SDL2     = $(shell flags="$$(sdl2-config --cflags --libs 2>/dev/null | sed 's/-I
                    $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && rm -f $@.sdl2 && \
                    echo -DVIEW_SDL $$flags || echo 'no SDL2: the window of view is left out' >&2)
 
-# compare reads PNG and its like by stb (libstb-dev)
-STB      = $(shell flags="$$(pkg-config --cflags stb 2>/dev/null | sed 's/-I/-isystem /g')"; \
-                   flags="$$flags -isystem /usr/include/stb"; \
-                   echo | $(CC) -fsyntax-only $$flags -include stb_image.h -x c - 2>/dev/null && \
-                   echo -DCOMPARE_STB $$flags || echo 'no stb: PNG of compare is left out' >&2)
-# thumbnail's pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL and PLY
-# assimp's (libassimp-dev)
+# pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL and PLY assimp's
+# (libassimp-dev)
 STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include \
-                   stb/stb_image_write.h -x c - 2>/dev/null && echo -DTHUMBNAIL_STB || \
-                   echo 'no stb: PNG and textures of thumbnail are left out' >&2)
+                   stb/stb_image_write.h -x c - 2>/dev/null && \
+                   echo -DTHUMBNAIL_STB -DCOMPARE_STB || \
+                   echo 'no stb: PNG and textures of thumbnail, PNG of compare are left out' >&2)
 ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | \
                    $(CC) -include assimp/cimport.h -x c - -lassimp -o $@.assimp 2>/dev/null && \
                    rm -f $@.assimp && echo -DTHUMBNAIL_ASSIMP -lassimp || \

@@ -3,8 +3,8 @@
    cc -O2 examples/compare.c -lm -o compare && ./compare --limit 2 golden.ppm picture.ppm
 
    For tests that draw a picture and keep the one it should be.  Both are read row by row: a poster
-   takes no more memory than an icon.  With -DCOMPARE_STB and stb_image.h of stb, as make builds it
-   where that is installed, PNG and whatever else stb reads are compared too. */
+   takes no more memory than an icon.  With -DCOMPARE_STB and stb, as make builds it where that is
+   installed, PNG and whatever else stb reads are compared too. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_NO_PNM
 #define STBI_FAILURE_USERMSG
-#include "stb_image.h"
+#include "stb/stb_image.h"
 #endif
 
 static const char usage[] =
