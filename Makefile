@@ -24,9 +24,9 @@ FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
 EXACT    = -ffp-contract=off
 OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
                    $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
-# view needs POSIX; its window SDL2 (libsdl2-dev)
-VIEW     = $(shell echo | $(CC) -fsyntax-only -include termios.h -x c - 2>/dev/null && \
-                   echo build/view || echo 'no termios.h: view is left out' >&2)
+# view and batch need POSIX; the window of view SDL2 (libsdl2-dev)
+POSIX    = $(shell echo | $(CC) -fsyntax-only -include termios.h -x c - 2>/dev/null && \
+                   echo build/view build/batch || echo 'no termios.h: view, batch left out' >&2)
 SDL2     = $(shell flags="$$(sdl2-config --cflags --libs 2>/dev/null | sed 's/-I/-isystem /g')"; \
                    echo 'int main(int n, char **v) { return v && SDL_Init(0) > n; }' | \
                    $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && rm -f $@.sdl2 && \
@@ -46,7 +46,7 @@ ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
 
-all: $(NUMBERED:%=out/%.ppm) build/thumbnail build/compare $(VIEW) out/gallery.ppm
+all: $(NUMBERED:%=out/%.ppm) build/thumbnail build/compare $(POSIX) out/gallery.ppm
 
 # each example compiles alone; here they share one build of the implementation
 build/shade.o: shade.h

@@ -13,6 +13,7 @@ typedef struct view_options {
     const char *model;       /* NULL: the teapot */
     view_colors colors;      /* VIEW_COLORS_ASKED: of the terminal */
     int window, still, z_up; /* z_up -1: by the kind of file */
+    int pieces;              /* of the teapot, along each edge of a patch; 0: 20 */
     int rate, frames;        /* frames 0: until the user ends it */
 } view_options;
 
@@ -28,10 +29,13 @@ static const char view_usage[] =
     "  --help                this text\n"
     "The key ? lists the others.\n";
 
+/* Who complains */
+static const char *view_program = "view";
+
 /* One line, and the exit code for it */
 static inline int view_complain(const char *format, const char *what)
 {
-    fputs("view: ", stderr);
+    fprintf(stderr, "%s: ", view_program);
     fprintf(stderr, format, what);
     fputc('\n', stderr);
     return 1;

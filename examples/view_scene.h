@@ -70,9 +70,11 @@ typedef struct scene {
     int wire_points;
 } scene;
 
-/* Where the scene stands for a picture of a given shape */
+/* Where the scene stands for a picture of a given shape, and how far down the backdrop the picture
+   begins and ends, 0 .. 1 */
 typedef struct scene_camera {
     shade_mat4 model, view, projection;
+    float top, bottom;
 } scene_camera;
 
 /* Frames a second, counted over half seconds; 0: not yet */
@@ -91,11 +93,10 @@ static inline void frame_rate_count(frame_rate *f, double now)
 
 /* ---- the model ------------------------------------------------------------------------------ */
 
-static inline owned_mesh scene_teapot(void)
+static inline owned_mesh scene_teapot(int pieces)
 {
-    enum { PIECES = 20 };
-    owned_mesh m = mesh_new(teapot_vertex_count(PIECES), teapot_index_count(PIECES));
-    teapot_build(PIECES, m.positions, m.normals, m.texcoords, m.indices);
+    owned_mesh m = mesh_new(teapot_vertex_count(pieces), teapot_index_count(pieces));
+    teapot_build(pieces, m.positions, m.normals, m.texcoords, m.indices);
     return m;
 }
 
@@ -120,7 +121,7 @@ static inline int scene_load(scene *s, const view_options *o, mesh_progress *pro
     char error[400];
     int z_up = o->z_up >= 0 ? o->z_up : o->model && mesh_is_stl(o->model, NULL, 0);
     if (!o->model)
-        s->mesh = scene_teapot();
+        s->mesh = scene_teapot(o->pieces ? o->pieces : 20);
     else if (mesh_read_file_progress(o->model, &s->mesh, error, sizeof error, progress, user))
         return view_complain("%s", error);
     mesh_normalize(&s->mesh, z_up);
@@ -271,6 +272,20 @@ static inline scene_camera scene_place_camera(const scene *s, float aspect)
     c.projection =
         shade_mat4_perspective(SCENE_LENS, aspect, fmaxf(0.02f, distance - 2.2f), distance + 2.2f);
     c.projection.col[0].x *= s->zoom, c.projection.col[1].y *= s->zoom;
+    c.top = 0, c.bottom = 1;
+    return c;
+}
+
+/* The camera of width x height pixels from x, y on, where c is that of size (width, height) */
+static inline scene_camera scene_crop(scene_camera c, shade_vec2 size, float x, float y,
+                                      float width, float height)
+{
+    shade_vec4 *col = c.projection.col;
+    for (int k = 0; k < 4; k++) {
+        col[k].x = col[k].x * (size.x / width) + col[k].w * ((size.x - 2 * x) / width - 1);
+        col[k].y = col[k].y * (size.y / height) + col[k].w * (1 - (size.y - 2 * y) / height);
+    }
+    c.top = y / size.y, c.bottom = (y + height) / size.y;
     return c;
 }
 
@@ -281,7 +296,8 @@ static inline uint32_t scene_ink(const scene *s)
 }
 enum { SCENE_BOX = 0x14191e, SCENE_BOX_INK = 0xe6ebf0 };
 
-static inline void scene_backdrop(const scene *s, const shade_target *target, int rows)
+static inline void scene_backdrop(const scene *s, const shade_target *target, float from, float to,
+                                  int rows)
 {
     static const uint32_t top[3] = { 0x20262e, 0xdfe6ec, 0 }, bottom[3] = { 0x59626d, 0x9aa5b0, 0 };
     int b = s->choice[CHOICE_BACKDROP];
@@ -289,6 +305,7 @@ static inline void scene_backdrop(const scene *s, const shade_target *target, in
     band.clip_width = band.width, band.clip_height = rows;
     for (band.clip_y = 0; band.clip_y < band.height; band.clip_y += rows) {
         float part = ((float)band.clip_y + 0.5f * (float)rows) / (float)band.height;
+        part = from + (to - from) * part;
         shade_vec3 k = shade_lerp(shade_rgb(top[b]), shade_rgb(bottom[b]), part);
         shade_clear(&band, shade_v4(k.x, k.y, k.z, 1), 1);
     }
@@ -382,7 +399,7 @@ static inline shade_result scene_draw(const scene *s, const shade_target *target
     state.lighting.terms = terms[s->choice[CHOICE_TERM]];
     state.lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
     state.lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
-    scene_backdrop(s, target, samples);
+    scene_backdrop(s, target, c->top, c->bottom, samples);
     if (s->choice[CHOICE_WIRE] == WIRE_ALONE)
         body.color = NULL, pen.color = shade_v4(0.8f, 0.85f, 0.9f, 1);
     result = scene_draw_model(s, &body, &state);

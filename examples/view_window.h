@@ -277,7 +277,7 @@ static inline void window_show_progress(window *w, int percent)
     char text[40];
     snprintf(text, sizeof text, "reading %d", percent);
     if (!window_fit(w) || window_lock(w, &out)) return;
-    scene_backdrop(w->scene, &out, 1);
+    scene_backdrop(w->scene, &out, 0, 1, 1);
     window_text(w, &out, 0, 0, scene_ink(w->scene), text);
     window_show(w);
 }

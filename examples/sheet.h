@@ -1,0 +1,102 @@
+/* sheet.h - a picture of a scene, as large as one likes, by any of its rows.
+
+       sheet p;
+       if (sheet_open(&p, &scene, 49152, 65536, 2)) ...                        (out of memory)
+       sheet_write(&p, 1024, 1024, file);                   (so many rows from there on, as RGB)
+       sheet_close(&p);
+
+   shade.h draws pictures of up to 16384 x 16384 samples.  A larger one is laid out in cells of that
+   size, each drawn through its part of the lens; a cell is drawn in strips, which have the bits of
+   the whole.  Cells depend on the picture's size alone: whoever draws which rows, the bits are the
+   same. */
+#ifndef EXAMPLES_SHEET_H
+#define EXAMPLES_SHEET_H
+
+#include "view_scene.h"
+
+#ifndef SHEET_CELL
+#define SHEET_CELL 16384 /* samples along the edge of a cell */
+#endif
+#ifndef SHEET_BAND
+#define SHEET_BAND (4 << 20) /* samples drawn at a time, 20 bytes each */
+#endif
+
+typedef struct sheet {
+    const scene *scene;
+    int width, height, samples; /* samples: along each edge of a pixel */
+    int rows;                   /* that a band has at most */
+    shade_target large, band;   /* samples of a cell's part of a band; pixels of a band */
+} sheet;
+
+static inline void sheet_close(sheet *p)
+{
+    free(p->large.color), free(p->large.depth), free(p->band.color);
+}
+
+static inline int sheet_smaller(int a, int b) { return a < b ? a : b; }
+/* Pixels along the edge of a cell */
+static inline int sheet_cell(const sheet *p) { return SHEET_CELL / p->samples; }
+
+/* Returns 1 where memory is out. */
+static inline int sheet_open(sheet *p, const scene *s, int width, int height, int samples)
+{
+    static const sheet none;
+    size_t most, wide;
+    *p = none;
+    p->scene = s, p->width = width, p->height = height, p->samples = samples;
+    wide = (size_t)(sheet_smaller(width, sheet_cell(p)) * samples * samples);
+    p->rows = sheet_smaller(height, SHEET_BAND / (int)wide);
+    if (p->rows < 1) p->rows = 1;
+    most = wide * (size_t)p->rows;
+    p->large.color = malloc(16 * most), p->large.depth = (float *)malloc(4 * most);
+    p->large.format = SHADE_FORMAT_RGBA32F;
+    p->band.color = malloc(4 * (size_t)width * (size_t)p->rows);
+    p->band.stride = width, p->band.srgb = 1;
+    if (p->large.color && p->large.depth && p->band.color) return 0;
+    sheet_close(p);
+    return 1;
+}
+
+/* Rows of the cell that begins at column x, into the band */
+static inline shade_result sheet_draw(const sheet *p, scene_camera camera, int x, int first,
+                                      int rows)
+{
+    int top = first - first % sheet_cell(p);
+    int width = sheet_smaller(sheet_cell(p), p->width - x);
+    int height = sheet_smaller(sheet_cell(p), p->height - top);
+    shade_target in = p->large, out = p->band;
+    shade_result result;
+    camera = scene_crop(camera, shade_v2((float)p->width, (float)p->height), (float)x, (float)top,
+                        (float)width, (float)height);
+    out.color = (uint32_t *)out.color + x;
+    out.width = width, out.height = height, out.row_offset = first - top, out.row_count = rows;
+    in.width = width * p->samples, in.height = height * p->samples;
+    in.row_offset = out.row_offset * p->samples, in.row_count = rows * p->samples;
+    result = scene_draw(p->scene, &in, &camera, p->samples);
+    return result ? result : shade_resolve(&out, &in, p->samples);
+}
+
+/* The band's pixels, less their alpha: 3 bytes each, in place */
+static inline size_t sheet_pack(const sheet *p, int rows)
+{
+    uint8_t *bytes = (uint8_t *)p->band.color;
+    size_t pixels = (size_t)p->width * (size_t)rows;
+    for (size_t i = 0; i < pixels; i++) memmove(bytes + 3 * i, bytes + 4 * i, 3);
+    return 3 * pixels;
+}
+
+/* Rows from first on.  Returns 1 where the file takes no more. */
+static inline int sheet_write(const sheet *p, int first, int count, FILE *file)
+{
+    scene_camera camera = scene_place_camera(p->scene, (float)p->width / (float)p->height);
+    for (int y = first, rows; y < first + count; y += rows) {
+        size_t size;
+        rows = sheet_smaller(p->rows, first + count - y);
+        rows = sheet_smaller(rows, sheet_cell(p) - y % sheet_cell(p));
+        for (int x = 0; x < p->width; x += sheet_cell(p)) sheet_draw(p, camera, x, y, rows);
+        size = sheet_pack(p, rows);
+        if (fwrite(p->band.color, 1, size, file) != size) return 1;
+    }
+    return 0;
+}
+#endif

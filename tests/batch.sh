@@ -1,0 +1,174 @@
+#!/bin/sh
+# batch.sh - build/batch: pieces that are whole or absent, resumed, over several jobs and machines,
+# into ffmpeg.  What is not installed is named and left out.
+cd "$(dirname "$0")/.." || exit 1
+BATCH=$PWD/build/batch CC=${CC:-cc}
+export LC_ALL=C PARALLEL_HOME=/nonexistent
+T=$(mktemp -d) || exit 1
+running= passed=0 failed=0
+trap 'kill $running 2>/dev/null; rm -rf "$T"' EXIT
+trap 'exit 1' INT TERM
+
+check() {                       # what, command ...
+    what=$1; shift
+    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
+    failed=$((failed + 1)); echo "FAIL  $what"; head -n 5 "$T/log"
+}
+no() { ! "$@"; }
+same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
+soon() {                        # waits up to 60 seconds for a command to succeed
+    for i in $(seq 600); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
+    "$@"
+}
+finish() { echo "$passed passed, $failed failed"; [ "$failed" -eq 0 ]; exit; }
+
+${MAKE:-make} -s build/batch build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+[ -x "$BATCH" ] || { echo "batch: left out, it needs POSIX"; finish; }
+cd "$T" || exit 1
+
+# ---- frames -------------------------------------------------------------------------------------
+turn="--frames 12 --size 97x60 --samples 2"
+missing() { "$BATCH" $turn --out "$1" --missing | tr '\n' ' '; }
+check "frames into a folder" "$BATCH" $turn --out one
+check "nobody watches: no word" same "$(wc -c <log)" 0
+check "twelve" same "$(ls one | tr '\n' ' ')" "$(seq -f %05g.ppm 0 11 | tr '\n' ' ')"
+check "each one another" same "$(cksum one/* | cut -d ' ' -f 1 | sort -u | wc -l)" 12
+check "none is missing" same "$(missing one)" ""
+check "the same through a pipe" sh -c "'$BATCH' $turn --pipe | cmp - all.ppm" \
+    "$(cat one/* >all.ppm)"
+for k in 7 00007; do check "piece $k alone" "$BATCH" $turn --out alone --piece $k; done
+check "is that piece" cmp one/00007.ppm alone/00007.ppm
+check "and no other" same "$(ls alone)" 00007.ppm
+
+# resumed: what is there stays, what is cut or of another size is drawn again
+cp -r one two
+rm two/00003.ppm
+: >two/00004.ppm
+head -c 5000 one/00005.ppm >two/00005.ppm
+sed '1,2s/^97 60$/60 97/' one/00006.ppm >two/00006.ppm
+check "four are missing" same "$(missing two)" "00003 00004 00005 00006 "
+: >before
+sleep 1.1                       # the clock of any file system
+check "resumed" "$BATCH" $turn --out two
+check "to the same bits" diff -r one two
+check "four were drawn" same "$(find two -name '*.ppm' -newer before | wc -l)" 4
+
+# ended in the middle
+slow="--frames 400 --size 600x400 --out cut"
+for signal in TERM HUP INT KILL; do
+    rm -rf cut
+    # a job of a shell without jobs would be deaf to INT
+    sh -c 'trap - INT; exec "$@"' sh "$BATCH" $slow & running=$!
+    soon test -s cut/00001.ppm
+    kill -$signal $running
+    wait $running 2>/dev/null
+    check "SIG$signal: frames that are there are whole" \
+        same "$(find cut -name '*.ppm' ! -size 720015c | wc -l)" 0
+    [ $signal = KILL ] || check "SIG$signal: nothing else stays" same "$(ls cut | grep -c part)" 0
+done
+running=
+
+# ---- strips -------------------------------------------------------------------------------------
+poster="--size 301x407 --samples 2"
+check "a poster in one" "$BATCH" $poster --strips 1 --out whole
+check "is a picture" same "$(head -c 15 whole/00000.ppm | tr '\n' ' ')" "P6 301 407 255 "
+check "of its size" same "$(wc -c <whole/00000.ppm)" $((15 + 301 * 407 * 3))
+for n in 2 7 61; do
+    check "in $n strips" "$BATCH" $poster --strips $n --out strips$n
+    check "the same bits in $n strips" sh -c "cat strips$n/*.ppm | cmp - whole/00000.ppm"
+done
+check "through a pipe" sh -c "'$BATCH' $poster --strips 5 --pipe | cmp - whole/00000.ppm"
+rm strips7/00002.ppm
+check "a strip is missing" same "$("$BATCH" $poster --strips 7 --out strips7 --missing)" 00002
+# in cells, as a picture larger than 16384 samples is: within the rounding of their cameras
+cells="$CC -std=c99 -O2 -w -I. -DSHADE__IMPLEMENTED -DSHEET_CELL=150 -DSHEET_BAND=9000"
+check "smaller cells" sh -c "cd '$OLDPWD' && $cells examples/batch.c build/shade.o -lm -o $T/cells"
+check "their poster" ./cells $poster --strips 3 --out cells3
+cat cells3/*.ppm >cells.ppm
+check "cells leave no seam" "${BATCH%batch}compare" --limit 2 --count 0 whole/00000.ppm cells.ppm
+check "strips of cells" sh -c "./cells $poster --strips 1 --pipe | cmp - cells.ppm"
+
+# ---- a terminal ---------------------------------------------------------------------------------
+if command -v script >/dev/null; then
+    watched() { script -qec "'$BATCH' $turn $*" /dev/null </dev/null | tr '\r' '\n' >screen; }
+    watched --out watched
+    check "the time that is left" \
+        grep -Eq "^1 of 12 frames, 8 %, [0-9]+:[0-9][0-9]:[0-9][0-9] left" screen
+    check "and the time it took" grep -Eq "^12 of 12 frames, 100 %, [0-9.]+ s" screen
+    watched --pipe
+    check "no picture on a terminal" grep -q "^batch: standard output is a terminal" screen
+else echo "no script: the progress line is left out"
+fi
+
+# ---- bad input ----------------------------------------------------------------------------------
+refused() {                     # what it says, command ...: status 1, one line
+    text=$1; shift
+    "$@" >out 2>err </dev/null
+    same "$?" 1 && same "$(wc -l <err)" 1 && grep "^batch: .*$text" err
+}
+: >empty.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1' >half.obj
+check "a missing model" refused "none.obj: No such file" "$BATCH" none.obj
+check "an empty one" refused "empty" "$BATCH" empty.obj
+check "half a model" refused "half.obj:3" "$BATCH" half.obj
+check "a folder for a model" refused "directory" "$BATCH" one
+check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
+for bad in "--frames 0" "--strips 100000" "--size 0x5" "--size 5" "--size 300000x5" "--size 5x5x5" \
+    "--samples 9" "--piece -1" "--up x" "--out ''"; do
+    check "$bad" eval refused "'cannot be that'" "'$BATCH'" "$bad"
+done
+check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3
+check "more strips than rows" refused "more strips than rows" "$BATCH" --size 9x9 --strips 10
+check "an unknown option" refused "unknown option --frob" "$BATCH" --frob
+check "an option without its value" refused "size needs a value" "$BATCH" --size
+check "two models" refused "one model" "$BATCH" a.obj b.obj
+check "a file for a folder" refused "Not a directory" "$BATCH" $turn --out empty.obj
+check "a folder in none" refused "No such file" "$BATCH" $turn --out none/frames
+check "help" sh -c "'$BATCH' --help | grep -q '^usage: batch'"
+[ -w /dev/full ] && check "no room" refused "No space" sh -c "'$BATCH' $turn --pipe >/dev/full"
+check "no room for a file" refused "too large" \
+    sh -c "trap '' XFSZ; ulimit -f 4; exec '$BATCH' $turn --out full"
+check "nothing half-written" same "$(ls full | wc -l)" 0
+check "nobody reads" refused "Broken pipe" \
+    sh -c "trap '' PIPE; { '$BATCH' $turn --pipe; echo \$? >status; } | :; exit \$(cat status)"
+
+# ---- several jobs, and machines -----------------------------------------------------------------
+if command -v parallel >/dev/null; then
+    mkdir home; export PARALLEL_HOME=$T/home; : >home/will-cite
+    jobs() {                    # folder, options of parallel
+        folder=$1; shift
+        "$BATCH" $turn --out "$folder" --missing |
+            parallel "$@" "$BATCH" $turn --out "$folder" --piece '{}'
+    }
+    check "two jobs" jobs local -j 2
+    check "the same frames" diff -r one local
+    rm local/00002.ppm local/00009.ppm
+    check "resumed by jobs" jobs local --sshlogin 2/:
+    check "the same again" diff -r one local
+    # ssh to machines that have this folder, too
+    printf '#!/bin/sh\n%s\n%s\n' 'echo "$1" >>asked; shift; [ "$1" = -- ] && shift' \
+        'exec sh -c "$*"' >ssh
+    chmod +x ssh
+    check "two machines" jobs machines --ssh "$T/ssh" --sshlogin 1/ann,1/bob --workdir "$T"
+    check "their frames" diff -r one machines
+    check "both worked" same "$(sort -u asked | tr '\n' ' ')" "ann bob "
+    check "a poster by two jobs" sh -c \
+        "seq 0 6 | parallel -j 2 '$BATCH' $poster --strips 7 --out jobs --piece {}"
+    check "put together" sh -c "cat jobs/*.ppm | cmp - whole/00000.ppm"
+else echo "no parallel: several jobs are left out"
+fi
+
+# ---- a film -------------------------------------------------------------------------------------
+if command -v ffmpeg >/dev/null; then
+    film() { ffmpeg -v error -nostdin -y "$@"; }
+    check "frames through ffmpeg" sh -c "'$BATCH' $turn --pipe | ffmpeg -v error -f image2pipe \
+        -framerate 30 -i - -f image2pipe -c:v ppm - | cmp - all.ppm"
+    check "from the folder" film -framerate 30 -i one/%05d.ppm -f image2pipe -c:v ppm film.ppm
+    check "the same frames" cmp film.ppm all.ppm
+    check "a film" sh -c "'$BATCH' $turn --size 96x60 --pipe | ffmpeg -v error -y -f image2pipe \
+        -framerate 30 -i - -pix_fmt yuv420p film.mp4"
+    check "of twelve frames" same "$(ffprobe -v error -count_frames -select_streams v \
+        -show_entries stream=nb_read_frames -of csv=p=0 film.mp4)" 12
+else echo "no ffmpeg: the film is left out"
+fi
+finish
