@@ -65,9 +65,9 @@ out/%.ppm: build/%
 out/gallery.ppm: build/contact $(NUMBERED:%=out/%.ppm)
 	build/contact $@ $(NUMBERED:%=out/%.ppm)
 
-build/test_main: $(wildcard tests/*.c tests/*.h) shade.h
-	@mkdir -p build
-	$(CC) $(FLAGS) tests/main.c -lm -o $@
+# -O1 compiles the tests' own code in a third of the time
+build/test_main: $(wildcard tests/*.c tests/*.h) build/shade.o
+	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/main.c build/shade.o -lm -o $@
 build/golden: tests/golden.c
 	@mkdir -p build
 	$(CC) $(FLAGS) tests/golden.c -o $@
