@@ -1033,6 +1033,15 @@ typedef uint32_t shade__word;
    compiled for SSE2, AVX2 and AVX-512 and chosen by the processor at each call, without a global
    of ours. Same bits on every path: no FMA. SHADE__LEVEL may be defined to an int expression (0,
    1, 2) by tests to force a path. */
+#define SHADE__BUILD(name, level, attribute, width, parameters, arguments) \
+    attribute static SHADE__NOINLINE void name##_##level parameters \
+    { \
+        enum { shade__width = width }; \
+        name##_body arguments; \
+    }
+#define SHADE__DISPATCH_ANY(name, parameters, arguments) \
+    typedef void name##_fn parameters; \
+    SHADE__BUILD(name, any, , SHADE__ANY_WIDTH, parameters, arguments)
 #if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
 #ifndef SHADE__LEVEL
 #define SHADE__LEVEL \
@@ -1047,22 +1056,9 @@ typedef uint32_t shade__word;
 #endif
 #define SHADE__AVX2 __attribute__((target("avx2")))
 #define SHADE__DISPATCH(name, parameters, arguments) \
-    typedef void name##_fn parameters; \
-    SHADE__AVX512 static SHADE__NOINLINE void name##_avx512 parameters \
-    { \
-        enum { shade__width = 16 }; \
-        name##_body arguments; \
-    } \
-    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters \
-    { \
-        enum { shade__width = 8 }; \
-        name##_body arguments; \
-    } \
-    static SHADE__NOINLINE void name##_any parameters \
-    { \
-        enum { shade__width = SHADE__ANY_WIDTH }; \
-        name##_body arguments; \
-    } \
+    SHADE__DISPATCH_ANY(name, parameters, arguments) \
+    SHADE__BUILD(name, avx2, SHADE__AVX2, 8, parameters, arguments) \
+    SHADE__BUILD(name, avx512, SHADE__AVX512, 16, parameters, arguments) \
     static name##_fn *name##_pick(void) \
     { \
         int level = SHADE__LEVEL; \
@@ -1070,18 +1066,12 @@ typedef uint32_t shade__word;
     }
 /* for loops that mostly fetch, which AVX-512 made no faster */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments) \
-    typedef void name##_fn parameters; \
-    SHADE__AVX2 static SHADE__NOINLINE void name##_avx2 parameters { name##_body arguments; } \
-    static SHADE__NOINLINE void name##_any parameters { name##_body arguments; } \
+    SHADE__DISPATCH_ANY(name, parameters, arguments) \
+    SHADE__BUILD(name, avx2, SHADE__AVX2, 8, parameters, arguments) \
     static name##_fn *name##_pick(void) { return (SHADE__LEVEL) ? name##_avx2 : name##_any; }
 #else
 #define SHADE__DISPATCH(name, parameters, arguments) \
-    typedef void name##_fn parameters; \
-    static SHADE__NOINLINE void name##_any parameters \
-    { \
-        enum { shade__width = SHADE__ANY_WIDTH }; \
-        name##_body arguments; \
-    } \
+    SHADE__DISPATCH_ANY(name, parameters, arguments) \
     static name##_fn *name##_pick(void) { return name##_any; }
 #define SHADE__DISPATCH_AVX2 SHADE__DISPATCH
 #endif
@@ -1917,16 +1907,15 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3
 {
     shade__arrival a;
     shade__v3 point;
-    shade_vec3 at = shade_v3(0, 0, 0);
-    a.att[0] = 0;
+    float r = 0;
     shade__fill_point(P, &point);
-    if (light) shade__light_at_point(light, &point, &a);
-    if (light) at = shade_v3(a.L.x[0], a.L.y[0], a.L.z[0]);
-    if (L) *L = at;
-    if (distance && light) {
-        shade__lamp lamp = shade__lamp_of(light);
-        *distance = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
-    } else if (distance) *distance = 0;
+    if (light) {
+        const shade__lamp lamp = shade__lamp_of(light);
+        r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
+        shade__light_at_point(light, &point, &a);
+    } else SHADE__ZERO(a);
+    if (L) *L = shade__at(&a.L, 0);
+    if (distance) *distance = r;
     return a.att[0];
 }
 /*------------------------------------------------------------------------------------------ >>lanes
@@ -2415,6 +2404,12 @@ SHADE__INLINE uint32_t shade__beyond(float c)     /* all ones where |c| > 1e30 o
 {
     return shade__mask((int32_t)(shade__float_bits(c) & 0x7FFFFFFFu) > 0x7149F2CA);
 }
+/* Left, right, below, above of a square: bits 0 .. 3. */
+SHADE__INLINE uint32_t shade__sides_passed(float x, float y, float limit)
+{
+    return (shade__mask(x < -limit) & 1) | (shade__mask(x > limit) & 2) |
+           (shade__mask(y < -limit) & 4) | (shade__mask(y > limit) & 8);
+}
 /* Outcodes; x, y, w kept where the vertex has a window position, else 0, 0, 1. */
 SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int zero_to_one,
                                    shade__placed *SHADE_RESTRICT p)
@@ -2422,15 +2417,11 @@ SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v, int z
     const float *SHADE_RESTRICT cx = v->clip[0], *SHADE_RESTRICT cy = v->clip[1];
     const float *SHADE_RESTRICT cz = v->clip[2], *SHADE_RESTRICT cw = v->clip[3];
     SHADE_EACH_LANE(i) {
-        float x = cx[i], y = cy[i], z = cz[i], w = cw[i], w3 = 3 * w, low = zero_to_one ? 0 : -w;
+        float x = cx[i], y = cy[i], z = cz[i], w = cw[i], low = zero_to_one ? 0 : -w;
         uint32_t bad = shade__beyond(x) | shade__beyond(y) | shade__beyond(z) | shade__beyond(w);
-        uint32_t out;
-        out = (shade__mask(x < -w) & 1) | (shade__mask(x > w) & 2) | (shade__mask(y < -w) & 4) |
-              (shade__mask(y > w) & 8) | (shade__mask(z < low) & 16) | (shade__mask(z > w) & 32);
-        out |= (shade__mask(x < -w3) & 64) | (shade__mask(x > w3) & 128) |
-               (shade__mask(y < -w3) & 256) | (shade__mask(y > w3) & 512) |
-               (shade__mask(w < shade__w_least) & SHADE__OUT_W);
-        out |= bad & SHADE__OUT_BAD;
+        uint32_t out = shade__sides_passed(x, y, w) | shade__sides_passed(x, y, 3 * w) << 6;
+        out |= (shade__mask(z < low) & SHADE__OUT_NEAR) | (shade__mask(z > w) & SHADE__OUT_FAR) |
+               (shade__mask(w < shade__w_least) & SHADE__OUT_W) | (bad & SHADE__OUT_BAD);
         p->out[i] = out;
         bad = shade__mask((out & SHADE__OUT_UNPLACED) != 0);
         p->x[i] = shade__keep(x, ~bad);
@@ -2691,12 +2682,9 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
     shade__packet *p = &d->packet;
     const shade__plan *plan = &d->plan;
     const shade_cull cull = plan->pipe->raster.cull;
-    SHADE_ALIGNED uint32_t one[SHADE__TRIANGLES];
-    SHADE_ALIGNED uint32_t two[SHADE__TRIANGLES];
+    SHADE_ALIGNED uint32_t one[SHADE__TRIANGLES], two[SHADE__TRIANGLES];
     SHADE_ALIGNED uint32_t mirrored[SHADE__TRIANGLES];
-    SHADE_ALIGNED float area[SHADE__TRIANGLES];
-    SHADE_ALIGNED float w[SHADE__TRIANGLES];
-    SHADE_ALIGNED float h[SHADE__TRIANGLES];
+    SHADE_ALIGNED float area[SHADE__TRIANGLES], w[SHADE__TRIANGLES], h[SHADE__TRIANGLES];
     SHADE_ALIGNED int32_t fits[SHADE__TRIANGLES];
     const int n = p->count;
     shade__areas(p, area, p->inverse);
@@ -3858,6 +3846,11 @@ SHADE__INLINE int shade__is_plain_map(const shade_texture *t, int levels)
            t->wrap_v == SHADE_WRAP_REPEAT && (uintptr_t)t->pixels % 4 == 0 &&
            pitch * t->height <= INT32_MAX;
 }
+/* 8 bits of a texel as a number 0 .. 1 */
+SHADE__INLINE float shade__byte(uint32_t texel, int shift)
+{
+    return (float)(int32_t)(texel >> shift & 255) * (1 / 255.0f);
+}
 SHADE__INLINE void shade__gather_texels(const shade__word *SHADE_RESTRICT p,
                                         const int32_t *SHADE_RESTRICT x,
                                         const int32_t *SHADE_RESTRICT y, int32_t pitch, int blocks,
@@ -3883,10 +3876,8 @@ SHADE__INLINE void shade__sample_plain(const shade_texture *t, const float *u, c
     for (int k = 0; k < 4; k++) {
         const int shift = shade__channel_shift(t->format, k);
         SHADE__EACH_BLOCK(i, blocks) {
-            float c0 = (float)(int32_t)(t0[i] >> shift & 255) * (1 / 255.0f);
-            float c1 = (float)(int32_t)(t1[i] >> shift & 255) * (1 / 255.0f);
-            float c2 = (float)(int32_t)(t2[i] >> shift & 255) * (1 / 255.0f);
-            float c3 = (float)(int32_t)(t3[i] >> shift & 255) * (1 / 255.0f);
+            float c0 = shade__byte(t0[i], shift), c1 = shade__byte(t1[i], shift);
+            float c2 = shade__byte(t2[i], shift), c3 = shade__byte(t3[i], shift);
             float top = c0 + x.f[i] * (c1 - c0), low = c2 + x.f[i] * (c3 - c2);
             out[k * stride + i] = top + y.f[i] * (low - top);
         }
@@ -4521,13 +4512,19 @@ SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride, uint32_t
     SHADE_MEMCPY(v, (const char *)array + (size_t)i * (size_t)(stride ? stride : 12), 12);
     return shade_v3(v[0], v[1], v[2]);
 }
-SHADE__INLINE shade_vec3 shade__position(const shade_mesh *m, uint32_t i)
-{
-    return shade__vec3_at(m->positions, m->position_stride, i);
-}
 SHADE__INLINE uint32_t shade__corner_index(const shade_mesh *m, uint32_t corner)
 {
     return m->indices ? m->indices[corner] : corner;
+}
+/* Position of corner 0, 1, ... of the triangles. */
+SHADE__INLINE shade_vec3 shade__corner(const shade_mesh *m, uint32_t corner)
+{
+    return shade__vec3_at(m->positions, m->position_stride, shade__corner_index(m, corner));
+}
+/* The vertex of lane i of a packet. */
+SHADE__INLINE uint32_t shade__vertex_of(const shade__scene *s, const shade_vertex_ids *in, int i)
+{
+    return s->face_normals ? shade__corner_index(s->mesh, in->index[i]) : in->index[i];
 }
 /* Three rows of a packet, from one on. */
 SHADE__INLINE shade__v3 *shade__three_rows(float *row) { return (shade__v3 *)(void *)row; }
@@ -4538,8 +4535,8 @@ static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const s
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
-        uint32_t v = s->face_normals ? shade__corner_index(m, in->index[i]) : in->index[i];
-        shade__put(P, i, shade__position(m, v));
+        uint32_t v = shade__vertex_of(s, in, i);
+        shade__put(P, i, shade__vec3_at(m->positions, m->position_stride, v));
         if (!s->face_normals) shade__put(N, i, shade__vec3_at(m->normals, m->normal_stride, v));
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
@@ -4552,14 +4549,12 @@ static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shad
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
-        uint32_t first = in->index[i] / 3 * 3, v = shade__corner_index(m, first);
-        shade_vec3 a = shade__position(m, v),
-                   b = shade__position(m, shade__corner_index(m, first + 1));
-        shade_vec3 c = shade__position(m, shade__corner_index(m, first + 2));
+        const uint32_t first = in->index[i] / 3 * 3, v = shade__corner_index(m, first);
+        const shade_vec3 a = shade__corner(m, first), b = shade__corner(m, first + 1);
+        const shade_vec3 c = shade__corner(m, first + 2);
         shade__put(N, i, shade_face_normal(a, b, c));
         if (!per_face) continue;
-        a = shade_madd(a, 1 / 3.0f, shade_add(shade_sub(b, a), shade_sub(c, a)));
-        shade__put(P, i, a);
+        shade__put(P, i, shade_madd(a, 1 / 3.0f, shade_add(shade_sub(b, a), shade_sub(c, a))));
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
@@ -4596,13 +4591,11 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
                                                    const shade_vertex_ids *in, float *u)
 {
     const shade_mesh *m = s->mesh;
+    const size_t stride = m->texcoord_stride ? (size_t)m->texcoord_stride : 8;
     for (int i = 0; i < SHADE_LANES; i++) {
-        uint32_t v = s->face_normals ? shade__corner_index(m, in->index[i]) : in->index[i];
-        const char *p = (const char *)m->texcoords;
-        float uv[2];
-        SHADE_MEMCPY(uv, p + (size_t)v * (size_t)(m->texcoord_stride ? m->texcoord_stride : 8), 8);
-        u[i] = uv[0];
-        u[i + SHADE_LANES] = uv[1];
+        const char *p = (const char *)m->texcoords + shade__vertex_of(s, in, i) * stride;
+        SHADE_MEMCPY(u + i, p, 4);
+        SHADE_MEMCPY(u + i + SHADE_LANES, p + 4, 4);
     }
 }
 /* Light leaving lit vertices, term by term what a map multiplies and what it does not. */
@@ -4813,8 +4806,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 typedef struct shade__stroke {           /* uniforms of the line shaders */
     const shade_vec3 *points;
     const shade_line_state *state;
-    shade_mat4 clip_from_points;
-    double half_x, half_y;               /* half the picture, pixels */
+    double clip_from_points[16];         /* columns */
+    double half[2];                      /* half the picture, pixels */
     double half_width;
 } shade__stroke;
 
@@ -4830,68 +4823,65 @@ static void shade__stroke_point(const shade__stroke *s, double end[2][4], double
                                 double *at)
 {
     for (int i = 0; i < 4; i++) p[i] = end[0][i] + t * (end[1][i] - end[0][i]);
-    at[0] = p[0] / p[3] * s->half_x;
-    at[1] = p[1] / p[3] * s->half_y;
+    for (int i = 0; i < 2; i++) at[i] = p[i] / p[3] * s->half[i];
 }
 /* What of a segment is drawn, t[0] .. t[1], and its direction on the screen: cut where it leaves
    near, far and w > 0, then a margin outside the picture that its width and caps do not reach
    across, so that far ends keep their 1/256 pixel.  0: nothing. */
 static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *t, double *dir)
 {
-    const double margin = 3 * s->half_width + 2, w0 = end[0][3], w1 = end[1][3];
-    const double right = 1 + margin / s->half_x, up = 1 + margin / s->half_y;
+    const double w0 = end[0][3], w1 = end[1][3], z0 = end[0][2], z1 = end[1][2];
     /* w of a place: what rounding leaves of it in t */
     const double least = (w0 > w1 ? w0 - w1 : w1 - w0) * 1e-14 + (double)shade__w_least;
     const int zero_to_one = s->state->raster.depth_zero_to_one != 0;
-    double p[4], at[2][2], length;
+    double p[4], at[2][2], length = 0;
     t[0] = 0;
     t[1] = 1;
-    shade__cut(end[0][2] + (zero_to_one ? 0 : w0), end[1][2] + (zero_to_one ? 0 : w1), t, t + 1);
-    shade__cut(w0 - end[0][2], w1 - end[1][2], t, t + 1);
+    shade__cut(z0 + (zero_to_one ? 0 : w0), z1 + (zero_to_one ? 0 : w1), t, t + 1);
+    shade__cut(w0 - z0, w1 - z1, t, t + 1);
     shade__cut(w0 - least, w1 - least, t, t + 1);
     if (!(t[0] <= t[1])) return 0;
     for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
-    dir[0] = at[1][0] - at[0][0];
-    dir[1] = at[1][1] - at[0][1];
-    length = dir[0] * dir[0] + dir[1] * dir[1];
+    for (int i = 0; i < 2; i++) {
+        const double limit = 1 + (3 * s->half_width + 2) / s->half[i];
+        shade__cut(limit * w0 - end[0][i], limit * w1 - end[1][i], t, t + 1);
+        shade__cut(limit * w0 + end[0][i], limit * w1 + end[1][i], t, t + 1);
+        dir[i] = at[1][i] - at[0][i];
+        length += dir[i] * dir[i];
+    }
     if (length > 0) {
         length = shade__root(length);
         dir[0] /= length;
         dir[1] /= length;
     } else dir[0] = 1;
-    shade__cut(right * w0 - end[0][0], right * w1 - end[1][0], t, t + 1);
-    shade__cut(right * w0 + end[0][0], right * w1 + end[1][0], t, t + 1);
-    shade__cut(up * w0 - end[0][1], up * w1 - end[1][1], t, t + 1);
-    shade__cut(up * w0 + end[0][1], up * w1 + end[1][1], t, t + 1);
     return t[0] <= t[1];
 }
 /* Corner 0 .. 3 of the rectangle around points 2 i and 2 i + 1, in clip space. */
 static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner, float *clip)
 {
-    const shade_vec4 *m = s->clip_from_points.col;
+    const double *m = s->clip_from_points, width = s->half_width;
     const int k = corner & 1;
     int placed = 1;
     double end[2][4], t[2], p[4], at[2], dir[2], side, along;
     for (int j = 0; j < 2; j++) {
-        shade_vec3 v = s->points[2 * (size_t)segment + (size_t)j];
-        double x = (double)v.x, y = (double)v.y, z = (double)v.z;
-        end[j][0] = (double)m[0].x * x + (double)m[1].x * y + (double)m[2].x * z + (double)m[3].x;
-        end[j][1] = (double)m[0].y * x + (double)m[1].y * y + (double)m[2].y * z + (double)m[3].y;
-        end[j][2] = (double)m[0].z * x + (double)m[1].z * y + (double)m[2].z * z + (double)m[3].z;
-        end[j][3] = (double)m[0].w * x + (double)m[1].w * y + (double)m[2].w * z + (double)m[3].w;
-        for (int i = 0; i < 4; i++) placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
+        const shade_vec3 v = s->points[2 * (size_t)segment + (size_t)j];
+        const double x = (double)v.x, y = (double)v.y, z = (double)v.z;
+        for (int i = 0; i < 4; i++) {
+            end[j][i] = m[i] * x + m[i + 4] * y + m[i + 8] * z + m[i + 12];
+            placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
+        }
     }
     clip[0] = placed ? 2 : FLT_MAX;    /* outside, or rejected */
     clip[1] = clip[2] = 2;
     clip[3] = 1;
     if (!placed || !shade__stroke_part(s, end, t, dir)) return;
     shade__stroke_point(s, end, t[k], p, at);
-    side = corner & 2 ? s->half_width : -s->half_width;
-    along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? s->half_width : -s->half_width;
-    clip[2] = (float)p[2];
-    clip[3] = (float)p[3];
-    clip[0] = (float)((at[0] + dir[0] * along - dir[1] * side) / s->half_x * (double)clip[3]);
-    clip[1] = (float)((at[1] + dir[1] * along + dir[0] * side) / s->half_y * (double)clip[3]);
+    side = corner & 2 ? width : -width;
+    along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? width : -width;
+    at[0] += dir[0] * along - dir[1] * side;
+    at[1] += dir[1] * along + dir[0] * side;
+    for (int i = 2; i < 4; i++) clip[i] = (float)p[i];
+    for (int i = 0; i < 2; i++) clip[i] = (float)(at[i] / s->half[i] * (double)clip[3]);
 }
 static void shade__stroke_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                  shade_vertices *SHADE_RESTRICT out)
@@ -4923,6 +4913,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
 {
     shade_pipeline p;
     shade__stroke s;
+    shade_mat4 clip_from_points;
     shade_result result;
     if (stats) SHADE__ZERO(*stats);
     if (!target || !state || (!points && point_count > 0)) return SHADE_ERROR_ARGUMENT;
@@ -4935,9 +4926,10 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
         return SHADE_ERROR_ARGUMENT;
     s.points = points;
     s.state = state;
-    s.clip_from_points = shade__or_identity(state->clip_from_points);
-    s.half_x = target->width / 2.0;
-    s.half_y = target->height / 2.0;
+    clip_from_points = shade__or_identity(state->clip_from_points);
+    shade__doubles(&clip_from_points, s.clip_from_points);
+    s.half[0] = target->width / 2.0;
+    s.half[1] = target->height / 2.0;
     s.half_width = (state->width > 0 ? (double)state->width : 1) / 2;
     SHADE__ZERO(p);
     p.vertex = shade__stroke_vertex;
@@ -4972,20 +4964,17 @@ static double shade__angle(double y, double x)
 /* Unit normal of triangle t; zero without area or with a corner that is not finite. */
 static shade_vec3 shade__triangle_normal(const shade_mesh *m, uint32_t t)
 {
-    shade_vec3 n = shade_face_normal(shade__position(m, shade__corner_index(m, 3 * t)),
-                                     shade__position(m, shade__corner_index(m, 3 * t + 1)),
-                                     shade__position(m, shade__corner_index(m, 3 * t + 2)));
+    shade_vec3 n = shade_face_normal(shade__corner(m, 3 * t), shade__corner(m, 3 * t + 1),
+                                     shade__corner(m, 3 * t + 2));
     return shade__within(shade_dot(n, n), 2) ? n : shade_v3(0, 0, 0);
 }
 /* Angle of a triangle at a corner, radians. */
 static float shade__corner_angle(const shade_mesh *m, uint32_t corner)
 {
-    uint32_t t = corner / 3 * 3, k = corner % 3;
-    shade_vec3 p = shade__position(m, shade__corner_index(m, corner));
-    shade_vec3 a =
-        shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 1) % 3)), p));
-    shade_vec3 b =
-        shade_normalize(shade_sub(shade__position(m, shade__corner_index(m, t + (k + 2) % 3)), p));
+    const uint32_t t = corner / 3 * 3, k = corner % 3;
+    const shade_vec3 p = shade__corner(m, corner);
+    shade_vec3 a = shade_normalize(shade_sub(shade__corner(m, t + (k + 1) % 3), p));
+    shade_vec3 b = shade_normalize(shade_sub(shade__corner(m, t + (k + 2) % 3), p));
     return (float)shade__angle((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
 }
 static shade_result shade__check_shape(const shade_mesh *m, const void *out)
@@ -5016,16 +5005,14 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
 
 static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
 {
-    shade_vec3 p = shade__position(m, shade__corner_index(m, i));
-    shade_vec3 q = shade__position(m, shade__corner_index(m, j));
+    const shade_vec3 p = shade__corner(m, i), q = shade__corner(m, j);
     return p.x == q.x && p.y == q.y && p.z == q.z;
 }
 /* Byte k of 12 of the position of a corner; -0 + 0 is 0. */
 SHADE__INLINE uint32_t shade__position_byte(const shade_mesh *m, uint32_t corner, int k)
 {
-    shade_vec3 p = shade__position(m, shade__corner_index(m, corner));
-    float c = k < 4 ? p.x : k < 8 ? p.y : p.z;
-    return shade__float_bits(c + 0) >> 8 * (k & 3) & 255;
+    const shade_vec3 p = shade__corner(m, corner);
+    return shade__float_bits((k < 4 ? p.x : k < 8 ? p.y : p.z) + 0) >> 8 * (k & 3) & 255;
 }
 /* Corners 0 .. count - 1 so that equal positions stand together, ascending: sorted byte by byte,
    which takes the same time whatever the positions are.  Returns one of the two arrays. */
@@ -5239,7 +5226,7 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
     for (int i = 0; i < shade__corner_count(mesh) / 3; i++) {
         shade_vec3 p[3], q[3];
         for (uint32_t k = 0; k < 3; k++) {
-            q[k] = shade__position(mesh, shade__corner_index(mesh, 3 * (uint32_t)i + k));
+            q[k] = shade__corner(mesh, 3 * (uint32_t)i + k);
             p[k] = shade_mat4_transform_point(model, q[k]);
         }
         if (!shade_intersect(ray, p[0], p[1], p[2], &at, &where)) continue;
