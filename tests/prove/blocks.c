@@ -1,0 +1,71 @@
+/* blocks.c - hidden blocks: any clip rectangle within 16384, any triangle in it. */
+/* eva: -eva-auto-loop-unroll 40 */
+#define SHADE_LANES 128
+#include "prove.h"
+
+enum { FAR = 1 << 24 };
+
+static shade__hidden hidden;
+static shade__plan plan;
+static shade__triangle t;
+
+static void prove_begin(void)
+{
+    plan.x0 = ANY_OF(0, 16383);
+    plan.y0 = ANY_OF(0, 16383);
+    plan.x1 = ANY_OF(1, 16384);
+    plan.y1 = ANY_OF(1, 16384);
+    if (plan.x0 >= plan.x1 || plan.y0 >= plan.y1) return;
+    shade__begin_blocks(&plan, &hidden);
+    /*@ assert 5 <= hidden.log_width <= 14 && 3 <= hidden.log_height <= 14; */
+    /*@ assert -511 <= hidden.across <= 512; */
+}
+/* As many rows of blocks, each across wide at most, as there can be; blocks of 2^w x 2^h pixels.
+   The rectangle begins at (3, 5): only differences count. */
+static void prove_next(int across, int w, int h)
+{
+    const int rows = SHADE__BLOCKS / across;
+    const int right = shade__min(16383, 2 + (across << w));
+    const int low = shade__min(16383, 4 + (rows << h));
+    int64_t edge[3];
+    int x = ANY_OF(3, right), last;
+    hidden.log_width = w;
+    hidden.log_height = h;
+    hidden.across = ANY_OF(1, across);
+    plan.x1 = ANY_OF(4, 16384);
+    plan.y1 = ANY_OF(6, 16384);
+    t.x0 = ANY_OF(3, right);
+    t.y0 = ANY_OF(5, low);
+    t.x1 = ANY_OF(3, right);
+    t.y1 = ANY_OF(5, low);
+    for (int k = 0; k < 3; k++) edge[k] = ANY_WITHIN(1 << 30) * (int64_t)16384;
+    plan.toward = Frama_C_float_interval(-1, 1);
+    last = shade__next_blocks(&plan, &hidden, &t, edge, &x, ANY_OF(5, low), ANY_OF(5, low));
+    /*@ assert 2 <= last <= 16383 && 3 <= x <= 16384; */
+}
+int main(void)
+{
+    prove_begin();
+    plan.x0 = 3;
+    plan.y0 = 5;
+    for (int k = 0; k < 3; k++) {
+        t.dx[k] = ANY_WITHIN(2 * FAR);
+        t.dy[k] = ANY_WITHIN(2 * FAR);
+    }
+    t.x_ref = any_float();
+    t.y_ref = any_float();
+    t.z = any_float();
+    t.z_dx = any_float();
+    t.z_dy = any_float();
+    t.z_low = any_float();
+    t.z_high = any_float();
+    any_floats(hidden.farthest, SHADE__BLOCKS);
+    /*@ loop unroll 80; */
+    for (int across = 1; across <= 512; across = SHADE__BLOCKS / (SHADE__BLOCKS / (across + 1)))
+        prove_next(across, 5, 3);
+    for (int h = 4; h <= 14; h++) {
+        prove_next(32, shade__max(h, 5), h);
+        if (h < 14) prove_next(32, shade__max(h, 5) + 1, h);
+    }
+    return 0;
+}
