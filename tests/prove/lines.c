@@ -13,11 +13,11 @@ int main(void)
     state.raster.depth_zero_to_one = ANY_OF(0, 1);
     state.cap = (shade_cap)ANY_OF(SHADE_CAP_BUTT, SHADE_CAP_SQUARE);
     any_floats(coordinates, 12);
-    any_floats((float *)&s.clip_from_points, 16);
+    for (int i = 0; i < 16; i++) s.clip_from_points[i] = (double)any_float();
     s.points = (const shade_vec3 *)coordinates;
     s.state = &state;
-    s.half_x = Frama_C_double_interval(0.5, 8192);
-    s.half_y = Frama_C_double_interval(0.5, 8192);
+    s.half[0] = Frama_C_double_interval(0.5, 8192);
+    s.half[1] = Frama_C_double_interval(0.5, 8192);
     s.half_width = Frama_C_double_interval(0, 1.8e38);
     /* 4 points are 12 corners */
     for (int i = 0; i < SHADE_LANES; i++)
