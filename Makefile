@@ -106,10 +106,12 @@ FUZZ_SECONDS ?= 300
 fuzz:
 	@sh tests/fuzz.sh $(FUZZ_SECONDS)
 
-# the program has a name of its own, "thumbnail" is anybody's; MIME: what it reads
+# The program has a name of its own, "thumbnail" is anybody's.  The types are those it reads and
+# shared-mime-info knows, which PLY is not among; whether it has assimp and stb shows in it.
 PREFIX  ?= /usr/local
 INSTALL ?= install
-MIME     = model/obj model/stl
+MIME        = model/obj model/stl
+MIME_ASSIMP = model/gltf+json model/gltf-binary model/3mf image/x-3ds
 INSTALLED = bin/shade-thumbnail include/shade.h share/pkgconfig/shade.pc \
             share/thumbnailers/shade.thumbnailer
 install: build/thumbnail
@@ -118,10 +120,11 @@ install: build/thumbnail
 	    'Description: Phong and Blinn-Phong light and an exact z-buffer rasterizer, one header' \
 	    "Version: $$((v / 10000)).$$((v / 100 % 100)).$$((v % 100))" \
 	    'Cflags: -I$${includedir}' 'Libs: -lm' >build/shade.pc
-	@png=$$(build/thumbnail --help | grep -q -e --png && echo ' --png'); \
+	@png=$$(grep -q IHDR build/thumbnail && echo ' --png'); \
+	types="$(MIME) $$(grep -q aiImportFile build/thumbnail && echo '$(MIME_ASSIMP)')"; \
 	printf '%s\n' '[Thumbnailer Entry]' 'TryExec=$(PREFIX)/bin/shade-thumbnail' \
-	    "Exec=$(PREFIX)/bin/shade-thumbnail$$png --size %sx%s %i %o" \
-	    "MimeType=$$(printf '%s;' $(MIME))" >build/shade.thumbnailer
+	    "Exec=$(PREFIX)/bin/shade-thumbnail$$png --max-seconds 30 --size %sx%s %i %o" \
+	    "MimeType=$$(printf '%s;' $$types)" >build/shade.thumbnailer
 	for f in $(INSTALLED); do $(INSTALL) -d "$(DESTDIR)$(PREFIX)/$${f%/*}" || exit 1; done
 	$(INSTALL) -m 755 build/thumbnail "$(DESTDIR)$(PREFIX)/bin/shade-thumbnail"
 	$(INSTALL) -m 644 shade.h "$(DESTDIR)$(PREFIX)/include"

@@ -60,10 +60,64 @@ printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >"$input.obj"
 printf 'solid s\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 0\n' \
     >"$input.stl"
 printf 'endloop\nendfacet\nendsolid s\n' >>"$input.stl"
+# the same triangle of glTF: twelve floats in little endian, 0, 1 or -1
+corners() {
+    z='\0\0\0\0' p='\0\0\200?' m='\0\0\200\277'
+    printf "$m$m$z$p$m$z$z$p$z"
+}
+gltf() {                        # where its buffer is, as JSON
+    printf '%s' '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],' \
+        '"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],' \
+        '"accessors":[{"bufferView":0,' \
+        '"componentType":5126,"count":3,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]}],' \
+        '"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{'"$1"'"byteLength":36}]}'
+}
+word() { printf "$(printf '\\%03o\\%03o\\%03o\\%03o' $(($1 % 256)) $(($1 / 256)) 0 0)"; }
+gltf "\"uri\":\"data:application/octet-stream;base64,$(corners | base64 | tr -d '\n')\"," \
+    >"$input.gltf"
+size=$(gltf '' | wc -c)
+padding=$(((4 - size % 4) % 4))
+{
+    printf 'glTF'; word 2; word $((12 + 8 + size + padding + 8 + 36))
+    word $((size + padding)); printf 'JSON'; gltf ''; printf "%${padding}s" ''
+    word 36; printf 'BIN\0'; corners
+} >"$input.glb"
+# of 3DS: nested pieces, each a number, its length, and what it holds
+{
+    printf 'MM'; word 86; printf '=='; word 80; printf '\0@'; word 74; printf 's\0'
+    printf '\0A'; word 66; printf '\020A'; word 44; printf '\3\0'; corners
+    printf '\040A'; word 16; printf '\1\0\0\0\1\0\2\0\7\0'
+} >"$input.3ds"
+threemf() {
+    python3 - "$input.3mf" <<'END'
+import sys, zipfile
+core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+office = "http://schemas.openxmlformats.org/package/2006/"
+with zipfile.ZipFile(sys.argv[1], "w") as z:
+    z.writestr("[Content_Types].xml", f'<Types xmlns="{office}content-types">'
+               '<Default Extension="rels" ContentType='
+               '"application/vnd.openxmlformats-package.relationships+xml"/>'
+               '<Default Extension="model" ContentType='
+               '"application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>')
+    z.writestr("_rels/.rels", f'<Relationships xmlns="{office}relationships">'
+               '<Relationship Id="r" Target="/3D/3dmodel.model" '
+               'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+               '</Relationships>')
+    z.writestr("3D/3dmodel.model", f'<model unit="millimeter" xmlns="{core}"><resources>'
+               '<object id="1" type="model"><mesh><vertices><vertex x="-1" y="0" z="-1"/>'
+               '<vertex x="1" y="0" z="-1"/><vertex x="0" y="0" z="1"/></vertices><triangles>'
+               '<triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources>'
+               '<build><item objectid="1"/></build></model>')
+END
+}
 sample() {                      # the file of a MIME type
     case $1 in
     model/obj) echo "$input.obj" ;;
     model/stl) echo "$input.stl" ;;
+    model/gltf+json) echo "$input.gltf" ;;
+    model/gltf-binary) echo "$input.glb" ;;
+    model/3mf) echo "$input.3mf" ;;
+    image/x-3ds) echo "$input.3ds" ;;
     *) return 1 ;;
     esac
 }
@@ -96,13 +150,17 @@ picture() {
     esac
     [ "$(od -An -v -tx1 -w3 "$1" | sort -u | wc -l)" -gt 9 ]
 }
-check "a group and three keys" same "$(sed 's/=.*//' "$P/share/thumbnailers/shade.thumbnailer" |
+check "a group and its three keys" same "$(sed 's/=.*//' "$P/share/thumbnailers/shade.thumbnailer" |
     tr '\n' ' ')" "[Thumbnailer Entry] TryExec Exec MimeType "
 check "TryExec is a program" test -x "$(entry TryExec)"
 check "Exec is the same" same "$(entry Exec | cut -d ' ' -f 1)" "$(entry TryExec)"
 check "types, each with a semicolon" same "$(entry MimeType | tr -d 'a-z0-9+./-' | tr -s ';')" ";"
 for type in $(entry MimeType | tr ';' ' '); do
     file=$(sample "$type")
+    if [ "$type" = model/3mf ] && ! threemf; then
+        echo "install: no python3: 3MF left out"
+        continue
+    fi
     check "a file of type $type" test -f "$file"
     check "a thumbnail of $type" thumbnail "$file" "$T/models/out put.png" 64
     check "that is a picture" picture "$T/models/out put.png"
