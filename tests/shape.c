@@ -46,8 +46,9 @@ static d3 ref_corner_normal(const shade_mesh *m, int corner, double cos_crease, 
 {
     d3 own = ref_face(m, corner / 3), sum = d3_of(0, 0, 0), p = shape_at(m, corner);
     for (int k = 0; k < shape_corners(m); k++) {
-        d3 q = shape_at(m, k), other = ref_face(m, k / 3);
+        d3 q = shape_at(m, k), other;
         if (q.x != p.x || q.y != p.y || q.z != p.z) continue;
+        other = ref_face(m, k / 3);
         double c = d3_dot(own, other);
         if (k != corner && fabs(c - cos_crease) < 1e-5) *unsure = 1;
         if (k == corner || c >= cos_crease)
@@ -439,8 +440,9 @@ TEST(shape, positions_that_are_no_numbers_equal_nothing)
         for (int k = 0; k < 3 * FACES; k++) {
             d3 sum = d3_of(0, 0, 0), p = shape_at(&s.mesh, k);
             for (int n = 0; n < 3 * FACES; n++) {
-                d3 q = shape_at(&s.mesh, n), face = ref_face(&s.mesh, n / 3);
+                d3 q = shape_at(&s.mesh, n), face;
                 if (n != k && (p.x != q.x || p.y != q.y || p.z != q.z)) continue;
+                face = ref_face(&s.mesh, n / 3);
                 if (!isfinite(d3_length(face)) || !isfinite(p.y)) continue;
                 sum = d3_add(sum, d3_scale(face, ref_angle(&s.mesh, n)));
             }
