@@ -14,18 +14,20 @@
 typedef struct ears_corner {
     double x, y;
     uint32_t next, previous;
-    int reflex;                          /* not convex: may lie inside an ear */
+    int reflex; /* not convex: may lie inside an ear */
 } ears_corner;
 
 /* Scratch memory, kept from polygon to polygon.  Zeroed: empty. */
 typedef struct ears {
     ears_corner *corner;
-    uint32_t *cell, *inside;             /* where each cell begins; the reflex corners by cell */
+    uint32_t *cell, *inside; /* where each cell begins; the reflex corners by cell */
     size_t capacity;
-    uint32_t size;                       /* cells along an edge of the grid */
-    double low[2], scale[2];             /* from coordinates to cells */
-    long long left;                      /* corners that may still be looked at */
+    uint32_t size;           /* cells along an edge of the grid */
+    double low[2], scale[2]; /* from coordinates to cells */
+    long long spent;         /* corners looked at, in all polygons */
 } ears;
+
+#define EARS_MOST 2000000000ll
 
 static inline void ears_free(ears *e) { free(e->corner), free(e->cell), free(e->inside); }
 
@@ -65,8 +67,8 @@ static inline void ears_flatten(ears *e, const float *positions, const uint32_t 
         const float *q = positions + 3 * (size_t)index[i + 1 < n ? i + 1 : 0];
         for (int k = 0; k < 3; k++) {
             int a = (k + 1) % 3, b = (k + 2) % 3;
-            area[k] += ((double)p[a] - (double)o[a]) * ((double)q[b] - (double)o[b])
-                     - ((double)p[b] - (double)o[b]) * ((double)q[a] - (double)o[a]);
+            area[k] += ((double)p[a] - (double)o[a]) * ((double)q[b] - (double)o[b]) -
+                       ((double)p[b] - (double)o[b]) * ((double)q[a] - (double)o[a]);
         }
     }
     for (int k = 1; k < 3; k++)
@@ -104,23 +106,32 @@ static inline void ears_sort(ears *e, size_t n, size_t reflex)
         e->scale[k] = high[k] > e->low[k] ? (double)e->size / (high[k] - e->low[k]) : 0;
     cells = (size_t)e->size * e->size;
     memset(e->cell, 0, (cells + 2) * sizeof *e->cell);
-    for (size_t i = 0; i < n; i++)       /* counts, two cells further */
+    for (size_t i = 0; i < n; i++) /* counts, two cells further */
         if (e->corner[i].reflex)
-            e->cell[ears_cell(e, e->corner[i].y, 1) * e->size
-                    + ears_cell(e, e->corner[i].x, 0) + 2]++;
+            e->cell[ears_cell(e, e->corner[i].y, 1) * e->size + ears_cell(e, e->corner[i].x, 0) +
+                    2]++;
     for (size_t i = 2; i < cells + 2; i++) e->cell[i] += e->cell[i - 1];
-    for (size_t i = 0; i < n; i++)       /* one further: where the next one of a cell goes */
+    for (size_t i = 0; i < n; i++) /* one further: where the next one of a cell goes */
         if (e->corner[i].reflex)
-            e->inside[e->cell[ears_cell(e, e->corner[i].y, 1) * e->size
-                              + ears_cell(e, e->corner[i].x, 0) + 1]++] = (uint32_t)i;
+            e->inside[e->cell[ears_cell(e, e->corner[i].y, 1) * e->size +
+                              ears_cell(e, e->corner[i].x, 0) + 1]++] = (uint32_t)i;
 }
 
-/* Whether a corner lies in the triangle a, b, c, or on its edges, and at none of its corners */
+/* Whether b is where an edge turns back on itself, or where a is: a triangle without area, whose
+   loss changes nothing.  Corners within a straight edge stay, other polygons may share them. */
+static inline int ears_is_spike(const ears_corner *a, const ears_corner *b, const ears_corner *c)
+{
+    return ears_turn(a, b, c) == 0 &&
+           (a->x - b->x) * (c->x - b->x) + (a->y - b->y) * (c->y - b->y) >= 0;
+}
+
+/* Whether a corner lies in the triangle a, b, c, or on its edges, and neither at a nor at c: where
+   a bridge leads to a hole, two corners are at one place. */
 static inline int ears_covers(const ears_corner *a, const ears_corner *b, const ears_corner *c,
                               const ears_corner *p)
 {
-    return p != a && p != c && ears_turn(a, b, p) >= 0 && ears_turn(b, c, p) >= 0
-        && ears_turn(c, a, p) >= 0 && !ears_same(p, a) && !ears_same(p, b) && !ears_same(p, c);
+    return ears_turn(a, b, p) >= 0 && ears_turn(b, c, p) >= 0 && ears_turn(c, a, p) >= 0 &&
+           !ears_same(p, a) && !ears_same(p, c);
 }
 
 /* The cells over which three coordinates reach */
@@ -135,13 +146,13 @@ static inline int ears_is_ear(ears *e, const ears_corner *b)
 {
     const ears_corner *a = &e->corner[b->previous], *c = &e->corner[b->next];
     uint32_t x[2], y[2];
-    e->left--;
-    if (!(ears_turn(a, b, c) > 0)) return 0;
+    e->spent++;
+    if (!(ears_turn(a, b, c) > 0)) return ears_is_spike(a, b, c);
     ears_span(e, a->x, b->x, c->x, 0, x), ears_span(e, a->y, b->y, c->y, 1, y);
     for (uint32_t row = y[0]; row <= y[1]; row++) {
         const uint32_t *cell = e->cell + (size_t)row * e->size;
         uint32_t end = cell[x[1] + 1];
-        e->left -= 1 + (long long)(end - cell[x[0]]);
+        e->spent += 1 + (long long)(end - cell[x[0]]);
         for (uint32_t i = cell[x[0]]; i < end; i++) {
             const ears_corner *p = &e->corner[e->inside[i]];
             if (p->reflex && ears_covers(a, b, c, p)) return 0;
@@ -151,8 +162,8 @@ static inline int ears_is_ear(ears *e, const ears_corner *b)
 }
 
 /* n >= 3 corners, as indices of positions, to 3 (n - 2) indices in out.  Non-zero: out of memory.
-   Time grows like n to n sqrt n; a polygon that would take longer loses the search for corners in
-   its ears. */
+   Time grows like n to n sqrt n.  After EARS_MOST looks for corners in ears, some seconds, whatever
+   is left is cut without looking. */
 static inline int ears_cut(ears *e, const float *positions, const uint32_t *index, size_t n,
                            uint32_t *out)
 {
@@ -167,17 +178,17 @@ static inline int ears_cut(ears *e, const float *positions, const uint32_t *inde
         reflex += (size_t)c->reflex;
     }
     ears_sort(e, n, reflex);
-    e->left = 100000 + 400 * (long long)n;
     while (left > 2) {
         ears_corner *b = &e->corner[at], *a = &e->corner[b->previous], *c = &e->corner[b->next];
         /* once around in vain: anything convex will do; twice: anything */
-        int ear = left == 3 || e->left < 0 || stuck >= 2 * left || (stuck >= left && !b->reflex);
+        int ear =
+            left == 3 || e->spent > EARS_MOST || stuck >= 2 * left || (stuck >= left && !b->reflex);
         if (!ear) ear = ears_is_ear(e, b);
         stuck = ear ? 0 : stuck + 1;
         if (ear) {
             *out++ = index[b->previous], *out++ = index[at], *out++ = index[b->next];
             a->next = b->next, c->previous = b->previous;
-            b->reflex = 0;               /* no longer in anybody's way */
+            b->reflex = 0; /* no longer in anybody's way */
             if (a->reflex) a->reflex = !(ears_turn(&e->corner[a->previous], a, c) > 0);
             if (c->reflex) c->reflex = !(ears_turn(a, c, &e->corner[c->next]) > 0);
             left--;

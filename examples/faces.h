@@ -7,17 +7,17 @@
 #include "model.h"
 
 typedef struct faces {
-    mesh_uints stream;                   /* of each face: how many corners, then the corners */
-    mesh_uints change;                   /* pairs: from this place of the stream on, this surface */
-    size_t open, triangles;              /* where the last face's count stands */
+    mesh_uints stream;      /* of each face: how many corners, then the corners */
+    mesh_uints change;      /* pairs: from this place of the stream on, this surface */
+    size_t open, triangles; /* where the last face's count stands */
 } faces;
 
 static inline void faces_free(faces *f) { free(f->stream.v), free(f->change.v); }
 
 static inline int faces_surface(faces *f, int surface)
 {
-    return mesh_push_uint(&f->change, (uint32_t)f->stream.count)
-        || mesh_push_uint(&f->change, (uint32_t)surface);
+    return mesh_push_uint(&f->change, (uint32_t)f->stream.count) ||
+           mesh_push_uint(&f->change, (uint32_t)surface);
 }
 
 /* A face: begin, its corners, end.  They return non-zero where memory or the numbers run out. */
@@ -35,8 +35,10 @@ static inline size_t faces_end(faces *f)
 {
     size_t corners = f->stream.count - f->open - 1;
     f->stream.v[f->open] = (uint32_t)corners;
-    if (corners < 3) f->stream.count = f->open;
-    else f->triangles += corners - 2;
+    if (corners < 3)
+        f->stream.count = f->open;
+    else
+        f->triangles += corners - 2;
     return corners;
 }
 
@@ -52,8 +54,8 @@ static inline int faces_walk(const faces *f, const float *positions, size_t *fir
         while (change < f->change.count && f->change.v[change] <= at)
             surface = f->change.v[change + 1], change += 2;
         if (out)
-            failed = ears_cut(&scratch, positions, f->stream.v + at + 1, corners,
-                              out + first[surface]);
+            failed =
+                ears_cut(&scratch, positions, f->stream.v + at + 1, corners, out + first[surface]);
         first[surface] += indices;
     }
     ears_free(&scratch);

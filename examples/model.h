@@ -5,36 +5,38 @@
 
 #include "reader.h"
 
-typedef struct model_picture {           /* a texture that owns its pixels and mipmaps */
-    shade_texture map;                   /* pixels NULL: it could not be read */
+typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
+    shade_texture map;         /* pixels NULL: it could not be read */
     char *name;
     void *pixels, *mipmaps;
     shade_texture level[15];
 } model_picture;
 
 typedef struct model_surface {
-    char *name, *map;                    /* as the file has them; map: of k_d, or NULL */
-    shade_material material;             /* linear light */
+    char *name, *map;        /* as the file has them; map: of k_d, or NULL */
+    shade_material material; /* linear light */
     float transparency, alpha_cutoff;
-    int set;                             /* 0: the file says nothing about it */
-    int opaque, blended;                 /* the alpha of its map means nothing; is mixed by */
-    int picture;                         /* of the map once it is read; -1: none */
+    int set;             /* 0: the file says nothing about it */
+    int opaque, blended; /* the alpha of its map means nothing; is mixed by */
+    int picture;         /* of the map once it is read; -1: none */
 } model_surface;
 
-typedef struct model_part { int first, count, surface; } model_part;    /* of the indices */
+typedef struct model_part {
+    int first, count, surface;
+} model_part; /* of the indices */
 
 /* Zeroed: empty. */
 typedef struct model {
     owned_mesh mesh;
-    model_surface *surface;              /* none: the file knows no surfaces */
+    model_surface *surface; /* none: the file knows no surfaces */
     model_part *part;
     model_picture *picture;
-    char **library;                      /* names of files that describe the surfaces */
+    char **library; /* names of files that describe the surfaces */
     int surface_count, part_count, picture_count, library_count;
     size_t surface_room, picture_room, library_room;
-    int normals_given;                   /* each vertex had a normal in the file */
+    int normals_given; /* each vertex had a normal in the file */
     int z_up;
-    char warning[400];                   /* what is not as the file wants it; "": nothing */
+    char warning[400]; /* what is not as the file wants it; "": nothing */
 } model;
 
 static inline void model_free(model *m)
@@ -71,9 +73,15 @@ enum { MODEL_SURFACES = 10000 };
 static inline int model_find_surface(model *m, const void *name, size_t n, int add)
 {
     static const model_surface fresh = {
-        NULL, NULL,
+        NULL,
+        NULL,
         { { 0, 0, 0 }, { 0.32f, 0.32f, 0.32f }, { 0.32f, 0.32f, 0.32f }, { 0, 0, 0 }, 0 },
-        0, 0, 0, 0, 0, -1
+        0,
+        0,
+        0,
+        0,
+        0,
+        -1
     };
     model_surface *grown;
     for (int i = m->surface_count - 1; i >= 0; i--)
@@ -90,8 +98,8 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
 
 static inline int model_add_library(model *m, const void *name, size_t n)
 {
-    char **grown = (char **)mesh_grow(m->library, (size_t)m->library_count, &m->library_room,
-                                      sizeof *grown);
+    char **grown =
+        (char **)mesh_grow(m->library, (size_t)m->library_count, &m->library_room, sizeof *grown);
     if (!grown) return 1;
     m->library = grown;
     grown[m->library_count] = model_text(name, n);

@@ -17,10 +17,12 @@
 #include "ply.h"
 #include "stl.h"
 
-#define MODEL_BYTES 4000000000.0         /* no file is read further */
+#define MODEL_BYTES 4000000000.0 /* no file is read further */
 
 /* The end of a name behind its last dot, in small letters; "" where there is none or it is long */
-typedef struct model_kind { char text[8]; } model_kind;
+typedef struct model_kind {
+    char text[8];
+} model_kind;
 static inline model_kind model_kind_of(const char *name)
 {
     model_kind kind = { "" };
@@ -75,14 +77,18 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
     static const model empty;
     static const unsigned char nothing[1];
     const unsigned char *begin = size ? (const unsigned char *)bytes : nothing;
-    mesh_reader r = { begin, begin, begin + size, name, 1, q->error, q->error_size,
-                      q->progress, q->user, q->most };
+    mesh_reader r = { begin,    begin,         begin + size, name,    1,
+                      q->error, q->error_size, q->progress,  q->user, q->most };
     int failed;
     *m = empty;
-    if (!size) failed = mesh_fail(&r, "the file is empty");
-    else if (mesh_is_ply(name, begin, size)) failed = ply_read(&r, m);
-    else if (mesh_is_stl(name, begin, size)) failed = model_read_stl(&r, m);
-    else failed = obj_read(&r, m);
+    if (!size)
+        failed = mesh_fail(&r, "the file is empty");
+    else if (mesh_is_ply(name, begin, size))
+        failed = ply_read(&r, m);
+    else if (mesh_is_stl(name, begin, size))
+        failed = model_read_stl(&r, m);
+    else
+        failed = obj_read(&r, m);
     if (failed) model_free(m);
     return failed;
 }
@@ -103,7 +109,10 @@ static inline int model_load(mesh_reader *r, const char *path, unsigned char **b
             capacity = capacity ? capacity <= SIZE_MAX / 2 ? capacity * 2 : 0 : 65536;
             grown = capacity ? (unsigned char *)realloc(*bytes, capacity) : NULL;
         }
-        if (!grown) { failed = mesh_fail(r, "out of memory"); break; }
+        if (!grown) {
+            failed = mesh_fail(r, "out of memory");
+            break;
+        }
         *bytes = grown;
         got = fread(*bytes + *size, 1, capacity - *size, file);
         *size += got;
@@ -127,7 +136,8 @@ static inline void model_read_libraries(const char *path, model *m)
         if (beside && !model_load(&r, beside, &bytes, &size)) {
             r.at = r.begin = bytes, r.end = bytes + size, r.line = 1;
             if (mtl_read(&r, m)) model_warn(m, path, error);
-        } else if (beside) model_warn(m, path, error);
+        } else if (beside)
+            model_warn(m, path, error);
         free(bytes), free(beside);
     }
 }
@@ -164,9 +174,8 @@ static inline int mesh_read_memory(const void *bytes, size_t size, const char *n
     model from;
     return model_keep_mesh(model_read_memory(bytes, size, name, &from, &q), &from, m);
 }
-static inline int mesh_read_file_progress(const char *path, owned_mesh *m,
-                                          char *error, size_t error_size,
-                                          mesh_progress *progress, void *user)
+static inline int mesh_read_file_progress(const char *path, owned_mesh *m, char *error,
+                                          size_t error_size, mesh_progress *progress, void *user)
 {
     const model_request q = { error, error_size, progress, user, 0 };
     model from;

@@ -36,8 +36,8 @@ static inline int mtl_number(mesh_reader *r, float lowest, float highest, float 
    own, and of those that take a word the word. */
 static inline int mtl_map(mesh_reader *r, char **map)
 {
-    static const char *const worded[6] = { "-blendu", "-blendv", "-cc", "-clamp", "-imfchan",
-                                           "-type" };
+    static const char *const worded[6] = { "-blendu", "-blendv",  "-cc",
+                                           "-clamp",  "-imfchan", "-type" };
     const unsigned char *begin;
     for (;;) {
         mesh_reader ahead;
@@ -94,13 +94,14 @@ static inline int mtl_read(mesh_reader *r, model *m)
             s = number < 0 ? NULL : &m->surface[number];
             if (s) s->set = 1;
             has_d = 0;
-        } else if (s && r->at < r->end && *r->at != '#') failed = mtl_statement(r, s, &has_d);
+        } else if (s && r->at < r->end && *r->at != '#')
+            failed = mtl_statement(r, s, &has_d);
         mesh_next_line(r, 1);
     }
     for (int i = 0; i < m->surface_count; i++) {
         shade_material *k = &m->surface[i].material;
         k->ambient = k->diffuse;
-        if (k->shininess < 1) k->specular = shade_v3(0, 0, 0);    /* would shine everywhere */
+        if (k->shininess < 1) k->specular = shade_v3(0, 0, 0); /* would shine everywhere */
     }
     return failed;
 }

@@ -7,27 +7,40 @@
 #include "faces.h"
 
 enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
-enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP };            /* kinds of elements */
+enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP }; /* kinds of elements */
 enum { PLY_X, PLY_NX = 3, PLY_RED = 6, PLY_U = 9, PLY_VALUES = 11, PLY_CORNERS, PLY_UNUSED };
-enum { PLY_MOST = 256 };                                        /* properties in all */
+enum { PLY_MOST = 256 }; /* properties in all */
 
 /* signed and unsigned integers of 1, 2, 4 bytes, floats of 4 and 8 */
 typedef enum ply_type {
-    PLY_INT8, PLY_UINT8, PLY_INT16, PLY_UINT16, PLY_INT32, PLY_UINT32, PLY_FLOAT, PLY_DOUBLE,
+    PLY_INT8,
+    PLY_UINT8,
+    PLY_INT16,
+    PLY_UINT16,
+    PLY_INT32,
+    PLY_UINT32,
+    PLY_FLOAT,
+    PLY_DOUBLE,
     PLY_TYPES
 } ply_type;
 
-typedef struct ply_property { ply_type type, count_type; int is_list, meaning; } ply_property;
-typedef struct ply_element { int kind, first, properties; double count; } ply_element;
+typedef struct ply_property {
+    ply_type type, count_type;
+    int is_list, meaning;
+} ply_property;
+typedef struct ply_element {
+    int kind, first, properties;
+    double count;
+} ply_element;
 
 typedef struct ply_data {
     int format, elements, properties;
     ply_element element[PLY_MOST];
     ply_property property[PLY_MOST];
     int has[PLY_VALUES];
-    mesh_floats vertex;                  /* PLY_VALUES each */
+    mesh_floats vertex; /* PLY_VALUES each */
     faces faces;
-    double highest;                      /* corner */
+    double highest; /* corner */
 } ply_data;
 
 /* ---- the header ----------------------------------------------------------------------------- */
@@ -50,12 +63,27 @@ static inline int ply_take_type(mesh_reader *r, ply_type *out)
 /* What a property of that kind of element means to us */
 static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
 {
-    static const char *const names[] = { "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue",
-                                         "u", "v", "s", "t", "texture_u", "texture_v",
-                                         "diffuse_red", "diffuse_green", "diffuse_blue" };
+    static const char *const names[] = { "x",
+                                         "y",
+                                         "z",
+                                         "nx",
+                                         "ny",
+                                         "nz",
+                                         "red",
+                                         "green",
+                                         "blue",
+                                         "u",
+                                         "v",
+                                         "s",
+                                         "t",
+                                         "texture_u",
+                                         "texture_v",
+                                         "diffuse_red",
+                                         "diffuse_green",
+                                         "diffuse_blue" };
     static const int meaning[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 9, 10, 9, 10, 6, 7, 8 };
-    if (is_list && kind > PLY_VERTEX
-        && (mesh_take_word(r, "vertex_indices") || mesh_take_word(r, "vertex_index")))
+    if (is_list && kind > PLY_VERTEX &&
+        (mesh_take_word(r, "vertex_indices") || mesh_take_word(r, "vertex_index")))
         return PLY_CORNERS;
     for (size_t k = 0; kind == PLY_VERTEX && !is_list && k < sizeof names / sizeof *names; k++)
         if (mesh_take_word(r, names[k])) return meaning[k];
@@ -87,8 +115,10 @@ static inline int ply_take_element(mesh_reader *r, ply_data *p)
     ply_element *e = &p->element[p->elements];
     if (p->elements == PLY_MOST) return mesh_fail(r, "more than %d elements", PLY_MOST);
     mesh_skip_blanks(r, 0);
-    e->kind = mesh_take_word(r, "vertex") ? PLY_VERTEX : mesh_take_word(r, "face") ? PLY_FACE
-            : mesh_take_word(r, "tristrips") ? PLY_STRIP : PLY_OTHER;
+    e->kind = mesh_take_word(r, "vertex")      ? PLY_VERTEX
+              : mesh_take_word(r, "face")      ? PLY_FACE
+              : mesh_take_word(r, "tristrips") ? PLY_STRIP
+                                               : PLY_OTHER;
     while (!mesh_at_word_end(r)) r->at++;
     mesh_skip_blanks(r, 0);
     if (mesh_take_double(r, &e->count)) return 1;
@@ -100,9 +130,10 @@ static inline int ply_take_element(mesh_reader *r, ply_data *p)
 static inline int ply_take_format(mesh_reader *r, ply_data *p)
 {
     mesh_skip_blanks(r, 0);
-    p->format = mesh_take_word(r, "ascii") ? PLY_TEXT
-              : mesh_take_word(r, "binary_little_endian") ? PLY_LITTLE
-              : mesh_take_word(r, "binary_big_endian") ? PLY_BIG : -1;
+    p->format = mesh_take_word(r, "ascii")                  ? PLY_TEXT
+                : mesh_take_word(r, "binary_little_endian") ? PLY_LITTLE
+                : mesh_take_word(r, "binary_big_endian")    ? PLY_BIG
+                                                            : -1;
     return p->format < 0 ? mesh_fail(r, "unknown format %s", mesh_here(r).text) : 0;
 }
 
@@ -137,10 +168,14 @@ static inline int ply_read_header(mesh_reader *r, ply_data *p, model *m)
             if (p->format != PLY_TEXT) r->line = 0;
             return 0;
         }
-        if (mesh_take_word(r, "format")) failed = ply_take_format(r, p);
-        else if (mesh_take_word(r, "element")) failed = ply_take_element(r, p);
-        else if (mesh_take_word(r, "property")) failed = ply_take_property(r, p);
-        else if (mesh_take_word(r, "comment")) failed = ply_take_comment(r, m);
+        if (mesh_take_word(r, "format"))
+            failed = ply_take_format(r, p);
+        else if (mesh_take_word(r, "element"))
+            failed = ply_take_element(r, p);
+        else if (mesh_take_word(r, "property"))
+            failed = ply_take_property(r, p);
+        else if (mesh_take_word(r, "comment"))
+            failed = ply_take_comment(r, m);
         if (failed) return 1;
         mesh_next_line(r, 0);
     }
@@ -168,8 +203,10 @@ static inline int ply_number(mesh_reader *r, int format, ply_type type, double *
         uint32_t low = (uint32_t)bits;
         memcpy(&single, &low, sizeof single);
         *out = (double)single;
-    } else if (type == PLY_DOUBLE) memcpy(out, &bits, sizeof *out);
-    else *out = (double)bits;
+    } else if (type == PLY_DOUBLE)
+        memcpy(out, &bits, sizeof *out);
+    else
+        *out = (double)bits;
     if (type < PLY_FLOAT && type % 2 == 0 && bits >> (8 * size - 1))
         *out -= (double)((uint64_t)1 << 8 * size);
     return 0;
@@ -190,8 +227,9 @@ static inline int ply_strip(mesh_reader *r, ply_data *p, double value, uint32_t 
     if (value < 0) return *length = 0;
     if (!(value < INT_MAX)) return mesh_fail(r, "a corner is out of range");
     if (++*length > 2) {
-        if (faces_begin(&p->faces) || ply_corner(r, p, pair[1 - *length % 2])
-            || ply_corner(r, p, pair[*length % 2]) || ply_corner(r, p, value)) return 1;
+        if (faces_begin(&p->faces) || ply_corner(r, p, pair[1 - *length % 2]) ||
+            ply_corner(r, p, pair[*length % 2]) || ply_corner(r, p, value))
+            return 1;
         faces_end(&p->faces);
     }
     pair[0] = pair[1], pair[1] = (uint32_t)value;
@@ -274,8 +312,9 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
     m->normals = (float *)malloc(3 * sizeof(float) * n);
     if (p->has[PLY_U]) m->texcoords = (float *)malloc(2 * sizeof(float) * n);
     if (p->has[PLY_RED]) m->colors = (float *)malloc(3 * sizeof(float) * n);
-    if (!m->positions || !m->normals || (p->has[PLY_U] && !m->texcoords)
-        || (p->has[PLY_RED] && !m->colors)) return mesh_fail(r, "out of memory");
+    if (!m->positions || !m->normals || (p->has[PLY_U] && !m->texcoords) ||
+        (p->has[PLY_RED] && !m->colors))
+        return mesh_fail(r, "out of memory");
     for (size_t i = 0; i < n; i++) {
         const float *v = p->vertex.v + PLY_VALUES * i, *N = v + PLY_NX, *c = v + PLY_RED;
         shade_vec3 rgb = shade_linear_from_srgb(shade_v3(c[0], c[1], c[2]));

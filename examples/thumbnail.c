@@ -22,7 +22,11 @@
 /* ---- progress ------------------------------------------------------------------------------- */
 
 /* Silent for the first second of work; then a line that rewrites itself, on a terminal alone */
-typedef struct progress { clock_t begin; const char *what; int percent, shown, silent; } progress;
+typedef struct progress {
+    clock_t begin;
+    const char *what;
+    int percent, shown, silent;
+} progress;
 
 static void report(void *user, double part)
 {
@@ -66,14 +70,14 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     shade_result result;
     int failed;
     report_next(p, "finding shadows");
-    result = studio_open(&light, m, report, p);
+    result = look_has_shadows(o) || !o->no_shadow ? studio_open(&light, m, report, p) : SHADE_OK;
     report_next(p, "drawing");
     c = canvas_new(o->width, o->height, o->samples);
     if (!result) result = draw_picture(&c, m, &light, o, report, p);
     report_next(p, "");
     picture = canvas_finish(&c);
     failed = result ? complain("%s", result == SHADE_ERROR_CAPACITY ? "out of memory"
-                                                                   : shade_result_string(result))
+                                                                    : shade_result_string(result))
                     : save(&picture, o);
     free(light.memory), free(c.target.color), free(c.target.depth);
     return failed;

@@ -25,8 +25,10 @@ typedef struct tree {
 
 static shade_mat4 tree_matrix(const struct aiMatrix4x4 *a)
 {
-    shade_mat4 m = { { { a->a1, a->b1, a->c1, a->d1 }, { a->a2, a->b2, a->c2, a->d2 },
-                       { a->a3, a->b3, a->c3, a->d3 }, { a->a4, a->b4, a->c4, a->d4 } } };
+    shade_mat4 m = { { { a->a1, a->b1, a->c1, a->d1 },
+                       { a->a2, a->b2, a->c2, a->d2 },
+                       { a->a3, a->b3, a->c3, a->d3 },
+                       { a->a4, a->b4, a->c4, a->d4 } } };
     return m;
 }
 
@@ -61,9 +63,9 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
         if (fabsf(v.x) < 1e6f && fabsf(v.y) < 1e6f) uv[0] = v.x, uv[1] = v.y;
         t->textured = 1;
     }
-    if (mesh_push(&t->positions, (const float *)&P, 3)
-        || mesh_push(&t->normals, (const float *)&N, 3)
-        || mesh_push(&t->colors, (const float *)&C, 3) || mesh_push(&t->texcoords, uv, 2))
+    if (mesh_push(&t->positions, (const float *)&P, 3) ||
+        mesh_push(&t->normals, (const float *)&N, 3) ||
+        mesh_push(&t->colors, (const float *)&C, 3) || mesh_push(&t->texcoords, uv, 2))
         return mesh_fail(t->reader, "out of memory");
     return 0;
 }
@@ -73,8 +75,9 @@ static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
     size_t first = t->positions.count / 3;
     shade_mat3 turn = shade_normal_matrix(at);
     int mirrored = shade_mat3_determinant(shade_mat3_from_mat4(at)) < 0;
-    if (!mesh->mNumFaces || !(mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE
-                                                       | aiPrimitiveType_POLYGON))) return 0;
+    if (!mesh->mNumFaces ||
+        !(mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)))
+        return 0;
     if (first + mesh->mNumVertices >= INT_MAX) return mesh_fail(t->reader, "too many vertices");
     if (faces_surface(&t->faces, (int)mesh->mMaterialIndex))
         return mesh_fail(t->reader, "out of memory");
@@ -155,6 +158,15 @@ static void material_from_gloss(const struct aiMaterial *a, shade_material *k)
     if (k->shininess < 1) k->specular = shade_v3(0, 0, 0);
 }
 
+/* Whether all that a material says is what one without a word is taken to say: white rough metal */
+static int says_nothing(const struct aiMaterial *a, const shade_material *k)
+{
+    const shade_vec3 c = k->diffuse, e = k->emission;
+    return c.x >= 1 && c.y >= 1 && c.z >= 1 && e.x + e.y + e.z <= 0 &&
+           take_material_float(a, "$mat.metallicFactor", 0) >= 1 &&
+           take_material_float(a, "$mat.roughnessFactor", 0) >= 1;
+}
+
 static int surface_from(model_surface *s, const struct aiMaterial *a, int linear)
 {
     struct aiString text;
@@ -162,17 +174,19 @@ static int surface_from(model_surface *s, const struct aiMaterial *a, int linear
     float alpha = 1;
     unsigned types[2] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
     int base = take_material_color(a, "$clr.base", linear, &k->diffuse, &alpha);
-    if (aiGetMaterialString(a, "?mat.name", 0, 0, &text) == aiReturn_SUCCESS)
-        s->set = strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) != 0;
-    else s->set = 1;
+    int named = aiGetMaterialString(a, "?mat.name", 0, 0, &text) == aiReturn_SUCCESS;
+    s->set = !named || strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) != 0;
     if (!base) take_material_color(a, "$clr.diffuse", linear, &k->diffuse, NULL);
     k->ambient = k->diffuse;
     if (aiGetMaterialTexture(a, aiTextureType_EMISSIVE, 0, &text, NULL, NULL, NULL, NULL, NULL,
                              NULL) != aiReturn_SUCCESS)
         take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
+    if (!named && says_nothing(a, k)) s->set = 0;
     s->transparency = 1 - fminf(alpha, fminf(1, take_material_float(a, "$mat.opacity", 1)));
-    if (base) material_from_roughness(a, k);
-    else material_from_gloss(a, k);
+    if (base)
+        material_from_roughness(a, k);
+    else
+        material_from_gloss(a, k);
     if (aiGetMaterialString(a, "$mat.gltf.alphaMode", 0, 0, &text) == aiReturn_SUCCESS) {
         s->opaque = !strcmp(text.data, "OPAQUE"), s->blended = !strcmp(text.data, "BLEND");
         if (!strcmp(text.data, "MASK"))
@@ -181,7 +195,8 @@ static int surface_from(model_surface *s, const struct aiMaterial *a, int linear
     }
     for (int i = 0; i < 2 && !s->map; i++) {
         if (aiGetMaterialTexture(a, (enum aiTextureType)types[i], 0, &text, NULL, NULL, NULL, NULL,
-                                 NULL, NULL) != aiReturn_SUCCESS) continue;
+                                 NULL, NULL) != aiReturn_SUCCESS)
+            continue;
         s->map = model_text(text.data, strlen(text.data)), s->set = 1;
         if (!s->map) return 1;
         /* a map in place of the colour: some formats leave black beside it */
@@ -287,14 +302,13 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     if (!set) return mesh_fail(&r, "out of memory");
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    t.scene = aiImportFileExWithProperties(path, aiProcess_SortByPType | aiProcess_FlipUVs
-                                           | aiProcess_TransformUVCoords, NULL, set);
+    t.scene = aiImportFileExWithProperties(
+        path, aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords, NULL, set);
     aiReleasePropertyStore(set);
     if (!t.scene) return assimp_failed(&r);
     t.reader = &r;
     t.linear = !strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb");
-    m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf")
-           || !strcmp(kind.text, "blend");
+    m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
     failed = tree_surfaces(&t, m);
     if (!failed && t.scene->mRootNode)
         failed = tree_node(&t, t.scene->mRootNode, shade_mat4_identity());

@@ -11,19 +11,25 @@
 typedef struct look {
     const studio *studio;
     const shade_mesh *mesh;
-    const shade_texture *map;            /* NULL: none */
-    shade_material material;             /* without emission, which the map multiplies too */
+    const shade_texture *map; /* NULL: none */
+    shade_material material;  /* without emission, which the map multiplies too */
     shade_vec3 emission;
     shade_lighting lighting;
     shade_mat4 clip_from_world;
     shade_vec3 eye;
     float alpha, alpha_cutoff;
-    int per_vertex, map_is_opaque;
+    int per_vertex, map_is_opaque, shadows;
 } look;
 
 /* Varyings: P, N, the albedo of the vertex, u, v; lit per vertex, the light stands in P's place. */
 enum { LOOK_P, LOOK_N = 3, LOOK_ALBEDO = 6, LOOK_UV = 9, LOOK_VARYINGS = 11 };
 typedef float look_rows[3][SHADE_LANES];
+
+/* Emission and the tones of a drawing know no shadows. */
+static int look_has_shadows(const options *o)
+{
+    return o->model != SHADE_MODEL_EMISSIVE && o->model != SHADE_MODEL_COOL_TO_WARM;
+}
 
 /* Bends what is brighter toward white instead of cutting it off; 3 gives 1. */
 #define SHOULDER 0.6f
@@ -39,16 +45,15 @@ static void look_light(const look *k, const float *P, const float *N, const floa
 {
     float visibility[2][SHADE_LANES];
     look_rows sky;
-    int shadows = k->lighting.model != SHADE_MODEL_EMISSIVE
-               && k->lighting.model != SHADE_MODEL_COOL_TO_WARM;
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         int lane = i < count ? i : count - 1;
         const float *p = P + lane, *n = N + lane;
         shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]), E = shade_v3(0, 0, 0);
         shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
         normal = shade_normalize(normal);
         visibility[0][i] = visibility[1][i] = 1;
-        if (shadows && i < count) {
+        if (k->shadows && i < count) {
             E = studio_sky(k->studio, at, normal);
             visibility[0][i] = studio_lamp(k->studio, at, normal);
         }
@@ -57,7 +62,8 @@ static void look_light(const look *k, const float *P, const float *N, const floa
     shade_lit_lanes(&k->lighting, &k->material, k->eye, P, N, albedo, visibility[0], out[0]);
     for (int a = 0; a < 3; a++) {
         const float ambient = (&k->material.ambient.x)[a], emission = (&k->emission.x)[a];
-        SHADE_EACH_LANE(i) {
+        SHADE_EACH_LANE(i)
+        {
             float own = albedo[i + a * SHADE_LANES];
             float light = out[a][i] + own * (ambient * sky[a][i] + emission);
             out[a][i] = light > SHOULDER ? shoulder(light) : light;
@@ -69,7 +75,8 @@ static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
                         shade_vertices *SHADE_RESTRICT out)
 {
     const look *k = (const look *)uniforms;
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         size_t at = in->index[i];
         const float *p = k->mesh->positions + 3 * at, *n = k->mesh->normals + 3 * at;
         const float *c = k->mesh->colors, *uv = k->mesh->texcoords;
@@ -101,20 +108,22 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
         shade_sample_lanes(k->map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], in->lod,
                            texel[0]);
     for (int a = 0; a < 3; a++) {
-        SHADE_EACH_LANE(i) {
+        SHADE_EACH_LANE(i)
+        {
             /* backs are lit as fronts; fronts keep their normals, which on the outline of a
                coarse mesh lean away from the viewer */
             N[a][i] = in->front[i] ? in->varying[LOOK_N + a][i] : -in->varying[LOOK_N + a][i];
             albedo[a][i] = in->varying[LOOK_ALBEDO + a][i] * (k->map ? texel[a][i] : 1);
         }
     }
-    if (!k->per_vertex)
-        look_light(k, in->varying[LOOK_P], N[0], albedo[0], in->count, light);
-    SHADE_EACH_LANE(i) {
+    if (!k->per_vertex) look_light(k, in->varying[LOOK_P], N[0], albedo[0], in->count, light);
+    SHADE_EACH_LANE(i)
+    {
         float alpha = k->alpha * (k->map && !k->map_is_opaque ? texel[3][i] : 1);
         for (int a = 0; a < 3; a++)
-            out->color[a][i] = !k->per_vertex ? light[a][i]
-                             : in->varying[LOOK_P + a][i] * (k->map ? texel[a][i] : 1);
+            out->color[a][i] = !k->per_vertex
+                                   ? light[a][i]
+                                   : in->varying[LOOK_P + a][i] * (k->map ? texel[a][i] : 1);
         out->color[3][i] = alpha;
         out->discard[i] = alpha < k->alpha_cutoff;
     }
@@ -122,7 +131,10 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
 
 /* ---- the camera ----------------------------------------------------------------------------- */
 
-typedef struct camera { shade_mat4 view, projection; shade_vec3 eye; } camera;
+typedef struct camera {
+    shade_mat4 view, projection;
+    shade_vec3 eye;
+} camera;
 
 /* The camera looks along a fixed direction.  Every point must lie inside four planes through the
    eye, and each plane gives one linear bound: their extremes give the nearest eye, and the
@@ -130,8 +142,8 @@ typedef struct camera { shade_mat4 view, projection; shade_vec3 eye; } camera;
 static camera camera_frame(const owned_mesh *m, float aspect)
 {
     const float half = 14 * 0.017453292f, margin = 1.10f;
-    shade_mat4 turn = shade_mat4_look_at(shade_v3(0, 0.36f, 1), shade_v3(0, 0, 0),
-                                         shade_v3(0, 1, 0));
+    shade_mat4 turn =
+        shade_mat4_look_at(shade_v3(0, 0.36f, 1), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     shade_mat4 lens, world;
     float slope_y, slope_x, left = -9, right = -9, below = -9, above = -9, front = -9, back = 9, d;
     camera c;
@@ -149,8 +161,8 @@ static camera camera_frame(const owned_mesh *m, float aspect)
     d = fmaxf(d, front + 0.05f);
     c.view = shade_mat4_mul(
         shade_mat4_translation(shade_v3((left - right) / 2, (below - above) / 2, -d)), turn);
-    c.projection = shade_mat4_perspective(2 * half, aspect, (d - front) * 0.9f + 0.001f,
-                                          d - back + 4);
+    c.projection =
+        shade_mat4_perspective(2 * half, aspect, (d - front) * 0.9f + 0.001f, d - back + 4);
     world = shade_mat4_inverse(c.view);
     c.eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
     return c;
@@ -185,7 +197,11 @@ static void look_dress(look *k, const options *o, const model *m, int surface)
         k->map = &m->picture[s->picture].map;
 }
 
-typedef struct far_triangle { float distance; uint32_t first; int surface; } far_triangle;
+typedef struct far_triangle {
+    float distance;
+    uint32_t first;
+    int surface;
+} far_triangle;
 
 static int far_first(const void *a, const void *b)
 {
@@ -264,8 +280,8 @@ static shade_result draw_opaque(const shade_target *target, look *k, const optio
 
 /* ---- the ground ----------------------------------------------------------------------------- */
 
-enum { GROUND_SIZE = 256 };              /* texels along an edge of the shadow */
-#define GROUND_REACH 2.2f                /* half that edge; the shadow fades out toward it */
+enum { GROUND_SIZE = 256 }; /* texels along an edge of the shadow */
+#define GROUND_REACH 2.2f   /* half that edge; the shadow fades out toward it */
 
 /* Means over three texels along a line of steps */
 static void ground_blur(float *line, int step)
@@ -312,8 +328,7 @@ static shade_result draw_ground(const shade_target *target, const studio *light,
     float *dark = (float *)malloc(TEXELS * sizeof *dark), y = 1;
     uint8_t *shadow = (uint8_t *)malloc(4 * TEXELS);
     shade_result result = SHADE_ERROR_CAPACITY;
-    for (int i = 0; i < m->view.vertex_count; i++)
-        y = fminf(y, m->positions[3 * (size_t)i + 1]);
+    for (int i = 0; i < m->view.vertex_count; i++) y = fminf(y, m->positions[3 * (size_t)i + 1]);
     y -= 0.002f;
     if (dark && shadow) {
         const float positions[12] = { -h, y, -h, -h, y, h, h, y, h, h, y, -h };
@@ -341,7 +356,8 @@ static void draw_background(const shade_target *target, const options *o)
         canvas_gradient(target, shade_rgb(0xEEF0F3), shade_rgb(0xC3C8CF));
     else if (o->background == THUMBNAIL_PLAIN)
         shade_clear(target, shade_v4(c.x, c.y, c.z, 1), 1);
-    else shade_clear(target, shade_v4(0, 0, 0, 0), 1);
+    else
+        shade_clear(target, shade_v4(0, 0, 0, 0), 1);
 }
 
 /* Whether anything shows through a part: its transparency, or alpha between 0 and 1 in its map */
@@ -362,7 +378,7 @@ static shade_result draw_picture(const canvas *c, const model *m, const studio *
     if (!see_through) return SHADE_ERROR_CAPACITY;
     k.clip_from_world = shade_mat4_mul(cam.projection, cam.view);
     k.lighting.lights = light->lamp, k.lighting.light_count = 2;
-    k.lighting.model = o->model;
+    k.lighting.model = o->model, k.shadows = look_has_shadows(o);
     k.lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
     k.lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
     k.per_vertex = o->shading == SHADE_SHADING_PER_VERTEX;

@@ -32,10 +32,12 @@ static void guard_end(int signal_number)
 {
     if (guard_part[0]) unlink(guard_part);
     guard_say("thumbnail: ");
-    if (signal_number == SIGALRM) guard_say("gave up after --max-seconds while ");
+    if (signal_number == SIGALRM)
+        guard_say("gave up after --max-seconds while ");
     else if (signal_number == SIGINT || signal_number == SIGTERM || signal_number == SIGHUP)
         guard_say("interrupted while ");
-    else guard_say("crashed while ");
+    else
+        guard_say("crashed while ");
     guard_say(guard_doing);
     guard_say("\n");
     _exit(1);
@@ -43,16 +45,16 @@ static void guard_end(int signal_number)
 
 static void guard_begin(int max_seconds)
 {
-    static const int ends[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGSEGV, SIGBUS, SIGFPE, SIGILL,
-                                SIGABRT };
-    static char stack[65536];            /* one's own may be what ran out */
+    static const int ends[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGSEGV,
+                                SIGBUS,  SIGFPE, SIGILL,  SIGABRT };
+    static char stack[65536]; /* one's own may be what ran out */
     stack_t other = { 0 };
     struct sigaction action = { 0 };
     other.ss_sp = stack, other.ss_size = sizeof stack;
     sigaltstack(&other, NULL);
     action.sa_handler = guard_end, action.sa_flags = SA_ONSTACK;
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) sigaction(ends[i], &action, NULL);
-    signal(SIGPIPE, SIG_IGN);            /* write says so instead */
+    signal(SIGPIPE, SIG_IGN); /* write says so instead */
     if (max_seconds) alarm((unsigned)max_seconds);
 }
 

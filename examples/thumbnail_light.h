@@ -11,18 +11,18 @@
 #include "model.h"
 
 enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
-#define STUDIO_REACH 1.02f               /* half the edge of what a map sees */
+#define STUDIO_REACH 1.02f /* half the edge of what a map sees */
 
 typedef struct studio_map {
-    shade_vec3 toward, right, up;        /* unit; toward the lamp */
-    float *depth;                        /* NULL: not drawn, everything is lit */
-    float weight;                        /* its part of the sky, or of the large lamp */
+    shade_vec3 toward, right, up; /* unit; toward the lamp */
+    float *depth;                 /* NULL: not drawn, everything is lit */
+    float weight;                 /* its part of the sky, or of the large lamp */
     int size;
 } studio_map;
 
 typedef struct studio {
-    studio_map map[STUDIO_MAPS];         /* the sky, then the large lamp */
-    int sky, key;                        /* how many of each */
+    studio_map map[STUDIO_MAPS]; /* the sky, then the large lamp */
+    int sky, key;                /* how many of each */
     float *memory;
     shade_light lamp[2];
 } studio;
@@ -56,7 +56,7 @@ static void studio_place(studio *s, int sky, int key)
         shade_vec2 p = studio_spiral(i, sky);
         float y = sqrtf(1 - p.x * p.x - p.y * p.y);
         studio_aim(&s->map[i], shade_v3(p.x, y, p.y));
-        s->map[i].weight = 1 / (0.6f + y);    /* half as bright at the horizon as above */
+        s->map[i].weight = 1 / (0.6f + y); /* half as bright at the horizon as above */
         sum += s->map[i].weight * y;
     }
     for (int i = 0; i < sky; i++) s->map[i].weight /= sum;
@@ -68,8 +68,8 @@ static void studio_place(studio *s, int sky, int key)
         s->map[sky + i].weight = 1 / (float)key;
     }
     s->lamp[0] = shade_directional_light(shade_neg(main_lamp), shade_v3(1.06f, 1.00f, 0.91f));
-    s->lamp[1] = shade_directional_light(shade_v3(0.8f, -0.25f, 0.75f),
-                                         shade_v3(0.22f, 0.25f, 0.30f));
+    s->lamp[1] =
+        shade_directional_light(shade_v3(0.8f, -0.25f, 0.75f), shade_v3(0.22f, 0.25f, 0.30f));
 }
 
 /* ---- who sees what -------------------------------------------------------------------------- */
@@ -79,7 +79,8 @@ static shade_mat4 studio_view(const studio_map *m)
 {
     shade_mat4 view = { { { m->right.x, m->up.x, m->toward.x, 0 },
                           { m->right.y, m->up.y, m->toward.y, 0 },
-                          { m->right.z, m->up.z, m->toward.z, 0 }, { 0, 0, 0, 1 } } };
+                          { m->right.z, m->up.z, m->toward.z, 0 },
+                          { 0, 0, 0, 1 } } };
     return view;
 }
 
@@ -98,8 +99,8 @@ static shade_result studio_draw(studio_map *map, const model *m)
         if (s && (s->transparency > 0 || s->blended)) continue;
         mesh.indices += m->part[i].first, mesh.index_count = m->part[i].count;
         state.alpha_cutoff = s ? s->alpha_cutoff : 0;
-        state.diffuse_map = s && s->alpha_cutoff > 0 && s->picture >= 0
-                          ? &m->picture[s->picture].map : NULL;
+        state.diffuse_map =
+            s && s->alpha_cutoff > 0 && s->picture >= 0 ? &m->picture[s->picture].map : NULL;
         result = shade_draw_mesh(&target, &mesh, &state, NULL);
     }
     return result;
@@ -119,15 +120,15 @@ static float studio_seen(const studio_map *m, shade_vec3 P)
     if (!m->depth || !(x >= 0 && y >= 0 && x < last && y < last)) return 1;
     i = (int)x, j = (int)y, u = x - (float)i, v = y - (float)j;
     row = m->depth + (size_t)j * (size_t)m->size + (size_t)i;
-    return (1 - v) * ((1 - u) * (float)(row[0] >= z) + u * (float)(row[1] >= z))
-         + v * ((1 - u) * (float)(row[m->size] >= z) + u * (float)(row[m->size + 1] >= z));
+    return (1 - v) * ((1 - u) * (float)(row[0] >= z) + u * (float)(row[1] >= z)) +
+           v * ((1 - u) * (float)(row[m->size] >= z) + u * (float)(row[m->size + 1] >= z));
 }
 
-/* Light of the sky on a surface (1: level ground under all of it), its color going from a bluish
-   zenith to a warm horizon; and how much of the large lamp is seen. */
+/* Light of the sky on a surface, its color going from a bluish zenith to a warm horizon, and what
+   the ground throws back; 0.4 on open level ground.  And how much of the large lamp is seen. */
 static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N)
 {
-    float sum[2] = { 0, 0 };
+    float sum[2] = { 0, 0 }, back = 0.06f * (1 - N.y);
     for (int i = 0; i < s->sky; i++) {
         const studio_map *m = &s->map[i];
         float cosine = shade_dot(N, m->toward);
@@ -136,8 +137,8 @@ static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N)
         cosine *= m->weight * studio_seen(m, shade_madd(P, 2 * texel, N));
         sum[0] += cosine * m->toward.y, sum[1] += cosine * (1 - m->toward.y);
     }
-    return shade_madd(shade_scale(shade_v3(0.40f, 0.42f, 0.46f), sum[0]), sum[1],
-                      shade_v3(0.41f, 0.40f, 0.38f));
+    return shade_madd(shade_madd(shade_v3(back, back, back), sum[0], shade_v3(0.40f, 0.42f, 0.46f)),
+                      sum[1], shade_v3(0.41f, 0.40f, 0.38f));
 }
 static float studio_lamp(const studio *s, shade_vec3 P, shade_vec3 N)
 {
@@ -161,13 +162,14 @@ static shade_result studio_open(studio *s, const model *m, mesh_progress *progre
     size_t sky_texels = SKY_SIZE * SKY_SIZE, key_texels = KEY_SIZE * KEY_SIZE;
     shade_result result = SHADE_OK;
     studio_place(s, sky, key);
-    s->memory = (float *)malloc(sizeof(float) * ((size_t)sky * sky_texels
-                                                 + (size_t)key * key_texels));
+    s->memory =
+        (float *)malloc(sizeof(float) * ((size_t)sky * sky_texels + (size_t)key * key_texels));
     if (!s->memory) return SHADE_ERROR_CAPACITY;
     for (int i = 0; i < sky + key && !result; i++) {
         s->map[i].size = i < sky ? SKY_SIZE : KEY_SIZE;
-        s->map[i].depth = i < sky ? s->memory + (size_t)i * sky_texels
-                        : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
+        s->map[i].depth =
+            i < sky ? s->memory + (size_t)i * sky_texels
+                    : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
         result = studio_draw(&s->map[i], m);
         progress(user, (double)i / (sky + key));
     }

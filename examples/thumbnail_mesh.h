@@ -11,7 +11,7 @@ static void upright_rows(int up, float turn, double row[3][3])
     /* what becomes of x, y, z: axis k of the picture is sign * axis of the model */
     static const int axis[6][3] = { { 1, 0, 2 }, { 0, 1, 2 }, { 0, 2, 1 },
                                     { 1, 0, 2 }, { 0, 1, 2 }, { 0, 2, 1 } };
-    static const double sign[6][3] = { { -1, 1, 1 }, { 1, 1, 1 }, { 1, 1, -1 },
+    static const double sign[6][3] = { { -1, 1, 1 }, { 1, 1, 1 },   { 1, 1, -1 },
                                        { 1, -1, 1 }, { -1, -1, 1 }, { 1, -1, 1 } };
     shade_mat4 m = shade_mat4_rotation(turn, shade_v3(0, 1, 0));
     const float *c = &m.col[0].x;
@@ -115,7 +115,7 @@ static int mesh_crease(owned_mesh *m, int flat)
         memcpy(p, m->positions + 9 * (i / 3), sizeof p);
         normal[i] = shade_face_normal(p[0], p[1], p[2]);
     }
-    for (size_t i = 0; i < n && !failed; i++)    /* faces without area keep what they had */
+    for (size_t i = 0; i < n && !failed; i++) /* faces without area keep what they had */
         if (shade_dot(normal[i], normal[i]) > 0) memcpy(m->normals + 3 * i, &normal[i], 12);
     free(normal);
     return failed;

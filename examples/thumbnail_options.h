@@ -26,14 +26,14 @@ static const char thumbnail_usage[] =
     "  --quiet               errors alone, no progress, no warnings\n"
     "  --help                this text\n";
 
-enum { THUMBNAIL_GRADIENT, THUMBNAIL_PLAIN, THUMBNAIL_NONE };    /* backgrounds */
+enum { THUMBNAIL_GRADIENT, THUMBNAIL_PLAIN, THUMBNAIL_NONE }; /* backgrounds */
 
 typedef struct options {
     const char *input, *output;
-    int width, height, samples, up;      /* up: 0 .. 5 for x y z -x -y -z; -1: by the file */
-    int png, quiet, no_shadow, background, plain;    /* plain: material in place of the file's */
+    int width, height, samples, up; /* up: 0 .. 5 for x y z -x -y -z; -1: by the file */
+    int png, quiet, no_shadow, background, plain; /* plain: material in place of the file's */
     int max_triangles, max_seconds;
-    float rotate;                        /* radians */
+    float rotate; /* radians */
     shade_vec3 background_color;
     shade_material material;
     shade_model model;
@@ -88,10 +88,10 @@ static int whole_integer(const char *text, int lowest, int highest, int *out)
 /* RRGGBB or RGB, with or without #, as a display shows it; and some names */
 static int take_color(const char *text, shade_vec3 *out)
 {
-    static const char *const names[] = { "black", "white", "gray", "grey", "red", "green", "blue",
-                                         "yellow", "orange" };
-    static const uint32_t values[] = { 0x000000, 0xFFFFFF, 0x808080, 0x808080, 0xFF0000, 0x008000,
-                                       0x0000FF, 0xFFFF00, 0xFFA500 };
+    static const char *const names[] = { "black", "white", "gray",   "grey",  "red",
+                                         "green", "blue",  "yellow", "orange" };
+    static const uint32_t values[] = { 0x000000, 0xFFFFFF, 0x808080, 0x808080, 0xFF0000,
+                                       0x008000, 0x0000FF, 0xFFFF00, 0xFFA500 };
     int name = find_name(text, names, 9);
     uint32_t value = 0;
     size_t n = 0;
@@ -127,25 +127,38 @@ static int find_material(const char *name, shade_material *out)
 }
 
 enum {
-    OPTION_SIZE, OPTION_BACKGROUND, OPTION_COLOR, OPTION_MATERIAL, OPTION_MODEL, OPTION_SHADING,
-    OPTION_ROTATE, OPTION_UP, OPTION_SAMPLES, OPTION_MAX_TRIANGLES, OPTION_MAX_SECONDS,
-    OPTION_PNG, OPTION_NO_SHADOW, OPTION_QUIET, OPTION_HELP, OPTIONS    /* from PNG on: no value */
+    OPTION_SIZE,
+    OPTION_BACKGROUND,
+    OPTION_COLOR,
+    OPTION_MATERIAL,
+    OPTION_MODEL,
+    OPTION_SHADING,
+    OPTION_ROTATE,
+    OPTION_UP,
+    OPTION_SAMPLES,
+    OPTION_MAX_TRIANGLES,
+    OPTION_MAX_SECONDS,
+    OPTION_PNG,
+    OPTION_NO_SHADOW,
+    OPTION_QUIET,
+    OPTION_HELP,
+    OPTIONS /* from PNG on: no value */
 };
 
 /* One option and its value.  Returns 0 where the value is none of its. */
 static int set_option(options *o, int option, const char *value)
 {
-    static const char *const models[] = { "blinn phong", "phong", "lambert", "ambient", "emissive",
-                                          "cool to warm" };
+    static const char *const models[] = { "blinn phong", "phong",    "lambert",
+                                          "ambient",     "emissive", "cool to warm" };
     static const char *const shadings[] = { "fragment", "vertex", "face" };
-    static const char *const axes[] = { "x", "y", "z", " x", " y", " z" };    /* dashes as spaces */
+    static const char *const axes[] = { "x", "y", "z", " x", " y", " z" }; /* dashes as spaces */
     double degrees;
     char *end;
     int k;
     switch (option) {
     case OPTION_SIZE:
-        return take_integer(&value, 1, 8192, &o->width) && *value == 'x'
-            && whole_integer(value + 1, 1, 8192, &o->height);
+        return take_integer(&value, 1, 8192, &o->width) && *value == 'x' &&
+               whole_integer(value + 1, 1, 8192, &o->height);
     case OPTION_BACKGROUND:
         o->background = same_name(value, "none") ? THUMBNAIL_NONE : THUMBNAIL_PLAIN;
         return o->background == THUMBNAIL_NONE || take_color(value, &o->background_color);
@@ -154,7 +167,8 @@ static int set_option(options *o, int option, const char *value)
         if (!take_color(value, &o->material.diffuse)) return 0;
         o->material.ambient = o->material.diffuse;
         return 1;
-    case OPTION_MATERIAL: return o->plain = 1, find_material(value, &o->material);
+    case OPTION_MATERIAL:
+        return o->plain = 1, find_material(value, &o->material);
     case OPTION_MODEL:
         k = find_name(value, models, 6);
         if (k >= 0) o->model = (shade_model)k;
@@ -167,10 +181,14 @@ static int set_option(options *o, int option, const char *value)
         degrees = strtod(value, &end);
         o->rotate = (float)(degrees * 0.017453292519943295);
         return end != value && !*end && degrees >= -36000 && degrees <= 36000;
-    case OPTION_UP: return o->up = find_name(value, axes, 6), o->up >= 0;
-    case OPTION_SAMPLES: return whole_integer(value, 1, 4, &o->samples) && o->samples != 3;
-    case OPTION_MAX_TRIANGLES: return whole_integer(value, 0, 700000000, &o->max_triangles);
-    default: return whole_integer(value, 0, 1000000000, &o->max_seconds);
+    case OPTION_UP:
+        return o->up = find_name(value, axes, 6), o->up >= 0;
+    case OPTION_SAMPLES:
+        return whole_integer(value, 1, 4, &o->samples) && o->samples != 3;
+    case OPTION_MAX_TRIANGLES:
+        return whole_integer(value, 0, 700000000, &o->max_triangles);
+    default:
+        return whole_integer(value, 0, 1000000000, &o->max_seconds);
     }
 }
 
@@ -189,18 +207,21 @@ static int ends_in_png(const char *name)
 /* 0: go on; 1: failed; -1: all said */
 static int read_options(options *o, int argc, char **argv)
 {
-    static const char *const names[OPTIONS] = {
-        "--size", "--background", "--color", "--material", "--model", "--shading", "--rotate",
-        "--up", "--samples", "--max-triangles", "--max-seconds", "--png", "--no-shadow", "--quiet",
-        "--help"
-    };
+    static const char *const names[OPTIONS] = { "--size",          "--background",  "--color",
+                                                "--material",      "--model",       "--shading",
+                                                "--rotate",        "--up",          "--samples",
+                                                "--max-triangles", "--max-seconds", "--png",
+                                                "--no-shadow",     "--quiet",       "--help" };
     char text[80];
     for (int i = 1; i < argc; i++) {
         int k = 0;
         if (strncmp(argv[i], "--", 2)) {
-            if (!o->input) o->input = argv[i];
-            else if (!o->output) o->output = argv[i];
-            else return complain("one argument too many: %s", argv[i]);
+            if (!o->input)
+                o->input = argv[i];
+            else if (!o->output)
+                o->output = argv[i];
+            else
+                return complain("one argument too many: %s", argv[i]);
             continue;
         }
         while (k < OPTIONS && strcmp(argv[i], names[k])) k++;

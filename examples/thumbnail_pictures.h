@@ -84,8 +84,10 @@ static int picture_load(model *m, const char *path, const char *name)
     for (size_t i = 0; name[i]; i++)
         if (name[i] == '/' || name[i] == '\\') last = i + 1;
     for (int attempt = 0; attempt < 2 && failed && number >= 0; attempt++) {
-        mesh_reader r = { NULL, NULL, NULL, name, 0, attempt ? NULL : error,
-                          attempt ? 0 : sizeof error, NULL, NULL, 0 };
+        mesh_reader r = {
+            NULL, NULL, NULL, name, 0, attempt ? NULL : error, attempt ? 0 : sizeof error,
+            NULL, NULL, 0
+        };
         char *beside = model_beside(path, attempt ? name + last : name);
         failed = !beside || model_load(&r, beside, &bytes, &size);
         free(beside);

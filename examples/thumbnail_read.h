@@ -19,8 +19,10 @@ static int check_file(const char *path, const model_request *q, unsigned char *h
     if (!file) return mesh_fail(&r, "%s", errno ? strerror(errno) : "cannot be opened");
     *size = fread(head, 1, *size, file);
     failed = ferror(file) != 0;
-    if (failed) mesh_fail(&r, "%s", errno ? strerror(errno) : "cannot be read");
-    else if (!*size) failed = mesh_fail(&r, "the file is empty");
+    if (failed)
+        mesh_fail(&r, "%s", errno ? strerror(errno) : "cannot be read");
+    else if (!*size)
+        failed = mesh_fail(&r, "the file is empty");
     fclose(file);
     return failed;
 }
@@ -44,9 +46,10 @@ static int read_other(const char *path, model_kind kind, model *m, const model_r
     return mesh_fail(&r, "neither thumbnail nor assimp reads %s files", dotted);
 #else
     (void)m;
-    return mesh_fail(&r, "%s%s files need a thumbnail built with assimp (libassimp-dev); this one "
-                     "reads OBJ, STL and PLY", kind.text[0] ? "." : "glTF",
-                     kind.text);
+    return mesh_fail(&r,
+                     "%s%s files need a thumbnail built with assimp (libassimp-dev); this one "
+                     "reads OBJ, STL and PLY",
+                     kind.text[0] ? "." : "glTF", kind.text);
 #endif
 }
 
@@ -64,10 +67,12 @@ static int thumbnail_read(const char *path, model *m, const model_request *q)
     model_kind kind = model_kind_of(path);
     int failed = check_file(path, q, head, &size);
     if (failed) return failed;
-    if (is_ours(kind, head, size)) failed = model_read_file(path, m, q);
-    else failed = read_other(path, kind, m, q);
+    if (is_ours(kind, head, size))
+        failed = model_read_file(path, m, q);
+    else
+        failed = read_other(path, kind, m, q);
 #ifdef THUMBNAIL_ASSIMP
-    if (failed && !kind.text[0]) {       /* the name says nothing: assimp may know it */
+    if (failed && !kind.text[0]) { /* the name says nothing: assimp may know it */
         const model_request silent = { NULL, 0, NULL, NULL, q->most };
         failed = assimp_read(path, m, &silent);
     }

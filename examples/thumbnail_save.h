@@ -11,7 +11,10 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
-typedef struct png_sink { FILE *file; int failed; } png_sink;
+typedef struct png_sink {
+    FILE *file;
+    int failed;
+} png_sink;
 
 static void png_write(void *user, void *bytes, int size)
 {
@@ -88,8 +91,10 @@ static FILE *open_part(const char *path)
         int n = snprintf(guard_part, sizeof guard_part, "%s.%ld-%d.part", path, (long)getpid(), k);
         int at = n < (int)sizeof guard_part ? open(guard_part, O_WRONLY | O_CREAT | O_EXCL, 0666)
                                             : (errno = ENAMETOOLONG, -1);
-        if (at >= 0) file = fdopen(at, "wb");
-        else if (errno != EEXIST) break;
+        if (at >= 0)
+            file = fdopen(at, "wb");
+        else if (errno != EEXIST)
+            break;
     }
     if (!file) guard_part[0] = 0;
     return file;

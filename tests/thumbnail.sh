@@ -1,0 +1,214 @@
+#!/bin/sh
+# thumbnail.sh - build/thumbnail without libraries, and with those that are here: polygons, readers,
+# surfaces, formats, options, and what goes wrong.  What is not installed is named and left out.
+cd "$(dirname "$0")/.." || exit 1
+CC=${CC:-cc}
+export LC_ALL=C
+T=$(mktemp -d) || exit 1
+passed=0 failed=0
+trap 'chmod -R u+w "$T"; rm -rf "$T"' EXIT
+trap 'exit 1' INT TERM
+ulimit -c 0
+
+check() {                       # what, command ...
+    what=$1; shift
+    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
+    failed=$((failed + 1)); echo "FAIL  $build: $what"; head -n 5 "$T/log"
+}
+no() { ! "$@"; }
+finish() { echo "$passed passed, $failed failed"; [ "$failed" -eq 0 ]; exit; }
+
+# ---- programs ------------------------------------------------------------------------------------
+build=programs
+STB= ASSIMP= LIBRARIES=
+echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
+    2>/dev/null && STB=-DTHUMBNAIL_STB
+[ "$STB" ] || echo "no stb (libstb-dev): PNG and textures are left out"
+echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
+    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DTHUMBNAIL_ASSIMP LIBRARIES=-lassimp
+[ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
+FLAGS="-std=c99 -O2 -ffp-contract=off -I. -Iexamples"
+compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }
+compile -DSHADE_IMPLEMENTATION -x c -c shade.h -o "$T/shade.o"
+compile -DSHADE__IMPLEMENTED examples/thumbnail.c "$T/shade.o" -lm -o "$T/plain"
+[ "$STB$ASSIMP" ] && compile -DSHADE__IMPLEMENTED $STB $ASSIMP examples/thumbnail.c "$T/shade.o" \
+    $LIBRARIES -lm -o "$T/full"
+compile tests/thumbnail/models.c -lm -o "$T/models"
+compile $STB tests/thumbnail/look.c -lm -o "$T/look"
+compile tests/thumbnail/ears.c -lm -o "$T/ears"
+check "models" "$T/models" "$T"
+
+build=ears
+"$T/ears" >"$T/ears.log" || grep FAIL "$T/ears.log"
+passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' "$T/ears.log")))
+failed=$((failed + $(sed -n 's/.* \([0-9]*\) failed$/\1/p' "$T/ears.log")))
+
+# ---- what both builds do -------------------------------------------------------------------------
+# model, picture, options: a small picture of a file in T
+draw() {
+    model=$1 picture=$2; shift 2
+    "$THUMBNAIL" "$T/$model" "$T/$picture" --size 120x90 --samples 1 "$@" 2>"$T/err" </dev/null
+}
+# draws both and compares: what, A, B, difference at most, options
+same() {
+    check "$1: $2" draw "$2" a.ppm $5
+    check "$1: $3" draw "$3" b.ppm $5
+    check "$1" "$T/look" same "$T/a.ppm" "$T/b.ppm" "$4"
+}
+# x, y of the picture a.ppm has the display's color of linear r g b
+pixel() { "$T/look" pixel "$T/a.ppm" "$1" "$2" $("$T/look" display "$3" "$4" "$5") 1; }
+# Status 1, one line on stderr with a text, no output but what was there
+refused() {
+    text=$1; shift
+    rm -f "$T/none.ppm"
+    "$@" >"$T/out" 2>"$T/err" </dev/null
+    [ $? -eq 1 ] && [ "$(wc -l <"$T/err")" -eq 1 ] && grep "^thumbnail: .*$text" "$T/err" &&
+        [ ! -e "$T/none.ppm" ] && [ ! -s "$T/out" ] && no ls "$T"/*.part
+}
+bad_model() { check "$1" refused "$3" "$THUMBNAIL" "$T/$2" "$T/none.ppm"; }
+
+# what needs no lamps
+flat="--model emissive --background black --no-shadow"
+
+formats() {
+    for k in torus.ply torus.little.ply torus.big.ply torus.stl torus.binary.stl; do
+        same "the same mesh" torus.obj $k 0 "--up y"
+    done
+    for k in star comb; do
+        check "$k drawn" draw $k.obj a.ppm $flat
+        check "its triangles drawn" draw $k.parts.obj b.ppm $flat
+        check "$k covers what its triangles cover" "$T/look" area "$T/a.ppm" "$T/b.ppm" 0.005
+        check "$k and its triangles are one picture" "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.3
+    done
+    check "one color" draw flat.obj a.ppm $flat
+    check "k_e of the MTL is what one sees" pixel 0.5 0.5 0.448 0.1329 0.0331
+    check "glass before" draw glass.obj a.ppm $flat --rotate 0
+    check "glass is mixed, d is believed" pixel 0.5 0.5 0.2390 0 0.0797
+    same "glass, whatever comes first in the file" glass.obj glass2.obj 0 "$flat"
+    check "colors of vertices" draw colors.ply a.ppm --color white --model lambert
+    check "PLY's colors are a display's" sh -c "'$T/look' pixel '$T/a.ppm' .5 .6 200 100 50 60"
+    check "matte" draw matte.obj a.ppm --rotate 0
+    check "a lit face has about its color" "$T/look" pixel "$T/a.ppm" .5 .6 170 62 21 45
+    same "one color in place of the file's" matte.obj matte.obj 0 "--color #c08040"
+    for k in x y z -x -y -z; do check "up $k" draw torus.obj a.ppm --up $k $flat; done
+    same "three shadings draw" flat.obj flat.obj 0 "--shading vertex"
+    check "faces" draw torus.obj a.ppm --shading face
+    check "fragments" draw torus.obj b.ppm
+    check "faces show" no "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.2
+    check "a plain background" draw torus.obj a.ppm --background 204060 --no-shadow
+    check "is the color asked for" "$T/look" pixel "$T/a.ppm" 0.01 0.01 32 64 96 0
+    check "a shadow" draw torus.obj b.ppm --background 204060
+    check "darkens below" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    cp "$T/torus.ply" "$T/torus"
+    check "name without an end" draw torus b.ppm $flat
+    "$THUMBNAIL" "$T/torus.obj" - --size 120x90 >"$T/b.ppm" 2>"$T/err"
+    check "standard output" "$T/look" near "$T/a.ppm" "$T/b.ppm" 200
+    check "no progress into a file" test ! -s "$T/err"
+}
+
+bad_input() {
+    : >"$T/empty.obj"
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1' >"$T/cut.obj"
+    printf 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/nan.obj"
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4000000000\n' >"$T/index.obj"
+    head -c 300 "$T/torus.big.ply" >"$T/cut.ply"
+    sed 's/^element face.*/element face 4000000000/' "$T/torus.ply" >"$T/huge.ply"
+    sed 's/vertex 288/vertex 10/' "$T/torus.ply" >"$T/few.ply"
+    printf 'ply\nformat ascii 1.0\nelement vertex 3\n' >"$T/head.ply"
+    head -c 1000 "$T/torus.binary.stl" >"$T/cut.stl"
+    head -c 100000 "$T/plain" >"$T/noise.obj"
+    printf 'v 1e38 1e38 -1e38\nv -1e38 1e38 1e38\nv 1e38 -1e38 0\nf 1 2 3\n' >"$T/large.obj"
+    printf 'v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n' >"$T/point.obj"
+    printf 'hello\n' >"$T/words.xyzw"
+    printf 'hello\n' >"$T/line
+break.obj"
+    mkdir -p "$T/folder.obj"
+    bad_model "missing" missing.obj "No such file"
+    bad_model "empty" empty.obj "empty"
+    bad_model "a folder" folder.obj "directory"
+    bad_model "cut off" cut.obj "expected a number"
+    bad_model "not a number" nan.obj "expected a number"
+    bad_model "an index too large" index.obj "out of range"
+    bad_model "PLY cut off" cut.ply "too early"
+    bad_model "PLY with more faces than bytes" huge.ply "expected a number"
+    bad_model "PLY without those vertices" few.ply "no vertex\|out of range"
+    bad_model "PLY that is all header" head.ply "header does not end"
+    bad_model "STL cut off" cut.stl "ends after"
+    bad_model "noise" noise.obj "noise.obj"
+    bad_model "an unknown format is named" words.xyzw "\.xyzw"
+    bad_model "a line break in its name" "line
+break.obj" "no faces"
+    check "numbers as large as they get" draw large.obj a.ppm $flat
+    check "a point" draw point.obj a.ppm $flat
+    check "too many triangles" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/none.ppm" --max-triangles 100
+    check "too many in PLY" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.ply" \
+        "$T/none.ppm" --max-triangles 100
+    check "too many in STL" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.stl" \
+        "$T/none.ppm" --max-triangles 100
+    awk 'BEGIN { for (i = 0; i < 200000; i++) print "v", cos(i), sin(i), 0; printf "f"
+                 for (i = 1; i <= 200000; i++) printf " %d", i; print "" }' >"$T/tangle.obj"
+    check "one polygon of 200000 corners" refused "more than 150000" "$THUMBNAIL" \
+        "$T/tangle.obj" "$T/none.ppm" --max-triangles 150000
+    if mkfifo "$T/pipe.obj" 2>/dev/null; then
+        check "time is up" refused "gave up after --max-seconds" "$THUMBNAIL" "$T/pipe.obj" \
+            "$T/none.ppm" --max-seconds 1
+    fi
+}
+
+bad_output() {
+    cp "$T/torus.obj" "$T/kept.ppm"
+    check "a picture stays where the model is bad" refused "empty" "$THUMBNAIL" \
+        "$T/empty.obj" "$T/kept.ppm"
+    check "as it was" cmp "$T/torus.obj" "$T/kept.ppm"
+    check "a folder as the picture" refused "directory" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/folder.obj" $flat
+    check "no such folder" refused "No such file" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/nowhere/a.ppm" $flat
+    [ -e /dev/full ] &&
+        check "a full device" refused "No space left" "$THUMBNAIL" "$T/torus.obj" /dev/full $flat &&
+        check "a full standard output" sh -c "'$THUMBNAIL' '$T/torus.obj' - $flat >/dev/full \
+            2>'$T/err'; [ \$? -eq 1 ] && grep 'No space left' '$T/err'"
+    check "a closed pipe" sh -c "{ '$THUMBNAIL' '$T/flat.obj' - $flat --size 900x900 2>'$T/err'
+        echo \$? >'$T/status'; } | head -c 1 >/dev/null; [ \$(cat '$T/status') = 1 ] &&
+        grep 'Broken pipe' '$T/err'"
+    check "a full disk" sh -c "ulimit -f 8; trap '' XFSZ
+        '$THUMBNAIL' '$T/torus.obj' '$T/none.ppm' $flat 2>'$T/err'; [ \$? -eq 1 ] &&
+        grep 'File too large' '$T/err' && [ ! -e '$T/none.ppm' ] && ! ls '$T'/*.part"
+    check "rights as others have" sh -c "umask 027; '$THUMBNAIL' '$T/flat.obj' '$T/r.ppm' $flat &&
+        ls -l '$T/r.ppm' | grep '^-rw-r-----'"
+}
+
+bad_options() {
+    for k in "--frobnicate" "--size" "--size 0x5" "--size 10" "--size 99999x1" "--samples 3" \
+        "--up w" "--color 12345" "--color redd" "--background no" "--material x" "--shading x" \
+        "--model x" "--rotate x" "--max-seconds x" "--max-triangles -1" "extra"; do
+        check "$k" refused "" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
+    done
+    check "none needs PNG" refused "needs PNG" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" \
+        --background none
+    check "help" sh -c "'$THUMBNAIL' --help | grep -q '^usage: thumbnail'"
+    check "materials" sh -c "'$THUMBNAIL' --material list | grep -qx 'gold'"
+}
+
+both() {
+    formats
+    bad_input
+    bad_output
+    bad_options
+}
+
+build=plain THUMBNAIL=$T/plain
+both
+cp "$T/torus.gltf" "$T/torus.fbx"
+bad_model "glTF is named with what it needs" torus.gltf "\.gltf files need .*libassimp-dev"
+bad_model "FBX likewise" torus.fbx "\.fbx files need .*libassimp-dev"
+check "PNG likewise" refused "libstb-dev" "$T/plain" "$T/torus.obj" "$T/none.png"
+check "a texture likewise" sh -c "'$T/plain' '$T/map.obj' '$T/a.ppm' 2>&1 | grep libstb-dev"
+
+build=full THUMBNAIL=$T/full
+[ -x "$THUMBNAIL" ] || finish
+both
+[ "$STB" ] && . tests/thumbnail/pictures.sh
+[ "$ASSIMP" ] && . tests/thumbnail/formats.sh
+finish

@@ -1,0 +1,38 @@
+# formats.sh - what assimp gives.  Read by tests/thumbnail.sh.
+
+same "glTF as OBJ" torus.obj torus.gltf 0
+same "nodes that move, turn, stretch and mirror" nodes.obj nodes.gltf 1
+cp "$T/torus.gltf" "$T/torus.cut.gltf"
+head -c 2000 "$T/torus.gltf" >"$T/torus.cut.gltf"
+bad_model "glTF cut off" torus.cut.gltf "torus.cut.gltf"
+sed 's/"byteOffset":3456/"byteOffset":99999999/' "$T/torus.gltf" >"$T/torus.far.gltf"
+bad_model "glTF that reaches beyond its buffer" torus.far.gltf "torus.far.gltf"
+printf 'glTF\002\000\000\000\377\377\377\177' >"$T/hostile.glb"
+bad_model "GLB of 2 GB in 12 bytes" hostile.glb "hostile.glb"
+check "too many triangles in glTF" refused "more than 100" "$THUMBNAIL" "$T/torus.gltf" \
+    "$T/none.ppm" --max-triangles 100
+
+# what assimp itself writes of matte.obj; of these formats two keep its colors and sharp edges
+if compile tests/thumbnail/convert.c -lassimp -o "$T/convert" 2>/dev/null; then
+    check "matte" draw matte.obj a.ppm
+    for k in collada:dae fbxa:fbx glb2:glb 3ds:3ds x:x 3mf:3mf; do
+        check "${k%:*} is written" "$T/convert" "$T/matte.obj" "${k%:*}" "$T/matte.${k#*:}"
+        check "${k%:*} is drawn" draw "matte.${k#*:}" b.ppm --up y
+        case $k in
+        collada:* | fbxa:*)
+            check "${k%:*} as OBJ with MTL" "$T/look" same "$T/a.ppm" "$T/b.ppm" 2 ;;
+        esac
+    done
+fi
+
+if [ "$STB" ]; then
+    check "a picture to embed" draw matte.obj embed.png --size 24x24 --samples 1
+    check "embedded" "$T/models" "$T" "$T/embed.png"
+    check "glTF with a picture inside" draw embedded.gltf a.png --model emissive --rotate 0
+    check "no warning" test ! -s "$T/err"
+    cp "$T/embed.png" "$T/the map.png"
+    sed 's/the map.tga/the map.png/; s/Ke .*/Ke 0.7 0.7 0.7/' "$T/map.mtl" >"$T/embedded.mtl"
+    sed 's/map.mtl/embedded.mtl/' "$T/map.obj" >"$T/embedded.obj"
+    check "the same beside an OBJ" draw embedded.obj b.png --model emissive --rotate 0
+    check "one picture" "$T/look" near "$T/a.png" "$T/b.png" 1
+fi
