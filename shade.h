@@ -1085,8 +1085,6 @@ typedef uint32_t shade__word;
 
 SHADE__INLINE int shade__min(int a, int b) { return a < b ? a : b; }
 SHADE__INLINE int shade__max(int a, int b) { return a > b ? a : b; }
-SHADE__INLINE int32_t shade__int_of(float f) { int32_t i; SHADE_MEMCPY(&i, &f, 4); return i; }
-SHADE__INLINE float shade__float_of(int32_t i) { float f; SHADE_MEMCPY(&f, &i, 4); return f; }
 
 /* index of the lowest bit set; x != 0 */
 SHADE__INLINE int shade__lowest_bit(uint32_t x)
@@ -1116,9 +1114,9 @@ SHADE__INLINE uint32_t shade__mask(int condition) { return 0u - (uint32_t)condit
    sign bit set. */
 SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 {
-    int32_t i = shade__int_of(x), l = shade__int_of(lo), h = shade__int_of(hi);
-    i = i < l ? l : i;
-    return shade__float_of(i > h ? h : i);
+    int32_t i = (int32_t)shade__float_bits(x), least = (int32_t)shade__float_bits(lo);
+    i = shade__min(shade__max(i, least), (int32_t)shade__float_bits(hi));
+    return shade__bits_float((uint32_t)i);
 }
 /* |x| finite and at most limit, which is finite */
 SHADE__INLINE int shade__within(float x, float limit)
@@ -1981,10 +1979,21 @@ SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT P,
     }
     return near_zero;
 }
+/* The same in doubles. */
+static void shade__double3(shade_vec3 v, double *to)
+{
+    to[0] = (double)v.x;
+    to[1] = (double)v.y;
+    to[2] = (double)v.z;
+}
+static double shade__dot3(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 /* A vector of doubles made unit; zero below 1e-18. */
 static void shade__unit3(double *v)
 {
-    double d = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], k = d >= 1e-36 ? 1 / shade__root(d) : 0;
+    double d = shade__dot3(v, v), k = d >= 1e-36 ? 1 / shade__root(d) : 0;
     for (int i = 0; i < 3; i++) v[i] *= k;
 }
 /* The lanes where L and V are nearly opposite, again from the positions, in double: their sum keeps
@@ -1995,24 +2004,25 @@ static SHADE__NOINLINE void shade__half_near(const shade_light *light, const sha
 {
     const shade_vec4 at = light->position;
     const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)eye.w;
+    double lamp[3], from[3];
+    shade__double3(shade__xyz(at), lamp);
+    shade__double3(shade__xyz(eye), from);
     for (int i = 0; i < n; i++) {
-        const double p[3] = { (double)P->x[i], (double)P->y[i], (double)P->z[i] };
-        double l[3] = { (double)at.x / w - k * p[0], (double)at.y / w - k * p[1],
-                        (double)at.z / w - k * p[2] };
-        double v[3] = { (double)eye.x - s * p[0], (double)eye.y - s * p[1],
-                        (double)eye.z - s * p[2] };
-        double m[3] = { (double)N->x[i], (double)N->y[i], (double)N->z[i] }, h2 = 0, nh = 0;
+        double p[3], m[3], l[3], v[3], h2, nh;
+        shade__double3(shade__at(P, i), p);
+        shade__double3(shade__at(N, i), m);
+        for (int j = 0; j < 3; j++) {
+            l[j] = lamp[j] / w - k * p[j];
+            v[j] = from[j] - s * p[j];
+        }
         shade__unit3(l);
         shade__unit3(v);
         shade__unit3(m);
-        for (int j = 0; j < 3; j++) {
-            l[j] += v[j];
-            h2 += l[j] * l[j];
-        }
+        for (int j = 0; j < 3; j++) l[j] += v[j];
+        h2 = shade__dot3(l, l);
         if (!(h2 < 1e-3)) continue;
         shade__unit3(l);
-        for (int j = 0; j < 3; j++) nh += m[j] * l[j];
-        if (r->rn[i] < 0) nh = -nh;
+        nh = r->rn[i] < 0 ? -shade__dot3(m, l) : shade__dot3(m, l);
         r->a.L.x[i] = h2 < 1e-12 ? SHADE__NO_HALF : shade__saturate((float)nh);
     }
 }
@@ -4218,13 +4228,14 @@ static shade_result shade__check_indices(const uint32_t *indices, int index_coun
 
 static shade__compare shade__compare_of(const shade_raster *r)
 {
-    const shade_compare test = r->depth_test;
+    /* of LESS, LESS_EQUAL, ...: 1 where less passes, 2 equal, 4 greater */
+    static const uint32_t passing[] = { 1, 3, 4, 6, 2, 0 };
+    const uint32_t passes = passing[r->depth_test];
     shade__compare c;
-    c.less = shade__mask(test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_LESS_EQUAL);
-    c.greater = shade__mask(test == SHADE_COMPARE_GREATER || test == SHADE_COMPARE_GREATER_EQUAL);
-    c.equal = shade__mask(test == SHADE_COMPARE_EQUAL || test == SHADE_COMPARE_LESS_EQUAL ||
-                          test == SHADE_COMPARE_GREATER_EQUAL);
-    c.always = shade__mask(test == SHADE_COMPARE_ALWAYS);
+    c.less = 0u - (passes & 1);
+    c.equal = 0u - (passes >> 1 & 1);
+    c.greater = 0u - (passes >> 2);
+    c.always = shade__mask(r->depth_test == SHADE_COMPARE_ALWAYS);
     c.write = shade__mask(!r->depth_read_only);
     return c;
 }
@@ -4495,7 +4506,8 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int face_normals;                    /* then every corner is a vertex of its own */
     const shade_texture *map;            /* NULL: none */
     int uv;                              /* the varying that is u, v behind it */
-    shade_lighting matte, gloss;    /* with a map, lit vertices: what it multiplies, and the rest */
+    int colored;                         /* the target has a picture */
+    shade_lighting lit[2];               /* of vertices: all, or what a map multiplies, the rest */
 } shade__scene;
 
 enum {
@@ -4598,14 +4610,6 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
         SHADE_MEMCPY(u + i + SHADE_LANES, p + 4, 4);
     }
 }
-/* Light leaving lit vertices, term by term what a map multiplies and what it does not. */
-static void shade__light_vertices(const shade__scene *s, const shade_lighting *lighting,
-                                  const shade__v3 *P, const shade__v3 *N, const shade__v3 *albedo,
-                                  float *rgb)
-{
-    shade_lit_lanes(lighting, s->state->material, s->eye, P->x, N->x,
-                    albedo ? albedo->x : NULL, NULL, rgb);
-}
 /* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or
    with a map what it multiplies, the rest, u, v. */
 SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
@@ -4614,7 +4618,7 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_shading shading = s->state->shading;
-    const int lit = shading != SHADE_SHADING_PER_FRAGMENT, colored = s->mesh->colors != 0;
+    const int lit = shading != SHADE_SHADING_PER_FRAGMENT, parts = lit ? s->map ? 2 : 1 : 0;
     shade__v3 own[SHADE__OWN], *P, *N, *albedo;
     P = SHADE__OWN == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : own;
     N = P + 1;
@@ -4625,12 +4629,10 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
         shade__fetch_faces(s, in, shading == SHADE_SHADING_PER_FACE, P, N, albedo);
     shade__lane_world(s->world_from_object, P);
     shade__lane_normal(s->normal_matrix, N);
-    if (!colored) albedo = NULL;
-    if (lit && s->map) {
-        shade__light_vertices(s, &s->matte, P, N, albedo, (float *)out->varying);
-        shade__light_vertices(s, &s->gloss, P, N, albedo, (float *)out->varying + 3 * SHADE_LANES);
-    } else if (lit)
-        shade__light_vertices(s, &s->state->lighting, P, N, albedo, (float *)out->varying);
+    for (int k = 0; k < parts; k++)
+        shade_lit_lanes(&s->lit[k], s->state->material, s->eye, P->x, N->x,
+                        s->mesh->colors ? albedo->x : NULL, NULL,
+                        (float *)out->varying + 3 * SHADE_LANES * k);
     if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
 SHADE__DISPATCH_AVX2(shade__mesh_vertex,
@@ -4638,12 +4640,6 @@ SHADE__DISPATCH_AVX2(shade__mesh_vertex,
                  shade_vertices *SHADE_RESTRICT out),
                 (uniforms, in, out))
 
-/* The map at the texture coordinates of a packet. */
-static void shade__sample_map(const shade__scene *s, const shade_fragments *in, float *rgba)
-{
-    shade_sample_lanes(s->map, in->varying[s->uv], in->varying[s->uv + 1],
-                       s->map->mipmap_count ? in->lod : NULL, rgba);
-}
 /* The row of alpha holds the map's, or 1: what is stored, what is cut by it, what ADD is to add. */
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
@@ -4664,43 +4660,30 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
         }
     }
 }
-/* Phong interpolation: N and P arrive per pixel. */
-static void shade__mesh_lit(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                            shade_colors *SHADE_RESTRICT out)
+/* The map, and with it the light of N and P that arrive per pixel, or the colour that arrives
+   (Gouraud and flat); without a picture the map alone, for the holes it cuts. */
+static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                 shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const float *P = in->varying[0], *N = P + 3 * SHADE_LANES, *colors = N + 3 * SHADE_LANES;
-    const float *albedo = s->mesh->colors ? colors : NULL;
-    float both[3 * SHADE_LANES];
-    if (s->map) {    /* its alpha stays in the row of alpha */
-        shade__sample_map(s, in, out->color[0]);
-        SHADE_MEMCPY(both, out->color[0], sizeof both);
-        for (int i = 0; albedo && i < 3 * SHADE_LANES; i++) both[i] *= albedo[i];
-        albedo = both;
-    }
-    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, N, albedo,
-                    NULL, out->color[0]);
-    shade__mesh_alpha(s, out);
-}
-/* Gouraud and flat: the colour arrives. */
-static void shade__mesh_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                              shade_colors *SHADE_RESTRICT out)
-{
-    const shade__scene *s = (const shade__scene *)uniforms;
-    const float *rgb = (const float *)in->varying;
-    float *to = (float *)out->color;
-    if (s->map) {
-        shade__sample_map(s, in, to);
-        for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = rgb[i] * to[i] + rgb[i + 3 * SHADE_LANES];
-    } else SHADE_MEMCPY(to, rgb, 3 * sizeof in->varying[0]);
-    shade__mesh_alpha(s, out);
-}
-/* Depth alone, with holes where alpha is below the cutoff. */
-static void shade__mesh_cut(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                            shade_colors *SHADE_RESTRICT out)
-{
-    const shade__scene *s = (const shade__scene *)uniforms;
-    if (s->map) shade__sample_map(s, in, out->color[0]);
+    const float *rows = (const float *)in->varying, *albedo = NULL;
+    float *to = (float *)out->color, both[3 * SHADE_LANES];
+    if (s->map)
+        shade_sample_lanes(s->map, in->varying[s->uv], in->varying[s->uv + 1],
+                           s->map->mipmap_count ? in->lod : NULL, to);
+    if (s->colored && s->state->shading == SHADE_SHADING_PER_FRAGMENT) {
+        if (s->mesh->colors) albedo = rows + 6 * SHADE_LANES;
+        if (s->map) {    /* its alpha stays in the row of alpha */
+            SHADE_MEMCPY(both, to, sizeof both);
+            for (int i = 0; albedo && i < 3 * SHADE_LANES; i++) both[i] *= albedo[i];
+            albedo = both;
+        }
+        shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, rows,
+                        rows + 3 * SHADE_LANES, albedo, NULL, to);
+    } else if (s->colored && s->map) {
+        for (int i = 0; i < 3 * SHADE_LANES; i++)
+            to[i] = rows[i] * to[i] + rows[i + 3 * SHADE_LANES];
+    } else if (s->colored) SHADE_MEMCPY(to, rows, 3 * sizeof in->varying[0]);
     shade__mesh_alpha(s, out);
 }
 
@@ -4747,11 +4730,13 @@ static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
     s.map = mesh->texcoords ? state->diffuse_map : NULL;
     if (state->shading == SHADE_SHADING_PER_FRAGMENT) s.uv = mesh->colors ? 9 : 6;
     else s.uv = s.map ? 6 : 3;
-    s.matte = s.gloss = state->lighting;
-    if (!s.matte.terms) s.matte.terms = s.gloss.terms = ~0u;
-    s.matte.terms = (s.matte.terms & (SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE)) | SHADE__TERM_NONE;
-    s.gloss.terms =
-        (s.gloss.terms & (SHADE_TERM_EMISSION | SHADE_TERM_SPECULAR)) | SHADE__TERM_NONE;
+    s.lit[0] = s.lit[1] = state->lighting;
+    if (s.map) {
+        const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
+        const unsigned matte = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
+        s.lit[0].terms = (terms & matte) | SHADE__TERM_NONE;
+        s.lit[1].terms = (terms & ~matte) | SHADE__TERM_NONE;
+    }
     return s;
 }
 
@@ -4761,7 +4746,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     shade_pipeline p;
     shade__scene scene;
     shade_result result;
-    int count, lit;
+    int count;
     if (stats) SHADE__ZERO(*stats);
     if (!target || !mesh || !state || (!mesh->positions && mesh->vertex_count > 0))
         return SHADE_ERROR_ARGUMENT;
@@ -4775,13 +4760,12 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         !(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
         return SHADE_ERROR_ARGUMENT;
     scene = shade__scene_of(mesh, state);
+    scene.colored = target->color != NULL;
     if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
     SHADE__ZERO(p);
-    lit = state->shading == SHADE_SHADING_PER_FRAGMENT;
     p.vertex = shade__mesh_vertex_pick();
     p.may_discard = state->alpha_cutoff > 0;
-    p.fragment = lit ? shade__mesh_lit : shade__mesh_color;
-    if (!target->color && p.may_discard) p.fragment = shade__mesh_cut;
+    p.fragment = shade__mesh_fragment;
     p.uniforms = &scene;
     p.varyings = scene.uv + (scene.map ? 2 : 0);
     if (scene.map && scene.map->mipmap_count) p.lod_texture = scene.map;
@@ -5174,15 +5158,13 @@ static void shade__cross3(const double *a, const double *b, double *c)
     c[1] = a[2] * b[0] - a[0] * b[2];
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
-static double shade__dot3(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+/* c = a - b */
 static void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
 {
-    c[0] = (double)a.x - (double)b.x;
-    c[1] = (double)a.y - (double)b.y;
-    c[2] = (double)a.z - (double)b.z;
+    double d[3];
+    shade__double3(a, c);
+    shade__double3(b, d);
+    for (int i = 0; i < 3; i++) c[i] -= d[i];
 }
 /* e = b - a, f = c - a, n = e x f; 0 if n is zero.  It is for a triangle without area where the
    differences of its floats are exact in double. */
@@ -5200,7 +5182,7 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 {
     double d[3], e[3], f[3], s[3], n[3], q[3], det, u, v, at;
     shade__edges3(a, b, c, e, f, n);
-    shade__sub3(ray.direction, shade_v3(0, 0, 0), d);
+    shade__double3(ray.direction, d);
     shade__sub3(ray.origin, a, s);
     shade__cross3(d, s, q);
     det = shade__dot3(d, n);
