@@ -1,5 +1,7 @@
 #!/bin/sh
-# lint.sh - the house rules that a script can hold shade.h to.
+# lint.sh - the house rules that a script can hold shade.h to.  Lines are laid out by hand: columns,
+# tabs and trailing blanks are held here, indents by .editorconfig; no formatter keeps members in
+# columns and short pairs of lines.
 cd "$(dirname "$0")/.." || exit 1
 H=shade.h
 passed=0 failed=0
