@@ -357,7 +357,11 @@ typedef struct shade_stats {
 #else
 #define SHADE__NO_UNROLL
 #endif
+#ifdef __TINYC__
+#define SHADE__FOR(i, n) for (ptrdiff_t i = 0; i < (n); i++)
+#else
 #define SHADE__FOR(i, n) SHADE__NO_UNROLL for (int i = 0; i < (n); i++)
+#endif
 #define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
 
 /* C linkage; and no contraction of a * b + c to one rounding, which would give other bits on other
