@@ -62,7 +62,7 @@ static void show_invisible(model *m)
 
 static int thumbnail_read(const char *path, model *m, const model_request *q)
 {
-    unsigned char head[1024];
+    unsigned char head[1024] = { 0 };
     size_t size = sizeof head;
     model_kind kind = model_kind_of(path);
     int failed = check_file(path, q, head, &size);
