@@ -1210,7 +1210,7 @@ SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m)
 }
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m)
 {
-    shade_mat3 t;
+    shade_mat3 t = m;
     for (int k = 0; k < 9; k++) ((float *)&t)[k] = ((const float *)&m)[k % 3 * 3 + k / 3];
     return t;
 }
@@ -1248,7 +1248,7 @@ SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v)
 }
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m)
 {
-    shade_mat4 t;
+    shade_mat4 t = m;
     for (int k = 0; k < 16; k++) ((float *)&t)[k] = ((const float *)&m)[k % 4 * 4 + k / 4];
     return t;
 }
@@ -4716,13 +4716,15 @@ static shade_mat4 shade__or_identity(shade_mat4 m)
     return shade__is_zero_matrix(&m) ? shade_mat4_identity() : m;
 }
 /* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
-static SHADE__NOINLINE shade__scene shade__scene_of(const shade_mesh *mesh,
+static SHADE__NOINLINE shade__scene shade__scene_of(const shade_target *target,
+                                                    const shade_mesh *mesh,
                                                     const shade_draw_state *state)
 {
     shade__scene s;
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
     s.mesh = mesh;
     s.state = state;
+    s.colored = target->color != NULL;
     s.world_from_object = shade__or_identity(state->model);
     s.clip_from_object = shade_mat4_mul(shade_mat4_mul(shade__or_identity(state->projection), view),
                                         s.world_from_object);
@@ -4763,8 +4765,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         !(state->transparency >= 0 && state->transparency <= 1) ||
         !(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
         return SHADE_ERROR_ARGUMENT;
-    scene = shade__scene_of(mesh, state);
-    scene.colored = target->color != NULL;
+    scene = shade__scene_of(target, mesh, state);
     if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
     SHADE__ZERO(p);
     p.vertex = shade__mesh_vertex_pick();

@@ -53,8 +53,10 @@ static int set_option(batch *b, const char *name, const char *value)
     if (!strcmp(name, "--samples")) return view_read_number(value, 1, 8, &b->samples);
     if (!strcmp(name, "--piece")) return view_read_number(value, 0, 99999, &b->piece);
     if (!strcmp(name, "--up")) return view_set_option(&b->view, name, value);
-    b->out = !strcmp(name, "--out") ? value : b->out;
-    if (b->out == value) return *value && strlen(value) < 4096;
+    if (!strcmp(name, "--out")) {
+        b->out = value;
+        return *value && strlen(value) < 4096;
+    }
     b->strips = !strcmp(name, "--strips");
     return view_read_number(value, 1, 99999, &b->count);
 }

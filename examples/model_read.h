@@ -47,7 +47,7 @@ static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size
     model_kind kind = model_kind_of(name);
     if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "stl")) return 0;
     if (!strcmp(kind.text, "ply")) return 1;
-    return size >= 4 && !memcmp(bytes, "ply", 3) && mesh_is_blank(bytes[3]);
+    return size >= 4 && (!memcmp(bytes, "ply\n", 4) || !memcmp(bytes, "ply\r", 4));
 }
 
 static inline int model_read_stl(mesh_reader *r, model *m)

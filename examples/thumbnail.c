@@ -87,7 +87,7 @@ int main(int argc, char **argv)
 {
     options o = { .width = 512, .height = 512, .samples = 2, .up = -1, .max_triangles = 20000000 };
     progress p = { clock(), "", -1, 0, 0 };
-    model m;
+    model m = { 0 };
     int said;
     o.rotate = 30 * 0.017453292f;
     o.material = clay();

@@ -61,7 +61,8 @@ static void look_light(const look *k, const float *P, const float *N, const floa
     }
     shade_lit_lanes(&k->lighting, &k->material, k->eye, P, N, albedo, visibility[0], out[0]);
     for (int a = 0; a < 3; a++) {
-        const float ambient = (&k->material.ambient.x)[a], emission = (&k->emission.x)[a];
+        const float ambient = ((const float *)&k->material.ambient)[a];
+        const float emission = ((const float *)&k->emission)[a];
         SHADE_EACH_LANE(i)
         {
             float own = albedo[i + a * SHADE_LANES];

@@ -14,7 +14,7 @@ static void upright_rows(int up, float turn, double row[3][3])
     static const double sign[6][3] = { { -1, 1, 1 }, { 1, 1, 1 },   { 1, 1, -1 },
                                        { 1, -1, 1 }, { -1, -1, 1 }, { 1, -1, 1 } };
     shade_mat4 m = shade_mat4_rotation(turn, shade_v3(0, 1, 0));
-    const float *c = &m.col[0].x;
+    const float *c = (const float *)&m;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) row[i][k] = 0;
     for (int i = 0; i < 3; i++)
@@ -45,7 +45,7 @@ static double crease_cost(const owned_mesh *m)
     static const mesh_set empty;
     mesh_set places = empty;
     size_t vertices = (size_t)m->view.vertex_count;
-    uint32_t *place = (uint32_t *)malloc(2 * vertices * sizeof *place);
+    uint32_t *place = (uint32_t *)malloc((2 * vertices + 1) * sizeof *place);
     double cost = 0;
     int failed = !place;
     for (size_t i = 0; i < vertices && !failed; i++)

@@ -97,7 +97,7 @@ static int take_color(const char *text, shade_vec3 *out)
     size_t n = 0;
     if (name >= 0) return *out = shade_rgb(values[name]), 1;
     text += *text == '#';
-    for (; text[n] && n < 7; n++) {
+    for (; n < 7 && text[n]; n++) {
         const char *digits = "0123456789abcdef", *at;
         at = strchr(digits, text[n] >= 'A' && text[n] <= 'F' ? text[n] | 32 : text[n]);
         if (!at) return 0;
