@@ -100,7 +100,7 @@
    Not for -ffast-math, and not for clang -ffp-contract=fast, which fuses against the pragma below:
    they give other bits (and -ffast-math drops NaN, so bad data is no longer caught).
    tcc 0.9.27 on x86-64 stores 16 bytes for the 12 of a returned shade_vec3, over an int or float
-   declared last before the call, in your functions too; loops here count in 8 bytes therefore. */
+   declared last before the call, in your functions too; SHADE_EACH_LANE counts in 8 bytes there. */
 #include <float.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -33,6 +33,7 @@ if grep -q avx512vl /proc/cpuinfo 2>/dev/null; then
     one "gcc -O2, AVX-512 forced" "" gcc -O2 -DSHADE__LEVEL=2
     one "clang -O2, AVX-512 forced" "" clang -O2 -DSHADE__LEVEL=2
 fi
+one "tcc" "" tcc
 one "i686 -msse2 -mfpmath=sse" "" i686-linux-gnu-gcc -static -msse2 -mfpmath=sse -O2
 for std in "" "-std=c99"; do
     one "aarch64 $std" qemu-aarch64 aarch64-linux-gnu-gcc -static -O2 $std
