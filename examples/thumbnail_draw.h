@@ -373,7 +373,7 @@ static shade_result draw_picture(const canvas *c, const model *m, const studio *
                                  const options *o, mesh_progress *progress, void *user)
 {
     camera cam = camera_frame(&m->mesh, (float)o->width / (float)o->height);
-    char *see_through = (char *)calloc((size_t)m->part_count, 1);
+    char *see_through = (char *)calloc((size_t)m->part_count + 1, 1);
     look k = { .studio = light, .eye = cam.eye };
     shade_result result;
     if (!see_through) return SHADE_ERROR_CAPACITY;

@@ -45,14 +45,13 @@ static double crease_cost(const owned_mesh *m)
     static const mesh_set empty;
     mesh_set places = empty;
     size_t vertices = (size_t)m->view.vertex_count;
-    uint32_t *place = (uint32_t *)malloc((2 * vertices + 1) * sizeof *place);
+    uint32_t *place = (uint32_t *)calloc(2 * vertices + 1, sizeof *place);
     double cost = 0;
     int failed = !place;
     for (size_t i = 0; i < vertices && !failed; i++)
         failed = mesh_set_add(&places, mesh_position_key(m->positions + 3 * i), &place[i]);
     if (!failed) {
         uint32_t *count = place + vertices;
-        memset(count, 0, vertices * sizeof *count);
         for (int i = 0; i < m->view.index_count; i++) count[place[m->indices[i]]]++;
         for (size_t i = 0; i < places.count; i++) cost += (double)count[i] * (double)count[i];
     }
@@ -103,7 +102,7 @@ static int mesh_crease(owned_mesh *m, int flat)
     int failed = 1;
     if (!flat && !(cost > 0)) return 1;
     if (cost > 20.0 * (double)n + 1e6) return 0;
-    normal = (shade_vec3 *)malloc(n * sizeof *normal);
+    normal = (shade_vec3 *)malloc((n + 1) * sizeof *normal);
     if (!flat) memory = malloc(bytes);
     if (normal && (memory || flat)) failed = 0;
     if (!failed && !flat)
