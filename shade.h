@@ -1966,20 +1966,21 @@ SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const i
 }
 
 /* a.L.x becomes N.H, or SHADE__NO_HALF.  Returns non-zero if some lane (with N.L > 0, or open) has
-   |L + V|^2 below 1e-3, for shade__half_near. */
+   |L + V|^2 below 1e-3, for shade__half_near.  The row is read and written by one pointer: in
+   builds with gcc -O0 two ways to it would leave the loop scalar. */
 SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT P,
                                    const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye,
                                    uint32_t open, const int n, shade__rows *SHADE_RESTRICT r)
 {
+    shade__v3 *L = &r->a.L;
     uint32_t near_zero = 0;
     SHADE__FOR(i, n) {
         shade_vec3 V = shade__view(eye, shade__at(P, i));
-        shade_vec3 H = shade_madd(shade__at(&r->a.L, i), r->rv[i], V);
+        shade_vec3 H = shade_madd(shade__at(L, i), r->rv[i], V);
         float h2 = shade_dot(H, H);
         float nh = shade_dot(shade__at(N, i), H) * (r->rn[i] * shade__rsqrt(h2));
         near_zero |= shade__mask(h2 < 1e-3f) & (shade__mask(r->a.cosine[i] > 0) | open);
-        r->a.L.x[i] =
-            shade__select(shade__saturate(nh), SHADE__NO_HALF, shade__mask(h2 < 1e-12f));
+        L->x[i] = shade__select(shade__saturate(nh), SHADE__NO_HALF, shade__mask(h2 < 1e-12f));
     }
     return near_zero;
 }
@@ -2035,12 +2036,13 @@ SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT P,
                                    const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, const int n,
                                    shade__rows *SHADE_RESTRICT r)
 {
+    shade__v3 *rows = &r->a.L;
     SHADE__FOR(i, n) {
         float rv = r->rv[i], k = 2 * r->a.cosine[i] * r->rn[i];
-        shade_vec3 L = shade__at(&r->a.L, i), V = shade__view(eye, shade__at(P, i));
+        shade_vec3 L = shade__at(rows, i), V = shade__view(eye, shade__at(P, i));
         shade_vec3 d = shade_sub(shade_scale(shade__at(N, i), k), shade_madd(L, rv, V));
         uint32_t exists = shade__mask(rv > 0) & shade__mask(shade_dot(L, L) > 0);
-        r->a.L.x[i] = shade__keep(shade__saturate(1 - 0.5f * shade_dot(d, d)), exists);
+        rows->x[i] = shade__keep(shade__saturate(1 - 0.5f * shade_dot(d, d)), exists);
     }
 }
 /* Second half of a power for the highlight: a.L.x = B (N.H)^n; open lifts the gate B, weighted
