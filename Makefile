@@ -46,7 +46,9 @@ ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 SHARED   = shade.h $(wildcard examples/*.h)
 
-all: $(NUMBERED:%=out/%.ppm) build/thumbnail build/compare $(POSIX) out/gallery.ppm
+all: pictures programs
+pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm
+programs: build/thumbnail build/compare $(POSIX)
 
 # each example compiles alone; here they share one build of the implementation
 build/shade.o: shade.h
@@ -135,6 +137,6 @@ uninstall:
 
 clean:
 	rm -rf build out
-.PHONY: all test bench bench-plot matrix conformance coverage mutation static prove fuzz gallery \
-        playground vector-report install uninstall clean
+.PHONY: all pictures programs test bench bench-plot matrix conformance coverage mutation static \
+        prove fuzz gallery playground vector-report install uninstall clean
 .SECONDARY:
