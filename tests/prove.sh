@@ -50,12 +50,12 @@ prove() {
     source=tests/prove/$1.c
     annotate "$1" >"$T/shade.h" || return 1
     frama-c -machdep gcc_x86_64 -cpp-extra-args="-DPROVE_HEADER=\\\"$T/shade.h\\\" -U__GNUC__ -D__GNUC__=7" \
-        -eva -eva-precision 2 -eva-slevel 0 -eva-auto-loop-unroll 300 -warn-special-float none -no-unicode \
+        -eva -eva-slevel 0 -eva-auto-loop-unroll 300 -warn-special-float none -no-unicode \
         $(sed -n 's/.*eva: \(-.*\) \*\/.*/\1/p' "$source") "$source" >"$T/log" 2>&1
     [ -z "$LOG" ] || cp "$T/log" "$LOG"
     alarms "$T/log" >"$T/alarms"
     sort "$T/facts" | comm -3 - "$T/alarms" >"$T/odd"
-    grep -E 'annot-error|NON TERMINATING|[Uu]ser [Ee]rror|\[kernel\] Plug-in .* aborted|[1-9][0-9]* errors' \
+    grep -E 'annot-error|implicit-function|missing-spec|NON TERMINATING|[Uu]ser [Ee]rror|\[kernel\] Plug-in .* aborted|[1-9][0-9]* errors' \
         "$T/log" >>"$T/odd"
     wanted=$(grep -c '@ assert' "$source")
     valid=$(sed -n 's/^ *Assertions *\([0-9]*\) valid.*/\1/p' "$T/log")

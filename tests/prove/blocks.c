@@ -1,5 +1,5 @@
 /* blocks.c - hidden blocks: any clip rectangle within 16384, any triangle in it. */
-/* eva: -eva-auto-loop-unroll 40 */
+/* eva: -eva-slevel-function shade__begin_blocks:40 */
 #define SHADE_LANES 128
 #include "prove.h"
 
