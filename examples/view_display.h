@@ -210,8 +210,9 @@ static inline int display_input(display *d)
 }
 
 /* What signals have asked for */
-static inline void display_signals(display *d)
+static inline void display_signals(display *d, const sigset_t *mask)
 {
+    terminal_let_in(mask);
     if (terminal_stopped) terminal_stop();
     if (terminal_continued) terminal_continued = 0, terminal_enter();
     if (terminal_resized) terminal_resized = 0, display_resize(d, terminal_measure());
@@ -234,7 +235,7 @@ static inline int display_run(display *d, const sigset_t *mask)
     for (;;) {
         double now = terminal_now();
         if (display_input(d)) return 0;
-        display_signals(d);
+        display_signals(d, mask);
         if (d->scene->said[0] && now > d->said_until) d->scene->said[0] = 0, d->changed = 1;
         if (!(d->scene->turning || d->changed || d->options->frames)) {
             before = now;

@@ -115,8 +115,8 @@ static inline void terminal_catch(int number, void (*handler)(int), int flags)
 }
 
 /* Every signal that ends a program leaves the terminal first, on a stack of its own: the program's
-   may be what has run out.  Those that do not are held back until terminal_wait, whose mask this
-   fills in. */
+   may be what has run out.  Those that do not are held back until terminal_let_in or terminal_wait,
+   whose mask this fills in. */
 static inline void terminal_catch_all(sigset_t *mask)
 {
     static const int fatal[] = { SIGHUP, SIGINT,  SIGQUIT, SIGILL,    SIGABRT, SIGFPE,  SIGSEGV,
@@ -271,6 +271,14 @@ static inline input terminal_next(terminal_keys *k)
         if (n <= 0) return in;
         k->size += (size_t)n;
     }
+}
+
+/* Lets in the signals that were held back. */
+static inline void terminal_let_in(const sigset_t *mask)
+{
+    sigset_t held;
+    sigprocmask(SIG_SETMASK, mask, &held);
+    sigprocmask(SIG_SETMASK, &held, NULL);
 }
 
 /* Until a key, a signal or the end of so many seconds */
