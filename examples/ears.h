@@ -161,23 +161,38 @@ static inline int ears_is_ear(ears *e, const ears_corner *b)
     return 1;
 }
 
-/* n >= 3 corners, as indices of positions, to 3 (n - 2) indices in out.  Non-zero: out of memory.
-   Time grows like n to n sqrt n.  After EARS_MOST looks for corners in ears, some seconds, whatever
-   is left is cut without looking. */
-static inline int ears_cut(ears *e, const float *positions, const uint32_t *index, size_t n,
-                           uint32_t *out)
+/* Whether a corner is reflex, kept up to date; returns how many fewer there are. */
+static inline size_t ears_straighten(ears *e, ears_corner *b)
 {
-    size_t reflex = 0, left = n, stuck = 0;
-    uint32_t at = 0;
-    if (n == 3) return memcpy(out, index, 3 * sizeof *out), 0;
-    if (ears_room(e, n)) return 1;
-    ears_flatten(e, positions, index, n);
+    int was = b->reflex;
+    if (was) b->reflex = !(ears_turn(&e->corner[b->previous], b, &e->corner[b->next]) > 0);
+    return (size_t)(was - b->reflex);
+}
+
+static inline size_t ears_begin(ears *e, size_t n)
+{
+    size_t reflex = 0;
     for (size_t i = 0; i < n; i++) {
         ears_corner *c = &e->corner[i];
         c->reflex = !(ears_turn(&e->corner[c->previous], c, &e->corner[c->next]) > 0);
         reflex += (size_t)c->reflex;
     }
     ears_sort(e, n, reflex);
+    return reflex;
+}
+
+/* n >= 3 corners, as indices of positions, to 3 (n - 2) indices in out.  Non-zero: out of memory.
+   Time grows like n log n to n sqrt n.  After EARS_MOST looks for corners in ears, some seconds,
+   whatever is left is cut without looking. */
+static inline int ears_cut(ears *e, const float *positions, const uint32_t *index, size_t n,
+                           uint32_t *out)
+{
+    size_t reflex, sorted, left = n, stuck = 0;
+    uint32_t at = 0;
+    if (n == 3) return memcpy(out, index, 3 * sizeof *out), 0;
+    if (ears_room(e, n)) return 1;
+    ears_flatten(e, positions, index, n);
+    reflex = sorted = ears_begin(e, n);
     while (left > 2) {
         ears_corner *b = &e->corner[at], *a = &e->corner[b->previous], *c = &e->corner[b->next];
         /* once around in vain: anything convex will do; twice: anything */
@@ -188,11 +203,12 @@ static inline int ears_cut(ears *e, const float *positions, const uint32_t *inde
         if (ear) {
             *out++ = index[b->previous], *out++ = index[at], *out++ = index[b->next];
             a->next = b->next, c->previous = b->previous;
+            reflex -= (size_t)b->reflex + ears_straighten(e, a) + ears_straighten(e, c);
             b->reflex = 0; /* no longer in anybody's way */
-            if (a->reflex) a->reflex = !(ears_turn(&e->corner[a->previous], a, c) > 0);
-            if (c->reflex) c->reflex = !(ears_turn(a, c, &e->corner[c->next]) > 0);
             left--;
         }
+        /* cells of which half is gone are made anew */
+        if (sorted > 64 && reflex < sorted / 2) ears_sort(e, n, sorted = reflex);
         at = b->next;
     }
     return 0;

@@ -39,6 +39,8 @@ static float shoulder(float light)
     return SHOULDER + 0.5f * over / (1 + over);
 }
 
+static float component(shade_vec3 v, int a) { return a == 0 ? v.x : a == 1 ? v.y : v.z; }
+
 /* The light that leaves P toward the eye.  The first count lanes are looked at. */
 static void look_light(const look *k, const float *P, const float *N, const float *albedo,
                        int count, look_rows out)
@@ -61,8 +63,8 @@ static void look_light(const look *k, const float *P, const float *N, const floa
     }
     shade_lit_lanes(&k->lighting, &k->material, k->eye, P, N, albedo, visibility[0], out[0]);
     for (int a = 0; a < 3; a++) {
-        const float ambient = ((const float *)&k->material.ambient)[a];
-        const float emission = ((const float *)&k->emission)[a];
+        const float ambient = component(k->material.ambient, a);
+        const float emission = component(k->emission, a);
         SHADE_EACH_LANE(i)
         {
             float own = albedo[i + a * SHADE_LANES];
@@ -163,7 +165,7 @@ static camera camera_frame(const owned_mesh *m, float aspect)
     c.view = shade_mat4_mul(
         shade_mat4_translation(shade_v3((left - right) / 2, (below - above) / 2, -d)), turn);
     c.projection =
-        shade_mat4_perspective(2 * half, aspect, (d - front) * 0.9f + 0.001f, d - back + 4);
+        shade_mat4_perspective(2 * half, aspect, 0.04f * (d - front) + 0.001f, d - back + 4);
     world = shade_mat4_inverse(c.view);
     c.eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
     return c;

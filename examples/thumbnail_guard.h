@@ -11,6 +11,7 @@
 #define THUMBNAIL_POSIX
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,6 +44,20 @@ static void guard_end(int signal_number)
     _exit(1);
 }
 
+/* Half the machine's memory at most: a file that asks for more is refused, and does not push
+   everything else out.  Sanitizers reserve far more than they use. */
+static void guard_memory(void)
+{
+#if defined(_SC_PHYS_PAGES) && !defined(__SANITIZE_ADDRESS__)
+    double bytes = 0.5 * (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    struct rlimit limit;
+    if (bytes < 1e8 || bytes > 1e15 || getrlimit(RLIMIT_AS, &limit)) return;
+    if (limit.rlim_cur == RLIM_INFINITY || (double)limit.rlim_cur > bytes)
+        limit.rlim_cur = (rlim_t)bytes;
+    setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
 static void guard_begin(int max_seconds)
 {
     static const int ends[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGSEGV,
@@ -54,6 +69,7 @@ static void guard_begin(int max_seconds)
     sigaltstack(&other, NULL);
     action.sa_handler = guard_end, action.sa_flags = SA_ONSTACK;
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) sigaction(ends[i], &action, NULL);
+    guard_memory();
     signal(SIGPIPE, SIG_IGN); /* write says so instead */
     if (max_seconds) alarm((unsigned)max_seconds);
 }

@@ -14,7 +14,8 @@ static void upright_rows(int up, float turn, double row[3][3])
     static const double sign[6][3] = { { -1, 1, 1 }, { 1, 1, 1 },   { 1, 1, -1 },
                                        { 1, -1, 1 }, { -1, -1, 1 }, { 1, -1, 1 } };
     shade_mat4 m = shade_mat4_rotation(turn, shade_v3(0, 1, 0));
-    const float *c = (const float *)&m;
+    float c[16];
+    memcpy(c, &m, sizeof c);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) row[i][k] = 0;
     for (int i = 0; i < 3; i++)

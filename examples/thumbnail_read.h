@@ -62,10 +62,12 @@ static void show_invisible(model *m)
 
 static int thumbnail_read(const char *path, model *m, const model_request *q)
 {
+    static const model empty;
     unsigned char head[1024] = { 0 };
     size_t size = sizeof head;
     model_kind kind = model_kind_of(path);
     int failed = check_file(path, q, head, &size);
+    *m = empty;
     if (failed) return failed;
     if (is_ours(kind, head, size))
         failed = model_read_file(path, m, q);
