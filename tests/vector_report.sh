@@ -1,5 +1,6 @@
 #!/bin/sh
-# vector_report.sh - lists every loop over lanes of shade.h that a compiler left scalar at -O2: none.
+# vector_report.sh - lists every loop over lanes of shade.h that a compiler left scalar at -O2, or
+# gcc at -O0, where the implementation asks for -O2 but the inline functions before it do not: none.
 # The functions of a single point, whose few lanes are one vector, are left to gcc: clang keeps
 # their short loops, and says of which function a loop is.
 cd "$(dirname "$0")/.." || exit 1
@@ -9,7 +10,7 @@ printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/impl.c"
 passed=0 failed=0
 
 missed_gcc() {                               # lines of shade.h
-    gcc -std=c99 -O2 -I. -fopt-info-vec-missed -c "$T/impl.c" -o /dev/null 2>&1 |
+    gcc -std=c99 "$1" -I. -fopt-info-vec-missed -c "$T/impl.c" -o /dev/null 2>&1 |
         sed -n "s/.*shade\.h:\([0-9]*\):.*couldn't vectorize loop.*/\1/p"
 }
 missed_clang() {
@@ -19,12 +20,13 @@ missed_clang() {
         /^Function:/ && missed && pass == "loop-vectorize" &&
             $2 !~ /^shade_(lit|light_at|evaluate)$/ { print line }' "$T/record"
 }
-for name in gcc clang; do
+for report in "gcc -O2" "gcc -O0" "clang -O2"; do
+    name=${report% *}
     command -v $name >/dev/null || continue
-    missed_$name | sort -nu >"$T/lines"
+    missed_$name "${report#* }" | sort -nu >"$T/lines"
     while read -r line; do
         sed -n "${line}p" shade.h | grep -E 'SHADE__FOR\(|SHADE_EACH_LANE\(' |
-            sed "s/^/$name, shade.h:$line:/"
+            sed "s/^/$report, shade.h:$line:/"
     done <"$T/lines" >"$T/missed"
     cat "$T/missed"
     if [ -s "$T/missed" ]; then failed=$((failed + 1)); else passed=$((passed + 1)); fi
