@@ -73,6 +73,7 @@ static void prove_wide_edge(void)
 static void prove_edge(void)
 {
     int32_t px[N], py[N], qx[N], qy[N], x0[N], y0[N], fits[N], e[N], dx[N], dy[N];
+    int32_t other[N];
     for (int i = 0; i < N; i++) {
         px[i] = py[i] = qx[i] = qy[i] = x0[i] = y0[i] = 0;
         fits[i] = -1;
@@ -85,6 +86,13 @@ static void prove_edge(void)
         const int h = most < 0 ? 0 : most > 2 * FAR ? 2 * FAR : (int)most;
         const double room = 1.3743e11 / (h + 600.0) - 600;    /* 2 w h below 2^38 */
         wider = room < w + 1000 ? w + 1000 : room < 2 * FAR ? (int)room : 2 * FAR;
+        if (h < 2 * FAR) {    /* what is higher does not fit */
+            float across[N] = { 1, 1, 1, 1 }, down[N] = { 1, 1, 1, 1 };
+            across[0] = Frama_C_float_interval((float)w, (float)wider);
+            down[0] = Frama_C_float_interval((float)h + 4, 2 * FAR);
+            shade__sizes(&p, across, down, other);
+            /*@ assert other[0] == 0; */
+        }
         if (h == 0) break;
         qx[0] = ANY_OF(-wider, wider + 255);
         qy[0] = ANY_OF(-h, h + 255);
