@@ -48,6 +48,7 @@ alarms() {
 }
 prove() {
     source=tests/prove/$1.c
+    rm -f "$T/odd"
     annotate "$1" >"$T/shade.h" || return 1
     frama-c -machdep gcc_x86_64 -cpp-extra-args="-DPROVE_HEADER=\\\"$T/shade.h\\\" -U__GNUC__ -D__GNUC__=7" \
         -eva -eva-slevel 0 -eva-auto-loop-unroll 300 -warn-special-float none -no-unicode \
