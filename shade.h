@@ -3269,7 +3269,9 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, shade__
             set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 0);
         else if (SHADE__TWICE && width == 16)
             set = shade__test(plan->compare, t, z, at, skip, take, row + at, 16, 0);
-        else set = shade__test(plan->compare, t, z, at, skip, take, row + at, width, 0);
+        else
+            set = shade__test(plan->compare, t, z, at, skip, take, row + at,
+                              SHADE__TWICE ? 1 : width, 0);
         set >>= skip;
         d->stats.fragments += shade__count_bits(set);
         if (!plan->queued) continue;
