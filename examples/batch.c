@@ -13,12 +13,12 @@
 #include "sheet.h"
 
 static const char usage[] =
-    "usage: batch [model.obj|model.stl] [options]     without a model: the teapot\n"
+    "usage: batch [model.obj|.stl|.ply] [options]     without a model: the teapot\n"
     "  --frames N            one turn in N pictures (360)\n"
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
     "  --samples 1..8        along each edge of a pixel (3)\n"
-    "  --up y|z              the model's upright axis (y for OBJ, z for STL)\n"
+    "  --up y|z              the model's upright axis (y, for STL z)\n"
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
     "  --piece K             only this one, 0 .. N-1\n"

@@ -18,11 +18,11 @@ typedef struct view_options {
 } view_options;
 
 static const char view_usage[] =
-    "usage: view [model.obj|model.stl] [options]      without a model: the teapot\n"
+    "usage: view [model.obj|.stl|.ply] [options]      without a model: the teapot\n"
     "  --window              in a window instead of the terminal\n"
     "  --colors true|256     of the terminal (as COLORTERM and TERM say)\n"
     "  --ascii               plain characters, no colors\n"
-    "  --up y|z              the model's upright axis (y for OBJ, z for STL)\n"
+    "  --up y|z              the model's upright axis (y, for STL z)\n"
     "  --still               does not turn by itself\n"
     "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
     "  --frames N            ends after so many frames, each 1/rate further, and tells their cost\n"

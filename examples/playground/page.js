@@ -263,7 +263,7 @@ function presets() {
 }
 
 function buildControls() {
-    const file = make('input', { type: 'file', accept: '.obj,.stl', 'aria-label': 'Open a model',
+    const file = make('input', { type: 'file', accept: '.obj,.stl,.ply', 'aria-label': 'Open a model',
         onchange: () => { if (file.files[0]) openFile(file.files[0]); file.value = ''; } });
     const shapes = choice('shape', ['Teapot', 'Sphere', 'File']);
     const third = shapes.lastChild.firstChild, of = field => () => field + S.lamp;
