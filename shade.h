@@ -3972,7 +3972,7 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
 SHADEDEF int shade_mipmap_count(int width, int height)
 {
     int n = 0;
-    if (width < 1 || height < 1) return 0;
+    if (width < 1 || height < 1 || shade__max(width, height) > 16384) return 0;
     for (int size = shade__max(width, height); size > 1; size /= 2) n++;
     return n;
 }

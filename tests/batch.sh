@@ -22,7 +22,7 @@ soon() {                        # waits up to 60 seconds for a command to succee
 }
 finish() { echo "$passed passed, $failed failed"; [ "$failed" -eq 0 ]; exit; }
 
-${MAKE:-make} -s build/batch build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+${MAKE:-make} -s build/batch build/compare build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$BATCH" ] || { echo "batch: left out, it needs POSIX"; finish; }
 cd "$T" || exit 1
 

@@ -577,6 +577,8 @@ TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
     CHECK_INT(shade_mipmap_count(16384, 16384), 14);
     CHECK_INT(shade_mipmap_count(0, 5), 0);
     CHECK_INT(shade_mipmap_count(5, -1), 0);
+    CHECK_INT(shade_mipmap_count(16385, 5), 0);
+    CHECK_INT(shade_mipmap_bytes(5, 16385, SHADE_FORMAT_RGBA8), 0);
     CHECK_INT(shade_mipmap_bytes(0, 5, SHADE_FORMAT_RGBA8), 0);
     CHECK_INT(shade_mipmap_bytes(8, 8, (shade_format)CANVAS_FORMATS), 0);
 }
