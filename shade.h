@@ -2199,16 +2199,14 @@ SHADE__DISPATCH(shade__lit,
                 (const shade_lighting *lighting, const shade__job *j, const float *visibility,
                  shade__v3 *rgb),
                 (lighting, j, visibility, SHADE_LANES, rgb))
-static shade__job shade__job_of(const shade_lighting *lighting, const shade_material *material,
-                                shade_vec3 eye, const shade__v3 *P, const shade__v3 *N)
+static void shade__begin_job(const shade_lighting *lighting, const shade_material *material,
+                             shade_vec3 eye, const shade__v3 *P, const shade__v3 *N, shade__job *j)
 {
-    shade__job j;
-    j.s = shade__surface_of(lighting, material);
-    j.P = P;
-    j.N = N;
-    j.albedo = NULL;
-    j.eye = shade__xyzw(eye, j.s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
-    return j;
+    j->s = shade__surface_of(lighting, material);
+    j->P = P;
+    j->N = N;
+    j->albedo = NULL;
+    j->eye = shade__xyzw(eye, j->s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
 }
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const float *P, const float *N, const float *albedo,
@@ -2219,7 +2217,7 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
         if (rgb) SHADE_MEMSET(rgb, 0, 3 * SHADE_LANES * sizeof *rgb);
         return;
     }
-    j = shade__job_of(lighting, material, eye, shade__rows_of(P), shade__rows_of(N));
+    shade__begin_job(lighting, material, eye, shade__rows_of(P), shade__rows_of(N), &j);
     j.albedo = shade__rows_of(albedo);
     shade__lit_pick()(lighting, &j, visibility, (shade__v3 *)(void *)rgb);
 }
@@ -2236,7 +2234,7 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
     if (!lighting) return shade_v3(0, 0, 0);
     shade__fill_point(P, &p);
     shade__fill_point(N, &n);
-    j = shade__job_of(lighting, material, eye, &p, &n);
+    shade__begin_job(lighting, material, eye, &p, &n, &j);
     shade__lit_point(lighting, &j, &rgb);
     return shade_v3(rgb.x[0], rgb.y[0], rgb.z[0]);
 }
@@ -2292,7 +2290,7 @@ typedef struct shade__compare { uint32_t less, equal, greater, always, write; } 
 enum {
     SHADE__FIRST = 2,                 /* z and rw stand before the varyings */
     SHADE__VALUES_MAX = (SHADE_MAX_VARYINGS + SHADE__FIRST + 2 + 7) / 8 * 8,
-    SHADE__BATCH_FLOATS = SHADE_LANES * 8 + 4 * SHADE__VALUES_MAX,
+    SHADE__BATCH_FLOATS = SHADE_LANES * 8 + (SHADE_LANES < 64 ? 4 : 2) * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
     SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,
     SHADE__BLOCKS = SHADE_LANES * SHADE_LANES / 16
@@ -4720,34 +4718,32 @@ static shade_mat4 shade__or_identity(shade_mat4 m)
     return shade__is_zero_matrix(&m) ? shade_mat4_identity() : m;
 }
 /* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
-static SHADE__NOINLINE shade__scene shade__scene_of(const shade_target *target,
-                                                    const shade_mesh *mesh,
-                                                    const shade_draw_state *state)
+static SHADE__NOINLINE void shade__scene_of(const shade_target *target, const shade_mesh *mesh,
+                                            const shade_draw_state *state, shade__scene *s)
 {
-    shade__scene s;
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
-    s.mesh = mesh;
-    s.state = state;
-    s.colored = target->color != NULL;
-    s.world_from_object = shade__or_identity(state->model);
-    s.clip_from_object = shade_mat4_mul(shade_mat4_mul(shade__or_identity(state->projection), view),
-                                        s.world_from_object);
-    s.normal_matrix = shade_normal_matrix(s.world_from_object);
-    s.eye = state->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
+    s->mesh = mesh;
+    s->state = state;
+    s->colored = target->color != NULL;
+    s->world_from_object = shade__or_identity(state->model);
+    s->clip_from_object =
+        shade_mat4_mul(shade_mat4_mul(shade__or_identity(state->projection), view),
+                       s->world_from_object);
+    s->normal_matrix = shade_normal_matrix(s->world_from_object);
+    s->eye = state->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
                 ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
                 : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
-    s.face_normals = !mesh->normals || state->shading == SHADE_SHADING_PER_FACE;
-    s.map = mesh->texcoords ? state->diffuse_map : NULL;
-    if (state->shading == SHADE_SHADING_PER_FRAGMENT) s.uv = mesh->colors ? 9 : 6;
-    else s.uv = s.map ? 6 : 3;
-    s.lit[0] = s.lit[1] = state->lighting;
-    if (s.map) {
+    s->face_normals = !mesh->normals || state->shading == SHADE_SHADING_PER_FACE;
+    s->map = mesh->texcoords ? state->diffuse_map : NULL;
+    if (state->shading == SHADE_SHADING_PER_FRAGMENT) s->uv = mesh->colors ? 9 : 6;
+    else s->uv = s->map ? 6 : 3;
+    s->lit[0] = s->lit[1] = state->lighting;
+    if (s->map) {
         const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
         const unsigned matte = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
-        s.lit[0].terms = (terms & matte) | SHADE__TERM_NONE;
-        s.lit[1].terms = (terms & ~matte) | SHADE__TERM_NONE;
+        s->lit[0].terms = (terms & matte) | SHADE__TERM_NONE;
+        s->lit[1].terms = (terms & ~matte) | SHADE__TERM_NONE;
     }
-    return s;
 }
 
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
@@ -4769,7 +4765,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         !(state->transparency >= 0 && state->transparency <= 1) ||
         !(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
         return SHADE_ERROR_ARGUMENT;
-    scene = shade__scene_of(target, mesh, state);
+    shade__scene_of(target, mesh, state, &scene);
     if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
     SHADE__ZERO(p);
     p.vertex = shade__mesh_vertex_pick();

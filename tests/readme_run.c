@@ -110,11 +110,14 @@ TEST(readme, three_lamps_shine_as_said)
 
 TEST(readme, floats_become_bytes)
 {
+    shade_target bytes;
     start(64, 32, shade_v3(0, 0, 5), shade_v3(0, 0, 0));
     for (int i = 0; i < 64 * 32; i++) {
         for (int k = 0; k < 4; k++) run_color[i][k] = rnd_float(-0.1, 1.2);
     }
-    CHECK_INT(to_bytes(&target, run_bytes), SHADE_OK);
+    bytes = target;
+    bytes.format = SHADE_FORMAT_RGBA8, bytes.color = run_bytes, bytes.srgb = 1;
+    CHECK_INT(shade_resolve(&bytes, &target, 1), SHADE_OK);
     for (int i = 0; i < 64 * 32; i++) {
         const unsigned char *p = (const unsigned char *)&run_bytes[i];
         for (int k = 0; k < 3; k++)
