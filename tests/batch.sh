@@ -2,25 +2,11 @@
 # batch.sh - build/batch: pieces that are whole or absent, resumed, over several jobs and machines,
 # into ffmpeg.  What is not installed is named and left out.
 cd "$(dirname "$0")/.." || exit 1
+. tests/tools.sh
 BATCH=$PWD/build/batch CC=${CC:-cc}
 export LC_ALL=C PARALLEL_HOME=/nonexistent
-T=$(mktemp -d) || exit 1
-running= passed=0 failed=0
+running= patience=60
 trap 'kill $running 2>/dev/null; rm -rf "$T"' EXIT
-trap 'exit 1' INT TERM
-
-check() {                       # what, command ...
-    what=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
-    failed=$((failed + 1)); echo "FAIL  $what"; head -n 5 "$T/log"
-}
-no() { ! "$@"; }
-same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
-soon() {                        # waits up to 60 seconds for a command to succeed
-    for i in $(seq 600); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
-    "$@"
-}
-finish() { echo "$passed passed, $failed failed"; [ "$failed" -eq 0 ]; exit; }
 
 ${MAKE:-make} -s build/batch build/compare build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$BATCH" ] || { echo "batch: left out, it needs POSIX"; finish; }

@@ -2,17 +2,9 @@
 # compare.sh - examples/compare.c: its numbers beside sums by awk, its exit status, its difference
 # picture, and what it says of bad input.
 cd "$(dirname "$0")/.." || exit 1
+. tests/tools.sh
 CC=${CC:-cc}
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
-passed=0 failed=0
 
-check() {                       # what, command ...
-    what=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
-    failed=$((failed + 1)); echo "compare: $what"; sed 's/^/    /;12q' "$T/log"
-}
-same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
 status() {
     want=$1; shift
     "$@" >"$T/out" 2>"$T/err"
@@ -24,7 +16,6 @@ refused() {
     status 2 "$@" && same "$(wc -l <"$T/err")" 1 && grep -q "^compare: .*$text" "$T/err" &&
         test ! -s "$T/out" || { cat "$T/err"; return 1; }
 }
-finish() { echo "$passed passed, $failed failed"; [ "$failed" -eq 0 ]; exit; }
 
 compare=$T/compare
 check "it compiles" $CC -std=c99 -Wall -Wextra -O1 examples/compare.c -lm -o "$compare"

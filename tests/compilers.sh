@@ -7,12 +7,6 @@ cd "$(dirname "$0")/.." || exit 1
 . tests/tools.sh
 WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef -Werror"
 
-check() {                       # what, command ...
-    what=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1))
-    else fail "$what" "$T/log"; fi
-}
-
 # Every processor of clang, whose C library need not be there: these are all that is asked of one.
 mkdir "$T/c"
 cat >"$T/c/math.h" <<'END'

@@ -3,19 +3,8 @@
 # with shade.h from a git repository, as submodule, by FetchContent, by a wrap file; what they draw
 # and print.  What is not installed is named and left out.
 cd "$(dirname "$0")/.." || exit 1
+. tests/tools.sh
 TOP=$PWD CC=${CC:-cc}
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
-passed=0 failed=0
-
-check() {                       # what, command ...
-    what=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
-    failed=$((failed + 1)); echo "embed: $what"; tail -n 12 "$T/log" | sed 's/^/    /'
-}
-here() { command -v "$1" >/dev/null 2>&1; }
-same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
-left_out() { echo "embed: no $1: left out"; }
 
 # A copy of what the projects need, and compilers that leave out what only makes drawing faster:
 # the same bits, compiled in an eighth of the time
@@ -85,7 +74,7 @@ corner() {
 check "the saddle" corner
 
 # ---- CMake, Meson, and git ----------------------------------------------------------------------
-if here git; then
+if there git; then
     git() { command git "$@"; }
     # your copy and your tag: https://example.org/ is a directory here
     GIT_CONFIG_COUNT=5 GIT_CONFIG_NOSYSTEM=1 GIT_CONFIG_GLOBAL=/dev/null
@@ -108,10 +97,10 @@ fi
 built() {                       # where CMake builds
     cmake --build "$1" && "$1/saddle" "$1/drawn.ppm" && alike "$1/drawn.ppm"
 }
-if here cmake; then
+if there cmake; then
     check "CMake, as the README says" commands "cmake -S"
     check "the bits of the saddle" alike "$E/saddle.ppm"
-    if here git; then
+    if there git; then
         cp -R "$E/cmake" "$T/fetch"
         check "CMake fetches" cmake -S "$T/fetch" -B "$T/fetch/b"
         check "into its own directory" test -f "$T/fetch/b/_deps/shade-src/shade.h"
@@ -129,15 +118,15 @@ if here cmake; then
     fi
 else left_out CMake
 fi
-if here meson && here ninja; then
-    if here pkg-config; then
+if there meson && there ninja; then
+    if there pkg-config; then
         check "Meson, as the README says" commands "meson setup"
         check "the installed header is taken" grep -q 'Run-time dependency shade found: YES 1.0' \
             "$T/tree/build/meson/meson-logs/meson-log.txt"
         check "the ball" sh -c "'$T/tree/build/meson/ball' | cmp - '$T/ball.txt'"
     else left_out "pkg-config: an installed header with Meson"
     fi
-    if here git; then
+    if there git; then
         cp -R "$E/meson" "$T/wrap"
         check "Meson fetches" meson setup --wrap-mode=forcefallback "$T/wrap/b" "$T/wrap"
         check "into its own directory" test -f "$T/wrap/subprojects/shade/shade.h"
@@ -210,5 +199,4 @@ sed 's/0, 0, 1/0, 0.1f, 1/' examples/embed/cmake/saddle.c >"$T/project/saddle.c"
 check "and fails when the camera leans" sh -c "cd '$T/project'; sh -e '$T/recipe'; [ \$? -eq 1 ]"
 check "with a picture to keep" test -s "$T/project/difference.ppm"
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

@@ -2,17 +2,9 @@
 # install.sh - make install into scratch directories: which files, a client that finds the header
 # through pkg-config, the thumbnailer's line run as a file manager runs it; make uninstall.
 cd "$(dirname "$0")/.." || exit 1
+. tests/tools.sh
 CC=${CC:-cc} MAKE=${MAKE:-make}
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
-passed=0 failed=0
 
-check() {                       # what, command ...
-    what=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
-    failed=$((failed + 1)); echo "install: $what"; sed 's/^/    /;12q' "$T/log"
-}
-same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
 modes() {
     (cd "$1" && find . ! -type d -exec ls -l {} +) |
         awk '{ print substr($1, 1, 10), $NF }' | sort -k 2
@@ -189,5 +181,4 @@ check "what is not ours stays" same "$(cd "$P" && find . -type f | sort | tr '\n
 check "make uninstall with DESTDIR" $MAKE -s uninstall DESTDIR="$S" PREFIX=/usr
 check "nothing stays there" same "$(find "$S" -type f)" ""
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

@@ -2,21 +2,17 @@
 # thumbnail.sh - build/thumbnail without libraries, and with those that are here: polygons, readers,
 # surfaces, formats, options, and what goes wrong.  What is not installed is named and left out.
 cd "$(dirname "$0")/.." || exit 1
+. tests/tools.sh
 CC=${CC:-cc}
 export LC_ALL=C
-T=$(mktemp -d) || exit 1
-passed=0 failed=0
 trap 'chmod -R u+w "$T"; rm -rf "$T"' EXIT
-trap 'exit 1' INT TERM
 ulimit -c 0
 
 check() {                       # what, command ...
     what=$1; shift
     if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
-    failed=$((failed + 1)); echo "FAIL  $build: $what"; head -n 5 "$T/log"
+    fail "$build: $what" "$T/log"
 }
-no() { ! "$@"; }
-finish() { echo "$passed passed, $failed failed"; [ "$failed" -eq 0 ]; exit; }
 
 # ---- programs ------------------------------------------------------------------------------------
 build=programs

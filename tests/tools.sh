@@ -1,6 +1,7 @@
-# tools.sh - sourced by matrix.sh and compilers.sh: a folder $T of their own, counts, their end.
+# tools.sh - sourced by tests in shell: a folder $T of their own, checks, counts, their end.
 T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
+trap 'rm -rf "$T"' EXIT
+trap 'exit 1' INT TERM
 passed=0 failed=0 skipped=0
 
 there() { command -v "$1" >/dev/null 2>&1; }
@@ -8,8 +9,20 @@ left_out() { skipped=$((skipped + 1)); echo "left out  $1"; }
 fail() {                        # what, file that tells more
     failed=$((failed + 1)); echo "FAIL      $1"; sed 's/^/    /;12q' "$2"
 }
+check() {                       # what, command ...
+    what=$1; shift
+    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1))
+    else fail "$what" "$T/log"; fi
+}
+no() { ! "$@"; }
+same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
+soon() {                        # waits up to $patience seconds, 20, for a command to succeed
+    for i in $(seq $((10 * ${patience:-20}))); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
+    "$@"
+}
 finish() {
-    echo "$skipped left out"
+    [ "$skipped" -eq 0 ] || echo "$skipped left out"
     echo "$passed passed, $failed failed"
     [ "$failed" -eq 0 ]
+    exit
 }

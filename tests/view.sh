@@ -2,33 +2,18 @@
 # view.sh - build/view: its command line, in a terminal (tests/view/terminal.sh) and in a window
 # (tests/view/window.sh).  What is not installed is named and left out.
 cd "$(dirname "$0")/.." || exit 1
+. tests/tools.sh
 VIEW=$PWD/build/view CC=${CC:-cc}
 export LC_ALL=C.UTF-8
 unset TMUX COLORTERM STY DISPLAY WAYLAND_DISPLAY
-T=$(mktemp -d) || exit 1
-X= server=0 passed=0 failed=0
+X= server=0
 cleanup() {
     tmux -S "$T/tmux.$server" kill-server
     [ -z "$X" ] || kill "$X"
     rm -rf "$T"
 } 2>/dev/null
 trap cleanup EXIT
-trap 'exit 1' INT TERM
 ulimit -c 0
-
-check() {                       # what, command ...
-    what=$1; shift
-    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
-    failed=$((failed + 1)); echo "FAIL  $what"; head -n 5 "$T/log"
-}
-no() { ! "$@"; }
-same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
-# Waits up to 20 seconds for a command to succeed.
-soon() {
-    for i in $(seq 200); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
-    "$@"
-}
-finish() { echo "$passed passed, $failed failed"; [ "$failed" -eq 0 ]; exit; }
 
 ${MAKE:-make} -s build/view || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$VIEW" ] || { echo "view: left out, it needs POSIX"; finish; }
