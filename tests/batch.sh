@@ -131,9 +131,9 @@ if command -v parallel >/dev/null; then
     rm local/00002.ppm local/00009.ppm
     check "resumed by jobs" jobs local --sshlogin 2/:
     check "the same again" diff -r one local
-    # ssh to machines that have this folder, too
+    # ssh to machines that have this folder, too; as sshd does, it names the user's shell
     printf '#!/bin/sh\n%s\n%s\n' 'echo "$1" >>asked; shift; [ "$1" = -- ] && shift' \
-        'exec sh -c "$*"' >ssh
+        'SHELL=/bin/sh exec sh -c "$*"' >ssh
     chmod +x ssh
     check "two machines" jobs machines --ssh "$T/ssh" --sshlogin 1/ann,1/bob --workdir "$T"
     check "their frames" diff -r one machines
