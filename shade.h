@@ -992,7 +992,8 @@ SHADE__BEGIN
 #if defined(__OPTIMIZE_SIZE__) || defined(SHADE__AS_COMPILED)
 #pragma GCC optimize("fp-contract=off", "no-tree-loop-distribute-patterns")
 #else
-#pragma GCC optimize("O2", "fp-contract=off", "no-tree-loop-distribute-patterns")
+#pragma GCC optimize("O2", "fp-contract=off", "no-tree-loop-distribute-patterns", \
+                     "no-inline-functions")
 #endif
 #endif
 
@@ -3504,13 +3505,13 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     }
 }
 
-/* The longer step of u, v to the next pixel, squared, in texels: with u = U / q, q = rw, the
-   derivative du/dx is (U_x - u q_x) / q, quotients that keep their size whatever w is. */
+/* The longer step of u, v to the next pixel, squared, in texels, in 8 lanes: with u = U / q,
+   q = rw, the derivative du/dx is (U_x - u q_x) / q, quotients that keep their size whatever w
+   is. */
 SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
                                      const shade__planes *SHADE_RESTRICT t,
                                      const float *SHADE_RESTRICT row, int x, int back,
-                                     const float *SHADE_RESTRICT rw, float *SHADE_RESTRICT lod,
-                                     const int width)
+                                     const float *SHADE_RESTRICT rw, float *SHADE_RESTRICT lod)
 {
     const int k = plan->lod;
     const float w = (float)plan->pipe->lod_texture->width;
@@ -3518,7 +3519,7 @@ SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
     const float u0 = row[k], v0 = row[k + 1], x_ref = t->x_ref;
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
     const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1];
-    SHADE__FOR(i, width) {
+    SHADE__FOR(i, 8) {
         float px = (float)(x + i) + x_ref, r = 1 / rw[i];
         float u = (u0 + ux * px) * r, v = (v0 + vx * px) * r;
         float a = (ux - u * qx) * r * w, b = (vx - v * qx) * r * h;
@@ -3576,7 +3577,6 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
     for (int k = 0; k < plan->varyings; k++)
         shade__append_plane(row[SHADE__FIRST + k], t->gx[SHADE__FIRST + k], px, back,
                             q->f.varying[k] + c, width);
-    if (plan->lod) shade__append_lod(plan, t, row, x, back, q->rw + c, q->f.lod + c, width);
     if (plan->bare) return;
     shade__append_place(t, row[0], x, y, px, back, &q->f, c, width);
 }
@@ -3595,25 +3595,22 @@ SHADE__INLINE void shade__row(const shade__planes *SHADE_RESTRICT t, int stride,
 SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const float *row, int x,
                                    int y, int n)
 {
+    const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
     while (n > 0) {
-        const int c = q->f.count, room = SHADE_LANES - c;
-        int take;
-        if (SHADE__TWICE && n > 8 && room >= SHADE__WIDE) {
-            shade__append(d, t, row, x, y, c, 0, SHADE__WIDE);
-            take = shade__min(n, SHADE__WIDE);
-        } else if (SHADE__TWICE && room >= 8) {
-            shade__append(d, t, row, x, y, c, 0, 8);
-            take = shade__min(n, 8);
-        } else {    /* the packet may end inside the window */
-            const int back = shade__max(0, 8 - room);
-            shade__append(d, t, row, x - back, y, c - back, back, 8);
-            take = shade__min(n, 8 - back);
-        }
+        const int room = SHADE_LANES - q->f.count, back = shade__max(0, 8 - room);
+        const int from = x - back, c = q->f.count - back;    /* the packet may end in the window */
+        const int width = SHADE__TWICE && n > 8 && room >= SHADE__WIDE ? SHADE__WIDE : 8;
+        const int take = shade__min(n, width - back);
+        if (SHADE__TWICE && width > 8) shade__append(d, t, row, from, y, c, 0, SHADE__WIDE);
+        else if (SHADE__TWICE && !back) shade__append(d, t, row, from, y, c, 0, 8);
+        else shade__append(d, t, row, from, y, c, back, 8);
+        for (int i = 0; plan->lod && i < width; i += 8)
+            shade__append_lod(plan, t, row, from + i, back, q->rw + c + i, q->f.lod + c + i);
         x += take;
         n -= take;
-        q->f.count = c + take;
-        if (q->f.count == SHADE_LANES) d->plan.stage.flush(d);
+        q->f.count += take;
+        if (q->f.count == SHADE_LANES) plan->stage.flush(d);
     }
 }
 SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int runs)
