@@ -2701,12 +2701,11 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
     SHADE_ALIGNED uint32_t mirrored[SHADE__TRIANGLES];
     SHADE_ALIGNED float area[SHADE__TRIANGLES], w[SHADE__TRIANGLES], h[SHADE__TRIANGLES];
     SHADE_ALIGNED int32_t fits[SHADE__TRIANGLES];
+    void *const rows[3] = { p->x, p->y, p->z };
     const int n = p->count;
     shade__areas(p, area, p->inverse);
     shade__turns(p, area, one, two, mirrored);
-    shade__turn(shade__words(p->x), one, two, mirrored);
-    shade__turn(shade__words(p->y), one, two, mirrored);
-    shade__turn(shade__words(p->z), one, two, mirrored);
+    for (int k = 0; k < 3; k++) shade__turn(shade__words(rows[k]), one, two, mirrored);
     shade__box(p->x[0], p->x[1], p->x[2], plan->x0, plan->x1 - 1, p->box[0], p->box[2], w);
     shade__box(p->y[0], p->y[1], p->y[2], plan->y0, plan->y1 - 1, p->box[1], p->box[3], h);
     shade__sizes(p, w, h, fits);
@@ -3254,7 +3253,8 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, shade__
     float *row = shade__depth_row(plan, y);
     int length = 0;
     for (int take; n > 0; x += take, n -= take) {
-        int width = SHADE__TWICE && n > 16 ? 32 : 16, at = shade__min(x, plan->x1 - width), skip;
+        int width = SHADE__TWICE && plan->plain && n > 16 ? 32 : 16;
+        int at = shade__min(x, plan->x1 - width), skip;
         uint32_t set;
         if (at < plan->x0) {
             width = 1;
@@ -3262,10 +3262,8 @@ SHADE__INLINE void shade__span(shade__draw *d, const shade__triangle *t, shade__
         }
         skip = x - at;
         take = shade__min(n, width - skip);
-        if (SHADE__TWICE && width == 32 && plan->plain)
+        if (SHADE__TWICE && width == 32)
             set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 1);
-        else if (SHADE__TWICE && width == 32)
-            set = shade__test(plan->compare, t, z, at, skip, take, row + at, 32, 0);
         else if (SHADE__TWICE && width == 16)
             set = shade__test(plan->compare, t, z, at, skip, take, row + at, 16, 0);
         else
@@ -3356,10 +3354,10 @@ SHADE__INLINE void shade__cover_column(const shade__plan *SHADE_RESTRICT plan,
 /* A triangle at most 32 pixels wide, with the early depth test: columns, 8 rows at a time, so that
    the depths of a row arrive while others are tested. */
 SHADE__INLINE void shade__cover_narrow(shade__draw *d, const shade__triangle *SHADE_RESTRICT t,
-                                       shade__runs *SHADE_RESTRICT runs, const int width,
-                                       const int plain)
+                                       shade__runs *SHADE_RESTRICT runs, const int width)
 {
     const shade__plan *plan = &d->plan;
+    const int plain = SHADE__TWICE && plan->plain;
     const int n = t->x1 - t->x0 + 1, wide = width > 8 && n <= 8 ? 8 : (n + width - 1) & -width;
     const int start = shade__min(t->x0, plan->x1 - wide);
     int fragments = 0;
@@ -3369,11 +3367,15 @@ SHADE__INLINE void shade__cover_narrow(shade__draw *d, const shade__triangle *SH
         float row_z[8];
         SHADE__FOR(r, 8) { set[r] = 0; }
         SHADE__FOR(r, 8) { row_z[r] = t->z + t->z_dy * ((float)(y + r) + t->y_ref); }
-        if (width > 8 && n <= 8)
-            shade__cover_column(plan, t, row_z, start, y, rows, 0, set, 8, plain);
-        else {
-            for (int at = 0; at < n; at += width)
-                shade__cover_column(plan, t, row_z, start + at, y, rows, at, set, width, plain);
+        if (width > 8 && n <= 8) {
+            if (plain) shade__cover_column(plan, t, row_z, start, y, rows, 0, set, 8, 1);
+            else shade__cover_column(plan, t, row_z, start, y, rows, 0, set, 8, 0);
+        } else {
+            for (int at = 0; at < n; at += width) {
+                const int x = start + at;
+                if (plain) shade__cover_column(plan, t, row_z, x, y, rows, at, set, width, 1);
+                else shade__cover_column(plan, t, row_z, x, y, rows, at, set, width, 0);
+            }
         }
         if (SHADE__UNLIKELY(runs->count > SHADE__RUNS - 8)) shade__send(d, runs);
         for (int r = 0; r < rows; r++) {    /* nearly every set is one run or empty */
@@ -3415,7 +3417,7 @@ SHADE__INLINE void shade__spans_body(shade__draw *d, shade__runs *runs, int lane
 SHADE__DISPATCH(shade__spans, (shade__draw *d, shade__runs *runs, int lane), (d, runs, lane))
 
 /* All triangles of the packet that are drawn. */
-SHADE__INLINE void shade__cover_packet(shade__draw *d, int count, const int width, const int plain)
+SHADE__INLINE void shade__cover_body(shade__draw *d, int count, const int width)
 {
     const shade__packet *p = &d->packet;
     const int windows = d->plan.early && d->plan.x1 - d->plan.x0 >= SHADE__WINDOW;
@@ -3429,14 +3431,9 @@ SHADE__INLINE void shade__cover_packet(shade__draw *d, int count, const int widt
             continue;
         }
         shade__triangle_of(p, i, &t);
-        shade__cover_narrow(d, &t, &runs, width, plain);
+        shade__cover_narrow(d, &t, &runs, width);
     }
     shade__send(d, &runs);
-}
-SHADE__INLINE void shade__cover_body(shade__draw *d, int count, const int width)
-{
-    if (SHADE__TWICE && d->plan.plain) shade__cover_packet(d, count, width, 1);
-    else shade__cover_packet(d, count, width, 0);
 }
 SHADE__DISPATCH(shade__cover, (shade__draw *d, int count), (d, count, shade__width))
 
