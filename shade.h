@@ -3614,9 +3614,8 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run, int r
 {
     shade__planes t;
     SHADE_ALIGNED float row[SHADE__VALUES_MAX];
-    shade__make_planes(&d->plan, &d->packet, run[0].lane, &t);
     for (int k = 0; k < runs; k++) {
-        if (k && run[k].lane != run[k - 1].lane)
+        if (!k || run[k].lane != run[k - 1].lane)
             shade__make_planes(&d->plan, &d->packet, run[k].lane, &t);
         shade__row(&t, d->plan.value_stride, run[k].y, row);
         shade__push_run(d, &t, row, run[k].x, run[k].y, run[k].n);
