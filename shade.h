@@ -1129,6 +1129,8 @@ SHADE__INLINE int shade__within(float x, float limit)
     return (shade__float_bits(x) & 0x7FFFFFFFu) <= shade__float_bits(limit);
 }
 SHADE__INLINE int shade__is_zero(shade_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+/* shade_normalize where no loop over lanes wants it: one copy of its 160 bytes */
+static SHADE__NOINLINE shade_vec3 shade__unit_vector(shade_vec3 v) { return shade_normalize(v); }
 
 /* 1/sqrt(x) for lanes; 0 where x < 1e-36, so that vectors shorter than 1e-18 normalise to zero.
    A bit trick and its tuned Newton step [Kadlec10], error 6.5e-4, then one cubic step
@@ -1322,7 +1324,7 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
 {
     double sd, cd;
-    shade_vec3 a = shade_normalize(axis), t;
+    shade_vec3 a = shade__unit_vector(axis), t;
     if (shade__is_zero(a)) return shade_mat4_identity();
     shade__sincos(radians, &sd, &cd);
     float s = (float)sd, c = (float)cd;
@@ -1335,14 +1337,15 @@ SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
 
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up)
 {
-    shade_vec3 f = shade_normalize(shade_sub(center, eye)), r, u;
+    shade_vec3 f = shade__unit_vector(shade_sub(center, eye)), r, u;
     if (shade__is_zero(f)) f = shade_v3(0, 0, -1);
-    r = shade_normalize(shade_cross(f, shade_normalize(up)));
-    if (shade__is_zero(r))       /* any axis that f is far from stands in for up */
-        r = shade_normalize(shade_cross(f, f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0,
-                                                                                           1)));
+    r = shade__unit_vector(shade_cross(f, shade__unit_vector(up)));
+    if (shade__is_zero(r)) {     /* any axis that f is far from stands in for up */
+        up = f.y * f.y < 0.5f ? shade_v3(0, 1, 0) : shade_v3(0, 0, 1);
+        r = shade__unit_vector(shade_cross(f, up));
+    }
     /* square again where up was nearly parallel */
-    r = shade_normalize(shade_madd(r, -shade_dot(r, f), f));
+    r = shade__unit_vector(shade_madd(r, -shade_dot(r, f), f));
     u = shade_cross(r, f);
     return shade__m4(shade_v4(r.x, u.x, -f.x, 0), shade_v4(r.y, u.y, -f.y, 0),
                      shade_v4(r.z, u.z, -f.z, 0),
