@@ -4535,6 +4535,14 @@ SHADE__INLINE shade_vec3 shade__corner(const shade_mesh *m, uint32_t corner)
 {
     return shade__vec3_at(m->positions, m->position_stride, shade__corner_index(m, corner));
 }
+/* The corners of a triangle, and shade_face_normal of them. */
+static SHADE__NOINLINE shade_vec3 shade__face_normal(const shade_mesh *m, uint32_t triangle,
+                                                     shade_vec3 *p)
+{
+    for (uint32_t k = 0; k < 3; k++) p[k] = shade__corner(m, 3 * triangle + k);
+    return shade__unit_vector(shade_cross(shade__unit_vector(shade_sub(p[1], p[0])),
+                                          shade__unit_vector(shade_sub(p[2], p[0]))));
+}
 /* The vertex of lane i of a packet. */
 SHADE__INLINE uint32_t shade__vertex_of(const shade__scene *s, const shade_vertex_ids *in, int i)
 {
@@ -4555,20 +4563,26 @@ static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const s
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
-/* The same for faces: their normal (length of twice the area), and with per_face their centroid
-   and first colour. */
+/* Normals of faces; with per_face their centroids and first colours too.  The corners of a face
+   come one after the other. */
 static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in,
                                                int per_face, shade__v3 *P, shade__v3 *N,
                                                shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
+    shade_vec3 p[3], n = shade_v3(0, 0, 0), middle = n;
+    uint32_t seen = UINT32_MAX;
     for (int i = 0; i < SHADE_LANES; i++) {
-        const uint32_t first = in->index[i] / 3 * 3, v = shade__corner_index(m, first);
-        const shade_vec3 a = shade__corner(m, first), b = shade__corner(m, first + 1);
-        const shade_vec3 c = shade__corner(m, first + 2);
-        shade__put(N, i, shade_face_normal(a, b, c));
+        const uint32_t face = in->index[i] / 3, v = shade__corner_index(m, 3 * face);
+        if (face != seen) {
+            n = shade__face_normal(m, face, p);
+            middle = shade_add(shade_sub(p[1], p[0]), shade_sub(p[2], p[0]));
+            middle = shade_madd(p[0], 1 / 3.0f, middle);
+            seen = face;
+        }
+        shade__put(N, i, n);
         if (!per_face) continue;
-        shade__put(P, i, shade_madd(a, 1 / 3.0f, shade_add(shade_sub(b, a), shade_sub(c, a))));
+        shade__put(P, i, middle);
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
@@ -4949,8 +4963,7 @@ static double shade__angle(double y, double x)
 /* Unit normal of triangle t; zero without area or with a corner that is not finite. */
 static shade_vec3 shade__triangle_normal(const shade_mesh *m, uint32_t t)
 {
-    shade_vec3 n = shade_face_normal(shade__corner(m, 3 * t), shade__corner(m, 3 * t + 1),
-                                     shade__corner(m, 3 * t + 2));
+    shade_vec3 p[3], n = shade__face_normal(m, t, p);
     return shade__within(shade_dot(n, n), 2) ? n : shade_v3(0, 0, 0);
 }
 /* Angle of a triangle at a corner, radians. */
@@ -4958,8 +4971,8 @@ static float shade__corner_angle(const shade_mesh *m, uint32_t corner)
 {
     const uint32_t t = corner / 3 * 3, k = corner % 3;
     const shade_vec3 p = shade__corner(m, corner);
-    shade_vec3 a = shade_normalize(shade_sub(shade__corner(m, t + (k + 1) % 3), p));
-    shade_vec3 b = shade_normalize(shade_sub(shade__corner(m, t + (k + 2) % 3), p));
+    shade_vec3 a = shade__unit_vector(shade_sub(shade__corner(m, t + (k + 1) % 3), p));
+    shade_vec3 b = shade__unit_vector(shade_sub(shade__corner(m, t + (k + 2) % 3), p));
     return (float)shade__angle((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
 }
 static shade_result shade__check_shape(const shade_mesh *m, const void *out)
@@ -4984,7 +4997,7 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
             *sum = shade_madd(*sum, shade__corner_angle(mesh, k), n);
         }
     }
-    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade_normalize(normals[i]);
+    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade__unit_vector(normals[i]);
     return SHADE_OK;
 }
 
@@ -5055,7 +5068,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
                 if (i == j || shade_dot(n, other) >= cos_crease)
                     mean = shade_madd(mean, angle[order[j]], other);
             }
-            out[order[i]] = shade_normalize(mean);
+            out[order[i]] = shade__unit_vector(mean);
         }
     }
     return SHADE_OK;
@@ -5149,7 +5162,7 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
         d = shade_sub(shade_scale(shade__xyz(far_h), near_h.w),
                       shade_scale(shade__xyz(near_h), far_h.w));
     }
-    ray.direction = shade_normalize(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
+    ray.direction = shade__unit_vector(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
     return ray;
 }
 
