@@ -1232,6 +1232,11 @@ SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m)
     return shade__m3(shade_scale(c.col[0], s), shade_scale(c.col[1], s), shade_scale(c.col[2], s));
 }
 
+/* shade_mat4_mul as one copy */
+static SHADE__NOINLINE shade_mat4 shade__mat4_product(const shade_mat4 *a, const shade_mat4 *b)
+{
+    return shade_mat4_mul(*a, *b);
+}
 static shade_mat4 shade__zero_matrix(void)
 {
     shade_vec4 o = shade_v4(0, 0, 0, 0);
@@ -4736,9 +4741,9 @@ static SHADE__NOINLINE void shade__scene_of(const shade_target *target, const sh
     s->state = state;
     s->colored = target->color != NULL;
     s->world_from_object = shade__or_identity(state->model);
-    s->clip_from_object =
-        shade_mat4_mul(shade_mat4_mul(shade__or_identity(state->projection), view),
-                       s->world_from_object);
+    s->clip_from_object = shade__or_identity(state->projection);
+    s->clip_from_object = shade__mat4_product(&s->clip_from_object, &view);
+    s->clip_from_object = shade__mat4_product(&s->clip_from_object, &s->world_from_object);
     s->normal_matrix = shade_normal_matrix(s->world_from_object);
     s->eye = state->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
                 ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
@@ -5147,8 +5152,8 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
                                    float x, float y)
 {
     shade_ray ray;
-    shade_mat4 camera = shade_mat4_inverse(view),
-               m = shade_mat4_inverse(shade_mat4_mul(projection, view));
+    shade_mat4 camera = shade_mat4_inverse(view);
+    shade_mat4 m = shade_mat4_inverse(shade__mat4_product(&projection, &view));
     float nx = 2 * x / (float)shade__max(width, 1) - 1,
           ny = 1 - 2 * y / (float)shade__max(height, 1);
     shade_vec4 near_h = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
