@@ -1478,21 +1478,18 @@ SHADE__INLINE float shade__srgb_decode(float c)
     float curve = shade__exp2_neg(shade__neg_log2((c + 0.055f) * (1 / 1.055f)) * 2.4f);
     return shade__select(c * (1 / 12.92f), curve, shade__mask(c > 0.04045f));
 }
-static SHADE__NOINLINE float shade__encode(float c)
-{
-    return shade__srgb_encode(shade__unit(c));
-}
-static SHADE__NOINLINE float shade__decode(float c)
-{
-    return shade__srgb_decode(shade__unit(c));
-}
+/* The same as one copy each. */
+static SHADE__NOINLINE float shade__encode(float c) { return shade__srgb_encode(c); }
+static SHADE__NOINLINE float shade__decode(float c) { return shade__srgb_decode(c); }
 SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 c)
 {
-    return shade_v3(shade__encode(c.x), shade__encode(c.y), shade__encode(c.z));
+    return shade_v3(shade__encode(shade__unit(c.x)), shade__encode(shade__unit(c.y)),
+                    shade__encode(shade__unit(c.z)));
 }
 SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 c)
 {
-    return shade_v3(shade__decode(c.x), shade__decode(c.y), shade__decode(c.z));
+    return shade_v3(shade__decode(shade__unit(c.x)), shade__decode(shade__unit(c.y)),
+                    shade__decode(shade__unit(c.z)));
 }
 SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
 {
@@ -1574,7 +1571,7 @@ static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
     shade__unpack_pixel(t->format, p, c);
     for (int k = 0; k < 4; k++) {
         rgba[k] = (float)(int32_t)c[k] / (float)(int32_t)shade__channel_full(t->format, k);
-        if (t->srgb && k < 3) rgba[k] = shade__srgb_decode(rgba[k]);
+        if (t->srgb && k < 3) rgba[k] = shade__decode(rgba[k]);
     }
 }
 SHADE__INLINE int shade__rows_held(const shade_target *t)
@@ -5267,7 +5264,7 @@ static void shade__row_rgb(const shade_target *t, const uint8_t *p, int n, uint8
             uint32_t full = shade__channel_full(t->format, k);
             float v = bytes == 16 ? shade__unit(f[k]) : 0;
             if (bytes != 16) rgb[k] = (uint8_t)((c[k] * 255 + full / 2) / full);
-            else rgb[k] = (uint8_t)((t->srgb ? shade__srgb_encode(v) : v) * 255 + 0.5f);
+            else rgb[k] = (uint8_t)((t->srgb ? shade__encode(v) : v) * 255 + 0.5f);
         }
     }
 }
