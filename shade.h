@@ -2287,6 +2287,8 @@ typedef struct shade__stages {        /* hot loops, in the widest code the proce
     void (*push)(shade__draw *, const shade__run *, int runs);
     void (*flush)(shade__draw *);
     void (*store)(shade__draw *, shade_colors *);
+    void (*pack)(const shade_target *, float *rgba, int stride, const float *x, const float *y,
+                 uint32_t *packed, int blocks);
 } shade__stages;
 
 typedef struct shade__compare { uint32_t less, equal, greater, always, write; } shade__compare;
@@ -3989,26 +3991,26 @@ SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
      holds   Pixels are stored in drawing order.  8 bits: floor(255 clamp(c) + 1/2); NaN is 0.
                                                                                          >>draw */
 
-SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, const int n)
+SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, int blocks)
 {
-    SHADE__FOR(i, n) { c[i] = shade__srgb_encode(shade__unit(c[i])); }
+    SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__srgb_encode(shade__unit(c[i])); }
 }
 /* Thresholds of the 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and y,
    interleaved and reversed   pre: 0 <= x, y < 2^31   post: in (0, 1) */
 SHADE__INLINE void shade__dither(const float *SHADE_RESTRICT x, const float *SHADE_RESTRICT y,
-                                 float *SHADE_RESTRICT threshold, const int n)
+                                 float *SHADE_RESTRICT threshold, int blocks)
 {
-    SHADE__FOR(i, n) {
+    SHADE__EACH_BLOCK(i, blocks) {
         uint32_t v = (uint32_t)(int32_t)y[i], d = (uint32_t)(int32_t)x[i] ^ v;
         uint32_t rank = (d & 1) << 3 | (v & 1) << 2 | (d & 2) | (v & 2) >> 1;
         threshold[i] = ((float)(int32_t)rank + 0.5f) * 0.0625f;
     }
 }
-/* n pixels of 5-6-5 bits: clamp(c, 0, 1) in steps of 1 / full, up from the threshold on; or, where
+/* Pixels of 5-6-5 bits: clamp(c, 0, 1) in steps of 1 / full, up from the threshold on; or, where
    that is NULL, of 8 bits a channel to nearest.  Any bits of floats.   post: 5-6-5 below 2^16 */
 SHADE__INLINE void shade__pack_channels(shade_format format, const float *SHADE_RESTRICT rgba,
-                                        const int stride, const float *SHADE_RESTRICT threshold,
-                                        uint32_t *SHADE_RESTRICT packed, const int n)
+                                        int stride, const float *SHADE_RESTRICT threshold,
+                                        uint32_t *SHADE_RESTRICT packed, int blocks)
 {
     const int wide = !threshold;
     const int r = wide ? shade__channel_shift(format, 0) : 11;
@@ -4016,7 +4018,7 @@ SHADE__INLINE void shade__pack_channels(shade_format format, const float *SHADE_
     const int b = wide ? shade__channel_shift(format, 2) : 0;
     const int a = wide ? shade__channel_shift(format, 3) : 0;
     const float full = wide ? 255 : 31, full_g = wide ? 255 : 63, full_a = wide ? 255 : 0;
-    SHADE__FOR(i, n) {
+    SHADE__EACH_BLOCK(i, blocks) {
         float half = threshold ? threshold[i] : 0.5f;
         int32_t cr = (int32_t)(shade__unit(rgba[i]) * full + half);
         int32_t cg = (int32_t)(shade__unit(rgba[i + stride]) * full_g + half);
@@ -4025,43 +4027,43 @@ SHADE__INLINE void shade__pack_channels(shade_format format, const float *SHADE_
         packed[i] = (uint32_t)cr << r | (uint32_t)cg << g | (uint32_t)cb << b | (uint32_t)ca << a;
     }
 }
-/* n lanes for the target's format; encodes rgb in place where it asks for sRGB.  x, y are read
-   where it asks for dither. */
-SHADE__INLINE void shade__pack(const shade_target *t, float *rgba, const int stride, const float *x,
-                               const float *y, uint32_t *packed, const int n)
+/* Blocks of lanes for the target's format; encodes rgb in place where it asks for sRGB.  x, y are
+   read where it asks for dither. */
+SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, int stride, const float *x,
+                                    const float *y, uint32_t *packed, int blocks)
 {
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (t->format == SHADE_FORMAT_RGBA32F) return;
-    for (int k = 0; k < 3 && t->srgb; k++) shade__encode_row(rgba + k * stride, n);
+    for (int k = 0; k < 3 && t->srgb; k++) shade__encode_row(rgba + k * stride, blocks);
     if (shade__pixel_bytes(t->format) == 4) {
-        shade__pack_channels(t->format, rgba, stride, NULL, packed, n);
+        shade__pack_channels(t->format, rgba, stride, NULL, packed, blocks);
         return;
     }
-    SHADE__FOR(i, n) { threshold[i] = 0.5f; }
-    if (t->dither) shade__dither(x, y, threshold, n);
-    shade__pack_channels(t->format, rgba, stride, threshold, packed, n);
+    SHADE_EACH_LANE(i) { threshold[i] = 0.5f; }
+    if (t->dither) shade__dither(x, y, threshold, blocks);
+    shade__pack_channels(t->format, rgba, stride, threshold, packed, blocks);
     if (t->format == SHADE_FORMAT_RGB565_SWAPPED) {
-        SHADE__FOR(i, n) { packed[i] = shade__swap16(packed[i]); }
+        SHADE__EACH_BLOCK(i, blocks) { packed[i] = shade__swap16(packed[i]); }
     }
 }
-static SHADE__NOINLINE void shade__pack8(const shade_target *t, float *rgba, const float *x,
-                                         const float *y, uint32_t *packed)
+SHADE__DISPATCH(shade__pack,
+                (const shade_target *t, float *rgba, int stride, const float *x, const float *y,
+                 uint32_t *packed, int blocks),
+                (t, rgba, stride, x, y, packed, blocks))
+
+/* Packs a block of pixels and stores the first n of them at p; x, y of the first are read where the
+   target dithers. */
+static void shade__store_block(const shade_target *t, float *rgba, int x, int y, int n, uint8_t *p)
 {
-    shade__pack(t, rgba, 8, x, y, packed, 8);
-}
-/* Packs 8 pixels and stores the first n of them at p; x, y of the first are read where the target
-   dithers. */
-static void shade__store8(const shade_target *t, float *rgba, int x, int y, int n, uint8_t *p)
-{
-    float px[8], py[8];
-    uint32_t packed[8] = { 0 };
-    for (int i = 0; i < 8; i++) {
+    float px[SHADE__BLOCK], py[SHADE__BLOCK];
+    uint32_t packed[SHADE__BLOCK] = { 0 };
+    for (int i = 0; i < SHADE__BLOCK; i++) {
         px[i] = (float)(x + i) + 0.5f;
         py[i] = (float)y + 0.5f;
     }
-    shade__pack8(t, rgba, px, py, packed);
+    shade__pack_pick()(t, rgba, SHADE__BLOCK, px, py, packed, 1);
     for (int i = 0; i < n; i++, p += shade__pixel_bytes(t->format))
-        shade__store_pixel(t->format, p, packed[i], rgba + i, 8);
+        shade__store_pixel(t->format, p, packed[i], rgba + i, SHADE__BLOCK);
 }
 
 /* Depth test and write in drawing order, after a shader that may discard.  Turns the discard row
@@ -4115,41 +4117,43 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
     for (; i < count; i++) SHADE_MEMCPY(color + (size_t)offset[i] * 4, packed + i, 4);
 }
 
-/* out = rgba blended with what is stored, 8 lanes */
-SHADE__INLINE void shade__blend8(shade_blend blend, const float *SHADE_RESTRICT rgba,
-                                 const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT out)
+/* out = rgba blended with what is stored, a block of lanes */
+SHADE__INLINE void shade__blend(shade_blend blend, const float *SHADE_RESTRICT rgba,
+                                const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT out)
 {
+    enum { N = SHADE__BLOCK };
     uint32_t over = shade__mask(blend == SHADE_BLEND_OVER);
-    SHADE__FOR(i, 8) {
+    SHADE__FOR(i, N) {
         float a = rgba[i + 3 * SHADE_LANES], s = shade__select(1, a, over);
         float t = shade__select(1, 1 - a, over);
         out[i] = rgba[i] * s + stored[i] * t;
-        out[i + 8] = rgba[i + SHADE_LANES] * s + stored[i + 8] * t;
-        out[i + 16] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 16] * t;
-        out[i + 24] = a + stored[i + 24] * t;
+        out[i + N] = rgba[i + SHADE_LANES] * s + stored[i + N] * t;
+        out[i + 2 * N] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 2 * N] * t;
+        out[i + 3 * N] = a + stored[i + 3 * N] * t;
     }
 }
-/* Blends and stores in pieces of up to 8 lanes, in drawing order.  The lanes of a piece belong to
+/* Blends and stores in pieces of up to a block, in drawing order.  The lanes of a piece belong to
    one triangle, so that no pixel comes twice in it. */
 static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const float *rgba,
                                                  const uint32_t *alive)
 {
+    enum { N = SHADE__BLOCK };
     const shade__plan *plan = &d->plan;
     const shade__queue *q = &d->u.queue;
     for (int i = 0, last; i < q->f.count; i = last) {
-        int base = shade__min(i, SHADE_LANES - 8);
-        float stored[32] = { 0 }, out[32];
-        uint32_t packed[8] = { 0 };
-        for (last = i; last < base + 8 && last < q->f.count; last++) {
+        int base = shade__min(i, SHADE_LANES - N);
+        float stored[4 * N] = { 0 }, out[4 * N];
+        uint32_t packed[N] = { 0 };
+        for (last = i; last < base + N && last < q->f.count; last++) {
             float c[4];
             if (q->f.primitive[last] != q->f.primitive[i]) break;
             shade__fetch(plan->target, plan->color + (size_t)q->offset[last] * plan->pixel_bytes,
                          c);
-            for (int k = 0; k < 4; k++) stored[8 * k + last - base] = c[k];
+            for (int k = 0; k < 4; k++) stored[N * k + last - base] = c[k];
         }
-        shade__blend8(plan->pipe->raster.blend, rgba + base, stored, out);
-        shade__pack8(plan->target, out, q->f.x + base, q->f.y + base, packed);
-        shade__scatter(d, alive, out, 8, packed, base, i, last);
+        shade__blend(plan->pipe->raster.blend, rgba + base, stored, out);
+        plan->stage.pack(plan->target, out, N, q->f.x + base, q->f.y + base, packed, 1);
+        shade__scatter(d, alive, out, N, packed, base, i, last);
     }
 }
 
@@ -4166,7 +4170,8 @@ SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
         shade__store_blended(d, c->color[0], alive);
         return;
     }
-    shade__pack(plan->target, c->color[0], SHADE_LANES, q->f.x, q->f.y, packed, SHADE_LANES);
+    plan->stage.pack(plan->target, c->color[0], SHADE_LANES, q->f.x, q->f.y, packed,
+                     (int)SHADE_LANES / (int)SHADE__BLOCK);
     if (plan->pixel_bytes == 4 && !alive)
         shade__scatter_words(plan->color, q->offset, packed, q->f.count);
     else shade__scatter(d, alive, c->color[0], SHADE_LANES, packed, 0, 0, q->f.count);
@@ -4259,6 +4264,7 @@ static void shade__make_plan(const shade_target *t, const shade_pipeline *p, int
     plan->stage.push = shade__push_pick();
     plan->stage.flush = shade__flush_pick();
     plan->stage.store = shade__store_pick();
+    plan->stage.pack = shade__pack_pick();
     plan->color = p->fragment ? (uint8_t *)t->color : NULL;
     plan->depth = t->depth;
     plan->pixel_bytes = shade__pixel_bytes(t->format);
@@ -4359,14 +4365,14 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
                                  uint8_t *pattern)
 {
     const size_t period = 8 * shade__pixel_bytes(t->format);
-    float rgba[32];
-    for (int i = 0; i < 8; i++) {
+    float rgba[4 * SHADE__BLOCK];
+    for (int i = 0; i < SHADE__BLOCK; i++) {
         rgba[i] = color.x;
-        rgba[i + 8] = color.y;
-        rgba[i + 16] = color.z;
-        rgba[i + 24] = color.w;
+        rgba[i + SHADE__BLOCK] = color.y;
+        rgba[i + 2 * SHADE__BLOCK] = color.z;
+        rgba[i + 3 * SHADE__BLOCK] = color.w;
     }
-    shade__store8(t, rgba, x, y, 8, pattern);
+    shade__store_block(t, rgba, x, y, 8, pattern);
     for (size_t i = period; i < 256; i++) pattern[i] = pattern[i - period];
 }
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
@@ -4394,19 +4400,19 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     return SHADE_OK;
 }
 
-/* Pixels x .. x + n - 1 of row y, n <= 8: means of factor x factor pixels each. */
-static void shade__resolve8(const shade_target *out, const shade_target *in, int factor, int x,
-                            int y, int n)
+/* Pixels x .. x + n - 1 of row y, at most a block: means of factor x factor pixels each. */
+static void shade__resolve_block(const shade_target *out, const shade_target *in, int factor,
+                                 int x, int y, int n)
 {
     const int area = factor * factor;
-    float rgba[32] = { 0 }, c[4];
+    float rgba[4 * SHADE__BLOCK] = { 0 }, c[4];
     for (int i = 0; i < n * area; i++) {
         int p = i / area, column = (x + p) * factor + i % factor;
         shade__fetch(in, shade__pixel_at(in, column, y * factor + i / factor % factor), c);
-        for (int k = 0; k < 4; k++) rgba[8 * k + p] += c[k];
+        for (int k = 0; k < 4; k++) rgba[SHADE__BLOCK * k + p] += c[k];
     }
-    for (int i = 0; i < 32; i++) rgba[i] /= (float)area;
-    shade__store8(out, rgba, x, y, n, shade__pixel_at(out, x, y));
+    for (int i = 0; i < 4 * SHADE__BLOCK; i++) rgba[i] /= (float)area;
+    shade__store_block(out, rgba, x, y, n, shade__pixel_at(out, x, y));
 }
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
 {
@@ -4422,8 +4428,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
         return SHADE_ERROR_ARGUMENT;
     if (!shade__clip_rectangle(out, clip)) return SHADE_OK;
     for (int y = clip[1]; y < clip[3]; y++)
-        for (int x = clip[0]; x < clip[2]; x += 8)
-            shade__resolve8(out, in, factor, x, y, shade__min(8, clip[2] - x));
+        for (int x = clip[0]; x < clip[2]; x += SHADE__BLOCK)
+            shade__resolve_block(out, in, factor, x, y, shade__min(SHADE__BLOCK, clip[2] - x));
     return SHADE_OK;
 }
 
@@ -4447,7 +4453,7 @@ static void shade__shrink(const shade_target *from, const shade_target *to, int 
             for (int k = 0; k < 4; k++) sum[k] += (double)c[k] * share;
             all += share;
         }
-    for (int k = 0; k < 4; k++) mean[8 * k] = (float)(sum[k] / all);
+    for (int k = 0; k < 4; k++) mean[SHADE__BLOCK * k] = (float)(sum[k] / all);
 }
 /* Where the texels of a texture lie, as a target. */
 static shade_target shade__target_of(const shade_texture *t)
@@ -4483,11 +4489,14 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
         levels[n].width = shade__max(from.width / 2, 1);
         levels[n].height = shade__max(from.height / 2, 1);
         to = shade__target_of(&levels[n]);
-        for (int i = 0; i < to.width * to.height; i++, p += shade__pixel_bytes(to.format)) {
-            float rgba[32] = { 0 };
-            shade__shrink(&from, &to, i % to.width, i / to.width, rgba);
-            shade__store8(&to, rgba, 0, 0, 1, p);
-        }
+        for (int y = 0; y < to.height; y++)
+            for (int x = 0; x < to.width; x += SHADE__BLOCK) {
+                const int texels = shade__min(SHADE__BLOCK, to.width - x);
+                float rgba[4 * SHADE__BLOCK] = { 0 };
+                for (int i = 0; i < texels; i++) shade__shrink(&from, &to, x + i, y, rgba + i);
+                shade__store_block(&to, rgba, 0, 0, texels, p);
+                p += (size_t)texels * shade__pixel_bytes(to.format);
+            }
     }
     texture->mipmaps = levels;
     texture->mipmap_count = count;

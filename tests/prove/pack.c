@@ -1,23 +1,25 @@
 /* pack.c - pixels of every format from any floats, and back from any bytes. */
 #include "prove.h"
 
+enum { N = SHADE__BLOCK };
+
 static void prove_target(shade_target *t)
 {
-    float rgba[32], x[8], y[8], c[4];
-    uint32_t packed[8] = { 0 };
+    float rgba[4 * N], x[N], y[N], c[4];
+    uint32_t packed[N] = { 0 };
     uint8_t pixel[16];
     const size_t bytes = shade__pixel_bytes(t->format);
-    any_floats(rgba, 32);
-    for (int i = 0; i < 8; i++) {    /* pixel centres of a picture, and what resolve may ask */
+    any_floats(rgba, 4 * N);
+    for (int i = 0; i < N; i++) {    /* pixel centres of a picture, and what resolve may ask */
         x[i] = Frama_C_float_interval(0, 16400);
         y[i] = Frama_C_float_interval(0, 16400);
     }
-    shade__pack8(t, rgba, x, y, packed);
+    shade__pack_any(t, rgba, N, x, y, packed, 1);
     if (bytes == 2) {
-        /*@ assert packed[0] <= 65535 && packed[7] <= 65535; */
+        /*@ assert packed[0] <= 65535 && packed[N - 1] <= 65535; */
     }
     /* a pixel that ends where the array does */
-    shade__store_pixel(t->format, pixel + (sizeof pixel - bytes), packed[0], rgba, 8);
+    shade__store_pixel(t->format, pixel + (sizeof pixel - bytes), packed[0], rgba, N);
     for (int i = 0; i < 16; i++) pixel[i] = Frama_C_unsigned_char_interval(0, 255);
     shade__fetch(t, pixel + (sizeof pixel - bytes), c);
     if (t->format != SHADE_FORMAT_RGBA32F && !t->srgb) {
@@ -44,22 +46,22 @@ static void prove_formats(int srgb, int dither)
 /* the channels of 8 bits, and the thresholds of the dither */
 static void prove_parts(void)
 {
-    float rgba[32], x[8], y[8], threshold[8];
-    uint32_t packed[8];
-    any_floats(rgba, 32);
-    for (int i = 0; i < 8; i++) {
+    float rgba[4 * N], x[N], y[N], threshold[N];
+    uint32_t packed[N];
+    any_floats(rgba, 4 * N);
+    for (int i = 0; i < N; i++) {
         float unit = shade__unit(rgba[i]);
         /*@ assert 0 <= unit <= 1; */
         x[i] = Frama_C_float_interval(0, 16400);
         y[i] = Frama_C_float_interval(0, 16400);
     }
-    shade__dither(x, y, threshold, 8);
-    for (int i = 0; i < 8; i++) {
+    shade__dither(x, y, threshold, 1);
+    for (int i = 0; i < N; i++) {
         /*@ assert 0 < threshold[i] < 1; */
     }
-    shade__pack_channels(SHADE_FORMAT_RGBA8, rgba, 8, NULL, packed, 8);
-    shade__pack_channels(SHADE_FORMAT_RGB565, rgba, 8, threshold, packed, 8);
-    for (int i = 0; i < 8; i++) {
+    shade__pack_channels(SHADE_FORMAT_RGBA8, rgba, N, NULL, packed, 1);
+    shade__pack_channels(SHADE_FORMAT_RGB565, rgba, N, threshold, packed, 1);
+    for (int i = 0; i < N; i++) {
         /*@ assert packed[i] <= 65535; */
         uint32_t swapped = shade__swap16(packed[i]);
         /*@ assert swapped <= 65535; */

@@ -113,6 +113,7 @@ int main(void)
     d.plan.target = &target;
     d.plan.pipe = &pipe;
     d.plan.stage.flush = flush;
+    d.plan.stage.pack = shade__pack_any;
     pipe.fragment = shader;
     prove_push(0, 8, 0);
     prove_push(6, 8, 0);
