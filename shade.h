@@ -1128,7 +1128,10 @@ SHADE__INLINE int shade__within(float x, float limit)
 {
     return (shade__float_bits(x) & 0x7FFFFFFFu) <= shade__float_bits(limit);
 }
-SHADE__INLINE int shade__is_zero(shade_vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+SHADE__INLINE int shade__is_zero(shade_vec3 v)
+{
+    return !((shade__float_bits(v.x) | shade__float_bits(v.y) | shade__float_bits(v.z)) << 1);
+}
 /* shade_normalize where no loop over lanes wants it: one copy of its 160 bytes */
 static SHADE__NOINLINE shade_vec3 shade__unit_vector(shade_vec3 v) { return shade_normalize(v); }
 
