@@ -1797,8 +1797,11 @@ SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, 
      holds   Lanes are SHADE_LANES for packets, SHADE__POINT for a point alone, which takes the same
              way.  Error of 1/sqrt and powers: >>base, >>power.                         >>lanes */
 
-/* A point takes a few lanes, which compilers still make vectors of. */
-enum { SHADE__POINT = 4 };
+/* A point is one vector of the build for any processor.  That one takes any number of vectors,
+   which compilers know to leave no remainder, the others whole packets. */
+enum { SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES };
+#define SHADE__LANES_OF(n) \
+    (shade__width == SHADE__ANY_WIDTH ? (n) & -(int)SHADE__POINT : SHADE_LANES)
 
 /* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at
    infinity. */
@@ -1891,14 +1894,14 @@ SHADE__INLINE void shade__light_at_body(const shade_light *light, const shade__v
     shade__arrive(light, &lamp, P, n, a);
 }
 SHADE__DISPATCH_AVX2(shade__light_at,
-                     (const shade_light *light, const shade__v3 *P, shade__arrival *a),
-                     (light, P, SHADE_LANES, a))
+                     (const shade_light *light, const shade__v3 *P, int n, shade__arrival *a),
+                     (light, P, SHADE__LANES_OF(n), a))
 
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
                                    float *amount)
 {
     shade__arrival a;
-    if (light && P) shade__light_at_pick()(light, shade__rows_of(P), &a);
+    if (light && P) shade__light_at_pick()(light, shade__rows_of(P), SHADE_LANES, &a);
     else SHADE__ZERO(a);
     if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
     if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
@@ -1907,11 +1910,6 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, flo
 static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
 {
     for (int i = 0; i < SHADE__POINT; i++) shade__put(rows, i, v);
-}
-static SHADE__NOINLINE void shade__light_at_point(const shade_light *light, const shade__v3 *P,
-                                                  shade__arrival *a)
-{
-    shade__light_at_body(light, P, SHADE__POINT, a);
 }
 SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
                               float *distance)
@@ -1923,7 +1921,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3
     if (light) {
         const shade__lamp lamp = shade__lamp_of(light);
         r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
-        shade__light_at_point(light, &point, &a);
+        shade__light_at_any(light, &point, SHADE__POINT, &a);
     } else SHADE__ZERO(a);
     if (L) *L = shade__at(&a.L, 0);
     if (distance) *distance = r;
@@ -2206,8 +2204,8 @@ SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__
 }
 SHADE__DISPATCH(shade__lit,
                 (const shade_lighting *lighting, const shade__job *j, const float *visibility,
-                 shade__v3 *rgb),
-                (lighting, j, visibility, SHADE_LANES, rgb))
+                 int n, shade__v3 *rgb),
+                (lighting, j, visibility, SHADE__LANES_OF(n), rgb))
 static void shade__begin_job(const shade_lighting *lighting, const shade_material *material,
                              shade_vec3 eye, const shade__v3 *P, const shade__v3 *N, shade__job *j)
 {
@@ -2228,12 +2226,7 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
     }
     shade__begin_job(lighting, material, eye, shade__rows_of(P), shade__rows_of(N), &j);
     j.albedo = shade__rows_of(albedo);
-    shade__lit_pick()(lighting, &j, visibility, (shade__v3 *)(void *)rgb);
-}
-static SHADE__NOINLINE void shade__lit_point(const shade_lighting *lighting, const shade__job *j,
-                                             shade__v3 *rgb)
-{
-    shade__lit_body(lighting, j, NULL, SHADE__POINT, rgb);
+    shade__lit_pick()(lighting, &j, visibility, SHADE_LANES, (shade__v3 *)(void *)rgb);
 }
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 P, shade_vec3 N)
@@ -2244,7 +2237,7 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
     shade__fill_point(P, &p);
     shade__fill_point(N, &n);
     shade__begin_job(lighting, material, eye, &p, &n, &j);
-    shade__lit_point(lighting, &j, &rgb);
+    shade__lit_any(lighting, &j, NULL, SHADE__POINT, &rgb);
     return shade_v3(rgb.x[0], rgb.y[0], rgb.z[0]);
 }
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
