@@ -1597,7 +1597,7 @@ SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
 
 /*--------------------------------------------------------------------------------------- >>lighting
    Lamps, single terms, presets: what is computed for one point, with exact roots and divisions;
-   and the surface that >>lanes lights.                                               >>arrival */
+   and what a packet is lit by.                                                       >>arrival */
 
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color)
 {
@@ -1651,7 +1651,7 @@ SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3
 }
 SHADEDEF float shade_attenuation(float a, float b, float c, float r)
 {
-    if (a == 0 && b == 0 && c == 0) return 1;
+    if (shade__is_zero(shade_v3(a, b, c))) return 1;
     if (a == 0) r = shade__maxf(r, 1e-4f);
     return 1 / shade__maxf(a + b * r + c * (r * r), 1e-20f);
 }
@@ -1745,55 +1745,64 @@ SHADEDEF const char *shade_preset_name(shade_preset preset)
     return shade__preset((int)preset).name;
 }
 
-/* What both the scalar and the lane equations read: defaults filled in, terms that are off set
-   to zero. */
-typedef struct shade__surface {
-    shade_vec3 emission, ambient, diffuse, specular, cool, warm;
-    float      shininess;
-    shade_vec3 scene_ambient;
-    unsigned   flags;
-    unsigned   terms;
-    int        light_count, cool_to_warm, phong;
-} shade__surface;
+/* What a packet is lit by, and where it is: defaults filled in, terms that are off set to zero. */
+typedef struct shade__job {
+    const shade_lighting *lighting;
+    const shade__v3 *P, *N, *albedo;
+    shade_vec4 eye;               /* w = 0: a viewer at infinity */
+    const shade_material *m;
+    shade_material white;         /* where there is none */
+    shade_vec3 emission;
+    shade_vec3 ambient;           /* k_a times the light that no lamp attenuates */
+    unsigned terms;
+    int lamps, tone;              /* tone: cool to warm, by one lamp */
+    uint32_t flip, open, absolute, weighted;    /* masks of flags; flip is a sign */
+} shade__job;
 
-static shade__surface shade__surface_of(const shade_lighting *lighting,
-                                        const shade_material *material)
+static uint32_t shade__flag(const shade_lighting *lighting, unsigned flag)
 {
-    shade__surface s;
-    shade_vec3 none = shade_v3(0, 0, 0);
-    shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
-    unsigned terms = lighting->terms ? lighting->terms : ~0u;
-    if (lighting->model == SHADE_MODEL_EMISSIVE) terms &= SHADE_TERM_EMISSION;
-    if (lighting->model == SHADE_MODEL_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
-    if (lighting->model == SHADE_MODEL_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
-    if (lighting->model == SHADE_MODEL_COOL_TO_WARM)
-        terms &= SHADE_TERM_EMISSION | SHADE_TERM_DIFFUSE;
-    s.emission = terms & SHADE_TERM_EMISSION ? m.emission : none;
-    s.ambient = terms & SHADE_TERM_AMBIENT ? m.ambient : none;
-    s.diffuse = terms & SHADE_TERM_DIFFUSE ? m.diffuse : none;
-    s.specular = terms & SHADE_TERM_SPECULAR ? m.specular : none;
-    s.shininess = shade__minf(m.shininess, FLT_MAX);
-    s.terms = terms;
-    s.scene_ambient = terms & SHADE_TERM_AMBIENT ? lighting->ambient : none;
-    s.flags = lighting->flags;
-    s.light_count = lighting->lights ? lighting->light_count : 0;
-    s.phong = lighting->model == SHADE_MODEL_PHONG;
-    s.cool_to_warm = lighting->model == SHADE_MODEL_COOL_TO_WARM && (terms & SHADE_TERM_DIFFUSE);
-    s.cool = shade__is_zero(lighting->cool) ? shade_v3(0.4f, 0.4f, 0.7f) : lighting->cool;
-    s.warm = shade__is_zero(lighting->warm) ? shade_v3(0.8f, 0.6f, 0.6f) : lighting->warm;
-    return s;
+    return shade__mask((lighting->flags & flag) != 0);
 }
-
-/* k I if the term is on, else zero whatever they hold. */
-SHADE__INLINE shade_vec3 shade__product(const shade__surface *s, unsigned term, shade_vec3 k,
-                                        shade_vec3 light)
+static SHADE__NOINLINE void shade__begin_job(const shade_lighting *lighting,
+                                             const shade_material *material, shade_vec3 eye,
+                                             const shade__v3 *P, const shade__v3 *N,
+                                             const shade__v3 *albedo, shade__job *j)
 {
-    return s->terms & term ? shade_mul(k, light) : shade_v3(0, 0, 0);
+    const shade_vec3 none = shade_v3(0, 0, 0);
+    const shade_model model = lighting->model;
+    unsigned terms = lighting->terms ? lighting->terms : ~0u;
+    if (model == SHADE_MODEL_EMISSIVE) terms &= SHADE_TERM_EMISSION;
+    if (model == SHADE_MODEL_AMBIENT) terms &= SHADE_TERM_EMISSION | SHADE_TERM_AMBIENT;
+    if (model == SHADE_MODEL_LAMBERT) terms &= ~(unsigned)SHADE_TERM_SPECULAR;
+    if (model == SHADE_MODEL_COOL_TO_WARM) terms &= SHADE_TERM_EMISSION | SHADE_TERM_DIFFUSE;
+    j->terms = terms;
+    j->tone = model == SHADE_MODEL_COOL_TO_WARM && (terms & SHADE_TERM_DIFFUSE);
+    j->lighting = lighting;
+    j->P = P;
+    j->N = N;
+    j->albedo = albedo;
+    j->eye = shade__xyzw(eye, lighting->flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
+    j->m = material;
+    if (!material) {
+        j->white = shade_preset_material(SHADE_PRESET_COUNT);
+        j->m = &j->white;
+    }
+    j->emission = terms & SHADE_TERM_EMISSION ? j->m->emission : none;
+    j->ambient = terms & SHADE_TERM_AMBIENT ? lighting->ambient : none;
+    j->lamps = lighting->lights ? lighting->light_count : 0;
+    if ((terms & SHADE_TERM_AMBIENT) && !(lighting->flags & SHADE_FLAG_ATTENUATED_AMBIENT))
+        for (int k = 0; k < j->lamps; k++)
+            j->ambient = shade_add(j->ambient, lighting->lights[k].ambient);
+    if (terms & SHADE_TERM_AMBIENT) j->ambient = shade_mul(j->ambient, j->m->ambient);
+    j->flip = shade__flag(lighting, SHADE_FLAG_TWO_SIDED) & 0x80000000u;
+    j->open = shade__flag(lighting, SHADE_FLAG_UNGATED_SPECULAR);
+    j->absolute = shade__flag(lighting, SHADE_FLAG_TWO_SIDED_ABS);
+    j->weighted = shade__flag(lighting, SHADE_FLAG_WEIGHTED_SPECULAR);
 }
 
 /*---------------------------------------------------------------------------------------- >>arrival
    What of a lamp arrives at the points of a packet: direction, attenuation, cone.
-     in      rows of P                    out  shade__arrival
+     in      a light, rows of P           out  shade__arrival
      holds   Lanes are SHADE_LANES for packets, SHADE__POINT for a point alone, which takes the same
              way.  Error of 1/sqrt and powers: >>base, >>power.                         >>lanes */
 
@@ -1803,21 +1812,67 @@ enum { SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_
 #define SHADE__LANES_OF(n) \
     (shade__width == SHADE__ANY_WIDTH ? (n) & -(int)SHADE__POINT : SHADE_LANES)
 
-/* A light with its vectors resolved: xyz is a point, or the unit direction toward a light at
-   infinity. */
-typedef struct shade__lamp { shade_vec3 at, axis; int infinite, spot; } shade__lamp;
+/* A light as lanes read it, and what one surface makes of its light. */
+typedef struct shade__lamp {
+    shade_vec3 at;                /* a point, or the unit direction toward a light at infinity */
+    shade_vec3 axis;              /* S of the cone, unit; zero: none */
+    float a, b, c, nearest;       /* of attenuation; r counts as this at least */
+    float cos_cutoff, exponent;
+    int infinite, spot;
+    shade_vec3 diffuse, specular;       /* k_d I_d, k_s I_s */
+    shade_vec3 base, slope;       /* of shade__ramp */
+    int gloss, ramp;              /* whether there is a highlight, a ramp */
+} shade__lamp;
 
-SHADE__INLINE shade__lamp shade__lamp_of(const shade_light *light)
+/* k I of each term that is on, else zero whatever they hold.  Returns zero if all are. */
+static int shade__products(const shade_light *light, const shade__job *j, shade__lamp *p)
 {
-    shade__lamp p;
-    shade_vec4 at = light->position;
-    p.at = shade__xyz(at);
-    p.infinite = at.w == 0;
-    if (p.infinite) p.at = shade_normalize(p.at);
-    else if (at.w != 1) p.at = shade_v3(at.x / at.w, at.y / at.w, at.z / at.w);
-    p.axis = shade_neg(shade_normalize(light->spot_direction));
-    p.spot = !shade__is_zero(p.axis);
-    return p;
+    const shade_vec3 none = shade_v3(0, 0, 0);
+    const unsigned on = j->terms, flags = j->lighting->flags;
+    const int ramp = (on & SHADE_TERM_AMBIENT) && (flags & SHADE_FLAG_ATTENUATED_AMBIENT);
+    p->base = none;
+    p->slope = ramp ? shade_mul(j->m->ambient, light->ambient) : none;
+    p->diffuse = on & SHADE_TERM_DIFFUSE ? shade_mul(j->m->diffuse, light->diffuse) : none;
+    p->specular = on & SHADE_TERM_SPECULAR ? shade_mul(j->m->specular, light->specular) : none;
+    p->ramp = !shade__is_zero(p->slope);
+    p->gloss = !shade__is_zero(p->specular);
+    return p->gloss || p->ramp || !shade__is_zero(p->diffuse);
+}
+/* The lamp of a light; j may be NULL.  Returns zero, the lamp unset, if it lights nothing of j. */
+static SHADE__NOINLINE int shade__lamp_of(const shade_light *light, const shade__job *j,
+                                          shade__lamp *p)
+{
+    const shade_vec4 at = light->position;
+    if (j && !shade__products(light, j, p)) return 0;
+    p->at = shade__xyz(at);
+    p->infinite = at.w == 0;
+    if (p->infinite) p->at = shade_normalize(p->at);
+    else if (at.w != 1) p->at = shade_v3(at.x / at.w, at.y / at.w, at.z / at.w);
+    p->axis = shade_neg(shade_normalize(light->spot_direction));
+    p->spot = !shade__is_zero(p->axis);
+    p->cos_cutoff = light->spot_cos_cutoff;
+    p->exponent = shade__minf(light->spot_exponent, FLT_MAX);
+    p->a = light->constant;
+    p->b = light->linear;
+    p->c = light->quadratic;
+    p->nearest = p->a == 0 ? 1e-4f : 0.0f;
+    if (shade__is_zero(shade_v3(p->a, p->b, p->c))) p->a = 1;
+    return 1;
+}
+/* The lamp of a tone: cool + k_w (warm - cool), L toward the first light.             [Gooch98] */
+static SHADE__NOINLINE void shade__tone_of(const shade__job *j, shade__lamp *p)
+{
+    const shade_lighting *l = j->lighting;
+    if (j->lamps > 0) shade__lamp_of(l->lights, NULL, p);
+    else {
+        p->at = shade_v3(0, 0, 0);
+        p->infinite = 1;
+    }
+    p->spot = 0;
+    p->ramp = 1;
+    p->base = shade__is_zero(l->cool) ? shade_v3(0.4f, 0.4f, 0.7f) : l->cool;
+    p->slope = shade__is_zero(l->warm) ? shade_v3(0.8f, 0.6f, 0.6f) : l->warm;
+    p->slope = shade_sub(p->slope, p->base);
 }
 
 /* What of a lamp arrives at a block of points. */
@@ -1826,35 +1881,35 @@ typedef struct shade__arrival {
     float att[SHADE_LANES];       /* attenuation times cone */
     float cosine[SHADE_LANES];    /* L.S, where there is a cone; then N.L, signed */
 } shade__arrival;
-SHADE__INLINE void shade__directional(shade_vec3 L, const int n, shade__arrival *SHADE_RESTRICT a)
+SHADE__INLINE void shade__directional(const shade__lamp *SHADE_RESTRICT lamp, const int n,
+                                      shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
-        shade__put(&a->L, i, L);
+        shade__put(&a->L, i, lamp->at);
         a->att[i] = 1;
     }
 }
-SHADE__INLINE void shade__point(const shade__v3 *SHADE_RESTRICT P, shade_vec3 at, float a, float b,
-                                float c, const int n, shade__arrival *SHADE_RESTRICT to)
+SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
+                                const shade__v3 *SHADE_RESTRICT P, const int n,
+                                shade__arrival *SHADE_RESTRICT to)
 {
-    float nearest = a == 0 ? 1e-4f : 0.0f;
-    if (a == 0 && b == 0 && c == 0) a = 1;
     SHADE__FOR(i, n) {
-        shade_vec3 L = shade_sub(at, shade__at(P, i));
+        shade_vec3 L = shade_sub(lamp->at, shade__at(P, i));
         float d = shade_dot(L, L), rl = shade__rsqrt(d);
-        float distance = shade__clamp_bits(d * rl, nearest, FLT_MAX);
-        float den = a + b * distance + c * (distance * distance);
+        float distance = shade__clamp_bits(d * rl, lamp->nearest, FLT_MAX);
+        float den = lamp->a + lamp->b * distance + lamp->c * (distance * distance);
         shade__put(&to->L, i, shade_scale(L, rl));
         to->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
     }
 }
 /* L.S, and the cone as a mask of the attenuation; returns non-zero if some lane is inside */
-SHADE__INLINE uint32_t shade__cone(shade_vec3 S, float cos_cutoff, const int n,
+SHADE__INLINE uint32_t shade__cone(const shade__lamp *SHADE_RESTRICT lamp, const int n,
                                    shade__arrival *SHADE_RESTRICT a)
 {
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float cosine = shade_dot(shade__at(&a->L, i), S);
-        uint32_t inside = shade__mask(cosine >= cos_cutoff);
+        float cosine = shade_dot(shade__at(&a->L, i), lamp->axis);
+        uint32_t inside = shade__mask(cosine >= lamp->cos_cutoff);
         a->cosine[i] = shade__saturate(cosine);
         a->att[i] = shade__keep(a->att[i], inside);
         any |= inside;
@@ -1873,36 +1928,38 @@ SHADE__INLINE void shade__gather_beam(const int n, shade__arrival *SHADE_RESTRIC
     SHADE__FOR(i, n) { a->att[i] *= shade__exp2_neg(a->cosine[i]); }
 }
 /* L and att of one lamp.  Returns zero if no lane is inside its cone. */
-SHADE__INLINE uint32_t shade__arrive(const shade_light *light, const shade__lamp *lamp,
-                                     const shade__v3 *P, const int n, shade__arrival *a)
+SHADE__INLINE uint32_t shade__arrive(const shade__lamp *lamp, const shade__v3 *P, const int n,
+                                     shade__arrival *a)
 {
     uint32_t any = shade__mask(1);
-    if (lamp->infinite) shade__directional(lamp->at, n, a);
-    else shade__point(P, lamp->at, light->constant, light->linear, light->quadratic, n, a);
-    if (lamp->spot) any = shade__cone(lamp->axis, light->spot_cos_cutoff, n, a);
-    if (any && lamp->spot && light->spot_exponent > 0) {
-        shade__log_row(shade__minf(light->spot_exponent, FLT_MAX), n, a->cosine);
+    if (lamp->infinite) shade__directional(lamp, n, a);
+    else shade__point(lamp, P, n, a);
+    if (lamp->spot) any = shade__cone(lamp, n, a);
+    if (any && lamp->spot && lamp->exponent > 0) {
+        shade__log_row(lamp->exponent, n, a->cosine);
         shade__gather_beam(n, a);
     }
     return any;
 }
 
-SHADE__INLINE void shade__light_at_body(const shade_light *light, const shade__v3 *P, const int n,
+SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3 *P, const int n,
                                         shade__arrival *a)
 {
-    shade__lamp lamp = shade__lamp_of(light);
-    shade__arrive(light, &lamp, P, n, a);
+    shade__arrive(lamp, P, n, a);
 }
 SHADE__DISPATCH_AVX2(shade__light_at,
-                     (const shade_light *light, const shade__v3 *P, int n, shade__arrival *a),
-                     (light, P, SHADE__LANES_OF(n), a))
+                     (const shade__lamp *lamp, const shade__v3 *P, int n, shade__arrival *a),
+                     (lamp, P, SHADE__LANES_OF(n), a))
 
 SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
                                    float *amount)
 {
     shade__arrival a;
-    if (light && P) shade__light_at_pick()(light, shade__rows_of(P), SHADE_LANES, &a);
-    else SHADE__ZERO(a);
+    shade__lamp lamp;
+    if (light && P) {
+        shade__lamp_of(light, NULL, &lamp);
+        shade__light_at_pick()(&lamp, shade__rows_of(P), SHADE_LANES, &a);
+    } else SHADE__ZERO(a);
     if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
     if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
 }
@@ -1916,12 +1973,13 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3
 {
     shade__arrival a;
     shade__v3 point;
+    shade__lamp lamp;
     float r = 0;
     shade__fill_point(P, &point);
     if (light) {
-        const shade__lamp lamp = shade__lamp_of(light);
+        shade__lamp_of(light, NULL, &lamp);
         r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
-        shade__light_at_any(light, &point, SHADE__POINT, &a);
+        shade__light_at_any(&lamp, &point, SHADE__POINT, &a);
     } else SHADE__ZERO(a);
     if (L) *L = shade__at(&a.L, 0);
     if (distance) *distance = r;
@@ -1972,6 +2030,12 @@ SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const i
     return any;
 }
 
+/* a.att becomes k_w = (1 + N.L) / 2. */
+SHADE__INLINE void shade__warmth(const int n, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE__FOR(i, n) { r->a.att[i] = 0.5f + 0.5f * r->a.cosine[i]; }
+}
+
 /* a.L.x becomes N.H, or SHADE__NO_HALF.  Returns non-zero if some lane (with N.L > 0, or open) has
    |L + V|^2 below 1e-3, for shade__half_near.  The row is read and written by one pointer: in
    builds with gcc -O0 two ways to it would leave the loop scalar. */
@@ -2010,11 +2074,10 @@ static void shade__unit3(double *v)
 }
 /* The lanes where L and V are nearly opposite, again from the positions, in double: their sum keeps
    few digits in float. */
-static SHADE__NOINLINE void shade__half_near(const shade_light *light, const shade__v3 *P,
+static SHADE__NOINLINE void shade__half_near(const shade_vec4 at, const shade__v3 *P,
                                              const shade__v3 *N, shade_vec4 eye, const int n,
                                              shade__rows *r)
 {
-    const shade_vec4 at = light->position;
     const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)eye.w;
     double lamp[3], from[3];
     shade__double3(shade__xyz(at), lamp);
@@ -2075,7 +2138,7 @@ SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light)
     shade__put(rgb, i, shade_add(shade__at(rgb, i), light));
 }
 /* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s gloss); with absolute |N.L|. */
-SHADE__INLINE void shade__combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolute,
+SHADE__INLINE void shade__combine(const shade__lamp *SHADE_RESTRICT lamp, uint32_t absolute,
                                   const shade__v3 *SHADE_RESTRICT albedo, const int n,
                                   const shade__rows *SHADE_RESTRICT r,
                                   shade__v3 *SHADE_RESTRICT rgb)
@@ -2083,9 +2146,9 @@ SHADE__INLINE void shade__combine(shade_vec3 kd, shade_vec3 ks, uint32_t absolut
     SHADE__FOR(i, n) {
         float nl = r->a.cosine[i], att = r->a.att[i];
         float lit = shade__keep(nl, shade__mask(nl > 0) | absolute);
-        shade_vec3 diffuse = shade_mul(kd, shade__albedo(albedo, i));
+        shade_vec3 diffuse = shade_mul(lamp->diffuse, shade__albedo(albedo, i));
         diffuse = shade_scale(diffuse, shade__keep(lit, 0x7FFFFFFFu) * att);
-        shade__add_to(rgb, i, shade_madd(diffuse, r->a.L.x[i] * att, ks));
+        shade__add_to(rgb, i, shade_madd(diffuse, r->a.L.x[i] * att, lamp->specular));
     }
 }
 /* rgb = base + slope albedo */
@@ -2097,13 +2160,13 @@ SHADE__INLINE void shade__begin_light(shade_vec3 base, shade_vec3 slope,
         shade__put(rgb, i, shade_add(base, shade_mul(slope, shade__albedo(albedo, i))));
     }
 }
-/* rgb += (base + x slope) albedo */
-SHADE__INLINE void shade__ramp(shade_vec3 base, shade_vec3 slope, const float *SHADE_RESTRICT x,
+/* rgb += (base + att slope) albedo */
+SHADE__INLINE void shade__ramp(const shade__lamp *SHADE_RESTRICT lamp,
                                const shade__v3 *SHADE_RESTRICT albedo, const int n,
-                               shade__v3 *SHADE_RESTRICT rgb)
+                               const shade__rows *SHADE_RESTRICT r, shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
-        shade_vec3 tone = shade_madd(base, x[i], slope);
+        shade_vec3 tone = shade_madd(lamp->base, r->a.att[i], lamp->slope);
         shade__add_to(rgb, i, shade_mul(tone, shade__albedo(albedo, i)));
     }
 }
@@ -2114,107 +2177,49 @@ SHADE__INLINE void shade__hide(const float *SHADE_RESTRICT visibility, const int
     SHADE__FOR(i, n) { att[i] *= visibility[i]; }
 }
 
-/* What a packet is lit by, and where it is. */
-typedef struct shade__job {
-    shade__surface s;
-    const shade__v3 *P, *N, *albedo;
-    shade_vec4 eye;               /* w = 0: a viewer at infinity */
-} shade__job;
-
 /* Adds one lamp to rgb, but its unattenuated ambient light.  visibility: its row, or NULL. */
-SHADE__INLINE void shade__add_light(const shade__job *j, const shade_light *light,
-                                    const float *visibility, const int n, shade__rows *r,
-                                    shade__v3 *rgb)
+SHADE__INLINE void shade__add_lamp(const shade__job *j, int k, const float *visibility,
+                                   const int n, shade__rows *r, shade__v3 *rgb)
 {
-    const shade__surface *s = &j->s;
-    shade__lamp lamp = shade__lamp_of(light);
-    shade_vec3 kd = shade__product(s, SHADE_TERM_DIFFUSE, s->diffuse, light->diffuse);
-    shade_vec3 ks = shade__product(s, SHADE_TERM_SPECULAR, s->specular, light->specular);
-    shade_vec3 ka = shade__product(s, SHADE_TERM_AMBIENT, s->ambient, light->ambient);
-    const int ambient = (s->flags & SHADE_FLAG_ATTENUATED_AMBIENT) && !shade__is_zero(ka);
-    const int gloss = !shade__is_zero(ks);
-    const uint32_t open = shade__mask((s->flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
-    const uint32_t absolute = shade__mask((s->flags & SHADE_FLAG_TWO_SIDED_ABS) != 0);
-    const uint32_t weighted = shade__mask((s->flags & SHADE_FLAG_WEIGHTED_SPECULAR) != 0);
-    uint32_t any;
-    if (!ambient && !gloss && shade__is_zero(kd)) return;
-    any = shade__arrive(light, &lamp, j->P, n, &r->a);
-    any &= shade__horizon(j->N, n, r);
-    if (ambient) {
-        const shade_vec3 none = shade_v3(0, 0, 0);
-        if (!SHADE__TWICE || j->albedo) shade__ramp(none, ka, r->a.att, j->albedo, n, rgb);
-        else shade__ramp(none, ka, r->a.att, NULL, n, rgb);
-    }
-    if (!(any | open | absolute)) return;
-    if (gloss) {
-        if (s->phong) shade__mirrored(j->P, j->N, j->eye, n, r);
-        else if (shade__half(j->P, j->N, j->eye, open, n, r))
-            shade__half_near(light, j->P, j->N, j->eye, n, r);
-        shade__log_row(s->shininess, n, r->a.L.x);
-        shade__gloss(open, weighted, n, r);
-    } else SHADE__ZERO(r->a.L.x);
-    if (visibility) shade__hide(visibility, n, r->a.att);
-    if (!SHADE__TWICE || j->albedo) shade__combine(kd, ks, absolute, j->albedo, n, r, rgb);
-    else shade__combine(kd, ks, absolute, NULL, n, r, rgb);
-}
-/* Adds the tone: cool + k_w (warm - cool), k_w = (1 + N.L) / 2, L toward the first light.
-                                                                                      [Gooch98] */
-SHADE__INLINE void shade__add_tone(const shade__job *j, const shade_light *light, const int n,
-                                   shade__rows *r, shade__v3 *rgb)
-{
-    const shade__surface *s = &j->s;
-    const shade_vec3 slope = shade_sub(s->warm, s->cool);
-    shade_light toward;
+    const shade_light *lights = j->lighting->lights;
     shade__lamp lamp;
-    SHADE__ZERO(toward);
-    if (light) toward.position = light->position;
-    lamp = shade__lamp_of(&toward);
-    shade__arrive(&toward, &lamp, j->P, n, &r->a);
-    shade__horizon(j->N, n, r);
-    SHADE__FOR(i, n) { r->a.cosine[i] = 0.5f + 0.5f * r->a.cosine[i]; }
-    if (!SHADE__TWICE || j->albedo) shade__ramp(s->cool, slope, r->a.cosine, j->albedo, n, rgb);
-    else shade__ramp(s->cool, slope, r->a.cosine, NULL, n, rgb);
+    uint32_t any;
+    if (j->tone) shade__tone_of(j, &lamp);
+    else if (!shade__lamp_of(&lights[k], j, &lamp)) return;
+    any = shade__arrive(&lamp, j->P, n, &r->a);
+    any &= shade__horizon(j->N, n, r);
+    if (j->tone) shade__warmth(n, r);
+    if (lamp.ramp) {
+        if (!SHADE__TWICE || j->albedo) shade__ramp(&lamp, j->albedo, n, r, rgb);
+        else shade__ramp(&lamp, NULL, n, r, rgb);
+    }
+    if (j->tone || !(any | j->open | j->absolute)) return;
+    if (lamp.gloss) {
+        if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(j->P, j->N, j->eye, n, r);
+        else if (shade__half(j->P, j->N, j->eye, j->open, n, r))
+            shade__half_near(lights[k].position, j->P, j->N, j->eye, n, r);
+        shade__log_row(shade__minf(j->m->shininess, FLT_MAX), n, r->a.L.x);
+        shade__gloss(j->open, j->weighted, n, r);
+    } else SHADE__ZERO(r->a.L.x);
+    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.att);
+    if (!SHADE__TWICE || j->albedo) shade__combine(&lamp, j->absolute, j->albedo, n, r, rgb);
+    else shade__combine(&lamp, j->absolute, NULL, n, r, rgb);
 }
 
-SHADE__INLINE void shade__lit_body(const shade_lighting *lighting, const shade__job *j,
-                                   const float *visibility, const int n, shade__v3 *rgb)
+SHADE__INLINE void shade__lit_body(const shade__job *j, const float *visibility, const int n,
+                                   shade__v3 *rgb)
 {
-    const shade__surface *s = &j->s;
-    const shade_light *lights = lighting->lights;
-    const uint32_t flip = s->flags & SHADE_FLAG_TWO_SIDED ? 0x80000000u : 0;
-    const shade__v3 *albedo = j->albedo;
-    shade_vec3 ambient = s->scene_ambient;
+    const shade__v3 *albedo = shade__is_zero(j->ambient) ? NULL : j->albedo;
+    const int lamps = j->tone ? 1 : j->lamps;
     shade__rows r;
-    shade__viewer(j->P, j->N, j->eye, flip, n, &r);
-    if ((s->terms & SHADE_TERM_AMBIENT) && !(s->flags & SHADE_FLAG_ATTENUATED_AMBIENT))
-        for (ptrdiff_t k = 0; k < s->light_count; k++)
-            ambient = shade_add(ambient, lights[k].ambient);
-    ambient = shade_mul(ambient, s->ambient);
-    if (shade__is_zero(ambient)) albedo = NULL;
-    if (!SHADE__TWICE || albedo) shade__begin_light(s->emission, ambient, albedo, n, rgb);
-    else shade__begin_light(s->emission, ambient, NULL, n, rgb);
-    if (s->cool_to_warm) {
-        shade__add_tone(j, s->light_count > 0 ? lights : NULL, n, &r, rgb);
-        return;
-    }
-    for (int k = 0; k < s->light_count; k++) {
-        const float *seen = visibility ? visibility + (size_t)k * SHADE_LANES : visibility;
-        shade__add_light(j, &lights[k], seen, n, &r, rgb);
-    }
+    shade__viewer(j->P, j->N, j->eye, j->flip, n, &r);
+    if (!SHADE__TWICE || albedo) shade__begin_light(j->emission, j->ambient, albedo, n, rgb);
+    else shade__begin_light(j->emission, j->ambient, NULL, n, rgb);
+    for (int k = 0; k < lamps; k++) shade__add_lamp(j, k, visibility, n, &r, rgb);
 }
 SHADE__DISPATCH(shade__lit,
-                (const shade_lighting *lighting, const shade__job *j, const float *visibility,
-                 int n, shade__v3 *rgb),
-                (lighting, j, visibility, SHADE__LANES_OF(n), rgb))
-static void shade__begin_job(const shade_lighting *lighting, const shade_material *material,
-                             shade_vec3 eye, const shade__v3 *P, const shade__v3 *N, shade__job *j)
-{
-    j->s = shade__surface_of(lighting, material);
-    j->P = P;
-    j->N = N;
-    j->albedo = NULL;
-    j->eye = shade__xyzw(eye, j->s.flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
-}
+                (const shade__job *j, const float *visibility, int n, shade__v3 *rgb),
+                (j, visibility, SHADE__LANES_OF(n), rgb))
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const float *P, const float *N, const float *albedo,
                               const float *visibility, float *rgb)
@@ -2224,9 +2229,9 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
         if (rgb) SHADE_MEMSET(rgb, 0, 3 * SHADE_LANES * sizeof *rgb);
         return;
     }
-    shade__begin_job(lighting, material, eye, shade__rows_of(P), shade__rows_of(N), &j);
-    j.albedo = shade__rows_of(albedo);
-    shade__lit_pick()(lighting, &j, visibility, SHADE_LANES, (shade__v3 *)(void *)rgb);
+    shade__begin_job(lighting, material, eye, shade__rows_of(P), shade__rows_of(N),
+                     shade__rows_of(albedo), &j);
+    shade__lit_pick()(&j, visibility, SHADE_LANES, (shade__v3 *)(void *)rgb);
 }
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 P, shade_vec3 N)
@@ -2236,9 +2241,9 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
     if (!lighting) return shade_v3(0, 0, 0);
     shade__fill_point(P, &p);
     shade__fill_point(N, &n);
-    shade__begin_job(lighting, material, eye, &p, &n, &j);
-    shade__lit_any(lighting, &j, NULL, SHADE__POINT, &rgb);
-    return shade_v3(rgb.x[0], rgb.y[0], rgb.z[0]);
+    shade__begin_job(lighting, material, eye, &p, &n, NULL, &j);
+    shade__lit_any(&j, NULL, SHADE__POINT, &rgb);
+    return shade__at(&rgb, 0);
 }
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
                                     shade_vec3 eye, shade_vec3 P, shade_vec3 N)
