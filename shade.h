@@ -1818,9 +1818,9 @@ enum { SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_
 typedef struct shade__lamp {
     shade_vec3 at;                /* a point, or the unit direction toward a light at infinity */
     shade_vec3 axis;              /* S of the cone, unit; zero: none */
-    float a, b, c, nearest;       /* of attenuation; r counts as this at least */
-    float cos_cutoff, exponent;
+    float a, nearest;             /* of attenuation: a of the lamp, or 1 for none; least r */
     int infinite, spot;
+    const shade_light *light;
     shade_vec3 diffuse, specular;       /* k_d I_d, k_s I_s */
     shade_vec3 base, slope;       /* of shade__ramp */
     int gloss, ramp;              /* whether there is a highlight, a ramp */
@@ -1852,13 +1852,10 @@ static SHADE__NOINLINE int shade__lamp_of(const shade_light *light, const shade_
     else if (at.w != 1) p->at = shade_v3(at.x / at.w, at.y / at.w, at.z / at.w);
     p->axis = shade_neg(shade_normalize(light->spot_direction));
     p->spot = !shade__is_zero(p->axis);
-    p->cos_cutoff = light->spot_cos_cutoff;
-    p->exponent = shade__minf(light->spot_exponent, FLT_MAX);
     p->a = light->constant;
-    p->b = light->linear;
-    p->c = light->quadratic;
     p->nearest = p->a == 0 ? 1e-4f : 0.0f;
-    if (shade__is_zero(shade_v3(p->a, p->b, p->c))) p->a = 1;
+    if (shade__is_zero(shade_v3(p->a, light->linear, light->quadratic))) p->a = 1;
+    p->light = light;
     return 1;
 }
 /* The lamp of a tone: cool + k_w (warm - cool), L toward the first light.             [Gooch98] */
@@ -1882,6 +1879,7 @@ typedef struct shade__arrival {
     SHADE_ALIGNED shade__v3 L;    /* unit, toward the lamp */
     float att[SHADE_LANES];       /* attenuation times cone */
     float cosine[SHADE_LANES];    /* L.S, where there is a cone; then N.L, signed */
+    uint32_t any;                 /* zero: no lane is inside the cone */
 } shade__arrival;
 SHADE__INLINE void shade__directional(const shade__lamp *SHADE_RESTRICT lamp, const int n,
                                       shade__arrival *SHADE_RESTRICT a)
@@ -1895,11 +1893,12 @@ SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
                                 const shade__v3 *SHADE_RESTRICT P, const int n,
                                 shade__arrival *SHADE_RESTRICT to)
 {
+    const float b = lamp->light->linear, c = lamp->light->quadratic;
     SHADE__FOR(i, n) {
         shade_vec3 L = shade_sub(lamp->at, shade__at(P, i));
         float d = shade_dot(L, L), rl = shade__rsqrt(d);
         float distance = shade__clamp_bits(d * rl, lamp->nearest, FLT_MAX);
-        float den = lamp->a + lamp->b * distance + lamp->c * (distance * distance);
+        float den = lamp->a + b * distance + c * (distance * distance);
         shade__put(&to->L, i, shade_scale(L, rl));
         to->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
     }
@@ -1908,10 +1907,11 @@ SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
 SHADE__INLINE uint32_t shade__cone(const shade__lamp *SHADE_RESTRICT lamp, const int n,
                                    shade__arrival *SHADE_RESTRICT a)
 {
+    const float cos_cutoff = lamp->light->spot_cos_cutoff;
     uint32_t any = 0;
     SHADE__FOR(i, n) {
         float cosine = shade_dot(shade__at(&a->L, i), lamp->axis);
-        uint32_t inside = shade__mask(cosine >= lamp->cos_cutoff);
+        uint32_t inside = shade__mask(cosine >= cos_cutoff);
         a->cosine[i] = shade__saturate(cosine);
         a->att[i] = shade__keep(a->att[i], inside);
         any |= inside;
@@ -1921,35 +1921,30 @@ SHADE__INLINE uint32_t shade__cone(const shade__lamp *SHADE_RESTRICT lamp, const
 /* First half of a power: x becomes n (-log2 x). */
 SHADE__INLINE void shade__log_row(float exponent, const int n, float *SHADE_RESTRICT x)
 {
-    uint32_t zero = shade__mask(exponent > 0);
-    SHADE__FOR(i, n) { x[i] = shade__power_log(x[i], exponent, zero); }
+    const float most = shade__minf(exponent, FLT_MAX);
+    const uint32_t zero = shade__mask(exponent > 0);
+    SHADE__FOR(i, n) { x[i] = shade__power_log(x[i], most, zero); }
 }
 /* Second half for the cone: att times (L.S)^e. */
 SHADE__INLINE void shade__gather_beam(const int n, shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) { a->att[i] *= shade__exp2_neg(a->cosine[i]); }
 }
-/* L and att of one lamp.  Returns zero if no lane is inside its cone. */
-SHADE__INLINE uint32_t shade__arrive(const shade__lamp *lamp, const shade__v3 *P, const int n,
-                                     shade__arrival *a)
+/* L and att of one lamp. */
+SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3 *P, const int n,
+                                        shade__arrival *a)
 {
     uint32_t any = shade__mask(1);
     if (lamp->infinite) shade__directional(lamp, n, a);
     else shade__point(lamp, P, n, a);
     if (lamp->spot) any = shade__cone(lamp, n, a);
-    if (any && lamp->spot && lamp->exponent > 0) {
-        shade__log_row(lamp->exponent, n, a->cosine);
+    if (lamp->spot && any && lamp->light->spot_exponent > 0) {
+        shade__log_row(lamp->light->spot_exponent, n, a->cosine);
         shade__gather_beam(n, a);
     }
-    return any;
+    a->any = any;
 }
-
-SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3 *P, const int n,
-                                        shade__arrival *a)
-{
-    shade__arrive(lamp, P, n, a);
-}
-SHADE__DISPATCH_AVX2(shade__light_at,
+SHADE__DISPATCH(shade__light_at,
                      (const shade__lamp *lamp, const shade__v3 *P, int n, shade__arrival *a),
                      (lamp, P, SHADE__LANES_OF(n), a))
 
@@ -2180,16 +2175,16 @@ SHADE__INLINE void shade__hide(const float *SHADE_RESTRICT visibility, const int
 }
 
 /* Adds one lamp to rgb, but its unattenuated ambient light.  visibility: its row, or NULL. */
-SHADE__INLINE void shade__add_lamp(const shade__job *j, int k, const float *visibility,
-                                   const int n, shade__rows *r, shade__v3 *rgb)
+SHADE__INLINE void shade__add_lamp(const shade__job *j, shade__light_at_fn *light_at, int k,
+                                   const float *visibility, const int n, shade__rows *r,
+                                   shade__v3 *rgb)
 {
-    const shade_light *lights = j->lighting->lights;
     shade__lamp lamp;
     uint32_t any;
     if (j->tone) shade__tone_of(j, &lamp);
-    else if (!shade__lamp_of(&lights[k], j, &lamp)) return;
-    any = shade__arrive(&lamp, j->P, n, &r->a);
-    any &= shade__horizon(j->N, n, r);
+    else if (!shade__lamp_of(&j->lighting->lights[k], j, &lamp)) return;
+    light_at(&lamp, j->P, n, &r->a);
+    any = r->a.any & shade__horizon(j->N, n, r);
     if (j->tone) shade__warmth(n, r);
     if (lamp.ramp) {
         if (!SHADE__TWICE || j->albedo) shade__ramp(&lamp, j->albedo, n, r, rgb);
@@ -2199,8 +2194,8 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, int k, const float *visi
     if (lamp.gloss) {
         if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(j->P, j->N, j->eye, n, r);
         else if (shade__half(j->P, j->N, j->eye, j->open, n, r))
-            shade__half_near(lights[k].position, j->P, j->N, j->eye, n, r);
-        shade__log_row(shade__minf(j->m->shininess, FLT_MAX), n, r->a.L.x);
+            shade__half_near(lamp.light->position, j->P, j->N, j->eye, n, r);
+        shade__log_row(j->m->shininess, n, r->a.L.x);
         shade__gloss(j->open, j->weighted, n, r);
     } else SHADE__ZERO(r->a.L.x);
     if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.att);
@@ -2208,8 +2203,8 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, int k, const float *visi
     else shade__combine(&lamp, j->absolute, NULL, n, r, rgb);
 }
 
-SHADE__INLINE void shade__lit_body(const shade__job *j, const float *visibility, const int n,
-                                   shade__v3 *rgb)
+SHADE__INLINE void shade__lit_body(const shade__job *j, shade__light_at_fn *light_at,
+                                   const float *visibility, const int n, shade__v3 *rgb)
 {
     const shade__v3 *albedo = shade__is_zero(j->ambient) ? NULL : j->albedo;
     const int lamps = j->tone ? 1 : j->lamps;
@@ -2217,11 +2212,12 @@ SHADE__INLINE void shade__lit_body(const shade__job *j, const float *visibility,
     shade__viewer(j->P, j->N, j->eye, j->flip, n, &r);
     if (!SHADE__TWICE || albedo) shade__begin_light(j->emission, j->ambient, albedo, n, rgb);
     else shade__begin_light(j->emission, j->ambient, NULL, n, rgb);
-    for (int k = 0; k < lamps; k++) shade__add_lamp(j, k, visibility, n, &r, rgb);
+    for (int k = 0; k < lamps; k++) shade__add_lamp(j, light_at, k, visibility, n, &r, rgb);
 }
 SHADE__DISPATCH(shade__lit,
-                (const shade__job *j, const float *visibility, int n, shade__v3 *rgb),
-                (j, visibility, SHADE__LANES_OF(n), rgb))
+                (const shade__job *j, shade__light_at_fn *light_at, const float *visibility, int n,
+                 shade__v3 *rgb),
+                (j, light_at, visibility, SHADE__LANES_OF(n), rgb))
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const float *P, const float *N, const float *albedo,
                               const float *visibility, float *rgb)
@@ -2233,7 +2229,8 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
     }
     shade__begin_job(lighting, material, eye, shade__rows_of(P), shade__rows_of(N),
                      shade__rows_of(albedo), &j);
-    shade__lit_pick()(&j, visibility, SHADE_LANES, (shade__v3 *)(void *)rgb);
+    shade__lit_pick()(&j, shade__light_at_pick(), visibility, SHADE_LANES,
+                      (shade__v3 *)(void *)rgb);
 }
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 P, shade_vec3 N)
@@ -2244,7 +2241,7 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
     shade__fill_point(P, &p);
     shade__fill_point(N, &n);
     shade__begin_job(lighting, material, eye, &p, &n, NULL, &j);
-    shade__lit_any(&j, NULL, SHADE__POINT, &rgb);
+    shade__lit_any(&j, shade__light_at_any, NULL, SHADE__POINT, &rgb);
     return shade__at(&rgb, 0);
 }
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
