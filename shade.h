@@ -1640,16 +1640,22 @@ SHADE__INLINE float shade__mirror_cosine(shade_vec3 N, shade_vec3 L, shade_vec3 
 SHADE__INLINE float shade__saturate(float x) { return shade__clamp_bits(x, 0, 1); }
 
 SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L) { return shade__maxf(shade_dot(N, L), 0); }
+/* (R.V)^n or (N.H)^n, ungated. */
+static SHADE__NOINLINE float shade__highlight(int phong, shade_vec3 N, shade_vec3 L, shade_vec3 V,
+                                              float n)
+{
+    shade_vec3 H;
+    if (phong) return shade_power(shade__mirror_cosine(N, L, V), n);
+    H = shade_halfway(L, V);
+    return shade__is_zero(H) ? 0 : shade_power(shade_dot(N, H), n);
+}
 SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
 {
-    if (!(shade_dot(N, L) > 0)) return 0;
-    return shade_power(shade__mirror_cosine(N, L, V), n);
+    return shade_dot(N, L) > 0 ? shade__highlight(1, N, L, V, n) : 0;
 }
 SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
 {
-    shade_vec3 H = shade_halfway(L, V);
-    if (!(shade_dot(N, L) > 0) || shade__is_zero(H)) return 0;
-    return shade_power(shade__saturate(shade_dot(N, H)), n);
+    return shade_dot(N, L) > 0 ? shade__highlight(0, N, L, V, n) : 0;
 }
 SHADEDEF float shade_attenuation(float a, float b, float c, float r)
 {
@@ -1659,7 +1665,7 @@ SHADEDEF float shade_attenuation(float a, float b, float c, float r)
 }
 SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float exponent)
 {
-    shade_vec3 S = shade_neg(shade_normalize(aim));
+    shade_vec3 S = shade_neg(shade__unit_vector(aim));
     float cosine = shade_dot(L, S);
     if (shade__is_zero(S)) return 1;
     return cosine >= cos_cutoff ? shade_power(cosine, exponent) : 0;
@@ -1667,16 +1673,11 @@ SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float 
 SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model,
                                shade_vec3 N, shade_vec3 L, shade_vec3 V)
 {
-    float s = 0;
-    shade_material white = shade_preset_material(SHADE_PRESET_COUNT);
-    if (!material) material = &white;
-    if (model != SHADE_MODEL_BLINN_PHONG && model != SHADE_MODEL_PHONG)
-        return model == SHADE_MODEL_LAMBERT ? material->diffuse : shade_v3(0, 0, 0);
-    if (model == SHADE_MODEL_PHONG) s = shade_power(shade__mirror_cosine(N, L, V),
-                                              material->shininess);
-    else if (!shade__is_zero(shade_halfway(L, V)))
-        s = shade_power(shade_dot(N, shade_halfway(L, V)), material->shininess);
-    return shade_madd(material->diffuse, s, material->specular);
+    const int phong = model == SHADE_MODEL_PHONG;
+    shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
+    if (phong || model == SHADE_MODEL_BLINN_PHONG)
+        return shade_madd(m.diffuse, shade__highlight(phong, N, L, V, m.shininess), m.specular);
+    return model == SHADE_MODEL_LAMBERT ? m.diffuse : shade_v3(0, 0, 0);
 }
 SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool, shade_vec3 warm)
 {
