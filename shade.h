@@ -1686,66 +1686,67 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 co
 SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exponent; }
 
 /* One row of the table: name; k_a, k_d, k_s, shininess / 128. [Kilgard94] */
-typedef struct shade__preset_row { const char *name; float k[10]; } shade__preset_row;
-static shade__preset_row shade__preset(int preset)
+typedef struct shade__preset_row {
+    const char *name;
+    float ar, ag, ab, dr, dg, db, sr, sg, sb, shininess;
+} shade__preset_row;
+static const shade__preset_row *shade__preset(int preset)
 {
     static const shade__preset_row table[SHADE_PRESET_COUNT + 1] = {
-        { "emerald", { 0.0215f, 0.1745f, 0.0215f, 0.07568f, 0.61424f, 0.07568f,
-            0.633f, 0.727811f, 0.633f, 0.6f } },
-        { "jade", { 0.135f, 0.2225f, 0.1575f, 0.54f, 0.89f, 0.63f,
-            0.316228f, 0.316228f, 0.316228f, 0.1f } },
-        { "obsidian", { 0.05375f, 0.05f, 0.06625f, 0.18275f, 0.17f, 0.22525f,
-            0.332741f, 0.328634f, 0.346435f, 0.3f } },
-        { "pearl", { 0.25f, 0.20725f, 0.20725f, 1, 0.829f, 0.829f,
-            0.296648f, 0.296648f, 0.296648f, 0.088f } },
-        { "ruby", { 0.1745f, 0.01175f, 0.01175f, 0.61424f, 0.04136f, 0.04136f,
-            0.727811f, 0.626959f, 0.626959f, 0.6f } },
-        { "turquoise", { 0.1f, 0.18725f, 0.1745f, 0.396f, 0.74151f, 0.69102f,
-            0.297254f, 0.30829f, 0.306678f, 0.1f } },
-        { "brass", { 0.329412f, 0.223529f, 0.027451f, 0.780392f, 0.568627f, 0.113725f,
-            0.992157f, 0.941176f, 0.807843f, 0.21794872f } },
-        { "bronze", { 0.2125f, 0.1275f, 0.054f, 0.714f, 0.4284f, 0.18144f,
-            0.393548f, 0.271906f, 0.166721f, 0.2f } },
-        { "chrome", { 0.25f, 0.25f, 0.25f, 0.4f, 0.4f, 0.4f,
-            0.774597f, 0.774597f, 0.774597f, 0.6f } },
-        { "copper", { 0.19125f, 0.0735f, 0.0225f, 0.7038f, 0.27048f, 0.0828f,
-            0.256777f, 0.137622f, 0.086014f, 0.1f } },
-        { "gold", { 0.24725f, 0.1995f, 0.0745f, 0.75164f, 0.60648f, 0.22648f,
-            0.628281f, 0.555802f, 0.366065f, 0.4f } },
-        { "silver", { 0.19225f, 0.19225f, 0.19225f, 0.50754f, 0.50754f, 0.50754f,
-            0.508273f, 0.508273f, 0.508273f, 0.4f } },
-        { "black plastic", { 0, 0, 0, 0.01f, 0.01f, 0.01f, 0.5f, 0.5f, 0.5f, 0.25f } },
-        { "cyan plastic", { 0, 0.1f, 0.06f, 0, 0.50980392f, 0.50980392f,
-            0.50196078f, 0.50196078f, 0.50196078f, 0.25f } },
-        { "green plastic", { 0, 0, 0, 0.1f, 0.35f, 0.1f, 0.45f, 0.55f, 0.45f, 0.25f } },
-        { "red plastic", { 0, 0, 0, 0.5f, 0, 0, 0.7f, 0.6f, 0.6f, 0.25f } },
-        { "white plastic", { 0, 0, 0, 0.55f, 0.55f, 0.55f, 0.7f, 0.7f, 0.7f, 0.25f } },
-        { "yellow plastic", { 0, 0, 0, 0.5f, 0.5f, 0, 0.6f, 0.6f, 0.5f, 0.25f } },
-        { "black rubber", { 0.02f, 0.02f, 0.02f, 0.01f, 0.01f, 0.01f,
-            0.4f, 0.4f, 0.4f, 0.078125f } },
-        { "cyan rubber", { 0, 0.05f, 0.05f, 0.4f, 0.5f, 0.5f, 0.04f, 0.7f, 0.7f, 0.078125f } },
-        { "green rubber", { 0, 0.05f, 0, 0.4f, 0.5f, 0.4f, 0.04f, 0.7f, 0.04f, 0.078125f } },
-        { "red rubber", { 0.05f, 0, 0, 0.5f, 0.4f, 0.4f, 0.7f, 0.04f, 0.04f, 0.078125f } },
-        { "white rubber", { 0.05f, 0.05f, 0.05f, 0.5f, 0.5f, 0.5f, 0.7f, 0.7f, 0.7f, 0.078125f } },
-        { "yellow rubber", { 0.05f, 0.05f, 0, 0.5f, 0.5f, 0.4f, 0.7f, 0.7f, 0.04f, 0.078125f } },
-        { "", { 1, 1, 1, 1, 1, 1, 0, 0, 0, 0 } }    /* white Lambert */
+        { "emerald", 0.0215f, 0.1745f, 0.0215f, 0.07568f, 0.61424f, 0.07568f,
+            0.633f, 0.727811f, 0.633f, 0.6f },
+        { "jade", 0.135f, 0.2225f, 0.1575f, 0.54f, 0.89f, 0.63f,
+            0.316228f, 0.316228f, 0.316228f, 0.1f },
+        { "obsidian", 0.05375f, 0.05f, 0.06625f, 0.18275f, 0.17f, 0.22525f,
+            0.332741f, 0.328634f, 0.346435f, 0.3f },
+        { "pearl", 0.25f, 0.20725f, 0.20725f, 1, 0.829f, 0.829f,
+            0.296648f, 0.296648f, 0.296648f, 0.088f },
+        { "ruby", 0.1745f, 0.01175f, 0.01175f, 0.61424f, 0.04136f, 0.04136f,
+            0.727811f, 0.626959f, 0.626959f, 0.6f },
+        { "turquoise", 0.1f, 0.18725f, 0.1745f, 0.396f, 0.74151f, 0.69102f,
+            0.297254f, 0.30829f, 0.306678f, 0.1f },
+        { "brass", 0.329412f, 0.223529f, 0.027451f, 0.780392f, 0.568627f, 0.113725f,
+            0.992157f, 0.941176f, 0.807843f, 0.21794872f },
+        { "bronze", 0.2125f, 0.1275f, 0.054f, 0.714f, 0.4284f, 0.18144f,
+            0.393548f, 0.271906f, 0.166721f, 0.2f },
+        { "chrome", 0.25f, 0.25f, 0.25f, 0.4f, 0.4f, 0.4f, 0.774597f, 0.774597f, 0.774597f, 0.6f },
+        { "copper", 0.19125f, 0.0735f, 0.0225f, 0.7038f, 0.27048f, 0.0828f,
+            0.256777f, 0.137622f, 0.086014f, 0.1f },
+        { "gold", 0.24725f, 0.1995f, 0.0745f, 0.75164f, 0.60648f, 0.22648f,
+            0.628281f, 0.555802f, 0.366065f, 0.4f },
+        { "silver", 0.19225f, 0.19225f, 0.19225f, 0.50754f, 0.50754f, 0.50754f,
+            0.508273f, 0.508273f, 0.508273f, 0.4f },
+        { "black plastic", 0, 0, 0, 0.01f, 0.01f, 0.01f, 0.5f, 0.5f, 0.5f, 0.25f },
+        { "cyan plastic", 0, 0.1f, 0.06f, 0, 0.50980392f, 0.50980392f,
+            0.50196078f, 0.50196078f, 0.50196078f, 0.25f },
+        { "green plastic", 0, 0, 0, 0.1f, 0.35f, 0.1f, 0.45f, 0.55f, 0.45f, 0.25f },
+        { "red plastic", 0, 0, 0, 0.5f, 0, 0, 0.7f, 0.6f, 0.6f, 0.25f },
+        { "white plastic", 0, 0, 0, 0.55f, 0.55f, 0.55f, 0.7f, 0.7f, 0.7f, 0.25f },
+        { "yellow plastic", 0, 0, 0, 0.5f, 0.5f, 0, 0.6f, 0.6f, 0.5f, 0.25f },
+        { "black rubber", 0.02f, 0.02f, 0.02f, 0.01f, 0.01f, 0.01f, 0.4f, 0.4f, 0.4f, 0.078125f },
+        { "cyan rubber", 0, 0.05f, 0.05f, 0.4f, 0.5f, 0.5f, 0.04f, 0.7f, 0.7f, 0.078125f },
+        { "green rubber", 0, 0.05f, 0, 0.4f, 0.5f, 0.4f, 0.04f, 0.7f, 0.04f, 0.078125f },
+        { "red rubber", 0.05f, 0, 0, 0.5f, 0.4f, 0.4f, 0.7f, 0.04f, 0.04f, 0.078125f },
+        { "white rubber", 0.05f, 0.05f, 0.05f, 0.5f, 0.5f, 0.5f, 0.7f, 0.7f, 0.7f, 0.078125f },
+        { "yellow rubber", 0.05f, 0.05f, 0, 0.5f, 0.5f, 0.4f, 0.7f, 0.7f, 0.04f, 0.078125f },
+        { "", 1, 1, 1, 1, 1, 1, 0, 0, 0, 0 }    /* white Lambert */
     };
-    return table[preset < 0 || preset > SHADE_PRESET_COUNT ? (int)SHADE_PRESET_COUNT : preset];
+    return &table[preset < 0 || preset > SHADE_PRESET_COUNT ? (int)SHADE_PRESET_COUNT : preset];
 }
 SHADEDEF shade_material shade_preset_material(shade_preset preset)
 {
-    shade__preset_row row = shade__preset((int)preset);
+    const shade__preset_row *row = shade__preset((int)preset);
     shade_material m;
     m.emission = shade_v3(0, 0, 0);
-    m.ambient = shade_v3(row.k[0], row.k[1], row.k[2]);
-    m.diffuse = shade_v3(row.k[3], row.k[4], row.k[5]);
-    m.specular = shade_v3(row.k[6], row.k[7], row.k[8]);
-    m.shininess = row.k[9] * 128;
+    m.ambient = shade_v3(row->ar, row->ag, row->ab);
+    m.diffuse = shade_v3(row->dr, row->dg, row->db);
+    m.specular = shade_v3(row->sr, row->sg, row->sb);
+    m.shininess = row->shininess * 128;
     return m;
 }
 SHADEDEF const char *shade_preset_name(shade_preset preset)
 {
-    return shade__preset((int)preset).name;
+    return shade__preset((int)preset)->name;
 }
 
 /* What a packet is lit by, and where it is: defaults filled in, terms that are off set to zero. */
