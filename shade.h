@@ -1519,11 +1519,16 @@ static size_t shade__pixel_bytes(shade_format format)
 /* the two bytes of u < 2^16 exchanged */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return u >> 8 | (u & 255) << 8; }
 
-/* where channel k (R, G, B, A) of a pixel of 4 bytes lies in a native uint32 */
+/* which of the 4 bytes of a pixel is channel k: R, G, B, A */
+SHADE__INLINE int shade__channel_byte(shade_format format, int k)
+{
+    return format == SHADE_FORMAT_BGRA8 && k < 3 ? 2 - k : k;
+}
+/* where it lies in a native uint32 */
 SHADE__INLINE int shade__channel_shift(shade_format format, int k)
 {
     const uint32_t one = 1;
-    const int byte = format == SHADE_FORMAT_BGRA8 && k < 3 ? 2 - k : k;
+    const int byte = shade__channel_byte(format, k);
     uint8_t first;
     SHADE_MEMCPY(&first, &one, 1);
     return first ? 8 * byte : 24 - 8 * byte;
@@ -1543,11 +1548,7 @@ SHADE__INLINE void shade__store_pixel(shade_format format, uint8_t *p, uint32_t 
 SHADE__INLINE void shade__unpack_pixel(shade_format format, const uint8_t *p, uint32_t *c)
 {
     if (shade__pixel_bytes(format) == 4) {
-        const int bgra = format == SHADE_FORMAT_BGRA8;
-        c[0] = p[bgra ? 2 : 0];
-        c[1] = p[1];
-        c[2] = p[bgra ? 0 : 2];
-        c[3] = p[3];
+        for (int k = 0; k < 4; k++) c[k] = p[shade__channel_byte(format, k)];
     } else {
         uint16_t native;
         uint32_t u;
@@ -2078,16 +2079,15 @@ static SHADE__NOINLINE void shade__half_near(const shade_vec4 at, const shade__v
                                              shade__rows *r)
 {
     const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)eye.w;
-    double lamp[3], from[3];
-    shade__double3(shade__xyz(at), lamp);
-    shade__double3(shade__xyz(eye), from);
+    const float *lamp = (const float *)&at, *from = (const float *)&eye;
     for (int i = 0; i < n; i++) {
-        double p[3], m[3], l[3], v[3], h2, nh;
-        shade__double3(shade__at(P, i), p);
-        shade__double3(shade__at(N, i), m);
+        double m[3], l[3], v[3], h2, nh;
         for (int j = 0; j < 3; j++) {
-            l[j] = lamp[j] / w - k * p[j];
-            v[j] = from[j] - s * p[j];
+            const int lane = j * SHADE_LANES + i;
+            const double p = (double)((const float *)P)[lane];
+            m[j] = (double)((const float *)N)[lane];
+            l[j] = (double)lamp[j] / w - k * p;
+            v[j] = (double)from[j] - s * p;
         }
         shade__unit3(l);
         shade__unit3(v);
@@ -2250,13 +2250,12 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
                                     shade_vec3 eye, shade_vec3 P, shade_vec3 N)
 {
     shade_terms t;
-    shade_vec3 *term[4] = { &t.emission, &t.ambient, &t.diffuse, &t.specular };
     SHADE__ZERO(t);
     for (unsigned k = 0; k < 4 && lighting; k++) {
         shade_lighting one = *lighting;
         one.terms = 1u << k;
         if (!lighting->terms || (lighting->terms & one.terms))
-            *term[k] = shade_lit(&one, material, eye, P, N);
+            ((shade_vec3 *)&t)[k] = shade_lit(&one, material, eye, P, N);
     }
     return t;
 }
