@@ -1566,18 +1566,15 @@ SHADE__INLINE uint32_t shade__channel_full(shade_format format, int k)
     if (shade__pixel_bytes(format) == 4) return 255;
     return k == 3 ? 1 : k == 1 ? 63 : 31;
 }
-/* The stored pixel at p as linear RGBA. */
-static void shade__fetch(const shade_target *t, const uint8_t *p, float *rgba)
+/* The stored pixel at p as four floats, stride apart, sRGB as it is. */
+static void shade__fetch(shade_format format, const uint8_t *p, float *rgba, int stride)
 {
-    uint32_t c[4];
-    if (t->format == SHADE_FORMAT_RGBA32F) {
-        SHADE_MEMCPY(rgba, p, 16);
-        return;
-    }
-    shade__unpack_pixel(t->format, p, c);
+    uint32_t c[4] = { 0 };
+    if (format != SHADE_FORMAT_RGBA32F) shade__unpack_pixel(format, p, c);
     for (int k = 0; k < 4; k++) {
-        rgba[k] = (float)(int32_t)c[k] / (float)(int32_t)shade__channel_full(t->format, k);
-        if (t->srgb && k < 3) rgba[k] = shade__decode(rgba[k]);
+        const int32_t full = (int32_t)shade__channel_full(format, k);
+        if (format == SHADE_FORMAT_RGBA32F) SHADE_MEMCPY(rgba + k * stride, p + 4 * k, 4);
+        else rgba[k * stride] = (float)(int32_t)c[k] / (float)full;
     }
 }
 SHADE__INLINE int shade__rows_held(const shade_target *t)
@@ -4052,6 +4049,18 @@ SHADE__DISPATCH(shade__pack,
                  uint32_t *packed, int blocks),
                 (t, rgba, stride, x, y, packed, blocks))
 
+/* Rows of a block from sRGB, as they were stored, to linear light. */
+SHADE__INLINE void shade__linear_row(float *SHADE_RESTRICT c)
+{
+    SHADE__FOR(i, SHADE__BLOCK) { c[i] = shade__srgb_decode(c[i]); }
+}
+SHADE__INLINE void shade__linear_body(const shade_target *t, float *rgba)
+{
+    for (int k = 0; k < 3 && t->srgb && t->format != SHADE_FORMAT_RGBA32F; k++)
+        shade__linear_row(rgba + k * SHADE__BLOCK);
+}
+SHADE__DISPATCH_AVX2(shade__linear, (const shade_target *t, float *rgba), (t, rgba))
+
 /* Packs a block of pixels and stores the first n of them at p; x, y of the first are read where the
    target dithers. */
 static void shade__store_block(const shade_target *t, float *rgba, int x, int y, int n, uint8_t *p)
@@ -4141,17 +4150,18 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const flo
     enum { N = SHADE__BLOCK };
     const shade__plan *plan = &d->plan;
     const shade__queue *q = &d->u.queue;
+    shade__linear_fn *linear = shade__linear_pick();
     for (int i = 0, last; i < q->f.count; i = last) {
         int base = shade__min(i, SHADE_LANES - N);
         float stored[4 * N] = { 0 }, out[4 * N];
         uint32_t packed[N] = { 0 };
         for (last = i; last < base + N && last < q->f.count; last++) {
-            float c[4];
             if (q->f.primitive[last] != q->f.primitive[i]) break;
-            shade__fetch(plan->target, plan->color + (size_t)q->offset[last] * plan->pixel_bytes,
-                         c);
-            for (int k = 0; k < 4; k++) stored[N * k + last - base] = c[k];
+            shade__fetch(plan->target->format,
+                         plan->color + (size_t)q->offset[last] * plan->pixel_bytes,
+                         stored + last - base, N);
         }
+        linear(plan->target, stored);
         shade__blend(plan->pipe->raster.blend, rgba + base, stored, out);
         plan->stage.pack(plan->target, out, N, q->f.x + base, q->f.y + base, packed, 1);
         shade__scatter(d, alive, out, N, packed, base, i, last);
@@ -4405,14 +4415,17 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 static void shade__resolve_block(const shade_target *out, const shade_target *in, int factor,
                                  int x, int y, int n)
 {
-    const int area = factor * factor;
-    float rgba[4 * SHADE__BLOCK] = { 0 }, c[4];
-    for (int i = 0; i < n * area; i++) {
-        int p = i / area, column = (x + p) * factor + i % factor;
-        shade__fetch(in, shade__pixel_at(in, column, y * factor + i / factor % factor), c);
-        for (int k = 0; k < 4; k++) rgba[SHADE__BLOCK * k + p] += c[k];
+    enum { N = SHADE__BLOCK };
+    shade__linear_fn *linear = shade__linear_pick();
+    float rgba[4 * N] = { 0 }, c[4 * N] = { 0 };
+    for (int i = 0; i < factor * factor; i++) {
+        for (int p = 0; p < n; p++)
+            shade__fetch(in->format, shade__pixel_at(in, (x + p) * factor + i % factor,
+                                                     y * factor + i / factor), c + p, N);
+        linear(in, c);
+        for (int k = 0; k < 4 * N; k++) rgba[k] += c[k];
     }
-    for (int i = 0; i < 4 * SHADE__BLOCK; i++) rgba[i] /= (float)area;
+    for (int i = 0; i < 4 * N; i++) rgba[i] /= (float)(factor * factor);
     shade__store_block(out, rgba, x, y, n, shade__pixel_at(out, x, y));
 }
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
@@ -4444,14 +4457,18 @@ static void shade__shrink(const shade_target *from, const shade_target *to, int 
                           float *mean)
 {
     double sum[4] = { 0, 0, 0, 0 }, all = 0;
+    const int encoded = from->srgb && from->format != SHADE_FORMAT_RGBA32F;
     const double sx = (double)from->width / to->width, sy = (double)from->height / to->height;
     for (int j = (int)(y * sy); j < from->height && j < (y + 1) * sy; j++)
         for (int i = (int)(x * sx); i < from->width && i < (x + 1) * sx; i++) {
             double share = shade__overlap(i, x * sx, (x + 1) * sx);
             float c[4];
             share *= shade__overlap(j, y * sy, (y + 1) * sy);
-            shade__fetch(from, shade__pixel_at(from, i, j), c);
-            for (int k = 0; k < 4; k++) sum[k] += (double)c[k] * share;
+            shade__fetch(from->format, shade__pixel_at(from, i, j), c, 1);
+            for (int k = 0; k < 4; k++) {
+                if (encoded && k < 3) c[k] = shade__decode(c[k]);
+                sum[k] += (double)c[k] * share;
+            }
             all += share;
         }
     for (int k = 0; k < 4; k++) mean[SHADE__BLOCK * k] = (float)(sum[k] / all);
