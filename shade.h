@@ -1850,7 +1850,8 @@ static SHADE__NOINLINE int shade__lamp_of(const shade_light *light, const shade_
     p->infinite = at.w == 0;
     if (p->infinite) p->at = shade_normalize(p->at);
     else if (at.w != 1) p->at = shade_v3(at.x / at.w, at.y / at.w, at.z / at.w);
-    p->axis = shade_neg(shade_normalize(light->spot_direction));
+    p->axis = light->spot_direction;
+    if (!shade__is_zero(p->axis)) p->axis = shade_neg(shade__unit_vector(p->axis));
     p->spot = !shade__is_zero(p->axis);
     p->a = light->constant;
     p->nearest = p->a == 0 ? 1e-4f : 0.0f;
@@ -1859,7 +1860,7 @@ static SHADE__NOINLINE int shade__lamp_of(const shade_light *light, const shade_
     return 1;
 }
 /* The lamp of a tone: cool + k_w (warm - cool), L toward the first light.             [Gooch98] */
-static SHADE__NOINLINE void shade__tone_of(const shade__job *j, shade__lamp *p)
+static SHADE__COLD void shade__tone_of(const shade__job *j, shade__lamp *p)
 {
     const shade_lighting *l = j->lighting;
     if (j->lamps > 0) shade__lamp_of(l->lights, NULL, p);
@@ -2071,9 +2072,9 @@ static void shade__unit3(double *v)
 }
 /* The lanes where L and V are nearly opposite, again from the positions, in double: their sum keeps
    few digits in float. */
-static SHADE__NOINLINE void shade__half_near(const shade_vec4 at, const shade__v3 *P,
-                                             const shade__v3 *N, shade_vec4 eye, const int n,
-                                             shade__rows *r)
+static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P,
+                                         const shade__v3 *N, shade_vec4 eye, const int n,
+                                         shade__rows *r)
 {
     const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)eye.w;
     const float *lamp = (const float *)&at, *from = (const float *)&eye;
