@@ -3687,8 +3687,8 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
 
 /*---------------------------------------------------------------------------------------- >>texture
-   Texels filtered for blocks of lanes: coordinates and weights in lanes, four fetches a lane,
-   then unpacking and blending in lanes.
+   Texels filtered for blocks of lanes: places and weights of both axes, four fetches a lane, then
+   the blend of each channel, level by level.
      in      rows u, v, lod               out  rows of linear RGBA
      holds   Every index lies in the texture whatever u and v are.  Mipmaps are read level by level,
              each weighted by max(0, 1 - |lod - level|), as trilinear filtering is.    [Williams83]
@@ -3703,11 +3703,8 @@ static int shade__texture_good(const shade_texture *t)
            (unsigned)t->filter <= SHADE_FILTER_TRILINEAR;
 }
 
-/* Lanes filtered at a time: enough of them hide the latency of their fetches (1.2 times faster than
-   8). */
-enum { SHADE__TEXELS = SHADE_LANES < 32 ? SHADE_LANES : 32 };
-
-/* Loops run over blocks, so that a single sample costs one of them. */
+/* Loops run over a whole packet, which hides the latency of its fetches, or over one block, so that
+   a single sample costs no more. */
 enum { SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16 };
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
@@ -3715,9 +3712,9 @@ enum { SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16 };
 
 /* One axis: texel before and after, and the weight of the one after. */
 typedef struct shade__axis {
-    SHADE_ALIGNED int32_t i0[SHADE__TEXELS];
-    int32_t i1[SHADE__TEXELS];
-    float f[SHADE__TEXELS];
+    SHADE_ALIGNED int32_t i0[SHADE_LANES];
+    int32_t i1[SHADE_LANES];
+    float f[SHADE_LANES];
 } shade__axis;
 
 /* floor(x) for |x| < 2^23 */
@@ -3730,172 +3727,173 @@ SHADE__INLINE int32_t shade__floor(float x)
 SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int size,
                                   shade_wrap wrap, int nearest, shade__axis *SHADE_RESTRICT a)
 {
-    const uint32_t clamped = shade__mask(wrap == SHADE_WRAP_CLAMP);
-    const uint32_t mirrored = shade__mask(wrap == SHADE_WRAP_MIRROR);
     const uint32_t smooth = shade__mask(!nearest);
-    const int32_t cyclic = wrap == SHADE_WRAP_REPEAT ? -1 : 0;
-    const int32_t last = size - 1, sharp = ~(int32_t)smooth;
+    const int32_t last = size - 1;
+    /* the texel beyond an end: the other end, or the same */
+    const int32_t before = wrap == SHADE_WRAP_REPEAT ? last : 0;
+    const int32_t after = wrap == SHADE_WRAP_REPEAT ? 0 : last;
     const float n = (float)size, half = nearest ? 0.0f : 0.5f;
     const float period = wrap == SHADE_WRAP_MIRROR ? 0.5f : 1.0f;
+    if (wrap == SHADE_WRAP_CLAMP) {
+        SHADE__EACH_BLOCK(i, blocks) {
+            int32_t bits = (int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu);
+            float x = shade__keep(c[i], shade__mask(bits < 0x7F800000));
+            a->f[i] = shade__clamp_bits(x, 0, 1);
+        }
+    } else {
+        SHADE__EACH_BLOCK(i, blocks) {
+            /* from 2^24 on all floats are even wholes, where a period begins; NaN and infinity join
+               them */
+            int32_t bits = (int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu);
+            uint32_t usable = shade__mask(bits < 0x4B800000);
+            float x = shade__keep(c[i], usable) * period;
+            a->f[i] = x - (float)shade__floor(x);
+        }
+    }
+    if (wrap == SHADE_WRAP_MIRROR) {
+        SHADE__EACH_BLOCK(i, blocks) {
+            float twice = 2 * a->f[i];
+            a->f[i] = shade__select(twice, 2 - twice, shade__mask(twice > 1));
+        }
+    }
     SHADE__EACH_BLOCK(i, blocks) {
-        /* from 2^24 on all floats are even wholes, where a period begins; NaN and infinity join
-           them */
-        int32_t bits = (int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu);
-        uint32_t usable = shade__mask(bits < 0x4B800000), finite = shade__mask(bits < 0x7F800000);
-        float x = shade__keep(c[i], usable) * period, inside = x - (float)shade__floor(x);
-        float twice = 2 * inside, back = shade__select(twice, 2 - twice, shade__mask(twice > 1));
-        inside = shade__select(inside, back, mirrored);
-        inside = shade__select(inside, shade__clamp_bits(shade__keep(c[i], finite), 0, 1), clamped);
+        float inside = a->f[i];
         float s = inside * n - half;
-        int32_t i0 = shade__floor(s), i1 = i0 + 1, below = i0 < 0 ? -1 : 0;
-        int32_t above = i1 > last ? -1 : 0;
+        int32_t i0 = shade__floor(s), i1 = i0 + 1;
         a->f[i] = shade__keep(s - (float)i0, smooth);
         i0 = i0 > last ? last : i0;
-        i0 = (i0 & ~below) | (last & below & cyclic);
-        i1 = (i1 & ~above) | (last & above & ~cyclic);
+        i0 = i0 < 0 ? before : i0;
+        i1 = i1 > last ? after : i1;
         a->i0[i] = i0;
-        a->i1[i] = (i0 & sharp) | (i1 & ~sharp);
+        a->i1[i] = i1;
     }
 }
 
-SHADE__INLINE uint32_t shade__texel(const uint8_t *p, size_t at, size_t step, int bytes)
+/* Texels as native integers, where they lie in words that 32 bits can count: wide processors gather
+   them. */
+SHADE__INLINE void shade__gather_texels(const shade__word *SHADE_RESTRICT p,
+                                        const int32_t *SHADE_RESTRICT x,
+                                        const int32_t *SHADE_RESTRICT y, int32_t pitch, int shift,
+                                        int blocks, uint32_t *SHADE_RESTRICT texel)
 {
-    uint32_t word;
-    uint16_t half;
-    p += at * step;
-    if (bytes == 4) {
-        SHADE_MEMCPY(&word, p, 4);
-        return word;
-    }
-    SHADE_MEMCPY(&half, p, 2);
-    return half;
+    SHADE__EACH_BLOCK(i, blocks) { texel[i] = p[y[i] * pitch + (x[i] << shift)]; }
 }
-/* texel[corner][lane], bytes of each, as native integers; step: from texel to texel */
-SHADE__INLINE void shade__fetch_texels(const uint8_t *p, size_t stride, const shade__axis *x,
-                                       const shade__axis *y, int blocks, size_t step, int bytes,
-                                       uint32_t texel[4][SHADE__TEXELS])
+/* The same of any texture; bit 16 of a texel of 16 bits is its alpha. */
+SHADE__INLINE void shade__fetch_texels(const uint8_t *p, const int32_t *x, const int32_t *y,
+                                       size_t pitch, size_t step, int swapped, int blocks,
+                                       uint32_t *texel)
 {
     for (int i = 0; i < SHADE__BLOCK * blocks; i++) {
-        size_t top = (size_t)y->i0[i] * stride, low = (size_t)y->i1[i] * stride;
-        size_t left = (size_t)x->i0[i], right = (size_t)x->i1[i];
-        texel[0][i] = shade__texel(p, top + left, step, bytes);
-        texel[1][i] = shade__texel(p, top + right, step, bytes);
-        texel[2][i] = shade__texel(p, low + left, step, bytes);
-        texel[3][i] = shade__texel(p, low + right, step, bytes);
+        const uint8_t *from = p + (size_t)y[i] * pitch + (size_t)x[i] * step;
+        uint16_t half;
+        if (step != 2) SHADE_MEMCPY(&texel[i], from, 4);
+        else {
+            SHADE_MEMCPY(&half, from, 2);
+            texel[i] = half;
+        }
+    }
+    if (step == 2) {
+        SHADE__EACH_BLOCK(i, blocks) {
+            uint32_t t = texel[i];
+            texel[i] = (swapped ? shade__swap16(t) : t) | 0x10000;
+        }
     }
 }
-/* One channel of texels: (texel >> shift & mask) / mask, decoded */
-SHADE__INLINE void shade__unpack(const uint32_t *SHADE_RESTRICT texel, int blocks, int shift,
-                                 uint32_t mask, int srgb, float *SHADE_RESTRICT c)
-{
-    const float scale = mask == 255 ? 1 / 255.0f : mask == 63 ? 1 / 63.0f : 1 / 31.0f;
-    SHADE__EACH_BLOCK(i, blocks) { c[i] = (float)(int32_t)(texel[i] >> shift & mask) * scale; }
-    if (srgb) {
-        SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__srgb_decode(c[i]); }
-    }
-}
-/* out += weight times the bilinear blend of c[corner][lane]; texels that have no weight are not
-   touched, so that an infinite one stays where it is */
-SHADE__INLINE void shade__blend_texels(float c[4][SHADE__TEXELS], int blocks,
-                                       const shade__axis *SHADE_RESTRICT x,
+/* The bilinear blend of one channel, (texel >> shift & mask) / mask */
+SHADE__INLINE void shade__blend_packed(uint32_t texel[4][SHADE_LANES], int blocks, int shift,
+                                       uint32_t mask, const shade__axis *SHADE_RESTRICT x,
                                        const shade__axis *SHADE_RESTRICT y,
-                                       const float *SHADE_RESTRICT weight,
                                        float *SHADE_RESTRICT out)
 {
-    const float *SHADE_RESTRICT c0 = c[0], *SHADE_RESTRICT c1 = c[1];
-    const float *SHADE_RESTRICT c2 = c[2], *SHADE_RESTRICT c3 = c[3];
+    const float scale = 1 / (float)(int32_t)mask;
+    const uint32_t *SHADE_RESTRICT t0 = texel[0], *SHADE_RESTRICT t1 = texel[1];
+    const uint32_t *SHADE_RESTRICT t2 = texel[2], *SHADE_RESTRICT t3 = texel[3];
     SHADE__EACH_BLOCK(i, blocks) {
-        uint32_t right = shade__mask(x->f[i] > 0), below = shade__mask(y->f[i] > 0);
-        float top = c0[i] + shade__keep(x->f[i] * (c1[i] - c0[i]), right);
-        float low = c2[i] + shade__keep(x->f[i] * (c3[i] - c2[i]), right);
-        float all = top + shade__keep(y->f[i] * (low - top), below);
-        out[i] += shade__keep(weight[i] * all, shade__mask(weight[i] > 0));
+        float c0 = (float)(int32_t)(t0[i] >> shift & mask) * scale;
+        float c1 = (float)(int32_t)(t1[i] >> shift & mask) * scale;
+        float c2 = (float)(int32_t)(t2[i] >> shift & mask) * scale;
+        float c3 = (float)(int32_t)(t3[i] >> shift & mask) * scale;
+        float top = c0 + x->f[i] * (c1 - c0), low = c2 + x->f[i] * (c3 - c2);
+        out[i] = top + y->f[i] * (low - top);
     }
 }
-/* out (4 rows, stride apart) += weight times one level at u, v; how it wraps and filters comes from
-   the base */
+SHADE__INLINE void shade__decode_texels(const uint32_t *SHADE_RESTRICT texel, int blocks, int shift,
+                                        uint32_t mask, uint32_t *SHADE_RESTRICT c)
+{
+    const float scale = 1 / (float)(int32_t)mask;
+    SHADE__EACH_BLOCK(i, blocks) {
+        float linear = shade__srgb_decode((float)(int32_t)(texel[i] >> shift & mask) * scale);
+        c[i] = shade__float_bits(linear);
+    }
+}
+/* The same of floats by their bits; texels that have no weight are not touched, so that an infinite
+   one stays where it is. */
+SHADE__INLINE void shade__blend_floats(uint32_t bits[4][SHADE_LANES], int blocks,
+                                       const shade__axis *SHADE_RESTRICT x,
+                                       const shade__axis *SHADE_RESTRICT y,
+                                       float *SHADE_RESTRICT out)
+{
+    const uint32_t *SHADE_RESTRICT b0 = bits[0], *SHADE_RESTRICT b1 = bits[1];
+    const uint32_t *SHADE_RESTRICT b2 = bits[2], *SHADE_RESTRICT b3 = bits[3];
+    SHADE__EACH_BLOCK(i, blocks) {
+        uint32_t right = shade__mask(x->f[i] > 0), below = shade__mask(y->f[i] > 0);
+        float c0 = shade__bits_float(b0[i]), c1 = shade__bits_float(b1[i]);
+        float c2 = shade__bits_float(b2[i]), c3 = shade__bits_float(b3[i]);
+        float top = c0 + shade__keep(x->f[i] * (c1 - c0), right);
+        float low = c2 + shade__keep(x->f[i] * (c3 - c2), right);
+        out[i] = top + shade__keep(y->f[i] * (low - top), below);
+    }
+}
+/* out += weight c */
+SHADE__INLINE void shade__add_level(const float *SHADE_RESTRICT c,
+                                    const float *SHADE_RESTRICT weight, int blocks,
+                                    float *SHADE_RESTRICT out)
+{
+    SHADE__EACH_BLOCK(i, blocks) {
+        out[i] += shade__keep(weight[i] * c[i], shade__mask(weight[i] > 0));
+    }
+}
+/* out (4 rows, stride apart) = one level at u, v; with weights, += weight times it.  How it wraps
+   and filters comes from the base. */
 SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_texture *level,
                                        const float *u, const float *v, int blocks,
                                        const float *weight, float *out, int stride)
 {
-    static const uint8_t shift565[4] = { 11, 5, 0, 0 };
-    shade__axis x, y;
-    SHADE_ALIGNED uint32_t texel[4][SHADE__TEXELS];
-    SHADE_ALIGNED float c[4][SHADE__TEXELS];
+    static const uint8_t shift565[4] = { 11, 5, 0, 16 };
+    shade__axis axis[2];
+    SHADE_ALIGNED uint32_t texel[4][SHADE_LANES];
+    SHADE_ALIGNED uint32_t linear[4][SHADE_LANES];
+    SHADE_ALIGNED float blend[SHADE_LANES];
     const uint8_t *p = (const uint8_t *)level->pixels;
-    const size_t pitch = (size_t)(level->stride ? level->stride : level->width);
     const size_t bytes = shade__pixel_bytes(level->format);
-    const int nearest = base->filter == SHADE_FILTER_NEAREST, wide = bytes == 4;
-    const int swapped = level->format == SHADE_FORMAT_RGB565_SWAPPED;
-    shade__address(u, blocks, level->width, base->wrap_u, nearest, &x);
-    shade__address(v, blocks, level->height, base->wrap_v, nearest, &y);
+    const size_t pitch = (size_t)(level->stride ? level->stride : level->width) * bytes;
+    const int floats = bytes == 16, nearest = base->filter == SHADE_FILTER_NEAREST;
+    const int words = SHADE__TWICE && bytes != 2 && (uintptr_t)p % 4 == 0 &&
+                      (uint64_t)pitch * (uint64_t)level->height <= INT32_MAX;
+    for (int k = 0; k < 2; k++)
+        shade__address(k ? v : u, blocks, k ? level->height : level->width,
+                       k ? base->wrap_v : base->wrap_u, nearest, &axis[k]);
     for (int k = 0; k < 4; k++) {
-        int shift = wide ? shade__channel_shift(level->format, k) : shift565[k];
-        int srgb = level->srgb && k < 3;
-        uint32_t mask = shade__channel_full(level->format, k);
-        if (bytes == 16) shade__fetch_texels(p + 4 * k, pitch, &x, &y, blocks, 16, 4, texel);
-        else if (!k && wide) shade__fetch_texels(p, pitch, &x, &y, blocks, 4, 4, texel);
-        else if (!k) shade__fetch_texels(p, pitch, &x, &y, blocks, 2, 2, texel);
-        for (int j = 0; j < 4 && !k && swapped; j++) {
-            for (int i = 0; i < SHADE__BLOCK * blocks; i++)
-                texel[j][i] = shade__swap16(texel[j][i]);
+        const uint32_t mask = shade__channel_full(level->format, k);
+        const int shift = bytes == 4 ? shade__channel_shift(level->format, k) : shift565[k];
+        const int decoded = level->srgb && !floats && k < 3;
+        float *to = weight ? blend : out + k * stride;
+        for (int j = 0; j < 4 && (floats || k == 0); j++) {
+            const int32_t *x = j & 1 ? axis[0].i1 : axis[0].i0;
+            const int32_t *y = j & 2 ? axis[1].i1 : axis[1].i0;
+            if (words)
+                shade__gather_texels((const shade__word *)(const void *)p + k, x, y,
+                                     (int32_t)(pitch / 4), floats ? 2 : 0, blocks, texel[j]);
+            else
+                shade__fetch_texels(p + 4 * k, x, y, pitch, bytes,
+                                    level->format == SHADE_FORMAT_RGB565_SWAPPED, blocks, texel[j]);
         }
-        for (int j = 0; j < 4; j++) {
-            if (bytes == 16) {
-                SHADE_MEMCPY(c[j], texel[j], 4 * SHADE__BLOCK * (size_t)blocks);
-            } else if (!wide && k == 3) {
-                for (int i = 0; i < SHADE__BLOCK * blocks; i++) c[j][i] = 1;
-            } else shade__unpack(texel[j], blocks, shift, mask, srgb, c[j]);
-        }
-        shade__blend_texels(c, blocks, &x, &y, weight, out + k * stride);
-    }
-}
-/* The commonest texture: one level of 8 bits a channel, bilinear, linear, repeated.  Texels are
-   finite and need no guards; with 32-bit indices from one pointer wide processors gather them.
-   1.3 times as fast as the way of all others, whose bits it has. */
-SHADE__INLINE int shade__is_plain_map(const shade_texture *t, int levels)
-{
-    const int64_t pitch = t->stride ? t->stride : t->width;
-    return !levels && shade__pixel_bytes(t->format) == 4 && !t->srgb &&
-           t->filter != SHADE_FILTER_NEAREST && t->wrap_u == SHADE_WRAP_REPEAT &&
-           t->wrap_v == SHADE_WRAP_REPEAT && (uintptr_t)t->pixels % 4 == 0 &&
-           pitch * t->height <= INT32_MAX;
-}
-/* 8 bits of a texel as a number 0 .. 1 */
-SHADE__INLINE float shade__byte(uint32_t texel, int shift)
-{
-    return (float)(int32_t)(texel >> shift & 255) * (1 / 255.0f);
-}
-SHADE__INLINE void shade__gather_texels(const shade__word *SHADE_RESTRICT p,
-                                        const int32_t *SHADE_RESTRICT x,
-                                        const int32_t *SHADE_RESTRICT y, int32_t pitch, int blocks,
-                                        uint32_t *SHADE_RESTRICT texel)
-{
-    SHADE__EACH_BLOCK(i, blocks) { texel[i] = p[y[i] * pitch + x[i]]; }
-}
-SHADE__INLINE void shade__sample_plain(const shade_texture *t, const float *u, const float *v,
-                                       int blocks, float *SHADE_RESTRICT out, int stride)
-{
-    shade__axis x, y;
-    SHADE_ALIGNED uint32_t texel[4][SHADE__TEXELS];
-    const uint32_t *SHADE_RESTRICT t0 = texel[0], *SHADE_RESTRICT t1 = texel[1];
-    const uint32_t *SHADE_RESTRICT t2 = texel[2], *SHADE_RESTRICT t3 = texel[3];
-    const shade__word *p = (const shade__word *)t->pixels;
-    const int32_t pitch = t->stride ? t->stride : t->width;
-    shade__address(u, blocks, t->width, SHADE_WRAP_REPEAT, 0, &x);
-    shade__address(v, blocks, t->height, SHADE_WRAP_REPEAT, 0, &y);
-    shade__gather_texels(p, x.i0, y.i0, pitch, blocks, texel[0]);
-    shade__gather_texels(p, x.i1, y.i0, pitch, blocks, texel[1]);
-    shade__gather_texels(p, x.i0, y.i1, pitch, blocks, texel[2]);
-    shade__gather_texels(p, x.i1, y.i1, pitch, blocks, texel[3]);
-    for (int k = 0; k < 4; k++) {
-        const int shift = shade__channel_shift(t->format, k);
-        SHADE__EACH_BLOCK(i, blocks) {
-            float c0 = shade__byte(t0[i], shift), c1 = shade__byte(t1[i], shift);
-            float c2 = shade__byte(t2[i], shift), c3 = shade__byte(t3[i], shift);
-            float top = c0 + x.f[i] * (c1 - c0), low = c2 + x.f[i] * (c3 - c2);
-            out[k * stride + i] = top + y.f[i] * (low - top);
-        }
+        for (int j = 0; j < 4 && decoded; j++)
+            shade__decode_texels(texel[j], blocks, shift, mask, linear[j]);
+        if (floats || decoded)
+            shade__blend_floats(decoded ? linear : texel, blocks, &axis[0], &axis[1], to);
+        else shade__blend_packed(texel, blocks, shift, mask, &axis[0], &axis[1], to);
+        if (weight) shade__add_level(to, weight, blocks, out + k * stride);
     }
 }
 /* Blocks of lanes of a good texture; out: 4 rows, stride apart. */
@@ -3904,35 +3902,30 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
 {
     int levels = t->filter == SHADE_FILTER_TRILINEAR && t->mipmaps && t->mipmap_count > 0 && lod
                      ? shade__min(t->mipmap_count, 16) : 0;
-    SHADE_ALIGNED float level[SHADE__TEXELS];
-    SHADE_ALIGNED float weight[SHADE__TEXELS];
-    float lowest = levels ? 32.0f : 0.0f, highest = 0;
-    if (SHADE__TWICE && shade__is_plain_map(t, levels)) {
-        shade__sample_plain(t, u, v, blocks, out, stride);
-        return;
+    SHADE_ALIGNED float level[SHADE_LANES];
+    SHADE_ALIGNED float weight[SHADE_LANES];
+    if (levels) {
+        SHADE__EACH_BLOCK(i, blocks) {
+            int32_t bits = (int32_t)(shade__float_bits(lod[i]) & 0x7FFFFFFFu);
+            float finite = shade__keep(lod[i], shade__mask(bits < 0x7F800000));
+            level[i] = shade__clamp_bits(finite, 0, (float)levels);
+        }
+        for (int k = 0; k < 4 * blocks; k++)
+            SHADE_MEMSET(out + k % 4 * stride + k / 4 * SHADE__BLOCK, 0, 4 * SHADE__BLOCK);
     }
-    for (int k = 0; k < 4; k++) {
-        SHADE__EACH_BLOCK(i, blocks) { out[k * stride + i] = 0; }
-    }
-    SHADE__FOR(i, SHADE__TEXELS) {
-        level[i] = 0;
-        weight[i] = 1;
-    }
-    for (int i = 0; levels && i < SHADE__BLOCK * blocks; i++) {
-        if (lod[i] > 0 && lod[i] <= FLT_MAX) level[i] = shade__minf(lod[i], (float)levels);
-        lowest = shade__minf(lowest, level[i]);
-        highest = shade__maxf(highest, level[i]);
-    }
-    for (int k = (int)lowest; k <= shade__min((int)highest + 1, levels); k++) {
+    for (int k = 0; k <= levels; k++) {
         const shade_texture *source = k ? &t->mipmaps[k - 1] : t;
-        int used = !levels;
-        for (int i = 0; levels && i < SHADE__BLOCK * blocks; i++) {
-            float away = level[i] < (float)k ? (float)k - level[i] : level[i] - (float)k;
-            weight[i] = away < 1 ? 1 - away : 0;
-            used |= weight[i] > 0;
+        uint32_t used = !levels;
+        if (levels) {
+            SHADE__EACH_BLOCK(i, blocks) {
+                uint32_t away = shade__float_bits(level[i] - (float)k) & 0x7FFFFFFFu;
+                weight[i] = shade__clamp_bits(1 - shade__bits_float(away), 0, 1);
+                used |= shade__float_bits(weight[i]);
+            }
         }
         if (!shade__texture_good(source)) source = t;
-        if (used) shade__sample_level(t, source, u, v, blocks, weight, out, stride);
+        if (used)
+            shade__sample_level(t, source, u, v, blocks, levels ? weight : NULL, out, stride);
     }
 }
 SHADE__DISPATCH_AVX2(shade__sample,
@@ -3949,9 +3942,7 @@ SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, c
         for (int i = 0; i < 4 * SHADE_LANES; i++) rgba[i] = 1;
         return;
     }
-    for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS)
-        sample(texture, u + i, v + i, lod ? lod + i : lod, (int)SHADE__TEXELS / (int)SHADE__BLOCK,
-               rgba + i, SHADE_LANES);
+    sample(texture, u, v, lod, SHADE_LANES / SHADE__BLOCK, rgba, SHADE_LANES);
 }
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod)
 {
