@@ -5187,14 +5187,14 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
     return ray;
 }
 
-static void shade__cross3(const double *a, const double *b, double *c)
+SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
 {
     c[0] = a[1] * b[2] - a[2] * b[1];
     c[1] = a[2] * b[0] - a[0] * b[2];
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 /* c = a - b */
-static void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
+SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
 {
     double d[3];
     shade__double3(a, c);
