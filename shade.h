@@ -3762,19 +3762,16 @@ SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int
         int32_t i0 = shade__floor(s), i1 = i0 + 1;
         a->f[i] = shade__keep(s - (float)i0, smooth);
         i0 = i0 > last ? last : i0;
-        i0 = i0 < 0 ? before : i0;
-        i1 = i1 > last ? after : i1;
-        a->i0[i] = i0;
-        a->i1[i] = i1;
+        a->i0[i] = i0 < 0 ? before : i0;
+        a->i1[i] = i1 > last ? after : i1;
     }
 }
 
 /* Texels as native integers, where they lie in words that 32 bits can count: wide processors gather
    them. */
-SHADE__INLINE void shade__gather_texels(const shade__word *SHADE_RESTRICT p,
-                                        const int32_t *SHADE_RESTRICT x,
-                                        const int32_t *SHADE_RESTRICT y, int32_t pitch, int shift,
-                                        int blocks, uint32_t *SHADE_RESTRICT texel)
+SHADE__INLINE void shade__gather_texels(const shade__word *p, const int32_t *x, const int32_t *y,
+                                        int32_t pitch, int shift, int blocks,
+                                        uint32_t *SHADE_RESTRICT texel)
 {
     SHADE__EACH_BLOCK(i, blocks) { texel[i] = p[y[i] * pitch + (x[i] << shift)]; }
 }
@@ -3799,54 +3796,51 @@ SHADE__INLINE void shade__fetch_texels(const uint8_t *p, const int32_t *x, const
         }
     }
 }
+SHADE__INLINE float shade__channel(uint32_t texel, int shift, uint32_t mask, float scale)
+{
+    return (float)(int32_t)(texel >> shift & mask) * scale;
+}
 /* The bilinear blend of one channel, (texel >> shift & mask) / mask */
 SHADE__INLINE void shade__blend_packed(uint32_t texel[4][SHADE_LANES], int blocks, int shift,
-                                       uint32_t mask, const shade__axis *SHADE_RESTRICT x,
-                                       const shade__axis *SHADE_RESTRICT y,
+                                       uint32_t mask, const shade__axis *axis,
                                        float *SHADE_RESTRICT out)
 {
     const float scale = 1 / (float)(int32_t)mask;
-    const uint32_t *SHADE_RESTRICT t0 = texel[0], *SHADE_RESTRICT t1 = texel[1];
-    const uint32_t *SHADE_RESTRICT t2 = texel[2], *SHADE_RESTRICT t3 = texel[3];
     SHADE__EACH_BLOCK(i, blocks) {
-        float c0 = (float)(int32_t)(t0[i] >> shift & mask) * scale;
-        float c1 = (float)(int32_t)(t1[i] >> shift & mask) * scale;
-        float c2 = (float)(int32_t)(t2[i] >> shift & mask) * scale;
-        float c3 = (float)(int32_t)(t3[i] >> shift & mask) * scale;
-        float top = c0 + x->f[i] * (c1 - c0), low = c2 + x->f[i] * (c3 - c2);
-        out[i] = top + y->f[i] * (low - top);
+        float x = axis[0].f[i], c0 = shade__channel(texel[0][i], shift, mask, scale);
+        float c1 = shade__channel(texel[1][i], shift, mask, scale);
+        float c2 = shade__channel(texel[2][i], shift, mask, scale);
+        float c3 = shade__channel(texel[3][i], shift, mask, scale);
+        float top = c0 + x * (c1 - c0), low = c2 + x * (c3 - c2);
+        out[i] = top + axis[1].f[i] * (low - top);
     }
 }
-SHADE__INLINE void shade__decode_texels(const uint32_t *SHADE_RESTRICT texel, int blocks, int shift,
-                                        uint32_t mask, uint32_t *SHADE_RESTRICT c)
+SHADE__INLINE void shade__decode_texels(const uint32_t *texel, int blocks, int shift,
+                                        uint32_t mask, uint32_t *SHADE_RESTRICT bits)
 {
     const float scale = 1 / (float)(int32_t)mask;
     SHADE__EACH_BLOCK(i, blocks) {
-        float linear = shade__srgb_decode((float)(int32_t)(texel[i] >> shift & mask) * scale);
-        c[i] = shade__float_bits(linear);
+        float c = shade__channel(texel[i], shift, mask, scale);
+        bits[i] = shade__float_bits(shade__srgb_decode(c));
     }
 }
 /* The same of floats by their bits; texels that have no weight are not touched, so that an infinite
    one stays where it is. */
 SHADE__INLINE void shade__blend_floats(uint32_t bits[4][SHADE_LANES], int blocks,
-                                       const shade__axis *SHADE_RESTRICT x,
-                                       const shade__axis *SHADE_RESTRICT y,
-                                       float *SHADE_RESTRICT out)
+                                       const shade__axis *axis, float *SHADE_RESTRICT out)
 {
-    const uint32_t *SHADE_RESTRICT b0 = bits[0], *SHADE_RESTRICT b1 = bits[1];
-    const uint32_t *SHADE_RESTRICT b2 = bits[2], *SHADE_RESTRICT b3 = bits[3];
     SHADE__EACH_BLOCK(i, blocks) {
-        uint32_t right = shade__mask(x->f[i] > 0), below = shade__mask(y->f[i] > 0);
-        float c0 = shade__bits_float(b0[i]), c1 = shade__bits_float(b1[i]);
-        float c2 = shade__bits_float(b2[i]), c3 = shade__bits_float(b3[i]);
-        float top = c0 + shade__keep(x->f[i] * (c1 - c0), right);
-        float low = c2 + shade__keep(x->f[i] * (c3 - c2), right);
-        out[i] = top + shade__keep(y->f[i] * (low - top), below);
+        float x = axis[0].f[i], y = axis[1].f[i];
+        uint32_t right = shade__mask(x > 0), below = shade__mask(y > 0);
+        float c0 = shade__bits_float(bits[0][i]), c1 = shade__bits_float(bits[1][i]);
+        float c2 = shade__bits_float(bits[2][i]), c3 = shade__bits_float(bits[3][i]);
+        float top = c0 + shade__keep(x * (c1 - c0), right);
+        float low = c2 + shade__keep(x * (c3 - c2), right);
+        out[i] = top + shade__keep(y * (low - top), below);
     }
 }
 /* out += weight c */
-SHADE__INLINE void shade__add_level(const float *SHADE_RESTRICT c,
-                                    const float *SHADE_RESTRICT weight, int blocks,
+SHADE__INLINE void shade__add_level(const float *c, const float *weight, int blocks,
                                     float *SHADE_RESTRICT out)
 {
     SHADE__EACH_BLOCK(i, blocks) {
@@ -3891,8 +3885,8 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
         for (int j = 0; j < 4 && decoded; j++)
             shade__decode_texels(texel[j], blocks, shift, mask, linear[j]);
         if (floats || decoded)
-            shade__blend_floats(decoded ? linear : texel, blocks, &axis[0], &axis[1], to);
-        else shade__blend_packed(texel, blocks, shift, mask, &axis[0], &axis[1], to);
+            shade__blend_floats(decoded ? linear : texel, blocks, axis, to);
+        else shade__blend_packed(texel, blocks, shift, mask, axis, to);
         if (weight) shade__add_level(to, weight, blocks, out + k * stride);
     }
 }
