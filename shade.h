@@ -1278,17 +1278,18 @@ static void shade__minors(const double *a, const double *b, double *m)
     for (int i = 0; i < 3; i++)
         for (int k = i + 1; k < 4; k++) *m++ = a[i] * b[k] - b[i] * a[k];
 }
-static double shade__determinant(const double *s, const double *c)
+/* The entries, the minors of either pair of columns, and the determinant. */
+static double shade__expand(const shade_mat4 *m, double *e, double *s, double *c)
 {
+    shade__doubles(m, e);
+    shade__minors(e, e + 4, s);
+    shade__minors(e + 8, e + 12, c);
     return s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] + s[5] * c[0];
 }
 SHADEDEF float shade_mat4_determinant(shade_mat4 m)
 {
     double e[16], s[6], c[6];
-    shade__doubles(&m, e);
-    shade__minors(e, e + 4, s);
-    shade__minors(e + 8, e + 12, c);
-    return (float)shade__determinant(s, c);
+    return (float)shade__expand(&m, e, s, c);
 }
 static int shade__is_finite(const shade_mat4 *m)
 {
@@ -1312,11 +1313,7 @@ SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     static const uint8_t row[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
     static const uint8_t minor[4][3] = { { 5, 4, 3 }, { 5, 2, 1 }, { 4, 2, 0 }, { 3, 1, 0 } };
-    double e[16], s[6], c[6], det, k;
-    shade__doubles(&m, e);
-    shade__minors(e, e + 4, s);
-    shade__minors(e + 8, e + 12, c);
-    det = shade__determinant(s, c);
+    double e[16], s[6], c[6], det = shade__expand(&m, e, s, c), k;
     if (!(det < 0 || det > 0)) return shade__zero_matrix();
     k = 1 / det;
     for (int j = 0; j < 4; j++) {
@@ -5268,16 +5265,17 @@ static char *shade__decimal(char *p, int n)
 static void shade__row_rgb(const shade_target *t, const uint8_t *p, int n, uint8_t *rgb)
 {
     const size_t bytes = shade__pixel_bytes(t->format);
-    for (int i = 0; i < n; i++, rgb += 3, p += bytes) {
+    for (; n > 0; n--, p += bytes) {
         uint32_t c[4];
         float f[4];
         if (bytes == 16) SHADE_MEMCPY(f, p, 16);
         else shade__unpack_pixel(t->format, p, c);
         for (int k = 0; k < 3; k++) {
             uint32_t full = shade__channel_full(t->format, k);
-            float v = bytes == 16 ? shade__unit(f[k]) : 0;
-            if (bytes != 16) rgb[k] = (uint8_t)((c[k] * 255 + full / 2) / full);
-            else rgb[k] = (uint8_t)((t->srgb ? shade__encode(v) : v) * 255 + 0.5f);
+            if (bytes == 16) {
+                float v = shade__unit(f[k]);
+                *rgb++ = (uint8_t)((t->srgb ? shade__encode(v) : v) * 255 + 0.5f);
+            } else *rgb++ = (uint8_t)((c[k] * 255 + full / 2) / full);
         }
     }
 }
