@@ -3681,7 +3681,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     plan->stage.store(d, &c);
     q->f.count = 0;
 }
-SHADE__DISPATCH(shade__flush, (shade__draw *d), (d))
+SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d))
 
 /*---------------------------------------------------------------------------------------- >>texture
    Texels filtered for blocks of lanes: places and weights of both axes, four fetches a lane, then
@@ -4170,7 +4170,7 @@ SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
         shade__scatter_words(plan->color, q->offset, packed, q->f.count);
     else shade__scatter(d, alive, c->color[0], SHADE_LANES, packed, 0, 0, q->f.count);
 }
-SHADE__DISPATCH(shade__store, (shade__draw *d, shade_colors *c), (d, c))
+SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c))
 
 /*------------------------------------------------------------------------------------------ >>drive
    The public calls: arguments checked before any pixel changes, then batch after batch. >>mesh */
@@ -4640,9 +4640,8 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
 }
 /* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or
    with a map what it multiplies, the rest, u, v. */
-SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
-                                           const shade_vertex_ids *SHADE_RESTRICT in,
-                                           shade_vertices *SHADE_RESTRICT out)
+static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                               shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_shading shading = s->state->shading;
@@ -4663,10 +4662,6 @@ SHADE__INLINE void shade__mesh_vertex_body(const void *uniforms,
                         (float *)out->varying + 3 * SHADE_LANES * k);
     if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
-SHADE__DISPATCH_AVX2(shade__mesh_vertex,
-                (const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
-                 shade_vertices *SHADE_RESTRICT out),
-                (uniforms, in, out))
 
 /* The row of alpha holds the map's, or 1: what is stored, what is cut by it, what ADD is to add. */
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
@@ -4790,7 +4785,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     shade__scene_of(target, mesh, state, &scene);
     if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
     SHADE__ZERO(p);
-    p.vertex = shade__mesh_vertex_pick();
+    p.vertex = shade__mesh_vertex;
     p.may_discard = state->alpha_cutoff > 0;
     p.fragment = shade__mesh_fragment;
     p.uniforms = &scene;
