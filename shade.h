@@ -1897,8 +1897,8 @@ SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
         float d = shade_dot(L, L), rl = shade__rsqrt(d);
         float distance = shade__clamp_bits(d * rl, lamp->nearest, FLT_MAX);
         float den = lamp->a + b * distance + c * (distance * distance);
-        shade__put(&to->L, i, shade_scale(L, rl));
         to->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
+        shade__put(&to->L, i, shade_scale(L, rl));
     }
 }
 /* L.S, and the cone as a mask of the attenuation; returns non-zero if some lane is inside */
