@@ -5182,10 +5182,9 @@ SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
 /* c = a - b */
 SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
 {
-    double d[3];
-    shade__double3(a, c);
-    shade__double3(b, d);
-    for (int i = 0; i < 3; i++) c[i] -= d[i];
+    c[0] = (double)a.x - (double)b.x;
+    c[1] = (double)a.y - (double)b.y;
+    c[2] = (double)a.z - (double)b.z;
 }
 /* e = b - a, f = c - a, n = e x f; 0 if n is zero.  It is for a triangle without area where the
    differences of its floats are exact in double. */
