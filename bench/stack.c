@@ -32,6 +32,7 @@ static long touched(job *j)
     size_t low = 0;
     if (!stack && posix_memalign((void **)(void *)&stack, 4096, STACK_BYTES)) exit(1);
     draw_job(j);    /* binds the functions of shared libraries, which takes stack once */
+    if (j->s) shade_clear(&j->target, j->s->background, 1);    /* all pixels are shaded again */
     memset(stack, PAINT, STACK_BYTES);
     pthread_attr_init(&attributes);
     if (pthread_attr_setstack(&attributes, stack, STACK_BYTES) ||

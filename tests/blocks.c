@@ -96,12 +96,13 @@ static void forgetful_fragment(const void *uniforms, const shade_fragments *SHAD
 TEST(blocks, filled_blocks_are_left_out)
 {
     enum { SIDE = SHADE_LANES / 4, EDGE = 48, WIDTH = 32 * SIDE + 1 + EDGE };
-    enum { HEIGHT = 8 * SIDE + EDGE };
+    enum { TALL = SIDE / 2, HEIGHT = 8 * TALL + EDGE };
     canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
     for (int i = 0; i < 96; i++) {
-        const int most = i % 4 / 2, more = i % 4 == 3, by_columns = i / 4 % 2, reversed = i / 8 % 2;
+        const int most = i % 4 / 2, more = SIDE > 2 && i % 4 == 3;
+        const int by_columns = i / 4 % 2, reversed = i / 8 % 2;
         const int w = most ? 32 * SIDE + more : i % 8 == 1 ? 32 : rnd_int(32, 32 * SIDE);
-        const int h = most ? 8 * SIDE : i % 8 == 1 ? 8 : rnd_int(8, 8 * SIDE);
+        const int h = most ? 8 * TALL : i % 8 == 1 ? 8 : rnd_int(8, 8 * TALL);
         const int x = rnd_int(0, EDGE - 1), y = rnd_int(0, EDGE - 1), size = more ? 16 : 8;
         int columns = w, rows = h, done = 0;
         double cut_x, cut_y, far_x = WIDTH * 256.0, far_y = HEIGHT * 256.0;

@@ -61,8 +61,8 @@ int main(void)
     t.z_high = any_float();
     any_floats(hidden.farthest, SHADE__BLOCKS);
     /*@ loop unroll 80; */
-    for (int across = 1; across <= 512; across = SHADE__BLOCKS / (SHADE__BLOCKS / (across + 1)))
-        prove_next(across, 5, 3);
+    for (int rows = SHADE__BLOCKS; rows > 0; rows = SHADE__BLOCKS / (SHADE__BLOCKS / rows + 1))
+        prove_next(SHADE__BLOCKS / rows, 5, 3);
     for (int h = 4; h <= 14; h++) {
         prove_next(32, shade__max(h, 5), h);
         if (h < 14) prove_next(32, shade__max(h, 5) + 1, h);
