@@ -4147,7 +4147,7 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const flo
             if (q->f.primitive[last] != q->f.primitive[i]) break;
             shade__fetch(plan->target->format,
                          plan->color + (size_t)q->offset[last] * plan->pixel_bytes,
-                         stored + last - base, N);
+                         stored + (last - base), N);
         }
         linear(plan->target, stored);
         shade__blend(plan->pipe->raster.blend, rgba + base, stored, out);
