@@ -941,9 +941,9 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric);
 /* The index of the nearest triangle of a mesh that a world-space ray meets, as shade_intersect
-   does, with the mesh placed by model (zero: identity); of equal ones the first.  -1: none, or a
-   bad mesh; *t and *barycentric are left alone then.  Either may be NULL.  Looks at every
-   triangle. */
+   does, with the mesh placed by model (zero: identity); of equal ones the first.  One whose points
+   lie on a line is not met, however model rounds them.  -1: none, or a bad mesh; *t and
+   *barycentric are left alone then.  Either may be NULL.  Looks at every triangle. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
 

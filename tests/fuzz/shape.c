@@ -193,7 +193,15 @@ static void shape_edges(fuzz_input *in, const shape_mesh *s)
         HOLDS(shape_named(edges, count, a, b, i / 3) == (a != b));
     }
 }
-/* The nearest of the triangles that shade_intersect hits, of equal ones the first. */
+/* Whether a triangle's three points lie on a line: (b - a) x (c - a) = 0 in doubles. */
+static int shape_flat(shade_vec3 a, shade_vec3 b, shade_vec3 c)
+{
+    double ex = (double)b.x - (double)a.x, fx = (double)c.x - (double)a.x;
+    double ey = (double)b.y - (double)a.y, fy = (double)c.y - (double)a.y;
+    double ez = (double)b.z - (double)a.z, fz = (double)c.z - (double)a.z;
+    return ey * fz == ez * fy && ez * fx == ex * fz && ex * fy == ey * fx;
+}
+/* The nearest of the triangles with an area that shade_intersect hits, of equal ones the first. */
 static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
 {
     uint32_t kind = fuzz_byte(in);
@@ -210,6 +218,8 @@ static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
             for (int k = 0; k < 3; k++)
                 p[k] = shade_mat4_transform_point(place, shape_at(s, 3 * i + k));
             if (!shade_intersect(ray, p[0], p[1], p[2], &at, &inside)) continue;
+            if (shape_flat(shape_at(s, 3 * i), shape_at(s, 3 * i + 1), shape_at(s, 3 * i + 2)))
+                continue;    /* rounding may have parted the points as they were turned */
             if (found < 0 || at < nearest) found = i, nearest = at, want = inside;
         }
     }
