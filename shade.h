@@ -1071,7 +1071,7 @@ typedef uint32_t shade__word;
         int level = SHADE__LEVEL; \
         return level == 2 ? name##_avx512 : level == 1 ? name##_avx2 : name##_any; \
     }
-/* for loops that mostly fetch, which AVX-512 made no faster */
+/* for loops that AVX-512 makes no faster */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments) \
     SHADE__DISPATCH_ANY(name, parameters, arguments) \
     SHADE__BUILD(name, avx2, SHADE__AVX2, 8, parameters, arguments) \
@@ -1897,6 +1897,7 @@ SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
         float d = shade_dot(L, L), rl = shade__rsqrt(d);
         float distance = shade__clamp_bits(d * rl, lamp->nearest, FLT_MAX);
         float den = lamp->a + b * distance + c * (distance * distance);
+        /* before the call that returns a vector: what tcc does to den then, see >>config */
         to->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
         shade__put(&to->L, i, shade_scale(L, rl));
     }
@@ -2245,12 +2246,13 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
                                     shade_vec3 eye, shade_vec3 P, shade_vec3 N)
 {
     shade_terms t;
+    shade_vec3 *term[4] = { &t.emission, &t.ambient, &t.diffuse, &t.specular };
     SHADE__ZERO(t);
     for (unsigned k = 0; k < 4 && lighting; k++) {
         shade_lighting one = *lighting;
         one.terms = 1u << k;
         if (!lighting->terms || (lighting->terms & one.terms))
-            ((shade_vec3 *)&t)[k] = shade_lit(&one, material, eye, P, N);
+            *term[k] = shade_lit(&one, material, eye, P, N);
     }
     return t;
 }
@@ -2934,7 +2936,7 @@ static int shade__apex(const shade__polygon *p, int64_t area)
 
 /* Clips, then draws or counts one triangle. */
 static SHADE__COLD void shade__clip_triangle(shade__draw *d, const uint8_t *corner,
-                                                 uint32_t primitive)
+                                             uint32_t primitive)
 {
     const shade__plan *plan = &d->plan;
     const shade_cull cull = plan->pipe->raster.cull;
@@ -3700,8 +3702,7 @@ static int shade__texture_good(const shade_texture *t)
            (unsigned)t->filter <= SHADE_FILTER_TRILINEAR;
 }
 
-/* Loops run over a whole packet, which hides the latency of its fetches, or over one block, so that
-   a single sample costs no more. */
+/* Loops run over blocks, so that a single sample costs one of them. */
 enum { SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16 };
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
@@ -4248,7 +4249,7 @@ static shade__compare shade__compare_of(const shade_raster *r)
     return c;
 }
 static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipeline *p, int own,
-                             shade__plan *plan)
+                                         shade__plan *plan)
 {
     const int perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
     int clip[4];
@@ -4557,8 +4558,7 @@ static SHADE__NOINLINE shade_vec3 shade__face_normal(const shade_mesh *m, uint32
                                                      shade_vec3 *p)
 {
     for (uint32_t k = 0; k < 3; k++) p[k] = shade__corner(m, 3 * triangle + k);
-    return shade__unit_vector(shade_cross(shade__unit_vector(shade_sub(p[1], p[0])),
-                                          shade__unit_vector(shade_sub(p[2], p[0]))));
+    return shade_face_normal(p[0], p[1], p[2]);
 }
 /* The vertex of lane i of a packet. */
 SHADE__INLINE uint32_t shade__vertex_of(const shade__scene *s, const shade_vertex_ids *in, int i)
@@ -4749,7 +4749,7 @@ static shade_mat4 shade__or_identity(shade_mat4 m)
 }
 /* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
 static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_mesh *mesh,
-                                            const shade_draw_state *state, shade__scene *s)
+                                        const shade_draw_state *state, shade__scene *s)
 {
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
     s->mesh = mesh;
