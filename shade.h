@@ -2339,22 +2339,24 @@ typedef struct shade__batch {
 typedef struct shade__incoming {      /* the vertices of a batch until they are placed */
     shade_vertices   vertices;
     shade_vertex_ids ids;
-    uint8_t slot_of[2 * SHADE_LANES]; /* direct-mapped: index -> vertex of the batch */
+    uint32_t known[2 * SHADE_LANES];  /* direct-mapped: an index that is in the batch */
+    uint8_t slot_of[2 * SHADE_LANES]; /* its vertex */
 } shade__incoming;
 
 typedef struct shade__packet {        /* triangles being set up, a lane each */
-    SHADE_ALIGNED double inverse[SHADE__TRIANGLES];    /* 256 over twice the area */
+    SHADE_ALIGNED float side[4][SHADE__TRIANGLES];     /* from corner 0 to 1, to 2, over the area */
     int32_t  x[3][SHADE__TRIANGLES], y[3][SHADE__TRIANGLES];    /* turned by >>triangles */
     float    z[3][SHADE__TRIANGLES];  /* depths; then its plane: at corner 0, step in x, in y */
     float    rw[3][SHADE__TRIANGLES]; /* 1/w; then the range of depth */
     int32_t  e[3][SHADE__TRIANGLES];  /* edge functions at the box's corner, where they fit */
     int32_t  dx[3][SHADE__TRIANGLES], dy[3][SHADE__TRIANGLES];  /* their steps in x and y */
-    int32_t  box[4][SHADE__TRIANGLES];       /* x0, y0, x1, y1, both ends included */
+    int32_t  box[4][SHADE__TRIANGLES];       /* x0, y0, x1, y1, both ends included; or empty */
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* as submitted; the last: what CONSTANT takes */
-    uint8_t  turn[SHADE__TRIANGLES];  /* order of the corners 0 .. 5; from 3 on front-facing */
-    uint8_t  in_32_bits[SHADE__TRIANGLES], visible[SHADE__TRIANGLES];
-    const float *value;               /* values of the vertices that corner speaks of */
+    uint32_t turn[SHADE__TRIANGLES];  /* order of the corners 0 .. 5, from 3 on front-facing; 8
+                                         more where 32 bits hold the edges */
+    const shade__vertex *vertex;      /* what corner speaks of, */
+    const float *value;               /* and its values */
     int      count;
     int      pieces;                  /* of a clipped triangle, which has been counted */
 } shade__packet;
@@ -2519,17 +2521,18 @@ static void shade__take_batch(shade__draw *d, const uint32_t *indices, int first
     const int room = shade__min(SHADE_LANES, (int)SHADE__BATCH_FLOATS / d->plan.value_stride) - 3;
     const int most = shade__min(SHADE__BATCH_TRIANGLES, count - first);
     uint8_t *corner = d->batch.corner;
+    uint32_t at = 3 * (uint32_t)first;
     int n = 0, vertices = 0;
+    SHADE_MEMSET(in->known, 255, sizeof in->known);    /* no index: counts end at 2^31 */
     for (; n < most && vertices <= room; n++) {
-        for (int k = 0; k < 3; k++) {
-            uint32_t at = (uint32_t)(3 * (first + n) + k), index = indices ? indices[at] : at;
-            uint8_t *known = &in->slot_of[index & (2 * SHADE_LANES - 1)];
-            const int old = *known & (SHADE_LANES - 1);    /* the queue lay there before */
-            const int hit = (old < vertices) & (index_of[old] == index);
-            const int slot = vertices + ((old - vertices) & -hit);
+        for (int k = 0; k < 3; k++, at++) {
+            const uint32_t index = indices ? indices[at] : at;
+            const int place = (int)(index & (2 * SHADE_LANES - 1)), hit = in->known[place] == index;
+            const int slot = vertices + ((in->slot_of[place] - vertices) & -hit);
             index_of[vertices] = index;
             vertices += 1 - hit;
-            *known = (uint8_t)slot;
+            in->known[place] = index;
+            in->slot_of[place] = (uint8_t)slot;
             *corner++ = (uint8_t)slot;
         }
     }
@@ -2651,14 +2654,17 @@ SHADE__INLINE void shade__edge(const int32_t *SHADE_RESTRICT px, const int32_t *
         step_y[i] = dx;
     }
 }
-/* The sides from corner 0 to 1 and to 2, over the area: x1, y1, x2, y2. */
-SHADE__INLINE shade_vec4 shade__sides(const shade__packet *p, int i)
+/* The sides from corner 0 to 1 and to 2 over the area, for planes: x1, y1, x2, y2. */
+SHADE__INLINE void shade__sides(shade__packet *SHADE_RESTRICT p,
+                                const double *SHADE_RESTRICT inverse)
 {
-    const double k = p->inverse[i];
-    return shade_v4((float)((p->x[1][i] - p->x[0][i]) * k),
-                    (float)((p->y[1][i] - p->y[0][i]) * k),
-                    (float)((p->x[2][i] - p->x[0][i]) * k),
-                    (float)((p->y[2][i] - p->y[0][i]) * k));
+    SHADE__FOR(i, SHADE__TRIANGLES) {
+        const double k = inverse[i];
+        p->side[0][i] = (float)((p->x[1][i] - p->x[0][i]) * k);
+        p->side[1][i] = (float)((p->y[1][i] - p->y[0][i]) * k);
+        p->side[2][i] = (float)((p->x[2][i] - p->x[0][i]) * k);
+        p->side[3][i] = (float)((p->y[2][i] - p->y[0][i]) * k);
+    }
 }
 /* Depth: its plane, and its range, to which planes are cut, as rounding may leave it at a
    sliver's edge.   post: low, high in [0, 1] */
@@ -2668,7 +2674,6 @@ SHADE__INLINE void shade__depth_plane(const shade__packet *SHADE_RESTRICT p, flo
                                       float *SHADE_RESTRICT high)
 {
     SHADE__FOR(i, SHADE__TRIANGLES) {
-        const shade_vec4 k = shade__sides(p, i);
         float a = z[i], b = z1[i], c = z2[i], d1 = b - a, d2 = c - a;
         float least = shade__select(a, b, shade__mask(b < a));
         float most = shade__select(a, b, shade__mask(b > a));
@@ -2677,8 +2682,8 @@ SHADE__INLINE void shade__depth_plane(const shade__packet *SHADE_RESTRICT p, flo
         low[i] = shade__clamp_bits(least + bias, 0, 1);
         high[i] = shade__clamp_bits(most + bias, 0, 1);
         z[i] = a + bias;
-        z1[i] = d1 * k.w - d2 * k.y;
-        z2[i] = d2 * k.x - d1 * k.z;
+        z1[i] = d1 * p->side[3][i] - d2 * p->side[1][i];
+        z2[i] = d2 * p->side[0][i] - d1 * p->side[2][i];
     }
 }
 /* Whether 32 bits hold the edge functions within 44 pixels of the vertices, where
@@ -2696,19 +2701,63 @@ SHADE__INLINE void shade__sizes(const shade__packet *SHADE_RESTRICT p,
     }
 }
 
-/* Sets up the packet, and has its triangles drawn or counted. */
+/* The corners of the packet's triangles to rows; lanes without a triangle repeat the first. */
+SHADE__INLINE void shade__fetch_corners(shade__packet *SHADE_RESTRICT p, int stride)
+{
+    SHADE_ALIGNED int32_t xy[3][2 * SHADE__TRIANGLES];
+    SHADE_ALIGNED float zw[3][2 * SHADE__TRIANGLES];
+    for (int i = p->count; i < SHADE__TRIANGLES; i++) SHADE_MEMCPY(p->corner[i], p->corner[0], 4);
+    for (int i = 0; i < SHADE__TRIANGLES; i++) {
+        for (int k = 0; k < 3; k++) {
+            const int v = p->corner[i][k];
+            SHADE_MEMCPY(&xy[k][2 * i], &p->vertex[v], 8);
+            SHADE_MEMCPY(&zw[k][2 * i], p->value + v * stride, 8);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        SHADE__FOR(i, SHADE__TRIANGLES) {
+            p->x[k][i] = xy[k][2 * i];
+            p->y[k][i] = xy[k][2 * i + 1];
+        }
+        SHADE__FOR(i, SHADE__TRIANGLES) {
+            p->z[k][i] = zw[k][2 * i];
+            p->rw[k][i] = zw[k][2 * i + 1];
+        }
+    }
+}
+/* Which triangles are culled, where they are counted; the boxes of those that are not drawn are
+   emptied. */
+SHADE__INLINE int shade__cull(shade__packet *SHADE_RESTRICT p, shade_cull cull,
+                              const float *SHADE_RESTRICT area,
+                              const uint32_t *SHADE_RESTRICT mirrored)
+{
+    const uint32_t back = shade__mask(cull == SHADE_CULL_BACK);
+    const uint32_t front = shade__mask(cull == SHADE_CULL_FRONT);
+    const int n = p->count;
+    int culled = 0;
+    SHADE__FOR(i, SHADE__TRIANGLES) {
+        uint32_t gone = shade__mask(area[i] == 0) | (mirrored[i] & front) | (~mirrored[i] & back);
+        gone &= shade__mask(i < n);
+        culled += (int)(gone & 1);
+        p->box[2][i] = (int32_t)((uint32_t)p->box[2][i] | gone);
+    }
+    return culled;
+}
+
+/* Sets up the packet. */
 SHADE__INLINE void shade__setup_body(shade__draw *d)
 {
     shade__packet *p = &d->packet;
     const shade__plan *plan = &d->plan;
-    const shade_cull cull = plan->pipe->raster.cull;
     SHADE_ALIGNED uint32_t one[SHADE__TRIANGLES], two[SHADE__TRIANGLES];
     SHADE_ALIGNED uint32_t mirrored[SHADE__TRIANGLES];
     SHADE_ALIGNED float area[SHADE__TRIANGLES], w[SHADE__TRIANGLES], h[SHADE__TRIANGLES];
+    SHADE_ALIGNED double inverse[SHADE__TRIANGLES];
     SHADE_ALIGNED int32_t fits[SHADE__TRIANGLES];
     void *const rows[3] = { p->x, p->y, p->z };
-    const int n = p->count;
-    shade__areas(p, area, p->inverse);
+    int culled;
+    shade__fetch_corners(p, plan->value_stride);
+    shade__areas(p, area, inverse);
     shade__turns(p, area, one, two, mirrored);
     for (int k = 0; k < 3; k++) shade__turn(shade__words(rows[k]), one, two, mirrored);
     shade__box(p->x[0], p->x[1], p->x[2], plan->x0, plan->x1 - 1, p->box[0], p->box[2], w);
@@ -2719,44 +2768,45 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
         shade__edge(p->x[k], p->y[k], p->x[q], p->y[q], p->box[0], p->box[1], fits, p->e[k],
                     p->dx[k], p->dy[k]);
     }
+    shade__sides(p, inverse);
     shade__depth_plane(p, plan->pipe->raster.depth_bias, p->z[0], p->z[1], p->z[2], p->rw[0],
                        p->rw[1]);
-    for (int i = 0; i < n; i++) {
-        const int back = !mirrored[i], culled = cull == (back ? SHADE_CULL_BACK : SHADE_CULL_FRONT);
-        const int counted = !p->pieces, drawn = !counted || (area[i] != 0 && !culled);
-        d->stats.culled += !drawn;
-        d->stats.drawn += drawn & counted;
-        p->visible[i] = drawn && p->box[0][i] <= p->box[2][i] && p->box[1][i] <= p->box[3][i];
-        p->turn[i] = (uint8_t)((one[i] & 1) + (two[i] & 2) + (mirrored[i] & 3));
-        p->in_32_bits[i] = fits[i] != 0;
+    SHADE__FOR(i, SHADE__TRIANGLES) {
+        p->turn[i] = (one[i] & 1) + (two[i] & 2) + (mirrored[i] & 3) + ((uint32_t)fits[i] & 8);
     }
-    p->count = 0;
-    plan->stage.cover(d, n);
+    if (p->pieces) return;
+    culled = shade__cull(p, plan->pipe->raster.cull, area, mirrored);
+    d->stats.culled += culled;
+    d->stats.drawn += p->count - culled;
 }
 SHADE__DISPATCH_AVX2(shade__setup, (shade__draw *d), (d))
 
-/* Adds a triangle to the packet; corners speak of v, whose values are those of the packet. */
-SHADE__INLINE void shade__add_triangle(shade__packet *p, const shade__vertex *v, int stride,
-                                       const uint8_t *corner, int first, uint32_t primitive)
+/* Sets up the packet, and has its triangles drawn. */
+static void shade__draw_packet(shade__draw *d)
 {
-    const int n = p->count++;
-    for (int k = 0; k < 3; k++) {
-        const float *value = p->value + corner[k] * stride;
-        p->corner[n][k] = corner[k];
-        p->x[k][n] = v[corner[k]].x;
-        p->y[k][n] = v[corner[k]].y;
-        p->z[k][n] = value[0];
-        p->rw[k][n] = value[1];
-    }
-    p->corner[n][3] = (uint8_t)first;
-    p->primitive[n] = primitive;
+    const int n = d->packet.count;
+    if (!n) return;
+    d->plan.stage.setup(d);
+    d->packet.count = 0;
+    d->plan.stage.cover(d, n);
 }
-/* The triangles of a batch: sorted out by where their corners are, packet after packet set up. */
+/* Adds a triangle to the packet; the first corner is what CONSTANT takes. */
+SHADE__INLINE void shade__add_triangle(shade__draw *d, const uint8_t *corner, int first,
+                                       uint32_t primitive)
+{
+    shade__packet *p = &d->packet;
+    uint8_t *to = p->corner[p->count];
+    for (int k = 0; k < 3; k++) to[k] = corner[k];
+    to[3] = (uint8_t)first;
+    p->primitive[p->count++] = primitive;
+    if (p->count == SHADE__TRIANGLES) shade__draw_packet(d);
+}
+/* The triangles of a batch: sorted out by where their corners are, packet after packet drawn. */
 static void shade__triangles(shade__draw *d)
 {
     const shade__batch *b = &d->batch;
     shade__packet *p = &d->packet;
-    const int stride = d->plan.value_stride;
+    p->vertex = b->vertex;
     p->value = b->value;
     p->count = 0;
     p->pieces = 0;
@@ -2779,10 +2829,9 @@ static void shade__triangles(shade__draw *d)
                 continue;
             }
         }
-        shade__add_triangle(p, b->vertex, stride, corner, corner[0], b->primitive + (uint32_t)k);
-        if (p->count == SHADE__TRIANGLES) d->plan.stage.setup(d);
+        shade__add_triangle(d, corner, corner[0], b->primitive + (uint32_t)k);
     }
-    d->plan.stage.setup(d);
+    shade__draw_packet(d);
     d->plan.stage.flush(d);
 }
 
@@ -2958,7 +3007,8 @@ static SHADE__COLD void shade__clip_triangle(shade__draw *d, const uint8_t *corn
         return;
     }
     d->stats.drawn++;
-    plan->stage.setup(d);    /* what was submitted before */
+    shade__draw_packet(d);    /* what was submitted before */
+    packet->vertex = p.vertex;
     packet->value = p.value;
     packet->pieces = 1;
     apex = shade__apex(&p, area);
@@ -2967,10 +3017,10 @@ static SHADE__COLD void shade__clip_triangle(shade__draw *d, const uint8_t *corn
         uint8_t fan[3];
         for (int k = 0; k < 3; k++) fan[k] = p.corner[k ? (apex + i + k - 1) % p.count : apex];
         if (piece == 0 || (piece < 0) != (area < 0)) continue;
-        shade__add_triangle(packet, p.vertex, plan->value_stride, fan, 0, primitive);
-        if (packet->count == SHADE__TRIANGLES) plan->stage.setup(d);
+        shade__add_triangle(d, fan, 0, primitive);
     }
-    plan->stage.setup(d);
+    shade__draw_packet(d);
+    packet->vertex = d->batch.vertex;
     packet->value = d->batch.value;
     packet->pieces = 0;
 }
@@ -3094,7 +3144,7 @@ SHADE__INLINE void shade__triangle_of(const shade__packet *p, int i, shade__tria
         t->dy[k] = p->dy[k][i];
     }
     t->lane = i;
-    t->in_32_bits = p->in_32_bits[i];
+    t->in_32_bits = p->turn[i] > 7;
     t->x_ref = shade__reference(p->x[0][i]);
     t->y_ref = shade__reference(p->y[0][i]);
     t->z = p->z[0][i];
@@ -3105,7 +3155,7 @@ SHADE__INLINE void shade__triangle_of(const shade__packet *p, int i, shade__tria
 }
 
 /* Runs of pixels on their way to the queue, handed over when there are as many as fit. */
-enum { SHADE__RUNS = SHADE__TRIANGLES + 8, SHADE__WINDOW = 32 };
+enum { SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16, SHADE__WINDOW = 32 };
 struct shade__runs { shade__run run[SHADE__RUNS]; int count; };
 
 SHADE__INLINE void shade__send(shade__draw *d, shade__runs *r)
@@ -3430,8 +3480,9 @@ SHADE__INLINE void shade__cover_body(shade__draw *d, int count, const int width)
     runs.count = 0;
     for (int i = 0; i < count; i++) {
         shade__triangle t;
-        if (!p->visible[i]) continue;
-        if (!windows || !p->in_32_bits[i] || p->box[2][i] - p->box[0][i] >= SHADE__WINDOW - 1) {
+        const int across = p->box[2][i] - p->box[0][i], down = p->box[3][i] - p->box[1][i];
+        if ((across | down) < 0) continue;
+        if (!windows || p->turn[i] < 8 || across >= SHADE__WINDOW - 1) {
             d->plan.stage.spans(d, &runs, i);
             continue;
         }
@@ -3460,11 +3511,12 @@ typedef struct shade__planes {
     SHADE_ALIGNED float base[SHADE__VALUES_MAX];
     float    gx[SHADE__VALUES_MAX], gy[SHADE__VALUES_MAX];
     float    x_ref, y_ref;            /* 1/2 - position of corner 0, pixels; exact */
+    float    z;                       /* base of depth, with the bias */
     float    z_low, z_high, rw_low, rw_high;    /* planes are cut to these */
     uint32_t primitive, front;
 } shade__planes;
 
-/* All in one loop; k: shade__sides. */
+/* All in one loop; k: the sides over the area. */
 SHADE__INLINE void shade__slopes(const float *SHADE_RESTRICT v0, const float *SHADE_RESTRICT v1,
                                  const float *SHADE_RESTRICT v2, shade_vec4 k, int stride,
                                  shade__planes *SHADE_RESTRICT t)
@@ -3484,12 +3536,13 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     static const uint8_t order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
                                          { 0, 2, 1 }, { 1, 0, 2 }, { 2, 1, 0 } };
     const int stride = plan->value_stride;
-    const uint8_t *corner = p->corner[i], *turn = order[p->turn[i]];
+    const uint8_t *corner = p->corner[i], *turn = order[p->turn[i] & 7];
     const float *v0 = p->value + corner[turn[0]] * stride;
     const float *v1 = p->value + corner[turn[1]] * stride;
     const float *v2 = p->value + corner[turn[2]] * stride;
-    shade__slopes(v0, v1, v2, shade__sides(p, i), stride, t);
-    t->base[0] = p->z[0][i];    /* with the bias */
+    const shade_vec4 side = shade_v4(p->side[0][i], p->side[1][i], p->side[2][i], p->side[3][i]);
+    shade__slopes(v0, v1, v2, side, stride, t);
+    t->z = p->z[0][i];
     t->z_low = p->rw[0][i];
     t->z_high = p->rw[1][i];
     t->rw_low = v0[1];
@@ -3497,7 +3550,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     t->x_ref = shade__reference(p->x[0][i]);
     t->y_ref = shade__reference(p->y[0][i]);
     t->primitive = p->primitive[i];
-    t->front = p->turn[i] > 2;
+    t->front = (p->turn[i] & 7) > 2;
     if (plan->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
         const float *value = p->value + corner[3] * stride;
         for (int s = SHADE__FIRST; s < plan->divided; s++) {
@@ -3541,11 +3594,12 @@ SHADE__INLINE void shade__append_plane(float value, float step, const float *SHA
     }
 }
 /* Where the pixels are, which shaders of this file do not ask. */
-SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, float z0, int x,
-                                       int y, const float *SHADE_RESTRICT px, int back,
+SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, int x, int y,
+                                       const float *SHADE_RESTRICT px, int back,
                                        shade_fragments *SHADE_RESTRICT f, int c, const int width)
 {
     const float centre = (float)y + 0.5f, z_dx = t->gx[0];
+    const float z0 = t->z + t->gy[0] * ((float)y + t->y_ref);
     SHADE__FOR(i, width) {
         const uint32_t keep = shade__mask(i < back);
         float z = shade__clamp_bits(z0 + z_dx * px[i], t->z_low, t->z_high);
@@ -3580,7 +3634,7 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
         shade__append_plane(row[SHADE__FIRST + k], t->gx[SHADE__FIRST + k], px, back,
                             q->f.varying[k] + c, width);
     if (plan->bare) return;
-    shade__append_place(t, row[0], x, y, px, back, &q->f, c, width);
+    shade__append_place(t, x, y, px, back, &q->f, c, width);
 }
 
 /* Values of the planes at x = x_ref of row y. */
@@ -3599,13 +3653,19 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
 {
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
+    if (SHADE__TWICE && n <= 8 && SHADE_LANES - q->f.count > 8) {
+        const int c = q->f.count;
+        shade__append(d, t, row, x, y, c, 0, 8);
+        if (plan->lod) shade__append_lod(plan, t, row, x, 0, q->rw + c, q->f.lod + c);
+        q->f.count += n;
+        return;
+    }
     while (n > 0) {
         const int room = SHADE_LANES - q->f.count, back = shade__max(0, 8 - room);
         const int from = x - back, c = q->f.count - back;    /* the packet may end in the window */
         const int width = SHADE__TWICE && n > 8 && room >= SHADE__WIDE ? SHADE__WIDE : 8;
         const int take = shade__min(n, width - back);
         if (SHADE__TWICE && width > 8) shade__append(d, t, row, from, y, c, 0, SHADE__WIDE);
-        else if (SHADE__TWICE && !back) shade__append(d, t, row, from, y, c, 0, 8);
         else shade__append(d, t, row, from, y, c, back, 8);
         for (int i = 0; plan->lod && i < width; i += 8)
             shade__append_lod(plan, t, row, from + i, back, q->rw + c + i, q->f.lod + c + i);
