@@ -1093,6 +1093,13 @@ typedef uint32_t shade__word;
 SHADE__INLINE int shade__min(int a, int b) { return a < b ? a : b; }
 SHADE__INLINE int shade__max(int a, int b) { return a > b ? a : b; }
 
+/* 1 << i: shifts that differ per lane do not vectorise on SSE2 */
+static const uint32_t shade__bit[32] = {
+    0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80, 0x100, 0x200, 0x400, 0x800, 0x1000, 0x2000,
+    0x4000, 0x8000, 0x10000, 0x20000, 0x40000, 0x80000, 0x100000, 0x200000, 0x400000, 0x800000,
+    0x1000000, 0x2000000, 0x4000000, 0x8000000, 0x10000000, 0x20000000, 0x40000000, 0x80000000
+};
+
 /* index of the lowest bit set; x != 0 */
 SHADE__INLINE int shade__lowest_bit(uint32_t x)
 {
@@ -2317,7 +2324,7 @@ typedef struct shade__plan {          /* fixed once for the draw, read by every 
     int      varyings;
     int      early, queued;           /* depth is tested by >>cover; fragments go to the queue */
     int      plain;                   /* the early test is LESS, and depth is written */
-    int      bare;                    /* nobody reads where fragments are */
+    int      own, bare;               /* shaders of this file; nobody reads where fragments are */
     int      zero_to_one;
     shade__compare compare;
     float    toward;                  /* 1, -1: greater, less depth is farther; 0: no blocks kept */
@@ -2353,8 +2360,8 @@ typedef struct shade__packet {        /* triangles being set up, a lane each */
     int32_t  box[4][SHADE__TRIANGLES];       /* x0, y0, x1, y1, both ends included; or empty */
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* as submitted; the last: what CONSTANT takes */
-    uint32_t turn[SHADE__TRIANGLES];  /* order of the corners 0 .. 5, from 3 on front-facing; 8
-                                         more where 32 bits hold the edges */
+    uint32_t turn[SHADE__TRIANGLES];  /* order of the corners 0 .. 5; from 3 on front-facing */
+    uint32_t fits;                    /* bit i: 32 bits hold the edges of lane i */
     const shade__vertex *vertex;      /* what corner speaks of, */
     const float *value;               /* and its values */
     int      count;
@@ -2755,6 +2762,7 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
     SHADE_ALIGNED double inverse[SHADE__TRIANGLES];
     SHADE_ALIGNED int32_t fits[SHADE__TRIANGLES];
     void *const rows[3] = { p->x, p->y, p->z };
+    uint32_t set = 0;
     int culled;
     shade__fetch_corners(p, plan->value_stride);
     shade__areas(p, area, inverse);
@@ -2772,8 +2780,10 @@ SHADE__INLINE void shade__setup_body(shade__draw *d)
     shade__depth_plane(p, plan->pipe->raster.depth_bias, p->z[0], p->z[1], p->z[2], p->rw[0],
                        p->rw[1]);
     SHADE__FOR(i, SHADE__TRIANGLES) {
-        p->turn[i] = (one[i] & 1) + (two[i] & 2) + (mirrored[i] & 3) + ((uint32_t)fits[i] & 8);
+        p->turn[i] = (one[i] & 1) + (two[i] & 2) + (mirrored[i] & 3);
+        set |= (uint32_t)fits[i] & shade__bit[i];
     }
+    p->fits = set;
     if (p->pieces) return;
     culled = shade__cull(p, plan->pipe->raster.cull, area, mirrored);
     d->stats.culled += culled;
@@ -3144,7 +3154,7 @@ SHADE__INLINE void shade__triangle_of(const shade__packet *p, int i, shade__tria
         t->dy[k] = p->dy[k][i];
     }
     t->lane = i;
-    t->in_32_bits = p->turn[i] > 7;
+    t->in_32_bits = p->fits >> i & 1;
     t->x_ref = shade__reference(p->x[0][i]);
     t->y_ref = shade__reference(p->y[0][i]);
     t->z = p->z[0][i];
@@ -3250,13 +3260,6 @@ SHADE__INLINE float *shade__depth_row(const shade__plan *plan, int y)
 {
     return plan->depth + (size_t)(y - plan->row_offset) * (size_t)plan->stride;
 }
-
-/* 1 << i: shifts that differ per lane do not vectorise on SSE2 */
-static const uint32_t shade__bit[32] = {
-    0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80, 0x100, 0x200, 0x400, 0x800, 0x1000, 0x2000,
-    0x4000, 0x8000, 0x10000, 0x20000, 0x40000, 0x80000, 0x100000, 0x200000, 0x400000, 0x800000,
-    0x1000000, 0x2000000, 0x4000000, 0x8000000, 0x10000000, 0x20000000, 0x40000000, 0x80000000
-};
 
 /* The depth test of z against the stored s, as masks.  plain: LESS. */
 SHADE__INLINE uint32_t shade__passes(shade__compare c, const int plain, float z, float s)
@@ -3482,7 +3485,7 @@ SHADE__INLINE void shade__cover_body(shade__draw *d, int count, const int width)
         shade__triangle t;
         const int across = p->box[2][i] - p->box[0][i], down = p->box[3][i] - p->box[1][i];
         if ((across | down) < 0) continue;
-        if (!windows || p->turn[i] < 8 || across >= SHADE__WINDOW - 1) {
+        if (!windows || !(p->fits >> i & 1) || across >= SHADE__WINDOW - 1) {
             d->plan.stage.spans(d, &runs, i);
             continue;
         }
@@ -3536,7 +3539,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     static const uint8_t order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
                                          { 0, 2, 1 }, { 1, 0, 2 }, { 2, 1, 0 } };
     const int stride = plan->value_stride;
-    const uint8_t *corner = p->corner[i], *turn = order[p->turn[i] & 7];
+    const uint8_t *corner = p->corner[i], *turn = order[p->turn[i]];
     const float *v0 = p->value + corner[turn[0]] * stride;
     const float *v1 = p->value + corner[turn[1]] * stride;
     const float *v2 = p->value + corner[turn[2]] * stride;
@@ -3550,7 +3553,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     t->x_ref = shade__reference(p->x[0][i]);
     t->y_ref = shade__reference(p->y[0][i]);
     t->primitive = p->primitive[i];
-    t->front = (p->turn[i] & 7) > 2;
+    t->front = p->turn[i] > 2;
     if (plan->pipe->interpolation == SHADE_INTERPOLATION_CONSTANT) {
         const float *value = p->value + corner[3] * stride;
         for (int s = SHADE__FIRST; s < plan->divided; s++) {
@@ -3653,10 +3656,8 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
 {
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
-    if (SHADE__TWICE && n <= 8 && SHADE_LANES - q->f.count > 8) {
-        const int c = q->f.count;
-        shade__append(d, t, row, x, y, c, 0, 8);
-        if (plan->lod) shade__append_lod(plan, t, row, x, 0, q->rw + c, q->f.lod + c);
+    if (SHADE__TWICE && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
+        shade__append(d, t, row, x, y, q->f.count, 0, 8);
         q->f.count += n;
         return;
     }
@@ -3734,11 +3735,11 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (plan->divided == SHADE__FIRST && plan->varyings)
         shade__divide(q->rw, q->f.varying[0], plan->varyings);
     if (plan->lod) shade__levels(q->f.lod);
-    SHADE_EACH_LANE(i) {
-        c.color[0][i] = c.color[1][i] = c.color[2][i] = 0;
-        c.color[3][i] = 1;
+    SHADE_EACH_LANE(i) { c.color[3][i] = 1; }
+    if (!plan->own) {    /* shaders of this file set what is read of them: 2 % of a teapot */
+        SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
+        SHADE_EACH_LANE(i) { c.discard[i] = 0; }
     }
-    SHADE_EACH_LANE(i) { c.discard[i] = 0; }
     plan->pipe->fragment(plan->pipe->uniforms, &q->f, &c);
     plan->stage.store(d, &c);
     q->f.count = 0;
@@ -4347,6 +4348,7 @@ static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipe
     plan->plain = plan->early && p->raster.depth_test == SHADE_COMPARE_LESS &&
                   !p->raster.depth_read_only;
     /* blending tells triangles apart, dither asks for x and y */
+    plan->own = own;
     plan->bare = own && plan->early && p->raster.blend == SHADE_BLEND_REPLACE && !t->dither;
     plan->toward = (float)((plan->compare.less != 0) - (plan->compare.greater != 0));
     if (!plan->early || p->raster.depth_read_only) plan->toward = 0;
@@ -4732,7 +4734,7 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
-    const int add = s->state->raster.blend == SHADE_BLEND_ADD;
+    const int add = s->colored && s->state->raster.blend == SHADE_BLEND_ADD;
     if (opacity != 1) {
         SHADE_EACH_LANE(i) { out->color[3][i] *= opacity; }
     }

@@ -46,8 +46,8 @@ static void prove_push(int varyings, int stride, int lod)
     pipe.interpolation = (shade_interpolation)ANY_OF(0, SHADE_INTERPOLATION_CONSTANT);
     p->value = value;
     for (int i = 0; i < SHADE__TRIANGLES; i++) {
-        p->inverse[i] = (double)any_float();
-        p->turn[i] = Frama_C_unsigned_char_interval(0, 5);
+        p->turn[i] = (uint32_t)ANY_OF(0, 5);
+        for (int k = 0; k < 4; k++) p->side[k][i] = any_float();
         for (int k = 0; k < 4; k++)
             p->corner[i][k] = Frama_C_unsigned_char_interval(
                 0, (unsigned char)(shade__min(SHADE_LANES, SHADE__BATCH_FLOATS / stride) - 1));

@@ -5,6 +5,7 @@
 enum { N = SHADE__TRIANGLES, FAR = 1 << 24 };
 
 static shade__packet p;
+static double inverse[N];
 
 static void any_packet(void)
 {
@@ -19,12 +20,12 @@ static void prove_areas(void)
 {
     float area[N];
     uint32_t one[N], two[N], mirrored[N];
-    shade__areas(&p, area, p.inverse);
+    shade__areas(&p, area, inverse);
     shade__turns(&p, area, one, two, mirrored);
     shade__turn(shade__words(p.z), one, two, mirrored);
     for (int i = 0; i < N; i++) {
         /*@ assert -2251799813685248. <= area[i] <= 2251799813685248.; */
-        /*@ assert !(p.inverse[i] < 0); */
+        /*@ assert !(inverse[i] < 0); */
     }
 }
 static void prove_boxes(void)
@@ -107,8 +108,9 @@ static void prove_depth(void)
     float low[N], high[N];
     for (int i = 0; i < N; i++) {
         float f = any_float();
-        p.inverse[i] = f;
+        inverse[i] = f;
     }
+    shade__sides(&p, inverse);
     shade__depth_plane(&p, any_float(), p.z[0], p.z[1], p.z[2], low, high);
     for (int i = 0; i < N; i++) {
         /*@ assert 0 <= low[i] <= 1 && 0 <= high[i] <= 1; */
@@ -122,8 +124,31 @@ static void prove_floors(void)
     int32_t g = shade__floor256_32(ANY_WITHIN(0x3FFFFFFF));
     /*@ assert -0x400000 <= g <= 0x3FFFFF; */
 }
+/* corners of 1 .. N triangles among the vertices of a batch, and which are culled */
+static void prove_corners(int stride)
+{
+    static shade__vertex vertex[SHADE_LANES];
+    static float value[SHADE__BATCH_FLOATS];
+    float area[N];
+    uint32_t mirrored[N];
+    const int last = shade__min(SHADE_LANES, SHADE__BATCH_FLOATS / stride) - 1;
+    for (int i = 0; i < N; i++) {
+        area[i] = any_float();
+        mirrored[i] = any_mask();
+        for (int k = 0; k < 4; k++)
+            p.corner[i][k] = Frama_C_unsigned_char_interval(0, (unsigned char)last);
+    }
+    p.vertex = vertex;
+    p.value = value;
+    p.count = ANY_OF(1, N);
+    shade__fetch_corners(&p, stride);
+    int culled = shade__cull(&p, (shade_cull)ANY_OF(0, SHADE_CULL_FRONT), area, mirrored);
+    /*@ assert 0 <= culled <= N; */
+}
 int main(void)
 {
+    prove_corners(8);
+    prove_corners(SHADE__VALUES_MAX);
     any_packet();
     prove_areas();
     prove_boxes();
