@@ -3087,11 +3087,11 @@ static SHADE__UNUSED void shade__begin_blocks(const shade__plan *plan, shade__hi
     hidden->across = (w >> hidden->log_width) + 1;
     for (int i = 0; i < SHADE__BLOCKS; i++) hidden->farthest[i] = FLT_MAX;
 }
-/* toward times the depth of the triangle's plane at a pixel: the bits that >>cover tests */
-SHADE__INLINE float shade__key(float toward, const shade__triangle *t, int x, int y)
+/* toward times the depth of the triangle's plane at pixel x of a row that begins with z0: the bits
+   that >>cover tests */
+SHADE__INLINE float shade__key(float toward, const shade__triangle *t, float z0, int x)
 {
-    float z = shade__row_depth(t, y) + t->z_dx * ((float)x + t->x_ref);
-    return toward * shade__clamp_bits(z, t->z_low, t->z_high);
+    return toward * shade__clamp_bits(z0 + t->z_dx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 /* In rows y .. bottom of the triangle's box, of one row of blocks: moves *x to the next block that
    has a pixel of the triangle and is not hidden, beyond the box if there is none, and returns the
@@ -3102,29 +3102,36 @@ SHADE__UNUSED static SHADE__NOINLINE int shade__next_blocks(
 {
     const float toward = plan->toward;
     const int right = toward * t->z_dx > 0, down = toward * t->z_dy > 0;
+    const float z_near = shade__row_depth(t, down ? y : bottom);
+    const float z_far = shade__row_depth(t, down ? bottom : y);
     const int row = (y - plan->y0) >> hidden->log_height, size = 1 << hidden->log_width;
     const int whole =
         y == plan->y0 + (row << hidden->log_height) &&
         bottom == shade__min(plan->y0 + ((row + 1) << hidden->log_height), plan->y1) - 1;
+    int64_t most[3], least[3];        /* of the edges in a block at x0, wherever it is cut */
+    for (int k = 0; k < 3; k++) {
+        const int64_t dx = t->dx[k], dy = t->dy[k], e = edge[k] + dy * (y - t->y0);
+        const int64_t across = dx * (size - 1), up = dy * (bottom - y);
+        most[k] = e + (across > 0 ? across : 0) + (up > 0 ? up : 0);
+        least[k] = e + (across < 0 ? across : 0) + (up < 0 ? up : 0);
+    }
     for (int from = *x, to; from <= t->x1; from = to + 1) {
         const int column = (from - plan->x0) >> hidden->log_width;
         const int first = plan->x0 + column * size, last = shade__min(first + size, plan->x1) - 1;
         float *farthest = &hidden->farthest[row * hidden->across + column];
-        int skip, full;
+        int64_t outside = 0, inside = 0;    /* negative: an edge has all, has some pixel outside */
+        int skip;
         to = shade__min(last, t->x1);
-        full = whole && from == first && to == last;
-        skip = shade__key(toward, t, right ? from : to, down ? y : bottom) > *farthest;
-        for (int k = 0; k < 3 && !skip; k++) {
-            int64_t dx = t->dx[k], dy = t->dy[k], across = dx * (to - from), up = dy * (bottom - y);
-            int64_t e = edge[k] + dx * (from - t->x0) + dy * (y - t->y0);
-            skip = e + (across > 0 ? across : 0) + (up > 0 ? up : 0) < 0;
-            full &= e + (across < 0 ? across : 0) + (up < 0 ? up : 0) >= 0;
+        for (int k = 0; k < 3; k++) {
+            const int64_t e = (int64_t)t->dx[k] * (first - t->x0);
+            outside |= most[k] + e;
+            inside |= least[k] + e;
         }
+        skip = outside < 0 || shade__key(toward, t, z_near, right ? from : to) > *farthest;
         if (skip && from > *x) return from - 1;
         if (skip) *x = to + 1;
-        else if (full)
-            *farthest =
-                shade__minf(*farthest, shade__key(toward, t, right ? to : from, down ? bottom : y));
+        else if (inside >= 0 && whole && from == first && to == last)
+            *farthest = shade__minf(*farthest, shade__key(toward, t, z_far, right ? to : from));
     }
     return t->x1;
 }
