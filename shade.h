@@ -1432,10 +1432,11 @@ SHADE__INLINE float shade__neg_log2(float x)
     p = p * f + 1.44269502f;
     return (float)(127 - (int32_t)(t >> 23)) - f * p;
 }
-/* 2^-u, u >= 0; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 for any bits */
+/* 2^-u, u >= 0 or infinite; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 */
 SHADE__INLINE float shade__exp2_neg(float u)
 {
-    float v = shade__clamp_bits(u, 0, 126), r, q = -0.00132647273f;
+    const uint32_t some = shade__mask((int32_t)shade__float_bits(u) < 0x42FC0000);    /* 126 */
+    float v = shade__keep(u, some), r, q = -0.00132647273f;
     int32_t k = (int32_t)(v + 0.5f);
     r = v - (float)k;
     q = q * r + 0.00967151299f;
@@ -1443,16 +1444,16 @@ SHADE__INLINE float shade__exp2_neg(float u)
     q = q * r + 0.240222424f;
     q = q * r - 0.693147004f;
     q = q * r + 1;
-    return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)),
-                       shade__mask(v < 126));
+    return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)), some);
 }
-#define SHADE__NO_HALF -1.0f    /* in the place of a cosine: there is no H, the power is 0 */
-/* n (-log2 x); 126 or more where the power is 0: at x = 0 if n > 0, and where x is
-   SHADE__NO_HALF. pre: x <= 1, zero is n > 0 ? all ones : 0 */
-SHADE__INLINE float shade__power_log(float x, float n, uint32_t zero)
+#define SHADE__NEVER -2.0f    /* in the place of a cosine: its power is 0, the zeroth as well */
+/* n (-log2 min(x, 1)); 126 or more where the power is 0: unless x > least, which is 0 if n > 0,
+   else SHADE__NEVER.   pre: n >= 0, finite */
+SHADE__INLINE float shade__power_log(float x, float n, float least)
 {
-    float u = n * shade__neg_log2(x);
-    return shade__select(u, 126.0f, shade__mask(x < 0) | (zero & shade__mask(x <= 0)));
+    int32_t i = shade__min((int32_t)shade__float_bits(x), 0x3F800000);
+    float u = n * shade__neg_log2(shade__bits_float((uint32_t)i));
+    return shade__select(126.0f, u, shade__mask(x > least));
 }
 SHADEDEF float shade_power(float x, float n)
 {
@@ -1463,7 +1464,7 @@ SHADEDEF float shade_power(float x, float n)
         c *= 16777216;
         subnormal = 24 * shade__minf(n, 8);
     }
-    return shade__exp2_neg(shade__power_log(c, n, shade__mask(1)) + subnormal);
+    return shade__exp2_neg(shade__power_log(c, n, 0) + subnormal);
 }
 
 /*------------------------------------------------------------------------------------------ >>color
@@ -1637,9 +1638,6 @@ SHADE__INLINE float shade__mirror_cosine(shade_vec3 N, shade_vec3 L, shade_vec3 
     shade_vec3 d = shade_sub(shade_scale(N, 2 * shade_dot(N, L)), shade_add(L, V));
     return shade__is_zero(L) || shade__is_zero(V) ? 0 : 1 - 0.5f * shade_dot(d, d);
 }
-
-/* max(0, min(1, x)) for cosines whose rounding may leave [0, 1] */
-SHADE__INLINE float shade__saturate(float x) { return shade__clamp_bits(x, 0, 1); }
 
 SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L) { return shade__maxf(shade_dot(N, L), 0); }
 /* (R.V)^n or (N.H)^n, ungated. */
@@ -1823,7 +1821,7 @@ typedef struct shade__lamp {
     shade_vec3 at;                /* a point, or the unit direction toward a light at infinity */
     shade_vec3 axis;              /* S of the cone, unit; zero: none */
     float a, nearest;             /* of attenuation: a of the lamp, or 1 for none; least r */
-    int infinite, spot;
+    int infinite, falls, spot;    /* falls: attenuation depends on r */
     const shade_light *light;
     shade_vec3 diffuse, specular;       /* k_d I_d, k_s I_s */
     shade_vec3 base, slope;       /* of shade__ramp */
@@ -1859,7 +1857,8 @@ static SHADE__NOINLINE int shade__lamp_of(const shade_light *light, const shade_
     p->spot = !shade__is_zero(p->axis);
     p->a = light->constant;
     p->nearest = p->a == 0 ? 1e-4f : 0.0f;
-    if (shade__is_zero(shade_v3(p->a, light->linear, light->quadratic))) p->a = 1;
+    p->falls = !p->infinite && !shade__is_zero(shade_v3(0, light->linear, light->quadratic));
+    if (p->infinite || (!p->falls && p->a == 0)) p->a = 1;
     p->light = light;
     return 1;
 }
@@ -1871,6 +1870,8 @@ static SHADE__COLD void shade__tone_of(const shade__job *j, shade__lamp *p)
     else {
         p->at = shade_v3(0, 0, 0);
         p->infinite = 1;
+        p->falls = 0;
+        p->a = 1;
     }
     p->spot = 0;
     p->ramp = 1;
@@ -1882,34 +1883,28 @@ static SHADE__COLD void shade__tone_of(const shade__job *j, shade__lamp *p)
 /* What of a lamp arrives at a block of points. */
 typedef struct shade__arrival {
     SHADE_ALIGNED shade__v3 L;    /* unit, toward the lamp */
-    float att[SHADE_LANES];       /* attenuation times cone */
+    float att[SHADE_LANES];       /* r, then attenuation times cone */
     float cosine[SHADE_LANES];    /* L.S, where there is a cone; then N.L, signed */
-    uint32_t any;                 /* zero: no lane is inside the cone */
+    uint32_t any;                 /* zero: no lane is inside the cone, att is unset */
 } shade__arrival;
 SHADE__INLINE void shade__directional(const shade__lamp *SHADE_RESTRICT lamp, const int n,
                                       shade__arrival *SHADE_RESTRICT a)
 {
-    SHADE__FOR(i, n) {
-        shade__put(&a->L, i, lamp->at);
-        a->att[i] = 1;
-    }
+    SHADE__FOR(i, n) { shade__put(&a->L, i, lamp->at); }
 }
 SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
                                 const shade__v3 *SHADE_RESTRICT P, const int n,
                                 shade__arrival *SHADE_RESTRICT to)
 {
-    const float b = lamp->light->linear, c = lamp->light->quadratic;
     SHADE__FOR(i, n) {
         shade_vec3 L = shade_sub(lamp->at, shade__at(P, i));
         float d = shade_dot(L, L), rl = shade__rsqrt(d);
-        float distance = shade__clamp_bits(d * rl, lamp->nearest, FLT_MAX);
-        float den = lamp->a + b * distance + c * (distance * distance);
-        /* before the call that returns a vector: what tcc does to den then, see >>config */
-        to->att[i] = 1 / shade__clamp_bits(den, 1e-20f, FLT_MAX);
+        /* before the call that returns a vector: what tcc does to d then, see >>config */
+        to->att[i] = d * rl;
         shade__put(&to->L, i, shade_scale(L, rl));
     }
 }
-/* L.S, and the cone as a mask of the attenuation; returns non-zero if some lane is inside */
+/* L.S, or SHADE__NEVER outside the cone; returns non-zero if some lane is inside */
 SHADE__INLINE uint32_t shade__cone(const shade__lamp *SHADE_RESTRICT lamp, const int n,
                                    shade__arrival *SHADE_RESTRICT a)
 {
@@ -1918,23 +1913,43 @@ SHADE__INLINE uint32_t shade__cone(const shade__lamp *SHADE_RESTRICT lamp, const
     SHADE__FOR(i, n) {
         float cosine = shade_dot(shade__at(&a->L, i), lamp->axis);
         uint32_t inside = shade__mask(cosine >= cos_cutoff);
-        a->cosine[i] = shade__saturate(cosine);
-        a->att[i] = shade__keep(a->att[i], inside);
+        a->cosine[i] = shade__select(SHADE__NEVER, cosine, inside);
         any |= inside;
     }
     return any;
 }
+/* att from r */
+SHADE__INLINE void shade__attenuate(const shade__lamp *SHADE_RESTRICT lamp, const int n,
+                                    float *SHADE_RESTRICT att)
+{
+    const float b = lamp->light->linear, c = lamp->light->quadratic;
+    SHADE__FOR(i, n) {
+        float r = shade__clamp_bits(att[i], lamp->nearest, FLT_MAX);
+        att[i] = 1 / shade__clamp_bits(lamp->a + b * r + c * (r * r), 1e-20f, FLT_MAX);
+    }
+}
+SHADE__INLINE void shade__fill_row(float x, const int n, float *SHADE_RESTRICT row)
+{
+    SHADE__FOR(i, n) { row[i] = x; }
+}
 /* First half of a power: x becomes n (-log2 x). */
 SHADE__INLINE void shade__log_row(float exponent, const int n, float *SHADE_RESTRICT x)
 {
-    const float most = shade__minf(exponent, FLT_MAX);
-    const uint32_t zero = shade__mask(exponent > 0);
-    SHADE__FOR(i, n) { x[i] = shade__power_log(x[i], most, zero); }
+    const float most = exponent <= 0 ? 0 : shade__minf(exponent, FLT_MAX);
+    const float least = exponent <= 0 ? SHADE__NEVER : 0;
+    SHADE__FOR(i, n) { x[i] = shade__power_log(x[i], most, least); }
 }
 /* Second half for the cone: att times (L.S)^e. */
 SHADE__INLINE void shade__gather_beam(const int n, shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) { a->att[i] *= shade__exp2_neg(a->cosine[i]); }
+}
+/* The same where e = 0. */
+SHADE__INLINE void shade__gather_disc(const int n, shade__arrival *SHADE_RESTRICT a)
+{
+    SHADE__FOR(i, n) {
+        a->att[i] = shade__keep(a->att[i], shade__mask(a->cosine[i] > SHADE__NEVER));
+    }
 }
 /* L and att of one lamp. */
 SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3 *P, const int n,
@@ -1944,11 +1959,15 @@ SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3
     if (lamp->infinite) shade__directional(lamp, n, a);
     else shade__point(lamp, P, n, a);
     if (lamp->spot) any = shade__cone(lamp, n, a);
-    if (lamp->spot && any && lamp->light->spot_exponent > 0) {
+    a->any = any;
+    if (!any) return;
+    if (lamp->falls) shade__attenuate(lamp, n, a->att);
+    else shade__fill_row(1 / shade__clamp_bits(lamp->a, 1e-20f, FLT_MAX), n, a->att);
+    if (!lamp->spot) return;
+    if (lamp->light->spot_exponent > 0) {
         shade__log_row(lamp->light->spot_exponent, n, a->cosine);
         shade__gather_beam(n, a);
-    }
-    a->any = any;
+    } else shade__gather_disc(n, a);
 }
 SHADE__DISPATCH(shade__light_at,
                      (const shade__lamp *lamp, const shade__v3 *P, int n, shade__arrival *a),
@@ -1962,6 +1981,7 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, flo
     if (light && P) {
         shade__lamp_of(light, NULL, &lamp);
         shade__light_at_pick()(&lamp, shade__rows_of(P), SHADE_LANES, &a);
+        if (!a.any) SHADE__ZERO(a.att);
     } else SHADE__ZERO(a);
     if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
     if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
@@ -1986,7 +2006,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3
     } else SHADE__ZERO(a);
     if (L) *L = shade__at(&a.L, 0);
     if (distance) *distance = r;
-    return a.att[0];
+    return a.any ? a.att[0] : 0;
 }
 /*------------------------------------------------------------------------------------------ >>lanes
    The equations of >>model for a packet, or for one point.  The light of one lamp is cut into short
@@ -1999,7 +2019,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3
 typedef struct shade__rows {
     shade__arrival a;             /* of one lamp; in the end a.L.x holds its highlight */
     float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
-    float rv[SHADE_LANES];        /* 1/|V| */
+    shade__v3 V;                  /* unit, toward the viewer */
 } shade__rows;
 
 /* Toward the viewer, not unit.  eye.w is 0 for a viewer at infinity, else 1. */
@@ -2007,7 +2027,7 @@ SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 P)
 {
     return shade_madd(shade__xyz(eye), -eye.w, P);
 }
-/* 1/|N| and 1/|V| */
+/* 1/|N| and V */
 SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P,
                                  const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, uint32_t flip,
                                  const int n, shade__rows *SHADE_RESTRICT r)
@@ -2017,7 +2037,7 @@ SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P,
         uint32_t turned = shade__mask(shade_dot(m, V) < 0) & flip;
         float rn = shade__rsqrt(shade_dot(m, m));
         r->rn[i] = shade__bits_float(shade__float_bits(rn) ^ turned);
-        r->rv[i] = shade__rsqrt(shade_dot(V, V));
+        shade__put(&r->V, i, shade_scale(V, shade__rsqrt(shade_dot(V, V))));
     }
 }
 /* N.L; returns non-zero if some lane faces the lamp */
@@ -2039,22 +2059,27 @@ SHADE__INLINE void shade__warmth(const int n, shade__rows *SHADE_RESTRICT r)
     SHADE__FOR(i, n) { r->a.att[i] = 0.5f + 0.5f * r->a.cosine[i]; }
 }
 
-/* a.L.x becomes N.H, or SHADE__NO_HALF.  Returns non-zero if some lane (with N.L > 0, or open) has
-   |L + V|^2 below 1e-3, for shade__half_near.  The row is read and written by one pointer: in
-   builds with gcc -O0 two ways to it would leave the loop scalar. */
-SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT P,
-                                   const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye,
-                                   uint32_t open, const int n, shade__rows *SHADE_RESTRICT r)
+/* B, or where the lobe is open: whether there is N. */
+SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
+{
+    uint32_t either = (shade__float_bits(nl) & ~open) | (shade__float_bits(rn) & open >> 1);
+    return shade__bits_float(either) > 0;
+}
+/* a.L.x becomes N.H, or SHADE__NEVER where the gate is shut or there is no H.  Returns non-zero if
+   some lane whose gate is open has |L + V|^2 below 1e-3, for shade__half_near.  The row is read and
+   written by one pointer: in builds with gcc -O0 two ways to it would leave the loop scalar. */
+SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT N, uint32_t open, const int n,
+                                   shade__rows *SHADE_RESTRICT r)
 {
     shade__v3 *L = &r->a.L;
     uint32_t near_zero = 0;
     SHADE__FOR(i, n) {
-        shade_vec3 V = shade__view(eye, shade__at(P, i));
-        shade_vec3 H = shade_madd(shade__at(L, i), r->rv[i], V);
+        shade_vec3 H = shade_add(shade__at(L, i), shade__at(&r->V, i));
         float h2 = shade_dot(H, H);
         float nh = shade_dot(shade__at(N, i), H) * (r->rn[i] * shade__rsqrt(h2));
-        near_zero |= shade__mask(h2 < 1e-3f) & (shade__mask(r->a.cosine[i] > 0) | open);
-        L->x[i] = shade__select(shade__saturate(nh), SHADE__NO_HALF, shade__mask(h2 < 1e-12f));
+        uint32_t lit = shade__mask(shade__gate(r->a.cosine[i], r->rn[i], open));
+        near_zero |= shade__mask(h2 < 1e-3f) & lit;
+        L->x[i] = shade__select(SHADE__NEVER, nh, shade__mask(h2 >= 1e-12f) & lit);
     }
     return near_zero;
 }
@@ -2078,8 +2103,8 @@ static void shade__unit3(double *v)
 /* The lanes where L and V are nearly opposite, again from the positions, in double: their sum keeps
    few digits in float. */
 static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P,
-                                         const shade__v3 *N, shade_vec4 eye, const int n,
-                                         shade__rows *r)
+                                         const shade__v3 *N, shade_vec4 eye, uint32_t open,
+                                         const int n, shade__rows *r)
 {
     const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)eye.w;
     const float *lamp = (const float *)&at, *from = (const float *)&eye;
@@ -2097,36 +2122,37 @@ static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P
         shade__unit3(m);
         for (int j = 0; j < 3; j++) l[j] += v[j];
         h2 = shade__dot3(l, l);
-        if (!(h2 < 1e-3)) continue;
+        if (!(h2 < 1e-3) || !shade__gate(r->a.cosine[i], r->rn[i], open)) continue;
         shade__unit3(l);
         nh = r->rn[i] < 0 ? -shade__dot3(m, l) : shade__dot3(m, l);
-        r->a.L.x[i] = h2 < 1e-12 ? SHADE__NO_HALF : shade__saturate((float)nh);
+        r->a.L.x[i] = h2 < 1e-12 ? SHADE__NEVER : (float)nh;
     }
 }
-/* a.L.x becomes R.V, as shade__mirror_cosine */
-SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT P,
-                                   const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, const int n,
+/* a.L.x becomes R.V, as shade__mirror_cosine, or SHADE__NEVER where the gate is shut */
+SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT N, uint32_t open, const int n,
                                    shade__rows *SHADE_RESTRICT r)
 {
     shade__v3 *rows = &r->a.L;
     SHADE__FOR(i, n) {
-        float rv = r->rv[i], k = 2 * r->a.cosine[i] * r->rn[i];
-        shade_vec3 L = shade__at(rows, i), V = shade__view(eye, shade__at(P, i));
-        shade_vec3 d = shade_sub(shade_scale(shade__at(N, i), k), shade_madd(L, rv, V));
-        uint32_t exists = shade__mask(rv > 0) & shade__mask(shade_dot(L, L) > 0);
-        rows->x[i] = shade__keep(shade__saturate(1 - 0.5f * shade_dot(d, d)), exists);
+        float nl = r->a.cosine[i], rn = r->rn[i];
+        shade_vec3 L = shade__at(rows, i), V = shade__at(&r->V, i);
+        shade_vec3 d = shade_sub(shade_scale(shade__at(N, i), 2 * nl * rn), shade_add(L, V));
+        uint32_t exists = shade__mask(shade_dot(V, V) > 0) & shade__mask(shade_dot(L, L) > 0);
+        float cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
+        rows->x[i] = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
     }
 }
-/* Second half of a power for the highlight: a.L.x = B (N.H)^n; open lifts the gate B, weighted
-   multiplies by max(0, N.L). */
-SHADE__INLINE void shade__gloss(uint32_t open, uint32_t weighted, const int n,
-                                shade__rows *SHADE_RESTRICT r)
+/* Second half of a power for the highlight: a.L.x = B (N.H)^n. */
+SHADE__INLINE void shade__gloss(const int n, shade__rows *SHADE_RESTRICT r)
+{
+    SHADE__FOR(i, n) { r->a.L.x[i] = shade__exp2_neg(r->a.L.x[i]); }
+}
+/* a.L.x times max(0, N.L) */
+SHADE__INLINE void shade__weigh(const int n, shade__rows *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
         float nl = r->a.cosine[i];
-        uint32_t above = shade__mask(nl > 0), gate = above | (open & shade__mask(r->rn[i] != 0));
-        float weight = shade__select(1, shade__keep(nl, above), weighted);
-        r->a.L.x[i] = shade__keep(shade__exp2_neg(r->a.L.x[i]) * weight, gate);
+        r->a.L.x[i] *= shade__keep(nl, shade__mask(nl > 0));
     }
 }
 
@@ -2139,17 +2165,16 @@ SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light)
 {
     shade__put(rgb, i, shade_add(shade__at(rgb, i), light));
 }
-/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s gloss); with absolute |N.L|. */
-SHADE__INLINE void shade__combine(const shade__lamp *SHADE_RESTRICT lamp, uint32_t absolute,
+/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s gloss); |N.L| where sign clears its sign. */
+SHADE__INLINE void shade__combine(const shade__lamp *SHADE_RESTRICT lamp, uint32_t sign,
                                   const shade__v3 *SHADE_RESTRICT albedo, const int n,
                                   const shade__rows *SHADE_RESTRICT r,
                                   shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
-        float nl = r->a.cosine[i], att = r->a.att[i];
-        float lit = shade__keep(nl, shade__mask(nl > 0) | absolute);
+        float nl = shade__keep(r->a.cosine[i], sign), att = r->a.att[i];
         shade_vec3 diffuse = shade_mul(lamp->diffuse, shade__albedo(albedo, i));
-        diffuse = shade_scale(diffuse, shade__keep(lit, 0x7FFFFFFFu) * att);
+        diffuse = shade_scale(diffuse, shade__keep(nl, shade__mask(nl > 0)) * att);
         shade__add_to(rgb, i, shade_madd(diffuse, r->a.L.x[i] * att, lamp->specular));
     }
 }
@@ -2184,12 +2209,14 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, shade__light_at_fn *ligh
                                    const float *visibility, const int n, shade__rows *r,
                                    shade__v3 *rgb)
 {
+    const uint32_t sign = ~(j->absolute & 0x80000000u);
     shade__lamp lamp;
     uint32_t any;
     if (j->tone) shade__tone_of(j, &lamp);
     else if (!shade__lamp_of(&j->lighting->lights[k], j, &lamp)) return;
     light_at(&lamp, j->P, n, &r->a);
-    any = r->a.any & shade__horizon(j->N, n, r);
+    if (!r->a.any) return;
+    any = shade__horizon(j->N, n, r);
     if (j->tone) shade__warmth(n, r);
     if (lamp.ramp) {
         if (!SHADE__TWICE || j->albedo) shade__ramp(&lamp, j->albedo, n, r, rgb);
@@ -2197,15 +2224,16 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, shade__light_at_fn *ligh
     }
     if (j->tone || !(any | j->open | j->absolute)) return;
     if (lamp.gloss) {
-        if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(j->P, j->N, j->eye, n, r);
-        else if (shade__half(j->P, j->N, j->eye, j->open, n, r))
-            shade__half_near(lamp.light->position, j->P, j->N, j->eye, n, r);
+        if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(j->N, j->open, n, r);
+        else if (shade__half(j->N, j->open, n, r))
+            shade__half_near(lamp.light->position, j->P, j->N, j->eye, j->open, n, r);
         shade__log_row(j->m->shininess, n, r->a.L.x);
-        shade__gloss(j->open, j->weighted, n, r);
+        shade__gloss(n, r);
+        if (j->weighted) shade__weigh(n, r);
     } else SHADE__ZERO(r->a.L.x);
     if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.att);
-    if (!SHADE__TWICE || j->albedo) shade__combine(&lamp, j->absolute, j->albedo, n, r, rgb);
-    else shade__combine(&lamp, j->absolute, NULL, n, r, rgb);
+    if (!SHADE__TWICE || j->albedo) shade__combine(&lamp, sign, j->albedo, n, r, rgb);
+    else shade__combine(&lamp, sign, NULL, n, r, rgb);
 }
 
 SHADE__INLINE void shade__lit_body(const shade__job *j, shade__light_at_fn *light_at,
