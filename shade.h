@@ -1144,17 +1144,20 @@ SHADE__INLINE int shade__is_zero(shade_vec3 v)
 /* shade_normalize where no loop over lanes wants it: one copy of its 160 bytes */
 static SHADE__NOINLINE shade_vec3 shade__unit_vector(shade_vec3 v) { return shade_normalize(v); }
 
-/* 1/sqrt(x) for lanes; 0 where x < 1e-36, so that vectors shorter than 1e-18 normalise to zero.
-   A bit trick and its tuned Newton step [Kadlec10], error 6.5e-4, then one cubic step
-   y + y e (1/2 + 3/8 e), e = 1 - x y^2.  Relative error below 2e-7 over all normal x.
-   sqrtf would keep the loop scalar: it may set errno. */
-SHADE__INLINE float shade__rsqrt(float x)
+/* 1/sqrt(x) for lanes; below 1e-36 some number.  A bit trick and its tuned Newton step [Kadlec10],
+   error 6.5e-4, then one cubic step y + y e (1/2 + 3/8 e), e = 1 - x y^2.  Relative error below
+   2e-7 over all normal x.  sqrtf would keep the loop scalar: it may set errno. */
+SHADE__INLINE float shade__rsqrt_normal(float x)
 {
     float y = shade__bits_float(0x5F1FFFF9u - (shade__float_bits(x) >> 1)), e;
     y *= 0.703952253f * (2.38924456f - x * y * y);
     e = 1 - x * y * y;
-    y += y * e * (0.5f + 0.375f * e);
-    return shade__keep(y, shade__mask(x >= 1e-36f));
+    return y + y * e * (0.5f + 0.375f * e);
+}
+/* 0 where x < 1e-36, so that vectors shorter than 1e-18 normalise to zero */
+SHADE__INLINE float shade__rsqrt(float x)
+{
+    return shade__keep(shade__rsqrt_normal(x), shade__mask(x >= 1e-36f));
 }
 
 /* Rows of vectors. */
@@ -1760,13 +1763,10 @@ typedef struct shade__job {
     shade_vec3 ambient;           /* k_a times the light that no lamp attenuates */
     unsigned terms;
     int lamps, tone;              /* tone: cool to warm, by one lamp */
-    uint32_t flip, open, absolute, weighted;    /* masks of flags; flip is a sign */
+    uint32_t open;                /* mask of a flag */
+    uint32_t sign;                /* of N.L in the diffuse term: the mask that keeps or clears it */
 } shade__job;
 
-static uint32_t shade__flag(const shade_lighting *lighting, unsigned flag)
-{
-    return shade__mask((lighting->flags & flag) != 0);
-}
 static SHADE__NOINLINE void shade__begin_job(const shade_lighting *lighting,
                                              const shade_material *material, shade_vec3 eye,
                                              const shade__v3 *P, const shade__v3 *N,
@@ -1798,10 +1798,8 @@ static SHADE__NOINLINE void shade__begin_job(const shade_lighting *lighting,
         for (int k = 0; k < j->lamps; k++)
             j->ambient = shade_add(j->ambient, lighting->lights[k].ambient);
     if (terms & SHADE_TERM_AMBIENT) j->ambient = shade_mul(j->ambient, j->m->ambient);
-    j->flip = shade__flag(lighting, SHADE_FLAG_TWO_SIDED) & 0x80000000u;
-    j->open = shade__flag(lighting, SHADE_FLAG_UNGATED_SPECULAR);
-    j->absolute = shade__flag(lighting, SHADE_FLAG_TWO_SIDED_ABS);
-    j->weighted = shade__flag(lighting, SHADE_FLAG_WEIGHTED_SPECULAR);
+    j->open = shade__mask((lighting->flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
+    j->sign = lighting->flags & SHADE_FLAG_TWO_SIDED_ABS ? 0x7FFFFFFF : 0xFFFFFFFF;
 }
 
 /*---------------------------------------------------------------------------------------- >>arrival
@@ -2027,17 +2025,32 @@ SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 P)
 {
     return shade_madd(shade__xyz(eye), -eye.w, P);
 }
-/* 1/|N| and V */
-SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P,
-                                 const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, uint32_t flip,
-                                 const int n, shade__rows *SHADE_RESTRICT r)
+/* 1/|N| */
+SHADE__INLINE void shade__lengths(const shade__v3 *SHADE_RESTRICT N, const int n,
+                                  float *SHADE_RESTRICT rn)
 {
     SHADE__FOR(i, n) {
-        shade_vec3 m = shade__at(N, i), V = shade__view(eye, shade__at(P, i));
-        uint32_t turned = shade__mask(shade_dot(m, V) < 0) & flip;
-        float rn = shade__rsqrt(shade_dot(m, m));
-        r->rn[i] = shade__bits_float(shade__float_bits(rn) ^ turned);
-        shade__put(&r->V, i, shade_scale(V, shade__rsqrt(shade_dot(V, V))));
+        shade_vec3 m = shade__at(N, i);
+        rn[i] = shade__rsqrt(shade_dot(m, m));
+    }
+}
+/* its sign */
+SHADE__INLINE void shade__two_sides(const shade__v3 *SHADE_RESTRICT P,
+                                const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, const int n,
+                                float *SHADE_RESTRICT rn)
+{
+    SHADE__FOR(i, n) {
+        shade_vec3 V = shade__view(eye, shade__at(P, i));
+        uint32_t turned = shade__mask(shade_dot(shade__at(N, i), V) < 0) & 0x80000000u;
+        rn[i] = shade__bits_float(shade__float_bits(rn[i]) ^ turned);
+    }
+}
+SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P, shade_vec4 eye, const int n,
+                                 shade__v3 *SHADE_RESTRICT to)
+{
+    SHADE__FOR(i, n) {
+        shade_vec3 V = shade__view(eye, shade__at(P, i));
+        shade__put(to, i, shade_scale(V, shade__rsqrt(shade_dot(V, V))));
     }
 }
 /* N.L; returns non-zero if some lane faces the lamp */
@@ -2066,8 +2079,8 @@ SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
     return shade__bits_float(either) > 0;
 }
 /* a.L.x becomes N.H, or SHADE__NEVER where the gate is shut or there is no H.  Returns non-zero if
-   some lane whose gate is open has |L + V|^2 below 1e-3, for shade__half_near.  The row is read and
-   written by one pointer: in builds with gcc -O0 two ways to it would leave the loop scalar. */
+   some lane has |L + V|^2 below 1e-3, for shade__half_near.  Rows are read and written by one
+   pointer: in builds with gcc -O0 two ways to one would leave the loop scalar. */
 SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT N, uint32_t open, const int n,
                                    shade__rows *SHADE_RESTRICT r)
 {
@@ -2076,9 +2089,13 @@ SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT N, uint32_t o
     SHADE__FOR(i, n) {
         shade_vec3 H = shade_add(shade__at(L, i), shade__at(&r->V, i));
         float h2 = shade_dot(H, H);
-        float nh = shade_dot(shade__at(N, i), H) * (r->rn[i] * shade__rsqrt(h2));
-        uint32_t lit = shade__mask(shade__gate(r->a.cosine[i], r->rn[i], open));
-        near_zero |= shade__mask(h2 < 1e-3f) & lit;
+        near_zero |= shade__mask(h2 < 1e-3f);
+        L->x[i] = shade_dot(shade__at(N, i), H);
+        L->y[i] = h2;
+    }
+    SHADE__FOR(i, n) {
+        float h2 = L->y[i], rn = r->rn[i], nh = L->x[i] * (rn * shade__rsqrt_normal(h2));
+        uint32_t lit = shade__mask(shade__gate(r->a.cosine[i], rn, open));
         L->x[i] = shade__select(SHADE__NEVER, nh, shade__mask(h2 >= 1e-12f) & lit);
     }
     return near_zero;
@@ -2110,6 +2127,7 @@ static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P
     const float *lamp = (const float *)&at, *from = (const float *)&eye;
     for (int i = 0; i < n; i++) {
         double m[3], l[3], v[3], h2, nh;
+        if (!shade__gate(r->a.cosine[i], r->rn[i], open)) continue;
         for (int j = 0; j < 3; j++) {
             const int lane = j * SHADE_LANES + i;
             const double p = (double)((const float *)P)[lane];
@@ -2122,7 +2140,7 @@ static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P
         shade__unit3(m);
         for (int j = 0; j < 3; j++) l[j] += v[j];
         h2 = shade__dot3(l, l);
-        if (!(h2 < 1e-3) || !shade__gate(r->a.cosine[i], r->rn[i], open)) continue;
+        if (!(h2 < 1e-3)) continue;
         shade__unit3(l);
         nh = r->rn[i] < 0 ? -shade__dot3(m, l) : shade__dot3(m, l);
         r->a.L.x[i] = h2 < 1e-12 ? SHADE__NEVER : (float)nh;
@@ -2209,7 +2227,6 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, shade__light_at_fn *ligh
                                    const float *visibility, const int n, shade__rows *r,
                                    shade__v3 *rgb)
 {
-    const uint32_t sign = ~(j->absolute & 0x80000000u);
     shade__lamp lamp;
     uint32_t any;
     if (j->tone) shade__tone_of(j, &lamp);
@@ -2222,18 +2239,18 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, shade__light_at_fn *ligh
         if (!SHADE__TWICE || j->albedo) shade__ramp(&lamp, j->albedo, n, r, rgb);
         else shade__ramp(&lamp, NULL, n, r, rgb);
     }
-    if (j->tone || !(any | j->open | j->absolute)) return;
+    if (j->tone || !(any | j->open | ~j->sign)) return;
     if (lamp.gloss) {
         if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(j->N, j->open, n, r);
         else if (shade__half(j->N, j->open, n, r))
             shade__half_near(lamp.light->position, j->P, j->N, j->eye, j->open, n, r);
         shade__log_row(j->m->shininess, n, r->a.L.x);
         shade__gloss(n, r);
-        if (j->weighted) shade__weigh(n, r);
+        if (j->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
     } else SHADE__ZERO(r->a.L.x);
     if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.att);
-    if (!SHADE__TWICE || j->albedo) shade__combine(&lamp, sign, j->albedo, n, r, rgb);
-    else shade__combine(&lamp, sign, NULL, n, r, rgb);
+    if (!SHADE__TWICE || j->albedo) shade__combine(&lamp, j->sign, j->albedo, n, r, rgb);
+    else shade__combine(&lamp, j->sign, NULL, n, r, rgb);
 }
 
 SHADE__INLINE void shade__lit_body(const shade__job *j, shade__light_at_fn *light_at,
@@ -2242,7 +2259,9 @@ SHADE__INLINE void shade__lit_body(const shade__job *j, shade__light_at_fn *ligh
     const shade__v3 *albedo = shade__is_zero(j->ambient) ? NULL : j->albedo;
     const int lamps = j->tone ? 1 : j->lamps;
     shade__rows r;
-    shade__viewer(j->P, j->N, j->eye, j->flip, n, &r);
+    shade__lengths(j->N, n, r.rn);
+    if (j->lighting->flags & SHADE_FLAG_TWO_SIDED) shade__two_sides(j->P, j->N, j->eye, n, r.rn);
+    shade__viewer(j->P, j->eye, n, &r.V);
     if (!SHADE__TWICE || albedo) shade__begin_light(j->emission, j->ambient, albedo, n, rgb);
     else shade__begin_light(j->emission, j->ambient, NULL, n, rgb);
     for (int k = 0; k < lamps; k++) shade__add_lamp(j, light_at, k, visibility, n, &r, rgb);
