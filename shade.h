@@ -1866,10 +1866,8 @@ static SHADE__COLD void shade__tone_of(const shade__job *j, shade__lamp *p)
     const shade_lighting *l = j->lighting;
     if (j->lamps > 0) shade__lamp_of(l->lights, NULL, p);
     else {
-        p->at = shade_v3(0, 0, 0);
+        SHADE__ZERO(*p);
         p->infinite = 1;
-        p->falls = 0;
-        p->a = 1;
     }
     p->spot = 0;
     p->ramp = 1;
