@@ -3799,8 +3799,8 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d))
 
 /*---------------------------------------------------------------------------------------- >>texture
-   Texels filtered for blocks of lanes: places and weights of both axes, four fetches a lane, then
-   the blend of each channel, level by level.
+   Texels filtered for blocks of lanes: places and weights of both axes, a pair of texels of each of
+   two rows, then their blend, level by level.
      in      rows u, v, lod               out  rows of linear RGBA
      holds   Every index lies in the texture whatever u and v are.  Mipmaps are read level by level,
              each weighted by max(0, 1 - |lod - level|), as trilinear filtering is.    [Williams83]
@@ -3826,22 +3826,15 @@ enum { SHADE__TEXELS = SHADE_LANES < 64 ? SHADE_LANES : 64 };
 
 /* One axis: texel before and after, and the weight of the one after. */
 typedef struct shade__axis {
-    SHADE_ALIGNED int32_t i0[SHADE__TEXELS];
-    int32_t i1[SHADE__TEXELS];
+    SHADE_ALIGNED uint32_t i0[SHADE__TEXELS];
+    uint32_t i1[SHADE__TEXELS];
     float f[SHADE__TEXELS];
 } shade__axis;
 
-/* floor(x) for |x| < 2^23 */
-SHADE__INLINE int32_t shade__floor(float x)
-{
-    int32_t i = (int32_t)x;
-    return i - (x < (float)i ? 1 : 0);
-}
 /* c: coordinates, any bits   post: 0 <= i0, i1 < size */
 SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int size,
                                   shade_wrap wrap, int nearest, shade__axis *SHADE_RESTRICT a)
 {
-    const uint32_t smooth = shade__mask(!nearest);
     const int32_t last = size - 1;
     /* the texel beyond an end: the other end, or the same */
     const int32_t before = wrap == SHADE_WRAP_REPEAT ? last : 0;
@@ -3861,7 +3854,8 @@ SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int
             int32_t bits = (int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu);
             uint32_t usable = shade__mask(bits < 0x4B800000);
             float x = shade__keep(c[i], usable) * period;
-            a->f[i] = x - (float)shade__floor(x);
+            float part = x - (float)(int32_t)x;
+            a->f[i] = part + shade__keep(1, shade__mask(part < 0));
         }
     }
     if (wrap == SHADE_WRAP_MIRROR) {
@@ -3870,86 +3864,141 @@ SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int
             a->f[i] = shade__select(twice, 2 - twice, shade__mask(twice > 1));
         }
     }
+    if (nearest) {    /* the end, 1, lies in the last texel */
+        const float below = 1 - FLT_EPSILON / 2;
+        SHADE__EACH_BLOCK(i, blocks) { a->f[i] = shade__clamp_bits(a->f[i], 0, below); }
+    }
     SHADE__EACH_BLOCK(i, blocks) {
         float inside = a->f[i];
         float s = inside * n - half;
-        int32_t i0 = shade__floor(s), i1 = i0 + 1;
-        a->f[i] = shade__keep(s - (float)i0, smooth);
-        i0 = i0 > last ? last : i0;
-        a->i0[i] = i0 < 0 ? before : i0;
-        a->i1[i] = i1 > last ? after : i1;
+        int32_t i0 = (int32_t)s - (s < 0 ? 1 : 0);    /* floor(s) for s >= -1/2 */
+        a->f[i] = s - (float)i0;
+        a->i0[i] = (uint32_t)(i0 < 0 ? before : i0);
+        a->i1[i] = (uint32_t)(i0 < last ? i0 + 1 : after);
     }
 }
 
-/* Texels as native integers, where they lie in words that 32 bits can count: wide processors gather
-   them. */
-SHADE__INLINE void shade__gather_texels(const shade__word *p, const int32_t *x, const int32_t *y,
-                                        int32_t pitch, int shift, int blocks,
-                                        uint32_t *SHADE_RESTRICT texel)
+/* A block of texels of both axes to bytes along the row and units of rows.  Returns 0 if each right
+   one follows its left one. */
+SHADE__INLINE uint32_t shade__locate(uint32_t *SHADE_RESTRICT left, uint32_t *SHADE_RESTRICT right,
+                                     uint32_t *SHADE_RESTRICT above, uint32_t *SHADE_RESTRICT below,
+                                     int shift, uint32_t pitch)
 {
-    SHADE__EACH_BLOCK(i, blocks) { texel[i] = p[y[i] * pitch + (x[i] << shift)]; }
-}
-/* The same of any texture; bit 16 of a texel of 16 bits is its alpha. */
-SHADE__INLINE void shade__fetch_texels(const uint8_t *p, const int32_t *x, const int32_t *y,
-                                       size_t pitch, size_t step, int swapped, int blocks,
-                                       uint32_t *texel)
-{
-    for (int i = 0; i < SHADE__BLOCK * blocks; i++) {
-        const uint8_t *from = p + (size_t)y[i] * pitch + (size_t)x[i] * step;
-        uint16_t half;
-        if (step != 2) SHADE_MEMCPY(&texel[i], from, 4);
-        else {
-            SHADE_MEMCPY(&half, from, 2);
-            texel[i] = half;
-        }
+    uint32_t apart = 0;
+    SHADE__FOR(i, SHADE__BLOCK) {
+        apart |= (right[i] - left[i]) ^ 1;
+        left[i] <<= shift;
+        right[i] <<= shift;
+        above[i] *= pitch;
+        below[i] *= pitch;
     }
-    if (step == 2) {
-        SHADE__EACH_BLOCK(i, blocks) {
-            uint32_t t = texel[i];
-            texel[i] = (swapped ? shade__swap16(t) : t) | 0x10000;
-        }
+    return apart;
+}
+/* The channels of packed texels, the lowest first: texel >> shift & mask, in steps of step, which
+   times a power of two stay exact. */
+typedef struct shade__layout {
+    uint32_t mask[4];
+    int      shift[4];
+    float    step[4];
+} shade__layout;
+
+/* A texel of 32 bits or a word of a wider one; or one of 16 bits, and alpha in bit 16. */
+SHADE__INLINE uint32_t shade__texel(const uint8_t *p, int half, int swapped)
+{
+    uint32_t word;
+    uint16_t t;
+    if (!half) {
+        SHADE_MEMCPY(&word, p, 4);
+        return word;
+    }
+    SHADE_MEMCPY(&t, p, 2);
+    return (swapped ? shade__swap16(t) : t) | 0x10000;
+}
+SHADE__INLINE void shade__fetch_apart(const uint8_t *p, int half, int swapped, size_t unit,
+                                      const shade__axis *x, const uint32_t *row, int first,
+                                      shade__word *to)
+{
+    for (int i = first; i < first + SHADE__BLOCK; i++) {
+        const uint8_t *line = p + row[i] * unit;
+        to[2 * i] = shade__texel(line + x->i0[i], half, swapped);
+        to[2 * i + 1] = shade__texel(line + x->i1[i], half, swapped);
     }
 }
-SHADE__INLINE float shade__channel(uint32_t texel, int shift, uint32_t mask, float scale)
+/* Texels of a row, left and right in turns, in one word each.  unit: bytes a step of row.  Out of
+   line, or compilers gather, which takes longer. */
+static SHADE__NOINLINE void shade__fetch_pairs(const uint8_t *p, shade_format format, size_t unit,
+                                               const shade__axis *x, const uint32_t *row,
+                                               const uint32_t *apart, int blocks, shade__word *to)
 {
-    return (float)(int32_t)(texel >> shift & mask) * scale;
+    const int half = shade__pixel_bytes(format) == 2;
+    for (int k = 0; k < SHADE__BLOCK * blocks; k += SHADE__BLOCK) {
+        if (!*apart++) {
+            for (int i = k; i < k + SHADE__BLOCK; i++) {
+                const uint8_t *left = p + (row[i] + x->i0[i]);
+                SHADE_MEMCPY(to + 2 * i, left, 8);
+            }
+        } else if (half)
+            shade__fetch_apart(p, 1, format == SHADE_FORMAT_RGB565_SWAPPED, unit, x, row, k, to);
+        else shade__fetch_apart(p, 0, 0, unit, x, row, k, to);
+    }
 }
-/* The bilinear blend of one channel, (texel >> shift & mask) / mask */
-SHADE__INLINE void shade__blend_packed(uint32_t texel[4][SHADE__TEXELS], int blocks, int shift,
-                                       uint32_t mask, const shade__axis *axis,
+SHADE__INLINE float shade__scaled(uint32_t number, float scale)
+{
+    return (float)(int32_t)number * scale;
+}
+/* The bilinear blend of c[0] .. c[3]: left, right above, left, right below */
+SHADE__INLINE float shade__bilinear(uint32_t c0, uint32_t c1, uint32_t c2, uint32_t c3,
+                                    float scale, float x, float y)
+{
+    float left = shade__scaled(c0, scale), top = left + x * (shade__scaled(c1, scale) - left);
+    float from = shade__scaled(c2, scale), low = from + x * (shade__scaled(c3, scale) - from);
+    return top + y * (low - top);
+}
+/* All channels of packed texels, from the lowest up. */
+SHADE__INLINE void shade__blend_packed(const uint32_t *texel, int blocks,
+                                       const shade__layout *l, const shade__axis *axis,
+                                       float *SHADE_RESTRICT r0, float *SHADE_RESTRICT r1,
+                                       float *SHADE_RESTRICT r2, float *SHADE_RESTRICT r3)
+{
+    const uint32_t *second = texel + 2 * SHADE__TEXELS;
+    const uint32_t m0 = l->mask[0], m1 = l->mask[1], m2 = l->mask[2];
+    const int n = l->shift[3];
+    const float s0 = l->step[0], s1 = l->step[1], s2 = l->step[2], s3 = l->step[3];
+    SHADE__EACH_BLOCK(i, blocks) {
+        const uint32_t a = texel[2 * i], b = texel[2 * i + 1];
+        const uint32_t c = second[2 * i], d = second[2 * i + 1];
+        const float x = axis[0].f[i], y = axis[1].f[i];
+        r0[i] = shade__bilinear(a & m0, b & m0, c & m0, d & m0, s0, x, y);
+        r1[i] = shade__bilinear(a & m1, b & m1, c & m1, d & m1, s1, x, y);
+        r2[i] = shade__bilinear(a & m2, b & m2, c & m2, d & m2, s2, x, y);
+        r3[i] = shade__bilinear(a >> n, b >> n, c >> n, d >> n, s3, x, y);
+    }
+}
+/* One channel of packed texels as floats. */
+SHADE__INLINE void shade__decode_texels(const uint32_t *texel, int blocks, int shift,
+                                        uint32_t mask, float step, int decoded,
+                                        float *SHADE_RESTRICT c)
+{
+    SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__scaled(texel[i] >> shift & mask, step); }
+    if (!decoded) return;
+    SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__srgb_decode(c[i]); }
+}
+/* The nearest ones; -0 is 0, as where it is blended. */
+SHADE__INLINE void shade__pick_floats(const float *c, int blocks, float *SHADE_RESTRICT out)
+{
+    SHADE__EACH_BLOCK(i, blocks) { out[i] = c[2 * i] + 0; }
+}
+/* One channel of texels as floats, in the order of pairs.  What has no weight is not touched, so
+   that an infinite texel stays where it is. */
+SHADE__INLINE void shade__blend_floats(const float *c, int blocks, const shade__axis *axis,
                                        float *SHADE_RESTRICT out)
 {
-    const float scale = 1 / (float)(int32_t)mask;
+    const float *second = c + 2 * SHADE__TEXELS;
     SHADE__EACH_BLOCK(i, blocks) {
-        float x = axis[0].f[i], c0 = shade__channel(texel[0][i], shift, mask, scale);
-        float c1 = shade__channel(texel[1][i], shift, mask, scale);
-        float c2 = shade__channel(texel[2][i], shift, mask, scale);
-        float c3 = shade__channel(texel[3][i], shift, mask, scale);
-        float top = c0 + x * (c1 - c0), low = c2 + x * (c3 - c2);
-        out[i] = top + axis[1].f[i] * (low - top);
-    }
-}
-SHADE__INLINE void shade__decode_texels(const uint32_t *texel, int blocks, int shift,
-                                        uint32_t mask, uint32_t *SHADE_RESTRICT bits)
-{
-    const float scale = 1 / (float)(int32_t)mask;
-    SHADE__EACH_BLOCK(i, blocks) {
-        float c = shade__channel(texel[i], shift, mask, scale);
-        bits[i] = shade__float_bits(shade__srgb_decode(c));
-    }
-}
-/* The same of floats by their bits; texels that have no weight are not touched, so that an infinite
-   one stays where it is. */
-SHADE__INLINE void shade__blend_floats(uint32_t bits[4][SHADE__TEXELS], int blocks,
-                                       const shade__axis *axis, float *SHADE_RESTRICT out)
-{
-    SHADE__EACH_BLOCK(i, blocks) {
-        float x = axis[0].f[i], y = axis[1].f[i];
+        float x = axis[0].f[i], y = axis[1].f[i], c0 = c[2 * i], c2 = second[2 * i];
         uint32_t right = shade__mask(x > 0), below = shade__mask(y > 0);
-        float c0 = shade__bits_float(bits[0][i]), c1 = shade__bits_float(bits[1][i]);
-        float c2 = shade__bits_float(bits[2][i]), c3 = shade__bits_float(bits[3][i]);
-        float top = c0 + shade__keep(x * (c1 - c0), right);
-        float low = c2 + shade__keep(x * (c3 - c2), right);
+        float top = c0 + shade__keep(x * (c[2 * i + 1] - c0), right);
+        float low = c2 + shade__keep(x * (second[2 * i + 1] - c2), right);
         out[i] = top + shade__keep(y * (low - top), below);
     }
 }
@@ -3967,41 +4016,63 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
                                        const float *u, const float *v, int blocks,
                                        const float *weight, float *out, int stride)
 {
-    static const uint8_t shift565[4] = { 11, 5, 0, 16 };
+    enum { N = SHADE__TEXELS };
+    static const shade__layout layouts[2] = {
+        { { 255, 255 << 8, 255 << 16, 255 }, { 0, 0, 0, 24 },
+          { 1.0f / 255, 1.0f / 255 / 256, 1.0f / 255 / 65536, 1.0f / 255 } },
+        { { 31, 63 << 5, 31 << 11, 1 }, { 0, 0, 0, 16 },
+          { 1.0f / 31, 1.0f / 63 / 32, 1.0f / 31 / 2048, 1 } }
+    };
     shade__axis axis[2];
-    SHADE_ALIGNED uint32_t texel[4][SHADE__TEXELS];
-    SHADE_ALIGNED uint32_t linear[4][SHADE__TEXELS];
-    SHADE_ALIGNED float blend[SHADE__TEXELS];
+    SHADE_ALIGNED uint32_t texel[4 * N];
+    SHADE_ALIGNED float value[4 * N];
+    SHADE_ALIGNED float blend[N];
+    uint32_t apart[(int)N / (int)SHADE__BLOCK];
+    const shade_format format = level->format;
     const uint8_t *p = (const uint8_t *)level->pixels;
-    const size_t bytes = shade__pixel_bytes(level->format);
+    const size_t bytes = shade__pixel_bytes(format);
     const size_t pitch = (size_t)(level->stride ? level->stride : level->width) * bytes;
-    const int floats = bytes == 16, nearest = base->filter == SHADE_FILTER_NEAREST;
-    const int words = SHADE__TWICE && bytes != 2 && (uintptr_t)p % 4 == 0 &&
-                      (uint64_t)pitch * (uint64_t)level->height <= INT32_MAX;
+    /* where 32 bits cannot count the bytes, rows are counted */
+    const size_t unit = (uint64_t)pitch * (uint64_t)level->height > UINT32_MAX ? pitch : 1;
+    const int half = bytes == 2, floats = bytes == 16;
+    const int nearest = base->filter == SHADE_FILTER_NEAREST, rows = nearest ? 1 : 2;
+    const int packed = !floats && !nearest && !level->srgb;
+    const shade__layout *l = &layouts[half];
+    /* channels from the lowest bits up: in bytes of a word, or blue first */
+    const shade_format order = half ? SHADE_FORMAT_BGRA8 : format;
+    const int flip = half || floats ? 0 : shade__channel_shift(SHADE_FORMAT_RGBA8, 0) / 8;
     for (int k = 0; k < 2; k++)
         shade__address(k ? v : u, blocks, k ? level->height : level->width,
                        k ? base->wrap_v : base->wrap_u, nearest, &axis[k]);
+    for (int b = 0; b < blocks; b++) {
+        const int i = b * SHADE__BLOCK;
+        apart[b] = shade__locate(axis[0].i0 + i, axis[0].i1 + i, axis[1].i0 + i, axis[1].i1 + i,
+                                 half ? 1 : floats ? 4 : 2, unit > 1 ? 1 : (uint32_t)pitch);
+        if (bytes != 4 || unit > 1) apart[b] = 1;
+    }
     for (int k = 0; k < 4; k++) {
-        const uint32_t mask = shade__channel_full(level->format, k);
-        const int shift = bytes == 4 ? shade__channel_shift(level->format, k) : shift565[k];
-        const int decoded = level->srgb && !floats && k < 3;
-        float *to = weight ? blend : out + k * stride;
-        for (int j = 0; j < 4 && (floats || k == 0); j++) {
-            const int32_t *x = j & 1 ? axis[0].i1 : axis[0].i0;
-            const int32_t *y = j & 2 ? axis[1].i1 : axis[1].i0;
-            if (words)
-                shade__gather_texels((const shade__word *)(const void *)p + k, x, y,
-                                     (int32_t)(pitch / 4), floats ? 2 : 0, blocks, texel[j]);
-            else
-                shade__fetch_texels(p + 4 * k, x, y, pitch, bytes,
-                                    level->format == SHADE_FORMAT_RGB565_SWAPPED, blocks, texel[j]);
+        const int channel = shade__channel_byte(order, k ^ flip);
+        float *row = weight ? blend : out + channel * stride;
+        for (int j = 0; j < rows && (floats || k == 0); j++)
+            shade__fetch_pairs(p + 4 * k, format, unit, axis, j ? axis[1].i1 : axis[1].i0, apart,
+                               blocks, (floats ? shade__words(value) : texel) + 2 * j * N);
+        if (packed) {
+            float *to = weight ? value : out;
+            const int across = weight ? N : stride;
+            shade__blend_packed(texel, blocks, l, axis, to + channel * across,
+                                to + shade__channel_byte(order, 1 ^ flip) * across,
+                                to + shade__channel_byte(order, 2 ^ flip) * across,
+                                to + shade__channel_byte(order, 3 ^ flip) * across);
+            for (k = 0; weight && k < 4; k++)
+                shade__add_level(value + k * N, weight, blocks, out + k * stride);
+            return;
         }
-        for (int j = 0; j < 4 && decoded; j++)
-            shade__decode_texels(texel[j], blocks, shift, mask, linear[j]);
-        if (floats || decoded)
-            shade__blend_floats(decoded ? linear : texel, blocks, axis, to);
-        else shade__blend_packed(texel, blocks, shift, mask, axis, to);
-        if (weight) shade__add_level(to, weight, blocks, out + k * stride);
+        for (int j = 0; j < rows && !floats; j++)
+            shade__decode_texels(texel + 2 * j * N, 2 * blocks, l->shift[k], l->mask[k],
+                                 l->step[k], level->srgb && channel < 3, value + 2 * j * N);
+        if (nearest) shade__pick_floats(value, blocks, row);
+        else shade__blend_floats(value, blocks, axis, row);
+        if (weight) shade__add_level(row, weight, blocks, out + channel * stride);
     }
 }
 /* Blocks of lanes of a good texture; out: 4 rows, stride apart. */
@@ -4031,12 +4102,12 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
                 used |= shade__float_bits(weight[i]);
             }
         }
-        if (!shade__texture_good(source)) source = t;
+        if (k && !shade__texture_good(source)) source = t;
         if (used)
             shade__sample_level(t, source, u, v, blocks, levels ? weight : NULL, out, stride);
     }
 }
-SHADE__DISPATCH_AVX2(shade__sample,
+SHADE__DISPATCH(shade__sample,
                 (const shade_texture *t, const float *u, const float *v, const float *lod,
                  int blocks, float *out, int stride),
                 (t, u, v, lod, blocks, out, stride))
