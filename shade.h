@@ -1478,7 +1478,8 @@ SHADEDEF float shade_power(float x, float n)
 /* clamp(x, 0, 1), NaN 0 */
 SHADE__INLINE float shade__unit(float x)
 {
-    return shade__keep(shade__clamp_bits(x, 0, 1), shade__mask(x == x));
+    int32_t i = (int32_t)shade__float_bits(shade__keep(x, shade__mask(x > 0)));
+    return shade__bits_float((uint32_t)shade__min(i, 0x3F800000));
 }
 /* 0 <= c <= 1, and so is the result, of either: held for every such float */
 SHADE__INLINE float shade__srgb_encode(float c)
