@@ -1218,10 +1218,6 @@ static SHADE__COLD void shade__sincos(float radians, double *sine, double *cosin
     if ((k + 1) & 2) *cosine = -*cosine;
 }
 
-SHADEDEF shade_mat3 shade_mat3_identity(void)
-{
-    return shade__m3(shade_v3(1, 0, 0), shade_v3(0, 1, 0), shade_v3(0, 0, 1));
-}
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m)
 {
     return shade__m3(shade__xyz(m.col[0]), shade__xyz(m.col[1]), shade__xyz(m.col[2]));
@@ -1244,7 +1240,8 @@ SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m)
 {
     shade_mat3 a = shade_mat3_from_mat4(m), c = shade__cofactors(a);
     float s = shade_dot(a.col[0], c.col[0]) < 0 ? -1.0f : 1.0f;
-    return shade__m3(shade_scale(c.col[0], s), shade_scale(c.col[1], s), shade_scale(c.col[2], s));
+    for (int k = 0; k < 3; k++) c.col[k] = shade_scale(c.col[k], s);
+    return c;
 }
 
 /* shade_mat4_mul as one copy */
@@ -1254,8 +1251,9 @@ static SHADE__NOINLINE shade_mat4 shade__mat4_product(const shade_mat4 *a, const
 }
 static shade_mat4 shade__zero_matrix(void)
 {
-    shade_vec4 o = shade_v4(0, 0, 0, 0);
-    return shade__m4(o, o, o, o);
+    shade_mat4 m;
+    SHADE__ZERO(m);
+    return m;
 }
 SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v)
 {
@@ -1263,6 +1261,10 @@ SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v)
                      shade_v4(0, 0, 0, 1));
 }
 SHADEDEF shade_mat4 shade_mat4_identity(void) { return shade_mat4_scaling(shade_v3(1, 1, 1)); }
+SHADEDEF shade_mat3 shade_mat3_identity(void)
+{
+    return shade_mat3_from_mat4(shade_mat4_identity());
+}
 SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v)
 {
     shade_mat4 m = shade_mat4_identity();
@@ -1301,13 +1303,15 @@ SHADEDEF float shade_mat4_determinant(shade_mat4 m)
     double e[16], s[6], c[6];
     return (float)shade__expand(&m, e, s, c);
 }
+/* m, or the other where an entry is not finite */
 static int shade__is_finite(const shade_mat4 *m)
 {
     for (int k = 0; k < 16; k++)
         if (!shade__within(((const float *)m)[k], FLT_MAX)) return 0;
     return 1;
 }
-/* The matrix of a camera, or the degenerate one where it is none or an entry is not finite. */
+/* The matrix of a camera, or the degenerate one where it is none or an entry is not finite, as
+   after a division by zero. */
 static shade_mat4 shade__camera(int exists, double xx, double yy, shade_vec4 z, shade_vec4 w)
 {
     shade_mat4 none = shade__zero_matrix();
@@ -1315,40 +1319,37 @@ static shade_mat4 shade__camera(int exists, double xx, double yy, shade_vec4 z, 
     none.col[3] = shade_v4(0, 0, 2, 1);
     return exists && shade__is_finite(&m) ? m : none;
 }
-/* Cramer's rule: entry (i, j) is a sum over the rows but j of the other column of its pair (0, 1
-   or 2, 3) times minors of the other pair.
+/* Cramer's rule: row i is made of the other column of its pair (0, 1 or 2, 3) and the minors of the
+   other pair.  A determinant of 0 leaves no entry finite.
    Not inlined: gcc 12 drops the rounding where doubles become floats and two of them doubles again
    next to each other (its SLP vectoriser), as they would in shade_pixel_ray. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
-    static const uint8_t row[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
-    static const uint8_t minor[4][3] = { { 5, 4, 3 }, { 5, 2, 1 }, { 4, 2, 0 }, { 3, 1, 0 } };
-    double e[16], s[6], c[6], det = shade__expand(&m, e, s, c), k;
-    if (!(det < 0 || det > 0)) return shade__zero_matrix();
-    k = 1 / det;
-    for (int j = 0; j < 4; j++) {
-        for (int i = 0; i < 4; i++) {
-            const double *v = e + 4 * (i ^ 1), *other = i < 2 ? c : s, sign = (i + j) & 1 ? -1 : 1;
-            double sum = sign * v[row[j][0]] * other[minor[j][0]];
-            sum -= sign * v[row[j][1]] * other[minor[j][1]];
-            sum += sign * v[row[j][2]] * other[minor[j][2]];
-            ((float *)&m)[4 * j + i] = (float)(sum * k);
-        }
+    double e[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
+    for (int i = 0; i < 4; i++) {
+        const double *v = e + 4 * (i ^ 1), *o = i < 2 ? c : s, sign = 1 - 2 * (i & 1);
+        const double x = sign * v[0], y = sign * v[1], z = sign * v[2], w = sign * v[3];
+        float *row = (float *)&m + i;
+        row[0] = (float)((y * o[5] - z * o[4] + w * o[3]) * k);
+        row[4] = (float)((-x * o[5] + z * o[2] - w * o[1]) * k);
+        row[8] = (float)((x * o[4] - y * o[2] + w * o[0]) * k);
+        row[12] = (float)((-x * o[3] + y * o[1] - z * o[0]) * k);
     }
     return shade__is_finite(&m) ? m : shade__zero_matrix();
 }
 
+/* c 1 + s [a]x + (1 - c) a a^T */
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
 {
-    double sd, cd;
-    shade_vec3 a = shade__unit_vector(axis), t;
+    double s, c;
+    shade_vec3 a = shade__unit_vector(axis), sa, t;
     if (shade__is_zero(a)) return shade_mat4_identity();
-    shade__sincos(radians, &sd, &cd);
-    float s = (float)sd, c = (float)cd;
-    t = shade_scale(a, (float)(1 - cd));
-    return shade__m4(shade_v4(c + t.x * a.x, t.x * a.y + s * a.z, t.x * a.z - s * a.y, 0),
-                     shade_v4(t.y * a.x - s * a.z, c + t.y * a.y, t.y * a.z + s * a.x, 0),
-                     shade_v4(t.z * a.x + s * a.y, t.z * a.y - s * a.x, c + t.z * a.z, 0),
+    shade__sincos(radians, &s, &c);
+    sa = shade_scale(a, (float)s);
+    t = shade_scale(a, (float)(1 - c));
+    return shade__m4(shade__xyzw(shade_madd(shade_v3((float)c, sa.z, -sa.y), t.x, a), 0),
+                     shade__xyzw(shade_madd(shade_v3(-sa.z, (float)c, sa.x), t.y, a), 0),
+                     shade__xyzw(shade_madd(shade_v3(sa.y, -sa.x, (float)c), t.z, a), 0),
                      shade_v4(0, 0, 0, 1));
 }
 
@@ -1369,25 +1370,25 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
                      shade_v4(-shade_dot(r, eye), -shade_dot(u, eye), shade_dot(f, eye), 1));
 }
 
-/* 1 / tan(fovy / 2), 0 for fovy outside (0, pi) */
+/* 1 / tan(fovy / 2), or what no float can hold for fovy outside (0, pi) */
 static double shade__focal(float fovy)
 {
     double s, c;
     shade__sincos(fovy / 2, &s, &c);
-    return fovy > 0 && fovy < 3.2f && s > 0 && c > 0 ? c / s : 0;
+    return fovy > 0 && fovy < 3.2f && c > 0 ? c / s : DBL_MAX;
 }
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z)
 {
     double y = shade__focal(fovy), n = (double)near_z, f = (double)far_z, d = n - f;
-    return shade__camera(y > 0 && aspect != 0 && n > 0 && f > 0 && d != 0, y / (double)aspect, y,
+    return shade__camera(n > 0 && f > 0, y / (double)aspect, y,
                          shade_v4(0, 0, (float)((n + f) / d), -1),
                          shade_v4(0, 0, (float)(2 * n * f / d), 0));
 }
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z)
 {
     double y = shade__focal(fovy);
-    return shade__camera(y > 0 && aspect != 0 && near_z > 0, y / (double)aspect, y,
-                         shade_v4(0, 0, 0, -1), shade_v4(0, 0, near_z, 0));
+    return shade__camera(near_z > 0, y / (double)aspect, y, shade_v4(0, 0, 0, -1),
+                         shade_v4(0, 0, near_z, 0));
 }
 /* A box of eye space, or the frustum whose face at near is that of the box. */
 static shade_mat4 shade__box_camera(int frustum, double l, double r, double b, double t, double n,
@@ -1395,11 +1396,10 @@ static shade_mat4 shade__box_camera(int frustum, double l, double r, double b, d
 {
     const double w = r - l, h = t - b, d = n - f, k = frustum ? 2 * n : 2;
     const float x = (float)((r + l) / w), y = (float)((t + b) / h), z = (float)((n + f) / d);
-    const int exists = w != 0 && h != 0 && d != 0;
     if (!frustum)
-        return shade__camera(exists, k / w, k / h, shade_v4(0, 0, (float)(k / d), 0),
+        return shade__camera(1, k / w, k / h, shade_v4(0, 0, (float)(k / d), 0),
                              shade_v4(-x, -y, z, 1));
-    return shade__camera(exists && n > 0 && f > 0, k / w, k / h, shade_v4(x, y, z, -1),
+    return shade__camera(n > 0 && f > 0, k / w, k / h, shade_v4(x, y, z, -1),
                          shade_v4(0, 0, (float)(k * f / d), 0));
 }
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f)
