@@ -5172,13 +5172,18 @@ static shade_vec3 shade__triangle_normal(const shade_mesh *m, uint32_t t)
     shade_vec3 p[3], n = shade__face_normal(m, t, p);
     return shade__within(shade_dot(n, n), 2) ? n : shade_v3(0, 0, 0);
 }
+/* The corner some steps on in the same triangle. */
+static uint32_t shade__corner_after(uint32_t corner, uint32_t steps)
+{
+    return corner / 3 * 3 + (corner + steps) % 3;
+}
 /* Angle of a triangle at a corner, radians. */
 static float shade__corner_angle(const shade_mesh *m, uint32_t corner)
 {
-    const uint32_t t = corner / 3 * 3, k = corner % 3;
     const shade_vec3 p = shade__corner(m, corner);
-    shade_vec3 a = shade__unit_vector(shade_sub(shade__corner(m, t + (k + 1) % 3), p));
-    shade_vec3 b = shade__unit_vector(shade_sub(shade__corner(m, t + (k + 2) % 3), p));
+    const shade_vec3 q = shade__corner(m, shade__corner_after(corner, 1));
+    const shade_vec3 r = shade__corner(m, shade__corner_after(corner, 2));
+    shade_vec3 a = shade__unit_vector(shade_sub(q, p)), b = shade__unit_vector(shade_sub(r, p));
     return (float)shade__angle((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
 }
 static shade_result shade__check_shape(const shade_mesh *m, const void *out)
@@ -5194,10 +5199,9 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
 {
     shade_result result = shade__check_shape(mesh, normals);
     if (result != SHADE_OK) return result;
-    for (ptrdiff_t i = 0; i < mesh->vertex_count; i++) normals[i] = shade_v3(0, 0, 0);
+    SHADE_MEMSET(normals, 0, (size_t)mesh->vertex_count * sizeof *normals);
     for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
         shade_vec3 n = shade__triangle_normal(mesh, t);
-        if (shade__is_zero(n)) continue;
         for (uint32_t k = 3 * t; k < 3 * t + 3; k++) {
             shade_vec3 *sum = &normals[shade__corner_index(mesh, k)];
             *sum = shade_madd(*sum, shade__corner_angle(mesh, k), n);
@@ -5207,43 +5211,56 @@ SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *nor
     return SHADE_OK;
 }
 
+/* NaN equals nothing */
 static int shade__same_position(const shade_mesh *m, uint32_t i, uint32_t j)
 {
-    const shade_vec3 p = shade__corner(m, i), q = shade__corner(m, j);
-    return p.x == q.x && p.y == q.y && p.z == q.z;
+    return shade__is_zero(shade_sub(shade__corner(m, i), shade__corner(m, j)));
 }
-/* Byte k of 12 of the position of a corner; -0 + 0 is 0. */
-SHADE__INLINE uint32_t shade__position_byte(const shade_mesh *m, uint32_t corner, int k)
+/* The edge from a corner to the next of its triangle. */
+static shade_edge shade__edge_from(const shade_mesh *m, uint32_t corner)
 {
-    const shade_vec3 p = shade__corner(m, corner);
-    return shade__float_bits((k < 4 ? p.x : k < 8 ? p.y : p.z) + 0) >> 8 * (k & 3) & 255;
+    const uint32_t p = shade__corner_index(m, corner);
+    const uint32_t q = shade__corner_index(m, shade__corner_after(corner, 1));
+    shade_edge e;
+    e.a = p < q ? p : q;
+    e.b = p < q ? q : p;
+    e.triangle[0] = (int32_t)(corner / 3);
+    e.triangle[1] = -1;
+    return e;
 }
-/* Corners 0 .. count - 1 so that equal positions stand together, ascending: sorted byte by byte,
-   which takes the same time whatever the positions are.  Returns one of the two arrays. */
-static uint32_t *shade__sort_corners(const shade_mesh *m, uint32_t count, uint32_t *order,
-                                     uint32_t *other)
+/* Byte k of what corners are sorted by: position, where -0 + 0 is 0; or their edge, a before b. */
+SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t corner, int k)
+{
+    uint32_t word;
+    if (edges) {
+        const shade_edge e = shade__edge_from(m, corner);
+        word = k < 4 ? e.b : e.a;
+    } else {
+        const shade_vec3 p = shade__corner(m, corner);
+        word = shade__float_bits((k < 4 ? p.x : k < 8 ? p.y : p.z) + 0);
+    }
+    return word >> 8 * (k & 3) & 255;
+}
+/* Corners 0 .. count - 1, sorted byte by byte, which takes the same time whatever they are; equal
+   ones ascend.  other: room for as many. */
+static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, uint32_t *order,
+                                uint32_t *other)
 {
     for (uint32_t i = 0; i < count; i++) order[i] = i;
-    for (int k = 0; k < 12; k++) {
-        uint32_t start[256] = { 0 }, sum = 0, *swap = order;
-        for (uint32_t i = 0; i < count; i++) start[shade__position_byte(m, i, k)]++;
-        if (start[shade__position_byte(m, 0, k)] == count) continue;    /* all alike */
-        for (int b = 0; b < 256; b++) {
-            uint32_t n = start[b];
-            start[b] = sum;
-            sum += n;
-        }
+    for (int k = 0; k < (edges ? 8 : 12); k++) {    /* an even number, which ends in order */
+        uint32_t start[257] = { 0 }, *sorted = other;
+        for (uint32_t i = 0; i < count; i++) start[shade__key_byte(m, edges, i, k) + 1]++;
+        for (int b = 0; b < 256; b++) start[b + 1] += start[b];
         for (uint32_t i = 0; i < count; i++)
-            other[start[shade__position_byte(m, order[i], k)]++] = order[i];
-        order = other;
-        other = swap;
+            sorted[start[shade__key_byte(m, edges, order[i], k)]++] = order[i];
+        other = order;
+        order = sorted;
     }
-    return order;
 }
 SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
 {
     if (shade__check_shape(mesh, &mesh) != SHADE_OK) return 0;
-    return (size_t)shade__corner_count(mesh) * 12 + (size_t)shade__corner_count(mesh) / 3 * 12;
+    return 16 * (size_t)shade__corner_count(mesh);
 }
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *out, void *memory, size_t bytes)
@@ -5261,12 +5278,12 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     order = (uint32_t *)memory;
     angle = (float *)(void *)(order + 2 * (size_t)count);
     face = (shade_vec3 *)(void *)(angle + count);
-    order = shade__sort_corners(mesh, count, order, order + count);
-    for (size_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, (uint32_t)t);
     for (uint32_t i = 0; i < count; i++) angle[i] = shade__corner_angle(mesh, i);
-    for (uint32_t first = 0, end; first < count; first = end) {
-        for (end = first + 1; end < count; end++)
-            if (!shade__same_position(mesh, order[first], order[end])) break;
+    for (uint32_t t = 0; t < count / 3; t++) face[t] = shade__triangle_normal(mesh, t);
+    shade__sort_corners(mesh, 0, count, order, order + count);
+    for (uint32_t first = 0, end = 0; first < count; first = end) {
+        do end++;
+        while (end < count && shade__same_position(mesh, order[first], order[end]));
         for (uint32_t i = first; i < end; i++) {
             shade_vec3 n = face[order[i] / 3], mean = shade_v3(0, 0, 0);
             for (uint32_t j = first; j < end; j++) {
@@ -5280,35 +5297,14 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     return SHADE_OK;
 }
 
-static int shade__edge_less(const shade_edge *p, const shade_edge *q)
-{
-    if (p->a != q->a) return p->a < q->a;
-    return p->b != q->b ? p->b < q->b : p->triangle[0] < q->triangle[0];
-}
-/* By a heap, in place. */
-static void shade__sort_edges(shade_edge *p, int n)
-{
-    for (int start = n / 2, end = n; end > 1;) {
-        shade_edge moved;
-        int root, child;
-        if (start > 0) moved = p[--start];
-        else {
-            moved = p[--end];
-            p[end] = p[0];
-        }
-        for (root = start; (child = 2 * root + 1) < end; root = child) {
-            if (child + 1 < end && shade__edge_less(&p[child], &p[child + 1])) child++;
-            if (!shade__edge_less(&moved, &p[child])) break;
-            p[root] = p[child];
-        }
-        p[root] = moved;
-    }
-}
+/* Sorted are corners, in the last quarter of edges: where i of them have become entries, these end
+   before corner i, as 16 i <= 12 corners + 4 i. */
 SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges, int capacity,
                                        int *count)
 {
     shade_result result;
-    int corners, n = 0, kept = 0;
+    uint32_t *order;
+    int corners, kept = 0;
     if (count) *count = 0;
     if (!count) return SHADE_ERROR_ARGUMENT;
     result = shade__check_shape(mesh, capacity > 0 ? (const void *)edges : (const void *)count);
@@ -5319,23 +5315,16 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
         *count = corners;
         return SHADE_ERROR_CAPACITY;
     }
+    if (!corners) return SHADE_OK;
+    order = (uint32_t *)(void *)edges + 3 * (size_t)corners;
+    shade__sort_corners(mesh, 1, (uint32_t)corners, order, order - corners);
     for (int i = 0; i < corners; i++) {
-        uint32_t a = shade__corner_index(mesh, (uint32_t)i);
-        uint32_t b = shade__corner_index(mesh, (uint32_t)(i % 3 == 2 ? i - 2 : i + 1));
-        if (a == b) continue;                            /* of a triangle without area */
-        edges[n].a = a < b ? a : b;
-        edges[n].b = a < b ? b : a;
-        edges[n].triangle[0] = i / 3;
-        edges[n++].triangle[1] = -1;
-    }
-    shade__sort_edges(edges, n);
-    for (int i = 0; i < n; i++) {
-        shade_edge *last = kept ? &edges[kept - 1] : NULL;
-        int same = last && last->a == edges[i].a && last->b == edges[i].b;
-        if (same && edges[i].triangle[0] == shade__max(last->triangle[0], last->triangle[1]))
-            continue;
-        if (same && last->triangle[1] < 0) last->triangle[1] = edges[i].triangle[0];
-        else edges[kept++] = edges[i];
+        shade_edge e = shade__edge_from(mesh, order[i]), *last = kept ? &edges[kept - 1] : NULL;
+        int same = last && last->a == e.a && last->b == e.b;
+        if (e.a == e.b) continue;    /* of a triangle without area */
+        if (same && e.triangle[0] == shade__max(last->triangle[0], last->triangle[1])) continue;
+        if (same && last->triangle[1] < 0) last->triangle[1] = e.triangle[0];
+        else edges[kept++] = e;
     }
     *count = kept;
     return SHADE_OK;
@@ -5357,17 +5346,15 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
     shade_mat4 m = shade_mat4_inverse(shade__mat4_product(&projection, &view));
     float nx = 2 * x / (float)shade__max(width, 1) - 1,
           ny = 1 - 2 * y / (float)shade__max(height, 1);
-    shade_vec4 near_h = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
-    shade_vec4 far_h = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
+    shade_vec4 from = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
+    shade_vec4 to = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
     shade_vec3 forward = shade_mat4_transform_direction(camera, shade_v3(0, 0, -1)), d;
+    ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
     if (projection.col[0].w != 0 || projection.col[1].w != 0 || projection.col[2].w != 0) {
         ray.origin = shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
-        d = shade_sub(shade__xyz(far_h), shade_scale(ray.origin, far_h.w));
-    } else {
-        ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
-        d = shade_sub(shade_scale(shade__xyz(far_h), near_h.w),
-                      shade_scale(shade__xyz(near_h), far_h.w));
+        from = shade__xyzw(ray.origin, 1);
     }
+    d = shade_sub(shade_scale(shade__xyz(to), from.w), shade_scale(shade__xyz(from), to.w));
     ray.direction = shade__unit_vector(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
     return ray;
 }
@@ -5418,8 +5405,8 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric)
 {
-    float nearest = FLT_MAX, at;
-    shade_vec3 where, inside;
+    float nearest = FLT_MAX, at;    /* no intersection is as far */
+    shade_vec3 where;
     int found = -1;
     double e[3], f[3], n[3];
     if (shade__check_shape(mesh, &ray) != SHADE_OK) return -1;
@@ -5430,17 +5417,14 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
             q[k] = shade__corner(mesh, 3 * (uint32_t)i + k);
             p[k] = shade_mat4_transform_point(model, q[k]);
         }
-        if (!shade_intersect(ray, p[0], p[1], p[2], &at, &where)) continue;
-        if (found >= 0 && at >= nearest) continue;
+        if (!shade_intersect(ray, p[0], p[1], p[2], &at, &where) || at >= nearest) continue;
         /* three points of a line, which rounding parts when they are turned */
         if (!shade__edges3(q[0], q[1], q[2], e, f, n)) continue;
         found = i;
         nearest = at;
-        inside = where;
+        if (t) *t = at;
+        if (barycentric) *barycentric = where;
     }
-    if (found < 0) return -1;
-    if (t) *t = nearest;
-    if (barycentric) *barycentric = inside;
     return found;
 }
 
