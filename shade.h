@@ -1492,18 +1492,16 @@ SHADE__INLINE float shade__srgb_decode(float c)
     float curve = shade__exp2_neg(shade__neg_log2((c + 0.055f) * (1 / 1.055f)) * 2.4f);
     return shade__select(c * (1 / 12.92f), curve, shade__mask(c > 0.04045f));
 }
-/* The same as one copy each. */
-static SHADE__NOINLINE float shade__encode(float c) { return shade__srgb_encode(c); }
-static SHADE__NOINLINE float shade__decode(float c) { return shade__srgb_decode(c); }
+/* The same of any c, clamped, as one copy each. */
+static SHADE__NOINLINE float shade__encode(float c) { return shade__srgb_encode(shade__unit(c)); }
+static SHADE__NOINLINE float shade__decode(float c) { return shade__srgb_decode(shade__unit(c)); }
 SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 c)
 {
-    return shade_v3(shade__encode(shade__unit(c.x)), shade__encode(shade__unit(c.y)),
-                    shade__encode(shade__unit(c.z)));
+    return shade_v3(shade__encode(c.x), shade__encode(c.y), shade__encode(c.z));
 }
 SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 c)
 {
-    return shade_v3(shade__decode(shade__unit(c.x)), shade__decode(shade__unit(c.y)),
-                    shade__decode(shade__unit(c.z)));
+    return shade_v3(shade__decode(c.x), shade__decode(c.y), shade__decode(c.z));
 }
 SHADEDEF shade_vec3 shade_rgb(uint32_t rgb)
 {
@@ -1528,17 +1526,19 @@ static size_t shade__pixel_bytes(shade_format format)
 /* the two bytes of u < 2^16 exchanged */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return u >> 8 | (u & 255) << 8; }
 
-/* which of the 4 bytes of a pixel is channel k: R, G, B, A */
+/* which of the 4 bytes of a pixel is channel k: R, G, B, A; and the other way round */
 SHADE__INLINE int shade__channel_byte(shade_format format, int k)
 {
     return format == SHADE_FORMAT_BGRA8 && k < 3 ? 2 - k : k;
 }
-/* where it lies in a native uint32 */
+/* where it lies in the native integer */
 SHADE__INLINE int shade__channel_shift(shade_format format, int k)
 {
-    const uint32_t one = 1;
+    static const uint8_t shift565[4] = { 11, 5, 0, 16 };
     const int byte = shade__channel_byte(format, k);
+    const uint32_t one = 1;
     uint8_t first;
+    if (shade__pixel_bytes(format) == 2) return shift565[k];
     SHADE_MEMCPY(&first, &one, 1);
     return first ? 8 * byte : 24 - 8 * byte;
 }
@@ -1553,21 +1553,19 @@ SHADE__INLINE void shade__store_pixel(shade_format format, uint8_t *p, uint32_t 
     else
         for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + k * stride, 4);
 }
-/* The pixel at p as numbers 0 .. full of its channels, alpha 1 where it has none.  Not RGBA32F. */
-SHADE__INLINE void shade__unpack_pixel(shade_format format, const uint8_t *p, uint32_t *c)
+/* Loads one pixel: its packed form, where an alpha of 1 lies past 16 bits, or its four floats,
+   stride apart. */
+SHADE__INLINE void shade__load_pixel(shade_format format, const uint8_t *p, uint32_t *packed,
+                                     float *rgba, int stride)
 {
-    if (shade__pixel_bytes(format) == 4) {
-        for (int k = 0; k < 4; k++) c[k] = p[shade__channel_byte(format, k)];
-    } else {
-        uint16_t native;
-        uint32_t u;
-        SHADE_MEMCPY(&native, p, 2);
-        u = format == SHADE_FORMAT_RGB565_SWAPPED ? shade__swap16(native) : native;
-        c[0] = u >> 11;
-        c[1] = u >> 5 & 63;
-        c[2] = u & 31;
-        c[3] = 1;
-    }
+    const size_t bytes = shade__pixel_bytes(format);
+    uint16_t u;
+    if (bytes == 4) SHADE_MEMCPY(packed, p, 4);
+    else if (bytes == 2) {
+        SHADE_MEMCPY(&u, p, 2);
+        *packed = 0x10000 | (format == SHADE_FORMAT_RGB565_SWAPPED ? shade__swap16(u) : u);
+    } else
+        for (int k = 0; k < 4; k++) SHADE_MEMCPY(rgba + k * stride, p + 4 * k, 4);
 }
 /* The full value of channel k of a packed format. */
 SHADE__INLINE uint32_t shade__channel_full(shade_format format, int k)
@@ -1575,16 +1573,10 @@ SHADE__INLINE uint32_t shade__channel_full(shade_format format, int k)
     if (shade__pixel_bytes(format) == 4) return 255;
     return k == 3 ? 1 : k == 1 ? 63 : 31;
 }
-/* The stored pixel at p as four floats, stride apart, sRGB as it is. */
-static void shade__fetch(shade_format format, const uint8_t *p, float *rgba, int stride)
+/* whether what is stored is sRGB */
+SHADE__INLINE int shade__is_encoded(const shade_target *t)
 {
-    uint32_t c[4] = { 0 };
-    if (format != SHADE_FORMAT_RGBA32F) shade__unpack_pixel(format, p, c);
-    for (int k = 0; k < 4; k++) {
-        const int32_t full = (int32_t)shade__channel_full(format, k);
-        if (format == SHADE_FORMAT_RGBA32F) SHADE_MEMCPY(rgba + k * stride, p + 4 * k, 4);
-        else rgba[k * stride] = (float)(int32_t)c[k] / (float)full;
-    }
+    return t->srgb && t->format != SHADE_FORMAT_RGBA32F;
 }
 SHADE__INLINE int shade__rows_held(const shade_target *t)
 {
@@ -4223,17 +4215,32 @@ SHADE__DISPATCH(shade__pack,
                  uint32_t *packed, int blocks),
                 (t, rgba, stride, x, y, packed, blocks))
 
-/* Rows of a block from sRGB, as they were stored, to linear light. */
-SHADE__INLINE void shade__linear_row(float *SHADE_RESTRICT c)
+/* Rows of n pixels as they are stored; those of RGBA32F are there already. */
+SHADE__INLINE void shade__unpack(shade_format format, const uint32_t *SHADE_RESTRICT packed,
+                                 const int n, float *SHADE_RESTRICT rgba)
+{
+    if (format == SHADE_FORMAT_RGBA32F) return;
+    SHADE__FOR(k, 4) {
+        const int shift = shade__channel_shift(format, k);
+        const uint32_t full = shade__channel_full(format, k);
+        float *c = rgba + k * n;
+        SHADE__FOR(i, n) {
+            c[i] = (float)(int32_t)(packed[i] >> shift & full) / (float)(int32_t)full;
+        }
+    }
+}
+SHADE__INLINE void shade__decode_row(float *SHADE_RESTRICT c)
 {
     SHADE__FOR(i, SHADE__BLOCK) { c[i] = shade__srgb_decode(c[i]); }
 }
-SHADE__INLINE void shade__linear_body(const shade_target *t, float *rgba)
+/* Rows of a block in linear light from its packed pixels. */
+SHADE__INLINE void shade__linear_body(const shade_target *t, const uint32_t *packed, float *rgba)
 {
-    for (int k = 0; k < 3 && t->srgb && t->format != SHADE_FORMAT_RGBA32F; k++)
-        shade__linear_row(rgba + k * SHADE__BLOCK);
+    shade__unpack(t->format, packed, SHADE__BLOCK, rgba);
+    for (int k = 0; k < 3 && shade__is_encoded(t); k++) shade__decode_row(rgba + k * SHADE__BLOCK);
 }
-SHADE__DISPATCH_AVX2(shade__linear, (const shade_target *t, float *rgba), (t, rgba))
+SHADE__DISPATCH_AVX2(shade__linear, (const shade_target *t, const uint32_t *packed, float *rgba),
+                     (t, packed, rgba))
 
 /* Packs a block of pixels and stores the first n of them at p; x, y of the first are read where the
    target dithers. */
@@ -4331,11 +4338,11 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const flo
         uint32_t packed[N] = { 0 };
         for (last = i; last < base + N && last < q->f.count; last++) {
             if (q->f.primitive[last] != q->f.primitive[i]) break;
-            shade__fetch(plan->target->format,
-                         plan->color + (size_t)q->offset[last] * plan->pixel_bytes,
-                         stored + (last - base), N);
+            shade__load_pixel(plan->target->format,
+                              plan->color + (size_t)q->offset[last] * plan->pixel_bytes,
+                              packed + (last - base), stored + (last - base), N);
         }
-        linear(plan->target, stored);
+        linear(plan->target, packed, stored);
         shade__blend(plan->pipe->raster.blend, rgba + base, stored, out);
         plan->stage.pack(plan->target, out, N, q->f.x + base, q->f.y + base, packed, 1);
         shade__scatter(d, alive, out, N, packed, base, i, last);
@@ -4588,20 +4595,22 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 
 /* Pixels x .. x + n - 1 of row y, at most a block: means of factor x factor pixels each. */
 static void shade__resolve_block(const shade_target *out, const shade_target *in, int factor,
-                                 int x, int y, int n)
+                                 int x, int y, int n, uint8_t *to)
 {
     enum { N = SHADE__BLOCK };
     shade__linear_fn *linear = shade__linear_pick();
     float rgba[4 * N] = { 0 }, c[4 * N] = { 0 };
+    uint32_t packed[N] = { 0 };
     for (int i = 0; i < factor * factor; i++) {
         for (int p = 0; p < n; p++)
-            shade__fetch(in->format, shade__pixel_at(in, (x + p) * factor + i % factor,
-                                                     y * factor + i / factor), c + p, N);
-        linear(in, c);
+            shade__load_pixel(in->format, shade__pixel_at(in, (x + p) * factor + i % factor,
+                                                          y * factor + i / factor),
+                              packed + p, c + p, N);
+        linear(in, packed, c);
         for (int k = 0; k < 4 * N; k++) rgba[k] += c[k];
     }
-    for (int i = 0; i < 4 * N; i++) rgba[i] /= (float)(factor * factor);
-    shade__store_block(out, rgba, x, y, n, shade__pixel_at(out, x, y));
+    for (int k = 0; k < 4 * N; k++) rgba[k] /= (float)(factor * factor);
+    shade__store_block(out, rgba, x, y, n, to);
 }
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
 {
@@ -4618,7 +4627,8 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
     if (!shade__clip_rectangle(out, clip)) return SHADE_OK;
     for (int y = clip[1]; y < clip[3]; y++)
         for (int x = clip[0]; x < clip[2]; x += SHADE__BLOCK)
-            shade__resolve_block(out, in, factor, x, y, shade__min(SHADE__BLOCK, clip[2] - x));
+            shade__resolve_block(out, in, factor, x, y, shade__min(SHADE__BLOCK, clip[2] - x),
+                                 shade__pixel_at(out, x, y));
     return SHADE_OK;
 }
 
@@ -4631,15 +4641,17 @@ static double shade__overlap(int first, double from, double to)
 static void shade__shrink(const shade_target *from, const shade_target *to, int x, int y,
                           float *mean)
 {
+    const int encoded = shade__is_encoded(from);
     double sum[4] = { 0, 0, 0, 0 }, all = 0;
-    const int encoded = from->srgb && from->format != SHADE_FORMAT_RGBA32F;
     const double sx = (double)from->width / to->width, sy = (double)from->height / to->height;
     for (int j = (int)(y * sy); j < from->height && j < (y + 1) * sy; j++)
         for (int i = (int)(x * sx); i < from->width && i < (x + 1) * sx; i++) {
             double share = shade__overlap(i, x * sx, (x + 1) * sx);
             float c[4];
+            uint32_t packed;
             share *= shade__overlap(j, y * sy, (y + 1) * sy);
-            shade__fetch(from->format, shade__pixel_at(from, i, j), c, 1);
+            shade__load_pixel(from->format, shade__pixel_at(from, i, j), &packed, c, 1);
+            shade__unpack(from->format, &packed, 1, c);
             for (int k = 0; k < 4; k++) {
                 if (encoded && k < 3) c[k] = shade__decode(c[k]);
                 sum[k] += (double)c[k] * share;
@@ -5429,7 +5441,8 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 }
 
 /*------------------------------------------------------------------------------------------ >>image
-   Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on.
+   Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on, as a
+   target of 8 bits would have them.
                                                                                          >>refs */
 
 static char *shade__decimal(char *p, int n)
@@ -5438,29 +5451,12 @@ static char *shade__decimal(char *p, int n)
     *p = (char)('0' + n % 10);
     return p + 1;
 }
-/* Bytes R, G, B of n pixels. */
-static void shade__row_rgb(const shade_target *t, const uint8_t *p, int n, uint8_t *rgb)
-{
-    const size_t bytes = shade__pixel_bytes(t->format);
-    for (; n > 0; n--, p += bytes) {
-        uint32_t c[4];
-        float f[4];
-        if (bytes == 16) SHADE_MEMCPY(f, p, 16);
-        else shade__unpack_pixel(t->format, p, c);
-        for (int k = 0; k < 3; k++) {
-            uint32_t full = shade__channel_full(t->format, k);
-            if (bytes == 16) {
-                float v = shade__unit(f[k]);
-                *rgb++ = (uint8_t)((t->srgb ? shade__encode(v) : v) * 255 + 0.5f);
-            } else *rgb++ = (uint8_t)((c[k] * 255 + full / 2) / full);
-        }
-    }
-}
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target)
 {
-    uint8_t rgb[3 * SHADE_LANES];
+    uint8_t pixels[4 * SHADE__BLOCK], rgb[3 * SHADE__BLOCK];
     char head[32] = "P6\n", *p = head + 3;
+    shade_target from, to;
     shade_result result = sink ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
     if (result != SHADE_OK) return result;
     p = shade__decimal(p, target->width);
@@ -5468,10 +5464,15 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
     p = shade__decimal(p, shade__rows_held(target));
     SHADE_MEMCPY(p, "\n255\n", 5);
     if (sink(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
+    from = to = *target;
+    from.srgb = 0;
+    to.format = SHADE_FORMAT_RGBA8;
+    to.srgb = target->srgb && target->format == SHADE_FORMAT_RGBA32F;
     for (int y = 0; y < shade__rows_held(target); y++) {
-        for (int x = 0; x < target->width; x += SHADE_LANES) {
-            int n = shade__min(SHADE_LANES, target->width - x);
-            shade__row_rgb(target, shade__pixel_at(target, x, y + target->row_offset), n, rgb);
+        for (int x = 0; x < target->width; x += SHADE__BLOCK) {
+            int n = shade__min(SHADE__BLOCK, target->width - x);
+            shade__resolve_block(&to, &from, 1, x, y + target->row_offset, n, pixels);
+            for (int i = 0; i < n; i++) SHADE_MEMCPY(rgb + 3 * i, pixels + 4 * i, 3);
             if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
         }
     }

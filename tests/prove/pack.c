@@ -21,12 +21,13 @@ static void prove_target(shade_target *t)
     /* a pixel that ends where the array does */
     shade__store_pixel(t->format, pixel + (sizeof pixel - bytes), packed[0], rgba, N);
     for (int i = 0; i < 16; i++) pixel[i] = Frama_C_unsigned_char_interval(0, 255);
-    shade__fetch(t->format, pixel + (sizeof pixel - bytes), c, 1);
+    shade__load_pixel(t->format, pixel + (sizeof pixel - bytes), packed, c, 1);
+    shade__unpack(t->format, packed, 1, c);
     if (t->format != SHADE_FORMAT_RGBA32F) {
         /*@ assert 0 <= c[0] <= 1 && 0 <= c[1] <= 1 && 0 <= c[2] <= 1 && 0 <= c[3] <= 1; */
     }
     for (int i = 0; i < 4 * N; i++) rgba[i] = Frama_C_float_interval(0, 1);
-    shade__linear_any(t, rgba);
+    shade__linear_any(t, packed, rgba);
 }
 static void prove_formats(int srgb, int dither)
 {
