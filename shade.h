@@ -1173,6 +1173,14 @@ SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
     rows->y[i] = v.y;
     rows->z[i] = v.z;
 }
+/* The same of four rows, stride apart. */
+SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
+{
+    rows[i] = v.x;
+    rows[i + stride] = v.y;
+    rows[i + 2 * stride] = v.z;
+    rows[i + 3 * stride] = v.w;
+}
 /* Three rows of floats as the public functions take them. */
 SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
 {
@@ -4220,7 +4228,7 @@ SHADE__INLINE void shade__unpack(shade_format format, const uint32_t *SHADE_REST
                                  const int n, float *SHADE_RESTRICT rgba)
 {
     if (format == SHADE_FORMAT_RGBA32F) return;
-    SHADE__FOR(k, 4) {
+    for (int k = 0; k < 4; k++) {
         const int shift = shade__channel_shift(format, k);
         const uint32_t full = shade__channel_full(format, k);
         float *c = rgba + k * n;
@@ -4373,7 +4381,6 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c))
 /*------------------------------------------------------------------------------------------ >>drive
    The public calls: arguments checked before any pixel changes, then batch after batch. >>mesh */
 
-
 static shade_result shade__check_target(const shade_target *t)
 {
     uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
@@ -4391,9 +4398,9 @@ static shade_result shade__check_picture(const shade_target *t)
     if (!t) return SHADE_ERROR_ARGUMENT;
     return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
-/* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive. 0 if
+/* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive; all 0 if
    empty. */
-static int shade__clip_rectangle(const shade_target *t, int *r)
+static void shade__clip_rectangle(const shade_target *t, int *r)
 {
     int64_t x1 = (int64_t)t->clip_x + t->clip_width, y1 = (int64_t)t->clip_y + t->clip_height;
     int all = !t->clip_x && !t->clip_y && !t->clip_width && !t->clip_height;
@@ -4402,9 +4409,8 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
     r[1] = all ? top : shade__max(t->clip_y, top);
     r[2] = all || x1 > t->width ? t->width : (int)x1;
     r[3] = all || y1 > bottom ? bottom : (int)y1;
-    return r[0] < r[2] && r[1] < r[3];
+    if (r[0] >= r[2] || r[1] >= r[3]) SHADE_MEMSET(r, 0, 4 * sizeof *r);
 }
-
 
 /* All indices below vertex_count?  In pieces of a fixed length, which vectorise. */
 static int shade__indices_fit(const uint32_t *indices, int count, int vertex_count)
@@ -4444,8 +4450,9 @@ static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipe
                                          shade__plan *plan)
 {
     const int perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
+    const int early = t->depth && !p->may_discard, kept = early && !p->raster.depth_read_only;
     int clip[4];
-    if (!shade__clip_rectangle(t, clip)) clip[0] = clip[1] = clip[2] = clip[3] = 0;
+    shade__clip_rectangle(t, clip);
     plan->target = t;
     plan->pipe = p;
     plan->stage.place = shade__place_pick();
@@ -4474,26 +4481,44 @@ static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipe
     plan->value_stride = (plan->values + 7) / 8 * 8;
     plan->zero_to_one = p->raster.depth_zero_to_one != 0;
     plan->compare = shade__compare_of(&p->raster);
-    plan->early = plan->depth && !p->may_discard;
+    plan->early = early;
     plan->queued = p->fragment && (plan->color || p->may_discard);
-    plan->plain = plan->early && p->raster.depth_test == SHADE_COMPARE_LESS &&
-                  !p->raster.depth_read_only;
+    plan->plain = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
     /* blending tells triangles apart, dither asks for x and y */
     plan->own = own;
-    plan->bare = own && plan->early && p->raster.blend == SHADE_BLEND_REPLACE && !t->dither;
-    plan->toward = (float)((plan->compare.less != 0) - (plan->compare.greater != 0));
-    if (!plan->early || p->raster.depth_read_only) plan->toward = 0;
+    plan->bare = own && early && p->raster.blend == SHADE_BLEND_REPLACE && !t->dither;
+    plan->toward = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
     plan->half_width = (float)(t->width * 128);
     plan->half_height = (float)(t->height * 128);
 }
 
-/* The draw itself; all its arguments have been checked.  own: the shaders are of this file. */
+/* How a draw may be, and its indices. */
+static SHADE__COLD shade_result shade__check_draw(const shade_pipeline *p, const uint32_t *indices,
+                                                  int index_count, int vertex_count)
+{
+    const shade_raster *r = &p->raster;
+    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT ||
+        (unsigned)r->cull > SHADE_CULL_FRONT || (unsigned)r->depth_test > SHADE_COMPARE_ALWAYS ||
+        (unsigned)r->blend > SHADE_BLEND_ADD || p->varyings < 0 ||
+        p->varyings > SHADE_MAX_VARYINGS || !shade__within(r->depth_bias, FLT_MAX) ||
+        (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
+                            p->lod_varying >= p->varyings - 1)) ||
+        index_count < 0 || vertex_count < 0)
+        return SHADE_ERROR_ARGUMENT;
+    return shade__check_indices(indices, index_count, vertex_count);
+}
+/* The draw to a target that has been checked.  own: the shaders are of this file; with
+   SHADE__CORNERS each index is a vertex of its own. */
+enum { SHADE__OWN = 1, SHADE__CORNERS };
 static shade_result shade__run_draw(const shade_target *target, const shade_pipeline *pipeline,
                                     int own, const uint32_t *indices, int index_count,
-                                    shade_stats *stats)
+                                    int vertex_count, shade_stats *stats)
 {
     shade__draw d;
     shade_pipeline pipe = *pipeline;
+    shade_result result = shade__check_draw(pipeline, indices, index_count, vertex_count);
+    if (result) return result;
+    if (own == SHADE__CORNERS) indices = NULL;
     if (!pipe.fragment) pipe.may_discard = 0;
     if (!pipe.fragment || (!target->color && !pipe.may_discard)) {    /* nobody reads them */
         pipe.varyings = 0;
@@ -4515,33 +4540,19 @@ static shade_result shade__run_draw(const shade_target *target, const shade_pipe
     if (stats) *stats = d.stats;
     return SHADE_OK;
 }
-/* How a draw may be, and its indices. */
-static shade_result shade__check_draw(const shade_pipeline *p, const uint32_t *indices,
-                                      int index_count, int vertex_count)
+/* How every call begins that draws: its arguments given, the target good. */
+static shade_result shade__begin(const shade_target *t, int given, shade_stats *stats)
 {
-    const shade_raster *r = &p->raster;
-    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT ||
-        (unsigned)r->cull > SHADE_CULL_FRONT || (unsigned)r->depth_test > SHADE_COMPARE_ALWAYS ||
-        (unsigned)r->blend > SHADE_BLEND_ADD || p->varyings < 0 ||
-        p->varyings > SHADE_MAX_VARYINGS || !shade__within(r->depth_bias, FLT_MAX) ||
-        (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
-                            p->lod_varying >= p->varyings - 1)) ||
-        index_count < 0 || vertex_count < 0)
-        return SHADE_ERROR_ARGUMENT;
-    return shade__check_indices(indices, index_count, vertex_count);
+    if (stats) SHADE__ZERO(*stats);
+    return t && given ? shade__check_target(t) : SHADE_ERROR_ARGUMENT;
 }
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
                                  const uint32_t *indices, int index_count, int vertex_count,
                                  shade_stats *stats)
 {
-    shade_result result;
-    if (stats) SHADE__ZERO(*stats);
-    if (!target || !pipeline || !pipeline->vertex) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(target);
-    if (result == SHADE_OK)
-        result = shade__check_draw(pipeline, indices, index_count, vertex_count);
-    if (result != SHADE_OK) return result;
-    return shade__run_draw(target, pipeline, 0, indices, index_count, stats);
+    shade_result result = shade__begin(target, pipeline && pipeline->vertex, stats);
+    if (result) return result;
+    return shade__run_draw(target, pipeline, 0, indices, index_count, vertex_count, stats);
 }
 
 /* Fills n bytes with a pattern of 256, whole vectors at a time. */
@@ -4559,26 +4570,20 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
 {
     const size_t period = 8 * shade__pixel_bytes(t->format);
     float rgba[4 * SHADE__BLOCK];
-    for (int i = 0; i < SHADE__BLOCK; i++) {
-        rgba[i] = color.x;
-        rgba[i + SHADE__BLOCK] = color.y;
-        rgba[i + 2 * SHADE__BLOCK] = color.z;
-        rgba[i + 3 * SHADE__BLOCK] = color.w;
-    }
+    for (int i = 0; i < SHADE__BLOCK; i++) shade__put4(rgba, SHADE__BLOCK, i, color);
     shade__store_block(t, rgba, x, y, 8, pattern);
     for (size_t i = period; i < 256; i++) pattern[i] = pattern[i - period];
 }
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
-    shade_result result;
+    shade_result result = shade__begin(target, 1, NULL);
     shade__fill_fn *fill = shade__fill_pick();
     size_t bytes, n;
     float pattern[64], depths[64];
     int clip[4];
-    if (!target) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(target);
-    if (result == SHADE_OK && depth != depth) result = SHADE_ERROR_ARGUMENT;
-    if (result != SHADE_OK || !shade__clip_rectangle(target, clip)) return result;
+    if (!result && depth != depth) result = SHADE_ERROR_ARGUMENT;
+    if (result) return result;
+    shade__clip_rectangle(target, clip);
     bytes = shade__pixel_bytes(target->format);
     n = (size_t)(clip[2] - clip[0]);
     for (int i = 0; i < 64; i++) depths[i] = depth;
@@ -4618,13 +4623,13 @@ SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target 
     int clip[4];
     if (!out || !in) return SHADE_ERROR_ARGUMENT;
     result = shade__check_picture(out);
-    if (result == SHADE_OK) result = shade__check_picture(in);
-    if (result != SHADE_OK) return result;
+    if (!result) result = shade__check_picture(in);
+    if (result) return result;
     if (factor < 1 || factor > 8 || in->width != out->width * factor ||
         in->height != out->height * factor || in->row_offset != out->row_offset * factor ||
         shade__rows_held(in) != shade__rows_held(out) * factor)
         return SHADE_ERROR_ARGUMENT;
-    if (!shade__clip_rectangle(out, clip)) return SHADE_OK;
+    shade__clip_rectangle(out, clip);
     for (int y = clip[1]; y < clip[3]; y++)
         for (int x = clip[0]; x < clip[2]; x += SHADE__BLOCK)
             shade__resolve_block(out, in, factor, x, y, shade__min(SHADE__BLOCK, clip[2] - x),
@@ -4660,48 +4665,44 @@ static void shade__shrink(const shade_target *from, const shade_target *to, int 
         }
     for (int k = 0; k < 4; k++) mean[SHADE__BLOCK * k] = (float)(sum[k] / all);
 }
-/* Where the texels of a texture lie, as a target. */
-static shade_target shade__target_of(const shade_texture *t)
-{
-    shade_target to;
-    SHADE__ZERO(to);
-    to.width = t->width;
-    to.height = t->height;
-    to.stride = t->stride;
-    to.format = t->format;
-    to.srgb = t->srgb;
-    to.color = (void *)(uintptr_t)t->pixels;
-    return to;
-}
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes)
 {
-    uint8_t *p = (uint8_t *)memory;
+    shade_target from, to;
     int count;
     if (!shade__texture_good(texture)) return SHADE_ERROR_ARGUMENT;
     count = shade_mipmap_count(texture->width, texture->height);
     if (count && (!levels || !memory || (uintptr_t)memory % 4)) return SHADE_ERROR_ARGUMENT;
     if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format))
         return SHADE_ERROR_CAPACITY;
-    for (int n = 0; n < count; n++) {
-        const shade_target from = shade__target_of(n ? &levels[n - 1] : texture);
-        shade_target to;
-        levels[n] = *texture;
-        levels[n].pixels = p;
-        levels[n].stride = 0;
-        levels[n].mipmaps = NULL;
-        levels[n].mipmap_count = 0;
-        levels[n].width = shade__max(from.width / 2, 1);
-        levels[n].height = shade__max(from.height / 2, 1);
-        to = shade__target_of(&levels[n]);
+    SHADE__ZERO(from);
+    from.width = texture->width;
+    from.height = texture->height;
+    from.stride = texture->stride;
+    from.format = texture->format;
+    from.srgb = texture->srgb;
+    from.color = (void *)(uintptr_t)texture->pixels;
+    for (int n = 0; n < count; n++, from = to) {
+        to = from;
+        to.width = shade__max(from.width / 2, 1);
+        to.height = shade__max(from.height / 2, 1);
+        to.stride = 0;
+        to.color = memory;
         for (int y = 0; y < to.height; y++)
             for (int x = 0; x < to.width; x += SHADE__BLOCK) {
                 const int texels = shade__min(SHADE__BLOCK, to.width - x);
                 float rgba[4 * SHADE__BLOCK] = { 0 };
                 for (int i = 0; i < texels; i++) shade__shrink(&from, &to, x + i, y, rgba + i);
-                shade__store_block(&to, rgba, 0, 0, texels, p);
-                p += (size_t)texels * shade__pixel_bytes(to.format);
+                shade__store_block(&to, rgba, x, y, texels, shade__pixel_at(&to, x, y));
             }
+        memory = shade__pixel_at(&to, 0, to.height);
+        levels[n] = *texture;
+        levels[n].pixels = to.color;
+        levels[n].width = to.width;
+        levels[n].height = to.height;
+        levels[n].stride = 0;
+        levels[n].mipmaps = NULL;
+        levels[n].mipmap_count = 0;
     }
     texture->mipmaps = levels;
     texture->mipmap_count = count;
@@ -4732,7 +4733,7 @@ enum {
     SHADE__TERM_NONE = 128,    /* no term at all, since 0 means all */
     /* vectors that lit vertices keep on the stack; with 15 varyings they lie in rows of the output
        that nobody reads, 4 kB less */
-    SHADE__OWN = SHADE_MAX_VARYINGS < 15 ? 3 : 1
+    SHADE__APART = SHADE_MAX_VARYINGS < 15 ? 3 : 1
 };
 
 /* Element i of an array of vectors with a stride in bytes, 0 = tight. */
@@ -4804,14 +4805,10 @@ static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shad
 
 /* clip = m (P, 1) */
 SHADE__INLINE void shade__lane_clip(shade_mat4 m, const shade__v3 *SHADE_RESTRICT P,
-                                    float clip[4][SHADE_LANES])
+                                    float *SHADE_RESTRICT clip)
 {
     SHADE_EACH_LANE(i) {
-        shade_vec4 c = shade_mat4_transform(m, shade__xyzw(shade__at(P, i), 1));
-        clip[0][i] = c.x;
-        clip[1][i] = c.y;
-        clip[2][i] = c.z;
-        clip[3][i] = c.w;
+        shade__put4(clip, SHADE_LANES, i, shade_mat4_transform(m, shade__xyzw(shade__at(P, i), 1)));
     }
 }
 /* P = m (P, 1); an affine model, so no division */
@@ -4849,12 +4846,12 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_shading shading = s->state->shading;
     const int lit = shading != SHADE_SHADING_PER_FRAGMENT, parts = lit ? s->map ? 2 : 1 : 0;
-    shade__v3 own[SHADE__OWN], *P, *N, *albedo;
-    P = SHADE__OWN == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : own;
+    shade__v3 apart[SHADE__APART], *P, *N, *albedo;
+    P = SHADE__APART == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : apart;
     N = P + 1;
     albedo = N + 1;
     shade__fetch_vertices(s, in, P, N, albedo);
-    shade__lane_clip(s->clip_from_object, P, out->clip);
+    shade__lane_clip(s->clip_from_object, P, out->clip[0]);
     if (s->face_normals)
         shade__fetch_faces(s, in, shading == SHADE_SHADING_PER_FACE, P, N, albedo);
     shade__lane_world(s->world_from_object, P);
@@ -4870,14 +4867,12 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
-    const int add = s->colored && s->state->raster.blend == SHADE_BLEND_ADD;
-    if (opacity != 1) {
-        SHADE_EACH_LANE(i) { out->color[3][i] *= opacity; }
+    SHADE_EACH_LANE(i) {
+        float a = out->color[3][i] * opacity;
+        out->color[3][i] = a;
+        out->discard[i] = a >= cutoff ? 0 : 1;
     }
-    if (cutoff > 0) {
-        SHADE_EACH_LANE(i) { out->discard[i] = out->color[3][i] >= cutoff ? 0 : 1; }
-    }
-    if (add) {
+    if (s->colored && s->state->raster.blend == SHADE_BLEND_ADD) {
         SHADE_EACH_LANE(i) {
             float a = out->color[3][i];
             out->color[0][i] *= a;
@@ -4921,29 +4916,24 @@ static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SH
     shade__mesh_alpha(s, out);
 }
 
-static int shade__bad_stride(int stride) { return stride < 0 || stride % 4; }
-static shade_result shade__check_mesh(const shade_mesh *m)
-{
-    if (m->vertex_count < 0 || (m->indices && m->index_count < 0)) return SHADE_ERROR_ARGUMENT;
-    if (shade__bad_stride(m->position_stride) || shade__bad_stride(m->normal_stride) ||
-        shade__bad_stride(m->texcoord_stride) || shade__bad_stride(m->color_stride))
-        return SHADE_ERROR_ARGUMENT;
-    return SHADE_OK;
-}
 static int shade__corner_count(const shade_mesh *m)
 {
     return m->indices ? m->index_count : m->vertex_count;
 }
 
-static int shade__is_zero_matrix(const shade_mat4 *m)
+static shade_result shade__check_mesh(const shade_mesh *m)
 {
-    for (int k = 0; k < 16; k++)
-        if (((const float *)m)[k] != 0) return 0;
-    return 1;
+    const int strides = m->position_stride | m->normal_stride | m->texcoord_stride |
+                        m->color_stride;
+    if (m->vertex_count < 0 || shade__corner_count(m) < 0) return SHADE_ERROR_ARGUMENT;
+    return strides < 0 || strides % 4 ? SHADE_ERROR_ARGUMENT : SHADE_OK;
 }
+
 static shade_mat4 shade__or_identity(shade_mat4 m)
 {
-    return shade__is_zero_matrix(&m) ? shade_mat4_identity() : m;
+    for (int k = 0; k < 16; k++)
+        if (((const float *)&m)[k] != 0) return m;
+    return shade_mat4_identity();
 }
 /* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
 static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_mesh *mesh,
@@ -4979,14 +4969,10 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 {
     shade_pipeline p;
     shade__scene scene;
-    shade_result result;
-    int count;
-    if (stats) SHADE__ZERO(*stats);
-    if (!target || !mesh || !state || (!mesh->positions && mesh->vertex_count > 0))
-        return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(target);
-    if (result == SHADE_OK) result = shade__check_mesh(mesh);
-    if (result != SHADE_OK) return result;
+    shade_result result = shade__begin(
+        target, mesh && state && (mesh->positions || mesh->vertex_count <= 0), stats);
+    if (!result) result = shade__check_mesh(mesh);
+    if (result) return result;
     if ((unsigned)state->shading > SHADE_SHADING_PER_FACE ||
         (unsigned)state->lighting.model > SHADE_MODEL_COOL_TO_WARM ||
         (!state->lighting.lights && state->lighting.light_count > 0) ||
@@ -5006,11 +4992,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     if (state->shading == SHADE_SHADING_PER_FACE && !scene.map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
-    count = shade__corner_count(mesh);
-    result = shade__check_draw(&p, mesh->indices, count, mesh->vertex_count);
-    if (result != SHADE_OK) return result;
-    return shade__run_draw(target, &p, 1,
-                           scene.face_normals ? NULL : mesh->indices, count, stats);
+    return shade__run_draw(target, &p, scene.face_normals ? SHADE__CORNERS : SHADE__OWN,
+                           mesh->indices, shade__corner_count(mesh), mesh->vertex_count, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>lines
@@ -5028,12 +5011,13 @@ typedef struct shade__stroke {           /* uniforms of the line shaders */
     double half_width;
 } shade__stroke;
 
-/* The part t0 .. t1 of a segment with distances a, b to a plane at its ends that is inside. */
-static void shade__cut(double a, double b, double *t0, double *t1)
+/* Of the part t[0] .. t[1] of a segment with distances a, b to a plane at its ends, what is
+   inside. */
+static void shade__cut(double a, double b, double *t)
 {
-    if (a < 0 && b < 0) *t1 = -1;
-    else if (a < 0 && a / (a - b) > *t0) *t0 = a / (a - b);
-    else if (b < 0 && a / (a - b) < *t1) *t1 = a / (a - b);
+    if (a < 0 && b < 0) t[1] = -1;
+    else if (a < 0 && a / (a - b) > t[0]) t[0] = a / (a - b);
+    else if (b < 0 && a / (a - b) < t[1]) t[1] = a / (a - b);
 }
 /* The point t of the way, and where it lies from the middle of the picture, in pixels, y up. */
 static void shade__stroke_point(const shade__stroke *s, double end[2][4], double t, double *p,
@@ -5054,15 +5038,15 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     double p[4], at[2][2], length = 0;
     t[0] = 0;
     t[1] = 1;
-    shade__cut(z0 + (zero_to_one ? 0 : w0), z1 + (zero_to_one ? 0 : w1), t, t + 1);
-    shade__cut(w0 - z0, w1 - z1, t, t + 1);
-    shade__cut(w0 - least, w1 - least, t, t + 1);
+    shade__cut(z0 + (zero_to_one ? 0 : w0), z1 + (zero_to_one ? 0 : w1), t);
+    shade__cut(w0 - z0, w1 - z1, t);
+    shade__cut(w0 - least, w1 - least, t);
     if (!(t[0] <= t[1])) return 0;
     for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
     for (int i = 0; i < 2; i++) {
         const double limit = 1 + (3 * s->half_width + 2) / s->half[i];
-        shade__cut(limit * w0 - end[0][i], limit * w1 - end[1][i], t, t + 1);
-        shade__cut(limit * w0 + end[0][i], limit * w1 + end[1][i], t, t + 1);
+        shade__cut(limit * w0 - end[0][i], limit * w1 - end[1][i], t);
+        shade__cut(limit * w0 + end[0][i], limit * w1 + end[1][i], t);
         dir[i] = at[1][i] - at[0][i];
         length += dir[i] * dir[i];
     }
@@ -5073,8 +5057,9 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4], double *
     } else dir[0] = 1;
     return t[0] <= t[1];
 }
-/* Corner 0 .. 3 of the rectangle around points 2 i and 2 i + 1, in clip space. */
-static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner, float *clip)
+/* Corner 0 .. 3 of the rectangle around points 2 i and 2 i + 1, in clip space; a place outside for
+   one that is not drawn or is rejected. */
+static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment, int corner)
 {
     const double *m = s->clip_from_points, width = s->half_width;
     const int k = corner & 1;
@@ -5088,40 +5073,32 @@ static void shade__stroke_corner(const shade__stroke *s, uint32_t segment, int c
             placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
         }
     }
-    clip[0] = placed ? 2 : FLT_MAX;    /* outside, or rejected */
-    clip[1] = clip[2] = 2;
-    clip[3] = 1;
-    if (!placed || !shade__stroke_part(s, end, t, dir)) return;
+    if (!placed) return shade_v4(FLT_MAX, 2, 2, 1);
+    if (!shade__stroke_part(s, end, t, dir)) return shade_v4(2, 2, 2, 1);
     shade__stroke_point(s, end, t[k], p, at);
     side = corner & 2 ? width : -width;
     along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? width : -width;
     at[0] += dir[0] * along - dir[1] * side;
     at[1] += dir[1] * along + dir[0] * side;
-    for (int i = 2; i < 4; i++) clip[i] = (float)p[i];
-    for (int i = 0; i < 2; i++) clip[i] = (float)(at[i] / s->half[i] * (double)clip[3]);
+    p[3] = (double)(float)p[3];
+    return shade_v4((float)(at[0] / s->half[0] * p[3]), (float)(at[1] / s->half[1] * p[3]),
+                    (float)p[2], (float)p[3]);
 }
 static void shade__stroke_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                  shade_vertices *SHADE_RESTRICT out)
 {
     static const uint8_t corner[6] = { 0, 1, 3, 0, 3, 2 };
-    for (int i = 0; i < SHADE_LANES; i++) {
-        float clip[4];
-        shade__stroke_corner((const shade__stroke *)uniforms, in->index[i] / 6,
-                             corner[in->index[i] % 6], clip);
-        for (int k = 0; k < 4; k++) out->clip[k][i] = clip[k];
-    }
+    for (int i = 0; i < SHADE_LANES; i++)
+        shade__put4(out->clip[0], SHADE_LANES, i,
+                    shade__stroke_corner((const shade__stroke *)uniforms, in->index[i] / 6,
+                                         corner[in->index[i] % 6]));
 }
 static void shade__stroke_color(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                 shade_colors *SHADE_RESTRICT out)
 {
     shade_vec4 c = ((const shade__stroke *)uniforms)->state->color;
     (void)in;
-    SHADE_EACH_LANE(i) {
-        out->color[0][i] = c.x;
-        out->color[1][i] = c.y;
-        out->color[2][i] = c.z;
-        out->color[3][i] = c.w;
-    }
+    SHADE_EACH_LANE(i) { shade__put4(out->color[0], SHADE_LANES, i, c); }
 }
 
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
@@ -5131,14 +5108,10 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     shade_pipeline p;
     shade__stroke s;
     shade_mat4 clip_from_points;
-    shade_result result;
-    if (stats) SHADE__ZERO(*stats);
-    if (!target || !state || (!points && point_count > 0)) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_target(target);
-    if (result != SHADE_OK) return result;
-    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3)
-        return SHADE_ERROR_ARGUMENT;
-    if (!(state->width >= 0) || !shade__within(state->width, FLT_MAX) ||
+    shade_result result = shade__begin(target, state && (points || point_count <= 0), stats);
+    if (result) return result;
+    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3 ||
+        !(state->width >= 0 && state->width <= FLT_MAX) ||
         (unsigned)state->cap > SHADE_CAP_SQUARE)
         return SHADE_ERROR_ARGUMENT;
     s.points = points;
@@ -5154,9 +5127,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     p.uniforms = &s;
     p.raster = state->raster;
     p.raster.cull = SHADE_CULL_NONE;
-    result = shade__check_draw(&p, NULL, 3 * point_count, 3 * point_count);
-    if (result != SHADE_OK) return result;
-    return shade__run_draw(target, &p, 1, NULL, point_count * 3, stats);
+    return shade__run_draw(target, &p, SHADE__OWN, NULL, 3 * point_count, 3 * point_count, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
@@ -5210,7 +5181,7 @@ static shade_result shade__check_shape(const shade_mesh *m, const void *out)
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
     shade_result result = shade__check_shape(mesh, normals);
-    if (result != SHADE_OK) return result;
+    if (result) return result;
     SHADE_MEMSET(normals, 0, (size_t)mesh->vertex_count * sizeof *normals);
     for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
         shade_vec3 n = shade__triangle_normal(mesh, t);
@@ -5281,7 +5252,7 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     uint32_t *order, count;
     float *angle;
     shade_vec3 *face;
-    if (result != SHADE_OK) return result;
+    if (result) return result;
     count = (uint32_t)shade__corner_count(mesh);
     if ((!memory && count) || (uintptr_t)memory % 4 || cos_crease != cos_crease)
         return SHADE_ERROR_ARGUMENT;
@@ -5320,7 +5291,7 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     if (count) *count = 0;
     if (!count) return SHADE_ERROR_ARGUMENT;
     result = shade__check_shape(mesh, capacity > 0 ? (const void *)edges : (const void *)count);
-    if (result != SHADE_OK) return result;
+    if (result) return result;
     if (capacity < 0) return SHADE_ERROR_ARGUMENT;
     corners = shade__corner_count(mesh);
     if (capacity < corners) {
@@ -5458,7 +5429,7 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
     char head[32] = "P6\n", *p = head + 3;
     shade_target from, to;
     shade_result result = sink ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
-    if (result != SHADE_OK) return result;
+    if (result) return result;
     p = shade__decimal(p, target->width);
     *p++ = ' ';
     p = shade__decimal(p, shade__rows_held(target));
@@ -5488,7 +5459,7 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
 {
     FILE *file;
     shade_result result = path ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
-    if (result != SHADE_OK) return result;
+    if (result) return result;
     file = fopen(path, "wb");
     if (!file) return SHADE_ERROR_IO;
     result = shade_encode_ppm(shade__write_file, file, target);
