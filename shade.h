@@ -4411,26 +4411,12 @@ static void shade__clip_rectangle(const shade_target *t, int *r)
     r[3] = all || y1 > bottom ? bottom : (int)y1;
     if (r[0] >= r[2] || r[1] >= r[3]) SHADE_MEMSET(r, 0, 4 * sizeof *r);
 }
-
-/* All indices below vertex_count?  In pieces of a fixed length, which vectorise. */
-static int shade__indices_fit(const uint32_t *indices, int count, int vertex_count)
-{
-    uint32_t limit = (uint32_t)vertex_count, bad = 0;
-    int i = 0;
-    for (; i + 64 <= count; i += 64) {
-        const uint32_t *p = indices + i;
-        uint32_t any = 0;
-        SHADE__FOR(k, 64) { any |= shade__mask(p[k] >= limit); }
-        bad |= any;
-    }
-    for (; i < count; i++) bad |= shade__mask(indices[i] >= limit);
-    return !bad;
-}
 static shade_result shade__check_indices(const uint32_t *indices, int index_count, int vertex_count)
 {
-    const int fit = indices ? shade__indices_fit(indices, index_count, vertex_count)
-                            : index_count <= vertex_count;
-    return fit && index_count % 3 == 0 ? SHADE_OK : SHADE_ERROR_INDEX;
+    if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
+    for (int i = 0; indices && i < index_count; i++)
+        if (indices[i] >= (uint32_t)vertex_count) return SHADE_ERROR_INDEX;
+    return SHADE_OK;
 }
 
 static shade__compare shade__compare_of(const shade_raster *r)
@@ -5066,10 +5052,10 @@ static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
     int placed = 1;
     double end[2][4], t[2], p[4], at[2], dir[2], side, along;
     for (int j = 0; j < 2; j++) {
-        const shade_vec3 v = s->points[2 * (size_t)segment + (size_t)j];
-        const double x = (double)v.x, y = (double)v.y, z = (double)v.z;
+        double v[3];
+        shade__double3(s->points[2 * (size_t)segment + (size_t)j], v);
         for (int i = 0; i < 4; i++) {
-            end[j][i] = m[i] * x + m[i + 4] * y + m[i + 8] * z + m[i + 12];
+            end[j][i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
             placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
         }
     }
@@ -5288,9 +5274,9 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     shade_result result;
     uint32_t *order;
     int corners, kept = 0;
-    if (count) *count = 0;
     if (!count) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_shape(mesh, capacity > 0 ? (const void *)edges : (const void *)count);
+    *count = 0;
+    result = shade__check_shape(mesh, capacity > 0 ? (void *)edges : count);
     if (result) return result;
     if (capacity < 0) return SHADE_ERROR_ARGUMENT;
     corners = shade__corner_count(mesh);
