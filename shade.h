@@ -4398,9 +4398,9 @@ static shade_result shade__check_picture(const shade_target *t)
     if (!t) return SHADE_ERROR_ARGUMENT;
     return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
-/* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive; all 0 if
+/* Clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the ends exclusive. 0 if
    empty. */
-static void shade__clip_rectangle(const shade_target *t, int *r)
+static int shade__clip_rectangle(const shade_target *t, int *r)
 {
     int64_t x1 = (int64_t)t->clip_x + t->clip_width, y1 = (int64_t)t->clip_y + t->clip_height;
     int all = !t->clip_x && !t->clip_y && !t->clip_width && !t->clip_height;
@@ -4409,7 +4409,7 @@ static void shade__clip_rectangle(const shade_target *t, int *r)
     r[1] = all ? top : shade__max(t->clip_y, top);
     r[2] = all || x1 > t->width ? t->width : (int)x1;
     r[3] = all || y1 > bottom ? bottom : (int)y1;
-    if (r[0] >= r[2] || r[1] >= r[3]) SHADE_MEMSET(r, 0, 4 * sizeof *r);
+    return r[0] < r[2] && r[1] < r[3];
 }
 static shade_result shade__check_indices(const uint32_t *indices, int index_count, int vertex_count)
 {
@@ -4438,7 +4438,7 @@ static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipe
     const int perspective = p->interpolation == SHADE_INTERPOLATION_PERSPECTIVE;
     const int early = t->depth && !p->may_discard, kept = early && !p->raster.depth_read_only;
     int clip[4];
-    shade__clip_rectangle(t, clip);
+    if (!shade__clip_rectangle(t, clip)) SHADE__ZERO(clip);
     plan->target = t;
     plan->pipe = p;
     plan->stage.place = shade__place_pick();
@@ -4568,8 +4568,7 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     float pattern[64], depths[64];
     int clip[4];
     if (!result && depth != depth) result = SHADE_ERROR_ARGUMENT;
-    if (result) return result;
-    shade__clip_rectangle(target, clip);
+    if (result || !shade__clip_rectangle(target, clip)) return result;
     bytes = shade__pixel_bytes(target->format);
     n = (size_t)(clip[2] - clip[0]);
     for (int i = 0; i < 64; i++) depths[i] = depth;

@@ -26,7 +26,7 @@ int main(void)
     /*@ assert 1 <= t.width <= 16384 && 1 <= t.height <= 16384; */
     /*@ assert 0 <= t.row_offset <= 16384 && 0 <= t.row_count <= 16384; */
     shade__clip_rectangle(&t, r);
-    if (r[0] >= r[2] || r[1] >= r[3]) return 0;    /* empty */
+    if (r[0] >= r[2] || r[1] >= r[3]) return 0;    /* empty: what it returns */
     /*@ assert 0 <= r[0] < 16384 && 0 <= r[1] < 32768; */
     /*@ assert 1 <= r[2] <= 16384 && 1 <= r[3] <= 32768; */
     const int stride = shade__stride_of(&t), rows = shade__rows_held(&t);
