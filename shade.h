@@ -1753,10 +1753,26 @@ SHADEDEF const char *shade_preset_name(shade_preset preset)
     return shade__preset((int)preset)->name;
 }
 
-/* What a packet is lit by, and where it is: defaults filled in, terms that are off set to zero. */
+/* A light as lanes read it, and what one surface makes of its light. */
+typedef struct shade__lamp {
+    shade_vec3 at;                /* a point, or the unit direction toward a light at infinity */
+    shade_vec3 axis;              /* S of the cone, unit; zero: none */
+    float a, nearest;             /* of attenuation: a of the lamp, or 1 for none; least r */
+    int infinite, falls, spot;    /* falls: attenuation depends on r */
+    const shade_light *light;
+    shade_vec3 diffuse, specular;       /* k_d I_d, k_s I_s */
+    shade_vec3 base, slope;       /* of shade__ramp */
+    int gloss, ramp;              /* whether there is a highlight, a ramp */
+    int on;                       /* whether there is anything */
+} shade__lamp;
+
+/* So many are prepared once for a draw, others for each packet. */
+enum { SHADE__LAMPS = SHADE_LANES < 64 ? 1 : 4 };
+
+/* What packets are lit by: defaults filled in, terms that are off set to zero. */
 typedef struct shade__job {
     const shade_lighting *lighting;
-    const shade__v3 *P, *N, *albedo;
+    shade__lamp lamp[SHADE__LAMPS];
     shade_vec4 eye;               /* w = 0: a viewer at infinity */
     const shade_material *m;
     shade_material white;         /* where there is none */
@@ -1768,10 +1784,8 @@ typedef struct shade__job {
     uint32_t sign;                /* of N.L in the diffuse term: the mask that keeps or clears it */
 } shade__job;
 
-static SHADE__NOINLINE void shade__begin_job(const shade_lighting *lighting,
-                                             const shade_material *material, shade_vec3 eye,
-                                             const shade__v3 *P, const shade__v3 *N,
-                                             const shade__v3 *albedo, shade__job *j)
+static void shade__begin_terms(const shade_lighting *lighting, const shade_material *material,
+                               shade_vec3 eye, shade__job *j)
 {
     const shade_vec3 none = shade_v3(0, 0, 0);
     const shade_model model = lighting->model;
@@ -1783,9 +1797,6 @@ static SHADE__NOINLINE void shade__begin_job(const shade_lighting *lighting,
     j->terms = terms;
     j->tone = model == SHADE_MODEL_COOL_TO_WARM && (terms & SHADE_TERM_DIFFUSE);
     j->lighting = lighting;
-    j->P = P;
-    j->N = N;
-    j->albedo = albedo;
     j->eye = shade__xyzw(eye, lighting->flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
     j->m = material;
     if (!material) {
@@ -1815,20 +1826,8 @@ enum { SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_
 #define SHADE__LANES_OF(n) \
     (shade__width == SHADE__ANY_WIDTH ? (n) & -(int)SHADE__POINT : SHADE_LANES)
 
-/* A light as lanes read it, and what one surface makes of its light. */
-typedef struct shade__lamp {
-    shade_vec3 at;                /* a point, or the unit direction toward a light at infinity */
-    shade_vec3 axis;              /* S of the cone, unit; zero: none */
-    float a, nearest;             /* of attenuation: a of the lamp, or 1 for none; least r */
-    int infinite, falls, spot;    /* falls: attenuation depends on r */
-    const shade_light *light;
-    shade_vec3 diffuse, specular;       /* k_d I_d, k_s I_s */
-    shade_vec3 base, slope;       /* of shade__ramp */
-    int gloss, ramp;              /* whether there is a highlight, a ramp */
-} shade__lamp;
-
-/* k I of each term that is on, else zero whatever they hold.  Returns zero if all are. */
-static int shade__products(const shade_light *light, const shade__job *j, shade__lamp *p)
+/* k I of each term that is on, else zero whatever they hold. */
+static void shade__products(const shade_light *light, const shade__job *j, shade__lamp *p)
 {
     const shade_vec3 none = shade_v3(0, 0, 0);
     const unsigned on = j->terms, flags = j->lighting->flags;
@@ -1839,14 +1838,16 @@ static int shade__products(const shade_light *light, const shade__job *j, shade_
     p->specular = on & SHADE_TERM_SPECULAR ? shade_mul(j->m->specular, light->specular) : none;
     p->ramp = !shade__is_zero(p->slope);
     p->gloss = !shade__is_zero(p->specular);
-    return p->gloss || p->ramp || !shade__is_zero(p->diffuse);
+    p->on = p->gloss || p->ramp || !shade__is_zero(p->diffuse);
 }
-/* The lamp of a light; j may be NULL.  Returns zero, the lamp unset, if it lights nothing of j. */
-static SHADE__NOINLINE int shade__lamp_of(const shade_light *light, const shade__job *j,
+/* The lamp of a light; j may be NULL.  It may be off, the rest unset, if it lights nothing of j. */
+static SHADE__NOINLINE void shade__lamp_of(const shade_light *light, const shade__job *j,
                                           shade__lamp *p)
 {
     const shade_vec4 at = light->position;
-    if (j && !shade__products(light, j, p)) return 0;
+    p->on = 1;
+    if (j) shade__products(light, j, p);
+    if (!p->on) return;
     p->at = shade__xyz(at);
     p->infinite = at.w == 0;
     if (p->infinite) p->at = shade_normalize(p->at);
@@ -1859,7 +1860,6 @@ static SHADE__NOINLINE int shade__lamp_of(const shade_light *light, const shade_
     p->falls = !p->infinite && !shade__is_zero(shade_v3(0, light->linear, light->quadratic));
     if (p->infinite || (!p->falls && p->a == 0)) p->a = 1;
     p->light = light;
-    return 1;
 }
 /* The lamp of a tone: cool + k_w (warm - cool), L toward the first light.             [Gooch98] */
 static SHADE__COLD void shade__tone_of(const shade__job *j, shade__lamp *p)
@@ -1871,10 +1871,19 @@ static SHADE__COLD void shade__tone_of(const shade__job *j, shade__lamp *p)
         p->infinite = 1;
     }
     p->spot = 0;
-    p->ramp = 1;
+    p->on = p->ramp = 1;
     p->base = shade__is_zero(l->cool) ? shade_v3(0.4f, 0.4f, 0.7f) : l->cool;
     p->slope = shade__is_zero(l->warm) ? shade_v3(0.8f, 0.6f, 0.6f) : l->warm;
     p->slope = shade_sub(p->slope, p->base);
+}
+
+static SHADE__NOINLINE void shade__begin_job(const shade_lighting *lighting,
+                                             const shade_material *material, shade_vec3 eye,
+                                             shade__job *j)
+{
+    shade__begin_terms(lighting, material, eye, j);
+    for (int k = 0; k < j->lamps && k < SHADE__LAMPS; k++)
+        shade__lamp_of(&lighting->lights[k], j, &j->lamp[k]);
 }
 
 /* What of a lamp arrives at a block of points. */
@@ -2222,53 +2231,66 @@ SHADE__INLINE void shade__hide(const float *SHADE_RESTRICT visibility, const int
 }
 
 /* Adds one lamp to rgb, but its unattenuated ambient light.  visibility: its row, or NULL. */
-SHADE__INLINE void shade__add_lamp(const shade__job *j, shade__light_at_fn *light_at, int k,
+SHADE__INLINE void shade__add_lamp(const shade__job *j, const shade__v3 *P, const shade__v3 *N,
+                                   const shade__v3 *albedo, shade__light_at_fn *light_at, int k,
                                    const float *visibility, const int n, shade__rows *r,
                                    shade__v3 *rgb)
 {
-    shade__lamp lamp;
+    shade__lamp own;
+    const shade__lamp *lamp = &own;
     uint32_t any;
-    if (j->tone) shade__tone_of(j, &lamp);
-    else if (!shade__lamp_of(&j->lighting->lights[k], j, &lamp)) return;
-    light_at(&lamp, j->P, n, &r->a);
+    if (j->tone) shade__tone_of(j, &own);
+    else if (k < SHADE__LAMPS) lamp = &j->lamp[k];
+    else shade__lamp_of(&j->lighting->lights[k], j, &own);
+    if (!lamp->on) return;
+    light_at(lamp, P, n, &r->a);
     if (!r->a.any) return;
-    any = shade__horizon(j->N, n, r);
+    any = shade__horizon(N, n, r);
     if (j->tone) shade__warmth(n, r);
-    if (lamp.ramp) {
-        if (!SHADE__TWICE || j->albedo) shade__ramp(&lamp, j->albedo, n, r, rgb);
-        else shade__ramp(&lamp, NULL, n, r, rgb);
+    if (lamp->ramp) {
+        if (!SHADE__TWICE || albedo) shade__ramp(lamp, albedo, n, r, rgb);
+        else shade__ramp(lamp, NULL, n, r, rgb);
     }
     if (j->tone || !(any | j->open | ~j->sign)) return;
-    if (lamp.gloss) {
-        if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(j->N, j->open, n, r);
-        else if (shade__half(j->N, j->open, n, r))
-            shade__half_near(lamp.light->position, j->P, j->N, j->eye, j->open, n, r);
+    if (lamp->gloss) {
+        if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(N, j->open, n, r);
+        else if (shade__half(N, j->open, n, r))
+            shade__half_near(lamp->light->position, P, N, j->eye, j->open, n, r);
         shade__log_row(j->m->shininess, n, r->a.L.x);
         shade__gloss(n, r);
         if (j->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
     } else SHADE__ZERO(r->a.L.x);
     if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.att);
-    if (!SHADE__TWICE || j->albedo) shade__combine(&lamp, j->sign, j->albedo, n, r, rgb);
-    else shade__combine(&lamp, j->sign, NULL, n, r, rgb);
+    if (!SHADE__TWICE || albedo) shade__combine(lamp, j->sign, albedo, n, r, rgb);
+    else shade__combine(lamp, j->sign, NULL, n, r, rgb);
 }
 
-SHADE__INLINE void shade__lit_body(const shade__job *j, shade__light_at_fn *light_at,
+SHADE__INLINE void shade__lit_body(const shade__job *j, const shade__v3 *P, const shade__v3 *N,
+                                   const shade__v3 *albedo, shade__light_at_fn *light_at,
                                    const float *visibility, const int n, shade__v3 *rgb)
 {
-    const shade__v3 *albedo = shade__is_zero(j->ambient) ? NULL : j->albedo;
+    const shade__v3 *ambient = shade__is_zero(j->ambient) ? NULL : albedo;
     const int lamps = j->tone ? 1 : j->lamps;
     shade__rows r;
-    shade__lengths(j->N, n, r.rn);
-    if (j->lighting->flags & SHADE_FLAG_TWO_SIDED) shade__two_sides(j->P, j->N, j->eye, n, r.rn);
-    shade__viewer(j->P, j->eye, n, &r.V);
-    if (!SHADE__TWICE || albedo) shade__begin_light(j->emission, j->ambient, albedo, n, rgb);
+    shade__lengths(N, n, r.rn);
+    if (j->lighting->flags & SHADE_FLAG_TWO_SIDED) shade__two_sides(P, N, j->eye, n, r.rn);
+    shade__viewer(P, j->eye, n, &r.V);
+    if (!SHADE__TWICE || ambient) shade__begin_light(j->emission, j->ambient, ambient, n, rgb);
     else shade__begin_light(j->emission, j->ambient, NULL, n, rgb);
-    for (int k = 0; k < lamps; k++) shade__add_lamp(j, light_at, k, visibility, n, &r, rgb);
+    for (int k = 0; k < lamps; k++)
+        shade__add_lamp(j, P, N, albedo, light_at, k, visibility, n, &r, rgb);
 }
 SHADE__DISPATCH(shade__lit,
-                (const shade__job *j, shade__light_at_fn *light_at, const float *visibility, int n,
-                 shade__v3 *rgb),
-                (j, light_at, visibility, SHADE__LANES_OF(n), rgb))
+                (const shade__job *j, const shade__v3 *P, const shade__v3 *N,
+                 const shade__v3 *albedo, shade__light_at_fn *light_at, const float *visibility,
+                 int n, shade__v3 *rgb),
+                (j, P, N, albedo, light_at, visibility, SHADE__LANES_OF(n), rgb))
+static void shade__lit_packet(const shade__job *j, const float *P, const float *N,
+                              const float *albedo, const float *visibility, float *rgb)
+{
+    shade__lit_pick()(j, shade__rows_of(P), shade__rows_of(N), shade__rows_of(albedo),
+                      shade__light_at_pick(), visibility, SHADE_LANES, (shade__v3 *)(void *)rgb);
+}
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, const float *P, const float *N, const float *albedo,
                               const float *visibility, float *rgb)
@@ -2278,10 +2300,8 @@ SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_materi
         if (rgb) SHADE_MEMSET(rgb, 0, 3 * SHADE_LANES * sizeof *rgb);
         return;
     }
-    shade__begin_job(lighting, material, eye, shade__rows_of(P), shade__rows_of(N),
-                     shade__rows_of(albedo), &j);
-    shade__lit_pick()(&j, shade__light_at_pick(), visibility, SHADE_LANES,
-                      (shade__v3 *)(void *)rgb);
+    shade__begin_job(lighting, material, eye, &j);
+    shade__lit_packet(&j, P, N, albedo, visibility, rgb);
 }
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
                               shade_vec3 eye, shade_vec3 P, shade_vec3 N)
@@ -2291,8 +2311,8 @@ SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_materi
     if (!lighting) return shade_v3(0, 0, 0);
     shade__fill_point(P, &p);
     shade__fill_point(N, &n);
-    shade__begin_job(lighting, material, eye, &p, &n, NULL, &j);
-    shade__lit_any(&j, shade__light_at_any, NULL, SHADE__POINT, &rgb);
+    shade__begin_job(lighting, material, eye, &j);
+    shade__lit_any(&j, &p, &n, NULL, shade__light_at_any, NULL, SHADE__POINT, &rgb);
     return shade__at(&rgb, 0);
 }
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
@@ -4712,6 +4732,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int uv;                              /* the varying that is u, v behind it */
     int colored;                         /* the target has a picture */
     shade_lighting lit[2];               /* of vertices: all, or what a map multiplies, the rest */
+    shade__job job;                      /* of fragments */
 } shade__scene;
 
 enum {
@@ -4874,8 +4895,7 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const float *P
     float both[3 * SHADE_LANES];
     SHADE_MEMCPY(both, rgb, sizeof both);
     for (int i = 0; albedo && i < 3 * SHADE_LANES; i++) both[i] *= albedo[i];
-    shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, P, P + 3 * SHADE_LANES, both,
-                    NULL, rgb);
+    shade__lit_packet(&s->job, P, P + 3 * SHADE_LANES, both, NULL, rgb);
 }
 /* The map, and with it the light of N and P that arrive per pixel, or the colour that arrives
    (Gouraud and flat); without a picture the map alone, for the holes it cuts. */
@@ -4891,9 +4911,7 @@ static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SH
     if (s->colored && s->state->shading == SHADE_SHADING_PER_FRAGMENT) {
         if (s->mesh->colors) albedo = rows + 6 * SHADE_LANES;
         if (s->map) shade__lit_map(s, rows, albedo, to);
-        else
-            shade_lit_lanes(&s->state->lighting, s->state->material, s->eye, rows,
-                            rows + 3 * SHADE_LANES, albedo, NULL, to);
+        else shade__lit_packet(&s->job, rows, rows + 3 * SHADE_LANES, albedo, NULL, to);
     } else if (s->colored && s->map) {
         for (int i = 0; i < 3 * SHADE_LANES; i++)
             to[i] = rows[i] * to[i] + rows[i + 3 * SHADE_LANES];
@@ -4940,6 +4958,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     s->map = mesh->texcoords ? state->diffuse_map : NULL;
     if (state->shading == SHADE_SHADING_PER_FRAGMENT) s->uv = mesh->colors ? 9 : 6;
     else s->uv = s->map ? 6 : 3;
+    shade__begin_job(&state->lighting, state->material, s->eye, &s->job);
     s->lit[0] = s->lit[1] = state->lighting;
     if (s->map) {
         const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
