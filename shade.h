@@ -4033,9 +4033,9 @@ SHADE__INLINE void shade__add_level(const float *c, const float *weight, int blo
 }
 /* out (4 rows, stride apart) = one level at u, v; with weights, += weight times it.  How it wraps
    and filters comes from the base. */
-SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_texture *level,
-                                       const float *u, const float *v, int blocks,
-                                       const float *weight, float *out, int stride)
+SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_texture *level,
+                                     const float *u, const float *v, int blocks,
+                                     const float *weight, float *out, int stride)
 {
     enum { N = SHADE__TEXELS };
     static const shade__layout layouts[2] = {
@@ -4096,12 +4096,20 @@ SHADE__INLINE void shade__sample_level(const shade_texture *base, const shade_te
         if (weight) shade__add_level(row, weight, blocks, out + channel * stride);
     }
 }
+SHADE__DISPATCH(shade__level,
+                (const shade_texture *base, const shade_texture *level, const float *u,
+                 const float *v, int blocks, const float *weight, float *out, int stride),
+                (base, level, u, v, blocks, weight, out, stride))
+
 /* Blocks of lanes of a good texture; out: 4 rows, stride apart. */
-SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, const float *v,
-                                      const float *lod, int blocks, float *out, int stride)
+static SHADE__NOINLINE void shade__sample(const shade_texture *t, const float *u, const float *v,
+                                          const float *lod, int blocks, float *out, int stride)
 {
-    int levels = t->filter == SHADE_FILTER_TRILINEAR && t->mipmaps && t->mipmap_count > 0 && lod
-                     ? shade__min(t->mipmap_count, 16) : 0;
+    shade__level_fn *sample = shade__level_pick();
+    const int levels = t->filter == SHADE_FILTER_TRILINEAR && t->mipmaps && t->mipmap_count > 0 &&
+                       lod ? shade__min(t->mipmap_count, 16) : 0;
+    int last;
+    int32_t least = levels ? INT32_MAX : 0, most = 0;    /* bits of the levels of detail */
     SHADE_ALIGNED float level[SHADE__TEXELS];
     SHADE_ALIGNED float weight[SHADE__TEXELS];
     if (levels) {
@@ -4109,11 +4117,15 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
             int32_t bits = (int32_t)(shade__float_bits(lod[i]) & 0x7FFFFFFFu);
             float finite = shade__keep(lod[i], shade__mask(bits < 0x7F800000));
             level[i] = shade__clamp_bits(finite, 0, (float)levels);
+            bits = (int32_t)shade__float_bits(level[i]);
+            least = shade__min(least, bits);
+            most = shade__max(most, bits);
         }
         for (int k = 0; k < 4 * blocks; k++)
             SHADE_MEMSET(out + k % 4 * stride + k / 4 * SHADE__BLOCK, 0, 4 * SHADE__BLOCK);
     }
-    for (int k = 0; k <= levels; k++) {
+    last = shade__min((int)shade__bits_float((uint32_t)most) + 1, levels);
+    for (int k = (int)shade__bits_float((uint32_t)least); k <= last; k++) {
         const shade_texture *source = k ? &t->mipmaps[k - 1] : t;
         uint32_t used = !levels;
         if (levels) {
@@ -4124,27 +4136,20 @@ SHADE__INLINE void shade__sample_body(const shade_texture *t, const float *u, co
             }
         }
         if (k && !shade__texture_good(source)) source = t;
-        if (used)
-            shade__sample_level(t, source, u, v, blocks, levels ? weight : NULL, out, stride);
+        if (used) sample(t, source, u, v, blocks, levels ? weight : NULL, out, stride);
     }
 }
-SHADE__DISPATCH(shade__sample,
-                (const shade_texture *t, const float *u, const float *v, const float *lod,
-                 int blocks, float *out, int stride),
-                (t, u, v, lod, blocks, out, stride))
-
 SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u, const float *v,
                                  const float *lod, float *rgba)
 {
-    shade__sample_fn *sample = shade__sample_pick();
     if (!u || !v || !rgba) return;
     if (!shade__texture_good(texture)) {
         for (int i = 0; i < 4 * SHADE_LANES; i++) rgba[i] = 1;
         return;
     }
     for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS)
-        sample(texture, u + i, v + i, lod ? lod + i : lod, (int)SHADE__TEXELS / (int)SHADE__BLOCK,
-               rgba + i, SHADE_LANES);
+        shade__sample(texture, u + i, v + i, lod ? lod + i : lod,
+                      (int)SHADE__TEXELS / (int)SHADE__BLOCK, rgba + i, SHADE_LANES);
 }
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v, float lod)
 {
@@ -4155,7 +4160,7 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
         vs[i] = v;
         lods[i] = lod;
     }
-    shade__sample_pick()(texture, us, vs, lods, 1, out, SHADE__BLOCK);
+    shade__sample(texture, us, vs, lods, 1, out, SHADE__BLOCK);
     return shade_v4(out[0], out[SHADE__BLOCK], out[2 * SHADE__BLOCK], out[3 * SHADE__BLOCK]);
 }
 
