@@ -3899,8 +3899,8 @@ SHADE__INLINE void shade__address(const float *SHADE_RESTRICT c, int blocks, int
     }
 }
 
-/* A block of texels of both axes to bytes along the row and units of rows.  Returns 0 if each right
-   one follows its left one. */
+/* Texels of a block to bytes along the row, rows to bytes or, with pitch 1, as they are.  Returns 0
+   if every right texel is the one after its left one. */
 SHADE__INLINE uint32_t shade__locate(uint32_t *SHADE_RESTRICT left, uint32_t *SHADE_RESTRICT right,
                                      uint32_t *SHADE_RESTRICT above, uint32_t *SHADE_RESTRICT below,
                                      int shift, uint32_t pitch)
@@ -3915,8 +3915,8 @@ SHADE__INLINE uint32_t shade__locate(uint32_t *SHADE_RESTRICT left, uint32_t *SH
     }
     return apart;
 }
-/* The channels of packed texels, the lowest first: texel >> shift & mask, in steps of step, which
-   times a power of two stay exact. */
+/* The channels of packed texels, the lowest first: texel >> shift & mask, times step.  Three stay
+   where they lie; their steps are those of the number over a power of two, the same products. */
 typedef struct shade__layout {
     uint32_t mask[4];
     int      shift[4];
@@ -3935,6 +3935,7 @@ SHADE__INLINE uint32_t shade__texel(const uint8_t *p, int half, int swapped)
     SHADE_MEMCPY(&t, p, 2);
     return (swapped ? shade__swap16(t) : t) | 0x10000;
 }
+/* A block of pairs that may lie apart. */
 SHADE__INLINE void shade__fetch_apart(const uint8_t *p, int half, int swapped, size_t unit,
                                       const shade__axis *x, const uint32_t *row, int first,
                                       shade__word *to)
@@ -3946,7 +3947,7 @@ SHADE__INLINE void shade__fetch_apart(const uint8_t *p, int half, int swapped, s
     }
 }
 /* Texels of a row, left and right in turns, in one word each.  unit: bytes a step of row.  Out of
-   line, or compilers gather, which takes longer. */
+   line: gcc makes vectors of the loads otherwise, which takes longer. */
 static SHADE__NOINLINE void shade__fetch_pairs(const uint8_t *p, shade_format format, size_t unit,
                                                const shade__axis *x, const uint32_t *row,
                                                const uint32_t *apart, int blocks, shade__word *to)
