@@ -4568,13 +4568,11 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
 }
 
 /* Fills n bytes with a pattern of 256, whole vectors at a time. */
-SHADE__INLINE void shade__fill_body(uint8_t *SHADE_RESTRICT p, const float *SHADE_RESTRICT pattern,
-                                    size_t n)
+static void shade__fill(uint8_t *SHADE_RESTRICT p, const float *SHADE_RESTRICT pattern, size_t n)
 {
     for (; n >= 256; n -= 256, p += 256) SHADE_MEMCPY(p, pattern, 256);
     SHADE_MEMCPY(p, pattern, n);
 }
-SHADE__DISPATCH_AVX2(shade__fill, (uint8_t *p, const float *pattern, size_t n), (p, pattern, n))
 
 /* 256 bytes of a colour at (x, y): the period of the dither divides 8 pixels. */
 static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x, int y,
@@ -4589,7 +4587,6 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
 SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, float depth)
 {
     shade_result result = shade__begin(target, 1, NULL);
-    shade__fill_fn *fill = shade__fill_pick();
     size_t bytes, n;
     float pattern[64], depths[64];
     int clip[4];
@@ -4600,11 +4597,11 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
     for (int i = 0; i < 64; i++) depths[i] = depth;
     for (int y = clip[1]; y < clip[3]; y++) {
         size_t at = shade__offset_of(target, clip[0], y);
-        if (target->depth) fill((uint8_t *)(target->depth + at), depths, n * 4);
+        if (target->depth) shade__fill((uint8_t *)(target->depth + at), depths, n * 4);
         if (!target->color) continue;
         if (y == clip[1] || target->dither)
             shade__clear_pattern(target, color, clip[0], y, (uint8_t *)pattern);
-        fill((uint8_t *)target->color + at * bytes, pattern, n * bytes);
+        shade__fill((uint8_t *)target->color + at * bytes, pattern, n * bytes);
     }
     return SHADE_OK;
 }

@@ -12,7 +12,7 @@ static void prove_fill(void)
     memory[300] = 0xA5A5A5A5u;
     /*@ loop unroll 400; */
     for (size_t n = 0; n <= 1200; n += n < 540 ? 2 : 60)
-        shade__fill_body((uint8_t *)(memory + 300) - n, pattern, n);
+        shade__fill((uint8_t *)(memory + 300) - n, pattern, n);
     /*@ assert memory[300] == 0xA5A5A5A5; */
 }
 /* 5 x 3 pixels, 6 from row to row, whose memory ends with the last one */
