@@ -4058,7 +4058,7 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
     const size_t unit = (uint64_t)pitch * (uint64_t)level->height > UINT32_MAX ? pitch : 1;
     const int half = bytes == 2, floats = bytes == 16;
     const int nearest = base->filter == SHADE_FILTER_NEAREST, rows = nearest ? 1 : 2;
-    const int packed = !floats && !nearest && !level->srgb;
+    const uint32_t *const line[2] = { axis[1].i0, axis[1].i1 };
     const shade__layout *l = &layouts[half];
     /* channels from the lowest bits up: in bytes of a word, or blue first */
     const shade_format order = half ? SHADE_FORMAT_BGRA8 : format;
@@ -4072,26 +4072,32 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
                                  half ? 1 : floats ? 4 : 2, unit > 1 ? 1 : (uint32_t)pitch);
         if (bytes != 4 || unit > 1) apart[b] = 1;
     }
+    for (int j = 0; j < rows && !floats; j++)
+        shade__fetch_pairs(p, format, unit, axis, line[j], apart, blocks, texel + 2 * j * N);
+    if (!floats && !nearest && !level->srgb) {
+        float *to = weight ? value : out;
+        const int across = weight ? N : stride;
+        shade__blend_packed(texel, blocks, l, axis,
+                            to + shade__channel_byte(order, 0 ^ flip) * across,
+                            to + shade__channel_byte(order, 1 ^ flip) * across,
+                            to + shade__channel_byte(order, 2 ^ flip) * across,
+                            to + shade__channel_byte(order, 3 ^ flip) * across);
+        for (int k = 0; weight && k < 4; k++)
+            shade__add_level(value + k * N, weight, blocks, out + k * stride);
+        return;
+    }
     for (int k = 0; k < 4; k++) {
         const int channel = shade__channel_byte(order, k ^ flip);
         float *row = weight ? blend : out + channel * stride;
-        for (int j = 0; j < rows && (floats || k == 0); j++)
-            shade__fetch_pairs(p + 4 * k, format, unit, axis, j ? axis[1].i1 : axis[1].i0, apart,
-                               blocks, (floats ? shade__words(value) : texel) + 2 * j * N);
-        if (packed) {
-            float *to = weight ? value : out;
-            const int across = weight ? N : stride;
-            shade__blend_packed(texel, blocks, l, axis, to + channel * across,
-                                to + shade__channel_byte(order, 1 ^ flip) * across,
-                                to + shade__channel_byte(order, 2 ^ flip) * across,
-                                to + shade__channel_byte(order, 3 ^ flip) * across);
-            for (k = 0; weight && k < 4; k++)
-                shade__add_level(value + k * N, weight, blocks, out + k * stride);
-            return;
+        for (int j = 0; j < rows; j++) {
+            float *to = value + 2 * j * N;
+            if (floats)
+                shade__fetch_pairs(p + 4 * k, format, unit, axis, line[j], apart, blocks,
+                                   shade__words(to));
+            else
+                shade__decode_texels(texel + 2 * j * N, 2 * blocks, l->shift[k], l->mask[k],
+                                     l->step[k], level->srgb && channel < 3, to);
         }
-        for (int j = 0; j < rows && !floats; j++)
-            shade__decode_texels(texel + 2 * j * N, 2 * blocks, l->shift[k], l->mask[k],
-                                 l->step[k], level->srgb && channel < 3, value + 2 * j * N);
         if (nearest) shade__pick_floats(value, blocks, row);
         else shade__blend_floats(value, blocks, axis, row);
         if (weight) shade__add_level(row, weight, blocks, out + channel * stride);
