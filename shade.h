@@ -4417,7 +4417,7 @@ static shade_result shade__check_target(const shade_target *t)
 {
     uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
     if ((!t->color && !t->depth) || t->width < 1 || t->width > 16384 || t->height < 1 ||
-        t->height > 16384 || t->stride < 0 || (t->stride && t->stride < t->width) ||
+        t->height > 16384 || (t->stride && t->stride < t->width) ||
         (unsigned)t->format > SHADE_FORMAT_RGBA32F || t->clip_width < 0 || t->clip_height < 0 ||
         t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count) ||
         (t->row_count && t->row_offset > t->height - t->row_count))
@@ -4437,8 +4437,8 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
     int64_t x1 = (int64_t)t->clip_x + t->clip_width, y1 = (int64_t)t->clip_y + t->clip_height;
     int all = !t->clip_x && !t->clip_y && !t->clip_width && !t->clip_height;
     int top = t->row_offset, bottom = top + shade__rows_held(t);
-    r[0] = all ? 0 : shade__max(t->clip_x, 0);
-    r[1] = all ? top : shade__max(t->clip_y, top);
+    r[0] = shade__max(t->clip_x, 0);
+    r[1] = shade__max(t->clip_y, top);
     r[2] = all || x1 > t->width ? t->width : (int)x1;
     r[3] = all || y1 > bottom ? bottom : (int)y1;
     return r[0] < r[2] && r[1] < r[3];
@@ -5387,8 +5387,7 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
     shade__double3(ray.direction, d);
     shade__sub3(ray.origin, a, s);
     shade__cross3(d, s, q);
-    det = shade__dot3(d, n);
-    if (!(det < 0 || det > 0)) return 0;
+    det = shade__dot3(d, n);    /* 0 leaves NaN and infinities, which fail */
     u = shade__dot3(f, q) / det;
     v = -shade__dot3(e, q) / det;
     at = -shade__dot3(s, n) / det;
