@@ -3196,7 +3196,7 @@ SHADE__UNUSED static SHADE__NOINLINE int shade__next_blocks(
         skip = outside < 0 || shade__key(toward, t, z_near, right ? from : to) > *farthest;
         if (skip && from > *x) return from - 1;
         if (skip) *x = to + 1;
-        else if (inside >= 0 && whole && from == first && to == last)
+        else if (inside >= 0 && whole)
             *farthest = shade__minf(*farthest, shade__key(toward, t, z_far, right ? to : from));
     }
     return t->x1;
