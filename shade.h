@@ -1311,7 +1311,6 @@ SHADEDEF float shade_mat4_determinant(shade_mat4 m)
     double e[16], s[6], c[6];
     return (float)shade__expand(&m, e, s, c);
 }
-/* m, or the other where an entry is not finite */
 static int shade__is_finite(const shade_mat4 *m)
 {
     for (int k = 0; k < 16; k++)
@@ -2044,8 +2043,8 @@ SHADE__INLINE void shade__lengths(const shade__v3 *SHADE_RESTRICT N, const int n
 }
 /* its sign */
 SHADE__INLINE void shade__two_sides(const shade__v3 *SHADE_RESTRICT P,
-                                const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, const int n,
-                                float *SHADE_RESTRICT rn)
+                                    const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, const int n,
+                                    float *SHADE_RESTRICT rn)
 {
     SHADE__FOR(i, n) {
         shade_vec3 V = shade__view(eye, shade__at(P, i));
