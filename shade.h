@@ -4666,7 +4666,7 @@ static void shade__shrink(const shade_target *from, const shade_target *to, int 
         for (int i = (int)(x * sx); i < from->width && i < (x + 1) * sx; i++) {
             double share = shade__overlap(i, x * sx, (x + 1) * sx);
             float c[4];
-            uint32_t packed;
+            uint32_t packed = 0;
             share *= shade__overlap(j, y * sy, (y + 1) * sy);
             shade__load_pixel(from->format, shade__pixel_at(from, i, j), &packed, c, 1);
             shade__unpack(from->format, &packed, 1, c);
