@@ -1823,7 +1823,8 @@ static void shade__begin_terms(const shade_lighting *lighting, const shade_mater
    which compilers know to leave no remainder, the others whole packets. */
 enum { SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES };
 #define SHADE__LANES_OF(n) \
-    (shade__width == SHADE__ANY_WIDTH ? (n) & -(int)SHADE__POINT : SHADE_LANES)
+    (shade__width == SHADE__ANY_WIDTH ? shade__max((n) & -(int)SHADE__POINT, SHADE__POINT) \
+                                      : SHADE_LANES)
 
 /* k I of each term that is on, else zero whatever they hold. */
 static void shade__products(const shade_light *light, const shade__job *j, shade__lamp *p)
@@ -1857,7 +1858,7 @@ static SHADE__NOINLINE void shade__lamp_of(const shade_light *light, const shade
     p->a = light->constant;
     p->nearest = p->a == 0 ? 1e-4f : 0.0f;
     p->falls = !p->infinite && !shade__is_zero(shade_v3(0, light->linear, light->quadratic));
-    if (p->infinite || (!p->falls && p->a == 0)) p->a = 1;
+    if (!p->falls && p->a == 0) p->a = 1;
     p->light = light;
 }
 /* The lamp of a tone: cool + k_w (warm - cool), L toward the first light.             [Gooch98] */
@@ -1895,7 +1896,10 @@ typedef struct shade__arrival {
 SHADE__INLINE void shade__directional(const shade__lamp *SHADE_RESTRICT lamp, const int n,
                                       shade__arrival *SHADE_RESTRICT a)
 {
-    SHADE__FOR(i, n) { shade__put(&a->L, i, lamp->at); }
+    SHADE__FOR(i, n) {
+        shade__put(&a->L, i, lamp->at);
+        a->att[i] = 1;
+    }
 }
 SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
                                 const shade__v3 *SHADE_RESTRICT P, const int n,
@@ -1933,9 +1937,10 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *SHADE_RESTRICT lamp, cons
         att[i] = 1 / shade__clamp_bits(lamp->a + b * r + c * (r * r), 1e-20f, FLT_MAX);
     }
 }
-SHADE__INLINE void shade__fill_row(float x, const int n, float *SHADE_RESTRICT row)
+/* The same where it does not depend on r. */
+SHADE__INLINE void shade__even(float x, const int n, float *SHADE_RESTRICT att)
 {
-    SHADE__FOR(i, n) { row[i] = x; }
+    SHADE__FOR(i, n) { att[i] = shade__keep(x, shade__mask(att[i] >= 0)); }
 }
 /* First half of a power: x becomes n (-log2 x). */
 SHADE__INLINE void shade__log_row(float exponent, const int n, float *SHADE_RESTRICT x)
@@ -1967,7 +1972,8 @@ SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3
     a->any = any;
     if (!any) return;
     if (lamp->falls) shade__attenuate(lamp, n, a->att);
-    else shade__fill_row(1 / shade__clamp_bits(lamp->a, 1e-20f, FLT_MAX), n, a->att);
+    else if (!lamp->infinite)
+        shade__even(1 / shade__clamp_bits(lamp->a, 1e-20f, FLT_MAX), n, a->att);
     if (!lamp->spot) return;
     if (lamp->light->spot_exponent > 0) {
         shade__log_row(lamp->light->spot_exponent, n, a->cosine);
@@ -4049,6 +4055,7 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
     SHADE_ALIGNED float value[4 * N];
     SHADE_ALIGNED float blend[N];
     uint32_t apart[(int)N / (int)SHADE__BLOCK];
+    const uint32_t *line[2];
     const shade_format format = level->format;
     const uint8_t *p = (const uint8_t *)level->pixels;
     const size_t bytes = shade__pixel_bytes(format);
@@ -4057,7 +4064,6 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
     const size_t unit = (uint64_t)pitch * (uint64_t)level->height > UINT32_MAX ? pitch : 1;
     const int half = bytes == 2, floats = bytes == 16;
     const int nearest = base->filter == SHADE_FILTER_NEAREST, rows = nearest ? 1 : 2;
-    const uint32_t *const line[2] = { axis[1].i0, axis[1].i1 };
     const shade__layout *l = &layouts[half];
     /* channels from the lowest bits up: in bytes of a word, or blue first */
     const shade_format order = half ? SHADE_FORMAT_BGRA8 : format;
@@ -4071,6 +4077,8 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
                                  half ? 1 : floats ? 4 : 2, unit > 1 ? 1 : (uint32_t)pitch);
         if (bytes != 4 || unit > 1) apart[b] = 1;
     }
+    line[0] = axis[1].i0;
+    line[1] = axis[1].i1;
     for (int j = 0; j < rows && !floats; j++)
         shade__fetch_pairs(p, format, unit, axis, line[j], apart, blocks, texel + 2 * j * N);
     if (!floats && !nearest && !level->srgb) {
