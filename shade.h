@@ -2890,7 +2890,6 @@ static void shade__triangles(shade__draw *d)
     p->vertex = b->vertex;
     p->value = b->value;
     p->count = 0;
-    p->pieces = 0;
     d->u.queue.f.count = 0;
     for (int k = 0; k < b->count; k++) {
         const uint8_t *corner = b->corner + 3 * k;

@@ -395,6 +395,9 @@ TEST(light, single_terms_match_double)
 
 TEST(light, attenuation_is_defined_everywhere) /* 1 / (a + b r + c r^2) */
 {
+    shade_light faint = shade_point_light(shade_v3(0, 0, 1), shade_v3(1, 1, 1));
+    faint.linear = 1e-25f;    /* one unit away: 1e20 is the most */
+    CHECK_NEAR(shade_light_at(&faint, shade_v3(0, 0, 0), NULL, NULL), 1e20, 1e14);
     CHECK_NEAR(shade_attenuation(0, 0, 0, 0), 1, 0);
     CHECK_NEAR(shade_attenuation(0, 0, 0, 1e6f), 1, 0);
     CHECK_NEAR(shade_attenuation(1, 0, 0, 123), 1, 0);
