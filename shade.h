@@ -3733,6 +3733,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t, const
 {
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
+    /* nothing to carry from window to window: 5 % of a dense mesh */
     if (SHADE__TWICE && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
         shade__append(d, t, row, x, y, q->f.count, 0, 8);
         q->f.count += n;
@@ -4746,8 +4747,8 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_texture *map;            /* NULL: none */
     int uv;                              /* the varying that is u, v behind it */
     int colored;                         /* the target has a picture */
-    shade_lighting lit[2];               /* of vertices: all, or what a map multiplies, the rest */
-    shade__job job;                      /* of fragments */
+    shade_lighting lit[2];               /* all; at vertices what a map multiplies, and the rest */
+    shade__job job;                      /* of lit[0] */
 } shade__scene;
 
 enum {
@@ -4866,21 +4867,23 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_shading shading = s->state->shading;
-    const int lit = shading != SHADE_SHADING_PER_FRAGMENT, parts = lit ? s->map ? 2 : 1 : 0;
+    const int lit = shading != SHADE_SHADING_PER_FRAGMENT;
+    const float *tint;
     shade__v3 apart[SHADE__APART], *P, *N, *albedo;
     P = SHADE__APART == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : apart;
     N = P + 1;
     albedo = N + 1;
+    tint = s->mesh->colors ? albedo->x : NULL;
     shade__fetch_vertices(s, in, P, N, albedo);
     shade__lane_clip(s->clip_from_object, P, out->clip[0]);
     if (s->face_normals)
         shade__fetch_faces(s, in, shading == SHADE_SHADING_PER_FACE, P, N, albedo);
     shade__lane_world(s->world_from_object, P);
     shade__lane_normal(s->normal_matrix, N);
-    for (int k = 0; k < parts; k++)
-        shade_lit_lanes(&s->lit[k], s->state->material, s->eye, P->x, N->x,
-                        s->mesh->colors ? albedo->x : NULL, NULL,
-                        (float *)out->varying + 3 * SHADE_LANES * k);
+    if (lit) shade__lit_packet(&s->job, P->x, N->x, tint, NULL, out->varying[0]);
+    if (lit && s->map)
+        shade_lit_lanes(&s->lit[1], s->state->material, s->eye, P->x, N->x, tint, NULL,
+                        (float *)out->varying + 3 * SHADE_LANES);
     if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
 
@@ -4973,14 +4976,14 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     s->map = mesh->texcoords ? state->diffuse_map : NULL;
     if (state->shading == SHADE_SHADING_PER_FRAGMENT) s->uv = mesh->colors ? 9 : 6;
     else s->uv = s->map ? 6 : 3;
-    shade__begin_job(&state->lighting, state->material, s->eye, &s->job);
     s->lit[0] = s->lit[1] = state->lighting;
-    if (s->map) {
+    if (s->map && state->shading != SHADE_SHADING_PER_FRAGMENT) {
         const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
         const unsigned matte = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
         s->lit[0].terms = (terms & matte) | SHADE__TERM_NONE;
         s->lit[1].terms = (terms & ~matte) | SHADE__TERM_NONE;
     }
+    shade__begin_job(&s->lit[0], state->material, s->eye, &s->job);
 }
 
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
