@@ -3591,7 +3591,6 @@ typedef struct shade__planes {
     SHADE_ALIGNED float base[SHADE__VALUES_MAX];
     float    gx[SHADE__VALUES_MAX], gy[SHADE__VALUES_MAX];
     float    x_ref, y_ref;            /* 1/2 - position of corner 0, pixels; exact */
-    float    z;                       /* base of depth, with the bias */
     float    z_low, z_high, rw_low, rw_high;    /* planes are cut to these */
     uint32_t primitive, front;
 } shade__planes;
@@ -3622,7 +3621,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan, const shade__pack
     const float *v2 = p->value + corner[turn[2]] * stride;
     const shade_vec4 side = shade_v4(p->side[0][i], p->side[1][i], p->side[2][i], p->side[3][i]);
     shade__slopes(v0, v1, v2, side, stride, t);
-    t->z = p->z[0][i];
+    t->base[0] = p->z[0][i];    /* with the bias */
     t->z_low = p->rw[0][i];
     t->z_high = p->rw[1][i];
     t->rw_low = v0[1];
@@ -3674,12 +3673,11 @@ SHADE__INLINE void shade__append_plane(float value, float step, const float *SHA
     }
 }
 /* Where the pixels are, which shaders of this file do not ask. */
-SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, int x, int y,
-                                       const float *SHADE_RESTRICT px, int back,
+SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t, float z0, int x,
+                                       int y, const float *SHADE_RESTRICT px, int back,
                                        shade_fragments *SHADE_RESTRICT f, int c, const int width)
 {
     const float centre = (float)y + 0.5f, z_dx = t->gx[0];
-    const float z0 = t->z + t->gy[0] * ((float)y + t->y_ref);
     SHADE__FOR(i, width) {
         const uint32_t keep = shade__mask(i < back);
         float z = shade__clamp_bits(z0 + z_dx * px[i], t->z_low, t->z_high);
@@ -3714,7 +3712,7 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
         shade__append_plane(row[SHADE__FIRST + k], t->gx[SHADE__FIRST + k], px, back,
                             q->f.varying[k] + c, width);
     if (plan->bare) return;
-    shade__append_place(t, x, y, px, back, &q->f, c, width);
+    shade__append_place(t, row[0], x, y, px, back, &q->f, c, width);
 }
 
 /* Values of the planes at x = x_ref of row y. */
