@@ -682,11 +682,11 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
    multiplied by I_d or I_s; 1 for a lamp at infinity without a cone.  *L: unit, from P toward the
    lamp, zero where P is the lamp (which is dark then if it has a cone with cos(beta) > 0).
    *distance: r, or FLT_MAX at infinity.  Either may be NULL.  light NULL: all zero. */
-SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance);
 /* The same for a packet: P and L three rows of SHADE_LANES floats, amount one; L or amount may be
    NULL. */
-SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
+SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount);
 
 /* Light leaving P toward eye, term by term.  N is made unit here (zero stays zero: emission and
@@ -694,40 +694,50 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, flo
    SHADE_FLAG_INFINITE_VIEWER.  P, N, eye, lights in one space.  material NULL: white Lambert, that
    is k_d = k_a = 1; lighting NULL: zeros. */
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
-                                    shade_vec3 eye, shade_vec3 P, shade_vec3 N);
+                                    shade_vec3 eye, shade_vec3 point, shade_vec3 normal);
 
 /* The sum of the four terms: iteration four. */
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 eye, shade_vec3 P, shade_vec3 N);
+                              shade_vec3 eye, shade_vec3 point, shade_vec3 normal);
 
-/* shade_lit for a packet, what fragment shaders call.  P, N, albedo, rgb: three rows of
-   SHADE_LANES floats each, x row, y row, z row: in->varying[k], or N[0] of a float
-   N[3][SHADE_LANES].  albedo multiplies k_d and k_a; NULL: 1.  visibility: a row per light, which
-   multiplies its I_d and I_s as it is, 0 in full shadow; NULL: 1.  Ambient light is never hidden;
-   COOL_TO_WARM knows no shadow.  rgb must not overlap the others. */
+/* What the lanes of a packet are lit with: rows of SHADE_LANES floats.  NULL means the default. */
+typedef struct shade_rows {
+    const float *position;      /* P: 3 rows, x row, y row, z row */
+    const float *normal;        /* N: 3 rows, of any length */
+    const float *albedo;        /* 3 rows that multiply k_d and k_a; NULL: 1 */
+    const float *specular;      /* 3 rows that multiply k_s; NULL: 1 */
+    const float *visibility;    /* one row a light, which multiplies its I_d and I_s; NULL: 1 */
+} shade_rows;
+
+/* shade_lit for a packet, what fragment shaders call: lane i of the rows gives lane i of rgb (3
+   rows, which must not overlap the others).  Three rows follow each other: pass in->varying[k], or
+   n[0] of a float n[3][SHADE_LANES].  Visibility is 0 in full shadow; any value multiplies as it
+   is; ambient light is never hidden; COOL_TO_WARM knows no shadow.  Each lane depends on itself
+   alone and has the bits of shade_lit.  lighting, rows, position or normal NULL: rgb is 0. */
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 eye, const float *P, const float *N, const float *albedo,
-                              const float *visibility, float *rgb);
+                              shade_vec3 eye, const shade_rows *rows, float *rgb);
 
 /* The terms one by one.  N, L, V unit, taken as given. */
 /* max(0, N.L) */
-SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L);
-/* B max(0, R.V)^n, R = 2 (N.L) N - L; 0 where N.L <= 0                               [Phong75] */
-SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
+SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light);
+/* B max(0, R.V)^n, n the exponent, R = 2 (N.L) N - L; 0 where N.L <= 0               [Phong75] */
+SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
+                                    float exponent);
 /* B max(0, N.H)^n, H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12      [Blinn77] */
-SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n);
+SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light,
+                                          shade_vec3 to_eye, float exponent);
 /* 1 / (a + b r + c r^2), at most 1e20.  a = b = c = 0: 1.  a = 0: r is taken as max(r, 1e-4). */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
 /* (L.S)^e where L.S >= cos_cutoff, else 0; S = -aim / |aim|.  L toward the light.  aim zero: 1. */
-SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float exponent);
+SHADEDEF float shade_spot(shade_vec3 to_light, shade_vec3 aim, float cos_cutoff, float exponent);
 
 /* The reflectance f_r that, times irradiance I (N.L), is the reflected light: k_d + k_s (N.H)^n for
    BLINN_PHONG, k_d + k_s (R.V)^n for PHONG, k_d for LAMBERT, 0 else.  Ungated: the weight N.L does
    that.  N, L, V unit. */
-SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model, shade_vec3 N,
-                               shade_vec3 L, shade_vec3 V);
+SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model, shade_vec3 normal,
+                               shade_vec3 to_light, shade_vec3 to_eye);
 /* cool + k_w (warm - cool), k_w = (1 + N.L) / 2.  N, L unit.                         [Gooch98] */
-SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool,
+SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, shade_vec3 cool,
                                        shade_vec3 warm);
 /* 4 alpha: the Blinn-Phong exponent whose highlight, lit from the front, looks like Phong's. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
@@ -1181,7 +1191,7 @@ SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
     rows[i + 2 * stride] = v.z;
     rows[i + 3 * stride] = v.w;
 }
-/* Three rows of floats as the public functions take them. */
+/* Three rows of floats as the public functions take them; NULL stays NULL. */
 SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
 {
     return (const shade__v3 *)(const void *)rows;
@@ -1636,29 +1646,37 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float
 
 /* R.V of unit N, L, V, as (|R|^2 + |V|^2 - |R - V|^2) / 2, |R| = |L|: near 1, where a power
    magnifies errors, those of the vectors' lengths cancel.  Zero L or V: 0. */
-SHADE__INLINE float shade__mirror_cosine(shade_vec3 N, shade_vec3 L, shade_vec3 V)
+SHADE__INLINE float shade__mirror_cosine(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye)
 {
-    shade_vec3 d = shade_sub(shade_scale(N, 2 * shade_dot(N, L)), shade_add(L, V));
-    return shade__is_zero(L) || shade__is_zero(V) ? 0 : 1 - 0.5f * shade_dot(d, d);
+    shade_vec3 mirrored = shade_scale(normal, 2 * shade_dot(normal, to_light));
+    shade_vec3 d = shade_sub(mirrored, shade_add(to_light, to_eye));
+    return shade__is_zero(to_light) || shade__is_zero(to_eye) ? 0 : 1 - 0.5f * shade_dot(d, d);
 }
 
-SHADEDEF float shade_lambert(shade_vec3 N, shade_vec3 L) { return shade__maxf(shade_dot(N, L), 0); }
+SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
+{
+    return shade__maxf(shade_dot(normal, to_light), 0);
+}
 /* (R.V)^n or (N.H)^n, ungated. */
-static SHADE__NOINLINE float shade__highlight(int phong, shade_vec3 N, shade_vec3 L, shade_vec3 V,
-                                              float n)
+static SHADE__NOINLINE float shade__highlight(int phong, shade_vec3 normal, shade_vec3 to_light,
+                                              shade_vec3 to_eye, float exponent)
 {
-    shade_vec3 H;
-    if (phong) return shade_power(shade__mirror_cosine(N, L, V), n);
-    H = shade_halfway(L, V);
-    return shade__is_zero(H) ? 0 : shade_power(shade_dot(N, H), n);
+    shade_vec3 half;
+    if (phong) return shade_power(shade__mirror_cosine(normal, to_light, to_eye), exponent);
+    half = shade_halfway(to_light, to_eye);
+    return shade__is_zero(half) ? 0 : shade_power(shade_dot(normal, half), exponent);
 }
-SHADEDEF float shade_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
+SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye,
+                                    float exponent)
 {
-    return shade_dot(N, L) > 0 ? shade__highlight(1, N, L, V, n) : 0;
+    if (!(shade_dot(normal, to_light) > 0)) return 0;
+    return shade__highlight(1, normal, to_light, to_eye, exponent);
 }
-SHADEDEF float shade_blinn_phong_specular(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)
+SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light,
+                                          shade_vec3 to_eye, float exponent)
 {
-    return shade_dot(N, L) > 0 ? shade__highlight(0, N, L, V, n) : 0;
+    if (!(shade_dot(normal, to_light) > 0)) return 0;
+    return shade__highlight(0, normal, to_light, to_eye, exponent);
 }
 SHADEDEF float shade_attenuation(float a, float b, float c, float r)
 {
@@ -1666,25 +1684,28 @@ SHADEDEF float shade_attenuation(float a, float b, float c, float r)
     if (a == 0) r = shade__maxf(r, 1e-4f);
     return 1 / shade__maxf(a + b * r + c * (r * r), 1e-20f);
 }
-SHADEDEF float shade_spot(shade_vec3 L, shade_vec3 aim, float cos_cutoff, float exponent)
+SHADEDEF float shade_spot(shade_vec3 to_light, shade_vec3 aim, float cos_cutoff, float exponent)
 {
-    shade_vec3 S = shade_neg(shade__unit_vector(aim));
-    float cosine = shade_dot(L, S);
-    if (shade__is_zero(S)) return 1;
+    shade_vec3 axis = shade_neg(shade__unit_vector(aim));
+    float cosine = shade_dot(to_light, axis);
+    if (shade__is_zero(axis)) return 1;
     return cosine >= cos_cutoff ? shade_power(cosine, exponent) : 0;
 }
 SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model,
-                               shade_vec3 N, shade_vec3 L, shade_vec3 V)
+                               shade_vec3 normal, shade_vec3 to_light, shade_vec3 to_eye)
 {
     const int phong = model == SHADE_MODEL_PHONG;
     shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
-    if (phong || model == SHADE_MODEL_BLINN_PHONG)
-        return shade_madd(m.diffuse, shade__highlight(phong, N, L, V, m.shininess), m.specular);
+    if (phong || model == SHADE_MODEL_BLINN_PHONG) {
+        const float lobe = shade__highlight(phong, normal, to_light, to_eye, m.shininess);
+        return shade_madd(m.diffuse, lobe, m.specular);
+    }
     return model == SHADE_MODEL_LAMBERT ? m.diffuse : shade_v3(0, 0, 0);
 }
-SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 N, shade_vec3 L, shade_vec3 cool, shade_vec3 warm)
+SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, shade_vec3 cool,
+                                       shade_vec3 warm)
 {
-    return shade_lerp(cool, warm, 0.5f + 0.5f * shade_dot(N, L));
+    return shade_lerp(cool, warm, 0.5f + 0.5f * shade_dot(normal, to_light));
 }
 SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exponent; }
 
@@ -1888,7 +1909,7 @@ static SHADE__NOINLINE void shade__begin_job(const shade_lighting *lighting,
 
 /* What of a lamp arrives at a block of points. */
 typedef struct shade__arrival {
-    SHADE_ALIGNED shade__v3 L;    /* unit, toward the lamp */
+    SHADE_ALIGNED shade__v3 to_light;    /* unit */
     float att[SHADE_LANES];       /* r, then attenuation times cone */
     float cosine[SHADE_LANES];    /* L.S, where there is a cone; then N.L, signed */
     uint32_t any;                 /* zero: no lane is inside the cone, att is unset */
@@ -1897,20 +1918,20 @@ SHADE__INLINE void shade__directional(const shade__lamp *SHADE_RESTRICT lamp, co
                                       shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
-        shade__put(&a->L, i, lamp->at);
+        shade__put(&a->to_light, i, lamp->at);
         a->att[i] = 1;
     }
 }
 SHADE__INLINE void shade__point(const shade__lamp *SHADE_RESTRICT lamp,
-                                const shade__v3 *SHADE_RESTRICT P, const int n,
+                                const shade__v3 *SHADE_RESTRICT point, const int n,
                                 shade__arrival *SHADE_RESTRICT to)
 {
     SHADE__FOR(i, n) {
-        shade_vec3 L = shade_sub(lamp->at, shade__at(P, i));
-        float d = shade_dot(L, L), rl = shade__rsqrt(d);
+        shade_vec3 to_light = shade_sub(lamp->at, shade__at(point, i));
+        float d = shade_dot(to_light, to_light), rl = shade__rsqrt(d);
         /* before the call that returns a vector: what tcc does to d then, see >>config */
         to->att[i] = d * rl;
-        shade__put(&to->L, i, shade_scale(L, rl));
+        shade__put(&to->to_light, i, shade_scale(to_light, rl));
     }
 }
 /* L.S, or SHADE__NEVER outside the cone; returns non-zero if some lane is inside */
@@ -1920,7 +1941,7 @@ SHADE__INLINE uint32_t shade__cone(const shade__lamp *SHADE_RESTRICT lamp, const
     const float cos_cutoff = lamp->light->spot_cos_cutoff;
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float cosine = shade_dot(shade__at(&a->L, i), lamp->axis);
+        float cosine = shade_dot(shade__at(&a->to_light, i), lamp->axis);
         uint32_t inside = shade__mask(cosine >= cos_cutoff);
         a->cosine[i] = shade__select(SHADE__NEVER, cosine, inside);
         any |= inside;
@@ -1962,12 +1983,12 @@ SHADE__INLINE void shade__gather_disc(const int n, shade__arrival *SHADE_RESTRIC
     }
 }
 /* L and att of one lamp. */
-SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3 *P, const int n,
-                                        shade__arrival *a)
+SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3 *point,
+                                        const int n, shade__arrival *a)
 {
     uint32_t any = shade__mask(1);
     if (lamp->infinite) shade__directional(lamp, n, a);
-    else shade__point(lamp, P, n, a);
+    else shade__point(lamp, point, n, a);
     if (lamp->spot) any = shade__cone(lamp, n, a);
     a->any = any;
     if (!any) return;
@@ -1981,20 +2002,20 @@ SHADE__INLINE void shade__light_at_body(const shade__lamp *lamp, const shade__v3
     } else shade__gather_disc(n, a);
 }
 SHADE__DISPATCH(shade__light_at,
-                     (const shade__lamp *lamp, const shade__v3 *P, int n, shade__arrival *a),
-                     (lamp, P, SHADE__LANES_OF(n), a))
+                     (const shade__lamp *lamp, const shade__v3 *point, int n, shade__arrival *a),
+                     (lamp, point, SHADE__LANES_OF(n), a))
 
-SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *P, float *L,
+SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point, float *to_light,
                                    float *amount)
 {
     shade__arrival a;
     shade__lamp lamp;
-    if (light && P) {
+    if (light && point) {
         shade__lamp_of(light, NULL, &lamp);
-        shade__light_at_pick()(&lamp, shade__rows_of(P), SHADE_LANES, &a);
+        shade__light_at_pick()(&lamp, shade__rows_of(point), SHADE_LANES, &a);
         if (!a.any) SHADE__ZERO(a.att);
     } else SHADE__ZERO(a);
-    if (L) SHADE_MEMCPY(L, &a.L, 3 * SHADE_LANES * sizeof *L);
+    if (to_light) SHADE_MEMCPY(to_light, &a.to_light, 3 * SHADE_LANES * sizeof *to_light);
     if (amount) SHADE_MEMCPY(amount, a.att, sizeof a.att);
 }
 
@@ -2002,20 +2023,20 @@ static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
 {
     for (int i = 0; i < SHADE__POINT; i++) shade__put(rows, i, v);
 }
-SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3 *L,
+SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point, shade_vec3 *to_light,
                               float *distance)
 {
     shade__arrival a;
-    shade__v3 point;
+    shade__v3 block;
     shade__lamp lamp;
     float r = 0;
-    shade__fill_point(P, &point);
+    shade__fill_point(point, &block);
     if (light) {
         shade__lamp_of(light, NULL, &lamp);
-        r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, P);
-        shade__light_at_any(&lamp, &point, SHADE__POINT, &a);
+        r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, point);
+        shade__light_at_any(&lamp, &block, SHADE__POINT, &a);
     } else SHADE__ZERO(a);
-    if (L) *L = shade__at(&a.L, 0);
+    if (to_light) *to_light = shade__at(&a.to_light, 0);
     if (distance) *distance = r;
     return a.any ? a.att[0] : 0;
 }
@@ -2023,56 +2044,56 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 P, shade_vec3
    The equations of >>model for a packet, or for one point.  The light of one lamp is cut into short
    loops over rows of temporaries: one fused loop per light measured 1.5 times slower, its many
    live values outgrow the processor.
-     in      rows of P, N, albedo, visibility         out  rows of rgb
+     in      shade_rows                               out  rows of rgb
      holds   A lamp that reaches no lane (horizon, cone) is left after its first loops.
                                                                                         >>state */
 
-typedef struct shade__rows {
+typedef struct shade__lit {
     shade__arrival a;             /* of one lamp; in the end a.L.x holds its highlight */
     float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
-    shade__v3 V;                  /* unit, toward the viewer */
-} shade__rows;
+    shade__v3 to_eye;             /* unit, toward the viewer */
+} shade__lit;
 
 /* Toward the viewer, not unit.  eye.w is 0 for a viewer at infinity, else 1. */
-SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 P)
+SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 point)
 {
-    return shade_madd(shade__xyz(eye), -eye.w, P);
+    return shade_madd(shade__xyz(eye), -eye.w, point);
 }
 /* 1/|N| */
-SHADE__INLINE void shade__lengths(const shade__v3 *SHADE_RESTRICT N, const int n,
+SHADE__INLINE void shade__lengths(const shade__v3 *SHADE_RESTRICT normal, const int n,
                                   float *SHADE_RESTRICT rn)
 {
     SHADE__FOR(i, n) {
-        shade_vec3 m = shade__at(N, i);
+        shade_vec3 m = shade__at(normal, i);
         rn[i] = shade__rsqrt(shade_dot(m, m));
     }
 }
 /* its sign */
-SHADE__INLINE void shade__two_sides(const shade__v3 *SHADE_RESTRICT P,
-                                    const shade__v3 *SHADE_RESTRICT N, shade_vec4 eye, const int n,
-                                    float *SHADE_RESTRICT rn)
+SHADE__INLINE void shade__two_sides(const shade__v3 *SHADE_RESTRICT point,
+                                    const shade__v3 *SHADE_RESTRICT normal, shade_vec4 eye,
+                                    const int n, float *SHADE_RESTRICT rn)
 {
     SHADE__FOR(i, n) {
-        shade_vec3 V = shade__view(eye, shade__at(P, i));
-        uint32_t turned = shade__mask(shade_dot(shade__at(N, i), V) < 0) & 0x80000000u;
+        shade_vec3 to_eye = shade__view(eye, shade__at(point, i));
+        uint32_t turned = shade__mask(shade_dot(shade__at(normal, i), to_eye) < 0) & 0x80000000u;
         rn[i] = shade__bits_float(shade__float_bits(rn[i]) ^ turned);
     }
 }
-SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT P, shade_vec4 eye, const int n,
+SHADE__INLINE void shade__viewer(const shade__v3 *SHADE_RESTRICT point, shade_vec4 eye, const int n,
                                  shade__v3 *SHADE_RESTRICT to)
 {
     SHADE__FOR(i, n) {
-        shade_vec3 V = shade__view(eye, shade__at(P, i));
-        shade__put(to, i, shade_scale(V, shade__rsqrt(shade_dot(V, V))));
+        shade_vec3 to_eye = shade__view(eye, shade__at(point, i));
+        shade__put(to, i, shade_scale(to_eye, shade__rsqrt(shade_dot(to_eye, to_eye))));
     }
 }
 /* N.L; returns non-zero if some lane faces the lamp */
-SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const int n,
-                                      shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT normal, const int n,
+                                      shade__lit *SHADE_RESTRICT r)
 {
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float nl = shade_dot(shade__at(N, i), shade__at(&r->a.L, i)) * r->rn[i];
+        float nl = shade_dot(shade__at(normal, i), shade__at(&r->a.to_light, i)) * r->rn[i];
         r->a.cosine[i] = nl;
         any |= shade__mask(nl > 0);
     }
@@ -2080,7 +2101,7 @@ SHADE__INLINE uint32_t shade__horizon(const shade__v3 *SHADE_RESTRICT N, const i
 }
 
 /* a.att becomes k_w = (1 + N.L) / 2. */
-SHADE__INLINE void shade__warmth(const int n, shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE void shade__warmth(const int n, shade__lit *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) { r->a.att[i] = 0.5f + 0.5f * r->a.cosine[i]; }
 }
@@ -2094,22 +2115,23 @@ SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 /* a.L.x becomes N.H, or SHADE__NEVER where the gate is shut or there is no H.  Returns non-zero if
    some lane has |L + V|^2 below 1e-3, for shade__half_near.  Rows are read and written by one
    pointer: in builds with gcc -O0 two ways to one would leave the loop scalar. */
-SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT N, uint32_t open, const int n,
-                                   shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE uint32_t shade__half(const shade__v3 *SHADE_RESTRICT normal, uint32_t open,
+                                   const int n, shade__lit *SHADE_RESTRICT r)
 {
-    shade__v3 *L = &r->a.L;
+    shade__v3 *to_light = &r->a.to_light;
     uint32_t near_zero = 0;
     SHADE__FOR(i, n) {
-        shade_vec3 H = shade_add(shade__at(L, i), shade__at(&r->V, i));
-        float h2 = shade_dot(H, H);
+        shade_vec3 half = shade_add(shade__at(to_light, i), shade__at(&r->to_eye, i));
+        float h2 = shade_dot(half, half);
         near_zero |= shade__mask(h2 < 1e-3f);
-        L->x[i] = shade_dot(shade__at(N, i), H);
-        L->y[i] = h2;
+        to_light->x[i] = shade_dot(shade__at(normal, i), half);
+        to_light->y[i] = h2;
     }
     SHADE__FOR(i, n) {
-        float h2 = L->y[i], rn = r->rn[i], nh = L->x[i] * (rn * shade__rsqrt_normal(h2));
+        float h2 = to_light->y[i], rn = r->rn[i];
+        float nh = to_light->x[i] * (rn * shade__rsqrt_normal(h2));
         uint32_t lit = shade__mask(shade__gate(r->a.cosine[i], rn, open));
-        L->x[i] = shade__select(SHADE__NEVER, nh, shade__mask(h2 >= 1e-12f) & lit);
+        to_light->x[i] = shade__select(SHADE__NEVER, nh, shade__mask(h2 >= 1e-12f) & lit);
     }
     return near_zero;
 }
@@ -2132,9 +2154,9 @@ static void shade__unit3(double *v)
 }
 /* The lanes where L and V are nearly opposite, again from the positions, in double: their sum keeps
    few digits in float. */
-static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P,
-                                         const shade__v3 *N, shade_vec4 eye, uint32_t open,
-                                         const int n, shade__rows *r)
+static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *point,
+                                         const shade__v3 *normal, shade_vec4 eye, uint32_t open,
+                                         const int n, shade__lit *r)
 {
     const double w = at.w == 0 ? 1 : (double)at.w, k = at.w == 0 ? 0 : 1, s = (double)eye.w;
     const float *lamp = (const float *)&at, *from = (const float *)&eye;
@@ -2143,8 +2165,8 @@ static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P
         if (!shade__gate(r->a.cosine[i], r->rn[i], open)) continue;
         for (int j = 0; j < 3; j++) {
             const int lane = j * SHADE_LANES + i;
-            const double p = (double)((const float *)P)[lane];
-            m[j] = (double)((const float *)N)[lane];
+            const double p = (double)((const float *)point)[lane];
+            m[j] = (double)((const float *)normal)[lane];
             l[j] = (double)lamp[j] / w - k * p;
             v[j] = (double)from[j] - s * p;
         }
@@ -2156,34 +2178,36 @@ static SHADE__COLD void shade__half_near(const shade_vec4 at, const shade__v3 *P
         if (!(h2 < 1e-3)) continue;
         shade__unit3(l);
         nh = r->rn[i] < 0 ? -shade__dot3(m, l) : shade__dot3(m, l);
-        r->a.L.x[i] = h2 < 1e-12 ? SHADE__NEVER : (float)nh;
+        r->a.to_light.x[i] = h2 < 1e-12 ? SHADE__NEVER : (float)nh;
     }
 }
 /* a.L.x becomes R.V, as shade__mirror_cosine, or SHADE__NEVER where the gate is shut */
-SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT N, uint32_t open, const int n,
-                                   shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT normal, uint32_t open,
+                                   const int n, shade__lit *SHADE_RESTRICT r)
 {
-    shade__v3 *rows = &r->a.L;
+    shade__v3 *rows = &r->a.to_light;
     SHADE__FOR(i, n) {
         float nl = r->a.cosine[i], rn = r->rn[i];
-        shade_vec3 L = shade__at(rows, i), V = shade__at(&r->V, i);
-        shade_vec3 d = shade_sub(shade_scale(shade__at(N, i), 2 * nl * rn), shade_add(L, V));
-        uint32_t exists = shade__mask(shade_dot(V, V) > 0) & shade__mask(shade_dot(L, L) > 0);
+        shade_vec3 to_light = shade__at(rows, i), to_eye = shade__at(&r->to_eye, i);
+        shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
+        uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
+        d = shade_sub(d, shade_add(to_light, to_eye));
+        exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         float cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
         rows->x[i] = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
     }
 }
 /* Second half of a power for the highlight: a.L.x = B (N.H)^n. */
-SHADE__INLINE void shade__gloss(const int n, shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE void shade__gloss(const int n, shade__lit *SHADE_RESTRICT r)
 {
-    SHADE__FOR(i, n) { r->a.L.x[i] = shade__exp2_neg(r->a.L.x[i]); }
+    SHADE__FOR(i, n) { r->a.to_light.x[i] = shade__exp2_neg(r->a.to_light.x[i]); }
 }
 /* a.L.x times max(0, N.L) */
-SHADE__INLINE void shade__weigh(const int n, shade__rows *SHADE_RESTRICT r)
+SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
         float nl = r->a.cosine[i];
-        r->a.L.x[i] *= shade__keep(nl, shade__mask(nl > 0));
+        r->a.to_light.x[i] *= shade__keep(nl, shade__mask(nl > 0));
     }
 }
 
@@ -2196,17 +2220,20 @@ SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light)
 {
     shade__put(rgb, i, shade_add(shade__at(rgb, i), light));
 }
-/* rgb += att (albedo k_d I_d max(0, N.L) + k_s I_s gloss); |N.L| where sign clears its sign. */
+/* rgb += att (albedo k_d I_d max(0, N.L) + tint k_s I_s gloss); |N.L| where sign clears its
+   sign. */
 SHADE__INLINE void shade__combine(const shade__lamp *SHADE_RESTRICT lamp, uint32_t sign,
-                                  const shade__v3 *SHADE_RESTRICT albedo, const int n,
-                                  const shade__rows *SHADE_RESTRICT r,
+                                  const shade__v3 *SHADE_RESTRICT albedo,
+                                  const shade__v3 *SHADE_RESTRICT tint, const int n,
+                                  const shade__lit *SHADE_RESTRICT r,
                                   shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
         float nl = shade__keep(r->a.cosine[i], sign), att = r->a.att[i];
         shade_vec3 diffuse = shade_mul(lamp->diffuse, shade__albedo(albedo, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, shade__mask(nl > 0)) * att);
-        shade__add_to(rgb, i, shade_madd(diffuse, r->a.L.x[i] * att, lamp->specular));
+        shade_vec3 specular = shade_mul(lamp->specular, shade__albedo(tint, i));
+        shade__add_to(rgb, i, shade_madd(diffuse, r->a.to_light.x[i] * att, specular));
     }
 }
 /* rgb = base + slope albedo */
@@ -2221,7 +2248,7 @@ SHADE__INLINE void shade__begin_light(shade_vec3 base, shade_vec3 slope,
 /* rgb += (base + att slope) albedo */
 SHADE__INLINE void shade__ramp(const shade__lamp *SHADE_RESTRICT lamp,
                                const shade__v3 *SHADE_RESTRICT albedo, const int n,
-                               const shade__rows *SHADE_RESTRICT r, shade__v3 *SHADE_RESTRICT rgb)
+                               const shade__lit *SHADE_RESTRICT r, shade__v3 *SHADE_RESTRICT rgb)
 {
     SHADE__FOR(i, n) {
         shade_vec3 tone = shade_madd(lamp->base, r->a.att[i], lamp->slope);
@@ -2235,12 +2262,26 @@ SHADE__INLINE void shade__hide(const float *SHADE_RESTRICT visibility, const int
     SHADE__FOR(i, n) { att[i] *= visibility[i]; }
 }
 
-/* Adds one lamp to rgb, but its unattenuated ambient light.  visibility: its row, or NULL. */
-SHADE__INLINE void shade__add_lamp(const shade__job *j, const shade__v3 *P, const shade__v3 *N,
-                                   const shade__v3 *albedo, shade__light_at_fn *light_at, int k,
-                                   const float *visibility, const int n, shade__rows *r,
-                                   shade__v3 *rgb)
+/* The rows that shade_rows points at; the pointers of one that is not given are NULL. */
+SHADE__INLINE void shade__add_light(const shade__job *j, const shade__lamp *lamp,
+                                    const shade_rows *rows, const int n,
+                                    const shade__lit *SHADE_RESTRICT r,
+                                    shade__v3 *SHADE_RESTRICT rgb)
 {
+    const shade__v3 *albedo = shade__rows_of(rows->albedo);
+    const shade__v3 *tint = shade__rows_of(rows->specular);
+    if (!SHADE__TWICE || tint) shade__combine(lamp, j->sign, albedo, tint, n, r, rgb);
+    else if (albedo) shade__combine(lamp, j->sign, albedo, NULL, n, r, rgb);
+    else shade__combine(lamp, j->sign, NULL, NULL, n, r, rgb);
+}
+/* Adds light k to rgb, but its unattenuated ambient light. */
+SHADE__INLINE void shade__add_lamp(const shade__job *j, const shade_rows *rows,
+                                   shade__light_at_fn *light_at, int k, const int n,
+                                   shade__lit *r, shade__v3 *rgb)
+{
+    const shade__v3 *point = shade__rows_of(rows->position);
+    const shade__v3 *normal = shade__rows_of(rows->normal);
+    const shade__v3 *albedo = shade__rows_of(rows->albedo);
     shade__lamp own;
     const shade__lamp *lamp = &own;
     uint32_t any;
@@ -2248,9 +2289,9 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, const shade__v3 *P, cons
     else if (k < SHADE__LAMPS) lamp = &j->lamp[k];
     else shade__lamp_of(&j->lighting->lights[k], j, &own);
     if (!lamp->on) return;
-    light_at(lamp, P, n, &r->a);
+    light_at(lamp, point, n, &r->a);
     if (!r->a.any) return;
-    any = shade__horizon(N, n, r);
+    any = shade__horizon(normal, n, r);
     if (j->tone) shade__warmth(n, r);
     if (lamp->ramp) {
         if (!SHADE__TWICE || albedo) shade__ramp(lamp, albedo, n, r, rgb);
@@ -2258,70 +2299,69 @@ SHADE__INLINE void shade__add_lamp(const shade__job *j, const shade__v3 *P, cons
     }
     if (j->tone || !(any | j->open | ~j->sign)) return;
     if (lamp->gloss) {
-        if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(N, j->open, n, r);
-        else if (shade__half(N, j->open, n, r))
-            shade__half_near(lamp->light->position, P, N, j->eye, j->open, n, r);
-        shade__log_row(j->m->shininess, n, r->a.L.x);
+        if (j->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(normal, j->open, n, r);
+        else if (shade__half(normal, j->open, n, r))
+            shade__half_near(lamp->light->position, point, normal, j->eye, j->open, n, r);
+        shade__log_row(j->m->shininess, n, r->a.to_light.x);
         shade__gloss(n, r);
         if (j->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
-    } else SHADE__ZERO(r->a.L.x);
-    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.att);
-    if (!SHADE__TWICE || albedo) shade__combine(lamp, j->sign, albedo, n, r, rgb);
-    else shade__combine(lamp, j->sign, NULL, n, r, rgb);
+    } else SHADE__ZERO(r->a.to_light.x);
+    if (rows->visibility) shade__hide(rows->visibility + (size_t)k * SHADE_LANES, n, r->a.att);
+    shade__add_light(j, lamp, rows, n, r, rgb);
 }
 
-SHADE__INLINE void shade__lit_body(const shade__job *j, const shade__v3 *P, const shade__v3 *N,
-                                   const shade__v3 *albedo, shade__light_at_fn *light_at,
-                                   const float *visibility, const int n, shade__v3 *rgb)
+SHADE__INLINE void shade__lit_body(const shade__job *j, const shade_rows *rows,
+                                   shade__light_at_fn *light_at, const int n, shade__v3 *rgb)
 {
-    const shade__v3 *ambient = shade__is_zero(j->ambient) ? NULL : albedo;
+    const shade__v3 *point = shade__rows_of(rows->position);
+    const shade__v3 *normal = shade__rows_of(rows->normal);
+    const shade__v3 *ambient = shade__is_zero(j->ambient) ? NULL : shade__rows_of(rows->albedo);
     const int lamps = j->tone ? 1 : j->lamps;
-    shade__rows r;
-    shade__lengths(N, n, r.rn);
-    if (j->lighting->flags & SHADE_FLAG_TWO_SIDED) shade__two_sides(P, N, j->eye, n, r.rn);
-    shade__viewer(P, j->eye, n, &r.V);
+    shade__lit r;
+    shade__lengths(normal, n, r.rn);
+    if (j->lighting->flags & SHADE_FLAG_TWO_SIDED) shade__two_sides(point, normal, j->eye, n, r.rn);
+    shade__viewer(point, j->eye, n, &r.to_eye);
     if (!SHADE__TWICE || ambient) shade__begin_light(j->emission, j->ambient, ambient, n, rgb);
     else shade__begin_light(j->emission, j->ambient, NULL, n, rgb);
-    for (int k = 0; k < lamps; k++)
-        shade__add_lamp(j, P, N, albedo, light_at, k, visibility, n, &r, rgb);
+    for (int k = 0; k < lamps; k++) shade__add_lamp(j, rows, light_at, k, n, &r, rgb);
 }
 SHADE__DISPATCH(shade__lit,
-                (const shade__job *j, const shade__v3 *P, const shade__v3 *N,
-                 const shade__v3 *albedo, shade__light_at_fn *light_at, const float *visibility,
-                 int n, shade__v3 *rgb),
-                (j, P, N, albedo, light_at, visibility, SHADE__LANES_OF(n), rgb))
-static void shade__lit_packet(const shade__job *j, const float *P, const float *N,
-                              const float *albedo, const float *visibility, float *rgb)
+                (const shade__job *j, const shade_rows *rows, shade__light_at_fn *light_at, int n,
+                 shade__v3 *rgb),
+                (j, rows, light_at, SHADE__LANES_OF(n), rgb))
+static void shade__lit_packet(const shade__job *j, const shade_rows *rows, float *rgb)
 {
-    shade__lit_pick()(j, shade__rows_of(P), shade__rows_of(N), shade__rows_of(albedo),
-                      shade__light_at_pick(), visibility, SHADE_LANES, (shade__v3 *)(void *)rgb);
+    shade__lit_pick()(j, rows, shade__light_at_pick(), SHADE_LANES, (shade__v3 *)(void *)rgb);
 }
 SHADEDEF void shade_lit_lanes(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 eye, const float *P, const float *N, const float *albedo,
-                              const float *visibility, float *rgb)
+                              shade_vec3 eye, const shade_rows *rows, float *rgb)
 {
     shade__job j;
-    if (!lighting || !P || !N || !rgb) {
+    if (!lighting || !rows || !rows->position || !rows->normal || !rgb) {
         if (rgb) SHADE_MEMSET(rgb, 0, 3 * SHADE_LANES * sizeof *rgb);
         return;
     }
     shade__begin_job(lighting, material, eye, &j);
-    shade__lit_packet(&j, P, N, albedo, visibility, rgb);
+    shade__lit_packet(&j, rows, rgb);
 }
 SHADEDEF shade_vec3 shade_lit(const shade_lighting *lighting, const shade_material *material,
-                              shade_vec3 eye, shade_vec3 P, shade_vec3 N)
+                              shade_vec3 eye, shade_vec3 point, shade_vec3 normal)
 {
     shade__v3 p, n, rgb;
+    shade_rows rows;
     shade__job j;
     if (!lighting) return shade_v3(0, 0, 0);
-    shade__fill_point(P, &p);
-    shade__fill_point(N, &n);
+    shade__fill_point(point, &p);
+    shade__fill_point(normal, &n);
+    SHADE__ZERO(rows);
+    rows.position = p.x;
+    rows.normal = n.x;
     shade__begin_job(lighting, material, eye, &j);
-    shade__lit_any(&j, &p, &n, NULL, shade__light_at_any, NULL, SHADE__POINT, &rgb);
+    shade__lit_any(&j, &rows, shade__light_at_any, SHADE__POINT, &rgb);
     return shade__at(&rgb, 0);
 }
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
-                                    shade_vec3 eye, shade_vec3 P, shade_vec3 N)
+                                    shade_vec3 eye, shade_vec3 point, shade_vec3 normal)
 {
     shade_terms t;
     shade_vec3 *term[4] = { &t.emission, &t.ambient, &t.diffuse, &t.specular };
@@ -2330,7 +2370,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_
         shade_lighting one = *lighting;
         one.terms = 1u << k;
         if (!lighting->terms || (lighting->terms & one.terms))
-            *term[k] = shade_lit(&one, material, eye, P, N);
+            *term[k] = shade_lit(&one, material, eye, point, normal);
     }
     return t;
 }
@@ -4041,7 +4081,7 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
                                      const float *u, const float *v, int blocks,
                                      const float *weight, float *out, int stride)
 {
-    enum { N = SHADE__TEXELS };
+    enum { texels = SHADE__TEXELS };
     static const shade__layout layouts[2] = {
         { { 255, 255 << 8, 255 << 16, 255 }, { 0, 0, 0, 24 },
           { 1.0f / 255, 1.0f / 255 / 256, 1.0f / 255 / 65536, 1.0f / 255 } },
@@ -4049,10 +4089,10 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
           { 1.0f / 31, 1.0f / 63 / 32, 1.0f / 31 / 2048, 1 } }
     };
     shade__axis axis[2];
-    SHADE_ALIGNED uint32_t texel[4 * N];
-    SHADE_ALIGNED float value[4 * N];
-    SHADE_ALIGNED float blend[N];
-    uint32_t apart[(int)N / (int)SHADE__BLOCK];
+    SHADE_ALIGNED uint32_t texel[4 * texels];
+    SHADE_ALIGNED float value[4 * texels];
+    SHADE_ALIGNED float blend[texels];
+    uint32_t apart[(int)texels / (int)SHADE__BLOCK];
     const uint32_t *line[2];
     const shade_format format = level->format;
     const uint8_t *p = (const uint8_t *)level->pixels;
@@ -4078,29 +4118,29 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
     line[0] = axis[1].i0;
     line[1] = axis[1].i1;
     for (int j = 0; j < rows && !floats; j++)
-        shade__fetch_pairs(p, format, unit, axis, line[j], apart, blocks, texel + 2 * j * N);
+        shade__fetch_pairs(p, format, unit, axis, line[j], apart, blocks, texel + 2 * j * texels);
     if (!floats && !nearest && !level->srgb) {
         float *to = weight ? value : out;
-        const int across = weight ? N : stride;
+        const int across = weight ? texels : stride;
         shade__blend_packed(texel, blocks, l, axis,
                             to + shade__channel_byte(order, 0 ^ flip) * across,
                             to + shade__channel_byte(order, 1 ^ flip) * across,
                             to + shade__channel_byte(order, 2 ^ flip) * across,
                             to + shade__channel_byte(order, 3 ^ flip) * across);
         for (int k = 0; weight && k < 4; k++)
-            shade__add_level(value + k * N, weight, blocks, out + k * stride);
+            shade__add_level(value + k * texels, weight, blocks, out + k * stride);
         return;
     }
     for (int k = 0; k < 4; k++) {
         const int channel = shade__channel_byte(order, k ^ flip);
         float *row = weight ? blend : out + channel * stride;
         for (int j = 0; j < rows; j++) {
-            float *to = value + 2 * j * N;
+            float *to = value + 2 * j * texels;
             if (floats)
                 shade__fetch_pairs(p + 4 * k, format, unit, axis, line[j], apart, blocks,
                                    shade__words(to));
             else
-                shade__decode_texels(texel + 2 * j * N, 2 * blocks, l->shift[k], l->mask[k],
+                shade__decode_texels(texel + 2 * j * texels, 2 * blocks, l->shift[k], l->mask[k],
                                      l->step[k], level->srgb && channel < 3, to);
         }
         if (nearest) shade__pick_floats(value, blocks, row);
@@ -4357,15 +4397,15 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
 SHADE__INLINE void shade__blend(shade_blend blend, const float *SHADE_RESTRICT rgba,
                                 const float *SHADE_RESTRICT stored, float *SHADE_RESTRICT out)
 {
-    enum { N = SHADE__BLOCK };
+    enum { size = SHADE__BLOCK };
     uint32_t over = shade__mask(blend == SHADE_BLEND_OVER);
-    SHADE__FOR(i, N) {
+    SHADE__FOR(i, size) {
         float a = rgba[i + 3 * SHADE_LANES], s = shade__select(1, a, over);
         float t = shade__select(1, 1 - a, over);
         out[i] = rgba[i] * s + stored[i] * t;
-        out[i + N] = rgba[i + SHADE_LANES] * s + stored[i + N] * t;
-        out[i + 2 * N] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 2 * N] * t;
-        out[i + 3 * N] = a + stored[i + 3 * N] * t;
+        out[i + size] = rgba[i + SHADE_LANES] * s + stored[i + size] * t;
+        out[i + 2 * size] = rgba[i + 2 * SHADE_LANES] * s + stored[i + 2 * size] * t;
+        out[i + 3 * size] = a + stored[i + 3 * size] * t;
     }
 }
 /* Blends and stores in pieces of up to a block, in drawing order.  The lanes of a piece belong to
@@ -4373,24 +4413,24 @@ SHADE__INLINE void shade__blend(shade_blend blend, const float *SHADE_RESTRICT r
 static SHADE__NOINLINE void shade__store_blended(const shade__draw *d, const float *rgba,
                                                  const uint32_t *alive)
 {
-    enum { N = SHADE__BLOCK };
+    enum { size = SHADE__BLOCK };
     const shade__plan *plan = &d->plan;
     const shade__queue *q = &d->u.queue;
     shade__linear_fn *linear = shade__linear_pick();
     for (int i = 0, last; i < q->f.count; i = last) {
-        int base = shade__min(i, SHADE_LANES - N);
-        float stored[4 * N] = { 0 }, out[4 * N];
-        uint32_t packed[N] = { 0 };
-        for (last = i; last < base + N && last < q->f.count; last++) {
+        int base = shade__min(i, SHADE_LANES - size);
+        float stored[4 * size] = { 0 }, out[4 * size];
+        uint32_t packed[size] = { 0 };
+        for (last = i; last < base + size && last < q->f.count; last++) {
             if (q->f.primitive[last] != q->f.primitive[i]) break;
             shade__load_pixel(plan->target->format,
                               plan->color + (size_t)q->offset[last] * plan->pixel_bytes,
-                              packed + (last - base), stored + (last - base), N);
+                              packed + (last - base), stored + (last - base), size);
         }
         linear(plan->target, packed, stored);
         shade__blend(plan->pipe->raster.blend, rgba + base, stored, out);
-        plan->stage.pack(plan->target, out, N, q->f.x + base, q->f.y + base, packed, 1);
-        shade__scatter(d, alive, out, N, packed, base, i, last);
+        plan->stage.pack(plan->target, out, size, q->f.x + base, q->f.y + base, packed, 1);
+        shade__scatter(d, alive, out, size, packed, base, i, last);
     }
 }
 
@@ -4621,19 +4661,19 @@ SHADEDEF shade_result shade_clear(const shade_target *target, shade_vec4 color, 
 static void shade__resolve_block(const shade_target *out, const shade_target *in, int factor,
                                  int x, int y, int n, uint8_t *to)
 {
-    enum { N = SHADE__BLOCK };
+    enum { size = SHADE__BLOCK };
     shade__linear_fn *linear = shade__linear_pick();
-    float rgba[4 * N] = { 0 }, c[4 * N] = { 0 };
-    uint32_t packed[N] = { 0 };
+    float rgba[4 * size] = { 0 }, c[4 * size] = { 0 };
+    uint32_t packed[size] = { 0 };
     for (int i = 0; i < factor * factor; i++) {
         for (int p = 0; p < n; p++)
             shade__load_pixel(in->format, shade__pixel_at(in, (x + p) * factor + i % factor,
                                                           y * factor + i / factor),
-                              packed + p, c + p, N);
+                              packed + p, c + p, size);
         linear(in, packed, c);
-        for (int k = 0; k < 4 * N; k++) rgba[k] += c[k];
+        for (int k = 0; k < 4 * size; k++) rgba[k] += c[k];
     }
-    for (int k = 0; k < 4 * N; k++) rgba[k] /= (float)(factor * factor);
+    for (int k = 0; k < 4 * size; k++) rgba[k] /= (float)(factor * factor);
     shade__store_block(out, rgba, x, y, n, to);
 }
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor)
@@ -4789,20 +4829,22 @@ SHADE__INLINE shade__v3 *shade__three_rows(float *row) { return (shade__v3 *)(vo
 
 /* Object-space attributes of a packet to rows of P, N and albedo. */
 static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s, const shade_vertex_ids *in,
-                                                  shade__v3 *P, shade__v3 *N, shade__v3 *albedo)
+                                                  shade__v3 *point, shade__v3 *normal,
+                                                  shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
     for (int i = 0; i < SHADE_LANES; i++) {
         uint32_t v = shade__vertex_of(s, in, i);
-        shade__put(P, i, shade__vec3_at(m->positions, m->position_stride, v));
-        if (!s->face_normals) shade__put(N, i, shade__vec3_at(m->normals, m->normal_stride, v));
+        shade__put(point, i, shade__vec3_at(m->positions, m->position_stride, v));
+        if (!s->face_normals)
+            shade__put(normal, i, shade__vec3_at(m->normals, m->normal_stride, v));
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
 /* Normals of faces; with per_face their centroids and first colours too.  The corners of a face
    come one after the other. */
 static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shade_vertex_ids *in,
-                                               int per_face, shade__v3 *P, shade__v3 *N,
+                                               int per_face, shade__v3 *point, shade__v3 *normal,
                                                shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
@@ -4816,34 +4858,36 @@ static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s, const shad
             middle = shade_madd(p[0], 1 / 3.0f, middle);
             seen = face;
         }
-        shade__put(N, i, n);
+        shade__put(normal, i, n);
         if (!per_face) continue;
-        shade__put(P, i, middle);
+        shade__put(point, i, middle);
         if (m->colors) shade__put(albedo, i, shade__vec3_at(m->colors, m->color_stride, v));
     }
 }
 
 /* clip = m (P, 1) */
-SHADE__INLINE void shade__lane_clip(shade_mat4 m, const shade__v3 *SHADE_RESTRICT P,
+SHADE__INLINE void shade__lane_clip(shade_mat4 m, const shade__v3 *SHADE_RESTRICT point,
                                     float *SHADE_RESTRICT clip)
 {
     SHADE_EACH_LANE(i) {
-        shade__put4(clip, SHADE_LANES, i, shade_mat4_transform(m, shade__xyzw(shade__at(P, i), 1)));
+        const shade_vec4 p = shade__xyzw(shade__at(point, i), 1);
+        shade__put4(clip, SHADE_LANES, i, shade_mat4_transform(m, p));
     }
 }
 /* P = m (P, 1); an affine model, so no division */
-SHADE__INLINE void shade__lane_world(shade_mat4 m, shade__v3 *SHADE_RESTRICT P)
+SHADE__INLINE void shade__lane_world(shade_mat4 m, shade__v3 *SHADE_RESTRICT point)
 {
     SHADE_EACH_LANE(i) {
-        shade__put(P, i, shade__xyz(shade_mat4_transform(m, shade__xyzw(shade__at(P, i), 1))));
+        const shade_vec4 p = shade__xyzw(shade__at(point, i), 1);
+        shade__put(point, i, shade__xyz(shade_mat4_transform(m, p)));
     }
 }
 /* N = m N / |m N|; interpolation between vertices starts from unit normals */
-SHADE__INLINE void shade__lane_normal(shade_mat3 m, shade__v3 *SHADE_RESTRICT N)
+SHADE__INLINE void shade__lane_normal(shade_mat3 m, shade__v3 *SHADE_RESTRICT normal)
 {
     SHADE_EACH_LANE(i) {
-        shade_vec3 n = shade_mat3_transform(m, shade__at(N, i));
-        shade__put(N, i, shade_scale(n, shade__rsqrt(shade_dot(n, n))));
+        shade_vec3 n = shade_mat3_transform(m, shade__at(normal, i));
+        shade__put(normal, i, shade_scale(n, shade__rsqrt(shade_dot(n, n))));
     }
 }
 
@@ -4866,21 +4910,24 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
     const shade__scene *s = (const shade__scene *)uniforms;
     const shade_shading shading = s->state->shading;
     const int lit = shading != SHADE_SHADING_PER_FRAGMENT;
-    const float *tint;
-    shade__v3 apart[SHADE__APART], *P, *N, *albedo;
-    P = SHADE__APART == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : apart;
-    N = P + 1;
-    albedo = N + 1;
-    tint = s->mesh->colors ? albedo->x : NULL;
-    shade__fetch_vertices(s, in, P, N, albedo);
-    shade__lane_clip(s->clip_from_object, P, out->clip[0]);
+    shade_rows rows;
+    shade__v3 apart[SHADE__APART], *point, *normal, *albedo;
+    point = SHADE__APART == 1 || !lit ? shade__three_rows(out->varying[6 * lit]) : apart;
+    normal = point + 1;
+    albedo = normal + 1;
+    shade__fetch_vertices(s, in, point, normal, albedo);
+    shade__lane_clip(s->clip_from_object, point, out->clip[0]);
     if (s->face_normals)
-        shade__fetch_faces(s, in, shading == SHADE_SHADING_PER_FACE, P, N, albedo);
-    shade__lane_world(s->world_from_object, P);
-    shade__lane_normal(s->normal_matrix, N);
-    if (lit) shade__lit_packet(&s->job, P->x, N->x, tint, NULL, out->varying[0]);
+        shade__fetch_faces(s, in, shading == SHADE_SHADING_PER_FACE, point, normal, albedo);
+    shade__lane_world(s->world_from_object, point);
+    shade__lane_normal(s->normal_matrix, normal);
+    SHADE__ZERO(rows);
+    rows.position = point->x;
+    rows.normal = normal->x;
+    rows.albedo = s->mesh->colors ? albedo->x : NULL;
+    if (lit) shade__lit_packet(&s->job, &rows, out->varying[0]);
     if (lit && s->map)
-        shade_lit_lanes(&s->lit[1], s->state->material, s->eye, P->x, N->x, tint, NULL,
+        shade_lit_lanes(&s->lit[1], s->state->material, s->eye, &rows,
                         (float *)out->varying + 3 * SHADE_LANES);
     if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
@@ -4903,15 +4950,17 @@ static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRIC
         }
     }
 }
-/* The light of P and N by the map's colours, which are in rgb and become it; albedo may be NULL.  A
-   call of its own, so that only maps take its stack. */
-static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const float *P,
-                                           const float *albedo, float *rgb)
+/* The light of the rows by the map's colours, which are in rgb and become it.  A call of its own,
+   so that only maps take its stack. */
+static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_rows *rows,
+                                           float *rgb)
 {
     float both[3 * SHADE_LANES];
+    shade_rows mapped = *rows;
     SHADE_MEMCPY(both, rgb, sizeof both);
-    for (int i = 0; albedo && i < 3 * SHADE_LANES; i++) both[i] *= albedo[i];
-    shade__lit_packet(&s->job, P, P + 3 * SHADE_LANES, both, NULL, rgb);
+    for (int i = 0; rows->albedo && i < 3 * SHADE_LANES; i++) both[i] *= rows->albedo[i];
+    mapped.albedo = both;
+    shade__lit_packet(&s->job, &mapped, rgb);
 }
 /* The map, and with it the light of N and P that arrive per pixel, or the colour that arrives
    (Gouraud and flat); without a picture the map alone, for the holes it cuts. */
@@ -4919,19 +4968,23 @@ static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SH
                                  shade_colors *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const float *rows = (const float *)in->varying, *albedo = NULL;
+    const float *varying = (const float *)in->varying;
     float *to = (float *)out->color;
     if (s->map)
         shade_sample_lanes(s->map, in->varying[s->uv], in->varying[s->uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
     if (s->colored && s->state->shading == SHADE_SHADING_PER_FRAGMENT) {
-        if (s->mesh->colors) albedo = rows + 6 * SHADE_LANES;
-        if (s->map) shade__lit_map(s, rows, albedo, to);
-        else shade__lit_packet(&s->job, rows, rows + 3 * SHADE_LANES, albedo, NULL, to);
+        shade_rows rows;
+        SHADE__ZERO(rows);
+        rows.position = varying;
+        rows.normal = varying + 3 * SHADE_LANES;
+        if (s->mesh->colors) rows.albedo = varying + 6 * SHADE_LANES;
+        if (s->map) shade__lit_map(s, &rows, to);
+        else shade__lit_packet(&s->job, &rows, to);
     } else if (s->colored && s->map) {
         for (int i = 0; i < 3 * SHADE_LANES; i++)
-            to[i] = rows[i] * to[i] + rows[i + 3 * SHADE_LANES];
-    } else if (s->colored) SHADE_MEMCPY(to, rows, 3 * sizeof in->varying[0]);
+            to[i] = varying[i] * to[i] + varying[i + 3 * SHADE_LANES];
+    } else if (s->colored) SHADE_MEMCPY(to, varying, 3 * sizeof in->varying[0]);
     shade__mesh_alpha(s, out);
 }
 

@@ -119,9 +119,10 @@ static void make_job(job *j, shade_model model, light_kind kind, int count)
 
 static void run_lanes(const job *j)
 {
-    for (int p = 0; p < PACKETS; p++)
-        shade_lit_lanes(&j->lighting, &j->material, eye, points[p][0], normals[p][0], NULL, NULL,
-                        out_lanes[p][0]);
+    for (int p = 0; p < PACKETS; p++) {
+        const shade_rows rows = { .position = points[p][0], .normal = normals[p][0] };
+        shade_lit_lanes(&j->lighting, &j->material, eye, &rows, out_lanes[p][0]);
+    }
 }
 
 static void run_plain(const job *j)

@@ -42,8 +42,8 @@ static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
 {
     const scene *s = (const scene *)uniforms;
     float rgb[3][SHADE_LANES];
-    shade_lit_lanes(&s->lighting, &s->material, s->eye, in->varying[0], in->varying[3], NULL, NULL,
-                    rgb[0]);
+    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
+    shade_lit_lanes(&s->lighting, &s->material, s->eye, &rows, rgb[0]);
     SHADE_EACH_LANE(i) {
         shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
         shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);

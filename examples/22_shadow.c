@@ -47,8 +47,9 @@ static void light(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
         visibility[0][i] = passes(P), visibility[1][i] = 1;
         albedo[0][i] = k.x, albedo[1][i] = k.y, albedo[2][i] = k.z;
     }
-    shade_lit_lanes(&s->lighting, &glaze, eye, in->varying[0], in->varying[3], albedo[0],
-                    visibility[0], out->color[0]);
+    shade_lit_lanes(&s->lighting, &glaze, eye, &(shade_rows){ .position = in->varying[0],
+                    .normal = in->varying[3], .albedo = albedo[0], .visibility = visibility[0] },
+                    out->color[0]);
 }
 
 int main(int argc, char **argv)

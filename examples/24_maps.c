@@ -20,11 +20,12 @@ static void planet(const void *uniforms, const shade_fragments *SHADE_RESTRICT i
                    shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
-    const float *P = in->varying[0], *N = in->varying[3];
+    shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
     float t[4][SHADE_LANES], gleam[3][SHADE_LANES];
     shade_sample_lanes(&s->map, in->varying[6], in->varying[7], NULL, t[0]);
-    shade_lit_lanes(&s->lighting, &ground, eye, P, N, t[0], NULL, out->color[0]);
-    shade_lit_lanes(&s->lighting, &water, eye, P, N, NULL, NULL, gleam[0]);
+    shade_lit_lanes(&s->lighting, &water, eye, &rows, gleam[0]);
+    rows.albedo = t[0];
+    shade_lit_lanes(&s->lighting, &ground, eye, &rows, out->color[0]);
     for (int k = 0; k < 3; k++) {
         SHADE_EACH_LANE(i) out->color[k][i] += t[3][i] * gleam[k][i];
     }

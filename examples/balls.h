@@ -44,14 +44,15 @@ static inline void balls_fragment(const void *uniforms, const shade_fragments *S
     const balls_uniforms *u = (const balls_uniforms *)uniforms;
     const shade_lighting *lighting = &u->scene->lighting;
     float visibility[BALLS_LAMPS][SHADE_LANES];
+    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3],
+                              .visibility = visibility[0] };
     for (int k = 0; k < lighting->light_count; k++) {
         SHADE_EACH_LANE(i) {
             shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
             visibility[k][i] = balls_visibility(u->scene, &lighting->lights[k], P);
         }
     }
-    shade_lit_lanes(lighting, &u->material, u->scene->eye, in->varying[0], in->varying[3], NULL,
-                    visibility[0], out->color[0]);
+    shade_lit_lanes(lighting, &u->material, u->scene->eye, &rows, out->color[0]);
 }
 
 /* A mesh, as large as at.w, where at says */

@@ -60,7 +60,9 @@ static void look_light(const look *k, const float *P, const float *N, const floa
         }
         sky[0][i] = E.x, sky[1][i] = E.y, sky[2][i] = E.z;
     }
-    shade_lit_lanes(&k->lighting, &k->material, k->eye, P, N, albedo, visibility[0], out[0]);
+    shade_lit_lanes(&k->lighting, &k->material, k->eye,
+                    &(shade_rows){ .position = P, .normal = N, .albedo = albedo,
+                                   .visibility = visibility[0] }, out[0]);
     for (int a = 0; a < 3; a++) {
         const float ambient = component(k->material.ambient, a);
         const float emission = component(k->emission, a);

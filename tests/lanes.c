@@ -34,7 +34,7 @@ TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
         random_packet(&k, &s, d3_length(d3_from(s.P)) * 1e-2 + 1);
         int with_albedo = rnd_one_in(2);
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
                         with_albedo ? k.albedo[0] : NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
@@ -71,13 +71,13 @@ TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbour
         random_sample(&s);
         random_packet(&k, &s, 2);
         float one[3 * SHADE_LANES], other[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, one);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, one);
         int turn = rnd_int(1, SHADE_LANES - 1);
         for (int i = 0; i < SHADE_LANES; i++) {
             int j = (i + turn) % SHADE_LANES;
             lane_set(k.P, j, k.p[i]), lane_set(k.N, j, k.n[i]), lane_set(k.albedo, j, k.a[i]);
         }
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, other);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, other);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
             int row = i / SHADE_LANES * SHADE_LANES, j = row + (i - row + turn) % SHADE_LANES;
             CHECK_SAY(float_bits(one[i]) == float_bits(other[j]), "lane %d: %a, moved to %d: %a", i,
@@ -116,7 +116,7 @@ TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
             lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
         }
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
                                      d3_from(s.eye), d3_of(1, 1, 1));
@@ -163,7 +163,7 @@ TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
             lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
         }
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             double r;
             d3 P = d3_from(k.p[i]), L = ref_to_light(&s.lights[0], P, &r);
@@ -200,7 +200,7 @@ TEST(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too)
             lane_set(k.P, i, k.p[i]);
         }
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
             ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
@@ -235,8 +235,8 @@ TEST(lanes, a_term_that_is_off_reads_nothing)
             if (!(li.terms & SHADE_TERM_SPECULAR)) lights[j].specular = bad;
         }
         float got[3 * SHADE_LANES], want[3 * SHADE_LANES];
-        shade_lit_lanes(&li, &m, s.eye, k.P[0], k.N[0], NULL, NULL, got);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, want);
+        lit_rows(&li, &m, s.eye, k.P[0], k.N[0], NULL, NULL, got);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, want);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(got[i], want[i], 0);
         shade_vec3 a = shade_lit(&li, &m, s.eye, s.P, s.N);
         shade_vec3 b = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
@@ -253,13 +253,13 @@ TEST(lanes, albedo_multiplies_diffuse_and_ambient_only)
         random_packet(&k, &s, 2);
         float bare[3 * SHADE_LANES], with[3 * SHADE_LANES], ones[3 * SHADE_LANES];
         for (int i = 0; i < 3 * SHADE_LANES; i++) ones[i] = 1;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, bare);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], ones, NULL, with);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, bare);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], ones, NULL, with);
         for (int i = 0; i < 3 * SHADE_LANES; i++)
             CHECK_NEAR(with[i], bare[i], 1e-6 * fabs((double)bare[i]));
         s.lighting.terms = SHADE_TERM_EMISSION | SHADE_TERM_SPECULAR;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, bare);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, with);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, bare);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, with);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK(float_bits(with[i]) == float_bits(bare[i]));
     }
 }
@@ -348,7 +348,7 @@ TEST(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light)
         s.lighting.flags = 0, s.lighting.terms = SHADE_TERM_DIFFUSE;
         float L[3][SHADE_LANES], amount[SHADE_LANES], rgb[3 * SHADE_LANES];
         shade_light_at_lanes(&s.lights[0], k.P[0], L[0], amount);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         d3 light = d3_mul(d3_from(s.material.diffuse), d3_from(s.lights[0].diffuse));
         for (int i = 0; i < SHADE_LANES; i++) {
             d3 toward = d3_of((double)L[0][i], (double)L[1][i], (double)L[2][i]);
@@ -401,7 +401,7 @@ TEST(lanes, visibility_multiplies_the_diffuse_and_specular_light_of_its_lamp)
         }
         float *seen = random_visibility(s.lighting.light_count), rgb[3 * SHADE_LANES];
         int with_albedo = rnd_one_in(2);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
                         with_albedo ? k.albedo[0] : NULL, seen, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_light lights[4];
@@ -442,8 +442,8 @@ TEST(lanes, all_lamps_in_full_sight_are_the_bits_without_visibility)
         random_sample(&s);
         random_packet(&k, &s, 2);
         const float *albedo = round % 2 ? k.albedo[0] : NULL;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], albedo, NULL, plain);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], albedo, ones, with);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], albedo, NULL, plain);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], albedo, ones, with);
         CHECK(!memcmp(plain, with, sizeof plain));
     }
 }
@@ -460,8 +460,8 @@ TEST(lanes, models_without_light_of_lamps_read_no_visibility)
         random_sample(&s);
         random_packet(&k, &s, 2);
         s.lighting.model = round % 2 ? SHADE_MODEL_COOL_TO_WARM : SHADE_MODEL_EMISSIVE;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, plain);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, none, with);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, plain);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, none, with);
         CHECK(!memcmp(plain, with, sizeof plain));
     }
 }
@@ -478,7 +478,7 @@ TEST(lanes, nothing_is_written_but_the_three_rows)
         random_packet(&k, &s, 2);
         lane_packet copy = k;
         memset(&box, CANVAS_BYTE, sizeof box);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL,
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL,
                         box.rgb);
         for (int i = 0; i < 16; i++) {
             CHECK(float_bits(box.before[i]) == 0xA5A5A5A5u &&
@@ -495,26 +495,26 @@ TEST(lanes, missing_arguments_mean_their_defaults)
     random_sample(&s);
     random_packet(&k, &s, 2);
     float rgb[3 * SHADE_LANES];
-    shade_lit_lanes(NULL, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+    lit_rows(NULL, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK(rgb[i] == 0);
     shade_lighting li;
     memset(&li, 0, sizeof li);
     li.ambient = shade_v3(0.25f, 0.5f, 0.75f);
-    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+    lit_rows(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
     li.lights = NULL, li.light_count = 3;
-    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+    lit_rows(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
     for (int row = 0; row < 2; row++) {
         for (int i = 0; i < 3 * SHADE_LANES; i++) rgb[i] = 7;
-        shade_lit_lanes(&li, NULL, s.eye, row ? k.P[0] : NULL, row ? NULL : k.N[0], NULL, NULL,
+        lit_rows(&li, NULL, s.eye, row ? k.P[0] : NULL, row ? NULL : k.N[0], NULL, NULL,
                         rgb);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(rgb[i], 0, 0);
     }
     lane_packet before = k;
-    shade_lit_lanes(&li, NULL, s.eye, k.P[0], k.N[0], k.albedo[0], NULL,
+    lit_rows(&li, NULL, s.eye, k.P[0], k.N[0], k.albedo[0], NULL,
                     NULL); /* nowhere to write */
     CHECK(!memcmp(&before, &k, sizeof k));
 }
@@ -537,7 +537,7 @@ TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
             lane_set(k.P, i, i % 2 && !(round & 1) ? shade_v3(3, 0, -3) : shade_v3(0, 0, 0));
             lane_set(k.N, i, shade_v3(0, 0.6f, 0.8f));
         }
-        shade_lit_lanes(&li, &m, shade_v3(0, 0, -1), k.P[0], k.N[0], NULL, NULL, rgb);
+        lit_rows(&li, &m, shade_v3(0, 0, -1), k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
             if (i % 2 && !(round & 1)) CHECK(rgb[i] > 0);
             else CHECK_NEAR(rgb[i], 0, 0);
@@ -561,7 +561,7 @@ TEST(lanes, many_lights_add_up)
         }
         s.lighting.lights = lights, s.lighting.light_count = rnd_int(5, 100);
         float rgb[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
             ref_lit want = ref_light(&s.lighting, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
@@ -585,7 +585,7 @@ TEST(lanes, a_lamp_without_an_axis_is_no_spot) /* whatever the exponent says */
                 s.lights[j].spot_exponent = pass ? 0.5f + (float)j : 0;
                 s.lights[j].spot_cos_cutoff = pass ? 0.75f : 0;
             }
-            shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb[pass]);
+            lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb[pass]);
         }
         CHECK(!memcmp(rgb[0], rgb[1], sizeof rgb[0]));
     }
@@ -601,7 +601,7 @@ TEST(lanes, emission_alone_reads_no_albedo)
         for (int i = 0; i < 3 * SHADE_LANES; i++)
             k.albedo[i / SHADE_LANES][i % SHADE_LANES] = (float)(i % 2 ? NAN : INFINITY);
         s.lighting.model = SHADE_MODEL_EMISSIVE, s.lighting.terms = 0;
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, rgb);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             CHECK_NEAR(rgb[i], s.material.emission.x, 0);
             CHECK_NEAR(rgb[SHADE_LANES + i], s.material.emission.y, 0);
@@ -617,19 +617,19 @@ TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
         random_sample(&s);
         random_packet(&k, &s, 2);
         float one[3 * SHADE_LANES], other[3 * SHADE_LANES];
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, one);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, one);
         int hit = rnd_int(0, SHADE_LANES - 1);
         float v[6];
         fill_nasty(v, sizeof v);
         lane_set(k.P, hit, shade_v3(v[0], v[1], v[2])),
             lane_set(k.N, hit, shade_v3(v[3], v[4], v[5]));
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
             if (i % SHADE_LANES != hit) CHECK(float_bits(one[i]) == float_bits(other[i]));
         }
         if (round % 4) continue;
         fill_nasty(s.lights, sizeof s.lights), fill_nasty(&s.material, sizeof s.material);
-        shade_lit_lanes(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
+        lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
     }
 }
 

@@ -442,7 +442,7 @@ TEST(light, the_cone_of_a_lamp_includes_its_edge)
         light.spot_cos_cutoff = (float)cutoff[k];
         check_color(__LINE__, "scalar", shade_lit(&li, NULL, grey(9), grey(0), shade_v3(0, 0, 1)),
                     d3_of(want, want, want), 1e-6);
-        shade_lit_lanes(&li, NULL, grey(9), P[0], N[0], NULL, NULL, rgb);
+        lit_rows(&li, NULL, grey(9), P[0], N[0], NULL, NULL, rgb);
         for (int i = 0; i < 3 * SHADE_LANES; i++) CHECK_NEAR(rgb[i], want, 1e-6);
     }
 }

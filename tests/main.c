@@ -12,6 +12,7 @@
 #include "test.h"
 #include "oracle.h"
 #include "canvas.h"
+#include "rows.h"
 
 #include "math.c"
 #include "matrix.c"

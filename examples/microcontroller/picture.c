@@ -45,21 +45,22 @@ static void pot_fragment(const void *uniforms, const shade_fragments *SHADE_REST
                          shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
-    shade_lit_lanes(&s->lighting, &s->material, eye, in->varying[0], in->varying[3], NULL, NULL,
-                    out->color[0]);
+    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
+    shade_lit_lanes(&s->lighting, &s->material, eye, &rows, out->color[0]);
 }
 static void floor_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                            shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
     float tile[3][SHADE_LANES];
+    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3],
+                              .albedo = tile[0] };
     SHADE_EACH_LANE(i) {
         int odd = ((int)(0.6f * in->varying[0][i] + 64) + (int)(0.6f * in->varying[2][i] + 64)) & 1;
         tile[0][i] = odd ? 0.5f : 0.10f, tile[1][i] = odd ? 0.46f : 0.13f;
         tile[2][i] = odd ? 0.38f : 0.18f;
     }
-    shade_lit_lanes(&s->lighting, &s->material, eye, in->varying[0], in->varying[3], tile[0], NULL,
-                    out->color[0]);
+    shade_lit_lanes(&s->lighting, &s->material, eye, &rows, out->color[0]);
 }
 
 void picture_draw(const shade_target *target)

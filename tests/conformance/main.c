@@ -96,8 +96,9 @@ static void ball_fragment(const void *uniforms, const shade_fragments *SHADE_RES
             seen[j][i] = (float)unit((double)((away - b.w) / (0.5f * b.w)));
         }
     }
-    shade_lit_lanes(&state->lighting, state->material, s->eye, in->varying[0], in->varying[3], NULL,
-                    seen[0], out->color[0]);
+    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3],
+                              .visibility = seen[0] };
+    shade_lit_lanes(&state->lighting, state->material, s->eye, &rows, out->color[0]);
 }
 static shade_result draw_behind_ball(const shade_target *t, const scene *s, shade_stats *stats)
 {

@@ -1,6 +1,7 @@
 /* light.c - vectors, matrices, colours and the equations of light: total for all input, finite for
    input that is not beyond 1e6 in matrices and 1e12 in vectors. */
 #include "input.h"
+#include "../rows.h"
 #include <math.h>
 
 enum { LIGHT_LAMPS = 4 };
@@ -188,12 +189,12 @@ static void light_hidden(const shade_lighting *l, const shade_material *m, shade
     for (int j = 0; j < lamps; j++) dark[j].diffuse = dark[j].specular = shade_v3(0, 0, 0);
     ambient.lights = dark, ambient.light_count = lamps;
     memset(visibility, 0, sizeof visibility);
-    shade_lit_lanes(l, m, eye, rows[0], rows[1], albedo, visibility, a);
-    shade_lit_lanes(&ambient, m, eye, rows[0], rows[1], albedo, NULL, b);
+    lit_rows(l, m, eye, rows[0], rows[1], albedo, visibility, a);
+    lit_rows(&ambient, m, eye, rows[0], rows[1], albedo, NULL, b);
     for (int i = 0; i < 3 * SHADE_LANES; i++) HOLDS(a[i] == b[i]);
     for (int i = 0; i < LIGHT_LAMPS * SHADE_LANES; i++) visibility[i] = 1;
-    shade_lit_lanes(l, m, eye, rows[0], rows[1], albedo, visibility, a);
-    shade_lit_lanes(l, m, eye, rows[0], rows[1], albedo, NULL, b);
+    lit_rows(l, m, eye, rows[0], rows[1], albedo, visibility, a);
+    lit_rows(l, m, eye, rows[0], rows[1], albedo, NULL, b);
     for (int i = 0; i < 3 * SHADE_LANES; i++) HOLDS(a[i] == b[i]);
 }
 
@@ -246,9 +247,9 @@ static void light_scene(fuzz_input *in, int tame)
     for (int k = 0; k < 3; k++) guard_seal(rows[k]);
     albedo = kind & 4 ? rows[2] : NULL, given = kind & 8 ? &m : NULL;
     seen = light_visibility(in, l.light_count, bright);
-    shade_lit_lanes(&l, given, eye, rows[0], rows[1], albedo, seen, rows[3]);
+    lit_rows(&l, given, eye, rows[0], rows[1], albedo, seen, rows[3]);
     fuzz_level = (fuzz_level + 1) % (fuzz_widest() + 1);
-    shade_lit_lanes(&l, given, eye, rows[0], rows[1], albedo, seen, again);
+    lit_rows(&l, given, eye, rows[0], rows[1], albedo, seen, again);
     for (int i = 0; i < 3 * SHADE_LANES; i++) {
         HOLDS(!tame || (fuzz_same(rows[3][i], again[i]) && fuzz_finite(rows[3][i])));
     }
