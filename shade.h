@@ -43,7 +43,7 @@
      Public     >>config  >>types  >>inline  >>math  >>light  >>draw
      Inside     >>target  >>base  >>matrix  >>power  >>color  >>lighting  >>arrival  >>lanes
                 >>state  >>vertices  >>triangles  >>clip  >>blocks  >>cover  >>fragments  >>texture
-                >>store  >>drive  >>mesh  >>lines  >>shape  >>image
+                >>store  >>check  >>drive  >>mesh  >>lines  >>shape  >>image
      Sources    >>refs  >>history  >>license
 
    >>conventions
@@ -77,7 +77,7 @@
 */
 #ifndef SHADE_H
 #define SHADE_H
-#define SHADE_VERSION 10000    /* major * 10000 + minor * 100 + patch */
+#define SHADE_VERSION 10100    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options, each defined before the #include, the same for every file of a program:
@@ -133,8 +133,12 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 
 typedef enum shade_result {
     SHADE_OK = 0,
-    SHADE_ERROR_ARGUMENT,    /* NULL, an unknown enum value, a count that makes no sense */
-    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle or strip of the target */
+    SHADE_ERROR_ARGUMENT,    /* a NULL the call cannot do without, a factor, sizes that differ */
+    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle or strip; no memory */
+    SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
+    SHADE_ERROR_STATE,       /* an enumerator or range of a draw state, pipeline or line state */
+    SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model */
+    SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count, or no whole number of triangles */
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
     SHADE_ERROR_IO           /* a file or the caller's write function failed */
@@ -204,7 +208,8 @@ typedef enum shade_format {
     SHADE_FORMAT_BGRA8,          /* bytes B, G, R, A: windows of Win32, X11, Cairo, Qt */
     SHADE_FORMAT_RGB565,         /* a native uint16, red in the high bits */
     SHADE_FORMAT_RGB565_SWAPPED, /* its two bytes exchanged: displays on a serial bus */
-    SHADE_FORMAT_RGBA32F         /* four floats, stored as they come; srgb does not touch them */
+    SHADE_FORMAT_RGBA32F,        /* four floats, stored as they come; srgb does not touch them */
+    SHADE_FORMAT_A8              /* of textures alone: a byte of alpha, R = G = B = 1; never sRGB */
 } shade_format;
 
 typedef enum shade_wrap {
@@ -639,6 +644,9 @@ SHADEDEF shade_mat4 shade_mat4_inverse(shade_mat4 m);      /* in double; zero wh
 SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v);
 SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v);
 
+/* degrees times pi / 180 */
+SHADEDEF float      shade_radians(float degrees);
+
 /* Rotation by the right-hand rule about an axis of any length; the identity for a zero axis.
    Sine and cosine are the library's own, exact to float rounding for |radians| < 1e5 (beyond
    1e9, or NaN, it counts as 0). */
@@ -775,11 +783,11 @@ SHADEDEF shade_material shade_linear_material(shade_material display);
 
 /*------------------------------------------------------------------------------------------- >>draw
    vertex shader -> assemble -> clip -> rasterize -> fragment shader -> depth, blend, store.
-   Bad arguments are refused before any pixel changes, in this order: NULLs, target, other
-   arguments, indices.  Nothing is ever written outside the target's rows, width and clip
+   Bad arguments are refused before any pixel changes, in this order: NULLs, target, mesh, state,
+   lights, texture, indices.  Nothing is ever written outside the target's rows, width and clip
    rectangle. */
 
-/* A short English text for a result, never NULL. */
+/* What a result means, with the fields to look at, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
 /* Fills the clip rectangle of both buffers.  A NaN depth is SHADE_ERROR_ARGUMENT. */
@@ -834,7 +842,7 @@ typedef struct shade_fragments {                  /* pixels to shade, of any tri
     float    varying[SHADE_MAX_VARYINGS][SHADE_LANES];    /* rows past pipeline.varyings: unset */
     uint32_t primitive[SHADE_LANES];              /* index of the triangle in this draw */
     uint32_t front[SHADE_LANES];                  /* 1: front-facing, 0: back-facing */
-    float    lod[SHADE_LANES];                    /* set with pipeline.lod_texture */
+    float    lod[SHADE_LANES];                    /* of pipeline.lod_texture; without it 0 */
 } shade_fragments;
 typedef struct shade_colors {
     SHADE_ALIGNED float color[4][SHADE_LANES];    /* linear RGBA, preset to 0, 0, 0, 1 */
@@ -879,7 +887,18 @@ typedef struct shade_mesh {       /* caller's arrays; strides in BYTES, 0 = tigh
     const float *colors;     int color_stride;       /* R, G, B: multiplies k_d and k_a; NULL: 1 */
     int vertex_count;
     const uint32_t *indices; int index_count;        /* NULL: vertices in threes */
+    const struct shade_chunk *chunks; int chunk_count;    /* NULL: all triangles, none skipped */
 } shade_mesh;
+
+/* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  With
+   chunks, exactly their triangles are drawn and picked, chunk after chunk (a list of 0: nothing),
+   and those whose box cannot be seen, or met by a ray, are skipped whole: a triangle in two chunks
+   is drawn twice, one in none is not drawn.  A box is believed: one that is too small hides
+   triangles, and nothing else; one with NaN, or with low > high, is always looked into. */
+typedef struct shade_chunk {
+    shade_vec3 low, high;
+    int first, count;
+} shade_chunk;
 
 typedef struct shade_draw_state {                 /* how one mesh is drawn */
     shade_mat4 model, view, projection;           /* zero: identity; view without scale */
@@ -890,6 +909,8 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
     float transparency;                           /* 0 opaque .. 1 invisible */
     float alpha_cutoff;                           /* pixels of less alpha are cut; 0 .. 1 */
     shade_raster raster;
+    shade_fragment_shader *fragment;              /* NULL: the equations; see shade_draw_mesh */
+    const void *uniforms;                         /* handed to it */
 } shade_draw_state;
 
 /* A whole mesh by the equations of >>model, in world space.  The eye is the camera of view (with
@@ -898,7 +919,13 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
      Alpha is (1 - transparency) times the map's.  REPLACE stores colour and alpha, OVER blends by
    alpha, ADD adds the colour times alpha.  Pixels whose alpha is below alpha_cutoff keep colour
    and depth, in depth-only draws too, and are no fragments of stats; equal alpha is drawn.  Draw
-   what is opaque first, the rest from back to front; transparency 1 still writes depth. */
+   what is opaque first, the rest from back to front; transparency 1 still writes depth.
+     A fragment shader of the state colours the pixels of PER_FRAGMENT shading in place of the
+   equations.  It gets P in varyings 0 .. 2, N in 3 .. 5 (world space; unit at the vertices, not
+   between them), the vertex colour in 6 .. 8 (1 without colours), u, v in 9 and 10 (0 without
+   texcoords), and lod of diffuse_map.  It samples maps by itself: alpha is (1 - transparency) times
+   its color[3], and ADD, OVER and alpha_cutoff work on that.  What it discards is discarded.  In
+   depth-only draws it is called where alpha_cutoff > 0 alone. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
@@ -912,7 +939,7 @@ typedef struct shade_line_state {
 } shade_line_state;
 /* point_count / 2 lines between pairs of points, each the two triangles of its rectangle on the
    screen; stats count triangles.  Over a filled mesh use SHADE_COMPARE_LESS_EQUAL with a small
-   negative bias. */
+   negative bias.  An odd or negative count is SHADE_ERROR_MESH. */
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
@@ -1201,10 +1228,23 @@ SHADEDEF const char *shade_result_string(shade_result result)
 {
     switch (result) {
     case SHADE_OK: return "no error";
-    case SHADE_ERROR_ARGUMENT: return "bad argument";
+    case SHADE_ERROR_ARGUMENT:
+        return "bad argument: a pointer that must not be NULL, a factor, sizes that do not fit";
     case SHADE_ERROR_TARGET:
-        return "bad target: size, stride, format, clip rectangle, strip or no memory";
-    case SHADE_ERROR_INDEX: return "index past the vertices, or no whole number of triangles";
+        return "bad target: width, height, stride, format, color and depth both NULL, "
+               "clip_width, clip_height, row_offset, row_count";
+    case SHADE_ERROR_MESH:
+        return "bad mesh: positions NULL, a negative count, a stride that is negative or no "
+               "multiple of 4, chunks outside of the triangles";
+    case SHADE_ERROR_STATE:
+        return "bad state: an unknown enumerator, transparency, alpha_cutoff, depth_bias, width, "
+               "varyings, cos_crease, or a fragment shader without per-fragment shading";
+    case SHADE_ERROR_LIGHTS: return "bad lighting: lights NULL with a light_count, unknown model";
+    case SHADE_ERROR_TEXTURE:
+        return "bad texture: pixels NULL, width, height, stride, format, wrap, filter, or "
+               "lod_varying";
+    case SHADE_ERROR_INDEX:
+        return "bad indices: one at or past vertex_count, or no whole number of triangles";
     case SHADE_ERROR_CAPACITY: return "not enough room in the caller's memory";
     case SHADE_ERROR_IO: return "writing failed";
     default: return "unknown result";
@@ -1236,6 +1276,10 @@ static SHADE__COLD void shade__sincos(float radians, double *sine, double *cosin
     if ((k + 1) & 2) *cosine = -*cosine;
 }
 
+SHADEDEF float shade_radians(float degrees)
+{
+    return (float)((double)degrees * 0.017453292519943295769);
+}
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m)
 {
     return shade__m3(shade__xyz(m.col[0]), shade__xyz(m.col[1]), shade__xyz(m.col[2]));
@@ -1538,6 +1582,7 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
 static size_t shade__pixel_bytes(shade_format format)
 {
     if (format == SHADE_FORMAT_RGBA32F) return 16;
+    if (format == SHADE_FORMAT_A8) return 1;
     return format == SHADE_FORMAT_RGB565 || format == SHADE_FORMAT_RGB565_SWAPPED ? 2 : 4;
 }
 /* the two bytes of u < 2^16 exchanged */
@@ -1556,6 +1601,7 @@ SHADE__INLINE int shade__channel_shift(shade_format format, int k)
     const uint32_t one = 1;
     uint8_t first;
     if (shade__pixel_bytes(format) == 2) return shift565[k];
+    if (format == SHADE_FORMAT_A8) return 8 * k;
     SHADE_MEMCPY(&first, &one, 1);
     return first ? 8 * byte : 24 - 8 * byte;
 }
@@ -1567,11 +1613,12 @@ SHADE__INLINE void shade__store_pixel(shade_format format, uint8_t *p, uint32_t 
     uint16_t u = (uint16_t)packed;
     if (bytes == 4) SHADE_MEMCPY(p, &packed, 4);
     else if (bytes == 2) SHADE_MEMCPY(p, &u, 2);
+    else if (bytes == 1) *p = (uint8_t)(packed >> 24);
     else
         for (int k = 0; k < 4; k++) SHADE_MEMCPY(p + 4 * k, rgba + k * stride, 4);
 }
-/* Loads one pixel: its packed form, where an alpha of 1 lies past 16 bits, or its four floats,
-   stride apart. */
+/* Loads one pixel: its packed form, where the alpha of 16 bits and the colours of A8 are 1, or its
+   four floats, stride apart. */
 SHADE__INLINE void shade__load_pixel(shade_format format, const uint8_t *p, uint32_t *packed,
                                      float *rgba, int stride)
 {
@@ -1581,19 +1628,20 @@ SHADE__INLINE void shade__load_pixel(shade_format format, const uint8_t *p, uint
     else if (bytes == 2) {
         SHADE_MEMCPY(&u, p, 2);
         *packed = 0x10000 | (format == SHADE_FORMAT_RGB565_SWAPPED ? shade__swap16(u) : u);
-    } else
+    } else if (bytes == 1) *packed = (uint32_t)*p << 24 | 0xFFFFFF;
+    else
         for (int k = 0; k < 4; k++) SHADE_MEMCPY(rgba + k * stride, p + 4 * k, 4);
 }
 /* The full value of channel k of a packed format. */
 SHADE__INLINE uint32_t shade__channel_full(shade_format format, int k)
 {
-    if (shade__pixel_bytes(format) == 4) return 255;
+    if (shade__pixel_bytes(format) != 2) return 255;
     return k == 3 ? 1 : k == 1 ? 63 : 31;
 }
 /* whether what is stored is sRGB */
 SHADE__INLINE int shade__is_encoded(const shade_target *t)
 {
-    return t->srgb && t->format != SHADE_FORMAT_RGBA32F;
+    return t->srgb && t->format < SHADE_FORMAT_RGBA32F;
 }
 SHADE__INLINE int shade__rows_held(const shade_target *t)
 {
@@ -3855,6 +3903,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (!plan->own) {    /* shaders of this file set what is read of them: 2 % of a teapot */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
+        if (!plan->lod) SHADE__ZERO(q->f.lod);
     }
     plan->pipe->fragment(plan->pipe->uniforms, &q->f, &c);
     plan->stage.store(d, &c);
@@ -3870,14 +3919,21 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d))
              each weighted by max(0, 1 - |lod - level|), as trilinear filtering is.    [Williams83]
                                                                                         >>store */
 
-static int shade__texture_good(const shade_texture *t)
+/* What is wrong with a texture, as a sentence; NULL: nothing. */
+SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 {
-    return t && t->pixels && t->width > 0 && t->width <= 16384 && t->height > 0 &&
-           t->height <= 16384 && (t->stride == 0 || t->stride >= t->width) &&
-           (unsigned)t->format <= SHADE_FORMAT_RGBA32F &&
-           (unsigned)t->wrap_u <= SHADE_WRAP_MIRROR && (unsigned)t->wrap_v <= SHADE_WRAP_MIRROR &&
-           (unsigned)t->filter <= SHADE_FILTER_TRILINEAR;
+    if (!t->pixels) return "The texture's pixels are NULL.";
+    if (t->width < 1 || t->height < 1 || t->width > 16384 || t->height > 16384)
+        return "The texture's width and height must be from 1 to 16384.";
+    if (t->stride && t->stride < t->width)
+        return "The texture's stride is below its width; it counts texels, and 0 means the width.";
+    if ((unsigned)t->format > SHADE_FORMAT_A8) return "The texture's format is unknown.";
+    if ((unsigned)t->wrap_u > SHADE_WRAP_MIRROR || (unsigned)t->wrap_v > SHADE_WRAP_MIRROR)
+        return "The texture's wrap_u or wrap_v is unknown.";
+    if ((unsigned)t->filter > SHADE_FILTER_TRILINEAR) return "The texture's filter is unknown.";
+    return NULL;
 }
+static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
 /* Loops run over blocks, so that a single sample costs one of them. */
 enum { SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16 };
@@ -3966,12 +4022,14 @@ typedef struct shade__layout {
     float    step[4];
 } shade__layout;
 
-/* A texel of 32 bits or a word of a wider one; or one of 16 bits, and alpha in bit 16. */
-SHADE__INLINE uint32_t shade__texel(const uint8_t *p, int half, int swapped)
+/* A texel of 32 bits or a word of a wider one; one of 16 bits, and alpha in bit 16; or one of 8
+   bits on top, and white below. */
+SHADE__INLINE uint32_t shade__texel(const uint8_t *p, const int bytes, const int swapped)
 {
     uint32_t word;
     uint16_t t;
-    if (!half) {
+    if (bytes == 1) return (uint32_t)*p << 24 | 0xFFFFFF;
+    if (bytes == 4) {
         SHADE_MEMCPY(&word, p, 4);
         return word;
     }
@@ -3979,14 +4037,14 @@ SHADE__INLINE uint32_t shade__texel(const uint8_t *p, int half, int swapped)
     return (swapped ? shade__swap16(t) : t) | 0x10000;
 }
 /* A block of pairs that may lie apart. */
-SHADE__INLINE void shade__fetch_apart(const uint8_t *p, int half, int swapped, size_t unit,
-                                      const shade__axis *x, const uint32_t *row, int first,
-                                      shade__word *to)
+SHADE__INLINE void shade__fetch_apart(const uint8_t *p, const int bytes, const int swapped,
+                                      size_t unit, const shade__axis *x, const uint32_t *row,
+                                      int first, shade__word *to)
 {
     for (int i = first; i < first + SHADE__BLOCK; i++) {
         const uint8_t *line = p + row[i] * unit;
-        to[2 * i] = shade__texel(line + x->i0[i], half, swapped);
-        to[2 * i + 1] = shade__texel(line + x->i1[i], half, swapped);
+        to[2 * i] = shade__texel(line + x->i0[i], bytes, swapped);
+        to[2 * i + 1] = shade__texel(line + x->i1[i], bytes, swapped);
     }
 }
 /* Texels of a row, left and right in turns, in one word each.  unit: bytes a step of row.  Out of
@@ -3995,16 +4053,17 @@ static SHADE__NOINLINE void shade__fetch_pairs(const uint8_t *p, shade_format fo
                                                const shade__axis *x, const uint32_t *row,
                                                const uint32_t *apart, int blocks, shade__word *to)
 {
-    const int half = shade__pixel_bytes(format) == 2;
+    const size_t bytes = shade__pixel_bytes(format);
     for (int k = 0; k < SHADE__BLOCK * blocks; k += SHADE__BLOCK) {
         if (!*apart++) {
             for (int i = k; i < k + SHADE__BLOCK; i++) {
                 const uint8_t *left = p + (row[i] + x->i0[i]);
                 SHADE_MEMCPY(to + 2 * i, left, 8);
             }
-        } else if (half)
-            shade__fetch_apart(p, 1, format == SHADE_FORMAT_RGB565_SWAPPED, unit, x, row, k, to);
-        else shade__fetch_apart(p, 0, 0, unit, x, row, k, to);
+        } else if (bytes == 2)
+            shade__fetch_apart(p, 2, format == SHADE_FORMAT_RGB565_SWAPPED, unit, x, row, k, to);
+        else if (bytes == 1) shade__fetch_apart(p, 1, 0, unit, x, row, k, to);
+        else shade__fetch_apart(p, 4, 0, unit, x, row, k, to);
     }
 }
 SHADE__INLINE float shade__scaled(uint32_t number, float scale)
@@ -4101,25 +4160,27 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
     /* where 32 bits cannot count the bytes, rows are counted */
     const size_t unit = (uint64_t)pitch * (uint64_t)level->height > UINT32_MAX ? pitch : 1;
     const int half = bytes == 2, floats = bytes == 16;
+    const int shift = bytes == 1 ? 0 : half ? 1 : floats ? 4 : 2;
+    const int srgb = level->srgb && !floats && bytes > 1;
     const int nearest = base->filter == SHADE_FILTER_NEAREST, rows = nearest ? 1 : 2;
     const shade__layout *l = &layouts[half];
     /* channels from the lowest bits up: in bytes of a word, or blue first */
     const shade_format order = half ? SHADE_FORMAT_BGRA8 : format;
-    const int flip = half || floats ? 0 : shade__channel_shift(SHADE_FORMAT_RGBA8, 0) / 8;
+    const int flip = bytes != 4 ? 0 : shade__channel_shift(SHADE_FORMAT_RGBA8, 0) / 8;
     for (int k = 0; k < 2; k++)
         shade__address(k ? v : u, blocks, k ? level->height : level->width,
                        k ? base->wrap_v : base->wrap_u, nearest, &axis[k]);
     for (int b = 0; b < blocks; b++) {
         const int i = b * SHADE__BLOCK;
         apart[b] = shade__locate(axis[0].i0 + i, axis[0].i1 + i, axis[1].i0 + i, axis[1].i1 + i,
-                                 half ? 1 : floats ? 4 : 2, unit > 1 ? 1 : (uint32_t)pitch);
+                                 shift, unit > 1 ? 1 : (uint32_t)pitch);
         if (bytes != 4 || unit > 1) apart[b] = 1;
     }
     line[0] = axis[1].i0;
     line[1] = axis[1].i1;
     for (int j = 0; j < rows && !floats; j++)
         shade__fetch_pairs(p, format, unit, axis, line[j], apart, blocks, texel + 2 * j * texels);
-    if (!floats && !nearest && !level->srgb) {
+    if (!floats && !nearest && !srgb) {
         float *to = weight ? value : out;
         const int across = weight ? texels : stride;
         shade__blend_packed(texel, blocks, l, axis,
@@ -4141,7 +4202,7 @@ SHADE__INLINE void shade__level_body(const shade_texture *base, const shade_text
                                    shade__words(to));
             else
                 shade__decode_texels(texel + 2 * j * texels, 2 * blocks, l->shift[k], l->mask[k],
-                                     l->step[k], level->srgb && channel < 3, to);
+                                     l->step[k], srgb && channel < 3, to);
         }
         if (nearest) shade__pick_floats(value, blocks, row);
         else shade__blend_floats(value, blocks, axis, row);
@@ -4226,7 +4287,7 @@ SHADEDEF int shade_mipmap_count(int width, int height)
 SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
 {
     size_t bytes = 0;
-    if ((unsigned)format > SHADE_FORMAT_RGBA32F) return 0;
+    if ((unsigned)format > SHADE_FORMAT_A8) return 0;
     for (int k = shade_mipmap_count(width, height); k > 0; k--) {
         width = shade__max(width / 2, 1);
         height = shade__max(height / 2, 1);
@@ -4238,7 +4299,7 @@ SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format)
    Colours of a packet to the caller's memory: late depth test, blending, formats.
      in      rows of linear RGBA, the queue's pixels        out  depth (with may_discard), colour
      holds   Pixels are stored in drawing order.  8 bits: floor(255 clamp(c) + 1/2); NaN is 0.
-                                                                                         >>draw */
+                                                                                        >>check */
 
 SHADE__INLINE void shade__encode_row(float *SHADE_RESTRICT c, int blocks)
 {
@@ -4284,7 +4345,7 @@ SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba, int stri
     SHADE_ALIGNED float threshold[SHADE_LANES];
     if (t->format == SHADE_FORMAT_RGBA32F) return;
     for (int k = 0; k < 3 && t->srgb; k++) shade__encode_row(rgba + k * stride, blocks);
-    if (shade__pixel_bytes(t->format) == 4) {
+    if (shade__pixel_bytes(t->format) != 2) {
         shade__pack_channels(t->format, rgba, stride, NULL, packed, blocks);
         return;
     }
@@ -4455,20 +4516,144 @@ SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
 }
 SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c))
 
+/*------------------------------------------------------------------------------------------ >>check
+   Whether arguments can be used.  A fault is a sentence that names the field, for shade_explain;
+   where only its being there matters, the function is inlined and the sentence left out.
+     in      targets, meshes, states, indices
+     out     NULL, or the fault; a shade_result                                          >>drive */
+
+SHADE__INLINE const char *shade__target_fault(const shade_target *t)
+{
+    const uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
+    if (!t->color && !t->depth) return "target.color and target.depth are both NULL.";
+    if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
+        return "target.width and target.height must be from 1 to 16384.";
+    if (t->stride && t->stride < t->width)
+        return "target.stride is below target.width; it counts pixels, and 0 means the width.";
+    if ((unsigned)t->format > SHADE_FORMAT_RGBA32F)
+        return "target.format is none that can be drawn into.";
+    if (t->clip_width < 0 || t->clip_height < 0)
+        return "target.clip_width or target.clip_height is negative.";
+    if (t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count) ||
+        (t->row_count && t->row_offset > t->height - t->row_count))
+        return "target.row_offset and target.row_count are no rows of the picture.";
+    if (pixels > 0xFFFFFFFFu || pixels > SIZE_MAX / 16)
+        return "target.stride times the rows is beyond 2^32 - 1 pixels.";
+    return NULL;
+}
+static shade_result shade__check_target(const shade_target *t)
+{
+    return shade__target_fault(t) ? SHADE_ERROR_TARGET : SHADE_OK;
+}
+
+static int shade__corner_count(const shade_mesh *m)
+{
+    return m->indices ? m->index_count : m->vertex_count;
+}
+SHADE__INLINE int shade__chunk_outside(const shade_chunk *c, int triangles)
+{
+    return c->first < 0 || c->count < 0 || c->first > triangles - c->count;
+}
+/* What is wrong with the arrays of a mesh, its chunks apart. */
+SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
+{
+    const int strides = m->position_stride | m->normal_stride | m->texcoord_stride |
+                        m->color_stride;
+    if (m->vertex_count < 0) return "mesh.vertex_count is negative.";
+    if (!m->positions && m->vertex_count) return "mesh.positions is NULL.";
+    if (m->indices && m->index_count < 0) return "mesh.index_count is negative.";
+    if (strides < 0 || strides % 4)
+        return "A stride of the mesh is negative or no multiple of 4; strides count bytes, and 0 "
+               "means tightly packed.";
+    return NULL;
+}
+SHADE__INLINE const char *shade__chunks_fault(const shade_mesh *m)
+{
+    if (m->chunk_count < 0) return "mesh.chunk_count is negative.";
+    if (!m->chunks) return m->chunk_count ? "mesh.chunks is NULL, with a chunk_count." : NULL;
+    for (int i = 0; i < m->chunk_count; i++)
+        if (shade__chunk_outside(&m->chunks[i], shade__corner_count(m) / 3))
+            return "A chunk of the mesh is outside of its triangles.";
+    return NULL;
+}
+static shade_result shade__check_mesh(const shade_mesh *m)
+{
+    return shade__mesh_fault(m) || shade__chunks_fault(m) ? SHADE_ERROR_MESH : SHADE_OK;
+}
+
+SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
+{
+    if ((unsigned)r->cull > SHADE_CULL_FRONT) return "raster.cull is unknown.";
+    if ((unsigned)r->depth_test > SHADE_COMPARE_ALWAYS) return "raster.depth_test is unknown.";
+    if ((unsigned)r->blend > SHADE_BLEND_ADD) return "raster.blend is unknown.";
+    if (!shade__within(r->depth_bias, FLT_MAX)) return "raster.depth_bias is NaN or infinite.";
+    return NULL;
+}
+/* How many varyings the shaders of meshes take. */
+static int shade__mesh_varyings(const shade_mesh *m, const shade_draw_state *state)
+{
+    const int map = state->diffuse_map && m->texcoords;
+    if (state->fragment) return 11;
+    if (state->shading != SHADE_SHADING_PER_FRAGMENT) return map ? 8 : 3;
+    return (m->colors ? 9 : 6) + (map ? 2 : 0);
+}
+SHADE__INLINE const char *shade__state_fault(const shade_mesh *m, const shade_draw_state *state)
+{
+    if ((unsigned)state->shading > SHADE_SHADING_PER_FACE) return "state.shading is unknown.";
+    if (!(state->transparency >= 0 && state->transparency <= 1))
+        return "state.transparency must be from 0 to 1.";
+    if (!(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
+        return "state.alpha_cutoff must be from 0 to 1.";
+    if (state->fragment && state->shading != SHADE_SHADING_PER_FRAGMENT)
+        return "state.fragment needs SHADE_SHADING_PER_FRAGMENT.";
+    if (shade__mesh_varyings(m, state) > SHADE_MAX_VARYINGS)
+        return "This mesh and state need more than SHADE_MAX_VARYINGS varyings.";
+    return shade__raster_fault(&state->raster);
+}
+SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
+{
+    if (!l->lights && l->light_count > 0) return "lighting.lights is NULL, with a light_count.";
+    if ((unsigned)l->model > SHADE_MODEL_COOL_TO_WARM) return "lighting.model is unknown.";
+    return NULL;
+}
+static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
+{
+    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT || p->varyings < 0 ||
+        p->varyings > SHADE_MAX_VARYINGS || shade__raster_fault(&p->raster))
+        return SHADE_ERROR_STATE;
+    if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
+                           p->lod_varying >= p->varyings - 1))
+        return SHADE_ERROR_TEXTURE;
+    return SHADE_OK;
+}
+
+/* The highest of n lists of 16 indices. */
+SHADE__INLINE void shade__highest_body(const uint32_t *SHADE_RESTRICT indices, ptrdiff_t n,
+                                       uint32_t *SHADE_RESTRICT highest)
+{
+    for (; n > 0; n--, indices += 16) {
+        SHADE__FOR(i, 16) { highest[i] = indices[i] > highest[i] ? indices[i] : highest[i]; }
+    }
+}
+SHADE__DISPATCH(shade__highest, (const uint32_t *indices, ptrdiff_t n, uint32_t *highest),
+                (indices, n, highest))
+/* In lanes, because each band of a picture looks at all of them. */
+static shade_result shade__check_indices(const uint32_t *indices, int index_count, int vertex_count)
+{
+    uint32_t highest[16] = { 0 };
+    if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
+    if (!indices || !index_count) return SHADE_OK;
+    shade__highest_pick()(indices, index_count / 16, highest);
+    for (int i = index_count & ~15; i < index_count; i++)
+        if (indices[i] > highest[0]) highest[0] = indices[i];
+    for (int i = 0; i < 16; i++)
+        if (highest[i] >= (uint32_t)vertex_count) return SHADE_ERROR_INDEX;
+    return SHADE_OK;
+}
+
 /*------------------------------------------------------------------------------------------ >>drive
    The public calls: arguments checked before any pixel changes, then batch after batch. >>mesh */
 
-static shade_result shade__check_target(const shade_target *t)
-{
-    uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
-    if ((!t->color && !t->depth) || t->width < 1 || t->width > 16384 || t->height < 1 ||
-        t->height > 16384 || (t->stride && t->stride < t->width) ||
-        (unsigned)t->format > SHADE_FORMAT_RGBA32F || t->clip_width < 0 || t->clip_height < 0 ||
-        t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count) ||
-        (t->row_count && t->row_offset > t->height - t->row_count))
-        return SHADE_ERROR_TARGET;
-    return pixels > 0xFFFFFFFFu || pixels > SIZE_MAX / 16 ? SHADE_ERROR_TARGET : SHADE_OK;
-}
 /* The same for a target whose colours are asked for. */
 static shade_result shade__check_picture(const shade_target *t)
 {
@@ -4488,14 +4673,6 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
     r[3] = all || y1 > bottom ? bottom : (int)y1;
     return r[0] < r[2] && r[1] < r[3];
 }
-static shade_result shade__check_indices(const uint32_t *indices, int index_count, int vertex_count)
-{
-    if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
-    for (int i = 0; indices && i < index_count; i++)
-        if (indices[i] >= (uint32_t)vertex_count) return SHADE_ERROR_INDEX;
-    return SHADE_OK;
-}
-
 static shade__compare shade__compare_of(const shade_raster *r)
 {
     /* of LESS, LESS_EQUAL, ...: 1 where less passes, 2 equal, 4 greater */
@@ -4555,39 +4732,24 @@ static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipe
     plan->half_height = (float)(t->height * 128);
 }
 
-/* How a draw may be, and its indices. */
-static SHADE__COLD shade_result shade__check_draw(const shade_pipeline *p, const uint32_t *indices,
-                                                  int index_count, int vertex_count)
-{
-    const shade_raster *r = &p->raster;
-    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT ||
-        (unsigned)r->cull > SHADE_CULL_FRONT || (unsigned)r->depth_test > SHADE_COMPARE_ALWAYS ||
-        (unsigned)r->blend > SHADE_BLEND_ADD || p->varyings < 0 ||
-        p->varyings > SHADE_MAX_VARYINGS || !shade__within(r->depth_bias, FLT_MAX) ||
-        (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
-                            p->lod_varying >= p->varyings - 1)) ||
-        index_count < 0 || vertex_count < 0)
-        return SHADE_ERROR_ARGUMENT;
-    return shade__check_indices(indices, index_count, vertex_count);
-}
-/* The draw to a target that has been checked.  own: the shaders are of this file; with
-   SHADE__CORNERS each index is a vertex of its own. */
-enum { SHADE__OWN = 1, SHADE__CORNERS };
+/* The draw to a target that has been checked.  how: SHADE__OWN where the shaders are of this file,
+   SHADE__CORNERS where each index is a vertex of its own. */
+enum { SHADE__OWN = 1, SHADE__CORNERS = 2 };
 static shade_result shade__run_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                    int own, const uint32_t *indices, int index_count,
+                                    int how, const uint32_t *indices, int index_count,
                                     int vertex_count, shade_stats *stats)
 {
     shade__draw d;
     shade_pipeline pipe = *pipeline;
-    shade_result result = shade__check_draw(pipeline, indices, index_count, vertex_count);
+    shade_result result = shade__check_indices(indices, index_count, vertex_count);
     if (result) return result;
-    if (own == SHADE__CORNERS) indices = NULL;
+    if (how & SHADE__CORNERS) indices = NULL;
     if (!pipe.fragment) pipe.may_discard = 0;
     if (!pipe.fragment || (!target->color && !pipe.may_discard)) {    /* nobody reads them */
         pipe.varyings = 0;
         pipe.lod_texture = NULL;
     }
-    shade__make_plan(target, &pipe, own, &d.plan);
+    shade__make_plan(target, &pipe, how & SHADE__OWN, &d.plan);
     SHADE__ZERO(d.stats);
     SHADE__ZERO(d.batch.value);
     SHADE__ZERO(d.packet);
@@ -4614,6 +4776,8 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
                                  shade_stats *stats)
 {
     shade_result result = shade__begin(target, pipeline && pipeline->vertex, stats);
+    if (!result && (index_count < 0 || vertex_count < 0)) result = SHADE_ERROR_MESH;
+    if (!result) result = shade__check_pipeline(pipeline);
     if (result) return result;
     return shade__run_draw(target, pipeline, 0, indices, index_count, vertex_count, stats);
 }
@@ -4729,7 +4893,8 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
 {
     shade_target from, to;
     int count;
-    if (!shade__texture_good(texture)) return SHADE_ERROR_ARGUMENT;
+    if (!texture) return SHADE_ERROR_ARGUMENT;
+    if (!shade__texture_good(texture)) return SHADE_ERROR_TEXTURE;
     count = shade_mipmap_count(texture->width, texture->height);
     if (count && (!levels || !memory || (uintptr_t)memory % 4)) return SHADE_ERROR_ARGUMENT;
     if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format))
@@ -4783,7 +4948,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_vec3 eye;
     int face_normals;                    /* then every corner is a vertex of its own */
     const shade_texture *map;            /* NULL: none */
-    int uv;                              /* the varying that is u, v behind it */
+    int uv;                              /* the varying that is u, v behind it, if any is */
     int colored;                         /* the target has a picture */
     shade_lighting lit[2];               /* all; at vertices what a map multiplies, and the rest */
     shade__job job;                      /* of lit[0] */
@@ -4902,8 +5067,9 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
         SHADE_MEMCPY(u + i + SHADE_LANES, p + 4, 4);
     }
 }
-/* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map.  Lit: the colour, or
-   with a map what it multiplies, the rest, u, v. */
+/* Varyings per fragment: P, N, albedo if there is one, u, v if there is a map; all of them for a
+   fragment shader of the state.  Lit: the colour, or with a map what it multiplies, the rest, u,
+   v. */
 static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
@@ -4929,17 +5095,21 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
     if (lit && s->map)
         shade_lit_lanes(&s->lit[1], s->state->material, s->eye, &rows,
                         (float *)out->varying + 3 * SHADE_LANES);
-    if (s->map) shade__fetch_texcoords(s, in, out->varying[s->uv]);
+    if (s->state->fragment && !s->mesh->colors)
+        for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
+    if (s->map || (s->state->fragment && s->mesh->texcoords))
+        shade__fetch_texcoords(s, in, out->varying[s->uv]);
 }
 
-/* The row of alpha holds the map's, or 1: what is stored, what is cut by it, what ADD is to add. */
+/* The row of alpha holds the map's, the fragment shader's, or 1: what is stored, what is cut by it,
+   what ADD is to add. */
 static void shade__mesh_alpha(const shade__scene *s, shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
-    SHADE_EACH_LANE(i) {
-        float a = out->color[3][i] * opacity;
-        out->color[3][i] = a;
-        out->discard[i] = a >= cutoff ? 0 : 1;
+    if (!s->state->fragment) SHADE__ZERO(out->discard);
+    SHADE_EACH_LANE(i) { out->color[3][i] *= opacity; }
+    if (cutoff > 0) {
+        SHADE_EACH_LANE(i) { out->discard[i] |= shade__mask(out->color[3][i] >= cutoff) + 1; }
     }
     if (s->colored && s->state->raster.blend == SHADE_BLEND_ADD) {
         SHADE_EACH_LANE(i) {
@@ -4964,10 +5134,9 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s, const shade_ro
 }
 /* The map, and with it the light of N and P that arrive per pixel, or the colour that arrives
    (Gouraud and flat); without a picture the map alone, for the holes it cuts. */
-static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                                 shade_colors *SHADE_RESTRICT out)
+static void shade__mesh_colors(const shade__scene *s, const shade_fragments *SHADE_RESTRICT in,
+                               shade_colors *SHADE_RESTRICT out)
 {
-    const shade__scene *s = (const shade__scene *)uniforms;
     const float *varying = (const float *)in->varying;
     float *to = (float *)out->color;
     if (s->map)
@@ -4985,20 +5154,14 @@ static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SH
         for (int i = 0; i < 3 * SHADE_LANES; i++)
             to[i] = varying[i] * to[i] + varying[i + 3 * SHADE_LANES];
     } else if (s->colored) SHADE_MEMCPY(to, varying, 3 * sizeof in->varying[0]);
+}
+static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                 shade_colors *SHADE_RESTRICT out)
+{
+    const shade__scene *s = (const shade__scene *)uniforms;
+    if (s->state->fragment) s->state->fragment(s->state->uniforms, in, out);
+    else shade__mesh_colors(s, in, out);
     shade__mesh_alpha(s, out);
-}
-
-static int shade__corner_count(const shade_mesh *m)
-{
-    return m->indices ? m->index_count : m->vertex_count;
-}
-
-static shade_result shade__check_mesh(const shade_mesh *m)
-{
-    const int strides = m->position_stride | m->normal_stride | m->texcoord_stride |
-                        m->color_stride;
-    if (m->vertex_count < 0 || shade__corner_count(m) < 0) return SHADE_ERROR_ARGUMENT;
-    return strides < 0 || strides % 4 ? SHADE_ERROR_ARGUMENT : SHADE_OK;
 }
 
 static shade_mat4 shade__or_identity(shade_mat4 m)
@@ -5025,8 +5188,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
                 : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
     s->face_normals = !mesh->normals || state->shading == SHADE_SHADING_PER_FACE;
     s->map = mesh->texcoords ? state->diffuse_map : NULL;
-    if (state->shading == SHADE_SHADING_PER_FRAGMENT) s->uv = mesh->colors ? 9 : 6;
-    else s->uv = s->map ? 6 : 3;
+    s->uv = shade__mesh_varyings(mesh, state) - 2;
     s->lit[0] = s->lit[1] = state->lighting;
     if (s->map && state->shading != SHADE_SHADING_PER_FRAGMENT) {
         const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
@@ -5042,31 +5204,30 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 {
     shade_pipeline p;
     shade__scene scene;
-    shade_result result = shade__begin(
-        target, mesh && state && (mesh->positions || mesh->vertex_count <= 0), stats);
+    int how;
+    shade_result result = shade__begin(target, mesh && state, stats);
     if (!result) result = shade__check_mesh(mesh);
+    if (!result && shade__state_fault(mesh, state)) result = SHADE_ERROR_STATE;
+    if (!result && shade__lights_fault(&state->lighting)) result = SHADE_ERROR_LIGHTS;
     if (result) return result;
-    if ((unsigned)state->shading > SHADE_SHADING_PER_FACE ||
-        (unsigned)state->lighting.model > SHADE_MODEL_COOL_TO_WARM ||
-        (!state->lighting.lights && state->lighting.light_count > 0) ||
-        !(state->transparency >= 0 && state->transparency <= 1) ||
-        !(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
-        return SHADE_ERROR_ARGUMENT;
+    if (mesh->texcoords && state->diffuse_map && !shade__texture_good(state->diffuse_map))
+        return SHADE_ERROR_TEXTURE;
     shade__scene_of(target, mesh, state, &scene);
-    if (scene.map && !shade__texture_good(scene.map)) return SHADE_ERROR_ARGUMENT;
+    how = state->fragment ? 0 : SHADE__OWN;
     SHADE__ZERO(p);
     p.vertex = shade__mesh_vertex;
-    p.may_discard = state->alpha_cutoff > 0;
+    p.may_discard = state->alpha_cutoff > 0 || (state->fragment && target->color);
     p.fragment = shade__mesh_fragment;
     p.uniforms = &scene;
-    p.varyings = scene.uv + (scene.map ? 2 : 0);
-    if (scene.map && scene.map->mipmap_count) p.lod_texture = scene.map;
+    p.varyings = scene.uv + 2;
+    if (scene.map && (scene.map->mipmap_count || state->fragment)) p.lod_texture = scene.map;
     p.lod_varying = scene.uv;
     if (state->shading == SHADE_SHADING_PER_FACE && !scene.map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
-    return shade__run_draw(target, &p, scene.face_normals ? SHADE__CORNERS : SHADE__OWN,
-                           mesh->indices, shade__corner_count(mesh), mesh->vertex_count, stats);
+    if (scene.face_normals) how |= SHADE__CORNERS;
+    return shade__run_draw(target, &p, how, mesh->indices, shade__corner_count(mesh),
+                           mesh->vertex_count, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>lines
@@ -5183,10 +5344,13 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     shade_mat4 clip_from_points;
     shade_result result = shade__begin(target, state && (points || point_count <= 0), stats);
     if (result) return result;
-    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3 ||
-        !(state->width >= 0 && state->width <= FLT_MAX) ||
-        (unsigned)state->cap > SHADE_CAP_SQUARE)
-        return SHADE_ERROR_ARGUMENT;
+    if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_MESH;
+    SHADE__ZERO(p);
+    p.raster = state->raster;
+    p.raster.cull = SHADE_CULL_NONE;
+    if (!(state->width >= 0 && state->width <= FLT_MAX) ||
+        (unsigned)state->cap > SHADE_CAP_SQUARE || shade__raster_fault(&p.raster))
+        return SHADE_ERROR_STATE;
     s.points = points;
     s.state = state;
     clip_from_points = shade__or_identity(state->clip_from_points);
@@ -5194,12 +5358,9 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     s.half[0] = target->width / 2.0;
     s.half[1] = target->height / 2.0;
     s.half_width = (state->width > 0 ? (double)state->width : 1) / 2;
-    SHADE__ZERO(p);
     p.vertex = shade__stroke_vertex;
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
-    p.raster = state->raster;
-    p.raster.cull = SHADE_CULL_NONE;
     return shade__run_draw(target, &p, SHADE__OWN, NULL, 3 * point_count, 3 * point_count, stats);
 }
 
@@ -5242,18 +5403,20 @@ static float shade__corner_angle(const shade_mesh *m, uint32_t corner)
     shade_vec3 a = shade__unit_vector(shade_sub(q, p)), b = shade__unit_vector(shade_sub(r, p));
     return (float)shade__angle((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
 }
+/* out: what must not be NULL */
 static shade_result shade__check_shape(const shade_mesh *m, const void *out)
 {
-    shade_result result;
-    if (!m || !out || (!m->positions && m->vertex_count > 0)) return SHADE_ERROR_ARGUMENT;
-    result = shade__check_mesh(m);
-    return result ? result
-                  : shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count);
+    return m && out ? shade__check_mesh(m) : SHADE_ERROR_ARGUMENT;
+}
+static shade_result shade__check_corners(const shade_mesh *m)
+{
+    return shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count);
 }
 
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
     shade_result result = shade__check_shape(mesh, normals);
+    if (!result) result = shade__check_corners(mesh);
     if (result) return result;
     SHADE_MEMSET(normals, 0, (size_t)mesh->vertex_count * sizeof *normals);
     for (uint32_t t = 0; t < (uint32_t)shade__corner_count(mesh) / 3; t++) {
@@ -5315,7 +5478,7 @@ static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, 
 }
 SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
 {
-    if (shade__check_shape(mesh, &mesh) != SHADE_OK) return 0;
+    if (shade__check_shape(mesh, &mesh) || shade__check_corners(mesh)) return 0;
     return 16 * (size_t)shade__corner_count(mesh);
 }
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
@@ -5327,9 +5490,11 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
     shade_vec3 *face;
     if (result) return result;
     count = (uint32_t)shade__corner_count(mesh);
-    if ((!memory && count) || (uintptr_t)memory % 4 || cos_crease != cos_crease)
-        return SHADE_ERROR_ARGUMENT;
-    if (bytes < shade_mesh_corner_normals_bytes(mesh)) return SHADE_ERROR_CAPACITY;
+    if ((!memory && count) || (uintptr_t)memory % 4) return SHADE_ERROR_ARGUMENT;
+    if (cos_crease != cos_crease) return SHADE_ERROR_STATE;
+    result = shade__check_corners(mesh);
+    if (result) return result;
+    if (bytes < 16 * (size_t)count) return SHADE_ERROR_CAPACITY;
     if (!count) return SHADE_OK;
     order = (uint32_t *)memory;
     angle = (float *)(void *)(order + 2 * (size_t)count);
@@ -5364,8 +5529,9 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     if (!count) return SHADE_ERROR_ARGUMENT;
     *count = 0;
     result = shade__check_shape(mesh, capacity > 0 ? (void *)edges : count);
+    if (!result && capacity < 0) result = SHADE_ERROR_ARGUMENT;
+    if (!result) result = shade__check_corners(mesh);
     if (result) return result;
-    if (capacity < 0) return SHADE_ERROR_ARGUMENT;
     corners = shade__corner_count(mesh);
     if (capacity < corners) {
         *count = corners;
@@ -5464,7 +5630,7 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
     shade_vec3 where;
     int found = -1;
     double e[3], f[3], n[3];
-    if (shade__check_shape(mesh, &ray) != SHADE_OK) return -1;
+    if (shade__check_shape(mesh, &ray) || shade__check_corners(mesh)) return -1;
     model = shade__or_identity(model);
     for (int i = 0; i < shade__corner_count(mesh) / 3; i++) {
         shade_vec3 p[3], q[3];
