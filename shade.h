@@ -281,10 +281,12 @@ typedef enum shade_shading {
     SHADE_SHADING_PER_FACE             /* lit once, at the centroid, with the geometric normal */
 } shade_shading;
 
-/* What became of the triangles of one call; written from zero by each call, whatever the clip
-   rectangle is.  triangles = culled + clipped + rejected + drawn. */
+/* What became of the triangles of one call; written from zero by each call.
+   triangles = skipped + culled + clipped + rejected + drawn.  Without chunks skipped is 0, and the
+   others do not depend on the clip rectangle. */
 typedef struct shade_stats {
     long long triangles;
+    long long skipped;           /* in a chunk that cannot be seen in the clip rectangle */
     long long culled;            /* facing, or zero area after snapping */
     long long clipped;           /* nothing of it inside the view volume */
     long long rejected;          /* a position that is NaN, infinite or beyond 1e30 */
@@ -929,6 +931,27 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
+/* How many chunks shade_mesh_chunks makes of a list of indices; triangles as there.  0 for negative
+   numbers, and for an index_count that is no multiple of 3. */
+SHADEDEF int shade_chunk_count(int index_count, int triangles);
+/* Fills chunks with the boxes of runs of so many triangles (0: 128) of the mesh, whose own chunks
+   are ignored.  A corner that is NaN or infinite is left out of its box.
+     indices NULL: the triangles stay in their order, which serves where neighbours in the list are
+   neighbours in space.  Else room for as many indices as the mesh has, or vertices where it has
+   none: it receives the triangles sorted in space, for mesh.indices of draws and picks.  Sorting
+   splits the list at the median of the longer axis again and again, in n log n steps and no other
+   memory; the order is the same on every machine.
+     chunks, room for capacity of them, and indices overlap none of the mesh's arrays.  Too little
+   capacity: SHADE_ERROR_CAPACITY, and nothing changes. */
+SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
+                                        int capacity, uint32_t *indices);
+/* 0 only if nothing inside the box can reach a pixel of the target's clip rectangle and strip:
+   draws of meshes skip chunks by it, your own pipelines ranges of their indices.  It allows for all
+   rounding of transforms and clipping, and for any w.  A zero matrix is the identity.  1 for NaN,
+   for low > high, and for a bad target, which the draw refuses. */
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high);
+
 typedef enum shade_cap { SHADE_CAP_BUTT = 0, SHADE_CAP_SQUARE } shade_cap;
 typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
@@ -978,9 +1001,10 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int w
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric);
 /* The index of the nearest triangle of a mesh that a world-space ray meets, as shade_intersect
-   does, with the mesh placed by model (zero: identity); of equal ones the first.  One whose points
-   lie on a line is not met, however model rounds them.  -1: none, or a bad mesh; *t and
-   *barycentric are left alone then.  Either may be NULL.  Looks at every triangle. */
+   does, with the mesh placed by model (zero: identity); of equally near ones the lowest index.  One
+   whose points lie on a line is not met, however model rounds them.  -1: none, or a bad mesh; *t
+   and *barycentric are left alone then.  Either may be NULL.  Looks at every triangle, or at those
+   of the chunks whose box the ray meets; of a mesh with chunks only their indices are checked. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
 
@@ -1158,6 +1182,11 @@ SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
 {
     return shade__bits_float(shade__choose(shade__float_bits(a), shade__float_bits(b), mask));
 }
+/* |x| */
+SHADE__INLINE double shade__size(double x)
+{
+    return shade__bits_double(shade__double_bits(x) & 0x7FFFFFFFFFFFFFFFu);
+}
 SHADE__INLINE uint32_t shade__mask(int condition) { return 0u - (uint32_t)condition; }
 
 /* clamp(x, lo, hi) by the integer order of bit patterns, which is the order of non-negative
@@ -1323,6 +1352,12 @@ SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v)
                      shade_v4(0, 0, 0, 1));
 }
 SHADEDEF shade_mat4 shade_mat4_identity(void) { return shade_mat4_scaling(shade_v3(1, 1, 1)); }
+static shade_mat4 shade__or_identity(shade_mat4 m)
+{
+    for (int k = 0; k < 16; k++)
+        if (((const float *)&m)[k] != 0) return m;
+    return shade_mat4_identity();
+}
 SHADEDEF shade_mat3 shade_mat3_identity(void)
 {
     return shade_mat3_from_mat4(shade_mat4_identity());
@@ -2464,6 +2499,7 @@ enum {
     SHADE__VALUES_MAX = (SHADE_MAX_VARYINGS + SHADE__FIRST + 2 + 7) / 8 * 8,
     SHADE__BATCH_FLOATS = SHADE_LANES * 8 + (SHADE_LANES < 64 ? 4 : 2) * SHADE__VALUES_MAX,
     SHADE__BATCH_TRIANGLES = 3 * SHADE_LANES / 2,
+    SHADE__PARTS = SHADE_LANES < 64 ? 2 : 8,
     SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,
     SHADE__BLOCKS = SHADE_LANES * SHADE_LANES / 32
 };
@@ -2495,9 +2531,12 @@ typedef struct shade__vertex {        /* a vertex after the vertex shader */
     uint32_t out;                     /* planes it is outside of: SHADE__OUT_... */
     float    clip[4];
 } shade__vertex;
+/* Triangles of a batch that follow each other in the draw, from one on to that of the next part. */
+typedef struct shade__part { int first; uint32_t primitive; } shade__part;
 typedef struct shade__batch {
     int           count;              /* triangles */
-    uint32_t      primitive;          /* index of the first in the draw */
+    int           parts;
+    shade__part   part[SHADE__PARTS + 1];
     shade__vertex vertex[SHADE_LANES];
     SHADE_ALIGNED float value[SHADE__BATCH_FLOATS];
     uint8_t       corner[3 * SHADE__BATCH_TRIANGLES];    /* vertices of the triangles */
@@ -2539,8 +2578,26 @@ typedef struct shade__queue {
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
+/* The planes around what can be seen, in object space: left, right, top, bottom, near, far; outside
+   where k.(P, 1) < 0. */
+enum { SHADE__PLANES = 6 };
+typedef struct shade__frustum {
+    double k[4][SHADE__PLANES];
+    float  size[4][SHADE__PLANES];    /* of the numbers that k was made of, for rounding */
+} shade__frustum;
+/* The triangles of a draw, handed out in their order. */
+typedef struct shade__supply {
+    const uint32_t *indices;          /* NULL: 0, 1, 2, ... */
+    int first, end;                   /* of the triangles at hand */
+    int (*more)(shade__draw *);       /* shade__next_chunk, which others do not link; or NULL */
+    int chunks;                       /* how many are left */
+    const shade_chunk *chunk;         /* the next of them, */
+    const shade__frustum *frustum;    /* and by what they are tested */
+} shade__supply;
+
 struct shade__draw {
     shade__plan   plan;
+    shade__supply *supply;
     shade_stats   stats;
     shade__hidden hidden;
     shade__batch  batch;
@@ -2677,19 +2734,56 @@ static void shade__shade_vertices(shade__draw *d)
     d->plan.stage.place(d, v);
 }
 
-/* Takes triangles first, ... of count while their vertices find room.  Whether a vertex is known or
-   new, both its slot and its index are written and the count tells: a branch here would be missed
-   for every other one (2 % of a dense mesh). */
-static void shade__take_batch(shade__draw *d, const uint32_t *indices, int first, int count)
+/* Whether the box may be seen: 0 if it lies outside of one plane.  With its centre c and half its
+   size h the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float,
+   off by 2^-22 of the sum of the products' sizes, and each of 7 clips rounds by 2^-24 of that;
+   2^-20 covers both.  NaN fails each comparison. */
+static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 low, shade_vec3 high)
 {
-    shade__incoming *in = &d->u.in;
-    uint32_t *index_of = in->ids.index;
-    const int room = shade__min(SHADE_LANES, (int)SHADE__BATCH_FLOATS / d->plan.value_stride) - 3;
-    const int most = shade__min(SHADE__BATCH_TRIANGLES, count - first);
-    uint8_t *corner = d->batch.corner;
-    uint32_t at = 3 * (uint32_t)first;
-    int n = 0, vertices = 0;
-    SHADE_MEMSET(in->known, 255, sizeof in->known);    /* no index: counts end at 2^31 */
+    const double cx = ((double)low.x + (double)high.x) / 2, hx = (double)high.x - cx;
+    const double cy = ((double)low.y + (double)high.y) / 2, hy = (double)high.y - cy;
+    const double cz = ((double)low.z + (double)high.z) / 2, hz = (double)high.z - cz;
+    const double mx = shade__size(cx) + hx, my = shade__size(cy) + hy, mz = shade__size(cz) + hz;
+    uint32_t outside = 0;
+    if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
+    SHADE__FOR(i, SHADE__PLANES) {
+        double most = f->k[0][i] * cx + f->k[1][i] * cy + f->k[2][i] * cz + f->k[3][i];
+        double off = (double)f->size[0][i] * mx + (double)f->size[1][i] * my;
+        off += (double)f->size[2][i] * mz + (double)f->size[3][i];
+        most += shade__size(f->k[0][i]) * hx;
+        most += shade__size(f->k[1][i]) * hy;
+        most += shade__size(f->k[2][i]) * hz;
+        outside |= shade__mask(most + off * (1 / 1048576.0) < 0);
+    }
+    return !outside;
+}
+/* Moves on to the next chunk that may be seen; 0 where there is none. */
+static int shade__next_chunk(shade__draw *d)
+{
+    shade__supply *s = d->supply;
+    for (; s->chunks > 0; s->chunks--) {
+        const shade_chunk *c = s->chunk++;
+        d->stats.triangles += c->count;
+        s->first = c->first;
+        s->end = c->first + c->count;
+        if (c->count && shade__in_view(s->frustum, c->low, c->high)) {
+            s->chunks--;
+            return 1;
+        }
+        d->stats.skipped += c->count;
+    }
+    s->end = s->first;
+    return 0;
+}
+
+/* Takes up to most triangles from first on, while their vertices find room; returns how many.
+   Whether a vertex is known or new, both its slot and its index are written and the count tells: a
+   branch here would be missed for every other one (2 % of a dense mesh). */
+SHADE__INLINE int shade__take_triangles(shade__incoming *in, const uint32_t *indices,
+                                        uint32_t first, int most, int room, uint8_t *corner)
+{
+    uint32_t *index_of = in->ids.index, at = 3 * first;
+    int n = 0, vertices = in->ids.count;
     for (; n < most && vertices <= room; n++) {
         for (int k = 0; k < 3; k++, at++) {
             const uint32_t index = indices ? indices[at] : at;
@@ -2703,8 +2797,28 @@ static void shade__take_batch(shade__draw *d, const uint32_t *indices, int first
         }
     }
     in->ids.count = vertices;
-    d->batch.count = n;
-    d->batch.primitive = (uint32_t)first;
+    return n;
+}
+/* A batch of the triangles that follow in the draw; none are left where its count is 0. */
+static void shade__take_batch(shade__draw *d)
+{
+    shade__incoming *in = &d->u.in;
+    shade__batch *b = &d->batch;
+    shade__supply *s = d->supply;
+    const int room = shade__min(SHADE_LANES, (int)SHADE__BATCH_FLOATS / d->plan.value_stride) - 3;
+    SHADE_MEMSET(in->known, 255, sizeof in->known);    /* no index: counts end at 2^31 */
+    in->ids.count = b->count = b->parts = 0;
+    while (b->count < SHADE__BATCH_TRIANGLES && in->ids.count <= room && b->parts < SHADE__PARTS) {
+        if (s->first == s->end && !(s->more && s->more(d))) break;
+        const int most = shade__min(SHADE__BATCH_TRIANGLES - b->count, s->end - s->first);
+        b->part[b->parts].first = b->count;
+        b->part[b->parts++].primitive = (uint32_t)s->first;
+        const int taken = shade__take_triangles(in, s->indices, (uint32_t)s->first, most, room,
+                                                b->corner + 3 * b->count);
+        b->count += taken;
+        s->first += taken;
+    }
+    b->part[b->parts].first = b->count;
 }
 
 /*-------------------------------------------------------------------------------------- >>triangles
@@ -2767,7 +2881,7 @@ SHADE__INLINE void shade__areas(const shade__packet *SHADE_RESTRICT p, float *SH
         double x2 = p->x[2][i] - p->x[0][i], y2 = p->y[2][i] - p->y[0][i];
         double a = x1 * y2 - x2 * y1;
         area[i] = (float)a;
-        inverse[i] = 256 / shade__bits_double(shade__double_bits(a) & 0x7FFFFFFFFFFFFFFFu);
+        inverse[i] = 256 / shade__size(a);
     }
 }
 /* Which corner comes first, and whether the others are swapped. */
@@ -2970,7 +3084,29 @@ SHADE__INLINE void shade__add_triangle(shade__draw *d, const uint8_t *corner, in
     p->primitive[p->count++] = primitive;
     if (p->count == SHADE__TRIANGLES) shade__draw_packet(d);
 }
-/* The triangles of a batch: sorted out by where their corners are, packet after packet drawn. */
+/* A triangle of a batch, sorted out by where its corners are. */
+SHADE__INLINE void shade__sort_out(shade__draw *d, const uint8_t *corner, uint32_t primitive)
+{
+    const shade__vertex *v = d->batch.vertex;
+    const uint32_t out0 = v[corner[0]].out, out1 = v[corner[1]].out, out2 = v[corner[2]].out;
+    const uint32_t any = out0 | out1 | out2;
+    if (any) {
+        if (any & SHADE__OUT_BAD) {
+            d->stats.rejected++;
+            return;
+        }
+        if (out0 & out1 & out2 & SHADE__OUT_VOLUME) {
+            d->stats.clipped++;
+            return;
+        }
+        if (any & SHADE__OUT_CLIP) {
+            d->plan.stage.clip(d, corner, primitive);
+            return;
+        }
+    }
+    shade__add_triangle(d, corner, corner[0], primitive);
+}
+/* The triangles of a batch, packet after packet drawn. */
 static void shade__triangles(shade__draw *d)
 {
     const shade__batch *b = &d->batch;
@@ -2979,25 +3115,11 @@ static void shade__triangles(shade__draw *d)
     p->value = b->value;
     p->count = 0;
     d->u.queue.f.count = 0;
-    for (int k = 0; k < b->count; k++) {
-        const uint8_t *corner = b->corner + 3 * k;
-        const uint32_t out0 = b->vertex[corner[0]].out, out1 = b->vertex[corner[1]].out;
-        const uint32_t out2 = b->vertex[corner[2]].out, any = out0 | out1 | out2;
-        if (any) {
-            if (any & SHADE__OUT_BAD) {
-                d->stats.rejected++;
-                continue;
-            }
-            if (out0 & out1 & out2 & SHADE__OUT_VOLUME) {
-                d->stats.clipped++;
-                continue;
-            }
-            if (any & SHADE__OUT_CLIP) {
-                d->plan.stage.clip(d, corner, b->primitive + (uint32_t)k);
-                continue;
-            }
-        }
-        shade__add_triangle(d, corner, corner[0], b->primitive + (uint32_t)k);
+    for (int i = 0; i < b->parts; i++) {
+        const int first = b->part[i].first;
+        const uint32_t primitive = b->part[i].primitive;
+        for (int k = first; k < b->part[i + 1].first; k++)
+            shade__sort_out(d, b->corner + 3 * k, primitive + (uint32_t)(k - first));
     }
     shade__draw_packet(d);
     d->plan.stage.flush(d);
@@ -4638,7 +4760,8 @@ SHADE__INLINE void shade__highest_body(const uint32_t *SHADE_RESTRICT indices, p
 SHADE__DISPATCH(shade__highest, (const uint32_t *indices, ptrdiff_t n, uint32_t *highest),
                 (indices, n, highest))
 /* In lanes, because each band of a picture looks at all of them. */
-static shade_result shade__check_indices(const uint32_t *indices, int index_count, int vertex_count)
+static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices, int index_count,
+                                                         int vertex_count)
 {
     uint32_t highest[16] = { 0 };
     if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
@@ -4673,6 +4796,42 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
     r[3] = all || y1 > bottom ? bottom : (int)y1;
     return r[0] < r[2] && r[1] < r[3];
 }
+/* Plane i: sign (row - limit w) of clip space, where row 0 is x, 1 y, 2 z. */
+static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, double limit, int i,
+                                 shade__frustum *f)
+{
+    for (int k = 0; k < 4; k++) {
+        const double a = (double)((const float *)&m->col[k])[row], w = (double)m->col[k].w;
+        f->k[k][i] = sign * (a - limit * w);
+        f->size[k][i] = (float)(shade__size(a) + shade__size(limit * w));
+    }
+}
+/* The planes of the clip rectangle, near and far.  The rectangle is that of whole pixels, half a
+   pixel around their centres: more than snapping and clipping move an edge. */
+static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat4 *clip_from_object,
+                                       int zero_to_one, shade__frustum *f)
+{
+    const double w = t->width, h = t->height;
+    int r[4];
+    SHADE__ZERO(*f);
+    if (!shade__clip_rectangle(t, r)) SHADE__ZERO(r);
+    shade__frustum_plane(clip_from_object, 0, 1, 2 * r[0] / w - 1, 0, f);
+    shade__frustum_plane(clip_from_object, 0, -1, 2 * r[2] / w - 1, 1, f);
+    shade__frustum_plane(clip_from_object, 1, -1, 1 - 2 * r[1] / h, 2, f);
+    shade__frustum_plane(clip_from_object, 1, 1, 1 - 2 * r[3] / h, 3, f);
+    shade__frustum_plane(clip_from_object, 2, 1, zero_to_one ? 0 : -1, 4, f);
+    shade__frustum_plane(clip_from_object, 2, -1, 1, 5, f);
+}
+SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
+                               int depth_zero_to_one, shade_vec3 low, shade_vec3 high)
+{
+    shade__frustum frustum;
+    if (!target || shade__check_target(target)) return 1;
+    clip_from_object = shade__or_identity(clip_from_object);
+    shade__frustum_of(target, &clip_from_object, depth_zero_to_one, &frustum);
+    return shade__in_view(&frustum, low, high);
+}
+
 static shade__compare shade__compare_of(const shade_raster *r)
 {
     /* of LESS, LESS_EQUAL, ...: 1 where less passes, 2 equal, 4 greater */
@@ -4736,14 +4895,11 @@ static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipe
    SHADE__CORNERS where each index is a vertex of its own. */
 enum { SHADE__OWN = 1, SHADE__CORNERS = 2 };
 static shade_result shade__run_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                    int how, const uint32_t *indices, int index_count,
-                                    int vertex_count, shade_stats *stats)
+                                    int how, shade__supply *supply, shade_stats *stats)
 {
     shade__draw d;
     shade_pipeline pipe = *pipeline;
-    shade_result result = shade__check_indices(indices, index_count, vertex_count);
-    if (result) return result;
-    if (how & SHADE__CORNERS) indices = NULL;
+    if (how & SHADE__CORNERS) supply->indices = NULL;
     if (!pipe.fragment) pipe.may_discard = 0;
     if (!pipe.fragment || (!target->color && !pipe.may_discard)) {    /* nobody reads them */
         pipe.varyings = 0;
@@ -4756,14 +4912,26 @@ static shade_result shade__run_draw(const shade_target *target, const shade_pipe
     SHADE__ZERO(d.u.in.ids);
     SHADE__ZERO(d.u.in.slot_of);
     d.hidden.across = 0;
-    d.stats.triangles = index_count / 3;
-    for (int first = 0; first < index_count / 3; first += d.batch.count) {
-        shade__take_batch(&d, indices, first, index_count / 3);
+    d.supply = supply;
+    d.stats.triangles = supply->end;
+    for (;;) {
+        shade__take_batch(&d);
+        if (!d.batch.count) break;
         shade__shade_vertices(&d);
         shade__triangles(&d);
     }
     if (stats) *stats = d.stats;
     return SHADE_OK;
+}
+/* All triangles of a list that is good, one after the other. */
+static shade_result shade__supply_all(const uint32_t *indices, int index_count, int vertex_count,
+                                      shade__supply *s)
+{
+    s->indices = indices;
+    s->first = 0;
+    s->end = index_count / 3;
+    s->more = NULL;
+    return shade__check_indices(indices, index_count, vertex_count);
 }
 /* How every call begins that draws: its arguments given, the target good. */
 static shade_result shade__begin(const shade_target *t, int given, shade_stats *stats)
@@ -4775,11 +4943,12 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
                                  const uint32_t *indices, int index_count, int vertex_count,
                                  shade_stats *stats)
 {
+    shade__supply supply;
     shade_result result = shade__begin(target, pipeline && pipeline->vertex, stats);
     if (!result && (index_count < 0 || vertex_count < 0)) result = SHADE_ERROR_MESH;
     if (!result) result = shade__check_pipeline(pipeline);
-    if (result) return result;
-    return shade__run_draw(target, pipeline, 0, indices, index_count, vertex_count, stats);
+    if (!result) result = shade__supply_all(indices, index_count, vertex_count, &supply);
+    return result ? result : shade__run_draw(target, pipeline, 0, &supply, stats);
 }
 
 /* Fills n bytes with a pattern of 256, whole vectors at a time. */
@@ -5164,12 +5333,6 @@ static void shade__mesh_fragment(const void *uniforms, const shade_fragments *SH
     shade__mesh_alpha(s, out);
 }
 
-static shade_mat4 shade__or_identity(shade_mat4 m)
-{
-    for (int k = 0; k < 16; k++)
-        if (((const float *)&m)[k] != 0) return m;
-    return shade_mat4_identity();
-}
 /* Not inlined: its temporaries would lie under the whole draw, half a kilobyte of stack. */
 static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_mesh *mesh,
                                         const shade_draw_state *state, shade__scene *s)
@@ -5199,11 +5362,27 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     shade__begin_job(&s->lit[0], state->material, s->eye, &s->job);
 }
 
+/* A function of its own, so that only meshes with chunks have the planes on the stack. */
+static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
+                                                       const shade_pipeline *p, int how,
+                                                       shade__supply *supply, shade_stats *stats)
+{
+    const shade__scene *scene = (const shade__scene *)p->uniforms;
+    shade__frustum frustum;
+    shade__frustum_of(target, &scene->clip_from_object, p->raster.depth_zero_to_one, &frustum);
+    supply->frustum = &frustum;
+    supply->end = 0;
+    supply->more = shade__next_chunk;
+    supply->chunk = scene->mesh->chunks;
+    supply->chunks = scene->mesh->chunk_count;
+    return shade__run_draw(target, p, how, supply, stats);
+}
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats)
 {
     shade_pipeline p;
     shade__scene scene;
+    shade__supply supply;
     int how;
     shade_result result = shade__begin(target, mesh && state, stats);
     if (!result) result = shade__check_mesh(mesh);
@@ -5212,6 +5391,9 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
     if (result) return result;
     if (mesh->texcoords && state->diffuse_map && !shade__texture_good(state->diffuse_map))
         return SHADE_ERROR_TEXTURE;
+    result = shade__supply_all(mesh->indices, shade__corner_count(mesh), mesh->vertex_count,
+                               &supply);
+    if (result) return result;
     shade__scene_of(target, mesh, state, &scene);
     how = state->fragment ? 0 : SHADE__OWN;
     SHADE__ZERO(p);
@@ -5226,8 +5408,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
     if (scene.face_normals) how |= SHADE__CORNERS;
-    return shade__run_draw(target, &p, how, mesh->indices, shade__corner_count(mesh),
-                           mesh->vertex_count, stats);
+    if (mesh->chunks) return shade__draw_chunks(target, &p, how, &supply, stats);
+    return shade__run_draw(target, &p, how, &supply, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>lines
@@ -5341,6 +5523,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
 {
     shade_pipeline p;
     shade__stroke s;
+    shade__supply supply;
     shade_mat4 clip_from_points;
     shade_result result = shade__begin(target, state && (points || point_count <= 0), stats);
     if (result) return result;
@@ -5361,7 +5544,8 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
     p.vertex = shade__stroke_vertex;
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
-    return shade__run_draw(target, &p, SHADE__OWN, NULL, 3 * point_count, 3 * point_count, stats);
+    (void)shade__supply_all(NULL, 3 * point_count, 3 * point_count, &supply);
+    return shade__run_draw(target, &p, SHADE__OWN, &supply, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
@@ -5413,6 +5597,14 @@ static shade_result shade__check_corners(const shade_mesh *m)
     return shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count);
 }
 
+/* The indices of a chunk, and the number of all. */
+static shade_result shade__check_range(const shade_mesh *m, const shade_chunk *c)
+{
+    if (shade__corner_count(m) % 3) return SHADE_ERROR_INDEX;
+    if (!m->indices) return SHADE_OK;
+    return shade__check_indices(m->indices + 3 * (size_t)c->first, 3 * c->count, m->vertex_count);
+}
+
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals)
 {
     shade_result result = shade__check_shape(mesh, normals);
@@ -5460,6 +5652,10 @@ SHADE__INLINE uint32_t shade__key_byte(const shade_mesh *m, int edges, uint32_t 
     }
     return word >> 8 * (k & 3) & 255;
 }
+/* Triangles of a chunk where the caller does not say: of 64, 128, 256 and 512 what is fastest on 16
+   bands, and within 1 % on one thread. */
+enum { SHADE__CHUNK = 128 };
+
 /* Corners 0 .. count - 1, sorted byte by byte, which takes the same time whatever they are; equal
    ones ascend.  other: room for as many. */
 static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, uint32_t *order,
@@ -5551,6 +5747,149 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     *count = kept;
     return SHADE_OK;
 }
+/* Three times the centroid of a triangle along an axis, as an integer in the same order (NaN beyond
+   the infinities, by its bits). */
+static uint32_t shade__centroid_key(const shade_mesh *m, const uint32_t *triangle, int axis)
+{
+    float sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const shade_vec3 p = shade__vec3_at(m->positions, m->position_stride, triangle[k]);
+        sum += axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+    }
+    const uint32_t bits = shade__float_bits(sum + 0);
+    return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+static float shade__key_value(uint32_t key)
+{
+    return shade__bits_float(key >> 31 ? key & 0x7FFFFFFFu : ~key);
+}
+/* The axis along which the centroids of triangles reach furthest, its least and greatest key. */
+static int shade__longest_axis(const shade_mesh *m, const uint32_t *triangles, int count,
+                               uint32_t *low, uint32_t *high)
+{
+    uint32_t least[3] = { UINT32_MAX, UINT32_MAX, UINT32_MAX }, most[3] = { 0, 0, 0 };
+    int longest = 0;
+    for (int i = 0; i < count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            const uint32_t key = shade__centroid_key(m, triangles + 3 * (size_t)i, axis);
+            if (key < least[axis]) least[axis] = key;
+            if (key > most[axis]) most[axis] = key;
+        }
+    }
+    for (int axis = 1; axis < 3; axis++)
+        if (shade__key_value(most[axis]) - shade__key_value(least[axis]) >
+            shade__key_value(most[longest]) - shade__key_value(least[longest]))
+            longest = axis;
+    *low = least[longest];
+    *high = most[longest];
+    return longest;
+}
+/* Moves the triangles whose key is at most pivot to the front; returns how many there are. */
+static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count, int axis,
+                            uint32_t pivot)
+{
+    int front = 0;
+    for (int i = 0; i < count; i++) {
+        uint32_t *a = triangles + 3 * (size_t)front, *b = triangles + 3 * (size_t)i;
+        if (shade__centroid_key(m, b, axis) > pivot) continue;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t other = a[k];
+            a[k] = b[k];
+            b[k] = other;
+        }
+        front++;
+    }
+    return front;
+}
+/* Moves the first half by the longest axis to the front.  The pivot halves the range of values, and
+   after 8 steps that of keys, so that no list takes more than 40. */
+static void shade__split(const shade_mesh *m, uint32_t *triangles, int count, int half)
+{
+    uint32_t low, high;
+    const int axis = shade__longest_axis(m, triangles, count, &low, &high);
+    for (int step = 0; low < high; step++) {
+        const double middle = ((double)shade__key_value(low) + (double)shade__key_value(high)) / 2;
+        uint32_t pivot = low + (high - low) / 2;
+        if (step < 8 && middle >= -3e38 && middle <= 3e38) {
+            const uint32_t bits = shade__float_bits((float)middle + 0);
+            pivot = bits >> 31 ? ~bits : bits | 0x80000000u;
+            pivot = pivot < low ? low : pivot >= high ? high - 1 : pivot;
+        }
+        const int front = shade__partition(m, triangles, count, axis, pivot);
+        if (front == half) return;
+        if (front > half) {
+            count = front;
+            high = pivot;
+        } else {
+            triangles += 3 * (size_t)front;
+            count -= front;
+            half -= front;
+            low = pivot + 1;
+        }
+    }
+}
+/* Sorts triangles in space: halves of whole chunks, again and again. */
+static void shade__sort_triangles(const shade_mesh *m, uint32_t *triangles, int count, int chunk)
+{
+    while (count > chunk) {
+        const int half = ((count - 1) / chunk + 1) / 2 * chunk;
+        shade__split(m, triangles, count, half);
+        shade__sort_triangles(m, triangles, half, chunk);
+        triangles += 3 * (size_t)half;
+        count -= half;
+    }
+}
+/* The box around the finite corners of a chunk; low is above high where there are none. */
+static void shade__box_chunk(const shade_mesh *m, shade_chunk *c)
+{
+    c->low = shade_v3(FLT_MAX, FLT_MAX, FLT_MAX);
+    c->high = shade_neg(c->low);
+    for (uint32_t k = 3 * (uint32_t)c->first; k < 3 * (uint32_t)(c->first + c->count); k++) {
+        const shade_vec3 p = shade__corner(m, k);
+        if (!shade__within(p.x, FLT_MAX) || !shade__within(p.y, FLT_MAX) ||
+            !shade__within(p.z, FLT_MAX))
+            continue;
+        c->low = shade_min(c->low, p);
+        c->high = shade_max(c->high, p);
+    }
+}
+static int shade__chunk_size(int triangles) { return triangles ? triangles : SHADE__CHUNK; }
+SHADEDEF int shade_chunk_count(int index_count, int triangles)
+{
+    if (index_count <= 0 || index_count % 3 || triangles < 0) return 0;
+    return (index_count / 3 - 1) / shade__chunk_size(triangles) + 1;
+}
+SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
+                                        int capacity, uint32_t *indices)
+{
+    shade_mesh sorted;
+    shade_result result;
+    const int size = shade__chunk_size(triangles);
+    int corners, count;
+    if (!mesh || triangles < 0 || capacity < 0 || (!chunks && capacity))
+        return SHADE_ERROR_ARGUMENT;
+    sorted = *mesh;
+    sorted.chunks = NULL;
+    sorted.chunk_count = 0;
+    result = shade__check_mesh(&sorted);
+    if (!result) result = shade__check_corners(&sorted);
+    if (result) return result;
+    corners = shade__corner_count(&sorted);
+    count = shade_chunk_count(corners, triangles);
+    if (capacity < count) return SHADE_ERROR_CAPACITY;
+    if (indices && corners) {
+        for (int i = 0; i < corners; i++) indices[i] = shade__corner_index(mesh, (uint32_t)i);
+        shade__sort_triangles(mesh, indices, corners / 3, size);
+        sorted.indices = indices;
+        sorted.index_count = corners;
+    }
+    for (int i = 0, first = 0; i < count; i++, first += chunks[i - 1].count) {
+        chunks[i].first = first;
+        chunks[i].count = shade__min(size, corners / 3 - first);
+        shade__box_chunk(&sorted, &chunks[i]);
+    }
+    return SHADE_OK;
+}
 SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1)
 {
     return shade_dot(to_eye, n0) * shade_dot(to_eye, n1) <= 0;
@@ -5623,30 +5962,125 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
     return 1;
 }
 
+/* A ray in object space, its coordinates times the determinant of the model's matrix: component i
+   is along the cross product of the two other columns.  The sizes are those of the products that
+   vertices in world space are made of, for their rounding. */
+typedef struct shade__slabs {
+    double origin[3], direction[3], scale;    /* scale: the determinant */
+    double slack[3];                  /* |column| |column| of the cross product, times 2^-20 */
+    double size[3], far;              /* of the columns; of the last one and the ray's origin */
+    int affine;                       /* else there are no slabs */
+} shade__slabs;
+
+static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
+{
+    double column[4][3], normal[3], origin[3], direction[3];
+    s->affine = m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
+    for (int k = 0; k < 4; k++) shade__double3(shade__xyz(m->col[k]), column[k]);
+    shade__double3(ray.direction, direction);
+    shade__sub3(ray.origin, shade__xyz(m->col[3]), origin);
+    for (int k = 0; k < 3; k++)
+        s->size[k] = shade__size(column[k][0]) + shade__size(column[k][1]) +
+                     shade__size(column[k][2]);
+    for (int k = 0; k < 3; k++) {
+        const int a = k < 2 ? k + 1 : 0, b = k > 0 ? k - 1 : 2;
+        shade__cross3(column[a], column[b], normal);
+        s->origin[k] = shade__dot3(origin, normal);
+        s->direction[k] = shade__dot3(direction, normal);
+        s->slack[k] = s->size[a] * s->size[b] * (1 / 1048576.0);
+        s->scale = shade__dot3(column[k], normal);
+    }
+    s->far = shade__size(origin[0]) + shade__size(origin[1]) + shade__size(origin[2]);
+    for (int k = 0; k < 3; k++) s->far += 2 * shade__size(column[3][k]);
+}
+/* Where the ray may be inside the box of a triangle or a chunk, as rounding makes it: range[0] ..
+   range[1].  0 if it does not meet it.  A larger box never gives a smaller range, so that a
+   triangle is met through the box of its chunk if it is met through its own. */
+static int shade__slabs_met(const shade__slabs *s, shade_vec3 low, shade_vec3 high, double *range)
+{
+    double from[3], to[3], size = s->far;
+    range[0] = 0;
+    range[1] = DBL_MAX;
+    if (!s->affine || !(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
+    shade__double3(low, from);
+    shade__double3(high, to);
+    for (int k = 0; k < 3; k++) {
+        const double a = shade__size(from[k]), b = shade__size(to[k]);
+        size += s->size[k] * (a > b ? a : b);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double a = from[k] * s->scale, b = to[k] * s->scale, slack = s->slack[k] * size;
+        const double low_end = (a < b ? a : b) - slack - s->origin[k];
+        const double high_end = (a < b ? b : a) + slack - s->origin[k], d = s->direction[k];
+        if (d == 0) {
+            if (low_end > 0 || high_end < 0) return 0;
+            continue;
+        }
+        const double enter = (d > 0 ? low_end : high_end) / d;
+        const double leave = (d > 0 ? high_end : low_end) / d;
+        if (enter > range[0]) range[0] = enter;
+        if (leave < range[1]) range[1] = leave;
+    }
+    return !(range[0] > range[1]);
+}
+
+/* The nearest triangle so far. */
+typedef struct shade__hit { int triangle; float t; shade_vec3 barycentric; } shade__hit;
+
+/* A triangle counts where its point lies in its own box, and so in that of each chunk that has it:
+   a ray nearly in its plane, of which rounding leaves nothing, meets it in any order or never. */
+static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model, shade_ray ray,
+                                 const shade__slabs *slabs, int triangle, shade__hit *hit)
+{
+    shade_vec3 p[3], q[3], where;
+    double e[3], f[3], n[3], range[2];
+    float t;
+    for (uint32_t k = 0; k < 3; k++) q[k] = shade__corner(mesh, 3 * (uint32_t)triangle + k);
+    if (!shade__slabs_met(slabs, shade_min(q[0], shade_min(q[1], q[2])),
+                          shade_max(q[0], shade_max(q[1], q[2])), range))
+        return;
+    if (range[0] > (double)hit->t) return;
+    for (uint32_t k = 0; k < 3; k++) p[k] = shade_mat4_transform_point(*model, q[k]);
+    if (!shade_intersect(ray, p[0], p[1], p[2], &t, &where)) return;
+    if ((double)t < range[0] || (double)t > range[1] || t > hit->t) return;
+    if (t == hit->t && triangle > hit->triangle) return;
+    /* three points of a line, which rounding parts when they are turned */
+    if (!shade__edges3(q[0], q[1], q[2], e, f, n)) return;
+    hit->triangle = triangle;
+    hit->t = t;
+    hit->barycentric = where;
+}
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric)
 {
-    float nearest = FLT_MAX, at;    /* no intersection is as far */
-    shade_vec3 where;
-    int found = -1;
-    double e[3], f[3], n[3];
-    if (shade__check_shape(mesh, &ray) || shade__check_corners(mesh)) return -1;
-    model = shade__or_identity(model);
-    for (int i = 0; i < shade__corner_count(mesh) / 3; i++) {
-        shade_vec3 p[3], q[3];
-        for (uint32_t k = 0; k < 3; k++) {
-            q[k] = shade__corner(mesh, 3 * (uint32_t)i + k);
-            p[k] = shade_mat4_transform_point(model, q[k]);
-        }
-        if (!shade_intersect(ray, p[0], p[1], p[2], &at, &where) || at >= nearest) continue;
-        /* three points of a line, which rounding parts when they are turned */
-        if (!shade__edges3(q[0], q[1], q[2], e, f, n)) continue;
-        found = i;
-        nearest = at;
-        if (t) *t = at;
-        if (barycentric) *barycentric = where;
+    shade__slabs slabs;
+    shade__hit hit;
+    shade_chunk all;
+    const shade_chunk *chunk = &all;
+    int chunks = 1;
+    SHADE__ZERO(all);
+    if (shade__check_shape(mesh, &ray)) return -1;
+    all.low.x = 1;    /* above high: always looked into */
+    all.count = shade__corner_count(mesh) / 3;
+    if (mesh->chunks) {
+        chunk = mesh->chunks;
+        chunks = mesh->chunk_count;
     }
-    return found;
+    model = shade__or_identity(model);
+    shade__slabs_of(&model, ray, &slabs);
+    hit.triangle = -1;
+    hit.t = FLT_MAX;    /* no intersection is as far */
+    for (; chunks > 0; chunks--, chunk++) {
+        double range[2];
+        if (!shade__slabs_met(&slabs, chunk->low, chunk->high, range)) continue;
+        if (range[0] > (double)hit.t) continue;
+        if (shade__check_range(mesh, chunk)) return -1;
+        for (int i = 0; i < chunk->count; i++)
+            shade__pick_triangle(mesh, &model, ray, &slabs, chunk->first + i, &hit);
+    }
+    if (hit.triangle >= 0 && t) *t = hit.t;
+    if (hit.triangle >= 0 && barycentric) *barycentric = hit.barycentric;
+    return hit.triangle;
 }
 
 /*------------------------------------------------------------------------------------------ >>image
