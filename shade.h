@@ -2579,11 +2579,12 @@ typedef struct shade__queue {
 } shade__queue;
 
 /* The planes around what can be seen, in object space: left, right, top, bottom, near, far; outside
-   where k.(P, 1) < 0. */
+   where k.(P, 1) < 0.  Were size of float, gcc 12.2 would drop the stores to both: it addresses one
+   row by the other, at half the stride, and takes them for dead. */
 enum { SHADE__PLANES = 6 };
 typedef struct shade__frustum {
     double k[4][SHADE__PLANES];
-    float  size[4][SHADE__PLANES];    /* of the numbers that k was made of, for rounding */
+    double size[4][SHADE__PLANES];    /* of the numbers that k was made of, for rounding */
 } shade__frustum;
 /* The triangles of a draw, handed out in their order. */
 typedef struct shade__supply {
@@ -2748,8 +2749,8 @@ static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 lo
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
     SHADE__FOR(i, SHADE__PLANES) {
         double most = f->k[0][i] * cx + f->k[1][i] * cy + f->k[2][i] * cz + f->k[3][i];
-        double off = (double)f->size[0][i] * mx + (double)f->size[1][i] * my;
-        off += (double)f->size[2][i] * mz + (double)f->size[3][i];
+        double off = f->size[0][i] * mx + f->size[1][i] * my;
+        off += f->size[2][i] * mz + f->size[3][i];
         most += shade__size(f->k[0][i]) * hx;
         most += shade__size(f->k[1][i]) * hy;
         most += shade__size(f->k[2][i]) * hz;
@@ -4803,7 +4804,7 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, doub
     for (int k = 0; k < 4; k++) {
         const double a = (double)((const float *)&m->col[k])[row], w = (double)m->col[k].w;
         f->k[k][i] = sign * (a - limit * w);
-        f->size[k][i] = (float)(shade__size(a) + shade__size(limit * w));
+        f->size[k][i] = shade__size(a) + shade__size(limit * w);
     }
 }
 /* The planes of the clip rectangle, near and far.  The rectangle is that of whole pixels, half a
@@ -4813,7 +4814,6 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
 {
     const double w = t->width, h = t->height;
     int r[4];
-    SHADE__ZERO(*f);
     if (!shade__clip_rectangle(t, r)) SHADE__ZERO(r);
     shade__frustum_plane(clip_from_object, 0, 1, 2 * r[0] / w - 1, 0, f);
     shade__frustum_plane(clip_from_object, 0, -1, 2 * r[2] / w - 1, 1, f);
