@@ -87,6 +87,24 @@ plot "< grep '^triangles' '$build/bench_scaling.tsv'" using 2 : 3 with linespoin
          title "4 pixels each", \
      '' using 2 : 4 with linespoints lw 2 pt 7 title "at 1280 x 720"
 PLOT
+    bands() { echo "< grep -P '^bands\\t$1' '$build/bench_scaling.tsv'"; }    # row of the table, chunks
+    chart bench_bands 960,520 <<PLOT
+set title "One picture in bands: how many times as fast as one band, if each had a core" font ',13'
+set logscale xy 2
+set xlabel "bands"
+set xrange [1 : 64]
+set yrange [1 : 64]
+set xtics (1, 2, 4, 8, 16, 32, 64)
+set ytics (1, 2, 4, 8, 16, 32, 64)
+set key top left reverse Left
+plot x title "as many times as there are bands" lc rgb '#999999' dt 2, \
+     "$(bands '2 1')" using 3 : 4 with linespoints lw 2 pt 7 lc rgb '#3b6ea5' \
+         title "101k triangles in any order, sorted into chunks", \
+     "$(bands '0 1')" using 3 : 4 with linespoints lw 2 pt 7 lc rgb '#2f8f4e' \
+         title "in their own order, along the knot, in chunks", \
+     "$(bands '0 0')" using 3 : 4 with linespoints lw 2 pt 7 lc rgb '#cc4433' \
+         title "without chunks"
+PLOT
     chart bench_pixels 760,440 <<PLOT
 set title "Two triangles over the picture: ns per pixel"
 set logscale x

@@ -27,11 +27,14 @@ can_build() {
     "$@" -o "$build/probe" >/dev/null 2>&1
 }
 
-build_compare() {
+find_peer() {
     peer=
     if can_build c '#include <GL/osmesa.h>' $cc "$build/probe.c" -lOSMesa; then
         peer="-DHAVE_OSMESA"
     fi
+}
+build_compare() {
+    find_peer
     $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/compare.c bench/peers/osmesa.c \
         -o "$build/bench_compare" ${peer:+-lOSMesa} -lm
 }
@@ -85,10 +88,12 @@ kernel() {
 }
 
 scaling() {
-    $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/scaling.c -o "$build/scaling" -lm -pthread
-    echo "## Larger meshes, larger pictures, more threads"
+    find_peer
+    $cc $standard $flags $peer "-DBENCH_FLAGS=\"$flags\"" bench/scaling.c bench/peers/osmesa.c \
+        -o "$build/scaling" ${peer:+-lOSMesa} -lm -pthread
+    echo "## Larger meshes, larger pictures, more threads, less in sight"
     echo
-    "$build/scaling" $rounds --tsv "$build/bench_scaling.tsv"
+    MALLOC_TRIM_THRESHOLD_=1000000000 "$build/scaling" $rounds --tsv "$build/bench_scaling.tsv"
     echo
 }
 
