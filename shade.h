@@ -4765,14 +4765,18 @@ static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices
                                                          int vertex_count)
 {
     uint32_t highest[16] = { 0 };
+    int i = 0;
     if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
     if (!indices || !index_count) return SHADE_OK;
-    shade__highest_pick()(indices, index_count / 16, highest);
-    for (int i = index_count & ~15; i < index_count; i++)
+    if (SHADE__TWICE) {
+        i = index_count & ~15;
+        shade__highest_pick()(indices, i / 16, highest);
+        for (int k = 1; k < 16; k++)
+            if (highest[k] > highest[0]) highest[0] = highest[k];
+    }
+    for (; i < index_count; i++)
         if (indices[i] > highest[0]) highest[0] = indices[i];
-    for (int i = 0; i < 16; i++)
-        if (highest[i] >= (uint32_t)vertex_count) return SHADE_ERROR_INDEX;
-    return SHADE_OK;
+    return highest[0] < (uint32_t)vertex_count ? SHADE_OK : SHADE_ERROR_INDEX;
 }
 
 /*------------------------------------------------------------------------------------------ >>drive
@@ -4891,21 +4895,20 @@ static SHADE__COLD void shade__make_plan(const shade_target *t, const shade_pipe
     plan->half_height = (float)(t->height * 128);
 }
 
-/* The draw to a target that has been checked.  how: SHADE__OWN where the shaders are of this file,
-   SHADE__CORNERS where each index is a vertex of its own. */
+/* The draw to a target that has been checked.  pipe: a copy, which it changes.  how: SHADE__OWN
+   where the shaders are of this file, SHADE__CORNERS where each index is a vertex of its own. */
 enum { SHADE__OWN = 1, SHADE__CORNERS = 2 };
-static shade_result shade__run_draw(const shade_target *target, const shade_pipeline *pipeline,
-                                    int how, shade__supply *supply, shade_stats *stats)
+static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int how,
+                                    shade__supply *supply, shade_stats *stats)
 {
     shade__draw d;
-    shade_pipeline pipe = *pipeline;
     if (how & SHADE__CORNERS) supply->indices = NULL;
-    if (!pipe.fragment) pipe.may_discard = 0;
-    if (!pipe.fragment || (!target->color && !pipe.may_discard)) {    /* nobody reads them */
-        pipe.varyings = 0;
-        pipe.lod_texture = NULL;
+    if (!pipe->fragment) pipe->may_discard = 0;
+    if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* nobody reads them */
+        pipe->varyings = 0;
+        pipe->lod_texture = NULL;
     }
-    shade__make_plan(target, &pipe, how & SHADE__OWN, &d.plan);
+    shade__make_plan(target, pipe, how & SHADE__OWN, &d.plan);
     SHADE__ZERO(d.stats);
     SHADE__ZERO(d.batch.value);
     SHADE__ZERO(d.packet);
@@ -4944,11 +4947,14 @@ SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipelin
                                  shade_stats *stats)
 {
     shade__supply supply;
+    shade_pipeline pipe;
     shade_result result = shade__begin(target, pipeline && pipeline->vertex, stats);
     if (!result && (index_count < 0 || vertex_count < 0)) result = SHADE_ERROR_MESH;
     if (!result) result = shade__check_pipeline(pipeline);
     if (!result) result = shade__supply_all(indices, index_count, vertex_count, &supply);
-    return result ? result : shade__run_draw(target, pipeline, 0, &supply, stats);
+    if (result) return result;
+    pipe = *pipeline;
+    return shade__run_draw(target, &pipe, 0, &supply, stats);
 }
 
 /* Fills n bytes with a pattern of 256, whole vectors at a time. */
@@ -5119,8 +5125,9 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_texture *map;            /* NULL: none */
     int uv;                              /* the varying that is u, v behind it, if any is */
     int colored;                         /* the target has a picture */
-    shade_lighting lit[2];               /* all; at vertices what a map multiplies, and the rest */
-    shade__job job;                      /* of lit[0] */
+    shade_lighting lighting;             /* at vertices of a mapped mesh without what follows */
+    unsigned unmapped;                   /* terms that the map does not multiply */
+    shade__job job;                      /* of lighting */
 } shade__scene;
 
 enum {
@@ -5261,9 +5268,12 @@ static void shade__mesh_vertex(const void *uniforms, const shade_vertex_ids *SHA
     rows.normal = normal->x;
     rows.albedo = s->mesh->colors ? albedo->x : NULL;
     if (lit) shade__lit_packet(&s->job, &rows, out->varying[0]);
-    if (lit && s->map)
-        shade_lit_lanes(&s->lit[1], s->state->material, s->eye, &rows,
+    if (lit && s->map) {
+        shade_lighting rest = s->lighting;
+        rest.terms = s->unmapped;
+        shade_lit_lanes(&rest, s->state->material, s->eye, &rows,
                         (float *)out->varying + 3 * SHADE_LANES);
+    }
     if (s->state->fragment && !s->mesh->colors)
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
     if (s->map || (s->state->fragment && s->mesh->texcoords))
@@ -5352,19 +5362,20 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
     s->face_normals = !mesh->normals || state->shading == SHADE_SHADING_PER_FACE;
     s->map = mesh->texcoords ? state->diffuse_map : NULL;
     s->uv = shade__mesh_varyings(mesh, state) - 2;
-    s->lit[0] = s->lit[1] = state->lighting;
+    s->lighting = state->lighting;
+    s->unmapped = 0;
     if (s->map && state->shading != SHADE_SHADING_PER_FRAGMENT) {
         const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
         const unsigned matte = SHADE_TERM_AMBIENT | SHADE_TERM_DIFFUSE;
-        s->lit[0].terms = (terms & matte) | SHADE__TERM_NONE;
-        s->lit[1].terms = (terms & ~matte) | SHADE__TERM_NONE;
+        s->lighting.terms = (terms & matte) | SHADE__TERM_NONE;
+        s->unmapped = (terms & ~matte) | SHADE__TERM_NONE;
     }
-    shade__begin_job(&s->lit[0], state->material, s->eye, &s->job);
+    shade__begin_job(&s->lighting, state->material, s->eye, &s->job);
 }
 
 /* A function of its own, so that only meshes with chunks have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
-                                                       const shade_pipeline *p, int how,
+                                                       shade_pipeline *p, int how,
                                                        shade__supply *supply, shade_stats *stats)
 {
     const shade__scene *scene = (const shade__scene *)p->uniforms;
@@ -6171,6 +6182,10 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
+   1.1    2026-11-22   An error for each kind of argument; shade_explain; shade_rows, which takes
+                       the place of the last arguments of shade_lit_lanes; fragment shaders of draw
+                       states; chunks; SHADE_FORMAT_A8; shade_radians.  From here on the pixels
+                       are part of the interface: each 1.x draws those of 1.1, to the bit.
    1.0    2026-11-21   First numbered version: the equations of >>model for points and packets,
                        meshes, programmable shaders, textures, lines, normals, edges, rays.
 */

@@ -306,7 +306,7 @@ static void threads(void)
                                    SHADE_CULL_NONE), ORDER_OWN);
     printf("\nThreads, made and joined in every frame, with chunks and 8 bands a thread from one "
            "counter; wall clock, best of %d rounds in turns (the machine has %ld processors).\n\n"
-           "| scene | 1 thread, ms | 2 threads | 3 | 4 | same bits | llvmpipe with 2 threads, ms |\n"
+           "| scene | 1 thread, ms | 2 threads | 3 | 4 | same bits | llvmpipe, 2 threads, ms |\n"
            "|---|---|---|---|---|---|---|\n", rounds, sysconf(_SC_NPROCESSORS_ONLN));
     for (int i = 0; i < count; i++) {
         double best[MOST_THREADS] = { 1e30, 1e30, 1e30, 1e30 }, other;
@@ -360,8 +360,9 @@ static void strips(void)
             ms[on] += least_ms(&m, &strip, rounds);
         }
     }
-    printf("\nThe knot of 101k triangles, 320 x 240 in 15 strips: %.1f ms, with chunks %.1f: %.1f x. "
-           "Its chunks took %.0f ms to build, once.\n", ms[0], ms[1], ms[0] / ms[1], m.build_ms);
+    printf("\nThe knot of 101k triangles, 320 x 240 in 15 strips: %.1f ms, with chunks %.1f: "
+           "%.1f x. Its chunks took %.0f ms to build, once.\n",
+           ms[0], ms[1], ms[0] / ms[1], m.build_ms);
     free(t.color);
     free(t.depth);
     model_close(&m);
@@ -395,7 +396,7 @@ static double crowd_ms(model *m, const shade_target *t, int boxes, shade_stats *
 }
 static void crowd(void)
 {
-    static const char *const how[] = { "all drawn", "chunks", "chunks, and a box around each mesh" };
+    static const char *const how[] = { "whole meshes", "chunks", "and a box around each mesh" };
     model m;
     shade_target t;
     scene s = scene_dense("crowd", 250, 20);

@@ -349,11 +349,31 @@ TEST(readme, picking_finds_what_was_drawn)
     CHECK_SAY(drawn > 3900 && differ < drawn / 100, "%d drawn, %d differ", drawn, differ);
 }
 
+TEST(readme, chunks_draw_the_same_and_skip_what_is_not_seen)
+{
+    static float whole[MOST][4];
+    enum { W = 160, H = 120 };
+    shade_stats stats;
+    start(W, H, shade_v3(0, 4, 8), shade_v3(2, 1.4f, 0));
+    mesh.vertex_count = teapot_vertex_count(8);
+    mesh.index_count = teapot_index_count(8);
+    teapot_build(8, run_positions, run_normals, NULL, run_indices);
+    state.projection = shade_mat4_perspective(0.3f, W / (float)H, 0.5f, 50);
+    CHECK_INT(shade_draw_mesh(&target, &mesh, &state, NULL), SHADE_OK);
+    memcpy(whole, run_color, sizeof whole);
+    CHECK_INT(make_chunks(), SHADE_OK);
+    shade_clear(&target, shade_v4(0.02f, 0.02f, 0.05f, 1), 1);
+    CHECK_INT(shade_draw_mesh(&target, &mesh, &state, &stats), SHADE_OK);
+    CHECK(!memcmp(whole, run_color, sizeof whole[0] * W * H));
+    CHECK_SAY(stats.skipped > 500, "%lld of %lld skipped", stats.skipped, stats.triangles);
+}
+
 static const test_case readme_cases[] = {
     CASE(readme, program_draws_gold),           CASE(readme, three_lamps_shine_as_said),
     CASE(readme, floats_become_bytes),          CASE(readme, window_shows_the_target),
     CASE(readme, png_holds_the_target),         CASE(readme, shaders_draw_map_and_shadow),
     CASE(readme, picking_finds_what_was_drawn),
+    CASE(readme, chunks_draw_the_same_and_skip_what_is_not_seen),
 };
 static const test_section readme_section = SECTION(readme);
 
