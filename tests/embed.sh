@@ -8,9 +8,9 @@ TOP=$PWD CC=${CC:-cc}
 
 # A copy of what the projects need, and compilers that leave out what only makes drawing faster:
 # the same bits, compiled in an eighth of the time
-mkdir -p "$T/tree/build" "$T/bin"
+mkdir -p "$T/tree" "$T/bin"
 cp -R Makefile shade.h examples "$T/tree"
-E=$T/tree/examples/embed
+E=$T/tree/examples/embed B=$T/tree/build/embed
 compiler() {
     printf '#!/bin/sh\nexec %s -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED "$@" -O0\n' \
         "$2" >"$T/bin/$1"
@@ -36,7 +36,7 @@ commands() {
 }
 cc -O1 "$TOP/examples/compare.c" -lm -o "$T/compare"
 cc -O1 -I. examples/embed/cmake/*.c -lm -o "$T/saddle" && "$T/saddle" "$T/saddle.ppm"
-cc -O1 -I. examples/embed/meson/ball.c -lm -o "$T/ball" && "$T/ball" >"$T/ball.txt"
+cc -O1 -I. examples/embed/meson/*.c -lm -o "$T/ball" && "$T/ball" >"$T/ball.txt"
 alike() { "$T/compare" "$T/saddle.ppm" "$@"; }
 
 # ---- what it should be --------------------------------------------------------------------------
@@ -94,12 +94,25 @@ if there git; then
     (repository) >"$T/log" 2>&1 || { cat "$T/log"; failed=$((failed + 1)); }
 else left_out "git: FetchContent from a repository, submodule and wrap file"
 fi
+# The last -O of a file's line in compile_commands.json; nothing is compiled.
+level_of() {                    # the file's name, where it is built
+    grep -o '"command": ".*'"$1"'[^/]*"' "$2/compile_commands.json" | grep -oE ' -O[0-9sg]' | tail -n 1
+}
 built() {                       # where CMake builds
     cmake --build "$1" && "$1/saddle" "$1/drawn.ppm" && alike "$1/drawn.ppm"
 }
 if there cmake; then
     check "CMake, as the README says" commands "cmake -S"
-    check "the bits of the saddle" alike "$E/saddle.ppm"
+    check "the bits of the saddle" alike "$B/saddle.ppm"
+    optimised() {               # build type, flag of shade.c, flag of saddle.c
+        cmake -S "$E/cmake" -B "$T/b$1" -DCMAKE_BUILD_TYPE="$1" -DCMAKE_EXPORT_COMPILE_COMMANDS=1 \
+            -DFETCHCONTENT_SOURCE_DIR_SHADE="$T/tree" &&
+            same "$(level_of shade.c "$T/b$1")" "$2" && same "$(level_of saddle.c "$T/b$1")" "$3"
+    }
+    check "no build type: the implementation alone has -O2" optimised "" " -O2" ""
+    check "Debug: likewise" optimised Debug " -O2" ""
+    check "Release: what CMake takes" optimised Release " -O3" " -O3"
+    check "MinSizeRel: likewise" optimised MinSizeRel " -Os" " -Os"
     if there git; then
         cp -R "$E/cmake" "$T/fetch"
         check "CMake fetches" cmake -S "$T/fetch" -B "$T/fetch/b"
@@ -121,9 +134,13 @@ fi
 if there meson && there ninja; then
     if there pkg-config; then
         check "Meson, as the README says" commands "meson setup"
-        check "the installed header is taken" grep -q 'Run-time dependency shade found: YES 1.0' \
-            "$T/tree/build/meson/meson-logs/meson-log.txt"
-        check "the ball" sh -c "'$T/tree/build/meson/ball' | cmp - '$T/ball.txt'"
+        check "the installed header is taken" grep -q 'Run-time dependency shade found: YES 1\.' \
+            "$B/meson/meson-logs/meson-log.txt"
+        check "the ball" sh -c "'$B/meson/ball' | cmp - '$T/ball.txt'"
+        check "a debug build" env PKG_CONFIG_PATH="$B/prefix/share/pkgconfig" \
+            meson setup --buildtype=debug "$T/debug" "$E/meson"
+        check "the implementation has -O2 there" same "$(level_of shade.c "$T/debug")" " -O2"
+        check "the program has not" test "$(level_of ball.c "$T/debug")" != " -O2"
     else left_out "pkg-config: an installed header with Meson"
     fi
     if there git; then
@@ -140,14 +157,14 @@ fi
 if [ -x "$T/bin/c++" ] && printf '#include <bit>\n#include <glm/glm.hpp>\n' |
     c++ -std=c++20 -x c++ -fsyntax-only - 2>/dev/null; then
     check "GLM, as the README says" commands glm.cpp
-    check "the saddle but for GLM's roundings" alike --limit 2 --count 50 "$E/glm.ppm"
+    check "the saddle but for GLM's roundings" alike --limit 2 --count 50 "$B/glm.ppm"
 else left_out "C++20 with GLM"
 fi
 if [ -x "$T/bin/python3" ]; then
     check "Python, as the README says" commands saddle.py
     check "a PNG of 640 x 480, red green blue alpha" python3 -c "
 from PIL import Image
-image = Image.open('$E/saddle.png')
+image = Image.open('$B/saddle.png')
 assert image.size == (640, 480) and image.mode == 'RGBA', (image.size, image.mode)
 image.convert('RGB').save('$T/python.ppm')"
     check "the bits of the saddle" alike "$T/python.ppm"
@@ -155,8 +172,8 @@ else left_out "Python with numpy and Pillow"
 fi
 if printf '#include <linux/fb.h>\n' | cc -fsyntax-only -x c - 2>/dev/null; then
     check "the framebuffer, as the README says" commands framebuffer.c
-    check "no such device" sh -c "! '$T/tree/build/framebuffer' '$T/none'"
-    check "no device at all" sh -c "! '$T/tree/build/framebuffer' '$T/saddle.ppm'"
+    check "no such device" sh -c "! '$B/framebuffer' '$T/none'"
+    check "no device at all" sh -c "! '$B/framebuffer' '$T/saddle.ppm'"
     check "the device of the test" cc -O1 -I. tests/embed/framebuffer.c \
         examples/embed/cmake/saddle.c -lm -o "$T/framebuffer"
     "$T/framebuffer" "$T/device" >"$T/run" 2>"$T/messages"
@@ -177,7 +194,7 @@ golden() {                      # exit status, options
     same "$?" "$want"
 }
 red() {
-    tail -c +14 "$T/tree/build/golden/difference.ppm" | od -An -v -tu1 -w3 | grep -c '  0   0$'
+    tail -c +14 "$B/golden/difference.ppm" | od -An -v -tu1 -w3 | grep -c '  0   0$'
 }
 sed 's/PRESET_JADE/PRESET_RUBY/' examples/embed/cmake/saddle.c >"$E/cmake/saddle.c"
 check "a ruby is no jade" golden 1

@@ -1,6 +1,6 @@
 // glm.cpp - a program whose vectors and matrices are GLM's.  Arrays go to shade.h by pointer,
-// matrices, stored by columns there and here, as the same bits: std::bit_cast of C++20.
-#define SHADE_IMPLEMENTATION
+// matrices, stored by columns there and here, as the same bits: std::bit_cast of C++20.  The
+// implementation is in an object of its own, compiled from cmake/shade.c.
 #include "shade.h"
 #include <bit>
 #include <glm/glm.hpp>

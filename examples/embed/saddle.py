@@ -28,12 +28,13 @@ Target = struct(width=c_int, height=c_int, stride=c_int, format=c_int, color=c_v
                 depth=c_void_p, srgb=c_int, dither=c_int, clip=c_int * 4, rows=c_int * 2)
 Mesh = struct(positions=c_void_p, position_stride=c_int, normals=c_void_p, normal_stride=c_int,
               texcoords=c_void_p, texcoord_stride=c_int, colors=c_void_p, color_stride=c_int,
-              vertex_count=c_int, indices=c_void_p, index_count=c_int)
+              vertex_count=c_int, indices=c_void_p, index_count=c_int, chunks=c_void_p,
+              chunk_count=c_int)
 Lighting = struct(lights=c_void_p, light_count=c_int, ambient=Vec3, model=c_int, flags=c_uint,
                   terms=c_uint, cool=Vec3, warm=Vec3)
 State = struct(model=Mat4, view=Mat4, projection=Mat4, material=c_void_p, lighting=Lighting,
                shading=c_int, diffuse_map=c_void_p, transparency=c_float, alpha_cutoff=c_float,
-               raster=c_int * 5, depth_bias=c_float)
+               raster=c_int * 5, depth_bias=c_float, fragment=c_void_p, uniforms=c_void_p)
 
 N, WIDTH, HEIGHT = 33, 640, 480
 y, x = numpy.mgrid[-1:1:N * 1j, -1:1:N * 1j]

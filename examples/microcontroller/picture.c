@@ -1,6 +1,5 @@
 /* picture.c - a teapot on a tiled floor under a spotlight: 320 x 240 pixels of 5-6-5 bits with
    ordered dither and a depth buffer, by shaders of its own, without floating-point libraries. */
-#define SHADE_IMPLEMENTATION
 #include "picture.h"
 #include "teapot_table.h"
 

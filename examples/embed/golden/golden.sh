@@ -7,7 +7,7 @@
 #
 # SHADE is the directory of shade.h, OUT where pictures and programs go, CC the compiler.
 cd "$(dirname "$0")" || exit 2
-SHADE=${SHADE:-../../..} OUT=${OUT:-$SHADE/build/golden} CC=${CC:-cc}
+SHADE=${SHADE:-../../..} OUT=${OUT:-$SHADE/build/embed/golden} CC=${CC:-cc}
 mkdir -p "$OUT" || exit 2
 
 # the program under test, and what compares

@@ -1,6 +1,5 @@
 /* ball.c - the equation of light alone: a ball of characters, each as bright as shade_lit says.
    No target, no mesh, nothing drawn. */
-#define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include <stdio.h>
 
