@@ -12,17 +12,19 @@ typedef struct canvas {
     size_t color_bytes, depth_bytes;
 } canvas;
 
-enum { CANVAS_FORMATS = 5 };
+enum { CANVAS_FORMATS = 5, TEXTURE_FORMATS = 6 }; /* A8 is of textures alone */
 
 static size_t canvas_pixel_bytes(shade_format format)
 {
-    return format <= SHADE_FORMAT_BGRA8 ? 4 : format <= SHADE_FORMAT_RGB565_SWAPPED ? 2 : 16;
+    static const size_t bytes[TEXTURE_FORMATS] = { 4, 4, 2, 2, 16, 1 };
+    return bytes[format];
 }
 /* The greatest code of channel k (R, G, B, A); 0: no such channel, or floats. */
 static int canvas_most(shade_format format, int k)
 {
     static const int most565[4] = { 31, 63, 31, 0 };
     if (format == SHADE_FORMAT_RGBA32F) return 0;
+    if (format == SHADE_FORMAT_A8) return k == 3 ? 255 : 0;
     return format <= SHADE_FORMAT_BGRA8 ? 255 : most565[k];
 }
 /* The code of channel k in the bytes of a pixel; not RGBA32F. */
@@ -32,12 +34,17 @@ static int canvas_code_at(shade_format format, const unsigned char *p, int k)
     unsigned char native[2];
     uint16_t v;
     if (format == SHADE_FORMAT_RGBA8) return p[k];
+    if (format == SHADE_FORMAT_A8) return p[0];
     if (format == SHADE_FORMAT_BGRA8) return p[k < 3 ? 2 - k : k];
     native[0] = p[swapped], native[1] = p[!swapped];
     memcpy(&v, native, 2);
     return k == 0 ? v >> 11 : k == 1 ? v >> 5 & 63 : k == 2 ? v & 31 : 0;
 }
 static shade_format rnd_format(void) { return (shade_format)rnd_int(0, CANVAS_FORMATS - 1); }
+static shade_format rnd_texture_format(void)
+{
+    return (shade_format)rnd_int(0, TEXTURE_FORMATS - 1);
+}
 
 static int canvas_stride(const canvas *c)
 {

@@ -107,7 +107,7 @@ static void random_depth_mesh(depth_mesh *m)
         m->uv[k][0] = rnd_float(-1, 2), m->uv[k][1] = rnd_float(-1, 2);
         m->indices[k] = (uint32_t)rnd_int(0, corners - 1);
     }
-    m->map = texture_of(rnd_int(1, 40), rnd_int(1, 40), rnd_format());
+    m->map = texture_of(rnd_int(1, 40), rnd_int(1, 40), rnd_texture_format());
     m->map.filter = (shade_filter)rnd_int(0, 2);
     if (rnd_one_in(2)) m->memory = add_mipmaps(&m->map, m->levels);
     m->light = shade_point_light(shade_v3(1, 2, 3), shade_v3(1, 1, 1));

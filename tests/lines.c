@@ -717,7 +717,9 @@ TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
         const shade_line_state *state = &s;
         const shade_target *target = &c.target;
         shade_stats stats;
-        shade_result want = SHADE_ERROR_ARGUMENT;
+        shade_result want = k < 3                ? SHADE_ERROR_ARGUMENT
+                            : k < 6 || k == 18 ? SHADE_ERROR_MESH
+                                               : SHADE_ERROR_STATE;
         int count = 4;
         memset(&stats, CANVAS_BYTE, sizeof stats);
         switch (k) {

@@ -528,8 +528,8 @@ TEST(mesh, a_mesh_of_nothing_needs_no_positions)
     CHECK_INT(stats.triangles, 0);
     CHECK_INT(shade_mesh_normals(&mesh, &normal), SHADE_OK);
     mesh.vertex_count = 3;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_ERROR_ARGUMENT);
-    CHECK_INT(shade_mesh_normals(&mesh, &normal), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_ERROR_MESH);
+    CHECK_INT(shade_mesh_normals(&mesh, &normal), SHADE_ERROR_MESH);
     canvas_close(&c);
 }
 
@@ -619,7 +619,7 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
     for (int k = 0; k < 24; k++) {
         shade_mesh m = good;
         shade_draw_state s = state;
-        shade_result want = SHADE_ERROR_ARGUMENT;
+        shade_result want = k < 8 || (k > 14 && k < 18) ? SHADE_ERROR_MESH : SHADE_ERROR_STATE;
         m.normals = m.colors = m.texcoords = big_triangle;
         switch (k) {
         case 0:
@@ -647,10 +647,10 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
             m.index_count = -3;
             break;
         case 8:
-            s.lighting.lights = NULL;
+            s.lighting.lights = NULL, want = SHADE_ERROR_LIGHTS;
             break;
         case 9:
-            s.lighting.model = (shade_model)6;
+            s.lighting.model = (shade_model)6, want = SHADE_ERROR_LIGHTS;
             break;
         case 10:
             s.shading = (shade_shading)3;
@@ -693,7 +693,7 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
             break;
         default:
             m.indices = bad_indices, s.shading = (shade_shading)3;
-            break; /* arguments before indices */
+            break; /* the state before indices */
         }
         shade_result got = shade_draw_mesh(&c.target, &m, &s, NULL);
         CHECK_SAY(got == want, "case %d: got %d, want %d", k, (int)got, (int)want);
@@ -707,91 +707,25 @@ TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
     canvas_close(&c);
 }
 
-/* NULLs, target, other arguments, indices: of all that is wrong the first is said. */
-TEST(mesh, what_is_wrong_is_told_in_one_order)
+/* each of them, of every shading; the ends of the range are taken, also -0 */
+TEST(mesh, transparency_and_cutoff_lie_between_zero_and_one)
 {
-    static const uint32_t bad_indices[] = { 0, 1, 3 };
-    static const float out_of_range[] = { -0.001f, 1.0000001f, -INFINITY, INFINITY, NAN, -1, 2 };
-    for (int i = 0; i < 16 * 24; i++) {
-        int wrong = i % 16, how = i / 16;
-        canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
-        shade_draw_state s = plain_state(NULL);
-        shade_mesh m = plain_mesh(big_triangle, 3);
-        shade_stats stats;
-        const shade_target *target = &c.target;
-        const shade_mesh *mesh = &m;
-        const shade_draw_state *state = &s;
-        shade_result want = wrong & 1   ? SHADE_ERROR_ARGUMENT
-                            : wrong & 2 ? SHADE_ERROR_TARGET
-                            : wrong & 4 ? SHADE_ERROR_ARGUMENT
-                            : wrong & 8 ? SHADE_ERROR_INDEX
-                                        : SHADE_OK;
-        s.shading = random_shading();
-        memset(&stats, CANVAS_BYTE, sizeof stats);
-        if (wrong & 1) {
-            if (how % 4 == 0)
-                target = NULL;
-            else if (how % 4 == 1)
-                mesh = NULL;
-            else if (how % 4 == 2)
-                state = NULL;
-            else
-                m.positions = NULL;
-        }
-        if ((wrong & 2) && how % 3 == 0)
-            c.target.stride = 19;
-        else if ((wrong & 2) && how % 3 == 1)
-            c.target.color = NULL, c.target.depth = NULL;
-        else if (wrong & 2)
-            c.target.format = (shade_format)5;
-        if (wrong & 4) {
-            if (how < 7)
-                s.transparency = out_of_range[how];
-            else if (how < 14)
-                s.alpha_cutoff = out_of_range[how - 7];
-            else if (how == 14)
-                m.position_stride = -12;
-            else if (how == 15)
-                s.lighting.light_count = 1;
-            else if (how == 16)
-                s.shading = (shade_shading)3;
-            else if (how == 17)
-                s.lighting.model = (shade_model)6;
-            else if (how == 18)
-                s.raster.blend = (shade_blend)3;
-            else if (how == 19)
-                s.raster.cull = (shade_cull)-1;
-            else if (how == 20)
-                s.raster.depth_bias = (float)NAN;
-            else if (how == 21)
-                s.transparency = 2, s.alpha_cutoff = (float)NAN;
-            else if (how == 22)
-                m.texcoord_stride = 6;
-            else
-                s.raster.depth_test = (shade_compare)6;
-        }
-        if ((wrong & 8) && how % 2)
-            m.indices = bad_indices, m.index_count = 3;
-        else if (wrong & 8)
-            m.vertex_count = 2;
-        m.normals = how % 3 ? big_triangle : NULL;
-        CHECK_INT(shade_draw_mesh(target, mesh, state, &stats), want);
-        CHECK_INT(stats.triangles, want == SHADE_OK);
-        for (size_t k = 0; k < c.color_bytes && want != SHADE_OK; k++)
-            CHECK(c.color[CANVAS_GUARD + k] == CANVAS_BYTE);
-        for (size_t k = 0; k < c.depth_bytes && want != SHADE_OK; k++)
-            CHECK(c.depth[CANVAS_GUARD + k] == CANVAS_BYTE);
-        c.target.stride = 0, c.target.format = SHADE_FORMAT_RGBA8;
-        canvas_close(&c);
-    }
+    static const float bad[] = { -0.001f, 1.0000001f, -INFINITY, INFINITY, NAN, -NAN, -1, 2 };
+    static const float good[] = { 0, -0.0f, 1, 0.5f };
     canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
-    shade_draw_state s = plain_state(NULL);
     shade_mesh m = plain_mesh(big_triangle, 3);
-    s.shading = SHADE_SHADING_PER_FACE;
-    s.transparency = -0.0f, s.alpha_cutoff = -0.0f; /* are 0 */
-    CHECK_INT(shade_draw_mesh(&c.target, &m, &s, NULL), SHADE_OK);
-    s.transparency = s.alpha_cutoff = 1;
-    CHECK_INT(shade_draw_mesh(&c.target, &m, &s, NULL), SHADE_OK);
+    for (int i = 0; i < 2 * 12; i++) {
+        const int k = i / 2;
+        shade_draw_state s = plain_state(NULL);
+        float *field = i % 2 ? &s.transparency : &s.alpha_cutoff;
+        shade_stats stats;
+        s.shading = random_shading();
+        *field = k < 8 ? bad[k] : good[k - 8];
+        memset(&stats, CANVAS_BYTE, sizeof stats);
+        CHECK_INT(shade_draw_mesh(&c.target, &m, &s, &stats), k < 8 ? SHADE_ERROR_STATE : SHADE_OK);
+        CHECK_INT(stats.triangles, k >= 8);
+        if (k < 8) CHECK(canvas_bytes(&c, 10, 12)[0] == CANVAS_BYTE);
+    }
     canvas_close(&c);
 }
 
@@ -972,7 +906,7 @@ TEST(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut)
         int depth_only = rnd_one_in(4), fits = s.needs <= SHADE_MAX_VARYINGS;
         if (depth_only) c.target.color = NULL;
         CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, &stats),
-                  fits ? SHADE_OK : SHADE_ERROR_ARGUMENT);
+                  fits ? SHADE_OK : SHADE_ERROR_STATE);
         refused += !fits;
         for (int k = 0; k < ALPHA_W * ALPHA_H; k++) {
             int x = k % ALPHA_W, y = k / ALPHA_W;
@@ -1017,7 +951,7 @@ TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
     static alpha_scene s;
     static float texel[H][W][4], memory[H * W * 4];
     shade_texture levels[8];
-    shade_result want = SHADE_MAX_VARYINGS < 8 ? SHADE_ERROR_ARGUMENT : SHADE_OK;
+    shade_result want = SHADE_MAX_VARYINGS < 8 ? SHADE_ERROR_STATE : SHADE_OK;
     long holes = 0, drawn = 0;
     for (int i = 0; i < 60; i++) {
         canvas c = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA32F, 1);
@@ -1160,13 +1094,13 @@ TEST(mesh, vertex_normals_of_bad_meshes_are_refused)
     m.indices = good, m.index_count = 2;
     CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_INDEX);
     m.index_count = -3;
-    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
     m.index_count = 3, m.position_stride = 5;
-    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
     m.position_stride = -12;
-    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
     m.position_stride = 0, m.positions = NULL;
-    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
     float strange[9];
     for (int i = 0; i < 500; i++) { /* NaN and infinity do no harm */
         fill_nasty(strange, sizeof strange);
@@ -1193,7 +1127,7 @@ static const test_case mesh_cases[] = {
     CASE(mesh, a_nan_in_a_matrix_rejects_every_triangle),
     CASE(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero),
     CASE(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes),
-    CASE(mesh, what_is_wrong_is_told_in_one_order),
+    CASE(mesh, transparency_and_cutoff_lie_between_zero_and_one),
     CASE(mesh, a_bad_index_is_found_wherever_it_stands),
     CASE(mesh, a_degenerate_camera_draws_nothing_in_any_depth_convention),
     CASE(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut),

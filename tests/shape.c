@@ -507,11 +507,11 @@ TEST(shape, bad_corner_normal_calls_are_refused)
         case 4: at = (char *)memory + 2; break;
         case 5: room--, want = SHADE_ERROR_CAPACITY; break;
         case 6: room = 0, want = SHADE_ERROR_CAPACITY; break;
-        case 7: threshold = (float)NAN; break;
-        case 8: m.positions = NULL, bad_mesh = 1; break;
-        case 9: m.vertex_count = -1, bad_mesh = 1; break;
-        case 10: m.index_count = -3, bad_mesh = 1; break;
-        case 11: m.position_stride = 13, bad_mesh = 1; break;
+        case 7: threshold = (float)NAN, want = SHADE_ERROR_STATE; break;
+        case 8: m.positions = NULL, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
+        case 9: m.vertex_count = -1, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
+        case 10: m.index_count = -3, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
+        case 11: m.position_stride = 13, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
         case 12: m.index_count = 35, bad_mesh = 1, want = SHADE_ERROR_INDEX; break;
         default:
             m.indices = bad, m.index_count = 3, bad_mesh = 1, want = SHADE_ERROR_INDEX;
@@ -662,11 +662,11 @@ TEST(shape, bad_edge_calls_are_refused)
         case 1: list = NULL; break;
         case 2: where = NULL; break;
         case 3: room = -1; break;
-        case 4: m.positions = NULL; break;
+        case 4: m.positions = NULL, want = SHADE_ERROR_MESH; break;
         case 5: m.vertex_count = 7, want = SHADE_ERROR_INDEX; break;
         case 6: m.index_count = 34, want = SHADE_ERROR_INDEX; break;
-        case 7: m.index_count = -6; break;
-        default: m.position_stride = -12; break;
+        case 7: m.index_count = -6, want = SHADE_ERROR_MESH; break;
+        default: m.position_stride = -12, want = SHADE_ERROR_MESH; break;
         }
         CHECK_INT(shade_mesh_edges(mesh, list, room, where), want);
         if (where) CHECK_INT(count, 0);

@@ -117,7 +117,7 @@ static shade_texture random_texture(int most)
 {
     int w = rnd_one_in(5) ? 1 : rnd_int(1, most), h = rnd_one_in(5) ? 1 : rnd_int(1, most);
     if (rnd_one_in(4)) w = h = 1 << rnd_int(0, 4);
-    shade_texture t = texture_of(w, h, rnd_format());
+    shade_texture t = texture_of(w, h, rnd_texture_format());
     t.srgb = rnd_one_in(2);
     t.wrap_u = (shade_wrap)rnd_int(0, 2), t.wrap_v = (shade_wrap)rnd_int(0, 2);
     return t;
@@ -358,7 +358,7 @@ static void spoil_texture(shade_texture *t, int fault)
     case 6: t->height = 16385; break;
     case 7: t->stride = t->width - 1; break;
     case 8: t->stride = -4; break;
-    case 9: t->format = (shade_format)CANVAS_FORMATS; break;
+    case 9: t->format = (shade_format)TEXTURE_FORMATS; break;
     case 10: t->format = (shade_format)-1; break;
     case 11: t->wrap_u = (shade_wrap)3; break;
     case 12: t->wrap_v = (shade_wrap)99; break;
@@ -560,7 +560,7 @@ TEST(texture, sampling_a_packet_needs_coordinates_and_a_place)
 
 TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
 {
-    static const size_t cell[CANVAS_FORMATS] = { 4, 4, 2, 2, 16 };
+    static const size_t cell[TEXTURE_FORMATS] = { 4, 4, 2, 2, 16, 1 };
     for (int i = 0; i < 3000; i++) {
         int w = rnd_one_in(3) ? rnd_int(1, 16384) : rnd_int(1, 40), n = 0;
         int h = rnd_one_in(3) ? rnd_int(1, 16384) : rnd_int(1, 40);
@@ -570,7 +570,7 @@ TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
             cells += (size_t)a * (size_t)b;
         }
         CHECK_INT(shade_mipmap_count(w, h), n);
-        for (int f = 0; f < CANVAS_FORMATS; f++)
+        for (int f = 0; f < TEXTURE_FORMATS; f++)
             CHECK_INT(shade_mipmap_bytes(w, h, (shade_format)f), cells * cell[f]);
     }
     CHECK_INT(shade_mipmap_count(1, 1), 0);
@@ -580,7 +580,7 @@ TEST(texture, mipmap_counts_and_bytes_are_those_of_halving_downward)
     CHECK_INT(shade_mipmap_count(16385, 5), 0);
     CHECK_INT(shade_mipmap_bytes(5, 16385, SHADE_FORMAT_RGBA8), 0);
     CHECK_INT(shade_mipmap_bytes(0, 5, SHADE_FORMAT_RGBA8), 0);
-    CHECK_INT(shade_mipmap_bytes(8, 8, (shade_format)CANVAS_FORMATS), 0);
+    CHECK_INT(shade_mipmap_bytes(8, 8, (shade_format)TEXTURE_FORMATS), 0);
 }
 /* Texel (x, y) of a level of w x h texels: the mean of the rectangle of the level above that it
    covers, by area. */
@@ -671,7 +671,7 @@ TEST(texture, bad_mipmap_calls_are_refused_and_change_nothing)
     unsigned char *block = canvas_block(4096);
     void *memory = block + CANVAS_GUARD;
     for (int k = 0; k < 12; k++) {
-        shade_texture t = texture_of(13, 7, rnd_format()), levels[16], good;
+        shade_texture t = texture_of(13, 7, rnd_texture_format()), levels[16], good;
         shade_texture *list = levels, *texture = &t;
         void *at = memory;
         size_t bytes = shade_mipmap_bytes(13, 7, t.format);
@@ -685,11 +685,11 @@ TEST(texture, bad_mipmap_calls_are_refused_and_change_nothing)
         case 4: at = (unsigned char *)memory + 2; break;
         case 5: bytes--, want = SHADE_ERROR_CAPACITY; break;
         case 6: bytes = 0, want = SHADE_ERROR_CAPACITY; break;
-        case 7: t.pixels = NULL; break;
-        case 8: t.width = 0; break;
-        case 9: t.stride = 5; break;
-        case 10: t.format = (shade_format)7; break;
-        default: t.wrap_u = (shade_wrap)-1; break;
+        case 7: t.pixels = NULL, want = SHADE_ERROR_TEXTURE; break;
+        case 8: t.width = 0, want = SHADE_ERROR_TEXTURE; break;
+        case 9: t.stride = 5, want = SHADE_ERROR_TEXTURE; break;
+        case 10: t.format = (shade_format)TEXTURE_FORMATS, want = SHADE_ERROR_TEXTURE; break;
+        default: t.wrap_u = (shade_wrap)-1, want = SHADE_ERROR_TEXTURE; break;
         }
         CHECK_INT(shade_build_mipmaps(texture, list, at, bytes), want);
         CHECK(!t.mipmaps && t.mipmap_count == 0);
@@ -967,7 +967,7 @@ TEST(texture, a_bad_lod_texture_is_refused)
         p.interpolation = (shade_interpolation)(k % 3), p.raster.depth_test = SHADE_COMPARE_ALWAYS;
         if (k < 2 * TEXTURE_FAULTS) spoil_texture(&map, k / 2);
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats),
-                  k < 2 * TEXTURE_FAULTS ? SHADE_ERROR_ARGUMENT : SHADE_OK);
+                  k < 2 * TEXTURE_FAULTS ? SHADE_ERROR_TEXTURE : SHADE_OK);
         CHECK_INT(c.color[CANVAS_GUARD + 4 * 36], k < 2 * TEXTURE_FAULTS ? CANVAS_BYTE : 0);
         CHECK_INT(stats.triangles, k == 2 * TEXTURE_FAULTS);
         if (k == 2 * TEXTURE_FAULTS) break;
@@ -990,9 +990,9 @@ TEST(texture, a_lod_varying_beyond_the_varyings_is_refused)
         p.vertex = lod_vertex, p.fragment = lod_fragment, p.uniforms = &s, p.varyings = 5;
         p.lod_texture = &map, p.lod_varying = k;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL),
-                  k < 0 || k > 3 ? SHADE_ERROR_ARGUMENT : SHADE_OK);
+                  k < 0 || k > 3 ? SHADE_ERROR_TEXTURE : SHADE_OK);
         p.lod_varying = 2147483647 - (k + 2);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_ARGUMENT);
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_ERROR_TEXTURE);
         p.lod_texture = NULL;
         CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
     }
@@ -1083,7 +1083,7 @@ static void random_map_scene(map_scene *s, shade_shading shading)
         s->color[k] = map_color(1);
         s->uv[k][0] = rnd_float(-0.3, 1.5), s->uv[k][1] = rnd_float(-0.3, 1.5);
     }
-    s->map = texture_of(rnd_int(1, 12), rnd_int(1, 12), rnd_format());
+    s->map = texture_of(rnd_int(1, 12), rnd_int(1, 12), rnd_texture_format());
     s->map.srgb = rnd_one_in(2);
     s->map.wrap_u = (shade_wrap)rnd_int(0, 2), s->map.wrap_v = (shade_wrap)rnd_int(0, 2);
     if (rnd_one_in(2))
@@ -1226,7 +1226,7 @@ TEST(texture, a_bad_map_is_refused_before_a_pixel_changes)
         spoil_texture(&bad, k / 3);
         if (bad.stride == 0 && bad.width == 1) bad.stride = -1; /* width - 1, but tight */
         s.state.diffuse_map = &bad;
-        CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, &stats), SHADE_ERROR_ARGUMENT);
+        CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, &stats), SHADE_ERROR_TEXTURE);
         for (size_t i = 0; i < c.color_bytes; i++) CHECK(c.color[CANVAS_GUARD + i] == CANVAS_BYTE);
         for (size_t i = 0; i < c.depth_bytes; i++) CHECK(c.depth[CANVAS_GUARD + i] == CANVAS_BYTE);
         s.mesh.texcoords = NULL; /* then nobody looks at it */
