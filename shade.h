@@ -5067,11 +5067,10 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture 
                                           void *memory, size_t bytes)
 {
     shade_target from, to;
-    int count;
-    if (!texture) return SHADE_ERROR_ARGUMENT;
+    const int count = texture ? shade_mipmap_count(texture->width, texture->height) : 0;
+    if (!texture || (count && (!levels || !memory || (uintptr_t)memory % 4)))
+        return SHADE_ERROR_ARGUMENT;
     if (!shade__texture_good(texture)) return SHADE_ERROR_TEXTURE;
-    count = shade_mipmap_count(texture->width, texture->height);
-    if (count && (!levels || !memory || (uintptr_t)memory % 4)) return SHADE_ERROR_ARGUMENT;
     if (bytes < shade_mipmap_bytes(texture->width, texture->height, texture->format))
         return SHADE_ERROR_CAPACITY;
     SHADE__ZERO(from);
@@ -5691,13 +5690,14 @@ SHADEDEF size_t shade_mesh_corner_normals_bytes(const shade_mesh *mesh)
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *out, void *memory, size_t bytes)
 {
-    shade_result result = shade__check_shape(mesh, out);
+    const int corners = mesh ? shade__corner_count(mesh) : 0;
+    shade_result result = shade__check_shape(mesh, memory || !corners ? out : NULL);
     uint32_t *order, count;
     float *angle;
     shade_vec3 *face;
     if (result) return result;
-    count = (uint32_t)shade__corner_count(mesh);
-    if ((!memory && count) || (uintptr_t)memory % 4) return SHADE_ERROR_ARGUMENT;
+    count = (uint32_t)corners;
+    if ((uintptr_t)memory % 4) return SHADE_ERROR_ARGUMENT;
     if (cos_crease != cos_crease) return SHADE_ERROR_STATE;
     result = shade__check_corners(mesh);
     if (result) return result;

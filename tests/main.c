@@ -30,7 +30,9 @@
 #include "blocks.c"
 #include "drive.c"
 #include "mesh.c"
+#include "check.c"
 #include "texture.c"
+#include "own.c"
 #include "depth.c"
 #include "lines.c"
 #include "shape.c"
@@ -43,7 +45,8 @@ static const test_section sections[] = {
     SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
-    SECTION(depth),  SECTION(course),  SECTION(packets),
+    SECTION(depth),  SECTION(course),  SECTION(packets), SECTION(check),
+    SECTION(own),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 
