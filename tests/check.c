@@ -277,6 +277,28 @@ TEST(check, sizes_that_do_not_fit_are_arguments_behind_good_targets)
     canvas_close(&w.c);
 }
 
+/* Not as a format of colours, nor where there are none. */
+TEST(check, alpha_alone_is_no_format_of_a_target)
+{
+    for (const char *call = "DMLKRPDMLK"; *call; call++) {
+        whole_call w;
+        whole_open(&w);
+        w.picture.format = SHADE_FORMAT_A8;
+        if (strlen(call) <= 4) w.picture.color = NULL; /* depth alone */
+        if (SHADE_MAX_VARYINGS < 8) w.s.diffuse_map = NULL;
+        CHECK_INT(whole_result(&w, *call), SHADE_ERROR_TARGET);
+        for (size_t i = CANVAS_GUARD; i < CANVAS_GUARD + w.c.color_bytes; i++)
+            CHECK(w.c.color[i] == CANVAS_BYTE && w.c.depth[i] == CANVAS_BYTE);
+        canvas_close(&w.c);
+    }
+    whole_call w;
+    whole_open(&w);
+    w.half.format = SHADE_FORMAT_A8;
+    CHECK_INT(shade_resolve(&w.half, &w.picture, 2), SHADE_ERROR_TARGET);
+    CHECK_INT(shade_write_ppm("none.ppm", &w.half), SHADE_ERROR_TARGET);
+    canvas_close(&w.c);
+}
+
 TEST(check, every_result_names_its_fields_in_a_text_of_its_own)
 {
     static const char *const names[][11] = {
@@ -311,5 +333,6 @@ TEST(check, every_result_names_its_fields_in_a_text_of_its_own)
 static const test_case check_cases[] = {
     CASE(check, of_any_two_faults_the_first_category_is_told),
     CASE(check, sizes_that_do_not_fit_are_arguments_behind_good_targets),
+    CASE(check, alpha_alone_is_no_format_of_a_target),
     CASE(check, every_result_names_its_fields_in_a_text_of_its_own),
 };

@@ -170,6 +170,56 @@ check "program in the head comment" $CC -std=c99 -Wall -Wextra -Wno-missing-fiel
       -Werror -I. "$T/head.c" "$T/impl.o" -lm $pie -o "$T/head"
 check "program in the head comment runs" head_runs
 
+# a draw that needs more varyings than there are is a bad state; the same with enough is drawn
+cat >"$T/few.c" <<'END'
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+static void own(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    (void)in;
+    (void)out;
+}
+int main(void)
+{
+    static const float corner[9] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
+    static unsigned char pixels[256], texel[1];
+    shade_target target = { 8, 8, 0, SHADE_FORMAT_RGBA8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+    shade_texture map = { 0, 1, 1, 0, SHADE_FORMAT_A8, 0, SHADE_WRAP_REPEAT, SHADE_WRAP_REPEAT,
+                          SHADE_FILTER_NEAREST, 0, 0 };
+    target.color = pixels;
+    map.pixels = texel;
+    for (int k = 0; k < 16; k++) {    /* colours, a map, a shader; per fragment or per vertex */
+        const int color = k & 1, textured = k >> 1 & 1, shader = k >> 2 & 1, vertex = k >> 3;
+        int need = shader ? 11 : vertex ? textured ? 8 : 3 : 6 + 3 * color + 2 * textured, i;
+        shade_result want = need > SHADE_MAX_VARYINGS ? SHADE_ERROR_STATE : SHADE_OK;
+        shade_mesh mesh;
+        shade_draw_state state;
+        SHADE_MEMSET(&mesh, 0, sizeof mesh);
+        SHADE_MEMSET(&state, 0, sizeof state);
+        SHADE_MEMSET(pixels, 7, sizeof pixels);
+        mesh.positions = corner;
+        mesh.vertex_count = 3;
+        mesh.colors = color ? corner : 0;
+        mesh.texcoords = textured ? corner : 0;
+        state.diffuse_map = &map;
+        state.fragment = shader ? own : 0;
+        state.shading = vertex ? SHADE_SHADING_PER_VERTEX : SHADE_SHADING_PER_FRAGMENT;
+        if (shader && vertex) want = SHADE_ERROR_STATE;
+        if (shade_draw_mesh(&target, &mesh, &state, 0) != want) return 1 + k;
+        for (i = 0; i < 256 && pixels[i] == 7; i++) {}
+        if ((i < 256) != (want == SHADE_OK)) return 32 + k;
+    }
+    return 0;
+}
+END
+for n in 2 3 6 8 9 10 11; do
+    check "meshes with $n varyings" $CC -std=c99 $WARN -O0 -DSHADE_NO_DISPATCH -DSHADE_LANES=16 \
+          -DSHADE_MAX_VARYINGS=$n -I. "$T/few.c" -lm -o "$T/few"
+    check "meshes with $n varyings are drawn or refused" run "$T/few"
+done
+
 # options
 option() { printf '%s\n' "$@" '#define SHADE_IMPLEMENTATION' '#include "shade.h"' >"$T/option.c"; }
 option_check() {                # name, lines of the file

@@ -721,7 +721,49 @@ TEST(fragment, vertex_colours_smear_between_the_corners)
     canvas_close(&c);
 }
 
+/* The stack holds noise where the packets will lie. */
+#ifdef __GNUC__
+__attribute__((noinline))
+#endif
+static int fragment_poison(void)
+{
+    volatile unsigned char noise[200000];
+    for (int i = 0; i < 200000; i++) noise[i] = 0x3F;
+    return noise[0];
+}
+static long fragment_lod_packets;
+static void fragment_lod_is_zero(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                 shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    (void)out;
+    for (int i = 0; i < SHADE_LANES; i++) CHECK(float_bits(in->lod[i]) == 0);
+    fragment_lod_packets++;
+}
+TEST(fragment, without_a_lod_texture_lod_is_zero_in_every_packet)
+{
+    shade_vec4 clip[3];
+    scene s;
+    memset(&s, 0, sizeof s);
+    for (int k = 0; k < 3; k++) clip[k] = clip_corners[k];
+    s.clip = clip;
+    for (int i = 0; i < 6; i++) {
+        canvas c = canvas_open(61, 47, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_pipeline p = scene_pipeline(&s);
+        p.fragment = fragment_lod_is_zero;
+        p.interpolation = (shade_interpolation)(i % 3);
+        p.may_discard = i / 3;
+        canvas_clear(&c, 1);
+        fragment_lod_packets = 0;
+        CHECK(fragment_poison());
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        CHECK(fragment_lod_packets > 2);
+        canvas_close(&c);
+    }
+}
+
 static const test_case fragment_cases[] = {
+    CASE(fragment, without_a_lod_texture_lod_is_zero_in_every_packet),
     CASE(fragment, packets_are_full_but_the_last_of_a_batch),
     CASE(fragment, perspective_varyings_match_double_for_every_count),
     CASE(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones),

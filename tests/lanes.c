@@ -633,7 +633,122 @@ TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
     }
 }
 
+/* -------------------------------------------------------------------------------- shade_rows */
+
+/* The specular row multiplies k_s of its lane, and the rows that are NULL are 1: every combination
+   of the three, with the visibility of each lamp taken into its light. */
+typedef struct lane_rows {
+    lane_packet k;
+    float specular[3][SHADE_LANES], visibility[4][SHADE_LANES];
+    light_sample s;
+    shade_rows rows;
+} lane_rows;
+static void random_rows(lane_rows *r, int combination)
+{
+    random_sample(&r->s);
+    random_packet(&r->k, &r->s, d3_length(d3_from(r->s.P)) * 1e-2 + 1);
+    for (int i = 0; i < 3 * SHADE_LANES; i++)
+        r->specular[i / SHADE_LANES][i % SHADE_LANES] = rnd_one_in(8) ? 0 : rnd_float(0, 1);
+    for (int i = 0; i < 4 * SHADE_LANES; i++)
+        r->visibility[i / SHADE_LANES][i % SHADE_LANES] = rnd_one_in(4) ? 0 : rnd_float(0, 1);
+    memset(&r->rows, 0, sizeof r->rows);
+    r->rows.position = r->k.P[0];
+    r->rows.normal = r->k.N[0];
+    if (combination & 1) r->rows.albedo = r->k.albedo[0];
+    if (combination & 2) r->rows.specular = r->specular[0];
+    if (combination & 4) r->rows.visibility = r->visibility[0];
+}
+/* What a lane is lit with, as material and lamps of its own; its albedo is the oracle's. */
+static ref_lit ref_lane(const lane_rows *r, int i)
+{
+    shade_light lamps[4];
+    shade_lighting lighting = r->s.lighting;
+    shade_material m = r->s.material;
+    d3 albedo = r->rows.albedo ? d3_from(r->k.a[i]) : d3_of(1, 1, 1);
+    if (r->rows.specular)
+        m.specular = shade_mul(m.specular, shade_v3(r->specular[0][i], r->specular[1][i],
+                                                    r->specular[2][i]));
+    for (int j = 0; j < lighting.light_count && r->rows.visibility; j++) {
+        float seen = lighting.model == SHADE_MODEL_COOL_TO_WARM ? 1 : r->visibility[j][i];
+        lamps[j] = lighting.lights[j];
+        lamps[j].diffuse = shade_scale(lamps[j].diffuse, seen);
+        lamps[j].specular = shade_scale(lamps[j].specular, seen);
+    }
+    if (r->rows.visibility) lighting.lights = lamps;
+    return ref_light(&lighting, &m, d3_from(r->k.p[i]), d3_from(r->k.n[i]), d3_from(r->s.eye),
+                     albedo);
+}
+TEST(lanes, every_combination_of_rows_is_the_equation_of_its_lane)
+{
+    static lane_rows r;
+    long sure = 0, tinted = 0;
+    for (int round = 0; round < 800; round++) {
+        float rgb[3][SHADE_LANES];
+        random_rows(&r, round % 8);
+        for (int j = 0; j < r.s.lighting.light_count; j++)
+            if (r.s.lights[j].position.w != 0) r.s.lights[j].position.w = 1;
+        if (r.s.lighting.light_count > 4) r.s.lighting.light_count = 4;
+        shade_lit_lanes(&r.s.lighting, &r.s.material, r.s.eye, &r.rows, rgb[0]);
+        for (int i = 0; i < SHADE_LANES; i++) {
+            ref_lit want = ref_lane(&r, i);
+            if (want.unsure) continue;
+            check_color(__LINE__, "lane", shade_v3(rgb[0][i], rgb[1][i], rgb[2][i]), want.total,
+                        want.bound);
+            sure++;
+            tinted += r.rows.specular && d3_max(want.specular) > 0.01;
+        }
+    }
+    CHECK_SAY(sure > 300 * SHADE_LANES && tinted > 10 * SHADE_LANES, "%ld, %ld", sure, tinted);
+}
+/* each lane by shade_lit, with the products of its rows as its material */
+TEST(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers_of_two)
+{
+    static lane_rows r;
+    for (int round = 0; round < 200; round++) {
+        float rgb[3][SHADE_LANES];
+        random_rows(&r, round % 4);
+        for (int i = 0; i < 3 * SHADE_LANES; i++) {
+            r.k.albedo[i / SHADE_LANES][i % SHADE_LANES] = ldexpf(1, rnd_int(-4, 2));
+            r.specular[i / SHADE_LANES][i % SHADE_LANES] = ldexpf(1, rnd_int(-4, 2));
+        }
+        shade_lit_lanes(&r.s.lighting, &r.s.material, r.s.eye, &r.rows, rgb[0]);
+        for (int i = 0; i < SHADE_LANES; i += 3) {
+            shade_material m = r.s.material;
+            shade_vec3 a = shade_v3(r.k.albedo[0][i], r.k.albedo[1][i], r.k.albedo[2][i]);
+            if (!r.rows.albedo) a = shade_v3(1, 1, 1);
+            m.ambient = shade_mul(m.ambient, a);
+            m.diffuse = shade_mul(m.diffuse, a);
+            a = shade_v3(r.specular[0][i], r.specular[1][i], r.specular[2][i]);
+            if (r.rows.specular) m.specular = shade_mul(m.specular, a);
+            if (r.s.lighting.model == SHADE_MODEL_COOL_TO_WARM) break; /* a ramp is no k_d */
+            shade_vec3 c = shade_lit(&r.s.lighting, &m, r.s.eye, r.k.p[i], r.k.n[i]);
+            CHECK(c.x == rgb[0][i] && c.y == rgb[1][i] && c.z == rgb[2][i]);
+        }
+    }
+}
+TEST(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte)
+{
+    static lane_rows r;
+    random_rows(&r, 7);
+    for (int k = 0; k < 5; k++) {
+        float rgb[5][SHADE_LANES];
+        shade_rows rows = r.rows;
+        memset(rgb, CANVAS_BYTE, sizeof rgb);
+        if (k == 2) rows.position = NULL;
+        if (k == 3) rows.normal = NULL;
+        shade_lit_lanes(k == 0 ? NULL : &r.s.lighting, &r.s.material, r.s.eye,
+                        k == 1 ? NULL : &rows, k == 4 ? NULL : rgb[1]);
+        for (int i = 0; i < 5 * SHADE_LANES; i++) {
+            int black = k < 4 && i / SHADE_LANES > 0 && i / SHADE_LANES < 4;
+            CHECK(float_bits(rgb[i / SHADE_LANES][i % SHADE_LANES]) == (black ? 0 : 0xA5A5A5A5u));
+        }
+    }
+}
+
 static const test_case lanes_cases[] = {
+    CASE(lanes, every_combination_of_rows_is_the_equation_of_its_lane),
+    CASE(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers_of_two),
+    CASE(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte),
     CASE(lanes, a_term_that_is_off_reads_nothing),
     CASE(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite),
     CASE(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too),

@@ -573,7 +573,22 @@ TEST(matrix, near_beyond_far_and_left_beyond_right_are_cameras)
     }
 }
 
+TEST(matrix, radians_are_degrees_times_pi_over_180_to_the_last_bit)
+{
+    CHECK_NEAR(shade_radians(180), 3.14159265358979323846, 1.0 / (1 << 23));
+    CHECK(shade_radians(0) == 0);
+    for (int i = 0; i < 20000; i++) {
+        float degrees = i % 8 ? rnd_float(-720, 720) : rnd_sign() * rnd_log(1e-30, 1e30);
+        double want = (double)degrees * 3.14159265358979323846 / 180;
+        CHECK_NEAR(shade_radians(degrees), want, fabs(want) * (0.5000001 / (1 << 23)));
+    }
+    static const float odd[] = { NAN, INFINITY, -INFINITY };
+    CHECK(isnan(shade_radians(odd[0])));
+    for (int k = 1; k < 3; k++) CHECK(float_bits(shade_radians(odd[k])) == float_bits(odd[k]));
+}
+
 static const test_case matrix_cases[] = {
+    CASE(matrix, radians_are_degrees_times_pi_over_180_to_the_last_bit),
     CASE(matrix, columns_are_stored_one_after_the_other),
     CASE(matrix, simple_constructors_are_exact),
     CASE(matrix, products_and_transforms_match_double),

@@ -1286,7 +1286,104 @@ TEST(texture, bad_texture_coordinates_draw_a_defined_texel)
     }
 }
 
+/* --------------------------------------------------------------------------------- alpha alone */
+
+static shade_texture random_alpha_texture(int most)
+{
+    shade_texture t = texture_of(rnd_int(1, most), rnd_int(1, most), SHADE_FORMAT_A8);
+    t.wrap_u = (shade_wrap)rnd_int(0, 2);
+    t.wrap_v = (shade_wrap)rnd_int(0, 2);
+    t.filter = (shade_filter)rnd_int(0, 2);
+    return t;
+}
+/* R, G and B are 1 to the bit, between texels and levels too, and nothing is decoded */
+TEST(texture, a_texel_of_alpha_is_white_and_never_srgb)
+{
+    for (int i = 0; i < 300; i++) {
+        shade_texture t = random_alpha_texture(30), levels[16];
+        void *memory = add_mipmaps(&t, levels);
+        for (int k = 0; k < 60; k++) {
+            float u = random_coordinate(), v = random_coordinate(), lod = rnd_float(-1, 6);
+            t.srgb = 0;
+            shade_vec4 plain = shade_sample(&t, u, v, lod);
+            t.srgb = 1;
+            for (int n = 0; n < t.mipmap_count; n++) levels[n].srgb = 1;
+            shade_vec4 c = shade_sample(&t, u, v, lod);
+            CHECK(c.x == 1 && c.y == 1 && c.z == 1);
+            CHECK(float_bits(c.w) == float_bits(plain.w));
+        }
+        free(memory);
+        free_texture(&t);
+    }
+}
+/* One byte a texel, level behind level, each the mean of the areas it covers. */
+TEST(texture, mipmaps_of_alpha_are_means_in_one_byte_a_texel)
+{
+    for (int i = 0; i < 60; i++) {
+        int log_w = rnd_int(0, 5), log_h = rnd_int(0, 5);
+        shade_texture t = texture_of(1 << log_w, 1 << log_h, SHADE_FORMAT_A8), levels[16];
+        t.srgb = i % 2; /* changes nothing */
+        unsigned char *at = (unsigned char *)add_mipmaps(&t, levels), *memory = at;
+        for (int n = 0; n < log_w || n < log_h; n++)
+            CHECK_INT(levels[n].format, SHADE_FORMAT_A8);
+        for (int n = 0; n < log_w && n < log_h; n++) {
+            const shade_texture *level = &levels[n], *above = n ? &levels[n - 1] : &t;
+            const unsigned char *from = (const unsigned char *)above->pixels;
+            CHECK(level->pixels == at);
+            for (int k = 0; k < level->width * level->height; k++) {
+                const unsigned char *p = from + 2 * (k % level->width);
+                p += 2 * (size_t)(k / level->width) * texture_stride(above);
+                double mean = (p[0] + p[1] + p[texture_stride(above)]) / 4.0;
+                mean += p[texture_stride(above) + 1] / 4.0;
+                CHECK_SAY(fabs((double)at[k] - mean) <= 0.5 + 1e-4, "%d of mean %g", at[k], mean);
+            }
+            at += level->width * level->height;
+        }
+        free(memory);
+        free_texture(&t);
+    }
+}
+/* A mask: light is untouched, alpha is the byte's, cut and blended as any map's. */
+TEST(texture, a_map_of_alpha_masks_what_is_lit)
+{
+    static const float square[] = { -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0 };
+    static const float uv[] = { 0, 1, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0 };
+    shade_texture map = texture_of(16, 12, SHADE_FORMAT_A8);
+    const unsigned char *texel = (const unsigned char *)map.pixels;
+    map.filter = SHADE_FILTER_NEAREST;
+    for (int i = 0; i < 36 && SHADE_MAX_VARYINGS >= 8; i++) {
+        canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA32F, 1);
+        shade_mesh m = plain_mesh(square, 6);
+        shade_draw_state s = plain_state(NULL);
+        m.texcoords = uv;
+        s.shading = (shade_shading)(i % 3);
+        s.diffuse_map = &map;
+        s.lighting.ambient = grey(0.75);
+        s.raster.blend = i / 3 % 2 ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
+        s.alpha_cutoff = i / 6 % 2 ? 0.5f : 0;
+        s.transparency = (float)(i / 12) * 0.25f;
+        CHECK_INT(shade_clear(&c.target, shade_v4(0.25f, 0.25f, 0.25f, 0.5f), 1), SHADE_OK);
+        CHECK_INT(shade_draw_mesh(&c.target, &m, &s, NULL), SHADE_OK);
+        for (int k = 0; k < 16 * 12; k++) {
+            int x = k % 16, y = k / 16;
+            double a = texel[(size_t)y * texture_stride(&map) + (size_t)x] / 255.0;
+            a *= 1 - (double)s.transparency;
+            int seen = a >= (double)s.alpha_cutoff, over = s.raster.blend == SHADE_BLEND_OVER;
+            double want = over ? 0.75 * a + 0.25 * (1 - a) : 0.75;
+            double alpha = over ? a + 0.5 * (1 - a) : a;
+            CHECK_NEAR(canvas_float(&c, x, y, 1), seen ? want : 0.25, 1e-6);
+            CHECK_NEAR(canvas_float(&c, x, y, 3), seen ? alpha : 0.5, 1e-6);
+        }
+        canvas_close(&c);
+    }
+    CHECK(texel != NULL);
+    free_texture(&map);
+}
+
 static const test_case texture_cases[] = {
+    CASE(texture, a_texel_of_alpha_is_white_and_never_srgb),
+    CASE(texture, mipmaps_of_alpha_are_means_in_one_byte_a_texel),
+    CASE(texture, a_map_of_alpha_masks_what_is_lit),
     CASE(texture, a_bad_level_is_replaced_by_the_full_size),
     CASE(texture, sampling_a_packet_needs_coordinates_and_a_place),
     CASE(texture, texcoords_of_any_stride_give_the_same_bits),
