@@ -193,7 +193,8 @@ static const uint32_t *draw_indices(fuzz_input *in, draw_scene *s, int right, in
 }
 
 /* texture: where that of the level of detail is kept */
-static int draw_pipeline(fuzz_input *in, shade_pipeline *p, shade_texture *texture) /* 0: refused */
+/* SHADE_OK, or what the pipeline is refused with */
+static shade_result draw_pipeline(fuzz_input *in, shade_pipeline *p, shade_texture *texture)
 {
     int bad = 0;
     uint32_t kind = fuzz_byte(in);
@@ -211,10 +212,11 @@ static int draw_pipeline(fuzz_input *in, shade_pipeline *p, shade_texture *textu
         p->lod_varying = fuzz_one_in(in, 8) ? fuzz_wild_int(in) : fuzz_int(in, 0, 4);
         *texture = texture_open(in, 40, 0), p->lod_texture = kind & 32 ? texture : NULL;
     }
-    if (p->lod_texture)
-        bad |= !texture_is_good(texture) || p->lod_varying < 0 || p->lod_varying >= p->varyings - 1;
-    return !(bad || p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS ||
-             !fuzz_finite(p->raster.depth_bias));
+    if (bad || p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS ||
+        !fuzz_finite(p->raster.depth_bias)) return SHADE_ERROR_STATE;
+    if (p->lod_texture && (!texture_is_good(texture) || p->lod_varying < 0 ||
+                           p->lod_varying >= p->varyings - 1)) return SHADE_ERROR_TEXTURE;
+    return SHADE_OK;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -223,14 +225,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     picture pic;
     draw_scene s;
     uint32_t kind = fuzz_byte(&in);
-    int bad_index = 0, good_pipeline;
-    shade_result want;
+    int bad_index = 0;
+    shade_result want, pipeline;
     picture_open(&in, &pic, 40);
     memset(&s, 0, sizeof s);
     s.p.vertex = draw_vertex, s.p.uniforms = &s, s.pipeline = &s.p, s.tame = 1;
     s.kind = (int)(fuzz_byte(&in) % DRAW_KINDS);
     s.p.fragment = s.kind == DRAW_DEPTH_ONLY ? NULL : draw_fragment;
-    good_pipeline = draw_pipeline(&in, &s.p, &s.texture);
+    pipeline = draw_pipeline(&in, &s.p, &s.texture);
     s.vertex_count = fuzz_int(&in, 3, DRAW_VERTICES);
     s.index_count = 3 * fuzz_int(&in, 1, DRAW_TRIANGLES);
     if (fuzz_one_in(&in, 32)) s.vertex_count = fuzz_int(&in, -2, 2);
@@ -241,8 +243,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     s.attribute = draw_attributes(&in, &s, kind >> 2 & 1);
     if (!s.indices) bad_index = s.index_count > s.vertex_count;
     want = pic.want;
-    if (want == SHADE_OK && !good_pipeline) want = SHADE_ERROR_ARGUMENT;
-    if (want == SHADE_OK && (s.index_count < 0 || s.vertex_count < 0)) want = SHADE_ERROR_ARGUMENT;
+    if (want == SHADE_OK && (s.index_count < 0 || s.vertex_count < 0)) want = SHADE_ERROR_MESH;
+    if (want == SHADE_OK) want = pipeline;
     if (want == SHADE_OK && (s.index_count % 3 || bad_index)) want = SHADE_ERROR_INDEX;
     if (kind == 0xF0) s.p.vertex = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xF1) s.pipeline = NULL, want = SHADE_ERROR_ARGUMENT;

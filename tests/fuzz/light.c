@@ -177,6 +177,33 @@ static const float *light_visibility(fuzz_input *in, int lamps, float most)
     guard_seal(rows);
     return rows;
 }
+/* A row of 1 for k_s changes nothing; one of 0 leaves the specular term out; any gives the same bits
+   in every width. */
+static void light_tinted(fuzz_input *in, const shade_lighting *l, const shade_material *m,
+                         shade_vec3 eye, float *const *rows, float most)
+{
+    float a[3 * SHADE_LANES], b[3 * SHADE_LANES];
+    float *tint = (float *)guard_take(sizeof a, (int)fuzz_byte(in) & 1);
+    const unsigned terms = l->terms ? l->terms & 15 : 15;
+    shade_rows all = { rows[0], rows[1], rows[2], tint, NULL };
+    shade_lighting matte = *l;
+    matte.terms = terms & ~(unsigned)SHADE_TERM_SPECULAR;
+    for (int i = 0; i < 3 * SHADE_LANES; i++) tint[i] = 1;
+    shade_lit_lanes(l, m, eye, &all, a);
+    lit_rows(l, m, eye, rows[0], rows[1], rows[2], NULL, b);
+    HOLDS(!memcmp(a, b, sizeof a));
+    memset(tint, 0, sizeof a);
+    shade_lit_lanes(l, m, eye, &all, a);
+    if (matte.terms) lit_rows(&matte, m, eye, rows[0], rows[1], rows[2], NULL, b);
+    for (int i = 0; matte.terms && i < 3 * SHADE_LANES; i++) HOLDS(a[i] == b[i]);
+    for (int i = 0; i < 3 * SHADE_LANES; i++)
+        tint[i] = i % SHADE_LANES < 2 ? fuzz_value(in, most) : 1 - tint[i - 2];
+    guard_seal(tint);
+    shade_lit_lanes(l, m, eye, &all, a);
+    fuzz_level = (fuzz_level + 1) % (fuzz_widest() + 1);
+    shade_lit_lanes(l, m, eye, &all, b);
+    for (int i = 0; i < 3 * SHADE_LANES; i++) HOLDS(fuzz_same(a[i], b[i]) && fuzz_finite(a[i]));
+}
 /* Hidden lamps give their ambient light alone; lamps fully seen what they give without rows. */
 static void light_hidden(const shade_lighting *l, const shade_material *m, shade_vec3 eye,
                          float *const *rows, const float *albedo)
@@ -254,6 +281,7 @@ static void light_scene(fuzz_input *in, int tame)
         HOLDS(!tame || (fuzz_same(rows[3][i], again[i]) && fuzz_finite(rows[3][i])));
     }
     if (tame) light_hidden(&l, given, eye, rows, albedo);
+    if (tame) light_tinted(in, &l, given, eye, rows, bright);
     if (l.lights && l.light_count > 0) light_arriving(&l.lights[0], rows[0], tame);
     for (int i = 0; i < 8; i++) {
         shade_vec3 P = shade_v3(rows[0][i], rows[0][i + SHADE_LANES], rows[0][i + 2 * SHADE_LANES]);

@@ -77,8 +77,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         s.point_count = fuzz_int(&in, -3, 2);
         if (s.point_count <= 0 && fuzz_one_in(&in, 2)) s.points = NULL;
     }
-    if (want == SHADE_OK && (bad || s.point_count < 0 || s.point_count % 2))
-        want = SHADE_ERROR_ARGUMENT;
+    if (want == SHADE_OK && (s.point_count < 0 || s.point_count % 2)) want = SHADE_ERROR_MESH;
+    if (want == SHADE_OK && bad) want = SHADE_ERROR_STATE;
     if (fuzz_one_in(&in, 128)) s.given = NULL, want = SHADE_ERROR_ARGUMENT;
     picture_try(&in, &pic, lines_call, NULL, &s, want, s.point_count,
                 s.state.raster.depth_read_only);

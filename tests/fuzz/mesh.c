@@ -11,6 +11,7 @@ typedef struct mesh_scene {
     shade_material material;
     shade_light lights[MESH_LIGHTS];
     shade_texture map, levels[20];
+    int tame;
 } mesh_scene;
 
 static shade_result mesh_call(void *user, const shade_target *target, shade_stats *stats)
@@ -19,6 +20,33 @@ static shade_result mesh_call(void *user, const shade_target *target, shade_stat
     shade_result result = shade_draw_mesh(target, s->mesh, s->state, stats);
     HOLDS(result != SHADE_OK || !fuzz_is_no_camera(s->s.projection) || !stats->drawn);
     return result;
+}
+/* A fragment shader of the state: what it is handed, then colours and holes made of it. */
+static void mesh_check_fragment(const mesh_scene *s, const shade_fragments *in, int i)
+{
+    const int last = in->count - 1, tame = s->tame;
+    HOLDS(in->primitive[i] < (uint32_t)(s->m.indices ? s->m.index_count : s->m.vertex_count) / 3);
+    HOLDS(in->front[i] <= 1 && in->z[i] >= 0 && in->z[i] <= 1);
+    HOLDS(in->x[i] > 0 && in->y[i] > 0);
+    if (!s->m.texcoords || !s->s.diffuse_map) HOLDS(in->lod[i] == 0);
+    for (int k = 0; k < 11; k++) {
+        const float v = in->varying[k][i];
+        HOLDS(!tame || fuzz_finite(v));
+        if (tame && k > 5 && k < 9 && !s->m.colors) HOLDS(v > 0.999f && v < 1.001f);
+        if (tame && k > 8 && !s->m.texcoords) HOLDS(v == 0);
+        HOLDS(i <= last || fuzz_same(v, in->varying[k][last]));
+    }
+}
+static void mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                          shade_colors *SHADE_RESTRICT out)
+{
+    const mesh_scene *s = (const mesh_scene *)uniforms;
+    HOLDS(in->count >= 1 && in->count <= SHADE_LANES);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        mesh_check_fragment(s, in, i);
+        for (int k = 0; k < 4; k++) out->color[k][i] = in->varying[3 + k][i];
+        out->discard[i] = in->varying[10][i] > 0.5f ? in->primitive[i] : 0;
+    }
 }
 /* The same triangles in another shading, or into depth alone: the same alpha, the same depth. */
 static shade_result mesh_otherwise(void *user, const shade_target *target, shade_stats *stats)
@@ -163,20 +191,28 @@ static int mesh_alpha(fuzz_input *in, mesh_scene *s) /* 0: refused */
     if ((kind & 7) == 7) *cutoff = 1 - *t; /* equal alpha is drawn */
     return *t >= 0 && *t <= 1 && *cutoff >= 0 && *cutoff <= 1;
 }
+static int mesh_shader(fuzz_input *in, mesh_scene *s)    /* 0: refused */
+{
+    if (!fuzz_one_in(in, 4)) return 1;
+    s->s.fragment = mesh_fragment;
+    s->s.uniforms = s;
+    if (!fuzz_one_in(in, 8)) s->s.shading = SHADE_SHADING_PER_FRAGMENT;
+    return s->s.shading == SHADE_SHADING_PER_FRAGMENT;
+}
 /* One field that has to be refused: its result, or SHADE_OK where nothing was spoilt. */
 static shade_result mesh_spoil(fuzz_input *in, mesh_scene *s)
 {
     int wild = fuzz_wild_int(in), bad = wild < 0 || wild % 4;
     if (bad || fuzz_one_in(in, 2)) switch (fuzz_byte(in) % 6) {
-        case 0: s->m.position_stride = bad ? wild : -4; return SHADE_ERROR_ARGUMENT;
-        case 1: s->m.normal_stride = bad ? wild : -4; return SHADE_ERROR_ARGUMENT;
-        case 2: s->m.texcoord_stride = bad ? wild : -4; return SHADE_ERROR_ARGUMENT;
-        case 3: s->m.color_stride = bad ? wild : -4; return SHADE_ERROR_ARGUMENT;
-        case 4: s->m.vertex_count = -1; return SHADE_ERROR_ARGUMENT;
+        case 0: s->m.position_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
+        case 1: s->m.normal_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
+        case 2: s->m.texcoord_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
+        case 3: s->m.color_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
+        case 4: s->m.vertex_count = -1; return SHADE_ERROR_MESH;
         default:
             if (!s->m.indices) return SHADE_OK;
             s->m.index_count = INT_MIN;
-            return SHADE_ERROR_ARGUMENT;
+            return SHADE_ERROR_MESH;
     }
     return SHADE_OK;
 }
@@ -198,13 +234,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     picture pic;
     uint32_t kind = fuzz_byte(&in);
     float most = kind & 1 ? 1e5f : 0;
-    int bad = 0, bad_index = 0, good_light, good_map = 1, good_alpha, triangles;
+    int bad = 0, bad_index = 0, good_light, good_map = 1, triangles;
     shade_result want;
     picture_open(&in, &pic, 32);
     pic.one_width = !(most > 0);
     want = pic.want;
     memset(&s, 0, sizeof s);
     s.mesh = &s.m, s.state = &s.s;
+    s.tame = most > 0;
     s.s.model = fuzz_matrix(&in, most), s.s.view = fuzz_matrix(&in, most);
     s.s.projection = fuzz_matrix(&in, most);
     s.s.shading = (shade_shading)fuzz_enum(&in, 3, &bad);
@@ -217,10 +254,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     good_light = mesh_lighting(&in, &s, most);
     mesh_arrays(&in, &s, most, &bad_index);
     if (kind & 16) good_map = mesh_map(&in, &s, most > 0);
-    good_alpha = mesh_alpha(&in, &s);
+    bad |= !mesh_alpha(&in, &s);
+    if (!bad) bad = !mesh_shader(&in, &s);
     triangles = (s.m.indices ? s.m.index_count : s.m.vertex_count) / 3;
-    if (want == SHADE_OK && (bad || !good_light || !good_map || !good_alpha))
-        want = SHADE_ERROR_ARGUMENT;
+    if (want == SHADE_OK && bad) want = SHADE_ERROR_STATE;
+    if (want == SHADE_OK && !good_light) want = SHADE_ERROR_LIGHTS;
+    if (want == SHADE_OK && !good_map) want = SHADE_ERROR_TEXTURE;
     if (want == SHADE_OK && bad_index) want = SHADE_ERROR_INDEX;
     if (fuzz_one_in(&in, 32)) {
         shade_result spoilt = mesh_spoil(&in, &s);
@@ -228,8 +267,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     if (kind == 0xE0) s.mesh = NULL, want = SHADE_ERROR_ARGUMENT;
     if (kind == 0xE2) s.state = NULL, want = SHADE_ERROR_ARGUMENT;
-    if (kind == 0xE4 && s.m.vertex_count > 0) s.m.positions = NULL, want = SHADE_ERROR_ARGUMENT;
-    picture_try(&in, &pic, mesh_call, mesh_otherwise, &s, want, triangles,
+    if (kind == 0xE4 && s.m.vertex_count > 0) {
+        s.m.positions = NULL;
+        if (want != SHADE_ERROR_TARGET) want = SHADE_ERROR_MESH;
+    }
+    picture_try(&in, &pic, mesh_call, s.s.fragment ? NULL : mesh_otherwise, &s, want, triangles,
                 s.s.raster.depth_read_only);
     if (most > 0 && want == SHADE_OK) mesh_finite(&pic, &pic.target);
     picture_close(&pic);

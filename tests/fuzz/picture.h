@@ -14,11 +14,11 @@ typedef struct picture {
     uint8_t *before, *after;             /* copies: color, then depth */
 } picture;
 
-enum { FUZZ_FORMATS = 5 };
+enum { FUZZ_FORMATS = 5, FUZZ_TEXTURES = 6 };    /* of targets, of textures */
 static inline size_t fuzz_pixel_bytes(shade_format format)
 {
-    static const uint8_t bytes[FUZZ_FORMATS] = { 4, 4, 2, 2, 16 };
-    return (unsigned)format < FUZZ_FORMATS ? bytes[format] : 16;
+    static const uint8_t bytes[FUZZ_TEXTURES] = { 4, 4, 2, 2, 16, 1 };
+    return (unsigned)format < FUZZ_TEXTURES ? bytes[format] : 16;
 }
 static inline size_t fuzz_cells(int rows, int stride, int width)
 {
@@ -285,7 +285,7 @@ static inline int texture_is_good(const shade_texture *t)
 {
     return t->pixels && t->width >= 1 && t->width <= 16384 && t->height >= 1 &&
            t->height <= 16384 && (!t->stride || t->stride >= t->width) && (int)t->format >= 0 &&
-           (int)t->format < FUZZ_FORMATS && (int)t->wrap_u >= 0 && (int)t->wrap_u <= 2 &&
+           (int)t->format < FUZZ_TEXTURES && (int)t->wrap_u >= 0 && (int)t->wrap_u <= 2 &&
            (int)t->wrap_v >= 0 && (int)t->wrap_v <= 2 && (int)t->filter >= 0 && (int)t->filter <= 2;
 }
 /* Pixels end with the last one.  tame: good, and its floats are in [0, 2). */
@@ -298,7 +298,8 @@ static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
     uint8_t *pixels;
     memset(&t, 0, sizeof t);
     t.width = fuzz_int(in, 1, most), t.height = fuzz_int(in, 1, most);
-    t.format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS), t.srgb = kind & 1;
+    t.format = (shade_format)(fuzz_byte(in) % FUZZ_TEXTURES);
+    t.srgb = kind & 1;
     t.wrap_u = (shade_wrap)(fuzz_byte(in) % 3), t.wrap_v = (shade_wrap)(fuzz_byte(in) % 3);
     t.filter = (shade_filter)(fuzz_byte(in) % 3);
     if (kind & 2) t.stride = t.width + fuzz_int(in, 0, 5);
@@ -327,7 +328,7 @@ static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
     case 5: t.height = 16385; break;
     case 6: t.stride = fuzz_one_in(in, 2) ? INT_MIN : t.width > 1 ? t.width - 1 : -1; break;
     default:
-        t.format = (shade_format)(FUZZ_FORMATS + fuzz_byte(in));
+        t.format = (shade_format)(FUZZ_TEXTURES + fuzz_byte(in));
         break;
     }
     return t;

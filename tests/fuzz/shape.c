@@ -68,11 +68,11 @@ static shape_mesh shape_open(fuzz_input *in)
     if (s.corners % 3) s.want = SHADE_ERROR_INDEX;
     if ((kind & 0xE0) != 0xE0) return s;
     switch (fuzz_byte(in) % 8) {
-    case 0: s.m.vertex_count = -1, s.want = SHADE_ERROR_ARGUMENT; break;
-    case 1: s.m.position_stride = -4, s.want = SHADE_ERROR_ARGUMENT; break;
-    case 2: s.m.color_stride = 6, s.want = SHADE_ERROR_ARGUMENT; break;
-    case 3: if (n) s.m.positions = NULL, s.want = SHADE_ERROR_ARGUMENT; break;
-    case 4: if (indices) s.m.index_count = -3, s.want = SHADE_ERROR_ARGUMENT; break;
+    case 0: s.m.vertex_count = -1, s.want = SHADE_ERROR_MESH; break;
+    case 1: s.m.position_stride = -4, s.want = SHADE_ERROR_MESH; break;
+    case 2: s.m.color_stride = 6, s.want = SHADE_ERROR_MESH; break;
+    case 3: if (n) s.m.positions = NULL, s.want = SHADE_ERROR_MESH; break;
+    case 4: if (indices) s.m.index_count = -3, s.want = SHADE_ERROR_MESH; break;
     default: break;
     }
     return s;
@@ -148,7 +148,7 @@ static void shape_corner_normals(fuzz_input *in, const shape_mesh *s)
     if ((kind & 0xF0) == 0xF0 && need) bytes = fuzz_byte(in) % need;
     memory = guard_take((bytes + 3) & ~(size_t)3, kind >> 1 & 1);
     fuzz_noise(memory, (bytes + 3) & ~(size_t)3, 4);
-    if (want == SHADE_OK && crease != crease) want = SHADE_ERROR_ARGUMENT;
+    if (want != SHADE_ERROR_MESH && crease != crease) want = SHADE_ERROR_STATE;
     if (want == SHADE_OK && bytes < need) want = SHADE_ERROR_CAPACITY;
     HOLDS(shade_mesh_corner_normals(&s->m, crease, out, memory, bytes) == want);
     if (want != SHADE_OK) return;
@@ -173,7 +173,7 @@ static void shape_edges(fuzz_input *in, const shape_mesh *s)
     if (kind & 2) capacity = fuzz_int(in, -1, s->corners);
     edges = (shade_edge *)guard_take(sizeof *edges * (size_t)(capacity > 0 ? capacity : 0),
                                      kind & 1);
-    if (want == SHADE_OK && capacity < 0) want = SHADE_ERROR_ARGUMENT;
+    if (want != SHADE_ERROR_MESH && capacity < 0) want = SHADE_ERROR_ARGUMENT;
     if (want == SHADE_OK && capacity < s->corners) want = SHADE_ERROR_CAPACITY;
     HOLDS(shade_mesh_edges(&s->m, edges, capacity, NULL) == SHADE_ERROR_ARGUMENT);
     HOLDS(shade_mesh_edges(&s->m, edges, capacity, &count) == want);
