@@ -19,7 +19,7 @@ int main(int argc, char **argv)
     canvas c = canvas_new(960, 490, 2);
     char text[40];
 
-    state.model = shade_mat4_rotation(1.5707963f, shade_v3(1, 0, 0));    /* upright */
+    state.model = shade_mat4_rotation(shade_radians(90), shade_v3(1, 0, 0));    /* upright */
     state.projection = shade_mat4_ortho(-0.98f, 0.98f, -0.98f, 0.98f, 1, 10);
     state.view = shade_mat4_translation(shade_v3(0, 0, -5));
     state.lighting.ambient = shade_v3(0.08f, 0.09f, 0.12f);
@@ -29,7 +29,7 @@ int main(int argc, char **argv)
         float e = i < 5 ? exponent[i] : 0, beta = i < 5 ? 25 : degrees[i - 5];
         shade_target panel = canvas_panel(&c, x + 2, y, 188, 188);
         shade_light lamp = shade_spot_light(shade_v3(0, 0, 2), shade_v3(0, 0, -1),
-                                            beta * 0.017453293f, e, shade_v3(1, 0.95f, 0.85f));
+                                            shade_radians(beta), e, shade_v3(1, 0.95f, 0.85f));
         state.lighting.lights = &lamp;
         shade_draw_mesh(&panel, &plane.view, &state, NULL);
         sprintf(text, i < 5 ? "e = %d" : "β = %d°", (int)(i < 5 ? e : beta));

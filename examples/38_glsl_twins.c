@@ -41,7 +41,7 @@ int main(int argc, char **argv)
     size_t vertices = (size_t)ring.view.vertex_count;
     twin_uniforms u = { .direction = { 0, 0, -1, 0 }, .p = ring.positions, .n = ring.normals };
     u.View = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-    u.Projection = shade_mat4_perspective(67 * 0.01745329252f, 320 / 270.0f, 0.2f, 10);
+    u.Projection = shade_mat4_perspective(shade_radians(67), 320 / 270.0f, 0.2f, 10);
     u.Model = shade_mat4_rotation(0.8f, shade_v3(1, 0, 0));
     u.Normal = shade_normal_matrix(shade_mat4_mul(u.View, u.Model));
     u.color = ring.colors = (float *)example_memory(vertices, 3 * sizeof(float));

@@ -89,7 +89,7 @@ int main(int argc, char **argv)
     progress p = { clock(), "", -1, 0, 0 };
     model m = { 0 };
     int said;
-    o.rotate = 30 * 0.017453292f;
+    o.rotate = shade_radians(30);
     o.material = clay();
     said = read_options(&o, argc, argv);
     if (said) return said > 0;

@@ -16,7 +16,7 @@ typedef struct camera {
    sideways shift that centres. */
 static camera camera_frame(const owned_mesh *m, float aspect)
 {
-    const float half = 14 * 0.017453292f, margin = 1.10f;
+    const float half = shade_radians(14), margin = 1.10f;
     shade_mat4 turn =
         shade_mat4_look_at(shade_v3(0, 0.36f, 1), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     shade_mat4 lens, world;

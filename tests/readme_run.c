@@ -280,6 +280,40 @@ TEST(readme, shaders_draw_map_and_shadow)
     CHECK(seen[0] > 500 && seen[ROOF] > 500 && seen[FLOOR] > 5000 && seen[SHADOW] > 500);
 }
 
+/* The roof over the floor of another colour; white from far away is grey. */
+TEST(readme, mist_takes_a_tenth_of_the_light_each_unit)
+{
+    enum { W = 80, H = 60 };
+    static float colors[8][3];
+    shade_light lamp = shade_point_light(d3_round(lamp_at), shade_v3(1, 0.9f, 0.8f));
+    int seen = 0;
+    start(W, H, shade_v3(1, 4, 6), shade_v3(0, 0, 0));
+    put_square(0, floor_size, 0);
+    put_square(1, roof_size, roof_y);
+    for (int i = 0; i < 24; i++) colors[i / 3][i % 3] = i < 12 ? 0.5f : 1;
+    mesh.colors = colors[0];
+    state.lighting.lights = &lamp;
+    state.lighting.light_count = 1;
+    state.fragment = mist;
+    state.uniforms = &state;
+    CHECK_INT(shade_draw_mesh(&target, &mesh, &state, NULL), SHADE_OK);
+    for (int i = 0; i < W * H; i++) {
+        d3 P, beside;
+        int what = shown(i % W + 0.5, i / W + 0.5, &P), even = what != 0;
+        for (int k = 0; k < 4; k++)
+            even &= (shown(i % W + k % 2, i / W + k / 2, &beside) == ROOF) == (what == ROOF);
+        for (int k = 0; k < 4; k++) even &= shown(i % W + k % 2, i / W + k / 2, &beside) != 0;
+        if (!even) continue;
+        double grey = what == ROOF ? 1 : 0.5, left = pow(0.9, d3_length(d3_sub(d3_from(eye), P)));
+        ref_lit lit = ref_light(&state.lighting, NULL, P, d3_of(0, 1, 0), d3_from(eye),
+                                d3_of(grey, grey, grey));
+        CHECK_NEAR(run_color[i][0], 0.7 + left * (lit.total.x - 0.7), 1e-3);
+        CHECK_NEAR(run_color[i][2], 0.7 + left * (lit.total.z - 0.7), 1e-3);
+        seen++;
+    }
+    CHECK(seen > 2000);
+}
+
 static void clip_only(const void *data, const shade_vertex_ids *SHADE_RESTRICT in,
                       shade_vertices *SHADE_RESTRICT out)
 {
@@ -374,6 +408,7 @@ static const test_case readme_cases[] = {
     CASE(readme, png_holds_the_target),         CASE(readme, shaders_draw_map_and_shadow),
     CASE(readme, picking_finds_what_was_drawn),
     CASE(readme, chunks_draw_the_same_and_skip_what_is_not_seen),
+    CASE(readme, mist_takes_a_tenth_of_the_light_each_unit),
 };
 static const test_section readme_section = SECTION(readme);
 

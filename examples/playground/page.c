@@ -127,7 +127,7 @@ static shade_light lamp_of(const page_lamp *l)
 {
     shade_light out = shade_point_light(l->position, l->color);
     if (l->beta < 180)                               /* it points at the middle of the model */
-        out = shade_spot_light(l->position, shade_neg(l->position), l->beta * 0.017453292f, l->e,
+        out = shade_spot_light(l->position, shade_neg(l->position), shade_radians(l->beta), l->e,
                                l->color);
     out.position.w = l->at_infinity != 0 ? 0 : 1;
     out.ambient = l->ambient;

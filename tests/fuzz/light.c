@@ -177,8 +177,8 @@ static const float *light_visibility(fuzz_input *in, int lamps, float most)
     guard_seal(rows);
     return rows;
 }
-/* A row of 1 for k_s changes nothing; one of 0 leaves the specular term out; any gives the same bits
-   in every width. */
+/* A row of 1 for k_s changes nothing; one of 0 leaves the specular term out; any gives the same
+   bits in every width. */
 static void light_tinted(fuzz_input *in, const shade_lighting *l, const shade_material *m,
                          shade_vec3 eye, float *const *rows, float most)
 {
