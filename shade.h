@@ -89,7 +89,8 @@
      SHADE_LANES              fragments a packet, a power of two from 8 to 256; default 128;
                               16 for small stacks
      SHADE_MAX_VARYINGS       floats a vertex can hand to fragments, 1 .. 64; default 16; meshes
-                              lit per fragment need 6, 9 with colours, 8 or 11 with a map
+                              lit per fragment need 6, 9 with colours, 8 or 11 with a map, 11 with
+                              a fragment shader of their state
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
      SHADE_NO_LIBM            freestanding: only <stddef.h>, <stdint.h>, <float.h>; implies
                               NO_STDIO, NO_DISPATCH and no assertions

@@ -353,6 +353,41 @@ static void scene_weighted(scene *s)
     lamp(s, shade_v3(2, 4, 3), shade_v3(2, 2, 2));
 }
 
+/* shade_rows.specular, from a fragment shader of the draw state: the colours of the vertices are
+   those of the highlights alone */
+static const char specular_row[] =
+    "vec3 lit(vec3 P, vec3 N, vec3 tint) {\n"
+    "  vec3 V = normalize(eye - P), I = k_e + k_a * I_a;\n"
+    "  for (int j = 0; j < LIGHTS; j++) {\n"
+    "    vec3 l = toward(light[j], P), L = normalize(l), H = normalize(L + V);\n"
+    "    float fade = attenuation(light[j], length(l)) * spot(light[j], L);\n"
+    "    float B = dot(N, L) > 0.0 ? 1.0 : 0.0;\n"
+    "    I += k_a * light[j].I_La + fade * B * (k_d * light[j].I_d * dot(N, L) +\n"
+    "         tint * k_s * light[j].I_s * pow(max(dot(N, H), 0.0), n));\n"
+    "  }\n"
+    "  return I;\n"
+    "}\n";
+static void tinted_highlights(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                              shade_colors *SHADE_RESTRICT out)
+{
+    const scene *s = (const scene *)uniforms;
+    const shade_draw_state *state = &s->draws[0].state;
+    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3],
+                              .specular = in->varying[6] };
+    shade_lit_lanes(&state->lighting, state->material, s->eye, &rows, out->color[0]);
+}
+static void scene_specular_row(scene *s)
+{
+    draw *d = usual(s, "k_s by the pixel, shader of a state", SHADE_MODEL_BLINN_PHONG);
+    s->equation = specular_row;
+    d->mesh.has_colors = 1;
+    d->material.specular = shade_v3(2, 2, 2);
+    d->state.fragment = tinted_highlights;
+    d->state.uniforms = s;
+    sun(s);
+    lamp(s, shade_v3(2, 4, 3), shade_v3(2, 2, 2));
+}
+
 /* ----------------------------------------------------------------------- shading and transforms */
 
 static void scene_gouraud(scene *s)
@@ -707,7 +742,7 @@ static void (*const builders[])(scene *) = {
     scene_bias,      scene_near,        scene_guard_band,   scene_nearest,      scene_bilinear,
     scene_trilinear, scene_srgb,        scene_glass,        scene_glow,         scene_pane,
     scene_cutoff,    scene_cutoff_over, scene_passes,       scene_more_passes,  scene_bgra,
-    scene_shadows,   scene_twin_color,  scene_twin_gouraud, scene_twin_phong
+    scene_shadows,   scene_twin_color,  scene_twin_gouraud, scene_twin_phong,   scene_specular_row
 };
 
 int scene_count(void) { return (int)(sizeof builders / sizeof builders[0]); }
