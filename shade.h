@@ -5692,13 +5692,13 @@ SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float co
                                                 shade_vec3 *out, void *memory, size_t bytes)
 {
     const int corners = mesh ? shade__corner_count(mesh) : 0;
-    shade_result result = shade__check_shape(mesh, memory || !corners ? out : NULL);
+    const int usable = (memory || !corners) && (uintptr_t)memory % 4 == 0;
+    shade_result result = shade__check_shape(mesh, usable ? out : NULL);
     uint32_t *order, count;
     float *angle;
     shade_vec3 *face;
     if (result) return result;
     count = (uint32_t)corners;
-    if ((uintptr_t)memory % 4) return SHADE_ERROR_ARGUMENT;
     if (cos_crease != cos_crease) return SHADE_ERROR_STATE;
     result = shade__check_corners(mesh);
     if (result) return result;
@@ -5736,8 +5736,8 @@ SHADEDEF shade_result shade_mesh_edges(const shade_mesh *mesh, shade_edge *edges
     int corners, kept = 0;
     if (!count) return SHADE_ERROR_ARGUMENT;
     *count = 0;
-    result = shade__check_shape(mesh, capacity > 0 ? (void *)edges : count);
-    if (!result && capacity < 0) result = SHADE_ERROR_ARGUMENT;
+    result = capacity < 0 ? SHADE_ERROR_ARGUMENT
+                          : shade__check_shape(mesh, capacity ? (void *)edges : count);
     if (!result) result = shade__check_corners(mesh);
     if (result) return result;
     corners = shade__corner_count(mesh);

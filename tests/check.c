@@ -14,7 +14,7 @@ typedef struct whole_call { /* all that any call is given, good until it is spoi
     shade_vec4 clip[6];
     float positions[18], crease;
     uint32_t indices[6];
-    int index_count, vertex_count, point_count, factor, capacity;
+    int index_count, vertex_count, point_count, factor, capacity, triangles;
     size_t bytes;
     const shade_target *target;
     const shade_mesh *mesh;
@@ -27,14 +27,16 @@ typedef struct whole_call { /* all that any call is given, good until it is spoi
     shade_write_fn *sink;
     shade_vec3 *normals;
     shade_edge *edges;
+    shade_chunk *chunks;
     shade_stats stats;
 } whole_call;
 
 static struct { /* what calls may write */
     shade_vec3 normals[6];
     shade_edge edges[6];
+    shade_chunk chunks[6];
     shade_texture levels[4];
-    uint32_t memory[64], written, half[25];
+    uint32_t memory[64], written, half[25], order[6];
 } whole_out;
 
 static int whole_sink(void *user, const void *bytes, size_t size)
@@ -80,6 +82,7 @@ static void whole_open(whole_call *w)
     w->point_count = 4;
     w->factor = 2;
     w->capacity = 6;
+    w->triangles = 1;
     w->bytes = sizeof whole_out.memory;
     w->target = &w->picture;
     w->mesh = &w->m;
@@ -93,11 +96,12 @@ static void whole_open(whole_call *w)
     w->sink = whole_sink;
     w->normals = whole_out.normals;
     w->edges = whole_out.edges;
+    w->chunks = whole_out.chunks;
 }
 
-/* Calls by letter: Draw, Mesh, Lines, Normals, Corner normals, Edges, mipmaps X, Resolve, Ppm,
-   clear K. */
-static const char whole_calls[] = "DMLNCEXRPK";
+/* Calls by letter: Draw, Mesh, Lines, Normals, Corner normals, Edges, Boxes of chunks, mipmaps X,
+   Resolve, Ppm, clear K. */
+static const char whole_calls[] = "DMLNCEBXRPK";
 
 static shade_result whole_result(whole_call *w, char call)
 {
@@ -112,6 +116,9 @@ static shade_result whole_result(whole_call *w, char call)
     case 'C':
         return shade_mesh_corner_normals(w->mesh, w->crease, w->normals, w->memory, w->bytes);
     case 'E': return shade_mesh_edges(w->mesh, w->edges, w->capacity, &count);
+    case 'B':
+        return shade_mesh_chunks(w->mesh, w->triangles, w->chunks, w->capacity,
+                                 whole_out.order);
     case 'X': return shade_build_mipmaps(w->texture, w->levels, w->memory, w->bytes);
     case 'R': return shade_resolve(&w->half, w->target, w->factor);
     case 'P': return shade_encode_ppm(w->sink, NULL, w->target);
@@ -119,127 +126,168 @@ static shade_result whole_result(whole_call *w, char call)
     }
 }
 
-/* Fault k: the calls that it is one of, and what they say; by rising category.  One that is made
-   after another of a later category does not take that back. */
-static const struct {
-    const char *calls;
-    shade_result result;
-} whole_faults[] = {
-    { "DMLRPK", SHADE_ERROR_ARGUMENT }, { "D", SHADE_ERROR_ARGUMENT },
-    { "D", SHADE_ERROR_ARGUMENT },      { "MNCE", SHADE_ERROR_ARGUMENT },
-    { "M", SHADE_ERROR_ARGUMENT },      { "L", SHADE_ERROR_ARGUMENT },
-    { "L", SHADE_ERROR_ARGUMENT },      { "NC", SHADE_ERROR_ARGUMENT },
-    { "CX", SHADE_ERROR_ARGUMENT },     { "E", SHADE_ERROR_ARGUMENT },
-    { "X", SHADE_ERROR_ARGUMENT },      { "X", SHADE_ERROR_ARGUMENT },
-    { "P", SHADE_ERROR_ARGUMENT },
-    { "DMLRPK", SHADE_ERROR_TARGET },   { "DMLRPK", SHADE_ERROR_TARGET },
-    { "DMLRPK", SHADE_ERROR_TARGET },   { "DMLRPK", SHADE_ERROR_TARGET },
-    { "DMLRPK", SHADE_ERROR_TARGET },   { "RP", SHADE_ERROR_TARGET },
-    { "R", SHADE_ERROR_TARGET },
-    { "D", SHADE_ERROR_MESH },          { "D", SHADE_ERROR_MESH },
-    { "L", SHADE_ERROR_MESH },          { "L", SHADE_ERROR_MESH },
-    { "MNCE", SHADE_ERROR_MESH },       { "MNCE", SHADE_ERROR_MESH },
-    { "MNCE", SHADE_ERROR_MESH },       { "MNCE", SHADE_ERROR_MESH },
-    { "MNCE", SHADE_ERROR_MESH },       { "MNCE", SHADE_ERROR_MESH },
-    { "MNCE", SHADE_ERROR_MESH },       { "MNCE", SHADE_ERROR_MESH },
-    { "DML", SHADE_ERROR_STATE },       { "DM", SHADE_ERROR_STATE },
-    { "D", SHADE_ERROR_STATE },         { "D", SHADE_ERROR_STATE },
-    { "M", SHADE_ERROR_STATE },         { "M", SHADE_ERROR_STATE },
-    { "M", SHADE_ERROR_STATE },         { "M", SHADE_ERROR_STATE },
-    { "L", SHADE_ERROR_STATE },         { "L", SHADE_ERROR_STATE },
-    { "C", SHADE_ERROR_STATE },
-    { "M", SHADE_ERROR_LIGHTS },        { "M", SHADE_ERROR_LIGHTS },
-    { "DMX", SHADE_ERROR_TEXTURE },     { "DMX", SHADE_ERROR_TEXTURE },
-    { "D", SHADE_ERROR_TEXTURE },
-    { "DMNCE", SHADE_ERROR_INDEX },     { "DMNCE", SHADE_ERROR_INDEX },
-    { "CX", SHADE_ERROR_CAPACITY },     { "E", SHADE_ERROR_CAPACITY },
-};
-enum { WHOLE_FAULTS = sizeof whole_faults / sizeof whole_faults[0] };
-
-static void whole_spoil_pointers(whole_call *w, int fault)
+/* Faults 0, 1, ... of a category: each is made and gives the calls that it is one of; NULL: there
+   is none. */
+static const char *fault_argument(whole_call *w, int k)
 {
-    switch (fault) {
-    case 0: w->target = NULL; break;
-    case 1: w->pipeline = NULL; break;
-    case 2: w->p.vertex = NULL; break;
-    case 3: w->mesh = NULL; break;
-    case 4: w->state = NULL; break;
-    case 5: w->lines = NULL; break;
+    switch (k) {
+    case 0: w->target = NULL; return "DMLRPK";
+    case 1: w->pipeline = NULL; return "D";
+    case 2: w->p.vertex = NULL; return "D";
+    case 3: w->mesh = NULL; return "MNCEB";
+    case 4: w->state = NULL; return "M";
+    case 5: w->lines = NULL; return "L";
     case 6:
         w->points = NULL;
         w->point_count = 4;
-        break;
-    case 7: w->normals = NULL; break;
-    case 8: w->memory = NULL; break;
+        return "L";
+    case 7: w->normals = NULL; return "NC";
+    case 8: w->memory = NULL; return "CX";
     case 9:
         w->edges = NULL;
         w->capacity = 6;
-        break;
-    case 10: w->texture = NULL; break;
-    case 11: w->levels = NULL; break;
-    default: w->sink = NULL; break;
+        return "E";
+    case 10: w->texture = NULL; return "X";
+    case 11: w->levels = NULL; return "X";
+    case 12: w->sink = NULL; return "P";
+    case 13: w->capacity = -1; return "EB";
+    case 14: w->memory = (char *)whole_out.memory + 2; return "CX";
+    case 15:
+        w->chunks = NULL;
+        w->capacity = 6;
+        return "B";
+    case 16: w->triangles = -1; return "B";
+    default: return NULL;
     }
 }
-static void whole_spoil(whole_call *w, int fault)
+static const char *fault_target(whole_call *w, int k)
 {
-    switch (fault) {
-    case 13: w->picture.width = 0; break;
-    case 14: w->picture.stride = 9; break;
-    case 15: w->picture.format = SHADE_FORMAT_A8; break;
-    case 16: w->picture.clip_width = -1; break;
-    case 17: w->picture.row_offset = 1; break;
-    case 18: w->picture.color = NULL; break;
-    case 19: w->half.format = (shade_format)-1; break;
-    case 20: w->index_count = -3; break;
-    case 21: w->vertex_count = -1; break;
-    case 22: w->point_count = 3; break;
-    case 23: w->point_count = -2; break;
-    case 24: w->m.positions = NULL; break;
-    case 25: w->m.vertex_count = -1; break;
-    case 26: w->m.index_count = -3; break;
-    case 27: w->m.position_stride = -12; break;
-    case 28: w->m.color_stride = 6; break;
-    case 29: w->m.chunk_count = 1; break;
-    case 30: w->m.chunk_count = -1; break;
-    case 31:
+    switch (k) {
+    case 0: w->picture.width = 0; return "DMLRPK";
+    case 1: w->picture.stride = 9; return "DMLRPK";
+    case 2: w->picture.format = SHADE_FORMAT_A8; return "DMLRPK";
+    case 3: w->picture.clip_width = -1; return "DMLRPK";
+    case 4: w->picture.row_offset = 1; return "DMLRPK";
+    case 5: w->picture.color = NULL; return "RP";
+    case 6: w->half.format = (shade_format)-1; return "R";
+    default: return NULL;
+    }
+}
+static const char *fault_mesh(whole_call *w, int k)
+{
+    switch (k) {
+    case 0: w->index_count = -3; return "D";
+    case 1: w->vertex_count = -1; return "D";
+    case 2: w->point_count = 3; return "L";
+    case 3: w->point_count = -2; return "L";
+    case 4: w->m.positions = NULL; return "MNCEB";
+    case 5: w->m.vertex_count = -1; return "MNCEB";
+    case 6: w->m.index_count = -3; return "MNCEB";
+    case 7: w->m.position_stride = -12; return "MNCEB";
+    case 8: w->m.color_stride = 6; return "MNCEB";
+    case 9: w->m.chunk_count = 1; return "MNCE";
+    case 10: w->m.chunk_count = -1; return "MNCE";
+    case 11:
         w->m.chunks = &w->chunk;
         w->m.chunk_count = 1;
         w->chunk.first = 1;
-        break;
-    case 32: w->p.raster.blend = w->s.raster.blend = w->l.raster.blend = (shade_blend)3; break;
-    case 33: w->p.raster.cull = w->s.raster.cull = (shade_cull)-1; break;
-    case 34: w->p.varyings = SHADE_MAX_VARYINGS + 1; break;
-    case 35: w->p.interpolation = (shade_interpolation)3; break;
-    case 36: w->s.shading = (shade_shading)3; break;
-    case 37: w->s.transparency = 1.5f; break;
-    case 38: w->s.alpha_cutoff = (float)NAN; break;
-    case 39: w->s.fragment = scene_flat; break; /* lit per vertex */
-    case 40: w->l.width = -1; break;
-    case 41: w->l.cap = (shade_cap)2; break;
-    case 42: w->crease = (float)NAN; break;
-    case 43: w->s.lighting.light_count = 1; break;
-    case 44: w->s.lighting.model = (shade_model)6; break;
-    case 45: w->map.pixels = NULL; break;
-    case 46: w->map.filter = (shade_filter)3; break;
-    case 47: w->p.lod_varying = 1; break;
-    case 48: w->indices[5] = 6; break;
-    case 49: w->index_count = w->m.index_count = 4; break;
-    case 50: w->bytes = 4; break;
-    case 51: w->capacity = 5; break;
-    default: whole_spoil_pointers(w, fault); break;
+        return "MNCE";
+    default: return NULL;
     }
 }
-/* w has these faults, a <= b, or none; nothing has changed where one is told */
-static void check_whole(char call, int a, int b)
+static const char *fault_state(whole_call *w, int k)
+{
+    switch (k) {
+    case 0:
+        w->p.raster.blend = w->s.raster.blend = w->l.raster.blend = (shade_blend)3;
+        return "DML";
+    case 1: w->p.raster.cull = w->s.raster.cull = (shade_cull)-1; return "DM";
+    case 2: w->p.varyings = SHADE_MAX_VARYINGS + 1; return "D";
+    case 3: w->p.interpolation = (shade_interpolation)3; return "D";
+    case 4: w->s.shading = (shade_shading)3; return "M";
+    case 5: w->s.transparency = 1.5f; return "M";
+    case 6: w->s.alpha_cutoff = (float)NAN; return "M";
+    case 7: w->s.fragment = scene_flat; return "M";
+    case 8: w->l.width = -1; return "L";
+    case 9: w->l.cap = (shade_cap)2; return "L";
+    case 10: w->crease = (float)NAN; return "C";
+    default: return NULL;
+    }
+}
+static const char *fault_lights(whole_call *w, int k)
+{
+    switch (k) {
+    case 0: w->s.lighting.light_count = 1; return "M";
+    case 1: w->s.lighting.model = (shade_model)6; return "M";
+    default: return NULL;
+    }
+}
+static const char *fault_texture(whole_call *w, int k)
+{
+    switch (k) {
+    case 0: w->map.pixels = NULL; return "DMX";
+    case 1: w->map.filter = (shade_filter)3; return "DMX";
+    case 2: w->p.lod_varying = 1; return "D";
+    default: return NULL;
+    }
+}
+static const char *fault_index(whole_call *w, int k)
+{
+    switch (k) {
+    case 0: w->indices[5] = 6; return "DMNCEB";
+    case 1: w->index_count = w->m.index_count = 4; return "DMNCEB";
+    default: return NULL;
+    }
+}
+static const char *fault_capacity(whole_call *w, int k)
+{
+    switch (k) {
+    case 0: w->bytes = 4; return "CX";
+    case 1: w->capacity = 5; return "E";
+    case 2: w->capacity = 1; return "B";
+    default: return NULL;
+    }
+}
+typedef struct call_fault { /* of a category and a number */
+    const char *(*spoil)(whole_call *, int);
+    shade_result result;
+    int number;
+} call_fault;
+static const call_fault categories[] = {
+    { fault_argument, SHADE_ERROR_ARGUMENT, 0 }, { fault_target, SHADE_ERROR_TARGET, 0 },
+    { fault_mesh, SHADE_ERROR_MESH, 0 },         { fault_state, SHADE_ERROR_STATE, 0 },
+    { fault_lights, SHADE_ERROR_LIGHTS, 0 },     { fault_texture, SHADE_ERROR_TEXTURE, 0 },
+    { fault_index, SHADE_ERROR_INDEX, 0 },       { fault_capacity, SHADE_ERROR_CAPACITY, 0 },
+};
+enum { CATEGORIES = sizeof categories / sizeof categories[0], MOST_FAULTS = 64 };
+
+/* The faults that a call can have, by rising category; returns how many. */
+static int faults_of(char call, call_fault *list)
+{
+    int count = 0;
+    for (int k = 0; k < CATEGORIES; k++) {
+        whole_call w;
+        call_fault f = categories[k];
+        whole_open(&w);
+        for (const char *calls; (calls = f.spoil(&w, f.number)) != NULL; f.number++)
+            if (strchr(calls, call)) list[count++] = f;
+        canvas_close(&w.c);
+    }
+    return count;
+}
+/* A call with two faults, which may be one, the later category made first, so that it cannot mend
+   the other; or with none, NULL.  Where one is told nothing has changed. */
+static void check_whole(char call, const call_fault *first, const call_fault *second)
 {
     whole_call w;
-    shade_result want = a < WHOLE_FAULTS ? whole_faults[a].result : SHADE_OK, got;
+    const shade_result want = first ? first->result : SHADE_OK;
     whole_open(&w);
-    if (b < WHOLE_FAULTS) whole_spoil(&w, b);
-    if (a < WHOLE_FAULTS) whole_spoil(&w, a);
-    got = whole_result(&w, call);
-    CHECK_SAY(got == want, "call %c, faults %d and %d: got %d, want %d", call, a, b, (int)got,
-              (int)want);
+    if (second) second->spoil(&w, second->number);
+    if (first) first->spoil(&w, first->number);
+    shade_result got = whole_result(&w, call);
+    CHECK_SAY(got == want, "call %c, fault %d: got %d, want %d; and fault %d of %d", call,
+              first ? first->number : -1, (int)got, (int)want, second ? second->number : -1,
+              second ? (int)second->result : 0);
     if (strchr("DML", call))
         CHECK_INT(w.stats.triangles, want != SHADE_OK ? 0 : call == 'L' ? 4 : 2);
     for (size_t i = CANVAS_GUARD; want != SHADE_OK && i < CANVAS_GUARD + w.c.color_bytes; i++)
@@ -250,26 +298,27 @@ static void check_whole(char call, int a, int b)
 }
 TEST(check, of_any_two_faults_the_first_category_is_told)
 {
+    call_fault list[MOST_FAULTS];
+    int pairs = 0;
     if (SHADE_MAX_VARYINGS < 8) {
         test_skip("a map takes 8 varyings");
         return;
     }
     for (const char *call = whole_calls; *call; call++) {
-        check_whole(*call, WHOLE_FAULTS, WHOLE_FAULTS);
-        for (int a = 0; a < WHOLE_FAULTS; a++)
-            for (int b = a; b < WHOLE_FAULTS; b++)
-                if (strchr(whole_faults[a].calls, *call) && strchr(whole_faults[b].calls, *call))
-                    check_whole(*call, a, b);
+        const int count = faults_of(*call, list);
+        check_whole(*call, NULL, NULL);
+        for (int i = 0; i < count; i++)
+            for (int k = i; k < count; k++, pairs++) check_whole(*call, &list[i], &list[k]);
     }
+    CHECK_SAY(pairs > 900, "%d pairs", pairs);
 }
-/* What only fits or does not, beside what is given: a NaN depth, a factor, an odd address. */
+/* a NaN depth, a factor */
 TEST(check, sizes_that_do_not_fit_are_arguments_behind_good_targets)
 {
     whole_call w;
     whole_open(&w);
     CHECK_INT(shade_clear(&w.picture, shade_v4(1, 1, 1, 1), (float)NAN), SHADE_ERROR_ARGUMENT);
     CHECK_INT(shade_resolve(&w.half, &w.picture, 3), SHADE_ERROR_ARGUMENT);
-    CHECK_INT(shade_mesh_edges(&w.m, w.edges, -1, &w.factor), SHADE_ERROR_ARGUMENT);
     w.picture.width = 0;
     CHECK_INT(shade_clear(&w.picture, shade_v4(1, 1, 1, 1), (float)NAN), SHADE_ERROR_TARGET);
     CHECK_INT(shade_resolve(&w.half, &w.picture, 3), SHADE_ERROR_TARGET);

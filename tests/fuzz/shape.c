@@ -173,7 +173,7 @@ static void shape_edges(fuzz_input *in, const shape_mesh *s)
     if (kind & 2) capacity = fuzz_int(in, -1, s->corners);
     edges = (shade_edge *)guard_take(sizeof *edges * (size_t)(capacity > 0 ? capacity : 0),
                                      kind & 1);
-    if (want != SHADE_ERROR_MESH && capacity < 0) want = SHADE_ERROR_ARGUMENT;
+    if (capacity < 0) want = SHADE_ERROR_ARGUMENT;
     if (want == SHADE_OK && capacity < s->corners) want = SHADE_ERROR_CAPACITY;
     HOLDS(shade_mesh_edges(&s->m, edges, capacity, NULL) == SHADE_ERROR_ARGUMENT);
     HOLDS(shade_mesh_edges(&s->m, edges, capacity, &count) == want);
