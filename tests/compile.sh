@@ -334,7 +334,7 @@ for flag in -ffast-math -Ofast -ffinite-math-only; do
     if $CC --version 2>/dev/null | grep -q clang; then
         check "implementation with $flag is refused" not_fast $flag "$T/impl.c"
         check "... but where it is allowed" fast $flag -DSHADE_ALLOW_FAST_MATH "$T/impl.c"
-        check "... or taken back" fast $flag -fno-fast-math "$T/impl.c"
+        check "... or taken back" $CC $flag -fno-fast-math -I. -fsyntax-only "$T/impl.c"
     else
         check "implementation with $flag" fast $flag "$T/impl.c"
     fi
