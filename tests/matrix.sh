@@ -54,7 +54,8 @@ one "aarch64 -O3 -ffp-contract=fast" qemu-aarch64 aarch64-linux-gnu-gcc -static 
 
 # gcc heeds the header under -ffast-math too; clang is refused
 build=builds_fast static=
-for flags in -Ofast "-O3 -march=native -ffast-math" "-O3 -march=native -ffast-math -DSHADE__AS_COMPILED" \
+for flags in -Ofast "-O3 -march=native -ffast-math" \
+    "-O3 -march=native -ffast-math -DSHADE__AS_COMPILED" \
     "-O0 -ffast-math" "-Os -ffast-math" "-O2 -ffast-math -DSHADE_NO_LIBM" \
     "-O2 -ffast-math -ffp-contract=fast -mfma -DSHADE__LEVEL=0" "-O2 -funsafe-math-optimizations" \
     "-O2 -fassociative-math -fno-signed-zeros -fno-trapping-math" "-O2 -freciprocal-math" \
