@@ -103,10 +103,10 @@
    SHADE_LANES and SHADE_MAX_VARYINGS are written as plain decimal numbers: the linker's names of
    functions that take packets end in them, and files that disagree do not link.  A program may have
    any capital letter as a macro; of small ones e, g, i, j, o and q, but not in the implementation.
-   gcc gives the same bits with -ffast-math, -Ofast and their parts.  clang cannot be told to: it is
-   refused with -ffast-math and -ffinite-math-only where the implementation is compiled.  It does not
-   say that it has the other parts, or -ffp-contract=fast, which fuses against the pragma below: do
-   not give it these.  In your own files, inline functions follow your flags.  A program linked with
+   gcc gives the same bits with -ffast-math, -Ofast and their parts.  clang cannot be told to: where
+   it compiles the implementation, -ffast-math and -ffinite-math-only are refused.  It does not say
+   that it has the other parts, or -ffp-contract=fast, which fuses against the pragma below: do not
+   give it these.  In your own files, inline functions follow your flags.  A program linked with
    -ffast-math flushes denormal numbers to zero, which SHADE_FORMAT_RGBA32F shows.
    tcc 0.9.27 on x86-64 stores 16 bytes for the 12 of a returned shade_vec3, over an int or float
    declared last before the call, in your functions too; SHADE_EACH_LANE counts in 8 bytes there. */
