@@ -6026,7 +6026,7 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 typedef struct shade__slabs {
     double origin[3], direction[3], scale;    /* scale: the determinant */
     double slack[3];                  /* |column| |column| of the cross product, times 2^-20 */
-    double size[3], far;              /* of the columns; of the last one and the ray's origin */
+    double size[3], reach;            /* of the columns; of the last one and the ray's origin */
     int affine;                       /* else there are no slabs */
 } shade__slabs;
 
@@ -6048,15 +6048,15 @@ static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
         s->slack[k] = s->size[a] * s->size[b] * (1 / 1048576.0);
         s->scale = shade__dot3(column[k], normal);
     }
-    s->far = shade__size(origin[0]) + shade__size(origin[1]) + shade__size(origin[2]);
-    for (int k = 0; k < 3; k++) s->far += 2 * shade__size(column[3][k]);
+    s->reach = shade__size(origin[0]) + shade__size(origin[1]) + shade__size(origin[2]);
+    for (int k = 0; k < 3; k++) s->reach += 2 * shade__size(column[3][k]);
 }
 /* Where the ray may be inside the box of a triangle or a chunk, as rounding makes it: range[0] ..
    range[1].  0 if it does not meet it.  A larger box never gives a smaller range, so that a
    triangle is met through the box of its chunk if it is met through its own. */
 static int shade__slabs_met(const shade__slabs *s, shade_vec3 low, shade_vec3 high, double *range)
 {
-    double from[3], to[3], size = s->far;
+    double from[3], to[3], size = s->reach;
     range[0] = 0;
     range[1] = DBL_MAX;
     if (!s->affine || !(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
