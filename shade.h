@@ -97,9 +97,17 @@
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        one build of each loop, for the processor the compiler was told of;
                               set by itself with zig and with clang for Microsoft's ABI
+     SHADE_ALLOW_FAST_MATH    clang compiles the implementation with -ffast-math as well, to other
+                              bits, and bad data may get through
 
-   Not for -ffast-math, and not for clang -ffp-contract=fast, which fuses against the pragma below:
-   they give other bits (and -ffast-math drops NaN, so bad data is no longer caught).
+   SHADE_LANES and SHADE_MAX_VARYINGS are written as plain decimal numbers: the linker's names of
+   functions that take packets end in them, and files that disagree do not link.  A program may have
+   any capital letter as a macro; of small ones e, g, i, j, o and q, but not in the implementation.
+   gcc gives the same bits with -ffast-math, -Ofast and their parts.  clang cannot be told to: where
+   it compiles the implementation, -ffast-math and -ffinite-math-only are refused.  It does not say
+   that it has the other parts, or -ffp-contract=fast, which fuses against the pragma below: do not
+   give it these.  In your own files, inline functions follow your flags.  A program linked with
+   -ffast-math flushes denormal numbers to zero, which SHADE_FORMAT_RGBA32F shows.
    tcc 0.9.27 on x86-64 stores 16 bytes for the 12 of a returned shade_vec3, over an int or float
    declared last before the call, in your functions too; SHADE_EACH_LANE counts in 8 bytes there. */
 #include <float.h>
@@ -118,6 +126,19 @@
 #if SHADE_MAX_VARYINGS < 1 || SHADE_MAX_VARYINGS > 64
 #error "shade.h: SHADE_MAX_VARYINGS must be 1 .. 64"
 #endif
+
+/* shade_draw_16_8 is what the linker sees of shade_draw with 16 lanes and 8 varyings.  Files that
+   disagree would draw nothing, or write past their packets. */
+#define SHADE__JOIN(name, lanes, varyings) name##_##lanes##_##varyings
+#define SHADE__LINKED(name, lanes, varyings) SHADE__JOIN(name, lanes, varyings)
+#if SHADE_LANES != 128 || SHADE_MAX_VARYINGS != 16
+#define shade_draw SHADE__LINKED(shade_draw, SHADE_LANES, SHADE_MAX_VARYINGS)
+#define shade_draw_mesh SHADE__LINKED(shade_draw_mesh, SHADE_LANES, SHADE_MAX_VARYINGS)
+#define shade_lit_lanes SHADE__LINKED(shade_lit_lanes, SHADE_LANES, SHADE_MAX_VARYINGS)
+#define shade_light_at_lanes SHADE__LINKED(shade_light_at_lanes, SHADE_LANES, SHADE_MAX_VARYINGS)
+#define shade_sample_lanes SHADE__LINKED(shade_sample_lanes, SHADE_LANES, SHADE_MAX_VARYINGS)
+#endif
+
 #ifdef SHADE_NO_LIBM
 #undef SHADE_NO_STDIO
 #define SHADE_NO_STDIO
@@ -298,8 +319,18 @@ typedef struct shade_stats {
 /*----------------------------------------------------------------------------------------- >>inline
    What declarations and inline functions need of compilers. */
 
-#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+/* Floats must be evaluated as floats.  For s390x gcc's -std=c99 says double, as glibc had it once;
+   SHADE__BEGIN turns that off for this file. */
+#if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
+#define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
+#elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#ifdef __s390x__
+#error "shade.h: floats are evaluated in double; compile with -std=gnu99 or -fexcess-precision=fast"
+#else
 #error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse"
+#endif
+#else
+#define SHADE__EVAL_FLOAT
 #endif
 
 #if defined(__GNUC__) || defined(__clang__)
@@ -372,10 +403,12 @@ typedef struct shade_stats {
 #endif
 #define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
 
-/* C linkage; and no contraction of a * b + c to one rounding, which would give other bits on other
-   processors: off for all of this file with clang, for the implementation with gcc (which decides
-   after inlining, so by its caller).  Where clang keeps a stack of such states the one before comes
-   back at the end, elsewhere that of the compiler's options. */
+/* C linkage; and arithmetic as it is written, whatever the compiler's options say, because other
+   arithmetic gives other bits.  Off are: contraction of a * b + c to one rounding, which depends on
+   the processor, and the parts of -ffast-math.  gcc decides again where a function is inlined, by
+   the options of the caller: of this file's functions those of the implementation are exact, and
+   the inline ones in them.  clang stays fast in ?: and calls, see >>target.  Where clang keeps a
+   stack of such states the one before comes back at the end, elsewhere that of the options. */
 #ifdef __cplusplus
 #define SHADE__OPEN extern "C" {
 #define SHADE__CLOSE }
@@ -386,16 +419,21 @@ typedef struct shade_stats {
 #if defined(__clang__) && \
     ((__clang_major__ >= 13 && (defined(__x86_64__) || defined(__i386__))) || \
      (__clang_major__ >= 16 && defined(__aarch64__)))
-#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)") SHADE__OPEN
+#define SHADE__BEGIN _Pragma("float_control(push)") _Pragma("float_control(precise, on)") \
+    _Pragma("clang fp contract(off)") SHADE__OPEN
 #define SHADE__END SHADE__CLOSE _Pragma("float_control(pop)")
 #elif defined(__clang__)
 #define SHADE__BEGIN _Pragma("STDC FP_CONTRACT OFF") SHADE__OPEN
 #define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
 #elif defined(_MSC_VER)
-#define SHADE__BEGIN __pragma(float_control(push)) __pragma(fp_contract(off)) SHADE__OPEN
+#define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
+    __pragma(fp_contract(off)) SHADE__OPEN
 #define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
 #elif defined(__GNUC__)
-#define SHADE__BEGIN _Pragma("GCC push_options") SHADE__OPEN
+#define SHADE__BEGIN _Pragma("GCC push_options") \
+    _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
+    _Pragma("GCC optimize(\"no-associative-math\", \"no-reciprocal-math\", \"signed-zeros\")") \
+    SHADE__EVAL_FLOAT SHADE__OPEN
 #define SHADE__END SHADE__CLOSE _Pragma("GCC pop_options")
 #else
 #define SHADE__BEGIN SHADE__OPEN
@@ -1018,6 +1056,13 @@ SHADE__END
 
 /*----------------------------------------------------------------------------------------- >>target
    What the implementation needs of compilers and processors.                              >>base */
+
+/* clang has no pragma that makes ?: and calls exact: minima and maxima would lose NaN and -0. */
+#if defined(__clang__) && !defined(SHADE_ALLOW_FAST_MATH) && \
+    (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0))
+#error "shade.h: clang's -ffast-math gives other bits; compile this file with -fno-fast-math, or \
+define SHADE_ALLOW_FAST_MATH"
+#endif
 
 #ifndef SHADE_NO_STDIO
 #include <stdio.h>
@@ -2274,8 +2319,9 @@ SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT normal, uint3
         float nl = r->a.cosine[i], rn = r->rn[i];
         shade_vec3 to_light = shade__at(rows, i), to_eye = shade__at(&r->to_eye, i);
         shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
-        uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         d = shade_sub(d, shade_add(to_light, to_eye));
+        /* after the calls that return vectors: see >>config about tcc */
+        uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         float cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
         rows->x[i] = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
@@ -5980,7 +6026,7 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
 typedef struct shade__slabs {
     double origin[3], direction[3], scale;    /* scale: the determinant */
     double slack[3];                  /* |column| |column| of the cross product, times 2^-20 */
-    double size[3], beyond;            /* of the columns; of the last one and the ray's origin */
+    double size[3], reach;            /* of the columns; of the last one and the ray's origin */
     int affine;                       /* else there are no slabs */
 } shade__slabs;
 
@@ -6002,15 +6048,15 @@ static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
         s->slack[k] = s->size[a] * s->size[b] * (1 / 1048576.0);
         s->scale = shade__dot3(column[k], normal);
     }
-    s->beyond = shade__size(origin[0]) + shade__size(origin[1]) + shade__size(origin[2]);
-    for (int k = 0; k < 3; k++) s->beyond += 2 * shade__size(column[3][k]);
+    s->reach = shade__size(origin[0]) + shade__size(origin[1]) + shade__size(origin[2]);
+    for (int k = 0; k < 3; k++) s->reach += 2 * shade__size(column[3][k]);
 }
 /* Where the ray may be inside the box of a triangle or a chunk, as rounding makes it: range[0] ..
    range[1].  0 if it does not meet it.  A larger box never gives a smaller range, so that a
    triangle is met through the box of its chunk if it is met through its own. */
 static int shade__slabs_met(const shade__slabs *s, shade_vec3 low, shade_vec3 high, double *range)
 {
-    double from[3], to[3], size = s->beyond;
+    double from[3], to[3], size = s->reach;
     range[0] = 0;
     range[1] = DBL_MAX;
     if (!s->affine || !(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;

@@ -65,27 +65,44 @@ fi
 
 # words that other headers define as macros: complex.h, altivec.h, iso646.h, ctype.h and termios.h
 # of BSD, curses, sys/param.h, X11, Windows, Arduino, Qt, Objective-C; socket calls of lwIP
-words="I complex imaginary vector pixel _B _C _L _N _P _S _U _X B0 B1 B10 B110 CR0 NL0 TAB0 FF0
+words="complex imaginary vector pixel _B _C _L _N _P _S _U _X B0 B1 B10 B110 CR0 NL0 TAB0 FF0
     VT0 BS0 ECHO FLUSHO near far huge small hyper interface pascal cdecl NEAR FAR IN OUT OPTIONAL
     CONST VOID BOOL TRUE FALSE ERROR STRICT ABSOLUTE RELATIVE TRANSPARENT OPAQUE ALTERNATE WINDING
     DELETE PI HALF_PI TWO_PI EULER DEG_TO_RAD RAD_TO_DEG HIGH LOW INPUT OUTPUT CHANGE RISING FALLING
     DEFAULT EXTERNAL INTERNAL None True False Bool Status Success Always Above Below unix linux sun
     nil signals slots emit forever LINES COLS MIN_INT environ"
-calls="min max abs round radians degrees bit F word sq constrain map lowByte highByte bitRead bitSet
+capitals="A B C D E F G H I J K L M N O P Q R S T U V W X Y Z"
+calls="min max abs round radians degrees bit word sq constrain map lowByte highByte bitRead bitSet
     major minor makedev index rindex bcopy bzero bcmp MIN MAX howmany roundup setbit clrbit isset
     clear move erase refresh border filter scroll box timeout check verify require foreach RGB TEXT
     LoadImage DrawText GetObject CreateWindow sqrt fabs floor ceil pow exp log sin cos tan fmin fmax
     read write open close select accept send signal"
 {
     for h in float stddef stdint math stdio string assert; do echo "#include <$h.h>"; done
-    for w in $words $calls; do echo "#undef $w"; done
-    for w in $words; do echo "#define $w !a macro!"; done
+    for w in $words $calls $capitals; do echo "#undef $w"; done
+    for w in $words $capitals; do echo "#define $w !a macro!"; done
     for w in $calls; do echo "#define $w(...) !a macro!"; done
     cat "$T/impl.c"
 } >"$T/poison.c"
 check "words that are macros" $CC -std=c99 $WARN -I. -fsyntax-only "$T/poison.c"
 [ -z "$CXX" ] ||
     check "words that are macros, C++" $CXX -std=c++11 $WARN -I. -x c++ -fsyntax-only "$T/poison.c"
+
+# capital letters that the command line defines, before the standard headers too; and the small
+# ones that >>config leaves to programs
+for value in 480 "" "(1 + 2)"; do
+    set --
+    for w in $capitals; do set -- "$@" "-D$w=$value"; done
+    check "capital letters are \"$value\"" $CC -std=c99 $WARN "$@" -I. -fsyntax-only "$T/impl.c"
+    [ -z "$CXX" ] || check "capital letters are \"$value\", C++" $CXX -std=c++11 $WARN "$@" -I. \
+        -x c++ -fsyntax-only "$T/header.c"
+done
+{
+    for h in float stddef stdint math string; do echo "#include <$h.h>"; done
+    for w in e g i j o q; do echo "#define $w !a macro!"; done
+    cat "$T/header.c"
+} >"$T/small.c"
+check "small letters that are macros" $CC -std=c99 $WARN -I. -fsyntax-only "$T/small.c"
 
 # names that other headers declare, with the extensions of POSIX and GNU in sight
 : >"$T/crowd.c"
@@ -160,6 +177,63 @@ if [ -n "$CXX" ]; then
     check "SHADE_STATIC in C++" $cxx -O1 "$T/static_main.c" "$T/static_other.c" -lm -o "$T/sxx"
     check "SHADE_STATIC in C++ runs" run "$T/sxx"
 fi
+
+# files that disagree on the size of packets do not link; those that agree draw
+cat >"$T/packets.c" <<'END'
+#include "shade.h"
+static void vertices(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                     shade_vertices *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    SHADE_EACH_LANE(i) {
+        out->clip[0][i] = in->index[i] == 1 ? 3.0f : -1.0f;
+        out->clip[1][i] = in->index[i] == 2 ? 3.0f : -1.0f;
+        out->clip[3][i] = 1;
+    }
+}
+static void white(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                  shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    for (int k = 0; k < 3; k++) {
+        SHADE_EACH_LANE(i) { out->color[k][i] = 2 * in->z[i]; }
+    }
+}
+int main(void)
+{
+    static unsigned char pixels[4 * 64 * 64];
+    static shade_pipeline pipeline;
+    shade_target target = { 64, 64, 0, SHADE_FORMAT_RGBA8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+    target.color = pixels;
+    pipeline.vertex = vertices;
+    pipeline.fragment = white;
+    pipeline.varyings = SHADE_MAX_VARYINGS;
+    if (shade_draw(&target, &pipeline, 0, 3, 3, 0) != SHADE_OK) return 1;
+    for (int i = 0; i < 4 * 64 * 64; i++) {
+        if (pixels[i] != 255) return 2;
+    }
+    return 0;
+}
+END
+sized() {                       # object, lanes_varyings, compiler, flags and file
+    object=$1 sizes="-DSHADE_LANES=${2%_*} -DSHADE_MAX_VARYINGS=${2#*_}"; shift 2
+    check "$object.o" "$@" $WARN $sizes -I. -c -o "$T/$object.o"
+}
+sized impl_16_8 16_8 $CC -std=c99 $fixed -O0 -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED \
+    "$T/impl.c"
+linked() { $CC "$T/$1.o" "$T/$2.o" -lm $pie -o "$T/linked"; }
+draws() { linked "$@" && "$T/linked"; }
+not_linked() { ! linked "$@"; }
+for size in 128_16 16_8 16_16 128_8; do
+    sized c_$size $size $CC -std=c99 "$T/packets.c"
+    [ -z "$CXX" ] || sized cxx_$size $size $CXX -std=c++11 -x c++ "$T/packets.c"
+    for f in c ${CXX:+cxx}; do
+        how=not_linked; [ $size != 128_16 ] || how=draws
+        check "$size in $f, $how with the defaults" $how ${f}_$size impl
+        how=not_linked; [ $size != 16_8 ] || how=draws
+        check "$size in $f, $how with 16_8" $how ${f}_$size impl_16_8
+    done
+done
 
 # the program in the head of shade.h
 { printf '#include "shade.h"\n'
@@ -249,6 +323,22 @@ refused() {
 }
 check "SHADE_LANES 24 is refused" refused "SHADE_LANES 24"
 check "SHADE_MAX_VARYINGS 65 is refused" refused "SHADE_MAX_VARYINGS 65"
+
+# -ffast-math: gcc is told not to heed it; clang cannot be told, and is refused where it compiles
+# the implementation
+fast() { $CC -std=c99 $WARN "$@" -I. -fsyntax-only; }
+not_fast() { ! fast "$@"; }
+for flag in -ffast-math -Ofast -ffinite-math-only; do
+    accepts "$CC" $flag c || { echo "compile: $CC has no $flag: left out"; continue; }
+    check "header with $flag" fast $flag "$T/header.c"
+    if $CC --version 2>/dev/null | grep -q clang; then
+        check "implementation with $flag is refused" not_fast $flag "$T/impl.c"
+        check "... but where it is allowed" fast $flag -DSHADE_ALLOW_FAST_MATH "$T/impl.c"
+        check "... or taken back" $CC $flag -fno-fast-math -I. -fsyntax-only "$T/impl.c"
+    else
+        check "implementation with $flag" fast $flag "$T/impl.c"
+    fi
+done
 
 # what objects need and export
 undefined() { nm "$1" | sed -n 's/.* U _*//p' | sort -u; }

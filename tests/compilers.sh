@@ -75,6 +75,29 @@ for cc in gcc clang; do
     fi
 done
 
+# Any capital letter may be a macro, for the standard headers too.  gcc compiles always_inline
+# functions into others with other flags: with -Ofast and -ffast-math in every step from -O0 on.
+letters=
+for l in A B C D E F G H I J K L M N O P Q R S T U V W X Y Z; do letters="$letters -D$l=480"; done
+for cc in gcc g++ clang clang++ tcc x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g++ i686-linux-gnu-gcc \
+    aarch64-linux-gnu-gcc arm-linux-gnueabihf-gcc riscv64-linux-gnu-gcc s390x-linux-gnu-gcc; do
+    if ! there $cc; then left_out "capital letters, $cc"; continue; fi
+    strict="$cc -std=c99 $WARN"
+    case $cc in
+    *++) strict="$cc -std=c++17 -x c++ $WARN" ;;
+    i686*) strict="$strict -msse2 -mfpmath=sse" ;;
+    esac
+    check "capital letters, $cc" $strict $letters -DSHADE_NO_STDIO -I. -c "$T/impl.c" -o "$T/impl.o"
+    case $cc in
+    gcc | g++)
+        for o in -O0 -Og -Os -Ofast; do
+            check "$cc $o -ffast-math" $strict $o -ffast-math -I. -c "$T/impl.c" -o "$T/impl.o"
+        done ;;
+    *-gcc | *-g++)
+        check "$cc -Ofast" $strict -Ofast -I. -c "$T/impl.c" -o "$T/impl.o" ;;
+    esac
+done
+
 # README's program: in C as GNU's C17 behind headers that declare what it might; in C++20
 awk '/^```c$/ { inside = 1; text = ""; next }
      /^```/ { if (inside && text ~ /int main\(/) { printf "%s", text; exit } inside = 0 }

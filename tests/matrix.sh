@@ -5,12 +5,18 @@ cd "$(dirname "$0")/.." || exit 1
 . tests/tools.sh
 grep '^{' tests/scenes.h >"$T/want"
 
+builds() { "$@" -w -DSCENE_MAIN -I. tests/scene.c -lm -o "$T/scenes"; }
+# With -ffast-math the linker adds code that flushes denormal numbers to zero, in all of the program.
+builds_fast() {
+    "$@" -w -DSCENE_MAIN -I. -c tests/scene.c -o "$T/scenes.o" &&
+        "$1" $static "$T/scenes.o" -lm -o "$T/scenes"
+}
 # name, runner (or ""), compiler and flags
 one() {
     name=$1 runner=$2; shift 2
     if ! there "$1" || { [ -n "$runner" ] && ! there "${runner%% *}"; }; then
         left_out "$name"
-    elif ! "$@" -w -DSCENE_MAIN -I. tests/scene.c -lm -o "$T/scenes" 2>"$T/log"; then
+    elif ! $build "$@" 2>"$T/log"; then
         fail "$name does not compile" "$T/log"
     elif $runner "$T/scenes" >"$T/got" 2>&1 && cmp -s "$T/want" "$T/got"; then
         passed=$((passed + 1)); echo "same      $name"
@@ -19,6 +25,7 @@ one() {
     fi
 }
 
+build=builds
 for cc in gcc clang; do
     for o in -O0 -O1 -O2 -O3 -Os; do one "$cc $o" "" $cc $o; done
     for flags in "-std=c99 -O2" "-std=gnu17 -O2" "-O3 -march=native" "-O2 -mavx2 -mfma" \
@@ -40,8 +47,28 @@ for std in "" "-std=c99"; do
     one "armhf $std" qemu-arm arm-linux-gnueabihf-gcc -static -O2 $std
     one "riscv64 $std" qemu-riscv64 riscv64-linux-gnu-gcc -static -O2 $std
 done
-one "s390x, big-endian" qemu-s390x s390x-linux-gnu-gcc -static -O2
+for std in "" "-std=c99"; do
+    one "s390x, big-endian $std" qemu-s390x s390x-linux-gnu-gcc -static -O2 $std
+done
 one "aarch64 -O3 -ffp-contract=fast" qemu-aarch64 aarch64-linux-gnu-gcc -static -O3 -ffp-contract=fast
+
+# gcc heeds the header under -ffast-math too; clang is refused
+build=builds_fast static=
+for flags in -Ofast "-O3 -march=native -ffast-math" \
+    "-O3 -march=native -ffast-math -DSHADE__AS_COMPILED" \
+    "-O0 -ffast-math" "-Os -ffast-math" "-O2 -ffast-math -DSHADE_NO_LIBM" \
+    "-O2 -ffast-math -ffp-contract=fast -mfma -DSHADE__LEVEL=0" "-O2 -funsafe-math-optimizations" \
+    "-O2 -fassociative-math -fno-signed-zeros -fno-trapping-math" "-O2 -freciprocal-math" \
+    "-O2 -ffinite-math-only" "-O2 -fsingle-precision-constant"; do
+    one "gcc $flags" "" gcc $flags
+done
+static=-static
+one "i686 -Ofast" "" i686-linux-gnu-gcc -msse2 -mfpmath=sse -Ofast
+one "aarch64 -Ofast" qemu-aarch64 aarch64-linux-gnu-gcc -Ofast
+one "armhf -Ofast" qemu-arm arm-linux-gnueabihf-gcc -Ofast
+one "riscv64 -Ofast" qemu-riscv64 riscv64-linux-gnu-gcc -Ofast
+one "s390x -Ofast" qemu-s390x s390x-linux-gnu-gcc -Ofast
+build=builds
 
 wasi="node --no-warnings --experimental-wasi-unstable-preview1 tests/wasi.js"
 if echo '#include <stdio.h>' | clang --target=wasm32-wasi -x c -fsyntax-only - 2>/dev/null; then

@@ -43,6 +43,13 @@ static void prove_next(int across, int w, int h)
     last = shade__next_blocks(&plan, &hidden, &t, edge, &x, ANY_OF(5, low), ANY_OF(5, low));
     /*@ assert 2 <= last <= 16383 && 3 <= x <= 16384; */
 }
+/* Blocks of one size, from all in one column to all in one row. */
+static void prove_sizes(int w, int h)
+{
+    /*@ loop unroll 80; */
+    for (int rows = SHADE__BLOCKS; rows > 0; rows = SHADE__BLOCKS / (SHADE__BLOCKS / rows + 1))
+        prove_next(SHADE__BLOCKS / rows, w, h);
+}
 int main(void)
 {
     prove_begin();
@@ -60,12 +67,9 @@ int main(void)
     t.z_low = any_float();
     t.z_high = any_float();
     any_floats(hidden.farthest, SHADE__BLOCKS);
-    /*@ loop unroll 80; */
-    for (int rows = SHADE__BLOCKS; rows > 0; rows = SHADE__BLOCKS / (SHADE__BLOCKS / rows + 1))
-        prove_next(SHADE__BLOCKS / rows, 5, 3);
-    for (int h = 4; h <= 14; h++) {
-        prove_next(32, shade__max(h, 5), h);
-        if (h < 14) prove_next(32, shade__max(h, 5) + 1, h);
+    for (int h = 3; h <= 14; h++) {
+        prove_sizes(shade__max(h, 5), h);
+        if (h > 4 && h < 14) prove_sizes(h + 1, h);
     }
     return 0;
 }

@@ -1,4 +1,5 @@
 /* clear.c - filling rows and rectangles: any clip rectangle, colour and depth, every format. */
+#define SHADE_LANES 128
 #include "prove.h"
 
 static uint32_t color[4 * 17], memory[301];

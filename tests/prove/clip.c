@@ -1,5 +1,6 @@
 /* clip.c - clipping: polygons of every size against each plane, with corners anywhere; corners of
    what is left on the screen; the fan. */
+#define SHADE_LANES 128
 #include "prove.h"
 
 static shade__polygon p;

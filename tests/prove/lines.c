@@ -1,5 +1,6 @@
 /* lines.c - ends of lines: any points, matrix and width; points read inside their array. */
 /* eva: -eva-slevel 20 -eva-split-return-function shade__stroke_part:0 */
+#define SHADE_LANES 128
 #include "prove.h"
 
 int main(void)

@@ -1,4 +1,5 @@
 /* pack.c - pixels of every format from any floats, and back from any bytes. */
+#define SHADE_LANES 128
 #include "prove.h"
 
 enum { N = SHADE__BLOCK };

@@ -1,4 +1,5 @@
 /* power.c - log2 and exp2 of >>power, and what is made of them: any bits in. */
+#define SHADE_LANES 128
 #include "prove.h"
 
 /* -log2 x, x in octaves around powers of two, from sqrt(1/2) to sqrt(2) times 2^(e - 127) */

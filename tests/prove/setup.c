@@ -1,5 +1,6 @@
 /* setup.c - triangle setup of >>triangles: positions within 2^24, clip rectangles within 16384,
    depths and 1/w any floats. */
+#define SHADE_LANES 128
 #include "prove.h"
 
 enum { N = SHADE__TRIANGLES, FAR = 1 << 24 };

@@ -1,5 +1,6 @@
 /* texture.c - texture addresses: any bits of u, v, lod in, texels inside the texture out. */
 /* eva: -eva-partition-history 3 -eva-ilevel 32 */
+#define SHADE_LANES 128
 #include "prove.h"
 
 enum { N = SHADE__BLOCK };
