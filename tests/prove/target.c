@@ -1,6 +1,6 @@
 /* target.c - any fields of a target: checked without overflow, and if it is good the clip rectangle
    lies in the picture and in the rows held, whose pixels 32 bits count. */
-/* eva: -eva-slevel 100 -eva-split-return-function shade__check_target:0 */
+/* eva: -eva-slevel 100 -eva-split-return-function shade__check_target:0,shade__target_fault:0 */
 #include "prove.h"
 
 int main(void)
