@@ -15,6 +15,7 @@
 
    and plain #include "shade.h" elsewhere.  Link with -lm (for sqrtf alone; see SHADE_NO_LIBM).
 
+       #include <stdio.h>
        static uint32_t pixels[480 * 640];  static float depth[480 * 640];
 
        int main(void) {
@@ -22,6 +23,8 @@
            shade_target target = { 640, 480 };
            shade_mesh mesh = { corner };
            shade_draw_state state = { 0 };
+           shade_stats stats;
+           shade_result result;
            shade_light sun = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 0.8f, 0.5f));
            target.color = pixels;
            target.depth = depth;
@@ -31,7 +34,9 @@
            state.lighting.lights = &sun;
            state.lighting.light_count = 1;
            shade_clear(&target, shade_v4(0.1f, 0.1f, 0.2f, 1), 1);
-           shade_draw_mesh(&target, &mesh, &state, NULL);
+           result = shade_draw_mesh(&target, &mesh, &state, &stats);
+           if (result) puts(shade_result_string(result));
+           if (!stats.fragments) puts(shade_explain(&target, &mesh, &state, &stats));
            return shade_write_ppm("triangle.ppm", &target);
        }
 
@@ -43,7 +48,7 @@
      Public     >>config  >>types  >>inline  >>math  >>light  >>draw
      Inside     >>target  >>base  >>matrix  >>power  >>color  >>lighting  >>arrival  >>lanes
                 >>state  >>vertices  >>triangles  >>clip  >>blocks  >>cover  >>fragments  >>texture
-                >>store  >>check  >>drive  >>mesh  >>lines  >>shape  >>image
+                >>store  >>check  >>drive  >>mesh  >>lines  >>shape  >>explain  >>image
      Sources    >>refs  >>history  >>license
 
    >>conventions
@@ -969,6 +974,15 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
    depth-only draws it is called where alpha_cutoff > 0 alone. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
+
+/* Why a draw gives no picture, or the wrong one, and which field to change: one plain sentence, ""
+   where nothing is suspicious; never NULL.  Pass what shade_draw_mesh took, after it, with its
+   stats; NULL stats: what cannot be told without them is left out.  It knows every refusal by its
+   field, matrices that are transposed, swapped or in degrees, meshes out of view, culling, depth
+   that was not cleared, light that does not arrive.  Nothing is written, not even to a static
+   variable.  Looks at every triangle twice: for when a picture is black, not for every frame. */
+SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
+                                   const shade_draw_state *state, const shade_stats *stats);
 
 /* How many chunks shade_mesh_chunks makes of a list of indices; triangles as there.  0 for negative
    numbers, and for an index_count that is no multiple of 3. */
@@ -4092,15 +4106,17 @@ SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d))
 /* What is wrong with a texture, as a sentence; NULL: nothing. */
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 {
-    if (!t->pixels) return "The texture's pixels are NULL.";
+    if (!t->pixels) return "The texture's pixels are NULL; point them at its texels.";
     if (t->width < 1 || t->height < 1 || t->width > 16384 || t->height > 16384)
-        return "The texture's width and height must be from 1 to 16384.";
+        return "The texture's width and height must be from 1 to 16384 texels.";
     if (t->stride && t->stride < t->width)
-        return "The texture's stride is below its width; it counts texels, and 0 means the width.";
-    if ((unsigned)t->format > SHADE_FORMAT_A8) return "The texture's format is unknown.";
+        return "The texture's stride is less than its width; it counts texels, 0 means the width.";
+    if ((unsigned)t->format > SHADE_FORMAT_A8)
+        return "The texture's format is no SHADE_FORMAT_... value.";
     if ((unsigned)t->wrap_u > SHADE_WRAP_MIRROR || (unsigned)t->wrap_v > SHADE_WRAP_MIRROR)
-        return "The texture's wrap_u or wrap_v is unknown.";
-    if ((unsigned)t->filter > SHADE_FILTER_TRILINEAR) return "The texture's filter is unknown.";
+        return "The texture's wrap_u or wrap_v is no SHADE_WRAP_... value.";
+    if ((unsigned)t->filter > SHADE_FILTER_TRILINEAR)
+        return "The texture's filter is no SHADE_FILTER_... value.";
     return NULL;
 }
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
@@ -4695,20 +4711,23 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c))
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
 {
     const uint64_t pixels = (uint64_t)shade__rows_held(t) * (uint64_t)shade__stride_of(t);
-    if (!t->color && !t->depth) return "target.color and target.depth are both NULL.";
+    if (!t->color && !t->depth)
+        return "target.color and target.depth are both NULL; point one of them at your memory.";
     if (t->width < 1 || t->width > 16384 || t->height < 1 || t->height > 16384)
-        return "target.width and target.height must be from 1 to 16384.";
+        return "target.width and target.height must be from 1 to 16384 pixels.";
     if (t->stride && t->stride < t->width)
-        return "target.stride is below target.width; it counts pixels, and 0 means the width.";
+        return "target.stride is less than target.width; it counts pixels, and 0 means the width.";
     if ((unsigned)t->format > SHADE_FORMAT_RGBA32F)
-        return "target.format is none that can be drawn into.";
+        return "target.format is unknown, or SHADE_FORMAT_A8, which only textures can have.";
     if (t->clip_width < 0 || t->clip_height < 0)
-        return "target.clip_width or target.clip_height is negative.";
+        return "target.clip_width or target.clip_height is negative; all four clip fields zero "
+               "mean the whole picture.";
     if (t->row_count < 0 || t->row_offset < 0 || (t->row_offset && !t->row_count) ||
         (t->row_count && t->row_offset > t->height - t->row_count))
-        return "target.row_offset and target.row_count are no rows of the picture.";
+        return "target.row_offset and target.row_count reach beyond target.height or are negative, "
+               "or row_count is 0 for a strip.";
     if (pixels > 0xFFFFFFFFu || pixels > SIZE_MAX / 16)
-        return "target.stride times the rows is beyond 2^32 - 1 pixels.";
+        return "target.stride times the number of rows exceeds 2^32 - 1 pixels.";
     return NULL;
 }
 static shade_result shade__check_target(const shade_target *t)
@@ -4729,21 +4748,25 @@ SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
 {
     const int strides = m->position_stride | m->normal_stride | m->texcoord_stride |
                         m->color_stride;
-    if (m->vertex_count < 0) return "mesh.vertex_count is negative.";
-    if (!m->positions && m->vertex_count) return "mesh.positions is NULL.";
-    if (m->indices && m->index_count < 0) return "mesh.index_count is negative.";
+    if (m->vertex_count < 0) return "mesh.vertex_count is negative; it counts vertices.";
+    if (!m->positions && m->vertex_count)
+        return "mesh.positions is NULL while mesh.vertex_count is not 0.";
+    if (m->indices && m->index_count < 0)
+        return "mesh.index_count is negative; it counts indices, three a triangle.";
     if (strides < 0 || strides % 4)
-        return "A stride of the mesh is negative or no multiple of 4; strides count bytes, and 0 "
-               "means tightly packed.";
+        return "mesh.position_stride, normal_stride, texcoord_stride or color_stride is negative "
+               "or no multiple of 4; strides count bytes, not floats, and 0 means tightly packed.";
     return NULL;
 }
 SHADE__INLINE const char *shade__chunks_fault(const shade_mesh *m)
 {
-    if (m->chunk_count < 0) return "mesh.chunk_count is negative.";
-    if (!m->chunks) return m->chunk_count ? "mesh.chunks is NULL, with a chunk_count." : NULL;
+    if (m->chunk_count < 0) return "mesh.chunk_count is negative; it counts mesh.chunks.";
+    if (!m->chunks)
+        return m->chunk_count ? "mesh.chunks is NULL while mesh.chunk_count is not 0." : NULL;
     for (int i = 0; i < m->chunk_count; i++)
         if (shade__chunk_outside(&m->chunks[i], shade__corner_count(m) / 3))
-            return "A chunk of the mesh is outside of its triangles.";
+            return "A chunk of mesh.chunks reaches beyond the triangles of the mesh, or its first "
+                   "or count is negative; they count triangles, not indices.";
     return NULL;
 }
 static shade_result shade__check_mesh(const shade_mesh *m)
@@ -4753,10 +4776,12 @@ static shade_result shade__check_mesh(const shade_mesh *m)
 
 SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
 {
-    if ((unsigned)r->cull > SHADE_CULL_FRONT) return "raster.cull is unknown.";
-    if ((unsigned)r->depth_test > SHADE_COMPARE_ALWAYS) return "raster.depth_test is unknown.";
-    if ((unsigned)r->blend > SHADE_BLEND_ADD) return "raster.blend is unknown.";
-    if (!shade__within(r->depth_bias, FLT_MAX)) return "raster.depth_bias is NaN or infinite.";
+    if ((unsigned)r->cull > SHADE_CULL_FRONT) return "raster.cull is no SHADE_CULL_... value.";
+    if ((unsigned)r->depth_test > SHADE_COMPARE_ALWAYS)
+        return "raster.depth_test is no SHADE_COMPARE_... value.";
+    if ((unsigned)r->blend > SHADE_BLEND_ADD) return "raster.blend is no SHADE_BLEND_... value.";
+    if (!shade__within(r->depth_bias, FLT_MAX))
+        return "raster.depth_bias is NaN or infinite; 0 means none.";
     return NULL;
 }
 /* How many varyings the shaders of meshes take. */
@@ -4769,21 +4794,25 @@ static int shade__mesh_varyings(const shade_mesh *m, const shade_draw_state *sta
 }
 SHADE__INLINE const char *shade__state_fault(const shade_mesh *m, const shade_draw_state *state)
 {
-    if ((unsigned)state->shading > SHADE_SHADING_PER_FACE) return "state.shading is unknown.";
+    if ((unsigned)state->shading > SHADE_SHADING_PER_FACE)
+        return "state.shading is no SHADE_SHADING_... value.";
     if (!(state->transparency >= 0 && state->transparency <= 1))
-        return "state.transparency must be from 0 to 1.";
+        return "state.transparency must be from 0 (opaque) to 1 (invisible).";
     if (!(state->alpha_cutoff >= 0 && state->alpha_cutoff <= 1))
-        return "state.alpha_cutoff must be from 0 to 1.";
+        return "state.alpha_cutoff must be from 0 (nothing is cut) to 1.";
     if (state->fragment && state->shading != SHADE_SHADING_PER_FRAGMENT)
-        return "state.fragment needs SHADE_SHADING_PER_FRAGMENT.";
+        return "state.fragment needs state.shading to be SHADE_SHADING_PER_FRAGMENT.";
     if (shade__mesh_varyings(m, state) > SHADE_MAX_VARYINGS)
-        return "This mesh and state need more than SHADE_MAX_VARYINGS varyings.";
+        return "SHADE_MAX_VARYINGS is too small for this draw, which needs 6 varyings, 9 with "
+               "mesh.colors, 2 more with state.diffuse_map, or 11 with state.fragment.";
     return shade__raster_fault(&state->raster);
 }
 SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
 {
-    if (!l->lights && l->light_count > 0) return "lighting.lights is NULL, with a light_count.";
-    if ((unsigned)l->model > SHADE_MODEL_COOL_TO_WARM) return "lighting.model is unknown.";
+    if (!l->lights && l->light_count > 0)
+        return "lighting.lights is NULL while lighting.light_count is not 0.";
+    if ((unsigned)l->model > SHADE_MODEL_COOL_TO_WARM)
+        return "lighting.model is no SHADE_MODEL_... value.";
     return NULL;
 }
 static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
@@ -5609,7 +5638,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
    What a mesh knows of its shape: normals of vertices and corners, edges; and rays through it.
      in      meshes, the caller's memory         out  the caller's arrays
      method  normals of faces weighted by their angle at the vertex [Thurmer98]; edges by sorting;
-             rays against triangles by Cramer's rule [Moller97]                         >>image */
+             rays against triangles by Cramer's rule [Moller97]                       >>explain */
 
 /* Angle between a vector of length y and components: atan2(y, x), y >= 0, within 1e-9. atan t =
    pi/4 + atan((t - 1) / (t + 1)) keeps the argument of the series below tan(pi/8). */
@@ -6139,6 +6168,894 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
     if (hit.triangle >= 0 && t) *t = hit.t;
     if (hit.triangle >= 0 && barycentric) *barycentric = hit.barycentric;
     return hit.triangle;
+}
+
+/*---------------------------------------------------------------------------------------- >>explain
+   Why a draw gives no picture, or the wrong one, in one sentence.
+     in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
+     holds   Nothing is written.  A pass counts what becomes of the triangles, a second one takes
+             points of those that are drawn, at most SHADE__POINTS: these are compared with the
+             depth buffer and lit.  What only a part of the picture shows is never told.  >>image */
+
+enum {
+    SHADE__POINTS = 256,     /* points of the mesh that are looked at */
+    SHADE__SUSPECTS = 16     /* lamps that are tried without their cone, or their attenuation */
+};
+typedef enum shade__fate {   /* what becomes of a triangle */
+    SHADE__REJECTED, SHADE__BEHIND, SHADE__BEFORE_NEAR, SHADE__BEYOND_FAR, SHADE__BESIDE,
+    SHADE__NO_AREA, SHADE__FRONT, SHADE__BACK, SHADE__FATES
+} shade__fate;
+
+typedef struct shade__corners {          /* of one triangle */
+    shade_vec3 object[3], world[3];
+    shade_vec4 clip[3];
+} shade__corners;
+typedef struct shade__walk { int chunk, next, end; } shade__walk;
+
+typedef struct shade__survey {
+    const shade_target     *target;
+    const shade_mesh       *mesh;
+    const shade_draw_state *state;
+    const shade_stats      *stats;       /* NULL: not known */
+    shade__scene scene;
+    shade_mat4 projection, camera;       /* camera: from eye to world */
+    shade_mat4 clip_from_world;
+    shade_vec3 eye;
+    int whole;                           /* the clip rectangle is the picture, in memory as well */
+    int clip[4];
+    long long triangles, drawn, fate[SHADE__FATES];    /* triangles: without those rejected */
+    shade_vec3 low, high, origin;        /* the box of the corners, and the first; world space */
+    double area, volume, sum[3];         /* twice the area, 6 times the volume, vectors of area */
+    long long with, against;             /* triangles wound as their vertex normals say, or not */
+    int seen, cut;                       /* points in the clip rectangle; below alpha_cutoff */
+    int failed, unbiased;                /* of seen: not drawn by their depth; but without bias */
+    int zeros, ones, nans;               /* of seen: the depth buffer holds 0, 1, NaN */
+    int held, untouched;                 /* of seen: it holds the mesh; it holds what is behind */
+    int vague;                           /* of seen: too far away for depth to tell */
+    int clear;                           /* points of an alpha below 1/255 */
+    int points;                          /* that are visible */
+    shade_vec3 point[SHADE__POINTS], normal[SHADE__POINTS], albedo[SHADE__POINTS];
+} shade__survey;
+
+/* ---- arguments: the refusals of shade_draw_mesh, in its order */
+
+static const char *shade__indices_fault(const shade_mesh *m)
+{
+    if (!shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count)) return NULL;
+    if (shade__corner_count(m) % 3 == 0)
+        return "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
+               "vertices, not floats, and indices are 32 bits wide.";
+    return m->indices ? "mesh.index_count is no multiple of 3; it counts indices, three a triangle."
+                      : "mesh.vertex_count is no multiple of 3, and mesh.indices is NULL.";
+}
+static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
+                                  const shade_draw_state *s)
+{
+    const char *fault;
+    if (!t) return "target is NULL; pass the address of a shade_target.";
+    if (!m) return "mesh is NULL; pass the address of a shade_mesh.";
+    if (!s) return "state is NULL; pass the address of a shade_draw_state.";
+    fault = shade__target_fault(t);
+    if (!fault) fault = shade__mesh_fault(m);
+    if (!fault) fault = shade__chunks_fault(m);
+    if (!fault) fault = shade__state_fault(m, s);
+    if (!fault) fault = shade__lights_fault(&s->lighting);
+    if (!fault && m->texcoords && s->diffuse_map) fault = shade__texture_fault(s->diffuse_map);
+    return fault ? fault : shade__indices_fault(m);
+}
+static int shade__overlaps(int stride, int bytes) { return stride && stride < bytes; }
+
+static const char *shade__suspect_mesh(const shade_mesh *m)
+{
+    if (!shade__corner_count(m))
+        return m->indices ? "mesh.index_count is 0, so there are no triangles to draw; set it."
+                          : "mesh.vertex_count is 0, so there are no triangles to draw; set it.";
+    if (m->chunks && !m->chunk_count)
+        return "mesh.chunk_count is 0 while mesh.chunks is not NULL, so no triangle is drawn; set "
+               "chunk_count, or make chunks NULL.";
+    if (shade__overlaps(m->position_stride, 12) ||
+        (m->normals && shade__overlaps(m->normal_stride, 12)) ||
+        (m->texcoords && shade__overlaps(m->texcoord_stride, 8)) ||
+        (m->colors && shade__overlaps(m->color_stride, 12)))
+        return "A stride of the mesh is shorter than one element; position_stride, normal_stride, "
+               "texcoord_stride and color_stride count bytes, not floats, and 0 means tight.";
+    return NULL;
+}
+
+/* ---- matrices */
+
+static int shade__is_affine(const shade_mat4 *m)
+{
+    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
+}
+/* Turns, moves and mirrors, but does not scale. */
+static int shade__is_rigid(const shade_mat4 *m)
+{
+    int good = shade__is_affine(m);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k <= i; k++) {
+            const float d = shade_dot(shade__xyz(m->col[i]), shade__xyz(m->col[k]));
+            good &= shade__within(d - (i == k ? 1.0f : 0.0f), 0.01f);
+        }
+    return good;
+}
+/* A translation in the row where column-major matrices have 0, 0, 0, 1. */
+static int shade__is_transposed(const shade_mat4 *m)
+{
+    return shade__is_zero(shade__xyz(m->col[3])) && m->col[3].w == 1 && !shade__is_affine(m);
+}
+static int shade__is_perspective(const shade_mat4 *m)
+{
+    return m->col[3].w == 0 && m->col[2].w != 0 && m->col[0].w == 0 && m->col[1].w == 0;
+}
+/* Columns that all vanish but the last, (0, 0, 2, 1): what cameras give for bad arguments. */
+static int shade__is_no_camera(const shade_mat4 *m)
+{
+    for (int k = 0; k < 14; k++)
+        if (((const float *)m)[k] != 0) return 0;
+    return m->col[3].z == 2 && m->col[3].w == 1;
+}
+static const char *shade__suspect_numbers(const shade_draw_state *s)
+{
+    if (!shade__is_finite(&s->model)) return "state.model holds a NaN or an infinite number.";
+    if (!shade__is_finite(&s->view)) return "state.view holds a NaN or an infinite number.";
+    if (!shade__is_finite(&s->projection))
+        return "state.projection holds a NaN or an infinite number.";
+    if (shade__is_no_camera(&s->projection) || shade__is_no_camera(&s->view))
+        return "state.projection is the matrix that cameras give for bad arguments: fovy must be "
+               "in radians and below pi (use shade_radians for degrees), near and far above 0 and "
+               "different, the aspect not 0, left not equal to right, bottom not to top.";
+    return NULL;
+}
+static const char *shade__suspect_matrices(const shade_draw_state *s)
+{
+    const shade_mat4 view = shade__or_identity(s->view), *p = &s->projection;
+    const char *fault = shade__suspect_numbers(s);
+    if (fault) return fault;
+    if (shade__is_transposed(&s->model))
+        return "state.model looks transposed (row-major): its translation belongs into col[3]; "
+               "pass it through shade_mat4_transpose.";
+    if (shade__is_transposed(&view))
+        return "state.view looks transposed (row-major): its translation belongs into col[3]; "
+               "pass it through shade_mat4_transpose.";
+    if ((p->col[3].z == -1 || p->col[3].z == 1) && p->col[3].w == 0 && p->col[2].w != 0 &&
+        p->col[2].w != 1 && p->col[2].w != -1)
+        return "state.projection looks transposed (row-major): its -1 belongs into col[2].w; pass "
+               "it through shade_mat4_transpose.";
+    if (!shade__is_affine(&view) || (!shade__is_rigid(&view) && shade__is_rigid(p) &&
+                                     !shade__is_zero(shade__xyz(p->col[3]))))
+        return "state.view holds a projection: state.view and state.projection look swapped.";
+    if (shade_mat4_determinant(view) == 0)
+        return "state.view is singular, it has no inverse and so no eye; make it with "
+               "shade_mat4_look_at.";
+    if (shade__is_perspective(p) && p->col[2].z == 0 && !s->raster.depth_zero_to_one)
+        return "state.projection is that of shade_mat4_perspective_reversed, which needs "
+               "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
+    return NULL;
+}
+
+/* ---- the first pass: what becomes of the triangles */
+
+/* The next triangle of the draw; -1 behind the last. */
+static int shade__next_triangle(const shade_mesh *m, shade__walk *w)
+{
+    while (w->next == w->end) {
+        const int more = m->chunks ? m->chunk_count : 1;
+        if (w->chunk >= more) return -1;
+        w->next = m->chunks ? m->chunks[w->chunk].first : 0;
+        w->end = w->next + (m->chunks ? m->chunks[w->chunk].count : shade__corner_count(m) / 3);
+        w->chunk++;
+    }
+    return w->next++;
+}
+static void shade__corners_of(const shade__survey *s, int triangle, shade__corners *c)
+{
+    for (int k = 0; k < 3; k++) {
+        const shade_vec3 p = shade__corner(s->mesh, 3 * (uint32_t)triangle + (uint32_t)k);
+        c->object[k] = p;
+        c->clip[k] = shade_mat4_transform(s->scene.clip_from_object, shade__xyzw(p, 1));
+        c->world[k] = shade__xyz(shade_mat4_transform(s->scene.world_from_object,
+                                                      shade__xyzw(p, 1)));
+    }
+}
+static uint32_t shade__outcode(shade_vec4 c, int zero_to_one)
+{
+    const float low = zero_to_one ? 0 : -c.w;
+    const uint32_t bad = shade__beyond(c.x) | shade__beyond(c.y) | shade__beyond(c.z) |
+                         shade__beyond(c.w);
+    return shade__sides_passed(c.x, c.y, c.w) | (shade__mask(c.z < low) & SHADE__OUT_NEAR) |
+           (shade__mask(c.z > c.w) & SHADE__OUT_FAR) | (bad & SHADE__OUT_BAD) |
+           (shade__mask(c.w < shade__w_least) & SHADE__OUT_W);
+}
+/* Twice the signed area on the screen times w0 w1 w2: its sign holds behind the eye as well. */
+static double shade__homogeneous_area(const shade_vec4 *c)
+{
+    double x[3], y[3], w[3];
+    for (int k = 0; k < 3; k++) {
+        x[k] = (double)c[k].x;
+        y[k] = (double)c[k].y;
+        w[k] = (double)c[k].w;
+    }
+    return x[0] * (y[1] * w[2] - y[2] * w[1]) - y[0] * (x[1] * w[2] - x[2] * w[1]) +
+           w[0] * (x[1] * y[2] - x[2] * y[1]);
+}
+static shade__fate shade__fate_of(const shade__survey *s, const shade__corners *c)
+{
+    uint32_t any = 0, all = ~0u;
+    double area, least = 0;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t out = shade__outcode(c->clip[k], s->state->raster.depth_zero_to_one);
+        any |= out;
+        all &= out;
+    }
+    if (any & SHADE__OUT_BAD) return SHADE__REJECTED;
+    if (all & SHADE__OUT_W) return SHADE__BEHIND;
+    if (all & SHADE__OUT_NEAR) return SHADE__BEFORE_NEAR;
+    if (all & SHADE__OUT_FAR) return SHADE__BEYOND_FAR;
+    if (all & 15) return SHADE__BESIDE;
+    area = shade__homogeneous_area(c->clip);
+    if (!(any & SHADE__OUT_W))    /* below 2^-15 of a pixel: the corners are snapped to one line */
+        least = (double)c->clip[0].w * (double)c->clip[1].w * (double)c->clip[2].w * 1.2e-4 /
+                ((double)s->target->width * (double)s->target->height);
+    return area > least ? SHADE__FRONT : area < -least ? SHADE__BACK : SHADE__NO_AREA;
+}
+static int shade__is_drawn(const shade__survey *s, shade__fate fate)
+{
+    const shade_cull cull = s->state->raster.cull;
+    return (fate == SHADE__FRONT && cull != SHADE_CULL_FRONT) ||
+           (fate == SHADE__BACK && cull != SHADE_CULL_BACK);
+}
+/* Adds a triangle to box, areas, volume, and to with or against. */
+static void shade__measure(shade__survey *s, int triangle, const shade__corners *c)
+{
+    double e[3], f[3], n[3], p[3];
+    shade_vec3 normal = shade_v3(0, 0, 0), face;
+    shade__sub3(c->world[1], c->world[0], e);
+    shade__sub3(c->world[2], c->world[0], f);
+    shade__cross3(e, f, n);
+    if (s->triangles == 1) s->origin = s->low = s->high = c->world[0];
+    for (int k = 0; k < 3; k++) {
+        s->low = shade_min(s->low, c->world[k]);
+        s->high = shade_max(s->high, c->world[k]);
+        s->sum[k] += n[k];
+    }
+    shade__sub3(c->world[0], s->origin, p);
+    s->volume += p[0] * n[0] + p[1] * n[1] + p[2] * n[2];
+    s->area += (double)shade_length(shade_v3((float)n[0], (float)n[1], (float)n[2]));
+    if (!s->mesh->normals) return;
+    for (uint32_t k = 0; k < 3; k++)
+        normal = shade_add(normal, shade__vec3_at(s->mesh->normals, s->mesh->normal_stride,
+                                   shade__corner_index(s->mesh, 3 * (uint32_t)triangle + k)));
+    face = shade_face_normal(c->object[0], c->object[1], c->object[2]);
+    s->with += shade_dot(face, normal) > 0;
+    s->against += shade_dot(face, normal) < 0;
+}
+static void shade__count_fates(shade__survey *s)
+{
+    shade__walk w;
+    shade__corners c;
+    SHADE__ZERO(w);
+    for (int t = shade__next_triangle(s->mesh, &w); t >= 0; t = shade__next_triangle(s->mesh, &w)) {
+        shade__fate fate;
+        shade__corners_of(s, t, &c);
+        fate = shade__fate_of(s, &c);
+        s->fate[fate]++;
+        s->drawn += shade__is_drawn(s, fate);
+        if (fate == SHADE__REJECTED) continue;
+        s->triangles++;
+        shade__measure(s, t, &c);
+    }
+}
+static int shade__eye_inside(const shade__survey *s)
+{
+    return s->eye.x >= s->low.x && s->eye.y >= s->low.y && s->eye.z >= s->low.z &&
+           s->eye.x <= s->high.x && s->eye.y <= s->high.y && s->eye.z <= s->high.z;
+}
+
+/* ---- the second pass: points of the triangles that are drawn */
+
+/* Compares a point with the depth buffer.  The depths of two neighbours on the line of sight tell
+   whether what the buffer holds is the mesh itself; far: the one behind.  Whether it is hidden. */
+static int shade__look_behind(shade__survey *s, shade_vec3 p, float depth, float stored)
+{
+    const shade_raster *r = &s->state->raster;
+    const shade__compare test = shade__compare_of(r);
+    const float step = 0.02f * shade_distance(s->low, s->high);
+    const int orthographic = !shade__is_perspective(&s->projection);
+    const shade_vec3 to_eye = orthographic ? shade__xyz(s->camera.col[2]) : shade_sub(s->eye, p);
+    const shade_vec3 by = shade_scale(shade_normalize(to_eye), step);
+    float around[2];
+    int fails, holds;
+    for (int k = 0; k < 2; k++) {
+        const shade_vec3 q = k ? shade_sub(p, by) : shade_add(p, by);
+        const shade_vec4 v = shade_mat4_transform(s->clip_from_world, shade__xyzw(q, 1));
+        const double scale = r->depth_zero_to_one ? 1 : 0.5;
+        around[k] = v.w > 0 ? shade__window_depth(v.z, v.w, scale, 1 - scale) : depth;
+    }
+    fails = !shade__passes(test, 0, depth + r->depth_bias, stored);
+    s->unbiased += fails && shade__passes(test, 0, depth, stored);
+    s->zeros += stored == 0;
+    s->ones += stored == 1;
+    s->nans += stored != stored;
+    if (around[0] > around[1]) {    /* reversed: compare in the other direction */
+        around[0] = -around[0];
+        around[1] = -around[1];
+        stored = -stored;
+    }
+    s->vague += around[1] - around[0] < 1e-6f;
+    holds = stored >= around[0] && stored <= around[1];
+    s->held += holds;
+    s->failed += fails || holds;
+    s->untouched += stored > around[1];
+    return stored < around[0];
+}
+/* Whether the point is in the clip rectangle; there it is compared with the depth buffer. */
+static int shade__point_hidden(shade__survey *s, shade_vec3 p, shade_vec4 clip)
+{
+    const shade_target *t = s->target;
+    const double scale = s->state->raster.depth_zero_to_one ? 1 : 0.5;
+    const int x = shade__min((int)((clip.x / clip.w + 1) * (float)t->width / 2), t->width - 1);
+    const int y = shade__min((int)((1 - clip.y / clip.w) * (float)t->height / 2), t->height - 1);
+    if (x < s->clip[0] || y < s->clip[1] || x >= s->clip[2] || y >= s->clip[3]) return 0;
+    s->seen++;
+    if (!t->depth) return 0;
+    return shade__look_behind(s, p, shade__window_depth(clip.z, clip.w, scale, 1 - scale),
+                              t->depth[shade__offset_of(t, x, y)]);
+}
+/* Three values of the corners at barycentric b. */
+static shade_vec3 shade__between(const shade_vec3 *v, shade_vec3 b)
+{
+    return shade_madd(shade_madd(shade_scale(v[0], b.x), b.y, v[1]), b.z, v[2]);
+}
+/* N, the product of colour and map, and its alpha, as the fragment shader has them. */
+static float shade__surface_at(const shade__survey *s, int triangle, const shade__corners *c,
+                               shade_vec3 b, shade_vec3 *normal, shade_vec3 *albedo)
+{
+    const shade_mesh *m = s->mesh;
+    shade_vec3 n[3], color[3], uv[3];
+    shade_vec4 texel = shade_v4(1, 1, 1, 1);
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t v = shade__corner_index(m, 3 * (uint32_t)triangle + k);
+        float at[2] = { 0, 0 };
+        n[k] = s->scene.face_normals ? shade_face_normal(c->object[0], c->object[1], c->object[2])
+                                     : shade__vec3_at(m->normals, m->normal_stride, v);
+        n[k] = shade_normalize(shade_mat3_transform(s->scene.normal_matrix, n[k]));
+        color[k] = m->colors ? shade__vec3_at(m->colors, m->color_stride, v) : shade_v3(1, 1, 1);
+        if (s->scene.map)
+            SHADE_MEMCPY(at, (const char *)m->texcoords +
+                             v * (size_t)(m->texcoord_stride ? m->texcoord_stride : 8), 8);
+        uv[k] = shade_v3(at[0], at[1], 0);
+    }
+    uv[0] = shade__between(uv, b);
+    if (s->scene.map) texel = shade_sample(s->scene.map, uv[0].x, uv[0].y, 0);
+    *normal = shade__between(n, b);
+    *albedo = shade_mul(shade__between(color, b), shade__xyz(texel));
+    return (1 - s->state->transparency) * texel.w;
+}
+/* always: a point that no depth buffer hides */
+static void shade__take_point(shade__survey *s, int triangle, const shade__corners *c, shade_vec3 b,
+                              int always)
+{
+    const int at = s->points;
+    shade_vec4 clip = shade_scale4(c->clip[0], b.x);
+    float alpha;
+    clip = shade_add4(clip, shade_scale4(c->clip[1], b.y));
+    clip = shade_add4(clip, shade_scale4(c->clip[2], b.z));
+    s->point[at] = shade__between(c->world, b);
+    alpha = shade__surface_at(s, triangle, c, b, &s->normal[at], &s->albedo[at]);
+    if (!always) {
+        const int out = shade__outcode(clip, s->state->raster.depth_zero_to_one) != 0;
+        if (out) return;
+        if (!s->state->fragment && alpha < s->state->alpha_cutoff) {
+            s->cut++;
+            return;
+        }
+        if (shade__point_hidden(s, s->point[at], clip)) return;
+    }
+    s->clear += !s->state->fragment && alpha < 1 / 255.0f;
+    s->points = at + 1;
+}
+/* The middles of the upright triangles of a lattice with so many rows. */
+static void shade__take_points(shade__survey *s, int triangle, const shade__corners *c, int rows)
+{
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; i + k < rows; k++) {
+            const float u = ((float)i + 1 / 3.0f) / (float)rows;
+            const float v = ((float)k + 1 / 3.0f) / (float)rows;
+            shade__take_point(s, triangle, c, shade_v3(1 - u - v, u, v), 0);
+        }
+}
+static void shade__take_faces(shade__survey *s)
+{
+    const int most = SHADE__POINTS - SHADE__SUSPECTS;
+    const long long every = (s->drawn - 1) / most + 1, faces = (s->drawn - 1) / every + 1;
+    shade__walk w;
+    shade__corners c;
+    long long number = 0;
+    int rows = 1;
+    while ((rows + 1) * (rows + 2) / 2 * faces <= most) rows++;
+    SHADE__ZERO(w);
+    for (int t = shade__next_triangle(s->mesh, &w); t >= 0; t = shade__next_triangle(s->mesh, &w)) {
+        shade__corners_of(s, t, &c);
+        if (!shade__is_drawn(s, shade__fate_of(s, &c))) continue;
+        if (number++ % every == 0) shade__take_points(s, t, &c, rows);
+    }
+}
+
+/* ---- nothing is drawn */
+
+/* Has anything been drawn?  Then the depth buffer holds different values. */
+static int shade__depth_varies(const shade__survey *s)
+{
+    const shade_target *t = s->target;
+    float first = 0;
+    for (int k = 0; k < 256 && t->depth && s->clip[0] < s->clip[2]; k++) {
+        const int x = s->clip[0] + (s->clip[2] - s->clip[0]) * (2 * (k & 15) + 1) / 32;
+        const int y = s->clip[1] + (s->clip[3] - s->clip[1]) * (2 * (k >> 4) + 1) / 32;
+        const float depth = t->depth[shade__offset_of(t, x, y)];
+        if (!k) first = depth;
+        if (depth != first) return 1;
+    }
+    return 0;
+}
+/* Is this one of the small meshes of a scene, whose box is below half of the picture in width
+   and height, and not far away?  Then it may be hidden, or beside the picture, with right. */
+static int shade__is_scattered(const shade__survey *s)
+{
+    shade_vec3 low = shade_v3(8, 8, 0), high = shade_v3(-8, -8, 0);
+    for (int k = 0; k < 8; k++) {
+        const shade_vec3 p = shade_v3(k & 1 ? s->low.x : s->high.x, k & 2 ? s->low.y : s->high.y,
+                                      k & 4 ? s->low.z : s->high.z);
+        const shade_vec4 c = shade_mat4_transform(s->clip_from_world, shade__xyzw(p, 1));
+        if (!(c.w > 0) || shade__sides_passed(c.x, c.y, 8 * c.w)) return 0;
+        low = shade_min(low, shade_v3(c.x / c.w, c.y / c.w, 0));
+        high = shade_max(high, shade_v3(c.x / c.w, c.y / c.w, 0));
+    }
+    return high.x - low.x < 1 && high.y - low.y < 1 && shade__depth_varies(s);
+}
+static const char *shade__why_outside(const shade__survey *s)
+{
+    const shade_mat4 view = shade__or_identity(s->state->view), *p = &s->projection;
+    const long long depth = s->fate[SHADE__BEFORE_NEAR] + s->fate[SHADE__BEYOND_FAR];
+    const shade_vec3 middle = shade_lerp(s->low, s->high, 0.5f);
+    const shade_mat4 turned = shade__mat4_product(p, &s->camera);
+    const shade_vec4 seen = shade_mat4_transform(turned, shade__xyzw(middle, 1));
+    if (shade__is_transposed(p) || (p->col[0].z != 0 && shade__is_perspective(p)))
+        return "state.projection looks transposed, or multiplied in the wrong order: "
+               "shade_mat4_mul(a, b) applies b first, and translations stand in col[3].";
+    if (shade__is_perspective(p) && !s->state->raster.depth_zero_to_one && p->col[2].w == -1 &&
+        (p->col[3].z / (p->col[2].z - 1) <= 0 || p->col[3].z / (p->col[2].z + 1) <= 0))
+        return "state.projection has a near or far plane at or behind the eye; near and far must "
+               "be above 0.";
+    if (shade__is_affine(p) && shade__is_rigid(p))
+        return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
+               "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
+    if (s->triangles == s->fate[SHADE__BEYOND_FAR])
+        return "Every triangle lies beyond the far plane of state.projection; move far out, or the "
+               "eye of state.view nearer.";
+    if (!shade__outcode(seen, s->state->raster.depth_zero_to_one) && !shade__is_zero(s->eye))
+        return "The mesh is out of view, but the inverse of state.view would show it: state.view "
+               "takes the world to the eye, as shade_mat4_look_at does.";
+    if (s->triangles == s->fate[SHADE__BEHIND] + s->fate[SHADE__BEFORE_NEAR] &&
+        s->fate[SHADE__BEHIND])
+        return "The whole mesh lies behind the eye: the camera of state.view looks down -z in its "
+               "own space; check state.view and state.model.";
+    if (s->triangles == s->fate[SHADE__BEFORE_NEAR])
+        return "Every triangle lies nearer than the near plane of state.projection, or behind the "
+               "eye of state.view; move near in, or the eye back.";
+    if (depth) return "Every triangle lies outside of what state.view and state.projection show, "
+                      "before near, beyond far or beside the picture.";
+    if (shade__is_scattered(s)) return NULL;
+    return shade__is_rigid(&view)
+               ? "The whole mesh lies beside the picture; check state.model, and where state.view "
+                 "looks."
+               : "The whole mesh lies beside the picture; state.view scales, but it must only turn "
+                 "and move.";
+}
+static const char *shade__why_culled(const shade__survey *s)
+{
+    if (shade__eye_inside(s))
+        return "raster.cull leaves out every triangle in view, and the eye lies inside of the "
+               "mesh's box: set state.view, or move the eye out.";
+    if (s->state->raster.cull == SHADE_CULL_FRONT)
+        return "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
+               "SHADE_CULL_BACK or SHADE_CULL_NONE.";
+    if (shade_mat4_determinant(s->scene.world_from_object) < 0)
+        return "state.model mirrors, so that every triangle in view faces away and raster.cull "
+               "leaves it out; mirror without a negative scale, or cull SHADE_CULL_FRONT.";
+    return "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
+           "counter-clockwise on the screen; reverse the winding, or use SHADE_CULL_NONE.";
+}
+static const char *shade__why_nothing(const shade__survey *s)
+{
+    const long long rejected = s->fate[SHADE__REJECTED];
+    const long long facing = s->fate[SHADE__FRONT] + s->fate[SHADE__BACK];
+    if (rejected && !s->triangles)
+        return "mesh.positions hold NaN, infinite or huge numbers, or state.model, state.view and "
+               "state.projection make such of them (beyond 1e30).";
+    if (facing) return shade__why_culled(s);
+    if (s->fate[SHADE__NO_AREA] && shade_mat4_determinant(s->scene.world_from_object) == 0)
+        return "state.model scales by 0, so that no triangle has an area.";
+    if (s->fate[SHADE__NO_AREA])
+        return "No triangle in view has an area on the screen: the mesh is smaller than a pixel, "
+               "seen edge-on, or its corners coincide; check mesh.positions and mesh.indices.";
+    return shade__why_outside(s);
+}
+
+/* ---- triangles are drawn, but no pixel */
+
+static const char *shade__why_depth(const shade__survey *s)
+{
+    const shade_raster *r = &s->state->raster;
+    const int greater = r->depth_test == SHADE_COMPARE_GREATER ||
+                        r->depth_test == SHADE_COMPARE_GREATER_EQUAL;
+    if (s->nans == s->seen)
+        return "target.depth holds NaN where the mesh is; call shade_clear before drawing.";
+    if (r->depth_test == SHADE_COMPARE_EQUAL && (s->stats || s->untouched == s->seen))
+        return "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth does not hold this "
+               "mesh; draw its depth first.";
+    if (!greater && s->zeros == s->seen)
+        return "target.depth holds 0 where the mesh is, so that nothing is nearer: shade_clear was "
+               "not called, or cleared depth to 0, which raster.depth_test GREATER wants.";
+    if (greater && s->ones == s->seen)
+        return "target.depth holds 1 where the mesh is, and raster.depth_test wants greater depth: "
+               "call shade_clear with 0 for a reversed projection, else use SHADE_COMPARE_LESS.";
+    if (!s->stats || s->vague > s->seen / 2) return NULL;
+    if (s->held > s->seen / 2)
+        return "target.depth already holds this mesh: call shade_clear before each frame, or draw "
+               "a second pass with SHADE_COMPARE_LESS_EQUAL.";
+    if (s->unbiased) return "raster.depth_bias pushes the mesh behind what target.depth holds.";
+    if (!s->whole || shade__is_scattered(s)) return NULL;
+    return "The mesh is hidden behind what target.depth holds: other meshes, or the frame before "
+           "where shade_clear was not called.";
+}
+static const char *shade__why_no_fragment(const shade__survey *s)
+{
+    const float most = 1 - s->state->transparency;    /* alpha, but for texels beyond 1 */
+    const int cut = s->cut && !s->points && !s->seen;
+    const char *why = NULL;
+    if (s->stats && s->stats->fragments > 0) return NULL;
+    if (cut && (s->state->alpha_cutoff > most || (s->stats && s->whole && s->cut > 8 &&
+                                                      !shade__is_scattered(s))))
+        return "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) "
+               "times that of diffuse_map; lower it.";
+    if (s->seen && s->failed >= (s->stats ? s->seen - s->seen / 4 : s->seen))
+        why = shade__why_depth(s);    /* beside an outline the buffer is free */
+    if (why || !s->stats || !s->whole || s->failed || s->cut || shade__is_scattered(s)) return why;
+    if (s->state->fragment && (s->target->color || s->state->alpha_cutoff > 0))
+        return "No pixel is left: state.fragment discards all of them, or their alpha is below "
+               "state.alpha_cutoff.";
+    return "No triangle covers the centre of a pixel: the mesh is too small on the screen; check "
+           "the scale of state.model and the distance of state.view.";
+}
+
+/* ---- there are pixels, but something of them is wrong */
+
+static const char *shade__suspect_lamps(const shade_lighting *l)
+{
+    for (int i = 0; i < l->light_count; i++) {
+        const shade_light *lamp = &l->lights[i];
+        if (!shade__is_zero(lamp->spot_direction) && !shade__within(lamp->spot_cos_cutoff, 1.001f))
+            return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the "
+                   "angle, not the angle; make the light with shade_spot_light.";
+    }
+    return NULL;
+}
+/* -1: the projection and the view show the world mirrored; -1 for LESS with a projection whose
+   depth falls with distance, and for GREATER with one whose depth rises. */
+static const char *shade__suspect_order(const shade__survey *s)
+{
+    const shade_compare test = s->state->raster.depth_test;
+    const int less = test == SHADE_COMPARE_LESS || test == SHADE_COMPARE_LESS_EQUAL;
+    const int greater = test == SHADE_COMPARE_GREATER || test == SHADE_COMPARE_GREATER_EQUAL;
+    const float slope = s->projection.col[3].z;
+    if (!s->target->depth || s->drawn < 2 || s->state->raster.depth_read_only ||
+        !shade__is_perspective(&s->projection))
+        return NULL;
+    if (less && slope > 0)
+        return "state.projection is reversed, depth falls with distance, but raster.depth_test is "
+               "SHADE_COMPARE_LESS: use SHADE_COMPARE_GREATER and clear depth to 0.";
+    if (greater && slope < 0)
+        return "raster.depth_test is SHADE_COMPARE_GREATER, but state.projection is not reversed, "
+               "so that what is far hides what is near: use SHADE_COMPARE_LESS.";
+    return NULL;
+}
+/* Is all of the mesh on one side of the plane of a triangle (1), or in it (2)? */
+static int shade__one_side(const shade__survey *s, int triangle)
+{
+    const shade_mesh *m = s->mesh;
+    const float near_enough = 1e-4f * shade_distance(s->low, s->high);
+    float least = 0, most = 0;
+    shade__corners c;
+    shade_vec3 n;
+    shade__corners_of(s, triangle, &c);
+    n = shade_face_normal(c.world[0], c.world[1], c.world[2]);
+    for (int i = 0; i < shade__corner_count(m); i++) {
+        const shade_vec3 p = shade__corner(m, (uint32_t)i);
+        const shade_vec4 q = shade_mat4_transform(s->scene.world_from_object, shade__xyzw(p, 1));
+        const float d = shade_dot(n, shade_sub(shade__xyz(q), c.world[0]));
+        if (d < least) least = d;
+        if (d > most) most = d;
+    }
+    if (least >= -near_enough && most <= near_enough) return 2;
+    return least >= -near_enough || most <= near_enough;
+}
+/* Can triangles that are drawn hide each other? */
+static int shade__hides_itself(const shade__survey *s)
+{
+    const int triangles = shade__corner_count(s->mesh) / 3, every = (triangles - 1) / 32 + 1;
+    const shade_cull cull = s->state->raster.cull;
+    const int one_facing = cull || !s->fate[SHADE__FRONT] || !s->fate[SHADE__BACK];
+    for (int t = 0; t < triangles; t += every)
+        if (shade__one_side(s, t) < (one_facing ? 1 : 2)) return 1;
+    return 0;
+}
+/* A closed mesh has no sum of area vectors, a nearly closed one little.  1: it is wound
+   counter-clockwise as seen from outside, -1: from inside, 0: it is open or flat. */
+static int shade__winding(const shade__survey *s)
+{
+    const double sum = s->sum[0] * s->sum[0] + s->sum[1] * s->sum[1] + s->sum[2] * s->sum[2];
+    const double least = 1e-3 * s->area * (double)shade_distance(s->low, s->high);
+    if (!(sum <= 0.01 * s->area * s->area)) return 0;
+    return (s->volume > least) - (s->volume < -least);
+}
+/* Are the front faces of the screen those inside?  An open mesh is judged by its normals. */
+static int shade__is_inside_out(const shade__survey *s)
+{
+    const shade_mat4 view = shade__or_identity(s->state->view), *p = &s->projection;
+    const int mirrored = (shade_mat4_determinant(view) < 0) !=
+                         ((double)p->col[0].x * (double)p->col[1].y < 0);
+    const int turned = mirrored != (shade_mat4_determinant(s->scene.world_from_object) < 0);
+    const int winding = shade__winding(s);
+    if (s->state->raster.cull != SHADE_CULL_BACK || shade__eye_inside(s)) return 0;
+    if (winding) return mirrored ? winding > 0 : winding < 0;
+    return turned ? s->with > 9 * s->against && s->with > 8
+                  : s->against > 9 * s->with && s->against > 8;
+}
+/* Do the normals of a closed mesh that is seen from outside point into it? */
+static int shade__has_inward_normals(const shade__survey *s)
+{
+    const int flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
+    const int turned = shade_mat4_determinant(s->scene.world_from_object) < 0;
+    const int winding = turned ? -shade__winding(s) : shade__winding(s);
+    if (shade__eye_inside(s) || s->scene.face_normals || s->state->fragment ||
+        (s->state->lighting.flags & (unsigned)flags) || s->with + s->against <= 8)
+        return 0;
+    return winding > 0 ? s->against > 9 * s->with : winding < 0 && s->with > 9 * s->against;
+}
+/* A material with a hue of its own may share a state with meshes that have a map. */
+static int shade__is_grey(const shade_material *m)
+{
+    return !m || (m->diffuse.x == m->diffuse.y && m->diffuse.y == m->diffuse.z);
+}
+static const char *shade__suspect_picture(const shade__survey *s)
+{
+    const shade_draw_state *state = s->state;
+    const shade_raster *r = &state->raster;
+    const char *fault = shade__suspect_order(s);
+    if (fault) return fault;
+    if (s->fate[SHADE__REJECTED])
+        return "Some triangles are left out, since mesh.positions hold NaN, infinite or huge "
+               "numbers there.";
+    if (shade__is_inside_out(s))
+        return "The mesh is drawn inside out: its triangles are wound clockwise, or state.model, "
+               "state.view or state.projection mirrors; reverse the winding or raster.cull.";
+    if (shade__has_inward_normals(s))
+        return "mesh.normals point into the mesh, so that it is lit from the wrong side; turn them "
+               "round, or let shade_mesh_normals make them.";
+    if (state->diffuse_map && !s->mesh->texcoords && !state->fragment &&
+        shade__is_grey(state->material))
+        return "state.diffuse_map is ignored, since mesh.texcoords is NULL.";
+    if (!s->target->depth && r->blend == SHADE_BLEND_REPLACE && s->drawn > 1 &&
+        shade__hides_itself(s))
+        return "target.depth is NULL, so that the triangles drawn last hide those before them, not "
+               "the near ones the far ones; give the target a depth buffer.";
+    if (s->stats && s->stats->fragments && s->seen > 8 && s->untouched == s->seen &&
+        !r->depth_read_only && !state->fragment && state->alpha_cutoff <= 0 && s->whole)
+        return "target.depth holds nothing of this draw: shade_clear was called after it, or it "
+               "went to another target.";
+    return NULL;
+}
+
+/* ---- there are pixels, but no light on them */
+
+/* The brightest channel at a point; NaN counts as dark, as it is stored. */
+static float shade__brightness(const shade__survey *s, int i, const shade_lighting *l,
+                               const shade_material *m, int bare, int turned)
+{
+    const shade_vec3 white = shade_v3(1, 1, 1), albedo = bare ? white : s->albedo[i];
+    const shade_vec3 n = turned ? shade_neg(s->normal[i]) : s->normal[i];
+    shade_material by = *m;
+    shade_vec3 c;
+    by.diffuse = shade_mul(by.diffuse, albedo);
+    by.ambient = shade_mul(by.ambient, albedo);
+    if (by.shininess > 4) by.shininess = 4;    /* no highlight hides between points */
+    c = shade_lit(l, &by, s->scene.eye, s->point[i], n);
+    return shade_max(shade_max(c, shade_v3(c.y, c.z, 0)), shade_v3(c.z, 0, 0)).x;
+}
+static int shade__is_lit(const shade__survey *s, const shade_lighting *l, const shade_material *m,
+                         int bare, int turned)
+{
+    /* 1/255 of a display */
+    const int linear = !s->target->srgb && s->target->format != SHADE_FORMAT_RGBA32F;
+    const float least = linear ? 1 / 255.0f : 1 / 255.0f / 12.92f;
+    for (int i = 0; i < s->points; i++)
+        if (shade__brightness(s, i, l, m, bare, turned) >= least) return 1;
+    return 0;
+}
+/* The same with the first lamps changed: without their cone, without attenuation. */
+static int shade__is_lit_without(const shade__survey *s, const shade_material *m, int cone,
+                                 int attenuation)
+{
+    shade_light lamp[SHADE__SUSPECTS];
+    shade_lighting l = s->state->lighting;
+    l.light_count = shade__min(l.light_count, SHADE__SUSPECTS);
+    for (int i = 0; i < l.light_count; i++) {
+        lamp[i] = l.lights[i];
+        if (cone) lamp[i].spot_direction = shade_v3(0, 0, 0);
+        if (attenuation) lamp[i].constant = lamp[i].linear = lamp[i].quadratic = 0;
+    }
+    l.lights = lamp;
+    return shade__is_lit(s, &l, m, 0, 0);
+}
+/* Where the axis of a spotlight, or the shortest way from a lamp to the nearest point's plane,
+   meets the mesh: a pool of light may be smaller than the distance of points. */
+static void shade__take_pools(shade__survey *s)
+{
+    const shade_lighting *l = &s->state->lighting;
+    for (int i = 0; i < l->light_count && i < SHADE__SUSPECTS; i++) {
+        const shade_light *lamp = &l->lights[i];
+        float least = FLT_MAX;
+        shade_ray ray;
+        shade_vec3 b;
+        int triangle;
+        if (lamp->position.w == 0) continue;
+        ray.origin = shade_scale(shade__xyz(lamp->position), 1 / lamp->position.w);
+        ray.direction = shade_normalize(lamp->spot_direction);
+        for (int k = 0; k < s->points && shade__is_zero(lamp->spot_direction); k++) {
+            const float d = shade_distance(ray.origin, s->point[k]);
+            if (d >= least) continue;
+            least = d;
+            ray.direction = shade_neg(shade_normalize(s->normal[k]));
+        }
+        triangle = shade_pick(s->mesh, s->scene.world_from_object, ray, NULL, &b);
+        if (triangle >= 0) {
+            shade__corners c;
+            shade__corners_of(s, triangle, &c);
+            shade__take_point(s, triangle, &c, b, 1);
+        }
+    }
+}
+static const char *shade__why_lamps(const shade__survey *s, const shade_material *m)
+{
+    const shade_lighting *l = &s->state->lighting;
+    int dark = 1, flat = 1;
+    for (int i = 0; i < l->light_count; i++)
+        dark &= shade__is_zero(l->lights[i].diffuse) && shade__is_zero(l->lights[i].specular);
+    for (int i = 0; i < s->points; i++) flat &= shade__is_zero(s->normal[i]);
+    if (l->light_count <= 0 && l->lights)
+        return "lighting.light_count is 0 while lighting.lights is set, and lighting.ambient is "
+               "dark; set light_count.";
+    if (l->light_count <= 0)
+        return "There is no light: lighting.lights is NULL and lighting.ambient is dark; add a "
+               "light, or ambient light.";
+    if (dark)
+        return "The lights have no colour: diffuse and specular of every lighting.lights are zero.";
+    if (flat)
+        return "mesh.normals are zero, so that no lamp lights them; fill them by "
+               "shade_mesh_normals, or make mesh.normals NULL.";
+    if (shade__is_lit(s, l, m, 0, 1))
+        return shade__eye_inside(s)
+                   ? "The eye lies inside of the mesh's box and sees faces whose normals point "
+                     "away from every lamp; check state.view, or move the eye out."
+                   : "Every lamp is behind the faces in view, on the side that their normals point "
+                     "away from: turn mesh.normals (without them the winding), move "
+                     "light.position, or set SHADE_FLAG_TWO_SIDED.";
+    if (shade__is_lit_without(s, m, 1, 0))
+        return "No cone of the lights meets what is in view; check spot_direction and "
+               "spot_cos_cutoff, the cosine of an angle in radians.";
+    if (shade__is_lit_without(s, m, 0, 1))
+        return "Attenuation leaves less than 1/255 of every light; lower its constant, linear or "
+               "quadratic, or raise the light's diffuse and specular.";
+    return "No lamp reaches the faces in view; check light.position, spot_direction, attenuation, "
+           "and colours.";
+}
+static const char *shade__why_dark(const shade__survey *s)
+{
+    const shade_material white = { { 0, 0, 0 }, { 1, 1, 1 }, { 1, 1, 1 }, { 0, 0, 0 }, 0 };
+    const shade_material *m = s->state->material ? s->state->material : &white;
+    const shade_raster *r = &s->state->raster;
+    const int black = shade__is_zero(m->emission) && shade__is_zero(m->ambient) &&
+                      shade__is_zero(m->diffuse) && shade__is_zero(m->specular);
+    shade_lighting l = s->state->lighting;
+    if (shade__is_lit(s, &l, m, 0, 0)) return NULL;
+    /* shadows are blended over a ground, outlines are back faces: black is meant */
+    if (black && (r->blend == SHADE_BLEND_OVER || r->cull == SHADE_CULL_FRONT)) return NULL;
+    if (black)
+        return "state.material is black: emission, ambient, diffuse and specular are all zero; set "
+               "diffuse, or pass NULL for white.";
+    l.terms = 0;
+    if (shade__is_lit(s, &l, m, 0, 0))
+        return "lighting.terms leaves out every term that would be seen; 0 means all.";
+    l.model = SHADE_MODEL_BLINN_PHONG;
+    if (shade__is_lit(s, &l, m, 0, 0))
+        return "lighting.model leaves out the terms that would be seen: SHADE_MODEL_EMISSIVE has "
+               "material.emission alone, SHADE_MODEL_AMBIENT ambient light too.";
+    if (shade__is_lit(s, &l, m, 1, 0))
+        return s->mesh->colors ? "mesh.colors, or the texels of state.diffuse_map, are black where "
+                                 "the mesh is in view."
+                               : "The texels of state.diffuse_map are black where the mesh is in "
+                                 "view; check mesh.texcoords and the picture.";
+    if (shade__is_lit(s, &l, &white, 0, 0))
+        return "state.material reflects nothing of the light that there is: lamps need diffuse or "
+               "specular, lighting.ambient needs material.ambient.";
+    return shade__why_lamps(s, m);
+}
+static const char *shade__why_invisible(const shade__survey *s)
+{
+    const shade_blend blend = s->state->raster.blend;
+    if (s->state->transparency >= 1)
+        return "state.transparency is 1, which is invisible; 0 is opaque.";
+    if (blend != SHADE_BLEND_REPLACE && s->points && s->clear == s->points)
+        return "The alpha of state.diffuse_map is 0 where the mesh is in view, so that "
+               "raster.blend leaves nothing of it.";
+    return NULL;
+}
+
+/* ---- the order of the questions: what stands first explains what follows */
+
+static SHADE__COLD const char *shade__why_drawn(shade__survey *s)
+{
+    const int pixels = !s->stats || s->stats->fragments > 0;
+    const char *why;
+    shade__take_faces(s);
+    why = shade__why_no_fragment(s);
+    if (!why) why = shade__suspect_lamps(&s->state->lighting);
+    if (!why) why = shade__suspect_picture(s);
+    if (why || !s->target->color || s->state->fragment || !pixels) return why;
+    why = shade__why_invisible(s);
+    if (why || !s->points || s->state->raster.blend == SHADE_BLEND_ADD) return why;
+    shade__take_pools(s);
+    return shade__why_dark(s);
+}
+static SHADE__COLD const char *shade__why(shade__survey *s)
+{
+    const shade_target *t = s->target;
+    const int all[4] = { 0, 0, t->width, t->height };
+    const shade_mat4 view = shade__or_identity(s->state->view);
+    s->whole = shade__clip_rectangle(t, s->clip);
+    for (int k = 0; k < 4; k++) s->whole &= s->clip[k] == all[k];
+    shade__scene_of(t, s->mesh, s->state, &s->scene);
+    s->projection = shade__or_identity(s->state->projection);
+    s->camera = shade_mat4_inverse(view);
+    s->clip_from_world = shade__mat4_product(&s->projection, &view);
+    s->eye = shade_mat4_transform_point(s->camera, shade_v3(0, 0, 0));
+    shade__count_fates(s);
+    if (!s->drawn) return shade__why_nothing(s);
+    return shade__why_drawn(s);
+}
+SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
+                                   const shade_draw_state *state, const shade_stats *stats)
+{
+    const char *why = shade__refusal(target, mesh, state);
+    shade_target picture;
+    shade__survey s;
+    int clip[4];
+    if (!why) why = shade__suspect_mesh(mesh);
+    if (!why) why = shade__suspect_matrices(state);
+    if (why) return why;
+    picture = *target;
+    picture.row_offset = picture.row_count = 0;
+    if (!shade__clip_rectangle(&picture, clip))
+        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
+               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
+    SHADE__ZERO(s);
+    s.target = target;
+    s.mesh = mesh;
+    s.state = state;
+    s.stats = stats;
+    why = shade__why(&s);
+    return why ? why : "";
 }
 
 /*------------------------------------------------------------------------------------------ >>image

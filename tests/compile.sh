@@ -237,7 +237,7 @@ done
 
 # the program in the head of shade.h
 { printf '#include "shade.h"\n'
-  awk '/^ +static uint32_t pixels/ { inside = 1 } inside { print } /^       }/ { inside = 0 }' shade.h
+  awk '/^ +#include <stdio.h>/ { inside = 1 } inside { print } /^       }/ { inside = 0 }' shade.h
 } >"$T/head.c"
 head_runs() { (cd "$T" && ./head && test "$(wc -c <triangle.ppm)" -gt 900000); }
 check "program in the head comment" $CC -std=c99 -Wall -Wextra -Wno-missing-field-initializers \

@@ -39,14 +39,15 @@
 #include "ray.c"
 #include "resolve.c"
 #include "scene.c"
+#include "explain.c"
 
 static const test_section sections[] = {
     SECTION(math),   SECTION(matrix),  SECTION(power),   SECTION(light),    SECTION(lanes),
     SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
-    SECTION(depth),  SECTION(course),  SECTION(packets), SECTION(check),
-    SECTION(own),
+    SECTION(depth),  SECTION(course),  SECTION(packets), SECTION(check),    SECTION(own),
+    SECTION(explain),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

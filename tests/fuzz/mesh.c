@@ -14,11 +14,21 @@ typedef struct mesh_scene {
     int tame;
 } mesh_scene;
 
+/* A refused draw has a sentence; every other one a sentence or none. */
+static void mesh_explained(const mesh_scene *s, const shade_target *target,
+                           const shade_stats *stats, shade_result result)
+{
+    const char *with = shade_explain(target, s->mesh, s->state, stats);
+    const char *without = shade_explain(target, s->mesh, s->state, NULL);
+    HOLDS(with && without);
+    HOLDS(result == SHADE_OK || (*with && *without));
+}
 static shade_result mesh_call(void *user, const shade_target *target, shade_stats *stats)
 {
     mesh_scene *s = (mesh_scene *)user;
     shade_result result = shade_draw_mesh(target, s->mesh, s->state, stats);
     HOLDS(result != SHADE_OK || !fuzz_is_no_camera(s->s.projection) || !stats->drawn);
+    mesh_explained(s, target, stats, result);
     return result;
 }
 /* A fragment shader of the state: what it is handed, then colours and holes made of it. */

@@ -1,0 +1,724 @@
+/* explain.c - shade_explain: each mistake, made on a good scene, gets a sentence that names the
+   field to look at; good scenes get none; hostile ones cost no memory and no crash. */
+
+enum { STAGE_RINGS = 12, STAGE_SECTORS = 16, STAGE_WIDTH = 96, STAGE_HEIGHT = 64 };
+enum { STAGE_VERTICES = (STAGE_RINGS + 1) * (STAGE_SECTORS + 1) };
+enum { STAGE_INDICES = STAGE_RINGS * STAGE_SECTORS * 6 };
+
+typedef struct stage {
+    canvas c;
+    shade_mesh mesh;
+    shade_draw_state state;
+    shade_material material;
+    shade_light lamps[2];
+    shade_texture map;
+    shade_chunk chunk;
+    shade_vec3 position[STAGE_VERTICES], normal[STAGE_VERTICES], color[STAGE_VERTICES];
+    shade_vec2 texcoord[STAGE_VERTICES];
+    uint32_t index[STAGE_INDICES];
+    unsigned char texel[4 * 4];
+    shade_target good;           /* the target that c was opened with */
+    float clear;                 /* depth before the draw; NaN: shade_clear is not called */
+    int draws, clear_after;
+    int no_target, no_mesh, no_state;
+} stage;
+
+/* A ball of radius 1 around the origin, wound counter-clockwise as seen from outside. */
+static void stage_ball(stage *s)
+{
+    int n = 0;
+    for (int j = 0; j <= STAGE_RINGS; j++)
+        for (int i = 0; i <= STAGE_SECTORS; i++) {
+            const double a = i % STAGE_SECTORS * 6.283185307179586 / STAGE_SECTORS;
+            const double b = j * 3.141592653589793 / STAGE_RINGS;
+            const double r = j % STAGE_RINGS ? sin(b) : 0;
+            const int k = j * (STAGE_SECTORS + 1) + i;
+            s->position[k] = shade_v3((float)(r * sin(a)), (float)cos(b), (float)(r * cos(a)));
+            s->normal[k] = s->position[k];
+            s->color[k] = shade_v3(0.5f, 0.5f, 0.5f);
+            s->texcoord[k] = shade_v2((float)i / STAGE_SECTORS, (float)j / STAGE_RINGS);
+        }
+    for (uint32_t j = 0; j < STAGE_RINGS; j++)
+        for (uint32_t i = 0; i < STAGE_SECTORS; i++) {
+            const uint32_t a = j * (STAGE_SECTORS + 1) + i, b = a + STAGE_SECTORS + 1;
+            const uint32_t corner[6] = { a, b, b + 1, a, b + 1, a + 1 };
+            memcpy(s->index + n, corner, sizeof corner);
+            n += 6;
+        }
+}
+static stage *stage_open(void)
+{
+    stage *s = (stage *)calloc(1, sizeof *s);
+    if (!s) exit(2);
+    s->c = canvas_open(STAGE_WIDTH, STAGE_HEIGHT, STAGE_WIDTH + 3, SHADE_FORMAT_RGBA8, 1);
+    s->good = s->c.target;
+    stage_ball(s);
+    s->mesh.positions = &s->position[0].x;
+    s->mesh.normals = &s->normal[0].x;
+    s->mesh.vertex_count = STAGE_VERTICES;
+    s->mesh.indices = s->index;
+    s->mesh.index_count = STAGE_INDICES;
+    s->chunk.count = STAGE_INDICES / 3;
+    s->material.diffuse = s->material.ambient = shade_v3(0.6f, 0.5f, 0.4f);
+    s->material.specular = shade_v3(0.3f, 0.3f, 0.3f);
+    s->material.shininess = 30;
+    s->lamps[0] = shade_point_light(shade_v3(3, 4, 6), shade_v3(1, 1, 1));
+    s->lamps[1] = shade_directional_light(shade_v3(1, -1, -1), shade_v3(0.3f, 0.3f, 0.3f));
+    memset(s->texel, 255, sizeof s->texel);
+    s->map.pixels = s->texel;
+    s->map.width = s->map.height = 2;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 1, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 0.1f, 100);
+    s->state.material = &s->material;
+    s->state.lighting.lights = s->lamps;
+    s->state.lighting.light_count = 2;
+    s->clear = 1;
+    s->draws = 1;
+    return s;
+}
+static void stage_close(stage *s)
+{
+    s->c.target = s->good;
+    canvas_close(&s->c);
+    free(s);
+}
+/* Draws as the stage says and explains it; stats NULL where they are not to be known.  The buffers
+   are the same before and after the explanation. */
+static const char *stage_explain(stage *s, int with_stats)
+{
+    const shade_target *t = s->no_target ? NULL : &s->c.target;
+    const shade_mesh *m = s->no_mesh ? NULL : &s->mesh;
+    const shade_draw_state *d = s->no_state ? NULL : &s->state;
+    shade_stats stats;
+    const char *said;
+    if (s->clear == s->clear) shade_clear(&s->c.target, shade_v4(0, 0, 0, 1), s->clear);
+    for (int k = 0; k < s->draws; k++) shade_draw_mesh(t, m, d, &stats);
+    if (s->clear_after) shade_clear(&s->c.target, shade_v4(0, 0, 0, 1), 1);
+    said = shade_explain(t, m, d, with_stats ? &stats : NULL);
+    CHECK(said != NULL);
+    return said ? said : "NULL";
+}
+
+/* ------------------------------------------------------------------------------------ mistakes */
+
+#define MISTAKE(name) static void mistake_##name(stage *s)
+#define SUN shade_directional_light(shade_v3(0, -1, -4), shade_v3(1, 1, 1))
+
+MISTAKE(target_null) { s->no_target = 1; }
+MISTAKE(mesh_null) { s->no_mesh = 1; }
+MISTAKE(state_null) { s->no_state = 1; }
+MISTAKE(no_memory) { s->c.target.color = NULL, s->c.target.depth = NULL, s->clear = NAN; }
+MISTAKE(width_zero) { s->c.target.width = 0; }
+MISTAKE(stride_in_half_pixels) { s->c.target.stride = STAGE_WIDTH / 2; }
+MISTAKE(format_a8) { s->c.target.format = SHADE_FORMAT_A8; }
+MISTAKE(clip_negative) { s->c.target.clip_width = -1; }
+MISTAKE(strip_without_rows) { s->c.target.row_offset = 3; }
+MISTAKE(positions_null) { s->mesh.positions = NULL; }
+MISTAKE(vertex_count_negative) { s->mesh.vertex_count = -3; }
+MISTAKE(index_count_negative) { s->mesh.index_count = -3; }
+MISTAKE(stride_of_three_floats) { s->mesh.position_stride = 3; }
+MISTAKE(stride_of_eight_floats) { s->mesh.position_stride = 8; }
+MISTAKE(texcoord_stride_short)
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->mesh.texcoord_stride = 4;
+}
+MISTAKE(chunks_null) { s->mesh.chunk_count = 2; }
+MISTAKE(chunk_outside)
+{
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.first = 1;
+}
+MISTAKE(shading_unknown) { s->state.shading = (shade_shading)7; }
+MISTAKE(transparency_in_percent) { s->state.transparency = 50; }
+MISTAKE(cutoff_of_128) { s->state.alpha_cutoff = 128; }
+MISTAKE(cull_unknown) { s->state.raster.cull = (shade_cull)1028; }
+MISTAKE(depth_test_unknown) { s->state.raster.depth_test = (shade_compare)513; }
+MISTAKE(blend_unknown) { s->state.raster.blend = (shade_blend)770; }
+MISTAKE(bias_nan) { s->state.raster.depth_bias = NAN; }
+MISTAKE(lights_null) { s->state.lighting.lights = NULL; }
+MISTAKE(model_unknown) { s->state.lighting.model = (shade_model)44; }
+MISTAKE(map_without_pixels)
+{
+    s->map.pixels = NULL;
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+}
+MISTAKE(map_without_texcoords)
+{
+    s->material.diffuse = shade_v3(1, 1, 1);
+    s->state.diffuse_map = &s->map;
+}
+MISTAKE(index_beyond) { s->index[77] = STAGE_VERTICES; }
+MISTAKE(index_count_odd) { s->mesh.index_count = STAGE_INDICES - 1; }
+MISTAKE(vertices_not_in_threes) { s->mesh.indices = NULL, s->mesh.vertex_count = 100; }
+MISTAKE(index_count_forgotten) { s->mesh.index_count = 0; }
+MISTAKE(vertex_count_forgotten) { s->mesh.indices = NULL, s->mesh.vertex_count = 0; }
+MISTAKE(chunk_count_forgotten) { s->mesh.chunks = &s->chunk; }
+
+MISTAKE(fovy_in_degrees) { s->state.projection = shade_mat4_perspective(45, 1.5f, 0.1f, 100); }
+MISTAKE(near_zero) { s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 0, 100); }
+MISTAKE(near_is_far) { s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 5, 5); }
+MISTAKE(aspect_zero) { s->state.projection = shade_mat4_perspective(0.8f, 2 / 3, 0.1f, 100); }
+MISTAKE(ortho_empty) { s->state.projection = shade_mat4_ortho(1, 1, -1, 1, 0.1f, 9); }
+MISTAKE(swapped)
+{
+    const shade_mat4 m = s->state.view;
+    s->state.view = s->state.projection;
+    s->state.projection = m;
+}
+MISTAKE(swapped_ortho)
+{
+    s->state.projection = s->state.view;
+    s->state.view = shade_mat4_ortho(-2, 2, -2, 2, 0.1f, 100);
+}
+MISTAKE(projection_in_view)
+{
+    s->state.view = shade_mat4_mul(s->state.projection, s->state.view);
+    memset(&s->state.projection, 0, sizeof s->state.projection);
+}
+MISTAKE(wrong_order)
+{
+    s->state.projection = shade_mat4_mul(s->state.view, s->state.projection);
+    memset(&s->state.view, 0, sizeof s->state.view);
+}
+MISTAKE(view_by_rows) { s->state.view = shade_mat4_transpose(s->state.view); }
+MISTAKE(projection_by_rows) { s->state.projection = shade_mat4_transpose(s->state.projection); }
+MISTAKE(model_by_rows)
+{
+    s->state.model = shade_mat4_transpose(shade_mat4_translation(shade_v3(0.5f, 0, 0)));
+}
+MISTAKE(all_by_rows) { mistake_view_by_rows(s), mistake_projection_by_rows(s); }
+MISTAKE(projection_forgotten)
+{
+    memset(&s->state.projection, 0, sizeof s->state.projection);
+}
+MISTAKE(view_inverted) { s->state.view = shade_mat4_inverse(s->state.view); }
+MISTAKE(looks_away)
+{
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 8), shade_v3(0, 1, 0));
+}
+MISTAKE(beyond_far) { s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 0.1f, 2); }
+MISTAKE(before_near) { s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 50, 100); }
+MISTAKE(beside) { s->state.model = shade_mat4_translation(shade_v3(50, 0, 0)); }
+MISTAKE(left_handed) { s->state.model = shade_mat4_translation(shade_v3(0, 0, 8)); }
+MISTAKE(model_nan) { s->state.model = shade_mat4_scaling(shade_v3(1, NAN, 1)); }
+MISTAKE(view_infinite) { s->state.view.col[3].x = INFINITY; }
+MISTAKE(projection_nan) { s->state.projection.col[0].x = NAN; }
+MISTAKE(view_singular) { s->state.view.col[2] = shade_v4(0, 0, 0, 0); }
+MISTAKE(reversed_flag_forgotten)
+{
+    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 0.1f);
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
+MISTAKE(positions_nan)
+{
+    for (int i = 0; i < STAGE_VERTICES; i++) s->position[i].y = NAN;
+}
+MISTAKE(one_position_nan) { s->position[40].x = INFINITY; }
+MISTAKE(scaled_to_nothing) { s->state.model = shade_mat4_scaling(shade_v3(0, 0, 0)); }
+MISTAKE(far_too_small) { s->state.model = shade_mat4_scaling(shade_v3(1e-6f, 1e-6f, 1e-6f)); }
+MISTAKE(one_index_everywhere) { memset(s->index, 0, sizeof s->index); }
+
+MISTAKE(wound_clockwise_quad)
+{
+    static const uint32_t clockwise[6] = { 0, 2, 1, 0, 3, 2 };
+    static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
+    memcpy(s->position, quad, sizeof quad), memcpy(s->index, clockwise, sizeof clockwise);
+    s->mesh.index_count = 6;
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(culled_by_mirror)
+{
+    mistake_wound_clockwise_quad(s);
+    s->index[1] = 1, s->index[2] = 2, s->index[4] = 2, s->index[5] = 3;
+    s->state.model = shade_mat4_scaling(shade_v3(-1, 1, 1));
+}
+MISTAKE(culled_front)
+{
+    mistake_wound_clockwise_quad(s);
+    s->index[1] = 1, s->index[2] = 2, s->index[4] = 2, s->index[5] = 3;
+    s->state.raster.cull = SHADE_CULL_FRONT;
+}
+MISTAKE(culled_inside)
+{
+    s->state.raster.cull = SHADE_CULL_BACK;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 0), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
+}
+MISTAKE(inside_out)
+{
+    for (int i = 0; i < STAGE_INDICES; i += 3) {
+        const uint32_t k = s->index[i];
+        s->index[i] = s->index[i + 1], s->index[i + 1] = k;
+    }
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(inside_out_open) { s->mesh.index_count = STAGE_INDICES * 2 / 3, mistake_inside_out(s); }
+MISTAKE(inside_out_without_normals) { s->mesh.normals = NULL, mistake_inside_out(s); }
+MISTAKE(mirrored)
+{
+    s->state.model = shade_mat4_scaling(shade_v3(1, 1, -1));
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(upside_down)
+{
+    s->state.projection.col[1].y = -s->state.projection.col[1].y;
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+
+/* Depth as it comes from the heap: every byte of the pixels is this one. */
+static void stage_leave_depth(stage *s, int byte)
+{
+    for (int y = 0; y < STAGE_HEIGHT; y++)
+        memset(s->c.target.depth + canvas_index(&s->c, 0, y), byte, 4 * STAGE_WIDTH);
+    s->clear = NAN;
+}
+MISTAKE(clear_forgotten) { stage_leave_depth(s, 0); }
+MISTAKE(depth_full_of_nan) { stage_leave_depth(s, 255); }
+MISTAKE(second_frame) { s->draws = 2; }
+MISTAKE(cleared_to_zero) { s->clear = 0; }
+MISTAKE(hidden_by_the_frame_before) { s->clear = 0.5f; }
+MISTAKE(clear_after) { s->clear_after = 1; }
+MISTAKE(greater) { s->state.raster.depth_test = SHADE_COMPARE_GREATER; }
+MISTAKE(greater_cleared_to_zero) { s->clear = 0, mistake_greater(s); }
+MISTAKE(reversed_cleared_to_one)
+{
+    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 0.1f);
+    s->state.raster.depth_zero_to_one = 1;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+}
+MISTAKE(reversed_with_less)
+{
+    mistake_reversed_cleared_to_one(s);
+    s->state.raster.depth_test = SHADE_COMPARE_LESS;
+}
+MISTAKE(equal) { s->state.raster.depth_test = SHADE_COMPARE_EQUAL; }
+MISTAKE(bias_of_one) { s->state.raster.depth_bias = 1; }
+MISTAKE(clip_empty) { s->c.target.clip_x = 10, s->c.target.clip_height = 20; }
+MISTAKE(clip_beside)
+{
+    s->c.target.clip_x = STAGE_WIDTH;
+    s->c.target.clip_width = s->c.target.clip_height = 20;
+}
+MISTAKE(smaller_than_a_pixel)
+{
+    s->state.model = shade_mat4_scaling(shade_v3(5e-3f, 5e-3f, 5e-3f));
+}
+MISTAKE(cut_by_alpha) { s->state.transparency = 0.6f, s->state.alpha_cutoff = 0.5f; }
+MISTAKE(map_cut_by_alpha)
+{
+    for (int k = 3; k < 16; k += 4) s->texel[k] = 100;
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->state.alpha_cutoff = 0.5f;
+}
+static void shader_that_discards(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                 shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms, (void)in;
+    SHADE_EACH_LANE(i) { out->discard[i] = 1; }
+}
+MISTAKE(all_discarded) { s->state.fragment = shader_that_discards; }
+MISTAKE(no_depth) { s->c.target.depth = NULL; }
+MISTAKE(no_depth_with_culling)
+{
+    s->c.target.depth = NULL;
+    s->state.raster.cull = SHADE_CULL_BACK;
+    for (int i = 0; i < STAGE_VERTICES; i += 3) s->position[i] = shade_scale(s->position[i], 0.5f);
+}
+
+MISTAKE(no_light) { s->state.lighting.lights = NULL, s->state.lighting.light_count = 0; }
+MISTAKE(light_count_forgotten) { s->state.lighting.light_count = 0; }
+MISTAKE(lamps_not_filled) { memset(s->lamps, 0, sizeof s->lamps); }
+MISTAKE(material_zero) { memset(&s->material, 0, sizeof s->material); }
+MISTAKE(material_of_ambient)
+{
+    s->material.diffuse = s->material.specular = shade_v3(0, 0, 0);
+}
+MISTAKE(ambient_without_k_a)
+{
+    mistake_no_light(s);
+    s->state.lighting.ambient = shade_v3(1, 1, 1);
+    s->material.ambient = shade_v3(0, 0, 0);
+}
+MISTAKE(colors_zero)
+{
+    memset(s->color, 0, sizeof s->color);
+    s->mesh.colors = &s->color[0].x;
+    s->material.specular = shade_v3(0, 0, 0);
+}
+MISTAKE(map_black)
+{
+    for (int k = 0; k < 16; k++) s->texel[k] = (unsigned char)(k % 4 == 3 ? 255 : 0);
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->material.specular = shade_v3(0, 0, 0);
+}
+MISTAKE(normals_inward)
+{
+    for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i] = shade_neg(s->normal[i]);
+}
+MISTAKE(normals_inward_of_a_quad)
+{
+    static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
+    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
+    memcpy(s->position, quad, sizeof quad), memcpy(s->index, corners, sizeof corners);
+    s->mesh.index_count = 6;
+    for (int i = 0; i < 4; i++) s->normal[i] = shade_v3(0, 0, -1);
+}
+MISTAKE(normals_zero) { memset(s->normal, 0, sizeof s->normal); }
+MISTAKE(lamp_behind)
+{
+    s->lamps[0] = shade_point_light(shade_v3(0, -1, -4), shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(lamp_inside)
+{
+    s->lamps[0].position = shade_v4(0, 0, 0, 1);
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(direction_toward_the_sun)
+{
+    s->lamps[0] = shade_directional_light(shade_v3(0, 1, 4), shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(attenuated_away)
+{
+    s->lamps[0].constant = 1, s->lamps[0].quadratic = 50;
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(cutoff_in_degrees)
+{
+    s->lamps[0] = shade_spot_light(shade_v3(0, 1, 4), shade_v3(0, -1, -4), 0.5f, 1,
+                                   shade_v3(1, 1, 1));
+    s->lamps[0].spot_cos_cutoff = 30;
+}
+MISTAKE(cone_elsewhere)
+{
+    s->lamps[0] = shade_spot_light(shade_v3(0, 1, 4), shade_v3(0, 1, 4), 0.5f, 1,
+                                   shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(target_instead_of_direction)
+{
+    s->lamps[0] = shade_spot_light(shade_v3(0, 0, 4), shade_v3(0, 0, 0.5f), 0.3f, 1,
+                                   shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(terms_of_emission) { s->state.lighting.terms = SHADE_TERM_EMISSION; }
+MISTAKE(model_emissive) { s->state.lighting.model = SHADE_MODEL_EMISSIVE; }
+MISTAKE(invisible) { s->state.transparency = 1, s->state.raster.blend = SHADE_BLEND_OVER; }
+MISTAKE(invisible_map)
+{
+    for (int k = 3; k < 16; k += 4) s->texel[k] = 0;
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->state.raster.blend = SHADE_BLEND_OVER;
+}
+MISTAKE(view_forgotten)
+{
+    memset(&s->state.view, 0, sizeof s->state.view);
+    s->state.lighting.light_count = 1;
+}
+
+typedef struct mistake {
+    const char *name, *word;     /* word: what the sentence has to hold */
+    void (*make)(stage *);
+    int unseen;                  /* without stats nothing can be told */
+} mistake;
+#define OF(name, word) { #name, word, mistake_##name, 0 }
+#define OF_STATS(name, word) { #name, word, mistake_##name, 1 }
+static const mistake mistakes[] = {
+    OF(target_null, "target is NULL"), OF(mesh_null, "mesh is NULL"),
+    OF(state_null, "state is NULL"), OF(no_memory, "target.color"), OF(width_zero, "target.width"),
+    OF(stride_in_half_pixels, "target.stride"), OF(format_a8, "target.format"),
+    OF(clip_negative, "clip_width"), OF(strip_without_rows, "row_count"),
+    OF(positions_null, "mesh.positions"), OF(vertex_count_negative, "mesh.vertex_count"),
+    OF(index_count_negative, "mesh.index_count"), OF(stride_of_three_floats, "bytes"),
+    OF(stride_of_eight_floats, "position_stride"), OF(texcoord_stride_short, "texcoord_stride"),
+    OF(chunks_null, "mesh.chunks"), OF(chunk_outside, "chunk"),
+    OF(shading_unknown, "state.shading"), OF(transparency_in_percent, "state.transparency"),
+    OF(cutoff_of_128, "state.alpha_cutoff"), OF(cull_unknown, "raster.cull"),
+    OF(depth_test_unknown, "raster.depth_test"), OF(blend_unknown, "raster.blend"),
+    OF(bias_nan, "raster.depth_bias"), OF(lights_null, "lighting.lights"),
+    OF(model_unknown, "lighting.model"), OF(map_without_pixels, "pixels"),
+    OF(map_without_texcoords, "mesh.texcoords"), OF(index_beyond, "mesh.vertex_count"),
+    OF(index_count_odd, "mesh.index_count"), OF(vertices_not_in_threes, "mesh.vertex_count"),
+    OF(index_count_forgotten, "mesh.index_count"), OF(vertex_count_forgotten, "mesh.vertex_count"),
+    OF(chunk_count_forgotten, "chunk_count"),
+
+    OF(fovy_in_degrees, "radians"), OF(near_zero, "near"), OF(near_is_far, "far"),
+    OF(aspect_zero, "aspect"), OF(ortho_empty, "left"), OF(swapped, "swapped"),
+    OF(swapped_ortho, "swapped"), OF(projection_in_view, "state.projection"),
+    OF(wrong_order, "state.projection"), OF(view_by_rows, "state.view looks transposed"),
+    OF(projection_by_rows, "state.projection looks transposed"),
+    OF(model_by_rows, "state.model looks transposed"), OF(all_by_rows, "transposed"),
+    OF(projection_forgotten, "state.projection is unset"), OF(view_inverted, "inverse"),
+    OF(looks_away, "behind the eye"), OF(beyond_far, "beyond the far plane"),
+    OF(before_near, "nearer than the near plane"), OF(beside, "beside the picture"),
+    OF(left_handed, "behind the eye"), OF(model_nan, "state.model"),
+    OF(view_infinite, "state.view"),
+    OF(projection_nan, "state.projection"), OF(view_singular, "state.view"),
+    OF(reversed_flag_forgotten, "depth_zero_to_one"), OF(positions_nan, "mesh.positions"),
+    OF(one_position_nan, "mesh.positions"), OF(scaled_to_nothing, "state.model"),
+    OF(far_too_small, "smaller than a pixel"), OF(one_index_everywhere, "mesh.indices"),
+
+    OF(wound_clockwise_quad, "counter-clockwise"), OF(culled_by_mirror, "state.model mirrors"),
+    OF(culled_front, "SHADE_CULL_FRONT"), OF(culled_inside, "the eye lies inside"),
+    OF(inside_out, "inside out"), OF(inside_out_open, "inside out"),
+    OF(inside_out_without_normals, "inside out"), OF(mirrored, "inside out"),
+    OF(upside_down, "inside out"),
+
+    OF(clear_forgotten, "shade_clear"), OF(depth_full_of_nan, "shade_clear"),
+    OF_STATS(second_frame, "shade_clear"), OF(cleared_to_zero, "depth_test"),
+    OF_STATS(hidden_by_the_frame_before, "shade_clear"), OF_STATS(clear_after, "shade_clear"),
+    OF(greater, "SHADE_COMPARE_LESS"), OF(greater_cleared_to_zero, "SHADE_COMPARE_LESS"),
+    OF(reversed_cleared_to_one, "shade_clear"), OF(reversed_with_less, "SHADE_COMPARE_GREATER"),
+    OF(equal, "SHADE_COMPARE_EQUAL"), OF_STATS(bias_of_one, "depth_bias"),
+    OF(clip_empty, "clip_width"), OF(clip_beside, "clip_x"),
+    OF_STATS(smaller_than_a_pixel, "centre of a pixel"), OF(cut_by_alpha, "alpha_cutoff"),
+    OF_STATS(map_cut_by_alpha, "alpha_cutoff"), OF_STATS(all_discarded, "state.fragment"),
+    OF(no_depth, "target.depth is NULL"), OF(no_depth_with_culling, "target.depth is NULL"),
+
+    OF(no_light, "no light"), OF(light_count_forgotten, "light_count"),
+    OF(lamps_not_filled, "no colour"), OF(material_zero, "state.material"),
+    OF(material_of_ambient, "state.material"), OF(ambient_without_k_a, "material.ambient"),
+    OF(colors_zero, "mesh.colors"), OF(map_black, "diffuse_map"),
+    OF(normals_inward, "mesh.normals"),
+    OF(normals_inward_of_a_quad, "mesh.normals"),
+    OF(normals_zero, "mesh.normals"), OF(lamp_behind, "behind"), OF(lamp_inside, "behind"),
+    OF(direction_toward_the_sun, "behind"), OF(attenuated_away, "Attenuation"),
+    OF(cutoff_in_degrees, "spot_cos_cutoff"), OF(cone_elsewhere, "spot_direction"),
+    OF(target_instead_of_direction, "spot_direction"), OF(terms_of_emission, "lighting.terms"),
+    OF(model_emissive, "lighting.model"), OF(invisible, "transparency"),
+    OF(invisible_map, "diffuse_map"), OF(view_forgotten, "the eye"),
+};
+
+TEST(explain, every_mistake_gets_the_word_that_leads_to_it)
+{
+    for (size_t k = 0; k < sizeof mistakes / sizeof mistakes[0]; k++)
+        for (int with_stats = 0; with_stats < 2; with_stats++) {
+            stage *s = stage_open();
+            mistakes[k].make(s);
+            const char *said = stage_explain(s, with_stats);
+            const int held = strstr(said, mistakes[k].word) != NULL;
+            CHECK_SAY(held || (!with_stats && mistakes[k].unseen), "%s, %s stats: \"%s\"",
+                      mistakes[k].name, with_stats ? "with" : "without", said);
+            stage_close(s);
+        }
+}
+
+/* The sentence about a stage as it is: "" without a mistake. */
+static void stage_is_good(stage *s, const char *what)
+{
+    for (int with_stats = 0; with_stats < 2; with_stats++) {
+        const char *said = stage_explain(s, with_stats);
+        CHECK_SAY(!*said, "%s, %s stats: \"%s\"", what, with_stats ? "with" : "without", said);
+    }
+}
+TEST(explain, the_scene_without_a_mistake_gets_none)
+{
+    stage *s = stage_open();
+    stage_is_good(s, "the stage");
+    s->state.raster.cull = SHADE_CULL_BACK;
+    stage_is_good(s, "back faces culled");
+    s->c.target.depth = NULL;
+    stage_is_good(s, "a convex mesh without depth");
+    s->mesh.index_count = 3;
+    s->state.raster.cull = SHADE_CULL_NONE;
+    stage_is_good(s, "a triangle without depth");
+    stage_close(s);
+}
+
+/* A camera somewhere around the ball, of any kind; a lamp beside it. */
+static void stage_random_camera(stage *s)
+{
+    const int kind = rnd_int(0, 2);
+    shade_vec3 eye = shade_v3(rnd_float(-1, 1), rnd_float(-1, 1), rnd_float(-1, 1));
+    eye = shade_scale(shade_normalize(eye), rnd_float(2.5, 9));
+    if (shade_length(eye) < 1) eye = shade_v3(0, 0, 5);
+    s->state.view = shade_mat4_look_at(eye, shade_v3(rnd_float(-0.5, 0.5), 0, 0),
+                                       shade_v3(0.1f, 1, 0.2f));
+    s->state.projection = kind ? shade_mat4_perspective(0.8f, 1.5f, rnd_float(0.01, 0.5), 50)
+                               : shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 20);
+    s->state.raster.depth_test = (shade_compare)rnd_int(0, 1);
+    if (kind == 2) {
+        s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, rnd_float(0.01, 0.5));
+        s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+        s->state.raster.depth_zero_to_one = 1;
+    }
+    s->clear = kind == 2 ? 0.0f : 1.0f;
+    s->lamps[0].position = shade_v4(eye.x + 0.3f, eye.y + 0.4f, eye.z, 1);
+    s->lamps[1] = shade_spot_light(eye, shade_neg(eye), rnd_float(0.3, 1), rnd_float(0, 9),
+                                   shade_v3(1, 1, 1));
+}
+static void stage_random_mesh(stage *s)
+{
+    s->state.shading = (shade_shading)rnd_int(0, 2);
+    s->state.lighting.model = rnd_one_in(4) ? SHADE_MODEL_COOL_TO_WARM
+                                            : (shade_model)rnd_int(0, 2);
+    s->state.lighting.light_count = rnd_int(1, 2);
+    if (rnd_one_in(2)) s->mesh.normals = NULL;
+    if (rnd_one_in(2)) s->mesh.colors = &s->color[0].x;
+    if (rnd_one_in(2)) s->mesh.texcoords = &s->texcoord[0].x, s->state.diffuse_map = &s->map;
+    if (rnd_one_in(3)) s->mesh.chunks = &s->chunk, s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(-1, -1, -1), s->chunk.high = shade_v3(1, 1, 1);
+    if (rnd_one_in(2)) s->state.raster.cull = SHADE_CULL_BACK;
+    if (rnd_one_in(4)) s->state.raster.cull = SHADE_CULL_FRONT;
+    if (rnd_one_in(3)) s->state.raster.blend = SHADE_BLEND_ADD;
+    if (rnd_one_in(3)) s->state.transparency = 0.5f, s->state.raster.blend = SHADE_BLEND_OVER;
+    if (s->state.raster.cull == SHADE_CULL_FRONT)
+        s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED;
+    if (rnd_one_in(3))
+        s->state.model = shade_mat4_mul(
+            shade_mat4_rotation(rnd_float(-3, 3), shade_v3(rnd_float(-1, 1), 1, 0)),
+            shade_mat4_scaling(shade_v3(rnd_float(0.5, 1.1), rnd_float(0.5, 1.1), 1)));
+}
+/* Whole, in bands and in strips; some of them do not touch the mesh. */
+TEST(explain, random_good_scenes_get_none)
+{
+    for (int k = 0; k < 150; k++) {
+        stage *s = stage_open();
+        const int high = rnd_int(1, STAGE_HEIGHT);
+        s->c.target.srgb = rnd_one_in(2);
+        stage_random_camera(s);
+        stage_random_mesh(s);
+        stage_is_good(s, "whole");
+        for (int y = 0; y < STAGE_HEIGHT; y += high) {
+            s->c.target = s->good;
+            s->c.target.clip_y = y, s->c.target.clip_height = high;
+            s->c.target.clip_width = STAGE_WIDTH;
+            stage_is_good(s, "a band");
+            s->c.target = s->good;
+            s->c.target.row_offset = y;
+            s->c.target.row_count = high < STAGE_HEIGHT - y ? high : STAGE_HEIGHT - y;
+            stage_is_good(s, "a strip");
+        }
+        stage_close(s);
+    }
+}
+/* Nothing of a small mesh that another hides, or that is beside the picture, is a fault where many
+   are drawn; a black one that is blended over the ground is its shadow. */
+TEST(explain, what_other_meshes_explain_gets_none)
+{
+    stage *s = stage_open();
+    const shade_mat4 full = s->state.model;
+    shade_mat4 small = shade_mat4_scaling(shade_v3(0.1f, 0.1f, 0.1f));
+    stage_is_good(s, "the first");
+    s->clear = NAN;
+    small.col[3] = shade_v4(0, -0.3f, -2, 1), s->state.model = small;
+    stage_is_good(s, "a small one behind");
+    small.col[3] = shade_v4(5, 0, 0, 1), s->state.model = small;
+    stage_is_good(s, "a small one beside");
+    memset(&s->material, 0, sizeof s->material);
+    s->state.model = full, s->state.transparency = 0.5f, s->state.raster.blend = SHADE_BLEND_OVER;
+    s->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    stage_is_good(s, "a shadow");
+    stage_close(s);
+}
+/* A floor of two triangles, with a pool of light that is small beside it. */
+TEST(explain, small_pools_of_light_are_light)
+{
+    static const shade_vec3 ground[4] = { { -9, 0, 9 }, { 9, 0, 9 }, { 9, 0, -9 }, { -9, 0, -9 } };
+    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
+    for (int k = 0; k < 40; k++) {
+        stage *s = stage_open();
+        const shade_vec3 above = shade_v3(rnd_float(-1, 1), 0.2f, rnd_float(-2, 1));
+        memcpy(s->position, ground, sizeof ground), memcpy(s->index, corners, sizeof corners);
+        s->mesh.normals = NULL, s->mesh.index_count = 6, s->state.lighting.light_count = 1;
+        s->lamps[0] = shade_point_light(above, shade_v3(1, 1, 1));
+        s->lamps[0].quadratic = 1000;
+        if (k % 2)
+            s->lamps[0] = shade_spot_light(above, shade_v3(0, -1, 0.1f), 0.2f, 1,
+                                           shade_v3(1, 1, 1));
+        s->state.view = shade_mat4_look_at(shade_v3(0, 3, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+        stage_is_good(s, "a pool");
+        stage_close(s);
+    }
+}
+/* Neither buffers nor arguments change; the sentence is the same when asked again. */
+TEST(explain, it_writes_nothing)
+{
+    for (size_t k = 0; k < sizeof mistakes / sizeof mistakes[0]; k += 7) {
+        stage *s = stage_open(), *copy = (stage *)malloc(sizeof *copy);
+        unsigned char *color = (unsigned char *)malloc(s->c.color_bytes + s->c.depth_bytes);
+        if (!copy || !color) exit(2);
+        mistakes[k].make(s);
+        const char *said = stage_explain(s, 1);
+        memcpy(copy, s, sizeof *s);
+        memcpy(color, s->c.color + CANVAS_GUARD, s->c.color_bytes);
+        memcpy(color + s->c.color_bytes, s->c.depth + CANVAS_GUARD, s->c.depth_bytes);
+        if (!s->no_target && !s->no_mesh && !s->no_state) {
+            shade_stats stats;
+            memset(&stats, 0, sizeof stats);
+            shade_explain(&s->c.target, &s->mesh, &s->state, &stats);
+            shade_explain(&s->c.target, &s->mesh, &s->state, NULL);
+        }
+        CHECK(said && !memcmp(copy, s, sizeof *s));
+        CHECK(!memcmp(color, s->c.color + CANVAS_GUARD, s->c.color_bytes));
+        CHECK(!memcmp(color + s->c.color_bytes, s->c.depth + CANVAS_GUARD, s->c.depth_bytes));
+        stage_close(s);
+        free(copy), free(color);
+    }
+}
+
+static void nasty_floats(void *at, size_t bytes)
+{
+    for (size_t i = 0; i < bytes / 4; i++) {
+        const float f = rnd_nasty();
+        memcpy((char *)at + 4 * i, &f, 4);
+    }
+}
+static int nasty_count(int good) { return rnd_one_in(3) ? rnd_int(-2, 9) : good; }
+
+/* Anything but pointers, counts and strides: a sentence or none, memory that is not left (the
+   sanitizers of .ci/run look), and refusals exactly where the draw refuses. */
+TEST(explain, hostile_input_is_defined)
+{
+    for (int k = 0; k < 1500; k++) {
+        stage *s = stage_open();
+        shade_stats stats;
+        if (rnd_one_in(4)) stage_leave_depth(s, rnd_int(0, 255));
+        if (rnd_one_in(3)) nasty_floats(s->position, sizeof s->position);
+        if (rnd_one_in(3)) nasty_floats(s->normal, sizeof s->normal);
+        if (rnd_one_in(3)) nasty_floats(s->lamps, sizeof s->lamps);
+        if (rnd_one_in(3)) nasty_floats(&s->material, sizeof s->material);
+        if (rnd_one_in(4)) nasty_floats(&s->state.model, sizeof s->state.model);
+        if (rnd_one_in(4)) nasty_floats(&s->state.view, sizeof s->state.view);
+        if (rnd_one_in(4)) nasty_floats(&s->state.projection, sizeof s->state.projection);
+        if (rnd_one_in(3)) nasty_floats(s->texcoord, sizeof s->texcoord);
+        if (rnd_one_in(2)) s->mesh.texcoords = &s->texcoord[0].x, s->state.diffuse_map = &s->map;
+        if (rnd_one_in(8)) s->index[rnd_int(0, STAGE_INDICES - 1)] = (uint32_t)rnd_bits();
+        if (rnd_one_in(8)) s->mesh.index_count = nasty_count(STAGE_INDICES);
+        if (rnd_one_in(8)) s->mesh.chunks = &s->chunk, s->mesh.chunk_count = rnd_int(-1, 1);
+        if (rnd_one_in(8)) s->chunk.first = rnd_int(-1, 99), s->chunk.count = nasty_count(300);
+        if (rnd_one_in(8)) s->state.transparency = rnd_nasty();
+        if (rnd_one_in(8)) s->state.alpha_cutoff = rnd_nasty();
+        if (rnd_one_in(8)) s->state.raster.depth_bias = rnd_nasty();
+        if (rnd_one_in(2)) s->state.raster.cull = (shade_cull)rnd_int(0, 3);
+        if (rnd_one_in(2)) s->state.raster.depth_test = (shade_compare)rnd_int(0, 6);
+        if (rnd_one_in(2)) s->state.raster.depth_zero_to_one = 1;
+        if (rnd_one_in(4)) s->state.lighting.flags = (unsigned)rnd_int(0, 63);
+        if (rnd_one_in(4)) s->c.target.depth = NULL;
+        if (rnd_one_in(4)) s->c.target.clip_x = rnd_int(-9, 99), s->c.target.clip_width = 20;
+        if (rnd_one_in(4)) s->c.target.clip_y = rnd_int(-9, 99), s->c.target.clip_height = 20;
+        if (rnd_one_in(4)) s->c.target.row_offset = 7, s->c.target.row_count = rnd_int(-1, 60);
+        const shade_result result = shade_draw_mesh(&s->c.target, &s->mesh, &s->state, &stats);
+        const char *with = shade_explain(&s->c.target, &s->mesh, &s->state, &stats);
+        const char *without = shade_explain(&s->c.target, &s->mesh, &s->state, NULL);
+        CHECK_SAY(with && without && (!result || *without), "%s", shade_result_string(result));
+        stage_close(s);
+    }
+}
+
+static const test_case explain_cases[] = {
+    CASE(explain, every_mistake_gets_the_word_that_leads_to_it),
+    CASE(explain, the_scene_without_a_mistake_gets_none),
+    CASE(explain, random_good_scenes_get_none),
+    CASE(explain, what_other_meshes_explain_gets_none),
+    CASE(explain, small_pools_of_light_are_light),
+    CASE(explain, it_writes_nothing),
+    CASE(explain, hostile_input_is_defined),
+};
