@@ -48,7 +48,7 @@
      Public     >>config  >>types  >>inline  >>math  >>light  >>draw
      Inside     >>target  >>base  >>matrix  >>power  >>color  >>lighting  >>arrival  >>lanes
                 >>state  >>vertices  >>triangles  >>clip  >>blocks  >>cover  >>fragments  >>texture
-                >>store  >>check  >>drive  >>mesh  >>lines  >>shape  >>explain  >>image
+                >>store  >>check  >>drive  >>mesh  >>lines  >>shape  >>survey  >>explain  >>image
      Sources    >>refs  >>history  >>license
 
    >>conventions
@@ -5638,7 +5638,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
    What a mesh knows of its shape: normals of vertices and corners, edges; and rays through it.
      in      meshes, the caller's memory         out  the caller's arrays
      method  normals of faces weighted by their angle at the vertex [Thurmer98]; edges by sorting;
-             rays against triangles by Cramer's rule [Moller97]                       >>explain */
+             rays against triangles by Cramer's rule [Moller97]                        >>survey */
 
 /* Angle between a vector of length y and components: atan2(y, x), y >= 0, within 1e-9. atan t =
    pi/4 + atan((t - 1) / (t + 1)) keeps the argument of the series below tan(pi/8). */
@@ -6170,12 +6170,12 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
     return hit.triangle;
 }
 
-/*---------------------------------------------------------------------------------------- >>explain
-   Why a draw gives no picture, or the wrong one, in one sentence.
-     in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
-     holds   Nothing is written.  A pass counts what becomes of the triangles, a second one takes
-             points of those that are drawn, at most SHADE__POINTS: these are compared with the
-             depth buffer and lit.  What only a part of the picture shows is never told.  >>image */
+/*----------------------------------------------------------------------------------------- >>survey
+   What a draw of a mesh came to, looked at again: for >>explain.
+     in      what shade_draw_mesh took     out  shade__survey: counts, and points that are visible
+     holds   Nothing is written.  A pass counts what becomes of the triangles; a second one takes at
+             most SHADE__POINTS points of those that are drawn, and compares them with the depth
+             buffer.                                                                   >>explain */
 
 enum {
     SHADE__POINTS = 256,     /* points of the mesh that are looked at */
@@ -6206,6 +6206,7 @@ typedef struct shade__survey {
     long long triangles, drawn, fate[SHADE__FATES];    /* triangles: without those rejected */
     shade_vec3 low, high, origin;        /* the box of the corners, and the first; world space */
     double area, volume, sum[3];         /* twice the area, 6 times the volume, vectors of area */
+    long long boxes;                     /* triangles that leave the box of their chunk */
     long long with, against;             /* triangles wound as their vertex normals say, or not */
     int seen, cut;                       /* points in the clip rectangle; below alpha_cutoff */
     int failed, unbiased;                /* of seen: not drawn by their depth; but without bias */
@@ -6217,121 +6218,9 @@ typedef struct shade__survey {
     shade_vec3 point[SHADE__POINTS], normal[SHADE__POINTS], albedo[SHADE__POINTS];
 } shade__survey;
 
-/* ---- arguments: the refusals of shade_draw_mesh, in its order */
-
-static const char *shade__indices_fault(const shade_mesh *m)
-{
-    if (!shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count)) return NULL;
-    if (shade__corner_count(m) % 3 == 0)
-        return "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
-               "vertices, not floats, and indices are 32 bits wide.";
-    return m->indices ? "mesh.index_count is no multiple of 3; it counts indices, three a triangle."
-                      : "mesh.vertex_count is no multiple of 3, and mesh.indices is NULL.";
-}
-static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
-                                  const shade_draw_state *s)
-{
-    const char *fault;
-    if (!t) return "target is NULL; pass the address of a shade_target.";
-    if (!m) return "mesh is NULL; pass the address of a shade_mesh.";
-    if (!s) return "state is NULL; pass the address of a shade_draw_state.";
-    fault = shade__target_fault(t);
-    if (!fault) fault = shade__mesh_fault(m);
-    if (!fault) fault = shade__chunks_fault(m);
-    if (!fault) fault = shade__state_fault(m, s);
-    if (!fault) fault = shade__lights_fault(&s->lighting);
-    if (!fault && m->texcoords && s->diffuse_map) fault = shade__texture_fault(s->diffuse_map);
-    return fault ? fault : shade__indices_fault(m);
-}
-static int shade__overlaps(int stride, int bytes) { return stride && stride < bytes; }
-
-static const char *shade__suspect_mesh(const shade_mesh *m)
-{
-    if (!shade__corner_count(m))
-        return m->indices ? "mesh.index_count is 0, so there are no triangles to draw; set it."
-                          : "mesh.vertex_count is 0, so there are no triangles to draw; set it.";
-    if (m->chunks && !m->chunk_count)
-        return "mesh.chunk_count is 0 while mesh.chunks is not NULL, so no triangle is drawn; set "
-               "chunk_count, or make chunks NULL.";
-    if (shade__overlaps(m->position_stride, 12) ||
-        (m->normals && shade__overlaps(m->normal_stride, 12)) ||
-        (m->texcoords && shade__overlaps(m->texcoord_stride, 8)) ||
-        (m->colors && shade__overlaps(m->color_stride, 12)))
-        return "A stride of the mesh is shorter than one element; position_stride, normal_stride, "
-               "texcoord_stride and color_stride count bytes, not floats, and 0 means tight.";
-    return NULL;
-}
-
-/* ---- matrices */
-
-static int shade__is_affine(const shade_mat4 *m)
-{
-    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
-}
-/* Turns, moves and mirrors, but does not scale. */
-static int shade__is_rigid(const shade_mat4 *m)
-{
-    int good = shade__is_affine(m);
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k <= i; k++) {
-            const float d = shade_dot(shade__xyz(m->col[i]), shade__xyz(m->col[k]));
-            good &= shade__within(d - (i == k ? 1.0f : 0.0f), 0.01f);
-        }
-    return good;
-}
-/* A translation in the row where column-major matrices have 0, 0, 0, 1. */
-static int shade__is_transposed(const shade_mat4 *m)
-{
-    return shade__is_zero(shade__xyz(m->col[3])) && m->col[3].w == 1 && !shade__is_affine(m);
-}
 static int shade__is_perspective(const shade_mat4 *m)
 {
     return m->col[3].w == 0 && m->col[2].w != 0 && m->col[0].w == 0 && m->col[1].w == 0;
-}
-/* Columns that all vanish but the last, (0, 0, 2, 1): what cameras give for bad arguments. */
-static int shade__is_no_camera(const shade_mat4 *m)
-{
-    for (int k = 0; k < 14; k++)
-        if (((const float *)m)[k] != 0) return 0;
-    return m->col[3].z == 2 && m->col[3].w == 1;
-}
-static const char *shade__suspect_numbers(const shade_draw_state *s)
-{
-    if (!shade__is_finite(&s->model)) return "state.model holds a NaN or an infinite number.";
-    if (!shade__is_finite(&s->view)) return "state.view holds a NaN or an infinite number.";
-    if (!shade__is_finite(&s->projection))
-        return "state.projection holds a NaN or an infinite number.";
-    if (shade__is_no_camera(&s->projection) || shade__is_no_camera(&s->view))
-        return "state.projection is the matrix that cameras give for bad arguments: fovy must be "
-               "in radians and below pi (use shade_radians for degrees), near and far above 0 and "
-               "different, the aspect not 0, left not equal to right, bottom not to top.";
-    return NULL;
-}
-static const char *shade__suspect_matrices(const shade_draw_state *s)
-{
-    const shade_mat4 view = shade__or_identity(s->view), *p = &s->projection;
-    const char *fault = shade__suspect_numbers(s);
-    if (fault) return fault;
-    if (shade__is_transposed(&s->model))
-        return "state.model looks transposed (row-major): its translation belongs into col[3]; "
-               "pass it through shade_mat4_transpose.";
-    if (shade__is_transposed(&view))
-        return "state.view looks transposed (row-major): its translation belongs into col[3]; "
-               "pass it through shade_mat4_transpose.";
-    if ((p->col[3].z == -1 || p->col[3].z == 1) && p->col[3].w == 0 && p->col[2].w != 0 &&
-        p->col[2].w != 1 && p->col[2].w != -1)
-        return "state.projection looks transposed (row-major): its -1 belongs into col[2].w; pass "
-               "it through shade_mat4_transpose.";
-    if (!shade__is_affine(&view) || (!shade__is_rigid(&view) && shade__is_rigid(p) &&
-                                     !shade__is_zero(shade__xyz(p->col[3]))))
-        return "state.view holds a projection: state.view and state.projection look swapped.";
-    if (shade_mat4_determinant(view) == 0)
-        return "state.view is singular, it has no inverse and so no eye; make it with "
-               "shade_mat4_look_at.";
-    if (shade__is_perspective(p) && p->col[2].z == 0 && !s->raster.depth_zero_to_one)
-        return "state.projection is that of shade_mat4_perspective_reversed, which needs "
-               "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
-    return NULL;
 }
 
 /* ---- the first pass: what becomes of the triangles */
@@ -6405,6 +6294,18 @@ static int shade__is_drawn(const shade__survey *s, shade__fate fate)
     return (fate == SHADE__FRONT && cull != SHADE_CULL_FRONT) ||
            (fate == SHADE__BACK && cull != SHADE_CULL_BACK);
 }
+/* Is a corner outside of the box of its chunk?  A box that is always looked into holds anything. */
+static int shade__leaves_box(const shade_mesh *m, const shade__walk *w, const shade__corners *c)
+{
+    const shade_chunk *box = m->chunks ? &m->chunks[w->chunk - 1] : NULL;
+    for (int k = 0; box && k < 3; k++) {
+        const shade_vec3 p = c->object[k];
+        if (box->low.x <= box->high.x && (p.x < box->low.x || p.x > box->high.x)) return 1;
+        if (box->low.y <= box->high.y && (p.y < box->low.y || p.y > box->high.y)) return 1;
+        if (box->low.z <= box->high.z && (p.z < box->low.z || p.z > box->high.z)) return 1;
+    }
+    return 0;
+}
 /* Adds a triangle to box, areas, volume, and to with or against. */
 static void shade__measure(shade__survey *s, int triangle, const shade__corners *c)
 {
@@ -6443,13 +6344,9 @@ static void shade__count_fates(shade__survey *s)
         s->drawn += shade__is_drawn(s, fate);
         if (fate == SHADE__REJECTED) continue;
         s->triangles++;
+        s->boxes += shade__leaves_box(s->mesh, &w, &c);
         shade__measure(s, t, &c);
     }
-}
-static int shade__eye_inside(const shade__survey *s)
-{
-    return s->eye.x >= s->low.x && s->eye.y >= s->low.y && s->eye.z >= s->low.z &&
-           s->eye.x <= s->high.x && s->eye.y <= s->high.y && s->eye.z <= s->high.z;
 }
 
 /* ---- the second pass: points of the triangles that are drawn */
@@ -6582,6 +6479,135 @@ static void shade__take_faces(shade__survey *s)
     }
 }
 
+/*---------------------------------------------------------------------------------------- >>explain
+   Why a draw gives no picture, or the wrong one, in one sentence.
+     in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
+     holds   What only a band or a strip shows is never told: others may show the rest.  At most
+             SHADE__POINTS points are lit.                                               >>image */
+
+/* ---- arguments: the refusals of shade_draw_mesh, in its order */
+
+static const char *shade__indices_fault(const shade_mesh *m)
+{
+    if (!shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count)) return NULL;
+    if (shade__corner_count(m) % 3 == 0)
+        return "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
+               "vertices, not floats, and indices are 32 bits wide.";
+    return m->indices ? "mesh.index_count is no multiple of 3; it counts indices, three a triangle."
+                      : "mesh.vertex_count is no multiple of 3, and mesh.indices is NULL.";
+}
+static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
+                                  const shade_draw_state *s)
+{
+    const char *fault;
+    if (!t) return "target is NULL; pass the address of a shade_target.";
+    if (!m) return "mesh is NULL; pass the address of a shade_mesh.";
+    if (!s) return "state is NULL; pass the address of a shade_draw_state.";
+    fault = shade__target_fault(t);
+    if (!fault) fault = shade__mesh_fault(m);
+    if (!fault) fault = shade__chunks_fault(m);
+    if (!fault) fault = shade__state_fault(m, s);
+    if (!fault) fault = shade__lights_fault(&s->lighting);
+    if (!fault && m->texcoords && s->diffuse_map) fault = shade__texture_fault(s->diffuse_map);
+    return fault ? fault : shade__indices_fault(m);
+}
+static int shade__overlaps(int stride, int bytes) { return stride && stride < bytes; }
+
+static const char *shade__suspect_mesh(const shade_mesh *m)
+{
+    if (!shade__corner_count(m))
+        return m->indices ? "mesh.index_count is 0, so there are no triangles to draw; set it."
+                          : "mesh.vertex_count is 0, so there are no triangles to draw; set it.";
+    if (m->chunks && !m->chunk_count)
+        return "mesh.chunk_count is 0 while mesh.chunks is not NULL, so no triangle is drawn; set "
+               "chunk_count, or make chunks NULL.";
+    if (shade__overlaps(m->position_stride, 12) ||
+        (m->normals && shade__overlaps(m->normal_stride, 12)) ||
+        (m->texcoords && shade__overlaps(m->texcoord_stride, 8)) ||
+        (m->colors && shade__overlaps(m->color_stride, 12)))
+        return "A stride of the mesh is shorter than one element; position_stride, normal_stride, "
+               "texcoord_stride and color_stride count bytes, not floats, and 0 means tight.";
+    return NULL;
+}
+
+/* ---- matrices */
+
+static int shade__is_affine(const shade_mat4 *m)
+{
+    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w == 1;
+}
+/* Turns, moves and mirrors, but does not scale. */
+static int shade__is_rigid(const shade_mat4 *m)
+{
+    int good = shade__is_affine(m);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k <= i; k++) {
+            const float d = shade_dot(shade__xyz(m->col[i]), shade__xyz(m->col[k]));
+            good &= shade__within(d - (i == k ? 1.0f : 0.0f), 0.01f);
+        }
+    return good;
+}
+/* A translation in the row where column-major matrices have 0, 0, 0, 1. */
+static int shade__is_transposed(const shade_mat4 *m)
+{
+    return shade__is_zero(shade__xyz(m->col[3])) && m->col[3].w == 1 && !shade__is_affine(m);
+}
+/* Columns that all vanish but the last, (0, 0, 2, 1): what cameras give for bad arguments. */
+static int shade__is_no_camera(const shade_mat4 *m)
+{
+    for (int k = 0; k < 14; k++)
+        if (((const float *)m)[k] != 0) return 0;
+    return m->col[3].z == 2 && m->col[3].w == 1;
+}
+static const char *shade__suspect_numbers(const shade_draw_state *s)
+{
+    if (!shade__is_finite(&s->model)) return "state.model holds a NaN or an infinite number.";
+    if (!shade__is_finite(&s->view)) return "state.view holds a NaN or an infinite number.";
+    if (!shade__is_finite(&s->projection))
+        return "state.projection holds a NaN or an infinite number.";
+    if (shade__is_no_camera(&s->projection) || shade__is_no_camera(&s->view))
+        return "state.projection is the matrix that cameras give for bad arguments: fovy must be "
+               "in radians and below pi (use shade_radians for degrees), near and far above 0 and "
+               "different, the aspect not 0, left not equal to right, bottom not to top.";
+    return NULL;
+}
+static const char *shade__suspect_matrices(const shade_draw_state *s)
+{
+    const shade_mat4 view = shade__or_identity(s->view), *p = &s->projection;
+    const char *fault = shade__suspect_numbers(s);
+    if (fault) return fault;
+    if (shade__is_transposed(&s->model))
+        return "state.model looks transposed (row-major): its translation belongs into col[3]; "
+               "pass it through shade_mat4_transpose.";
+    if (shade__is_transposed(&view))
+        return "state.view looks transposed (row-major): its translation belongs into col[3]; "
+               "pass it through shade_mat4_transpose.";
+    if ((p->col[3].z == -1 || p->col[3].z == 1) && p->col[3].w == 0 && p->col[2].w != 0 &&
+        p->col[2].w != 1 && p->col[2].w != -1)
+        return "state.projection looks transposed (row-major): its -1 belongs into col[2].w; pass "
+               "it through shade_mat4_transpose.";
+    if (!shade__is_affine(&view) || (!shade__is_rigid(&view) && shade__is_rigid(p) &&
+                                     !shade__is_zero(shade__xyz(p->col[3]))))
+        return "state.view holds a projection: state.view and state.projection look swapped.";
+    if (shade_mat4_determinant(view) == 0)
+        return "state.view is singular, it has no inverse and so no eye; make it with "
+               "shade_mat4_look_at.";
+    if (shade__is_perspective(p) && (p->col[0].z != 0 || p->col[1].z != 0) &&
+        (p->col[0].y != 0 || p->col[1].x != 0))
+        return "state.projection looks multiplied in the wrong order: shade_mat4_mul(a, b) applies "
+               "b first, so that projection times view is shade_mat4_mul(projection, view).";
+    if (shade__is_perspective(p) && p->col[2].z == 0 && !s->raster.depth_zero_to_one)
+        return "state.projection is that of shade_mat4_perspective_reversed, which needs "
+               "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
+    return NULL;
+}
+
+static int shade__eye_inside(const shade__survey *s)
+{
+    return s->eye.x >= s->low.x && s->eye.y >= s->low.y && s->eye.z >= s->low.z &&
+           s->eye.x <= s->high.x && s->eye.y <= s->high.y && s->eye.z <= s->high.z;
+}
+
 /* ---- nothing is drawn */
 
 /* Has anything been drawn?  Then the depth buffer holds different values. */
@@ -6620,13 +6646,13 @@ static const char *shade__why_outside(const shade__survey *s)
     const shade_vec3 middle = shade_lerp(s->low, s->high, 0.5f);
     const shade_mat4 turned = shade__mat4_product(p, &s->camera);
     const shade_vec4 seen = shade_mat4_transform(turned, shade__xyzw(middle, 1));
-    if (shade__is_transposed(p) || (p->col[0].z != 0 && shade__is_perspective(p)))
-        return "state.projection looks transposed, or multiplied in the wrong order: "
-               "shade_mat4_mul(a, b) applies b first, and translations stand in col[3].";
+    if (shade__is_transposed(p))
+        return "state.projection looks transposed (row-major): translations stand in col[3]; pass "
+               "it through shade_mat4_transpose.";
     if (shade__is_perspective(p) && !s->state->raster.depth_zero_to_one && p->col[2].w == -1 &&
         (p->col[3].z / (p->col[2].z - 1) <= 0 || p->col[3].z / (p->col[2].z + 1) <= 0))
-        return "state.projection has a near or far plane at or behind the eye; near and far must "
-               "be above 0.";
+        return "state.projection has a near or far plane at or behind the eye: near and far must "
+               "be above 0, and shade_mat4_mul(projection, view) applies view first.";
     if (shade__is_affine(p) && shade__is_rigid(p))
         return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
                "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
@@ -7031,6 +7057,9 @@ static SHADE__COLD const char *shade__why(shade__survey *s)
     s->clip_from_world = shade__mat4_product(&s->projection, &view);
     s->eye = shade_mat4_transform_point(s->camera, shade_v3(0, 0, 0));
     shade__count_fates(s);
+    if (s->boxes)
+        return "A box of mesh.chunks does not hold its triangles, which may be skipped by it: make "
+               "the chunks again with shade_mesh_chunks after the positions have changed.";
     if (!s->drawn) return shade__why_nothing(s);
     return shade__why_drawn(s);
 }

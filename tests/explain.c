@@ -130,6 +130,13 @@ MISTAKE(chunk_outside)
     s->mesh.chunk_count = 1;
     s->chunk.first = 1;
 }
+MISTAKE(chunks_of_another_mesh)
+{
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(-0.5f, -0.5f, -0.5f);
+    s->chunk.high = shade_v3(0.5f, 0.5f, 0.5f);
+}
 MISTAKE(shading_unknown) { s->state.shading = (shade_shading)7; }
 MISTAKE(transparency_in_percent) { s->state.transparency = 50; }
 MISTAKE(cutoff_of_128) { s->state.alpha_cutoff = 128; }
@@ -183,6 +190,11 @@ MISTAKE(wrong_order)
     s->state.projection = shade_mat4_mul(s->state.view, s->state.projection);
     memset(&s->state.view, 0, sizeof s->state.view);
 }
+MISTAKE(wrong_order_of_a_tilted_view)
+{
+    s->state.view = shade_mat4_look_at(shade_v3(9, 3, 0), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    mistake_wrong_order(s);
+}
 MISTAKE(view_by_rows) { s->state.view = shade_mat4_transpose(s->state.view); }
 MISTAKE(projection_by_rows) { s->state.projection = shade_mat4_transpose(s->state.projection); }
 MISTAKE(model_by_rows)
@@ -190,6 +202,10 @@ MISTAKE(model_by_rows)
     s->state.model = shade_mat4_transpose(shade_mat4_translation(shade_v3(0.5f, 0, 0)));
 }
 MISTAKE(all_by_rows) { mistake_view_by_rows(s), mistake_projection_by_rows(s); }
+MISTAKE(ortho_by_rows)
+{
+    s->state.projection = shade_mat4_transpose(shade_mat4_ortho(-3, 1, -1, 1, 0.01f, 0.1f));
+}
 MISTAKE(projection_forgotten)
 {
     memset(&s->state.projection, 0, sizeof s->state.projection);
@@ -256,6 +272,12 @@ MISTAKE(inside_out)
     s->state.raster.cull = SHADE_CULL_BACK;
 }
 MISTAKE(inside_out_open) { s->mesh.index_count = STAGE_INDICES * 2 / 3, mistake_inside_out(s); }
+MISTAKE(mirrored_open)
+{
+    s->mesh.index_count = STAGE_INDICES * 2 / 3;
+    s->state.model = shade_mat4_scaling(shade_v3(1, 1, -1));
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
 MISTAKE(inside_out_without_normals) { s->mesh.normals = NULL, mistake_inside_out(s); }
 MISTAKE(mirrored)
 {
@@ -439,6 +461,7 @@ static const mistake mistakes[] = {
     OF(index_count_negative, "mesh.index_count"), OF(stride_of_three_floats, "bytes"),
     OF(stride_of_eight_floats, "position_stride"), OF(texcoord_stride_short, "texcoord_stride"),
     OF(chunks_null, "mesh.chunks"), OF(chunk_outside, "chunk"),
+    OF(chunks_of_another_mesh, "mesh.chunks"),
     OF(shading_unknown, "state.shading"), OF(transparency_in_percent, "state.transparency"),
     OF(cutoff_of_128, "state.alpha_cutoff"), OF(cull_unknown, "raster.cull"),
     OF(depth_test_unknown, "raster.depth_test"), OF(blend_unknown, "raster.blend"),
@@ -452,9 +475,12 @@ static const mistake mistakes[] = {
     OF(fovy_in_degrees, "radians"), OF(near_zero, "near"), OF(near_is_far, "far"),
     OF(aspect_zero, "aspect"), OF(ortho_empty, "left"), OF(swapped, "swapped"),
     OF(swapped_ortho, "swapped"), OF(projection_in_view, "state.projection"),
-    OF(wrong_order, "state.projection"), OF(view_by_rows, "state.view looks transposed"),
+    OF(wrong_order, "state.projection"),
+    OF(wrong_order_of_a_tilted_view, "wrong order"),
+    OF(view_by_rows, "state.view looks transposed"),
     OF(projection_by_rows, "state.projection looks transposed"),
     OF(model_by_rows, "state.model looks transposed"), OF(all_by_rows, "transposed"),
+    OF(ortho_by_rows, "state.projection"),
     OF(projection_forgotten, "state.projection is unset"), OF(view_inverted, "inverse"),
     OF(looks_away, "behind the eye"), OF(beyond_far, "beyond the far plane"),
     OF(before_near, "nearer than the near plane"), OF(beside, "beside the picture"),
@@ -468,6 +494,7 @@ static const mistake mistakes[] = {
     OF(wound_clockwise_quad, "counter-clockwise"), OF(culled_by_mirror, "state.model mirrors"),
     OF(culled_front, "SHADE_CULL_FRONT"), OF(culled_inside, "the eye lies inside"),
     OF(inside_out, "inside out"), OF(inside_out_open, "inside out"),
+    OF(mirrored_open, "inside out"),
     OF(inside_out_without_normals, "inside out"), OF(mirrored, "inside out"),
     OF(upside_down, "inside out"),
 
