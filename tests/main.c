@@ -38,6 +38,7 @@
 #include "shape.c"
 #include "ray.c"
 #include "resolve.c"
+#include "alone.c"
 #include "scene.c"
 
 static const test_section sections[] = {
@@ -46,7 +47,7 @@ static const test_section sections[] = {
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(course),  SECTION(packets), SECTION(check),
-    SECTION(own),
+    SECTION(own),    SECTION(alone),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 
