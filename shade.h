@@ -2334,15 +2334,15 @@ SHADE__INLINE void shade__combine(const shade__lamp *SHADE_RESTRICT lamp,
                                   const int n, const shade__lit *SHADE_RESTRICT r,
                                   shade__v3 *SHADE_RESTRICT rgb)
 {
+    const uint32_t sign = job->sign, open = job->open, all = shade__mask(!masked);
     SHADE__FOR(i, n) {
-        float nl = shade__keep(r->a.cosine[i], job->sign), att = r->a.att[i];
-        uint32_t front = shade__mask(nl > 0), lit = (front | job->open) & shade__mask(att != 0);
-        if (!masked) lit = shade__mask(1);
+        float nl = shade__keep(r->a.cosine[i], sign), att = r->a.att[i];
+        uint32_t front = shade__mask(nl > 0), lit = (front | open) & shade__mask(att != 0);
         shade_vec3 diffuse = shade_mul(lamp->diffuse, shade__albedo(albedo, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * att);
         shade_vec3 specular = shade_mul(lamp->specular, shade__albedo(tint, i));
         shade_vec3 light = shade_madd(diffuse, r->a.to_light.x[i] * att, specular);
-        shade__add_to(rgb, i, shade__keep3(light, lit));
+        shade__add_to(rgb, i, shade__keep3(light, lit | all));
     }
 }
 /* rgb = base + slope albedo */
@@ -2374,7 +2374,8 @@ SHADE__INLINE void shade__hide(const float *SHADE_RESTRICT visibility, const int
     SHADE__FOR(i, n) { att[i] = shade__keep(att[i] * visibility[i], shade__mask(att[i] != 0)); }
 }
 
-/* One of the copies of shade__combine: the mask of the first two costs 2 %. */
+/* One of the copies of shade__combine, whose rows are there or not, so that the loop does not ask:
+   it would stay scalar.  Only the last copy goes without the mask, which costs 2 %. */
 SHADE__INLINE void shade__add_light(const shade__job *j, const shade__lamp *lamp,
                                     const shade_rows *rows, const int n,
                                     const shade__lit *SHADE_RESTRICT r,
@@ -2382,7 +2383,8 @@ SHADE__INLINE void shade__add_light(const shade__job *j, const shade__lamp *lamp
 {
     const shade__v3 *albedo = shade__rows_of(rows->albedo);
     const shade__v3 *tint = shade__rows_of(rows->specular);
-    if (!SHADE__TWICE || tint) shade__combine(lamp, j, albedo, tint, 1, n, r, rgb);
+    if (!SHADE__TWICE || (tint && albedo)) shade__combine(lamp, j, albedo, tint, 1, n, r, rgb);
+    else if (tint) shade__combine(lamp, j, NULL, tint, 1, n, r, rgb);
     else if (albedo) shade__combine(lamp, j, albedo, NULL, 1, n, r, rgb);
     else if (lamp->masked || rows->visibility) shade__combine(lamp, j, NULL, NULL, 1, n, r, rgb);
     else shade__combine(lamp, j, NULL, NULL, 0, n, r, rgb);
@@ -2904,7 +2906,8 @@ SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v, const uint32_t *SH
 /* The rows of a value of the packet. */
 SHADE__INLINE shade__word *shade__words(void *rows) { return (shade__word *)rows; }
 
-/* Twice the area, in doubles (exact), and 256 over its size. */
+/* Twice the area, in doubles (exact), and 256 over its size; 256 where it is 0, for programs that
+   trap divisions by zero. */
 SHADE__INLINE void shade__areas(const shade__packet *SHADE_RESTRICT p, float *SHADE_RESTRICT area,
                                 double *SHADE_RESTRICT inverse)
 {
@@ -2913,7 +2916,7 @@ SHADE__INLINE void shade__areas(const shade__packet *SHADE_RESTRICT p, float *SH
         double x2 = p->x[2][i] - p->x[0][i], y2 = p->y[2][i] - p->y[0][i];
         double a = x1 * y2 - x2 * y1;
         area[i] = (float)a;
-        inverse[i] = 256 / shade__size(a);
+        inverse[i] = 256 / (shade__size(a) + (a == 0 ? 1 : 0));
     }
 }
 /* Which corner comes first, and whether the others are swapped. */
