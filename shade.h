@@ -2288,8 +2288,9 @@ SHADE__INLINE void shade__mirrored(const shade__v3 *SHADE_RESTRICT normal, uint3
         float nl = r->a.cosine[i], rn = r->rn[i];
         shade_vec3 to_light = shade__at(rows, i), to_eye = shade__at(&r->to_eye, i);
         shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
-        uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         d = shade_sub(d, shade_add(to_light, to_eye));
+        /* after the last call that returns a vector, for tcc */
+        uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         float cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
         rows->x[i] = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
