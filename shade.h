@@ -679,7 +679,9 @@ SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m);
 /*------------------------------------------------------------------------------------------ >>light
    The equations of >>model.  All vectors point away from the surface.  Everything is defined: no
    input that is free of NaN and infinity gives one.  Error against exact arithmetic, with I the
-   brightest light arriving: below 5e-5 max(1, |exact|, I) max(1, (n + e) / 100). */
+   brightest light arriving: below 5e-5 max(1, |exact|, I) max(1, (n + e) / 100).  That holds for
+   coefficients of attenuation >= 0, k <= 1 and lights up to 1e6, where |N.L| > 1e-6, which is away
+   from the gate, and where L.S is 1e-6 away from cos(beta), the edge of the cone. */
 
 /* color becomes I_d and I_s; ambient 0, no attenuation.  direction_of_travel: the way light flies;
    aim: where the lamp points; both of any length.  cutoff: from the axis to the edge of the cone,
@@ -1915,7 +1917,7 @@ static void shade__begin_terms(const shade_lighting *lighting, const shade_mater
         j->m = &j->white;
     }
     j->emission = terms & SHADE_TERM_EMISSION ? j->m->emission : none;
-    j->emission = shade_add(j->emission, none);    /* no -0, which a lamp that adds 0 would change */
+    j->emission = shade_add(j->emission, none);    /* no -0, which a lamp's 0 would change */
     j->ambient = terms & SHADE_TERM_AMBIENT ? lighting->ambient : none;
     j->lamps = lighting->lights ? lighting->light_count : 0;
     if ((terms & SHADE_TERM_AMBIENT) && !(lighting->flags & SHADE_FLAG_ATTENUATED_AMBIENT))
@@ -5998,7 +6000,8 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
     shade__double3(ray.direction, d);
     shade__sub3(ray.origin, a, s);
     shade__cross3(d, s, q);
-    det = shade__dot3(d, n);    /* 0 leaves NaN and infinities, which fail */
+    det = shade__dot3(d, n);
+    if (det == 0) return 0;    /* no division by zero, for programs that trap it */
     u = shade__dot3(f, q) / det;
     v = -shade__dot3(e, q) / det;
     at = -shade__dot3(s, n) / det;

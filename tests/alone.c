@@ -183,7 +183,7 @@ TEST(alone, a_texel_of_a_packet_is_the_scalar_sample)
     }
 }
 
-/* ---------------------------------------------------------------------------------- whole pictures */
+/* ------------------------------------------------------------------------------- whole pictures */
 
 enum { ALONE_W = 48, ALONE_H = 32 };
 
@@ -281,7 +281,28 @@ TEST(alone, a_picture_is_the_same_in_bands_and_pixel_by_pixel)
     }
 }
 
-/* -------------------------------------------------------------------------------------------- NaN */
+/* -0 stays, or becomes +0, whether another lane is lit or none. */
+TEST(alone, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane)
+{
+    static float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];
+    shade_light lamp = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
+    shade_material m = shade_preset_material(SHADE_PRESET_COUNT);
+    shade_lighting lighting;
+    float rgb[2][3][SHADE_LANES];
+    memset(&lighting, 0, sizeof lighting);
+    lighting.lights = &lamp, lighting.light_count = 1, lighting.ambient = shade_v3(1, 1, 1);
+    m.emission = shade_v3(-0.0f, -0.0f, -0.0f);
+    for (int lit = 0; lit < 2; lit++) {
+        for (int i = 0; i < SHADE_LANES; i++) {
+            lane_set(N, i, shade_v3(0, 0, lit && i > 0 ? 1.0f : -1.0f));
+            lane_set(albedo, i, shade_v3(-0.0f, -0.0f, -0.0f));
+        }
+        lit_rows(&lighting, &m, shade_v3(0, 0, 9), P[0], N[0], albedo[0], NULL, rgb[lit][0]);
+    }
+    for (int c = 0; c < 3; c++) CHECK(float_bits(rgb[0][c][0]) == float_bits(rgb[1][c][0]));
+}
+
+/* ------------------------------------------------------------------------------------------ NaN */
 
 TEST(alone, the_sign_of_a_nan_decides_nothing)
 {
@@ -332,6 +353,7 @@ static const test_case alone_cases[] = {
     CASE(alone, what_arrives_at_a_lane_is_what_arrives_at_the_point),
     CASE(alone, a_texel_of_a_packet_is_the_scalar_sample),
     CASE(alone, a_picture_is_the_same_in_bands_and_pixel_by_pixel),
+    CASE(alone, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane),
     CASE(alone, the_sign_of_a_nan_decides_nothing),
     CASE(alone, a_distance_or_a_sum_that_overflows_has_one_outcome),
 };

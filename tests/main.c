@@ -40,6 +40,7 @@
 #include "resolve.c"
 #include "alone.c"
 #include "scene.c"
+#include "modes.c"
 
 static const test_section sections[] = {
     SECTION(math),   SECTION(matrix),  SECTION(power),   SECTION(light),    SECTION(lanes),
@@ -47,7 +48,7 @@ static const test_section sections[] = {
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(course),  SECTION(packets), SECTION(check),
-    SECTION(own),    SECTION(alone),
+    SECTION(own),    SECTION(alone),   SECTION(modes),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

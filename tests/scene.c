@@ -1,7 +1,7 @@
 /* scene.c - built-in scenes whose pixels are the same bits everywhere: models, shadings, blending,
-   clipping, interpolations, formats, maps, alpha, lines, infinite and NaN light. Their input is made of small whole numbers
-   and of functions inside the library, so that no flag of the compiler that builds this file can
-   change them.
+   clipping, interpolations, formats, maps, alpha, lines, infinite and NaN light.  Their input is
+   made of small whole numbers and of functions inside the library, so that no flag of the compiler
+   that builds this file can change them.
 
    Alone it prints their hashes:   cc -DSCENE_MAIN -I. tests/scene.c -lm -o scenes && ./scenes
    [folder] */
