@@ -70,7 +70,7 @@ out/gallery.ppm: build/contact $(NUMBERED:%=out/%.ppm)
 # -O1 compiles the tests' own code in a third of the time
 build/test_main: $(wildcard tests/*.c tests/*.h) build/shade.o
 	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/main.c build/shade.o -lm -o $@
-build/golden: tests/golden.c
+build/golden: tests/golden.c shade.h
 	@mkdir -p build
 	$(CC) $(FLAGS) tests/golden.c -o $@
 

@@ -457,6 +457,30 @@ TEST(cover, wide_flat_triangles_are_exact) /* long quotients, whose float roundi
     }
 }
 
+/* Edges that pass through a centre in every row: of one that does not belong to the triangle the
+   quotient of a span is 1/step above a whole number.  Where the float of 1/step is too small, as
+   for steps of these numbers of rows, it is two below the answer in rows thousands of pixels
+   wide. */
+TEST(cover, wide_triangles_between_pixel_centres_are_exact)
+{
+    static const int rows[] = { 41, 47, 55, 61 };
+    for (int i = 0; i < 16; i++) {
+        canvas c = canvas_open(4000, 62, 0, SHADE_FORMAT_RGBA8, 1);
+        const int high = rows[i % 4], wide = high * (3900 / high);
+        int64_t x[3] = { 50, 50 + wide, 0 }, y[3] = { 0, high, 0 };
+        x[2] = i & 4 ? x[1] : x[0];
+        y[2] = i & 4 ? 0 : high;
+        for (int k = 0; k < 3; k++) {
+            x[k] = (i & 8 ? 3999 - x[k] : x[k]) * 256 + 128;
+            y[k] = y[k] * 256 + 128;
+        }
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        check_coverage(&c, x, y);
+        canvas_close(&c);
+    }
+}
+
 TEST(cover, facing_is_counter_clockwise_on_the_screen)
 {
     recorder r = recorder_open(20000);
@@ -528,6 +552,7 @@ static const test_case cover_cases[] = {
     CASE(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing),
     CASE(cover, the_biggest_pictures_are_exact),
     CASE(cover, wide_flat_triangles_are_exact),
+    CASE(cover, wide_triangles_between_pixel_centres_are_exact),
     CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
     CASE(cover, triangles_of_a_million_pixels_are_exact),
     CASE(cover, thin_triangles_across_nine_million_pixels_are_exact),

@@ -1,14 +1,32 @@
 /* golden.c - holds picture files to recorded hashes.
 
-     golden file ...            compares each file with tests/golden.txt, prints N passed, N failed
-     golden --update file ...   writes tests/golden.txt anew
+     golden file ...            compares each file, prints N passed, N failed
+     golden --update file ...   writes the file of this version anew
 
-   tests/golden.txt: one line per picture, its name without folder and its 64-bit FNV-1a hash. */
-#include <stdint.h>
+   tests/golden/1.1.txt has the hashes of version 1.1, and so on: one line per picture, its name
+   without folder and its 64-bit FNV-1a hash.  Files are compared with the newest one that is not
+   beyond SHADE_VERSION; those of earlier versions stay as they are. */
+#include "shade.h"
 #include <stdio.h>
 #include <string.h>
 
-#define LIST "tests/golden.txt"
+static char list[40];    /* tests/golden/major.minor.txt */
+
+static void name_list(int minor)
+{
+    snprintf(list, sizeof list, "tests/golden/%d.%d.txt", SHADE_VERSION / 10000, minor);
+}
+/* The list of the newest version that has one. */
+static void find_list(void)
+{
+    for (int minor = SHADE_VERSION / 100 % 100; minor >= 0; minor--) {
+        name_list(minor);
+        FILE *f = fopen(list, "r");
+        if (!f) continue;
+        fclose(f);
+        return;
+    }
+}
 
 static const char *name_of(const char *path)
 {
@@ -34,7 +52,7 @@ static int hash_file(const char *path, uint64_t *hash)
 
 static int recorded_hash(const char *name, uint64_t *hash)
 {
-    FILE *f = fopen(LIST, "r");
+    FILE *f = fopen(list, "r");
     char line[400], recorded[300];
     unsigned long long value;
     int found = 0;
@@ -49,7 +67,8 @@ static int recorded_hash(const char *name, uint64_t *hash)
 
 static int update(int count, char **paths)
 {
-    FILE *f = fopen(LIST, "w");
+    name_list(SHADE_VERSION / 100 % 100);
+    FILE *f = fopen(list, "w");
     int ok = f != NULL;
     for (int i = 0; i < count && ok; i++) {
         uint64_t hash;
@@ -61,7 +80,7 @@ static int update(int count, char **paths)
     }
     if (f && fclose(f)) ok = 0;
     printf(ok ? "%d hashes written to %s\n" : "%d hashes could not be written to %s\n", count,
-           LIST);
+           list);
     return !ok;
 }
 
@@ -69,12 +88,13 @@ int main(int argc, char **argv)
 {
     int passed = 0, failed = 0;
     if (argc > 1 && !strcmp(argv[1], "--update")) return update(argc - 2, argv + 2);
+    find_list();
     for (int i = 1; i < argc; i++) {
         uint64_t got = 0, want = 0;
         if (!hash_file(argv[i], &got))
             printf("%s: cannot be read\n", argv[i]);
         else if (!recorded_hash(name_of(argv[i]), &want))
-            printf("%s: not in %s\n", argv[i], LIST);
+            printf("%s: not in %s\n", argv[i], list);
         else if (got != want) {
             printf("%s: got %016llx, want %016llx\n", argv[i], (unsigned long long)got,
                    (unsigned long long)want);

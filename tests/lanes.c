@@ -449,6 +449,31 @@ TEST(lanes, all_lamps_in_full_sight_are_the_bits_without_visibility)
 }
 
 /* Cool to warm and emission know no shadow: not even NaN there changes a bit. */
+/* Lamp k gives 2^k, so that the sum says which lamps a lane saw. */
+TEST(lanes, each_of_many_lamps_has_its_own_row_of_visibility)
+{
+    enum { lamps = 11 };
+    static float visibility[lamps][SHADE_LANES], P[3][SHADE_LANES], N[3][SHADE_LANES];
+    shade_light lights[lamps];
+    shade_lighting lighting;
+    float rgb[3][SHADE_LANES];
+    memset(&lighting, 0, sizeof lighting);
+    lighting.model = SHADE_MODEL_LAMBERT;
+    lighting.lights = lights, lighting.light_count = lamps;
+    for (int k = 0; k < lamps; k++)
+        lights[k] = shade_directional_light(shade_v3(0, 0, -1), grey((double)(1 << k)));
+    for (int round = 0; round < 20; round++) {
+        int want[SHADE_LANES];
+        for (int i = 0; i < SHADE_LANES; i++) {
+            want[i] = rnd_int(0, (1 << lamps) - 1);
+            lane_set(N, i, shade_v3(0, 0, 1));
+            for (int k = 0; k < lamps; k++) visibility[k][i] = (float)(want[i] >> k & 1);
+        }
+        lit_rows(&lighting, NULL, shade_v3(0, 0, 9), P[0], N[0], NULL, visibility[0], rgb[0]);
+        for (int i = 0; i < SHADE_LANES; i++) CHECK_NEAR(rgb[0][i], want[i], 1e-2);
+    }
+}
+
 TEST(lanes, models_without_light_of_lamps_read_no_visibility)
 {
     static lane_packet k;
@@ -749,6 +774,7 @@ static const test_case lanes_cases[] = {
     CASE(lanes, every_combination_of_rows_is_the_equation_of_its_lane),
     CASE(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers_of_two),
     CASE(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte),
+    CASE(lanes, each_of_many_lamps_has_its_own_row_of_visibility),
     CASE(lanes, a_term_that_is_off_reads_nothing),
     CASE(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite),
     CASE(lanes, an_eye_or_a_lamp_at_the_point_itself_is_the_equation_too),

@@ -38,7 +38,9 @@
 #include "shape.c"
 #include "ray.c"
 #include "resolve.c"
+#include "alone.c"
 #include "scene.c"
+#include "modes.c"
 #include "explain.c"
 
 static const test_section sections[] = {
@@ -47,7 +49,7 @@ static const test_section sections[] = {
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(course),  SECTION(packets), SECTION(check),    SECTION(own),
-    SECTION(explain),
+    SECTION(alone),  SECTION(modes),   SECTION(explain),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 

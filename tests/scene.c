@@ -1,7 +1,7 @@
 /* scene.c - built-in scenes whose pixels are the same bits everywhere: models, shadings, blending,
-   clipping, interpolations, formats, maps, alpha, lines. Their input is made of small whole numbers
-   and of functions inside the library, so that no flag of the compiler that builds this file can
-   change them.
+   clipping, interpolations, formats, maps, alpha, lines, infinite and NaN light.  Their input is
+   made of small whole numbers and of functions inside the library, so that no flag of the compiler
+   that builds this file can change them.
 
    Alone it prints their hashes:   cc -DSCENE_MAIN -I. tests/scene.c -lm -o scenes && ./scenes
    [folder] */
@@ -12,7 +12,7 @@
 #include "canvas.h"
 #endif
 
-enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 25 };
+enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 27 };
 
 typedef struct golden_scene { /* fields that are left out: 0, the default */
     const char *name;
@@ -26,6 +26,7 @@ typedef struct golden_scene { /* fields that are left out: 0, the default */
     int reversed;
     int map; /* kinds of scene_map */
     int lines, affine;
+    int wild; /* lights, colours and texture coordinates that overflow, are infinite or NaN */
     float transparency, alpha_cutoff;
 } golden_scene;
 
@@ -119,6 +120,13 @@ static const golden_scene golden_scenes[SCENE_COUNT] = {
       .map = 5,
       .transparency = 0.5f },
     { .name = "affine", .model = SHADE_MODEL_EMISSIVE, .format = SHADE_FORMAT_BGRA8, .affine = 1 },
+    { .name = "wild", .lights = 3, .map = 3, .wild = 1 },
+    { .name = "wild_float",
+      .shading = SHADE_SHADING_PER_VERTEX,
+      .format = SHADE_FORMAT_RGBA32F,
+      .lights = 3,
+      .flags = SHADE_FLAG_ATTENUATED_AMBIENT | SHADE_FLAG_UNGATED_SPECULAR,
+      .wild = 1 },
 };
 
 /* Six square faces of a box, each a lattice of whole numbers; the normal of a vertex is its
@@ -230,6 +238,30 @@ static void scene_wheel(canvas *c)
     shade_draw(&c->target, &p, NULL, 48, 48, NULL);
 }
 
+/* Products that overflow, infinity less infinity, NaN of either sign: what they become must not
+   depend on the sign that a processor gives to a NaN, nor on which lanes share a packet. */
+static float scene_wild_uv[6 * SCENE_SIDE * SCENE_SIDE * 2];
+static void scene_spoil(shade_light *lights, shade_material *gold, shade_mesh *mesh)
+{
+    static const uint32_t pattern[5] = { 0x7F800000u, 0x7FC00000u, 0xFFC00001u, 0x7F7FFFFFu,
+                                         0xFF800000u };
+    const int vertices = 6 * SCENE_SIDE * SCENE_SIDE;
+    for (int i = 0; i < 2 * vertices; i++) {
+        scene_wild_uv[i] = scene_position[i / 2 * 3 + i % 2] * 0.125f;
+        if (i % 41 == 0) scene_wild_uv[i] = bits_float(pattern[i / 41 % 5]);
+    }
+    mesh->texcoords = scene_wild_uv;
+    mesh->texcoord_stride = 0;
+    lights[0].diffuse = shade_v3(1e20f, 0.5f, bits_float(pattern[0]));
+    lights[0].specular = shade_v3(1, bits_float(pattern[2]), 1);
+    lights[1].linear = -bits_float(pattern[3]);
+    lights[1].quadratic = bits_float(pattern[3]);
+    lights[1].diffuse = lights[1].specular = shade_v3(1e-22f, 1e-20f, 1e-21f);
+    lights[2].diffuse = shade_v3(0.5f, bits_float(pattern[4]), 1e30f);
+    gold->diffuse = shade_v3(1e20f, 0.75f, 0.25f);
+    gold->emission = shade_v3(-0.0f, 0.25f, 0);
+}
+
 static void scene_draw(canvas *c, const golden_scene *g)
 {
     shade_texture levels[5], map = scene_map(g->map, levels);
@@ -266,6 +298,7 @@ static void scene_draw(canvas *c, const golden_scene *g)
         mesh.texcoords = scene_position, mesh.texcoord_stride = 12;
         s.diffuse_map = &map;
     }
+    if (g->wild) scene_spoil(lights, &gold, &mesh);
     s.model = shade_mat4_rotation(0.5f, shade_v3(1, 2, 3)), s.material = &gold;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
     if (g->lines) scene_lines(c, &s);
@@ -275,11 +308,16 @@ static void scene_draw(canvas *c, const golden_scene *g)
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
 }
 
-/* FNV-1a over every number of colour and depth, low byte first whatever the machine. */
+/* FNV-1a over every number of colour and depth, low byte first whatever the machine.  A NaN counts
+   as one: its sign and its other bits differ between processors. */
 static uint64_t hash_number(uint64_t h, uint32_t v, int bytes)
 {
     for (int k = 0; k < bytes; k++, v >>= 8) h = (h ^ (v & 255)) * 1099511628211u;
     return h;
+}
+static uint32_t scene_bits(float v)
+{
+    return (float_bits(v) & 0x7FFFFFFFu) > 0x7F800000u ? 0x7FC00000u : float_bits(v);
 }
 static uint64_t scene_hash(const canvas *c)
 {
@@ -289,7 +327,7 @@ static uint64_t scene_hash(const canvas *c)
         size_t bytes = canvas_pixel_bytes(c->target.format);
         for (int k = 0; k < 4; k++) {
             if (bytes == 4) h = hash_number(h, canvas_bytes(c, x, y)[k], 1);
-            if (bytes == 16) h = hash_number(h, float_bits(canvas_float(c, x, y, k)), 4);
+            if (bytes == 16) h = hash_number(h, scene_bits(canvas_float(c, x, y, k)), 4);
         }
         if (bytes == 2) h = hash_number(h, canvas_565(c, x, y), 2);
         h = hash_number(h, float_bits(canvas_depth(c, x, y)), 4);

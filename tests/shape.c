@@ -152,6 +152,17 @@ TEST(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above)
         }
     }
 }
+/* the faces of a cube have a cosine of exactly 0 */
+TEST(shape, an_edge_of_exactly_the_threshold_is_smooth)
+{
+    static shape_mesh s;
+    shade_vec3 out[SHAPE_CORNERS];
+    shape_cube(&s, 0);
+    corner_normals(&s.mesh, 0, out);
+    for (int k = 0; k < 36; k++) CHECK(shape_off(out[k], d3_unit(shape_at(&s.mesh, k))) < 2e-6);
+    corner_normals(&s.mesh, 1e-30f, out);
+    for (int k = 0; k < 36; k++) CHECK(shape_off(out[k], ref_face(&s.mesh, k / 3)) < 2e-6);
+}
 TEST(shape, corner_normals_are_the_weighted_mean_of_the_near_faces)
 {
     static shape_mesh s;
@@ -699,6 +710,7 @@ TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
 }
 
 static const test_case shape_cases[] = {
+    CASE(shape, an_edge_of_exactly_the_threshold_is_smooth),
     CASE(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above),
     CASE(shape, corner_normals_are_the_weighted_mean_of_the_near_faces),
     CASE(shape, vertices_of_equal_position_are_one_whatever_the_sign_of_zero),

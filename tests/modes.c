@@ -1,0 +1,129 @@
+/* modes.c - other modes of the processor.  Bits are promised for rounding to nearest with
+   denormals; in any other mode nothing is read or written outside the caller's memory.  And what is
+   finite and in range raises no invalid operation, no division by zero and no overflow, so that
+   programs which trap them may draw. */
+#include <fenv.h>
+
+#if defined(__SSE__) && (defined(__GNUC__) || defined(__clang__))
+#define MODES_FLUSH 1    /* denormals count as 0 and become 0 */
+static void modes_flush(int on)
+{
+    const unsigned both = 0x8040;
+    __builtin_ia32_ldmxcsr(on ? __builtin_ia32_stmxcsr() | both : __builtin_ia32_stmxcsr() & ~both);
+}
+#else
+#define MODES_FLUSH 0
+static void modes_flush(int on) { (void)on; }
+#endif
+
+enum { MODES_NEAREST, MODES_UP, MODES_DOWN, MODES_ZERO, MODES_DENORMALS, MODES_COUNT };
+/* 0 where there is no such mode. */
+static int modes_set(int mode)
+{
+    modes_flush(mode == MODES_DENORMALS);
+    switch (mode) {
+#ifdef FE_UPWARD
+    case MODES_UP: return fesetround(FE_UPWARD) == 0;
+#endif
+#ifdef FE_DOWNWARD
+    case MODES_DOWN: return fesetround(FE_DOWNWARD) == 0;
+#endif
+#ifdef FE_TOWARDZERO
+    case MODES_ZERO: return fesetround(FE_TOWARDZERO) == 0;
+#endif
+    case MODES_DENORMALS: return MODES_FLUSH;
+    default: return mode == MODES_NEAREST && fesetround(FE_TONEAREST) == 0;
+    }
+}
+
+/* Texels are their index; a texel beyond the row would be 1e30. */
+static void modes_check_texels(int mode, int width, float u)
+{
+    static float texel[64 * 4 + 64];
+    shade_texture t;
+    memset(&t, 0, sizeof t);
+    for (int i = 0; i < 64 * 4 + 64; i++)
+        texel[i] = i / 4 < width ? (float)(i / 4) : 1e30f;
+    t.pixels = texel, t.width = width, t.height = 1, t.format = SHADE_FORMAT_RGBA32F;
+    for (int k = 0; k < 6; k++) {
+        t.wrap_u = (shade_wrap)(k % 3), t.wrap_v = SHADE_WRAP_CLAMP;
+        t.filter = k < 3 ? SHADE_FILTER_NEAREST : SHADE_FILTER_BILINEAR;
+        modes_set(mode);
+        float got = shade_sample(&t, u, u, 0).x;
+        modes_set(MODES_NEAREST);
+        CHECK_SAY(got >= -1e-3f && got <= (float)width, "mode %d, width %d, u %a, wrap %d: %g",
+                  mode, width, (double)u, k % 3, (double)got);
+    }
+}
+
+TEST(modes, no_rounding_reads_a_texel_beyond_the_row)
+{
+    static const float u[] = { 1,       0,      -0.0f, 0.99999994f, 1.0000001f,
+                               -1e-30f, -1e-8f, 2,     -1,          0.5f };
+    for (int mode = 0; mode < MODES_COUNT; mode++) {
+        if (!modes_set(mode)) continue;
+        modes_set(MODES_NEAREST);
+        for (int width = 1; width <= 64; width++) {
+            for (int i = 0; i < (int)(sizeof u / sizeof u[0]); i++)
+                modes_check_texels(mode, width, u[i]);
+            modes_check_texels(mode, width, rnd_float(-3, 3));
+        }
+    }
+}
+
+TEST(modes, no_mode_writes_outside_a_picture)    /* canvas_close looks at the bytes around it */
+{
+    scene_build();
+    for (int mode = 1; mode < MODES_COUNT; mode++) {
+        for (int k = 0; k < SCENE_COUNT; k++) {
+            canvas c = scene_open(&golden_scenes[k]);
+            if (modes_set(mode)) scene_draw(&c, &golden_scenes[k]);
+            modes_set(MODES_NEAREST);
+            canvas_close(&c);
+        }
+    }
+}
+
+#if defined(FE_INVALID) && defined(FE_DIVBYZERO) && defined(FE_OVERFLOW)
+enum { MODES_TRAPS = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW };
+#else
+enum { MODES_TRAPS = 0 };
+#endif
+static void modes_check_traps(const char *what)
+{
+    CHECK_SAY(!fetestexcept(MODES_TRAPS), "%s raises %x", what,
+              (unsigned)fetestexcept(MODES_TRAPS));
+    feclearexcept(FE_ALL_EXCEPT);
+}
+
+TEST(modes, what_is_finite_and_in_range_traps_nowhere)
+{
+    const float flat[9] = { -1, -1, 0, 0, 0, 0, 1, 1, 0 };
+    const shade_vec3 a = shade_v3(0, 0, 0), b = shade_v3(1, 0, 0), c = shade_v3(0, 1, 0);
+    const shade_ray along = { shade_v3(-1, 0, 0), shade_v3(1, 0, 0) };
+    shade_draw_state s;
+    shade_mesh m;
+    memset(&m, 0, sizeof m);
+    memset(&s, 0, sizeof s);
+    m.positions = flat, m.vertex_count = 3;
+    scene_build();
+    for (int k = 0; k < SCENE_COUNT; k++) {
+        canvas picture = scene_open(&golden_scenes[k]);
+        feclearexcept(FE_ALL_EXCEPT);
+        if (!golden_scenes[k].wild) scene_draw(&picture, &golden_scenes[k]);
+        modes_check_traps(golden_scenes[k].name);
+        shade_draw_mesh(&picture.target, &m, &s, NULL);
+        modes_check_traps("a triangle without area");
+        canvas_close(&picture);
+    }
+    CHECK_INT(shade_intersect(along, a, b, c, NULL, NULL), 0);
+    modes_check_traps("a ray in the triangle's plane");
+    CHECK_INT(shade_pick(&m, shade_mat4_identity(), along, NULL, NULL), -1);
+    modes_check_traps("a ray on a line");
+}
+
+static const test_case modes_cases[] = {
+    CASE(modes, no_rounding_reads_a_texel_beyond_the_row),
+    CASE(modes, no_mode_writes_outside_a_picture),
+    CASE(modes, what_is_finite_and_in_range_traps_nowhere),
+};
