@@ -2799,7 +2799,8 @@ static void shade__shade_vertices(shade__draw *d)
 /* Whether the box may be seen: 0 if it lies outside of one plane.  With its centre c and half its
    size h the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float,
    off by 2^-22 of the sum of the products' sizes, and each of 7 clips rounds by 2^-24 of that;
-   2^-20 covers both.  NaN fails each comparison. */
+   2^-20 covers both.  Products that underflow are off by 2^-148, which FLT_MIN in the sizes covers.
+   NaN fails each comparison. */
 static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 low, shade_vec3 high)
 {
     const double cx = ((double)low.x + (double)high.x) / 2, hx = (double)high.x - cx;
@@ -4884,7 +4885,7 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, doub
     for (int k = 0; k < 4; k++) {
         const double a = (double)((const float *)&m->col[k])[row], w = (double)m->col[k].w;
         f->k[k][i] = sign * (a - limit * w);
-        f->size[k][i] = shade__size(a) + shade__size(limit * w);
+        f->size[k][i] = shade__size(a) + shade__size(limit * w) + (double)FLT_MIN;
     }
 }
 /* The planes of the clip rectangle, near and far.  The rectangle is that of whole pixels, half a

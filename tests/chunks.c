@@ -500,7 +500,8 @@ TEST(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box)
         chunk_rows_of(m, rows);
         chunk_plane(&t, rows, zero_to_one, n, plane);
         if (!random_seen_point(&t, m, zero_to_one, n == 5, point))
-            for (int k = 0; k < 3; k++) point[k] = (double)rnd_sign() * size * (double)rnd_log(1e-3, 3);
+            for (int k = 0; k < 3; k++)
+                point[k] = (double)rnd_sign() * size * (double)rnd_log(1e-3, 3);
         if (!triangle_on_plane(plane, size, point, p)) continue;
         low = shade_min(p[0], shade_min(p[1], p[2]));
         high = shade_max(p[0], shade_max(p[1], p[2]));
@@ -517,6 +518,267 @@ TEST(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box)
     CHECK_SAY(touching > 3000 && by_rounding > 100 && hidden > 1000,
               "%ld touch a pixel, %ld by rounding, %ld hidden", touching, by_rounding, hidden);
 }
+/* Where products are below the least float, rounding is no part of their size: z/w >= 0 for all the
+   least negative z. */
+TEST(chunks, depths_that_underflow_are_not_hidden)
+{
+    static const shade_vec3 p[3] = { { -1, -1, -1e-20f }, { 1, -1, -2e-20f }, { 0, 1, -1e-20f } };
+    static uint32_t pixels[64];
+    shade_target t;
+    memset(&t, 0, sizeof t);
+    t.width = t.height = 8;
+    t.color = pixels;
+    for (int e = -10; e >= -44; e--) {
+        shade_mat4 m = shade_mat4_identity();
+        m.col[2].z = (float)pow(10, e);
+        if (chunk_fragments(&t, m, 1, p) > 0)
+            CHECK(shade_box_visible(&t, m, 1, shade_v3(-1, -1, -2e-20f), shade_v3(1, 1, -1e-20f)));
+    }
+    shade_mat4 m = shade_mat4_identity();
+    CHECK(!shade_box_visible(&t, m, 1, shade_v3(-1, -1, -2e-20f), shade_v3(1, 1, -1e-20f)));
+}
+
+/* -------------------------------------------------------------------------------- the contract */
+
+static shade_vec3 with_axis(shade_vec3 p, int axis, float value)
+{
+    if (axis == 0) p.x = value;
+    if (axis == 1) p.y = value;
+    if (axis == 2) p.z = value;
+    return p;
+}
+TEST(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible)
+{
+    static uint32_t pixels[64];
+    const shade_vec3 low = shade_v3(5, 5, 5), high = shade_v3(6, 6, 6);
+    const shade_mat4 one = shade_mat4_identity();
+    shade_target t, bad;
+    memset(&t, 0, sizeof t);
+    t.width = t.height = 8;
+    t.color = pixels;
+    CHECK_INT(shade_box_visible(&t, one, 0, low, high), 0);
+    for (int axis = 0; axis < 3; axis++) {
+        CHECK_INT(shade_box_visible(&t, one, 0, with_axis(low, axis, (float)NAN), high), 1);
+        CHECK_INT(shade_box_visible(&t, one, 0, low, with_axis(high, axis, -(float)NAN)), 1);
+        CHECK_INT(shade_box_visible(&t, one, 0, low, with_axis(high, axis, 4.99f)), 1);
+        CHECK_INT(shade_box_visible(&t, one, 0, low, with_axis(high, axis, 5)), 0);
+        CHECK_INT(shade_box_visible(&t, one, 0, with_axis(low, axis, -INFINITY), high), 1);
+        CHECK_INT(shade_box_visible(&t, one, 0, low, with_axis(high, axis, INFINITY)), 1);
+    }
+    for (int k = 0; k < 16; k++) {
+        float f[16];
+        shade_mat4 m;
+        memcpy(f, &one, sizeof f);
+        f[k] = rnd_one_in(2) ? (float)NAN : -INFINITY;
+        memcpy(&m, f, sizeof m);
+        if (f[k] != f[k]) CHECK_INT(shade_box_visible(&t, m, 0, shade_v3(0, 0, 0), high), 1);
+        (void)shade_box_visible(&t, m, 0, low, high);
+    }
+    CHECK_INT(shade_box_visible(NULL, one, 0, low, high), 1);
+    bad = t;
+    bad.width = 0;
+    CHECK_INT(shade_box_visible(&bad, one, 0, low, high), 1);
+    bad = t;
+    bad.color = NULL;
+    CHECK_INT(shade_box_visible(&bad, one, 0, low, high), 1);
+}
+TEST(chunks, a_zero_matrix_is_the_identity)
+{
+    static uint32_t pixels[64];
+    shade_mat4 zero;
+    shade_target t;
+    memset(&t, 0, sizeof t);
+    memset(&zero, 0, sizeof zero);
+    t.width = t.height = 8;
+    t.color = pixels;
+    for (int i = 0; i < 500; i++) {
+        const shade_vec3 low = random_vector(2), high = shade_add(low, shade_v3(0.1f, 0.1f, 0.1f));
+        const int same = shade_box_visible(&t, shade_mat4_identity(), i & 1, low, high);
+        CHECK_INT(shade_box_visible(&t, zero, i & 1, low, high), same);
+    }
+}
+/* Pixel by pixel: a box of one pixel is visible in the clip rectangles that have it or touch it,
+   and in no other. */
+TEST(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels)
+{
+    enum { SIDE = 8 };
+    static uint32_t pixels[SIDE * SIDE];
+    int seen[2] = { 0, 0 };
+    shade_target t;
+    memset(&t, 0, sizeof t);
+    t.width = t.height = SIDE;
+    t.color = pixels;
+    for (int i = 0; i < 4000; i++) {
+        const int x = rnd_int(0, SIDE - 1), y = rnd_int(0, SIDE - 1);
+        const float left = (float)(2 * (x + 0.1) / SIDE - 1), right = (float)(2 * (x + 0.9) / SIDE - 1);
+        const float top = (float)(1 - 2 * (y + 0.1) / SIDE), bottom = (float)(1 - 2 * (y + 0.9) / SIDE);
+        t.clip_x = rnd_int(-4, SIDE);
+        t.clip_y = rnd_int(-4, SIDE);
+        t.clip_width = rnd_int(1, 9);
+        t.clip_height = rnd_int(1, 9);
+        t.row_offset = rnd_int(0, SIDE - 1);
+        t.row_count = rnd_int(1, SIDE - t.row_offset);
+        const int inside = x >= t.clip_x && x < t.clip_x + t.clip_width && y >= t.clip_y &&
+                           y < t.clip_y + t.clip_height && y >= t.row_offset &&
+                           y < t.row_offset + t.row_count;
+        CHECK_INT(shade_box_visible(&t, shade_mat4_identity(), 0, shade_v3(left, bottom, 0),
+                                    shade_v3(right, top, 0)),
+                  inside);
+        seen[inside]++;
+    }
+    CHECK(seen[0] > 1000 && seen[1] > 100);
+}
+
+static shade_result chunk_calls(const shade_mesh *m, int call)
+{
+    static uint32_t pixels[64];
+    static shade_vec3 normals[64];
+    static unsigned char memory[65536];
+    shade_edge edges[64];
+    shade_draw_state state;
+    shade_target t;
+    int count;
+    memset(&state, 0, sizeof state);
+    memset(&t, 0, sizeof t);
+    t.width = t.height = 8;
+    t.color = pixels;
+    state.shading = SHADE_SHADING_PER_VERTEX;
+    switch (call) {
+    case 0: return shade_draw_mesh(&t, m, &state, NULL);
+    case 1: return shade_mesh_normals(m, normals);
+    case 2: return shade_mesh_corner_normals(m, 0, normals, memory, sizeof memory);
+    default: return shade_mesh_edges(m, edges, 64, &count);
+    }
+}
+TEST(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call)
+{
+    static const uint32_t index[6] = { 0, 1, 2, 2, 1, 3 };
+    static const struct {
+        int count, first, triangles;
+        shade_result want;
+    } list[] = {
+        { 1, 0, 2, SHADE_OK },           { 1, 2, 0, SHADE_OK },
+        { 1, 1, 1, SHADE_OK },           { 0, 0, 0, SHADE_OK },
+        { 0, -5, 99, SHADE_OK },         { -1, 0, 2, SHADE_ERROR_MESH },
+        { 1, 0, 3, SHADE_ERROR_MESH },   { 1, 1, 2, SHADE_ERROR_MESH },
+        { 1, 3, 0, SHADE_ERROR_MESH },   { 1, -1, 1, SHADE_ERROR_MESH },
+        { 1, 0, -1, SHADE_ERROR_MESH },  { 1, 2, -1, SHADE_ERROR_MESH },
+        { 1, INT32_MAX, 1, SHADE_ERROR_MESH }, { 1, 1, INT32_MAX, SHADE_ERROR_MESH },
+        { 1, INT32_MIN, 1, SHADE_ERROR_MESH }, { 1, 1, INT32_MIN, SHADE_ERROR_MESH },
+        { 1, INT32_MAX, INT32_MAX, SHADE_ERROR_MESH }, { 1, INT32_MIN, INT32_MIN, SHADE_ERROR_MESH },
+    };
+    shade_vec3 p[6] = { { -1, -1, 0 }, { 1, -1, 0 }, { 0, 1, 0 }, { 1, 1, 0 } };
+    const shade_ray ray = { { 0, 0, 4 }, { 0, 0, -1 } };
+    for (int i = 0; i < 2 * (int)(sizeof list / sizeof list[0]); i++) {
+        const int k = i / 2;
+        shade_chunk chunk[2];
+        shade_mesh m = plain_mesh(&p[0].x, 6);
+        if (i & 1) m.indices = index, m.index_count = 6;
+        memset(chunk, 0, sizeof chunk);
+        chunk[0].low.x = 1; /* above high: visible */
+        chunk[0].first = list[k].first;
+        chunk[0].count = list[k].triangles;
+        m.chunks = chunk;
+        m.chunk_count = list[k].count;
+        for (int call = 0; call < 4; call++) CHECK_INT(chunk_calls(&m, call), list[k].want);
+        CHECK_INT(shade_mesh_corner_normals_bytes(&m) == 0, list[k].want != SHADE_OK);
+        if (list[k].want) CHECK_INT(shade_pick(&m, shade_mat4_identity(), ray, NULL, NULL), -1);
+        CHECK_INT(shade_mesh_chunks(&m, 0, chunk + 1, 1, NULL), SHADE_OK); /* ignores the list */
+        m.chunks = NULL;
+        m.chunk_count = 1;
+        for (int call = 0; call < 4; call++) CHECK_INT(chunk_calls(&m, call), SHADE_ERROR_MESH);
+        CHECK_INT(shade_pick(&m, shade_mat4_identity(), ray, NULL, NULL), -1);
+    }
+}
+
+/* Four squares of two triangles side by side, one column of pixels each, drawn with ADD. */
+typedef struct chunk_squares {
+    shade_vec3 p[24];
+    shade_chunk chunk[4000];
+    shade_mesh mesh;
+    shade_draw_state state;
+} chunk_squares;
+static void open_squares(chunk_squares *s)
+{
+    memset(s, 0, sizeof *s);
+    for (int k = 0; k < 24; k++) {
+        static const int corner[6][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 0, 1 } };
+        s->p[k] = shade_v3((float)(k / 6 + corner[k % 6][0]) / 2 - 1, 2 * (float)corner[k % 6][1] - 1,
+                           0);
+    }
+    s->mesh = plain_mesh(&s->p[0].x, 24);
+    CHECK_INT(shade_mesh_chunks(&s->mesh, 2, s->chunk, 4, NULL), SHADE_OK);
+    s->mesh.chunks = s->chunk;
+    s->mesh.chunk_count = 4;
+    s->state.lighting.ambient = shade_v3(1, 1, 1);
+    s->state.raster.blend = SHADE_BLEND_ADD;
+    s->state.shading = SHADE_SHADING_PER_VERTEX;
+}
+/* What lies in the four columns, each digit of it. */
+static int draw_squares(const chunk_squares *s, shade_stats *stats)
+{
+    canvas c = canvas_open(4, 2, 0, SHADE_FORMAT_RGBA32F, 0);
+    int digits = 0;
+    canvas_clear(&c, 1);
+    CHECK_INT(shade_draw_mesh(&c.target, &s->mesh, &s->state, stats), SHADE_OK);
+    CHECK(stats->triangles == stats->skipped + stats->drawn);
+    for (int x = 0; x < 4; x++) {
+        CHECK_NEAR(canvas_float(&c, x, 0, 0), canvas_float(&c, x, 1, 0), 0);
+        digits = 10 * digits + (int)canvas_float(&c, x, 0, 0);
+    }
+    canvas_close(&c);
+    return digits;
+}
+TEST(chunks, exactly_the_triangles_of_the_list_are_drawn)
+{
+    static chunk_squares s;
+    shade_stats stats;
+    open_squares(&s);
+    CHECK_INT(draw_squares(&s, &stats), 1111);
+    CHECK(stats.triangles == 8 && stats.skipped == 0 && stats.fragments == 8);
+    s.mesh.chunk_count = 0; /* a list of none */
+    CHECK_INT(draw_squares(&s, &stats), 0);
+    CHECK(stats.triangles == 0 && stats.fragments == 0);
+    s.mesh.chunk_count = 4;
+    s.chunk[1] = s.chunk[2]; /* twice, and one left out */
+    CHECK_INT(draw_squares(&s, &stats), 1021);
+    CHECK(stats.triangles == 8 && stats.fragments == 8);
+    open_squares(&s);
+    s.chunk[3].first = 0; /* all of them, overlapping the three others */
+    s.chunk[3].count = 8;
+    s.chunk[3].low.x = -1;
+    CHECK_INT(draw_squares(&s, &stats), 2221);
+    CHECK(stats.triangles == 14 && stats.fragments == 14);
+    s.chunk[3].low = shade_v3(9, 9, 9); /* low above high: the box of nothing hides nothing */
+    CHECK_INT(draw_squares(&s, &stats), 2221);
+    s.chunk[0].low.x = s.chunk[0].high.x = -4; /* a wrong box hides, and nothing else */
+    CHECK_INT(draw_squares(&s, &stats), 1221);
+    CHECK(stats.triangles == 14 && stats.skipped == 2 && stats.fragments == 12);
+    s.mesh.chunks = NULL;
+    s.mesh.chunk_count = 0;
+    CHECK_INT(draw_squares(&s, &stats), 1111);
+}
+TEST(chunks, thousands_out_of_sight_come_before_the_one_that_is_seen)
+{
+    static chunk_squares s;
+    shade_stats stats;
+    for (int behind = 0; behind < 2; behind++) {
+        open_squares(&s);
+        for (int k = 0; k < 4000; k++) {
+            if (k == (behind ? 0 : 3999)) continue;
+            s.chunk[k] = s.chunk[k % 4];
+            s.chunk[k].low.z = s.chunk[k].high.z = behind && k % 3 ? -3.0f : 3.0f;
+            if (k % 5 == 4) s.chunk[k].count = 0;
+        }
+        if (!behind) s.chunk[3999] = s.chunk[0];
+        s.chunk[behind ? 0 : 3999].low.z = s.chunk[behind ? 0 : 3999].high.z = 0;
+        s.chunk[behind ? 0 : 3999].count = 2;
+        s.mesh.chunk_count = 4000;
+        CHECK_INT(draw_squares(&s, &stats), 1000);
+        CHECK_INT(stats.skipped, 2 * (3999 - 800 + !behind));
+        CHECK_INT(stats.triangles, stats.skipped + 2);
+    }
+}
 
 static const test_case chunks_cases[] = {
     CASE(chunks, pictures_have_the_same_bits_with_chunks_and_without),
@@ -524,4 +786,11 @@ static const test_case chunks_cases[] = {
     CASE(chunks, bands_with_chunks_together_make_the_picture_without),
     CASE(chunks, strips_with_chunks_together_make_the_picture_without),
     CASE(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box),
+    CASE(chunks, depths_that_underflow_are_not_hidden),
+    CASE(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible),
+    CASE(chunks, a_zero_matrix_is_the_identity),
+    CASE(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels),
+    CASE(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call),
+    CASE(chunks, exactly_the_triangles_of_the_list_are_drawn),
+    CASE(chunks, thousands_out_of_sight_come_before_the_one_that_is_seen),
 };
