@@ -6080,6 +6080,7 @@ static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
     }
     s->reach = shade__size(origin[0]) + shade__size(origin[1]) + shade__size(origin[2]);
     for (int k = 0; k < 3; k++) s->reach += 2 * shade__size(column[3][k]);
+    s->reach += (double)FLT_MIN;    /* for world positions and t that are denormal */
 }
 /* Where the ray may be inside the box of a triangle or a chunk, as rounding makes it: range[0] ..
    range[1].  0 if it does not meet it.  A larger box never gives a smaller range, so that a
