@@ -4895,7 +4895,7 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
 {
     const double w = t->width, h = t->height;
     int r[4];
-    if (!shade__clip_rectangle(t, r)) SHADE__ZERO(r);
+    (void)shade__clip_rectangle(t, r);    /* of an empty one nothing is seen, whatever its planes */
     shade__frustum_plane(clip_from_object, 0, 1, 2 * r[0] / w - 1, 0, f);
     shade__frustum_plane(clip_from_object, 0, -1, 2 * r[2] / w - 1, 1, f);
     shade__frustum_plane(clip_from_object, 1, -1, 1 - 2 * r[1] / h, 2, f);
@@ -5844,7 +5844,7 @@ static uint32_t shade__centroid_key(const shade_mesh *m, const uint32_t *triangl
         const shade_vec3 p = shade__vec3_at(m->positions, m->position_stride, triangle[k]);
         sum += axis == 0 ? p.x : axis == 1 ? p.y : p.z;
     }
-    const uint32_t bits = shade__float_bits(sum + 0);
+    const uint32_t bits = shade__float_bits(sum);
     return bits >> 31 ? ~bits : bits | 0x80000000u;
 }
 static float shade__key_value(uint32_t key)
@@ -5899,7 +5899,7 @@ static void shade__split(const shade_mesh *m, uint32_t *triangles, int count, in
         const double middle = ((double)shade__key_value(low) + (double)shade__key_value(high)) / 2;
         uint32_t pivot = low + (high - low) / 2;
         if (step < 8 && middle >= -3e38 && middle <= 3e38) {
-            const uint32_t bits = shade__float_bits((float)middle + 0);
+            const uint32_t bits = shade__float_bits((float)middle);
             pivot = bits >> 31 ? ~bits : bits | 0x80000000u;
             pivot = pivot < low ? low : pivot >= high ? high - 1 : pivot;
         }
@@ -5957,7 +5957,6 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, s
     if (!mesh || triangles < 0 || capacity < 0 || (!chunks && capacity))
         return SHADE_ERROR_ARGUMENT;
     sorted = *mesh;
-    sorted.chunks = NULL;
     sorted.chunk_count = 0;
     result = shade__check_mesh(&sorted);
     if (!result) result = shade__check_corners(&sorted);

@@ -3,8 +3,8 @@
 
 enum {
     CHUNK_VERTICES = 150,
-    CHUNK_TRIANGLES = 200,
-    CHUNK_MOST = 2 * CHUNK_TRIANGLES + 64 /* of a list with empty ones */
+    CHUNK_TRIANGLES = 400,
+    CHUNK_MOST = 2 * CHUNK_TRIANGLES + 80 /* of a list with empty ones */
 };
 
 typedef struct chunk_scene {
@@ -58,11 +58,12 @@ static void random_chunk_positions(chunk_scene *s, double size)
     }
     for (int n = rnd_one_in(4) ? rnd_int(1, 4) : 0; n > 0; n--)
         s->position[rnd_int(0, CHUNK_VERTICES - 1)].y = rnd_nasty();
+    const int shared = rnd_one_in(3) ? 9 : CHUNK_VERTICES; /* few: hundreds of triangles a batch */
     for (int t = 0; t < CHUNK_TRIANGLES; t++) {
         const int near = rnd_int(0, CHUNK_VERTICES - 17);
         uint32_t *corner = s->index + 3 * t;
-        for (int k = 0; k < 3; k++) corner[k] = (uint32_t)rnd_int(0, CHUNK_VERTICES - 1);
-        if (kind == 0 && t % 2) continue;
+        for (int k = 0; k < 3; k++) corner[k] = (uint32_t)rnd_int(0, shared - 1);
+        if (shared < CHUNK_VERTICES || (kind == 0 && t % 2)) continue;
         corner[0] = (uint32_t)near;
         corner[1] = (uint32_t)(near + (t % 2 ? 1 : 15));
         corner[2] = (uint32_t)(near + (t % 2 ? 16 : 1));
@@ -74,23 +75,23 @@ static void random_chunk_list(chunk_scene *s, int sizes)
 {
     static shade_chunk single[CHUNK_TRIANGLES];
     const int triangles = chunk_corners(&s->mesh) / 3;
-    int count = 0, first = 0;
+    int count = rnd_one_in(2) ? 20 : 0, first = 0;
+    memset(s->chunk, 0, sizeof s->chunk); /* empty ones, at the origin */
     CHECK_INT(shade_mesh_chunks(&s->mesh, 1, single, CHUNK_TRIANGLES, NULL), SHADE_OK);
     while (first < triangles) {
         shade_chunk *c = &s->chunk[count++];
-        memset(c, 0, sizeof *c);
+        const int size = rnd_one_in(8) ? triangles : rnd_int(1, sizes);
         c->first = first;
         if (rnd_one_in(3) && count < CHUNK_TRIANGLES) continue; /* empty */
         c->low = single[first].low;
         c->high = single[first].high;
-        for (c->count = 1; c->count < rnd_int(1, sizes) && first + c->count < triangles; c->count++) {
+        for (c->count = 1; c->count < size && first + c->count < triangles; c->count++) {
             c->low = shade_min(c->low, single[first + c->count].low);
             c->high = shade_max(c->high, single[first + c->count].high);
         }
         first += c->count;
     }
     for (int n = rnd_one_in(2) ? 40 : 0; n > 0; n--) {
-        memset(&s->chunk[count], 0, sizeof s->chunk[count]);
         s->chunk[count++].first = rnd_int(0, triangles);
     }
     s->mesh.chunks = s->chunk;
@@ -113,8 +114,9 @@ static void random_chunk_camera(chunk_scene *s, double size)
     const float half = (float)(size * (double)rnd_log(0.05, 2));
     const d3 eye = d3_scale(rnd_direction(), size * (double)rnd_log(0.1, 6));
     shade_draw_state *state = &s->state;
-    if (!rnd_one_in(5)) state->view = shade_mat4_look_at(d3_round(eye), random_vector(0.3 * size),
-                                                         d3_round(rnd_direction()));
+    if (!rnd_one_in(5))
+        state->view = shade_mat4_look_at(d3_round(eye), random_vector(0.3 * size),
+                                         d3_round(rnd_direction()));
     if (rnd_one_in(3))
         state->model = shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction()));
     if (rnd_one_in(5)) state->model = wild_matrix(1);
@@ -148,8 +150,8 @@ static void chunk_number_shader(const void *uniforms, const shade_fragments *SHA
 }
 static void random_chunk_state(chunk_scene *s, double size)
 {
-    static const shade_material material = { { 0.1f, 0, 0 }, { 0.2f, 0.2f, 0.2f }, { 0.5f, 0.6f, 1 },
-                                             { 0.4f, 0.4f, 0.4f }, 9 };
+    static const shade_material material = { { 0.1f, 0, 0 }, { 0.2f, 0.2f, 0.2f },
+                                             { 0.5f, 0.6f, 1 }, { 0.4f, 0.4f, 0.4f }, 9 };
     shade_draw_state *state = &s->state;
     for (int k = 0; k < 16; k++) s->texel[k] = (uint32_t)rnd_bits() | (k % 3 ? 0xFF000000u : 0);
     s->map.pixels = s->texel;
@@ -360,7 +362,7 @@ static int ref_box_visible(const shade_target *t, double m[4][4], int zero_to_on
             for (int c = 0; c < 4; c++) {
                 const int row = k < 2 ? 0 : k < 4 ? 1 : 2;
                 value += plane[c] * in[c];
-                sum += (fabs(m[row][c]) + fabs(m[3][c]) + FLT_MIN) * fabs(in[c]);
+                sum += (fabs(m[row][c]) + fabs(m[3][c]) + (double)FLT_MIN) * fabs(in[c]);
             }
             if (!isfinite(sum)) return -1;
             most = fmax(most, value);
@@ -381,7 +383,7 @@ static void random_chunk_clip(shade_target *t)
 {
     if (rnd_one_in(4)) return;
     t->clip_x = rnd_int(0, t->width - 1);
-    t->clip_y = rnd_int(t->row_offset, t->row_offset + (t->row_count ? t->row_count : t->height) - 1);
+    t->clip_y = rnd_int(t->row_offset, t->row_offset + t->row_count - 1);
     t->clip_width = rnd_one_in(3) ? 1 : rnd_int(1, t->width);
     t->clip_height = rnd_one_in(3) ? 1 : rnd_int(1, t->height);
 }
@@ -390,7 +392,7 @@ static shade_mat4 chunk_matrix(shade_mat4 m)
     return dmat_max(dmat_from(m)) == 0 ? shade_mat4_identity() : m;
 }
 /* Cameras, and matrices whose depth lets w come as near to 0 as it likes, for objects of that
-   size. */
+   size, at times far from the origin of their own space. */
 static shade_mat4 random_chunk_matrix(int *zero_to_one, double size)
 {
     static chunk_scene s;
@@ -404,7 +406,9 @@ static shade_mat4 random_chunk_matrix(int *zero_to_one, double size)
     for (int k = 0; k < 16; k++) f[k] = rnd_one_in(5) ? 0 : rnd_float(-1, 1);
     for (int c = 0; c < 4; c++) f[4 * c + 2] *= rnd_one_in(9) ? 1 : tiny;
     if (rnd_one_in(2)) memcpy(&m, f, sizeof m);
-    return shade_mat4_mul(m, shade_mat4_scaling(shade_v3(scale, scale, scale)));
+    m = shade_mat4_mul(m, shade_mat4_scaling(shade_v3(scale, scale, scale)));
+    if (!rnd_one_in(3)) return m;
+    return shade_mat4_mul(m, shade_mat4_translation(random_vector(size * (double)rnd_log(1, 1e4))));
 }
 static float some_ulps(double x)
 {
@@ -610,8 +614,10 @@ TEST(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels)
     t.color = pixels;
     for (int i = 0; i < 4000; i++) {
         const int x = rnd_int(0, SIDE - 1), y = rnd_int(0, SIDE - 1);
-        const float left = (float)(2 * (x + 0.1) / SIDE - 1), right = (float)(2 * (x + 0.9) / SIDE - 1);
-        const float top = (float)(1 - 2 * (y + 0.1) / SIDE), bottom = (float)(1 - 2 * (y + 0.9) / SIDE);
+        const float left = (float)(2 * (x + 0.1) / SIDE - 1);
+        const float right = (float)(2 * (x + 0.9) / SIDE - 1);
+        const float top = (float)(1 - 2 * (y + 0.1) / SIDE);
+        const float bottom = (float)(1 - 2 * (y + 0.9) / SIDE);
         t.clip_x = rnd_int(-4, SIDE);
         t.clip_y = rnd_int(-4, SIDE);
         t.clip_width = rnd_int(1, 9);
@@ -665,7 +671,8 @@ TEST(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call)
         { 1, 0, -1, SHADE_ERROR_MESH },  { 1, 2, -1, SHADE_ERROR_MESH },
         { 1, INT32_MAX, 1, SHADE_ERROR_MESH }, { 1, 1, INT32_MAX, SHADE_ERROR_MESH },
         { 1, INT32_MIN, 1, SHADE_ERROR_MESH }, { 1, 1, INT32_MIN, SHADE_ERROR_MESH },
-        { 1, INT32_MAX, INT32_MAX, SHADE_ERROR_MESH }, { 1, INT32_MIN, INT32_MIN, SHADE_ERROR_MESH },
+        { 1, INT32_MAX, INT32_MAX, SHADE_ERROR_MESH },
+        { 1, INT32_MIN, INT32_MIN, SHADE_ERROR_MESH },
     };
     shade_vec3 p[6] = { { -1, -1, 0 }, { 1, -1, 0 }, { 0, 1, 0 }, { 1, 1, 0 } };
     const shade_ray ray = { { 0, 0, 4 }, { 0, 0, -1 } };
@@ -673,7 +680,8 @@ TEST(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call)
         const int k = i / 2;
         shade_chunk chunk[2];
         shade_mesh m = plain_mesh(&p[0].x, 6);
-        if (i & 1) m.indices = index, m.index_count = 6;
+        if (i & 1) m.indices = index;
+        if (i & 1) m.index_count = 6;
         memset(chunk, 0, sizeof chunk);
         chunk[0].low.x = 1; /* above high: visible */
         chunk[0].first = list[k].first;
@@ -702,9 +710,10 @@ static void open_squares(chunk_squares *s)
 {
     memset(s, 0, sizeof *s);
     for (int k = 0; k < 24; k++) {
-        static const int corner[6][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 0, 1 } };
-        s->p[k] = shade_v3((float)(k / 6 + corner[k % 6][0]) / 2 - 1, 2 * (float)corner[k % 6][1] - 1,
-                           0);
+        static const int corner[6][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 },
+                                          { 0, 0 }, { 1, 1 }, { 0, 1 } };
+        s->p[k] = shade_v3((float)(k / 6 + corner[k % 6][0]) / 2 - 1,
+                           2 * (float)corner[k % 6][1] - 1, 0);
     }
     s->mesh = plain_mesh(&s->p[0].x, 24);
     CHECK_INT(shade_mesh_chunks(&s->mesh, 2, s->chunk, 4, NULL), SHADE_OK);
@@ -1039,7 +1048,8 @@ TEST(chunks, a_shuffled_sheet_is_sorted_into_squares)
     chunk_maker m = open_maker(64 * 64 * 2);
     double shuffled, sorted;
     for (int k = 0; k < 3 * m.triangles; k++) {
-        static const int corner[6][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 0 }, { 1, 1 }, { 0, 1 } };
+        static const int corner[6][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 },
+                                          { 0, 0 }, { 1, 1 }, { 0, 1 } };
         const int cell = k / 6;
         m.position[k] = shade_v3(0, (float)(cell % 64 + corner[k % 6][0]) / 64,
                                  (float)(cell / 64 + corner[k % 6][1]) / 64);
@@ -1048,6 +1058,24 @@ TEST(chunks, a_shuffled_sheet_is_sorted_into_squares)
     shuffled = sum_of_boxes(m.chunk + CHUNK_GUARD, make_chunks(&m, 128, 0));
     sorted = sum_of_boxes(m.chunk + CHUNK_GUARD, make_chunks(&m, 128, 1));
     CHECK_SAY(shuffled > 50 && sorted < 1.3, "%g shuffled, %g sorted", shuffled, sorted);
+    sorted = sum_of_boxes(m.chunk + CHUNK_GUARD, make_chunks(&m, 100, 1));
+    CHECK_SAY(sorted < 1.5, "%g sorted, by splits that are no halves", sorted);
+    close_maker(&m);
+}
+/* Two places that only the last bit tells apart. */
+TEST(chunks, neighbouring_floats_are_sorted_apart)
+{
+    chunk_maker m = open_maker(64);
+    for (int axis = 0; axis < 3; axis++) {
+        for (int k = 0; k < 3 * m.triangles; k++) {
+            const float at = bits_float(0xBF800000u + (uint32_t)(k / 3 % 2));
+            m.position[k] = with_axis(shade_v3(0, 0, 0), axis, at);
+        }
+        CHECK_INT(make_chunks(&m, 32, 1), 2);
+        for (int i = 0; i < 2; i++)
+            CHECK(chunk_coordinate(m.chunk[CHUNK_GUARD + i].low, axis) ==
+                  chunk_coordinate(m.chunk[CHUNK_GUARD + i].high, axis));
+    }
     close_maker(&m);
 }
 /* Crumbs in a cube: 64 chunks of it see at best 3/16 each, 12 together. */
@@ -1056,9 +1084,9 @@ TEST(chunks, shuffled_crumbs_are_sorted_into_cubes)
     chunk_maker m = open_maker(64 * 100);
     double shuffled, sorted;
     for (int t = 0; t < m.triangles; t++) {
-        const shade_vec3 at = shade_v3(rnd_float(-1, 0), rnd_float(0, 1), rnd_float(0, 1) * 1e-3f);
+        const shade_vec3 at = shade_v3(rnd_float(-1, 0), rnd_float(0, 1), rnd_float(2, 3));
         for (int k = 0; k < 3; k++)
-            m.position[3 * t + k] = shade_add(shade_v3(at.x, at.y, at.z * 1e3f), random_vector(1e-3));
+            m.position[3 * t + k] = shade_add(at, random_vector(1e-3));
     }
     shuffled = sum_of_boxes(m.chunk + CHUNK_GUARD, make_chunks(&m, 100, 0));
     sorted = sum_of_boxes(m.chunk + CHUNK_GUARD, make_chunks(&m, 100, 1));
@@ -1124,7 +1152,8 @@ static shade_ray random_pick_ray(const chunk_scene *s, shade_mat4 model)
     at = shade_madd(shade_madd(p[0], u, shade_sub(p[1], p[0])), v, shade_sub(p[2], p[0]));
     from = shade_madd(at, rnd_log(0.01, 100), random_vector((double)shade_distance(p[0], p[1])));
     if (rnd_one_in(4)) from = shade_madd(at, rnd_float(-3, 3), shade_sub(p[1], p[2]));
-    if (rnd_one_in(8)) at = shade_mat4_transform_point(chunk_matrix(model), rnd_one_in(2) ? box->low : box->high);
+    if (rnd_one_in(8))
+        at = shade_mat4_transform_point(chunk_matrix(model), rnd_one_in(2) ? box->low : box->high);
     ray.origin = from;
     ray.direction = shade_scale(shade_sub(at, from), rnd_log(0.01, 10));
     if (rnd_one_in(2)) ray.direction = shade_normalize(ray.direction);
@@ -1211,6 +1240,63 @@ TEST(chunks, picks_through_chunks_are_the_nearest_triangles_of_all)
     }
     CHECK_SAY(hits > 300 && misses > 100, "%ld hits, %ld misses", hits, misses);
 }
+/* The nearest of all triangles, each met by shade_intersect where the model puts it, under any model,
+   projective ones among them; -2: a ray so nearly in the plane of one that rounding decides. */
+static int intersect_all(const shade_mesh *mesh, shade_mat4 model, shade_ray ray)
+{
+    int found = -1;
+    float nearest = INFINITY, t;
+    for (int n = 0; n < chunk_corners(mesh) / 3; n++) {
+        shade_vec3 p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = shade_mat4_transform_point(chunk_matrix(model), chunk_corner(mesh, 3 * n + k));
+        const d3 e = d3_sub(d3_from(p[1]), d3_from(p[0]));
+        const d3 f = d3_sub(d3_from(p[2]), d3_from(p[0]));
+        const d3 normal = d3_cross(e, f), direction = d3_from(ray.direction);
+        const double size = d3_length(e) * d3_length(f) * d3_length(direction);
+        if (!shade_intersect(ray, p[0], p[1], p[2], &t, NULL)) continue;
+        if (!(fabs(d3_dot(normal, direction)) > 1e-5 * size)) return -2;
+        if (t < nearest) found = n;
+        nearest = fminf(t, nearest);
+    }
+    return found;
+}
+TEST(chunks, picks_are_the_nearest_intersection_under_any_model)
+{
+    static chunk_scene s;
+    long hits = 0;
+    for (int i = 0; i < 300; i++) {
+        const shade_mat4 model = random_pick_model();
+        random_chunk_scene(&s);
+        random_chunk_list(&s, rnd_int(1, 30));
+        for (int n = 0; n < 6; n++) {
+            const shade_ray ray = random_pick_ray(&s, model);
+            const int want = intersect_all(&s.mesh, model, ray);
+            if (want == -2) continue;
+            CHECK_INT(shade_pick(&s.mesh, model, ray, NULL, NULL), want);
+            hits += want >= 0;
+        }
+    }
+    CHECK_SAY(hits > 300, "%ld hits", hits);
+}
+/* t is 0 for all of them, so that no chunk is behind another. */
+TEST(chunks, a_ray_that_starts_on_triangles_picks_the_lowest)
+{
+    static const float corner[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
+    float p[45] = { 0 };
+    shade_mesh m = plain_mesh(p, 15);
+    shade_chunk chunk[5], back[5];
+    const shade_ray ray = { { 0, 0, 0 }, { 0.5f, 0, -1 } };
+    for (int k = 0; k < 5; k++) memcpy(p + 9 * k, corner, sizeof corner);
+    CHECK_INT(shade_mesh_chunks(&m, 1, chunk, 5, NULL), SHADE_OK);
+    for (int k = 0; k < 5; k++) back[k] = chunk[4 - k];
+    for (int count = 1; count <= 5; count++) {
+        const chunk_pick got = pick_with(&m, back, count, shade_mat4_identity(), ray);
+        CHECK_INT(got.triangle, 5 - count);
+        CHECK_NEAR(got.t, 0, 0);
+        CHECK_INT(pick_with(&m, chunk, count, shade_mat4_identity(), ray).triangle, 0);
+    }
+}
 /* Down to where positions in world space are denormal and round by a thousandth of themselves. */
 TEST(chunks, boxes_of_any_scale_are_met)
 {
@@ -1270,9 +1356,12 @@ static const test_case chunks_cases[] = {
     CASE(chunks, bad_arguments_change_nothing_and_are_told_in_their_order),
     CASE(chunks, no_numbers_take_long_to_sort),
     CASE(chunks, a_shuffled_sheet_is_sorted_into_squares),
+    CASE(chunks, neighbouring_floats_are_sorted_apart),
     CASE(chunks, shuffled_crumbs_are_sorted_into_cubes),
     CASE(chunks, rays_meet_the_same_triangle_with_chunks_and_without),
     CASE(chunks, picks_through_chunks_are_the_nearest_triangles_of_all),
+    CASE(chunks, picks_are_the_nearest_intersection_under_any_model),
+    CASE(chunks, a_ray_that_starts_on_triangles_picks_the_lowest),
     CASE(chunks, boxes_of_any_scale_are_met),
     CASE(chunks, bad_indices_are_found_where_their_box_is_met),
 };
