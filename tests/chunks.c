@@ -1240,8 +1240,8 @@ TEST(chunks, picks_through_chunks_are_the_nearest_triangles_of_all)
     }
     CHECK_SAY(hits > 300 && misses > 100, "%ld hits, %ld misses", hits, misses);
 }
-/* The nearest of all triangles, each met by shade_intersect where the model puts it, under any model,
-   projective ones among them; -2: a ray so nearly in the plane of one that rounding decides. */
+/* The nearest of all triangles, each met by shade_intersect where the model puts it, projective
+   models among them; -2: a ray so nearly in the plane of one that rounding decides. */
 static int intersect_all(const shade_mesh *mesh, shade_mat4 model, shade_ray ray)
 {
     int found = -1;
