@@ -2673,10 +2673,11 @@ typedef struct shade__queue {
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
-/* The planes around what can be seen, in object space: left, right, top, bottom, near, far; outside
-   where k.(P, 1) < 0.  Were size of float, gcc 12.2 would drop the stores to both: it addresses one
-   row by the other, at half the stride, and takes them for dead. */
-enum { SHADE__PLANES = 6 };
+/* The planes around what can be seen, in object space: left, right, top, bottom, near, and far
+   thrice, to fill the lanes; outside where k.(P, 1) < 0.  Were size of float, gcc 12.2 would drop
+   the stores to both: it addresses one row by the other, at half the stride, and takes them for
+   dead. */
+enum { SHADE__PLANES = 8 };
 typedef struct shade__frustum {
     double k[4][SHADE__PLANES];
     double size[4][SHADE__PLANES];    /* of the numbers that k was made of, for rounding */
@@ -2833,15 +2834,17 @@ static void shade__shade_vertices(shade__draw *d)
 /* Whether the box may be seen: 0 if it lies outside of one plane.  With its centre c and half its
    size h the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float,
    off by 2^-22 of the sum of the products' sizes, and each of 7 clips rounds by 2^-24 of that;
-   2^-20 covers both.  NaN fails each comparison. */
+   2^-20 covers both.  Products that underflow are off by 2^-148, which FLT_MIN in the sizes
+   covers. */
 static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 low, shade_vec3 high)
 {
     const double cx = ((double)low.x + (double)high.x) / 2, hx = (double)high.x - cx;
     const double cy = ((double)low.y + (double)high.y) / 2, hy = (double)high.y - cy;
     const double cz = ((double)low.z + (double)high.z) / 2, hz = (double)high.z - cz;
     const double mx = shade__size(cx) + hx, my = shade__size(cy) + hy, mz = shade__size(cz) + hz;
-    uint32_t outside = 0;
+    uint64_t signs = 0;
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
+    if (!(mx + my + mz <= DBL_MAX)) return 1;
     SHADE__FOR(i, SHADE__PLANES) {
         double most = f->k[0][i] * cx + f->k[1][i] * cy + f->k[2][i] * cz + f->k[3][i];
         double off = f->size[0][i] * mx + f->size[1][i] * my;
@@ -2849,9 +2852,9 @@ static SHADE__NOINLINE int shade__in_view(const shade__frustum *f, shade_vec3 lo
         most += shade__size(f->k[0][i]) * hx;
         most += shade__size(f->k[1][i]) * hy;
         most += shade__size(f->k[2][i]) * hz;
-        outside |= shade__mask(most + off * (1 / 1048576.0) < 0);
+        signs |= shade__double_bits(most + off * (1 / 1048576.0));
     }
-    return !outside;
+    return !(signs >> 63);
 }
 /* Moves on to the next chunk that may be seen; 0 where there is none. */
 static int shade__next_chunk(shade__draw *d)
@@ -4919,7 +4922,7 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign, doub
     for (int k = 0; k < 4; k++) {
         const double a = (double)((const float *)&m->col[k])[row], w = (double)m->col[k].w;
         f->k[k][i] = sign * (a - limit * w);
-        f->size[k][i] = shade__size(a) + shade__size(limit * w);
+        f->size[k][i] = shade__size(a) + shade__size(limit * w) + (double)FLT_MIN;
     }
 }
 /* The planes of the clip rectangle, near and far.  The rectangle is that of whole pixels, half a
@@ -4929,13 +4932,14 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
 {
     const double w = t->width, h = t->height;
     int r[4];
-    if (!shade__clip_rectangle(t, r)) SHADE__ZERO(r);
+    (void)shade__clip_rectangle(t, r);    /* of an empty one nothing is seen, whatever its planes */
     shade__frustum_plane(clip_from_object, 0, 1, 2 * r[0] / w - 1, 0, f);
     shade__frustum_plane(clip_from_object, 0, -1, 2 * r[2] / w - 1, 1, f);
     shade__frustum_plane(clip_from_object, 1, -1, 1 - 2 * r[1] / h, 2, f);
     shade__frustum_plane(clip_from_object, 1, 1, 1 - 2 * r[3] / h, 3, f);
     shade__frustum_plane(clip_from_object, 2, 1, zero_to_one ? 0 : -1, 4, f);
-    shade__frustum_plane(clip_from_object, 2, -1, 1, 5, f);
+    for (int i = 5; i < SHADE__PLANES; i++) shade__frustum_plane(clip_from_object, 2, -1, 1, i, f);
+    if (!shade__is_finite(clip_from_object)) SHADE__ZERO(*f);    /* outside of none */
 }
 SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_object,
                                int depth_zero_to_one, shade_vec3 low, shade_vec3 high)
@@ -5878,7 +5882,7 @@ static uint32_t shade__centroid_key(const shade_mesh *m, const uint32_t *triangl
         const shade_vec3 p = shade__vec3_at(m->positions, m->position_stride, triangle[k]);
         sum += axis == 0 ? p.x : axis == 1 ? p.y : p.z;
     }
-    const uint32_t bits = shade__float_bits(sum + 0);
+    const uint32_t bits = shade__float_bits(sum);
     return bits >> 31 ? ~bits : bits | 0x80000000u;
 }
 static float shade__key_value(uint32_t key)
@@ -5933,7 +5937,7 @@ static void shade__split(const shade_mesh *m, uint32_t *triangles, int count, in
         const double middle = ((double)shade__key_value(low) + (double)shade__key_value(high)) / 2;
         uint32_t pivot = low + (high - low) / 2;
         if (step < 8 && middle >= -3e38 && middle <= 3e38) {
-            const uint32_t bits = shade__float_bits((float)middle + 0);
+            const uint32_t bits = shade__float_bits((float)middle);
             pivot = bits >> 31 ? ~bits : bits | 0x80000000u;
             pivot = pivot < low ? low : pivot >= high ? high - 1 : pivot;
         }
@@ -5991,7 +5995,6 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, s
     if (!mesh || triangles < 0 || capacity < 0 || (!chunks && capacity))
         return SHADE_ERROR_ARGUMENT;
     sorted = *mesh;
-    sorted.chunks = NULL;
     sorted.chunk_count = 0;
     result = shade__check_mesh(&sorted);
     if (!result) result = shade__check_corners(&sorted);
@@ -6115,6 +6118,7 @@ static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
     }
     s->reach = shade__size(origin[0]) + shade__size(origin[1]) + shade__size(origin[2]);
     for (int k = 0; k < 3; k++) s->reach += 2 * shade__size(column[3][k]);
+    s->reach += (double)FLT_MIN;    /* for world positions and t that are denormal */
 }
 /* Where the ray may be inside the box of a triangle or a chunk, as rounding makes it: range[0] ..
    range[1].  0 if it does not meet it.  A larger box never gives a smaller range, so that a

@@ -37,6 +37,7 @@
 #include "lines.c"
 #include "shape.c"
 #include "ray.c"
+#include "chunks.c"
 #include "resolve.c"
 #include "alone.c"
 #include "scene.c"
@@ -49,7 +50,7 @@ static const test_section sections[] = {
     SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(course),  SECTION(packets), SECTION(check),    SECTION(own),
-    SECTION(alone),  SECTION(modes),   SECTION(explain),
+    SECTION(alone),  SECTION(modes),   SECTION(explain), SECTION(chunks),
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 
