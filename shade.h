@@ -4933,10 +4933,10 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t, const shade_mat
     const double w = t->width, h = t->height;
     int r[4];
     (void)shade__clip_rectangle(t, r);    /* of an empty one nothing is seen, whatever its planes */
-    shade__frustum_plane(clip_from_object, 0, 1, 2 * r[0] / w - 1, 0, f);
-    shade__frustum_plane(clip_from_object, 0, -1, 2 * r[2] / w - 1, 1, f);
-    shade__frustum_plane(clip_from_object, 1, -1, 1 - 2 * r[1] / h, 2, f);
-    shade__frustum_plane(clip_from_object, 1, 1, 1 - 2 * r[3] / h, 3, f);
+    shade__frustum_plane(clip_from_object, 0, 1, 2.0 * r[0] / w - 1, 0, f);
+    shade__frustum_plane(clip_from_object, 0, -1, 2.0 * r[2] / w - 1, 1, f);
+    shade__frustum_plane(clip_from_object, 1, -1, 1 - 2.0 * r[1] / h, 2, f);
+    shade__frustum_plane(clip_from_object, 1, 1, 1 - 2.0 * r[3] / h, 3, f);
     shade__frustum_plane(clip_from_object, 2, 1, zero_to_one ? 0 : -1, 4, f);
     for (int i = 5; i < SHADE__PLANES; i++) shade__frustum_plane(clip_from_object, 2, -1, 1, i, f);
     if (!shade__is_finite(clip_from_object)) SHADE__ZERO(*f);    /* outside of none */
