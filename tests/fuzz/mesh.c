@@ -237,6 +237,64 @@ static void mesh_finite(const picture *p, const shade_target *t)
     }
 }
 
+static void mesh_stats(const shade_stats *t)
+{
+    HOLDS(t->skipped >= 0 && t->fragments >= 0);
+    HOLDS(t->triangles == t->skipped + t->culled + t->clipped + t->rejected + t->drawn);
+}
+/* Lists of any chunks: refused where one lies outside of the triangles, else drawn, whatever the
+   boxes are and however often a triangle is named. */
+static void mesh_hostile(fuzz_input *in, picture *p, mesh_scene *s, int triangles)
+{
+    const int count = fuzz_int(in, 0, 40);
+    shade_chunk *c = (shade_chunk *)guard_take((size_t)count * sizeof *c, (int)fuzz_byte(in) & 1);
+    shade_result want = SHADE_OK;
+    long long sum = 0;
+    shade_stats stats;
+    for (int i = 0; i < count; i++) {
+        const int wild = fuzz_one_in(in, 32);
+        c[i].low = fuzz_vec3(in, 0);
+        c[i].high = fuzz_vec3(in, 0);
+        c[i].first = wild ? fuzz_wild_int(in) : fuzz_int(in, 0, triangles);
+        c[i].count = wild ? fuzz_wild_int(in) : fuzz_int(in, 0, triangles - c[i].first);
+        if (c[i].first < 0 || c[i].count < 0 || (int64_t)c[i].first + c[i].count > triangles)
+            want = SHADE_ERROR_MESH;
+        sum += c[i].count;
+    }
+    guard_seal(c);
+    picture_restore(p);
+    s->m.chunks = c;
+    s->m.chunk_count = count;
+    HOLDS(shade_draw_mesh(&p->target, &s->m, &s->s, &stats) == want);
+    if (want == SHADE_OK) picture_check(p);
+    else HOLDS(picture_unchanged(p));
+    mesh_stats(&stats);
+    HOLDS(stats.triangles == (want == SHADE_OK ? sum : 0));
+}
+/* With the chunks of the mesh: the same picture, the same fragments. */
+static void mesh_chunks(fuzz_input *in, picture *p, mesh_scene *s, int triangles)
+{
+    const uint32_t kind = fuzz_byte(in);
+    const int size = fuzz_int(in, 0, 9), count = shade_chunk_count(3 * triangles, size);
+    shade_chunk *c = (shade_chunk *)guard_take((size_t)count * sizeof *c, (int)kind & 1);
+    shade_stats without, with;
+    HOLDS(shade_mesh_chunks(&s->m, size, c, count, NULL) == SHADE_OK);
+    guard_seal(c);
+    picture_restore(p);
+    HOLDS(shade_draw_mesh(&p->target, &s->m, &s->s, &without) == SHADE_OK);
+    picture_keep(p);
+    picture_restore(p);
+    s->m.chunks = c;
+    s->m.chunk_count = count;
+    HOLDS(shade_draw_mesh(&p->target, &s->m, &s->s, &with) == SHADE_OK);
+    HOLDS(picture_same(p));
+    mesh_stats(&with);
+    HOLDS(with.triangles == triangles && with.fragments == without.fragments);
+    if (kind & 2) mesh_hostile(in, p, s, triangles);
+    s->m.chunks = NULL;
+    s->m.chunk_count = 0;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static mesh_scene s;
@@ -284,6 +342,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     picture_try(&in, &pic, mesh_call, s.s.fragment ? NULL : mesh_otherwise, &s, want, triangles,
                 s.s.raster.depth_read_only);
     if (most > 0 && want == SHADE_OK) mesh_finite(&pic, &pic.target);
+    if (want == SHADE_OK) mesh_chunks(&in, &pic, &s, triangles);
     picture_close(&pic);
     guard_close();
     return 0;

@@ -201,6 +201,25 @@ static int shape_flat(shade_vec3 a, shade_vec3 b, shade_vec3 c)
     double ez = (double)b.z - (double)a.z, fz = (double)c.z - (double)a.z;
     return ey * fz == ez * fy && ez * fx == ex * fz && ex * fy == ey * fx;
 }
+/* Whether a ray lies in the plane of a triangle but for a millionth, or t is denormal: rounding
+   decides where it is hit, and pick lets go what it would hit beside its box. */
+static int shape_grazes(shade_ray ray, const shade_vec3 *p, float t)
+{
+    double e[3], f[3], d[3] = { (double)ray.direction.x, (double)ray.direction.y,
+                                (double)ray.direction.z };
+    double det = 0, ee = 0, ff = 0, dd = 0;
+    e[0] = (double)p[1].x - (double)p[0].x, f[0] = (double)p[2].x - (double)p[0].x;
+    e[1] = (double)p[1].y - (double)p[0].y, f[1] = (double)p[2].y - (double)p[0].y;
+    e[2] = (double)p[1].z - (double)p[0].z, f[2] = (double)p[2].z - (double)p[0].z;
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        det += d[k] * (e[a] * f[b] - e[b] * f[a]);
+        ee += e[k] * e[k];
+        ff += f[k] * f[k];
+        dd += d[k] * d[k];
+    }
+    return !(fabs(det) > 1e-6 * sqrt(ee) * sqrt(ff) * sqrt(dd)) || (t > 0 && t < 1e-30f);
+}
 /* The nearest of the triangles with an area that shade_intersect hits, of equal ones the first. */
 static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
 {
@@ -209,7 +228,7 @@ static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
     float t = -7, nearest = -7, at;
     shade_vec3 where = shade_v3(-7, -7, -7), want = where, inside, d = ray.direction,
                o = ray.origin;
-    int got, found = -1, zeros = 0;
+    int got, found = -1, zeros = 0, unsure = 0;
     for (int k = 0; k < 16; k++) zeros += (&model.col[0].x)[k] == 0;
     if (zeros == 16) place = shade_mat4_identity();
     if (s->want == SHADE_OK) {
@@ -220,16 +239,49 @@ static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
             if (!shade_intersect(ray, p[0], p[1], p[2], &at, &inside)) continue;
             if (shape_flat(shape_at(s, 3 * i), shape_at(s, 3 * i + 1), shape_at(s, 3 * i + 2)))
                 continue;    /* rounding may have parted the points as they were turned */
+            unsure |= shape_grazes(ray, p, at);
             if (found < 0 || at < nearest) found = i, nearest = at, want = inside;
         }
     }
     got = shade_pick(&s->m, model, ray, kind & 4 ? NULL : &t, kind & 8 ? NULL : &where);
+    HOLDS(got < s->corners / 3 && (got < 0 || found >= 0));
+    if (unsure) return;
     HOLDS(got == found);
     HOLDS(shade_pick(NULL, model, ray, &at, &inside) == -1);
     if ((d.x == 0 && d.y == 0 && d.z == 0) || !fuzz_finite3(d) || !fuzz_finite3(o))
         HOLDS(got == -1);
     HOLDS(t == (kind & 4 ? -7 : nearest));
     HOLDS(kind & 8 ? where.x == -7 : !memcmp(&where, &want, sizeof want));
+}
+/* With chunks, in the order of the mesh or sorted: the same triangle, the same place. */
+static void shape_chunks(fuzz_input *in, const shape_mesh *s, shade_ray ray)
+{
+    const uint32_t kind = fuzz_byte(in);
+    const int size = fuzz_int(in, -1, 9), count = shade_chunk_count(s->corners, size);
+    const int capacity = kind & 1 ? count : fuzz_int(in, -1, count);
+    const size_t room = (size_t)(capacity > 0 ? capacity : 0);
+    shade_chunk *c = (shade_chunk *)guard_take(room * sizeof *c, kind >> 1 & 1);
+    const size_t corners = s->corners > 0 ? (size_t)s->corners : 0;
+    uint32_t *sorted = kind & 4 ? (uint32_t *)guard_take(corners * 4, kind >> 3 & 1) : NULL;
+    shade_mat4 model = fuzz_matrix(in, kind & 16 ? s->most : 0);
+    shade_mesh m = s->m;
+    shade_vec3 a = shade_v3(-7, -7, -7), b = a;
+    float t = -7, u = -7;
+    shade_result want = s->want;
+    if (size < 0 || capacity < 0) want = SHADE_ERROR_ARGUMENT;
+    if (want == SHADE_OK && capacity < count) want = SHADE_ERROR_CAPACITY;
+    HOLDS(shade_mesh_chunks(&m, size, c, capacity, sorted) == want);
+    if (want != SHADE_OK) return;
+    for (int i = 0; i < count; i++) HOLDS(c[i].first == (i ? c[i - 1].first + c[i - 1].count : 0));
+    if (sorted && corners) {
+        m.indices = sorted;
+        m.index_count = s->corners;
+    }
+    const int found = shade_pick(&m, model, ray, &t, &a);
+    m.chunks = c;
+    m.chunk_count = count;
+    HOLDS(shade_pick(&m, model, ray, &u, &b) == found);
+    HOLDS(t == u && !memcmp(&a, &b, sizeof a));
 }
 static void shape_rays(fuzz_input *in, const shape_mesh *s)
 {
@@ -245,6 +297,7 @@ static void shape_rays(fuzz_input *in, const shape_mesh *s)
     if (most > 0 && fuzz_finite3(ray.direction)) HOLDS(l == 0 || fabsf(l - 1) < 1e-4f);
     if (kind & 8) ray.origin = fuzz_vec3(in, most), ray.direction = fuzz_vec3(in, most);
     shape_pick(in, s, ray);
+    shape_chunks(in, s, ray);
     for (int i = 0; s->want == SHADE_OK && i + 2 < s->corners; i += 3) {
         int hit = shade_intersect(ray, shape_at(s, i), shape_at(s, i + 1), shape_at(s, i + 2),
                                   kind & 16 ? NULL : &t, kind & 32 ? NULL : &at);
