@@ -1257,6 +1257,10 @@ static int intersect_all(const shade_mesh *mesh, shade_mat4 model, shade_ray ray
         const d3 f = d3_sub(d3_from(p[2]), d3_from(p[0]));
         const d3 normal = d3_cross(e, f), direction = d3_from(ray.direction);
         const double size = d3_length(e) * d3_length(f) * d3_length(direction);
+        const d3 q = d3_from(chunk_corner(mesh, 3 * n));
+        const d3 own = d3_cross(d3_sub(d3_from(chunk_corner(mesh, 3 * n + 1)), q),
+                                d3_sub(d3_from(chunk_corner(mesh, 3 * n + 2)), q));
+        if (own.x == 0 && own.y == 0 && own.z == 0) continue; /* a line is never hit */
         if (!shade_intersect(ray, p[0], p[1], p[2], &t, NULL)) continue;
         if (!(fabs(d3_dot(normal, direction)) > 1e-5 * size)) return -2;
         if (t < nearest) found = n;
