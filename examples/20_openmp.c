@@ -1,7 +1,8 @@
-/* 20_openmp.c - twelve frames of a turning knot, the loop over them spread over all processors by
-   one line: each frame has memory of its own, and the library has no state to share.  Without
-   -fopenmp the loop draws one frame after the other, the same bits.
-   Try schedule(dynamic) behind parallel for: good where some frames take longer than others.
+/* 20_openmp.c - twelve frames of a turning knot, the loop over them spread over all cores by one
+   line: each frame has memory of its own, and the library has no state to share.  A core that is
+   done takes the next frame, schedule(dynamic).  Without -fopenmp the loop draws one frame after
+   the other, the same bits.
+   Try the bands of 19_threads in such a loop: one picture by all cores, in one line.
 
    cc -O2 -fopenmp -I. examples/20_openmp.c -lm -o openmp && ./openmp          writes openmp.ppm */
 #define SHADE_IMPLEMENTATION
@@ -19,9 +20,10 @@ int main(int argc, char **argv)
     owned_mesh knot = shape_knot(160);
     canvas c = canvas_new(4 * WIDTH, 3 * HEIGHT + 36, 3);
 
+    mesh_chunks(&knot);
     canvas_dark(&c.target);
 #ifdef _OPENMP
-#pragma omp parallel for
+#pragma omp parallel for schedule(dynamic)
 #endif
     for (int i = 0; i < FRAMES; i++) {
         shade_target frame = canvas_panel(&c, i % 4 * WIDTH, i / 4 * HEIGHT, WIDTH, HEIGHT);
@@ -32,7 +34,7 @@ int main(int argc, char **argv)
         state.projection = shade_mat4_perspective(0.64f, (float)WIDTH / HEIGHT, 4, 20);
         shade_draw_mesh(&frame, &knot.view, &state, NULL);
     }
-    label_center(&c, 480, 3 * HEIGHT + 22, 22, gloss, "#pragma omp parallel for");
+    label_center(&c, 480, 3 * HEIGHT + 22, 22, gloss, "#pragma omp parallel for schedule(dynamic)");
     mesh_free(&knot);
     return canvas_save(&c, argc, argv, "openmp.ppm");
 }

@@ -7,6 +7,7 @@
 #include "shade.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Zeroed: empty.  The arrays may be NULL but for positions; view points into them and is what
    shade_draw_mesh takes. */
@@ -14,12 +15,14 @@ typedef struct owned_mesh {
     shade_mesh view;
     float *positions, *normals, *texcoords, *colors;
     uint32_t *indices;
+    shade_chunk *chunks; /* of mesh_chunks */
 } owned_mesh;
 
 static inline void mesh_free(owned_mesh *m)
 {
     static const owned_mesh empty;
     free(m->positions), free(m->normals), free(m->texcoords), free(m->colors), free(m->indices);
+    free(m->chunks);
     *m = empty;
 }
 
@@ -42,7 +45,7 @@ static inline void *example_memory(size_t count, size_t size)
 /* positions, normals, texcoords, indices, all zero */
 static inline owned_mesh mesh_new(int vertices, int indices)
 {
-    owned_mesh m = { { 0 }, 0, 0, 0, 0, 0 };
+    owned_mesh m = { { 0 }, 0, 0, 0, 0, 0, 0 };
     m.positions = (float *)example_memory((size_t)vertices, 3 * sizeof(float));
     m.normals = (float *)example_memory((size_t)vertices, 3 * sizeof(float));
     m.texcoords = (float *)example_memory((size_t)vertices, 2 * sizeof(float));
@@ -124,6 +127,53 @@ static inline owned_mesh mesh_cube(void)
         for (int k = 0; k < 6; k++) m.indices[6 * face + k] = quad[k] + 4 * (uint32_t)face;
     }
     return m;
+}
+
+/* Sorts the triangles in space and finds the boxes around runs of them, by which draws skip what
+   they do not see; once, when positions and indices are as they stay.  Returns 1 where memory is
+   out, and the mesh as it was. */
+static inline int mesh_chunks(owned_mesh *m)
+{
+    const int n = m->view.index_count, count = shade_chunk_count(n, 0);
+    uint32_t *sorted = (uint32_t *)malloc(((size_t)n + 1) * sizeof *sorted);
+    shade_chunk *chunks = (shade_chunk *)malloc(((size_t)count + 1) * sizeof *chunks);
+    if (!sorted || !chunks || shade_mesh_chunks(&m->view, 0, chunks, count, sorted)) {
+        free(sorted);
+        free(chunks);
+        return 1;
+    }
+    free(m->indices);
+    free(m->chunks);
+    m->view.indices = m->indices = sorted;
+    m->view.chunks = m->chunks = chunks;
+    m->view.chunk_count = count;
+    return 0;
+}
+
+/* For each vertex T, unit, the way u grows: the mean of dP/du over its triangles, whose edges are
+   e1 = T du1 + B dv1 and e2 = T du2 + B dv2, weighted by their area in u, v.  Three floats a
+   vertex, to be freed */
+static inline float *mesh_tangents(const owned_mesh *m)
+{
+    shade_vec3 *T = (shade_vec3 *)example_memory((size_t)m->view.vertex_count, sizeof *T);
+    for (int i = 0; i < m->view.index_count; i++) {
+        const uint32_t *corner = m->indices + i - i % 3;
+        shade_vec3 P[3], e1, e2, t;
+        shade_vec2 uv[3], d1, d2;
+        for (int k = 0; k < 3; k++) {
+            memcpy(&P[k], m->positions + 3 * corner[k], sizeof P[k]);
+            memcpy(&uv[k], m->texcoords + 2 * corner[k], sizeof uv[k]);
+        }
+        e1 = shade_sub(P[1], P[0]);
+        e2 = shade_sub(P[2], P[0]);
+        d1 = shade_sub2(uv[1], uv[0]);
+        d2 = shade_sub2(uv[2], uv[0]);
+        t = shade_sub(shade_scale(e1, d2.y), shade_scale(e2, d1.y));
+        if (d1.x * d2.y < d1.y * d2.x) t = shade_neg(t);
+        T[m->indices[i]] = shade_add(T[m->indices[i]], t);
+    }
+    for (int i = 0; i < m->view.vertex_count; i++) T[i] = shade_normalize(T[i]);
+    return (float *)T;
 }
 
 /* Moves the middle of the mesh's box to the origin and makes its largest distance from there 1;

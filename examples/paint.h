@@ -49,4 +49,65 @@ static inline void paint_tiles(float (*texel)[4], int size)
         texel[0][0] = c.x, texel[0][1] = c.y, texel[0][2] = c.z, texel[0][3] = 1;
     }
 }
+
+/* A number of 0 .. 1 for each pair of integers */
+static inline float paint_chance(int a, int b)
+{
+    uint32_t h = (uint32_t)a * 2654435761u ^ (uint32_t)b * 2246822519u;
+    h = (h ^ h >> 15) * 2654435761u;
+    return (float)(h >> 8) / 16777216;
+}
+
+/* Four by eight bricks in running bond, each of its own clay; alpha is their height, above 0.7 on
+   top, below 0.3 in the mortar. */
+static inline void paint_bricks(float (*texel)[4], int size)
+{
+    for (int i = 0; i < size * size; i++, texel++) {
+        float u = 4 * (float)(i % size) / (float)size, v = 8 * (float)(i / size) / (float)size;
+        int row = (int)v, column = (int)(u + 0.5f * (float)(row % 2)) % 4;
+        float x = 2 * paint_part(u + 0.5f * (float)(row % 2)) - 1, y = paint_part(v) - 0.5f;
+        float seed = 3 * (float)(4 * row + column), edge, low;
+        float wear = noise(shade_v3(9 * x, 9 * y, seed));
+        float grain = noise(shade_v3(40 * x, 40 * y, seed));
+        shade_vec3 mortar = shade_v3(0.30f, 0.28f, 0.25f), dark = shade_v3(0.17f, 0.075f, 0.06f);
+        shade_vec3 clay = shade_v3(0.34f, 0.10f, 0.055f);
+        /* how far inside of a rectangle with round corners, whose edge wavers */
+        x = fmaxf(0, fabsf(x) - 0.80f);
+        y = fmaxf(0, fabsf(y) - 0.30f);
+        edge = paint_clamp(16 * (0.155f + 0.035f * wear - sqrtf(x * x + y * y)));
+        edge = edge * edge * (3 - 2 * edge);
+        low = 0.12f + 0.10f * grain;
+        clay = shade_lerp(clay, dark, paint_chance(column, row));
+        clay = shade_lerp(shade_scale(mortar, 0.6f + 0.4f * grain),
+                          shade_scale(clay, 0.65f + 0.5f * wear + 0.2f * grain), edge);
+        texel[0][0] = clay.x;
+        texel[0][1] = clay.y;
+        texel[0][2] = clay.z;
+        texel[0][3] = low + edge * (0.78f + 0.10f * wear + 0.02f * grain - low);
+    }
+}
+
+/* The normal map of the heights in alpha, which repeat: (-dh/du, -dh/dv, 1), made unit, its -1 .. 1
+   in bytes.  depth: how many texels a height of 1 is */
+static inline void paint_relief(uint8_t (*normal)[4], float (*texel)[4], int size, float depth)
+{
+    for (int i = 0; i < size * size; i++, normal++) {
+        int x = i % size, row = i - x, all = size * size;
+        float left = texel[row + (x + size - 1) % size][3], right = texel[row + (x + 1) % size][3];
+        float above = texel[(i + all - size) % all][3], below = texel[(i + size) % all][3];
+        shade_vec3 n = shade_v3(depth / 2 * (left - right), depth / 2 * (above - below), 1);
+        n = shade_normalize(n);
+        normal[0][0] = (uint8_t)(127.5f * n.x + 128);
+        normal[0][1] = (uint8_t)(127.5f * n.y + 128);
+        normal[0][2] = (uint8_t)(127.5f * n.z + 128);
+        normal[0][3] = 255;
+    }
+}
+
+/* A byte a texel from the heights in alpha: 0 below .53, 255 from .87 on */
+static inline void paint_mask(uint8_t *mask, float (*texel)[4], int size)
+{
+    for (int i = 0; i < size * size; i++)
+        mask[i] = (uint8_t)(255 * paint_clamp(3 * texel[i][3] - 1.6f));
+}
 #endif

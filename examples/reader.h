@@ -155,7 +155,7 @@ static inline int mesh_fill_normals(owned_mesh *m)
 {
     int vertices = m->view.vertex_count, indices = m->view.index_count, failed = 1;
     mesh_set places = { NULL, NULL, 0, 0, 0 };
-    owned_mesh welded = { { 0 }, 0, 0, 0, 0, 0 };
+    owned_mesh welded = { { 0 }, 0, 0, 0, 0, 0, 0 };
     uint32_t *place = (uint32_t *)malloc(sizeof(uint32_t) * (size_t)vertices);
     shade_vec3 *mean = NULL;
     float biggest = 0;

@@ -1,0 +1,105 @@
+/* bands.h - work cut into pieces, the bands of a picture above all, that several threads take from
+   one counter: whoever is done takes the next, so that no thread waits for a slow one.
+
+       static void draw_band(void *data, int band) { ... }           (clip_y, clip_height of its own)
+       bands_run(0, 64, draw_band, &job);                            (on all cores; returns when done)
+
+   What a piece does may depend on its number, not on who does it when.  Threads are POSIX's; where
+   there are none, or with BANDS_ALONE, the pieces are done one after the other. */
+#ifndef EXAMPLES_BANDS_H
+#define EXAMPLES_BANDS_H
+
+#include "shade.h"
+#include <stddef.h>
+
+enum { BANDS_MOST = 256 };    /* threads */
+typedef void bands_work(void *data, int piece);
+typedef void bands_progress(void *user, double part);
+
+#if (defined(__unix__) || defined(__APPLE__)) && !defined(BANDS_ALONE)
+#include <pthread.h>
+#include <unistd.h>
+
+typedef struct bands {
+    bands_work *work;
+    void *data;
+    int next, count;
+    pthread_mutex_t lock; /* of next */
+} bands;
+
+/* The number of the next piece, or -1 */
+static inline int bands_take(bands *b)
+{
+    int piece;
+    pthread_mutex_lock(&b->lock);
+    piece = b->next < b->count ? b->next++ : -1;
+    pthread_mutex_unlock(&b->lock);
+    return piece;
+}
+
+static inline void *bands_thread(void *data)
+{
+    bands *b = (bands *)data;
+    for (int piece; (piece = bands_take(b)) >= 0;) b->work(b->data, piece);
+    return NULL;
+}
+
+static inline int bands_cores(void)
+{
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores < 1 ? 1 : cores < BANDS_MOST ? (int)cores : BANDS_MOST;
+}
+
+/* Does the pieces 0 .. count - 1 by so many threads (0: as many as there are cores), of which the
+   caller is one and tells its progress; fewer where the system gives no more. */
+static inline void bands_run_told(int threads, int count, bands_work *work, void *data,
+                                  bands_progress *progress, void *user)
+{
+    bands b = { work, data, 0, count, PTHREAD_MUTEX_INITIALIZER };
+    pthread_t thread[BANDS_MOST];
+    int others = 0;
+    if (threads < 1) threads = bands_cores();
+    if (threads > count) threads = count;
+    while (others < threads - 1 && others < BANDS_MOST &&
+           !pthread_create(&thread[others], NULL, bands_thread, &b))
+        others++;
+    for (int piece; (piece = bands_take(&b)) >= 0;) {
+        if (progress) progress(user, (double)piece / count);
+        work(data, piece);
+    }
+    while (others > 0) pthread_join(thread[--others], NULL);
+    pthread_mutex_destroy(&b.lock);
+}
+#else
+static inline int bands_cores(void) { return 1; }
+
+static inline void bands_run_told(int threads, int count, bands_work *work, void *data,
+                                  bands_progress *progress, void *user)
+{
+    (void)threads;
+    for (int piece = 0; piece < count; piece++) {
+        if (progress) progress(user, (double)piece / count);
+        work(data, piece);
+    }
+}
+#endif
+
+static inline void bands_run(int threads, int count, bands_work *work, void *data)
+{
+    bands_run_told(threads, count, work, data, NULL, NULL);
+}
+
+/* Band number of count as a part of target, which has neither clip rectangle nor strip: its rows,
+   in groups of rows that stay together. */
+static inline shade_target bands_rows(const shade_target *target, int band, int count, int group)
+{
+    shade_target part = *target;
+    const long long groups = (target->height + group - 1) / group;
+    const int top = (int)(groups * band / count) * group;
+    const int end = (int)(groups * (band + 1) / count) * group;
+    part.clip_y = top;
+    part.clip_width = part.width;
+    part.clip_height = (end < part.height ? end : part.height) - top;
+    return part;
+}
+#endif
