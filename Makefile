@@ -56,7 +56,7 @@ build/shade.o: shade.h
 	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
 build/%: examples/%.c build/shade.o $(SHARED)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm $(LIBRARIES) -o $@
-build/19_threads: EXACT += -pthread
+build/19_threads build/thumbnail build/view build/batch: EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
 build/view: LIBRARIES = $(SDL2)
 build/thumbnail: LIBRARIES = $(STB) $(ASSIMP)

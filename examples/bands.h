@@ -89,17 +89,25 @@ static inline void bands_run(int threads, int count, bands_work *work, void *dat
     bands_run_told(threads, count, work, data, NULL, NULL);
 }
 
-/* Band number of count as a part of target, which has neither clip rectangle nor strip: its rows,
-   in groups of rows that stay together. */
-static inline shade_target bands_rows(const shade_target *target, int band, int count, int group)
+/* How many bands serve so many threads: eight for each, of at least 16 rows, and one for one */
+static inline int bands_count(int threads, int rows)
+{
+    if (threads < 1) threads = bands_cores();
+    if (threads == 1 || rows < 32) return 1;
+    return 8 * threads < rows / 16 ? 8 * threads : rows / 16;
+}
+
+/* The rows of a band, one of count, of a target without a clip rectangle; of a strip its rows.  A
+   band without rows draws nothing. */
+static inline shade_target bands_rows(const shade_target *target, int band, int count)
 {
     shade_target part = *target;
-    const long long groups = (target->height + group - 1) / group;
-    const int top = (int)(groups * band / count) * group;
-    const int end = (int)(groups * (band + 1) / count) * group;
-    part.clip_y = top;
+    const long long rows = part.row_count ? part.row_count : part.height;
+    const int end = (int)(rows * (band + 1) / count);
+    part.clip_y = (int)(rows * band / count);
+    part.clip_height = end - part.clip_y;
+    part.clip_y += part.row_offset;
     part.clip_width = part.width;
-    part.clip_height = (end < part.height ? end : part.height) - top;
     return part;
 }
 #endif

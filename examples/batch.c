@@ -1,7 +1,7 @@
 /* batch.c - long work in pieces: the frames of a turntable, or the strips of a poster, on as many
    machines as there are.
 
-   cc -O2 -I. examples/batch.c -lm -o batch
+   cc -O2 -pthread -I. examples/batch.c -lm -o batch
    ./batch bunny.obj --pipe | ffmpeg -f image2pipe -framerate 30 -i - -pix_fmt yuv420p bunny.mp4
 
    A piece is a file that appears whole or not at all; one that is there is not drawn again.  Its
@@ -19,6 +19,7 @@ static const char usage[] =
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
     "  --samples 1..8        along each edge of a pixel (3)\n"
     "  --up y|z              the model's upright axis (y, for STL z)\n"
+    "  --threads N           1 .. 256, whatever the cores are (all cores); the same bits\n"
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
     "  --piece K             only this one, 0 .. N-1\n"
@@ -52,7 +53,8 @@ static int set_option(batch *b, const char *name, const char *value)
     if (!strcmp(name, "--size")) return read_size(value, &b->width, &b->height);
     if (!strcmp(name, "--samples")) return view_read_number(value, 1, 8, &b->samples);
     if (!strcmp(name, "--piece")) return view_read_number(value, 0, 99999, &b->piece);
-    if (!strcmp(name, "--up")) return view_set_option(&b->view, name, value);
+    if (!strcmp(name, "--up") || !strcmp(name, "--threads"))
+        return view_set_option(&b->view, name, value);
     if (!strcmp(name, "--out")) {
         b->out = value;
         return *value && strlen(value) < 4096;
@@ -64,17 +66,17 @@ static int set_option(batch *b, const char *name, const char *value)
 /* 0: go on; 1: failed; -1: all said */
 static int read_options(batch *b, int argc, char **argv)
 {
-    static const char *const valued[7] = { "--size", "--samples", "--piece", "--up",
-                                           "--out",  "--frames",  "--strips" };
+    static const char *const valued[8] = { "--size", "--samples", "--piece",  "--up",
+                                           "--out",  "--frames",  "--strips", "--threads" };
     for (int i = 1; i < argc; i++) {
         const char *name = argv[i];
         int k = 0;
-        while (k < 7 && strcmp(name, valued[k])) k++;
+        while (k < 8 && strcmp(name, valued[k])) k++;
         if (!strcmp(name, "--help")) return fputs(usage, stdout), -1;
-        if (k < 7 && i + 1 == argc) return view_complain("%s needs a value", name);
-        if (k < 7 && !set_option(b, name, argv[++i]))
+        if (k < 8 && i + 1 == argc) return view_complain("%s needs a value", name);
+        if (k < 8 && !set_option(b, name, argv[++i]))
             return view_complain("%s cannot be that (--help says what)", name);
-        if (k < 7) continue;
+        if (k < 8) continue;
         if (!strcmp(name, "--pipe"))
             b->pipe = 1;
         else if (!strcmp(name, "--missing"))

@@ -75,7 +75,7 @@ static inline int faces_finish(const faces *f, model *m)
     faces_walk(f, NULL, first, NULL);
     for (size_t s = 0; s < surfaces; s++) {
         size_t count = first[s];
-        const model_part part = { (int)sum, (int)count, (int)s };
+        const model_part part = { (int)sum, (int)count, (int)s, 0, 0 };
         if (count) m->part[m->part_count++] = part;
         first[s] = sum, sum += count;
     }

@@ -22,12 +22,13 @@ typedef struct model_surface {
 } model_surface;
 
 typedef struct model_part {
-    int first, count, surface;
-} model_part; /* of the indices */
+    int first, count, surface;    /* of the indices */
+    int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
+} model_part;
 
 /* Zeroed: empty. */
 typedef struct model {
-    owned_mesh mesh;
+    owned_mesh mesh; /* its chunks, one part's behind the other's, are not those of its view */
     model_surface *surface; /* none: the file knows no surfaces */
     model_part *part;
     model_picture *picture;
@@ -49,6 +50,18 @@ static inline void model_free(model *m)
         free(m->picture[i].name), free(m->picture[i].pixels), free(m->picture[i].mipmaps);
     free(m->surface), free(m->part), free(m->picture), free(m->library);
     *m = empty;
+}
+
+/* Part i as a mesh of its own, with its chunks */
+static inline shade_mesh model_part_mesh(const model *m, int i)
+{
+    const model_part *part = &m->part[i];
+    shade_mesh mesh = m->mesh.view;
+    mesh.indices = m->mesh.indices + part->first;
+    mesh.index_count = part->count;
+    if (m->mesh.chunks) mesh.chunks = m->mesh.chunks + part->first_chunk;
+    mesh.chunk_count = m->mesh.chunks ? part->chunk_count : 0;
+    return mesh;
 }
 
 /* Keeps the first warning. */

@@ -73,7 +73,7 @@ static inline shade_result sheet_draw(const sheet *p, scene_camera camera, int x
     in.width = width * p->samples, in.height = height * p->samples;
     in.row_offset = out.row_offset * p->samples, in.row_count = rows * p->samples;
     result = scene_draw(p->scene, &in, &camera, p->samples);
-    return result ? result : shade_resolve(&out, &in, p->samples);
+    return result ? result : scene_resolve(p->scene, &out, &in, p->samples);
 }
 
 /* The band's pixels, less their alpha: 3 bytes each, in place */

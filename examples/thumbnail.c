@@ -1,9 +1,10 @@
 /* thumbnail.c - a model file in, a handsome picture of it out, on a machine without GPU or window.
 
-   cc -O2 -I. examples/thumbnail.c -lm -o thumbnail && ./thumbnail bunny.obj bunny.ppm
+   cc -O2 -pthread -I. examples/thumbnail.c -lm -o thumbnail && ./thumbnail bunny.obj bunny.ppm
 
    with what libstb-dev and libassimp-dev add, textures, PNG and formats beyond OBJ, STL and PLY:
-   cc -O2 -I. -DTHUMBNAIL_STB -DTHUMBNAIL_ASSIMP examples/thumbnail.c -lassimp -lm -o thumbnail
+   cc -O2 -pthread -I. -DTHUMBNAIL_STB -DTHUMBNAIL_ASSIMP examples/thumbnail.c -lassimp -lm \
+      -o thumbnail
 
    The model may have any scale and place: it is moved to the origin, made one unit large, and
    the camera stands as near as it can without cutting anything off.  The picture appears whole
@@ -59,6 +60,7 @@ static int read_model(const options *o, model *m, progress *p)
     mesh_stand(&m->mesh, o->up >= 0 ? o->up : m->z_up ? 2 : 1, o->rotate);
     if (o->shading == SHADE_SHADING_PER_FACE || !m->normals_given)
         failed = mesh_crease(&m->mesh, o->shading == SHADE_SHADING_PER_FACE);
+    if (!failed) failed = mesh_chunk_parts(m);
     return failed ? complain("%s", "out of memory") : 0;
 }
 
@@ -70,7 +72,7 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     shade_result result;
     int failed;
     report_next(p, "finding shadows");
-    result = look_has_shadows(o) || !o->no_shadow ? studio_open(&light, m, report, p) : SHADE_OK;
+    result = look_has_shadows(o) || !o->no_shadow ? studio_open(&light, m, o->threads, report, p) : SHADE_OK;
     report_next(p, "drawing");
     c = canvas_new(o->width, o->height, o->samples);
     if (!result) result = draw_picture(&c, m, &light, o, report, p);

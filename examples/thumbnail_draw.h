@@ -135,8 +135,9 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
 
 /* ---- parts ---------------------------------------------------------------------------------- */
 
+/* Triangles of a mesh from first on */
 static shade_result look_draw(const shade_target *target, look *k, const shade_mesh *mesh,
-                              int see_through)
+                              int first, int count, int see_through)
 {
     shade_pipeline p = { .vertex = look_vertex, .fragment = look_fragment };
     p.uniforms = k, p.varyings = LOOK_VARYINGS;
@@ -144,7 +145,26 @@ static shade_result look_draw(const shade_target *target, look *k, const shade_m
     p.may_discard = k->alpha_cutoff > 0;
     if (k->map) p.lod_texture = k->map, p.lod_varying = LOOK_UV;
     if (see_through) p.raster.blend = SHADE_BLEND_OVER, p.raster.depth_read_only = 1;
-    return shade_draw(target, &p, mesh->indices, mesh->index_count, mesh->vertex_count, NULL);
+    return shade_draw(target, &p, mesh->indices + 3 * (size_t)first, 3 * count,
+                      mesh->vertex_count, NULL);
+}
+
+/* The triangles of those chunks that the target may see; chunks in a row are one draw */
+static shade_result look_draw_chunks(const shade_target *target, look *k, const shade_mesh *mesh)
+{
+    shade_result result = SHADE_OK;
+    int first = 0, end = 0;
+    for (int i = 0; i <= mesh->chunk_count && !result; i++) {
+        const shade_chunk *c = mesh->chunks + i;
+        int more = i < mesh->chunk_count;
+        if (more && shade_box_visible(target, k->clip_from_world, 0, c->low, c->high)) {
+            end = c->first + c->count;
+            continue;
+        }
+        if (end > first) result = look_draw(target, k, mesh, first, end - first, 0);
+        if (more) first = end = c->first + c->count;
+    }
+    return result;
 }
 
 /* The surface of a part; what the file leaves open and what the command line asks for */
@@ -174,71 +194,72 @@ static int far_first(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* The transparent triangles, the farthest first; those in a row of one surface are one draw */
-static shade_result draw_far_first(const shade_target *target, look *k, const options *o,
-                                   const model *m, far_triangle *list, size_t n)
+/* The transparent triangles, the farthest first, and their indices in that order */
+typedef struct far_list {
+    far_triangle *triangle;
+    uint32_t *indices;
+    size_t count;
+} far_list;
+
+static void far_list_free(far_list *l)
 {
-    uint32_t *indices = (uint32_t *)malloc(3 * n * sizeof *indices);
-    shade_result result = indices ? SHADE_OK : SHADE_ERROR_CAPACITY;
-    qsort(list, n, sizeof *list, far_first);
-    for (size_t i = 0, end; i < n && !result; i = end) {
-        shade_mesh mesh = m->mesh.view;
-        for (end = i; end < n && list[end].surface == list[i].surface; end++)
-            memcpy(indices + 3 * (end - i), m->mesh.indices + list[end].first, 12);
-        mesh.indices = indices, mesh.index_count = (int)(3 * (end - i));
-        look_dress(k, o, m, list[i].surface);
-        result = look_draw(target, k, &mesh, 1);
-    }
-    free(indices);
-    return result;
+    free(l->triangle);
+    free(l->indices);
 }
 
-static shade_result draw_see_through(const shade_target *target, look *k, const options *o,
-                                     const model *m, const char *see_through)
+/* Returns 1 where memory is out. */
+static int far_list_make(far_list *l, const model *m, const char *see_through, shade_vec3 eye)
 {
-    size_t n = 0, room = 0;
-    far_triangle *list;
-    shade_result result;
+    size_t room = 0;
     for (int i = 0; i < m->part_count; i++)
         if (see_through[i]) room += (size_t)m->part[i].count / 3;
-    if (!room) return SHADE_OK;
-    list = (far_triangle *)malloc(room * sizeof *list);
-    if (!list) return SHADE_ERROR_CAPACITY;
+    if (!room) return 0;
+    l->triangle = (far_triangle *)malloc(room * sizeof *l->triangle);
+    l->indices = (uint32_t *)malloc(3 * room * sizeof *l->indices);
+    if (!l->triangle || !l->indices) return 1;
     for (int i = 0; i < m->part_count; i++) {
         int end = see_through[i] ? m->part[i].first + m->part[i].count : 0;
-        for (int t = m->part[i].first; t < end; t += 3, n++) {
+        for (int t = m->part[i].first; t < end; t += 3) {
+            far_triangle *f = &l->triangle[l->count++];
             shade_vec3 sum = shade_v3(0, 0, 0), p;
             for (int c = 0; c < 3; c++) {
                 memcpy(&p, m->mesh.positions + 3 * (size_t)m->mesh.indices[t + c], sizeof p);
                 sum = shade_add(sum, p);
             }
-            list[n].distance = shade_distance(shade_scale(sum, 1 / 3.0f), k->eye);
-            list[n].first = (uint32_t)t, list[n].surface = m->part[i].surface;
+            f->distance = shade_distance(shade_scale(sum, 1 / 3.0f), eye);
+            f->first = (uint32_t)t, f->surface = m->part[i].surface;
         }
     }
-    result = draw_far_first(target, k, o, m, list, n);
-    free(list);
+    qsort(l->triangle, l->count, sizeof *l->triangle, far_first);
+    for (size_t i = 0; i < l->count; i++)
+        memcpy(l->indices + 3 * i, m->mesh.indices + l->triangle[i].first, 12);
+    return 0;
+}
+
+/* Those in a row of one surface are one draw. */
+static shade_result draw_far_first(const shade_target *target, look *k, const options *o,
+                                   const model *m, const far_list *l)
+{
+    shade_mesh mesh = m->mesh.view;
+    shade_result result = SHADE_OK;
+    mesh.indices = l->indices;
+    for (size_t i = 0, end; i < l->count && !result; i = end) {
+        for (end = i; end < l->count && l->triangle[end].surface == l->triangle[i].surface;) end++;
+        look_dress(k, o, m, l->triangle[i].surface);
+        result = look_draw(target, k, &mesh, (int)i, (int)(end - i), 1);
+    }
     return result;
 }
 
-/* Opaque parts, in portions so that progress can be told */
 static shade_result draw_opaque(const shade_target *target, look *k, const options *o,
-                                const model *m, const char *see_through, mesh_progress *progress,
-                                void *user)
+                                const model *m, const char *see_through)
 {
-    const int portion = 3 << 16;
     shade_result result = SHADE_OK;
     for (int i = 0; i < m->part_count && !result; i++) {
-        shade_mesh mesh = m->mesh.view;
-        int end = m->part[i].first + m->part[i].count;
+        const shade_mesh mesh = model_part_mesh(m, i);
         if (see_through[i]) continue;
         look_dress(k, o, m, m->part[i].surface);
-        for (int at = m->part[i].first; at < end && !result; at += portion) {
-            mesh.indices = m->mesh.indices + at;
-            mesh.index_count = end - at < portion ? end - at : portion;
-            result = look_draw(target, k, &mesh, 0);
-            progress(user, (double)at / m->mesh.view.index_count);
-        }
+        result = look_draw_chunks(target, k, &mesh);
     }
     return result;
 }
@@ -264,26 +285,65 @@ static int part_is_clear(const model *m, const options *o, int part)
     return s->transparency > 0 || (s->blended && s->picture >= 0);
 }
 
+/* What all bands share, and the result of each */
+enum { PICTURE_BANDS = 64 };
+typedef struct picture_work {
+    const shade_target *target;
+    const model *model;
+    const options *options;
+    look look;
+    camera camera;
+    ground ground;
+    char *see_through; /* by part */
+    far_list far_list;
+    shade_result result[PICTURE_BANDS];
+} picture_work;
+
+static void draw_band(void *data, int band)
+{
+    picture_work *p = (picture_work *)data;
+    const shade_target rows = bands_rows(p->target, band, PICTURE_BANDS);
+    look k = p->look;
+    shade_result result = draw_opaque(&rows, &k, p->options, p->model, p->see_through);
+    if (!result && p->ground.shadow) result = ground_draw(&p->ground, &rows, &p->camera);
+    if (!result) result = draw_far_first(&rows, &k, p->options, p->model, &p->far_list);
+    p->result[band] = result;
+}
+
+/* Returns 1 where memory is out. */
+static int picture_prepare(picture_work *p, const studio *light)
+{
+    const options *o = p->options;
+    const model *m = p->model;
+    look *k = &p->look;
+    k->studio = light, k->eye = p->camera.eye;
+    k->clip_from_world = shade_mat4_mul(p->camera.projection, p->camera.view);
+    k->lighting.lights = light->lamp, k->lighting.light_count = 2;
+    k->lighting.model = o->model, k->shadows = look_has_shadows(o);
+    k->lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
+    k->lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
+    k->per_vertex = o->shading == SHADE_SHADING_PER_VERTEX;
+    p->see_through = (char *)calloc((size_t)m->part_count + 1, 1);
+    if (!p->see_through) return 1;
+    for (int i = 0; i < m->part_count; i++) p->see_through[i] = (char)part_is_clear(m, o, i);
+    if (!o->no_shadow && ground_cast(&p->ground, light, &m->mesh, o->threads)) return 1;
+    return far_list_make(&p->far_list, m, p->see_through, k->eye);
+}
+
 static shade_result draw_picture(const canvas *c, const model *m, const studio *light,
                                  const options *o, mesh_progress *progress, void *user)
 {
-    camera cam = camera_frame(&m->mesh, (float)o->width / (float)o->height);
-    char *see_through = (char *)calloc((size_t)m->part_count + 1, 1);
-    look k = { .studio = light, .eye = cam.eye };
-    shade_result result;
-    if (!see_through) return SHADE_ERROR_CAPACITY;
-    k.clip_from_world = shade_mat4_mul(cam.projection, cam.view);
-    k.lighting.lights = light->lamp, k.lighting.light_count = 2;
-    k.lighting.model = o->model, k.shadows = look_has_shadows(o);
-    k.lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
-    k.lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
-    k.per_vertex = o->shading == SHADE_SHADING_PER_VERTEX;
-    for (int i = 0; i < m->part_count; i++) see_through[i] = (char)part_is_clear(m, o, i);
-    draw_background(&c->target, o);
-    result = draw_opaque(&c->target, &k, o, m, see_through, progress, user);
-    if (!result && !o->no_shadow) result = draw_ground(&c->target, light, &cam, &m->mesh);
-    if (!result) result = draw_see_through(&c->target, &k, o, m, see_through);
-    free(see_through);
+    picture_work p = { .target = &c->target, .model = m, .options = o };
+    shade_result result = SHADE_ERROR_CAPACITY;
+    p.camera = camera_frame(&m->mesh, (float)o->width / (float)o->height);
+    if (!picture_prepare(&p, light)) {
+        draw_background(&c->target, o);
+        bands_run_told(o->threads, PICTURE_BANDS, draw_band, &p, progress, user);
+        result = SHADE_OK;
+    }
+    for (int i = 0; i < PICTURE_BANDS; i++)
+        if (p.result[i]) result = p.result[i];
+    free(p.see_through), ground_free(&p.ground), far_list_free(&p.far_list);
     return result;
 }
 #endif

@@ -8,6 +8,7 @@
 #ifndef EXAMPLES_THUMBNAIL_LIGHT_H
 #define EXAMPLES_THUMBNAIL_LIGHT_H
 
+#include "bands.h"
 #include "model.h"
 
 enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
@@ -95,9 +96,8 @@ static shade_result studio_draw(studio_map *map, const model *m)
     result = shade_clear(&target, shade_v4(0, 0, 0, 0), 1);
     for (int i = 0; i < m->part_count && !result; i++) {
         const model_surface *s = m->surface_count ? &m->surface[m->part[i].surface] : NULL;
-        shade_mesh mesh = m->mesh.view;
+        const shade_mesh mesh = model_part_mesh(m, i);
         if (s && (s->transparency > 0 || s->blended)) continue;
-        mesh.indices += m->part[i].first, mesh.index_count = m->part[i].count;
         state.alpha_cutoff = s ? s->alpha_cutoff : 0;
         state.diffuse_map =
             s && s->alpha_cutoff > 0 && s->picture >= 0 ? &m->picture[s->picture].map : NULL;
@@ -152,27 +152,42 @@ static float studio_lamp(const studio *s, shade_vec3 P, shade_vec3 N)
     return sum;
 }
 
+/* What the threads that draw maps share, and each map's result */
+typedef struct studio_work {
+    studio *studio;
+    const model *model;
+    shade_result result[STUDIO_MAPS];
+} studio_work;
+
+static void studio_draw_map(void *data, int i)
+{
+    studio_work *w = (studio_work *)data;
+    w->result[i] = studio_draw(&w->studio->map[i], w->model);
+}
+
 /* Fewer lamps for large models: each draws all of it. */
-static shade_result studio_open(studio *s, const model *m, mesh_progress *progress, void *user)
+static shade_result studio_open(studio *s, const model *m, int threads, mesh_progress *progress,
+                                void *user)
 {
     enum { SKY_SIZE = 256, KEY_SIZE = 512 };
     double draws = 40e6 / (double)m->mesh.view.index_count;
     int sky = draws > STUDIO_SKY ? STUDIO_SKY : draws > 12 ? (int)draws : 12;
     int key = draws > STUDIO_SKY ? STUDIO_KEY : 4;
     size_t sky_texels = SKY_SIZE * SKY_SIZE, key_texels = KEY_SIZE * KEY_SIZE;
-    shade_result result = SHADE_OK;
+    studio_work work = { s, m, { SHADE_OK } };
     studio_place(s, sky, key);
     s->memory =
         (float *)malloc(sizeof(float) * ((size_t)sky * sky_texels + (size_t)key * key_texels));
     if (!s->memory) return SHADE_ERROR_CAPACITY;
-    for (int i = 0; i < sky + key && !result; i++) {
+    for (int i = 0; i < sky + key; i++) {
         s->map[i].size = i < sky ? SKY_SIZE : KEY_SIZE;
         s->map[i].depth =
             i < sky ? s->memory + (size_t)i * sky_texels
                     : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
-        result = studio_draw(&s->map[i], m);
-        progress(user, (double)i / (sky + key));
     }
-    return result;
+    bands_run_told(threads, sky + key, studio_draw_map, &work, progress, user);
+    for (int i = 0; i < sky + key; i++)
+        if (work.result[i]) return work.result[i];
+    return SHADE_OK;
 }
 #endif

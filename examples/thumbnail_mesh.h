@@ -120,4 +120,29 @@ static int mesh_crease(owned_mesh *m, int flat)
     free(normal);
     return failed;
 }
+
+/* Sorts the triangles of each part in space and finds the boxes around runs of them, by which
+   bands skip what they do not see.  Non-zero: out of memory. */
+static int mesh_chunk_parts(model *m)
+{
+    uint32_t *sorted = (uint32_t *)malloc(((size_t)m->mesh.view.index_count + 1) * sizeof *sorted);
+    int count = 0;
+    for (int i = 0; i < m->part_count; i++) {
+        m->part[i].first_chunk = count;
+        count += m->part[i].chunk_count = shade_chunk_count(m->part[i].count, 0);
+    }
+    m->mesh.chunks = (shade_chunk *)malloc(((size_t)count + 1) * sizeof *m->mesh.chunks);
+    if (!sorted || !m->mesh.chunks) {
+        free(sorted);
+        return 1;
+    }
+    for (int i = 0; i < m->part_count; i++) {
+        shade_mesh mesh = model_part_mesh(m, i);
+        shade_mesh_chunks(&mesh, 0, m->mesh.chunks + m->part[i].first_chunk,
+                          m->part[i].chunk_count, sorted + m->part[i].first);
+    }
+    free(m->mesh.indices);
+    m->mesh.view.indices = m->mesh.indices = sorted;
+    return mesh_renumber(&m->mesh);
+}
 #endif

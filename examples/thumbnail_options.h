@@ -21,6 +21,7 @@ static const char thumbnail_usage[] =
     "  --up x|y|z|-x|-y|-z   the model's upright axis (by the kind of file: y, z for STL, 3MF)\n"
     "  --no-shadow           nothing below the model\n"
     "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
+    "  --threads N           1 .. 256, whatever the cores are (all cores); the same picture\n"
     "  --max-triangles N     refuses larger models (20000000; 0: no limit)\n"
     "  --max-seconds N       gives up after so long (0: no limit)\n"
     "  --quiet               errors alone, no progress, no warnings\n"
@@ -32,7 +33,7 @@ typedef struct options {
     const char *input, *output;
     int width, height, samples, up; /* up: 0 .. 5 for x y z -x -y -z; -1: by the file */
     int png, quiet, no_shadow, background, plain; /* plain: material in place of the file's */
-    int max_triangles, max_seconds;
+    int max_triangles, max_seconds, threads; /* threads 0: all cores */
     float rotate; /* radians */
     shade_vec3 background_color;
     shade_material material;
@@ -136,6 +137,7 @@ enum {
     OPTION_ROTATE,
     OPTION_UP,
     OPTION_SAMPLES,
+    OPTION_THREADS,
     OPTION_MAX_TRIANGLES,
     OPTION_MAX_SECONDS,
     OPTION_PNG,
@@ -185,6 +187,8 @@ static int set_option(options *o, int option, const char *value)
         return o->up = find_name(value, axes, 6), o->up >= 0;
     case OPTION_SAMPLES:
         return whole_integer(value, 1, 4, &o->samples) && o->samples != 3;
+    case OPTION_THREADS:
+        return whole_integer(value, 1, 256, &o->threads);
     case OPTION_MAX_TRIANGLES:
         return whole_integer(value, 0, 700000000, &o->max_triangles);
     default:
@@ -210,8 +214,9 @@ static int read_options(options *o, int argc, char **argv)
     static const char *const names[OPTIONS] = { "--size",          "--background",  "--color",
                                                 "--material",      "--model",       "--shading",
                                                 "--rotate",        "--up",          "--samples",
-                                                "--max-triangles", "--max-seconds", "--png",
-                                                "--no-shadow",     "--quiet",       "--help" };
+                                                "--threads",       "--max-triangles",
+                                                "--max-seconds",   "--png",         "--no-shadow",
+                                                "--quiet",         "--help" };
     char text[80];
     for (int i = 1; i < argc; i++) {
         int k = 0;

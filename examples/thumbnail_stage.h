@@ -48,6 +48,13 @@ static camera camera_frame(const owned_mesh *m, float aspect)
 enum { GROUND_SIZE = 256 }; /* texels along an edge of the shadow */
 #define GROUND_REACH 2.2f   /* half that edge; the shadow fades out toward it */
 
+typedef struct ground {
+    const studio *light;
+    float level; /* its y */
+    float *dark; /* how much of the light of open ground is missing */
+    uint8_t *shadow; /* the same as RGBA8, black; NULL: no ground is drawn */
+} ground;
+
 /* Means over three texels along a line of steps */
 static void ground_blur(float *line, int step)
 {
@@ -59,56 +66,65 @@ static void ground_blur(float *line, int step)
     }
 }
 
-/* How much of the light of open ground is missing: RGBA8, black, in shadow; dark is scratch. */
-static void ground_cast(const studio *light, float level, float *dark, uint8_t *shadow)
+/* Row by row how much of the light of open ground is missing */
+static void ground_row(void *data, int row)
 {
-    const shade_vec3 up = shade_v3(0, 1, 0), open = studio_sky(light, shade_v3(0, 9, 0), up);
-    for (int i = 0; i < GROUND_SIZE * GROUND_SIZE; i++) {
+    const ground *g = (const ground *)data;
+    const shade_vec3 up = shade_v3(0, 1, 0), open = studio_sky(g->light, shade_v3(0, 9, 0), up);
+    for (int i = 0; i < GROUND_SIZE; i++) {
         float step = 2 * GROUND_REACH / GROUND_SIZE, sky, lamp, fade;
-        shade_vec3 P = shade_v3(((float)(i % GROUND_SIZE) + 0.5f) * step - GROUND_REACH, level,
-                                ((float)(i / GROUND_SIZE) + 0.5f) * step - GROUND_REACH);
+        float *dark = g->dark + row * GROUND_SIZE + i;
+        shade_vec3 P = shade_v3(((float)i + 0.5f) * step - GROUND_REACH, g->level,
+                                ((float)row + 0.5f) * step - GROUND_REACH);
         fade = 1 - (P.x * P.x + P.z * P.z) / (GROUND_REACH * GROUND_REACH);
-        dark[i] = 0;
+        *dark = 0;
         if (fade <= 0) continue;
-        sky = studio_sky(light, P, up).y / open.y, lamp = studio_lamp(light, P, up);
-        dark[i] = fade * (1 - (0.72f * sky + 0.28f) * (0.4f * lamp + 0.6f));
+        sky = studio_sky(g->light, P, up).y / open.y, lamp = studio_lamp(g->light, P, up);
+        *dark = fade * (1 - (0.72f * sky + 0.28f) * (0.4f * lamp + 0.6f));
     }
-    for (int k = 0; k < 4 * GROUND_SIZE; k++) {
-        ground_blur(dark + k % GROUND_SIZE * GROUND_SIZE, 1);
-        ground_blur(dark + k % GROUND_SIZE, GROUND_SIZE);
-    }
-    memset(shadow, 0, 4 * GROUND_SIZE * GROUND_SIZE);
-    for (int i = 0; i < GROUND_SIZE * GROUND_SIZE; i++)
-        shadow[4 * i + 3] = (uint8_t)(255 * dark[i] + 0.5f);
 }
 
-static shade_result draw_ground(const shade_target *target, const studio *light, const camera *c,
-                                const owned_mesh *m)
+static void ground_free(ground *g)
+{
+    free(g->dark);
+    free(g->shadow);
+}
+
+/* Returns 1 where memory is out. */
+static int ground_cast(ground *g, const studio *light, const owned_mesh *m, int threads)
 {
     enum { TEXELS = GROUND_SIZE * GROUND_SIZE };
+    g->light = light, g->level = 1;
+    g->dark = (float *)malloc(TEXELS * sizeof *g->dark);
+    g->shadow = (uint8_t *)calloc(TEXELS, 4);
+    if (!g->dark || !g->shadow) return 1;
+    for (int i = 0; i < m->view.vertex_count; i++)
+        g->level = fminf(g->level, m->positions[3 * (size_t)i + 1]);
+    g->level -= 0.002f;
+    bands_run(threads, GROUND_SIZE, ground_row, g);
+    for (int k = 0; k < 4 * GROUND_SIZE; k++) {
+        ground_blur(g->dark + k % GROUND_SIZE * GROUND_SIZE, 1);
+        ground_blur(g->dark + k % GROUND_SIZE, GROUND_SIZE);
+    }
+    for (int i = 0; i < TEXELS; i++) g->shadow[4 * i + 3] = (uint8_t)(255 * g->dark[i] + 0.5f);
+    return 0;
+}
+
+static shade_result ground_draw(const ground *g, const shade_target *target, const camera *c)
+{
     static const uint32_t quad[6] = { 0, 1, 2, 0, 2, 3 };
     static const float texcoords[8] = { 0, 0, 0, 1, 1, 1, 1, 0 };
     const shade_material black = { .shininess = 0 };
-    const float h = GROUND_REACH;
-    float *dark = (float *)malloc(TEXELS * sizeof *dark), y = 1;
-    uint8_t *shadow = (uint8_t *)malloc(4 * TEXELS);
-    shade_result result = SHADE_ERROR_CAPACITY;
-    for (int i = 0; i < m->view.vertex_count; i++) y = fminf(y, m->positions[3 * (size_t)i + 1]);
-    y -= 0.002f;
-    if (dark && shadow) {
-        const float positions[12] = { -h, y, -h, -h, y, h, h, y, h, h, y, -h };
-        shade_texture map = { .pixels = shadow, .width = GROUND_SIZE, .height = GROUND_SIZE };
-        shade_mesh mesh = { .positions = positions, .texcoords = texcoords, .indices = quad };
-        shade_draw_state state = { .view = c->view, .projection = c->projection };
-        ground_cast(light, y, dark, shadow);
-        mesh.vertex_count = 4, mesh.index_count = 6;
-        map.wrap_u = map.wrap_v = SHADE_WRAP_CLAMP;
-        state.material = &black, state.diffuse_map = &map;
-        state.raster.cull = SHADE_CULL_BACK, state.raster.blend = SHADE_BLEND_OVER;
-        state.raster.depth_read_only = 1;
-        result = shade_draw_mesh(target, &mesh, &state, NULL);
-    }
-    free(dark), free(shadow);
-    return result;
+    const float h = GROUND_REACH, y = g->level;
+    const float positions[12] = { -h, y, -h, -h, y, h, h, y, h, h, y, -h };
+    shade_texture map = { .pixels = g->shadow, .width = GROUND_SIZE, .height = GROUND_SIZE };
+    shade_mesh mesh = { .positions = positions, .texcoords = texcoords, .indices = quad };
+    shade_draw_state state = { .view = c->view, .projection = c->projection };
+    mesh.vertex_count = 4, mesh.index_count = 6;
+    map.wrap_u = map.wrap_v = SHADE_WRAP_CLAMP;
+    state.material = &black, state.diffuse_map = &map;
+    state.raster.cull = SHADE_CULL_BACK, state.raster.blend = SHADE_BLEND_OVER;
+    state.raster.depth_read_only = 1;
+    return shade_draw_mesh(target, &mesh, &state, NULL);
 }
 #endif

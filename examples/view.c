@@ -1,9 +1,9 @@
 /* view.c - a model, or the teapot, turning in any terminal or in a window.
 
-   cc -O2 -I. examples/view.c -lm -o view && ./view bunny.obj
+   cc -O2 -pthread -I. examples/view.c -lm -o view && ./view bunny.obj
 
    with --window as well where SDL2 is:
-   cc -O2 -I. -DVIEW_SDL examples/view.c -lm $(sdl2-config --cflags --libs) -o view
+   cc -O2 -pthread -I. -DVIEW_SDL examples/view.c -lm $(sdl2-config --cflags --libs) -o view
 
    A character of the terminal shows two pixels, each the mean of 16 samples.  Only what changed is
    sent, and never more than two frames ahead of what the terminal has shown: over a slow line the

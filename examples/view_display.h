@@ -97,7 +97,7 @@ static inline void display_picture(display *d)
     float aspect = (float)d->size.columns * d->size.shape / (float)(2 * d->size.rows);
     scene_camera camera = scene_place_camera(d->scene, aspect);
     scene_draw(d->scene, &d->large, &camera, d->samples);
-    shade_resolve(&d->small, &d->large, d->samples);
+    scene_resolve(d->scene, &d->small, &d->large, d->samples);
     cells_picture(&d->screen, (const uint8_t *)d->small.color);
 }
 

@@ -15,6 +15,7 @@ typedef struct view_options {
     int window, still, z_up; /* z_up -1: by the kind of file */
     int pieces;              /* of the teapot, along each edge of a patch; 0: 20 */
     int rate, frames;        /* frames 0: until the user ends it */
+    int threads;             /* 0: all cores */
 } view_options;
 
 static const char view_usage[] =
@@ -25,6 +26,7 @@ static const char view_usage[] =
     "  --up y|z              the model's upright axis (y, for STL z)\n"
     "  --still               does not turn by itself\n"
     "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
+    "  --threads N           1 .. 256, whatever the cores are (all cores); the same picture\n"
     "  --frames N            ends after so many frames, each 1/rate further, and tells their cost\n"
     "  --help                this text\n"
     "The key ? lists the others.\n";
@@ -53,6 +55,7 @@ static inline int view_read_number(const char *text, int lowest, int highest, in
 static inline int view_set_option(view_options *o, const char *name, const char *value)
 {
     if (!strcmp(name, "--rate")) return view_read_number(value, 1, 240, &o->rate);
+    if (!strcmp(name, "--threads")) return view_read_number(value, 1, 256, &o->threads);
     if (!strcmp(name, "--frames")) return view_read_number(value, 1, 1000000, &o->frames);
     if (!strcmp(name, "--up")) {
         o->z_up = !strcmp(value, "z");
@@ -79,17 +82,18 @@ static inline int view_set_flag(view_options *o, const char *name)
 /* 0: go on; 1: failed; -1: all said */
 static inline int view_read_options(view_options *o, int argc, char **argv)
 {
-    static const char *const valued[4] = { "--rate", "--frames", "--up", "--colors" };
+    static const char *const valued[5] = { "--rate", "--frames", "--up", "--colors",
+                                           "--threads" };
     for (int i = 1; i < argc; i++) {
         const char *name = argv[i];
         int k = 0;
-        while (k < 4 && strcmp(name, valued[k])) k++;
+        while (k < 5 && strcmp(name, valued[k])) k++;
         if (!strcmp(name, "--help")) return fputs(view_usage, stdout), -1;
         if (strncmp(name, "--", 2) && o->model)
             return view_complain("one model, not also %s", name);
         if (strncmp(name, "--", 2)) {
             o->model = name;
-        } else if (k < 4) {
+        } else if (k < 5) {
             if (++i == argc) return view_complain("%s needs a value", name);
             if (view_set_option(o, name, argv[i])) continue;
             return view_complain("%s cannot be that (--help says what)", name);

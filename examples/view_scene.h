@@ -3,6 +3,7 @@
 #ifndef EXAMPLES_VIEW_SCENE_H
 #define EXAMPLES_VIEW_SCENE_H
 
+#include "bands.h"
 #include "ground.h"
 #include "model_read.h"
 #include "teapot.h"
@@ -62,6 +63,7 @@ typedef struct scene {
     owned_mesh mesh; /* about the origin, the farthest point at distance 1 */
     float yaw, pitch, zoom;
     int turning, choice[CHOICES];
+    int threads; /* 0: all cores */
     int turning_at_home, home[CHOICES];
     const char *title; /* of the model: its file's name */
     char said[64];     /* what the last key did */
@@ -125,6 +127,8 @@ static inline int scene_load(scene *s, const view_options *o, mesh_progress *pro
     else if (mesh_read_file_progress(o->model, &s->mesh, error, sizeof error, progress, user))
         return view_complain("%s", error);
     mesh_normalize(&s->mesh, z_up);
+    if (mesh_chunks(&s->mesh)) return view_complain("%s", "out of memory");
+    s->threads = o->threads;
     s->title = o->model ? scene_title(o->model) : "teapot";
     s->turning_at_home = !o->still;
     if (!o->model) s->home[CHOICE_MATERIAL] = 1 + SHADE_PRESET_BRONZE;
@@ -296,15 +300,18 @@ static inline uint32_t scene_ink(const scene *s)
 }
 enum { SCENE_BOX = 0x14191e, SCENE_BOX_INK = 0xe6ebf0 };
 
+/* The rows of a band; so many have one colour, counted from the top of the picture. */
 static inline void scene_backdrop(const scene *s, const shade_target *target, float from, float to,
                                   int rows)
 {
     static const uint32_t top[3] = { 0x20262e, 0xdfe6ec, 0 }, bottom[3] = { 0x59626d, 0x9aa5b0, 0 };
     int b = s->choice[CHOICE_BACKDROP];
+    const int first = target->clip_y, end = first + target->clip_height;
     shade_target band = *target;
-    band.clip_width = band.width, band.clip_height = rows;
-    for (band.clip_y = 0; band.clip_y < band.height; band.clip_y += rows) {
-        float part = ((float)band.clip_y + 0.5f * (float)rows) / (float)band.height;
+    for (int y = first - first % rows; y < end; y += rows) {
+        float part = ((float)y + 0.5f * (float)rows) / (float)band.height;
+        band.clip_y = y < first ? first : y;
+        band.clip_height = (y + rows < end ? y + rows : end) - band.clip_y;
         part = from + (to - from) * part;
         shade_vec3 k = shade_lerp(shade_rgb(top[b]), shade_rgb(bottom[b]), part);
         shade_clear(&band, shade_v4(k.x, k.y, k.z, 1), 1);
@@ -378,9 +385,9 @@ static inline shade_line_state scene_pen(const scene_camera *c, float width, sha
     return pen;
 }
 
-/* target: samples times as wide and high as the picture */
-static inline shade_result scene_draw(const scene *s, const shade_target *target,
-                                      const scene_camera *c, int samples)
+/* A band of the picture */
+static inline shade_result scene_draw_band(const scene *s, const shade_target *target,
+                                           const scene_camera *c, int samples)
 {
     static const unsigned terms[4] = { 0, SHADE_TERM_AMBIENT, SHADE_TERM_DIFFUSE,
                                        SHADE_TERM_SPECULAR };
@@ -408,5 +415,51 @@ static inline shade_result scene_draw(const scene *s, const shade_target *target
     if (!result && s->choice[CHOICE_WIRE])
         result = shade_draw_lines(target, s->wires, s->wire_points, &pen, NULL);
     return result;
+}
+
+/* What the bands of a picture share, and the result of each */
+typedef struct scene_work {
+    const scene *scene;
+    const shade_target *out, *in;
+    const scene_camera *camera;
+    int samples, bands;
+    shade_result result[8 * BANDS_MOST];
+} scene_work;
+
+static inline void scene_work_draw(void *data, int band)
+{
+    scene_work *w = (scene_work *)data;
+    const shade_target rows = bands_rows(w->in, band, w->bands);
+    w->result[band] = scene_draw_band(w->scene, &rows, w->camera, w->samples);
+}
+static inline void scene_work_resolve(void *data, int band)
+{
+    scene_work *w = (scene_work *)data;
+    const shade_target rows = bands_rows(w->out, band, w->bands);
+    w->result[band] = shade_resolve(&rows, w->in, w->samples);
+}
+
+static inline shade_result scene_work_run(scene_work *w, const shade_target *by, bands_work *work)
+{
+    w->bands = bands_count(w->scene->threads, by->row_count ? by->row_count : by->height);
+    bands_run(w->scene->threads, w->bands, work, w);
+    for (int i = 0; i < w->bands; i++)
+        if (w->result[i]) return w->result[i];
+    return SHADE_OK;
+}
+
+/* target, or a strip of it: samples times as wide and high as the picture */
+static inline shade_result scene_draw(const scene *s, const shade_target *target,
+                                      const scene_camera *c, int samples)
+{
+    scene_work work = { s, NULL, target, c, samples, 0, { SHADE_OK } };
+    return scene_work_run(&work, target, scene_work_draw);
+}
+/* shade_resolve by all threads */
+static inline shade_result scene_resolve(const scene *s, const shade_target *out,
+                                         const shade_target *in, int samples)
+{
+    scene_work work = { s, out, in, NULL, samples, 0, { SHADE_OK } };
+    return scene_work_run(&work, out, scene_work_resolve);
 }
 #endif

@@ -174,7 +174,7 @@ static inline int window_frame(window *w)
     scene_draw(w->scene, &w->large, &camera, w->samples);
     window_mark(w, &w->large, &camera);
     if (window_lock(w, &out)) return 1;
-    shade_resolve(&out, &w->large, w->samples);
+    scene_resolve(w->scene, &out, &w->large, w->samples);
     window_words(w, &out);
     window_show(w);
     return 0;
