@@ -1,8 +1,8 @@
 /* bands.h - work cut into pieces, the bands of a picture above all, that several threads take from
    one counter: whoever is done takes the next, so that no thread waits for a slow one.
 
-       static void draw_band(void *data, int band) { ... }           (clip_y, clip_height of its own)
-       bands_run(0, 64, draw_band, &job);                            (on all cores; returns when done)
+       static void draw_band(void *data, int band) { ... }      (clip_y, clip_height of its own)
+       bands_run(0, 64, draw_band, &job);                       (by all cores; returns when done)
 
    What a piece does may depend on its number, not on who does it when.  Threads are POSIX's; where
    there are none, or with BANDS_ALONE, the pieces are done one after the other. */

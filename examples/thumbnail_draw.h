@@ -149,20 +149,50 @@ static shade_result look_draw(const shade_target *target, look *k, const shade_m
                       mesh->vertex_count, NULL);
 }
 
-/* The triangles of those chunks that the target may see; chunks in a row are one draw */
-static shade_result look_draw_chunks(const shade_target *target, look *k, const shade_mesh *mesh)
+/* A chunk of a part, and how far from the eye its middle is */
+typedef struct near_chunk {
+    float distance;
+    shade_chunk chunk;
+} near_chunk;
+
+static int near_first(const void *a, const void *b)
+{
+    const near_chunk *x = (const near_chunk *)a, *y = (const near_chunk *)b;
+    if (x->distance != y->distance) return x->distance > y->distance ? 1 : -1;
+    return x->chunk.first > y->chunk.first ? 1 : -1;
+}
+
+/* The chunks of each part, the nearest first: what is hidden behind them is not lit, which takes
+   64 looks at the sky; a bunny of 69 thousand triangles has half the fragments.  NULL: out of
+   memory */
+static near_chunk *near_chunks(const model *m, shade_vec3 eye)
+{
+    size_t room = 1;
+    near_chunk *list;
+    for (int i = 0; i < m->part_count; i++) room += (size_t)m->part[i].chunk_count;
+    list = (near_chunk *)malloc(room * sizeof *list);
+    for (int i = 0; i < m->part_count && list; i++) {
+        near_chunk *of_part = list + m->part[i].first_chunk;
+        const shade_chunk *c = m->mesh.chunks + m->part[i].first_chunk;
+        size_t count = (size_t)m->part[i].chunk_count;
+        for (size_t k = 0; k < count; k++) {
+            of_part[k].chunk = c[k];
+            of_part[k].distance = shade_distance(shade_lerp(c[k].low, c[k].high, 0.5f), eye);
+        }
+        qsort(of_part, count, sizeof *of_part, near_first);
+    }
+    return list;
+}
+
+/* Those of count chunks that the target may see */
+static shade_result look_draw_chunks(const shade_target *target, look *k, const shade_mesh *mesh,
+                                     const near_chunk *list, int count)
 {
     shade_result result = SHADE_OK;
-    int first = 0, end = 0;
-    for (int i = 0; i <= mesh->chunk_count && !result; i++) {
-        const shade_chunk *c = mesh->chunks + i;
-        int more = i < mesh->chunk_count;
-        if (more && shade_box_visible(target, k->clip_from_world, 0, c->low, c->high)) {
-            end = c->first + c->count;
-            continue;
-        }
-        if (end > first) result = look_draw(target, k, mesh, first, end - first, 0);
-        if (more) first = end = c->first + c->count;
+    for (int i = 0; i < count && !result; i++) {
+        const shade_chunk *c = &list[i].chunk;
+        if (shade_box_visible(target, k->clip_from_world, 0, c->low, c->high))
+            result = look_draw(target, k, mesh, c->first, c->count, 0);
     }
     return result;
 }
@@ -190,8 +220,9 @@ typedef struct far_triangle {
 
 static int far_first(const void *a, const void *b)
 {
-    float x = ((const far_triangle *)a)->distance, y = ((const far_triangle *)b)->distance;
-    return (x < y) - (x > y);
+    const far_triangle *x = (const far_triangle *)a, *y = (const far_triangle *)b;
+    if (x->distance != y->distance) return x->distance < y->distance ? 1 : -1;
+    return x->first > y->first ? 1 : -1;
 }
 
 /* The transparent triangles, the farthest first, and their indices in that order */
@@ -252,14 +283,16 @@ static shade_result draw_far_first(const shade_target *target, look *k, const op
 }
 
 static shade_result draw_opaque(const shade_target *target, look *k, const options *o,
-                                const model *m, const char *see_through)
+                                const model *m, const char *see_through,
+                                const near_chunk *list)
 {
     shade_result result = SHADE_OK;
     for (int i = 0; i < m->part_count && !result; i++) {
         const shade_mesh mesh = model_part_mesh(m, i);
         if (see_through[i]) continue;
         look_dress(k, o, m, m->part[i].surface);
-        result = look_draw_chunks(target, k, &mesh);
+        result = look_draw_chunks(target, k, &mesh, list + m->part[i].first_chunk,
+                                  m->part[i].chunk_count);
     }
     return result;
 }
@@ -295,6 +328,7 @@ typedef struct picture_work {
     camera camera;
     ground ground;
     char *see_through; /* by part */
+    near_chunk *near_chunks;
     far_list far_list;
     shade_result result[PICTURE_BANDS];
 } picture_work;
@@ -304,7 +338,8 @@ static void draw_band(void *data, int band)
     picture_work *p = (picture_work *)data;
     const shade_target rows = bands_rows(p->target, band, PICTURE_BANDS);
     look k = p->look;
-    shade_result result = draw_opaque(&rows, &k, p->options, p->model, p->see_through);
+    shade_result result = draw_opaque(&rows, &k, p->options, p->model, p->see_through,
+                                      p->near_chunks);
     if (!result && p->ground.shadow) result = ground_draw(&p->ground, &rows, &p->camera);
     if (!result) result = draw_far_first(&rows, &k, p->options, p->model, &p->far_list);
     p->result[band] = result;
@@ -324,7 +359,8 @@ static int picture_prepare(picture_work *p, const studio *light)
     k->lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
     k->per_vertex = o->shading == SHADE_SHADING_PER_VERTEX;
     p->see_through = (char *)calloc((size_t)m->part_count + 1, 1);
-    if (!p->see_through) return 1;
+    p->near_chunks = near_chunks(m, k->eye);
+    if (!p->see_through || !p->near_chunks) return 1;
     for (int i = 0; i < m->part_count; i++) p->see_through[i] = (char)part_is_clear(m, o, i);
     if (!o->no_shadow && ground_cast(&p->ground, light, &m->mesh, o->threads)) return 1;
     return far_list_make(&p->far_list, m, p->see_through, k->eye);
@@ -343,7 +379,10 @@ static shade_result draw_picture(const canvas *c, const model *m, const studio *
     }
     for (int i = 0; i < PICTURE_BANDS; i++)
         if (p.result[i]) result = p.result[i];
-    free(p.see_through), ground_free(&p.ground), far_list_free(&p.far_list);
+    free(p.see_through);
+    free(p.near_chunks);
+    ground_free(&p.ground);
+    far_list_free(&p.far_list);
     return result;
 }
 #endif

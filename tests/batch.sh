@@ -26,6 +26,11 @@ for k in 7 00007; do check "piece $k alone" "$BATCH" $turn --out alone --piece $
 check "is that piece" cmp one/00007.ppm alone/00007.ppm
 check "and no other" same "$(ls alone)" 00007.ppm
 
+for n in 1 2 7 256; do
+    check "by $n threads" "$BATCH" $turn --out threads$n --threads $n
+    check "the same frames by $n threads" diff -r one threads$n
+done
+
 # resumed: what is there stays, what is cut or of another size is drawn again
 cp -r one two
 rm two/00003.ppm
@@ -63,11 +68,13 @@ for n in 2 7 61; do
     check "in $n strips" "$BATCH" $poster --strips $n --out strips$n
     check "the same bits in $n strips" sh -c "cat strips$n/*.ppm | cmp - whole/00000.ppm"
 done
+check "five strips by 3 threads" sh -c \
+    "'$BATCH' $poster --strips 5 --pipe --threads 3 | cmp - whole/00000.ppm"
 check "through a pipe" sh -c "'$BATCH' $poster --strips 5 --pipe | cmp - whole/00000.ppm"
 rm strips7/00002.ppm
 check "a strip is missing" same "$("$BATCH" $poster --strips 7 --out strips7 --missing)" 00002
 # in cells, as a picture larger than 16384 samples is: within the rounding of their cameras
-cells="$CC -std=c99 -O2 -w -I. -DSHADE__IMPLEMENTED -DSHEET_CELL=150 -DSHEET_BAND=9000"
+cells="$CC -std=c99 -O2 -w -pthread -I. -DSHADE__IMPLEMENTED -DSHEET_CELL=150 -DSHEET_BAND=9000"
 check "smaller cells" sh -c "cd '$OLDPWD' && $cells examples/batch.c build/shade.o -lm -o $T/cells"
 check "their poster" ./cells $poster --strips 3 --out cells3
 cat cells3/*.ppm >cells.ppm
@@ -100,7 +107,7 @@ check "half a model" refused "half.obj:3" "$BATCH" half.obj
 check "a folder for a model" refused "directory" "$BATCH" one
 check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
 for bad in "--frames 0" "--strips 100000" "--size 0x5" "--size 5" "--size 300000x5" "--size 5x5x5" \
-    "--samples 9" "--piece -1" "--up x" "--out ''"; do
+    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up x" "--out ''"; do
     check "$bad" eval refused "'cannot be that'" "'$BATCH'" "$bad"
 done
 check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3

@@ -23,12 +23,13 @@ echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h
 echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
     -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DTHUMBNAIL_ASSIMP LIBRARIES=-lassimp
 [ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
-FLAGS="-std=c99 -O2 -ffp-contract=off -I. -Iexamples"
+FLAGS="-std=c99 -O2 -ffp-contract=off -pthread -I. -Iexamples"
 compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }
 compile -DSHADE_IMPLEMENTATION -x c -c shade.h -o "$T/shade.o"
 compile -DSHADE__IMPLEMENTED examples/thumbnail.c "$T/shade.o" -lm -o "$T/plain"
 [ "$STB$ASSIMP" ] && compile -DSHADE__IMPLEMENTED $STB $ASSIMP examples/thumbnail.c "$T/shade.o" \
     $LIBRARIES -lm -o "$T/full"
+compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/thumbnail.c "$T/shade.o" -lm -o "$T/alone"
 compile tests/thumbnail/models.c -lm -o "$T/models"
 compile $STB tests/thumbnail/look.c -lm -o "$T/look"
 compile tests/thumbnail/ears.c -lm -o "$T/ears"
@@ -95,6 +96,15 @@ formats() {
     check "is the color asked for" "$T/look" pixel "$T/a.ppm" 0.01 0.01 32 64 96 0
     check "a shadow" draw torus.obj b.ppm --background 204060
     check "darkens below" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    for k in torus glass; do
+        check "$k by one thread" draw $k.obj one.ppm --threads 1
+        for n in 2 5 256; do
+            check "$k by $n threads" draw $k.obj many.ppm --threads $n
+            check "$k, the same bits by $n threads" cmp "$T/one.ppm" "$T/many.ppm"
+        done
+        check "$k, no threads" "$T/alone" "$T/$k.obj" "$T/many.ppm" --size 120x90 --samples 1
+        check "$k, the same bits without threads" cmp "$T/one.ppm" "$T/many.ppm"
+    done
     cp "$T/torus.ply" "$T/torus"
     check "name without an end" draw torus b.ppm $flat
     "$THUMBNAIL" "$T/torus.obj" - --size 120x90 >"$T/b.ppm" 2>"$T/err"
@@ -178,7 +188,7 @@ bad_output() {
 bad_options() {
     for k in "--frobnicate" "--size" "--size 0x5" "--size 10" "--size 99999x1" "--samples 3" \
         "--up w" "--color 12345" "--color redd" "--background no" "--material x" "--shading x" \
-        "--model x" "--rotate x" "--max-seconds x" "--max-triangles -1" "extra"; do
+        "--model x" "--rotate x" "--threads 0" "--threads 257" "--threads x" "--threads" "--max-seconds x" "--max-triangles -1" "extra"; do
         check "$k" refused "" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
     done
     check "none needs PNG" refused "needs PNG" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" \

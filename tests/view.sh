@@ -17,7 +17,7 @@ ulimit -c 0
 
 ${MAKE:-make} -s build/view || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$VIEW" ] || { echo "view: left out, it needs POSIX"; finish; }
-$CC -std=c99 -O1 -I. -Iexamples -DSHADE__IMPLEMENTED tests/view/check.c build/shade.o -lm \
+$CC -std=c99 -O1 -pthread -I. -Iexamples -DSHADE__IMPLEMENTED tests/view/check.c build/shade.o -lm \
     -o "$T/check" || { echo "0 passed, 1 failed"; exit 1; }
 check "encoding and decoding" "$T/check"
 
@@ -33,6 +33,8 @@ check "nothing is printed then" test ! -s "$T/out"
 check "unknown option" refused "unknown option --frobnicate" "$VIEW" --frobnicate
 check "option without a value" refused "rate needs a value" "$VIEW" --rate
 check "a bad value" refused "frames cannot be that" "$VIEW" --frames 0
+check "no threads" refused "threads cannot be that" "$VIEW" --threads 0
+check "too many threads" refused "threads cannot be that" "$VIEW" --threads 257
 check "a bad axis" refused "up cannot be that" "$VIEW" --up x
 check "two models" refused "one model, not also b.obj" "$VIEW" a.obj b.obj
 check "help" sh -c "'$VIEW' --help | grep -q '^usage: view'"

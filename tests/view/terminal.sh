@@ -58,6 +58,10 @@ for size in "80 24" "10 3" "200 60" "1 1" "3 1"; do
     # shellcheck disable=SC2086
     check "the teapot in $size" soon drawn true $size ""
 done
+for n in 1 3 256; do            # drawn by all cores to compare with
+    start 80 24 "$full" --still --threads $n
+    check "by $n threads" soon drawn true 80 24 ""
+done
 start 80 24 "$full" --still
 check "the name and the size" soon shows "teapot, [0-9]* triangles"
 check "the other screen, no cursor, a mouse" soon in_modes "1 0 1 1"
