@@ -70,6 +70,7 @@ typedef struct scene {
     ground shadow;
     shade_vec3 *wires;  /* pairs; NULL until asked for */
     int wire_points;
+    shade_chunk *runs;  /* of wires: 256 pairs and the box around them */
 } scene;
 
 /* Where the scene stands for a picture of a given shape, and how far down the backdrop the picture
@@ -137,7 +138,31 @@ static inline int scene_load(scene *s, const view_options *o, mesh_progress *pro
     ground_cast(&s->shadow, &s->mesh.view);
     return 0;
 }
-static inline void scene_close(scene *s) { mesh_free(&s->mesh), free(s->wires); }
+static inline void scene_close(scene *s) { mesh_free(&s->mesh), free(s->wires), free(s->runs); }
+
+enum { WIRE_RUN = 256 };    /* wires in a box */
+static inline int scene_run_count(const scene *s)
+{
+    return (s->wire_points / 2 + WIRE_RUN - 1) / WIRE_RUN;
+}
+
+/* The boxes around runs of wires, by which bands skip those that they do not see.  Memory that is
+   out leaves the scene without wires. */
+static inline void scene_find_runs(scene *s)
+{
+    s->runs = (shade_chunk *)malloc(((size_t)scene_run_count(s) + 1) * sizeof *s->runs);
+    if (!s->runs) s->wire_points = 0;
+    for (int k = 0; k < scene_run_count(s); k++) {
+        const int first = 2 * WIRE_RUN * k, rest = s->wire_points - first;
+        shade_chunk run = { s->wires[first], s->wires[first], first, 0 };
+        run.count = rest < 2 * WIRE_RUN ? rest : 2 * WIRE_RUN;
+        for (int i = first; i < first + run.count; i++) {
+            run.low = shade_min(run.low, s->wires[i]);
+            run.high = shade_max(run.high, s->wires[i]);
+        }
+        s->runs[k] = run;
+    }
+}
 
 /* Every edge once, as pairs of points; none where there are more than memory holds */
 static inline void scene_find_wires(scene *s)
@@ -154,6 +179,7 @@ static inline void scene_find_wires(scene *s)
     }
     s->wire_points = s->wires && count <= INT_MAX / 2 ? 2 * count : 0;
     free(edge);
+    scene_find_runs(s);
 }
 
 /* The model's name and size */
@@ -385,6 +411,23 @@ static inline shade_line_state scene_pen(const scene_camera *c, float width, sha
     return pen;
 }
 
+/* Those that reach the band, whose rows are taken wider by a pen's width */
+static inline shade_result scene_draw_wires(const scene *s, const shade_target *band,
+                                            const shade_line_state *pen)
+{
+    const int wider = (int)pen->width + 2;
+    shade_result result = SHADE_OK;
+    shade_target near_band = *band;
+    near_band.clip_y -= wider;
+    near_band.clip_height += 2 * wider;
+    for (int k = 0; k < scene_run_count(s) && !result; k++) {
+        const shade_chunk *run = &s->runs[k];
+        if (shade_box_visible(&near_band, pen->clip_from_points, 0, run->low, run->high))
+            result = shade_draw_lines(band, s->wires + run->first, run->count, pen, NULL);
+    }
+    return result;
+}
+
 /* A band of the picture */
 static inline shade_result scene_draw_band(const scene *s, const shade_target *target,
                                            const scene_camera *c, int samples)
@@ -413,7 +456,7 @@ static inline shade_result scene_draw_band(const scene *s, const shade_target *t
     if (!result && s->choice[CHOICE_GROUND] == 0)
         result = ground_draw(&s->shadow, target, c->model, c->view, c->projection);
     if (!result && s->choice[CHOICE_WIRE])
-        result = shade_draw_lines(target, s->wires, s->wire_points, &pen, NULL);
+        result = scene_draw_wires(s, target, &pen);
     return result;
 }
 
