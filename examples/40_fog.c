@@ -46,7 +46,7 @@ int main(int argc, char **argv)
                                      .diffuse = { 0.03f, 0.07f, 0.03f } };
     const shade_material grass = { .ambient = { 0.08f, 0.08f, 0.03f },
                                    .diffuse = { 0.08f, 0.08f, 0.03f } };
-    shade_draw_state state = { .material = &grass, .lighting = { &sun, 1 }, .fragment = fog };
+    shade_draw_state state = { .material = &grass, .fragment = fog };
     owned_mesh fir = shape_turned(tree, 10, 24), ground = mesh_plane(40, 300);
     canvas c = canvas_new(960, 540, 3);
     const shade_target sky = canvas_panel(&c, 0, 0, 960, 215);
@@ -55,6 +55,8 @@ int main(int argc, char **argv)
         ground.positions[3 * i + 1] = height(ground.positions[3 * i], ground.positions[3 * i + 2]);
     shade_mesh_normals(&ground.view, (shade_vec3 *)ground.normals);
     state.uniforms = &state;
+    state.lighting.lights = &sun;
+    state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.35f, 0.45f, 0.60f);
     state.view = shade_mat4_look_at(eye, shade_v3(0, 2.9f, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.6f, 960 / 540.0f, 0.1f, 90);
