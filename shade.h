@@ -5490,17 +5490,20 @@ static SHADE__COLD void shade__scene_of(const shade_target *target, const shade_
 /* A function of its own, so that only meshes with chunks have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
                                                        shade_pipeline *p, int how,
-                                                       shade__supply *supply, shade_stats *stats)
+                                                       shade_stats *stats)
 {
     const shade__scene *scene = (const shade__scene *)p->uniforms;
+    const shade_mesh *mesh = scene->mesh;
     shade__frustum frustum;
+    shade__supply supply;
     shade__frustum_of(target, &scene->clip_from_object, p->raster.depth_zero_to_one, &frustum);
-    supply->frustum = &frustum;
-    supply->end = 0;
-    supply->more = shade__next_chunk;
-    supply->chunk = scene->mesh->chunks;
-    supply->chunks = scene->mesh->chunk_count;
-    return shade__run_draw(target, p, how, supply, stats);
+    SHADE__ZERO(supply);
+    supply.indices = mesh->indices;
+    supply.more = shade__next_chunk;
+    supply.chunks = mesh->chunk_count;
+    supply.chunk = mesh->chunks;
+    supply.frustum = &frustum;
+    return shade__run_draw(target, p, how, &supply, stats);
 }
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats)
@@ -5533,7 +5536,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
     if (scene.face_normals) how |= SHADE__CORNERS;
-    if (mesh->chunks) return shade__draw_chunks(target, &p, how, &supply, stats);
+    if (mesh->chunks) return shade__draw_chunks(target, &p, how, stats);
     return shade__run_draw(target, &p, how, &supply, stats);
 }
 

@@ -129,12 +129,13 @@ static inline owned_mesh mesh_cube(void)
     return m;
 }
 
-/* The floats of each vertex to their new place; 1: out of memory */
+/* The floats of each vertex to their new place, counted from 1; 1: out of memory */
 static inline int mesh_permute(float *v, size_t size, const uint32_t *place, size_t n)
 {
     float *moved = v ? (float *)malloc((n + 1) * size * sizeof *v) : NULL;
     if (v && !moved) return 1;
-    for (size_t i = 0; v && i < n; i++) memcpy(moved + size * place[i], v + size * i, 4 * size);
+    for (size_t i = 0; v && i < n; i++)
+        memcpy(moved + size * (place[i] - 1), v + size * i, 4 * size);
     if (v && n) memcpy(v, moved, n * size * sizeof *v);
     free(moved);
     return 0;
@@ -146,16 +147,15 @@ static inline int mesh_permute(float *v, size_t size, const uint32_t *place, siz
 static inline int mesh_renumber(owned_mesh *m)
 {
     const size_t n = (size_t)m->view.vertex_count;
-    uint32_t *place = (uint32_t *)malloc((n + 1) * sizeof *place), next = 0;
+    uint32_t *place = (uint32_t *)calloc(n + 1, sizeof *place), next = 0;
     int failed = !place;
-    for (size_t i = 0; i < n && !failed; i++) place[i] = UINT32_MAX;
     for (int i = 0; i < m->view.index_count && !failed; i++) {
         uint32_t *index = &m->indices[i];
-        if (place[*index] == UINT32_MAX) place[*index] = next++;
-        *index = place[*index];
+        if (!place[*index]) place[*index] = ++next; /* NOLINT: who calls has filled the indices */
+        *index = place[*index] - 1;
     }
     for (size_t i = 0; i < n && !failed; i++)
-        if (place[i] == UINT32_MAX) place[i] = next++;
+        if (!place[i]) place[i] = ++next;
     failed = failed || mesh_permute(m->positions, 3, place, n) ||
              mesh_permute(m->normals, 3, place, n) || mesh_permute(m->texcoords, 2, place, n) ||
              mesh_permute(m->colors, 3, place, n);

@@ -98,7 +98,7 @@ static inline int mtl_read(mesh_reader *r, model *m)
             failed = mtl_statement(r, s, &has_d);
         mesh_next_line(r, 1);
     }
-    for (int i = 0; i < m->surface_count; i++) {
+    for (int i = 0; m->surface && i < m->surface_count; i++) {
         shade_material *k = &m->surface[i].material;
         k->ambient = k->diffuse;
         if (k->shininess < 1) k->specular = shade_v3(0, 0, 0); /* would shine everywhere */

@@ -99,8 +99,8 @@ int main(int argc, char **argv)
     if (said) return said > 0;
     p.silent = o.quiet || !guard_terminal();
     guard_begin(o.max_seconds);
-    if (read_model(&o, &m, &p)) return 1;
-    said = draw_and_save(&o, &m, &p);
+    said = read_model(&o, &m, &p);
+    if (!said) said = draw_and_save(&o, &m, &p);
     model_free(&m);
     return said;
 }
