@@ -888,6 +888,21 @@ UNUSUAL(material_with_a_hue)
     s->material.diffuse = shade_v3(0.5f, 0.5f, 0.4f);
     s->state.diffuse_map = &s->map;
 }
+UNUSUAL(material_of_another_hue)
+{
+    s->material.diffuse = shade_v3(0.5f, 0.4f, 0.4f);
+    s->state.diffuse_map = &s->map;
+}
+UNUSUAL(wound_inward_without_culling)
+{
+    mistake_inside_out(s);
+    s->state.raster.cull = SHADE_CULL_NONE;
+}
+UNUSUAL(mirrored_without_culling)
+{
+    mistake_mirrored(s);
+    s->state.raster.cull = SHADE_CULL_NONE;
+}
 UNUSUAL(black_outline)
 {
     memset(&s->material, 0, sizeof s->material);
@@ -930,6 +945,9 @@ TEST(explain, what_is_unusual_is_no_mistake)
         { "a quad from behind without depth", unusual_quad_from_behind_without_depth },
         { "a room", unusual_room },
         { "a material with a hue", unusual_material_with_a_hue },
+        { "a material of another hue", unusual_material_of_another_hue },
+        { "wound inward, without culling", unusual_wound_inward_without_culling },
+        { "mirrored, without culling", unusual_mirrored_without_culling },
         { "a black outline", unusual_black_outline },
         { "a shader that maps by itself", unusual_shader_that_maps_by_itself },
         { "a shader, then a clear", unusual_shader_then_a_clear },
