@@ -722,9 +722,12 @@ SHADEDEF shade_mat3 shade_normal_matrix(shade_mat4 m);
 /*------------------------------------------------------------------------------------------ >>light
    The equations of >>model.  All vectors point away from the surface.  Everything is defined: no
    input that is free of NaN and infinity gives one.  Error against exact arithmetic, with I the
-   brightest light arriving: below 5e-5 max(1, |exact|, I) max(1, (n + e) / 100).  That holds for
-   coefficients of attenuation >= 0, k <= 1 and lights up to 1e6, where |N.L| > 1e-6, which is away
-   from the gate, and where L.S is 1e-6 away from cos(beta), the edge of the cone. */
+   brightest light arriving, before its cone dims it: below 5e-5 max(1, |exact|, I) max(1, (n + e) /
+   100).  That holds for coefficients of attenuation >= 0, k <= 1 and lights up to 1e6, away from
+   the jumps: where N.L, L.S - cos(beta) and, with SHADE_FLAG_TWO_SIDED, N.V differ from 0 by more
+   than 1e-6, and |L + V| > 2e-6.  A power with an exponent between 0 and 1 is infinitely steep at
+   0: its base has to differ from 0 by 1e-3.  A lamp whose w is neither 0 nor 1 stands at xyz / w
+   rounded to floats. */
 
 /* color becomes I_d and I_s; ambient 0, no attenuation.  direction_of_travel: the way light flies;
    aim: where the lamp points; both of any length.  cutoff: from the axis to the edge of the cone,

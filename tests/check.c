@@ -344,7 +344,9 @@ TEST(check, alpha_alone_is_no_format_of_a_target)
     whole_open(&w);
     w.half.format = SHADE_FORMAT_A8;
     CHECK_INT(shade_resolve(&w.half, &w.picture, 2), SHADE_ERROR_TARGET);
+#ifndef SHADE_NO_STDIO
     CHECK_INT(shade_write_ppm("none.ppm", &w.half), SHADE_ERROR_TARGET);
+#endif
     canvas_close(&w.c);
 }
 

@@ -445,6 +445,115 @@ MISTAKE(view_forgotten)
     s->state.lighting.light_count = 1;
 }
 
+/* What the questions ask for beside the mistake itself: other projections, no depth, few lamps. */
+MISTAKE(normal_stride_short) { s->mesh.normal_stride = 4; }
+MISTAKE(color_stride_short) { s->mesh.colors = &s->color[0].x, s->mesh.color_stride = 4; }
+MISTAKE(view_of_a_bad_camera) { s->state.view = shade_mat4_perspective(45, 1.5f, 0.1f, 100); }
+MISTAKE(view_of_w_two) { s->state.view.col[3].w = 2; }
+MISTAKE(left_handed_projection_by_rows)
+{
+    s->state.projection.col[2].w = 1;
+    mistake_projection_by_rows(s);
+}
+MISTAKE(projection_onto_a_point)
+{
+    memset(&s->state.projection, 0, sizeof s->state.projection);
+    s->state.projection.col[3] = shade_v4(0, 0, 2, 3);
+}
+MISTAKE(small_one_beside_without_depth)
+{
+    s->c.target.depth = NULL;
+    s->state.model = shade_mat4_scaling(shade_v3(0.1f, 0.1f, 0.1f));
+    s->state.model.col[3].x = 5;
+}
+MISTAKE(tall_one_beside)
+{
+    s->state.model = shade_mat4_scaling(shade_v3(0.1f, 1.5f, 0.1f));
+    s->state.model.col[3].x = 5;
+}
+MISTAKE(reversed_looks_away)
+{
+    mistake_looks_away(s);
+    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 0.1f);
+    s->state.raster.depth_zero_to_one = 1;
+}
+MISTAKE(doubled_looks_away)
+{
+    float *p = (float *)&s->state.projection;
+    mistake_looks_away(s);
+    for (int k = 0; k < 16; k++) p[k] *= 2;
+}
+MISTAKE(far_behind_the_eye)      /* near 1, far -5 */
+{
+    mistake_looks_away(s);
+    s->state.projection.col[2].z = -2 / 3.0f, s->state.projection.col[3].z = -5 / 3.0f;
+}
+MISTAKE(beside_in_parallel)
+{
+    s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 20);
+    mistake_beside(s);
+}
+MISTAKE(beside_in_a_view_that_scales)
+{
+    s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(2, 2, 2)), s->state.view);
+    mistake_beside(s);
+}
+/* Two triangles, a and b away from the origin, seen by a camera that stands there. */
+static void stage_two_triangles(stage *s, shade_vec3 a, shade_vec3 b)
+{
+    static const shade_vec3 corner[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    for (uint32_t i = 0; i < 6; i++) {
+        s->position[i] = shade_add(corner[i % 3], i < 3 ? a : b);
+        s->index[i] = i;
+    }
+    s->mesh.index_count = 6;
+    memset(&s->state.view, 0, sizeof s->state.view);
+}
+MISTAKE(on_both_sides) { stage_two_triangles(s, shade_v3(-99, 0, -4), shade_v3(99, 0, -4)); }
+MISTAKE(before_and_beyond) { stage_two_triangles(s, shade_v3(0, 0, -0.01f), shade_v3(0, 0, -999)); }
+MISTAKE(all_discarded_of_depth)
+{
+    s->c.target.color = NULL;
+    s->state.alpha_cutoff = 0.5f;
+    mistake_all_discarded(s);
+}
+MISTAKE(small_depth_of_a_shader)
+{
+    s->c.target.color = NULL;
+    mistake_all_discarded(s);
+    mistake_smaller_than_a_pixel(s);
+}
+MISTAKE(map_without_texcoords_or_material)
+{
+    mistake_map_without_texcoords(s);
+    s->state.material = NULL;
+}
+MISTAKE(no_light_on_floats)
+{
+    canvas_close(&s->c);
+    s->c = canvas_open(STAGE_WIDTH, STAGE_HEIGHT, STAGE_WIDTH + 3, SHADE_FORMAT_RGBA32F, 1);
+    s->good = s->c.target;
+    mistake_no_light(s);
+}
+MISTAKE(no_light_on_the_default) { s->state.material = NULL, mistake_no_light(s); }
+MISTAKE(no_light_on_a_mirror)
+{
+    s->material.diffuse = s->material.ambient = shade_v3(0, 0, 0);
+    mistake_no_light(s);
+}
+MISTAKE(lamp_of_highlights_behind)
+{
+    mistake_lamp_behind(s);
+    s->lamps[0].diffuse = shade_v3(0, 0, 0);
+}
+MISTAKE(many_cones_elsewhere)
+{
+    static shade_light many[SHADE__SUSPECTS + 1];
+    mistake_cone_elsewhere(s);
+    for (int i = 0; i <= SHADE__SUSPECTS; i++) many[i] = s->lamps[0];
+    s->state.lighting.lights = many, s->state.lighting.light_count = SHADE__SUSPECTS + 1;
+}
+
 typedef struct mistake {
     const char *name, *word;     /* word: what the sentence has to hold */
     void (*make)(stage *);
@@ -521,6 +630,22 @@ static const mistake mistakes[] = {
     OF(target_instead_of_direction, "spot_direction"), OF(terms_of_emission, "lighting.terms"),
     OF(model_emissive, "lighting.model"), OF(invisible, "transparency"),
     OF(invisible_map, "diffuse_map"), OF(view_forgotten, "the eye"),
+
+    OF(normal_stride_short, "normal_stride"), OF(color_stride_short, "color_stride"),
+    OF(view_of_a_bad_camera, "radians"), OF(view_of_w_two, "state.view"),
+    OF(left_handed_projection_by_rows, "state.projection looks transposed"),
+    OF(projection_onto_a_point, "area"),
+    OF(small_one_beside_without_depth, "beside the picture"),
+    OF(tall_one_beside, "beside the picture"), OF(reversed_looks_away, "behind the eye"),
+    OF(doubled_looks_away, "behind the eye"), OF(far_behind_the_eye, "near and far"),
+    OF(beside_in_parallel, "beside the picture"),
+    OF(beside_in_a_view_that_scales, "state.view scales"),
+    OF(on_both_sides, "beside the picture"), OF(before_and_beyond, "before near, beyond far"),
+    OF_STATS(all_discarded_of_depth, "state.fragment"),
+    OF_STATS(small_depth_of_a_shader, "centre of a pixel"),
+    OF(map_without_texcoords_or_material, "mesh.texcoords"), OF(no_light_on_floats, "no light"),
+    OF(no_light_on_the_default, "no light"), OF(no_light_on_a_mirror, "no light"),
+    OF(lamp_of_highlights_behind, "behind"), OF(many_cones_elsewhere, "spot_direction"),
 };
 
 TEST(explain, every_mistake_gets_the_word_that_leads_to_it)
@@ -691,6 +816,153 @@ TEST(explain, it_writes_nothing)
     }
 }
 
+/* Scenes that look like a mistake in one respect and are none. */
+typedef struct unusual {
+    const char *name;
+    void (*make)(stage *);
+} unusual;
+#define UNUSUAL(name) static void unusual_##name(stage *s)
+UNUSUAL(texcoords_with_their_stride)
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->mesh.texcoord_stride = 8;
+    s->mesh.normal_stride = 12;
+    s->state.diffuse_map = &s->map;
+}
+UNUSUAL(parallel_from_the_eye) { s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, 0, 20); }
+UNUSUAL(near_one_half) { s->state.projection.col[3].z = -1; }
+UNUSUAL(left_handed_camera)
+{
+    const shade_mat4 turn = shade_mat4_scaling(shade_v3(1, 1, -1));
+    s->state.view = shade_mat4_mul(turn, s->state.view);
+    s->state.projection = shade_mat4_mul(s->state.projection, turn);
+    s->state.projection.col[3].z = -1;
+}
+UNUSUAL(projection_that_turns)
+{
+    const shade_mat4 turn = shade_mat4_rotation(0.3f, shade_v3(0, 1, 0));
+    s->state.view = shade_mat4_mul(shade_mat4_inverse(turn), s->state.view);
+    s->state.projection = shade_mat4_mul(s->state.projection, turn);
+}
+UNUSUAL(projection_that_nods)
+{
+    const shade_mat4 turn = shade_mat4_rotation(0.3f, shade_v3(1, 0, 0));
+    s->state.view = shade_mat4_mul(shade_mat4_inverse(turn), s->state.view);
+    s->state.projection = shade_mat4_mul(s->state.projection, turn);
+}
+UNUSUAL(view_that_scales_alone)
+{
+    s->state.projection = shade_mat4_identity();
+    s->state.view = shade_mat4_scaling(shade_v3(0.5f, 0.5f, 0.5f));
+    s->state.lighting.light_count = 1;
+}
+UNUSUAL(box_always_looked_into)
+{
+    s->mesh.chunks = &s->chunk, s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(1, 1, 1), s->chunk.high = shade_v3(-1, -1, -1);
+}
+UNUSUAL(depth_read_only) { s->state.raster.depth_read_only = 1; }
+UNUSUAL(depth_alone) { s->c.target.color = NULL; }
+UNUSUAL(added_without_depth)
+{
+    s->c.target.depth = NULL;
+    s->state.raster.blend = SHADE_BLEND_ADD;
+}
+UNUSUAL(quad_from_behind_without_depth)
+{
+    mistake_wound_clockwise_quad(s);
+    s->state.raster.cull = SHADE_CULL_NONE;
+    s->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
+    s->mesh.normals = NULL;
+    s->c.target.depth = NULL;
+}
+UNUSUAL(room)
+{
+    mistake_inside_out(s);
+    mistake_normals_inward(s);
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 0.2f), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
+    s->lamps[0].position = shade_v4(0, 0, 0.1f, 1);
+}
+UNUSUAL(material_with_a_hue)
+{
+    s->material.diffuse = shade_v3(0.5f, 0.5f, 0.4f);
+    s->state.diffuse_map = &s->map;
+}
+UNUSUAL(material_of_another_hue)
+{
+    s->material.diffuse = shade_v3(0.5f, 0.4f, 0.4f);
+    s->state.diffuse_map = &s->map;
+}
+UNUSUAL(wound_inward_without_culling)
+{
+    mistake_inside_out(s);
+    s->state.raster.cull = SHADE_CULL_NONE;
+}
+UNUSUAL(mirrored_without_culling)
+{
+    mistake_mirrored(s);
+    s->state.raster.cull = SHADE_CULL_NONE;
+}
+UNUSUAL(black_outline)
+{
+    memset(&s->material, 0, sizeof s->material);
+    s->state.raster.cull = SHADE_CULL_FRONT;
+}
+static void shader_white(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                         shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms, (void)in;
+    SHADE_EACH_LANE(i) { out->color[0][i] = out->color[1][i] = out->color[2][i] = 1; }
+}
+UNUSUAL(shader_that_maps_by_itself)
+{
+    s->state.fragment = shader_white;
+    s->state.diffuse_map = &s->map;
+}
+UNUSUAL(shader_then_a_clear) { s->state.fragment = shader_white, s->clear_after = 1; }
+UNUSUAL(cutoff_then_a_clear) { s->state.alpha_cutoff = 0.5f, s->clear_after = 1; }
+UNUSUAL(read_only_then_a_clear) { s->state.raster.depth_read_only = 1, s->clear_after = 1; }
+UNUSUAL(band_then_a_clear)
+{
+    s->c.target.clip_width = STAGE_WIDTH, s->c.target.clip_height = STAGE_HEIGHT - 8;
+    s->clear_after = 1;
+}
+
+TEST(explain, what_is_unusual_is_no_mistake)
+{
+    static const unusual all[] = {
+        { "texcoords with their stride", unusual_texcoords_with_their_stride },
+        { "parallel from the eye", unusual_parallel_from_the_eye },
+        { "near at one half", unusual_near_one_half },
+        { "a left-handed camera", unusual_left_handed_camera },
+        { "a projection that turns", unusual_projection_that_turns },
+        { "a projection that nods", unusual_projection_that_nods },
+        { "a view that scales, without projection", unusual_view_that_scales_alone },
+        { "a box always looked into", unusual_box_always_looked_into },
+        { "depth read only", unusual_depth_read_only },
+        { "depth alone", unusual_depth_alone },
+        { "added without depth", unusual_added_without_depth },
+        { "a quad from behind without depth", unusual_quad_from_behind_without_depth },
+        { "a room", unusual_room },
+        { "a material with a hue", unusual_material_with_a_hue },
+        { "a material of another hue", unusual_material_of_another_hue },
+        { "wound inward, without culling", unusual_wound_inward_without_culling },
+        { "mirrored, without culling", unusual_mirrored_without_culling },
+        { "a black outline", unusual_black_outline },
+        { "a shader that maps by itself", unusual_shader_that_maps_by_itself },
+        { "a shader, then a clear", unusual_shader_then_a_clear },
+        { "a cutoff, then a clear", unusual_cutoff_then_a_clear },
+        { "depth read only, then a clear", unusual_read_only_then_a_clear },
+        { "a band, then a clear", unusual_band_then_a_clear },
+    };
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        stage *s = stage_open();
+        all[k].make(s);
+        stage_is_good(s, all[k].name);
+        stage_close(s);
+    }
+}
+
 static void nasty_floats(void *at, size_t bytes)
 {
     for (size_t i = 0; i < bytes / 4; i++) {
@@ -746,6 +1018,7 @@ static const test_case explain_cases[] = {
     CASE(explain, random_good_scenes_get_none),
     CASE(explain, what_other_meshes_explain_gets_none),
     CASE(explain, small_pools_of_light_are_light),
+    CASE(explain, what_is_unusual_is_no_mistake),
     CASE(explain, it_writes_nothing),
     CASE(explain, hostile_input_is_defined),
 };

@@ -183,6 +183,107 @@ TEST(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model)
     CHECK_SAY(sure > 150000 && lit > 20000, "%d samples, %d with a highlight", sure, lit);
 }
 
+/* A unit vector with cosine c to the unit vector v. */
+static d3 d3_at_cosine(d3 v, double c)
+{
+    d3 aside;
+    do aside = d3_cross(v, rnd_direction());
+    while (d3_length(aside) < 1e-2);
+    return d3_add(d3_scale(v, c), d3_scale(d3_unit(aside), sqrt(1 - c * c)));
+}
+static double random_brink(void) { return (double)(rnd_sign() * rnd_log(1e-6, 1e-5)); }
+static float random_factor(void) { return rnd_one_in(2) ? 0 : rnd_log(1e-35, 1e35); }
+
+/* One lamp, full of what the bound of shade.h allows: N.L, L.S - cos(beta) and N.V within 1e-5 of a
+   jump, L + V short, coefficients of attenuation of any size. */
+static void random_brink_sample(light_sample *s)
+{
+    memset(s, 0, sizeof *s);
+    double size = (double)rnd_log(1e-3, 1e9), r;
+    shade_light *l = &s->lights[0];
+    s->P = rnd_one_in(4) ? shade_v3(0, 0, 0) : random_vector(size);
+    s->material = random_material();
+    l->diffuse = random_color(1e6), l->specular = random_color((double)rnd_log(1e-3, 1e6));
+    l->ambient = random_color(1e6);
+    int infinite = rnd_one_in(3);
+    d3 far = d3_scale(rnd_direction(), infinite ? (double)rnd_log(1e-12, 1e12)
+                                                : size * (double)rnd_log(1e-5, 1));
+    shade_vec3 p = d3_round(infinite ? far : d3_add(d3_from(s->P), far));
+    l->position = shade_v4(p.x, p.y, p.z, infinite ? 0 : 1);
+    l->constant = random_factor(), l->linear = random_factor(), l->quadratic = random_factor();
+    d3 L = ref_to_light(l, d3_from(s->P), &r);
+    d3 N = d3_at_cosine(L, rnd_one_in(2) ? random_brink() : 2 * rnd_unit() - 1);
+    s->N = d3_round(d3_scale(N, (double)rnd_log(1e-15, 1e15)));
+    if (rnd_one_in(2)) {
+        double near_axis = 1 - (double)rnd_log(1e-7, 1);
+        double LS = rnd_one_in(2) ? near_axis : (double)(rnd_sign() * rnd_log(1e-6, 1));
+        d3 S = d3_at_cosine(L, LS);
+        l->spot_direction = d3_round(d3_scale(S, -(double)rnd_log(1e-10, 1e10)));
+        l->spot_cos_cutoff = rnd_one_in(2) ? -1 : (float)(LS + random_brink());
+        l->spot_exponent = rnd_one_in(3) ? 0 : random_exponent();
+    }
+    d3 R = d3_sub(d3_scale(N, 2 * d3_dot(N, L)), L), V = rnd_direction();
+    switch (rnd_int(0, 3)) {
+    case 0: V = d3_at_cosine(N, random_brink()); break;
+    case 1: V = d3_add(R, d3_scale(V, (double)rnd_log(1e-4, 1))); break;
+    case 2: V = d3_sub(d3_scale(rnd_one_in(2) ? N : V, (double)rnd_log(1e-6, 1e-2)), L); break;
+    default: break;
+    }
+    s->lighting.lights = s->lights, s->lighting.light_count = 1;
+    s->lighting.model = (shade_model)rnd_int(0, 1);
+    s->lighting.flags = (unsigned)rnd_int(0, 63);
+    d3 from = s->lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? d3_of(0, 0, 0) : d3_from(s->P);
+    s->eye = d3_round(d3_add(from, d3_scale(d3_unit(V), size * (double)rnd_log(1e-5, 1))));
+}
+/* The bound of one lamp as >>light of shade.h states it, or 0 beyond its limits, among them
+   |L + V| > 2e-6; *brink: within 1e-5 of them. */
+static double stated_bound(const light_sample *s, double exact, int *brink)
+{
+    const shade_light *l = &s->lights[0];
+    const d3 P = d3_from(s->P), eye = d3_from(s->eye), aim = d3_from(l->spot_direction);
+    const int spot = d3_length(aim) > 0;
+    const double n = fmax(0, (double)s->material.shininess);
+    const double e = spot ? (double)l->spot_exponent : 0;
+    double r, I = d3_max(d3_from(l->diffuse));
+    d3 N = d3_unit(d3_from(s->N)), L = ref_to_light(l, P, &r);
+    d3 V = d3_unit(s->lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? eye : d3_sub(eye, P));
+    d3 R = d3_sub(d3_scale(N, 2 * d3_dot(N, L)), L), H = d3_add(L, V);
+    double LS = -d3_dot(L, d3_unit(aim)), off_edge = fabs(LS - (double)l->spot_cos_cutoff);
+    double lobe = d3_dot(N, d3_unit(H));
+    double least = fabs(d3_dot(N, L));
+    if (spot) least = fmin(least, off_edge);
+    if (s->lighting.flags & SHADE_FLAG_TWO_SIDED) least = fmin(least, fabs(d3_dot(N, V)));
+    if (s->lighting.model == SHADE_MODEL_PHONG) lobe = d3_dot(R, V);
+    else least = fmin(least, d3_length(H) - 1e-6);
+    *brink = least < 1e-5;
+    if (least < 1e-6) return 0;
+    if ((n > 0 && n < 1 && fabs(lobe) < 1e-3) || (e > 0 && e < 1 && fabs(LS) < 1e-3)) return 0;
+    I = fmax(fmax(I, d3_max(d3_from(l->specular))), d3_max(d3_from(l->ambient)));
+    if (l->position.w != 0) {
+        I *= ref_attenuation((double)l->constant, (double)l->linear, (double)l->quadratic, r);
+    }
+    return 5e-5 * fmax(fmax(1, I), exact) * fmax(1, (n + e) / 100);
+}
+TEST(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for)
+{
+    light_sample s;
+    double worst = 0;
+    int checked = 0, on_brink = 0, brink = 0;
+    for (int i = 0; i < 200000; i++) {
+        random_brink_sample(&s);
+        ref_lit want = ref_light(&s.lighting, &s.material, d3_from(s.P), d3_from(s.N),
+                                 d3_from(s.eye), no_albedo());
+        double bound = stated_bound(&s, d3_max(want.total), &brink);
+        if (bound == 0) continue;
+        shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
+        checked++, on_brink += brink;
+        worst = fmax(worst, d3_max(d3_sub(d3_from(got), want.total)) / bound);
+        if (!check_color(__LINE__, "shade_lit", got, want.total, bound)) print_lights(&s);
+    }
+    CHECK_SAY(on_brink > 70000, "%d of %d samples within 1e-5 of a limit", on_brink, checked);
+    CHECK_SAY(worst > 0.1, "the worst is %g of the bound: the samples are too tame", worst);
+}
+
 TEST(light, lit_is_the_sum_of_the_four_terms)
 {
     light_sample s;
@@ -1088,6 +1189,7 @@ TEST(light, big_and_tiny_finite_input_stays_finite) /* every function is total u
 
 static const test_case light_cases[] = {
     CASE(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model),
+    CASE(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for),
     CASE(light, lit_is_the_sum_of_the_four_terms),
     CASE(light, each_bit_of_terms_selects_its_term_alone),
     CASE(light, brass_lit_head_on_and_from_sixty_degrees),

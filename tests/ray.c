@@ -860,6 +860,24 @@ TEST(ray, cast_and_drawn_pictures_agree_off_centre) { check_both_ways(1); }
 TEST(ray, cast_and_drawn_pictures_agree_in_reversed_depth) { check_both_ways(2); }
 TEST(ray, cast_and_drawn_pictures_agree_without_perspective) { check_both_ways(3); }
 
+/* w = 2 in the last column: everything at half its size */
+TEST(ray, a_model_whose_w_is_two_is_picked_at_half_its_size)
+{
+    const float corner[9] = { -2, -2, 0, 2, -2, 0, 0, 2, 0 };
+    shade_mat4 model = shade_mat4_identity();
+    shade_mesh m;
+    memset(&m, 0, sizeof m);
+    m.positions = corner, m.vertex_count = 3;
+    model.col[3].w = 2;
+    for (int k = -30; k <= 30; k++) {
+        const shade_ray ray = { { 0, (float)k / 10 + 0.05f, 3 }, { 0, 0, -1 } };
+        float t = 0;
+        const int hit = shade_pick(&m, model, ray, &t, NULL);
+        CHECK_INT(hit, k >= -10 && k < 10 ? 0 : -1);
+        if (hit == 0) CHECK_NEAR(t, 3, 1e-6);
+    }
+}
+
 static const test_case ray_cases[] = {
     CASE(ray, perspective_rays_leave_the_eye_through_the_pixel),
     CASE(ray, off_centre_frustums_bend_their_rays),
@@ -884,4 +902,5 @@ static const test_case ray_cases[] = {
     CASE(ray, cast_and_drawn_pictures_agree_off_centre),
     CASE(ray, cast_and_drawn_pictures_agree_in_reversed_depth),
     CASE(ray, cast_and_drawn_pictures_agree_without_perspective),
+    CASE(ray, a_model_whose_w_is_two_is_picked_at_half_its_size),
 };
