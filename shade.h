@@ -5797,8 +5797,10 @@ static void shade__sort_corners(const shade_mesh *m, int edges, uint32_t count, 
         uint32_t start[257] = { 0 }, *sorted = other;
         for (uint32_t i = 0; i < count; i++) start[shade__key_byte(m, edges, i, k) + 1]++;
         for (int b = 0; b < 256; b++) start[b + 1] += start[b];
-        for (uint32_t i = 0; i < count; i++)
-            sorted[start[shade__key_byte(m, edges, order[i], k)]++] = order[i];
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t to = start[shade__key_byte(m, edges, order[i], k)]++;
+            sorted[to] = order[i];
+        }
         other = order;
         order = sorted;
     }

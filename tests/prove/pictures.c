@@ -1,0 +1,47 @@
+/* pictures.c - pixels that resolve reads and writes: blocks at every edge of a picture whose
+   memory ends with the last pixel; offsets in the greatest picture. */
+#include "prove.h"
+
+enum { WIDTH = 9, HEIGHT = 3 };
+
+static shade_target in, out;
+static uint8_t fine[16 * 64 * WIDTH * HEIGHT], coarse[16 * WIDTH * HEIGHT];
+
+/* a row of blocks, the last of them cut off by the picture's edge */
+static void prove_resolve(shade_format format, int factor)
+{
+    const size_t bytes = shade__pixel_bytes(format);
+    in.format = out.format = format;
+    in.width = WIDTH * factor;
+    in.height = HEIGHT * factor;
+    out.width = WIDTH;
+    out.height = HEIGHT;
+    in.color = fine + sizeof fine - (size_t)(WIDTH * HEIGHT * factor * factor) * bytes;
+    out.color = coarse + sizeof coarse - (size_t)(WIDTH * HEIGHT) * bytes;
+    for (int y = 0; y < HEIGHT; y += HEIGHT - 1)
+        for (int x = 0; x < WIDTH; x += SHADE__BLOCK)
+            shade__resolve_block(&out, &in, factor, x, y, shade__min(SHADE__BLOCK, WIDTH - x),
+                                 shade__pixel_at(&out, x, y));
+}
+/* offsets of pixels in the greatest picture, its rows however far apart */
+static void prove_offsets(void)
+{
+    size_t offset;
+    in.width = 16384;
+    in.height = 16384;
+    in.row_offset = 0;
+    in.stride = ANY_OF(16384, INT32_MAX);
+    offset = shade__offset_of(&in, ANY_OF(0, 16383), ANY_OF(0, 16383));
+    /*@ assert offset <= 35184372088832; */
+}
+int main(void)
+{
+    memset(fine, ANY_OF(0, 255), sizeof fine);
+    for (int factor = 1; factor <= 8; factor++) {
+        prove_resolve(SHADE_FORMAT_RGBA8, factor);
+        prove_resolve(SHADE_FORMAT_RGB565, factor);
+    }
+    prove_resolve(SHADE_FORMAT_RGBA32F, 3);
+    prove_offsets();
+    return 0;
+}
