@@ -548,10 +548,12 @@ MISTAKE(lamp_of_highlights_behind)
 }
 MISTAKE(many_cones_elsewhere)
 {
-    static shade_light many[SHADE__SUSPECTS + 1];
+    enum { COUNT = 17 };    /* one more than shade_explain tries without their cone */
+    static shade_light many[COUNT];
     mistake_cone_elsewhere(s);
-    for (int i = 0; i <= SHADE__SUSPECTS; i++) many[i] = s->lamps[0];
-    s->state.lighting.lights = many, s->state.lighting.light_count = SHADE__SUSPECTS + 1;
+    for (int i = 0; i < COUNT; i++) many[i] = s->lamps[0];
+    s->state.lighting.lights = many;
+    s->state.lighting.light_count = COUNT;
 }
 
 typedef struct mistake {
