@@ -92,7 +92,7 @@ PLOT
 set title "One picture in bands: how many times as fast as one band, if each had a core" font ',13'
 set logscale xy 2
 set xlabel "bands"
-set xrange [1 : 64]
+set xrange [1 : 66]
 set yrange [1 : 64]
 set xtics (1, 2, 4, 8, 16, 32, 64)
 set ytics (1, 2, 4, 8, 16, 32, 64)
