@@ -997,7 +997,7 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
      indices NULL: the triangles stay in their order, which serves where neighbours in the list are
    neighbours in space.  Else room for as many indices as the mesh has, or vertices where it has
    none: it receives the triangles sorted in space, for mesh.indices of draws and picks.  Sorting
-   splits the list at the median of the longer axis again and again, in n log n steps and no other
+   splits the list at the median of its longest axis again and again, in n log n steps and no other
    memory; the order is the same on every machine.
      chunks, room for capacity of them, and indices overlap none of the mesh's arrays.  Too little
    capacity: SHADE_ERROR_CAPACITY, and nothing changes. */
@@ -1060,8 +1060,9 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
                              shade_vec3 *barycentric);
 /* The index of the nearest triangle of a mesh that a world-space ray meets, as shade_intersect
    does, with the mesh placed by model (zero: identity); of equally near ones the lowest index.  One
-   whose points lie on a line is not met, however model rounds them.  -1: none, or a bad mesh; *t
-   and *barycentric are left alone then.  Either may be NULL.  Looks at every triangle, or at those
+   whose points lie on a line is not met, however model rounds them, and a point that rounding puts
+   outside of the triangle's own box does not count.  -1: none, or a bad mesh; *t and *barycentric
+   are left alone then.  Either may be NULL.  Looks at every triangle, or at those
    of the chunks whose box the ray meets; of a mesh with chunks only their indices are checked. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);

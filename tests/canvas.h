@@ -14,10 +14,11 @@ typedef struct canvas {
 
 enum { CANVAS_FORMATS = 5, TEXTURE_FORMATS = 6 }; /* A8 is of textures alone */
 
+/* 16, the most there is, for a format that there is not. */
 static size_t canvas_pixel_bytes(shade_format format)
 {
     static const size_t bytes[TEXTURE_FORMATS] = { 4, 4, 2, 2, 16, 1 };
-    return bytes[format];
+    return (unsigned)format < TEXTURE_FORMATS ? bytes[format] : 16;
 }
 /* The greatest code of channel k (R, G, B, A); 0: no such channel, or floats. */
 static int canvas_most(shade_format format, int k)
