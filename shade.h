@@ -1062,8 +1062,8 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_ve
    does, with the mesh placed by model (zero: identity); of equally near ones the lowest index.  One
    whose points lie on a line is not met, however model rounds them, and a point that rounding puts
    outside of the triangle's own box does not count.  -1: none, or a bad mesh; *t and *barycentric
-   are left alone then.  Either may be NULL.  Looks at every triangle, or at those
-   of the chunks whose box the ray meets; of a mesh with chunks only their indices are checked. */
+   are left alone then.  Either may be NULL.  Looks at every triangle, or at those of the chunks
+   whose box the ray meets; of a mesh with chunks only their indices are checked. */
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray, float *t,
                         shade_vec3 *barycentric);
 
@@ -6130,13 +6130,15 @@ static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
     s->reach += (double)FLT_MIN;    /* for world positions and t that are denormal */
 }
 /* Where the ray may be inside the box of a triangle or a chunk, as rounding makes it: range[0] ..
-   range[1].  0 if it does not meet it.  A larger box never gives a smaller range, so that a
-   triangle is met through the box of its chunk if it is met through its own. */
-static int shade__slabs_met(const shade__slabs *s, shade_vec3 low, shade_vec3 high, double *range)
+   range[1], at most limit.  0 if it does not meet it up to there.  A larger box never gives a
+   smaller range, so that a triangle is met through the box of its chunk if it is met through its
+   own. */
+static int shade__slabs_met(const shade__slabs *s, shade_vec3 low, shade_vec3 high, float limit,
+                            double *range)
 {
     double from[3], to[3], size = s->reach;
     range[0] = 0;
-    range[1] = DBL_MAX;
+    range[1] = (double)limit;
     if (!s->affine || !(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
     shade__double3(low, from);
     shade__double3(high, to);
@@ -6173,12 +6175,11 @@ static void shade__pick_triangle(const shade_mesh *mesh, const shade_mat4 *model
     float t;
     for (uint32_t k = 0; k < 3; k++) q[k] = shade__corner(mesh, 3 * (uint32_t)triangle + k);
     if (!shade__slabs_met(slabs, shade_min(q[0], shade_min(q[1], q[2])),
-                          shade_max(q[0], shade_max(q[1], q[2])), range))
+                          shade_max(q[0], shade_max(q[1], q[2])), hit->t, range))
         return;
-    if (range[0] > (double)hit->t) return;
     for (uint32_t k = 0; k < 3; k++) p[k] = shade_mat4_transform_point(*model, q[k]);
     if (!shade_intersect(ray, p[0], p[1], p[2], &t, &where)) return;
-    if ((double)t < range[0] || (double)t > range[1] || t > hit->t) return;
+    if ((double)t < range[0] || (double)t > range[1]) return;
     if (t == hit->t && triangle > hit->triangle) return;
     /* three points of a line, which rounding parts when they are turned */
     if (!shade__edges3(q[0], q[1], q[2], e, f, n)) return;
@@ -6208,8 +6209,7 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
     hit.t = FLT_MAX;    /* no intersection is as far */
     for (; chunks > 0; chunks--, chunk++) {
         double range[2];
-        if (!shade__slabs_met(&slabs, chunk->low, chunk->high, range)) continue;
-        if (range[0] > (double)hit.t) continue;
+        if (!shade__slabs_met(&slabs, chunk->low, chunk->high, hit.t, range)) continue;
         if (shade__check_range(mesh, chunk)) return -1;
         for (int i = 0; i < chunk->count; i++)
             shade__pick_triangle(mesh, &model, ray, &slabs, chunk->first + i, &hit);
@@ -6632,7 +6632,7 @@ static const char *shade__suspect_matrices(const shade_draw_state *s)
         return "state.view looks transposed (row-major): its translation belongs into col[3]; "
                "pass it through shade_mat4_transpose.";
     if ((p->col[3].z == -1 || p->col[3].z == 1) && p->col[3].w == 0 && p->col[2].w != 0 &&
-        p->col[2].w != 1 && p->col[2].w != -1)
+        p->col[2].w * p->col[2].w != 1)
         return "state.projection looks transposed (row-major): its -1 belongs into col[2].w; pass "
                "it through shade_mat4_transpose.";
     if (!shade__is_affine(&view) || (!shade__is_rigid(&view) && shade__is_rigid(p) &&
@@ -6642,7 +6642,7 @@ static const char *shade__suspect_matrices(const shade_draw_state *s)
         return "state.view is singular, it has no inverse and so no eye; make it with "
                "shade_mat4_look_at.";
     if (shade__is_perspective(p) && (p->col[0].z != 0 || p->col[1].z != 0) &&
-        (p->col[0].y != 0 || p->col[1].x != 0))
+        !shade__is_zero(shade_v3(p->col[0].y, p->col[1].x, 0)))
         return "state.projection looks multiplied in the wrong order: shade_mat4_mul(a, b) applies "
                "b first, so that projection times view is shade_mat4_mul(projection, view).";
     if (shade__is_perspective(p) && p->col[2].z == 0 && !s->raster.depth_zero_to_one)
@@ -6663,8 +6663,9 @@ static int shade__eye_inside(const shade__survey *s)
 static int shade__depth_varies(const shade__survey *s)
 {
     const shade_target *t = s->target;
+    const int looks = shade__min(256, 256 * (s->clip[2] - s->clip[0]));    /* none in nothing */
     float first = 0;
-    for (int k = 0; k < 256 && t->depth && s->clip[0] < s->clip[2]; k++) {
+    for (int k = 0; k < looks && t->depth; k++) {
         const int x = s->clip[0] + (s->clip[2] - s->clip[0]) * (2 * (k & 15) + 1) / 32;
         const int y = s->clip[1] + (s->clip[3] - s->clip[1]) * (2 * (k >> 4) + 1) / 32;
         const float depth = t->depth[shade__offset_of(t, x, y)];
@@ -6787,16 +6788,16 @@ static const char *shade__why_depth(const shade__survey *s)
 static const char *shade__why_no_fragment(const shade__survey *s)
 {
     const float most = 1 - s->state->transparency;    /* alpha, but for texels beyond 1 */
-    const int cut = s->cut && !s->points && !s->seen;
+    const int cut = s->points + s->seen ? 0 : s->cut, scattered = shade__is_scattered(s);
+    const int sure = (s->stats != NULL) & s->whole & (s->cut > 8) & !scattered;
     const char *why = NULL;
     if (s->stats && s->stats->fragments > 0) return NULL;
-    if (cut && (s->state->alpha_cutoff > most || (s->stats && s->whole && s->cut > 8 &&
-                                                      !shade__is_scattered(s))))
+    if (cut && ((s->state->alpha_cutoff > most) | sure))
         return "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) "
                "times that of diffuse_map; lower it.";
     if (s->seen && s->failed >= (s->stats ? s->seen - s->seen / 4 : s->seen))
         why = shade__why_depth(s);    /* beside an outline the buffer is free */
-    if (why || !s->stats || !s->whole || s->failed || s->cut || shade__is_scattered(s)) return why;
+    if (why || !s->stats || !s->whole || (s->failed | s->cut | scattered)) return why;
     if (s->state->fragment && (s->target->color || s->state->alpha_cutoff > 0))
         return "No pixel is left: state.fragment discards all of them, or their alpha is below "
                "state.alpha_cutoff.";
@@ -6843,6 +6844,7 @@ static int shade__one_side(const shade__survey *s, int triangle)
     float least = 0, most = 0;
     shade__corners c;
     shade_vec3 n;
+    int above, below;
     shade__corners_of(s, triangle, &c);
     n = shade_face_normal(c.world[0], c.world[1], c.world[2]);
     for (int i = 0; i < shade__corner_count(m); i++) {
@@ -6852,15 +6854,16 @@ static int shade__one_side(const shade__survey *s, int triangle)
         if (d < least) least = d;
         if (d > most) most = d;
     }
-    if (least >= -near_enough && most <= near_enough) return 2;
-    return least >= -near_enough || most <= near_enough;
+    above = least >= -near_enough;
+    below = most <= near_enough;
+    return above + below;
 }
 /* Can triangles that are drawn hide each other? */
 static int shade__hides_itself(const shade__survey *s)
 {
     const int triangles = shade__corner_count(s->mesh) / 3, every = (triangles - 1) / 32 + 1;
     const shade_cull cull = s->state->raster.cull;
-    const int one_facing = cull || !s->fate[SHADE__FRONT] || !s->fate[SHADE__BACK];
+    const int one_facing = (cull != 0) | !s->fate[SHADE__FRONT] | !s->fate[SHADE__BACK];
     for (int t = 0; t < triangles; t += every)
         if (shade__one_side(s, t) < (one_facing ? 1 : 2)) return 1;
     return 0;
@@ -6882,10 +6885,10 @@ static int shade__is_inside_out(const shade__survey *s)
                          ((double)p->col[0].x * (double)p->col[1].y < 0);
     const int turned = mirrored != (shade_mat4_determinant(s->scene.world_from_object) < 0);
     const int winding = shade__winding(s);
+    const long long wrong = turned ? s->with : s->against, right = s->with + s->against - wrong;
     if (s->state->raster.cull != SHADE_CULL_BACK || shade__eye_inside(s)) return 0;
     if (winding) return mirrored ? winding > 0 : winding < 0;
-    return turned ? s->with > 9 * s->against && s->with > 8
-                  : s->against > 9 * s->with && s->against > 8;
+    return wrong > 9 * right + 8;
 }
 /* Do the normals of a closed mesh that is seen from outside point into it? */
 static int shade__has_inward_normals(const shade__survey *s)
@@ -6893,10 +6896,12 @@ static int shade__has_inward_normals(const shade__survey *s)
     const int flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
     const int turned = shade_mat4_determinant(s->scene.world_from_object) < 0;
     const int winding = turned ? -shade__winding(s) : shade__winding(s);
+    const long long wrong = winding > 0 ? s->against : s->with;
+    const long long right = s->with + s->against - wrong;
     if (shade__eye_inside(s) || s->scene.face_normals || s->state->fragment ||
-        (s->state->lighting.flags & (unsigned)flags) || s->with + s->against <= 8)
+        (s->state->lighting.flags & (unsigned)flags) || !winding)
         return 0;
-    return winding > 0 ? s->against > 9 * s->with : winding < 0 && s->with > 9 * s->against;
+    return wrong > 9 * right + 8;
 }
 /* A material with a hue of its own may share a state with meshes that have a map. */
 static int shade__is_grey(const shade_material *m)
@@ -7071,7 +7076,7 @@ static const char *shade__why_invisible(const shade__survey *s)
     const shade_blend blend = s->state->raster.blend;
     if (s->state->transparency >= 1)
         return "state.transparency is 1, which is invisible; 0 is opaque.";
-    if (blend != SHADE_BLEND_REPLACE && s->points && s->clear == s->points)
+    if (blend != SHADE_BLEND_REPLACE && s->clear > 0 && s->clear == s->points)
         return "The alpha of state.diffuse_map is 0 where the mesh is in view, so that "
                "raster.blend leaves nothing of it.";
     return NULL;
