@@ -6721,7 +6721,7 @@ static const char *shade__why_outside(const shade__survey *s)
                "eye of state.view; move near in, or the eye back.";
     if (depth) return "Every triangle lies outside of what state.view and state.projection show, "
                       "before near, beyond far or beside the picture.";
-    if (shade__is_scattered(s)) return NULL;
+    if (shade__depth_varies(s)) return NULL;    /* a mesh of several: it may stand there */
     return shade__is_rigid(&view)
                ? "The whole mesh lies beside the picture; check state.model, and where state.view "
                  "looks."
