@@ -110,10 +110,10 @@ for name in $apart; do
     check "$name.sh writes nowhere else" no grep -nE '^[^#]*(^|[ ="])(\$PWD/)?(build|out)/' \
         "tests/$name.sh"
 done
-# ... and these are said above in other words: all.sh test, view.sh and batch.sh their make alone,
+# ... and these are said above in other words: all.sh test, view.sh, batch.sh, explain.sh their make,
 # compilers.sh and playground.sh build/zig, build/playwright and the page.  bench/size.sh measures for
 # a minute; what it writes in build/ is size.* and stack*.
-others="all view batch compilers playground orders tools"
+others="all view batch explain compilers playground orders tools"
 forgotten() {                   # scripts and targets that are neither a step nor named here
     for script in tests/*.sh; do
         name=$(basename "$script" .sh)
