@@ -6631,8 +6631,8 @@ static const char *shade__suspect_matrices(const shade_draw_state *s)
     if (shade__is_transposed(&view))
         return "state.view looks transposed (row-major): its translation belongs into col[3]; "
                "pass it through shade_mat4_transpose.";
-    if ((p->col[3].z == -1 || p->col[3].z == 1) && p->col[3].w == 0 && p->col[2].w != 0 &&
-        p->col[2].w * p->col[2].w != 1)
+    if ((p->col[3].z == -1 || p->col[3].z == 1) && p->col[3].w == 0 &&
+        p->col[2].w * (1 - p->col[2].w * p->col[2].w) != 0)    /* none of 0, 1, -1 */
         return "state.projection looks transposed (row-major): its -1 belongs into col[2].w; pass "
                "it through shade_mat4_transpose.";
     if (!shade__is_affine(&view) || (!shade__is_rigid(&view) && shade__is_rigid(p) &&
@@ -7076,7 +7076,7 @@ static const char *shade__why_invisible(const shade__survey *s)
     const shade_blend blend = s->state->raster.blend;
     if (s->state->transparency >= 1)
         return "state.transparency is 1, which is invisible; 0 is opaque.";
-    if (blend != SHADE_BLEND_REPLACE && s->clear > 0 && s->clear == s->points)
+    if (blend != SHADE_BLEND_REPLACE && s->clear == shade__max(s->points, 1))
         return "The alpha of state.diffuse_map is 0 where the mesh is in view, so that "
                "raster.blend leaves nothing of it.";
     return NULL;
