@@ -44,7 +44,9 @@ ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' 
                    echo 'no assimp: thumbnail reads OBJ, STL and PLY alone' >&2)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
-SHARED   = shade.h $(wildcard examples/*.h)
+ROOMS    = shared model thumbnail view batch compare pictures
+HEADERS  = shade.h $(wildcard $(ROOMS:%=examples/%/*.h))
+vpath %.c examples $(ROOMS:%=examples/%)
 
 all: pictures programs
 pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm
@@ -54,7 +56,7 @@ programs: build/thumbnail build/compare $(POSIX)
 build/shade.o: shade.h
 	@mkdir -p build
 	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
-build/%: examples/%.c build/shade.o $(SHARED)
+build/%: %.c build/shade.o $(HEADERS)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm $(LIBRARIES) -o $@
 build/19_threads build/thumbnail build/view build/batch: EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
@@ -91,7 +93,7 @@ matrix:
 conformance:
 	@sh tests/conformance.sh
 gallery: all
-	@sh examples/gallery.sh
+	@sh examples/pictures/gallery.sh
 playground:
 	@sh examples/playground/build.sh
 coverage:

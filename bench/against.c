@@ -25,6 +25,7 @@ static void find(void *library, const char *name, void *function)
     }
     memcpy(function, &symbol, sizeof symbol);
 }
+
 static side side_of(const char *path)
 {
     side s;
@@ -33,9 +34,12 @@ static side side_of(const char *path)
         fprintf(stderr, "%s\n", dlerror());
         exit(1);
     }
-    find(library, "frames_count", &s.count), find(library, "frames_name", &s.name);
-    find(library, "frames_open", &s.open), find(library, "frames_draw", &s.draw);
-    find(library, "frames_hash", &s.hash), find(library, "frames_close", &s.close);
+    find(library, "frames_count", &s.count);
+    find(library, "frames_name", &s.name);
+    find(library, "frames_open", &s.open);
+    find(library, "frames_draw", &s.draw);
+    find(library, "frames_hash", &s.hash);
+    find(library, "frames_close", &s.close);
     return s;
 }
 

@@ -20,6 +20,7 @@ static inline double clock_cpu(void)
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
+
 static inline double clock_wall(void)
 {
     struct timespec t;
@@ -32,6 +33,7 @@ static inline int clock_order(const void *a, const void *b)
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
+
 /* Sorts. */
 static inline double clock_median(double *v, int n)
 {

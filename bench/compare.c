@@ -57,7 +57,8 @@ static double turn(int who, int frames, const scene *s, const shade_target *t, c
         if (who == 1) p->draw();
         if (who == 2) {
             size_t bytes = (size_t)t->width * (size_t)t->height * 4;
-            memset(t->color, i, bytes), memset(t->depth, i, bytes);
+            memset(t->color, i, bytes);
+            memset(t->depth, i, bytes);
             __asm__ volatile("" ::: "memory");
         }
     }
@@ -93,11 +94,15 @@ static void measure(const options *o, const scene *s, const peer *p, const char 
     write_picture(o, s, &t, "shade");
     if (!skipped) {
         shade_target other = t;
-        other.color = scene_memory(pixels, 4), other.depth = (float *)scene_memory(pixels, 4);
-        p->load(s), p->draw(), p->read((uint32_t *)other.color, other.depth);
+        other.color = scene_memory(pixels, 4);
+        other.depth = (float *)scene_memory(pixels, 4);
+        p->load(s);
+        p->draw();
+        p->read((uint32_t *)other.color, other.depth);
         d = compare_pictures(&t, (const uint32_t *)other.color, other.depth);
         if (t.color) write_picture(o, s, &other, p->name);
-        free(other.color), free(other.depth);
+        free(other.color);
+        free(other.depth);
     }
     for (int who = 0; who < WAYS; who++) {
         if (!on[who]) continue;
@@ -116,7 +121,8 @@ static void measure(const options *o, const scene *s, const peer *p, const char 
         if (on[who]) ms[who] = clock_median(samples[who], o->rounds);
     if (!skipped) p->unload();
     print_row(s, ms, ratio, &d, skipped, stats.fragments, tsv);
-    free(t.color), free(t.depth);
+    free(t.color);
+    free(t.depth);
 }
 
 static options read_options(int argc, char **argv)

@@ -20,6 +20,7 @@ int frames_count(void)
     if (!frames_scenes[0].name) scenes_build(frames_scenes, NULL);
     return SCENE_COUNT;
 }
+
 const char *frames_name(int i) { return frames_scenes[i].name; }
 
 void frames_open(int i, int level)
@@ -28,8 +29,14 @@ void frames_open(int i, int level)
     frames_now = &frames_scenes[i];
     frames_target = scene_target(frames_now);
 }
+
 void frames_draw(void) { scene_draw(frames_now, &frames_target); }
-void frames_close(void) { free(frames_target.color), free(frames_target.depth); }
+
+void frames_close(void)
+{
+    free(frames_target.color);
+    free(frames_target.depth);
+}
 
 /* of colour and depth */
 unsigned long long frames_hash(void)

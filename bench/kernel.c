@@ -37,7 +37,9 @@ static vec plain_lit(const lamp *lamps, int count, const surface *s, vec P, vec 
         float att = 1, nl, gloss = 0;
         if (l->w != 0) {
             float r;
-            L = sub(l->at, P), r = sqrtf(dot(L, L)), L = scale(L, 1 / r);
+            L = sub(l->at, P);
+            r = sqrtf(dot(L, L));
+            L = scale(L, 1 / r);
             att = 1 / (l->a + l->b * r + l->c * r * r);
         }
         if (l->spot) {
@@ -99,22 +101,35 @@ static void make_job(job *j, shade_model model, light_kind kind, int count)
         lamp *p = &j->lamps[i];
         if (kind == DIRECTIONAL) l = shade_directional_light(shade_neg(at), color);
         if (kind == POINT) l = shade_point_light(at, color);
-        if (kind != DIRECTIONAL) l.constant = 0.5f, l.linear = 0.1f, l.quadratic = 0.02f;
+        if (kind != DIRECTIONAL) {
+            l.constant = 0.5f;
+            l.linear = 0.1f;
+            l.quadratic = 0.02f;
+        }
         j->lights[i] = l;
-        p->at = kind == DIRECTIONAL ? unit(plain(at)) : plain(at), p->w = l.position.w;
-        p->diffuse = plain(l.diffuse), p->specular = plain(l.specular);
-        p->a = l.constant, p->b = l.linear, p->c = l.quadratic;
+        p->at = kind == DIRECTIONAL ? unit(plain(at)) : plain(at);
+        p->w = l.position.w;
+        p->diffuse = plain(l.diffuse);
+        p->specular = plain(l.specular);
+        p->a = l.constant;
+        p->b = l.linear;
+        p->c = l.quadratic;
         p->spot = kind == SPOT;
         if (kind == SPOT) {
             p->aim = scale(unit(plain(l.spot_direction)), -1);
-            p->exponent = l.spot_exponent, p->cos_cutoff = l.spot_cos_cutoff;
+            p->exponent = l.spot_exponent;
+            p->cos_cutoff = l.spot_cos_cutoff;
         }
     }
-    j->lighting.lights = j->lights, j->lighting.light_count = count;
-    j->lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f), j->lighting.model = model;
+    j->lighting.lights = j->lights;
+    j->lighting.light_count = count;
+    j->lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f);
+    j->lighting.model = model;
     j->plain.base = plain(shade_scale(j->material.ambient, 0.2f));
-    j->plain.diffuse = plain(j->material.diffuse), j->plain.specular = plain(j->material.specular);
-    j->plain.shininess = j->material.shininess, j->plain.model = (int)model;
+    j->plain.diffuse = plain(j->material.diffuse);
+    j->plain.specular = plain(j->material.specular);
+    j->plain.shininess = j->material.shininess;
+    j->plain.model = (int)model;
 }
 
 static void run_lanes(const job *j)
@@ -132,7 +147,9 @@ static void run_plain(const job *j)
             vec P = { points[p][0][i], points[p][1][i], points[p][2][i] };
             vec N = { normals[p][0][i], normals[p][1][i], normals[p][2][i] };
             vec c = plain_lit(j->lamps, j->lighting.light_count, &j->plain, P, N, plain(eye));
-            out_plain[p][0][i] = c.x, out_plain[p][1][i] = c.y, out_plain[p][2][i] = c.z;
+            out_plain[p][0][i] = c.x;
+            out_plain[p][1][i] = c.y;
+            out_plain[p][2][i] = c.z;
         }
     }
 }
@@ -189,6 +206,7 @@ static int has_way(int way)
 {
     return way < 2 || (BENCH_HAS_LEVELS && way - 1 <= bench_best_level());
 }
+
 static const char *way_name(int way)
 {
     return way ? bench_level_name(way - 1) : "plain loop, libm";

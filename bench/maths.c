@@ -26,13 +26,16 @@ static float *aligned(float *memory)
 {
     return (float *)(void *)(((uintptr_t)(void *)memory + 63) & ~(uintptr_t)63);
 }
+
 static float memory_a[COUNT * 16 + 16], memory_b[COUNT * 16 + 16];
 static float memory_out[LIBRARIES][COUNT * 16 + 16];
 
 static maths_loop *loop_of(const maths_library *l, int op)
 {
     maths_loop *loops[OPERATIONS];
-    loops[0] = l->mat4_mat4, loops[1] = l->mat4_vec4, loops[2] = l->normalize;
+    loops[0] = l->mat4_mat4;
+    loops[1] = l->mat4_vec4;
+    loops[2] = l->normalize;
     loops[3] = l->inverse_transpose;
     return loops[op];
 }
@@ -101,8 +104,10 @@ int main(int argc, char **argv)
     }
     if (rounds < 3) rounds = 3;
     if (rounds > MOST_ROUNDS) rounds = MOST_ROUNDS;
-    libraries[0] = shade_together(), libraries[1] = maths_shade_apart();
-    libraries[2] = maths_cglm(), libraries[3] = maths_glm();
+    libraries[0] = shade_together();
+    libraries[1] = maths_shade_apart();
+    libraries[2] = maths_cglm();
+    libraries[3] = maths_glm();
     for (int i = 0; i < COUNT * 16; i++) {
         seed = seed * 1664525u + 1013904223u;
         /* a dominant diagonal in the eyes of 3 x 3 matrices keeps their inverses tame */

@@ -107,10 +107,10 @@ size_of() {
 # The scenes of today with the header of another revision, whose names must be those of 1.0.
 against() {
     old=$build/base
-    rm -rf "$old" && mkdir -p "$old/bench" "$old/examples"
+    rm -rf "$old" && mkdir -p "$old/bench" "$old/examples/shared"
     git show "$BASE:shade.h" >"$old/shade.h"
     cp bench/frames.c bench/level.h bench/scenes.h "$old/bench/"
-    cp examples/teapot.h "$old/examples/"
+    cp examples/shared/teapot.h "$old/examples/shared/"
     for side in . "$old"; do
         (cd "$side" && $cc $standard $flags -fPIC -shared bench/frames.c -o frames.so -lm)
     done

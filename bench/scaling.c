@@ -37,13 +37,16 @@ static double knot_ms(int k, int width, shade_stats *stats)
     scene s = scene_dense("knot", 25 * k, k);
     shade_target t;
     double ms;
-    s.width = width, s.height = width * 9 / 16;
+    s.width = width;
+    s.height = width * 9 / 16;
     scene_camera(&s, shade_v3(0, 0, 9.6f), shade_v3(0, 0, 0), 0.8f);
     scene_link(&s);
     t = scene_target(&s);
     *stats = scene_draw(&s, &t);
     ms = frame_ms(&s, &t);
-    free(t.color), free(t.depth), scene_free(&s);
+    free(t.color);
+    free(t.depth);
+    scene_free(&s);
     return ms;
 }
 
@@ -82,16 +85,22 @@ static void pixels(void)
         scene ground = scene_floor("floor", 0.5f);
         double count = (double)size[i][0] * size[i][1], a, b;
         shade_target t;
-        ground.width = size[i][0], ground.height = size[i][1];
-        scene_link(&flat), scene_link(&ground);
+        ground.width = size[i][0];
+        ground.height = size[i][1];
+        scene_link(&flat);
+        scene_link(&ground);
         t = scene_target(&flat);
-        a = frame_ms(&flat, &t), b = frame_ms(&ground, &t);
+        a = frame_ms(&flat, &t);
+        b = frame_ms(&ground, &t);
         printf("| %d x %d | %.2f | %.2f | %.2f | %.2f |\n", size[i][0], size[i][1], a,
                1e6 * a / count, b, 1e6 * b / count);
         if (tsv)
             fprintf(tsv, "pixels\t%.0f\t%.3f\t%.3f\n", count, 1e6 * a / count, 1e6 * b / count);
         fflush(stdout);
-        free(t.color), free(t.depth), scene_free(&flat), scene_free(&ground);
+        free(t.color);
+        free(t.depth);
+        scene_free(&flat);
+        scene_free(&ground);
     }
 }
 
@@ -117,6 +126,7 @@ static void swap_triangles(uint32_t *indices, int a, int b)
         indices[3 * b + k] = kept;
     }
 }
+
 static void scatter(uint32_t *indices, int triangles)
 {
     uint64_t x = 88172645463325252u;    /* xorshift64 */
@@ -127,6 +137,7 @@ static void scatter(uint32_t *indices, int triangles)
         swap_triangles(indices, i, (int)(x % (uint64_t)(i + 1)));
     }
 }
+
 static void model_open(model *m, scene s, int order)
 {
     double start;
@@ -146,17 +157,20 @@ static void model_open(model *m, scene s, int order)
     m->build_ms = (clock_cpu() - start) / 1e6;
     if (order == ORDER_SORTED) m->mesh.indices = m->sorted;
 }
+
 static void model_chunks(model *m, int on)
 {
     m->mesh.chunks = on ? m->chunks : NULL;
     m->mesh.chunk_count = on ? m->chunk_count : 0;
 }
+
 static void model_close(model *m)
 {
     free(m->sorted);
     free(m->chunks);
     scene_free(&m->s);
 }
+
 static shade_stats model_draw(const model *m, const shade_target *t)
 {
     shade_stats stats;
@@ -164,6 +178,7 @@ static shade_stats model_draw(const model *m, const shade_target *t)
     shade_draw_mesh(t, &m->mesh, &m->s.state, &stats);
     return stats;
 }
+
 static shade_target band_of(const shade_target *t, int k, int count)
 {
     shade_target band = *t;
@@ -172,6 +187,7 @@ static shade_target band_of(const shade_target *t, int k, int count)
     band.clip_height = t->height * (k + 1) / count - band.clip_y;
     return band;
 }
+
 /* The least processor time of some draws: what else runs on the machine can only add to it. */
 static double least_ms(const model *m, const shade_target *t, int times)
 {
@@ -184,6 +200,7 @@ static double least_ms(const model *m, const shade_target *t, int times)
     }
     return least;
 }
+
 static double bands_ms(const model *m, const shade_target *t, int count)
 {
     double sum = 0;
@@ -249,6 +266,7 @@ static void *work(void *user)
     model_draw(p->m, &p->band);
     return NULL;
 }
+
 /* Cuts the picture into bands that take equally long, by the times of 32 thin ones, as a program
    knows them from its last frame. */
 static void cut(const model *m, const shade_target *t, part *parts, int count)
@@ -275,6 +293,7 @@ static void cut(const model *m, const shade_target *t, part *parts, int count)
         top = bottom;
     }
 }
+
 static double threads_ms(part *parts, int count)
 {
     pthread_t thread[MOST_THREADS];
@@ -305,6 +324,7 @@ static double peer_ms(const scene *s)
     p->unload();
     return best;
 }
+
 static void threads(void)
 {
     model m[5];
@@ -411,6 +431,7 @@ static double crowd_ms(model *m, const shade_target *t, int boxes, shade_stats *
     }
     return (clock_cpu() - start) / 1e6;
 }
+
 static void crowd(void)
 {
     static const char *const how[] = { "whole meshes", "chunks", "and a box around each mesh" };
@@ -451,6 +472,7 @@ static double ray_us(const model *m, int count, int *hits)
     }
     return (clock_cpu() - start) / 1e3 / count;
 }
+
 static void rays(void)
 {
     model m;

@@ -6,7 +6,7 @@
 #define BENCH_SCENES_H
 
 #include "shade.h"
-#include "../examples/teapot.h"
+#include "../examples/shared/teapot.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,19 +54,28 @@ static inline void scene_geometry(scene *s, int vertices, int indices)
     s->positions = (float *)scene_memory((size_t)vertices, 3 * sizeof(float));
     s->normals = (float *)scene_memory((size_t)vertices, 3 * sizeof(float));
     s->indices = (uint32_t *)scene_memory((size_t)indices, sizeof(uint32_t));
-    s->vertex_count = vertices, s->index_count = indices;
+    s->vertex_count = vertices;
+    s->index_count = indices;
 }
 
 static inline void scene_free(scene *s)
 {
-    free(s->positions), free(s->normals), free(s->indices), free(s->texels);
-    s->positions = s->normals = NULL, s->indices = s->texels = NULL;
+    free(s->positions);
+    free(s->normals);
+    free(s->indices);
+    free(s->texels);
+    s->positions = s->normals = NULL;
+    s->indices = s->texels = NULL;
 }
 
 static inline void scene_put(scene *s, int at, shade_vec3 p, shade_vec3 n)
 {
-    s->positions[3 * at] = p.x, s->positions[3 * at + 1] = p.y, s->positions[3 * at + 2] = p.z;
-    s->normals[3 * at] = n.x, s->normals[3 * at + 1] = n.y, s->normals[3 * at + 2] = n.z;
+    s->positions[3 * at] = p.x;
+    s->positions[3 * at + 1] = p.y;
+    s->positions[3 * at + 2] = p.z;
+    s->normals[3 * at] = n.x;
+    s->normals[3 * at + 1] = n.y;
+    s->normals[3 * at + 2] = n.z;
 }
 
 static inline void scene_camera(scene *s, shade_vec3 eye, shade_vec3 center, float fovy)
@@ -81,7 +90,10 @@ static inline scene scene_new(const char *name, scene_kind kind, int width, int 
 {
     scene s;
     memset(&s, 0, sizeof s);
-    s.name = name, s.kind = kind, s.width = width, s.height = height;
+    s.name = name;
+    s.kind = kind;
+    s.width = width;
+    s.height = height;
     s.background = shade_v4(0.05f, 0.06f, 0.08f, 1);
     s.color = shade_v4(0.7f, 0.45f, 0.2f, 1);
     return s;
@@ -94,7 +106,12 @@ static inline void scene_cells(scene *s, int rows, int columns)
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < columns; j++) {
             uint32_t a = (uint32_t)(i * (columns + 1) + j), c = a + (uint32_t)columns + 1;
-            *out++ = a, *out++ = c, *out++ = c + 1, *out++ = a, *out++ = c + 1, *out++ = a + 1;
+            *out++ = a;
+            *out++ = c;
+            *out++ = c + 1;
+            *out++ = a;
+            *out++ = c + 1;
+            *out++ = a + 1;
         }
     }
 }
@@ -109,8 +126,10 @@ static inline scene scene_teapot(const char *name, shade_shading shading, shade_
     scene_camera(&s, shade_v3(0.2f, 1.6f, 5.7f), shade_v3(0.2f, 1.55f, 0), 0.75f);
     s.material = shade_preset_material(SHADE_PRESET_GOLD);
     s.lights[0] = shade_point_light(shade_v3(4, 6, 5), shade_v3(1, 1, 1));
-    s.state.lighting.light_count = 1, s.state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
-    s.state.shading = shading, s.state.raster.cull = cull;
+    s.state.lighting.light_count = 1;
+    s.state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
+    s.state.shading = shading;
+    s.state.raster.cull = cull;
     return s;
 }
 
@@ -134,10 +153,13 @@ static inline scene scene_floor(const char *name, float cutoff)
         shade_vec3 aim = shade_v3(-0.2f * x, -5, -0.2f * z);
         s.lights[k] = shade_spot_light(shade_v3(x, 5, z), aim, cutoff, 8,
                                        shade_v3(tint[k][0], tint[k][1], tint[k][2]));
-        s.lights[k].constant = 0.3f, s.lights[k].linear = 0.05f, s.lights[k].quadratic = 0.01f;
+        s.lights[k].constant = 0.3f;
+        s.lights[k].linear = 0.05f;
+        s.lights[k].quadratic = 0.01f;
         s.lights[k].ambient = shade_v3(0.01f, 0.01f, 0.01f);
     }
-    s.state.lighting.light_count = 4, s.state.lighting.ambient = shade_v3(0.02f, 0.02f, 0.02f);
+    s.state.lighting.light_count = 4;
+    s.state.lighting.ambient = shade_v3(0.02f, 0.02f, 0.02f);
     return s;
 }
 
@@ -174,8 +196,10 @@ static inline void scene_smooth(scene *s)
 {
     shade_mesh m;
     memset(&m, 0, sizeof m);
-    m.positions = s->positions, m.vertex_count = s->vertex_count;
-    m.indices = s->indices, m.index_count = s->index_count;
+    m.positions = s->positions;
+    m.vertex_count = s->vertex_count;
+    m.indices = s->indices;
+    m.index_count = s->index_count;
     shade_mesh_normals(&m, (shade_vec3 *)(void *)s->normals);
 }
 
@@ -183,7 +207,8 @@ static inline void scene_dense_look(scene *s)
 {
     s->material = shade_preset_material(SHADE_PRESET_TURQUOISE);
     s->lights[0] = shade_point_light(shade_v3(4, 6, 8), shade_v3(1, 1, 1));
-    s->state.lighting.light_count = 1, s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
+    s->state.lighting.light_count = 1;
+    s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
     s->state.shading = SHADE_SHADING_PER_VERTEX;
 }
 
@@ -224,7 +249,8 @@ static inline int scene_read_obj(scene *s, const char *path)
                 for (int k = 2; k < n; k++, indices += 3) {
                     if (!pass) continue;
                     s->indices[indices] = polygon[0];
-                    s->indices[indices + 1] = polygon[k - 1], s->indices[indices + 2] = polygon[k];
+                    s->indices[indices + 1] = polygon[k - 1];
+                    s->indices[indices + 2] = polygon[k];
                 }
             }
         }
@@ -248,7 +274,8 @@ static inline scene scene_obj(const char *name, const char *path)
         low = shade_min(low, shade_v3(p[0], p[1], p[2]));
         high = shade_max(high, shade_v3(p[0], p[1], p[2]));
     }
-    size = shade_sub(high, low), center = shade_scale(shade_add(low, high), 0.5f);
+    size = shade_sub(high, low);
+    center = shade_scale(shade_add(low, high), 0.5f);
     scale = 6.5f / (size.x > size.y ? size.x : size.y);
     s.state.model = shade_mat4_mul(shade_mat4_scaling(shade_v3(scale, scale, scale)),
                                    shade_mat4_translation(shade_neg(center)));
@@ -337,7 +364,8 @@ static inline shade_target scene_target(const scene *s)
     shade_target t;
     size_t pixels = (size_t)s->width * (size_t)s->height;
     memset(&t, 0, sizeof t);
-    t.width = s->width, t.height = s->height;
+    t.width = s->width;
+    t.height = s->height;
     if (s->kind != SCENE_DEPTH) t.color = scene_memory(pixels, 4);
     t.depth = (float *)scene_memory(pixels, sizeof(float));
     return t;
@@ -347,8 +375,11 @@ static inline shade_mesh scene_mesh(const scene *s)
 {
     shade_mesh m;
     memset(&m, 0, sizeof m);
-    m.positions = s->positions, m.normals = s->normals, m.vertex_count = s->vertex_count;
-    m.indices = s->indices, m.index_count = s->index_count;
+    m.positions = s->positions;
+    m.normals = s->normals;
+    m.vertex_count = s->vertex_count;
+    m.indices = s->indices;
+    m.index_count = s->index_count;
     return m;
 }
 
@@ -358,7 +389,10 @@ static inline void scene_vertex(const void *uniforms, const shade_vertex_ids *SH
     const scene *s = (const scene *)uniforms;
     for (int i = 0; i < SHADE_LANES; i++) {
         const float *p = s->positions + 3 * (size_t)in->index[i];
-        out->clip[0][i] = p[0], out->clip[1][i] = p[1], out->clip[2][i] = p[2], out->clip[3][i] = 1;
+        out->clip[0][i] = p[0];
+        out->clip[1][i] = p[1];
+        out->clip[2][i] = p[2];
+        out->clip[3][i] = 1;
     }
 }
 
@@ -367,7 +401,11 @@ static inline void scene_fragment(const void *uniforms, const shade_fragments *S
 {
     shade_vec4 c = ((const scene *)uniforms)->color;
     (void)in;
-    SHADE_EACH_LANE(i) { out->color[0][i] = c.x, out->color[1][i] = c.y, out->color[2][i] = c.z; }
+    SHADE_EACH_LANE(i) {
+        out->color[0][i] = c.x;
+        out->color[1][i] = c.y;
+        out->color[2][i] = c.z;
+    }
 }
 
 static inline void scene_map_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
@@ -379,10 +417,15 @@ static inline void scene_map_vertex(const void *uniforms, const shade_vertex_ids
         const float *p = s->positions + 3 * (size_t)in->index[i];
         const float *uv = s->normals + 3 * (size_t)in->index[i];
         shade_vec4 c = shade_mat4_transform(m, shade_v4(p[0], p[1], p[2], 1));
-        out->clip[0][i] = c.x, out->clip[1][i] = c.y, out->clip[2][i] = c.z, out->clip[3][i] = c.w;
-        out->varying[0][i] = uv[0], out->varying[1][i] = uv[1];
+        out->clip[0][i] = c.x;
+        out->clip[1][i] = c.y;
+        out->clip[2][i] = c.z;
+        out->clip[3][i] = c.w;
+        out->varying[0][i] = uv[0];
+        out->varying[1][i] = uv[1];
     }
 }
+
 static inline void scene_map_fragment(const void *uniforms,
                                       const shade_fragments *SHADE_RESTRICT in,
                                       shade_colors *SHADE_RESTRICT out)
@@ -390,7 +433,8 @@ static inline void scene_map_fragment(const void *uniforms,
     const scene *s = (const scene *)uniforms;
     shade_texture t;
     memset(&t, 0, sizeof t);
-    t.pixels = s->texels, t.width = t.height = SCENE_TEXELS;
+    t.pixels = s->texels;
+    t.width = t.height = SCENE_TEXELS;
     shade_sample_lanes(&t, in->varying[0], in->varying[1], NULL, (float *)out->color);
 }
 
@@ -406,10 +450,14 @@ static inline shade_stats scene_draw(const scene *s, const shade_target *t)
     } else if (result == SHADE_OK && s->kind != SCENE_CLEAR) {
         shade_pipeline p;
         memset(&p, 0, sizeof p);
-        p.vertex = scene_vertex, p.uniforms = s;
+        p.vertex = scene_vertex;
+        p.uniforms = s;
         p.fragment = s->kind == SCENE_FLAT ? scene_fragment : NULL;
-        if (s->kind == SCENE_MAP)
-            p.vertex = scene_map_vertex, p.fragment = scene_map_fragment, p.varyings = 2;
+        if (s->kind == SCENE_MAP) {
+            p.vertex = scene_map_vertex;
+            p.fragment = scene_map_fragment;
+            p.varyings = 2;
+        }
         result = shade_draw(t, &p, s->indices, s->index_count, s->vertex_count, &stats);
     }
     if (result != SHADE_OK) {

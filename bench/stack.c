@@ -57,7 +57,9 @@ int main(void)
     scene_camera(&s[3], shade_v3(0.3f, 1, 0.2f), shade_v3(1, 1.2f, 0), 1.5f);
     s[4] = scene_teapot("with a trilinear map", SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
     memset(&map, 0, sizeof map);
-    map.pixels = texel, map.width = map.height = 4, map.filter = SHADE_FILTER_TRILINEAR;
+    map.pixels = texel;
+    map.width = map.height = 4;
+    map.filter = SHADE_FILTER_TRILINEAR;
     if (shade_build_mipmaps(&map, level, half, sizeof half)) exit(1);
     printf("| SHADE_LANES %d, SHADE_MAX_VARYINGS %d | bytes of stack |\n|---|---|\n", SHADE_LANES,
            SHADE_MAX_VARYINGS);
@@ -65,16 +67,21 @@ int main(void)
     least = touched(&j);
     for (int i = 0; i < 5; i++) {
         scene_link(&s[i]);
-        j.s = &s[i], j.target = scene_target(&s[i]), j.mesh = scene_mesh(&s[i]);
+        j.s = &s[i];
+        j.target = scene_target(&s[i]);
+        j.mesh = scene_mesh(&s[i]);
         if (i == 4) {    /* normals serve as texture coordinates */
             s[i].state.diffuse_map = &map;
-            j.mesh.texcoords = j.mesh.normals, j.mesh.texcoord_stride = 12;
+            j.mesh.texcoords = j.mesh.normals;
+            j.mesh.texcoord_stride = 12;
         }
         shade_clear(&j.target, s[i].background, 1);
         bytes = touched(&j);
         if (bytes > most) most = bytes;
         printf("| %s | %ld |\n", s[i].name, bytes);
-        free(j.target.color), free(j.target.depth), scene_free(&s[i]);
+        free(j.target.color);
+        free(j.target.depth);
+        scene_free(&s[i]);
     }
     if (most <= least) printf("| (a thread alone touches %ld) | |\n", least);
     printf("| most | %ld |\n", most);

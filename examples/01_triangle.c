@@ -1,6 +1,7 @@
-/* 01_triangle.c - a triangle whose corners are red, green and blue, linear in between, which UW
-   calls smearing: the smallest whole program.
-   Try .srgb = 0: everything gets darker, since a display takes light for codes.
+/* 01_triangle.c - the smallest whole program: a triangle whose corners are red, green and blue.
+   Between the corners colours are linear, which UW calls smearing.
+   Try .srgb = 0: the picture gets darker, because the display takes linear light for encoded
+   values.
 
    cc -O2 -I. examples/01_triangle.c -lm -o triangle && ./triangle        writes triangle.ppm */
 #define SHADE_IMPLEMENTATION
@@ -19,10 +20,14 @@ int main(int argc, char **argv)
     shade_mesh mesh = { .positions = corners, .colors = colors, .vertex_count = 3 };
     shade_draw_state state = { 0 };
 
-    target.color = pixels, target.depth = depth;
+    target.color = pixels;
+    target.depth = depth;
     state.lighting.ambient = shade_v3(1, 1, 1);    /* white light from everywhere: bare colours */
     shade_clear(&target, shade_v4(0.02f, 0.02f, 0.03f, 1), 1);
     shade_draw_mesh(&target, &mesh, &state, NULL);
-    if (shade_write_ppm(path, &target)) return fprintf(stderr, "%s: not written\n", path), 1;
+    if (shade_write_ppm(path, &target)) {
+        fprintf(stderr, "%s: not written\n", path);
+        return 1;
+    }
     return 0;
 }

@@ -1,13 +1,13 @@
 /* 02_iterations.c - one sphere, five times: the lighting equation as UW builds it up, from left to
-   right.  Iteration zero glows; one adds ambient light; two the light of a lamp spread by Lambert's
-   law; three its highlight; four sums many lamps, weakened by distance or held in a cone.
+   right.  Iteration zero has emission alone.  One adds ambient light, two the diffuse light of a
+   lamp, three its highlight.  Four sums many lamps, some weakened by distance, one held in a cone.
    Try shininess 5 for 40: the highlight spreads over the whole lit half.
 
    cc -O2 -I. examples/02_iterations.c -lm -o iterations && ./iterations */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 int main(int argc, char **argv)
 {
@@ -27,7 +27,8 @@ int main(int argc, char **argv)
 
     lamps[0] = shade_point_light(shade_v3(-2.6f, 3, 3.4f), shade_v3(1, 0.96f, 0.9f));
     lamps[1] = shade_point_light(shade_v3(1.5f, -0.9f, 0.9f), shade_v3(0.15f, 0.5f, 1.4f));
-    lamps[1].constant = 0.2f, lamps[1].quadratic = 0.8f;
+    lamps[1].constant = 0.2f;
+    lamps[1].quadratic = 0.8f;
     lamps[2] = shade_point_light(shade_v3(-1.5f, -1, 0.6f), shade_v3(0.2f, 1.2f, 0.35f));
     lamps[2].quadratic = 1;
     lamps[3] = shade_spot_light(shade_v3(2, 1, 4), shade_v3(-1.75f, -1.1f, -3.2f), 0.12f, 150,

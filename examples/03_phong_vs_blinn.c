@@ -1,14 +1,15 @@
-/* 03_phong_vs_blinn.c - Phong's highlight beside Blinn's, Massey's three spheres.  The same n gives
-   Blinn's twice the width, since H turns half as fast as R: it is down to half where N is 16.8
-   degrees off H, Phong's at 8.4.  4n, shade_blinn_exponent, brings Blinn's back to 8.4.
-   Try 0.6f for the -1 of the lamp, which then stands behind: Phong's becomes an arc along the rim,
-   Blinn's stays a spot, and 4n no longer helps.
+/* 03_phong_vs_blinn.c - Phong's highlight beside Blinn's, on Massey's three spheres.  With the same
+   n Blinn's is twice as wide, because H turns half as fast as R: it falls to one half where N is
+   16.8 degrees off H, Phong's at 8.4 degrees.  With 4 n, from shade_blinn_exponent, Blinn's falls
+   to one half at 8.4 degrees too.
+   Try 0.6f for the -1 of the lamp, which then stands behind the spheres: Phong's highlight becomes
+   an arc along the rim, Blinn's stays a spot, and 4 n no longer helps.
 
    cc -O2 -I. examples/03_phong_vs_blinn.c -lm -o phong && ./phong */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 int main(int argc, char **argv)
 {
@@ -30,7 +31,8 @@ int main(int argc, char **argv)
     state.view = shade_mat4_look_at(shade_v3(0, 0, 6), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.36f, 1, 1, 10);
     state.material = &teal;
-    state.lighting.lights = &lamp, state.lighting.light_count = 1;
+    state.lighting.lights = &lamp;
+    state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.22f, 0.23f, 0.27f);
 
     canvas_dark(&c.target);

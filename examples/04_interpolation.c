@@ -1,15 +1,16 @@
-/* 04_interpolation.c - where light is computed, on a sphere of few triangles.  Above: once per face
-   (flat), per vertex and spread (Gouraud), per pixel from the spread normal (Phong; only the
-   outline tells that it is no sphere).  The highlight falls inside a facet, where Gouraud misses
-   it.  Below: as the sphere turns, a vertex meets the highlight and Gouraud's flashes (UW, Massey).
-   The numbers: blue as a display shows it where it is brightest; the clay has none of its own.
+/* 04_interpolation.c - where light is computed, on a sphere of few triangles (UW, Massey).  Above:
+   once per face (flat); per vertex, with colours interpolated (Gouraud); per pixel, with normals
+   interpolated (Phong), where only the outline shows the triangles.  The highlight lies inside a
+   facet, where Gouraud misses it.  Below: the sphere turns until a vertex meets the highlight, and
+   Gouraud's shading flashes.  The numbers are the brightest blue of each sphere, which is all
+   highlight: the clay has no blue.
    Try mesh_sphere(56, 40): Gouraud's sphere can hardly be told from Phong's.
 
    cc -O2 -I. examples/04_interpolation.c -lm -o interpolation && ./interpolation */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 enum { SIZE = 300 };    /* pixels of a panel */
 
@@ -52,7 +53,8 @@ int main(int argc, char **argv)
     state.view = shade_mat4_look_at(shade_v3(0, 0, 6), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.35f, 1, 1, 10);
     state.material = &clay;
-    state.lighting.lights = &lamp, state.lighting.light_count = 1;
+    state.lighting.lights = &lamp;
+    state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.10f, 0.11f, 0.13f);
 
     canvas_dark(&c.target);

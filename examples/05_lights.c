@@ -1,13 +1,14 @@
-/* 05_lights.c - balls under three kinds of lamp.  From infinity L is the same everywhere and all
-   shadows are parallel; from a point Q L turns from pixel to pixel and shadows flee the lamp; a
-   spotlight is a point whose light ends where L leaves the cone about its axis S (UW, Berkeley).
-   Try 60 for the exponent 8: the pool of the spotlight fades before it reaches the rim.
+/* 05_lights.c - balls under three kinds of lamp (UW, Berkeley).  From a lamp at infinity L is the
+   same everywhere, and all shadows are parallel.  From a point Q L changes from pixel to pixel, and
+   shadows point away from the lamp.  A spotlight is a point whose light ends where L leaves the
+   cone about its axis S.
+   Try 60 for the exponent 8: the pool of light fades before it reaches the rim of the cone.
 
    cc -O2 -I. examples/05_lights.c -lm -o lights && ./lights        writes lights.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "balls.h"
-#include "label.h"
+#include "shared/balls.h"
+#include "shared/label.h"
 
 enum { BALLS = 7 };
 
@@ -27,14 +28,17 @@ int main(int argc, char **argv)
 
     for (int i = 0; i < BALLS; i++) {
         shade_vec2 a = mesh_turn((float)i / BALLS);
-        place[i] = shade_v4(1.5f * a.x, 0.42f, 1.5f * a.y, 0.42f), color[i] = shade_rgb(paint[i]);
+        place[i] = shade_v4(1.5f * a.x, 0.42f, 1.5f * a.y, 0.42f);
+        color[i] = shade_rgb(paint[i]);
     }
     lamp[0] = shade_directional_light(shade_v3(0.6f, -1, -0.5f), white);
     lamp[1] = shade_point_light(shade_v3(0.2f, 1.7f, 0), white);
     lamp[2] = shade_spot_light(shade_v3(-1, 4, 1.5f), shade_v3(1.3f, -4, -1.3f), 0.36f, 8,
                                shade_scale(white, 1.3f));
-    scene.eye = shade_v3(0, 5, 5.2f), scene.center = shade_v3(0.08f, 0.1f, 0.1f);
-    scene.fovy = 0.60f, scene.lighting.light_count = 1;
+    scene.eye = shade_v3(0, 5, 5.2f);
+    scene.center = shade_v3(0.08f, 0.1f, 0.1f);
+    scene.fovy = 0.60f;
+    scene.lighting.light_count = 1;
     scene.lighting.ambient = shade_v3(0.04f, 0.045f, 0.06f);
     canvas_dark(&c.target);
     for (int i = 0; i < 3; i++) {

@@ -1,14 +1,14 @@
-/* 06_materials.c - twenty-four teapots in the twenty-four materials of the OpenGL teapots, Massey's
-   brass among them (n = 27.9): k_a, k_d, k_s and n alone make metal, stone, plastic and rubber.
-   Their table is older than sRGB: its numbers are colours of a display, and become linear light
-   before they are lit.
-   Try the presets without shade_linear_material: everything is pale, gold is khaki.
+/* 06_materials.c - teapots in the twenty-four materials of the OpenGL "teapots" program, Massey's
+   brass (n = 27.9) among them: k_a, k_d, k_s and n alone make metal, stone, plastic and rubber.
+   That table is older than sRGB.  Its numbers are sRGB values, which shade_linear_material turns
+   into linear light.
+   Try the presets without shade_linear_material: all colours are pale, and gold is khaki.
 
    cc -O2 -I. examples/06_materials.c -lm -o materials && ./materials        writes materials.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 int main(int argc, char **argv)
 {
@@ -24,7 +24,8 @@ int main(int argc, char **argv)
                                  shade_mat4_translation(shade_v3(-0.38f, -1.5f, 0)));
     state.view = shade_mat4_look_at(shade_v3(0, 5, 13), shade_v3(0, -0.25f, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.40f, (float)width / (float)height, 5, 25);
-    state.lighting.lights = lamps, state.lighting.light_count = 2;
+    state.lighting.lights = lamps;
+    state.lighting.light_count = 2;
     state.lighting.ambient = shade_v3(0.5f, 0.5f, 0.5f);
     state.lighting.flags = SHADE_FLAG_TWO_SIDED; /* the gap below the lid shows the inside */
 

@@ -1,12 +1,13 @@
-/* 07_shaders.c - shaders of one's own, as UW and Massey write them in GLSL: the vertex shader moves
-   points and tilts normals, the fragment shader paints stripes, cuts light into steps, inks rims.
-   Try leaving out the line that tilts N: the ripples stay in the outline, the light ignores them.
+/* 07_shaders.c - a vertex and a fragment shader of your own, as UW and Massey write them in GLSL.
+   The vertex shader moves points and tilts normals.  The fragment shader paints stripes, cuts light
+   into steps and darkens rims.
+   Try it without the line that tilts N: the outline keeps its ripples, the light ignores them.
 
    cc -O2 -I. examples/07_shaders.c -lm -o shaders && ./shaders        writes shaders.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 typedef struct scene {
     shade_mat4 clip_from_world;
@@ -30,10 +31,9 @@ static void ripple(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT 
         shade_vec4 clip = shade_mat4_transform(s->clip_from_world, shade_v4(P.x, P.y, P.z, 1));
         /* P = p + h(y) N tilts the normal by the part of grad h that lies in the surface. */
         N = shade_madd(N, -dh, shade_v3(-N.y * N.x, 1 - N.y * N.y, -N.y * N.z));
-        out->clip[0][i] = clip.x, out->clip[1][i] = clip.y;
-        out->clip[2][i] = clip.z, out->clip[3][i] = clip.w;
-        out->varying[0][i] = P.x, out->varying[1][i] = P.y, out->varying[2][i] = P.z;
-        out->varying[3][i] = N.x, out->varying[4][i] = N.y, out->varying[5][i] = N.z;
+        lane_put4(out->clip[0], i, clip);
+        lane_put(out->varying[0], i, P);
+        lane_put(out->varying[3], i, N);
     }
 }
 
@@ -45,8 +45,7 @@ static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
     const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
     shade_lit_lanes(&s->lighting, &s->material, s->eye, &rows, rgb[0]);
     SHADE_EACH_LANE(i) {
-        shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
-        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
+        shade_vec3 P = lane(in->varying[0], i), N = lane(in->varying[3], i);
         float facing = shade_dot(shade_normalize(N), shade_normalize(shade_sub(s->eye, P)));
         float stripe = 1.6f * P.y - (float)(int)(1.6f * P.y), ink = facing < 0.25f ? 0.1f : 1.0f;
         float level = ink * (float)(int)(4 * rgb[1][i] + 0.6f) / 4;
@@ -61,17 +60,17 @@ int main(int argc, char **argv)
     shade_light lamp = shade_directional_light(shade_v3(0.6f, -0.8f, -0.7f), shade_v3(1, 1, 1));
     owned_mesh pot = shape_teapot(40);
     canvas c = canvas_new(960, 640, 3);
-    scene s = { .eye = { -1.2f, 4.6f, 9 }, .positions = pot.positions, .normals = pot.normals };
+    scene s = { .eye = { -1.2f, 4.6f, 9 }, .positions = pot.positions, .normals = pot.normals,
+                .lighting = { &lamp, 1 },
+                .material = { .diffuse = { 0.85f, 0.85f, 0.85f },
+                              .specular = { 0.5f, 0.5f, 0.5f }, .shininess = 60 } };
     shade_pipeline pipeline = { ripple, toon, &s, .varyings = 6 };
     shade_mat4 view = shade_mat4_look_at(s.eye, shade_v3(0.3f, 1.3f, 0), shade_v3(0, 1, 0));
     const shade_vec3 ink = { 0, 0, 0 };
 
     s.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.52f, 960 / 640.0f, 4, 20), view);
-    s.lighting.lights = &lamp, s.lighting.light_count = 1;
-    s.material.diffuse = shade_v3(0.85f, 0.85f, 0.85f);
-    s.material.specular = shade_v3(0.5f, 0.5f, 0.5f), s.material.shininess = 60;
     canvas_gradient(&c.target, shade_v3(0.75f, 0.80f, 0.80f), shade_v3(0.95f, 0.88f, 0.75f));
-    shade_draw(&c.target, &pipeline, pot.indices, pot.view.index_count, pot.view.vertex_count, 0);
+    mesh_draw(&c.target, &pipeline, &pot);
     label_draw(&c, 24, 594, 22, ink, "vertex shader: P + h(y) N, N tilted to match");
     label_draw(&c, 24, 622, 22, ink, "fragment shader: light in 4 steps, ink where N·V < 1/4");
     mesh_free(&pot);

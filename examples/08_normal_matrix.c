@@ -1,14 +1,15 @@
-/* 08_normal_matrix.c - a sphere whose points went through M, that presses it to a third.  Left: its
-   normals went through M as well and no longer stand on the surface: it shines like an egg.  Right:
-   through the normal matrix, (M^-1)^T but for its length, shade_normal_matrix (Massey).  The
-   numbers: the mean angle to the normals of the pressed triangles.
-   Try scaling by (0.7f, 0.7f, 0.7f): both are right, since M scales evenly.
+/* 08_normal_matrix.c - a sphere whose points are transformed by M, which presses it to a third of
+   its height.  Left: its normals are transformed by M as well and no longer stand on the surface,
+   so that it shines like an egg.  Right: by the normal matrix, (M^-1)^T up to its scale, from
+   shade_normal_matrix (Massey).  The numbers are mean angles to the normals of the pressed
+   triangles.
+   Try scaling by (0.7f, 0.7f, 0.7f): both are right, because M scales evenly.
 
    cc -O2 -I. examples/08_normal_matrix.c -lm -o normal_matrix && ./normal_matrix */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 #include <math.h>
 
 /* A sphere of 2 n slices, its points moved by M and its normals by of_normals */
@@ -69,7 +70,8 @@ int main(int argc, char **argv)
         }
         sprintf(text, "%.1f° off on average", mean_angle(&body));
         label_caption(&c, 480 * i + 240, 340, grey, name[i], text);
-        mesh_free(&body), mesh_free(&few);
+        mesh_free(&body);
+        mesh_free(&few);
     }
     return canvas_save(&c, argc, argv, "normal_matrix.ppm");
 }

@@ -1,13 +1,13 @@
 /* 09_terms.c - what each term of the lighting equation contributes.  Above: emission, ambient,
-   diffuse and specular light, each alone.  Below: their running sums; the last is iteration three
-   (UW), and the four add up to it exactly, since light adds.
-   Try SHADE_MODEL_LAMBERT in state.lighting: what stays of the last column is its diffuse light.
+   diffuse and specular light, each alone.  Below: their running sums.  The last of them is UW's
+   iteration three.  The four terms add up to it exactly, because light is additive.
+   Try SHADE_MODEL_LAMBERT in state.lighting: the specular term is empty.
 
    cc -O2 -I. examples/09_terms.c -lm -o terms && ./terms        writes terms.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 int main(int argc, char **argv)
 {
@@ -27,7 +27,8 @@ int main(int argc, char **argv)
     state.model = shape_at(-0.4f, -1.5f, -0.17f, 1, -0.45f);
     state.view = shade_mat4_look_at(shade_v3(0, 5, 13), shade_v3(0, -0.05f, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.33f, 240 / 180.0f, 9, 19);
-    state.lighting.lights = lamps, state.lighting.light_count = 2;
+    state.lighting.lights = lamps;
+    state.lighting.light_count = 2;
     state.lighting.ambient = shade_v3(0.22f, 0.23f, 0.26f);
     canvas_dark(&c.target);
     for (int i = 0; i < 8; i++) {

@@ -1,13 +1,14 @@
-/* 10_textures.c - a floor of two triangles.  Left: u and v linear over the screen (affine): the
-   tiles bend at the diagonal.  Right: u/w, v/w and 1/w are linear there; their quotients lie on
-   the floor (UW: a texture looked up per pixel).  Counted: pixels that show another tile.
-   Try mesh_plane(1, 16): 512 triangles, whose faults are too small to be seen.
+/* 10_textures.c - a textured floor of two triangles (UW looks a texture up per pixel).  Left: u and
+   v are linear on the screen (affine), and the tiles bend at the diagonal.  Right: u/w, v/w and 1/w
+   are linear on the screen, and their quotients lie on the floor.  The number counts pixels that
+   show another tile than on the right.
+   Try mesh_plane(1, 16): with 512 triangles the errors are too small to be seen.
 
    cc -O2 -I. examples/10_textures.c -lm -o textures && ./textures        writes textures.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 enum { WIDTH = 477, HEIGHT = 310 };
 typedef struct scene { mesh_scene place; shade_texture tiles; } scene;
@@ -43,14 +44,14 @@ int main(int argc, char **argv)
     for (int i = 0; i < 2; i++) {
         panel[i] = canvas_panel(&c, 483 * i, 0, WIDTH, HEIGHT);
         pipeline.interpolation = i ? SHADE_INTERPOLATION_PERSPECTIVE : SHADE_INTERPOLATION_AFFINE;
-        shade_draw(&panel[i], &pipeline, floor.indices, floor.view.index_count,
-                   floor.view.vertex_count, NULL);
+        mesh_draw(&panel[i], &pipeline, &floor);
     }
     for (int i = 0; i < panel[0].width * panel[0].height; i++) {
         int at = i / panel[0].width * panel[0].stride + i % panel[0].width;
         const float *p = (const float *)panel[0].color + 4 * at;
         const float *q = (const float *)panel[1].color + 4 * at;
-        covered += panel[0].depth[at] < 1, wrong += panel[0].depth[at] < 1 && p[0] != q[0];
+        covered += panel[0].depth[at] < 1;
+        wrong += panel[0].depth[at] < 1 && p[0] != q[0];
     }
     sprintf(text[0], "another tile at %d %% of the pixels", covered ? 100 * wrong / covered : 0);
     for (int i = 0; i < 2; i++) label_caption(&c, 483 * i + 238, 340, grey, name[i], text[i]);

@@ -1,16 +1,16 @@
-/* 11_mipmaps.c - a floor to the horizon, one sample a pixel.  Bilinear filtering misses most texels
-   far away: patterns that are not there, and shimmer when one moves.  Trilinear filtering reads
-   smaller pictures of the texture, as fine as the pixels are, and fades to the mean.  To compare:
-   64 bilinear samples a pixel.  Below each, the horizon four times as large, and how far it is from
-   that of the 64 samples on average, of 255.
+/* 11_mipmaps.c - a floor to the horizon, one sample a pixel.  Far away bilinear filtering misses
+   most texels: it shows patterns that are not there and that shimmer when the camera moves.
+   Trilinear filtering reads smaller pictures of the texture, whose texels are about as large as the
+   pixels, and fades to their mean.  Right, to compare: 64 bilinear samples a pixel.  Below each,
+   the horizon four times as large, and its mean distance, of 255, from the horizon with 64 samples.
    Try SHADE_FILTER_NEAREST for BILINEAR: 27.3 for 26.0, and joints near the eye get steps.
 
    cc -O2 -I. examples/11_mipmaps.c -lm -o mipmaps && ./mipmaps        writes mipmaps.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
-#include "paint.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
+#include "shared/paint.h"
 #include <math.h>
 
 enum { SIZE = 128 };
@@ -65,6 +65,8 @@ int main(int argc, char **argv)
         label_caption(&c, 320 * i + 160, 462, shade_v3(0.7f, 0.7f, 0.7f), name[i],
                       i < 2 ? text : "");
     }
-    mesh_free(&floor), free(fine.target.color), free(fine.target.depth);
+    mesh_free(&floor);
+    free(fine.target.color);
+    free(fine.target.depth);
     return canvas_save(&c, argc, argv, "mipmaps.ppm");
 }

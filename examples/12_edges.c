@@ -1,15 +1,15 @@
-/* 12_edges.c - drawings by edges (Shirley).  Left: every edge of the meshes.  Middle: a fill that
-   writes depth alone hides those behind.  Right: what an illustrator draws: silhouettes, between a
-   face seen from the front and one seen from behind; creases, where faces meet at a sharp angle;
-   boundaries, edges of one face alone.
+/* 12_edges.c - drawings by edges (Shirley).  Left: every edge of the meshes.  Middle: a depth-only
+   draw hides the edges behind faces.  Right: what an illustrator draws.  Silhouettes lie between a
+   face seen from the front and one seen from behind, creases where faces meet at a sharp angle,
+   boundaries where an edge has only one face.
    Try 0.9f for the crease threshold 0.5f: handle and spout are drawn full of facets.
 
    cc -O2 -I. examples/12_edges.c -lm -o edges && ./edges        writes edges.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "edges.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/edges.h"
+#include "shared/label.h"
 
 int main(int argc, char **argv)
 {
@@ -44,17 +44,21 @@ int main(int argc, char **argv)
         pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
         pen.raster.depth_bias = i > 0 ? -0.003f : 0;
         for (int k = i < 2 ? EDGE_OTHER : EDGE_BOUNDARY; k >= 0; k--) {
-            pen.color = ink[i < 2 ? EDGE_OTHER : k], pen.width = i < 2 ? 3 : 9;
+            pen.color = ink[i < 2 ? EDGE_OTHER : k];
+            pen.width = i < 2 ? 3 : 9;
             shade_draw_lines(&panel, lines.points[k], lines.count[k], &pen, NULL);
         }
         label_center(&c, 320 * i + 160, 330, 22, black, name[i]);
-        pen.clip_from_points = canvas_from_pixels(&c), pen.raster.depth_test = SHADE_COMPARE_ALWAYS;
-        pen.color = ink[i], pen.width = 9;
+        pen.clip_from_points = canvas_from_pixels(&c);
+        pen.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        pen.color = ink[i];
+        pen.width = 9;
         float x = (float)(320 * i + (i ? 60 : 20));
         const shade_vec3 sample[2] = { { x, 362, 0 }, { x + 30, 362, 0 } };
         shade_draw_lines(&c.target, sample, 2, &pen, NULL);
         label_draw(&c, 320 * i + (i ? 102 : 62), 369, 20, black, kind[i]);
     }
-    edges_free(&lines), mesh_free(&scene);
+    edges_free(&lines);
+    mesh_free(&scene);
     return canvas_save(&c, argc, argv, "edges.ppm");
 }

@@ -1,15 +1,15 @@
-/* 14_two_sided.c - a ribbon, open on both sides.  Its normals all point to one side: lit as they
-   are, the other side stays dark.  Two-sided light turns N toward the viewer; |N.L|, Shirley's
+/* 14_two_sided.c - an open surface, a ribbon whose normals all point to one side.  Lit as they are,
+   they leave the other side dark.  Two-sided light turns N toward the viewer.  |N.L|, Shirley's
    (10.4), lights a sheet from behind as well, like paper, which Berkeley's notes dispute.  Last,
-   each side has a material of its own: the ribbon is drawn twice, with the other side culled.
-   Try a second lamp opposite the first and no flags: the diffuse light of |N.L| everywhere, and
-   highlights of that lamp.
+   each side has its own material: the ribbon is drawn twice, each time with the other side culled.
+   Try a second lamp opposite the first and no flags: the diffuse light of |N.L|, and the highlights
+   of that lamp as well.
 
    cc -O2 -I. examples/14_two_sided.c -lm -o two_sided && ./two_sided */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 /* A strip about the x axis that turns once and a half along it */
 static owned_mesh ribbon(int cells)
@@ -44,14 +44,16 @@ int main(int argc, char **argv)
 
     for (int k = 0; k < 2; k++) {
         silk[k].diffuse = k ? shade_v3(0.05f, 0.25f, 0.45f) : shade_v3(0.60f, 0.12f, 0.05f);
-        silk[k].ambient = silk[k].diffuse, silk[k].specular = shade_v3(0.4f, 0.4f, 0.4f);
+        silk[k].ambient = silk[k].diffuse;
+        silk[k].specular = shade_v3(0.4f, 0.4f, 0.4f);
         silk[k].shininess = 32;
     }
     state.model = shade_mat4_rotation(0.3f, shade_v3(0, 1, 0.4f));
     state.view = shade_mat4_look_at(shade_v3(0, 2, 10), shade_v3(-0.1f, -0.05f, 0),
                                     shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.285f, 480 / 215.0f, 4, 20);
-    state.lighting.lights = &lamp, state.lighting.light_count = 1;
+    state.lighting.lights = &lamp;
+    state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.04f, 0.04f, 0.05f);
     canvas_gradient(&c.target, shade_v3(0.10f, 0.11f, 0.13f), shade_v3(0.035f, 0.037f, 0.045f));
     for (int i = 0; i < 4; i++) {

@@ -1,13 +1,13 @@
-/* 15_spots.c - spotlights on a wall, straight from in front.  Above: cones of one width whose light
-   gathers about the axis S as the exponent e grows.  Below: even light, e = 0, in cones of five
-   widths beta (UW: the angular fall-off and the cutoff of a spotlight).
-   Try e = 64 below: at 20 degrees the rim is all but gone, the light has fallen off before.
+/* 15_spots.c - spotlights on a wall, seen from in front (UW: angular fall-off and cutoff).  Above:
+   cones of the same width, whose light gathers about the axis S as the exponent e grows.  Below:
+   even light, e = 0, in cones of five widths beta.
+   Try e = 64 below: at 20 degrees the rim is all but gone, because the light fades before it.
 
    cc -O2 -I. examples/15_spots.c -lm -o spots && ./spots        writes spots.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 int main(int argc, char **argv)
 {

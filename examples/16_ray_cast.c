@@ -1,14 +1,14 @@
-/* 16_ray_cast.c - one scene drawn two ways (UW): by the z-buffer, and by a ray through each pixel
-   centre to the nearest triangle, then from there to each lamp, which finds the shadows too.
-   Right: the difference, 250 times as bright; shadows, which are not compared, are grey.  Counted:
-   pixels that are more than 1/255 apart.
+/* 16_ray_cast.c - one scene drawn two ways (UW).  Left: by the z-buffer.  Middle: by a ray through
+   the centre of each pixel to the nearest triangle, and a ray from there to each lamp, which finds
+   the shadows too.  Right: the difference, 250 times as bright.  Shadows are not compared; they are
+   grey.  The number counts pixels that are more than 1/255 apart.
    Try 0.6f for the last 0.5f of the ray, a tenth of a pixel: 2,200 differ, mostly at outlines.
 
    cc -O2 -I. examples/16_ray_cast.c -lm -o ray_cast && ./ray_cast        writes ray_cast.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 enum { WIDTH = 318, HEIGHT = 270, LAMPS = 2 };
 
@@ -30,9 +30,11 @@ static int cast(const owned_mesh *m, shade_draw_state s, shade_ray ray, shade_ve
         shade_light_at(&lamps[i], P, &ray.direction, &r);
         if (shade_dot(N, ray.direction) <= 0) continue;
         if (shade_pick(&m->view, s.model, ray, &t, NULL) < 0 || t > r) continue;
-        lamps[i].diffuse = lamps[i].specular = none, shadows++;
+        lamps[i].diffuse = lamps[i].specular = none;
+        shadows++;
     }
-    s.lighting.lights = lamps, *rgb = shade_lit(&s.lighting, s.material, eye, P, N);
+    s.lighting.lights = lamps;
+    *rgb = shade_lit(&s.lighting, s.material, eye, P, N);
     return shadows;
 }
 
@@ -63,7 +65,8 @@ int main(int argc, char **argv)
             worst = fmaxf(worst, fabsf(p[k] - q[k]));
             d[k] = shadows ? 0.03f : 250 * fabsf(p[k] - q[k]);
         }
-        compared += !shadows, different += !shadows && worst > 1 / 255.0f;
+        compared += !shadows;
+        different += !shadows && worst > 1 / 255.0f;
     }
     sprintf(text, "%d of %d pixels differ", different, compared);
     label_caption(&c, 159, 298, grey, "z-buffer", "each triangle: its pixels");

@@ -1,15 +1,15 @@
 /* 17_reversed_z.c - orange boards, each half a percent of its distance before a pale one.  Above:
-   the usual depth goes to 1 with the distance, where floats are 6e-8 apart; from 10 km on both
-   boards fall on the same values, and what was drawn first stays.  Below: reversed, depth is n/d
-   and goes to 0, where floats are ever finer.  Right: the board at 30 km, enlarged.  (UW's z-buffer
-   has "bigger is closer" as well.)
-   Try near_z 1 for 0.1f: the fight begins ten times as far away.
+   the usual depth goes to 1 with the distance, where floats are 6e-8 apart.  From 10 km on both
+   boards have the same depth, and the one drawn first stays.  Below: reversed depth is n/d and goes
+   to 0, where floats are ever finer.  Right: the board at 30 km, enlarged.  UW's z-buffer has
+   "bigger is closer" as well.
+   Try near_z 1 for 0.1f: the boards fight for pixels from ten times as far away.
 
    cc -O2 -I. examples/17_reversed_z.c -lm -o reversed_z && ./reversed_z */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 enum { BOARDS = 6, SIZE = 108 };    /* pixels of a board's panel */
 
@@ -34,7 +34,8 @@ int main(int argc, char **argv)
         shade_draw_state state = { .projection = shade_mat4_perspective(0.56f, 1, near_z, far_z) };
         if (row) {
             state.projection = shade_mat4_perspective_reversed(0.56f, 1, near_z);
-            state.raster.depth_zero_to_one = 1, state.raster.depth_test = SHADE_COMPARE_GREATER;
+            state.raster.depth_zero_to_one = 1;
+            state.raster.depth_test = SHADE_COMPARE_GREATER;
         }
         for (int i = 0; i < BOARDS; i++) {
             shade_target panel = canvas_panel(&c, SIZE * i + 6, y, SIZE, SIZE), depth = panel;
@@ -42,16 +43,21 @@ int main(int argc, char **argv)
             float d = 1000 * km[i], small = 0.7f * d;
             shade_mat4 back = shade_mat4_scaling(shade_v3(d, d, d));
             shade_mat4 front = shade_mat4_scaling(shade_v3(small, small, small));
-            back = shade_mat4_mul(lean, back), front = shade_mat4_mul(lean, front);
-            back.col[3].z = -1.005f * d, front.col[3].z = -d;
+            back = shade_mat4_mul(lean, back);
+            front = shade_mat4_mul(lean, front);
+            back.col[3].z = -1.005f * d;
+            front.col[3].z = -d;
             depth.color = NULL;
-            state.material = &orange, state.model = front;
+            state.material = &orange;
+            state.model = front;
             shade_clear(&depth, shade_v4(0, 0, 0, 0), row ? 0 : 1);
             shade_draw_mesh(&depth, &square.view, &state, &alone);
             shade_clear(&depth, shade_v4(0, 0, 0, 0), row ? 0 : 1);
-            state.material = &pale, state.model = back;
+            state.material = &pale;
+            state.model = back;
             shade_draw_mesh(&panel, &square.view, &state, NULL);
-            state.material = &orange, state.model = front;
+            state.material = &orange;
+            state.model = front;
             shade_draw_mesh(&panel, &square.view, &state, &left);
             sprintf(text, "%d km", (int)km[i]);
             label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 16, 19, grey, text);

@@ -1,15 +1,16 @@
-/* 19_threads.c - one picture by as many threads as there are cores.  They share nothing but the
-   number of the next band of rows (bands.h): the library has no state.  mesh_chunks has sorted the
-   triangles and found the boxes around runs of 128, so that a band skips those it does not see.
-   Before the bands are tinted they are compared with the picture drawn at once: the same bits.
-   Try without mesh_chunks: each band looks at every triangle, and takes three times as long.
+/* 19_threads.c - one picture by as many threads as there are cores.  Threads share nothing but the
+   number of the next band of rows (bands.h), because the library has no state.  mesh_chunks sorts
+   the triangles and finds the boxes around runs of them, so that each band skips those it does not
+   see.  Before the bands are tinted, they are compared with the picture drawn at once: they have
+   the same bits.
+   Try it without mesh_chunks: each band looks at every triangle and takes three times as long.
 
    cc -O2 -pthread -I. examples/19_threads.c -lm -o threads && ./threads       writes threads.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "bands.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/bands.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 enum { BANDS = 32 };
 typedef struct job { shade_target target; const shade_mesh *mesh; } job;

@@ -1,14 +1,14 @@
-/* 20_openmp.c - twelve frames of a turning knot, the loop over them spread over all cores by one
-   line: each frame has memory of its own, and the library has no state to share.  A core that is
-   done takes the next frame, schedule(dynamic).  Without -fopenmp the loop draws one frame after
-   the other, the same bits.
+/* 20_openmp.c - twelve frames of a turning knot.  One line spreads the loop over them across all
+   cores: each frame has its own memory, and the library has no state to share.  With
+   schedule(dynamic) a core that is done takes the next frame.  Without -fopenmp the loop draws one
+   frame after the other, with the same bits.
    Try the bands of 19_threads in such a loop: one picture by all cores, in one line.
 
    cc -O2 -fopenmp -I. examples/20_openmp.c -lm -o openmp && ./openmp          writes openmp.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 enum { FRAMES = 12, WIDTH = 240, HEIGHT = 190 };
 

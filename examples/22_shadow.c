@@ -1,13 +1,14 @@
-/* 22_shadow.c - a shadow, which local light does not know (UW, Berkeley), by two draws.  The first,
-   from the lamp, writes depth alone: how far light gets.  The second asks for every pixel which of
-   3 x 3 texels of that depth let light pass: the visibility of the lamp.
+/* 22_shadow.c - a shadow, which local light does not know (UW, Berkeley), by a shadow map: a
+   depth-only draw from the lamp stores how far light gets, then each pixel asks 3 x 3 texels of
+   that map how much light reaches it, which is the visibility of the lamp.
    Try MAP 128: the shadow's rim shows texels, and lit faces shadow themselves.
 
    cc -O2 -I. examples/22_shadow.c -lm -o shadow && ./shadow                   writes shadow.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
+
 enum { MAP = 1024, BALL = 2, POT = BALL + 2 * 96 * 47 };    /* the last two: first triangles */
 static const shade_vec3 eye = { 4.1f, 7, 12.4f }, up = { 0, 1, 0 }, grey = { 0.6f, 0.6f, 0.6f };
 typedef struct scene { mesh_scene place; shade_lighting lighting; shade_mat4 from_lamp; } scene;
@@ -33,23 +34,21 @@ static void light(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
     const shade_vec3 paint[3] = { shade_rgb(0xB0A898), shade_rgb(0x508058), shade_rgb(0xC06028) };
     const scene *s = (const scene *)uniforms;
     float L[3][SHADE_LANES], albedo[3][SHADE_LANES], visibility[2][SHADE_LANES];
+    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3],
+                              .albedo = albedo[0], .visibility = visibility[0] };
     shade_light_at_lanes(s->lighting.lights, in->varying[0], L[0], NULL);
     SHADE_EACH_LANE(i) {
-        shade_vec3 k = paint[(in->primitive[i] >= BALL) + (in->primitive[i] >= POT)];
-        shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
-        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
-        float sine = shade_length(shade_cross(N, shade_v3(L[0][i], L[1][i], L[2][i])));
-        /* A texel, up to .018 wide here, knows the depth at its centre, up to 2.1 texels from P: a
-           face that leans by theta may be .04 tan(theta) nearer there and would shadow itself.  P
-           moved by .04 sin(theta) along N gains just that, and a fifth more for facets, which lean
-           from N.  Shadows begin at most .05 late. */
+        shade_vec3 P = lane(in->varying[0], i), N = lane(in->varying[3], i);
+        float sine = shade_length(shade_cross(N, lane(L[0], i)));
+        /* The depth of a texel holds at its centre, up to 2.1 texels of .018 from P, where a face
+           that leans by theta may be .04 tan(theta) nearer.  Moving P by .04 sin(theta) along N
+           outweighs that; .008 more allow for facets, which are not square to N. */
         P = shade_mat4_transform_point(s->from_lamp, shade_madd(P, 0.04f * (sine + 0.2f), N));
-        visibility[0][i] = passes(P), visibility[1][i] = 1;
-        albedo[0][i] = k.x, albedo[1][i] = k.y, albedo[2][i] = k.z;
+        visibility[0][i] = passes(P);
+        visibility[1][i] = 1;    /* the lamp at infinity casts no shadow */
+        lane_put(albedo[0], i, paint[(in->primitive[i] >= BALL) + (in->primitive[i] >= POT)]);
     }
-    shade_lit_lanes(&s->lighting, &glaze, eye, &(shade_rows){ .position = in->varying[0],
-                    .normal = in->varying[3], .albedo = albedo[0], .visibility = visibility[0] },
-                    out->color[0]);
+    shade_lit_lanes(&s->lighting, &glaze, eye, &rows, out->color[0]);
 }
 
 int main(int argc, char **argv)
@@ -69,11 +68,11 @@ int main(int argc, char **argv)
                                  shade_mat4_look_at(at, shade_add(at, aim), up));
     s.place.clip_from_world = s.from_lamp;    /* a cone of .84 and some texels around */
     shade_clear(&from_lamp, shade_v4(0, 0, 0, 0), 1);
-    shade_draw(&from_lamp, &pipeline, m.indices, m.view.index_count, m.view.vertex_count, NULL);
+    mesh_draw(&from_lamp, &pipeline, &m);
     s.place.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.5f, 960 / 540.0f, 2, 80),
                                              shade_mat4_look_at(eye, shade_v3(0.5f, 1, -0.2f), up));
     shade_clear(&c.target, shade_v4(0, 0, 0, 1), 1);
-    shade_draw(&c.target, &pipeline, m.indices, m.view.index_count, m.view.vertex_count, NULL);
+    mesh_draw(&c.target, &pipeline, &m);
     label_draw(&c, 24, 40, 22, grey, "visibility: the share of 3 × 3 texels the lamp sees");
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "shadow.ppm");

@@ -1,14 +1,15 @@
-/* 23_mach_bands.c - a drum of twelve sides, below it what a display gets across its middle, 0 to
-   255.  Where this profile has a step or a kink the eye adds a line of its own, a Mach band.  Flat
-   shading has steps, Gouraud's has kinks on the edges: a bright line in the middle, dark ones
-   beside it.  Phong's is smooth: each pixel has the normal of a round drum (UW, Massey, Shirley).
+/* 23_mach_bands.c - a drum of twelve sides and, below it, the values 0 to 255 that a display gets
+   across its middle (UW, Massey, Shirley).  Where this profile has a step or a kink, the eye sees a
+   line that is not there, a Mach band.  Flat shading has steps.  Gouraud's has kinks on the edges,
+   seen as a bright line in the middle and dark ones beside it.  Phong's is smooth: each pixel has
+   the normal of a round drum.
    Try 72 sides for 12: the kinks become too small to be seen.
 
    cc -O2 -I. examples/23_mach_bands.c -lm -o mach_bands && ./mach_bands */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 #include <math.h>
 
 enum { WIDTH = 300, HEIGHT = 250, REACH = 4 };    /* slopes are means over REACH pixels */
@@ -26,7 +27,8 @@ static void stroke(const canvas *c, int x0, float y0, int x1, float y1, float wi
     const shade_vec3 ends[2] = { { (float)x0 + 0.5f, 460 - 0.75f * y0, 0 },
                                  { (float)x1 + 0.5f, 460 - 0.75f * y1, 0 } };
     shade_line_state pen = { .width = width, .color = { 0.9f, 0.4f, 0.1f, 1 } };
-    pen.clip_from_points = canvas_from_pixels(c), pen.raster.depth_test = SHADE_COMPARE_ALWAYS;
+    pen.clip_from_points = canvas_from_pixels(c);
+    pen.raster.depth_test = SHADE_COMPARE_ALWAYS;
     shade_draw_lines(&c->target, ends, 2, &pen, NULL);
 }
 
@@ -56,7 +58,8 @@ int main(int argc, char **argv)
         state.shading = shading[i];
         shade_draw_mesh(&panel, &drum.view, &state, NULL);
         for (int x = 0; x < WIDTH; x++) y[x] = code(&c, left + x, 5 + HEIGHT / 2);
-        stroke(&c, left, 0, left + WIDTH, 0, 1), stroke(&c, left, 255, left + WIDTH, 255, 1);
+        stroke(&c, left, 0, left + WIDTH, 0, 1);
+        stroke(&c, left, 255, left + WIDTH, 255, 1);
         for (int x = 0; x < WIDTH - 1; x++) {
             stroke(&c, left + x, y[x], left + x + 1, y[x + 1], 3);
             if (x < 30 || x >= WIDTH - 30) continue;    /* the outline */

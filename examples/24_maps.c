@@ -1,14 +1,14 @@
 /* 24_maps.c - a picture as material (UW: material parameters may come from a texture).  Left: as
-   diffuse_map, which is k_d and k_a here.  Right: read by a fragment shader of one's own, to which
-   its alpha tells the water; only that has k_s.
+   diffuse_map, which multiplies k_d and k_a.  Right: read by a fragment shader, which finds the
+   water by the picture's alpha.  Only water has k_s.
    Try gleam without t[3][i]: land and ice shine as well.
 
    cc -O2 -I. examples/24_maps.c -lm -o maps && ./maps        writes maps.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "noise.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/noise.h"
+#include "shared/label.h"
 
 enum { WIDTH = 1024, HEIGHT = 512 };
 static const shade_vec3 eye = { 0, 0, 6 };
@@ -53,11 +53,12 @@ int main(int argc, char **argv)
                                  shade_mat4_rotation(2.1f, shade_v3(0, 1, 0)));
     state.view = shade_mat4_look_at(eye, shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.35f, 1, 0.1f, 10);
-    state.lighting = s.lighting, s.place.model = state.model;
+    state.lighting = s.lighting;
+    s.place.model = state.model;
     s.place.clip_from_world = shade_mat4_mul(state.projection, state.view);
     canvas_dark(&c.target);
     shade_draw_mesh(&left, &ball.view, &state, NULL);
-    shade_draw(&right, &pipeline, ball.indices, ball.view.index_count, ball.view.vertex_count, 0);
+    mesh_draw(&right, &pipeline, &ball);
     label_caption(&c, 235, 464, grey, "diffuse map", "k_d = k_a = rgb(u, v)");
     label_caption(&c, 725, 464, grey, "and a shader", "k_s = alpha(u, v) of water");
     mesh_free(&ball);

@@ -1,13 +1,13 @@
-/* 26_views.c - what to look at when a picture is wrong, by a fragment shader of one's own: normals
-   in eye space (right is red, up is green, toward the eye blue), depth (near is bright), triangles.
-   A seam in the first is a wrong normal, a hole in the third a lost triangle.
+/* 26_views.c - what to look at when a picture is wrong, by a fragment shader: normals in eye space
+   (right is red, up is green, toward the eye is blue), depth (near is bright), triangles.  A seam
+   among the normals is a wrong normal, a hole among the triangles a lost one.
    Try shape_teapot(2): the outline gets corners while the colours of the normals stay smooth.
 
    cc -O2 -I. examples/26_views.c -lm -o views && ./views        writes views.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 enum { NORMALS, DEPTH, TRIANGLES };
 typedef struct scene { mesh_scene place; shade_mat3 eye_from_world; int view; } scene;
@@ -17,7 +17,7 @@ static void look(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
 {
     const scene *s = (const scene *)uniforms;
     SHADE_EACH_LANE(i) {
-        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]), k;
+        shade_vec3 N = lane(in->varying[3], i), k;
         uint32_t h = (in->primitive[i] + 1) * 2654435761u;
         h = (h ^ h >> 15) * 2246822519u;
         N = shade_normalize(shade_mat3_transform(s->eye_from_world, N));
@@ -27,7 +27,7 @@ static void look(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
             k = shade_v3((float)(h >> 24) / 320, (float)(h >> 16 & 255) / 320,
                          (float)(h >> 8 & 255) / 320);
         k = shade_linear_from_srgb(k);    /* which the target encodes again */
-        out->color[0][i] = k.x, out->color[1][i] = k.y, out->color[2][i] = k.z;
+        lane_put(out->color[0], i, k);
     }
 }
 
@@ -50,7 +50,7 @@ int main(int argc, char **argv)
     canvas_dark(&c.target);
     for (s.view = NORMALS; s.view <= TRIANGLES; s.view++) {
         shade_target panel = canvas_panel(&c, 320 * s.view, 5, 320, 240);
-        shade_draw(&panel, &pipeline, pot.indices, pot.view.index_count, pot.view.vertex_count, 0);
+        mesh_draw(&panel, &pipeline, &pot);
         label_caption(&c, 320 * s.view + 160, 270, grey, name[s.view], formula[s.view]);
     }
     mesh_free(&pot);

@@ -1,15 +1,15 @@
-/* 27_exponent.c - what n does, and what the other numbers do.  Above: n = 1, 4, 16, 64, 256, and
-   the angle between N and H at which (N.H)^n has fallen to half: four times n, half as wide.
-   Below: metal (k_d small, k_s large, both of its colour), plastic (k_s white) and a planet (k_d
-   from a map, no k_s).  UW asks: smaller or larger n, and what does varying the parameters do?
+/* 27_exponent.c - what n does, and what the other numbers do (UW: a smaller or larger n, varying
+   the parameters).  Above: n = 1, 4, 16, 64, 256, and the angle between N and H at which (N.H)^n
+   has fallen to one half: four times n, half as wide.  Below: metal (k_d small, k_s large, both of
+   its colour), plastic (k_s white) and a planet (k_d from a map, no k_s).
    Try n = 0 for the metal: (N.H)^0 = 1, so that k_s covers all that is lit, like paint.
 
    cc -O2 -I. examples/27_exponent.c -lm -o exponent && ./exponent          writes exponent.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "noise.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/noise.h"
+#include "shared/label.h"
 
 /* The angle between N and H at which the highlight is half as bright, to a tenth of a degree */
 static double half_angle(float n)

@@ -1,15 +1,16 @@
-/* 29_grazing.c - where Phong and Blinn-Phong part: a floor seen in the mirror direction of a far
-   lamp, theta = 20 and 80 degrees off the normal.  With 4n for n Blinn's highlight is as high as
-   Phong's and cos(theta) times as wide: at 20 degrees one hardly sees it, at 80 it is drawn out
-   like a lamp's reflection on water, while Phong's stays round.  Massey: 4n looks alike unless
-   viewed from a very steep angle.  The numbers: pixels brighter than half, across and down.
+/* 29_grazing.c - where Phong and Blinn-Phong differ: a floor seen in the mirror direction of a far
+   lamp, theta = 20 and 80 degrees off the normal.  With 4 n for n Blinn's highlight is as high as
+   Phong's and cos(theta) times as wide.  At 20 degrees that is hardly seen.  At 80 degrees it is
+   drawn out like a lamp's reflection on water, while Phong's stays round.  Massey: 4 n looks alike
+   unless viewed from a very steep angle.  The numbers are pixels brighter than one half, across and
+   down.
    Try theta[1] = 60: half as wide as high.
 
    cc -O2 -I. examples/29_grazing.c -lm -o grazing && ./grazing               writes grazing.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 enum { WIDTH = 472, HEIGHT = 240 };
 static const float theta[2] = { 20, 80 }, n = 100;
@@ -42,7 +43,8 @@ int main(int argc, char **argv)
         shade_target panel = canvas_panel(&c, x, y, WIDTH, HEIGHT);
         shade_vec2 t = mesh_turn(theta[i / 2] / 360);
         shade_light lamp = shade_directional_light(shade_v3(0, -t.x, t.y), shade_v3(1, 1, 1));
-        state.lighting.lights = &lamp, state.lighting.light_count = 1;
+        state.lighting.lights = &lamp;
+        state.lighting.light_count = 1;
         state.lighting.model = i % 2 ? SHADE_MODEL_BLINN_PHONG : SHADE_MODEL_PHONG;
         water.shininess = i % 2 ? shade_blinn_exponent(n) : n;
         /* in the middle of the panel V = R */

@@ -1,15 +1,15 @@
 /* 30_sharp_edges.c - one mesh, three sets of normals: a block whose corners are rounded by four
-   facets each.  Left: the normals of faces, which show the facets.  Middle: at each vertex the mean
-   of all faces around it; rims look soft, flats bent.  Right: the mean of those alone that meet at
-   less than 45 degrees: round where it is round, sharp where it is sharp, and a vertex of the rim
-   has two normals.  Below: their greatest angle to those of the true, round block.  Berkeley asks
-   for this threshold.  Try 0.94f, the cosine of 20 degrees, on the right: facets meet at 22.5.
+   facets each (Berkeley).  Left: face normals, which show the facets.  Middle: at each vertex the
+   mean of all faces around it; rims look soft, flat sides bent.  Right: the mean of only those
+   faces that meet at less than 45 degrees: corners are round, rims are hard edges, and a vertex of
+   the rim has two normals.  Below: the greatest angle to the normals of the true, round block.
+   Try 0.94f, the cosine of 20 degrees, on the right: facets, which meet at 22.5, become hard edges.
 
    cc -O2 -I. examples/30_sharp_edges.c -lm -o sharp_edges && ./sharp_edges */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "label.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
 
 enum { FACETS = 4, RING = 4 * (FACETS + 1), HEIGHT = 1 };
 
@@ -51,12 +51,14 @@ int main(int argc, char **argv)
     state.view = shade_mat4_look_at(shade_v3(3, 2.7f, 4.7f), shade_v3(0, -0.1f, 0),
                                     shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.56f, 320 / 330.0f, 2, 12);
-    state.lighting.lights = &lamp, state.lighting.light_count = 1;
+    state.lighting.lights = &lamp;
+    state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.2f, 0.2f, 0.22f);
     for (int i = 0; i < m.view.index_count; i++)
         for (int k = 0; k < 3; k++)
             corners.positions[3 * i + k] = m.positions[3 * m.indices[i] + (uint32_t)k];
-    corners.view.indices = NULL, corners.view.index_count = 0;
+    corners.view.indices = NULL;
+    corners.view.index_count = 0;
     canvas_dark(&c.target);
     for (int i = 0; i < 3; i++) {
         shade_target panel = canvas_panel(&c, 320 * i, 0, 320, 330);
@@ -65,6 +67,8 @@ int main(int argc, char **argv)
         shade_draw_mesh(&panel, &corners.view, &state, NULL);
         label_caption(&c, 320 * i + 160, 340, shade_v3(0.7f, 0.7f, 0.7f), name[i], off[i]);
     }
-    free(scratch), mesh_free(&m), mesh_free(&corners);
+    free(scratch);
+    mesh_free(&m);
+    mesh_free(&corners);
     return canvas_save(&c, argc, argv, "sharp_edges.ppm");
 }

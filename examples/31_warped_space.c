@@ -1,15 +1,15 @@
-/* 31_warped_space.c - what the projection does to space.  Left: eye, lines of sight, the frustum
-   between near and far, three equal cubes in it.  Middle: the same points after projection and
-   division by w: the frustum is a cube, lines of sight are parallel, what is near is large, and
-   planes are still planes.  Right: z dropped (kept for the z-buffer alone): the picture.  Colours
-   were computed before the warp, where angles are angles still.  UW's "warped space".
-   Try near_z = 0.2: all crowds toward the far end, where few values of depth are left.
+/* 31_warped_space.c - what the projection does to space: UW's "warped space".  Left: the eye, lines
+   of sight, the frustum between near and far, and three equal cubes in it.  Middle: the same points
+   after projection and division by w.  The frustum is a cube, lines of sight are parallel, near
+   things are large, and planes are still planes.  Right: the picture, without z, which is kept for
+   the z-buffer alone.  Colours were computed before the warp, which changes angles.
+   Try near_z = 0.2: everything crowds toward the far end, where few values of depth are left.
 
    cc -O2 -I. examples/31_warped_space.c -lm -o warped_space && ./warped_space */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 static const float near_z = 2, far_z = 6;
 
@@ -62,7 +62,8 @@ int main(int argc, char **argv)
         shade_target panel = canvas_panel(&c, left[i], 0, width, 345);
         float aspect = (float)width / 345, x = 1.55f * aspect;
         shade_mat4 out = shade_mat4_mul(space[i], shade_mat4_inverse(project));
-        state.view = view[i], state.projection = shade_mat4_perspective(0.62f, aspect, 1, 30);
+        state.view = view[i];
+        state.projection = shade_mat4_perspective(0.62f, aspect, 1, 30);
         if (i == 2) state.projection = shade_mat4_ortho(-x, x, -1.55f, 1.55f, -2, 2);
         for (int k = 0; k < 3; k++) cube(&panel, &state, k, space[i]);
         pen.clip_from_points = shade_mat4_mul(state.projection, view[i]);

@@ -1,14 +1,16 @@
-/* 32_z_buffer.c - the z-buffer, seen.  Above: the picture, and the depth of every pixel, near is
-   bright, what was cleared (z = 1, FAR) is black.  Below: z along the marked row, near is low:
-   straight pieces, one for each face, for z/w is linear on the screen.  So a row needs one addition
-   a pixel, z + dz + dz ...: how far that strays, over the longest piece.  UW's incremental z.
-   Try near_z = 0.4: the pieces flatten against FAR, for most depth went to the space before them.
+/* 32_z_buffer.c - the z-buffer as a picture.  Above: the picture, and the depth of every pixel,
+   bright where it is near, black where it was cleared (z = 1, UW's FAR).  Below: z along the marked
+   row, near at the bottom.  It consists of straight pieces, one for each face, because z/w is
+   linear on the screen.  So a row needs one addition a pixel, z + dz + dz ...; the number tells how
+   far that strays over the longest piece (UW's incremental z).
+   Try near_z = 0.4: the pieces flatten against FAR, because most of the depth goes to the space
+   before them.
 
    cc -O2 -I. examples/32_z_buffer.c -lm -o z_buffer && ./z_buffer           writes z_buffer.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 #include <math.h>
 
 enum { W = 960, H = 540, ROW = 330 };    /* of a panel; two samples to a pixel */
@@ -21,24 +23,19 @@ static int longest_run(const float *z, int *begin)
     for (int i = 0, from = 0; i + 1 < W; i++) {
         if (i > from && fabsf(z[i + 1] - 2 * z[i] + z[i - 1]) > 1e-6f) from = i;
         if (z[i + 1] == 1) from = i + 1;
-        if (i + 1 - from > most) most = i + 1 - from, *begin = from;
+        if (i + 1 - from > most) {
+            most = i + 1 - from;
+            *begin = from;
+        }
     }
     return most;
-}
-
-static void fill(const shade_target *t, int x, int y, int w, int h, const float *rgb)
-{
-    shade_target part = *t;
-    part.depth = NULL, part.clip_x = x, part.clip_y = y, part.clip_width = w, part.clip_height = h;
-    shade_clear(&part, shade_v4(rgb[0], rgb[1], rgb[2], 1), 1);
 }
 
 int main(int argc, char **argv)
 {
     static const shade_vec3 paint[4] = { { 0.6f, 0.1f, 0.03f }, { 0.5f, 0.38f, 0.03f },
                                          { 0.05f, 0.2f, 0.55f }, { 0.1f, 0.35f, 0.08f } };
-    static const float grey[3] = { 0.3f, 0.3f, 0.3f };
-    const shade_vec3 white = { 1, 1, 1 };
+    const shade_vec3 white = { 1, 1, 1 }, grey = { 0.3f, 0.3f, 0.3f };
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -1, -0.7f), white);
     shade_material paper = { .shininess = 0 };
     shade_draw_state state = { .material = &paper,
@@ -46,7 +43,7 @@ int main(int argc, char **argv)
     owned_mesh cube = mesh_cube();
     canvas c = canvas_new(W, H, 2);
     shade_target picture = canvas_panel(&c, 0, 0, W / 2, H / 2);
-    const float *z = picture.depth + ROW * 2 * W, *color = picture.color;
+    const float *z = picture.depth + ROW * 2 * W;
     char text[80];
 
     state.view = shade_mat4_look_at(shade_v3(0, 2, 6.5f), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
@@ -59,12 +56,13 @@ int main(int argc, char **argv)
         shade_draw_mesh(&picture, &cube.view, &state, NULL);
     }
     for (int i = 0; i < W * H; i++) {
-        float near = 1 - picture.depth[i / W * 2 * W + i % W], light[3] = { near, near, near };
-        fill(&c.target, W + i % W, i / W, 1, 1, light);
+        float near = 1 - picture.depth[i / W * 2 * W + i % W];
+        canvas_fill(&c.target, W + i % W, i / W, 1, 1, shade_v3(near, near, near));
     }
     for (int i = 0; i < W; i++) {
         int y = (int)(760 * (1 - z[i]));
-        fill(&c.target, 2 * i - 2, H + 6 + y, 6, 6, y ? color + 4 * (ROW * 2 * W + i) : grey);
+        shade_vec4 k = ((const shade_vec4 *)picture.color)[ROW * 2 * W + i];
+        canvas_fill(&c.target, 2 * i - 2, H + 6 + y, 6, 6, y ? shade_v3(k.x, k.y, k.z) : grey);
     }
     int begin = 0, steps = longest_run(z, &begin);
     float dz = (z[begin + steps] - z[begin]) / (float)steps, sum = z[begin], worst = 0;
@@ -73,7 +71,7 @@ int main(int argc, char **argv)
             (int)(worst * 16777216));
     label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer");
     label_draw(&c, 12, H - 14, 22, white, text);
-    fill(&c.target, 0, ROW, 2 * W, 2, grey);
+    canvas_fill(&c.target, 0, ROW, 2 * W, 2, grey);
     mesh_free(&cube);
     return canvas_save(&c, argc, argv, "z_buffer.ppm");
 }

@@ -1,18 +1,18 @@
-/* 34_cook_torrance.c - gold as paint and as metal.  Left: Blinn-Phong.  Right, by a fragment shader
-   of one's own, Cook and Torrance (ACM Transactions on Graphics 1 (1982), 7-24):
+/* 34_cook_torrance.c - gold as paint and as metal.  Left: Blinn-Phong.  Right: the model of Cook
+   and Torrance (ACM Transactions on Graphics 1 (1982), 7-24), by a fragment shader:
        I = SUM of I_s (N.L) D F G / (4 (N.L) (N.V)),   D = e^-((tan a / m)^2) / (pi m^2 cos^4 a),
        G = min(1, 2 (N.H) (N.V) / (V.H), 2 (N.H) (N.L) / (V.H)),   cos a = N.H
-   with 4 where they have pi, so that no more leaves than arrives, and C. Schlick's Fresnel term
-   (Computer Graphics Forum 13 (1994), 233-246), F = F_0 + (1 - F_0) (1 - V.H)^5: below, from 0 to
-   90 degrees between V and H.  It grows and whitens, and so do highlights of lamps behind the pot.
-   n = 2/m^2 - 4 bends both lobes alike at their peak.  UW and Shirley name the model.
+   They divide by pi; the 4 keeps reflected light within what arrives.  F = F_0 + (1 - F_0) (1 -
+   V.H)^5 is C. Schlick's Fresnel term (Computer Graphics Forum 13 (1994), 233-246), below from 0
+   to 90 degrees between V and H: it grows and whitens, as do highlights of lamps behind the pot.
+   With n = 2/m^2 - 4 both lobes bend alike at their peak.  UW and Shirley name the model.
    Try F_0 = { 0.04f, 0.04f, 0.04f }: varnish, brightest at its rims.
 
    cc -O2 -I. examples/34_cook_torrance.c -lm -o cook_torrance && ./cook_torrance */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 static const shade_vec3 F_0 = { 1, 0.766f, 0.336f }, eye = { 0, 4, 11 };    /* gold, linear */
 static const float m = 0.28f;
@@ -29,9 +29,9 @@ static void metal(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
     for (int j = 0; j < 4; j++) {
         shade_light_at_lanes(&s->lamp[j], v[0], l[0], amount);
         SHADE_EACH_LANE(i) {
-            shade_vec3 N = shade_normalize(shade_v3(v[3][i], v[4][i], v[5][i]));
-            shade_vec3 V = shade_normalize(shade_sub(eye, shade_v3(v[0][i], v[1][i], v[2][i])));
-            shade_vec3 L = shade_v3(l[0][i], l[1][i], l[2][i]), H = shade_halfway(L, V);
+            shade_vec3 N = shade_normalize(lane(v[3], i));
+            shade_vec3 V = shade_normalize(shade_sub(eye, lane(v[0], i)));
+            shade_vec3 L = lane(l[0], i), H = shade_halfway(L, V);
             float NL = shade_lambert(N, L), NV = shade_lambert(N, V) + 1e-4f;
             float NH = shade_lambert(N, H) + 1e-4f, VH = shade_lambert(V, H) + 1e-4f;
             float cos2 = NH * NH, t = (1 / cos2 - 1) / (m * m);
@@ -39,7 +39,7 @@ static void metal(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
             float G = 2 * NH * (NV < NL ? NV : NL) / VH;
             G = NL > 0 ? 0.7f * amount[i] * D * (G < 1 ? G : 1) / (4 * NV) : 0;
             shade_vec3 I = shade_madd(shade_scale(F_0, 0.005f), G, F(VH));    /* in grey light */
-            out->color[0][i] += I.x, out->color[1][i] += I.y, out->color[2][i] += I.z;
+            lane_put(out->color[0], i, shade_add(lane(out->color[0], i), I));
         }
     }
 }
@@ -65,7 +65,7 @@ int main(int argc, char **argv)
     canvas_dark(&c.target);
     shade_draw_mesh(&panel, &pot.view, &state, NULL);
     panel = canvas_panel(&c, 480, 0, 480, 340);
-    shade_draw(&panel, &pipeline, pot.indices, pot.view.index_count, pot.view.vertex_count, NULL);
+    mesh_draw(&panel, &pipeline, &pot);
     for (int i = 0; i < 900; i++) {
         shade_vec3 f = F(mesh_turn((float)i / 3600).x);
         panel = canvas_panel(&c, 30 + i, 372, 1, 30);

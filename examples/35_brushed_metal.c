@@ -1,18 +1,18 @@
-/* 35_brushed_metal.c - metal brushed in one direction shines in streaks across it.  Left: equally
-   rough in all.  Middle: brushed round, as on a lathe: a bow tie on the lid, a streak down the
-   side.  Right: brushed outward from the axis: the bow tie turns by 90 degrees.  By a fragment
-   shader of one's own, G. Ward's model ("Measuring and Modeling Anisotropic Reflection", SIGGRAPH
-   1992, 265-272), k = .5:
+/* 35_brushed_metal.c - metal brushed in one direction shines in streaks across it (UW: anisotropic
+   models).  Left: equally rough in all directions.  Middle: brushed round, as on a lathe: a bow tie
+   on the lid, a streak down the side.  Right: brushed outward from the axis: the bow tie turns by
+   90 degrees.  The fragment shader computes G. Ward's model ("Measuring and Modeling Anisotropic
+   Reflection", SIGGRAPH 1992, 265-272), with k = .5:
        I = I_s (N.L) k / (4 pi a_x a_y sqrt((N.L) (N.V))) e^-(((H.X/a_x)^2 + (H.Y/a_y)^2) / (N.H)^2)
-   X runs round the axis, Y outward; along the grooves a is small, across them large, and
-   a_x a_y = .04 in all three.  UW names anisotropic models.
+   X runs round the axis, Y outward.  a is small along the grooves and large across them, and
+   a_x a_y = .04 in all three.
    Try 0.9f for 0.45f of the lamp: H is N all over the lids, which blaze, and the ties are gone.
 
    cc -O2 -I. examples/35_brushed_metal.c -lm -o brushed_metal && ./brushed_metal */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 #include <math.h>
 
 static const shade_vec3 eye = { 0, 12, 14 };
@@ -27,10 +27,11 @@ static void brushed(const void *uniforms, const shade_fragments *SHADE_RESTRICT 
     for (int j = 0; j < 2; j++) {
         shade_light_at_lanes(&s->lamp[j], v[0], l[0], amount);
         SHADE_EACH_LANE(i) {
-            shade_vec3 P = shade_v3(v[0][i], v[1][i], v[2][i]), V = shade_sub(eye, P);
-            shade_vec3 L = shade_v3(l[0][i], l[1][i], l[2][i]);
-            shade_vec3 N = shade_normalize(shade_v3(v[3][i], v[4][i], v[5][i])), H, X;
-            V = shade_normalize(V), H = shade_halfway(L, V);
+            shade_vec3 P = lane(v[0], i), V = shade_sub(eye, P);
+            shade_vec3 L = lane(l[0], i);
+            shade_vec3 N = shade_normalize(lane(v[3], i)), H, X;
+            V = shade_normalize(V);
+            H = shade_halfway(L, V);
             X = shade_normalize(shade_cross(shade_v3(0, 1, 0), P));
             float NL = shade_lambert(N, L), NV = shade_lambert(N, V) + 1e-4f;
             float NH = shade_lambert(N, H) + 1e-4f, x = shade_dot(H, X) / s->a_x;
@@ -67,9 +68,9 @@ int main(int argc, char **argv)
     canvas_dark(&c.target);
     for (int k = 0; k < 3; k++) {
         shade_target panel = canvas_panel(&c, 320 * k, 8, 320, 290);
-        s.a_x = a_x[k], s.a_y = 0.04f / a_x[k];
-        shade_draw(&panel, &pipeline, lid.indices, lid.view.index_count, lid.view.vertex_count,
-                   NULL);
+        s.a_x = a_x[k];
+        s.a_y = 0.04f / a_x[k];
+        mesh_draw(&panel, &pipeline, &lid);
         label_caption(&c, 160 + 320 * k, 336, shade_v3(0.7f, 0.7f, 0.7f), name[k], formula[k]);
     }
     mesh_free(&lid);

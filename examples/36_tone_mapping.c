@@ -1,17 +1,18 @@
-/* 36_tone_mapping.c - light is as bright as it is, a picture holds 0 to 1.  One drawing in floats
-   of a lamp beside a pot, developed three times: exposed for the dark and cut at 1, exposed for the
-   pool of light and cut at 1, and by a curve that bends luminance below 1,
+/* 36_tone_mapping.c - light has no upper limit, a picture holds 0 to 1.  A lamp beside a pot, drawn
+   once in floats and developed three times: exposed for the dark and cut at 1, exposed for the pool
+   of light and cut at 1, and by a curve that bends luminance below 1,
        L_d = L (1 + L / L_w^2) / (1 + L),   L_w: the least luminance shown as white
    (E. Reinhard, M. Stark, P. Shirley, J. Ferwerda, "Photographic Tone Reproduction for Digital
-   Images", SIGGRAPH 2002, equation 4).  Below: how many pixels are cut; by the curve only such
-   whose red is above their luminance.  Massey: light can be arbitrarily large; Shirley: keep
-   c_a + c_l <= 1, or clamp.  Try L_w = 1: the curve is L, the first picture again.
+   Images", SIGGRAPH 2002, equation 4).  Below: how many pixels are cut.  The curve cuts only pixels
+   whose red is above their luminance.  Massey: light can be arbitrarily large.  Shirley: keep
+   c_a + c_l <= 1, or clamp.
+   Try L_w = 1: the curve is L, the first picture again.
 
    cc -O2 -I. examples/36_tone_mapping.c -lm -o tone_mapping && ./tone_mapping */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
 
 /* Of linear light in the primaries of sRGB */
 static float luminance(shade_vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }

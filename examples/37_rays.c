@@ -1,13 +1,13 @@
-/* 37_rays.c - what local shading leaves out.  Left: the equation alone, shade_lit.  Right: the same
-   behind a ray to each lamp, which finds the shadows, and one bounce off what is shiny: k_s times
-   what the bounced ray sees.  UW's next project traces rays; Berkeley says what is "not local".
+/* 37_rays.c - what local shading leaves out.  Left: the equation alone, shade_lit.  Right: with a
+   ray to each lamp, which finds the shadows, and one bounce off shiny surfaces: k_s times what the
+   bounced ray sees.  UW's next project traces rays; Berkeley says what is "not local".
    Try DEPTH = 3: each mirror shows what the other one mirrors.
 
    cc -O2 -I. examples/37_rays.c -lm -o rays && ./rays                           writes rays.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
+#include "shared/balls.h"
+#include "shared/label.h"
 
 enum { DEPTH = 1, BALLS = 3, WIDTH = 960, HEIGHT = 800 };    /* of a panel; samples */
 static const shade_vec4 ball[BALLS] = { { -1.5f, 1, -0.6f, 1 }, { 1.3f, 1.2f, -1.4f, 1.2f },
@@ -15,19 +15,20 @@ static const shade_vec4 ball[BALLS] = { { -1.5f, 1, -0.6f, 1 }, { 1.3f, 1.2f, -1
 static const uint32_t paint[BALLS + 1] = { 0x282828, 0x503818, 0xCC3028, 0xBCBCB2 };
 static const uint32_t mirror[BALLS + 1] = { 0xE6E6E6, 0xDAB062, 0x404040, 0 };
 static owned_mesh blocks;
-static shade_light lamps[2];
 
 /* What a ray meets first, at t: a ball's number, BALLS for the blocks, -1 for nothing */
 static int hit(shade_ray ray, float *t, shade_vec3 *N)
 {
-    int k = shade_pick(&blocks.view, shade_mat4_identity(), ray, t, NULL), first = -1;
-    if (k >= 0) *N = ((shade_vec3 *)(void *)blocks.normals)[blocks.indices[3 * k]], first = BALLS;
-    for (k = 0; k < BALLS; k++) {
+    int first = shade_pick(&blocks.view, shade_mat4_identity(), ray, t, NULL);
+    if (first >= 0) *N = ((shade_vec3 *)(void *)blocks.normals)[blocks.indices[3 * first]];
+    if (first >= 0) first = BALLS;
+    for (int k = 0; k < BALLS; k++) {
         shade_vec3 from = shade_sub(ray.origin, shade_v3(ball[k].x, ball[k].y, ball[k].z));
-        float b = shade_dot(from, ray.direction), r = ball[k].w;
-        float d = b * b - shade_dot(from, from) + r * r, near = d > 0 ? -b - sqrtf(d) : -1;
+        float near = balls_meet(ray, ball[k]);
         if (near <= 0 || (first >= 0 && near >= *t)) continue;
-        *t = near, first = k, *N = shade_scale(shade_madd(from, near, ray.direction), 1 / r);
+        *N = shade_scale(shade_madd(from, near, ray.direction), 1 / ball[k].w);
+        *t = near;
+        first = k;
     }
     return first;
 }
@@ -35,11 +36,12 @@ static int hit(shade_ray ray, float *t, shade_vec3 *N)
 /* depth -1: the equation alone */
 static shade_vec3 trace(shade_ray ray, int depth)
 {
-    shade_light lamp[2] = { lamps[0], lamps[1] };
+    shade_light lamp[2] = { shade_point_light(shade_v3(4, 6, 4), shade_v3(0.75f, 0.72f, 0.65f)),
+                            shade_point_light(shade_v3(-5, 4, 3), shade_v3(0.25f, 0.28f, 0.35f)) };
     shade_lighting lighting = { lamp, 2, .ambient = { 0.12f, 0.13f, 0.15f } };
     const shade_vec3 none = { 0, 0, 0 }, sky = { 0.35f, 0.43f, 0.58f };
     shade_vec3 N = none, P, I;
-    float t = 0, r;
+    float t, r;
     int what = hit(ray, &t, &N);
     if (what < 0) return shade_scale(sky, 1 - 0.8f * fabsf(ray.direction.y));
     shade_vec3 k = shade_rgb(paint[what]);
@@ -52,8 +54,8 @@ static shade_vec3 trace(shade_ray ray, int depth)
     }
     I = shade_lit(&lighting, &skin, ray.origin, P, N);
     if (depth < 0 || depth == DEPTH || !mirror[what]) return I;
-    ray.origin = P, ray.direction = shade_reflect(ray.direction, N);
-    return shade_add(I, shade_mul(skin.specular, trace(ray, depth + 1)));
+    shade_ray bounce = { P, shade_reflect(ray.direction, N) };
+    return shade_add(I, shade_mul(skin.specular, trace(bounce, depth + 1)));
 }
 
 int main(int argc, char **argv)
@@ -62,8 +64,6 @@ int main(int argc, char **argv)
     shade_mat4 view = shade_mat4_look_at(eye, shade_v3(0, 0.8f, 0), shade_v3(0, 1, 0));
     shade_mat4 lens = shade_mat4_perspective(0.7f, (float)WIDTH / HEIGHT, 1, 50);
     canvas c = canvas_new(960, 440, 2);
-    lamps[0] = shade_point_light(shade_v3(4, 6, 4), shade_v3(0.75f, 0.72f, 0.65f));
-    lamps[1] = shade_point_light(shade_v3(-5, 4, 3), shade_v3(0.25f, 0.28f, 0.35f));
     blocks = shape_moved(mesh_cube(), shape_at(-0.5f, 0.4f, 1.8f, 0.4f, 0.5f));
     blocks = shape_join(mesh_plane(60, 1), blocks);
     for (int i = 0; i < 2 * WIDTH * HEIGHT; i++) {

@@ -1,16 +1,17 @@
-/* 38_glsl_twins.c - shaders of the lecture notes, drawn by their twins in C; both stand in twins.h,
-   the GLSL also below each picture.  Left: colours of vertices, smeared between them (UW).  Middle
-   and right: brass, lit in the vertex shader and in the fragment shader, with Massey's camera (67
-   degrees, 5 away), turn (.8 about x) and light; the first loses a highlight and tears the other.
-   Where OSMesa is, make conformance draws a ring by each GLSL as well: of 255 no pixel is off by
-   more than .53, of which .5 is rounding.  Try p.interpolation = SHADE_INTERPOLATION_CONSTANT.
+/* 38_glsl_twins.c - shaders of the lecture notes, drawn by their twins in C.  twins.h has both; the
+   GLSL also stands below each picture.  Left: colours of vertices, interpolated between them (UW).
+   Middle and right: brass, lit in the vertex shader and in the fragment shader, with Massey's
+   camera (67 degrees, 5 away), turn (.8 about x) and light.  Lit in the vertex shader, it loses one
+   highlight and tears the other.  Where OSMesa is installed, make conformance draws a ring by each
+   GLSL as well: of 255 no pixel is off by more than .53, of which .5 is rounding.
+   Try p.interpolation = SHADE_INTERPOLATION_CONSTANT: one colour a triangle.
 
    cc -O2 -I. examples/38_glsl_twins.c -lm -o glsl_twins && ./glsl_twins */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "label.h"
-#include "twins.h"
+#include "shared/shapes.h"
+#include "shared/label.h"
+#include "shared/twins.h"
 
 static const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
 
@@ -51,7 +52,7 @@ int main(int argc, char **argv)
         shade_target panel = canvas_panel(&c, 320 * k, 0, 320, 270);
         shade_pipeline p = twin_pipeline(k);
         p.uniforms = &u;
-        shade_draw(&panel, &p, ring.indices, ring.view.index_count, ring.view.vertex_count, NULL);
+        mesh_draw(&panel, &p, &ring);
         label_center(&c, 160 + 320 * k, 303, 22, grey, name[k]);
         int y = listing(&c, 320 * k + 14, 345, twin_vertex_glsl[k]);
         listing(&c, 320 * k + 14, y, twin_fragment_glsl[k]);

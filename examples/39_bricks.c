@@ -1,13 +1,13 @@
-/* 39_bricks.c - a flat floor, lit through maps by the fragment shader of a draw state.  Left: one,
-   for k_d.  Right: two more, a normal map, which bends N in the frame of T, B, N, and a mask of one
-   byte a texel for k_s (rows.specular), which keeps highlights to the bricks.
-   Try lamps at y = 4: it is grazing light that shows relief.
+/* 39_bricks.c - a flat floor, lit by the fragment shader of a draw state.  Left: with a map for
+   k_d.  Right: with two more maps, a normal map, which bends N in the frame of T, B and N, and a
+   mask of one byte a texel for k_s (rows.specular), which keeps highlights on the bricks.
+   Try lamps at y = 4: only grazing light shows relief.
 
    cc -O2 -I. examples/39_bricks.c -lm -o bricks && ./bricks        writes bricks.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "paint.h"
-#include "label.h"
+#include "shared/paint.h"
+#include "shared/label.h"
 
 enum { COLOR, RELIEF, GLOSS, MAPS };
 enum { SIZE = 1024, SAMPLES = 3 };    /* texels along an edge of a map, samples of a pixel */
@@ -26,8 +26,8 @@ static void bricks(const void *uniforms, const shade_fragments *SHADE_RESTRICT i
     for (int k = 0; k < MAPS; k++)
         shade_sample_lanes(&s->map[k], in->varying[9], in->varying[10], in->lod, texel[k][0]);
     SHADE_EACH_LANE(i) {    /* T comes as the vertex colour; v goes down, so B = T x N */
-        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
-        shade_vec3 T = shade_v3(in->varying[6][i], in->varying[7][i], in->varying[8][i]);
+        shade_vec3 N = lane(in->varying[3], i);
+        shade_vec3 T = lane(in->varying[6], i);
         shade_vec3 n = shade_scale(N, 2 * texel[RELIEF][2][i] - 1);
         int right = in->x[i] > 480 * SAMPLES;
         n = shade_madd(n, 2 * texel[RELIEF][0][i] - 1, T);

@@ -1,14 +1,14 @@
-/* 40_fog.c - fog in five lines: the fragment shader of a draw state lights firs and ground as they
-   are lit without one, then mixes in the light of the air before them.  A unit of air lets .96 of
-   what is behind it through, so d units let .96^d through.
+/* 40_fog.c - fog in five lines: the fragment shader of a draw state lights firs and ground as the
+   draw state would, then mixes in the light of the air before them.  One unit of air lets .96 of
+   the light behind it through, so d units let .96^d through.
    Try shade_power(at.y < 2 ? 0.9f : 0.98f, ...): fog that lies in the hollows.
 
    cc -O2 -I. examples/40_fog.c -lm -o fog && ./fog        writes fog.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "shapes.h"
-#include "paint.h"
-#include "label.h"
+#include "shared/shapes.h"
+#include "shared/paint.h"
+#include "shared/label.h"
 
 static const shade_vec3 eye = { 0, 3.6f, 14 }, air = { 0.60f, 0.62f, 0.64f };
 
@@ -19,7 +19,7 @@ static void fog(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
     const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
     shade_lit_lanes(&s->lighting, s->material, eye, &rows, out->color[0]);
     SHADE_EACH_LANE(i) {
-        shade_vec3 at = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
+        shade_vec3 at = lane(in->varying[0], i);
         float through = shade_power(0.96f, shade_distance(at, eye));
         out->color[0][i] = air.x + through * (out->color[0][i] - air.x);
         out->color[1][i] = air.y + through * (out->color[1][i] - air.y);

@@ -35,6 +35,7 @@ step readme sh tests/readme.sh
 build build/test_main
 step runner build/test_main
 build build/golden pictures
+# G15
 step pictures build/golden out/*.ppm
 # nothing here runs the programs: they are read for errors, unless they are there
 "$make" -s CFLAGS=-fsyntax-only programs >"$T/programs" 2>&1 || { cat "$T/programs"; failed=1; }

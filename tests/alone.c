@@ -9,6 +9,7 @@ static int alone_same(float a, float b)
 {
     return float_bits(a) == float_bits(b) || (isnan(a) && isnan(b));
 }
+
 /* Makes about one float of n nasty. */
 static void alone_spoil(void *memory, size_t bytes, int n)
 {
@@ -17,6 +18,7 @@ static void alone_spoil(void *memory, size_t bytes, int n)
         if (rnd_one_in(n)) memcpy((char *)memory + at, &v, 4);
     }
 }
+
 static void alone_spoil_colors(light_sample *s)
 {
     alone_spoil(&s->material, sizeof s->material, 8);
@@ -28,6 +30,7 @@ static void alone_spoil_colors(light_sample *s)
         alone_spoil(&l->specular, sizeof l->specular, 8);
     }
 }
+
 static void alone_spoil_lamps(light_sample *s)
 {
     for (int k = 0; k < s->lighting.light_count; k++) {
@@ -58,10 +61,12 @@ static void alone_sample(light_sample *s, lane_packet *k)
     for (int i = 0; i < SHADE_LANES; i++) {
         if (rnd_one_in(3)) alone_spoil(&k->p[i], sizeof k->p[i], 12);
         if (rnd_one_in(3)) alone_spoil(&k->n[i], sizeof k->n[i], 12);
-        lane_set(k->P, i, k->p[i]), lane_set(k->N, i, k->n[i]);
+        lane_set(k->P, i, k->p[i]);
+        lane_set(k->N, i, k->n[i]);
     }
 }
 
+/* G14 */
 TEST(alone, a_lane_of_a_packet_is_the_scalar_call)
 {
     static lane_packet k;
@@ -93,6 +98,7 @@ static void alone_fill(float *row, int n)
         if (rnd_one_in(20)) row[i] = rnd_nasty();
     }
 }
+
 /* Every lane becomes lane i. */
 static void alone_copies(const alone_rows *from, int i, alone_rows *to)
 {
@@ -101,6 +107,7 @@ static void alone_copies(const alone_rows *from, int i, alone_rows *to)
     for (size_t row = 0; row < sizeof *to / 4; row += SHADE_LANES)
         for (size_t j = 0; j < SHADE_LANES; j++) all[row + j] = v[row + (size_t)i];
 }
+
 static shade_rows alone_pointers(const alone_rows *r, int which)
 {
     shade_rows rows = { r->P[0], r->N[0], NULL, NULL, NULL };
@@ -110,6 +117,7 @@ static shade_rows alone_pointers(const alone_rows *r, int which)
     return rows;
 }
 
+/* G14 */
 TEST(alone, a_lane_among_others_is_the_lane_among_copies_of_itself)
 {
     static lane_packet k;
@@ -135,6 +143,7 @@ TEST(alone, a_lane_among_others_is_the_lane_among_copies_of_itself)
     }
 }
 
+/* G14 */
 TEST(alone, what_arrives_at_a_lane_is_what_arrives_at_the_point)
 {
     static lane_packet k;
@@ -155,6 +164,7 @@ TEST(alone, what_arrives_at_a_lane_is_what_arrives_at_the_point)
 }
 
 /* A texture of wild floats or of any bytes, each level as wild. */
+/* G14 */
 TEST(alone, a_texel_of_a_packet_is_the_scalar_sample)
 {
     for (int round = 0; round < 600; round++) {
@@ -164,7 +174,9 @@ TEST(alone, a_texel_of_a_packet_is_the_scalar_sample)
             alone_spoil((void *)(uintptr_t)t.pixels, texture_cells(&t) * 16, 6);
         void *memory = rnd_one_in(2) ? add_mipmaps(&t, levels) : NULL;
         for (int i = 0; i < SHADE_LANES; i++) {
-            u[i] = random_coordinate(), v[i] = random_coordinate(), lod[i] = rnd_float(-1, 7);
+            u[i] = random_coordinate();
+            v[i] = random_coordinate();
+            lod[i] = rnd_float(-1, 7);
             if (rnd_one_in(10)) u[i] = rnd_nasty();
             if (rnd_one_in(10)) v[i] = rnd_nasty();
             if (rnd_one_in(10)) lod[i] = rnd_nasty();
@@ -199,7 +211,8 @@ static void alone_sheet(alone_scene *a)
 {
     memset(a, 0, sizeof *a);
     for (int i = 0; i < 25; i++) {
-        a->P[i][0] = (float)(i % 5) - 2, a->P[i][1] = (float)(i / 5) - 2;
+        a->P[i][0] = (float)(i % 5) - 2;
+        a->P[i][1] = (float)(i / 5) - 2;
         a->P[i][2] = rnd_float(-0.5, 0.5);
         shade_vec3 n = d3_round(d3_add(d3_of(0, 0, 1), d3_scale(rnd_direction(), 1.2)));
         memcpy(a->N[i], &n, 12);
@@ -211,9 +224,13 @@ static void alone_sheet(alone_scene *a)
         const uint32_t corner[2][3] = { { at, at + 1, at + 6 }, { at, at + 6, at + 5 } };
         memcpy(a->index + 3 * k, corner[k % 2], sizeof corner[0]);
     }
-    a->mesh.positions = a->P[0], a->mesh.normals = a->N[0];
-    a->mesh.vertex_count = 25, a->mesh.indices = a->index, a->mesh.index_count = 96;
+    a->mesh.positions = a->P[0];
+    a->mesh.normals = a->N[0];
+    a->mesh.vertex_count = 25;
+    a->mesh.indices = a->index;
+    a->mesh.index_count = 96;
 }
+
 static void alone_lights(alone_scene *a)
 {
     light_sample *s = &a->light;
@@ -223,7 +240,8 @@ static void alone_lights(alone_scene *a)
         s->lights[k] = random_light(shade_v3(0, 0, 0), 3);
     alone_spoil_colors(s);
     if (rnd_one_in(3)) alone_spoil_lamps(s);
-    a->state.lighting = s->lighting, a->state.material = &s->material;
+    a->state.lighting = s->lighting;
+    a->state.material = &s->material;
     a->state.lighting.lights = s->lights;
 }
 
@@ -242,19 +260,26 @@ static void alone_check_pixels(const canvas *whole, const canvas *parts, const c
         CHECK(float_bits(canvas_depth(whole, x, y)) == float_bits(canvas_depth(parts, x, y)));
     }
 }
+
 static canvas alone_draw(const alone_scene *a, shade_format format, int w, int h)
 {
     canvas c = canvas_open(ALONE_W, ALONE_H, 0, format, 1);
     canvas_clear(&c, 1);
-    for (int y = 0; y < ALONE_H; y += h)
+    for (int y = 0; y < ALONE_H; y += h) {
         for (int x = 0; x < ALONE_W; x += w) {
-            c.target.clip_x = x, c.target.clip_y = y;
-            c.target.clip_width = w, c.target.clip_height = h;
-            CHECK_INT(shade_draw_mesh(&c.target, &a->mesh, &a->state, NULL), SHADE_OK);
+            c.target.clip_x = x;
+            c.target.clip_y = y;
+            c.target.clip_width = w;
+            c.target.clip_height = h;
+            canvas_draw_mesh(&c, &a->mesh, &a->state);
         }
+    }
     return c;
 }
 
+/* A clip rectangle of one pixel leaves its lane no neighbours; light, colours and texture
+   coordinates may be NaN or infinite. */
+/* G13, G14 */
 TEST(alone, a_picture_is_the_same_in_bands_and_pixel_by_pixel)
 {
     for (int round = 0; round < 36; round++) {
@@ -266,7 +291,10 @@ TEST(alone, a_picture_is_the_same_in_bands_and_pixel_by_pixel)
         void *memory = add_mipmaps(&map, levels);
         a.state.shading = (shade_shading)(round % 3);
         if (rnd_one_in(2)) a.mesh.colors = a.color[0];
-        if (rnd_one_in(2)) a.mesh.texcoords = a.uv[0], a.state.diffuse_map = &map;
+        if (rnd_one_in(2)) {
+            a.mesh.texcoords = a.uv[0];
+            a.state.diffuse_map = &map;
+        }
         a.state.view = shade_mat4_look_at(shade_v3(1, 1, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
         a.state.projection = shade_mat4_perspective(0.9f, 1.5f, 1, 20);
         a.state.raster.cull = SHADE_CULL_NONE;
@@ -275,13 +303,16 @@ TEST(alone, a_picture_is_the_same_in_bands_and_pixel_by_pixel)
         canvas pixels = alone_draw(&a, format, 1, 1);
         alone_check_pixels(&whole, &bands, "bands");
         alone_check_pixels(&whole, &pixels, "pixels");
-        canvas_close(&whole), canvas_close(&bands), canvas_close(&pixels);
+        canvas_close(&whole);
+        canvas_close(&bands);
+        canvas_close(&pixels);
         free(memory);
         free_texture(&map);
     }
 }
 
 /* -0 stays, or becomes +0, whether another lane is lit or none. */
+/* G14 */
 TEST(alone, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane)
 {
     static float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];
@@ -290,7 +321,9 @@ TEST(alone, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane)
     shade_lighting lighting;
     float rgb[2][3][SHADE_LANES];
     memset(&lighting, 0, sizeof lighting);
-    lighting.lights = &lamp, lighting.light_count = 1, lighting.ambient = shade_v3(1, 1, 1);
+    lighting.lights = &lamp;
+    lighting.light_count = 1;
+    lighting.ambient = shade_v3(1, 1, 1);
     m.emission = shade_v3(-0.0f, -0.0f, -0.0f);
     for (int lit = 0; lit < 2; lit++) {
         for (int i = 0; i < SHADE_LANES; i++) {
@@ -304,6 +337,8 @@ TEST(alone, a_colour_of_minus_zero_is_the_same_beside_a_lit_lane)
 
 /* ------------------------------------------------------------------------------------------ NaN */
 
+/* The NaN that an operation makes is positive on some processors and negative on others. */
+/* G14 */
 TEST(alone, the_sign_of_a_nan_decides_nothing)
 {
     const float nan[2] = { bits_float(0x7FC00000u), bits_float(0xFFC00001u) };
@@ -311,7 +346,10 @@ TEST(alone, the_sign_of_a_nan_decides_nothing)
     static const float texel[4][4] = { { 1 }, { 2 }, { 3 }, { 4 } };
     shade_texture t;
     memset(&t, 0, sizeof t);
-    t.pixels = texel, t.width = 4, t.height = 1, t.format = SHADE_FORMAT_RGBA32F;
+    t.pixels = texel;
+    t.width = 4;
+    t.height = 1;
+    t.format = SHADE_FORMAT_RGBA32F;
     for (int falls = 0; falls < 2; falls++) {
         lamp.quadratic = (float)falls;
         CHECK_NEAR(shade_light_at(&lamp, shade_v3(nan[0], 0, 0), NULL, NULL), 0, 1e-30);
@@ -323,7 +361,8 @@ TEST(alone, the_sign_of_a_nan_decides_nothing)
         CHECK_NEAR(shade_attenuation(1, nan[k], 0, 1), 1e20, 1e14);
         lamp.quadratic = nan[k];
         CHECK_NEAR(shade_light_at(&lamp, shade_v3(0, 0, 0), NULL, NULL), 1e20, 1e14);
-        lamp.quadratic = 0, lamp.constant = nan[k];
+        lamp.quadratic = 0;
+        lamp.constant = nan[k];
         CHECK_NEAR(shade_light_at(&lamp, shade_v3(0, 0, 0), NULL, NULL), 1e20, 1e14);
         lamp.constant = 0;
         for (int wrap = 0; wrap < 3; wrap++) {
@@ -335,12 +374,15 @@ TEST(alone, the_sign_of_a_nan_decides_nothing)
 
 /* What the sum of the coefficients makes of finite ones: -inf + inf, whose sign differs between
    processors; and a square of the distance that overflows beside a coefficient of 0. */
+/* G3 */
 TEST(alone, a_distance_or_a_sum_that_overflows_has_one_outcome)
 {
     shade_light lamp = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
-    lamp.linear = -1e30f, lamp.quadratic = 1e30f;
+    lamp.linear = -1e30f;
+    lamp.quadratic = 1e30f;
     CHECK_NEAR(shade_light_at(&lamp, shade_v3(1e12f, 0, 0), NULL, NULL), 1e20, 1e14);
-    lamp.linear = 1, lamp.quadratic = 0;
+    lamp.linear = 1;
+    lamp.quadratic = 0;
     CHECK_NEAR(shade_light_at(&lamp, shade_v3(1e18f, 0, 0), NULL, NULL), 1e-18, 1e-23);
     CHECK_NEAR(shade_light_at(&lamp, shade_v3(1e30f, 0, 0), NULL, NULL), 0, 2e-18);
     lamp.quadratic = 1e30f;

@@ -11,8 +11,11 @@ static void random_walls(shade_vec4 *clip, int count, int width, int height)
         double level = 2 * rnd_unit() - 1, slope = rnd_one_in(3) ? 0 : rnd_unit();
         random_corners(kinds[rnd_int(0, 7)], width, height, x, y);
         if (i % 12 == 3) {    /* all of the picture, to its corners */
-            x[0] = x[1] = -width * 200, x[2] = width * 500;
-            y[0] = -height * 250, y[1] = height * 510, y[2] = height * 128;
+            x[0] = x[1] = -width * 200;
+            x[2] = width * 500;
+            y[0] = -height * 250;
+            y[1] = height * 510;
+            y[2] = height * 128;
         }
         for (int k = 0; k < 3; k++) {
             double z = level + slope * (2 * rnd_unit() - 1);
@@ -21,6 +24,37 @@ static void random_walls(shade_vec4 *clip, int count, int width, int height)
                                           (double)rnd_log(0.5, 2));
         }
     }
+}
+
+static void copy_clip_rectangle(shade_target *to, const shade_target *from)
+{
+    to->clip_x = from->clip_x;
+    to->clip_y = from->clip_y;
+    to->clip_width = from->clip_width;
+    to->clip_height = from->clip_height;
+}
+
+/* Every comparison; now and then depth that is read alone, and biases up to those that move every
+   depth to 0. */
+static void random_depth_state(shade_raster *r, int round)
+{
+    r->depth_test = (shade_compare)(round % 6);
+    r->depth_read_only = rnd_one_in(8);
+    r->depth_bias = rnd_one_in(4) ? rnd_float(-0.1, 0.1) : rnd_one_in(20) ? -FLT_MAX : 0;
+}
+
+/* Draws each triangle of a scene by a call of its own; returns how many fragments that makes. */
+static long long draw_in_turns(canvas *c, shade_pipeline p, const scene *s, int count)
+{
+    long long fragments = 0;
+    for (int i = 0; i < count; i++) {
+        scene part = { s->clip + 3 * i, NULL, 0, s->color + i, NULL };
+        shade_stats one;
+        p.uniforms = &part;
+        one = canvas_draw(c, &p, 3);
+        fragments += one.fragments;
+    }
+    return fragments;
 }
 
 /* A draw that may discard tests depth at the end, pixel by pixel; one triangle hides none. */
@@ -40,34 +74,29 @@ TEST(blocks, a_draw_is_its_triangles_in_turn_and_its_late_depth_test)
         canvas late = canvas_strip(width, height, 0, SHADE_FORMAT_RGBA8, 1, first, rows);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        shade_stats a, b, one;
-        long long fragments = 0;
+        shade_stats a, b;
         float clear = rnd_one_in(2) ? rnd_float(0, 1) : round % 6 / 2 == 1 ? 0.0f : 1.0f;
         p.fragment = scene_flat;
-        p.raster.depth_test = (shade_compare)(round % 6), p.raster.depth_read_only = rnd_one_in(8);
-        p.raster.depth_bias = rnd_one_in(4) ? rnd_float(-0.1, 0.1) : rnd_one_in(20) ? -FLT_MAX : 0;
-        canvas_clear(&whole, clear), canvas_clear(&turns, clear), canvas_clear(&late, clear);
+        random_depth_state(&p.raster, round);
+        canvas_clear(&whole, clear);
+        canvas_clear(&turns, clear);
+        canvas_clear(&late, clear);
         if (rnd_one_in(2)) random_clip(&whole.target);
-        late.target.clip_x = turns.target.clip_x = whole.target.clip_x;
-        late.target.clip_y = turns.target.clip_y = whole.target.clip_y;
-        late.target.clip_width = turns.target.clip_width = whole.target.clip_width;
-        late.target.clip_height = turns.target.clip_height = whole.target.clip_height;
+        copy_clip_rectangle(&turns.target, &whole.target);
+        copy_clip_rectangle(&late.target, &whole.target);
         random_walls(clip, count, width, height);
-        CHECK_INT(shade_draw(&whole.target, &p, NULL, 3 * count, 3 * count, &a), SHADE_OK);
-        for (int i = 0; i < count; i++) {
-            scene part = { clip + 3 * i, NULL, 0, color + i, NULL };
-            p.uniforms = &part;
-            CHECK_INT(shade_draw(&turns.target, &p, NULL, 3, 3, &one), SHADE_OK);
-            fragments += one.fragments;
-        }
-        p.uniforms = &s, p.may_discard = 1;
-        CHECK_INT(shade_draw(&late.target, &p, NULL, 3 * count, 3 * count, &b), SHADE_OK);
+        a = canvas_draw(&whole, &p, 3 * count);
+        long long fragments = draw_in_turns(&turns, p, &s, count);
+        p.may_discard = 1;
+        b = canvas_draw(&late, &p, 3 * count);
         CHECK(canvas_same(&whole, &turns));
         CHECK(canvas_same(&whole, &late));
         CHECK_INT(a.fragments, fragments);
         CHECK_INT(a.fragments, b.fragments);
         CHECK_INT(a.drawn, b.drawn);
-        canvas_close(&whole), canvas_close(&turns), canvas_close(&late);
+        canvas_close(&whole);
+        canvas_close(&turns);
+        canvas_close(&late);
     }
 }
 
@@ -89,45 +118,64 @@ static void forgetful_fragment(const void *uniforms, const shade_fragments *SHAD
     *f->done = 1;
 }
 
+enum { FILLED_SIDE = SHADE_LANES / 4, FILLED_TALL = FILLED_SIDE / 2, FILLED_EDGE = 48 };
+enum { FILLED_WIDTH = 32 * FILLED_SIDE + 1 + FILLED_EDGE };
+enum { FILLED_HEIGHT = 8 * FILLED_TALL + FILLED_EDGE };
+
+/* Three triangles beyond the picture: the first at depth 0.5, up to a cut on one side; the second,
+   nearer, up to the same cut; the third, farther than both, over everything. */
+static void filled_walls(shade_vec4 clip[9], int by_columns, int reversed, double cut_x,
+                         double cut_y)
+{
+    static const int corner[3][2] = { { 0, 0 }, { 2, 0 }, { 1, 1 } };
+    const double far_x = FILLED_WIDTH * 256.0, far_y = FILLED_HEIGHT * 256.0;
+    for (int k = 0; k < 9; k++) {
+        double along = corner[k % 3][0], X, Y, z = k < 3 ? 0.5 : k < 6 ? 0.25 : 0.75;
+        if (k >= 6) {
+            cut_x = 1.99 * far_x;
+            cut_y = 1.99 * far_y;
+        }
+        X = by_columns ? (corner[k % 3][1] ? -0.99 * far_x : cut_x) : (1.5 * along - 1) * far_x;
+        Y = by_columns ? (1.5 * along - 1) * far_y : corner[k % 3][1] ? -0.99 * far_y : cut_y;
+        z = reversed ? 1 - z : z;
+        clip[k] = clip_of_fx8(floor(X), floor(Y), FILLED_WIDTH, FILLED_HEIGHT, 2 * z - 1, 1);
+    }
+}
+
 /* Two triangles fill the clip rectangle, or up to a line between blocks, level; then all depths are
    cleared behind the draw's back.  A third, farther one draws the rest alone: filled blocks are not
    looked at again.  They are 32 x 8 pixels from the corner of the rectangle on, and 32 x 16 where
-   that would be one column too many. */
+   that would be one column too many.  A wall that is not cut reaches past the last block, and all
+   are more than a tile wide, as smaller triangles do not look at bounds. */
 TEST(blocks, filled_blocks_are_left_out)
 {
-    enum { SIDE = SHADE_LANES / 4, EDGE = 48, WIDTH = 32 * SIDE + 1 + EDGE };
-    enum { TALL = SIDE / 2, HEIGHT = 8 * TALL + EDGE };
-    canvas c = canvas_open(WIDTH, HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
+    enum { EDGE = FILLED_EDGE };
+    canvas c = canvas_open(FILLED_WIDTH, FILLED_HEIGHT, 0, SHADE_FORMAT_RGBA8, 1);
     for (int i = 0; i < 96; i++) {
-        const int most = i % 4 / 2, more = SIDE > 2 && i % 4 == 3;
+        const int most = i % 4 / 2, more = FILLED_SIDE > 2 && i % 4 == 3;
         const int by_columns = i / 4 % 2, reversed = i / 8 % 2;
-        const int w = most ? 32 * SIDE + more : i % 8 == 1 ? 32 : rnd_int(32, 32 * SIDE);
-        const int h = most ? 8 * TALL : i % 8 == 1 ? 8 : rnd_int(8, 8 * TALL);
+        /* every other rectangle is the largest that is left out, every eighth one block */
+        const int widest = 32 * FILLED_SIDE, tallest = 8 * FILLED_TALL;
+        const int w = most ? widest + more : i % 8 == 1 ? 32 : rnd_int(33, widest);
+        const int h = most ? tallest : i % 8 == 1 ? 8 : rnd_int(8, tallest);
         const int x = rnd_int(0, EDGE - 1), y = rnd_int(0, EDGE - 1), size = more ? 16 : 8;
         int columns = w, rows = h, done = 0;
-        double cut_x, cut_y, far_x = WIDTH * 256.0, far_y = HEIGHT * 256.0;
         shade_vec4 clip[9];
         shade_stats stats;
         forgetful f = { { clip, NULL, 0, NULL, NULL }, &c.target, reversed ? 0.0f : 1.0f, &done };
         shade_pipeline p = scene_pipeline(&f.s);
-        if (by_columns && w >= 64) columns = 32 * rnd_int(1, w / 32);
+        if (by_columns && w >= 96) columns = 32 * rnd_int(2, w / 32);
         if (!by_columns && h >= 2 * size) rows = size * rnd_int(1, h / size);
-        cut_x = (x + columns) * 256.0, cut_y = (y + rows) * 256.0;
-        for (int k = 0; k < 9; k++) {
-            static const int corner[3][2] = { { 0, 0 }, { 2, 0 }, { 1, 1 } };
-            double along = corner[k % 3][0], X, Y, z = k < 3 ? 0.5 : k < 6 ? 0.25 : 0.75;
-            if (k >= 6) cut_x = 1.99 * far_x, cut_y = 1.99 * far_y;
-            X = by_columns ? (corner[k % 3][1] ? -0.99 * far_x : cut_x) : (1.5 * along - 1) * far_x;
-            Y = by_columns ? (1.5 * along - 1) * far_y : corner[k % 3][1] ? -0.99 * far_y : cut_y;
-            z = reversed ? 1 - z : z;
-            clip[k] = clip_of_fx8(floor(X), floor(Y), WIDTH, HEIGHT, 2 * z - 1, 1);
-        }
+        filled_walls(clip, by_columns, reversed, (x + columns + 64 * (columns == w)) * 256.0,
+                     (y + rows) * 256.0);
         p.fragment = forgetful_fragment;
         p.raster.depth_test = (shade_compare)(i / 16 % 2 + 2 * reversed);
-        c.target.clip_x = x, c.target.clip_y = y;
-        c.target.clip_width = w, c.target.clip_height = h;
+        c.target.clip_x = x;
+        c.target.clip_y = y;
+        c.target.clip_width = w;
+        c.target.clip_height = h;
         canvas_clear(&c, f.cleared);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 9, 9, &stats), SHADE_OK);
+        stats = canvas_draw(&c, &p, 9);
         CHECK(done);
         CHECK_INT(stats.fragments, 2 * columns * rows + w * h - columns * rows);
     }
@@ -148,8 +196,10 @@ TEST(blocks, level_walls_keep_the_nearest)
         for (int i = 0; i < WALLS; i++) {
             static const int corner[6][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 },
                                               { 0, 0 }, { 1, 1 }, { 1, 0 } };
-            left[i] = rnd_int(0, WIDTH - 40), right[i] = rnd_int(left[i] + 1, WIDTH);
-            top[i] = rnd_int(0, HEIGHT - 20), bottom[i] = rnd_int(top[i] + 1, HEIGHT);
+            left[i] = rnd_int(0, WIDTH - 40);
+            right[i] = rnd_int(left[i] + 1, WIDTH);
+            top[i] = rnd_int(0, HEIGHT - 20);
+            bottom[i] = rnd_int(top[i] + 1, HEIGHT);
             depth[i] = (float)rnd_int(1, 255) / 256;
             color[2 * i] = color[2 * i + 1] = shade_v4((float)(i + 1) / 255, 0, 0, 1);
             for (int k = 0; k < 6; k++)
@@ -160,7 +210,7 @@ TEST(blocks, level_walls_keep_the_nearest)
         p.fragment = scene_flat;
         p.raster.depth_test = (shade_compare)(round % 4 / 2 + 2 * reversed);
         canvas_clear(&c, reversed ? 0.0f : 1.0f);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 6 * WALLS, 6 * WALLS, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 6 * WALLS);
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++) {
                 int nearest = -1, or_equal = p.raster.depth_test % 2;

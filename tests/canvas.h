@@ -20,6 +20,7 @@ static size_t canvas_pixel_bytes(shade_format format)
     static const size_t bytes[TEXTURE_FORMATS] = { 4, 4, 2, 2, 16, 1 };
     return (unsigned)format < TEXTURE_FORMATS ? bytes[format] : 16;
 }
+
 /* The greatest code of channel k (R, G, B, A); 0: no such channel, or floats. */
 static int canvas_most(shade_format format, int k)
 {
@@ -28,6 +29,7 @@ static int canvas_most(shade_format format, int k)
     if (format == SHADE_FORMAT_A8) return k == 3 ? 255 : 0;
     return format <= SHADE_FORMAT_BGRA8 ? 255 : most565[k];
 }
+
 /* The code of channel k in the bytes of a pixel; not RGBA32F. */
 static int canvas_code_at(shade_format format, const unsigned char *p, int k)
 {
@@ -37,11 +39,14 @@ static int canvas_code_at(shade_format format, const unsigned char *p, int k)
     if (format == SHADE_FORMAT_RGBA8) return p[k];
     if (format == SHADE_FORMAT_A8) return p[0];
     if (format == SHADE_FORMAT_BGRA8) return p[k < 3 ? 2 - k : k];
-    native[0] = p[swapped], native[1] = p[!swapped];
+    native[0] = p[swapped];
+    native[1] = p[!swapped];
     memcpy(&v, native, 2);
     return k == 0 ? v >> 11 : k == 1 ? v >> 5 & 63 : k == 2 ? v & 31 : 0;
 }
+
 static shade_format rnd_format(void) { return (shade_format)rnd_int(0, CANVAS_FORMATS - 1); }
+
 static shade_format rnd_texture_format(void)
 {
     return (shade_format)rnd_int(0, TEXTURE_FORMATS - 1);
@@ -51,6 +56,7 @@ static int canvas_stride(const canvas *c)
 {
     return c->target.stride ? c->target.stride : c->target.width;
 }
+
 static int canvas_rows(const canvas *c)
 {
     return c->target.row_count ? c->target.row_count : c->target.height;
@@ -58,13 +64,19 @@ static int canvas_rows(const canvas *c)
 
 static unsigned char *canvas_block(size_t bytes)
 {
-    unsigned char *block = (unsigned char *)malloc(bytes + 2 * CANVAS_GUARD);
-    if (!block) {
-        printf("out of memory\n");
-        exit(2);
-    }
+    unsigned char *block = test_memory(bytes + 2 * CANVAS_GUARD);
     memset(block, CANVAS_BYTE, bytes + 2 * CANVAS_GUARD);
     return block;
+}
+
+/* 1 while every byte is that of a block that nobody wrote to. */
+static int untouched(const void *at, size_t bytes)
+{
+    const unsigned char *byte = (const unsigned char *)at;
+    for (size_t i = 0; i < bytes; i++) {
+        if (byte[i] != CANVAS_BYTE) return 0;
+    }
+    return 1;
 }
 
 /* A strip of rows of a picture (row_count 0: all of it).  stride 0: width.  with_depth 0: no depth
@@ -74,8 +86,12 @@ static canvas canvas_strip(int width, int height, int stride, shade_format forma
 {
     canvas c;
     memset(&c, 0, sizeof c);
-    c.target.width = width, c.target.height = height, c.target.stride = stride;
-    c.target.format = format, c.target.row_offset = row_offset, c.target.row_count = row_count;
+    c.target.width = width;
+    c.target.height = height;
+    c.target.stride = stride;
+    c.target.format = format;
+    c.target.row_offset = row_offset;
+    c.target.row_count = row_count;
     size_t cells = (size_t)canvas_stride(&c) * (size_t)canvas_rows(&c);
     c.color_bytes = cells * canvas_pixel_bytes(format);
     c.color = canvas_block(c.color_bytes);
@@ -85,6 +101,7 @@ static canvas canvas_strip(int width, int height, int stride, shade_format forma
     if (with_depth) c.target.depth = (float *)(void *)(c.depth + CANVAS_GUARD);
     return c;
 }
+
 static canvas canvas_open(int width, int height, int stride, shade_format format, int with_depth)
 {
     return canvas_strip(width, height, stride, format, with_depth, 0, 0);
@@ -105,11 +122,20 @@ static int canvas_intact_block(const canvas *c, const unsigned char *block, size
     }
     return 1;
 }
+
 static int canvas_intact(const canvas *c)
 {
     return canvas_intact_block(c, c->color, c->color_bytes, canvas_pixel_bytes(c->target.format)) &&
            canvas_intact_block(c, c->depth, c->depth_bytes, 4);
 }
+
+/* 1 while no byte of colours or depths has changed since the canvas was opened. */
+static int canvas_untouched(const canvas *c)
+{
+    return untouched(c->color, c->color_bytes + 2 * CANVAS_GUARD) &&
+           untouched(c->depth, c->depth_bytes + 2 * CANVAS_GUARD);
+}
+
 static void canvas_close(canvas *c)
 {
     CHECK_SAY(canvas_intact(c), "bytes around a picture of %d x %d changed", c->target.width,
@@ -123,36 +149,43 @@ static size_t canvas_index(const canvas *c, int x, int y)
 {
     return (size_t)(y - c->target.row_offset) * (size_t)canvas_stride(c) + (size_t)x;
 }
+
 static unsigned char *canvas_pixel(const canvas *c, int x, int y)
 {
     return c->color + CANVAS_GUARD + canvas_pixel_bytes(c->target.format) * canvas_index(c, x, y);
 }
+
 static const unsigned char *canvas_bytes(const canvas *c, int x, int y) /* formats of 4 bytes */
 {
     return canvas_pixel(c, x, y);
 }
+
 static unsigned canvas_565(const canvas *c, int x, int y) /* the uint16 of a pixel */
 {
     uint16_t v;
     memcpy(&v, canvas_pixel(c, x, y), 2);
     return v;
 }
+
 static int canvas_code(const canvas *c, int x, int y, int channel)
 {
     return canvas_code_at(c->target.format, canvas_pixel(c, x, y), channel);
 }
+
 static float canvas_float(const canvas *c, int x, int y, int channel)
 {
     float v;
     memcpy(&v, canvas_pixel(c, x, y) + 4 * channel, 4);
     return v;
 }
+
 static float canvas_depth(const canvas *c, int x, int y)
 {
     float v;
     memcpy(&v, c->depth + CANVAS_GUARD + 4 * canvas_index(c, x, y), 4);
     return v;
 }
+
 static int canvas_same(const canvas *a,
                        const canvas *b) /* two pictures of one shape, bit for bit */
 {
@@ -160,6 +193,7 @@ static int canvas_same(const canvas *a,
            !memcmp(a->color + CANVAS_GUARD, b->color + CANVAS_GUARD, a->color_bytes) &&
            !memcmp(a->depth + CANVAS_GUARD, b->depth + CANVAS_GUARD, a->depth_bytes);
 }
+
 static void canvas_clear(canvas *c, float depth)
 {
     CHECK_INT(shade_clear(&c->target, shade_v4(0, 0, 0, 0), depth), SHADE_OK);
@@ -194,11 +228,7 @@ static recorder recorder_open(int capacity)
     recorder r;
     memset(&r, 0, sizeof r);
     r.capacity = capacity;
-    r.fragments = (fragment_record *)malloc((size_t)capacity * sizeof(fragment_record));
-    if (!r.fragments) {
-        printf("out of memory\n");
-        exit(2);
-    }
+    r.fragments = test_memory((size_t)capacity * sizeof(fragment_record));
     return r;
 }
 
@@ -215,6 +245,7 @@ static void scene_record_vertices(recorder *r, const shade_vertex_ids *in)
         if (r->vertex_seen) r->vertex_seen[in->index[i]] = 1;
     }
 }
+
 static void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                          shade_vertices *SHADE_RESTRICT out)
 {
@@ -222,7 +253,10 @@ static void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
     if (s->record) scene_record_vertices(s->record, in);
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 p = s->clip[in->index[i]];
-        out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[2][i] = p.z, out->clip[3][i] = p.w;
+        out->clip[0][i] = p.x;
+        out->clip[1][i] = p.y;
+        out->clip[2][i] = p.z;
+        out->clip[3][i] = p.w;
         for (int k = 0; k < s->varyings; k++) {
             out->varying[k][i] =
                 s->attribute[(size_t)in->index[i] * (size_t)s->varyings + (size_t)k];
@@ -251,11 +285,16 @@ static void scene_record_fragments(const scene *s, const shade_fragments *in)
     }
     for (int i = 0; i < in->count && r->fragments && r->count < r->capacity; i++) {
         fragment_record *f = &r->fragments[r->count++];
-        f->x = in->x[i], f->y = in->y[i], f->z = in->z[i], f->lod = in->lod[i];
-        f->primitive = in->primitive[i], f->front = in->front[i];
+        f->x = in->x[i];
+        f->y = in->y[i];
+        f->z = in->z[i];
+        f->lod = in->lod[i];
+        f->primitive = in->primitive[i];
+        f->front = in->front[i];
         for (int k = 0; k < s->varyings; k++) f->in[k] = in->varying[k][i];
     }
 }
+
 /* the colour of the primitive */
 static void scene_flat(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                        shade_colors *SHADE_RESTRICT out)
@@ -264,10 +303,13 @@ static void scene_flat(const void *uniforms, const shade_fragments *SHADE_RESTRI
     if (s->record) scene_record_fragments(s, in);
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 c = s->color ? s->color[in->primitive[i]] : shade_v4(1, 1, 1, 1);
-        out->color[0][i] = c.x, out->color[1][i] = c.y, out->color[2][i] = c.z,
+        out->color[0][i] = c.x;
+        out->color[1][i] = c.y;
+        out->color[2][i] = c.z;
         out->color[3][i] = c.w;
     }
 }
+
 /* the first four varyings as colour */
 static void scene_colors(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
@@ -283,9 +325,21 @@ static shade_pipeline scene_pipeline(const scene *s)
 {
     shade_pipeline p;
     memset(&p, 0, sizeof p);
-    p.vertex = scene_vertex, p.fragment = scene_flat, p.uniforms = s;
+    p.vertex = scene_vertex;
+    p.fragment = scene_flat;
+    p.uniforms = s;
     p.varyings = s->varyings;
     return p;
+}
+
+/* Draws corners one after the other, by a pipeline that is good. */
+static shade_stats canvas_draw(canvas *c, const shade_pipeline *p, int corners)
+{
+    shade_stats stats;
+    memset(&stats, CANVAS_BYTE, sizeof stats);
+    CHECK_INT(shade_draw(&c->target, p, NULL, corners, corners, &stats), SHADE_OK);
+    CHECK_INT(stats.culled + stats.clipped + stats.rejected + stats.drawn, stats.triangles);
+    return stats;
 }
 
 /* The clip-space place of window point (X, Y) / 256 at clip w and depth z/w.  Reached to 1/2000

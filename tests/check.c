@@ -47,6 +47,7 @@ static int whole_sink(void *user, const void *bytes, size_t size)
     whole_out.written = 1;
     return 0;
 }
+
 static void whole_open(whole_call *w)
 {
     static const uint32_t texels[16];
@@ -160,6 +161,7 @@ static const char *fault_argument(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 static const char *fault_target(whole_call *w, int k)
 {
     switch (k) {
@@ -173,6 +175,7 @@ static const char *fault_target(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 static const char *fault_mesh(whole_call *w, int k)
 {
     switch (k) {
@@ -195,6 +198,7 @@ static const char *fault_mesh(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 static const char *fault_state(whole_call *w, int k)
 {
     switch (k) {
@@ -214,6 +218,7 @@ static const char *fault_state(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 static const char *fault_lights(whole_call *w, int k)
 {
     switch (k) {
@@ -222,6 +227,7 @@ static const char *fault_lights(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 static const char *fault_texture(whole_call *w, int k)
 {
     switch (k) {
@@ -231,6 +237,7 @@ static const char *fault_texture(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 static const char *fault_index(whole_call *w, int k)
 {
     switch (k) {
@@ -239,6 +246,7 @@ static const char *fault_index(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 static const char *fault_capacity(whole_call *w, int k)
 {
     switch (k) {
@@ -248,6 +256,7 @@ static const char *fault_capacity(whole_call *w, int k)
     default: return NULL;
     }
 }
+
 typedef struct call_fault { /* of a category and a number */
     const char *(*spoil)(whole_call *, int);
     shade_result result;
@@ -275,6 +284,7 @@ static int faults_of(char call, call_fault *list)
     }
     return count;
 }
+
 /* A call with two faults, which may be one, the later category made first, so that it cannot mend
    the other; or with none, NULL.  Where one is told nothing has changed. */
 static void check_whole(char call, const call_fault *first, const call_fault *second)
@@ -296,6 +306,8 @@ static void check_whole(char call, const call_fault *first, const call_fault *se
         CHECK(((const unsigned char *)&whole_out)[i] == CANVAS_BYTE);
     canvas_close(&w.c);
 }
+
+/* G2 */
 TEST(check, of_any_two_faults_the_first_category_is_told)
 {
     call_fault list[MOST_FAULTS];
@@ -312,6 +324,7 @@ TEST(check, of_any_two_faults_the_first_category_is_told)
     }
     CHECK_SAY(pairs > 900, "%d pairs", pairs);
 }
+
 /* a NaN depth, a factor */
 TEST(check, sizes_that_do_not_fit_are_arguments_behind_good_targets)
 {

@@ -24,6 +24,7 @@ static int chunk_corners(const shade_mesh *m)
 {
     return m->indices ? m->index_count : m->vertex_count;
 }
+
 static shade_vec3 chunk_corner(const shade_mesh *m, int k)
 {
     const size_t stride = m->position_stride ? (size_t)m->position_stride : 12;
@@ -32,6 +33,7 @@ static shade_vec3 chunk_corner(const shade_mesh *m, int k)
     memcpy(&p, (const char *)m->positions + v * stride, 12);
     return p;
 }
+
 static float chunk_coordinate(shade_vec3 p, int axis)
 {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
@@ -69,6 +71,7 @@ static void random_chunk_positions(chunk_scene *s, double size)
         corner[2] = (uint32_t)(near + (t % 2 ? 16 : 1));
     }
 }
+
 /* Cuts the triangles of the mesh into chunks of random size, empty ones among them, and gives them
    the boxes of shade_mesh_chunks with one triangle a chunk. */
 static void random_chunk_list(chunk_scene *s, int sizes)
@@ -97,6 +100,7 @@ static void random_chunk_list(chunk_scene *s, int sizes)
     s->mesh.chunks = s->chunk;
     s->mesh.chunk_count = count;
 }
+
 static shade_mat4 wild_matrix(double size)
 {
     shade_mat4 m;
@@ -106,6 +110,7 @@ static shade_mat4 wild_matrix(double size)
     memcpy(&m, f, sizeof m);
     return m;
 }
+
 /* Perspectives that cut the mesh at the near plane or have the eye inside it, parallel and reversed
    projections, matrices of no camera at all. */
 static void random_chunk_camera(chunk_scene *s, double size)
@@ -136,6 +141,7 @@ static void random_chunk_camera(chunk_scene *s, double size)
     }
     if (rnd_one_in(5)) state->raster.depth_zero_to_one ^= 1;
 }
+
 /* The colour of a pixel is the number of its triangle, so that numbers are compared as well. */
 static void chunk_number_shader(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                 shade_colors *SHADE_RESTRICT out)
@@ -148,6 +154,7 @@ static void chunk_number_shader(const void *uniforms, const shade_fragments *SHA
         out->discard[i] = in->primitive[i] % 7 == 6;
     }
 }
+
 static void random_chunk_state(chunk_scene *s, double size)
 {
     static const shade_material material = { { 0.1f, 0, 0 }, { 0.2f, 0.2f, 0.2f },
@@ -171,6 +178,7 @@ static void random_chunk_state(chunk_scene *s, double size)
     if (SHADE_MAX_VARYINGS >= 11 && state->shading == SHADE_SHADING_PER_FRAGMENT && rnd_one_in(2))
         state->fragment = chunk_number_shader;
 }
+
 static void random_chunk_scene(chunk_scene *s)
 {
     const double size = (double)rnd_log(1e-3, 1e3);
@@ -190,6 +198,7 @@ static void random_chunk_scene(chunk_scene *s)
     s->width = rnd_int(1, 70);
     s->height = rnd_int(1, 60);
 }
+
 /* The triangles of the mesh in the order that shade_mesh_chunks gives them. */
 static void sort_chunk_scene(chunk_scene *s)
 {
@@ -208,6 +217,7 @@ static float chunk_clear_depth(const chunk_scene *s)
 {
     return s->state.raster.depth_test == SHADE_COMPARE_GREATER ? 0.0f : 1.0f;
 }
+
 static shade_stats draw_chunks(const chunk_scene *s, const shade_target *t, int with_chunks)
 {
     shade_mesh mesh = s->mesh;
@@ -221,6 +231,7 @@ static shade_stats draw_chunks(const chunk_scene *s, const shade_target *t, int 
     if (!with_chunks) CHECK_INT(stats.skipped, 0);
     return stats;
 }
+
 /* Whatever is not skipped has the same fate. */
 static void check_chunk_stats(const shade_stats *got, const shade_stats *want)
 {
@@ -228,6 +239,7 @@ static void check_chunk_stats(const shade_stats *got, const shade_stats *want)
     CHECK(got->culled <= want->culled && got->clipped <= want->clipped);
     CHECK(got->rejected <= want->rejected && got->drawn <= want->drawn);
 }
+
 /* Whole pictures or a clip rectangle of them. */
 static void check_chunk_picture(const chunk_scene *s, shade_format format, shade_stats *sum)
 {
@@ -257,6 +269,7 @@ static void check_chunk_picture(const chunk_scene *s, shade_format format, shade
     canvas_close(&with);
     canvas_close(&without);
 }
+
 static void check_chunk_pictures(int sorted)
 {
     static chunk_scene s;
@@ -271,7 +284,10 @@ static void check_chunk_pictures(int sorted)
     CHECK_SAY(sum.skipped > 5000 && sum.drawn > 4000 && sum.fragments > 20000,
               "%lld skipped, %lld drawn, %lld fragments", sum.skipped, sum.drawn, sum.fragments);
 }
+
+/* G13 */
 TEST(chunks, pictures_have_the_same_bits_with_chunks_and_without) { check_chunk_pictures(0); }
+/* G13 */
 TEST(chunks, sorted_meshes_have_the_same_bits_with_chunks_and_without) { check_chunk_pictures(1); }
 
 /* The whole picture without chunks, and bands and strips of it with them: the same bits, and
@@ -307,6 +323,7 @@ static long long check_chunk_bands(const chunk_scene *s, int strips)
     canvas_close(&whole);
     return skipped;
 }
+
 static void check_chunk_parts(int strips)
 {
     static chunk_scene s;
@@ -319,7 +336,10 @@ static void check_chunk_parts(int strips)
     }
     CHECK_SAY(skipped > 5000, "%lld skipped", skipped);
 }
+
+/* G13 */
 TEST(chunks, bands_with_chunks_together_make_the_picture_without) { check_chunk_parts(0); }
+/* G13 */
 TEST(chunks, strips_with_chunks_together_make_the_picture_without) { check_chunk_parts(1); }
 
 /* -------------------------------------------------------------------------- what a box may hide */
@@ -345,6 +365,7 @@ static void chunk_plane(const shade_target *t, double m[4][4], int zero_to_one, 
         plane[c] = value[k];
     }
 }
+
 /* What the corners of the box say: 1 where it meets each plane's inside, 0 where it lies outside of
    one by more than a hundred thousandth of the numbers that enter, -1 in between, and where the
    matrix is not finite. */
@@ -376,12 +397,14 @@ static int ref_box_visible(const shade_target *t, double m[4][4], int zero_to_on
     }
     return answer;
 }
+
 static void chunk_rows_of(shade_mat4 m, double rows[4][4])
 {
     const dmat d = dmat_from(m);
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++) rows[r][c] = d.m[r][c];
 }
+
 static void random_chunk_clip(shade_target *t)
 {
     if (rnd_one_in(4)) return;
@@ -390,10 +413,12 @@ static void random_chunk_clip(shade_target *t)
     t->clip_width = rnd_one_in(3) ? 1 : rnd_int(1, t->width);
     t->clip_height = rnd_one_in(3) ? 1 : rnd_int(1, t->height);
 }
+
 static shade_mat4 chunk_matrix(shade_mat4 m)
 {
     return dmat_max(dmat_from(m)) == 0 ? shade_mat4_identity() : m;
 }
+
 /* Cameras, and matrices whose depth lets w come as near to 0 as it likes, for objects of that
    size, at times far from the origin of their own space. */
 static shade_mat4 random_chunk_matrix(int *zero_to_one, double size)
@@ -413,6 +438,7 @@ static shade_mat4 random_chunk_matrix(int *zero_to_one, double size)
     if (!rnd_one_in(3)) return m;
     return shade_mat4_mul(m, shade_mat4_translation(random_vector(size * (double)rnd_log(1, 1e4))));
 }
+
 static float some_ulps(double x)
 {
     float f = (float)x;
@@ -420,10 +446,12 @@ static float some_ulps(double x)
         f = nextafterf(f, rnd_one_in(2) ? -INFINITY : INFINITY);
     return f;
 }
+
 static double plane_value(const double plane[4], const double q[4])
 {
     return plane[0] * q[0] + plane[1] * q[1] + plane[2] * q[2] + plane[3];
 }
+
 /* Moves a point into a plane, along the axis that moves it least; 0 where there is none. */
 static int put_on_plane(const double plane[4], double q[4])
 {
@@ -434,6 +462,7 @@ static int put_on_plane(const double plane[4], double q[4])
     q[axis] -= plane_value(plane, q) / plane[axis];
     return 1;
 }
+
 /* A point of the near or the far plane that the matrix puts into the middle of a pixel of the clip
    rectangle, in front of the eye; 0 where no such point was found. */
 static int random_seen_point(const shade_target *t, shade_mat4 m, int zero_to_one, int far,
@@ -454,6 +483,7 @@ static int random_seen_point(const shade_target *t, shade_mat4 m, int zero_to_on
     q[3] = 1;
     return 1;
 }
+
 /* A triangle in a plane, as near as floats come to it, around a point; 0 where the
    plane has no direction. */
 static int triangle_on_plane(const double plane[4], double size, const double point[4],
@@ -468,19 +498,20 @@ static int triangle_on_plane(const double plane[4], double size, const double po
     }
     return 1;
 }
+
 static long long chunk_fragments(const shade_target *t, shade_mat4 m, int zero_to_one,
                                  const shade_vec3 p[3])
 {
     const shade_mesh mesh = plain_mesh(&p[0].x, 3);
-    shade_draw_state state;
     shade_stats stats;
-    memset(&state, 0, sizeof state);
+    shade_draw_state state = plain_state(NULL);
     state.projection = m;
     state.raster.depth_zero_to_one = zero_to_one;
     state.shading = SHADE_SHADING_PER_VERTEX;
     CHECK_INT(shade_draw_mesh(t, &mesh, &state, &stats), SHADE_OK);
     return stats.fragments;
 }
+
 /* Triangles that lie in a plane of what can be seen, but for the last bits of their coordinates:
    what gives a pixel is visible in its very box.  Boxes elsewhere are seen and not seen as their
    corners say. */
@@ -525,6 +556,7 @@ TEST(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box)
     CHECK_SAY(touching > 3000 && by_rounding > 100 && hidden > 1000,
               "%ld touch a pixel, %ld by rounding, %ld hidden", touching, by_rounding, hidden);
 }
+
 /* Where products are below the least float, rounding is no part of their size: z/w >= 0 for all the
    least negative z. */
 TEST(chunks, depths_that_underflow_are_not_hidden)
@@ -554,6 +586,9 @@ static shade_vec3 with_axis(shade_vec3 p, int axis, float value)
     if (axis == 2) p.z = value;
     return p;
 }
+
+/* A box that is out of sight until one of its numbers is spoilt: what cannot be told must be
+   drawn. */
 TEST(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible)
 {
     static uint32_t pixels[64];
@@ -589,6 +624,7 @@ TEST(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible)
     bad.color = NULL;
     CHECK_INT(shade_box_visible(&bad, one, 0, low, high), 1);
 }
+
 TEST(chunks, a_zero_matrix_is_the_identity)
 {
     static uint32_t pixels[64];
@@ -604,6 +640,7 @@ TEST(chunks, a_zero_matrix_is_the_identity)
         CHECK_INT(shade_box_visible(&t, zero, i & 1, low, high), same);
     }
 }
+
 /* Pixel by pixel: a box of one pixel is visible in the clip rectangles that have it or touch it,
    and in no other. */
 TEST(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels)
@@ -644,10 +681,9 @@ static shade_result chunk_calls(const shade_mesh *m, int call)
     static shade_vec3 normals[64];
     static unsigned char memory[65536];
     shade_edge edges[64];
-    shade_draw_state state;
     shade_target t;
     int count;
-    memset(&state, 0, sizeof state);
+    shade_draw_state state = plain_state(NULL);
     memset(&t, 0, sizeof t);
     t.width = t.height = 8;
     t.color = pixels;
@@ -659,6 +695,7 @@ static shade_result chunk_calls(const shade_mesh *m, int call)
     default: return shade_mesh_edges(m, edges, 64, &count);
     }
 }
+
 TEST(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call)
 {
     static const uint32_t index[6] = { 0, 1, 2, 2, 1, 3 };
@@ -726,6 +763,7 @@ static void open_squares(chunk_squares *s)
     s->state.raster.blend = SHADE_BLEND_ADD;
     s->state.shading = SHADE_SHADING_PER_VERTEX;
 }
+
 /* What lies in the four columns, each digit of it. */
 static int draw_squares(const chunk_squares *s, shade_stats *stats)
 {
@@ -741,6 +779,7 @@ static int draw_squares(const chunk_squares *s, shade_stats *stats)
     canvas_close(&c);
     return digits;
 }
+
 TEST(chunks, exactly_the_triangles_of_the_list_are_drawn)
 {
     static chunk_squares s;
@@ -770,6 +809,8 @@ TEST(chunks, exactly_the_triangles_of_the_list_are_drawn)
     s.mesh.chunk_count = 0;
     CHECK_INT(draw_squares(&s, &stats), 1111);
 }
+
+/* The one that is seen comes last or first; every fifth is empty and not counted as skipped. */
 TEST(chunks, thousands_out_of_sight_come_before_the_one_that_is_seen)
 {
     static chunk_squares s;
@@ -807,14 +848,11 @@ typedef struct chunk_maker {
 
 static void *chunk_room(size_t bytes)
 {
-    void *room = malloc(bytes + 1);
-    if (!room) {
-        printf("out of memory\n");
-        exit(2);
-    }
+    void *room = test_memory(bytes + 1);
     memset(room, CANVAS_BYTE, bytes);
     return room;
 }
+
 static chunk_maker open_maker(int triangles)
 {
     chunk_maker m;
@@ -828,6 +866,7 @@ static chunk_maker open_maker(int triangles)
     m.mesh = plain_mesh(&m.position[0].x, 3 * triangles);
     return m;
 }
+
 static void close_maker(chunk_maker *m)
 {
     free(m->position);
@@ -835,13 +874,7 @@ static void close_maker(chunk_maker *m)
     free(m->sorted);
     free(m->chunk);
 }
-static int untouched(const void *at, size_t bytes)
-{
-    const unsigned char *p = (const unsigned char *)at;
-    for (size_t i = 0; i < bytes; i++)
-        if (p[i] != CANVAS_BYTE) return 0;
-    return 1;
-}
+
 /* Makes chunks into the guarded room; nothing beside it changes. */
 static int make_chunks(chunk_maker *m, int triangles, int sort)
 {
@@ -858,6 +891,7 @@ static int make_chunks(chunk_maker *m, int triangles, int sort)
     CHECK(untouched(m->sorted + CHUNK_GUARD + (sort ? corners : 0), CHUNK_GUARD * 4));
     return count;
 }
+
 /* Runs of the list, one after the other, all but the last of the size that was asked for, each in
    the box of its finite corners, to the bit. */
 static void check_made(const chunk_maker *m, const shade_mesh *mesh, int count, int size)
@@ -884,7 +918,9 @@ static void check_made(const chunk_maker *m, const shade_mesh *mesh, int count, 
     }
     CHECK_INT(3 * first, chunk_corners(mesh));
 }
+
 static int compare_triangles(const void *a, const void *b) { return memcmp(a, b, 12); }
+
 /* The sorted list has the triangles of the mesh, each with its corners in their order. */
 static void check_sorted(const chunk_maker *m)
 {
@@ -899,6 +935,7 @@ static void check_sorted(const chunk_maker *m)
     free(own);
     free(sorted);
 }
+
 static void check_maker(chunk_maker *m, int size)
 {
     const int count = make_chunks(m, size, 0);
@@ -910,6 +947,8 @@ static void check_maker(chunk_maker *m, int size)
     check_made(m, &sorted, count, size ? size : 128);
     check_sorted(m);
 }
+
+/* Sizes from the default to more than there are triangles; positions may be NaN or infinite. */
 TEST(chunks, runs_tile_the_list_in_boxes_of_their_corners)
 {
     static const int sizes[8] = { 0, 1, 2, 3, 7, 64, 1000, INT32_MAX };
@@ -928,6 +967,7 @@ TEST(chunks, runs_tile_the_list_in_boxes_of_their_corners)
         close_maker(&m);
     }
 }
+
 TEST(chunks, counts_are_those_of_whole_chunks_and_a_rest)
 {
     for (int triangles = 0; triangles < 40; triangles++)
@@ -943,7 +983,9 @@ TEST(chunks, counts_are_those_of_whole_chunks_and_a_rest)
     CHECK_INT(shade_chunk_count(INT32_MAX - 1, INT32_MAX), 1);
     CHECK_INT(shade_chunk_count(INT32_MIN, 1), 0);
 }
+
 /* Each mistake alone, and with those that are looked for later. */
+/* G2 */
 TEST(chunks, bad_arguments_change_nothing_and_are_told_in_their_order)
 {
     chunk_maker m = open_maker(9);
@@ -978,6 +1020,14 @@ TEST(chunks, bad_arguments_change_nothing_and_are_told_in_their_order)
             for (int k = 0; k < 27; k++) m.index[k] = (uint32_t)k;
         }
     }
+    close_maker(&m);
+}
+
+TEST(chunks, without_mesh_or_room_nothing_is_made_and_no_vertex_makes_no_chunk)
+{
+    chunk_maker m = open_maker(9);
+    shade_chunk *room = m.chunk + CHUNK_GUARD;
+    for (int k = 0; k < 27; k++) m.position[k] = random_vector(1);
     CHECK_INT(shade_mesh_chunks(NULL, 2, room, 5, NULL), SHADE_ERROR_ARGUMENT);
     CHECK_INT(shade_mesh_chunks(&m.mesh, 2, NULL, 5, NULL), SHADE_ERROR_ARGUMENT);
     CHECK_INT(shade_mesh_chunks(&m.mesh, 2, NULL, 0, NULL), SHADE_ERROR_CAPACITY);
@@ -1007,6 +1057,7 @@ static float spread_value(int kind, int triangle)
     default: return (float)(triangle % 3 - 1) * 0.0f;
     }
 }
+
 /* Were the time to grow with the square, this would take some minutes for each kind. */
 TEST(chunks, no_numbers_take_long_to_sort)
 {
@@ -1031,6 +1082,7 @@ static double sum_of_boxes(const shade_chunk *c, int count)
     }
     return sum;
 }
+
 static void shuffle_triangles(chunk_maker *m)
 {
     for (int t = m->triangles - 1; t > 0; t--) {
@@ -1044,6 +1096,7 @@ static void shuffle_triangles(chunk_maker *m)
     m->mesh.indices = m->index;
     m->mesh.index_count = 3 * m->triangles;
 }
+
 /* A sheet of 64 x 64 squares, shuffled: its 64 chunks of 128 triangles are at best squares of 8 x 8
    that see (1/8)^2 each.  Sorting makes them as small as that, but for what hangs over an edge. */
 TEST(chunks, a_shuffled_sheet_is_sorted_into_squares)
@@ -1065,6 +1118,7 @@ TEST(chunks, a_shuffled_sheet_is_sorted_into_squares)
     CHECK_SAY(sorted < 1.5, "%g sorted, by splits that are no halves", sorted);
     close_maker(&m);
 }
+
 /* Two places that only the last bit tells apart. */
 TEST(chunks, neighbouring_floats_are_sorted_apart)
 {
@@ -1081,6 +1135,7 @@ TEST(chunks, neighbouring_floats_are_sorted_apart)
     }
     close_maker(&m);
 }
+
 /* Crumbs in a cube: 64 chunks of it see at best 3/16 each, 12 together. */
 TEST(chunks, shuffled_crumbs_are_sorted_into_cubes)
 {
@@ -1116,6 +1171,7 @@ static chunk_pick pick_with(const shade_mesh *mesh, const shade_chunk *chunks, i
     p.triangle = shade_pick(&m, model, ray, &p.t, &p.b);
     return p;
 }
+
 /* Models that turn, mirror, flatten, shear, project; huge and tiny ones, and some of no numbers. */
 static shade_mat4 random_pick_model(void)
 {
@@ -1141,6 +1197,7 @@ static shade_mat4 random_pick_model(void)
     }
     return m;
 }
+
 /* Rays at a point of a triangle, through corners of boxes, along axes and in the plane of a
    triangle but for rounding. */
 static shade_ray random_pick_ray(const chunk_scene *s, shade_mat4 model)
@@ -1170,14 +1227,17 @@ static shade_ray random_pick_ray(const chunk_scene *s, shade_mat4 model)
     if (rnd_one_in(20)) ray.direction = with_axis(ray.direction, rnd_int(0, 2), rnd_nasty());
     return ray;
 }
+
 static void check_same_pick(chunk_pick got, chunk_pick want, int triangle)
 {
     CHECK_INT(got.triangle, triangle);
     CHECK(float_bits(got.t) == float_bits(want.t));
     CHECK(!memcmp(&got.b, &want.b, sizeof got.b));
 }
+
 /* In their own order, in any order of the chunks, and sorted.  Equal triangles lie in the mesh
    twice, so that ties are met; the sorted list has others for them, but the same hit. */
+/* G13 */
 TEST(chunks, rays_meet_the_same_triangle_with_chunks_and_without)
 {
     static chunk_scene s;
@@ -1216,6 +1276,7 @@ TEST(chunks, rays_meet_the_same_triangle_with_chunks_and_without)
     }
     CHECK_SAY(hits > 1000, "%ld hits", hits);
 }
+
 /* Beside long double: chunks lose nothing that is surely met, at any scale. */
 TEST(chunks, picks_through_chunks_are_the_nearest_triangles_of_all)
 {
@@ -1243,6 +1304,7 @@ TEST(chunks, picks_through_chunks_are_the_nearest_triangles_of_all)
     }
     CHECK_SAY(hits > 300 && misses > 100, "%ld hits, %ld misses", hits, misses);
 }
+
 /* The nearest of all triangles, each met by shade_intersect where the model puts it, projective
    models among them; -2: a ray so nearly in the plane of one that rounding decides. */
 static int intersect_all(const shade_mesh *mesh, shade_mat4 model, shade_ray ray)
@@ -1268,6 +1330,9 @@ static int intersect_all(const shade_mesh *mesh, shade_mat4 model, shade_ray ray
     }
     return found;
 }
+
+/* The oracle meets every triangle without regard to boxes; where two distances are too near to
+   each other it has no answer. */
 TEST(chunks, picks_are_the_nearest_intersection_under_any_model)
 {
     static chunk_scene s;
@@ -1286,6 +1351,7 @@ TEST(chunks, picks_are_the_nearest_intersection_under_any_model)
     }
     CHECK_SAY(hits > 300, "%ld hits", hits);
 }
+
 /* t is 0 for all of them, so that no chunk is behind another. */
 TEST(chunks, a_ray_that_starts_on_triangles_picks_the_lowest)
 {
@@ -1304,6 +1370,7 @@ TEST(chunks, a_ray_that_starts_on_triangles_picks_the_lowest)
         CHECK_INT(pick_with(&m, chunk, count, shade_mat4_identity(), ray).triangle, 0);
     }
 }
+
 /* Down to where positions in world space are denormal and round by a thousandth of themselves. */
 TEST(chunks, boxes_of_any_scale_are_met)
 {
@@ -1320,6 +1387,7 @@ TEST(chunks, boxes_of_any_scale_are_met)
         CHECK_NEAR(got.t, 1.3 * (double)scale, 1e-6 * (double)scale + 3e-45);
     }
 }
+
 TEST(chunks, bad_indices_are_found_where_their_box_is_met)
 {
     static const float p[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
@@ -1361,6 +1429,7 @@ static const test_case chunks_cases[] = {
     CASE(chunks, runs_tile_the_list_in_boxes_of_their_corners),
     CASE(chunks, counts_are_those_of_whole_chunks_and_a_rest),
     CASE(chunks, bad_arguments_change_nothing_and_are_told_in_their_order),
+    CASE(chunks, without_mesh_or_room_nothing_is_made_and_no_vertex_makes_no_chunk),
     CASE(chunks, no_numbers_take_long_to_sort),
     CASE(chunks, a_shuffled_sheet_is_sorted_into_squares),
     CASE(chunks, neighbouring_floats_are_sorted_apart),

@@ -12,12 +12,13 @@ static shade_stats draw_clip_space(canvas *c, const shade_vec4 *clip, int vertic
     shade_stats stats;
     p.raster.depth_zero_to_one = zero_to_one;
     memset(&stats, 0x55, sizeof stats);
-    CHECK_INT(shade_draw(&c->target, &p, NULL, vertices, vertices, &stats), SHADE_OK);
+    stats = canvas_draw(c, &p, vertices);
     CHECK_INT(stats.triangles, vertices / 3);
     CHECK_INT(stats.culled + stats.clipped + stats.rejected + stats.drawn, stats.triangles);
     return stats;
 }
 
+/* All three corners are beyond the same plane, by a hundredth of w up to a hundred w. */
 TEST(clip, triangles_outside_one_plane_count_as_clipped)
 {
     canvas c = canvas_open(40, 30, 43, SHADE_FORMAT_RGBA8, 1);
@@ -159,7 +160,8 @@ TEST(clip, near_and_far_cut_where_they_should)
         shade_vec4 v[3];
         random_eye_triangle(v, zero_to_one, 12);
         int pixels = check_clipped(&c, v, zero_to_one);
-        drawn += pixels > 0, depths += pixels;
+        drawn += pixels > 0;
+        depths += pixels;
         canvas_close(&c);
     }
     CHECK_SAY(drawn > 300 && depths > 50000, "%d triangles, %d pixels", drawn, depths);
@@ -212,10 +214,13 @@ static int jittered_grid(int n, shade_vec2 *points, uint32_t *indices)
                 shade_v2((float)x / (float)n + (inner ? rnd_float(-0.3, 0.3) / (float)n : 0),
                          (float)y / (float)n + (inner ? rnd_float(-0.3, 0.3) / (float)n : 0));
         }
-    for (int y = 0; y < n; y++)
+    for (int y = 0; y < n; y++) {
         for (int x = 0; x < n; x++) {
             uint32_t q[4], a = (uint32_t)(y * (n + 1) + x);
-            q[0] = a, q[1] = a + 1, q[2] = a + (uint32_t)n + 2, q[3] = a + (uint32_t)n + 1;
+            q[0] = a;
+            q[1] = a + 1;
+            q[2] = a + (uint32_t)n + 2;
+            q[3] = a + (uint32_t)n + 1;
             /* the diagonal must lie inside the quadrilateral: take the one whose two halves turn
                the same way */
             shade_vec2 p[4];
@@ -232,11 +237,14 @@ static int jittered_grid(int n, shade_vec2 *points, uint32_t *indices)
             first &= 1;
             for (int half = 0; half < 2; half++) {
                 uint32_t t[3];
-                t[0] = q[first], t[1] = q[(first + 1 + half) % 4], t[2] = q[(first + 2 + half) % 4];
+                t[0] = q[first];
+                t[1] = q[(first + 1 + half) % 4];
+                t[2] = q[(first + 2 + half) % 4];
                 int turn = rnd_int(0, 2), swap = rnd_int(0, 1);
                 for (int k = 0; k < 3; k++) indices[count++] = t[((swap ? 3 - k : k) + turn) % 3];
             }
         }
+    }
     return count;
 }
 
@@ -253,6 +261,9 @@ static void count_coverage(canvas *c, const shade_vec4 *clip, const uint32_t *in
     CHECK_INT(shade_draw(&c->target, &p, indices, count, vertices, NULL), SHADE_OK);
 }
 
+/* Meshes from half as large again as the picture to 3000 times: within the guard band of 3 w, at
+   its border, and far beyond, where triangles are cut. */
+/* G8 */
 TEST(clip, meshes_beyond_the_guard_band_cover_every_pixel_once)
 {
     static shade_vec2 points[(CLIP_GRID + 1) * (CLIP_GRID + 1)];
@@ -278,6 +289,42 @@ TEST(clip, meshes_beyond_the_guard_band_cover_every_pixel_once)
     }
 }
 
+/* Places the points of [0, 1] x [0, 1] on a floor that reaches from behind the eye to beyond the
+   far plane, rolled about the line of sight. */
+static void random_floor(const shade_vec2 *points, int count, double width, shade_vec4 *clip)
+{
+    const double near_z = 0.25, far_z = 20;
+    double roll = (double)rnd_float(-3.2, 3.2), drop = (double)rnd_log(0.3, 3);
+    double tilt = (double)rnd_float(-0.1, 0.1);
+    for (int i = 0; i < count; i++) {
+        double x = (2 * (double)points[i].x - 1) * width, z = 10 - 40 * (double)points[i].y;
+        double y = -drop + tilt * z;
+        double ex = cos(roll) * x - sin(roll) * y, ey = sin(roll) * x + cos(roll) * y;
+        double ez = -(far_z + near_z) / (far_z - near_z) * z -
+                    2 * far_z * near_z / (far_z - near_z);
+        clip[i] = shade_v4((float)ex, (float)ey, (float)ez, (float)-z);
+    }
+}
+
+/* Whether a place of the picture is inside one of the two halves of a floor, for sure. */
+static int in_floor(const ref_triangle half[2], double X, double Y, double margin)
+{
+    return ref_covers(&half[0], X, Y, margin, 1, 0) == 1 ||
+           ref_covers(&half[1], X, Y, margin, 1, 0) == 1;
+}
+
+/* Whether a pixel's centre and the eight points a quarter of a pixel around it are inside. */
+static int deep_in_floor(const ref_triangle half[2], int x, int y)
+{
+    if (!in_floor(half, x + 0.5, y + 0.5, -1e-9)) return 0;
+    for (int k = 0; k < 9; k++) {
+        double X = x + 0.5 + 0.25 * (k % 3 - 1), Y = y + 0.5 + 0.25 * (k / 3 - 1);
+        if (!in_floor(half, X, Y, 0)) return 0;
+    }
+    return 1;
+}
+
+/* G8 */
 TEST(clip, meshes_through_the_near_plane_cover_every_pixel_once)
 {
     static shade_vec2 points[(CLIP_GRID + 1) * (CLIP_GRID + 1)];
@@ -286,51 +333,30 @@ TEST(clip, meshes_through_the_near_plane_cover_every_pixel_once)
     int vertices = (CLIP_GRID + 1) * (CLIP_GRID + 1), inside = 0;
     for (int round = 0; round < 120; round++) {
         int count = jittered_grid(CLIP_GRID, points, indices);
-        /* a floor from behind the eye to beyond the far plane, rolled about the line of sight */
-        double roll = (double)rnd_float(-3.2, 3.2), drop = (double)rnd_log(0.3, 3),
-               tilt = (double)rnd_float(-0.1, 0.1);
-        double width = round % 3 ? 15 : 200, near_z = 0.25, far_z = 20;
         shade_vec4 corner[4];
-        for (int i = 0; i < vertices; i++) {
-            double x = (2 * (double)points[i].x - 1) * width, z = 10 - 40 * (double)points[i].y;
-            double y = -drop + tilt * z, ex = cos(roll) * x - sin(roll) * y,
-                   ey = sin(roll) * x + cos(roll) * y;
-            clip[i] = shade_v4((float)ex, (float)ey,
-                               (float)(-(far_z + near_z) / (far_z - near_z) * z -
-                                       2 * far_z * near_z / (far_z - near_z)),
-                               (float)-z);
-        }
-        corner[0] = clip[0], corner[1] = clip[CLIP_GRID];
-        corner[2] = clip[vertices - 1], corner[3] = clip[vertices - 1 - CLIP_GRID];
+        random_floor(points, vertices, round % 3 ? 15 : 200, clip);
+        corner[0] = clip[0];
+        corner[1] = clip[CLIP_GRID];
+        corner[2] = clip[vertices - 1];
+        corner[3] = clip[vertices - 1 - CLIP_GRID];
         ref_triangle half[2];
         int ok = ref_triangle_of(&half[0], &corner[0], &corner[1], &corner[2], 64, 48);
         ok &= ref_triangle_of(&half[1], &corner[0], &corner[2], &corner[3], 64, 48);
         CHECK(ok);
         canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA32F, 0);
         count_coverage(&c, clip, indices, count, vertices);
-        for (int y = 0; y < 48; y++)
-            for (int x = 0; x < 64; x++) {
-                double got = (double)canvas_float(&c, x, y, 0);
-                /* snapping may fold a sliver of the cut over its neighbour, at the border only */
-                CHECK_SAY(got <= 2, "pixel %d %d is covered %g times", x, y, got);
-                int a = ref_covers(&half[0], x + 0.5, y + 0.5, 0.25, 1, 0);
-                int b = ref_covers(&half[1], x + 0.5, y + 0.5, 0.25, 1, 0);
-                if (a == 0 && b == 0) CHECK_NEAR(got, 0, 0);
-                int d = ref_covers(&half[0], x + 0.5, y + 0.5, -1e-9, 1, 0) == 1 ||
-                        ref_covers(&half[1], x + 0.5, y + 0.5, -1e-9, 1, 0) == 1;
-                if (!d) continue;
-                /* inside the floor, and away from its border: all eight points around it are inside
-                   as well */
-                int all = 1;
-                for (int k = 0; k < 9 && all; k++) {
-                    double X = x + 0.5 + 0.25 * (k % 3 - 1), Y = y + 0.5 + 0.25 * (k / 3 - 1);
-                    all = ref_covers(&half[0], X, Y, 0, 1, 0) == 1 ||
-                          ref_covers(&half[1], X, Y, 0, 1, 0) == 1;
-                }
-                if (!all) continue;
-                CHECK_NEAR(got, 1, 0);
-                inside++;
-            }
+        for (int k = 0; k < 64 * 48; k++) {
+            int x = k % 64, y = k / 64;
+            double got = (double)canvas_float(&c, x, y, 0);
+            /* snapping may fold a sliver of the cut over its neighbour, at the border only */
+            CHECK_SAY(got <= 2, "pixel %d %d is covered %g times", x, y, got);
+            int a = ref_covers(&half[0], x + 0.5, y + 0.5, 0.25, 1, 0);
+            int b = ref_covers(&half[1], x + 0.5, y + 0.5, 0.25, 1, 0);
+            if (a == 0 && b == 0) CHECK_NEAR(got, 0, 0);
+            if (!deep_in_floor(half, x, y)) continue;
+            CHECK_NEAR(got, 1, 0);
+            inside++;
+        }
         canvas_close(&c);
     }
     CHECK_SAY(inside > 20000, "%d pixels inside", inside);
@@ -361,10 +387,10 @@ TEST(clip, facing_survives_the_cut)
             shade_pipeline p = scene_pipeline(&s);
             shade_stats stats;
             p.raster.cull = t.front ? SHADE_CULL_BACK : SHADE_CULL_FRONT;
-            CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+            stats = canvas_draw(&c, &p, 3);
             CHECK_INT(stats.fragments, r.count);
             p.raster.cull = t.front ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
-            CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+            stats = canvas_draw(&c, &p, 3);
             CHECK_INT(stats.fragments, 0);
             CHECK_INT(stats.culled, 1);
         }
@@ -372,6 +398,18 @@ TEST(clip, facing_survives_the_cut)
     }
     CHECK_SAY(tested > 200, "%d triangles", tested);
     free(r.fragments);
+}
+
+/* How much a value changes within 0.02 pixels: snapping moves corners by less. */
+static double change_nearby(const ref_triangle *t, double X, double Y, const double v[3])
+{
+    double here = ref_interpolate(t, X, Y, v[0], v[1], v[2]), most = 0;
+    for (int n = 0; n < 4; n++) {
+        double x = X + (n < 2 ? 0.02 * (n * 2 - 1) : 0), y = Y + (n > 1 ? 0.02 * (n * 2 - 5) : 0);
+        double moved = ref_interpolate(t, x, y, v[0], v[1], v[2]);
+        most = fmax(most, fabs(moved - here));
+    }
+    return most;
 }
 
 TEST(clip, varyings_survive_the_cut) /* perspective to the plane, constant to the first corner */
@@ -389,19 +427,14 @@ TEST(clip, varyings_survive_the_cut) /* perspective to the plane, constant to th
         scene s = { v, attribute, 2, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
         r.count = 0;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 3);
         for (int k = 0; k < r.count; k++) {
             double X = (double)r.fragments[k].x, Y = (double)r.fragments[k].y;
             for (int j = 0; j < 2; j++) {
-                double v0 = (double)attribute[j], v1 = (double)attribute[2 + j],
-                       v2 = (double)attribute[4 + j];
-                double want = ref_interpolate(&t, X, Y, v0, v1, v2), slope = 0;
-                for (int n = 0; n < 4; n++) {
-                    double moved =
-                        ref_interpolate(&t, X + (n < 2 ? 0.02 * (n * 2 - 1) : 0),
-                                        Y + (n > 1 ? 0.02 * (n * 2 - 5) : 0), v0, v1, v2);
-                    slope = fmax(slope, fabs(moved - want));
-                }
+                double value[3];
+                for (int n = 0; n < 3; n++) value[n] = (double)attribute[2 * n + j];
+                double want = ref_interpolate(&t, X, Y, value[0], value[1], value[2]);
+                double slope = change_nearby(&t, X, Y, value);
                 if (slope > 0.2) continue;
                 CHECK_NEAR(r.fragments[k].in[j], want, 1e-4 + slope);
                 tested++;
@@ -409,7 +442,7 @@ TEST(clip, varyings_survive_the_cut) /* perspective to the plane, constant to th
         }
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
         r.count = 0;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 3);
         for (int k = 0; k < r.count; k++) {
             CHECK_NEAR(r.fragments[k].in[0], attribute[0], 0);
             CHECK_NEAR(r.fragments[k].in[1], attribute[1], 0);
@@ -442,31 +475,40 @@ static screen_plane screen_plane_of(double clip[3][4], const double v[3], int wi
     }
     double x1 = x[1] - x[0], y1 = y[1] - y[0], x2 = x[2] - x[0], y2 = y[2] - y[0];
     double area = x1 * y2 - x2 * y1, v1 = v[1] - v[0], v2 = v[2] - v[0];
-    p.x = x[0], p.y = y[0], p.v = v[0];
-    p.dx = (v1 * y2 - v2 * y1) / area, p.dy = (v2 * x1 - v1 * x2) / area;
+    p.x = x[0];
+    p.y = y[0];
+    p.v = v[0];
+    p.dx = (v1 * y2 - v2 * y1) / area;
+    p.dy = (v2 * x1 - v1 * x2) / area;
     p.reach = longest / fabs(area);
     return p;
 }
+
 static double screen_plane_at(const screen_plane *p, double X, double Y)
 {
     return p->v + p->dx * (X - p->x) + p->dy * (Y - p->y);
 }
+
 static void clip_doubles(const shade_vec4 v[3], double out[3][4])
 {
     for (int k = 0; k < 3; k++) {
-        out[k][0] = (double)v[k].x, out[k][1] = (double)v[k].y;
-        out[k][2] = (double)v[k].z, out[k][3] = (double)v[k].w;
+        out[k][0] = (double)v[k].x;
+        out[k][1] = (double)v[k].y;
+        out[k][2] = (double)v[k].z;
+        out[k][3] = (double)v[k].w;
     }
 }
+
 static void draw_affine(canvas *c, const shade_vec4 v[3], const float value[3], int zero_to_one,
                         recorder *r)
 {
     scene s = { v, value, 1, NULL, r };
     shade_pipeline p = scene_pipeline(&s);
-    p.interpolation = SHADE_INTERPOLATION_AFFINE, p.raster.depth_zero_to_one = zero_to_one;
+    p.interpolation = SHADE_INTERPOLATION_AFFINE;
+    p.raster.depth_zero_to_one = zero_to_one;
     p.fragment = scene_colors;
     if (r) r->count = 0;
-    CHECK_INT(shade_draw(&c->target, &p, NULL, 3, 3, NULL), SHADE_OK);
+    canvas_draw(c, &p, 3);
 }
 
 /* Cut by the guard band, by near, and by the guard band again, far out. */
@@ -504,6 +546,7 @@ static void random_cut_triangle(int kind, int zero_to_one, shade_vec4 v[3])
         v[k] = shade_v4((float)(x * w), (float)(y * w), (float)(z * w), (float)w);
     }
 }
+
 /* Snapping moves new corners as any others, their values with them; a slice of a cut polygon is
    steeper, in floats, than the triangle. */
 TEST(clip, affine_is_linear_on_the_screen_whatever_is_cut)
@@ -517,7 +560,10 @@ TEST(clip, affine_is_linear_on_the_screen_whatever_is_cut)
         float value[3];
         double clip[3][4], exact[3];
         random_cut_triangle(kind, zero_to_one, v);
-        for (int k = 0; k < 3; k++) value[k] = rnd_float(-1, 1), exact[k] = (double)value[k];
+        for (int k = 0; k < 3; k++) {
+            value[k] = rnd_float(-1, 1);
+            exact[k] = (double)value[k];
+        }
         clip_doubles(v, clip);
         screen_plane p = screen_plane_of(clip, exact, 64, 48);
         draw_affine(&c, v, value, zero_to_one, &r);
@@ -533,6 +579,35 @@ TEST(clip, affine_is_linear_on_the_screen_whatever_is_cut)
     free(r.fragments);
 }
 
+/* Corner 0 before the eye, the other two at the eye or behind it, and beyond the near plane. */
+static void random_corners_behind_the_eye(shade_vec4 v[3], float value[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double w = k ? -(double)rnd_log(1e-3, 5) : (double)rnd_log(0.2, 5);
+        if (k && rnd_one_in(8)) w = 0;
+        v[k] = shade_v4(rnd_float(-2, 2), rnd_float(-2, 2),
+                        k ? (float)-w - rnd_log(0.1, 5) : rnd_float(-0.5, 0.5) * (float)w,
+                        (float)w);
+        value[k] = rnd_float(-1, 1);
+    }
+}
+
+/* The part of such a triangle before the near plane: corner 0, and where its two edges leave, with
+   their values.  Returns 1 where no plane but the near one cuts it. */
+static int cut_at_corner_0(double clip[3][4], const float value[3], double cut[3][4],
+                           double exact[3])
+{
+    int whole = 1;
+    for (int k = 0; k < 3; k++) {
+        double d0 = clip[0][2] + clip[0][3], dk = clip[k][2] + clip[k][3];
+        double t = k ? d0 / (d0 - dk) : 0;
+        for (int n = 0; n < 4; n++) cut[k][n] = clip[0][n] + t * (clip[k][n] - clip[0][n]);
+        exact[k] = (double)value[0] + t * ((double)value[k] - (double)value[0]);
+        whole &= fmax(fabs(cut[k][0]), fabs(cut[k][1])) < 2.9 * cut[k][3];
+    }
+    return whole;
+}
+
 /* A corner without a place on the screen: then new corners have the value of the perspective
    interpolation, a part t of the way in clip space.  Two such corners leave one triangle. */
 TEST(clip, affine_behind_the_eye_is_linear_between_perspective_values)
@@ -544,28 +619,18 @@ TEST(clip, affine_behind_the_eye_is_linear_between_perspective_values)
         shade_vec4 v[3];
         float value[3];
         double clip[3][4], cut[3][4], exact[3];
-        int whole = 1;
-        for (int k = 0; k < 3; k++) {
-            double w = k ? -(double)rnd_log(1e-3, 5) : (double)rnd_log(0.2, 5);
-            if (k && rnd_one_in(8)) w = 0;
-            v[k] = shade_v4(rnd_float(-2, 2), rnd_float(-2, 2),
-                            k ? (float)-w - rnd_log(0.1, 5) : rnd_float(-0.5, 0.5) * (float)w,
-                            (float)w);
-            value[k] = rnd_float(-1, 1);
-        }
+        random_corners_behind_the_eye(v, value);
         clip_doubles(v, clip);
-        for (int k = 0; k < 3; k++) { /* corner 0, and where its edges leave */
-            double d0 = clip[0][2] + clip[0][3], dk = clip[k][2] + clip[k][3];
-            double t = k ? d0 / (d0 - dk) : 0;
-            for (int n = 0; n < 4; n++) cut[k][n] = clip[0][n] + t * (clip[k][n] - clip[0][n]);
-            exact[k] = (double)value[0] + t * ((double)value[k] - (double)value[0]);
-            whole &= fmax(fabs(cut[k][0]), fabs(cut[k][1])) < 2.9 * cut[k][3];
-        }
+        int whole = cut_at_corner_0(clip, value, cut, exact);
         if (rnd_one_in(2)) { /* another first corner */
             shade_vec4 last = v[0];
             float last_value = value[0];
-            v[0] = v[1], v[1] = v[2], v[2] = last;
-            value[0] = value[1], value[1] = value[2], value[2] = last_value;
+            v[0] = v[1];
+            v[1] = v[2];
+            v[2] = last;
+            value[0] = value[1];
+            value[1] = value[2];
+            value[2] = last_value;
         }
         screen_plane p = screen_plane_of(cut, exact, 64, 48);
         draw_affine(&c, v, value, 0, &r);
@@ -579,6 +644,9 @@ TEST(clip, affine_behind_the_eye_is_linear_between_perspective_values)
     CHECK_SAY(tested > 50000, "%ld pixels", tested);
     free(r.fragments);
 }
+
+/* What behind means on the screen has no exact answer without perspective, but no value can
+   leave the range of the corners by more than rounding. */
 TEST(clip, affine_behind_the_eye_stays_between_the_corners)
 {
     recorder r = recorder_open(20000);
@@ -592,7 +660,8 @@ TEST(clip, affine_behind_the_eye_stays_between_the_corners)
         if (rnd_one_in(6)) v[rnd_int(0, 2)].w = 0;
         for (int k = 0; k < 3; k++) {
             value[k] = rnd_float(-1, 1);
-            least = value[k] < least ? value[k] : least, most = value[k] > most ? value[k] : most;
+            least = value[k] < least ? value[k] : least;
+            most = value[k] > most ? value[k] : most;
         }
         draw_affine(&c, v, value, zero_to_one, &r);
         for (int k = 0; k < r.count; k++) {
@@ -644,6 +713,7 @@ TEST(clip, polygons_dented_by_rounding_are_survived)
 }
 
 /* stats add up, nothing outside the picture changes */
+/* G1 */
 TEST(clip, any_position_at_all_is_accounted_for)
 {
     for (int i = 0; i < 3000; i++) {
@@ -706,6 +776,7 @@ static int covers_square(const int64_t *x, const int64_t *y, const uint32_t *ind
 /* Corners just before and just behind the near plane: the cut puts new corners within 1/256 pixel
    of old ones, where snapping dents the polygon.  Its pieces do not overlap; where snapping turns a
    corner over, at the cut alone, a pixel in 100,000 may be covered twice. */
+/* G8 */
 TEST(clip, dents_by_snapping_are_filled_without_overlap)
 {
     enum { N = 4 };
@@ -720,8 +791,12 @@ TEST(clip, dents_by_snapping_are_filled_without_overlap)
         for (int i = 0; i < vertices; i++) {
             double x = (double)points[i].x * size, y = (double)points[i].y * size, z;
             int inner = i / (N + 1) % N && i % (N + 1) % N;
-            if (inner && rnd_one_in(3)) x = floor(x) + 0.5, y = floor(y) + 0.5; /* on a centre */
-            X[i] = (int64_t)floor(x * 256 + 0.5), Y[i] = (int64_t)floor(y * 256 + 0.5);
+            if (inner && rnd_one_in(3)) { /* on a centre */
+                x = floor(x) + 0.5;
+                y = floor(y) + 0.5;
+            }
+            X[i] = (int64_t)floor(x * 256 + 0.5);
+            Y[i] = (int64_t)floor(y * 256 + 0.5);
             z = rnd_one_in(3) ? -1 + (double)(rnd_sign() * rnd_log(1e-5, 1e-1))
                               : (double)rnd_float(-2, 0.5);
             clip[i] = clip_of_fx8((double)X[i], (double)Y[i], size, size, z, 1);
@@ -731,7 +806,8 @@ TEST(clip, dents_by_snapping_are_filled_without_overlap)
         count_coverage(&c, clip, indices, count, vertices);
         for (int k = 0; k < size * size; k++) {
             double got = (double)canvas_float(&c, k % size, k / size, 0);
-            twice += got > 1, covered += got > 0;
+            twice += got > 1;
+            covered += got > 0;
         }
         canvas_close(&c);
     }
@@ -745,7 +821,9 @@ static double affine_at(const shade_vec4 v[3], const float *value, double X, dou
 {
     double m[3][3], want[3] = { X, Y, 1 }, det, sum = 0;
     for (int k = 0; k < 3; k++) {
-        m[0][k] = (double)v[k].x, m[1][k] = (double)v[k].y, m[2][k] = (double)v[k].w;
+        m[0][k] = (double)v[k].x;
+        m[1][k] = (double)v[k].y;
+        m[2][k] = (double)v[k].w;
     }
     det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
@@ -759,6 +837,7 @@ static double affine_at(const shade_vec4 v[3], const float *value, double X, dou
     }
     return sum;
 }
+
 /* Two corners before the near plane, far and near, one behind it next to w = 0: the cut is reckoned
    from products of one sign, so that no digit is lost and nothing is divided by zero. */
 TEST(clip, affine_values_survive_a_cut_between_any_two_w)
@@ -782,9 +861,10 @@ TEST(clip, affine_values_survive_a_cut_between_any_two_w)
         }
         scene s = { v, value, 1, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.fragment = scene_colors, p.interpolation = SHADE_INTERPOLATION_AFFINE;
+        p.fragment = scene_colors;
+        p.interpolation = SHADE_INTERPOLATION_AFFINE;
         canvas_clear(&c, 1);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        stats = canvas_draw(&c, &p, 3);
         for (int i = 0; i < SIDE * SIDE; i++) {
             int x = i % SIDE, y = i / SIDE;
             float got = canvas_float(&c, x, y, 0);
@@ -833,7 +913,10 @@ TEST(clip, a_dent_keeps_out_the_centre_that_is_cut_off)
                 const shade_vec4 a = v[(k + 1) % 3], b = v[(k + 2) % 3];
                 double e = ((double)b.x - (double)a.x) * (Y - (double)a.y) -
                            ((double)b.y - (double)a.y) * (X - (double)a.x);
-                area += e, z += e * (double)v[k].z, left += e > 0, right += e < 0;
+                area += e;
+                z += e * (double)v[k].z;
+                left += e > 0;
+                right += e < 0;
             }
             int inside = !(left && right) && z / area > -1;
             CHECK_SAY(canvas_bytes(&c, i % SIDE, i / SIDE)[0] == 255 * inside,

@@ -145,6 +145,7 @@ if accepts "$CC" -ffp-contract=fast c; then
     check "contraction: header" assembly "$T/both.c" $contract "$T/contracted.s"
     check "contraction: header without" assembly "$T/both.c" off "$T/off.s"
     check "contraction behind the header" behind_as_alone
+    # G12
     check "no contraction inside the header" inside_never
 else
     echo "compile: $CC has no -ffp-contract: left out"
@@ -359,6 +360,7 @@ exports_only_shade() {
 }
 if command -v nm >/dev/null 2>&1; then
     check "freestanding needs four functions" only "$T/bare.o" memcpy memset memmove memcmp
+    # G6
     check "no malloc, no printing, no exit" only "$T/impl.o" memcpy memset memmove memcmp sqrtf \
           fopen fclose fwrite ferror assert_fail assert_rtn assert stack_chk_fail \
           stack_chk_fail_local GLOBAL_OFFSET_TABLE_ cpu_model cpu_indicator_init

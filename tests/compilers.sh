@@ -98,6 +98,7 @@ for cc in gcc g++ clang clang++ tcc x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g+
     esac
 done
 
+# G12
 # README's program: in C as GNU's C17 behind headers that declare what it might; in C++20
 awk '/^```c$/ { inside = 1; text = ""; next }
      /^```/ { if (inside && text ~ /int main\(/) { printf "%s", text; exit } inside = 0 }

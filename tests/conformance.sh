@@ -11,5 +11,6 @@ fi
 $cc -std=c99 -O1 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -I. tests/conformance/main.c \
     tests/conformance/scenes.c tests/conformance/gl.c -lOSMesa -lm -o build/conformance ||
     { echo "0 passed, 1 failed"; exit 1; }
+# G11
 # llvmpipe in this one thread
 GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=0 build/conformance "$@"

@@ -1,7 +1,7 @@
 /* course.c - the equations of four lecture notes in their own words, in double, beside the recipes
    for them in examples/README.md, "Reading your course": UW CSE 457, Massey 159.709, Shirley's
    chapter 10, Berkeley CS 184.  Then what that section says in numbers of their traps. */
-#include "examples/recipes.h"
+#include "examples/shared/recipes.h"
 
 enum { COURSE_SAMPLES = 10000, COURSE_LAMPS = 3 };
 
@@ -17,11 +17,15 @@ typedef struct course_sample {
 static void course_random(course_sample *s)
 {
     memset(s, 0, sizeof *s);
-    s->material.emission = random_color(0.3), s->material.ambient = random_color(1);
-    s->material.diffuse = random_color(1), s->material.specular = random_color(1);
+    s->material.emission = random_color(0.3);
+    s->material.ambient = random_color(1);
+    s->material.diffuse = random_color(1);
+    s->material.specular = random_color(1);
     s->material.shininess = rnd_float(1, 100);
-    s->P = d3_round(d3_scale(rnd_direction(), 2)), s->N = d3_round(rnd_direction());
-    s->lighting.lights = s->lamp, s->lighting.light_count = rnd_int(1, COURSE_LAMPS);
+    s->P = d3_round(d3_scale(rnd_direction(), 2));
+    s->N = d3_round(rnd_direction());
+    s->lighting.lights = s->lamp;
+    s->lighting.light_count = rnd_int(1, COURSE_LAMPS);
     for (int j = 0; j < s->lighting.light_count; j++) {
         shade_vec3 at = d3_round(d3_scale(rnd_direction(), (double)rnd_float(3, 9)));
         s->lamp[j] = rnd_one_in(2) ? shade_directional_light(at, random_color(1))
@@ -44,12 +48,14 @@ typedef struct course_vectors {
 static course_vectors course_vectors_of(const course_sample *s, int j)
 {
     course_vectors v;
-    v.n = d3_unit(d3_from(s->N)), v.e = d3_unit(d3_sub(d3_from(s->eye), d3_from(s->P)));
+    v.n = d3_unit(d3_from(s->N));
+    v.e = d3_unit(d3_sub(d3_from(s->eye), d3_from(s->P)));
     v.l = ref_to_light(&s->lamp[j], d3_from(s->P), &v.distance);
     v.r = d3_sub(d3_scale(v.n, 2 * d3_dot(v.l, v.n)), v.l);
     v.h = d3_unit(d3_add(v.l, v.e));
     return v;
 }
+
 static double course_plus(double x) { return x > 0 ? x : 0; }
 
 /* a + s b c, the circled product of colours */
@@ -67,6 +73,33 @@ static void course_check(int line, const char *what, const course_sample *s, d3 
 
 /* ------------------------------------------------------------------------------------------ UW */
 
+/* 1 / (a + b r + c r^2), of random coefficients for a lamp at a point. */
+static double uw_attenuation(shade_light *lamp, double r)
+{
+    if (lamp->position.w == 0) return 1;
+    lamp->constant = rnd_float(1, 2);
+    lamp->linear = rnd_float(0, 1);
+    lamp->quadratic = rnd_float(0, 1);
+    double a = (double)lamp->constant, b = (double)lamp->linear, c = (double)lamp->quadratic;
+    return 1 / (a + b * r + c * r * r);
+}
+
+/* Makes every other lamp a spot, turned by up to 30 degrees from l; returns its factor.  S points
+   from the target to the lamp.  *unsure: the point is at the border of the cone. */
+static double uw_spot(shade_light *lamp, d3 l, int *unsure, int *in_cone)
+{
+    if (!rnd_one_in(2)) return 1;
+    d3 S = d3_unit(d3_add(l, d3_scale(rnd_direction(), 0.5)));
+    lamp->spot_direction = d3_round(d3_scale(S, -3));
+    S = d3_unit(d3_scale(d3_from(lamp->spot_direction), -1));
+    lamp->spot_exponent = rnd_float(1, 50);
+    lamp->spot_cos_cutoff = rnd_float(0.7, 1);
+    double cosine = d3_dot(l, S), beta = cosine >= (double)lamp->spot_cos_cutoff;
+    *unsure |= fabs(cosine - (double)lamp->spot_cos_cutoff) < 1e-5;
+    *in_cone += beta > 0;
+    return beta * pow(course_plus(cosine), (double)lamp->spot_exponent);
+}
+
 TEST(course, uw_iteration_four_is_the_default)
 {
     course_sample s;
@@ -79,26 +112,11 @@ TEST(course, uw_iteration_four_is_the_default)
             shade_light *lamp = &s.lamp[j];
             course_vectors v = course_vectors_of(&s, j);
             shade_vec3 I_L = lamp->diffuse;
-            double a = 1, b = 0, c = 0, r = v.distance, spot = 1;
             lamp->ambient = random_color(0.3);
-            if (lamp->position.w != 0) {
-                lamp->constant = rnd_float(1, 2), lamp->linear = rnd_float(0, 1);
-                lamp->quadratic = rnd_float(0, 1);
-                a = (double)lamp->constant, b = (double)lamp->linear, c = (double)lamp->quadratic;
-            }
-            if (rnd_one_in(2)) { /* S points from the target to the lamp */
-                d3 S = d3_unit(d3_add(v.l, d3_scale(rnd_direction(), 0.5)));
-                lamp->spot_direction = d3_round(d3_scale(S, -3));
-                S = d3_unit(d3_scale(d3_from(lamp->spot_direction), -1));
-                lamp->spot_exponent = rnd_float(1, 50);
-                lamp->spot_cos_cutoff = rnd_float(0.7, 1);
-                double cosine = d3_dot(v.l, S), beta = cosine >= (double)lamp->spot_cos_cutoff;
-                unsure |= fabs(cosine - (double)lamp->spot_cos_cutoff) < 1e-5;
-                spot = beta * pow(course_plus(cosine), (double)lamp->spot_exponent);
-                in_cone += beta > 0;
-            }
+            double attenuation = uw_attenuation(lamp, v.distance);
+            double spot = uw_spot(lamp, v.l, &unsure, &in_cone);
             double B = d3_dot(v.n, v.l) > 0, n_s = (double)s.material.shininess;
-            double f = spot / (a + b * r + c * r * r) * B;
+            double f = spot * attenuation * B;
             unsure |= fabs(d3_dot(v.n, v.l)) < 1e-5;
             I = course_add(I, 1, s.material.ambient, lamp->ambient);
             I = course_add(I, f * d3_dot(v.n, v.l), s.material.diffuse, I_L);
@@ -106,7 +124,8 @@ TEST(course, uw_iteration_four_is_the_default)
                            I_L);
         }
         if (unsure) continue;
-        sure++, s.lighting = uw(s.lamp, s.lighting.light_count);
+        sure++;
+        s.lighting = uw(s.lamp, s.lighting.light_count);
         course_check(__LINE__, "iteration four", &s, I);
     }
     CHECK_SAY(sure > 9900 && in_cone > 2000, "%d sure, %d in a cone", sure, in_cone);
@@ -126,6 +145,7 @@ static d3 massey_in_double(const course_sample *s, shade_vec3 I_a, int blinn)
     }
     return I;
 }
+
 TEST(course, massey_phong_and_blinn_phong)
 {
     course_sample s;
@@ -156,13 +176,15 @@ TEST(course, shirley_10_3_to_10_9)
         shade_vec3 c_a = random_color(1);
         d3 zero = d3_of(0, 0, 0), lambert = course_add(zero, course_plus(cosine), c_r, c_l);
         d3 lit = d3_add(course_add(zero, 1, c_r, c_a), lambert);
-        s.lighting = shirley(s.lamp, none), s.material = shirley_surface(c_r, c_p, (float)p);
+        s.lighting = shirley(s.lamp, none);
+        s.material = shirley_surface(c_r, c_p, (float)p);
 
         s.lighting.model = SHADE_MODEL_LAMBERT;
         course_check(__LINE__, "(10.3)", &s, lambert);
         s.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
         course_check(__LINE__, "(10.4)", &s, course_add(zero, fabs(cosine), c_r, c_l));
-        s.lighting = shirley(s.lamp, c_a), s.lighting.model = SHADE_MODEL_LAMBERT;
+        s.lighting = shirley(s.lamp, c_a);
+        s.lighting.model = SHADE_MODEL_LAMBERT;
         course_check(__LINE__, "c_r (c_a + c_l n.l)", &s, lit);
         s.lighting = shirley(s.lamp, c_a);
         course_check(__LINE__, "(10.9)", &s, course_add(lit, h_n, c_l, c_p));
@@ -229,7 +251,8 @@ TEST(course, half_the_angle_in_one_plane_only)
         shade_vec3 L = d3_round(d3_of(-s, 0, c)), V = d3_round(d3_of(sin(t), 0, cos(t)));
         d3 H = d3_from(shade_halfway(L, V));
         CHECK_NEAR(atan2(hypot(H.x, H.y), H.z) / degree, 10, 1e-4);
-        V = d3_round(d3_of(s * cos(degree), 0, c)), V.y = (float)sin(degree);
+        V = d3_round(d3_of(s * cos(degree), 0, c));
+        V.y = (float)sin(degree);
         H = d3_from(shade_halfway(L, d3_round(d3_unit(d3_from(V)))));
         CHECK_NEAR(atan2(hypot(H.x, H.y), H.z) / degree, 0.5 / c, 0.01 / c);
     }
@@ -247,14 +270,21 @@ TEST(course, an_orthographic_camera_has_a_viewer_at_infinity)
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
     shade_material mirror;
     shade_draw_state state;
-    memset(&mirror, 0, sizeof mirror), memset(&state, 0, sizeof state);
-    memset(&target, 0, sizeof target), memset(&mesh, 0, sizeof mesh);
-    mirror.specular = shade_v3(1, 1, 1), mirror.shininess = 60;
-    target.width = target.height = SIDE, target.color = rgba;
-    mesh.positions = corners, mesh.vertex_count = 6;
+    memset(&mirror, 0, sizeof mirror);
+    memset(&state, 0, sizeof state);
+    memset(&target, 0, sizeof target);
+    memset(&mesh, 0, sizeof mesh);
+    mirror.specular = shade_v3(1, 1, 1);
+    mirror.shininess = 60;
+    target.width = target.height = SIDE;
+    target.color = rgba;
+    mesh.positions = corners;
+    mesh.vertex_count = 6;
     state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_ortho(-1, 1, -1, 1, 1, 10);
-    state.material = &mirror, state.lighting.lights = &light, state.lighting.light_count = 1;
+    state.material = &mirror;
+    state.lighting.lights = &light;
+    state.lighting.light_count = 1;
     for (int infinite = 0; infinite < 2; infinite++) {
         state.lighting.flags = infinite ? SHADE_FLAG_INFINITE_VIEWER : 0;
         CHECK_INT(shade_draw_mesh(&target, &mesh, &state, NULL), SHADE_OK);

@@ -5,11 +5,7 @@
 static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices, int random_w,
                      shade_stats *stats)
 {
-    shade_vec4 *clip = (shade_vec4 *)malloc((size_t)vertices * sizeof(shade_vec4));
-    if (!clip) {
-        printf("out of memory\n");
-        exit(2);
-    }
+    shade_vec4 *clip = test_memory((size_t)vertices * sizeof(shade_vec4));
     for (int k = 0; k < vertices; k++) {
         double w = random_w ? (double)rnd_log(0.5, 2) : 1;
         clip[k] = clip_of_fx8((double)x[k], (double)y[k], c->target.width, c->target.height, 0, w);
@@ -26,7 +22,10 @@ static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices
 /* The part of the picture the clip rectangle leaves: x0 <= x < x1, y0 <= y < y1. */
 static void clip_bounds(const shade_target *t, int *x0, int *y0, int *x1, int *y1)
 {
-    *x0 = 0, *y0 = 0, *x1 = t->width, *y1 = t->height;
+    *x0 = 0;
+    *y0 = 0;
+    *x1 = t->width;
+    *y1 = t->height;
     if (t->clip_x || t->clip_y || t->clip_width || t->clip_height) {
         int64_t right = (int64_t)t->clip_x + t->clip_width,
                 below = (int64_t)t->clip_y + t->clip_height;
@@ -43,14 +42,17 @@ static void check_coverage(const canvas *c, const int64_t *x, const int64_t *y)
     int x0, y0, x1, y1, wrong = 0, wi = 0, wj = 0;
     const shade_target *t = &c->target;
     clip_bounds(t, &x0, &y0, &x1, &y1);
-    for (int j = 0; j < t->height; j++)
+    for (int j = 0; j < t->height; j++) {
         for (int i = 0; i < t->width; i++) {
             int in = i >= x0 && i < x1 && j >= y0 && j < y1 && ref_inside_fx8(x, y, i, j);
             int got = canvas_bytes(c, i, j)[3] != 0;
             if (t->depth) got += 2 * (canvas_depth(c, i, j) == 0.5f);
             if (got == (t->depth ? 3 * in : in)) continue;
-            wrong++, wi = i, wj = j;
+            wrong++;
+            wi = i;
+            wj = j;
         }
+    }
     CHECK_SAY(wrong == 0,
               "%d wrong pixels of %d x %d, one of them %d %d, got %d; corners %lld %lld  %lld %lld "
               " %lld %lld; clip %d %d %d %d",
@@ -64,21 +66,28 @@ static void random_clip(shade_target *t)
     switch (rnd_int(0, 5)) {
     case 0:
         break; /* everywhere */
-    case 1:    /* narrower than a row of eight */
-        t->clip_x = rnd_int(0, t->width - 1), t->clip_y = rnd_int(0, t->height - 1);
-        t->clip_width = rnd_int(1, 7), t->clip_height = rnd_int(1, t->height);
+    case 1:
+        t->clip_x = rnd_int(0, t->width - 1);
+        t->clip_y = rnd_int(0, t->height - 1);
+        t->clip_width = rnd_int(1, 7);
+        t->clip_height = rnd_int(1, t->height);
         break;
-    case 2: /* a band */
-        t->clip_y = rnd_int(0, t->height - 1), t->clip_width = t->width,
+    case 2:
+        t->clip_y = rnd_int(0, t->height - 1);
+        t->clip_width = t->width;
         t->clip_height = rnd_int(1, 9);
         break;
-    case 3: /* over the border on all sides */
-        t->clip_x = -rnd_int(1, 9), t->clip_y = -rnd_int(1, 9);
-        t->clip_width = rnd_int(0, t->width + 20), t->clip_height = rnd_int(0, t->height + 20);
+    case 3:
+        t->clip_x = -rnd_int(1, 9);
+        t->clip_y = -rnd_int(1, 9);
+        t->clip_width = rnd_int(0, t->width + 20);
+        t->clip_height = rnd_int(0, t->height + 20);
         break;
     default:
-        t->clip_x = rnd_int(-3, t->width + 3), t->clip_y = rnd_int(-3, t->height + 3);
-        t->clip_width = rnd_int(0, t->width), t->clip_height = rnd_int(0, t->height);
+        t->clip_x = rnd_int(-3, t->width + 3);
+        t->clip_y = rnd_int(-3, t->height + 3);
+        t->clip_width = rnd_int(0, t->width);
+        t->clip_height = rnd_int(0, t->height);
     }
 }
 
@@ -90,29 +99,34 @@ static void random_corners(int kind, int width, int height, int64_t x[3], int64_
     int cx = rnd_int(-256, width * 256 + 256), cy = rnd_int(-256, height * 256 + 256), size;
     for (int k = 0; k < 3; k++) {
         switch (kind) {
-        case 0: /* below a pixel, up to two */
-            x[k] = cx + rnd_int(-256, 256), y[k] = cy + rnd_int(-256, 256);
+        case 0:
+            x[k] = cx + rnd_int(-256, 256);
+            y[k] = cy + rnd_int(-256, 256);
             break;
-        case 1: /* up to 24 pixels */
-            x[k] = cx + rnd_int(-3000, 3000), y[k] = cy + rnd_int(-3000, 3000);
+        case 1:
+            x[k] = cx + rnd_int(-3000, 3000);
+            y[k] = cy + rnd_int(-3000, 3000);
             break;
-        case 2: /* all of the picture and around it */
-            x[k] = rnd_int(-width * 128, width * 384), y[k] = rnd_int(-height * 128, height * 384);
+        case 2:
+            x[k] = rnd_int(-width * 128, width * 384);
+            y[k] = rnd_int(-height * 128, height * 384);
             break;
-        case 3: /* corners on centres and borders: edges through centres */
-            x[k] = rnd_int(0, 2 * width) * 128, y[k] = rnd_int(0, 2 * height) * 128;
+        case 3:
+            x[k] = rnd_int(0, 2 * width) * 128;
+            y[k] = rnd_int(0, 2 * height) * 128;
             break;
         case 4: /* upright boxes of widths around 8, 16, 32, halved */
             size = widths[(cx & 255) % 13] * 256 + (k == 1 ? rnd_int(-130, 130) : 0);
-            x[k] = cx + (k == 1 ? size : 0),
+            x[k] = cx + (k == 1 ? size : 0);
             y[k] = cy + (k == 2 ? rnd_int(0, 9000) : rnd_int(-64, 64));
             break;
         case 5: /* slivers: a long line and a point beside it */
             x[k] = k == 2 ? (x[0] + x[1]) / 2 + rnd_int(-40, 40) : rnd_int(0, width * 256);
             y[k] = k == 2 ? (y[0] + y[1]) / 2 + rnd_int(-40, 40) : rnd_int(0, height * 256);
             break;
-        default: /* the whole guard band: up to 3 w */
-            x[k] = rnd_int(-width * 255, width * 511), y[k] = rnd_int(-height * 255, height * 511);
+        default:
+            x[k] = rnd_int(-width * 255, width * 511);
+            y[k] = rnd_int(-height * 255, height * 511);
         }
     }
     for (int k = 0; k < 3; k++) { /* within 3 w, where nothing is clipped */
@@ -121,6 +135,7 @@ static void random_corners(int kind, int width, int height, int64_t x[3], int64_
     }
 }
 
+/* G7 */
 TEST(cover, random_triangles_cover_exactly_the_top_left_pixels)
 {
     for (int i = 0; i < 10500; i++) {
@@ -146,16 +161,18 @@ TEST(cover, corners_snap_to_the_nearest_256th_halves_up)
         int64_t x2[3], y2[3], x[3], y[3]; /* in 1/512; snapped: floor(v / 2 + 1/2) */
         shade_vec4 clip[3];
         for (int k = 0; k < 3; k++) {
-            x2[k] = rnd_int(100, 2500) * 2 + 1, y2[k] = rnd_int(100, 2500) * 2 + 1;
+            x2[k] = rnd_int(100, 2500) * 2 + 1;
+            y2[k] = rnd_int(100, 2500) * 2 + 1;
             if (k == 2) x2[2] = x2[0] + rnd_int(-600, 600) * 2;
-            x[k] = (x2[k] + 1) / 2, y[k] = (y2[k] + 1) / 2;
+            x[k] = (x2[k] + 1) / 2;
+            y[k] = (y2[k] + 1) / 2;
             clip[k] = shade_v4((float)((double)x2[k] / (256 * 256) - 1),
                                (float)(1 - (double)y2[k] / (256 * 256)), 0, 1);
         }
         canvas_clear(&c, 1);
         scene s = { clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 3);
         check_coverage(&c, x, y);
     }
     /* the corner itself: a left edge at 1/512 left of a centre snaps onto it and owns it, for
@@ -170,12 +187,15 @@ TEST(cover, corners_snap_to_the_nearest_256th_halves_up)
         canvas_clear(&c, 1);
         scene s = { clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 3);
         CHECK_INT(canvas_bytes(&c, 100, 54)[3] != 0, offset[k] < 1);
     }
     canvas_close(&c);
 }
 
+/* A square of jittered triangles fills the picture and adds 1 a triangle: every pixel holds 1.
+   Odd rounds give each vertex a w of its own, which must not move it. */
+/* G7 */
 TEST(cover, meshes_cover_every_pixel_exactly_once)
 {
     enum { N = 24 };
@@ -198,17 +218,21 @@ TEST(cover, meshes_cover_every_pixel_exactly_once)
     }
 }
 
+/* G7 */
 TEST(cover, slivers_a_256th_wide_are_exact)
 {
     for (int i = 0; i < 2000; i++) {
         canvas c = canvas_open(90, 70, 0, SHADE_FORMAT_RGBA8, rnd_int(0, 1));
         int64_t x[3], y[3];
-        x[0] = rnd_int(0, 90 * 256), y[0] = rnd_int(0, 70 * 256), x[1] = rnd_int(0, 90 * 256),
+        x[0] = rnd_int(0, 90 * 256);
+        y[0] = rnd_int(0, 70 * 256);
+        x[1] = rnd_int(0, 90 * 256);
         y[1] = rnd_int(0, 70 * 256);
         int along = rnd_int(0, 3);
         if (along == 0) x[0] = x[1] = x[1] / 256 * 256 + 128; /* upright through centres */
         if (along == 1) y[0] = y[1] = y[1] / 256 * 256 + 128;
-        x[2] = x[rnd_int(0, 1)] + rnd_int(-2, 2), y[2] = y[rnd_int(0, 1)] + rnd_int(-2, 2);
+        x[2] = x[rnd_int(0, 1)] + rnd_int(-2, 2);
+        y[2] = y[rnd_int(0, 1)] + rnd_int(-2, 2);
         canvas_clear(&c, 1);
         random_clip(&c.target);
         draw_fx8(&c, x, y, 3, 0, NULL);
@@ -228,23 +252,27 @@ TEST(cover, depth_of_slivers_stays_between_their_corners)
         float nearest = 1, farthest = 0;
         scene s = { clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        x[0] = rnd_int(0, 89) * 256 + 128, y[0] = rnd_int(0, 69) * 256 + 128;
+        x[0] = rnd_int(0, 89) * 256 + 128;
+        y[0] = rnd_int(0, 69) * 256 + 128;
         x[1] = x[0] + rnd_int(-9, 9) * (i % 2 ? 256 : 2048);    /* through centres */
         y[1] = y[0] + rnd_int(-9, 9) * 2048;
-        x[2] = x[rnd_int(0, 1)] + rnd_int(-2, 2), y[2] = y[rnd_int(0, 1)] + rnd_int(-2, 2);
+        x[2] = x[rnd_int(0, 1)] + rnd_int(-2, 2);
+        y[2] = y[rnd_int(0, 1)] + rnd_int(-2, 2);
         for (int k = 0; k < 3; k++) {
             float depth = k == 1 ? nearest : rnd_float(0.25, 0.75);
             clip[k] = clip_of_fx8((double)x[k], (double)y[k], 90, 70, 2 * (double)depth - 1, 1);
             nearest = depth < nearest ? depth : nearest;
             farthest = depth > farthest ? depth : farthest;
         }
-        p.fragment = NULL, p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        p.fragment = NULL;
+        p.raster.depth_test = SHADE_COMPARE_ALWAYS;
         canvas_clear(&c, 2);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 3);
         for (int k = 0; k < 90 * 70; k++) {
             float z = c.target.depth[k];
             if (z > 1) continue;
-            low += z == nearest, high += z == farthest;
+            low += z == nearest;
+            high += z == farthest;
             CHECK_SAY(z >= nearest && z <= farthest, "depth %.9g beyond %g .. %g", (double)z,
                       (double)nearest, (double)farthest);
         }
@@ -271,7 +299,7 @@ TEST(cover, varyings_of_slivers_are_finite)
         clip[2] = clip_of_fx8(x + rnd_int(-2, 2), y + rnd_int(-2, 2), 90, 70, 0, 1);
         p.fragment = scene_colors;
         canvas_clear(&c, 1);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 3);
         for (int k = 0; k < 90 * 70; k++)
             infinite += !isfinite(canvas_float(&c, k % 90, k / 90, 0));
         canvas_close(&c);
@@ -279,6 +307,8 @@ TEST(cover, varyings_of_slivers_are_finite)
     CHECK_INT(infinite, 0);
 }
 
+/* The largest picture there is, and narrow triangles down its left or right side: edges are as
+   long, and as far from the clip rectangle, as they can be. */
 TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing)
 {
     canvas c = canvas_strip(16384, 16384, 0, SHADE_FORMAT_RGBA8, 1, 8000, 16);
@@ -291,7 +321,8 @@ TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing
             x[k] = (left ? 0 : 16384 * 256) + rnd_int(-1100, 1100);
             y[k] = rnd_int(0, 16384 * 256);
         }
-        c.target.clip_x = left ? rnd_int(8, 16000) : 0, c.target.clip_y = 8000;
+        c.target.clip_x = left ? rnd_int(8, 16000) : 0;
+        c.target.clip_y = 8000;
         c.target.clip_width = left ? 16384 - c.target.clip_x : rnd_int(384, 16370);
         c.target.clip_height = 16;
         draw_fx8(&c, x, y, 3, 0, &stats);
@@ -300,6 +331,7 @@ TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing
     canvas_close(&c);
 }
 
+/* G7 */
 TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
 {
     for (int i = 0; i < 60; i++) {
@@ -310,10 +342,13 @@ TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
         int width = c.target.width, height = c.target.height;
         int64_t x[3], y[3];
         for (int k = 0; k < 3; k++) {
-            x[k] = rnd_int(-width * 100, width * 356), y[k] = rnd_int(-height * 100, height * 356);
+            x[k] = rnd_int(-width * 100, width * 356);
+            y[k] = rnd_int(-height * 100, height * 356);
             if (i % 3 == 0 && wide) y[k] = rnd_int(0, height * 256);
-            if (i % 3 == 0 && !wide)
-                x[k] = rnd_int(0, width * 256), y[k] = (offset + rnd_int(-2, rows + 2)) * 256;
+            if (i % 3 == 0 && !wide) {
+                x[k] = rnd_int(0, width * 256);
+                y[k] = (offset + rnd_int(-2, rows + 2)) * 256;
+            }
         }
         canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);
@@ -339,15 +374,20 @@ TEST(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact)
         canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA8, i % 2);
         int64_t x[3], y[3], u, v, dy;
         do { /* to the centre: (u, v); along the edge: (dy u / v rounded, dy) */
-            x[0] = rnd_int(-300, 300), y[0] = rnd_int(0, 500);
+            x[0] = rnd_int(-300, 300);
+            y[0] = rnd_int(0, 500);
             u = (int64_t)rnd_int(width * 2 / 3, width - 1) * 256 + 128 - x[0];
             v = (int64_t)rnd_int(height / 2, height - 1) * 256 + 128 - y[0];
             dy = rnd_int(height * 200, height * 256);
         } while (dy * u % v > 300 && ++attempts < 1000);
-        x[1] = x[0] + dy * u / v, y[1] = y[0] + dy;
+        x[1] = x[0] + dy * u / v;
+        y[1] = y[0] + dy;
         x[2] = i % 3 ? rnd_int(0, width * 256) : x[1];
         y[2] = i % 3 ? -height * 200 : y[0];
-        if (i % 5 == 1) x[2] = x[0], y[2] = y[1];
+        if (i % 5 == 1) {
+            x[2] = x[0];
+            y[2] = y[1];
+        }
         for (int k = 0; k < 3; k++) {
             if (i % 4 > 1) x[k] = width * 256 - x[k];
             if (i % 8 > 3) y[k] = height * 256 - y[k];
@@ -412,7 +452,8 @@ TEST(cover, borders_of_huge_triangles_are_exact)
         int64_t x[3] = { rnd_int(-1600 * 255, 0), 1600 * 511, rnd_int(0, 1600 * 256) };
         int64_t y[3] = { rnd_int(-600 * 255, 0), rnd_int(0, 600 * 511), 600 * 511 };
         canvas_clear(&c, 1);
-        c.target.clip_width = rnd_int(1, 12), c.target.clip_height = 600;
+        c.target.clip_width = rnd_int(1, 12);
+        c.target.clip_height = 600;
         c.target.clip_x = i % 2 ? rnd_int(0, 1588) : i % 4 ? 0 : 1600 - c.target.clip_width;
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
@@ -427,9 +468,13 @@ TEST(cover, level_edges_of_big_triangles_follow_the_rule)
         canvas c = canvas_open(1500, 1500, 0, SHADE_FORMAT_RGBA8, i & 1);
         int64_t x[3] = { 300, 1499 * 256, 0 }, y[3], level = 128 + 256 * (int64_t)rnd_int(5, 40);
         x[2] = rnd_int(0, 1499 * 256);
-        y[0] = y[1] = level, y[2] = 1480 * 256 + rnd_int(0, 999);
+        y[0] = y[1] = level;
+        y[2] = 1480 * 256 + rnd_int(0, 999);
         for (int k = 0; k < 3; k++) y[k] = i & 2 ? 1500 * 256 - y[k] : y[k];
-        if (i & 4) x[0] = 1499 * 256, x[1] = 300;
+        if (i & 4) {
+            x[0] = 1499 * 256;
+            x[1] = 300;
+        }
         canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);
         check_coverage(&c, x, y);
@@ -497,16 +542,16 @@ TEST(cover, facing_is_counter_clockwise_on_the_screen)
         shade_pipeline p = scene_pipeline(&s);
         shade_stats stats;
         r.count = 0;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        stats = canvas_draw(&c, &p, 3);
         CHECK_INT(stats.fragments, r.count);
         for (int k = 0; k < r.count; k++) CHECK_INT(r.fragments[k].front, turn < 0);
         int fragments = r.count;
         p.raster.cull = SHADE_CULL_BACK;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        stats = canvas_draw(&c, &p, 3);
         CHECK_INT(stats.fragments, turn < 0 ? fragments : 0);
         if (fragments) CHECK_INT(stats.culled, turn < 0 ? 0 : 1);
         p.raster.cull = SHADE_CULL_FRONT;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        stats = canvas_draw(&c, &p, 3);
         CHECK_INT(stats.fragments, turn > 0 ? fragments : 0);
         canvas_close(&c);
     }
@@ -520,7 +565,10 @@ TEST(cover, the_oracle_is_the_top_left_rule)
     int ties = 0;
     for (int i = 0; i < 200000; i++) {
         int64_t x[3], y[3], px = rnd_int(0, 9), py = rnd_int(0, 9);
-        for (int k = 0; k < 3; k++) x[k] = rnd_int(0, 19) * 128, y[k] = rnd_int(0, 19) * 128;
+        for (int k = 0; k < 3; k++) {
+            x[k] = rnd_int(0, 19) * 128;
+            y[k] = rnd_int(0, 19) * 128;
+        }
         int64_t area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
         if (area == 0) {
             CHECK(!ref_inside_fx8(x, y, (int)px, (int)py));
@@ -528,7 +576,10 @@ TEST(cover, the_oracle_is_the_top_left_rule)
         }
         int b = area > 0 ? 1 : 2, inside = 1; /* clockwise on the screen: 0, b, 3 - b */
         int order[4];
-        order[0] = 0, order[1] = b, order[2] = 3 - b, order[3] = 0;
+        order[0] = 0;
+        order[1] = b;
+        order[2] = 3 - b;
+        order[3] = 0;
         for (int k = 0; k < 3; k++) {
             int64_t dx = x[order[k + 1]] - x[order[k]], dy = y[order[k + 1]] - y[order[k]];
             int64_t e = dx * (py * 256 + 128 - y[order[k]]) - dy * (px * 256 + 128 - x[order[k]]);

@@ -27,7 +27,7 @@ examples() {
     gcc $FLAGS '-DSHADE_ASSERT(x)=((void)0)' -DSHADE_NO_DISPATCH -DSHADE_IMPLEMENTATION \
         -x c -c "$H/shade.h" -o shade.o || exit 1
     for f in "$H"/examples/[0-9]*.c; do
-        gcc $FLAGS -DSHADE_NO_DISPATCH -DSHADE__IMPLEMENTED -I"$H" -I"$H/examples" "$f" shade.o \
+        gcc $FLAGS -DSHADE_NO_DISPATCH -DSHADE__IMPLEMENTED -I"$H" "$f" shade.o \
             -lm -o "$(basename "$f" .c)" || exit 1
         (cd "$H" && "$T/examples/$(basename "$f" .c)" "$T/picture.ppm" >/dev/null) || exit 1
     done

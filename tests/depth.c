@@ -24,14 +24,39 @@ static void random_depth_triangle(int kind, int zero_to_one, shade_vec4 v[3])
         v[k] = clip_of_fx8((double)x[k], (double)y[k], DEPTH_WIDTH, DEPTH_HEIGHT, z, w);
     }
 }
+
 static void depth_keep(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                        shade_colors *SHADE_RESTRICT out)
 {
-    (void)uniforms, (void)in, (void)out;
+    (void)uniforms;
+    (void)in;
+    (void)out;
+}
+
+static shade_stats draw_depth_triangles(canvas *c, const shade_pipeline *p)
+{
+    return canvas_draw(c, p, 3 * DEPTH_TRIANGLES);
+}
+
+static int same_depths(const canvas *a, const canvas *b)
+{
+    return !memcmp(a->depth, b->depth, a->depth_bytes + 2 * CANVAS_GUARD);
+}
+
+/* What has no influence on depth: a discard that keeps all, and a lod. */
+static void random_interpolation(shade_pipeline *p, const shade_texture *map)
+{
+    p->fragment = depth_keep;
+    p->may_discard = rnd_one_in(3);
+    if (p->varyings > 1 && rnd_one_in(2)) {
+        p->lod_texture = map;
+        p->lod_varying = rnd_int(0, p->varyings - 2);
+    }
 }
 
 /* 0 .. SHADE_MAX_VARYINGS varyings, all interpolations, with and without a level of detail, depth
    tested before or after the shader. */
+/* G9 */
 TEST(depth, is_the_same_bits_whatever_is_interpolated)
 {
     static float attribute[3 * DEPTH_TRIANGLES * SHADE_MAX_VARYINGS];
@@ -49,33 +74,29 @@ TEST(depth, is_the_same_bits_whatever_is_interpolated)
             attribute[k] = rnd_float(-1, 1) * rnd_log(1e-3, 1e3);
         scene s = { clip, attribute, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        shade_stats a, b;
-        p.fragment = NULL, p.raster.depth_zero_to_one = zero_to_one;
+        p.fragment = NULL;
+        p.raster.depth_zero_to_one = zero_to_one;
         p.raster.depth_test = rnd_one_in(2) ? SHADE_COMPARE_LESS : SHADE_COMPARE_ALWAYS;
         p.raster.depth_bias = rnd_one_in(4) ? rnd_float(-0.1, 0.1) : 0;
-        canvas_clear(&alone, 1), canvas_clear(&other, 1);
-        CHECK_INT(shade_draw(&alone.target, &p, NULL, 3 * DEPTH_TRIANGLES, 3 * DEPTH_TRIANGLES, &a),
-                  SHADE_OK);
+        canvas_clear(&alone, 1);
+        canvas_clear(&other, 1);
+        shade_stats a = draw_depth_triangles(&alone, &p);
         s.varyings = p.varyings = i % pairs / 3;
-        p.interpolation = (shade_interpolation)(i % 3), p.fragment = depth_keep;
-        p.may_discard = rnd_one_in(3);
-        if (p.varyings > 1 && rnd_one_in(2))
-            p.lod_texture = &map, p.lod_varying = rnd_int(0, p.varyings - 2);
+        p.interpolation = (shade_interpolation)(i % 3);
+        random_interpolation(&p, &map);
         if (p.may_discard && rnd_one_in(2)) other.target.color = NULL;
-        CHECK_INT(shade_draw(&other.target, &p, NULL, 3 * DEPTH_TRIANGLES, 3 * DEPTH_TRIANGLES, &b),
-                  SHADE_OK);
+        shade_stats b = draw_depth_triangles(&other, &p);
         CHECK_INT(a.fragments, b.fragments);
         touched += (long)a.fragments;
-        CHECK_SAY(!memcmp(alone.depth, other.depth, alone.depth_bytes + 2 * CANVAS_GUARD),
+        CHECK_SAY(same_depths(&alone, &other),
                   "kind %d, interpolation %d, %d varyings, lod %d, may discard %d", kind,
                   (int)p.interpolation, p.varyings, p.lod_texture != NULL, p.may_discard);
-        p.raster.depth_test = SHADE_COMPARE_EQUAL, other.target.color = NULL;
-        if (p.raster.depth_bias == 0) /* each visible pixel once more */
-            CHECK_INT(
-                shade_draw(&other.target, &p, NULL, 3 * DEPTH_TRIANGLES, 3 * DEPTH_TRIANGLES, NULL),
-                SHADE_OK);
-        CHECK(!memcmp(alone.depth, other.depth, alone.depth_bytes + 2 * CANVAS_GUARD));
-        canvas_close(&alone), canvas_close(&other);
+        p.raster.depth_test = SHADE_COMPARE_EQUAL;
+        other.target.color = NULL;
+        if (p.raster.depth_bias == 0) draw_depth_triangles(&other, &p); /* visible pixels again */
+        CHECK(same_depths(&alone, &other));
+        canvas_close(&alone);
+        canvas_close(&other);
     }
     CHECK_SAY(touched > 1000000, "%ld pixels", touched);
 }
@@ -104,15 +125,20 @@ static void random_depth_mesh(depth_mesh *m)
         m->position[k] = shade_v3(rnd_float(-3, 3), rnd_float(-2, 2), rnd_float(-3, 3));
         m->normal[k] = d3_round(rnd_direction());
         m->color[k] = shade_v3(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
-        m->uv[k][0] = rnd_float(-1, 2), m->uv[k][1] = rnd_float(-1, 2);
+        m->uv[k][0] = rnd_float(-1, 2);
+        m->uv[k][1] = rnd_float(-1, 2);
         m->indices[k] = (uint32_t)rnd_int(0, corners - 1);
     }
     m->map = texture_of(rnd_int(1, 40), rnd_int(1, 40), rnd_texture_format());
     m->map.filter = (shade_filter)rnd_int(0, 2);
     if (rnd_one_in(2)) m->memory = add_mipmaps(&m->map, m->levels);
     m->light = shade_point_light(shade_v3(1, 2, 3), shade_v3(1, 1, 1));
-    m->mesh.positions = &m->position[0].x, m->mesh.vertex_count = corners;
-    if (rnd_one_in(2)) m->mesh.indices = m->indices, m->mesh.index_count = corners;
+    m->mesh.positions = &m->position[0].x;
+    m->mesh.vertex_count = corners;
+    if (rnd_one_in(2)) {
+        m->mesh.indices = m->indices;
+        m->mesh.index_count = corners;
+    }
     if (rnd_one_in(2)) m->mesh.normals = &m->normal[0].x;
     if (rnd_one_in(2)) m->mesh.colors = &m->color[0].x;
     s->view = shade_mat4_look_at(shade_v3(rnd_float(-3, 3), rnd_float(-1, 1), rnd_float(1, 5)),
@@ -120,18 +146,43 @@ static void random_depth_mesh(depth_mesh *m)
     s->model = shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction()));
     s->projection = rnd_one_in(4) ? shade_mat4_ortho(-1, 1, -1, 1, 1, 6)
                                   : shade_mat4_perspective(rnd_float(0.3, 2), 1.6f, 0.5f, 6);
-    s->lighting.lights = &m->light, s->lighting.light_count = 1;
+    s->lighting.lights = &m->light;
+    s->lighting.light_count = 1;
     s->lighting.flags = SHADE_FLAG_TWO_SIDED;
     s->lighting.ambient = shade_v3(0.5f, 0.5f, 0.5f);
     s->raster.cull = (shade_cull)rnd_int(0, 2);
     if (rnd_one_in(2)) {
-        m->mesh.texcoords = &m->uv[0][0], s->diffuse_map = &m->map;
+        m->mesh.texcoords = &m->uv[0][0];
+        s->diffuse_map = &m->map;
         s->alpha_cutoff = rnd_one_in(2) ? 0.4f : 0;
     }
 }
 
+/* Draws over the depths of another pass: each pixel that it has seen, and no other, passes the test
+   again.  Returns how many there are. */
+static int check_pass_over(canvas *c, const canvas *before, depth_mesh *m, shade_compare test)
+{
+    shade_stats stats;
+    int seen = 0, missed = 0;
+    m->state.raster.depth_test = test;
+    CHECK_INT(shade_clear(&c->target, shade_v4(-1e6f, 0, 0, 0), 1), SHADE_OK);
+    memcpy(c->depth, before->depth, c->depth_bytes + 2 * CANVAS_GUARD);
+    stats = canvas_draw_mesh(c, &m->mesh, &m->state);
+    CHECK(same_depths(c, before));
+    for (int k = 0; k < DEPTH_WIDTH * DEPTH_HEIGHT; k++) {
+        int x = k % DEPTH_WIDTH, y = k / DEPTH_WIDTH;
+        int drawn = canvas_float(c, x, y, 0) > -1e6f, there = canvas_depth(before, x, y) < 1;
+        seen += there;
+        missed += drawn != there;
+    }
+    CHECK_SAY(missed == 0, "%d of %d pixels", missed, seen);
+    CHECK(stats.fragments >= seen);
+    return seen;
+}
+
 /* A first pass without colour, in any shading; then colour, where depth is equal, in any other: the
    same pixels, all of them. */
+/* G9 */
 TEST(depth, passes_of_every_pair_of_shadings_agree)
 {
     static depth_mesh m;
@@ -139,44 +190,31 @@ TEST(depth, passes_of_every_pair_of_shadings_agree)
     for (int i = 0; i < 9 * 30; i++) {
         canvas first = canvas_open(DEPTH_WIDTH, DEPTH_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
         canvas second = canvas_open(DEPTH_WIDTH, DEPTH_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
-        shade_stats stats;
         random_depth_mesh(&m);
-        canvas_clear(&first, 1), canvas_clear(&second, 1);
+        canvas_clear(&first, 1);
+        canvas_clear(&second, 1);
         m.state.shading = (shade_shading)(i % 3);
         void *color = first.target.color;
         first.target.color = NULL;
-        CHECK_INT(shade_draw_mesh(&first.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        canvas_draw_mesh(&first, &m.mesh, &m.state);
         first.target.color = color;
         m.state.shading = (shade_shading)(i / 3 % 3);
-        CHECK_INT(shade_draw_mesh(&second.target, &m.mesh, &m.state, NULL), SHADE_OK);
-        CHECK_SAY(!memcmp(first.depth, second.depth, first.depth_bytes + 2 * CANVAS_GUARD),
+        canvas_draw_mesh(&second, &m.mesh, &m.state);
+        CHECK_SAY(same_depths(&first, &second),
                   "shadings %d and %d, map %d, cutoff %g", i % 3, i / 3 % 3,
                   m.mesh.texcoords != NULL, (double)m.state.alpha_cutoff);
-        for (int pass = 0; pass < 2; pass++) {
-            int seen = 0, missed = 0;
-            m.state.raster.depth_test = pass ? SHADE_COMPARE_EQUAL : SHADE_COMPARE_LESS_EQUAL;
-            CHECK_INT(shade_clear(&first.target, shade_v4(-1e6f, 0, 0, 0), 1), SHADE_OK);
-            memcpy(first.depth, second.depth, first.depth_bytes + 2 * CANVAS_GUARD);
-            CHECK_INT(shade_draw_mesh(&first.target, &m.mesh, &m.state, &stats), SHADE_OK);
-            CHECK(!memcmp(first.depth, second.depth, first.depth_bytes + 2 * CANVAS_GUARD));
-            for (int k = 0; k < DEPTH_WIDTH * DEPTH_HEIGHT; k++) {
-                int x = k % DEPTH_WIDTH, y = k / DEPTH_WIDTH, drawn;
-                drawn = canvas_float(&first, x, y, 0) > -1e6f;
-                seen += canvas_depth(&second, x, y) < 1;
-                missed += drawn != (canvas_depth(&second, x, y) < 1);
-            }
-            CHECK_SAY(missed == 0, "%d of %d pixels", missed, seen);
-            CHECK(stats.fragments >= seen);
-            touched += seen;
-        }
+        touched += check_pass_over(&first, &second, &m, SHADE_COMPARE_LESS_EQUAL);
+        touched += check_pass_over(&first, &second, &m, SHADE_COMPARE_EQUAL);
         free_texture(&m.map);
         free(m.memory);
-        canvas_close(&first), canvas_close(&second);
+        canvas_close(&first);
+        canvas_close(&second);
     }
     CHECK_SAY(touched > 100000, "%ld pixels", touched);
 }
 
 /* One triangle from near to far: as many pixels in the second pass as in the first. */
+/* G9 */
 TEST(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass)
 {
     static const float corner[] = { 3, -1, -2, 0, 2, -4, -3, -1, -9 };
@@ -194,7 +232,7 @@ TEST(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass)
         CHECK_INT(shade_draw_mesh(&target, &mesh, &s, &first), SHADE_OK);
         s.shading = (shade_shading)(i / 3 % 3);
         s.raster.depth_test = i < 9 ? SHADE_COMPARE_LESS_EQUAL : SHADE_COMPARE_EQUAL;
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &second), SHADE_OK);
+        second = canvas_draw_mesh(&c, &mesh, &s);
         CHECK_INT(first.fragments, 14029);
         CHECK_INT(second.fragments, 14029);
         canvas_close(&c);

@@ -13,12 +13,17 @@ static void drive_open(drive_call *d, shade_format format)
 {
     memset(d, 0, sizeof *d);
     d->c = canvas_open(24, 18, 27, format, 1);
-    for (int k = 0; k < 6; k++) d->clip[k] = clip_corners[k % 3], d->indices[k] = (uint32_t)k;
+    for (int k = 0; k < 6; k++) {
+        d->clip[k] = clip_corners[k % 3];
+        d->indices[k] = (uint32_t)k;
+    }
     d->s.clip = d->clip;
     d->p = scene_pipeline(&d->s);
-    d->index_count = 6, d->vertex_count = 6;
+    d->index_count = 6;
+    d->vertex_count = 6;
     CHECK_INT(shade_clear(&d->c.target, shade_v4(0.5f, 0.25f, 0.75f, 1), 0.9f), SHADE_OK);
 }
+
 static shade_result drive_draw(drive_call *d)
 {
     return shade_draw(&d->c.target, &d->p, d->indices, d->index_count, d->vertex_count, NULL);
@@ -31,12 +36,9 @@ static void refused(int line, drive_call *d, const shade_target *target, const s
 {
     size_t colors = d->c.color_bytes + 2 * CANVAS_GUARD,
            depths = d->c.depth_bytes + 2 * CANVAS_GUARD;
-    unsigned char *before = (unsigned char *)malloc(colors + depths);
-    if (!before) {
-        printf("out of memory\n");
-        exit(2);
-    }
-    memcpy(before, d->c.color, colors), memcpy(before + colors, d->c.depth, depths);
+    unsigned char *before = test_memory(colors + depths);
+    memcpy(before, d->c.color, colors);
+    memcpy(before + colors, d->c.depth, depths);
     shade_result got = shade_draw(target, p, d->indices, d->index_count, d->vertex_count, NULL);
     test_int(__FILE__, line, "shade_draw", (long long)got, (long long)want);
     test_int(__FILE__, line, "unchanged memory",
@@ -45,6 +47,7 @@ static void refused(int line, drive_call *d, const shade_target *target, const s
 }
 #define REFUSED(want) refused(__LINE__, &d, &d.c.target, &d.p, want)
 
+/* G2 */
 TEST(drive, missing_pointers_are_bad_arguments)
 {
     drive_call d;
@@ -61,191 +64,136 @@ TEST(drive, missing_pointers_are_bad_arguments)
     canvas_close(&d.c);
 }
 
+/* Each row breaks one rule of shade_target: sizes are 1 .. 16384, a stride is at least the width,
+   the format is known, there is a buffer, clip rectangles and strips are not negative, a strip is
+   within the picture, and an int counts the pixels of the memory. */
+#define TARGET_FAULT(field, value) FAULT(shade_target, field, value)
+static const refusal bad_targets[] = {
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(width, 0) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(height, 0) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(width, -24) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(height, -18) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(width, 16385), TARGET_FAULT(stride, 0) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(height, 16385) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(width, INT_MAX), TARGET_FAULT(stride, 0) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(stride, 23) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(stride, -27) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(stride, INT_MIN) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(height, 16384), TARGET_FAULT(stride, 262144) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(format, CANVAS_FORMATS) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(format, 77) } },
+    { SHADE_ERROR_TARGET, { FAULT_NULL(shade_target, color), FAULT_NULL(shade_target, depth) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(clip_width, -1), TARGET_FAULT(clip_height, 5) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(clip_width, 5), TARGET_FAULT(clip_height, -1) } },
+    { SHADE_ERROR_TARGET,
+      { TARGET_FAULT(clip_x, INT_MIN), TARGET_FAULT(clip_y, 7),
+        TARGET_FAULT(clip_width, INT_MIN) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(row_offset, 3) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(row_count, -1) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(row_offset, -1), TARGET_FAULT(row_count, 5) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(row_offset, 10), TARGET_FAULT(row_count, 9) } },
+    { SHADE_ERROR_TARGET, { TARGET_FAULT(row_offset, INT_MAX), TARGET_FAULT(row_count, INT_MAX) } },
+    { SHADE_ERROR_TARGET,
+      { TARGET_FAULT(height, 16384), TARGET_FAULT(stride, INT_MAX), TARGET_FAULT(row_offset, 1),
+        TARGET_FAULT(row_count, 16383) } },
+};
+
+/* G2 */
 TEST(drive, bad_targets_are_refused_by_every_call)
 {
-    enum { TARGETS = 23 };
-    for (int k = 0; k < TARGETS; k++) {
+    static const float position[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
+    shade_draw_state state = plain_state(NULL);
+    shade_mesh mesh = plain_mesh(position, 3);
+    for (int row = 0; row < TEST_COUNT(bad_targets); row++) {
+        const shade_result want = bad_targets[row].want;
         drive_call d;
         drive_open(&d, SHADE_FORMAT_RGBA8);
-        shade_target *t = &d.c.target, good = *t;
-        switch (k) {
-        case 0:
-            t->width = 0;
-            break;
-        case 1:
-            t->height = 0;
-            break;
-        case 2:
-            t->width = -24;
-            break;
-        case 3:
-            t->height = -18;
-            break;
-        case 4:
-            t->width = 16385, t->stride = 0;
-            break;
-        case 5:
-            t->height = 16385;
-            break;
-        case 6:
-            t->stride = 23;
-            break;
-        case 7:
-            t->stride = -27;
-            break;
-        case 8: t->format = (shade_format)CANVAS_FORMATS; break;
-        case 9:
-            t->format = (shade_format)77;
-            break;
-        case 10:
-            t->color = NULL, t->depth = NULL;
-            break;
-        case 11:
-            t->clip_width = -1, t->clip_height = 5;
-            break;
-        case 12:
-            t->clip_width = 5, t->clip_height = -1;
-            break;
-        case 13:
-            t->row_offset = 3;
-            break;
-        case 14:
-            t->row_count = -1;
-            break;
-        case 15:
-            t->row_offset = -1, t->row_count = 5;
-            break;
-        case 16:
-            t->width = 2147483647, t->stride = 0;
-            break;
-        case 17:
-            t->clip_x = -2147483647 - 1, t->clip_y = 7, t->clip_width = -2147483647 - 1;
-            break;
-        case 18: /* a row below the picture */
-            t->row_offset = 10, t->row_count = 9;
-            break;
-        case 19:
-            t->row_offset = 2147483647, t->row_count = 2147483647;
-            break;
-        case 20: /* more pixels than 32 bits count */
-            t->height = 16384, t->stride = 262144;
-            break;
-        case 21:
-            t->height = 16384, t->row_offset = 1, t->row_count = 16383, t->stride = 2147483647;
-            break;
-        default:
-            t->stride = -2147483647 - 1;
-            break;
-        }
-        shade_target bad = *t;
-        *t = good;
-        refused(__LINE__, &d, &bad, &d.p, SHADE_ERROR_TARGET);
-        CHECK_INT(shade_clear(&bad, shade_v4(1, 1, 1, 1), 0.5f), SHADE_ERROR_TARGET);
-        CHECK_INT(shade_clear(&bad, shade_v4(1, 1, 1, 1), (float)NAN), SHADE_ERROR_TARGET);
+        shade_target bad = d.c.target;
+        spoil(&bad, bad_targets[row].faults);
+        refused(__LINE__, &d, &bad, &d.p, want);
+        check_refusal(row, shade_clear(&bad, shade_v4(1, 1, 1, 1), 0.5f), want);
+        check_refusal(row, shade_clear(&bad, shade_v4(1, 1, 1, 1), (float)NAN), want);
         CHECK_INT(canvas_bytes(&d.c, 0, 0)[0], 128);
-        shade_mesh mesh;
-        shade_draw_state state;
-        static const float position[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
-        memset(&mesh, 0, sizeof mesh), memset(&state, 0, sizeof state);
-        mesh.positions = position, mesh.vertex_count = 3;
-        CHECK_INT(shade_draw_mesh(&bad, &mesh, &state, NULL), SHADE_ERROR_TARGET);
+        check_refusal(row, shade_draw_mesh(&bad, &mesh, &state, NULL), want);
         CHECK_INT(canvas_bytes(&d.c, 12, 12)[0], 128);
         canvas_close(&d.c);
     }
 }
 
+/* Clip rectangles from outside the picture, with sums beyond an int, of no pixel; the strip of all
+   rows; no depth.  Where some of the triangle is inside, all of its centre is. */
+static const struct {
+    int drawn; /* whether (12, 12) is */
+    fault faults[FAULTS];
+} odd_targets[] = {
+    { 0,
+      { TARGET_FAULT(clip_x, INT_MAX), TARGET_FAULT(clip_y, INT_MAX),
+        TARGET_FAULT(clip_width, INT_MAX), TARGET_FAULT(clip_height, INT_MAX) } },
+    { 0,
+      { TARGET_FAULT(clip_x, INT_MIN), TARGET_FAULT(clip_y, INT_MIN),
+        TARGET_FAULT(clip_width, INT_MAX), TARGET_FAULT(clip_height, INT_MAX) } },
+    { 1,
+      { TARGET_FAULT(clip_x, -5), TARGET_FAULT(clip_y, -5), TARGET_FAULT(clip_width, INT_MAX),
+        TARGET_FAULT(clip_height, INT_MAX) } },
+    { 0, { TARGET_FAULT(clip_width, 0), TARGET_FAULT(clip_height, 7) } },
+    { 0, { TARGET_FAULT(clip_x, 1) } }, /* an empty rectangle at (1, 0) */
+    { 0, { TARGET_FAULT(clip_x, 24), TARGET_FAULT(clip_width, 5), TARGET_FAULT(clip_height, 5) } },
+    { 1, { TARGET_FAULT(row_count, 18) } },
+    { 1, { FAULT_NULL(shade_target, depth) } },
+};
+
 TEST(drive, odd_but_legal_targets_are_taken)
 {
-    static const int huge = 2147483647;
-    for (int k = 0; k < 8; k++) {
+    for (int row = 0; row < TEST_COUNT(odd_targets); row++) {
+        const int drawn = odd_targets[row].drawn;
         drive_call d;
         drive_open(&d, SHADE_FORMAT_RGBA8);
         shade_target *t = &d.c.target;
-        switch (k) {
-        case 0:
-            t->clip_x = huge, t->clip_y = huge, t->clip_width = huge, t->clip_height = huge;
-            break;
-        case 1:
-            t->clip_x = -huge - 1, t->clip_y = -huge - 1, t->clip_width = huge,
-            t->clip_height = huge;
-            break;
-        case 2:
-            t->clip_x = -5, t->clip_y = -5, t->clip_width = huge, t->clip_height = huge;
-            break;
-        case 3:
-            t->clip_width = 0, t->clip_height = 7;
-            break;
-        case 4:
-            t->clip_x = 1;
-            break; /* an empty rectangle at (1, 0) */
-        case 5:
-            t->row_count = 18;
-            break;
-        case 6:
-            t->clip_x = 24, t->clip_width = 5, t->clip_height = 5;
-            break;
-        default:
-            t->depth = NULL;
-            break;
-        }
+        spoil(t, odd_targets[row].faults);
+
         shade_stats stats;
         memset(&stats, 0x55, sizeof stats);
         CHECK_INT(shade_draw(t, &d.p, d.indices, 6, 6, &stats), SHADE_OK);
         CHECK_INT(shade_clear(t, shade_v4(0, 0, 0, 0), 1), SHADE_OK);
-        int everywhere = k == 2 || k == 5 || k == 7;
         CHECK_INT(stats.triangles, 2);
-        CHECK_INT(stats.fragments > 0, everywhere);
-        CHECK_INT(canvas_bytes(&d.c, 12, 12)[0], everywhere ? 0 : 128);
+        CHECK_SAY((stats.fragments > 0) == drawn, "row %d", row);
+        CHECK_INT(canvas_bytes(&d.c, 12, 12)[0], drawn ? 0 : 128);
         canvas_close(&d.c);
     }
 }
 
+#define PIPELINE_FAULT(field, value) FAULT(drive_call, p.field, value)
+static const refusal bad_pipelines[] = {
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(varyings, -1) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(varyings, SHADE_MAX_VARYINGS + 1) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(varyings, INT_MAX) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(varyings, INT_MIN) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(interpolation, 3) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(raster.cull, 3) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(raster.depth_test, 6) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(raster.depth_test, 1000000) } },
+    { SHADE_ERROR_STATE, { PIPELINE_FAULT(raster.blend, 3) } },
+    { SHADE_ERROR_STATE, { FAULT_REAL(drive_call, p.raster.depth_bias, NAN) } },
+    { SHADE_ERROR_STATE, { FAULT_REAL(drive_call, p.raster.depth_bias, -INFINITY) } },
+    { SHADE_ERROR_MESH, { FAULT(drive_call, index_count, -1) } },
+    { SHADE_ERROR_MESH, { FAULT(drive_call, index_count, -3) } },
+    { SHADE_ERROR_MESH, { FAULT(drive_call, index_count, INT_MIN) } },
+    { SHADE_ERROR_MESH, { FAULT(drive_call, vertex_count, -1) } },
+};
+
+/* G2 */
 TEST(drive, bad_pipelines_are_refused)
 {
-    for (int k = 0; k < 15; k++) {
+    for (int row = 0; row < TEST_COUNT(bad_pipelines); row++) {
         drive_call d;
-        shade_result want = SHADE_ERROR_STATE;
         drive_open(&d, SHADE_FORMAT_RGBA8);
-        switch (k) {
-        case 0:
-            d.p.varyings = -1;
-            break;
-        case 1:
-            d.p.varyings = SHADE_MAX_VARYINGS + 1;
-            break;
-        case 2:
-            d.p.interpolation = (shade_interpolation)3;
-            break;
-        case 3:
-            d.p.raster.cull = (shade_cull)3;
-            break;
-        case 4:
-            d.p.raster.depth_test = (shade_compare)6;
-            break;
-        case 5:
-            d.p.raster.blend = (shade_blend)3;
-            break;
-        case 6:
-            d.p.raster.depth_bias = (float)NAN;
-            break;
-        case 7:
-            d.p.varyings = 2147483647;
-            break;
-        case 8:
-            d.p.varyings = -2147483647 - 1;
-            break;
-        case 9: d.index_count = -1, want = SHADE_ERROR_MESH; break;
-        case 10: d.index_count = -3, want = SHADE_ERROR_MESH; break;
-        case 11: d.p.raster.depth_test = (shade_compare)1000000; break;
-        case 12: d.p.raster.depth_bias = -INFINITY; break;
-        case 13: d.vertex_count = -1, want = SHADE_ERROR_MESH; break;
-        default: d.index_count = -2147483647 - 1, want = SHADE_ERROR_MESH; break;
-        }
-        REFUSED(want);
+        spoil(&d, bad_pipelines[row].faults);
+        REFUSED(bad_pipelines[row].want);
         canvas_close(&d.c);
     }
 }
 
+/* G2 */
 TEST(drive, bad_indices_are_refused_before_a_pixel_changes)
 {
     for (int k = 0; k < 8; k++) {
@@ -290,6 +238,9 @@ TEST(drive, bad_indices_are_refused_before_a_pixel_changes)
     canvas_close(&d.c);
 }
 
+/* The list is longer than several batches of vertices; the bad index is the first that is too
+   great, the second, or the greatest there is. */
+/* G2 */
 TEST(drive, one_bad_index_anywhere_in_a_long_list_is_found)
 {
     enum { COUNT = 600 };
@@ -358,7 +309,9 @@ static void random_pipeline(random_draw *r, int nasty)
         if (i > 6 && rnd_one_in(3))
             r->indices[i] = r->indices[i - rnd_int(1, 6)]; /* some without area */
     }
-    r->s.clip = r->clip, r->s.attribute = r->attribute, r->s.color = r->color;
+    r->s.clip = r->clip;
+    r->s.attribute = r->attribute;
+    r->s.color = r->color;
     r->s.varyings = SHADE_MAX_VARYINGS < 5 ? SHADE_MAX_VARYINGS : 5;
     r->p = scene_pipeline(&r->s);
     static shade_fragment_shader *const shaders[] = { scene_flat, scene_colors, fragment_sieve,
@@ -369,14 +322,18 @@ static void random_pipeline(random_draw *r, int nasty)
     r->p.interpolation = (shade_interpolation)(rnd_one_in(2) ? 0 : rnd_int(0, 2));
     r->p.raster.cull = (shade_cull)rnd_int(0, 2);
     r->p.raster.depth_test = (shade_compare)rnd_int(0, 5);
-    r->p.raster.depth_read_only = rnd_one_in(5), r->p.raster.depth_zero_to_one = rnd_int(0, 1);
+    r->p.raster.depth_read_only = rnd_one_in(5);
+    r->p.raster.depth_zero_to_one = rnd_int(0, 1);
     r->p.raster.depth_bias = rnd_one_in(3) ? rnd_float(-0.1, 0.1) : 0;
     r->p.raster.blend = (shade_blend)rnd_int(0, 2);
 }
+
 static void random_canvas_flags(shade_target *t)
 {
-    t->srgb = rnd_one_in(3), t->dither = rnd_one_in(3);
+    t->srgb = rnd_one_in(3);
+    t->dither = rnd_one_in(3);
 }
+
 static int stats_add_up(const shade_stats *s, int triangles)
 {
     return s->triangles == triangles && s->culled >= 0 && s->clipped >= 0 && s->rejected >= 0 &&
@@ -384,6 +341,7 @@ static int stats_add_up(const shade_stats *s, int triangles)
            s->culled + s->clipped + s->rejected + s->drawn == s->triangles;
 }
 
+/* G1 */
 TEST(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up)
 {
     static random_draw r;
@@ -393,9 +351,11 @@ TEST(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up)
                                (shade_format)(i % CANVAS_FORMATS), rnd_int(0, 3) > 0);
         random_pipeline(&r, 1);
         canvas_clear(&c, 0.5f);
-        random_clip(&c.target), random_canvas_flags(&c.target);
+        random_clip(&c.target);
+        random_canvas_flags(&c.target);
         canvas before = c;
-        before.color = canvas_block(c.color_bytes), before.depth = canvas_block(c.depth_bytes);
+        before.color = canvas_block(c.color_bytes);
+        before.depth = canvas_block(c.depth_bytes);
         memcpy(before.color, c.color, c.color_bytes + 2 * CANVAS_GUARD);
         memcpy(before.depth, c.depth, c.depth_bytes + 2 * CANVAS_GUARD);
         shade_stats stats;
@@ -438,8 +398,10 @@ TEST(drive, stats_do_not_depend_on_the_clip_rectangle)
         long long fragments = 0;
         int x = rnd_int(0, 64), y = rnd_int(0, 48);
         for (int k = 0; k < 4; k++) {
-            c.target.clip_x = k % 2 ? x : 0, c.target.clip_width = k % 2 ? 64 - x : x;
-            c.target.clip_y = k / 2 ? y : 0, c.target.clip_height = k / 2 ? 48 - y : y;
+            c.target.clip_x = k % 2 ? x : 0;
+            c.target.clip_width = k % 2 ? 64 - x : x;
+            c.target.clip_y = k / 2 ? y : 0;
+            c.target.clip_height = k / 2 ? 48 - y : y;
             if (!c.target.clip_x && !c.target.clip_y && !c.target.clip_width &&
                 !c.target.clip_height)
                 continue;
@@ -457,6 +419,7 @@ TEST(drive, stats_do_not_depend_on_the_clip_rectangle)
     }
 }
 
+/* G13 */
 TEST(drive, bands_and_rectangles_give_the_bits_of_the_whole)
 {
     static random_draw r;
@@ -468,7 +431,8 @@ TEST(drive, bands_and_rectangles_give_the_bits_of_the_whole)
         canvas parts = canvas_open(width, height, stride, format, with_depth);
         random_pipeline(&r, 0);
         random_canvas_flags(&whole.target);
-        parts.target.srgb = whole.target.srgb, parts.target.dither = whole.target.dither;
+        parts.target.srgb = whole.target.srgb;
+        parts.target.dither = whole.target.dither;
         CHECK_INT(shade_clear(&whole.target, shade_v4(0.2f, 0.4f, 0.6f, 0.8f), 0.5f), SHADE_OK);
         CHECK_INT(shade_draw(&whole.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, NULL),
                   SHADE_OK);
@@ -478,8 +442,10 @@ TEST(drive, bands_and_rectangles_give_the_bits_of_the_whole)
             int x0 = k % xs * width / xs, x1 = (k % xs + 1) * width / xs;
             int y0 = k / xs * height / ys, y1 = (k / xs + 1) * height / ys;
             if (x0 == x1 || y0 == y1) continue;
-            parts.target.clip_x = x0, parts.target.clip_width = x1 - x0;
-            parts.target.clip_y = y0, parts.target.clip_height = y1 - y0;
+            parts.target.clip_x = x0;
+            parts.target.clip_width = x1 - x0;
+            parts.target.clip_y = y0;
+            parts.target.clip_height = y1 - y0;
             CHECK_INT(shade_clear(&parts.target, shade_v4(0.2f, 0.4f, 0.6f, 0.8f), 0.5f), SHADE_OK);
             CHECK_INT(
                 shade_draw(&parts.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, NULL),
@@ -492,6 +458,8 @@ TEST(drive, bands_and_rectangles_give_the_bits_of_the_whole)
     }
 }
 
+/* Any rows of any picture: blending and dither depend on where a pixel is in the whole. */
+/* G13 */
 TEST(drive, strips_hold_the_rows_of_the_whole)
 {
     static random_draw r;
@@ -506,7 +474,8 @@ TEST(drive, strips_hold_the_rows_of_the_whole)
                   SHADE_OK);
         int rows = rnd_int(1, height), offset = rnd_int(0, height - rows);
         canvas strip = canvas_strip(width, height, stride, format, 1, offset, rows);
-        strip.target.srgb = whole.target.srgb, strip.target.dither = whole.target.dither;
+        strip.target.srgb = whole.target.srgb;
+        strip.target.dither = whole.target.dither;
         CHECK_INT(shade_clear(&strip.target, shade_v4(0.2f, 0.4f, 0.6f, 0.8f), 0.5f), SHADE_OK);
         CHECK_INT(shade_draw(&strip.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, NULL),
                   SHADE_OK);
@@ -524,6 +493,7 @@ TEST(drive, strips_hold_the_rows_of_the_whole)
     }
 }
 
+/* What a draw leaves in memory that it does not clear must not show in the next. */
 TEST(drive, drawing_twice_gives_the_same_bits)
 {
     static random_draw r;
@@ -532,7 +502,8 @@ TEST(drive, drawing_twice_gives_the_same_bits)
                b = canvas_open(50, 40, 0, (shade_format)(i % CANVAS_FORMATS), 1);
         random_pipeline(&r, 0);
         shade_stats sa, sb;
-        canvas_clear(&a, 0.5f), canvas_clear(&b, 0.5f);
+        canvas_clear(&a, 0.5f);
+        canvas_clear(&b, 0.5f);
         CHECK_INT(shade_draw(&a.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &sa),
                   SHADE_OK);
         CHECK_INT(shade_draw(&b.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &sb),
@@ -557,7 +528,8 @@ TEST(drive, one_draw_equals_its_triangles_drawn_one_by_one)
         if (r.p.fragment == scene_flat) r.p.fragment = scene_colors;
         shade_stats whole, one;
         long long fragments = 0;
-        canvas_clear(&a, 0.5f), canvas_clear(&b, 0.5f);
+        canvas_clear(&a, 0.5f);
+        canvas_clear(&b, 0.5f);
         CHECK_INT(shade_draw(&a.target, &r.p, r.indices, r.index_count, DRAW_VERTICES, &whole),
                   SHADE_OK);
         for (int k = 0; k < r.index_count; k += 3) {

@@ -28,9 +28,13 @@ static void exact_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
     const exact_sheet *s = *(exact_sheet *const *)uniforms;
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 p = s->clip[in->index[i]];
-        out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[2][i] = p.z, out->clip[3][i] = p.w;
+        out->clip[0][i] = p.x;
+        out->clip[1][i] = p.y;
+        out->clip[2][i] = p.z;
+        out->clip[3][i] = p.w;
     }
 }
+
 static void exact_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                            shade_colors *SHADE_RESTRICT out)
 {
@@ -62,10 +66,12 @@ static long exact_draw(exact_sheet *s, canvas *c)
     long wrong = 0;
     long long covered = 0;
     memset(&p, 0, sizeof p);
-    p.vertex = exact_vertex, p.fragment = exact_fragment, p.uniforms = &s;
+    p.vertex = exact_vertex;
+    p.fragment = exact_fragment;
+    p.uniforms = &s;
     p.raster.depth_test = SHADE_COMPARE_ALWAYS;
     memset(s->got, 0, sizeof s->got);
-    CHECK_INT(shade_draw(&c->target, &p, NULL, 3 * s->count, 3 * s->count, &stats), SHADE_OK);
+    stats = canvas_draw(c, &p, 3 * s->count);
     for (int k = 0; k < s->count; k++) {
         wrong += s->got[k] != s->want[k];
         for (int n = 0; n < 9; n++) covered += s->want[k] >> n & 1;
@@ -74,6 +80,7 @@ static long exact_draw(exact_sheet *s, canvas *c)
     s->count = 0;
     return wrong;
 }
+
 static void exact_add(exact_sheet *s, exact_lattice l, const int corner[3], unsigned want,
                       int front)
 {
@@ -84,7 +91,8 @@ static void exact_add(exact_sheet *s, exact_lattice l, const int corner[3], unsi
         s->clip[3 * cell + k] = clip_of_fx8((double)x, (double)y, EXACT_PICTURE, EXACT_PICTURE, 0,
                                             1);
     }
-    s->want[cell] = (uint16_t)want, s->front[cell] = (unsigned char)front;
+    s->want[cell] = (uint16_t)want;
+    s->front[cell] = (unsigned char)front;
 }
 
 /* The nine pixels on either side of the edge from a to b, ties as the top-left rule has them. */
@@ -116,8 +124,8 @@ static long exact_all(exact_lattice l)
         canvas c = canvas_open(EXACT_PICTURE, EXACT_PICTURE, 0, SHADE_FORMAT_RGBA8, with_depth);
         canvas_clear(&c, 1);
         memset(&sheet, 0, sizeof sheet);
-        for (int a = 0; a < points; a++)
-            for (int b = a + 1; b < points; b++)
+        for (int a = 0; a < points; a++) {
+            for (int b = a + 1; b < points; b++) {
                 for (int d = b + 1; d < points; d++) {
                     int64_t ax = exact_x(l, a), bx = exact_x(l, b) - ax, dx = exact_x(l, d) - ax;
                     int64_t ay = exact_y(l, a), by = exact_y(l, b) - ay, dy = exact_y(l, d) - ay;
@@ -130,13 +138,17 @@ static long exact_all(exact_lattice l)
                                                          { 2, 1, 0 }, { 2, 0, 1 }, { 1, 0, 2 } };
                         const int *o = order[(2 * (triangles / 2) + turn) % 6];
                         int point[3], corner[3];
-                        point[0] = a, point[1] = b, point[2] = d;
+                        point[0] = a;
+                        point[1] = b;
+                        point[2] = d;
                         for (int k = 0; k < 3; k++) corner[k] = point[o[k]];
                         exact_add(&sheet, l, corner, want, turn ? area > 0 : area < 0);
                         triangles++;
                         if (sheet.count == EXACT_CELLS) wrong += exact_draw(&sheet, &c);
                     }
                 }
+            }
+        }
         wrong += exact_draw(&sheet, &c);
         CHECK_INT(sheet.outside, 0);
         CHECK_INT(sheet.twice, 0);
@@ -146,11 +158,15 @@ static long exact_all(exact_lattice l)
     CHECK_INT(wrong, 0);
     return triangles;
 }
+
+/* G7 */
 TEST(exact, every_triangle_on_a_quarter_pixel_lattice)
 {
     exact_lattice l = { 13, 0, 64 };    /* 3 pixels, both ends */
     CHECK_INT(exact_all(l), 2L * 2 * (169L * 168 * 167 / 6));
 }
+
+/* G7 */
 TEST(exact, every_triangle_of_256ths_around_a_centre)
 {
     exact_lattice l = { 7, 256 + 128 - 3, 1 };
@@ -161,16 +177,20 @@ TEST(exact, every_triangle_of_256ths_around_a_centre)
 static void check_covered(const canvas *c, int want)
 {
     int rows = canvas_rows(c), top = c->target.row_offset, wrong = 0, wx = 0, wy = 0;
-    for (int y = top; y < top + rows; y++)
+    for (int y = top; y < top + rows; y++) {
         for (int x = 0; x < c->target.width; x++) {
             if (canvas_float(c, x, y, 0) == (float)want) continue;
-            wrong++, wx = x, wy = y;
+            wrong++;
+            wx = x;
+            wy = y;
         }
+    }
     CHECK_SAY(wrong == 0, "%d of %d x %d pixels, one of them %d %d, covered %g times", wrong,
               c->target.width, c->target.height, wx, wy, (double)canvas_float(c, wx, wy, 0));
 }
 
 /* Meshes whose corners lie on the lattice, so that many edges and corners meet centres. */
+/* G7 */
 TEST(exact, lattice_meshes_cover_every_pixel_once)
 {
     enum { N = 12 };
@@ -200,6 +220,7 @@ TEST(exact, lattice_meshes_cover_every_pixel_once)
 
 /* A few rows of pictures of 16384 pixels a side, under strips of triangles with edges of up to all
    of that length: some thin, some beyond the borders, where reach > 3 is clipped. */
+/* G7 */
 TEST(exact, strips_across_the_biggest_pictures_cover_every_pixel_once)
 {
     enum { N = 60 };
@@ -233,6 +254,7 @@ TEST(exact, strips_across_the_biggest_pictures_cover_every_pixel_once)
 }
 
 /* Fans of slivers around a centre outside the picture or in it: hundreds of edges that meet. */
+/* G7 */
 TEST(exact, fans_of_slivers_cover_every_pixel_once)
 {
     enum { SPOKES = 400 };
@@ -252,7 +274,8 @@ TEST(exact, fans_of_slivers_cover_every_pixel_once)
             x = edge == 0 ? side : edge == 1 ? 1 : edge == 2 ? -side : -1;
             y = edge == 0 ? -1 : edge == 1 ? side : edge == 2 ? 1 : -side;
             clip[k] = shade_v4((float)(x * reach * w), (float)(y * reach * w), 0, (float)w);
-            indices[3 * k] = (uint32_t)k, indices[3 * k + 1] = (uint32_t)((k + 1) % n);
+            indices[3 * k] = (uint32_t)k;
+            indices[3 * k + 1] = (uint32_t)((k + 1) % n);
             indices[3 * k + 2] = (uint32_t)n;
         }
         canvas c = canvas_open(width, height, 0, SHADE_FORMAT_RGBA32F, 0);

@@ -14,7 +14,7 @@ static void random_grid_triangle(grid_triangle *t, int width, int height, double
     double area;
     do {
         for (int k = 0; k < 3; k++) {
-            t->x[k] = rnd_int(-width * 64, width * 320),
+            t->x[k] = rnd_int(-width * 64, width * 320);
             t->y[k] = rnd_int(-height * 64, height * 320);
         }
         area = fabs((double)((t->x[1] - t->x[0]) * (t->y[2] - t->y[0]) -
@@ -28,7 +28,8 @@ static void random_grid_triangle(grid_triangle *t, int width, int height, double
         t->reach = longest / fmax(area, 1);
     } while (area < 65536 || t->reach > 50);
     for (int k = 0; k < 3; k++) {
-        t->w[k] = (double)rnd_log(1 / w_range, w_range), t->z[k] = (double)rnd_float(-0.98, 0.98);
+        t->w[k] = (double)rnd_log(1 / w_range, w_range);
+        t->z[k] = (double)rnd_float(-0.98, 0.98);
         t->clip[k] = clip_of_fx8((double)t->x[k], (double)t->y[k], width, height, t->z[k], t->w[k]);
     }
 }
@@ -39,14 +40,6 @@ static void random_grid_triangle(grid_triangle *t, int width, int height, double
 static double plane_error(const grid_triangle *t, double w_range)
 {
     return 4e-6 * (1 + t->reach) * w_range;
-}
-
-static shade_stats draw_scene(canvas *c, const shade_pipeline *p, int vertices)
-{
-    shade_stats stats;
-    CHECK_INT(shade_draw(&c->target, p, NULL, vertices, vertices, &stats), SHADE_OK);
-    CHECK_INT(stats.culled + stats.clipped + stats.rejected + stats.drawn, stats.triangles);
-    return stats;
 }
 
 TEST(fragment, packets_are_full_but_the_last_of_a_batch) /* pixels queue across triangles */
@@ -64,8 +57,9 @@ TEST(fragment, packets_are_full_but_the_last_of_a_batch) /* pixels queue across 
         }
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
-        r.count = 0, r.fragment_packets = r.vertex_packets = 0;
-        shade_stats stats = draw_scene(&c, &p, 3 * N);
+        r.count = 0;
+        r.fragment_packets = r.vertex_packets = 0;
+        shade_stats stats = canvas_draw(&c, &p, 3 * N);
         CHECK_INT(r.count, stats.fragments);
         /* each packet of vertices leaves at most one packet of pixels short */
         CHECK_SAY(r.fragment_packets <= r.count / SHADE_LANES + r.vertex_packets,
@@ -100,7 +94,7 @@ TEST(fragment, perspective_varyings_match_double_for_every_count) /* sum b v/w o
         shade_pipeline p = scene_pipeline(&s);
         r.count = 0;
         canvas_clear(&c, 1);
-        draw_scene(&c, &p, 6);
+        canvas_draw(&c, &p, 6);
         for (int k = 0; k < r.count; k++) {
             fragment_record *f = &r.fragments[k];
             double X = (double)f->x, Y = (double)f->y;
@@ -124,8 +118,10 @@ TEST(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones)
     static shade_vec4 clip[3 * 300];
     for (int i = 0; i < 300; i++) {
         memcpy(clip + 3 * i, clip_corners, sizeof clip_corners);
-        if (i % 3 == 1)
-            clip[3 * i] = clip_corners[1], clip[3 * i + 1] = clip_corners[0]; /* back-facing */
+        if (i % 3 == 1) { /* back-facing */
+            clip[3 * i] = clip_corners[1];
+            clip[3 * i + 1] = clip_corners[0];
+        }
         if (i % 7 == 3) clip[3 * i].x = (float)NAN;
     }
     canvas c = canvas_open(10, 10, 0, SHADE_FORMAT_RGBA8, 0);
@@ -134,8 +130,9 @@ TEST(fragment, primitive_counts_triangles_of_the_draw_also_culled_ones)
     static int seen[300];
     for (int cull = 0; cull < 3; cull++) {
         p.raster.cull = (shade_cull)cull;
-        r.count = 0, memset(seen, 0, sizeof seen);
-        draw_scene(&c, &p, 900);
+        r.count = 0;
+        memset(seen, 0, sizeof seen);
+        canvas_draw(&c, &p, 900);
         for (int k = 0; k < r.count; k++) seen[r.fragments[k].primitive % 300]++;
         for (int i = 0; i < 300; i++) {
             int back = i % 3 == 1, hidden = i % 7 == 3 || (cull == SHADE_CULL_BACK && back) ||
@@ -157,8 +154,10 @@ static shade_stats draw_at_depth(canvas *c, float z, shade_compare compare, floa
     for (int k = 0; k < 3; k++) v[k].z = z;
     scene s = { v, NULL, 0, NULL, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    p.raster.depth_test = compare, p.raster.depth_bias = bias, p.raster.depth_read_only = read_only;
-    return draw_scene(c, &p, 3);
+    p.raster.depth_test = compare;
+    p.raster.depth_bias = bias;
+    p.raster.depth_read_only = read_only;
+    return canvas_draw(c, &p, 3);
 }
 
 TEST(fragment, comparisons_do_what_their_names_say)
@@ -185,6 +184,8 @@ TEST(fragment, comparisons_do_what_their_names_say)
         }
 }
 
+/* The same triangle again has the depths of the first, bit for bit: a test for less draws none
+   of its pixels, one for equal draws all. */
 TEST(fragment, a_second_identical_draw_has_equal_depth)
 {
     for (int i = 0; i < 100; i++) {
@@ -194,18 +195,20 @@ TEST(fragment, a_second_identical_draw_has_equal_depth)
         scene s = { t.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
         canvas_clear(&c, 1);
-        long long first = draw_scene(&c, &p, 3).fragments;
-        CHECK_INT(draw_scene(&c, &p, 3).fragments, 0);
+        long long first = canvas_draw(&c, &p, 3).fragments;
+        CHECK_INT(canvas_draw(&c, &p, 3).fragments, 0);
         p.raster.depth_test = SHADE_COMPARE_EQUAL;
-        CHECK_INT(draw_scene(&c, &p, 3).fragments, first);
+        CHECK_INT(canvas_draw(&c, &p, 3).fragments, first);
         p.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
-        CHECK_INT(draw_scene(&c, &p, 3).fragments, first);
+        CHECK_INT(canvas_draw(&c, &p, 3).fragments, first);
         p.raster.depth_test = SHADE_COMPARE_GREATER;
-        CHECK_INT(draw_scene(&c, &p, 3).fragments, 0);
+        CHECK_INT(canvas_draw(&c, &p, 3).fragments, 0);
         canvas_close(&c);
     }
 }
 
+/* Level triangles at z, so that the depth is z / 2 + 1/2: biases within, at and beyond both ends
+   of [0, 1]. 128 of the 256 pixels are inside. */
 TEST(fragment, bias_is_added_and_what_is_stored_is_clamped)
 {
     canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 1);
@@ -237,10 +240,11 @@ TEST(fragment, bias_moves_sloping_depth_as_a_whole)
         if (!ref_triangle_of(&e, &t.clip[0], &t.clip[1], &t.clip[2], 60, 50)) continue;
         scene s = { t.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.raster.depth_test = SHADE_COMPARE_ALWAYS, p.raster.depth_bias = rnd_float(-0.6, 0.6),
+        p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        p.raster.depth_bias = rnd_float(-0.6, 0.6);
         p.may_discard = i % 2;
         canvas_clear(&c, 1);
-        draw_scene(&c, &p, 3);
+        canvas_draw(&c, &p, 3);
         for (int y = 0; y < 50; y++)
             for (int x = 0; x < 60; x++) {
                 if (canvas_bytes(&c, x, y)[3] == 0) continue;
@@ -251,6 +255,8 @@ TEST(fragment, bias_moves_sloping_depth_as_a_whole)
     }
 }
 
+/* Distances that come nearer, go back, and lie a thousand times apart: with reversed depth each
+   is near / distance, however far it is. */
 TEST(fragment, reversed_depth_sees_what_is_nearer)
 {
     canvas c = canvas_open(32, 32, 0, SHADE_FORMAT_RGBA8, 1);
@@ -267,8 +273,9 @@ TEST(fragment, reversed_depth_sees_what_is_nearer)
         }
         scene s = { v, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.raster.depth_zero_to_one = 1, p.raster.depth_test = SHADE_COMPARE_GREATER;
-        long long fragments = draw_scene(&c, &p, 3).fragments;
+        p.raster.depth_zero_to_one = 1;
+        p.raster.depth_test = SHADE_COMPARE_GREATER;
+        long long fragments = canvas_draw(&c, &p, 3).fragments;
         CHECK_INT(fragments > 0, (double)distance[k] < nearest);
         nearest = fmin(nearest, (double)distance[k]);
         CHECK_NEAR(canvas_depth(&c, 16, 20), 0.25 / nearest, 1e-6);
@@ -294,10 +301,12 @@ TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer)
                b = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        canvas_clear(&a, 1), canvas_clear(&b, 0);
-        draw_scene(&a, &p, 3 * N);
-        s.clip = mirrored, p.raster.depth_test = SHADE_COMPARE_GREATER;
-        draw_scene(&b, &p, 3 * N);
+        canvas_clear(&a, 1);
+        canvas_clear(&b, 0);
+        canvas_draw(&a, &p, 3 * N);
+        s.clip = mirrored;
+        p.raster.depth_test = SHADE_COMPARE_GREATER;
+        canvas_draw(&b, &p, 3 * N);
         int differ = 0;
         for (int y = 0; y < 64; y++)
             for (int x = 0; x < 64; x++)
@@ -308,45 +317,71 @@ TEST(fragment, bigger_is_closer_gives_the_picture_of_smaller_is_closer)
     }
 }
 
+/* Random triangles upon each other, their corners on the grid of 1/256 pixel. */
+enum { PILE_MOST = 40, PILE_SIZE = 48 };
+typedef struct pile {
+    shade_vec4 clip[3 * PILE_MOST], color[PILE_MOST];
+    int64_t x[3 * PILE_MOST], y[3 * PILE_MOST];
+    ref_triangle exact[PILE_MOST];
+    double worst; /* error of depth */
+    int count;
+} pile;
+
+static void random_pile(pile *p, int count)
+{
+    p->count = count;
+    p->worst = 0;
+    for (int i = 0; i < count; i++) {
+        grid_triangle t;
+        do random_grid_triangle(&t, PILE_SIZE, PILE_SIZE, 4);
+        while (!ref_triangle_of(&p->exact[i], &t.clip[0], &t.clip[1], &t.clip[2], PILE_SIZE,
+                                PILE_SIZE));
+        memcpy(p->clip + 3 * i, t.clip, sizeof t.clip);
+        memcpy(p->x + 3 * i, t.x, sizeof t.x);
+        memcpy(p->y + 3 * i, t.y, sizeof t.y);
+        p->worst = fmax(p->worst, plane_error(&t, 1));
+    }
+}
+
+/* The depth of triangle k at a pixel, 2 where it does not cover the pixel. */
+static double pile_depth(const pile *p, int k, int i, int j)
+{
+    if (!ref_inside_fx8(p->x + 3 * k, p->y + 3 * k, i, j)) return 2;
+    return ref_depth(&p->exact[k], i + 0.5, j + 0.5, 0);
+}
+
+/* The colour of a pixel names its triangle.  Only where two depths are farther apart than
+   rounding can move them is it known which one wins. */
 TEST(fragment, a_z_buffer_keeps_the_nearest_of_each_pixel)
 {
+    static pile of;
     for (int round = 0; round < 40; round++) {
-        enum { N = 40 };
-        shade_vec4 clip[3 * N], color[N];
-        int64_t x[3 * N], y[3 * N];
-        ref_triangle e[N];
-        double worst = 0;
-        for (int i = 0; i < N; i++) {
-            grid_triangle t;
-            do random_grid_triangle(&t, 48, 48, 4);
-            while (!ref_triangle_of(&e[i], &t.clip[0], &t.clip[1], &t.clip[2], 48, 48));
-            memcpy(clip + 3 * i, t.clip, sizeof t.clip), memcpy(x + 3 * i, t.x, sizeof t.x);
-            memcpy(y + 3 * i, t.y, sizeof t.y);
-            color[i] = shade_v4((float)i / 255, 0, 0, 1);
-            worst = fmax(worst, plane_error(&t, 1));
-        }
-        canvas c = canvas_open(48, 48, 50, SHADE_FORMAT_RGBA8, 1);
-        scene s = { clip, NULL, 0, color, NULL };
+        random_pile(&of, PILE_MOST);
+        for (int k = 0; k < of.count; k++) of.color[k] = shade_v4((float)k / 255, 0, 0, 1);
+        canvas c = canvas_open(PILE_SIZE, PILE_SIZE, 50, SHADE_FORMAT_RGBA8, 1);
+        scene s = { of.clip, NULL, 0, of.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         canvas_clear(&c, 1);
-        draw_scene(&c, &p, 3 * N);
-        for (int j = 0; j < 48; j++)
-            for (int i = 0; i < 48; i++) {
-                double nearest = 1, second = 1;
-                int winner = 0;
-                for (int k = 0; k < N; k++) {
-                    if (!ref_inside_fx8(x + 3 * k, y + 3 * k, i, j)) continue;
-                    double z = ref_depth(&e[k], i + 0.5, j + 0.5, 0);
-                    if (z < nearest)
-                        second = nearest, nearest = z, winner = k;
-                    else
-                        second = fmin(second, z);
+        canvas_draw(&c, &p, 3 * of.count);
+        for (int at = 0; at < PILE_SIZE * PILE_SIZE; at++) {
+            int i = at % PILE_SIZE, j = at / PILE_SIZE, winner = 0;
+            double nearest = 1, second = 1;
+            for (int k = 0; k < of.count; k++) {
+                double z = pile_depth(&of, k, i, j);
+                if (z < nearest) {
+                    second = nearest;
+                    nearest = z;
+                    winner = k;
+                } else {
+                    second = fmin(second, z);
                 }
-                CHECK_NEAR(canvas_depth(&c, i, j), nearest, worst / 4);
-                if (nearest < 1 && second - nearest > worst)
-                    CHECK_INT(canvas_bytes(&c, i, j)[0], winner);
-                if (nearest == 1) CHECK_INT(canvas_bytes(&c, i, j)[3], 0);
             }
+            CHECK_NEAR(canvas_depth(&c, i, j), nearest, of.worst / 4);
+            if (nearest == 1) CHECK_INT(canvas_bytes(&c, i, j)[3], 0);
+            if (nearest < 1 && second - nearest > of.worst) {
+                CHECK_INT(canvas_bytes(&c, i, j)[0], winner);
+            }
+        }
         canvas_close(&c);
     }
 }
@@ -389,6 +424,7 @@ static double blend_channel(shade_blend blend, int channel, double s, double a, 
     if (blend == SHADE_BLEND_ADD) return s + d;
     return channel == 3 ? a + d * (1 - a) : s * a + d * (1 - a);
 }
+
 static double stored_unit(double v, int srgb, int levels)
 {
     v = v > 0 ? (v < 1 ? v : 1) : 0;
@@ -397,6 +433,8 @@ static double stored_unit(double v, int srgb, int levels)
     return srgb ? ref_decode_srgb(v) : v;
 }
 
+/* Up to 80 layers of any colour and alpha: each blend rounds a few times, and each layer scales
+   what lies below by at most 1, so that 3e-6 holds the sum of all errors. */
 TEST(fragment, blending_follows_submission_order_in_float)
 {
     static blend_case b;
@@ -410,24 +448,47 @@ TEST(fragment, blending_follows_submission_order_in_float)
         CHECK_INT(shade_clear(&c.target, clear, 1), SHADE_OK);
         scene s = { b.clip, NULL, 0, b.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.raster.blend = blend, p.raster.depth_test = SHADE_COMPARE_ALWAYS;
-        draw_scene(&c, &p, 3 * n);
-        for (int j = 0; j < size; j++)
+        p.raster.blend = blend;
+        p.raster.depth_test = SHADE_COMPARE_ALWAYS;
+        canvas_draw(&c, &p, 3 * n);
+        for (int j = 0; j < size; j++) {
             for (int i = 0; i < size; i++) {
                 double d[4];
-                d[0] = (double)clear.x, d[1] = (double)clear.y, d[2] = (double)clear.z,
+                d[0] = (double)clear.x;
+                d[1] = (double)clear.y;
+                d[2] = (double)clear.z;
                 d[3] = (double)clear.w;
                 for (int k = 0; k < n; k++) {
                     if (!ref_inside_fx8(b.x + 3 * k, b.y + 3 * k, i, j)) continue;
                     double v[4], a = (double)b.color[k].w;
-                    v[0] = (double)b.color[k].x, v[1] = (double)b.color[k].y,
-                    v[2] = (double)b.color[k].z, v[3] = a;
+                    v[0] = (double)b.color[k].x;
+                    v[1] = (double)b.color[k].y;
+                    v[2] = (double)b.color[k].z;
+                    v[3] = a;
                     for (int m = 0; m < 4; m++) d[m] = blend_channel(blend, m, v[m], a, d[m]);
                 }
                 for (int m = 0; m < 4; m++)
                     CHECK_NEAR(canvas_float(&c, i, j, m), d[m], 3e-6 * fmax(1, d[m]));
             }
+        }
         canvas_close(&c);
+    }
+}
+
+/* What the triangles of a case leave at a pixel that was 0, stored after each of them. */
+static void blended_bytes(const blend_case *b, int n, shade_blend blend, const shade_target *t,
+                          int i, int j, double d[4])
+{
+    for (int m = 0; m < 4; m++) d[m] = 0;
+    for (int k = 0; k < n; k++) {
+        const shade_vec4 *color = &b->color[k];
+        double v[4] = { (double)color->x, (double)color->y, (double)color->z, (double)color->w };
+        if (!ref_inside_fx8(b->x + 3 * k, b->y + 3 * k, i, j)) continue;
+        for (int m = 0; m < 4; m++) {
+            int most = canvas_most(t->format, m);
+            if (!most) continue; /* no such channel */
+            d[m] = stored_unit(blend_channel(blend, m, v[m], v[3], d[m]), t->srgb && m < 3, most);
+        }
     }
 }
 
@@ -448,37 +509,32 @@ TEST(fragment, blending_of_stored_bytes_follows_submission_order)
         scene s = { b.clip, NULL, 0, b.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         p.raster.blend = blend;
-        draw_scene(&c, &p, 3 * n);
+        canvas_draw(&c, &p, 3 * n);
         int off = 0, pixels = 0;
-        for (int j = 0; j < size; j++)
+        for (int j = 0; j < size; j++) {
             for (int i = 0; i < size; i++) {
-                double d[4] = { 0, 0, 0, 0 };
+                double d[4];
                 int channels = canvas_most(format, 3) ? 4 : 3;
-                for (int k = 0; k < n; k++) {
-                    if (!ref_inside_fx8(b.x + 3 * k, b.y + 3 * k, i, j)) continue;
-                    double v[4], a = (double)b.color[k].w;
-                    v[0] = (double)b.color[k].x, v[1] = (double)b.color[k].y,
-                    v[2] = (double)b.color[k].z, v[3] = a;
-                    for (int m = 0; m < channels; m++) {
-                        d[m] = stored_unit(blend_channel(blend, m, v[m], a, d[m]), srgb && m < 3,
-                                           canvas_most(format, m));
-                    }
-                }
+                blended_bytes(&b, n, blend, &c.target, i, j, d);
                 for (int m = 0; m < channels; m++) {
                     double code = srgb && m < 3 ? ref_encode_srgb(d[m]) : d[m];
                     int want = (int)floor(code * canvas_most(format, m) + 0.5);
                     int got = canvas_code(&c, i, j, m);
-                    pixels++, off += got != want;
+                    pixels++;
+                    off += got != want;
                     CHECK_SAY(got - want <= 1 && want - got <= 1,
                               "pixel %d %d channel %d: got %d, want %d", i, j, m, got, want);
                 }
             }
+        }
         CHECK_SAY(off <= pixels / 200 + 2, "%d of %d values are off by one", off,
                   pixels); /* ties by rounding */
         canvas_close(&c);
     }
 }
 
+/* Multiples of 1/16, which floats hold exactly: the colour is c / 4 + 3/4 of 1/2, alpha is 1/4 +
+   3/4 of 1/2. */
 TEST(fragment, alpha_of_over_builds_up)
 {
     canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA32F, 0);
@@ -487,7 +543,7 @@ TEST(fragment, alpha_of_over_builds_up)
     scene s = { clip_corners, NULL, 0, color, NULL };
     shade_pipeline p = scene_pipeline(&s);
     p.raster.blend = SHADE_BLEND_OVER;
-    draw_scene(&c, &p, 3);
+    canvas_draw(&c, &p, 3);
     CHECK_NEAR(canvas_float(&c, 8, 12, 0), 0.625, 1e-7);
     CHECK_NEAR(canvas_float(&c, 8, 12, 1), 0.375, 1e-7);
     CHECK_NEAR(canvas_float(&c, 8, 12, 2), 0.4375, 1e-7);
@@ -510,53 +566,55 @@ static void fragment_sieve(const void *uniforms, const shade_fragments *SHADE_RE
     }
 }
 
+/* The last triangle, or the nearest, that fragment_sieve leaves at a pixel: 1 for the first, 0 for
+   none.  *depth: its depth; -1 where rounding decides which triangle it is. */
+static int sieved(const pile *of, int i, int j, int with_depth, double *depth)
+{
+    int want = 0, sure = 1;
+    double nearest = 1;
+    for (int k = 0; k < of->count; k++) {
+        double z = (i * 7 + j * 5 + k) % 3 ? pile_depth(of, k, i, j) : 2;
+        if (z > 1) continue;
+        if (with_depth && fabs(z - nearest) < of->worst) sure = 0;
+        if (!with_depth || z < nearest) {
+            nearest = z;
+            want = k + 1;
+        }
+    }
+    *depth = sure ? nearest : -1;
+    return want;
+}
+
 TEST(fragment, discarded_pixels_stay_as_they_were_in_colour_and_depth)
 {
+    enum { N = 31 }; /* as many reds as 5-6-5 has */
+    static pile of;
     for (int round = 0; round < 75; round++) {
-        enum { N = 31 };
         shade_format format = (shade_format)(round / 3 % CANVAS_FORMATS);
-        shade_vec4 clip[3 * N], color[N];
-        int64_t x[3 * N], y[3 * N];
-        ref_triangle e[N];
-        double worst = 0;
-        int with_depth = round % 3 != 0;
-        for (int i = 0; i < N; i++) {
-            grid_triangle t;
-            do random_grid_triangle(&t, 48, 48, 4);
-            while (!ref_triangle_of(&e[i], &t.clip[0], &t.clip[1], &t.clip[2], 48, 48));
-            memcpy(clip + 3 * i, t.clip, sizeof t.clip), memcpy(x + 3 * i, t.x, sizeof t.x);
-            memcpy(y + 3 * i, t.y, sizeof t.y);
-            color[i] = shade_v4((float)(i + 1) / N, 0, 0, 1);
-            worst = fmax(worst, plane_error(&t, 1));
-        }
-        canvas c = canvas_open(48, 48, 50, format, with_depth);
-        scene s = { clip, NULL, 0, color, NULL };
+        int with_depth = round % 3 != 0, most = canvas_most(format, 0);
+        random_pile(&of, N);
+        for (int k = 0; k < N; k++) of.color[k] = shade_v4((float)(k + 1) / N, 0, 0, 1);
+        canvas c = canvas_open(PILE_SIZE, PILE_SIZE, 50, format, with_depth);
+        scene s = { of.clip, NULL, 0, of.color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.fragment = fragment_sieve, p.may_discard = 1;
+        p.fragment = fragment_sieve;
+        p.may_discard = 1;
         canvas_clear(&c, 1);
-        draw_scene(&c, &p, 3 * N);
-        for (int j = 0; j < 48; j++)
-            for (int i = 0; i < 48; i++) {
-                double depth = 1;
-                int want = 0, sure = 1;
-                for (int k = 0; k < N; k++) {
-                    if (!ref_inside_fx8(x + 3 * k, y + 3 * k, i, j) || (i * 7 + j * 5 + k) % 3 == 0)
-                        continue;
-                    double z = ref_depth(&e[k], i + 0.5, j + 0.5, 0);
-                    if (with_depth && fabs(z - depth) < worst) sure = 0;
-                    if (!with_depth || z < depth) depth = z, want = k + 1;
-                }
-                if (!sure) continue;
-                if (format == SHADE_FORMAT_RGBA32F) {
-                    CHECK_NEAR(canvas_float(&c, i, j, 0), (float)want / N, 0);
-                    CHECK_NEAR(canvas_float(&c, i, j, 3), want != 0, 0);
-                } else {
-                    int most = canvas_most(format, 0);
-                    CHECK_INT(canvas_code(&c, i, j, 0), (2 * want * most + N) / (2 * N));
-                    CHECK_INT(canvas_code(&c, i, j, 3), want ? canvas_most(format, 3) : 0);
-                }
-                if (with_depth) CHECK_NEAR(canvas_depth(&c, i, j), depth, worst);
+        canvas_draw(&c, &p, 3 * N);
+        for (int at = 0; at < PILE_SIZE * PILE_SIZE; at++) {
+            int i = at % PILE_SIZE, j = at / PILE_SIZE;
+            double depth;
+            int want = sieved(&of, i, j, with_depth, &depth);
+            if (depth < 0) continue;
+            if (format == SHADE_FORMAT_RGBA32F) {
+                CHECK_NEAR(canvas_float(&c, i, j, 0), (float)want / N, 0);
+                CHECK_NEAR(canvas_float(&c, i, j, 3), want != 0, 0);
+            } else {
+                CHECK_INT(canvas_code(&c, i, j, 0), (2 * want * most + N) / (2 * N));
+                CHECK_INT(canvas_code(&c, i, j, 3), want ? canvas_most(format, 3) : 0);
             }
+            if (with_depth) CHECK_NEAR(canvas_depth(&c, i, j), depth, of.worst);
+        }
         canvas_close(&c);
     }
 }
@@ -579,18 +637,19 @@ TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture)
                late = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
         scene s = { clip, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.raster.depth_test = (shade_compare)(round % 6),
+        p.raster.depth_test = (shade_compare)(round % 6);
         p.raster.blend = (shade_blend)(round / 6 % 3);
-        p.raster.depth_bias = round % 4 == 3 ? 0.01f : 0,
+        p.raster.depth_bias = round % 4 == 3 ? 0.01f : 0;
         p.raster.depth_read_only = round % 10 == 9;
         float clear = p.raster.depth_test == SHADE_COMPARE_GREATER ||
                               p.raster.depth_test == SHADE_COMPARE_GREATER_EQUAL
                           ? 0
                           : 1;
-        canvas_clear(&early, clear), canvas_clear(&late, clear);
-        shade_stats a = draw_scene(&early, &p, 3 * N);
+        canvas_clear(&early, clear);
+        canvas_clear(&late, clear);
+        shade_stats a = canvas_draw(&early, &p, 3 * N);
         p.may_discard = 1;
-        shade_stats b = draw_scene(&late, &p, 3 * N);
+        shade_stats b = canvas_draw(&late, &p, 3 * N);
         CHECK(canvas_same(&early, &late));
         CHECK_INT(b.fragments, a.fragments);
         canvas_close(&early);
@@ -598,15 +657,17 @@ TEST(fragment, testing_depth_before_or_after_shading_gives_the_same_picture)
     }
 }
 
+/* The sieve keeps two of three pixels of a triangle that covers half of 900. */
 TEST(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed)
 {
     canvas c = canvas_open(30, 30, 0, SHADE_FORMAT_RGBA8, 1);
     shade_vec4 color[1] = { { 1, 1, 1, 1 } };
     scene s = { clip_corners, NULL, 0, color, NULL };
     shade_pipeline p = scene_pipeline(&s);
-    p.fragment = fragment_sieve, p.may_discard = 1;
+    p.fragment = fragment_sieve;
+    p.may_discard = 1;
     canvas_clear(&c, 1);
-    draw_scene(&c, &p, 3);
+    canvas_draw(&c, &p, 3);
     int kept = 0, touched = 0;
     for (int k = 0; k < 900; k++) {
         kept += canvas_bytes(&c, k % 30, k / 30)[3] != 0;
@@ -619,6 +680,8 @@ TEST(fragment, without_may_discard_the_flag_is_ignored_or_with_it_obeyed)
 
 /* ------------------------------------------------------------------------------ missing buffers */
 
+/* A triangle over half of 900 pixels is drawn into depth alone, first by a shader that may not
+   discard, then by the same one that may. */
 TEST(fragment, without_colour_the_shader_runs_only_where_it_may_discard)
 {
     recorder r = recorder_open(1000);
@@ -629,7 +692,7 @@ TEST(fragment, without_colour_the_shader_runs_only_where_it_may_discard)
     shade_pipeline p = scene_pipeline(&s);
     p.fragment = fragment_sieve;
     CHECK_INT(shade_clear(&c.target, shade_v4(0, 0, 0, 0), 1), SHADE_OK);
-    shade_stats stats = draw_scene(&c, &p, 3);
+    shade_stats stats = canvas_draw(&c, &p, 3);
     CHECK_INT(r.fragment_packets, 0);
     int touched = 0;
     for (int k = 0; k < 900; k++) touched += canvas_depth(&c, k % 30, k / 30) < 1;
@@ -637,7 +700,7 @@ TEST(fragment, without_colour_the_shader_runs_only_where_it_may_discard)
     CHECK(touched > 400);
     CHECK_INT(shade_clear(&c.target, shade_v4(0, 0, 0, 0), 1), SHADE_OK);
     p.may_discard = 1;
-    draw_scene(&c, &p, 3);
+    canvas_draw(&c, &p, 3);
     CHECK(r.fragment_packets > 0);
     int kept = 0;
     for (int k = 0; k < 900; k++) kept += canvas_depth(&c, k % 30, k / 30) < 1;
@@ -654,7 +717,7 @@ TEST(fragment, without_a_shader_only_depth_is_written)
     shade_pipeline p = scene_pipeline(&s);
     p.fragment = NULL;
     CHECK_INT(shade_clear(&c.target, shade_v4(1, 0, 1, 0), 1), SHADE_OK);
-    shade_stats stats = draw_scene(&c, &p, 3);
+    shade_stats stats = canvas_draw(&c, &p, 3);
     int touched = 0;
     for (int k = 0; k < 900; k++) {
         touched += canvas_depth(&c, k % 30, k / 30) == 0.5f;
@@ -673,11 +736,15 @@ static void fragment_first_packet_only(const void *uniforms,
     (void)uniforms;
     if (in->y[0] > 20) return;
     for (int i = 0; i < SHADE_LANES; i++) {
-        out->color[0][i] = 1, out->color[1][i] = 1, out->color[2][i] = 1, out->color[3][i] = 0;
+        out->color[0][i] = 1;
+        out->color[1][i] = 1;
+        out->color[2][i] = 1;
+        out->color[3][i] = 0;
         out->discard[i] = 1;
     }
 }
 
+/* The picture is large enough for many packets, and the shader sets colours in the first alone. */
 TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
 {
     for (int may_discard = 0; may_discard < 2; may_discard++) {
@@ -686,9 +753,10 @@ TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
                                              { -1, -1, 0, 1 }, { 1, 1, 0, 1 },  { -1, 1, 0, 1 } };
         scene s = { whole, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&s);
-        p.fragment = fragment_first_packet_only, p.may_discard = may_discard;
+        p.fragment = fragment_first_packet_only;
+        p.may_discard = may_discard;
         CHECK_INT(shade_clear(&c.target, shade_v4(0, 1, 0, 1), 1), SHADE_OK);
-        draw_scene(&c, &p, 6);
+        canvas_draw(&c, &p, 6);
         for (int y = 40; y < 64; y++)
             for (int x = 0; x < 64; x++) {
                 const unsigned char *q = canvas_bytes(&c, x, y);
@@ -701,6 +769,7 @@ TEST(fragment, colours_a_shader_leaves_alone_are_opaque_black)
     }
 }
 
+/* Red, green and blue are the three barycentric coordinates of a triangle without perspective. */
 TEST(fragment, vertex_colours_smear_between_the_corners)
 {
     canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
@@ -709,7 +778,7 @@ TEST(fragment, vertex_colours_smear_between_the_corners)
     shade_pipeline p = scene_pipeline(&s);
     p.fragment = scene_colors;
     canvas_clear(&c, 1);
-    draw_scene(&c, &p, 3);
+    canvas_draw(&c, &p, 3);
     for (int y = 0; y < 200; y++)
         for (int x = 0; x < 200; x++) {
             if (canvas_float(&c, x, y, 3) == 0) continue;
@@ -731,6 +800,7 @@ static int fragment_poison(void)
     for (int i = 0; i < 200000; i++) noise[i] = 0x3F;
     return noise[0];
 }
+
 static long fragment_lod_packets;
 static void fragment_lod_is_zero(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                  shade_colors *SHADE_RESTRICT out)
@@ -740,6 +810,9 @@ static void fragment_lod_is_zero(const void *uniforms, const shade_fragments *SH
     for (int i = 0; i < SHADE_LANES; i++) CHECK(float_bits(in->lod[i]) == 0);
     fragment_lod_packets++;
 }
+
+/* Sizes that are no multiples of a packet: the last packet of a batch is not full, and memory
+   that another draw has filled shows in a lane that is not set. */
 TEST(fragment, without_a_lod_texture_lod_is_zero_in_every_packet)
 {
     shade_vec4 clip[3];
@@ -756,7 +829,7 @@ TEST(fragment, without_a_lod_texture_lod_is_zero_in_every_packet)
         canvas_clear(&c, 1);
         fragment_lod_packets = 0;
         CHECK(fragment_poison());
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&c, &p, 3);
         CHECK(fragment_lod_packets > 2);
         canvas_close(&c);
     }

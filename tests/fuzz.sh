@@ -7,9 +7,10 @@
 cd "$(dirname "$0")/.." || exit 1
 seconds=${1:-60}
 [ $# -gt 0 ] && shift
+# G5
 targets=${*:-draw mesh lines texture shape light reader surface}
 CC=${CC:-cc} CLANG=${CLANG:-clang} LANES=${FUZZ_LANES:-16} B=build/fuzz
-FLAGS="-std=c99 -O1 -g -I. -Iexamples -DSHADE_LANES=$LANES"
+FLAGS="-std=c99 -O1 -g -I. -DSHADE_LANES=$LANES"
 CHECKS="-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
 passed=0 failed=0
 count() { if [ "$1" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi; }
@@ -24,6 +25,7 @@ fuzz() {                                     # target, seconds
     if ! "$CLANG" $FLAGS $CHECKS -fsanitize=fuzzer tests/fuzz/$t.c $B/shade.o -lm -o $B/$t; then
         echo "$t does not build"; count 1; return
     fi
+    # G1, G4
     $B/$t -max_total_time="$2" -max_len=1024 -len_control=0 -timeout=20 -rss_limit_mb=2048 \
         -print_final_stats=1 -artifact_prefix=$B/crash/$t- $B/work/$t tests/fuzz/corpus/$t \
         >"$log" 2>&1

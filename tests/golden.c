@@ -16,6 +16,7 @@ static void name_list(int minor)
 {
     snprintf(list, sizeof list, "tests/golden/%d.%d.txt", SHADE_VERSION / 10000, minor);
 }
+
 /* The list of the newest version that has one. */
 static void find_list(void)
 {

@@ -7,7 +7,9 @@ typedef struct lane_packet {
 
 static void lane_set(float rows[3][SHADE_LANES], int i, shade_vec3 v)
 {
-    rows[0][i] = v.x, rows[1][i] = v.y, rows[2][i] = v.z;
+    rows[0][i] = v.x;
+    rows[1][i] = v.y;
+    rows[2][i] = v.z;
 }
 
 /* Points around the sample's, some of them its very own. */
@@ -20,10 +22,13 @@ static void random_packet(lane_packet *k, const light_sample *s, double size)
         k->n[i] = rnd_one_in(8) ? s->N : d3_round(turned);
         if (rnd_one_in(100)) k->n[i] = shade_v3(0, 0, 0);
         k->a[i] = random_color(1);
-        lane_set(k->P, i, k->p[i]), lane_set(k->N, i, k->n[i]), lane_set(k->albedo, i, k->a[i]);
+        lane_set(k->P, i, k->p[i]);
+        lane_set(k->N, i, k->n[i]);
+        lane_set(k->albedo, i, k->a[i]);
     }
 }
 
+/* G18 */
 TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
 {
     static lane_packet k;
@@ -56,13 +61,15 @@ TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
             if (lost) continue;
             sure++;
             if (check_color(__LINE__, "packet", got, want.total, want.bound)) continue;
-            s.P = k.p[i], s.N = k.n[i];
+            s.P = k.p[i];
+            s.N = k.n[i];
             print_lights(&s);
         }
     }
     CHECK_SAY(sure > total / 2, "%d of %d lanes are away from discontinuities", sure, total);
 }
 
+/* G14 */
 TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbours or its place */
 {
     static lane_packet k;
@@ -75,7 +82,9 @@ TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbour
         int turn = rnd_int(1, SHADE_LANES - 1);
         for (int i = 0; i < SHADE_LANES; i++) {
             int j = (i + turn) % SHADE_LANES;
-            lane_set(k.P, j, k.p[i]), lane_set(k.N, j, k.n[i]), lane_set(k.albedo, j, k.a[i]);
+            lane_set(k.P, j, k.p[i]);
+            lane_set(k.N, j, k.n[i]);
+            lane_set(k.albedo, j, k.a[i]);
         }
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, other);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
@@ -88,6 +97,7 @@ TEST(lanes, every_lane_is_computed_the_same) /* no lane depends on its neighbour
 
 /* Exponents around 100, the viewer near the mirror direction: the bound then allows a cosine an
    error of 5e-7 and no more.  Packets and scalars. */
+/* G18 */
 TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
 {
     static lane_packet k;
@@ -95,7 +105,8 @@ TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
     double worst[2] = { 0, 0 };
     memset(&s, 0, sizeof s);
     s.material.specular = shade_v3(1, 1, 1);
-    s.lighting.lights = s.lights, s.lighting.light_count = 1;
+    s.lighting.lights = s.lights;
+    s.lighting.light_count = 1;
     s.lighting.terms = SHADE_TERM_SPECULAR;
     for (int round = 0; round < 2500; round++) {
         d3 at = d3_scale(rnd_direction(), (double)rnd_log(1, 100));
@@ -113,7 +124,8 @@ TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
             d3 turned = d3_unit(d3_add(N, d3_scale(rnd_direction(), 0.05)));
             k.n[i] = d3_round(d3_scale(turned, (double)rnd_log(0.1, 10)));
             k.p[i] = d3_round(d3_scale(rnd_direction(), 0.01));
-            lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
+            lane_set(k.P, i, k.p[i]);
+            lane_set(k.N, i, k.n[i]);
         }
         float rgb[3 * SHADE_LANES];
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
@@ -130,8 +142,33 @@ TEST(lanes, highlights_hold_the_bound_where_it_is_tightest)
     CHECK_SAY(worst[1] < 1, "scalars: %g of the bound", worst[1]);
 }
 
+/* A lamp and an eye on nearly opposite sides of the packet's points, within an angle of `narrow`,
+   and normals around H.  facing: all lanes face the lamp. */
+static void random_opposite_packet(light_sample *s, lane_packet *k, int facing)
+{
+    d3 away = rnd_direction();
+    double narrow = (double)rnd_log(3e-4, 0.05);
+    s->lights[0] = shade_point_light(d3_round(d3_scale(away, (double)rnd_log(1, 30))), grey(1));
+    d3 beside = d3_scale(rnd_direction(), narrow);
+    s->eye = d3_round(d3_scale(d3_unit(d3_sub(beside, away)), (double)rnd_log(1, 30)));
+    s->material.shininess = rnd_float(1, 120);
+    for (int i = 0; i < SHADE_LANES; i++) {
+        k->p[i] = d3_round(d3_scale(rnd_direction(), narrow * rnd_unit()));
+        double r;
+        d3 P = d3_from(k->p[i]), L = ref_to_light(&s->lights[0], P, &r);
+        d3 H = d3_unit(d3_add(L, d3_unit(d3_sub(d3_from(s->eye), P))));
+        do {
+            d3 turned = d3_add(H, d3_scale(rnd_direction(), 0.3 * rnd_unit()));
+            k->n[i] = d3_round(d3_unit(turned));
+        } while (facing && d3_dot(d3_from(k->n[i]), L) <= 0);
+        lane_set(k->P, i, k->p[i]);
+        lane_set(k->N, i, k->n[i]);
+    }
+}
+
 /* Lamp and viewer at the two horizons: L + V is short, its direction is left to the last digits of
    L and V, and N may lie along it. */
+/* G18 */
 TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
 {
     static lane_packet k;
@@ -140,28 +177,13 @@ TEST(lanes, highlights_hold_the_bound_where_lamp_and_viewer_are_nearly_opposite)
     long checked = 0;
     memset(&s, 0, sizeof s);
     s.material.specular = shade_v3(1, 1, 1);
-    s.lighting.lights = s.lights, s.lighting.light_count = 1;
+    s.lighting.lights = s.lights;
+    s.lighting.light_count = 1;
     s.lighting.terms = SHADE_TERM_SPECULAR;
     for (int round = 0; round < 400; round++) {
         static const unsigned flags[] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_TWO_SIDED };
-        d3 away = rnd_direction();
-        double narrow = (double)rnd_log(3e-4, 0.05);
-        s.lights[0] = shade_point_light(d3_round(d3_scale(away, (double)rnd_log(1, 30))), grey(1));
-        d3 beside = d3_scale(rnd_direction(), narrow);
-        s.eye = d3_round(d3_scale(d3_unit(d3_sub(beside, away)), (double)rnd_log(1, 30)));
-        s.material.shininess = rnd_float(1, 120), s.lighting.flags = flags[round % 3];
-        for (int i = 0; i < SHADE_LANES; i++) {
-            k.p[i] = d3_round(d3_scale(rnd_direction(), narrow * rnd_unit()));
-            d3 P = d3_from(k.p[i]);
-            double r;
-            d3 L = ref_to_light(&s.lights[0], P, &r), V = d3_unit(d3_sub(d3_from(s.eye), P));
-            d3 H = d3_unit(d3_add(L, V));
-            do { /* in every other round all lanes face the lamp */
-                d3 turned = d3_add(H, d3_scale(rnd_direction(), 0.3 * rnd_unit()));
-                k.n[i] = d3_round(d3_unit(turned));
-            } while (round % 2 && d3_dot(d3_from(k.n[i]), L) <= 0);
-            lane_set(k.P, i, k.p[i]), lane_set(k.N, i, k.n[i]);
-        }
+        random_opposite_packet(&s, &k, round % 2);
+        s.lighting.flags = flags[round % 3];
         float rgb[3 * SHADE_LANES];
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
@@ -219,7 +241,8 @@ TEST(lanes, a_term_that_is_off_reads_nothing)
     for (int round = 0; round < 320; round++) {
         random_sample(&s);
         random_packet(&k, &s, 1);
-        s.lighting.terms = (unsigned)(round % 15 + 1), s.lighting.model = SHADE_MODEL_BLINN_PHONG;
+        s.lighting.terms = (unsigned)(round % 15 + 1);
+        s.lighting.model = SHADE_MODEL_BLINN_PHONG;
         shade_lighting li = s.lighting;
         shade_material m = s.material;
         shade_light lights[sizeof s.lights / sizeof s.lights[0]];
@@ -244,6 +267,7 @@ TEST(lanes, a_term_that_is_off_reads_nothing)
     }
 }
 
+/* An albedo of 1 changes nothing, and none changes emission or highlights. */
 TEST(lanes, albedo_multiplies_diffuse_and_ambient_only)
 {
     static lane_packet k;
@@ -292,7 +316,8 @@ TEST(lanes, light_at_lanes_is_what_arrives_at_each_lane)
             if (want.lost) continue;
             check_color(__LINE__, "L", toward, want.L, at.w == 0 || at.w == 1 ? 1e-6 : 2e-5);
             if (want.unsure) continue;
-            checked++, dark += want.amount == 0;
+            checked++;
+            dark += want.amount == 0;
             CHECK_NEAR(amount[i], want.amount, want.bound);
         }
     }
@@ -300,6 +325,8 @@ TEST(lanes, light_at_lanes_is_what_arrives_at_each_lane)
               dark);
 }
 
+/* Either row, both or none; now and then without a light or without positions, which gives
+   zeros. */
 TEST(lanes, light_at_lanes_writes_the_rows_it_is_given_and_no_more)
 {
     static lane_packet k;
@@ -319,7 +346,8 @@ TEST(lanes, light_at_lanes_writes_the_rows_it_is_given_and_no_more)
         for (int i = 0; i < SHADE_LANES && !(light && P); i++)
             CHECK(both[i] == 0 && both[SHADE_LANES + i] == 0 && both[2 * SHADE_LANES + i] == 0 &&
                   much[i] == 0);
-        memset(&L, CANVAS_BYTE, sizeof L), memset(&amount, CANVAS_BYTE, sizeof amount);
+        memset(&L, CANVAS_BYTE, sizeof L);
+        memset(&amount, CANVAS_BYTE, sizeof amount);
         shade_light_at_lanes(light, P, L.rows, NULL);
         shade_light_at_lanes(light, P, NULL, amount.rows);
         shade_light_at_lanes(light, P, NULL, NULL);
@@ -344,8 +372,10 @@ TEST(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light)
         random_sample(&s);
         random_packet(&k, &s, 2);
         s.lights[0] = random_light(s.P, 2);
-        s.lighting.light_count = 1, s.lighting.model = SHADE_MODEL_LAMBERT;
-        s.lighting.flags = 0, s.lighting.terms = SHADE_TERM_DIFFUSE;
+        s.lighting.light_count = 1;
+        s.lighting.model = SHADE_MODEL_LAMBERT;
+        s.lighting.flags = 0;
+        s.lighting.terms = SHADE_TERM_DIFFUSE;
         float L[3][SHADE_LANES], amount[SHADE_LANES], rgb[3 * SHADE_LANES];
         shade_light_at_lanes(&s.lights[0], k.P[0], L[0], amount);
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
@@ -366,11 +396,7 @@ TEST(lanes, light_at_lanes_times_the_cosine_is_the_diffuse_light)
 static float *random_visibility(int light_count)
 {
     static const float plain[] = { 0, 1, 0.5f, 0.25f, 2, -1 };
-    float *v = (float *)malloc((size_t)light_count * SHADE_LANES * sizeof *v + 1);
-    if (!v) {
-        printf("out of memory\n");
-        exit(2);
-    }
+    float *v = test_memory((size_t)light_count * SHADE_LANES * sizeof *v + 1);
     for (int j = 0; j < light_count; j++) {
         int kind = rnd_int(0, 3); /* in full shadow, in none, either, anything */
         for (int i = 0; i < SHADE_LANES; i++) {
@@ -379,6 +405,27 @@ static float *random_visibility(int light_count)
         }
     }
     return v;
+}
+
+/* Lamps at infinity, or at points whose w is 1. */
+static void random_whole_lamps(light_sample *s)
+{
+    for (int j = 0; j < s->lighting.light_count; j++) {
+        s->lights[j] = random_light(s->P, 3);
+        if (s->lights[j].position.w != 0 && s->lights[j].position.w != 1)
+            s->lights[j].position = shade_v4(s->P.x + 1, s->P.y, s->P.z, 1);
+    }
+}
+
+/* The lamps as lane i sees them. */
+static void visible_lamps(const light_sample *s, const float *seen, int i, shade_light *lamps)
+{
+    memcpy(lamps, s->lights, sizeof s->lights);
+    for (int j = 0; j < s->lighting.light_count; j++) {
+        float v = seen[j * SHADE_LANES + i];
+        lamps[j].diffuse = shade_scale(lamps[j].diffuse, v);
+        lamps[j].specular = shade_scale(lamps[j].specular, v);
+    }
 }
 
 /* Against the equation of lamps whose I_d and I_s are multiplied by what is seen of them, lane by
@@ -394,34 +441,27 @@ TEST(lanes, visibility_multiplies_the_diffuse_and_specular_light_of_its_lamp)
         if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM)
             s.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED_ABS;
         random_packet(&k, &s, 1);
-        for (int j = 0; j < s.lighting.light_count; j++) {
-            s.lights[j] = random_light(s.P, 3);
-            if (s.lights[j].position.w != 0 && s.lights[j].position.w != 1)
-                s.lights[j].position = shade_v4(s.P.x + 1, s.P.y, s.P.z, 1);
-        }
+        random_whole_lamps(&s);
         float *seen = random_visibility(s.lighting.light_count), rgb[3 * SHADE_LANES];
         int with_albedo = rnd_one_in(2);
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0],
                         with_albedo ? k.albedo[0] : NULL, seen, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
-            shade_light lights[4];
+            shade_light lights[sizeof s.lights / sizeof s.lights[0]];
             shade_lighting li = s.lighting;
-            memcpy(lights, s.lights, sizeof lights);
+            visible_lamps(&s, seen, i, lights);
             li.lights = lights;
-            for (int j = 0; j < li.light_count; j++) {
-                float v = seen[j * SHADE_LANES + i];
-                lights[j].diffuse = shade_scale(lights[j].diffuse, v);
-                lights[j].specular = shade_scale(lights[j].specular, v);
-            }
             shade_vec3 got = shade_v3(rgb[i], rgb[SHADE_LANES + i], rgb[2 * SHADE_LANES + i]);
             d3 albedo = with_albedo ? d3_from(k.a[i]) : d3_of(1, 1, 1);
             ref_lit want = ref_light(&li, &s.material, d3_from(k.p[i]), d3_from(k.n[i]),
                                      d3_from(s.eye), albedo);
             if (want.unsure) continue;
-            sure++, models[li.model]++;
+            sure++;
+            models[li.model]++;
             attenuated += (li.flags & SHADE_FLAG_ATTENUATED_AMBIENT) && d3_max(want.ambient) > 0;
             if (check_color(__LINE__, "packet", got, want.total, want.bound)) continue;
-            s.P = k.p[i], s.N = k.n[i];
+            s.P = k.p[i];
+            s.N = k.n[i];
             print_lights(&s);
         }
         free(seen);
@@ -459,7 +499,8 @@ TEST(lanes, each_of_many_lamps_has_its_own_row_of_visibility)
     float rgb[3][SHADE_LANES];
     memset(&lighting, 0, sizeof lighting);
     lighting.model = SHADE_MODEL_LAMBERT;
-    lighting.lights = lights, lighting.light_count = lamps;
+    lighting.lights = lights;
+    lighting.light_count = lamps;
     for (int k = 0; k < lamps; k++)
         lights[k] = shade_directional_light(shade_v3(0, 0, -1), grey((double)(1 << k)));
     for (int round = 0; round < 20; round++) {
@@ -474,6 +515,7 @@ TEST(lanes, each_of_many_lamps_has_its_own_row_of_visibility)
     }
 }
 
+/* The rows are NaN, which would show in every colour that they touch. */
 TEST(lanes, models_without_light_of_lamps_read_no_visibility)
 {
     static lane_packet k;
@@ -491,6 +533,7 @@ TEST(lanes, models_without_light_of_lamps_read_no_visibility)
     }
 }
 
+/* G1 */
 TEST(lanes, nothing_is_written_but_the_three_rows)
 {
     static lane_packet k;
@@ -528,7 +571,8 @@ TEST(lanes, missing_arguments_mean_their_defaults)
     lit_rows(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
-    li.lights = NULL, li.light_count = 3;
+    li.lights = NULL;
+    li.light_count = 3;
     lit_rows(&li, NULL, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
     for (int i = 0; i < 3 * SHADE_LANES; i++)
         CHECK_NEAR(rgb[i], 0.25 * (1 + i / SHADE_LANES), 1e-7);
@@ -545,6 +589,7 @@ TEST(lanes, missing_arguments_mean_their_defaults)
 }
 
 /* L = -V exactly: no halfway vector, so no highlight, whatever the exponent and the gate */
+/* G3 */
 TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
 {
     static lane_packet k;
@@ -553,11 +598,14 @@ TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
         shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 1, 1));
         shade_material m;
         shade_lighting li;
-        memset(&li, 0, sizeof li), memset(&m, 0, sizeof m);
-        li.lights = &light, li.light_count = 1,
+        memset(&li, 0, sizeof li);
+        memset(&m, 0, sizeof m);
+        li.lights = &light;
+        li.light_count = 1;
         li.flags = round & 1 ? SHADE_FLAG_INFINITE_VIEWER : 0;
         if (round & 2) li.flags |= SHADE_FLAG_UNGATED_SPECULAR;
-        m.specular = shade_v3(1, 1, 1), m.shininess = round & 4 ? 5 : 0;
+        m.specular = shade_v3(1, 1, 1);
+        m.shininess = round & 4 ? 5 : 0;
         for (int i = 0; i < SHADE_LANES; i++) { /* every other lane: seen from beside the lamp */
             lane_set(k.P, i, i % 2 && !(round & 1) ? shade_v3(3, 0, -3) : shade_v3(0, 0, 0));
             lane_set(k.N, i, shade_v3(0, 0.6f, 0.8f));
@@ -570,6 +618,7 @@ TEST(lanes, light_opposite_to_the_viewer_has_no_halfway_vector)
     }
 }
 
+/* More lights than are prepared once for a draw. */
 TEST(lanes, many_lights_add_up)
 {
     static lane_packet k;
@@ -577,14 +626,17 @@ TEST(lanes, many_lights_add_up)
     light_sample s;
     for (int round = 0; round < 30; round++) {
         random_sample(&s);
-        s.P = shade_v3(0, 0, 0), s.lighting.model = SHADE_MODEL_BLINN_PHONG, s.lighting.flags = 0,
+        s.P = shade_v3(0, 0, 0);
+        s.lighting.model = SHADE_MODEL_BLINN_PHONG;
+        s.lighting.flags = 0;
         s.lighting.terms = 0;
         random_packet(&k, &s, 1);
         for (int j = 0; j < 100; j++) {
             lights[j] = random_light(s.P, 10);
             if (lights[j].position.w != 0 && lights[j].position.w != 1) lights[j].position.w = 1;
         }
-        s.lighting.lights = lights, s.lighting.light_count = rnd_int(5, 100);
+        s.lighting.lights = lights;
+        s.lighting.light_count = rnd_int(5, 100);
         float rgb[3 * SHADE_LANES];
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
@@ -615,6 +667,8 @@ TEST(lanes, a_lamp_without_an_axis_is_no_spot) /* whatever the exponent says */
         CHECK(!memcmp(rgb[0], rgb[1], sizeof rgb[0]));
     }
 }
+
+/* The rows are NaN and infinite, which even a factor of 0 would not hide. */
 TEST(lanes, emission_alone_reads_no_albedo)
 {
     static lane_packet k;
@@ -625,7 +679,8 @@ TEST(lanes, emission_alone_reads_no_albedo)
         random_packet(&k, &s, 1);
         for (int i = 0; i < 3 * SHADE_LANES; i++)
             k.albedo[i / SHADE_LANES][i % SHADE_LANES] = (float)(i % 2 ? NAN : INFINITY);
-        s.lighting.model = SHADE_MODEL_EMISSIVE, s.lighting.terms = 0;
+        s.lighting.model = SHADE_MODEL_EMISSIVE;
+        s.lighting.terms = 0;
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], k.albedo[0], NULL, rgb);
         for (int i = 0; i < SHADE_LANES; i++) {
             CHECK_NEAR(rgb[i], s.material.emission.x, 0);
@@ -634,6 +689,9 @@ TEST(lanes, emission_alone_reads_no_albedo)
         }
     }
 }
+
+/* One lane is made wild, and the others keep their bits; then the lights and the material are. */
+/* G14 */
 TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
 {
     static lane_packet k;
@@ -646,14 +704,15 @@ TEST(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane)
         int hit = rnd_int(0, SHADE_LANES - 1);
         float v[6];
         fill_nasty(v, sizeof v);
-        lane_set(k.P, hit, shade_v3(v[0], v[1], v[2])),
-            lane_set(k.N, hit, shade_v3(v[3], v[4], v[5]));
+        lane_set(k.P, hit, shade_v3(v[0], v[1], v[2]));
+        lane_set(k.N, hit, shade_v3(v[3], v[4], v[5]));
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
         for (int i = 0; i < 3 * SHADE_LANES; i++) {
             if (i % SHADE_LANES != hit) CHECK(float_bits(one[i]) == float_bits(other[i]));
         }
         if (round % 4) continue;
-        fill_nasty(s.lights, sizeof s.lights), fill_nasty(&s.material, sizeof s.material);
+        fill_nasty(s.lights, sizeof s.lights);
+        fill_nasty(&s.material, sizeof s.material);
         lit_rows(&s.lighting, &s.material, s.eye, k.P[0], k.N[0], NULL, NULL, other);
     }
 }
@@ -683,6 +742,7 @@ static void random_rows(lane_rows *r, int combination)
     if (combination & 2) r->rows.specular = r->specular[0];
     if (combination & 4) r->rows.visibility = r->visibility[0];
 }
+
 /* What a lane is lit with, as material and lamps of its own; its albedo is the oracle's. */
 static ref_lit ref_lane(const lane_rows *r, int i)
 {
@@ -703,6 +763,9 @@ static ref_lit ref_lane(const lane_rows *r, int i)
     return ref_light(&lighting, &m, d3_from(r->k.p[i]), d3_from(r->k.n[i]), d3_from(r->s.eye),
                      albedo);
 }
+
+/* The eight sets of albedo, specular colour and visibility in turn, against the equation with
+   the material and lamps of that lane. */
 TEST(lanes, every_combination_of_rows_is_the_equation_of_its_lane)
 {
     static lane_rows r;
@@ -725,6 +788,7 @@ TEST(lanes, every_combination_of_rows_is_the_equation_of_its_lane)
     }
     CHECK_SAY(sure > 300 * SHADE_LANES && tinted > 10 * SHADE_LANES, "%ld, %ld", sure, tinted);
 }
+
 /* each lane by shade_lit, with the products of its rows as its material */
 TEST(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers_of_two)
 {
@@ -751,6 +815,7 @@ TEST(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers
         }
     }
 }
+
 TEST(lanes, what_a_call_of_rows_cannot_do_without_gives_black_and_no_other_byte)
 {
     static lane_rows r;

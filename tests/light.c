@@ -7,6 +7,7 @@ static shade_vec3 random_color(double most)
 {
     return shade_v3(rnd_float(0, most), rnd_float(0, most), rnd_float(0, most));
 }
+
 static float random_exponent(void)
 {
     switch (rnd_int(0, 7)) {
@@ -26,11 +27,14 @@ static float random_exponent(void)
         return rnd_float(1, 128);
     }
 }
+
 static shade_material random_material(void)
 {
     shade_material m;
     m.emission = rnd_one_in(2) ? random_color(1) : shade_v3(0, 0, 0);
-    m.ambient = random_color(1), m.diffuse = random_color(1), m.specular = random_color(1);
+    m.ambient = random_color(1);
+    m.diffuse = random_color(1);
+    m.specular = random_color(1);
     m.shininess = rnd_one_in(20) ? -3 : random_exponent();
     return m;
 }
@@ -70,13 +74,17 @@ static shade_light random_light(shade_vec3 P, double size)
         light.linear = rnd_log(1e-3, 10);
         break;
     case 4:
-        light.constant = 1, light.linear = 0.5f, light.quadratic = 0.25f;
+        light.constant = 1;
+        light.linear = 0.5f;
+        light.quadratic = 0.25f;
         break;
     case 5:
-        light.linear = rnd_log(1e-3, 10), light.quadratic = rnd_log(1e-3, 10);
+        light.linear = rnd_log(1e-3, 10);
+        light.quadratic = rnd_log(1e-3, 10);
         break;
     default:
-        light.constant = rnd_log(1e-3, 10), light.linear = rnd_log(1e-6, 10);
+        light.constant = rnd_log(1e-3, 10);
+        light.linear = rnd_log(1e-6, 10);
         light.quadratic = rnd_log(1e-6, 10);
     }
     if (rnd_one_in(2)) return light;
@@ -106,7 +114,8 @@ static void random_sample(light_sample *s)
     s->material = random_material();
     int count = rnd_one_in(10) ? 0 : rnd_int(1, 4);
     for (int k = 0; k < count; k++) s->lights[k] = random_light(s->P, size);
-    s->lighting.lights = s->lights, s->lighting.light_count = count;
+    s->lighting.lights = s->lights;
+    s->lighting.light_count = count;
     s->lighting.ambient = rnd_one_in(2) ? random_color(1) : shade_v3(0, 0, 0);
     s->lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
     s->lighting.flags = rnd_one_in(3) ? 0 : (unsigned)rnd_int(0, 63);
@@ -160,6 +169,8 @@ static int check_color(int line, const char *what, shade_vec3 got, d3 want, doub
 
 static d3 no_albedo(void) { return d3_of(1, 1, 1); }
 
+/* Enough samples that each of the models, flags and kinds of light meets each other many times. */
+/* G18 */
 TEST(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model)
 {
     light_sample s;
@@ -172,7 +183,8 @@ TEST(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model)
         shade_vec3 sum = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         CHECK(finite3(sum));
         if (want.unsure) continue;
-        sure++, lit += d3_max(want.specular) > 1e-3;
+        sure++;
+        lit += d3_max(want.specular) > 1e-3;
         int ok = check_color(__LINE__, "emission", got.emission, want.emission, want.bound);
         ok &= check_color(__LINE__, "ambient", got.ambient, want.ambient, want.bound);
         ok &= check_color(__LINE__, "diffuse", got.diffuse, want.diffuse, want.bound);
@@ -191,6 +203,7 @@ static d3 d3_at_cosine(d3 v, double c)
     while (d3_length(aside) < 1e-2);
     return d3_add(d3_scale(v, c), d3_scale(d3_unit(aside), sqrt(1 - c * c)));
 }
+
 static double random_brink(void) { return (double)(rnd_sign() * rnd_log(1e-6, 1e-5)); }
 static float random_factor(void) { return rnd_one_in(2) ? 0 : rnd_log(1e-35, 1e35); }
 
@@ -203,14 +216,17 @@ static void random_brink_sample(light_sample *s)
     shade_light *l = &s->lights[0];
     s->P = rnd_one_in(4) ? shade_v3(0, 0, 0) : random_vector(size);
     s->material = random_material();
-    l->diffuse = random_color(1e6), l->specular = random_color((double)rnd_log(1e-3, 1e6));
+    l->diffuse = random_color(1e6);
+    l->specular = random_color((double)rnd_log(1e-3, 1e6));
     l->ambient = random_color(1e6);
     int infinite = rnd_one_in(3);
     d3 far = d3_scale(rnd_direction(), infinite ? (double)rnd_log(1e-12, 1e12)
                                                 : size * (double)rnd_log(1e-5, 1));
     shade_vec3 p = d3_round(infinite ? far : d3_add(d3_from(s->P), far));
     l->position = shade_v4(p.x, p.y, p.z, infinite ? 0 : 1);
-    l->constant = random_factor(), l->linear = random_factor(), l->quadratic = random_factor();
+    l->constant = random_factor();
+    l->linear = random_factor();
+    l->quadratic = random_factor();
     d3 L = ref_to_light(l, d3_from(s->P), &r);
     d3 N = d3_at_cosine(L, rnd_one_in(2) ? random_brink() : 2 * rnd_unit() - 1);
     s->N = d3_round(d3_scale(N, (double)rnd_log(1e-15, 1e15)));
@@ -229,12 +245,14 @@ static void random_brink_sample(light_sample *s)
     case 2: V = d3_sub(d3_scale(rnd_one_in(2) ? N : V, (double)rnd_log(1e-6, 1e-2)), L); break;
     default: break;
     }
-    s->lighting.lights = s->lights, s->lighting.light_count = 1;
+    s->lighting.lights = s->lights;
+    s->lighting.light_count = 1;
     s->lighting.model = (shade_model)rnd_int(0, 1);
     s->lighting.flags = (unsigned)rnd_int(0, 63);
     d3 from = s->lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? d3_of(0, 0, 0) : d3_from(s->P);
     s->eye = d3_round(d3_add(from, d3_scale(d3_unit(V), size * (double)rnd_log(1e-5, 1))));
 }
+
 /* The bound of one lamp as >>light of shade.h states it, or 0 beyond its limits, among them
    |L + V| > 2e-6; *brink: within 1e-5 of them. */
 static double stated_bound(const light_sample *s, double exact, int *brink)
@@ -264,6 +282,10 @@ static double stated_bound(const light_sample *s, double exact, int *brink)
     }
     return 5e-5 * fmax(fmax(1, I), exact) * fmax(1, (n + e) / 100);
 }
+
+/* Samples crowd at the limits: 70,000 of them lie within 1e-5 of one, and the worst is more than
+   a tenth of the bound, so that they are hard enough. */
+/* G18 */
 TEST(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for)
 {
     light_sample s;
@@ -276,7 +298,8 @@ TEST(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for)
         double bound = stated_bound(&s, d3_max(want.total), &brink);
         if (bound == 0) continue;
         shade_vec3 got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
-        checked++, on_brink += brink;
+        checked++;
+        on_brink += brink;
         worst = fmax(worst, d3_max(d3_sub(d3_from(got), want.total)) / bound);
         if (!check_color(__LINE__, "shade_lit", got, want.total, bound)) print_lights(&s);
     }
@@ -324,10 +347,11 @@ static shade_lighting one_light(const shade_light *light)
 {
     shade_lighting li;
     memset(&li, 0, sizeof li);
-    li.lights = light, li.light_count = light ? 1 : 0;
+    li.lights = light;
+    li.light_count = light ? 1 : 0;
     return li;
 }
-static shade_vec3 grey(double v) { return shade_v3((float)v, (float)v, (float)v); }
+
 static shade_material teapot_brass(void) /* [Kilgard94] */
 {
     shade_material m;
@@ -369,7 +393,8 @@ TEST(light, the_gate_stops_highlights_behind_the_terminator) /* N.L = -0.14, (N.
     shade_lighting li = one_light(&light);
     shade_material m;
     memset(&m, 0, sizeof m);
-    m.specular = grey(1), m.shininess = 4;
+    m.specular = grey(1);
+    m.shininess = 4;
     check_color(__LINE__, "gated", shade_lit(&li, &m, shade_v3(0, 0, 9), grey(0), n),
                 d3_of(0, 0, 0), 0);
     li.flags = SHADE_FLAG_UNGATED_SPECULAR;
@@ -409,7 +434,9 @@ TEST(light, spot_and_attenuation_multiply) /* cos(20)^2 / (1 + 0.5 r + 0.25 r^2)
     CHECK_NEAR(shade_spot(l31, aim, (float)cos(30 * deg), 2), 0, 0);
     CHECK_NEAR(shade_attenuation(1, 0.5f, 0.25f, 2), 1.0 / 3, 1e-7);
     shade_light lamp = shade_spot_light(shade_scale(l20, 2), aim, (float)(30 * deg), 2, grey(1));
-    lamp.constant = 1, lamp.linear = 0.5f, lamp.quadratic = 0.25f;
+    lamp.constant = 1;
+    lamp.linear = 0.5f;
+    lamp.quadratic = 0.25f;
     shade_lighting li = one_light(&lamp);
     double want = 0.883022 / 3 * cos(20 * deg);
     check_color(__LINE__, "lit",
@@ -438,10 +465,12 @@ TEST(light, cool_to_warm_goes_from_cool_to_warm) /* (1 + N.L) / 2 of warm */
     check_color(__LINE__, "-1", shade_cool_to_warm(n, shade_neg(n), cool, warm),
                 d3_of(0.4, 0.4, 0.7), 1e-6);
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(77));
-    light.spot_direction = shade_v3(1, 0, 0),
-    light.spot_cos_cutoff = 0.9f; /* its cone is ignored */
+    /* A directional light has no cone: one that is set changes nothing. */
+    light.spot_direction = shade_v3(1, 0, 0);
+    light.spot_cos_cutoff = 0.9f;
     shade_lighting li = one_light(&light);
-    li.model = SHADE_MODEL_COOL_TO_WARM, li.ambient = grey(5);
+    li.model = SHADE_MODEL_COOL_TO_WARM;
+    li.ambient = grey(5);
     shade_material m = teapot_brass();
     m.emission = shade_v3(0.1f, 0.2f, 0.3f);
     check_color(__LINE__, "lit", shade_lit(&li, &m, shade_v3(0, 0, 2), grey(0), n),
@@ -494,6 +523,7 @@ TEST(light, single_terms_match_double)
     }
 }
 
+/* G3 */
 TEST(light, attenuation_is_defined_everywhere) /* 1 / (a + b r + c r^2) */
 {
     shade_light faint = shade_point_light(shade_v3(0, 0, 1), shade_v3(1, 1, 1));
@@ -535,7 +565,8 @@ TEST(light, the_cone_of_a_lamp_includes_its_edge)
     light.position = shade_v4(0, 0, 3, 0); /* on its axis: L.S is 1, to the bit */
     shade_lighting li = one_light(&light);
     float P[3][SHADE_LANES], N[3][SHADE_LANES], rgb[3 * SHADE_LANES];
-    memset(P, 0, sizeof P), memset(N, 0, sizeof N);
+    memset(P, 0, sizeof P);
+    memset(N, 0, sizeof N);
     for (int i = 0; i < SHADE_LANES; i++) N[2][i] = 1;
     static const double cutoff[] = { 1, 1.0000001192092896 };
     for (int k = 0; k < 2; k++) {
@@ -557,6 +588,7 @@ TEST(light, a_reflectance_without_a_direction_is_the_diffuse_one)
         check_color(__LINE__, "no direction", f, d3_from(m.diffuse), 0);
     }
 }
+
 TEST(light, brdf_times_cosine_is_the_weighted_light) /* I_L (N.L) f_r */
 {
     for (int i = 0; i < 20000; i++) {
@@ -576,7 +608,8 @@ TEST(light, brdf_times_cosine_is_the_weighted_light) /* I_L (N.L) f_r */
         if (model > SHADE_MODEL_LAMBERT || d3_dot(N, L) < REF_MARGIN) continue;
         shade_light light = shade_directional_light(shade_neg(d3_round(L)), grey(1));
         shade_lighting li = one_light(&light);
-        li.model = model, li.flags = SHADE_FLAG_WEIGHTED_SPECULAR | SHADE_FLAG_INFINITE_VIEWER;
+        li.model = model;
+        li.flags = SHADE_FLAG_WEIGHTED_SPECULAR | SHADE_FLAG_INFINITE_VIEWER;
         li.terms = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
         check_color(__LINE__, "weighted", shade_lit(&li, &m, d3_round(V), grey(0), d3_round(N)),
                     d3_scale(want, d3_dot(N, L)), 2 * bound * fmax(1, d3_max(want)));
@@ -602,7 +635,8 @@ static ref_arrival ref_arriving(const shade_light *light, d3 P)
     double e = (double)light->spot_exponent, w = (double)light->position.w;
     d3 at = d3_of((double)light->position.x, (double)light->position.y, (double)light->position.z);
     memset(&a, 0, sizeof a);
-    a.L = ref_to_light(light, P, &a.distance), a.amount = 1;
+    a.L = ref_to_light(light, P, &a.distance);
+    a.amount = 1;
     if (w != 0) {
         a.amount = ref_attenuation((double)light->constant, (double)light->linear,
                                    (double)light->quadratic, a.distance);
@@ -641,7 +675,8 @@ TEST(light, light_at_is_what_arrives_where_from_and_how_far)
         if (want.unsure) continue;
         CHECK_NEAR(amount, want.amount, want.bound);
         if (d3_length(d3_from(light.spot_direction)) == 0) continue;
-        cones++, dark += want.amount == 0;
+        cones++;
+        dark += want.amount == 0;
     }
     CHECK_SAY(kinds[0] > 10000 && kinds[1] > 10000 && kinds[2] > 10000, "%ld %ld %ld", kinds[0],
               kinds[1], kinds[2]);
@@ -662,13 +697,14 @@ TEST(light, no_lamp_is_dark_and_nowhere)
 TEST(light, at_the_lamp_itself_there_is_no_direction_and_so_no_cone_above_the_horizon)
 {
     static const float cutoff[] = { 1, 0.5f, 1e-6f, 0, -1e-6f, -0.5f, -1 };
-    for (int kind = 0; kind < 3; kind++)
-        for (int k = 0; k < 8; k++)
+    for (int kind = 0; kind < 3; kind++) {
+        for (int k = 0; k < 8; k++) {
             for (int e = 0; e < 3; e++) {
                 shade_vec3 L = grey(7), P = shade_v3(3, -5, 0.25f);
                 shade_light light = shade_point_light(P, grey(1));
                 float r = 7;
-                light.constant = 4, light.linear = 9; /* 1/4 at r = 0 */
+                light.constant = 4; /* 1/4 at r = 0 */
+                light.linear = 9;
                 if (kind == 1) light.position = shade_v4(-1.5f, 2.5f, -0.125f, -0.5f);
                 if (kind == 2) light.position = shade_v4(0, 0, 0, 0);
                 if (k < 7) light.spot_direction = shade_v3(0, 2, 0);
@@ -683,6 +719,8 @@ TEST(light, at_the_lamp_itself_there_is_no_direction_and_so_no_cone_above_the_ho
                 else
                     CHECK_NEAR(r, 0, 0);
             }
+        }
+    }
 }
 
 /* k_d I_d max(0, N.L) amount, with L and amount from shade_light_at, is what shade_lit reflects. */
@@ -692,8 +730,10 @@ TEST(light, light_at_times_the_cosine_is_the_diffuse_light)
     for (int i = 0; i < 50000; i++) {
         light_sample s;
         random_sample(&s);
-        s.lighting.light_count = 1, s.lighting.model = SHADE_MODEL_LAMBERT;
-        s.lighting.flags = 0, s.lighting.terms = SHADE_TERM_DIFFUSE;
+        s.lighting.light_count = 1;
+        s.lighting.model = SHADE_MODEL_LAMBERT;
+        s.lighting.flags = 0;
+        s.lighting.terms = SHADE_TERM_DIFFUSE;
         s.lights[0] = random_light(s.P, 3);
         shade_vec3 L, got = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         double amount = (double)shade_light_at(&s.lights[0], s.P, &L, NULL);
@@ -713,10 +753,13 @@ TEST(light, light_adds_up_and_scales)
     for (int i = 0; i < 20000; i++) {
         light_sample s;
         random_sample(&s);
-        s.lighting.light_count = 2, s.lighting.ambient = grey(0), s.material.emission = grey(0);
+        s.lighting.light_count = 2;
+        s.lighting.ambient = grey(0);
+        s.material.emission = grey(0);
         if (s.lighting.model == SHADE_MODEL_COOL_TO_WARM)
             s.lighting.model = SHADE_MODEL_BLINN_PHONG;
-        s.lights[0] = random_light(s.P, 3), s.lights[1] = random_light(s.P, 3);
+        s.lights[0] = random_light(s.P, 3);
+        s.lights[1] = random_light(s.P, 3);
         shade_vec3 both = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
         s.lighting.light_count = 1;
         shade_vec3 first = shade_lit(&s.lighting, &s.material, s.eye, s.P, s.N);
@@ -737,12 +780,14 @@ TEST(light, two_sided_diffuse_is_two_opposite_lamps) /* |N.L| */
     for (int i = 0; i < 5000; i++) {
         shade_vec3 n = d3_round(rnd_direction()), d = d3_round(rnd_direction());
         shade_light lamps[2];
-        lamps[0] = shade_directional_light(d, grey(1)),
+        lamps[0] = shade_directional_light(d, grey(1));
         lamps[1] = shade_directional_light(shade_neg(d), grey(1));
         shade_lighting li = one_light(lamps);
-        li.model = SHADE_MODEL_LAMBERT, li.flags = SHADE_FLAG_TWO_SIDED_ABS;
+        li.model = SHADE_MODEL_LAMBERT;
+        li.flags = SHADE_FLAG_TWO_SIDED_ABS;
         shade_vec3 one = shade_lit(&li, NULL, grey(1), grey(0), n);
-        li.flags = 0, li.light_count = 2;
+        li.flags = 0;
+        li.light_count = 2;
         check_color(__LINE__, "abs", one, d3_from(shade_lit(&li, NULL, grey(1), grey(0), n)), 1e-6);
     }
 }
@@ -771,7 +816,8 @@ TEST(light, any_orthogonal_space_gives_the_same_light)
     for (int i = 0; i < 5000; i++) {
         light_sample s;
         random_sample(&s);
-        s.P = random_vector(2), s.lighting.light_count = 2;
+        s.P = random_vector(2);
+        s.lighting.light_count = 2;
         s.lighting.flags &= ~(unsigned)SHADE_FLAG_INFINITE_VIEWER;
         s.eye = random_vector(4);
         if (s.material.shininess > 100) s.material.shininess = 100;
@@ -804,6 +850,7 @@ TEST(light, any_orthogonal_space_gives_the_same_light)
 
 /* ---------------------------------------------------------------------------------- degenerates */
 
+/* A normal of 1e-20 has a square that is 0 in float: it counts as none. */
 TEST(light, zero_normals_keep_emission_and_ambient_only)
 {
     for (int i = 0; i < 20000; i++) {
@@ -822,6 +869,7 @@ TEST(light, zero_normals_keep_emission_and_ambient_only)
     }
 }
 
+/* G3 */
 TEST(light, light_opposite_to_the_viewer_has_no_halfway_vector) /* L + V = 0 */
 {
     shade_vec3 n = shade_v3(0, 0.6f, 0.8f), l = shade_v3(0, 0, 1);
@@ -840,6 +888,7 @@ TEST(light, light_opposite_to_the_viewer_has_no_halfway_vector) /* L + V = 0 */
     }
 }
 
+/* G3 */
 TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* 0^0 = 1 */
 {
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(2));
@@ -851,11 +900,14 @@ TEST(light, shininess_zero_is_a_flat_highlight_and_leaks_nothing_without_ks) /* 
     check_color(__LINE__, "n 0", shade_lit(&li, &m, eye, grey(0), n), d3_of(0.5, 1, 2), 1e-6);
     m.shininess = -7;
     check_color(__LINE__, "n < 0", shade_lit(&li, &m, eye, grey(0), n), d3_of(0.5, 1, 2), 1e-6);
-    m.specular = grey(0), m.diffuse = grey(1), m.shininess = 0;
+    m.specular = grey(0);
+    m.diffuse = grey(1);
+    m.shininess = 0;
     check_color(__LINE__, "planet", shade_lit(&li, &m, eye, grey(0), n), d3_of(1.6, 1.6, 1.6),
                 1e-6);
 }
 
+/* G3 */
 TEST(light, a_lamp_at_the_point_itself_is_finite) /* r = 0 */
 {
     for (int i = 0; i < 2000; i++) {
@@ -873,6 +925,8 @@ TEST(light, a_lamp_at_the_point_itself_is_finite) /* r = 0 */
     }
 }
 
+/* The vector to the eye is zero, and so there is no V. TWO_SIDED, which turns the normal toward
+   V, is left out. */
 TEST(light, an_eye_at_the_point_itself_is_finite)
 {
     for (int i = 0; i < 5000; i++) {
@@ -906,7 +960,8 @@ TEST(light, missing_arguments_mean_their_defaults)
     d3 unlit = d3_add(d3_from(m.emission), d3_mul(d3_from(m.ambient), d3_from(li.ambient)));
     li.lights = NULL;
     check_color(__LINE__, "lights NULL", shade_lit(&li, &m, eye, grey(0), n), unlit, 1e-6);
-    li.lights = &light, li.light_count = -5;
+    li.lights = &light;
+    li.light_count = -5;
     check_color(__LINE__, "count < 0", shade_lit(&li, &m, eye, grey(0), n), unlit, 1e-6);
     li.light_count = 1;
     shade_vec3 blinn = shade_lit(&li, &m, eye, grey(0), n);
@@ -935,12 +990,15 @@ TEST(light, models_drop_the_terms_of_their_iteration) /* k_e; k_a; k_d; k_s */
     }
 }
 
+/* The factors are powers of two, so that the same place is exact for each w, negative ones too. */
 TEST(light, a_lamp_of_any_w_stands_at_xyz_over_w)
 {
     for (int i = 0; i < 5000; i++) {
         light_sample s;
         random_sample(&s);
-        s.P = random_vector(2), s.lighting.light_count = 1, s.eye = random_vector(5);
+        s.P = random_vector(2);
+        s.lighting.light_count = 1;
+        s.eye = random_vector(5);
         s.lights[0] = random_light(s.P, 4);
         shade_vec3 p = random_vector(4);
         s.lights[0].position = shade_v4(p.x, p.y, p.z, 1);
@@ -973,12 +1031,16 @@ TEST(light, a_distant_spot_keeps_its_cone)
                 d3_of(0, 0, 0), 0);
 }
 
+/* A lamp 2 above the point falls off by 1/4, and a point 5 to the side is outside its cone: 1/8
+   + 1/2, then 1/8 + 1/4 of 1/2, then 1/8. */
 TEST(light, ambient_takes_distance_and_cone_only_when_asked)
 {
     shade_light light = shade_spot_light(shade_v3(0, 0, 2), shade_v3(0, 0, -1), 0.5f, 0, grey(1));
-    light.ambient = grey(0.5), light.quadratic = 1;
+    light.ambient = grey(0.5);
+    light.quadratic = 1;
     shade_lighting li = one_light(&light);
-    li.ambient = grey(0.125), li.terms = SHADE_TERM_AMBIENT;
+    li.ambient = grey(0.125);
+    li.terms = SHADE_TERM_AMBIENT;
     shade_vec3 n = shade_v3(0, 0, 1), off = shade_v3(5, 0, 0);
     check_color(__LINE__, "plain", shade_lit(&li, NULL, grey(9), grey(0), n),
                 d3_of(0.625, 0.625, 0.625), 1e-7);
@@ -1032,73 +1094,80 @@ TEST(light, constructors_fill_in_what_they_say)
                 d3_of(0, 0, 0), 0);
 }
 
-TEST(light, presets_are_the_table_of_teapots) /* [Kilgard94] */
+/* [Kilgard94]: ambient, diffuse and specular reflection, and shininess / 128. */
+static const struct {
+    const char *name;
+    double v[10];
+} preset_table[] = {
+    { "emerald",
+      { 0.0215, 0.1745, 0.0215, 0.07568, 0.61424, 0.07568, 0.633, 0.727811, 0.633, 0.6 } },
+    { "jade", { 0.135, 0.2225, 0.1575, 0.54, 0.89, 0.63, 0.316228, 0.316228, 0.316228, 0.1 } },
+    { "obsidian",
+      { 0.05375, 0.05, 0.06625, 0.18275, 0.17, 0.22525, 0.332741, 0.328634, 0.346435, 0.3 } },
+    { "pearl",
+      { 0.25, 0.20725, 0.20725, 1, 0.829, 0.829, 0.296648, 0.296648, 0.296648, 0.088 } },
+    { "ruby",
+      { 0.1745, 0.01175, 0.01175, 0.61424, 0.04136, 0.04136, 0.727811, 0.626959, 0.626959,
+        0.6 } },
+    { "turquoise",
+      { 0.1, 0.18725, 0.1745, 0.396, 0.74151, 0.69102, 0.297254, 0.30829, 0.306678, 0.1 } },
+    { "brass",
+      { 0.329412, 0.223529, 0.027451, 0.780392, 0.568627, 0.113725, 0.992157, 0.941176,
+        0.807843, 0.21794872 } },
+    { "bronze",
+      { 0.2125, 0.1275, 0.054, 0.714, 0.4284, 0.18144, 0.393548, 0.271906, 0.166721, 0.2 } },
+    { "chrome", { 0.25, 0.25, 0.25, 0.4, 0.4, 0.4, 0.774597, 0.774597, 0.774597, 0.6 } },
+    { "copper",
+      { 0.19125, 0.0735, 0.0225, 0.7038, 0.27048, 0.0828, 0.256777, 0.137622, 0.086014, 0.1 } },
+    { "gold",
+      { 0.24725, 0.1995, 0.0745, 0.75164, 0.60648, 0.22648, 0.628281, 0.555802, 0.366065,
+        0.4 } },
+    { "silver",
+      { 0.19225, 0.19225, 0.19225, 0.50754, 0.50754, 0.50754, 0.508273, 0.508273, 0.508273,
+        0.4 } },
+    { "black plastic", { 0, 0, 0, 0.01, 0.01, 0.01, 0.5, 0.5, 0.5, 0.25 } },
+    { "cyan plastic",
+      { 0, 0.1, 0.06, 0, 0.50980392, 0.50980392, 0.50196078, 0.50196078, 0.50196078, 0.25 } },
+    { "green plastic", { 0, 0, 0, 0.1, 0.35, 0.1, 0.45, 0.55, 0.45, 0.25 } },
+    { "red plastic", { 0, 0, 0, 0.5, 0, 0, 0.7, 0.6, 0.6, 0.25 } },
+    { "white plastic", { 0, 0, 0, 0.55, 0.55, 0.55, 0.7, 0.7, 0.7, 0.25 } },
+    { "yellow plastic", { 0, 0, 0, 0.5, 0.5, 0, 0.6, 0.6, 0.5, 0.25 } },
+    { "black rubber", { 0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.4, 0.4, 0.4, 0.078125 } },
+    { "cyan rubber", { 0, 0.05, 0.05, 0.4, 0.5, 0.5, 0.04, 0.7, 0.7, 0.078125 } },
+    { "green rubber", { 0, 0.05, 0, 0.4, 0.5, 0.4, 0.04, 0.7, 0.04, 0.078125 } },
+    { "red rubber", { 0.05, 0, 0, 0.5, 0.4, 0.4, 0.7, 0.04, 0.04, 0.078125 } },
+    { "white rubber", { 0.05, 0.05, 0.05, 0.5, 0.5, 0.5, 0.7, 0.7, 0.7, 0.078125 } },
+    { "yellow rubber", { 0.05, 0.05, 0, 0.5, 0.5, 0.4, 0.7, 0.7, 0.04, 0.078125 } },
+};
+
+TEST(light, presets_are_the_table_of_teapots)
 {
-    static const struct {
-        const char *name;
-        double v[10];
-    } table[] = {
-        { "emerald",
-          { 0.0215, 0.1745, 0.0215, 0.07568, 0.61424, 0.07568, 0.633, 0.727811, 0.633, 0.6 } },
-        { "jade", { 0.135, 0.2225, 0.1575, 0.54, 0.89, 0.63, 0.316228, 0.316228, 0.316228, 0.1 } },
-        { "obsidian",
-          { 0.05375, 0.05, 0.06625, 0.18275, 0.17, 0.22525, 0.332741, 0.328634, 0.346435, 0.3 } },
-        { "pearl",
-          { 0.25, 0.20725, 0.20725, 1, 0.829, 0.829, 0.296648, 0.296648, 0.296648, 0.088 } },
-        { "ruby",
-          { 0.1745, 0.01175, 0.01175, 0.61424, 0.04136, 0.04136, 0.727811, 0.626959, 0.626959,
-            0.6 } },
-        { "turquoise",
-          { 0.1, 0.18725, 0.1745, 0.396, 0.74151, 0.69102, 0.297254, 0.30829, 0.306678, 0.1 } },
-        { "brass",
-          { 0.329412, 0.223529, 0.027451, 0.780392, 0.568627, 0.113725, 0.992157, 0.941176,
-            0.807843, 0.21794872 } },
-        { "bronze",
-          { 0.2125, 0.1275, 0.054, 0.714, 0.4284, 0.18144, 0.393548, 0.271906, 0.166721, 0.2 } },
-        { "chrome", { 0.25, 0.25, 0.25, 0.4, 0.4, 0.4, 0.774597, 0.774597, 0.774597, 0.6 } },
-        { "copper",
-          { 0.19125, 0.0735, 0.0225, 0.7038, 0.27048, 0.0828, 0.256777, 0.137622, 0.086014, 0.1 } },
-        { "gold",
-          { 0.24725, 0.1995, 0.0745, 0.75164, 0.60648, 0.22648, 0.628281, 0.555802, 0.366065,
-            0.4 } },
-        { "silver",
-          { 0.19225, 0.19225, 0.19225, 0.50754, 0.50754, 0.50754, 0.508273, 0.508273, 0.508273,
-            0.4 } },
-        { "black plastic", { 0, 0, 0, 0.01, 0.01, 0.01, 0.5, 0.5, 0.5, 0.25 } },
-        { "cyan plastic",
-          { 0, 0.1, 0.06, 0, 0.50980392, 0.50980392, 0.50196078, 0.50196078, 0.50196078, 0.25 } },
-        { "green plastic", { 0, 0, 0, 0.1, 0.35, 0.1, 0.45, 0.55, 0.45, 0.25 } },
-        { "red plastic", { 0, 0, 0, 0.5, 0, 0, 0.7, 0.6, 0.6, 0.25 } },
-        { "white plastic", { 0, 0, 0, 0.55, 0.55, 0.55, 0.7, 0.7, 0.7, 0.25 } },
-        { "yellow plastic", { 0, 0, 0, 0.5, 0.5, 0, 0.6, 0.6, 0.5, 0.25 } },
-        { "black rubber", { 0.02, 0.02, 0.02, 0.01, 0.01, 0.01, 0.4, 0.4, 0.4, 0.078125 } },
-        { "cyan rubber", { 0, 0.05, 0.05, 0.4, 0.5, 0.5, 0.04, 0.7, 0.7, 0.078125 } },
-        { "green rubber", { 0, 0.05, 0, 0.4, 0.5, 0.4, 0.04, 0.7, 0.04, 0.078125 } },
-        { "red rubber", { 0.05, 0, 0, 0.5, 0.4, 0.4, 0.7, 0.04, 0.04, 0.078125 } },
-        { "white rubber", { 0.05, 0.05, 0.05, 0.5, 0.5, 0.5, 0.7, 0.7, 0.7, 0.078125 } },
-        { "yellow rubber", { 0.05, 0.05, 0, 0.5, 0.5, 0.4, 0.7, 0.7, 0.04, 0.078125 } },
-    };
-    CHECK_INT(SHADE_PRESET_COUNT, sizeof table / sizeof table[0]);
+    CHECK_INT(SHADE_PRESET_COUNT, TEST_COUNT(preset_table));
     for (int k = 0; k < SHADE_PRESET_COUNT; k++) {
         shade_material m = shade_preset_material((shade_preset)k);
-        const double *v = table[k].v;
-        CHECK_SAY(!strcmp(shade_preset_name((shade_preset)k), table[k].name),
-                  "got \"%s\", want \"%s\"", shade_preset_name((shade_preset)k), table[k].name);
-        check_color(__LINE__, table[k].name, m.emission, d3_of(0, 0, 0), 0);
-        check_color(__LINE__, table[k].name, m.ambient, d3_of(v[0], v[1], v[2]), 1e-7);
-        check_color(__LINE__, table[k].name, m.diffuse, d3_of(v[3], v[4], v[5]), 1e-7);
-        check_color(__LINE__, table[k].name, m.specular, d3_of(v[6], v[7], v[8]), 1e-7);
+        const char *name = preset_table[k].name, *got = shade_preset_name((shade_preset)k);
+        const double *v = preset_table[k].v;
+        CHECK_SAY(!strcmp(got, name), "got \"%s\", want \"%s\"", got, name);
+        check_color(__LINE__, name, m.emission, d3_of(0, 0, 0), 0);
+        check_color(__LINE__, name, m.ambient, d3_of(v[0], v[1], v[2]), 1e-7);
+        check_color(__LINE__, name, m.diffuse, d3_of(v[3], v[4], v[5]), 1e-7);
+        check_color(__LINE__, name, m.specular, d3_of(v[6], v[7], v[8]), 1e-7);
         CHECK_NEAR(m.shininess, 128 * v[9], 1e-5);
     }
-    shade_material none = shade_preset_material((shade_preset)1000);
-    check_color(__LINE__, "white Lambert", none.diffuse, d3_of(1, 1, 1), 0);
-    check_color(__LINE__, "white Lambert", none.ambient, d3_of(1, 1, 1), 0);
-    check_color(__LINE__, "white Lambert", none.specular, d3_of(0, 0, 0), 0);
-    none = shade_preset_material((shade_preset)-1);
-    check_color(__LINE__, "diffuse", none.diffuse, d3_of(1, 1, 1), 0);
-    CHECK(shade_preset_name((shade_preset)-1) && !shade_preset_name((shade_preset)-1)[0]);
-    CHECK(shade_preset_name((shade_preset)1000) && !shade_preset_name((shade_preset)1000)[0]);
-    CHECK(shade_preset_name(SHADE_PRESET_COUNT) && !shade_preset_name(SHADE_PRESET_COUNT)[0]);
+}
+
+TEST(light, presets_beyond_the_table_are_white_lambert_without_a_name)
+{
+    static const shade_preset beyond[] = { SHADE_PRESET_COUNT, (shade_preset)1000,
+                                           (shade_preset)-1 };
+    for (int k = 0; k < TEST_COUNT(beyond); k++) {
+        shade_material m = shade_preset_material(beyond[k]);
+        const char *name = shade_preset_name(beyond[k]);
+        check_color(__LINE__, "ambient", m.ambient, d3_of(1, 1, 1), 0);
+        check_color(__LINE__, "diffuse", m.diffuse, d3_of(1, 1, 1), 0);
+        check_color(__LINE__, "specular", m.specular, d3_of(0, 0, 0), 0);
+        CHECK(name && !name[0]);
+    }
 }
 
 /* Colours of a display to linear light: the curve of each of four colours, and no more. */
@@ -1144,10 +1213,14 @@ TEST(light, nan_and_infinity_never_crash)
     for (int i = 0; i < 50000; i++) {
         shade_lighting li;
         memset(&li, 0, sizeof li);
-        fill_nasty(lights, sizeof lights), fill_nasty(&m, sizeof m), fill_nasty(v, sizeof v);
+        fill_nasty(lights, sizeof lights);
+        fill_nasty(&m, sizeof m);
+        fill_nasty(v, sizeof v);
         fill_nasty(&li.ambient, sizeof li.ambient);
-        li.lights = lights, li.light_count = rnd_int(0, 3);
-        li.model = (shade_model)rnd_int(0, 5), li.flags = (unsigned)rnd_bits(),
+        li.lights = lights;
+        li.light_count = rnd_int(0, 3);
+        li.model = (shade_model)rnd_int(0, 5);
+        li.flags = (unsigned)rnd_bits();
         li.terms = (unsigned)rnd_bits();
         shade_terms t = shade_evaluate(&li, &m, v[2], v[0], v[1]);
         shade_vec3 sum = shade_lit(&li, &m, v[2], v[0], v[1]);
@@ -1159,13 +1232,16 @@ TEST(light, nan_and_infinity_never_crash)
         s += shade_brdf(&m, li.model, v[0], v[1], v[2]).x +
              shade_cool_to_warm(v[0], v[1], v[2], v[0]).x;
         float seen[16];
-        memcpy(seen, &t, sizeof t), memcpy(seen + 12, &sum, sizeof sum), seen[15] = s;
+        memcpy(seen, &t, sizeof t);
+        memcpy(seen + 12, &sum, sizeof sum);
+        seen[15] = s;
         uint32_t bits = 0;
         for (int k = 0; k < 16; k++) bits |= float_bits(seen[k]) & 1u;
         CHECK(bits <= 1); /* every result was read; the sanitizers judge the rest */
     }
 }
 
+/* G3 */
 TEST(light, big_and_tiny_finite_input_stays_finite) /* every function is total up to 1e12 */
 {
     static const float sizes[] = { 0, 1e-45f, 1e-30f, 1e-18f, 1e-9f, 1, 1e6f, 1e12f };
@@ -1173,7 +1249,10 @@ TEST(light, big_and_tiny_finite_input_stays_finite) /* every function is total u
         light_sample s;
         random_sample(&s);
         shade_vec3 *v[4];
-        v[0] = &s.P, v[1] = &s.N, v[2] = &s.eye, v[3] = &s.lights[0].spot_direction;
+        v[0] = &s.P;
+        v[1] = &s.N;
+        v[2] = &s.eye;
+        v[3] = &s.lights[0].spot_direction;
         for (int k = 0; k < 4; k++) {
             *v[k] = shade_v3(rnd_sign() * sizes[rnd_int(0, 7)], rnd_sign() * sizes[rnd_int(0, 7)],
                              rnd_sign() * sizes[rnd_int(0, 7)]);
@@ -1225,6 +1304,7 @@ static const test_case light_cases[] = {
     CASE(light, length_of_the_normal_does_not_matter),
     CASE(light, constructors_fill_in_what_they_say),
     CASE(light, presets_are_the_table_of_teapots),
+    CASE(light, presets_beyond_the_table_are_white_lambert_without_a_name),
     CASE(light, linear_material_decodes_its_four_colours_and_keeps_the_shininess),
     CASE(light, nan_and_infinity_never_crash),
     CASE(light, big_and_tiny_finite_input_stays_finite),

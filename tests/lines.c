@@ -9,12 +9,25 @@ static line_places ref_rectangle(double ax, double ay, double bx, double by, dou
 {
     line_places r;
     double dx = bx - ax, dy = by - ay, length = hypot(dx, dy), h = width / 2;
-    dx = length > 0 ? dx / length : 1, dy = length > 0 ? dy / length : 0;
-    if (cap == SHADE_CAP_SQUARE) ax -= dx * h, ay -= dy * h, bx += dx * h, by += dy * h;
-    r.x[0] = ax + dy * h, r.y[0] = ay - dx * h, r.x[1] = bx + dy * h, r.y[1] = by - dx * h;
-    r.x[2] = bx - dy * h, r.y[2] = by + dx * h, r.x[3] = ax - dy * h, r.y[3] = ay + dx * h;
+    dx = length > 0 ? dx / length : 1;
+    dy = length > 0 ? dy / length : 0;
+    if (cap == SHADE_CAP_SQUARE) {
+        ax -= dx * h;
+        ay -= dy * h;
+        bx += dx * h;
+        by += dy * h;
+    }
+    r.x[0] = ax + dy * h;
+    r.y[0] = ay - dx * h;
+    r.x[1] = bx + dy * h;
+    r.y[1] = by - dx * h;
+    r.x[2] = bx - dy * h;
+    r.y[2] = by + dx * h;
+    r.x[3] = ax - dy * h;
+    r.y[3] = ay + dx * h;
     return r;
 }
+
 /* 1 inside by the margin, 0 outside, -1 between */
 static int ref_in_rectangle(const line_places *r, double X, double Y, double margin)
 {
@@ -31,18 +44,22 @@ static int ref_in_rectangle(const line_places *r, double X, double Y, double mar
     }
     return area == 0 ? 0 : least > margin ? 1 : least < -margin ? 0 : -1;
 }
+
 /* the point of clip space over a window point */
 static shade_vec3 line_point(double X, double Y, double z, int width, int height)
 {
     return shade_v3((float)(2 * X / width - 1), (float)(1 - 2 * Y / height), (float)z);
 }
+
 static shade_line_state line_state(float width)
 {
     shade_line_state s;
     memset(&s, 0, sizeof s);
-    s.width = width, s.color = shade_v4(1, 1, 1, 1);
+    s.width = width;
+    s.color = shade_v4(1, 1, 1, 1);
     return s;
 }
+
 static shade_stats draw_lines(canvas *c, const shade_vec3 *points, int count,
                               const shade_line_state *state)
 {
@@ -53,52 +70,86 @@ static shade_stats draw_lines(canvas *c, const shade_vec3 *points, int count,
     CHECK_INT(s.culled + s.clipped + s.rejected + s.drawn, s.triangles);
     return s;
 }
+
 static int line_pixel(const canvas *c, int x, int y) { return canvas_bytes(c, x, y)[0] != 0; }
 
 /* ------------------------------------------------------------------------------------ coverage */
+
+enum { COVER_W = 60, COVER_H = 44 };
+
+/* A line in 1/256 pixel along a Pythagorean way; its half width is 5 half. */
+typedef struct exact_line {
+    int64_t ax, ay, bx, by;
+    int way[2], half;
+} exact_line;
+
+/* Now and then its ends lie on the corners and centres of pixels, and its sides too. */
+static exact_line random_exact_line(void)
+{
+    static const int ways[12][2] = { { 5, 0 },  { 0, 5 },  { -5, 0 },  { 0, -5 },
+                                     { 3, 4 },  { 4, 3 },  { -3, 4 },  { 4, -3 },
+                                     { 3, -4 }, { -4, 3 }, { -3, -4 }, { -4, -3 } };
+    exact_line l;
+    memcpy(l.way, ways[rnd_int(0, 11)], sizeof l.way);
+    l.half = rnd_one_in(3) ? 128 * rnd_int(1, 8) : rnd_int(1, 900);
+    l.ax = rnd_int(0, COVER_W * 256);
+    l.ay = rnd_int(0, COVER_H * 256);
+    int64_t n = rnd_int(1, rnd_one_in(2) ? 100 : 1500);
+    if (rnd_one_in(2)) {
+        l.ax = l.ax / 128 * 128;
+        l.ay = l.ay / 128 * 128;
+        n = n / 128 * 128 + 128;
+    }
+    l.bx = l.ax + n * l.way[0];
+    l.by = l.ay + n * l.way[1];
+    return l;
+}
+
+/* The corners of its rectangle in order, the first once more at the end. */
+static void exact_rectangle(const exact_line *l, shade_cap cap, int64_t x[5], int64_t y[5])
+{
+    const int64_t reach = cap == SHADE_CAP_SQUARE ? l->half : 0;
+    const int64_t along_x = l->way[0] * reach, along_y = l->way[1] * reach;
+    const int64_t ox = (int64_t)l->way[1] * l->half, oy = -(int64_t)l->way[0] * l->half;
+    for (int k = 0; k < 5; k++) {
+        const int at_b = k == 1 || k == 2, side = k == 2 || k == 3 ? -1 : 1;
+        x[k] = (at_b ? l->bx + along_x : l->ax - along_x) + side * ox;
+        y[k] = (at_b ? l->by + along_y : l->ay - along_y) + side * oy;
+    }
+}
 
 /* Along the axes and along 3-4-5 slopes the corners of a rectangle lie on the grid of 1/256 pixel
    that vertices snap to, and its pixels are known without any margin. */
 TEST(lines, coverage_is_the_pixels_of_the_rectangle_exactly)
 {
-    static const int way[12][2] = { { 5, 0 },  { 0, 5 },  { -5, 0 }, { 0, -5 }, { 3, 4 }, { 4, 3 },
-                                    { -3, 4 }, { 4, -3 }, { 3, -4 }, { -4, 3 }, { -3, -4 },
-                                    { -4, -3 } };
     for (int i = 0; i < 1500; i++) {
-        canvas c = canvas_open(60, 44, 0, SHADE_FORMAT_RGBA8, 0);
-        const int *w = way[rnd_int(0, 11)];
-        int half = rnd_one_in(3) ? 128 * rnd_int(1, 8) : rnd_int(1, 900); /* 5/256 of half width */
-        int64_t ax = rnd_int(0, 60 * 256), ay = rnd_int(0, 44 * 256), x[5], y[5];
-        int64_t n = rnd_int(1, rnd_one_in(2) ? 100 : 1500);
-        if (rnd_one_in(2)) ax = ax / 128 * 128, ay = ay / 128 * 128, n = n / 128 * 128 + 128;
-        int64_t bx = ax + n * w[0], by = ay + n * w[1];
-        shade_line_state s = line_state((float)(half * 10 / 256.0));
+        canvas c = canvas_open(COVER_W, COVER_H, 0, SHADE_FORMAT_RGBA8, 0);
+        exact_line l = random_exact_line();
+        shade_line_state s = line_state((float)(l.half * 10 / 256.0));
         s.cap = (shade_cap)rnd_int(0, 1);
         shade_vec3 p[2];
-        p[0] = line_point((double)ax / 256, (double)ay / 256, 0, 60, 44);
-        p[1] = line_point((double)bx / 256, (double)by / 256, 0, 60, 44);
+        p[0] = line_point((double)l.ax / 256, (double)l.ay / 256, 0, COVER_W, COVER_H);
+        p[1] = line_point((double)l.bx / 256, (double)l.by / 256, 0, COVER_W, COVER_H);
         canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
-        int64_t reach = s.cap == SHADE_CAP_SQUARE ? half : 0;
-        ax -= w[0] * reach, ay -= w[1] * reach, bx += w[0] * reach, by += w[1] * reach;
-        int64_t ox = (int64_t)w[1] * half, oy = -(int64_t)w[0] * half;
-        x[0] = ax + ox, y[0] = ay + oy, x[1] = bx + ox, y[1] = by + oy;
-        x[2] = bx - ox, y[2] = by - oy, x[3] = ax - ox, y[3] = ay - oy, x[4] = x[0], y[4] = y[0];
+
+        int64_t x[5], y[5];
         long long fragments = 0;
-        for (int k = 0; k < 60 * 44; k++) {
-            int64_t u[3] = { x[0], x[1], x[2] }, v[3] = { y[0], y[1], y[2] };
-            int in = ref_inside_fx8(u, v, k % 60, k / 60);
-            in |= ref_inside_fx8(x + 2, y + 2, k % 60, k / 60);
+        exact_rectangle(&l, s.cap, x, y);
+        for (int k = 0; k < COVER_W * COVER_H; k++) {
+            int in = ref_inside_fx8(x, y, k % COVER_W, k / COVER_W);
+            in |= ref_inside_fx8(x + 2, y + 2, k % COVER_W, k / COVER_W);
             fragments += in;
-            CHECK_SAY(line_pixel(&c, k % 60, k / 60) == in,
-                      "pixel %d %d: want %d; way %d %d, half %d", k % 60, k / 60, in, w[0], w[1],
-                      half);
+            CHECK_SAY(line_pixel(&c, k % COVER_W, k / COVER_W) == in,
+                      "pixel %d %d: want %d; way %d %d, half %d", k % COVER_W, k / COVER_W, in,
+                      l.way[0], l.way[1], l.half);
         }
         CHECK_INT(stats.fragments, fragments);
         CHECK_INT(stats.drawn + stats.clipped, 2);
         canvas_close(&c);
     }
 }
+
 TEST(lines, coverage_is_the_rectangle_in_any_direction)
 {
     for (int i = 0; i < 1500; i++) {
@@ -128,6 +179,8 @@ TEST(lines, coverage_is_the_rectangle_in_any_direction)
         canvas_close(&c);
     }
 }
+
+/* A width of 0 is what a zeroed state has. */
 TEST(lines, no_width_is_one_pixel)
 {
     canvas a = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 0),
@@ -135,18 +188,23 @@ TEST(lines, no_width_is_one_pixel)
     shade_vec3 p[40];
     for (int k = 0; k < 40; k++) p[k] = shade_v3(rnd_float(-1, 1), rnd_float(-1, 1), 0);
     shade_line_state zero = line_state(0), one = line_state(1);
-    canvas_clear(&a, 1), canvas_clear(&b, 1);
-    draw_lines(&a, p, 40, &zero), draw_lines(&b, p, 40, &one);
+    canvas_clear(&a, 1);
+    canvas_clear(&b, 1);
+    draw_lines(&a, p, 40, &zero);
+    draw_lines(&b, p, 40, &one);
     CHECK(canvas_same(&a, &b));
-    canvas_close(&a), canvas_close(&b);
+    canvas_close(&a);
+    canvas_close(&b);
 }
+
 TEST(lines, square_ends_close_the_joints_of_a_path)
 {
     canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 0);
     shade_line_state s = line_state(4);
     shade_vec3 p[4];
     p[0] = p[3] = line_point(6, 6, 0, 20, 20);
-    p[1] = line_point(16, 6, 0, 20, 20), p[2] = line_point(6, 16, 0, 20, 20);
+    p[1] = line_point(16, 6, 0, 20, 20);
+    p[2] = line_point(6, 16, 0, 20, 20);
     for (int square = 0; square < 2; square++) {
         s.cap = (shade_cap)square;
         canvas_clear(&c, 1);
@@ -159,6 +217,7 @@ TEST(lines, square_ends_close_the_joints_of_a_path)
     }
     canvas_close(&c);
 }
+
 TEST(lines, a_line_without_length_is_nothing_or_a_square)
 {
     for (int i = 0; i < 200; i++) {
@@ -188,7 +247,8 @@ TEST(lines, a_line_without_length_is_nothing_or_a_square)
    space. Returns 0 where nothing is left. */
 static int ref_line_cut(double e[2][4], int zero_to_one, double t[2])
 {
-    t[0] = 0, t[1] = 1;
+    t[0] = 0;
+    t[1] = 1;
     for (int plane = 0; plane < 2; plane++) {
         double d[2];
         for (int k = 0; k < 2; k++) {
@@ -201,6 +261,30 @@ static int ref_line_cut(double e[2][4], int zero_to_one, double t[2])
     }
     return t[0] <= t[1];
 }
+
+/* Ends on both sides of the near plane, some of them behind the eye; e: their places in clip space,
+   in double. */
+static void random_cut_segment(const shade_line_state *s, shade_vec3 p[2], double e[2][4])
+{
+    for (int k = 0; k < 2; k++) {
+        double z = rnd_one_in(3) ? rnd_unit() * 3 - 2 : -0.5 - 9 * rnd_unit();
+        p[k] = shade_v3(rnd_float(-1, 1) * (float)fabs(z), rnd_float(-1, 1) * (float)fabs(z),
+                        (float)z);
+        double in[4] = { (double)p[k].x, (double)p[k].y, (double)p[k].z, 1 };
+        dmat_apply(dmat_from(s->clip_from_points), in, e[k]);
+    }
+}
+
+/* What is on the screen t of the way from one end to the other; returns w. */
+static double segment_place(double e[2][4], double t, int width, int height, double *x, double *y)
+{
+    double v[4];
+    for (int n = 0; n < 4; n++) v[n] = e[0][n] + t * (e[1][n] - e[0][n]);
+    *x = (v[0] / v[3] + 1) * width / 2;
+    *y = (1 - v[1] / v[3]) * height / 2;
+    return v[3];
+}
+
 TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
 {
     enum { W = 64, H = 48 };
@@ -210,17 +294,12 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
         shade_line_state s = line_state(rnd_log(0.5, 10));
         double e[2][4], t[2], x[2], y[2], w[2];
         shade_vec3 p[2];
-        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        s.cap = (shade_cap)rnd_int(0, 1);
+        s.raster.depth_zero_to_one = rnd_one_in(2);
         s.clip_from_points = s.raster.depth_zero_to_one
                                  ? shade_mat4_perspective_reversed(1, (float)W / H, 0.5f)
                                  : shade_mat4_perspective(1, (float)W / H, 0.5f, 8);
-        for (int k = 0; k < 2; k++) {
-            double z = rnd_one_in(3) ? rnd_unit() * 3 - 2 : -0.5 - 9 * rnd_unit();
-            p[k] = shade_v3(rnd_float(-1, 1) * (float)fabs(z), rnd_float(-1, 1) * (float)fabs(z),
-                            (float)z);
-            double in[4] = { (double)p[k].x, (double)p[k].y, (double)p[k].z, 1 };
-            dmat_apply(dmat_from(s.clip_from_points), in, e[k]);
-        }
+        random_cut_segment(&s, p, e);
         canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
         int left = ref_line_cut(e, s.raster.depth_zero_to_one, t);
@@ -230,11 +309,7 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
             canvas_close(&c);
             continue;
         }
-        for (int k = 0; k < 2; k++) {
-            double v[4];
-            for (int n = 0; n < 4; n++) v[n] = e[0][n] + t[k] * (e[1][n] - e[0][n]);
-            x[k] = (v[0] / v[3] + 1) * W / 2, y[k] = (1 - v[1] / v[3]) * H / 2, w[k] = v[3];
-        }
+        for (int k = 0; k < 2; k++) w[k] = segment_place(e, t[k], W, H, &x[k], &y[k]);
         cut += t[0] > 0 || t[1] < 1;
         /* positions of some thousand pixels carry float roundings of their own */
         double far = fmax(fmax(fabs(x[0]), fabs(x[1])), fmax(fabs(y[0]), fabs(y[1])));
@@ -249,6 +324,9 @@ TEST(lines, near_and_far_cut_the_segment_before_it_gets_its_width)
     }
     CHECK_SAY(cut > 200, "%ld", cut);
 }
+
+/* A bad line stands between two good ones.  It may be as wide and its matrix as wild as floats
+   are: nothing is written outside the picture, and the good lines are whole after it. */
 TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
 {
     for (int i = 0; i < 500; i++) {
@@ -256,7 +334,8 @@ TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
         shade_line_state s = line_state(rnd_one_in(3) ? rnd_log(1e-30, 3e38) : 2);
         shade_vec3 p[6];
         s.cap = (shade_cap)rnd_int(0, 1);
-        p[0] = p[4] = line_point(4, 12, 0, 32, 24), p[1] = p[5] = line_point(28, 12, 0, 32, 24);
+        p[0] = p[4] = line_point(4, 12, 0, 32, 24);
+        p[1] = p[5] = line_point(28, 12, 0, 32, 24);
         for (int k = 2; k < 4; k++) p[k] = shade_v3(rnd_nasty(), rnd_nasty(), rnd_nasty());
         if (rnd_one_in(3)) s.clip_from_points = shade_mat4_perspective(1, 1, 0.1f, 10);
         if (rnd_one_in(3)) s.clip_from_points.col[rnd_int(0, 3)].w = rnd_nasty();
@@ -271,6 +350,7 @@ TEST(lines, points_that_are_no_numbers_are_rejected_and_the_rest_drawn)
         canvas_close(&c);
     }
 }
+
 TEST(lines, nothing_is_drawn_outside_the_clip_rectangle)
 {
     for (int i = 0; i < 200; i++) {
@@ -280,16 +360,21 @@ TEST(lines, nothing_is_drawn_outside_the_clip_rectangle)
         shade_vec3 p[10];
         for (int k = 0; k < 10; k++)
             p[k] = shade_v3(rnd_float(-2, 2), rnd_float(-2, 2), rnd_float(-1, 1));
-        canvas_clear(&whole, 1), canvas_clear(&part, 1);
+        canvas_clear(&whole, 1);
+        canvas_clear(&part, 1);
         int x = rnd_int(0, 39), y = rnd_int(0, 29), w = rnd_int(1, 30), h = rnd_int(1, 30);
-        part.target.clip_x = x, part.target.clip_y = y;
-        part.target.clip_width = w, part.target.clip_height = h;
-        draw_lines(&whole, p, 10, &s), draw_lines(&part, p, 10, &s);
+        part.target.clip_x = x;
+        part.target.clip_y = y;
+        part.target.clip_width = w;
+        part.target.clip_height = h;
+        draw_lines(&whole, p, 10, &s);
+        draw_lines(&part, p, 10, &s);
         for (int k = 0; k < 40 * 30; k++) {
             int px = k % 40, py = k / 40, in = px >= x && px < x + w && py >= y && py < y + h;
             CHECK_INT(line_pixel(&part, px, py), in && line_pixel(&whole, px, py));
         }
-        canvas_close(&whole), canvas_close(&part);
+        canvas_close(&whole);
+        canvas_close(&part);
     }
 }
 
@@ -316,11 +401,13 @@ static ref_line ref_line_of(const shade_line_state *s, const shade_vec3 p[2], in
     for (int k = 0; k < 2 && r.left; k++) {
         double v[4];
         for (int n = 0; n < 4; n++) v[n] = e[0][n] + t[k] * (e[1][n] - e[0][n]);
-        r.x[k] = (v[0] / v[3] + 1) * width / 2, r.y[k] = (1 - v[1] / v[3]) * height / 2;
+        r.x[k] = (v[0] / v[3] + 1) * width / 2;
+        r.y[k] = (1 - v[1] / v[3]) * height / 2;
         r.z[k] = zero_to_one ? v[2] / v[3] : (v[2] / v[3] + 1) / 2;
     }
     return r;
 }
+
 /* Adds 1 to each pixel of the line, then: is each pixel of the rectangle 1, each outside 0, with
    1/256 pixel of doubt?  The depth too, which runs along the line.  Returns the pixels inside. */
 static long check_line(canvas *c, const shade_line_state *state, const shade_vec3 p[2])
@@ -329,7 +416,8 @@ static long check_line(canvas *c, const shade_line_state *state, const shade_vec
     double h = (state->width > 0 ? (double)state->width : 1) / 2;
     shade_line_state s = *state;
     long inside = 0;
-    s.color = shade_v4(1, 1, 1, 1), s.raster.blend = SHADE_BLEND_ADD;
+    s.color = shade_v4(1, 1, 1, 1);
+    s.raster.blend = SHADE_BLEND_ADD;
     s.raster.depth_test = SHADE_COMPARE_ALWAYS;
     canvas_clear(c, 1);
     shade_stats stats = draw_lines(c, p, 2, &s);
@@ -340,7 +428,8 @@ static long check_line(canvas *c, const shade_line_state *state, const shade_vec
         double X = k % width + 0.5, Y = k / width + 0.5;
         int in = r.left ? ref_in_rectangle(&place, X, Y, 1 / 256.0) : 0;
         float got = canvas_float(c, k % width, k / width, 0);
-        half_pixels += in == -1, inside += in == 1;
+        half_pixels += in == -1;
+        inside += in == 1;
         CHECK_SAY(in < 0 ? got == 0 || got == 1 : got == (float)in,
                   "pixel %d %d of %d x %d: got %g, want %d; %.9g %.9g to %.9g %.9g width %g cap %d",
                   k % width, k / width, width, height, (double)got, in, r.x[0], r.y[0], r.x[1],
@@ -380,9 +469,12 @@ TEST(lines, ends_a_million_pictures_away_keep_their_pixels)
         if (rnd_one_in(4)) a = rnd_int(0, 7) * 0.7853981633974483; /* as rows, columns, diagonals */
         if (rnd_one_in(4))                                         /* nearly as a row or a column */
             a = rnd_int(0, 3) * 1.5707963267948966 + (double)(rnd_sign() * rnd_log(1e-8, 1e-2));
-        if (rnd_one_in(6))
-            X += width * (rnd_unit() - 0.5) * 4, Y += height * (rnd_unit() - 0.5) * 4;
-        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        if (rnd_one_in(6)) {
+            X += width * (rnd_unit() - 0.5) * 4;
+            Y += height * (rnd_unit() - 0.5) * 4;
+        }
+        s.cap = (shade_cap)rnd_int(0, 1);
+        s.raster.depth_zero_to_one = rnd_one_in(2);
         for (int k = 0; k < 2; k++) {
             reach[k] = most * (double)rnd_log(1e-3, 1e6) * (k ? 1 : rnd_one_in(4) ? 0.01 : -1);
             p[k] = line_point(X + cos(a) * reach[k], Y + sin(a) * reach[k],
@@ -408,7 +500,8 @@ TEST(lines, far_ends_seen_by_a_camera_keep_their_pixels)
         float aspect = (float)W / H, near = (float)(0.1 * size);
         shade_vec3 p[2], eye = d3_round(d3_scale(rnd_direction(), 4 * size));
         shade_mat4 view = shade_mat4_look_at(eye, shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = i % 3 == 0;
+        s.cap = (shade_cap)rnd_int(0, 1);
+        s.raster.depth_zero_to_one = i % 3 == 0;
         s.clip_from_points = shade_mat4_mul(
             i % 3 == 0   ? shade_mat4_perspective_reversed(1, aspect, near)
             : i % 3 == 1 ? shade_mat4_perspective(1, aspect, near, (float)(1e3 * size))
@@ -438,7 +531,8 @@ TEST(lines, an_end_that_touches_near_or_far_is_a_point)
         shade_vec3 p[2];
         p[swapped] = line_point(8, 6, on, 16, 12);
         p[!swapped] = line_point(12, 6, on + (far ? 1 : -1), 16, 12);
-        s.cap = (shade_cap)square, s.raster.depth_zero_to_one = zero_to_one;
+        s.cap = (shade_cap)square;
+        s.raster.depth_zero_to_one = zero_to_one;
         s.raster.depth_test = SHADE_COMPARE_ALWAYS;
         canvas_clear(&c, 1);
         shade_stats stats = draw_lines(&c, p, 2, &s);
@@ -447,6 +541,7 @@ TEST(lines, an_end_that_touches_near_or_far_is_a_point)
         canvas_close(&c);
     }
 }
+
 /* From w = 0, where a line has a direction but no place, or from behind it, to the middle. */
 TEST(lines, a_line_from_infinitely_far_enters_from_its_direction)
 {
@@ -458,7 +553,8 @@ TEST(lines, a_line_from_infinitely_far_enters_from_its_direction)
         shade_vec3 p[2] = { { (float)cos(a), (float)sin(a), (float)-behind }, { 0, 0, 1 } };
         int swapped = rnd_int(0, 1);
         shade_vec3 first = p[swapped], second = p[!swapped];
-        p[0] = first, p[1] = second;
+        p[0] = first;
+        p[1] = second;
         memset(&s.clip_from_points, 0, sizeof s.clip_from_points);
         s.clip_from_points.col[0].x = s.clip_from_points.col[1].y = 1; /* x, y, 0, z */
         s.clip_from_points.col[2].w = 1;
@@ -484,7 +580,10 @@ TEST(lines, the_scale_of_a_scene_does_not_matter)
     canvas first = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
     for (int i = 0; i < 100; i++) {
         shade_vec3 p[20], moved[20];
-        for (int k = 0; k < 20; k++) p[k] = random_vector(3), p[k].z -= 3;
+        for (int k = 0; k < 20; k++) {
+            p[k] = random_vector(3);
+            p[k].z -= 3;
+        }
         for (int n = 0; n < 7; n++) {
             canvas c = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA8, 1);
             float scale = (float)ldexp(1, power[n]);
@@ -518,7 +617,8 @@ TEST(lines, places_that_are_none_are_rejected_wherever_they_lie)
         float bad = none[rnd_int(0, 4)], f[16];
         int in_matrix = rnd_one_in(3), k = rnd_int(0, 15);
         shade_mat4 m = random_mat4(2);
-        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        s.cap = (shade_cap)rnd_int(0, 1);
+        s.raster.depth_zero_to_one = rnd_one_in(2);
         for (int n = 0; n < 4; n++) p[n] = random_vector(rnd_one_in(2) ? 1 : 10);
         memcpy(f, &m, sizeof f);
         for (int n = 0; n < 16; n++) /* no zeros, which would make NaN of an infinity */
@@ -551,7 +651,8 @@ TEST(lines, any_finite_numbers_keep_to_the_picture_and_the_count)
         shade_line_state s = line_state(rnd_one_in(3) ? 0 : rnd_log(1e-38, 3e38));
         float f[16];
         shade_vec3 p[6];
-        s.cap = (shade_cap)rnd_int(0, 1), s.raster.depth_zero_to_one = rnd_one_in(2);
+        s.cap = (shade_cap)rnd_int(0, 1);
+        s.raster.depth_zero_to_one = rnd_one_in(2);
         for (int n = 0; n < 16; n++) {
             double most = rnd_one_in(3) ? 38 : rnd_one_in(2) ? 10 : 1;
             f[n] = rnd_one_in(4) ? 0 : rnd_sign() * (float)pow(10, most * (2 * rnd_unit() - 1));
@@ -577,7 +678,8 @@ TEST(lines, a_degenerate_camera_draws_no_line)
     for (int i = 0; i < DEGENERATE_CAMERAS * 8; i++) {
         canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
         shade_line_state s = line_state(i % 5 ? 3 : 500);
-        s.clip_from_points = degenerate_camera(i / 8), s.raster.depth_zero_to_one = i & 1;
+        s.clip_from_points = degenerate_camera(i / 8);
+        s.raster.depth_zero_to_one = i & 1;
         s.raster.depth_test = i & 2 ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
         s.cap = (shade_cap)(i / 4 % 2);
         canvas_clear(&c, i & 2 ? 0.0f : 1.0f);
@@ -592,6 +694,8 @@ TEST(lines, a_degenerate_camera_draws_no_line)
 
 /* --------------------------------------------------------------------------------------- depth */
 
+/* A line from edge to edge, so that the depth at a pixel is its place along the row.  Where it
+   meets the wall within 1e-5 rounding decides, and the pixel is left out. */
 TEST(lines, depth_runs_from_end_to_end_and_is_tested)
 {
     enum { W = 200, H = 9 };
@@ -605,7 +709,7 @@ TEST(lines, depth_runs_from_end_to_end_and_is_tested)
             if (i & 1) z[k] = fabsf(z[k]);
             p[k] = line_point(k * W, 4.5, (double)z[k], W, H);
         }
-        s.raster.depth_test = (shade_compare)rnd_int(0, 5),
+        s.raster.depth_test = (shade_compare)rnd_int(0, 5);
         s.raster.depth_read_only = rnd_one_in(3);
         s.raster.depth_bias = rnd_one_in(2) ? 0 : rnd_float(-0.2, 0.2);
         canvas_clear(&c, wall);
@@ -630,29 +734,31 @@ TEST(lines, depth_runs_from_end_to_end_and_is_tested)
         canvas_close(&c);
     }
 }
+
 /* The edges of a filled mesh, drawn over it: the near ones seen whole, the far ones hidden. */
 TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
 {
     for (int i = 0; i < 60; i++) {
         canvas c = canvas_open(80, 60, 0, SHADE_FORMAT_RGBA8, 1);
         shade_vec3 p[3], pairs[6], behind[2];
-        shade_mesh mesh;
-        shade_draw_state fill;
         shade_line_state s = line_state(1);
-        memset(&mesh, 0, sizeof mesh), memset(&fill, 0, sizeof fill);
+        shade_mesh mesh = plain_mesh(&p[0].x, 3);
+        shade_draw_state fill = plain_state(NULL);
         for (int k = 0; k < 3; k++) {
             double a = 2.0943951 * k + rnd_unit();
             p[k] = shade_v3((float)cos(a) * 0.8f, (float)sin(a) * 0.8f, rnd_float(-0.5, 0.5));
         }
         for (int k = 0; k < 6; k++) pairs[k] = p[(k / 2 + k % 2) % 3];
-        behind[0] = shade_v3(-0.9f, 0, 0.9f), behind[1] = shade_v3(0.9f, 0, 0.9f);
-        mesh.positions = &p[0].x, mesh.vertex_count = 3;
+        behind[0] = shade_v3(-0.9f, 0, 0.9f);
+        behind[1] = shade_v3(0.9f, 0, 0.9f);
         canvas_clear(&c, 1);
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &fill, NULL), SHADE_OK);
-        s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, s.raster.depth_bias = -0.02f;
+        canvas_draw_mesh(&c, &mesh, &fill);
+        s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+        s.raster.depth_bias = -0.02f;
         canvas plain = canvas_open(80, 60, 0, SHADE_FORMAT_RGBA8, 0);
         canvas_clear(&plain, 1);
-        draw_lines(&plain, pairs, 6, &s), draw_lines(&c, pairs, 6, &s);
+        draw_lines(&plain, pairs, 6, &s);
+        draw_lines(&c, pairs, 6, &s);
         for (int k = 0; k < 80 * 60; k++) {
             if (line_pixel(&plain, k % 80, k / 80)) CHECK(line_pixel(&c, k % 80, k / 80));
         }
@@ -660,9 +766,11 @@ TEST(lines, a_small_negative_bias_lifts_lines_off_their_own_faces)
         draw_lines(&c, behind, 2, &s);
         CHECK(canvas_bytes(&c, 40, 30)[3] != 64 || canvas_bytes(&c, 40, 29)[3] != 64);
         CHECK(canvas_bytes(&c, 5, 30)[3] == 64 || canvas_bytes(&c, 5, 29)[3] == 64);
-        canvas_close(&c), canvas_close(&plain);
+        canvas_close(&c);
+        canvas_close(&plain);
     }
 }
+
 /* Lines have no back: cull, even one there is not, changes nothing. */
 TEST(lines, cull_is_ignored)
 {
@@ -685,6 +793,8 @@ TEST(lines, cull_is_ignored)
         canvas_close(&plain);
     }
 }
+
+/* A line as wide as the picture; its colour is beyond [0, 1], which a picture of floats keeps. */
 TEST(lines, colour_and_blending_are_the_state_s)
 {
     canvas c = canvas_open(8, 8, 0, SHADE_FORMAT_RGBA32F, 0);
@@ -707,58 +817,63 @@ TEST(lines, colour_and_blending_are_the_state_s)
 
 /* ----------------------------------------------------------------------------------- arguments */
 
+/* What shade_draw_lines is given: two lines across a small picture. */
+typedef struct line_call {
+    const shade_target *target;
+    const shade_vec3 *points;
+    const shade_line_state *state;
+    int count;
+    shade_target t;
+    shade_line_state s;
+} line_call;
+
+#define LINE_FAULT(field, value) FAULT(line_call, field, value)
+#define LINE_REAL(field, value) FAULT_REAL(line_call, field, value)
+static const refusal bad_line_calls[] = {
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(line_call, target) } },
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(line_call, points) } },
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(line_call, state) } },
+    { SHADE_ERROR_MESH, { LINE_FAULT(count, 3) } },
+    { SHADE_ERROR_MESH, { LINE_FAULT(count, -2) } },
+    { SHADE_ERROR_MESH, { LINE_FAULT(count, -1) } },
+    { SHADE_ERROR_MESH, { LINE_FAULT(count, 2147483646) } }, /* more corners than an int counts */
+    { SHADE_ERROR_STATE, { LINE_REAL(s.width, -1) } },
+    { SHADE_ERROR_STATE, { LINE_REAL(s.width, NAN) } },
+    { SHADE_ERROR_STATE, { LINE_REAL(s.width, INFINITY) } },
+    { SHADE_ERROR_STATE, { LINE_FAULT(s.cap, 2) } },
+    { SHADE_ERROR_STATE, { LINE_FAULT(s.cap, -1) } },
+    { SHADE_ERROR_STATE, { LINE_FAULT(s.raster.depth_test, 6) } },
+    { SHADE_ERROR_STATE, { LINE_FAULT(s.raster.blend, 3) } },
+    { SHADE_ERROR_STATE, { LINE_REAL(s.raster.depth_bias, NAN) } },
+    { SHADE_ERROR_TARGET, { LINE_FAULT(t.width, 0) } },
+    { SHADE_ERROR_TARGET, { LINE_FAULT(t.stride, 3) } },
+    { SHADE_ERROR_TARGET, { LINE_FAULT(t.format, 9) } },
+    { SHADE_ERROR_TARGET, { LINE_FAULT(t.height, -1), LINE_FAULT(count, 3) } },
+    { SHADE_OK, { LINE_FAULT(count, 0), FAULT_NULL(line_call, points) } }, /* draws no line */
+};
+
+/* G2 */
 TEST(lines, bad_arguments_are_refused_before_a_pixel_changes)
 {
-    for (int k = 0; k < 20; k++) {
-        canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
-        shade_vec3 p[4] = { { -1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { 1, -1, 0 } };
-        const shade_vec3 *points = p;
-        shade_line_state s = line_state(3);
-        const shade_line_state *state = &s;
-        const shade_target *target = &c.target;
+    static const shade_vec3 points[4] = { { -1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { 1, -1, 0 } };
+    canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
+    for (int row = 0; row < TEST_COUNT(bad_line_calls); row++) {
+        line_call bad = { NULL, points, NULL, 4, c.target, line_state(3) };
+        bad.target = &bad.t;
+        bad.state = &bad.s;
+        spoil(&bad, bad_line_calls[row].faults);
+
         shade_stats stats;
-        shade_result want = k < 3                ? SHADE_ERROR_ARGUMENT
-                            : k < 6 || k == 18 ? SHADE_ERROR_MESH
-                                               : SHADE_ERROR_STATE;
-        int count = 4;
         memset(&stats, CANVAS_BYTE, sizeof stats);
-        switch (k) {
-        case 0: target = NULL; break;
-        case 1: points = NULL; break;
-        case 2: state = NULL; break;
-        case 3: count = 3; break;
-        case 4: count = -2; break;
-        case 5: count = -1; break;
-        case 6: s.width = -1; break;
-        case 7: s.width = (float)NAN; break;
-        case 8: s.width = INFINITY; break;
-        case 9: s.cap = (shade_cap)2; break;
-        case 10: s.cap = (shade_cap)-1; break;
-        case 11:
-            s.raster.depth_test = (shade_compare)6;
-            break;
-        case 12:
-            s.raster.blend = (shade_blend)3;
-            break;
-        case 13:
-            s.raster.depth_bias = (float)NAN;
-            break;
-        case 14: c.target.width = 0, want = SHADE_ERROR_TARGET; break;
-        case 15: c.target.stride = 3, want = SHADE_ERROR_TARGET; break;
-        case 16: c.target.format = (shade_format)9, want = SHADE_ERROR_TARGET; break;
-        case 18: count = 2147483646; break; /* more corners than an int counts */
-        case 17: count = 0, points = NULL, want = SHADE_OK; break;
-        default: c.target.height = -1, count = 3, want = SHADE_ERROR_TARGET; break;
-        }
-        CHECK_INT(shade_draw_lines(target, points, count, state, &stats), want);
+        shade_result got = shade_draw_lines(bad.target, bad.points, bad.count, bad.state, &stats);
+        check_refusal(row, got, bad_line_calls[row].want);
         CHECK_INT(stats.triangles, 0);
         CHECK_INT(stats.fragments, 0);
-        for (size_t i = 0; i < c.color_bytes; i++) CHECK(c.color[CANVAS_GUARD + i] == CANVAS_BYTE);
-        for (size_t i = 0; i < c.depth_bytes; i++) CHECK(c.depth[CANVAS_GUARD + i] == CANVAS_BYTE);
-        c.target.width = 16, c.target.height = 12;
-        canvas_close(&c);
+        CHECK_SAY(canvas_untouched(&c), "row %d", row);
     }
+    canvas_close(&c);
 }
+
 TEST(lines, depth_only_targets_take_lines_too)
 {
     canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);

@@ -12,6 +12,8 @@
 #include "test.h"
 #include "oracle.h"
 #include "canvas.h"
+#include "faults.h"
+#include "meshes.h"
 #include "rows.h"
 
 #include "math.c"
@@ -61,6 +63,7 @@ static int is_among(const char *name, char **names, int count)
     }
     return 0;
 }
+
 static void run_section(const test_section *section, int *passed, int *failed)
 {
     for (int k = 0; k < section->count; k++) {
@@ -68,6 +71,7 @@ static void run_section(const test_section *section, int *passed, int *failed)
         if (test_now.stop && *failed) exit(1);
     }
 }
+
 static int run_until_failure(char **names, int count)
 {
     int passed = 0, failed = 0;

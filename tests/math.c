@@ -6,6 +6,7 @@ static shade_vec3 random_vector(double size)
 {
     return shade_v3(rnd_float(-size, size), rnd_float(-size, size), rnd_float(-size, size));
 }
+
 static int finite3(shade_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
 
 #define CHECK_VEC(got, want, within)                                                               \
@@ -17,6 +18,7 @@ static int finite3(shade_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfi
         CHECK_NEAR(check_got.z, check_want.z, within);                                             \
     } while (0)
 
+/* Tolerances grow with the number of roundings of an operation and with the size of its vectors. */
 TEST(math, componentwise_operations_round_once)
 {
     for (int i = 0; i < 2000; i++) {
@@ -62,6 +64,7 @@ TEST(math, clamp_holds_both_bounds_and_sends_nan_to_the_upper)
               0);
 }
 
+/* G3 */
 TEST(math, normalize_gives_unit_length_or_exactly_zero)
 {
     for (int i = 0; i < 4000; i++) {
@@ -91,6 +94,7 @@ TEST(math, reflect_takes_incoming_and_mirror_takes_outgoing_light)
     }
 }
 
+/* G3 */
 TEST(math, halfway_is_unit_between_or_zero_for_opposites)
 {
     for (int i = 0; i < 4000; i++) {
@@ -123,6 +127,9 @@ TEST(math, face_normal_is_right_handed_and_zero_without_area) /* (b - a) x (c - 
     CHECK_VEC(shade_face_normal(p, q, p), d3_of(0, 0, 0), 0);
 }
 
+/* Sizes whose squares underflow, are subnormal, or are ordinary, up to the stated limit, all
+   mixed in one vector. */
+/* G3 */
 TEST(math, every_function_is_finite_up_to_a_million_million)
 {
     static const float sizes[] = {
@@ -147,23 +154,34 @@ TEST(math, every_function_is_finite_up_to_a_million_million)
     }
 }
 
+/* Numbers up to 9: a sum of four products, each at most 81, is off by at most 8e-5. */
 TEST(math, two_and_four_component_vectors_match_double)
 {
     for (int i = 0; i < 1000; i++) {
         float a[4], b[4], t = rnd_float(-2, 2);
-        for (int k = 0; k < 4; k++) a[k] = rnd_float(-9, 9), b[k] = rnd_float(-9, 9);
+        for (int k = 0; k < 4; k++) {
+            a[k] = rnd_float(-9, 9);
+            b[k] = rnd_float(-9, 9);
+        }
         shade_vec2 a2 = shade_v2(a[0], a[1]), b2 = shade_v2(b[0], b[1]);
         shade_vec4 a4 = shade_v4(a[0], a[1], a[2], a[3]), b4 = shade_v4(b[0], b[1], b[2], b[3]);
         shade_vec2 r2[4];
         shade_vec4 r4[4];
-        r2[0] = shade_add2(a2, b2), r2[1] = shade_sub2(a2, b2), r2[2] = shade_scale2(a2, t);
+        r2[0] = shade_add2(a2, b2);
+        r2[1] = shade_sub2(a2, b2);
+        r2[2] = shade_scale2(a2, t);
         r2[3] = shade_lerp2(a2, b2, t);
-        r4[0] = shade_add4(a4, b4), r4[1] = shade_sub4(a4, b4), r4[2] = shade_scale4(a4, t);
+        r4[0] = shade_add4(a4, b4);
+        r4[1] = shade_sub4(a4, b4);
+        r4[2] = shade_scale4(a4, t);
         r4[3] = shade_lerp4(a4, b4, t);
         double dot = 0, dot2 = 0;
         for (int k = 0; k < 4; k++) {
             double p = (double)a[k], q = (double)b[k], s = (double)t, want[4];
-            want[0] = p + q, want[1] = p - q, want[2] = p * s, want[3] = p + s * (q - p);
+            want[0] = p + q;
+            want[1] = p - q;
+            want[2] = p * s;
+            want[3] = p + s * (q - p);
             dot += p * q;
             if (k == 1) dot2 = dot;
             for (int j = 0; j < 4; j++) {
@@ -188,6 +206,7 @@ TEST(math, the_own_square_root_equals_sqrtf_at_every_mantissa)
     }
     CHECK_INT(wrong, 0);
 }
+
 TEST(math, the_own_square_root_equals_sqrtf) /* what SHADE_NO_LIBM uses gives the same bits */
 {
     for (int i = 0; i < 400000; i++) {

@@ -25,6 +25,7 @@ one() {
     fi
 }
 
+# G12, G13
 build=builds
 for cc in gcc clang; do
     for o in -O0 -O1 -O2 -O3 -Os; do one "$cc $o" "" $cc $o; done

@@ -13,8 +13,6 @@ typedef struct test_mesh {
     shade_material material;
 } test_mesh;
 
-static void put3(float *at, shade_vec3 v) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
-
 /* Lays position, normal and colour out with a random stride, or tightly one after the other. */
 static void lay_out_mesh(test_mesh *m, int vertices, int with_normals, int with_colors)
 {
@@ -22,14 +20,19 @@ static void lay_out_mesh(test_mesh *m, int vertices, int with_normals, int with_
     float *p = m->data, *n = interleaved ? p + 3 : p + 3 * MESH_VERTICES;
     float *c = interleaved ? p + 6 : p + 6 * MESH_VERTICES;
     for (int i = 0; i < vertices; i++) {
-        put3(p + i * step, m->position[i]), put3(n + i * step, m->normal[i]),
-            put3(c + i * step, m->color[i]);
+        put3(p + i * step, m->position[i]);
+        put3(n + i * step, m->normal[i]);
+        put3(c + i * step, m->color[i]);
     }
     int stride = interleaved ? step * 4 : rnd_one_in(2) ? 12 : 0;
-    m->mesh.positions = p, m->mesh.position_stride = stride;
-    m->mesh.normals = with_normals ? n : NULL, m->mesh.normal_stride = stride;
-    m->mesh.colors = with_colors ? c : NULL, m->mesh.color_stride = stride;
-    m->mesh.vertex_count = vertices, m->mesh.indices = m->indices;
+    m->mesh.positions = p;
+    m->mesh.position_stride = stride;
+    m->mesh.normals = with_normals ? n : NULL;
+    m->mesh.normal_stride = stride;
+    m->mesh.colors = with_colors ? c : NULL;
+    m->mesh.color_stride = stride;
+    m->mesh.vertex_count = vertices;
+    m->mesh.indices = m->indices;
 }
 
 /* A bumpy ball of latitudes and longitudes, facing outward. */
@@ -46,13 +49,18 @@ static void random_ball(test_mesh *m, int with_normals, int with_colors)
             m->normal[vertices] = d3_round(d3_scale(bent, (double)rnd_log(0.5, 2)));
             m->color[vertices++] = random_color(1);
         }
-    for (int j = 0; j < up; j++)
+    for (int j = 0; j < up; j++) {
         for (int i = 0; i < across; i++) {
             uint32_t a = (uint32_t)(j * (across + 1) + i), b = a + 1, c = a + (uint32_t)across + 1,
                      d = c + 1;
-            m->indices[count++] = a, m->indices[count++] = c, m->indices[count++] = d;
-            m->indices[count++] = a, m->indices[count++] = d, m->indices[count++] = b;
+            m->indices[count++] = a;
+            m->indices[count++] = c;
+            m->indices[count++] = d;
+            m->indices[count++] = a;
+            m->indices[count++] = d;
+            m->indices[count++] = b;
         }
+    }
     m->mesh.index_count = count;
     lay_out_mesh(m, vertices, with_normals, with_colors);
 }
@@ -82,7 +90,8 @@ static void random_mesh_scene(test_mesh *m, shade_shading shading, int mirrored)
                       (double)m->lights[k].position.z);
         if (d3_length(at) < 2.5) { /* outside the ball */
             at = d3_scale(d3_unit(at), 2.5 + rnd_unit());
-            m->lights[k].position.x = (float)at.x, m->lights[k].position.y = (float)at.y,
+            m->lights[k].position.x = (float)at.x;
+            m->lights[k].position.y = (float)at.y;
             m->lights[k].position.z = (float)at.z;
         }
         if (m->lights[k].spot_exponent > 20) m->lights[k].spot_exponent = 20;
@@ -92,7 +101,8 @@ static void random_mesh_scene(test_mesh *m, shade_shading shading, int mirrored)
     if (m->material.shininess > 60) m->material.shininess = 60;
     if (m->material.shininess < 1) m->material.shininess = 0;
     m->state.material = rnd_one_in(6) ? NULL : &m->material;
-    m->state.lighting.lights = m->lights, m->state.lighting.light_count = rnd_int(0, 3);
+    m->state.lighting.lights = m->lights;
+    m->state.lighting.light_count = rnd_int(0, 3);
     m->state.lighting.ambient = random_color(0.3);
     m->state.lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
     m->state.lighting.flags = rnd_one_in(2) ? 0 : (unsigned)rnd_int(0, 63);
@@ -120,7 +130,8 @@ static mesh_oracle mesh_oracle_of(const test_mesh *m)
     mesh_oracle o;
     dmat view = matrix_or_identity(m->state.view), inverse;
     memset(&o, 0, sizeof o);
-    o.model = matrix_or_identity(m->state.model), o.normals = dmat_normals(o.model);
+    o.model = matrix_or_identity(m->state.model);
+    o.normals = dmat_normals(o.model);
     o.clip = dmat_mul(matrix_or_identity(m->state.projection), dmat_mul(view, o.model));
     dmat_invert(view, 4, &inverse);
     int infinite = (m->state.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) != 0;
@@ -150,7 +161,8 @@ static d3 mesh_color(mesh_oracle *o, const test_mesh *m, int t, const double b[3
     d3 flat = d3_unit(d3_cross(d3_sub(P[1], P[0]), d3_sub(P[2], P[0])));
     for (int k = 0; k < 3; k++) {
         if (!m->mesh.normals) N[k] = flat;
-        sum_p = d3_add(sum_p, d3_scale(P[k], b[k])), sum_n = d3_add(sum_n, d3_scale(N[k], b[k]));
+        sum_p = d3_add(sum_p, d3_scale(P[k], b[k]));
+        sum_n = d3_add(sum_n, d3_scale(N[k], b[k]));
         sum_a = d3_add(sum_a, d3_scale(albedo[k], b[k]));
     }
     if (m->state.shading == SHADE_SHADING_PER_FRAGMENT)
@@ -173,69 +185,100 @@ static d3 mesh_pixel(mesh_oracle *o, const test_mesh *m, const ref_triangle *e, 
     return mesh_color(o, m, t, b);
 }
 
+/* The triangles of a mesh on the screen, for its oracle. */
+typedef struct mesh_screen {
+    ref_triangle e[MESH_INDICES / 3];
+    int usable[MESH_INDICES / 3], triangles;
+} mesh_screen;
+
+static void mesh_screen_of(mesh_screen *screen, const mesh_oracle *o, const test_mesh *m,
+                           const shade_target *target)
+{
+    screen->triangles = m->mesh.index_count / 3;
+    for (int t = 0; t < screen->triangles; t++) {
+        shade_vec4 corner[3];
+        for (int k = 0; k < 3; k++) {
+            shade_vec3 p = m->position[m->indices[3 * t + k]];
+            double in[4] = { (double)p.x, (double)p.y, (double)p.z, 1 }, out[4];
+            dmat_apply(o->clip, in, out);
+            corner[k] = shade_v4((float)out[0], (float)out[1], (float)out[2], (float)out[3]);
+        }
+        screen->usable[t] = ref_triangle_of(&screen->e[t], &corner[0], &corner[1], &corner[2],
+                                            target->width, target->height);
+    }
+}
+
+/* The nearest triangle at a place: NOTHING where there is none, IN_DOUBT near an edge and where two
+   depths are nearer to each other than they are exact. */
+enum { NOTHING = -1, IN_DOUBT = -2 };
+static int mesh_winner(const mesh_screen *screen, double X, double Y)
+{
+    double nearest = 1, second = 1;
+    int winner = NOTHING;
+    for (int t = 0; t < screen->triangles; t++) {
+        int in = screen->usable[t] ? ref_covers(&screen->e[t], X, Y, 0.02, 0, 0) : 0;
+        if (in < 0) return IN_DOUBT;
+        if (in == 0) continue;
+        double z = ref_depth(&screen->e[t], X, Y, 0);
+        if (z < nearest) {
+            second = nearest;
+            nearest = z;
+            winner = t;
+        } else {
+            second = fmin(second, z);
+        }
+    }
+    return second - nearest < 1e-4 ? IN_DOUBT : winner;
+}
+
+/* Holds a pixel to the colour of its triangle; returns 0 where that is too steep to be held to. */
+static int check_mesh_pixel(const canvas *c, mesh_oracle *o, const test_mesh *m,
+                            const ref_triangle *e, int winner, int at)
+{
+    const int x = at % c->target.width, y = at / c->target.width;
+    const double X = x + 0.5, Y = y + 0.5;
+    o->unsure = 0;
+    d3 want = mesh_pixel(o, m, e, winner, X, Y);
+    if (o->unsure) return 0;
+    /* beyond the bound of light: rounding of N and P in the planes, and what 1/256 pixel of
+       snapping moves */
+    double bound = o->bound, moved = 0;
+    for (int k = 0; k < 4; k++) {
+        double sx = (k == 0) - (k == 1), sy = (k == 2) - (k == 3);
+        d3 beside = mesh_pixel(o, m, e, winner, X + sx / 256, Y + sy / 256);
+        moved = fmax(moved, d3_max(d3_sub(beside, want)));
+    }
+    if (o->unsure || moved > 0.05 * fmax(1, d3_max(want))) return 0;
+    shade_vec3 got = shade_v3(canvas_float(c, x, y, 0), canvas_float(c, x, y, 1),
+                              canvas_float(c, x, y, 2));
+    moved += bound + fmax(1, d3_max(want)) * 1e-4;
+    if (!check_color(__LINE__, "pixel", got, want, moved) &&
+        test_now.failures <= TEST_MAX_PRINTED) {
+        printf("    pixel %d %d, triangle %d, shading %d, model %d, flags %u, normals %d\n", x, y,
+               winner, (int)m->state.shading, (int)m->state.lighting.model,
+               m->state.lighting.flags, m->mesh.normals != NULL);
+    }
+    CHECK_NEAR(canvas_float(c, x, y, 3), 1, 0);
+    return 1;
+}
+
 /* Holds every pixel whose triangle is beyond doubt to the oracle; returns how many there were. */
 static int check_mesh(const canvas *c, const test_mesh *m)
 {
+    static mesh_screen screen;
     mesh_oracle o = mesh_oracle_of(m);
-    int triangles = m->mesh.index_count / 3, checked = 0, width = c->target.width,
-        height = c->target.height;
-    static ref_triangle e[MESH_INDICES / 3];
-    static int usable[MESH_INDICES / 3];
-    for (int t = 0; t < triangles; t++) {
-        shade_vec4 corner[3];
-        for (int k = 0; k < 3; k++) {
-            double in[4], out[4];
-            shade_vec3 p = m->position[m->indices[3 * t + k]];
-            in[0] = (double)p.x, in[1] = (double)p.y, in[2] = (double)p.z, in[3] = 1;
-            dmat_apply(o.clip, in, out);
-            corner[k] = shade_v4((float)out[0], (float)out[1], (float)out[2], (float)out[3]);
-        }
-        usable[t] = ref_triangle_of(&e[t], &corner[0], &corner[1], &corner[2], width, height);
-    }
+    int checked = 0, width = c->target.width;
+    mesh_screen_of(&screen, &o, m, &c->target);
     ref_margin = 2e-3;
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            double X = x + 0.5, Y = y + 0.5, nearest = 1, second = 1;
-            int winner = -1, doubt = 0;
-            for (int t = 0; t < triangles; t++) {
-                int in = usable[t] ? ref_covers(&e[t], X, Y, 0.02, 0, 0) : 0;
-                doubt |= in < 0;
-                if (in != 1) continue;
-                double z = ref_depth(&e[t], X, Y, 0);
-                if (z < nearest)
-                    second = nearest, nearest = z, winner = t;
-                else
-                    second = fmin(second, z);
-            }
-            o.unsure = 0;
-            if (doubt || second - nearest < 1e-4) continue;
-            if (winner < 0) {
-                CHECK_NEAR(canvas_float(c, x, y, 3), 0, 0);
-                continue;
-            }
-            d3 want = mesh_pixel(&o, m, &e[winner], winner, X, Y);
-            if (o.unsure) continue;
-            /* beyond the bound of light: rounding of N and P in the planes, and what 1/256 pixel of
-               snapping moves */
-            double bound = o.bound, moved = 0;
-            for (int k = 0; k < 4; k++) {
-                double sx = (k == 0) - (k == 1), sy = (k == 2) - (k == 3);
-                d3 beside = mesh_pixel(&o, m, &e[winner], winner, X + sx / 256, Y + sy / 256);
-                moved = fmax(moved, d3_max(d3_sub(beside, want)));
-            }
-            if (o.unsure || moved > 0.05 * fmax(1, d3_max(want))) continue;
-            shade_vec3 got = shade_v3(canvas_float(c, x, y, 0), canvas_float(c, x, y, 1),
-                                      canvas_float(c, x, y, 2));
-            moved += bound + fmax(1, d3_max(want)) * 1e-4;
-            if (!check_color(__LINE__, "pixel", got, want, moved) &&
-                test_now.failures <= TEST_MAX_PRINTED) {
-                printf("    pixel %d %d, triangle %d, shading %d, model %d, flags %u, normals %d\n",
-                       x, y, winner, (int)m->state.shading, (int)m->state.lighting.model,
-                       m->state.lighting.flags, m->mesh.normals != NULL);
-            }
-            CHECK_NEAR(canvas_float(c, x, y, 3), 1, 0);
-            checked++;
+    for (int at = 0; at < width * c->target.height; at++) {
+        int winner = mesh_winner(&screen, at % width + 0.5, at / width + 0.5);
+        if (winner == IN_DOUBT) continue;
+        if (winner == NOTHING) {
+            CHECK_NEAR(canvas_float(c, at % width, at / width, 3), 0, 0);
+        } else {
+            checked += check_mesh_pixel(c, &o, m, &screen.e[winner], winner, at);
         }
+    }
     ref_margin = 1e-5;
     return checked;
 }
@@ -248,8 +291,7 @@ static void check_meshes(shade_shading shading, int mirrored)
         canvas c = canvas_open(64, 48, 65, SHADE_FORMAT_RGBA32F, 1);
         random_mesh_scene(&m, shading, mirrored);
         canvas_clear(&c, 1);
-        shade_stats stats;
-        CHECK_INT(shade_draw_mesh(&c.target, &m.mesh, &m.state, &stats), SHADE_OK);
+        shade_stats stats = canvas_draw_mesh(&c, &m.mesh, &m.state);
         CHECK_SAY(stats_add_up(&stats, m.mesh.index_count / 3), "%lld triangles", stats.triangles);
         checked += check_mesh(&c, &m);
         canvas_close(&c);
@@ -261,34 +303,20 @@ TEST(mesh, per_fragment_is_the_equation_at_every_pixel)
 {
     check_meshes(SHADE_SHADING_PER_FRAGMENT, 0);
 }
+
 TEST(mesh, per_vertex_interpolates_the_light_of_the_corners)
 {
     check_meshes(SHADE_SHADING_PER_VERTEX, 0);
 }
+
 TEST(mesh, per_face_is_lit_once_at_the_centroid)
 {
     check_meshes(SHADE_SHADING_PER_FACE, 0);
 }
+
 TEST(mesh, mirrored_models_keep_their_given_normals)
 {
     check_meshes(SHADE_SHADING_PER_FRAGMENT, 1);
-}
-
-static const float big_triangle[] = { -0.9f, -0.9f, 0, 0.9f, -0.8f, 0, 0, 0.9f, 0 };
-
-static shade_draw_state plain_state(const shade_light *light)
-{
-    shade_draw_state s;
-    memset(&s, 0, sizeof s);
-    s.lighting.lights = light, s.lighting.light_count = light ? 1 : 0;
-    return s;
-}
-static shade_mesh plain_mesh(const float *positions, int vertices)
-{
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = positions, m.vertex_count = vertices;
-    return m;
 }
 
 static shade_shading random_shading(void) /* that this build has varyings for */
@@ -305,14 +333,14 @@ TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* to the bit */
         shade_light light = shade_directional_light(d3_round(rnd_direction()), random_color(2));
         shade_draw_state s = plain_state(&light);
         shade_mesh mesh = plain_mesh(p, 3);
-        s.material = &material,
+        s.material = &material;
         s.shading = i % 2 ? SHADE_SHADING_PER_FACE : SHADE_SHADING_PER_FRAGMENT;
         s.lighting.flags = SHADE_FLAG_INFINITE_VIEWER | (i % 3 ? SHADE_FLAG_TWO_SIDED : 0);
         s.view = shade_mat4_look_at(shade_v3(0.2f, 0.1f, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
         s.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 10);
         canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
         canvas_clear(&c, 1);
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        canvas_draw_mesh(&c, &mesh, &s);
         float first[4] = { 0, 0, 0, 0 };
         for (int k = 0; k < 64 * 64; k++) {
             if (canvas_float(&c, k % 64, k / 64, 3) == 0) continue;
@@ -340,20 +368,26 @@ TEST(mesh, per_face_takes_the_colour_of_the_first_vertex)
     for (int turn = 0; turn < 2; turn++) {
         canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 0);
         canvas_clear(&c, 1);
-        if (turn) mesh.indices = turned, mesh.index_count = 3;
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        if (turn) {
+            mesh.indices = turned;
+            mesh.index_count = 3;
+        }
+        canvas_draw_mesh(&c, &mesh, &s);
         for (int j = 0; j < 3; j++)
             CHECK_NEAR(canvas_float(&c, 10, 12, j), color[3 * turn + j], 1e-6);
         canvas_close(&c);
     }
 }
 
+/* One triangle, a lamp close before its middle and a shininess of 80: the highlight is far from
+   all corners. */
 TEST(mesh, gouraud_misses_the_highlight_that_phong_finds)
 {
     shade_light light = shade_point_light(shade_v3(0, -0.2f, 0.5f), grey(1));
     shade_material m;
     memset(&m, 0, sizeof m);
-    m.specular = grey(1), m.shininess = 80;
+    m.specular = grey(1);
+    m.shininess = 80;
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.material = &m;
@@ -364,7 +398,7 @@ TEST(mesh, gouraud_misses_the_highlight_that_phong_finds)
         canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA32F, 1);
         canvas_clear(&c, 1);
         s.shading = k ? SHADE_SHADING_PER_VERTEX : SHADE_SHADING_PER_FRAGMENT;
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        canvas_draw_mesh(&c, &mesh, &s);
         for (int i = 0; i < 64 * 64; i++)
             most[k] = fmax(most[k], (double)canvas_float(&c, i % 64, i / 64, 0));
         canvas_close(&c);
@@ -382,7 +416,7 @@ TEST(mesh, light_between_gouraud_vertices_is_not_clamped) /* a corner of 3 besid
     s.shading = SHADE_SHADING_PER_VERTEX;
     canvas c = canvas_open(200, 200, 0, SHADE_FORMAT_RGBA32F, 0);
     canvas_clear(&c, 1);
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+    canvas_draw_mesh(&c, &mesh, &s);
     shade_vec4 corner[3];
     ref_triangle t;
     for (int k = 0; k < 3; k++)
@@ -407,29 +441,40 @@ TEST(mesh, every_layout_of_the_same_mesh_gives_the_same_bits)
                b = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA32F, 1);
         random_mesh_scene(&m, (shade_shading)(i % 3), 0);
         static float texcoord[MESH_VERTICES * 2];
-        canvas_clear(&a, 1), canvas_clear(&b, 1);
-        CHECK_INT(shade_draw_mesh(&a.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        canvas_clear(&a, 1);
+        canvas_clear(&b, 1);
+        canvas_draw_mesh(&a, &m.mesh, &m.state);
         if (i % 2) {
             lay_out_mesh(&m, m.mesh.vertex_count, m.mesh.normals != NULL, m.mesh.colors != NULL);
-            m.mesh.texcoords = texcoord, m.mesh.texcoord_stride = 8;
+            m.mesh.texcoords = texcoord;
+            m.mesh.texcoord_stride = 8;
         } else { /* unrolled: vertices in threes without indices */
             static shade_vec3 p[MESH_INDICES], n[MESH_INDICES], color[MESH_INDICES];
             for (int k = 0; k < m.mesh.index_count; k++) {
                 uint32_t v = m.indices[k];
-                p[k] = m.position[v], n[k] = m.normal[v], color[k] = m.color[v];
+                p[k] = m.position[v];
+                n[k] = m.normal[v];
+                color[k] = m.color[v];
             }
-            m.mesh.positions = &p[0].x, m.mesh.position_stride = 0;
-            m.mesh.normals = m.mesh.normals ? &n[0].x : NULL, m.mesh.normal_stride = 12;
-            m.mesh.colors = m.mesh.colors ? &color[0].x : NULL, m.mesh.color_stride = 0;
-            m.mesh.vertex_count = m.mesh.index_count, m.mesh.indices = NULL, m.mesh.index_count = 0;
+            m.mesh.positions = &p[0].x;
+            m.mesh.position_stride = 0;
+            m.mesh.normals = m.mesh.normals ? &n[0].x : NULL;
+            m.mesh.normal_stride = 12;
+            m.mesh.colors = m.mesh.colors ? &color[0].x : NULL;
+            m.mesh.color_stride = 0;
+            m.mesh.vertex_count = m.mesh.index_count;
+            m.mesh.indices = NULL;
+            m.mesh.index_count = 0;
         }
-        CHECK_INT(shade_draw_mesh(&b.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        canvas_draw_mesh(&b, &m.mesh, &m.state);
         CHECK(canvas_same(&a, &b));
         canvas_close(&a);
         canvas_close(&b);
     }
 }
 
+/* Two to seven bands, of heights that are no multiples of a block or a tile. */
+/* G13 */
 TEST(mesh, bands_of_a_mesh_give_the_bits_of_the_whole)
 {
     static test_mesh m;
@@ -437,14 +482,15 @@ TEST(mesh, bands_of_a_mesh_give_the_bits_of_the_whole)
         canvas a = canvas_open(64, 48, 0, (shade_format)(i % 3), 1),
                b = canvas_open(64, 48, 0, (shade_format)(i % 3), 1);
         random_mesh_scene(&m, (shade_shading)(i % 3), 0);
-        canvas_clear(&a, 1), canvas_clear(&b, 1);
-        CHECK_INT(shade_draw_mesh(&a.target, &m.mesh, &m.state, NULL), SHADE_OK);
+        canvas_clear(&a, 1);
+        canvas_clear(&b, 1);
+        canvas_draw_mesh(&a, &m.mesh, &m.state);
         int bands = rnd_int(2, 7);
         for (int k = 0; k < bands; k++) {
-            b.target.clip_y = 48 * k / bands,
+            b.target.clip_y = 48 * k / bands;
             b.target.clip_height = 48 * (k + 1) / bands - b.target.clip_y;
             b.target.clip_width = 64;
-            CHECK_INT(shade_draw_mesh(&b.target, &m.mesh, &m.state, NULL), SHADE_OK);
+            canvas_draw_mesh(&b, &m.mesh, &m.state);
         }
         CHECK(canvas_same(&a, &b));
         canvas_close(&a);
@@ -452,6 +498,8 @@ TEST(mesh, bands_of_a_mesh_give_the_bits_of_the_whole)
     }
 }
 
+/* The light falls at a cosine of 0.8 upon a triangle whose normal is z: 0.8 of (0.5, 1, 2), and
+   0.1 of ambient red. */
 TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
 {
     shade_light light = shade_directional_light(shade_v3(0, -0.6f, -0.8f), shade_v3(0.5f, 1, 2));
@@ -460,8 +508,7 @@ TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
     s.lighting.ambient = shade_v3(0.1f, 0, 0);
     canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
     canvas_clear(&c, 1);
-    shade_stats stats;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    shade_stats stats = canvas_draw_mesh(&c, &mesh, &s);
     CHECK_INT(stats.drawn, 1);
     CHECK_NEAR(canvas_float(&c, 10, 12, 0), 0.5, 1e-5);
     CHECK_NEAR(canvas_float(&c, 10, 12, 1), 0.8, 1e-5);
@@ -469,6 +516,30 @@ TEST(mesh, zero_matrices_and_no_material_mean_identity_and_white_lambert)
     CHECK_NEAR(canvas_float(&c, 10, 12, 3), 1, 0);
     CHECK_NEAR(canvas_depth(&c, 10, 12), 0.5, 1e-6);
     canvas_close(&c);
+}
+
+/* A permutation of x, y, z, w whose first column has its one in a row of choice. */
+static shade_mat4 permutation(int first)
+{
+    shade_mat4 m;
+    for (int k = 0; k < 4; k++) {
+        float column[4] = { 0, 0, 0, 0 };
+        column[(first + k) % 4] = 1;
+        m.col[k] = shade_v4(column[0], column[1], column[2], column[3]);
+    }
+    return m;
+}
+
+/* Three corners that such a matrix takes into view. */
+static void permuted_corners(int first, float out[9])
+{
+    static const float seen[3][4] = { { 0.1f, 0.2f, 0.5f, 1 },
+                                      { 0.9f, 0.3f, 0.5f, 1 },
+                                      { 0.4f, 0.8f, 0.5f, 1 } };
+    for (int k = 0; k < 9; k++) {
+        const float *p = seen[k / 3];
+        out[k] = p[(first + k % 3) % 4] / p[(first + 3) % 4];
+    }
 }
 
 /* A matrix is the identity only where all of its sixteen numbers are 0: columns that begin with
@@ -481,26 +552,13 @@ TEST(mesh, matrices_that_begin_with_zeros_are_used)
     s.lighting.ambient = grey(0.25);
     for (int first = 0; first < 4; first++) { /* the row of the one in the first column */
         float moved[9];
-        shade_mat4 m;
-        memset(&m, 0, sizeof m);
-        for (int k = 0; k < 4; k++) {
-            float column[4] = { 0, 0, 0, 0 };
-            column[(first + k) % 4] = 1;
-            m.col[k] = shade_v4(column[0], column[1], column[2], column[3]);
-        }
-        for (int k = 0; k < 3; k++) { /* corners that the matrix takes into view */
-            static const float seen[3][4] = { { 0.1f, 0.2f, 0.5f, 1 },
-                                              { 0.9f, 0.3f, 0.5f, 1 },
-                                              { 0.4f, 0.8f, 0.5f, 1 } };
-            for (int j = 0; j < 3; j++) {
-                moved[3 * k + j] = seen[k][(first + j) % 4] / seen[k][(first + 3) % 4];
-            }
-        }
+        shade_mat4 m = permutation(first);
+        permuted_corners(first, moved);
         shade_mesh turned = plain_mesh(moved, 3);
         s.projection = m;
-        canvas_clear(&a, 1), canvas_clear(&b, 1);
-        shade_stats stats;
-        CHECK_INT(shade_draw_mesh(&a.target, &turned, &s, &stats), SHADE_OK);
+        canvas_clear(&a, 1);
+        canvas_clear(&b, 1);
+        shade_stats stats = canvas_draw_mesh(&a, &turned, &s);
         CHECK(stats.fragments > 10);
         scene plain;
         shade_vec4 clip[3];
@@ -510,13 +568,16 @@ TEST(mesh, matrices_that_begin_with_zeros_are_used)
                 m, shade_v4(moved[3 * k], moved[3 * k + 1], moved[3 * k + 2], 1));
         }
         shade_vec4 color = shade_v4(0.25f, 0.25f, 0.25f, 1);
-        plain.clip = clip, plain.color = &color;
+        plain.clip = clip;
+        plain.color = &color;
         shade_pipeline p = scene_pipeline(&plain);
-        CHECK_INT(shade_draw(&b.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        canvas_draw(&b, &p, 3);
         CHECK(canvas_same(&a, &b));
     }
-    canvas_close(&a), canvas_close(&b);
+    canvas_close(&a);
+    canvas_close(&b);
 }
+
 TEST(mesh, a_mesh_of_nothing_needs_no_positions)
 {
     canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
@@ -524,7 +585,7 @@ TEST(mesh, a_mesh_of_nothing_needs_no_positions)
     shade_mesh mesh = plain_mesh(NULL, 0);
     shade_stats stats;
     shade_vec3 normal;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    stats = canvas_draw_mesh(&c, &mesh, &s);
     CHECK_INT(stats.triangles, 0);
     CHECK_INT(shade_mesh_normals(&mesh, &normal), SHADE_OK);
     mesh.vertex_count = 3;
@@ -540,26 +601,30 @@ TEST(mesh, the_state_of_the_pipeline_is_handed_on)
     s.lighting.ambient = grey(0.25);
     canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
     canvas_clear(&c, 0.5f);
-    shade_stats stats;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    shade_stats stats = canvas_draw_mesh(&c, &mesh, &s);
     CHECK_INT(stats.fragments, 0); /* at the same depth: LESS fails */
-    s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, s.raster.blend = SHADE_BLEND_ADD;
-    for (int k = 0; k < 3; k++) CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    s.raster.blend = SHADE_BLEND_ADD;
+    for (int k = 0; k < 3; k++) (void)canvas_draw_mesh(&c, &mesh, &s);
     CHECK_NEAR(canvas_float(&c, 10, 12, 0), 0.75, 1e-6);
     s.raster.depth_bias = 0.25f;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    stats = canvas_draw_mesh(&c, &mesh, &s);
     CHECK_INT(stats.fragments, 0);
-    s.raster.depth_bias = -0.25f, s.raster.depth_read_only = 1;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    s.raster.depth_bias = -0.25f;
+    s.raster.depth_read_only = 1;
+    (void)canvas_draw_mesh(&c, &mesh, &s);
     CHECK_NEAR(canvas_depth(&c, 10, 12), 0.5, 0);
     s.raster.depth_read_only = 0;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    (void)canvas_draw_mesh(&c, &mesh, &s);
     CHECK_NEAR(canvas_depth(&c, 10, 12), 0.25, 1e-6);
-    s.raster.cull = SHADE_CULL_FRONT, s.raster.depth_test = SHADE_COMPARE_ALWAYS;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    s.raster.cull = SHADE_CULL_FRONT;
+    s.raster.depth_test = SHADE_COMPARE_ALWAYS;
+    stats = canvas_draw_mesh(&c, &mesh, &s);
     CHECK_INT(stats.culled, 1);
-    s.raster.cull = SHADE_CULL_BACK, s.raster.depth_zero_to_one = 1, s.raster.depth_bias = 0;
-    CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+    s.raster.cull = SHADE_CULL_BACK;
+    s.raster.depth_zero_to_one = 1;
+    s.raster.depth_bias = 0;
+    stats = canvas_draw_mesh(&c, &mesh, &s);
     CHECK_INT(stats.drawn, 1);
     CHECK_NEAR(canvas_depth(&c, 10, 12), 0, 1e-6);
     canvas_close(&c);
@@ -575,8 +640,7 @@ TEST(mesh, a_nan_in_a_matrix_rejects_every_triangle)
         m->col[1].x = (float)NAN;
         canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
         canvas_clear(&c, 1);
-        shade_stats stats;
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+        shade_stats stats = canvas_draw_mesh(&c, &mesh, &s);
         CHECK_INT(stats.rejected, 1);
         CHECK_INT(stats.fragments, 0);
         canvas_close(&c);
@@ -587,7 +651,8 @@ TEST(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero)
 {
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), shade_v3((float)NAN, 1, 1));
     shade_material m = teapot_brass();
-    m.specular = grey(0), m.emission.z = (float)NAN;
+    m.specular = grey(0);
+    m.emission.z = (float)NAN;
     shade_draw_state s = plain_state(&light);
     shade_mesh mesh = plain_mesh(big_triangle, 3);
     s.material = &m;
@@ -595,7 +660,7 @@ TEST(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero)
         canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
         s.shading = (shade_shading)shading;
         CHECK_INT(shade_clear(&c.target, shade_v4(1, 1, 1, 0), 1), SHADE_OK);
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, NULL), SHADE_OK);
+        canvas_draw_mesh(&c, &mesh, &s);
         CHECK_INT(canvas_bytes(&c, 10, 12)[0], 0);
         CHECK_INT(canvas_bytes(&c, 10, 12)[1], 145); /* k_d .568627 of 255 */
         CHECK_INT(canvas_bytes(&c, 10, 12)[2], 0);
@@ -604,106 +669,86 @@ TEST(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero)
     }
 }
 
+/* What shade_draw_mesh is given: three corners, with normals, colours and coordinates. */
+typedef struct mesh_call {
+    shade_mesh m;
+    shade_draw_state s;
+    int bad_index; /* 1: the indices are 0, 1, 3 */
+} mesh_call;
+
+#define MESH_FAULT(field, value) FAULT(mesh_call, m.field, value)
+#define STATE_FAULT(field, value) FAULT(mesh_call, s.field, value)
+#define BAD_INDEX FAULT(mesh_call, bad_index, 1)
+static const refusal bad_mesh_calls[] = {
+    { SHADE_ERROR_MESH, { FAULT_NULL(mesh_call, m.positions) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(position_stride, -12) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(position_stride, 13) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(normal_stride, -4) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(normal_stride, 2) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(color_stride, 15) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(color_stride, -12) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(texcoord_stride, 7) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(texcoord_stride, -8) } },
+    { SHADE_ERROR_MESH, { MESH_FAULT(index_count, -3) } },
+    { SHADE_ERROR_MESH, { FAULT_NULL(mesh_call, m.indices), MESH_FAULT(vertex_count, -3) } },
+    { SHADE_ERROR_LIGHTS, { FAULT_NULL(mesh_call, s.lighting.lights) } },
+    { SHADE_ERROR_LIGHTS, { STATE_FAULT(lighting.model, 6) } },
+    { SHADE_ERROR_STATE, { STATE_FAULT(shading, 3) } },
+    { SHADE_ERROR_STATE, { STATE_FAULT(raster.cull, 3) } },
+    { SHADE_ERROR_STATE, { STATE_FAULT(raster.depth_test, 6) } },
+    { SHADE_ERROR_STATE, { STATE_FAULT(raster.blend, 3) } },
+    { SHADE_ERROR_STATE, { FAULT_REAL(mesh_call, s.raster.depth_bias, NAN) } },
+    { SHADE_ERROR_INDEX, { BAD_INDEX } },
+    { SHADE_ERROR_INDEX, { MESH_FAULT(vertex_count, 2) } },
+    { SHADE_ERROR_INDEX, { MESH_FAULT(vertex_count, 0) } },
+    { SHADE_ERROR_INDEX, { MESH_FAULT(index_count, 2) } },
+    { SHADE_ERROR_INDEX, { FAULT_NULL(mesh_call, m.indices), MESH_FAULT(vertex_count, 2) } },
+    { SHADE_ERROR_STATE, { BAD_INDEX, STATE_FAULT(shading, 3) } }, /* the state before indices */
+};
+
+/* G2 */
 TEST(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes)
 {
     static const uint32_t good_indices[] = { 0, 1, 2 }, bad_indices[] = { 0, 1, 3 };
     shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
     canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
     canvas_clear(&c, 1);
-    shade_mesh good = plain_mesh(big_triangle, 3);
-    shade_draw_state state = plain_state(&light);
-    good.indices = good_indices, good.index_count = 3;
-    CHECK_INT(shade_draw_mesh(NULL, &good, &state, NULL), SHADE_ERROR_ARGUMENT);
-    CHECK_INT(shade_draw_mesh(&c.target, NULL, &state, NULL), SHADE_ERROR_ARGUMENT);
-    CHECK_INT(shade_draw_mesh(&c.target, &good, NULL, NULL), SHADE_ERROR_ARGUMENT);
-    for (int k = 0; k < 24; k++) {
-        shade_mesh m = good;
-        shade_draw_state s = state;
-        shade_result want = k < 8 || (k > 14 && k < 18) ? SHADE_ERROR_MESH : SHADE_ERROR_STATE;
-        m.normals = m.colors = m.texcoords = big_triangle;
-        switch (k) {
-        case 0:
-            m.positions = NULL;
-            break;
-        case 1:
-            m.position_stride = -12;
-            break;
-        case 2:
-            m.position_stride = 13;
-            break;
-        case 3:
-            m.normal_stride = -4;
-            break;
-        case 4:
-            m.normal_stride = 2;
-            break;
-        case 5:
-            m.color_stride = 15;
-            break;
-        case 6:
-            m.texcoord_stride = 7;
-            break;
-        case 7:
-            m.index_count = -3;
-            break;
-        case 8:
-            s.lighting.lights = NULL, want = SHADE_ERROR_LIGHTS;
-            break;
-        case 9:
-            s.lighting.model = (shade_model)6, want = SHADE_ERROR_LIGHTS;
-            break;
-        case 10:
-            s.shading = (shade_shading)3;
-            break;
-        case 11:
-            s.raster.cull = (shade_cull)3;
-            break;
-        case 12:
-            s.raster.depth_test = (shade_compare)6;
-            break;
-        case 13:
-            s.raster.blend = (shade_blend)3;
-            break;
-        case 14:
-            s.raster.depth_bias = (float)NAN;
-            break;
-        case 15:
-            m.indices = NULL, m.vertex_count = -3;
-            break;
-        case 16:
-            m.color_stride = -12;
-            break;
-        case 17:
-            m.texcoord_stride = -8;
-            break;
-        case 18:
-            m.indices = bad_indices, want = SHADE_ERROR_INDEX;
-            break;
-        case 19:
-            m.vertex_count = 2, want = SHADE_ERROR_INDEX;
-            break;
-        case 20:
-            m.index_count = 2, want = SHADE_ERROR_INDEX;
-            break;
-        case 21:
-            m.indices = NULL, m.vertex_count = 2, want = SHADE_ERROR_INDEX;
-            break;
-        case 22:
-            m.vertex_count = 0, want = SHADE_ERROR_INDEX;
-            break;
-        default:
-            m.indices = bad_indices, s.shading = (shade_shading)3;
-            break; /* the state before indices */
-        }
-        shade_result got = shade_draw_mesh(&c.target, &m, &s, NULL);
-        CHECK_SAY(got == want, "case %d: got %d, want %d", k, (int)got, (int)want);
+    mesh_call good = { plain_mesh(big_triangle, 3), plain_state(&light), 0 };
+    good.m.normals = good.m.colors = good.m.texcoords = big_triangle;
+    good.m.indices = good_indices;
+    good.m.index_count = 3;
+    CHECK_INT(shade_draw_mesh(NULL, &good.m, &good.s, NULL), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_draw_mesh(&c.target, NULL, &good.s, NULL), SHADE_ERROR_ARGUMENT);
+    CHECK_INT(shade_draw_mesh(&c.target, &good.m, NULL, NULL), SHADE_ERROR_ARGUMENT);
+
+    for (int row = 0; row < TEST_COUNT(bad_mesh_calls); row++) {
+        mesh_call bad = good;
+        spoil(&bad, bad_mesh_calls[row].faults);
+        if (bad.bad_index) bad.m.indices = bad_indices;
+        shade_result got = shade_draw_mesh(&c.target, &bad.m, &bad.s, NULL);
+        check_refusal(row, got, bad_mesh_calls[row].want);
         CHECK_INT(canvas_bytes(&c, 10, 12)[3], 0);
         CHECK_NEAR(canvas_depth(&c, 10, 12), 1, 0);
     }
-    state.lighting.light_count = -4; /* counts as none */
-    CHECK_INT(shade_draw_mesh(&c.target, &good, &state, NULL), SHADE_OK);
-    good.index_count = 0;
-    CHECK_INT(shade_draw_mesh(&c.target, &good, &state, NULL), SHADE_OK);
+    canvas_close(&c);
+}
+
+TEST(mesh, a_negative_number_of_lights_is_none_and_no_index_is_no_triangle)
+{
+    static const uint32_t indices[] = { 0, 1, 2 };
+    shade_light light = shade_directional_light(shade_v3(0, 0, -1), grey(1));
+    canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
+    canvas_clear(&c, 1);
+    shade_mesh m = plain_mesh(big_triangle, 3);
+    shade_draw_state s = plain_state(&light);
+    m.indices = indices;
+    s.lighting.light_count = -4;
+    canvas_draw_mesh(&c, &m, &s);
+    CHECK_INT(canvas_bytes(&c, 10, 12)[3], 0);
+    m.index_count = 3;
+    canvas_draw_mesh(&c, &m, &s);
+    CHECK_INT(canvas_bytes(&c, 10, 12)[0], 0);
+    CHECK_INT(canvas_bytes(&c, 10, 12)[3], 255);
     canvas_close(&c);
 }
 
@@ -731,6 +776,7 @@ TEST(mesh, transparency_and_cutoff_lie_between_zero_and_one)
 
 /* One bad index, anywhere in lists that are checked in pieces; corners looked up by index or one
    by one. */
+/* G2 */
 TEST(mesh, a_bad_index_is_found_wherever_it_stands)
 {
     static uint32_t list[600];
@@ -743,9 +789,10 @@ TEST(mesh, a_bad_index_is_found_wherever_it_stands)
         for (int k = 0; k < count; k++) list[k] = (uint32_t)rnd_int(0, 2);
         s.shading = random_shading();
         m.normals = rnd_one_in(2) ? big_triangle : NULL;
-        m.indices = list, m.index_count = count;
+        m.indices = list;
+        m.index_count = count;
         if (i % 4 == 0) {
-            CHECK_INT(shade_draw_mesh(&c.target, &m, &s, &stats), SHADE_OK);
+            stats = canvas_draw_mesh(&c, &m, &s);
             CHECK_INT(stats.triangles, count / 3);
         }
         memset(c.color, CANVAS_BYTE, c.color_bytes + 2 * CANVAS_GUARD);
@@ -782,14 +829,15 @@ TEST(mesh, a_degenerate_camera_draws_nothing_in_any_depth_convention)
         canvas_clear(&c, reversed ? 0.0f : 1.0f);
         canvas before = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 1);
         canvas_clear(&before, reversed ? 0.0f : 1.0f);
-        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &s, &stats), SHADE_OK);
+        stats = canvas_draw_mesh(&c, &mesh, &s);
         CHECK_INT(stats.triangles, 2);
         CHECK_INT(stats.clipped, nowhere ? 2 : 0);
         CHECK_SAY((stats.fragments == 0) == nowhere, "camera %d: %lld pixels", i / 24,
                   stats.fragments);
         CHECK(canvas_same(&c, &before) == nowhere);
         drawn += stats.fragments > 0;
-        canvas_close(&c), canvas_close(&before);
+        canvas_close(&c);
+        canvas_close(&before);
     }
     CHECK_SAY(drawn == DEGENERATE_CAMERAS * 4, "%ld", drawn);
 }
@@ -816,11 +864,13 @@ static d3 alpha_color(double x, double y) /* of the vertices, linear in between 
 {
     return d3_of(0.5 + 0.3 * x, 0.5 - 0.2 * y, 0.4 + 0.1 * x + 0.1 * y);
 }
+
 static float random_alpha(void)
 {
     static const float plain[] = { 0, 0.25f, 0.5f, 0.75f, 1, 0.125f };
     return rnd_one_in(3) ? rnd_float(0, 1) : plain[rnd_int(0, 5)];
 }
+
 static void random_alpha_scene(alpha_scene *s)
 {
     static const float corner[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
@@ -830,23 +880,31 @@ static void random_alpha_scene(alpha_scene *s)
         put3(s->position[k], shade_v3((float)x, (float)y, (float)(0.25 * x)));
         put3(s->normal[k], shade_v3(0, 0, 1));
         put3(s->color[k], d3_round(alpha_color(x, y)));
-        s->texcoord[k][0] = (float)((x + 1) / 2), s->texcoord[k][1] = (float)((1 - y) / 2);
+        s->texcoord[k][0] = (float)((x + 1) / 2);
+        s->texcoord[k][1] = (float)((1 - y) / 2);
     }
     for (int k = 0; k < ALPHA_W * ALPHA_H; k++) {
         float *t = s->texel[k / ALPHA_W][k % ALPHA_W];
         for (int n = 0; n < 3; n++) t[n] = rnd_float(0, 1);
         t[3] = rnd_one_in(40) ? (float)NAN : random_alpha();
     }
-    s->map.pixels = s->texel, s->map.width = ALPHA_W, s->map.height = ALPHA_H;
-    s->map.format = SHADE_FORMAT_RGBA32F, s->map.filter = SHADE_FILTER_NEAREST;
-    s->mesh.positions = s->position[0], s->mesh.vertex_count = 4;
-    s->mesh.indices = alpha_corners, s->mesh.index_count = 6;
+    s->map.pixels = s->texel;
+    s->map.width = ALPHA_W;
+    s->map.height = ALPHA_H;
+    s->map.format = SHADE_FORMAT_RGBA32F;
+    s->map.filter = SHADE_FILTER_NEAREST;
+    s->mesh.positions = s->position[0];
+    s->mesh.vertex_count = 4;
+    s->mesh.indices = alpha_corners;
+    s->mesh.index_count = 6;
     if (rnd_one_in(2)) s->mesh.normals = s->normal[0];
     if (rnd_one_in(2)) s->mesh.colors = s->color[0];
     if (rnd_int(0, 3)) s->mesh.texcoords = s->texcoord[0];
     if (rnd_int(0, 3)) s->state.diffuse_map = &s->map;
-    s->material.emission = random_color(0.25), s->material.ambient = random_color(1);
-    s->state.material = &s->material, s->state.lighting.ambient = random_color(1);
+    s->material.emission = random_color(0.25);
+    s->material.ambient = random_color(1);
+    s->state.material = &s->material;
+    s->state.lighting.ambient = random_color(1);
     s->state.shading = (shade_shading)rnd_int(0, 2);
     s->state.raster.blend = (shade_blend)rnd_int(0, 2);
     s->state.transparency = rnd_one_in(3) ? 0 : random_alpha();
@@ -856,6 +914,7 @@ static void random_alpha_scene(alpha_scene *s)
     if (s->state.shading == SHADE_SHADING_PER_FRAGMENT)
         s->needs = 6 + (s->mesh.colors ? 3 : 0) + (maps ? 2 : 0);
 }
+
 /* The colour at a pixel in rgb, its alpha. */
 static double alpha_pixel(const alpha_scene *s, int x, int y, double rgb[3])
 {
@@ -868,13 +927,17 @@ static double alpha_pixel(const alpha_scene *s, int x, int y, double rgb[3])
     if (maps) albedo = d3_mul(albedo, d3_of((double)t[0], (double)t[1], (double)t[2]));
     lit = d3_mul(d3_from(s->material.ambient), d3_from(s->state.lighting.ambient));
     lit = d3_add(ke, d3_mul(lit, albedo));
-    rgb[0] = lit.x, rgb[1] = lit.y, rgb[2] = lit.z;
+    rgb[0] = lit.x;
+    rgb[1] = lit.y;
+    rgb[2] = lit.z;
     return (1 - (double)s->state.transparency) * (maps ? (double)t[3] : 1);
 }
+
 static int alpha_is_cut(const alpha_scene *s, double alpha)
 {
     return s->state.alpha_cutoff > 0 && !(alpha >= (double)s->state.alpha_cutoff);
 }
+
 static double alpha_blend(const alpha_scene *s, double c, double a, double d, int channel)
 {
     if (s->state.raster.blend == SHADE_BLEND_REPLACE) return channel < 3 ? c : a;
@@ -882,11 +945,35 @@ static double alpha_blend(const alpha_scene *s, double c, double a, double d, in
         return channel < 3 ? c * a + d * (1 - a) : a + d * (1 - a);
     return channel < 3 ? c * a + d : a + d;
 }
+
 static double stored_channel(const canvas *c, int x, int y, int channel)
 {
     if (c->target.format == SHADE_FORMAT_RGBA32F) return (double)canvas_float(c, x, y, channel);
     return canvas_bytes(c, x, y)[channel] / 255.0;
 }
+
+/* Holds the four channels of a pixel to the equation: rgb and alpha upon d, the stored background,
+   or d alone where nothing is drawn. */
+static void check_alpha_pixel(const canvas *c, const alpha_scene *s, int x, int y,
+                              const double d[4], int seen)
+{
+    const int floats = c->target.format == SHADE_FORMAT_RGBA32F;
+    double rgb[3], alpha = alpha_pixel(s, x, y, rgb), near = floats ? 2e-6 : 0.502 / 255;
+    for (int n = 0; n < 4; n++) {
+        double got = stored_channel(c, x, y, n);
+        double want = alpha_blend(s, n < 3 ? rgb[n] : 0, alpha, d[n], n);
+        if (!floats) want = fmax(0, fmin(1, want));
+        if (!seen || !c->target.color) want = d[n];
+        CHECK_SAY(fabs(got - want) <= near,
+                  "channel %d: got %g, want %g; shading %d, blend %d, map %d, "
+                  "transparency %g, cutoff %g, alpha %g",
+                  n, got, want, (int)s->state.shading, (int)s->state.raster.blend,
+                  s->state.diffuse_map != NULL, (double)s->state.transparency,
+                  (double)s->state.alpha_cutoff, alpha);
+    }
+}
+
+static double alpha_depth(int x) { return (0.25 * (2 * (x + 0.5) / ALPHA_W - 1) + 1) / 2; }
 
 TEST(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut)
 {
@@ -903,36 +990,24 @@ TEST(mesh, alpha_is_opacity_times_the_map_blended_stored_and_cut)
         CHECK_INT(shade_clear(&c.target, back, wall), SHADE_OK);
         double d[4];
         for (int n = 0; n < 4; n++) d[n] = stored_channel(&c, 0, 0, n);
-        int depth_only = rnd_one_in(4), fits = s.needs <= SHADE_MAX_VARYINGS;
-        if (depth_only) c.target.color = NULL;
-        CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, &stats),
-                  fits ? SHADE_OK : SHADE_ERROR_STATE);
+        const int fits = s.needs <= SHADE_MAX_VARYINGS;
+        const shade_result want = fits ? SHADE_OK : SHADE_ERROR_STATE;
+        if (rnd_one_in(4)) c.target.color = NULL; /* depth alone */
+        CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, &stats), want);
         refused += !fits;
         for (int k = 0; k < ALPHA_W * ALPHA_H; k++) {
             int x = k % ALPHA_W, y = k / ALPHA_W;
-            double rgb[3], alpha = alpha_pixel(&s, x, y, rgb);
-            double depth = (0.25 * (2 * (x + 0.5) / ALPHA_W - 1) + 1) / 2;
-            double near = format == SHADE_FORMAT_RGBA32F ? 2e-6 : 0.502 / 255;
+            double rgb[3], alpha = alpha_pixel(&s, x, y, rgb), depth = alpha_depth(x);
             if (fabs(alpha - (double)s.state.alpha_cutoff) < 1e-7) {
                 if (alpha != (double)s.state.alpha_cutoff) continue;
                 equal += s.state.alpha_cutoff > 0;
             }
             int gone = alpha_is_cut(&s, alpha), seen = fits && !gone && depth < (double)wall;
-            fragments += seen, cut += gone;
+            fragments += seen;
+            cut += gone;
             CHECK_NEAR(canvas_depth(&c, x, y), seen ? depth : (double)wall, seen ? 1e-6 : 0);
             if (isnan(alpha) && seen) continue;
-            for (int n = 0; n < 4; n++) {
-                double got = stored_channel(&c, x, y, n);
-                double want = alpha_blend(&s, n < 3 ? rgb[n] : 0, alpha, d[n], n);
-                if (format == SHADE_FORMAT_RGBA8) want = fmax(0, fmin(1, want));
-                if (!seen || depth_only) want = d[n];
-                CHECK_SAY(fabs(got - want) <= near,
-                          "channel %d: got %g, want %g; shading %d, blend %d, map %d, "
-                          "transparency %g, cutoff %g, alpha %g",
-                          n, got, want, (int)s.state.shading, (int)s.state.raster.blend,
-                          s.state.diffuse_map != NULL, (double)s.state.transparency,
-                          (double)s.state.alpha_cutoff, alpha);
-            }
+            check_alpha_pixel(&c, &s, x, y, d, seen);
             blended[s.state.raster.blend] += seen && alpha > 0 && alpha < 1;
         }
         CHECK_INT(stats.fragments, fragments);
@@ -956,12 +1031,17 @@ TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
     for (int i = 0; i < 60; i++) {
         canvas c = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA32F, 1);
         random_alpha_scene(&s);
-        s.mesh.colors = NULL, s.mesh.texcoords = s.texcoord[0], s.state.diffuse_map = &s.map;
-        s.state.transparency = 0, s.state.alpha_cutoff = 0.53125f; /* between sixteenths */
+        s.mesh.colors = NULL;
+        s.mesh.texcoords = s.texcoord[0];
+        s.state.diffuse_map = &s.map;
+        s.state.transparency = 0;
+        s.state.alpha_cutoff = 0.53125f; /* between two sixteenths */
         s.state.raster.blend = SHADE_BLEND_REPLACE;
         for (int k = 0; k < W * H; k++)
             for (int n = 0; n < 4; n++) texel[k / W][k % W][n] = (float)rnd_int(0, 1);
-        s.map.pixels = texel, s.map.width = W, s.map.height = H;
+        s.map.pixels = texel;
+        s.map.width = W;
+        s.map.height = H;
         s.map.filter = SHADE_FILTER_TRILINEAR;
         CHECK_INT(shade_build_mipmaps(&s.map, levels, memory, sizeof memory), SHADE_OK);
         canvas_clear(&c, 1);
@@ -973,7 +1053,8 @@ TEST(mesh, alpha_of_a_mipmapped_map_is_that_of_the_level_drawn)
             for (int n = 0; n < 16; n++)
                 alpha += (double)texel[4 * y + n / 4][4 * x + n % 4][3] / 16;
             CHECK_SAY((canvas_depth(&c, x, y) < 1) == (alpha > 0.53), "mean alpha %g", alpha);
-            holes += alpha<0.53, drawn += alpha> 0.53;
+            holes += alpha<0.53;
+            drawn += alpha> 0.53;
             if (i % 2 == 0) CHECK_NEAR(canvas_float(&c, x, y, 3), alpha > 0.53 ? alpha : 0, 1e-4);
         }
         canvas_close(&c);
@@ -990,17 +1071,20 @@ TEST(mesh, depth_alone_has_the_holes_of_the_picture)
         canvas b = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA8, 1);
         shade_stats once, before, after;
         random_alpha_scene(&s);
-        canvas_clear(&a, 1), canvas_clear(&b, 1);
+        canvas_clear(&a, 1);
+        canvas_clear(&b, 1);
         shade_result result = shade_draw_mesh(&a.target, &s.mesh, &s.state, &once);
         void *color = b.target.color;
         b.target.color = NULL;
         CHECK_INT(shade_draw_mesh(&b.target, &s.mesh, &s.state, &before), result);
         CHECK(!memcmp(a.depth, b.depth, a.depth_bytes));
-        b.target.color = color, s.state.raster.depth_test = SHADE_COMPARE_EQUAL;
+        b.target.color = color;
+        s.state.raster.depth_test = SHADE_COMPARE_EQUAL;
         CHECK_INT(shade_draw_mesh(&b.target, &s.mesh, &s.state, &after), result);
         CHECK(canvas_same(&a, &b));
         CHECK(once.fragments == before.fragments && once.fragments == after.fragments);
-        canvas_close(&a), canvas_close(&b);
+        canvas_close(&a);
+        canvas_close(&b);
     }
 }
 
@@ -1071,7 +1155,8 @@ TEST(mesh, corners_of_a_cube_point_along_its_diagonals)
             for (int k = 0; k < 6; k++) indices[count++] = faces[f][split[s][k]];
         }
         shade_mesh mesh = plain_mesh(p, 8);
-        mesh.indices = indices, mesh.index_count = 36;
+        mesh.indices = indices;
+        mesh.index_count = 36;
         CHECK_INT(shade_mesh_normals(&mesh, n), SHADE_OK);
         for (int v = 0; v < 8; v++) {
             d3 want = d3_unit(d3_of((double)p[3 * v], (double)p[3 * v + 1], (double)p[3 * v + 2]));
@@ -1089,17 +1174,21 @@ TEST(mesh, vertex_normals_of_bad_meshes_are_refused)
     check_color(__LINE__, "normal", n[1], d3_of(0, 0, 1), 1e-6);
     CHECK_INT(shade_mesh_normals(NULL, n), SHADE_ERROR_ARGUMENT);
     CHECK_INT(shade_mesh_normals(&m, NULL), SHADE_ERROR_ARGUMENT);
-    m.indices = bad, m.index_count = 3;
+    m.indices = bad;
+    m.index_count = 3;
     CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_INDEX);
-    m.indices = good, m.index_count = 2;
+    m.indices = good;
+    m.index_count = 2;
     CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_INDEX);
     m.index_count = -3;
     CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
-    m.index_count = 3, m.position_stride = 5;
+    m.index_count = 3;
+    m.position_stride = 5;
     CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
     m.position_stride = -12;
     CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
-    m.position_stride = 0, m.positions = NULL;
+    m.position_stride = 0;
+    m.positions = NULL;
     CHECK_INT(shade_mesh_normals(&m, n), SHADE_ERROR_MESH);
     float strange[9];
     for (int i = 0; i < 500; i++) { /* NaN and infinity do no harm */
@@ -1127,6 +1216,7 @@ static const test_case mesh_cases[] = {
     CASE(mesh, a_nan_in_a_matrix_rejects_every_triangle),
     CASE(mesh, nan_in_light_or_material_colours_pixels_and_stores_as_zero),
     CASE(mesh, bad_meshes_and_states_are_refused_before_a_pixel_changes),
+    CASE(mesh, a_negative_number_of_lights_is_none_and_no_index_is_no_triangle),
     CASE(mesh, transparency_and_cutoff_lie_between_zero_and_one),
     CASE(mesh, a_bad_index_is_found_wherever_it_stands),
     CASE(mesh, a_degenerate_camera_draws_nothing_in_any_depth_convention),

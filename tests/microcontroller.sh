@@ -27,6 +27,7 @@ if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     if command -v qemu-system-arm >/dev/null 2>&1; then
         check "runs" timeout 120 $make ../../$B/board.565
         check "less than 20 kB of RAM, static and stack" below 20000 "$(number together <$B/board.txt)"
+        # G12
         check "the same bits" cmp $B/picture.565 $B/board.565
     else
         echo "microcontroller: no qemu-system-arm: memory and picture of the board left out"

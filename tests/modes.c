@@ -45,9 +45,13 @@ static void modes_check_texels(int mode, int width, float u)
     memset(&t, 0, sizeof t);
     for (int i = 0; i < 64 * 4 + 64; i++)
         texel[i] = i / 4 < width ? (float)(i / 4) : 1e30f;
-    t.pixels = texel, t.width = width, t.height = 1, t.format = SHADE_FORMAT_RGBA32F;
+    t.pixels = texel;
+    t.width = width;
+    t.height = 1;
+    t.format = SHADE_FORMAT_RGBA32F;
     for (int k = 0; k < 6; k++) {
-        t.wrap_u = (shade_wrap)(k % 3), t.wrap_v = SHADE_WRAP_CLAMP;
+        t.wrap_u = (shade_wrap)(k % 3);
+        t.wrap_v = SHADE_WRAP_CLAMP;
         t.filter = k < 3 ? SHADE_FILTER_NEAREST : SHADE_FILTER_BILINEAR;
         modes_set(mode);
         float got = shade_sample(&t, u, u, 0).x;
@@ -57,6 +61,7 @@ static void modes_check_texels(int mode, int width, float u)
     }
 }
 
+/* G16 */
 TEST(modes, no_rounding_reads_a_texel_beyond_the_row)
 {
     static const float u[] = { 1,       0,      -0.0f, 0.99999994f, 1.0000001f,
@@ -72,6 +77,7 @@ TEST(modes, no_rounding_reads_a_texel_beyond_the_row)
     }
 }
 
+/* G16 */
 TEST(modes, no_mode_writes_outside_a_picture)    /* canvas_close looks at the bytes around it */
 {
     scene_build();
@@ -104,11 +110,8 @@ static void modes_ordinary(void (*open)(const char *what), void (*close)(const c
     const float flat[9] = { -1, -1, 0, 0, 0, 0, 1, 1, 0 };
     const shade_vec3 a = shade_v3(0, 0, 0), b = shade_v3(1, 0, 0), c = shade_v3(0, 1, 0);
     const shade_ray along = { shade_v3(-1, 0, 0), shade_v3(1, 0, 0) };
-    shade_draw_state s;
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    memset(&s, 0, sizeof s);
-    m.positions = flat, m.vertex_count = 3;
+    shade_draw_state s = plain_state(NULL);
+    shade_mesh m = plain_mesh(flat, 3);
     scene_build();
     for (int k = 0; k < SCENE_COUNT; k++) {
         if (golden_scenes[k].wild) continue;
@@ -137,6 +140,8 @@ static void modes_clear_flags(const char *what)
     (void)what;
     feclearexcept(FE_ALL_EXCEPT);
 }
+
+/* G17 */
 TEST(modes, what_is_finite_and_in_range_raises_no_flag)
 {
     modes_ordinary(modes_clear_flags, modes_check_flags);
@@ -156,17 +161,21 @@ static void modes_trapped(int signal_number)
     if (write(1, modes_drawing, strlen(modes_drawing)) < 0 || write(1, " traps\n", 7) < 0) _Exit(2);
     _Exit(1);
 }
+
 static void modes_arm(const char *what)
 {
     modes_drawing = what;
     feclearexcept(FE_ALL_EXCEPT);
     feenableexcept(MODES_TRAPS);
 }
+
 static void modes_disarm(const char *what)
 {
     fedisableexcept(MODES_TRAPS);
     modes_check_flags(what);
 }
+
+/* G17 */
 TEST(modes, programs_that_trap_may_draw)
 {
     if (feenableexcept(MODES_TRAPS) < 0) {

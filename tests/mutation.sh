@@ -39,12 +39,14 @@ assembly() {                    # the folder of a shade.h, public or implementat
 first() {                       # sections of the tests that know a section of shade.h best
     case $1 in
     math) echo math matrix ;; matrix) echo matrix ;; power) echo power light ;;
-    base) echo power lanes store ;; lighting) echo light lanes ;; lanes) echo lanes light ;;
-    color | store) echo store resolve texture ;; texture) echo texture ;;
-    fragments) echo packets fragment store ;; triangles) echo packets depth cover ;;
-    blocks) echo blocks cover ;; cover) echo cover blocks fragment ;; clip) echo clip depth ;;
-    vertices) echo vertex clip ;; drive) echo drive resolve ;; mesh) echo mesh texture ;;
-    lines) echo lines ;; shape) echo shape ray ;; image) echo drive store ;;
+    base) echo power lanes store ;; pixels | store) echo store resolve texture ;;
+    lamps | terms) echo light lanes ;; lit) echo lanes light ;; vertices) echo vertex clip ;;
+    triangles) echo packets depth cover ;; clip) echo clip depth ;;
+    cover) echo cover blocks fragment ;; fragments) echo packets fragment store ;;
+    texture) echo texture ;; check) echo check ;; drive) echo drive resolve ;;
+    mesh) echo mesh texture own ;; lines) echo lines ;; shape) echo shape ;;
+    chunks) echo chunks ;; rays) echo ray ;; survey | explain) echo explain ;;
+    image) echo drive store ;;
     esac
 }
 

@@ -17,6 +17,7 @@ static d3 d3_of(double x, double y, double z)
     v.z = z;
     return v;
 }
+
 static d3 d3_from(shade_vec3 v) { return d3_of((double)v.x, (double)v.y, (double)v.z); }
 static d3 d3_add(d3 a, d3 b) { return d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
 static d3 d3_sub(d3 a, d3 b) { return d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -24,24 +25,29 @@ static d3 d3_mul(d3 a, d3 b) { return d3_of(a.x * b.x, a.y * b.y, a.z * b.z); }
 static d3 d3_scale(d3 a, double s) { return d3_of(a.x * s, a.y * s, a.z * s); }
 static double d3_dot(d3 a, d3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static double d3_length(d3 a) { return sqrt(d3_dot(a, a)); }
+
 static d3 d3_cross(d3 a, d3 b)
 {
     return d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
+
 static d3 d3_unit(d3 a)
 {
     double length = d3_length(a);
     return length < 1e-18 ? d3_of(0, 0, 0) : d3_scale(a, 1 / length);
 }
+
 static double d3_max(d3 a) /* the greatest magnitude */
 {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
+
 /* Inlined, gcc 12 at -O2 drops the rounding of two neighbours that become doubles again. */
 #ifdef __GNUC__
 __attribute__((noinline))
 #endif
 static shade_vec3 d3_round(d3 a) { return shade_v3((float)a.x, (float)a.y, (float)a.z); }
+
 static d3 rnd_direction(void)
 {
     d3 v;
@@ -63,30 +69,37 @@ static dmat dmat_zero(void)
     memset(&r, 0, sizeof r);
     return r;
 }
+
 static dmat dmat_identity(void)
 {
     dmat r = dmat_zero();
     for (int k = 0; k < 4; k++) r.m[k][k] = 1;
     return r;
 }
+
 static dmat dmat_from(shade_mat4 s)
 {
     dmat r;
     for (int c = 0; c < 4; c++) {
-        r.m[0][c] = (double)s.col[c].x, r.m[1][c] = (double)s.col[c].y;
-        r.m[2][c] = (double)s.col[c].z, r.m[3][c] = (double)s.col[c].w;
+        r.m[0][c] = (double)s.col[c].x;
+        r.m[1][c] = (double)s.col[c].y;
+        r.m[2][c] = (double)s.col[c].z;
+        r.m[3][c] = (double)s.col[c].w;
     }
     return r;
 }
+
 static dmat dmat_from3(shade_mat3 s)
 {
     dmat r = dmat_identity();
     for (int c = 0; c < 3; c++) {
-        r.m[0][c] = (double)s.col[c].x, r.m[1][c] = (double)s.col[c].y,
+        r.m[0][c] = (double)s.col[c].x;
+        r.m[1][c] = (double)s.col[c].y;
         r.m[2][c] = (double)s.col[c].z;
     }
     return r;
 }
+
 static dmat dmat_mul(dmat a, dmat b)
 {
     dmat r = dmat_zero();
@@ -95,23 +108,30 @@ static dmat dmat_mul(dmat a, dmat b)
             for (int k = 0; k < 4; k++) r.m[i][j] += a.m[i][k] * b.m[k][j];
     return r;
 }
+
 static void dmat_apply(dmat a, const double in[4], double out[4])
 {
     for (int i = 0; i < 4; i++) {
         out[i] = a.m[i][0] * in[0] + a.m[i][1] * in[1] + a.m[i][2] * in[2] + a.m[i][3] * in[3];
     }
 }
+
 static d3 dmat_point(dmat a, d3 p) /* w = 1, the first three rows */
 {
     double in[4], out[4];
-    in[0] = p.x, in[1] = p.y, in[2] = p.z, in[3] = 1;
+    in[0] = p.x;
+    in[1] = p.y;
+    in[2] = p.z;
+    in[3] = 1;
     dmat_apply(a, in, out);
     return d3_of(out[0], out[1], out[2]);
 }
+
 static d3 dmat_direction(dmat a, d3 p)
 {
     return d3_sub(dmat_point(a, p), dmat_point(a, d3_of(0, 0, 0)));
 }
+
 static double dmat_max(dmat a)
 {
     double most = 0;
@@ -137,19 +157,27 @@ static double dmat_invert(dmat a, int n, dmat *inverse)
         if (pivot != c) {
             for (int j = 0; j < 4; j++) {
                 double s = a.m[c][j];
-                a.m[c][j] = a.m[pivot][j], a.m[pivot][j] = s;
+                a.m[c][j] = a.m[pivot][j];
+                a.m[pivot][j] = s;
                 s = r.m[c][j];
-                r.m[c][j] = r.m[pivot][j], r.m[pivot][j] = s;
+                r.m[c][j] = r.m[pivot][j];
+                r.m[pivot][j] = s;
             }
             determinant = -determinant;
         }
         double p = a.m[c][c];
         determinant *= p;
-        for (int j = 0; j < n; j++) a.m[c][j] /= p, r.m[c][j] /= p;
+        for (int j = 0; j < n; j++) {
+            a.m[c][j] /= p;
+            r.m[c][j] /= p;
+        }
         for (int i = 0; i < n; i++) {
             double f = a.m[i][c];
             if (i == c || f == 0) continue;
-            for (int j = 0; j < n; j++) a.m[i][j] -= f * a.m[c][j], r.m[i][j] -= f * r.m[c][j];
+            for (int j = 0; j < n; j++) {
+                a.m[i][j] -= f * a.m[c][j];
+                r.m[i][j] -= f * r.m[c][j];
+            }
         }
     }
     *inverse = r;
@@ -164,8 +192,11 @@ static dmat dmat_normals(dmat a)
     for (int j = 0; j < 3; j++) k[j] = d3_cross(c[(j + 1) % 3], c[(j + 2) % 3]);
     double sign = d3_dot(c[0], k[0]) < 0 ? -1 : 1;
     dmat r = dmat_identity();
-    for (int j = 0; j < 3; j++)
-        r.m[0][j] = sign * k[j].x, r.m[1][j] = sign * k[j].y, r.m[2][j] = sign * k[j].z;
+    for (int j = 0; j < 3; j++) {
+        r.m[0][j] = sign * k[j].x;
+        r.m[1][j] = sign * k[j].y;
+        r.m[2][j] = sign * k[j].z;
+    }
     return r;
 }
 
@@ -190,6 +221,7 @@ static double ref_power(double x, double n)
     n = n > 0 ? n : 0;
     return n == 0 ? 1 : pow(x, n);
 }
+
 static int ref_steep(double x, double n)
 {
     return n > 0 && n < 1 && x > -REF_MARGIN && x < REF_STEEP;
@@ -257,11 +289,14 @@ static ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3
     d3 ke = d3_of(0, 0, 0), ka = d3_of(1, 1, 1), kd = ka, ks = ke;
     double n = 0, brightest = 0, e_max = 0;
     if (mat) {
-        ke = d3_from(mat->emission), ka = d3_from(mat->ambient);
-        kd = d3_from(mat->diffuse), ks = d3_from(mat->specular);
+        ke = d3_from(mat->emission);
+        ka = d3_from(mat->ambient);
+        kd = d3_from(mat->diffuse);
+        ks = d3_from(mat->specular);
         n = fmax(0, (double)mat->shininess);
     }
-    ka = d3_mul(ka, albedo), kd = d3_mul(kd, albedo);
+    ka = d3_mul(ka, albedo);
+    kd = d3_mul(kd, albedo);
     N = d3_unit(N);
     d3 V = d3_unit(li->flags & SHADE_FLAG_INFINITE_VIEWER ? eye : d3_sub(eye, P));
     if (li->flags & SHADE_FLAG_TWO_SIDED) {
@@ -337,6 +372,7 @@ static int ref_edge_sign(int64_t ax, int64_t ay, int64_t bx, int64_t by, int64_t
     if (e == 0) e = bx - ax;    /* its slope toward +y */
     return (e > 0) - (e < 0);
 }
+
 static int ref_inside_fx8(const int64_t x[3], const int64_t y[3], int i, int j)
 {
     int64_t px = (int64_t)i * 256 + 128, py = (int64_t)j * 256 + 128;
@@ -362,12 +398,17 @@ static int ref_triangle_of(ref_triangle *t, const shade_vec4 *a, const shade_vec
                            const shade_vec4 *c, int width, int height)
 {
     const shade_vec4 *v[3];
-    v[0] = a, v[1] = b, v[2] = c;
+    v[0] = a;
+    v[1] = b;
+    v[2] = c;
     dmat m = dmat_identity(), inverse;
     for (int k = 0; k < 3; k++) {
         double x = (double)v[k]->x, y = (double)v[k]->y, w = (double)v[k]->w;
-        m.m[0][k] = (x + w) * width / 2, m.m[1][k] = (w - y) * height / 2, m.m[2][k] = w;
-        t->z[k] = (double)v[k]->z, t->w[k] = w;
+        m.m[0][k] = (x + w) * width / 2;
+        m.m[1][k] = (w - y) * height / 2;
+        m.m[2][k] = w;
+        t->z[k] = (double)v[k]->z;
+        t->w[k] = w;
     }
     double det = dmat_invert(m, 3, &inverse);
     if (det == 0) return 0;
@@ -379,13 +420,16 @@ static int ref_triangle_of(ref_triangle *t, const shade_vec4 *a, const shade_vec
     }
     return 1;
 }
+
 static double ref_at(const double e[3], double X, double Y) { return e[0] * X + e[1] * Y + e[2]; }
+
 static void ref_barycentric(const ref_triangle *t, double X, double Y, double b[3])
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) sum += b[k] = ref_at(t->e[k], X, Y);
     for (int k = 0; k < 3; k++) b[k] /= sum;
 }
+
 static double ref_interpolate(const ref_triangle *t, double X, double Y, double v0, double v1,
                               double v2)
 {
@@ -393,6 +437,7 @@ static double ref_interpolate(const ref_triangle *t, double X, double Y, double 
     ref_barycentric(t, X, Y, b);
     return b[0] * v0 + b[1] * v1 + b[2] * v2;
 }
+
 static double ref_depth(const ref_triangle *t, double X, double Y, int zero_to_one)
 {
     double ndc = 0;
@@ -434,6 +479,7 @@ static double ref_encode_srgb(double c)
     c = c > 0 ? (c < 1 ? c : 1) : 0;
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
 }
+
 static double ref_decode_srgb(double v)
 {
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);

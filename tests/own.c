@@ -56,6 +56,7 @@ typedef struct own_scene {
 } own_scene;
 
 static float own_digits(int most) { return (float)rnd_int(-most, most) / 64; }
+
 static void own_random_scene(own_scene *s)
 {
     memset(s, 0, sizeof *s);
@@ -96,6 +97,7 @@ static d3 own_corner(const own_scene *s, uint32_t corner)
     uint32_t v = s->mesh.indices ? s->indices[corner] : corner;
     return d3_of((double)s->position[v][0], (double)s->position[v][1], (double)s->position[v][2]);
 }
+
 static d3 own_normal(const own_scene *s, uint32_t corner)
 {
     uint32_t v = s->mesh.indices ? s->indices[corner] : corner, first = corner / 3 * 3;
@@ -105,6 +107,7 @@ static d3 own_normal(const own_scene *s, uint32_t corner)
         n = d3_of((double)s->normal[v][0], (double)s->normal[v][1], (double)s->normal[v][2]);
     return d3_unit(dmat_direction(dmat_normals(dmat_from(s->state.model)), n));
 }
+
 static void own_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                        shade_vertices *SHADE_RESTRICT out)
 {
@@ -123,12 +126,28 @@ static void own_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTR
         out->clip[3][i] = (float)-P.z;
     }
 }
+
 static void own_fragment_of(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                             shade_colors *SHADE_RESTRICT out)
 {
     own_recorder(((const own_pipeline *)uniforms)->record, in, out);
 }
+
 static int own_same_bits(float a, float b) { return float_bits(a + 0) == float_bits(b + 0); }
+
+static shade_pipeline own_pipeline_of(const own_pipeline *u)
+{
+    shade_pipeline p;
+    memset(&p, 0, sizeof p);
+    p.vertex = own_vertex;
+    p.fragment = own_fragment_of;
+    p.uniforms = u;
+    p.varyings = 11;
+    p.raster = u->scene->state.raster;
+    p.lod_texture = u->scene->mesh.texcoords ? u->scene->state.diffuse_map : NULL;
+    p.lod_varying = 9;
+    return p;
+}
 
 TEST(own, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on)
 {
@@ -140,22 +159,14 @@ TEST(own, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on)
         canvas c = canvas_open(OWN_W, OWN_H, 0, rnd_format(), 1);
         own_random_scene(&s);
         own_pipeline u = { &s, &want };
-        shade_pipeline p;
-        memset(&p, 0, sizeof p);
+        shade_pipeline p = own_pipeline_of(&u);
         memset(got, 0, sizeof got);
         memset(want, 0, sizeof want);
-        p.vertex = own_vertex;
-        p.fragment = own_fragment_of;
-        p.uniforms = &u;
-        p.varyings = 11;
-        p.raster = s.state.raster;
-        p.lod_texture = s.mesh.texcoords ? s.state.diffuse_map : NULL;
-        p.lod_varying = 9;
         s.state.uniforms = &got;
         int corners = s.mesh.indices ? OWN_INDICES : OWN_VERTICES;
         canvas_clear(&c, 1);
-        CHECK_INT(shade_draw_mesh(&c.target, &s.mesh, &s.state, NULL), SHADE_OK);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, corners, corners, NULL), SHADE_OK);
+        canvas_draw_mesh(&c, &s.mesh, &s.state);
+        canvas_draw(&c, &p, corners);
         for (int at = 0; at < OWN_W * OWN_H; at++) {
             const own_fragment *a = &got[at / OWN_W][at % OWN_W];
             const own_fragment *b = &want[at / OWN_W][at % OWN_W];
@@ -194,6 +205,7 @@ static void own_painter(const void *uniforms, const shade_fragments *SHADE_RESTR
         out->discard[i] = (uint32_t)u->gone[y][x];
     }
 }
+
 static const float own_square[] = { -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0 };
 static void own_random_colors(own_colors *u, shade_draw_state *s)
 {
@@ -209,6 +221,8 @@ static void own_random_colors(own_colors *u, shade_draw_state *s)
     s->alpha_cutoff = rnd_one_in(2) ? 0 : rnd_float(0, 1);
     s->raster.blend = (shade_blend)rnd_int(0, 2);
 }
+
+/* The shader takes its colour, alpha and discard from an array, so that each pixel is known. */
 TEST(own, its_colour_is_the_pixel_s_and_alpha_cutoff_blend_and_discard_apply)
 {
     static own_colors u;
@@ -222,7 +236,7 @@ TEST(own, its_colour_is_the_pixel_s_and_alpha_cutoff_blend_and_discard_apply)
         long kept = 0;
         own_random_colors(&u, &s);
         CHECK_INT(shade_clear(&c.target, shade_v4(0.25f, 0.5f, 0.75f, 0.125f), 1), SHADE_OK);
-        CHECK_INT(shade_draw_mesh(&c.target, &m, &s, &stats), SHADE_OK);
+        stats = canvas_draw_mesh(&c, &m, &s);
         for (int at = 0; at < OWN_W * OWN_H; at++) {
             int x = at % OWN_W, y = at / OWN_W;
             double a = (1 - (double)s.transparency) * (double)u.color[y][x][3];
@@ -241,6 +255,7 @@ TEST(own, its_colour_is_the_pixel_s_and_alpha_cutoff_blend_and_discard_apply)
         canvas_close(&c);
     }
 }
+
 TEST(own, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else)
 {
     static own_colors u;
@@ -254,7 +269,7 @@ TEST(own, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else)
         if (i % 2) s.alpha_cutoff = 0;
         canvas_clear(&c, 1);
         c.target.color = NULL;
-        CHECK_INT(shade_draw_mesh(&c.target, &m, &s, NULL), SHADE_OK);
+        canvas_draw_mesh(&c, &m, &s);
         CHECK_INT(u.calls > 0, s.alpha_cutoff > 0);
         for (int at = 0; at < OWN_W * OWN_H; at++) {
             int x = at % OWN_W, y = at / OWN_W;
@@ -267,6 +282,7 @@ TEST(own, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else)
     }
     CHECK(holes > 1000);
 }
+
 /* out keeps what a packet begins with; there are no uniforms */
 static void own_silent(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                        shade_colors *SHADE_RESTRICT out)
@@ -275,13 +291,13 @@ static void own_silent(const void *uniforms, const shade_fragments *SHADE_RESTRI
     (void)in;
     (void)out;
 }
+
 TEST(own, one_that_sets_nothing_draws_opaque_black)
 {
     canvas c = canvas_open(OWN_W, OWN_H, 0, SHADE_FORMAT_RGBA8, 0);
     shade_mesh m = plain_mesh(own_square, 6);
-    shade_draw_state s;
     static const unsigned char black[4] = { 0, 0, 0, 255 };
-    memset(&s, 0, sizeof s);
+    shade_draw_state s = plain_state(NULL);
     s.fragment = own_silent;
     s.lighting.ambient = grey(1);
     int fits = OWN_ALL > 0;
@@ -321,6 +337,9 @@ static void own_lit(const void *uniforms, const shade_fragments *SHADE_RESTRICT 
         for (int i = 0; i < SHADE_LANES; i++) texel[k][i] *= v[OWN_COLOR + k][i];
     shade_lit_lanes(&u->state->lighting, u->state->material, u->eye, &rows, out->color[0]);
 }
+
+/* Every other setting is random: with the shader of the library and with its twin the pictures
+   must be the same. */
 TEST(own, one_that_lights_as_the_library_does_draws_its_bits)
 {
     static test_mesh m;
@@ -347,10 +366,10 @@ TEST(own, one_that_lights_as_the_library_does_draws_its_bits)
         shade_stats first, second;
         CHECK_INT(shade_clear(&a.target, shade_v4(0.1f, 0.2f, 0.3f, 0.4f), 1), SHADE_OK);
         CHECK_INT(shade_clear(&b.target, shade_v4(0.1f, 0.2f, 0.3f, 0.4f), 1), SHADE_OK);
-        CHECK_INT(shade_draw_mesh(&a.target, &m.mesh, &m.state, &first), SHADE_OK);
+        first = canvas_draw_mesh(&a, &m.mesh, &m.state);
         m.state.fragment = own_lit;
         m.state.uniforms = &u;
-        CHECK_INT(shade_draw_mesh(&b.target, &m.mesh, &m.state, &second), SHADE_OK);
+        second = canvas_draw_mesh(&b, &m.mesh, &m.state);
         CHECK_SAY(canvas_same(&a, &b), "scene %d, format %d", i, (int)format);
         CHECK(!memcmp(&first, &second, sizeof first) && first.drawn > 0);
         free(memory);
@@ -360,10 +379,43 @@ TEST(own, one_that_lights_as_the_library_does_draws_its_bits)
     }
 }
 
+/* The red of the vertices, as alpha. */
+static void own_red_is_alpha(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                             shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    SHADE_EACH_LANE(i) { out->color[3][i] = in->varying[6][i]; }
+}
+
+/* Without a picture a shader that cuts by the vertex colour still gets it.  Red grows from 0 on the
+   left to 1 on the right, so that it is the pixel's place. */
+TEST(own, colours_of_vertices_cut_holes_into_depth_alone)
+{
+    static const float square[] = { -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0 };
+    static const float colors[] = { 0, 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1, 0, 1, 1 };
+    for (int picture = 0; picture < 2 && SHADE_MAX_VARYINGS >= 11; picture++) {
+        canvas c = canvas_open(16, 12, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_mesh m = plain_mesh(square, 6);
+        shade_draw_state s = plain_state(NULL);
+        m.colors = colors;
+        s.fragment = own_red_is_alpha;
+        s.alpha_cutoff = 0.4f;
+        if (!picture) c.target.color = NULL;
+        canvas_clear(&c, 1);
+        canvas_draw_mesh(&c, &m, &s);
+        for (int k = 0; k < 16 * 12; k++) {
+            const double red = (k % 16 + 0.5) / 16;
+            CHECK_NEAR(canvas_depth(&c, k % 16, k / 16), red >= 0.4 ? 0.5 : 1, 0);
+        }
+        canvas_close(&c);
+    }
+}
+
 static const test_case own_cases[] = {
     CASE(own, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on),
     CASE(own, its_colour_is_the_pixel_s_and_alpha_cutoff_blend_and_discard_apply),
     CASE(own, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else),
     CASE(own, one_that_sets_nothing_draws_opaque_black),
     CASE(own, one_that_lights_as_the_library_does_draws_its_bits),
+    CASE(own, colours_of_vertices_cut_holes_into_depth_alone),
 };

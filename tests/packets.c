@@ -48,10 +48,12 @@ static int packets_is_cut(const packets_triangle *t)
 {
     return t->kind == PACKETS_CUT_GUARD || t->kind == PACKETS_CUT_NEAR;
 }
+
 static int64_t packets_area(const packets_triangle *t) /* twice; above 0 clockwise as seen */
 {
     return (t->x[1] - t->x[0]) * (t->y[2] - t->y[0]) - (t->x[2] - t->x[0]) * (t->y[1] - t->y[0]);
 }
+
 static int64_t packets_within(int64_t v, int size) /* the guard band */
 {
     const int64_t low = -(int64_t)size * 255, high = (int64_t)size * 511;
@@ -74,27 +76,42 @@ static void packets_corners(packets_triangle *t, const packets_view *v)
         t->y[1] = in_y - (int64_t)(sin(angle) * back) + rnd_int(-300, 300);
         t->x[2] = rnd_int(-width * 255, width * 511);
         t->y[2] = rnd_int(-height * 255, height * 511);
-        if (rnd_one_in(4)) t->x[2] = t->x[0] + rnd_int(-2, 2), t->y[2] = t->y[0] + rnd_int(-2, 2);
+        if (rnd_one_in(4)) {
+            t->x[2] = t->x[0] + rnd_int(-2, 2);
+            t->y[2] = t->y[0] + rnd_int(-2, 2);
+        }
         if (rnd_one_in(4)) t->y[1] = t->y[0];
         if (rnd_one_in(4)) t->x[2] = t->x[0];
     } else {
         random_corners(shapes[t->kind > PACKETS_HAIR ? 1 : t->kind], PACKETS_WIDTH, PACKETS_HEIGHT,
                        t->x, t->y);
-        for (int k = 0; k < 3; k++) t->x[k] += v->x0 * 256, t->y[k] += v->y0 * 256;
+        for (int k = 0; k < 3; k++) {
+            t->x[k] += v->x0 * 256;
+            t->y[k] += v->y0 * 256;
+        }
     }
-    if (t->kind == PACKETS_HAIR)
-        t->x[2] = t->x[0] + rnd_int(-2, 2), t->y[2] = t->y[0] + rnd_int(-2, 2);
+    if (t->kind == PACKETS_HAIR) {
+        t->x[2] = t->x[0] + rnd_int(-2, 2);
+        t->y[2] = t->y[0] + rnd_int(-2, 2);
+    }
     for (int k = 0; k < 3; k++) {
-        t->x[k] = packets_within(t->x[k], width), t->y[k] = packets_within(t->y[k], height);
+        t->x[k] = packets_within(t->x[k], width);
+        t->y[k] = packets_within(t->y[k], height);
     }
     if (t->kind == PACKETS_FLAT) {
         const int64_t half_x = (t->x[1] - t->x[0]) / 2, half_y = (t->y[1] - t->y[0]) / 2;
         const int same = rnd_int(0, 2);
-        t->x[1] = t->x[0] + 2 * half_x, t->y[1] = t->y[0] + 2 * half_y;
-        t->x[2] = t->x[0] + same * half_x, t->y[2] = t->y[0] + same * half_y;
-        if (rnd_one_in(4)) t->x[0] = t->x[1] = t->x[2], t->y[0] = t->y[1] = t->y[2];
+        t->x[1] = t->x[0] + 2 * half_x;
+        t->y[1] = t->y[0] + 2 * half_y;
+        t->x[2] = t->x[0] + same * half_x;
+        t->y[2] = t->y[0] + same * half_y;
+        if (rnd_one_in(4)) {
+            t->x[0] = t->x[1] = t->x[2];
+            t->y[0] = t->y[1] = t->y[2];
+        }
     }
 }
+
 /* Corners of which one lies beyond the guard band, or one or two before the near plane. */
 static void packets_cut_corners(packets_triangle *t, const packets_view *v)
 {
@@ -104,7 +121,8 @@ static void packets_cut_corners(packets_triangle *t, const packets_view *v)
             const double w = rnd_one_in(2) ? 1 : (double)rnd_log(0.5, 2);
             const double low = v->zero_to_one ? 0 : -1;
             double z = (double)rnd_float(low + 0.02, 0.98);
-            X[k] = (double)rnd_float(-0.9, 0.9), Y[k] = (double)rnd_float(-0.9, 0.9);
+            X[k] = (double)rnd_float(-0.9, 0.9);
+            Y[k] = (double)rnd_float(-0.9, 0.9);
             if (t->kind == PACKETS_CUT_GUARD && k == 0)
                 *(rnd_one_in(2) ? X : Y) = (double)(rnd_sign() * rnd_float(3.1, 6));
             if (t->kind == PACKETS_CUT_NEAR && (k == 0 || (k == 1 && rnd_one_in(2))))
@@ -113,6 +131,7 @@ static void packets_cut_corners(packets_triangle *t, const packets_view *v)
         }
     } while (fabs((X[1] - X[0]) * (Y[2] - Y[0]) - (X[2] - X[0]) * (Y[1] - Y[0])) < 0.1);
 }
+
 static void packets_random(packets_triangle *t, packets_kind kind, const packets_view *v)
 {
     const int width = v->c.target.width, height = v->c.target.height;
@@ -168,6 +187,7 @@ static double packets_sizes(const packets_triangle *t, const double v[3], int r,
     return (fabs(d1 * y2) + fabs(d2 * y1)) * fabs(px) + (fabs(d2 * x1) + fabs(d1 * x2)) * fabs(py) +
            fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
 }
+
 /* The value of the plane through v at the corners, at pixel (i, j) inside.  *error: what eight
    roundings to float make of it, where the plane is taken from the corner with the least 1/w. */
 static double packets_plane(const packets_triangle *t, const double v[3], int i, int j,
@@ -187,6 +207,7 @@ static double packets_plane(const packets_triangle *t, const double v[3], int i,
     *error = 8 * packets_half_step * sizes;
     return sum;
 }
+
 static double packets_unit(double v) { return v > 0 ? (v < 1 ? v : 1) : 0; }
 
 /* Depth, to *error, of a triangle that is not cut; it never leaves the range of its corners. */
@@ -202,6 +223,7 @@ static double packets_depth(const packets_triangle *t, const packets_view *v, fl
     *error += 2 * packets_half_step;
     return packets_unit(plane);
 }
+
 static double packets_value(const packets_triangle *t, shade_interpolation how, int n, int i, int j,
                             double *error)
 {
@@ -215,7 +237,8 @@ static double packets_value(const packets_triangle *t, shade_interpolation how, 
         *error = up_error;
         return up;
     }
-    down = packets_plane(t, rw, i, j, &down_error), value = up / down;
+    down = packets_plane(t, rw, i, j, &down_error);
+    value = up / down;
     least = fmax(down - down_error, fmin(rw[0], fmin(rw[1], rw[2])));
     *error = (up_error + fabs(value) * down_error) / least + 4 * packets_half_step * fabs(value);
     return value;
@@ -232,6 +255,7 @@ static double packets_cut_value(const packets_triangle *t, const packets_view *v
                            (double)value[0], (double)value[PACKETS_VALUES],
                            (double)value[2 * PACKETS_VALUES]);
 }
+
 static double packets_cut_change(const packets_triangle *t, const packets_view *v, int depth,
                                  shade_interpolation how, int n, double X, double Y)
 {
@@ -298,14 +322,16 @@ static void packets_check_fragment(const packets_triangle *t, const packets_view
         CHECK_NEAR(f->z, want, error);
     }
     for (int n = 0; n < PACKETS_VALUES; n++) {
-        if (p->interpolation == SHADE_INTERPOLATION_CONSTANT)
-            want = (double)t->value[n], error = 0;
-        else if (packets_is_cut(t)) {
+        if (p->interpolation == SHADE_INTERPOLATION_CONSTANT) {
+            want = (double)t->value[n];
+            error = 0;
+        } else if (packets_is_cut(t)) {
             const double X = (double)f->x, Y = (double)f->y;
             want = packets_cut_value(t, v, 0, p->interpolation, n, X, Y);
             error = packets_cut_change(t, v, 0, p->interpolation, n, X, Y);
-        } else
+        } else {
             want = packets_value(t, p->interpolation, n, i, j, &error);
+        }
         CHECK_NEAR(f->in[n], want, error);
     }
 }
@@ -336,12 +362,17 @@ static void packets_check_all(packets_draw *d, const packets_view *v, const shad
         for (int n = 0; n < PACKETS_PIXELS; n++) {
             const int i = v->x0 + n % PACKETS_WIDTH, j = v->y0 + n / PACKETS_WIDTH;
             const int want = culled ? 0 : packets_inside(t, v, i, j);
-            if (want >= 0 && want != (d->at[k][n] >= 0)) wrong++, wx = i, wy = j;
+            if (want >= 0 && want != (d->at[k][n] >= 0)) {
+                wrong++;
+                wx = i;
+                wy = j;
+            }
         }
         CHECK_SAY(wrong == 0, "triangle %d of %d, kind %d: %d pixels, one of them %d %d", k,
                   d->count, (int)t->kind, wrong, wx, wy);
     }
 }
+
 /* The same draw with a test that hides: what passes has the bits it has in the first. */
 static void packets_check_hidden(packets_draw *d, const packets_view *v, const shade_pipeline *p,
                                  float clear)
@@ -351,15 +382,18 @@ static void packets_check_hidden(packets_draw *d, const packets_view *v, const s
     long expected = 0;
     memset(passed, 0, sizeof passed);
     for (int n = 0; n < PACKETS_PIXELS; n++) depth[n] = clear;
-    for (int k = 0; k < d->count; k++)
+    for (int k = 0; k < d->count; k++) {
         for (int n = 0; n < PACKETS_PIXELS; n++) {
             const int32_t at = d->at[k][n];
             const float z = at < 0 ? 0 : d->first.fragments[at].z;
             const int nearer =
                 p->raster.depth_test == SHADE_COMPARE_LESS ? z < depth[n] : z >= depth[n];
             if (at < 0 || !nearer) continue;
-            depth[n] = z, passed[k][n] = 1, expected++;
+            depth[n] = z;
+            passed[k][n] = 1;
+            expected++;
         }
+    }
     CHECK_INT(d->second.count, expected);
     for (int k = 0; k < d->second.count; k++) {
         const fragment_record *f = &d->second.fragments[k];
@@ -379,6 +413,7 @@ static void packets_check_hidden(packets_draw *d, const packets_view *v, const s
         CHECK(float_bits(canvas_depth(&v->c, v->x0 + n % PACKETS_WIDTH,
                                       v->y0 + n / PACKETS_WIDTH)) == float_bits(depth[n]));
 }
+
 /* All corners beyond one side of the picture. */
 static int packets_is_outside(const packets_triangle *t)
 {
@@ -392,6 +427,7 @@ static int packets_is_outside(const packets_triangle *t)
     }
     return left || right || below || above;
 }
+
 static void packets_check_stats(const packets_draw *d, const shade_stats *got, shade_cull cull)
 {
     int culled = 0, clipped = 0, rejected = 0;
@@ -423,24 +459,27 @@ static void packets_check_batch(packets_draw *d, packets_view *v, int count, int
     v->zero_to_one = rnd_int(0, 1);
     packets_fill(d, count, probe, kind, v);
     p.interpolation = (shade_interpolation)rnd_int(0, 2);
-    p.raster.cull = (shade_cull)rnd_int(0, 2), p.raster.depth_zero_to_one = v->zero_to_one;
+    p.raster.cull = (shade_cull)rnd_int(0, 2);
+    p.raster.depth_zero_to_one = v->zero_to_one;
     p.raster.depth_test = SHADE_COMPARE_ALWAYS;
     if (rnd_one_in(4)) p.raster.depth_bias = rnd_float(-0.3, 0.3);
     d->first.count = d->second.count = 0;
     if (rnd_one_in(2)) v->c.target.depth = NULL;
-    CHECK_INT(shade_draw(&v->c.target, &p, NULL, 3 * count, 3 * count, &stats), SHADE_OK);
+    stats = canvas_draw(&v->c, &p, 3 * count);
     CHECK_INT(stats.fragments, d->first.count);
     packets_check_stats(d, &stats, p.raster.cull);
     packets_check_all(d, v, &p);
-    v->c.target.depth = depth, s.record = &d->second;
+    v->c.target.depth = depth;
+    s.record = &d->second;
     p.raster.depth_test = rnd_one_in(3) ? SHADE_COMPARE_GREATER_EQUAL : SHADE_COMPARE_LESS;
     canvas_clear(&v->c, 0.75f);
-    CHECK_INT(shade_draw(&v->c.target, &p, NULL, 3 * count, 3 * count, &stats), SHADE_OK);
+    stats = canvas_draw(&v->c, &p, 3 * count);
     CHECK_INT(stats.fragments, d->second.count);
     packets_check_hidden(d, v, &p, 0.75f);
     CHECK_INT(d->first.bad_counts + d->second.bad_counts, 0);
     CHECK_INT(d->first.bad_tails + d->second.bad_tails, 0);
 }
+
 static void packets_check_lanes(packets_view *v, int each)
 {
     static packets_draw d;
@@ -449,7 +488,8 @@ static void packets_check_lanes(packets_view *v, int each)
     for (int kind = 0; kind < (int)PACKETS_KINDS; kind++)
         for (int probe = rnd_int(0, each - 1); probe < PACKETS_MOST; probe += each)
             packets_check_batch(&d, v, rnd_int(probe + 1, PACKETS_MOST), probe, (packets_kind)kind);
-    free(d.first.fragments), free(d.second.fragments);
+    free(d.first.fragments);
+    free(d.second.fragments);
 }
 
 /* All kinds, each at all places of a batch, between others. */
@@ -461,6 +501,7 @@ TEST(packets, every_lane_sets_up_every_kind_of_triangle)
     packets_check_lanes(&v, 1);
     canvas_close(&v.c);
 }
+
 /* Edges of up to 49000 pixels through a window, beside triangles that 32 bits hold. */
 TEST(packets, every_lane_sets_up_triangles_as_big_as_there_are)
 {
@@ -468,9 +509,13 @@ TEST(packets, every_lane_sets_up_triangles_as_big_as_there_are)
         const int y = rnd_int(0, PACKETS_HUGE - PACKETS_HEIGHT);
         packets_view v;
         v.c = canvas_strip(PACKETS_HUGE, PACKETS_HUGE, 0, SHADE_FORMAT_RGBA8, 1, y, PACKETS_HEIGHT);
-        v.x0 = rnd_int(0, PACKETS_HUGE - PACKETS_WIDTH), v.y0 = y, v.zero_to_one = 0;
-        v.c.target.clip_x = v.x0, v.c.target.clip_width = PACKETS_WIDTH;
-        v.c.target.clip_y = v.y0, v.c.target.clip_height = PACKETS_HEIGHT;
+        v.x0 = rnd_int(0, PACKETS_HUGE - PACKETS_WIDTH);
+        v.y0 = y;
+        v.zero_to_one = 0;
+        v.c.target.clip_x = v.x0;
+        v.c.target.clip_width = PACKETS_WIDTH;
+        v.c.target.clip_y = v.y0;
+        v.c.target.clip_height = PACKETS_HEIGHT;
         packets_check_lanes(&v, 3);
         canvas_close(&v.c);
     }
@@ -505,7 +550,8 @@ static void packets_add_run(packets_queue *q, int pass, int holes)
     for (int k = 0; k < 3; k++) {
         const int corner = (order < 3 ? k + order : order + 3 - k) % 3; /* 2: the apex */
         const double w = q->flat ? 1 : (double)rnd_log(0.5, 2);
-        t->x[k] = (corner == 2 ? apex : base) * 256, t->y[k] = row * 256 + corner % 3 * 256;
+        t->x[k] = (corner == 2 ? apex : base) * 256;
+        t->y[k] = row * 256 + corner % 3 * 256;
         if (corner == 2) t->y[k] = row * 256 + 128;
         t->clip[k] = clip_of_fx8((double)t->x[k], (double)t->y[k], PACKETS_ROW,
                                  q->view.c.target.height, (double)rnd_float(-0.9, 0.9), w);
@@ -513,17 +559,23 @@ static void packets_add_run(packets_queue *q, int pass, int holes)
         t->value[PACKETS_VALUES * k + 2] = rnd_float(-1, 1);
     }
     t->front = packets_area(t) < 0;
-    q->x[row] = x, q->length[row] = length, q->pixels += pass;
+    q->x[row] = x;
+    q->length[row] = length;
+    q->pixels += pass;
     memset(q->hole[row], 0, PACKETS_ROW);
     while (holes) {
         unsigned char *at = &q->hole[row][x + rnd_int(0, length - 1)];
-        holes -= !*at, *at = 1;
+        holes -= !*at;
+        *at = 1;
     }
 }
+
 static void packets_empty(packets_queue *q)
 {
-    q->count = q->pixels = 0, q->flat = rnd_one_in(3);
-    q->record.count = 0, q->record.fragment_packets = 0;
+    q->count = q->pixels = 0;
+    q->flat = rnd_one_in(3);
+    q->record.count = 0;
+    q->record.fragment_packets = 0;
 }
 
 /* The picture that the runs are drawn into: depth 1, but 0 in the holes. */
@@ -533,6 +585,7 @@ static void packets_dig(const packets_queue *q)
         for (int x = 0; x < PACKETS_ROW; x++)
             if (q->hole[y][x]) q->view.c.target.depth[y * PACKETS_ROW + x] = 0;
 }
+
 static void packets_check_order(const packets_queue *q, const shade_pipeline *p)
 {
     int n = 0;
@@ -550,6 +603,7 @@ static void packets_check_order(const packets_queue *q, const shade_pipeline *p)
             if (p->lod_texture) CHECK_NEAR(f->lod, row % 8, 0.01);
         }
 }
+
 /* Draws the runs and checks each fragment, their order, that only the last packet is not full, and
    that each pixel is stored once. */
 static void packets_check_runs(packets_queue *q, int with_depth)
@@ -562,7 +616,8 @@ static void packets_check_runs(packets_queue *q, int with_depth)
     shade_pipeline p = scene_pipeline(&s);
     float *depth = q->view.c.target.depth;
     memset(&map, 0, sizeof map);
-    map.pixels = texel, map.width = map.height = 256;
+    map.pixels = texel;
+    map.width = map.height = 256;
     for (int k = 0; k < q->count; k++) {
         memcpy(clip + 3 * k, q->triangle[k].clip, sizeof q->triangle[k].clip);
         memcpy(attribute + 3 * PACKETS_VALUES * k, q->triangle[k].value,
@@ -575,7 +630,7 @@ static void packets_check_runs(packets_queue *q, int with_depth)
     canvas_clear(&q->view.c, 1);
     packets_dig(q);
     if (!with_depth) q->view.c.target.depth = NULL;
-    CHECK_INT(shade_draw(&q->view.c.target, &p, NULL, 3 * q->count, 3 * q->count, NULL), SHADE_OK);
+    canvas_draw(&q->view.c, &p, 3 * q->count);
     q->view.c.target.depth = depth;
     CHECK_INT(q->record.count, q->pixels);
     CHECK_INT(q->record.fragment_packets, (q->pixels + SHADE_LANES - 1) / SHADE_LANES);
@@ -590,6 +645,7 @@ static void packets_check_runs(packets_queue *q, int with_depth)
                 CHECK_SAY(0, "pixel %d %d stored %d times", x, y, got[1]);
         }
 }
+
 static packets_queue *packets_queue_open(int rows)
 {
     static packets_queue q;
@@ -598,6 +654,7 @@ static packets_queue *packets_queue_open(int rows)
     q.record = recorder_open(PACKETS_ROWS * PACKETS_ROW);
     return &q;
 }
+
 static void packets_queue_close(packets_queue *q)
 {
     canvas_close(&q->view.c);
@@ -620,6 +677,7 @@ TEST(packets, runs_of_every_length_meet_the_queue_at_every_fill)
         }
     packets_queue_close(q);
 }
+
 /* Fragments of several triangles, of runs torn by what is in front, wait; a packet ends after each
    pixel of the run that follows. */
 TEST(packets, packets_of_many_triangles_end_at_every_pixel_of_a_run)

@@ -108,7 +108,7 @@ async function compiles(page, what, files = []) {
     for (const [name, bytes] of files) fs.writeFileSync(path.join(T, name), bytes);
     fs.writeFileSync(path.join(T, 'picture.c'), text);
     try {
-        execFileSync(cc, ['-std=c99', '-O2', '-Wall', '-Wextra', '-Werror', '-I.', '-Iexamples',
+        execFileSync(cc, ['-std=c99', '-O2', '-Wall', '-Wextra', '-Werror', '-I.',
             '-DSHADE__IMPLEMENTED', '-Wno-missing-field-initializers', T + '/picture.c',
             native + '-shade.o', '-lm', '-o', T + '/picture'], { stdio: 'pipe' });
         execFileSync('./picture', { cwd: T });

@@ -22,7 +22,7 @@ if [ ! -d $DRIVER/node_modules/playwright-core ]; then
 fi
 
 # the page's C and its readers, compiled here
-FLAGS="-std=c11 -O2 -Wall -Wextra -Wno-unused-function -ffp-contract=off -I. -Iexamples"
+FLAGS="-std=c11 -O2 -Wall -Wextra -Wno-unused-function -ffp-contract=off -I."
 $CC $FLAGS examples/playground/native.c -lm -o $B/native &&
 $CC -std=c99 -O2 -I. -DSHADE_IMPLEMENTATION -x c -c shade.h -o $B/native-shade.o ||
     { echo "0 passed, 1 failed"; exit 1; }

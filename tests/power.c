@@ -68,6 +68,7 @@ TEST(power, clamps_its_base_and_negative_exponents)
     CHECK_NEAR(shade_power(0.5f, -0.0f), 1, 0);
 }
 
+/* G3 */
 TEST(power, stays_in_the_unit_interval_and_is_never_nan)
 {
     for (int i = 0; i < 200000; i++) {

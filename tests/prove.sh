@@ -49,6 +49,7 @@ alarms() {
         sed -E 's/^\[eva:alarm\] //; s/: Warning:/:/; s/^([^ ]*\/)?shade\.h:[0-9]+:/shade.h:/
                 s/ +/ /g; s/assertion .?(fact_[0-9]+).? got status unknown.*/assertion \1/' | sort -u
 }
+# G1
 prove() {
     source=tests/prove/$1.c
     rm -f "$T/odd"

@@ -12,7 +12,8 @@ static ray_camera random_camera(int kind)
 {
     ray_camera c;
     memset(&c, 0, sizeof c);
-    c.width = rnd_int(1, 400), c.height = rnd_int(1, 300);
+    c.width = rnd_int(1, 400);
+    c.height = rnd_int(1, 300);
     d3 eye = d3_scale(rnd_direction(), (double)rnd_log(0.5, 10));
     c.view = shade_mat4_look_at(d3_round(eye), shade_v3(rnd_float(-0.2, 0.2), 0, 0),
                                 d3_round(rnd_direction()));
@@ -35,6 +36,7 @@ static ray_camera random_camera(int kind)
     if (rnd_one_in(5)) c.view = shade_mat4_identity();
     return c;
 }
+
 static d3 ray_unproject(const ray_camera *c, double X, double Y, double z)
 {
     dmat inverse;
@@ -43,20 +45,28 @@ static d3 ray_unproject(const ray_camera *c, double X, double Y, double z)
     dmat_apply(inverse, in, out);
     return d3_of(out[0] / out[3], out[1] / out[3], out[2] / out[3]);
 }
+
 static d3 ray_eye(const ray_camera *c)
 {
     dmat inverse;
     dmat_invert(dmat_from(c->view), 4, &inverse);
     return d3_of(inverse.m[0][3], inverse.m[1][3], inverse.m[2][3]);
 }
+
 /* Every point of the ray projects to the window point it was asked for. */
 static void check_rays(int kind)
 {
     for (int i = 0; i < 4000; i++) {
         ray_camera c = random_camera(kind);
         float x = rnd_float(0, c.width), y = rnd_float(0, c.height);
-        if (rnd_one_in(3)) x = (float)(int)x + 0.5f, y = (float)(int)y + 0.5f;
-        if (rnd_one_in(10)) x = x * 3 - (float)c.width, y = y * 3 - (float)c.height;
+        if (rnd_one_in(3)) {
+            x = (float)(int)x + 0.5f;
+            y = (float)(int)y + 0.5f;
+        }
+        if (rnd_one_in(10)) {
+            x = x * 3 - (float)c.width;
+            y = y * 3 - (float)c.height;
+        }
         shade_ray ray = shade_pixel_ray(c.view, c.projection, c.width, c.height, x, y);
         d3 origin, at = ray_unproject(&c, (double)x, (double)y, 0.5), eye = ray_eye(&c), d;
         d = c.ortho ? d3_sub(at, ray_unproject(&c, (double)x, (double)y, -1)) : d3_sub(at, eye);
@@ -70,6 +80,7 @@ static void check_rays(int kind)
                   d3_length(origin));
     }
 }
+
 TEST(ray, perspective_rays_leave_the_eye_through_the_pixel) { check_rays(0); }
 TEST(ray, off_centre_frustums_bend_their_rays) { check_rays(1); }
 TEST(ray, rays_of_an_infinite_reversed_projection_point_forward) { check_rays(2); }
@@ -90,6 +101,7 @@ TEST(ray, the_middle_of_a_picture_is_straight_ahead)
     CHECK(shape_off(r.origin, d3_of(-2, -1, -1)) < 1e-5);
     CHECK(shape_off(r.direction, d3_of(0, 0, -1)) < 1e-6);
 }
+
 TEST(ray, any_matrices_give_a_ray_without_a_crash)
 {
     for (int i = 0; i < 3000; i++) {
@@ -110,12 +122,11 @@ TEST(ray, any_matrices_give_a_ray_without_a_crash)
 }
 
 /* A ray through no camera has no direction, and meets nothing. */
+/* G3 */
 TEST(ray, a_degenerate_camera_has_rays_without_direction)
 {
     shade_vec3 p[3] = { { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 } };
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = &p[0].x, m.vertex_count = 3;
+    shade_mesh m = plain_mesh(&p[0].x, 3);
     for (int i = 0; i < DEGENERATE_CAMERAS * 20; i++) {
         ray_camera c = random_camera(rnd_int(0, 3));
         float x = rnd_float(-9, c.width + 9), y = rnd_float(-9, c.height + 9), t = 7;
@@ -135,17 +146,21 @@ static long double ld_dot(const long double *a, const long double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+
 static void ld_cross(const long double *a, const long double *b, long double *out)
 {
     for (int k = 0; k < 3; k++) {
         out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
     }
 }
+
 static void ld_of(d3 a, d3 minus, long double *out)
 {
-    out[0] = (long double)a.x - minus.x, out[1] = (long double)a.y - minus.y;
-    out[2] = (long double)a.z - minus.z;
+    out[0] = (long double)a.x - (long double)minus.x;
+    out[1] = (long double)a.y - (long double)minus.y;
+    out[2] = (long double)a.z - (long double)minus.z;
 }
+
 /* 1 hit, 0 miss, -1 too near an edge, the plane or the origin to tell; t and barycentrics.  The
    plane first, then areas, in long double: where rays graze, double loses half its digits this
    way. */
@@ -155,23 +170,29 @@ static int ref_intersect(const shade_ray *ray, const d3 p[3], double *t, double 
     double least = 1e300;
     d3 o = d3_from(ray->origin);
     ld_of(d3_from(ray->direction), d3_of(0, 0, 0), d);
-    ld_of(p[1], p[0], e), ld_of(p[2], p[0], f), ld_of(p[0], o, from);
+    ld_of(p[1], p[0], e);
+    ld_of(p[2], p[0], f);
+    ld_of(p[0], o, from);
     ld_cross(e, f, n);
-    area = ld_dot(n, n), slope = ld_dot(n, d);
+    area = ld_dot(n, n);
+    slope = ld_dot(n, d);
     if (area == 0) return 0;
     if (fabs((double)slope) < 1e-6 * sqrt((double)area)) return -1;
-    tt = ld_dot(n, from) / slope, *t = (double)tt;
+    tt = ld_dot(n, from) / slope;
+    *t = (double)tt;
     for (int k = 0; k < 3; k++) {
         const d3 *q = &p[(k + 1) % 3];
         ld_of(o, *q, at);
         for (int i = 0; i < 3; i++) at[i] += tt * d[i];
-        ld_of(p[(k + 2) % 3], *q, e), ld_cross(e, at, f);
+        ld_of(p[(k + 2) % 3], *q, e);
+        ld_cross(e, at, f);
         b[k] = (double)(ld_dot(f, n) / area);
         least = fmin(least, b[k]);
     }
     if (fabs(least) < 1e-9 || fabs(*t) < 1e-9) return -1;
     return least > 0 && *t > 0;
 }
+
 TEST(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say)
 {
     long hits = 0, misses = 0;
@@ -196,7 +217,8 @@ TEST(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say)
         CHECK_SAY(got == want, "got %d, t %g, barycentric %g %g %g", got, t, b[0], b[1], b[2]);
         CHECK_INT(shade_intersect(ray, v[0], v[1], v[2], NULL, NULL), got);
         CHECK_INT(shade_intersect(ray, v[2], v[1], v[0], NULL, NULL), got); /* either side */
-        hits += want, misses += !want;
+        hits += want;
+        misses += !want;
         if (!got || !want) continue;
         CHECK_NEAR(got_t, t, 2e-7 * t);
         CHECK_NEAR(got_b.x, b[0], 2e-7);
@@ -205,6 +227,7 @@ TEST(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say)
     }
     CHECK_SAY(hits > 10000 && misses > 10000, "%ld hits, %ld misses", hits, misses);
 }
+
 TEST(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle)
 {
     shade_vec3 a = shade_v3(0, 0, 0), b = shade_v3(4, 0, 0), c = shade_v3(0, 4, 0), bary;
@@ -223,14 +246,17 @@ TEST(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle)
         }
     r.origin = shade_v3(1, 1, -1); /* behind */
     CHECK_INT(shade_intersect(r, a, b, c, NULL, NULL), 0);
-    r.origin = shade_v3(1, 1, 5), r.direction = shade_v3(1, 0, 0); /* parallel */
+    r.origin = shade_v3(1, 1, 5);
+    r.direction = shade_v3(1, 0, 0); /* parallel */
     CHECK_INT(shade_intersect(r, a, b, c, NULL, NULL), 0);
     r.origin = shade_v3(-1, 1, 0); /* in the plane: no one point */
     CHECK_INT(shade_intersect(r, a, b, c, NULL, NULL), 0);
-    r.direction = shade_v3(0, 0, -1), r.origin = shade_v3(1, 0, 1);
+    r.direction = shade_v3(0, 0, -1);
+    r.origin = shade_v3(1, 0, 1);
     CHECK_INT(shade_intersect(r, a, b, b, NULL, NULL), 0); /* no area */
     CHECK_INT(shade_intersect(r, a, a, a, NULL, NULL), 0);
 }
+
 /* Three points of one line have no area, wherever they lie: no ray meets them, not even one that
    aims at a point of theirs. */
 TEST(ray, triangles_without_area_are_never_hit)
@@ -241,7 +267,10 @@ TEST(ray, triangles_without_area_are_never_hit)
         shade_vec3 v[3];
         shade_ray r;
         float t = 7;
-        for (int k = 0; k < 3; k++) a[k] = rnd_int(-1000, 1000), d[k] = rnd_int(-1000, 1000);
+        for (int k = 0; k < 3; k++) {
+            a[k] = rnd_int(-1000, 1000);
+            d[k] = rnd_int(-1000, 1000);
+        }
         for (int k = 0; k < 3; k++)
             v[k] =
                 shade_v3((float)((a[0] + n[k] * d[0]) * unit), (float)((a[1] + n[k] * d[1]) * unit),
@@ -249,10 +278,13 @@ TEST(ray, triangles_without_area_are_never_hit)
         d3 o = d3_scale(rnd_direction(), 3000 * unit), at = d3_from(v[rnd_int(0, 2)]);
         double f = rnd_unit();
         if (rnd_one_in(2)) at = d3_add(d3_scale(d3_from(v[0]), f), d3_scale(d3_from(v[1]), 1 - f));
-        r.origin = d3_round(o), r.direction = d3_round(d3_sub(at, d3_from(r.origin)));
-        if (i % 3 == 0) /* with an origin that is exact as well */
-            r.origin = shade_v3((float)(rnd_int(-99, 99) * unit), 0, (float)(5 * unit)),
+        r.origin = d3_round(o);
+        r.direction = d3_round(d3_sub(at, d3_from(r.origin)));
+        if (i % 3 == 0) {
+            /* with an origin that is exact as well */
+            r.origin = shade_v3((float)(rnd_int(-99, 99) * unit), 0, (float)(5 * unit));
             r.direction = shade_sub(v[rnd_int(0, 2)], r.origin);
+        }
         int order = rnd_int(0, 2);
         CHECK_INT(shade_intersect(r, v[order], v[(order + 1) % 3], v[(order + 2) % 3], &t, NULL),
                   0);
@@ -262,6 +294,7 @@ TEST(ray, triangles_without_area_are_never_hit)
         CHECK(ref_intersect(&r, p, &exact, b) <= 0);
     }
 }
+
 TEST(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at)
 {
     /* Aimed at points of edges, a ray meets at least one of the two triangles in most cases, and
@@ -284,6 +317,7 @@ TEST(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at)
         CHECK_INT(hits, 2);
     }
 }
+
 TEST(ray, no_numbers_meet_nothing_or_something_finite)
 {
     for (int i = 0; i < 20000; i++) {
@@ -325,12 +359,15 @@ static void random_pick_scene(pick_scene *s, double size)
     for (int k = 0; k < 3 * PICK_TRIANGLES; k++) s->index[k] = (uint32_t)rnd_int(0, 59);
     for (int k = 3; k < 3 * PICK_TRIANGLES; k += 3)
         if (rnd_one_in(5)) memcpy(s->index + k, s->index + 3 * rnd_int(0, k / 3 - 1), 12);
-    s->mesh.positions = s->data, s->mesh.position_stride = 4 * stride;
+    s->mesh.positions = s->data;
+    s->mesh.position_stride = 4 * stride;
     s->mesh.vertex_count = PICK_VERTICES;
-    if (indexed)
-        s->mesh.indices = s->index, s->mesh.index_count = 3 * PICK_TRIANGLES;
-    else
-        s->mesh.index_count = -5; /* not looked at */
+    if (indexed) {
+        s->mesh.indices = s->index;
+        s->mesh.index_count = 3 * PICK_TRIANGLES;
+    } else {
+        s->mesh.index_count = -5; /* nobody reads it without indices */
+    }
     if (rnd_one_in(4)) return;
     shade_vec3 scale = shade_v3(rnd_sign() * rnd_log(0.3, 3), rnd_sign() * rnd_log(0.3, 3),
                                 rnd_sign() * rnd_log(0.3, 3));
@@ -341,15 +378,18 @@ static void random_pick_scene(pick_scene *s, double size)
         shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())), s->model);
     s->model = shade_mat4_mul(shade_mat4_translation(random_vector(size)), s->model);
 }
+
 static int pick_triangles(const pick_scene *s)
 {
     return s->mesh.indices ? PICK_TRIANGLES : PICK_VERTICES / 3;
 }
+
 static d3 pick_corner(const pick_scene *s, int triangle, int k)
 {
     uint32_t v = s->mesh.indices ? s->index[3 * triangle + k] : (uint32_t)(3 * triangle + k);
     return dmat_point(matrix_or_identity(s->model), d3_from(s->position[v]));
 }
+
 /* The nearest triangle in long double, -1: none; -2: within margin of an edge, the origin or the
    next nearest. */
 static int ref_pick(const pick_scene *s, const shade_ray *ray, double margin, double *t,
@@ -375,15 +415,19 @@ static int ref_pick(const pick_scene *s, const shade_ray *ray, double margin, do
             same += d3_length(d3_sub(p[k], pick_corner(s, found, k))) == 0;
         if (same == 3) continue;
         if (at < nearest) {
-            second = nearest, nearest = at, found = n;
+            second = nearest;
+            nearest = at;
+            found = n;
             memcpy(barycentric, b, sizeof b);
-        } else
+        } else {
             second = fmin(second, at);
+        }
     }
     *t = nearest;
     if (found >= 0 && second - nearest < margin * (1 + nearest)) return -2;
     return unsure ? -2 : found;
 }
+
 static void check_picks(int exact)
 {
     static pick_scene s;
@@ -410,7 +454,8 @@ static void check_picks(int exact)
             int got = shade_pick(&s.mesh, s.model, ray, &t, &b);
             CHECK_SAY(got == want, "got %d, want %d at %g", got, want, want_t);
             CHECK_INT(shade_pick(&s.mesh, s.model, ray, NULL, NULL), got);
-            hits += want >= 0, misses += want < 0;
+            hits += want >= 0;
+            misses += want < 0;
             if (want < 0) CHECK(t == -7 && b.x == -7 && b.y == -7 && b.z == -7);
             if (want < 0 || got != want) continue;
             CHECK_NEAR(t, want_t, exact ? 1e-6 * want_t : scale * (1 + want_t) * 30);
@@ -420,6 +465,7 @@ static void check_picks(int exact)
     }
     CHECK_SAY(hits > 1000 && misses > 300, "%ld hits, %ld misses", hits, misses);
 }
+
 TEST(ray, pick_is_the_nearest_triangle_of_all) { check_picks(1); }
 TEST(ray, pick_places_the_mesh_by_its_model) { check_picks(0); }
 
@@ -434,16 +480,20 @@ TEST(ray, of_triangles_met_at_one_place_the_first_is_picked)
         memset(&m, 0, sizeof m);
         for (int k = 0; k < 8; k++) { /* from first on, every other time at z, else behind */
             float at = k == first || (k > first && rnd_one_in(2)) ? z : z - (float)rnd_int(1, 3);
-            near[0] = shade_v3(-8, -8, at), near[1] = shade_v3(8, -8, at);
+            near[0] = shade_v3(-8, -8, at);
+            near[1] = shade_v3(8, -8, at);
             near[2] = shade_v3(0, 8, at);
             int turn = rnd_int(0, 2), back = rnd_int(0, 1);
             for (int n = 0; n < 3; n++) p[count++] = near[(turn + (back ? 3 - n : n)) % 3];
         }
-        m.positions = &p[0].x, m.vertex_count = 24;
+        m.positions = &p[0].x;
+        m.vertex_count = 24;
         shade_ray r = { { (float)rnd_int(-2, 2), (float)rnd_int(-2, 2), 16 }, { 0, 0, -0.5f } };
         CHECK_INT(shade_pick(&m, shade_mat4_identity(), r, &t, NULL), first);
         CHECK_NEAR(t, 2 * (16 - z), 0);
-        r.origin.z = -16, r.direction.z = 2; /* from behind, the first of the lowest */
+        /* from behind, the first of the lowest */
+        r.origin.z = -16;
+        r.direction.z = 2;
         int back = shade_pick(&m, shade_mat4_identity(), r, &t, NULL);
         CHECK(back >= 0);
         for (int k = 0; k < 8 && back >= 0; k++) {
@@ -468,105 +518,111 @@ TEST(ray, the_length_of_a_direction_scales_t)
     }
 }
 
+/* A ray down the z axis to a triangle at z = 0; bad_index: its indices are 0, 1, 3. */
+typedef struct pick_call {
+    const shade_mesh *mesh;
+    shade_mesh m;
+    shade_ray ray;
+    int bad_index;
+} pick_call;
+
+static const float picked_triangle[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
+static const uint32_t picked_indices[] = { 0, 1, 2 }, missed_indices[] = { 0, 1, 3 };
+
+static pick_call open_pick_call(void)
+{
+    pick_call c = { NULL, plain_mesh(picked_triangle, 3), { { 0, 0, 4 }, { 0, 0, -1 } }, 0 };
+    c.m.indices = picked_indices;
+    c.m.index_count = 3;
+    return c;
+}
+
+/* Picks; where nothing is found, neither distance nor weights are written. */
+static void check_pick(int row, const shade_mesh *mesh, shade_mat4 model, shade_ray ray, int want)
+{
+    float t = 7;
+    shade_vec3 b = shade_v3(7, 7, 7);
+    int got = shade_pick(mesh, model, ray, &t, &b);
+    CHECK_SAY(got == want, "row %d: got %d, want %d", row, got, want);
+    if (want < 0) CHECK(t == 7 && b.x == 7 && b.y == 7 && b.z == 7);
+}
+
+#define PICK_FAULT(field, value) FAULT(pick_call, field, value)
+#define PICK_NAN(field) FAULT_REAL(pick_call, field, NAN)
+static const fault bad_picks[][FAULTS] = {
+    { FAULT_NULL(pick_call, mesh) },
+    { FAULT_NULL(pick_call, m.positions) },
+    { FAULT_NULL(pick_call, m.positions), PICK_FAULT(m.vertex_count, 0),
+      FAULT_NULL(pick_call, m.indices), PICK_FAULT(m.index_count, 0) }, /* a zeroed mesh */
+    { PICK_FAULT(m.vertex_count, -1) },
+    { PICK_FAULT(m.vertex_count, 2) },
+    { FAULT_NULL(pick_call, m.indices), PICK_FAULT(m.vertex_count, 2) },
+    { PICK_FAULT(m.index_count, -3) },
+    { PICK_FAULT(m.index_count, 2) },
+    { PICK_FAULT(m.index_count, 0) },
+    { PICK_FAULT(bad_index, 1) },
+    { PICK_FAULT(m.position_stride, -12) },
+    { PICK_FAULT(m.position_stride, 13) },
+    { PICK_FAULT(m.normal_stride, 5) },
+    { FAULT_REAL(pick_call, ray.direction.z, 0) }, /* no direction */
+    { PICK_NAN(ray.direction.x) },
+    { PICK_NAN(ray.direction.z) },
+    { PICK_NAN(ray.origin.y) },
+    { FAULT_REAL(pick_call, ray.origin.z, -1) }, /* the triangle is behind */
+};
+
 TEST(ray, pick_finds_nothing_in_bad_meshes_and_on_bad_rays)
 {
-    static const float p[] = { -1, -1, 0, 1, -1, 0, 0, 1, 0 };
-    static const uint32_t good[] = { 0, 1, 2 }, bad[] = { 0, 1, 3 };
-    shade_ray r = { { 0, 0, 4 }, { 0, 0, -1 } };
-    for (int k = 0; k < 24; k++) {
-        shade_mesh m = plain_mesh(p, 3);
-        const shade_mesh *mesh = &m;
-        shade_mat4 model = shade_mat4_identity();
-        shade_ray ray = r;
-        float t = 7, moved[9];
-        shade_vec3 b = shade_v3(7, 7, 7);
-        int want = -1;
-        m.indices = good, m.index_count = 3;
-        memcpy(moved, p, sizeof moved);
-        switch (k) {
-        case 0:
-            mesh = NULL;
-            break;
-        case 1:
-            m.positions = NULL;
-            break;
-        case 2:
-            m.vertex_count = -1;
-            break;
-        case 3:
-            m.index_count = -3;
-            break;
-        case 4:
-            m.index_count = 2;
-            break;
-        case 5:
-            m.indices = bad;
-            break;
-        case 6:
-            m.vertex_count = 2;
-            break;
-        case 7:
-            m.position_stride = -12;
-            break;
-        case 8:
-            m.position_stride = 13;
-            break;
-        case 9:
-            m.index_count = 0;
-            break;
-        case 10:
-            ray.direction = shade_v3(0, 0, 0);
-            break;
-        case 11:
-            ray.direction.x = (float)NAN;
-            break;
-        case 12:
-            ray.direction.z = (float)NAN;
-            break;
-        case 13:
-            ray.origin.y = (float)NAN;
-            break;
-        case 14:
-            moved[rnd_int(0, 8)] = (float)NAN;
-            break;
-        case 15:
-            moved[rnd_int(0, 8)] = INFINITY;
-            break;
-        case 16:
-            model.col[rnd_int(0, 3)].y = (float)NAN;
-            break;
-        case 17:
-            model = shade_mat4_scaling(shade_v3(1, 0, 1));
-            break; /* flat: seen edge-on */
-        case 18:
-            m.normal_stride = 5;
-            break;
-        case 19:
-            ray.origin = shade_v3(0, 0, -1);
-            break; /* behind */
-        case 20:
-            m.indices = NULL, m.vertex_count = 2;
-            break;
-        case 21:
-            memset(&m, 0, sizeof m);
-            break;
-        case 22:
-            memset(&model, 0, sizeof model), want = 0;
-            break;
-        default:
-            want = 0;
-            break;
-        }
-        if (k == 14 || k == 15) m.positions = moved;
-        CHECK_SAY(shade_pick(mesh, model, ray, &t, &b) == want, "case %d", k);
-        if (want < 0) CHECK(t == 7 && b.x == 7 && b.y == 7 && b.z == 7);
+    pick_call good = open_pick_call();
+    check_pick(-1, &good.m, shade_mat4_identity(), good.ray, 0);
+    for (int row = 0; row < TEST_COUNT(bad_picks); row++) {
+        pick_call bad = good;
+        bad.mesh = &bad.m;
+        spoil(&bad, bad_picks[row]);
+        if (bad.bad_index) bad.m.indices = missed_indices;
+        check_pick(row, bad.mesh, shade_mat4_identity(), bad.ray, -1);
     }
-    for (int i = 0; i < 5000; i++) { /* anything in one triangle takes none of the others away */
+}
+
+TEST(ray, pick_finds_nothing_where_points_or_the_matrix_are_not_finite_or_flat)
+{
+    pick_call c = open_pick_call();
+    for (int k = 0; k < 9; k++) {
+        float moved[9];
+        c.m.positions = moved;
+        memcpy(moved, picked_triangle, sizeof moved);
+        moved[k] = (float)NAN;
+        check_pick(k, &c.m, shade_mat4_identity(), c.ray, -1);
+        moved[k] = INFINITY;
+        check_pick(k, &c.m, shade_mat4_identity(), c.ray, -1);
+    }
+    c.m.positions = picked_triangle;
+    for (int k = 0; k < 4; k++) {
+        shade_mat4 model = shade_mat4_identity();
+        model.col[k].y = (float)NAN;
+        check_pick(k, &c.m, model, c.ray, -1);
+    }
+    /* seen edge-on; but a matrix of zeros is the identity */
+    check_pick(0, &c.m, shade_mat4_scaling(shade_v3(1, 0, 1)), c.ray, -1);
+    check_pick(0, &c.m, shade_mat4_scaling(shade_v3(0, 0, 0)), c.ray, -1);
+    shade_mat4 zeros;
+    memset(&zeros, 0, sizeof zeros);
+    check_pick(0, &c.m, zeros, c.ray, 0);
+}
+
+/* One of two triangles has any bits for coordinates, the other is 4 before the ray's origin. */
+TEST(ray, a_triangle_of_any_bits_hides_no_other_from_pick)
+{
+    pick_call c = open_pick_call();
+    for (int i = 0; i < 5000; i++) {
         float v[18];
-        for (int k = 0; k < 9; k++) v[9 + k] = p[k], v[k] = rnd_nasty();
+        for (int k = 0; k < 9; k++) {
+            v[9 + k] = picked_triangle[k];
+            v[k] = rnd_nasty();
+        }
         shade_mesh m = plain_mesh(v, 6);
         float t = 0;
-        int got = shade_pick(&m, shade_mat4_identity(), r, &t, NULL);
+        int got = shade_pick(&m, shade_mat4_identity(), c.ray, &t, NULL);
         CHECK(got == 1 || (got == 0 && t <= 4));
         if (got == 1) CHECK_NEAR(t, 4, 0);
     }
@@ -580,7 +636,10 @@ TEST(ray, pick_never_meets_a_triangle_without_area)
         shade_vec3 p[3];
         shade_ray r;
         int a[3], d[3], n = rnd_int(2, 5);
-        for (int k = 0; k < 3; k++) a[k] = rnd_int(-100, 100), d[k] = rnd_int(-100, 100);
+        for (int k = 0; k < 3; k++) {
+            a[k] = rnd_int(-100, 100);
+            d[k] = rnd_int(-100, 100);
+        }
         for (int k = 0; k < 3; k++) {
             int at = k == 2 ? n : k;
             p[k] = shade_v3((float)(a[0] + at * d[0]), (float)(a[1] + at * d[1]),
@@ -589,7 +648,8 @@ TEST(ray, pick_never_meets_a_triangle_without_area)
         random_pick_scene(&s, 1);
         shade_mesh m = plain_mesh(&p[0].x, 3);
         d3 aim = dmat_point(matrix_or_identity(s.model), d3_from(p[rnd_int(0, 2)]));
-        r.origin = random_vector(300), r.direction = d3_round(d3_sub(aim, d3_from(r.origin)));
+        r.origin = random_vector(300);
+        r.direction = d3_round(d3_sub(aim, d3_from(r.origin)));
         CHECK_INT(shade_pick(&m, s.model, r, NULL, NULL), -1);
     }
 }
@@ -602,61 +662,85 @@ static void pick_ids(const void *uniforms, const shade_fragments *SHADE_RESTRICT
     (void)uniforms;
     for (int i = 0; i < SHADE_LANES; i++) out->color[0][i] = (float)in->primitive[i] + 1;
 }
+
+enum { PICK_W = 40, PICK_H = 30 };
+
+/* The triangles of a scene as the screen has them. */
+typedef struct picked_screen {
+    shade_vec4 clip[PICK_VERTICES];
+    ref_triangle seen[PICK_TRIANGLES];
+    int usable[PICK_TRIANGLES], triangles;
+} picked_screen;
+
+static void picked_screen_of(picked_screen *p, const pick_scene *s, shade_mat4 clip_from_mesh)
+{
+    p->triangles = pick_triangles(s);
+    for (int k = 0; k < PICK_VERTICES; k++) {
+        shade_vec3 at = s->position[k];
+        p->clip[k] = shade_mat4_transform(clip_from_mesh, shade_v4(at.x, at.y, at.z, 1));
+    }
+    for (int n = 0; n < p->triangles; n++) {
+        uint32_t v[3];
+        for (int k = 0; k < 3; k++)
+            v[k] = s->mesh.indices ? s->index[3 * n + k] : (uint32_t)(3 * n + k);
+        p->usable[n] = ref_triangle_of(&p->seen[n], &p->clip[v[0]], &p->clip[v[1]],
+                                       &p->clip[v[2]], PICK_W, PICK_H);
+    }
+}
+
+/* 0 at the edge of a triangle, and where two depths are nearer to each other than exact. */
+static int picked_for_sure(const picked_screen *p, double X, double Y)
+{
+    double nearest = 1, second = 1;
+    int covered = 0;
+    for (int n = 0; n < p->triangles; n++) {
+        int in = p->usable[n] ? ref_covers(&p->seen[n], X, Y, 0.02, 0, 0) : 0;
+        if (in < 0) return 0;
+        if (in == 0) continue;
+        covered = 1;
+        double z = ref_depth(&p->seen[n], X, Y, 0);
+        if (z < nearest - 1e-12) {
+            second = nearest;
+            nearest = z;
+        } else if (z > nearest + 1e-12) {
+            second = fmin(second, z);
+        }
+    }
+    return !covered || second - nearest >= 1e-4;
+}
+
+/* G10 */
 TEST(ray, pick_says_what_is_drawn_at_every_pixel)
 {
-    enum { W = 40, H = 30 };
+    enum { W = PICK_W, H = PICK_H };
     static pick_scene s;
+    static picked_screen screen;
     long compared = 0, hits = 0;
     for (int i = 0; i < 60; i++) {
-        shade_vec4 clip[PICK_VERTICES];
-        static ref_triangle seen[PICK_TRIANGLES];
-        static int usable[PICK_TRIANGLES];
         canvas c = canvas_open(W, H, 0, SHADE_FORMAT_RGBA32F, 1);
         shade_mat4 view = shade_mat4_look_at(d3_round(d3_scale(rnd_direction(), 12)),
                                              random_vector(0.5), d3_round(rnd_direction()));
         shade_mat4 projection = i % 3 ? shade_mat4_perspective(0.6f, (float)W / H, 1, 40)
                                       : shade_mat4_ortho(-4, 4, -3, 3, 1, 40);
-        scene flat = { clip, NULL, 0, NULL, NULL };
         random_pick_scene(&s, 1.5);
-        shade_mat4 m =
-            shade_mat4_mul(shade_mat4_mul(projection, view),
-                           dmat_max(dmat_from(s.model)) > 0 ? s.model : shade_mat4_identity());
-        int triangles = pick_triangles(&s);
-        for (int k = 0; k < PICK_VERTICES; k++) {
-            shade_vec3 p = s.position[k];
-            clip[k] = shade_mat4_transform(m, shade_v4(p.x, p.y, p.z, 1));
-        }
-        for (int n = 0; n < triangles; n++) {
-            uint32_t v[3];
-            for (int k = 0; k < 3; k++)
-                v[k] = s.mesh.indices ? s.index[3 * n + k] : (uint32_t)(3 * n + k);
-            usable[n] = ref_triangle_of(&seen[n], &clip[v[0]], &clip[v[1]], &clip[v[2]], W, H);
-        }
+        int moved = dmat_max(dmat_from(s.model)) > 0;
+        shade_mat4 model = moved ? s.model : shade_mat4_identity();
+        picked_screen_of(&screen, &s, shade_mat4_mul(shade_mat4_mul(projection, view), model));
+        scene flat = { screen.clip, NULL, 0, NULL, NULL };
         shade_pipeline p = scene_pipeline(&flat);
         p.fragment = pick_ids;
         canvas_clear(&c, 1);
-        CHECK_INT(shade_draw(&c.target, &p, s.mesh.indices, 3 * triangles, PICK_VERTICES, NULL),
-                  SHADE_OK);
+        CHECK_INT(shade_draw(&c.target, &p, s.mesh.indices, 3 * screen.triangles, PICK_VERTICES,
+                             NULL), SHADE_OK);
         for (int k = 0; k < W * H; k++) {
-            double X = k % W + 0.5, Y = k / W + 0.5, nearest = 1, second = 1;
-            int doubt = 0, covered = 0;
-            for (int n = 0; n < triangles; n++) {
-                int in = usable[n] ? ref_covers(&seen[n], X, Y, 0.02, 0, 0) : 0;
-                doubt |= in < 0;
-                if (in != 1) continue;
-                covered = 1;
-                double z = ref_depth(&seen[n], X, Y, 0);
-                if (z < nearest - 1e-12)
-                    second = nearest, nearest = z; /* doubles stay one */
-                else if (z > nearest + 1e-12)
-                    second = fmin(second, z);
-            }
-            if (doubt || (covered && second - nearest < 1e-4)) continue;
+            double X = k % W + 0.5, Y = k / W + 0.5;
+            if (!picked_for_sure(&screen, X, Y)) continue;
             shade_ray ray = shade_pixel_ray(view, projection, W, H, (float)X, (float)Y);
             int drawn = (int)canvas_float(&c, k % W, k / W, 0) - 1;
             int got = shade_pick(&s.mesh, s.model, ray, NULL, NULL);
             CHECK_SAY(got == drawn, "pixel %d %d: %d drawn, %d picked", k % W, k / W, drawn, got);
-            compared++, hits += got >= 0;
+            compared++;
+            hits += got >= 0;
         }
         canvas_close(&c);
     }
@@ -683,12 +767,14 @@ static void ray_triangle(ray_scene *s, const d3 p[3], const d3 n[3])
 {
     for (int k = 0; k < 3; k++) {
         int at = 3 * s->count + k;
-        s->position[at] = d3_round(p[k]), s->normal[at] = d3_round(n[k]);
+        s->position[at] = d3_round(p[k]);
+        s->normal[at] = d3_round(n[k]);
         d3 c = d3_scale(p[k], 0.06); /* smooth, so that slivers have no steep colours */
         s->color[at] = shade_v3((float)(0.6 + c.x), (float)(0.6 + c.y), (float)(0.6 + c.z));
     }
     s->count++;
 }
+
 static void ray_ball(ray_scene *s, d3 centre, double radius, int across, int up)
 {
     for (int j = 0; j < up; j++)
@@ -707,11 +793,13 @@ static void ray_ball(ray_scene *s, d3 centre, double radius, int across, int up)
             if (j < up - 1) ray_triangle(s, pb, nb);
         }
 }
+
 /* Balls apart from each other, some of them cut by the near plane or the borders, and a floor */
 static void random_ray_scene(ray_scene *s, int kind)
 {
     memset(s, 0, sizeof *s);
-    s->camera.width = RAY_WIDTH, s->camera.height = RAY_HEIGHT;
+    s->camera.width = RAY_WIDTH;
+    s->camera.height = RAY_HEIGHT;
     s->camera.view = shade_mat4_look_at(shade_v3(rnd_float(-2, 2), rnd_float(1, 3), 5),
                                         shade_v3(rnd_float(-0.5, 0.5), 0, 0), shade_v3(0, 1, 0));
     float aspect = (float)RAY_WIDTH / RAY_HEIGHT;
@@ -719,7 +807,8 @@ static void random_ray_scene(ray_scene *s, int kind)
                            : kind == 1 ? shade_mat4_frustum(-0.3f, 0.7f, -0.2f, 0.5f, 1, 20)
                            : kind == 2 ? shade_mat4_perspective_reversed(0.8f, aspect, 0.5f)
                                        : shade_mat4_ortho(-3, 3, -2, 2.5f, 1, 20);
-    s->camera.ortho = kind == 3, s->camera.reversed = kind == 2;
+    s->camera.ortho = kind == 3;
+    s->camera.reversed = kind == 2;
     for (int k = 0; k < 4; k++) {
         d3 centre = d3_of(1.7 * (k % 2) - 0.8, 0.3 + 0.2 * rnd_unit(), 1.7 * (k / 2) - 0.8);
         ray_ball(s, centre, 0.4 + 0.3 * rnd_unit(), rnd_int(5, 9), rnd_int(3, 5));
@@ -733,16 +822,24 @@ static void random_ray_scene(ray_scene *s, int kind)
     }
     s->lights[0] = shade_directional_light(shade_v3(-0.5f, -1, -0.4f), shade_v3(0.7f, 0.7f, 0.6f));
     s->lights[1] = shade_point_light(shade_v3(2, 4, 3), shade_v3(0.3f, 0.3f, 0.4f));
-    s->material.diffuse = shade_v3(0.8f, 0.8f, 0.8f), s->material.ambient = shade_v3(1, 1, 1);
-    s->material.specular = shade_v3(0.3f, 0.3f, 0.3f), s->material.shininess = 10;
-    s->mesh.positions = &s->position[0].x, s->mesh.normals = &s->normal[0].x;
-    s->mesh.colors = &s->color[0].x, s->mesh.vertex_count = 3 * s->count;
-    s->state.view = s->camera.view, s->state.projection = s->camera.projection;
+    s->material.diffuse = shade_v3(0.8f, 0.8f, 0.8f);
+    s->material.ambient = shade_v3(1, 1, 1);
+    s->material.specular = shade_v3(0.3f, 0.3f, 0.3f);
+    s->material.shininess = 10;
+    s->mesh.positions = &s->position[0].x;
+    s->mesh.normals = &s->normal[0].x;
+    s->mesh.colors = &s->color[0].x;
+    s->mesh.vertex_count = 3 * s->count;
+    s->state.view = s->camera.view;
+    s->state.projection = s->camera.projection;
     s->state.material = &s->material;
-    s->state.lighting.lights = s->lights, s->state.lighting.light_count = 2;
+    s->state.lighting.lights = s->lights;
+    s->state.lighting.light_count = 2;
     s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.15f);
-    if (kind == 2)
-        s->state.raster.depth_zero_to_one = 1, s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    if (kind == 2) {
+        s->state.raster.depth_zero_to_one = 1;
+        s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    }
     shade_mat4 m = shade_mat4_mul(s->camera.projection, s->camera.view);
     for (int k = 0; k < 3 * s->count; k++) {
         shade_vec3 p = s->position[k];
@@ -755,6 +852,7 @@ static void random_ray_scene(ray_scene *s, int kind)
             CHECK_SAY(0, "triangle %d has no area", t);
     }
 }
+
 /* The first triangle on the ray, -1: none.  With a projection through the eye a hit counts from
    the near plane on. */
 static int ray_cast(const ray_scene *s, const shade_ray *ray, shade_vec3 *barycentric)
@@ -772,14 +870,18 @@ static int ray_cast(const ray_scene *s, const shade_ray *ray, shade_vec3 *baryce
         double in[4] = { hit.x, hit.y, hit.z, 1 }, clip[4];
         dmat_apply(m, in, clip);
         if (s->camera.reversed ? clip[2] > clip[3] : clip[2] < -clip[3]) continue;
-        first = t, nearest = at, *barycentric = b;
+        first = t;
+        nearest = at;
+        *barycentric = b;
     }
     return first;
 }
+
 static shade_vec3 ray_mix(const shade_vec3 *v, shade_vec3 b)
 {
     return shade_madd(shade_madd(shade_scale(v[0], b.x), b.y, v[1]), b.z, v[2]);
 }
+
 static int near_an_edge(const ray_scene *s, double X, double Y)
 {
     for (int t = 0; t < s->count; t++) {
@@ -787,6 +889,7 @@ static int near_an_edge(const ray_scene *s, double X, double Y)
     }
     return 0;
 }
+
 /* The stored levels of a channel of triangle t at a window point, least and greatest; with spread,
    at points 1/256 pixel to each side as well. */
 static void ray_levels(const ray_scene *s, int t, double X, double Y, int channel, int spread,
@@ -794,7 +897,8 @@ static void ray_levels(const ray_scene *s, int t, double X, double Y, int channe
 {
     static const int side[5][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
     const shade_vec3 *p = &s->position[3 * t];
-    level[0] = 255, level[1] = 0;
+    level[0] = 255;
+    level[1] = 0;
     for (int k = 0; k < (spread ? 5 : 1); k++) {
         shade_material m = s->material;
         shade_vec3 b;
@@ -803,14 +907,17 @@ static void ray_levels(const ray_scene *s, int t, double X, double Y, int channe
                                         (float)(Y + side[k][1] / 256.0));
         if (!shade_intersect(ray, p[0], p[1], p[2], NULL, &b)) continue;
         shade_vec3 albedo = ray_mix(&s->color[3 * t], b);
-        m.diffuse = shade_mul(m.diffuse, albedo), m.ambient = shade_mul(m.ambient, albedo);
+        m.diffuse = shade_mul(m.diffuse, albedo);
+        m.ambient = shade_mul(m.ambient, albedo);
         shade_vec3 c = shade_lit(&s->state.lighting, &m, d3_round(ray_eye(&s->camera)),
                                  ray_mix(p, b), ray_mix(&s->normal[3 * t], b));
         const float rgb[3] = { c.x, c.y, c.z };
         double v = floor(fmax(0, fmin(1, (double)rgb[channel])) * 255 + 0.5);
-        level[0] = fmin(level[0], v), level[1] = fmax(level[1], v);
+        level[0] = fmin(level[0], v);
+        level[1] = fmax(level[1], v);
     }
 }
+
 static void check_both_ways(int kind)
 {
     static ray_scene s;
@@ -822,11 +929,12 @@ static void check_both_ways(int kind)
         scene flat = { s.clip, NULL, 0, s.id, NULL };
         shade_pipeline p = scene_pipeline(&flat);
         float far = s.camera.reversed ? 0.0f : 1.0f;
-        p.raster.depth_zero_to_one = s.state.raster.depth_zero_to_one,
+        p.raster.depth_zero_to_one = s.state.raster.depth_zero_to_one;
         p.raster.depth_test = s.state.raster.depth_test;
-        canvas_clear(&ids, far), canvas_clear(&lit, far);
-        CHECK_INT(shade_draw(&ids.target, &p, NULL, 3 * s.count, 3 * s.count, NULL), SHADE_OK);
-        CHECK_INT(shade_draw_mesh(&lit.target, &s.mesh, &s.state, NULL), SHADE_OK);
+        canvas_clear(&ids, far);
+        canvas_clear(&lit, far);
+        canvas_draw(&ids, &p, 3 * s.count);
+        canvas_draw_mesh(&lit, &s.mesh, &s.state);
         for (int k = 0; k < RAY_WIDTH * RAY_HEIGHT; k++) {
             int x = k % RAY_WIDTH, y = k / RAY_WIDTH;
             if (near_an_edge(&s, x + 0.5, y + 0.5)) continue;
@@ -849,15 +957,21 @@ static void check_both_ways(int kind)
                           "pixel %d %d: %g drawn, %g .. %g cast", x, y, got, want[0], want[1]);
             }
         }
-        canvas_close(&ids), canvas_close(&lit);
+        canvas_close(&ids);
+        canvas_close(&lit);
     }
     CHECK_SAY(compared > 3 * RAY_WIDTH * RAY_HEIGHT * 8 / 10 && hits > 5000,
               "%ld compared, %ld hits", compared, hits);
     CHECK_SAY(close_by >= 3 * hits * 9995 / 10000, "%ld of %ld colours", close_by, 3 * hits);
 }
+
+/* G10 */
 TEST(ray, cast_and_drawn_pictures_agree_in_perspective) { check_both_ways(0); }
+/* G10 */
 TEST(ray, cast_and_drawn_pictures_agree_off_centre) { check_both_ways(1); }
+/* G10 */
 TEST(ray, cast_and_drawn_pictures_agree_in_reversed_depth) { check_both_ways(2); }
+/* G10 */
 TEST(ray, cast_and_drawn_pictures_agree_without_perspective) { check_both_ways(3); }
 
 /* w = 2 in the last column: everything at half its size */
@@ -865,9 +979,7 @@ TEST(ray, a_model_whose_w_is_two_is_picked_at_half_its_size)
 {
     const float corner[9] = { -2, -2, 0, 2, -2, 0, 0, 2, 0 };
     shade_mat4 model = shade_mat4_identity();
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = corner, m.vertex_count = 3;
+    shade_mesh m = plain_mesh(corner, 3);
     model.col[3].w = 2;
     for (int k = -30; k <= 30; k++) {
         const shade_ray ray = { { 0, (float)k / 10 + 0.05f, 3 }, { 0, 0, -1 } };
@@ -896,6 +1008,8 @@ static const test_case ray_cases[] = {
     CASE(ray, of_triangles_met_at_one_place_the_first_is_picked),
     CASE(ray, the_length_of_a_direction_scales_t),
     CASE(ray, pick_finds_nothing_in_bad_meshes_and_on_bad_rays),
+    CASE(ray, pick_finds_nothing_where_points_or_the_matrix_are_not_finite_or_flat),
+    CASE(ray, a_triangle_of_any_bits_hides_no_other_from_pick),
     CASE(ray, pick_never_meets_a_triangle_without_area),
     CASE(ray, pick_says_what_is_drawn_at_every_pixel),
     CASE(ray, cast_and_drawn_pictures_agree_in_perspective),

@@ -114,7 +114,7 @@ check "every example spoken of is there" none "$(
         [ -f "examples/$name.c" ] || echo "$name"
     done)"
 sed -n '/^```c/,/^```/p' examples/README.md | sed '1d;$d' >"$T/recipes"
-sed '1,/^#include/d;/^#endif/d' examples/recipes.h | sed 1d >"$T/recipes_tested"
+sed '1,/^#include/d;/^#endif/d' examples/shared/recipes.h | sed 1d >"$T/recipes_tested"
 check "the recipes shown are those tested" diff "$T/recipes" "$T/recipes_tested"
 check "every example is listed" none "$(
     for file in examples/[0-9]*.c; do

@@ -17,7 +17,7 @@
 #define STBI_NO_SIMD
 #include "stb_image.h"
 #endif
-#include "examples/teapot.h"
+#include "examples/shared/teapot.h"
 
 #include "test.h"
 #include "oracle.h"
@@ -34,12 +34,20 @@ static void start(int width, int height, shade_vec3 from, shade_vec3 to)
     static const shade_target no_target;
     static const shade_mesh no_mesh;
     static const shade_draw_state no_state;
-    target = no_target, mesh = no_mesh, state = no_state, eye = from;
-    target.width = width, target.height = height, target.format = SHADE_FORMAT_RGBA32F;
-    target.color = run_color, target.depth = run_depth;
+    target = no_target;
+    mesh = no_mesh;
+    state = no_state;
+    eye = from;
+    target.width = width;
+    target.height = height;
+    target.format = SHADE_FORMAT_RGBA32F;
+    target.color = run_color;
+    target.depth = run_depth;
     state.view = shade_mat4_look_at(from, to, shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.7f, (float)width / (float)height, 0.5f, 50);
-    mesh.positions = run_positions, mesh.normals = run_normals, mesh.texcoords = run_texcoords;
+    mesh.positions = run_positions;
+    mesh.normals = run_normals;
+    mesh.texcoords = run_texcoords;
     mesh.indices = run_indices;
     shade_clear(&target, shade_v4(0.02f, 0.02f, 0.05f, 1), 1);
 }
@@ -53,6 +61,7 @@ static d3 gold_code(const double k_d[3], const double k_s[3], double x, double y
     for (int k = 0; k < 3; k++) c[k] = 255 * ref_encode_srgb(x * k_d[k] + y * k_s[k]);
     return d3_of(c[0], c[1], c[2]);
 }
+
 TEST(readme, program_draws_gold)
 {
     static const double diffuse[3] = { 0.75164, 0.60648, 0.22648 };
@@ -67,10 +76,13 @@ TEST(readme, program_draws_gold)
             got = fread(rgb, 1, sizeof rgb, f);
         fclose(f);
     }
-    CHECK_INT(width, 640), CHECK_INT(height, 480), CHECK_INT(most, 255);
+    CHECK_INT(width, 640);
+    CHECK_INT(height, 480);
+    CHECK_INT(most, 255);
     CHECK_INT(got, sizeof rgb);
     for (int k = 0; k < 3; k++) {
-        k_d[k] = ref_decode_srgb(diffuse[k]), k_s[k] = ref_decode_srgb(specular[k]);
+        k_d[k] = ref_decode_srgb(diffuse[k]);
+        k_s[k] = ref_decode_srgb(specular[k]);
     }
     for (int i = 0; i < MOST; i++) {
         const unsigned char *p = rgb + 3 * i;
@@ -85,7 +97,9 @@ TEST(readme, program_draws_gold)
     }
     CHECK_SAY(gold > 60000, "%d pixels of gold", gold);
     const unsigned char *knob = rgb + 3 * (335 + 640 * 103);
-    CHECK_NEAR(knob[0], 147, 2), CHECK_NEAR(knob[1], 119, 2), CHECK_NEAR(knob[2], 40, 3);
+    CHECK_NEAR(knob[0], 147, 2);
+    CHECK_NEAR(knob[1], 119, 2);
+    CHECK_NEAR(knob[2], 40, 3);
 }
 
 /* ---------------------------------------------------------------------------------------- light */
@@ -116,7 +130,9 @@ TEST(readme, floats_become_bytes)
         for (int k = 0; k < 4; k++) run_color[i][k] = rnd_float(-0.1, 1.2);
     }
     bytes = target;
-    bytes.format = SHADE_FORMAT_RGBA8, bytes.color = run_bytes, bytes.srgb = 1;
+    bytes.format = SHADE_FORMAT_RGBA8;
+    bytes.color = run_bytes;
+    bytes.srgb = 1;
     CHECK_INT(shade_resolve(&bytes, &target, 1), SHADE_OK);
     for (int i = 0; i < 64 * 32; i++) {
         const unsigned char *p = (const unsigned char *)&run_bytes[i];
@@ -130,7 +146,8 @@ TEST(readme, floats_become_bytes)
 static void random_bytes(int width, int height, shade_format format)
 {
     start(width, height, shade_v3(0, 0, 5), shade_v3(0, 0, 0));
-    target.format = format, target.color = run_bytes;
+    target.format = format;
+    target.color = run_bytes;
     for (int i = 0; i < width * height; i++) {
         unsigned char p[4] = { 0, 0, 0, 255 };
         for (int k = 0; k < 3; k++) p[k] = (unsigned char)rnd_int(0, 255);
@@ -160,7 +177,9 @@ TEST(readme, window_shows_the_target)
         uint8_t r, g, b;
         memcpy(&pixel, row + i % 64 * bytes, (size_t)bytes);
         SDL_GetRGB(pixel, surface->format, &r, &g, &b);
-        CHECK_INT(r, want[2]), CHECK_INT(g, want[1]), CHECK_INT(b, want[0]);
+        CHECK_INT(r, want[2]);
+        CHECK_INT(g, want[1]);
+        CHECK_INT(b, want[0]);
     }
     SDL_Quit();
 #else
@@ -202,6 +221,7 @@ static int meets(double X, double Y, double y, double size, d3 *P)
     *P = d3_add(from, d3_scale(d, (y - from.y) / d.y));
     return (y - from.y) / d.y > 0 && fabs(P->x) < size && fabs(P->z) < size;
 }
+
 static int shown(double X, double Y, d3 *P)
 {
     if (meets(X, Y, roof_y, roof_size, P)) return ROOF;
@@ -212,10 +232,15 @@ static int shown(double X, double Y, d3 *P)
 
 static void put(int at, float x, float y, float z)
 {
-    run_positions[3 * at] = x, run_positions[3 * at + 1] = y, run_positions[3 * at + 2] = z;
-    run_normals[3 * at] = run_normals[3 * at + 2] = 0, run_normals[3 * at + 1] = 1;
-    run_texcoords[2 * at] = x, run_texcoords[2 * at + 1] = z;
+    run_positions[3 * at] = x;
+    run_positions[3 * at + 1] = y;
+    run_positions[3 * at + 2] = z;
+    run_normals[3 * at] = run_normals[3 * at + 2] = 0;
+    run_normals[3 * at + 1] = 1;
+    run_texcoords[2 * at] = x;
+    run_texcoords[2 * at + 1] = z;
 }
+
 /* Square number k, seen from above */
 static void put_square(int k, double size, double y)
 {
@@ -225,57 +250,89 @@ static void put_square(int k, double size, double y)
         put(4 * k + i, (float)size * side[i], (float)y, -(float)size * side[(i + 3) % 4]);
     }
     for (int i = 0; i < 6; i++) run_indices[6 * k + i] = 4 * (uint32_t)k + corner[i];
-    mesh.vertex_count = 4 * k + 4, mesh.index_count = 6 * k + 6;
+    mesh.vertex_count = 4 * k + 4;
+    mesh.index_count = 6 * k + 6;
+}
+
+/* A grey map whose level k is 1 - 0.1 k, so that a pixel says which level it is from. */
+enum { SIZE = 64, LEVELS = 6 };
+static void grey_levels(shade_texture *map, shade_texture *levels)
+{
+    static float grey[LEVELS + 1][SIZE * SIZE][4];
+    for (int k = 0; k <= LEVELS; k++) {
+        for (int i = 0; i < SIZE * SIZE; i++) {
+            for (int c = 0; c < 4; c++) grey[k][i][c] = 1 - 0.1f * (float)k;
+        }
+        shade_texture *level = k ? &levels[k - 1] : map;
+        memset(level, 0, sizeof *level);
+        level->pixels = grey[k];
+        level->format = SHADE_FORMAT_RGBA32F;
+        level->width = level->height = SIZE >> k;
+        level->filter = SHADE_FILTER_TRILINEAR;
+    }
+    map->mipmaps = levels;
+    map->mipmap_count = LEVELS;
+}
+
+/* What is at a place, and within 0.6 pixels around it; -1 where that is not one thing. */
+static int shown_around(double X, double Y, d3 *P)
+{
+    d3 ignored;
+    int what = shown(X, Y, P);
+    for (int k = 0; k < 4; k++) {
+        if (shown(X + (k % 2 ? 0.6 : -0.6), Y + (k / 2 ? 0.6 : -0.6), &ignored) != what) return -1;
+    }
+    return what;
+}
+
+/* The light of a point, its albedo that of the level of the map which its pixel's step takes. */
+static d3 textured_light(double X, double Y, d3 P, int in_shadow)
+{
+    d3 right, below;
+    meets(X + 1e-4, Y, P.y, 1e9, &right);
+    meets(X, Y + 1e-4, P.y, 1e9, &below);
+    double step = fmax(d3_length(d3_sub(right, P)), d3_length(d3_sub(below, P))) * 1e4 * SIZE;
+    double albedo = 1 - 0.1 * fmin(LEVELS, fmax(0, log2(step)));
+    shade_lighting lighting = state.lighting;
+    if (in_shadow) lighting.light_count = 0;
+    return ref_light(&lighting, state.material, P, d3_of(0, 1, 0), d3_from(eye),
+                     d3_of(albedo, albedo, albedo)).total;
 }
 
 /* A floor below a roof below a lamp below a ceiling, which casts no shadow.  Level k of the map has
    the grey 1 - k/10, so that albedo tells the level of detail. */
 TEST(readme, shaders_draw_map_and_shadow)
 {
-    enum { SIZE = 64, LEVELS = 6, W = 160, H = 120 };
-    static float grey[LEVELS + 1][SIZE * SIZE][4];
+    enum { W = 160, H = 120 };
     shade_texture levels[LEVELS];
     shade_light lamp = shade_point_light(d3_round(lamp_at), shade_v3(1, 0.9f, 0.8f));
     shade_material glossy = shade_preset_material(SHADE_PRESET_JADE);
     int seen[4] = { 0, 0, 0, 0 };
     start(W, H, shade_v3(1, 4, 6), shade_v3(0, 0, 0));
-    put_square(0, floor_size, 0), put_square(1, roof_size, roof_y), put_square(2, 50, 6);
-    state.material = &glossy, state.lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f);
-    state.lighting.lights = &lamp, state.lighting.light_count = 1;
+    put_square(0, floor_size, 0);
+    put_square(1, roof_size, roof_y);
+    put_square(2, 50, 6);
+    state.material = &glossy;
+    state.lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f);
+    state.lighting.lights = &lamp;
+    state.lighting.light_count = 1;
     uniforms u = { shade_mat4_mul(state.projection, state.view), { 0 } };
-    for (int k = 0; k <= LEVELS; k++) {
-        for (int i = 0; i < SIZE * SIZE; i++) {
-            for (int c = 0; c < 4; c++) grey[k][i][c] = 1 - 0.1f * (float)k;
-        }
-        shade_texture *level = k ? &levels[k - 1] : &u.map;
-        memset(level, 0, sizeof *level);
-        level->pixels = grey[k], level->format = SHADE_FORMAT_RGBA32F;
-        level->width = level->height = SIZE >> k, level->filter = SHADE_FILTER_TRILINEAR;
-    }
-    u.map.mipmaps = levels, u.map.mipmap_count = LEVELS;
+    grey_levels(&u.map, levels);
     CHECK_INT(draw(&u), SHADE_OK);
     for (int i = 0; i < W * H; i++) {
         double X = i % W + 0.5, Y = i / W + 0.5;
-        d3 P, right, below, ignored;
-        int what = shown(X, Y, &P), even = 1;
-        for (int k = 0; k < 4; k++)
-            even &= shown(X + (k % 2 ? 0.6 : -0.6), Y + (k / 2 ? 0.6 : -0.6), &ignored) == what;
-        if (!even) continue;
+        d3 P;
+        int what = shown_around(X, Y, &P);
+        if (what < 0) continue;
         seen[what]++;
         if (!what) {
             CHECK_NEAR(run_color[i][0], 0.02f, 0);
             continue;
         }
-        meets(X + 1e-4, Y, P.y, 1e9, &right), meets(X, Y + 1e-4, P.y, 1e9, &below);
-        double step = fmax(d3_length(d3_sub(right, P)), d3_length(d3_sub(below, P))) * 1e4 * SIZE;
-        double albedo = 1 - 0.1 * fmin(LEVELS, fmax(0, log2(step)));
-        shade_lighting lighting = state.lighting;
-        if (what == SHADOW) lighting.light_count = 0;
-        ref_lit want = ref_light(&lighting, &glossy, P, d3_of(0, 1, 0), d3_from(eye),
-                                 d3_of(albedo, albedo, albedo));
+        d3 want = textured_light(X, Y, P, what == SHADOW);
         d3 got = d3_of((double)run_color[i][0], (double)run_color[i][1], (double)run_color[i][2]);
-        CHECK_SAY(d3_max(d3_sub(got, want.total)) < 1e-3, "%d,%d: kind %d, green %.5f, want %.5f",
-                  i % W, i / W, what, got.y, want.total.y);
+        CHECK_SAY(d3_max(d3_sub(got, want)) < 1e-3, "%d,%d: kind %d, green %.5f, want %.5f",
+                  i % W, i / W, what, got.y, want.y);
     }
     CHECK(seen[0] > 500 && seen[ROOF] > 500 && seen[FLOOR] > 5000 && seen[SHADOW] > 500);
 }
@@ -321,15 +378,20 @@ static void clip_only(const void *data, const shade_vertex_ids *SHADE_RESTRICT i
     for (int i = 0; i < SHADE_LANES; i++) {
         const float *p = mesh.positions + 3 * in->index[i];
         shade_vec4 c = shade_mat4_transform(*m, shade_v4(p[0], p[1], p[2], 1));
-        out->clip[0][i] = c.x, out->clip[1][i] = c.y, out->clip[2][i] = c.z, out->clip[3][i] = c.w;
+        out->clip[0][i] = c.x;
+        out->clip[1][i] = c.y;
+        out->clip[2][i] = c.z;
+        out->clip[3][i] = c.w;
     }
 }
+
 static void number(const void *data, const shade_fragments *SHADE_RESTRICT in,
                    shade_colors *SHADE_RESTRICT out)
 {
     (void)data;
     for (int i = 0; i < SHADE_LANES; i++) out->color[0][i] = (float)in->primitive[i];
 }
+
 /* Whether X, Y lies within 1/64 pixel of the outline of a triangle. */
 static int near_edge(shade_mat4 clip, int triangle, double X, double Y)
 {
@@ -344,6 +406,7 @@ static int near_edge(shade_mat4 clip, int triangle, double X, double Y)
 }
 
 /* A mesh with indices under a matrix of its own: at each pixel the triangle drawn there. */
+/* G10 */
 TEST(readme, picking_finds_what_was_drawn)
 {
     enum { W = 160, H = 120 };
@@ -360,7 +423,8 @@ TEST(readme, picking_finds_what_was_drawn)
                                 0 };
     int drawn = 0, differ = 0;
     start(W, H, shade_v3(0, 4, 8), shade_v3(0, 1.4f, 0));
-    mesh.vertex_count = teapot_vertex_count(8), mesh.index_count = teapot_index_count(8);
+    mesh.vertex_count = teapot_vertex_count(8);
+    mesh.index_count = teapot_index_count(8);
     teapot_build(8, run_positions, run_normals, NULL, run_indices);
     state.model = shade_mat4_mul(shade_mat4_translation(shade_v3(0.3f, 0.2f, -1)),
                                  shade_mat4_rotation(0.8f, shade_v3(0.2f, 1, 0)));

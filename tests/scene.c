@@ -140,11 +140,12 @@ static void scene_build(void)
     int vertices = 0, count = 0, half = SCENE_SIDE / 2;
     for (int face = 0; face < 6; face++) {
         int axis = face / 2, sign = face % 2 ? 1 : -1;
-        for (int j = 0; j < SCENE_SIDE; j++)
+        for (int j = 0; j < SCENE_SIDE; j++) {
             for (int i = 0; i < SCENE_SIDE; i++) {
                 int p[3], edge = i == 0 || j == 0 || i == SCENE_SIDE - 1 || j == SCENE_SIDE - 1;
                 int bump = edge ? 0 : (i * 5 + j * 3 + face) % 3;
-                p[axis] = sign * (half + bump), p[(axis + 1) % 3] = i - half,
+                p[axis] = sign * (half + bump);
+                p[(axis + 1) % 3] = i - half;
                 p[(axis + 2) % 3] = j - half;
                 for (int k = 0; k < 3; k++) {
                     scene_position[3 * vertices + k] = (float)p[k];
@@ -152,15 +153,24 @@ static void scene_build(void)
                 }
                 vertices++;
             }
-        for (int j = 0; j + 1 < SCENE_SIDE; j++)
+        }
+        for (int j = 0; j + 1 < SCENE_SIDE; j++) {
             for (int i = 0; i + 1 < SCENE_SIDE; i++) {
                 uint32_t a = (uint32_t)(face * SCENE_SIDE * SCENE_SIDE + j * SCENE_SIDE + i),
                          b = a + 1;
                 uint32_t c = a + SCENE_SIDE, d = c + 1, t = b;
-                if (sign < 0) b = c, c = t;
-                scene_index[count++] = a, scene_index[count++] = b, scene_index[count++] = d;
-                scene_index[count++] = a, scene_index[count++] = d, scene_index[count++] = c;
+                if (sign < 0) {
+                    b = c;
+                    c = t;
+                }
+                scene_index[count++] = a;
+                scene_index[count++] = b;
+                scene_index[count++] = d;
+                scene_index[count++] = a;
+                scene_index[count++] = d;
+                scene_index[count++] = c;
             }
+        }
     }
 }
 
@@ -182,14 +192,18 @@ static shade_texture scene_map(int kind, shade_texture *levels)
         unsigned char *bytes = (unsigned char *)scene_texels + 4 * i;
         if (narrow) memcpy((char *)scene_texels + 2 * i, &stored, 2);
         if (wide) {
-            bytes[0] = (unsigned char)(n * 17), bytes[1] = (unsigned char)(x * 16);
+            bytes[0] = (unsigned char)(n * 17);
+            bytes[1] = (unsigned char)(x * 16);
             bytes[2] = (unsigned char)(y * 32);
             bytes[3] = (unsigned char)(kind == 4 ? 255 - n * 15 : 255);
         }
         for (uint32_t k = 0; kind == 3 && k < 4; k++)
             scene_texels[4 * i + k] = (float)((n + k * x) % 16) * 0.125f;
     }
-    t.pixels = scene_texels, t.width = 16, t.height = 8, t.srgb = wide;
+    t.pixels = scene_texels;
+    t.width = 16;
+    t.height = 8;
+    t.srgb = wide;
     t.format = formats[kind];
     t.wrap_u = t.wrap_v = narrow ? SHADE_WRAP_MIRROR : wide ? SHADE_WRAP_REPEAT : SHADE_WRAP_CLAMP;
     t.filter = narrow ? SHADE_FILTER_NEAREST
@@ -198,13 +212,17 @@ static shade_texture scene_map(int kind, shade_texture *levels)
     if (kind == 3) shade_build_mipmaps(&t, levels, scene_levels, sizeof scene_levels);
     return t;
 }
+
 static void scene_lines(canvas *c, const shade_draw_state *s)
 {
     shade_line_state line;
     memset(&line, 0, sizeof line);
     line.clip_from_points = s->projection; /* products in this file would follow its flags */
-    line.width = 1.5f, line.cap = SHADE_CAP_SQUARE, line.color = shade_v4(0.0625f, 0, 0.125f, 1);
-    line.raster.depth_test = SHADE_COMPARE_LESS_EQUAL, line.raster.depth_bias = -0.015625f;
+    line.width = 1.5f;
+    line.cap = SHADE_CAP_SQUARE;
+    line.color = shade_v4(0.0625f, 0, 0.125f, 1);
+    line.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    line.raster.depth_bias = -0.015625f;
     for (int k = 0; k < (int)(sizeof scene_index / sizeof scene_index[0]); k += 3) {
         shade_vec3 ends[2];
         for (int j = 0; j < 2; j++) {
@@ -230,11 +248,16 @@ static void scene_wheel(canvas *c)
         const int w = k == 5 ? -1 : 1 << k % 3, far_out = k % 5 == 2 ? 8 : 1, z = k % 3 - 1;
         clip[i] = shade_v4((float)(x * far_out * w), (float)(y * far_out * w), (float)(3 * z * w),
                            (float)w);
-        color[i][0] = (float)(k & 1), color[i][1] = (float)(k >> 1 & 1);
+        color[i][0] = (float)(k & 1);
+        color[i][1] = (float)(k >> 1 & 1);
         color[i][2] = (float)(k >> 2 & 1);
-        if (i % 3 == 0) clip[i] = shade_v4(0, 0, 0, 1), color[i][0] = color[i][1] = color[i][2] = 1;
+        if (i % 3 == 0) {
+            clip[i] = shade_v4(0, 0, 0, 1);
+            color[i][0] = color[i][1] = color[i][2] = 1;
+        }
     }
-    p.fragment = scene_colors, p.interpolation = SHADE_INTERPOLATION_AFFINE;
+    p.fragment = scene_colors;
+    p.interpolation = SHADE_INTERPOLATION_AFFINE;
     shade_draw(&c->target, &p, NULL, 48, 48, NULL);
 }
 
@@ -270,41 +293,54 @@ static void scene_draw(canvas *c, const golden_scene *g)
                    plastic = shade_preset_material(SHADE_PRESET_CYAN_PLASTIC);
     shade_mesh mesh;
     shade_draw_state s;
-    memset(&mesh, 0, sizeof mesh), memset(&s, 0, sizeof s);
-    mesh.positions = mesh.normals = scene_position, mesh.colors = scene_color;
-    mesh.vertex_count = 6 * SCENE_SIDE * SCENE_SIDE, mesh.indices = scene_index;
+    memset(&mesh, 0, sizeof mesh);
+    memset(&s, 0, sizeof s);
+    mesh.positions = mesh.normals = scene_position;
+    mesh.colors = scene_color;
+    mesh.vertex_count = 6 * SCENE_SIDE * SCENE_SIDE;
+    mesh.indices = scene_index;
     mesh.index_count = (int)(sizeof scene_index / sizeof scene_index[0]);
     lights[0] = shade_directional_light(shade_v3(-1, -2, -2), shade_v3(1, 0.875f, 0.75f));
     lights[1] = shade_point_light(shade_v3(8, 3, 6), shade_v3(4, 8, 16));
-    lights[1].constant = 1, lights[1].quadratic = 0.125f,
+    lights[1].constant = 1;
+    lights[1].quadratic = 0.125f;
     lights[1].ambient = shade_v3(0.25f, 0, 0.125f);
     lights[2] =
         shade_spot_light(shade_v3(-7, 9, 8), shade_v3(7, -9, -7), 0.25f, 16, shade_v3(2, 1, 1));
     lights[2].ambient = shade_v3(0, 0.125f, 0);
-    gold.emission = shade_v3(0.0625f, 0, 0.03125f), plastic.emission = shade_v3(0, 0, 0.125f);
-    s.lighting.lights = lights, s.lighting.light_count = g->lights;
+    gold.emission = shade_v3(0.0625f, 0, 0.03125f);
+    plastic.emission = shade_v3(0, 0, 0.125f);
+    s.lighting.lights = lights;
+    s.lighting.light_count = g->lights;
     s.lighting.ambient = shade_v3(0.125f, 0.125f, 0.25f);
-    s.lighting.model = g->model, s.lighting.flags = g->flags, s.shading = g->shading,
+    s.lighting.model = g->model;
+    s.lighting.flags = g->flags;
+    s.shading = g->shading;
     s.raster.blend = g->blend;
-    s.transparency = g->transparency, s.alpha_cutoff = g->alpha_cutoff;
+    s.transparency = g->transparency;
+    s.alpha_cutoff = g->alpha_cutoff;
     s.view = g->inside
                  ? shade_mat4_look_at(shade_v3(5, 1, 3), shade_v3(-4, 0, -2), shade_v3(0, 1, 0))
                  : shade_mat4_look_at(shade_v3(9, 7, 14), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     s.projection = g->reversed ? shade_mat4_perspective_reversed(0.75f, 4.0f / 3, 1)
                                : shade_mat4_perspective(g->inside ? 1.5f : 0.75f, 4.0f / 3, 1, 40);
-    s.raster.depth_zero_to_one = g->reversed,
+    s.raster.depth_zero_to_one = g->reversed;
     s.raster.depth_test = g->reversed ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
     if (g->map) { /* positions serve as texture coordinates */
-        mesh.texcoords = scene_position, mesh.texcoord_stride = 12;
+        mesh.texcoords = scene_position;
+        mesh.texcoord_stride = 12;
         s.diffuse_map = &map;
     }
     if (g->wild) scene_spoil(lights, &gold, &mesh);
-    s.model = shade_mat4_rotation(0.5f, shade_v3(1, 2, 3)), s.material = &gold;
+    s.model = shade_mat4_rotation(0.5f, shade_v3(1, 2, 3));
+    s.material = &gold;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
     if (g->lines) scene_lines(c, &s);
     if (g->affine) scene_wheel(c);
-    s.model = shade_mat4_translation(shade_v3(5, -2, -3)), s.material = &plastic;
-    s.raster.cull = SHADE_CULL_BACK, s.lighting.terms = 0;
+    s.model = shade_mat4_translation(shade_v3(5, -2, -3));
+    s.material = &plastic;
+    s.raster.cull = SHADE_CULL_BACK;
+    s.lighting.terms = 0;
     shade_draw_mesh(&c->target, &mesh, &s, NULL);
 }
 
@@ -315,10 +351,12 @@ static uint64_t hash_number(uint64_t h, uint32_t v, int bytes)
     for (int k = 0; k < bytes; k++, v >>= 8) h = (h ^ (v & 255)) * 1099511628211u;
     return h;
 }
+
 static uint32_t scene_bits(float v)
 {
     return (float_bits(v) & 0x7FFFFFFFu) > 0x7F800000u ? 0x7FC00000u : float_bits(v);
 }
+
 static uint64_t scene_hash(const canvas *c)
 {
     uint64_t h = 14695981039346656037u;
@@ -338,7 +376,8 @@ static uint64_t scene_hash(const canvas *c)
 static canvas scene_open(const golden_scene *g)
 {
     canvas c = canvas_open(SCENE_WIDTH, SCENE_HEIGHT, 0, g->format, 1);
-    c.target.srgb = g->srgb, c.target.dither = g->dither;
+    c.target.srgb = g->srgb;
+    c.target.dither = g->dither;
     shade_clear(&c.target, shade_v4(0.125f, 0.125f, 0.1875f, 1), g->reversed ? 0 : 1);
     return c;
 }
@@ -369,6 +408,7 @@ static int scene_print(const char *folder)
     return 0;
 }
 
+/* G12, G15 */
 TEST(scene, hashes_are_the_recorded_ones)
 {
     static const struct {
@@ -419,6 +459,7 @@ TEST(scene, scenes_are_not_empty_and_differ)
     }
 }
 
+/* G13 */
 TEST(scene, bands_give_the_hash_of_the_whole)
 {
     scene_build();
@@ -426,7 +467,8 @@ TEST(scene, bands_give_the_hash_of_the_whole)
         canvas whole = scene_open(&golden_scenes[k]), bands = scene_open(&golden_scenes[k]);
         scene_draw(&whole, &golden_scenes[k]);
         for (int y = 0; y < SCENE_HEIGHT; y += 17) {
-            bands.target.clip_y = y, bands.target.clip_width = SCENE_WIDTH,
+            bands.target.clip_y = y;
+            bands.target.clip_width = SCENE_WIDTH;
             bands.target.clip_height = 17;
             scene_draw(&bands, &golden_scenes[k]);
         }

@@ -12,9 +12,12 @@ typedef struct shape_mesh {
 static void shape_close(shape_mesh *s, int vertices, int corners)
 {
     memset(&s->mesh, 0, sizeof s->mesh);
-    s->mesh.positions = &s->position[0].x, s->mesh.vertex_count = vertices;
-    s->mesh.indices = s->index, s->mesh.index_count = corners;
+    s->mesh.positions = &s->position[0].x;
+    s->mesh.vertex_count = vertices;
+    s->mesh.indices = s->index;
+    s->mesh.index_count = corners;
 }
+
 static d3 shape_at(const shade_mesh *m, int corner)
 {
     float p[3];
@@ -23,15 +26,18 @@ static d3 shape_at(const shade_mesh *m, int corner)
     memcpy(p, (const char *)m->positions + v * stride, 12);
     return d3_of((double)p[0], (double)p[1], (double)p[2]);
 }
+
 static int shape_corners(const shade_mesh *m)
 {
     return m->indices ? m->index_count : m->vertex_count;
 }
+
 static d3 ref_face(const shade_mesh *m, int t)
 {
     d3 a = shape_at(m, 3 * t), b = shape_at(m, 3 * t + 1), c = shape_at(m, 3 * t + 2);
     return d3_unit(d3_cross(d3_unit(d3_sub(b, a)), d3_unit(d3_sub(c, a))));
 }
+
 static double ref_angle(const shade_mesh *m, int corner)
 {
     int t = corner / 3 * 3, k = corner % 3;
@@ -40,6 +46,7 @@ static double ref_angle(const shade_mesh *m, int corner)
     d3 b = d3_unit(d3_sub(shape_at(m, t + (k + 2) % 3), p));
     return atan2(d3_length(d3_cross(a, b)), d3_dot(a, b));
 }
+
 /* The normal of a corner; unsure where a cosine lies within rounding of the threshold or the sum
    nearly cancels. */
 static d3 ref_corner_normal(const shade_mesh *m, int corner, double cos_crease, int *unsure)
@@ -57,6 +64,7 @@ static d3 ref_corner_normal(const shade_mesh *m, int corner, double cos_crease, 
     if (d3_length(sum) < 0.05) *unsure = 1;
     return d3_unit(sum);
 }
+
 static void corner_normals(const shade_mesh *m, float cos_crease, shade_vec3 *out)
 {
     size_t bytes = shade_mesh_corner_normals_bytes(m);
@@ -68,13 +76,14 @@ static void corner_normals(const shade_mesh *m, float cos_crease, shade_vec3 *ou
     }
     free(block);
 }
+
 static double shape_off(shade_vec3 got, d3 want) { return d3_length(d3_sub(d3_from(got), want)); }
 
 /* A cube: vertices shared, or four to a face. */
 static void shape_cube(shape_mesh *s, int split)
 {
     int vertices = 0, corners = 0;
-    for (int axis = 0; axis < 3; axis++)
+    for (int axis = 0; axis < 3; axis++) {
         for (int side = 0; side < 2; side++) {
             uint32_t at[4];
             for (int k = 0; k < 4; k++) {
@@ -86,13 +95,18 @@ static void shape_cube(shape_mesh *s, int split)
                 for (int n = 0; n < vertices && !split; n++) {
                     if (!memcmp(&s->position[n], p, 12)) found = n;
                 }
-                if (found < 0) found = vertices++, memcpy(&s->position[found], p, 12);
+                if (found < 0) {
+                    found = vertices++;
+                    memcpy(&s->position[found], p, 12);
+                }
                 at[k] = (uint32_t)found;
             }
             for (int k = 0; k < 6; k++) s->index[corners++] = at[k < 3 ? k : k == 3 ? 0 : k - 2];
         }
+    }
     shape_close(s, vertices, corners);
 }
+
 /* A bent sheet with some triangles flipped, doubled, without area, or of vertices that repeat
    the place of others, with zeros of either sign. */
 static void random_shape(shape_mesh *s)
@@ -110,11 +124,15 @@ static void random_shape(shape_mesh *s)
         if (p.z == 0 && rnd_one_in(2)) p.z = -p.z;
         s->position[vertices++] = p;
     }
-    for (int j = 0; j + 1 < across; j++)
+    for (int j = 0; j + 1 < across; j++) {
         for (int i = 0; i + 1 < across; i++) {
             uint32_t a = (uint32_t)(j * across + i), q[6];
-            q[0] = a, q[1] = a + 1, q[2] = a + (uint32_t)across + 1;
-            q[3] = a, q[4] = q[2], q[5] = q[2] - 1;
+            q[0] = a;
+            q[1] = a + 1;
+            q[2] = a + (uint32_t)across + 1;
+            q[3] = a;
+            q[4] = q[2];
+            q[5] = q[2] - 1;
             for (int k = 0; k < 6; k++) {
                 for (int n = across * across; n < vertices; n++) { /* a double in its place */
                     shade_vec3 x = s->position[n], y = s->position[q[k]];
@@ -124,6 +142,7 @@ static void random_shape(shape_mesh *s)
                 s->index[corners++] = q[k];
             }
         }
+    }
     for (int k = rnd_int(0, 8); k > 0; k--) {
         for (int n = 0; n < 3; n++) s->index[corners + n] = (uint32_t)rnd_int(0, vertices - 1);
         if (rnd_one_in(3)) s->index[corners + 1] = s->index[corners];
@@ -152,6 +171,7 @@ TEST(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above)
         }
     }
 }
+
 /* the faces of a cube have a cosine of exactly 0 */
 TEST(shape, an_edge_of_exactly_the_threshold_is_smooth)
 {
@@ -163,6 +183,9 @@ TEST(shape, an_edge_of_exactly_the_threshold_is_smooth)
     corner_normals(&s.mesh, 1e-30f, out);
     for (int k = 0; k < 36; k++) CHECK(shape_off(out[k], ref_face(&s.mesh, k / 3)) < 2e-6);
 }
+
+/* Thresholds within 0.01 of 1 are moved: there rounding decides whether faces of one plane are
+   near. */
 TEST(shape, corner_normals_are_the_weighted_mean_of_the_near_faces)
 {
     static shape_mesh s;
@@ -187,14 +210,13 @@ TEST(shape, corner_normals_are_the_weighted_mean_of_the_near_faces)
     }
     CHECK_SAY(checked > 5000, "%ld", checked);
 }
+
 TEST(shape, vertices_of_equal_position_are_one_whatever_the_sign_of_zero)
 {
     shade_vec3 p[6] = { { 0, 0, 0 },      { 1, 0, 0 },     { 0, 1, 0.5f },
                         { -0.0f, 0, -0.0f }, { 0, 1, 0.5f }, { -1, 0, 0 } };
     shade_vec3 out[6];
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = &p[0].x, m.vertex_count = 6; /* no indices */
+    shade_mesh m = plain_mesh(&p[0].x, 6); /* no indices */
     corner_normals(&m, -1, out);
     for (int k = 0; k < 6; k++) {
         int unsure = 0;
@@ -202,6 +224,7 @@ TEST(shape, vertices_of_equal_position_are_one_whatever_the_sign_of_zero)
     }
     CHECK(!memcmp(&out[0], &out[3], 12) && !memcmp(&out[2], &out[4], 12));
 }
+
 TEST(shape, faces_without_area_change_no_neighbour)
 {
     static shape_mesh s;
@@ -215,10 +238,13 @@ TEST(shape, faces_without_area_change_no_neighbour)
         for (int k = 0; k < 5; k++) {
             uint32_t a = (uint32_t)rnd_int(0, vertices - 1), b = (uint32_t)rnd_int(0, vertices - 1);
             uint32_t *at = s.index + s.mesh.index_count;
-            at[0] = a, at[1] = k & 1 ? a : b, at[2] = k & 2 ? a : b;
+            at[0] = a;
+            at[1] = k & 1 ? a : b;
+            at[2] = k & 2 ? a : b;
             if (k == 4) { /* corners that are no numbers */
                 s.position[vertices] = shade_v3((float)NAN, rnd_nasty(), INFINITY);
-                s.mesh.vertex_count = vertices + 1, at[1] = (uint32_t)vertices;
+                s.mesh.vertex_count = vertices + 1;
+                at[1] = (uint32_t)vertices;
             }
             s.mesh.index_count += 3;
         }
@@ -237,6 +263,8 @@ TEST(shape, faces_without_area_change_no_neighbour)
         }
     }
 }
+
+/* A third of the positions are NaN, infinite, or of any size: a normal is a unit vector or zero. */
 TEST(shape, any_positions_give_finite_corner_normals)
 {
     static shape_mesh s;
@@ -253,6 +281,7 @@ TEST(shape, any_positions_give_finite_corner_normals)
         }
     }
 }
+
 TEST(shape, strides_and_missing_indices_give_the_same_corner_normals)
 {
     static shape_mesh s;
@@ -264,15 +293,20 @@ TEST(shape, strides_and_missing_indices_give_the_same_corner_normals)
         for (int k = 0; k < s.mesh.vertex_count; k++) memcpy(spread + 5 * k, &s.position[k], 12);
         for (int k = 0; k < s.mesh.index_count; k++)
             memcpy(flat + 3 * k, &s.position[s.index[k]], 12);
-        m.positions = spread, m.position_stride = 20;
-        n.positions = flat, n.indices = NULL, n.vertex_count = s.mesh.index_count;
+        m.positions = spread;
+        m.position_stride = 20;
+        n.positions = flat;
+        n.indices = NULL;
+        n.vertex_count = s.mesh.index_count;
         n.index_count = 7; /* not looked at */
-        corner_normals(&s.mesh, 0.3f, tight), corner_normals(&m, 0.3f, wide);
+        corner_normals(&s.mesh, 0.3f, tight);
+        corner_normals(&m, 0.3f, wide);
         corner_normals(&n, 0.3f, soup);
         CHECK(!memcmp(tight, wide, (size_t)s.mesh.index_count * 12));
         CHECK(!memcmp(tight, soup, (size_t)s.mesh.index_count * 12));
     }
 }
+
 /* A mesh of triangles without any vertex in common, each with its place: a bump of its own. */
 typedef struct shape_soup {
     shade_mesh mesh;
@@ -285,16 +319,19 @@ static shape_soup shape_soup_open(int triangles)
     shape_soup s;
     size_t bytes = (size_t)triangles * 3 * sizeof(shade_vec3);
     memset(&s, 0, sizeof s);
-    s.position = (shade_vec3 *)malloc(bytes), s.out = (shade_vec3 *)malloc(bytes);
-    if (!s.position || !s.out) {
-        printf("out of memory\n");
-        exit(2);
-    }
+    s.position = test_memory(bytes);
+    s.out = test_memory(bytes);
     s.triangles = triangles;
-    s.mesh.positions = &s.position[0].x, s.mesh.vertex_count = 3 * triangles;
+    s.mesh.positions = &s.position[0].x;
+    s.mesh.vertex_count = 3 * triangles;
     return s;
 }
-static void shape_soup_close(shape_soup *s) { free(s->position), free(s->out); }
+
+static void shape_soup_close(shape_soup *s)
+{
+    free(s->position);
+    free(s->out);
+}
 
 /* Where the sum of the bits is the same for all, or only the lowest, or the highest bits differ;
    where multiplying and mixing the three words, as hashes of positions do, ends in one
@@ -304,7 +341,8 @@ static void shape_place(int kind, uint32_t i, shade_vec3 *p)
     uint32_t h, z;
     switch (kind) {
     case 0:
-        h = (i & 1023) << 13, z = (i >> 10) << 13;
+        h = (i & 1023) << 13;
+        z = (i >> 10) << 13;
         *p = shade_v3(bits_float(0x3F800000u + h), bits_float(0x3F800000u + z),
                       bits_float(0x41000000u - h - z));
         break;
@@ -318,7 +356,8 @@ static void shape_place(int kind, uint32_t i, shade_vec3 *p)
         break;
     case 3:
         do {
-            p->x = rnd_float(-1, 1), p->y = rnd_float(-1, 1);
+            p->x = rnd_float(-1, 1);
+            p->y = rnd_float(-1, 1);
             h = float_bits(p->x) * 0x9E3779B1u;
             h = (h ^ h >> 15) * 0x85EBCA77u + float_bits(p->y);
             z = 0x12345678u - (h ^ h >> 15) * 0x2C1B3C6Du;
@@ -346,7 +385,8 @@ TEST(shape, a_hundred_thousand_triangles_apart_are_told_apart_whatever_their_bit
         for (int k = 3 * TRIANGLES - 1; k > 0; k--) { /* in any order */
             int other = rnd_int(0, k);
             shade_vec3 p = s.position[k];
-            s.position[k] = s.position[other], s.position[other] = p;
+            s.position[k] = s.position[other];
+            s.position[other] = p;
         }
         corner_normals(&s.mesh, -1, s.out);
         for (int t = 0; t < TRIANGLES; t++) {
@@ -374,13 +414,18 @@ TEST(shape, corners_that_meet_find_each_other_among_a_hundred_thousand)
     for (int k = 2 * PAIRS - 1; k > 0; k--) {
         int other = rnd_int(0, k);
         uint32_t p = place[k];
-        place[k] = place[other], place[other] = p;
+        place[k] = place[other];
+        place[other] = p;
     }
     for (int k = 0; k < PAIRS; k++) {
         float x = (float)(k % 500) * 4, y = (float)(k / 500) * 4, bent = (float)(k % 7) / 4;
         shade_vec3 *p = s.position + 3 * place[2 * k], *q = s.position + 3 * place[2 * k + 1];
-        p[0] = shade_v3(x, y, 0), p[1] = shade_v3(x + 1, y, 0), p[2] = shade_v3(x, y + 1, bent);
-        q[0] = p[1], q[1] = p[0], q[2] = shade_v3(x, y - 1, bent);
+        p[0] = shade_v3(x, y, 0);
+        p[1] = shade_v3(x + 1, y, 0);
+        p[2] = shade_v3(x, y + 1, bent);
+        q[0] = p[1];
+        q[1] = p[0];
+        q[2] = shade_v3(x, y - 1, bent);
         if (k % 3 == 0 && k % 500 == 0) q[1].x = -0.0f; /* is 0 */
     }
     corner_normals(&s.mesh, 0.25f, s.out);
@@ -470,9 +515,8 @@ TEST(shape, corner_normals_say_how_much_memory_they_take)
 {
     static uint32_t list[300];
     static shade_vec3 p[3], out[300];
-    shade_mesh m;
-    memset(&m, 0, sizeof m);
-    m.positions = &p[0].x, m.vertex_count = 3, m.indices = list;
+    shade_mesh m = plain_mesh(&p[0].x, 3);
+    m.indices = list;
     for (int n = 0; n <= 300; n += 3) {
         m.index_count = n;
         CHECK_INT(shade_mesh_corner_normals_bytes(&m), 16 * n);
@@ -486,51 +530,80 @@ TEST(shape, corner_normals_say_how_much_memory_they_take)
     out[0] = shade_v3(7, 7, 7);
     m.index_count = 0; /* nothing to do, and nothing needed for it */
     CHECK_INT(shade_mesh_corner_normals(&m, 0, out, NULL, 0), SHADE_OK);
-    m.indices = NULL, m.vertex_count = 0, m.positions = NULL;
+    m.indices = NULL;
+    m.vertex_count = 0;
+    m.positions = NULL;
     CHECK_INT(shade_mesh_corner_normals_bytes(&m), 0);
     CHECK_INT(shade_mesh_corner_normals(&m, 0, out, NULL, 0), SHADE_OK);
     CHECK_NEAR(out[0].x, 7, 0);
 }
-TEST(shape, bad_corner_normal_calls_are_refused)
+
+/* What shade_mesh_corner_normals is given, for a cube of 8 vertices and 36 corners. */
+typedef struct normals_call {
+    const shade_mesh *mesh;
+    shade_vec3 *normals;
+    void *memory;
+    int moved, short_of; /* bytes that memory is off its alignment, and less than it takes */
+    float threshold;
+    int bad_index; /* 1: the only triangle is 0, 1, 8 */
+    shade_mesh m;
+} normals_call;
+
+#define NORMALS_FAULT(field, value) FAULT(normals_call, field, value)
+static const refusal bad_normals_arguments[] = {
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(normals_call, normals) } },
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(normals_call, memory) } },
+    { SHADE_ERROR_ARGUMENT, { NORMALS_FAULT(moved, 1) } },
+    { SHADE_ERROR_ARGUMENT, { NORMALS_FAULT(moved, 2) } },
+    { SHADE_ERROR_CAPACITY, { NORMALS_FAULT(short_of, 1) } },
+    { SHADE_ERROR_CAPACITY, { NORMALS_FAULT(short_of, INT_MAX) } }, /* no bytes at all */
+    { SHADE_ERROR_STATE, { FAULT_REAL(normals_call, threshold, NAN) } },
+};
+static const refusal bad_normals_meshes[] = {
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(normals_call, mesh) } },
+    { SHADE_ERROR_MESH, { FAULT_NULL(normals_call, m.positions) } },
+    { SHADE_ERROR_MESH, { NORMALS_FAULT(m.vertex_count, -1) } },
+    { SHADE_ERROR_MESH, { NORMALS_FAULT(m.index_count, -3) } },
+    { SHADE_ERROR_MESH, { NORMALS_FAULT(m.position_stride, 13) } },
+    { SHADE_ERROR_INDEX, { NORMALS_FAULT(m.index_count, 35) } },
+    { SHADE_ERROR_INDEX, { NORMALS_FAULT(m.index_count, 3), NORMALS_FAULT(bad_index, 1) } },
+};
+
+/* Spoils the call for a cube as a row says and checks that no normal is written. */
+static void check_bad_normals(int row, const refusal *r, int bad_mesh)
 {
+    static const uint32_t bad_indices[3] = { 0, 1, 8 };
+    static uint32_t memory[200];
     static shape_mesh s;
     shade_vec3 out[36];
-    static uint32_t memory[200];
     shape_cube(&s, 0);
     size_t bytes = shade_mesh_corner_normals_bytes(&s.mesh);
     CHECK(bytes >= 36 * 4 && bytes <= sizeof memory - 4);
-    for (int k = 0; k < 14; k++) {
-        shade_mesh m = s.mesh;
-        const shade_mesh *mesh = &m;
-        shade_vec3 *normals = out;
-        void *at = memory;
-        size_t room = bytes;
-        float threshold = 0;
-        shade_result want = SHADE_ERROR_ARGUMENT;
-        uint32_t bad[3] = { 0, 1, 8 };
-        int bad_mesh = 0;
-        memset(out, CANVAS_BYTE, sizeof out);
-        switch (k) {
-        case 0: mesh = NULL, bad_mesh = 1; break;
-        case 1: normals = NULL; break;
-        case 2: at = NULL; break;
-        case 3: at = (char *)memory + 1; break;
-        case 4: at = (char *)memory + 2; break;
-        case 5: room--, want = SHADE_ERROR_CAPACITY; break;
-        case 6: room = 0, want = SHADE_ERROR_CAPACITY; break;
-        case 7: threshold = (float)NAN, want = SHADE_ERROR_STATE; break;
-        case 8: m.positions = NULL, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
-        case 9: m.vertex_count = -1, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
-        case 10: m.index_count = -3, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
-        case 11: m.position_stride = 13, bad_mesh = 1, want = SHADE_ERROR_MESH; break;
-        case 12: m.index_count = 35, bad_mesh = 1, want = SHADE_ERROR_INDEX; break;
-        default:
-            m.indices = bad, m.index_count = 3, bad_mesh = 1, want = SHADE_ERROR_INDEX;
-            break;
-        }
-        CHECK_INT(shade_mesh_corner_normals(mesh, threshold, normals, at, room), want);
-        if (bad_mesh) CHECK_INT(shade_mesh_corner_normals_bytes(mesh), 0);
-        for (size_t i = 0; i < sizeof out; i++) CHECK(((unsigned char *)out)[i] == CANVAS_BYTE);
+    memset(out, CANVAS_BYTE, sizeof out);
+
+    normals_call bad = { NULL, out, memory, 0, 0, 0, 0, s.mesh };
+    bad.mesh = &bad.m;
+    spoil(&bad, r->faults);
+    if (bad.bad_index) bad.m.indices = bad_indices;
+    if (bad.moved) bad.memory = (char *)bad.memory + bad.moved;
+    bytes -= (size_t)bad.short_of < bytes ? (size_t)bad.short_of : bytes;
+    check_refusal(row, shade_mesh_corner_normals(bad.mesh, bad.threshold, bad.normals, bad.memory,
+                                                 bytes), r->want);
+    if (bad_mesh) CHECK_INT(shade_mesh_corner_normals_bytes(bad.mesh), 0);
+    CHECK_SAY(untouched(out, sizeof out), "row %d", row);
+}
+
+TEST(shape, bad_corner_normal_calls_are_refused)
+{
+    for (int row = 0; row < TEST_COUNT(bad_normals_arguments); row++) {
+        check_bad_normals(row, &bad_normals_arguments[row], 0);
+    }
+}
+
+TEST(shape, corner_normals_of_bad_meshes_are_refused_and_take_no_bytes)
+{
+    for (int row = 0; row < TEST_COUNT(bad_normals_meshes); row++) {
+        check_bad_normals(row, &bad_normals_meshes[row], 1);
     }
 }
 
@@ -544,13 +617,17 @@ static int ref_edge(const shade_mesh *m, uint32_t a, uint32_t b, int *triangles)
         int has = 0;
         for (int k = 0; k < 3; k++) {
             uint32_t p = (uint32_t)(3 * t + k), q = (uint32_t)(3 * t + (k + 1) % 3);
-            if (m->indices) p = m->indices[p], q = m->indices[q];
+            if (m->indices) {
+                p = m->indices[p];
+                q = m->indices[q];
+            }
             has |= (p == a && q == b) || (p == b && q == a);
         }
         if (has) triangles[n++] = t;
     }
     return n;
 }
+
 static void check_edges(const shade_mesh *m)
 {
     static shade_edge edges[SHAPE_CORNERS + 1];
@@ -577,6 +654,7 @@ static void check_edges(const shade_mesh *m)
         }
     CHECK_INT(at, count); /* sorted, and nothing else */
 }
+
 TEST(shape, edges_are_those_that_the_triangles_have_sorted_each_once)
 {
     static shape_mesh s;
@@ -585,6 +663,7 @@ TEST(shape, edges_are_those_that_the_triangles_have_sorted_each_once)
         check_edges(&s.mesh);
     }
 }
+
 TEST(shape, a_closed_mesh_has_two_triangles_at_every_edge)
 {
     static shape_mesh s;
@@ -600,15 +679,18 @@ TEST(shape, a_closed_mesh_has_two_triangles_at_every_edge)
     CHECK_INT(count, 30); /* each face has a border of its own */
     check_edges(&s.mesh);
 }
+
+/* Leaves of a book: up to five triangles at the edge 0, 1, two to an entry, and two edges of
+   their own each. */
 TEST(shape, a_third_triangle_at_an_edge_makes_a_further_entry)
 {
     static const uint32_t book[15] = { 0, 1, 2, 1, 0, 3, 0, 1, 4, 0, 1, 5, 1, 0, 6 };
     shade_vec3 p[7];
-    shade_mesh m;
     shade_edge edges[15];
     int count;
-    memset(&m, 0, sizeof m), memset(p, 0, sizeof p);
-    m.positions = &p[0].x, m.vertex_count = 7, m.indices = book;
+    memset(p, 0, sizeof p);
+    shade_mesh m = plain_mesh(&p[0].x, 7);
+    m.indices = book;
     for (int n = 1; n <= 5; n++) {
         m.index_count = 3 * n;
         CHECK_INT(shade_mesh_edges(&m, edges, 3 * n, &count), SHADE_OK);
@@ -616,6 +698,7 @@ TEST(shape, a_third_triangle_at_an_edge_makes_a_further_entry)
         check_edges(&m);
     }
 }
+
 TEST(shape, doubled_and_degenerate_triangles_keep_edges_single)
 {
     static const uint32_t list[][6] = {
@@ -623,9 +706,9 @@ TEST(shape, doubled_and_degenerate_triangles_keep_edges_single)
         { 0, 1, 1, 0, 1, 2 }, { 0, 1, 0, 1, 0, 2 }, { 1, 1, 0, 1, 0, 1 },
     };
     shade_vec3 p[3];
-    shade_mesh m;
-    memset(&m, 0, sizeof m), memset(p, 0, sizeof p);
-    m.positions = &p[0].x, m.vertex_count = 3, m.index_count = 6;
+    memset(p, 0, sizeof p);
+    shade_mesh m = plain_mesh(&p[0].x, 3);
+    m.index_count = 6;
     for (size_t k = 0; k < sizeof list / sizeof list[0]; k++) {
         m.indices = list[k];
         check_edges(&m);
@@ -635,6 +718,7 @@ TEST(shape, doubled_and_degenerate_triangles_keep_edges_single)
     m.vertex_count = 0;
     check_edges(&m);
 }
+
 TEST(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes)
 {
     static shape_mesh s;
@@ -656,34 +740,46 @@ TEST(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes)
         }
     }
 }
+
+/* What shade_mesh_edges is given, for the same cube. */
+typedef struct edges_call {
+    const shade_mesh *mesh;
+    shade_edge *edges;
+    int room, *count;
+    shade_mesh m;
+} edges_call;
+
+#define EDGES_FAULT(field, value) FAULT(edges_call, field, value)
+static const refusal bad_edge_calls[] = {
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(edges_call, mesh) } },
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(edges_call, edges) } },
+    { SHADE_ERROR_ARGUMENT, { FAULT_NULL(edges_call, count) } },
+    { SHADE_ERROR_ARGUMENT, { EDGES_FAULT(room, -1) } },
+    { SHADE_ERROR_MESH, { FAULT_NULL(edges_call, m.positions) } },
+    { SHADE_ERROR_MESH, { EDGES_FAULT(m.index_count, -6) } },
+    { SHADE_ERROR_MESH, { EDGES_FAULT(m.position_stride, -12) } },
+    { SHADE_ERROR_INDEX, { EDGES_FAULT(m.vertex_count, 7) } },
+    { SHADE_ERROR_INDEX, { EDGES_FAULT(m.index_count, 34) } },
+};
+
 TEST(shape, bad_edge_calls_are_refused)
 {
     static shape_mesh s;
     shade_edge edges[36];
     shape_cube(&s, 0);
-    for (int k = 0; k < 9; k++) {
-        shade_mesh m = s.mesh;
-        const shade_mesh *mesh = &m;
-        shade_edge *list = edges;
-        int count = 77, *where = &count, room = 36;
-        shade_result want = SHADE_ERROR_ARGUMENT;
-        memset(edges, CANVAS_BYTE, sizeof edges);
-        switch (k) {
-        case 0: mesh = NULL; break;
-        case 1: list = NULL; break;
-        case 2: where = NULL; break;
-        case 3: room = -1; break;
-        case 4: m.positions = NULL, want = SHADE_ERROR_MESH; break;
-        case 5: m.vertex_count = 7, want = SHADE_ERROR_INDEX; break;
-        case 6: m.index_count = 34, want = SHADE_ERROR_INDEX; break;
-        case 7: m.index_count = -6, want = SHADE_ERROR_MESH; break;
-        default: m.position_stride = -12, want = SHADE_ERROR_MESH; break;
-        }
-        CHECK_INT(shade_mesh_edges(mesh, list, room, where), want);
-        if (where) CHECK_INT(count, 0);
-        for (size_t i = 0; i < sizeof edges; i++) CHECK(((unsigned char *)edges)[i] == CANVAS_BYTE);
+    memset(edges, CANVAS_BYTE, sizeof edges);
+    for (int row = 0; row < TEST_COUNT(bad_edge_calls); row++) {
+        int count = 77;
+        edges_call bad = { NULL, edges, 36, &count, s.mesh };
+        bad.mesh = &bad.m;
+        spoil(&bad, bad_edge_calls[row].faults);
+        shade_result got = shade_mesh_edges(bad.mesh, bad.edges, bad.room, bad.count);
+        check_refusal(row, got, bad_edge_calls[row].want);
+        if (bad.count) CHECK_INT(count, 0);
+        CHECK_SAY(untouched(edges, sizeof edges), "row %d", row);
     }
 }
+
 TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
 {
     for (int i = 0; i < 20000; i++) {
@@ -723,6 +819,7 @@ static const test_case shape_cases[] = {
     CASE(shape, positions_that_are_no_numbers_equal_nothing),
     CASE(shape, corner_normals_say_how_much_memory_they_take),
     CASE(shape, bad_corner_normal_calls_are_refused),
+    CASE(shape, corner_normals_of_bad_meshes_are_refused_and_take_no_bytes),
     CASE(shape, edges_are_those_that_the_triangles_have_sorted_each_once),
     CASE(shape, a_closed_mesh_has_two_triangles_at_every_edge),
     CASE(shape, a_third_triangle_at_an_edge_makes_a_further_entry),

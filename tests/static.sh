@@ -16,16 +16,18 @@ check() {                       # name, command ...: no output but of passing is
     fi
 }
 # Tests and examples are read without the implementation, which has its own turn.
-FLAGS="-std=c99 -I. -Iexamples -DSHADE_NO_DISPATCH"
+EXAMPLES="examples/*.c examples/batch/*.c examples/compare/*.c examples/pictures/*.c
+    examples/thumbnail/*.c examples/view/*.c"
+FLAGS="-std=c99 -I. -DSHADE_NO_DISPATCH"
 printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/shade.c"
 check "clang-tidy, shade.h" clang-tidy -quiet "-config-file=.clang-tidy" "$T/shade.c" -- $FLAGS
 check "clang-tidy, tests" clang-tidy -quiet tests/main.c tests/golden.c -- $FLAGS \
     -DSHADE__IMPLEMENTED
-check "clang-tidy, examples" clang-tidy -quiet examples/*.c -- $FLAGS -DSHADE__IMPLEMENTED
+check "clang-tidy, examples" clang-tidy -quiet $EXAMPLES -- $FLAGS -DSHADE__IMPLEMENTED
 CPPCHECK="--std=c99 --language=c --quiet --error-exitcode=1 --inline-suppr -I. -D__GNUC__=12
     --enable=warning,performance,portability -DSHADE_NO_DISPATCH"
 check "cppcheck, shade.h" cppcheck $CPPCHECK -DSHADE_IMPLEMENTATION shade.h
 check "cppcheck, tests" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED tests/main.c tests/golden.c
-check "cppcheck, examples" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED -Iexamples examples/*.c
+check "cppcheck, examples" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED $EXAMPLES
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

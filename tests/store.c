@@ -11,7 +11,9 @@
 static void store_colors(canvas *c, const shade_vec4 *colors, int count)
 {
     for (int i = 0; i < count; i++) {
-        c->target.clip_x = i, c->target.clip_y = 0, c->target.clip_width = 1,
+        c->target.clip_x = i;
+        c->target.clip_y = 0;
+        c->target.clip_width = 1;
         c->target.clip_height = 1;
         CHECK_INT(shade_clear(&c->target, colors[i], 1), SHADE_OK);
     }
@@ -21,11 +23,7 @@ static void store_colors(canvas *c, const shade_vec4 *colors, int count)
 /* The same colours as pixels of a triangle that covers the row. */
 static void draw_colors(canvas *c, const shade_vec4 *colors, int count)
 {
-    shade_vec4 *corners = (shade_vec4 *)malloc((size_t)count * 3 * sizeof(shade_vec4));
-    if (!corners) {
-        printf("out of memory\n");
-        exit(2);
-    }
+    shade_vec4 *corners = test_memory((size_t)count * 3 * sizeof(shade_vec4));
     scene s = { corners, NULL, 0, colors, NULL };
     shade_pipeline p = scene_pipeline(&s);
     for (int i = 0; i < count;
@@ -35,8 +33,7 @@ static void draw_colors(canvas *c, const shade_vec4 *colors, int count)
             corners[3 * i + k] = clip_of_fx8(X, Y, c->target.width, c->target.height, 0, 1);
         }
     }
-    shade_stats stats;
-    CHECK_INT(shade_draw(&c->target, &p, NULL, 3 * count, 3 * count, &stats), SHADE_OK);
+    canvas_draw(c, &p, 3 * count);
     free(corners);
 }
 
@@ -73,9 +70,13 @@ static void random_store_colors(shade_vec4 *color, int count)
         color[i] = shade_v4(f[0], f[1], f[2], f[3]);
     }
 }
+
 static void channels_of(shade_vec4 v, double out[4])
 {
-    out[0] = (double)v.x, out[1] = (double)v.y, out[2] = (double)v.z, out[3] = (double)v.w;
+    out[0] = (double)v.x;
+    out[1] = (double)v.y;
+    out[2] = (double)v.z;
+    out[3] = (double)v.w;
     for (int k = 0; k < 4; k++) out[k] = out[k] > 0 ? (out[k] < 1 ? out[k] : 1) : 0;
 }
 
@@ -109,11 +110,13 @@ static void check_levels(shade_format format)
             canvas_close(&c);
         }
 }
+
 TEST(store, bytes_are_clamped_and_rounded_to_nearest)
 {
     check_levels(SHADE_FORMAT_RGBA8);
     check_levels(SHADE_FORMAT_BGRA8);
 }
+
 TEST(store, rgb565_is_clamped_and_rounded_to_nearest)
 {
     check_levels(SHADE_FORMAT_RGB565);
@@ -151,9 +154,10 @@ TEST(store, nan_is_stored_as_zero_and_infinity_clamped)
 {
     shade_vec4 color[5];
     float inf = (float)INFINITY, nan = (float)NAN;
-    color[0] = shade_v4(nan, 1, nan, 1), color[1] = shade_v4(inf, -inf, 0.5f, nan),
+    color[0] = shade_v4(nan, 1, nan, 1);
+    color[1] = shade_v4(inf, -inf, 0.5f, nan);
     color[2] = shade_v4(1e30f, -1e30f, 1, inf);
-    color[3] = shade_v4(bits_float(0xFFC00000u), bits_float(0x7F800001u), 1, -inf),
+    color[3] = shade_v4(bits_float(0xFFC00000u), bits_float(0x7F800001u), 1, -inf);
     color[4] = shade_v4(-0.0f, 1e-45f, 2, -1);
     static const unsigned char want[5][4] = { { 0, 255, 0, 255 },
                                               { 255, 0, 0, 0 },
@@ -183,8 +187,10 @@ TEST(store, bytes_lie_in_the_order_that_formats_name)
     static const unsigned char rgba[4] = { 255, 153, 51, 102 }, bgra[4] = { 51, 153, 255, 102 };
     const uint16_t native = 31 << 11 | 38 << 5 | 6, swapped = 0xC6FC;
     const void *want[SHADE_FORMAT_RGBA32F];
-    want[SHADE_FORMAT_RGBA8] = rgba, want[SHADE_FORMAT_BGRA8] = bgra;
-    want[SHADE_FORMAT_RGB565] = &native, want[SHADE_FORMAT_RGB565_SWAPPED] = &swapped;
+    want[SHADE_FORMAT_RGBA8] = rgba;
+    want[SHADE_FORMAT_BGRA8] = bgra;
+    want[SHADE_FORMAT_RGB565] = &native;
+    want[SHADE_FORMAT_RGB565_SWAPPED] = &swapped;
     for (int i = 0; i < 2 * SHADE_FORMAT_RGBA32F; i++) {
         shade_format format = (shade_format)(i / 2);
         canvas c = canvas_open(3, 2, 0, format, 0);
@@ -194,7 +200,7 @@ TEST(store, bytes_lie_in_the_order_that_formats_name)
             shade_vec4 corners[3] = { { -3, -1, 0, 1 }, { 1, -1, 0, 1 }, { 1, 3, 0, 1 } };
             scene s = { corners, NULL, 0, color, NULL };
             shade_pipeline p = scene_pipeline(&s);
-            CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+            canvas_draw(&c, &p, 3);
         } else
             CHECK_INT(shade_clear(&c.target, color[0], 1), SHADE_OK);
         for (int k = 0; k < 6; k++) {
@@ -225,14 +231,14 @@ static void check_srgb_bytes(shade_format format)
         scene s = { corners, NULL, 0, color, NULL };
         shade_pipeline p = scene_pipeline(&s);
         p.raster.blend = (shade_blend)blend;
-        shade_stats stats;
-        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+        shade_stats stats = canvas_draw(&c, &p, 3);
         CHECK_INT(stats.fragments, 256);
         for (int i = 0; i < 256; i++)
             for (int k = 0; k < 4; k++) CHECK_INT(canvas_code(&c, i, 0, k), i);
     }
     canvas_close(&c);
 }
+
 TEST(store, every_srgb_byte_comes_back_from_linear_light)
 {
     check_srgb_bytes(SHADE_FORMAT_RGBA8);
@@ -280,6 +286,7 @@ static float curve_value(int i)
     default: return rnd_float(0, 1);
     }
 }
+
 /* by component */
 static void check_curve(shade_vec3 (*curve)(shade_vec3), double (*ref)(double))
 {
@@ -287,7 +294,9 @@ static void check_curve(shade_vec3 (*curve)(shade_vec3), double (*ref)(double))
         float in[3], out[3];
         for (int k = 0; k < 3; k++) in[k] = curve_value(rnd_int(0, 11));
         shade_vec3 c = curve(shade_v3(in[0], in[1], in[2]));
-        out[0] = c.x, out[1] = c.y, out[2] = c.z;
+        out[0] = c.x;
+        out[1] = c.y;
+        out[2] = c.z;
         for (int k = 0; k < 3; k++) {
             double v = (double)in[k], want = ref(v > 0 ? (v < 1 ? v : 1) : 0);
             CHECK_SAY(fabs((double)out[k] - want) <= (isnan(v) ? 0 : 4e-6),
@@ -297,11 +306,13 @@ static void check_curve(shade_vec3 (*curve)(shade_vec3), double (*ref)(double))
         }
     }
 }
+
 TEST(store, colours_follow_the_srgb_curve_within_zero_and_one)
 {
     check_curve(shade_linear_from_srgb, ref_decode_srgb);
     check_curve(shade_srgb_from_linear, ref_encode_srgb);
 }
+
 TEST(store, nan_is_no_light_and_infinity_is_full)
 {
     shade_vec3 c = shade_v3((float)NAN, INFINITY, -INFINITY);
@@ -316,6 +327,7 @@ TEST(store, nan_is_no_light_and_infinity_is_full)
         CHECK_NEAR(got.y, 1, 4e-6);
     }
 }
+
 /* red on top, whatever is above it */
 TEST(store, rgb_is_the_linear_colour_of_its_codes)
 {
@@ -336,52 +348,68 @@ TEST(store, rgb_is_the_linear_colour_of_its_codes)
         }
     }
 }
+
 /* ------------------------------------------------------------------------- dither and clearing */
+
+/* Any colour, or one whose three codes are whole levels of 5-6-5. */
+static shade_vec4 random_565_color(int exact, int srgb)
+{
+    shade_vec4 color = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 1);
+    if (!exact) return color;
+    double f[3] = { rnd_int(0, 31) / 31.0, 0, 0 };
+    f[1] = rnd_int(0, 63) / 63.0;
+    f[2] = rnd_int(0, 31) / 31.0;
+    for (int k = 0; k < 3; k++) f[k] = srgb ? ref_decode_srgb(f[k]) : f[k];
+    return shade_v4((float)f[0], (float)f[1], (float)f[2], 1);
+}
+
+/* Draws one triangle over all of the picture. */
+static void fill_by_draw(canvas *c, shade_vec4 color)
+{
+    static const shade_vec4 whole[3] = { { -3, -1, 0, 1 }, { 1, -1, 0, 1 }, { 1, 3, 0, 1 } };
+    scene s = { whole, NULL, 0, &color, NULL };
+    shade_pipeline p = scene_pipeline(&s);
+    canvas_draw(c, &p, 3);
+}
+
+/* In each square of 4 x 4 pixels no code is a whole level off, and their mean is within 1/16. */
+static void check_dithered(const canvas *c, int channel, double level)
+{
+    for (int by = 0; by < c->target.height; by += 4)
+        for (int bx = 0; bx < c->target.width; bx += 4) {
+            double sum = 0;
+            for (int n = 0; n < 16; n++) {
+                int got = canvas_code(c, bx + n % 4, by + n / 4, channel);
+                CHECK_SAY(fabs(got - level) < 1 - 1e-3, "level %.4f: got %d", level, got);
+                sum += got;
+            }
+            CHECK_NEAR(sum / 16, level, 1.0 / 16 + 1e-3);
+        }
+}
 
 TEST(store, dither_keeps_the_mean_of_four_by_four_and_exact_levels)
 {
     for (int i = 0; i < 600; i++) {
         shade_format format = i < 300 ? SHADE_FORMAT_RGB565 : SHADE_FORMAT_RGB565_SWAPPED;
         canvas c = canvas_open(16, 12, 17, format, 0);
-        c.target.dither = 1, c.target.srgb = i % 2;
-        double v[3];
-        shade_vec4 color = shade_v4(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1), 1);
-        if (i % 3 == 0) {
-            int r = rnd_int(0, 31), g = rnd_int(0, 63), b = rnd_int(0, 31);
-            double f[3];
-            f[0] = r / 31.0, f[1] = g / 63.0, f[2] = b / 31.0;
-            for (int k = 0; k < 3; k++) f[k] = c.target.srgb ? ref_decode_srgb(f[k]) : f[k];
-            color = shade_v4((float)f[0], (float)f[1], (float)f[2], 1);
-        }
-        v[0] = (double)color.x, v[1] = (double)color.y, v[2] = (double)color.z;
-        if (i % 5)
+        c.target.dither = 1;
+        c.target.srgb = i % 2;
+        shade_vec4 color = random_565_color(i % 3 == 0, c.target.srgb);
+        if (i % 5) {
             CHECK_INT(shade_clear(&c.target, color, 1), SHADE_OK);
-        else {
-            static const shade_vec4 whole[3] = { { -3, -1, 0, 1 },
-                                                 { 1, -1, 0, 1 },
-                                                 { 1, 3, 0, 1 } };
-            scene s = { whole, NULL, 0, &color, NULL };
-            shade_pipeline p = scene_pipeline(&s);
-            CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        } else {
+            fill_by_draw(&c, color);
         }
+        double v[3] = { (double)color.x, (double)color.y, (double)color.z };
         for (int k = 0; k < 3; k++) {
             double code = c.target.srgb ? ref_encode_srgb(v[k]) : v[k];
-            double level = canvas_most(format, k) * code;
-            for (int by = 0; by < 12; by += 4)
-                for (int bx = 0; bx < 16; bx += 4) {
-                    double sum = 0;
-                    for (int n = 0; n < 16; n++) {
-                        int got = canvas_code(&c, bx + n % 4, by + n / 4, k);
-                        CHECK_SAY(fabs(got - level) < 1 - 1e-3, "level %.4f: got %d", level, got);
-                        sum += got;
-                    }
-                    CHECK_NEAR(sum / 16, level, 1.0 / 16 + 1e-3);
-                }
+            check_dithered(&c, k, canvas_most(format, k) * code);
         }
         canvas_close(&c);
     }
 }
 
+/* G1 */
 TEST(store, clear_fills_the_clip_rectangle_of_both_buffers_and_no_more)
 {
     for (int i = 0; i < 1500; i++) {
@@ -458,6 +486,8 @@ static const unsigned char *ppm_pixels(const ppm_sink *s, int width, int height)
                                                                            : NULL;
 }
 
+/* Rectangles of any colour, NaN and infinities among them, in all formats, with padding, whole
+   or as a strip. */
 TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
 {
     static ppm_sink sink;
@@ -471,8 +501,10 @@ TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
         c.target.srgb = srgb;
         CHECK_INT(shade_clear(&c.target, shade_v4(0, 0, 0, 1), 1), SHADE_OK);
         for (int n = 0; n < 30; n++) {
-            c.target.clip_x = rnd_int(0, width - 1), c.target.clip_y = rnd_int(0, height - 1);
-            c.target.clip_width = rnd_int(1, 20), c.target.clip_height = rnd_int(1, 20);
+            c.target.clip_x = rnd_int(0, width - 1);
+            c.target.clip_y = rnd_int(0, height - 1);
+            c.target.clip_width = rnd_int(1, 20);
+            c.target.clip_height = rnd_int(1, 20);
             shade_vec4 color = shade_v4(rnd_float(-0.2, 1.2), rnd_float(0, 1),
                                         rnd_one_in(9) ? rnd_nasty() : rnd_float(0, 1), 1);
             CHECK_INT(shade_clear(&c.target, color, 1), SHADE_OK);
@@ -497,6 +529,7 @@ TEST(store, a_ppm_holds_the_stored_colours_of_every_row)
     }
 }
 
+/* Each of the writes fails in turn, and none comes after it. */
 TEST(store, a_failed_write_stops_the_ppm)
 {
     static ppm_sink sink;
@@ -543,7 +576,9 @@ TEST(store, a_ppm_file_holds_the_same_bytes)
     shade_target bad = c.target;
     bad.width = 0;
     CHECK_INT(shade_write_ppm(path, &bad), SHADE_ERROR_TARGET);
-    bad = c.target, bad.color = NULL, bad.depth = (float *)(void *)(c.depth + CANVAS_GUARD);
+    bad = c.target;
+    bad.color = NULL;
+    bad.depth = (float *)(void *)(c.depth + CANVAS_GUARD);
     CHECK_INT(shade_write_ppm(path, &bad), SHADE_ERROR_TARGET);
     f = fopen(path, "rb");
     CHECK(f == NULL); /* refused before a file is made */
@@ -567,7 +602,8 @@ TEST(store, a_full_disk_is_an_error)
         fflush(stdout);
         CHECK_INT(getrlimit(RLIMIT_FSIZE, &limit), 0);
         void (*before)(int) = signal(SIGXFSZ, SIG_IGN);
-        none = limit, none.rlim_cur = 0;
+        none = limit;
+        none.rlim_cur = 0;
         int set = setrlimit(RLIMIT_FSIZE, &none);
         shade_result result = shade_write_ppm(path, &c.target);
         setrlimit(RLIMIT_FSIZE, &limit);
@@ -592,7 +628,8 @@ TEST(store, a_ppm_of_nothing_is_refused)
     shade_target bad = c.target;
     bad.width = 0;
     CHECK_INT(shade_encode_ppm(ppm_write, &sink, &bad), SHADE_ERROR_TARGET);
-    bad = c.target, bad.color = NULL;
+    bad = c.target;
+    bad.color = NULL;
     CHECK(shade_encode_ppm(ppm_write, &sink, &bad) != SHADE_OK);
     CHECK_INT(sink.calls, 0);
     canvas_close(&c);

@@ -7,6 +7,7 @@
 #ifndef TEST_H
 #define TEST_H
 
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -24,15 +25,19 @@ typedef struct test_section {
     int count;
 } test_section;
 
+/* Opens a case: the function section__name, whose name is the property that it asserts. */
 #define TEST(section, name) static void section##__##name(void)
-#define CASE(section, name)                                                                        \
-    {                                                                                              \
-#name, section##__##name                                                                   \
-    }
-#define SECTION(section)                                                                           \
-    {                                                                                              \
-#section, section##_cases, (int)(sizeof section##_cases / sizeof(test_case))               \
-    }
+
+/* An entry of the table section_cases: the case's name for messages, and its function. */
+#define CASE(section, name)                                                    \
+    { #name, section##__##name }
+
+/* An entry of the table of sections: the section's name, its cases and their number. */
+#define SECTION(section)                                                       \
+    { #section, section##_cases, TEST_COUNT(section##_cases) }
+
+/* The number of elements of an array. */
+#define TEST_COUNT(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
 static struct {
     uint64_t seed, state;  /* of the run; of the generator */
@@ -67,26 +72,38 @@ static void test_near(const char *file, int line, const char *what, double got, 
         test_fail(file, line, what, "got %.9g, want %.9g within %.3g", got, want, within);
     }
 }
+
 static void test_int(const char *file, int line, const char *what, long long got, long long want)
 {
     test_now.checks++;
     if (got != want) test_fail(file, line, what, "got %lld, want %lld", got, want);
 }
 
-#define CHECK(condition)                                                                           \
-    do {                                                                                           \
-        test_now.checks++;                                                                         \
-        if (!(condition)) test_fail(__FILE__, __LINE__, #condition, "is false");                   \
+/* Asserts that the condition holds. */
+#define CHECK(condition)                                                       \
+    do {                                                                       \
+        test_now.checks++;                                                     \
+        if (!(condition)) {                                                    \
+            test_fail(__FILE__, __LINE__, #condition, "is false");             \
+        }                                                                      \
     } while (0)
-/* the condition, and a printf of the values it was made of */
-#define CHECK_SAY(condition, ...)                                                                  \
-    do {                                                                                           \
-        test_now.checks++;                                                                         \
-        if (!(condition)) test_fail(__FILE__, __LINE__, #condition, __VA_ARGS__);                  \
+
+/* Asserts that the condition holds; where it does not, says with a printf what it was made of. */
+#define CHECK_SAY(condition, ...)                                              \
+    do {                                                                       \
+        test_now.checks++;                                                     \
+        if (!(condition)) {                                                    \
+            test_fail(__FILE__, __LINE__, #condition, __VA_ARGS__);            \
+        }                                                                      \
     } while (0)
-#define CHECK_NEAR(got, want, within)                                                              \
+
+/* Asserts that two numbers differ by at most `within`; a NaN is near nothing. */
+#define CHECK_NEAR(got, want, within)                                          \
     test_near(__FILE__, __LINE__, #got, (double)(got), (double)(want), (double)(within))
-#define CHECK_INT(got, want) test_int(__FILE__, __LINE__, #got, (long long)(got), (long long)(want))
+
+/* Asserts that two whole numbers are equal. */
+#define CHECK_INT(got, want)                                                   \
+    test_int(__FILE__, __LINE__, #got, (long long)(got), (long long)(want))
 
 /* Leaves a case out where the build has no such feature. */
 static void test_skip(const char *why)
@@ -95,48 +112,74 @@ static void test_skip(const char *why)
     printf("%s.%s: left out: %s\n", test_now.section, test_now.name, why);
 }
 
+/* malloc, or the end of the run. */
+static void *test_memory(size_t bytes)
+{
+    void *memory = malloc(bytes);
+    if (!memory) {
+        printf("out of memory\n");
+        exit(2);
+    }
+    return memory;
+}
+
 /* ------------------------------------------------------------------------------- random numbers */
 
-static uint64_t rnd_bits(void) /* splitmix64 */
+/* 64 random bits, by splitmix64. */
+static uint64_t rnd_bits(void)
 {
     uint64_t z = test_now.state += 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     return z ^ (z >> 31);
 }
-static double rnd_unit(void)
-{
-    return (double)(rnd_bits() >> 11) / 9007199254740992.0;
-} /* [0, 1) */
+
+/* A double of [0, 1): 53 random bits. */
+static double rnd_unit(void) { return (double)(rnd_bits() >> 11) / 9007199254740992.0; }
 static float rnd_float(double lo, double hi) { return (float)(lo + (hi - lo) * rnd_unit()); }
-static int rnd_int(int lo, int hi) /* lo .. hi, both included */
+
+/* A whole number of lo .. hi, both included. */
+static int rnd_int(int lo, int hi)
 {
     return lo + (int)(rnd_bits() % ((uint64_t)((int64_t)hi - lo) + 1));
 }
+
 static int rnd_one_in(int n) { return rnd_int(1, n) == 1; }
 static float rnd_sign(void) { return rnd_one_in(2) ? 1.0f : -1.0f; }
-static float rnd_log(double lo, double hi) /* even in the logarithm, lo > 0 */
+
+/* A number of lo .. hi whose logarithm is evenly spread; lo > 0. */
+static float rnd_log(double lo, double hi)
 {
     return (float)(lo * pow(hi / lo, rnd_unit()));
 }
+
 static float bits_float(uint32_t u)
 {
     float f;
     memcpy(&f, &u, 4);
     return f;
 }
+
 static uint32_t float_bits(float f)
 {
     uint32_t u;
     memcpy(&u, &f, 4);
     return u;
 }
-static float rnd_nasty(void) /* NaN, infinities, zeros, subnormal, huge, ordinary */
+
+/* One of the floats that break programs, or any bits, or an ordinary number. */
+static float rnd_nasty(void)
 {
-    static const uint32_t pattern[] = { 0x7FC00000u, 0xFFC00001u, 0x7F800001u, 0x7F800000u,
-                                        0xFF800000u, 0x7F7FFFFFu, 0xFF7FFFFFu, 0x00000001u,
-                                        0x80000001u, 0x00000000u, 0x80000000u, 0x00800000u,
-                                        0x3F800000u, 0xBF800000u, 0x7149F2CAu };
+    static const uint32_t pattern[] = {
+        0x7FC00000u, 0xFFC00001u, 0x7F800001u, /* NaN, the last one signalling */
+        0x7F800000u, 0xFF800000u,              /* infinities */
+        0x7F7FFFFFu, 0xFF7FFFFFu,              /* the greatest floats */
+        0x00000001u, 0x80000001u,              /* the least subnormals */
+        0x00000000u, 0x80000000u,              /* zeros */
+        0x00800000u,                           /* the least normal float */
+        0x3F800000u, 0xBF800000u,              /* 1, -1 */
+        0x7149F2CAu,                           /* 1e30 */
+    };
     int k = rnd_int(0, 19);
     if (k < 15) return bits_float(pattern[k]);
     if (k < 17) return bits_float((uint32_t)rnd_bits());
@@ -166,10 +209,11 @@ static void test_run_case(const test_section *section, const test_case *item, in
         printf("%s.%s: %ld of %ld checks failed\n", section->name, item->name, test_now.failures,
                test_now.checks);
     }
-    if (test_now.failures)
+    if (test_now.failures) {
         (*failed)++;
-    else
+    } else {
         (*passed)++;
+    }
     fflush(stdout);
 }
 

@@ -23,13 +23,13 @@ echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h
 echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
     -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DTHUMBNAIL_ASSIMP LIBRARIES=-lassimp
 [ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
-FLAGS="-std=c99 -O2 -ffp-contract=off -pthread -I. -Iexamples"
+FLAGS="-std=c99 -O2 -ffp-contract=off -pthread -I."
 compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }
 compile -DSHADE_IMPLEMENTATION -x c -c shade.h -o "$T/shade.o"
-compile -DSHADE__IMPLEMENTED examples/thumbnail.c "$T/shade.o" -lm -o "$T/plain"
-[ "$STB$ASSIMP" ] && compile -DSHADE__IMPLEMENTED $STB $ASSIMP examples/thumbnail.c "$T/shade.o" \
+compile -DSHADE__IMPLEMENTED examples/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/plain"
+[ "$STB$ASSIMP" ] && compile -DSHADE__IMPLEMENTED $STB $ASSIMP examples/thumbnail/thumbnail.c "$T/shade.o" \
     $LIBRARIES -lm -o "$T/full"
-compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/thumbnail.c "$T/shade.o" -lm -o "$T/alone"
+compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/alone"
 compile tests/thumbnail/models.c -lm -o "$T/models"
 compile $STB tests/thumbnail/look.c -lm -o "$T/look"
 compile tests/thumbnail/ears.c -lm -o "$T/ears"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # vector_report.sh - lists every loop over lanes of shade.h that a compiler left scalar at -O2, or
 # gcc at -O0, where the implementation asks for -O2 but the inline functions before it do not: none.
+# And every function that gcc compiled for AVX2 or AVX-512 without using its registers: none.
 cd "$(dirname "$0")/.." || exit 1
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT INT TERM
@@ -28,5 +29,19 @@ for report in "gcc -O2" "gcc -O0" "clang -O2"; do
     cat "$T/missed"
     if [ -s "$T/missed" ]; then failed=$((failed + 1)); else passed=$((passed + 1)); fi
 done
+
+# A function that gcc takes for cold is not even looked at: its builds have no wide register.
+scalar() {
+    gcc -std=c99 -O2 -I. -S "$T/impl.c" -o "$T/impl.s" && awk '
+        /^shade__.*:$/ { name = $1; wide[name] += 0 }
+        /%ymm/ { wide[name] += name ~ /_avx2/ } /%zmm/ { wide[name] += name ~ /_avx512/ }
+        END { for (name in wide) if (name ~ /_avx/ && name !~ /cold/ && !wide[name]) print name }' \
+        "$T/impl.s"
+}
+if command -v gcc >/dev/null && [ "$(uname -m)" = x86_64 ]; then
+    scalar | sed 's/^/gcc -O2, without vectors: /' >"$T/missed"
+    cat "$T/missed"
+    if [ -s "$T/missed" ]; then failed=$((failed + 1)); else passed=$((passed + 1)); fi
+fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

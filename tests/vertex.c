@@ -12,12 +12,17 @@ static int grid_of(int n, shade_vec4 *clip, uint32_t *indices)
             clip[y * (n + 1) + x] =
                 shade_v4((float)(2.0 * x / n - 1), (float)(2.0 * y / n - 1), 0, 1);
         }
-    for (int y = 0; y < n; y++)
+    for (int y = 0; y < n; y++) {
         for (int x = 0; x < n; x++) {
             uint32_t a = (uint32_t)(y * (n + 1) + x), b = a + 1, c = a + (uint32_t)n + 1, d = c + 1;
-            indices[count++] = a, indices[count++] = b, indices[count++] = d;
-            indices[count++] = a, indices[count++] = d, indices[count++] = c;
+            indices[count++] = a;
+            indices[count++] = b;
+            indices[count++] = d;
+            indices[count++] = a;
+            indices[count++] = d;
+            indices[count++] = c;
         }
+    }
     return count;
 }
 
@@ -33,7 +38,8 @@ TEST(vertex, vertices_of_a_grid_are_shaded_once_per_batch)
         int n = sizes[k], vertices = (n + 1) * (n + 1), count = grid_of(n, clip, indices);
         canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 1);
         recorder r;
-        memset(&r, 0, sizeof r), memset(seen, 0, sizeof seen);
+        memset(&r, 0, sizeof r);
+        memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
@@ -53,6 +59,8 @@ TEST(vertex, vertices_of_a_grid_are_shaded_once_per_batch)
     }
 }
 
+/* Counts from one triangle to many batches of 128 vertices, most of them no multiples of a
+   batch. */
 TEST(vertex, without_indices_each_vertex_is_shaded_once_in_order)
 {
     static shade_vec4 clip[3000];
@@ -60,12 +68,13 @@ TEST(vertex, without_indices_each_vertex_is_shaded_once_in_order)
     for (int i = 0; i < 3000; i++) clip[i] = clip_corners[i % 3];
     for (int count = 3; count <= 3000; count += 333) {
         recorder r;
-        memset(&r, 0, sizeof r), memset(seen, 0, sizeof seen);
+        memset(&r, 0, sizeof r);
+        memset(seen, 0, sizeof seen);
         r.vertex_seen = seen;
         canvas c = canvas_open(16, 16, 0, SHADE_FORMAT_RGBA8, 0);
         scene s = { clip, NULL, 0, NULL, &r };
         shade_pipeline p = scene_pipeline(&s);
-        CHECK_INT(shade_draw(&c.target, &p, NULL, count, count, NULL), SHADE_OK);
+        canvas_draw(&c, &p, count);
         CHECK_INT(r.vertex_lanes, count);
         for (int i = 0; i < 3000; i++) CHECK_INT(seen[i], i < count);
         CHECK_INT(r.bad_tails + r.bad_counts, 0);
@@ -79,7 +88,8 @@ TEST(vertex, only_referenced_vertices_are_shaded)
     static unsigned char seen[1000], wanted[1000];
     for (int round = 0; round < 50; round++) {
         uint32_t indices[300];
-        memset(seen, 0, sizeof seen), memset(wanted, 0, sizeof wanted);
+        memset(seen, 0, sizeof seen);
+        memset(wanted, 0, sizeof wanted);
         for (int i = 0; i < 1000; i++) clip[i] = clip_corners[rnd_int(0, 2)];
         for (int i = 0; i < 300; i++) wanted[indices[i] = (uint32_t)rnd_int(0, 999)] = 1;
         recorder r;
@@ -139,14 +149,23 @@ static void vertex_positions_only(const void *uniforms, const shade_vertex_ids *
     const scene *s = (const scene *)uniforms;
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 p = s->clip[in->index[i]];
-        out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[2][i] = p.z, out->clip[3][i] = p.w;
-        if (in->index[i] < 1000) out->varying[0][i] = 7, out->varying[2][i] = 7;
+        out->clip[0][i] = p.x;
+        out->clip[1][i] = p.y;
+        out->clip[2][i] = p.z;
+        out->clip[3][i] = p.w;
+        if (in->index[i] < 1000) {
+            out->varying[0][i] = 7;
+            out->varying[2][i] = 7;
+        }
     }
 }
+
 static void vertex_nothing(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                            shade_vertices *SHADE_RESTRICT out)
 {
-    (void)uniforms, (void)in, (void)out;
+    (void)uniforms;
+    (void)in;
+    (void)out;
 }
 
 TEST(vertex, what_a_shader_leaves_alone_is_zero)
@@ -158,7 +177,7 @@ TEST(vertex, what_a_shader_leaves_alone_is_zero)
     scene s = { clip, NULL, SHADE_MAX_VARYINGS < 3 ? SHADE_MAX_VARYINGS : 3, NULL, &r };
     shade_pipeline p = scene_pipeline(&s);
     p.vertex = vertex_positions_only;
-    CHECK_INT(shade_draw(&c.target, &p, NULL, 6000, 6000, NULL), SHADE_OK);
+    canvas_draw(&c, &p, 6000);
     CHECK(r.count > 6000);
     for (int i = 0; i < r.count; i++) {
         double want = r.fragments[i].primitive < 333 ? 7 : 0;
@@ -169,8 +188,7 @@ TEST(vertex, what_a_shader_leaves_alone_is_zero)
     }
     r.count = 0;
     p.vertex = vertex_nothing; /* every position 0 0 0 0 */
-    shade_stats stats;
-    CHECK_INT(shade_draw(&c.target, &p, NULL, 6000, 6000, &stats), SHADE_OK);
+    shade_stats stats = canvas_draw(&c, &p, 6000);
     CHECK_INT(stats.drawn, 0);
     CHECK_INT(stats.triangles, 2000);
     CHECK_INT(stats.culled + stats.clipped + stats.rejected, 2000);
@@ -186,10 +204,13 @@ static void vertex_from_index(const void *uniforms, const shade_vertex_ids *SHAD
     (void)uniforms;
     for (int i = 0; i < SHADE_LANES; i++) {
         shade_vec4 p = clip_corners[in->index[i] % 3];
-        out->clip[0][i] = p.x, out->clip[1][i] = p.y, out->clip[3][i] = 1;
+        out->clip[0][i] = p.x;
+        out->clip[1][i] = p.y;
+        out->clip[3][i] = 1;
     }
 }
 
+/* No array holds so many vertices: the shader makes its corners from the index alone. */
 TEST(vertex, indices_reach_up_to_the_greatest_count)
 {
     static const uint32_t indices[] = { 2147483646u, 2147483644u, 2147483645u, 0,          1,
@@ -215,10 +236,11 @@ TEST(vertex, a_position_behind_the_eye_is_survived) /* w = -1 */
     shade_pipeline p = scene_pipeline(&s);
     shade_stats stats;
     canvas_clear(&c, 1);
-    CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+    stats = canvas_draw(&c, &p, 3);
     CHECK_INT(stats.drawn, 0);
-    clip[0] = clip_corners[0], clip[1] = clip_corners[1];
-    CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, &stats), SHADE_OK);
+    clip[0] = clip_corners[0];
+    clip[1] = clip_corners[1];
+    stats = canvas_draw(&c, &p, 3);
     CHECK_INT(stats.drawn, 1);
     canvas_close(&c);
 }

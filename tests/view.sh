@@ -17,7 +17,7 @@ ulimit -c 0
 
 ${MAKE:-make} -s build/view || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$VIEW" ] || { echo "view: left out, it needs POSIX"; finish; }
-$CC -std=c99 -O1 -pthread -I. -Iexamples -DSHADE__IMPLEMENTED tests/view/check.c build/shade.o -lm \
+$CC -std=c99 -O1 -pthread -I. -DSHADE__IMPLEMENTED tests/view/check.c build/shade.o -lm \
     -o "$T/check" || { echo "0 passed, 1 failed"; exit 1; }
 check "encoding and decoding" "$T/check"
 
@@ -32,11 +32,11 @@ check "standard input is no terminal" refused "standard input is no terminal" "$
 check "nothing is printed then" test ! -s "$T/out"
 check "unknown option" refused "unknown option --frobnicate" "$VIEW" --frobnicate
 check "option without a value" refused "rate needs a value" "$VIEW" --rate
-check "a bad value" refused "frames cannot be that" "$VIEW" --frames 0
-check "no threads" refused "threads cannot be that" "$VIEW" --threads 0
-check "too many threads" refused "threads cannot be that" "$VIEW" --threads 257
-check "a bad axis" refused "up cannot be that" "$VIEW" --up x
-check "two models" refused "one model, not also b.obj" "$VIEW" a.obj b.obj
+check "a bad value" refused "frames cannot be" "$VIEW" --frames 0
+check "no threads" refused "threads cannot be" "$VIEW" --threads 0
+check "too many threads" refused "threads cannot be" "$VIEW" --threads 257
+check "a bad axis" refused "up cannot be" "$VIEW" --up x
+check "two models" refused "one file too many: b.obj" "$VIEW" a.obj b.obj
 check "help" sh -c "'$VIEW' --help | grep -q '^usage: view'"
 
 # ---- files, good and bad ------------------------------------------------------------------------

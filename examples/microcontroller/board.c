@@ -24,16 +24,19 @@ static uint32_t host(uint32_t operation, uint32_t argument)
     __asm__ volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
     return r0;
 }
+
 static uint32_t host_open(uint32_t mode)
 {
     const uint32_t block[3] = { (uint32_t)":tt", mode, 3 };
     return host(SYS_OPEN, (uint32_t)block);
 }
+
 static void host_write(uint32_t file, const void *bytes, size_t size)
 {
     const uint32_t block[3] = { file, (uint32_t)bytes, size };
     if (host(SYS_WRITE, (uint32_t)block)) host(SYS_EXIT, STOPPED_BY_ERROR);
 }
+
 static void host_number(uint32_t file, const char *name, uint32_t value)
 {
     char digits[12] = "          \n";
@@ -41,8 +44,10 @@ static void host_number(uint32_t file, const char *name, uint32_t value)
     int i = 10;
     while (*end) end++;
     host_write(file, name, (size_t)(end - name));
-    do digits[--i] = (char)('0' + value % 10), value /= 10;
-    while (value);
+    do {
+        digits[--i] = (char)('0' + value % 10);
+        value /= 10;
+    } while (value);
     host_write(file, digits + i, (size_t)(11 - i));
 }
 
@@ -57,7 +62,8 @@ int main(void)
 {
     const uint32_t *low = bss_end;
     uint32_t fixed = (uint32_t)bss_end - (uint32_t)data_start, stack, report;
-    output = host_open(MODE_WRITE), report = host_open(MODE_APPEND);
+    output = host_open(MODE_WRITE);
+    report = host_open(MODE_APPEND);
     picture_strips(send);
     while (low < stack_top && *low == PAINT) low++;
     stack = (uint32_t)stack_top - (uint32_t)low;
@@ -105,6 +111,7 @@ void *memmove(void *to, const void *from, size_t size)
     else while (size--) t[size] = f[size];
     return to;
 }
+
 void *memcpy(void *to, const void *from, size_t size) { return memmove(to, from, size); }
 void *memset(void *to, int value, size_t size)
 {

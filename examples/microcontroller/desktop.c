@@ -14,6 +14,12 @@ static void keep(const uint8_t *bytes, size_t size)
     sent_size += size;
 }
 
+static int not_written(const char *path)
+{
+    fprintf(stderr, "%s: not written\n", path);
+    return 1;
+}
+
 int main(int argc, char **argv)
 {
     static uint16_t color[PICTURE_WIDTH * PICTURE_HEIGHT];
@@ -25,16 +31,19 @@ int main(int argc, char **argv)
                            .dither = 1 };
     int different = 0;
     FILE *f;
-    if (argc != 3) return fprintf(stderr, "desktop picture.565 picture.ppm\n"), 1;
-    whole.color = color, whole.depth = depth;
+    if (argc != 3) {
+        fprintf(stderr, "usage: desktop picture.565 picture.ppm\n");
+        return 1;
+    }
+    whole.color = color;
+    whole.depth = depth;
     picture_draw(&whole);
     picture_strips(keep);
     for (int i = 0; i < PICTURE_WIDTH * PICTURE_HEIGHT; i++)
         different += memcmp(&color[i], sent + 2 * i, 2) != 0;
     if (different) fprintf(stderr, "%d pixels of the strips differ from the whole\n", different);
     f = fopen(argv[1], "wb");
-    if (!f || fwrite(sent, 1, sent_size, f) != sent_size || fclose(f))
-        return fprintf(stderr, "%s: not written\n", argv[1]), 1;
-    if (shade_write_ppm(argv[2], &whole)) return fprintf(stderr, "%s: not written\n", argv[2]), 1;
+    if (!f || fwrite(sent, 1, sent_size, f) != sent_size || fclose(f)) return not_written(argv[1]);
+    if (shade_write_ppm(argv[2], &whole)) return not_written(argv[2]);
     return different > 0;
 }

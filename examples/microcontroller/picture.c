@@ -15,10 +15,18 @@ static void put(shade_vertices *SHADE_RESTRICT out, int i, const scene *s, shade
                 shade_vec3 N)
 {
     shade_vec4 c = shade_mat4_transform(s->clip_from_world, shade_v4(P.x, P.y, P.z, 1));
-    out->clip[0][i] = c.x, out->clip[1][i] = c.y, out->clip[2][i] = c.z, out->clip[3][i] = c.w;
-    out->varying[0][i] = P.x, out->varying[1][i] = P.y, out->varying[2][i] = P.z;
-    out->varying[3][i] = N.x, out->varying[4][i] = N.y, out->varying[5][i] = N.z;
+    out->clip[0][i] = c.x;
+    out->clip[1][i] = c.y;
+    out->clip[2][i] = c.z;
+    out->clip[3][i] = c.w;
+    out->varying[0][i] = P.x;
+    out->varying[1][i] = P.y;
+    out->varying[2][i] = P.z;
+    out->varying[3][i] = N.x;
+    out->varying[4][i] = N.y;
+    out->varying[5][i] = N.z;
 }
+
 static void pot_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                        shade_vertices *SHADE_RESTRICT out)
 {
@@ -28,6 +36,7 @@ static void pot_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTR
             shade_v3(v[3], v[4], v[5]));
     }
 }
+
 static void floor_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                          shade_vertices *SHADE_RESTRICT out)
 {
@@ -40,6 +49,7 @@ static void floor_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
             shade_v3(0, 1, 0));
     }
 }
+
 static void pot_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
@@ -47,6 +57,7 @@ static void pot_fragment(const void *uniforms, const shade_fragments *SHADE_REST
     const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
     shade_lit_lanes(&s->lighting, &s->material, eye, &rows, out->color[0]);
 }
+
 static void floor_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                            shade_colors *SHADE_RESTRICT out)
 {
@@ -56,7 +67,8 @@ static void floor_fragment(const void *uniforms, const shade_fragments *SHADE_RE
                               .albedo = tile[0] };
     SHADE_EACH_LANE(i) {
         int odd = ((int)(0.6f * in->varying[0][i] + 64) + (int)(0.6f * in->varying[2][i] + 64)) & 1;
-        tile[0][i] = odd ? 0.5f : 0.10f, tile[1][i] = odd ? 0.46f : 0.13f;
+        tile[0][i] = odd ? 0.5f : 0.10f;
+        tile[1][i] = odd ? 0.46f : 0.13f;
         tile[2][i] = odd ? 0.38f : 0.18f;
     }
     shade_lit_lanes(&s->lighting, &s->material, eye, &rows, out->color[0]);
@@ -78,9 +90,11 @@ void picture_draw(const shade_target *target)
     pipeline.uniforms = &s;
     shade_clear(target, shade_v4(0.004f, 0.006f, 0.014f, 1), 1);
     shade_draw(target, &pipeline, NULL, 6, 6, NULL);
-    pipeline.vertex = pot_vertex, pipeline.fragment = pot_fragment;
+    pipeline.vertex = pot_vertex;
+    pipeline.fragment = pot_fragment;
     s.material.ambient = s.material.diffuse = shade_v3(0.75f, 0.22f, 0.06f);
-    s.material.specular = shade_v3(0.6f, 0.55f, 0.5f), s.material.shininess = 60;
+    s.material.specular = shade_v3(0.6f, 0.55f, 0.5f);
+    s.material.shininess = 60;
     shade_draw(target, &pipeline, teapot_indices, TEAPOT_INDICES, TEAPOT_VERTICES, NULL);
 }
 
@@ -93,7 +107,9 @@ void picture_strips(picture_send *send)
                            .format = SHADE_FORMAT_RGB565_SWAPPED,
                            .srgb = 1,
                            .dither = 1 };
-    strip.color = color, strip.depth = depth, strip.row_count = PICTURE_ROWS;
+    strip.color = color;
+    strip.depth = depth;
+    strip.row_count = PICTURE_ROWS;
     for (; strip.row_offset < PICTURE_HEIGHT; strip.row_offset += PICTURE_ROWS) {
         picture_draw(&strip);
         send((const uint8_t *)color, sizeof color);

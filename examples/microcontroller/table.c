@@ -1,5 +1,5 @@
 /* table.c - writes the teapot as constant arrays, to be compiled into flash. */
-#include "teapot.h"
+#include "../shared/teapot.h"
 #include <stdio.h>
 
 enum { PIECES = 5, MOST = 2000 };    /* along each edge of a patch; vertices of that */

@@ -6,7 +6,7 @@ CLANG=${CLANG:-clang}
 WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef"
 # -fno-math-errno: sqrt is an instruction.  The stack lies first: what overflows it is caught.
 FLAGS="--target=wasm32 -std=c99 -ffreestanding -nostdlib -O2 $WARN -ffp-contract=off -fno-math-errno
-    -I../.. -I.. -I. -Wl,--no-entry,--stack-first,-z,stack-size=262144,--strip-all"
+    -I../.. -I. -Wl,--no-entry,--stack-first,-z,stack-size=262144,--strip-all"
 
 if ! echo 'int f(void) { return 0; }' |
      $CLANG --target=wasm32 -nostdlib -Wl,--no-entry -x c - -o /dev/null 2>/dev/null; then

@@ -48,6 +48,7 @@ LIBC_OWN int memcmp(const void *a, const void *b, size_t n)
         if (*p != *q) return *p < *q ? -1 : 1;
     return 0;
 }
+
 static inline void *memchr(const void *in, int value, size_t n)
 {
     const unsigned char *p = (const unsigned char *)in;
@@ -55,12 +56,14 @@ static inline void *memchr(const void *in, int value, size_t n)
         if (*p == (unsigned char)value) return (void *)(uintptr_t)p;
     return NULL;
 }
+
 static inline size_t strlen(const char *s)
 {
     size_t n = 0;
     while (s[n]) n++;
     return n;
 }
+
 static inline int strcmp(const char *a, const char *b)
 {
     for (; *a && *a == *b; a++, b++) {}
@@ -86,6 +89,7 @@ static inline int libc_extend(uint32_t from, uint64_t size)
     libc_top = (uint32_t)end;
     return 1;
 }
+
 static inline void *malloc(size_t n)
 {
     uint64_t size = ((uint64_t)n + 15 + sizeof(libc_block)) & ~(uint64_t)15;
@@ -99,25 +103,31 @@ static inline void *malloc(size_t n)
         if (b->size < size) continue;
         if (b->size - size >= 4096) {                /* give the rest back */
             libc_block *rest = (libc_block *)(at + (uint32_t)size);
-            rest->size = b->size - (uint32_t)size, rest->used = 0, b->size = (uint32_t)size;
+            rest->size = b->size - (uint32_t)size;
+            rest->used = 0;
+            b->size = (uint32_t)size;
         }
         b->used = 1;
         return b + 1;
     }
     b = last && !last->used ? last : (libc_block *)libc_top;
     if (!libc_extend((uint32_t)b, size)) return NULL;
-    b->size = (uint32_t)size, b->used = 1;
+    b->size = (uint32_t)size;
+    b->used = 1;
     return b + 1;
 }
+
 static inline void free(void *p)
 {
     if (p) ((libc_block *)p - 1)->used = 0;
 }
+
 static inline void *calloc(size_t count, size_t size)
 {
     void *p = size && count > SIZE_MAX / size ? NULL : malloc(count * size);
     return p ? memset(p, 0, count * size) : NULL;
 }
+
 static inline void *realloc(void *p, size_t n)
 {
     libc_block *b = (libc_block *)p - 1;
@@ -131,7 +141,10 @@ static inline void *realloc(void *p, size_t n)
         return p;
     }
     moved = malloc(n);
-    if (moved) memcpy(moved, p, b->size - sizeof *b), free(p);
+    if (moved) {
+        memcpy(moved, p, b->size - sizeof *b);
+        free(p);
+    }
     return moved;
 }
 
@@ -156,8 +169,10 @@ static inline int vsnprintf(char *out, size_t room, const char *format, va_list 
         size_t length = 1, longs = 0;
         if (*format == '%') {
             while (*++format == 'l') longs++;
-            if (*format == 's') piece = va_arg(list, const char *), length = strlen(piece);
-            else if (*format != '%') {
+            if (*format == 's') {
+                piece = va_arg(list, const char *);
+                length = strlen(piece);
+            } else if (*format != '%') {
                 int is_signed = *format != 'u';
                 uint64_t v = longs == 2 ? va_arg(list, unsigned long long)
                            : is_signed ? (uint64_t)va_arg(list, int) : va_arg(list, unsigned);
@@ -167,8 +182,11 @@ static inline int vsnprintf(char *out, size_t room, const char *format, va_list 
                 do *--p = (char)('0' + v % 10);
                 while (v /= 10);
                 if (negative) *--p = '-';
-                piece = p, length = (size_t)(digits + sizeof digits - p);
-            } else piece = format;
+                piece = p;
+                length = (size_t)(digits + sizeof digits - p);
+            } else {
+                piece = format;
+            }
         }
         for (size_t i = 0; i < length; i++, n++)
             if (n + 1 < room) out[n] = piece[i];
@@ -176,6 +194,7 @@ static inline int vsnprintf(char *out, size_t room, const char *format, va_list 
     if (room) out[n < room ? n : room - 1] = 0;
     return (int)n;
 }
+
 static inline int snprintf(char *out, size_t room, const char *format, ...)
 {
     va_list list;
@@ -185,6 +204,7 @@ static inline int snprintf(char *out, size_t room, const char *format, ...)
     va_end(list);
     return n;
 }
+
 static inline int fprintf(FILE *file, const char *format, ...)
 {
     (void)file, (void)format;

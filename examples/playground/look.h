@@ -23,9 +23,13 @@ static inline void look_vertex(const void *uniforms, const shade_vertex_ids *SHA
         shade_vec4 clip = shade_mat4_transform(l->clip_from_world, P);
         shade_vec3 N = shade_mat3_transform(l->normals, shade_v3(n[0], n[1], n[2]));
         N = shade_normalize(N);
-        out->clip[0][i] = clip.x, out->clip[1][i] = clip.y;
-        out->clip[2][i] = clip.z, out->clip[3][i] = clip.w;
-        out->varying[0][i] = N.x, out->varying[1][i] = N.y, out->varying[2][i] = N.z;
+        out->clip[0][i] = clip.x;
+        out->clip[1][i] = clip.y;
+        out->clip[2][i] = clip.z;
+        out->clip[3][i] = clip.w;
+        out->varying[0][i] = N.x;
+        out->varying[1][i] = N.y;
+        out->varying[2][i] = N.z;
         out->varying[3][i] = clip.w;                     /* the distance from the eye, along -z */
     }
 }
@@ -41,7 +45,9 @@ static inline void look_fragment(const void *uniforms, const shade_fragments *SH
         grey *= grey * (3 - 2 * grey);                   /* more contrast in the middle */
         if (l->depth) c = shade_v3(grey, grey, grey);
         /* squared, since the target encodes for the screen */
-        out->color[0][i] = c.x * c.x, out->color[1][i] = c.y * c.y, out->color[2][i] = c.z * c.z;
+        out->color[0][i] = c.x * c.x;
+        out->color[1][i] = c.y * c.y;
+        out->color[2][i] = c.z * c.z;
     }
 }
 
@@ -67,7 +73,8 @@ static inline shade_vec3 *wire_points(const shade_mesh *mesh, int *count)
         points = (shade_vec3 *)malloc(2 * (size_t)edges * sizeof *points);
     for (int i = 0; points && i < edges; i++) {
         const float *a = mesh->positions + 3 * edge[i].a, *b = mesh->positions + 3 * edge[i].b;
-        points[2 * i] = shade_v3(a[0], a[1], a[2]), points[2 * i + 1] = shade_v3(b[0], b[1], b[2]);
+        points[2 * i] = shade_v3(a[0], a[1], a[2]);
+        points[2 * i + 1] = shade_v3(b[0], b[1], b[2]);
     }
     free(edge);
     *count = 2 * edges;

@@ -13,6 +13,7 @@ static double now(void)
     timespec_get(&t, TIME_UTC);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
+
 static int by_size(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -35,20 +36,26 @@ static int bench(void)
     return 0;
 }
 
+static int complain(const char *what)
+{
+    fprintf(stderr, "native: %s\n", what);
+    return 1;
+}
+
 int main(int argc, char **argv)
 {
     static char error[300];
     FILE *file = argc > 2 ? fopen(argv[2], "rb") : NULL;
     size_t most = PAGE_MOST, size;
     if (!file || fread(&state, 1, sizeof state, file) != sizeof state || fgetc(file) != EOF)
-        return fputs("native: draw|bench STATE [MODEL]\n", stderr), 1;
+        return complain("usage: native draw|bench STATE [MODEL]");
     fclose(file);
     size = (size_t)state.width * (size_t)state.height;
     if (!(state.width >= 1 && state.width <= 16384 && state.height >= 1 && state.height <= 16384) ||
         size > most)
-        return fputs("native: a bad size\n", stderr), 1;
+        return complain("the size of the picture is out of range");
     if (argc > 3 && mesh_read_file(argv[3], &meshes[PAGE_FILE].mesh, error, sizeof error))
-        return fprintf(stderr, "native: %s\n", error), 1;
+        return complain(error);
     if (argv[1][0] == 'b') return bench();
     return fwrite(page_draw(), 4, size, stdout) != size;
 }

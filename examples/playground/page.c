@@ -9,9 +9,9 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "mesh.h"
-#include "model_read.h"
-#include "shapes.h"
+#include "../shared/mesh.h"
+#include "../model/files.h"
+#include "../shared/shapes.h"
 #include "look.h"
 
 enum { PAGE_MOST = 4 << 20 };                        /* pixels of a picture */
@@ -115,10 +115,12 @@ PAGE(const char *, page_load)(void *bytes, size_t size, const char *name)
     }
     free(bytes);
     if (error[0]) return error;
-    mesh_free(&old->mesh), free(old->wires);
+    mesh_free(&old->mesh);
+    free(old->wires);
     *old = m;
     return error;
 }
+
 PAGE(int, page_triangles)(int shape) { return mesh_of(shape)->mesh.view.index_count / 3; }
 
 /* ---- the picture ----------------------------------------------------------------------------- */
@@ -131,7 +133,9 @@ static shade_light lamp_of(const page_lamp *l)
                                l->color);
     out.position.w = l->at_infinity != 0 ? 0 : 1;
     out.ambient = l->ambient;
-    out.constant = l->a, out.linear = l->b, out.quadratic = l->c;
+    out.constant = l->a;
+    out.linear = l->b;
+    out.quadratic = l->c;
     return out;
 }
 
@@ -158,11 +162,13 @@ static void scene_of(page_scene *s, int panel)
         shade_mat4_perspective(0.5f, width / state.height, state.near_z, state.far_z);
     d->material = &state.material;
     d->shading = (shade_shading)state.shading;
-    d->lighting.lights = s->lamps, d->lighting.light_count = count;
+    d->lighting.lights = s->lamps;
+    d->lighting.light_count = count;
     d->lighting.ambient = state.ambient;
     d->lighting.model = panel < 0 ? (shade_model)state.model
                       : panel ? SHADE_MODEL_BLINN_PHONG : SHADE_MODEL_PHONG;
-    d->lighting.flags = (unsigned)state.flags, d->lighting.terms = (unsigned)state.terms;
+    d->lighting.flags = (unsigned)state.flags;
+    d->lighting.terms = (unsigned)state.terms;
     d->lighting.cool = shade_linear_from_srgb(shade_v3(0.4f, 0.4f, 0.7f));
     d->lighting.warm = shade_linear_from_srgb(shade_v3(0.8f, 0.6f, 0.6f));
 }
@@ -204,9 +210,11 @@ PAGE(const void *, page_draw)(void)
         draw_panel(&target, -1);
         return pixels;
     }
-    target.stride = target.width, target.width = panel;
+    target.stride = target.width;
+    target.width = panel;
     for (int i = 0; i < PAGE_PANELS; i++) {
-        target.color = pixels + i * panel, target.depth = depth + i * panel;
+        target.color = pixels + i * panel;
+        target.depth = depth + i * panel;
         draw_panel(&target, i);
     }
     return pixels;
@@ -219,6 +227,7 @@ static shade_vec3 corner_of(const float *of, const uint32_t *index, int k)
     const float *v = of + 3 * index[k];
     return shade_v3(v[0], v[1], v[2]);
 }
+
 static shade_vec3 mix(const shade_vec3 v[3], shade_vec3 weights)
 {
     shade_vec3 sum = shade_scale(v[0], weights.x);
@@ -260,7 +269,10 @@ static void factors(const shade_lighting *lighting, const shade_light *lamp, sha
     H = phong ? shade_mirror(L, N) : shade_halfway(L, V);
     answer.base = phong ? shade_dot(H, V) : shade_dot(N, H);
     answer.power = shade_power(answer.base, exponent);
-    out[0] = N, out[1] = L, out[2] = V, out[3] = H;
+    out[0] = N;
+    out[1] = L;
+    out[2] = V;
+    out[3] = H;
 }
 
 /* Fills the answer for a point of the picture and the lamp that state.probed_lamp names. */
@@ -286,7 +298,8 @@ PAGE(const page_answer *, page_probe)(float x, float y)
         left = (float)(panel * width);
     }
     scene_of(&s, panel);
-    material = material_of(panel), s.draw.material = &material;
+    material = material_of(panel);
+    s.draw.material = &material;
     triangle = shade_pick(mesh, s.draw.model,
                           shade_pixel_ray(s.draw.view, s.draw.projection, width, (int)state.height,
                                           x - left, y), &distance, &weights);
@@ -298,23 +311,30 @@ PAGE(const page_answer *, page_probe)(float x, float y)
         N[k] = shade_normalize(
             shade_mat3_transform(normals, corner_of(mesh->normals, index, k)));
     }
-    point = mix(P, weights), normal = shade_normalize(mix(N, weights));
+    point = mix(P, weights);
+    normal = shade_normalize(mix(N, weights));
     if (s.draw.shading == SHADE_SHADING_PER_FACE) {
         normal = shade_face_normal(P[0], P[1], P[2]);
         point = mix(P, shade_v3(1 / 3.0f, 1 / 3.0f, 1 / 3.0f));
     }
-    if (s.draw.shading != SHADE_SHADING_PER_VERTEX) P[0] = point, N[0] = normal;
+    if (s.draw.shading != SHADE_SHADING_PER_VERTEX) {
+        P[0] = point;
+        N[0] = normal;
+    }
     if (s.draw.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) eye = shade_v3(0, 0, 1);
     answer.hit = 1;
     answer.terms = shaded(&s, &s.draw.lighting, eye, P, N, weights);
 
-    alone = s.draw.lighting, alone.light_count = 0;
+    alone = s.draw.lighting;
+    alone.light_count = 0;
     answer.scene_ambient = shaded(&s, &alone, eye, P, N, weights).ambient;
-    alone.lights = &light, alone.light_count = state.lamp[lamp].on != 0;
+    alone.lights = &light;
+    alone.light_count = state.lamp[lamp].on != 0;
     alone.ambient = shade_v3(0, 0, 0);
     t = shaded(&s, &alone, eye, P, N, weights);
     answer.lamp_ambient = t.ambient;
-    answer.lamp_diffuse = t.diffuse, answer.lamp_specular = t.specular;
+    answer.lamp_diffuse = t.diffuse;
+    answer.lamp_specular = t.specular;
 
     if (!(s.draw.lighting.flags & SHADE_FLAG_INFINITE_VIEWER))
         eye = shade_normalize(shade_sub(eye, point));
@@ -326,7 +346,8 @@ PAGE(const page_answer *, page_probe)(float x, float y)
         shade_vec3 tip = k ? shade_madd(point, 0.45f, vectors[k - 1]) : point;
         shade_vec2 *out = k ? &answer.tip[k - 1] : &answer.point;
         tip = shade_mat4_transform_point(to_clip, tip);
-        out->x = left + (tip.x + 1) / 2 * (float)width, out->y = (1 - tip.y) / 2 * state.height;
+        out->x = left + (tip.x + 1) / 2 * (float)width;
+        out->y = (1 - tip.y) / 2 * state.height;
     }
     return &answer;
 }
@@ -339,4 +360,5 @@ PAGE(const shade_material *, page_preset)(int i)
     m = shade_linear_material(shade_preset_material((shade_preset)i));
     return &m;
 }
+
 PAGE(const char *, page_preset_name)(int i) { return shade_preset_name((shade_preset)i); }

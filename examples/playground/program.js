@@ -40,11 +40,12 @@ function program() {
 
     return [
         '/* beside shade.h and its examples:',
-        '   cc -O2 -I. -Iexamples picture.c -lm -o picture && ./picture    writes picture.ppm */',
+        '   cc -O2 -I. picture.c -lm -o picture && ./picture    writes picture.ppm */',
         '#define SHADE_IMPLEMENTATION',
         '#include "shade.h"',
-        '#include "mesh.h"',
-        ['#include "shapes.h"', false, '#include "model_read.h"'][S.shape],
+        '#include "examples/shared/mesh.h"',
+        ['#include "examples/shared/shapes.h"', false,
+            '#include "examples/model/files.h"'][S.shape],
         '',
         `enum { WIDTH = ${width}, HEIGHT = ${height} };`,
         'static uint32_t pixels[WIDTH * HEIGHT];',

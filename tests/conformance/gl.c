@@ -50,6 +50,7 @@ const char *gl_open(void)
     glEnable(GL_DEPTH_TEST);
     return NULL;
 }
+
 const char *gl_name(void) { return (const char *)glGetString(GL_VERSION); }
 
 /* -------------------------------------------------------------------------------- the shaders */
@@ -116,15 +117,19 @@ static void compile(GLenum stage, const scene *s, const char *body)
     GLint good = 0;
     snprintf(head, sizeof head, "#version 450 core\n#define LIGHTS %d\n",
              s->light_count > 0 ? s->light_count : 1);
-    text[0] = head, text[1] = uniforms, text[2] = s->equation;
+    text[0] = head;
+    text[1] = uniforms;
+    text[2] = s->equation;
     text[3] = s->texel ? s->texel : "vec4 texel(vec2 uv) { return vec4(1); }\n";
     text[4] = s->stored ? s->stored : "vec3 stored(vec3 rgb) { return rgb; }\n";
     if (stage == GL_VERTEX_SHADER) text[3] = text[4] = "";    /* there are no derivatives there */
     text[5] = body;
     if (s->twin) {
         const int vertex = stage == GL_VERTEX_SHADER;
-        text[1] = twin_uniforms_glsl, text[2] = vertex ? twin_inputs_glsl : twin_outputs_glsl;
-        text[3] = twin_brass_glsl, text[4] = "";
+        text[1] = twin_uniforms_glsl;
+        text[2] = vertex ? twin_inputs_glsl : twin_outputs_glsl;
+        text[3] = twin_brass_glsl;
+        text[4] = "";
         text[5] = (vertex ? twin_vertex_glsl : twin_fragment_glsl)[s->twin - 1];
     }
     glShaderSource(shader, 6, text, NULL);
@@ -133,7 +138,8 @@ static void compile(GLenum stage, const scene *s, const char *body)
     if (!good) {
         char log[2000] = "";
         glGetShaderInfoLog(shader, (GLsizei)sizeof log, NULL, log);
-        fprintf(stderr, "%s: %s", s->name, log), exit(1);
+        fprintf(stderr, "%s: %s", s->name, log);
+        exit(1);
     }
     glAttachShader(gl.program, shader);
     glDeleteShader(shader);
@@ -141,12 +147,14 @@ static void compile(GLenum stage, const scene *s, const char *body)
 
 static GLint where(const char *name) { return glGetUniformLocation(gl.program, name); }
 static void set3(const char *name, shade_vec3 v) { glUniform3f(where(name), v.x, v.y, v.z); }
+
 static GLint where_of(int j, const char *field)
 {
     char text[40];
     snprintf(text, sizeof text, "light[%d].%s", j, field);
     return where(text);
 }
+
 static void set3_of(int j, const char *field, shade_vec3 v)
 {
     glUniform3f(where_of(j, field), v.x, v.y, v.z);
@@ -167,16 +175,23 @@ static void set_uniforms(const scene *s, const draw *d)
     glUniform1f(where("cutoff"), state->alpha_cutoff);
     glUniform1i(where("mapped"), s->has_map && d->mesh.has_texcoords);
     glUniform4f(where("ball"), s->ball.x, s->ball.y, s->ball.z, s->ball.w);
-    set3("k_e", d->material.emission), set3("k_a", d->material.ambient);
-    set3("k_d", d->material.diffuse), set3("k_s", d->material.specular);
+    set3("k_e", d->material.emission);
+    set3("k_a", d->material.ambient);
+    set3("k_d", d->material.diffuse);
+    set3("k_s", d->material.specular);
     glUniform1f(where("n"), d->material.shininess);
-    set3("I_a", l->ambient), set3("eye", s->eye), set3("cool", l->cool), set3("warm", l->warm);
+    set3("I_a", l->ambient);
+    set3("eye", s->eye);
+    set3("cool", l->cool);
+    set3("warm", l->warm);
     for (int j = 0; j < s->light_count; j++) {
         const shade_light *at = &s->lights[j];
         shade_vec4 p = at->position;
         glUniform4f(where_of(j, "position"), p.x, p.y, p.z, p.w);
-        set3_of(j, "I_La", at->ambient), set3_of(j, "I_d", at->diffuse);
-        set3_of(j, "I_s", at->specular), set3_of(j, "aim", at->spot_direction);
+        set3_of(j, "I_La", at->ambient);
+        set3_of(j, "I_d", at->diffuse);
+        set3_of(j, "I_s", at->specular);
+        set3_of(j, "aim", at->spot_direction);
         set3_of(j, "abc", shade_v3(at->constant, at->linear, at->quadratic));
         glUniform1f(where_of(j, "e"), at->spot_exponent);
         glUniform1f(where_of(j, "cos_beta"), at->spot_cos_cutoff);
@@ -206,16 +221,19 @@ static void face_of_its_own(corner *c)
 {
     float a[3], b[3], normal[3], center[3];
     for (int k = 0; k < 3; k++) {
-        a[k] = c[1].position[k] - c[0].position[k], b[k] = c[2].position[k] - c[0].position[k];
+        a[k] = c[1].position[k] - c[0].position[k];
+        b[k] = c[2].position[k] - c[0].position[k];
         center[k] = (c[0].position[k] + c[1].position[k] + c[2].position[k]) / 3;
     }
     for (int k = 0; k < 3; k++)
         normal[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
     for (int i = 0; i < 3; i++) {
-        memcpy(c[i].normal, normal, sizeof normal), memcpy(c[i].center, center, sizeof center);
+        memcpy(c[i].normal, normal, sizeof normal);
+        memcpy(c[i].center, center, sizeof center);
         memcpy(c[i].color, c[0].color, sizeof c[0].color);
     }
 }
+
 static void load_corners(const draw *d)
 {
     static const int size[5] = { 3, 3, 2, 3, 3 };
@@ -224,8 +242,10 @@ static void load_corners(const draw *d)
     for (int i = 0; i < m->index_count; i++) {
         corner *c = &corners[i];
         uint32_t v = m->indices[i];
-        memcpy(c->position, m->positions + 3 * v, 12), memcpy(c->center, c->position, 12);
-        memcpy(c->normal, m->normals + 3 * v, 12), memcpy(c->texcoord, m->texcoords + 2 * v, 8);
+        memcpy(c->position, m->positions + 3 * v, 12);
+        memcpy(c->center, c->position, 12);
+        memcpy(c->normal, m->normals + 3 * v, 12);
+        memcpy(c->texcoord, m->texcoords + 2 * v, 8);
         memcpy(c->color, m->colors + 3 * v, 12);
         for (int k = 0; k < 3 && !m->has_colors; k++) c->color[k] = 1;
     }
@@ -253,6 +273,7 @@ static void load_level(const shade_texture *t, int level)
     glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA32F, t->width, t->height, 0, GL_RGBA, GL_FLOAT,
                  texel);
 }
+
 static GLuint load_map(const scene *s)
 {
     static const GLint wrap[] = { GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT };
@@ -299,6 +320,7 @@ static float encode(float c)    /* [IEC61966]; a clear meets no shader */
 {
     return c > 0.0031308f ? 1.055f * powf(c, 1 / 2.4f) - 0.055f : 12.92f * c;
 }
+
 static shade_vec4 encoded(shade_vec4 c)
 {
     return shade_v4(encode(c.x), encode(c.y), encode(c.z), c.w);
@@ -310,15 +332,20 @@ void gl_draw(const scene *s, float *rgba)
     GLint good = 0;
     shade_vec4 background;
     gl.program = glCreateProgram();
-    compile(GL_VERTEX_SHADER, s, vertex_main), compile(GL_FRAGMENT_SHADER, s, fragment_main);
+    compile(GL_VERTEX_SHADER, s, vertex_main);
+    compile(GL_FRAGMENT_SHADER, s, fragment_main);
     glLinkProgram(gl.program);
     glGetProgramiv(gl.program, GL_LINK_STATUS, &good);
-    if (!good) fprintf(stderr, "%s: the program does not link\n", s->name), exit(1);
+    if (!good) {
+        fprintf(stderr, "%s: the program does not link\n", s->name);
+        exit(1);
+    }
     glUseProgram(gl.program);
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     if (s->has_map) map = load_map(s);
-    glDepthMask(GL_TRUE), glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     background = s->srgb ? encoded(s->background) : s->background;
     glClearColor(background.x, background.y, background.z, background.w);
     glClearDepth((double)s->clear_depth);
@@ -333,7 +360,12 @@ void gl_draw(const scene *s, float *rgba)
         glDrawArrays(GL_TRIANGLES, 0, s->draws[k].mesh.index_count);
     }
     glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_FLOAT, rgba);
-    if (glGetError() != GL_NO_ERROR) fprintf(stderr, "%s: OpenGL error\n", s->name), exit(1);
-    glDeleteBuffers(1, &buffer), glDeleteTextures(1, &map);
-    glUseProgram(0), glDeleteProgram(gl.program);
+    if (glGetError() != GL_NO_ERROR) {
+        fprintf(stderr, "%s: OpenGL error\n", s->name);
+        exit(1);
+    }
+    glDeleteBuffers(1, &buffer);
+    glDeleteTextures(1, &map);
+    glUseProgram(0);
+    glDeleteProgram(gl.program);
 }

@@ -31,10 +31,14 @@ static void paint_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
         const float *p = d->mesh.positions + 3 * in->index[i];
         const float *c = d->mesh.colors + 3 * in->index[i];
         shade_vec4 q = shade_mat4_transform(m, shade_v4(p[0], p[1], p[2], 1));
-        out->clip[0][i] = q.x, out->clip[1][i] = q.y, out->clip[2][i] = q.z, out->clip[3][i] = q.w;
+        out->clip[0][i] = q.x;
+        out->clip[1][i] = q.y;
+        out->clip[2][i] = q.z;
+        out->clip[3][i] = q.w;
         for (int k = 0; k < 3; k++) out->varying[k][i] = c[k];
     }
 }
+
 static void paint_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                            shade_colors *SHADE_RESTRICT out)
 {
@@ -42,29 +46,38 @@ static void paint_fragment(const void *uniforms, const shade_fragments *SHADE_RE
     for (int k = 0; k < 3; k++) memcpy(out->color[k], in->varying[k], sizeof in->varying[k]);
     SHADE_EACH_LANE(i) { out->color[3][i] = alpha; }
 }
+
 static shade_result draw_painted(const shade_target *t, const draw *d, shade_stats *stats)
 {
     shade_pipeline p;
     memset(&p, 0, sizeof p);
-    p.vertex = paint_vertex, p.fragment = paint_fragment, p.uniforms = d, p.varyings = 3;
-    p.raster.cull = d->state.raster.cull, p.raster.depth_test = d->state.raster.depth_test,
+    p.vertex = paint_vertex;
+    p.fragment = paint_fragment;
+    p.uniforms = d;
+    p.varyings = 3;
+    p.raster.cull = d->state.raster.cull;
+    p.raster.depth_test = d->state.raster.depth_test;
     p.raster.blend = d->state.raster.blend;
     p.raster.depth_zero_to_one = d->state.raster.depth_zero_to_one;
-    p.raster.depth_read_only = d->state.raster.depth_read_only,
+    p.raster.depth_read_only = d->state.raster.depth_read_only;
     p.raster.depth_bias = d->state.raster.depth_bias;
     return shade_draw(t, &p, d->mesh.indices, d->mesh.index_count, d->mesh.vertex_count, stats);
 }
+
 static shade_result draw_lit(const shade_target *t, const draw *d, shade_stats *stats)
 {
     shade_mesh m;
     memset(&m, 0, sizeof m);
-    m.positions = d->mesh.positions, m.normals = d->mesh.normals;
+    m.positions = d->mesh.positions;
+    m.normals = d->mesh.normals;
     if (d->mesh.has_texcoords) m.texcoords = d->mesh.texcoords;
     if (d->mesh.has_colors) m.colors = d->mesh.colors;
     m.vertex_count = d->mesh.vertex_count;
-    m.indices = d->mesh.indices, m.index_count = d->mesh.index_count;
+    m.indices = d->mesh.indices;
+    m.index_count = d->mesh.index_count;
     return shade_draw_mesh(t, &m, &d->state, stats);
 }
+
 static double unit(double x) { return x > 0 ? x < 1 ? x : 1 : 0; }
 
 /* What the ball hides of each lamp, by shade_light_at_lanes; then what is left of the light */
@@ -79,6 +92,7 @@ static void ball_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
             out->varying[k + 3][i] = d->mesh.normals[3 * in->index[i] + (uint32_t)k];
         }
 }
+
 static void ball_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                           shade_colors *SHADE_RESTRICT out)
 {
@@ -100,14 +114,19 @@ static void ball_fragment(const void *uniforms, const shade_fragments *SHADE_RES
                               .visibility = seen[0] };
     shade_lit_lanes(&state->lighting, state->material, s->eye, &rows, out->color[0]);
 }
+
 static shade_result draw_behind_ball(const shade_target *t, const scene *s, shade_stats *stats)
 {
     const shape *m = &s->draws[0].mesh;
     shade_pipeline p;
     memset(&p, 0, sizeof p);
-    p.vertex = ball_vertex, p.fragment = ball_fragment, p.uniforms = s, p.varyings = 6;
+    p.vertex = ball_vertex;
+    p.fragment = ball_fragment;
+    p.uniforms = s;
+    p.varyings = 6;
     return shade_draw(t, &p, m->indices, m->index_count, m->vertex_count, stats);
 }
+
 static shade_result draw_twin(const shade_target *t, const scene *s, shade_stats *stats)
 {
     const shape *m = &s->draws[0].mesh;
@@ -116,6 +135,7 @@ static shade_result draw_twin(const shade_target *t, const scene *s, shade_stats
     p.uniforms = &u;
     return shade_draw(t, &p, m->indices, m->index_count, m->vertex_count, stats);
 }
+
 static shade_result draw_any(const shade_target *t, const scene *s, const draw *d,
                              shade_stats *stats)
 {
@@ -133,7 +153,10 @@ static long long shade_picture(const scene *s)
     shade_target t;
     long long fragments = 0;
     memset(&t, 0, sizeof t);
-    t.width = WIDTH, t.height = HEIGHT, t.depth = depth, t.srgb = s->srgb;
+    t.width = WIDTH;
+    t.height = HEIGHT;
+    t.depth = depth;
+    t.srgb = s->srgb;
     t.format = s->format;
     t.color = s->format == SHADE_FORMAT_RGBA32F ? (void *)floats : (void *)bytes;
     if (shade_clear(&t, s->background, s->clear_depth) != SHADE_OK) return -1;
@@ -166,12 +189,14 @@ static point to_clip(const shade_draw_state *state, double x, double y, double z
     point p = { c[0], c[1], c[2], c[3] };
     return p;
 }
+
 static point between(point a, point b, double t)
 {
     point p = { a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z),
                 a.w + t * (b.w - a.w) };
     return p;
 }
+
 /* what of the line lies before the eye; the near plane cuts later than that */
 static int in_front(point *a, point *b)
 {
@@ -181,18 +206,22 @@ static int in_front(point *a, point *b)
     else if (b->w < least) *b = between(*b, *a, (least - b->w) / (a->w - b->w));
     return 1;
 }
+
 /* the projected line passes within 1/256 of the centre of the pixel */
 static int line_tie(point a, point b, double X, double Y)
 {
     double ax, ay, bx, by, length2, t;
     if (!in_front(&a, &b)) return 0;
-    ax = (a.x / a.w + 1) * WIDTH / 2 - X, ay = (1 - a.y / a.w) * HEIGHT / 2 - Y;
-    bx = (b.x / b.w + 1) * WIDTH / 2 - X - ax, by = (1 - b.y / b.w) * HEIGHT / 2 - Y - ay;
+    ax = (a.x / a.w + 1) * WIDTH / 2 - X;
+    ay = (1 - a.y / a.w) * HEIGHT / 2 - Y;
+    bx = (b.x / b.w + 1) * WIDTH / 2 - X - ax;
+    by = (1 - b.y / b.w) * HEIGHT / 2 - Y - ay;
     length2 = bx * bx + by * by;
     t = length2 > 0 ? -(ax * bx + ay * by) / length2 : 0;
     t = t < 0 ? 0 : t > 1 ? 1 : t;
     return hypot(ax + t * bx, ay + t * by) <= 1.0 / 256;
 }
+
 /* where the triangle a, b, c meets the plane of distance d: the edge that clipping makes */
 static int cut_tie(const point *p, const double *d, double X, double Y)
 {
@@ -204,6 +233,7 @@ static int cut_tie(const point *p, const double *d, double X, double Y)
     }
     return count == 2 && line_tie(cut[0], cut[1], X, Y);
 }
+
 static int edge_tie(const draw *d, double X, double Y)
 {
     for (int i = 0; i < d->mesh.index_count; i += 3) {
@@ -222,6 +252,7 @@ static int edge_tie(const draw *d, double X, double Y)
     }
     return 0;
 }
+
 /* Alpha of the map at a point of the window, on the floor: a bilinear blend, in double */
 static double floor_alpha(const scene *s, double X, double Y)
 {
@@ -236,12 +267,14 @@ static double floor_alpha(const scene *s, double X, double Y)
     for (int k = 0; k < 2; k++) f[k] = at[k] - floor(at[k]);
     for (int k = 0; k < 4; k++) {
         int i = (int)floor(at[0]) + (k & 1), j = (int)floor(at[1]) + (k >> 1);
-        i = (i % MAP_SIDE + MAP_SIDE) % MAP_SIDE, j = (j % MAP_SIDE + MAP_SIDE) % MAP_SIDE;
+        i = (i % MAP_SIDE + MAP_SIDE) % MAP_SIDE;
+        j = (j % MAP_SIDE + MAP_SIDE) % MAP_SIDE;
         sum += (k & 1 ? f[0] : 1 - f[0]) * (k >> 1 ? f[1] : 1 - f[1]) *
                texel[4 * (j * MAP_SIDE + i) + 3];
     }
     return sum / 255 * (1 - (double)t->transparency);
 }
+
 /* the line on which alpha is the cutoff passes within 1/256 of the centre of the pixel */
 static int cutoff_tie(const scene *s, double X, double Y)
 {
@@ -253,6 +286,7 @@ static int cutoff_tie(const scene *s, double X, double Y)
                              Y + step * ((k == 2) - (k == 3))) >= cutoff;
     return above > 0 && above < 4;
 }
+
 /* SHADE_FILTER_NEAREST: the border between two texels is an edge too; their grid on the floor */
 static int texel_tie(const scene *s, double X, double Y)
 {
@@ -266,6 +300,7 @@ static int texel_tie(const scene *s, double X, double Y)
     }
     return 0;
 }
+
 static int explained(const scene *s, int i)
 {
     double X = i % WIDTH + 0.5, Y = i / WIDTH + 0.5;
@@ -337,7 +372,8 @@ static int compare(const scene *s, const char *folder, int keep)
     printf("%-4s  %-35s %7d  %8.2f  %8.2f %6d %6d\n", good ? "ok" : "FAIL", s->name, PIXELS,
            most_plain, most, over, ties);
     if (!good || keep) {
-        write_ppm(folder, s->name, "got", 0), write_ppm(folder, s->name, "want", 1);
+        write_ppm(folder, s->name, "got", 0);
+        write_ppm(folder, s->name, "want", 1);
         write_ppm(folder, s->name, "diff", 2);
     }
     return good;
@@ -349,7 +385,10 @@ int main(int count, char **argument)
     int passed = 0, failed = 0, keep = 0;
     for (int i = 1; i + 1 < count; i += 2) {
         if (strcmp(argument[i], "--only") == 0) only = argument[i + 1];
-        if (strcmp(argument[i], "--pictures") == 0) folder = argument[i + 1], keep = 1;
+        if (strcmp(argument[i], "--pictures") == 0) {
+            folder = argument[i + 1];
+            keep = 1;
+        }
     }
     if (why) {
         printf("left out: %s\n0 passed, 0 failed\n", why);

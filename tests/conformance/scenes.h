@@ -2,7 +2,7 @@
 #ifndef CONFORMANCE_SCENES_H
 #define CONFORMANCE_SCENES_H
 
-#include "examples/twins.h"
+#include "examples/shared/twins.h"
 
 enum {
     WIDTH = 400, HEIGHT = 300,

@@ -42,10 +42,14 @@ static void layout(unsigned bits, unsigned red, unsigned green, unsigned blue)
 {
     memset(&var, 0, sizeof var);
     memset(&fix, 0, sizeof fix);
-    var.xres = WIDTH, var.yres = HEIGHT;
-    var.xoffset = 7, var.yoffset = 2 * HEIGHT;
+    var.xres = WIDTH;
+    var.yres = HEIGHT;
+    var.xoffset = 7;
+    var.yoffset = 2 * HEIGHT;
     var.bits_per_pixel = bits;
-    var.red.offset = red, var.green.offset = green, var.blue.offset = blue;
+    var.red.offset = red;
+    var.green.offset = green;
+    var.blue.offset = blue;
     var.green.length = bits == 16 ? 6 : 8;
     var.red.length = var.blue.length = bits == 16 ? 5 : 8;
     fix.line_length = bits / 8 * (WIDTH + 20);

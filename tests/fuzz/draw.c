@@ -29,12 +29,15 @@ static void draw_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
         uint32_t v = in->index[i];
         HOLDS(v < (uint32_t)s->vertex_count);
         HOLDS(i < in->count || v == in->index[in->count - 1]);
-        out->clip[0][i] = s->clip[v].x, out->clip[1][i] = s->clip[v].y;
-        out->clip[2][i] = s->clip[v].z, out->clip[3][i] = s->clip[v].w;
+        out->clip[0][i] = s->clip[v].x;
+        out->clip[1][i] = s->clip[v].y;
+        out->clip[2][i] = s->clip[v].z;
+        out->clip[3][i] = s->clip[v].w;
         for (int k = 0; k < s->p.varyings; k++)
             out->varying[k][i] = s->attribute[v * (size_t)s->p.varyings + (size_t)k];
     }
 }
+
 static void draw_check_fragment(const draw_scene *s, const shade_fragments *in, int i)
 {
     float x = in->x[i] - 0.5f, y = in->y[i] - 0.5f, z = in->z[i];
@@ -54,6 +57,7 @@ static void draw_check_fragment(const draw_scene *s, const shade_fragments *in, 
         HOLDS(v == a || fuzz_same(v, a));
     }
 }
+
 static void draw_check_tail(const draw_scene *s, const shade_fragments *in, int i)
 {
     int last = in->count - 1;
@@ -63,6 +67,7 @@ static void draw_check_tail(const draw_scene *s, const shade_fragments *in, int 
         HOLDS(fuzz_same(in->varying[k][i], in->varying[k][last]));
     HOLDS(!s->p.lod_texture || fuzz_same(in->lod[i], in->lod[last]));
 }
+
 static void draw_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                           shade_colors *SHADE_RESTRICT out)
 {
@@ -115,7 +120,10 @@ static shade_result draw_otherwise(void *user, const shade_target *target, shade
     s->p.interpolation = (shade_interpolation)((s->p.interpolation + 1) % 3);
     if (s->kind == DRAW_FLAT) s->p.fragment = NULL;
     if (s->kind == DRAW_SILENT) s->p.may_discard = !s->p.may_discard;
-    if (s->kind != DRAW_VARYINGS) s->p.varyings = 0, s->p.lod_texture = NULL;
+    if (s->kind != DRAW_VARYINGS) {
+        s->p.varyings = 0;
+        s->p.lod_texture = NULL;
+    }
     result = draw_call(user, target, stats);
     s->p = p;
     return result;
@@ -128,28 +136,38 @@ static shade_vec4 draw_position(fuzz_input *in, const shade_target *t, const sha
     float w = kind & 128 ? 1 + (float)(kind >> 4 & 7) : 1, x, y, z;
     shade_vec4 p;
     switch (kind % 8) {
-    case 0: case 1: case 2:              /* to a half or a sixteenth of a pixel, or half a pixel */
-        x = (float)fuzz_byte(in) / (kind % 8 == 0 ? 2 : 16) - 2;
-        y = (float)fuzz_byte(in) / (kind % 8 == 0 ? 2 : 16) - 2;
-        if (kind % 8 == 2) x *= 8, y *= 8;
-        z = (float)fuzz_byte(in) / 128 - 1;
-        x = 2 * x / (float)t->width - 1, y = 1 - 2 * y / (float)t->height;
-        return shade_v4(x * w, y * w, z * w, w);
-    case 3: case 4:
-        x = (float)fuzz_byte(in) / 64 - 2, y = (float)fuzz_byte(in) / 64 - 2;
-        z = (float)fuzz_byte(in) / 100 - 1.28f;
-        return shade_v4(x, y, z, (float)fuzz_byte(in) / 128 - 0.25f);
-    case 5:                              /* one coordinate of the vertex before */
-        p = *before, x = fuzz_float(in);
-        if (kind & 8) p.x = x;
-        else if (kind & 16) p.y = x;
-        else if (kind & 32) p.z = x;
-        else p.w = x;
-        return p;
-    case 6: return fuzz_vec4(in, 1e6f);
-    default: return fuzz_vec4(in, 0);
+        case 0:
+        case 1:
+        case 2:              /* to a half or a sixteenth of a pixel, or half a pixel */
+x = (float)fuzz_byte(in) / (kind % 8 == 0 ? 2 : 16) - 2;
+            y = (float)fuzz_byte(in) / (kind % 8 == 0 ? 2 : 16) - 2;
+            if (kind % 8 == 2) {
+                x *= 8;
+                y *= 8;
+            }
+            z = (float)fuzz_byte(in) / 128 - 1;
+            x = 2 * x / (float)t->width - 1;
+            y = 1 - 2 * y / (float)t->height;
+            return shade_v4(x * w, y * w, z * w, w);
+        case 3:
+        case 4:
+            x = (float)fuzz_byte(in) / 64 - 2;
+            y = (float)fuzz_byte(in) / 64 - 2;
+            z = (float)fuzz_byte(in) / 100 - 1.28f;
+            return shade_v4(x, y, z, (float)fuzz_byte(in) / 128 - 0.25f);
+        case 5:
+            p = *before;
+            x = fuzz_float(in);
+            if (kind & 8) p.x = x;
+            else if (kind & 16) p.y = x;
+            else if (kind & 32) p.z = x;
+            else p.w = x;
+            return p;
+        case 6: return fuzz_vec4(in, 1e6f);
+        default: return fuzz_vec4(in, 0);
     }
 }
+
 static shade_vec4 *draw_positions(fuzz_input *in, draw_scene *s, const shade_target *t, int right)
 {
     size_t bytes = (size_t)(s->vertex_count > 0 ? s->vertex_count : 0) * sizeof(shade_vec4);
@@ -162,6 +180,7 @@ static shade_vec4 *draw_positions(fuzz_input *in, draw_scene *s, const shade_tar
     guard_seal(clip);
     return clip;
 }
+
 static const float *draw_attributes(fuzz_input *in, draw_scene *s, int right)
 {
     uint32_t kind = fuzz_byte(in);
@@ -177,6 +196,7 @@ static const float *draw_attributes(fuzz_input *in, draw_scene *s, int right)
     guard_seal(a);
     return a;
 }
+
 static const uint32_t *draw_indices(fuzz_input *in, draw_scene *s, int right, int *bad)
 {
     uint32_t *indices;
@@ -205,12 +225,14 @@ static shade_result draw_pipeline(fuzz_input *in, shade_pipeline *p, shade_textu
     p->raster.cull = (shade_cull)fuzz_enum(in, 3, &bad);
     p->raster.depth_test = (shade_compare)fuzz_enum(in, 6, &bad);
     p->raster.blend = (shade_blend)fuzz_enum(in, 3, &bad);
-    p->raster.depth_read_only = kind & 1, p->raster.depth_zero_to_one = kind >> 1 & 1;
+    p->raster.depth_read_only = kind & 1;
+    p->raster.depth_zero_to_one = kind >> 1 & 1;
     p->may_discard = kind >> 2 & 1;
     if (kind & 8) p->raster.depth_bias = fuzz_float(in);
     if (kind & 16) {
         p->lod_varying = fuzz_one_in(in, 8) ? fuzz_wild_int(in) : fuzz_int(in, 0, 4);
-        *texture = texture_open(in, 40, 0), p->lod_texture = kind & 32 ? texture : NULL;
+        *texture = texture_open(in, 40, 0);
+        p->lod_texture = kind & 32 ? texture : NULL;
     }
     if (bad || p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS ||
         !fuzz_finite(p->raster.depth_bias)) return SHADE_ERROR_STATE;
@@ -229,7 +251,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     shade_result want, pipeline;
     picture_open(&in, &pic, 40);
     memset(&s, 0, sizeof s);
-    s.p.vertex = draw_vertex, s.p.uniforms = &s, s.pipeline = &s.p, s.tame = 1;
+    s.p.vertex = draw_vertex;
+    s.p.uniforms = &s;
+    s.pipeline = &s.p;
+    s.tame = 1;
     s.kind = (int)(fuzz_byte(&in) % DRAW_KINDS);
     s.p.fragment = s.kind == DRAW_DEPTH_ONLY ? NULL : draw_fragment;
     pipeline = draw_pipeline(&in, &s.p, &s.texture);
@@ -246,8 +271,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (want == SHADE_OK && (s.index_count < 0 || s.vertex_count < 0)) want = SHADE_ERROR_MESH;
     if (want == SHADE_OK) want = pipeline;
     if (want == SHADE_OK && (s.index_count % 3 || bad_index)) want = SHADE_ERROR_INDEX;
-    if (kind == 0xF0) s.p.vertex = NULL, want = SHADE_ERROR_ARGUMENT;
-    if (kind == 0xF1) s.pipeline = NULL, want = SHADE_ERROR_ARGUMENT;
+    if (kind == 0xF0) {
+        s.p.vertex = NULL;
+        want = SHADE_ERROR_ARGUMENT;
+    }
+    if (kind == 0xF1) {
+        s.pipeline = NULL;
+        want = SHADE_ERROR_ARGUMENT;
+    }
     picture_try(&in, &pic, draw_call,
                 s.kind == DRAW_SIEVE && s.p.may_discard ? NULL : draw_otherwise, &s, want,
                 s.index_count / 3, s.p.raster.depth_read_only);

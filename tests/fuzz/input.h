@@ -34,14 +34,18 @@ static inline void fuzz_fail(const char *what, const char *file, int line)
 typedef struct fuzz_input { const uint8_t *at, *end; } fuzz_input;
 
 static inline uint32_t fuzz_byte(fuzz_input *in) { return in->at < in->end ? *in->at++ : 0; }
+
 static inline uint32_t fuzz_word(fuzz_input *in)
 {
     uint32_t w = fuzz_byte(in);
-    w |= fuzz_byte(in) << 8, w |= fuzz_byte(in) << 16;
+    w |= fuzz_byte(in) << 8;
+    w |= fuzz_byte(in) << 16;
     return w | fuzz_byte(in) << 24;
 }
+
 /* One in n, n <= 256; a zero byte says no. */
 static inline int fuzz_one_in(fuzz_input *in, uint32_t n) { return fuzz_byte(in) % n == n - 1; }
+
 /* lo .. hi; a zero byte gives lo */
 static inline int fuzz_int(fuzz_input *in, int lo, int hi)
 {
@@ -49,6 +53,7 @@ static inline int fuzz_int(fuzz_input *in, int lo, int hi)
     if (range > 256) bits |= fuzz_byte(in) << 8;
     return lo + (int)(bits % range);
 }
+
 /* Values at which integer arithmetic ends, or any. */
 static inline int fuzz_wild_int(fuzz_input *in)
 {
@@ -62,6 +67,7 @@ static inline int fuzz_wild_int(fuzz_input *in)
     memcpy(&value, &bits, sizeof value);
     return value;
 }
+
 /* 0 .. count - 1, seldom anything else; enums carry it as int.  *bad says so. */
 static inline int fuzz_enum(fuzz_input *in, int count, int *bad)
 {
@@ -78,6 +84,7 @@ static inline float fuzz_float_of(uint32_t bits)
     memcpy(&f, &bits, 4);
     return f;
 }
+
 /* Small multiples of 1/16; values at which arithmetic ends; any bits; or even in the logarithm. */
 static inline float fuzz_float(fuzz_input *in)
 {
@@ -92,9 +99,11 @@ static inline float fuzz_float(fuzz_input *in)
     if (k < 192) return (float)((int)k - 160) / 16;                  /* -2 .. 2 */
     if (k < 216) return fuzz_float_of(edge[fuzz_byte(in) % 32]);
     if (k < 232) return fuzz_float_of(fuzz_word(in));
-    bits = fuzz_byte(in) << 15, bits |= fuzz_byte(in) << 7;
+    bits = fuzz_byte(in) << 15;
+    bits |= fuzz_byte(in) << 7;
     return fuzz_float_of((k & 1) << 31 | (96 + 4 * (k - 232)) << 23 | bits);
 }
+
 /* finite, at most most in magnitude */
 static inline float fuzz_tame(fuzz_input *in, float most)
 {
@@ -102,20 +111,24 @@ static inline float fuzz_tame(fuzz_input *in, float most)
     if (!(f >= -most)) return f < 0 ? -most : 1;
     return f <= most ? f : most;
 }
+
 static inline float fuzz_value(fuzz_input *in, float most)    /* most 0: any float at all */
 {
     return most > 0 ? fuzz_tame(in, most) : fuzz_float(in);
 }
+
 static inline shade_vec3 fuzz_vec3(fuzz_input *in, float most)
 {
     float x = fuzz_value(in, most), y = fuzz_value(in, most);
     return shade_v3(x, y, fuzz_value(in, most));
 }
+
 static inline shade_vec4 fuzz_vec4(fuzz_input *in, float most)
 {
     float x = fuzz_value(in, most), y = fuzz_value(in, most), z = fuzz_value(in, most);
     return shade_v4(x, y, z, fuzz_value(in, most));
 }
+
 /* The matrix that stands for a camera that there is none of: every point goes to (0, 0, 2, 1). */
 static inline int fuzz_is_no_camera(shade_mat4 m)
 {
@@ -124,6 +137,7 @@ static inline int fuzz_is_no_camera(shade_mat4 m)
         if (f[k] != (k == 14 ? 2 : k == 15 ? 1 : 0)) return 0;
     return 1;
 }
+
 /* A camera of four to six numbers, which is none where they do not fulfil what they must; its
    entries are bounded as they are. */
 static inline shade_mat4 fuzz_camera(fuzz_input *in, float most)
@@ -133,21 +147,27 @@ static inline shade_mat4 fuzz_camera(fuzz_input *in, float most)
     float x = fuzz_value(in, most), y = fuzz_value(in, most), z = fuzz_value(in, most);
     float a = fuzz_value(in, most), b, c;
     int good = x > 0 && x < 3.1415927f && y != 0 && z > 0; /* the float above pi */
-    if (kind % 4 == 0)
-        m = shade_mat4_perspective(x, y, z, a), good = good && a > 0 && z != a;
-    else if (kind % 4 == 1)
+    if (kind % 4 == 0) {
+        m = shade_mat4_perspective(x, y, z, a);
+        good = good && a > 0 && z != a;
+    } else if (kind % 4 == 1) {
         m = shade_mat4_perspective_reversed(x, y, z);
-    else {
-        b = fuzz_value(in, most), c = fuzz_value(in, most), good = x != y && z != a && b != c;
-        if (kind % 4 == 3)
+    } else {
+        b = fuzz_value(in, most);
+        c = fuzz_value(in, most);
+        good = x != y && z != a && b != c;
+        if (kind % 4 == 3) {
             m = shade_mat4_ortho(x, y, z, a, b, c);
-        else
-            m = shade_mat4_frustum(x, y, z, a, b, c), good = good && b > 0 && c > 0;
+        } else {
+            m = shade_mat4_frustum(x, y, z, a, b, c);
+            good = good && b > 0 && c > 0;
+        }
     }
     HOLDS(good || fuzz_is_no_camera(m));
     for (int k = 0; k < 16; k++) good &= (&m.col[0].x)[k] >= -most && (&m.col[0].x)[k] <= most;
     return good || !(most > 0) ? m : shade_mat4_ortho(1, 1, 1, 1, 1, 1);
 }
+
 /* zero, the usual cameras, turned and stretched axes, any camera, or sixteen floats */
 static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
 {
@@ -163,7 +183,8 @@ static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
     case 7: return shade_mat4_perspective_reversed(1, 1.25f, 0.5f);
     case 8: return shade_mat4_ortho(-2, 2, -2, 2, -2, 8);
     case 9:
-        a = fuzz_vec3(in, most), b = fuzz_vec3(in, most);
+        a = fuzz_vec3(in, most);
+        b = fuzz_vec3(in, most);
         return shade_mat4_look_at(a, b, fuzz_vec3(in, most));
     case 10:
         for (int k = 0; k < 4; k++) m.col[k] = fuzz_vec4(in, most);
@@ -178,10 +199,12 @@ static inline shade_mat4 fuzz_matrix(fuzz_input *in, float most)
 
 static inline int fuzz_is_nan(float f) { return f != f; }
 static inline int fuzz_finite(float f) { return f >= -FLT_MAX && f <= FLT_MAX; }
+
 static inline int fuzz_finite3(shade_vec3 v)
 {
     return fuzz_finite(v.x) && fuzz_finite(v.y) && fuzz_finite(v.z);
 }
+
 /* The same bits; a NaN may be any NaN. */
 static inline int fuzz_same(float a, float b)
 {
@@ -234,6 +257,7 @@ static inline uint64_t guard_hash(const uint8_t *p, size_t size)
     for (size_t i = 0; i < size; i++) h = (h ^ p[i]) * 1099511628211u;
     return h | 1;
 }
+
 static inline uint8_t *guard_room(void)
 {
     size_t page = (size_t)sysconf(_SC_PAGESIZE);
@@ -245,6 +269,7 @@ static inline uint8_t *guard_room(void)
     }
     return p + page;
 }
+
 /* size bytes, a multiple of their alignment, that end (right) or begin at a page without access. */
 static inline void *guard_take(size_t size, int right)
 {
@@ -255,9 +280,11 @@ static inline void *guard_take(size_t size, int right)
     }
     g = &guard_blocks[guard_count++];
     if (!g->room) g->room = guard_room();
-    g->size = size, g->seal = 0;
+    g->size = size;
+    g->seal = 0;
     g->at = right ? g->room + GUARD_ROOM - size : g->room;
-    g->left = (size_t)(g->at - g->room), g->right = GUARD_ROOM - size - g->left;
+    g->left = (size_t)(g->at - g->room);
+    g->right = GUARD_ROOM - size - g->left;
     g->left = g->left < GUARD_EDGE ? g->left : GUARD_EDGE;
     g->right = g->right < GUARD_EDGE ? g->right : GUARD_EDGE;
     memset(g->at - g->left, GUARD_BYTE, g->left);
@@ -266,6 +293,7 @@ static inline void *guard_take(size_t size, int right)
     FUZZ_POISON(g->at + size, g->right);
     return g->at;
 }
+
 /* What was taken is input from here on: its bytes are to stay. */
 static inline void guard_seal(const void *memory)
 {
@@ -273,6 +301,7 @@ static inline void guard_seal(const void *memory)
         if (guard_blocks[k].at == (const uint8_t *)memory)
             guard_blocks[k].seal = guard_hash(guard_blocks[k].at, guard_blocks[k].size);
 }
+
 /* Checks all that was taken, and gives it back. */
 static inline void guard_close(void)
 {
@@ -286,13 +315,16 @@ static inline void guard_close(void)
     }
     guard_count = 0;
 }
+
 /* Bytes without a meaning. */
 static inline void fuzz_noise(void *memory, size_t size, uint32_t seed)
 {
     uint8_t *p = (uint8_t *)memory;
     uint32_t x = seed * 2654435769u + 1;
     for (size_t i = 0; i < size; i++) {
-        x ^= x << 13, x ^= x >> 17, x ^= x << 5;
+        x ^= x << 13;
+        x ^= x >> 17;
+        x ^= x << 5;
         p[i] = (uint8_t)(x >> 24);
     }
 }

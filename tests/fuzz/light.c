@@ -10,15 +10,18 @@ static int light_finite4(shade_vec4 v)
 {
     return fuzz_finite(v.x) && fuzz_finite(v.y) && fuzz_finite(v.z) && fuzz_finite(v.w);
 }
+
 static int light_finite_mat3(shade_mat3 m)
 {
     return fuzz_finite3(m.col[0]) && fuzz_finite3(m.col[1]) && fuzz_finite3(m.col[2]);
 }
+
 static int light_finite_mat4(shade_mat4 m)
 {
     return light_finite4(m.col[0]) && light_finite4(m.col[1]) && light_finite4(m.col[2]) &&
            light_finite4(m.col[3]);
 }
+
 static void light_unit(shade_vec3 v)
 {
     float l = shade_length(v);
@@ -35,8 +38,11 @@ static void light_vectors(fuzz_input *in, int tame)
     if (!tame) return;
     HOLDS(fuzz_finite(l) && fuzz_finite(d) && fuzz_finite3(shade_cross(a, b)));
     HOLDS(fuzz_finite3(r) && fuzz_finite3(m) && fuzz_finite3(mix));
-    light_unit(n), light_unit(face), light_unit(h);
+    light_unit(n);
+    light_unit(face);
+    light_unit(h);
 }
+
 static void light_matrices(fuzz_input *in, int tame)
 {
     float most = tame ? 1e6f : 0, x = fuzz_value(in, most), y = fuzz_value(in, most);
@@ -51,13 +57,15 @@ static void light_matrices(fuzz_input *in, int tame)
     made[1] = shade_mat4_perspective_reversed(x, y, p.x);
     made[2] = shade_mat4_frustum(x, y, p.x, p.y, p.z, e.x);
     made[3] = shade_mat4_ortho(x, y, p.x, p.y, p.z, e.x);
-    made[4] = shade_mat4_rotation(x, p), made[5] = shade_mat4_look_at(p, e, up);
+    made[4] = shade_mat4_rotation(x, p);
+    made[5] = shade_mat4_look_at(p, e, up);
     if (!tame) return;
     for (int k = 0; k < 6; k++) HOLDS(light_finite_mat4(made[k]));
     HOLDS(light_finite_mat4(a) && light_finite_mat4(inverse));
     HOLDS(light_finite_mat3(w) && light_finite_mat3(it) && light_finite_mat3(normal));
     HOLDS(fuzz_finite3(q) && fuzz_finite(det) && fuzz_finite(det3));
 }
+
 /* f_r lies between k_d and k_d + k_s for reflecting models; the ramp between its ends */
 static void light_reflectance(fuzz_input *in, shade_vec3 N, shade_vec3 L, shade_vec3 V)
 {
@@ -78,6 +86,7 @@ static void light_reflectance(fuzz_input *in, shade_vec3 N, shade_vec3 L, shade_
           (which < 0 || which >= SHADE_PRESET_COUNT));
     HOLDS(shade_result_string((shade_result)which)[0] != 0);
 }
+
 static void light_scalars(fuzz_input *in)
 {
     float x = fuzz_float(in), n = fuzz_float(in), p = shade_power(x, n), a, b, c, r, f;
@@ -92,7 +101,10 @@ static void light_scalars(fuzz_input *in)
     if (fuzz_finite3(aim) && !fuzz_is_nan(x)) HOLDS(spot >= 0 && spot <= 1);
     HOLDS(shade_lambert(N, L) >= 0 && shade_lambert(N, L) < 1.0001f);
     light_reflectance(in, N, L, V);
-    a = fuzz_float(in), b = fuzz_float(in), c = fuzz_float(in), r = fuzz_float(in);
+    a = fuzz_float(in);
+    b = fuzz_float(in);
+    c = fuzz_float(in);
+    r = fuzz_float(in);
     f = shade_attenuation(a, b, c, r);
     HOLDS(fuzz_is_nan(f) || f <= 1.0001e20f);
     if (a >= 0 && b >= 0 && c >= 0 && r >= 0 && fuzz_finite(a) && fuzz_finite(b) &&
@@ -101,14 +113,17 @@ static void light_scalars(fuzz_input *in)
 
 /* [IEC61966], in double; what the contract makes of any float before */
 static double light_clamped(float c) { return c > 0 ? c < 1 ? (double)c : 1 : 0; }
+
 static double light_encoded(double c)
 {
     return c > 0.0031308 ? 1.055 * pow(c, 1 / 2.4) - 0.055 : 12.92 * c;
 }
+
 static double light_decoded(double c)
 {
     return c > 0.04045 ? pow((c + 0.055) / 1.055, 2.4) : c / 12.92;
 }
+
 static void light_check_colour(shade_vec3 from, shade_vec3 got, double (*curve)(double))
 {
     const float *a = &from.x, *b = &got.x;
@@ -117,6 +132,7 @@ static void light_check_colour(shade_vec3 from, shade_vec3 got, double (*curve)(
         HOLDS(fabs((double)b[k] - curve(light_clamped(a[k]))) < 4e-6);
     }
 }
+
 static void light_colours(fuzz_input *in)
 {
     shade_vec3 c = fuzz_vec3(in, 0), low = shade_v3(0, 0, 0), high = shade_v3(1, 1, 1), bytes;
@@ -128,8 +144,11 @@ static void light_colours(fuzz_input *in)
     bytes = shade_v3((float)(rgb >> 16 & 255), (float)(rgb >> 8 & 255), (float)(rgb & 255));
     light_check_colour(shade_scale(bytes, 1 / 255.0f), shade_rgb(rgb), light_decoded);
     c = shade_clamp(c, low, high);
-    m.emission = c, m.ambient = shade_v3(c.y, c.z, c.x), m.diffuse = shade_v3(c.z, c.x, c.y);
-    m.specular = fuzz_vec3(in, 0), m.shininess = fuzz_float(in);
+    m.emission = c;
+    m.ambient = shade_v3(c.y, c.z, c.x);
+    m.diffuse = shade_v3(c.z, c.x, c.y);
+    m.specular = fuzz_vec3(in, 0);
+    m.shininess = fuzz_float(in);
     linear = shade_linear_material(m);
     for (int k = 0; k < 4; k++) light_check_colour(display[k], made[k], light_decoded);
     HOLDS(fuzz_same(linear.shininess, m.shininess));
@@ -141,9 +160,11 @@ static void light_arriving(const shade_light *lamp, const float *P, int tame)
     float L[3][SHADE_LANES], amount[SHADE_LANES], alone[SHADE_LANES], none[3][SHADE_LANES];
     int fades = lamp->constant >= 0 && lamp->linear >= 0 && lamp->quadratic >= 0;
     double power = lamp->spot_exponent > 100 ? (double)lamp->spot_exponent / 100 : 1;
-    memset(amount, 0xAA, sizeof amount), memset(none, 0xAA, sizeof none);
+    memset(amount, 0xAA, sizeof amount);
+    memset(none, 0xAA, sizeof none);
     shade_light_at_lanes(lamp, P, L[0], amount);
-    shade_light_at_lanes(lamp, P, NULL, alone), shade_light_at_lanes(lamp, P, NULL, NULL);
+    shade_light_at_lanes(lamp, P, NULL, alone);
+    shade_light_at_lanes(lamp, P, NULL, NULL);
     HOLDS(!memcmp(amount, alone, sizeof amount));
     shade_light_at_lanes(NULL, P, none[0], alone);
     for (int i = 0; i < SHADE_LANES; i++) {
@@ -177,6 +198,7 @@ static const float *light_visibility(fuzz_input *in, int lamps, float most)
     guard_seal(rows);
     return rows;
 }
+
 /* A row of 1 for k_s changes nothing; one of 0 leaves the specular term out; any gives the same
    bits in every width. */
 static void light_tinted(fuzz_input *in, const shade_lighting *l, const shade_material *m,
@@ -204,6 +226,7 @@ static void light_tinted(fuzz_input *in, const shade_lighting *l, const shade_ma
     shade_lit_lanes(l, m, eye, &all, b);
     for (int i = 0; i < 3 * SHADE_LANES; i++) HOLDS(fuzz_same(a[i], b[i]) && fuzz_finite(a[i]));
 }
+
 /* Hidden lamps give their ambient light alone; lamps fully seen what they give without rows. */
 static void light_hidden(const shade_lighting *l, const shade_material *m, shade_vec3 eye,
                          float *const *rows, const float *albedo)
@@ -214,7 +237,8 @@ static void light_hidden(const shade_lighting *l, const shade_material *m, shade
     int lamps = l->lights && l->light_count > 0 ? l->light_count : 0;
     if (lamps) memcpy(dark, l->lights, (size_t)lamps * sizeof dark[0]);
     for (int j = 0; j < lamps; j++) dark[j].diffuse = dark[j].specular = shade_v3(0, 0, 0);
-    ambient.lights = dark, ambient.light_count = lamps;
+    ambient.lights = dark;
+    ambient.light_count = lamps;
     memset(visibility, 0, sizeof visibility);
     lit_rows(l, m, eye, rows[0], rows[1], albedo, visibility, a);
     lit_rows(&ambient, m, eye, rows[0], rows[1], albedo, NULL, b);
@@ -238,20 +262,28 @@ static void light_scene(fuzz_input *in, int tame)
     shade_lighting l;
     shade_vec3 eye = fuzz_vec3(in, most), sum;
     shade_terms terms;
-    memset(&l, 0, sizeof l), memset(lamps, 0, sizeof lamps);
-    l.model = (shade_model)fuzz_enum(in, 6, &bad), l.flags = fuzz_byte(in), l.terms = kind & 15;
+    memset(&l, 0, sizeof l);
+    memset(lamps, 0, sizeof lamps);
+    l.model = (shade_model)fuzz_enum(in, 6, &bad);
+    l.flags = fuzz_byte(in);
+    l.terms = kind & 15;
     l.lights = kind & 16 ? lamps : kind & 32 ? lamps + 1 : NULL;
     l.light_count = l.lights ? fuzz_int(in, 0, LIGHT_LAMPS - 1) : fuzz_wild_int(in);
-    l.ambient = fuzz_vec3(in, bright), l.cool = fuzz_vec3(in, bright);
+    l.ambient = fuzz_vec3(in, bright);
+    l.cool = fuzz_vec3(in, bright);
     l.warm = fuzz_vec3(in, bright);
     for (int k = 0; k < LIGHT_LAMPS; k++) {
         shade_light *lamp = &lamps[k];
         uint32_t parts = fuzz_byte(in);
         lamp->position = fuzz_vec4(in, most);
         if (tame) lamp->position.w = (float)(parts & 1);
-        lamp->diffuse = fuzz_vec3(in, bright), lamp->specular = fuzz_vec3(in, bright);
+        lamp->diffuse = fuzz_vec3(in, bright);
+        lamp->specular = fuzz_vec3(in, bright);
         if (parts & 2) lamp->ambient = fuzz_vec3(in, bright);
-        if (parts & 4) lamp->linear = fuzz_value(in, most), lamp->quadratic = fuzz_value(in, most);
+        if (parts & 4) {
+            lamp->linear = fuzz_value(in, most);
+            lamp->quadratic = fuzz_value(in, most);
+        }
         if (parts & 8) lamp->constant = fuzz_value(in, most);
         if (parts & 16) lamp->spot_direction = fuzz_vec3(in, most);
         if (parts & 32) lamp->spot_exponent = fuzz_value(in, most);
@@ -259,8 +291,10 @@ static void light_scene(fuzz_input *in, int tame)
     }
     m = shade_preset_material((shade_preset)fuzz_int(in, -1, SHADE_PRESET_COUNT));
     if (kind & 64) {
-        m.emission = fuzz_vec3(in, bright), m.diffuse = fuzz_vec3(in, bright);
-        m.specular = fuzz_vec3(in, bright), m.shininess = fuzz_value(in, most);
+        m.emission = fuzz_vec3(in, bright);
+        m.diffuse = fuzz_vec3(in, bright);
+        m.specular = fuzz_vec3(in, bright);
+        m.shininess = fuzz_value(in, most);
     }
     for (int k = 0; k < 5; k++)          /* P, N, albedo, rgb and rgb again */
         rows[k] = (float *)guard_take(3 * SHADE_LANES * sizeof(float), kind >> 7 & 1);
@@ -272,7 +306,8 @@ static void light_scene(fuzz_input *in, int tame)
         rows[3][i] = rows[4][i] = -1;
     }
     for (int k = 0; k < 3; k++) guard_seal(rows[k]);
-    albedo = kind & 4 ? rows[2] : NULL, given = kind & 8 ? &m : NULL;
+    albedo = kind & 4 ? rows[2] : NULL;
+    given = kind & 8 ? &m : NULL;
     seen = light_visibility(in, l.light_count, bright);
     lit_rows(&l, given, eye, rows[0], rows[1], albedo, seen, rows[3]);
     fuzz_level = (fuzz_level + 1) % (fuzz_widest() + 1);

@@ -16,6 +16,7 @@ static shade_result lines_call(void *user, const shade_target *target, shade_sta
     lines_scene *s = (lines_scene *)user;
     return shade_draw_lines(target, s->points, s->point_count, s->given, stats);
 }
+
 static shade_vec3 lines_point(fuzz_input *in, shade_vec3 before)
 {
     static const float away[] = { 1e5f, 1e6f, 1e9f, 1e12f, 1e20f, 1e30f, 3e38f, INFINITY };
@@ -23,7 +24,8 @@ static shade_vec3 lines_point(fuzz_input *in, shade_vec3 before)
     float x, y;
     if (kind >= 192) { /* straight, or askew, far away */
         float far = away[kind & 7];
-        x = (float)fuzz_byte(in) / 64 - 2, y = (float)fuzz_byte(in) / 64 - 2;
+        x = (float)fuzz_byte(in) / 64 - 2;
+        y = (float)fuzz_byte(in) / 64 - 2;
         if (kind & 8) before.x = far < 1e38f ? x * far : x < 0 ? -far : far;
         if (kind & 16) before.y = far < 1e38f ? y * far : y < 0 ? -far : far;
         if (kind & 32) before.z += x;
@@ -31,7 +33,8 @@ static shade_vec3 lines_point(fuzz_input *in, shade_vec3 before)
     }
     switch (kind % 4) {
     case 0:
-        x = (float)fuzz_byte(in) / 64 - 2, y = (float)fuzz_byte(in) / 64 - 2;
+        x = (float)fuzz_byte(in) / 64 - 2;
+        y = (float)fuzz_byte(in) / 64 - 2;
         return shade_v3(x, y, (float)fuzz_byte(in) / 100 - 1.28f);
     case 1:
         x = (float)((int)fuzz_byte(in) - 128) / 64;
@@ -72,14 +75,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     points = (shade_vec3 *)guard_take((size_t)n * sizeof *points, kind & 1);
     for (int i = 0; i < n; i++) before = points[i] = lines_point(&in, before);
     guard_seal(points);
-    s.points = points, s.point_count = n;
+    s.points = points;
+    s.point_count = n;
     if (fuzz_one_in(&in, 64)) {
         s.point_count = fuzz_int(&in, -3, 2);
         if (s.point_count <= 0 && fuzz_one_in(&in, 2)) s.points = NULL;
     }
     if (want == SHADE_OK && (s.point_count < 0 || s.point_count % 2)) want = SHADE_ERROR_MESH;
     if (want == SHADE_OK && bad) want = SHADE_ERROR_STATE;
-    if (fuzz_one_in(&in, 128)) s.given = NULL, want = SHADE_ERROR_ARGUMENT;
+    if (fuzz_one_in(&in, 128)) {
+        s.given = NULL;
+        want = SHADE_ERROR_ARGUMENT;
+    }
     picture_try(&in, &pic, lines_call, NULL, &s, want, s.point_count,
                 s.state.raster.depth_read_only);
     picture_close(&pic);

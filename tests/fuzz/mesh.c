@@ -23,6 +23,7 @@ static void mesh_explained(const mesh_scene *s, const shade_target *target,
     HOLDS(with && without);
     HOLDS(result == SHADE_OK || (*with && *without));
 }
+
 static shade_result mesh_call(void *user, const shade_target *target, shade_stats *stats)
 {
     mesh_scene *s = (mesh_scene *)user;
@@ -31,6 +32,7 @@ static shade_result mesh_call(void *user, const shade_target *target, shade_stat
     mesh_explained(s, target, stats, result);
     return result;
 }
+
 /* A fragment shader of the state: what it is handed, then colours and holes made of it. */
 static void mesh_check_fragment(const mesh_scene *s, const shade_fragments *in, int i)
 {
@@ -47,6 +49,7 @@ static void mesh_check_fragment(const mesh_scene *s, const shade_fragments *in, 
         HOLDS(i <= last || fuzz_same(v, in->varying[k][last]));
     }
 }
+
 static void mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                           shade_colors *SHADE_RESTRICT out)
 {
@@ -58,6 +61,7 @@ static void mesh_fragment(const void *uniforms, const shade_fragments *SHADE_RES
         out->discard[i] = in->varying[10][i] > 0.5f ? in->primitive[i] : 0;
     }
 }
+
 /* The same triangles in another shading, or into depth alone: the same alpha, the same depth. */
 static shade_result mesh_otherwise(void *user, const shade_target *target, shade_stats *stats)
 {
@@ -67,7 +71,8 @@ static shade_result mesh_otherwise(void *user, const shade_target *target, shade
     shade_result result;
     if (t.depth && state.shading == SHADE_SHADING_PER_FACE) t.color = NULL;
     s->s.shading = (shade_shading)((state.shading + 1) % 3);
-    s->s.lighting.model = SHADE_MODEL_EMISSIVE, s->s.raster.blend = SHADE_BLEND_REPLACE;
+    s->s.lighting.model = SHADE_MODEL_EMISSIVE;
+    s->s.raster.blend = SHADE_BLEND_REPLACE;
     result = shade_draw_mesh(&t, s->mesh, s->state, stats);
     s->s = state;
     return result;
@@ -96,6 +101,7 @@ static const float *mesh_array(fuzz_input *in, int count, int floats, float most
     guard_seal(a);
     return a;
 }
+
 static shade_light mesh_light(fuzz_input *in, float most)
 {
     shade_light l;
@@ -109,30 +115,40 @@ static shade_light mesh_light(fuzz_input *in, float most)
         l = shade_spot_light(p, aim, cutoff, fuzz_value(in, most), c);
     }
     if (kind & 4) l.ambient = fuzz_vec3(in, most > 0 ? 100.0f : 0);
-    if (kind & 8) l.constant = fuzz_value(in, most), l.linear = fuzz_value(in, most);
+    if (kind & 8) {
+        l.constant = fuzz_value(in, most);
+        l.linear = fuzz_value(in, most);
+    }
     if (kind & 16) l.quadratic = fuzz_value(in, most);
     if (most > 0) {                      /* attenuation without a pole */
-        l.constant = l.constant < 0 ? 1 : l.constant, l.linear = l.linear < 0 ? 0 : l.linear;
+        l.constant = l.constant < 0 ? 1 : l.constant;
+        l.linear = l.linear < 0 ? 0 : l.linear;
         l.quadratic = l.quadratic < 0 ? 0 : l.quadratic;
         if (l.constant < 1 && (l.linear > 0 || l.quadratic > 0)) l.constant = 1;
     }
     if ((kind & 32) && !(most > 0)) l.position.w = fuzz_float(in);
     return l;
 }
+
 static int mesh_lighting(fuzz_input *in, mesh_scene *s, float most)    /* 0: refused */
 {
     shade_lighting *l = &s->s.lighting;
     uint32_t kind = fuzz_byte(in);
     int bad = 0;
     l->model = (shade_model)fuzz_enum(in, 6, &bad);
-    l->flags = fuzz_byte(in), l->terms = kind & 1 ? fuzz_byte(in) : 0;
+    l->flags = fuzz_byte(in);
+    l->terms = kind & 1 ? fuzz_byte(in) : 0;
     if (kind & 2) l->ambient = fuzz_vec3(in, most > 0 ? 100.0f : 0);
     if (kind & 4) l->cool = fuzz_vec3(in, most > 0 ? 100.0f : 0);
     if (kind & 8) l->warm = fuzz_vec3(in, most > 0 ? 100.0f : 0);
-    l->light_count = fuzz_int(in, 0, MESH_LIGHTS), l->lights = s->lights;
+    l->light_count = fuzz_int(in, 0, MESH_LIGHTS);
+    l->lights = s->lights;
     for (int i = 0; i < l->light_count; i++) s->lights[i] = mesh_light(in, most);
     if (kind == 0xF0) l->light_count = -l->light_count;
-    if ((kind & 0xF0) == 0xE0) l->lights = NULL, bad |= l->light_count > 0;
+    if ((kind & 0xF0) == 0xE0) {
+        l->lights = NULL;
+        bad |= l->light_count > 0;
+    }
     if (!(kind & 16)) return !bad;
     s->s.material = &s->material;
     if (fuzz_one_in(in, 2)) {
@@ -146,6 +162,7 @@ static int mesh_lighting(fuzz_input *in, mesh_scene *s, float most)    /* 0: ref
     s->material.shininess = fuzz_value(in, most);
     return !bad;
 }
+
 static int mesh_map(fuzz_input *in, mesh_scene *s, int tame)    /* 0: refused */
 {
     uint32_t kind = fuzz_byte(in);
@@ -160,9 +177,13 @@ static int mesh_map(fuzz_input *in, mesh_scene *s, int tame)    /* 0: refused */
         if (!tame && (kind & 4) && s->map.mipmap_count > 1)    /* a level of another kind */
             s->levels[fuzz_int(in, 0, s->map.mipmap_count - 1)] = texture_open(in, 10, 0);
     }
-    if (!tame && (kind & 8)) s->map.mipmaps = NULL, s->map.mipmap_count = fuzz_wild_int(in);
+    if (!tame && (kind & 8)) {
+        s->map.mipmaps = NULL;
+        s->map.mipmap_count = fuzz_wild_int(in);
+    }
     return !s->m.texcoords || texture_is_good(&s->map);
 }
+
 static void mesh_arrays(fuzz_input *in, mesh_scene *s, float most, int *bad_index)
 {
     shade_mesh *m = &s->m;
@@ -192,6 +213,7 @@ static void mesh_arrays(fuzz_input *in, mesh_scene *s, float most, int *bad_inde
         *bad_index = m->vertex_count % 3;
     }
 }
+
 static int mesh_alpha(fuzz_input *in, mesh_scene *s) /* 0: refused */
 {
     uint32_t kind = fuzz_byte(in);
@@ -201,6 +223,7 @@ static int mesh_alpha(fuzz_input *in, mesh_scene *s) /* 0: refused */
     if ((kind & 7) == 7) *cutoff = 1 - *t; /* equal alpha is drawn */
     return *t >= 0 && *t <= 1 && *cutoff >= 0 && *cutoff <= 1;
 }
+
 static int mesh_shader(fuzz_input *in, mesh_scene *s)    /* 0: refused */
 {
     if (!fuzz_one_in(in, 4)) return 1;
@@ -209,6 +232,7 @@ static int mesh_shader(fuzz_input *in, mesh_scene *s)    /* 0: refused */
     if (!fuzz_one_in(in, 8)) s->s.shading = SHADE_SHADING_PER_FRAGMENT;
     return s->s.shading == SHADE_SHADING_PER_FRAGMENT;
 }
+
 /* One field that has to be refused: its result, or SHADE_OK where nothing was spoilt. */
 static shade_result mesh_spoil(fuzz_input *in, mesh_scene *s)
 {
@@ -226,13 +250,15 @@ static shade_result mesh_spoil(fuzz_input *in, mesh_scene *s)
     }
     return SHADE_OK;
 }
+
 /* Tame scenes give finite colours, drawn over finite ones. */
 static void mesh_finite(const picture *p, const shade_target *t)
 {
     if (t->format != SHADE_FORMAT_RGBA32F || !p->color) return;
     for (size_t i = 0; i < p->color_bytes; i += 4) {
         float now, before;
-        memcpy(&now, p->color + i, 4), memcpy(&before, p->before + i, 4);
+        memcpy(&now, p->color + i, 4);
+        memcpy(&before, p->before + i, 4);
         HOLDS(fuzz_finite(now) || !fuzz_finite(before));
     }
 }
@@ -242,6 +268,7 @@ static void mesh_stats(const shade_stats *t)
     HOLDS(t->skipped >= 0 && t->fragments >= 0);
     HOLDS(t->triangles == t->skipped + t->culled + t->clipped + t->rejected + t->drawn);
 }
+
 /* Lists of any chunks: refused where one lies outside of the triangles, else drawn, whatever the
    boxes are and however often a triangle is named. */
 static void mesh_hostile(fuzz_input *in, picture *p, mesh_scene *s, int triangles)
@@ -271,6 +298,7 @@ static void mesh_hostile(fuzz_input *in, picture *p, mesh_scene *s, int triangle
     mesh_stats(&stats);
     HOLDS(stats.triangles == (want == SHADE_OK ? sum : 0));
 }
+
 /* With the chunks of the mesh: the same picture, the same fragments. */
 static void mesh_chunks(fuzz_input *in, picture *p, mesh_scene *s, int triangles)
 {
@@ -308,17 +336,22 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     pic.one_width = !(most > 0);
     want = pic.want;
     memset(&s, 0, sizeof s);
-    s.mesh = &s.m, s.state = &s.s;
+    s.mesh = &s.m;
+    s.state = &s.s;
     s.tame = most > 0;
-    s.s.model = fuzz_matrix(&in, most), s.s.view = fuzz_matrix(&in, most);
+    s.s.model = fuzz_matrix(&in, most);
+    s.s.view = fuzz_matrix(&in, most);
     s.s.projection = fuzz_matrix(&in, most);
     s.s.shading = (shade_shading)fuzz_enum(&in, 3, &bad);
     s.s.raster.cull = (shade_cull)fuzz_enum(&in, 3, &bad);
     s.s.raster.depth_test = (shade_compare)fuzz_enum(&in, 6, &bad);
     s.s.raster.blend = (shade_blend)fuzz_enum(&in, 3, &bad);
-    s.s.raster.depth_zero_to_one = kind >> 1 & 1, s.s.raster.depth_read_only = kind >> 2 & 1;
-    if (kind & 8)
-        s.s.raster.depth_bias = fuzz_float(&in), bad |= !fuzz_finite(s.s.raster.depth_bias);
+    s.s.raster.depth_zero_to_one = kind >> 1 & 1;
+    s.s.raster.depth_read_only = kind >> 2 & 1;
+    if (kind & 8) {
+        s.s.raster.depth_bias = fuzz_float(&in);
+        bad |= !fuzz_finite(s.s.raster.depth_bias);
+    }
     good_light = mesh_lighting(&in, &s, most);
     mesh_arrays(&in, &s, most, &bad_index);
     if (kind & 16) good_map = mesh_map(&in, &s, most > 0);
@@ -333,8 +366,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         shade_result spoilt = mesh_spoil(&in, &s);
         if (spoilt != SHADE_OK && want != SHADE_ERROR_TARGET) want = spoilt;
     }
-    if (kind == 0xE0) s.mesh = NULL, want = SHADE_ERROR_ARGUMENT;
-    if (kind == 0xE2) s.state = NULL, want = SHADE_ERROR_ARGUMENT;
+    if (kind == 0xE0) {
+        s.mesh = NULL;
+        want = SHADE_ERROR_ARGUMENT;
+    }
+    if (kind == 0xE2) {
+        s.state = NULL;
+        want = SHADE_ERROR_ARGUMENT;
+    }
     if (kind == 0xE4 && s.m.vertex_count > 0) {
         s.m.positions = NULL;
         if (want != SHADE_ERROR_TARGET) want = SHADE_ERROR_MESH;

@@ -20,6 +20,7 @@ static inline size_t fuzz_pixel_bytes(shade_format format)
     static const uint8_t bytes[FUZZ_TEXTURES] = { 4, 4, 2, 2, 16, 1 };
     return (unsigned)format < FUZZ_TEXTURES ? bytes[format] : 16;
 }
+
 static inline size_t fuzz_cells(int rows, int stride, int width)
 {
     return ((size_t)rows - 1) * (size_t)stride + (size_t)width;
@@ -40,16 +41,25 @@ static inline shade_result picture_verdict(const shade_target *t)
     if (rows * (t->stride ? t->stride : t->width) > 0xFFFFFFFF) return SHADE_ERROR_TARGET;
     return SHADE_OK;
 }
+
 /* The clip rectangle within the rows in memory; 0: empty. */
 static inline int picture_clip(const shade_target *t, int *x0, int *y0, int *x1, int *y1)
 {
     int64_t l = t->clip_x, u = t->clip_y, r = l + t->clip_width, d = u + t->clip_height;
     int64_t top = t->row_offset, bottom = top + (t->row_count ? t->row_count : t->height);
-    if (!t->clip_x && !t->clip_y && !t->clip_width && !t->clip_height) r = t->width, d = bottom;
-    l = l < 0 ? 0 : l, u = u < top ? top : u;
-    r = r > t->width ? t->width : r, d = d > bottom ? bottom : d;
+    if (!t->clip_x && !t->clip_y && !t->clip_width && !t->clip_height) {
+        r = t->width;
+        d = bottom;
+    }
+    l = l < 0 ? 0 : l;
+    u = u < top ? top : u;
+    r = r > t->width ? t->width : r;
+    d = d > bottom ? bottom : d;
     if (l >= r || u >= d) l = r = u = d = 0;
-    *x0 = (int)l, *y0 = (int)u, *x1 = (int)r, *y1 = (int)d;
+    *x0 = (int)l;
+    *y0 = (int)u;
+    *x1 = (int)r;
+    *y1 = (int)d;
     return r > l;
 }
 
@@ -58,39 +68,67 @@ static inline void picture_spoil(fuzz_input *in, shade_target *t)
 {
     int bad = 0;
     switch (fuzz_byte(in) % 15) {
-    case 0: t->width = fuzz_wild_int(in); break;
-    case 1: t->height = fuzz_wild_int(in); break;
-    case 2: t->stride = fuzz_wild_int(in); break;
-    case 3:
-        t->format = (shade_format)fuzz_enum(in, FUZZ_FORMATS, &bad);
-        break;
-    case 4: t->clip_x = fuzz_wild_int(in), t->clip_width = fuzz_wild_int(in); break;
-    case 5: t->clip_y = fuzz_wild_int(in), t->clip_height = fuzz_wild_int(in); break;
-    case 6: t->clip_width = fuzz_wild_int(in); break;
-    case 7: t->row_offset = fuzz_wild_int(in); break;
-    case 8: t->row_count = fuzz_wild_int(in); break;
-    case 9: t->row_offset = fuzz_wild_int(in), t->row_count = fuzz_wild_int(in); break;
-    case 10: t->width = 16384, t->height = 1, t->row_count = t->row_offset = 0; break;
-    case 11: t->width = 1, t->height = 16384, t->row_count = t->row_offset = 0; break;
-    case 12: /* a strip of a tall picture: edges need 64 bits */
-        t->height = 16384, t->row_offset = fuzz_int(in, 0, 16376);
-        t->row_count = fuzz_int(in, 1, 8);
-        break;
-    default: break;
+        case 0: t->width = fuzz_wild_int(in);
+            break;
+        case 1: t->height = fuzz_wild_int(in);
+            break;
+        case 2: t->stride = fuzz_wild_int(in);
+            break;
+        case 3:
+            t->format = (shade_format)fuzz_enum(in, FUZZ_FORMATS, &bad);
+            break;
+        case 4:
+            t->clip_x = fuzz_wild_int(in);
+            t->clip_width = fuzz_wild_int(in);
+            break;
+        case 5:
+            t->clip_y = fuzz_wild_int(in);
+            t->clip_height = fuzz_wild_int(in);
+            break;
+        case 6: t->clip_width = fuzz_wild_int(in);
+            break;
+        case 7: t->row_offset = fuzz_wild_int(in);
+            break;
+        case 8: t->row_count = fuzz_wild_int(in);
+            break;
+        case 9:
+            t->row_offset = fuzz_wild_int(in);
+            t->row_count = fuzz_wild_int(in);
+            break;
+        case 10:
+            t->width = 16384;
+            t->height = 1;
+            t->row_count = t->row_offset = 0;
+            break;
+        case 11:
+            t->width = 1;
+            t->height = 16384;
+            t->row_count = t->row_offset = 0;
+            break;
+        case 12:
+            t->height = 16384;
+            t->row_offset = fuzz_int(in, 0, 16376);
+            t->row_count = fuzz_int(in, 1, 8);
+            break;
+        default: break;
     }
 }
+
 static inline void picture_shape(fuzz_input *in, shade_target *t, int most)
 {
     static uint8_t memory[1];            /* stands for memory in the verdict */
     static float depth[1];
     uint32_t kind = fuzz_byte(in);
     memset(t, 0, sizeof *t);
-    t->width = fuzz_int(in, 1, most), t->height = fuzz_int(in, 1, most);
+    t->width = fuzz_int(in, 1, most);
+    t->height = fuzz_int(in, 1, most);
     t->format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS);
-    t->srgb = kind & 1, t->dither = kind >> 1 & 1;
+    t->srgb = kind & 1;
+    t->dither = kind >> 1 & 1;
     if (kind & 4) t->stride = t->width + fuzz_int(in, 0, 6);
     if (kind & 8) {
-        t->clip_x = fuzz_int(in, -6, t->width + 1), t->clip_width = fuzz_int(in, 0, t->width + 4);
+        t->clip_x = fuzz_int(in, -6, t->width + 1);
+        t->clip_width = fuzz_int(in, 0, t->width + 4);
         t->clip_y = fuzz_int(in, -6, t->height + 1);
         t->clip_height = fuzz_int(in, 0, t->height + 4);
     }
@@ -101,8 +139,12 @@ static inline void picture_shape(fuzz_input *in, shade_target *t, int most)
     if ((kind >> 5) != 1) t->color = memory;
     if ((kind >> 5) != 2) t->depth = depth;
     if ((kind >> 5) == 7 && fuzz_one_in(in, 2)) picture_spoil(in, t);
-    if ((kind >> 5) == 3 && fuzz_one_in(in, 16)) t->color = NULL, t->depth = NULL;
+    if ((kind >> 5) == 3 && fuzz_one_in(in, 16)) {
+        t->color = NULL;
+        t->depth = NULL;
+    }
 }
+
 /* Memory for a target: to its last pixel, or to the end of its last row. */
 static inline void picture_memory(fuzz_input *in, picture *p)
 {
@@ -110,17 +152,24 @@ static inline void picture_memory(fuzz_input *in, picture *p)
     uint32_t kind = fuzz_byte(in);
     size_t cells = 4;
     p->want = picture_verdict(t);
-    p->rows = t->row_count ? t->row_count : t->height, p->stride = t->stride ? t->stride : t->width;
+    p->rows = t->row_count ? t->row_count : t->height;
+    p->stride = t->stride ? t->stride : t->width;
     if (p->want == SHADE_OK && fuzz_cells(p->rows, p->stride, t->width) > GUARD_ROOM / 16) {
-        t->stride = 0, p->stride = t->width;
-        if (fuzz_cells(p->rows, p->stride, t->width) > GUARD_ROOM / 16)
-            t->height = p->rows = 1, t->row_count = t->row_offset = 0;
+        t->stride = 0;
+        p->stride = t->width;
+        if (fuzz_cells(p->rows, p->stride, t->width) > GUARD_ROOM / 16) {
+            t->height = p->rows = 1;
+            t->row_count = t->row_offset = 0;
+        }
     }
     if (p->want == SHADE_OK) {
         cells = fuzz_cells(p->rows, p->stride, t->width);
         if ((kind & 4) && (size_t)p->rows * (size_t)p->stride <= GUARD_ROOM / 16)
             cells = (size_t)p->rows * (size_t)p->stride;
-    } else p->rows = 1, p->stride = 4;
+    } else {
+        p->rows = 1;
+        p->stride = 4;
+    }
     p->color_bytes = t->color ? cells * fuzz_pixel_bytes(t->format) : 0;
     p->depth_bytes = t->depth ? cells * 4 : 0;
     p->color = p->depth = NULL;
@@ -141,12 +190,14 @@ static inline void picture_memory(fuzz_input *in, picture *p)
     if (p->color) memcpy(p->before, p->color, p->color_bytes);
     if (p->depth) memcpy(p->before + p->color_bytes, p->depth, p->depth_bytes);
 }
+
 static inline void picture_open(fuzz_input *in, picture *p, int most)
 {
     p->one_width = 0;
     picture_shape(in, &p->target, most);
     picture_memory(in, p);
 }
+
 static inline void picture_close(picture *p) { free(p->before); }
 
 static inline void picture_keep(picture *p)    /* to after */
@@ -154,16 +205,19 @@ static inline void picture_keep(picture *p)    /* to after */
     if (p->color) memcpy(p->after, p->color, p->color_bytes);
     if (p->depth) memcpy(p->after + p->color_bytes, p->depth, p->depth_bytes);
 }
+
 static inline void picture_restore(picture *p)
 {
     if (p->color) memcpy(p->color, p->before, p->color_bytes);
     if (p->depth) memcpy(p->depth, p->before + p->color_bytes, p->depth_bytes);
 }
+
 static inline int picture_unchanged(const picture *p)
 {
     return (!p->color || !memcmp(p->color, p->before, p->color_bytes)) &&
            (!p->depth || !memcmp(p->depth, p->before + p->color_bytes, p->depth_bytes));
 }
+
 /* Bit for bit what was kept; a NaN among floats may be any NaN. */
 static inline int picture_same(const picture *p)
 {
@@ -172,11 +226,13 @@ static inline int picture_same(const picture *p)
     if (p->target.format != SHADE_FORMAT_RGBA32F) return 0;
     for (size_t i = 0; i < p->color_bytes; i += 4) {
         float a, b;
-        memcpy(&a, p->color + i, 4), memcpy(&b, p->after + i, 4);
+        memcpy(&a, p->color + i, 4);
+        memcpy(&b, p->after + i, 4);
         if (!fuzz_same(a, b)) return 0;
     }
     return 1;
 }
+
 static inline void picture_row_outside(const uint8_t *now, const uint8_t *before, size_t bytes,
                                        size_t at, size_t end, int x0, int x1, size_t cell)
 {
@@ -185,6 +241,7 @@ static inline void picture_row_outside(const uint8_t *now, const uint8_t *before
     HOLDS(!memcmp(now + at, before + at, left - at));
     HOLDS(!memcmp(now + right, before + right, end - right));
 }
+
 /* Nothing outside the clip rectangle has changed, and what changed in depth lies in [0, 1]. */
 static inline void picture_check(const picture *p)
 {
@@ -219,6 +276,7 @@ static inline void picture_stats(const shade_stats *s, long long triangles)
     HOLDS(s->culled + s->clipped + s->rejected + s->drawn == triangles);
     HOLDS(s->fragments >= 0);
 }
+
 /* The clip rectangle in two parts, the later first, gives what the whole gave. */
 static inline void picture_in_parts(fuzz_input *in, picture *p, picture_draw *draw, void *user,
                                     const shade_stats *whole)
@@ -230,11 +288,15 @@ static inline void picture_in_parts(fuzz_input *in, picture *p, picture_draw *dr
     if ((upright ? x1 - x0 : y1 - y0) < 2) return;
     int middle = upright ? fuzz_int(in, x0 + 1, x1 - 1) : fuzz_int(in, y0 + 1, y1 - 1);
     picture_restore(p);
-    part.clip_x = upright ? middle : x0, part.clip_y = upright ? y0 : middle;
-    part.clip_width = x1 - part.clip_x, part.clip_height = y1 - part.clip_y;
+    part.clip_x = upright ? middle : x0;
+    part.clip_y = upright ? y0 : middle;
+    part.clip_width = x1 - part.clip_x;
+    part.clip_height = y1 - part.clip_y;
     HOLDS(draw(user, &part, &b) == SHADE_OK);
-    part.clip_x = x0, part.clip_y = y0;
-    part.clip_width = (upright ? middle : x1) - x0, part.clip_height = (upright ? y1 : middle) - y0;
+    part.clip_x = x0;
+    part.clip_y = y0;
+    part.clip_width = (upright ? middle : x1) - x0;
+    part.clip_height = (upright ? y1 : middle) - y0;
     HOLDS(draw(user, &part, &a) == SHADE_OK);
     HOLDS(picture_same(p));
     HOLDS(a.fragments + b.fragments == whole->fragments);
@@ -242,6 +304,7 @@ static inline void picture_in_parts(fuzz_input *in, picture *p, picture_draw *dr
     HOLDS(a.rejected == whole->rejected && b.rejected == whole->rejected);
     HOLDS(b.culled == whole->culled && b.clipped == whole->clipped && b.drawn == whole->drawn);
 }
+
 /* want: what the contract says of the whole call; then, for some inputs, the same again in another
    vector width, otherwise shaded by twin (NULL: none), and in two parts. */
 static inline void picture_try(fuzz_input *in, picture *p, picture_draw *draw, picture_draw *twin,
@@ -288,6 +351,7 @@ static inline int texture_is_good(const shade_texture *t)
            (int)t->format < FUZZ_TEXTURES && (int)t->wrap_u >= 0 && (int)t->wrap_u <= 2 &&
            (int)t->wrap_v >= 0 && (int)t->wrap_v <= 2 && (int)t->filter >= 0 && (int)t->filter <= 2;
 }
+
 /* Pixels end with the last one.  tame: good, and its floats are in [0, 2). */
 static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
 {
@@ -297,14 +361,17 @@ static inline shade_texture texture_open(fuzz_input *in, int most, int tame)
     size_t cells, bytes;
     uint8_t *pixels;
     memset(&t, 0, sizeof t);
-    t.width = fuzz_int(in, 1, most), t.height = fuzz_int(in, 1, most);
+    t.width = fuzz_int(in, 1, most);
+    t.height = fuzz_int(in, 1, most);
     t.format = (shade_format)(fuzz_byte(in) % FUZZ_TEXTURES);
     t.srgb = kind & 1;
-    t.wrap_u = (shade_wrap)(fuzz_byte(in) % 3), t.wrap_v = (shade_wrap)(fuzz_byte(in) % 3);
+    t.wrap_u = (shade_wrap)(fuzz_byte(in) % 3);
+    t.wrap_v = (shade_wrap)(fuzz_byte(in) % 3);
     t.filter = (shade_filter)(fuzz_byte(in) % 3);
     if (kind & 2) t.stride = t.width + fuzz_int(in, 0, 5);
     if ((kind & 0xF8) == 0xF8) {         /* long ones */
-        t.width = kind & 4 ? 16384 : 1, t.height = kind & 4 ? 1 : fuzz_int(in, 1, 16384);
+        t.width = kind & 4 ? 16384 : 1;
+        t.height = kind & 4 ? 1 : fuzz_int(in, 1, 16384);
         t.stride = 0;
     }
     cells = fuzz_cells(t.height, t.stride ? t.stride : t.width, t.width);

@@ -1,7 +1,7 @@
-/* reader.c - the OBJ, STL and PLY readers of examples/model_read.h: any bytes give a valid model or
-   an error. */
+/* reader.c - the OBJ, STL and PLY readers of examples/model/files.h: any bytes give a valid model
+   or an error. */
 #include "input.h"
-#include "model_read.h"
+#include "examples/model/files.h"
 
 static void reader_check_mesh(const owned_mesh *m)
 {
@@ -17,6 +17,7 @@ static void reader_check_mesh(const owned_mesh *m)
     for (size_t i = 0; m->texcoords && i < 2 * (size_t)v->vertex_count; i++)
         HOLDS(fuzz_finite(m->texcoords[i]));
 }
+
 /* The parts hold every triangle once, each of a surface that is there. */
 static void reader_check_parts(const model *m)
 {
@@ -29,6 +30,7 @@ static void reader_check_parts(const model *m)
     }
     HOLDS(next == m->mesh.view.index_count);
 }
+
 static void reader_check_error(const char *error, size_t size, const char *name)
 {
     size_t length = 0, prefix = strlen(name);
@@ -39,6 +41,7 @@ static void reader_check_error(const char *error, size_t size, const char *name)
     for (size_t i = 0; i < length; i++) HOLDS(error[i] != '\n' && error[i] != '\r');
     if (size > prefix) HOLDS(!strncmp(error, name, prefix));
 }
+
 static int reader_same(const owned_mesh *a, const owned_mesh *b)
 {
     size_t n = (size_t)a->view.vertex_count, i = (size_t)a->view.index_count;
@@ -49,6 +52,7 @@ static int reader_same(const owned_mesh *a, const owned_mesh *b)
            (!a->colors || !memcmp(a->colors, b->colors, 12 * n)) &&
            (!a->texcoords || !memcmp(a->texcoords, b->texcoords, 8 * n));
 }
+
 /* Text says the same with other line ends.  STL and PLY are left out: binary ones are no lines. */
 static void reader_line_ends(const uint8_t *bytes, size_t size, const char *name, int result,
                              const owned_mesh *m)
@@ -91,7 +95,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     model m;
     model_request request = { NULL, error_size, reader_progress, &calls, 0 };
     if (n > GUARD_ROOM) return 0;
-    bytes = (uint8_t *)guard_take(n, kind >> 2 & 1), error = (char *)guard_take(error_size, 1);
+    bytes = (uint8_t *)guard_take(n, kind >> 2 & 1);
+    error = (char *)guard_take(error_size, 1);
     if (n) memcpy(bytes, in.at, n);
     guard_seal(bytes);
     request.error = error_size ? error : NULL;

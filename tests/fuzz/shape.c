@@ -16,6 +16,7 @@ static uint32_t shape_corner(const shade_mesh *m, int i)
 {
     return m->indices ? m->indices[i] : (uint32_t)i;
 }
+
 static shade_vec3 shape_position(const shade_mesh *m, uint32_t v)
 {
     shade_vec3 p;
@@ -23,6 +24,7 @@ static shade_vec3 shape_position(const shade_mesh *m, uint32_t v)
     memcpy(&p, (const char *)m->positions + step * v, 12);
     return p;
 }
+
 /* Nearly the same position: the sign of a zero, or a single bit. */
 static void shape_nudge(shade_vec3 *v, uint32_t kind)
 {
@@ -32,6 +34,7 @@ static void shape_nudge(shade_vec3 *v, uint32_t kind)
     bits ^= bits << 1 ? (kind & 4 ? 1u : kind & 8 ? 0x100u : 0x10000u) : 0x80000000u;
     memcpy(c, &bits, 4);
 }
+
 static shape_mesh shape_open(fuzz_input *in)
 {
     shape_mesh s;
@@ -40,7 +43,8 @@ static shape_mesh shape_open(fuzz_input *in)
     size_t step = kind & 1 ? 12 + 4 * (size_t)fuzz_int(in, 0, 3) : 12;
     char *p = (char *)guard_take(n ? ((size_t)n - 1) * step + 12 : 0, kind >> 1 & 1);
     memset(&s, 0, sizeof s);
-    s.most = kind & 4 ? 1e6f : 0, s.want = SHADE_OK;
+    s.most = kind & 4 ? 1e6f : 0;
+    s.want = SHADE_OK;
     if (n) memset(p, 0xEE, ((size_t)n - 1) * step + 12);
     for (int i = 0; i < n; i++) {
         uint32_t again = fuzz_byte(in);
@@ -51,7 +55,8 @@ static shape_mesh shape_open(fuzz_input *in)
         memcpy(p + step * (size_t)i, &v, 12);
     }
     guard_seal(p);
-    s.m.positions = (float *)(void *)p, s.m.vertex_count = n;
+    s.m.positions = (float *)(void *)p;
+    s.m.vertex_count = n;
     s.m.position_stride = kind & 1 ? (int)step : 0;
     s.corners = n;
     if (kind & 8) {
@@ -64,16 +69,36 @@ static shape_mesh shape_open(fuzz_input *in)
         }
         guard_seal(indices);
     }
-    s.m.indices = indices, s.m.index_count = indices ? s.corners : fuzz_wild_int(in);
+    s.m.indices = indices;
+    s.m.index_count = indices ? s.corners : fuzz_wild_int(in);
     if (s.corners % 3) s.want = SHADE_ERROR_INDEX;
     if ((kind & 0xE0) != 0xE0) return s;
     switch (fuzz_byte(in) % 8) {
-    case 0: s.m.vertex_count = -1, s.want = SHADE_ERROR_MESH; break;
-    case 1: s.m.position_stride = -4, s.want = SHADE_ERROR_MESH; break;
-    case 2: s.m.color_stride = 6, s.want = SHADE_ERROR_MESH; break;
-    case 3: if (n) s.m.positions = NULL, s.want = SHADE_ERROR_MESH; break;
-    case 4: if (indices) s.m.index_count = -3, s.want = SHADE_ERROR_MESH; break;
-    default: break;
+        case 0:
+            s.m.vertex_count = -1;
+            s.want = SHADE_ERROR_MESH;
+            break;
+        case 1:
+            s.m.position_stride = -4;
+            s.want = SHADE_ERROR_MESH;
+            break;
+        case 2:
+            s.m.color_stride = 6;
+            s.want = SHADE_ERROR_MESH;
+            break;
+        case 3:
+            if (n) {
+                s.m.positions = NULL;
+                s.want = SHADE_ERROR_MESH;
+            }
+            break;
+        case 4:
+            if (indices) {
+                s.m.index_count = -3;
+                s.want = SHADE_ERROR_MESH;
+            }
+            break;
+        default: break;
     }
     return s;
 }
@@ -86,6 +111,7 @@ static void shape_check_normals(const shape_mesh *s, const shade_vec3 *n, int co
         HOLDS(l == 0 || fabsf(l - 1) < 1e-4f);
     }
 }
+
 static void shape_normals(fuzz_input *in, const shape_mesh *s)
 {
     uint32_t kind = fuzz_byte(in);
@@ -96,16 +122,19 @@ static void shape_normals(fuzz_input *in, const shape_mesh *s)
     HOLDS(shade_mesh_normals(&s->m, out) == s->want);
     if (s->want == SHADE_OK) shape_check_normals(s, out, n);
 }
+
 static shade_vec3 shape_at(const shape_mesh *s, int corner)
 {
     return shape_position(&s->m, shape_corner(&s->m, corner));
 }
+
 static shade_vec3 shape_face(const shape_mesh *s, int t)
 {
     shade_vec3 n =
         shade_face_normal(shape_at(s, 3 * t), shape_at(s, 3 * t + 1), shape_at(s, 3 * t + 2));
     return shade_dot(n, n) <= 2 ? n : shade_v3(0, 0, 0);
 }
+
 static double shape_angle(const shape_mesh *s, int corner)
 {
     int t = corner / 3 * 3, k = corner % 3;
@@ -114,6 +143,7 @@ static double shape_angle(const shape_mesh *s, int corner)
     shade_vec3 b = shade_normalize(shade_sub(shape_at(s, t + (k + 2) % 3), p));
     return atan2((double)shade_length(shade_cross(a, b)), (double)shade_dot(a, b));
 }
+
 /* Every pair of corners: where the mean is not next to nothing, it is what all of them say. */
 static void shape_check_corner_normals(const shape_mesh *s, float crease, const shade_vec3 *got)
 {
@@ -126,8 +156,10 @@ static void shape_check_corner_normals(const shape_mesh *s, float crease, const 
             if (i != j && !(p.x == q.x && p.y == q.y && p.z == q.z)) continue;
             if (i != j && !(shade_dot(n, other) >= crease)) continue;
             if (!(angle >= 0)) angle = 0; /* beside a corner that is not finite */
-            mean[0] += angle * (double)other.x, mean[1] += angle * (double)other.y;
-            mean[2] += angle * (double)other.z, weights += angle;
+            mean[0] += angle * (double)other.x;
+            mean[1] += angle * (double)other.y;
+            mean[2] += angle * (double)other.z;
+            weights += angle;
         }
         length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
         if (!(length > 1e-3 * weights && length > 1e-6)) continue;
@@ -136,6 +168,7 @@ static void shape_check_corner_normals(const shape_mesh *s, float crease, const 
         HOLDS(fabs((double)got[i].z - mean[2] / length) < 1e-3);
     }
 }
+
 static void shape_corner_normals(fuzz_input *in, const shape_mesh *s)
 {
     uint32_t kind = fuzz_byte(in);
@@ -155,6 +188,7 @@ static void shape_corner_normals(fuzz_input *in, const shape_mesh *s)
     shape_check_normals(s, out, s->corners);
     if (s->corners <= 48) shape_check_corner_normals(s, crease, out);
 }
+
 /* How many entries of an edge name a triangle */
 static int shape_named(const shade_edge *edges, int count, uint32_t a, uint32_t b, int triangle)
 {
@@ -164,6 +198,7 @@ static int shape_named(const shade_edge *edges, int count, uint32_t a, uint32_t 
             named += (edges[i].triangle[0] == triangle) + (edges[i].triangle[1] == triangle);
     return named;
 }
+
 static void shape_edges(fuzz_input *in, const shape_mesh *s)
 {
     uint32_t kind = fuzz_byte(in);
@@ -193,6 +228,7 @@ static void shape_edges(fuzz_input *in, const shape_mesh *s)
         HOLDS(shape_named(edges, count, a, b, i / 3) == (a != b));
     }
 }
+
 /* Whether a triangle's three points lie on a line: (b - a) x (c - a) = 0 in doubles. */
 static int shape_flat(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
@@ -201,6 +237,7 @@ static int shape_flat(shade_vec3 a, shade_vec3 b, shade_vec3 c)
     double ez = (double)b.z - (double)a.z, fz = (double)c.z - (double)a.z;
     return ey * fz == ez * fy && ez * fx == ex * fz && ex * fy == ey * fx;
 }
+
 /* Whether a ray lies in the plane of a triangle but for a millionth, or t is denormal: rounding
    decides where it is hit, and pick lets go what it would hit beside its box. */
 static int shape_grazes(shade_ray ray, const shade_vec3 *p, float t)
@@ -208,9 +245,12 @@ static int shape_grazes(shade_ray ray, const shade_vec3 *p, float t)
     double e[3], f[3], d[3] = { (double)ray.direction.x, (double)ray.direction.y,
                                 (double)ray.direction.z };
     double det = 0, ee = 0, ff = 0, dd = 0;
-    e[0] = (double)p[1].x - (double)p[0].x, f[0] = (double)p[2].x - (double)p[0].x;
-    e[1] = (double)p[1].y - (double)p[0].y, f[1] = (double)p[2].y - (double)p[0].y;
-    e[2] = (double)p[1].z - (double)p[0].z, f[2] = (double)p[2].z - (double)p[0].z;
+    e[0] = (double)p[1].x - (double)p[0].x;
+    f[0] = (double)p[2].x - (double)p[0].x;
+    e[1] = (double)p[1].y - (double)p[0].y;
+    f[1] = (double)p[2].y - (double)p[0].y;
+    e[2] = (double)p[1].z - (double)p[0].z;
+    f[2] = (double)p[2].z - (double)p[0].z;
     for (int k = 0; k < 3; k++) {
         const int a = (k + 1) % 3, b = (k + 2) % 3;
         det += d[k] * (e[a] * f[b] - e[b] * f[a]);
@@ -220,6 +260,7 @@ static int shape_grazes(shade_ray ray, const shade_vec3 *p, float t)
     }
     return !(fabs(det) > 1e-6 * sqrt(ee) * sqrt(ff) * sqrt(dd)) || (t > 0 && t < 1e-30f);
 }
+
 /* The nearest of the triangles with an area that shade_intersect hits, of equal ones the first. */
 static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
 {
@@ -240,7 +281,11 @@ static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
             if (shape_flat(shape_at(s, 3 * i), shape_at(s, 3 * i + 1), shape_at(s, 3 * i + 2)))
                 continue;    /* rounding may have parted the points as they were turned */
             unsure |= shape_grazes(ray, p, at);
-            if (found < 0 || at < nearest) found = i, nearest = at, want = inside;
+            if (found < 0 || at < nearest) {
+                found = i;
+                nearest = at;
+                want = inside;
+            }
         }
     }
     got = shade_pick(&s->m, model, ray, kind & 4 ? NULL : &t, kind & 8 ? NULL : &where);
@@ -253,6 +298,7 @@ static void shape_pick(fuzz_input *in, const shape_mesh *s, shade_ray ray)
     HOLDS(t == (kind & 4 ? -7 : nearest));
     HOLDS(kind & 8 ? where.x == -7 : !memcmp(&where, &want, sizeof want));
 }
+
 /* With chunks, in the order of the mesh or sorted: the same triangle, the same place. */
 static void shape_chunks(fuzz_input *in, const shape_mesh *s, shade_ray ray)
 {
@@ -283,6 +329,7 @@ static void shape_chunks(fuzz_input *in, const shape_mesh *s, shade_ray ray)
     HOLDS(shade_pick(&m, model, ray, &u, &b) == found);
     HOLDS(t == u && !memcmp(&a, &b, sizeof a));
 }
+
 static void shape_rays(fuzz_input *in, const shape_mesh *s)
 {
     uint32_t kind = fuzz_byte(in);
@@ -295,7 +342,10 @@ static void shape_rays(fuzz_input *in, const shape_mesh *s)
     l = shade_length(ray.direction);
     if (most > 0 && fuzz_is_no_camera(projection)) HOLDS(l == 0);
     if (most > 0 && fuzz_finite3(ray.direction)) HOLDS(l == 0 || fabsf(l - 1) < 1e-4f);
-    if (kind & 8) ray.origin = fuzz_vec3(in, most), ray.direction = fuzz_vec3(in, most);
+    if (kind & 8) {
+        ray.origin = fuzz_vec3(in, most);
+        ray.direction = fuzz_vec3(in, most);
+    }
     shape_pick(in, s, ray);
     shape_chunks(in, s, ray);
     for (int i = 0; s->want == SHADE_OK && i + 2 < s->corners; i += 3) {
@@ -321,8 +371,11 @@ static void shape_resolve(fuzz_input *in)
     big.target = out.target;
     big.target.clip_x = big.target.clip_y = big.target.clip_width = big.target.clip_height = 0;
     if (out.want == SHADE_OK && out.target.width <= 40 && out.target.height <= 40) {
-        big.target.width *= factor, big.target.height *= factor, big.target.stride = 0;
-        big.target.row_count *= factor, big.target.row_offset *= factor;
+        big.target.width *= factor;
+        big.target.height *= factor;
+        big.target.stride = 0;
+        big.target.row_count *= factor;
+        big.target.row_offset *= factor;
         big.target.format = (shade_format)(fuzz_byte(in) % FUZZ_FORMATS);
         big.target.srgb = fuzz_byte(in) & 1;
         if (fuzz_one_in(in, 4)) big.target.stride = big.target.width + fuzz_int(in, 0, 5);
@@ -341,7 +394,8 @@ static void shape_resolve(fuzz_input *in)
     if (want != SHADE_OK) HOLDS(picture_unchanged(&out));
     else picture_check(&out);
     if (out.depth) HOLDS(!memcmp(out.depth, out.before + out.color_bytes, out.depth_bytes));
-    picture_close(&out), picture_close(&big);
+    picture_close(&out);
+    picture_close(&big);
 }
 
 /* A picture in another format of equal pixels, where it lies: as into a picture of its own. */
@@ -353,7 +407,8 @@ static void shape_convert(fuzz_input *in)
     uint32_t kind;
     uint8_t *copy;
     picture_open(in, &p, 24);
-    kind = fuzz_byte(in), from = apart = p.target;
+    kind = fuzz_byte(in);
+    from = apart = p.target;
     if (p.want == SHADE_OK && p.color) {
         if (kind & 1) from.format = (shade_format)twin[from.format];
         if (kind & 2) from.srgb = !from.srgb;
@@ -384,9 +439,11 @@ static int shape_write(void *user, const void *bytes, size_t size)
     const uint8_t *p = (const uint8_t *)bytes;
     uint32_t sum = 0;
     for (size_t i = 0; i < size; i++) sum += p[i];    /* touches all of them */
-    s->calls++, s->bytes += size;
+    s->calls++;
+    s->bytes += size;
     return s->bytes > s->fails_at ? 1 + (int)(sum & 1) : 0;
 }
+
 static void shape_clear_and_encode(fuzz_input *in)
 {
     picture p;

@@ -1,7 +1,7 @@
-/* surface.c - the MTL reader of examples/mtl.h: any bytes fill the surfaces of a model with colours
-   that can be drawn, or stop with an error. */
+/* surface.c - the MTL reader of examples/model/mtl.h: any bytes fill the surfaces of a model
+   with colours that can be drawn, or stop with an error. */
 #include "input.h"
-#include "mtl.h"
+#include "examples/model/mtl.h"
 
 static void surface_check(const model_surface *s)
 {
@@ -30,7 +30,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size) memcpy(bytes, data, size);
     guard_seal(bytes);
     for (int i = 0; i < 3; i++) HOLDS(model_find_surface(&m, names[i], strlen(names[i]), 1) == i);
-    r.at = r.begin = bytes, r.end = bytes + size;
+    r.at = r.begin = bytes;
+    r.end = bytes + size;
     error[0] = 0;
     failed = mtl_read(&r, &m);
     HOLDS(m.surface_count == 3);

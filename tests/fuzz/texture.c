@@ -32,13 +32,16 @@ static void texture_mipmaps(fuzz_input *in, shade_texture *t, shade_texture *lev
     HOLDS(!memcmp(memory + bytes, copy + bytes, ((bytes + 3) & ~(size_t)3) - bytes));
     free(copy);
     HOLDS(t->mipmaps == levels && t->mipmap_count == count);
-    w = t->width, h = t->height;
+    w = t->width;
+    h = t->height;
     for (int k = 0; k < count; k++) {
-        w = w / 2 > 1 ? w / 2 : 1, h = h / 2 > 1 ? h / 2 : 1;
+        w = w / 2 > 1 ? w / 2 : 1;
+        h = h / 2 > 1 ? h / 2 : 1;
         HOLDS(levels[k].width == w && levels[k].height == h && texture_is_good(&levels[k]));
     }
     HOLDS(w == 1 && h == 1);
 }
+
 static int texture_nan_free(const shade_texture *t)
 {
     if (t->format != SHADE_FORMAT_RGBA32F) return 1;
@@ -69,9 +72,11 @@ static void texture_turned(const shade_texture *t, const float *u, const float *
     if (!to) exit(2);
     for (size_t i = 0; i < cells * bytes; i += bytes) {
         memcpy(to + i, from + i, bytes);
-        to[i] = from[i + bytes / 2], to[i + bytes / 2] = from[i];
+        to[i] = from[i + bytes / 2];
+        to[i + bytes / 2] = from[i];
     }
-    turned.pixels = to, turned.format = other[t->format];
+    turned.pixels = to;
+    turned.format = other[t->format];
     shade_sample_lanes(&turned, u, v, NULL, again);
     for (int i = 0; i < 4 * SHADE_LANES; i++) HOLDS(again[i] == rgba[i]);
     free(to);
@@ -91,11 +96,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (kind & 16) texture_mipmaps(&in, &t, levels);
     if ((kind & 32) && t.mipmap_count > 0)
         levels[fuzz_int(&in, 0, t.mipmap_count - 1)] = texture_open(&in, 8, (int)(kind & 1));
-    if ((kind & 0xC0) == 0xC0) t.mipmaps = NULL, t.mipmap_count = fuzz_wild_int(&in);
-    good = texture_is_good(&t), bounded = good && texture_nan_free(&t);
+    if ((kind & 0xC0) == 0xC0) {
+        t.mipmaps = NULL;
+        t.mipmap_count = fuzz_wild_int(&in);
+    }
+    good = texture_is_good(&t);
+    bounded = good && texture_nan_free(&t);
     for (int k = 0; t.mipmaps && k < t.mipmap_count; k++)
         if (texture_is_good(&levels[k])) bounded = bounded && texture_nan_free(&levels[k]);
-    u = (float *)guard_take(rows, kind >> 3 & 1), v = (float *)guard_take(rows, kind >> 3 & 1);
+    u = (float *)guard_take(rows, kind >> 3 & 1);
+    v = (float *)guard_take(rows, kind >> 3 & 1);
     lod = (float *)guard_take(rows, kind >> 4 & 1);
     rgba = (float *)guard_take(4 * rows, kind >> 3 & 1);
     again = (float *)guard_take(4 * rows, kind >> 4 & 1);
@@ -106,7 +116,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             v[i] = i % 4 ? v[i - 1] + 0.37f : fuzz_float(&in);
             lod[i] = i % 4 ? lod[i - 1] + 0.6f : fuzz_float(&in);
         }
-        fuzz_noise(rgba, 4 * rows, kind), fuzz_noise(again, 4 * rows, kind + 1);
+        fuzz_noise(rgba, 4 * rows, kind);
+        fuzz_noise(again, 4 * rows, kind + 1);
         if (good && !round) {
             shade_sample_lanes(&t, u, v, NULL, rgba);
             texture_turned(&t, u, v, rgba);

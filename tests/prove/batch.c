@@ -18,6 +18,7 @@ static void any_incoming(shade__incoming *in, int vertices)
         in->slot_of[i] = Frama_C_unsigned_char_interval(0, (unsigned char)(vertices - 1));
     }
 }
+
 /* the last triangles of a list, into the last corners that are free: both arrays end with them */
 static void prove_take(int most, int room)
 {
@@ -39,6 +40,7 @@ static void prove_take(int most, int room)
         /*@ assert d.u.in.slot_of[i] < room + 3; */
     }
 }
+
 /* another range wherever it lies; or none */
 static int anywhere(shade__draw *to)
 {
@@ -46,6 +48,7 @@ static int anywhere(shade__draw *to)
     to->supply->end = ANY_OF(0, TOP);
     return ANY_OF(0, 1);
 }
+
 static void prove_batch(int stride, int vertices)
 {
     any_incoming(&d.u.in, vertices);
@@ -57,8 +60,9 @@ static void prove_batch(int stride, int vertices)
     /*@ assert 0 <= d.u.in.ids.count <= vertices; */
     /*@ assert 0 <= d.batch.count <= SHADE__BATCH_TRIANGLES; */
     /*@ assert 0 <= d.batch.parts <= SHADE__PARTS; */
-    /*@ assert d.packet.count == 0; */
+    /*@ assert d.setup.count == 0; */
 }
+
 /* as many vertices as there is room for: fewer touch less */
 static void prove_gather(int varyings, int again, int divided)
 {
@@ -75,6 +79,7 @@ static void prove_gather(int varyings, int again, int divided)
                   &vertices, &placed, &d.batch);
     /*@ assert d.batch.corner[0] == 0; */
 }
+
 int main(void)
 {
     for (int varyings = 0; varyings <= SHADE_MAX_VARYINGS; varyings++) {

@@ -16,6 +16,7 @@ static float position[9 * TRIANGLES];
 static uint32_t list[3 * TRIANGLES];
 
 static shade_vec3 any_vector(void) { return shade_v3(any_float(), any_float(), any_float()); }
+
 static void prove_view(void)
 {
     shade_mat4 m;
@@ -31,6 +32,7 @@ static void prove_view(void)
     shade__frustum_of(&target, &m, ANY_OF(0, 1), &frustum);
     shade__in_view(&frustum, any_vector(), any_vector());
 }
+
 static void prove_next(void)
 {
     supply.chunks = 4;
@@ -48,6 +50,7 @@ static void prove_next(void)
     shade__next_chunk(&d);
     /*@ assert 0 <= supply.chunks <= 3; */
 }
+
 static void prove_make(void)
 {
     shade_chunk made;
@@ -66,6 +69,7 @@ static void prove_make(void)
     shade__partition(&mesh, list, count, ANY_OF(0, 2),
                      Frama_C_unsigned_int_interval(0, UINT32_MAX));
 }
+
 int main(void)
 {
     prove_view();

@@ -16,6 +16,7 @@ static void prove_fill(void)
         shade__fill((uint8_t *)(memory + 300) - n, pattern, n);
     /*@ assert memory[300] == 0xA5A5A5A5; */
 }
+
 /* 5 x 3 pixels, 6 from row to row, whose memory ends with the last one */
 static void prove_clear(shade_format format)
 {
@@ -40,6 +41,7 @@ static void prove_clear(shade_format format)
         }
     }
 }
+
 int main(void)
 {
     prove_fill();

@@ -24,6 +24,7 @@ static void any_polygon(void)
     plan.half_width = Frama_C_float_interval(128, 2097152);
     plan.half_height = Frama_C_float_interval(128, 2097152);
 }
+
 static void prove_plane(uint32_t plane)
 {
     p.count = ANY_OF(0, SHADE__CLIP_VERTICES);
@@ -33,6 +34,7 @@ static void prove_plane(uint32_t plane)
         /*@ assert p.corner[i] < SHADE__CLIP_VERTICES; */
     }
 }
+
 /* the window position of a corner, w by octaves from 2^-60 to 2^100, and where it is too small */
 static void prove_place(float w)
 {
@@ -43,14 +45,17 @@ static void prove_place(float w)
     /*@ assert -16777216 <= p.vertex[12].x <= 16777216; */
     /*@ assert -16777216 <= p.vertex[12].y <= 16777216; */
 }
+
 static void prove_fan(int count)
 {
     p.count = count;
     const int64_t area = shade__fan_area(&p, ANY_OF(0, count - 1), ANY_OF(1, count - 2));
     /*@ assert -2251799813685248 <= area <= 2251799813685248; */
-    const int apex = shade__apex(&p, area);
+    p.area = area;
+    const int apex = shade__apex(&p);
     /*@ assert 0 <= apex < count; */
 }
+
 int main(void)
 {
     any_polygon();

@@ -19,6 +19,7 @@ static void any_mesh(int corners)
     mesh.indices = list + (CORNERS - corners);
     mesh.index_count = corners;
 }
+
 static void prove_sort(int edges, uint32_t count)
 {
     static uint32_t order[CORNERS], other[CORNERS];
@@ -28,6 +29,7 @@ static void prove_sort(int edges, uint32_t count)
         /*@ assert 0 <= ends[i] < count; */
     }
 }
+
 static void prove_edges(int corners)
 {
     static shade_edge edges[CORNERS];
@@ -37,6 +39,7 @@ static void prove_edges(int corners)
         /*@ assert 0 <= count <= corners; */
     }
 }
+
 static void prove_normals(int corners)
 {
     static uint32_t memory[4 * CORNERS];
@@ -45,6 +48,7 @@ static void prove_normals(int corners)
     shade_mesh_corner_normals(&mesh, any_float(), normal + (CORNERS - corners), from,
                               16 * (size_t)corners);
 }
+
 int main(void)
 {
     for (int corners = 0; corners <= CORNERS; corners += 3) {

@@ -1,35 +1,38 @@
 /* pack.c - pixels of every format from any floats, and back from any bytes. */
-#define SHADE_LANES 128
+#define SHADE_LANES 16
 #include "prove.h"
 
 enum { N = SHADE__BLOCK };
 
 static void prove_target(shade_target *t)
 {
-    float rgba[4 * N], x[N], y[N], c[4];
+    float rgba[4 * SHADE_LANES], x[N], y[N];
     uint32_t packed[N] = { 0 };
     uint8_t pixel[16];
-    const size_t bytes = shade__pixel_bytes(t->format);
-    any_floats(rgba, 4 * N);
+    const shade__layout *l = &shade__layouts[t->format];
+    const size_t bytes = l->bytes;
+    any_floats(rgba, 4 * SHADE_LANES);
     for (int i = 0; i < N; i++) {    /* pixel centres of a picture, and what resolve may ask */
         x[i] = Frama_C_float_interval(0, 16400);
         y[i] = Frama_C_float_interval(0, 16400);
     }
-    shade__pack_any(t, rgba, N, x, y, packed, 1);
-    if (bytes == 2) {
-        /*@ assert packed[0] <= 65535 && packed[N - 1] <= 65535; */
+    shade__pack_any(t, rgba, x, y, packed, 1);
+    if (bytes == 2) {    /* alpha, which is not stored, in the bit above */
+        /*@ assert packed[0] <= 131071 && packed[N - 1] <= 131071; */
     }
     /* a pixel that ends where the array does */
-    shade__store_pixel(t->format, pixel + (sizeof pixel - bytes), packed[0], rgba, N);
+    shade__store_pixel(l, pixel + (sizeof pixel - bytes), packed[0], rgba);
     for (int i = 0; i < 16; i++) pixel[i] = Frama_C_unsigned_char_interval(0, 255);
-    shade__load_pixel(t->format, pixel + (sizeof pixel - bytes), packed, c, 1);
-    shade__unpack(t->format, packed, 1, c);
-    if (t->format != SHADE_FORMAT_RGBA32F) {
-        /*@ assert 0 <= c[0] <= 1 && 0 <= c[1] <= 1 && 0 <= c[2] <= 1 && 0 <= c[3] <= 1; */
-    }
-    for (int i = 0; i < 4 * N; i++) rgba[i] = Frama_C_float_interval(0, 1);
+    shade__load_pixel(l, pixel + (sizeof pixel - bytes), packed, rgba);
     shade__linear_any(t, packed, rgba);
+    for (int k = 0; k < 4; k++) {
+        float c = rgba[k * SHADE_LANES];
+        if (t->format != SHADE_FORMAT_RGBA32F && !t->srgb) {
+            /*@ assert 0 <= c <= 1; */
+        }
+    }
 }
+
 static void prove_formats(int srgb, int dither)
 {
     shade_target t;
@@ -47,12 +50,13 @@ static void prove_formats(int srgb, int dither)
     t.format = SHADE_FORMAT_RGBA32F;
     prove_target(&t);
 }
-/* the channels of 8 bits, and the thresholds of the dither */
+
+/* the thresholds of the dither, and channels rounded by them */
 static void prove_parts(void)
 {
-    float rgba[4 * N], x[N], y[N], threshold[N];
+    float rgba[4 * SHADE_LANES], x[N], y[N], threshold[N];
     uint32_t packed[N];
-    any_floats(rgba, 4 * N);
+    any_floats(rgba, 4 * SHADE_LANES);
     for (int i = 0; i < N; i++) {
         float unit = shade__unit(rgba[i]);
         /*@ assert 0 <= unit <= 1; */
@@ -63,14 +67,15 @@ static void prove_parts(void)
     for (int i = 0; i < N; i++) {
         /*@ assert 0 < threshold[i] < 1; */
     }
-    shade__pack_channels(SHADE_FORMAT_RGBA8, rgba, N, NULL, packed, 1);
-    shade__pack_channels(SHADE_FORMAT_RGB565, rgba, N, threshold, packed, 1);
+    shade__pack_channels(&shade__layouts[SHADE_FORMAT_RGBA8], rgba, threshold, packed, 1);
+    shade__pack_channels(&shade__layouts[SHADE_FORMAT_RGB565], rgba, threshold, packed, 1);
     for (int i = 0; i < N; i++) {
-        /*@ assert packed[i] <= 65535; */
+        /*@ assert packed[i] <= 131071; */
         uint32_t swapped = shade__swap16(packed[i]);
         /*@ assert swapped <= 65535; */
     }
 }
+
 int main(void)
 {
     prove_parts();

@@ -15,6 +15,7 @@ static void prove_neg_log2(void)
     float all = shade__neg_log2(any_float());
     /*@ assert -386 <= all <= 128; */
 }
+
 /* 2^-u by the whole number nearest to u, with the two floats at the end, where u + 1/2 may round
    to the next, apart; and where there is none */
 static void prove_exp2_neg(void)
@@ -38,6 +39,7 @@ static void prove_exp2_neg(void)
     float zero = shade__exp2_neg(float_of_bits(0x80000000u, 0x80000000u));
     /*@ assert zero == 1; */
 }
+
 int main(void)
 {
     prove_neg_log2();

@@ -21,6 +21,7 @@ static void prove_octave(int k)
     const float rw = 1 / w;
     /*@ assert 0 < rw <= 1152921504606846976.; */
 }
+
 static void set(int lane, float x, float y, float w)
 {
     v.clip[0][lane] = x;
@@ -28,6 +29,7 @@ static void set(int lane, float x, float y, float w)
     v.clip[2][lane] = any_float();
     v.clip[3][lane] = w;
 }
+
 static void place(void)
 {
     const int zero_to_one = ANY_OF(0, 1);
@@ -40,6 +42,7 @@ static void place(void)
         /*@ assert 0 <= p.out[i] < 4096; */
     }
 }
+
 /* both together: x and y beyond 3 w in some lanes, in the last perhaps */
 static void prove_both(int k)
 {
@@ -58,6 +61,7 @@ static void prove_both(int k)
     set(7, -near, near, w);
     place();
 }
+
 int main(void)
 {
     for (int k = -60; k < 100; k++) prove_octave(k);

@@ -30,13 +30,17 @@ static float float_of_bits(uint32_t lo, uint32_t hi)
     memcpy(&f, &u, 4);
     return f;
 }
+
 /* Any bits: NaN, infinite, subnormal, of either sign. */
 static float any_float(void) { return float_of_bits(0, 0xFFFFFFFFu); }
+
 static void any_floats(float *to, int n)
 {
     for (int i = 0; i < n; i++) to[i] = any_float();
 }
+
 static uint32_t any_mask(void) { return ANY_OF(0, 1) ? 0xFFFFFFFFu : 0; }
+
 static void any_ints(int32_t *to, int n, int32_t lo, int32_t hi)
 {
     for (int i = 0; i < n; i++) to[i] = ANY_OF(lo, hi);

@@ -12,7 +12,6 @@ static uint32_t color[4 * PIXELS];
 static float depth[PIXELS], value[SHADE__BATCH_FLOATS];
 static shade_colors colors;
 
-static void flush(shade__draw *to) { to->u.queue.f.count = 0; }
 static void shader(const void *uniforms, const shade_fragments *in, shade_colors *out)
 {
     (void)uniforms;
@@ -21,43 +20,37 @@ static void shader(const void *uniforms, const shade_fragments *in, shade_colors
     for (int i = 0; i < SHADE_LANES; i++)
         out->discard[i] = Frama_C_unsigned_int_interval(0, 0xFFFFFFFFu);
 }
-static void store(shade__draw *to, shade_colors *c)
-{
-    (void)c;
-    to->u.queue.f.count = 0;
-}
 
 /* value_stride as many floats a vertex; runs of two triangles */
 static void prove_push(int varyings, int stride, int lod)
 {
     static shade_texture texture;
-    shade__packet *p = &d.packet;
+    shade__setup *s = &d.setup;
     shade__run run[2];
     d.plan.varyings = varyings;
     d.plan.values = varyings + SHADE__FIRST + lod;
     d.plan.divided = ANY_OF(SHADE__FIRST, d.plan.values);
     d.plan.value_stride = stride;
     d.plan.lod = lod ? varyings + SHADE__FIRST : 0;
-    d.plan.bare = ANY_OF(0, 1);
+    d.plan.places_unread = ANY_OF(0, 1);
     d.plan.stride = ANY_OF(1, INT32_MAX);
     d.plan.row_offset = ANY_OF(0, 16383);
     texture.width = texture.height = ANY_OF(1, 16384);
     pipe.lod_texture = &texture;
     pipe.interpolation = (shade_interpolation)ANY_OF(0, SHADE_INTERPOLATION_CONSTANT);
-    p->value = value;
+    s->value = value;
     for (int i = 0; i < SHADE__TRIANGLES; i++) {
-        p->turn[i] = (uint32_t)ANY_OF(0, 5);
-        for (int k = 0; k < 4; k++) p->side[k][i] = any_float();
+        s->turn[i] = (uint32_t)ANY_OF(0, 5);
+        for (int k = 0; k < 4; k++) s->side[k][i] = any_float();
         for (int k = 0; k < 4; k++)
-            p->corner[i][k] = Frama_C_unsigned_char_interval(
+            s->corner[i][k] = Frama_C_unsigned_char_interval(
                 0, (unsigned char)(shade__min(SHADE_LANES, SHADE__BATCH_FLOATS / stride) - 1));
-        for (int k = 0; k < 3; k++) {
-            p->x[k][i] = ANY_WITHIN(1 << 24);
-            p->y[k][i] = ANY_WITHIN(1 << 24);
-            p->z[k][i] = any_float();
-            p->rw[k][i] = any_float();
-        }
     }
+    any_floats(s->x_ref, SHADE__TRIANGLES);
+    any_floats(s->y_ref, SHADE__TRIANGLES);
+    any_floats(s->z0, SHADE__TRIANGLES);
+    any_floats(s->z_low, SHADE__TRIANGLES);
+    any_floats(s->z_high, SHADE__TRIANGLES);
     for (int k = 0; k < 2; k++) {
         run[k].x = ANY_OF(0, 16383);
         run[k].y = ANY_OF(0, 32767);
@@ -68,25 +61,26 @@ static void prove_push(int varyings, int stride, int lod)
     shade__push_body(&d, run, 2);
     /*@ assert 0 <= d.u.queue.f.count < SHADE_LANES; */
 }
+
 static void prove_flush(int count)
 {
-    d.plan.stage.store = store;
     d.plan.varyings = ANY_OF(0, SHADE_MAX_VARYINGS);
     d.plan.divided = ANY_OF(SHADE__FIRST, SHADE__FIRST + SHADE_MAX_VARYINGS);
     d.plan.lod = ANY_OF(0, 1);
-    d.plan.bare = ANY_OF(0, 1);
+    d.plan.places_unread = ANY_OF(0, 1);
     d.u.queue.f.count = count;
     shade__flush_body(&d);
     /*@ assert d.u.queue.f.count == 0; */
 }
+
 /* pixels anywhere in memory that ends with the last of them */
 static void prove_store(shade_format format, shade_blend blend, int may_discard)
 {
     target.format = format;
     target.srgb = 0;
     target.dither = ANY_OF(0, 1);
-    d.plan.pixel_bytes = shade__pixel_bytes(format);
-    d.plan.color = (uint8_t *)color + sizeof color - PIXELS * d.plan.pixel_bytes;
+    d.plan.layout = &shade__layouts[format];
+    d.plan.color = (uint8_t *)color + sizeof color - PIXELS * d.plan.layout->bytes;
     d.plan.depth = depth;
     d.plan.compare.less = any_mask();
     d.plan.compare.equal = any_mask();
@@ -105,6 +99,7 @@ static void prove_store(shade_format format, shade_blend blend, int may_discard)
     shader(0, &d.u.queue.f, &colors);
     shade__store_body(&d, &colors);
 }
+
 int main(void)
 {
     any_floats(value, SHADE__BATCH_FLOATS);
@@ -112,8 +107,6 @@ int main(void)
     any_ints((int32_t *)color, 4 * PIXELS, INT32_MIN, INT32_MAX);
     d.plan.target = &target;
     d.plan.pipe = &pipe;
-    d.plan.stage.flush = flush;
-    d.plan.stage.pack = shade__pack_any;
     pipe.fragment = shader;
     prove_push(0, 8, 0);
     prove_push(6, 8, 0);

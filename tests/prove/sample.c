@@ -31,6 +31,7 @@ static void prove_texture(shade_format format, shade_wrap wrap, shade_filter fil
     any_floats(lod, SHADE_LANES);
     shade_sample_lanes(&t, u, v, lod, rgba);
 }
+
 static void prove_format(shade_format format)
 {
     prove_texture(format, SHADE_WRAP_REPEAT, SHADE_FILTER_NEAREST);
@@ -38,6 +39,7 @@ static void prove_format(shade_format format)
     prove_texture(format, SHADE_WRAP_CLAMP, SHADE_FILTER_TRILINEAR);
     prove_texture(format, SHADE_WRAP_MIRROR, SHADE_FILTER_TRILINEAR);
 }
+
 int main(void)
 {
     any_ints((int32_t *)memory, 60, INT32_MIN, INT32_MAX);
@@ -45,5 +47,6 @@ int main(void)
     prove_format(SHADE_FORMAT_RGB565);
     prove_format(SHADE_FORMAT_RGB565_SWAPPED);
     prove_format(SHADE_FORMAT_RGBA32F);
+    prove_format(SHADE_FORMAT_A8);
     return 0;
 }

@@ -13,9 +13,13 @@ static void prove_axis(int least, int most, shade_wrap wrap, int nearest)
     float c[N] = { 0 };
     const int size = ANY_OF(least, most);
     c[0] = any_float();
-    shade__address(c, 1, size, wrap, nearest, &axis);
-    /*@ assert 0 <= axis.i0[0] < most && 0 <= axis.i1[0] < most; */
+    axis.size = size;
+    axis.wrap = wrap;
+    axis.unit = 1;
+    shade__address(c, 1, nearest, &axis);
+    /*@ assert 0 <= axis.i[0][0] < most && 0 <= axis.i[1][0] < most; */
 }
+
 static void prove_axes(int least, int most)
 {
     for (int nearest = 0; nearest < 2; nearest++) {
@@ -24,6 +28,7 @@ static void prove_axes(int least, int most)
         prove_axis(least, most, SHADE_WRAP_MIRROR, nearest);
     }
 }
+
 int main(void)
 {
     prove_axes(1, 1);

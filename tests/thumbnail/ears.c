@@ -1,18 +1,20 @@
-/* ears.c - polygons cut into triangles by examples/ears.h, against the polygon itself: n - 2
+/* ears.c - polygons cut into triangles by examples/model/ears.h, against the polygon itself: n - 2
    triangles, none turned over, areas that add up to the polygon's (so none overlaps another), each
    point inside in exactly one of them (by crossings of a ray), corners none but the polygon's. */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "ears.h"
+#include "examples/model/ears.h"
 #include <time.h>
 
 static int passed, failed;
 static void check(int ok, const char *what, const char *shape)
 {
-    if (ok)
+    if (ok) {
         passed++;
-    else
-        failed++, printf("FAIL  %s: %s\n", shape, what);
+    } else {
+        failed++;
+        printf("FAIL  %s: %s\n", shape, what);
+    }
 }
 
 static uint32_t seed = 20240607;
@@ -36,9 +38,14 @@ static polygon polygon_new(size_t n)
     if (!q.x || !q.y || !q.p || !q.index || !q.cut) exit(2);
     return q;
 }
+
 static void polygon_free(polygon *q)
 {
-    free(q->x), free(q->y), free(q->p), free(q->index), free(q->cut);
+    free(q->x);
+    free(q->y);
+    free(q->p);
+    free(q->index);
+    free(q->cut);
 }
 
 static double turn(const polygon *q, size_t a, size_t b, size_t c)
@@ -87,16 +94,21 @@ static void try_polygon(polygon *q, const char *shape)
         size_t at = (i + first) % q->n, k = i + 1 < q->n ? i + 1 : 0;
         float u = (float)q->x[i], v = (float)q->y[i], w = plane < 3 ? u : u + 2 * v;
         float *p = q->p + 3 * i;
-        p[plane % 3] = plane < 3 ? 5 : w, p[(plane + 1) % 3] = u, p[(plane + 2) % 3] = v;
+        p[plane % 3] = plane < 3 ? 5 : w;
+        p[(plane + 1) % 3] = u;
+        p[(plane + 2) % 3] = v;
         q->index[at] = (uint32_t)i;
         area += q->x[i] * q->y[k] - q->x[k] * q->y[i];
-        low[0] = fmin(low[0], q->x[i]), high[0] = fmax(high[0], q->x[i]);
-        low[1] = fmin(low[1], q->y[i]), high[1] = fmax(high[1], q->y[i]);
+        low[0] = fmin(low[0], q->x[i]);
+        high[0] = fmax(high[0], q->x[i]);
+        low[1] = fmin(low[1], q->y[i]);
+        high[1] = fmax(high[1], q->y[i]);
     }
     check(!ears_cut(&e, q->p, q->index, q->n, q->cut), "memory", shape);
     for (size_t t = 0; t < q->n - 2; t++) {
         double a = turn(q, q->cut[3 * t], q->cut[3 * t + 1], q->cut[3 * t + 2]);
-        sum += fabs(a), turned += area > 0 ? a < 0 : a > 0;
+        sum += fabs(a);
+        turned += area > 0 ? a < 0 : a > 0;
     }
     for (size_t i = 0; i < 3 * (q->n - 2); i++) seen[q->cut[i]] = 1;
     for (size_t i = 0; i < q->n; i++) used &= seen[i];
@@ -113,7 +125,8 @@ static void try_polygon(polygon *q, const char *shape)
     if (q->n > 50000)
         printf("%s: %lu corners in %.2f s\n", shape, (unsigned long)q->n,
                (double)(clock() - begin) / CLOCKS_PER_SEC);
-    ears_free(&e), free(seen);
+    ears_free(&e);
+    free(seen);
 }
 
 static double grid(double v) { return floor(v * 1024 + 0.5) / 1024; }
@@ -143,10 +156,15 @@ static void comb(size_t teeth, const char *shape)
             { x, 2 },           { x, 7 }, { x, tall }, { x + 1.0 / 32, tall }, { x + 1.0 / 32, 2 },
             { x + 1.0 / 32, 2 }
         };
-        for (int k = 0; k < 6; k++) q.x[n] = at[k][0], q.y[n++] = at[k][1];
+        for (int k = 0; k < 6; k++) {
+            q.x[n] = at[k][0];
+            q.y[n++] = at[k][1];
+        }
     }
-    q.x[n] = q.x[n - 1], q.y[n++] = 0;
-    q.x[n] = 0, q.y[n++] = 0;
+    q.x[n] = q.x[n - 1];
+    q.y[n++] = 0;
+    q.x[n] = 0;
+    q.y[n++] = 0;
     try_polygon(&q, shape);
     polygon_free(&q);
 }
@@ -157,8 +175,10 @@ static void spiral(size_t n, const char *shape)
     polygon q = polygon_new(2 * n);
     for (size_t i = 0; i < n; i++) {
         double t = (double)i / (double)n, a = 40 * t, r = 30 - 25 * t;
-        q.x[i] = grid(r * cos(a)), q.y[i] = grid(r * sin(a));
-        q.x[2 * n - 1 - i] = grid((r - 1) * cos(a)), q.y[2 * n - 1 - i] = grid((r - 1) * sin(a));
+        q.x[i] = grid(r * cos(a));
+        q.y[i] = grid(r * sin(a));
+        q.x[2 * n - 1 - i] = grid((r - 1) * cos(a));
+        q.y[2 * n - 1 - i] = grid((r - 1) * sin(a));
     }
     try_polygon(&q, shape);
     polygon_free(&q);
@@ -167,9 +187,15 @@ static void spiral(size_t n, const char *shape)
 static void listed(const double *xy, size_t n, const char *shape)
 {
     polygon q = polygon_new(n);
-    for (size_t i = 0; i < n; i++) q.x[i] = xy[2 * i], q.y[i] = xy[2 * i + 1];
+    for (size_t i = 0; i < n; i++) {
+        q.x[i] = xy[2 * i];
+        q.y[i] = xy[2 * i + 1];
+    }
     try_polygon(&q, shape);
-    for (size_t i = 0; i < n; i++) q.x[i] = xy[2 * (n - 1 - i)], q.y[i] = xy[2 * (n - 1 - i) + 1];
+    for (size_t i = 0; i < n; i++) {
+        q.x[i] = xy[2 * (n - 1 - i)];
+        q.y[i] = xy[2 * (n - 1 - i) + 1];
+    }
     try_polygon(&q, shape);
     polygon_free(&q);
 }
@@ -183,16 +209,25 @@ int main(void)
     static const double spike[] = { 0, 0, 4, 0, 4, 4, 2, 4, 2, 9, 2, 4, 0, 4 };
     static const double line[] = { 0, 0, 1, 1, 2, 2, 3, 3, 1, 1 };
     for (int k = 0; k < 20; k++) { /* each begins at some corner */
-        listed(dart, 4, "dart"), listed(square, 10, "corners on edges");
-        listed(twice, 8, "corners twice"), listed(frame, 10, "a hole behind a bridge");
-        listed(spike, 7, "spike"), listed(line, 5, "all on a line");
+        listed(dart, 4, "dart");
+        listed(square, 10, "corners on edges");
+        listed(twice, 8, "corners twice");
+        listed(frame, 10, "a hole behind a bridge");
+        listed(spike, 7, "spike");
+        listed(line, 5, "all on a line");
     }
-    for (size_t n = 4; n < 60; n++) star(n, 30, 0.2, "star"), star(n, 30, 0.95, "nearly round");
-    star(1000, 4e6, 0.01, "sharp star"), star(60000, 4e6, 0.3, "large star");
+    for (size_t n = 4; n < 60; n++) {
+        star(n, 30, 0.2, "star");
+        star(n, 30, 0.95, "nearly round");
+    }
+    star(1000, 4e6, 0.01, "sharp star");
+    star(60000, 4e6, 0.3, "large star");
     star(300000, 4e6, 1, "disk");
     for (size_t n = 1; n < 12; n++) comb(n, "comb");
     comb(500, "large comb");
-    spiral(12, "short spiral"), spiral(400, "spiral"), spiral(20000, "large spiral");
+    spiral(12, "short spiral");
+    spiral(400, "spiral");
+    spiral(20000, "large spiral");
     printf("%d passed, %d failed\n", passed, failed);
     return failed != 0;
 }

@@ -27,7 +27,10 @@ static picture load(const char *path)
     picture p = { 0, 0, 3, NULL };
     FILE *f = fopen(path, "rb");
     size_t n;
-    if (!f) perror(path), exit(2);
+    if (!f) {
+        perror(path);
+        exit(2);
+    }
     if (fscanf(f, "P6 %d %d 255", &p.width, &p.height) == 2 && fgetc(f) == '\n') {
         n = 3 * (size_t)p.width * (size_t)p.height;
         p.bytes = malloc(n);
@@ -37,7 +40,10 @@ static picture load(const char *path)
     else
         p.bytes = stbi_load(path, &p.width, &p.height, &p.channels, 0);
 #endif
-    if (!p.bytes) fprintf(stderr, "%s: no picture\n", path), exit(2);
+    if (!p.bytes) {
+        fprintf(stderr, "%s: no picture\n", path);
+        exit(2);
+    }
     fclose(f);
     return p;
 }
@@ -92,7 +98,8 @@ int main(int argc, char **argv)
         double sum = 0, most = 0;
         for (size_t i = 0; i < n; i++) {
             double d = fabs((double)a.bytes[i] - b.bytes[i]);
-            sum += d, most = fmax(most, d);
+            sum += d;
+            most = fmax(most, d);
         }
         printf("differ by %g at most, %.4f in the mean\n", most, sum / (double)n);
         return !strcmp(question, "same") ? most > v[1] : sum / (double)n > v[1];

@@ -13,13 +13,18 @@ static FILE *create(const char *name)
     FILE *f;
     snprintf(path, sizeof path, "%s/%s", folder, name);
     f = fopen(path, "wb");
-    if (!f) perror(path), exit(1);
+    if (!f) {
+        perror(path);
+        exit(1);
+    }
     return f;
 }
+
 static void text(const char *name, const char *what)
 {
     FILE *f = create(name);
-    fputs(what, f), fclose(f);
+    fputs(what, f);
+    fclose(f);
 }
 
 /* ---- one mesh in all formats: a torus of triangles without normals -------------------------- */
@@ -42,8 +47,12 @@ static void torus(void)
         int right = i / TUBE * TUBE + (i + 1) % TUBE, step = TUBE;
         uint32_t a = (uint32_t)i, b = (uint32_t)right;
         uint32_t c = (uint32_t)((right + step) % VERTICES), d = (uint32_t)((i + step) % VERTICES);
-        corner[2 * i][0] = a, corner[2 * i][1] = b, corner[2 * i][2] = c;
-        corner[2 * i + 1][0] = a, corner[2 * i + 1][1] = c, corner[2 * i + 1][2] = d;
+        corner[2 * i][0] = a;
+        corner[2 * i][1] = b;
+        corner[2 * i][2] = c;
+        corner[2 * i + 1][0] = a;
+        corner[2 * i + 1][1] = c;
+        corner[2 * i + 1][2] = d;
     }
 }
 
@@ -55,7 +64,8 @@ static void put(FILE *f, const void *value, size_t size, int big)
     memcpy(b, value, size);
     for (size_t k = 0; swap && k < size / 2; k++) {
         unsigned char t = b[k];
-        b[k] = b[size - 1 - k], b[size - 1 - k] = t;
+        b[k] = b[size - 1 - k];
+        b[size - 1 - k] = t;
     }
     fwrite(at, 1, size, f);
 }
@@ -72,10 +82,12 @@ static void torus_ply(const char *name, const char *format, int big)
     for (int i = 0; i < VERTICES; i++) {
         double y = (double)position[i][1];
         unsigned char quality = 7;
-        if (ascii)
+        if (ascii) {
             fprintf(f, "%.9g %.9g %.9g 7\n", (double)position[i][0], y, (double)position[i][2]);
-        else {
-            put(f, &position[i][0], 4, big), put(f, &y, 8, big), put(f, &position[i][2], 4, big);
+        } else {
+            put(f, &position[i][0], 4, big);
+            put(f, &y, 8, big);
+            put(f, &position[i][2], 4, big);
             put(f, &quality, 1, big);
         }
     }
@@ -109,10 +121,12 @@ static void torus_stl(int binary)
     FILE *f = create(binary ? "torus.binary.stl" : "torus.stl");
     const uint32_t count = TRIANGLES;
     const char zeros[80] = { 0 };
-    if (binary)
-        fwrite(zeros, 1, 80, f), put(f, &count, 4, 0);
-    else
+    if (binary) {
+        fwrite(zeros, 1, 80, f);
+        put(f, &count, 4, 0);
+    } else {
         fputs("solid torus\n", f);
+    }
     for (int i = 0; i < TRIANGLES; i++) {
         if (binary)
             fwrite(zeros, 1, 12, f);
@@ -141,8 +155,10 @@ static void base64(FILE *f, const unsigned char *b, size_t n)
     for (size_t i = 0; i < n; i += 3) {
         uint32_t v = (uint32_t)b[i] << 16 | (uint32_t)(i + 1 < n ? b[i + 1] : 0) << 8 |
                      (uint32_t)(i + 2 < n ? b[i + 2] : 0);
-        fputc(digit[v >> 18], f), fputc(digit[v >> 12 & 63], f);
-        fputc(i + 1 < n ? digit[v >> 6 & 63] : '=', f), fputc(i + 2 < n ? digit[v & 63] : '=', f);
+        fputc(digit[v >> 18], f);
+        fputc(digit[v >> 12 & 63], f);
+        fputc(i + 1 < n ? digit[v >> 6 & 63] : '=', f);
+        fputc(i + 2 < n ? digit[v & 63] : '=', f);
     }
 }
 
@@ -198,7 +214,8 @@ static void gltf(const char *name, const float *p, size_t vertices, const uint32
             (unsigned long)bytes);
     base64(f, buffer, bytes);
     fputs("\"}]}", f);
-    fclose(f), free(buffer);
+    fclose(f);
+    free(buffer);
 }
 
 /* A prism without symmetry, twice: moved; turned by 90 degrees, stretched and mirrored below it */
@@ -214,15 +231,19 @@ static void nodes(void)
          "\"children\":[1]},{\"mesh\":0,\"translation\":[0,0,2],\"scale\":[-1,2,1],"
          "\"rotation\":[0,0,0.70710678118654757,0.70710678118654757]}]",
          "", NULL, NULL, 0);
-    for (int copy = 0; copy < 2; copy++)
+    for (int copy = 0; copy < 2; copy++) {
         for (int i = 0; i < 6; i++) {
             double x = (double)p[i][0], y = (double)p[i][1], z = (double)p[i][2];
-            if (copy) { /* scaled, then x goes to y, y to -x, then moved */
+            if (copy) {
+                /* scaled, then x goes to y, y to -x, then moved */
                 double sx = -x, sy = 2 * y;
-                x = -sy, y = sx, z = z + 2;
+                x = -sy;
+                y = sx;
+                z = z + 2;
             }
             fprintf(f, "v %g %g %g\n", x + 1, y + 2, z - 1);
         }
+    }
     for (int copy = 0; copy < 2; copy++)
         for (int i = 0; i < 24; i += 3) /* a mirrored triangle runs the other way */
             fprintf(f, "f %u %u %u\n", index[i] + 1 + 6 * (unsigned)copy,
@@ -237,14 +258,17 @@ static void shapes(void)
 {
     FILE *whole = create("star.obj"), *parts = create("star.parts.obj");
     FILE *comb = create("comb.obj"), *teeth = create("comb.parts.obj");
-    fputs("mtllib flat.mtl\nusemtl flat\n", whole), fputs("mtllib flat.mtl\nusemtl flat\n", parts);
-    fputs("mtllib flat.mtl\nusemtl flat\n", comb), fputs("mtllib flat.mtl\nusemtl flat\n", teeth);
+    fputs("mtllib flat.mtl\nusemtl flat\n", whole);
+    fputs("mtllib flat.mtl\nusemtl flat\n", parts);
+    fputs("mtllib flat.mtl\nusemtl flat\n", comb);
+    fputs("mtllib flat.mtl\nusemtl flat\n", teeth);
     for (int i = 0; i < 22; i++) {
         double a = 6.283185307179586 * i / 22, r = i % 2 ? 1 : 4;
         fprintf(whole, "v %.6f %.6f 0\n", r * cos(a), r * sin(a));
         fprintf(parts, "v %.6f %.6f 0\n", r * cos(a), r * sin(a));
     }
-    fputs("f", whole), fputs("v 0 0 0\n", parts);
+    fputs("f", whole);
+    fputs("v 0 0 0\n", parts);
     for (int i = 0; i < 22; i++) {
         fprintf(whole, " %d", i + 1);
         fprintf(parts, "f 23 %d %d\n", i + 1, (i + 1) % 22 + 1);
@@ -259,7 +283,10 @@ static void shapes(void)
         fprintf(teeth, "v %d 1 0\nv %d %d 0\nv %d %d 0\nv %d 1 0\nf -4 -1 -2 -3\n", 2 * i, 2 * i,
                 4 + i % 3, 2 * i + 1, 4 + i % 3, 2 * i + 1);
     fputs("v 15 0 0\nv 0 0 0\nv 0 1 0\nv 15 1 0\nf -4 -1 -2 -3\n", teeth);
-    fclose(whole), fclose(parts), fclose(comb), fclose(teeth);
+    fclose(whole);
+    fclose(parts);
+    fclose(comb);
+    fclose(teeth);
 }
 
 /* ---- surfaces ------------------------------------------------------------------------------- */
@@ -278,7 +305,10 @@ static void picture_tga(const char *name, int alpha)
     fwrite(head, 1, 18, f); /* top row first */
     for (int i = 0; i < 256; i++) {
         const unsigned char *c = quarter[i / 128 * 2 + i % 16 / 8];
-        fputc(c[2], f), fputc(c[1], f), fputc(c[0], f), fputc(alpha ? c[3] : 255, f);
+        fputc(c[2], f);
+        fputc(c[1], f);
+        fputc(c[0], f);
+        fputc(alpha ? c[3] : 255, f);
     }
     fclose(f);
 }
@@ -323,15 +353,22 @@ int main(int argc, char **argv)
     if (argc < 2) return 1;
     folder = argv[1];
     torus();
-    torus_obj(), torus_stl(0), torus_stl(1);
+    torus_obj();
+    torus_stl(0);
+    torus_stl(1);
     torus_ply("torus.ply", "ascii", 0);
     torus_ply("torus.little.ply", "binary_little_endian", 0);
     torus_ply("torus.big.ply", "binary_big_endian", 1);
     gltf("torus.gltf", position[0], VERTICES, corner[0], 3 * TRIANGLES,
          "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]", "", NULL, NULL, 0);
-    nodes(), shapes(), surfaces();
+    nodes();
+    shapes();
+    surfaces();
     f = argc > 2 ? fopen(argv[2], "rb") : NULL; /* any picture, to be embedded */
-    if (f) size = fread(picture, 1, sizeof picture, f), fclose(f);
+    if (f) {
+        size = fread(picture, 1, sizeof picture, f);
+        fclose(f);
+    }
     if (size)
         gltf("embedded.gltf", square_p, 4, square, 6,
              "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]",

@@ -10,14 +10,16 @@
 #define _DEFAULT_SOURCE
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "view_display.h"
+#include "examples/view/display.h"
 
 static int passed, failed;
 static uint64_t seed = 88172645463325252u;
 
 static uint32_t random_below(uint32_t n)
 {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
     return (uint32_t)(seed >> 32) % n;
 }
 
@@ -131,7 +133,8 @@ static void vt_feed(vt *t, const char *p, const char *end)
         if (c == 27 && p < end && *p == '[') {
             p = vt_escape(t, p + 1, end);
         } else if (c == '\n') {
-            t->row++, t->column = 0;
+            t->row++;
+            t->column = 0;
         } else if (c >= 0xe0 && end - p >= 2) {
             vt_put(t, (uint32_t)((c & 15) << 12 | (p[0] & 63) << 6 | (p[1] & 63)));
             p += 2;
@@ -202,7 +205,8 @@ static void random_change(cell_screen *s)
     if (random_below(3)) changes /= 8;
     while (changes--) {
         cell *c = &s->wanted[random_below((uint32_t)count)];
-        c->upper = random_color(s), c->lower = random_below(3) ? random_color(s) : c->upper;
+        c->upper = random_color(s);
+        c->lower = random_below(3) ? random_color(s) : c->upper;
         c->glyph = s->colors == VIEW_PLAIN || !random_below(6) ? ' ' + random_below(95) : 0;
         if (s->whole && !c->glyph) c->lower = c->upper;
     }
@@ -222,12 +226,16 @@ static void test_screen(void)
     static const int slacks[4] = { 0, 0, 1, 2 };
     static cell_screen s;
     vt t;
-    s.colors = (view_colors)random_below(3), s.whole = !random_below(4);
+    s.colors = (view_colors)random_below(3);
+    s.whole = !random_below(4);
     cells_resize(&s, 1 + (int)random_below(40), 1 + (int)random_below(12));
     for (int i = 0; i < s.columns * s.rows; i++)
         s.wanted[i].glyph = s.colors == VIEW_PLAIN ? ' ' : 0;
     t = vt_new(s.columns, s.rows);
-    t.row = 3, t.column = 5, t.ink = 1, t.paper = 2;
+    t.row = 3;
+    t.column = 5;
+    t.ink = 1;
+    t.paper = 2;
     for (int frame = 0; frame < 12; frame++) {
         size_t limit;
         s.slack = slacks[random_below(4)];
@@ -356,15 +364,20 @@ static int bronze(const display *d, int from, int to)
 /* The teapot fills the picture in every shape of it, its spout points to +x, and turns with it. */
 static void test_teapot(int columns, int rows)
 {
-    view_options o = { .z_up = -1 };
+    view_options o = { .scene = { .z_up = -1 } };
+    const scene_request request = view_request(&o);
     terminal_size size = { columns, rows, 1 };
     static scene s;
     static display d;
     int all, middle = columns / 2, edge = 1, spout;
-    d.scene = &s, d.screen.colors = VIEW_TRUE;
-    if (scene_load(&s, &o, NULL, NULL)) exit(1);
-    s.yaw = 0, s.choice[CHOICE_GROUND] = 1, s.choice[CHOICE_LAMP] = LAMP_EYE;
-    display_resize(&d, size), display_picture(&d);
+    d.scene = &s;
+    d.screen.colors = VIEW_TRUE;
+    if (scene_load(&s, &request, NULL, NULL)) exit(1);
+    s.yaw = 0;
+    s.choice[CHOICE_GROUND] = 1;
+    s.choice[CHOICE_LAMP] = LAMP_EYE;
+    display_resize(&d, size);
+    display_picture(&d);
     all = bronze(&d, 0, columns);
     check(all > columns * rows / 6, "pixels of the teapot", all, columns * rows / 6);
     check(!bronze(&d, 0, edge), "pixels at the left edge", bronze(&d, 0, edge), 0);
@@ -373,12 +386,15 @@ static void test_teapot(int columns, int rows)
     for (spout = columns; !bronze(&d, spout - 1, spout);) spout--;
     check(bronze(&d, middle, columns) < all, "pixels on the right", bronze(&d, middle, columns),
           all);
-    scene_turn(&s, 3.14159265f, 0), display_picture(&d);
+    scene_turn(&s, 3.14159265f, 0);
+    display_picture(&d);
     check(abs(bronze(&d, columns - spout, middle) - bronze(&d, 0, middle)) == 0,
           "pixels left of where the spout has gone", bronze(&d, 0, columns - spout), 0);
     check(bronze(&d, columns - spout, columns - spout + 2) > 0, "the spout, turned", 0, 1);
-    scene_close(&s), display_free(&d);
-    memset(&d, 0, sizeof d), memset(&s, 0, sizeof s);
+    scene_close(&s);
+    display_free(&d);
+    memset(&d, 0, sizeof d);
+    memset(&s, 0, sizeof s);
 }
 
 /* ---- a pane --------------------------------------------------------------------------------- */
@@ -396,7 +412,8 @@ static void draw_wanted(display *d, const view_options *o, const char *keys)
     static const char arrows[] = "^v<>";
     static scene s;
     terminal_size size = { d->screen.columns, d->screen.rows, 1 };
-    if (scene_load(&s, o, NULL, NULL)) exit(1);
+    const scene_request request = view_request(o);
+    if (scene_load(&s, &request, NULL, NULL)) exit(1);
     for (; *keys; keys++) {
         const char *arrow = strchr(arrows, *keys);
         scene_key(&s, arrow ? KEY_UP + (int)(arrow - arrows) : *keys);
@@ -423,14 +440,16 @@ static void forgive_words(cell_screen *s, const vt *t)
 static int check_pane(char **argv, const char *model)
 {
     static const char *const colors[3] = { "plain", "256", "true" };
-    view_options o = { .model = model, .z_up = -1, .still = 1 };
+    view_options o = { .scene = { .model = model, .z_up = -1, .still = 1 } };
     static display d;
     size_t size;
     char *text = read_all(&size);
     int wrong;
     vt t;
     while (o.colors < VIEW_TRUE && strcmp(argv[0], colors[o.colors])) o.colors++;
-    d.screen.colors = o.colors, d.screen.columns = atoi(argv[1]), d.screen.rows = atoi(argv[2]);
+    d.screen.colors = o.colors;
+    d.screen.columns = atoi(argv[1]);
+    d.screen.rows = atoi(argv[2]);
     t = vt_new(d.screen.columns, d.screen.rows);
     vt_feed(&t, text, text + size);
     draw_wanted(&d, &o, argv[3]);
@@ -438,7 +457,9 @@ static int check_pane(char **argv, const char *model)
     wrong = wrong_cells(&d.screen, &t, d.screen.wanted, 0);
     if (wrong || t.errors)
         printf("%d cells of %d are not as drawn, %d errors\n", wrong, t.columns * t.rows, t.errors);
-    free(t.cells), free(text), display_free(&d);
+    free(t.cells);
+    free(text);
+    display_free(&d);
     return wrong || t.errors;
 }
 
@@ -475,7 +496,8 @@ static int check_window(const char *color)
         for (uint32_t x = 0; x < word[4]; x++) {
             const unsigned char *p = (unsigned char *)text + at + y * word[12] + 4 * x;
             uint32_t rgb = (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
-            changes += rgb != last, count += same_ink(rgb, wanted);
+            changes += rgb != last;
+            count += same_ink(rgb, wanted);
             last = rgb;
         }
     }
@@ -490,7 +512,10 @@ int main(int argc, char **argv)
     if (argc == 3) return check_window(argv[2]);
     for (int k = 0; k < 2000; k++) test_screen();
     for (int k = 0; k < 100000; k++) test_nearest(random_below(1 << 24));
-    test_teapot(80, 24), test_teapot(200, 60), test_teapot(40, 60), test_teapot(120, 10);
+    test_teapot(80, 24);
+    test_teapot(200, 60);
+    test_teapot(40, 60);
+    test_teapot(120, 10);
     test_keys();
     test_endless();
     for (int k = 0; k < 20000; k++) test_bytes();

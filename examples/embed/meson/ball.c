@@ -22,7 +22,9 @@ int main(void)
                 shade_vec3 N = { x, y, sqrtf(zz) };
                 float I = shade_lit(&lighting, &stone, eye, N, N).x;
                 putchar(ramp[I < 1 ? (int)(I * 9) : 8]);
-            } else putchar(' ');
+            } else {
+                putchar(' ');
+            }
         }
         putchar('\n');
     }

@@ -1,0 +1,171 @@
+/* batch.c - renders films and posters in pieces, on as many machines as there are: the frames of
+   a turntable, or the strips of one large picture.
+
+   cc -O2 -pthread -I. examples/batch/batch.c -lm -o batch
+   ./batch bunny.obj --pipe | ffmpeg -f image2pipe -framerate 30 -i - -pix_fmt yuv420p bunny.mp4
+
+   A piece is a file that appears whole or not at all.  A piece that exists is not drawn again,
+   and its bits depend on the options alone.  The strips in their order, concatenated, are the
+   poster. */
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for fileno with -std=c99 */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "file.h"
+#include "sheet.h"
+
+static const char usage[] =
+    "usage: batch [model.obj|.stl|.ply] [options]     without a model: the teapot\n"
+    "  --frames N            one turn in N pictures (360)\n"
+    "  --strips N            or one picture in N strips\n"
+    "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
+    "  --samples 1..8        along each edge of a pixel (3)\n"
+    "  --up y|z              the model's upright axis (y, for STL z)\n"
+    "  --threads N           1 .. 256 (one a core); the bits are the same\n"
+    "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
+    "  --pipe                to standard output instead, one behind the other\n"
+    "  --piece K             only this one, 0 .. N-1\n"
+    "  --missing             only prints the numbers of those that are not there\n"
+    "  --help                prints this text\n";
+
+typedef struct batch {
+    scene_request request;
+    const char *out;
+    int strips, count, width, height, samples; /* strips: 1 for strips, 0 for frames */
+    int piece, pipe, missing;                  /* piece -1: all */
+    scene scene;
+    sheet sheet;
+} batch;
+
+/* ---- options --------------------------------------------------------------------------------- */
+
+/* Stores one option: the option_take of batch. */
+static int take(void *to, const char *name, const char *value)
+{
+    batch *b = (batch *)to;
+    if (!name)
+        b->request.model = value;
+    else if (!strcmp(name, "--pipe"))
+        b->pipe = 1;
+    else if (!strcmp(name, "--missing"))
+        b->missing = 1;
+    else if (!strcmp(name, "--size"))
+        return option_size(value, 262144, &b->width, &b->height);
+    else if (!strcmp(name, "--samples"))
+        return option_integer(value, 1, 8, &b->samples);
+    else if (!strcmp(name, "--piece"))
+        return option_integer(value, 0, 99999, &b->piece);
+    else if (!strcmp(name, "--up") || !strcmp(name, "--threads"))
+        return scene_take(&b->request, name, value);
+    else if (!strcmp(name, "--out")) {
+        b->out = value;
+        return *value && strlen(value) < 4096;
+    } else {
+        b->strips = !strcmp(name, "--strips");
+        return option_integer(value, 1, 99999, &b->count);
+    }
+    return OPTION_TAKEN;
+}
+
+/* Reads the command line.  Returns what options_read does. */
+static int read_options(batch *b, int argc, char **argv)
+{
+    static const char *const valued[] = { "--size",   "--samples", "--piece",   "--up", "--out",
+                                          "--frames", "--strips",  "--threads", NULL };
+    static const char *const flags[] = { "--pipe", "--missing", NULL };
+    static const command c = { "batch", usage, valued, flags, 1, take };
+    int end = options_read(&c, b, argc, argv);
+    if (end) return end;
+
+    if (!b->out) b->out = b->strips ? "strips" : "frames";
+    if (b->piece >= b->count)
+        return complain("there is no piece %d: they count from 0 to %d", b->piece, b->count - 1);
+    if (b->strips && b->count > b->height) return complain("more strips than rows");
+    if (b->pipe && isatty(STDOUT_FILENO))
+        return complain("standard output is a terminal, which shows no PPM");
+    return OPTIONS_READ;
+}
+
+/* ---- pieces ---------------------------------------------------------------------------------- */
+
+typedef struct piece {
+    int first, rows;
+    char header[40], path[4200];
+    long long bytes;
+} piece;
+
+static piece find_piece(const batch *b, int k)
+{
+    piece p = { 0, b->height, "", "", 0 };
+    if (b->strips) {
+        p.first = (int)((long long)b->height * k / b->count);
+        p.rows = (int)((long long)b->height * (k + 1) / b->count) - p.first;
+    }
+    if (p.first == 0) snprintf(p.header, sizeof p.header, "P6\n%d %d\n255\n", b->width, b->height);
+    p.bytes = (long long)strlen(p.header) + 3LL * b->width * p.rows;
+    snprintf(p.path, sizeof p.path, "%s/%05d.ppm", b->out, k);
+    return p;
+}
+
+/* Returns 1 where it has complained. */
+static int write_piece(batch *b, int k, const piece *p)
+{
+    FILE *file = b->pipe ? stdout : batch_begin(p->path);
+    int failed;
+    if (!file) return 1;
+    if (!b->strips) b->scene.yaw = -0.5f + 6.2831853f * (float)k / (float)b->count;
+    failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
+    if (!b->pipe) return batch_end(file, p->path, failed);
+    failed = failed || fflush(file);
+    return failed ? complain("standard output: %s", strerror(errno)) : 0;
+}
+
+/* Loads the model and gets memory, before the first piece is drawn.  Returns 1 with a line on
+   stderr. */
+static int get_ready(batch *b)
+{
+    if (b->sheet.scene) return 0;
+    b->request.pieces = 20;
+    while (b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
+    if (!b->pipe && mkdir(b->out, 0777) && errno != EEXIST) {
+        complain("%s: %s", b->out, strerror(errno));
+        return 1;
+    }
+    if (scene_load(&b->scene, &b->request, NULL, NULL)) return 1;
+    if (!sheet_open(&b->sheet, &b->scene, b->width, b->height, b->samples)) return 0;
+    complain("out of memory");
+    return 1;
+}
+
+/* Draws those of all pieces, or of the one piece of the command line, that are missing. */
+static int write_pieces(batch *b)
+{
+    int first = b->piece < 0 ? 0 : b->piece, last = b->piece < 0 ? b->count : b->piece + 1;
+    batch_clock clock = batch_start(b->strips ? "strips" : "frames");
+    int drawn = 0;
+    for (int k = first; k < last; k++) {
+        piece p = find_piece(b, k);
+        int there = !b->pipe && batch_is_whole(p.path, p.header, p.bytes);
+        if (b->missing && !there) printf("%05d\n", k);
+        if (b->missing) continue;
+        if (!there && (get_ready(b) || write_piece(b, k, &p))) return 1;
+        drawn += !there;
+        if (last - first > 1) batch_tell(&clock, k + 1 - first, last - first, drawn);
+    }
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    static batch b = { .request = { .z_up = -1 },
+                       .count = 360,
+                       .width = 1280,
+                       .height = 720,
+                       .samples = 3,
+                       .piece = -1 };
+    int end = read_options(&b, argc, argv);
+    if (end) return end == OPTIONS_WRONG;
+    end = write_pieces(&b);
+    if (b.sheet.scene) sheet_close(&b.sheet);
+    scene_close(&b.scene);
+    return end;
+}

@@ -1,0 +1,145 @@
+/* model.h - the contents of a model file: one mesh, whose triangles are sorted into parts of one
+   surface each, and the surfaces. */
+#ifndef MODEL_MODEL_H
+#define MODEL_MODEL_H
+
+#include "reader.h"
+
+typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
+    shade_texture map;         /* pixels NULL: it could not be read */
+    char *name;
+    void *pixels, *mipmaps;
+    shade_texture level[15];
+} model_picture;
+
+typedef struct model_surface {
+    char *name, *map;        /* names in the file; map: the picture for k_d, or NULL */
+    shade_material material; /* linear light */
+    float transparency, alpha_cutoff;
+    int set;             /* 0: the file says nothing about it */
+    int opaque, blended; /* the alpha of the map is ignored; is blended by */
+    int picture;         /* the map, once it is read; -1: none */
+} model_surface;
+
+typedef struct model_part {
+    int first, count, surface;    /* of the indices */
+    int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
+} model_part;
+
+/* Zeroed: empty. */
+typedef struct model {
+    owned_mesh mesh; /* its chunks are those of the parts, one after the other, not of its view */
+    model_surface *surface; /* NULL: the file has no surfaces */
+    model_part *part;
+    model_picture *picture;
+    char **library; /* files that describe the surfaces */
+    int surface_count, part_count, picture_count, library_count;
+    size_t surface_room, picture_room, library_room;
+    int normals_given; /* each vertex had a normal in the file */
+    int z_up;
+    char warning[400]; /* what the picture lacks; "": nothing */
+} model;
+
+static inline void model_free(model *m)
+{
+    static const model empty;
+    mesh_free(&m->mesh);
+    for (int i = 0; i < m->surface_count; i++) {
+        free(m->surface[i].name);
+        free(m->surface[i].map);
+    }
+    for (int i = 0; i < m->library_count; i++) free(m->library[i]);
+    for (int i = 0; i < m->picture_count; i++) {
+        free(m->picture[i].name);
+        free(m->picture[i].pixels);
+        free(m->picture[i].mipmaps);
+    }
+    free(m->surface);
+    free(m->part);
+    free(m->picture);
+    free(m->library);
+    *m = empty;
+}
+
+/* Part i as a mesh of its own, with its chunks */
+static inline shade_mesh model_part_mesh(const model *m, int i)
+{
+    const model_part *part = &m->part[i];
+    shade_mesh mesh = m->mesh.view;
+    mesh.indices = m->mesh.indices + part->first;
+    mesh.index_count = part->count;
+    if (m->mesh.chunks) mesh.chunks = m->mesh.chunks + part->first_chunk;
+    mesh.chunk_count = m->mesh.chunks ? part->chunk_count : 0;
+    return mesh;
+}
+
+/* Keeps the first warning. */
+static inline void model_warn(model *m, const char *about, const char *what)
+{
+    if (!m->warning[0]) snprintf(m->warning, sizeof m->warning, "%s: %s", about, what);
+}
+
+/* A copy of n bytes as text; NULL: out of memory */
+static inline char *model_text(const void *bytes, size_t n)
+{
+    char *text = (char *)malloc(n + 1);
+    if (!text) return NULL;
+    if (n) memcpy(text, bytes, n);
+    text[n] = 0;
+    return text;
+}
+
+/* The surface of that name, added if new: 60 % grey without highlight.  -1: out of memory, or
+   MODEL_SURFACES of them. */
+enum { MODEL_SURFACES = 10000 };
+static inline int model_find_surface(model *m, const void *name, size_t n, int add)
+{
+    static const model_surface fresh = {
+        NULL,
+        NULL,
+        { { 0, 0, 0 }, { 0.32f, 0.32f, 0.32f }, { 0.32f, 0.32f, 0.32f }, { 0, 0, 0 }, 0 },
+        0,
+        0,
+        0,
+        0,
+        0,
+        -1
+    };
+    model_surface *grown;
+    for (int i = m->surface_count - 1; i >= 0; i--)
+        if (strlen(m->surface[i].name) == n && !memcmp(m->surface[i].name, name, n)) return i;
+    if (!add || m->surface_count >= MODEL_SURFACES) return -1;
+    grown = (model_surface *)mesh_grow(m->surface, (size_t)m->surface_count, &m->surface_room,
+                                       sizeof *grown);
+    if (!grown) return -1;
+    m->surface = grown;
+    grown[m->surface_count] = fresh;
+    grown[m->surface_count].name = model_text(name, n);
+    return grown[m->surface_count].name ? m->surface_count++ : -1;
+}
+
+static inline int model_add_library(model *m, const void *name, size_t n)
+{
+    char **grown =
+        (char **)mesh_grow(m->library, (size_t)m->library_count, &m->library_room, sizeof *grown);
+    if (!grown) return 1;
+    m->library = grown;
+    grown[m->library_count] = model_text(name, n);
+    return !grown[m->library_count++];
+}
+
+/* The path of the file called name in the folder of path; NULL: out of memory */
+static inline char *model_beside(const char *path, const char *name)
+{
+    size_t folder = 0, n = strlen(name);
+    char *beside;
+    for (size_t i = 0; path[i]; i++)
+        if (path[i] == '/') folder = i + 1;
+    if (name[0] == '/') folder = 0;
+    beside = (char *)malloc(folder + n + 1);
+    if (!beside) return NULL;
+    memcpy(beside, path, folder);
+    for (size_t i = 0; i <= n; i++) beside[folder + i] = (char)(name[i] == '\\' ? '/' : name[i]);
+    return beside;
+}
+#endif

@@ -1,0 +1,111 @@
+/* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd.
+   Other statements are skipped, as are surfaces that the model does not use.  Colours are sRGB
+   values.  Ka is ignored, because files hold anything there: k_a = k_d, as daylight wants it. */
+#ifndef MODEL_MTL_H
+#define MODEL_MTL_H
+
+#include "model.h"
+
+/* A colour: three numbers, or one number for all three */
+static inline int mtl_color(mesh_reader *r, shade_vec3 *out)
+{
+    float v[3];
+    for (int k = 0; k < 3; k++) {
+        mesh_skip_blanks(r, 1);
+        if (k == 1 && mesh_at_word_end(r)) {
+            v[1] = v[2] = v[0];
+            break;
+        }
+        if (mesh_take_number(r, &v[k])) return 1;
+    }
+    *out = shade_linear_from_srgb(shade_v3(v[0], v[1], v[2]));
+    return 0;
+}
+
+static inline int mtl_number(mesh_reader *r, float lowest, float highest, float *out)
+{
+    mesh_skip_blanks(r, 1);
+    mesh_take_word(r, "-halo");
+    mesh_skip_blanks(r, 1);
+    if (mesh_take_number(r, out)) return 1;
+    *out = *out < lowest ? lowest : *out > highest ? highest : *out;
+    return 0;
+}
+
+/* The name of a picture behind options, which begin with a dash: the numbers after one are its
+   own, and of those that take a word the word. */
+static inline int mtl_map(mesh_reader *r, char **map)
+{
+    static const char *const worded[6] = { "-blendu", "-blendv",  "-cc",
+                                           "-clamp",  "-imfchan", "-type" };
+    const unsigned char *begin;
+    for (;;) {
+        mesh_reader ahead;
+        char unheard[4];
+        float number;
+        int k = 0;
+        mesh_skip_blanks(r, 0);
+        if (r->at == r->end || *r->at != '-') break;
+        while (k < 6 && !mesh_take_word(r, worded[k])) k++;
+        while (!mesh_at_word_end(r)) r->at++;
+        mesh_skip_blanks(r, 0);
+        for (; k < 6 && !mesh_at_word_end(r);) r->at++;
+        ahead = *r;
+        ahead.error = unheard;
+        ahead.error_size = sizeof unheard;
+        while (k == 6 && !mesh_take_number(&ahead, &number)) {
+            r->at = ahead.at;
+            mesh_skip_blanks(&ahead, 0);
+        }
+    }
+    begin = mesh_take_line(r);
+    if (r->at == begin || !*begin) return 0;
+    free(*map);
+    *map = model_text(begin, (size_t)(r->at - begin));
+    return *map ? 0 : mesh_fail(r, "out of memory");
+}
+
+/* One statement about a surface.  Programs disagree about Tr: d is believed where both stand. */
+static inline int mtl_statement(mesh_reader *r, model_surface *s, int *has_d)
+{
+    shade_material *k = &s->material;
+    float number;
+    if (mesh_take_word(r, "kd")) return mtl_color(r, &k->diffuse);
+    if (mesh_take_word(r, "ks")) return mtl_color(r, &k->specular);
+    if (mesh_take_word(r, "ke")) return mtl_color(r, &k->emission);
+    if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
+    if (mesh_take_word(r, "map_kd")) return mtl_map(r, &s->map);
+    if (mesh_take_word(r, "tr")) return mtl_number(r, 0, 1, *has_d ? &number : &s->transparency);
+    if (!mesh_take_word(r, "d")) return 0;
+    if (mtl_number(r, 0, 1, &number)) return 1;
+    s->transparency = 1 - number;
+    *has_d = 1;
+    return 0;
+}
+
+/* Fills the surfaces of m that stand in the text.  0: all is well; else the rest of the file is
+   not read, and r->error says why. */
+static inline int mtl_read(mesh_reader *r, model *m)
+{
+    model_surface *s = NULL;
+    int failed = 0, has_d = 0;
+    while (r->at < r->end && !failed) {
+        mesh_skip_blanks(r, 1);
+        if (mesh_take_word(r, "newmtl")) {
+            const unsigned char *begin = mesh_take_line(r);
+            int number = model_find_surface(m, begin, (size_t)(r->at - begin), 0);
+            s = number < 0 ? NULL : &m->surface[number];
+            if (s) s->set = 1;
+            has_d = 0;
+        } else if (s && r->at < r->end && *r->at != '#')
+            failed = mtl_statement(r, s, &has_d);
+        mesh_next_line(r, 1);
+    }
+    for (int i = 0; m->surface && i < m->surface_count; i++) {
+        shade_material *k = &m->surface[i].material;
+        k->ambient = k->diffuse;
+        if (k->shininess < 1) k->specular = shade_v3(0, 0, 0); /* too wide */
+    }
+    return failed;
+}
+#endif

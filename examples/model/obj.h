@@ -1,0 +1,202 @@
+/* obj.h - reads OBJ: v (with optional w or red green blue), vt, vn and f, every form of index (v,
+   v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any shape, usemtl and
+   mtllib, continued lines, comments, any line ends.  All other statements are skipped.  One vertex
+   is made for each different v/vt/vn. */
+#ifndef MODEL_OBJ_H
+#define MODEL_OBJ_H
+
+#include "faces.h"
+
+enum { OBJ_V, OBJ_VT, OBJ_VN };
+
+typedef struct obj_data {
+    mesh_floats list[3], color;          /* color: of the first so many v; empty: none has one */
+    mesh_set corners;                    /* v, vt, vn, counted from 1; 0: absent */
+    faces faces;
+    uint32_t highest[3];                 /* index used so far, and where: it may be defined later */
+    long long highest_line[3];
+} obj_data;
+
+/* v, vt or vn: numbers wanted, as many as allowed are taken */
+static inline int obj_numbers(mesh_reader *r, float *out, int wanted, int allowed, int *count)
+{
+    for (*count = 0; *count < allowed; ++*count) {
+        mesh_skip_blanks(r, 1);
+        if (*count >= wanted && mesh_at_word_end(r)) break;
+        if (mesh_take_number(r, &out[*count])) return 1;
+    }
+    return 0;
+}
+
+static inline int obj_vertex(mesh_reader *r, obj_data *o)
+{
+    static const float white[3] = { 1, 1, 1 };
+    float v[7];
+    int count;
+    if (obj_numbers(r, v, 3, 7, &count)) return 1;
+    if (count >= 6) {    /* colours are sRGB values */
+        shade_vec3 rgb = shade_linear_from_srgb(shade_v3(v[3], v[4], v[5]));
+        while (o->color.count < o->list[OBJ_V].count)
+            if (mesh_push(&o->color, white, 3)) return mesh_fail(r, "out of memory");
+        if (mesh_push(&o->color, (const float *)&rgb, 3)) return mesh_fail(r, "out of memory");
+    }
+    if (mesh_push(&o->list[OBJ_V], v, 3)) return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+static inline int obj_texcoord(mesh_reader *r, obj_data *o)
+{
+    float v[3] = { 0, 0, 0 };
+    int count;
+    if (obj_numbers(r, v, 1, 3, &count)) return 1;
+    v[1] = 1 - v[1];                     /* OBJ counts v upward, shade.h downward */
+    return mesh_push(&o->list[OBJ_VT], v, 2) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int obj_normal(mesh_reader *r, obj_data *o)
+{
+    float v[3];
+    int count;
+    if (obj_numbers(r, v, 3, 3, &count)) return 1;
+    return mesh_push(&o->list[OBJ_VN], v, 3) ? mesh_fail(r, "out of memory") : 0;
+}
+
+/* Reads one index of a corner; *out counts from 1. */
+static inline int obj_index(mesh_reader *r, obj_data *o, int kind, uint32_t *out)
+{
+    long long count = (long long)(o->list[kind].count / (kind == OBJ_VT ? 2 : 3)), value = 0;
+    mesh_reader begin = *r;
+    int negative = r->at < r->end && *r->at == '-';
+    r->at += negative;
+    for (; r->at < r->end && *r->at >= '0' && *r->at <= '9'; r->at++)
+        if (value <= INT_MAX) value = value * 10 + (*r->at - '0');
+    if (negative) value = count + 1 - value;
+    if (r->at == begin.at + negative)
+        return mesh_fail(&begin, "expected an index, found %s", mesh_here(&begin).text);
+    if (value < 1 || value > INT_MAX || (negative && value > count))
+        return mesh_fail(&begin, "index %s is out of range", mesh_here(&begin).text);
+    *out = (uint32_t)value;
+    if (*out > o->highest[kind]) {
+        o->highest[kind] = *out;
+        o->highest_line[kind] = r->line;
+    }
+    return 0;
+}
+
+static inline int obj_corner(mesh_reader *r, obj_data *o, uint32_t *number)
+{
+    mesh_triple corner = { { 0, 0, 0 } };
+    for (int kind = OBJ_V; kind <= OBJ_VN; kind++) {
+        int absent = kind && (mesh_at_word_end(r) || *r->at == '/');
+        if (!absent && obj_index(r, o, kind, &corner.k[kind])) return 1;
+        if (r->at == r->end || *r->at != '/' || kind == OBJ_VN) break;
+        r->at++;
+    }
+    if (!mesh_at_word_end(r)) return mesh_fail(r, "expected v/vt/vn, found %s", mesh_here(r).text);
+    if (mesh_set_add(&o->corners, corner, number)) return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+static inline int obj_face(mesh_reader *r, obj_data *o)
+{
+    uint32_t corner = 0;
+    if (faces_begin(&o->faces)) return mesh_fail(r, "out of memory");
+    for (;;) {
+        mesh_skip_blanks(r, 1);
+        if (mesh_at_word_end(r)) break;
+        if (obj_corner(r, o, &corner)) return 1;
+        if (faces_corner(&o->faces, corner)) return mesh_fail(r, "out of memory");
+    }
+    if (faces_end(&o->faces) < 3) return mesh_fail(r, "a face needs three corners");
+    return mesh_check_triangles(r, o->faces.triangles);
+}
+
+/* usemtl and mtllib: a name to the end of the line, which may have spaces */
+static inline int obj_surface(mesh_reader *r, obj_data *o, model *m)
+{
+    const unsigned char *begin = mesh_take_line(r);
+    int none = !m->surface_count && o->faces.stream.count && model_find_surface(m, "", 0, 1) < 0;
+    int surface = none ? -1 : model_find_surface(m, begin, (size_t)(r->at - begin), 1);
+    if (surface < 0) return mesh_fail(r, "out of memory, or more than 10000 materials");
+    return faces_surface(&o->faces, surface) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int obj_library(mesh_reader *r, model *m)
+{
+    const unsigned char *begin = mesh_take_line(r);
+    if (m->library_count >= 100) return 0;
+    return model_add_library(m, begin, (size_t)(r->at - begin)) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int obj_statement(mesh_reader *r, obj_data *o, model *m)
+{
+    if (mesh_take_word(r, "v")) return obj_vertex(r, o);
+    if (mesh_take_word(r, "vt")) return obj_texcoord(r, o);
+    if (mesh_take_word(r, "vn")) return obj_normal(r, o);
+    if (mesh_take_word(r, "f")) return obj_face(r, o);
+    if (mesh_take_word(r, "usemtl")) return obj_surface(r, o, m);
+    if (mesh_take_word(r, "mtllib")) return obj_library(r, m);
+    return 0;
+}
+
+/* Makes a vertex for each different corner that was read. */
+static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
+{
+    static const char *const kind_name[3] = { "v", "vt", "vn" };
+    size_t n = o->corners.count;
+    owned_mesh *m = &out->mesh;
+    int missing = 0;
+    if (!o->faces.triangles) return mesh_fail(r, "no faces in it");
+    for (int k = 0; k < 3; k++) {
+        if (o->highest[k] <= o->list[k].count / (k == OBJ_VT ? 2 : 3)) continue;
+        r->line = o->highest_line[k];
+        return mesh_fail(r, "there is no %s number %lu", kind_name[k],
+                         (unsigned long)o->highest[k]);
+    }
+    m->positions = (float *)malloc(3 * sizeof(float) * n);
+    m->normals = (float *)calloc(n, 3 * sizeof(float));
+    if (o->highest[OBJ_VT]) m->texcoords = (float *)calloc(n, 2 * sizeof(float));
+    if (o->color.count) m->colors = (float *)malloc(3 * sizeof(float) * n);
+    if (!m->positions || !m->normals || (o->highest[OBJ_VT] && !m->texcoords)
+        || (o->color.count && !m->colors)) return mesh_fail(r, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t *k = o->corners.triple[i].k;
+        size_t v = 3 * ((size_t)k[OBJ_V] - 1);
+        memcpy(m->positions + 3 * i, o->list[OBJ_V].v + v, 3 * sizeof(float));
+        for (size_t c = 0; m->colors && c < 3; c++)
+            m->colors[3 * i + c] = v + c < o->color.count ? o->color.v[v + c] : 1;
+        if (k[OBJ_VT])
+            memcpy(m->texcoords + 2 * i, o->list[OBJ_VT].v + 2 * ((size_t)k[OBJ_VT] - 1), 8);
+        if (k[OBJ_VN])
+            memcpy(m->normals + 3 * i, o->list[OBJ_VN].v + 3 * ((size_t)k[OBJ_VN] - 1), 12);
+        else missing = 1;
+    }
+    if (faces_finish(&o->faces, out)) return mesh_fail(r, "out of memory");
+    mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
+    out->normals_given = !missing;
+    return missing && mesh_fill_normals(m) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int obj_read(mesh_reader *r, model *m)
+{
+    static const obj_data empty;
+    obj_data o = empty;
+    int failed = 0;
+    while (r->at < r->end && !failed) {
+        int comment;
+        if (r->progress && r->line % 65536 == 0)
+            r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+        mesh_skip_blanks(r, 1);
+        comment = r->at < r->end && *r->at == '#';
+        if (!comment) failed = obj_statement(r, &o, m);
+        if (!failed) mesh_next_line(r, !comment && !(r->at < r->end && *r->at == '#'));
+    }
+    if (!failed) failed = obj_finish(r, &o, m);
+    for (int k = 0; k < 3; k++) free(o.list[k].v);
+    free(o.color.v);
+    free(o.corners.triple);
+    free(o.corners.slot);
+    faces_free(&o.faces);
+    return failed;
+}
+#endif

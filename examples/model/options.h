@@ -1,0 +1,134 @@
+/* options.h - reads the command line of a program: its options, each of which takes one value or
+   none, and its files.
+
+       static int take(void *to, const char *name, const char *value) { ... }
+       static const char *const valued[] = { "--size", NULL }, *const flags[] = { "--quiet", NULL };
+       const command c = { "thumbnail", usage, valued, flags, 2, take };
+       int end = options_read(&c, &settings, argc, argv);
+       if (end) return end == OPTIONS_WRONG;
+
+   Options and files may come in any order.  Whatever is wrong is one line on stderr. */
+#ifndef MODEL_OPTIONS_H
+#define MODEL_OPTIONS_H
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What options_read returns: go on; a line on stderr has said what is wrong; --help, or another
+   option that is a question, has been answered. */
+enum { OPTIONS_READ, OPTIONS_WRONG, OPTIONS_ANSWERED };
+
+/* What a take function returns: the value is none that this option can have; it is stored; or
+   OPTIONS_ANSWERED. */
+enum { OPTION_BAD, OPTION_TAKEN };
+
+/* Stores the value of the option called name.  A flag has the value "", a file the name NULL. */
+typedef int option_take(void *to, const char *name, const char *value);
+
+typedef struct command {
+    const char *name, *usage;
+    const char *const *valued, *const *flags; /* options with a value and without, up to a NULL */
+    int files;                                /* at most so many */
+    option_take *take;
+} command;
+
+/* The program's name, which begins its lines on stderr */
+static const char *program_name = "";
+
+/* Prints one line on stderr, whatever bytes the names of files in it hold.  Returns 1, the exit
+   status of most programs that fail. */
+static inline int complain(const char *format, ...)
+{
+    char text[1000];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 32) *c = '?';
+    fprintf(stderr, "%s: %s\n", program_name, text);
+    return 1;
+}
+
+/* ---- values ---------------------------------------------------------------------------------- */
+
+/* Reads digits at *text, which moves behind them.  1: the number is within lowest .. highest. */
+static inline int option_digits(const char **text, int lowest, int highest, int *out)
+{
+    long long value = 0;
+    const char *begin = *text;
+    for (; **text >= '0' && **text <= '9'; ++*text)
+        if (value <= highest) value = value * 10 + (**text - '0');
+    *out = (int)value;
+    return *text > begin && value >= lowest && value <= highest;
+}
+
+static inline int option_integer(const char *text, int lowest, int highest, int *out)
+{
+    return option_digits(&text, lowest, highest, out) && !*text;
+}
+
+/* WIDTHxHEIGHT, each from 1 to most */
+static inline int option_size(const char *text, int most, int *width, int *height)
+{
+    return option_digits(&text, 1, most, width) && *text == 'x' &&
+           option_integer(text + 1, 1, most, height);
+}
+
+/* ---- the command line ------------------------------------------------------------------------ */
+
+static inline int option_among(const char *const *list, const char *name)
+{
+    while (*list && strcmp(*list, name)) list++;
+    return *list != NULL;
+}
+
+/* The option or file at argv[*i].  Moves *i onto the last word that belongs to it. */
+static inline int options_take(const command *c, void *to, int argc, char **argv, int *i)
+{
+    const char *name = argv[*i];
+    int taken;
+    if (option_among(c->flags, name)) {
+        c->take(to, name, "");
+        return OPTIONS_READ;
+    }
+    if (!option_among(c->valued, name)) {
+        complain("unknown option %s (--help lists them)", name);
+        return OPTIONS_WRONG;
+    }
+    if (++*i == argc) {
+        complain("%s needs a value", name);
+        return OPTIONS_WRONG;
+    }
+
+    taken = c->take(to, name, argv[*i]);
+    if (taken == OPTIONS_ANSWERED) return OPTIONS_ANSWERED;
+    if (taken == OPTION_TAKEN) return OPTIONS_READ;
+    complain("%s cannot be \"%s\" (--help says what)", name, argv[*i]);
+    return OPTIONS_WRONG;
+}
+
+static inline int options_read(const command *c, void *to, int argc, char **argv)
+{
+    int files = 0, end = OPTIONS_READ;
+    program_name = c->name;
+    for (int i = 1; i < argc && end == OPTIONS_READ; i++) {
+        if (!strcmp(argv[i], "--help")) {
+            fputs(c->usage, stdout);
+            return OPTIONS_ANSWERED;
+        }
+        if (!strncmp(argv[i], "--", 2)) {
+            end = options_take(c, to, argc, argv, &i);
+        } else if (files++ == c->files) {
+            complain("one file too many: %s", argv[i]);
+            return OPTIONS_WRONG;
+        } else {
+            c->take(to, NULL, argv[i]);
+        }
+    }
+    return end;
+}
+#endif

@@ -1,0 +1,348 @@
+/* ply.h - reads PLY, as text or binary of both byte orders: x y z, nx ny nz, red green blue, u v
+   (or s t, texture_u texture_v) of vertices, lists of corners of faces, triangle strips, and the
+   picture named by a comment TextureFile.  Other elements and properties are skipped. */
+#ifndef MODEL_PLY_H
+#define MODEL_PLY_H
+
+#include "faces.h"
+
+enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
+enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP }; /* kinds of elements */
+enum { PLY_X, PLY_NX = 3, PLY_RED = 6, PLY_U = 9, PLY_VALUES = 11, PLY_CORNERS, PLY_UNUSED };
+enum { PLY_MOST = 256 }; /* properties in all */
+
+/* signed and unsigned integers of 1, 2, 4 bytes, floats of 4 and 8 */
+typedef enum ply_type {
+    PLY_INT8,
+    PLY_UINT8,
+    PLY_INT16,
+    PLY_UINT16,
+    PLY_INT32,
+    PLY_UINT32,
+    PLY_FLOAT,
+    PLY_DOUBLE,
+    PLY_TYPES
+} ply_type;
+
+typedef struct ply_property {
+    ply_type type, count_type;
+    int is_list, meaning;
+} ply_property;
+typedef struct ply_element {
+    int kind, first, properties;
+    double count;
+} ply_element;
+
+typedef struct ply_data {
+    int format, elements, properties;
+    ply_element element[PLY_MOST];
+    ply_property property[PLY_MOST];
+    int has[PLY_VALUES];
+    mesh_floats vertex; /* PLY_VALUES each */
+    faces faces;
+    double highest; /* corner */
+} ply_data;
+
+/* ---- the header ----------------------------------------------------------------------------- */
+
+static inline int ply_take_type(mesh_reader *r, ply_type *out)
+{
+    static const char *const names[2][PLY_TYPES] = {
+        { "char", "uchar", "short", "ushort", "int", "uint", "float", "double" },
+        { "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64" }
+    };
+    mesh_skip_blanks(r, 0);
+    for (int k = 0; k < 2 * PLY_TYPES; k++) {
+        if (!mesh_take_word(r, names[k / PLY_TYPES][k % PLY_TYPES])) continue;
+        *out = (ply_type)(k % PLY_TYPES);
+        return 0;
+    }
+    return mesh_fail(r, "expected a type, found %s", mesh_here(r).text);
+}
+
+/* The meaning of a property of a kind of element */
+static inline int ply_meaning(mesh_reader *r, int kind, int is_list)
+{
+    static const char *const names[] = { "x",
+                                         "y",
+                                         "z",
+                                         "nx",
+                                         "ny",
+                                         "nz",
+                                         "red",
+                                         "green",
+                                         "blue",
+                                         "u",
+                                         "v",
+                                         "s",
+                                         "t",
+                                         "texture_u",
+                                         "texture_v",
+                                         "diffuse_red",
+                                         "diffuse_green",
+                                         "diffuse_blue" };
+    static const int meaning[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 9, 10, 9, 10, 6, 7, 8 };
+    if (is_list && kind > PLY_VERTEX &&
+        (mesh_take_word(r, "vertex_indices") || mesh_take_word(r, "vertex_index")))
+        return PLY_CORNERS;
+    for (size_t k = 0; kind == PLY_VERTEX && !is_list && k < sizeof names / sizeof *names; k++)
+        if (mesh_take_word(r, names[k])) return meaning[k];
+    return PLY_UNUSED;
+}
+
+static inline int ply_take_property(mesh_reader *r, ply_data *p)
+{
+    ply_property *at = &p->property[p->properties];
+    ply_element *e;
+    if (!p->elements) return mesh_fail(r, "a property before any element");
+    if (p->properties == PLY_MOST) return mesh_fail(r, "more than %d properties", PLY_MOST);
+    e = &p->element[p->elements - 1];
+    mesh_skip_blanks(r, 0);
+    at->is_list = mesh_take_word(r, "list");
+    if (at->is_list && ply_take_type(r, &at->count_type)) return 1;
+    if (at->is_list && at->count_type >= PLY_FLOAT)
+        return mesh_fail(r, "a list counts in integers");
+    if (ply_take_type(r, &at->type)) return 1;
+    mesh_skip_blanks(r, 0);
+    at->meaning = ply_meaning(r, e->kind, at->is_list);
+    if (at->meaning < PLY_VALUES) p->has[at->meaning] = 1;
+    p->properties++;
+    e->properties++;
+    return 0;
+}
+
+static inline int ply_take_element(mesh_reader *r, ply_data *p)
+{
+    ply_element *e = &p->element[p->elements];
+    if (p->elements == PLY_MOST) return mesh_fail(r, "more than %d elements", PLY_MOST);
+    mesh_skip_blanks(r, 0);
+    e->kind = mesh_take_word(r, "vertex")      ? PLY_VERTEX
+              : mesh_take_word(r, "face")      ? PLY_FACE
+              : mesh_take_word(r, "tristrips") ? PLY_STRIP
+                                               : PLY_OTHER;
+    while (!mesh_at_word_end(r)) r->at++;
+    mesh_skip_blanks(r, 0);
+    if (mesh_take_double(r, &e->count)) return 1;
+    e->first = p->properties;
+    e->properties = 0;
+    p->elements++;
+    return 0;
+}
+
+static inline int ply_take_format(mesh_reader *r, ply_data *p)
+{
+    mesh_skip_blanks(r, 0);
+    p->format = mesh_take_word(r, "ascii")                  ? PLY_TEXT
+                : mesh_take_word(r, "binary_little_endian") ? PLY_LITTLE
+                : mesh_take_word(r, "binary_big_endian")    ? PLY_BIG
+                                                            : -1;
+    return p->format < 0 ? mesh_fail(r, "unknown format %s", mesh_here(r).text) : 0;
+}
+
+/* comment TextureFile NAME: the surface of all faces */
+static inline int ply_take_comment(mesh_reader *r, model *m)
+{
+    const unsigned char *begin;
+    mesh_skip_blanks(r, 0);
+    if (m->surface_count || !mesh_take_word(r, "texturefile")) return 0;
+    begin = mesh_take_line(r);
+    if (model_find_surface(m, "", 0, 1) < 0) return mesh_fail(r, "out of memory");
+    m->surface->map = model_text(begin, (size_t)(r->at - begin));
+    m->surface->set = 1;
+    m->surface->material.diffuse = m->surface->material.ambient = shade_v3(1, 1, 1);
+    return m->surface->map ? 0 : mesh_fail(r, "out of memory");
+}
+
+static inline int ply_read_header(mesh_reader *r, ply_data *p, model *m)
+{
+    int has_faces = 0;
+    p->format = -1;
+    for (int line = 0, failed = 0; r->at < r->end && !failed; line++) {
+        if (!line && !mesh_take_word(r, "ply")) return mesh_fail(r, "does not begin with ply");
+        mesh_skip_blanks(r, 0);
+        if (mesh_take_word(r, "end_header")) {
+            if (p->format < 0) return mesh_fail(r, "the header names no format");
+            if (!p->has[PLY_X] || !p->has[PLY_X + 1] || !p->has[PLY_X + 2])
+                return mesh_fail(r, "vertices need x, y and z");
+            for (int k = 0; k < p->elements; k++) has_faces |= p->element[k].kind >= PLY_FACE;
+            if (!has_faces) return mesh_fail(r, "points without faces");
+            mesh_next_line(r, 0);
+            if (p->format != PLY_TEXT) r->line = 0;
+            return 0;
+        }
+        if (mesh_take_word(r, "format"))
+            failed = ply_take_format(r, p);
+        else if (mesh_take_word(r, "element"))
+            failed = ply_take_element(r, p);
+        else if (mesh_take_word(r, "property"))
+            failed = ply_take_property(r, p);
+        else if (mesh_take_word(r, "comment"))
+            failed = ply_take_comment(r, m);
+        if (failed) return 1;
+        mesh_next_line(r, 0);
+    }
+    return mesh_fail(r, "the header does not end");
+}
+
+/* ---- the body ------------------------------------------------------------------------------- */
+
+static inline int ply_number(mesh_reader *r, int format, ply_type type, double *out)
+{
+    static const int sizes[PLY_TYPES] = { 1, 1, 2, 2, 4, 4, 4, 8 };
+    uint64_t bits = 0;
+    int size = sizes[type];
+    float single;
+    if (format == PLY_TEXT) {
+        mesh_skip_lines(r);
+        return mesh_take_double(r, out);
+    }
+    if (r->end - r->at < size) return mesh_fail(r, "ends too early");
+    for (int k = 0; k < size; k++)
+        bits |= (uint64_t)r->at[k] << 8 * (format == PLY_LITTLE ? k : size - 1 - k);
+    r->at += size;
+    if (type == PLY_FLOAT) {
+        uint32_t low = (uint32_t)bits;
+        memcpy(&single, &low, sizeof single);
+        *out = (double)single;
+    } else if (type == PLY_DOUBLE)
+        memcpy(out, &bits, sizeof *out);
+    else
+        *out = (double)bits;
+    if (type < PLY_FLOAT && type % 2 == 0 && bits >> (8 * size - 1))
+        *out -= (double)((uint64_t)1 << 8 * size);
+    return 0;
+}
+
+/* A corner as the file has it; whether there is such a vertex shows at the end. */
+static inline int ply_corner(mesh_reader *r, ply_data *p, double value)
+{
+    if (!(value >= 0 && value < INT_MAX)) return mesh_fail(r, "a corner is out of range");
+    if (value > p->highest) p->highest = value;
+    if (faces_corner(&p->faces, (uint32_t)value)) return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+/* A strip ends at -1.  Every second triangle of it has its corners reversed. */
+static inline int ply_strip(mesh_reader *r, ply_data *p, double value, uint32_t *pair, int *length)
+{
+    if (value < 0) return *length = 0;
+    if (!(value < INT_MAX)) return mesh_fail(r, "a corner is out of range");
+    if (++*length > 2) {
+        if (faces_begin(&p->faces) || ply_corner(r, p, pair[1 - *length % 2]) ||
+            ply_corner(r, p, pair[*length % 2]) || ply_corner(r, p, value))
+            return 1;
+        faces_end(&p->faces);
+    }
+    pair[0] = pair[1];
+    pair[1] = (uint32_t)value;
+    return mesh_check_triangles(r, p->faces.triangles);
+}
+
+static inline int ply_list(mesh_reader *r, ply_data *p, const ply_property *at, int kind)
+{
+    double count, value;
+    uint32_t pair[2] = { 0, 0 };
+    int length = 0, used = at->meaning == PLY_CORNERS;
+    if (ply_number(r, p->format, at->count_type, &count)) return 1;
+    if (!(count >= 0)) return mesh_fail(r, "a list of less than nothing");
+    if (used && kind == PLY_FACE && faces_begin(&p->faces)) return mesh_fail(r, "out of memory");
+    for (double i = 0; i < count; i++) {
+        if (ply_number(r, p->format, at->type, &value)) return 1;
+        if (used && kind == PLY_FACE && ply_corner(r, p, value)) return 1;
+        if (used && kind == PLY_STRIP && ply_strip(r, p, value, pair, &length)) return 1;
+    }
+    if (used && kind == PLY_FACE) faces_end(&p->faces);
+    return mesh_check_triangles(r, p->faces.triangles);
+}
+
+/* Brings a colour of any integer type to 0 .. 1. */
+static inline double ply_value(const ply_property *at, double value)
+{
+    static const double whole[6] = { 127, 255, 32767, 65535, 2147483647, 4294967295 };
+    if (at->meaning >= PLY_RED && at->meaning < PLY_U && at->type < PLY_FLOAT)
+        value /= whole[at->type];
+    return value;
+}
+
+static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e)
+{
+    double v[PLY_VALUES] = { 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0 };
+    float single[PLY_VALUES];
+    for (int k = e->first; k < e->first + e->properties; k++) {
+        const ply_property *at = &p->property[k];
+        double value;
+        if (at->is_list) {
+            if (ply_list(r, p, at, e->kind)) return 1;
+            continue;
+        }
+        if (ply_number(r, p->format, at->type, &value)) return 1;
+        if (at->meaning < PLY_VALUES) v[at->meaning] = ply_value(at, value);
+    }
+    if (e->kind != PLY_VERTEX) return 0;
+    for (int k = 0; k < PLY_VALUES; k++) {
+        int finite = v[k] >= -(double)FLT_MAX && v[k] <= (double)FLT_MAX;
+        if (k < PLY_NX && !finite) return mesh_fail(r, "a position is not finite");
+        single[k] = finite ? (float)v[k] : 0;
+    }
+    if (p->vertex.count / PLY_VALUES >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
+    return mesh_push(&p->vertex, single, PLY_VALUES) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int ply_read_body(mesh_reader *r, ply_data *p)
+{
+    for (int k = 0; k < p->elements; k++) {
+        const ply_element *e = &p->element[k];
+        for (double i = 0; i < e->count && e->properties; i++) {
+            if (ply_instance(r, p, e)) return 1;
+            if (r->progress && (long long)i % 16384 == 0)
+                r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+        }
+    }
+    return 0;
+}
+
+static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
+{
+    size_t n = p->vertex.count / PLY_VALUES;
+    owned_mesh *m = &out->mesh;
+    int missing = 0;
+    if (!p->faces.triangles)
+        return mesh_fail(r, n ? "points without faces" : "neither vertices nor faces in it");
+    if (p->highest >= (double)n)
+        return mesh_fail(r, "there is no vertex %lu", (unsigned long)p->highest);
+    m->positions = (float *)malloc(3 * sizeof(float) * n);
+    m->normals = (float *)malloc(3 * sizeof(float) * n);
+    if (p->has[PLY_U]) m->texcoords = (float *)malloc(2 * sizeof(float) * n);
+    if (p->has[PLY_RED]) m->colors = (float *)malloc(3 * sizeof(float) * n);
+    if (!m->positions || !m->normals || (p->has[PLY_U] && !m->texcoords) ||
+        (p->has[PLY_RED] && !m->colors))
+        return mesh_fail(r, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        const float *v = p->vertex.v + PLY_VALUES * i, *N = v + PLY_NX, *c = v + PLY_RED;
+        shade_vec3 rgb = shade_linear_from_srgb(shade_v3(c[0], c[1], c[2]));
+        memcpy(m->positions + 3 * i, v, 3 * sizeof(float));
+        memcpy(m->normals + 3 * i, N, 3 * sizeof(float));
+        if (N[0] == 0 && N[1] == 0 && N[2] == 0) missing = 1;
+        if (m->colors) memcpy(m->colors + 3 * i, &rgb, sizeof rgb);
+        if (!m->texcoords) continue;
+        m->texcoords[2 * i] = v[PLY_U];
+        m->texcoords[2 * i + 1] = 1 - v[PLY_U + 1];
+    }
+    if (faces_finish(&p->faces, out)) return mesh_fail(r, "out of memory");
+    mesh_link(m, (int)n, 3 * (int)p->faces.triangles);
+    out->normals_given = !missing;
+    return missing && mesh_fill_normals(m) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline int ply_read(mesh_reader *r, model *m)
+{
+    ply_data *p = (ply_data *)calloc(1, sizeof *p);
+    int failed;
+    if (!p) return mesh_fail(r, "out of memory");
+    failed = ply_read_header(r, p, m) || ply_read_body(r, p) || ply_finish(r, p, m);
+    free(p->vertex.v);
+    faces_free(&p->faces);
+    free(p);
+    return failed;
+}
+#endif

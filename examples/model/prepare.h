@@ -1,0 +1,151 @@
+/* prepare.h - makes a model ready to be drawn: upright, turned, one unit large about the origin,
+   and with hard edges where faces meet at an angle. */
+#ifndef MODEL_PREPARE_H
+#define MODEL_PREPARE_H
+
+#include "files.h"
+
+/* The rows of a rotation that takes an upright axis (x y z -x -y -z) to +y, then turns about +y */
+static void upright_rows(int up, float turn, double row[3][3])
+{
+    /* axis k of the picture is sign * axis of the model */
+    static const int axis[6][3] = { { 1, 0, 2 }, { 0, 1, 2 }, { 0, 2, 1 },
+                                    { 1, 0, 2 }, { 0, 1, 2 }, { 0, 2, 1 } };
+    static const double sign[6][3] = { { -1, 1, 1 }, { 1, 1, 1 },   { 1, 1, -1 },
+                                       { 1, -1, 1 }, { -1, -1, 1 }, { 1, -1, 1 } };
+    shade_mat4 m = shade_mat4_rotation(turn, shade_v3(0, 1, 0));
+    float c[16];
+    memcpy(c, &m, sizeof c);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) row[i][k] = 0;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) row[i][axis[up][k]] += (double)c[4 * k + i] * sign[up][k];
+}
+
+static void rotate_rows(float *v, size_t n, double row[3][3])
+{
+    for (size_t i = 0; i < n; i++, v += 3) {
+        double x = (double)v[0], y = (double)v[1], z = (double)v[2];
+        for (int k = 0; k < 3; k++) v[k] = (float)(row[k][0] * x + row[k][1] * y + row[k][2] * z);
+    }
+}
+
+static void mesh_stand(owned_mesh *m, int up, float turn)
+{
+    double row[3][3];
+    size_t n = (size_t)m->view.vertex_count;
+    upright_rows(up, turn, row);
+    mesh_normalize(m, 0);
+    rotate_rows(m->positions, n, row);
+    rotate_rows(m->normals, n, row);
+}
+
+/* The sum of the squares of how many corners meet at each position: what corner normals cost.
+   0: out of memory */
+static double crease_cost(const owned_mesh *m)
+{
+    static const mesh_set empty;
+    mesh_set places = empty;
+    size_t vertices = (size_t)m->view.vertex_count;
+    uint32_t *place = (uint32_t *)calloc(2 * vertices + 1, sizeof *place);
+    double cost = 0;
+    int failed = !place;
+    for (size_t i = 0; i < vertices && !failed; i++)
+        failed = mesh_set_add(&places, mesh_position_key(m->positions + 3 * i), &place[i]);
+    if (!failed) {
+        uint32_t *count = place + vertices;
+        for (int i = 0; i < m->view.index_count; i++) count[place[m->indices[i]]]++;
+        for (size_t i = 0; i < places.count; i++) cost += (double)count[i] * (double)count[i];
+    }
+    free(place);
+    free(places.triple);
+    free(places.slot);
+    return failed ? 0 : cost;
+}
+
+/* An array with the elements of another for each new vertex; frees the other. */
+static float *crease_spread(float *v, size_t size, const uint32_t *of, size_t n)
+{
+    float *spread = v ? (float *)malloc(n * size * sizeof *v) : NULL;
+    for (size_t i = 0; spread && i < n; i++)
+        memcpy(spread + size * i, v + size * of[i], size * sizeof *v);
+    free(v);
+    return spread;
+}
+
+/* One vertex for each corner, so that each may have a normal of its own */
+static int mesh_unshare(owned_mesh *m)
+{
+    int n = m->view.index_count;
+    int lacks;
+    m->positions = crease_spread(m->positions, 3, m->indices, (size_t)n);
+    m->normals = crease_spread(m->normals, 3, m->indices, (size_t)n);
+    lacks = !m->positions || !m->normals;
+    if (m->texcoords) {
+        m->texcoords = crease_spread(m->texcoords, 2, m->indices, (size_t)n);
+        lacks |= !m->texcoords;
+    }
+    if (m->colors) {
+        m->colors = crease_spread(m->colors, 3, m->indices, (size_t)n);
+        lacks |= !m->colors;
+    }
+    for (int i = 0; i < n; i++) m->indices[i] = (uint32_t)i;
+    mesh_link(m, n, n);
+    return lacks;
+}
+
+/* Normals for a model that has none: rounded where faces meet at less than 40 degrees, sharp
+   elsewhere; of each face with flat.  A mesh where that would take long stays round all over.
+   Non-zero: out of memory. */
+static int mesh_crease(owned_mesh *m, int flat)
+{
+    size_t n = (size_t)m->view.index_count, bytes = shade_mesh_corner_normals_bytes(&m->view);
+    double cost = flat ? 0 : crease_cost(m);
+    void *memory = NULL;
+    shade_vec3 *normal;
+    int failed = 1;
+    if (!flat && !(cost > 0)) return 1;
+    if (cost > 20.0 * (double)n + 1e6) return 0;
+    normal = (shade_vec3 *)malloc((n + 1) * sizeof *normal);
+    if (!flat) memory = malloc(bytes);
+    if (normal && (memory || flat)) failed = 0;
+    if (!failed && !flat)
+        failed = shade_mesh_corner_normals(&m->view, 0.766f, normal, memory, bytes) != SHADE_OK;
+    free(memory);
+    if (!failed) failed = mesh_unshare(m);
+    for (size_t i = 0; i < n && !failed && flat; i++) {
+        shade_vec3 p[3];
+        memcpy(p, m->positions + 9 * (i / 3), sizeof p);
+        normal[i] = shade_face_normal(p[0], p[1], p[2]);
+    }
+    for (size_t i = 0; i < n && !failed; i++) /* corners of faces without area keep their normals */
+        if (shade_dot(normal[i], normal[i]) > 0) memcpy(m->normals + 3 * i, &normal[i], 12);
+    free(normal);
+    return failed;
+}
+
+/* Sorts the triangles of each part in space and finds the boxes around runs of them, by which
+   bands skip what they do not see.  Non-zero: out of memory. */
+static int mesh_chunk_parts(model *m)
+{
+    uint32_t *sorted = (uint32_t *)malloc(((size_t)m->mesh.view.index_count + 1) * sizeof *sorted);
+    int count = 0;
+    for (int i = 0; i < m->part_count; i++) {
+        m->part[i].first_chunk = count;
+        count += m->part[i].chunk_count = shade_chunk_count(m->part[i].count, 0);
+    }
+    m->mesh.chunks = (shade_chunk *)malloc(((size_t)count + 1) * sizeof *m->mesh.chunks);
+    if (!sorted || !m->mesh.chunks) {
+        free(sorted);
+        return 1;
+    }
+    for (int i = 0; i < m->part_count; i++) {
+        shade_mesh mesh = model_part_mesh(m, i);
+        shade_mesh_chunks(&mesh, 0, m->mesh.chunks + m->part[i].first_chunk,
+                          m->part[i].chunk_count, sorted + m->part[i].first);
+    }
+    free(m->mesh.indices);
+    m->mesh.view.indices = m->mesh.indices = sorted;
+    return mesh_renumber(&m->mesh);
+}
+#endif

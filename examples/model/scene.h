@@ -1,0 +1,551 @@
+/* scene.h - the scene of view and batch: a model above its soft shadow, turning between lamps that
+   stay with the viewer, and the keys that change how it is lit. */
+#ifndef MODEL_SCENE_H
+#define MODEL_SCENE_H
+
+#include "../shared/bands.h"
+#include "ground.h"
+#include "files.h"
+#include "../shared/shapes.h"
+#include "options.h"
+
+/* Keys beyond characters */
+enum { KEY_UP = 256, KEY_DOWN, KEY_LEFT, KEY_RIGHT };
+
+/* The choices that keys step through: a small letter forward, its capital back */
+enum {
+    CHOICE_MATERIAL, CHOICE_SHADING, CHOICE_LAMP, CHOICE_TERM, CHOICE_MODEL, CHOICE_FLAG,
+    CHOICE_BACKDROP, CHOICE_WIRE, CHOICE_GROUND, CHOICES
+};
+enum { LAMP_STUDIO, LAMP_SUN, LAMP_NEAR, LAMP_SPOT, LAMP_COLORS, LAMP_EYE };
+enum { BACKDROP_DUSK, BACKDROP_DAYLIGHT, BACKDROP_BLACK };
+enum { WIRE_OFF, WIRE_OVER, WIRE_ALONE };
+
+typedef struct scene_choice {
+    const char *what, *name[6];
+    int count;
+    char key;
+} scene_choice;
+static const scene_choice scene_choices[CHOICES] = {
+    { "material", { "clay" }, 1 + SHADE_PRESET_COUNT, 'm' },
+    { "shading", { "per fragment", "per vertex", "per face" }, 3, 's' },
+    { "lamp", { "studio", "sun", "near", "spot", "two colors", "at the eye" }, 6, 'l' },
+    { "terms", { "all", "ambient", "diffuse", "specular" }, 4, 't' },
+    { "model",
+      { "Blinn-Phong", "Phong", "Lambert", "ambient", "emissive", "cool to warm" },
+      6, 'e' },
+    { "flag",
+      { "none", "ungated specular", "weighted specular", "two-sided abs", "infinite viewer" },
+      5, 'f' },
+    { "background", { "dusk", "daylight", "black" }, 3, 'b' },
+    { "wires", { "off", "over", "alone" }, 3, 'w' },
+    { "ground", { "shadow", "none" }, 2, 'g' },
+};
+
+static const char *const scene_help[] = {
+    "arrows mouse   turn",
+    "+ - wheel      zoom",
+    "space          turn by itself, or not",
+    "m s l t        material, shading, lamp, terms",
+    "e f            model, flag",
+    "b w g          background, wires, ground",
+    "capitals       step back",
+    "r              as at first",
+    "h ?            this help",
+    "q              quit",
+};
+enum { SCENE_HELP = sizeof scene_help / sizeof *scene_help };
+
+#define SCENE_PITCH 0.36f   /* the camera looks down by this angle, in radians, */
+#define SCENE_LENS 0.42f    /* and sees this vertical angle */
+
+typedef struct scene {
+    owned_mesh mesh; /* about the origin, the farthest point at distance 1 */
+    float yaw, pitch, zoom;
+    int turning, choice[CHOICES];
+    int threads; /* 0: all cores */
+    int turning_at_home, home[CHOICES];
+    const char *title; /* the name of the model's file */
+    char said[64];     /* the effect of the last key */
+    ground shadow;
+    shade_vec3 *wires;  /* pairs of points; NULL until they are shown */
+    int wire_points;
+    shade_chunk *runs;  /* runs of 256 wires, and the box around each */
+} scene;
+
+/* What is shown, and how it begins; zeroed but for z_up: the teapot */
+typedef struct scene_request {
+    const char *model; /* its file; NULL: the teapot */
+    int pieces;        /* of the teapot along each edge of a patch; 0: 20 */
+    int z_up;          /* -1: by the kind of file */
+    int threads;       /* 0: one a core */
+    int still, dark;   /* does not turn by itself; has a black background */
+} scene_request;
+
+/* The place of the scene for a picture of a given shape, and the part of the backdrop, 0 .. 1
+   from its top, that the picture shows */
+typedef struct scene_camera {
+    shade_mat4 model, view, projection;
+    float top, bottom;
+} scene_camera;
+
+/* Frames a second, counted over half seconds; 0: not yet */
+typedef struct frame_rate {
+    double since;
+    int counted, rate;
+} frame_rate;
+
+static inline void frame_rate_count(frame_rate *f, double now)
+{
+    f->counted++;
+    if (now - f->since < 0.5) return;
+    f->rate = f->since > 0 ? (int)(f->counted / (now - f->since) + 0.5) : 0;
+    f->counted = 0;
+    f->since = now;
+}
+
+/* ---- the model ------------------------------------------------------------------------------ */
+
+/* Restores the state after loading. */
+static inline void scene_go_home(scene *s)
+{
+    s->yaw = -0.5f;
+    s->pitch = SCENE_PITCH;
+    s->zoom = 1;
+    s->turning = s->turning_at_home;
+    memcpy(s->choice, s->home, sizeof s->choice);
+}
+
+/* The name of a file without its folders */
+static inline const char *scene_title(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}
+
+/* The options that every program with a scene has: an option_take for a scene_request */
+static inline int scene_take(scene_request *o, const char *name, const char *value)
+{
+    if (!strcmp(name, "--threads")) return option_integer(value, 1, 256, &o->threads);
+    o->z_up = !strcmp(value, "z");
+    return o->z_up || !strcmp(value, "y"); /* --up */
+}
+
+/* Loads a model into a zeroed scene.  Returns 1 with a line on stderr. */
+static inline int scene_load(scene *s, const scene_request *o, mesh_progress *progress,
+                             void *user)
+{
+    char error[400];
+    int z_up = o->z_up >= 0 ? o->z_up : o->model && mesh_is_stl(o->model, NULL, 0);
+    if (!o->model)
+        s->mesh = shape_teapot(o->pieces > 0 ? o->pieces : 20);
+    else if (mesh_read_file_progress(o->model, &s->mesh, error, sizeof error, progress, user)) {
+        complain("%s", error);
+        return 1;
+    }
+    mesh_normalize(&s->mesh, z_up);
+    if (mesh_chunks(&s->mesh)) {
+        complain("out of memory");
+        return 1;
+    }
+    s->threads = o->threads;
+    s->title = o->model ? scene_title(o->model) : "teapot";
+    s->turning_at_home = !o->still;
+    if (!o->model) s->home[CHOICE_MATERIAL] = 1 + SHADE_PRESET_BRONZE;
+    if (o->dark) s->home[CHOICE_BACKDROP] = BACKDROP_BLACK;
+    scene_go_home(s);
+    ground_cast(&s->shadow, &s->mesh.view);
+    return 0;
+}
+
+static inline void scene_close(scene *s)
+{
+    mesh_free(&s->mesh);
+    ground_free(&s->shadow);
+    free(s->wires);
+    free(s->runs);
+}
+
+enum { WIRE_RUN = 256 };    /* wires in a box */
+static inline int scene_run_count(const scene *s)
+{
+    return (s->wire_points / 2 + WIRE_RUN - 1) / WIRE_RUN;
+}
+
+/* Finds the boxes around runs of wires, by which bands skip wires that they do not see.  Without
+   memory the scene has no wires. */
+static inline void scene_find_runs(scene *s)
+{
+    s->runs = (shade_chunk *)malloc(((size_t)scene_run_count(s) + 1) * sizeof *s->runs);
+    if (!s->runs) s->wire_points = 0;
+    for (int k = 0; k < scene_run_count(s); k++) {
+        const int first = 2 * WIRE_RUN * k, rest = s->wire_points - first;
+        shade_chunk run = { s->wires[first], s->wires[first], first, 0 };
+        run.count = rest < 2 * WIRE_RUN ? rest : 2 * WIRE_RUN;
+        for (int i = first; i < first + run.count; i++) {
+            run.low = shade_min(run.low, s->wires[i]);
+            run.high = shade_max(run.high, s->wires[i]);
+        }
+        s->runs[k] = run;
+    }
+}
+
+/* Finds every edge once, as pairs of points; none where memory is out. */
+static inline void scene_find_wires(scene *s)
+{
+    const shade_mesh *m = &s->mesh.view;
+    size_t room = (size_t)m->index_count;
+    shade_edge *edge = (shade_edge *)malloc(room * sizeof *edge);
+    int count = 0;
+    if (edge && !shade_mesh_edges(m, edge, m->index_count, &count))
+        s->wires = (shade_vec3 *)malloc(2 * (size_t)count * sizeof *s->wires);
+    for (int i = 0; s->wires && i < count; i++) {
+        memcpy(&s->wires[2 * i], m->positions + 3 * (size_t)edge[i].a, sizeof *s->wires);
+        memcpy(&s->wires[2 * i + 1], m->positions + 3 * (size_t)edge[i].b, sizeof *s->wires);
+    }
+    s->wire_points = s->wires && count <= INT_MAX / 2 ? 2 * count : 0;
+    free(edge);
+    scene_find_runs(s);
+}
+
+/* The model's name and size */
+typedef struct scene_words {
+    char text[64];
+} scene_words;
+static inline scene_words scene_caption(const scene *s)
+{
+    scene_words w;
+    int n = s->mesh.view.index_count / 3;
+    snprintf(w.text, sizeof w.text, "%.32s, %d triangle%s", s->title, n, n == 1 ? "" : "s");
+    return w;
+}
+
+/* ---- keys ----------------------------------------------------------------------------------- */
+
+static inline const char *scene_choice_name(int choice, int value)
+{
+    if (choice == CHOICE_MATERIAL && value) return shade_preset_name((shade_preset)(value - 1));
+    return scene_choices[choice].name[value];
+}
+
+static inline void scene_step(scene *s, int choice, int step)
+{
+    const scene_choice *c = &scene_choices[choice];
+    s->choice[choice] = (s->choice[choice] + step + c->count) % c->count;
+    snprintf(s->said, sizeof s->said, "%s %s", c->what,
+             scene_choice_name(choice, s->choice[choice]));
+    if (choice == CHOICE_WIRE && s->choice[choice] && !s->wires) scene_find_wires(s);
+}
+
+static inline void scene_turn(scene *s, float right, float down)
+{
+    s->yaw = fmodf(s->yaw + right, 6.2831853f);
+    s->pitch = fmaxf(-1.57f, fminf(1.57f, s->pitch + down));
+}
+
+static inline void scene_zoom(scene *s, float factor)
+{
+    s->zoom = fmaxf(0.2f, fminf(20, s->zoom * factor));
+}
+
+/* Returns 1 where the key belongs to the scene. */
+static inline int scene_key(scene *s, int key)
+{
+    const float step = 0.12f;
+    *s->said = 0;
+    switch (key) {
+    case KEY_UP:
+        scene_turn(s, 0, -step);
+        return 1;
+    case KEY_DOWN:
+        scene_turn(s, 0, step);
+        return 1;
+    case KEY_LEFT:
+        scene_turn(s, -step, 0);
+        return 1;
+    case KEY_RIGHT:
+        scene_turn(s, step, 0);
+        return 1;
+    case '+':
+    case '=':
+        scene_zoom(s, 1.1f);
+        return 1;
+    case '-':
+    case '_':
+        scene_zoom(s, 1 / 1.1f);
+        return 1;
+    case ' ':
+        s->turning = !s->turning;
+        return 1;
+    case 'r':
+        scene_go_home(s);
+        return 1;
+    }
+    for (int k = 0; k < CHOICES; k++) {
+        if (key != scene_choices[k].key && key != scene_choices[k].key - 'a' + 'A') continue;
+        scene_step(s, k, key == scene_choices[k].key ? 1 : -1);
+        return 1;
+    }
+    return 0;
+}
+
+/* ---- drawing -------------------------------------------------------------------------------- */
+
+/* The nearest distance from which the model stays in the picture however it turns about its upright
+   axis, and the height that centres it.  A point at radius r, height y travels a circle; against
+   the four planes of the view its extremes have a closed form. */
+static inline void scene_fit(const scene *s, float slope_x, float slope_y, float *distance,
+                             float *rise)
+{
+    shade_vec2 tilt;
+    float side = 0, above = -9, below = -9;
+    shade_mat4 turn = shade_mat4_rotation(SCENE_PITCH, shade_v3(1, 0, 0));
+    tilt = shade_v2(turn.col[1].y, turn.col[1].z); /* cosine, sine */
+    for (int i = 0; i < s->mesh.view.vertex_count; i++) {
+        const float *p = s->mesh.positions + 3 * (size_t)i;
+        float r = sqrtf(p[0] * p[0] + p[2] * p[2]), y = p[1];
+        side =
+            fmaxf(side, r * sqrtf(1 + slope_x * slope_x * tilt.x * tilt.x) + slope_x * y * tilt.y);
+        above =
+            fmaxf(above, y * (tilt.x + slope_y * tilt.y) + r * fabsf(slope_y * tilt.x - tilt.y));
+        below =
+            fmaxf(below, y * (slope_y * tilt.y - tilt.x) + r * fabsf(slope_y * tilt.x + tilt.y));
+    }
+    *distance = 1.12f * fmaxf(side / slope_x, (above + below) / (2 * slope_y));
+    *distance = fmaxf(*distance, 1.1f);
+    *rise = (below - above) / 2;
+}
+
+/* Places the camera; aspect is width by height of the picture as it is seen. */
+static inline scene_camera scene_place_camera(const scene *s, float aspect)
+{
+    scene_camera c;
+    shade_mat4 lens = shade_mat4_perspective(SCENE_LENS, aspect, 1, 2);
+    float distance, rise;
+    scene_fit(s, 1 / lens.col[0].x, 1 / lens.col[1].y, &distance, &rise);
+    c.model = shade_mat4_mul(shade_mat4_rotation(s->pitch, shade_v3(1, 0, 0)),
+                             shade_mat4_rotation(s->yaw, shade_v3(0, 1, 0)));
+    c.view = shade_mat4_translation(shade_v3(0, rise, -distance));
+    c.projection =
+        shade_mat4_perspective(SCENE_LENS, aspect, fmaxf(0.02f, distance - 2.2f), distance + 2.2f);
+    c.projection.col[0].x *= s->zoom;
+    c.projection.col[1].y *= s->zoom;
+    c.top = 0;
+    c.bottom = 1;
+    return c;
+}
+
+/* The camera of width x height pixels from x, y on, where c is that of size (width, height) */
+static inline scene_camera scene_crop(scene_camera c, shade_vec2 size, float x, float y,
+                                      float width, float height)
+{
+    shade_vec4 *col = c.projection.col;
+    for (int k = 0; k < 4; k++) {
+        col[k].x = col[k].x * (size.x / width) + col[k].w * ((size.x - 2 * x) / width - 1);
+        col[k].y = col[k].y * (size.y / height) + col[k].w * (1 - (size.y - 2 * y) / height);
+    }
+    c.top = y / size.y;
+    c.bottom = (y + height) / size.y;
+    return c;
+}
+
+/* Colours of text before the picture, and of the box behind longer ones */
+static inline uint32_t scene_ink(const scene *s)
+{
+    return s->choice[CHOICE_BACKDROP] == BACKDROP_DAYLIGHT ? 0x2a323a : 0xc3ccd6;
+}
+enum { SCENE_BOX = 0x14191e, SCENE_BOX_INK = 0xe6ebf0 };
+
+/* Clears the rows of a band to the backdrop; so many rows, counted from the top of the picture,
+   have one colour. */
+static inline void scene_backdrop(const scene *s, const shade_target *target, float from, float to,
+                                  int rows)
+{
+    static const uint32_t top[3] = { 0x20262e, 0xdfe6ec, 0 }, bottom[3] = { 0x59626d, 0x9aa5b0, 0 };
+    int b = s->choice[CHOICE_BACKDROP];
+    const int first = target->clip_y, end = first + target->clip_height;
+    shade_target band = *target;
+    for (int y = first - first % rows; y < end; y += rows) {
+        float part = ((float)y + 0.5f * (float)rows) / (float)band.height;
+        band.clip_y = y < first ? first : y;
+        band.clip_height = (y + rows < end ? y + rows : end) - band.clip_y;
+        part = from + (to - from) * part;
+        shade_vec3 k = shade_lerp(shade_rgb(top[b]), shade_rgb(bottom[b]), part);
+        shade_clear(&band, shade_v4(k.x, k.y, k.z, 1), 1);
+    }
+}
+
+/* Sets the lamps, which stay with the viewer on +z.  Returns their number, at most 4.  Those of
+   the studio are a key light from above, a fill light from beside it, one from behind for the
+   outline, and light from the ground. */
+static inline int scene_lamps(const scene *s, shade_light *light, shade_vec3 *ambient)
+{
+    shade_vec3 white = shade_v3(1.5f, 1.5f, 1.5f);
+    *ambient = shade_v3(0.08f, 0.08f, 0.09f);
+    switch (s->choice[CHOICE_LAMP]) {
+    case LAMP_SUN:
+        light[0] = shade_directional_light(shade_v3(-0.7f, -0.9f, -0.6f), white);
+        return 1;
+    case LAMP_NEAR:
+        light[0] = shade_point_light(shade_v3(0.9f, 1, 1), white);
+        light[0].constant = 0.3f;
+        light[0].quadratic = 0.6f;
+        return 1;
+    case LAMP_SPOT:
+        light[0] = shade_spot_light(shade_v3(-1, 2.5f, 1.5f), shade_v3(1, -2.5f, -1.5f), 0.3f, 20,
+                                    shade_scale(white, 1.5f));
+        return 1;
+    case LAMP_COLORS:
+        light[0] = shade_directional_light(shade_v3(-1, -0.5f, -0.4f), shade_v3(1.6f, 0.6f, 0.2f));
+        light[1] = shade_directional_light(shade_v3(1, -0.3f, -0.2f), shade_v3(0.1f, 0.6f, 1.3f));
+        return 2;
+    case LAMP_EYE:
+        light[0] = shade_directional_light(shade_v3(0, 0, -1), white);
+        return 1;
+    }
+    light[0] = shade_directional_light(shade_v3(0.7f, -0.9f, -0.6f), shade_v3(1.35f, 1.27f, 1.15f));
+    light[1] = shade_directional_light(shade_v3(-1, -0.15f, -0.35f), shade_v3(0.12f, 0.16f, 0.24f));
+    light[2] = shade_directional_light(shade_v3(-0.6f, -0.5f, 1), shade_v3(0.55f, 0.62f, 0.72f));
+    light[3] = shade_directional_light(shade_v3(-0.2f, 1, -0.3f), shade_v3(0.13f, 0.13f, 0.14f));
+    return 4;
+}
+
+static inline shade_material scene_material(const scene *s)
+{
+    shade_material clay = {
+        { 0, 0, 0 }, { 0.46f, 0.41f, 0.36f }, { 0.46f, 0.41f, 0.36f }, { 0.10f, 0.10f, 0.10f }, 30
+    };
+    int m = s->choice[CHOICE_MATERIAL];
+    return m ? shade_linear_material(shade_preset_material((shade_preset)(m - 1))) : clay;
+}
+
+/* Draws front faces first, then back faces (of sheets, or seen through holes) with normals
+   turned to the viewer.  Front faces keep their normals: turned to the viewer, they would leave
+   dark specks along the outline of a coarse mesh, where they lean away. */
+static inline shade_result scene_draw_model(const scene *s, const shade_target *target,
+                                            shade_draw_state *state)
+{
+    static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
+                                      SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
+    unsigned flags = flag[s->choice[CHOICE_FLAG]];
+    shade_result result;
+    state->raster.cull = SHADE_CULL_BACK;
+    state->lighting.flags = flags;
+    result = shade_draw_mesh(target, &s->mesh.view, state, NULL);
+    state->raster.cull = SHADE_CULL_FRONT;
+    state->lighting.flags = flags | SHADE_FLAG_TWO_SIDED;
+    return result ? result : shade_draw_mesh(target, &s->mesh.view, state, NULL);
+}
+
+static inline shade_line_state scene_pen(const scene_camera *c, float width, shade_vec3 color)
+{
+    shade_line_state pen = { 0 };
+    pen.clip_from_points = shade_mat4_mul(c->projection, shade_mat4_mul(c->view, c->model));
+    pen.width = width;
+    pen.color = shade_v4(color.x, color.y, color.z, 1);
+    pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    pen.raster.depth_bias = -0.0008f;
+    return pen;
+}
+
+/* Draws the wires that reach the band; the test widens the band by the width of the pen. */
+static inline shade_result scene_draw_wires(const scene *s, const shade_target *band,
+                                            const shade_line_state *pen)
+{
+    const int wider = (int)pen->width + 2;
+    shade_result result = SHADE_OK;
+    shade_target near_band = *band;
+    near_band.clip_y -= wider;
+    near_band.clip_height += 2 * wider;
+    for (int k = 0; k < scene_run_count(s) && !result; k++) {
+        const shade_chunk *run = &s->runs[k];
+        if (shade_box_visible(&near_band, pen->clip_from_points, 0, run->low, run->high))
+            result = shade_draw_lines(band, s->wires + run->first, run->count, pen, NULL);
+    }
+    return result;
+}
+
+/* Draws a band of the picture. */
+static inline shade_result scene_draw_band(const scene *s, const shade_target *target,
+                                           const scene_camera *c, int samples)
+{
+    static const unsigned terms[4] = { 0, SHADE_TERM_AMBIENT, SHADE_TERM_DIFFUSE,
+                                       SHADE_TERM_SPECULAR };
+    static const shade_shading shadings[3] = { SHADE_SHADING_PER_FRAGMENT, SHADE_SHADING_PER_VERTEX,
+                                               SHADE_SHADING_PER_FACE };
+    shade_draw_state state = { .model = c->model, .view = c->view, .projection = c->projection };
+    shade_material material = scene_material(s);
+    shade_light lamps[4];
+    shade_line_state pen = scene_pen(c, (float)samples * 0.5f, shade_rgb(0x0d1216));
+    shade_target body = *target; /* without colours where it only hides wires */
+    shade_result result;
+    state.material = &material;
+    state.shading = shadings[s->choice[CHOICE_SHADING]];
+    state.lighting.light_count = scene_lamps(s, lamps, &state.lighting.ambient);
+    state.lighting.lights = lamps;
+    state.lighting.model = (shade_model)s->choice[CHOICE_MODEL];
+    state.lighting.terms = terms[s->choice[CHOICE_TERM]];
+    state.lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
+    state.lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
+    scene_backdrop(s, target, c->top, c->bottom, samples);
+    if (s->choice[CHOICE_WIRE] == WIRE_ALONE) {
+        body.color = NULL;
+        pen.color = shade_v4(0.8f, 0.85f, 0.9f, 1);
+    }
+    result = scene_draw_model(s, &body, &state);
+    if (!result && s->choice[CHOICE_GROUND] == 0)
+        result = ground_draw(&s->shadow, target, c->model, c->view, c->projection);
+    if (!result && s->choice[CHOICE_WIRE])
+        result = scene_draw_wires(s, target, &pen);
+    return result;
+}
+
+/* The data that the bands of a picture share, and the result of each */
+typedef struct scene_work {
+    const scene *scene;
+    const shade_target *out, *in;
+    const scene_camera *camera;
+    int samples, bands;
+    shade_result result[8 * BANDS_MOST];
+} scene_work;
+
+static inline void scene_work_draw(void *data, int band)
+{
+    scene_work *w = (scene_work *)data;
+    const shade_target rows = bands_rows(w->in, band, w->bands);
+    w->result[band] = scene_draw_band(w->scene, &rows, w->camera, w->samples);
+}
+
+static inline void scene_work_resolve(void *data, int band)
+{
+    scene_work *w = (scene_work *)data;
+    const shade_target rows = bands_rows(w->out, band, w->bands);
+    w->result[band] = shade_resolve(&rows, w->in, w->samples);
+}
+
+static inline shade_result scene_work_run(scene_work *w, const shade_target *by, bands_work *work)
+{
+    w->bands = bands_count(w->scene->threads, by->row_count ? by->row_count : by->height);
+    bands_run(w->scene->threads, w->bands, work, w);
+    for (int i = 0; i < w->bands; i++)
+        if (w->result[i]) return w->result[i];
+    return SHADE_OK;
+}
+
+/* Draws the scene into a target, or a strip of it, that is samples times as wide and high as the
+   picture. */
+static inline shade_result scene_draw(const scene *s, const shade_target *target,
+                                      const scene_camera *c, int samples)
+{
+    scene_work work = { s, NULL, target, c, samples, 0, { SHADE_OK } };
+    return scene_work_run(&work, target, scene_work_draw);
+}
+
+/* Calls shade_resolve, spread over all threads. */
+static inline shade_result scene_resolve(const scene *s, const shade_target *out,
+                                         const shade_target *in, int samples)
+{
+    scene_work work = { s, out, in, NULL, samples, 0, { SHADE_OK } };
+    return scene_work_run(&work, out, scene_work_resolve);
+}
+#endif

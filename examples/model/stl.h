@@ -1,0 +1,151 @@
+/* stl.h - reads triangles from STL, text or binary.  Equal positions become one vertex; the normals
+   of the file are ignored. */
+#ifndef MODEL_STL_H
+#define MODEL_STL_H
+
+#include "reader.h"
+
+typedef struct stl_data { mesh_set places; mesh_uints indices; } stl_data;
+
+static inline int stl_place(mesh_reader *r, stl_data *s, const float *p, uint32_t *number)
+{
+    for (int k = 0; k < 3; k++)
+        if (!(p[k] >= -FLT_MAX && p[k] <= FLT_MAX)) return mesh_fail(r, "a position is not finite");
+    if (mesh_set_add(&s->places, mesh_position_key(p), number))
+        return mesh_fail(r, "out of memory");
+    return 0;
+}
+
+static inline int stl_triangle(mesh_reader *r, stl_data *s, uint32_t a, uint32_t b, uint32_t c)
+{
+    if (mesh_check_triangles(r, s->indices.count / 3 + 1)) return 1;
+    return mesh_push_triangle(&s->indices, a, b, c) ? mesh_fail(r, "out of memory") : 0;
+}
+
+static inline uint32_t stl_uint(const unsigned char *p)
+{
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+/* 80 bytes of title, a count, then 50 bytes each: normal, three corners (little-endian floats),
+   two unused */
+static inline int stl_read_binary(mesh_reader *r, stl_data *s)
+{
+    uint64_t size = (uint64_t)(r->end - r->begin), count;
+    r->line = 0;
+    if (size < 84) return mesh_fail(r, "neither text nor binary STL");
+    count = stl_uint(r->begin + 80);
+    if (count > (size - 84) / 50)
+        return mesh_fail(r, "ends after %lld of %lld triangles",
+                         (long long)((size - 84) / 50), (long long)count);
+    r->at = r->begin + 84;
+    for (uint64_t i = 0; i < count; i++, r->at += 50) {
+        uint32_t corner[3];
+        if (r->progress && i % 65536 == 0) r->progress(r->user, (double)i / (double)count);
+        for (int k = 0; k < 9; k += 3) {
+            float p[3];
+            for (int c = 0; c < 3; c++) {
+                uint32_t bits = stl_uint(r->at + 12 + 4 * (k + c));
+                memcpy(&p[c], &bits, sizeof bits);
+            }
+            if (stl_place(r, s, p, &corner[k / 3])) return 1;
+        }
+        if (stl_triangle(r, s, corner[0], corner[1], corner[2])) return 1;
+    }
+    return 0;
+}
+
+static inline int stl_vertex(mesh_reader *r, stl_data *s, uint32_t *number)
+{
+    float p[3];
+    for (int k = 0; k < 3; k++) {
+        mesh_skip_lines(r);
+        if (mesh_take_number(r, &p[k])) return 1;
+    }
+    return stl_place(r, s, p, number);
+}
+
+static inline int stl_expect(mesh_reader *r, const char *word)
+{
+    mesh_skip_lines(r);
+    if (mesh_take_word(r, word)) return 0;
+    return mesh_fail(r, "expected %s, found %s", word, mesh_here(r).text);
+}
+
+/* Reads what follows the word facet: a normal (any three words), a loop of corners, the ends. */
+static inline int stl_facet(mesh_reader *r, stl_data *s)
+{
+    uint32_t first = 0, previous = 0, corner = 0;
+    int corners = 0;
+    if (stl_expect(r, "normal")) return 1;
+    for (int k = 0; k < 3; k++)
+        for (mesh_skip_lines(r); r->at < r->end && !mesh_is_blank(*r->at);) r->at++;
+    if (stl_expect(r, "outer") || stl_expect(r, "loop")) return 1;
+    for (mesh_skip_lines(r); mesh_take_word(r, "vertex"); mesh_skip_lines(r), previous = corner) {
+        if (stl_vertex(r, s, &corner)) return 1;
+        if (corners < 3) corners++;
+        if (corners == 1) first = corner;
+        if (corners == 3 && stl_triangle(r, s, first, previous, corner)) return 1;
+    }
+    if (corners < 3) return mesh_fail(r, "expected a vertex, found %s", mesh_here(r).text);
+    return stl_expect(r, "endloop") || stl_expect(r, "endfacet");
+}
+
+static inline int stl_read_text(mesh_reader *r, stl_data *s)
+{
+    for (long long facets = 0;;) {
+        mesh_skip_lines(r);
+        if (r->at == r->end) return 0;
+        if (mesh_take_word(r, "facet")) {
+            if (r->progress && facets++ % 16384 == 0)
+                r->progress(r->user, (double)(r->at - r->begin) / (double)(r->end - r->begin));
+            if (stl_facet(r, s)) return 1;
+        } else if (mesh_take_word(r, "solid") || mesh_take_word(r, "endsolid")) {
+            mesh_next_line(r, 0);
+        } else {
+            return mesh_fail(r, "expected facet, found %s", mesh_here(r).text);
+        }
+    }
+}
+
+/* Whether the bytes are as many as the count of a binary file says */
+static inline int stl_fits(const unsigned char *bytes, size_t size)
+{
+    return size >= 84 && (size - 84) % 50 == 0 && (size - 84) / 50 == stl_uint(bytes + 80);
+}
+
+/* Binary where the size fits the count to the byte; then text where it says solid and has no
+   zero bytes near. */
+static inline int stl_is_text(const mesh_reader *r)
+{
+    mesh_reader copy = *r;
+    size_t size = (size_t)(r->end - r->begin), head = size < 1024 ? size : 1024;
+    if (stl_fits(r->begin, size)) return 0;
+    mesh_skip_lines(&copy);
+    return mesh_take_word(&copy, "solid") && !memchr(r->begin, 0, head);
+}
+
+static inline int stl_read(mesh_reader *r, owned_mesh *m)
+{
+    static const stl_data empty;
+    stl_data s = empty;
+    int failed = stl_is_text(r) ? stl_read_text(r, &s) : stl_read_binary(r, &s);
+    if (!failed && !s.indices.count) failed = mesh_fail(r, "no triangles in it");
+    if (!failed) {
+        size_t n = s.places.count;
+        m->positions = (float *)malloc(3 * sizeof(float) * n);
+        m->normals = (float *)calloc(n, 3 * sizeof(float));
+        m->indices = s.indices.v;
+        s.indices.v = NULL;
+        for (size_t i = 0; m->positions && i < n; i++)
+            memcpy(m->positions + 3 * i, &s.places.triple[i], 3 * sizeof(float));
+        mesh_link(m, (int)n, (int)s.indices.count);
+        failed = !m->positions || !m->normals || mesh_fill_normals(m);
+        if (failed) mesh_fail(r, "out of memory");
+    }
+    free(s.places.triple);
+    free(s.places.slot);
+    free(s.indices.v);
+    return failed;
+}
+#endif

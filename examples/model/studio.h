@@ -1,0 +1,268 @@
+/* studio.h - the light of a photographer's studio: a large lamp from the upper right that throws
+   soft shadows, a weak lamp from behind, and a sky, bright above and dim at the horizon, whose
+   light reaches into hollows as far as they are open.
+
+   The sky consists of many weak lamps at infinity.  For each of them, and for some points of the
+   large lamp, a depth-only draw from the lamp makes a shadow map.  A point is lit by the lamps
+   whose maps show it. */
+#ifndef MODEL_STUDIO_H
+#define MODEL_STUDIO_H
+
+#include "../shared/bands.h"
+#include "ground.h"
+#include "model.h"
+
+enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
+#define STUDIO_REACH 1.02f /* half the edge of the square that a map sees */
+
+typedef struct studio_map {
+    shade_vec3 toward, right, up; /* unit vectors; toward points to the lamp */
+    float *depth;                 /* NULL: not drawn, everything is lit */
+    float weight;                 /* its part of the sky, or of the large lamp */
+    int size;
+} studio_map;
+
+typedef struct studio {
+    studio_map map[STUDIO_MAPS]; /* the sky, then the large lamp */
+    int sky, key;                /* the number of maps of each */
+    float *memory;
+    shade_light lamp[2];
+} studio;
+
+/* ---- where the lamps are -------------------------------------------------------------------- */
+
+static void studio_aim(studio_map *m, shade_vec3 toward)
+{
+    shade_vec3 helper = fabsf(toward.y) < 0.9f ? shade_v3(0, 1, 0) : shade_v3(1, 0, 0);
+    m->toward = shade_normalize(toward);
+    m->right = shade_normalize(shade_cross(helper, m->toward));
+    m->up = shade_cross(m->toward, m->right);
+}
+
+/* Point i of n on a spiral that fills a disk evenly: radius and angle [Vogel] */
+static shade_vec2 studio_spiral(int i, int n)
+{
+    shade_mat4 m = shade_mat4_rotation(2.3999632f * (float)i, shade_v3(0, 0, 1));
+    float r = sqrtf(((float)i + 0.5f) / (float)n);
+    return shade_v2(r * m.col[0].x, r * m.col[0].y);
+}
+
+/* Places the lamps of the sky as densely as Lambert's cosine weights them on level ground, where
+   all have the same weight. */
+static void studio_place(studio *s, int sky, int key)
+{
+    const shade_vec3 main_lamp = shade_v3(0.90f, 0.95f, 0.60f);
+    studio_map middle;
+    float sum = 0;
+    s->sky = sky;
+    s->key = key;
+    for (int i = 0; i < sky; i++) {
+        shade_vec2 p = studio_spiral(i, sky);
+        float y = sqrtf(1 - p.x * p.x - p.y * p.y);
+        studio_aim(&s->map[i], shade_v3(p.x, y, p.y));
+        s->map[i].weight = 1 / (0.6f + y); /* half as bright at the horizon as above */
+        sum += s->map[i].weight * y;
+    }
+    for (int i = 0; i < sky; i++) s->map[i].weight /= sum;
+    studio_aim(&middle, main_lamp);
+    for (int i = 0; i < key; i++) {
+        shade_vec2 p = studio_spiral(i, key);
+        shade_vec3 d = shade_madd(middle.toward, 0.13f * p.x, middle.right);
+        studio_aim(&s->map[sky + i], shade_madd(d, 0.13f * p.y, middle.up));
+        s->map[sky + i].weight = 1 / (float)key;
+    }
+    s->lamp[0] = shade_directional_light(shade_neg(main_lamp), shade_v3(1.06f, 1.00f, 0.91f));
+    s->lamp[1] =
+        shade_directional_light(shade_v3(0.8f, -0.25f, 0.75f), shade_v3(0.22f, 0.25f, 0.30f));
+}
+
+/* ---- who sees what -------------------------------------------------------------------------- */
+
+/* The matrix from world space to x and y of the map and depth 0 (at the lamp) .. 1 */
+static shade_mat4 studio_view(const studio_map *m)
+{
+    shade_mat4 view = { { { m->right.x, m->up.x, m->toward.x, 0 },
+                          { m->right.y, m->up.y, m->toward.y, 0 },
+                          { m->right.z, m->up.z, m->toward.z, 0 },
+                          { 0, 0, 0, 1 } } };
+    return view;
+}
+
+/* Draws the depth of the opaque parts. */
+static shade_result studio_draw(studio_map *map, const model *m)
+{
+    shade_target target = { .width = map->size, .height = map->size, .depth = map->depth };
+    shade_draw_state state = { .view = studio_view(map) };
+    shade_result result;
+    state.projection = shade_mat4_ortho(-STUDIO_REACH, STUDIO_REACH, -STUDIO_REACH, STUDIO_REACH,
+                                        -STUDIO_REACH, STUDIO_REACH);
+    result = shade_clear(&target, shade_v4(0, 0, 0, 0), 1);
+    for (int i = 0; i < m->part_count && !result; i++) {
+        const model_surface *s = m->surface_count ? &m->surface[m->part[i].surface] : NULL;
+        const shade_mesh mesh = model_part_mesh(m, i);
+        if (s && (s->transparency > 0 || s->blended)) continue;
+        state.alpha_cutoff = s ? s->alpha_cutoff : 0;
+        state.diffuse_map =
+            s && s->alpha_cutoff > 0 && s->picture >= 0 ? &m->picture[s->picture].map : NULL;
+        result = shade_draw_mesh(&target, &mesh, &state, NULL);
+    }
+    return result;
+}
+
+/* The part of a point that the lamp sees: four neighbours in the map, weighted by distance.  P
+   is moved a little off its surface, or the surface would shade itself. */
+static float studio_seen(const studio_map *m, shade_vec3 P)
+{
+    float scale = 0.5f * (float)m->size / STUDIO_REACH, last = (float)m->size - 1.001f;
+    float x = (shade_dot(P, m->right) + STUDIO_REACH) * scale - 0.5f;
+    float y = (STUDIO_REACH - shade_dot(P, m->up)) * scale - 0.5f;
+    float z = 0.5f - 0.5f * shade_dot(P, m->toward) / STUDIO_REACH;
+    const float *row;
+    float u, v;
+    int i, j;
+    if (!m->depth || !(x >= 0 && y >= 0 && x < last && y < last)) return 1;
+    i = (int)x;
+    j = (int)y;
+    u = x - (float)i;
+    v = y - (float)j;
+    row = m->depth + (size_t)j * (size_t)m->size + (size_t)i;
+    return (1 - v) * ((1 - u) * (float)(row[0] >= z) + u * (float)(row[1] >= z)) +
+           v * ((1 - u) * (float)(row[m->size] >= z) + u * (float)(row[m->size + 1] >= z));
+}
+
+/* The light of the sky on a surface, and the light that the ground throws back; 0.4 on open
+   level ground.  The sky goes from a bluish zenith to a warm horizon. */
+static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N)
+{
+    float sum[2] = { 0, 0 }, back = 0.06f * (1 - N.y);
+    for (int i = 0; i < s->sky; i++) {
+        const studio_map *m = &s->map[i];
+        float cosine = shade_dot(N, m->toward);
+        float texel = 2 * STUDIO_REACH / (float)m->size;
+        if (cosine <= 0) continue;
+        cosine *= m->weight * studio_seen(m, shade_madd(P, 2 * texel, N));
+        sum[0] += cosine * m->toward.y;
+        sum[1] += cosine * (1 - m->toward.y);
+    }
+    return shade_madd(shade_madd(shade_v3(back, back, back), sum[0], shade_v3(0.40f, 0.42f, 0.46f)),
+                      sum[1], shade_v3(0.41f, 0.40f, 0.38f));
+}
+
+static float studio_lamp(const studio *s, shade_vec3 P, shade_vec3 N)
+{
+    float sum = 0;
+    for (int i = s->sky; i < s->sky + s->key; i++) {
+        const studio_map *m = &s->map[i];
+        float texel = 2 * STUDIO_REACH / (float)m->size, cosine = shade_dot(N, m->toward);
+        if (cosine <= 0) continue;
+        sum += m->weight * studio_seen(m, shade_madd(P, 2.5f * texel, N));
+    }
+    return sum;
+}
+
+/* The data that the threads share, and each map's result */
+typedef struct studio_work {
+    studio *studio;
+    const model *model;
+    shade_result result[STUDIO_MAPS];
+} studio_work;
+
+static void studio_draw_map(void *data, int i)
+{
+    studio_work *w = (studio_work *)data;
+    w->result[i] = studio_draw(&w->studio->map[i], w->model);
+}
+
+/* Draws all maps; fewer for large models, because each map draws the whole model. */
+static shade_result studio_open(studio *s, const model *m, int threads, mesh_progress *progress,
+                                void *user)
+{
+    enum { SKY_SIZE = 256, KEY_SIZE = 512 };
+    double draws = 40e6 / (double)m->mesh.view.index_count;
+    int sky = draws > STUDIO_SKY ? STUDIO_SKY : draws > 12 ? (int)draws : 12;
+    int key = draws > STUDIO_SKY ? STUDIO_KEY : 4;
+    size_t sky_texels = SKY_SIZE * SKY_SIZE, key_texels = KEY_SIZE * KEY_SIZE;
+    studio_work work = { s, m, { SHADE_OK } };
+    studio_place(s, sky, key);
+    s->memory =
+        (float *)malloc(sizeof(float) * ((size_t)sky * sky_texels + (size_t)key * key_texels));
+    if (!s->memory) return SHADE_ERROR_CAPACITY;
+    for (int i = 0; i < sky + key; i++) {
+        s->map[i].size = i < sky ? SKY_SIZE : KEY_SIZE;
+        s->map[i].depth =
+            i < sky ? s->memory + (size_t)i * sky_texels
+                    : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
+    }
+    bands_run_told(threads, sky + key, studio_draw_map, &work, progress, user);
+    for (int i = 0; i < sky + key; i++)
+        if (work.result[i]) return work.result[i];
+    return SHADE_OK;
+}
+
+/* ---- the ground ------------------------------------------------------------------------------ */
+
+enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow */
+#define STUDIO_GROUND_HALF 2.2f /* half that edge; the shadow fades out toward it */
+
+/* The data that the threads share */
+typedef struct studio_shadow {
+    const studio *light;
+    float level;
+    float *dark; /* how much of the light of open ground is missing, 0 .. 1, by texel */
+} studio_shadow;
+
+/* One row of texels: how much of the light of open ground is missing there */
+static void studio_shadow_row(void *data, int row)
+{
+    const studio_shadow *w = (const studio_shadow *)data;
+    const float half = STUDIO_GROUND_HALF, step = 2 * STUDIO_GROUND_HALF / STUDIO_GROUND;
+    const shade_vec3 up = shade_v3(0, 1, 0), open = studio_sky(w->light, shade_v3(0, 9, 0), up);
+    for (int i = 0; i < STUDIO_GROUND; i++) {
+        float *dark = w->dark + row * STUDIO_GROUND + i, sky, lamp, fade;
+        shade_vec3 P = shade_v3(((float)i + 0.5f) * step - half, w->level,
+                                ((float)row + 0.5f) * step - half);
+        fade = 1 - (P.x * P.x + P.z * P.z) / (half * half);
+        *dark = 0;
+        if (fade <= 0) continue;
+        sky = studio_sky(w->light, P, up).y / open.y;
+        lamp = studio_lamp(w->light, P, up);
+        *dark = fade * (1 - (0.72f * sky + 0.28f) * (0.4f * lamp + 0.6f));
+    }
+}
+
+/* Weighted means over three texels along a line of steps */
+static void studio_blur(float *line, int step)
+{
+    float before = line[0];
+    for (int i = 1; i < STUDIO_GROUND - 1; i++) {
+        float here = line[i * step];
+        line[i * step] = 0.25f * before + 0.5f * here + 0.25f * line[(i + 1) * step];
+        before = here;
+    }
+}
+
+/* Finds the shadow of a mesh in the light of its studio.  Returns 1 where memory is out. */
+static int studio_cast(ground *g, const studio *light, const owned_mesh *m, int threads)
+{
+    enum { SIZE = STUDIO_GROUND, TEXELS = SIZE * SIZE };
+    studio_shadow work = { light, ground_lowest(&m->view, 1) - 0.002f, NULL };
+    work.dark = (float *)malloc(TEXELS * sizeof *work.dark);
+    g->shadow = (uint8_t *)calloc(TEXELS, 4);
+    g->size = SIZE;
+    g->half = g->reach = STUDIO_GROUND_HALF;
+    g->level = work.level;
+    if (!work.dark || !g->shadow) {
+        free(work.dark);
+        return 1;
+    }
+
+    bands_run(threads, SIZE, studio_shadow_row, &work);
+    for (int k = 0; k < 4 * SIZE; k++) {
+        studio_blur(work.dark + k % SIZE * SIZE, 1);
+        studio_blur(work.dark + k % SIZE, SIZE);
+    }
+    for (int i = 0; i < TEXELS; i++) g->shadow[4 * i + 3] = (uint8_t)(255 * work.dark[i] + 0.5f);
+    free(work.dark);
+    return 0;
+}
+#endif

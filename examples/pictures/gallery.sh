@@ -1,0 +1,20 @@
+#!/bin/sh
+# gallery.sh - the pictures of the README: out/*.ppm as PNG, in 256 colours where dither hides that
+# (pngquant's 99 of 100), else in 7 bits a channel.  The picture for the microcontroller's display is
+# shown three times as large.  Needs netpbm (pnmenlarge, pamdepth, pnmtopng) and pngquant.
+for tool in pnmenlarge pamdepth pnmtopng pngquant; do
+    command -v $tool >/dev/null || { echo "gallery: no $tool here"; exit 1; }
+done
+make -s -C examples/microcontroller ../../build/microcontroller/picture.565 || exit 1
+pnmenlarge 3 build/microcontroller/picture.ppm >build/microcontroller.ppm || exit 1
+for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller.ppm; do
+    least=99
+    case $ppm in */20_*) least=97 ;; */39_*) least=92 ;; esac    # large; looked at
+    png=examples/pictures/$(basename "$ppm" .ppm).png
+    if ! pnmtopng "$ppm" 2>/dev/null |
+        pngquant --quality $least-100 --speed 1 --strip 256 - >"$png" 2>/dev/null; then
+        pamdepth 127 "$ppm" 2>/dev/null | pnmtopng -compression 9 >"$png" 2>/dev/null || exit 1
+    fi
+    echo "$png $(wc -c <"$png")"
+done
+echo "$(cat examples/pictures/*.png | wc -c) bytes of PNG in all"

@@ -1,0 +1,114 @@
+/* bands.h - spreads work over threads.  It is cut into pieces, often the bands of a picture, which
+   the threads take from one counter: a thread that is done takes the next piece, so that none waits
+   for a slow one.
+
+       static void draw_band(void *data, int band) { ... }      (sets clip_y and clip_height)
+       bands_run(0, 64, draw_band, &job);                       (on all cores; returns when done)
+
+   The result of a piece may depend on its number, but not on the thread or the time.  Threads are
+   POSIX's.  Where there are none, or with BANDS_ALONE, the pieces are done one after the other. */
+#ifndef SHARED_BANDS_H
+#define SHARED_BANDS_H
+
+#include "shade.h"
+#include <stddef.h>
+
+enum { BANDS_MOST = 256 };    /* threads, at most */
+typedef void bands_work(void *data, int piece);
+typedef void bands_progress(void *user, double part);
+
+#if (defined(__unix__) || defined(__APPLE__)) && !defined(BANDS_ALONE)
+#include <pthread.h>
+#include <unistd.h>
+
+typedef struct bands {
+    bands_work *work;
+    void *data;
+    int next, count;
+    pthread_mutex_t lock; /* of next */
+} bands;
+
+/* Returns the number of the next piece, or -1 where all are taken. */
+static inline int bands_take(bands *b)
+{
+    int piece;
+    pthread_mutex_lock(&b->lock);
+    piece = b->next < b->count ? b->next++ : -1;
+    pthread_mutex_unlock(&b->lock);
+    return piece;
+}
+
+static inline void *bands_thread(void *data)
+{
+    bands *b = (bands *)data;
+    for (int piece; (piece = bands_take(b)) >= 0;) b->work(b->data, piece);
+    return NULL;
+}
+
+static inline int bands_cores(void)
+{
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores < 1 ? 1 : cores < BANDS_MOST ? (int)cores : BANDS_MOST;
+}
+
+/* Does the pieces 0 .. count - 1 by so many threads (0: as many as there are cores), of which the
+   caller is one and tells its progress; fewer where the system gives no more. */
+static inline void bands_run_told(int threads, int count, bands_work *work, void *data,
+                                  bands_progress *progress, void *user)
+{
+    bands b = { work, data, 0, count, PTHREAD_MUTEX_INITIALIZER };
+    pthread_t thread[BANDS_MOST];
+    int others = 0;
+    if (threads < 1) threads = bands_cores();
+    if (threads > count) threads = count;
+    while (others < threads - 1 && others < BANDS_MOST &&
+           !pthread_create(&thread[others], NULL, bands_thread, &b))
+        others++;
+    for (int piece; (piece = bands_take(&b)) >= 0;) {
+        if (progress) progress(user, (double)piece / count);
+        work(data, piece);
+    }
+    while (others > 0) pthread_join(thread[--others], NULL);
+    pthread_mutex_destroy(&b.lock);
+}
+#else
+static inline int bands_cores(void) { return 1; }
+
+static inline void bands_run_told(int threads, int count, bands_work *work, void *data,
+                                  bands_progress *progress, void *user)
+{
+    (void)threads;
+    for (int piece = 0; piece < count; piece++) {
+        if (progress) progress(user, (double)piece / count);
+        work(data, piece);
+    }
+}
+#endif
+
+static inline void bands_run(int threads, int count, bands_work *work, void *data)
+{
+    bands_run_told(threads, count, work, data, NULL, NULL);
+}
+
+/* A good number of bands: eight for each thread, of at least 16 rows each; one for one thread */
+static inline int bands_count(int threads, int rows)
+{
+    if (threads < 1) threads = bands_cores();
+    if (threads == 1 || rows < 32) return 1;
+    return 8 * threads < rows / 16 ? 8 * threads : rows / 16;
+}
+
+/* The rows of a band, one of count, of a target without a clip rectangle; of a strip its rows.  A
+   band without rows draws nothing. */
+static inline shade_target bands_rows(const shade_target *target, int band, int count)
+{
+    shade_target part = *target;
+    const long long rows = part.row_count ? part.row_count : part.height;
+    const int end = (int)(rows * (band + 1) / count);
+    part.clip_y = (int)(rows * band / count);
+    part.clip_height = end - part.clip_y;
+    part.clip_y += part.row_offset;
+    part.clip_width = part.width;
+    return part;
+}
+#endif

@@ -1,0 +1,138 @@
+/* canvas.h - a picture to draw on, its parts, and its file.  Programs exit if memory runs out. */
+#ifndef SHARED_CANVAS_H
+#define SHARED_CANVAS_H
+
+#include "shade.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+/* A picture of linear light in 32-bit floats, drawn samples times larger both ways and averaged
+   at the end. */
+typedef struct canvas {
+    shade_target target;             /* samples * width by samples * height */
+    int width, height, samples;      /* of the finished picture */
+} canvas;
+
+static inline canvas canvas_new(int width, int height, int samples)
+{
+    canvas c = { { 0 }, width, height, samples };
+    size_t pixels = (size_t)(width * samples) * (size_t)(height * samples);
+    c.target.width = width * samples;
+    c.target.height = height * samples;
+    c.target.format = SHADE_FORMAT_RGBA32F;
+    c.target.srgb = 1;
+    c.target.color = calloc(pixels, 4 * sizeof(float));
+    c.target.depth = (float *)calloc(pixels, sizeof(float));
+    if (c.target.color && c.target.depth) return c;
+    fprintf(stderr, "out of memory\n");
+    exit(1);
+}
+
+/* A part of the canvas as a target of its own, so that it has its own camera; pixels of the
+   finished picture */
+static inline shade_target canvas_panel(const canvas *c, int x, int y, int width, int height)
+{
+    shade_target t = c->target;
+    size_t at = (size_t)(y * c->samples) * (size_t)c->target.width + (size_t)(x * c->samples);
+    t.color = (float *)c->target.color + 4 * at;
+    t.depth = c->target.depth + at;
+    t.stride = c->target.width;
+    t.width = width * c->samples;
+    t.height = height * c->samples;
+    return t;
+}
+
+/* Clears depth to 1, and colour to a gradient from the top row to the bottom row. */
+static inline void canvas_gradient(const shade_target *target, shade_vec3 top, shade_vec3 bottom)
+{
+    shade_target row = *target;
+    row.clip_width = row.width;
+    row.clip_height = 1;
+    for (row.clip_y = 0; row.clip_y < row.height; row.clip_y++) {
+        shade_vec3 k = shade_lerp(top, bottom, ((float)row.clip_y + 0.5f) / (float)row.height);
+        shade_clear(&row, shade_v4(k.x, k.y, k.z, 1), 1);
+    }
+}
+
+/* Fills width x height samples from x, y on with a colour; depth stays as it is. */
+static inline void canvas_fill(const shade_target *target, int x, int y, int width, int height,
+                               shade_vec3 color)
+{
+    shade_target part = *target;
+    part.depth = NULL;
+    part.clip_x = x;
+    part.clip_y = y;
+    part.clip_width = width;
+    part.clip_height = height;
+    shade_clear(&part, shade_v4(color.x, color.y, color.z, 1), 1);
+}
+
+/* Clears to the dark grey gradient that most pictures here have behind them. */
+static inline void canvas_dark(const shade_target *target)
+{
+    canvas_gradient(target, shade_v3(0.045f, 0.05f, 0.06f), shade_v3(0.012f, 0.013f, 0.016f));
+}
+
+/* A pixel of the finished picture: the mean of its samples, in linear light.  They are cut to
+   [0, 1] first: one sample of a highlight ten times too bright would otherwise whiten the pixel and
+   undo the antialiasing. */
+static inline shade_vec4 canvas_pixel(const canvas *c, int x, int y)
+{
+    int s = c->samples;
+    float sum[4] = { 0, 0, 0, 0 };
+    for (int k = 0; k < 4 * s * s; k++) {
+        size_t row = (size_t)(y * s + k / 4 / s), column = (size_t)(x * s + k / 4 % s);
+        size_t at = row * (size_t)c->target.width + column;
+        float v = ((const float *)c->target.color)[4 * at + (size_t)(k % 4)];
+        sum[k % 4] += v > 0 ? v < 1 ? v : 1 : 0;
+    }
+    for (int k = 0; k < 4; k++) sum[k] /= (float)(s * s);
+    return shade_v4(sum[0], sum[1], sum[2], sum[3]);
+}
+
+/* Shows w x h finished pixels from x, y on once more from to_x, to_y on, each as a block of
+   size x size. */
+static inline void canvas_zoom(const canvas *c, int x, int y, int w, int h, int to_x, int to_y,
+                               int size)
+{
+    for (int k = 0; k < w * h; k++) {
+        int i = k % w, j = k / w;
+        shade_target block = canvas_panel(c, to_x + i * size, to_y + j * size, size, size);
+        shade_clear(&block, canvas_pixel(c, x + i, y + j), 1);
+    }
+}
+
+/* The matrix from pixels of the finished picture to clip space, for shade_draw_lines */
+static inline shade_mat4 canvas_from_pixels(const canvas *c)
+{
+    return shade_mat4_ortho(0, (float)c->width, (float)c->height, 0, -1, 1);
+}
+
+/* Averages the samples of each pixel in place; the result shares the memory of the canvas. */
+static inline shade_target canvas_finish(const canvas *c)
+{
+    shade_target t = c->target;
+    shade_vec4 *out = (shade_vec4 *)t.color;
+    for (int y = 0; y < c->height; y++)
+        for (int x = 0; x < c->width; x++) *out++ = canvas_pixel(c, x, y);
+    t.width = c->width;
+    t.height = c->height;
+    t.stride = 0;
+    t.depth = NULL;
+    return t;
+}
+
+/* Writes the picture to argv[1], or to path where there is no argument, and frees the canvas.
+   Returns the exit status of the program. */
+static inline int canvas_save(canvas *c, int argc, char **argv, const char *path)
+{
+    shade_target picture = canvas_finish(c);
+    shade_result result;
+    if (argc > 1) path = argv[1];
+    result = shade_write_ppm(path, &picture);
+    if (result) fprintf(stderr, "%s: %s\n", path, shade_result_string(result));
+    free(c->target.color);
+    free(c->target.depth);
+    return result != SHADE_OK;
+}
+#endif

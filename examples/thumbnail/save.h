@@ -1,0 +1,141 @@
+/* save.h - writes the finished picture to standard output, or to a file that appears whole or not
+   at all. */
+#ifndef THUMBNAIL_SAVE_H
+#define THUMBNAIL_SAVE_H
+
+#include "../shared/canvas.h"
+#include "guard.h"
+#include "options.h"
+#include <errno.h>
+
+#ifdef THUMBNAIL_STB
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+
+typedef struct png_sink {
+    FILE *file;
+    int failed;
+} png_sink;
+
+static void png_write(void *user, void *bytes, int size)
+{
+    png_sink *s = (png_sink *)user;
+    if (fwrite(bytes, 1, (size_t)size, s->file) != (size_t)size) s->failed = 1;
+}
+#endif
+
+static int ppm_write(void *user, const void *bytes, size_t size)
+{
+    return fwrite(bytes, 1, size, (FILE *)user) != size;
+}
+
+/* Converts to bytes; divides by alpha, by which the canvas has multiplied colours. */
+static uint8_t *picture_bytes(const shade_target *picture, int channels)
+{
+    size_t n = (size_t)picture->width * (size_t)picture->height;
+    const float *from = (const float *)picture->color;
+    uint8_t *bytes = (uint8_t *)malloc(n * (size_t)channels), *to = bytes;
+    for (size_t i = 0; bytes && i < n; i++, from += 4) {
+        float a = from[3], k = channels == 4 && a > 0 ? 1 / a : 1;
+        shade_vec3 c = shade_srgb_from_linear(shade_v3(k * from[0], k * from[1], k * from[2]));
+        *to++ = (uint8_t)(255 * c.x + 0.5f);
+        *to++ = (uint8_t)(255 * c.y + 0.5f);
+        *to++ = (uint8_t)(255 * c.z + 0.5f);
+        if (channels == 4) *to++ = (uint8_t)(255 * a + 0.5f);
+    }
+    return bytes;
+}
+
+/* Returns 0, or 1 with the reason in errno, which is 0 where memory ran out. */
+static int write_picture(FILE *file, const shade_target *picture, const options *o)
+{
+    errno = 0;
+    if (!o->png) return shade_encode_ppm(ppm_write, file, picture) != SHADE_OK;
+#ifdef THUMBNAIL_STB
+    {
+        int channels = o->background == THUMBNAIL_NONE ? 4 : 3, failed;
+        png_sink sink = { file, 0 };
+        uint8_t *bytes = picture_bytes(picture, channels);
+        if (!bytes) return 1;
+        failed = !stbi_write_png_to_func(png_write, &sink, picture->width, picture->height,
+                                         channels, bytes, picture->width * channels);
+        free(bytes);
+        return failed || sink.failed;
+    }
+#else
+    return 1;
+#endif
+}
+
+static int save_failed(const char *name)
+{
+    return complain("%s: %s", name, errno ? strerror(errno) : "out of memory");
+}
+
+/* Writes to standard output, or to something that is no plain file and that a rename would
+   replace. */
+static int save_directly(FILE *file, const char *name, const shade_target *picture,
+                         const options *o)
+{
+    int failed = !file || write_picture(file, picture, o);
+    if (file && (file == stdout ? fflush(file) : fclose(file))) failed = 1;
+    return failed ? save_failed(name) : 0;
+}
+
+#ifdef THUMBNAIL_POSIX
+/* Creates a new file beside path, with the usual permissions. */
+static FILE *open_part(const char *path)
+{
+    FILE *file = NULL;
+    for (int k = 0; !file && k < 100; k++) {
+        int n = snprintf(guard_part, sizeof guard_part, "%s.%ld-%d.part", path, (long)getpid(), k);
+        int at = -1;
+        errno = ENAMETOOLONG;
+        if (n < (int)sizeof guard_part) at = open(guard_part, O_WRONLY | O_CREAT | O_EXCL, 0666);
+        if (at >= 0)
+            file = fdopen(at, "wb");
+        else if (errno != EEXIST)
+            break;
+    }
+    if (!file) guard_part[0] = 0;
+    return file;
+}
+
+static int save_file(const char *path, const shade_target *picture, const options *o)
+{
+    struct stat there;
+    FILE *file;
+    int failed;
+    if (!stat(path, &there) && S_ISDIR(there.st_mode)) {
+        errno = EISDIR;
+        return save_failed(path);
+    }
+    if (!stat(path, &there) && !S_ISREG(there.st_mode))
+        return save_directly(fopen(path, "wb"), path, picture, o);
+    file = open_part(path);
+    if (!file) return save_failed(path);
+    failed = write_picture(file, picture, o);
+    if (fclose(file)) failed = 1;
+    if (failed || rename(guard_part, path)) {
+        failed = save_failed(path);
+        remove(guard_part);
+    }
+    guard_part[0] = 0;
+    return failed;
+}
+#else
+static int save_file(const char *path, const shade_target *picture, const options *o)
+{
+    int failed = save_directly(fopen(path, "wb"), path, picture, o);
+    if (failed) remove(path);
+    return failed;
+}
+#endif
+
+static int save(const shade_target *picture, const options *o)
+{
+    guard_doing = "writing the picture";
+    if (!strcmp(o->output, "-")) return save_directly(stdout, "standard output", picture, o);
+    return save_file(o->output, picture, o);
+}
+#endif

@@ -1,0 +1,115 @@
+/* thumbnail.c - draws a picture of a model file, on a machine that needs neither GPU nor window.
+
+   cc -O2 -pthread -I. examples/thumbnail/thumbnail.c -lm -o thumbnail
+   ./thumbnail bunny.obj bunny.ppm
+
+   With libstb-dev it also reads textures and writes PNG, with libassimp-dev it reads more formats
+   than OBJ, STL and PLY:
+   cc -O2 -pthread -I. -DTHUMBNAIL_STB -DTHUMBNAIL_ASSIMP examples/thumbnail/thumbnail.c \
+      -lassimp -lm -o thumbnail
+
+   The model may have any size and place: it is moved to the origin and made one unit large, and the
+   camera stands as near as it can without cutting anything off.  The picture's file appears whole
+   or not at all. */
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for POSIX with -std=c99 */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "options.h"
+#include "guard.h"
+#include "save.h"
+#include "../model/prepare.h"
+#include "draw.h"
+#include "read.h"
+#include <time.h>
+
+/* ---- progress ------------------------------------------------------------------------------- */
+
+/* Progress: nothing in the first second of work, then a line that rewrites itself, only on a
+   terminal */
+typedef struct progress {
+    clock_t begin;
+    const char *what;
+    int percent, shown, silent;
+} progress;
+
+static void report(void *user, double part)
+{
+    progress *p = (progress *)user;
+    int percent = (int)(part * 100);
+    if (p->silent || percent == p->percent || clock() - p->begin < CLOCKS_PER_SEC) return;
+    p->percent = percent;
+    p->shown = 1;
+    fprintf(stderr, "\r%s %3d %%", p->what, percent);
+    fflush(stderr);
+}
+
+static void report_next(progress *p, const char *what)
+{
+    if (p->shown) fprintf(stderr, "\r%*s\r", (int)strlen(p->what) + 6, "");
+    p->what = what;
+    p->percent = -1;
+    p->shown = 0;
+    guard_doing = *what ? what : "ending";
+}
+
+/* ---- what is done --------------------------------------------------------------------------- */
+
+static int read_model(const options *o, model *m, progress *p)
+{
+    char error[400] = "";
+    model_request q = { error, sizeof error, report, p, (size_t)o->max_triangles };
+    int failed;
+    report_next(p, "reading the model");
+    failed = thumbnail_read(o->input, m, &q);
+    report_next(p, "");
+    if (failed) return complain("%s", error);
+    if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
+    mesh_stand(&m->mesh, o->up >= 0 ? o->up : m->z_up ? 2 : 1, o->rotate);
+    if (o->shading == SHADE_SHADING_PER_FACE || !m->normals_given)
+        failed = mesh_crease(&m->mesh, o->shading == SHADE_SHADING_PER_FACE);
+    if (!failed) failed = mesh_chunk_parts(m);
+    return failed ? complain("out of memory") : 0;
+}
+
+static int draw_and_save(const options *o, const model *m, progress *p)
+{
+    static studio light;
+    canvas c;
+    shade_target picture;
+    shade_result result;
+    int failed;
+    report_next(p, "finding shadows");
+    result = SHADE_OK;
+    if (look_has_shadows(o) || !o->no_shadow)
+        result = studio_open(&light, m, o->threads, report, p);
+    report_next(p, "drawing");
+    c = canvas_new(o->width, o->height, o->samples);
+    if (!result) result = draw_picture(&c, m, &light, o, report, p);
+    report_next(p, "");
+    picture = canvas_finish(&c);
+    failed = result ? complain("%s", result == SHADE_ERROR_CAPACITY ? "out of memory"
+                                                                    : shade_result_string(result))
+                    : save(&picture, o);
+    free(light.memory);
+    free(c.target.color);
+    free(c.target.depth);
+    return failed;
+}
+
+int main(int argc, char **argv)
+{
+    options o = { .width = 512, .height = 512, .samples = 2, .up = -1, .max_triangles = 20000000 };
+    progress p = { clock(), "", -1, 0, 0 };
+    model m = { 0 };
+    int end;
+    o.rotate = shade_radians(30);
+    o.material = clay();
+    end = read_options(&o, argc, argv);
+    if (end) return end == OPTIONS_WRONG;
+    p.silent = o.quiet || !guard_terminal();
+    guard_begin(o.max_seconds);
+    end = read_model(&o, &m, &p);
+    if (!end) end = draw_and_save(&o, &m, &p);
+    model_free(&m);
+    return end;
+}

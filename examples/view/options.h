@@ -1,0 +1,76 @@
+/* options.h - the command line of view. */
+#ifndef VIEW_OPTIONS_H
+#define VIEW_OPTIONS_H
+
+#include "../model/options.h"
+#include "../model/scene.h"
+
+/* What a terminal knows of colours: none; the 256 of xterm; any, as 0xRRGGBB.  VIEW_COLORS_ASKED:
+   the terminal's own variables say. */
+typedef enum view_colors { VIEW_PLAIN, VIEW_256, VIEW_TRUE, VIEW_COLORS_ASKED } view_colors;
+
+typedef struct view_options {
+    scene_request scene;
+    view_colors colors;
+    int window;
+    int rate, frames; /* frames 0: until the user ends it */
+} view_options;
+
+static const char view_usage[] =
+    "usage: view [model.obj|.stl|.ply] [options]      without a model: the teapot\n"
+    "  --window              in a window instead of the terminal\n"
+    "  --colors true|256     of the terminal (what COLORTERM and TERM say)\n"
+    "  --ascii               plain characters, no colors\n"
+    "  --up y|z              the model's upright axis (y, for STL z)\n"
+    "  --still               the model does not turn by itself\n"
+    "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
+    "  --threads N           1 .. 256 (one a core); the picture is the same\n"
+    "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
+    "  --help                prints this text\n"
+    "The key ? lists the others.\n";
+
+/* Stores one option: the option_take of view. */
+static inline int view_take(void *to, const char *name, const char *value)
+{
+    view_options *o = (view_options *)to;
+    if (!name)
+        o->scene.model = value;
+    else if (!strcmp(name, "--window"))
+        o->window = 1;
+    else if (!strcmp(name, "--still"))
+        o->scene.still = 1;
+    else if (!strcmp(name, "--ascii"))
+        o->colors = VIEW_PLAIN;
+    else if (!strcmp(name, "--rate"))
+        return option_integer(value, 1, 240, &o->rate);
+    else if (!strcmp(name, "--frames"))
+        return option_integer(value, 1, 1000000, &o->frames);
+    else if (strcmp(name, "--colors"))
+        return scene_take(&o->scene, name, value);
+    else {
+        o->colors = !strcmp(value, "true") ? VIEW_TRUE : VIEW_256;
+        return o->colors == VIEW_TRUE || !strcmp(value, "256");
+    }
+    return OPTION_TAKEN;
+}
+
+/* The request to scene_load; without colours the background is black. */
+static inline scene_request view_request(const view_options *o)
+{
+    scene_request request = o->scene;
+    request.dark = o->colors == VIEW_PLAIN;
+    return request;
+}
+
+/* Reads the command line.  Returns what options_read does. */
+static inline int view_read_options(view_options *o, int argc, char **argv)
+{
+    static const char *const valued[] = { "--rate", "--frames", "--colors", "--up", "--threads",
+                                          NULL };
+    static const char *const flags[] = { "--window", "--still", "--ascii", NULL };
+    static const command view = { "view", view_usage, valued, flags, 1, view_take };
+    int end = options_read(&view, o, argc, argv);
+    if (!o->rate) o->rate = o->window ? 60 : 30;
+    return end;
+}
+#endif

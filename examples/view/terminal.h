@@ -1,0 +1,305 @@
+/* terminal.h - a terminal that shows pictures: keys and mouse, output, its size, and its old state
+   back whichever way the program ends.  POSIX. */
+#ifndef VIEW_TERMINAL_H
+#define VIEW_TERMINAL_H
+
+#include "../model/clock.h"
+#include <errno.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/select.h>
+#include <termios.h>
+#include <unistd.h>
+
+/* ---- state, and its way back ----------------------------------------------------------------- */
+
+/* Enters: the alternate screen, no cursor, reports of buttons and motion of the mouse in decimal */
+#define TERMINAL_ENTER "\033[?1049h\033[?25l\033[?1002h\033[?1006h"
+/* CAN ends a sequence that was cut off in the middle */
+#define TERMINAL_LEAVE "\030\033[m\033[?1006l\033[?1002l\033[?2026l\033[?25h\033[?1049l"
+
+/* State that signal handlers change */
+static struct termios terminal_before;
+static volatile sig_atomic_t terminal_entered, terminal_resized, terminal_stopped,
+    terminal_continued;
+static volatile sig_atomic_t terminal_asked; /* reports that have been asked for and not received */
+
+/* Returns 1 where the terminal accepts no more. */
+static inline int terminal_write(const char *bytes, size_t size)
+{
+    while (size > 0) {
+        ssize_t n = write(STDOUT_FILENO, bytes, size);
+        struct pollfd out = { STDOUT_FILENO, POLLOUT, 0 };
+        if (n < 0 && errno == EAGAIN) {
+            n = 0;
+            (void)poll(&out, 1, 1000);
+        } else if (n < 0 && errno != EINTR)
+            return 1;
+        if (n > 0) {
+            bytes += n;
+            size -= (size_t)n;
+        }
+    }
+    return 0;
+}
+
+/* Reads the reports that are on their way, each of which ends in n, so that the shell does not
+   get them; waits 0.3 s at most. */
+static inline void terminal_drain(void)
+{
+    struct pollfd in = { STDIN_FILENO, POLLIN, 0 };
+    for (int tries = 0; terminal_asked > 0 && tries < 3; tries++) {
+        char text[64];
+        ssize_t n = poll(&in, 1, 100) > 0 ? read(STDIN_FILENO, text, sizeof text) : 0;
+        for (ssize_t k = 0; k < n; k++)
+            if (text[k] == 'n') terminal_asked--;
+    }
+    terminal_asked = 0;
+}
+
+/* Restores the terminal.  It is safe to call this in a signal handler, and twice. */
+static inline void terminal_leave(void)
+{
+    int error = errno;
+    if (!terminal_entered) return;
+    terminal_entered = 0;
+    terminal_write(TERMINAL_LEAVE, sizeof TERMINAL_LEAVE - 1);
+    terminal_drain();
+    tcsetattr(STDIN_FILENO, TCSANOW, &terminal_before);
+    errno = error;
+}
+
+static inline void terminal_enter(void)
+{
+    struct termios mode;
+    if (!terminal_entered && tcgetattr(STDIN_FILENO, &terminal_before)) return;
+    mode = terminal_before;
+    mode.c_lflag &= ~(tcflag_t)(ICANON | ECHO | IEXTEN);
+    mode.c_iflag &= ~(tcflag_t)(IXON | ICRNL);
+    mode.c_cc[VMIN] = 1;
+    mode.c_cc[VTIME] = 0;
+    terminal_entered = 1;
+    tcsetattr(STDIN_FILENO, TCSANOW, &mode);
+    terminal_write(TERMINAL_ENTER, sizeof TERMINAL_ENTER - 1);
+    terminal_resized = 1;
+}
+
+/* ---- signals -------------------------------------------------------------------------------- */
+
+/* SA_RESETHAND has put the default action back, which does the rest. */
+static inline void terminal_die(int number)
+{
+    terminal_leave();
+    raise(number);
+}
+
+static inline void terminal_note(int number)
+{
+    if (number == SIGWINCH) terminal_resized = 1;
+    if (number == SIGTSTP) terminal_stopped = 1;
+    if (number == SIGCONT) terminal_continued = 1;
+}
+
+static inline void terminal_catch(int number, void (*handler)(int), int flags)
+{
+    struct sigaction action, before;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = handler;
+    action.sa_flags = flags;
+    sigemptyset(&action.sa_mask);
+    if (!sigaction(number, NULL, &before) && before.sa_handler == SIG_IGN) return;
+    sigaction(number, &action, NULL);
+}
+
+/* Every signal that ends a program leaves the terminal first, on a stack of its own: the program's
+   may be what has run out.  Those that do not are held back until terminal_let_in or terminal_wait,
+   whose mask this fills in. */
+static inline void terminal_catch_all(sigset_t *mask)
+{
+    static const int fatal[] = { SIGHUP, SIGINT,  SIGQUIT, SIGILL,    SIGABRT, SIGFPE,  SIGSEGV,
+                                 SIGBUS, SIGTERM, SIGPIPE, SIGALRM,   SIGUSR1, SIGUSR2, SIGTRAP,
+                                 SIGSYS, SIGXCPU, SIGXFSZ, SIGVTALRM, SIGPROF };
+    static const int noted[] = { SIGWINCH, SIGTSTP, SIGCONT };
+    static char memory[65536];
+    sigset_t held;
+    stack_t stack;
+    memset(&stack, 0, sizeof stack);
+    stack.ss_sp = memory;
+    stack.ss_size = sizeof memory;
+    sigaltstack(&stack, NULL);
+    for (size_t k = 0; k < sizeof fatal / sizeof *fatal; k++)
+        terminal_catch(fatal[k], terminal_die, (int)(SA_RESETHAND | SA_NODEFER | SA_ONSTACK));
+    sigemptyset(&held);
+    for (size_t k = 0; k < sizeof noted / sizeof *noted; k++) {
+        terminal_catch(noted[k], terminal_note, 0);
+        sigaddset(&held, noted[k]);
+    }
+    sigprocmask(SIG_BLOCK, &held, mask);
+    for (size_t k = 0; k < sizeof noted / sizeof *noted; k++) sigdelset(mask, noted[k]);
+}
+
+/* Stops the program, as ^Z asks, and continues. */
+static inline void terminal_stop(void)
+{
+    sigset_t stop, before;
+    struct sigaction action, ours;
+    terminal_stopped = 0;
+    terminal_leave();
+    memset(&action, 0, sizeof action);
+    action.sa_handler = SIG_DFL;
+    sigemptyset(&action.sa_mask);
+    sigemptyset(&stop);
+    sigaddset(&stop, SIGTSTP);
+    sigaction(SIGTSTP, &action, &ours);
+    raise(SIGTSTP);
+    sigprocmask(SIG_UNBLOCK, &stop, &before);
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    sigaction(SIGTSTP, &ours, NULL);
+    terminal_enter();
+}
+
+/* ---- size ----------------------------------------------------------------------------------- */
+
+/* shape: the width of half a cell by its height */
+typedef struct terminal_size {
+    int columns, rows;
+    float shape;
+} terminal_size;
+
+static inline terminal_size terminal_measure(void)
+{
+    terminal_size s = { 80, 24, 1 };
+    struct winsize w;
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) || !w.ws_col || !w.ws_row) return s;
+    s.columns = w.ws_col < 1000 ? w.ws_col : 1000;
+    s.rows = w.ws_row < 500 ? w.ws_row : 500;
+    if (w.ws_xpixel && w.ws_ypixel)
+        s.shape = 2 * (float)w.ws_xpixel * (float)w.ws_row / ((float)w.ws_col * (float)w.ws_ypixel);
+    if (s.shape < 0.5f || s.shape > 2) s.shape = 1;
+    return s;
+}
+
+/* ---- keys and mouse -------------------------------------------------------------------------- */
+
+typedef enum input_kind { INPUT_NONE, INPUT_KEY, INPUT_MOUSE, INPUT_END } input_kind;
+enum { MOUSE_MOVED = 32, MOUSE_WHEEL = 64 }; /* bits of button, in xterm's count */
+typedef struct input {
+    input_kind kind;
+    int key;                 /* a character, or KEY_... */
+    int button, column, row; /* of the mouse, from 1 */
+} input;
+
+typedef struct terminal_keys {
+    unsigned char text[256];
+    size_t size;
+} terminal_keys;
+
+/* Reads the numbers of a sequence such as <0;12;5. */
+static inline void terminal_numbers(const unsigned char *p, const unsigned char *end, int number[3])
+{
+    number[0] = number[1] = number[2] = 0;
+    for (int k = 0; p < end && k < 3; p++) {
+        if (*p == ';')
+            k++;
+        else if (*p >= '0' && *p <= '9' && number[k] < 100000)
+            number[k] = number[k] * 10 + *p - '0';
+    }
+}
+
+/* A control sequence whose last byte is *end */
+static inline input terminal_sequence(const unsigned char *begin, const unsigned char *end)
+{
+    input in = { INPUT_NONE, 0, 0, 0, 0 };
+    int number[3];
+    terminal_numbers(begin, end, number);
+    if (*end >= 'A' && *end <= 'D') {
+        static const int arrow[4] = { KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT };
+        in.kind = INPUT_KEY;
+        in.key = arrow[*end - 'A'];
+    } else if (*end == 'M' && begin < end && *begin == '<') {
+        in.kind = INPUT_MOUSE;
+        in.button = number[0];
+        in.column = number[1];
+        in.row = number[2];
+    } else if (*end == 'n' && terminal_asked > 0) {
+        terminal_asked--;
+    }
+    return in;
+}
+
+/* The old form of the mouse, for terminals that know no other: ESC [ M and three bytes */
+static inline size_t terminal_old_mouse(const unsigned char *p, size_t size, input *in)
+{
+    if (size < 6) return 0;
+    in->kind = INPUT_MOUSE;
+    in->button = p[3] - 32;
+    in->column = p[4] - 32;
+    in->row = p[5] - 32;
+    if ((in->button & 3) == 3 && !(in->button & MOUSE_MOVED)) in->kind = INPUT_NONE;
+    return 6;
+}
+
+/* Takes one key, click or report off the front.  Returns the bytes it had, 0: not all of it is
+   here. */
+static inline size_t terminal_parse(const unsigned char *p, size_t size, input *in)
+{
+    size_t n = 2;
+    in->kind = INPUT_KEY;
+    in->key = *p;
+    if (*p != 27) return 1;
+    in->kind = INPUT_NONE;
+    if (size < 2) return 0;
+    if (p[1] != '[' && p[1] != 'O') return 1;
+    while (n < size && p[n] >= ' ' && p[n] < '@') n++;
+    if (n == size) return size < 64 ? 0 : size;
+    if (n == 2 && p[1] == '[' && p[n] == 'M') return terminal_old_mouse(p, size, in);
+    if (p[n] < 127 && p[n] >= '@') *in = terminal_sequence(p + 2, p + n);
+    return n + 1;
+}
+
+/* Returns the next input; INPUT_NONE: there is none. */
+static inline input terminal_next(terminal_keys *k)
+{
+    input in = { INPUT_NONE, 0, 0, 0, 0 };
+    struct pollfd arrived = { STDIN_FILENO, POLLIN, 0 };
+    for (;;) {
+        size_t used;
+        ssize_t n;
+        while (k->size && (used = terminal_parse(k->text, k->size, &in)) > 0) {
+            k->size -= used;
+            memmove(k->text, k->text + used, k->size);
+            if (in.kind != INPUT_NONE) return in;
+        }
+        if (poll(&arrived, 1, 0) <= 0) return in;
+        n = read(STDIN_FILENO, k->text + k->size, sizeof k->text - k->size);
+        if (n < 0 && (errno == EINTR || errno == EAGAIN)) return in;
+        if (n <= 0) in.kind = INPUT_END;
+        if (n <= 0) return in;
+        k->size += (size_t)n;
+    }
+}
+
+/* Lets in the signals that were held back. */
+static inline void terminal_let_in(const sigset_t *mask)
+{
+    sigset_t held;
+    sigprocmask(SIG_SETMASK, mask, &held);
+    sigprocmask(SIG_SETMASK, &held, NULL);
+}
+
+/* Waits for a key, a signal, or so many seconds. */
+static inline void terminal_wait(double seconds, const sigset_t *mask)
+{
+    fd_set in;
+    struct timespec t;
+    if (seconds < 0) seconds = 0;
+    t.tv_sec = (time_t)seconds;
+    t.tv_nsec = (long)((seconds - (double)t.tv_sec) * 1e9);
+    FD_ZERO(&in);
+    FD_SET(STDIN_FILENO, &in);
+    pselect(STDIN_FILENO + 1, &in, NULL, NULL, &t, mask);
+}
+#endif

@@ -1,0 +1,96 @@
+/* tiles.c - pixels inside triangles: edges in rectangles anywhere in the picture, and columns of
+   tiles, the last of them at the end of the memory of depths. */
+#include "prove.h"
+
+enum { FAR = 1 << 24, WIDTH = 64, ROWS = 16 };
+
+static shade__triangle t;
+static shade__edges edges;
+static shade__plan plan;
+static float depth[WIDTH * ROWS];
+
+/* any slope, any edge that a box within 16384 pixels may reach */
+static void prove_reach(void)
+{
+    shade__reach reach;
+    t.x0 = ANY_OF(0, 16383);
+    t.y0 = ANY_OF(0, 16383);
+    for (int k = 0; k < 3; k++) {
+        t.e[k] = ANY_WITHIN(1 << 30) * (int64_t)16384;
+        t.edges.dx[k] = ANY_WITHIN(2 * FAR);
+        t.edges.dy[k] = ANY_WITHIN(2 * FAR);
+    }
+    shade__reach_of(&t, ANY_OF(0, 16383), ANY_OF(0, 16383), ANY_OF(1, 16384), ANY_OF(1, 16384),
+                    &reach);
+    for (int k = 0; k < 3; k++) {
+        /*@ assert -35184372088832 <= reach.e[k] <= 35184372088832; */
+    }
+    const int inside = shade__inside(&t, &reach, ANY_WITHIN(16384));
+    /*@ assert -1 <= inside <= 1; */
+}
+
+/* Columns of a tile at the end of the memory of depths.  Only differences of positions count; more
+   rows touch more.  beside: pixels from where the edges are given to the tile's first column. */
+static void prove_columns(int width, int less_only, int kind, int beside)
+{
+    shade__tile tile;
+    tile.x = 8192;
+    tile.y = 8192;
+    edges.x = 8192 + ANY_OF(0, beside);
+    edges.y = 8192 - (beside ? ANY_OF(0, 2) * SHADE__TILE_ROWS : 0);
+    tile.rows = SHADE__TILE_ROWS;
+    tile.skip = ANY_OF(0, SHADE__TILE - 1);
+    tile.columns = SHADE__TILE;
+    tile.stride = WIDTH;
+    tile.depth = depth + WIDTH * (ROWS - SHADE__TILE_ROWS) + WIDTH - SHADE__TILE;
+    for (int r = 0; r < SHADE__TILE_ROWS; r++) {
+        tile.set[r] = 0;
+        tile.row_z[r] = any_float();
+    }
+    shade__test_columns(&plan, &t, &edges, &tile, SHADE__TILE - width, width, less_only, kind);
+}
+
+/* The edges of a narrow triangle. */
+static void prove_narrow(int width, int less_only)
+{
+    for (int k = 0; k < 3; k++) {
+        edges.e[k] = ANY_WITHIN(1 << 28);
+        edges.dx[k] = ANY_WITHIN(2 * FAR);
+        edges.dy[k] = ANY_WITHIN(2 * FAR);
+    }
+    prove_columns(width, less_only, SHADE__CROSSED, SHADE__TILE - 1);
+}
+
+/* Edges that cross a tile.  The guard band is 3 pictures wide and high, so that steps are below
+   3 16384 256 < 2^24. */
+static void prove_crossed(int width, int less_only, int kind)
+{
+    for (int k = 0; k < 3; k++) {
+        edges.e[k] = ANY_WITHIN(38 * FAR);
+        edges.dx[k] = ANY_WITHIN(FAR);
+        edges.dy[k] = ANY_WITHIN(FAR);
+    }
+    prove_columns(width, less_only, kind, 0);
+}
+
+int main(void)
+{
+    any_floats(depth, WIDTH * ROWS);
+    t.zx = any_float();
+    t.x_ref = any_float();
+    t.z_low = any_float();
+    t.z_high = any_float();
+    plan.early_test.less = any_mask();
+    plan.early_test.equal = any_mask();
+    plan.early_test.greater = any_mask();
+    plan.early_test.always = any_mask();
+    plan.early_test.write = any_mask();
+    prove_reach();
+    for (int less_only = 0; less_only < 2; less_only++) {
+        prove_narrow(8, less_only);
+        prove_narrow(16, less_only);
+        prove_crossed(16, less_only, SHADE__SKIPPED);
+        prove_crossed(SHADE__TILE, less_only, SHADE__FULL);
+    }
+    return 0;
+}
