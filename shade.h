@@ -3059,7 +3059,8 @@ typedef struct shade__batch {
     shade__part   part[SHADE__PARTS + 1];
     shade__vertex vertex[SHADE_LANES];
     SHADE_ALIGNED float value[SHADE__BATCH_FLOATS];
-    uint8_t       corner[3 * SHADE__BATCH_TRIANGLES];    /* vertices of the triangles */
+    uint32_t      out;                /* outcodes of all its vertices */
+    uint8_t       corner[SHADE__BATCH_TRIANGLES][4];    /* as in shade__setup */
 } shade__batch;
 
 typedef struct shade__incoming {
@@ -3150,7 +3151,7 @@ static void shade__shade_vertices(shade__draw *d);
 /* triangles: sets up those of the batch, SHADE__TRIANGLES at a time: edges, box, depth */
 static void shade__triangles(shade__draw *d);
 /* clip: what a triangle that crosses near, far or the guard band leaves; 0: nothing */
-static int shade__clip(const shade__draw *d, const uint8_t corner[3],
+static int shade__clip(const shade__draw *d, const uint8_t corner[4],
                        shade__polygon *fan);
 /* cover: tiles of pixels inside the triangles that pass the depth test, as runs */
 static void shade__cover(shade__draw *d, int count);
@@ -3268,12 +3269,14 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
 {
     const int stride = plan->value_stride, varyings = plan->varyings;
 
+    b->out = 0;
     for (int i = 0; i < n; i++) {
         shade__vertex *to = &b->vertex[i];
         float *value = b->value + i * stride;
         to->x = p->x_fx8[i];
         to->y = p->y_fx8[i];
         to->out = p->out[i];
+        b->out |= p->out[i];
         for (int k = 0; k < 4; k++) to->clip[k] = v->clip[k][i];
         value[0] = p->z[i];
         value[1] = p->rw[i];
@@ -3370,7 +3373,8 @@ static int shade__next_chunk(shade__draw *d)
    depends on it.  A branch would be mispredicted every other time (2 % of a dense mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in,
                                         const uint32_t *indices, uint32_t first,
-                                        int most, int room, uint8_t *corner)
+                                        int most, int room,
+                                        uint8_t (*corner)[4])
 {
     uint32_t *index_of = in->ids.index, at = 3 * first;
     int n = 0, vertices = in->ids.count;
@@ -3384,8 +3388,9 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in,
             vertices += 1 - hit;
             in->known[place] = index;
             in->slot_of[place] = (uint8_t)slot;
-            *corner++ = (uint8_t)slot;
+            corner[n][k] = (uint8_t)slot;
         }
+        corner[n][3] = corner[n][0];
     }
     in->ids.count = vertices;
     return n;
@@ -3409,7 +3414,7 @@ static void shade__take_batch(shade__draw *d)
         b->part[b->parts++].primitive = (uint32_t)s->first;
         const int taken = shade__take_triangles(in, s->indices,
                                                 (uint32_t)s->first, most, room,
-                                                b->corner + 3 * b->count);
+                                                b->corner + b->count);
         b->count += taken;
         s->first += taken;
     }
@@ -3685,22 +3690,29 @@ static void shade__draw_setup(shade__draw *d)
     shade__cover(d, n);
 }
 
-/* Adds a triangle; constant: the vertex that CONSTANT takes. */
-SHADE__INLINE void shade__add_triangle(shade__draw *d, const uint8_t corner[3],
-                                       int constant, uint32_t primitive)
+/* Adds triangles that follow each other, the first of them number primitive. */
+SHADE__INLINE void shade__add_triangles(shade__draw *d,
+                                        uint8_t (*corner)[4], int count,
+                                        uint32_t primitive)
 {
     shade__setup *s = &d->setup;
-    uint8_t *to = s->corner[s->count];
 
-    for (int k = 0; k < 3; k++) to[k] = corner[k];
-    to[3] = (uint8_t)constant;
-    s->primitive[s->count++] = primitive;
-    if (s->count == SHADE__TRIANGLES) shade__draw_setup(d);
+    while (count > 0) {
+        const int n = shade__min(count, SHADE__TRIANGLES - s->count);
+        for (int i = 0; i < n; i++) {
+            SHADE_MEMCPY(s->corner[s->count + i], corner[i], 4);
+            s->primitive[s->count + i] = primitive++;
+        }
+        corner += n;
+        count -= n;
+        s->count += n;
+        if (s->count == SHADE__TRIANGLES) shade__draw_setup(d);
+    }
 }
 
 /* Clips a triangle and draws the fan that is left of it.  The fan is culled by the area of the
    whole polygon; pieces that snapping has turned the other way are left out. */
-static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[3],
+static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
                                         uint32_t primitive)
 {
     const shade_cull cull = d->plan.pipe->raster.cull;
@@ -3722,11 +3734,11 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[3],
     s->value = fan.value;
     s->of_fan = 1;
     for (int i = 1; i + 1 < fan.count; i++) {
-        const uint8_t piece[3] = { fan.corner[0], fan.corner[i], fan.corner[i + 1] };
+        uint8_t piece[1][4] = { { fan.corner[0], fan.corner[i], fan.corner[i + 1], 0 } };
         const shade__vertex *v = fan.vertex;
-        const int64_t area = shade__area(&v[piece[0]], &v[piece[1]],
-                                         &v[piece[2]]);
-        if (area && (area < 0) == (fan.area < 0)) shade__add_triangle(d, piece, 0, primitive);
+        const int64_t area = shade__area(&v[piece[0][0]], &v[piece[0][1]],
+                                         &v[piece[0][2]]);
+        if (area && (area < 0) == (fan.area < 0)) shade__add_triangles(d, piece, 1, primitive);
     }
     shade__draw_setup(d);
 
@@ -3736,10 +3748,11 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[3],
 }
 
 /* Rejects, clips or adds a triangle of the batch, by where its corners are. */
-SHADE__INLINE void shade__sort_out(shade__draw *d, const uint8_t *corner,
+SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle,
                                    uint32_t primitive)
 {
     const shade__vertex *v = d->batch.vertex;
+    const uint8_t *corner = d->batch.corner[triangle];
     const uint32_t out0 = v[corner[0]].out, out1 = v[corner[1]].out, out2 = v[corner[2]].out;
     const uint32_t any = out0 | out1 | out2;
 
@@ -3757,23 +3770,22 @@ SHADE__INLINE void shade__sort_out(shade__draw *d, const uint8_t *corner,
             return;
         }
     }
-    shade__add_triangle(d, corner, corner[0], primitive);
+    shade__add_triangles(d, d->batch.corner + triangle, 1, primitive);
 }
 
 static void shade__triangles(shade__draw *d)
 {
-    const shade__batch *b = &d->batch;
+    shade__batch *b = &d->batch;
 
     d->setup.vertex = b->vertex;
     d->setup.value = b->value;
     d->setup.count = 0;
     d->u.queue.f.count = 0;
     for (int i = 0; i < b->parts; i++) {
-        const int first = b->part[i].first;
-        const uint32_t primitive = b->part[i].primitive;
-        for (int k = first; k < b->part[i + 1].first; k++)
-            shade__sort_out(d, b->corner + 3 * k,
-                            primitive + (uint32_t)(k - first));
+        const int first = b->part[i].first, end = b->part[i + 1].first;
+        uint32_t primitive = b->part[i].primitive;
+        if (!b->out) shade__add_triangles(d, b->corner + first, end - first, primitive);
+        else for (int k = first; k < end; k++) shade__sort_out(d, k, primitive++);
     }
     shade__draw_setup(d);
     shade__flush(d);
@@ -3866,7 +3878,7 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
 /* The polygon of a triangle, its values no longer divided by w.  Returns the planes it crosses. */
 static uint32_t shade__polygon_of(const shade__plan *plan,
                                   const shade__batch *b,
-                                  const uint8_t corner[3], shade__polygon *p)
+                                  const uint8_t corner[4], shade__polygon *p)
 {
     const int stride = plan->value_stride;
     uint32_t out = 0;
@@ -3934,7 +3946,7 @@ static int shade__apex(const shade__polygon *p)
     return 0;
 }
 
-static int shade__clip(const shade__draw *d, const uint8_t corner[3],
+static int shade__clip(const shade__draw *d, const uint8_t corner[4],
                        shade__polygon *fan)
 {
     const shade__plan *plan = &d->plan;
@@ -6120,18 +6132,19 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
 /* The light of vertices, and with a map the part of it that the map does not multiply. */
 static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
                                   const shade__v3 *normal, const float *albedo,
-                                  shade_vertices *out)
+                                  float *rgb)
 {
     shade_rows rows;
     SHADE__ZERO(rows);
     rows.position = point->x;
     rows.normal = normal->x;
     rows.albedo = albedo;
-    shade__lit_packet(&s->surface, &rows, out->varying[0]);
+    shade__lit_packet(&s->surface, &rows, rgb);
     if (s->map) {
         shade_lighting rest = s->lighting;
         rest.terms = s->unmapped;
-        shade_lit_lanes(&rest, s->state->material, s->eye, &rows, out->varying[3]);
+        shade_lit_lanes(&rest, s->state->material, s->eye, &rows,
+                        rgb + 3 * SHADE_LANES);
     }
 }
 
@@ -6160,7 +6173,8 @@ static void shade__mesh_vertex(const void *uniforms,
     }
     if (own && !s->tinted)
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
-    if (s->lit) shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out);
+    if (s->lit)
+        shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out->varying[0]);
     /* last, because P may have lain in these rows */
     if (s->map || (own && s->mesh->texcoords))
         shade__fetch_texcoords(s, in, out->varying[s->varyings - 2]);
