@@ -4383,8 +4383,8 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
     }
 }
 
-/* Draws a stretch of a triangle.  Its tiles begin at multiples of 32 columns, as bounds do, unless
-   the box of the triangle is not wider than one. */
+/* Draws a stretch of a triangle.  Its last tile may go on beyond it where the triangle ends there;
+   else tiles begin at multiples of 32 columns, as bounds do. */
 SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const shade__triangle *t,
                                         shade__runs *runs,
@@ -4392,9 +4392,8 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const int width)
 {
     const shade__plan *plan = &d->plan;
-    const int across = plan->x1 - plan->x0, n = s->last - s->x + 1;
-    const int one = n <= SHADE__TILE && n == t->x1 - t->x0 + 1;
-    const int x0 = one ? t->x0 : s->x - ((s->x - plan->x0) & (SHADE__TILE - 1));
+    const int across = plan->x1 - plan->x0, ends = s->last == t->x1;
+    const int x0 = s->x - (ends ? 0 : (s->x - plan->x0) & (SHADE__TILE - 1));
     shade__reach reach;
     shade__edges edges;
     shade__tile tile;
@@ -4457,15 +4456,20 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
 SHADE__DISPATCH(shade__cover_large, (shade__draw *d, shade__runs *runs, int lane), (d, runs, lane),
                 shade__cover_large_body(d, runs, lane, shade__width))
 
-/* Is the triangle at most 32 x 24 pixels, and do 32 bits hold its edges there and 31 pixels beside?
-   Then |e| <= 2^28 + 31 |dx| + 24 |dy| < 2^31. */
+/* Is the triangle at most 32 pixels wide, and do 32 bits hold its edges in its box and 31 pixels
+   beside?  They do where |e| <= 2^28 at its first pixel, in 24 rows, 2^28 + (31 + 24) 2^25 < 2^31,
+   and in 512 where steps are at most 2^21, 2^28 + (31 + 512) 2^21 < 2^31. */
 SHADE__INLINE int shade__is_narrow(const shade__triangle *t)
 {
     const int64_t most = 1 << 28;
     const int64_t e = (t->e[0] + most) | (t->e[1] + most) | (t->e[2] + most);
+    int32_t steps = 0;
 
-    return t->x1 - t->x0 < SHADE__TILE &&
-           t->y1 - t->y0 < 3 * SHADE__TILE_ROWS && !(e >> 29);
+    if (t->x1 - t->x0 >= SHADE__TILE || e >> 29) return 0;
+    if (t->y1 - t->y0 < 3 * SHADE__TILE_ROWS) return 1;
+    for (int k = 0; k < 3; k++)
+        steps |= (t->edges.dx[k] + (1 << 21)) | (t->edges.dy[k] + (1 << 21));
+    return t->y1 - t->y0 < 64 * SHADE__TILE_ROWS && !(steps >> 22);
 }
 
 /* Draws a narrow triangle, tile below tile, whose edges are taken as they are. */
