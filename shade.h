@@ -3560,15 +3560,15 @@ SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b,
     }
 }
 
-/* A whole number to an integer   pre: |x| < 2^51, so that the sum is exact */
+/* The nearest integer   pre: |x| < 2^51 */
 SHADE__INLINE int64_t shade__whole(double x)
 {
     return (int64_t)(shade__double_bits(x + 6755399441055744.0) - 0x4338000000000000u);
 }
 
-/* The edge from corner k to the next, at the first pixel of the box, and its steps.  With whole and
-   fractional parts of x and y, only the fractions' part of e has a rest to round down.
-   pre: |q - p| <= 2^25   post: e is whole, |e| <= 2^43, |step| <= 2^25 */
+/* The edge from corner k to the next, at the first pixel of the box, and its steps.  256 e + rest
+   is whole, so that e is what it is divided by 256, less 127.5/256, rounded to the nearest.
+   pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
                                int k, shade__setup *SHADE_RESTRICT s)
 {
@@ -3579,12 +3579,8 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
         int32_t x = s->box[0][i] * 256 + 128 - c->x[k][i];
         int32_t y = s->box[1][i] * 256 + 128 - c->y[k][i];
         int32_t bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;    /* dy < 0, or 0 and dx > 0 */
-        double part = (double)dx * (double)(y & 255) -
-                      (double)dy * (double)(x & 255);
-        int32_t rest = (int32_t)((part + (double)bias) * (1 / 256.0) + 1073741824.0) - 1073741824;
-        double e = (double)dx * (double)shade__floor256(y) -
-                   (double)dy * (double)shade__floor256(x) + (double)rest;
-        s->e[k][i] = shade__whole(e);
+        double e = (double)dx * (double)y - (double)dy * (double)x + (double)bias;
+        s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
         s->dx[k][i] = -dy;
         s->dy[k][i] = dx;
     }
