@@ -6291,7 +6291,6 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
                  : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
 
     s->lighting = state->lighting;
-    s->unmapped = 0;
     if (s->map && state->shading != SHADE_SHADING_PER_FRAGMENT) {
         const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
         s->lighting.terms = (terms & matte) | SHADE__TERM_NONE;
