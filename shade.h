@@ -45,13 +45,33 @@
    shadows, reflections or physically based materials.                                   >>about
 
    >>contents
-     About      >>about  >>contents  >>conventions  >>model
-     Public     >>config  >>types  >>plumbing  >>light  >>draw  >>math
-     Inside     >>target  >>base  >>matrix  >>power  >>pixels  >>lamps  >>terms  >>lit
-                >>state  >>vertices  >>triangles  >>clip  >>cover  >>fragments  >>texture
-                >>store  >>check  >>drive  >>mesh  >>lines  >>shape  >>chunks  >>rays
-                >>survey  >>explain  >>image
-     Sources    >>refs  >>history  >>license
+     Each section begins with a banner.  A tag in the last line of a banner names the next section.
+     About
+       >>about  >>contents  >>conventions  >>model
+     Public
+       >>config      options               >>types       materials, lamps, targets, states
+       >>plumbing    compilers             >>light       the equation and its terms
+       >>draw        meshes and pixels     >>math        vectors and matrices
+     Inside: words that the rest is written in
+       >>target      processors            >>base        bits, masks, rows of vectors
+       >>matrix      cameras, inverses     >>power       x^n
+       >>pixels      formats: 5-6-5, sRGB
+     Inside: light
+       >>lamps       attenuation, cones    >>terms       one term at one point
+       >>lit         the whole sum, at many points
+     Inside: the way of a triangle
+       >>state       who owns what         >>vertices    shading, projection
+       >>triangles   edges, planes         >>clip        near, far, behind the eye
+       >>cover       pixels, depth test    >>fragments   interpolation, shading
+       >>texture     texels                >>store       blending, memory
+     Inside: calls
+       >>check       refusals              >>drive       shade_draw, batch by batch
+       >>mesh        shade_draw_mesh       >>lines       shade_draw_lines
+       >>shape       normals, edges        >>chunks      boxes around triangles
+       >>rays        shade_pick            >>survey      experiments on a draw
+       >>explain     why nothing is seen   >>image       PPM
+     Sources
+       >>refs  >>history  >>license
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -64,8 +84,8 @@
                   depth takes depth_zero_to_one, shade_mat4_perspective_reversed,
                   SHADE_COMPARE_GREATER and a buffer cleared to 0.
      Front face   counter-clockwise as seen on the screen.
-     Coverage     vertices are snapped to floor(256 X + 1/2) / 256; edges are exact integers; pixel
-                  centres on an edge follow the top-left rule.
+     Coverage     vertices are snapped to floor(256 X + 1/2) / 256; edge functions are exact;
+                  pixel centres on an edge follow the top-left rule.
      Directions   N, L, V, H and R are unit vectors and all point AWAY from the surface.
      Colour       linear light, unclamped.  Formats of 8 and 5-6-5 bits store clamp(c, 0, 1),
                   rounded to nearest, and 0 for NaN.
@@ -96,8 +116,8 @@
      SHADE_STATIC             makes all functions static: a private copy in this file
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
-     SHADE_LANES              fragments in a packet: a power of two from 8 to 256; default 128;
-                              16 suits small stacks
+     SHADE_LANES              vertices or fragments that a shader is given at once, a packet: a
+                              power of two from 8 to 256; default 128; 16 suits small stacks
      SHADE_MAX_VARYINGS       floats that a vertex can hand to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8 or 11,
                               with a fragment shader of their own 11
@@ -113,14 +133,15 @@
    SHADE_LANES and SHADE_MAX_VARYINGS must be plain decimal numbers: they become part of the link
    names of functions that take packets, so that files that disagree do not link.
 
-   Your own macros may have any single capital letter as their name, and in files without the
-   implementation also e, g, i, j, o or q.
+   You may define any macro whose name is one capital letter; in files without the implementation
+   also e, g, i, j, o and q.
 
    Fast math.  gcc gives the same bits with -ffast-math, -Ofast and their parts.  clang cannot be
    told to keep them: the implementation refuses -ffast-math and -ffinite-math-only.  clang does not
-   report the other parts of -ffast-math, nor -ffp-contract=fast, which overrides the pragma below:
-   do not use them.  Inline functions follow the flags of the file that includes them.  A program
-   linked with -ffast-math flushes denormal numbers to zero, which SHADE_FORMAT_RGBA32F shows.
+   report the other parts of -ffast-math, nor -ffp-contract=fast, which overrides the pragmas of
+   >>plumbing: do not use them.  Inline functions follow the flags of the file that includes them.
+   A program linked with -ffast-math flushes denormal numbers to zero; only SHADE_FORMAT_RGBA32F
+   shows it.
 
    tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  Declare no
    int or float last before such a call.  SHADE_EACH_LANE takes a 64-bit counter there.
@@ -160,7 +181,7 @@
 #endif
 
 /*------------------------------------------------------------------------------------------ >>types
-   Plain structs, passed by value.  A zeroed field always means the default.           >>plumbing */
+   Plain structs, passed by value.  Where a field has a default, zero is the default. >>plumbing */
 
 typedef struct shade_vec2 { float x, y; } shade_vec2;
 typedef struct shade_vec3 { float x, y, z; } shade_vec3;
@@ -171,12 +192,12 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 typedef enum shade_result {
     SHADE_OK = 0,
     SHADE_ERROR_ARGUMENT,    /* a NULL the call cannot do without, a factor, sizes that differ */
-    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle or strip; no memory */
+    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
     SHADE_ERROR_STATE,       /* an enumerator or range of a draw state, pipeline or line state */
     SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
-    SHADE_ERROR_INDEX,       /* an index at or past vertex_count, or no whole number of triangles */
+    SHADE_ERROR_INDEX,       /* an index at or past vertex_count; a count that 3 does not divide */
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
     SHADE_ERROR_IO           /* a file or the caller's write function failed */
 } shade_result;
@@ -227,9 +248,9 @@ enum {                                 /* shade_lighting.terms; 0 = all */
 /* The light that falls on a scene, and the equation that surfaces answer with.  Positions, normals
    and eye must be in one space whose axes are orthogonal and of equal scale: world or eye space,
    never clip space.  On the outline of a coarse mesh some interpolated normals point away from the
-   viewer; SHADE_FLAG_TWO_SIDED turns them, which shows as specks.  A finer mesh has fewer. */
+   viewer; SHADE_FLAG_TWO_SIDED turns them, and specks show there.  A finer mesh has fewer. */
 typedef struct shade_lighting {
-    const shade_light *lights;         /* NULL counts as none; shade_draw_mesh refuses it */
+    const shade_light *lights;         /* NULL: none; shade_draw_mesh refuses it with a count */
     int         light_count;           /* a negative one counts as 0 */
     shade_vec3  ambient;               /* I_a, one for the scene */
     shade_model model;                 /* an unknown one is BLINN_PHONG; shade_draw_mesh refuses */
@@ -255,7 +276,7 @@ typedef enum shade_wrap {
 typedef enum shade_filter {
     SHADE_FILTER_BILINEAR = 0,   /* the four nearest texels, weighted by distance */
     SHADE_FILTER_NEAREST,        /* the texel that u, v lie in */
-    SHADE_FILTER_TRILINEAR       /* bilinear in two mipmaps, weighted by the lod    [Williams83] */
+    SHADE_FILTER_TRILINEAR       /* bilinear in two mipmaps, by the level of detail [Williams83] */
 } shade_filter;
 
 /* A picture to sample.  u runs right and v DOWN from the top left corner of row 0; texel (i, j) has
@@ -274,14 +295,14 @@ typedef struct shade_texture {
 /* A picture and its depth buffer in the caller's memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
-    int   stride;                /* pixels from row to row, of depth too; 0 means width */
+    int   stride;                /* pixels from row to row, of color and depth; 0: width */
     shade_format format;
     void  *color;                /* NULL: depth only */
     float *depth;                /* NULL: no depth buffer; every fragment passes */
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
-    int   clip_x, clip_y;        /* the clip rectangle: draws and clears change nothing outside; */
-    int   clip_width, clip_height;    /* all four zero: everywhere; empty: nothing is drawn */
+    int   clip_x, clip_y;        /* draws and clears change nothing outside this rectangle, */
+    int   clip_width, clip_height;    /* nothing at all if it is empty; four zeros: none is set */
     int   row_offset, row_count; /* a strip: memory holds only these rows; count 0: all rows */
 } shade_target;
 
@@ -291,7 +312,7 @@ typedef enum shade_interpolation {
     SHADE_INTERPOLATION_CONSTANT            /* the value of the triangle's first vertex */
 } shade_interpolation;
 typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
-typedef enum shade_compare {     /* a fragment passes if its depth is ... than the stored depth */
+typedef enum shade_compare {     /* a fragment passes where: its depth, this, the stored depth */
     SHADE_COMPARE_LESS = 0, SHADE_COMPARE_LESS_EQUAL, SHADE_COMPARE_GREATER,
     SHADE_COMPARE_GREATER_EQUAL, SHADE_COMPARE_EQUAL, SHADE_COMPARE_ALWAYS
 } shade_compare;
@@ -326,7 +347,7 @@ typedef struct shade_stats {
     long long triangles;
     long long skipped;           /* their chunk cannot be seen in the clip rectangle */
     long long culled;            /* they face the wrong way, or have no area after snapping */
-    long long clipped;           /* nothing of them is inside the view volume */
+    long long clipped;           /* nothing of them is inside the view volume; not those cut */
     long long rejected;          /* a position is NaN, infinite or beyond 1e30 */
     long long drawn;
     long long fragments;         /* pixels in the clip rectangle that passed the depth test */
@@ -1486,7 +1507,7 @@ SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
     rows[i + 3 * stride] = v.w;
 }
 
-/* Three rows of floats, as public functions take them, as rows of vectors.  NULL stays NULL. */
+/* Public functions take three rows of floats; this views them as vectors.  NULL stays NULL. */
 SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
 {
     return (const shade__v3 *)(const void *)rows;
@@ -1524,9 +1545,11 @@ SHADEDEF const char *shade_result_string(shade_result result)
      holds   A degenerate camera takes every point to z = 2, w = 1, which is outside near or far in
              every convention of depth: nothing is drawn.                                 >>power */
 
-/* Sine and cosine.  The argument is reduced to r = x - k pi/2, with an error of 1e-16: pi/2 is the
-   sum of two parts, the higher of 33 bits, so that k times it is exact for |k| < 2^20.  Taylor
-   series on [-pi/4, pi/4] follow, whose next terms are below 5e-17. */
+/* Sine and cosine.  The argument is reduced to r = x - k pi/2: pi/2 is the sum of two parts, the
+   higher of 33 bits, so that k times it is exact and r off by 1e-16 up to |k| = 2^20; beyond, r is
+   off by 2^-53 of x, less than half the way from one float to the next.  Floats beyond 1e9 lie 64
+   apart, which is no angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow, whose next
+   terms are below 5e-17. */
 static SHADE__COLD void shade__sincos(float radians, double *sine,
                                       double *cosine)
 {
@@ -1610,6 +1633,7 @@ SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v)
 
 SHADEDEF shade_mat4 shade_mat4_identity(void) { return shade_mat4_scaling(shade_v3(1, 1, 1)); }
 
+/* A matrix that was never filled in, all of it zero, counts as the identity. */
 static shade_mat4 shade__or_identity(shade_mat4 m)
 {
     for (int k = 0; k < 16; k++)
@@ -1673,26 +1697,27 @@ static int shade__is_finite(const shade_mat4 *m)
     return 1;
 }
 
-/* The matrix of a camera with these columns.  The degenerate camera where exists is 0, or where an
-   entry is not finite, as after a division by zero. */
-static shade_mat4 shade__camera(int exists, double xx, double yy, shade_vec4 z,
+/* The matrix of a camera with these columns; the degenerate camera where good is 0 or an entry is
+   not finite, as after a division by zero. */
+static shade_mat4 shade__camera(int good, double xx, double yy, shade_vec4 z,
                                 shade_vec4 w)
 {
     shade_mat4 none = shade__zero_matrix();
     shade_mat4 m = shade__m4(shade_v4((float)xx, 0, 0, 0), shade_v4(0, (float)yy, 0, 0), z, w);
     none.col[3] = shade_v4(0, 0, 2, 1);
-    return exists && shade__is_finite(&m) ? m : none;
+    return good && shade__is_finite(&m) ? m : none;
 }
 
-/* Cramer's rule: columns come in pairs, 0 with 1 and 2 with 3, and row i is made of the other
-   column of pair i and the minors of the other pair.  A determinant of 0 leaves no entry finite.
+/* Cramer's rule.  Columns come in pairs, 0 with 1 and 2 with 3: row i of the inverse is made of
+   column i ^ 1 and the minors of the other pair.  A determinant of 0 leaves no entry finite.
    Not inlined: gcc 12's SLP vectoriser loses the rounding to float where two neighbouring values go
    double -> float -> double, as they would inside shade_pixel_ray. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     double e[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
     for (int i = 0; i < 4; i++) {
-        const double *v = e + 4 * (i ^ 1), *o = i < 2 ? c : s, sign = 1 - 2 * (i & 1);
+        const double *v = e + 4 * (i ^ 1), *o = i < 2 ? c : s;
+        const double sign = 1 - 2 * (i & 1);
         const double x = sign * v[0], y = sign * v[1], z = sign * v[2], w = sign * v[3];
         float *row = (float *)&m + i;
         row[0] = (float)((y * o[5] - z * o[4] + w * o[3]) * k);
