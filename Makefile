@@ -11,7 +11,8 @@
 # make prove      no overflow, no access outside an array, over whole ranges of values (Frama-C)
 # make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
-# make playground   the equation as a web page, build/playground/index.html (needs clang and lld)
+# make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
+#                 and beside it the slides of four courses, course-uw.html and so on
 # make install    header, shade.pc, shade-thumbnail and shade.thumbnailer for file managers, below
 #                 PREFIX (/usr/local) in DESTDIR; make uninstall removes them
 # make vector-report   loops over lanes that the compiler left scalar: none
@@ -95,7 +96,7 @@ conformance:
 gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
-	@sh examples/playground/build.sh
+	@sh examples/playground/build.sh && sh examples/course/build.sh
 coverage:
 	@sh tests/coverage.sh
 mutation:
