@@ -13,8 +13,8 @@
 
 int main(int argc, char **argv)
 {
-    static const char *const name[3] = { "phong, n = 16", "blinn-phong, n = 16",
-                                         "blinn-phong, 4n = 64" };
+    static const char *const name[3] = { "Phong, n = 16", "Blinn-Phong, n = 16",
+                                         "Blinn-Phong, 4n = 64" };
     static const char *const term[3] = { "k_s (R·V)^{16}", "k_s (N·H)^{16}", "k_s (N·H)^{64}" };
     static const shade_model model[3] = { SHADE_MODEL_PHONG, SHADE_MODEL_BLINN_PHONG,
                                           SHADE_MODEL_BLINN_PHONG };

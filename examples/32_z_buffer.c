@@ -67,8 +67,11 @@ int main(int argc, char **argv)
     int begin = 0, steps = longest_run(z, &begin);
     float dz = (z[begin + steps] - z[begin]) / (float)steps, sum = z[begin], worst = 0;
     for (int i = 0; i <= steps; i++, sum += dz) worst = fmaxf(worst, fabsf(sum - z[begin + i]));
-    sprintf(text, "z along the row; %d times z += dz: off by %d of 2^{24}", steps,
-            (int)(worst * 16777216));
+    sprintf(text, "z along the row; %d times z += dz: off by %.1e of its range", steps,
+            (double)worst);
+    label_draw(&c, 12, H / 2 + 28, 20, white, "FAR, z = 1");
+    label_draw(&c, 12, H / 2 + 200, 20, white, "z = 0.5");
+    canvas_fill(&c.target, 2 * 90, H + 6 + 380, 40, 2, grey);
     label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer");
     label_draw(&c, 12, H - 14, 22, white, text);
     canvas_fill(&c.target, 0, ROW, 2 * W, 2, grey);
