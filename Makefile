@@ -67,8 +67,8 @@ build/compare: LIBRARIES = $(STB)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@
-out/gallery.ppm: build/contact $(NUMBERED:%=out/%.ppm)
-	build/contact $@ $(NUMBERED:%=out/%.ppm)
+out/gallery.ppm: build/contact examples/README.md $(NUMBERED:%=out/%.ppm)
+	build/contact $@ $$(echo $(NUMBERED) | awk -f examples/pictures/order.awk - examples/README.md)
 
 # -O1 compiles the tests' own code in a third of the time
 build/test_main: $(wildcard tests/*.c tests/*.h) build/shade.o

@@ -47,8 +47,8 @@ int main(int argc, char **argv)
         shade_draw_mesh(&panel, &sphere.view, &state, NULL);
         label_caption(&c, 200 * i + 100, 226, grey, name[i], adds[i]);
     }
-    label_center(&c, 500, 290, 20, grey, "four: I = k_e + Σ_j { k_a I_{La,j} + (L·S)^e β_j / (a + b r_j + "
-                 "c r_j^2) I_{L,j} B_j [k_d (N·L) + k_s (N·H)^n] }");
+    label_center(&c, 500, 290, 20, grey, "four: I = k_e + Σ_j { k_a I_{La,j} + "
+                 "(L·S)^e β_j / (a + b r_j + c r_j^2) I_{L,j} B_j [k_d (N·L) + k_s (N·H)^n] }");
     mesh_free(&sphere);
     return canvas_save(&c, argc, argv, "iterations.ppm");
 }

@@ -1,7 +1,7 @@
 /* 16_ray_cast.c - one scene drawn two ways (UW).  Left: by the z-buffer.  Middle: by a ray through
    the centre of each pixel to the nearest triangle, lit there by shade_lit.  Right: the difference,
    250 times as bright.  The number counts pixels that differ in 8 bits.
-   Try 0.6f for the last 0.5f of the ray, a tenth of a pixel: the outlines light up.
+   Try 0.6f for the last 0.5f of the ray, a tenth of a pixel: 9,365 differ, most at outlines.
 
    cc -O2 -I. examples/16_ray_cast.c -lm -o ray_cast && ./ray_cast        writes ray_cast.ppm */
 #define SHADE_IMPLEMENTATION

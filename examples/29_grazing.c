@@ -1,9 +1,8 @@
-/* 29_grazing.c - where Phong and Blinn-Phong differ: a tiled floor seen in the mirror direction of a
-   far lamp, the white disk, theta = 20 and 80 degrees off the normal.  With 4 n for n Blinn's highlight is as high as
-   Phong's and cos(theta) times as wide.  At 20 degrees that is hardly seen.  At 80 degrees it is
-   drawn out like a lamp's reflection on water, while Phong's stays round.  Massey: 4 n looks alike
-   unless viewed from a very steep angle.  The numbers are pixels brighter than one half, across and
-   down.
+/* 29_grazing.c - where Phong and Blinn-Phong differ: a floor seen in the mirror direction of a far
+   lamp, the white disk, theta = 20 and 80 degrees off the normal.  With 4 n for n Blinn's highlight
+   is as high as Phong's and cos(theta) times as wide.  At 20 degrees that is hardly seen, at 80 it
+   is drawn out like a lamp's reflection on water, while Phong's stays round.  Massey: 4 n looks
+   alike unless viewed from a very steep angle.  The numbers: pixels brighter than one half.
    Try theta[1] = 60: half as wide as high.
 
    cc -O2 -I. examples/29_grazing.c -lm -o grazing && ./grazing               writes grazing.ppm */

@@ -3,8 +3,7 @@
    row, near at the bottom.  It consists of straight pieces, one for each face, because z/w is
    linear on the screen.  So a row needs one addition a pixel, z + dz + dz ...; the number tells how
    far that strays over the longest piece (UW's incremental z).
-   Try near_z = 0.4: the pieces flatten against FAR, because most of the depth goes to the space
-   before them.
+   Try near_z = 0.4: the pieces flatten against FAR, as most depths go to the space before them.
 
    cc -O2 -I. examples/32_z_buffer.c -lm -o z_buffer && ./z_buffer           writes z_buffer.ppm */
 #define SHADE_IMPLEMENTATION

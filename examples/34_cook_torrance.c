@@ -4,8 +4,7 @@
        G = min(1, 2 (N.H) (N.V) / (V.H), 2 (N.H) (N.L) / (V.H)),   cos a = N.H
    They divide by pi; the 4 keeps reflected light within what arrives.  F = F_0 + (1 - F_0) (1 -
    V.H)^5 is C. Schlick's Fresnel term (Computer Graphics Forum 13 (1994), 233-246), below from 0
-   to 90 degrees between V and H: it grows and whitens, as do highlights of lamps behind the pot.
-   With n = 2/m^2 - 4 both lobes bend alike at their peak.  UW and Shirley name the model.
+   to 90 degrees between V and H.  With n = 2/m^2 - 4 both lobes bend alike at their peak (UW).
    Try F_0 = { 0.04f, 0.04f, 0.04f }: varnish, whose curve rises from .04 to 1.
 
    cc -O2 -I. examples/34_cook_torrance.c -lm -o cook_torrance && ./cook_torrance */

@@ -1,8 +1,8 @@
 /* 41_beam.c - why Lambert's law has a cosine (UW, Massey, Shirley, Berkeley).  A beam of width 1
-   meets a surface whose normal N is theta away from it.  It spreads over a length of 1/cos theta, so
-   each point gets the share cos theta = N.L of its light.  The length is measured between the two
+   meets a surface whose normal N is theta away from it.  It spreads over a length of 1/cos theta,
+   so each point gets the share cos theta = N.L of its light.  The length is measured between the
    rims of the beam, the light is what shade_lit finds on a white surface: their product is 1.
-   Try 85 for 70: the light that is left falls on a patch eleven times as long.
+   Try 60 for 45: half the light at each point, on twice the width.
 
    cc -O2 -I. examples/41_beam.c -lm -o beam && ./beam                    writes beam.ppm */
 #define SHADE_IMPLEMENTATION
@@ -52,7 +52,7 @@ static void panel(const canvas *c, int i, float theta)
     if (theta > 0) sketch_name(&s, shade_scale(sketch_direction(-theta / 2), 1.62f), 22, "θ");
     sketch_ink(&s, shade_scale(shade_v3(1, 0.95f, 0.85f), light), 12);
     s.pen.cap = SHADE_CAP_BUTT;
-    sketch_line(&s, shade_add(begin, shade_v3(0, -0.09f, 0)), shade_add(end, shade_v3(0, -0.09f, 0)));
+    sketch_line(&s, shade_madd(begin, -0.09f, N), shade_madd(end, -0.09f, N));
     label_print(c, middle - 120, 385, 22, pale, "θ = %g°, N·L = %.3f", (double)theta,
                 (double)light);
     label_print(c, middle - 120, 413, 22, pale, "width 1/cos θ = %.3f", (double)length);

@@ -71,8 +71,8 @@ int main(int argc, char **argv)
     angle(&left, 0.3f, 0, theta, "θ");
     label_center(&c, 240, 470, 24, red, "R = 2 (L·N) N − L");
     label_center(&c, 720, 470, 24, blue, "H = (L + V) / |L + V|");
-    label_print(&c, 90, 503, 20, black, "θ = %.1f°, σ = %.1f°, cos σ = R·V = %.4f", degrees(N, L),
-                degrees(R, V), (double)shade_dot(R, V));
+    label_print(&c, 90, 503, 20, black, "θ = %.1f°, σ = %.1f°, cos σ = R·V = %.4f",
+                degrees(N, L), degrees(R, V), (double)shade_dot(R, V));
     label_print(&c, 600, 503, 20, black, "ω = %.1f°, cos ω = N·H = %.4f", degrees(N, H),
                 (double)shade_dot(N, H));
     return canvas_save(&c, argc, argv, "angles.ppm");

@@ -3,7 +3,7 @@
    inverted image of a real pinhole.  Right: the same points after projection and division by w.
    The rays are parallel, so that the picture is what is left when z is dropped; z is kept to tell
    which of two points on a ray is nearer.  The numbers are heights of the tops on the image plane.
-   Try near_z = 0.5: depths crowd toward the far end.
+   Try depth[0] = 2: the post on the image plane keeps its height, 0.900.
 
    cc -O2 -I. examples/43_pinhole.c -lm -o pinhole && ./pinhole            writes pinhole.ppm */
 #define SHADE_IMPLEMENTATION

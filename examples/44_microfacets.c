@@ -60,7 +60,7 @@ static void draw_ray(sketch *s, int k, shade_vec3 L, float roughness)
 
 int main(int argc, char **argv)
 {
-    static const char *const name[3] = { "smooth: glossy", "rough: microfacets", "pigment: diffuse" };
+    static const char *const name[3] = { "smooth: glossy", "microfacets", "pigment: diffuse" };
     static const char *const format[3] = { "k_s, ±%.1f° about R", "k_s, ±%.1f° about R",
                                            "k_d, ±%.1f° about N" };
     static const float roughness[3] = { 0.01f, 0.22f, -1 };

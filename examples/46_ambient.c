@@ -1,9 +1,9 @@
 /* 46_ambient.c - ambient light on and off (UW, Massey, Berkeley).  Left: one lamp alone, as in
-   space: what it does not reach is black.  Then k_a I_a, the same at every point, stands for all the
-   light that comes by way of other surfaces: nothing is black, but shadows are flat.  Then, instead
-   of it, a dim lamp at the eye, a headlight: shadows keep their form.  The number is the part of the
-   pot that a display shows black, code 0 to 12 of 255.
-   Try 0.5f for I_a: the lamp hardly matters any more.
+   space: what it does not reach is black.  Then k_a I_a, the same at every point, which stands for
+   the light that comes by way of other surfaces: nothing is black, but shadows are flat.  Then, in
+   its place, a dim lamp at the eye, a headlight: shadows keep their form.  The number is the part
+   of the pot that a display shows black, code 0 to 12 of 255.
+   Try 0.5f for the three 0.12f: the form of the lit side is lost as well.
 
    cc -O2 -I. examples/46_ambient.c -lm -o ambient && ./ambient           writes ambient.ppm */
 #define SHADE_IMPLEMENTATION

@@ -87,6 +87,9 @@ lessons() {                     # pictures, and lessons named in text
         [ -f "examples/$name.c" ] || echo "$name"
     done
 }
+tables() { (cd examples && ls [0-9]*.c) | sed 's/\.c$//' | awk -f examples/pictures/order.awk - examples/README.md; }
+check "each lesson stands in a table of examples/README.md" same "$(tables | grep -c '^out/')" \
+    "$(ls examples/[0-9]*.c | wc -l | tr -d ' ')"
 check "lessons that are named are there" same "$(lessons)" ""
 
 # ---- words --------------------------------------------------------------------------------------

@@ -102,8 +102,8 @@ static inline void canvas_zoom(const canvas *c, int x, int y, int w, int h, int 
     }
 }
 
-/* Draws the difference of two panels of one size, gain times as bright, on a third.  Returns how many
-   samples are not the same colour of 8 bits; most becomes the greatest difference of their light. */
+/* Draws the difference of two panels of one size, gain times as bright, on a third.  Returns how
+   many samples are not the same colour of 8 bits; most becomes the greatest difference of light. */
 static inline int canvas_difference(const shade_target *a, const shade_target *b,
                                     const shade_target *out, float gain, float *most)
 {
