@@ -37,10 +37,11 @@ int main(int argc, char **argv)
     const shade_material glaze = { none, clay, clay, { 0.6f, 0.6f, 0.6f }, 30 };
     const float half = 1.5f * SIZE / (SIZE - 2 * EDGE);
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.7f, -1), white);
-    shade_draw_state state = { .material = &glaze, .lighting = { &lamp, 1 } };
+    shade_draw_state state = { .material = &glaze, .lighting = { .lights = &lamp } };
     owned_mesh ball = mesh_sphere(96, 48);
     canvas c = canvas_new(960, 390, SAMPLES);
 
+    state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.15f, 0.15f, 0.17f);
     state.view = shade_mat4_look_at(shade_v3(0, 0, 4), none, shade_v3(0, 1, 0));
     shade_clear(&c.target, shade_v4(0.02f, 0.022f, 0.026f, 1), 1);

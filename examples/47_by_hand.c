@@ -1,6 +1,5 @@
-/* 47_by_hand.c - UW's iteration four in the letters of the notes, beside shade_lit: one pot under
-   three lamps, one of them weakened by distance, one held in a cone.  Left: by_hand as a fragment
-   shader.  Middle: shade.h.  Right: their difference, 10,000 times as bright.
+/* 47_by_hand.c - UW's iteration four in the letters of the notes, beside shade.h: three lamps, one
+   weakened by distance, one in a cone.  Right: the difference, 10,000 times as bright.
    Try 1 for the 0 of B: behind the terminator N.L is negative, and lamps take light away.
 
    cc -O2 -I. examples/47_by_hand.c -lm -o by_hand && ./by_hand           writes by_hand.ppm */
@@ -51,13 +50,14 @@ int main(int argc, char **argv)
                   shade_point_light(shade_v3(4, 1.5f, 2.5f), shade_v3(1.5f, 0.5f, 0.1f)),
                   shade_spot_light(shade_v3(-2, 2, 8), shade_v3(1, -2, -6), 0.11f, 90, grey) },
                 { 0, 5, 13 } };
-    shade_draw_state state = { .material = &s.k, .lighting = { s.lamp, LAMPS }, .uniforms = &s };
+    shade_draw_state state = { .material = &s.k, .uniforms = &s };
     owned_mesh pot = shape_teapot(16);
     canvas c = canvas_new(960, 340, 1);
     shade_target panel[3];
     char text[60];
     float most;
-
+    state.lighting.lights = s.lamp;
+    state.lighting.light_count = LAMPS;
     s.lamp[0].ambient = shade_v3(0.03f, 0.03f, 0.04f);
     s.lamp[1].constant = s.lamp[1].quadratic = 0.3f;
     state.model = shape_at(-0.5f, -1.5f, -0.17f, 1, -0.45f);

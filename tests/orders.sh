@@ -70,6 +70,7 @@ step all "$MAKE -s $few all"
 step test "$MAKE -s T=math test"
 step pictures "$MAKE -s $few build/golden pictures; build/golden out/[0-9]*.ppm"
 long_step readme "sh tests/readme.sh"
+step course "sh tests/course.sh"
 step board "sh tests/microcontroller.sh"
 step microcontroller "$MAKE -s -C examples/microcontroller"
 step install "$MAKE -s install PREFIX=\$PWD/build/usr; $MAKE -s uninstall PREFIX=\$PWD/build/usr"
@@ -103,7 +104,7 @@ done
 
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
-apart="compile compare course coverage embed lint matrix mutation prove static thumbnail vector_report"
+apart="compile compare coverage embed lint matrix mutation prove static thumbnail vector_report"
 for name in $apart; do
     check "$name.sh has a directory of its own" \
         grep -qE 'T=\$\(mktemp -d\)|^\. tests/tools.sh$|>/tmp/lint_.*\$\$' "tests/$name.sh"

@@ -16,10 +16,12 @@ formulas() {
         /^(c|play|picture):/ { print "=" $0; print "."; next }
         { n = split($0, part, "`"); for (i = 1; i <= n; i++) print (i % 2 ? ">" : "`") part[i]; print "." }
     ' | sed -E '/^>/{
+        s/(^|[^A-Za-z0-9_])([A-Za-z])_\{([^}]*)\}/\1<i>\2<\/i><sub>\3<\/sub>/g
         s/_\{([^}]*)\}/<sub>\1<\/sub>/g
         s/\^\{([^}]*)\}/<sup>\1<\/sup>/g
         s/\^([A-Za-z0-9]+)/<sup>\1<\/sup>/g
-        s/(^|[^A-Za-z0-9_])([EIcknvrL])_([A-Za-z0-9]+)/\1<i>\2<\/i><sub>\3<\/sub>/g
+        s/(^|[^A-Za-z0-9_])([EIcfknvrL])_([A-Za-z0-9]+)/\1<i>\2<\/i><sub>\3<\/sub>/g
+        s/(^|[ (>])I( =|\(| max|:)/\1<i>I<\/i>\2/g
         s/([^A-Za-z0-9'\''<>\/&.])([b-hj-zBD-HJ-Z])([^A-Za-z'\''>\/]|$)/\1<i>\2<\/i>\3/g
         s/([^A-Za-z0-9'\''<>\/&.])([b-hj-zBD-HJ-Z])([^A-Za-z'\''>\/]|$)/\1<i>\2<\/i>\3/g
     }' | awk '
