@@ -40,10 +40,10 @@ static double spread(shade_vec3 L, float roughness, shade_vec3 about)
 
 static void draw_ray(sketch *s, int k, shade_vec3 L, float roughness)
 {
-    shade_vec3 F, P = shade_v3(0.4f * (float)(k - DRAWN / 2), 0, 0), out = P, grain;
-    shade_vec3 d = leaving(k, L, roughness, &F), side = shade_v3(0.2f * F.y, -0.2f * F.x, 0);
+    shade_vec3 F, P = shade_v3(0.36f * (float)(k - DRAWN / 2), 0, 0), out = P, grain;
+    shade_vec3 d = leaving(k, L, roughness, &F), side = shade_v3(0.18f * F.y, -0.18f * F.x, 0);
     sketch_ink(s, amber, 2.5f);
-    sketch_arrow(s, shade_madd(P, 1.25f, L), P);
+    sketch_arrow(s, shade_madd(P, 1.1f, L), P);
     if (roughness < 0) {
         sketch_ink(s, teal, 2);
         for (int i = 0; i < 3; i++) {    /* from grain to grain, until it leaves */
@@ -64,7 +64,7 @@ int main(int argc, char **argv)
     static const char *const format[3] = { "k_s, ±%.1f° about R", "k_s, ±%.1f° about R",
                                            "k_d, ±%.1f° about N" };
     static const float roughness[3] = { 0.01f, 0.22f, -1 };
-    const shade_vec3 L = sketch_direction(-40), N = { 0, 1, 0 };
+    const shade_vec3 L = sketch_direction(-30), N = { 0, 1, 0 };
     canvas c = canvas_new(960, 400, 3);
     sketch_paper(&c);
     for (int i = 0; i < 3; i++) {
