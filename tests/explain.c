@@ -390,6 +390,17 @@ MISTAKE(no_light)
     s->state.lighting.lights = NULL;
     s->state.lighting.light_count = 0;
 }
+/* a triangle at the right edge of the picture, whose third corner lies behind the eye on the left */
+MISTAKE(no_light_beside_the_eye)
+{
+    s->position[0] = shade_v3(2.28f, -0.8f, 0);
+    s->position[1] = shade_v3(2.28f, 0.8f, 0);
+    s->position[2] = shade_v3(-1, 0, 8);
+    s->mesh.indices = NULL;
+    s->mesh.vertex_count = 3;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    s->state.lighting.light_count = 0;
+}
 MISTAKE(light_count_forgotten) { s->state.lighting.light_count = 0; }
 MISTAKE(lamps_not_filled) { memset(s->lamps, 0, sizeof s->lamps); }
 MISTAKE(material_zero) { memset(&s->material, 0, sizeof s->material); }
@@ -659,7 +670,8 @@ static const mistake mistakes[] = {
     OF_STATS(map_cut_by_alpha, "alpha_cutoff"), OF_STATS(all_discarded, "state.fragment"),
     OF(no_depth, "target.depth is NULL"), OF(no_depth_with_culling, "target.depth is NULL"),
 
-    OF(no_light, "no light"), OF(light_count_forgotten, "light_count"),
+    OF(no_light, "no light"), OF(no_light_beside_the_eye, "light_count"),
+    OF(light_count_forgotten, "light_count"),
     OF(lamps_not_filled, "no colour"), OF(material_zero, "state.material"),
     OF(material_of_ambient, "state.material"), OF(ambient_without_k_a, "material.ambient"),
     OF(colors_zero, "mesh.colors"), OF(map_black, "diffuse_map"),
@@ -811,6 +823,8 @@ TEST(explain, what_other_meshes_explain_gets_none)
     small.col[3] = shade_v4(0, -0.3f, -2, 1);
     s->state.model = small;
     stage_is_good(s, "a small one behind");
+    s->state.model = shade_mat4_scaling(shade_v3(0.6f, 0.6f, 0.6f));
+    stage_is_good(s, "one of two thirds of the height inside");
     small.col[3] = shade_v4(5, 0, 0, 1);
     s->state.model = small;
     stage_is_good(s, "a small one beside");
