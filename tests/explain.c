@@ -390,7 +390,7 @@ MISTAKE(no_light)
     s->state.lighting.lights = NULL;
     s->state.lighting.light_count = 0;
 }
-/* a triangle at the right edge of the picture, whose third corner lies behind the eye on the left */
+/* a triangle at the right edge of the picture, with a corner behind the eye on the left */
 MISTAKE(no_light_beside_the_eye)
 {
     s->position[0] = shade_v3(2.28f, -0.8f, 0);
