@@ -46,9 +46,19 @@ static uint8_t *picture_bytes(const shade_target *picture, int channels)
     return bytes;
 }
 
-/* Returns 0, or 1 with the reason in errno, which is 0 where memory ran out. */
-static int write_picture(FILE *file, const shade_target *picture, const options *o)
+/* Writes what data says: 0, or 1 with the reason in errno, which is 0 where memory ran out. */
+typedef int save_writer(FILE *file, const void *data);
+
+/* The data of write_picture */
+typedef struct picture_file {
+    const shade_target *picture;
+    const options *options;
+} picture_file;
+
+static int write_picture(FILE *file, const void *data)
 {
+    const shade_target *picture = ((const picture_file *)data)->picture;
+    const options *o = ((const picture_file *)data)->options;
     errno = 0;
     if (!o->png) return shade_encode_ppm(ppm_write, file, picture) != SHADE_OK;
 #ifdef THUMBNAIL_STB
@@ -74,10 +84,9 @@ static int save_failed(const char *name)
 
 /* Writes to standard output, or to something that is no plain file and that a rename would
    replace. */
-static int save_directly(FILE *file, const char *name, const shade_target *picture,
-                         const options *o)
+static int save_directly(FILE *file, const char *name, save_writer *writes, const void *data)
 {
-    int failed = !file || write_picture(file, picture, o);
+    int failed = !file || writes(file, data);
     if (file && (file == stdout ? fflush(file) : fclose(file))) failed = 1;
     return failed ? save_failed(name) : 0;
 }
@@ -101,7 +110,7 @@ static FILE *open_part(const char *path)
     return file;
 }
 
-static int save_file(const char *path, const shade_target *picture, const options *o)
+static int save_file(const char *path, save_writer *writes, const void *data)
 {
     struct stat there;
     FILE *file;
@@ -111,10 +120,10 @@ static int save_file(const char *path, const shade_target *picture, const option
         return save_failed(path);
     }
     if (!stat(path, &there) && !S_ISREG(there.st_mode))
-        return save_directly(fopen(path, "wb"), path, picture, o);
+        return save_directly(fopen(path, "wb"), path, writes, data);
     file = open_part(path);
     if (!file) return save_failed(path);
-    failed = write_picture(file, picture, o);
+    failed = writes(file, data);
     if (fclose(file)) failed = 1;
     if (failed || rename(guard_part, path)) {
         failed = save_failed(path);
@@ -124,18 +133,24 @@ static int save_file(const char *path, const shade_target *picture, const option
     return failed;
 }
 #else
-static int save_file(const char *path, const shade_target *picture, const options *o)
+static int save_file(const char *path, save_writer *writes, const void *data)
 {
-    int failed = save_directly(fopen(path, "wb"), path, picture, o);
+    int failed = save_directly(fopen(path, "wb"), path, writes, data);
     if (failed) remove(path);
     return failed;
 }
 #endif
 
+static int save_bytes(const char *path, save_writer *writes, const void *data)
+{
+    if (!strcmp(path, "-")) return save_directly(stdout, "standard output", writes, data);
+    return save_file(path, writes, data);
+}
+
 static int save(const shade_target *picture, const options *o)
 {
+    const picture_file f = { picture, o };
     guard_doing = "writing the picture";
-    if (!strcmp(o->output, "-")) return save_directly(stdout, "standard output", picture, o);
-    return save_file(o->output, picture, o);
+    return save_bytes(o->output, write_picture, &f);
 }
 #endif
