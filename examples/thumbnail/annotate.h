@@ -18,17 +18,36 @@ typedef struct pen {
 
 /* ---- lines and text ------------------------------------------------------------------------- */
 
-/* Draws lines between pairs of points, in pixels; width as well. */
+/* Moves a line along an axis so that it fills whole pixels: neighbours look alike. */
+static inline void pen_snap(float *from, float *to, float width)
+{
+    const float shift = (int)(width + 0.5f) % 2 ? 0.5f : 0;
+    if (fabsf(*from - *to) > 0.01f) return;
+    *from = *to = floorf(*from - shift + 0.5f) + shift;
+}
+
+/* Draws lines between pairs of points, in pixels; width as well, in whole ones from 1 on. */
 static inline void pen_lines(pen *p, const float *points, size_t count, float width,
                              shade_vec3 color)
 {
-    shade_line_state state = { .width = width * (float)p->samples, .cap = SHADE_CAP_SQUARE };
-    shade_result result;
+    shade_line_state state = { .cap = SHADE_CAP_SQUARE };
+    float *snapped = (float *)malloc((3 * count + 1) * sizeof *snapped);
+    shade_result result = SHADE_ERROR_CAPACITY;
+    width = width < 1 ? 1 : floorf(width + 0.5f);
+    state.width = width * (float)p->samples;
     state.clip_from_points =
         shade_mat4_ortho(0, (float)p->width, (float)p->height, 0, -1, 1);
     state.color = shade_v4(color.x, color.y, color.z, 1);
-    result = shade_draw_lines(&p->target, (const shade_vec3 *)(const void *)points, (int)count,
-                              &state, NULL);
+    if (snapped) {
+        if (count) memcpy(snapped, points, 3 * count * sizeof *snapped);
+        for (size_t i = 0; i + 1 < count; i += 2) {
+            pen_snap(&snapped[3 * i], &snapped[3 * i + 3], width);
+            pen_snap(&snapped[3 * i + 1], &snapped[3 * i + 4], width);
+        }
+        result = shade_draw_lines(&p->target, (const shade_vec3 *)(const void *)snapped,
+                                  (int)count, &state, NULL);
+    }
+    free(snapped);
     if (!p->result) p->result = result;
 }
 

@@ -6,7 +6,9 @@
 #include "../shared/bands.h"
 #include "maps.h"
 
-enum { DRAWING_BANDS = 32, DRAWING_SMOOTH = 200000 }; /* larger meshes are lit by their faces */
+enum { DRAWING_BANDS = 24, DRAWING_SMOOTH = 200000 }; /* larger meshes are lit by their faces */
+#define DRAWING_AMBIENT 0.38f /* light from everywhere, and from the lamp */
+#define DRAWING_LAMP 0.70f
 
 typedef struct drawing {
     const options *options;
@@ -162,11 +164,34 @@ static int drawing_open(drawing *d, pen *p)
 
 /* ---- surfaces ------------------------------------------------------------------------------- */
 
-/* The number of a triangle as the bytes of a pixel */
+/* Uniforms of the shaders that know a triangle by its number: no value is interpolated, which for
+   small triangles would cost more than the pixels */
+typedef struct faces_look {
+    const float *positions;
+    const uint32_t *indices;
+    shade_mat4 clip;
+    const view *view;
+    shade_vec3 to_lamp, color;
+    uint32_t first; /* number of the first triangle of the draw */
+} faces_look;
+
+static void faces_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                         shade_vertices *SHADE_RESTRICT out)
+{
+    const faces_look *k = (const faces_look *)uniforms;
+    SHADE_EACH_LANE(i)
+    {
+        const float *p = k->positions + 3 * (size_t)in->index[i];
+        lane_put4(out->clip[0], i,
+                  shade_mat4_transform(k->clip, shade_v4(p[0], p[1], p[2], 1)));
+    }
+}
+
+/* The number of a triangle + 1 as the bytes of a pixel */
 static void item_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                           shade_colors *SHADE_RESTRICT out)
 {
-    const uint32_t first = *(const uint32_t *)uniforms;
+    const uint32_t first = ((const faces_look *)uniforms)->first + 1;
     SHADE_EACH_LANE(i)
     {
         uint32_t item = first + in->primitive[i];
@@ -177,56 +202,110 @@ static void item_fragment(const void *uniforms, const shade_fragments *SHADE_RES
     }
 }
 
-/* The camera of a view, and its lamp from the upper left of it */
+/* Lambert's light on the side of the face that is seen, as drawing_state has it */
+static void faces_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                           shade_colors *SHADE_RESTRICT out)
+{
+    const faces_look *k = (const faces_look *)uniforms;
+    for (int i = 0; i < in->count; i++) {
+        const uint32_t *corner = k->indices + 3 * ((size_t)k->first + in->primitive[i]);
+        shade_vec3 p[3], n, eye = k->view->toward;
+        float light;
+        for (int c = 0; c < 3; c++) memcpy(&p[c], k->positions + 3 * (size_t)corner[c], sizeof *p);
+        n = shade_face_normal(p[0], p[1], p[2]);
+        if (k->view->lens) eye = shade_sub(shade_scale(eye, (float)VIEWS_EYE), p[0]);
+        light = shade_dot(n, k->to_lamp);
+        if (shade_dot(n, eye) < 0) light = -light;
+        light = DRAWING_AMBIENT + DRAWING_LAMP * (light > 0 ? light : 0);
+        out->color[0][i] = light * k->color.x;
+        out->color[1][i] = light * k->color.y;
+        out->color[2][i] = light * k->color.z;
+    }
+}
+
+/* Draws a part whose triangles are known by their numbers: runs of chunks that the target sees. */
+static shade_result drawing_faces(const shade_target *target, const shade_mesh *mesh,
+                                  faces_look *k, shade_fragment_shader *fragment)
+{
+    shade_pipeline p = { .vertex = faces_vertex, .fragment = fragment, .uniforms = k };
+    const uint32_t part = k->first;
+    shade_result result = SHADE_OK;
+    for (int i = 0, end; i < mesh->chunk_count && !result; i = end + 1) {
+        const shade_chunk *c = mesh->chunks;
+        for (end = i; end < mesh->chunk_count; end++)
+            if (!shade_box_visible(target, k->clip, 0, c[end].low, c[end].high)) break;
+        if (end == i) continue;
+        k->first = part + (uint32_t)c[i].first;
+        result = shade_draw(target, &p, mesh->indices + 3 * (size_t)c[i].first,
+                            3 * (c[end - 1].first + c[end - 1].count - c[i].first),
+                            mesh->vertex_count, NULL);
+    }
+    k->first = part;
+    return result;
+}
+
+/* From the model to the lamp, at the upper left of a view */
+static shade_vec3 drawing_lamp(const view *v)
+{
+    shade_vec3 from = shade_madd(shade_scale(v->toward, 0.80f), -0.36f, v->right);
+    return shade_normalize(shade_madd(from, 0.48f, v->up));
+}
+
+/* The camera and the lamp of a view */
 static shade_draw_state drawing_state(const drawing *d, const view *v, shade_light *lamp)
 {
     shade_draw_state state = { .shading = SHADE_SHADING_PER_FRAGMENT };
     shade_mat4 turn = shade_mat4_identity();
-    shade_vec3 from = shade_madd(shade_scale(v->toward, 0.80f), -0.36f, v->right);
     turn.col[0] = shade_v4(v->right.x, v->up.x, v->toward.x, 0);
     turn.col[1] = shade_v4(v->right.y, v->up.y, v->toward.y, 0);
     turn.col[2] = shade_v4(v->right.z, v->up.z, v->toward.z, 0);
     if (v->lens) turn.col[3].z = -(float)VIEWS_EYE;
     state.view = turn;
     state.projection = shade_mat4_mul(view_clip(&d->views, v), shade_mat4_inverse(turn));
-    *lamp = shade_directional_light(shade_neg(shade_madd(from, 0.48f, v->up)),
-                                    shade_v3(0.70f, 0.70f, 0.70f));
+    *lamp = shade_directional_light(shade_neg(drawing_lamp(v)),
+                                    shade_v3(DRAWING_LAMP, DRAWING_LAMP, DRAWING_LAMP));
     state.lighting.lights = lamp;
     state.lighting.light_count = 1;
     state.lighting.model = SHADE_MODEL_LAMBERT;
-    state.lighting.ambient = shade_v3(0.38f, 0.38f, 0.38f);
+    state.lighting.ambient = shade_v3(DRAWING_AMBIENT, DRAWING_AMBIENT, DRAWING_AMBIENT);
     state.lighting.flags = SHADE_FLAG_TWO_SIDED | (v->lens ? 0 : SHADE_FLAG_INFINITE_VIEWER);
     return state;
 }
 
-/* Draws a view, lit or as the numbers of its triangles. */
+/* Draws a part, lit or as the numbers of its triangles. */
+static shade_result drawing_part(const drawing *d, const shade_target *target, int part,
+                                 faces_look *k, shade_draw_state *state, int items)
+{
+    shade_mesh mesh = model_part_mesh(d->model, part);
+    shade_material own = { 0 };
+    k->first = (uint32_t)d->model->part[part].first / 3;
+    k->indices = d->model->mesh.indices;
+    k->color = drawing_color(d, part);
+    if (items) return drawing_faces(target, &mesh, k, item_fragment);
+    if (d->lit_by_faces && (!mesh.colors || d->options->drawing.ids || d->options->plain))
+        return drawing_faces(target, &mesh, k, faces_fragment);
+    if (mesh.chunk_count == 1 &&
+        !shade_box_visible(target, k->clip, 0, mesh.chunks->low, mesh.chunks->high))
+        return SHADE_OK;
+    own.ambient = own.diffuse = k->color;
+    state->material = &own;
+    mesh.texcoords = NULL;
+    if (d->options->drawing.ids || d->options->plain) mesh.colors = NULL;
+    if (d->lit_by_faces) mesh.normals = NULL;
+    return shade_draw_mesh(target, &mesh, state, NULL);
+}
+
 static shade_result drawing_view(const drawing *d, const shade_target *target, const view *v,
                                  int items)
 {
-    const model *m = d->model;
-    const shade_mat4 clip = view_clip(&d->views, v);
+    faces_look k = { .positions = d->model->mesh.positions, .view = v };
     shade_light lamp;
     shade_draw_state state = drawing_state(d, v, &lamp);
     shade_result result = SHADE_OK;
-    for (int i = 0; i < m->part_count && !result; i++) {
-        shade_mesh mesh = model_part_mesh(m, i);
-        shade_material own = { 0 };
-        uint32_t first = (uint32_t)m->part[i].first / 3 + 1;
-        if (mesh.chunk_count == 1 &&
-            !shade_box_visible(target, clip, 0, mesh.chunks->low, mesh.chunks->high))
-            continue;
-        mesh.texcoords = NULL;
-        if (items) {
-            state.fragment = item_fragment;
-            state.uniforms = &first;
-        } else {
-            own.ambient = own.diffuse = drawing_color(d, i);
-            state.material = &own;
-            if (d->options->drawing.ids || d->options->plain) mesh.colors = NULL;
-            if (d->lit_by_faces) mesh.normals = NULL;
-        }
-        result = shade_draw_mesh(target, &mesh, &state, NULL);
-    }
+    k.clip = view_clip(&d->views, v);
+    k.to_lamp = drawing_lamp(v);
+    for (int i = 0; i < d->model->part_count && !result; i++)
+        result = drawing_part(d, target, i, &k, &state, items);
     return result;
 }
 
@@ -411,8 +490,7 @@ static int drawing_save(drawing *d)
     if (g->id_map && !failed) failed = drawing_save_map(d, g->id_map, 0);
     if (g->json && !failed) failed = drawing_save_json(d);
     if (failed) return failed;
-    picture.format = SHADE_FORMAT_RGBA32F;
-    picture.color = malloc((size_t)picture.width * (size_t)picture.height * 16);
+    picture.color = malloc((size_t)picture.width * (size_t)picture.height * 4);
     if (!picture.color) return complain("out of memory");
     d->sheet.depth = NULL;
     shade_resolve(&picture, &d->sheet, d->options->samples);

@@ -35,6 +35,12 @@ static uint8_t *picture_bytes(const shade_target *picture, int channels)
     size_t n = (size_t)picture->width * (size_t)picture->height;
     const float *from = (const float *)picture->color;
     uint8_t *bytes = (uint8_t *)malloc(n * (size_t)channels), *to = bytes;
+    if (bytes && picture->format == SHADE_FORMAT_RGBA8) { /* holds what is wanted */
+        for (size_t i = 0; i < n; i++)
+            memcpy(to + (size_t)channels * i, (const uint8_t *)picture->color + 4 * i,
+                   (size_t)channels);
+        return bytes;
+    }
     for (size_t i = 0; bytes && i < n; i++, from += 4) {
         float a = from[3], k = channels == 4 && a > 0 ? 1 / a : 1;
         shade_vec3 c = shade_srgb_from_linear(shade_v3(k * from[0], k * from[1], k * from[2]));

@@ -29,7 +29,7 @@ typedef struct views {
     double scale;                /* that the flat views share; 0: there is none */
 } views;
 
-#define VIEWS_EYE 5.0 /* a model reaches 1.74 from the origin at most: seen within 41 degrees */
+#define VIEWS_EYE 7.0 /* a model reaches 1.74 from the origin at most: seen within 29 degrees */
 
 /* ---- directions ----------------------------------------------------------------------------- */
 
@@ -235,9 +235,9 @@ static inline double views_fit(const views_line *l)
 {
     double sum = 0, of_iso = l->iso < 0 ? 0 : l->extent[l->iso], scale;
     for (int i = 0; i < VIEWS_COLUMNS; i++) sum += l->extent[i];
-    scale = l->room / fmax(sum, 1e-9);
+    scale = l->room / fmax(sum, 1e-3);
     if (scale * of_iso >= l->least) return scale;
-    return (l->room - l->least) / fmax(sum - of_iso, 1e-9);
+    return (l->room - l->least) / fmax(sum - of_iso, 1e-3);
 }
 
 /* Places the cells one after the other, in the middle of the room. */
@@ -283,6 +283,7 @@ static inline void view_settle(view *v, const views_line *columns, const views_l
         double fit = fmin(columns->size[v->column] / fmax(width, 1e-9),
                           rows->size[v->row] / fmax(height, 1e-9));
         v->scale = v->lens || scale <= 0 ? fit : fmin(fit, scale);
+        if (width + height <= 0) v->scale = 100; /* a point */
     }
     x = views_inside(columns, v->column, v->scale * width, 1, iso);
     y = views_inside(rows, v->row, v->scale * height, 1, iso);
