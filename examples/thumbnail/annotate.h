@@ -1,7 +1,7 @@
 /* annotate.h - what stands about the views of a drawing: their names, dimension lines, the symbol
-   of the angle of projection, the legend of parts, and a line about the model.
+   of the angle of projection, the legend of parts, a line about the model.
 
-   Lengths are in pixels of the finished sheet; a pen knows the samples along each of their edges. */
+   Lengths are in pixels of the finished sheet; a pen knows the samples along an edge of one. */
 #ifndef THUMBNAIL_ANNOTATE_H
 #define THUMBNAIL_ANNOTATE_H
 

@@ -77,6 +77,31 @@ static shade_vec3 drawing_color(const drawing *d, int part)
     return m->mesh.colors ? shade_v3(1, 1, 1) : shade_rgb(0xB9C4CF);
 }
 
+/* Boxes around runs of triangles.  Where neighbours in the file are neighbours in space, as most
+   programs write them, sorting would take longer than it saves.  Non-zero: out of memory */
+static int drawing_chunks(model *m)
+{
+    double size = 0;
+    int count = 0;
+    for (int i = 0; i < m->part_count; i++) {
+        m->part[i].first_chunk = count;
+        count += m->part[i].chunk_count = shade_chunk_count(m->part[i].count, 0);
+    }
+    m->mesh.chunks = (shade_chunk *)malloc(((size_t)count + 1) * sizeof *m->mesh.chunks);
+    if (!m->mesh.chunks) return 1;
+    for (int i = 0; i < m->part_count; i++) {
+        shade_mesh mesh = model_part_mesh(m, i);
+        shade_mesh_chunks(&mesh, 0, m->mesh.chunks + m->part[i].first_chunk,
+                          m->part[i].chunk_count, NULL);
+    }
+    for (int i = 0; i < count; i++)
+        size += (double)shade_distance(m->mesh.chunks[i].low, m->mesh.chunks[i].high);
+    if (size < 0.3 * count) return 0;
+    free(m->mesh.chunks);
+    m->mesh.chunks = NULL;
+    return mesh_chunk_parts(m);
+}
+
 /* Non-zero: out of memory */
 static int drawing_prepare(drawing *d)
 {
@@ -88,7 +113,7 @@ static int drawing_prepare(drawing *d)
     drawing_stand(d);
     d->lit_by_faces = !m->normals_given && triangles > DRAWING_SMOOTH;
     if (!m->normals_given && !d->lit_by_faces && mesh_crease(&m->mesh, 0)) return 1;
-    if (mesh_chunk_parts(m)) return 1;
+    if (drawing_chunks(m)) return 1;
     d->piece_of = (uint16_t *)malloc((size_t)triangles * sizeof *d->piece_of);
     d->color = (shade_vec3 *)malloc(((size_t)d->pieces.count + 1) * sizeof *d->color);
     d->pixels = (int *)calloc((size_t)d->pieces.count + 1, VIEW_KINDS * sizeof *d->pixels);

@@ -115,7 +115,8 @@ static inline int drawing_check(const drawing_options *d, const char *sheet, int
     if (drawing_same_file(d, sheet)) return complain("two results cannot have the same name");
 #ifndef THUMBNAIL_STB
     if (png && strstr(png, ".png"))
-        return complain("%s: PNG needs a thumbnail built with stb (libstb-dev); .pgm does not", png);
+        return complain("%s: PNG needs a thumbnail built with stb (libstb-dev), PGM does not",
+                        png);
 #endif
     (void)png;
     return 0;

@@ -224,8 +224,9 @@ static int read_options(options *o, int argc, char **argv)
         "--rotate", "--up",         "--samples", "--threads",  "--max-triangles", "--max-seconds",
         "--views",  "--angle",      "--depth",   "--id-map",   "--json",          NULL
     };
-    static const char *const flags[] = { "--png",   "--no-shadow", "--quiet", "--ortho",
-                                         "--edges", "--hidden",    "--ids",   "--dimensions", NULL };
+    static const char *const flags[] = { "--png",   "--no-shadow", "--quiet",
+                                         "--ortho", "--edges",     "--hidden",
+                                         "--ids",   "--dimensions", NULL };
     static const command c = { "thumbnail", thumbnail_usage, valued, flags, 2, take };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;

@@ -3,8 +3,9 @@
 
    Edges that continue each other become a chain, so that dashes run on around a hole.  A chain is
    looked at once a pixel.  A point of it is seen where one of the pixels around it shows one of its
-   two triangles, or nothing, or something that is not nearer.  Of hidden chains that lie on each
-   other, or below a seen one, the first is drawn: dashes of several would fill each other's gaps. */
+   two triangles, or nothing, or something that is not nearer.  Of hidden chains on the same line
+   only the first is drawn, and none below a seen one: dashes of several would fill each other's
+   gaps. */
 #ifndef THUMBNAIL_STROKES_H
 #define THUMBNAIL_STROKES_H
 
@@ -16,7 +17,7 @@
 /* The edges of a mesh whose vertices of equal position are one */
 typedef struct outline {
     float *position;       /* by place */
-    shade_edge *edge;      /* the sharp and open ones, then those that bend, which may be outlines */
+    shade_edge *edge;      /* the sharp and open ones, then those that may be outlines */
     shade_vec3 *normal;    /* by triangle */
     size_t places;
     int sharp, count;

@@ -35,9 +35,10 @@ typedef struct views {
 
 static inline view view_of(int kind, int ortho)
 {
-    static const float axis[6][2][3] = { { { 1, 0, 0 }, { 0, 1, 0 } },  { { -1, 0, 0 }, { 0, 1, 0 } },
-                                         { { 0, 0, -1 }, { 0, 1, 0 } }, { { 0, 0, 1 }, { 0, 1, 0 } },
-                                         { { 1, 0, 0 }, { 0, 0, -1 } }, { { 1, 0, 0 }, { 0, 0, 1 } } };
+    static const float axis[6][2][3] = { /* right and up, by kind */
+        { { 1, 0, 0 }, { 0, 1, 0 } },  { { -1, 0, 0 }, { 0, 1, 0 } },
+        { { 0, 0, -1 }, { 0, 1, 0 } }, { { 0, 0, 1 }, { 0, 1, 0 } },
+        { { 1, 0, 0 }, { 0, 0, -1 } }, { { 1, 0, 0 }, { 0, 0, 1 } } };
     view v = { .kind = kind };
     if (kind == VIEW_ISO) {
         v.lens = !ortho;
