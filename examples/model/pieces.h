@@ -68,7 +68,7 @@ static inline uint32_t pieces_root(uint32_t *above, uint32_t i)
 static inline uint32_t *pieces_connected(const owned_mesh *m, size_t *numbers)
 {
     uint32_t *place = mesh_places(m, NULL, numbers), *above;
-    uint32_t *number = (uint32_t *)malloc(((size_t)m->view.index_count / 3 + 1) * sizeof *number);
+    uint32_t *number = (uint32_t *)calloc((size_t)m->view.index_count / 3 + 1, sizeof *number);
     above = (uint32_t *)malloc((*numbers + 1) * sizeof *above);
     if (!place || !number || !above) {
         free(number);

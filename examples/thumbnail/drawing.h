@@ -299,8 +299,10 @@ static shade_draw_state drawing_state(const drawing *d, const view *v, shade_lig
 
 /* Draws a part, lit or as the numbers of its triangles. */
 static shade_result drawing_part(const drawing *d, const shade_target *target, int part,
-                                 faces_look *k, shade_draw_state *state, int items)
+                                 faces_look *k, const shade_draw_state *camera_and_lamp,
+                                 int items)
 {
+    shade_draw_state state = *camera_and_lamp;
     shade_mesh mesh = model_part_mesh(d->model, part);
     shade_material own = { 0 };
     k->first = (uint32_t)d->model->part[part].first / 3;
@@ -313,11 +315,11 @@ static shade_result drawing_part(const drawing *d, const shade_target *target, i
         !shade_box_visible(target, k->clip, 0, mesh.chunks->low, mesh.chunks->high))
         return SHADE_OK;
     own.ambient = own.diffuse = k->color;
-    state->material = &own;
+    state.material = &own;
     mesh.texcoords = NULL;
     if (d->options->drawing.ids || d->options->plain) mesh.colors = NULL;
     if (d->lit_by_faces) mesh.normals = NULL;
-    return shade_draw_mesh(target, &mesh, state, NULL);
+    return shade_draw_mesh(target, &mesh, &state, NULL);
 }
 
 static shade_result drawing_view(const drawing *d, const shade_target *target, const view *v,
@@ -465,7 +467,8 @@ static int drawing_save_map(drawing *d, const char *path, int depth)
     for (size_t i = 0; i < pixels; i++) {
         uint32_t item = d->seen.item[i];
         if (depth)
-            value[i] = item ? (uint16_t)(d->seen.depth[i] * (MAP_NOTHING - 1) + 0.5f) : MAP_NOTHING;
+            value[i] = item ? (uint16_t)floorf(d->seen.depth[i] * (MAP_NOTHING - 1) + 0.5f)
+                            : MAP_NOTHING;
         else
             value[i] = item ? (uint16_t)(d->piece_of[item - 1] + 1) : 0;
     }
@@ -517,7 +520,6 @@ static int drawing_save(drawing *d)
     if (failed) return failed;
     picture.color = malloc((size_t)picture.width * (size_t)picture.height * 4);
     if (!picture.color) return complain("out of memory");
-    d->sheet.depth = NULL;
     shade_resolve(&picture, &d->sheet, d->options->samples);
     failed = save(&picture, d->options);
     free(picture.color);
