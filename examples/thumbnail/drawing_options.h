@@ -11,7 +11,7 @@
     "  --angle third|first   where the views stand about the front (third)\n"                    \
     "  --ortho               iso in parallel projection and, where it fits, to the scale of\n"   \
     "                        the other views, which always are\n"                                \
-    "  --edges               draws outlines, edges of more than 40 degrees, and open edges\n"    \
+    "  --edges               draws outlines, edges of more than 25 degrees, and open edges\n"    \
     "  --hidden              the same, and dashed what lies behind, but in iso\n"                \
     "  --ids                 a colour for each part, and a legend\n"                             \
     "  --dimensions          the size of the box around the model, in the file's units\n"        \

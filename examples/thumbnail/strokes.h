@@ -12,7 +12,7 @@
 #include "../model/pieces.h"
 #include "views.h"
 
-#define STROKES_CREASE 0.766f /* the cosine below which an edge is sharp: 40 degrees */
+#define STROKES_CREASE 0.906f /* the cosine below which an edge is sharp, that of 25 degrees */
 
 /* The edges of a mesh whose vertices of equal position are one */
 typedef struct outline {
