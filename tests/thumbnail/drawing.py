@@ -204,6 +204,49 @@ def dashes():
     check("the front of inner.stl is two parts", len(hidden.text["parts"]) == 2)
 
 
+def one_behind_another():
+    """Edges of two boxes inside of a third lie on one line of the front, the nearer 2 units deep."""
+    parts.write_stl(f"{T}/behind.stl", parts.box((0, 0, 0), (100, 80, 60)) +
+                    parts.box((30, 2, 10), (70, 30, 40)) + parts.box((17, 50, 10), (63, 70, 40)))
+    d = Drawing("behind.stl", "--views", "front,right,top,iso", "--hidden")
+    for z in (10, 40):
+        dark, light = runs(ink(d, "front", (17, 0, z), (70, 0, z)))
+        check("dashes do not fill each other's gaps", len(dark) > 8 and dark.max() < 28, dark)
+        check("nor make them wider", len(light) and light.max() < 12, light)
+
+
+def number_beside(d, view, across):
+    """The pixels about the number of a dimension below a view, or left of it"""
+    x0, x1, y0, y1 = d.outline(view)
+    if across:
+        x, y = (x0 + x1) // 2, y1 + 42
+    else:
+        x, y = x0 - 40, (y0 + y1) // 2
+    return d.sheet[y - 22:y + 22, x - 24:x + 24].sum(2)
+
+
+def unlike(a, b):
+    """How far two pictures of numbers differ where they lie on each other best"""
+    inner = a[6:-6, 6:-6]
+    return min(np.abs(inner - b[j:j + inner.shape[0], i:i + inner.shape[1]]).sum()
+               for j in range(12) for i in range(12))
+
+
+def numbers():
+    """Cubes show what the numbers 10, 20 and 30 look like: a box has them where they belong."""
+    words = "--views", "front,right,top", "--dimensions"
+    looks = {}
+    for side in (10, 20, 30):
+        parts.write_stl(f"{T}/cube{side}.stl", parts.box((0, 0, 0), (side, side, side)))
+        d = Drawing(f"cube{side}.stl", *words)
+        looks[side] = number_beside(d, "front", True), number_beside(d, "front", False)
+    d = Drawing("box.stl", *words)
+    for view, across, want in (("front", True, 30), ("right", True, 20), ("front", False, 10)):
+        got = number_beside(d, view, across)
+        far = {side: unlike(look[0 if across else 1], got) for side, look in looks.items()}
+        check(f"the {view} says {want}", min(far, key=far.get) == want, far)
+
+
 def assembly():
     d = Drawing("assembly.obj", "--views", "front,right,top,iso", "--ids", "--edges")
     parts_of = d.text["parts"]
@@ -343,7 +386,8 @@ def files():
 
 def main():
     parts.main(T)
-    for work in (directions, up_axes, hole, dashes, assembly, what_is_a_part, dimensions, files):
+    for work in (directions, up_axes, hole, dashes, one_behind_another, numbers, assembly,
+                 what_is_a_part, dimensions, files):
         work()
     if "assimp" in sys.argv:
         nodes()
