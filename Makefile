@@ -11,7 +11,8 @@
 # make prove      no overflow, no access outside an array, over whole ranges of values (Frama-C)
 # make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
-# make playground   the equation as a web page, build/playground/index.html (needs clang and lld)
+# make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
+#                 and beside it the slides of four courses, course-uw.html and so on
 # make install    header, shade.pc, shade-thumbnail and shade.thumbnailer for file managers, below
 #                 PREFIX (/usr/local) in DESTDIR; make uninstall removes them
 # make vector-report   loops over lanes that the compiler left scalar: none
@@ -66,8 +67,8 @@ build/compare: LIBRARIES = $(STB)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@
-out/gallery.ppm: build/contact $(NUMBERED:%=out/%.ppm)
-	build/contact $@ $(NUMBERED:%=out/%.ppm)
+out/gallery.ppm: build/contact examples/README.md $(NUMBERED:%=out/%.ppm)
+	build/contact $@ $$(echo $(NUMBERED) | awk -f examples/pictures/order.awk - examples/README.md)
 
 # -O1 compiles the tests' own code in a third of the time
 build/test_main: $(wildcard tests/*.c tests/*.h) build/shade.o
@@ -95,7 +96,7 @@ conformance:
 gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
-	@sh examples/playground/build.sh
+	@sh examples/playground/build.sh && sh examples/course/build.sh
 coverage:
 	@sh tests/coverage.sh
 mutation:

@@ -45,13 +45,33 @@
    shadows, reflections or physically based materials.                                   >>about
 
    >>contents
-     About      >>about  >>contents  >>conventions  >>model
-     Public     >>config  >>types  >>plumbing  >>light  >>draw  >>math
-     Inside     >>target  >>base  >>matrix  >>power  >>pixels  >>lamps  >>terms  >>lit
-                >>state  >>vertices  >>triangles  >>clip  >>cover  >>fragments  >>texture
-                >>store  >>check  >>drive  >>mesh  >>lines  >>shape  >>chunks  >>rays
-                >>survey  >>explain  >>image
-     Sources    >>refs  >>history  >>license
+     Each section begins with a banner.  A tag in the last line of a banner names the next section.
+     About
+       >>about  >>contents  >>conventions  >>model
+     Public
+       >>config      options               >>types       materials, lamps, targets, states
+       >>plumbing    compilers             >>light       the equation and its terms
+       >>draw        meshes and pixels     >>math        vectors and matrices
+     Inside: words that the rest is written in
+       >>target      processors            >>base        bits, masks, rows of vectors
+       >>matrix      cameras, inverses     >>power       x^n
+       >>pixels      formats: 5-6-5, sRGB
+     Inside: light
+       >>lamps       attenuation, cones    >>terms       one term at one point
+       >>lit         the whole sum, at many points
+     Inside: the way of a triangle
+       >>state       who owns what         >>vertices    shading, projection
+       >>triangles   edges, planes         >>clip        near, far, behind the eye
+       >>cover       pixels, depth test    >>fragments   interpolation, shading
+       >>texture     texels                >>store       blending, memory
+     Inside: calls
+       >>check       refusals              >>drive       shade_draw, batch by batch
+       >>mesh        shade_draw_mesh       >>lines       shade_draw_lines
+       >>shape       normals, edges        >>chunks      boxes around triangles
+       >>rays        shade_pick            >>survey      experiments on a draw
+       >>explain     why nothing is seen   >>image       PPM
+     Sources
+       >>refs  >>history  >>license
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -64,8 +84,8 @@
                   depth takes depth_zero_to_one, shade_mat4_perspective_reversed,
                   SHADE_COMPARE_GREATER and a buffer cleared to 0.
      Front face   counter-clockwise as seen on the screen.
-     Coverage     vertices are snapped to floor(256 X + 1/2) / 256; edges are exact integers; pixel
-                  centres on an edge follow the top-left rule.
+     Coverage     vertices are snapped to floor(256 X + 1/2) / 256; edge functions are exact;
+                  pixel centres on an edge follow the top-left rule.
      Directions   N, L, V, H and R are unit vectors and all point AWAY from the surface.
      Colour       linear light, unclamped.  Formats of 8 and 5-6-5 bits store clamp(c, 0, 1),
                   rounded to nearest, and 0 for NaN.
@@ -96,8 +116,8 @@
      SHADE_STATIC             makes all functions static: a private copy in this file
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
-     SHADE_LANES              fragments in a packet: a power of two from 8 to 256; default 128;
-                              16 suits small stacks
+     SHADE_LANES              vertices or fragments that a shader is given at once, a packet: a
+                              power of two from 8 to 256; default 128; 16 suits small stacks
      SHADE_MAX_VARYINGS       floats that a vertex can hand to fragments, 1 .. 64; default 16.
                               Meshes lit per fragment need 6, with colours 9, with a map 8 or 11,
                               with a fragment shader of their own 11
@@ -113,14 +133,15 @@
    SHADE_LANES and SHADE_MAX_VARYINGS must be plain decimal numbers: they become part of the link
    names of functions that take packets, so that files that disagree do not link.
 
-   Your own macros may have any single capital letter as their name, and in files without the
-   implementation also e, g, i, j, o or q.
+   You may define any macro whose name is one capital letter; in files without the implementation
+   also e, g, i, j, o and q.
 
    Fast math.  gcc gives the same bits with -ffast-math, -Ofast and their parts.  clang cannot be
    told to keep them: the implementation refuses -ffast-math and -ffinite-math-only.  clang does not
-   report the other parts of -ffast-math, nor -ffp-contract=fast, which overrides the pragma below:
-   do not use them.  Inline functions follow the flags of the file that includes them.  A program
-   linked with -ffast-math flushes denormal numbers to zero, which SHADE_FORMAT_RGBA32F shows.
+   report the other parts of -ffast-math, nor -ffp-contract=fast, which overrides the pragmas of
+   >>plumbing: do not use them.  Inline functions follow the flags of the file that includes them.
+   A program linked with -ffast-math flushes denormal numbers to zero; only SHADE_FORMAT_RGBA32F
+   shows it.
 
    tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  Declare no
    int or float last before such a call.  SHADE_EACH_LANE takes a 64-bit counter there.
@@ -160,7 +181,7 @@
 #endif
 
 /*------------------------------------------------------------------------------------------ >>types
-   Plain structs, passed by value.  A zeroed field always means the default.           >>plumbing */
+   Plain structs, passed by value.  Where a field has a default, zero is the default. >>plumbing */
 
 typedef struct shade_vec2 { float x, y; } shade_vec2;
 typedef struct shade_vec3 { float x, y, z; } shade_vec3;
@@ -171,12 +192,12 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 typedef enum shade_result {
     SHADE_OK = 0,
     SHADE_ERROR_ARGUMENT,    /* a NULL the call cannot do without, a factor, sizes that differ */
-    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle or strip; no memory */
+    SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
     SHADE_ERROR_STATE,       /* an enumerator or range of a draw state, pipeline or line state */
     SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
-    SHADE_ERROR_INDEX,       /* an index at or past vertex_count, or no whole number of triangles */
+    SHADE_ERROR_INDEX,       /* an index at or past vertex_count; a count that 3 does not divide */
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
     SHADE_ERROR_IO           /* a file or the caller's write function failed */
 } shade_result;
@@ -227,9 +248,9 @@ enum {                                 /* shade_lighting.terms; 0 = all */
 /* The light that falls on a scene, and the equation that surfaces answer with.  Positions, normals
    and eye must be in one space whose axes are orthogonal and of equal scale: world or eye space,
    never clip space.  On the outline of a coarse mesh some interpolated normals point away from the
-   viewer; SHADE_FLAG_TWO_SIDED turns them, which shows as specks.  A finer mesh has fewer. */
+   viewer; SHADE_FLAG_TWO_SIDED turns them, and specks show there.  A finer mesh has fewer. */
 typedef struct shade_lighting {
-    const shade_light *lights;         /* NULL counts as none; shade_draw_mesh refuses it */
+    const shade_light *lights;         /* NULL: none; shade_draw_mesh refuses it with a count */
     int         light_count;           /* a negative one counts as 0 */
     shade_vec3  ambient;               /* I_a, one for the scene */
     shade_model model;                 /* an unknown one is BLINN_PHONG; shade_draw_mesh refuses */
@@ -255,7 +276,7 @@ typedef enum shade_wrap {
 typedef enum shade_filter {
     SHADE_FILTER_BILINEAR = 0,   /* the four nearest texels, weighted by distance */
     SHADE_FILTER_NEAREST,        /* the texel that u, v lie in */
-    SHADE_FILTER_TRILINEAR       /* bilinear in two mipmaps, weighted by the lod    [Williams83] */
+    SHADE_FILTER_TRILINEAR       /* bilinear in two mipmaps, by the level of detail [Williams83] */
 } shade_filter;
 
 /* A picture to sample.  u runs right and v DOWN from the top left corner of row 0; texel (i, j) has
@@ -274,14 +295,14 @@ typedef struct shade_texture {
 /* A picture and its depth buffer in the caller's memory. */
 typedef struct shade_target {
     int   width, height;         /* of the whole picture, 1 .. 16384 pixels */
-    int   stride;                /* pixels from row to row, of depth too; 0 means width */
+    int   stride;                /* pixels from row to row, of color and depth; 0: width */
     shade_format format;
     void  *color;                /* NULL: depth only */
     float *depth;                /* NULL: no depth buffer; every fragment passes */
     int   srgb;                  /* non-zero: 8 and 5-6-5 bits are stored as sRGB */
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
-    int   clip_x, clip_y;        /* the clip rectangle: draws and clears change nothing outside; */
-    int   clip_width, clip_height;    /* all four zero: everywhere; empty: nothing is drawn */
+    int   clip_x, clip_y;        /* draws and clears change nothing outside this rectangle, */
+    int   clip_width, clip_height;    /* nothing at all if it is empty; four zeros: none is set */
     int   row_offset, row_count; /* a strip: memory holds only these rows; count 0: all rows */
 } shade_target;
 
@@ -291,7 +312,7 @@ typedef enum shade_interpolation {
     SHADE_INTERPOLATION_CONSTANT            /* the value of the triangle's first vertex */
 } shade_interpolation;
 typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
-typedef enum shade_compare {     /* a fragment passes if its depth is ... than the stored depth */
+typedef enum shade_compare {     /* a fragment passes where: its depth, this, the stored depth */
     SHADE_COMPARE_LESS = 0, SHADE_COMPARE_LESS_EQUAL, SHADE_COMPARE_GREATER,
     SHADE_COMPARE_GREATER_EQUAL, SHADE_COMPARE_EQUAL, SHADE_COMPARE_ALWAYS
 } shade_compare;
@@ -326,7 +347,7 @@ typedef struct shade_stats {
     long long triangles;
     long long skipped;           /* their chunk cannot be seen in the clip rectangle */
     long long culled;            /* they face the wrong way, or have no area after snapping */
-    long long clipped;           /* nothing of them is inside the view volume */
+    long long clipped;           /* nothing of them is inside the view volume; not those cut */
     long long rejected;          /* a position is NaN, infinite or beyond 1e30 */
     long long drawn;
     long long fragments;         /* pixels in the clip rectangle that passed the depth test */
@@ -1486,7 +1507,7 @@ SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
     rows[i + 3 * stride] = v.w;
 }
 
-/* Three rows of floats, as public functions take them, as rows of vectors.  NULL stays NULL. */
+/* Public functions take three rows of floats; this views them as vectors.  NULL stays NULL. */
 SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
 {
     return (const shade__v3 *)(const void *)rows;
@@ -1524,9 +1545,11 @@ SHADEDEF const char *shade_result_string(shade_result result)
      holds   A degenerate camera takes every point to z = 2, w = 1, which is outside near or far in
              every convention of depth: nothing is drawn.                                 >>power */
 
-/* Sine and cosine.  The argument is reduced to r = x - k pi/2, with an error of 1e-16: pi/2 is the
-   sum of two parts, the higher of 33 bits, so that k times it is exact for |k| < 2^20.  Taylor
-   series on [-pi/4, pi/4] follow, whose next terms are below 5e-17. */
+/* Sine and cosine.  The argument is reduced to r = x - k pi/2: pi/2 is the sum of two parts, the
+   higher of 33 bits, so that k times it is exact and r off by 1e-16 up to |k| = 2^20; beyond, r is
+   off by 2^-53 of x, less than half the way from one float to the next.  Floats beyond 1e9 lie 64
+   apart, which is no angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow, whose next
+   terms are below 5e-17. */
 static SHADE__COLD void shade__sincos(float radians, double *sine,
                                       double *cosine)
 {
@@ -1610,6 +1633,7 @@ SHADEDEF shade_mat4 shade_mat4_scaling(shade_vec3 v)
 
 SHADEDEF shade_mat4 shade_mat4_identity(void) { return shade_mat4_scaling(shade_v3(1, 1, 1)); }
 
+/* A matrix that was never filled in, all of it zero, counts as the identity. */
 static shade_mat4 shade__or_identity(shade_mat4 m)
 {
     for (int k = 0; k < 16; k++)
@@ -1673,26 +1697,27 @@ static int shade__is_finite(const shade_mat4 *m)
     return 1;
 }
 
-/* The matrix of a camera with these columns.  The degenerate camera where exists is 0, or where an
-   entry is not finite, as after a division by zero. */
-static shade_mat4 shade__camera(int exists, double xx, double yy, shade_vec4 z,
+/* The matrix of a camera with these columns; the degenerate camera where good is 0 or an entry is
+   not finite, as after a division by zero. */
+static shade_mat4 shade__camera(int good, double xx, double yy, shade_vec4 z,
                                 shade_vec4 w)
 {
     shade_mat4 none = shade__zero_matrix();
     shade_mat4 m = shade__m4(shade_v4((float)xx, 0, 0, 0), shade_v4(0, (float)yy, 0, 0), z, w);
     none.col[3] = shade_v4(0, 0, 2, 1);
-    return exists && shade__is_finite(&m) ? m : none;
+    return good && shade__is_finite(&m) ? m : none;
 }
 
-/* Cramer's rule: columns come in pairs, 0 with 1 and 2 with 3, and row i is made of the other
-   column of pair i and the minors of the other pair.  A determinant of 0 leaves no entry finite.
+/* Cramer's rule.  Columns come in pairs, 0 with 1 and 2 with 3: row i of the inverse is made of
+   column i ^ 1 and the minors of the other pair.  A determinant of 0 leaves no entry finite.
    Not inlined: gcc 12's SLP vectoriser loses the rounding to float where two neighbouring values go
    double -> float -> double, as they would inside shade_pixel_ray. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     double e[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
     for (int i = 0; i < 4; i++) {
-        const double *v = e + 4 * (i ^ 1), *o = i < 2 ? c : s, sign = 1 - 2 * (i & 1);
+        const double *v = e + 4 * (i ^ 1), *o = i < 2 ? c : s;
+        const double sign = 1 - 2 * (i & 1);
         const double x = sign * v[0], y = sign * v[1], z = sign * v[2], w = sign * v[3];
         float *row = (float *)&m + i;
         row[0] = (float)((y * o[5] - z * o[4] + w * o[3]) * k);
@@ -3059,7 +3084,8 @@ typedef struct shade__batch {
     shade__part   part[SHADE__PARTS + 1];
     shade__vertex vertex[SHADE_LANES];
     SHADE_ALIGNED float value[SHADE__BATCH_FLOATS];
-    uint8_t       corner[3 * SHADE__BATCH_TRIANGLES];    /* vertices of the triangles */
+    uint32_t      out;                /* outcodes of all its vertices */
+    uint8_t       corner[SHADE__BATCH_TRIANGLES][4];    /* as in shade__setup */
 } shade__batch;
 
 typedef struct shade__incoming {
@@ -3150,7 +3176,7 @@ static void shade__shade_vertices(shade__draw *d);
 /* triangles: sets up those of the batch, SHADE__TRIANGLES at a time: edges, box, depth */
 static void shade__triangles(shade__draw *d);
 /* clip: what a triangle that crosses near, far or the guard band leaves; 0: nothing */
-static int shade__clip(const shade__draw *d, const uint8_t corner[3],
+static int shade__clip(const shade__draw *d, const uint8_t corner[4],
                        shade__polygon *fan);
 /* cover: tiles of pixels inside the triangles that pass the depth test, as runs */
 static void shade__cover(shade__draw *d, int count);
@@ -3268,12 +3294,14 @@ SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
 {
     const int stride = plan->value_stride, varyings = plan->varyings;
 
+    b->out = 0;
     for (int i = 0; i < n; i++) {
         shade__vertex *to = &b->vertex[i];
         float *value = b->value + i * stride;
         to->x = p->x_fx8[i];
         to->y = p->y_fx8[i];
         to->out = p->out[i];
+        b->out |= p->out[i];
         for (int k = 0; k < 4; k++) to->clip[k] = v->clip[k][i];
         value[0] = p->z[i];
         value[1] = p->rw[i];
@@ -3370,7 +3398,8 @@ static int shade__next_chunk(shade__draw *d)
    depends on it.  A branch would be mispredicted every other time (2 % of a dense mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in,
                                         const uint32_t *indices, uint32_t first,
-                                        int most, int room, uint8_t *corner)
+                                        int most, int room,
+                                        uint8_t (*corner)[4])
 {
     uint32_t *index_of = in->ids.index, at = 3 * first;
     int n = 0, vertices = in->ids.count;
@@ -3384,8 +3413,9 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in,
             vertices += 1 - hit;
             in->known[place] = index;
             in->slot_of[place] = (uint8_t)slot;
-            *corner++ = (uint8_t)slot;
+            corner[n][k] = (uint8_t)slot;
         }
+        corner[n][3] = corner[n][0];
     }
     in->ids.count = vertices;
     return n;
@@ -3409,7 +3439,7 @@ static void shade__take_batch(shade__draw *d)
         b->part[b->parts++].primitive = (uint32_t)s->first;
         const int taken = shade__take_triangles(in, s->indices,
                                                 (uint32_t)s->first, most, room,
-                                                b->corner + 3 * b->count);
+                                                b->corner + b->count);
         b->count += taken;
         s->first += taken;
     }
@@ -3555,15 +3585,15 @@ SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b,
     }
 }
 
-/* A whole number to an integer   pre: |x| < 2^51, so that the sum is exact */
+/* The nearest integer   pre: |x| < 2^51 */
 SHADE__INLINE int64_t shade__whole(double x)
 {
     return (int64_t)(shade__double_bits(x + 6755399441055744.0) - 0x4338000000000000u);
 }
 
-/* The edge from corner k to the next, at the first pixel of the box, and its steps.  With whole and
-   fractional parts of x and y, only the fractions' part of e has a rest to round down.
-   pre: |q - p| <= 2^25   post: e is whole, |e| <= 2^43, |step| <= 2^25 */
+/* The edge from corner k to the next, at the first pixel of the box, and its steps.  256 e + rest
+   is whole, so that e is what it is divided by 256, less 127.5/256, rounded to the nearest.
+   pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
                                int k, shade__setup *SHADE_RESTRICT s)
 {
@@ -3574,12 +3604,8 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
         int32_t x = s->box[0][i] * 256 + 128 - c->x[k][i];
         int32_t y = s->box[1][i] * 256 + 128 - c->y[k][i];
         int32_t bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;    /* dy < 0, or 0 and dx > 0 */
-        double part = (double)dx * (double)(y & 255) -
-                      (double)dy * (double)(x & 255);
-        int32_t rest = (int32_t)((part + (double)bias) * (1 / 256.0) + 1073741824.0) - 1073741824;
-        double e = (double)dx * (double)shade__floor256(y) -
-                   (double)dy * (double)shade__floor256(x) + (double)rest;
-        s->e[k][i] = shade__whole(e);
+        double e = (double)dx * (double)y - (double)dy * (double)x + (double)bias;
+        s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
         s->dx[k][i] = -dy;
         s->dy[k][i] = dx;
     }
@@ -3685,22 +3711,29 @@ static void shade__draw_setup(shade__draw *d)
     shade__cover(d, n);
 }
 
-/* Adds a triangle; constant: the vertex that CONSTANT takes. */
-SHADE__INLINE void shade__add_triangle(shade__draw *d, const uint8_t corner[3],
-                                       int constant, uint32_t primitive)
+/* Adds triangles that follow each other, the first of them number primitive. */
+SHADE__INLINE void shade__add_triangles(shade__draw *d,
+                                        uint8_t (*corner)[4], int count,
+                                        uint32_t primitive)
 {
     shade__setup *s = &d->setup;
-    uint8_t *to = s->corner[s->count];
 
-    for (int k = 0; k < 3; k++) to[k] = corner[k];
-    to[3] = (uint8_t)constant;
-    s->primitive[s->count++] = primitive;
-    if (s->count == SHADE__TRIANGLES) shade__draw_setup(d);
+    while (count > 0) {
+        const int n = shade__min(count, SHADE__TRIANGLES - s->count);
+        for (int i = 0; i < n; i++) {
+            SHADE_MEMCPY(s->corner[s->count + i], corner[i], 4);
+            s->primitive[s->count + i] = primitive++;
+        }
+        corner += n;
+        count -= n;
+        s->count += n;
+        if (s->count == SHADE__TRIANGLES) shade__draw_setup(d);
+    }
 }
 
 /* Clips a triangle and draws the fan that is left of it.  The fan is culled by the area of the
    whole polygon; pieces that snapping has turned the other way are left out. */
-static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[3],
+static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
                                         uint32_t primitive)
 {
     const shade_cull cull = d->plan.pipe->raster.cull;
@@ -3722,11 +3755,11 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[3],
     s->value = fan.value;
     s->of_fan = 1;
     for (int i = 1; i + 1 < fan.count; i++) {
-        const uint8_t piece[3] = { fan.corner[0], fan.corner[i], fan.corner[i + 1] };
+        uint8_t piece[1][4] = { { fan.corner[0], fan.corner[i], fan.corner[i + 1], 0 } };
         const shade__vertex *v = fan.vertex;
-        const int64_t area = shade__area(&v[piece[0]], &v[piece[1]],
-                                         &v[piece[2]]);
-        if (area && (area < 0) == (fan.area < 0)) shade__add_triangle(d, piece, 0, primitive);
+        const int64_t area = shade__area(&v[piece[0][0]], &v[piece[0][1]],
+                                         &v[piece[0][2]]);
+        if (area && (area < 0) == (fan.area < 0)) shade__add_triangles(d, piece, 1, primitive);
     }
     shade__draw_setup(d);
 
@@ -3736,10 +3769,11 @@ static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[3],
 }
 
 /* Rejects, clips or adds a triangle of the batch, by where its corners are. */
-SHADE__INLINE void shade__sort_out(shade__draw *d, const uint8_t *corner,
+SHADE__INLINE void shade__sort_out(shade__draw *d, int triangle,
                                    uint32_t primitive)
 {
     const shade__vertex *v = d->batch.vertex;
+    const uint8_t *corner = d->batch.corner[triangle];
     const uint32_t out0 = v[corner[0]].out, out1 = v[corner[1]].out, out2 = v[corner[2]].out;
     const uint32_t any = out0 | out1 | out2;
 
@@ -3757,23 +3791,22 @@ SHADE__INLINE void shade__sort_out(shade__draw *d, const uint8_t *corner,
             return;
         }
     }
-    shade__add_triangle(d, corner, corner[0], primitive);
+    shade__add_triangles(d, d->batch.corner + triangle, 1, primitive);
 }
 
 static void shade__triangles(shade__draw *d)
 {
-    const shade__batch *b = &d->batch;
+    shade__batch *b = &d->batch;
 
     d->setup.vertex = b->vertex;
     d->setup.value = b->value;
     d->setup.count = 0;
     d->u.queue.f.count = 0;
     for (int i = 0; i < b->parts; i++) {
-        const int first = b->part[i].first;
-        const uint32_t primitive = b->part[i].primitive;
-        for (int k = first; k < b->part[i + 1].first; k++)
-            shade__sort_out(d, b->corner + 3 * k,
-                            primitive + (uint32_t)(k - first));
+        const int first = b->part[i].first, end = b->part[i + 1].first;
+        uint32_t primitive = b->part[i].primitive;
+        if (!b->out) shade__add_triangles(d, b->corner + first, end - first, primitive);
+        else for (int k = first; k < end; k++) shade__sort_out(d, k, primitive++);
     }
     shade__draw_setup(d);
     shade__flush(d);
@@ -3866,7 +3899,7 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
 /* The polygon of a triangle, its values no longer divided by w.  Returns the planes it crosses. */
 static uint32_t shade__polygon_of(const shade__plan *plan,
                                   const shade__batch *b,
-                                  const uint8_t corner[3], shade__polygon *p)
+                                  const uint8_t corner[4], shade__polygon *p)
 {
     const int stride = plan->value_stride;
     uint32_t out = 0;
@@ -3934,7 +3967,7 @@ static int shade__apex(const shade__polygon *p)
     return 0;
 }
 
-static int shade__clip(const shade__draw *d, const uint8_t corner[3],
+static int shade__clip(const shade__draw *d, const uint8_t corner[4],
                        shade__polygon *fan)
 {
     const shade__plan *plan = &d->plan;
@@ -4371,8 +4404,8 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
     }
 }
 
-/* Draws a stretch of a triangle.  Its tiles begin at multiples of 32 columns, as bounds do, unless
-   the box of the triangle is not wider than one. */
+/* Draws a stretch of a triangle.  Its last tile may go on beyond it where the triangle ends there;
+   else tiles begin at multiples of 32 columns, as bounds do. */
 SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const shade__triangle *t,
                                         shade__runs *runs,
@@ -4380,9 +4413,8 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const int width)
 {
     const shade__plan *plan = &d->plan;
-    const int across = plan->x1 - plan->x0, n = s->last - s->x + 1;
-    const int one = n <= SHADE__TILE && n == t->x1 - t->x0 + 1;
-    const int x0 = one ? t->x0 : s->x - ((s->x - plan->x0) & (SHADE__TILE - 1));
+    const int across = plan->x1 - plan->x0, ends = s->last == t->x1;
+    const int x0 = s->x - (ends ? 0 : (s->x - plan->x0) & (SHADE__TILE - 1));
     shade__reach reach;
     shade__edges edges;
     shade__tile tile;
@@ -4445,15 +4477,20 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
 SHADE__DISPATCH(shade__cover_large, (shade__draw *d, shade__runs *runs, int lane), (d, runs, lane),
                 shade__cover_large_body(d, runs, lane, shade__width))
 
-/* Is the triangle at most 32 x 24 pixels, and do 32 bits hold its edges there and 31 pixels beside?
-   Then |e| <= 2^28 + 31 |dx| + 24 |dy| < 2^31. */
+/* Is the triangle at most 32 pixels wide, and do 32 bits hold its edges in its box and 31 pixels
+   beside?  They do where |e| <= 2^28 at its first pixel, in 24 rows, 2^28 + (31 + 24) 2^25 < 2^31,
+   and in 512 where steps are at most 2^21, 2^28 + (31 + 512) 2^21 < 2^31. */
 SHADE__INLINE int shade__is_narrow(const shade__triangle *t)
 {
     const int64_t most = 1 << 28;
     const int64_t e = (t->e[0] + most) | (t->e[1] + most) | (t->e[2] + most);
+    int32_t steps = 0;
 
-    return t->x1 - t->x0 < SHADE__TILE &&
-           t->y1 - t->y0 < 3 * SHADE__TILE_ROWS && !(e >> 29);
+    if (t->x1 - t->x0 >= SHADE__TILE || e >> 29) return 0;
+    if (t->y1 - t->y0 < 3 * SHADE__TILE_ROWS) return 1;
+    for (int k = 0; k < 3; k++)
+        steps |= (t->edges.dx[k] + (1 << 21)) | (t->edges.dy[k] + (1 << 21));
+    return t->y1 - t->y0 < 64 * SHADE__TILE_ROWS && !(steps >> 22);
 }
 
 /* Draws a narrow triangle, tile below tile, whose edges are taken as they are. */
@@ -6120,18 +6157,19 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
 /* The light of vertices, and with a map the part of it that the map does not multiply. */
 static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
                                   const shade__v3 *normal, const float *albedo,
-                                  shade_vertices *out)
+                                  float *rgb)
 {
     shade_rows rows;
     SHADE__ZERO(rows);
     rows.position = point->x;
     rows.normal = normal->x;
     rows.albedo = albedo;
-    shade__lit_packet(&s->surface, &rows, out->varying[0]);
+    shade__lit_packet(&s->surface, &rows, rgb);
     if (s->map) {
         shade_lighting rest = s->lighting;
         rest.terms = s->unmapped;
-        shade_lit_lanes(&rest, s->state->material, s->eye, &rows, out->varying[3]);
+        shade_lit_lanes(&rest, s->state->material, s->eye, &rows,
+                        rgb + 3 * SHADE_LANES);
     }
 }
 
@@ -6160,7 +6198,8 @@ static void shade__mesh_vertex(const void *uniforms,
     }
     if (own && !s->tinted)
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
-    if (s->lit) shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out);
+    if (s->lit)
+        shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out->varying[0]);
     /* last, because P may have lain in these rows */
     if (s->map || (own && s->mesh->texcoords))
         shade__fetch_texcoords(s, in, out->varying[s->varyings - 2]);
@@ -6277,7 +6316,6 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
                  : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
 
     s->lighting = state->lighting;
-    s->unmapped = 0;
     if (s->map && state->shading != SHADE_SHADING_PER_FRAGMENT) {
         const unsigned terms = state->lighting.terms ? state->lighting.terms : ~0u;
         s->lighting.terms = (terms & matte) | SHADE__TERM_NONE;

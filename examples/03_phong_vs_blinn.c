@@ -1,9 +1,9 @@
 /* 03_phong_vs_blinn.c - Phong's highlight beside Blinn's, on Massey's three spheres.  With the same
    n Blinn's is twice as wide, because H turns half as fast as R: it falls to one half where N is
-   16.8 degrees off H, Phong's at 8.4 degrees.  With 4 n, from shade_blinn_exponent, Blinn's falls
+   16.7 degrees off H, Phong's at 8.4 degrees.  With 4 n, from shade_blinn_exponent, Blinn's falls
    to one half at 8.4 degrees too.
    Try 0.6f for the -1 of the lamp, which then stands behind the spheres: Phong's highlight becomes
-   an arc along the rim, Blinn's stays a spot, and 4 n no longer helps.
+   an arc along the rim, Blinn's a broader one, and 4 n leaves a spot that is like neither.
 
    cc -O2 -I. examples/03_phong_vs_blinn.c -lm -o phong && ./phong */
 #define SHADE_IMPLEMENTATION
@@ -13,8 +13,8 @@
 
 int main(int argc, char **argv)
 {
-    static const char *const name[3] = { "phong, n = 16", "blinn-phong, n = 16",
-                                         "blinn-phong, 4n = 64" };
+    static const char *const name[3] = { "Phong, n = 16", "Blinn-Phong, n = 16",
+                                         "Blinn-Phong, 4n = 64" };
     static const char *const term[3] = { "k_s (R·V)^{16}", "k_s (N·H)^{16}", "k_s (N·H)^{64}" };
     static const shade_model model[3] = { SHADE_MODEL_PHONG, SHADE_MODEL_BLINN_PHONG,
                                           SHADE_MODEL_BLINN_PHONG };

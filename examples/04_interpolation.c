@@ -36,7 +36,7 @@ int main(int argc, char **argv)
 {
     static const shade_shading shading[3] = { SHADE_SHADING_PER_FACE, SHADE_SHADING_PER_VERTEX,
                                               SHADE_SHADING_PER_FRAGMENT };
-    static const char *const name[3] = { "flat", "gouraud", "phong" };
+    static const char *const name[3] = { "flat", "Gouraud", "Phong" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     shade_material clay = { { 0, 0, 0 }, { 0.55f, 0.18f, 0 }, { 0.55f, 0.18f, 0 },
                             { 0.6f, 0.6f, 0.6f }, 90 };
@@ -64,9 +64,9 @@ int main(int argc, char **argv)
         state.shading = i < 3 ? shading[i] : SHADE_SHADING_PER_VERTEX;
         state.model = shade_mat4_rotation(i < 3 ? 0 : (float)(i - 3) / 2 * 0.2597f, axis);
         shade_draw_mesh(&panel, &sphere.view, &state, NULL);
-        sprintf(text, "gouraud, turned by %d.%d°", tenths / 10, tenths % 10);
+        sprintf(text, "Gouraud, turned by %d.%d°", tenths / 10, tenths % 10);
         label_center(&c, x + SIZE / 2, y + SIZE + 24, 22, grey, i < 3 ? name[i] : text);
-        sprintf(text, "highlight: %d", brightest(&c, x, y));
+        sprintf(text, "highlight: %d of 255", brightest(&c, x, y));
         label_center(&c, x + SIZE / 2, y + SIZE + 46, 19, grey, text);
     }
     mesh_free(&sphere);

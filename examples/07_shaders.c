@@ -47,7 +47,8 @@ static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
     SHADE_EACH_LANE(i) {
         shade_vec3 P = lane(in->varying[0], i), N = lane(in->varying[3], i);
         float facing = shade_dot(shade_normalize(N), shade_normalize(shade_sub(s->eye, P)));
-        float stripe = 1.6f * P.y - (float)(int)(1.6f * P.y), ink = facing < 0.25f ? 0.1f : 1.0f;
+        float stripe = 1.6f * P.y - (float)(int)(1.6f * P.y);
+        float ink = facing < 0.25f && in->front[i] ? 0.1f : 1.0f;
         float level = ink * (float)(int)(4 * rgb[1][i] + 0.6f) / 4;
         out->color[0][i] = level * (stripe < 0.5f ? 0.95f : 0.10f) + 0.02f * ink;
         out->color[1][i] = level * (stripe < 0.5f ? 0.55f : 0.32f) + 0.01f * ink;

@@ -1,9 +1,9 @@
 /* 08_normal_matrix.c - a sphere whose points are transformed by M, which presses it to a third of
    its height.  Left: its normals are transformed by M as well and no longer stand on the surface,
    so that it shines like an egg.  Right: by the normal matrix, (M^-1)^T up to its scale, from
-   shade_normal_matrix (Massey).  The numbers are mean angles to the normals of the pressed
-   triangles.
-   Try scaling by (0.7f, 0.7f, 0.7f): both are right, because M scales evenly.
+   shade_normal_matrix (Massey).  The numbers are mean angles to the true normals of the ellipsoid,
+   the gradient of x^2/a^2 + y^2/b^2 + z^2/c^2.
+   Try size { 0.7f, 0.7f, 0.7f }: both are right, because M scales evenly.
 
    cc -O2 -I. examples/08_normal_matrix.c -lm -o normal_matrix && ./normal_matrix */
 #define SHADE_IMPLEMENTATION
@@ -11,6 +11,8 @@
 #include "shared/mesh.h"
 #include "shared/label.h"
 #include <math.h>
+
+static const shade_vec3 size = { 1, 0.35f, 1 };
 
 /* A sphere of 2 n slices, its points moved by M and its normals by of_normals */
 static owned_mesh pressed(int n, shade_mat4 M, shade_mat3 of_normals)
@@ -25,18 +27,18 @@ static owned_mesh pressed(int n, shade_mat4 M, shade_mat3 of_normals)
     return m;
 }
 
-/* Mean angle in degrees between the normals of corners and those of their triangles */
+/* Mean angle in degrees between the normals of a mesh and those of the ellipsoid it lies on */
 static double mean_angle(const owned_mesh *m)
 {
     const shade_vec3 *p = (const shade_vec3 *)(const void *)m->positions;
     const shade_vec3 *n = (const shade_vec3 *)(const void *)m->normals;
+    const shade_vec3 k = { 1 / (size.x * size.x), 1 / (size.y * size.y), 1 / (size.z * size.z) };
     double sum = 0;
-    for (int i = 0; i < m->view.index_count; i++) {
-        const uint32_t *v = m->indices + i - i % 3;
-        shade_vec3 face = shade_face_normal(p[v[0]], p[v[1]], p[v[2]]);
-        sum += acos(fmin(1, (double)shade_dot(n[v[i % 3]], face)));
+    for (int i = 0; i < m->view.vertex_count; i++) {
+        shade_vec3 true_normal = shade_normalize(shade_mul(p[i], k));
+        sum += acos(fmin(1, (double)shade_dot(n[i], true_normal)));
     }
-    return sum / m->view.index_count * 57.29578;
+    return sum / m->view.vertex_count * 57.29578;
 }
 
 int main(int argc, char **argv)
@@ -45,7 +47,7 @@ int main(int argc, char **argv)
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, white = { 1, 0.97f, 0.92f };
     const shade_material gold = { { 0, 0, 0 }, { 0.30f, 0.17f, 0.04f }, { 0.45f, 0.26f, 0.06f },
                                   { 0.75f, 0.58f, 0.3f }, 40 };
-    const shade_mat4 M = shade_mat4_scaling(shade_v3(1, 0.35f, 1));
+    const shade_mat4 M = shade_mat4_scaling(size);
     const shade_mat3 by[2] = { shade_mat3_from_mat4(M), shade_normal_matrix(M) };
     const shade_light lamp = shade_directional_light(shade_v3(0.35f, -1, -0.55f), white);
     shade_draw_state state = { .material = &gold,

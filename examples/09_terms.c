@@ -15,7 +15,7 @@ int main(int argc, char **argv)
                                          "emission", "+ ambient", "+ diffuse", "+ specular" };
     static const char *const term[4] = { "k_e", "k_a I_a", "Σ k_d I (N·L)", "Σ k_s I (N·H)^n" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
-    const shade_material glaze = { { 0.06f, 0.008f, 0.003f }, { 0.03f, 0.20f, 0.24f },
+    const shade_material glaze = { { 0.05f, 0.012f, 0.003f }, { 0.03f, 0.20f, 0.24f },
                                    { 0.03f, 0.20f, 0.24f }, { 0.6f, 0.6f, 0.6f }, 50 };
     shade_light lamps[2];
     shade_draw_state state = { .material = &glaze };
@@ -29,7 +29,7 @@ int main(int argc, char **argv)
     state.projection = shade_mat4_perspective(0.33f, 240 / 180.0f, 9, 19);
     state.lighting.lights = lamps;
     state.lighting.light_count = 2;
-    state.lighting.ambient = shade_v3(0.22f, 0.23f, 0.26f);
+    state.lighting.ambient = shade_v3(0.11f, 0.12f, 0.13f);
     canvas_dark(&c.target);
     for (int i = 0; i < 8; i++) {
         int x = 240 * (i % 4), y = 232 * (i / 4);
@@ -37,6 +37,8 @@ int main(int argc, char **argv)
         state.lighting.terms = i < 4 ? 1u << i : (2u << i % 4) - 1;
         shade_draw_mesh(&panel, &pot.view, &state, NULL);
         label_caption(&c, x + 120, y + 198, grey, name[i], i < 4 ? term[i] : "");
+        if (i > 0 && i < 4) label_center(&c, x, 95, 30, grey, "+");
+        if (i > 4) label_center(&c, x, y + 95, 30, grey, "→");
     }
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "terms.ppm");

@@ -26,7 +26,7 @@ int main(int argc, char **argv)
     shade_draw_state state = { 0 };
     shade_line_state pen = { .cap = SHADE_CAP_SQUARE };
     edge_lines lines;
-    canvas c = canvas_new(960, 390, 3);
+    canvas c = canvas_new(960, 420, 3);
 
     scene.view.vertex_count = scene.view.index_count = 0;
     edges_add(&scene, shape_teapot(6), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
@@ -53,10 +53,10 @@ int main(int argc, char **argv)
         pen.raster.depth_test = SHADE_COMPARE_ALWAYS;
         pen.color = ink[i];
         pen.width = 9;
-        float x = (float)(320 * i + (i ? 60 : 20));
-        const shade_vec3 sample[2] = { { x, 362, 0 }, { x + 30, 362, 0 } };
+        float y = 352 + 24 * (float)i;
+        const shade_vec3 sample[2] = { { 668, y, 0 }, { 698, y, 0 } };
         shade_draw_lines(&c.target, sample, 2, &pen, NULL);
-        label_draw(&c, 320 * i + (i ? 102 : 62), 369, 20, black, kind[i]);
+        label_draw(&c, 710, 359 + 24 * i, 20, black, kind[i]);
     }
     edges_free(&lines);
     mesh_free(&scene);

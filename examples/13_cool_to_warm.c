@@ -13,7 +13,7 @@
 
 int main(int argc, char **argv)
 {
-    static const char *const name[3] = { "phong", "tone alone", "tone with outlines" };
+    static const char *const name[3] = { "Phong", "tone alone", "tone with outlines" };
     static const char *const formula[3] = { "k_d (N·L) + k_s (R·V)^n", "k_w = (1 + N·L) / 2",
                                             "k_w c_w + (1 − k_w) c_c" };
     const shade_vec3 eye = { -1.5f, 5.5f, 14 }, ink = { 0.02f, 0.02f, 0.03f };

@@ -61,7 +61,7 @@ int main(int argc, char **argv)
             shade_draw_mesh(&panel, &square.view, &state, &left);
             sprintf(text, "%d km", (int)km[i]);
             label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 16, 19, grey, text);
-            sprintf(text, "%d %% lost", (int)(100 - 100 * left.fragments / alone.fragments));
+            sprintf(text, "%d %% of it lost", (int)(100 - 100 * left.fragments / alone.fragments));
             label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 40, 19, grey, text);
         }
         label_draw(&c, 12, y - 6, 22, grey, name[row]);

@@ -1,5 +1,5 @@
 /* 23_mach_bands.c - a drum of twelve sides and, below it, the values 0 to 255 that a display gets
-   across its middle (UW, Massey, Shirley).  Where this profile has a step or a kink, the eye sees a
+   across its middle (Berkeley).  Where this profile has a step or a kink, the eye sees a
    line that is not there, a Mach band.  Flat shading has steps.  Gouraud's has kinks on the edges,
    seen as a bright line in the middle and dark ones beside it.  Phong's is smooth: each pixel has
    the normal of a round drum.
@@ -36,7 +36,7 @@ int main(int argc, char **argv)
 {
     static const shade_shading shading[3] = { SHADE_SHADING_PER_FACE, SHADE_SHADING_PER_VERTEX,
                                               SHADE_SHADING_PER_FRAGMENT };
-    static const char *const name[3] = { "flat", "gouraud", "phong" };
+    static const char *const name[3] = { "flat", "Gouraud", "Phong" };
     static const shade_vec2 side[2] = { { 1, 0.8f }, { 1, -0.8f } };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, blue = { 0.1f, 0.14f, 0.3f };
     const shade_material paint = { { 0, 0, 0 }, blue, blue, { 0.5f, 0.5f, 0.5f }, 20 };

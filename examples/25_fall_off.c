@@ -2,7 +2,8 @@
    and as 1/r^2.  Left: stored with sRGB, so that the display shows the computed light.  Right:
    stored as computed, as the courses' programs did.  A display shows about the power 2.2 of that,
    which turns 1/r^2 into 1/r^4.4: at distance 2 not 1/4 of the light but 1/20.  That is why 1/r^2
-   "tends to look bad", and why 1/r, shown as 1/r^2.2, is Berkeley's compromise.
+   "tends to look bad", and why 1/r, shown as 1/r^2.2, is Berkeley's compromise.  The numbers are
+   what is shown of the light at the five distances.  Shadows are left out.
    Try lamp.constant = 1 in all rows: 1/(1 + r^2), and the first ball is no longer white.
 
    cc -O2 -I. examples/25_fall_off.c -lm -o fall_off && ./fall_off */
@@ -13,6 +14,17 @@
 #include <math.h>
 
 enum { BALLS = 5, WIDTH = 477, HEIGHT = 160 };
+
+/* What a display shows of the light at distances 1 to 5 */
+static void print_light(const canvas *c, int x, int y, const shade_light *lamp, int raw)
+{
+    static const int column[BALLS] = { 60, 166, 246, 320, 394 };    /* below the balls */
+    for (int r = 1; r <= BALLS; r++) {
+        float light = shade_attenuation(lamp->constant, lamp->linear, lamp->quadratic, (float)r);
+        if (raw) light = shade_linear_from_srgb(shade_v3(light, 0, 0)).x;
+        label_print(c, x + column[r - 1], y, 18, shade_v3(0.5f, 0.5f, 0.5f), "%.3f", (double)light);
+    }
+}
 
 /* What a display makes of numbers stored without sRGB */
 static void store_raw(const shade_target *t)
@@ -36,7 +48,8 @@ int main(int argc, char **argv)
     shade_vec4 place[BALLS];
     shade_vec3 color[BALLS] = { clay, clay, clay, clay, clay };
     shade_light lamp = shade_point_light(shade_v3(-3, 0.9f, 0.8f), white);
-    balls scene = { BALLS, place, color, .floor = { 0.5f, 0.48f, 0.45f } };
+    balls scene = { BALLS, place, color, .floor = { 0.8f, 0.77f, 0.72f },
+                    .no_shadows = 1 };
     canvas c = canvas_new(960, 630, 2);
 
     for (int i = 0; i < BALLS; i++)    /* i + 1 away from the lamp, .8 behind and .5 below it */
@@ -57,7 +70,8 @@ int main(int argc, char **argv)
         lamp.quadratic = i / 2 == 2;
         balls_draw(&panel, &scene);
         if (i % 2) store_raw(&panel);
-        label_center(&c, x + WIDTH / 2, y + HEIGHT + 24, 20, grey, name[i % 2][i / 2]);
+        label_draw(&c, x + 12, y + 24, 20, grey, name[i % 2][i / 2]);
+        print_light(&c, x, y + HEIGHT + 24, &lamp, i % 2);
     }
     return canvas_save(&c, argc, argv, "fall_off.ppm");
 }

@@ -25,23 +25,24 @@ int main(int argc, char **argv)
 {
     static const float exponent[5] = { 1, 4, 16, 64, 256 };
     static const char *const name[3] = { "metal", "plastic", "planet" };
-    static const char *const formula[3] = { "n = 100, k_s = 6 k_d", "n = 30, k_s white",
+    static const char *const formula[3] = { "n = 100, k_s = 8 k_d", "n = 30, k_s white",
                                             "n = 0, k_d a map, k_s = 0" };
     static float map[256 * 512][4];
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, copper = { 0.95f, 0.45f, 0.22f };
     const shade_vec3 blue = { 0.02f, 0.10f, 0.45f }, white = { 1, 1, 1 }, none = { 0, 0, 0 };
     const shade_material of[3] = {
-        { none, shade_scale(copper, 0.1f), shade_scale(copper, 0.14f), shade_scale(copper, 0.84f),
+        { none, shade_scale(copper, 0.04f), shade_scale(copper, 0.1f), shade_scale(copper, 0.8f),
           100 },
-        { none, blue, blue, { 0.45f, 0.45f, 0.45f }, 30 },
-        { none, { 0.1f, 0.1f, 0.1f }, white, none, 0 }
+        { none, shade_scale(blue, 0.1f), blue, { 0.45f, 0.45f, 0.45f }, 30 },
+        { none, { 0.05f, 0.05f, 0.05f }, { 0.94f, 0.94f, 0.94f }, none, 0 }
     };
     shade_material teal = { none, { 0.03f, 0.2f, 0.22f }, { 0.03f, 0.2f, 0.22f },
-                            { 0.6f, 0.6f, 0.6f }, 0 };
-    shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.6f, -1), white);
+                            { 0.55f, 0.55f, 0.55f }, 0 };
+    const shade_light lamp[2] = { shade_directional_light(shade_v3(0.5f, -0.6f, -1), white),
+                                  shade_directional_light(shade_v3(-1, -0.2f, 0.3f), white) };
     shade_texture earth = { .pixels = map, .width = 512, .height = 256,
                             .format = SHADE_FORMAT_RGBA32F };
-    shade_draw_state state = { .lighting = { &lamp, 1, .ambient = { 0.15f, 0.15f, 0.17f } } };
+    shade_draw_state state = { .lighting = { lamp, 1, .ambient = { 0.15f, 0.15f, 0.17f } } };
     owned_mesh ball = mesh_sphere(128, 64);
     canvas c = canvas_new(960, 580, 2);
     char power[40], half[40];
@@ -57,6 +58,7 @@ int main(int argc, char **argv)
         shade_target panel = canvas_panel(&c, x + (w - size) / 2, y, size, size);
         if (i < 5) teal.shininess = exponent[i];
         state.material = i < 5 ? &teal : &of[i - 5];
+        state.lighting.light_count = i == 5 ? 2 : 1;    /* metal shows what is around it */
         state.diffuse_map = i == 7 ? &earth : NULL;
         shade_draw_mesh(&panel, &ball.view, &state, NULL);
         if (i < 5) sprintf(power, "(N·H)^{%d}", (int)exponent[i]);

@@ -1,8 +1,8 @@
-/* 28_lobes.c - the goniometric diagram of UW, Massey and Shirley: how much of the light from L
+/* 28_lobes.c - the goniometric diagram of UW and Berkeley: how much of the light from L
    leaves toward each V, by shade_brdf, as the length of a ray.  It shows Phong's lobe, Blinn's for
    the same n, and Blinn's for 4 n (dashed), which all but covers Phong's.  They stand on the half
    circle of k_d.  V is 20 degrees off R, so H is 10 off N: half as far, hence 4 n.
-   Try theta = 75: the lobes still agree in this plane; 29_grazing shows what happens across it.
+   Try theta = 55: the lobes still agree in this plane; 29_grazing shows what happens across it.
 
    cc -O2 -I. examples/28_lobes.c -lm -o lobes && ./lobes                       writes lobes.ppm */
 #define SHADE_IMPLEMENTATION

@@ -3,8 +3,7 @@
    row, near at the bottom.  It consists of straight pieces, one for each face, because z/w is
    linear on the screen.  So a row needs one addition a pixel, z + dz + dz ...; the number tells how
    far that strays over the longest piece (UW's incremental z).
-   Try near_z = 0.4: the pieces flatten against FAR, because most of the depth goes to the space
-   before them.
+   Try near_z = 0.4: the pieces flatten against FAR, as most depths go to the space before them.
 
    cc -O2 -I. examples/32_z_buffer.c -lm -o z_buffer && ./z_buffer           writes z_buffer.ppm */
 #define SHADE_IMPLEMENTATION
@@ -67,8 +66,11 @@ int main(int argc, char **argv)
     int begin = 0, steps = longest_run(z, &begin);
     float dz = (z[begin + steps] - z[begin]) / (float)steps, sum = z[begin], worst = 0;
     for (int i = 0; i <= steps; i++, sum += dz) worst = fmaxf(worst, fabsf(sum - z[begin + i]));
-    sprintf(text, "z along the row; %d times z += dz: off by %d of 2^{24}", steps,
-            (int)(worst * 16777216));
+    sprintf(text, "z along the row; %d times z += dz: off by %.1e of its range", steps,
+            (double)worst);
+    label_draw(&c, 12, H / 2 + 28, 20, white, "FAR, z = 1");
+    label_draw(&c, 12, H / 2 + 200, 20, white, "z = 0.5");
+    canvas_fill(&c.target, 2 * 90, H + 6 + 380, 40, 2, grey);
     label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer");
     label_draw(&c, 12, H - 14, 22, white, text);
     canvas_fill(&c.target, 0, ROW, 2 * W, 2, grey);

@@ -4,9 +4,8 @@
        G = min(1, 2 (N.H) (N.V) / (V.H), 2 (N.H) (N.L) / (V.H)),   cos a = N.H
    They divide by pi; the 4 keeps reflected light within what arrives.  F = F_0 + (1 - F_0) (1 -
    V.H)^5 is C. Schlick's Fresnel term (Computer Graphics Forum 13 (1994), 233-246), below from 0
-   to 90 degrees between V and H: it grows and whitens, as do highlights of lamps behind the pot.
-   With n = 2/m^2 - 4 both lobes bend alike at their peak.  UW and Shirley name the model.
-   Try F_0 = { 0.04f, 0.04f, 0.04f }: varnish, brightest at its rims.
+   to 90 degrees between V and H.  With n = 2/m^2 - 4 both lobes bend alike at their peak (UW).
+   Try F_0 = { 0.04f, 0.04f, 0.04f }: varnish, whose curve rises from .04 to 1.
 
    cc -O2 -I. examples/34_cook_torrance.c -lm -o cook_torrance && ./cook_torrance */
 #define SHADE_IMPLEMENTATION
@@ -53,7 +52,7 @@ int main(int argc, char **argv)
     scene s = { .place = { .mesh = &pot, .model = shade_mat4_identity() } };
     shade_pipeline pipeline = { mesh_vertex, metal, &s, .varyings = 8 };
     shade_draw_state state = { .material = &paint, .lighting = { s.lamp, 4, .ambient = white } };
-    canvas c = canvas_new(960, 440, 2);
+    canvas c = canvas_new(960, 490, 2);
     shade_target panel = canvas_panel(&c, 0, 0, 480, 340);
 
     for (int j = 0; j < 4; j++)    /* from both sides, from before and behind */
@@ -66,14 +65,15 @@ int main(int argc, char **argv)
     shade_draw_mesh(&panel, &pot.view, &state, NULL);
     panel = canvas_panel(&c, 480, 0, 480, 340);
     mesh_draw(&panel, &pipeline, &pot);
-    for (int i = 0; i < 900; i++) {
-        shade_vec3 f = F(mesh_turn((float)i / 3600).x);
-        panel = canvas_panel(&c, 30 + i, 372, 1, 30);
-        shade_clear(&panel, shade_v4(f.x, f.y, f.z, 1), 1);
+    for (int i = 0; i < 3 * 900; i++) {
+        shade_vec3 f = F(mesh_turn((float)(i / 3) / 3600).x), ink = { 0.1f, 0.1f, 0.1f };
+        (&ink.x)[i % 3] = 0.8f;
+        panel = canvas_panel(&c, 30 + i / 3, 455 - (int)(75 * (&f.x)[i % 3]), 1, 3);
+        shade_clear(&panel, shade_v4(ink.x, ink.y, ink.z, 1), 1);
     }
     label_center(&c, 240, 352, 22, grey, "Blinn-Phong");
     label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V))");
-    label_center(&c, 480, 428, 19, grey, "0° ... F of gold ... 90°");
+    label_center(&c, 480, 482, 19, grey, "F of gold, 0 to 1, over 0° to 90° between V and H");
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "cook_torrance.ppm");
 }

@@ -65,7 +65,7 @@ int main(int argc, char **argv)
     shade_mat4 lens = shade_mat4_perspective(0.7f, (float)WIDTH / HEIGHT, 1, 50);
     canvas c = canvas_new(960, 440, 2);
     blocks = shape_moved(mesh_cube(), shape_at(-0.5f, 0.4f, 1.8f, 0.4f, 0.5f));
-    blocks = shape_join(mesh_plane(60, 1), blocks);
+    blocks = shape_join(mesh_plane(1000, 1), blocks);
     for (int i = 0; i < 2 * WIDTH * HEIGHT; i++) {
         float x = (float)(i % WIDTH) + 0.5f, y = (float)(i / WIDTH / 2) + 0.5f;
         shade_ray ray = shade_pixel_ray(view, lens, WIDTH, HEIGHT, x, y);

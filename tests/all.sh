@@ -32,6 +32,7 @@ step compare sh tests/compare.sh
 step board sh tests/microcontroller.sh
 build build/shade.o    # which the README's programs are linked to as well
 step readme sh tests/readme.sh
+step slides sh tests/course.sh
 build build/test_main
 step runner build/test_main
 build build/golden pictures

@@ -309,6 +309,17 @@ static void stage_leave_depth(stage *s, int byte)
     s->clear = NAN;
 }
 MISTAKE(clear_forgotten) { stage_leave_depth(s, 0); }
+/* nobody draws outside the clip rectangle, so that depth there says nothing */
+MISTAKE(clear_forgotten_where_it_draws)
+{
+    s->c.target.clip_width = STAGE_WIDTH / 2;
+    s->c.target.clip_height = STAGE_HEIGHT / 2;
+    s->clear = NAN;
+    for (int y = 0; y < STAGE_HEIGHT; y++)
+        for (int x = 0; x < STAGE_WIDTH; x++)
+            s->c.target.depth[canvas_index(&s->c, x, y)] =
+                x < STAGE_WIDTH / 2 && y < STAGE_HEIGHT / 2 ? 0 : 1;
+}
 MISTAKE(depth_full_of_nan) { stage_leave_depth(s, 255); }
 MISTAKE(second_frame) { s->draws = 2; }
 MISTAKE(cleared_to_zero) { s->clear = 0; }
@@ -637,7 +648,8 @@ static const mistake mistakes[] = {
     OF(inside_out_without_normals, "inside out"), OF(mirrored, "inside out"),
     OF(upside_down, "inside out"),
 
-    OF(clear_forgotten, "shade_clear"), OF(depth_full_of_nan, "shade_clear"),
+    OF(clear_forgotten, "shade_clear"), OF(clear_forgotten_where_it_draws, "holds 0"),
+    OF(depth_full_of_nan, "shade_clear"),
     OF_STATS(second_frame, "shade_clear"), OF(cleared_to_zero, "depth_test"),
     OF_STATS(hidden_by_the_frame_before, "shade_clear"), OF(greater, "SHADE_COMPARE_LESS"),
     OF(greater_cleared_to_zero, "SHADE_COMPARE_LESS"), OF(reversed_cleared_to_one, "shade_clear"),

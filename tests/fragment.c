@@ -425,12 +425,17 @@ static double blend_channel(shade_blend blend, int channel, double s, double a, 
     return channel == 3 ? a + d * (1 - a) : s * a + d * (1 - a);
 }
 
-static double stored_unit(double v, int srgb, int levels)
+/* The code that v is stored as where rounding happens `late` codes too late. */
+static double stored_code(double v, int srgb, int levels, double late)
 {
     v = v > 0 ? (v < 1 ? v : 1) : 0;
     if (srgb) v = ref_encode_srgb(v);
-    v = floor(v * levels + 0.5) / levels;
-    return srgb ? ref_decode_srgb(v) : v;
+    return fmin(fmax(floor(v * levels + 0.5 - late), 0), levels);
+}
+
+static double unit_of_code(double code, int srgb, int levels)
+{
+    return srgb ? ref_decode_srgb(code / levels) : code / levels;
 }
 
 /* Up to 80 layers of any colour and alpha: each blend rounds a few times, and each layer scales
@@ -475,19 +480,24 @@ TEST(fragment, blending_follows_submission_order_in_float)
     }
 }
 
-/* What the triangles of a case leave at a pixel that was 0, stored after each of them. */
-static void blended_bytes(const blend_case *b, int n, shade_blend blend, const shade_target *t,
-                          int i, int j, double d[4])
+/* The codes that the triangles of a case leave in a channel of a pixel that was 0, stored after
+   each of them.  A value near the middle of two codes may become either: sums are in float, and the
+   functions of sRGB are 4e-6 off, which encoding makes up to 12.92 times as much.  Blending grows
+   with what lies below, so that the least and the most code bound all that can come of it. */
+static void blended_codes(const blend_case *b, int n, shade_blend blend, const shade_target *t,
+                          int i, int j, int m, double code[2])
 {
-    for (int m = 0; m < 4; m++) d[m] = 0;
+    int srgb = t->srgb && m < 3, most = canvas_most(t->format, m);
+    double late = srgb ? 0.015 : 0.001;
+    code[0] = code[1] = 0;
     for (int k = 0; k < n; k++) {
         const shade_vec4 *color = &b->color[k];
         double v[4] = { (double)color->x, (double)color->y, (double)color->z, (double)color->w };
         if (!ref_inside_fx8(b->x + 3 * k, b->y + 3 * k, i, j)) continue;
-        for (int m = 0; m < 4; m++) {
-            int most = canvas_most(t->format, m);
-            if (!most) continue; /* no such channel */
-            d[m] = stored_unit(blend_channel(blend, m, v[m], v[3], d[m]), t->srgb && m < 3, most);
+        for (int bound = 0; bound < 2; bound++) {
+            double below = unit_of_code(code[bound], srgb, most);
+            double above = blend_channel(blend, m, v[m], v[3], below);
+            code[bound] = stored_code(above, srgb, most, bound ? -late : late);
         }
     }
 }
@@ -496,6 +506,7 @@ static void blended_bytes(const blend_case *b, int n, shade_blend blend, const s
 TEST(fragment, blending_of_stored_bytes_follows_submission_order)
 {
     static blend_case b;
+    long either = 0, values = 0;
     for (int round = 0; round < 80; round++) {
         shade_blend blend = round % 2 ? SHADE_BLEND_OVER : SHADE_BLEND_ADD;
         int n = rnd_int(2, 40), size = rnd_int(4, 40), srgb = round % 4 > 1;
@@ -510,27 +521,24 @@ TEST(fragment, blending_of_stored_bytes_follows_submission_order)
         shade_pipeline p = scene_pipeline(&s);
         p.raster.blend = blend;
         canvas_draw(&c, &p, 3 * n);
-        int off = 0, pixels = 0;
+        int channels = canvas_most(format, 3) ? 4 : 3;
         for (int j = 0; j < size; j++) {
             for (int i = 0; i < size; i++) {
-                double d[4];
-                int channels = canvas_most(format, 3) ? 4 : 3;
-                blended_bytes(&b, n, blend, &c.target, i, j, d);
                 for (int m = 0; m < channels; m++) {
-                    double code = srgb && m < 3 ? ref_encode_srgb(d[m]) : d[m];
-                    int want = (int)floor(code * canvas_most(format, m) + 0.5);
+                    double want[2];
                     int got = canvas_code(&c, i, j, m);
-                    pixels++;
-                    off += got != want;
-                    CHECK_SAY(got - want <= 1 && want - got <= 1,
-                              "pixel %d %d channel %d: got %d, want %d", i, j, m, got, want);
+                    blended_codes(&b, n, blend, &c.target, i, j, m, want);
+                    CHECK_SAY(got >= want[0] && got <= want[1],
+                              "pixel %d %d channel %d: got %d, want %.0f to %.0f", i, j, m, got,
+                              want[0], want[1]);
+                    either += want[0] != want[1];
+                    values++;
                 }
             }
         }
-        CHECK_SAY(off <= pixels / 200 + 2, "%d of %d values are off by one", off,
-                  pixels); /* ties by rounding */
         canvas_close(&c);
     }
+    CHECK_SAY(either < values / 20, "%ld of %ld values may be either code", either, values);
 }
 
 /* Multiples of 1/16, which floats hold exactly: the colour is c / 4 + 3/4 of 1/2, alpha is 1/4 +

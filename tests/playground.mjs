@@ -42,7 +42,7 @@ const server = http.createServer((request, answer) => {
 });
 await new Promise(ready => server.listen(0, '127.0.0.1', ready));
 const served = `http://127.0.0.1:${server.address().port}/`, opened = 'file://' + page_file;
-const complaints = [], requests = [];
+const complaints = [], requests = [], slideRequests = [];
 
 async function open(hash, options = {}, url = opened) {
     const context = await browser.newContext({ viewport: { width: 960, height: 700 }, ...options });
@@ -453,6 +453,51 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
         await page.context().close();
     }
     check('two papers', papers[0] !== papers[1]);
+}
+
+// ---- the slides of the courses: pages that fit, and links that set what they say ----------------
+
+const slides = new Set();
+for (const name of fs.readdirSync(path.dirname(page_file)).filter(n => /^course-.*html$/.test(n))) {
+    const url = 'file://' + path.join(path.dirname(page_file), name);
+    for (const [width, height, colorScheme] of [[1366, 768, 'light'], [1920, 1080, 'dark'],
+        [390, 844, 'light'], [320, 600, 'dark']]) {
+        const context = await browser.newContext({ viewport: { width, height }, colorScheme });
+        const page = await context.newPage(), what = `${name}, ${width} x ${height}`;
+        page.on('console', line => complaints.push(line.text()));
+        page.on('request', request => {
+            if (!request.url().startsWith('data:')) slideRequests.push(request.url());
+        });
+        await page.goto(url);
+        const lost = await page.evaluate(async () => {
+            const images = [...document.images];
+            images.forEach(image => { image.loading = 'eager'; });
+            await Promise.all(images.map(image => image.decode().catch(() => 0)));
+            return images.filter(image => !image.naturalWidth).map(image => image.src);
+        });
+        check('pictures: ' + what, !lost.length, lost);
+        check('no wider than the screen: ' + what, await page.evaluate(() =>
+            document.documentElement.scrollWidth <= innerWidth));
+        const links = await page.evaluate(() =>
+            [...document.querySelectorAll('.play a')].map(a => a.getAttribute('href')));
+        links.forEach(link => slides.add(link));
+        await context.close();
+    }
+}
+check('slides ask for nothing but files', slideRequests.every(url =>
+    url.startsWith('file://' + path.dirname(page_file) + '/')), slideRequests);
+check('slides have links', slides.size > 60, slides.size);
+{
+    const page = await open('turn=0');
+    for (const link of slides) {
+        const hash = link.split('#')[1];
+        await go(page, hash);
+        const { state } = await same(page, 'slide ' + link);
+        for (const [field, value] of new URLSearchParams(hash))
+            check(`${field} of slide ${link}`,
+                String(state[field]) === value.split(',').map(Number).join(), state[field]);
+    }
+    await page.context().close();
 }
 
 // ---- time ---------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ mkdir -p $B || exit 1
 rm -f $B/index.html
 sh examples/playground/build.sh || { echo "0 passed, 1 failed"; exit 1; }
 [ -f $B/index.html ] || leave_out "clang and lld for wasm32"
+sh examples/course/build.sh || { echo "0 passed, 1 failed"; exit 1; }
 command -v node >/dev/null 2>&1 || leave_out node
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
     leave_out chromium

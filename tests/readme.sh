@@ -119,7 +119,7 @@ check "the recipes shown are those tested" diff "$T/recipes" "$T/recipes_tested"
 check "every example is listed" none "$(
     for file in examples/[0-9]*.c; do
         name=$(basename "$file" .c)
-        grep -qF "](pictures/$name.png) | \`$name\`" examples/README.md || echo "$name"
+        grep -qE "src=\"pictures/$name\.png\".*</a> \| \`$name\`" examples/README.md || echo "$name"
     done)"
 awk '/^#ifdef SHADE_IMPLEMENTATION/ { exit }
      /^(SHADEDEF|SHADE__INLINE) / && match($0, /shade_[a-z0-9_]+\(/) {

@@ -16,6 +16,7 @@ typedef struct balls {
     shade_lighting lighting;
     shade_vec3 eye, center; /* the camera, and the point it looks at */
     float fovy;
+    int no_shadows;
 } balls;
 
 typedef struct balls_uniforms {
@@ -40,7 +41,7 @@ static inline float balls_visibility(const balls *b, const shade_light *lamp, sh
     shade_vec3 L;
     float r;
     shade_light_at(lamp, P, &L, &r);
-    for (int i = 0; i < b->count; i++) {
+    for (int i = 0; i < b->count && !b->no_shadows; i++) {
         shade_vec3 to = shade_sub(shade_v3(b->at[i].x, b->at[i].y, b->at[i].z), P);
         float along = shade_dot(to, L), beside = shade_dot(to, to) - along * along;
         if (along > 0 && along < r && beside < b->at[i].w * b->at[i].w) return 0;

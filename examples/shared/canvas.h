@@ -102,6 +102,31 @@ static inline void canvas_zoom(const canvas *c, int x, int y, int w, int h, int 
     }
 }
 
+/* Draws the difference of two panels of one size, gain times as bright, on a third.  Returns how
+   many samples are not the same colour of 8 bits; most becomes the greatest difference of light. */
+static inline int canvas_difference(const shade_target *a, const shade_target *b,
+                                    const shade_target *out, float gain, float *most)
+{
+    int count = 0;
+    *most = 0;
+    for (int i = 0; i < a->width * a->height; i++) {
+        size_t at = (size_t)(i / a->width) * (size_t)a->stride + (size_t)(i % a->width);
+        shade_vec4 p = ((const shade_vec4 *)a->color)[at], q = ((const shade_vec4 *)b->color)[at];
+        shade_vec3 d = shade_sub(shade_v3(p.x, p.y, p.z), shade_v3(q.x, q.y, q.z)), s, t;
+        d = shade_max(d, shade_neg(d));
+        s = shade_srgb_from_linear(shade_v3(p.x, p.y, p.z));
+        t = shade_srgb_from_linear(shade_v3(q.x, q.y, q.z));
+        count += (int)(255 * s.x + 0.5f) != (int)(255 * t.x + 0.5f) ||
+                 (int)(255 * s.y + 0.5f) != (int)(255 * t.y + 0.5f) ||
+                 (int)(255 * s.z + 0.5f) != (int)(255 * t.z + 0.5f);
+        *most = d.x > *most ? d.x : *most;
+        *most = d.y > *most ? d.y : *most;
+        *most = d.z > *most ? d.z : *most;
+        ((shade_vec4 *)out->color)[at] = shade_v4(gain * d.x, gain * d.y, gain * d.z, 1);
+    }
+    return count;
+}
+
 /* The matrix from pixels of the finished picture to clip space, for shade_draw_lines */
 static inline shade_mat4 canvas_from_pixels(const canvas *c)
 {

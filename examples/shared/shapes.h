@@ -119,6 +119,30 @@ static inline owned_mesh shape_knot(int cells)
     return m;
 }
 
+/* A square with round corners of so many facets, radius .5, from y = -1 to y = 1.  The normals are
+   those of its round side; triangles come in fours: two of the side, one of each lid. */
+static inline owned_mesh shape_block(int facets)
+{
+    const uint32_t ring = 4 * ((uint32_t)facets + 1), top = 2 * ring, below = top + 1;
+    owned_mesh m = mesh_new((int)below + 1, (int)(12 * ring));
+    uint32_t *out = m.indices;
+    for (uint32_t i = 0; i < ring; i++) {
+        uint32_t a = i, b = (i + 1) % ring, c = a + ring, d = b + ring;
+        uint32_t triangles[12] = { a, c, d, a, d, b, top, a, b, below, d, c };
+        int quarter = (int)i / (facets + 1);
+        float part = (float)((int)i % (facets + 1)) / (float)facets;
+        shade_vec2 t = mesh_turn(((float)quarter + part) / 4);
+        shade_vec2 corner = mesh_turn(((float)quarter + 0.5f) / 4);
+        float x = 0.5f * t.x + 0.707107f * corner.x, z = -0.5f * t.y - 0.707107f * corner.y;
+        mesh_put(&m, (int)a, shade_v3(x, 1, z), shade_v3(t.x, 0, -t.y), 0, 0);
+        mesh_put(&m, (int)c, shade_v3(x, -1, z), shade_v3(t.x, 0, -t.y), 0, 0);
+        for (int k = 0; k < 12; k++) *out++ = triangles[k];
+    }
+    mesh_put(&m, (int)top, shade_v3(0, 1, 0), shade_v3(0, 1, 0), 0, 0);
+    mesh_put(&m, (int)below, shade_v3(0, -1, 0), shade_v3(0, -1, 0), 0, 0);
+    return m;
+}
+
 /* Transforms points and normals by a matrix that does not scale. */
 static inline owned_mesh shape_moved(owned_mesh m, shade_mat4 at)
 {

@@ -1,5 +1,5 @@
-/* pictures.c - pixels that resolve reads and writes: blocks at every edge of a picture whose
-   memory ends with the last pixel; offsets in the greatest picture. */
+/* pictures.c - pixels that resolve and mipmaps read and write: blocks at every edge of a picture
+   whose memory ends with the last pixel; offsets in the greatest picture. */
 #include "prove.h"
 
 enum { WIDTH = 9, HEIGHT = 3 };
@@ -27,6 +27,25 @@ static void prove_resolve(shade_format format, int factor)
         }
 }
 
+/* a level of mipmaps from the one before, in memory that ends with the last texel of each */
+static void prove_shrink(shade_format format, int width, int height)
+{
+    const size_t bytes = shade__pixel_bytes(format);
+    in.format = out.format = format;
+    in.width = width;
+    in.height = height;
+    out.width = width / 2 > 0 ? width / 2 : 1;
+    out.height = height / 2 > 0 ? height / 2 : 1;
+    in.color = fine + sizeof fine - (size_t)(width * height) * bytes;
+    out.color = coarse + sizeof coarse - (size_t)(out.width * out.height) * bytes;
+    for (int y = 0; y < out.height; y++)
+        for (int x = 0; x < out.width; x++) {
+            float mean[4 * SHADE_LANES] = { 0 };
+            shade__shrink(&in, &out, x, y, mean);
+            shade__store_block(&out, mean, x, y, 1, shade__pixel_at(&out, x, y));
+        }
+}
+
 /* offsets of pixels in the greatest picture, its rows however far apart */
 static void prove_offsets(void)
 {
@@ -47,6 +66,10 @@ int main(void)
         prove_resolve(SHADE_FORMAT_RGB565, factor);
     }
     prove_resolve(SHADE_FORMAT_RGBA32F, 3);
+    prove_shrink(SHADE_FORMAT_RGBA8, 17, 5);
+    prove_shrink(SHADE_FORMAT_RGB565, 6, 9);
+    prove_shrink(SHADE_FORMAT_A8, 7, 1);
+    prove_shrink(SHADE_FORMAT_RGBA32F, 3, 8);
     prove_offsets();
     return 0;
 }

@@ -30,14 +30,14 @@ static void prove_reach(void)
 }
 
 /* Columns of a tile at the end of the memory of depths.  Only differences of positions count; more
-   rows touch more.  beside: pixels from where the edges are given to the tile's first column. */
-static void prove_columns(int width, int less_only, int kind, int beside)
+   rows touch more.  beside, above: pixels and tiles from where the edges are given to the tile. */
+static void prove_columns(int width, int less_only, int kind, int beside, int above)
 {
     shade__tile tile;
     tile.x = 8192;
     tile.y = 8192;
     edges.x = 8192 + ANY_OF(0, beside);
-    edges.y = 8192 - (beside ? ANY_OF(0, 2) * SHADE__TILE_ROWS : 0);
+    edges.y = 8192 - ANY_OF(0, above) * SHADE__TILE_ROWS;
     tile.rows = SHADE__TILE_ROWS;
     tile.skip = ANY_OF(0, SHADE__TILE - 1);
     tile.columns = SHADE__TILE;
@@ -50,15 +50,15 @@ static void prove_columns(int width, int less_only, int kind, int beside)
     shade__test_columns(&plan, &t, &edges, &tile, SHADE__TILE - width, width, less_only, kind);
 }
 
-/* The edges of a narrow triangle. */
-static void prove_narrow(int width, int less_only)
+/* The edges of a narrow triangle of so many tiles, one above the other. */
+static void prove_narrow(int width, int less_only, int tiles, int32_t step)
 {
     for (int k = 0; k < 3; k++) {
         edges.e[k] = ANY_WITHIN(1 << 28);
-        edges.dx[k] = ANY_WITHIN(2 * FAR);
-        edges.dy[k] = ANY_WITHIN(2 * FAR);
+        edges.dx[k] = ANY_WITHIN(step);
+        edges.dy[k] = ANY_WITHIN(step);
     }
-    prove_columns(width, less_only, SHADE__CROSSED, SHADE__TILE - 1);
+    prove_columns(width, less_only, SHADE__CROSSED, SHADE__TILE - 1, tiles - 1);
 }
 
 /* Edges that cross a tile.  The guard band is 3 pictures wide and high, so that steps are below
@@ -70,7 +70,7 @@ static void prove_crossed(int width, int less_only, int kind)
         edges.dx[k] = ANY_WITHIN(FAR);
         edges.dy[k] = ANY_WITHIN(FAR);
     }
-    prove_columns(width, less_only, kind, 0);
+    prove_columns(width, less_only, kind, 0, 0);
 }
 
 int main(void)
@@ -87,8 +87,9 @@ int main(void)
     plan.early_test.write = any_mask();
     prove_reach();
     for (int less_only = 0; less_only < 2; less_only++) {
-        prove_narrow(8, less_only);
-        prove_narrow(16, less_only);
+        prove_narrow(8, less_only, 3, 2 * FAR);
+        prove_narrow(16, less_only, 3, 2 * FAR);
+        prove_narrow(16, less_only, 64, 1 << 21);
         prove_crossed(16, less_only, SHADE__SKIPPED);
         prove_crossed(SHADE__TILE, less_only, SHADE__FULL);
     }
