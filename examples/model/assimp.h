@@ -19,6 +19,7 @@ typedef struct tree {
     mesh_reader *reader;
     mesh_floats positions, normals, texcoords, colors;
     faces faces;
+    model *model; /* gets the names of nodes */
     int textured, colored, lacks_normals, linear;
     unsigned depth;
 } tree;
@@ -105,8 +106,13 @@ static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
 static int tree_node(tree *t, const struct aiNode *node, shade_mat4 above)
 {
     shade_mat4 at = shade_mat4_mul(above, tree_matrix(&node->mTransformation));
-    int failed = 0;
+    int failed = 0, object;
     if (t->depth > 1000) return mesh_fail(t->reader, "nodes more than 1000 deep");
+    if (node->mNumMeshes) {
+        object = model_add_object(t->model, node->mName.data, strlen(node->mName.data));
+        if (object < 0 || faces_object(&t->faces, object))
+            return mesh_fail(t->reader, "out of memory");
+    }
     for (unsigned i = 0; i < node->mNumMeshes && !failed; i++)
         failed = tree_mesh(t, t->scene->mMeshes[node->mMeshes[i]], at);
     t->depth++;
@@ -323,6 +329,7 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     aiReleasePropertyStore(set);
     if (!t.scene) return assimp_failed(&r);
     t.reader = &r;
+    t.model = m;
     t.linear = !strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb");
     m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
     failed = tree_surfaces(&t, m);

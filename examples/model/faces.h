@@ -9,6 +9,7 @@
 typedef struct faces {
     mesh_uints stream;      /* for each face the number of its corners, then the corners */
     mesh_uints change;      /* pairs: a place in the stream, the surface from there on */
+    mesh_uints object;      /* pairs: a place in the stream, the object from there on */
     size_t open, triangles; /* open: the place of the last face's count */
 } faces;
 
@@ -16,12 +17,19 @@ static inline void faces_free(faces *f)
 {
     free(f->stream.v);
     free(f->change.v);
+    free(f->object.v);
 }
 
 static inline int faces_surface(faces *f, int surface)
 {
     return mesh_push_uint(&f->change, (uint32_t)f->stream.count) ||
            mesh_push_uint(&f->change, (uint32_t)surface);
+}
+
+static inline int faces_object(faces *f, int object)
+{
+    return mesh_push_uint(&f->object, (uint32_t)f->stream.count) ||
+           mesh_push_uint(&f->object, (uint32_t)object);
 }
 
 /* A face is begun, gets its corners, and is ended.  These functions return non-zero where memory or
@@ -50,12 +58,14 @@ static inline size_t faces_end(faces *f)
 }
 
 /* Counts the indices of each surface where out is NULL; otherwise writes the indices of each
-   surface from its place in first on. */
-static inline int faces_walk(const faces *f, const float *positions, size_t *first, uint32_t *out)
+   surface from its place in first on, and the object of each triangle where object is not NULL. */
+static inline int faces_walk(const faces *f, const float *positions, size_t *first, uint32_t *out,
+                             uint32_t *object)
 {
     static const ears empty;
     ears scratch = empty;
-    size_t change = 0, surface = 0;
+    size_t change = 0, surface = 0, objects = 0;
+    uint32_t number = 0;
     int failed = 0;
     for (size_t at = 0; at < f->stream.count && !failed; at += f->stream.v[at] + (size_t)1) {
         size_t corners = f->stream.v[at], indices = 3 * (corners - 2);
@@ -63,6 +73,11 @@ static inline int faces_walk(const faces *f, const float *positions, size_t *fir
             surface = f->change.v[change + 1];
             change += 2;
         }
+        while (objects < f->object.count && f->object.v[objects] <= at) {
+            number = f->object.v[objects + 1];
+            objects += 2;
+        }
+        for (size_t i = 0; object && i < corners - 2; i++) object[first[surface] / 3 + i] = number;
         if (out)
             failed =
                 ears_cut(&scratch, positions, f->stream.v + at + 1, corners, out + first[surface]);
@@ -81,8 +96,9 @@ static inline int faces_finish(const faces *f, model *m)
     int failed = 1;
     m->part = (model_part *)calloc(surfaces, sizeof *m->part);
     m->mesh.indices = (uint32_t *)malloc(3 * f->triangles * sizeof(uint32_t));
-    if (!first || !m->part || !m->mesh.indices) goto done;
-    faces_walk(f, NULL, first, NULL);
+    if (f->object.count) m->object = (uint32_t *)malloc(f->triangles * sizeof(uint32_t));
+    if (!first || !m->part || !m->mesh.indices || (f->object.count && !m->object)) goto done;
+    faces_walk(f, NULL, first, NULL, NULL);
     for (size_t s = 0; s < surfaces; s++) {
         size_t count = first[s];
         const model_part part = { (int)sum, (int)count, (int)s, 0, 0 };
@@ -90,7 +106,7 @@ static inline int faces_finish(const faces *f, model *m)
         first[s] = sum;
         sum += count;
     }
-    failed = faces_walk(f, m->mesh.positions, first, m->mesh.indices);
+    failed = faces_walk(f, m->mesh.positions, first, m->mesh.indices, m->object);
 done:
     free(first);
     return failed;

@@ -35,6 +35,10 @@ typedef struct model {
     char **library; /* files that describe the surfaces */
     int surface_count, part_count, picture_count, library_count;
     size_t surface_room, picture_room, library_room;
+    char **object_name; /* what the file calls objects, groups or nodes */
+    uint32_t *object;   /* of each triangle as the file was read; NULL: the file names none */
+    int object_count;
+    size_t object_room;
     int normals_given; /* each vertex had a normal in the file */
     int z_up;
     char warning[400]; /* what the picture lacks; "": nothing */
@@ -49,6 +53,9 @@ static inline void model_free(model *m)
         free(m->surface[i].map);
     }
     for (int i = 0; i < m->library_count; i++) free(m->library[i]);
+    for (int i = 0; i < m->object_count; i++) free(m->object_name[i]);
+    free(m->object_name);
+    free(m->object);
     for (int i = 0; i < m->picture_count; i++) {
         free(m->picture[i].name);
         free(m->picture[i].pixels);
@@ -116,6 +123,28 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
     grown[m->surface_count] = fresh;
     grown[m->surface_count].name = model_text(name, n);
     return grown[m->surface_count].name ? m->surface_count++ : -1;
+}
+
+/* Adds an object and returns its number; beyond MODEL_SURFACES of them all are the last.  -1: out
+   of memory. */
+static inline int model_add_object(model *m, const void *name, size_t n)
+{
+    char **grown;
+    if (m->object_count >= MODEL_SURFACES) return m->object_count - 1;
+    grown = (char **)mesh_grow(m->object_name, (size_t)m->object_count, &m->object_room,
+                               sizeof *grown);
+    if (!grown) return -1;
+    m->object_name = grown;
+    grown[m->object_count] = model_text(name, n);
+    return grown[m->object_count] ? m->object_count++ : -1;
+}
+
+/* The object of that name, added if new */
+static inline int model_find_object(model *m, const void *name, size_t n)
+{
+    for (int i = m->object_count - 1; i >= 0; i--)
+        if (strlen(m->object_name[i]) == n && !memcmp(m->object_name[i], name, n)) return i;
+    return model_add_object(m, name, n);
 }
 
 static inline int model_add_library(model *m, const void *name, size_t n)

@@ -1,7 +1,7 @@
 /* obj.h - reads OBJ: v (with optional w or red green blue), vt, vn and f, every form of index (v,
-   v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any shape, usemtl and
-   mtllib, continued lines, comments, any line ends.  All other statements are skipped.  One vertex
-   is made for each different v/vt/vn. */
+   v/vt, v//vn, v/vt/vn, negative ones count back from the last), polygons of any shape, usemtl,
+   mtllib, o and g, continued lines, comments, any line ends.  All other statements are skipped.
+   One vertex is made for each different v/vt/vn. */
 #ifndef MODEL_OBJ_H
 #define MODEL_OBJ_H
 
@@ -13,6 +13,7 @@ typedef struct obj_data {
     mesh_floats list[3], color;          /* color: of the first so many v; empty: none has one */
     mesh_set corners;                    /* v, vt, vn, counted from 1; 0: absent */
     faces faces;
+    int has_objects;                     /* an o was read: groups do not count */
     uint32_t highest[3];                 /* index used so far, and where: it may be defined later */
     long long highest_line[3];
 } obj_data;
@@ -121,6 +122,20 @@ static inline int obj_surface(mesh_reader *r, obj_data *o, model *m)
     return faces_surface(&o->faces, surface) ? mesh_fail(r, "out of memory") : 0;
 }
 
+/* o and g: a name to the end of the line.  Groups are objects where the file has no o. */
+static inline int obj_object(mesh_reader *r, obj_data *o, model *m, int is_object)
+{
+    const unsigned char *begin = mesh_take_line(r);
+    int object;
+    if (!is_object && o->has_objects) return 0;
+    if (is_object) o->has_objects = 1;
+    if (!m->object_count && o->faces.stream.count && model_find_object(m, "", 0) < 0)
+        return mesh_fail(r, "out of memory");
+    object = model_find_object(m, begin, (size_t)(r->at - begin));
+    if (object < 0 || faces_object(&o->faces, object)) return mesh_fail(r, "out of memory");
+    return 0;
+}
+
 static inline int obj_library(mesh_reader *r, model *m)
 {
     const unsigned char *begin = mesh_take_line(r);
@@ -136,6 +151,8 @@ static inline int obj_statement(mesh_reader *r, obj_data *o, model *m)
     if (mesh_take_word(r, "f")) return obj_face(r, o);
     if (mesh_take_word(r, "usemtl")) return obj_surface(r, o, m);
     if (mesh_take_word(r, "mtllib")) return obj_library(r, m);
+    if (mesh_take_word(r, "o")) return obj_object(r, o, m, 1);
+    if (mesh_take_word(r, "g")) return obj_object(r, o, m, 0);
     return 0;
 }
 

@@ -94,10 +94,10 @@ static int mesh_unshare(owned_mesh *m)
     return lacks;
 }
 
-/* Normals for a model that has none: rounded where faces meet at less than 40 degrees, sharp
-   elsewhere; of each face with flat.  A mesh where that would take long stays round all over.
+/* Normals for a model that has none: rounded where the cosine between faces is larger than least,
+   sharp elsewhere; of each face with flat.  A mesh where that would take long stays round all over.
    Non-zero: out of memory. */
-static int mesh_crease(owned_mesh *m, int flat)
+static int mesh_crease_at(owned_mesh *m, int flat, float least)
 {
     size_t n = (size_t)m->view.index_count, bytes = shade_mesh_corner_normals_bytes(&m->view);
     double cost = flat ? 0 : crease_cost(m);
@@ -110,7 +110,7 @@ static int mesh_crease(owned_mesh *m, int flat)
     if (!flat) memory = malloc(bytes);
     if (normal && (memory || flat)) failed = 0;
     if (!failed && !flat)
-        failed = shade_mesh_corner_normals(&m->view, 0.766f, normal, memory, bytes) != SHADE_OK;
+        failed = shade_mesh_corner_normals(&m->view, least, normal, memory, bytes) != SHADE_OK;
     free(memory);
     if (!failed) failed = mesh_unshare(m);
     for (size_t i = 0; i < n && !failed && flat; i++) {
@@ -123,6 +123,9 @@ static int mesh_crease(owned_mesh *m, int flat)
     free(normal);
     return failed;
 }
+
+/* The same, rounded where faces meet at less than 40 degrees */
+static int mesh_crease(owned_mesh *m, int flat) { return mesh_crease_at(m, flat, 0.766f); }
 
 /* Sorts the triangles of each part in space and finds the boxes around runs of them, by which
    bands skip what they do not see.  Non-zero: out of memory. */

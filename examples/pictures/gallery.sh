@@ -1,13 +1,16 @@
 #!/bin/sh
 # gallery.sh - the pictures of the README: out/*.ppm as PNG, in 256 colours where dither hides that
 # (pngquant's 99 of 100), else in 7 bits a channel.  The picture for the microcontroller's display is
-# shown three times as large.  Needs netpbm (pnmenlarge, pamdepth, pnmtopng) and pngquant.
-for tool in pnmenlarge pamdepth pnmtopng pngquant; do
+# shown three times as large.  Needs netpbm (pnmenlarge, pamdepth, pnmtopng), pngquant and python3.
+for tool in pnmenlarge pamdepth pnmtopng pngquant python3; do
     command -v $tool >/dev/null || { echo "gallery: no $tool here"; exit 1; }
 done
 make -s -C examples/microcontroller ../../build/microcontroller/picture.565 || exit 1
 pnmenlarge 3 build/microcontroller/picture.ppm >build/microcontroller.ppm || exit 1
-for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller.ppm; do
+mkdir -p build/parts && python3 tests/thumbnail/parts.py build/parts || exit 1
+build/thumbnail build/parts/assembly.obj build/drawing.ppm --views front,right,top,iso --ortho \
+    --hidden --ids --dimensions --size 1200x900 || exit 1
+for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller.ppm build/drawing.ppm; do
     least=99
     case $ppm in */20_*) least=97 ;; */39_*) least=92 ;; esac    # large; looked at
     png=examples/pictures/$(basename "$ppm" .ppm).png

@@ -3,6 +3,7 @@
 #define THUMBNAIL_OPTIONS_H
 
 #include "../model/options.h"
+#include "drawing_options.h"
 #include "shade.h"
 
 static const char thumbnail_usage[] =
@@ -24,7 +25,7 @@ static const char thumbnail_usage[] =
     "  --max-triangles N     refuses larger models (20000000; 0: no limit)\n"
     "  --max-seconds N       gives up after N seconds (0: no limit)\n"
     "  --quiet               prints errors only, no progress and no warnings\n"
-    "  --help                prints this text\n";
+    "  --help                prints this text\n" DRAWING_USAGE;
 
 enum { THUMBNAIL_GRADIENT, THUMBNAIL_PLAIN, THUMBNAIL_NONE }; /* backgrounds */
 
@@ -38,6 +39,7 @@ typedef struct options {
     shade_material material;
     shade_model model;
     shade_shading shading;
+    drawing_options drawing;
 } options;
 
 /* 1: the names are equal.  Capitals equal small letters, dashes and underlines equal spaces. */
@@ -157,6 +159,8 @@ static int take_name(options *o, const char *name, const char *value)
 static int take(void *to, const char *name, const char *value)
 {
     options *o = (options *)to;
+    int taken = name ? drawing_take(&o->drawing, name, value) : -1;
+    if (taken >= 0) return taken;
     if (!name)
         *(o->input ? &o->output : &o->input) = value;
     else if (!strcmp(name, "--png"))
@@ -201,6 +205,7 @@ static int check_options(const options *o)
         fputs(thumbnail_usage, stderr);
         return 1;
     }
+    if (drawing_check(&o->drawing, o->output, o->background == THUMBNAIL_NONE)) return 1;
     if (o->width * o->samples > 16384 || o->height * o->samples > 16384)
         return complain("size times samples must stay within 16384");
     if (o->background == THUMBNAIL_NONE && !o->png)
@@ -217,9 +222,11 @@ static int read_options(options *o, int argc, char **argv)
     static const char *const valued[] = {
         "--size",   "--background", "--color",   "--material", "--model",         "--shading",
         "--rotate", "--up",         "--samples", "--threads",  "--max-triangles", "--max-seconds",
-        NULL
+        "--views",  "--angle",      "--depth",   "--id-map",   "--json",          NULL
     };
-    static const char *const flags[] = { "--png", "--no-shadow", "--quiet", NULL };
+    static const char *const flags[] = { "--png",   "--no-shadow", "--quiet",
+                                         "--ortho", "--edges",     "--hidden",
+                                         "--ids",   "--dimensions", NULL };
     static const command c = { "thumbnail", thumbnail_usage, valued, flags, 2, take };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;

@@ -35,6 +35,12 @@ static uint8_t *picture_bytes(const shade_target *picture, int channels)
     size_t n = (size_t)picture->width * (size_t)picture->height;
     const float *from = (const float *)picture->color;
     uint8_t *bytes = (uint8_t *)malloc(n * (size_t)channels), *to = bytes;
+    if (bytes && picture->format == SHADE_FORMAT_RGBA8) { /* holds what is wanted */
+        for (size_t i = 0; i < n; i++)
+            memcpy(to + (size_t)channels * i, (const uint8_t *)picture->color + 4 * i,
+                   (size_t)channels);
+        return bytes;
+    }
     for (size_t i = 0; bytes && i < n; i++, from += 4) {
         float a = from[3], k = channels == 4 && a > 0 ? 1 / a : 1;
         shade_vec3 c = shade_srgb_from_linear(shade_v3(k * from[0], k * from[1], k * from[2]));
@@ -46,9 +52,19 @@ static uint8_t *picture_bytes(const shade_target *picture, int channels)
     return bytes;
 }
 
-/* Returns 0, or 1 with the reason in errno, which is 0 where memory ran out. */
-static int write_picture(FILE *file, const shade_target *picture, const options *o)
+/* Writes what data says: 0, or 1 with the reason in errno, which is 0 where memory ran out. */
+typedef int save_writer(FILE *file, const void *data);
+
+/* The data of write_picture */
+typedef struct picture_file {
+    const shade_target *picture;
+    const options *options;
+} picture_file;
+
+static int write_picture(FILE *file, const void *data)
 {
+    const shade_target *picture = ((const picture_file *)data)->picture;
+    const options *o = ((const picture_file *)data)->options;
     errno = 0;
     if (!o->png) return shade_encode_ppm(ppm_write, file, picture) != SHADE_OK;
 #ifdef THUMBNAIL_STB
@@ -74,10 +90,9 @@ static int save_failed(const char *name)
 
 /* Writes to standard output, or to something that is no plain file and that a rename would
    replace. */
-static int save_directly(FILE *file, const char *name, const shade_target *picture,
-                         const options *o)
+static int save_directly(FILE *file, const char *name, save_writer *writes, const void *data)
 {
-    int failed = !file || write_picture(file, picture, o);
+    int failed = !file || writes(file, data);
     if (file && (file == stdout ? fflush(file) : fclose(file))) failed = 1;
     return failed ? save_failed(name) : 0;
 }
@@ -101,7 +116,7 @@ static FILE *open_part(const char *path)
     return file;
 }
 
-static int save_file(const char *path, const shade_target *picture, const options *o)
+static int save_file(const char *path, save_writer *writes, const void *data)
 {
     struct stat there;
     FILE *file;
@@ -111,10 +126,10 @@ static int save_file(const char *path, const shade_target *picture, const option
         return save_failed(path);
     }
     if (!stat(path, &there) && !S_ISREG(there.st_mode))
-        return save_directly(fopen(path, "wb"), path, picture, o);
+        return save_directly(fopen(path, "wb"), path, writes, data);
     file = open_part(path);
     if (!file) return save_failed(path);
-    failed = write_picture(file, picture, o);
+    failed = writes(file, data);
     if (fclose(file)) failed = 1;
     if (failed || rename(guard_part, path)) {
         failed = save_failed(path);
@@ -124,18 +139,24 @@ static int save_file(const char *path, const shade_target *picture, const option
     return failed;
 }
 #else
-static int save_file(const char *path, const shade_target *picture, const options *o)
+static int save_file(const char *path, save_writer *writes, const void *data)
 {
-    int failed = save_directly(fopen(path, "wb"), path, picture, o);
+    int failed = save_directly(fopen(path, "wb"), path, writes, data);
     if (failed) remove(path);
     return failed;
 }
 #endif
 
+static int save_bytes(const char *path, save_writer *writes, const void *data)
+{
+    if (!strcmp(path, "-")) return save_directly(stdout, "standard output", writes, data);
+    return save_file(path, writes, data);
+}
+
 static int save(const shade_target *picture, const options *o)
 {
+    const picture_file f = { picture, o };
     guard_doing = "writing the picture";
-    if (!strcmp(o->output, "-")) return save_directly(stdout, "standard output", picture, o);
-    return save_file(o->output, picture, o);
+    return save_bytes(o->output, write_picture, &f);
 }
 #endif

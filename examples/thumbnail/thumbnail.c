@@ -20,6 +20,7 @@
 #include "../model/prepare.h"
 #include "draw.h"
 #include "read.h"
+#include "drawing.h"
 #include <time.h>
 
 /* ---- progress ------------------------------------------------------------------------------- */
@@ -64,6 +65,7 @@ static int read_model(const options *o, model *m, progress *p)
     report_next(p, "");
     if (failed) return complain("%s", error);
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
+    if (o->drawing.view_count) return 0;
     mesh_stand(&m->mesh, o->up >= 0 ? o->up : m->z_up ? 2 : 1, o->rotate);
     if (o->shading == SHADE_SHADING_PER_FACE || !m->normals_given)
         failed = mesh_crease(&m->mesh, o->shading == SHADE_SHADING_PER_FACE);
@@ -109,7 +111,10 @@ int main(int argc, char **argv)
     p.silent = o.quiet || !guard_terminal();
     guard_begin(o.max_seconds);
     end = read_model(&o, &m, &p);
-    if (!end) end = draw_and_save(&o, &m, &p);
+    if (!end && o.drawing.view_count)
+        end = drawing_run(&o, &m, report, &p);
+    else if (!end)
+        end = draw_and_save(&o, &m, &p);
     model_free(&m);
     return end;
 }
