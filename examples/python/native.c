@@ -43,6 +43,8 @@ typedef struct python_job {
 typedef struct survey {
     const python_view *view;
     shade_mat4 camera;            /* the view as far as it is known to be rigid */
+    float *nearest;               /* the least depth so far, from the row first on */
+    int first;
     int32_t id;
 } survey;
 
@@ -50,7 +52,10 @@ static void survey_pixel(const survey *s, const shade_fragments *in, int i)
 {
     const python_view *v = s->view;
     const size_t at = (size_t)in->y[i] * (size_t)v->width + (size_t)in->x[i];
+    float *nearest = &s->nearest[at - (size_t)s->first * (size_t)v->width];
     shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
+    if (!(in->z[i] < *nearest)) return;
+    *nearest = in->z[i];
     if (v->ids) v->ids[at] = s->id;
     if (v->depth) v->depth[at] = -shade_mat4_transform_point(s->camera, P).z;
     if (v->normals) {
@@ -60,9 +65,8 @@ static void survey_pixel(const survey *s, const shade_fragments *in, int i)
     }
 }
 
-/* A fragment shader that notes its pixels beside the target.  Fragments come in the order of their
-   triangles, and only those that pass the depth test, so that the last one to be noted is the one
-   that is seen. */
+/* A fragment shader that notes its pixels beside the target.  It compares depths itself, because
+   shade.h may test them after the shader. */
 static void survey_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                             shade_colors *SHADE_RESTRICT out)
 {
@@ -70,7 +74,7 @@ static void survey_fragment(const void *uniforms, const shade_fragments *SHADE_R
     (void)out;
 }
 
-/* ---- drawing ---------------------------------------------------------------------------------- */
+/* ---- drawing --------------------------------------------------------------------------------- */
 
 static shade_draw_state item_state(const python_item *items, const python_view *v, int i)
 {
@@ -124,13 +128,15 @@ static shade_result draw_colors(const shade_target *target, const python_job *jo
     return result;
 }
 
-/* Draws once more, one sample a pixel, for depth, ids and normals.  The target's memory is that of
-   the colours, which are finished. */
+/* Draws once more, one sample a pixel, for depth, ids and normals.  Behind the unread colours
+   there is room for as many depths. */
 static shade_result draw_survey(const shade_target *target, const python_job *job,
                                 const python_view *v)
 {
-    survey s = { v, v->view, 0 };
+    const size_t pixels = (size_t)target->width * (size_t)target->row_count;
+    survey s = { v, v->view, (float *)target->color + pixels, target->row_offset, 0 };
     shade_result result = shade_clear(target, shade_v4(0, 0, 0, 0), 1);
+    for (size_t i = 0; i < pixels; i++) s.nearest[i] = 1;
     for (int i = 0; i < job->item_count && !result; i++) {
         shade_draw_state state = item_state(job->items, v, i);
         s.id = i;
@@ -150,14 +156,15 @@ static void divide_alpha(float *rgba, size_t pixels)
         for (int k = 0; k < 3 && rgba[3] > 0; k++) rgba[k] /= rgba[3];
 }
 
-/* The mean of the samples, through floats where the background is transparent */
+/* The mean of several samples, through floats where the background is transparent */
 static shade_result resolve(const shade_target *out, const shade_target *in, int samples,
                             float alpha)
 {
     const size_t pixels = (size_t)out->width * (size_t)out->row_count;
     shade_target floats = *out;
     shade_result result;
-    if (alpha >= 1 || samples == 1) return shade_resolve(out, in, samples);
+    if (samples == 1) return SHADE_OK;
+    if (alpha >= 1) return shade_resolve(out, in, samples);
     floats.format = SHADE_FORMAT_RGBA32F;
     floats.color = malloc(pixels * 16);
     if (!floats.color) return SHADE_ERROR_CAPACITY;
@@ -183,9 +190,10 @@ static void clear_survey(const python_view *v, size_t first, size_t pixels)
     }
 }
 
-/* Draws the rows of out, whose memory they are, with samples in large's. */
+/* Draws the rows of out, whose memory they are, with samples in large's.  The survey needs colours
+   of its own, which nobody reads. */
 static shade_result draw_rows(const python_job *job, const python_view *v, shade_target *out,
-                              shade_target *large)
+                              shade_target *large, void *unread)
 {
     shade_result result;
     const size_t first = (size_t)out->row_offset * (size_t)v->width;
@@ -198,35 +206,49 @@ static shade_result draw_rows(const python_job *job, const python_view *v, shade
     }
     if (!v->ids && !v->depth && !v->normals) return SHADE_OK;
     clear_survey(v, first, pixels);
-    out->color = large->color;
+    out->color = unread;
+    out->srgb = 0;
     out->depth = large->depth;
     return draw_survey(out, job, v);
 }
 
+/* Draws rows whose targets have no memory yet.  A picture of one sample a pixel is drawn where it
+   stays. */
+static shade_result draw_strip(const python_job *job, const python_view *v, shade_target *out,
+                               shade_target *large)
+{
+    const size_t first = 4 * (size_t)out->row_offset * (size_t)v->width;
+    const size_t bytes = 4 * (size_t)out->row_count * (size_t)v->width;
+    const size_t most = bytes * (size_t)(v->samples * v->samples);
+    const int in_place = v->rgba && v->channels == 4;
+    shade_result result = SHADE_ERROR_CAPACITY;
+    void *own = in_place ? NULL : malloc(bytes), *depth = malloc(most);
+    void *color = v->samples > 1 ? malloc(most) : NULL, *spare = NULL;
+    out->color = in_place ? (void *)(v->rgba + first) : own;
+    large->color = v->samples > 1 ? color : out->color;
+    large->depth = (float *)depth;
+    if (v->samples == 1) spare = malloc(2 * bytes);
+    if (out->color && large->color && depth && (spare || v->samples > 1))
+        result = draw_rows(job, v, out, large, v->samples > 1 ? color : spare);
+    free(own);
+    free(depth);
+    free(color);
+    free(spare);
+    return result;
+}
+
 static shade_result draw_band(const python_job *job, const python_view *v, int band)
 {
-    const long long rows = v->height, s = v->samples;
-    shade_target out = { .width = v->width, .height = v->height, .srgb = 1 }, large = out;
-    size_t bytes;
-    shade_result result = SHADE_ERROR_CAPACITY;
+    const long long rows = v->height;
+    shade_target out = { .width = v->width, .height = v->height, .srgb = 1 }, large;
     out.row_offset = (int)(rows * band / job->bands);
     out.row_count = (int)(rows * (band + 1) / job->bands) - out.row_offset;
-    if (!out.row_count) return SHADE_OK;
-    bytes = 4 * (size_t)out.row_count * (size_t)v->width;
-    large.width *= (int)s;
-    large.height *= (int)s;
-    large.row_offset = out.row_offset * (int)s;
-    large.row_count = out.row_count * (int)s;
-    large.color = malloc(bytes * (size_t)(s * s));
-    large.depth = (float *)malloc(bytes * (size_t)(s * s));
-    out.color = v->channels == 4 && v->rgba
-        ? (void *)(v->rgba + 4 * (size_t)out.row_offset * (size_t)v->width) : malloc(bytes);
-    uint8_t *own = v->channels == 4 && v->rgba ? NULL : (uint8_t *)out.color;
-    if (large.color && large.depth && out.color) result = draw_rows(job, v, &out, &large);
-    free(large.color);
-    free(large.depth);
-    free(own);
-    return result;
+    large = out;
+    large.width *= v->samples;
+    large.height *= v->samples;
+    large.row_offset *= v->samples;
+    large.row_count *= v->samples;
+    return out.row_count ? draw_strip(job, v, &out, &large) : SHADE_OK;
 }
 
 static void draw_piece(void *data, int piece)
@@ -268,7 +290,7 @@ int python_draw(const python_item *items, int item_count, const python_view *vie
     return result;
 }
 
-/* ---- the equations over arrays ------------------------------------------------------------------ */
+/* ---- the equations over arrays --------------------------------------------------------------- */
 
 enum { ROWS = 3 * SHADE_LANES };
 
@@ -331,7 +353,7 @@ void python_linear(float *rgb, size_t count)
     }
 }
 
-/* ---- files of models ----------------------------------------------------------------------------- */
+/* ---- files of models ------------------------------------------------------------------------- */
 
 /* Reads an OBJ, STL or PLY file.  Returns NULL with a sentence in error. */
 SHADEDEF owned_mesh *python_load(const char *path, char *error, size_t room);

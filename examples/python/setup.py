@@ -66,12 +66,15 @@ class SourceWithHeaders(sdist):
                 sys.exit(f"{path} is missing from the archive")
 
 
+# Python's own flags often have -fwrapv, with which gcc makes no vectors of some loops: a small
+# picture takes twice as long.
+FLAGS = [] if sys.platform == "win32" else ["-O2", "-std=gnu99", "-fno-wrapv"]
 windows = sys.platform == "win32"
 setup(
     ext_modules=[Extension(
         "shade.libshade", ["native.c"], include_dirs=[str(top())],
         define_macros=[("_DEFAULT_SOURCE", None)],
-        extra_compile_args=[] if windows else ["-O2", "-std=gnu99", "-ffp-contract=off"],
+        extra_compile_args=FLAGS,
         extra_link_args=[] if windows else ["-lm", "-pthread"])],
     cmdclass={"build_ext": BuildLibrary, "bdist_wheel": PlatformWheel, "sdist": SourceWithHeaders},
 )

@@ -24,7 +24,8 @@ def main(words: list[str] | None = None) -> int:
         mesh = load(o.model, **({"color": o.color} if o.color else {}))
         views, edges = o.views.split(","), not o.no_edges
         if len(views) == 1:
-            picture = render(mesh, view=views[0], size=size, samples=o.samples, up=o.up, edges=edges)
+            picture = render(mesh, view=views[0], size=size, samples=o.samples, up=o.up,
+                             edges=edges)
         else:
             picture = sheet(mesh, views, size=size, samples=o.samples, up=o.up, edges=edges)
         picture.save(o.picture)

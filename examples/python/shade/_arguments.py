@@ -81,9 +81,9 @@ def choice(name: str, value: object, choices: Sequence[str]) -> str:
 
 def size(name: str, value: object) -> tuple[int, int]:
     """Width and height; one number is both."""
-    pair = (value, value) if isinstance(value, (int, np.integer)) else value
+    pair: Any = (value, value) if isinstance(value, (int, np.integer)) else value
     try:
-        width, height = pair  # type: ignore[misc]
+        width, height = pair
     except (TypeError, ValueError):
         raise Error(f"{name} must be (width, height), not {shown(value)}") from None
     return integer(f"{name}[0]", width, 1, 16384), integer(f"{name}[1]", height, 1, 16384)

@@ -15,7 +15,8 @@ Matrix = npt.NDArray[np.float64]
 Viewpoint = Union[str, Sequence[float]]
 #: Azimuth and elevation in degrees of the views that have names.
 VIEWS = {"front": (0.0, 0.0), "right": (90.0, 0.0), "back": (180.0, 0.0), "left": (270.0, 0.0),
-         "top": (0.0, 90.0), "bottom": (0.0, -90.0), "iso": (45.0, math.degrees(math.atan(0.5**0.5)))}
+         "top": (0.0, 90.0), "bottom": (0.0, -90.0),
+         "iso": (45.0, math.degrees(math.atan(0.5**0.5)))}
 
 
 @dataclass(frozen=True, eq=False)

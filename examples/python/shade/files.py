@@ -19,7 +19,7 @@ def _copied(address: int | None, count: int, columns: int, kind: Any) -> Any:
     return np.frombuffer(made, kind).reshape(count, columns).copy()
 
 
-def load(path: Union[str, "os.PathLike[str]"], **options: object) -> Mesh:
+def load(path: Union[str, "os.PathLike[str]"], **options: Any) -> Mesh:
     """Reads an STL (binary or text), OBJ or PLY file.  options are those of Mesh.
 
     Raises OSError where the file cannot be opened, and shade.Error with the line where it is wrong.
@@ -45,9 +45,9 @@ def load(path: Union[str, "os.PathLike[str]"], **options: object) -> Mesh:
         library.python_unload(owned)
     if vertices is None or faces is None:
         raise Error(f"{os.fsdecode(name)} has no triangles")
-    made = Mesh(vertices, faces, **options)  # type: ignore[arg-type]
+    made = Mesh(vertices, faces, **options)
     if colors is not None and "color" not in options:
         shown_colors = np.where(colors <= 0.0031308, 12.92 * colors,
                                 1.055 * np.maximum(colors, 0) ** (1 / 2.4) - 0.055)
-        made = Mesh(vertices, faces, color=shown_colors, **options)  # type: ignore[arg-type]
+        made = Mesh(vertices, faces, color=shown_colors, **options)
     return made

@@ -101,8 +101,8 @@ class Light:
     def point(position: Vector, color: Vector = WHITE,
               attenuation: Sequence[float] = (0, 0, 0)) -> Light:
         """A lamp at a position; attenuation is a, b, c of 1 / (a + b r + c r^2)."""
-        return Light((*_vector("position", position), 1.0), color, color, BLACK,
-                     *_vector("attenuation", attenuation))
+        a, b, c = _vector("attenuation", attenuation)
+        return Light((*_vector("position", position), 1.0), color, color, BLACK, a, b, c)
 
     @staticmethod
     def spot(position: Vector, aim: Vector, cutoff: float, exponent: float = 0.0,
@@ -157,8 +157,9 @@ class Lighting:
 
 
 def _unpacked(m: NativeMaterial) -> Material:
-    colors = (tuple(float(x) for x in c) for c in (m.emission, m.ambient, m.diffuse, m.specular))
-    return Material(*colors, float(m.shininess))
+    e, a, d, s = (tuple(float(x) for x in c)
+                  for c in (m.emission, m.ambient, m.diffuse, m.specular))
+    return Material(e, a, d, s, float(m.shininess))
 
 
 PRESETS = tuple(library.shade_preset_name(i).decode() for i in range(24))

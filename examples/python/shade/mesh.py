@@ -43,8 +43,8 @@ class Mesh:
         if (uv is None) != (texture is None):
             raise Error("uv and texture belong together: one of them is missing")
         if uv is not None:
-            self.uv = arguments.floats("uv", uv, (len(self.vertices), 2)) * (1, -1)
-            self.uv = np.ascontiguousarray(self.uv + np.float32([0, 1]), np.float32)
+            self.uv = arguments.floats("uv", uv, (len(self.vertices), 2)) 
+            self.uv = np.stack([self.uv[:, 0], 1 - self.uv[:, 1]], 1)
             self.texture = arguments.texture("texture", texture)
         self._take_normals(normals, by_face)
         self._chunks = self._make_chunks()
@@ -75,7 +75,8 @@ class Mesh:
                 own = self._creased()
             if kind == "smooth" and len(self.faces):
                 self.normals = np.empty_like(self.vertices)
-                check(library.shade_mesh_normals(ctypes.byref(self.native()), pointer(self.normals)), "normals")
+                native = ctypes.byref(self.native())
+                check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
             self.normals = arguments.floats("normals", normals, self.vertices.shape)
         if own is None and not by_face:
@@ -117,7 +118,8 @@ class Mesh:
         if count < 8:
             return None
         chunks = (Chunk * count)()
-        check(library.shade_mesh_chunks(ctypes.byref(self.native()), 0, chunks, count, None), "faces")
+        native = ctypes.byref(self.native())
+        check(library.shade_mesh_chunks(native, 0, chunks, count, None), "faces")
         return chunks
 
     def _make_map(self) -> Any:
@@ -149,9 +151,9 @@ class Mesh:
                               indices=pointer(welded), index_count=welded.size)
             room, count = (Edge * max(1, welded.size))(), ctypes.c_int()
             if welded.size:
-                check(library.shade_mesh_edges(ctypes.byref(mesh), room, welded.size, ctypes.byref(count)),
-                      "faces")
-            self._edges = np.frombuffer(room, np.int32).reshape(-1, 4)[:count.value]
+                check(library.shade_mesh_edges(ctypes.byref(mesh), room, welded.size,
+                                               ctypes.byref(count)), "faces")
+            self._edges = np.ctypeslib.as_array(room).view(np.int32).reshape(-1, 4)[:count.value]
             self._normals_of_edges(welded)
         return self._edges
 
@@ -208,9 +210,10 @@ def _listed(value: object) -> object:
     return np.empty((0, 3), np.float32) if rows == [] else rows
 
 
-def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, object]:
+def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, Any]:
     """Colours or texture of trimesh's .visual."""
-    visual, out = getattr(mesh, "visual", None), {}
+    visual = getattr(mesh, "visual", None)
+    out: dict[str, Any] = {}
     kind = getattr(visual, "kind", None)
     if kind in ("vertex", "face"):
         out["color"] = getattr(visual, f"{kind}_colors")
@@ -222,33 +225,33 @@ def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, object]:
         if image is not None and uv is not None and len(uv) == count[0]:
             convert = getattr(image, "convert", None)
             out = {"uv": uv, "texture": np.asarray(convert("RGBA") if convert else image)}
-        elif getattr(material, "main_color", None) is not None:
+        elif material is not None and hasattr(material, "main_color"):
             out["color"] = np.asarray(material.main_color)[:3]
     return out
 
 
-def mesh(value: Like, **options: object) -> Mesh:
+def mesh(value: Like, **options: Any) -> Mesh:
     """Makes a Mesh of a path, of a pair (vertices, faces), of an object with .vertices and .faces
     (trimesh), or of one with .tessellate (cadquery, build123d).  options are those of Mesh."""
     if isinstance(value, Mesh) and not options:
         return value
     if isinstance(value, Mesh):
-        return Mesh(value.vertices, value.faces, **options)  # type: ignore[arg-type]
+        return Mesh(value.vertices, value.faces, **options)
     if isinstance(value, (str, os.PathLike)):
         from .files import load
         value = load(value)
         return mesh(value, **options) if options else value
     if isinstance(value, (tuple, list)) and len(value) == 2:
-        return Mesh(value[0], value[1], **options)  # type: ignore[arg-type]
+        return Mesh(value[0], value[1], **options)
     shape = value.val() if callable(getattr(value, "val", None)) else value
     faces = getattr(shape, "faces", None)
     if callable(getattr(shape, "tessellate", None)) and (faces is None or callable(faces)):
         vertices, faces = shape.tessellate(0.1)
-        return Mesh(vertices, faces, **options)  # type: ignore[arg-type]
+        return Mesh(vertices, faces, **options)
     if faces is None or callable(faces) or not hasattr(shape, "vertices"):
         raise Error("mesh must have .vertices and .faces, or be (vertices, faces) or a path, "
                     f"not {arguments.shown(value)}")
     count = len(np.asarray(shape.vertices)), len(np.asarray(faces))
     given = {k: v for k, v in options.items() if v is not None}
     extra = {} if "color" in given or "texture" in given else _visual(shape, count)
-    return Mesh(shape.vertices, faces, **{**extra, **given})  # type: ignore[arg-type]
+    return Mesh(shape.vertices, faces, **{**extra, **given})

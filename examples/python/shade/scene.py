@@ -44,8 +44,9 @@ class Scene:
     Without lamps of its own a scene is lit by three lamps that stay with the camera.
     """
 
-    def __init__(self, lights: Sequence[Light] | None = None, ambient: Sequence[float] | None = None,
-                 model: Model = Model.BLINN_PHONG, flags: Flag = Flag.NONE) -> None:
+    def __init__(self, lights: Sequence[Light] | None = None,
+                 ambient: Sequence[float] | None = None, model: Model = Model.BLINN_PHONG,
+                 flags: Flag = Flag.NONE) -> None:
         """An empty scene.  ambient is linear light."""
         self.parts: list[Part] = []
         self.lights = None if lights is None else list(lights)
@@ -53,7 +54,7 @@ class Scene:
 
     def add(self, mesh: Like, pose: object = None, material: Material | str | None = None,
             name: str = "", *, edges: bool = False, two_sided: bool = True,
-            **options: object) -> int:
+            **options: Any) -> int:
         """Adds a mesh and returns its number.
 
         pose is 4 x 4 and takes the mesh to the world.  material is a shade.Material or the name of
@@ -93,10 +94,10 @@ class Scene:
         if not isinstance(camera, Camera):
             camera = self.fit(camera, (width, height), up=up, ortho=ortho)
         many = arguments.integer("samples", samples, 1, 8)
-        if max(width, height) * many > 16384:
-            raise Error(f"size times samples must be at most 16384, not {max(width, height) * many}")
+        _small_enough(width, height, many)
         rgba = np.empty((height, width, 4), np.uint8)
-        depth, normals = np.empty((height, width), np.float32), np.empty((height, width, 3), np.float32)
+        depth = np.empty((height, width), np.float32)
+        normals = np.empty((height, width, 3), np.float32)
         ids = np.empty((height, width), np.int32)
         view = View(width=width, height=height, samples=many, channels=4, rgba=pointer(rgba),
                     depth=pointer(depth), normals=pointer(normals), ids=pointer(ids))
@@ -120,8 +121,7 @@ class Scene:
         """
         width, height = arguments.size("size", size)
         many = arguments.integer("samples", samples, 1, 8)
-        if max(width, height) * many > 16384:
-            raise Error(f"size times samples must be at most 16384, not {max(width, height) * many}")
+        _small_enough(width, height, many)
         placed = None if poses is None else arguments.floats(
             "poses", poses, (None, len(self.parts), 4, 4), finite=True)
         seen = _cameras(cameras, None if placed is None else len(placed))
@@ -155,7 +155,8 @@ class Scene:
 
     def _items(self, camera: Camera | None) -> tuple[Any, list[Any]]:
         """The parts as the library has them, and what must live as long as they."""
-        items, kept = (Item * max(1, len(self.parts)))(), []
+        items = (Item * max(1, len(self.parts)))()
+        kept: list[Any] = []
         for item, part in zip(items, self.parts):
             material = part.material.native()
             item.mesh = part.mesh.native()
@@ -198,7 +199,7 @@ def _lines(part: Part, camera: Camera) -> Floats:
     ortho = camera.projection[3, 3] != 0
     way = back[:3, :3] @ camera.view[2, :3] if ortho else None
     eye = back[:3, :3] @ camera.eye + back[:3, 3]
-    return part.mesh.drawn_edges(np.asarray(eye, np.float64), way)  # type: ignore[arg-type]
+    return part.mesh.drawn_edges(np.asarray(eye, np.float64), way)
 
 
 def _gloss(made: Mesh) -> Material:
@@ -208,17 +209,23 @@ def _gloss(made: Mesh) -> Material:
     return Material((0, 0, 0), color, color, (0.08, 0.08, 0.08), 40.0)
 
 
+def _small_enough(width: int, height: int, samples: int) -> None:
+    most = max(width, height) * samples
+    if most > 16384:
+        raise Error(f"size times samples must be at most 16384, not {most}")
+
+
 def _background(value: object) -> tuple[float, ...]:
     if value is None:
         return 0.0, 0.0, 0.0, 0.0
     return (*arguments.color("background", value), 1.0)
 
 
-def _cameras(cameras: object, poses: int | None) -> list[Camera]:
+def _cameras(cameras: Any, poses: int | None) -> list[Camera]:
     if isinstance(cameras, Camera):
         return [cameras] * (1 if poses is None else poses)
     try:
-        seen = [at(camera) for camera in cameras]  # type: ignore[attr-defined]
+        seen = [at(camera) for camera in cameras]
     except TypeError:
         raise Error(f"cameras must be shade.Camera, not {arguments.shown(cameras)}") from None
     if len(seen) == 1 and poses is not None:
@@ -241,7 +248,7 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
     elevation) in degrees.  light is "quick", three lamps beside the camera.
     """
     arguments.choice("light", light, ("quick",))
-    options = {"color": color, "normals": normals, "uv": uv, "texture": texture}
+    options: dict[str, Any] = {"color": color, "normals": normals, "uv": uv, "texture": texture}
     source = vertices if faces is None else (vertices, faces)
     defaults = {"normals": "auto"}
     given = {k: v for k, v in options.items()
