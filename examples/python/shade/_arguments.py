@@ -63,9 +63,16 @@ def number(name: str, value: object, low: float = -math.inf, high: float = math.
     return got
 
 
+def flag(name: str, value: object) -> bool:
+    """True or False, of Python or NumPy."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise Error(f"{name} must be True or False, not {shown(value)}")
+    return bool(value)
+
+
 def integer(name: str, value: object, low: int, high: int) -> int:
     """A whole number from low to high."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
         raise Error(f"{name} must be a whole number, not {shown(value)}")
     if not low <= value <= high:
         raise Error(f"{name} must be from {low} to {high}, not {value}")

@@ -13,6 +13,7 @@ from ._native import Error, Floats
 
 Matrix = npt.NDArray[np.float64]
 Viewpoint = Union[str, Sequence[float]]
+MOST = 1e8
 #: Azimuth and elevation in degrees of the views that have names.
 VIEWS = {"front": (0.0, 0.0), "right": (90.0, 0.0), "back": (180.0, 0.0), "left": (270.0, 0.0),
          "top": (0.0, 90.0), "bottom": (0.0, -90.0),
@@ -90,8 +91,8 @@ class Camera:
 
 
 def _range(near: float, far: float) -> tuple[float, float]:
-    near = arguments.number("near", near, 1e-9, 1e9)
-    far = arguments.number("far", far, 1e-9, 1e12)
+    near = arguments.number("near", near, 1e-12, 1e12)
+    far = arguments.number("far", far, 1e-12, 1e13)
     if far <= near:
         raise Error(f"far must exceed near, {near:g}, not {far:g}")
     return near, far
@@ -139,10 +140,13 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     """The nearest camera that sees all points from a side.
 
     Each side of the picture gives one bound on the eye, linear in a point's coordinates; their
-    extremes give the distance and the shift that centres.
+    extremes give the distance and the shift that centres.  Points with NaN or beyond 1e8 do not
+    count.
     """
-    turn = _facing(*direction(view, up))
-    finite = points[np.isfinite(points).all(1)] if not np.isfinite(points).all() else points
+    turn, flat = _facing(*direction(view, up)), arguments.flag("ortho", ortho)
+    with np.errstate(invalid="ignore"):
+        good = (np.abs(points) <= MOST).all(1)
+    finite = points if good.all() and len(points) else points[good]
     if not len(finite):
         finite = np.zeros((1, 3), np.float32)
     p = finite.astype(np.float64) @ turn.T
@@ -150,7 +154,7 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     slope = math.tan(math.radians(arguments.number("fov", fov, 0.01, 179)) / 2)
     reach = max(float(np.linalg.norm(high - low)), float(np.abs(p).max()) * 1e-6, 1e-6)
     slopes = (slope * size[0] / size[1], slope)
-    if ortho:
+    if flat:
         return _orthographic(turn, low, high, size, margin, reach)
     shift, least = [0.0, 0.0], 0.0
     for axis in (0, 1):

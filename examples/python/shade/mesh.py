@@ -207,7 +207,7 @@ def _listed(value: object) -> object:
     if isinstance(value, np.ndarray) or isinstance(value, (str, bytes)):
         return value
     rows: object = list(value) if isinstance(value, Iterable) else value
-    return np.empty((0, 3), np.float32) if rows == [] else rows
+    return np.empty((0, 3), np.float32) if isinstance(rows, list) and not rows else rows
 
 
 def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, Any]:

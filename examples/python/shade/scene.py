@@ -66,11 +66,12 @@ class Scene:
         place = arguments.floats("pose", IDENTITY if pose is None else pose, (4, 4), finite=True)
         if isinstance(material, str):
             material = preset(material)
+        flags = arguments.flag("edges", edges), arguments.flag("two_sided", two_sided)
         if material is not None and not isinstance(material, Material):
             raise Error(f"material must be a shade.Material or a name, "
                         f"not {arguments.shown(material)}")
         self.parts.append(Part(made, place.astype(np.float64), material or _gloss(made),
-                               str(name), bool(edges), bool(two_sided)))
+                               str(name), *flags))
         return len(self.parts) - 1
 
     def fit(self, view: Viewpoint = "iso", size: object = (640, 480), *, up: str = "z",
@@ -268,7 +269,7 @@ def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top",
     """
     several = isinstance(meshes, list) and not (len(meshes) == 2 and _is_array(meshes[0]))
     rows = meshes if isinstance(meshes, list) and several else [meshes]
-    if not rows or isinstance(views, str) or not len(list(views)):
+    if not rows or not isinstance(views, (list, tuple)) or not views:
         raise Error("meshes and views must be lists of at least one")
     width, height = arguments.size("size", size)
     between = arguments.integer("gap", gap, 0, 1000)

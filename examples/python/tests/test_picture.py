@@ -59,7 +59,8 @@ def test_the_nearest_part_has_the_pixel():
 @pytest.mark.parametrize("ortho", [False, True])
 def test_a_fitted_view_shows_all_and_fills_the_picture(view, ortho):
     vertices, faces, _ = torus(24)
-    got = shade.render(vertices * 1e-3 + 5, faces, view=view, ortho=ortho, size=(120, 90), samples=1)
+    got = shade.render(vertices * 1e-3 + 5, faces, view=view, ortho=ortho, size=(120, 90),
+                       samples=1)
     there = np.argwhere(got.ids == 0)
     low, high = there.min(0), there.max(0)
     assert (low >= 1).all() and (high <= (88, 118)).all()

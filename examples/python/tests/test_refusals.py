@@ -86,7 +86,7 @@ def anything(random):
         return VERY[random.integers(len(VERY))]
     shape = tuple(random.integers(0, 5, random.integers(0, 4)))
     shape = ((random.integers(0, 9), random.integers(2, 5)), shape)[random.integers(2)]
-    out = random.normal(size=shape) * 10.0 ** random.integers(-30, 30)
+    out = np.array(random.normal(size=shape) * 10.0 ** random.integers(-30, 30))
     if kind == 1 and out.size:
         out.reshape(-1)[random.integers(out.size)] = VERY[random.integers(3)]
     kinds = (np.int64, np.uint8, np.float16, np.float32, bool, complex, object, ">f4", "U3")
@@ -94,8 +94,17 @@ def anything(random):
         if kind == 2:
             out = out.astype(kinds[random.integers(len(kinds))])
         if kind == 3:
-            out = random.integers(-2, 12, shape)
+            out = np.array(random.integers(-2, 12, shape))
     return out.T if kind == 4 else out[::-1] if out.ndim and kind == 5 else out
+
+
+def bent(random, value):
+    """The value, or where it is an array the same numbers in another order, type or memory."""
+    if not isinstance(value, np.ndarray):
+        return value
+    kinds = (np.float32, np.int64, ">f8", np.uint16, np.float16)
+    with np.errstate(all="ignore"):
+        return np.roll(value, 1, 0)[::-1].astype(kinds[random.integers(len(kinds))])
 
 
 CALLS = [
@@ -135,7 +144,7 @@ def test_anything_is_drawn_or_refused(seed):
         function, good = CALLS[random.integers(len(CALLS))]
         given = dict(good)
         for name in random.choice(list(good), random.integers(1, 3)):
-            given[name] = anything(random)
+            given[name] = anything(random) if random.integers(2) else bent(random, good[name])
         try:
             with np.errstate(all="ignore"):
                 function(**given)
