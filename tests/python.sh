@@ -39,6 +39,8 @@ if $python -c 'import mypy' 2>/dev/null; then
     check "mypy --strict" sh -c "cd '$P' && $python -m mypy --strict --cache-dir '$T/mypy'"
 else left_out "mypy"; fi
 if $python -c 'import nbclient, ipykernel' 2>/dev/null; then
+    PYTHONPATH=$($python -c 'import pathlib, shade; print(pathlib.Path(shade.__file__).parents[1])')
+    export PYTHONPATH    # the kernel is the system's Python
     check "the notebook is executed" $python -c "import nbformat, nbclient
 nbclient.NotebookClient(nbformat.read('$P/course.ipynb', 4), timeout=300, kernel_name='python3').execute()"
 else left_out "the notebook as Jupyter executes it (no nbclient, ipykernel)"; fi
