@@ -257,12 +257,14 @@ static void draw_piece(void *data, int piece)
     job->results[piece] = draw_band(job, &job->views[piece / job->bands], piece % job->bands);
 }
 
-/* Bands enough for the threads, and so many that one has no more than 8 million samples */
-static int bands_of(const python_view *v, int views, int threads)
+/* Bands enough for the threads, and so many that one has no more than 8 million samples.  Each band
+   looks at the triangles anew: of a mesh of many, in no order in space, a thread draws one band. */
+static int bands_of(const python_view *v, double triangles, int views, int threads)
 {
     const double samples = (double)v->width * v->height * v->samples * v->samples;
     const int least = 1 + (int)(samples / 8e6);
-    const int wanted = views >= 2 * threads ? 1 : bands_count(threads, v->height);
+    const int wanted = views >= 2 * threads ? 1
+                     : 8 * triangles > samples ? threads : bands_count(threads, v->height);
     const int most = least > wanted ? least : wanted;
     return most < v->height ? most : v->height;
 }
@@ -276,10 +278,12 @@ int python_draw(const python_item *items, int item_count, const python_view *vie
 {
     python_job job = { items, views, NULL, item_count, 1 };
     shade_result result = SHADE_OK;
+    double triangles = 0;
     int pieces;
     if (view_count < 1) return SHADE_OK;
     if (threads < 1) threads = bands_cores();
-    job.bands = bands_of(views, view_count, threads);
+    for (int i = 0; i < item_count; i++) triangles += items[i].mesh.index_count / 3;
+    job.bands = bands_of(views, triangles, view_count, threads);
     if (job.bands > INT_MAX / view_count) return SHADE_ERROR_CAPACITY;
     pieces = view_count * job.bands;
     job.results = (shade_result *)calloc((size_t)pieces, sizeof *job.results);
