@@ -49,6 +49,8 @@ class Scene:
                  flags: Flag = Flag.NONE) -> None:
         """An empty scene.  ambient is linear light."""
         self.parts: list[Part] = []
+        Lighting(() if lights is None else lights, (0, 0, 0) if ambient is None else ambient,
+                 model, flags).native()    # refuses what is wrong
         self.lights = None if lights is None else list(lights)
         self.ambient, self.model, self.flags = ambient, model, flags
 
@@ -188,7 +190,8 @@ class Scene:
         flags = self.flags
         if camera.projection[3, 3] != 0:
             flags |= Flag.INFINITE_VIEWER
-        view.lighting = Lighting(lights, ambient or (0, 0, 0), self.model, flags).native()
+        light = (0.0, 0.0, 0.0) if ambient is None else ambient
+        view.lighting = Lighting(lights, light, self.model, flags).native()
 
 
 def _lines(part: Part, camera: Camera) -> Floats:

@@ -132,6 +132,14 @@ def batch(**arguments):
     return scene.render_batch(**arguments)
 
 
+def lamps(**arguments):
+    scene = shade.Scene(**arguments)
+    scene.add((VERTICES, FACES))
+    return scene.render(size=(9, 9))
+
+
+CALLS.append((lamps, {"lights": [shade.Light.point((1, 2, 3))], "ambient": np.zeros(3), "flags": 1,
+                      "model": shade.Model.PHONG}))
 CALLS.append((batch, {"cameras": shade.Camera.look_at((5, 5, 5)), "poses": np.eye(4)[None, None],
                       "size": (9, 9), "pose": np.eye(4), "material": "gold", "rgb": None,
                       "depth": None, "ids": None, "samples": 1}))
