@@ -1,0 +1,390 @@
+/* native.c - what the Python package shade calls through ctypes: pictures of many meshes, cut into
+   bands that threads share, and the equations over arrays of any length.
+
+   The package checks shapes, types and sizes before a call; shade.h checks the rest.  The structs
+   here have twins in shade/_native.py, which compares their sizes when it is imported. */
+#if defined(_WIN32) && !defined(SHADEDEF)
+#define SHADEDEF extern __declspec(dllexport)
+#endif
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "examples/model/files.h"
+#include "examples/shared/bands.h"
+
+typedef struct python_item {      /* a mesh in its place */
+    shade_mesh mesh;
+    shade_draw_state state;       /* camera and lights are those of the view */
+    const shade_vec3 *lines;      /* pairs of points in object space */
+    int line_points, two_sided;
+    float line_width;             /* in pixels of the finished picture */
+    shade_vec4 line_color;
+} python_item;
+
+typedef struct python_view {      /* a camera and where its picture goes */
+    int width, height, samples, channels;    /* channels of rgba: 4 or 3 */
+    shade_mat4 view, projection;
+    shade_vec4 background;                   /* linear; alpha 0: transparent */
+    shade_lighting lighting;
+    const shade_mat4 *poses;                 /* one for each item, or NULL: those of the states */
+    uint8_t *rgba;
+    float *depth, *normals;                  /* each may be NULL; along the axis of view */
+    int32_t *ids;
+} python_view;
+
+typedef struct python_job {
+    const python_item *items;
+    const python_view *views;
+    shade_result *results;        /* of each piece */
+    int item_count, bands;
+} python_job;
+
+/* ---- what lies at the centre of each pixel --------------------------------------------------- */
+
+typedef struct survey {
+    const python_view *view;
+    shade_mat4 camera;            /* the view as far as it is known to be rigid */
+    float *nearest;               /* the least depth so far, from the row first on */
+    int first;
+    int32_t id;
+} survey;
+
+static void survey_pixel(const survey *s, const shade_fragments *in, int i)
+{
+    const python_view *v = s->view;
+    const size_t at = (size_t)in->y[i] * (size_t)v->width + (size_t)in->x[i];
+    float *nearest = &s->nearest[at - (size_t)s->first * (size_t)v->width];
+    shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
+    if (!(in->z[i] < *nearest)) return;
+    *nearest = in->z[i];
+    if (v->ids) v->ids[at] = s->id;
+    if (v->depth) v->depth[at] = -shade_mat4_transform_point(s->camera, P).z;
+    if (v->normals) {
+        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
+        N = shade_scale(shade_normalize(N), in->front[i] ? 1.0f : -1.0f);
+        SHADE_MEMCPY(v->normals + 3 * at, &N, sizeof N);
+    }
+}
+
+/* A fragment shader that notes its pixels beside the target.  It compares depths itself, because
+   shade.h may test them after the shader. */
+static void survey_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                            shade_colors *SHADE_RESTRICT out)
+{
+    for (int i = 0; i < in->count; i++) survey_pixel((const survey *)uniforms, in, i);
+    (void)out;
+}
+
+/* ---- drawing --------------------------------------------------------------------------------- */
+
+static shade_draw_state item_state(const python_item *items, const python_view *v, int i)
+{
+    shade_draw_state state = items[i].state;
+    state.view = v->view;
+    state.projection = v->projection;
+    state.lighting = v->lighting;
+    if (v->poses) state.model = v->poses[i];
+    return state;
+}
+
+/* Front faces keep their normals: turned to the viewer, they would leave dark specks along the
+   outline of a coarse mesh.  Back faces are drawn apart, with normals that are turned. */
+static shade_result draw_item(const shade_target *target, const python_item *item,
+                              shade_draw_state *state)
+{
+    shade_result result;
+    state->raster.cull = SHADE_CULL_BACK;
+    result = shade_draw_mesh(target, &item->mesh, state, NULL);
+    if (result || !item->two_sided) return result;
+    state->raster.cull = SHADE_CULL_FRONT;
+    state->lighting.flags |= SHADE_FLAG_TWO_SIDED;
+    return shade_draw_mesh(target, &item->mesh, state, NULL);
+}
+
+static shade_result draw_edges(const shade_target *target, const python_item *item,
+                               const shade_draw_state *state, int samples)
+{
+    shade_line_state pen = { .width = item->line_width * (float)samples, .cap = SHADE_CAP_SQUARE };
+    pen.color = item->line_color;
+    pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    pen.raster.depth_bias = -1e-3f;
+    pen.clip_from_points =
+        shade_mat4_mul(state->projection, shade_mat4_mul(state->view, state->model));
+    return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
+}
+
+static shade_result draw_colors(const shade_target *target, const python_job *job,
+                                const python_view *v)
+{
+    shade_result result = shade_clear(target, v->background, 1);
+    for (int i = 0; i < job->item_count && !result; i++) {
+        shade_draw_state state = item_state(job->items, v, i);
+        result = draw_item(target, &job->items[i], &state);
+    }
+    for (int i = 0; i < job->item_count && !result; i++) {
+        const shade_draw_state state = item_state(job->items, v, i);
+        if (job->items[i].line_points)
+            result = draw_edges(target, &job->items[i], &state, v->samples);
+    }
+    return result;
+}
+
+/* Draws once more, one sample a pixel, for depth, ids and normals.  Behind the unread colours
+   there is room for as many depths. */
+static shade_result draw_survey(const shade_target *target, const python_job *job,
+                                const python_view *v)
+{
+    const size_t pixels = (size_t)target->width * (size_t)target->row_count;
+    survey s = { v, v->view, (float *)target->color + pixels, target->row_offset, 0 };
+    shade_result result = shade_clear(target, shade_v4(0, 0, 0, 0), 1);
+    for (size_t i = 0; i < pixels; i++) s.nearest[i] = 1;
+    for (int i = 0; i < job->item_count && !result; i++) {
+        shade_draw_state state = item_state(job->items, v, i);
+        s.id = i;
+        state.shading = SHADE_SHADING_PER_FRAGMENT;
+        state.fragment = survey_fragment;
+        state.uniforms = &s;
+        if (!job->items[i].two_sided) state.raster.cull = SHADE_CULL_BACK;
+        result = shade_draw_mesh(target, &job->items[i].mesh, &state, NULL);
+    }
+    return result;
+}
+
+/* Colours over nothing are multiplied by their alpha after the mean; this divides it out. */
+static void divide_alpha(float *rgba, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++, rgba += 4)
+        for (int k = 0; k < 3 && rgba[3] > 0; k++) rgba[k] /= rgba[3];
+}
+
+/* The mean of several samples, through floats where the background is transparent */
+static shade_result resolve(const shade_target *out, const shade_target *in, int samples,
+                            float alpha)
+{
+    const size_t pixels = (size_t)out->width * (size_t)out->row_count;
+    shade_target floats = *out;
+    shade_result result;
+    if (samples == 1) return SHADE_OK;
+    if (alpha >= 1) return shade_resolve(out, in, samples);
+    floats.format = SHADE_FORMAT_RGBA32F;
+    floats.color = malloc(pixels * 16);
+    if (!floats.color) return SHADE_ERROR_CAPACITY;
+    result = shade_resolve(&floats, in, samples);
+    divide_alpha((float *)floats.color, pixels);
+    if (!result) result = shade_resolve(out, &floats, 1);
+    free(floats.color);
+    return result;
+}
+
+static void pack_rgb(uint8_t *rgb, const uint8_t *rgba, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t k = 0; k < 3; k++) rgb[3 * i + k] = rgba[4 * i + k];
+}
+
+static void clear_survey(const python_view *v, size_t first, size_t pixels)
+{
+    for (size_t i = first; i < first + pixels; i++) {
+        if (v->ids) v->ids[i] = -1;
+        if (v->depth) v->depth[i] = HUGE_VALF;
+        for (size_t k = 0; k < 3 && v->normals; k++) v->normals[3 * i + k] = 0;
+    }
+}
+
+/* Draws the rows of out, whose memory they are, with samples in large's.  The survey needs colours
+   of its own, which nobody reads. */
+static shade_result draw_rows(const python_job *job, const python_view *v, shade_target *out,
+                              shade_target *large, void *unread)
+{
+    shade_result result;
+    const size_t first = (size_t)out->row_offset * (size_t)v->width;
+    const size_t pixels = (size_t)out->row_count * (size_t)v->width;
+    if (v->rgba) {
+        result = draw_colors(large, job, v);
+        if (!result) result = resolve(out, large, v->samples, v->background.w);
+        if (result) return result;
+        if (v->channels == 3) pack_rgb(v->rgba + 3 * first, (const uint8_t *)out->color, pixels);
+    }
+    if (!v->ids && !v->depth && !v->normals) return SHADE_OK;
+    clear_survey(v, first, pixels);
+    out->color = unread;
+    out->srgb = 0;
+    out->depth = large->depth;
+    return draw_survey(out, job, v);
+}
+
+/* Draws rows whose targets have no memory yet.  A picture of one sample a pixel is drawn where it
+   stays. */
+static shade_result draw_strip(const python_job *job, const python_view *v, shade_target *out,
+                               shade_target *large)
+{
+    const size_t first = 4 * (size_t)out->row_offset * (size_t)v->width;
+    const size_t bytes = 4 * (size_t)out->row_count * (size_t)v->width;
+    const size_t most = bytes * (size_t)(v->samples * v->samples);
+    const int in_place = v->rgba && v->channels == 4;
+    shade_result result = SHADE_ERROR_CAPACITY;
+    void *own = in_place ? NULL : malloc(bytes), *depth = malloc(most);
+    void *color = v->samples > 1 ? malloc(most) : NULL, *spare = NULL;
+    out->color = in_place ? (void *)(v->rgba + first) : own;
+    large->color = v->samples > 1 ? color : out->color;
+    large->depth = (float *)depth;
+    if (v->samples == 1) spare = malloc(2 * bytes);
+    if (out->color && large->color && depth && (spare || v->samples > 1))
+        result = draw_rows(job, v, out, large, v->samples > 1 ? color : spare);
+    free(own);
+    free(depth);
+    free(color);
+    free(spare);
+    return result;
+}
+
+static shade_result draw_band(const python_job *job, const python_view *v, int band)
+{
+    const long long rows = v->height;
+    shade_target out = { .width = v->width, .height = v->height, .srgb = 1 }, large;
+    out.row_offset = (int)(rows * band / job->bands);
+    out.row_count = (int)(rows * (band + 1) / job->bands) - out.row_offset;
+    large = out;
+    large.width *= v->samples;
+    large.height *= v->samples;
+    large.row_offset *= v->samples;
+    large.row_count *= v->samples;
+    return out.row_count ? draw_strip(job, v, &out, &large) : SHADE_OK;
+}
+
+static void draw_piece(void *data, int piece)
+{
+    const python_job *job = (const python_job *)data;
+    job->results[piece] = draw_band(job, &job->views[piece / job->bands], piece % job->bands);
+}
+
+/* Bands enough for the threads, and so many that one has no more than 8 million samples.  Each band
+   looks at the triangles anew: of a mesh of many, in no order in space, a thread draws one band. */
+static int bands_of(const python_view *v, double triangles, int views, int threads)
+{
+    const double samples = (double)v->width * v->height * v->samples * v->samples;
+    const int least = 1 + (int)(samples / 8e6);
+    const int wanted = views >= 2 * threads ? 1
+                     : 8 * triangles > samples ? threads : bands_count(threads, v->height);
+    const int most = least > wanted ? least : wanted;
+    return most < v->height ? most : v->height;
+}
+
+/* Draws views of one size, by so many threads (0: one a core).  Returns the first result that is
+   no success. */
+SHADEDEF int python_draw(const python_item *items, int item_count, const python_view *views,
+                         int view_count, int threads);
+int python_draw(const python_item *items, int item_count, const python_view *views, int view_count,
+                int threads)
+{
+    python_job job = { items, views, NULL, item_count, 1 };
+    shade_result result = SHADE_OK;
+    double triangles = 0;
+    int pieces;
+    if (view_count < 1) return SHADE_OK;
+    if (threads < 1) threads = bands_cores();
+    for (int i = 0; i < item_count; i++) triangles += items[i].mesh.index_count / 3;
+    job.bands = bands_of(views, triangles, view_count, threads);
+    if (job.bands > INT_MAX / view_count) return SHADE_ERROR_CAPACITY;
+    pieces = view_count * job.bands;
+    job.results = (shade_result *)calloc((size_t)pieces, sizeof *job.results);
+    if (!job.results) return SHADE_ERROR_CAPACITY;
+    bands_run(threads, pieces, draw_piece, &job);
+    for (int i = 0; i < pieces && !result; i++) result = job.results[i];
+    free(job.results);
+    return result;
+}
+
+/* ---- the equations over arrays --------------------------------------------------------------- */
+
+enum { ROWS = 3 * SHADE_LANES };
+
+/* Three rows from count points, and back; lanes from count on repeat the last point. */
+static void rows_from(float *rows, const float *points, size_t count)
+{
+    SHADE_EACH_LANE(i)
+    {
+        size_t at = (size_t)i < count ? (size_t)i : count - 1;
+        for (size_t k = 0; k < 3; k++) rows[k * SHADE_LANES + (size_t)i] = points[3 * at + k];
+    }
+}
+
+static void rows_to(float *points, const float *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < 3; k++) points[3 * i + k] = rows[k * SHADE_LANES + i];
+}
+
+/* shade_lit for count points: positions, normals and rgb have three floats a point.  albedo may be
+   NULL. */
+SHADEDEF void python_lit(const shade_lighting *lighting, const shade_material *material,
+                         const float *eye, const float *const arrays[3], size_t count, float *rgb);
+void python_lit(const shade_lighting *lighting, const shade_material *material, const float *eye,
+                const float *const arrays[3], size_t count, float *rgb)
+{
+    float rows[3][ROWS], lit[ROWS];
+    for (size_t i = 0; i < count; i += SHADE_LANES) {
+        size_t n = count - i < SHADE_LANES ? count - i : SHADE_LANES;
+        for (int a = 0; a < 3; a++)
+            if (arrays[a]) rows_from(rows[a], arrays[a] + 3 * i, n);
+        const shade_rows in = { .position = rows[0], .normal = rows[1],
+                                .albedo = arrays[2] ? rows[2] : NULL };
+        shade_lit_lanes(lighting, material, shade_v3(eye[0], eye[1], eye[2]), &in, lit);
+        rows_to(rgb + 3 * i, lit, n);
+    }
+}
+
+/* shade_light_at for count points */
+SHADEDEF void python_light_at(const shade_light *light, const float *points, size_t count,
+                              float *amount, float *to_light, float *distance);
+void python_light_at(const shade_light *light, const float *points, size_t count, float *amount,
+                     float *to_light, float *distance)
+{
+    for (size_t i = 0; i < count; i++) {
+        const float *p = points + 3 * i;
+        shade_vec3 L;
+        amount[i] = shade_light_at(light, shade_v3(p[0], p[1], p[2]), &L, &distance[i]);
+        SHADE_MEMCPY(to_light + 3 * i, &L, sizeof L);
+    }
+}
+
+/* shade_linear_from_srgb for count colours, in place */
+SHADEDEF void python_linear(float *rgb, size_t count);
+void python_linear(float *rgb, size_t count)
+{
+    for (size_t i = 0; i < count; i++, rgb += 3) {
+        shade_vec3 c = shade_linear_from_srgb(shade_v3(rgb[0], rgb[1], rgb[2]));
+        SHADE_MEMCPY(rgb, &c, sizeof c);
+    }
+}
+
+/* ---- files of models ------------------------------------------------------------------------- */
+
+/* Reads an OBJ, STL or PLY file.  Returns NULL with a sentence in error. */
+SHADEDEF owned_mesh *python_load(const char *path, char *error, size_t room);
+owned_mesh *python_load(const char *path, char *error, size_t room)
+{
+    owned_mesh *m = (owned_mesh *)calloc(1, sizeof *m);
+    if (!m) return NULL;
+    if (!mesh_read_file(path, m, error, room)) return m;
+    mesh_free(m);
+    free(m);
+    return NULL;
+}
+
+SHADEDEF void python_unload(owned_mesh *m);
+void python_unload(owned_mesh *m)
+{
+    if (m) mesh_free(m);
+    free(m);
+}
+
+/* The sizes that the twins of these structs must have */
+SHADEDEF size_t python_size(int which);
+size_t python_size(int which)
+{
+    static const size_t size[] = { sizeof(shade_mesh),     sizeof(shade_draw_state),
+                                   sizeof(python_item),    sizeof(python_view),
+                                   sizeof(shade_lighting), sizeof(shade_texture),
+                                   sizeof(shade_light),    sizeof(shade_chunk) };
+    return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
+}

@@ -1,0 +1,39 @@
+"""python -m shade part.stl sheet.png --views front,right,top,iso"""
+from __future__ import annotations
+
+import argparse
+import sys
+
+from . import Error, load, render, sheet
+
+
+def main(words: list[str] | None = None) -> int:
+    """Draws a file of a model.  Returns the status of the process."""
+    parser = argparse.ArgumentParser(prog="python -m shade", description=main.__doc__)
+    parser.add_argument("model", help="STL, OBJ or PLY")
+    parser.add_argument("picture", help="PNG")
+    parser.add_argument("--views", default="iso", help="front,right,back,left,top,bottom,iso")
+    parser.add_argument("--size", default="640x480", help="of each view, WxH")
+    parser.add_argument("--color", default=None, help="#RRGGBB or a name")
+    parser.add_argument("--no-edges", action="store_true", help="shaded faces alone")
+    parser.add_argument("--up", default="z", choices=("y", "z"), help="the upright axis")
+    parser.add_argument("--samples", type=int, default=3, help="1 .. 8")
+    o = parser.parse_args(words)
+    try:
+        size = tuple(int(n) for n in o.size.split("x"))
+        mesh = load(o.model, **({"color": o.color} if o.color else {}))
+        views, edges = o.views.split(","), not o.no_edges
+        if len(views) == 1:
+            picture = render(mesh, view=views[0], size=size, samples=o.samples, up=o.up,
+                             edges=edges)
+        else:
+            picture = sheet(mesh, views, size=size, samples=o.samples, up=o.up, edges=edges)
+        picture.save(o.picture)
+    except (Error, OSError, ValueError) as why:
+        print(f"shade: {why}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,180 @@
+"""Turns what callers pass into the arrays and numbers that the library takes, or refuses it by its
+name."""
+from __future__ import annotations
+
+import math
+from typing import Any, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._native import Bytes, Error, Floats, Indices, library, pointer
+
+Color = Union[str, Sequence[float], npt.NDArray[Any]]
+NAMES = {"white": 0xFFFFFF, "black": 0, "gray": 0x808080, "grey": 0x808080, "red": 0xD62728,
+         "green": 0x2CA02C, "blue": 0x1F77B4, "orange": 0xFF7F0E, "yellow": 0xF2C037,
+         "purple": 0x9467BD, "brown": 0x8C564B, "pink": 0xE377C2, "cyan": 0x17BECF,
+         "steel": 0x8FA3B5, "clay": 0xBFB2A4}
+MOST = 2**31 - 1
+
+
+def shown(value: object) -> str:
+    """A short name of what was passed, for a message."""
+    if isinstance(value, np.ndarray):
+        return f"an array {value.dtype} of shape {value.shape}"
+    text = repr(value)
+    return text if len(text) < 40 else f"{type(value).__name__} {text[:36]}..."
+
+
+def array(name: str, value: object, shape: tuple[int | None, ...]) -> npt.NDArray[Any]:
+    """An array of numbers with the shape; None stands for any length."""
+    try:
+        got = np.asarray(value)
+    except Exception as why:
+        raise Error(f"{name} is no array: {shown(value)} ({why})") from None
+    if got.dtype.kind not in "fiub":
+        raise Error(f"{name} must hold numbers, not {got.dtype} ({shown(value)})")
+    if got.ndim != len(shape) or any(w is not None and w != g for w, g in zip(shape, got.shape)):
+        wanted = ", ".join("n" if n is None else str(n) for n in shape)
+        raise Error(f"{name} must have the shape ({wanted}), not {got.shape}")
+    if got.size > MOST:
+        raise Error(f"{name} has {got.size} elements; at most {MOST} are drawn")
+    return got
+
+
+def floats(name: str, value: object, shape: tuple[int | None, ...], finite: bool = False) -> Floats:
+    """A contiguous array of float32; with finite, one without NaN and infinity."""
+    with np.errstate(over="ignore"):
+        got = np.ascontiguousarray(array(name, value, shape), dtype=np.float32)
+    if finite and not np.isfinite(got).all():
+        raise Error(f"{name} must hold finite numbers that fit float32")
+    return got
+
+
+def number(name: str, value: object, low: float = -math.inf, high: float = math.inf) -> float:
+    """A finite number from low to high."""
+    try:
+        got = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        raise Error(f"{name} must be a number, not {shown(value)}") from None
+    if not math.isfinite(got) or not low <= got <= high:
+        limits = "finite" if math.isinf(high) and math.isinf(low) else f"from {low:g} to {high:g}"
+        raise Error(f"{name} must be {limits}, not {shown(value)}")
+    return got
+
+
+def flag(name: str, value: object) -> bool:
+    """True or False, of Python or NumPy."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise Error(f"{name} must be True or False, not {shown(value)}")
+    return bool(value)
+
+
+def integer(name: str, value: object, low: int, high: int) -> int:
+    """A whole number from low to high."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise Error(f"{name} must be a whole number, not {shown(value)}")
+    if not low <= value <= high:
+        raise Error(f"{name} must be from {low} to {high}, not {value}")
+    return int(value)
+
+
+def choice(name: str, value: object, choices: Sequence[str]) -> str:
+    """One of some words."""
+    if not isinstance(value, str) or value not in choices:
+        raise Error(f"{name} must be one of {', '.join(choices)}, not {shown(value)}")
+    return value
+
+
+def size(name: str, value: object) -> tuple[int, int]:
+    """Width and height; one number is both."""
+    pair: Any = (value, value) if isinstance(value, (int, np.integer)) else value
+    try:
+        width, height = pair
+    except (TypeError, ValueError):
+        raise Error(f"{name} must be (width, height), not {shown(value)}") from None
+    return integer(f"{name}[0]", width, 1, 16384), integer(f"{name}[1]", height, 1, 16384)
+
+
+def faces(name: str, value: object, vertices: int) -> Indices:
+    """Triangles as indices; polygons of four corners are cut in two."""
+    got = np.asarray(array(name, value, (None, None)))
+    if got.dtype.kind == "f" and not np.array_equal(got, np.floor(got)):
+        raise Error(f"{name} must hold whole numbers")
+    if got.shape[1] == 4:
+        got = got[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    if got.shape[1] != 3:
+        raise Error(f"{name} must have the shape (n, 3) or (n, 4), not {got.shape}")
+    if got.size > MOST:
+        raise Error(f"{name} has {got.size} indices; at most {MOST} are drawn")
+    if got.size and (got.min() < 0 or got.max() >= vertices):
+        wrong = got.min() if got.min() < 0 else got.max()
+        words = library.shade_result_string(7).decode()
+        raise Error(f"{name}: {words} (index {wrong} of {vertices} vertices)")
+    return np.ascontiguousarray(got, dtype=np.uint32)
+
+
+def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Floats:
+    """Linear light of an array of display colours, 0 .. 1 or bytes; alpha is left out."""
+    got = array(name, value, (None, None))
+    if got.shape[1] not in columns:
+        raise Error(f"{name} must have 3 or 4 columns, not {got.shape[1]}")
+    scale = 1 / 255 if got.dtype.kind in "iu" else 1.0
+    rgb = np.ascontiguousarray(got[:, :3] * np.float32(scale), dtype=np.float32)
+    library.python_linear(pointer(rgb), len(rgb))
+    return rgb
+
+
+def hexadecimal(name: str, text: str) -> list[float]:
+    """Red, green and blue of a name or of #RGB, #RRGGBB."""
+    digits = text.lstrip("#")
+    try:
+        value = NAMES[text] if text in NAMES else int(digits, 16)
+    except ValueError:
+        value = -1
+    if text not in NAMES and len(digits) == 3 and value >= 0:
+        value = sum((value >> 4 * k & 15) * 17 << 8 * k for k in range(3))
+    elif text not in NAMES and len(digits) != 6:
+        value = -1
+    if value < 0:
+        raise Error(f"{name} must be #RRGGBB, #RGB or one of {', '.join(NAMES)}, not {shown(text)}")
+    return [(value >> shift & 255) / 255 for shift in (16, 8, 0)]
+
+
+def color(name: str, value: object) -> tuple[float, float, float]:
+    """One display colour in linear light."""
+    if isinstance(value, str):
+        value = hexadecimal(name, value)
+    rgb = linear(name, array(name, value, (None,))[None])[0]
+    return float(rgb[0]), float(rgb[1]), float(rgb[2])
+
+
+def matrix(name: str, value: object) -> Floats:
+    """A matrix of 4 x 4 by its columns, as the library has it."""
+    return np.ascontiguousarray(floats(name, value, (4, 4), finite=True).T)
+
+
+def into(name: str, value: object, shape: tuple[int, ...], kind: type) -> npt.NDArray[Any]:
+    """An array that the caller hands in to be filled, or a new one for None."""
+    if value is None:
+        return np.empty(shape, kind)
+    if not isinstance(value, np.ndarray):
+        raise Error(f"{name} must be an array, not {shown(value)}")
+    if value.shape != shape or value.dtype != np.dtype(kind):
+        wanted = f"{np.dtype(kind)} of shape {shape}"
+        raise Error(f"{name} must be {wanted}, not {shown(value)}")
+    if not value.flags.c_contiguous or not value.flags.writeable or not value.flags.aligned:
+        raise Error(f"{name} must be contiguous, aligned and writeable")
+    return value
+
+
+def texture(name: str, value: object) -> Bytes:
+    """A picture of RGBA bytes."""
+    got = array(name, value, (None, None, None))
+    if got.shape[2] not in (3, 4) or not 1 <= min(got.shape[:2]) <= max(got.shape[:2]) <= 16384:
+        raise Error(f"{name} must have the shape (height, width, 3 or 4), not {got.shape}")
+    if got.dtype.kind == "f":
+        got = np.clip(np.nan_to_num(got), 0, 1) * 255 + 0.5
+    rgba = np.full((*got.shape[:2], 4), 255, np.uint8)
+    rgba[:, :, :got.shape[2]] = np.clip(got, 0, 255).astype(np.uint8)
+    return rgba

@@ -1,0 +1,158 @@
+"""The compiled library: twins of its structs, and calls that raise exceptions."""
+from __future__ import annotations
+
+import ctypes
+import sys
+from ctypes import (POINTER, Structure, c_char_p, c_float, c_int, c_size_t, c_uint,
+                    c_void_p)
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float32]
+Integers = npt.NDArray[np.int32]
+Bytes = npt.NDArray[np.uint8]
+Indices = npt.NDArray[np.uint32]
+
+
+class Error(ValueError):
+    """A refused argument: its name, and the words of the library or what was wanted."""
+
+
+class Vec3(Structure):
+    """shade_vec3"""
+    _fields_ = [("x", c_float), ("y", c_float), ("z", c_float)]
+
+
+class Mesh(Structure):
+    """shade_mesh"""
+    _fields_ = [("positions", c_void_p), ("position_stride", c_int), ("normals", c_void_p),
+                ("normal_stride", c_int), ("texcoords", c_void_p), ("texcoord_stride", c_int),
+                ("colors", c_void_p), ("color_stride", c_int), ("vertex_count", c_int),
+                ("indices", c_void_p), ("index_count", c_int), ("chunks", c_void_p),
+                ("chunk_count", c_int)]
+
+
+class Material(Structure):
+    """shade_material"""
+    _fields_ = [("emission", c_float * 3), ("ambient", c_float * 3), ("diffuse", c_float * 3),
+                ("specular", c_float * 3), ("shininess", c_float)]
+
+
+class Light(Structure):
+    """shade_light"""
+    _fields_ = [("position", c_float * 4), ("ambient", c_float * 3), ("diffuse", c_float * 3),
+                ("specular", c_float * 3), ("constant", c_float), ("linear", c_float),
+                ("quadratic", c_float), ("spot_direction", c_float * 3),
+                ("spot_exponent", c_float), ("spot_cos_cutoff", c_float)]
+
+
+class Lighting(Structure):
+    """shade_lighting"""
+    _fields_ = [("lights", POINTER(Light)), ("light_count", c_int), ("ambient", c_float * 3),
+                ("model", c_int), ("flags", c_uint), ("terms", c_uint), ("cool", c_float * 3),
+                ("warm", c_float * 3)]
+
+
+class Texture(Structure):
+    """shade_texture"""
+    _fields_ = [("pixels", c_void_p), ("width", c_int), ("height", c_int), ("stride", c_int),
+                ("format", c_int), ("srgb", c_int), ("wrap_u", c_int), ("wrap_v", c_int),
+                ("filter", c_int), ("mipmaps", c_void_p), ("mipmap_count", c_int)]
+
+
+class State(Structure):
+    """shade_draw_state"""
+    _fields_ = [("model", c_float * 16), ("view", c_float * 16), ("projection", c_float * 16),
+                ("material", POINTER(Material)), ("lighting", Lighting), ("shading", c_int),
+                ("diffuse_map", POINTER(Texture)), ("transparency", c_float),
+                ("alpha_cutoff", c_float), ("raster", c_int * 5), ("depth_bias", c_float),
+                ("fragment", c_void_p), ("uniforms", c_void_p)]
+
+
+class Item(Structure):
+    """python_item"""
+    _fields_ = [("mesh", Mesh), ("state", State), ("lines", c_void_p), ("line_points", c_int),
+                ("two_sided", c_int), ("line_width", c_float), ("line_color", c_float * 4)]
+
+
+class View(Structure):
+    """python_view"""
+    _fields_ = [("width", c_int), ("height", c_int), ("samples", c_int), ("channels", c_int),
+                ("view", c_float * 16), ("projection", c_float * 16),
+                ("background", c_float * 4), ("lighting", Lighting), ("poses", c_void_p),
+                ("rgba", c_void_p), ("depth", c_void_p), ("normals", c_void_p),
+                ("ids", c_void_p)]
+
+
+class Chunk(Structure):
+    """shade_chunk"""
+    _fields_ = [("low", c_float * 3), ("high", c_float * 3), ("first", c_int), ("count", c_int)]
+
+
+class Edge(Structure):
+    """shade_edge"""
+    _fields_ = [("a", c_uint), ("b", c_uint), ("triangle", c_int * 2)]
+
+
+class OwnedMesh(Structure):
+    """owned_mesh, whose view has the counts"""
+    _fields_ = [("view", Mesh), ("positions", c_void_p), ("normals", c_void_p),
+                ("texcoords", c_void_p), ("colors", c_void_p), ("indices", c_void_p),
+                ("chunks", c_void_p)]
+
+
+def _open() -> Any:
+    name = "libshade.dll" if sys.platform == "win32" else "libshade.so"
+    path = Path(__file__).with_name(name)
+    if not path.is_file():
+        raise ImportError(f"{path} is missing: install the package with pip, which compiles it")
+    library = ctypes.CDLL(str(path))
+    for name, result, arguments in (
+            ("python_draw", c_int, [c_void_p, c_int, c_void_p, c_int, c_int]),
+            ("python_lit", None, [c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
+            ("python_light_at", None, [c_void_p, c_void_p, c_size_t] + 3 * [c_void_p]),
+            ("python_linear", None, [c_void_p, c_size_t]),
+            ("python_load", POINTER(OwnedMesh), [c_char_p, c_char_p, c_size_t]),
+            ("python_unload", None, [POINTER(OwnedMesh)]),
+            ("python_size", c_size_t, [c_int]),
+            ("shade_result_string", c_char_p, [c_int]),
+            ("shade_mesh_normals", c_int, [c_void_p, c_void_p]),
+            ("shade_mesh_corner_normals_bytes", c_size_t, [c_void_p]),
+            ("shade_mesh_corner_normals", c_int,
+             [c_void_p, c_float, c_void_p, c_void_p, c_size_t]),
+            ("shade_chunk_count", c_int, [c_int, c_int]),
+            ("shade_mesh_chunks", c_int, [c_void_p, c_int, c_void_p, c_int, c_void_p]),
+            ("shade_mesh_edges", c_int, [c_void_p, c_void_p, c_int, c_void_p]),
+            ("shade_mipmap_count", c_int, [c_int, c_int]),
+            ("shade_mipmap_bytes", c_size_t, [c_int, c_int, c_int]),
+            ("shade_build_mipmaps", c_int, [c_void_p, c_void_p, c_void_p, c_size_t]),
+            ("shade_preset_material", Material, [c_int]),
+            ("shade_preset_name", c_char_p, [c_int]),
+            ("shade_linear_material", Material, [Material])):
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    twins = (Mesh, State, Item, View, Lighting, Texture, Light, Chunk)
+    for i, twin in enumerate(twins):
+        if library.python_size(i) != ctypes.sizeof(twin):
+            raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
+    return library
+
+
+library: Any = _open()
+
+
+def check(result: int, what: str) -> None:
+    """Raises an exception, with what was refused and why, where a call failed."""
+    if result:
+        words = library.shade_result_string(result).decode()
+        raise Error(f"{what}: {words}")
+
+
+def pointer(array: npt.NDArray[Any] | None) -> int | None:
+    """The address of an array's first element, or None."""
+    return None if array is None else int(array.ctypes.data)
+
+

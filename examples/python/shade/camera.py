@@ -1,0 +1,194 @@
+"""Cameras: a view from the world and a projection, as matrices of OpenGL."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments as arguments
+from ._native import Error, Floats
+
+Matrix = npt.NDArray[np.float64]
+Viewpoint = Union[str, Sequence[float]]
+MOST = 1e8
+#: Azimuth and elevation in degrees of the views that have names.
+VIEWS = {"front": (0.0, 0.0), "right": (90.0, 0.0), "back": (180.0, 0.0), "left": (270.0, 0.0),
+         "top": (0.0, 90.0), "bottom": (0.0, -90.0),
+         "iso": (45.0, math.degrees(math.atan(0.5**0.5)))}
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """Where a picture is seen from.
+
+    view takes points of the world to the camera, which looks down -z with +y up; projection takes
+    them on to clip space, -w <= x, y, z <= w.  Both are 4 x 4 and multiply columns.
+    """
+
+    view: Matrix
+    projection: Matrix
+
+    def __post_init__(self) -> None:
+        """Refuses matrices of another shape, with NaN, or whose view is no rigid motion."""
+        for name in ("view", "projection"):
+            got = arguments.floats(name, getattr(self, name), (4, 4), finite=True)
+            object.__setattr__(self, name, got.astype(np.float64))
+        turn = self.view[:3, :3]
+        if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-3) or \
+                not np.allclose(self.view[3], (0, 0, 0, 1)):
+            raise Error("view must be a rotation and a translation, without scale")
+
+    @property
+    def eye(self) -> Matrix:
+        """The position of the camera in the world."""
+        return np.asarray(-self.view[:3, :3].T @ self.view[:3, 3])
+
+    @staticmethod
+    def look_at(eye: Sequence[float], target: Sequence[float] = (0, 0, 0),
+                up: Sequence[float] = (0, 0, 1), fov: float = 45.0, aspect: float = 1.0,
+                near: float = 0.01, far: float = 1000.0) -> Camera:
+        """A camera at eye that looks at target; fov is the vertical angle in degrees."""
+        at = arguments.floats("eye", eye, (3,), finite=True).astype(float)
+        back = at - arguments.floats("target", target, (3,), finite=True)
+        if not np.any(back):
+            raise Error("eye and target must differ")
+        turn = _facing(back, arguments.floats("up", up, (3,), finite=True).astype(float))
+        view = np.eye(4)
+        view[:3, :3], view[:3, 3] = turn, -turn @ at
+        return Camera(view, perspective(fov, aspect, near, far))
+
+    @staticmethod
+    def opencv(K: object, extrinsics: object, size: object, near: float = 0.01,
+               far: float = 1000.0) -> Camera:
+        """A camera of OpenCV: K is 3 x 3, in pixels whose centres are whole numbers; extrinsics,
+        3 x 4 or 4 x 4, take the world to a camera that looks down +z with +y down."""
+        width, height = arguments.size("size", size)
+        k = arguments.floats("K", K, (3, 3), finite=True).astype(float)
+        out = arguments.floats("extrinsics", extrinsics, (None, 4), finite=True).astype(float)
+        if len(out) not in (3, 4) or k[0, 0] == 0 or k[1, 1] == 0:
+            raise Error("extrinsics must be 3 x 4 or 4 x 4, and the focal lengths of K not 0")
+        view = np.eye(4)
+        view[:3] = np.diag([1.0, -1.0, -1.0]) @ out[:3]
+        near, far = _range(near, far)
+        projection = np.zeros((4, 4))
+        projection[0, :3] = (2 * k[0, 0] / width, -2 * k[0, 1] / width,
+                             1 - (2 * k[0, 2] + 1) / width)
+        projection[1, 1:3] = 2 * k[1, 1] / height, (2 * k[1, 2] + 1) / height - 1
+        projection[2, 2:] = (far + near) / (near - far), 2 * far * near / (near - far)
+        projection[3, 2] = -1
+        return Camera(view, projection)
+
+    @staticmethod
+    def opengl(projection: object, pose: object) -> Camera:
+        """A camera of OpenGL matrices: pose takes the camera to the world, as in pyrender."""
+        place = arguments.floats("pose", pose, (4, 4), finite=True).astype(float)
+        if abs(np.linalg.det(place)) < 1e-6:
+            raise Error("pose must be a rotation and a translation")
+        return Camera(np.linalg.inv(place), np.asarray(projection))
+
+
+def _range(near: float, far: float) -> tuple[float, float]:
+    near = arguments.number("near", near, 1e-12, 1e12)
+    far = arguments.number("far", far, 1e-12, 1e13)
+    if far <= near:
+        raise Error(f"far must exceed near, {near:g}, not {far:g}")
+    return near, far
+
+
+def perspective(fov: float, aspect: float, near: float, far: float) -> Matrix:
+    """The projection of a vertical angle of fov degrees."""
+    near, far = _range(near, far)
+    slope = math.tan(math.radians(arguments.number("fov", fov, 0.01, 179)) / 2)
+    aspect = arguments.number("aspect", aspect, 1e-4, 1e4)
+    out = np.zeros((4, 4))
+    out[0, 0], out[1, 1], out[3, 2] = 1 / (slope * aspect), 1 / slope, -1
+    out[2, 2:] = (far + near) / (near - far), 2 * far * near / (near - far)
+    return out
+
+
+def _facing(back: Matrix, up: Matrix) -> Matrix:
+    """The rows of a rotation after which back is +z, and up is as near to +y as it can be."""
+    z = back / np.linalg.norm(back)
+    x = np.cross(up, z)
+    if np.linalg.norm(x) < 1e-6 * max(float(np.linalg.norm(up)), 1e-30):
+        x = np.cross(np.eye(3)[np.argmin(np.abs(z))], z)
+    x /= np.linalg.norm(x)
+    return np.stack([x, np.cross(z, x), z])
+
+
+def direction(view: Viewpoint, up: str) -> tuple[Matrix, Matrix]:
+    """The way toward the eye, and the way up, of a view by its name or its angles in degrees."""
+    if isinstance(view, str):
+        azimuth, elevation = VIEWS[arguments.choice("view", view, list(VIEWS))]
+    else:
+        angles = arguments.floats("view", view, (2,), finite=True)
+        azimuth, elevation = float(angles[0]), float(angles[1])
+    a, e = math.radians(azimuth), math.radians(elevation)
+    back = np.array([math.sin(a) * math.cos(e), -math.cos(a) * math.cos(e), math.sin(e)])
+    head = np.array([-math.sin(a) * math.sin(e), math.cos(a) * math.sin(e), math.cos(e)])
+    if arguments.choice("up", up, ("y", "z")) == "y":
+        order = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+        return order @ back, order @ head
+    return back, head
+
+
+def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640, 480),
+           up: str = "z", ortho: bool = False, fov: float = 28.0, margin: float = 1.08) -> Camera:
+    """The nearest camera that sees all points from a side.
+
+    Each side of the picture gives one bound on the eye, linear in a point's coordinates; their
+    extremes give the distance and the shift that centres.  Points with NaN or beyond 1e8 do not
+    count.
+    """
+    turn, flat = _facing(*direction(view, up)), arguments.flag("ortho", ortho)
+    with np.errstate(invalid="ignore"):
+        good = (np.abs(points) <= MOST).all(1)
+    finite = points if good.all() and len(points) else points[good]
+    if not len(finite):
+        finite = np.zeros((1, 3), np.float32)
+    p = finite.astype(np.float64) @ turn.T
+    low, high = p.min(0), p.max(0)
+    slope = math.tan(math.radians(arguments.number("fov", fov, 0.01, 179)) / 2)
+    reach = max(float(np.linalg.norm(high - low)), float(np.abs(p).max()) * 1e-6, 1e-6)
+    slopes = (slope * size[0] / size[1], slope)
+    if flat:
+        return _orthographic(turn, low, high, size, margin, reach)
+    shift, least = [0.0, 0.0], 0.0
+    for axis in (0, 1):
+        above = float((p[:, axis] + slopes[axis] * p[:, 2]).max())
+        below = float((slopes[axis] * p[:, 2] - p[:, axis]).max())
+        shift[axis] = (above - below) / 2
+        least = max(least if axis else -math.inf, (above + below) / (2 * slopes[axis]))
+    least = max(least, float(high[2]) + 1e-3 * reach)
+    distance = least + (margin - 1) * (least - float(low[2] + high[2]) / 2)
+    view_matrix = np.eye(4)
+    view_matrix[:3, :3] = turn
+    view_matrix[:3, 3] = -shift[0], -shift[1], -distance
+    near, far = distance - float(high[2]), distance - float(low[2])
+    near = max(0.9 * near, 1e-4 * far)
+    return Camera(view_matrix, perspective(fov, size[0] / size[1], near, 1.1 * far + 1e-3 * reach))
+
+
+def _orthographic(turn: Matrix, low: Matrix, high: Matrix, size: tuple[int, int], margin: float,
+                  reach: float) -> Camera:
+    middle, extent = (low + high) / 2, (high - low) / 2
+    half = margin * max(float(extent[1]), float(extent[0]) * size[1] / size[0], 1e-4 * reach)
+    view = np.eye(4)
+    view[:3, :3], view[:3, 3] = turn, -middle - np.array([0, 0, 2 * reach])
+    projection = np.diag([size[1] / (half * size[0]), 1 / half, -1 / (2 * reach), 1.0])
+    projection[2, 3] = -1.0
+    return Camera(view, projection)
+
+
+def at(camera: object) -> Camera:
+    """The camera itself, where it is one."""
+    if not isinstance(camera, Camera):
+        raise Error(f"camera must be a shade.Camera, not {arguments.shown(camera)}")
+    return camera
+
+
+Cameras = Sequence[Camera]
+__all__ = ["Camera", "Cameras", "VIEWS", "Viewpoint", "fitted", "perspective", "direction", "at"]

@@ -1,0 +1,199 @@
+"""Pictures: arrays, PNG files, and tests against golden ones."""
+from __future__ import annotations
+
+import os
+import struct
+import zlib
+from pathlib import Path
+from typing import Union
+
+import numpy as np
+
+from ._arguments import array, shown
+from ._native import Bytes, Error, Floats, Integers
+
+SIGNATURE = b"\x89PNG\r\n\x1a\n"
+File = Union[str, "os.PathLike[str]"]
+
+
+class Picture:
+    """A picture and what lies at the centre of its pixels.
+
+    rgba is (H, W, 4) bytes, sRGB with straight alpha.  depth is (H, W), along the axis of view in
+    the unit of the scene, infinity where there is nothing.  ids is (H, W), the number of the mesh,
+    -1 where there is none.  normals is (H, W, 3), in the world, zero where there is nothing.
+    """
+
+    def __init__(self, rgba: Bytes, depth: Floats | None = None, ids: Integers | None = None,
+                 normals: Floats | None = None) -> None:
+        """Keeps the arrays, without copies."""
+        array("rgba", rgba, (None, None, 4))
+        if not isinstance(rgba, np.ndarray) or rgba.dtype != np.uint8 or not rgba.size:
+            raise Error(f"rgba must hold bytes, at least one pixel, not {shown(rgba)}")
+        self.rgba = rgba
+        h, w = rgba.shape[:2]
+        self.depth = np.full((h, w), np.inf, np.float32) if depth is None else depth
+        self.ids = np.full((h, w), -1, np.int32) if ids is None else ids
+        self.normals = np.zeros((h, w, 3), np.float32) if normals is None else normals
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height."""
+        return self.rgba.shape[1], self.rgba.shape[0]
+
+    def __repr__(self) -> str:
+        """Says the size."""
+        return f"<shade.Picture {self.size[0]} x {self.size[1]}>"
+
+    def png(self) -> bytes:
+        """The bytes of a PNG file: RGB where every pixel is opaque, else RGBA."""
+        opaque = bool((self.rgba[:, :, 3] == 255).all())
+        rows = self.rgba[:, :, :3] if opaque else self.rgba
+        return _encode(np.ascontiguousarray(rows), opaque)
+
+    def _repr_png_(self) -> bytes:
+        """Shows the picture in a notebook."""
+        return self.png()
+
+    def save(self, path: File) -> None:
+        """Writes a PNG file, which appears whole or not at all."""
+        try:
+            target = Path(path)
+        except TypeError:
+            raise Error(f"path must be a path, not {shown(path)}") from None
+        beside = target.with_name(f"{target.name}.{os.getpid()}.part")
+        try:
+            beside.write_bytes(self.png())
+            os.replace(beside, target)
+        except ValueError as why:
+            raise Error(f"path: {why}") from None
+        finally:
+            if "\0" not in str(beside):
+                beside.unlink(missing_ok=True)
+
+    @staticmethod
+    def open(path: File) -> Picture:
+        """Reads a PNG file of 8-bit RGB or RGBA that is not interlaced."""
+        try:
+            return Picture(_decode(Path(path).read_bytes(), str(path)))
+        except TypeError:
+            raise Error(f"path must be a path, not {shown(path)}") from None
+
+    def __eq__(self, other: object) -> bool:
+        """Are all pixels the same?"""
+        return isinstance(other, Picture) and np.array_equal(self.rgba, other.rgba)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def difference(self, other: Picture) -> Integers:
+        """The greatest difference of the channels of each pixel, (H, W), 0 .. 255."""
+        if not isinstance(other, Picture):
+            raise Error(f"other must be a Picture, not {shown(other)}")
+        if self.size != other.size:
+            raise Error(f"other must be {self.size[0]} x {self.size[1]}, "
+                        f"not {other.size[0]} x {other.size[1]}")
+        apart = np.abs(self.rgba.astype(np.int32) - other.rgba.astype(np.int32))
+        return np.asarray(apart.max(2), np.int32)
+
+
+def _chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def _encode(rows: Bytes, opaque: bool) -> bytes:
+    """Each row is stored as its difference from the row above, which packs well and is fast."""
+    height, width = rows.shape[:2]
+    lines = np.empty((height, 1 + rows[0].size), np.uint8)
+    flat = rows.reshape(height, -1)
+    lines[:, 0] = 2
+    lines[0, 1:] = flat[0]
+    lines[1:, 1:] = flat[1:] - flat[:-1]
+    head = struct.pack(">IIBBBBB", width, height, 8, 2 if opaque else 6, 0, 0, 0)
+    packed = zlib.compress(lines.tobytes(), 6)
+    return SIGNATURE + _chunk(b"IHDR", head) + _chunk(b"sRGB", b"\0") + \
+        _chunk(b"IDAT", packed) + _chunk(b"IEND", b"")
+
+
+def _decode(data: bytes, name: str) -> Bytes:
+    """The pixels of a PNG file."""
+    if not data.startswith(SIGNATURE):
+        raise Error(f"{name} is no PNG file")
+    place, packed, head = len(SIGNATURE), [], b""
+    while place + 12 <= len(data):
+        length = int.from_bytes(data[place:place + 4], "big")
+        kind, body = data[place + 4:place + 8], data[place + 8:place + 8 + length]
+        head = body if kind == b"IHDR" else head
+        packed += [body] if kind == b"IDAT" else []
+        place += 12 + length
+    if len(head) != 13:
+        raise Error(f"{name} has no header")
+    width, height, bits, kind_of, _, _, interlaced = struct.unpack(">IIBBBBB", head)
+    channels = {2: 3, 6: 4}.get(kind_of, 0)
+    if bits != 8 or not channels or interlaced or not 0 < width <= 16384 >= height > 0:
+        raise Error(f"{name} must be RGB or RGBA of 8 bits, not interlaced")
+    try:
+        lines = zlib.decompress(b"".join(packed))
+    except zlib.error as why:
+        raise Error(f"{name}: {why}") from None
+    if len(lines) != height * (1 + width * channels):
+        raise Error(f"{name} ends early")
+    rows = _unfilter(np.frombuffer(lines, np.uint8).reshape(height, -1), channels, name)
+    rgba = np.full((height, width, 4), 255, np.uint8)
+    rgba[:, :, :channels] = rows.reshape(height, width, channels)
+    return rgba
+
+
+def _unfilter(lines: Bytes, step: int, name: str) -> Bytes:
+    rows = np.zeros((lines.shape[0], lines.shape[1] - 1), np.uint8)
+    above = np.zeros(lines.shape[1] - 1, np.uint8)
+    for y, line in enumerate(lines):
+        if line[0] > 4:
+            raise Error(f"{name} has an unknown filter")
+        if line[0] in (0, 2):
+            rows[y] = line[1:] + (above if line[0] else 0)
+        elif line[0] == 1:
+            rows[y] = np.cumsum(line[1:].reshape(-1, step), 0, dtype=np.uint8).reshape(-1)
+        else:
+            rows[y] = _predicted(line, above, step)
+        above = rows[y]
+    return rows
+
+
+def _predicted(line: Bytes, above: Bytes, step: int) -> Bytes:
+    """A row that is stored as the difference from a mean, or from Paeth's choice."""
+    row, up, source = [0] * step, [0] * step + above.tolist(), line[1:].tolist()
+    for i, value in enumerate(source):
+        a, b, c = row[i], up[i + step], up[i]
+        guess = (a + b) // 2
+        if line[0] == 4:
+            p = a + b - c
+            near = (abs(p - a), abs(p - b), abs(p - c))
+            guess = (a, b, c)[near.index(min(near))]
+        row.append(value + guess & 255)
+    return np.array(row[step:], np.uint8)
+
+
+def assert_same(picture: Picture, golden: File, limit: int = 0) -> None:
+    """Raises AssertionError where a picture differs from a golden file by more than limit.
+
+    Then NAME.got.png and NAME.difference.png appear beside the golden file.  Where there is no
+    golden file, the picture is written as NAME.got.png: look at it, and rename it.
+    """
+    path = Path(golden)
+    got, shows = path.with_suffix(".got.png"), path.with_suffix(".difference.png")
+    if not path.exists():
+        picture.save(got)
+        raise AssertionError(f"there is no {path}; the picture is in {got}")
+    wanted = Picture.open(path)
+    if wanted.size != picture.size:
+        picture.save(got)
+        raise AssertionError(f"{path} is {wanted.size}, the picture {picture.size}; see {got}")
+    apart = picture.difference(wanted)
+    count = int((apart > limit).sum())
+    if count:
+        picture.save(got)
+        rgba = np.full((*apart.shape, 4), 255, np.uint8)
+        rgba[:, :, :3] = np.where(apart > limit, np.clip(64 + 3 * apart, 0, 255), 0)[:, :, None]
+        Picture(rgba).save(shows)
+        raise AssertionError(f"{count} pixels differ from {path}, by {apart.max()} at most; "
+                             f"see {got} and {shows}")

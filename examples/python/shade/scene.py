@@ -1,0 +1,313 @@
+"""Scenes: meshes in their places, lamps, and pictures of them, one or many at a time."""
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arguments as arguments
+from ._native import Bytes, Error, Floats, Integers, Item, View, check
+from ._native import library, pointer
+from .camera import Camera, Viewpoint, at, fitted
+from .light import Flag, Light, Lighting, Material, Model, preset
+from .mesh import Like, Mesh, mesh as as_mesh
+from .picture import Picture
+
+Color = Union[str, Sequence[float], npt.NDArray[Any]]
+CLAY = arguments.color("color", "clay")
+INK = arguments.color("color", "#20242a")
+IDENTITY = np.eye(4)
+#: The three quick lamps, which stay with the camera: the way their light travels, and its colour.
+QUICK = (((0.55, -0.85, -0.75), (1.02, 0.99, 0.95)), ((-1.0, 0.05, -0.55), (0.20, 0.23, 0.28)),
+         ((-0.6, -0.5, 1.0), (0.35, 0.38, 0.42)))
+QUICK_AMBIENT = (0.17, 0.175, 0.19)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A mesh in a scene: its number in pictures' ids is its place in scene.parts."""
+
+    mesh: Mesh
+    pose: npt.NDArray[Any]
+    material: Material
+    name: str
+    edges: bool
+    two_sided: bool
+
+
+class Scene:
+    """Meshes in their places, and the lamps that light them.
+
+    Without lamps of its own a scene is lit by three lamps that stay with the camera.
+    """
+
+    def __init__(self, lights: Sequence[Light] | None = None,
+                 ambient: Sequence[float] | None = None, model: Model = Model.BLINN_PHONG,
+                 flags: Flag = Flag.NONE) -> None:
+        """An empty scene.  ambient is linear light."""
+        self.parts: list[Part] = []
+        Lighting(() if lights is None else lights, (0, 0, 0) if ambient is None else ambient,
+                 model, flags).native()    # refuses what is wrong
+        self.lights = None if lights is None else list(lights)
+        self.ambient, self.model, self.flags = ambient, model, flags
+
+    def add(self, mesh: Like, pose: object = None, material: Material | str | None = None,
+            name: str = "", *, edges: bool = False, two_sided: bool = True,
+            **options: Any) -> int:
+        """Adds a mesh and returns its number.
+
+        pose is 4 x 4 and takes the mesh to the world.  material is a shade.Material or the name of
+        a preset; without one a colour of the mesh, or clay, is a little glossy.  edges draws its
+        silhouettes, creases and boundaries.  two_sided=False leaves faces out that are seen from
+        behind, which is faster.  options are those of shade.Mesh.
+        """
+        made = as_mesh(mesh, **options)
+        place = arguments.floats("pose", IDENTITY if pose is None else pose, (4, 4), finite=True)
+        if isinstance(material, str):
+            material = preset(material)
+        flags = arguments.flag("edges", edges), arguments.flag("two_sided", two_sided)
+        if material is not None and not isinstance(material, Material):
+            raise Error(f"material must be a shade.Material or a name, "
+                        f"not {arguments.shown(material)}")
+        self.parts.append(Part(made, place.astype(np.float64), material or _gloss(made),
+                               str(name), *flags))
+        return len(self.parts) - 1
+
+    def fit(self, view: Viewpoint = "iso", size: object = (640, 480), *, up: str = "z",
+            ortho: bool = False) -> Camera:
+        """The nearest camera that sees all of the scene from a side."""
+        with np.errstate(all="ignore"):
+            placed = [part.mesh.vertices[np.unique(part.mesh.faces)] @ part.pose[:3, :3].T
+                      + part.pose[:3, 3] for part in self.parts]
+        points = np.concatenate(placed) if placed else np.zeros((0, 3))
+        return fitted(np.asarray(points, np.float32), view, arguments.size("size", size), up, ortho)
+
+    def render(self, camera: Camera | Viewpoint = "iso", size: object = (640, 480), *,
+               samples: int = 3, background: Color | None = "white", threads: int = 0,
+               up: str = "z", ortho: bool = False) -> Picture:
+        """Draws one picture; a viewpoint instead of a camera is fitted to the scene.
+
+        samples, 1 .. 8, are taken along each edge of a pixel.  background None is transparent.
+        threads 0 is one a core; the picture is the same with any number.
+        """
+        width, height = arguments.size("size", size)
+        if not isinstance(camera, Camera):
+            camera = self.fit(camera, (width, height), up=up, ortho=ortho)
+        many = arguments.integer("samples", samples, 1, 8)
+        _small_enough(width, height, many)
+        rgba = np.empty((height, width, 4), np.uint8)
+        depth = np.empty((height, width), np.float32)
+        normals = np.empty((height, width, 3), np.float32)
+        ids = np.empty((height, width), np.int32)
+        view = View(width=width, height=height, samples=many, channels=4, rgba=pointer(rgba),
+                    depth=pointer(depth), normals=pointer(normals), ids=pointer(ids))
+        items, kept = self._items(camera)
+        self._aim(view, camera, _background(background))
+        self._draw(items, (View * 1)(view), threads)
+        del kept
+        return Picture(rgba, depth, ids, normals)
+
+    def render_batch(self, cameras: Sequence[Camera] | Camera, poses: object = None,
+                     size: object = (256, 256), *, samples: int = 1,
+                     background: Color = "white", threads: int = 0, rgb: object = None,
+                     depth: object = None, ids: object = None
+                     ) -> tuple[Bytes, Floats, Integers]:
+        """Draws N pictures: rgb (N, H, W, 3), depth (N, H, W), ids (N, H, W).
+
+        poses, (N, parts, 4, 4), are those of every part in every picture; None leaves all parts
+        where they are.  One camera serves all pictures.  rgb (uint8), depth (float32) and ids
+        (int32) may be handed in to be filled.  Threads share the pictures, without the
+        interpreter's lock.
+        """
+        width, height = arguments.size("size", size)
+        many = arguments.integer("samples", samples, 1, 8)
+        _small_enough(width, height, many)
+        placed = None if poses is None else arguments.floats(
+            "poses", poses, (None, len(self.parts), 4, 4), finite=True)
+        seen = _cameras(cameras, None if placed is None else len(placed))
+        n = len(seen)
+        shape = (n, height, width)
+        colors = arguments.into("rgb", rgb, (*shape, 3), np.uint8)
+        depths = arguments.into("depth", depth, shape, np.float32)
+        numbers = arguments.into("ids", ids, shape, np.int32)
+        columns = None if placed is None else np.ascontiguousarray(placed.transpose(0, 1, 3, 2))
+        if any(np.may_share_memory(x, y) for x, y in ((colors, depths), (depths, numbers),
+                                                      (colors, numbers)) if n):
+            raise Error("rgb, depth and ids must not overlap")
+        behind = _background(background)
+        views = (View * max(n, 1))()
+        for i, camera in enumerate(seen):
+            view = views[i]
+            view.width, view.height, view.samples, view.channels = width, height, many, 3
+            view.rgba, view.depth = pointer(colors[i]), pointer(depths[i])
+            view.ids = pointer(numbers[i])
+            view.poses = None if columns is None else pointer(columns[i])
+            self._aim(view, camera, behind)
+        items, kept = self._items(seen[0] if n else None)
+        if n:
+            self._draw(items, views, threads)
+        del kept
+        return colors, depths, numbers
+
+    def _draw(self, items: Any, views: Any, threads: int) -> None:
+        count = arguments.integer("threads", threads, 0, 256)
+        check(library.python_draw(items, len(self.parts), views, len(views), count), "scene")
+
+    def _items(self, camera: Camera | None) -> tuple[Any, list[Any]]:
+        """The parts as the library has them, and what must live as long as they."""
+        items = (Item * max(1, len(self.parts)))()
+        kept: list[Any] = []
+        for item, part in zip(items, self.parts):
+            material = part.material.native()
+            item.mesh = part.mesh.native()
+            item.two_sided = part.two_sided
+            item.state.material = ctypes.pointer(material)
+            item.state.model = tuple(part.pose.T.reshape(-1))
+            if part.mesh.map() is not None:
+                item.state.diffuse_map = ctypes.pointer(part.mesh.map())
+            if part.edges and camera is not None:
+                lines = _lines(part, camera)
+                item.lines, item.line_points = pointer(lines), len(lines)
+                item.line_width, item.line_color = 1.4, (*INK, 1.0)
+                kept.append(lines)
+            kept.append(material)
+        return items, kept
+
+    def _aim(self, view: Any, camera: Camera, background: tuple[float, ...]) -> None:
+        """Camera, lamps and background of a view."""
+        view.view = tuple(camera.view.T.reshape(-1))
+        view.projection = tuple(camera.projection.T.reshape(-1))
+        view.background = background
+        lights, ambient = self.lights, self.ambient
+        if lights is None:
+            turn = camera.view[:3, :3]
+            lights = [Light.directional(tuple(np.asarray(way) @ turn), color)
+                      for way, color in QUICK]
+            ambient = QUICK_AMBIENT if ambient is None else ambient
+        flags = self.flags
+        if camera.projection[3, 3] != 0:
+            flags |= Flag.INFINITE_VIEWER
+        light = (0.0, 0.0, 0.0) if ambient is None else ambient
+        view.lighting = Lighting(lights, light, self.model, flags).native()
+
+
+def _lines(part: Part, camera: Camera) -> Floats:
+    """The edges to draw of a part, as seen by a camera."""
+    with np.errstate(all="ignore"):
+        if abs(np.linalg.det(part.pose)) < 1e-30:
+            return np.empty((0, 3), np.float32)
+        back = np.linalg.inv(part.pose)
+    ortho = camera.projection[3, 3] != 0
+    way = back[:3, :3] @ camera.view[2, :3] if ortho else None
+    eye = back[:3, :3] @ camera.eye + back[:3, 3]
+    return part.mesh.drawn_edges(np.asarray(eye, np.float64), way)
+
+
+def _gloss(made: Mesh) -> Material:
+    """A little gloss on the colour of a mesh; white where vertices have colours of their own."""
+    white = (1.0, 1.0, 1.0) if made.colors is not None or made.texture is not None else None
+    color = made.color or white or CLAY
+    return Material((0, 0, 0), color, color, (0.08, 0.08, 0.08), 40.0)
+
+
+def _small_enough(width: int, height: int, samples: int) -> None:
+    most = max(width, height) * samples
+    if most > 16384:
+        raise Error(f"size times samples must be at most 16384, not {most}")
+
+
+def _background(value: object) -> tuple[float, ...]:
+    if value is None:
+        return 0.0, 0.0, 0.0, 0.0
+    return (*arguments.color("background", value), 1.0)
+
+
+def _cameras(cameras: Any, poses: int | None) -> list[Camera]:
+    if isinstance(cameras, Camera):
+        return [cameras] * (1 if poses is None else poses)
+    try:
+        seen = [at(camera) for camera in cameras]
+    except TypeError:
+        raise Error(f"cameras must be shade.Camera, not {arguments.shown(cameras)}") from None
+    if len(seen) == 1 and poses is not None:
+        seen *= poses
+    if poses is not None and len(seen) != poses:
+        raise Error(f"poses must have one row for each of {len(seen)} cameras, not {poses}")
+    return seen
+
+
+def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
+           size: object = (640, 480), color: object = None, normals: object = "auto",
+           uv: object = None, texture: object = None, edges: bool = False,
+           background: Color | None = "white", ortho: bool = False, samples: int = 3,
+           light: str = "quick", material: Material | str | None = None, up: str = "z",
+           threads: int = 0) -> Picture:
+    """Draws a mesh, seen from a side by a camera that is fitted to it.
+
+    Pass vertices and faces, or a mesh alone: a path, a shade.Mesh, an object of trimesh, cadquery
+    or build123d.  view is "front", "right", "back", "left", "top", "bottom", "iso" or (azimuth,
+    elevation) in degrees.  light is "quick", three lamps beside the camera.
+    """
+    arguments.choice("light", light, ("quick",))
+    options: dict[str, Any] = {"color": color, "normals": normals, "uv": uv, "texture": texture}
+    source = vertices if faces is None else (vertices, faces)
+    defaults = {"normals": "auto"}
+    given = {k: v for k, v in options.items()
+             if v is not None and not (isinstance(v, str) and defaults.get(k) == v)}
+    scene = Scene()
+    scene.add(source, None, material, edges=edges, **given)
+    return scene.render(view, size, samples=samples, background=background, threads=threads, up=up,
+                        ortho=ortho)
+
+
+def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top", "iso"), *,
+          edges: bool = True, size: object = (480, 400), samples: int = 3, up: str = "z",
+          background: Color | None = "white", gap: int = 2) -> Picture:
+    """The drawing of parts: a row for each mesh, a column for each view.
+
+    The named sides are orthographic and of one scale in a row; "iso" and angles are in perspective.
+    """
+    several = isinstance(meshes, list) and not (len(meshes) == 2 and _is_array(meshes[0]))
+    rows = meshes if isinstance(meshes, list) and several else [meshes]
+    if not rows or not isinstance(views, (list, tuple)) or not views:
+        raise Error("meshes and views must be lists of at least one")
+    width, height = arguments.size("size", size)
+    between = arguments.integer("gap", gap, 0, 1000)
+    w = len(views) * (width + between) - between
+    h = len(rows) * (height + between) - between
+    out = np.full((h, w, 4), (200, 204, 210, 255), np.uint8)
+    depth, normals = np.full((h, w), np.inf, np.float32), np.zeros((h, w, 3), np.float32)
+    ids = np.full((h, w), -1, np.int32)
+    for r, one in enumerate(rows):
+        scene = Scene()
+        scene.add(one, edges=edges)
+        for c, camera in enumerate(_of_one_scale(scene, views, (width, height), up)):
+            got = scene.render(camera, (width, height), samples=samples, background=background)
+            y, x = r * (height + between), c * (width + between)
+            cell = np.s_[y:y + height, x:x + width]
+            out[cell], depth[cell], normals[cell] = got.rgba, got.depth, got.normals
+            ids[cell] = np.where(got.ids < 0, -1, r)
+    return Picture(out, depth, ids, normals)
+
+
+def _is_array(value: object) -> bool:
+    return isinstance(value, np.ndarray) or (isinstance(value, (list, tuple)) and len(value) > 0
+                                             and not hasattr(value[0], "vertices"))
+
+
+def _of_one_scale(scene: Scene, views: Sequence[Viewpoint], size: tuple[int, int],
+                  up: str) -> list[Camera]:
+    flat = [isinstance(view, str) and view != "iso" for view in views]
+    cameras = [scene.fit(view, size, up=up, ortho=o) for view, o in zip(views, flat)]
+    scales = [c.projection[1, 1] for c, o in zip(cameras, flat) if o]
+    for camera, o in zip(cameras, flat):
+        if o:
+            camera.projection[0, 0] *= min(scales) / camera.projection[1, 1]
+            camera.projection[1, 1] = min(scales)
+    return cameras
+
+
+__all__ = ["Part", "Scene", "render", "sheet"]

@@ -1,0 +1,227 @@
+"""Depth, ids, normals, cameras and files of pictures, against geometry."""
+import io
+import struct
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from shapes import box, torus
+
+import shade
+
+
+def ray(camera, size, x, y):
+    """The eye, and the direction through a pixel's centre whose part along the view is 1."""
+    at = np.array([(x + .5) / size[0] * 2 - 1, 1 - (y + .5) / size[1] * 2])
+    way = np.array([at[0] / camera.projection[0, 0], at[1] / camera.projection[1, 1], -1])
+    return camera.eye, camera.view[:3, :3].T @ way
+
+
+def test_depth_is_the_distance_along_the_axis_of_view():
+    camera = shade.Camera.look_at((7, -8, 6), (1, 1, 0.5), fov=30, near=0.1, far=1000)
+    scene = shade.Scene()
+    scene.add(box())
+    got = scene.render(camera, (160, 160), samples=2)
+    seen = 0
+    for y in range(5, 160, 10):
+        for x in range(5, 160, 10):
+            eye, way = ray(camera, (160, 160), x, y)
+            with np.errstate(divide="ignore"):
+                low, high = (0 - eye) / way, (np.array([3, 2, 1]) - eye) / way
+            enter, leave = np.minimum(low, high).max(), np.maximum(low, high).min()
+            if enter < leave - 0.1:
+                assert got.depth[y, x] == pytest.approx(enter, rel=1e-4)
+                assert got.ids[y, x] == 0
+                axis = np.minimum(low, high).argmax()
+                assert got.normals[y, x] == pytest.approx(-np.sign(way[axis]) * np.eye(3)[axis],
+                                                          abs=1e-5)
+                seen += 1
+            elif enter > leave + 0.1:
+                assert np.isinf(got.depth[y, x]) and got.ids[y, x] == -1
+    assert seen > 20
+
+
+def test_the_nearest_part_has_the_pixel():
+    scene = shade.Scene()
+    numbers = []
+    for z in (2.0, 0.0, 4.0):
+        pose = np.eye(4)
+        pose[2, 3] = z
+        numbers.append(scene.add(box(1, 1, 0.1), pose, color="red"))
+    got = scene.render("top", (64, 64), ortho=True)
+    assert numbers == [0, 1, 2]
+    assert got.ids[32, 32] == 2
+    assert set(np.unique(got.ids)) == {-1, 2}
+
+
+@pytest.mark.parametrize("view", [*shade.VIEWS, (30, 20), (200, -50)])
+@pytest.mark.parametrize("ortho", [False, True])
+def test_a_fitted_view_shows_all_and_fills_the_picture(view, ortho):
+    vertices, faces, _ = torus(24)
+    got = shade.render(vertices * 1e-3 + 5, faces, view=view, ortho=ortho, size=(120, 90),
+                       samples=1)
+    there = np.argwhere(got.ids == 0)
+    low, high = there.min(0), there.max(0)
+    assert (low >= 1).all() and (high <= (88, 118)).all()
+    assert ((high - low) / (90, 120)).max() > 0.8
+
+
+def test_opencv_cameras_project_as_their_equation_says():
+    k = np.array([[150.0, 0, 70], [0, 140, 50], [0, 0, 1]])
+    turn = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    extrinsics = np.column_stack([turn, [0.1, 0.2, 5]])
+    camera = shade.Camera.opencv(k, extrinsics, (128, 96))
+    point = np.array([0.3, 0.4, -0.2])
+    u, v, w = k @ (extrinsics @ [*point, 1])
+    clip = camera.projection @ camera.view @ [*point, 1]
+    assert (clip[0] / clip[3] + 1) * 64 - 0.5 == pytest.approx(u / w, abs=1e-4)
+    assert (1 - clip[1] / clip[3]) * 48 - 0.5 == pytest.approx(v / w, abs=1e-4)
+    again = shade.Camera.opengl(camera.projection, np.linalg.inv(camera.view))
+    assert np.allclose(again.view, camera.view, atol=1e-5)
+
+
+def test_transparent_edges_keep_the_colour_of_the_mesh():
+    scene = shade.Scene([], ambient=(1, 1, 1))
+    scene.add(torus(24)[:2], material=shade.Material(ambient=(0.2, 0.5, 0.8)))
+    rgba = scene.render(background=None, size=(90, 70)).rgba
+    partly = rgba[(rgba[:, :, 3] > 20) & (rgba[:, :, 3] < 235)]
+    inside = rgba[rgba[:, :, 3] == 255][0]
+    assert len(partly) > 50 and rgba[0, 0].tolist() == [0, 0, 0, 0]
+    assert np.abs(partly[:, :3].astype(int) - inside[:3]).max() <= 1
+
+
+def test_png_files_come_back_and_other_programs_read_them(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    for background in (None, "white"):
+        got = shade.render(*torus(16)[:2], size=(70, 50), background=background)
+        got.save(tmp_path / "a.png")
+        assert shade.Picture.open(tmp_path / "a.png") == got
+        other = image.open(io.BytesIO(got.png()))
+        assert np.array_equal(np.asarray(other.convert("RGBA")), got.rgba)
+        other.save(tmp_path / "b.png", optimize=True)
+        assert shade.Picture.open(tmp_path / "b.png") == got
+    assert [p.name for p in tmp_path.iterdir() if p.name.endswith(".part")] == []
+
+
+def test_assert_same_writes_the_difference(tmp_path):
+    one = shade.render(*box(), size=(60, 40))
+    two = shade.render(*box(), size=(60, 40), color="red")
+    golden = tmp_path / "golden.png"
+    with pytest.raises(AssertionError, match="there is no"):
+        shade.assert_same(one, golden)
+    one.save(golden)
+    shade.assert_same(one, golden)
+    with pytest.raises(AssertionError, match="pixels differ"):
+        shade.assert_same(two, golden)
+    shown = shade.Picture.open(tmp_path / "golden.difference.png").rgba[:, :, 0]
+    assert np.array_equal(shown > 0, one.difference(two) > 0)
+    assert one != two and one == shade.Picture(one.rgba.copy())
+
+
+def test_colours_by_face_and_vertex_and_texture():
+    vertices, faces = box(1, 1, 1)
+    lit = {"view": "top", "size": (40, 40), "samples": 1, "ortho": True}
+    triangles = faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    colors = np.zeros((12, 3))
+    colors[10:, 1] = 1
+    middle = shade.render(vertices, triangles, color=colors, **lit).rgba[20, 20]
+    assert middle[1] > 150 and middle[0] < 60
+    by_vertex = np.repeat([[255, 0, 0], [0, 0, 255]], 4, 0).astype(np.uint8)
+    got = shade.render(vertices, faces, color=by_vertex, **lit).rgba
+    assert got[20, 5, 0] > got[20, 5, 2] and got[20, 34, 2] > got[20, 34, 0]
+    texture = np.zeros((8, 8, 3), np.uint8)
+    texture[:4, :, 0] = 255    # the upper half: v from 1/2 to 1
+    got = shade.render(vertices, faces, uv=vertices[:, :2], texture=texture, **lit).rgba
+    assert got[8, 20, 0] > 150 and got[32, 20, 0] < 60
+
+
+def test_the_objects_of_other_libraries():
+    vertices, faces = box()
+    triangles = faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+    class Visual:
+        kind = "face"
+        face_colors = np.tile(np.uint8([200, 30, 30, 255]), (12, 1))
+
+    class Trimesh:
+        pass
+
+    class Vector:
+        def __init__(self, p):
+            self.x, self.y, self.z = p
+
+        def toTuple(self):
+            return self.x, self.y, self.z
+
+    class Shape:
+        def tessellate(self, tolerance):
+            return [Vector(p) for p in vertices], [tuple(map(int, f)) for f in triangles]
+
+    mesh = Trimesh()
+    mesh.vertices, mesh.faces, mesh.visual = vertices, triangles, Visual()
+    plain = shade.render(vertices, triangles, size=(50, 50))
+    assert shade.render(Shape(), size=(50, 50)) == plain
+    assert shade.render(*Shape().tessellate(1), size=(50, 50)) == plain
+    red = shade.render(mesh, size=(50, 50))
+    assert np.array_equal(red.depth, plain.depth)
+    rgb = red.rgba[red.ids == 0].mean(0)
+    assert rgb[0] > 2 * rgb[1]
+
+
+def stl(vertices, triangles, text):
+    corner = np.asarray(vertices, np.float32)[triangles]
+    if text:
+        lines = ["solid box"]
+        for t in corner:
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += [f"vertex {x} {y} {z}" for x, y, z in t.tolist()]
+            lines += ["endloop", "endfacet"]
+        return "\n".join([*lines, "endsolid box", ""]).encode()
+    body = b"".join(bytes(12) + t.tobytes() + b"\0\0" for t in corner)
+    return bytes(80) + struct.pack("<I", len(corner)) + body
+
+
+def test_files_and_the_command(tmp_path):
+    vertices, faces = box()
+    triangles = faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    obj = "".join("v {} {} {}\n".format(*p) for p in vertices.tolist()) + \
+        "".join("f {} {} {} {}\n".format(*f) for f in (faces + 1).tolist())
+    ply = "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n" \
+        "property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n" + \
+        "".join("{} {} {}\n".format(*p) for p in vertices.tolist()) + \
+        "".join("4 {} {} {} {}\n".format(*f) for f in faces.tolist())
+    files = {"a.stl": stl(vertices, triangles, True), "b.stl": stl(vertices, triangles, False),
+             "c.obj": obj.encode(), "d.ply": ply.encode()}
+    for name, data in files.items():
+        (tmp_path / name).write_bytes(data)
+        mesh = shade.load(tmp_path / name)
+        assert len(mesh.faces) == 12
+        assert np.array_equal(mesh.vertices.max(0), [3, 2, 1])
+        got = shade.render(tmp_path / name, size=(80, 60))
+        assert np.array_equal(got.ids, shade.render(vertices, triangles, size=(80, 60)).ids)
+    done = subprocess.run([sys.executable, "-m", "shade", tmp_path / "b.stl", tmp_path / "s.png",
+                           "--views", "front,right,top,iso", "--size", "100x80"], check=False)
+    assert done.returncode == 0
+    assert shade.Picture.open(tmp_path / "s.png").size == (406, 80)
+    done = subprocess.run([sys.executable, "-m", "shade", tmp_path, tmp_path / "t.png"],
+                          stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 1 and done.stderr.count("\n") == 1
+
+
+def test_a_sheet_has_one_scale_in_a_row():
+    got = shade.sheet(box(3, 2, 1), ["front", "right", "top"], size=(120, 100), gap=0, edges=False)
+    wide = [np.ptp(np.argwhere(got.ids[:, 120 * i:120 * i + 120] == 0), 0) + 1 for i in range(3)]
+    unit = wide[0][1] / 3
+    assert wide[0] == pytest.approx([unit, 3 * unit], abs=2)
+    assert wide[1] == pytest.approx([unit, 2 * unit], abs=2)
+    assert wide[2] == pytest.approx([2 * unit, 3 * unit], abs=2)
+
+
+def test_edges_of_a_box_are_dark_lines():
+    flat = {"view": "top", "ortho": True, "size": (100, 100), "samples": 2}
+    got = shade.render(*box(1, 1, 1), edges=True, **flat).rgba[:, :, :3].astype(int).sum(2)
+    bare = shade.render(*box(1, 1, 1), **flat).rgba[:, :, :3].astype(int).sum(2)
+    rows = np.argwhere(got[:, 50] < 400).reshape(-1)
+    assert bare[:, 50].min() > 400 and len(rows) >= 2
+    assert (np.minimum(np.abs(rows - 3), np.abs(rows - 96)) <= 3).all()
