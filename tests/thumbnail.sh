@@ -91,6 +91,14 @@ formats() {
     same "three shadings draw" flat.obj flat.obj 0 "--shading vertex"
     check "faces" draw torus.obj a.ppm --shading face
     check "fragments" draw torus.obj b.ppm
+    printf 'newmtl black\nKd 0 0 0\n' >"$T/black.mtl"
+    { printf 'mtllib black.mtl\nusemtl black\n'; cat "$T/torus.obj"; } >"$T/black.obj"
+    check "black without gloss" draw black.obj c.ppm --no-shadow
+    check "and by Lambert" draw black.obj d.ppm --no-shadow --model lambert
+    check "shows form by what it reflects" no "$T/look" same "$T/c.ppm" "$T/d.ppm" 60
+    check "tones" draw torus.obj c.ppm --no-shadow --model cool-to-warm
+    check "and one color" draw torus.obj d.ppm --no-shadow --model emissive
+    check "differ" no "$T/look" near "$T/c.ppm" "$T/d.ppm" 5
     check "faces show" no "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.2
     check "a plain background" draw torus.obj a.ppm --background 204060 --no-shadow
     check "is the color asked for" "$T/look" pixel "$T/a.ppm" 0.01 0.01 32 64 96 0

@@ -81,7 +81,8 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     report_next(p, "finding shadows");
     result = SHADE_OK;
     if (look_has_shadows(o) || !o->no_shadow)
-        result = studio_open(&light, m, o->threads, report, p);
+        result = studio_open(&light, m, o->width > o->height ? o->width : o->height, o->threads,
+                             report, p);
     report_next(p, "drawing");
     c = canvas_new(o->width, o->height, o->samples);
     if (!result) result = draw_picture(&c, m, &light, o, report, p);
