@@ -58,6 +58,15 @@ for signal in TERM HUP INT KILL; do
     [ $signal = KILL ] || check "SIG$signal: nothing else stays" same "$(ls cut | grep -c part)" 0
 done
 running=
+# parts: of a process of this machine that is gone, of one that lives, of another machine
+host=$(uname -n | sed 's|[].*?[/\\]|-|g')
+dead=$(sh -c 'echo $$')
+mkdir swept
+for part in $host.$dead $host.$$ elsewhere.$dead; do : >"swept/00000.ppm.$part.part"; done
+check "one frame" "$BATCH" --frames 1 --size 60x40 --samples 1 --out swept
+check "sweeps what a killed job has left, nothing else" same "$(ls swept | tr '\n' ' ')" \
+    "$(printf '%s\n' 00000.ppm "00000.ppm.$host.$$.part" "00000.ppm.elsewhere.$dead.part" |
+        sort | tr '\n' ' ')"
 
 # ---- strips -------------------------------------------------------------------------------------
 poster="--size 301x407 --samples 2"

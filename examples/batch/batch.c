@@ -25,7 +25,7 @@ static const char usage[] =
     "  --pipe                to standard output instead, one behind the other\n"
     "  --piece K             only this one, 0 .. N-1\n"
     "  --missing             only prints the numbers of those that are not there\n"
-    "  --help                prints this text\n";
+    "  --help, --version     prints this text; the version\n";
 
 typedef struct batch {
     scene_request request;

@@ -72,7 +72,8 @@ static void look_light(const look *k, const float *P, const float *N, const floa
     {
         int lane = i < count ? i : count - 1;
         const float *p = P + lane, *n = N + lane;
-        shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]), E = shade_v3(0, 0, 0), M = E;
+        shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]);
+        shade_vec3 E = shade_v3(0, 0, 0), M = E;
         shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
         normal = shade_normalize(normal);
         visibility[i] = visibility[SHADE_LANES + i] = 1;
@@ -100,7 +101,8 @@ static void look_light(const look *k, const float *P, const float *N, const floa
         SHADE_EACH_LANE(i)
         {
             float own = albedo[i + a * SHADE_LANES];
-            float light = out[a][i] + own * (ambient * sky[a][i] + emission) + mirror[a][i];
+            float light = out[a][i] + mirror[a][i];
+            light += own * (ambient * sky[a][i] + emission);
             out[a][i] = light > SHOULDER ? shoulder(light) : light;
         }
     }

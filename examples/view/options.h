@@ -26,7 +26,7 @@ static const char view_usage[] =
     "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
-    "  --help                prints this text\n"
+    "  --help, --version     prints this text; the version\n"
     "The key ? lists the others.\n";
 
 /* Stores one option: the option_take of view. */
