@@ -79,6 +79,18 @@ static inline int option_size(const char *text, int most, int *width, int *heigh
            option_integer(text + 1, 1, most, height);
 }
 
+/* An upright axis: 0 .. 5 for x y z -x -y -z */
+static inline int option_axis(const char *text, int *out)
+{
+    static const char *const axes[] = { "x", "y", "z", "-x", "-y", "-z" };
+    for (int i = 0; i < 6; i++) {
+        if (strcmp(text, axes[i]) != 0) continue;
+        *out = i;
+        return 1;
+    }
+    return 0;
+}
+
 /* ---- the command line ------------------------------------------------------------------------ */
 
 static inline int option_among(const char *const *list, const char *name)

@@ -132,7 +132,6 @@ static int take_name(options *o, const char *name, const char *value)
     static const char *const models[] = { "blinn phong", "phong",    "lambert",
                                           "ambient",     "emissive", "cool to warm" };
     static const char *const shadings[] = { "fragment", "vertex", "face" };
-    static const char *const axes[] = { "x", "y", "z", " x", " y", " z" }; /* dashes as spaces */
     int k = 0;
     if (!strcmp(name, "--background")) {
         o->background = same_name(value, "none") ? THUMBNAIL_NONE : THUMBNAIL_PLAIN;
@@ -153,7 +152,7 @@ static int take_name(options *o, const char *name, const char *value)
         k = find_name(value, shadings, 3);
         o->shading = (shade_shading)(k < 0 ? 0 : k);
     }
-    if (!strcmp(name, "--up")) k = o->up = find_name(value, axes, 6);
+    if (!strcmp(name, "--up")) return option_axis(value, &o->up);
     return k >= 0;
 }
 
