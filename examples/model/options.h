@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "shade.h"
+#include "../../shade.h"
 
 /* What options_read returns: go on; a line on stderr has said what is wrong; --help, or another
    option that is a question, has been answered. */
