@@ -13,8 +13,9 @@
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
 # make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
 #                 and beside it the slides of four courses, course-uw.html and so on
-# make install    header, shade.pc, shade-thumbnail and shade.thumbnailer for file managers, below
-#                 PREFIX (/usr/local) in DESTDIR; make uninstall removes them
+# make install    header, shade.pc, shade-thumbnail, -view, -batch and -compare with man pages, and
+#                 what file managers need for thumbnails, below PREFIX (/usr/local) in DESTDIR;
+#                 make uninstall removes them
 # make vector-report   loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
@@ -51,7 +52,8 @@ vpath %.c examples $(ROOMS:%=examples/%)
 
 all: pictures programs
 pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm
-programs: build/thumbnail build/compare $(POSIX)
+PROGRAMS = build/thumbnail build/compare $(POSIX)
+programs: $(PROGRAMS)
 
 # each example compiles alone; here they share one build of the implementation
 build/shade.o: shade.h
@@ -111,15 +113,26 @@ FUZZ_SECONDS ?= 300
 fuzz:
 	@sh tests/fuzz.sh $(FUZZ_SECONDS)
 
-# The program has a name of its own, "thumbnail" is anybody's.  The types are those it reads and
-# shared-mime-info knows, which PLY is not among; whether it has assimp and stb shows in it.
+# Installed programs begin with shade-, for "view" is anybody's.  The types are those that thumbnail
+# reads; those that shared-mime-info does not know have the names that f3d gives them, in
+# examples/model/mime.xml.  Whether it has assimp and stb shows in the program.
 PREFIX  ?= /usr/local
 INSTALL ?= install
-MIME        = model/obj model/stl
-MIME_ASSIMP = model/gltf+json model/gltf-binary model/3mf image/x-3ds
-INSTALLED = bin/shade-thumbnail include/shade.h share/pkgconfig/shade.pc \
-            share/thumbnailers/shade.thumbnailer
-install: build/thumbnail
+MIME        = model/obj model/stl application/vnd.ply
+MIME_ASSIMP = model/gltf+json model/gltf-binary model/3mf image/x-3ds application/vnd.fbx \
+              model/vnd.collada+xml
+SAYS_thumbnail = draws a picture of a model file
+SAYS_view      = shows a model turning, in a terminal or a window
+SAYS_batch     = renders films and posters of a model, in pieces that machines can share
+SAYS_compare   = tells by how much two pictures differ
+PLACE     = $(DESTDIR)$(PREFIX)
+FILES     = include/shade.h share/pkgconfig/shade.pc share/thumbnailers/shade.thumbnailer \
+            share/mime/packages/shade.xml
+INSTALLED = $(FILES) $(foreach p,thumbnail view batch compare,bin/shade-$p \
+            share/man/man1/shade-$p.1)
+build/%.1: build/% examples/model/man.sh
+	sh examples/model/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
+install: programs
 	@v=$$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h); \
 	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' '' 'Name: shade' \
 	    'Description: Phong and Blinn-Phong light and an exact z-buffer rasterizer, one header' \
@@ -130,13 +143,17 @@ install: build/thumbnail
 	printf '%s\n' '[Thumbnailer Entry]' 'TryExec=$(PREFIX)/bin/shade-thumbnail' \
 	    "Exec=$(PREFIX)/bin/shade-thumbnail$$png --max-seconds 30 --size %sx%s %i %o" \
 	    "MimeType=$$(printf '%s;' $$types)" >build/shade.thumbnailer
-	for f in $(INSTALLED); do $(INSTALL) -d "$(DESTDIR)$(PREFIX)/$${f%/*}" || exit 1; done
-	$(INSTALL) -m 755 build/thumbnail "$(DESTDIR)$(PREFIX)/bin/shade-thumbnail"
-	$(INSTALL) -m 644 shade.h "$(DESTDIR)$(PREFIX)/include"
-	$(INSTALL) -m 644 build/shade.pc "$(DESTDIR)$(PREFIX)/share/pkgconfig"
-	$(INSTALL) -m 644 build/shade.thumbnailer "$(DESTDIR)$(PREFIX)/share/thumbnailers"
+	for f in $(INSTALLED); do $(INSTALL) -d "$(PLACE)/$${f%/*}" || exit 1; done
+	for p in $(notdir $(PROGRAMS)); do \
+	    $(MAKE) -s build/$$p.1 && \
+	    $(INSTALL) -m 755 build/$$p "$(PLACE)/bin/shade-$$p" && \
+	    $(INSTALL) -m 644 build/$$p.1 "$(PLACE)/share/man/man1/shade-$$p.1" || exit 1; done
+	$(INSTALL) -m 644 shade.h "$(PLACE)/include"
+	$(INSTALL) -m 644 build/shade.pc "$(PLACE)/share/pkgconfig"
+	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
+	$(INSTALL) -m 644 examples/model/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
 uninstall:
-	for f in $(INSTALLED); do rm -f "$(DESTDIR)$(PREFIX)/$$f" || exit 1; done
+	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 
 clean:
 	rm -rf build out

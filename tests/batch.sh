@@ -58,6 +58,24 @@ for signal in TERM HUP INT KILL; do
     [ $signal = KILL ] || check "SIG$signal: nothing else stays" same "$(ls cut | grep -c part)" 0
 done
 running=
+# parts: of a process of this machine that is gone, of one that lives, of another machine
+host=$(uname -n | sed 's|[].*?[/\\]|-|g')
+dead=$(sh -c 'echo $$')
+mkdir swept
+for part in $host.$dead $host.$$ elsewhere.$dead; do : >"swept/00000.ppm.$part.part"; done
+check "one frame" "$BATCH" --frames 1 --size 60x40 --samples 1 --out swept
+check "sweeps what a killed job has left, nothing else" same "$(ls swept | tr '\n' ' ')" \
+    "$(printf '%s\n' 00000.ppm "00000.ppm.$host.$$.part" "00000.ppm.elsewhere.$dead.part" |
+        sort | tr '\n' ' ')"
+
+# the six axes: a model and its copy with turned coordinates are one picture
+printf 'v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >y.obj
+printf 'v 0 0 0\nv 0 -1 0\nv 2 0 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >x.obj
+printf 'v 0 0 0\nv 0 1 0\nv -2 0 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >-x.obj
+for up in y x -x; do
+    check "--up $up" "$BATCH" ./$up.obj --up $up --frames 1 --size 60x40 --samples 1 --out up$up
+    check "is upright" cmp upy/00000.ppm up$up/00000.ppm
+done
 
 # ---- strips -------------------------------------------------------------------------------------
 poster="--size 301x407 --samples 2"
@@ -107,7 +125,7 @@ check "half a model" refused "half.obj:3" "$BATCH" half.obj
 check "a folder for a model" refused "directory" "$BATCH" one
 check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
 for bad in "--frames 0" "--strips 100000" "--size 0x5" "--size 5" "--size 300000x5" "--size 5x5x5" \
-    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up x" "--out ''"; do
+    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up w" "--out ''"; do
     check "$bad" eval refused "'cannot be'" "'$BATCH'" "$bad"
 done
 check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3

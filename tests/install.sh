@@ -9,8 +9,16 @@ modes() {
     (cd "$1" && find . ! -type d -exec ls -l {} +) |
         awk '{ print substr($1, 1, 10), $NF }' | sort -k 2
 }
-files='-rwxr-xr-x ./bin/shade-thumbnail
+files='-rwxr-xr-x ./bin/shade-batch
+-rwxr-xr-x ./bin/shade-compare
+-rwxr-xr-x ./bin/shade-thumbnail
+-rwxr-xr-x ./bin/shade-view
 -rw-r--r-- ./include/shade.h
+-rw-r--r-- ./share/man/man1/shade-batch.1
+-rw-r--r-- ./share/man/man1/shade-compare.1
+-rw-r--r-- ./share/man/man1/shade-thumbnail.1
+-rw-r--r-- ./share/man/man1/shade-view.1
+-rw-r--r-- ./share/mime/packages/shade.xml
 -rw-r--r-- ./share/pkgconfig/shade.pc
 -rw-r--r-- ./share/thumbnailers/shade.thumbnailer'
 
@@ -18,10 +26,30 @@ files='-rwxr-xr-x ./bin/shade-thumbnail
 P=$T/prefix
 strict_umask() { (umask 077 && $MAKE -s install PREFIX="$P"); }
 check "make install" strict_umask
-check "four files, readable by all" same "$(modes "$P")" "$files"
+check "twelve files, readable by all" same "$(modes "$P")" "$files"
 check "in directories open to all" same "$(find "$P" -type d ! -perm -755)" ""
 check "the header is this one" cmp shade.h "$P/include/shade.h"
-check "the program is the one built" cmp build/thumbnail "$P/bin/shade-thumbnail"
+for p in thumbnail view batch compare; do
+    page="$P/share/man/man1/shade-$p.1"
+    check "$p is the one built" cmp build/$p "$P/bin/shade-$p"
+    check "$p has a version" sh -c "'$P/bin/shade-$p' --version | grep -q '^$p 1[.]'"
+    for option in $("$P/bin/shade-$p" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p'); do
+        check "its page has $option" grep -q "^[.]B $(echo "$option" | sed 's/-/\\\\-/g')" "$page"
+    done
+    if command -v man >/dev/null 2>&1 && command -v groff >/dev/null 2>&1; then
+        check "its page without a warning" same \
+            "$(LC_ALL=C MANROFFOPT='' man --warnings -l "$page" 2>&1 >/dev/null)" ""
+    fi
+done
+command -v man >/dev/null 2>&1 || echo "install: no man: warnings about pages left out"
+if command -v update-mime-database >/dev/null 2>&1; then
+    cp -r "$P/share/mime" "$T/mime"
+    check "the types are understood" update-mime-database "$T/mime"
+    for type in application/vnd.ply:ply application/vnd.fbx:fbx model/vnd.collada+xml:dae; do
+        check "$type" grep -q ":${type%:*}:[*].${type#*:}$" "$T/mime/globs2"
+    done
+else echo "install: no shared-mime-info: types left out"
+fi
 
 # ---- a client -----------------------------------------------------------------------------------
 cat >"$T/client.c" <<'END'
@@ -52,6 +80,50 @@ printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >"$input.obj"
 printf 'solid s\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 0\n' \
     >"$input.stl"
 printf 'endloop\nendfacet\nendsolid s\n' >>"$input.stl"
+{
+    printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n'
+    printf 'property float z\nelement face 1\nproperty list uchar int vertex_indices\n'
+    printf 'end_header\n-1 -1 0\n1 -1 0\n0 1 0\n3 0 1 2\n'
+} >"$input.ply"
+cat >"$input.dae" <<'END'
+<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">-1 -1 0 1 -1 0 0 1 0</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+END
+cat >"$input.fbx" <<'END'
+; FBX 7.3.0 project file
+FBXHeaderExtension:  {
+    FBXHeaderVersion: 1003
+    FBXVersion: 7300
+}
+Objects:  {
+    Geometry: 1, "Geometry::g", "Mesh" {
+        Vertices: *9 {
+            a: -1,-1,0,1,-1,0,0,1,0
+        }
+        PolygonVertexIndex: *3 {
+            a: 0,1,-3
+        }
+        GeometryVersion: 124
+    }
+    Model: 2, "Model::m", "Mesh" {
+        Version: 232
+    }
+}
+Connections:  {
+    C: "OO",2,0
+    C: "OO",1,2
+}
+END
 # the same triangle of glTF: twelve floats in little endian, 0, 1 or -1
 corners() {
     z='\0\0\0\0' p='\0\0\200?' m='\0\0\200\277'
@@ -110,6 +182,9 @@ sample() {                      # the file of a MIME type
     model/gltf-binary) echo "$input.glb" ;;
     model/3mf) echo "$input.3mf" ;;
     image/x-3ds) echo "$input.3ds" ;;
+    application/vnd.ply) echo "$input.ply" ;;
+    application/vnd.fbx) echo "$input.fbx" ;;
+    model/vnd.collada+xml) echo "$input.dae" ;;
     *) return 1 ;;
     esac
 }
@@ -156,7 +231,8 @@ for type in $(entry MimeType | tr ';' ' '); do
     check "a file of type $type" test -f "$file"
     check "a thumbnail of $type" thumbnail "$file" "$T/models/out put.png" 64
     check "that is a picture" picture "$T/models/out put.png"
-    if [ -f /usr/share/mime/globs2 ]; then
+    if [ -f /usr/share/mime/globs2 ] && [ "${type#application/vnd.}" = "$type" ] &&
+        [ "$type" != model/vnd.collada+xml ]; then
         check "$type is the type of .${file##*.}" grep -q ":$type:\*\.${file##*.}$" \
             /usr/share/mime/globs2
     fi

@@ -91,6 +91,11 @@ formats() {
     same "three shadings draw" flat.obj flat.obj 0 "--shading vertex"
     check "faces" draw torus.obj a.ppm --shading face
     check "fragments" draw torus.obj b.ppm
+    printf 'newmtl black\nKd 0 0 0\n' >"$T/black.mtl"
+    { printf 'mtllib black.mtl\nusemtl black\n'; cat "$T/torus.obj"; } >"$T/black.obj"
+    check "black without gloss" draw black.obj c.ppm --no-shadow
+    check "and by Lambert" draw black.obj d.ppm --no-shadow --model lambert
+    check "shows form by what it reflects" no "$T/look" same "$T/c.ppm" "$T/d.ppm" 60
     check "faces show" no "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.2
     check "a plain background" draw torus.obj a.ppm --background 204060 --no-shadow
     check "is the color asked for" "$T/look" pixel "$T/a.ppm" 0.01 0.01 32 64 96 0
@@ -110,6 +115,18 @@ formats() {
     "$THUMBNAIL" "$T/torus.obj" - --size 120x90 >"$T/b.ppm" 2>"$T/err"
     check "standard output" "$T/look" near "$T/a.ppm" "$T/b.ppm" 200
     check "no progress into a file" test ! -s "$T/err"
+}
+
+# The program ends by a signal while it reads: one line names the file
+crashed() {
+    "$THUMBNAIL" "$T/pipe.obj" "$T/none.ppm" --max-seconds 60 2>"$T/err" &
+    exec 3>"$T/pipe.obj"                # goes on when the reader has opened it
+    kill -"$1" $!
+    wait $!
+    status=$?
+    exec 3>&-
+    cat "$T/err"
+    [ $status -eq 1 ] && [ "$(cat "$T/err")" = "thumbnail: crashed while reading $T/pipe.obj" ]
 }
 
 bad_input() {
@@ -156,9 +173,19 @@ break.obj" "no faces"
                  for (i = 1; i <= 200000; i++) printf " %d", i; print "" }' >"$T/tangle.obj"
     check "one polygon of 200000 corners" refused "more than 150000" "$THUMBNAIL" \
         "$T/tangle.obj" "$T/none.ppm" --max-triangles 150000
+    # three million vertices take 36 MB of floats, and half as much again while the array grows
+    if (ulimit -v 4000000) 2>/dev/null; then
+        awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"
+                     for (i = 0; i < 3000000; i++) print "v 0 0 0" }' >"$T/sparse.obj"
+        check "less memory than the model takes" refused "out of memory" "$THUMBNAIL" \
+            "$T/sparse.obj" "$T/none.ppm" --threads 2 --max-memory 64
+        check "enough" draw sparse.obj a.ppm $flat --threads 2 --max-memory 1000
+    fi
     if mkfifo "$T/pipe.obj" 2>/dev/null; then
         check "time is up" refused "gave up after --max-seconds" "$THUMBNAIL" "$T/pipe.obj" \
             "$T/none.ppm" --max-seconds 1
+        check "a crash of the reader" crashed SEGV
+        check "an abort" crashed ABRT
     fi
 }
 
@@ -188,9 +215,20 @@ bad_output() {
 bad_options() {
     for k in "--frobnicate" "--size" "--size 0x5" "--size 10" "--size 99999x1" "--samples 3" \
         "--up w" "--color 12345" "--color redd" "--background no" "--material x" "--shading x" \
-        "--model x" "--rotate x" "--threads 0" "--threads 257" "--threads x" "--threads" "--max-seconds x" "--max-triangles -1" "extra"; do
+        "--model x" "--rotate x" "--threads 0" "--threads 257" "--threads x" "--threads" \
+        "--max-memory 0" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra"; do
         check "$k" refused "" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
     done
+    check "the value and the range" refused \
+        'samples cannot be "3": --samples 1|2|4 samples along' "$THUMBNAIL" "$T/torus.obj" \
+        "$T/none.ppm" --samples 3
+    check "a range of two lines" refused 'or a name that --material list prints$' "$THUMBNAIL" \
+        "$T/torus.obj" "$T/none.ppm" --material x
+    for k in jpg JPEG webp gif tga; do
+        check "a picture.$k" refused "\.ppm or \.png" "$THUMBNAIL" "$T/torus.obj" "$T/none.$k"
+        check "is not there" test ! -e "$T/none.$k"
+    done
+    check "version" sh -c "'$THUMBNAIL' --version | grep -qx 'thumbnail 1\.[0-9]*\.[0-9]*'"
     check "none needs PNG" refused "needs PNG" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" \
         --background none
     check "help" sh -c "'$THUMBNAIL' --help | grep -q '^usage: thumbnail'"

@@ -35,7 +35,7 @@ check "option without a value" refused "rate needs a value" "$VIEW" --rate
 check "a bad value" refused "frames cannot be" "$VIEW" --frames 0
 check "no threads" refused "threads cannot be" "$VIEW" --threads 0
 check "too many threads" refused "threads cannot be" "$VIEW" --threads 257
-check "a bad axis" refused "up cannot be" "$VIEW" --up x
+check "a bad axis" refused "up cannot be" "$VIEW" --up w
 check "two models" refused "one file too many: b.obj" "$VIEW" a.obj b.obj
 check "help" sh -c "'$VIEW' --help | grep -q '^usage: view'"
 

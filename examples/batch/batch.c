@@ -19,13 +19,13 @@ static const char usage[] =
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
     "  --samples 1..8        along each edge of a pixel (3)\n"
-    "  --up y|z              the model's upright axis (y, for STL z)\n"
+    "  --up x|y|z|-x|-y|-z   the model's upright axis (y; for STL z)\n"
     "  --threads N           1 .. 256 (one a core); the bits are the same\n"
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
     "  --piece K             only this one, 0 .. N-1\n"
     "  --missing             only prints the numbers of those that are not there\n"
-    "  --help                prints this text\n";
+    "  --help, --version     prints this text; the version\n";
 
 typedef struct batch {
     scene_request request;
@@ -156,7 +156,7 @@ static int write_pieces(batch *b)
 
 int main(int argc, char **argv)
 {
-    static batch b = { .request = { .z_up = -1 },
+    static batch b = { .request = { .up = -1 },
                        .count = 360,
                        .width = 1280,
                        .height = 720,

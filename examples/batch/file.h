@@ -6,6 +6,7 @@
 #include "../model/clock.h"
 #include "../model/options.h"
 #include <errno.h>
+#include <glob.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -35,14 +36,43 @@ static inline void batch_die(int number)
     raise(number);
 }
 
+/* The name of this machine, without what could end a part's name early */
+static inline void batch_host(char *name, size_t room)
+{
+    if (gethostname(name, room)) *name = 0;
+    name[room - 1] = 0;
+    for (char *c = name; *c; c++)
+        if (strchr(".*?[]/\\", *c)) *c = '-';
+}
+
+/* Removes the parts of path that killed jobs have left: those of this machine whose process is
+   gone.  Other machines sweep theirs. */
+static inline void batch_sweep(const char *path)
+{
+    char host[65], pattern[4400];
+    glob_t found;
+    if (strpbrk(path, "*?[\\")) return; /* the path itself would be a pattern */
+    batch_host(host, sizeof host);
+    snprintf(pattern, sizeof pattern, "%s.%s.*.part", path, host);
+    if (glob(pattern, 0, NULL, &found)) return;
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        long process = strtol(found.gl_pathv[i] + strlen(path) + strlen(host) + 2, NULL, 10);
+        if (process > 0 && kill((pid_t)process, 0) && errno == ESRCH) unlink(found.gl_pathv[i]);
+    }
+    globfree(&found);
+}
+
 /* Opens the file to write under another name.  Returns NULL with a line on stderr. */
 static inline FILE *batch_begin(const char *path)
 {
     static const int fatal[3] = { SIGHUP, SIGINT, SIGTERM };
+    char host[65];
     FILE *file;
+    batch_sweep(path);
+    batch_host(host, sizeof host);
     for (int k = 0; k < 3; k++)
         if (signal(fatal[k], batch_die) == SIG_IGN) signal(fatal[k], SIG_IGN);
-    snprintf(batch_part, sizeof batch_part, "%s.%ld.part", path, (long)getpid());
+    snprintf(batch_part, sizeof batch_part, "%s.%s.%ld.part", path, host, (long)getpid());
     file = fopen(batch_part, "wb");
     if (!file) {
         complain("%s: %s", path, strerror(errno));

@@ -21,7 +21,7 @@ static const char usage[] =
     "  --count N|N%          N pixels, or N % of them, may differ by more than the limit (0)\n"
     "  --difference FILE     writes a PPM: golden in grey, differences in yellow, those beyond\n"
     "                        the limit in red\n"
-    "  --help                prints this text\n"
+    "  --help, --version     prints this text; the version\n"
     "exit status: 0 the same within limit and count, 1 different, 2 error\n";
 
 enum { SAME, DIFFERENT, ERROR };

@@ -145,16 +145,20 @@ static float take_material_float(const struct aiMaterial *a, const char *key, fl
     return v >= 0 ? v : none;
 }
 
-/* Metal has its colour in the highlight; without an environment to mirror, half stays diffuse.
+/* Metal has its colour in the highlight and the reflection; the studio is too plain to mirror
+   alone, so that part of it stays diffuse.
    Roughness r becomes the exponent of a lobe as wide, 2 / r^4 - 2, and rough highlights dim. */
-static void material_from_roughness(const struct aiMaterial *a, shade_material *k)
+static void material_from_roughness(const struct aiMaterial *a, model_surface *s)
 {
+    shade_material *k = &s->material;
     float metal = fminf(1, take_material_float(a, "$mat.metallicFactor", 0));
     float rough = fminf(1, fmaxf(0.2f, take_material_float(a, "$mat.roughnessFactor", 0.7f)));
     float square = rough * rough, gloss = (1 - rough) * (1 - 0.5f * rough);
     shade_vec3 base = k->diffuse, plain = shade_v3(0.25f, 0.25f, 0.25f);
     k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
-    k->diffuse = k->ambient = shade_scale(base, 1 - 0.35f * metal);
+    k->diffuse = k->ambient = shade_scale(base, 1 - 0.55f * metal);
+    s->metal = metal;
+    s->rough = rough;
     k->shininess = fmaxf(1, 2 / (square * square) - 2);
 }
 
@@ -194,7 +198,7 @@ static int surface_from(model_surface *s, const struct aiMaterial *a, int linear
     if (!named && says_nothing(a, k)) s->set = 0;
     s->transparency = 1 - fminf(alpha, fminf(1, take_material_float(a, "$mat.opacity", 1)));
     if (base)
-        material_from_roughness(a, k);
+        material_from_roughness(a, s);
     else
         material_from_gloss(a, k);
     if (aiGetMaterialString(a, "$mat.gltf.alphaMode", 0, 0, &text) == aiReturn_SUCCESS) {

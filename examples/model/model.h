@@ -16,6 +16,7 @@ typedef struct model_surface {
     char *name, *map;        /* names in the file; map: the picture for k_d, or NULL */
     shade_material material; /* linear light */
     float transparency, alpha_cutoff;
+    float metal, rough;  /* of physically based materials; rough 0: by the shininess */
     int set;             /* 0: the file says nothing about it */
     int opaque, blended; /* the alpha of the map is ignored; is blended by */
     int picture;         /* the map, once it is read; -1: none */
@@ -96,6 +97,12 @@ static inline char *model_text(const void *bytes, size_t n)
     return text;
 }
 
+/* The roughness whose highlight is as wide as that of an exponent; 1 without a highlight */
+static inline float model_roughness(float shininess)
+{
+    return sqrtf(sqrtf(2 / (2 + fmaxf(0, shininess))));
+}
+
 /* The surface of that name, added if new: 60 % grey without highlight.  -1: out of memory, or
    MODEL_SURFACES of them. */
 enum { MODEL_SURFACES = 10000 };
@@ -105,6 +112,8 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
         NULL,
         NULL,
         { { 0, 0, 0 }, { 0.32f, 0.32f, 0.32f }, { 0.32f, 0.32f, 0.32f }, { 0, 0, 0 }, 0 },
+        0,
+        0,
         0,
         0,
         0,

@@ -1,6 +1,8 @@
-/* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd.
-   Other statements are skipped, as are surfaces that the model does not use.  Colours are sRGB
-   values.  Ka is ignored, because files hold anything there: k_a = k_d, as daylight wants it. */
+/* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd, map_d.
+   Other statements are skipped, as are surfaces that the model does not use.  The alpha of map_Kd
+   counts only where map_d or d < 1 asks for it, because exporters often keep other masks there.
+   Colours are sRGB values.  Ka is ignored, because files hold anything there: k_a = k_d, as
+   daylight wants it. */
 #ifndef MODEL_MTL_H
 #define MODEL_MTL_H
 
@@ -31,6 +33,12 @@ static inline int mtl_number(mesh_reader *r, float lowest, float highest, float 
     *out = *out < lowest ? lowest : *out > highest ? highest : *out;
     return 0;
 }
+
+/* What a surface says of its transparency besides the number */
+typedef struct mtl_clear {
+    int has_d, mapped; /* mapped: there is a map_d */
+    char *map;
+} mtl_clear;
 
 /* The name of a picture behind options, which begin with a dash: the numbers after one are its
    own, and of those that take a word the word. */
@@ -65,8 +73,15 @@ static inline int mtl_map(mesh_reader *r, char **map)
     return *map ? 0 : mesh_fail(r, "out of memory");
 }
 
+/* A picture of its own for d is left out; mostly map_d names that of map_Kd again. */
+static inline int mtl_map_of_d(mesh_reader *r, mtl_clear *c)
+{
+    c->mapped = 1;
+    return mtl_map(r, &c->map);
+}
+
 /* One statement about a surface.  Programs disagree about Tr: d is believed where both stand. */
-static inline int mtl_statement(mesh_reader *r, model_surface *s, int *has_d)
+static inline int mtl_statement(mesh_reader *r, model_surface *s, mtl_clear *c)
 {
     shade_material *k = &s->material;
     float number;
@@ -75,12 +90,24 @@ static inline int mtl_statement(mesh_reader *r, model_surface *s, int *has_d)
     if (mesh_take_word(r, "ke")) return mtl_color(r, &k->emission);
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
     if (mesh_take_word(r, "map_kd")) return mtl_map(r, &s->map);
-    if (mesh_take_word(r, "tr")) return mtl_number(r, 0, 1, *has_d ? &number : &s->transparency);
+    if (mesh_take_word(r, "map_d")) return mtl_map_of_d(r, c);
+    if (mesh_take_word(r, "tr")) return mtl_number(r, 0, 1, c->has_d ? &number : &s->transparency);
     if (!mesh_take_word(r, "d")) return 0;
     if (mtl_number(r, 0, 1, &number)) return 1;
     s->transparency = 1 - number;
-    *has_d = 1;
+    c->has_d = 1;
     return 0;
+}
+
+/* The surface s, which may be NULL, is complete: decides whether the alpha of its map counts. */
+static inline void mtl_finish(model *m, model_surface *s, mtl_clear *c)
+{
+    static const mtl_clear fresh;
+    if (s && s->map) s->opaque = !c->mapped && s->transparency <= 0;
+    if (s && c->map && (!s->map || strcmp(c->map, s->map) != 0))
+        model_warn(m, c->map, "map_d counts only where it is the picture of map_Kd");
+    free(c->map);
+    *c = fresh;
 }
 
 /* Fills the surfaces of m that stand in the text.  0: all is well; else the rest of the file is
@@ -88,19 +115,21 @@ static inline int mtl_statement(mesh_reader *r, model_surface *s, int *has_d)
 static inline int mtl_read(mesh_reader *r, model *m)
 {
     model_surface *s = NULL;
-    int failed = 0, has_d = 0;
+    mtl_clear clear = { 0, 0, NULL };
+    int failed = 0;
     while (r->at < r->end && !failed) {
         mesh_skip_blanks(r, 1);
         if (mesh_take_word(r, "newmtl")) {
             const unsigned char *begin = mesh_take_line(r);
             int number = model_find_surface(m, begin, (size_t)(r->at - begin), 0);
+            mtl_finish(m, s, &clear);
             s = number < 0 ? NULL : &m->surface[number];
             if (s) s->set = 1;
-            has_d = 0;
         } else if (s && r->at < r->end && *r->at != '#')
-            failed = mtl_statement(r, s, &has_d);
+            failed = mtl_statement(r, s, &clear);
         mesh_next_line(r, 1);
     }
+    mtl_finish(m, s, &clear);
     for (int i = 0; m->surface && i < m->surface_count; i++) {
         shade_material *k = &m->surface[i].material;
         k->ambient = k->diffuse;

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "../../shade.h"
 
 /* What options_read returns: go on; a line on stderr has said what is wrong; --help, or another
    option that is a question, has been answered. */
@@ -78,6 +79,18 @@ static inline int option_size(const char *text, int most, int *width, int *heigh
            option_integer(text + 1, 1, most, height);
 }
 
+/* An upright axis: 0 .. 5 for x y z -x -y -z */
+static inline int option_axis(const char *text, int *out)
+{
+    static const char *const axes[] = { "x", "y", "z", "-x", "-y", "-z" };
+    for (int i = 0; i < 6; i++) {
+        if (strcmp(text, axes[i]) != 0) continue;
+        *out = i;
+        return 1;
+    }
+    return 0;
+}
+
 /* ---- the command line ------------------------------------------------------------------------ */
 
 static inline int option_among(const char *const *list, const char *name)
@@ -86,10 +99,28 @@ static inline int option_among(const char *const *list, const char *name)
     return *list != NULL;
 }
 
+/* What the usage says of an option, in one line: its values and their range.  The text of an
+   option ends where a line does not begin with more blanks than an option's. */
+static inline void option_said(const char *usage, const char *name, char *out, size_t room)
+{
+    size_t n = strlen(name), used = 0;
+    const char *at = strstr(usage, name);
+    while (at && (at[-1] != ' ' || at[n] != ' ')) at = strstr(at + n, name);
+    for (; at && *at && used + 1 < room; at++) {
+        if (*at == '\n' && strncmp(at + 1, "    ", 4) != 0) break;
+        if (*at != ' ' && *at != '\n')
+            out[used++] = *at;
+        else if (used && out[used - 1] != ' ')
+            out[used++] = ' ';
+    }
+    out[used] = 0;
+}
+
 /* The option or file at argv[*i].  Moves *i onto the last word that belongs to it. */
 static inline int options_take(const command *c, void *to, int argc, char **argv, int *i)
 {
     const char *name = argv[*i];
+    char said[400];
     int taken;
     if (option_among(c->flags, name)) {
         c->take(to, name, "");
@@ -107,7 +138,8 @@ static inline int options_take(const command *c, void *to, int argc, char **argv
     taken = c->take(to, name, argv[*i]);
     if (taken == OPTIONS_ANSWERED) return OPTIONS_ANSWERED;
     if (taken == OPTION_TAKEN) return OPTIONS_READ;
-    complain("%s cannot be \"%s\" (--help says what)", name, argv[*i]);
+    option_said(c->usage, name, said, sizeof said);
+    complain("%s cannot be \"%s\": %s", name, argv[*i], said);
     return OPTIONS_WRONG;
 }
 
@@ -118,6 +150,11 @@ static inline int options_read(const command *c, void *to, int argc, char **argv
     for (int i = 1; i < argc && end == OPTIONS_READ; i++) {
         if (!strcmp(argv[i], "--help")) {
             fputs(c->usage, stdout);
+            return OPTIONS_ANSWERED;
+        }
+        if (!strcmp(argv[i], "--version")) {
+            printf("%s %d.%d.%d\n", c->name, SHADE_VERSION / 10000, SHADE_VERSION / 100 % 100,
+                   SHADE_VERSION % 100);
             return OPTIONS_ANSWERED;
         }
         if (!strncmp(argv[i], "--", 2)) {

@@ -6,6 +6,7 @@
 #include "../shared/bands.h"
 #include "ground.h"
 #include "files.h"
+#include "stand.h"
 #include "../shared/shapes.h"
 #include "options.h"
 
@@ -73,11 +74,11 @@ typedef struct scene {
     shade_chunk *runs;  /* runs of 256 wires, and the box around each */
 } scene;
 
-/* What is shown, and how it begins; zeroed but for z_up: the teapot */
+/* What is shown, and how it begins; zeroed but for up: the teapot */
 typedef struct scene_request {
     const char *model; /* its file; NULL: the teapot */
     int pieces;        /* of the teapot along each edge of a patch; 0: 20 */
-    int z_up;          /* -1: by the kind of file */
+    int up;            /* 0 .. 5 for x y z -x -y -z; -1: by the kind of file */
     int threads;       /* 0: one a core */
     int still, dark;   /* does not turn by itself; has a black background */
 } scene_request;
@@ -127,8 +128,7 @@ static inline const char *scene_title(const char *path)
 static inline int scene_take(scene_request *o, const char *name, const char *value)
 {
     if (!strcmp(name, "--threads")) return option_integer(value, 1, 256, &o->threads);
-    o->z_up = !strcmp(value, "z");
-    return o->z_up || !strcmp(value, "y"); /* --up */
+    return option_axis(value, &o->up); /* --up */
 }
 
 /* Loads a model into a zeroed scene.  Returns 1 with a line on stderr. */
@@ -136,14 +136,14 @@ static inline int scene_load(scene *s, const scene_request *o, mesh_progress *pr
                              void *user)
 {
     char error[400];
-    int z_up = o->z_up >= 0 ? o->z_up : o->model && mesh_is_stl(o->model, NULL, 0);
+    int up = o->up >= 0 ? o->up : o->model && mesh_is_stl(o->model, NULL, 0) ? 2 : 1;
     if (!o->model)
         s->mesh = shape_teapot(o->pieces > 0 ? o->pieces : 20);
     else if (mesh_read_file_progress(o->model, &s->mesh, error, sizeof error, progress, user)) {
         complain("%s", error);
         return 1;
     }
-    mesh_normalize(&s->mesh, z_up);
+    mesh_stand(&s->mesh, up, 0);
     if (mesh_chunks(&s->mesh)) {
         complain("out of memory");
         return 1;

@@ -4,7 +4,11 @@
 
    The sky consists of many weak lamps at infinity.  For each of them, and for some points of the
    large lamp, a depth-only draw from the lamp makes a shadow map.  A point is lit by the lamps
-   whose maps show it. */
+   whose maps show it.
+
+   Surfaces also reflect the studio, by Fresnel's term [Schlick94]: without that, a black part
+   would show no form.  The lamps of the sky around the reflected direction say how much of it the
+   rest of the model hides. */
 #ifndef MODEL_STUDIO_H
 #define MODEL_STUDIO_H
 
@@ -13,6 +17,7 @@
 #include "model.h"
 
 enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
+enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow on the ground, at most */
 #define STUDIO_REACH 1.02f /* half the edge of the square that a map sees */
 
 typedef struct studio_map {
@@ -25,6 +30,7 @@ typedef struct studio_map {
 typedef struct studio {
     studio_map map[STUDIO_MAPS]; /* the sky, then the large lamp */
     int sky, key;                /* the number of maps of each */
+    int ground;          /* texels along an edge of the shadow on the ground */
     float *memory;
     shade_light lamp[2];
 } studio;
@@ -131,19 +137,27 @@ static float studio_seen(const studio_map *m, shade_vec3 P)
 }
 
 /* The light of the sky on a surface, and the light that the ground throws back; 0.4 on open
-   level ground.  The sky goes from a bluish zenith to a warm horizon. */
-static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N)
+   level ground.  The sky goes from a bluish zenith to a warm horizon.  *open becomes the part of
+   the lamps near the direction R that P sees, 1 where none is near. */
+static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N, shade_vec3 R,
+                             float *open)
 {
-    float sum[2] = { 0, 0 }, back = 0.06f * (1 - N.y);
+    float sum[2] = { 0, 0 }, back = 0.06f * (1 - N.y), seen_near = 1e-3f, near_weight = 1e-3f;
     for (int i = 0; i < s->sky; i++) {
         const studio_map *m = &s->map[i];
         float cosine = shade_dot(N, m->toward);
-        float texel = 2 * STUDIO_REACH / (float)m->size;
+        float texel = 2 * STUDIO_REACH / (float)m->size, along, seen;
         if (cosine <= 0) continue;
-        cosine *= m->weight * studio_seen(m, shade_madd(P, 2 * texel, N));
+        seen = studio_seen(m, shade_madd(P, 2 * texel, N));
+        along = fmaxf(0, shade_dot(R, m->toward));
+        along *= along * along;
+        near_weight += along;
+        seen_near += along * seen;
+        cosine *= m->weight * seen;
         sum[0] += cosine * m->toward.y;
         sum[1] += cosine * (1 - m->toward.y);
     }
+    *open = seen_near / near_weight;
     return shade_madd(shade_madd(shade_v3(back, back, back), sum[0], shade_v3(0.40f, 0.42f, 0.46f)),
                       sum[1], shade_v3(0.41f, 0.40f, 0.38f));
 }
@@ -160,6 +174,27 @@ static float studio_lamp(const studio *s, shade_vec3 P, shade_vec3 N)
     return sum;
 }
 
+/* 0 below from, 1 above to, smooth between */
+static float studio_step(float from, float to, float x)
+{
+    float t = fminf(1, fmaxf(0, (x - from) / (to - from)));
+    return t * t * (3 - 2 * t);
+}
+
+/* The studio as a mirror of some roughness shows it in the direction R: a dark floor, walls that
+   brighten upward, the large lamp, and a strip of light behind. */
+static shade_vec3 studio_mirror(const studio *s, shade_vec3 R, float rough, float open, float lamp)
+{
+    const shade_vec3 warm = shade_v3(1.03f, 1, 0.96f), blue = shade_v3(0.93f, 0.98f, 1.06f);
+    const shade_vec3 key = s->map[s->sky].toward, strip = shade_v3(-0.76f, 0.36f, -0.54f);
+    float wide = 0.05f + 0.8f * rough, width = 1 - 0.6f * rough;
+    float wall = studio_step(-wide, wide, R.y), floor_light = 0.14f + 0.12f * (1 + R.y);
+    float light = floor_light + (0.42f + 0.50f * fmaxf(0, R.y) - floor_light) * wall * open;
+    light += 1.3f * width * lamp * studio_step(0.90f - 0.5f * rough, 0.97f, shade_dot(R, key));
+    light += 0.8f * width * open * studio_step(0.70f - 0.4f * rough, 0.95f, shade_dot(R, strip));
+    return shade_scale(shade_lerp(warm, blue, wall), light);
+}
+
 /* The data that the threads share, and each map's result */
 typedef struct studio_work {
     studio *studio;
@@ -173,22 +208,25 @@ static void studio_draw_map(void *data, int i)
     w->result[i] = studio_draw(&w->studio->map[i], w->model);
 }
 
-/* Draws all maps; fewer for large models, because each map draws the whole model. */
-static shade_result studio_open(studio *s, const model *m, int threads, mesh_progress *progress,
-                                void *user)
+/* Draws all maps for a picture whose longer edge has so many pixels.  There are fewer for large
+   models, because each map draws the whole model, and for small pictures, which show less. */
+static shade_result studio_open(studio *s, const model *m, int pixels, int threads,
+                                mesh_progress *progress, void *user)
 {
-    enum { SKY_SIZE = 256, KEY_SIZE = 512 };
+    const int most = pixels <= 128 ? 24 : pixels <= 256 ? 40 : STUDIO_SKY;
+    const int sky_size = pixels <= 128 ? 128 : 256, key_size = 2 * sky_size;
     double draws = 40e6 / (double)m->mesh.view.index_count;
-    int sky = draws > STUDIO_SKY ? STUDIO_SKY : draws > 12 ? (int)draws : 12;
-    int key = draws > STUDIO_SKY ? STUDIO_KEY : 4;
-    size_t sky_texels = SKY_SIZE * SKY_SIZE, key_texels = KEY_SIZE * KEY_SIZE;
+    int sky = draws > most ? most : draws > 12 ? (int)draws : 12;
+    int key = draws > most ? STUDIO_KEY * most / STUDIO_SKY : 4;
+    size_t sky_texels = (size_t)sky_size * (size_t)sky_size, key_texels = 4 * sky_texels;
     studio_work work = { s, m, { SHADE_OK } };
+    s->ground = pixels <= 128 ? STUDIO_GROUND / 2 : STUDIO_GROUND;
     studio_place(s, sky, key);
     s->memory =
         (float *)malloc(sizeof(float) * ((size_t)sky * sky_texels + (size_t)key * key_texels));
     if (!s->memory) return SHADE_ERROR_CAPACITY;
     for (int i = 0; i < sky + key; i++) {
-        s->map[i].size = i < sky ? SKY_SIZE : KEY_SIZE;
+        s->map[i].size = i < sky ? sky_size : key_size;
         s->map[i].depth =
             i < sky ? s->memory + (size_t)i * sky_texels
                     : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
@@ -201,7 +239,6 @@ static shade_result studio_open(studio *s, const model *m, int threads, mesh_pro
 
 /* ---- the ground ------------------------------------------------------------------------------ */
 
-enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow */
 #define STUDIO_GROUND_HALF 2.2f /* half that edge; the shadow fades out toward it */
 
 /* The data that the threads share */
@@ -215,26 +252,28 @@ typedef struct studio_shadow {
 static void studio_shadow_row(void *data, int row)
 {
     const studio_shadow *w = (const studio_shadow *)data;
-    const float half = STUDIO_GROUND_HALF, step = 2 * STUDIO_GROUND_HALF / STUDIO_GROUND;
-    const shade_vec3 up = shade_v3(0, 1, 0), open = studio_sky(w->light, shade_v3(0, 9, 0), up);
-    for (int i = 0; i < STUDIO_GROUND; i++) {
-        float *dark = w->dark + row * STUDIO_GROUND + i, sky, lamp, fade;
+    const int size = w->light->ground;
+    const float half = STUDIO_GROUND_HALF, step = 2 * half / (float)size;
+    const shade_vec3 up = shade_v3(0, 1, 0);
+    float unused, open = studio_sky(w->light, shade_v3(0, 9, 0), up, up, &unused).y;
+    for (int i = 0; i < size; i++) {
+        float *dark = w->dark + row * size + i, sky, lamp, fade;
         shade_vec3 P = shade_v3(((float)i + 0.5f) * step - half, w->level,
                                 ((float)row + 0.5f) * step - half);
         fade = 1 - (P.x * P.x + P.z * P.z) / (half * half);
         *dark = 0;
         if (fade <= 0) continue;
-        sky = studio_sky(w->light, P, up).y / open.y;
+        sky = studio_sky(w->light, P, up, up, &unused).y / open;
         lamp = studio_lamp(w->light, P, up);
         *dark = fade * (1 - (0.72f * sky + 0.28f) * (0.4f * lamp + 0.6f));
     }
 }
 
 /* Weighted means over three texels along a line of steps */
-static void studio_blur(float *line, int step)
+static void studio_blur(float *line, int step, int count)
 {
     float before = line[0];
-    for (int i = 1; i < STUDIO_GROUND - 1; i++) {
+    for (int i = 1; i < count - 1; i++) {
         float here = line[i * step];
         line[i * step] = 0.25f * before + 0.5f * here + 0.25f * line[(i + 1) * step];
         before = here;
@@ -244,11 +283,11 @@ static void studio_blur(float *line, int step)
 /* Finds the shadow of a mesh in the light of its studio.  Returns 1 where memory is out. */
 static int studio_cast(ground *g, const studio *light, const owned_mesh *m, int threads)
 {
-    enum { SIZE = STUDIO_GROUND, TEXELS = SIZE * SIZE };
+    const int size = light->ground, texels = size * size;
     studio_shadow work = { light, ground_lowest(&m->view, 1) - 0.002f, NULL };
-    work.dark = (float *)malloc(TEXELS * sizeof *work.dark);
-    g->shadow = (uint8_t *)calloc(TEXELS, 4);
-    g->size = SIZE;
+    work.dark = (float *)malloc((size_t)texels * sizeof *work.dark);
+    g->shadow = (uint8_t *)calloc((size_t)texels, 4);
+    g->size = size;
     g->half = g->reach = STUDIO_GROUND_HALF;
     g->level = work.level;
     if (!work.dark || !g->shadow) {
@@ -256,12 +295,12 @@ static int studio_cast(ground *g, const studio *light, const owned_mesh *m, int 
         return 1;
     }
 
-    bands_run(threads, SIZE, studio_shadow_row, &work);
-    for (int k = 0; k < 4 * SIZE; k++) {
-        studio_blur(work.dark + k % SIZE * SIZE, 1);
-        studio_blur(work.dark + k % SIZE, SIZE);
+    bands_run(threads, size, studio_shadow_row, &work);
+    for (int k = 0; k < 4 * size; k++) {
+        studio_blur(work.dark + k % size * size, 1, size);
+        studio_blur(work.dark + k % size, size, size);
     }
-    for (int i = 0; i < TEXELS; i++) g->shadow[4 * i + 3] = (uint8_t)(255 * work.dark[i] + 0.5f);
+    for (int i = 0; i < texels; i++) g->shadow[4 * i + 3] = (uint8_t)(255 * work.dark[i] + 0.5f);
     free(work.dark);
     return 0;
 }

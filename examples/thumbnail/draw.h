@@ -14,11 +14,13 @@ typedef struct look {
     const shade_texture *map; /* NULL: none */
     shade_material material;  /* its emission stands apart, because the map multiplies that too */
     shade_vec3 emission;
+    float metal, rough; /* the part of the reflection that has the surface's colour; its blur */
     shade_lighting lighting;
+    shade_light tone_lamp; /* of cool-to-warm */
     shade_mat4 clip_from_world;
     shade_vec3 eye;
     float alpha, alpha_cutoff;
-    int per_vertex, map_is_opaque, shadows;
+    int per_vertex, map_is_opaque, shadows, mirrors;
 } look;
 
 /* Varyings: P, N, the albedo of the vertex, u and v.  Where light is computed per vertex, it
@@ -42,36 +44,65 @@ static float shoulder(float light)
 
 static float component(shade_vec3 v, int a) { return a == 0 ? v.x : a == 1 ? v.y : v.z; }
 
+/* Models without a highlight reflect nothing. */
+static int look_mirrors(const options *o)
+{
+    return o->model == SHADE_MODEL_BLINN_PHONG || o->model == SHADE_MODEL_PHONG;
+}
+
+/* The part of the studio's light that a surface of this albedo reflects toward the eye, by
+   component: 4 % seen from the front, metal its colour, and more at grazing angles. */
+static shade_vec3 look_fresnel(const look *k, shade_vec3 albedo, float cosine)
+{
+    const float g = 1 - fmaxf(0.1f, cosine), grazing = g * g * g * g * g * (1 - k->rough);
+    const shade_vec3 plain = shade_v3(0.04f, 0.04f, 0.04f), white = shade_v3(1, 1, 1);
+    shade_vec3 metal = shade_mul(albedo, k->material.ambient), front;
+    metal = shade_v3(fmaxf(metal.x, 0.04f), fmaxf(metal.y, 0.04f), fmaxf(metal.z, 0.04f));
+    front = shade_lerp(plain, metal, k->metal);
+    return shade_add(front, shade_scale(shade_sub(white, front), grazing));
+}
+
 /* The light that leaves P toward the eye; only the first count lanes are computed. */
 static void look_light(const look *k, const float *P, const float *N, const float *albedo,
                        int count, look_rows out)
 {
-    float visibility[2][SHADE_LANES];
-    look_rows sky;
+    float visibility[SHADE_LANES * 2];
+    look_rows sky, mirror;
     SHADE_EACH_LANE(i)
     {
         int lane = i < count ? i : count - 1;
         const float *p = P + lane, *n = N + lane;
-        shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]), E = shade_v3(0, 0, 0);
+        shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]);
+        shade_vec3 E = shade_v3(0, 0, 0), M = E;
         shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
         normal = shade_normalize(normal);
-        visibility[0][i] = visibility[1][i] = 1;
+        visibility[i] = visibility[SHADE_LANES + i] = 1;
         if (k->shadows && i < count) {
-            E = studio_sky(k->studio, at, normal);
-            visibility[0][i] = studio_lamp(k->studio, at, normal);
+            shade_vec3 V = shade_normalize(shade_sub(k->eye, at)), R = shade_mirror(V, normal);
+            float open;
+            E = studio_sky(k->studio, at, normal, R, &open);
+            visibility[i] = studio_lamp(k->studio, at, normal);
+            if (k->mirrors) {
+                const float *c = albedo + lane;
+                shade_vec3 own = shade_v3(c[0], c[SHADE_LANES], c[2 * SHADE_LANES]);
+                M = shade_mul(look_fresnel(k, own, shade_dot(normal, V)),
+                              studio_mirror(k->studio, R, k->rough, open, visibility[i]));
+            }
         }
         lane_put(sky[0], i, E);
+        lane_put(mirror[0], i, M);
     }
     shade_lit_lanes(&k->lighting, &k->material, k->eye,
                     &(shade_rows){ .position = P, .normal = N, .albedo = albedo,
-                                   .visibility = visibility[0] }, out[0]);
+                                   .visibility = visibility }, out[0]);
     for (int a = 0; a < 3; a++) {
         const float ambient = component(k->material.ambient, a);
         const float emission = component(k->emission, a);
         SHADE_EACH_LANE(i)
         {
             float own = albedo[i + a * SHADE_LANES];
-            float light = out[a][i] + own * (ambient * sky[a][i] + emission);
+            float light = out[a][i] + mirror[a][i];
+            light += own * (ambient * sky[a][i] + emission);
             out[a][i] = light > SHOULDER ? shoulder(light) : light;
         }
     }
@@ -214,11 +245,15 @@ static void look_dress(look *k, const options *o, const model *m, int surface)
     k->alpha = 1;
     k->alpha_cutoff = 0;
     k->map_is_opaque = 0;
+    k->metal = 0;
     k->material = o->material;
+    k->rough = model_roughness(k->material.shininess);
     k->emission = o->material.emission;
     k->material.emission = shade_v3(0, 0, 0);
     if (!s || !s->set || o->plain) return;
     k->material = s->material;
+    k->metal = s->metal;
+    k->rough = s->rough > 0 ? s->rough : model_roughness(k->material.shininess);
     k->emission = s->material.emission;
     k->material.emission = shade_v3(0, 0, 0);
     k->alpha = 1 - s->transparency;
@@ -365,6 +400,18 @@ static void draw_band(void *data, int band)
     p->result[band] = result;
 }
 
+/* The tones of cool-to-warm, whose key lamp shines across the line of sight, from the right and
+   above: so the whole range of tones is in view [Gooch98]. */
+static void look_tone(look *k)
+{
+    if (k->lighting.model != SHADE_MODEL_COOL_TO_WARM) return;
+    k->tone_lamp = shade_directional_light(shade_v3(-0.75f, -0.65f, 0.2f), shade_v3(1, 1, 1));
+    k->lighting.lights = &k->tone_lamp;
+    k->lighting.light_count = 1;
+    k->lighting.cool = shade_v3(0.04f, 0.06f, 0.30f);
+    k->lighting.warm = shade_v3(1.00f, 0.72f, 0.30f);
+}
+
 /* Returns 1 where memory is out. */
 static int picture_prepare(picture_work *p, const studio *light)
 {
@@ -378,8 +425,8 @@ static int picture_prepare(picture_work *p, const studio *light)
     k->lighting.light_count = 2;
     k->lighting.model = o->model;
     k->shadows = look_has_shadows(o);
-    k->lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
-    k->lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
+    k->mirrors = look_mirrors(o);
+    look_tone(k);
     k->per_vertex = o->shading == SHADE_SHADING_PER_VERTEX;
     p->see_through = (char *)calloc((size_t)m->part_count + 1, 1);
     p->near_chunks = near_chunks(m, k->eye);

@@ -18,12 +18,14 @@
 /* The data of the signal handler: the file that is being written, and the work in progress */
 static char guard_part[4096];
 static const char *volatile guard_doing = "starting";
+static const char *volatile guard_file = ""; /* the file that it reads */
+static int guard_lines = 2;                  /* the descriptor that takes the program's lines */
 
 static void guard_say(const char *text)
 {
     size_t n = strlen(text);
     while (n) {
-        ssize_t said = write(2, text, n);
+        ssize_t said = write(guard_lines, text, n);
         if (said <= 0) return;
         text += said;
         n -= (size_t)said;
@@ -41,25 +43,50 @@ static void guard_end(int signal_number)
     else
         guard_say("crashed while ");
     guard_say(guard_doing);
+    guard_say(guard_file);
     guard_say("\n");
     _exit(1);
 }
 
-/* Half the machine's memory at most: a file that asks for more is refused, and does not push
-   everything else out.  Sanitizers reserve far more than they use. */
-static void guard_memory(void)
+/* Names the file that is read, and keeps what its readers print off standard error: a library
+   that aborts prints lines of its own.  The program's lines go on.  NULL: that is over. */
+static void guard_reading(const char *path)
+{
+    int nowhere;
+    if (path) {
+        guard_file = path;
+        fflush(stderr);
+        guard_lines = dup(2);
+        nowhere = guard_lines < 0 ? -1 : open("/dev/null", O_WRONLY);
+        if (nowhere >= 0) dup2(nowhere, 2);
+        if (nowhere >= 0) close(nowhere);
+    } else {
+        guard_file = "";
+        fflush(stderr);
+        if (guard_lines >= 0) dup2(guard_lines, 2);
+        if (guard_lines >= 0) close(guard_lines);
+    }
+    if (!path || guard_lines < 0) guard_lines = 2;
+}
+
+/* Limits the memory to megabytes, or with 0 to half the machine's: a file that asks for more is
+   refused, and does not push everything else out.  Sanitizers reserve far more than they use. */
+static void guard_memory(int megabytes)
 {
 #if defined(_SC_PHYS_PAGES) && !defined(__SANITIZE_ADDRESS__)
     double bytes = 0.5 * (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     struct rlimit limit;
-    if (bytes < 1e8 || bytes > 1e15 || getrlimit(RLIMIT_AS, &limit)) return;
+    if (megabytes) bytes = 1e6 * megabytes;
+    if (bytes < 1e7 || bytes > 1e15 || getrlimit(RLIMIT_AS, &limit)) return;
     if (limit.rlim_cur == RLIM_INFINITY || (double)limit.rlim_cur > bytes)
         limit.rlim_cur = (rlim_t)bytes;
     setrlimit(RLIMIT_AS, &limit);
+#else
+    (void)megabytes;
 #endif
 }
 
-static void guard_begin(int max_seconds)
+static void guard_begin(int max_seconds, int max_memory)
 {
     static const int ends[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGSEGV,
                                 SIGBUS,  SIGFPE, SIGILL,  SIGABRT };
@@ -72,7 +99,7 @@ static void guard_begin(int max_seconds)
     action.sa_handler = guard_end;
     action.sa_flags = SA_ONSTACK;
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) sigaction(ends[i], &action, NULL);
-    guard_memory();
+    guard_memory(max_memory);
     signal(SIGPIPE, SIG_IGN); /* write reports it instead */
     if (max_seconds) alarm((unsigned)max_seconds);
 }
@@ -80,7 +107,13 @@ static void guard_begin(int max_seconds)
 static int guard_terminal(void) { return isatty(2); }
 #else
 static const char *guard_doing;
-static void guard_begin(int max_seconds) { (void)max_seconds; }
+static void guard_begin(int max_seconds, int max_memory)
+{
+    (void)max_seconds;
+    (void)max_memory;
+}
+static void guard_reading(const char *path) { (void)path; }
+static void guard_say(const char *text) { fputs(text, stderr); }
 static int guard_terminal(void) { return 0; }
 #endif
 #endif

@@ -10,22 +10,26 @@ static const char thumbnail_usage[] =
     "usage: thumbnail model picture.ppm|picture.png|- [options]        -: standard output\n"
     "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"
     "  --png                 writes PNG, whatever the picture's name is\n"
-    "  --background COLOR    RRGGBB, or none: transparent, PNG only (a grey gradient)\n"
-    "  --color COLOR         one colour for all surfaces, instead of the file's materials\n"
+    "  --background COLOR    RRGGBB, #RGB, black, white, grey, red, green, blue, yellow or\n"
+    "                        orange; none: transparent, PNG only (a grey gradient)\n"
+    "  --color COLOR         one colour for all surfaces, instead of the file's materials:\n"
+    "                        RRGGBB, #RGB or a name\n"
     "  --material NAME       one material for all surfaces: clay, or a name that\n"
     "                        --material list prints\n"
     "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"
     "                        (blinn-phong)\n"
     "  --shading NAME        fragment, vertex, face (fragment)\n"
-    "  --rotate DEG          turns the model about its upright axis (30)\n"
+    "  --rotate DEG          turns the model about its upright axis, -36000 .. 36000 (30)\n"
     "  --up x|y|z|-x|-y|-z   the model's upright axis (by the kind of file: y; z for STL, 3MF)\n"
     "  --no-shadow           no shadow on the ground\n"
     "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"
-    "  --max-triangles N     refuses larger models (20000000; 0: no limit)\n"
-    "  --max-seconds N       gives up after N seconds (0: no limit)\n"
+    "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"
+    "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
+    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of the\n"
+    "                        machine's)\n"
     "  --quiet               prints errors only, no progress and no warnings\n"
-    "  --help                prints this text\n" DRAWING_USAGE;
+    "  --help, --version     prints this text; the version\n" DRAWING_USAGE;
 
 enum { THUMBNAIL_GRADIENT, THUMBNAIL_PLAIN, THUMBNAIL_NONE }; /* backgrounds */
 
@@ -33,7 +37,7 @@ typedef struct options {
     const char *input, *output;
     int width, height, samples, up; /* up: 0 .. 5 for x y z -x -y -z; -1: by the file */
     int png, quiet, no_shadow, background, plain; /* plain: one material instead of the file's */
-    int max_triangles, max_seconds, threads; /* threads 0: all cores */
+    int max_triangles, max_seconds, max_memory, threads; /* threads 0: all cores */
     float rotate; /* radians */
     shade_vec3 background_color;
     shade_material material;
@@ -130,7 +134,6 @@ static int take_name(options *o, const char *name, const char *value)
     static const char *const models[] = { "blinn phong", "phong",    "lambert",
                                           "ambient",     "emissive", "cool to warm" };
     static const char *const shadings[] = { "fragment", "vertex", "face" };
-    static const char *const axes[] = { "x", "y", "z", " x", " y", " z" }; /* dashes as spaces */
     int k = 0;
     if (!strcmp(name, "--background")) {
         o->background = same_name(value, "none") ? THUMBNAIL_NONE : THUMBNAIL_PLAIN;
@@ -151,7 +154,7 @@ static int take_name(options *o, const char *name, const char *value)
         k = find_name(value, shadings, 3);
         o->shading = (shade_shading)(k < 0 ? 0 : k);
     }
-    if (!strcmp(name, "--up")) k = o->up = find_name(value, axes, 6);
+    if (!strcmp(name, "--up")) return option_axis(value, &o->up);
     return k >= 0;
 }
 
@@ -187,25 +190,40 @@ static int take(void *to, const char *name, const char *value)
         return option_integer(value, 0, 700000000, &o->max_triangles);
     else if (!strcmp(name, "--max-seconds"))
         return option_integer(value, 0, 1000000000, &o->max_seconds);
+    else if (!strcmp(name, "--max-memory"))
+        return option_integer(value, 32, 1000000, &o->max_memory);
     else
         return take_name(o, name, value);
     return OPTION_TAKEN;
 }
 
+/* 1: the name has a dot and one of the endings, a list up to a NULL, after it. */
+static int ends_in(const char *name, const char *const *endings)
+{
+    const char *dot = strrchr(name, '.');
+    for (; dot && *endings; endings++)
+        if (same_name(dot + 1, *endings)) return 1;
+    return 0;
+}
+
 static int ends_in_png(const char *name)
 {
-    size_t n = strlen(name);
-    return n > 4 && name[n - 4] == '.' && same_name(name + n - 3, "png");
+    static const char *const png[] = { "png", NULL };
+    return ends_in(name, png);
 }
 
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
 static int check_options(const options *o)
 {
+    static const char *const others[] = { "jpg",  "jpeg", "webp", "gif", "bmp",  "tga", "tif",
+                                          "tiff", "avif", "jxl",  "svg", "heic", NULL };
     if (!o->output) {
         fputs(thumbnail_usage, stderr);
         return 1;
     }
     if (drawing_check(&o->drawing, o->output, o->background == THUMBNAIL_NONE)) return 1;
+    if (!o->png && ends_in(o->output, others))
+        return complain("%s: writes pictures named .ppm or .png alone", o->output);
     if (o->width * o->samples > 16384 || o->height * o->samples > 16384)
         return complain("size times samples must stay within 16384");
     if (o->background == THUMBNAIL_NONE && !o->png)
@@ -222,7 +240,8 @@ static int read_options(options *o, int argc, char **argv)
     static const char *const valued[] = {
         "--size",   "--background", "--color",   "--material", "--model",         "--shading",
         "--rotate", "--up",         "--samples", "--threads",  "--max-triangles", "--max-seconds",
-        "--views",  "--angle",      "--depth",   "--id-map",   "--json",          NULL
+        "--views",  "--angle",      "--depth",   "--id-map",   "--json",          "--max-memory",
+        NULL
     };
     static const char *const flags[] = { "--png",   "--no-shadow", "--quiet",
                                          "--ortho", "--edges",     "--hidden",

@@ -37,11 +37,12 @@ static void report(void *user, double part)
 {
     progress *p = (progress *)user;
     int percent = (int)(part * 100);
+    char line[80];
     if (p->silent || percent == p->percent || clock() - p->begin < CLOCKS_PER_SEC) return;
     p->percent = percent;
     p->shown = 1;
-    fprintf(stderr, "\r%s %3d %%", p->what, percent);
-    fflush(stderr);
+    snprintf(line, sizeof line, "\r%s %3d %%", p->what, percent);
+    guard_say(line);
 }
 
 static void report_next(progress *p, const char *what)
@@ -61,7 +62,10 @@ static int read_model(const options *o, model *m, progress *p)
     model_request q = { error, sizeof error, report, p, (size_t)o->max_triangles };
     int failed;
     report_next(p, "reading the model");
+    guard_doing = "reading ";
+    guard_reading(o->input);
     failed = thumbnail_read(o->input, m, &q);
+    guard_reading(NULL);
     report_next(p, "");
     if (failed) return complain("%s", error);
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
@@ -83,7 +87,8 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     report_next(p, "finding shadows");
     result = SHADE_OK;
     if (look_has_shadows(o) || !o->no_shadow)
-        result = studio_open(&light, m, o->threads, report, p);
+        result = studio_open(&light, m, o->width > o->height ? o->width : o->height, o->threads,
+                             report, p);
     report_next(p, "drawing");
     c = canvas_new(o->width, o->height, o->samples);
     if (!result) result = draw_picture(&c, m, &light, o, report, p);
@@ -109,7 +114,7 @@ int main(int argc, char **argv)
     end = read_options(&o, argc, argv);
     if (end) return end == OPTIONS_WRONG;
     p.silent = o.quiet || !guard_terminal();
-    guard_begin(o.max_seconds);
+    guard_begin(o.max_seconds, o.max_memory);
     end = read_model(&o, &m, &p);
     if (!end && o.drawing.view_count)
         end = drawing_run(&o, &m, report, &p);

@@ -21,12 +21,12 @@ static const char view_usage[] =
     "  --window              in a window instead of the terminal\n"
     "  --colors true|256     of the terminal (what COLORTERM and TERM say)\n"
     "  --ascii               plain characters, no colors\n"
-    "  --up y|z              the model's upright axis (y, for STL z)\n"
+    "  --up x|y|z|-x|-y|-z   the model's upright axis (y; for STL z)\n"
     "  --still               the model does not turn by itself\n"
     "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
-    "  --help                prints this text\n"
+    "  --help, --version     prints this text; the version\n"
     "The key ? lists the others.\n";
 
 /* Stores one option: the option_take of view. */

@@ -37,7 +37,7 @@ static void report(void *user, double part)
 int main(int argc, char **argv)
 {
     static scene s;
-    static view_options o = { .colors = VIEW_COLORS_ASKED, .scene = { .z_up = -1 } };
+    static view_options o = { .colors = VIEW_COLORS_ASKED, .scene = { .up = -1 } };
     double begin = clock_now();
     scene_request request;
     const char *lack;

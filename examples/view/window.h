@@ -28,10 +28,24 @@ typedef struct window {
 /* ---- the window ------------------------------------------------------------------------------ */
 
 /* Opens the window.  Returns 1 with a line on stderr. */
+/* Without a display SDL falls back to drivers that show nothing.  Only SDL_VIDEODRIVER may ask for
+   one of these. */
+static inline int window_is_unseen(void)
+{
+    const char *driver = SDL_GetCurrentVideoDriver(), *asked = getenv("SDL_VIDEODRIVER");
+    if (asked && *asked) return 0;
+    return !driver || !strcmp(driver, "dummy") || !strcmp(driver, "offscreen") ||
+           !strcmp(driver, "evdev");
+}
+
 static inline int window_open(window *w)
 {
     SDL_SetMainReady();
     if (SDL_Init(SDL_INIT_VIDEO)) return complain("no window: %s", SDL_GetError());
+    if (window_is_unseen()) {
+        SDL_Quit();
+        return complain("no window: there is no display");
+    }
     w->window = SDL_CreateWindow("view", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, 960, 720,
                                  SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (w->window) w->renderer = SDL_CreateRenderer(w->window, -1, 0);

@@ -319,7 +319,11 @@ static void surfaces(void)
     text("flat.obj", "mtllib flat.mtl\nusemtl flat\n" SQUARE "f 1 2 3 4\n");
     text("map.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd -clamp on the map.tga\n");
     text("map.obj", "mtllib map.mtl\nusemtl map\n" SQUARE "f 1/1 2/2 3/3 4/4\n");
-    text("holes.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd holes.tga\n");
+    text("holes.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd holes.tga\nmap_d holes.tga\n");
+    text("whole.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd holes.tga\n");
+    text("whole.obj", "mtllib whole.mtl\nusemtl map\n" SQUARE "f 1/1 2/2 3/3 4/4\n");
+    text("other.mtl", "newmtl map\nKe 0.7 0.7 0.7\nmap_Kd holes.tga\nmap_d mask.tga\n");
+    text("other.obj", "mtllib other.mtl\nusemtl map\n" SQUARE "f 1/1 2/2 3/3 4/4\n");
     text("holes.obj", "mtllib holes.mtl\nusemtl map\n" SQUARE "f 1/1 2/2 3/3 4/4\n");
     text("lost.mtl", "newmtl map\nKe 0.7 0.4 0.2\nmap_Kd no such file.png\n");
     text("lost.obj", "mtllib lost.mtl\nusemtl map\n" SQUARE "f 1/1 2/2 3/3 4/4\n");

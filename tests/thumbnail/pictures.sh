@@ -26,6 +26,10 @@ check "grey" pixel 0.72 0.75 0.0573 0.0573 0.0573
 check "holes" draw holes.obj a.ppm $quarters
 check "blue stays" pixel 0.28 0.3 0.00945 0.0360 0.2587
 check "red is cut out" pixel 0.28 0.75 0 0 0
+check "the same alpha, which no map_d asks for" draw whole.obj a.ppm $quarters
+check "cuts nothing out" pixel 0.28 0.75 0.3200 0.0143 0.00302
+check "map_d with a picture of its own" draw other.obj a.ppm $quarters
+check "is a warning" grep "mask.tga.*map_d counts only" "$T/err"
 check "a lost texture" draw lost.obj a.ppm $quarters
 check "is a warning" grep "no such file.png.*No such file" "$T/err"
 check "and the plain color" pixel 0.5 0.5 0.448 0.1329 0.0331

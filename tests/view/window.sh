@@ -11,6 +11,8 @@ ended() { ! kill -0 "$window" 2>/dev/null; }
 # The window has ended by itself, with status 0.
 closed() { soon ended && wait "$window"; }
 check "no display" refused "no window" env SDL_VIDEODRIVER=x11 "$VIEW" --window
+check "no display, no driver named" refused "no window" env -u DISPLAY -u WAYLAND_DISPLAY \
+    -u SDL_VIDEODRIVER XDG_RUNTIME_DIR="$T" timeout 60 "$VIEW" --window --frames 2
 check "ten frames without a screen" $dummy --frames 10
 check "of a file, at rest" $dummy --frames 2 --still "$T/one.obj"
 for file in missing.obj "$T" "$T/empty.obj" "$T/cut.obj" "$T/cut.stl"; do

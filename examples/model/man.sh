@@ -1,0 +1,41 @@
+#!/bin/sh
+# man.sh PROGRAM NAME SENTENCE - prints the man page of a program, made from what its --help says:
+# a usage line, lines of options ("  --name VALUE   text") with what continues them, other lines.
+# NAME is the name that the program is installed under.
+program=$1 name=$2 sentence=$3
+version=$("$program" --version) || exit 1
+help=$("$program" --help) || exit 1
+printf '%s\n' "$help" | awk -v name="$name" -v sentence="$sentence" -v version="${version##* }" '
+function roff(text)                     # dashes of options stay dashes, a line is no request
+{
+    gsub(/\\/, "\\e", text)
+    gsub(/-/, "\\-", text)
+    sub(/^[.'\'']/, "\\\\\\&&", text)
+    return text
+}
+NR == 1 {
+    sub(/^usage: [^ ]+ */, "")
+    files = note = $0
+    sub(/   .*/, "", files)             # after three blanks stands a note
+    if (sub(/.*   +/, "", note) == 0) note = ""
+    print ".TH " toupper(name) " 1 \"\" \"shade.h " version "\""
+    print ".SH NAME\n" name " \\- " roff(sentence)
+    print ".SH SYNOPSIS\n.B " name "\n" roff(files)
+    print ".SH DESCRIPTION\n" toupper(substr(sentence, 1, 1)) roff(substr(sentence, 2)) "."
+    if (note != "") print "(" roff(note) ")"
+    print ".SH OPTIONS"
+    next
+}
+/^  --/ {
+    option = $0
+    sub(/^  /, "", option)
+    text = option
+    sub(/   .*|  .*/, "", option)
+    text = substr(text, length(option) + 1)
+    sub(/^ +/, "", text)
+    print ".TP\n.B " roff(option) "\n" roff(text)
+    next
+}
+/^    / { sub(/^ +/, ""); print roff($0); next }
+NF { print ".PP\n" toupper(substr($0, 1, 1)) roff(substr($0, 2)) }
+'
