@@ -273,6 +273,75 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
     await page.context().close();
 }
 
+// ---- manners ------------------------------------------------------------------------------------
+
+// Nothing scrolls away, however low in the panel the control is that was used.
+{
+    const page = await open('turn=0', { viewport: { width: 1366, height: 650 } });
+    const labels = page.locator('label:has(input:not(:disabled):not([type=file])), .row input');
+    for (let i = 0; i < await labels.count(); i++) await labels.nth(i).click();
+    check('no click scrolls the page', await page.evaluate(() =>
+        [document.documentElement, document.body, $('main')].every(node => !node.scrollTop) &&
+        $('header').getBoundingClientRect().top >= 0));
+    const slider = page.locator('.row input[type=range]').first();
+    await page.locator('.row input[type=color]').first().focus();
+    await page.keyboard.press('Tab');
+    check('one ring around a slider', await slider.evaluate(node =>
+        document.activeElement === node && getComputedStyle(node).outlineStyle === 'solid' &&
+        getComputedStyle(node.nextSibling).outlineStyle === 'none'));
+    await page.locator('.piece.d').hover();
+    const opacity = css => page.locator('aside .row.' + css).first().evaluate(node =>
+        new Promise(done => setTimeout(() => done(getComputedStyle(node).opacity), 300)));
+    check('a term lights its rows', await opacity('d') === '1' && await opacity('s') < 1);
+    await page.emulateMedia({ forcedColors: 'active' });
+    const colour = on => page.locator(`.choice input[name=view]${on} + span`).first().evaluate(node =>
+        getComputedStyle(node).backgroundColor);
+    check('the chosen button shows in forced colours',
+        await colour(':checked') !== await colour(':not(:checked)'));
+    await page.emulateMedia({ forcedColors: 'none' });
+    await page.evaluate(() => { S.ks = [0, 1, 0], S.yaw = 2, changed(); });
+    await page.locator('#reset').click();
+    check('reset is the first state', /^#(yaw=[^&]*)?$/.test(await page.evaluate(() => address())));
+    await page.context().close();
+}
+for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 720]]) {
+    const page = await open(RICH, { viewport: { width, height } });
+    check(`the equation breaks before the sum alone: ${width}`, await page.evaluate(() =>
+        [...document.querySelectorAll('#formula .line')].every(line =>
+            new Set([...line.querySelectorAll('.f, .mark, .brace')].map(node =>
+                Math.round(node.getBoundingClientRect().top))).size === 1 &&
+            line.getBoundingClientRect().right <= $('main').getBoundingClientRect().right)));
+    check(`nothing is set in small letters: ${width}`, await page.evaluate(() =>
+        [...document.querySelectorAll('main *, aside *')].every(node =>
+            !node.textContent.trim() || parseFloat(getComputedStyle(node).fontSize) >= 12) &&
+        [...document.querySelectorAll('.v')].every(node =>
+            parseFloat(getComputedStyle(node).fontSize) >= 15)));
+    await page.evaluate(() => say('A long line about a file that cannot be read. '.repeat(3)));
+    check(`a message leaves the buttons free: ${width}`, await page.evaluate(() =>
+        $('#message').getBoundingClientRect().top >= $('header').getBoundingClientRect().bottom));
+    await page.context().close();
+}
+{
+    const page = await open('', { viewport: { width: 390, height: 844 }, hasTouch: true,
+        isMobile: true });
+    const low = await page.evaluate(() => [...document.querySelectorAll(
+        'button, .choice span, .toggle > span, .open > span')].filter(node => node.offsetParent)
+        .filter(node => node.getBoundingClientRect().height < 40).map(node => node.textContent));
+    check('a finger meets every button', !low.length, low);
+    check('a slow machine turns with two samples a pixel', await page.evaluate(() => {
+        for (let i = 0; i < 120; i++) adapt(60, true);
+        return (Math.floor(8 * quality) / 8) ** 2 >= 2;
+    }));
+    await page.context().close();
+}
+{
+    const page = await open('turn=0&shape=2'), said = () => page.locator('#message').innerText();
+    check('an address of a file says so', /cannot hold/.test(await said()));
+    await page.evaluate(() => openFile(new File(['\xff\xd8\xff\xe0 JFIF'], 'photo.jpg')));
+    check('a picture is no model', /^photo\.jpg: is no model/.test(await said()), await said());
+    await page.context().close();
+}
+
 // ---- files --------------------------------------------------------------------------------------
 
 {

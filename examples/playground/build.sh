@@ -3,7 +3,7 @@
 cd "$(dirname "$0")" || exit 1
 out=${1:-../../build/playground}
 CLANG=${CLANG:-clang}
-WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef"
+WARN="-Werror -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef"
 # -fno-math-errno: sqrt is an instruction.  The stack lies first: what overflows it is caught.
 FLAGS="--target=wasm32 -std=c99 -ffreestanding -nostdlib -O2 $WARN -ffp-contract=off -fno-math-errno
     -I../.. -I. -Wl,--no-entry,--stack-first,-z,stack-size=262144,--strip-all"

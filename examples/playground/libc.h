@@ -215,6 +215,7 @@ __attribute__((noreturn)) static inline void exit(int status) { (void)status, __
 /* ---- numbers: each one instruction ----------------------------------------------------------- */
 
 static inline double sqrt(double x) { return __builtin_sqrt(x); }
+static inline float sqrtf(float x) { return __builtin_sqrtf(x); }
 static inline float fabsf(float x) { return __builtin_fabsf(x); }
 static inline float fmaxf(float a, float b) { return a > b ? a : b; }
 #endif

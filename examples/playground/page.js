@@ -52,7 +52,10 @@ function readAddress() {
         const text = given.get(name);
         if (text) setField(name, text.split(',').map(Number));
     }
-    if (S.shape === 2 && !fileName) S.shape = 0;        // a file stays on its own machine
+    if (S.shape === 2 && !fileName) {                   // a file stays on its own machine
+        S.shape = 0;
+        say('This address shows a model that it cannot hold: drop its file here.');
+    }
     if (!given.has('turn') && matchMedia('(prefers-reduced-motion: reduce)').matches) S.turn = 0;
 }
 function address() {
@@ -132,7 +135,8 @@ async function openFile(file) {
         const room = new Uint8Array(wasm.memory.buffer, at, bytes.length + name.length + 1);
         room.set(bytes), room.set(name, bytes.length), room[room.length - 1] = 0;
         const wrong = text(wasm.page_load(at, bytes.length, at + bytes.length));
-        if (wrong) throw Error(wrong);
+        if (wrong) throw Error(/\.(obj|stl|ply)$/i.test(file.name) ? wrong
+            : file.name + ': is no model; OBJ, STL and PLY can be opened');
         fileName = file.name;
         S.shape = 2;
         say(fileName + ': ' + wasm.page_triangles(2).toLocaleString('en') + ' triangles');
@@ -196,7 +200,8 @@ function toggle(name, label, title = '', bit = 1) {
     return make('label', { class: 'toggle', title }, input, make('span', { html: label }));
 }
 function symbol(html, title) {
-    return make('span', { class: 'symbol', title, html });
+    const word = `<small>${title.split(' ')[0]}</small>`;
+    return make('span', { class: 'symbol', title, html: html + word });
 }
 // A row: symbol, slider, number.  name() is the field, which for lamps depends on the one chosen;
 // part: of a vector.  curve 2: fine at the low end.
@@ -290,7 +295,7 @@ function buildControls() {
             slider('n', '<i>n</i>', 'shininess', { css: 's', curve: 2 })),
         group('Light', color('Ia', '<i>I</i><sub>a</sub>', 'ambient light of the scene', 'a'),
             row(choice('lamp', ['Lamp 1', '2', '3'], LAMPS), on, far),
-            color(of('I'), '<i>I</i><sub>d</sub>, <i>I</i><sub>s</sub>', 'light of the lamp'),
+            color(of('I'), '<i>I</i><sub>d</sub>, <i>I</i><sub>s</sub>', 'light of the lamp', 'lamps'),
             color(of('A'), '<i>I</i><sub>La</sub>', 'ambient light of the lamp', 'a'),
             ...['x', 'y', 'z'].map((axis, part) =>
                 slider(of('p'), `<i>${axis}</i>`, 'position ' + axis, { part, step: 0.1 })),
@@ -301,6 +306,7 @@ function buildControls() {
             slider(of('e'), '<i>e</i>', 'exponent of the cone', { curve: 2 })),
         group('Shading', choice('shading', ['By fragment', 'By vertex', 'By face'])),
         group('Flags', row(...FLAGS.map((label, i) => toggle('flags', ...label, 1 << i)))));
+    controls.append($('#links').content);
     buildEquation();
 }
 
@@ -311,22 +317,27 @@ const cells = {};
 function piece(name, css, html) {
     const formula = make('span', { class: 'f', html });
     cells[name] = { formula, values: make('span', { class: 'v' }) };
-    return make('span', { class: 'piece ' + css }, formula, cells[name].values);
+    const node = make('span', { class: 'piece ' + css }, formula, cells[name].values);
+    if (!'eads'.includes(css)) return node;
+    node.addEventListener('pointerenter', () => { controls.dataset.term = css; });
+    node.addEventListener('pointerleave', () => { delete controls.dataset.term; });
+    return node;
 }
 function buildEquation() {
     const mark = html => make('span', { class: 'mark', html });
     const brace = html => make('span', { class: 'brace', html });
     $('#models').append(choice('model', MODELS),
         toggle('compare', 'Phong | Blinn–Phong | 4<i>n</i>', 'the three side by side'));
-    $('#formula').append(
+    const line = (...nodes) => make('span', { class: 'line' }, ...nodes);
+    $('#formula').append(line(
         piece('total', 'total', '<i>I</i>'), mark('='),
         piece('emission', 'e', '<i>k</i><sub>e</sub>'), mark('+'),
-        piece('sceneAmbient', 'a', '<i>k</i><sub>a</sub> <i>I</i><sub>a</sub>'), mark('+'),
+        piece('sceneAmbient', 'a', '<i>k</i><sub>a</sub> <i>I</i><sub>a</sub>'), mark('+')), line(
         piece('lamp', 'lamp', ''), brace('{'),
         piece('lampAmbient', 'a', '<i>k</i><sub>a</sub> <i>I</i><sub>La</sub>'), mark('+'),
         piece('arriving', 'arriving', ''), piece('gate', 'gate', '<i>B</i>'), brace('('),
         piece('lampDiffuse', 'd', ''), mark('+'),
-        make('span', { class: 'last' }, piece('lampSpecular', 's', ''), brace(')'), brace('}')));
+        make('span', { class: 'last' }, piece('lampSpecular', 's', ''), brace(')'), brace('}'))));
     $('#sum').append(...TERMS.map((name, i) => {
         const label = toggle('terms', name, 'switch this term on or off', 1 << i);
         label.classList.add(name[0]);
@@ -411,8 +422,9 @@ function showVectors(answer, last) {
 
 const canvas = $('figure canvas'), context = canvas.getContext('2d', { alpha: false });
 const MOST = 4 << 20;                   // PAGE_MOST of page.c
+const LEAST = 1.5;                      // in motion: 2.25 samples a pixel of the page
 const times = [];                       // of the last pictures, ms
-let quality = 1, requested = 0, last = 0, moved = -1000, stale = true, probeAfter = 0;
+let quality = LEAST, requested = 0, last = 0, moved = -1000, stale = true, probeAfter = 0;
 let spot = [0.57, 0.47];
 
 const finest = () => {
@@ -470,7 +482,7 @@ function adapt(spent, moving) {
     times.push(spent);
     if (times.length < 12) return;
     const median = times.sort((a, b) => a - b)[6];
-    if (median > 11) quality = Math.max(0.5, quality * Math.sqrt(9 / median));
+    if (median > 11) quality = Math.max(LEAST, quality * Math.sqrt(9 / median));
     else if (median < 7) quality = Math.min(finest(), quality * 1.15);
     times.length = 0;
 }
@@ -538,6 +550,10 @@ function listen() {
     $('#share').addEventListener('click', async () => {
         history.replaceState(null, '', address());
         say(await copy(location.href) ? 'The address is copied.' : 'The address shows this.');
+    });
+    $('#reset').addEventListener('click', () => {
+        for (const name in FIELDS) setField(name, FIELDS[name].slice(2));
+        changed();
     });
     $('#code').addEventListener('click', () => {
         $('#program pre').textContent = program(), $('#program').showModal();
