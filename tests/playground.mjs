@@ -147,7 +147,7 @@ for (const simd of [1, 0]) {
     // ---- sliders and colours, of every lamp -----------------------------------------------------
     for (const lamp of simd ? [1, 2, 3] : [1]) {
         await page.locator(`input[name=lamp][value="${lamp}"] + span`).click();
-        const rows = page.locator('.row'), from = lamp > 1 ? 6 : 0;    // the lamp's alone
+        const rows = page.locator('aside .row'), from = lamp > 1 ? 6 : 0;    // the lamp's alone
         const count = await rows.count();
         let before = await draws(page);
         for (let i = from; i < count; i++) {
@@ -278,13 +278,14 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
 // Nothing scrolls away, however low in the panel the control is that was used.
 {
     const page = await open('turn=0', { viewport: { width: 1366, height: 650 } });
-    const labels = page.locator('label:has(input:not(:disabled):not([type=file])), .row input');
+    const labels = page.locator('aside .row input, ' +
+        'label:has(input:not(:disabled):not([type=file]))');
     for (let i = 0; i < await labels.count(); i++) await labels.nth(i).click();
     check('no click scrolls the page', await page.evaluate(() =>
         [document.documentElement, document.body, $('main')].every(node => !node.scrollTop) &&
         $('header').getBoundingClientRect().top >= 0));
-    const slider = page.locator('.row input[type=range]').first();
-    await page.locator('.row input[type=color]').first().focus();
+    const slider = page.locator('aside .row input[type=range]').first();
+    await page.locator('aside .row input[type=color]').first().focus();
     await page.keyboard.press('Tab');
     check('one ring around a slider', await slider.evaluate(node =>
         document.activeElement === node && getComputedStyle(node).outlineStyle === 'solid' &&
@@ -294,8 +295,8 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
         new Promise(done => setTimeout(() => done(getComputedStyle(node).opacity), 300)));
     check('a term lights its rows', await opacity('d') === '1' && await opacity('s') < 1);
     await page.emulateMedia({ forcedColors: 'active' });
-    const colour = on => page.locator(`.choice input[name=view]${on} + span`).first().evaluate(node =>
-        getComputedStyle(node).backgroundColor);
+    const colour = on => page.locator(`.choice input[name=view]${on} + span`).first().evaluate(
+        node => getComputedStyle(node).backgroundColor);
     check('the chosen button shows in forced colours',
         await colour(':checked') !== await colour(':not(:checked)'));
     await page.emulateMedia({ forcedColors: 'none' });
@@ -339,6 +340,48 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
     check('an address of a file says so', /cannot hold/.test(await said()));
     await page.evaluate(() => openFile(new File(['\xff\xd8\xff\xe0 JFIF'], 'photo.jpg')));
     check('a picture is no model', /^photo\.jpg: is no model/.test(await said()), await said());
+    await page.context().close();
+}
+
+// ---- a lecture ----------------------------------------------------------------------------------
+
+for (const [width, height] of [[1366, 768], [1920, 1080]]) {
+    const page = await open('turn=0&lecture=1', { viewport: { width, height } });
+    for (let step = 1; step <= 5; step++) {
+        const { state } = await same(page, `lecture ${step}, ${width}`);
+        const [formula, small, inside] = await page.evaluate(() => {
+            const seen = [...document.querySelectorAll('#lecture *, #sum *')].filter(node =>
+                [...node.childNodes].some(child => child.nodeType === 3 && child.data.trim()) &&
+                node.checkVisibility() && !node.closest('sub, sup'));
+            return [$('#lecture p').innerText, seen.filter(node =>
+                parseFloat(getComputedStyle(node).fontSize) < 24).map(node => node.textContent),
+            seen.every(node => node.getBoundingClientRect().bottom <= innerHeight &&
+                node.getBoundingClientRect().right <= innerWidth + 1)];
+        });
+        check(`step ${step} is iteration ${step - 1}: ${width}`, state.lecture === step &&
+            state.model === [4, 3, 2, 0, 0][step - 1] && formula.includes('N·L') === step > 2 &&
+            formula.includes('N·H') === step > 3 && formula.includes('Σ') === step > 4, formula);
+        check(`values are 24 px and more: ${step}, ${width}`, !small.length, small);
+        check(`all of it is on the screen: ${step}, ${width}`, inside);
+        check(`the formula is one line: ${step}, ${width}`, await page.evaluate(() =>
+            $('#lecture p').scrollWidth <= $('#lecture p').clientWidth));
+        check(`one slider: ${step}, ${width}`,
+            await page.locator('input[type=range]:visible').count() === 1);
+        await page.keyboard.press('PageDown');
+    }
+    check('each step has its address', await soon(() => page.evaluate(() =>
+        /lecture=5/.test(location.hash))));
+    await page.keyboard.press('PageUp');
+    check('and one can go back', await page.evaluate(() => S.lecture) === 4);
+    await page.keyboard.press('Escape');
+    await go(page, 'turn=0&bare');
+    check('a frame has no panel', !await page.locator('aside').isVisible() &&
+        await page.locator('#formula').isVisible());
+    await go(page, 'turn=0');
+    await page.keyboard.press('l');
+    await page.keyboard.press('Escape');
+    check('and leave', await page.evaluate(() => S.lecture) === 0 &&
+        await page.locator('aside').isVisible());
     await page.context().close();
 }
 

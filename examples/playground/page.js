@@ -18,7 +18,7 @@ const FIELDS = {
     shape: [0, 2, 0], view: [0, 2, 0], compare: [0, 1, 0], wire: [0, 1, 0], vectors: [0, 1, 1],
     turn: [0, 1, 1], model: [0, 5, 0], shading: [0, 2, 0], flags: [0, 63, 0], terms: [1, 15, 15],
     lamp: [1, 3, 1], yaw: [-7, 7, 0.5], pitch: [-1.6, 1.6, 0.4], zoom: [0.4, 4, 1],
-    simd: [0, 1, 1],
+    simd: [0, 1, 1], lecture: [0, 5, 0], bare: [0, 1, 0],
     ke: [0, 1, 0, 0, 0], ka: [0, 1, 0.02, 0.16, 0.2], kd: [0, 1, 0.02, 0.16, 0.2],
     ks: [0, 1, 0.7, 0.7, 0.7], n: [0, 256, 81], Ia: [0, 1, 0.1, 0.11, 0.13],
     ...lamp(1, 1, 0, [3, 2.5, 3.5], [1.9, 1.75, 1.5], 0),
@@ -32,8 +32,8 @@ function lamp(j, on, far, position, color, c, beta = 180, e = 0) {
         ['e' + j]: [0, 64, e] };
 }
 // those that are whole numbers
-const WHOLE =
-    /^(shape|view|compare|wire|vectors|turn|model|shading|flags|terms|lamp|simd|on.|far.)$/;
+const WHOLE = RegExp('^(shape|view|compare|wire|vectors|turn|model|shading|flags|terms|lamp|' +
+    'simd|lecture|bare|on.|far.)$');
 
 const S = {};
 const round = v => Math.round(v * 1e4) / 1e4 + 0;
@@ -47,8 +47,10 @@ function setField(name, values) {
 }
 function readAddress() {
     const given = new URLSearchParams(location.hash.slice(1));
+    for (const name in FIELDS) setField(name, FIELDS[name].slice(2));
+    setField('lecture', [Number(given.get('lecture'))]);
+    Object.assign(S, stepState(S.lecture), { bare: +given.has('bare') });
     for (const name in FIELDS) {
-        setField(name, FIELDS[name].slice(2));
         const text = given.get(name);
         if (text) setField(name, text.split(',').map(Number));
     }
@@ -268,8 +270,11 @@ function presets() {
 }
 
 function buildControls() {
-    const file = make('input', { type: 'file', accept: '.obj,.stl,.ply', 'aria-label': 'Open a model',
-        onchange: () => { if (file.files[0]) openFile(file.files[0]); file.value = ''; } });
+    const file = make('input', { type: 'file', accept: '.obj,.stl,.ply',
+        'aria-label': 'Open a model', onchange: () => {
+            if (file.files[0]) openFile(file.files[0]);
+            file.value = '';
+        } });
     const shapes = choice('shape', ['Teapot', 'Sphere', 'File']);
     const third = shapes.lastChild.firstChild, of = field => () => field + S.lamp;
     shown.push(() => { third.disabled = !fileName; });
@@ -295,7 +300,8 @@ function buildControls() {
             slider('n', '<i>n</i>', 'shininess', { css: 's', curve: 2 })),
         group('Light', color('Ia', '<i>I</i><sub>a</sub>', 'ambient light of the scene', 'a'),
             row(choice('lamp', ['Lamp 1', '2', '3'], LAMPS), on, far),
-            color(of('I'), '<i>I</i><sub>d</sub>, <i>I</i><sub>s</sub>', 'light of the lamp', 'lamps'),
+            color(of('I'), '<i>I</i><sub>d</sub>, <i>I</i><sub>s</sub>', 'light of the lamp',
+                'lamps'),
             color(of('A'), '<i>I</i><sub>La</sub>', 'ambient light of the lamp', 'a'),
             ...['x', 'y', 'z'].map((axis, part) =>
                 slider(of('p'), `<i>${axis}</i>`, 'position ' + axis, { part, step: 0.1 })),
@@ -308,6 +314,7 @@ function buildControls() {
         group('Flags', row(...FLAGS.map((label, i) => toggle('flags', ...label, 1 << i)))));
     controls.append($('#links').content);
     buildEquation();
+    buildLecture();
 }
 
 // ---- the equation -------------------------------------------------------------------------------
@@ -399,9 +406,17 @@ function showAnswer(answer) {
         node.style.width = 100 * light[i] / all + '%';
     });
     showVectors(answer, model === 1 ? 'R' : 'H');
+    showLobe(answer);
+}
+// An arrow's head at (X, Y), which is (dx, dy) from where it begins
+function head(dx, dy, X, Y) {
+    const length = Math.hypot(dx, dy), a = 11 / length, b = 4 / length;
+    if (length < 14) return '';
+    return `<polygon points="${X},${Y} ${X - a * dx + b * dy},${Y - a * dy - b * dx} ` +
+        `${X - a * dx - b * dy},${Y - a * dy + b * dx}"/>`;
 }
 function showVectors(answer, last) {
-    const svg = $('figure svg'), ratio = canvas.clientWidth / canvas.width;
+    const svg = $('#arrows'), ratio = canvas.clientWidth / canvas.width;
     const at = p => p.map(v => (v * ratio).toFixed(1));
     let html = '';
     if (answer.hit) {
@@ -410,7 +425,8 @@ function showVectors(answer, last) {
             const [X, Y] = at(answer[name]);
             if (name === 'L' && !S['on' + S.lamp]) continue;
             const label = Math.hypot(X - x, Y - y) < 20 ? '' : name === 'H' ? last : name;
-            html += `<g class="${name}"><line x1="${x}" y1="${y}" x2="${X}" y2="${Y}"/><text ` +
+            html += `<g class="${name}"><line x1="${x}" y1="${y}" x2="${X}" y2="${Y}"/>` +
+                head(X - x, Y - y, X, Y) + '<text ' +
                 `x="${X}" y="${Y}" dx="6" dy="-4">${label}</text></g>`;
         }
         html += `<circle cx="${x}" cy="${y}" r="4"/>`;
@@ -439,6 +455,7 @@ function request() {
 }
 function refresh() {
     for (const show of shown) show();
+    document.body.classList.toggle('bare', !!S.bare);
     $('#panels').hidden = !(S.compare && !S.view);
     stale = true, request();
 }
