@@ -58,12 +58,13 @@
        >>pixels      formats: 5-6-5, sRGB
      Inside: light
        >>lamps       attenuation, cones    >>terms       one term at one point
-       >>lit         the whole sum, at many points
+       >>surface     material and lights   >>lit         the whole sum, at many points
      Inside: the way of a triangle
        >>state       who owns what         >>vertices    shading, projection
        >>triangles   edges, planes         >>clip        near, far, behind the eye
-       >>cover       pixels, depth test    >>fragments   interpolation, shading
-       >>texture     texels                >>store       blending, memory
+       >>tiles       pixels, depth test    >>cover       what is hidden, tile by tile
+       >>fragments   interpolation         >>texture     texels
+       >>store       blending, memory
      Inside: calls
        >>check       refusals              >>drive       shade_draw, batch by batch
        >>mesh        shade_draw_mesh       >>lines       shade_draw_lines
@@ -2104,7 +2105,7 @@ typedef struct shade__lamp {
     float a, nearest;       /* a of the attenuation, or 1 for none; the least r */
     int infinite, spot;
     int falls;              /* the attenuation depends on r */
-    /* What one surface reflects of it, set by >>lit. */
+    /* What one surface reflects of it, set by >>surface. */
     shade_vec3 ambient, diffuse, specular;    /* k_a I_La, k_d I_d, k_s I_s */
     int on;                 /* one of these is not zero; if 0, the fields above are not set */
     int masked;             /* lanes without light have to be masked: shade__combine */
@@ -2317,7 +2318,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
    The terms of >>model one by one, for a single point, and the classic materials.
      in      unit vectors                  out  cosines, powers, colours
      holds   Roots and divisions are exact.
-     source  [Phong75], [Blinn77], [Gooch98], [Kilgard94]                                   >>lit */
+     source  [Phong75], [Blinn77], [Gooch98], [Kilgard94]                               >>surface */
 
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
 {
@@ -2451,12 +2452,10 @@ SHADEDEF const char *shade_preset_name(shade_preset preset)
     return shade__preset((int)preset)->name;
 }
 
-/*-------------------------------------------------------------------------------------------- >>lit
-   All of the equations of >>model, for a packet or for one point.
-     in      shade_rows, lights, a material       out  rows of rgb
-     holds   The light of one lamp is cut into short loops over rows.  One fused loop a light took
-             1.5 times as long, because its many live values outgrow the processor.  A lamp that
-             reaches no lane (horizon, cone) is left after its first loops.              >>state */
+/*---------------------------------------------------------------------------------------- >>surface
+   What points are lit by, prepared once for all of them: defaults are filled in, materials and
+   lights multiplied, terms that are off made zero.
+     in      a shade_lighting, a material, the eye      out  shade__surface              >>lit */
 
 /* The first SHADE__LAMPS lights are prepared once a draw, the others anew for each packet. */
 enum { SHADE__LAMPS = SHADE_LANES < 64 ? 1 : 4 };
@@ -2576,6 +2575,13 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
     for (int k = 0; k < s->lamps && k < SHADE__LAMPS; k++)
         shade__reflect_lamp(s, &lighting->lights[k], &s->lamp[k]);
 }
+
+/*-------------------------------------------------------------------------------------------- >>lit
+   All of the equations of >>model, for a packet or for one point.
+     in      shade_rows, a shade__surface         out  rows of rgb
+     holds   The light of one lamp is cut into short loops over rows.  One fused loop a light took
+             1.5 times as long, because its many live values outgrow the processor.  A lamp that
+             reaches no lane (horizon, cone) is left after its first loops.              >>state */
 
 /* The rows of a block of points while one lamp after the other adds its light. */
 typedef struct shade__lit {
@@ -3042,7 +3048,7 @@ enum {
     SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,
     SHADE__BOUNDS = SHADE_LANES * SHADE_LANES / 32,
     SHADE__CLIP_VERTICES = 13,        /* see >>clip */
-    SHADE__TILE = 32, SHADE__TILE_ROWS = 8    /* pixels that >>cover looks at together */
+    SHADE__TILE = 32, SHADE__TILE_ROWS = 8    /* pixels that >>tiles looks at together */
 };
 
 typedef struct shade__plan {
@@ -3050,7 +3056,7 @@ typedef struct shade__plan {
     const shade_pipeline *pipe;
     uint8_t *color;                   /* NULL: none */
     float   *depth;                   /* NULL: none */
-    float   *tested;                  /* by >>cover: depth, or a row of a tile that nobody reads */
+    float   *tested;                  /* by >>tiles: depth, or a row of a tile that nobody reads */
     const shade__layout *layout;      /* of the target's pixels */
     int      stride, row_offset;      /* pixels from row to row; the first row that memory holds */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
@@ -3059,11 +3065,11 @@ typedef struct shade__plan {
     int      lod;                     /* the value that is u over w, v follows it; 0: no lod */
     int      varyings;
     int      zero_to_one;
-    int      early, queued;           /* depth is tested by >>cover; fragments go to the queue */
+    int      early, queued;           /* depth is tested by >>tiles; fragments go to the queue */
     int      less_only;               /* the early test is LESS, and depth is written */
     int      places_unread;           /* nobody reads x, y, z, primitive and front of fragments */
     shade__compare compare;           /* the test of the draw */
-    shade__compare early_test;        /* the test of >>cover: it lets all pass unless early */
+    shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
     float    toward;                  /* 1, -1: greater, less depth is farther; 0: no bounds */
     float    half_width, half_height; /* of the picture, in 1/256 pixels: below 2^22, exact */
 } shade__plan;
@@ -3819,7 +3825,7 @@ static void shade__triangles(shade__draw *d)
              3, 1 more for each of 7 planes, 2 while a plane is being cut, and vertex 0, which is
              kept for CONSTANT
      holds   A new vertex is computed from the inner to the outer end of its edge, so that
-             neighbours get the same bits and no crack opens.                             >>cover */
+             neighbours get the same bits and no crack opens.                             >>tiles */
 
 /* Signed distance to a plane, times a positive factor; inside >= 0. */
 static double shade__distance_to(const float *clip, uint32_t plane,
@@ -3988,23 +3994,16 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4],
     return 1;
 }
 
-/*------------------------------------------------------------------------------------------ >>cover
-   Which pixels of a triangle are inside and pass the depth test, tile by tile; and what big
-   triangles hide from those after them in the same draw: a bound of depth for each rectangle of
-   tiles, so that hidden ones are left out whole.                                        [Greene93]
-     in      triangles set up
+/*------------------------------------------------------------------------------------------ >>tiles
+   The pixels of a tile that are inside of a triangle and pass the depth test.
+     in      a triangle that was set up, tiles of its box
      out     depth (early test), runs of pixels for >>fragments
      method  A tile is 32 x 8 pixels.  In it, an edge has all pixels outside, and the tile is left
              out; or all inside, and the edge is forgotten; or it crosses the tile, and then
              |e| <= 31 |dx| + 7 |dy| fits 32 bits however large the triangle is.
-             With the tests that only ever bring depth nearer (less, greater, or equal), no pixel of
-             a rectangle is farther than the farthest corner of a triangle that filled it.  Slopes
-             are below 2^34, so all sums are finite; rounding is monotonic, so corners bound every
-             depth between, to the bit.  Bounds draw 1000 big triangles, 163 Mpixel of overdraw,
-             3.7 times as fast, with SSE2 6.2 times.
      holds   A tile stays inside the clip rectangle: stores rewrite only pixels of this thread.  A
              value at a pixel has the same bits however it is reached: row base, then its step in x
-             times the exact distance.                                                >>fragments */
+             times the exact distance.                                                    >>cover */
 
 enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
@@ -4039,9 +4038,6 @@ typedef struct shade__tile {
     float    row_z[SHADE__TILE_ROWS]; /* depth of the plane at x_ref of each row */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
 } shade__tile;
-
-/* Columns x .. last of rows y .. bottom of a triangle; inside: all of their pixels are. */
-typedef struct shade__stretch { int x, y, last, bottom, inside; } shade__stretch;
 
 /* Runs of pixels on their way to the queue, handed over when there are as many as fit. */
 typedef struct shade__runs {
@@ -4122,70 +4118,6 @@ SHADE__INLINE void shade__tile_edges(const shade__triangle *t,
         edges->e[k] = crosses ? (int32_t)(r->e[k] + e) : 0;
         edges->dx[k] = crosses ? t->edges.dx[k] : 0;
         edges->dy[k] = crosses ? t->edges.dy[k] : 0;
-    }
-}
-
-/* ---- bounds */
-
-/* Cuts the clip rectangle into tiles or rectangles of them, SHADE__BOUNDS at most.
-   pre: the rectangle is not empty, within 2^14   post: neither logarithm is above 14 */
-static SHADE__UNUSED void shade__begin_bounds(const shade__plan *plan,
-                                              shade__bounds *b)
-{
-    int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
-
-    b->log_width = 5;
-    b->log_height = 3;
-    while (((w >> b->log_width) + 1) * ((h >> b->log_height) + 1) > SHADE__BOUNDS) {
-        if (b->log_height < b->log_width) b->log_height++;
-        else b->log_width++;
-    }
-    b->across = (w >> b->log_width) + 1;
-    for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
-}
-
-/* toward times the depth at pixel x of a row whose depth is row_z at x_ref: the bits that are
-   tested. */
-SHADE__INLINE float shade__key(float toward, const shade__triangle *t,
-                               float row_z, int x)
-{
-    return toward * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
-}
-
-/* In rows s->y .. s->bottom of the triangle's box, which one row of bounds holds: moves s->x to the
-   next column whose bound does not hide it, beyond the box if there is none, and s->last to the
-   last column before one that is hidden or differs in s->inside.  Bounds that the triangle fills
-   come nearer. */
-SHADE__UNUSED static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
-                                                              shade__bounds *b,
-                                                              const shade__triangle *t,
-                                                              shade__stretch *s)
-{
-    const float toward = plan->toward;
-    const int right = toward * t->zx > 0, down = toward * t->zy > 0;
-    const float z_near = shade__row_depth(t, down ? s->y : s->bottom);
-    const float z_far = shade__row_depth(t, down ? s->bottom : s->y);
-    const int size = 1 << b->log_width, row = (s->y - plan->y0) >> b->log_height;
-    const int top = plan->y0 + (row << b->log_height);
-    const int low = shade__min(top + (1 << b->log_height), plan->y1) - 1;
-    const int whole = s->y == top && s->bottom == low;
-    shade__reach reach;
-
-    shade__reach_of(t, t->x0, s->y, size, s->bottom - s->y + 1, &reach);
-    for (int from = s->x; from <= t->x1; from = s->last + 1) {
-        const int column = (from - plan->x0) >> b->log_width, first = plan->x0 + column * size;
-        const int to = shade__min(first + size - 1, t->x1);
-        const int inside = shade__inside(t, &reach, first - t->x0);
-        float *farthest = &b->farthest[row * b->across + column];
-        const int hidden =
-            inside < 0 || shade__key(toward, t, z_near, right ? from : to) > *farthest;
-
-        if (from > s->x && (hidden || inside != s->inside)) return;
-        s->inside = inside;
-        s->last = to;
-        if (hidden) s->x = to + 1;
-        else if (inside && whole)
-            *farthest = shade__minf(*farthest, shade__key(toward, t, z_far, right ? to : from));
     }
 }
 
@@ -4403,6 +4335,85 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
     }
 }
+
+/*------------------------------------------------------------------------------------------ >>cover
+   Triangles tile by tile, and what big ones hide from those after them in the same draw: a bound of
+   depth for each rectangle of tiles, so that hidden ones are left out whole.            [Greene93]
+     in      triangles set up                    out  runs of pixels for >>fragments
+     method  With the tests that only ever bring depth nearer (less, greater, or equal), no pixel of
+             a rectangle is farther than the farthest corner of a triangle that filled it.  Slopes
+             are below 2^34, so all sums are finite; rounding is monotonic, so corners bound every
+             depth between, to the bit.  Bounds draw 1000 big triangles, 163 Mpixel of overdraw,
+             3.7 times as fast, with SSE2 6.2 times.                                  >>fragments */
+
+/* Columns x .. last of rows y .. bottom of a triangle; inside: all of their pixels are. */
+typedef struct shade__stretch { int x, y, last, bottom, inside; } shade__stretch;
+
+/* ---- bounds */
+
+/* Cuts the clip rectangle into tiles or rectangles of them, SHADE__BOUNDS at most.
+   pre: the rectangle is not empty, within 2^14   post: neither logarithm is above 14 */
+static SHADE__UNUSED void shade__begin_bounds(const shade__plan *plan,
+                                              shade__bounds *b)
+{
+    int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
+
+    b->log_width = 5;
+    b->log_height = 3;
+    while (((w >> b->log_width) + 1) * ((h >> b->log_height) + 1) > SHADE__BOUNDS) {
+        if (b->log_height < b->log_width) b->log_height++;
+        else b->log_width++;
+    }
+    b->across = (w >> b->log_width) + 1;
+    for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
+}
+
+/* toward times the depth at pixel x of a row whose depth is row_z at x_ref: the bits that are
+   tested. */
+SHADE__INLINE float shade__key(float toward, const shade__triangle *t,
+                               float row_z, int x)
+{
+    return toward * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
+}
+
+/* In rows s->y .. s->bottom of the triangle's box, which one row of bounds holds: moves s->x to the
+   next column whose bound does not hide it, beyond the box if there is none, and s->last to the
+   last column before one that is hidden or differs in s->inside.  Bounds that the triangle fills
+   come nearer. */
+SHADE__UNUSED static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
+                                                              shade__bounds *b,
+                                                              const shade__triangle *t,
+                                                              shade__stretch *s)
+{
+    const float toward = plan->toward;
+    const int right = toward * t->zx > 0, down = toward * t->zy > 0;
+    const float z_near = shade__row_depth(t, down ? s->y : s->bottom);
+    const float z_far = shade__row_depth(t, down ? s->bottom : s->y);
+    const int size = 1 << b->log_width, row = (s->y - plan->y0) >> b->log_height;
+    const int top = plan->y0 + (row << b->log_height);
+    const int low = shade__min(top + (1 << b->log_height), plan->y1) - 1;
+    const int whole = s->y == top && s->bottom == low;
+    shade__reach reach;
+
+    shade__reach_of(t, t->x0, s->y, size, s->bottom - s->y + 1, &reach);
+    for (int from = s->x; from <= t->x1; from = s->last + 1) {
+        const int column = (from - plan->x0) >> b->log_width, first = plan->x0 + column * size;
+        const int to = shade__min(first + size - 1, t->x1);
+        const int inside = shade__inside(t, &reach, first - t->x0);
+        float *farthest = &b->farthest[row * b->across + column];
+        const int hidden =
+            inside < 0 || shade__key(toward, t, z_near, right ? from : to) > *farthest;
+
+        if (from > s->x && (hidden || inside != s->inside)) return;
+        s->inside = inside;
+        s->last = to;
+        if (hidden) s->x = to + 1;
+        else if (inside && whole)
+            *farthest = shade__minf(*farthest, shade__key(toward, t, z_far, right ? to : from));
+    }
+}
+
+/* ---- triangles */
 
 /* Draws a stretch of a triangle.  Its last tile may go on beyond it where the triangle ends there;
    else tiles begin at multiples of 32 columns, as bounds do. */
