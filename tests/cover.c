@@ -379,7 +379,7 @@ TEST(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact)
             u = (int64_t)rnd_int(width * 2 / 3, width - 1) * 256 + 128 - x[0];
             v = (int64_t)rnd_int(height / 2, height - 1) * 256 + 128 - y[0];
             dy = rnd_int(height * 200, height * 256);
-        } while (dy * u % v > 300 && ++attempts < 1000);
+        } while ((dy * u % v > 300 || x[0] + dy * u / v > width * 512) && ++attempts < 1000);
         x[1] = x[0] + dy * u / v;
         y[1] = y[0] + dy;
         x[2] = i % 3 ? rnd_int(0, width * 256) : x[1];
@@ -459,6 +459,38 @@ TEST(cover, borders_of_huge_triangles_are_exact)
         check_coverage(&c, x, y);
         canvas_close(&c);
     }
+}
+
+/* Slivers of up to 16,000 pixels.  Only their left end is in the clip rectangle, in less than 32
+   columns.  Their edges pass less than 64 rows above it, where they fit 32 bits; a few hundred rows
+   below they do not, and those that wrap would draw the lower part of the rectangle. */
+TEST(cover, ends_of_slivers_of_thousands_of_pixels_are_exact)
+{
+    canvas c = canvas_open(16384, 600, 0, SHADE_FORMAT_RGBA8, 0);
+    for (int i = 0; i < 60; i++) {
+        int first = rnd_int(8, 31), wrong = 0;
+        int64_t x[3] = { first * 256 + rnd_int(-300, 300), rnd_int(12000, 16000) * 256, 0 };
+        int64_t y[3] = { rnd_int(-2000, 9000), rnd_int(600, 1100) * 256, 0 };
+
+        x[2] = (x[0] + x[1]) / 2 + rnd_int(-400000, 400000);
+        y[2] = y[0] + (y[1] - y[0]) * (x[2] - x[0]) / (x[1] - x[0]) - rnd_int(0, 3000);
+        c.target.clip_y = c.target.clip_width = c.target.clip_height = 0;
+        canvas_clear(&c, 1);
+        c.target.clip_y = (int)(y[0] / 256) + rnd_int(0, 60);
+        if (c.target.clip_y < 0) c.target.clip_y = 0;
+        c.target.clip_width = 36;
+        c.target.clip_height = rnd_int(400, 512);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        for (int row = 0; row < 600; row++)
+            for (int column = 0; column < 60; column++) {
+                int below = row - c.target.clip_y;
+                int want = column < 36 && below >= 0 && below < c.target.clip_height;
+                if (want) want = ref_inside_fx8(x, y, column, row);
+                wrong += (canvas_bytes(&c, column, row)[3] != 0) != want;
+            }
+        CHECK_INT(wrong, 0);
+    }
+    canvas_close(&c);
 }
 
 /* 64-bit edges, level ones among them, through centres: a top edge owns them, a bottom edge not */
@@ -607,6 +639,7 @@ static const test_case cover_cases[] = {
     CASE(cover, edges_that_miss_a_far_centre_by_a_hair_are_exact),
     CASE(cover, triangles_of_a_million_pixels_are_exact),
     CASE(cover, thin_triangles_across_nine_million_pixels_are_exact),
+    CASE(cover, ends_of_slivers_of_thousands_of_pixels_are_exact),
     CASE(cover, borders_of_huge_triangles_are_exact),
     CASE(cover, level_edges_of_big_triangles_follow_the_rule),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),
