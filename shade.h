@@ -7438,12 +7438,17 @@ static const char *shade__why_culled(const shade__survey *s)
 static const char *shade__why_outside(shade__survey *s)
 {
     const shade_mat4 p = shade__or_identity(s->given->projection);
+    const int others = shade__depth_varies(s);
     if (shade__is_rigid(&p))
         return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
                "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
 
+    if (s->outside & SHADE__OUT_FAR)
+        return "The whole mesh lies beyond the far plane of state.projection; move far out, or the "
+               "eye of state.view nearer.";
+
     s->state.view = shade_mat4_inverse(s->state.view);
-    if (shade__try(s))
+    if (!others && shade__try(s))
         return "The mesh is out of view, but the inverse of state.view would show it: state.view "
                "takes the world to the eye, as shade_mat4_look_at does.";
 
@@ -7453,11 +7458,7 @@ static const char *shade__why_outside(shade__survey *s)
     if (s->outside & SHADE__OUT_NEAR)
         return "The whole mesh lies nearer than the near plane of state.projection, or behind the "
                "eye of state.view; move near in, or the eye back.";
-    if (s->outside & SHADE__OUT_FAR)
-        return "The whole mesh lies beyond the far plane of state.projection; move far out, or the "
-               "eye of state.view nearer.";
-
-    if (shade__depth_varies(s)) return NULL;    /* one of several meshes may stand there */
+    if (others) return NULL;    /* one of several meshes may stand there */
     return "The whole mesh lies beside the picture, before near or beyond far; check state.model, "
            "and where state.view looks.";
 }

@@ -212,6 +212,12 @@ MISTAKE(looks_away)
     s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 8), shade_v3(0, 1, 0));
 }
 MISTAKE(beyond_far) { s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 0.1f, 2); }
+MISTAKE(beyond_far_where_the_inverse_looks)
+{
+    s->state.view = shade_mat4_translation(shade_v3(0, 0, -4));
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 0.1f, 20);
+    s->state.model = shade_mat4_translation(shade_v3(0, 0, -20));
+}
 MISTAKE(before_near) { s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 50, 100); }
 MISTAKE(beside) { s->state.model = shade_mat4_translation(shade_v3(50, 0, 0)); }
 MISTAKE(left_handed) { s->state.model = shade_mat4_translation(shade_v3(0, 0, 8)); }
@@ -644,7 +650,9 @@ static const mistake mistakes[] = {
     OF(model_by_rows, "state.model looks transposed"), OF(all_by_rows, "transposed"),
     OF(ortho_by_rows, "state.projection"), OF(projection_forgotten, "state.projection is unset"),
     OF(view_inverted, "inverse"), OF(looks_away, "behind the eye"),
-    OF(beyond_far, "beyond the far plane"), OF(before_near, "nearer than the near plane"),
+    OF(beyond_far, "beyond the far plane"),
+    OF(beyond_far_where_the_inverse_looks, "beyond the far plane"),
+    OF(before_near, "nearer than the near plane"),
     OF(beside, "beside the picture"), OF(left_handed, "behind the eye"),
     OF(model_nan, "state.model"), OF(view_infinite, "state.view"),
     OF(projection_nan, "state.projection"), OF(reversed_flag_forgotten, "depth_zero_to_one"),
@@ -818,6 +826,7 @@ TEST(explain, what_other_meshes_explain_gets_none)
     stage *s = stage_open();
     const shade_mat4 full = s->state.model;
     shade_mat4 small = shade_mat4_scaling(shade_v3(0.1f, 0.1f, 0.1f));
+    shade_vec3 beside;
     stage_is_good(s, "the first");
     s->clear = NAN;
     small.col[3] = shade_v4(0, -0.3f, -2, 1);
@@ -836,6 +845,10 @@ TEST(explain, what_other_meshes_explain_gets_none)
     s->state.raster.blend = SHADE_BLEND_OVER;
     s->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
     stage_is_good(s, "a shadow");
+    s->state.view = shade_mat4_look_at(shade_v3(4, 0, 2), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    beside = shade_mat4_transform_point(s->state.view, shade_v3(0, 0, -6));
+    s->state.model = shade_mat4_translation(beside);
+    stage_is_good(s, "one beside, where the inverse of the view looks");
     stage_close(s);
 }
 /* The stats are believed: the small picture of shade_explain may miss what the large one shows. */
