@@ -649,7 +649,7 @@ SHADEDEF size_t shade_mipmap_bytes(int width, int height, shade_format format);
 SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture, shade_texture *levels,
                                           void *memory, size_t bytes);
 
-/* Packets, the arguments of shaders.  Lanes from count on repeat the last one before: shaders
+/* Packets, the arguments of shaders.  Lanes from count on repeat lane count - 1, because shaders
    compute every lane. */
 typedef struct shade_vertex_ids {                 /* vertices to shade */
     int      count;
@@ -1265,7 +1265,7 @@ SHADE__BEGIN
 #if defined(__GNUC__) || defined(__clang__)
 #define SHADE__NOINLINE __attribute__((noinline))
 #define SHADE__COLD __attribute__((noinline, cold))    /* the code is a quarter smaller */
-/* gcc takes a function that only cold ones call for cold, and makes no vectors in it. */
+/* gcc treats a function that only cold functions call as cold, and does not vectorise it. */
 #define SHADE__HOT __attribute__((noinline, hot))
 #define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
 #define SHADE__UNLIKELY(x) __builtin_expect((x) != 0, 0)
@@ -7688,7 +7688,7 @@ static void shade__begin_survey(shade__survey *s)
     s->state.projection = shade__or_identity(s->state.projection);
 }
 
-SHADEDEF const char *shade_explain(const shade_target *target,
+SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
                                    const shade_mesh *mesh,
                                    const shade_draw_state *state,
                                    const shade_stats *stats)
