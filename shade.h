@@ -3088,10 +3088,10 @@ typedef struct shade__batch {
     int           count;              /* triangles */
     int           parts;
     shade__part   part[SHADE__PARTS + 1];
+    uint8_t       corner[SHADE__BATCH_TRIANGLES][4];    /* as in shade__setup */
+    uint32_t      out;                /* outcodes of all its vertices */
     shade__vertex vertex[SHADE_LANES];
     SHADE_ALIGNED float value[SHADE__BATCH_FLOATS];
-    uint32_t      out;                /* outcodes of all its vertices */
-    uint8_t       corner[SHADE__BATCH_TRIANGLES][4];    /* as in shade__setup */
 } shade__batch;
 
 typedef struct shade__incoming {

@@ -46,6 +46,7 @@ static void metal(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
 int main(int argc, char **argv)
 {
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, white = { 1, 1, 1 };
+    const shade_vec3 axis[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     const shade_material paint = { { 0 }, shade_scale(F_0, 0.02f), shade_scale(F_0, 0.12f),
                                    shade_scale(F_0, 0.5f), 2 / (m * m) - 4 };
     owned_mesh pot = shape_teapot(16);
@@ -66,10 +67,9 @@ int main(int argc, char **argv)
     panel = canvas_panel(&c, 480, 0, 480, 340);
     mesh_draw(&panel, &pipeline, &pot);
     for (int i = 0; i < 3 * 900; i++) {
-        shade_vec3 f = F(mesh_turn((float)(i / 3) / 3600).x), ink = { 0.1f, 0.1f, 0.1f };
-        (&ink.x)[i % 3] = 0.8f;
-        panel = canvas_panel(&c, 30 + i / 3, 455 - (int)(75 * (&f.x)[i % 3]), 1, 3);
-        shade_clear(&panel, shade_v4(ink.x, ink.y, ink.z, 1), 1);
+        const shade_vec3 f = F(mesh_turn((float)(i / 3) / 3600).x), k = axis[i % 3];
+        panel = canvas_panel(&c, 30 + i / 3, 455 - (int)(75 * shade_dot(f, k)), 1, 3);
+        shade_clear(&panel, shade_v4(.1f + .7f * k.x, .1f + .7f * k.y, .1f + .7f * k.z, 1), 1);
     }
     label_center(&c, 240, 352, 22, grey, "Blinn-Phong");
     label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V))");

@@ -23,18 +23,18 @@ static void any_incoming(shade__incoming *in, int vertices)
 static void prove_take(int most, int room)
 {
     static uint32_t list[3 * SHADE__BATCH_TRIANGLES];
-    static uint8_t corner[3 * SHADE__BATCH_TRIANGLES];
+    static uint8_t corner[SHADE__BATCH_TRIANGLES][4];
     const int first = SHADE__BATCH_TRIANGLES - most;
     int taken;
     any_incoming(&d.u.in, room + 3);
     memset(corner, 0, sizeof corner);
     any_ints((int32_t *)list, 3 * SHADE__BATCH_TRIANGLES, INT32_MIN, INT32_MAX);
     d.u.in.ids.count = ANY_OF(0, room);
-    taken = shade__take_triangles(&d.u.in, list, (uint32_t)first, most, room, corner + 3 * first);
+    taken = shade__take_triangles(&d.u.in, list, (uint32_t)first, most, room, corner + first);
     /*@ assert 0 <= taken <= most; */
     /*@ assert 0 <= d.u.in.ids.count <= room + 3; */
-    for (int i = 0; i < 3 * SHADE__BATCH_TRIANGLES; i++) {
-        /*@ assert corner[i] < room + 3; */
+    for (int i = 0; i < 4 * SHADE__BATCH_TRIANGLES; i++) {
+        /*@ assert corner[i / 4][i % 4] < room + 3; */
     }
     for (int i = 0; i < 2 * SHADE_LANES; i++) {
         /*@ assert d.u.in.slot_of[i] < room + 3; */
@@ -77,7 +77,7 @@ static void prove_gather(int varyings, int again, int divided)
     pipe.lod_varying = ANY_OF(0, shade__max(varyings - 2, 0));
     shade__gather(plan, shade__min(SHADE_LANES, SHADE__BATCH_FLOATS / plan->value_stride),
                   &vertices, &placed, &d.batch);
-    /*@ assert d.batch.corner[0] == 0; */
+    /*@ assert d.batch.corner[0][0] == 0; */
 }
 
 int main(void)
