@@ -393,6 +393,33 @@ void python_linear(float *rgb, size_t count)
     }
 }
 
+/* ---- corners that are alike become one vertex ------------------------------------------------- */
+
+/* Gives each corner the number of the first one with its vertex and its value, of width floats, and
+   returns how many differ.  made has their corners.  Of a vertex with many values the last ones
+   alone are compared.  first, of vertex_count, and next, of count, are scratch. */
+SHADEDEF int python_weld(const uint32_t *vertex, int count, const float *value, int width,
+                         uint32_t *index, uint32_t *made, int32_t *first, int32_t *next);
+int python_weld(const uint32_t *vertex, int count, const float *value, int width, uint32_t *index,
+                uint32_t *made, int32_t *first, int32_t *next)
+{
+    const size_t floats = (size_t)width, bytes = floats * sizeof *value;
+    int n = 0;
+    for (int i = 0; i < count; i++) {
+        int32_t *head = &first[vertex[i]], at = *head;
+        int steps = 0;
+        while (at >= 0 && memcmp(value + floats * made[at], value + floats * (size_t)i, bytes))
+            at = ++steps < 16 ? next[at] : -1;
+        if (at < 0) {
+            made[n] = (uint32_t)i;
+            next[n] = *head;
+            *head = at = n++;
+        }
+        index[i] = (uint32_t)at;
+    }
+    return n;
+}
+
 /* ---- files of models ------------------------------------------------------------------------- */
 
 /* Reads an OBJ, STL or PLY file.  Returns NULL with a sentence in error. */
