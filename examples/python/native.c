@@ -38,39 +38,87 @@ typedef struct python_job {
     int item_count, bands;
 } python_job;
 
-/* ---- what lies at the centre of each pixel --------------------------------------------------- */
+/* ---- what a pixel shows ---------------------------------------------------------------------- */
 
-typedef struct survey {
+typedef struct painter {          /* of one mesh in one band */
     const python_view *view;
-    shade_mat4 camera;            /* the view as far as it is known to be rigid */
-    float *nearest;               /* the least depth so far, from the row first on */
-    int first;
+    const python_item *item;
+    shade_lighting lighting;
+    shade_vec3 eye;
+    float *nearest;               /* the least depth so far of each pixel, from the row first on */
+    int first, step;              /* samples along the edge of a pixel; 0: nothing is noted */
     int32_t id;
-} survey;
+} painter;
 
-static void survey_pixel(const survey *s, const shade_fragments *in, int i)
+static void note_normal(float *to, const shade_fragments *in, int i)
 {
-    const python_view *v = s->view;
-    const size_t at = (size_t)in->y[i] * (size_t)v->width + (size_t)in->x[i];
-    float *nearest = &s->nearest[at - (size_t)s->first * (size_t)v->width];
-    shade_vec3 P = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
+    shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
+    N = shade_scale(shade_normalize(N), in->front[i] ? 1.0f : -1.0f);
+    SHADE_MEMCPY(to, &N, sizeof N);
+}
+
+/* Notes what lies at the centre of a pixel.  shade.h tests depth after this shader, so that the
+   least depth is kept here too. */
+static void note_pixel(const painter *p, const shade_fragments *in, int i, size_t at)
+{
+    const python_view *v = p->view;
+    const shade_vec4 row = shade_v4(v->view.col[0].z, v->view.col[1].z, v->view.col[2].z,
+                                    v->view.col[3].z);
+    float *nearest = &p->nearest[at - (size_t)p->first * (size_t)v->width];
     if (!(in->z[i] < *nearest)) return;
     *nearest = in->z[i];
-    if (v->ids) v->ids[at] = s->id;
-    if (v->depth) v->depth[at] = -shade_mat4_transform_point(s->camera, P).z;
-    if (v->normals) {
-        shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
-        N = shade_scale(shade_normalize(N), in->front[i] ? 1.0f : -1.0f);
-        SHADE_MEMCPY(v->normals + 3 * at, &N, sizeof N);
+    if (v->ids) v->ids[at] = p->id;
+    if (v->depth)
+        v->depth[at] = -(row.x * in->varying[0][i] + row.y * in->varying[1][i] +
+                         row.z * in->varying[2][i] + row.w);
+    if (v->normals) note_normal(v->normals + 3 * at, in, i);
+}
+
+static void note(const painter *p, const shade_fragments *in)
+{
+    for (int i = 0; i < in->count; i++) {
+        const int x = (int)in->x[i], y = (int)in->y[i];
+        if (p->step > 1 && (x % p->step != p->step / 2 || y % p->step != p->step / 2)) continue;
+        note_pixel(p, in, i, (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
     }
 }
 
-/* A fragment shader that notes its pixels beside the target.  It compares depths itself, because
-   shade.h may test them after the shader. */
-static void survey_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                            shade_colors *SHADE_RESTRICT out)
+/* The colours of the map times those of the vertices */
+static const float *albedo_of(const painter *p, const shade_fragments *in, float *texels)
 {
-    for (int i = 0; i < in->count; i++) survey_pixel((const survey *)uniforms, in, i);
+    const shade_texture *map = p->item->state.diffuse_map;
+    if (!map) return p->item->mesh.colors ? in->varying[6] : NULL;
+    shade_sample_lanes(map, in->varying[9], in->varying[10], in->lod, texels);
+    for (int k = 0; k < 3; k++)
+        SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= in->varying[6 + k][i]; }
+    return texels;
+}
+
+/* Lights front faces by their normals as they are: turned to the viewer, they would leave dark
+   specks along the outline of a coarse mesh.  Back faces have the opposite normals. */
+static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                  shade_colors *SHADE_RESTRICT out)
+{
+    const painter *p = (const painter *)uniforms;
+    float texels[4 * SHADE_LANES], normal[3 * SHADE_LANES];
+    shade_rows rows = { .position = in->varying[0], .normal = normal };
+    for (int k = 0; k < 3; k++)
+        SHADE_EACH_LANE(i) {
+            normal[k * SHADE_LANES + i] = in->front[i] ? in->varying[3 + k][i]
+                                                       : -in->varying[3 + k][i];
+        }
+    rows.albedo = albedo_of(p, in, texels);
+    shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
+    if (rows.albedo == texels)
+        SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
+    if (p->step) note(p, in);
+}
+
+/* Notes alone, where colours have no sample at the centre of a pixel */
+static void survey(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                   shade_colors *SHADE_RESTRICT out)
+{
+    note((const painter *)uniforms, in);
     (void)out;
 }
 
@@ -81,23 +129,9 @@ static shade_draw_state item_state(const python_item *items, const python_view *
     shade_draw_state state = items[i].state;
     state.view = v->view;
     state.projection = v->projection;
-    state.lighting = v->lighting;
     if (v->poses) state.model = v->poses[i];
+    if (!items[i].two_sided) state.raster.cull = SHADE_CULL_BACK;
     return state;
-}
-
-/* Front faces keep their normals: turned to the viewer, they would leave dark specks along the
-   outline of a coarse mesh.  Back faces are drawn apart, with normals that are turned. */
-static shade_result draw_item(const shade_target *target, const python_item *item,
-                              shade_draw_state *state)
-{
-    shade_result result;
-    state->raster.cull = SHADE_CULL_BACK;
-    result = shade_draw_mesh(target, &item->mesh, state, NULL);
-    if (result || !item->two_sided) return result;
-    state->raster.cull = SHADE_CULL_FRONT;
-    state->lighting.flags |= SHADE_FLAG_TWO_SIDED;
-    return shade_draw_mesh(target, &item->mesh, state, NULL);
 }
 
 static shade_result draw_edges(const shade_target *target, const python_item *item,
@@ -112,39 +146,40 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
 }
 
-static shade_result draw_colors(const shade_target *target, const python_job *job,
-                                const python_view *v)
+static painter painter_of(const python_view *v, int first, int step, float *nearest)
 {
-    shade_result result = shade_clear(target, v->background, 1);
+    const shade_mat4 camera = shade_mat4_inverse(v->view);
+    painter p = { .view = v, .lighting = v->lighting, .nearest = nearest, .first = first };
+    p.eye = v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
+                ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
+                : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+    p.step = step;
+    return p;
+}
+
+static shade_result draw_meshes(const shade_target *target, const python_job *job, painter p,
+                                shade_fragment_shader *fragment)
+{
+    shade_result result = SHADE_OK;
     for (int i = 0; i < job->item_count && !result; i++) {
-        shade_draw_state state = item_state(job->items, v, i);
-        result = draw_item(target, &job->items[i], &state);
-    }
-    for (int i = 0; i < job->item_count && !result; i++) {
-        const shade_draw_state state = item_state(job->items, v, i);
-        if (job->items[i].line_points)
-            result = draw_edges(target, &job->items[i], &state, v->samples);
+        shade_draw_state state = item_state(job->items, p.view, i);
+        p.item = &job->items[i];
+        p.id = i;
+        state.fragment = fragment;
+        state.uniforms = &p;
+        result = shade_draw_mesh(target, &p.item->mesh, &state, NULL);
     }
     return result;
 }
 
-/* Draws once more, one sample a pixel, for depth, ids and normals.  Behind the unread colours
-   there is room for as many depths. */
-static shade_result draw_survey(const shade_target *target, const python_job *job,
-                                const python_view *v)
+static shade_result draw_colors(const shade_target *target, const python_job *job, painter p)
 {
-    const size_t pixels = (size_t)target->width * (size_t)target->row_count;
-    survey s = { v, v->view, (float *)target->color + pixels, target->row_offset, 0 };
-    shade_result result = shade_clear(target, shade_v4(0, 0, 0, 0), 1);
-    for (size_t i = 0; i < pixels; i++) s.nearest[i] = 1;
+    shade_result result = shade_clear(target, p.view->background, 1);
+    if (!result) result = draw_meshes(target, job, p, paint);
     for (int i = 0; i < job->item_count && !result; i++) {
-        shade_draw_state state = item_state(job->items, v, i);
-        s.id = i;
-        state.shading = SHADE_SHADING_PER_FRAGMENT;
-        state.fragment = survey_fragment;
-        state.uniforms = &s;
-        if (!job->items[i].two_sided) state.raster.cull = SHADE_CULL_BACK;
-        result = shade_draw_mesh(target, &job->items[i].mesh, &state, NULL);
+        const shade_draw_state state = item_state(job->items, p.view, i);
+        if (job->items[i].line_points)
+            result = draw_edges(target, &job->items[i], &state, p.view->samples);
     }
     return result;
 }
@@ -181,35 +216,37 @@ static void pack_rgb(uint8_t *rgb, const uint8_t *rgba, size_t pixels)
         for (size_t k = 0; k < 3; k++) rgb[3 * i + k] = rgba[4 * i + k];
 }
 
-static void clear_survey(const python_view *v, size_t first, size_t pixels)
+static void clear_notes(const python_view *v, size_t first, size_t pixels, float *nearest)
 {
-    for (size_t i = first; i < first + pixels; i++) {
-        if (v->ids) v->ids[i] = -1;
-        if (v->depth) v->depth[i] = HUGE_VALF;
-        for (size_t k = 0; k < 3 && v->normals; k++) v->normals[3 * i + k] = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        nearest[i] = 1;
+        if (v->ids) v->ids[first + i] = -1;
+        if (v->depth) v->depth[first + i] = HUGE_VALF;
     }
+    if (v->normals) memset(v->normals + 3 * first, 0, 12 * pixels);
 }
 
-/* Draws the rows of out, whose memory they are, with samples in large's.  The survey needs colours
-   of its own, which nobody reads. */
+/* Draws the rows of out with samples in large's.  An odd number of samples has one at the centre of
+   the pixel; else what lies there is drawn apart. */
 static shade_result draw_rows(const python_job *job, const python_view *v, shade_target *out,
-                              shade_target *large, void *unread)
+                              shade_target *large, float *nearest)
 {
     shade_result result;
     const size_t first = (size_t)out->row_offset * (size_t)v->width;
     const size_t pixels = (size_t)out->row_count * (size_t)v->width;
-    if (v->rgba) {
-        result = draw_colors(large, job, v);
-        if (!result) result = resolve(out, large, v->samples, v->background.w);
-        if (result) return result;
-        if (v->channels == 3) pack_rgb(v->rgba + 3 * first, (const uint8_t *)out->color, pixels);
-    }
-    if (!v->ids && !v->depth && !v->normals) return SHADE_OK;
-    clear_survey(v, first, pixels);
-    out->color = unread;
-    out->srgb = 0;
+    const int noted = nearest != NULL, apart = noted && v->samples % 2 == 0;
+    painter p = painter_of(v, out->row_offset, noted && !apart ? v->samples : 0, nearest);
+    if (noted) clear_notes(v, first, pixels, nearest);
+    result = draw_colors(large, job, p);
+    if (!result) result = resolve(out, large, v->samples, v->background.w);
+    if (result) return result;
+    if (v->channels == 3) pack_rgb(v->rgba + 3 * first, (const uint8_t *)out->color, pixels);
+    if (!apart) return SHADE_OK;
+    out->color = large->color;    /* which nobody reads any more */
     out->depth = large->depth;
-    return draw_survey(out, job, v);
+    p.step = 1;
+    result = shade_clear(out, shade_v4(0, 0, 0, 0), 1);
+    return result ? result : draw_meshes(out, job, p, survey);
 }
 
 /* Draws rows whose targets have no memory yet.  A picture of one sample a pixel is drawn where it
@@ -220,20 +257,19 @@ static shade_result draw_strip(const python_job *job, const python_view *v, shad
     const size_t first = 4 * (size_t)out->row_offset * (size_t)v->width;
     const size_t bytes = 4 * (size_t)out->row_count * (size_t)v->width;
     const size_t most = bytes * (size_t)(v->samples * v->samples);
-    const int in_place = v->rgba && v->channels == 4;
+    const int in_place = v->channels == 4, noted = v->ids || v->depth || v->normals;
     shade_result result = SHADE_ERROR_CAPACITY;
     void *own = in_place ? NULL : malloc(bytes), *depth = malloc(most);
-    void *color = v->samples > 1 ? malloc(most) : NULL, *spare = NULL;
+    void *color = v->samples > 1 ? malloc(most) : NULL, *nearest = noted ? malloc(bytes) : NULL;
     out->color = in_place ? (void *)(v->rgba + first) : own;
     large->color = v->samples > 1 ? color : out->color;
     large->depth = (float *)depth;
-    if (v->samples == 1) spare = malloc(2 * bytes);
-    if (out->color && large->color && depth && (spare || v->samples > 1))
-        result = draw_rows(job, v, out, large, v->samples > 1 ? color : spare);
+    if (out->color && large->color && depth && (nearest || !noted))
+        result = draw_rows(job, v, out, large, (float *)nearest);
     free(own);
     free(depth);
     free(color);
-    free(spare);
+    free(nearest);
     return result;
 }
 
@@ -355,6 +391,33 @@ void python_linear(float *rgb, size_t count)
         shade_vec3 c = shade_linear_from_srgb(shade_v3(rgb[0], rgb[1], rgb[2]));
         SHADE_MEMCPY(rgb, &c, sizeof c);
     }
+}
+
+/* ---- corners that are alike become one vertex ------------------------------------------------- */
+
+/* Gives each corner the number of the first one with its vertex and its value, of width floats, and
+   returns how many differ.  made has their corners.  Of a vertex with many values the last ones
+   alone are compared.  first, of vertex_count, and next, of count, are scratch. */
+SHADEDEF int python_weld(const uint32_t *vertex, int count, const float *value, int width,
+                         uint32_t *index, uint32_t *made, int32_t *first, int32_t *next);
+int python_weld(const uint32_t *vertex, int count, const float *value, int width, uint32_t *index,
+                uint32_t *made, int32_t *first, int32_t *next)
+{
+    const size_t floats = (size_t)width, bytes = floats * sizeof *value;
+    int n = 0;
+    for (int i = 0; i < count; i++) {
+        int32_t *head = &first[vertex[i]], at = *head;
+        int steps = 0;
+        while (at >= 0 && memcmp(value + floats * made[at], value + floats * (size_t)i, bytes))
+            at = ++steps < 16 ? next[at] : -1;
+        if (at < 0) {
+            made[n] = (uint32_t)i;
+            next[n] = *head;
+            *head = at = n++;
+        }
+        index[i] = (uint32_t)at;
+    }
+    return n;
 }
 
 /* ---- files of models ------------------------------------------------------------------------- */

@@ -6,11 +6,10 @@ import math
 from typing import Any, Sequence, Union
 
 import numpy as np
-import numpy.typing as npt
 
-from ._native import Bytes, Error, Floats, Indices, library, pointer
+from ._native import Array, Bytes, Error, Floats, Indices, library, pointer
 
-Color = Union[str, Sequence[float], npt.NDArray[Any]]
+Color = Union[str, Sequence[float], Array]
 NAMES = {"white": 0xFFFFFF, "black": 0, "gray": 0x808080, "grey": 0x808080, "red": 0xD62728,
          "green": 0x2CA02C, "blue": 0x1F77B4, "orange": 0xFF7F0E, "yellow": 0xF2C037,
          "purple": 0x9467BD, "brown": 0x8C564B, "pink": 0xE377C2, "cyan": 0x17BECF,
@@ -26,7 +25,7 @@ def shown(value: object) -> str:
     return text if len(text) < 40 else f"{type(value).__name__} {text[:36]}..."
 
 
-def array(name: str, value: object, shape: tuple[int | None, ...]) -> npt.NDArray[Any]:
+def array(name: str, value: object, shape: tuple[int | None, ...]) -> Array:
     """An array of numbers with the shape; None stands for any length."""
     try:
         got = np.asarray(value)
@@ -154,7 +153,7 @@ def matrix(name: str, value: object) -> Floats:
     return np.ascontiguousarray(floats(name, value, (4, 4), finite=True).T)
 
 
-def into(name: str, value: object, shape: tuple[int, ...], kind: type) -> npt.NDArray[Any]:
+def into(name: str, value: object, shape: tuple[int, ...], kind: type) -> Array:
     """An array that the caller hands in to be filled, or a new one for None."""
     if value is None:
         return np.empty(shape, kind)

@@ -6,15 +6,20 @@ import sys
 from ctypes import (POINTER, Structure, c_char_p, c_float, c_int, c_size_t, c_uint,
                     c_void_p)
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
-Floats = npt.NDArray[np.float32]
-Integers = npt.NDArray[np.int32]
-Bytes = npt.NDArray[np.uint8]
-Indices = npt.NDArray[np.uint32]
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    Array = npt.NDArray[Any]
+    Doubles = npt.NDArray[np.float64]
+    Floats = npt.NDArray[np.float32]
+    Integers = npt.NDArray[np.int32]
+    Bytes = npt.NDArray[np.uint8]
+    Indices = npt.NDArray[np.uint32]
+else:    # numpy.typing takes as long to import as the rest of this file
+    Array = Doubles = Floats = Integers = Bytes = Indices = np.ndarray
 
 
 class Error(ValueError):
@@ -114,6 +119,7 @@ def _open() -> Any:
             ("python_draw", c_int, [c_void_p, c_int, c_void_p, c_int, c_int]),
             ("python_lit", None, [c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
             ("python_light_at", None, [c_void_p, c_void_p, c_size_t] + 3 * [c_void_p]),
+            ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_load", POINTER(OwnedMesh), [c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
@@ -151,7 +157,7 @@ def check(result: int, what: str) -> None:
         raise Error(f"{what}: {words}")
 
 
-def pointer(array: npt.NDArray[Any] | None) -> int | None:
+def pointer(array: Array | None) -> int | None:
     """The address of an array's first element, or None."""
     return None if array is None else int(array.ctypes.data)
 

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from typing import Sequence, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _arguments as arguments
-from ._native import Error, Floats
+from ._native import Doubles as Matrix, Error, Floats
 
-Matrix = npt.NDArray[np.float64]
 Viewpoint = Union[str, Sequence[float]]
 MOST = 1e8
 #: Azimuth and elevation in degrees of the views that have names.

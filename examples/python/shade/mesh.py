@@ -6,10 +6,9 @@ import os
 from typing import Any, Iterable, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _arguments as arguments
-from ._native import (Bytes, Chunk, Edge, Error, Floats, Indices, Texture, check, library, pointer)
+from ._native import (Array, Bytes, Chunk, Edge, Error, Floats, Indices, Texture, check, library, pointer)
 from ._native import Mesh as NativeMesh
 
 CREASE_TRIANGLES = 200_000
@@ -38,7 +37,7 @@ class Mesh:
         self.normals: Floats | None = None
         self.uv: Floats | None = None
         self.texture: Bytes | None = None
-        self._edges: npt.NDArray[Any] | None = None
+        self._edges: Array | None = None
         by_face = self._take_color(color)
         if (uv is None) != (texture is None):
             raise Error("uv and texture belong together: one of them is missing")
@@ -81,14 +80,26 @@ class Mesh:
             self.normals = arguments.floats("normals", normals, self.vertices.shape)
         if own is None and not by_face:
             return
+        self._take_corners(own, by_face)
+
+    def _take_corners(self, own: Floats | None, by_face: bool) -> None:
+        """Gives corners with a normal or a colour of their own a vertex for each of these."""
         corner = self.faces.reshape(-1)
-        self.positions = self.vertices[corner]
-        self.normals = own if own is not None else None if self.normals is None \
-            else self.normals[corner]
-        self.uv = None if self.uv is None else self.uv[corner]
+        values = [v for v in (own, np.repeat(self.colors, 3, 0)
+                              if by_face and self.colors is not None else None) if v is not None]
+        value = np.ascontiguousarray(np.concatenate(values, 1) if len(values) > 1 else values[0])
+        index, made, link = (np.empty(len(corner), np.uint32) for _ in range(3))
+        first = np.full(len(self.vertices), -1, np.int32)
+        count = library.python_weld(pointer(corner), len(corner), pointer(value), value.shape[1],
+                                    pointer(index), pointer(made), pointer(first), pointer(link))
+        made = made[:count]
+        vertex = corner[made]
+        self.positions, self.indices = self.vertices[vertex], index.reshape(-1, 3)
+        self.normals = own[made] if own is not None else None if self.normals is None \
+            else self.normals[vertex]
+        self.uv = None if self.uv is None else self.uv[vertex]
         if self.colors is not None:
-            self.colors = np.repeat(self.colors, 3, 0) if by_face else self.colors[corner]
-        self.indices = np.arange(len(corner), dtype=np.uint32).reshape(-1, 3)
+            self.colors = self.colors[made // 3] if by_face else self.colors[vertex]
 
     def _creased(self) -> Floats | None:
         """One normal for each corner, or None where many faces around a point would cost much."""
@@ -138,7 +149,7 @@ class Mesh:
         """The texture as the library has it, or None."""
         return self._map
 
-    def edges(self) -> npt.NDArray[Any]:
+    def edges(self) -> Array:
         """Each edge once, with its faces, where vertices of one position count as one."""
         if self._edges is None:
             bits = np.ascontiguousarray(self.vertices + np.float32(0)).view(np.uint32)

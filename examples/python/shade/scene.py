@@ -3,20 +3,20 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Sequence, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _arguments as arguments
-from ._native import Bytes, Error, Floats, Integers, Item, View, check
+from ._native import Array, Bytes, Error, Floats, Integers, Item, View, check
 from ._native import library, pointer
 from .camera import Camera, Viewpoint, at, fitted
 from .light import Flag, Light, Lighting, Material, Model, preset
 from .mesh import Like, Mesh, mesh as as_mesh
 from .picture import Picture
 
-Color = Union[str, Sequence[float], npt.NDArray[Any]]
+Color = Union[str, Sequence[float], Array]
 CLAY = arguments.color("color", "clay")
 INK = arguments.color("color", "#20242a")
 IDENTITY = np.eye(4)
@@ -31,11 +31,22 @@ class Part:
     """A mesh in a scene: its number in pictures' ids is its place in scene.parts."""
 
     mesh: Mesh
-    pose: npt.NDArray[Any]
+    pose: Array
     material: Material
     name: str
     edges: bool
     two_sided: bool
+
+    @cached_property
+    def native(self) -> Any:
+        """The struct of the library, which points into the mesh."""
+        material = self.material.native()
+        item = Item(mesh=self.mesh.native(), two_sided=self.two_sided)
+        item.state.material = ctypes.pointer(material)
+        item.state.model = tuple(self.pose.T.reshape(-1))
+        if self.mesh.map() is not None:
+            item.state.diffuse_map = ctypes.pointer(self.mesh.map())
+        return item
 
 
 class Scene:
@@ -161,19 +172,13 @@ class Scene:
         items = (Item * max(1, len(self.parts)))()
         kept: list[Any] = []
         for item, part in zip(items, self.parts):
-            material = part.material.native()
-            item.mesh = part.mesh.native()
-            item.two_sided = part.two_sided
-            item.state.material = ctypes.pointer(material)
-            item.state.model = tuple(part.pose.T.reshape(-1))
-            if part.mesh.map() is not None:
-                item.state.diffuse_map = ctypes.pointer(part.mesh.map())
+            kept.append(part.native)
+            ctypes.pointer(item)[0] = part.native
             if part.edges and camera is not None:
                 lines = _lines(part, camera)
                 item.lines, item.line_points = pointer(lines), len(lines)
                 item.line_width, item.line_color = 1.4, (*INK, 1.0)
                 kept.append(lines)
-            kept.append(material)
         return items, kept
 
     def _aim(self, view: Any, camera: Camera, background: tuple[float, ...]) -> None:
