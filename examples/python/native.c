@@ -8,8 +8,14 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
+#ifndef SHADE_NO_STDIO
 #include "examples/model/files.h"
+#endif
 #include "examples/shared/bands.h"
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 typedef struct python_item {      /* a mesh in its place */
     shade_mesh mesh;
@@ -327,7 +333,7 @@ int python_draw(const python_item *items, int item_count, const python_view *vie
     bands_run(threads, pieces, draw_piece, &job);
     for (int i = 0; i < pieces && !result; i++) result = job.results[i];
     free(job.results);
-    return result;
+    return (int)result;
 }
 
 /* ---- the equations over arrays --------------------------------------------------------------- */
@@ -393,7 +399,7 @@ void python_linear(float *rgb, size_t count)
     }
 }
 
-/* ---- corners that are alike become one vertex ------------------------------------------------- */
+/* ---- corners that are alike become one vertex ----------------------------------------------- */
 
 /* Gives each corner the number of the first one with its vertex and its value, of width floats, and
    returns how many differ.  made has their corners.  Of a vertex with many values the last ones
@@ -420,6 +426,7 @@ int python_weld(const uint32_t *vertex, int count, const float *value, int width
     return n;
 }
 
+#ifndef SHADE_NO_STDIO
 /* ---- files of models ------------------------------------------------------------------------- */
 
 /* Reads an OBJ, STL or PLY file.  Returns NULL with a sentence in error. */
@@ -440,6 +447,7 @@ void python_unload(owned_mesh *m)
     if (m) mesh_free(m);
     free(m);
 }
+#endif
 
 /* The sizes that the twins of these structs must have */
 SHADEDEF size_t python_size(int which);

@@ -1,0 +1,101 @@
+/** Numbers in a row: a typed array (not of BigInt) or a plain one. */
+export type Numbers = ArrayLike<number>;
+/** "#RRGGBB", "#RGB", a name such as "steel", or red, green and blue of a display, 0 .. 1. */
+export type Color = string | Numbers;
+/** A side, or azimuth and elevation in degrees. */
+export type Viewpoint = "front" | "right" | "back" | "left" | "top" | "bottom" | "iso" | Numbers;
+
+/** k_e, k_a, k_d, k_s and n of a surface, in linear light. */
+export interface Material {
+    /** default 0 */
+    emission?: Numbers;
+    /** default: diffuse */
+    ambient?: Numbers;
+    /** default 1 */
+    diffuse?: Numbers;
+    /** default 0 */
+    specular?: Numbers;
+    /** n >= 0; default 0 */
+    shininess?: number;
+}
+
+/** A picture to wrap around a mesh: 3 or 4 bytes a pixel, row by row from the top. */
+export interface Texture { data: Numbers; width: number; height: number; }
+
+/** What a mesh is made of.  Arrays are copied. */
+export interface MeshSource {
+    /** x, y, z of each vertex.  Triangles with NaN or infinity are left out. */
+    positions: Numbers;
+    /** Three a triangle, counter-clockwise from outside; default 0, 1, 2, ... */
+    indices?: Numbers;
+    /** "auto", rounded where faces meet at less than 40 degrees (beyond 200,000 triangles "flat"),
+        "smooth", "flat", or x, y, z of each vertex, of any length. */
+    normals?: "auto" | "smooth" | "flat" | Numbers;
+    /** One colour; default "clay". */
+    color?: Color;
+    /** Red, green and blue of each vertex or each face: bytes, or numbers 0 .. 1 of a display. */
+    colors?: Numbers;
+    /** u, v of each vertex, with v upward as in OBJ files; needs a texture. */
+    uv?: Numbers;
+    texture?: Texture;
+    /** One of PRESETS, or the numbers of a surface; default: a little gloss on the colour. */
+    material?: string | Material;
+    /** 4 x 4 by columns, takes the mesh to the world. */
+    pose?: Numbers;
+    /** Draws silhouettes, boundaries, and creases of 30 degrees and more; default false. */
+    edges?: boolean;
+    /** false leaves faces out that are seen from behind, which is faster; default true. */
+    twoSided?: boolean;
+}
+
+/** A mesh that is prepared once and may be drawn many times. */
+export class Mesh {
+    constructor(source: MeshSource);
+    /** Gives the memory back now, not when the mesh is garbage-collected. */
+    free(): void;
+}
+
+/** Matrices of WebGL, 4 x 4 by columns.  view is a rotation and a translation. */
+export interface Camera { view: Numbers; projection: Numbers; }
+
+export interface Options {
+    /** Where it is seen from: a camera that is fitted to the meshes, or your own; default "iso". */
+    view?: Viewpoint | Camera;
+    /** [width, height], or one number for both, 1 .. 16384; default [640, 480]. */
+    size?: number | Numbers;
+    /** Samples along each edge of a pixel, 1 .. 8; default 3. */
+    samples?: number;
+    /** null is transparent; default "white". */
+    background?: Color | null;
+    /** Orthographic; default false. */
+    ortho?: boolean;
+    /** The axis that points up; default "z". */
+    up?: "y" | "z";
+    /** Fills depth and ids of the picture; default false. */
+    depth?: boolean;
+}
+
+/** A picture: sRGB with straight alpha, from the top left on. */
+export class Picture {
+    readonly width: number;
+    readonly height: number;
+    /** R, G, B, A bytes: what ImageData takes. */
+    readonly data: Uint8ClampedArray;
+    /** Along the axis of view at the centre of each pixel; Infinity where there is nothing. */
+    readonly depth: Float32Array | null;
+    /** The number of the mesh at the centre of each pixel; -1 where there is none. */
+    readonly ids: Int32Array | null;
+    /** The bytes of a PNG file. */
+    png(): Promise<Uint8Array>;
+}
+
+/** What is thrown for a bad argument; the message begins with its name. */
+export class ShadeError extends TypeError {}
+
+/** The names of the 24 classic materials. */
+export const PRESETS: readonly string[];
+
+/** Draws one mesh or several, lit by three lamps beside the camera.  Throws ShadeError for a bad
+    argument and RangeError where memory is not enough. */
+export function render(meshes: Mesh | MeshSource | readonly (Mesh | MeshSource)[],
+                       options?: Options): Picture;

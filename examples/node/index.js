@@ -1,0 +1,265 @@
+// Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
+import * as check from "./arguments.js";
+import { eyeOf, fitted, given, used } from "./camera.js";
+import encoded from "./module.js";
+import { Picture } from "./picture.js";
+
+const { ShadeError } = check;
+export { Picture, ShadeError };
+
+const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));
+const { instance } = await WebAssembly.instantiate(binary);
+const library = instance.exports;
+library._initialize();
+
+// Structs of module.c, in words of four bytes
+const MESH = 12, ITEM = 40, VIEW = 49, LIGHT = 21;
+[MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
+    if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
+});
+
+const IDENTITY = Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+// Three lamps that stay with the camera: the way their light travels, and its colour
+const QUICK = [[[0.55, -0.85, -0.75], [1.02, 0.99, 0.95]], [[-1.0, 0.05, -0.55], [0.20, 0.23, 0.28]],
+               [[-0.6, -0.5, 1.0], [0.35, 0.38, 0.42]]];
+const QUICK_AMBIENT = [0.17, 0.175, 0.19];
+const INFINITE_VIEWER = 32, INDEX = 7;
+
+// ---- memory of the module
+
+const floats = (at, count) => new Float32Array(library.memory.buffer, at, count);
+const words = (at, count) => new Uint32Array(library.memory.buffer, at, count);
+
+/** Memory of the module for so many bytes, which does not stay where the module grows. */
+function take(bytes) {
+    const at = library.take(bytes);
+    if (!at) throw new RangeError("memory is not enough for the picture or the mesh");
+    return at;
+}
+
+/** Calls a function with memory that is given back after it, whatever happens. */
+function withMemory(work) {
+    const taken = [];
+    try {
+        return work((bytes) => {
+            taken.push(take(bytes));
+            return taken[taken.length - 1];
+        });
+    } finally {
+        taken.forEach(library.give);
+    }
+}
+
+function put(at, array) {
+    const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+    new Uint8Array(library.memory.buffer, at, bytes.length).set(bytes);
+    return at;
+}
+
+function text(at) {
+    const bytes = new Uint8Array(library.memory.buffer, at);
+    return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+}
+
+function succeed(name, result) {
+    if (result) throw new ShadeError(`${name}: ${text(library.words(result))}`);
+}
+
+/** Linear light of display colours. */
+function linear(rgb) {
+    return withMemory((room) => {
+        const at = put(room(rgb.byteLength), rgb);
+        library.linear(at, rgb.length / 3);
+        return floats(at, rgb.length).slice();
+    });
+}
+
+// ---- materials
+
+/** The names of the 24 classic materials. */
+export const PRESETS = Array.from({ length: 24 }, (_, i) => text(library.preset_name(i)));
+
+function preset(name) {
+    const index = PRESETS.indexOf(check.choice("material", name, PRESETS));
+    return withMemory((room) => {
+        const at = room(52);
+        library.preset(index, at);
+        return floats(at, 13).slice();
+    });
+}
+
+/** k_e, k_a, k_d, k_s and n in a row. */
+function material(value) {
+    if (typeof value === "string") return preset(value);
+    const got = check.record("material", value,
+                             ["emission", "ambient", "diffuse", "specular", "shininess"]);
+    const { emission = [0, 0, 0], diffuse = [1, 1, 1], specular = [0, 0, 0], shininess = 0 } = got;
+    const colors = Object.entries({ emission, ambient: got.ambient ?? diffuse, diffuse, specular });
+    const row = new Float32Array(13);
+    colors.forEach(([name, color], k) => row.set(check.vector(`material.${name}`, color, 3), 3 * k));
+    row[12] = check.number("material.shininess", shininess, 0, 1e9);
+    return row;
+}
+
+/** A little gloss on a colour */
+function gloss(color) {
+    return Float32Array.of(0, 0, 0, ...color, ...color, 0.08, 0.08, 0.08, 40);
+}
+
+// ---- meshes
+
+const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
+const MESH_OPTIONS = ["positions", "indices", "normals", "color", "colors", "uv", "texture",
+                      "material", "pose", "edges", "twoSided"];
+
+export class Mesh {
+    #at = 0;
+
+    constructor(source) {
+        if (source === undefined) throw new ShadeError("mesh must be an object with positions");
+        const got = check.record("mesh", source, MESH_OPTIONS);
+        const { normals = "auto", color, colors, edges = false, twoSided = true } = got;
+        this.positions = check.rows("positions", got.positions, 3).slice();
+        const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
+        this.indices = check.indices("indices", got.indices, vertices, sentence).slice();
+        this.used = used(this);
+        this.pose = got.pose === undefined ? IDENTITY : check.vector("pose", got.pose, 16);
+        this.edges = check.flag("edges", edges);
+        this.twoSided = check.flag("twoSided", twoSided);
+        const plain = color === undefined ? null : linear(check.color("color", color));
+        const white = colors !== undefined || got.texture !== undefined;
+        this.material = got.material !== undefined ? material(got.material)
+            : gloss(plain ?? (white ? [1, 1, 1] : linear(check.color("color", "clay"))));
+        this.#at = this.#made(normals, colors, got);
+        forgotten.register(this, this.#at, this);
+    }
+
+    /** Hands the arrays over to the module. */
+    #made(normals, colors, { uv, texture }) {
+        const vertices = this.positions.length / 3, faces = this.indices.length / 3;
+        const kinds = { flat: 0, auto: 1, smooth: 2 }, ask = new Uint32Array(MESH);
+        const rows = (name, value, width, ...counts) => {
+            const array = check.rows(name, value, width);
+            if (!counts.includes(array.length / width)) {
+                throw new ShadeError(`${name} must have a row for each of ${vertices} vertices` +
+                    `${counts.length > 1 ? ` or ${faces} faces` : ""}, not ${array.length / width}`);
+            }
+            return array;
+        };
+        const given = check.isArray(normals);
+        if (!given) check.choice("normals", normals, Object.keys(kinds));
+        if ((uv === undefined) !== (texture === undefined)) {
+            throw new ShadeError("uv and texture belong together: one of them is missing");
+        }
+        const shown = colors === undefined ? null : check.displayed("colors", colors, 3);
+        const map = texture === undefined ? null : check.texture("texture", texture);
+        const arrays = [this.positions, given && rows("normals", normals, 3, vertices),
+                        shown && rows("colors", shown, 3, vertices, faces),
+                        uv && rows("uv", uv, 2, vertices), this.indices, map?.data];
+        ask.set([vertices, this.indices.length, shown ? shown.length / 3 : 0,
+                 given ? 0 : kinds[normals], map?.width ?? 0, map?.height ?? 0], 6);
+        return withMemory((room) => {
+            const at = room(4 * MESH), result = room(4), held = [];
+            try {
+                for (const array of arrays) held.push(array ? take(array.byteLength) : 0);
+            } catch (error) {
+                held.forEach(library.give);
+                throw error;
+            }
+            arrays.forEach((array, i) => array && put(held[i], array));
+            ask.set(held);
+            const mesh = library.mesh_make(put(at, ask), result);
+            succeed("mesh", words(result, 1)[0]);
+            return mesh;
+        });
+    }
+
+    /** Where the module keeps the mesh */
+    get address() {
+        if (!this.#at) throw new ShadeError("mesh was freed");
+        return this.#at;
+    }
+
+    free() {
+        forgotten.unregister(this);
+        if (this.#at) library.mesh_free(this.#at);
+        this.#at = 0;
+    }
+}
+
+// ---- pictures
+
+/** Writes three lamps beside the camera, and returns their number and the ambient light. */
+function writeLights(at, { view }) {
+    const lamps = floats(at, QUICK.length * LIGHT).fill(0);
+    QUICK.forEach(([way, color], i) => {
+        const toward = [0, 1, 2].map((k) => -(way[0] * view[4 * k] + way[1] * view[4 * k + 1] +
+                                              way[2] * view[4 * k + 2]));
+        lamps.set(toward, i * LIGHT);
+        lamps.set(color, i * LIGHT + 7);
+        lamps.set(color, i * LIGHT + 10);
+    });
+}
+
+function writeItems(at, meshes, camera) {
+    meshes.forEach((mesh, i) => {
+        const start = at + 4 * ITEM * i, from = eyeOf(camera, mesh.pose);
+        new Float64Array(library.memory.buffer, start, 3).set(from?.eye ?? [0, 0, 0]);
+        words(start + 24, 4).set([mesh.address, mesh.edges && from ? 1 : 0, mesh.twoSided ? 1 : 0,
+                                  from?.parallel ? 1 : 0]);
+        floats(start + 40, 13).set(mesh.material);
+        floats(start + 92, 16).set(mesh.pose);
+    });
+}
+
+/** Draws into memory of the module, and copies the picture out. */
+function drawn(meshes, camera, { width, height, samples, background, depth }) {
+    const pixels = width * height;
+    return withMemory((room) => {
+        const [view, items] = [room(4 * VIEW), room(4 * ITEM * meshes.length)];
+        const [lights, rgba] = [room(4 * LIGHT * QUICK.length), room(4 * pixels)];
+        const [depths, ids] = depth ? [room(4 * pixels), room(4 * pixels)] : [0, 0];
+        const flags = camera.projection[15] !== 0 ? INFINITE_VIEWER : 0;
+        writeLights(lights, camera);
+        writeItems(items, meshes, camera);
+        words(view, 10).set([lights, rgba, depths, ids, QUICK.length, width, height, samples, flags, 0]);
+        floats(view + 40, 3).set(QUICK_AMBIENT);
+        floats(view + 52, 4).set(background);
+        floats(view + 68, 16).set(camera.view);
+        floats(view + 132, 16).set(camera.projection);
+        succeed("mesh", library.draw(view, items, meshes.length));
+        const data = new Uint8ClampedArray(library.memory.buffer, rgba, 4 * pixels).slice();
+        return new Picture(width, height, data, depth ? floats(depths, pixels).slice() : null,
+                           depth ? new Int32Array(library.memory.buffer, ids, pixels).slice() : null);
+    });
+}
+
+const OPTIONS = ["view", "size", "samples", "background", "ortho", "up", "depth"];
+
+export function render(meshes, options) {
+    const got = check.record("options", options, OPTIONS);
+    const { view = "iso", size = [640, 480], samples = 3, background = "white" } = got;
+    const { ortho = false, up = "z", depth = false } = got;
+    const [width, height] = check.size("size", size);
+    check.integer("samples", samples, 1, 8);
+    if (Math.max(width, height) * samples > 16384) {
+        throw new ShadeError("size times samples must be at most 16384, not " +
+                             `${Math.max(width, height) * samples}`);
+    }
+    const behind = background === null ? [0, 0, 0, 0]
+        : [...linear(check.color("background", background)), 1];
+    const made = [], all = Array.isArray(meshes) ? meshes : [meshes];
+    try {
+        const several = all.map((mesh) => {
+            if (mesh instanceof Mesh) return mesh;
+            made.push(new Mesh(mesh));
+            return made[made.length - 1];
+        });
+        const named = typeof view === "string" || check.isArray(view);
+        const camera = named ? fitted(several, view, [width, height], up, ortho) : given(view);
+        check.flag("depth", depth);
+        return drawn(several, camera, { width, height, samples, background: behind, depth });
+    } finally {
+        made.forEach((mesh) => mesh.free());
+    }
+}

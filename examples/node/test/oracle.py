@@ -1,0 +1,93 @@
+"""oracle.py folder - scenes drawn by the package for Python: what goes in as JSON, RGBA bytes, depth
+and ids as they are."""
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import shade
+
+OUT = Path(sys.argv[1])
+told = []
+
+
+def torus(n):
+    u, v = np.meshgrid(np.arange(2 * n) * np.pi / n, np.arange(n) * 2 * np.pi / n, indexing="ij")
+    around = np.stack([np.cos(u), np.sin(u), 0 * u], -1)
+    normals = np.cos(v)[..., None] * around + np.sin(v)[..., None] * [0, 0, 1]
+    i, j = np.meshgrid(np.arange(2 * n), np.arange(n), indexing="ij")
+    k, m = (i + 1) % (2 * n), (j + 1) % n
+    quads = np.stack([i * n + j, k * n + j, k * n + m, i * n + m], -1).reshape(-1, 4)
+    faces = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return (2 * around + 0.8 * normals).reshape(-1, 3), faces, normals.reshape(-1, 3), \
+        np.stack([u / (2 * np.pi), v / (2 * np.pi)], -1).reshape(-1, 2)
+
+
+def box(x, y, z):
+    corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)], float)
+    quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4],
+                      [1, 5, 7, 3]])
+    return corners * [x, y, z], quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+
+def plain(value):
+    return value.reshape(-1).tolist() if isinstance(value, np.ndarray) else value
+
+
+def draw(name, meshes, view="iso", size=(200, 150), **options):
+    """meshes: dicts of vertices, faces, the options of shade.Mesh, and of Scene.add."""
+    scene, given = shade.Scene(), []
+    for mesh in meshes:
+        own = dict(mesh)
+        place = {k: own.pop(k) for k in ("material", "pose", "edges", "two_sided") if k in own}
+        scene.add(shade.Mesh(own.pop("vertices"), own.pop("faces"), **own), **place)
+        given.append({k: plain(v) for k, v in mesh.items()})
+        if "texture" in mesh:
+            h, w, _ = mesh["texture"].shape
+            given[-1]["texture"] = {"data": plain(mesh["texture"]), "width": w, "height": h}
+        if "pose" in mesh:
+            given[-1]["pose"] = plain(mesh["pose"].T)
+        if isinstance(mesh.get("color"), np.ndarray):
+            given[-1]["colors"], given[-1]["bytes"] = given[-1].pop("color"), \
+                mesh["color"].dtype == np.uint8
+    picture = scene.render(view, size, **options)
+    for part in ("rgba", "depth", "ids"):
+        (OUT / f"{name}.{part}").write_bytes(getattr(picture, part).tobytes())
+    camera = view if not isinstance(view, shade.Camera) else \
+        {"view": plain(view.view.T), "projection": plain(view.projection.T)}
+    told.append({"name": name, "meshes": given, "options":
+                 {"view": camera, "size": size, **options}})
+
+
+vertices, faces, normals, uv = torus(24)
+ring = {"vertices": vertices, "faces": faces}
+brick = dict(zip(("vertices", "faces"), box(3, 2, 1)))
+rng = np.random.default_rng(5)
+draw("auto", [ring])
+draw("given", [{**ring, "normals": normals, "color": "steel"}], samples=1)
+draw("smooth", [{**brick, "normals": "smooth"}], "front", samples=2)
+draw("flat", [{**ring, "normals": "flat", "color": "#0af", "edges": True}], (200, -70))
+draw("edges", [{**brick, "edges": True, "color": "gold" and "#d4a017"}], up="y")
+draw("parallel", [{**brick, "edges": True}], (30, 20), ortho=True)
+for side in ("right", "back", "left", "top", "bottom"):
+    draw(side, [{**ring, "material": "gold", "edges": True}], side, samples=1, ortho=side == "top")
+draw("vertices", [{**ring, "color": rng.integers(0, 256, (len(vertices), 3)).astype(np.uint8)}])
+draw("faces", [{**brick, "color": rng.random((12, 3)), "edges": True}], (60, 40))
+draw("creased", [{**ring, "color": rng.random((len(faces), 3)), "normals": "smooth"}], samples=1)
+draw("texture", [{**ring, "uv": uv * [6, 2], "texture": np.kron(
+    [[[0, 40, 90], [250, 220, 60]], [[200, 60, 60], [255, 255, 255]]],
+    np.ones((8, 8, 1))).astype(np.uint8)}], (20, 50), (220, 160))
+draw("clear", [{**ring, "material": "ruby"}], background=None, samples=4)
+pose = np.eye(4)
+pose[:3, :3], pose[:3, 3] = [[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]], (1.5, -0.5, 0.25)
+draw("several", [{**ring, "material": "jade"},
+                 {**brick, "pose": pose, "edges": True, "color": "orange"}], background="#203040")
+draw("one-sided", [{**ring, "faces": faces[::2], "two_sided": False}], samples=1)
+hole = vertices.copy()
+hole[7], hole[300], hole[301] = np.nan, 3e38, -np.inf
+draw("bad", [{**ring, "vertices": np.where(np.isfinite(hole), hole, 1e30)}])
+draw("camera", [ring], shade.Camera.look_at((4, -6, 5), fov=40, aspect=1.5, near=1, far=20),
+     (180, 120))
+draw("nothing", [{"vertices": np.zeros((0, 3)), "faces": np.zeros((0, 3), int)}], size=(9, 7))
+(OUT / "scenes.json").write_text(json.dumps(told))

@@ -1,0 +1,36 @@
+// The pictures have the bytes of the package for Python, which ORACLE holds: a folder that oracle.py
+// has filled.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import test from "node:test";
+import { Mesh, render } from "shade";
+
+const folder = process.env.ORACLE;
+const scenes = JSON.parse(readFileSync(`${folder}/scenes.json`, "utf8"));
+const bytes = (array) => Buffer.from(array.buffer, array.byteOffset, array.byteLength);
+
+function source({ vertices, faces, two_sided: twoSided = true, bytes: whole, colors, ...rest }) {
+    const own = colors && { colors: whole ? Uint8Array.from(colors) : colors };
+    return { positions: vertices, indices: faces, twoSided, ...own, ...rest };
+}
+
+for (const { name, meshes, options } of scenes) {
+    test(name, () => {
+        const made = meshes.map((mesh) => new Mesh(source(mesh)));
+        for (const drawn of [made, meshes.map(source)]) {
+            const got = render(drawn, { ...options, depth: true });
+            for (const [part, array] of [["rgba", got.data], ["depth", got.depth], ["ids", got.ids]]) {
+                const wanted = readFileSync(`${folder}/${name}.${part}`);
+                assert.ok(wanted.equals(bytes(array)), `${part} of ${got.width} x ${got.height}`);
+            }
+        }
+        assert.deepEqual(render(made, options).data, render(made, { ...options, depth: true }).data);
+        made.forEach((mesh) => mesh.free());
+    });
+}
+
+test("PNG files for another reader", async () => {
+    for (const { name, meshes, options } of scenes) {
+        writeFileSync(`${folder}/${name}.png`, await render(meshes.map(source), options).png());
+    }
+});
