@@ -85,7 +85,8 @@ static void note(const painter *p, const shade_fragments *in)
     for (int i = 0; i < in->count; i++) {
         const int x = (int)in->x[i], y = (int)in->y[i];
         if (p->step > 1 && (x % p->step != p->step / 2 || y % p->step != p->step / 2)) continue;
-        note_pixel(p, in, i, (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
+        note_pixel(p, in, i, (size_t)(y / p->step) * (size_t)p->view->width +
+                                 (size_t)(x / p->step));
     }
 }
 
