@@ -45,10 +45,53 @@ typedef struct painter {          /* of one mesh in one band */
     const python_item *item;
     shade_lighting lighting;
     shade_vec3 eye;
-    float *nearest;               /* the least depth so far of each pixel, from the row first on */
-    int first, step;              /* samples along the edge of a pixel; 0: nothing is noted */
+    shade_mat4 clip, world;       /* from object space */
+    shade_mat3 normal;
+    int step;                     /* samples along the edge of a pixel; 0: nothing is noted */
+    int uv;                       /* the varying that u is; 0: there is no map */
     int32_t id;
 } painter;
+
+static void fetch(const float *from, int width, const shade_vertex_ids *in, float *rows)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const float *p = from + (size_t)width * in->index[i];
+        for (int k = 0; k < width; k++) rows[k * SHADE_LANES + i] = p[k];
+    }
+}
+
+/* Varyings: P and N in the world, then the colour of vertices and the place in the map, where there
+   are any. */
+static void place(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                  shade_vertices *SHADE_RESTRICT out)
+{
+    const painter *p = (const painter *)uniforms;
+    const shade_mesh *mesh = &p->item->mesh;
+    float P[3][SHADE_LANES], N[3][SHADE_LANES];
+    fetch(mesh->positions, 3, in, P[0]);
+    fetch(mesh->normals, 3, in, N[0]);
+    SHADE_EACH_LANE(i) {
+        const shade_vec4 at = shade_v4(P[0][i], P[1][i], P[2][i], 1);
+        const shade_vec4 clip = shade_mat4_transform(p->clip, at);
+        const shade_vec4 world = shade_mat4_transform(p->world, at);
+        out->clip[0][i] = clip.x;
+        out->clip[1][i] = clip.y;
+        out->clip[2][i] = clip.z;
+        out->clip[3][i] = clip.w;
+        out->varying[0][i] = world.x;
+        out->varying[1][i] = world.y;
+        out->varying[2][i] = world.z;
+    }
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 n = shade_mat3_transform(p->normal, shade_v3(N[0][i], N[1][i], N[2][i]));
+        const shade_vec3 unit = shade_normalize(n);
+        out->varying[3][i] = unit.x;
+        out->varying[4][i] = unit.y;
+        out->varying[5][i] = unit.z;
+    }
+    if (mesh->colors) fetch(mesh->colors, 3, in, out->varying[6]);
+    if (p->uv) fetch(mesh->texcoords, 2, in, out->varying[p->uv]);
+}
 
 static void note_normal(float *to, const shade_fragments *in, int i)
 {
@@ -57,23 +100,19 @@ static void note_normal(float *to, const shade_fragments *in, int i)
     SHADE_MEMCPY(to, &N, sizeof N);
 }
 
-/* Notes what lies at the centre of a pixel.  shade.h tests depth after this shader, so that the
-   least depth is kept here too. */
+/* Notes what lies at the centre of a pixel. */
 static void note_pixel(const painter *p, const shade_fragments *in, int i, size_t at)
 {
     const python_view *v = p->view;
-    const shade_vec4 row = shade_v4(v->view.col[0].z, v->view.col[1].z, v->view.col[2].z,
-                                    v->view.col[3].z);
-    float *nearest = &p->nearest[at - (size_t)p->first * (size_t)v->width];
-    if (!(in->z[i] < *nearest)) return;
-    *nearest = in->z[i];
+    const shade_mat4 *m = &v->view;
     if (v->ids) v->ids[at] = p->id;
     if (v->depth)
-        v->depth[at] = -(row.x * in->varying[0][i] + row.y * in->varying[1][i] +
-                         row.z * in->varying[2][i] + row.w);
+        v->depth[at] = -(m->col[0].z * in->varying[0][i] + m->col[1].z * in->varying[1][i] +
+                         m->col[2].z * in->varying[2][i] + m->col[3].z);
     if (v->normals) note_normal(v->normals + 3 * at, in, i);
 }
 
+/* Only fragments that pass the depth test come here, the nearest of a pixel last. */
 static void note(const painter *p, const shade_fragments *in)
 {
     for (int i = 0; i < in->count; i++) {
@@ -87,10 +126,11 @@ static void note(const painter *p, const shade_fragments *in)
 static const float *albedo_of(const painter *p, const shade_fragments *in, float *texels)
 {
     const shade_texture *map = p->item->state.diffuse_map;
-    if (!map) return p->item->mesh.colors ? in->varying[6] : NULL;
-    shade_sample_lanes(map, in->varying[9], in->varying[10], in->lod, texels);
-    for (int k = 0; k < 3; k++)
-        SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= in->varying[6 + k][i]; }
+    const float *tint = p->item->mesh.colors ? in->varying[6] : NULL;
+    if (!map) return tint;
+    shade_sample_lanes(map, in->varying[p->uv], in->varying[p->uv + 1], in->lod, texels);
+    for (int k = 0; k < 3 && tint; k++)
+        SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= tint[k * SHADE_LANES + i]; }
     return texels;
 }
 
@@ -146,15 +186,35 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
 }
 
-static painter painter_of(const python_view *v, int first, int step, float *nearest)
+static painter painter_of(const python_view *v, int step)
 {
     const shade_mat4 camera = shade_mat4_inverse(v->view);
-    painter p = { .view = v, .lighting = v->lighting, .nearest = nearest, .first = first };
+    painter p = { .view = v, .lighting = v->lighting, .step = step };
     p.eye = v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
                 ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
                 : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
-    p.step = step;
     return p;
+}
+
+/* Draws runs of chunks that can be seen; a mesh without chunks whole. */
+static shade_result draw_chunks(const shade_target *target, const shade_mesh *mesh,
+                                const shade_pipeline *pipe, shade_mat4 clip)
+{
+    const shade_chunk *c = mesh->chunks, *end = c + (c ? mesh->chunk_count : 0);
+    shade_result result = SHADE_OK;
+    if (!c)
+        return shade_draw(target, pipe, mesh->indices, mesh->index_count, mesh->vertex_count, NULL);
+    while (c < end && !result) {
+        const int first = c->first;
+        int count = 0;
+        for (; c < end && shade_box_visible(target, clip, 0, c->low, c->high); c++)
+            count += c->count;
+        if (count)
+            result = shade_draw(target, pipe, mesh->indices + 3 * (size_t)first, 3 * count,
+                                mesh->vertex_count, NULL);
+        c += !count;
+    }
+    return result;
 }
 
 static shade_result draw_meshes(const shade_target *target, const python_job *job, painter p,
@@ -162,12 +222,20 @@ static shade_result draw_meshes(const shade_target *target, const python_job *jo
 {
     shade_result result = SHADE_OK;
     for (int i = 0; i < job->item_count && !result; i++) {
-        shade_draw_state state = item_state(job->items, p.view, i);
+        const shade_draw_state state = item_state(job->items, p.view, i);
+        const shade_mesh *mesh = &job->items[i].mesh;
+        shade_pipeline pipe = { .vertex = place, .fragment = fragment, .uniforms = &p };
         p.item = &job->items[i];
         p.id = i;
-        state.fragment = fragment;
-        state.uniforms = &p;
-        result = shade_draw_mesh(target, &p.item->mesh, &state, NULL);
+        p.world = state.model;
+        p.clip = shade_mat4_mul(shade_mat4_mul(state.projection, state.view), state.model);
+        p.normal = shade_normal_matrix(state.model);
+        p.uv = !state.diffuse_map ? 0 : mesh->colors ? 9 : 6;
+        pipe.varyings = p.uv ? p.uv + 2 : mesh->colors ? 9 : 6;
+        pipe.raster = state.raster;
+        pipe.lod_texture = state.diffuse_map;
+        pipe.lod_varying = p.uv;
+        result = draw_chunks(target, mesh, &pipe, p.clip);
     }
     return result;
 }
@@ -216,10 +284,9 @@ static void pack_rgb(uint8_t *rgb, const uint8_t *rgba, size_t pixels)
         for (size_t k = 0; k < 3; k++) rgb[3 * i + k] = rgba[4 * i + k];
 }
 
-static void clear_notes(const python_view *v, size_t first, size_t pixels, float *nearest)
+static void clear_notes(const python_view *v, size_t first, size_t pixels)
 {
     for (size_t i = 0; i < pixels; i++) {
-        nearest[i] = 1;
         if (v->ids) v->ids[first + i] = -1;
         if (v->depth) v->depth[first + i] = HUGE_VALF;
     }
@@ -229,14 +296,14 @@ static void clear_notes(const python_view *v, size_t first, size_t pixels, float
 /* Draws the rows of out with samples in large's.  An odd number of samples has one at the centre of
    the pixel; else what lies there is drawn apart. */
 static shade_result draw_rows(const python_job *job, const python_view *v, shade_target *out,
-                              shade_target *large, float *nearest)
+                              shade_target *large)
 {
     shade_result result;
     const size_t first = (size_t)out->row_offset * (size_t)v->width;
     const size_t pixels = (size_t)out->row_count * (size_t)v->width;
-    const int noted = nearest != NULL, apart = noted && v->samples % 2 == 0;
-    painter p = painter_of(v, out->row_offset, noted && !apart ? v->samples : 0, nearest);
-    if (noted) clear_notes(v, first, pixels, nearest);
+    const int noted = v->ids || v->depth || v->normals, apart = noted && v->samples % 2 == 0;
+    painter p = painter_of(v, noted && !apart ? v->samples : 0);
+    if (noted) clear_notes(v, first, pixels);
     result = draw_colors(large, job, p);
     if (!result) result = resolve(out, large, v->samples, v->background.w);
     if (result) return result;
@@ -257,19 +324,17 @@ static shade_result draw_strip(const python_job *job, const python_view *v, shad
     const size_t first = 4 * (size_t)out->row_offset * (size_t)v->width;
     const size_t bytes = 4 * (size_t)out->row_count * (size_t)v->width;
     const size_t most = bytes * (size_t)(v->samples * v->samples);
-    const int in_place = v->channels == 4, noted = v->ids || v->depth || v->normals;
+    const int in_place = v->channels == 4;
     shade_result result = SHADE_ERROR_CAPACITY;
     void *own = in_place ? NULL : malloc(bytes), *depth = malloc(most);
-    void *color = v->samples > 1 ? malloc(most) : NULL, *nearest = noted ? malloc(bytes) : NULL;
+    void *color = v->samples > 1 ? malloc(most) : NULL;
     out->color = in_place ? (void *)(v->rgba + first) : own;
     large->color = v->samples > 1 ? color : out->color;
     large->depth = (float *)depth;
-    if (out->color && large->color && depth && (nearest || !noted))
-        result = draw_rows(job, v, out, large, (float *)nearest);
+    if (out->color && large->color && depth) result = draw_rows(job, v, out, large);
     free(own);
     free(depth);
     free(color);
-    free(nearest);
     return result;
 }
 
@@ -394,6 +459,19 @@ void python_linear(float *rgb, size_t count)
 }
 
 /* ---- corners that are alike become one vertex ------------------------------------------------- */
+
+/* The unit normal of each face */
+SHADEDEF void python_face_normals(const shade_mesh *mesh, float *normals);
+void python_face_normals(const shade_mesh *mesh, float *normals)
+{
+    for (int i = 0; i < mesh->index_count; i += 3, normals += 3) {
+        shade_vec3 p[3], N;
+        for (int k = 0; k < 3; k++)
+            memcpy(&p[k], mesh->positions + 3 * (size_t)mesh->indices[i + k], sizeof p[k]);
+        N = shade_face_normal(p[0], p[1], p[2]);
+        memcpy(normals, &N, sizeof N);
+    }
+}
 
 /* Gives each corner the number of the first one with its vertex and its value, of width floats, and
    returns how many differ.  made has their corners.  Of a vertex with many values the last ones

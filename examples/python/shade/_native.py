@@ -120,6 +120,7 @@ def _open() -> Any:
             ("python_lit", None, [c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
             ("python_light_at", None, [c_void_p, c_void_p, c_size_t] + 3 * [c_void_p]),
             ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
+            ("python_face_normals", None, [c_void_p, c_void_p]),
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_load", POINTER(OwnedMesh), [c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),

@@ -78,9 +78,18 @@ class Mesh:
                 check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
             self.normals = arguments.floats("normals", normals, self.vertices.shape)
-        if own is None and not by_face:
-            return
-        self._take_corners(own, by_face)
+        if own is None and self.normals is None and len(self.faces):
+            own = np.repeat(self._flat(), 3, 0)
+        if own is not None or by_face:
+            self._take_corners(own, by_face)
+        elif self.normals is None:
+            self.normals = np.zeros_like(self.vertices)
+
+    def _flat(self) -> Floats:
+        """The normal of each face."""
+        out = np.empty((len(self.faces), 3), np.float32)
+        library.python_face_normals(ctypes.byref(self.native()), pointer(out))
+        return out
 
     def _take_corners(self, own: Floats | None, by_face: bool) -> None:
         """Gives corners with a normal or a colour of their own a vertex for each of these."""
