@@ -14,7 +14,7 @@ done
 
 mkdir -p "$T/tree/examples"
 cp shade.h "$T/tree"
-cp -R examples/model examples/shared examples/python "$T/tree/examples"
+for folder in model shared thumbnail python; do cp -R "examples/$folder" "$T/tree/examples"; done
 P=$T/tree/examples/python
 rm -rf "$P/build" "$P/dist" "$P/headers" "$P"/shade/libshade.* "$P"/*.egg-info
 

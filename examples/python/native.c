@@ -10,6 +10,7 @@
 #include "shade.h"
 #include "examples/model/files.h"
 #include "examples/shared/bands.h"
+#include "examples/thumbnail/draw.h"
 
 typedef struct python_item {      /* a mesh in its place */
     shade_mesh mesh;
@@ -29,9 +30,19 @@ typedef struct python_view {      /* a camera and where its picture goes */
     uint8_t *rgba;
     float *depth, *normals;                  /* each may be NULL; along the axis of view */
     int32_t *ids;
+    int in_studio;                           /* else lit by lighting */
+    shade_mat4 to_studio;                    /* the scene about the origin, within distance 1 */
 } python_view;
 
+typedef struct light_studio {     /* the thumbnail's light, and all items as one model in it */
+    studio light;
+    ground ground;
+    model scene;
+    shade_mat4 from_world, to_world;
+} light_studio;
+
 typedef struct python_job {
+    const light_studio *studio;   /* NULL: none */
     const python_item *items;
     const python_view *views;
     shade_result *results;        /* of each piece */
@@ -48,6 +59,8 @@ typedef struct painter {          /* of one mesh in one band */
     shade_mat4 clip, world;       /* from object space */
     shade_mat3 normal;
     int step;                     /* samples along the edge of a pixel; 0: nothing is noted */
+    const look *look;             /* of the surface in the studio; NULL: lit by lighting */
+    const shade_mat4 *to_studio;
     int uv;                       /* the varying that u is; 0: there is no map */
     int32_t id;
 } painter;
@@ -134,6 +147,23 @@ static const float *albedo_of(const painter *p, const shade_fragments *in, float
     return texels;
 }
 
+/* The thumbnail's light at places of the world */
+static void paint_in_studio(const painter *p, const shade_rows *rows, int count, float *rgb)
+{
+    look_rows P, N, white;
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 at = shade_v3(rows->position[i], rows->position[i + SHADE_LANES],
+                                       rows->position[i + 2 * SHADE_LANES]);
+        const shade_vec3 n = shade_v3(rows->normal[i], rows->normal[i + SHADE_LANES],
+                                      rows->normal[i + 2 * SHADE_LANES]);
+        lane_put(P[0], i, shade_mat4_transform_point(*p->to_studio, at));
+        lane_put(N[0], i, shade_mat4_transform_direction(*p->to_studio, n));
+        lane_put(white[0], i, shade_v3(1, 1, 1));
+    }
+    look_light(p->look, P[0], N[0], rows->albedo ? rows->albedo : white[0], count,
+               (float(*)[SHADE_LANES])rgb);
+}
+
 /* Lights front faces by their normals as they are: turned to the viewer, they would leave dark
    specks along the outline of a coarse mesh.  Back faces have the opposite normals. */
 static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
@@ -148,7 +178,8 @@ static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
                                                        : -in->varying[3 + k][i];
         }
     rows.albedo = albedo_of(p, in, texels);
-    shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
+    if (p->look) paint_in_studio(p, &rows, in->count, out->color[0]);
+    else shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
     if (rows.albedo == texels)
         SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
     if (p->step) note(p, in);
@@ -186,6 +217,24 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
 }
 
+/* The surface of an item; a viewer at infinity is far away. */
+static look look_of(const light_studio *s, const python_view *v, const shade_material *material)
+{
+    const shade_mat4 camera = shade_mat4_mul(s->from_world, shade_mat4_inverse(v->view));
+    look k = { .studio = &s->light, .material = *material, .emission = material->emission };
+    k.material.emission = shade_v3(0, 0, 0);
+    k.rough = model_roughness(material->shininess);
+    k.lighting.lights = s->light.lamp;
+    k.lighting.light_count = 2;
+    k.shadows = k.mirrors = 1;
+    k.eye = shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+    if (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
+        k.eye = shade_mat4_transform_direction(camera, shade_v3(0, 0, 1));
+        k.eye = shade_scale(shade_normalize(k.eye), 1e4f);
+    }
+    return k;
+}
+
 static painter painter_of(const python_view *v, int step)
 {
     const shade_mat4 camera = shade_mat4_inverse(v->view);
@@ -221,10 +270,14 @@ static shade_result draw_meshes(const shade_target *target, const python_job *jo
                                 shade_fragment_shader *fragment)
 {
     shade_result result = SHADE_OK;
+    look in_studio = { .rough = 1 };
+    if (job->studio) p.to_studio = &job->studio->from_world;
     for (int i = 0; i < job->item_count && !result; i++) {
         const shade_draw_state state = item_state(job->items, p.view, i);
         const shade_mesh *mesh = &job->items[i].mesh;
         shade_pipeline pipe = { .vertex = place, .fragment = fragment, .uniforms = &p };
+        if (job->studio) in_studio = look_of(job->studio, p.view, state.material);
+        p.look = job->studio ? &in_studio : NULL;
         p.item = &job->items[i];
         p.id = i;
         p.world = state.model;
@@ -244,6 +297,9 @@ static shade_result draw_colors(const shade_target *target, const python_job *jo
 {
     shade_result result = shade_clear(target, p.view->background, 1);
     if (!result) result = draw_meshes(target, job, p, paint);
+    if (!result && job->studio)
+        result = ground_draw(&job->studio->ground, target, job->studio->to_world, p.view->view,
+                             p.view->projection);
     for (int i = 0; i < job->item_count && !result; i++) {
         const shade_draw_state state = item_state(job->items, p.view, i);
         if (job->items[i].line_points)
@@ -338,7 +394,7 @@ static shade_result draw_strip(const python_job *job, const python_view *v, shad
     return result;
 }
 
-static shade_result draw_band(const python_job *job, const python_view *v, int band)
+static shade_result draw_share(const python_job *job, const python_view *v, int band)
 {
     const long long rows = v->height;
     shade_target out = { .width = v->width, .height = v->height, .srgb = 1 }, large;
@@ -355,7 +411,7 @@ static shade_result draw_band(const python_job *job, const python_view *v, int b
 static void draw_piece(void *data, int piece)
 {
     const python_job *job = (const python_job *)data;
-    job->results[piece] = draw_band(job, &job->views[piece / job->bands], piece % job->bands);
+    job->results[piece] = draw_share(job, &job->views[piece / job->bands], piece % job->bands);
 }
 
 /* Bands enough for the threads, and so many that one has no more than 8 million samples.  Each band
@@ -370,14 +426,75 @@ static int bands_of(const python_view *v, double triangles, int views, int threa
     return most < v->height ? most : v->height;
 }
 
-/* Draws views of one size, by so many threads (0: one a core).  Returns the first result that is
+/* ---- the studio ------------------------------------------------------------------------------ */
+
+/* All items as one mesh in the studio.  Non-zero: out of memory, or too large for one mesh */
+static int gather(light_studio *s, const python_item *items, int count)
+{
+    double vertices = 0, indices = 0;
+    owned_mesh *m = &s->scene.mesh;
+    size_t at = 0, corner = 0;
+    for (int i = 0; i < count; i++) {
+        vertices += items[i].mesh.vertex_count;
+        indices += items[i].mesh.index_count;
+    }
+    if (vertices > INT_MAX || indices > INT_MAX) return 1;
+    m->positions = (float *)calloc((size_t)vertices + 1, 3 * sizeof(float));
+    m->indices = (uint32_t *)calloc((size_t)indices + 1, sizeof(uint32_t));
+    s->scene.part = (model_part *)calloc(1, sizeof *s->scene.part);
+    if (!m->positions || !m->indices || !s->scene.part) return 1;
+    for (int i = 0; i < count; i++) {
+        const shade_mesh *from = &items[i].mesh;
+        const shade_mat4 place = shade_mat4_mul(s->from_world, items[i].state.model);
+        for (int k = 0; k < from->index_count; k++)
+            m->indices[corner++] = (uint32_t)at + from->indices[k];
+        for (size_t k = 0; k < (size_t)from->vertex_count; k++, at++) {
+            const float *p = from->positions + 3 * k;
+            const shade_vec3 q = shade_mat4_transform_point(place, shade_v3(p[0], p[1], p[2]));
+            memcpy(m->positions + 3 * at, &q, sizeof q);
+        }
+    }
+    mesh_link(m, (int)at, (int)corner);
+    s->scene.part->count = (int)corner;
+    s->scene.part_count = 1;
+    return 0;
+}
+
+static void close_studio(light_studio *s)
+{
+    if (!s) return;
+    model_free(&s->scene);
+    ground_free(&s->ground);
+    free(s->light.memory);
+    free(s);
+}
+
+/* The shadows that the items throw on each other and the ground.  NULL: out of memory */
+static light_studio *open_studio(const python_item *items, int count, const python_view *v,
+                                 int threads)
+{
+    light_studio *s = (light_studio *)calloc(1, sizeof *s);
+    const int pixels = v->width > v->height ? v->width : v->height;
+    if (!s) return NULL;
+    s->from_world = v->to_studio;
+    s->to_world = shade_mat4_inverse(v->to_studio);
+    if (!gather(s, items, count) && s->scene.part->count &&
+        !studio_open(&s->light, &s->scene, pixels, threads, NULL, NULL) &&
+        !studio_cast(&s->ground, &s->light, &s->scene.mesh, threads))
+        return s;
+    close_studio(s);
+    return NULL;
+}
+
+/* Draws views of one size, by so many threads (0: one a core); of several none is in the studio.  Returns the first result that is
    no success. */
 SHADEDEF int python_draw(const python_item *items, int item_count, const python_view *views,
                          int view_count, int threads);
 int python_draw(const python_item *items, int item_count, const python_view *views, int view_count,
                 int threads)
 {
-    python_job job = { items, views, NULL, item_count, 1 };
+    python_job job = { NULL, items, views, NULL, item_count, 1 };
+    light_studio *light = NULL;
     shade_result result = SHADE_OK;
     double triangles = 0;
     int pieces;
@@ -388,10 +505,15 @@ int python_draw(const python_item *items, int item_count, const python_view *vie
     if (job.bands > INT_MAX / view_count) return SHADE_ERROR_CAPACITY;
     pieces = view_count * job.bands;
     job.results = (shade_result *)calloc((size_t)pieces, sizeof *job.results);
+    if (job.results && views->in_studio && triangles > 0) {
+        job.studio = light = open_studio(items, item_count, views, threads);
+        if (!light) result = SHADE_ERROR_CAPACITY;
+    }
     if (!job.results) return SHADE_ERROR_CAPACITY;
-    bands_run(threads, pieces, draw_piece, &job);
+    if (!result) bands_run(threads, pieces, draw_piece, &job);
     for (int i = 0; i < pieces && !result; i++) result = job.results[i];
     free(job.results);
+    close_studio(light);
     return result;
 }
 
