@@ -623,22 +623,49 @@ int python_weld(const uint32_t *vertex, int count, const float *value, int width
 /* ---- files of models ------------------------------------------------------------------------- */
 
 /* Reads an OBJ, STL or PLY file.  Returns NULL with a sentence in error. */
-SHADEDEF owned_mesh *python_load(const char *path, char *error, size_t room);
-owned_mesh *python_load(const char *path, char *error, size_t room)
+SHADEDEF model *python_load(const char *path, char *error, size_t room);
+model *python_load(const char *path, char *error, size_t room)
 {
-    owned_mesh *m = (owned_mesh *)calloc(1, sizeof *m);
-    if (!m) return NULL;
-    if (!mesh_read_file(path, m, error, room)) return m;
-    mesh_free(m);
+    const model_request q = { error, room, NULL, NULL, 0 };
+    model *m = (model *)calloc(1, sizeof *m);
+    if (m && !model_read_file(path, m, &q)) return m;
     free(m);
     return NULL;
 }
 
-SHADEDEF void python_unload(owned_mesh *m);
-void python_unload(owned_mesh *m)
+SHADEDEF void python_unload(model *m);
+void python_unload(model *m)
 {
-    if (m) mesh_free(m);
+    if (m) model_free(m);
     free(m);
+}
+
+/* Writes the linear colour of each triangle's surface, and returns whether the file says any. */
+SHADEDEF int python_tints(const model *m, float *rgb);
+int python_tints(const model *m, float *rgb)
+{
+    int set = 0;
+    for (int i = 0; i < m->part_count && m->surface_count; i++) {
+        const model_surface *s = &m->surface[m->part[i].surface];
+        float *to = rgb + m->part[i].first;    /* three indices and three colours a triangle */
+        set |= s->set;
+        for (int k = 0; k < m->part[i].count; k += 3)
+            memcpy(to + k, &s->material.diffuse, sizeof s->material.diffuse);
+    }
+    return set;
+}
+
+/* The name of the picture that all surfaces show; NULL where they differ or have none */
+SHADEDEF const char *python_map(const model *m);
+const char *python_map(const model *m)
+{
+    const char *map = NULL;
+    for (int i = 0; i < m->part_count && m->surface_count; i++) {
+        const char *own = m->surface[m->part[i].surface].map;
+        if (!own || (map && strcmp(own, map) != 0)) return NULL;
+        map = own;
+    }
+    return m->mesh.texcoords ? map : NULL;
 }
 
 /* The sizes that the twins of these structs must have */

@@ -103,7 +103,7 @@ class Edge(Structure):
 
 
 class OwnedMesh(Structure):
-    """owned_mesh, whose view has the counts"""
+    """owned_mesh, with which a model begins; its view has the counts"""
     _fields_ = [("view", Mesh), ("positions", c_void_p), ("normals", c_void_p),
                 ("texcoords", c_void_p), ("colors", c_void_p), ("indices", c_void_p),
                 ("chunks", c_void_p)]
@@ -124,6 +124,8 @@ def _open() -> Any:
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_load", POINTER(OwnedMesh), [c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
+            ("python_tints", c_int, [POINTER(OwnedMesh), c_void_p]),
+            ("python_map", c_char_p, [POINTER(OwnedMesh)]),
             ("python_size", c_size_t, [c_int]),
             ("shade_result_string", c_char_p, [c_int]),
             ("shade_mesh_normals", c_int, [c_void_p, c_void_p]),

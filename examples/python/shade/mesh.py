@@ -259,8 +259,7 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return Mesh(value.vertices, value.faces, **options)
     if isinstance(value, (str, os.PathLike)):
         from .files import load
-        value = load(value)
-        return mesh(value, **options) if options else value
+        return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
         return Mesh(value[0], value[1], **options)
     shape = value.val() if callable(getattr(value, "val", None)) else value
