@@ -367,7 +367,7 @@ def measure(library, name, cores, rounds, mask):
     frames = len(scene.poses)
     once = least(lambda k: drawn.draw(k % frames), rounds)
     each = getattr(drawn, "batch", lambda: [drawn.draw(k) for k in range(frames)])
-    batch = least(lambda _: each(), max(1, rounds // 8)) / frames
+    batch = least(lambda _: each(), max(2, rounds // 4)) / frames
     print(json.dumps({"first": first, "once": once, "batch": batch, "ids": ids is not None,
                       "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024}))
 
