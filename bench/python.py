@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""python.py - the package of examples/python beside VTK, Open3D and matplotlib: the same scenes, each
-library in a process of its own, and a table in Markdown.
+"""python.py - the package of examples/python beside VTK, Open3D and matplotlib: the same scenes,
+each library in a process of its own, and a table in Markdown.
 
     python3 bench/python.py [rounds]      what is not installed is left out with a line
 
@@ -123,7 +123,7 @@ SCENES = {"robot": robot, "part": lambda: part(100_000, (640, 480)),
           "million": lambda: part(1_000_000, (1920, 1080))}
 
 
-# ---- libraries: each draws frame k and returns colours, depth and ids, or None for what it lacks ---
+# ---- libraries: each draws frame k, returns colours, depth and ids, or None for what it lacks ---
 
 class Shade:
     """The package, one call a picture; batch() is one call for all."""

@@ -131,7 +131,8 @@ static void note(const painter *p, const shade_fragments *in)
     for (int i = 0; i < in->count; i++) {
         const int x = (int)in->x[i], y = (int)in->y[i];
         if (p->step > 1 && (x % p->step != p->step / 2 || y % p->step != p->step / 2)) continue;
-        note_pixel(p, in, i, (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
+        note_pixel(p, in, i,
+                   (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
     }
 }
 
@@ -220,16 +221,16 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
 /* The surface of an item; a viewer at infinity is far away. */
 static look look_of(const light_studio *s, const python_view *v, const shade_material *material)
 {
-    const shade_mat4 camera = shade_mat4_mul(s->from_world, shade_mat4_inverse(v->view));
+    const shade_mat4 eye = shade_mat4_mul(s->from_world, shade_mat4_inverse(v->view));
     look k = { .studio = &s->light, .material = *material, .emission = material->emission };
     k.material.emission = shade_v3(0, 0, 0);
     k.rough = model_roughness(material->shininess);
     k.lighting.lights = s->light.lamp;
     k.lighting.light_count = 2;
     k.shadows = k.mirrors = 1;
-    k.eye = shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+    k.eye = shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
     if (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
-        k.eye = shade_mat4_transform_direction(camera, shade_v3(0, 0, 1));
+        k.eye = shade_mat4_transform_direction(eye, shade_v3(0, 0, 1));
         k.eye = shade_scale(shade_normalize(k.eye), 1e4f);
     }
     return k;
@@ -237,11 +238,11 @@ static look look_of(const light_studio *s, const python_view *v, const shade_mat
 
 static painter painter_of(const python_view *v, int step)
 {
-    const shade_mat4 camera = shade_mat4_inverse(v->view);
+    const shade_mat4 eye = shade_mat4_inverse(v->view);
     painter p = { .view = v, .lighting = v->lighting, .step = step };
     p.eye = v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
-                ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
-                : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+                ? shade_mat4_transform_direction(eye, shade_v3(0, 0, 1))
+                : shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
     return p;
 }
 
@@ -428,12 +429,26 @@ static int bands_of(const python_view *v, double triangles, int views, int threa
 
 /* ---- the studio ------------------------------------------------------------------------------ */
 
+/* Appends an item to the mesh of the studio, which has room. */
+static void append(owned_mesh *m, const shade_mesh *from, shade_mat4 place)
+{
+    const size_t vertices = (size_t)m->view.vertex_count;
+    float *to = m->positions + 3 * vertices;
+    for (int k = 0; k < from->index_count; k++)
+        m->indices[m->view.index_count++] = (uint32_t)vertices + from->indices[k];
+    for (int k = 0; k < from->vertex_count; k++, to += 3) {
+        const float *p = from->positions + 3 * (size_t)k;
+        const shade_vec3 q = shade_mat4_transform_point(place, shade_v3(p[0], p[1], p[2]));
+        memcpy(to, &q, sizeof q);
+    }
+    m->view.vertex_count += from->vertex_count;
+}
+
 /* All items as one mesh in the studio.  Non-zero: out of memory, or too large for one mesh */
 static int gather(light_studio *s, const python_item *items, int count)
 {
     double vertices = 0, indices = 0;
     owned_mesh *m = &s->scene.mesh;
-    size_t at = 0, corner = 0;
     for (int i = 0; i < count; i++) {
         vertices += items[i].mesh.vertex_count;
         indices += items[i].mesh.index_count;
@@ -443,19 +458,10 @@ static int gather(light_studio *s, const python_item *items, int count)
     m->indices = (uint32_t *)calloc((size_t)indices + 1, sizeof(uint32_t));
     s->scene.part = (model_part *)calloc(1, sizeof *s->scene.part);
     if (!m->positions || !m->indices || !s->scene.part) return 1;
-    for (int i = 0; i < count; i++) {
-        const shade_mesh *from = &items[i].mesh;
-        const shade_mat4 place = shade_mat4_mul(s->from_world, items[i].state.model);
-        for (int k = 0; k < from->index_count; k++)
-            m->indices[corner++] = (uint32_t)at + from->indices[k];
-        for (size_t k = 0; k < (size_t)from->vertex_count; k++, at++) {
-            const float *p = from->positions + 3 * k;
-            const shade_vec3 q = shade_mat4_transform_point(place, shade_v3(p[0], p[1], p[2]));
-            memcpy(m->positions + 3 * at, &q, sizeof q);
-        }
-    }
-    mesh_link(m, (int)at, (int)corner);
-    s->scene.part->count = (int)corner;
+    mesh_link(m, 0, 0);
+    for (int i = 0; i < count; i++)
+        append(m, &items[i].mesh, shade_mat4_mul(s->from_world, items[i].state.model));
+    s->scene.part->count = m->view.index_count;
     s->scene.part_count = 1;
     return 0;
 }
@@ -486,8 +492,8 @@ static light_studio *open_studio(const python_item *items, int count, const pyth
     return NULL;
 }
 
-/* Draws views of one size, by so many threads (0: one a core); of several none is in the studio.  Returns the first result that is
-   no success. */
+/* Draws views of one size, by so many threads (0: one a core).  Only a single view may be in the
+   studio.  Returns the first result that is no success. */
 SHADEDEF int python_draw(const python_item *items, int item_count, const python_view *views,
                          int view_count, int threads);
 int python_draw(const python_item *items, int item_count, const python_view *views, int view_count,
@@ -514,7 +520,7 @@ int python_draw(const python_item *items, int item_count, const python_view *vie
     for (int i = 0; i < pieces && !result; i++) result = job.results[i];
     free(job.results);
     close_studio(light);
-    return result;
+    return (int)result;
 }
 
 /* ---- the equations over arrays --------------------------------------------------------------- */
@@ -580,18 +586,18 @@ void python_linear(float *rgb, size_t count)
     }
 }
 
-/* ---- corners that are alike become one vertex ------------------------------------------------- */
+/* ---- corners that are alike become one vertex ------------------------------------------------ */
 
-/* The unit normal of each face */
+/* The unit normal of each corner's face */
 SHADEDEF void python_face_normals(const shade_mesh *mesh, float *normals);
 void python_face_normals(const shade_mesh *mesh, float *normals)
 {
-    for (int i = 0; i < mesh->index_count; i += 3, normals += 3) {
+    for (int i = 0; i < mesh->index_count; i += 3) {
         shade_vec3 p[3], N;
         for (int k = 0; k < 3; k++)
             memcpy(&p[k], mesh->positions + 3 * (size_t)mesh->indices[i + k], sizeof p[k]);
         N = shade_face_normal(p[0], p[1], p[2]);
-        memcpy(normals, &N, sizeof N);
+        for (int k = 0; k < 3; k++, normals += 3) memcpy(normals, &N, sizeof N);
     }
 }
 

@@ -211,4 +211,5 @@ def studio(points: Floats, camera: Camera, up: str) -> Matrix:
     return out
 
 
-__all__ = ["studio", "Camera", "Cameras", "VIEWS", "Viewpoint", "fitted", "perspective", "direction", "at"]
+__all__ = ["studio", "Camera", "Cameras", "VIEWS", "Viewpoint", "fitted", "perspective",
+           "direction", "at"]

@@ -95,7 +95,7 @@ class Scene:
     def _points(self) -> Floats:
         """Every vertex of a face, in the world."""
         with np.errstate(all="ignore"):
-            placed = [part.mesh.vertices[np.unique(part.mesh.faces)] @ part.pose[:3, :3].T
+            placed = [part.mesh.drawn_vertices() @ part.pose[:3, :3].T
                       + part.pose[:3, 3] for part in self.parts]
         points = np.concatenate(placed) if placed else np.zeros((0, 3))
         return np.asarray(points, np.float32)
