@@ -126,7 +126,7 @@ SCENES = {"robot": robot, "part": lambda: part(100_000, (640, 480)),
 # ---- libraries: each draws frame k, returns colours, depth and ids, or None for what it lacks ---
 
 class Shade:
-    """The package, one call a picture; batch() is one call for all."""
+    """The package, one call a picture, into the same arrays; batch() is one call for all."""
 
     def __init__(self, scene, cores):
         import shade
@@ -139,13 +139,19 @@ class Shade:
         self.camera = shade.Camera.look_at(scene.eye, fov=FOV, aspect=w / h, near=scene.near,
                                            far=scene.far)
 
+        self.one, self.all = {}, {}
+
+    def fill(self, arrays, poses):
+        got = self.drawn.render_batch(self.camera, poses, self.scene.size, threads=self.cores,
+                                      **arrays)
+        arrays.update(zip(("rgb", "depth", "ids"), got))
+        return got
+
     def draw(self, k):
-        rgb, depth, ids = self.drawn.render_batch(self.camera, self.scene.poses[k:k + 1],
-                                                  self.scene.size, threads=self.cores)
-        return rgb[0], depth[0], ids[0]
+        return [array[0] for array in self.fill(self.one, self.scene.poses[k:k + 1])]
 
     def batch(self):
-        self.drawn.render_batch(self.camera, self.scene.poses, self.scene.size, threads=self.cores)
+        self.fill(self.all, self.scene.poses)
 
 
 class Vtk:
