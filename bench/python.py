@@ -426,6 +426,8 @@ def row(library, rounds, folder, environment):
     """The line of one library; "" where it is not installed."""
     if subprocess.run([sys.executable, "-c", f"import {library}"], env=environment,
                       stderr=subprocess.DEVNULL).returncode:
+        if library == LIBRARIES[0]:
+            sys.exit("shade is not installed: pip install examples/python")
         print(f"left out: {library}, which is not installed", file=sys.stderr)
         return ""
     few = max(2, rounds // 8)

@@ -108,7 +108,7 @@ class Scene:
         samples, 1 .. 8, are taken along each edge of a pixel.  background None is transparent.
         threads 0 is one a core; the picture is the same with any number.  light "studio" takes the
         place of the scene's lamps: a large lamp and a sky that throw soft shadows, also on a ground
-        below the scene.
+        below the scene, which a camera of one's own must reach with its near and far.
         """
         width, height = arguments.size("size", size)
         soft = arguments.choice("light", light, ("scene", "studio")) == "studio"
