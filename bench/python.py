@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""python.py - the package of examples/python beside VTK, Open3D and matplotlib: the same scenes, each
-library in a process of its own, and a table in Markdown.
+"""python.py - the package of examples/python beside VTK, Open3D and matplotlib: the same scenes,
+each library in a process of its own, and a table in Markdown.
 
     python3 bench/python.py [rounds]      what is not installed is left out with a line
 
@@ -123,10 +123,10 @@ SCENES = {"robot": robot, "part": lambda: part(100_000, (640, 480)),
           "million": lambda: part(1_000_000, (1920, 1080))}
 
 
-# ---- libraries: each draws frame k and returns colours, depth and ids, or None for what it lacks ---
+# ---- libraries: each draws frame k, returns colours, depth and ids, or None for what it lacks ---
 
 class Shade:
-    """The package, one call a picture; batch() is one call for all."""
+    """The package, one call a picture, into the same arrays; batch() is one call for all."""
 
     def __init__(self, scene, cores):
         import shade
@@ -139,13 +139,19 @@ class Shade:
         self.camera = shade.Camera.look_at(scene.eye, fov=FOV, aspect=w / h, near=scene.near,
                                            far=scene.far)
 
+        self.one, self.all = {}, {}
+
+    def fill(self, arrays, poses):
+        got = self.drawn.render_batch(self.camera, poses, self.scene.size, threads=self.cores,
+                                      **arrays)
+        arrays.update(zip(("rgb", "depth", "ids"), got))
+        return got
+
     def draw(self, k):
-        rgb, depth, ids = self.drawn.render_batch(self.camera, self.scene.poses[k:k + 1],
-                                                  self.scene.size, threads=self.cores)
-        return rgb[0], depth[0], ids[0]
+        return [array[0] for array in self.fill(self.one, self.scene.poses[k:k + 1])]
 
     def batch(self):
-        self.drawn.render_batch(self.camera, self.scene.poses, self.scene.size, threads=self.cores)
+        self.fill(self.all, self.scene.poses)
 
 
 class Vtk:
@@ -367,7 +373,7 @@ def measure(library, name, cores, rounds, mask):
     frames = len(scene.poses)
     once = least(lambda k: drawn.draw(k % frames), rounds)
     each = getattr(drawn, "batch", lambda: [drawn.draw(k) for k in range(frames)])
-    batch = least(lambda _: each(), max(1, rounds // 8)) / frames
+    batch = least(lambda _: each(), max(2, rounds // 4)) / frames
     print(json.dumps({"first": first, "once": once, "batch": batch, "ids": ids is not None,
                       "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024}))
 
@@ -420,6 +426,8 @@ def row(library, rounds, folder, environment):
     """The line of one library; "" where it is not installed."""
     if subprocess.run([sys.executable, "-c", f"import {library}"], env=environment,
                       stderr=subprocess.DEVNULL).returncode:
+        if library == LIBRARIES[0]:
+            sys.exit("shade is not installed: pip install examples/python")
         print(f"left out: {library}, which is not installed", file=sys.stderr)
         return ""
     few = max(2, rounds // 8)

@@ -14,7 +14,7 @@ done
 
 mkdir -p "$T/tree/examples"
 cp shade.h "$T/tree"
-cp -R examples/model examples/shared examples/python "$T/tree/examples"
+for folder in model shared thumbnail python; do cp -R "examples/$folder" "$T/tree/examples"; done
 P=$T/tree/examples/python
 rm -rf "$P/build" "$P/dist" "$P/headers" "$P"/shade/libshade.* "$P"/*.egg-info
 
@@ -35,6 +35,8 @@ mkdir -p "$T/run/examples/python"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
 cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/python"
 check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/python/tests"
+check "the scenes of bench/python.py are drawn" sh -c "
+    $python '$OLDPWD/bench/python.py' --one shade robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"
 if $python -c 'import mypy' 2>/dev/null; then
     check "mypy --strict" sh -c "cd '$P' && $python -m mypy --strict --cache-dir '$T/mypy'"
 else left_out "mypy"; fi

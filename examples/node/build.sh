@@ -4,10 +4,12 @@
 cd "$(dirname "$0")" || exit 1
 out=${1:-.}
 CLANG=${CLANG:-clang}
-WARN="-Werror -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef"
+WARN="-Werror -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef
+    -Wno-unused-function"
 # The stack lies first: what overflows it is caught.
-FLAGS="--target=wasm32-wasi -std=c99 -O2 $WARN -msimd128 -mbulk-memory -mnontrapping-fptoint -ffp-contract=off
-    -fno-math-errno -mexec-model=reactor -I../.. -Wl,--stack-first,-z,stack-size=262144,--strip-all"
+FLAGS="--target=wasm32-wasi -std=c99 -O2 $WARN -msimd128 -mbulk-memory -mnontrapping-fptoint
+    -ffp-contract=off -fno-math-errno -ftls-model=local-exec -mexec-model=reactor -I../..
+    -Wl,--stack-first,-z,stack-size=262144,--strip-all"
 
 if ! echo '#include <stdlib.h>' | $CLANG --target=wasm32-wasi -x c -fsyntax-only - 2>/dev/null; then
     echo "node: no clang with wasi-libc: left out"

@@ -3,7 +3,6 @@
 
    index.js writes the structs that begin with "asked" word by word and is the only caller: it
    checks lengths, indices and sizes before.  A pointer that it hands over is freed here. */
-#define SHADE_NO_STDIO
 #define SHADE_ASSERT(x) ((void)0)
 #include "../python/native.c"
 #include <math.h>
@@ -96,21 +95,29 @@ static float *corner_values(module_mesh *m, const float *normals, const float *c
     return value;
 }
 
-/* Gives corners with a normal or a colour of their own a vertex for each of these. */
-static void use_corners(module_mesh *m, const float *normals, int colors_by_face)
+/* Gives corners with a normal or a colour of their own a vertex for each of these, or without weld
+   one for each corner. */
+static void use_corners(module_mesh *m, const float *normals, int colors_by_face, int weld)
 {
     shade_mesh *s = &m->mesh;
     const int count = s->index_count;
     const size_t corners = (size_t)count;
-    int width, made_count;
-    const float *value = corner_values(m, normals, colors_by_face ? s->colors : NULL, &width);
+    int width = 0, made_count = count;
     uint32_t *index = (uint32_t *)room(m, corners, 4), *made = (uint32_t *)room(m, corners, 4);
     uint32_t *vertex = (uint32_t *)room(m, corners, 4);
-    int32_t *first = (int32_t *)room(m, (size_t)s->vertex_count, 4);
-    int32_t *next = (int32_t *)room(m, corners, 4);
+    const float *value = NULL;
+    int32_t *first = NULL, *next = NULL;
+    if (weld) {
+        value = corner_values(m, normals, colors_by_face ? s->colors : NULL, &width);
+        first = (int32_t *)room(m, (size_t)s->vertex_count, 4);
+        next = (int32_t *)room(m, corners, 4);
+    }
     if (m->no_room) return;
-    memset(first, 255, 4 * (size_t)s->vertex_count);
-    made_count = python_weld(s->indices, count, value, width, index, made, first, next);
+    if (weld) {
+        memset(first, 255, 4 * (size_t)s->vertex_count);
+        made_count = python_weld(s->indices, count, value, width, index, made, first, next);
+    }
+    for (int i = 0; !weld && i < count; i++) index[i] = made[i] = (uint32_t)i;
     for (int i = 0; i < made_count; i++) vertex[i] = s->indices[made[i]];
     s->positions = gathered(m, s->positions, 3, vertex, made_count);
     if (normals) s->normals = gathered(m, normals, 3, made, made_count);
@@ -151,18 +158,29 @@ static const float *creased(module_mesh *m, shade_result *result)
     return *result ? NULL : &normals->x;
 }
 
+/* The normal of each corner's face */
+static const float *flat_normals(module_mesh *m)
+{
+    float *normals = (float *)room(m, (size_t)m->mesh.index_count, 3 * sizeof *normals);
+    if (normals) python_face_normals(&m->mesh, normals);
+    return normals;
+}
+
 static shade_result make_normals(module_mesh *m, const asked_mesh *asked)
 {
     const int by_face = asked->colors && asked->color_count != asked->vertices;
     shade_result result = SHADE_OK;
     const float *corner = NULL;
+    int flat;
     if (asked->normals_kind == NORMALS_AUTO) corner = creased(m, &result);
     if (asked->normals_kind == NORMALS_SMOOTH && asked->corners) {
         shade_vec3 *normals = (shade_vec3 *)room(m, (size_t)asked->vertices, sizeof *normals);
         if (normals) result = shade_mesh_normals(&m->mesh, normals);
         if (normals && !result) m->mesh.normals = &normals->x;
     }
-    if (!result && (corner || by_face)) use_corners(m, corner, by_face);
+    flat = !result && !corner && !m->mesh.normals;
+    if (flat) corner = flat_normals(m);
+    if (!result && !m->no_room && (corner || by_face)) use_corners(m, corner, by_face, !flat);
     return m->no_room ? SHADE_ERROR_CAPACITY : result;
 }
 

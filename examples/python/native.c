@@ -8,14 +8,9 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#ifndef SHADE_NO_STDIO
 #include "examples/model/files.h"
-#endif
 #include "examples/shared/bands.h"
-#include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "examples/thumbnail/draw.h"
 
 typedef struct python_item {      /* a mesh in its place */
     shade_mesh mesh;
@@ -35,9 +30,19 @@ typedef struct python_view {      /* a camera and where its picture goes */
     uint8_t *rgba;
     float *depth, *normals;                  /* each may be NULL; along the axis of view */
     int32_t *ids;
+    int in_studio;                           /* else lit by lighting */
+    shade_mat4 to_studio;                    /* the scene about the origin, within distance 1 */
 } python_view;
 
+typedef struct light_studio {     /* the thumbnail's light, and all items as one model in it */
+    studio light;
+    ground ground;
+    model scene;
+    shade_mat4 from_world, to_world;
+} light_studio;
+
 typedef struct python_job {
+    const light_studio *studio;   /* NULL: none */
     const python_item *items;
     const python_view *views;
     shade_result *results;        /* of each piece */
@@ -51,10 +56,55 @@ typedef struct painter {          /* of one mesh in one band */
     const python_item *item;
     shade_lighting lighting;
     shade_vec3 eye;
-    float *nearest;               /* the least depth so far of each pixel, from the row first on */
-    int first, step;              /* samples along the edge of a pixel; 0: nothing is noted */
+    shade_mat4 clip, world;       /* from object space */
+    shade_mat3 normal;
+    int step;                     /* samples along the edge of a pixel; 0: nothing is noted */
+    const look *look;             /* of the surface in the studio; NULL: lit by lighting */
+    const shade_mat4 *to_studio;
+    int uv;                       /* the varying that u is; 0: there is no map */
     int32_t id;
 } painter;
+
+static void fetch(const float *from, int width, const shade_vertex_ids *in, float *rows)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const float *p = from + (size_t)width * in->index[i];
+        for (int k = 0; k < width; k++) rows[k * SHADE_LANES + i] = p[k];
+    }
+}
+
+/* Varyings: P and N in the world, then the colour of vertices and the place in the map, where there
+   are any. */
+static void place(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                  shade_vertices *SHADE_RESTRICT out)
+{
+    const painter *p = (const painter *)uniforms;
+    const shade_mesh *mesh = &p->item->mesh;
+    float P[3][SHADE_LANES], N[3][SHADE_LANES];
+    fetch(mesh->positions, 3, in, P[0]);
+    fetch(mesh->normals, 3, in, N[0]);
+    SHADE_EACH_LANE(i) {
+        const shade_vec4 at = shade_v4(P[0][i], P[1][i], P[2][i], 1);
+        const shade_vec4 clip = shade_mat4_transform(p->clip, at);
+        const shade_vec4 world = shade_mat4_transform(p->world, at);
+        out->clip[0][i] = clip.x;
+        out->clip[1][i] = clip.y;
+        out->clip[2][i] = clip.z;
+        out->clip[3][i] = clip.w;
+        out->varying[0][i] = world.x;
+        out->varying[1][i] = world.y;
+        out->varying[2][i] = world.z;
+    }
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 n = shade_mat3_transform(p->normal, shade_v3(N[0][i], N[1][i], N[2][i]));
+        const shade_vec3 unit = shade_normalize(n);
+        out->varying[3][i] = unit.x;
+        out->varying[4][i] = unit.y;
+        out->varying[5][i] = unit.z;
+    }
+    if (mesh->colors) fetch(mesh->colors, 3, in, out->varying[6]);
+    if (p->uv) fetch(mesh->texcoords, 2, in, out->varying[p->uv]);
+}
 
 static void note_normal(float *to, const shade_fragments *in, int i)
 {
@@ -63,30 +113,26 @@ static void note_normal(float *to, const shade_fragments *in, int i)
     SHADE_MEMCPY(to, &N, sizeof N);
 }
 
-/* Notes what lies at the centre of a pixel.  shade.h tests depth after this shader, so that the
-   least depth is kept here too. */
+/* Notes what lies at the centre of a pixel. */
 static void note_pixel(const painter *p, const shade_fragments *in, int i, size_t at)
 {
     const python_view *v = p->view;
-    const shade_vec4 row = shade_v4(v->view.col[0].z, v->view.col[1].z, v->view.col[2].z,
-                                    v->view.col[3].z);
-    float *nearest = &p->nearest[at - (size_t)p->first * (size_t)v->width];
-    if (!(in->z[i] < *nearest)) return;
-    *nearest = in->z[i];
+    const shade_mat4 *m = &v->view;
     if (v->ids) v->ids[at] = p->id;
     if (v->depth)
-        v->depth[at] = -(row.x * in->varying[0][i] + row.y * in->varying[1][i] +
-                         row.z * in->varying[2][i] + row.w);
+        v->depth[at] = -(m->col[0].z * in->varying[0][i] + m->col[1].z * in->varying[1][i] +
+                         m->col[2].z * in->varying[2][i] + m->col[3].z);
     if (v->normals) note_normal(v->normals + 3 * at, in, i);
 }
 
+/* Only fragments that pass the depth test come here, the nearest of a pixel last. */
 static void note(const painter *p, const shade_fragments *in)
 {
     for (int i = 0; i < in->count; i++) {
         const int x = (int)in->x[i], y = (int)in->y[i];
         if (p->step > 1 && (x % p->step != p->step / 2 || y % p->step != p->step / 2)) continue;
-        note_pixel(p, in, i, (size_t)(y / p->step) * (size_t)p->view->width +
-                                 (size_t)(x / p->step));
+        note_pixel(p, in, i,
+                   (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
     }
 }
 
@@ -94,11 +140,29 @@ static void note(const painter *p, const shade_fragments *in)
 static const float *albedo_of(const painter *p, const shade_fragments *in, float *texels)
 {
     const shade_texture *map = p->item->state.diffuse_map;
-    if (!map) return p->item->mesh.colors ? in->varying[6] : NULL;
-    shade_sample_lanes(map, in->varying[9], in->varying[10], in->lod, texels);
-    for (int k = 0; k < 3; k++)
-        SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= in->varying[6 + k][i]; }
+    const float *tint = p->item->mesh.colors ? in->varying[6] : NULL;
+    if (!map) return tint;
+    shade_sample_lanes(map, in->varying[p->uv], in->varying[p->uv + 1], in->lod, texels);
+    for (int k = 0; k < 3 && tint; k++)
+        SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= tint[k * SHADE_LANES + i]; }
     return texels;
+}
+
+/* The thumbnail's light at places of the world */
+static void paint_in_studio(const painter *p, const shade_rows *rows, int count, float *rgb)
+{
+    look_rows P, N, white;
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 at = shade_v3(rows->position[i], rows->position[i + SHADE_LANES],
+                                       rows->position[i + 2 * SHADE_LANES]);
+        const shade_vec3 n = shade_v3(rows->normal[i], rows->normal[i + SHADE_LANES],
+                                      rows->normal[i + 2 * SHADE_LANES]);
+        lane_put(P[0], i, shade_mat4_transform_point(*p->to_studio, at));
+        lane_put(N[0], i, shade_mat4_transform_direction(*p->to_studio, n));
+        lane_put(white[0], i, shade_v3(1, 1, 1));
+    }
+    look_light(p->look, P[0], N[0], rows->albedo ? rows->albedo : white[0], count,
+               (float(*)[SHADE_LANES])rgb);
 }
 
 /* Lights front faces by their normals as they are: turned to the viewer, they would leave dark
@@ -115,7 +179,8 @@ static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
                                                        : -in->varying[3 + k][i];
         }
     rows.albedo = albedo_of(p, in, texels);
-    shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
+    if (p->look) paint_in_studio(p, &rows, in->count, out->color[0]);
+    else shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
     if (rows.albedo == texels)
         SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
     if (p->step) note(p, in);
@@ -153,28 +218,78 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
 }
 
-static painter painter_of(const python_view *v, int first, int step, float *nearest)
+/* The surface of an item; a viewer at infinity is far away. */
+static look look_of(const light_studio *s, const python_view *v, const shade_material *material)
 {
-    const shade_mat4 camera = shade_mat4_inverse(v->view);
-    painter p = { .view = v, .lighting = v->lighting, .nearest = nearest, .first = first };
+    const shade_mat4 eye = shade_mat4_mul(s->from_world, shade_mat4_inverse(v->view));
+    look k = { .studio = &s->light, .material = *material, .emission = material->emission };
+    k.material.emission = shade_v3(0, 0, 0);
+    k.rough = model_roughness(material->shininess);
+    k.lighting.lights = s->light.lamp;
+    k.lighting.light_count = 2;
+    k.shadows = k.mirrors = 1;
+    k.eye = shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
+    if (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
+        k.eye = shade_mat4_transform_direction(eye, shade_v3(0, 0, 1));
+        k.eye = shade_scale(shade_normalize(k.eye), 1e4f);
+    }
+    return k;
+}
+
+static painter painter_of(const python_view *v, int step)
+{
+    const shade_mat4 eye = shade_mat4_inverse(v->view);
+    painter p = { .view = v, .lighting = v->lighting, .step = step };
     p.eye = v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
-                ? shade_mat4_transform_direction(camera, shade_v3(0, 0, 1))
-                : shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
-    p.step = step;
+                ? shade_mat4_transform_direction(eye, shade_v3(0, 0, 1))
+                : shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
     return p;
+}
+
+/* Draws runs of chunks that can be seen; a mesh without chunks whole. */
+static shade_result draw_chunks(const shade_target *target, const shade_mesh *mesh,
+                                const shade_pipeline *pipe, shade_mat4 clip)
+{
+    const shade_chunk *c = mesh->chunks, *end = c + (c ? mesh->chunk_count : 0);
+    shade_result result = SHADE_OK;
+    if (!c)
+        return shade_draw(target, pipe, mesh->indices, mesh->index_count, mesh->vertex_count, NULL);
+    while (c < end && !result) {
+        const int first = c->first;
+        int count = 0;
+        for (; c < end && shade_box_visible(target, clip, 0, c->low, c->high); c++)
+            count += c->count;
+        if (count)
+            result = shade_draw(target, pipe, mesh->indices + 3 * (size_t)first, 3 * count,
+                                mesh->vertex_count, NULL);
+        c += !count;
+    }
+    return result;
 }
 
 static shade_result draw_meshes(const shade_target *target, const python_job *job, painter p,
                                 shade_fragment_shader *fragment)
 {
     shade_result result = SHADE_OK;
+    look in_studio = { .rough = 1 };
+    if (job->studio) p.to_studio = &job->studio->from_world;
     for (int i = 0; i < job->item_count && !result; i++) {
-        shade_draw_state state = item_state(job->items, p.view, i);
+        const shade_draw_state state = item_state(job->items, p.view, i);
+        const shade_mesh *mesh = &job->items[i].mesh;
+        shade_pipeline pipe = { .vertex = place, .fragment = fragment, .uniforms = &p };
+        if (job->studio) in_studio = look_of(job->studio, p.view, state.material);
+        p.look = job->studio ? &in_studio : NULL;
         p.item = &job->items[i];
         p.id = i;
-        state.fragment = fragment;
-        state.uniforms = &p;
-        result = shade_draw_mesh(target, &p.item->mesh, &state, NULL);
+        p.world = state.model;
+        p.clip = shade_mat4_mul(shade_mat4_mul(state.projection, state.view), state.model);
+        p.normal = shade_normal_matrix(state.model);
+        p.uv = !state.diffuse_map ? 0 : mesh->colors ? 9 : 6;
+        pipe.varyings = p.uv ? p.uv + 2 : mesh->colors ? 9 : 6;
+        pipe.raster = state.raster;
+        pipe.lod_texture = state.diffuse_map;
+        pipe.lod_varying = p.uv;
+        result = draw_chunks(target, mesh, &pipe, p.clip);
     }
     return result;
 }
@@ -183,6 +298,9 @@ static shade_result draw_colors(const shade_target *target, const python_job *jo
 {
     shade_result result = shade_clear(target, p.view->background, 1);
     if (!result) result = draw_meshes(target, job, p, paint);
+    if (!result && job->studio)
+        result = ground_draw(&job->studio->ground, target, job->studio->to_world, p.view->view,
+                             p.view->projection);
     for (int i = 0; i < job->item_count && !result; i++) {
         const shade_draw_state state = item_state(job->items, p.view, i);
         if (job->items[i].line_points)
@@ -223,10 +341,9 @@ static void pack_rgb(uint8_t *rgb, const uint8_t *rgba, size_t pixels)
         for (size_t k = 0; k < 3; k++) rgb[3 * i + k] = rgba[4 * i + k];
 }
 
-static void clear_notes(const python_view *v, size_t first, size_t pixels, float *nearest)
+static void clear_notes(const python_view *v, size_t first, size_t pixels)
 {
     for (size_t i = 0; i < pixels; i++) {
-        nearest[i] = 1;
         if (v->ids) v->ids[first + i] = -1;
         if (v->depth) v->depth[first + i] = HUGE_VALF;
     }
@@ -236,14 +353,14 @@ static void clear_notes(const python_view *v, size_t first, size_t pixels, float
 /* Draws the rows of out with samples in large's.  An odd number of samples has one at the centre of
    the pixel; else what lies there is drawn apart. */
 static shade_result draw_rows(const python_job *job, const python_view *v, shade_target *out,
-                              shade_target *large, float *nearest)
+                              shade_target *large)
 {
     shade_result result;
     const size_t first = (size_t)out->row_offset * (size_t)v->width;
     const size_t pixels = (size_t)out->row_count * (size_t)v->width;
-    const int noted = nearest != NULL, apart = noted && v->samples % 2 == 0;
-    painter p = painter_of(v, out->row_offset, noted && !apart ? v->samples : 0, nearest);
-    if (noted) clear_notes(v, first, pixels, nearest);
+    const int noted = v->ids || v->depth || v->normals, apart = noted && v->samples % 2 == 0;
+    painter p = painter_of(v, noted && !apart ? v->samples : 0);
+    if (noted) clear_notes(v, first, pixels);
     result = draw_colors(large, job, p);
     if (!result) result = resolve(out, large, v->samples, v->background.w);
     if (result) return result;
@@ -264,23 +381,21 @@ static shade_result draw_strip(const python_job *job, const python_view *v, shad
     const size_t first = 4 * (size_t)out->row_offset * (size_t)v->width;
     const size_t bytes = 4 * (size_t)out->row_count * (size_t)v->width;
     const size_t most = bytes * (size_t)(v->samples * v->samples);
-    const int in_place = v->channels == 4, noted = v->ids || v->depth || v->normals;
+    const int in_place = v->channels == 4;
     shade_result result = SHADE_ERROR_CAPACITY;
     void *own = in_place ? NULL : malloc(bytes), *depth = malloc(most);
-    void *color = v->samples > 1 ? malloc(most) : NULL, *nearest = noted ? malloc(bytes) : NULL;
+    void *color = v->samples > 1 ? malloc(most) : NULL;
     out->color = in_place ? (void *)(v->rgba + first) : own;
     large->color = v->samples > 1 ? color : out->color;
     large->depth = (float *)depth;
-    if (out->color && large->color && depth && (nearest || !noted))
-        result = draw_rows(job, v, out, large, (float *)nearest);
+    if (out->color && large->color && depth) result = draw_rows(job, v, out, large);
     free(own);
     free(depth);
     free(color);
-    free(nearest);
     return result;
 }
 
-static shade_result draw_band(const python_job *job, const python_view *v, int band)
+static shade_result draw_share(const python_job *job, const python_view *v, int band)
 {
     const long long rows = v->height;
     shade_target out = { .width = v->width, .height = v->height, .srgb = 1 }, large;
@@ -297,7 +412,7 @@ static shade_result draw_band(const python_job *job, const python_view *v, int b
 static void draw_piece(void *data, int piece)
 {
     const python_job *job = (const python_job *)data;
-    job->results[piece] = draw_band(job, &job->views[piece / job->bands], piece % job->bands);
+    job->results[piece] = draw_share(job, &job->views[piece / job->bands], piece % job->bands);
 }
 
 /* Bands enough for the threads, and so many that one has no more than 8 million samples.  Each band
@@ -312,14 +427,80 @@ static int bands_of(const python_view *v, double triangles, int views, int threa
     return most < v->height ? most : v->height;
 }
 
-/* Draws views of one size, by so many threads (0: one a core).  Returns the first result that is
-   no success. */
+/* ---- the studio ------------------------------------------------------------------------------ */
+
+/* Appends an item to the mesh of the studio, which has room. */
+static void append(owned_mesh *m, const shade_mesh *from, shade_mat4 place)
+{
+    const size_t vertices = (size_t)m->view.vertex_count;
+    float *to = m->positions + 3 * vertices;
+    for (int k = 0; k < from->index_count; k++)
+        m->indices[m->view.index_count++] = (uint32_t)vertices + from->indices[k];
+    for (int k = 0; k < from->vertex_count; k++, to += 3) {
+        const float *p = from->positions + 3 * (size_t)k;
+        const shade_vec3 q = shade_mat4_transform_point(place, shade_v3(p[0], p[1], p[2]));
+        memcpy(to, &q, sizeof q);
+    }
+    m->view.vertex_count += from->vertex_count;
+}
+
+/* All items as one mesh in the studio.  Non-zero: out of memory, or too large for one mesh */
+static int gather(light_studio *s, const python_item *items, int count)
+{
+    double vertices = 0, indices = 0;
+    owned_mesh *m = &s->scene.mesh;
+    for (int i = 0; i < count; i++) {
+        vertices += items[i].mesh.vertex_count;
+        indices += items[i].mesh.index_count;
+    }
+    if (vertices > INT_MAX || indices > INT_MAX) return 1;
+    m->positions = (float *)calloc((size_t)vertices + 1, 3 * sizeof(float));
+    m->indices = (uint32_t *)calloc((size_t)indices + 1, sizeof(uint32_t));
+    s->scene.part = (model_part *)calloc(1, sizeof *s->scene.part);
+    if (!m->positions || !m->indices || !s->scene.part) return 1;
+    mesh_link(m, 0, 0);
+    for (int i = 0; i < count; i++)
+        append(m, &items[i].mesh, shade_mat4_mul(s->from_world, items[i].state.model));
+    s->scene.part->count = m->view.index_count;
+    s->scene.part_count = 1;
+    return 0;
+}
+
+static void close_studio(light_studio *s)
+{
+    if (!s) return;
+    model_free(&s->scene);
+    ground_free(&s->ground);
+    free(s->light.memory);
+    free(s);
+}
+
+/* The shadows that the items throw on each other and the ground.  NULL: out of memory */
+static light_studio *open_studio(const python_item *items, int count, const python_view *v,
+                                 int threads)
+{
+    light_studio *s = (light_studio *)calloc(1, sizeof *s);
+    const int pixels = v->width > v->height ? v->width : v->height;
+    if (!s) return NULL;
+    s->from_world = v->to_studio;
+    s->to_world = shade_mat4_inverse(v->to_studio);
+    if (!gather(s, items, count) && s->scene.part->count &&
+        !studio_open(&s->light, &s->scene, pixels, threads, NULL, NULL) &&
+        !studio_cast(&s->ground, &s->light, &s->scene.mesh, threads))
+        return s;
+    close_studio(s);
+    return NULL;
+}
+
+/* Draws views of one size, by so many threads (0: one a core).  Only a single view may be in the
+   studio.  Returns the first result that is no success. */
 SHADEDEF int python_draw(const python_item *items, int item_count, const python_view *views,
                          int view_count, int threads);
 int python_draw(const python_item *items, int item_count, const python_view *views, int view_count,
                 int threads)
 {
-    python_job job = { items, views, NULL, item_count, 1 };
+    python_job job = { NULL, items, views, NULL, item_count, 1 };
+    light_studio *light = NULL;
     shade_result result = SHADE_OK;
     double triangles = 0;
     int pieces;
@@ -330,10 +511,15 @@ int python_draw(const python_item *items, int item_count, const python_view *vie
     if (job.bands > INT_MAX / view_count) return SHADE_ERROR_CAPACITY;
     pieces = view_count * job.bands;
     job.results = (shade_result *)calloc((size_t)pieces, sizeof *job.results);
+    if (job.results && views->in_studio && triangles > 0) {
+        job.studio = light = open_studio(items, item_count, views, threads);
+        if (!light) result = SHADE_ERROR_CAPACITY;
+    }
     if (!job.results) return SHADE_ERROR_CAPACITY;
-    bands_run(threads, pieces, draw_piece, &job);
+    if (!result) bands_run(threads, pieces, draw_piece, &job);
     for (int i = 0; i < pieces && !result; i++) result = job.results[i];
     free(job.results);
+    close_studio(light);
     return (int)result;
 }
 
@@ -400,7 +586,20 @@ void python_linear(float *rgb, size_t count)
     }
 }
 
-/* ---- corners that are alike become one vertex ----------------------------------------------- */
+/* ---- corners that are alike become one vertex ------------------------------------------------ */
+
+/* The unit normal of each corner's face */
+SHADEDEF void python_face_normals(const shade_mesh *mesh, float *normals);
+void python_face_normals(const shade_mesh *mesh, float *normals)
+{
+    for (int i = 0; i < mesh->index_count; i += 3) {
+        shade_vec3 p[3], N;
+        for (int k = 0; k < 3; k++)
+            memcpy(&p[k], mesh->positions + 3 * (size_t)mesh->indices[i + k], sizeof p[k]);
+        N = shade_face_normal(p[0], p[1], p[2]);
+        for (int k = 0; k < 3; k++, normals += 3) memcpy(normals, &N, sizeof N);
+    }
+}
 
 /* Gives each corner the number of the first one with its vertex and its value, of width floats, and
    returns how many differ.  made has their corners.  Of a vertex with many values the last ones
@@ -427,28 +626,53 @@ int python_weld(const uint32_t *vertex, int count, const float *value, int width
     return n;
 }
 
-#ifndef SHADE_NO_STDIO
 /* ---- files of models ------------------------------------------------------------------------- */
 
 /* Reads an OBJ, STL or PLY file.  Returns NULL with a sentence in error. */
-SHADEDEF owned_mesh *python_load(const char *path, char *error, size_t room);
-owned_mesh *python_load(const char *path, char *error, size_t room)
+SHADEDEF model *python_load(const char *path, char *error, size_t room);
+model *python_load(const char *path, char *error, size_t room)
 {
-    owned_mesh *m = (owned_mesh *)calloc(1, sizeof *m);
-    if (!m) return NULL;
-    if (!mesh_read_file(path, m, error, room)) return m;
-    mesh_free(m);
+    const model_request q = { error, room, NULL, NULL, 0 };
+    model *m = (model *)calloc(1, sizeof *m);
+    if (m && !model_read_file(path, m, &q)) return m;
     free(m);
     return NULL;
 }
 
-SHADEDEF void python_unload(owned_mesh *m);
-void python_unload(owned_mesh *m)
+SHADEDEF void python_unload(model *m);
+void python_unload(model *m)
 {
-    if (m) mesh_free(m);
+    if (m) model_free(m);
     free(m);
 }
-#endif
+
+/* Writes the linear colour of each triangle's surface, and returns whether the file says any. */
+SHADEDEF int python_tints(const model *m, float *rgb);
+int python_tints(const model *m, float *rgb)
+{
+    int set = 0;
+    for (int i = 0; i < m->part_count && m->surface_count; i++) {
+        const model_surface *s = &m->surface[m->part[i].surface];
+        float *to = rgb + m->part[i].first;    /* three indices and three colours a triangle */
+        set |= s->set;
+        for (int k = 0; k < m->part[i].count; k += 3)
+            memcpy(to + k, &s->material.diffuse, sizeof s->material.diffuse);
+    }
+    return set;
+}
+
+/* The name of the picture that all surfaces show; NULL where they differ or have none */
+SHADEDEF const char *python_map(const model *m);
+const char *python_map(const model *m)
+{
+    const char *map = NULL;
+    for (int i = 0; i < m->part_count && m->surface_count; i++) {
+        const char *own = m->surface[m->part[i].surface].map;
+        if (!own || (map && strcmp(own, map) != 0)) return NULL;
+        map = own;
+    }
+    return m->mesh.texcoords ? map : NULL;
+}
 
 /* The sizes that the twins of these structs must have */
 SHADEDEF size_t python_size(int which);

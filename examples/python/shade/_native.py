@@ -89,7 +89,7 @@ class View(Structure):
                 ("view", c_float * 16), ("projection", c_float * 16),
                 ("background", c_float * 4), ("lighting", Lighting), ("poses", c_void_p),
                 ("rgba", c_void_p), ("depth", c_void_p), ("normals", c_void_p),
-                ("ids", c_void_p)]
+                ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16)]
 
 
 class Chunk(Structure):
@@ -103,7 +103,7 @@ class Edge(Structure):
 
 
 class OwnedMesh(Structure):
-    """owned_mesh, whose view has the counts"""
+    """owned_mesh, with which a model begins; its view has the counts"""
     _fields_ = [("view", Mesh), ("positions", c_void_p), ("normals", c_void_p),
                 ("texcoords", c_void_p), ("colors", c_void_p), ("indices", c_void_p),
                 ("chunks", c_void_p)]
@@ -120,9 +120,12 @@ def _open() -> Any:
             ("python_lit", None, [c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
             ("python_light_at", None, [c_void_p, c_void_p, c_size_t] + 3 * [c_void_p]),
             ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
+            ("python_face_normals", None, [c_void_p, c_void_p]),
             ("python_linear", None, [c_void_p, c_size_t]),
             ("python_load", POINTER(OwnedMesh), [c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
+            ("python_tints", c_int, [POINTER(OwnedMesh), c_void_p]),
+            ("python_map", c_char_p, [POINTER(OwnedMesh)]),
             ("python_size", c_size_t, [c_int]),
             ("shade_result_string", c_char_p, [c_int]),
             ("shade_mesh_normals", c_int, [c_void_p, c_void_p]),

@@ -134,11 +134,13 @@ def direction(view: Viewpoint, up: str) -> tuple[Matrix, Matrix]:
 
 
 def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640, 480),
-           up: str = "z", ortho: bool = False, fov: float = 28.0, margin: float = 1.08) -> Camera:
+           up: str = "z", ortho: bool = False, fov: float = 28.0, margin: float = 1.08,
+           room: float = 0.0) -> Camera:
     """The nearest camera that sees all points from a side.
 
     Each side of the picture gives one bound on the eye, linear in a point's coordinates; their
-    extremes give the distance and the shift that centres.  Points with NaN or beyond 1e8 do not
+    extremes give the distance and the shift that centres.  room is how much deeper than the points
+    the picture reaches, as a part of their extent.  Points with NaN or beyond 1e8 do not
     count.
     """
     turn, flat = _facing(*direction(view, up)), arguments.flag("ortho", ortho)
@@ -165,8 +167,9 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     view_matrix = np.eye(4)
     view_matrix[:3, :3] = turn
     view_matrix[:3, 3] = -shift[0], -shift[1], -distance
-    near, far = distance - float(high[2]), distance - float(low[2])
-    near = max(0.9 * near, 1e-4 * far)
+    near = distance - float(high[2]) - room * reach
+    far = distance - float(low[2]) + room * reach
+    near = max(0.9 * near, 1e-4 * far if room == 0 else 0.01 * far)
     return Camera(view_matrix, perspective(fov, size[0] / size[1], near, 1.1 * far + 1e-3 * reach))
 
 
@@ -189,4 +192,24 @@ def at(camera: object) -> Camera:
 
 
 Cameras = Sequence[Camera]
-__all__ = ["Camera", "Cameras", "VIEWS", "Viewpoint", "fitted", "perspective", "direction", "at"]
+def studio(points: Floats, camera: Camera, up: str) -> Matrix:
+    """The matrix to the thumbnail's studio: the points about the origin, within distance 1, +y up
+    and +z toward the eye."""
+    with np.errstate(invalid="ignore"):
+        good = points[(np.abs(points) <= MOST).all(1)].astype(np.float64)
+    good = good if len(good) else np.zeros((1, 3))
+    middle = (good.min(0) + good.max(0)) / 2
+    size = max(float(np.linalg.norm(good - middle, axis=1).max()), 1e-12)
+    y = np.array([0.0, 0, 1] if up == "z" else [0.0, 1, 0])
+    x = camera.view[0, :3] - camera.view[0, :3] @ y * y
+    if np.linalg.norm(x) < 1e-3:
+        x = camera.view[1, :3] - camera.view[1, :3] @ y * y
+    x /= np.linalg.norm(x)
+    out = np.eye(4)
+    out[:3, :3] = np.stack([x, y, np.cross(x, y)]) / size
+    out[:3, 3] = -out[:3, :3] @ middle
+    return out
+
+
+__all__ = ["studio", "Camera", "Cameras", "VIEWS", "Viewpoint", "fitted", "perspective",
+           "direction", "at"]

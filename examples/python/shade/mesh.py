@@ -8,7 +8,8 @@ from typing import Any, Iterable, Union
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import (Array, Bytes, Chunk, Edge, Error, Floats, Indices, Texture, check, library, pointer)
+from ._native import (Array, Bytes, Chunk, Edge, Error, Floats, Indices, Texture, check, library,
+                      pointer)
 from ._native import Mesh as NativeMesh
 
 CREASE_TRIANGLES = 200_000
@@ -78,13 +79,37 @@ class Mesh:
                 check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
             self.normals = arguments.floats("normals", normals, self.vertices.shape)
-        if own is None and not by_face:
-            return
-        self._take_corners(own, by_face)
+        flat = own is None and self.normals is None
+        if flat:
+            own = self._flat()
+        if own is not None or by_face:
+            self._take_corners(own, by_face, not flat)
 
-    def _take_corners(self, own: Floats | None, by_face: bool) -> None:
-        """Gives corners with a normal or a colour of their own a vertex for each of these."""
+    def _flat(self) -> Floats:
+        """The normal of each corner's face."""
+        out = np.empty((3 * len(self.faces), 3), np.float32)
+        library.python_face_normals(ctypes.byref(self.native()), pointer(out))
+        return out
+
+    def _take_corners(self, own: Floats | None, by_face: bool, weld: bool) -> None:
+        """Gives corners with a normal or a colour of their own a vertex for each of these; without
+        weld, which then would find little, one for each corner."""
         corner = self.faces.reshape(-1)
+        made = index = np.arange(len(corner), dtype=np.uint32)
+        if weld:
+            index, made = self._welded(corner, own, by_face)
+            own = None if own is None else own[made]
+        vertex = corner[made]
+        self.positions, self.indices = self.vertices.take(vertex, 0), index.reshape(-1, 3)
+        self.normals = own if own is not None else None if self.normals is None \
+            else self.normals.take(vertex, 0)
+        self.uv = None if self.uv is None else self.uv.take(vertex, 0)
+        if self.colors is not None:
+            self.colors = self.colors.take(made // 3 if by_face else vertex, 0)
+
+    def _welded(self, corner: Indices, own: Floats | None,
+                by_face: bool) -> tuple[Indices, Indices]:
+        """The vertex of each corner, and a corner of each vertex."""
         values = [v for v in (own, np.repeat(self.colors, 3, 0)
                               if by_face and self.colors is not None else None) if v is not None]
         value = np.ascontiguousarray(np.concatenate(values, 1) if len(values) > 1 else values[0])
@@ -92,14 +117,7 @@ class Mesh:
         first = np.full(len(self.vertices), -1, np.int32)
         count = library.python_weld(pointer(corner), len(corner), pointer(value), value.shape[1],
                                     pointer(index), pointer(made), pointer(first), pointer(link))
-        made = made[:count]
-        vertex = corner[made]
-        self.positions, self.indices = self.vertices[vertex], index.reshape(-1, 3)
-        self.normals = own[made] if own is not None else None if self.normals is None \
-            else self.normals[vertex]
-        self.uv = None if self.uv is None else self.uv[vertex]
-        if self.colors is not None:
-            self.colors = self.colors[made // 3] if by_face else self.colors[vertex]
+        return index, made[:count]
 
     def _creased(self) -> Floats | None:
         """One normal for each corner, or None where many faces around a point would cost much."""
@@ -110,6 +128,13 @@ class Mesh:
         out = np.empty((3 * len(self.faces), 3), np.float32)
         check(library.shade_mesh_corner_normals(native, COS_CREASE, pointer(out), pointer(memory),
                                                 memory.size), "normals")
+        return out
+
+    def drawn_vertices(self) -> Floats:
+        """The vertices that faces have."""
+        used = np.zeros(len(self.vertices), bool)
+        used[self.faces.reshape(-1)] = True
+        out: Floats = self.vertices if used.all() else self.vertices[used]
         return out
 
     def native(self) -> Any:
@@ -250,8 +275,7 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return Mesh(value.vertices, value.faces, **options)
     if isinstance(value, (str, os.PathLike)):
         from .files import load
-        value = load(value)
-        return mesh(value, **options) if options else value
+        return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
         return Mesh(value[0], value[1], **options)
     shape = value.val() if callable(getattr(value, "val", None)) else value

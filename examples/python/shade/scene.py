@@ -11,7 +11,7 @@ import numpy as np
 from . import _arguments as arguments
 from ._native import Array, Bytes, Error, Floats, Integers, Item, View, check
 from ._native import library, pointer
-from .camera import Camera, Viewpoint, at, fitted
+from .camera import Camera, Viewpoint, at, fitted, studio
 from .light import Flag, Light, Lighting, Material, Model, preset
 from .mesh import Like, Mesh, mesh as as_mesh
 from .picture import Picture
@@ -90,23 +90,32 @@ class Scene:
     def fit(self, view: Viewpoint = "iso", size: object = (640, 480), *, up: str = "z",
             ortho: bool = False) -> Camera:
         """The nearest camera that sees all of the scene from a side."""
+        return fitted(self._points(), view, arguments.size("size", size), up, ortho)
+
+    def _points(self) -> Floats:
+        """Every vertex of a face, in the world."""
         with np.errstate(all="ignore"):
-            placed = [part.mesh.vertices[np.unique(part.mesh.faces)] @ part.pose[:3, :3].T
+            placed = [part.mesh.drawn_vertices() @ part.pose[:3, :3].T
                       + part.pose[:3, 3] for part in self.parts]
         points = np.concatenate(placed) if placed else np.zeros((0, 3))
-        return fitted(np.asarray(points, np.float32), view, arguments.size("size", size), up, ortho)
+        return np.asarray(points, np.float32)
 
     def render(self, camera: Camera | Viewpoint = "iso", size: object = (640, 480), *,
                samples: int = 3, background: Color | None = "white", threads: int = 0,
-               up: str = "z", ortho: bool = False) -> Picture:
+               up: str = "z", ortho: bool = False, light: str = "scene") -> Picture:
         """Draws one picture; a viewpoint instead of a camera is fitted to the scene.
 
         samples, 1 .. 8, are taken along each edge of a pixel.  background None is transparent.
-        threads 0 is one a core; the picture is the same with any number.
+        threads 0 is one a core; the picture is the same with any number.  light "studio" takes the
+        place of the scene's lamps: a large lamp and a sky that throw soft shadows, also on a ground
+        below the scene, which a camera of one's own must reach with its near and far.
         """
         width, height = arguments.size("size", size)
-        if not isinstance(camera, Camera):
-            camera = self.fit(camera, (width, height), up=up, ortho=ortho)
+        soft = arguments.choice("light", light, ("scene", "studio")) == "studio"
+        points = self._points() if soft or not isinstance(camera, Camera) else None
+        if points is not None and not isinstance(camera, Camera):
+            camera = fitted(points, camera, (width, height), up, ortho, room=1.5 if soft else 0.0)
+        camera = at(camera)
         many = arguments.integer("samples", samples, 1, 8)
         _small_enough(width, height, many)
         rgba = np.empty((height, width, 4), np.uint8)
@@ -117,6 +126,10 @@ class Scene:
                     depth=pointer(depth), normals=pointer(normals), ids=pointer(ids))
         items, kept = self._items(camera)
         self._aim(view, camera, _background(background))
+        if soft and points is not None:
+            view.in_studio = 1
+            to_studio = studio(points, camera, arguments.choice("up", up, ("y", "z")))
+            view.to_studio = tuple(to_studio.T.reshape(-1))
         self._draw(items, (View * 1)(view), threads)
         del kept
         return Picture(rgba, depth, ids, normals)
@@ -254,9 +267,10 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
 
     Pass vertices and faces, or a mesh alone: a path, a shade.Mesh, an object of trimesh, cadquery
     or build123d.  view is "front", "right", "back", "left", "top", "bottom", "iso" or (azimuth,
-    elevation) in degrees.  light is "quick", three lamps beside the camera.
+    elevation) in degrees.  light is "quick", three lamps beside the camera, or "studio", soft
+    shadows that take longer.
     """
-    arguments.choice("light", light, ("quick",))
+    soft = arguments.choice("light", light, ("quick", "studio")) == "studio"
     options: dict[str, Any] = {"color": color, "normals": normals, "uv": uv, "texture": texture}
     source = vertices if faces is None else (vertices, faces)
     defaults = {"normals": "auto"}
@@ -265,7 +279,7 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
     scene = Scene()
     scene.add(source, None, material, edges=edges, **given)
     return scene.render(view, size, samples=samples, background=background, threads=threads, up=up,
-                        ortho=ortho)
+                        ortho=ortho, light="studio" if soft else "scene")
 
 
 def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top", "iso"), *,

@@ -209,6 +209,43 @@ def test_files_and_the_command(tmp_path):
     assert done.returncode == 1 and done.stderr.count("\n") == 1
 
 
+def test_the_surfaces_of_an_obj_file(tmp_path):
+    vertices, faces = box(2, 2, 2)
+    head = "mtllib b.mtl\n" + "".join("v {} {} {}\n".format(*p) for p in vertices.tolist())
+    body = "".join("usemtl {}\nf {} {} {} {}\n".format("ab"[i == 5], *f)
+                   for i, f in enumerate((faces + 1).tolist()))
+    (tmp_path / "b.obj").write_text(head + body, "utf-8")
+    (tmp_path / "b.mtl").write_text("newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n", "utf-8")
+    top = {"view": "top", "size": (40, 40), "samples": 1, "ortho": True}
+    blue = shade.render(tmp_path / "b.obj", **top).rgba[20, 20]
+    red = shade.render(tmp_path / "b.obj", **{**top, "view": "bottom"}).rgba[20, 20]
+    assert blue[2] > 100 > blue[0] and red[0] > 100 > red[2]
+    grey = shade.render(tmp_path / "b.obj", color="gray", **top).rgba[20, 20].astype(int)
+    assert abs(grey[0] - grey[2]) < 20
+    # as many faces as vertices: the colours are still those of faces
+    (tmp_path / "t.obj").write_text(
+        "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 3 2\nf 1 2 4\n"
+        "f 1 4 3\nusemtl b\nf 2 3 4\n", "utf-8")
+    far = shade.render(tmp_path / "t.obj", view=(135, 30), size=(40, 40), samples=1)
+    assert (far.rgba[far.ids == 0][:, 2] > far.rgba[far.ids == 0][:, 0]).all()
+
+
+def test_the_picture_on_an_obj_file(tmp_path):
+    texels = np.full((2, 2, 4), 255, np.uint8)
+    texels[:, :, :3] = [[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 0]]]
+    shade.Picture(np.repeat(np.repeat(texels, 16, 0), 16, 1)).save(tmp_path / "q.png")
+    (tmp_path / "q.mtl").write_text("newmtl m\nKd 1 1 1\nmap_Kd C:\\parts\\q.png\n", "utf-8")
+    (tmp_path / "q.obj").write_text(
+        "mtllib q.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "usemtl m\nf 1/1 2/2 3/3 4/4\n", "utf-8")
+    got = shade.render(tmp_path / "q.obj", view="top", size=(64, 64), ortho=True, samples=1).rgba
+    for y, x, wanted in ((16, 16, (1, 0, 0)), (16, 48, (0, 1, 0)), (48, 16, (0, 0, 1)),
+                         (48, 48, (1, 1, 0))):
+        assert np.array_equal(got[y, x, :3] > 128, np.array(wanted, bool))
+    (tmp_path / "q.png").unlink()
+    assert shade.load(tmp_path / "q.obj").texture is None
+
+
 def test_a_sheet_has_one_scale_in_a_row():
     got = shade.sheet(box(3, 2, 1), ["front", "right", "top"], size=(120, 100), gap=0, edges=False)
     wide = [np.ptp(np.argwhere(got.ids[:, 120 * i:120 * i + 120] == 0), 0) + 1 for i in range(3)]
