@@ -343,6 +343,97 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
     await page.context().close();
 }
 
+// ---- lamps on maps, vectors from above, terms alone, what is clipped -----------------------------
+
+{
+    const page = await open('turn=0', { viewport: { width: 1366, height: 768 } });
+    const bulb = (map, j) => page.locator('#maps svg').nth(map).locator('.bulb').nth(j - 1);
+    const centre = async node => {
+        const box = await node.boundingBox();
+        return [box.x + box.width / 2, box.y + box.height / 2];
+    };
+    const position = j => page.evaluate(j => [...S['p' + j]], j);
+    for (const [map, j, down, sign] of [[0, 1, 1, -1], [1, 2, 2, 1]]) {
+        const [x, y] = await centre(bulb(map, j)), before = await position(j);
+        const unit = await page.locator('#maps svg').first().evaluate(node =>
+            10 * node.getScreenCTM().a);
+        await page.mouse.move(x, y);
+        await page.mouse.down();
+        await page.mouse.move(x + 5, y + 5);
+        await page.mouse.move(x + 18, y + 12);
+        await page.mouse.up();
+        const { state } = await same(page, `lamp ${j} dragged`), after = state['p' + j];
+        const wanted = before.map((v, k) => v + (k === 0 ? 18 / unit : k === down
+            ? sign * 12 / unit : 0));
+        check(`lamp ${j} follows the pointer`, state.lamp === j &&
+            after.every((v, k) => Math.abs(v - Math.min(6, wanted[k])) < 0.15), [after, wanted]);
+        check('and the address follows', await soon(() => page.evaluate(j =>
+            location.hash.includes(`p${j}=${S['p' + j]}`), j)));
+    }
+    const before = await position(3);
+    await bulb(1, 3).focus();
+    await page.keyboard.press('ArrowUp');
+    await page.keyboard.press('Shift+ArrowRight');
+    const after = await position(3);
+    check('arrow keys move a lamp', await page.evaluate(() => S.lamp) === 3 &&
+        Math.abs(after[2] - before[2] + 0.1) < 1e-6 && Math.abs(after[0] - before[0] - 1) < 1e-6 &&
+        after[1] === before[1], after);
+    check('which says where it is', /^x 1, z 0\.9$/.test(
+        await bulb(1, 3).getAttribute('aria-valuetext')));
+    await page.mouse.move(5, 5);
+    check('V is drawn from above', await page.evaluate(() => {
+        const line = document.querySelector('#side .V line'), at = name => line[name].baseVal.value;
+        const a = probe(spot[0] * canvas.width, spot[1] * canvas.height);
+        return Math.abs(at('x2') - 60 * a.unitV[0]) < 0.01 && a.unitV[2] > 0.9 &&
+            Math.abs(at('y2') - 60 * a.unitV[2]) < 0.01;
+    }));
+
+    const texts = () => page.locator('#sum .v').allTextContents();
+    await page.evaluate(() => { spot = [0.5, 0.5]; });
+    await go(page, 'turn=0&ke=.1,0,0');
+    const values = await texts();
+    for (const [i, css] of ['e', 'a', 'd', 's'].entries()) {
+        const node = page.locator('.piece.' + css).last();
+        for (const way of ['hover', 'focus']) {
+            await node[way]();
+            const shown = await page.evaluate(() => base64(draw(160, 120, 1)));
+            const wanted = await page.evaluate(bit => {
+                const kept = [alone, S.terms];
+                alone = 0, S.terms = bit;
+                const text = base64(draw(160, 120, 1));
+                [alone, S.terms] = kept;
+                return text;
+            }, 1 << i);
+            check(`a term is shown alone: ${css}, ${way}`, shown === wanted);
+            await page.mouse.move(5, 5);
+            await node.blur();
+        }
+    }
+    await same(page, 'after terms alone');
+    await soon(async () => String(await texts()) === String(values));
+    check('the values stay those of all terms', String(await texts()) === String(values));
+    const clipped = () => page.locator('#formula .total .clip').allTextContents();
+    check('nothing is clipped in the dark', !(await clipped()).length);
+    await go(page, 'turn=0&ke=1,.1,.1&kd=1,1,.1&I1=3,3,3');
+    await soon(async () => (await clipped()).length);
+    check('what is above 1 is marked', (await clipped()).length === await page.evaluate(() => {
+        const a = probe(spot[0] * canvas.width, spot[1] * canvas.height);
+        return [0, 1, 2].filter(k => TERMS.reduce((sum, name) => sum + a[name][k], 0) > 1).length;
+    }));
+    check('red, green and blue are told apart', await page.evaluate(() =>
+        [...document.querySelectorAll('#formula .total .v span')].map(node => node.className[0])
+            .join('') === 'RGB'));
+    await page.locator('#by-hand').click();
+    check('the equation in C', /^static shade_vec3 by_hand\([^]*f_atten[^]*\n}\n?$/.test(
+        await page.locator('dialog pre').textContent()));
+    await page.keyboard.press('Escape');
+    for (const hash of ['turn=0&compare=1', 'turn=0&bare', 'turn=0&maps=0']) {
+        await go(page, hash);
+        check('no maps: ' + hash, !await page.locator('.map:visible').count());
+    }
+    await page.context().close();
+}
+
 // ---- a lecture ----------------------------------------------------------------------------------
 
 for (const [width, height] of [[1366, 768], [1920, 1080]]) {
@@ -511,7 +602,8 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
         JSON.stringify([before, after]));
     await page.waitForFunction(() => /emission .*specular/.test($('#spoken').textContent));
     await page.keyboard.press('Tab');
-    check('Tab goes on', await page.evaluate(() => document.activeElement.tagName) === 'INPUT');
+    check('Tab goes on', await page.evaluate(() => document.activeElement.ariaLabel) ===
+        'Lamp 1, front');
     const nameless = await page.evaluate(() =>
         [...document.querySelectorAll('button, input')].filter(node => !(node.ariaLabel ||
             node.textContent.trim() || node.labels?.[0]?.textContent.trim())).length);

@@ -34,6 +34,15 @@ awk -v out="$out" '
         while ((getline line <"look.h") > 0) { gsub(/[\\`$]/, "\\\\&", line); print line }
         print side[2]; next
     }
+    /@by_hand@/ {                      # one function of the lesson
+        split($0, side, "@by_hand@"); printf "%s", side[1]
+        while ((getline line <"../47_by_hand.c") > 0) {
+            if (line ~ /^static shade_vec3 by_hand/) inside = 1
+            if (inside) { gsub(/[\\`$]/, "\\\\&", line); print line }
+            if (line == "}") inside = 0
+        }
+        print side[2]; next
+    }
     /@plain\.wasm@/ {
         split($0, side, /@[a-z]*\.wasm@/)
         print side[1] base64(out "/plain.wasm") side[2] base64(out "/simd.wasm") side[3]; next

@@ -43,6 +43,7 @@ typedef struct page_answer {
     shade_vec3 scene_ambient, lamp_ambient, lamp_diffuse, lamp_specular;
     float r, attenuation, spot, gate, n_dot_l, base, power;
     shade_vec2 point, tip[4];                        /* on the picture: P and the ends of N L V H */
+    shade_vec3 place, unit[4];                       /* in the world: P; N L V H */
 } page_answer;
 
 static page_state state;
@@ -341,6 +342,8 @@ PAGE(const page_answer *, page_probe)(float x, float y)
     if ((s.draw.lighting.flags & SHADE_FLAG_TWO_SIDED) && shade_dot(normal, eye) < 0)
         normal = shade_neg(normal);
     factors(&s.draw.lighting, &light, eye, point, normal, material.shininess, vectors);
+    answer.place = point;
+    for (int k = 0; k < 4; k++) answer.unit[k] = vectors[k];
     to_clip = shade_mat4_mul(s.draw.projection, s.draw.view);
     for (int k = 0; k < 5; k++) {
         shade_vec3 tip = k ? shade_madd(point, 0.45f, vectors[k - 1]) : point;

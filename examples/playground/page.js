@@ -16,6 +16,7 @@ const LAMPS = [1, 2, 3];
 // name: [lowest, highest, first value ...]
 const FIELDS = {
     shape: [0, 2, 0], view: [0, 2, 0], compare: [0, 1, 0], wire: [0, 1, 0], vectors: [0, 1, 1],
+    maps: [0, 1, 1],
     turn: [0, 1, 1], model: [0, 5, 0], shading: [0, 2, 0], flags: [0, 63, 0], terms: [1, 15, 15],
     lamp: [1, 3, 1], yaw: [-7, 7, 0.5], pitch: [-1.6, 1.6, 0.4], zoom: [0.4, 4, 1],
     simd: [0, 1, 1], lecture: [0, 5, 0], bare: [0, 1, 0],
@@ -32,7 +33,7 @@ function lamp(j, on, far, position, color, c, beta = 180, e = 0) {
         ['e' + j]: [0, 64, e] };
 }
 // those that are whole numbers
-const WHOLE = RegExp('^(shape|view|compare|wire|vectors|turn|model|shading|flags|terms|lamp|' +
+const WHOLE = RegExp('^(shape|view|compare|wire|vectors|maps|turn|model|shading|flags|terms|lamp|' +
     'simd|lecture|bare|on.|far.)$');
 
 const S = {};
@@ -93,27 +94,30 @@ function camera(width, height) {
     return { distance, near: round(Math.max(distance - 1.05, 0.05)), far: round(distance + 1.05) };
 }
 
-// The floats of page_state, in its order.
-function words(width, height, pen) {
+// The floats of page_state, in its order
+let alone = 0;                          // the one term that is shown, as its bit; 0: all that are on
+function words(width, height, pen, terms = alone || S.terms) {
     const { distance, near, far } = camera(width, height), [x, y, z, radius] = bounds();
     return [width, height, S.shape, S.view, S.compare && !S.view, S.wire * pen, S.model, S.shading,
-        S.flags, S.terms, S.lamp - 1, S.yaw, S.pitch, distance, near, far, scaleOf(radius), x, y, z,
+        S.flags, terms, S.lamp - 1, S.yaw, S.pitch, distance, near, far, scaleOf(radius), x, y, z,
         ...paper, ...ink, ...S.ke, ...S.ka, ...S.kd, ...S.ks, S.n, ...S.Ia,
         ...LAMPS.flatMap(j => [S['on' + j], S['far' + j], S['p' + j], S['I' + j], S['A' + j],
             S['a' + j], S['b' + j], S['c' + j], S['beta' + j], S['e' + j]].flat())];
 }
 const scaleOf = radius => +(1 / radius).toPrecision(6);
 
+function tell(list) { floats(wasm.page_input(), list.length).set(list); }
 function draw(width, height, pen) {
-    const list = words(width, height, pen);
-    floats(wasm.page_input(), list.length).set(list);
+    tell(words(width, height, pen));
     const at = wasm.page_draw();
+    tell(words(width, height, pen, S.terms));           // which a probe is about
     return new Uint8ClampedArray(wasm.memory.buffer, at, 4 * width * height);
 }
 
 const ANSWER = { hit: 1, emission: 3, ambient: 3, diffuse: 3, specular: 3, sceneAmbient: 3,
     lampAmbient: 3, lampDiffuse: 3, lampSpecular: 3, r: 1, attenuation: 1, spot: 1, gate: 1, nl: 1,
-    base: 1, power: 1, point: 2, N: 2, L: 2, V: 2, H: 2 };
+    base: 1, power: 1, point: 2, N: 2, L: 2, V: 2, H: 2, place: 3, unitN: 3, unitL: 3, unitV: 3,
+    unitH: 3 };
 function probe(x, y) {
     const answer = {};
     let at = wasm.page_probe(x, y);
@@ -291,7 +295,8 @@ function buildControls() {
         group('Model', row(shapes, make('label', { class: 'open' }, file,
             make('span', {}, 'Open …')))),
         group('Picture', choice('view', ['Light', 'Normals', 'Depth']),
-            row(toggle('wire', 'wire'), toggle('vectors', 'vectors'), toggle('turn', 'turning'))),
+            row(toggle('wire', 'wire'), toggle('vectors', 'vectors'), toggle('maps', 'lamps'),
+                toggle('turn', 'turning'))),
         group('Material', presets(),
             color('ke', '<i>k</i><sub>e</sub>', 'emission', 'e'),
             color('ka', '<i>k</i><sub>a</sub>', 'ambient reflection', 'a'),
@@ -314,6 +319,7 @@ function buildControls() {
         group('Flags', row(...FLAGS.map((label, i) => toggle('flags', ...label, 1 << i)))));
     controls.append($('#links').content);
     buildEquation();
+    buildMaps();
     buildLecture();
 }
 
@@ -326,10 +332,22 @@ function piece(name, css, html) {
     cells[name] = { formula, values: make('span', { class: 'v' }) };
     const node = make('span', { class: 'piece ' + css }, formula, cells[name].values);
     if (!'eads'.includes(css)) return node;
-    node.addEventListener('pointerenter', () => { controls.dataset.term = css; });
-    node.addEventListener('pointerleave', () => { delete controls.dataset.term; });
+    node.tabIndex = 0;
+    for (const begin of ['pointerenter', 'focus'])
+        node.addEventListener(begin, () => showAlone(css));
+    for (const end of ['pointerleave', 'pointercancel', 'blur'])
+        node.addEventListener(end, () => showAlone(''));
     return node;
 }
+// While the pointer or the focus is on a term: its part of the picture, and the rows that make it
+function showAlone(css) {
+    const bit = css && 1 << 'eads'.indexOf(css);
+    alone = bit & usedTerms();
+    if (css) controls.dataset.term = css;
+    else delete controls.dataset.term;
+    stale = true, request();
+}
+const usedTerms = () => [15, 15, 7, 3, 1, 5][shownModel().model] & S.terms;
 function buildEquation() {
     const mark = html => make('span', { class: 'mark', html });
     const brace = html => make('span', { class: 'brace', html });
@@ -364,7 +382,7 @@ function shownModel() {
 }
 function showFormula({ model, n }) {
     const weight = S.flags & 8 ? ' (<b>N</b>·<b>L</b>)' : '', gooch = model === 5;
-    const used = [15, 15, 7, 3, 1, 5][model] & S.terms;
+    const used = usedTerms();
     const off = { emission: !(used & 1), sceneAmbient: !(used & 2), lampAmbient: !(used & 2),
         lampDiffuse: !(used & 4), lampSpecular: !(used & 8), gate: S.flags & 4 || gooch,
         arriving: gooch };
@@ -378,7 +396,10 @@ function showFormula({ model, n }) {
 }
 
 const figure = v => (Math.abs(v) < 9.995 ? v.toFixed(2) : v.toFixed(1)).replace(/^(-?)0\./, '$1.');
-const triple = rgb => `<s style="background:${hex(rgb)}"></s>${rgb.map(figure).join(' ')}`;
+const channel = (v, i, clips) => `<span class="${'RGB'[i]}${clips && v > 1 ? ' clip' : ''}"` +
+    `${clips && v > 1 ? ' title="above 1: stored as 1"' : ''}>${figure(v)}</span>`;
+const triple = (rgb, clips) => `<s style="background:${hex(rgb)}"></s>` +
+    rgb.map((v, i) => channel(v, i, clips)).join(' ');
 function put(node, html) {
     if (node.kept !== html) node.innerHTML = node.kept = html;
 }
@@ -388,7 +409,7 @@ function showAnswer(answer) {
     const base = model === 1 ? '<b>R</b>·<b>V</b>' : '<b>N</b>·<b>H</b>';
     const value = (name, html) => put(cells[name].values, answer.hit ? html : '–');
     showFormula({ model, n });
-    value('total', triple(total));
+    value('total', triple(total, true));
     for (const name of ['emission', 'sceneAmbient', 'lampAmbient'])
         value(name, triple(answer[name]));
     value('arriving', figure(answer.spot * answer.attenuation) +
@@ -399,13 +420,14 @@ function showAnswer(answer) {
     value('lampSpecular', triple(answer.lampSpecular) +
         `<small>${base} = ${figure(answer.base)}</small>` +
         `<small>(${base})<sup>${n}</sup> = ${figure(answer.power)}</small>`);
-    put(cells.lamp.values, `<small><i>j</i> = ${S.lamp}${S['on' + S.lamp] ? '' : ', off'}</small>`);
+    put(cells.lamp.values, `<small>lamp ${S.lamp}${S['on' + S.lamp] ? '' : ', off'}</small>`);
     TERMS.forEach((name, i) => value('sum' + name, triple(sums[i])));
     const light = sums.map(luminance), all = light.reduce((a, b) => a + b, 0) || 1;
     [...$('#bar').children].forEach((node, i) => {
         node.style.width = 100 * light[i] / all + '%';
     });
     showVectors(answer, model === 1 ? 'R' : 'H');
+    showMaps(answer, model === 1 ? 'R' : 'H');
     showLobe(answer);
 }
 // An arrow's head at (X, Y), which is (dx, dy) from where it begins
@@ -457,6 +479,7 @@ function refresh() {
     for (const show of shown) show();
     document.body.classList.toggle('bare', !!S.bare);
     $('#panels').hidden = !(S.compare && !S.view);
+    document.body.classList.toggle('unmapped', !S.maps || !!(S.compare && !S.view));
     stale = true, request();
 }
 function changed() {
@@ -572,9 +595,11 @@ function listen() {
         for (const name in FIELDS) setField(name, FIELDS[name].slice(2));
         changed();
     });
-    $('#code').addEventListener('click', () => {
-        $('#program pre').textContent = program(), $('#program').showModal();
-    });
+    const showProgram = text => {
+        $('#program pre').textContent = text, $('#program').showModal();
+    };
+    $('#code').addEventListener('click', () => showProgram(program()));
+    $('#by-hand').addEventListener('click', () => showProgram(BY_HAND));
     $('#copy').addEventListener('click', async () => {
         $('#copy').textContent = await copy($('#program pre').textContent) ? 'Copied' : 'Select it';
         setTimeout(() => { $('#copy').textContent = 'Copy'; }, 1500);
