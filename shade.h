@@ -2141,16 +2141,16 @@ typedef struct shade__arrival {
             float h2[SHADE_LANES];           /* |L + V|^2 */
             float highlight[SHADE_LANES];    /* B (N.H)^n or B (R.V)^n */
         } lobe;
-    } v;
+    } way;
     union {
         float r[SHADE_LANES];                /* |P - lamp|; not set at infinity */
         float amount[SHADE_LANES];           /* the share of I_d and I_s that arrives */
-    } one;
+    } share;
     union {
         float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
         float halvings[SHADE_LANES];         /* how often the cone halves the amount */
         float nl[SHADE_LANES];               /* of >>lit: N.L, signed */
-    } two;
+    } angle;
     uint32_t any;    /* 0: no lane is inside the cone, and amount is not set */
 } shade__arrival;
 
@@ -2160,8 +2160,8 @@ SHADE__INLINE void shade__come_from_infinity(const shade__lamp *lamp,
 {
     const shade_vec3 to_light = lamp->at;
     SHADE__FOR(i, n) {
-        shade__put(&a->v.to_light, i, to_light);
-        a->one.amount[i] = 1;
+        shade__put(&a->way.to_light, i, to_light);
+        a->share.amount[i] = 1;
     }
 }
 
@@ -2188,9 +2188,9 @@ SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
     const float cos_cutoff = lamp->light->spot_cos_cutoff;
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float ls = shade_dot(shade__at(&a->v.to_light, i), axis);
+        float ls = shade_dot(shade__at(&a->way.to_light, i), axis);
         uint32_t inside = shade__mask(ls >= cos_cutoff);
-        a->two.ls[i] = shade__select(SHADE__NEVER, ls, inside);
+        a->angle.ls[i] = shade__select(SHADE__NEVER, ls, inside);
         any |= inside;
     }
     return any;
@@ -2204,10 +2204,10 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
     const float a = lamp->a, b = lamp->light->linear, c = lamp->light->quadratic;
     const float nearest = lamp->nearest;
     SHADE__FOR(i, n) {
-        float r = shade__keep(to->one.r[i], 0x7FFFFFFF), sum;
+        float r = shade__keep(to->share.r[i], 0x7FFFFFFF), sum;
         r = shade__clamp_bits(r, nearest, 1e18f);
         sum = a + b * r + c * (r * r);
-        to->one.amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
+        to->share.amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
     }
 }
 
@@ -2217,7 +2217,7 @@ SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
 {
     const float even = 1 / shade__maxf(a, 1e-20f);
     SHADE__FOR(i, n) {
-        to->one.amount[i] = shade__keep(even, shade__mask(to->one.r[i] >= 0));
+        to->share.amount[i] = shade__keep(even, shade__mask(to->share.r[i] >= 0));
     }
 }
 
@@ -2226,8 +2226,8 @@ SHADE__INLINE void shade__narrow(float exponent, const int n,
                                  shade__arrival *SHADE_RESTRICT a)
 {
     const float e = shade__minf(exponent, FLT_MAX);
-    SHADE__FOR(i, n) { a->two.halvings[i] = shade__power_log(a->two.ls[i], e); }
-    SHADE__FOR(i, n) { a->one.amount[i] *= shade__exp2_neg(a->two.halvings[i]); }
+    SHADE__FOR(i, n) { a->angle.halvings[i] = shade__power_log(a->angle.ls[i], e); }
+    SHADE__FOR(i, n) { a->share.amount[i] *= shade__exp2_neg(a->angle.halvings[i]); }
 }
 
 /* The same for e = 0. */
@@ -2235,8 +2235,8 @@ SHADE__INLINE void shade__narrow_evenly(const int n,
                                         shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
-        const uint32_t inside = shade__mask(a->two.ls[i] > SHADE__NEVER);
-        a->one.amount[i] = shade__keep(a->one.amount[i], inside);
+        const uint32_t inside = shade__mask(a->angle.ls[i] > SHADE__NEVER);
+        a->share.amount[i] = shade__keep(a->share.amount[i], inside);
     }
 }
 
@@ -2245,7 +2245,7 @@ SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp,
                                       shade__arrival *a)
 {
     if (lamp->infinite) shade__come_from_infinity(lamp, n, a);
-    else shade__come_from_point(lamp, point, n, a->one.r, &a->v.to_light);
+    else shade__come_from_point(lamp, point, n, a->share.r, &a->way.to_light);
 
     a->any = lamp->spot ? shade__meet_cone(lamp, n, a) : 1;
     if (!a->any) return;
@@ -2285,10 +2285,10 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point,
     if (light && point) {
         shade__place_lamp(light, &lamp);
         shade__arrive(&lamp, shade__rows_of(point), SHADE_LANES, &a);
-        if (!a.any) SHADE__ZERO(a.one.amount);
+        if (!a.any) SHADE__ZERO(a.share.amount);
     } else SHADE__ZERO(a);
-    if (to_light) SHADE_MEMCPY(to_light, &a.v.to_light, sizeof a.v.to_light);
-    if (amount) SHADE_MEMCPY(amount, a.one.amount, sizeof a.one.amount);
+    if (to_light) SHADE_MEMCPY(to_light, &a.way.to_light, sizeof a.way.to_light);
+    if (amount) SHADE_MEMCPY(amount, a.share.amount, sizeof a.share.amount);
 }
 
 static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
@@ -2309,9 +2309,9 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
         r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, point);
         shade__arrive_any(&lamp, &block, SHADE__POINT, &a);
     } else SHADE__ZERO(a);
-    if (to_light) *to_light = shade__at(&a.v.to_light, 0);
+    if (to_light) *to_light = shade__at(&a.way.to_light, 0);
     if (distance) *distance = r;
-    return a.any ? a.one.amount[0] : 0;
+    return a.any ? a.share.amount[0] : 0;
 }
 
 /*------------------------------------------------------------------------------------------ >>terms
@@ -2636,8 +2636,8 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
 {
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float nl = shade_dot(shade__at(normal, i), shade__at(&r->a.v.to_light, i)) * r->rn[i];
-        r->a.two.nl[i] = nl;
+        float nl = shade_dot(shade__at(normal, i), shade__at(&r->a.way.to_light, i)) * r->rn[i];
+        r->a.angle.nl[i] = nl;
         any |= shade__mask(nl > 0);
     }
     return any;
@@ -2660,20 +2660,20 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
     const uint32_t open = r->surface->open;
     uint32_t opposite = 0;
     SHADE__FOR(i, n) {
-        shade_vec3 half = shade_add(shade__at(&r->a.v.to_light, i),
+        shade_vec3 half = shade_add(shade__at(&r->a.way.to_light, i),
                                     shade__at(&r->to_eye, i));
         /* before h2 is declared, for tcc: see >>config */
-        r->a.v.lobe.cosine[i] = shade_dot(shade__at(normal, i), half);
+        r->a.way.lobe.cosine[i] = shade_dot(shade__at(normal, i), half);
         float h2 = shade_dot(half, half);
         opposite |= shade__mask(h2 < SHADE__NEAR);
-        r->a.v.lobe.h2[i] = h2;
+        r->a.way.lobe.h2[i] = h2;
     }
     SHADE__FOR(i, n) {
-        float h2 = r->a.v.lobe.h2[i], rn = r->rn[i];
-        float nh = r->a.v.lobe.cosine[i] * (rn * shade__rsqrt_normal(h2));
-        uint32_t exists = shade__mask(shade__gate(r->a.two.nl[i], rn, open));
+        float h2 = r->a.way.lobe.h2[i], rn = r->rn[i];
+        float nh = r->a.way.lobe.cosine[i] * (rn * shade__rsqrt_normal(h2));
+        uint32_t exists = shade__mask(shade__gate(r->a.angle.nl[i], rn, open));
         exists &= shade__mask(h2 >= 1e-12f);
-        r->a.v.lobe.cosine[i] = shade__select(SHADE__NEVER, nh, exists);
+        r->a.way.lobe.cosine[i] = shade__select(SHADE__NEVER, nh, exists);
     }
     return opposite;
 }
@@ -2712,8 +2712,8 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
     shade__double3(shade__xyz(eye), viewer);
     for (int i = 0; i < n; i++) {
         double m[3], l[3], v[3], p[3], h2, nh;
-        if (!(r->a.v.lobe.h2[i] < SHADE__NEAR)) continue;
-        if (!shade__gate(r->a.two.nl[i], r->rn[i], r->surface->open)) continue;
+        if (!(r->a.way.lobe.h2[i] < SHADE__NEAR)) continue;
+        if (!shade__gate(r->a.angle.nl[i], r->rn[i], r->surface->open)) continue;
 
         shade__double3(shade__at(point, i), p);
         shade__double3(shade__at(normal, i), m);
@@ -2728,7 +2728,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
         h2 = shade__dot3(l, l);
         shade__unit3(l);
         nh = r->rn[i] < 0 ? -shade__dot3(m, l) : shade__dot3(m, l);
-        r->a.v.lobe.cosine[i] = h2 >= 1e-12 ? (float)nh : SHADE__NEVER;
+        r->a.way.lobe.cosine[i] = h2 >= 1e-12 ? (float)nh : SHADE__NEVER;
     }
 }
 
@@ -2738,8 +2738,8 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
 {
     const uint32_t open = r->surface->open;
     SHADE__FOR(i, n) {
-        float nl = r->a.two.nl[i], rn = r->rn[i], cosine;
-        shade_vec3 to_light = shade__at(&r->a.v.to_light, i), to_eye = shade__at(&r->to_eye, i);
+        float nl = r->a.angle.nl[i], rn = r->rn[i], cosine;
+        shade_vec3 to_light = shade__at(&r->a.way.to_light, i), to_eye = shade__at(&r->to_eye, i);
         shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
         d = shade_sub(d, shade_add(to_light, to_eye));
         /* after the calls that return vectors, for tcc: see >>config */
@@ -2747,7 +2747,7 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
         cosine = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
-        r->a.v.lobe.cosine[i] = cosine;
+        r->a.way.lobe.cosine[i] = cosine;
     }
 }
 
@@ -2755,8 +2755,8 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
 SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
-        float nl = r->a.two.nl[i];
-        r->a.v.lobe.highlight[i] *= shade__keep(nl, shade__mask(nl > 0));
+        float nl = r->a.angle.nl[i];
+        r->a.way.lobe.highlight[i] *= shade__keep(nl, shade__mask(nl > 0));
     }
 }
 
@@ -2807,7 +2807,7 @@ SHADE__INLINE void shade__add_tone(const shade__lit *SHADE_RESTRICT r,
 {
     const shade_vec3 cool = r->surface->cool, warmth = r->surface->warmth;
     SHADE__FOR(i, n) {
-        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->a.two.nl[i],
+        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->a.angle.nl[i],
                                       warmth);
         shade__add_to(rgb, i, shade_mul(light, shade__albedo(albedo, i)), ~0u);
     }
@@ -2821,7 +2821,7 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
 {
     const shade_vec3 ambient = r->lamp->ambient;
     SHADE__FOR(i, n) {
-        const float amount = r->a.one.amount[i];
+        const float amount = r->a.share.amount[i];
         shade_vec3 light = shade_scale(ambient, amount);
         light = shade_mul(light, shade__albedo(albedo, i));
         shade__add_to(rgb, i, light, shade__mask(amount != 0));
@@ -2840,13 +2840,13 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
     const uint32_t sign = r->surface->sign, open = r->surface->open, all = shade__mask(!masked);
     SHADE__FOR(i, n) {
-        float nl = shade__keep(r->a.two.nl[i], sign), amount = r->a.one.amount[i];
+        float nl = shade__keep(r->a.angle.nl[i], sign), amount = r->a.share.amount[i];
         uint32_t front = shade__mask(nl > 0);
         uint32_t reached = (front | open) & shade__mask(amount != 0);
         shade_vec3 diffuse = shade_mul(k_d, shade__albedo(albedo, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * amount);
         shade_vec3 specular = shade_mul(k_s, shade__albedo(tint, i));
-        shade_vec3 light = shade_madd(diffuse, r->a.v.lobe.highlight[i] * amount, specular);
+        shade_vec3 light = shade_madd(diffuse, r->a.way.lobe.highlight[i] * amount, specular);
         shade__add_to(rgb, i, light, reached | all);
     }
 }
@@ -2880,13 +2880,13 @@ SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
 {
     const shade__surface *s = r->surface;
     if (shade__is_zero(r->lamp->specular)) {
-        SHADE__ZERO(r->a.v.lobe.highlight);
+        SHADE__ZERO(r->a.way.lobe.highlight);
         return;
     }
     if (s->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(normal, n, r);
     else if (shade__half(normal, n, r)) shade__half_opposite(point, normal, n, r);
-    shade__raise(r->a.v.lobe.cosine, s->material.shininess, n,
-                 r->a.v.lobe.highlight);
+    shade__raise(r->a.way.lobe.cosine, s->material.shininess, n,
+                 r->a.way.lobe.highlight);
     if (s->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
 }
 
@@ -2928,7 +2928,7 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r,
     if (!(any | s->open | ~s->sign)) return;
 
     shade__shine(point, normal, n, r);
-    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.one.amount);
+    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.share.amount);
     shade__add_light(r, albedo, n, rgb);
 }
 
