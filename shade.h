@@ -3114,7 +3114,7 @@ typedef struct shade__polygon {
 
 typedef struct shade__setup {
     /* the triangles as they were submitted */
-    const shade__vertex *vertex;      /* what corner counts: vertices of the batch or a fan, */
+    const shade__vertex *vertex;      /* what corner indexes: vertices of the batch or a fan, */
     const float *value;               /* and their values */
     int      count;
     int      of_fan;                  /* pieces of one clipped triangle, which has been counted */
@@ -3146,9 +3146,9 @@ typedef struct shade__queue {
 } shade__queue;
 
 /* The planes around what can be seen, in object space: left, right, top, bottom, near, and far
-   three times, to fill the lanes.  A point is outside where k.(P, 1) < 0.  Not size in float: gcc
-   12.2 would drop the stores to both, because it addresses one row by the other, at half the
-   stride, and takes them for dead. */
+   three times, to fill the lanes.  A point is outside where k.(P, 1) < 0.  size is in double too:
+   with floats gcc 12.2 addresses one of the rows by the other, at half the stride, takes the stores
+   to both for dead and drops them. */
 enum { SHADE__PLANES = 8 };
 typedef struct shade__frustum {
     double k[4][SHADE__PLANES];
