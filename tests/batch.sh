@@ -124,9 +124,15 @@ check "an empty one" refused "empty" "$BATCH" empty.obj
 check "half a model" refused "half.obj:3" "$BATCH" half.obj
 check "a folder for a model" refused "directory" "$BATCH" one
 check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
+for bad in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256 (one a core)" \
+    "--frames 0: one turn in N pictures"; do
+    # the option and its value end at the colon
+    check "$bad" refused "$bad" "$BATCH" ${bad%%:*}
+done
 for bad in "--frames 0" "--strips 100000" "--size 0x5" "--size 5" "--size 300000x5" "--size 5x5x5" \
-    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up w" "--out ''"; do
-    check "$bad" eval refused "'cannot be'" "'$BATCH'" "$bad"
+    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up w" \
+    "--color redd" "--material x" "--model x" "--shading x" "--max-triangles -1" "--max-memory 31"; do
+    check "$bad" refused "$bad: " "$BATCH" $bad
 done
 check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3
 check "more strips than rows" refused "more strips than rows" "$BATCH" --size 9x9 --strips 10
@@ -142,7 +148,7 @@ check "no room for a file" refused "too large" \
 check "nothing half-written" same "$(ls full | wc -l)" 0
 if (ulimit -v 100000) 2>/dev/null; then
     check "no memory for a large picture" refused "out of memory" sh -c "ulimit -v 100000
-        exec '$BATCH' --frames 1 --size 262144x100 --samples 8 --pipe >/dev/null"
+        exec '$BATCH' --frames 1 --size 262144x100 --samples 4 --pipe >/dev/null"
 fi
 check "nobody reads" refused "Broken pipe" \
     sh -c "trap '' PIPE; { '$BATCH' $turn --pipe; echo \$? >status; } | :; exit \$(cat status)"

@@ -18,10 +18,10 @@ check() {                       # what, command ...
 build=programs
 STB= ASSIMP= LIBRARIES=
 echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
-    2>/dev/null && STB=-DTHUMBNAIL_STB
+    2>/dev/null && STB=-DMODEL_STB
 [ "$STB" ] || echo "no stb (libstb-dev): PNG and textures are left out"
 echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
-    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DTHUMBNAIL_ASSIMP LIBRARIES=-lassimp
+    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
 [ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
 FLAGS="-std=c99 -O2 -ffp-contract=off -pthread -I."
 compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }
@@ -216,12 +216,12 @@ bad_options() {
     for k in "--frobnicate" "--size" "--size 0x5" "--size 10" "--size 99999x1" "--samples 3" \
         "--up w" "--color 12345" "--color redd" "--background no" "--material x" "--shading x" \
         "--model x" "--rotate x" "--threads 0" "--threads 257" "--threads x" "--threads" \
-        "--max-memory 0" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra"; do
-        check "$k" refused "" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
+        "--max-memory 31" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra"; do
+        check "$k" refused "${k%% *}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
     done
-    check "the value and the range" refused \
-        'samples cannot be "3": --samples 1|2|4 samples along' "$THUMBNAIL" "$T/torus.obj" \
-        "$T/none.ppm" --samples 3
+    for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256"; do
+        check "$k" refused "$k" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
+    done
     check "a range of two lines" refused 'or a name that --material list prints$' "$THUMBNAIL" \
         "$T/torus.obj" "$T/none.ppm" --material x
     for k in jpg JPEG webp gif tga; do

@@ -14,13 +14,12 @@
 #include "sheet.h"
 
 static const char usage[] =
-    "usage: batch [model.obj|.stl|.ply] [options]     without a model: the teapot\n"
+    "usage: batch [model] [options]                   without a model: the teapot\n"
     "  --frames N            one turn in N pictures (360)\n"
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
-    "  --samples 1..8        along each edge of a pixel (3)\n"
-    "  --up x|y|z|-x|-y|-z   the model's upright axis (y; for STL z)\n"
-    "  --threads N           1 .. 256 (one a core); the bits are the same\n"
+    "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
+    MODEL_USAGE
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
     "  --piece K             only this one, 0 .. N-1\n"
@@ -42,6 +41,8 @@ typedef struct batch {
 static int take(void *to, const char *name, const char *value)
 {
     batch *b = (batch *)to;
+    int taken = name ? model_take(&b->request.how, name, value) : -1;
+    if (taken >= 0) return taken;
     if (!name)
         b->request.model = value;
     else if (!strcmp(name, "--pipe"))
@@ -51,11 +52,9 @@ static int take(void *to, const char *name, const char *value)
     else if (!strcmp(name, "--size"))
         return option_size(value, 262144, &b->width, &b->height);
     else if (!strcmp(name, "--samples"))
-        return option_integer(value, 1, 8, &b->samples);
+        return option_samples(value, &b->samples);
     else if (!strcmp(name, "--piece"))
         return option_integer(value, 0, 99999, &b->piece);
-    else if (!strcmp(name, "--up") || !strcmp(name, "--threads"))
-        return scene_take(&b->request, name, value);
     else if (!strcmp(name, "--out")) {
         b->out = value;
         return *value && strlen(value) < 4096;
@@ -69,9 +68,9 @@ static int take(void *to, const char *name, const char *value)
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(batch *b, int argc, char **argv)
 {
-    static const char *const valued[] = { "--size",   "--samples", "--piece",   "--up", "--out",
-                                          "--frames", "--strips",  "--threads", NULL };
-    static const char *const flags[] = { "--pipe", "--missing", NULL };
+    static const char *const valued[] = { MODEL_VALUED, "--size",   "--samples", "--piece",
+                                          "--out",      "--frames", "--strips",  NULL };
+    static const char *const flags[] = { MODEL_FLAGS, "--pipe", "--missing", NULL };
     static const command c = { "batch", usage, valued, flags, 1, take };
     int end = options_read(&c, b, argc, argv);
     if (end) return end;
@@ -87,15 +86,15 @@ static int read_options(batch *b, int argc, char **argv)
 
 /* ---- pieces ---------------------------------------------------------------------------------- */
 
-typedef struct piece {
+typedef struct batch_piece {
     int first, rows;
     char header[40], path[4200];
     long long bytes;
-} piece;
+} batch_piece;
 
-static piece find_piece(const batch *b, int k)
+static batch_piece find_piece(const batch *b, int k)
 {
-    piece p = { 0, b->height, "", "", 0 };
+    batch_piece p = { 0, b->height, "", "", 0 };
     if (b->strips) {
         p.first = (int)((long long)b->height * k / b->count);
         p.rows = (int)((long long)b->height * (k + 1) / b->count) - p.first;
@@ -107,12 +106,13 @@ static piece find_piece(const batch *b, int k)
 }
 
 /* Returns 1 where it has complained. */
-static int write_piece(batch *b, int k, const piece *p)
+static int write_piece(batch *b, int k, const batch_piece *p)
 {
     FILE *file = b->pipe ? stdout : batch_begin(p->path);
     int failed;
     if (!file) return 1;
     if (!b->strips) b->scene.yaw = -0.5f + 6.2831853f * (float)k / (float)b->count;
+    sheet_light(&b->sheet, &b->scene);
     failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
     if (!b->pipe) return batch_end(file, p->path, failed);
     failed = failed || fflush(file);
@@ -143,7 +143,7 @@ static int write_pieces(batch *b)
     batch_clock clock = batch_start(b->strips ? "strips" : "frames");
     int drawn = 0;
     for (int k = first; k < last; k++) {
-        piece p = find_piece(b, k);
+        batch_piece p = find_piece(b, k);
         int there = !b->pipe && batch_is_whole(p.path, p.header, p.bytes);
         if (b->missing && !there) printf("%05d\n", k);
         if (b->missing) continue;
@@ -156,13 +156,12 @@ static int write_pieces(batch *b)
 
 int main(int argc, char **argv)
 {
-    static batch b = { .request = { .up = -1 },
-                       .count = 360,
-                       .width = 1280,
-                       .height = 720,
-                       .samples = 3,
-                       .piece = -1 };
-    int end = read_options(&b, argc, argv);
+    static batch b = {
+        .count = 360, .width = 1280, .height = 720, .samples = 2, .piece = -1
+    };
+    int end;
+    b.request.how = model_options_new();
+    end = read_options(&b, argc, argv);
     if (end) return end == OPTIONS_WRONG;
     end = write_pieces(&b);
     if (b.sheet.scene) sheet_close(&b.sheet);
