@@ -235,7 +235,49 @@ bad_options() {
     check "materials" sh -c "'$THUMBNAIL' --material list | grep -qx 'gold'"
 }
 
+# a file of 2 GB that takes a block of the disk
+bombs() {
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/sparse.obj"
+    check "some memory" draw sparse.obj a.ppm $flat --max-memory 512
+    truncate -s 2G "$T/sparse.obj" 2>/dev/null || { echo "no truncate: a sparse file is left out"; return; }
+    check "too little of it" refused "sparse.obj: out of memory" "$THUMBNAIL" "$T/sparse.obj" \
+        "$T/none.ppm" --max-memory 512
+    rm "$T/sparse.obj"
+}
+
+# OBJ and PLY do not say which axis is up: a house on all six, then what says nothing
+upright() {
+    house="0 0 0  6 0 0  6 0 4  0 0 4  0 3 0  6 3 0  6 3 4  0 3 4  1 5 2  5 5 2"
+    walls="f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\nf 5 9 10 6\nf 6 10 7\nf 7 10 9 8\nf 8 9 5"
+    for up in x y z -x -y -z; do
+        echo $house | awk -v up=$up -v walls="$walls" '{
+            sign = up ~ /-/ ? -1 : 1
+            for (i = 1; i <= NF; i += 3) {
+                x = $i; y = sign * $(i + 1); z = sign * $(i + 2)
+                print "v", up ~ /x/ ? y " " z " " x : up ~ /y/ ? x " " y " " z : z " " x " " y
+            }
+            printf walls "\n" }' >"$T/house.obj"
+        check "a house on $up" draw house.obj a.ppm --verbose
+        check "stands on its base, on $up" grep -q "which axis is up: $up," "$T/err"
+        check "a house with --up $up" draw house.obj b.ppm --up $up
+        check "is that picture, on $up" cmp "$T/a.ppm" "$T/b.ppm"
+        check "drawings keep to habit" draw house.obj b.ppm --size 400x300 --views front --json "$T/house.json"
+        check "whatever the base is" grep -q '"up": "y"' "$T/house.json"
+    done
+    check "a torus" draw torus.obj a.ppm --verbose
+    check "says nothing" grep -q "which axis is up: y, as usual" "$T/err"
+    check "and no word without --verbose" draw torus.obj a.ppm
+    check "at all" test ! -s "$T/err"
+    printf 'newmtl a\nKd 1 0 0\nmap_Bump none.png\nnewmtl b\nnorm none.png\n' >"$T/bump.mtl"
+    printf 'mtllib bump.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n' \
+        >"$T/bump.obj"
+    check "bump maps" draw bump.obj a.ppm --verbose
+    check "are left out, which it says" grep -q "bump and normal maps of 2 surfaces are left out" "$T/err"
+}
+
 both() {
+    bombs
+    upright
     formats
     bad_input
     bad_output
@@ -255,4 +297,5 @@ build=full THUMBNAIL=$T/full
 both
 [ "$STB" ] && . tests/thumbnail/pictures.sh
 [ "$ASSIMP" ] && . tests/thumbnail/formats.sh
+[ "$STB" ] && [ "$ASSIMP" ] && . tests/thumbnail/real.sh
 finish

@@ -464,7 +464,7 @@ static inline model_options scene_options(const scene *s)
     return o;
 }
 
-/* ---- the light of the studio ------------------------------------------------------------------ */
+/* ---- the light of the studio ---------------------------------------------------------------- */
 
 /* 1: the studio can light what the choices want. */
 static inline int scene_has_studio(const scene *s)
