@@ -3,12 +3,12 @@
 # into ffmpeg.  What is not installed is named and left out.
 cd "$(dirname "$0")/.." || exit 1
 . tests/tools.sh
-BATCH=$PWD/build/batch CC=${CC:-cc}
+HERE=$PWD BATCH=$PWD/build/batch CC=${CC:-cc}
 export LC_ALL=C PARALLEL_HOME=/nonexistent
 running= patience=60
 trap 'kill $running 2>/dev/null; rm -rf "$T"' EXIT
 
-${MAKE:-make} -s build/batch build/compare build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+${MAKE:-make} -s build/batch build/thumbnail build/compare build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
 [ -x "$BATCH" ] || { echo "batch: left out, it needs POSIX"; finish; }
 cd "$T" || exit 1
 
@@ -124,9 +124,15 @@ check "an empty one" refused "empty" "$BATCH" empty.obj
 check "half a model" refused "half.obj:3" "$BATCH" half.obj
 check "a folder for a model" refused "directory" "$BATCH" one
 check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
+for bad in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256 (one a core)" \
+    "--frames 0: one turn in N pictures"; do
+    # the option and its value end at the colon
+    check "$bad" refused "$bad" "$BATCH" ${bad%%:*}
+done
 for bad in "--frames 0" "--strips 100000" "--size 0x5" "--size 5" "--size 300000x5" "--size 5x5x5" \
-    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up w" "--out ''"; do
-    check "$bad" eval refused "'cannot be'" "'$BATCH'" "$bad"
+    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up w" \
+    "--color redd" "--material x" "--model x" "--shading x" "--max-triangles -1" "--max-memory 31"; do
+    check "$bad" refused "$bad: " "$BATCH" $bad
 done
 check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3
 check "more strips than rows" refused "more strips than rows" "$BATCH" --size 9x9 --strips 10
@@ -142,10 +148,17 @@ check "no room for a file" refused "too large" \
 check "nothing half-written" same "$(ls full | wc -l)" 0
 if (ulimit -v 100000) 2>/dev/null; then
     check "no memory for a large picture" refused "out of memory" sh -c "ulimit -v 100000
-        exec '$BATCH' --frames 1 --size 262144x100 --samples 8 --pipe >/dev/null"
+        exec '$BATCH' --frames 1 --size 262144x100 --samples 4 --pipe >/dev/null"
 fi
 check "nobody reads" refused "Broken pipe" \
     sh -c "trap '' PIPE; { '$BATCH' $turn --pipe; echo \$? >status; } | :; exit \$(cat status)"
+
+for bad in "--film a.gif" "--rate 0" "--rate 241"; do
+    check "$bad" refused "$bad: " "$BATCH" $bad
+done
+mkdir bare; ln -s "$(command -v uname)" bare/uname
+check "a film without ffmpeg" refused "which is not installed" env PATH="$T/bare" "$BATCH" $turn --size 96x60 \
+    --film a.mp4
 
 # ---- several jobs, and machines -----------------------------------------------------------------
 if command -v parallel >/dev/null; then
@@ -170,6 +183,25 @@ if command -v parallel >/dev/null; then
     check "a poster by two jobs" sh -c \
         "seq 0 6 | parallel -j 2 '$BATCH' $poster --strips 7 --out jobs --piece {}"
     check "put together" sh -c "cat jobs/*.ppm | cmp - whole/00000.ppm"
+    # a sheet for each model of a folder, resumed; one model is broken
+    mkdir -p parts/inner
+    cp y.obj "parts/a part.obj"; cp x.obj parts/inner/x.obj; cp half.obj parts/half.obj; : >parts/notes.txt
+    sheets() {
+        THUMBNAIL=${BATCH%batch}thumbnail sh "$HERE/examples/batch/sheets.sh" parts sheets --size 400x300 "$@"
+    }
+    check "sheets of a folder, but for a broken model" no sheets --edges
+    check "which is named" grep -q "half.obj:3" log
+    check "the others are there" same "$(find sheets -name '*.png' | sort | tr '\n' ' ')" \
+        "sheets/a part.obj.png sheets/inner/x.obj.png "
+    rm parts/half.obj sheets/inner/x.obj.png
+    touch -d '2001-01-01' parts/*.obj parts/inner/*.obj
+    sleep 1.1; : >before; sleep 1.1
+    check "resumed" sheets --edges
+    check "the missing one is drawn" test sheets/inner/x.obj.png -nt before
+    check "the other stays" no test "sheets/a part.obj.png" -nt before
+    touch "parts/a part.obj"
+    check "a model that has changed" sheets --edges
+    check "is drawn again" test "sheets/a part.obj.png" -nt before
 else echo "no parallel: several jobs are left out"
 fi
 
@@ -184,6 +216,31 @@ if command -v ffmpeg >/dev/null; then
         -framerate 30 -i - -pix_fmt yuv420p film.mp4"
     check "of twelve frames" same "$(ffprobe -v error -count_frames -select_streams v \
         -show_entries stream=nb_read_frames -of csv=p=0 film.mp4)" 12
+    for k in webp mp4; do
+        check "one command for $k" "$BATCH" $turn --size 96x60 --film turn.$k --rate 25
+        check "no word" same "$(wc -c <log)" 0
+        check "no folder, no part" same "$(ls -d frames *.part 2>/dev/null)" ""
+    done
+    check "twelve frames" same "$(ffprobe -v error -count_frames -select_streams v \
+        -show_entries stream=nb_read_frames,r_frame_rate -of csv=p=0 turn.mp4)" 25/1,12
+    # RIFF, WEBP, and a chunk of animation with a frame for each that differs from the last
+    check "an animation" same "$(head -c 12 turn.webp | tr -d '\0' | cut -c 1-4)" RIFF
+    check "of twelve frames" same "$(grep -ao ANMF turn.webp | wc -l)" 12
+    film -i turn.mp4 -frames:v 1 first.ppm
+    "$BATCH" $turn --size 96x60 --piece 0 --out even
+    check "that shows the first frame" "${BATCH%batch}compare" --limit 40 --count 5% even/00000.ppm first.ppm
+    check "an MP4 of odd size" refused "size 97x60: MP4 needs even" "$BATCH" $turn --film odd.mp4
+    check "a film of strips" refused "does not go with" "$BATCH" --strips 3 --film a.mp4
+    check "a film where nothing can be" refused "none/a.webp" "$BATCH" $turn --film none/a.webp 2>/dev/null
+    for signal in TERM INT KILL; do
+        sh -c 'trap - INT; exec "$@"' sh "$BATCH" --size 600x400 --film cut.mp4 & running=$!
+        soon sh -c 'ls cut.mp4.*.part'
+        kill -$signal $running
+        wait $running 2>/dev/null
+        check "SIG$signal: no half film" test ! -e cut.mp4
+        [ $signal = KILL ] || check "SIG$signal: nothing stays" no ls cut.mp4.*.part
+    done
+    running=
 else echo "no ffmpeg: the film is left out"
 fi
 finish

@@ -141,10 +141,11 @@ check "no difference picture of a picture cut off" cut
 check "an unknown option" refused "unknown option --frobnicate" "$compare" --frobnicate "$T/a.ppm" "$T/a.ppm"
 check "an option without value" refused "needs a value" "$compare" "$T/a.ppm" "$T/a.ppm" --limit
 for value in x -1 nan 3x ''; do
-    check "a limit of \"$value\"" refused "cannot be" "$compare" "$T/a.ppm" "$T/a.ppm" \
-        --limit "$value"
+    check "a limit of \"$value\"" refused "--limit $value: a channel" "$compare" "$T/a.ppm" \
+        "$T/a.ppm" --limit "$value"
 done
-check "a limit in percent" refused "cannot be" "$compare" --limit 3% "$T/a.ppm" "$T/a.ppm"
+check "a bad count" refused "--count x: N pixels, or N % of them" "$compare" --count x "$T/a.ppm" "$T/a.ppm"
+check "a limit in percent" refused "--limit 3%: a channel" "$compare" --limit 3% "$T/a.ppm" "$T/a.ppm"
 check "three pictures" refused "one file too many" "$compare" "$T/a.ppm" "$T/b.ppm" "$T/a.ppm"
 check "standard input twice" refused "only one picture" "$compare" - -
 check "one picture: how to call it" status 2 "$compare" "$T/a.ppm"

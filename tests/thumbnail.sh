@@ -18,10 +18,10 @@ check() {                       # what, command ...
 build=programs
 STB= ASSIMP= LIBRARIES=
 echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
-    2>/dev/null && STB=-DTHUMBNAIL_STB
+    2>/dev/null && STB=-DMODEL_STB
 [ "$STB" ] || echo "no stb (libstb-dev): PNG and textures are left out"
 echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
-    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DTHUMBNAIL_ASSIMP LIBRARIES=-lassimp
+    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
 [ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
 FLAGS="-std=c99 -O2 -ffp-contract=off -pthread -I."
 compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }
@@ -216,12 +216,12 @@ bad_options() {
     for k in "--frobnicate" "--size" "--size 0x5" "--size 10" "--size 99999x1" "--samples 3" \
         "--up w" "--color 12345" "--color redd" "--background no" "--material x" "--shading x" \
         "--model x" "--rotate x" "--threads 0" "--threads 257" "--threads x" "--threads" \
-        "--max-memory 0" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra"; do
-        check "$k" refused "" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
+        "--max-memory 31" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra"; do
+        check "$k" refused "${k%% *}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
     done
-    check "the value and the range" refused \
-        'samples cannot be "3": --samples 1|2|4 samples along' "$THUMBNAIL" "$T/torus.obj" \
-        "$T/none.ppm" --samples 3
+    for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256"; do
+        check "$k" refused "$k" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
+    done
     check "a range of two lines" refused 'or a name that --material list prints$' "$THUMBNAIL" \
         "$T/torus.obj" "$T/none.ppm" --material x
     for k in jpg JPEG webp gif tga; do
@@ -235,7 +235,49 @@ bad_options() {
     check "materials" sh -c "'$THUMBNAIL' --material list | grep -qx 'gold'"
 }
 
+# a file of 2 GB that takes a block of the disk
+bombs() {
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/sparse.obj"
+    check "some memory" draw sparse.obj a.ppm $flat --max-memory 512
+    truncate -s 2G "$T/sparse.obj" 2>/dev/null || { echo "no truncate: a sparse file is left out"; return; }
+    check "too little of it" refused "sparse.obj: out of memory" "$THUMBNAIL" "$T/sparse.obj" \
+        "$T/none.ppm" --max-memory 512
+    rm "$T/sparse.obj"
+}
+
+# OBJ and PLY do not say which axis is up: a house on all six, then what says nothing
+upright() {
+    house="0 0 0  6 0 0  6 0 4  0 0 4  0 3 0  6 3 0  6 3 4  0 3 4  1 5 2  5 5 2"
+    walls="f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\nf 5 9 10 6\nf 6 10 7\nf 7 10 9 8\nf 8 9 5"
+    for up in x y z -x -y -z; do
+        echo $house | awk -v up=$up -v walls="$walls" '{
+            sign = up ~ /-/ ? -1 : 1
+            for (i = 1; i <= NF; i += 3) {
+                x = $i; y = sign * $(i + 1); z = sign * $(i + 2)
+                print "v", up ~ /x/ ? y " " z " " x : up ~ /y/ ? x " " y " " z : z " " x " " y
+            }
+            printf walls "\n" }' >"$T/house.obj"
+        check "a house on $up" draw house.obj a.ppm --verbose
+        check "stands on its base, on $up" grep -q "which axis is up: $up," "$T/err"
+        check "a house with --up $up" draw house.obj b.ppm --up $up
+        check "is that picture, on $up" cmp "$T/a.ppm" "$T/b.ppm"
+        check "drawings keep to habit" draw house.obj b.ppm --size 400x300 --views front --json "$T/house.json"
+        check "whatever the base is" grep -q '"up": "y"' "$T/house.json"
+    done
+    check "a torus" draw torus.obj a.ppm --verbose
+    check "says nothing" grep -q "which axis is up: y, as usual" "$T/err"
+    check "and no word without --verbose" draw torus.obj a.ppm
+    check "at all" test ! -s "$T/err"
+    printf 'newmtl a\nKd 1 0 0\nmap_Bump none.png\nnewmtl b\nnorm none.png\n' >"$T/bump.mtl"
+    printf 'mtllib bump.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n' \
+        >"$T/bump.obj"
+    check "bump maps" draw bump.obj a.ppm --verbose
+    check "are left out, which it says" grep -q "bump and normal maps of 2 surfaces are left out" "$T/err"
+}
+
 both() {
+    bombs
+    upright
     formats
     bad_input
     bad_output
@@ -255,4 +297,5 @@ build=full THUMBNAIL=$T/full
 both
 [ "$STB" ] && . tests/thumbnail/pictures.sh
 [ "$ASSIMP" ] && . tests/thumbnail/formats.sh
+[ "$STB" ] && [ "$ASSIMP" ] && . tests/thumbnail/real.sh
 finish

@@ -32,10 +32,11 @@ check "standard input is no terminal" refused "standard input is no terminal" "$
 check "nothing is printed then" test ! -s "$T/out"
 check "unknown option" refused "unknown option --frobnicate" "$VIEW" --frobnicate
 check "option without a value" refused "rate needs a value" "$VIEW" --rate
-check "a bad value" refused "frames cannot be" "$VIEW" --frames 0
-check "no threads" refused "threads cannot be" "$VIEW" --threads 0
-check "too many threads" refused "threads cannot be" "$VIEW" --threads 257
-check "a bad axis" refused "up cannot be" "$VIEW" --up w
+for bad in "--frames 0" "--rate 241" "--colors 16: true or 256" "--threads 0: 1 .. 256" "--threads 257" \
+    "--up w: x, y, z, -x, -y or -z" "--color redd" "--material x" "--model x" "--shading x" \
+    "--max-triangles -1" "--max-memory 31"; do
+    check "$bad" refused "$bad" "$VIEW" ${bad%%:*}
+done
 check "two models" refused "one file too many: b.obj" "$VIEW" a.obj b.obj
 check "help" sh -c "'$VIEW' --help | grep -q '^usage: view'"
 

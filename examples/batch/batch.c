@@ -2,7 +2,7 @@
    a turntable, or the strips of one large picture.
 
    cc -O2 -pthread -I. examples/batch/batch.c -lm -o batch
-   ./batch bunny.obj --pipe | ffmpeg -f image2pipe -framerate 30 -i - -pix_fmt yuv420p bunny.mp4
+   ./batch bunny.obj --film bunny.mp4
 
    A piece is a file that appears whole or not at all.  A piece that exists is not drawn again,
    and its bits depend on the options alone.  The strips in their order, concatenated, are the
@@ -10,28 +10,30 @@
 #define _DEFAULT_SOURCE /* NOLINT: the system's own name, for fileno with -std=c99 */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "file.h"
+#include "film.h"
 #include "sheet.h"
 
 static const char usage[] =
-    "usage: batch [model.obj|.stl|.ply] [options]     without a model: the teapot\n"
+    "usage: batch [model] [options]                   without a model: the teapot\n"
     "  --frames N            one turn in N pictures (360)\n"
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
-    "  --samples 1..8        along each edge of a pixel (3)\n"
-    "  --up x|y|z|-x|-y|-z   the model's upright axis (y; for STL z)\n"
-    "  --threads N           1 .. 256 (one a core); the bits are the same\n"
+    "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
+    MODEL_USAGE
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
+    "  --film FILE           or a film, .webp or .mp4, where ffmpeg is installed\n"
+    "  --rate N              frames a second of the film, 1 .. 240 (30)\n"
     "  --piece K             only this one, 0 .. N-1\n"
     "  --missing             only prints the numbers of those that are not there\n"
     "  --help, --version     prints this text; the version\n";
 
 typedef struct batch {
     scene_request request;
-    const char *out;
+    const char *out, *film;
     int strips, count, width, height, samples; /* strips: 1 for strips, 0 for frames */
-    int piece, pipe, missing;                  /* piece -1: all */
+    int piece, pipe, missing, rate;            /* piece -1: all */
+    FILE *sink;                                /* of the pipe or film; NULL: files of their own */
     scene scene;
     sheet sheet;
 } batch;
@@ -42,6 +44,8 @@ typedef struct batch {
 static int take(void *to, const char *name, const char *value)
 {
     batch *b = (batch *)to;
+    int taken = name ? model_take(&b->request.how, name, value) : -1;
+    if (taken >= 0) return taken;
     if (!name)
         b->request.model = value;
     else if (!strcmp(name, "--pipe"))
@@ -50,12 +54,15 @@ static int take(void *to, const char *name, const char *value)
         b->missing = 1;
     else if (!strcmp(name, "--size"))
         return option_size(value, 262144, &b->width, &b->height);
-    else if (!strcmp(name, "--samples"))
-        return option_integer(value, 1, 8, &b->samples);
+    else if (!strcmp(name, "--rate"))
+        return option_integer(value, 1, 240, &b->rate);
+    else if (!strcmp(name, "--film")) {
+        b->film = value;
+        return strlen(value) < 4096 && (film_is_webp(value) || film_is_mp4(value));
+    } else if (!strcmp(name, "--samples"))
+        return option_samples(value, &b->samples);
     else if (!strcmp(name, "--piece"))
         return option_integer(value, 0, 99999, &b->piece);
-    else if (!strcmp(name, "--up") || !strcmp(name, "--threads"))
-        return scene_take(&b->request, name, value);
     else if (!strcmp(name, "--out")) {
         b->out = value;
         return *value && strlen(value) < 4096;
@@ -69,9 +76,9 @@ static int take(void *to, const char *name, const char *value)
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(batch *b, int argc, char **argv)
 {
-    static const char *const valued[] = { "--size",   "--samples", "--piece",   "--up", "--out",
-                                          "--frames", "--strips",  "--threads", NULL };
-    static const char *const flags[] = { "--pipe", "--missing", NULL };
+    static const char *const valued[] = { MODEL_VALUED, "--size",   "--samples", "--piece", "--out",
+                                          "--frames",   "--strips", "--film",    "--rate",  NULL };
+    static const char *const flags[] = { MODEL_FLAGS, "--pipe", "--missing", NULL };
     static const command c = { "batch", usage, valued, flags, 1, take };
     int end = options_read(&c, b, argc, argv);
     if (end) return end;
@@ -80,22 +87,27 @@ static int read_options(batch *b, int argc, char **argv)
     if (b->piece >= b->count)
         return complain("there is no piece %d: they count from 0 to %d", b->piece, b->count - 1);
     if (b->strips && b->count > b->height) return complain("more strips than rows");
+    if (b->film && (b->strips || b->pipe || b->missing || b->piece >= 0))
+        return complain("--film does not go with --strips, --pipe, --missing or --piece");
+    if (b->film && film_is_mp4(b->film) && (b->width % 2 || b->height % 2))
+        return complain("--size %dx%d: MP4 needs even numbers", b->width, b->height);
     if (b->pipe && isatty(STDOUT_FILENO))
         return complain("standard output is a terminal, which shows no PPM");
+    if (b->pipe) b->sink = stdout;
     return OPTIONS_READ;
 }
 
 /* ---- pieces ---------------------------------------------------------------------------------- */
 
-typedef struct piece {
+typedef struct batch_piece {
     int first, rows;
     char header[40], path[4200];
     long long bytes;
-} piece;
+} batch_piece;
 
-static piece find_piece(const batch *b, int k)
+static batch_piece find_piece(const batch *b, int k)
 {
-    piece p = { 0, b->height, "", "", 0 };
+    batch_piece p = { 0, b->height, "", "", 0 };
     if (b->strips) {
         p.first = (int)((long long)b->height * k / b->count);
         p.rows = (int)((long long)b->height * (k + 1) / b->count) - p.first;
@@ -107,15 +119,17 @@ static piece find_piece(const batch *b, int k)
 }
 
 /* Returns 1 where it has complained. */
-static int write_piece(batch *b, int k, const piece *p)
+static int write_piece(batch *b, int k, const batch_piece *p)
 {
-    FILE *file = b->pipe ? stdout : batch_begin(p->path);
+    FILE *file = b->sink ? b->sink : batch_begin(p->path);
     int failed;
     if (!file) return 1;
     if (!b->strips) b->scene.yaw = -0.5f + 6.2831853f * (float)k / (float)b->count;
+    sheet_light(&b->sheet, &b->scene);
     failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
-    if (!b->pipe) return batch_end(file, p->path, failed);
+    if (!b->sink) return batch_end(file, p->path, failed);
     failed = failed || fflush(file);
+    if (b->film) return failed; /* film_close tells why */
     return failed ? complain("standard output: %s", strerror(errno)) : 0;
 }
 
@@ -126,7 +140,7 @@ static int get_ready(batch *b)
     if (b->sheet.scene) return 0;
     b->request.pieces = 20;
     while (b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
-    if (!b->pipe && mkdir(b->out, 0777) && errno != EEXIST) {
+    if (!b->sink && !b->film && mkdir(b->out, 0777) && errno != EEXIST) {
         complain("%s: %s", b->out, strerror(errno));
         return 1;
     }
@@ -143,8 +157,8 @@ static int write_pieces(batch *b)
     batch_clock clock = batch_start(b->strips ? "strips" : "frames");
     int drawn = 0;
     for (int k = first; k < last; k++) {
-        piece p = find_piece(b, k);
-        int there = !b->pipe && batch_is_whole(p.path, p.header, p.bytes);
+        batch_piece p = find_piece(b, k);
+        int there = !b->sink && batch_is_whole(p.path, p.header, p.bytes);
         if (b->missing && !there) printf("%05d\n", k);
         if (b->missing) continue;
         if (!there && (get_ready(b) || write_piece(b, k, &p))) return 1;
@@ -154,17 +168,25 @@ static int write_pieces(batch *b)
     return 0;
 }
 
+static int write_film(batch *b)
+{
+    film f;
+    int failed = get_ready(b) || film_open(&f, b->film, b->rate);
+    if (failed) return failed;
+    b->sink = f.frames;
+    return film_close(&f, write_pieces(b));
+}
+
 int main(int argc, char **argv)
 {
-    static batch b = { .request = { .up = -1 },
-                       .count = 360,
-                       .width = 1280,
-                       .height = 720,
-                       .samples = 3,
-                       .piece = -1 };
-    int end = read_options(&b, argc, argv);
+    static batch b = {
+        .count = 360, .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30
+    };
+    int end;
+    b.request.how = model_options_new();
+    end = read_options(&b, argc, argv);
     if (end) return end == OPTIONS_WRONG;
-    end = write_pieces(&b);
+    end = b.film ? write_film(&b) : write_pieces(&b);
     if (b.sheet.scene) sheet_close(&b.sheet);
     scene_close(&b.scene);
     return end;

@@ -62,17 +62,24 @@ static inline void batch_sweep(const char *path)
     globfree(&found);
 }
 
-/* Opens the file to write under another name.  Returns NULL with a line on stderr. */
-static inline FILE *batch_begin(const char *path)
+/* Chooses the other name under which path is written; a signal that ends the program removes what
+   has that name. */
+static inline void batch_name(const char *path)
 {
     static const int fatal[3] = { SIGHUP, SIGINT, SIGTERM };
     char host[65];
-    FILE *file;
     batch_sweep(path);
     batch_host(host, sizeof host);
     for (int k = 0; k < 3; k++)
         if (signal(fatal[k], batch_die) == SIG_IGN) signal(fatal[k], SIG_IGN);
     snprintf(batch_part, sizeof batch_part, "%s.%s.%ld.part", path, host, (long)getpid());
+}
+
+/* Opens the file to write under another name.  Returns NULL with a line on stderr. */
+static inline FILE *batch_begin(const char *path)
+{
+    FILE *file;
+    batch_name(path);
     file = fopen(batch_part, "wb");
     if (!file) {
         complain("%s: %s", path, strerror(errno));

@@ -208,6 +208,8 @@ static int surface_from(model_surface *s, const struct aiMaterial *a, int linear
             s->alpha_cutoff = fmaxf(1e-6f, take_material_float(a, "$mat.gltf.alphaCutoff", 0.5f));
         if (!s->blended) s->transparency = 0;
     }
+    s->bumped = aiGetMaterialTextureCount(a, aiTextureType_NORMALS) > 0 ||
+                aiGetMaterialTextureCount(a, aiTextureType_HEIGHT) > 0;
     for (int i = 0; i < 2 && !s->map; i++) {
         if (aiGetMaterialTexture(a, (enum aiTextureType)types[i], 0, &text, NULL, NULL, NULL, NULL,
                                  NULL, NULL) != aiReturn_SUCCESS)
@@ -336,6 +338,7 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     t.model = m;
     t.linear = !strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb");
     m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
+    m->up_told = strcmp(kind.text, "off") != 0;
     failed = tree_surfaces(&t, m);
     if (!failed && t.scene->mRootNode)
         failed = tree_node(&t, t.scene->mRootNode, shade_mat4_identity());

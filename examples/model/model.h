@@ -20,6 +20,7 @@ typedef struct model_surface {
     int set;             /* 0: the file says nothing about it */
     int opaque, blended; /* the alpha of the map is ignored; is blended by */
     int picture;         /* the map, once it is read; -1: none */
+    int bumped;          /* has a bump or normal map, which is not read */
 } model_surface;
 
 typedef struct model_part {
@@ -41,7 +42,7 @@ typedef struct model {
     int object_count;
     size_t object_room;
     int normals_given; /* each vertex had a normal in the file */
-    int z_up;
+    int z_up, up_told; /* up_told: by the format, not by habit */
     char warning[400]; /* what the picture lacks; "": nothing */
 } model;
 
@@ -119,7 +120,8 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
         0,
         0,
         0,
-        -1
+        -1,
+        0
     };
     model_surface *grown;
     for (int i = m->surface_count - 1; i >= 0; i--)

@@ -91,6 +91,9 @@ static inline int mtl_statement(mesh_reader *r, model_surface *s, mtl_clear *c)
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
     if (mesh_take_word(r, "map_kd")) return mtl_map(r, &s->map);
     if (mesh_take_word(r, "map_d")) return mtl_map_of_d(r, c);
+    if (mesh_take_word(r, "map_bump") || mesh_take_word(r, "bump") || mesh_take_word(r, "norm") ||
+        mesh_take_word(r, "map_kn"))
+        s->bumped = 1;
     if (mesh_take_word(r, "tr")) return mtl_number(r, 0, 1, c->has_d ? &number : &s->transparency);
     if (!mesh_take_word(r, "d")) return 0;
     if (mtl_number(r, 0, 1, &number)) return 1;

@@ -79,12 +79,18 @@ static inline int option_size(const char *text, int most, int *width, int *heigh
            option_integer(text + 1, 1, most, height);
 }
 
-/* An upright axis: 0 .. 5 for x y z -x -y -z */
+/* Samples along each edge of a pixel: 1, 2 or 4 */
+static inline int option_samples(const char *text, int *out)
+{
+    return option_integer(text, 1, 4, out) && *out != 3;
+}
+
+/* An upright axis: 0 .. 5 */
+static const char *const option_axes[] = { "x", "y", "z", "-x", "-y", "-z" };
 static inline int option_axis(const char *text, int *out)
 {
-    static const char *const axes[] = { "x", "y", "z", "-x", "-y", "-z" };
     for (int i = 0; i < 6; i++) {
-        if (strcmp(text, axes[i]) != 0) continue;
+        if (strcmp(text, option_axes[i]) != 0) continue;
         *out = i;
         return 1;
     }
@@ -99,14 +105,24 @@ static inline int option_among(const char *const *list, const char *name)
     return *list != NULL;
 }
 
-/* What the usage says of an option, in one line: its values and their range.  The text of an
-   option ends where a line does not begin with more blanks than an option's. */
+/* The values that an option can have: what its usage says in one line, without the word that
+   stands for the value; of a list of values "1, 2 or 4".  The text of an option ends where a line
+   does not begin with more blanks than an option's. */
 static inline void option_said(const char *usage, const char *name, char *out, size_t room)
 {
     size_t n = strlen(name), used = 0;
-    const char *at = strstr(usage, name);
+    const char *at = strstr(usage, name), *bar, *end;
     while (at && (at[-1] != ' ' || at[n] != ' ')) at = strstr(at + n, name);
-    for (; at && *at && used + 1 < room; at++) {
+    *out = 0;
+    if (!at) return;
+    at += n + 1;
+    for (end = at + strcspn(at, " "); *at < 'A' || *at > 'Z'; at = bar + 1) {
+        bar = at + strcspn(at, "| ");
+        used += (size_t)snprintf(out + used, room - used, "%s%.*s", !used ? ""
+                                 : bar == end ? " or " : ", ", (int)(bar - at), at);
+        if (bar == end) return;
+    }
+    for (at = end; *at && used + 1 < room; at++) {
         if (*at == '\n' && strncmp(at + 1, "    ", 4) != 0) break;
         if (*at != ' ' && *at != '\n')
             out[used++] = *at;
@@ -139,7 +155,7 @@ static inline int options_take(const command *c, void *to, int argc, char **argv
     if (taken == OPTIONS_ANSWERED) return OPTIONS_ANSWERED;
     if (taken == OPTION_TAKEN) return OPTIONS_READ;
     option_said(c->usage, name, said, sizeof said);
-    complain("%s cannot be \"%s\": %s", name, argv[*i], said);
+    complain("%s %s: %s", name, argv[*i], said);
     return OPTIONS_WRONG;
 }
 

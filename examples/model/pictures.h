@@ -51,7 +51,7 @@ static int picture_clearness(const model_picture *p)
     return between > n / 8 ? 2 : clear || between ? 1 : 0;
 }
 
-#ifdef THUMBNAIL_STB
+#ifdef MODEL_STB
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_MAX_DIMENSIONS 16384
 #include <stb/stb_image.h>

@@ -1,14 +1,17 @@
 /* scene.h - the scene of view and batch: a model above its soft shadow, turning between lamps that
-   stay with the viewer, and the keys that change how it is lit. */
+   stay with the viewer, and the keys that change how it is lit.
+
+   It has two lights.  The studio of thumbnail, with its shadows and reflections, is lit for one
+   frame at a time by scene_light; four lamps without shadows are quick enough for a model that
+   turns before somebody's eyes. */
 #ifndef MODEL_SCENE_H
 #define MODEL_SCENE_H
 
 #include "../shared/bands.h"
-#include "ground.h"
-#include "files.h"
-#include "stand.h"
 #include "../shared/shapes.h"
-#include "options.h"
+#include "look.h"
+#include "pieces.h"
+#include "read.h"
 
 /* Keys beyond characters */
 enum { KEY_UP = 256, KEY_DOWN, KEY_LEFT, KEY_RIGHT };
@@ -28,7 +31,7 @@ typedef struct scene_choice {
     char key;
 } scene_choice;
 static const scene_choice scene_choices[CHOICES] = {
-    { "material", { "clay" }, 1 + SHADE_PRESET_COUNT, 'm' },
+    { "material", { "as the file says" }, 1 + SHADE_PRESET_COUNT, 'm' },
     { "shading", { "per fragment", "per vertex", "per face" }, 3, 's' },
     { "lamp", { "studio", "sun", "near", "spot", "two colors", "at the eye" }, 6, 'l' },
     { "terms", { "all", "ambient", "diffuse", "specular" }, 4, 't' },
@@ -61,10 +64,11 @@ enum { SCENE_HELP = sizeof scene_help / sizeof *scene_help };
 #define SCENE_LENS 0.42f    /* and sees this vertical angle */
 
 typedef struct scene {
-    owned_mesh mesh; /* about the origin, the farthest point at distance 1 */
+    model model; /* about the origin, the farthest point at distance 1 */
+    model_options how;
     float yaw, pitch, zoom;
     int turning, choice[CHOICES];
-    int threads; /* 0: all cores */
+    int flat; /* the model has the normals of its faces */
     int turning_at_home, home[CHOICES];
     const char *title; /* the name of the model's file */
     char said[64];     /* the effect of the last key */
@@ -72,15 +76,18 @@ typedef struct scene {
     shade_vec3 *wires;  /* pairs of points; NULL until they are shown */
     int wire_points;
     shade_chunk *runs;  /* runs of 256 wires, and the box around each */
+    int lit;            /* the next picture is one in the light of the studio */
+    studio studio;
+    exhibit exhibit;
+    model_options shown; /* how it is lit, by the choices */
 } scene;
 
-/* What is shown, and how it begins; zeroed but for up: the teapot */
+/* What is shown, and how it begins; zeroed but for how, of model_options_new: the teapot */
 typedef struct scene_request {
     const char *model; /* its file; NULL: the teapot */
     int pieces;        /* of the teapot along each edge of a patch; 0: 20 */
-    int up;            /* 0 .. 5 for x y z -x -y -z; -1: by the kind of file */
-    int threads;       /* 0: one a core */
     int still, dark;   /* does not turn by itself; has a black background */
+    model_options how;
 } scene_request;
 
 /* The place of the scene for a picture of a given shape, and the part of the backdrop, 0 .. 1
@@ -124,44 +131,58 @@ static inline const char *scene_title(const char *path)
     return slash && slash[1] ? slash + 1 : path;
 }
 
-/* The options that every program with a scene has: an option_take for a scene_request */
-static inline int scene_take(scene_request *o, const char *name, const char *value)
+/* The teapot as a model of one part.  Returns 1 where memory is out. */
+static inline int scene_teapot(model *m, int across)
 {
-    if (!strcmp(name, "--threads")) return option_integer(value, 1, 256, &o->threads);
-    return option_axis(value, &o->up); /* --up */
+    m->mesh = shape_teapot(across > 0 ? across : 20);
+    m->normals_given = 1;
+    m->part = (model_part *)calloc(1, sizeof *m->part);
+    if (!m->part) return complain("out of memory");
+    m->part->count = m->mesh.view.index_count;
+    m->part_count = 1;
+    return 0;
+}
+
+/* What the choices of keys are at first */
+static inline void scene_choose(scene *s, const scene_request *o)
+{
+    s->turning_at_home = !o->still;
+    if (!o->model && !o->how.plain) s->home[CHOICE_MATERIAL] = 1 + SHADE_PRESET_BRONZE;
+    if (o->dark) s->home[CHOICE_BACKDROP] = BACKDROP_BLACK;
+    s->home[CHOICE_GROUND] = o->how.no_shadow;
+    s->home[CHOICE_MODEL] = (int)o->how.model;
+    s->home[CHOICE_SHADING] = o->how.shading == SHADE_SHADING_PER_VERTEX ? 1
+                            : o->how.shading == SHADE_SHADING_PER_FACE   ? 2 : 0;
+    s->flat = o->how.shading == SHADE_SHADING_PER_FACE;
+    scene_go_home(s);
 }
 
 /* Loads a model into a zeroed scene.  Returns 1 with a line on stderr. */
 static inline int scene_load(scene *s, const scene_request *o, mesh_progress *progress,
                              void *user)
 {
-    char error[400];
-    int up = o->up >= 0 ? o->up : o->model && mesh_is_stl(o->model, NULL, 0) ? 2 : 1;
-    if (!o->model)
-        s->mesh = shape_teapot(o->pieces > 0 ? o->pieces : 20);
-    else if (mesh_read_file_progress(o->model, &s->mesh, error, sizeof error, progress, user)) {
-        complain("%s", error);
-        return 1;
-    }
-    mesh_stand(&s->mesh, up, 0);
-    if (mesh_chunks(&s->mesh)) {
-        complain("out of memory");
-        return 1;
-    }
-    s->threads = o->threads;
+    int failed;
+    s->how = o->how;
     s->title = o->model ? scene_title(o->model) : "teapot";
-    s->turning_at_home = !o->still;
-    if (!o->model) s->home[CHOICE_MATERIAL] = 1 + SHADE_PRESET_BRONZE;
-    if (o->dark) s->home[CHOICE_BACKDROP] = BACKDROP_BLACK;
-    scene_go_home(s);
-    ground_cast(&s->shadow, &s->mesh.view);
+    guard_begin(o->how.max_memory);
+    failed = o->model ? model_open(o->model, &o->how, &s->model, progress, user)
+                      : scene_teapot(&s->model, o->pieces);
+    guard_doing = "preparing the model";
+    failed = failed || model_prepare(&s->model, &o->how, 0);
+    guard_done();
+    if (failed) return 1;
+    if (s->model.part_count == 1) s->model.mesh.view = model_part_mesh(&s->model, 0);
+    scene_choose(s, o);
+    ground_cast(&s->shadow, &s->model.mesh.view);
     return 0;
 }
 
 static inline void scene_close(scene *s)
 {
-    mesh_free(&s->mesh);
+    model_free(&s->model);
     ground_free(&s->shadow);
+    exhibit_close(&s->exhibit);
+    studio_close(&s->studio);
     free(s->wires);
     free(s->runs);
 }
@@ -190,20 +211,37 @@ static inline void scene_find_runs(scene *s)
     }
 }
 
+/* The mesh with one vertex for each place, so that no edge is there twice; the caller frees its
+   indices, which are NULL where memory is out. */
+static inline shade_mesh scene_joined(const owned_mesh *m)
+{
+    shade_mesh joined = m->view;
+    const size_t n = (size_t)m->view.index_count;
+    size_t places;
+    uint32_t *at = NULL, *place = mesh_places(m, &at, &places);
+    uint32_t *index = place ? (uint32_t *)malloc((n + 1) * sizeof *index) : NULL;
+    for (size_t i = 0; index && i < n; i++) index[i] = at[place[m->indices[i]]];
+    joined.indices = index;
+    if (place) free(at);
+    free(place);
+    return joined;
+}
+
 /* Finds every edge once, as pairs of points; none where memory is out. */
 static inline void scene_find_wires(scene *s)
 {
-    const shade_mesh *m = &s->mesh.view;
-    size_t room = (size_t)m->index_count;
+    const shade_mesh m = scene_joined(&s->model.mesh);
+    size_t room = (size_t)m.index_count;
     shade_edge *edge = (shade_edge *)malloc(room * sizeof *edge);
     int count = 0;
-    if (edge && !shade_mesh_edges(m, edge, m->index_count, &count))
+    if (edge && m.indices && !shade_mesh_edges(&m, edge, m.index_count, &count))
         s->wires = (shade_vec3 *)malloc(2 * (size_t)count * sizeof *s->wires);
     for (int i = 0; s->wires && i < count; i++) {
-        memcpy(&s->wires[2 * i], m->positions + 3 * (size_t)edge[i].a, sizeof *s->wires);
-        memcpy(&s->wires[2 * i + 1], m->positions + 3 * (size_t)edge[i].b, sizeof *s->wires);
+        memcpy(&s->wires[2 * i], m.positions + 3 * (size_t)edge[i].a, sizeof *s->wires);
+        memcpy(&s->wires[2 * i + 1], m.positions + 3 * (size_t)edge[i].b, sizeof *s->wires);
     }
     s->wire_points = s->wires && count <= INT_MAX / 2 ? 2 * count : 0;
+    free((void *)(uintptr_t)m.indices);
     free(edge);
     scene_find_runs(s);
 }
@@ -215,7 +253,7 @@ typedef struct scene_words {
 static inline scene_words scene_caption(const scene *s)
 {
     scene_words w;
-    int n = s->mesh.view.index_count / 3;
+    int n = s->model.mesh.view.index_count / 3;
     snprintf(w.text, sizeof w.text, "%.32s, %d triangle%s", s->title, n, n == 1 ? "" : "s");
     return w;
 }
@@ -301,8 +339,8 @@ static inline void scene_fit(const scene *s, float slope_x, float slope_y, float
     float side = 0, above = -9, below = -9;
     shade_mat4 turn = shade_mat4_rotation(SCENE_PITCH, shade_v3(1, 0, 0));
     tilt = shade_v2(turn.col[1].y, turn.col[1].z); /* cosine, sine */
-    for (int i = 0; i < s->mesh.view.vertex_count; i++) {
-        const float *p = s->mesh.positions + 3 * (size_t)i;
+    for (int i = 0; i < s->model.mesh.view.vertex_count; i++) {
+        const float *p = s->model.mesh.positions + 3 * (size_t)i;
         float r = sqrtf(p[0] * p[0] + p[2] * p[2]), y = p[1];
         side =
             fmaxf(side, r * sqrtf(1 + slope_x * slope_x * tilt.x * tilt.x) + slope_x * y * tilt.y);
@@ -410,31 +448,96 @@ static inline int scene_lamps(const scene *s, shade_light *light, shade_vec3 *am
     return 4;
 }
 
-static inline shade_material scene_material(const scene *s)
+/* How the choices want the model to be lit */
+static inline model_options scene_options(const scene *s)
 {
-    shade_material clay = {
-        { 0, 0, 0 }, { 0.46f, 0.41f, 0.36f }, { 0.46f, 0.41f, 0.36f }, { 0.10f, 0.10f, 0.10f }, 30
-    };
-    int m = s->choice[CHOICE_MATERIAL];
-    return m ? shade_linear_material(shade_preset_material((shade_preset)(m - 1))) : clay;
+    static const shade_shading shadings[3] = { SHADE_SHADING_PER_FRAGMENT, SHADE_SHADING_PER_VERTEX,
+                                               SHADE_SHADING_PER_FACE };
+    const int preset = s->choice[CHOICE_MATERIAL] - 1;
+    model_options o = s->how;
+    o.model = (shade_model)s->choice[CHOICE_MODEL];
+    o.shading = shadings[s->choice[CHOICE_SHADING]];
+    o.no_shadow = s->choice[CHOICE_GROUND];
+    if (preset < 0) return o;
+    o.plain = 1;
+    o.material = shade_linear_material(shade_preset_material((shade_preset)preset));
+    return o;
 }
+
+/* ---- the light of the studio ---------------------------------------------------------------- */
+
+/* 1: the studio can light what the choices want. */
+static inline int scene_has_studio(const scene *s)
+{
+    return s->choice[CHOICE_LAMP] == LAMP_STUDIO && !s->choice[CHOICE_TERM] &&
+           !s->choice[CHOICE_FLAG] && !s->choice[CHOICE_WIRE] && s->model.mesh.view.index_count &&
+           (s->flat || s->choice[CHOICE_SHADING] < 2);
+}
+
+/* Back to the quick lamps */
+static inline void scene_dim(scene *s) { s->lit = 0; }
+
+/* Lights the studio for one picture by this camera, whose longer edge has so many pixels.  Where
+   the choices want another light, or memory is out, the quick lamps stay.  The scene must not
+   move. */
+static inline void scene_light(scene *s, const scene_camera *c, int pixels)
+{
+    const shade_mat4 world = shade_mat4_inverse(shade_mat4_mul(c->view, c->model));
+    const shade_vec3 eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
+    shade_result result = SHADE_OK;
+    s->lit = 0;
+    if (!scene_has_studio(s)) return;
+    if (!s->studio.memory)
+        result = studio_open(&s->studio, &s->model, pixels, -s->yaw, s->how.threads, NULL, NULL);
+    else if (s->studio.turn != -s->yaw)
+        result = studio_turn(&s->studio, &s->model, -s->yaw, s->how.threads);
+    exhibit_close(&s->exhibit);
+    s->shown = scene_options(s);
+    s->lit = !result && !exhibit_open(&s->exhibit, &s->model, &s->studio, &s->shown, eye);
+}
+
+/* ---- the quick light ------------------------------------------------------------------------- */
 
 /* Draws front faces first, then back faces (of sheets, or seen through holes) with normals
    turned to the viewer.  Front faces keep their normals: turned to the viewer, they would leave
    dark specks along the outline of a coarse mesh, where they lean away. */
-static inline shade_result scene_draw_model(const scene *s, const shade_target *target,
-                                            shade_draw_state *state)
+static inline shade_result scene_draw_mesh(const shade_mesh *mesh, const shade_target *target,
+                                           shade_draw_state *state, unsigned flags)
 {
-    static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
-                                      SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
-    unsigned flags = flag[s->choice[CHOICE_FLAG]];
     shade_result result;
     state->raster.cull = SHADE_CULL_BACK;
     state->lighting.flags = flags;
-    result = shade_draw_mesh(target, &s->mesh.view, state, NULL);
+    result = shade_draw_mesh(target, mesh, state, NULL);
     state->raster.cull = SHADE_CULL_FRONT;
     state->lighting.flags = flags | SHADE_FLAG_TWO_SIDED;
-    return result ? result : shade_draw_mesh(target, &s->mesh.view, state, NULL);
+    return result ? result : shade_draw_mesh(target, mesh, state, NULL);
+}
+
+/* Draws the opaque parts, or those that something shows through, which hide nothing. */
+static inline shade_result scene_draw_parts(const scene *s, const shade_target *target,
+                                            shade_draw_state *state, int clear)
+{
+    static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
+                                      SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
+    const model_options o = scene_options(s);
+    shade_result result = SHADE_OK;
+    state->raster.blend = clear ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
+    state->raster.depth_read_only = clear;
+    for (int i = 0; i < s->model.part_count && !result; i++) {
+        const shade_mesh mesh = model_part_mesh(&s->model, i);
+        shade_material material;
+        look k;
+        if (part_is_clear(&s->model, &o, i) != clear) continue;
+        look_dress(&k, &o, &s->model, s->model.part[i].surface);
+        material = k.material;
+        material.emission = k.emission;
+        state->material = &material;
+        state->diffuse_map = k.map;
+        state->alpha_cutoff = k.alpha_cutoff;
+        state->transparency = 1 - k.alpha;
+        result = scene_draw_mesh(&mesh, target, state, flag[s->choice[CHOICE_FLAG]]);
+    }
+    return result;
 }
 
 static inline shade_line_state scene_pen(const scene_camera *c, float width, shade_vec3 color)
@@ -465,36 +568,43 @@ static inline shade_result scene_draw_wires(const scene *s, const shade_target *
     return result;
 }
 
-/* Draws a band of the picture. */
-static inline shade_result scene_draw_band(const scene *s, const shade_target *target,
-                                           const scene_camera *c, int samples)
+/* How the quick lamps light the scene; lamps has room for 4. */
+static inline shade_draw_state scene_state(const scene *s, const scene_camera *c,
+                                           shade_light *lamps)
 {
     static const unsigned terms[4] = { 0, SHADE_TERM_AMBIENT, SHADE_TERM_DIFFUSE,
                                        SHADE_TERM_SPECULAR };
-    static const shade_shading shadings[3] = { SHADE_SHADING_PER_FRAGMENT, SHADE_SHADING_PER_VERTEX,
-                                               SHADE_SHADING_PER_FACE };
     shade_draw_state state = { .model = c->model, .view = c->view, .projection = c->projection };
-    shade_material material = scene_material(s);
-    shade_light lamps[4];
-    shade_line_state pen = scene_pen(c, (float)samples * 0.5f, shade_rgb(0x0d1216));
-    shade_target body = *target; /* without colours where it only hides wires */
-    shade_result result;
-    state.material = &material;
-    state.shading = shadings[s->choice[CHOICE_SHADING]];
+    state.shading = scene_options(s).shading;
     state.lighting.light_count = scene_lamps(s, lamps, &state.lighting.ambient);
     state.lighting.lights = lamps;
     state.lighting.model = (shade_model)s->choice[CHOICE_MODEL];
     state.lighting.terms = terms[s->choice[CHOICE_TERM]];
     state.lighting.cool = shade_v3(0.05f, 0.07f, 0.22f);
     state.lighting.warm = shade_v3(0.75f, 0.52f, 0.28f);
+    return state;
+}
+
+/* Draws a band of the picture. */
+static inline shade_result scene_draw_band(const scene *s, const shade_target *target,
+                                           const scene_camera *c, int samples)
+{
+    shade_light lamps[4];
+    shade_draw_state state = scene_state(s, c, lamps);
+    shade_line_state pen = scene_pen(c, (float)samples * 0.5f, shade_rgb(0x0d1216));
+    shade_target body = *target; /* without colours where it only hides wires */
+    shade_result result;
     scene_backdrop(s, target, c->top, c->bottom, samples);
+    if (s->lit)
+        return exhibit_draw(&s->exhibit, target, shade_mat4_mul(c->view, c->model), c->projection);
     if (s->choice[CHOICE_WIRE] == WIRE_ALONE) {
         body.color = NULL;
         pen.color = shade_v4(0.8f, 0.85f, 0.9f, 1);
     }
-    result = scene_draw_model(s, &body, &state);
+    result = scene_draw_parts(s, &body, &state, 0);
     if (!result && s->choice[CHOICE_GROUND] == 0)
         result = ground_draw(&s->shadow, target, c->model, c->view, c->projection);
+    if (!result) result = scene_draw_parts(s, &body, &state, 1);
     if (!result && s->choice[CHOICE_WIRE])
         result = scene_draw_wires(s, target, &pen);
     return result;
@@ -525,8 +635,8 @@ static inline void scene_work_resolve(void *data, int band)
 
 static inline shade_result scene_work_run(scene_work *w, const shade_target *by, bands_work *work)
 {
-    w->bands = bands_count(w->scene->threads, by->row_count ? by->row_count : by->height);
-    bands_run(w->scene->threads, w->bands, work, w);
+    w->bands = bands_count(w->scene->how.threads, by->row_count ? by->row_count : by->height);
+    bands_run(w->scene->how.threads, w->bands, work, w);
     for (int i = 0; i < w->bands; i++)
         if (w->result[i]) return w->result[i];
     return SHADE_OK;

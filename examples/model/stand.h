@@ -1,4 +1,4 @@
-/* stand.h - turns a mesh upright, whichever axis is up in its file. */
+/* stand.h - turns a mesh upright, whichever axis is up in its file, and guesses which one is. */
 #ifndef MODEL_STAND_H
 #define MODEL_STAND_H
 
@@ -39,5 +39,80 @@ static inline void mesh_stand(owned_mesh *m, int up, float turn)
     mesh_normalize(m, 0);
     rotate_rows(m->positions, n, row);
     rotate_rows(m->normals, n, row);
+}
+
+/* ---- a guess --------------------------------------------------------------------------------- */
+
+/* What lies at one end of an axis, as parts of the box around the mesh: the area of the triangles
+   that face outward there, and the rectangle around all vertices there */
+typedef struct stand_end {
+    double flat, wide;
+} stand_end;
+
+/* The end of axis k at place, toward which the sign points; near is how close counts. */
+static inline stand_end stand_look(const owned_mesh *m, int k, double sign, double place,
+                                   double near, double box)
+{
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    double low[2] = { 1e38, 1e38 }, high[2] = { -1e38, -1e38 }, area = 0;
+    stand_end end;
+    for (int i = 0; i < m->view.index_count; i += 3) {
+        shade_vec3 v[3], n;
+        float p[3][3], normal[3];
+        int inside = 0;
+        for (int c = 0; c < 3; c++) {
+            memcpy(p[c], m->positions + 3 * (size_t)m->indices[i + c], sizeof p[c]);
+            memcpy(&v[c], p[c], sizeof p[c]);
+            if (sign * (place - (double)p[c][k]) > near) continue;
+            inside++;
+            low[0] = fmin(low[0], (double)p[c][a]);
+            high[0] = fmax(high[0], (double)p[c][a]);
+            low[1] = fmin(low[1], (double)p[c][b]);
+            high[1] = fmax(high[1], (double)p[c][b]);
+        }
+        n = shade_cross(shade_sub(v[1], v[0]), shade_sub(v[2], v[0]));
+        memcpy(normal, &n, sizeof normal);
+        if (inside == 3 && sign * (double)normal[k] > 0.99 * (double)shade_length(n))
+            area += 0.5 * sign * (double)normal[k];
+    }
+    end.flat = box > 0 ? fmin(1, area / box) : 0;
+    end.wide = box > 0 && high[0] > low[0] ? (high[0] - low[0]) * (high[1] - low[1]) / box : 0;
+    return end;
+}
+
+/* How much more the bottom looks like a base than the top does, where axis up is upright: flatter
+   and wider at once.  0: it does not.  A bowl is wider above, and a table flatter: they say
+   nothing. */
+static inline double stand_base(const owned_mesh *m, int up, const float *low, const float *high)
+{
+    const int k = up % 3, a = (k + 1) % 3, b = (k + 2) % 3;
+    const double sign = up < 3 ? 1 : -1, near = 0.02 * ((double)high[k] - (double)low[k]);
+    const double box = ((double)high[a] - (double)low[a]) * ((double)high[b] - (double)low[b]);
+    const stand_end base = stand_look(m, k, -sign, (double)(up < 3 ? low : high)[k], near, box);
+    const stand_end top = stand_look(m, k, sign, (double)(up < 3 ? high : low)[k], near, box);
+    if (base.flat < top.flat + 0.05 || base.wide < top.wide + 0.1) return 0;
+    return base.flat - top.flat + base.wide - top.wide;
+}
+
+/* The upright axis, 0 .. 5: the usual one, unless only others have a base below them */
+static inline int stand_guess(const owned_mesh *m, int usual)
+{
+    float low[3] = { 1e38f, 1e38f, 1e38f }, high[3] = { -1e38f, -1e38f, -1e38f };
+    double best = 0;
+    int guess = usual;
+    for (int i = 0; i < m->view.vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            low[k] = fminf(low[k], m->positions[3 * (size_t)i + (size_t)k]);
+            high[k] = fmaxf(high[k], m->positions[3 * (size_t)i + (size_t)k]);
+        }
+    }
+    if (stand_base(m, usual, low, high) > 0) return usual;
+    for (int up = 0; up < 6; up++) {
+        const double base = stand_base(m, up, low, high);
+        if (base <= best) continue;
+        best = base;
+        guess = up;
+    }
+    return guess;
 }
 #endif

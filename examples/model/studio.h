@@ -33,6 +33,8 @@ typedef struct studio {
     int ground;          /* texels along an edge of the shadow on the ground */
     float *memory;
     shade_light lamp[2];
+    float turn;          /* of the lamps about +y, in radians; the sky looks alike all around */
+    shade_vec3 strip;    /* toward the strip of light behind, which mirrors show */
 } studio;
 
 /* ---- where the lamps are -------------------------------------------------------------------- */
@@ -57,8 +59,6 @@ static shade_vec2 studio_spiral(int i, int n)
    all have the same weight. */
 static void studio_place(studio *s, int sky, int key)
 {
-    const shade_vec3 main_lamp = shade_v3(0.90f, 0.95f, 0.60f);
-    studio_map middle;
     float sum = 0;
     s->sky = sky;
     s->key = key;
@@ -70,16 +70,31 @@ static void studio_place(studio *s, int sky, int key)
         sum += s->map[i].weight * y;
     }
     for (int i = 0; i < sky; i++) s->map[i].weight /= sum;
+}
+
+/* A direction of the studio, turned about +y */
+static shade_vec3 studio_turned(float turn, shade_vec3 v)
+{
+    return shade_mat4_transform_direction(shade_mat4_rotation(turn, shade_v3(0, 1, 0)), v);
+}
+
+/* Places the lamps that turn with the studio: the large one, the weak one, the strip. */
+static void studio_place_key(studio *s, float turn)
+{
+    const shade_vec3 main_lamp = studio_turned(turn, shade_v3(0.90f, 0.95f, 0.60f));
+    studio_map middle;
+    s->turn = turn;
     studio_aim(&middle, main_lamp);
-    for (int i = 0; i < key; i++) {
-        shade_vec2 p = studio_spiral(i, key);
+    for (int i = 0; i < s->key; i++) {
+        shade_vec2 p = studio_spiral(i, s->key);
         shade_vec3 d = shade_madd(middle.toward, 0.13f * p.x, middle.right);
-        studio_aim(&s->map[sky + i], shade_madd(d, 0.13f * p.y, middle.up));
-        s->map[sky + i].weight = 1 / (float)key;
+        studio_aim(&s->map[s->sky + i], shade_madd(d, 0.13f * p.y, middle.up));
+        s->map[s->sky + i].weight = 1 / (float)s->key;
     }
     s->lamp[0] = shade_directional_light(shade_neg(main_lamp), shade_v3(1.06f, 1.00f, 0.91f));
-    s->lamp[1] =
-        shade_directional_light(shade_v3(0.8f, -0.25f, 0.75f), shade_v3(0.22f, 0.25f, 0.30f));
+    s->lamp[1] = shade_directional_light(studio_turned(turn, shade_v3(0.8f, -0.25f, 0.75f)),
+                                         shade_v3(0.22f, 0.25f, 0.30f));
+    s->strip = studio_turned(turn, shade_v3(-0.76f, 0.36f, -0.54f));
 }
 
 /* ---- who sees what -------------------------------------------------------------------------- */
@@ -186,12 +201,12 @@ static float studio_step(float from, float to, float x)
 static shade_vec3 studio_mirror(const studio *s, shade_vec3 R, float rough, float open, float lamp)
 {
     const shade_vec3 warm = shade_v3(1.03f, 1, 0.96f), blue = shade_v3(0.93f, 0.98f, 1.06f);
-    const shade_vec3 key = s->map[s->sky].toward, strip = shade_v3(-0.76f, 0.36f, -0.54f);
+    const shade_vec3 key = s->map[s->sky].toward;
     float wide = 0.05f + 0.8f * rough, width = 1 - 0.6f * rough;
     float wall = studio_step(-wide, wide, R.y), floor_light = 0.14f + 0.12f * (1 + R.y);
     float light = floor_light + (0.42f + 0.50f * fmaxf(0, R.y) - floor_light) * wall * open;
     light += 1.3f * width * lamp * studio_step(0.90f - 0.5f * rough, 0.97f, shade_dot(R, key));
-    light += 0.8f * width * open * studio_step(0.70f - 0.4f * rough, 0.95f, shade_dot(R, strip));
+    light += 0.8f * width * open * studio_step(0.70f - 0.4f * rough, 0.95f, shade_dot(R, s->strip));
     return shade_scale(shade_lerp(warm, blue, wall), light);
 }
 
@@ -199,18 +214,31 @@ static shade_vec3 studio_mirror(const studio *s, shade_vec3 R, float rough, floa
 typedef struct studio_work {
     studio *studio;
     const model *model;
+    int first; /* of the maps to draw */
     shade_result result[STUDIO_MAPS];
 } studio_work;
 
 static void studio_draw_map(void *data, int i)
 {
     studio_work *w = (studio_work *)data;
-    w->result[i] = studio_draw(&w->studio->map[i], w->model);
+    w->result[i] = studio_draw(&w->studio->map[w->first + i], w->model);
+}
+
+/* Draws the maps from the first one on. */
+static shade_result studio_draw_maps(studio *s, const model *m, int first, int threads,
+                                     mesh_progress *progress, void *user)
+{
+    studio_work work = { s, m, first, { SHADE_OK } };
+    const int count = s->sky + s->key - first;
+    bands_run_told(threads, count, studio_draw_map, &work, progress, user);
+    for (int i = 0; i < count; i++)
+        if (work.result[i]) return work.result[i];
+    return SHADE_OK;
 }
 
 /* Draws all maps for a picture whose longer edge has so many pixels.  There are fewer for large
    models, because each map draws the whole model, and for small pictures, which show less. */
-static shade_result studio_open(studio *s, const model *m, int pixels, int threads,
+static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
                                 mesh_progress *progress, void *user)
 {
     const int most = pixels <= 128 ? 24 : pixels <= 256 ? 40 : STUDIO_SKY;
@@ -219,9 +247,9 @@ static shade_result studio_open(studio *s, const model *m, int pixels, int threa
     int sky = draws > most ? most : draws > 12 ? (int)draws : 12;
     int key = draws > most ? STUDIO_KEY * most / STUDIO_SKY : 4;
     size_t sky_texels = (size_t)sky_size * (size_t)sky_size, key_texels = 4 * sky_texels;
-    studio_work work = { s, m, { SHADE_OK } };
     s->ground = pixels <= 128 ? STUDIO_GROUND / 2 : STUDIO_GROUND;
     studio_place(s, sky, key);
+    studio_place_key(s, turn);
     s->memory =
         (float *)malloc(sizeof(float) * ((size_t)sky * sky_texels + (size_t)key * key_texels));
     if (!s->memory) return SHADE_ERROR_CAPACITY;
@@ -231,10 +259,20 @@ static shade_result studio_open(studio *s, const model *m, int pixels, int threa
             i < sky ? s->memory + (size_t)i * sky_texels
                     : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
     }
-    bands_run_told(threads, sky + key, studio_draw_map, &work, progress, user);
-    for (int i = 0; i < sky + key; i++)
-        if (work.result[i]) return work.result[i];
-    return SHADE_OK;
+    return studio_draw_maps(s, m, 0, threads, progress, user);
+}
+
+/* Turns the lamps about the model; those of the sky stay, so that its light does not flicker. */
+static inline shade_result studio_turn(studio *s, const model *m, float turn, int threads)
+{
+    studio_place_key(s, turn);
+    return studio_draw_maps(s, m, s->sky, threads, NULL, NULL);
+}
+
+static void studio_close(studio *s)
+{
+    free(s->memory);
+    s->memory = NULL;
 }
 
 /* ---- the ground ------------------------------------------------------------------------------ */

@@ -72,7 +72,7 @@ static shade_vec3 drawing_color(const drawing *d, int part)
     const model *m = d->model;
     const model_surface *s = m->surface_count ? &m->surface[m->part[part].surface] : NULL;
     if (d->options->drawing.ids) return piece_color(d->pieces.of_part[part]);
-    if (d->options->plain) return d->options->material.diffuse;
+    if (d->options->how.plain) return d->options->how.material.diffuse;
     if (s && s->set) return shade_lerp(s->material.diffuse, shade_v3(1, 1, 1), 0.2f);
     return m->mesh.colors ? shade_v3(1, 1, 1) : shade_rgb(0xB9C4CF);
 }
@@ -107,7 +107,7 @@ static int drawing_prepare(drawing *d)
 {
     model *m = d->model;
     int triangles = m->mesh.view.index_count / 3, failed;
-    d->up = d->options->up >= 0 ? d->options->up : m->z_up ? 2 : 1;
+    d->up = model_up(m, &d->options->how, 0);
     failed = pieces_find(&d->pieces, m);
     if (failed) return 1;
     drawing_stand(d);
@@ -310,7 +310,7 @@ static shade_result drawing_part(const drawing *d, const shade_target *target, i
     k->indices = d->model->mesh.indices;
     k->color = drawing_color(d, part);
     if (items) return drawing_faces(target, &mesh, k, item_fragment);
-    if (d->lit_by_faces && (!mesh.colors || d->options->drawing.ids || d->options->plain))
+    if (d->lit_by_faces && (!mesh.colors || d->options->drawing.ids || d->options->how.plain))
         return drawing_faces(target, &mesh, k, faces_fragment);
     if (mesh.chunk_count == 1 &&
         !shade_box_visible(target, k->clip, 0, mesh.chunks->low, mesh.chunks->high))
@@ -318,7 +318,7 @@ static shade_result drawing_part(const drawing *d, const shade_target *target, i
     own.ambient = own.diffuse = k->color;
     state.material = &own;
     mesh.texcoords = NULL;
-    if (d->options->drawing.ids || d->options->plain) mesh.colors = NULL;
+    if (d->options->drawing.ids || d->options->how.plain) mesh.colors = NULL;
     if (d->lit_by_faces) mesh.normals = NULL;
     return shade_draw_mesh(target, &mesh, &state, NULL);
 }
@@ -410,7 +410,7 @@ static void drawing_strokes(void *data, int i)
 static int drawing_lines(drawing *d, pen *p)
 {
     int failed = 0;
-    bands_run(d->options->threads, d->views.count, drawing_strokes, d);
+    bands_run(d->options->how.threads, d->views.count, drawing_strokes, d);
     for (int i = 0; i < d->views.count; i++) failed |= d->strokes[i].failed;
     for (int i = 0; i < d->views.count && !failed; i++) {
         const strokes *s = &d->strokes[i];
@@ -492,12 +492,11 @@ static void drawing_count(drawing *d)
 
 static int drawing_save_json(drawing *d)
 {
-    static const char *const axes[] = { "x", "y", "z", "-x", "-y", "-z" };
     const drawing_options *g = &d->options->drawing;
     drawing_text t = { .input = d->options->input, .output = d->options->output, .options = g };
     t.views = &d->views;
     t.pieces = &d->pieces;
-    t.up = axes[d->up];
+    t.up = option_axes[d->up];
     t.model_from_file = d->model_from_file;
     t.pixels = d->pixels;
     t.color = d->color;
@@ -572,7 +571,7 @@ static int drawing_run(const options *o, model *m, mesh_progress *report, void *
     failed = drawing_prepare(&d) ? complain("out of memory") : drawing_lay_out(&d, &p);
     if (!failed && drawing_open(&d, &p)) failed = complain("out of memory");
     if (!failed) {
-        bands_run_told(o->threads, DRAWING_BANDS + 1, drawing_band, &d, report, user);
+        bands_run_told(o->how.threads, DRAWING_BANDS + 1, drawing_band, &d, report, user);
         drawing_items(&d.seen);
         for (int i = 0; i <= DRAWING_BANDS && !p.result; i++) p.result = d.result[i];
         if (!p.result && o->drawing.edges && drawing_lines(&d, &p))

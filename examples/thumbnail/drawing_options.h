@@ -113,7 +113,7 @@ static inline int drawing_check(const drawing_options *d, const char *sheet, int
     if (d->needs_light) return complain("%s does not go with --views", d->needs_light);
     if (transparent) return complain("--background none does not go with --views");
     if (drawing_same_file(d, sheet)) return complain("two results cannot have the same name");
-#ifndef THUMBNAIL_STB
+#ifndef MODEL_STB
     if (png && strstr(png, ".png"))
         return complain("%s: PNG needs a thumbnail built with stb (libstb-dev), PGM does not",
                         png);

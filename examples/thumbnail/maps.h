@@ -64,7 +64,7 @@ static unsigned char *map_bytes(const drawing_map *m, size_t before, size_t *n)
 /* stb_image_write writes PNG of 8 bits alone; its compressor serves here. */
 static int map_write_png(FILE *file, const drawing_map *m)
 {
-#ifdef THUMBNAIL_STB
+#ifdef MODEL_STB
     static const unsigned char sign[] = { 137, 'P', 'N', 'G', 13, 10, 26, 10 };
     unsigned char head[13] = { 0 }, *packed = NULL;
     size_t n;

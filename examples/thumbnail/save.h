@@ -4,11 +4,11 @@
 #define THUMBNAIL_SAVE_H
 
 #include "../shared/canvas.h"
-#include "guard.h"
+#include "../model/guard.h"
 #include "options.h"
 #include <errno.h>
 
-#ifdef THUMBNAIL_STB
+#ifdef MODEL_STB
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
@@ -67,7 +67,7 @@ static int write_picture(FILE *file, const void *data)
     const options *o = ((const picture_file *)data)->options;
     errno = 0;
     if (!o->png) return shade_encode_ppm(ppm_write, file, picture) != SHADE_OK;
-#ifdef THUMBNAIL_STB
+#ifdef MODEL_STB
     {
         int channels = o->background == THUMBNAIL_NONE ? 4 : 3, failed;
         png_sink sink = { file, 0 };
@@ -97,7 +97,7 @@ static int save_directly(FILE *file, const char *name, save_writer *writes, cons
     return failed ? save_failed(name) : 0;
 }
 
-#ifdef THUMBNAIL_POSIX
+#ifdef GUARD_POSIX
 /* Creates a new file beside path, with the usual permissions. */
 static FILE *open_part(const char *path)
 {

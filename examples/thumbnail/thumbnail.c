@@ -5,7 +5,7 @@
 
    With libstb-dev it also reads textures and writes PNG, with libassimp-dev it reads more formats
    than OBJ, STL and PLY:
-   cc -O2 -pthread -I. -DTHUMBNAIL_STB -DTHUMBNAIL_ASSIMP examples/thumbnail/thumbnail.c \
+   cc -O2 -pthread -I. -DMODEL_STB -DMODEL_ASSIMP examples/thumbnail/thumbnail.c \
       -lassimp -lm -o thumbnail
 
    The model may have any size and place: it is moved to the origin and made one unit large, and the
@@ -15,11 +15,9 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "options.h"
-#include "guard.h"
 #include "save.h"
-#include "../model/prepare.h"
+#include "../model/read.h"
 #include "draw.h"
-#include "read.h"
 #include "drawing.h"
 #include <time.h>
 
@@ -58,23 +56,12 @@ static void report_next(progress *p, const char *what)
 
 static int read_model(const options *o, model *m, progress *p)
 {
-    char error[400] = "";
-    model_request q = { error, sizeof error, report, p, (size_t)o->max_triangles };
     int failed;
     report_next(p, "reading the model");
-    guard_doing = "reading ";
-    guard_reading(o->input);
-    failed = thumbnail_read(o->input, m, &q);
-    guard_reading(NULL);
+    failed = model_open(o->input, &o->how, m, report, p);
     report_next(p, "");
-    if (failed) return complain("%s", error);
-    if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
-    if (o->drawing.view_count) return 0;
-    mesh_stand(&m->mesh, o->up >= 0 ? o->up : m->z_up ? 2 : 1, o->rotate);
-    if (o->shading == SHADE_SHADING_PER_FACE || !m->normals_given)
-        failed = mesh_crease(&m->mesh, o->shading == SHADE_SHADING_PER_FACE);
-    if (!failed) failed = mesh_chunk_parts(m);
-    return failed ? complain("out of memory") : 0;
+    if (failed || o->drawing.view_count) return failed;
+    return model_prepare(m, &o->how, o->rotate);
 }
 
 static int draw_and_save(const options *o, const model *m, progress *p)
@@ -86,9 +73,9 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     int failed;
     report_next(p, "finding shadows");
     result = SHADE_OK;
-    if (look_has_shadows(o) || !o->no_shadow)
-        result = studio_open(&light, m, o->width > o->height ? o->width : o->height, o->threads,
-                             report, p);
+    if (look_has_shadows(&o->how) || !o->how.no_shadow)
+        result = studio_open(&light, m, o->width > o->height ? o->width : o->height, 0,
+                             o->how.threads, report, p);
     report_next(p, "drawing");
     c = canvas_new(o->width, o->height, o->samples);
     if (!result) result = draw_picture(&c, m, &light, o, report, p);
@@ -97,7 +84,7 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     failed = result ? complain("%s", result == SHADE_ERROR_CAPACITY ? "out of memory"
                                                                     : shade_result_string(result))
                     : save(&picture, o);
-    free(light.memory);
+    studio_close(&light);
     free(c.target.color);
     free(c.target.depth);
     return failed;
@@ -105,16 +92,15 @@ static int draw_and_save(const options *o, const model *m, progress *p)
 
 int main(int argc, char **argv)
 {
-    options o = { .width = 512, .height = 512, .samples = 2, .up = -1, .max_triangles = 20000000 };
+    options o = { .width = 512, .height = 512, .samples = 2, .how = model_options_new() };
     progress p = { clock(), "", -1, 0, 0 };
     model m = { 0 };
     int end;
     o.rotate = shade_radians(30);
-    o.material = clay();
     end = read_options(&o, argc, argv);
     if (end) return end == OPTIONS_WRONG;
-    p.silent = o.quiet || !guard_terminal();
-    guard_begin(o.max_seconds, o.max_memory);
+    p.silent = o.how.quiet || !guard_terminal();
+    guard_program(o.max_seconds, o.how.max_memory);
     end = read_model(&o, &m, &p);
     if (!end && o.drawing.view_count)
         end = drawing_run(&o, &m, report, &p);

@@ -60,6 +60,7 @@ typedef struct display {
     shade_target large, small; /* large: samples times the size of small, to which it is averaged */
     int samples;
     int help, changed; /* changed: draw even if nothing turns */
+    int at_rest;       /* the picture is in the light of the studio */
     int paced;         /* frames wait for reports of the terminal */
     int mouse_column, mouse_row;
     double next, said_until, sent_at;
@@ -106,6 +107,8 @@ static inline void display_picture(display *d)
 {
     float aspect = (float)d->size.columns * d->size.shape / (float)(2 * d->size.rows);
     scene_camera camera = scene_place_camera(d->scene, aspect);
+    scene_dim(d->scene);
+    if (d->at_rest) scene_light(d->scene, &camera, d->small.width);
     scene_draw(d->scene, &d->large, &camera, d->samples);
     scene_resolve(d->scene, &d->small, &d->large, d->samples);
     cells_picture(&d->screen, (const uint8_t *)d->small.color);
@@ -250,6 +253,9 @@ static inline int display_behind(display *d, double now)
     return 0;
 }
 
+/* Seconds without a change after which the picture is drawn in the light of the studio */
+#define DISPLAY_REST 0.25
+
 /* Runs until the user ends it (returns 0) or the terminal is gone (returns 1). */
 static inline int display_run(display *d, const sigset_t *mask)
 {
@@ -264,12 +270,20 @@ static inline int display_run(display *d, const sigset_t *mask)
         }
         if (!(d->scene->turning || d->changed || d->options->frames)) {
             before = now;
-            terminal_wait(0.5, mask);
+            if (d->at_rest || !scene_has_studio(d->scene)) {
+                terminal_wait(0.5, mask);
+            } else if (now < d->sent_at + DISPLAY_REST || display_behind(d, now)) {
+                terminal_wait(DISPLAY_REST, mask);
+            } else {
+                d->at_rest = 1;
+                if (display_frame(d, now)) return 1;
+            }
         } else if (now < d->next || display_behind(d, now)) {
             terminal_wait(now < d->next ? d->next - now : 0.5, mask);
         } else {
             double passed = d->options->frames ? step : now - before;
             if (d->scene->turning) scene_turn(d->scene, 0.6f * (float)passed, 0);
+            d->at_rest = 0;
             if (display_frame(d, now)) return 1;
             if (d->frames == d->options->frames) return 0;
             before = now;

@@ -17,14 +17,13 @@ typedef struct view_options {
 } view_options;
 
 static const char view_usage[] =
-    "usage: view [model.obj|.stl|.ply] [options]      without a model: the teapot\n"
+    "usage: view [model] [options]                    without a model: the teapot\n"
     "  --window              in a window instead of the terminal\n"
     "  --colors true|256     of the terminal (what COLORTERM and TERM say)\n"
     "  --ascii               plain characters, no colors\n"
-    "  --up x|y|z|-x|-y|-z   the model's upright axis (y; for STL z)\n"
     "  --still               the model does not turn by itself\n"
     "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
-    "  --threads N           1 .. 256 (one a core); the picture is the same\n"
+    MODEL_USAGE
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
     "  --help, --version     prints this text; the version\n"
     "The key ? lists the others.\n";
@@ -33,6 +32,8 @@ static const char view_usage[] =
 static inline int view_take(void *to, const char *name, const char *value)
 {
     view_options *o = (view_options *)to;
+    int taken = name ? model_take(&o->scene.how, name, value) : -1;
+    if (taken >= 0) return taken;
     if (!name)
         o->scene.model = value;
     else if (!strcmp(name, "--window"))
@@ -45,8 +46,6 @@ static inline int view_take(void *to, const char *name, const char *value)
         return option_integer(value, 1, 240, &o->rate);
     else if (!strcmp(name, "--frames"))
         return option_integer(value, 1, 1000000, &o->frames);
-    else if (strcmp(name, "--colors"))
-        return scene_take(&o->scene, name, value);
     else {
         o->colors = !strcmp(value, "true") ? VIEW_TRUE : VIEW_256;
         return o->colors == VIEW_TRUE || !strcmp(value, "256");
@@ -65,9 +64,8 @@ static inline scene_request view_request(const view_options *o)
 /* Reads the command line.  Returns what options_read does. */
 static inline int view_read_options(view_options *o, int argc, char **argv)
 {
-    static const char *const valued[] = { "--rate", "--frames", "--colors", "--up", "--threads",
-                                          NULL };
-    static const char *const flags[] = { "--window", "--still", "--ascii", NULL };
+    static const char *const valued[] = { MODEL_VALUED, "--rate", "--frames", "--colors", NULL };
+    static const char *const flags[] = { MODEL_FLAGS, "--window", "--still", "--ascii", NULL };
     static const command view = { "view", view_usage, valued, flags, 1, view_take };
     int end = options_read(&view, o, argc, argv);
     if (!o->rate) o->rate = o->window ? 60 : 30;

@@ -37,11 +37,13 @@ static void report(void *user, double part)
 int main(int argc, char **argv)
 {
     static scene s;
-    static view_options o = { .colors = VIEW_COLORS_ASKED, .scene = { .up = -1 } };
+    static view_options o = { .colors = VIEW_COLORS_ASKED };
     double begin = clock_now();
     scene_request request;
     const char *lack;
-    int end = view_read_options(&o, argc, argv);
+    int end;
+    o.scene.how = model_options_new();
+    end = view_read_options(&o, argc, argv);
     if (end) return end == OPTIONS_WRONG;
     if (o.window) return show_in_window(&s, &o);
     lack = terminal_lacks();

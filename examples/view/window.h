@@ -17,6 +17,7 @@ typedef struct window {
     int width, height;         /* pixels */
     float scale;               /* pixels to a unit of the mouse */
     shade_target large;        /* room for most samples */
+    int at_rest;               /* the picture is in the light of the studio */
     int most, quick, samples;  /* along an edge of a pixel: at rest, in motion, now */
     int help, changed, closed; /* changed: draw even if nothing turns */
     int mouse_inside, mouse_x, mouse_y, dragging;
@@ -151,7 +152,7 @@ static inline void window_words(const window *w, const shade_target *t)
 /* Draws a bright edge around the triangle under the mouse; things before the triangle hide it. */
 static inline void window_mark(window *w, const shade_target *target, const scene_camera *c)
 {
-    const shade_mesh *m = &w->scene->mesh.view;
+    const shade_mesh *m = &w->scene->model.mesh.view;
     shade_line_state pen = scene_pen(c, 2 * w->scale * (float)w->samples, shade_rgb(0xff9a1f));
     shade_vec3 corner[3], edge[6];
     shade_ray ray;
@@ -201,6 +202,9 @@ static inline int window_frame(window *w)
 {
     scene_camera camera = scene_place_camera(w->scene, (float)w->width / (float)w->height);
     shade_target out;
+    scene_dim(w->scene);
+    if (w->at_rest)
+        scene_light(w->scene, &camera, w->width > w->height ? w->width : w->height);
     w->large.width = w->width * w->samples;
     w->large.height = w->height * w->samples;
     scene_draw(w->scene, &w->large, &camera, w->samples);
@@ -221,7 +225,7 @@ static inline void window_press(window *w, int key)
     else if (key == '?' || key == 'h') {
         w->help = !w->help;
         w->changed = 1;
-    } else if (w->scene->mesh.view.index_count && scene_key(w->scene, key))
+    } else if (w->scene->model.mesh.view.index_count && scene_key(w->scene, key))
         w->changed = 1;
 }
 
@@ -372,18 +376,19 @@ static inline int window_step(window *w, double passed)
     return 0;
 }
 
-/* At rest, draws the last frame once more with all samples, as soon as nothing has happened for
-   a while. */
+/* At rest, draws the last frame once more with all samples and in the light of the studio, as soon
+   as nothing has happened for a while. */
 static inline int window_run(window *w)
 {
     double step = 1.0 / w->options->rate, before = window_now(), next = before, now = before;
     while (!w->closed && !(w->options->frames && w->frames >= w->options->frames)) {
         int active = w->scene->turning || w->changed;
-        window_events(w, active ? next - now : w->samples < w->most ? 0.15 : 0.5);
+        window_events(w, active ? next - now : w->at_rest ? 0.5 : 0.15);
         now = window_now();
         if (!window_fit(w)) continue;
         active = w->scene->turning || w->changed;
-        if (active ? now < next : w->samples >= w->most) continue;
+        if (active ? now < next : w->at_rest) continue;
+        w->at_rest = !active;
         w->samples = active ? w->quick : w->most;
         if (window_step(w, now - before)) return 1;
         before = now;

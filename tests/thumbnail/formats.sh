@@ -1,7 +1,7 @@
 # formats.sh - what assimp gives.  Read by tests/thumbnail.sh.
 
 same "glTF as OBJ" torus.obj torus.gltf 0
-same "nodes that move, turn, stretch and mirror" nodes.obj nodes.gltf 1
+same "nodes that move, turn, stretch and mirror" nodes.obj nodes.gltf 1 "--up y"
 cp "$T/torus.gltf" "$T/torus.cut.gltf"
 head -c 2000 "$T/torus.gltf" >"$T/torus.cut.gltf"
 bad_model "glTF cut off" torus.cut.gltf "torus.cut.gltf"

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef THUMBNAIL_STB
+#ifdef MODEL_STB
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb/stb_image.h>
 #endif
@@ -36,7 +36,7 @@ static picture load(const char *path)
         p.bytes = malloc(n);
         if (!p.bytes || fread(p.bytes, 1, n, f) != n || fgetc(f) != EOF) p.bytes = NULL;
     }
-#ifdef THUMBNAIL_STB
+#ifdef MODEL_STB
     else
         p.bytes = stbi_load(path, &p.width, &p.height, &p.channels, 0);
 #endif

@@ -364,7 +364,7 @@ static int bronze(const display *d, int from, int to)
 /* The teapot fills the picture in every shape of it, its spout points to +x, and turns with it. */
 static void test_teapot(int columns, int rows)
 {
-    view_options o = { .scene = { .up = -1 } };
+    view_options o = { .scene = { .how = model_options_new() } };
     const scene_request request = view_request(&o);
     terminal_size size = { columns, rows, 1 };
     static scene s;
@@ -419,6 +419,7 @@ static void draw_wanted(display *d, const view_options *o, const char *keys)
         scene_key(&s, arrow ? KEY_UP + (int)(arrow - arrows) : *keys);
     }
     d->scene = &s;
+    d->at_rest = 1;
     display_resize(d, size);
     display_picture(d);
     scene_close(&s);
@@ -440,7 +441,7 @@ static void forgive_words(cell_screen *s, const vt *t)
 static int check_pane(char **argv, const char *model)
 {
     static const char *const colors[3] = { "plain", "256", "true" };
-    view_options o = { .scene = { .model = model, .up = -1, .still = 1 } };
+    view_options o = { .scene = { .model = model, .still = 1, .how = model_options_new() } };
     static display d;
     size_t size;
     char *text = read_all(&size);

@@ -1,14 +1,13 @@
 /* guard.h - ends the program with one line on stderr and no half-written file, whatever happens:
    the time is up, the user interrupts, a library crashes on a file made to break it.  Without
    POSIX signals only memory and files are watched. */
-#ifndef THUMBNAIL_GUARD_H
-#define THUMBNAIL_GUARD_H
+#ifndef MODEL_GUARD_H
+#define MODEL_GUARD_H
 
-#include <stdio.h>
-#include <string.h>
+#include "options.h"
 
 #if defined(__unix__) || defined(__APPLE__)
-#define THUMBNAIL_POSIX
+#define GUARD_POSIX
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -35,7 +34,8 @@ static void guard_say(const char *text)
 static void guard_end(int signal_number)
 {
     if (guard_part[0]) unlink(guard_part);
-    guard_say("thumbnail: ");
+    guard_say(program_name);
+    guard_say(": ");
     if (signal_number == SIGALRM)
         guard_say("gave up after --max-seconds while ");
     else if (signal_number == SIGINT || signal_number == SIGTERM || signal_number == SIGHUP)
@@ -86,10 +86,16 @@ static void guard_memory(int megabytes)
 #endif
 }
 
-static void guard_begin(int max_seconds, int max_memory)
+/* What guard_begin has changed, for guard_done: the signals of crashes, then those of others */
+static const int guard_signals[] = { SIGSEGV, SIGBUS,  SIGFPE, SIGILL, SIGABRT,
+                                     SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGPIPE };
+enum { GUARD_CRASHES = 5, GUARD_SIGNALS = sizeof guard_signals / sizeof *guard_signals };
+static struct sigaction guard_before[GUARD_SIGNALS];
+static struct rlimit guard_limit;
+
+/* Watches the first count of guard_signals, and the memory. */
+static void guard_watch(int count, int max_memory)
 {
-    static const int ends[] = { SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGSEGV,
-                                SIGBUS,  SIGFPE, SIGILL,  SIGABRT };
     static char stack[65536]; /* the program's own stack may be what overflowed */
     stack_t other = { 0 };
     struct sigaction action = { 0 };
@@ -98,22 +104,41 @@ static void guard_begin(int max_seconds, int max_memory)
     sigaltstack(&other, NULL);
     action.sa_handler = guard_end;
     action.sa_flags = SA_ONSTACK;
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) sigaction(ends[i], &action, NULL);
+    for (int i = 0; i < count; i++) sigaction(guard_signals[i], &action, &guard_before[i]);
+    getrlimit(RLIMIT_AS, &guard_limit);
     guard_memory(max_memory);
+}
+
+/* Watches the whole program. */
+static inline void guard_program(int max_seconds, int max_memory)
+{
+    guard_watch(GUARD_SIGNALS, max_memory);
     signal(SIGPIPE, SIG_IGN); /* write reports it instead */
     if (max_seconds) alarm((unsigned)max_seconds);
 }
 
-static int guard_terminal(void) { return isatty(2); }
+/* Watches the reading of a model; what else may come is the program's. */
+static inline void guard_begin(int max_memory) { guard_watch(GUARD_CRASHES, max_memory); }
+
+/* Ends guard_begin: signals and memory are as they were. */
+static inline void guard_done(void)
+{
+    setrlimit(RLIMIT_AS, &guard_limit);
+    for (int i = 0; i < GUARD_CRASHES; i++) sigaction(guard_signals[i], &guard_before[i], NULL);
+}
+
+static inline int guard_terminal(void) { return isatty(2); }
 #else
 static const char *guard_doing;
-static void guard_begin(int max_seconds, int max_memory)
+static inline void guard_program(int max_seconds, int max_memory)
 {
     (void)max_seconds;
     (void)max_memory;
 }
+static inline void guard_begin(int max_memory) { (void)max_memory; }
+static inline void guard_done(void) {}
 static void guard_reading(const char *path) { (void)path; }
 static void guard_say(const char *text) { fputs(text, stderr); }
-static int guard_terminal(void) { return 0; }
+static inline int guard_terminal(void) { return 0; }
 #endif
 #endif

@@ -1,0 +1,147 @@
+/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL and PLY by own
+   readers, other formats by assimp, the pictures on surfaces by stb_image.  A message names a
+   library that is missing. */
+#ifndef MODEL_READ_H
+#define MODEL_READ_H
+
+#include "pictures.h"
+#include "prepare.h"
+#include "guard.h"
+#include "request.h"
+#ifdef MODEL_ASSIMP
+#include "assimp.h"
+#endif
+
+/* Whether the file can be opened and has anything in it; a folder opens, but cannot be read. */
+static int check_file(const char *path, const model_request *q, unsigned char *head, size_t *size)
+{
+    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+    FILE *file;
+    int failed;
+    errno = 0;
+    file = fopen(path, "rb");
+    if (!file) return mesh_fail(&r, "%s", errno ? strerror(errno) : "cannot be opened");
+    *size = fread(head, 1, *size, file);
+    failed = ferror(file) != 0;
+    if (failed)
+        mesh_fail(&r, "%s", errno ? strerror(errno) : "cannot be read");
+    else if (!*size)
+        failed = mesh_fail(&r, "the file is empty");
+    fclose(file);
+    return failed;
+}
+
+/* 1: the file is for our own readers, by its extension or, where it has none, by its contents. */
+static int is_ours(model_kind kind, const unsigned char *head, size_t size)
+{
+    const char *const none = kind.text;
+    if (!strcmp(none, "obj") || !strcmp(none, "stl") || !strcmp(none, "ply")) return 1;
+    if (!strcmp(none, "")) return size < 4 || memcmp(head, "glTF", 4) != 0;
+    return mesh_is_ply("", head, size);
+}
+
+static int read_other(const char *path, model_kind kind, model *m, const model_request *q)
+{
+    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+#ifdef MODEL_ASSIMP
+    char dotted[sizeof kind.text + 2];
+    snprintf(dotted, sizeof dotted, ".%s", kind.text[0] ? kind.text : "glb");
+    if (!kind.text[0] || aiIsExtensionSupported(dotted)) return assimp_read(path, m, q);
+    return mesh_fail(&r, "neither %s nor assimp reads %s files", program_name, dotted);
+#else
+    (void)m;
+    return mesh_fail(&r,
+                     "%s%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
+                     "STL and PLY",
+                     kind.text[0] ? "." : "glTF", kind.text, program_name);
+#endif
+}
+
+/* A file that makes a surface wholly invisible mostly means the opposite. */
+static void show_invisible(model *m)
+{
+    for (int i = 0; i < m->surface_count; i++)
+        if (m->surface[i].transparency >= 1) m->surface[i].transparency = 0;
+}
+
+static int model_read(const char *path, model *m, const model_request *q)
+{
+    static const model empty;
+    unsigned char head[1024] = { 0 };
+    size_t size = sizeof head;
+    model_kind kind = model_kind_of(path);
+    int failed = check_file(path, q, head, &size);
+    *m = empty;
+    if (failed) return failed;
+    if (is_ours(kind, head, size))
+        failed = model_read_file(path, m, q);
+    else
+        failed = read_other(path, kind, m, q);
+#ifdef MODEL_ASSIMP
+    if (failed && !kind.text[0]) { /* no extension: assimp may know the contents */
+        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+        failed = assimp_read(path, m, &silent);
+    }
+#endif
+    if (!failed) {
+        show_invisible(m);
+        read_pictures(m, path);
+    }
+    return failed;
+}
+/* ---- for the programs ------------------------------------------------------------------------ */
+
+/* Says which maps are left out. */
+static void model_tell(const model *m)
+{
+    int bumped = 0;
+    for (int i = 0; i < m->surface_count; i++) bumped += m->surface[i].bumped;
+    if (bumped) complain("bump and normal maps of %d surface%s are left out", bumped,
+                         bumped == 1 ? "" : "s");
+}
+
+/* Reads the model that the options ask for.  Returns 1 with a line on stderr. */
+static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
+                      void *user)
+{
+    char error[400] = "";
+    const model_request q = { error, sizeof error, progress, user, (size_t)o->max_triangles };
+    int failed;
+    guard_doing = "reading ";
+    guard_reading(path);
+    failed = model_read(path, m, &q);
+    guard_reading(NULL);
+    guard_doing = "ending";
+    if (failed) return complain("%s", error);
+    if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
+    if (o->verbose) model_tell(m);
+    return 0;
+}
+
+/* The upright axis, 0 .. 5: that of the options or of the format; of a picture where neither says,
+   a guess.  Drawings keep to habit, so that their front is the same for all parts. */
+static int model_up(const model *m, const model_options *o, int picture)
+{
+    const int usual = m->z_up ? 2 : 1;
+    int up;
+    if (o->up >= 0) return o->up;
+    if (m->up_told || !picture) return usual;
+    up = stand_guess(&m->mesh, usual);
+    if (o->verbose)
+        complain("the format does not say which axis is up: %s, %s", option_axes[up],
+                 up == usual ? "as usual" : "by a flat base that is wider than the top");
+    return up;
+}
+
+/* Makes a model ready to be drawn: upright, turned, with normals and chunks.  Returns 1 with a line
+   on stderr. */
+static int model_prepare(model *m, const model_options *o, float turn)
+{
+    const int flat = o->shading == SHADE_SHADING_PER_FACE;
+    int failed = 0;
+    mesh_stand(&m->mesh, model_up(m, o, 1), turn);
+    if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat);
+    if (!failed) failed = mesh_chunk_parts(m);
+    return failed ? complain("out of memory") : 0;
+}
+#endif

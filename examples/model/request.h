@@ -1,0 +1,180 @@
+/* request.h - how a model is read and lit: the options that all programs with a model have, in the
+   same words, with the same ranges and defaults. */
+#ifndef MODEL_REQUEST_H
+#define MODEL_REQUEST_H
+
+#include "options.h"
+
+#define MODEL_USAGE                                                                               \
+    "  --color COLOR         one colour for all surfaces, instead of the file's materials:\n"     \
+    "                        RRGGBB, #RGB or a name\n"                                            \
+    "  --material NAME       one material for all surfaces: clay, or a name that\n"               \
+    "                        --material list prints\n"                                            \
+    "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"      \
+    "                        (blinn-phong)\n"                                                     \
+    "  --shading NAME        fragment, vertex, face (fragment)\n"                                 \
+    "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess by the\n" \
+    "                        widest flat base)\n"                                                 \
+    "  --no-shadow           no shadow on the ground\n"                                           \
+    "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
+    "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
+    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"   \
+    "                        the machine's)\n"                                                    \
+    "  --quiet               prints errors only, no progress and no warnings\n"                   \
+    "  --verbose             says what was guessed, and what is left out\n"
+#define MODEL_VALUED \
+    "--color", "--material", "--model", "--shading", "--up", "--threads", "--max-triangles", \
+        "--max-memory"
+#define MODEL_FLAGS "--no-shadow", "--quiet", "--verbose"
+
+typedef struct model_options {
+    int up; /* 0 .. 5 for x y z -x -y -z; -1: by the file */
+    int threads, max_triangles, max_memory; /* threads 0: all cores */
+    int quiet, verbose;
+    int plain, no_shadow; /* plain: one material instead of the file's */
+    shade_material material;
+    shade_model model;
+    shade_shading shading;
+} model_options;
+
+/* ---- names ----------------------------------------------------------------------------------- */
+
+/* 1: the names are equal.  Capitals equal small letters, dashes and underlines equal spaces. */
+static inline int same_name(const char *a, const char *b)
+{
+    for (;; a++, b++) {
+        int x = *a == '-' || *a == '_' ? ' ' : *a, y = *b == '-' || *b == '_' ? ' ' : *b;
+        if (x >= 'A' && x <= 'Z') x += 'a' - 'A';
+        if (x != y) return 0;
+        if (!x) return 1;
+    }
+}
+
+/* The index of a name in a list of n, or -1 */
+static inline int find_name(const char *name, const char *const *list, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (same_name(name, list[i])) return i;
+    return -1;
+}
+
+/* Reads an sRGB colour: RRGGBB or RGB, with or without #, or one of a few names. */
+static inline int take_color(const char *text, shade_vec3 *out)
+{
+    static const char *const names[] = { "black", "white", "gray",   "grey",  "red",
+                                         "green", "blue",  "yellow", "orange" };
+    static const uint32_t values[] = { 0x000000, 0xFFFFFF, 0x808080, 0x808080, 0xFF0000,
+                                       0x008000, 0x0000FF, 0xFFFF00, 0xFFA500 };
+    int name = find_name(text, names, 9);
+    uint32_t value = 0;
+    size_t n = 0;
+    if (name >= 0) {
+        *out = shade_rgb(values[name]);
+        return 1;
+    }
+    text += *text == '#';
+    for (; n < 7 && text[n]; n++) {
+        const char *digits = "0123456789abcdef", *at;
+        at = strchr(digits, text[n] >= 'A' && text[n] <= 'F' ? text[n] | 32 : text[n]);
+        if (!at) return 0;
+        value = value << 4 | (uint32_t)(at - digits);
+    }
+    if (n == 3) value = (value & 0xF00) * 0x1100 | (value & 0xF0) * 0x110 | (value & 0xF) * 0x11;
+    *out = shade_rgb(value);
+    return n == 3 || n == 6;
+}
+
+/* A slightly glossy surface of a linear colour */
+static inline shade_material gloss(shade_vec3 color)
+{
+    shade_material m = { { 0, 0, 0 }, color, color, { 0.10f, 0.10f, 0.10f }, 50 };
+    return m;
+}
+
+static inline shade_material clay(void) { return gloss(shade_v3(0.52f, 0.45f, 0.38f)); }
+
+/* Returns 0 where no material has that name. */
+static inline int find_material(const char *name, shade_material *out)
+{
+    int i = 0;
+    if (same_name(name, "clay")) {
+        *out = clay();
+        return 1;
+    }
+    while (i < SHADE_PRESET_COUNT && !same_name(name, shade_preset_name((shade_preset)i))) i++;
+    *out = shade_linear_material(shade_preset_material((shade_preset)i));
+    return i < SHADE_PRESET_COUNT;
+}
+
+static inline void list_materials(void)
+{
+    puts("clay");
+    for (int m = 0; m < SHADE_PRESET_COUNT; m++) puts(shade_preset_name((shade_preset)m));
+}
+
+/* ---- options --------------------------------------------------------------------------------- */
+
+static inline model_options model_options_new(void)
+{
+    model_options o = { .up = -1, .max_triangles = 20000000 };
+    o.material = clay();
+    return o;
+}
+
+static inline int model_take_color(model_options *o, const char *value)
+{
+    o->plain = 1;
+    o->material = clay();
+    if (!take_color(value, &o->material.diffuse)) return OPTION_BAD;
+    o->material.ambient = o->material.diffuse;
+    return OPTION_TAKEN;
+}
+
+static inline int model_take_material(model_options *o, const char *value)
+{
+    if (!strcmp(value, "list")) {
+        list_materials();
+        return OPTIONS_ANSWERED;
+    }
+    o->plain = 1;
+    return find_material(value, &o->material);
+}
+
+static inline int model_take_model(model_options *o, const char *value)
+{
+    static const char *const models[] = { "blinn phong", "phong",    "lambert",
+                                          "ambient",     "emissive", "cool to warm" };
+    int k = find_name(value, models, 6);
+    o->model = (shade_model)(k < 0 ? 0 : k);
+    return k >= 0;
+}
+
+static inline int model_take_shading(model_options *o, const char *value)
+{
+    static const char *const shadings[] = { "fragment", "vertex", "face" };
+    int k = find_name(value, shadings, 3);
+    o->shading = (shade_shading)(k < 0 ? 0 : k);
+    return k >= 0;
+}
+
+/* Stores an option of all programs.  Returns what an option_take does, or -1 where the option is
+   the program's own. */
+static inline int model_take(model_options *o, const char *name, const char *value)
+{
+    int *flag = !strcmp(name, "--no-shadow") ? &o->no_shadow
+              : !strcmp(name, "--quiet")     ? &o->quiet
+              : !strcmp(name, "--verbose")   ? &o->verbose : NULL;
+    if (flag) *flag = 1;
+    if (flag) return OPTION_TAKEN;
+    if (!strcmp(name, "--color")) return model_take_color(o, value);
+    if (!strcmp(name, "--material")) return model_take_material(o, value);
+    if (!strcmp(name, "--model")) return model_take_model(o, value);
+    if (!strcmp(name, "--shading")) return model_take_shading(o, value);
+    if (!strcmp(name, "--up")) return option_axis(value, &o->up);
+    if (!strcmp(name, "--threads")) return option_integer(value, 1, 256, &o->threads);
+    if (!strcmp(name, "--max-triangles"))
+        return option_integer(value, 0, 700000000, &o->max_triangles);
+    if (!strcmp(name, "--max-memory")) return option_integer(value, 32, 1000000, &o->max_memory);
+    return -1;
+}
+#endif
