@@ -1,4 +1,4 @@
-/* film.h - makes a film of pictures as they are drawn, by ffmpeg, which must be installed.  The film
+/* film.h - makes a film of pictures as they are drawn, by ffmpeg, which must be installed.  It
    appears whole or not at all.  POSIX.
 
        film f;

@@ -485,7 +485,7 @@ static light_studio *open_studio(const python_item *items, int count, const pyth
     s->from_world = v->to_studio;
     s->to_world = shade_mat4_inverse(v->to_studio);
     if (!gather(s, items, count) && s->scene.part->count &&
-        !studio_open(&s->light, &s->scene, pixels, threads, NULL, NULL) &&
+        !studio_open(&s->light, &s->scene, pixels, 0, threads, NULL, NULL) &&
         !studio_cast(&s->ground, &s->light, &s->scene.mesh, threads))
         return s;
     close_studio(s);
