@@ -75,7 +75,7 @@ step board "sh tests/microcontroller.sh"
 step microcontroller "$MAKE -s -C examples/microcontroller"
 step install "$MAKE -s install PREFIX=\$PWD/build/usr; $MAKE -s uninstall PREFIX=\$PWD/build/usr"
 long_step install-test "sh tests/install.sh"
-step programs "$MAKE -s build/view build/batch build/compare build/shade.o"  # view.sh, batch.sh
+step programs "$MAKE -s build/view build/batch build/thumbnail build/compare build/shade.o"  # view.sh, batch.sh
 step bench "sh bench/run.sh maths kernel"
 long_step against "BASE=HEAD LEVELS=0 $MAKE -s bench"
 step plot "$MAKE -s bench-plot"

@@ -139,7 +139,7 @@ static int get_ready(batch *b)
 {
     if (b->sheet.scene) return 0;
     b->request.pieces = 20;
-    while (b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
+    while ((float)b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
     if (!b->sink && !b->film && mkdir(b->out, 0777) && errno != EEXIST) {
         complain("%s: %s", b->out, strerror(errno));
         return 1;

@@ -1,5 +1,5 @@
-/* film.h - makes a film of pictures as they are drawn, by ffmpeg, which must be installed.  It
-   appears whole or not at all.  POSIX.
+/* film.h - makes a film of pictures as they are drawn, by ffmpeg, which must be installed.  The
+   film appears whole or not at all.  POSIX.
 
        film f;
        if (film_open(&f, "turn.webp", 30)) ...                 (a line on stderr has said why)

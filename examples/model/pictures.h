@@ -19,7 +19,7 @@ static int picture_add(model *m, const char *name)
 }
 
 /* Gives a picture its pixels (RGBA8, from malloc) and its mipmaps. */
-static void picture_fill(model_picture *p, void *pixels, int width, int height)
+static inline void picture_fill(model_picture *p, void *pixels, int width, int height)
 {
     p->pixels = pixels;
     p->map.pixels = pixels;
