@@ -26,6 +26,10 @@ for k in 7 00007; do check "piece $k alone" "$BATCH" $turn --out alone --piece $
 check "is that piece" cmp one/00007.ppm alone/00007.ppm
 check "and no other" same "$(ls alone)" 00007.ppm
 
+check "the quick light" "$BATCH" $turn --out quick --piece 7 --quick --threads 1
+check "is another one" no cmp -s one/00007.ppm quick/00007.ppm
+check "by threads as well" sh -c "'$BATCH' $turn --piece 7 --quick --threads 2 --pipe | cmp - quick/00007.ppm"
+
 for n in 1 2 7 256; do
     check "by $n threads" "$BATCH" $turn --out threads$n --threads $n
     check "the same frames by $n threads" diff -r one threads$n
