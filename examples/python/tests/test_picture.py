@@ -255,6 +255,20 @@ def test_a_sheet_has_one_scale_in_a_row():
     assert wide[2] == pytest.approx([2 * unit, 3 * unit], abs=2)
 
 
+def test_hidden_edges_stay_hidden_whatever_near_and_far_are():
+    scene = shade.Scene()
+    scene.add(box(3, 2, 1), edges=True)
+    look = {"eye": (7, -6, 5), "target": (1.5, 1, 0.5), "fov": 25}
+    pictures = [scene.render(shade.Camera.look_at(**look, near=near, far=far), (160, 160))
+                for near, far in ((6, 14), (1, 1000), (0.01, 1000))]
+    faces = shade.Scene()
+    faces.add(box(3, 2, 1))
+    plain = faces.render(shade.Camera.look_at(**look), (160, 160))
+    assert pictures[0].difference(plain).max() > 60
+    for other in pictures[1:]:
+        assert (pictures[0].difference(other) > 8).mean() < 0.002
+
+
 def test_edges_of_a_box_are_dark_lines():
     flat = {"view": "top", "ortho": True, "size": (100, 100), "samples": 2}
     got = shade.render(*box(1, 1, 1), edges=True, **flat).rgba[:, :, :3].astype(int).sum(2)
