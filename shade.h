@@ -3541,7 +3541,7 @@ SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c,
     }
 }
 
-/* Chooses the order of the corners; order counts what is chosen. */
+/* Chooses the order of the corners; order receives its number, 0 .. 5. */
 SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT c,
                                        shade__in area,
                                        shade__turns *SHADE_RESTRICT t,
@@ -3598,7 +3598,8 @@ SHADE__INLINE int64_t shade__whole(double x)
 }
 
 /* The edge from corner k to the next, at the first pixel of the box, and its steps.  256 e + rest
-   is whole, so that e is what it is divided by 256, less 127.5/256, rounded to the nearest.
+   is whole, so that its floor over 256, which is e, is the quotient less 127.5/256, rounded to the
+   nearest.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
                                int k, shade__setup *SHADE_RESTRICT s)
@@ -4280,7 +4281,7 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
 
     SHADE__FOR(r, SHADE__TILE_ROWS) {
         tile->set[r] = 0;
-        tile->row_z[r] = t->z0 + t->zy * ((float)(tile->y + r) + t->y_ref);
+        tile->row_z[r] = shade__row_depth(t, tile->y + r);
     }
     if (slim) {
         if (less) shade__test_columns(plan, t, edges, tile, 0, 8, 1, kind);
