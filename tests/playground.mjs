@@ -329,6 +329,15 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
         'button, .choice span, .toggle > span, .open > span')].filter(node => node.offsetParent)
         .filter(node => node.getBoundingClientRect().height < 40).map(node => node.textContent));
     check('a finger meets every button', !low.length, low);
+    for (let step = 1; step <= 5; step++) {
+        await go(page, 'turn=0&lecture=' + step);
+        const wide = await page.evaluate(() => [...document.querySelectorAll('#lecture, #sum label, ' +
+            '#lecture p')].filter(node => node.getBoundingClientRect().right > innerWidth ||
+                node.getBoundingClientRect().left < 0 || node.scrollWidth > node.clientWidth + 1)
+            .map(node => node.textContent));
+        check(`a lecture fits a telephone: ${step}`, !wide.length, wide);
+    }
+    await go(page, 'turn=0');
     check('a slow machine turns with two samples a pixel', await page.evaluate(() => {
         for (let i = 0; i < 120; i++) adapt(60, true);
         return (Math.floor(8 * quality) / 8) ** 2 >= 2;
@@ -424,7 +433,7 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
         [...document.querySelectorAll('#formula .total .v span')].map(node => node.className[0])
             .join('') === 'RGB'));
     await page.locator('#by-hand').click();
-    check('the equation in C', /^static shade_vec3 by_hand\([^]*f_atten[^]*\n}\n?$/.test(
+    check('the equation in C', />>terms[^]*\nstatic shade_vec3 by_hand\([^]*f_atten[^]*\n}\n?$/.test(
         await page.locator('dialog pre').textContent()));
     await page.keyboard.press('Escape');
     for (const hash of ['turn=0&compare=1', 'turn=0&bare', 'turn=0&maps=0']) {
@@ -451,7 +460,8 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
         });
         check(`step ${step} is iteration ${step - 1}: ${width}`, state.lecture === step &&
             state.model === [4, 3, 2, 0, 0][step - 1] && formula.includes('N·L') === step > 2 &&
-            formula.includes('N·H') === step > 3 && formula.includes('Σ') === step > 4, formula);
+            formula.includes('N·H') === step > 3 && formula.includes('Σ') === step > 4 &&
+            formula.includes('spot') === step > 4, formula);
         check(`values are 24 px and more: ${step}, ${width}`, !small.length, small);
         check(`all of it is on the screen: ${step}, ${width}`, inside);
         check(`the formula is one line: ${step}, ${width}`, await page.evaluate(() =>

@@ -171,10 +171,10 @@ static int write_pieces(batch *b)
     return 0;
 }
 
-static int write_film(batch *b)
+static int write_film(batch *b, const char *path)
 {
-    film f;
-    int failed = get_ready(b) || film_open(&f, b->film, b->rate);
+    film f = { path, NULL, 0 };
+    int failed = get_ready(b) || film_open(&f, b->rate);
     if (failed) return failed;
     b->sink = f.frames;
     return film_close(&f, write_pieces(b));
@@ -189,7 +189,7 @@ int main(int argc, char **argv)
     b.request.how = model_options_new();
     end = read_options(&b, argc, argv);
     if (end) return end == OPTIONS_WRONG;
-    end = b.film ? write_film(&b) : write_pieces(&b);
+    end = b.film ? write_film(&b, b.film) : write_pieces(&b);
     if (b.sheet.scene) sheet_close(&b.sheet);
     scene_close(&b.scene);
     return end;

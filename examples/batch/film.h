@@ -1,8 +1,8 @@
 /* film.h - makes a film of pictures as they are drawn, by ffmpeg, which must be installed.  The
    film appears whole or not at all.  POSIX.
 
-       film f;
-       if (film_open(&f, "turn.webp", 30)) ...                 (a line on stderr has said why)
+       film f = { "turn.webp", NULL, 0 };
+       if (film_open(&f, 30)) ...                              (a line on stderr has said why)
        fwrite(ppm, 1, size, f.frames);                         (for each frame, one after the other)
        return film_close(&f, 0); */
 #ifndef BATCH_FILM_H
@@ -50,18 +50,17 @@ static inline void film_run(const char *path, int rate, int frames)
 }
 
 /* Starts ffmpeg.  Returns 1 with a line on stderr. */
-static inline int film_open(film *f, const char *path, int rate)
+static inline int film_open(film *f, int rate)
 {
     int ends[2];
-    FILE *part = batch_begin(path);
-    f->path = path;
+    FILE *part = batch_begin(f->path);
     if (!part) return 1;
     fclose(part);
     signal(SIGPIPE, SIG_IGN); /* ffmpeg may end early: writing fails then */
     f->process = pipe(ends) ? -1 : fork();
     if (f->process == 0) {
         close(ends[1]);
-        film_run(path, rate, ends[0]);
+        film_run(f->path, rate, ends[0]);
     }
     if (f->process < 0) {
         unlink(batch_part);

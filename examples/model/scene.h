@@ -515,14 +515,15 @@ static inline shade_result scene_draw_mesh(const shade_mesh *mesh, const shade_t
 
 /* Draws the opaque parts, or those that something shows through, which hide nothing. */
 static inline shade_result scene_draw_parts(const scene *s, const shade_target *target,
-                                            shade_draw_state *state, int clear)
+                                            const shade_draw_state *lit, int clear)
 {
     static const unsigned flag[5] = { 0, SHADE_FLAG_UNGATED_SPECULAR, SHADE_FLAG_WEIGHTED_SPECULAR,
                                       SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
     const model_options o = scene_options(s);
+    shade_draw_state state = *lit;
     shade_result result = SHADE_OK;
-    state->raster.blend = clear ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
-    state->raster.depth_read_only = clear;
+    state.raster.blend = clear ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
+    state.raster.depth_read_only = clear;
     for (int i = 0; i < s->model.part_count && !result; i++) {
         const shade_mesh mesh = model_part_mesh(&s->model, i);
         shade_material material;
@@ -531,11 +532,11 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
         look_dress(&k, &o, &s->model, s->model.part[i].surface);
         material = k.material;
         material.emission = k.emission;
-        state->material = &material;
-        state->diffuse_map = k.map;
-        state->alpha_cutoff = k.alpha_cutoff;
-        state->transparency = 1 - k.alpha;
-        result = scene_draw_mesh(&mesh, target, state, flag[s->choice[CHOICE_FLAG]]);
+        state.material = &material;
+        state.diffuse_map = k.map;
+        state.alpha_cutoff = k.alpha_cutoff;
+        state.transparency = 1 - k.alpha;
+        result = scene_draw_mesh(&mesh, target, &state, flag[s->choice[CHOICE_FLAG]]);
     }
     return result;
 }

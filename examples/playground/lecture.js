@@ -5,15 +5,20 @@ const term = (css, html) => `<span class="${css}">${html}</span>`;
 const K = { e: term('e', '<i>k</i><sub>e</sub>'),
     a: term('a', '<i>k</i><sub>a</sub> <i>I</i><sub>a</sub>'),
     d: term('d', '<i>k</i><sub>d</sub> (<b>N</b>·<b>L</b>)'),
-    s: term('s', '<i>k</i><sub>s</sub> (<b>N</b>·<b>H</b>)<sup><i>n</i></sup>') };
+    s: term('s', '<i>k</i><sub>s</sub> (<b>N</b>·<b>H</b>)<sup><i>n</i></sup>'),
+    aj: term('a', '<i>k</i><sub>a</sub> <i>I</i><sub>La,j</sub>'),
+    dj: term('d', '<i>k</i><sub>d</sub> (<b>N</b>·<b>L</b><sub>j</sub>)'),
+    sj: term('s', '<i>k</i><sub>s</sub> (<b>N</b>·<b>H</b><sub>j</sub>)<sup><i>n</i></sup>') };
 const STEPS = [
     ['Iteration zero', `<i>I</i> = ${K.e}`],
     ['Iteration one', `<i>I</i> = ${K.e} + ${K.a}`],
     ['Iteration two', `<i>I</i> = ${K.e} + ${K.a} + <i>I</i><sub>L</sub> <i>B</i> ${K.d}`],
     ['Iteration three',
         `<i>I</i> = ${K.e} + ${K.a} + <i>I</i><sub>L</sub> <i>B</i> [ ${K.d} + ${K.s} ]`],
-    ['Iteration four', `<i>I</i> = ${K.e} + ${K.a} + Σ<sub><i>j</i></sub> 1/(<i>a</i> + ` +
-        `<i>b r</i> + <i>c r</i>²) <i>I</i><sub>L</sub> <i>B</i> [ ${K.d} + ${K.s} ]`]];
+    ['Iteration four', `<i>I</i> = ${K.e} + ${K.a} + Σ<sub><i>j</i></sub> { ${K.aj} + ` +
+        `spot<sub>j</sub>/(<i>a</i><sub>j</sub> + <i>b</i><sub>j</sub><i>r</i><sub>j</sub> + ` +
+        `<i>c</i><sub>j</sub><i>r</i><sub>j</sub>²) <i>I</i><sub>L,j</sub> <i>B</i><sub>j</sub> ` +
+        `[ ${K.dj} + ${K.sj} ] }`]];
 
 // What a step shows; 0 is no lecture.
 function stepState(step) {
@@ -40,6 +45,7 @@ function buildLecture() {
         const step = S.lecture, used = [15, 1, 3, 7, 15, 15][step];
         document.body.classList.toggle('lecture', !!step);
         document.body.classList.toggle('lobes', step > 3);
+        document.body.classList.toggle('sum-of-lamps', step > 4);
         [...rows.children].forEach((row, i) => row.classList.toggle('now', i === step - 1));
         [...$('#sum').children].forEach((label, i) =>
             label.classList.toggle('unused', !(used >> i & 1)));

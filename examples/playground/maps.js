@@ -20,7 +20,7 @@ function buildMaps() {
         const root = svg('svg', { viewBox: `${-REACH} ${-REACH} ${2 * REACH} ${2 * REACH}`,
             class: 'map' });
         const title = svg('text', { x: -REACH + 5, y: -REACH + 15, class: 'name' });
-        title.textContent = map.name;
+        title.textContent = 'lamps, ' + map.name;
         map.point = svg('circle', { r: 2 });
         map.eye = svg('path', { d: 'M-5,4L0,-3L5,4Z', class: 'eye' });
         root.append(svg('circle', { r: UNIT, class: 'model' }), title, map.point);
@@ -85,7 +85,7 @@ function showMaps(answer, last) {
         map.point.setAttribute('transform', `translate(${x} ${y})`);
         map.point.style.display = answer.hit ? '' : 'none';
     }
-    let html = '<text x="-60" y="-16" class="name">from above</text>';
+    let html = '<text x="-60" y="-16" class="name">vectors, above</text>';
     for (const name of answer.hit ? ['V', 'H', 'L', 'N'] : []) {
         if (name === 'L' && !S['on' + S.lamp]) continue;
         const [x, y] = onMap(MAPS[1], answer['unit' + name]).map(v => 6 * v);

@@ -421,7 +421,7 @@ function showAnswer(answer) {
         `<small>${base} = ${figure(answer.base)}</small>` +
         `<small>(${base})<sup>${n}</sup> = ${figure(answer.power)}</small>`);
     put(cells.lamp.values, `<small>lamp ${S.lamp}${S['on' + S.lamp] ? '' : ', off'}</small>`);
-    TERMS.forEach((name, i) => value('sum' + name, triple(sums[i])));
+    TERMS.forEach((name, i) => value('sum' + name, triple(sums[i], true)));
     const light = sums.map(luminance), all = light.reduce((a, b) => a + b, 0) || 1;
     [...$('#bar').children].forEach((node, i) => {
         node.style.width = 100 * light[i] / all + '%';
@@ -431,8 +431,8 @@ function showAnswer(answer) {
     showLobe(answer);
 }
 // An arrow's head at (X, Y), which is (dx, dy) from where it begins
-function head(dx, dy, X, Y) {
-    const length = Math.hypot(dx, dy), a = 11 / length, b = 4 / length;
+function head(dx, dy, X, Y, large = 1) {
+    const length = Math.hypot(dx, dy), a = 11 * large / length, b = 4 * large / length;
     if (length < 14) return '';
     return `<polygon points="${X},${Y} ${X - a * dx + b * dy},${Y - a * dy - b * dx} ` +
         `${X - a * dx - b * dy},${Y - a * dy + b * dx}"/>`;
@@ -440,6 +440,7 @@ function head(dx, dy, X, Y) {
 function showVectors(answer, last) {
     const svg = $('#arrows'), ratio = canvas.clientWidth / canvas.width;
     const at = p => p.map(v => (v * ratio).toFixed(1));
+    const large = S.lecture ? Math.max(1, innerWidth / 1400) : 1;
     let html = '';
     if (answer.hit) {
         const [x, y] = at(answer.point);
@@ -448,8 +449,8 @@ function showVectors(answer, last) {
             if (name === 'L' && !S['on' + S.lamp]) continue;
             const label = Math.hypot(X - x, Y - y) < 20 ? '' : name === 'H' ? last : name;
             html += `<g class="${name}"><line x1="${x}" y1="${y}" x2="${X}" y2="${Y}"/>` +
-                head(X - x, Y - y, X, Y) + '<text ' +
-                `x="${X}" y="${Y}" dx="6" dy="-4">${label}</text></g>`;
+                head(X - x, Y - y, X, Y, large) + '<text ' +
+                `x="${X}" y="${Y}" dx="${name === 'H' ? -22 : 6}" dy="-4">${label}</text></g>`;
         }
         html += `<circle cx="${x}" cy="${y}" r="4"/>`;
     }
@@ -599,7 +600,8 @@ function listen() {
         $('#program pre').textContent = text, $('#program').showModal();
     };
     $('#code').addEventListener('click', () => showProgram(program()));
-    $('#by-hand').addEventListener('click', () => showProgram(BY_HAND));
+    $('#by-hand').addEventListener('click', () => showProgram('/* Of examples/47_by_hand.c.  In ' +
+        'shade.h search for >>terms, one at one point, and >>lit, all at many. */\n' + BY_HAND));
     $('#copy').addEventListener('click', async () => {
         $('#copy').textContent = await copy($('#program pre').textContent) ? 'Copied' : 'Select it';
         setTimeout(() => { $('#copy').textContent = 'Copy'; }, 1500);
