@@ -32,7 +32,7 @@ const words = (at, count) => new Uint32Array(library.memory.buffer, at, count);
 
 /** Memory of the module for so many bytes, which does not stay where the module grows. */
 function take(bytes) {
-    const at = library.take(bytes);
+    const at = library.take(bytes) >>> 0;    // i32 is signed: past 2 GB it would be negative
     if (!at) throw new RangeError("memory is not enough for the picture or the mesh");
     return at;
 }

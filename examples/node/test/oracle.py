@@ -31,6 +31,15 @@ def box(x, y, z):
     return corners * [x, y, z], quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
 
 
+def prism(n):
+    """Its sides meet at 360 / n degrees."""
+    t = np.arange(n) * 2 * np.pi / n
+    rim = np.stack([np.cos(t), np.sin(t), 0 * t], 1)
+    i, j = np.arange(n), (np.arange(n) + 1) % n
+    sides = np.stack([i, j, j + n, i, j + n, i + n], 1).reshape(-1, 3)
+    return np.concatenate([rim, rim + [0, 0, 1]]), sides
+
+
 def plain(value):
     return value.reshape(-1).tolist() if isinstance(value, np.ndarray) else value
 
@@ -68,10 +77,12 @@ draw("auto", [ring])
 draw("given", [{**ring, "normals": normals, "color": "steel"}], samples=1)
 draw("smooth", [{**brick, "normals": "smooth"}], "front", samples=2)
 draw("flat", [{**ring, "normals": "flat", "color": "#0af", "edges": True}], (200, -70))
-draw("edges", [{**brick, "edges": True, "color": "gold" and "#d4a017"}], up="y")
+draw("edges", [{**brick, "edges": True, "color": "#d4a017"}], up="y")
 draw("parallel", [{**brick, "edges": True}], (30, 20), ortho=True)
 for side in ("right", "back", "left", "top", "bottom"):
     draw(side, [{**ring, "material": "gold", "edges": True}], side, samples=1, ortho=side == "top")
+for count in (8, 10, 14):    # 45 degrees: an edge and a crease; 36: an edge; 26: none of them
+    draw(f"prism {count}", [{**dict(zip(("vertices", "faces"), prism(count))), "edges": True}])
 draw("vertices", [{**ring, "color": rng.integers(0, 256, (len(vertices), 3)).astype(np.uint8)}])
 draw("faces", [{**brick, "color": rng.random((12, 3)), "edges": True}], (60, 40))
 draw("creased", [{**ring, "color": rng.random((len(faces), 3)), "normals": "smooth"}], samples=1)
