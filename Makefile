@@ -26,13 +26,18 @@ FLAGS    = -std=c99 $(WARN) $(CFLAGS) -I.
 EXACT    = -ffp-contract=off
 OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
                    $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
-# view and batch need POSIX; the window of view SDL2 (libsdl2-dev)
+# view and batch need POSIX; the window of view SDL2 (libsdl2-dev), its sixels libsixel
+# (libsixel-dev)
 POSIX    = $(shell echo | $(CC) -fsyntax-only -include termios.h -x c - 2>/dev/null && \
                    echo build/view build/batch || echo 'no termios.h: view, batch left out' >&2)
 SDL2     = $(shell flags="$$(sdl2-config --cflags --libs 2>/dev/null | sed 's/-I/-isystem /g')"; \
                    echo 'int main(int n, char **v) { return v && SDL_Init(0) > n; }' | \
                    $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && rm -f $@.sdl2 && \
                    echo -DVIEW_SDL $$flags || echo 'no SDL2: the window of view is left out' >&2)
+SIXEL    = $(shell echo 'int main(void) { return !sixel_output_new; }' | \
+                   $(CC) -include sixel/sixel.h -x c - -o $@.sixel -lsixel 2>/dev/null && \
+                   rm -f $@.sixel && echo -DVIEW_SIXEL -lsixel || \
+                   echo 'no libsixel: sixels of view are left out' >&2)
 
 # pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL and PLY assimp's
 # (libassimp-dev)
@@ -63,7 +68,7 @@ build/%: %.c build/shade.o $(HEADERS)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm $(LIBRARIES) -o $@
 build/19_threads build/thumbnail build/view build/batch: EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
-build/view: LIBRARIES = $(SDL2) $(STB) $(ASSIMP)
+build/view: LIBRARIES = $(SDL2) $(SIXEL) $(STB) $(ASSIMP)
 build/thumbnail build/batch: LIBRARIES = $(STB) $(ASSIMP)
 build/compare: LIBRARIES = $(STB)
 out/%.ppm: build/%

@@ -1,6 +1,7 @@
 #!/bin/sh
-# view.sh - build/view: its command line, in a terminal (tests/view/terminal.sh) and in a window
-# (tests/view/window.sh).  What is not installed is named and left out.
+# view.sh - build/view: its command line, in a terminal (tests/view/terminal.sh), in terminals that
+# a program plays (tests/view/pixels.py) and in a window (tests/view/window.sh).  What is not
+# installed is named and left out.
 cd "$(dirname "$0")/.." || exit 1
 . tests/tools.sh
 VIEW=$PWD/build/view CC=${CC:-cc}
@@ -33,7 +34,8 @@ check "nothing is printed then" test ! -s "$T/out"
 check "unknown option" refused "unknown option --frobnicate" "$VIEW" --frobnicate
 check "option without a value" refused "rate needs a value" "$VIEW" --rate
 for bad in "--frames 0" "--rate 241" "--colors 16: true or 256" "--threads 0: 1 .. 256" "--threads 257" \
-    "--up w: x, y, z, -x, -y or -z" "--color redd" "--material x" "--model x" "--shading x" \
+    "--up w: x, y, z, -x, -y or -z" "--show x: halves, quadrants, sextants, kitty, iterm2 or sixel" \
+    "--color redd" "--material x" "--model x" "--shading x" \
     "--max-triangles -1" "--max-memory 31"; do
     check "$bad" refused "$bad" "$VIEW" ${bad%%:*}
 done
@@ -54,6 +56,10 @@ head -c 100000 "$VIEW" >"$T/noise.obj"
 
 if command -v tmux >/dev/null; then . tests/view/terminal.sh
 else echo "no tmux: the terminal is left out"
+fi
+if command -v python3 >/dev/null; then
+    check "pixels and cells, as the terminal answers" python3 tests/view/pixels.py "$VIEW" "$T/check"
+else left_out "no python3: answers of terminals"
 fi
 . tests/view/window.sh
 finish

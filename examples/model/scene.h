@@ -10,7 +10,7 @@
 #include "../shared/bands.h"
 #include "../shared/shapes.h"
 #include "look.h"
-#include "pieces.h"
+#include "outline.h"
 #include "read.h"
 
 /* Keys beyond characters */
@@ -76,6 +76,10 @@ typedef struct scene {
     shade_vec3 *wires;  /* pairs of points; NULL until they are shown */
     int wire_points;
     shade_chunk *runs;  /* runs of 256 wires, and the box around each */
+    outline outline;    /* found with the wires */
+    float wire_length;  /* their mean */
+    shade_vec3 *few;    /* instead of wires too dense to be parted: those of the outline */
+    int few_points;     /* 0: all wires are drawn */
     int lit;            /* the next picture is one in the light of the studio */
     studio studio;
     exhibit exhibit;
@@ -183,8 +187,10 @@ static inline void scene_close(scene *s)
     ground_free(&s->shadow);
     exhibit_close(&s->exhibit);
     studio_close(&s->studio);
+    outline_free(&s->outline);
     free(s->wires);
     free(s->runs);
+    free(s->few);
 }
 
 enum { WIRE_RUN = 256 };    /* wires in a box */
@@ -211,38 +217,21 @@ static inline void scene_find_runs(scene *s)
     }
 }
 
-/* The mesh with one vertex for each place, so that no edge is there twice; the caller frees its
-   indices, which are NULL where memory is out. */
-static inline shade_mesh scene_joined(const owned_mesh *m)
-{
-    shade_mesh joined = m->view;
-    const size_t n = (size_t)m->view.index_count;
-    size_t places;
-    uint32_t *at = NULL, *place = mesh_places(m, &at, &places);
-    uint32_t *index = place ? (uint32_t *)malloc((n + 1) * sizeof *index) : NULL;
-    for (size_t i = 0; index && i < n; i++) index[i] = at[place[m->indices[i]]];
-    joined.indices = index;
-    if (place) free(at);
-    free(place);
-    return joined;
-}
-
 /* Finds every edge once, as pairs of points; none where memory is out. */
 static inline void scene_find_wires(scene *s)
 {
-    const shade_mesh m = scene_joined(&s->model.mesh);
-    size_t room = (size_t)m.index_count;
-    shade_edge *edge = (shade_edge *)malloc(room * sizeof *edge);
-    int count = 0;
-    if (edge && m.indices && !shade_mesh_edges(&m, edge, m.index_count, &count))
-        s->wires = (shade_vec3 *)malloc(2 * (size_t)count * sizeof *s->wires);
-    for (int i = 0; s->wires && i < count; i++) {
-        memcpy(&s->wires[2 * i], m.positions + 3 * (size_t)edge[i].a, sizeof *s->wires);
-        memcpy(&s->wires[2 * i + 1], m.positions + 3 * (size_t)edge[i].b, sizeof *s->wires);
+    outline *o = &s->outline;
+    const size_t room = outline_find(o, &s->model.mesh) ? 0 : 2 * (size_t)o->count;
+    double length = 0;
+    s->wires = (shade_vec3 *)malloc((room + 1) * sizeof *s->wires);
+    s->few = (shade_vec3 *)malloc((room + 1) * sizeof *s->few);
+    s->wire_points = s->wires && s->few && room <= INT_MAX ? (int)room : 0;
+    for (int i = 0; i < s->wire_points; i += 2) {
+        s->wires[i] = outline_place(o, o->edge[i / 2].a);
+        s->wires[i + 1] = outline_place(o, o->edge[i / 2].b);
+        length += (double)shade_length(shade_sub(s->wires[i + 1], s->wires[i]));
     }
-    s->wire_points = s->wires && count <= INT_MAX / 2 ? 2 * count : 0;
-    free((void *)(uintptr_t)m.indices);
-    free(edge);
+    s->wire_length = (float)(length / fmax(1, s->wire_points / 2));
     scene_find_runs(s);
 }
 
@@ -284,6 +273,13 @@ static inline void scene_turn(scene *s, float right, float down)
 static inline void scene_zoom(scene *s, float factor)
 {
     s->zoom = fmaxf(0.2f, fminf(20, s->zoom * factor));
+}
+
+/* Gives a scene that began with a black background the usual one. */
+static inline void scene_lighten(scene *s)
+{
+    if (s->home[CHOICE_BACKDROP] != BACKDROP_BLACK) return;
+    s->home[CHOICE_BACKDROP] = s->choice[CHOICE_BACKDROP] = 0;
 }
 
 /* Returns 1 where the key belongs to the scene. */
@@ -552,6 +548,25 @@ static inline shade_line_state scene_pen(const scene_camera *c, float width, sha
     return pen;
 }
 
+/* Chooses the wires for a picture so many pixels high.  Where they would lie less than 3 pixels
+   apart, they would fill the model with their colour: only sharp edges and the outline are drawn
+   then.  To be called before scene_draw. */
+static inline void scene_trace(scene *s, const scene_camera *c, int height)
+{
+    const shade_mat4 world = shade_mat4_inverse(shade_mat4_mul(c->view, c->model));
+    const shade_vec3 eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
+    const float unit = 0.5f * (float)height * c->projection.col[1].y / -c->view.col[3].z;
+    const outline *o = &s->outline;
+    s->few_points = 0;
+    if (!s->choice[CHOICE_WIRE] || s->wire_length * unit >= 3) return;
+    for (int i = 0; 2 * i < s->wire_points && i < o->bent; i++) {
+        const shade_vec3 *wire = &s->wires[2 * i];
+        if (i >= o->sharp && !outline_is_seen(o, &o->edge[i], shade_sub(eye, wire[0]))) continue;
+        memcpy(s->few + s->few_points, wire, 2 * sizeof *wire);
+        s->few_points += 2;
+    }
+}
+
 /* Draws the wires that reach the band; the test widens the band by the width of the pen. */
 static inline shade_result scene_draw_wires(const scene *s, const shade_target *band,
                                             const shade_line_state *pen)
@@ -559,6 +574,7 @@ static inline shade_result scene_draw_wires(const scene *s, const shade_target *
     const int wider = (int)pen->width + 2;
     shade_result result = SHADE_OK;
     shade_target near_band = *band;
+    if (s->few_points) return shade_draw_lines(band, s->few, s->few_points, pen, NULL);
     near_band.clip_y -= wider;
     near_band.clip_height += 2 * wider;
     for (int k = 0; k < scene_run_count(s) && !result; k++) {
@@ -592,7 +608,8 @@ static inline shade_result scene_draw_band(const scene *s, const shade_target *t
 {
     shade_light lamps[4];
     shade_draw_state state = scene_state(s, c, lamps);
-    shade_line_state pen = scene_pen(c, (float)samples * 0.5f, shade_rgb(0x0d1216));
+    const float width = s->few_points ? 1 : 0.5f;
+    shade_line_state pen = scene_pen(c, (float)samples * width, shade_rgb(0x0d1216));
     shade_target body = *target; /* without colours where it only hides wires */
     shade_result result;
     scene_backdrop(s, target, c->top, c->bottom, samples);

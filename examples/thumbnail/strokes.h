@@ -9,19 +9,8 @@
 #ifndef THUMBNAIL_STROKES_H
 #define THUMBNAIL_STROKES_H
 
-#include "../model/pieces.h"
+#include "../model/outline.h"
 #include "views.h"
-
-#define STROKES_CREASE 0.906f /* the cosine below which an edge is sharp, that of 25 degrees */
-
-/* The edges of a mesh whose vertices of equal position are one */
-typedef struct outline {
-    float *position;       /* by place */
-    shade_edge *edge;      /* the sharp and open ones, then those that may be outlines */
-    shade_vec3 *normal;    /* by triangle */
-    size_t places;
-    int sharp, count;
-} outline;
 
 /* What is seen at each pixel of the sheet: the triangle's number + 1, and its depth */
 typedef struct seen {
@@ -34,81 +23,6 @@ typedef struct strokes {
     mesh_floats whole, dashed; /* pairs of points, in pixels, z = 0 */
     int failed;                /* memory ran out */
 } strokes;
-
-static inline void outline_free(outline *o)
-{
-    free(o->position);
-    free(o->edge);
-    free(o->normal);
-}
-
-/* ---- edges of the mesh ---------------------------------------------------------------------- */
-
-static inline void outline_normals(outline *o, const shade_mesh *m)
-{
-    for (int t = 0; t < m->index_count / 3; t++) {
-        shade_vec3 p[3];
-        for (int k = 0; k < 3; k++)
-            memcpy(&p[k], m->positions + 3 * (size_t)m->indices[3 * t + k], sizeof *p);
-        o->normal[t] = shade_face_normal(p[0], p[1], p[2]);
-    }
-}
-
-static inline int outline_has_area(shade_vec3 n) { return shade_dot(n, n) > 0.5f; }
-
-/* 2: an edge that is drawn in each view; 1: perhaps; 0: it lies in a plane, or beside a triangle
-   without area, of which nobody knows how it bends. */
-static inline int outline_kind(const outline *o, const shade_edge *e)
-{
-    shade_vec3 n0 = o->normal[e->triangle[0]], n1;
-    if (e->triangle[1] < 0) return outline_has_area(n0) ? 2 : 0;
-    n1 = o->normal[e->triangle[1]];
-    if (!outline_has_area(n0) || !outline_has_area(n1)) return 0;
-    if (shade_is_crease(n0, n1, STROKES_CREASE)) return 2;
-    return shade_dot(n0, n1) < 0.999999f;
-}
-
-/* Keeps the edges that may be drawn, the sharp ones first. */
-static inline int outline_sort(outline *o, int edges)
-{
-    shade_edge *kept = (shade_edge *)malloc(((size_t)edges + 1) * sizeof *kept);
-    for (int kind = 2; kept && kind > 0; kind--) {
-        for (int i = 0; i < edges; i++)
-            if (outline_kind(o, &o->edge[i]) == kind) kept[o->count++] = o->edge[i];
-        if (kind == 2) o->sharp = o->count;
-    }
-    free(o->edge);
-    o->edge = kept;
-    return !kept;
-}
-
-/* Non-zero: out of memory */
-static inline int outline_find(outline *o, const owned_mesh *m)
-{
-    uint32_t *at = NULL, *place = mesh_places(m, &at, &o->places);
-    size_t n = (size_t)m->view.index_count;
-    uint32_t *index = (uint32_t *)malloc((n + 1) * sizeof *index);
-    int count = 0, failed = 1;
-    shade_mesh welded = { 0 };
-    o->position = (float *)malloc((3 * o->places + 1) * sizeof *o->position);
-    o->edge = (shade_edge *)malloc((n + 1) * sizeof *o->edge);
-    o->normal = (shade_vec3 *)malloc((n / 3 + 1) * sizeof *o->normal);
-    if (place && index && o->position && o->edge && o->normal) {
-        for (size_t i = 0; i < o->places; i++)
-            memcpy(o->position + 3 * i, m->positions + 3 * (size_t)at[i], 12);
-        for (size_t i = 0; i < n; i++) index[i] = place[m->indices[i]];
-        welded.positions = o->position;
-        welded.vertex_count = (int)o->places;
-        welded.indices = index;
-        welded.index_count = (int)n;
-        outline_normals(o, &welded);
-        failed = shade_mesh_edges(&welded, o->edge, (int)n, &count) || outline_sort(o, count);
-    }
-    free(index);
-    if (place) free(at);
-    free(place);
-    return failed;
-}
 
 /* ---- chains --------------------------------------------------------------------------------- */
 
@@ -138,8 +52,7 @@ enum { CHAIN_SEEN, CHAIN_HIDDEN, CHAIN_DROPPED };
 
 static inline shade_vec3 chains_place(const chains *c, uint32_t place)
 {
-    const float *p = c->outline->position + 3 * (size_t)place;
-    return shade_v3(p[0], p[1], p[2]);
+    return outline_place(c->outline, place);
 }
 
 static inline int chains_is_outline(const chains *c, const shade_edge *e)
@@ -147,18 +60,17 @@ static inline int chains_is_outline(const chains *c, const shade_edge *e)
     shade_vec3 to_eye = c->view->toward;
     if (c->view->lens)
         to_eye = shade_sub(shade_scale(to_eye, (float)VIEWS_EYE), chains_place(c, e->a));
-    return shade_is_silhouette(to_eye, c->outline->normal[e->triangle[0]],
-                               c->outline->normal[e->triangle[1]]);
+    return outline_is_seen(c->outline, e, to_eye);
 }
 
 /* Chooses the edges of the view, and lists them by their ends. */
 static inline int chains_choose(chains *c)
 {
     const outline *o = c->outline;
-    c->edge = (uint32_t *)malloc(((size_t)o->count + 1) * sizeof *c->edge);
+    c->edge = (uint32_t *)malloc(((size_t)o->bent + 1) * sizeof *c->edge);
     c->first = (uint32_t *)calloc(o->places + 2, sizeof *c->first);
     if (!c->edge || !c->first) return 1;
-    for (int i = 0; i < o->count; i++)
+    for (int i = 0; i < o->bent; i++)
         if (i < o->sharp || chains_is_outline(c, &o->edge[i])) c->edge[c->count++] = (uint32_t)i;
     c->used = (char *)calloc(c->count + 1, 1);
     c->at = (uint32_t *)malloc((2 * c->count + 1) * sizeof *c->at);

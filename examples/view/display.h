@@ -1,11 +1,13 @@
-/* display.h - shows a scene in a terminal: sends frames as fast as the terminal shows them, and
-   reads keys and mouse. */
+/* display.h - shows a scene in a terminal, by pixels where it takes them, else by characters: sends
+   frames as fast as the terminal shows them, and reads keys and mouse. */
 #ifndef VIEW_DISPLAY_H
 #define VIEW_DISPLAY_H
 
 #include "../model/scene.h"
 #include "terminal.h"
 #include "cells.h"
+#include "pixels.h"
+#include "words.h"
 
 /* ---- what the terminal can --------------------------------------------------------------- */
 
@@ -49,21 +51,43 @@ static inline int terminal_has_blocks(void)
            strstr(locale, "utf-8");
 }
 
+/* 1: questions are worth asking, and do no harm: consoles would show them as text. */
+static inline int terminal_can_answer(const view_options *o)
+{
+    const char *term = getenv("TERM");
+    if (o->show != SHOW_ASKED && o->show < SHOW_KITTY) return 0;
+    return o->colors != VIEW_PLAIN || (o->colors_guessed && !strncmp(term, "xterm", 5));
+}
+
 /* ---- frames --------------------------------------------------------------------------------- */
+
+/* How a picture is drawn while it moves, from the finest way on: with so many samples along the
+   edge of a pixel, and, where the terminal shows pixels, these so many times as large */
+typedef struct display_level {
+    int samples, zoom;
+} display_level;
+static const display_level display_cells[] = { { 4, 1 }, { 3, 1 }, { 2, 1 }, { 1, 1 } };
+static const display_level display_pixels[] = { { 2, 1 }, { 1, 1 }, { 1, 2 }, { 1, 3 }, { 1, 4 } };
 
 typedef struct display {
     scene *scene;
     const view_options *options;
+    view_show show; /* SHOW_CELLS, or one of the protocols for pixels */
     terminal_size size;
     terminal_keys keys;
     cell_screen screen;
+    pixel_bytes out;
+    uint8_t *sent;             /* the picture that is shown; behind it room for the next one */
+    size_t sent_size;          /* its bytes; 0: unknown */
     shade_target large, small; /* large: samples times the size of small, to which it is averaged */
-    int samples;
+    int width, height;         /* of small where it is not zoomed */
+    int most, samples, zoom;   /* most: samples that there is room for */
+    int level, steady;         /* while it moves, and frames that it could have been finer */
     int help, changed; /* changed: draw even if nothing turns */
-    int at_rest;       /* the picture is in the light of the studio */
+    int at_rest;       /* the picture is as good as it gets */
     int paced;         /* frames wait for reports of the terminal */
     int mouse_column, mouse_row;
-    double next, said_until, sent_at;
+    double next, said_until, sent_at, asked_at;
     frame_rate rate;
     int frames;
     size_t bytes, first_bytes;
@@ -72,47 +96,130 @@ typedef struct display {
 static inline void display_free(display *d)
 {
     cells_free(&d->screen);
+    free(d->out.bytes);
+    free(d->sent);
     free(d->large.color);
     free(d->large.depth);
     free(d->small.color);
 }
 
-/* Resizes the pictures; as many samples a pixel as fit into 2 million. */
+/* The rows that a picture of pixels fills.  Only kitty's leaves the cursor where it is; the others
+   would scroll the screen at its end. */
+static inline int display_rows(const display *d)
+{
+    return d->show == SHOW_KITTY || d->size.rows < 2 ? d->size.rows : d->size.rows - 1;
+}
+
+/* Resizes the pictures; as many samples a pixel as fit into 2 million, for pixels 7 million. */
 static inline void display_resize(display *d, terminal_size size)
 {
     static const shade_target none;
-    size_t pixels, n = 4;
+    const size_t room = d->show == SHOW_CELLS ? 2000000 : 7000000;
+    size_t pixels, n = d->show == SHOW_CELLS ? 4 : 3;
     d->size = size;
-    pixels = 2 * (size_t)d->size.columns * (size_t)d->size.rows;
-    while (n > 1 && pixels * n * n > 2000000) n--;
+    d->width = size.columns * cell_forms[d->screen.form].across;
+    d->height = size.rows * cell_forms[d->screen.form].down;
+    if (d->show != SHOW_CELLS) {
+        d->width = size.columns * size.cell_width;
+        d->height = display_rows(d) * size.cell_height;
+    }
+    pixels = (size_t)d->width * (size_t)d->height;
+    while (n > 1 && pixels * n * n > room) n--;
     free(d->large.color);
     free(d->large.depth);
     free(d->small.color);
+    free(d->sent);
     d->large = d->small = none;
-    d->samples = (int)n;
-    d->small.width = d->size.columns;
-    d->small.height = 2 * d->size.rows;
+    d->most = (int)n;
     d->small.srgb = 1;
     d->small.color = example_memory(pixels, 4);
-    d->large.width = d->small.width * (int)n;
-    d->large.height = d->small.height * (int)n;
     d->large.color = example_memory(pixels * n * n, 16);
     d->large.format = SHADE_FORMAT_RGBA32F;
     d->large.depth = (float *)example_memory(pixels * n * n, sizeof(float));
-    cells_resize(&d->screen, d->size.columns, d->size.rows);
+    d->sent = d->show == SHOW_CELLS ? NULL : (uint8_t *)example_memory(pixels, 6);
+    d->sent_size = 0;
+    d->level = d->show == SHOW_CELLS ? 0 : 2;
+    d->steady = 0;
+    cells_resize(&d->screen, size.columns, size.rows);
     d->changed = 1;
+}
+
+/* A terminal with a name of its own knows all colours, whatever TERM says. */
+static inline void display_color(display *d, const terminal_answers *said)
+{
+    d->screen.colors = d->options->colors;
+    if (d->screen.colors != VIEW_PLAIN || !d->options->colors_guessed || !said->parts) return;
+    d->screen.colors = VIEW_TRUE;
+    d->scene->said[0] = 0;
+    scene_lighten(d->scene);
+}
+
+/* Chooses what the terminal has answered that it shows best. */
+static inline void display_choose(display *d, const terminal_answers *said)
+{
+    const view_show want = d->options->show;
+    terminal_size size = terminal_measure(said);
+    display_color(d, said);
+    d->show = SHOW_CELLS;
+    if (want >= SHOW_KITTY)
+        d->show = want;
+    else if (want == SHOW_ASKED && said->kitty)
+        d->show = SHOW_KITTY;
+    else if (want == SHOW_ASKED && said->iterm2 && pixels_known(SHOW_ITERM2))
+        d->show = SHOW_ITERM2;
+    else if (want == SHOW_ASKED && said->sixel && said->parts && size.cell_known &&
+             pixels_known(SHOW_SIXEL))
+        d->show = SHOW_SIXEL;
+    d->screen.form = CELL_HALVES;
+    if (want == SHOW_SEXTANTS || (want == SHOW_ASKED && said->parts == 6))
+        d->screen.form = CELL_SEXTANTS;
+    if (want == SHOW_QUADRANTS || (want == SHOW_ASKED && said->parts == 4))
+        d->screen.form = CELL_QUADRANTS;
+    if (!terminal_has_blocks()) d->screen.form = CELL_WHOLE;
+    if (d->screen.colors == VIEW_PLAIN) {
+        d->screen.form = CELL_HALVES;
+        d->show = SHOW_CELLS;
+    }
+    display_resize(d, size);
+}
+
+static inline display_level display_moving(const display *d)
+{
+    return d->show == SHOW_CELLS ? display_cells[d->level] : display_pixels[d->level];
+}
+
+static inline int display_coarsest(const display *d) { return d->show == SHOW_CELLS ? 3 : 4; }
+
+/* How finely the next picture is drawn */
+static inline void display_refine(display *d)
+{
+    const display_level level = display_moving(d);
+    d->samples = d->at_rest || level.samples > d->most ? d->most : level.samples;
+    d->zoom = d->at_rest ? 1 : level.zoom;
+    d->small.width = (d->width + d->zoom - 1) / d->zoom;
+    d->small.height = (d->height + d->zoom - 1) / d->zoom;
+    d->large.width = d->small.width * d->samples;
+    d->large.height = d->small.height * d->samples;
 }
 
 static inline void display_picture(display *d)
 {
+    const float across = (float)d->width, down = (float)d->height;
     float aspect = (float)d->size.columns * d->size.shape / (float)(2 * d->size.rows);
-    scene_camera camera = scene_place_camera(d->scene, aspect);
+    scene_camera camera;
+    if (d->show != SHOW_CELLS) aspect = across / down;
+    camera = scene_place_camera(d->scene, aspect);
+    display_refine(d);
     scene_dim(d->scene);
-    if (d->at_rest) scene_light(d->scene, &camera, d->small.width);
+    scene_trace(d->scene, &camera, d->small.height);
+    if (d->at_rest)
+        scene_light(d->scene, &camera, d->width > d->height ? d->width : d->height);
     scene_draw(d->scene, &d->large, &camera, d->samples);
     scene_resolve(d->scene, &d->small, &d->large, d->samples);
-    cells_picture(&d->screen, (const uint8_t *)d->small.color);
+    if (d->show == SHOW_CELLS) cells_picture(&d->screen, (const uint8_t *)d->small.color);
 }
+
+/* ---- words ----------------------------------------------------------------------------------- */
 
 static inline void display_help(display *d)
 {
@@ -149,35 +256,123 @@ static inline void display_words(display *d)
     if (d->help) display_help(d);
 }
 
-/* Sends all changes at once (terminals that know mode 2026 show them at once), and asks for a
-   report when they have been shown.  Returns 1 where the terminal accepts no more. */
-static inline int display_send(display *d)
+/* Words as pixels, at least 12 of them high */
+static inline void display_write(display *d)
 {
-    static const char begin[] = "\033[?2026h", end[] = "\033[?2026l", ask[] = "\033[5n";
+    const float em = 0.8f * (float)d->size.cell_height / (float)d->zoom;
+    words said = { d->scene, em < 12 ? 12 : em, 0, d->help, "? help", scene_ink(d->scene) };
+    if (d->size.columns < 20 || d->size.rows < 5) return;
+    if (d->scene->turning) said.rate = d->rate.rate;
+    words_draw(&said, &d->small);
+}
+
+/* ---- bytes ----------------------------------------------------------------------------------- */
+
+/* Terminals that know mode 2026 show all changes in between at once. */
+static const char display_begin[] = "\033[?2026h", display_end[] = "\033[?2026l";
+static const char display_ask[] = "\033[5n";
+
+/* Sends the cells that change.  Returns 1 where the terminal accepts no more. */
+static inline int display_send_cells(display *d)
+{
+    const size_t begin = sizeof display_begin - 1;
     cell_screen *s = &d->screen;
     cells_encode(s);
     if (!s->size) return 0;
-    memmove(s->bytes + sizeof begin - 1, s->bytes, s->size);
-    memcpy(s->bytes, begin, sizeof begin - 1);
-    s->size += sizeof begin - 1;
-    cells_put(s, end, sizeof end - 1);
-    if (d->paced) {
-        cells_put(s, ask, sizeof ask - 1);
-        terminal_asked++;
-    }
+    memmove(s->bytes + begin, s->bytes, s->size);
+    memcpy(s->bytes, display_begin, begin);
+    s->size += begin;
+    cells_put(s, display_end, sizeof display_end - 1);
+    if (d->paced) cells_put(s, display_ask, sizeof display_ask - 1);
+    terminal_asked += d->paced;
     d->bytes += s->size;
     return terminal_write(s->bytes, s->size);
 }
 
-/* While the model turns, colours may be off by one, which saves half of the bytes.  At rest they
-   are exact. */
+/* Takes the colours of the picture to rgb; sixels are never scaled by the terminal, so that their
+   pixels are repeated here. */
+static inline void display_pack(const display *d, uint8_t *rgb, int repeat)
+{
+    const uint8_t *pixels = (const uint8_t *)d->small.color;
+    const int width = repeat > 1 ? d->width : d->small.width;
+    const int height = repeat > 1 ? d->height : d->small.height;
+    for (int y = 0; y < height; y++) {
+        const uint8_t *row = pixels + 4 * (size_t)(y / repeat) * (size_t)d->small.width;
+        for (int x = 0; x < width; x++, rgb += 3) memcpy(rgb, row + 4 * (x / repeat), 3);
+    }
+}
+
+/* Sends the picture, and below it a row of its last colour where it leaves one free. */
+static inline void display_encode(display *d, uint8_t *rgb, int width, int height)
+{
+    const int rows = display_rows(d);
+    const uint8_t *last = rgb + 3 * (size_t)width * (size_t)(height - 1);
+    pixel_bytes *out = &d->out;
+    out->size = 0;
+    /* kitty's pictures are swapped at once anyway, and are too long for its mode */
+    if (d->show != SHOW_KITTY) pixels_put(out, display_begin, sizeof display_begin - 1);
+    if (!d->sent_size) pixels_print(out, "\033[m\033[2J");
+    if (rows < d->size.rows)
+        pixels_print(out, "\033[%dH\033[48;2;%d;%d;%dm\033[K\033[m", d->size.rows, last[0],
+                     last[1], last[2]);
+    if (d->show == SHOW_KITTY)
+        pixels_kitty(out, rgb, width, height, d->size.columns, rows);
+    else if (d->show == SHOW_ITERM2)
+        pixels_iterm2(out, rgb, width, height, d->size.columns, rows);
+    else
+        pixels_sixel(out, rgb, width, height, d->at_rest);
+    if (d->show != SHOW_KITTY) pixels_put(out, display_end, sizeof display_end - 1);
+    if (d->paced) pixels_put(out, display_ask, sizeof display_ask - 1);
+}
+
+/* Sends the picture if it is another one.  Returns 1 where the terminal accepts no more. */
+static inline int display_send_pixels(display *d)
+{
+    const size_t room = 3 * (size_t)d->width * (size_t)d->height;
+    const int repeat = d->show == SHOW_SIXEL ? d->zoom : 1;
+    const int width = repeat > 1 ? d->width : d->small.width;
+    const int height = repeat > 1 ? d->height : d->small.height;
+    const size_t size = 3 * (size_t)width * (size_t)height;
+    uint8_t *rgb = d->sent + room;
+    display_pack(d, rgb, repeat);
+    if (size == d->sent_size && !memcmp(rgb, d->sent, size)) return 0;
+    display_encode(d, rgb, width, height);
+    memcpy(d->sent, rgb, size);
+    d->sent_size = size;
+    terminal_pictured = d->show == SHOW_KITTY;
+    terminal_asked += d->paced;
+    d->bytes += d->out.size;
+    return terminal_write(d->out.bytes, d->out.size);
+}
+
+/* In motion, chooses a level that keeps the rate: a coarser one after one slow frame, a finer one
+   after 30 fast ones. */
+static inline void display_keep_pace(display *d, double seconds)
+{
+    const double step = 1.0 / d->options->rate;
+    if (d->at_rest) return;
+    d->steady = seconds < 0.4 * step ? d->steady + 1 : 0;
+    if (seconds > 1.1 * step && d->level < display_coarsest(d)) d->level++;
+    if (d->steady < 30 || !d->level) return;
+    d->steady = 0;
+    d->level--;
+}
+
+/* While the model turns, colours of cells may be off by one, which saves half of the bytes.  At
+   rest they are exact. */
 static inline int display_frame(display *d, double now)
 {
     int failed;
     display_picture(d);
-    display_words(d);
-    d->screen.slack = d->scene->turning ? 1 : 0;
-    failed = display_send(d);
+    if (d->show == SHOW_CELLS) {
+        display_words(d);
+        d->screen.slack = d->scene->turning ? 1 : 0;
+        failed = display_send_cells(d);
+    } else {
+        display_write(d);
+        failed = display_send_pixels(d);
+    }
+    display_keep_pace(d, clock_now() - now);
     if (!d->frames++) d->first_bytes = d->bytes;
     d->changed = 0;
     d->sent_at = now;
@@ -220,7 +415,9 @@ static inline int display_input(display *d)
         input in = terminal_next(&d->keys);
         if (in.kind == INPUT_NONE) return 0;
         if (in.kind == INPUT_END) return 1;
-        if (in.kind == INPUT_MOUSE)
+        if (in.kind == INPUT_ANSWERS)
+            display_choose(d, &d->keys.said);
+        else if (in.kind == INPUT_MOUSE)
             display_mouse(d, in);
         else if (display_key(d, in.key))
             return 1;
@@ -238,7 +435,7 @@ static inline void display_signals(display *d, const sigset_t *mask)
     }
     if (terminal_resized) {
         terminal_resized = 0;
-        display_resize(d, terminal_measure());
+        display_choose(d, &d->keys.said);
     }
 }
 
@@ -249,11 +446,30 @@ static inline int display_behind(display *d, double now)
     if (terminal_asked < 2) return 0;
     if (now - d->sent_at < 2) return 1;
     terminal_asked = 0;
+    terminal_questioned = 0;
     d->paced = 0;
     return 0;
 }
 
-/* Seconds without a change after which the picture is drawn in the light of the studio */
+/* Seconds that the first picture waits for the terminal's answers; those that come later change
+   what is shown. */
+#define DISPLAY_PATIENCE 0.3
+
+/* 1: draw nothing yet. */
+static inline int display_waits(const display *d, double now)
+{
+    return terminal_questioned && !d->frames && now < d->asked_at + DISPLAY_PATIENCE;
+}
+
+/* 1: at rest the picture gets better than it is. */
+static inline int display_can_rest(const display *d)
+{
+    return !d->at_rest &&
+           (d->samples < d->most || d->zoom > 1 || scene_has_studio(d->scene));
+}
+
+/* Seconds without a change after which the picture is drawn with all samples, in the light of the
+   studio */
 #define DISPLAY_REST 0.25
 
 /* Runs until the user ends it (returns 0) or the terminal is gone (returns 1). */
@@ -268,9 +484,12 @@ static inline int display_run(display *d, const sigset_t *mask)
             d->scene->said[0] = 0;
             d->changed = 1;
         }
-        if (!(d->scene->turning || d->changed || d->options->frames)) {
+        if (display_waits(d, now)) {
             before = now;
-            if (d->at_rest || !scene_has_studio(d->scene)) {
+            terminal_wait(d->asked_at + DISPLAY_PATIENCE - now, mask);
+        } else if (!(d->scene->turning || d->changed || d->options->frames)) {
+            before = now;
+            if (!display_can_rest(d)) {
                 terminal_wait(0.5, mask);
             } else if (now < d->sent_at + DISPLAY_REST || display_behind(d, now)) {
                 terminal_wait(DISPLAY_REST, mask);
@@ -311,11 +530,11 @@ static inline int show_in_terminal(scene *s, const view_options *o)
     d.options = o;
     d.paced = 1;
     d.said_until = begin + 6;
-    d.screen.colors = o->colors;
-    d.screen.whole = !terminal_has_blocks();
     atexit(terminal_leave);
     terminal_catch_all(&mask);
     terminal_enter();
+    d.asked_at = clock_now();
+    if (terminal_can_answer(o)) terminal_ask();
     gone = display_run(&d, &mask);
     terminal_leave();
     if (o->frames) display_tell_cost(&d, clock_now() - begin);

@@ -9,9 +9,24 @@
    the terminal's own variables say. */
 typedef enum view_colors { VIEW_PLAIN, VIEW_256, VIEW_TRUE, VIEW_COLORS_ASKED } view_colors;
 
+/* How pictures are shown: as the terminal answers; by characters, whose cells are divided into so
+   many parts; or by pixels. */
+typedef enum view_show {
+    SHOW_ASKED,
+    SHOW_CELLS,
+    SHOW_HALVES,
+    SHOW_QUADRANTS,
+    SHOW_SEXTANTS,
+    SHOW_KITTY,
+    SHOW_ITERM2,
+    SHOW_SIXEL
+} view_show;
+
 typedef struct view_options {
     scene_request scene;
     view_colors colors;
+    int colors_guessed; /* the terminal's variables say them, not an option */
+    view_show show;
     int window;
     int rate, frames; /* frames 0: until the user ends it */
 } view_options;
@@ -20,6 +35,8 @@ static const char view_usage[] =
     "usage: view [model] [options]                    without a model: the teapot\n"
     "  --window              in a window instead of the terminal\n"
     "  --colors true|256     of the terminal (what COLORTERM and TERM say)\n"
+    "  --show WAY            halves, quadrants, sextants, kitty, iterm2 or sixel (the last that\n"
+    "                        the terminal says it can): parts of characters, or pixels\n"
     "  --ascii               plain characters, no colors\n"
     "  --still               the model does not turn by itself\n"
     "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
@@ -27,6 +44,17 @@ static const char view_usage[] =
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
     "  --help, --version     prints this text; the version\n"
     "The key ? lists the others.\n";
+
+/* Returns OPTION_TAKEN, or 0. */
+static inline int view_take_show(view_options *o, const char *value)
+{
+    static const char *const name[] = {
+        "halves", "quadrants", "sextants", "kitty", "iterm2", "sixel"
+    };
+    const int found = find_name(value, name, 6);
+    o->show = (view_show)(SHOW_HALVES + found);
+    return found >= 0;
+}
 
 /* Stores one option: the option_take of view. */
 static inline int view_take(void *to, const char *name, const char *value)
@@ -42,6 +70,8 @@ static inline int view_take(void *to, const char *name, const char *value)
         o->scene.still = 1;
     else if (!strcmp(name, "--ascii"))
         o->colors = VIEW_PLAIN;
+    else if (!strcmp(name, "--show"))
+        return view_take_show(o, value);
     else if (!strcmp(name, "--rate"))
         return option_integer(value, 1, 240, &o->rate);
     else if (!strcmp(name, "--frames"))
@@ -64,7 +94,9 @@ static inline scene_request view_request(const view_options *o)
 /* Reads the command line.  Returns what options_read does. */
 static inline int view_read_options(view_options *o, int argc, char **argv)
 {
-    static const char *const valued[] = { MODEL_VALUED, "--rate", "--frames", "--colors", NULL };
+    static const char *const valued[] = {
+        MODEL_VALUED, "--rate", "--frames", "--colors", "--show", NULL
+    };
     static const char *const flags[] = { MODEL_FLAGS, "--window", "--still", "--ascii", NULL };
     static const command view = { "view", view_usage, valued, flags, 1, view_take };
     int end = options_read(&view, o, argc, argv);

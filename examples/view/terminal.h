@@ -4,6 +4,7 @@
 #define VIEW_TERMINAL_H
 
 #include "../model/clock.h"
+#include "answers.h"
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -14,18 +15,122 @@
 #include <termios.h>
 #include <unistd.h>
 
-/* ---- state, and its way back ----------------------------------------------------------------- */
-
-/* Enters: the alternate screen, no cursor, reports of buttons and motion of the mouse in decimal */
-#define TERMINAL_ENTER "\033[?1049h\033[?25l\033[?1002h\033[?1006h"
-/* CAN ends a sequence that was cut off in the middle */
-#define TERMINAL_LEAVE "\030\033[m\033[?1006l\033[?1002l\033[?2026l\033[?25h\033[?1049l"
+/* ---- state ----------------------------------------------------------------------------------- */
 
 /* State that signal handlers change */
 static struct termios terminal_before;
 static volatile sig_atomic_t terminal_entered, terminal_resized, terminal_stopped,
     terminal_continued;
 static volatile sig_atomic_t terminal_asked; /* reports that have been asked for and not received */
+static volatile sig_atomic_t terminal_questioned; /* the first of these ends the answers */
+static volatile sig_atomic_t terminal_pictured;   /* it keeps pictures of kitty's protocol */
+
+/* ---- keys and mouse -------------------------------------------------------------------------- */
+
+typedef enum input_kind {
+    INPUT_NONE,
+    INPUT_KEY,
+    INPUT_MOUSE,
+    INPUT_ANSWERS, /* the terminal has answered all questions, or will not */
+    INPUT_END
+} input_kind;
+enum { MOUSE_MOVED = 32, MOUSE_WHEEL = 64 }; /* bits of button, in xterm's count */
+typedef struct input {
+    input_kind kind;
+    int key;                 /* a character, or KEY_... */
+    int button, column, row; /* of the mouse, from 1 */
+} input;
+
+typedef struct terminal_keys {
+    unsigned char text[512];
+    size_t size;
+    terminal_answers said;
+} terminal_keys;
+
+/* Reads the numbers of a sequence such as <0;12;5. */
+static inline void terminal_numbers(const unsigned char *p, const unsigned char *end, int number[3])
+{
+    number[0] = number[1] = number[2] = 0;
+    for (int k = 0; p < end && k < 3; p++) {
+        if (*p == ';')
+            k++;
+        else if (*p >= '0' && *p <= '9' && number[k] < 100000)
+            number[k] = number[k] * 10 + *p - '0';
+    }
+}
+
+/* A control sequence whose last byte is *end */
+static inline input terminal_sequence(const unsigned char *begin, const unsigned char *end)
+{
+    input in = { INPUT_NONE, 0, 0, 0, 0 };
+    int number[3];
+    terminal_numbers(begin, end, number);
+    if (*end >= 'A' && *end <= 'D') {
+        static const int arrow[4] = { KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT };
+        in.kind = INPUT_KEY;
+        in.key = arrow[*end - 'A'];
+    } else if (*end == 'M' && begin < end && *begin == '<') {
+        in.kind = INPUT_MOUSE;
+        in.button = number[0];
+        in.column = number[1];
+        in.row = number[2];
+    } else if (*end == 'n' && terminal_asked > 0) {
+        terminal_asked--;
+        if (terminal_questioned) in.kind = INPUT_ANSWERS;
+    }
+    return in;
+}
+
+/* The size of an answer in the form of a string, which ends in BEL or ESC \; 0: its end is not
+   here.  Its beginning is also what Alt and a letter send, so it counts as one only while answers
+   are awaited. */
+static inline size_t terminal_string(const unsigned char *p, size_t size)
+{
+    for (size_t n = 2; n < size; n++) {
+        if (p[n] == 7) return n + 1;
+        if (p[n] == '\\' && p[n - 1] == 27) return n + 1;
+    }
+    return size < 400 ? 0 : size;
+}
+
+/* The old form of the mouse, for terminals that know no other: ESC [ M and three bytes */
+static inline size_t terminal_old_mouse(const unsigned char *p, size_t size, input *in)
+{
+    if (size < 6) return 0;
+    in->kind = INPUT_MOUSE;
+    in->button = p[3] - 32;
+    in->column = p[4] - 32;
+    in->row = p[5] - 32;
+    if ((in->button & 3) == 3 && !(in->button & MOUSE_MOVED)) in->kind = INPUT_NONE;
+    return 6;
+}
+
+/* Takes one key, click or report off the front.  Returns the bytes it had, 0: not all of it is
+   here. */
+static inline size_t terminal_parse(const unsigned char *p, size_t size, input *in)
+{
+    size_t n = 2;
+    in->kind = INPUT_KEY;
+    in->key = *p;
+    if (*p != 27) return 1;
+    in->kind = INPUT_NONE;
+    if (size < 2) return 0;
+    if (terminal_questioned && strchr("P_]", p[1])) return terminal_string(p, size);
+    if (p[1] != '[' && p[1] != 'O') return 1;
+    while (n < size && p[n] >= ' ' && p[n] < '@') n++;
+    if (n == size) return size < 64 ? 0 : size;
+    if (n == 2 && p[1] == '[' && p[n] == 'M') return terminal_old_mouse(p, size, in);
+    if (p[n] < 127 && p[n] >= '@') *in = terminal_sequence(p + 2, p + n);
+    return n + 1;
+}
+
+/* ---- enter and leave ------------------------------------------------------------------------- */
+
+/* Enters: the alternate screen, no cursor, reports of buttons and motion of the mouse in decimal */
+#define TERMINAL_ENTER "\033[?1049h\033[?25l\033[?1002h\033[?1006h"
+/* CAN ends a sequence that was cut off in the middle; TERMINAL_FORGET deletes all pictures. */
+#define TERMINAL_FORGET "\030\033_Ga=d,q=2,d=A\033\\"
+#define TERMINAL_LEAVE "\030\033[m\033[?1006l\033[?1002l\033[?2026l\033[?25h\033[?1049l"
 
 /* Returns 1 where the terminal accepts no more. */
 static inline int terminal_write(const char *bytes, size_t size)
@@ -46,16 +151,22 @@ static inline int terminal_write(const char *bytes, size_t size)
     return 0;
 }
 
-/* Reads the reports that are on their way, each of which ends in n, so that the shell does not
-   get them; waits 0.3 s at most. */
+/* Reads the reports that are on their way, so that the shell does not get them; waits 0.3 s at
+   most. */
 static inline void terminal_drain(void)
 {
+    static unsigned char text[512];
     struct pollfd in = { STDIN_FILENO, POLLIN, 0 };
+    size_t size = 0;
     for (int tries = 0; terminal_asked > 0 && tries < 3; tries++) {
-        char text[64];
-        ssize_t n = poll(&in, 1, 100) > 0 ? read(STDIN_FILENO, text, sizeof text) : 0;
-        for (ssize_t k = 0; k < n; k++)
-            if (text[k] == 'n') terminal_asked--;
+        input report;
+        size_t used;
+        ssize_t n = poll(&in, 1, 100) > 0 ? read(STDIN_FILENO, text + size, sizeof text - size) : 0;
+        if (n > 0) size += (size_t)n;
+        while (size && (used = terminal_parse(text, size, &report)) > 0) {
+            size -= used;
+            memmove(text, text + used, size);
+        }
     }
     terminal_asked = 0;
 }
@@ -66,6 +177,7 @@ static inline void terminal_leave(void)
     int error = errno;
     if (!terminal_entered) return;
     terminal_entered = 0;
+    if (terminal_pictured) terminal_write(TERMINAL_FORGET, sizeof TERMINAL_FORGET - 1);
     terminal_write(TERMINAL_LEAVE, sizeof TERMINAL_LEAVE - 1);
     terminal_drain();
     tcsetattr(STDIN_FILENO, TCSANOW, &terminal_before);
@@ -85,6 +197,14 @@ static inline void terminal_enter(void)
     tcsetattr(STDIN_FILENO, TCSANOW, &mode);
     terminal_write(TERMINAL_ENTER, sizeof TERMINAL_ENTER - 1);
     terminal_resized = 1;
+}
+
+/* Asks what the terminal can show.  What arrives until INPUT_ANSWERS are the answers. */
+static inline void terminal_ask(void)
+{
+    terminal_questioned = 1;
+    terminal_asked++;
+    terminal_write(TERMINAL_QUESTIONS, sizeof TERMINAL_QUESTIONS - 1);
 }
 
 /* ---- signals -------------------------------------------------------------------------------- */
@@ -167,98 +287,34 @@ static inline void terminal_stop(void)
 typedef struct terminal_size {
     int columns, rows;
     float shape;
+    int cell_width, cell_height, cell_known; /* pixels; 10 x 20 where nobody knows */
 } terminal_size;
 
-static inline terminal_size terminal_measure(void)
+/* The size of a cell is what the system knows, which follows changes of the font, or what the
+   terminal has answered. */
+static inline terminal_size terminal_measure(const terminal_answers *said)
 {
-    terminal_size s = { 80, 24, 1 };
+    terminal_size s = { 80, 24, 1, said->cell_width, said->cell_height, 1 };
     struct winsize w;
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) || !w.ws_col || !w.ws_row) return s;
-    s.columns = w.ws_col < 1000 ? w.ws_col : 1000;
-    s.rows = w.ws_row < 500 ? w.ws_row : 500;
-    if (w.ws_xpixel && w.ws_ypixel)
-        s.shape = 2 * (float)w.ws_xpixel * (float)w.ws_row / ((float)w.ws_col * (float)w.ws_ypixel);
+    if (!ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) && w.ws_col && w.ws_row) {
+        s.columns = w.ws_col < 1000 ? w.ws_col : 1000;
+        s.rows = w.ws_row < 500 ? w.ws_row : 500;
+        if (w.ws_xpixel >= w.ws_col && w.ws_ypixel >= w.ws_row) {
+            s.cell_width = w.ws_xpixel / w.ws_col;
+            s.cell_height = w.ws_ypixel / w.ws_row;
+        }
+    }
+    if (s.cell_width < 1 || s.cell_width > 100 || s.cell_height < 1 || s.cell_height > 200) {
+        s.cell_width = 10;
+        s.cell_height = 20;
+        s.cell_known = 0;
+    }
+    s.shape = 2 * (float)s.cell_width / (float)s.cell_height;
     if (s.shape < 0.5f || s.shape > 2) s.shape = 1;
     return s;
 }
 
-/* ---- keys and mouse -------------------------------------------------------------------------- */
-
-typedef enum input_kind { INPUT_NONE, INPUT_KEY, INPUT_MOUSE, INPUT_END } input_kind;
-enum { MOUSE_MOVED = 32, MOUSE_WHEEL = 64 }; /* bits of button, in xterm's count */
-typedef struct input {
-    input_kind kind;
-    int key;                 /* a character, or KEY_... */
-    int button, column, row; /* of the mouse, from 1 */
-} input;
-
-typedef struct terminal_keys {
-    unsigned char text[256];
-    size_t size;
-} terminal_keys;
-
-/* Reads the numbers of a sequence such as <0;12;5. */
-static inline void terminal_numbers(const unsigned char *p, const unsigned char *end, int number[3])
-{
-    number[0] = number[1] = number[2] = 0;
-    for (int k = 0; p < end && k < 3; p++) {
-        if (*p == ';')
-            k++;
-        else if (*p >= '0' && *p <= '9' && number[k] < 100000)
-            number[k] = number[k] * 10 + *p - '0';
-    }
-}
-
-/* A control sequence whose last byte is *end */
-static inline input terminal_sequence(const unsigned char *begin, const unsigned char *end)
-{
-    input in = { INPUT_NONE, 0, 0, 0, 0 };
-    int number[3];
-    terminal_numbers(begin, end, number);
-    if (*end >= 'A' && *end <= 'D') {
-        static const int arrow[4] = { KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT };
-        in.kind = INPUT_KEY;
-        in.key = arrow[*end - 'A'];
-    } else if (*end == 'M' && begin < end && *begin == '<') {
-        in.kind = INPUT_MOUSE;
-        in.button = number[0];
-        in.column = number[1];
-        in.row = number[2];
-    } else if (*end == 'n' && terminal_asked > 0) {
-        terminal_asked--;
-    }
-    return in;
-}
-
-/* The old form of the mouse, for terminals that know no other: ESC [ M and three bytes */
-static inline size_t terminal_old_mouse(const unsigned char *p, size_t size, input *in)
-{
-    if (size < 6) return 0;
-    in->kind = INPUT_MOUSE;
-    in->button = p[3] - 32;
-    in->column = p[4] - 32;
-    in->row = p[5] - 32;
-    if ((in->button & 3) == 3 && !(in->button & MOUSE_MOVED)) in->kind = INPUT_NONE;
-    return 6;
-}
-
-/* Takes one key, click or report off the front.  Returns the bytes it had, 0: not all of it is
-   here. */
-static inline size_t terminal_parse(const unsigned char *p, size_t size, input *in)
-{
-    size_t n = 2;
-    in->kind = INPUT_KEY;
-    in->key = *p;
-    if (*p != 27) return 1;
-    in->kind = INPUT_NONE;
-    if (size < 2) return 0;
-    if (p[1] != '[' && p[1] != 'O') return 1;
-    while (n < size && p[n] >= ' ' && p[n] < '@') n++;
-    if (n == size) return size < 64 ? 0 : size;
-    if (n == 2 && p[1] == '[' && p[n] == 'M') return terminal_old_mouse(p, size, in);
-    if (p[n] < 127 && p[n] >= '@') *in = terminal_sequence(p + 2, p + n);
-    return n + 1;
-}
+/* ---- what arrives ---------------------------------------------------------------------------- */
 
 /* Returns the next input; INPUT_NONE: there is none. */
 static inline input terminal_next(terminal_keys *k)
@@ -269,6 +325,8 @@ static inline input terminal_next(terminal_keys *k)
         size_t used;
         ssize_t n;
         while (k->size && (used = terminal_parse(k->text, k->size, &in)) > 0) {
+            if (terminal_questioned && in.kind == INPUT_NONE) answers_take(&k->said, k->text, used);
+            if (in.kind == INPUT_ANSWERS) terminal_questioned = 0;
             k->size -= used;
             memmove(k->text, k->text + used, k->size);
             if (in.kind != INPUT_NONE) return in;

@@ -5,9 +5,11 @@
    With SDL2 it also knows --window:
    cc -O2 -pthread -I. -DVIEW_SDL examples/view/view.c -lm $(sdl2-config --cflags --libs) -o view
 
-   A character of the terminal shows two pixels, each the mean of 16 samples.  Only cells that
-   change are sent, and never more than two frames ahead of the terminal's answers: over a slow
-   line the model turns in larger steps, but the picture does not lag behind the keys. */
+   The terminal is asked what it can show: pixels, by kitty's protocol, by iTerm2's, or as sixels
+   (with -DVIEW_SIXEL -lsixel); or characters of six, four or two parts, each the mean of 16
+   samples, of which only those that change are sent.  Never more than two frames are ahead of the
+   terminal's reports: over a slow line the model turns in larger steps, but the picture does not
+   lag behind the keys. */
 #define _DEFAULT_SOURCE /* NOLINT: the system's own name, for SIGWINCH with -std=c99 */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
@@ -46,10 +48,15 @@ int main(int argc, char **argv)
     end = view_read_options(&o, argc, argv);
     if (end) return end == OPTIONS_WRONG;
     if (o.window) return show_in_window(&s, &o);
+    if (o.show >= SHOW_KITTY && !pixels_known(o.show))
+        return complain("--show %s needs a view built with %s",
+                        o.show == SHOW_SIXEL ? "sixel" : "iterm2",
+                        o.show == SHOW_SIXEL ? "libsixel (libsixel-dev)" : "stb (libstb-dev)");
     lack = terminal_lacks();
     if (lack) return complain("%s", lack);
     if (o.colors == VIEW_COLORS_ASKED) {
         o.colors = terminal_colors();
+        o.colors_guessed = 1;
         if (o.colors == VIEW_PLAIN) strcpy(s.said, "TERM names no colors: try --colors 256");
     }
     request = view_request(&o);

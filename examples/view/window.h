@@ -5,8 +5,7 @@
 
 #define SDL_MAIN_HANDLED
 #include <SDL.h>
-#include "../shared/label.h"
-#include "../model/scene.h"
+#include "words.h"
 
 typedef struct window {
     SDL_Window *window;
@@ -28,7 +27,6 @@ typedef struct window {
 
 /* ---- the window ------------------------------------------------------------------------------ */
 
-/* Opens the window.  Returns 1 with a line on stderr. */
 /* Without a display SDL falls back to drivers that show nothing.  Only SDL_VIDEODRIVER may ask for
    one of these. */
 static inline int window_is_unseen(void)
@@ -39,6 +37,7 @@ static inline int window_is_unseen(void)
            !strcmp(driver, "evdev");
 }
 
+/* Opens the window.  Returns 1 with a line on stderr. */
 static inline int window_open(window *w)
 {
     SDL_SetMainReady();
@@ -101,52 +100,25 @@ static inline int window_fit(window *w)
 /* The size of letters in pixels */
 static inline float window_em(const window *w) { return w->scale > 1 ? 16 * w->scale : 18; }
 
-/* Draws text.  column counts ems from the left, or, below 0, from the right edge; a row below 0
-   is the last one. */
-static inline void window_text(const window *w, const shade_target *t, float column, int row,
-                               uint32_t color, const char *text)
+static inline words window_words(const window *w)
 {
-    float em = window_em(w), x = em * (column + 0.5f), y = em * (1.1f + 1.3f * (float)row);
-    if (column < 0) x = (float)t->width - em / 2 - label_width(em, text);
-    if (row < 0) y = (float)t->height - em / 2;
-    label_set(t, x, y, em, shade_rgb(color), text);
+    words said = { w->scene, window_em(w), 0, w->help, "h  help", scene_ink(w->scene) };
+    if (w->scene->turning) said.rate = w->rate.rate;
+    return said;
 }
 
-/* The list of keys, and, from the fifteenth character on, their effects */
-static inline void window_help(const window *w, const shade_target *t)
+/* Draws the words over the picture; a triangle under the mouse takes the place of the help. */
+static inline void window_say(const window *w, const shade_target *t)
 {
-    float em = window_em(w);
-    shade_target box = *t;
-    box.clip_x = (int)(0.5f * em);
-    box.clip_y = (int)(2.6f * em);
-    box.clip_width = (int)(26 * em);
-    box.clip_height = (int)(1.3f * (SCENE_HELP + 2) * em);
-    shade_clear(&box, shade_v4(0.007f, 0.01f, 0.013f, 1), 1);
-    for (int k = 0; k < SCENE_HELP; k++) {
-        char keys[16];
-        snprintf(keys, sizeof keys, "%.15s", scene_help[k]);
-        window_text(w, t, 1, k + 3, SCENE_BOX_INK, keys);
-        window_text(w, t, 8.5f, k + 3, SCENE_BOX_INK, scene_help[k] + 15);
-    }
-}
-
-static inline void window_words(const window *w, const shade_target *t)
-{
-    uint32_t ink = scene_ink(w->scene);
-    char text[80];
-    window_text(w, t, 0, 0, ink, scene_caption(w->scene).text);
-    if (w->scene->turning && w->rate.rate) {
-        snprintf(text, sizeof text, "%d fps", w->rate.rate);
-        window_text(w, t, -1, 0, ink, text);
-    }
+    words said = window_words(w);
+    char text[40];
+    snprintf(text, sizeof text, "triangle %d", w->picked);
+    if (w->help) said.corner = "";
     if (w->picked >= 0) {
-        snprintf(text, sizeof text, "triangle %d", w->picked);
-        window_text(w, t, -1, -1, 0xffb454, text);
-    } else if (!w->help) {
-        window_text(w, t, -1, -1, ink, "h  help");
+        said.corner = text;
+        said.corner_ink = 0xffb454;
     }
-    window_text(w, t, 0, -1, ink, w->scene->said);
-    if (w->help) window_help(w, t);
+    words_draw(&said, t);
 }
 
 /* Draws a bright edge around the triangle under the mouse; things before the triangle hide it. */
@@ -203,6 +175,7 @@ static inline int window_frame(window *w)
     scene_camera camera = scene_place_camera(w->scene, (float)w->width / (float)w->height);
     shade_target out;
     scene_dim(w->scene);
+    scene_trace(w->scene, &camera, w->height);
     if (w->at_rest)
         scene_light(w->scene, &camera, w->width > w->height ? w->width : w->height);
     w->large.width = w->width * w->samples;
@@ -211,7 +184,7 @@ static inline int window_frame(window *w)
     window_mark(w, &w->large, &camera);
     if (window_lock(w, &out)) return 1;
     scene_resolve(w->scene, &out, &w->large, w->samples);
-    window_words(w, &out);
+    window_say(w, &out);
     window_show(w);
     return 0;
 }
@@ -314,12 +287,13 @@ static inline int window_load_thread(void *user)
 
 static inline void window_show_progress(window *w, int percent)
 {
+    const words said = window_words(w);
     shade_target out;
     char text[40];
     snprintf(text, sizeof text, "reading %d", percent);
     if (!window_fit(w) || window_lock(w, &out)) return;
     scene_backdrop(w->scene, &out, 0, 1, 1);
-    window_text(w, &out, 0, 0, scene_ink(w->scene), text);
+    words_set(&said, &out, 0, 0, said.corner_ink, text);
     window_show(w);
 }
 

@@ -4,6 +4,7 @@
        check                                          all tests of encoding and decoding
        check pane COLORS COLUMNS ROWS KEYS [model]    a pane on standard input, as
                                                       tmux capture-pane -e -N -p prints it
+       check picture WAY COLUMNS ROWS                 the picture in pixels that view sends, as PPM
        check window RRGGBB                            a window on standard input, as xwd writes it:
                                                       prints its width, height, how many colours
                                                       follow one another, and pixels near one */
@@ -35,7 +36,7 @@ static void check(int holds, const char *what, long long got, long long want)
 /* ---- a terminal ------------------------------------------------------------------------------ */
 
 enum { COLOR_UNSET = 1 << 25, COLOR_NUMBER = 1 << 24 }; /* beside 0xRRGGBB */
-enum { UPPER_HALF = 0x2580, LOWER_HALF = 0x2584, FULL_BLOCK = 0x2588 };
+enum { NO_BLOCK = -1 };
 
 typedef struct vt_cell {
     uint32_t glyph, ink, paper;
@@ -135,6 +136,10 @@ static void vt_feed(vt *t, const char *p, const char *end)
         } else if (c == '\n') {
             t->row++;
             t->column = 0;
+        } else if (c >= 0xf0 && end - p >= 3) {
+            vt_put(t, (uint32_t)((c & 7) << 18 | (p[0] & 63) << 12 | (p[1] & 63) << 6 |
+                                 (p[2] & 63)));
+            p += 3;
         } else if (c >= 0xe0 && end - p >= 2) {
             vt_put(t, (uint32_t)((c & 15) << 12 | (p[0] & 63) << 6 | (p[1] & 63)));
             p += 2;
@@ -146,13 +151,33 @@ static void vt_feed(vt *t, const char *p, const char *end)
     }
 }
 
-/* The two pixels of a cell; returns the character where it is none of theirs. */
-static uint32_t vt_pixels(const vt_cell *c, uint32_t *upper, uint32_t *lower)
+/* A cell is looked at in 2 x 6 places, from its upper left one on: bit 2 y + x.  These are the
+   places that a block fills, by the charts of Unicode: U+2580 .. U+259F, and the sextants from
+   U+1FB00 on, which count up in binary but leave out what U+258C and U+2590 are. */
+static int block_places(uint32_t glyph)
 {
-    *upper = c->glyph == UPPER_HALF || c->glyph == FULL_BLOCK ? c->ink : c->paper;
-    *lower = c->glyph == LOWER_HALF || c->glyph == FULL_BLOCK ? c->ink : c->paper;
-    if (c->glyph == UPPER_HALF || c->glyph == LOWER_HALF || c->glyph == FULL_BLOCK) return 0;
-    return c->glyph;
+    static const struct {
+        uint32_t glyph;
+        int quarters; /* 1 upper left, 2 upper right, 4 lower left, 8 lower right */
+    } block[] = { { ' ', 0 },      { 0x2580, 3 },  { 0x2584, 12 }, { 0x2588, 15 }, { 0x258c, 5 },
+                  { 0x2590, 10 },  { 0x2596, 4 },  { 0x2597, 8 },  { 0x2598, 1 },  { 0x2599, 13 },
+                  { 0x259a, 9 },   { 0x259b, 7 },  { 0x259c, 11 }, { 0x259d, 2 },  { 0x259e, 6 },
+                  { 0x259f, 14 } };
+    int places = 0, sixths = 0;
+    for (uint32_t at = 0x1fb00; at <= glyph && glyph <= 0x1fb3b; at++) {
+        sixths++;
+        while (sixths == 21 || sixths == 42) sixths++;
+    }
+    for (int k = 0; k < 6 && sixths; k++)
+        if (sixths >> k & 1) places |= 5 << (4 * (k / 2) + k % 2);
+    if (sixths) return places;
+    for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
+        if (block[i].glyph != glyph) continue;
+        for (int k = 0; k < 4; k++)
+            if (block[i].quarters >> k & 1) places |= 21 << (6 * (k / 2) + k % 2);
+        return places;
+    }
+    return NO_BLOCK;
 }
 
 /* ---- cells to bytes ------------------------------------------------------------------------- */
@@ -172,20 +197,30 @@ static uint32_t encoded(const cell_screen *s, uint32_t color)
                                    : color;
 }
 
+/* The colour that is wanted at a place of a cell */
+static uint32_t wanted_color(const cell_screen *s, const cell *want, int place)
+{
+    const int across = cell_forms[s->form].across, down = cell_forms[s->form].down;
+    const int pixel = place / 2 * down / 6 * across + place % 2 * across / 2;
+    return encoded(s, want->mask >> pixel & 1 ? want->ink : want->paper);
+}
+
 /* Cells of the terminal that are not the wanted ones, to slack */
 static int wrong_cells(const cell_screen *s, const vt *t, const cell *want, int slack)
 {
     int wrong = 0;
     for (int i = 0; i < s->columns * s->rows; i++) {
-        uint32_t upper, lower, glyph = vt_pixels(&t->cells[i], &upper, &lower);
-        uint32_t want_upper = encoded(s, want[i].upper), want_lower = encoded(s, want[i].lower);
-        if (want[i].glyph) {
-            wrong += glyph != want[i].glyph || differ(t->cells[i].paper, want_lower, slack) ||
-                     (glyph != ' ' && differ(t->cells[i].ink, want_upper, slack));
-        } else {
-            wrong += (glyph && glyph != ' ') || differ(upper, want_upper, slack) ||
-                     differ(lower, want_lower, slack) || (s->whole && t->cells[i].glyph != ' ');
-        }
+        const vt_cell *got = &t->cells[i];
+        const int places = block_places(got->glyph);
+        int differs = places == NO_BLOCK || (s->form == CELL_WHOLE && got->glyph != ' ');
+        for (int k = 0; k < 12 && !want[i].glyph; k++)
+            differs |= differ(places >> k & 1 ? got->ink : got->paper,
+                              wanted_color(s, &want[i], k), slack);
+        if (want[i].glyph)
+            differs = got->glyph != want[i].glyph ||
+                      differ(got->paper, encoded(s, want[i].paper), slack) ||
+                      (got->glyph != ' ' && differ(got->ink, encoded(s, want[i].ink), slack));
+        wrong += differs;
     }
     return wrong;
 }
@@ -205,10 +240,13 @@ static void random_change(cell_screen *s)
     if (random_below(3)) changes /= 8;
     while (changes--) {
         cell *c = &s->wanted[random_below((uint32_t)count)];
-        c->upper = random_color(s);
-        c->lower = random_below(3) ? random_color(s) : c->upper;
-        c->glyph = s->colors == VIEW_PLAIN || !random_below(6) ? ' ' + random_below(95) : 0;
-        if (s->whole && !c->glyph) c->lower = c->upper;
+        c->ink = random_color(s);
+        c->paper = random_below(3) ? random_color(s) : c->ink;
+        c->mask = (uint8_t)random_below(1u << cells_pixels(s));
+        c->glyph = 0;
+        if (s->colors == VIEW_PLAIN || !random_below(6))
+            c->glyph = (uint8_t)(' ' + random_below(95));
+        if (s->form == CELL_WHOLE && !c->glyph) c->mask = 0;
     }
 }
 
@@ -227,7 +265,7 @@ static void test_screen(void)
     static cell_screen s;
     vt t;
     s.colors = (view_colors)random_below(3);
-    s.whole = !random_below(4);
+    s.form = (cell_form)random_below(4);
     cells_resize(&s, 1 + (int)random_below(40), 1 + (int)random_below(12));
     for (int i = 0; i < s.columns * s.rows; i++)
         s.wanted[i].glyph = s.colors == VIEW_PLAIN ? ' ' : 0;
@@ -255,25 +293,155 @@ static void test_screen(void)
     free(t.cells);
 }
 
-/* The nearest of all 240, by exhaustion */
-static void test_nearest(uint32_t rgb)
+/* The squared error that a mask leaves: of each part around its own mean */
+static double fit_error(const uint32_t *pixel, int n, int mask)
+{
+    static const int weight[3] = { 3, 6, 2 };
+    double error = 0;
+    for (int part = 0; part < 2; part++) {
+        for (int shift = 0; shift < 24; shift += 8) {
+            double sum = 0, squares = 0, count = 0;
+            for (int i = 0; i < n; i++) {
+                const double c = (double)(pixel[i] >> shift & 255);
+                if ((mask >> i & 1) != part) continue;
+                sum += c;
+                squares += c * c;
+                count++;
+            }
+            if (count > 0) error += weight[2 - shift / 8] * (squares - sum * sum / count);
+        }
+    }
+    return error;
+}
+
+/* The mask and the colours of 1, 2, 4 or 6 pixels, against all masks */
+static void test_fit(int n)
+{
+    uint32_t pixel[6];
+    double best = 1e30, got, mean[2][3] = { { 0 } }, count[2] = { 0 };
+    cell c;
+    for (int i = 0; i < n; i++)
+        pixel[i] = random_below(1 << 24) & (random_below(2) ? 0xffffff : 0xf0);
+    cells_fit(&c, pixel, n);
+    for (int mask = 0; mask < 1 << n; mask++) best = fmin(best, fit_error(pixel, n, mask));
+    got = fit_error(pixel, n, c.mask);
+    check(got <= best * 1.0001 + 1, "error of two colours", (long long)got, (long long)best);
+    for (int i = 0; i < n; i++) {
+        count[c.mask >> i & 1]++;
+        for (int k = 0; k < 3; k++) mean[c.mask >> i & 1][k] += (double)(pixel[i] >> (8 * k) & 255);
+    }
+    for (int k = 0; k < 6; k++) {
+        const int part = k / 3;
+        const uint32_t color = part ? c.ink : c.paper;
+        const double off = (double)(color >> (8 * (k % 3)) & 255) - mean[part][k % 3] / count[part];
+        if (count[part] > 0)
+            check(fabs(off) <= 0.51, "a mean of pixels", (long long)(100 * off), 0);
+    }
+}
+
+/* One of the 240 colours as xterm shows them */
+static void xterm_color(uint32_t n, int color[3])
 {
     static const int level[6] = { 0, 95, 135, 175, 215, 255 };
-    int best = INT_MAX, got = 0;
-    uint32_t number = cells_nearest(rgb);
-    for (uint32_t n = 16; n < 256; n++) {
-        uint32_t k = n - 16;
-        int c[3] = { level[k / 36 % 6], level[k / 6 % 6], level[k % 6] }, sum = 0;
-        static const int weight[3] = { 3, 6, 2 };
-        if (n >= 232) c[0] = c[1] = c[2] = 8 + 10 * (int)(n - 232);
-        for (int i = 0; i < 3; i++) {
-            int d = c[i] - (int)(rgb >> (16 - 8 * i) & 255);
-            sum += weight[i] * d * d;
-        }
-        if (sum < best) best = sum;
-        if (n == number) got = sum;
+    const uint32_t k = n - 16;
+    color[0] = level[k / 36 % 6];
+    color[1] = level[k / 6 % 6];
+    color[2] = level[k % 6];
+    if (n >= 232) color[0] = color[1] = color[2] = 8 + 10 * (int)(n - 232);
+}
+
+/* How far a colour is off, hue counted four times */
+static double color_error(const double *a, const int *b)
+{
+    const double luma =
+        (3 * (a[0] - b[0]) + 6 * (a[1] - b[1]) + 2 * (a[2] - b[2])) / 11;
+    double sum = luma * luma;
+    for (int k = 0; k < 3; k++) sum += 4 * (a[k] - b[k] - luma) * (a[k] - b[k] - luma);
+    return sum;
+}
+
+/* Over 4 x 4 places a dithered colour is as near, on average, as the nearest of all 240; greys are
+   mixed of greys alone, to within the 2 by which six bits are off. */
+static void test_dither(uint32_t rgb)
+{
+    const int color[3] = { (int)(rgb >> 16), (int)(rgb >> 8 & 255), (int)(rgb & 255) };
+    double mean[3] = { 0, 0, 0 }, nearest = 1e30, got;
+    int grey = 1;
+    for (int place = 0; place < 16; place++) {
+        int shown[3];
+        xterm_color(cells_dither(rgb, place % 4, place / 4), shown);
+        for (int k = 0; k < 3; k++) mean[k] += shown[k] / 16.0;
+        grey = grey && shown[0] == shown[1] && shown[1] == shown[2];
     }
-    check(got == best, "distance of the nearest colour", got, best);
+    for (uint32_t n = 16; n < 256; n++) {
+        int shown[3];
+        double one[3];
+        xterm_color(n, shown);
+        for (int k = 0; k < 3; k++) one[k] = shown[k];
+        nearest = fmin(nearest, color_error(one, color));
+    }
+    got = sqrt(color_error(mean, color));
+    check(got <= sqrt(nearest) + 8, "a dithered colour", (long long)got, (long long)sqrt(nearest));
+    if (color[0] == color[1] && color[1] == color[2]) {
+        check(grey, "grey of greys", color[0], 0);
+        check(fabs(mean[0] - color[0]) <= 7, "their mean", (long long)mean[0], color[0]);
+    }
+}
+
+/* ---- answers --------------------------------------------------------------------------------- */
+
+static terminal_answers answered(const char *text)
+{
+    terminal_answers a = { 0, 0, 0, 0, 0, 0 };
+    answers_take(&a, (const unsigned char *)text, strlen(text));
+    return a;
+}
+
+static void test_answers(void)
+{
+    static const struct {
+        const char *name;
+        int parts;
+    } named[] = { { "kitty(0.26.5)", 6 }, { "WezTerm 20240203", 6 }, { "ghostty 1.0.0", 6 },
+                  { "foot(1.13.1)", 6 },  { "VTE(6003)", 4 },        { "VTE(7600)", 6 },
+                  { "XTerm(379)", 4 },    { "tmux 3.3a", 0 } };
+    terminal_answers a;
+    for (size_t k = 0; k < sizeof named / sizeof *named; k++) {
+        char text[80];
+        snprintf(text, sizeof text, "\033P>|%s\033\\", named[k].name);
+        a = answered(text);
+        check(a.parts == named[k].parts, named[k].name, a.parts, named[k].parts);
+    }
+    check(answered("\033_Gi=31;OK\033\\").kitty, "kitty", 0, 1);
+    check(!answered("\033_Gi=31;EINVAL:no\033\\").kitty, "kitty refused", 1, 0);
+    check(answered("\033[?62;4;22c").sixel, "sixel", 0, 1);
+    check(answered("\033[?64;1;2;4c").sixel, "sixel as the last", 0, 1);
+    check(!answered("\033[?4;22c").sixel, "a terminal of class 4", 1, 0);
+    check(!answered("\033[?62;14;40c").sixel, "14 and 40", 1, 0);
+    check(answered("\033]1337;Capabilities=T3LrMSc7UUw9Ts3BFGsSyHNoSxF\007").iterm2, "FILE", 0, 1);
+    check(!answered("\033]1337;Capabilities=T3BFGsSy\033\\").iterm2, "focus alone", 1, 0);
+    a = answered("\033[6;20;10t");
+    check(a.cell_width == 10 && a.cell_height == 20, "a cell", a.cell_width, 10);
+    a = answered("\033[6;0;-3t");
+    check(!a.cell_width && !a.cell_height, "a cell without area", a.cell_width, 0);
+}
+
+/* Strings are answers while answers are awaited, and keys with Alt else. */
+static void test_strings(void)
+{
+    static const char name[] = "\033P>|foot(1.13.1)\033\\q";
+    const unsigned char *p = (const unsigned char *)name;
+    input in;
+    terminal_questioned = 1;
+    for (size_t n = 2; n < sizeof name - 2; n++)
+        check(terminal_parse(p, n, &in) == 0, "bytes taken of half a string", (long long)n, 0);
+    check(terminal_parse(p, sizeof name - 1, &in) == sizeof name - 2, "bytes of a string", 0, 1);
+    check(in.kind == INPUT_NONE, "a string is no key", in.kind, INPUT_NONE);
+    terminal_asked = 1;
+    check(terminal_parse((const unsigned char *)"\033[0n", 4, &in) == 4 && in.kind == INPUT_ANSWERS,
+          "the end of the answers", in.kind, INPUT_ANSWERS);
+    terminal_questioned = 0;
+    check(terminal_parse(p, sizeof name - 1, &in) == 1, "Alt and P", 0, 1);
 }
 
 /* ---- bytes to keys -------------------------------------------------------------------------- */
@@ -337,14 +505,16 @@ static void test_bytes(void)
     for (size_t i = 0; i < size; i++)
         text[i] = (unsigned char)(random_below(2) ? likely[random_below(sizeof likely - 1)]
                                                   : (int)random_below(256));
+    terminal_questioned = random_below(2) != 0;
     while (at < size && used) {
         input in;
         used = terminal_parse(text + at, size - at, &in);
         check(used <= size - at, "bytes taken", (long long)used, (long long)(size - at));
         at += used;
     }
-    check(at == size || (text[at] == 27 && size - at < 64), "bytes left", (long long)(size - at),
-          0);
+    check(at == size || (text[at] == 27 && size - at < (terminal_questioned ? 400 : 64)),
+          "bytes left", (long long)(size - at), 0);
+    terminal_questioned = 0;
     free(text);
 }
 
@@ -366,11 +536,13 @@ static void test_teapot(int columns, int rows)
 {
     view_options o = { .scene = { .how = model_options_new() } };
     const scene_request request = view_request(&o);
-    terminal_size size = { columns, rows, 1 };
+    terminal_size size = { columns, rows, 1, 10, 20, 1 };
     static scene s;
     static display d;
     int all, middle = columns / 2, edge = 1, spout;
     d.scene = &s;
+    d.show = SHOW_CELLS;
+    d.screen.form = CELL_HALVES;
     d.screen.colors = VIEW_TRUE;
     if (scene_load(&s, &request, NULL, NULL)) exit(1);
     s.yaw = 0;
@@ -411,7 +583,7 @@ static void draw_wanted(display *d, const view_options *o, const char *keys)
 {
     static const char arrows[] = "^v<>";
     static scene s;
-    terminal_size size = { d->screen.columns, d->screen.rows, 1 };
+    terminal_size size = { d->screen.columns, d->screen.rows, 1, 10, 20, 1 };
     const scene_request request = view_request(o);
     if (scene_load(&s, &request, NULL, NULL)) exit(1);
     for (; *keys; keys++) {
@@ -419,6 +591,7 @@ static void draw_wanted(display *d, const view_options *o, const char *keys)
         scene_key(&s, arrow ? KEY_UP + (int)(arrow - arrows) : *keys);
     }
     d->scene = &s;
+    d->show = SHOW_CELLS;
     d->at_rest = 1;
     display_resize(d, size);
     display_picture(d);
@@ -429,25 +602,28 @@ static void draw_wanted(display *d, const view_options *o, const char *keys)
 static void forgive_words(cell_screen *s, const vt *t)
 {
     for (int i = 0; i < s->columns * s->rows; i++) {
-        uint32_t upper, lower, glyph = vt_pixels(&t->cells[i], &upper, &lower);
+        const uint32_t glyph = t->cells[i].glyph;
         int row = i / s->columns, words = !row || row == s->rows - 1;
-        if (!words || !glyph || s->columns < 20 || s->rows < 5) continue;
-        s->wanted[i].glyph = glyph;
-        s->wanted[i].upper = t->cells[i].ink & 0xffffff;
-        s->wanted[i].lower = t->cells[i].paper & 0xffffff;
+        if (!words || s->columns < 20 || s->rows < 5) continue;
+        if (glyph != ' ' && block_places(glyph) != NO_BLOCK) continue;
+        s->wanted[i].glyph = (uint8_t)glyph;
+        s->wanted[i].ink = t->cells[i].ink & 0xffffff;
+        s->wanted[i].paper = t->cells[i].paper & 0xffffff;
     }
 }
 
+/* colors: plain, 256, true; or true in another form: quadrants, sextants */
 static int check_pane(char **argv, const char *model)
 {
-    static const char *const colors[3] = { "plain", "256", "true" };
+    static const char *const colors[5] = { "plain", "256", "true", "quadrants", "sextants" };
     view_options o = { .scene = { .model = model, .still = 1, .how = model_options_new() } };
     static display d;
     size_t size;
     char *text = read_all(&size);
-    int wrong;
+    int wrong, kind = find_name(argv[0], colors, 5);
     vt t;
-    while (o.colors < VIEW_TRUE && strcmp(argv[0], colors[o.colors])) o.colors++;
+    o.colors = (view_colors)(kind > VIEW_TRUE ? VIEW_TRUE : kind);
+    d.screen.form = (cell_form)(kind > VIEW_TRUE ? kind - VIEW_TRUE + CELL_HALVES : CELL_HALVES);
     d.screen.colors = o.colors;
     d.screen.columns = atoi(argv[1]);
     d.screen.rows = atoi(argv[2]);
@@ -462,6 +638,35 @@ static int check_pane(char **argv, const char *model)
     free(text);
     display_free(&d);
     return wrong || t.errors;
+}
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+/* Writes the picture of pixels that view should send to a terminal of 10 x 20 pixels a cell, as a
+   PPM: WAY is that of --show. */
+static int write_picture(char **argv)
+{
+    static const char *const way[3] = { "kitty", "iterm2", "sixel" };
+    view_options o = { .colors = VIEW_TRUE,
+                       .scene = { .still = 1, .how = model_options_new() } };
+    const terminal_size size = { atoi(argv[1]), atoi(argv[2]), 1, 10, 20, 1 };
+    static display d;
+    static scene s;
+    const scene_request request = view_request(&o);
+    const uint8_t *p;
+    if (scene_load(&s, &request, NULL, NULL)) return 1;
+    d.scene = &s;
+    d.show = (view_show)(SHOW_KITTY + find_name(argv[0], way, 3));
+    d.at_rest = 1;
+    display_resize(&d, size);
+    display_picture(&d);
+    display_write(&d);
+    printf("P6\n%d %d\n255\n", d.small.width, d.small.height);
+    p = (const uint8_t *)d.small.color;
+    for (int i = 0; i < d.small.width * d.small.height; i++, p += 4) fwrite(p, 1, 3, stdout);
+    scene_close(&s);
+    display_free(&d);
+    return 0;
 }
 
 /* ---- a window ------------------------------------------------------------------------------- */
@@ -510,9 +715,14 @@ static int check_window(const char *color)
 int main(int argc, char **argv)
 {
     if (argc > 5) return check_pane(argv + 2, argc > 6 ? argv[6] : NULL);
+    if (argc == 5) return write_picture(argv + 2);
     if (argc == 3) return check_window(argv[2]);
     for (int k = 0; k < 2000; k++) test_screen();
-    for (int k = 0; k < 100000; k++) test_nearest(random_below(1 << 24));
+    for (int k = 0; k < 20000; k++) test_fit(k % 4 ? 2 * (k % 4) : 1);
+    for (int k = 0; k < 20000; k++) test_dither(random_below(1 << 24));
+    for (uint32_t grey = 8; grey < 248; grey++) test_dither(0x10101 * grey);
+    test_answers();
+    test_strings();
     test_teapot(80, 24);
     test_teapot(200, 60);
     test_teapot(40, 60);
