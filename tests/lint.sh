@@ -74,6 +74,7 @@ if command -v clang >/dev/null; then
     has stb/stb_image_write.h "-DMODEL_STB -DCOMPARE_STB"
     has assimp/cimport.h -DMODEL_ASSIMP
     has SDL2/SDL.h "-DVIEW_SDL -isystem /usr/include/SDL2"
+    has sixel/sixel.h -DVIEW_SIXEL
     check "no comma expressions in examples but in the head of a for" "$(
         clang $flags -I/tmp/lint_include.$$ -x c $(find examples -name '*.c') \
             examples/shared/recipes.h examples/playground/libc.h 2>&1 | grep Wcomma)"
