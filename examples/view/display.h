@@ -56,7 +56,7 @@ static inline int terminal_can_answer(const view_options *o)
 {
     const char *term = getenv("TERM");
     if (o->show != SHOW_ASKED && o->show < SHOW_KITTY) return 0;
-    return o->colors != VIEW_PLAIN || (o->colors_guessed && !strncmp(term, "xterm", 5));
+    return o->colors != VIEW_PLAIN || (o->colors_guessed && term && !strncmp(term, "xterm", 5));
 }
 
 /* ---- frames --------------------------------------------------------------------------------- */

@@ -16,9 +16,15 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb/stb_image_write.h>
+enum { PIXELS_PNG = 1 };
+#else
+enum { PIXELS_PNG = 0 };
 #endif
 #ifdef VIEW_SIXEL
 #include <sixel/sixel.h>
+enum { PIXELS_SIXEL = 1 };
+#else
+enum { PIXELS_SIXEL = 0 };
 #endif
 
 typedef struct pixel_bytes {
@@ -30,13 +36,8 @@ typedef struct pixel_bytes {
 /* 1: this build knows the protocol. */
 static inline int pixels_known(view_show show)
 {
-#ifndef MODEL_STB
-    if (show == SHOW_ITERM2) return 0;
-#endif
-#ifndef VIEW_SIXEL
-    if (show == SHOW_SIXEL) return 0;
-#endif
-    return show == SHOW_KITTY || show == SHOW_ITERM2 || show == SHOW_SIXEL;
+    return show == SHOW_KITTY || (show == SHOW_ITERM2 && PIXELS_PNG) ||
+           (show == SHOW_SIXEL && PIXELS_SIXEL);
 }
 
 /* Room for n more bytes */
