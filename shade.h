@@ -55,7 +55,7 @@
      Inside: words that the rest is written in
        >>target      processors            >>base        bits, masks, rows of vectors
        >>matrix      cameras, inverses     >>power       x^n
-       >>pixels      formats: 5-6-5, sRGB
+       >>pixels      formats, sRGB
      Inside: light
        >>lamps       attenuation, cones    >>terms       one term at one point
        >>surface     material and lights   >>lit         the whole sum, at many points
@@ -63,8 +63,8 @@
        >>state       who owns what         >>vertices    shading, projection
        >>triangles   edges, planes         >>clip        near, far, behind the eye
        >>tiles       pixels, depth test    >>cover       what is hidden, tile by tile
-       >>fragments   interpolation         >>texture     texels
-       >>store       blending, memory
+       >>fragments   interpolation         >>texture     texels, mip levels
+       >>store       blending, packing
      Inside: calls
        >>check       refusals              >>drive       shade_draw, batch by batch
        >>mesh        shade_draw_mesh       >>lines       shade_draw_lines
@@ -791,7 +791,7 @@ SHADEDEF int shade_box_visible(const shade_target *target, shade_mat4 clip_from_
 typedef enum shade_cap { SHADE_CAP_BUTT = 0, SHADE_CAP_SQUARE } shade_cap;
 typedef struct shade_line_state {
     shade_mat4    clip_from_points;               /* zero: identity */
-    float         width;                          /* in pixels; 0 means 1 */
+    float         width;                          /* in pixels; 0 means 1, above 2^25 as 2^25 */
     shade_cap     cap;                            /* SQUARE adds half the width: joints close */
     shade_vec4    color;
     shade_raster  raster;                         /* cull is ignored */
@@ -2222,8 +2222,8 @@ SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
 }
 
 /* amount times (L.S)^e inside the cone, times 0 outside. */
-SHADE__INLINE void shade__narrow(float exponent, const int n,
-                                 shade__arrival *SHADE_RESTRICT a)
+SHADE__INLINE void shade__apply_cone(float exponent, const int n,
+                                     shade__arrival *SHADE_RESTRICT a)
 {
     const float e = shade__minf(exponent, FLT_MAX);
     SHADE__FOR(i, n) { a->angle.halvings[i] = shade__power_log(a->angle.ls[i], e); }
@@ -2231,8 +2231,8 @@ SHADE__INLINE void shade__narrow(float exponent, const int n,
 }
 
 /* The same for e = 0. */
-SHADE__INLINE void shade__narrow_evenly(const int n,
-                                        shade__arrival *SHADE_RESTRICT a)
+SHADE__INLINE void shade__apply_cone_evenly(const int n,
+                                            shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
         const uint32_t inside = shade__mask(a->angle.ls[i] > SHADE__NEVER);
@@ -2254,8 +2254,8 @@ SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp,
     else if (!lamp->infinite) shade__attenuate_evenly(lamp->a, n, a);
     if (!lamp->spot) return;
 
-    if (lamp->light->spot_exponent > 0) shade__narrow(lamp->light->spot_exponent, n, a);
-    else shade__narrow_evenly(n, a);
+    if (lamp->light->spot_exponent > 0) shade__apply_cone(lamp->light->spot_exponent, n, a);
+    else shade__apply_cone_evenly(n, a);
 }
 
 /* A single point is computed as one vector of equal lanes, by the build for any processor. */
@@ -3108,7 +3108,7 @@ typedef struct shade__polygon {
     uint8_t  corner[SHADE__CLIP_VERTICES];
     int      count;                   /* corners, in order */
     uint32_t taken;                   /* bit v: vertex v is in use */
-    int      on_screen;               /* values not divided by w are linear on the screen: w > 0 */
+    int      in_front;               /* values not divided by w are linear on the screen: w > 0 */
     int64_t  area;                    /* twice, in 1/65536 pixel, of the whole polygon */
 } shade__polygon;
 
@@ -3201,7 +3201,9 @@ static void shade__store(shade__draw *d, shade_colors *c);
 
 enum {
     SHADE__OUT_NEAR = 16, SHADE__OUT_FAR = 32,
-    SHADE__OUT_GUARD = 64 | 128 | 256 | 512,     /* left, right, bottom, top of the guard band */
+    SHADE__OUT_GUARD_LEFT = 64, SHADE__OUT_GUARD_RIGHT = 128,
+    SHADE__OUT_GUARD_BOTTOM = 256, SHADE__OUT_GUARD_TOP = 512,
+    SHADE__OUT_GUARD = 64 | 128 | 256 | 512,     /* any side of the guard band */
     SHADE__OUT_W = 1024,                         /* w < 2^-60 */
     SHADE__OUT_BAD = 2048,                       /* NaN, infinite or beyond 1e30 */
     SHADE__OUT_VOLUME = 63 | SHADE__OUT_W,       /* left, right, bottom, top; near, far */
@@ -3820,15 +3822,16 @@ static void shade__triangles(shade__draw *d)
 }
 
 /*------------------------------------------------------------------------------------------- >>clip
-   Triangles that cross the near or far plane, or the guard band |x|, |y| <= 3 w: a polygon is cut
-   plane by plane and left as a fan.                                               [Sutherland74]
-     in      three vertices of the batch     out  a polygon of at most SHADE__CLIP_VERTICES corners:
-             3, 1 more for each of 7 planes, 2 while a plane is being cut, and vertex 0, which is
-             kept for CONSTANT
+   Cuts triangles that cross near, far, w = 2^-60 (behind the eye) or the guard band, |x| and |y| at
+   most 3 w, plane by plane, and leaves a fan.                                     [Sutherland74]
+     in      three vertices of the batch     out  a polygon
+     method  The planes are 7.  A convex polygon has room in SHADE__CLIP_VERTICES places: 3 corners,
+             1 more for each plane, 2 while a plane cuts, and vertex 0, which is kept for CONSTANT.
+             One that rounding has bent may need more; it is dropped.
      holds   A new vertex is computed from the inner to the outer end of its edge, so that
              neighbours get the same bits and no crack opens.                             >>tiles */
 
-/* Signed distance to a plane, times a positive factor; inside >= 0. */
+/* Returns the signed distance to a plane times a positive factor; it is >= 0 inside. */
 static double shade__distance_to(const float *clip, uint32_t plane,
                                  int zero_to_one)
 {
@@ -3837,17 +3840,17 @@ static double shade__distance_to(const float *clip, uint32_t plane,
     switch (plane) {
     case SHADE__OUT_NEAR: return zero_to_one ? z : z + w;
     case SHADE__OUT_FAR: return w - z;
-    case 64: return 3 * w + x;
-    case 128: return 3 * w - x;
-    case 256: return 3 * w + y;
-    case 512: return 3 * w - y;
+    case SHADE__OUT_GUARD_LEFT: return 3 * w + x;
+    case SHADE__OUT_GUARD_RIGHT: return 3 * w - x;
+    case SHADE__OUT_GUARD_BOTTOM: return 3 * w + y;
+    case SHADE__OUT_GUARD_TOP: return 3 * w - y;
     default: return w - (double)shade__w_least;
     }
 }
 
 /* Adds the vertex where an edge leaves through a plane, t of the way from in to out.  On the screen
-   that is s = t w_out / (w_in + t (w_out - w_in)) of the way, written without a difference: no
-   digit is lost however far apart the two w are.
+   that is s = t w_out / (w_in + t (w_out - w_in)) of the way, written as a sum of positive numbers,
+   d_out being negative: no digit is lost however far apart the two w are.
    pre: d_in >= 0 > d_out, a bit of taken is free */
 static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
                                  int in, int out, double d_in, double d_out)
@@ -3858,7 +3861,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
 
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
     p->taken |= 1u << v;
-    if (p->on_screen) {    /* rounding may leave a new vertex without w */
+    if (p->in_front) {    /* rounding may leave a new vertex without w */
         double inner = d_in * (double)shade__maxf(to[3], shade__w_least);
         s = inner / (inner - d_out * (double)shade__maxf(from[3], shade__w_least));
     }
@@ -3874,7 +3877,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
 }
 
 /* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, as each new
-   one takes a bit */
+   one takes a bit of it */
 static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
                               uint32_t plane)
 {
@@ -3884,7 +3887,7 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
 
     for (int i = 0; i < p->count; i++) {
         if (p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {    /* an edge makes one at most */
-            p->count = 0;    /* coordinates so far apart that rounding bent the polygon */
+            p->count = 0;    /* rounding has bent it, and no place is free: drop it */
             return;
         }
         uint8_t a = p->corner[i], b = p->corner[i + 1 < p->count ? i + 1 : 0];
@@ -3903,7 +3906,8 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
     }
 }
 
-/* The polygon of a triangle, its values no longer divided by w.  Returns the planes it crosses. */
+/* Makes the polygon of a triangle, with values that are linear in clip space: those over w are
+   multiplied by it.  Returns the planes it crosses. */
 static uint32_t shade__polygon_of(const shade__plan *plan,
                                   const shade__batch *b,
                                   const uint8_t corner[4], shade__polygon *p)
@@ -3913,7 +3917,7 @@ static uint32_t shade__polygon_of(const shade__plan *plan,
 
     p->count = 3;
     p->taken = 7;
-    p->on_screen = 1;
+    p->in_front = 1;
     SHADE__ZERO(p->value);
     for (int i = 0; i < 3; i++) {
         const float *value = b->value + corner[i] * stride;
@@ -3924,13 +3928,13 @@ static uint32_t shade__polygon_of(const shade__plan *plan,
         for (int k = SHADE__FIRST; k < plan->values; k++)
             p->value[i * stride + k] = value[k] * (k < plan->divided ? 1 : w);
         out |= v->out;
-        p->on_screen &= v->clip[3] > 0;
+        p->in_front &= v->clip[3] > 0;
     }
     return out;
 }
 
 /* Window positions and values of the corners, as >>vertices makes them.
-   post: |x|, |y| <= 2^24 */
+   post: |x|, |y| <= 2^23 */
 static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
 {
     const int zero_to_one = plan->zero_to_one;
@@ -3959,8 +3963,8 @@ static int64_t shade__fan_area(const shade__polygon *p, int a, int i)
                        &p->vertex[p->corner[(a + i + 1) % p->count]]);
 }
 
-/* The corner from which no piece of the fan is turned the other way (snapping may dent a polygon);
-   0 if there is none. */
+/* Returns a corner from which all triangles of the fan have the polygon's own orientation (snapping
+   may dent it), or 0 if there is none. */
 static int shade__apex(const shade__polygon *p)
 {
     for (int a = 0; a < p->count; a++) {
@@ -4561,13 +4565,13 @@ static void shade__cover(shade__draw *d, int count)
 }
 
 /*-------------------------------------------------------------------------------------- >>fragments
-   The queue of pixels that passed, over the triangles of a batch; a full packet is shaded and
+   Pixels that passed, of all triangles of a batch, wait in a queue; a full packet is shaded and
    stored.  Shading waiting fragments together measured 2 to 3 times faster on dense meshes than a
    packet for each run.
      in      runs of pixels of a triangle, whose planes are made with the first
      out     packets of fragments for the shader, its colours for >>store
-     holds   Varyings are kept over w until the packet is shaded.  The lanes from count on repeat
-             the last one before a shader sees them.                                    >>texture */
+     holds   The queue has varyings divided by w; they are multiplied by it for the shader, and the
+             lanes from count on repeat the last one.                                   >>texture */
 
 enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels appended at once */
 
@@ -4581,10 +4585,11 @@ typedef struct shade__planes {
 } shade__planes;
 
 /* Pixels x, x + 1, ... of row y on their way to the lanes of the queue from lane on.  The first
-   back of them leave their lanes as they are. */
+   ones, as many as back says, are not written: their lanes keep what they hold. */
 typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
-/* The planes of all values in one loop; k: the sides over the area. */
+/* The planes of all values in one loop.  k: x and y are the side from corner 0 to 1, z and w that
+   from 0 to 2, divided by twice the area. */
 SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2,
                                  shade_vec4 k, int stride,
                                  shade__planes *SHADE_RESTRICT t)
@@ -4738,7 +4743,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
     shade__piece p;
 
     p.y = run->y;
-    /* without anything to carry from piece to piece: 5 % of a dense mesh */
+    /* a short run fits one piece: to know that is worth 5 % of a dense mesh */
     if (SHADE__SPECIALIZE && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
         p.x = x;
         p.lane = q->f.count;
@@ -4807,8 +4812,8 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
     shade__repeat(q->f.front, n);
 }
 
-/* Multiplies n rows of varyings by w.  1/w of a covered pixel lies between those of its vertices,
-   so it is positive. */
+/* Multiplies n rows of varyings by w.  1/w is positive, as shade__append clamps it to those of the
+   vertices. */
 SHADE__INLINE void shade__divide(shade__in rw, shade__out varying, int n)
 {
     SHADE_ALIGNED float w[SHADE_LANES];
@@ -4819,8 +4824,8 @@ SHADE__INLINE void shade__divide(shade__in rw, shade__out varying, int n)
     }
 }
 
-/* lod from the squared step; NaN counts as 0. */
-SHADE__INLINE void shade__levels(shade__out lod)
+/* Makes lod of the squared step: half its logarithm to base 2.  NaN counts as 0. */
+SHADE__INLINE void shade__lod_of_steps(shade__out lod)
 {
     SHADE_EACH_LANE(i) {
         float square = shade__keep(lod[i], shade__mask(lod[i] >= 0));
@@ -4838,10 +4843,10 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (q->f.count < SHADE_LANES) shade__replicate(q, plan);
     if (plan->divided == SHADE__FIRST && plan->varyings)
         shade__divide(q->rw, q->f.varying[0], plan->varyings);
-    if (plan->lod) shade__levels(q->f.lod);
+    if (plan->lod) shade__lod_of_steps(q->f.lod);
 
     SHADE_EACH_LANE(i) { c.color[3][i] = 1; }
-    if (!plan->places_unread) {    /* shaders of this file set what is read: 1 % of a dense mesh */
+    if (!plan->places_unread) {    /* this file's shaders set what is read: saves 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
@@ -4879,7 +4884,8 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
-/* A block is 16 lanes.  Loops run over blocks, so that a single sample costs one of them. */
+/* A block is 16 lanes, or all where there are fewer.  Loops run over blocks, so that a single
+   sample costs one of them. */
 enum { SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16 };
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
@@ -4914,7 +4920,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
 {
     const shade_wrap wrap = a->wrap;
     const int32_t last = a->size - 1;
-    /* the texel beyond an end is the one at the other end, or at the same */
+    /* beyond an end lies the texel of the other end where texels repeat, else that of this end */
     const int32_t before = wrap == SHADE_WRAP_REPEAT ? last : 0;
     const int32_t after = wrap == SHADE_WRAP_REPEAT ? 0 : last;
     const int32_t limit = wrap == SHADE_WRAP_CLAMP ? 0x7F800000 : 0x4B800000;
@@ -4923,8 +4929,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const uint32_t unit = a->unit;
     SHADE_ALIGNED float place[SHADE__TEXELS];    /* from 0 to 1 */
 
-    /* From 2^24 on all floats are even whole numbers, where a period begins.  They are taken for
-       0, as are NaN and infinity; where the texture is clamped, only these. */
+    /* From 2^24 on all floats are even numbers: each lies where a period begins, as 0 does, and is
+       replaced by 0.  So are NaN and infinity, and where the texture is clamped these alone. */
     SHADE__EACH_BLOCK(i, blocks) {
         int32_t bits = (int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu);
         uint32_t usable = shade__mask(bits < limit);
@@ -4948,7 +4954,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     SHADE__EACH_BLOCK(i, blocks) {
         float s = place[i] * n - half;
         int32_t i0 = (int32_t)s - (s < 0 ? 1 : 0);    /* floor(s), as s >= -1/2 */
-        i0 = shade__min(i0, last);    /* at 1, the end, if nearest; in any mode of rounding */
+        i0 = shade__min(i0, last);    /* a place of 1 would be beyond the end if nearest */
         a->f[i] = s - (float)i0;
         a->i[0][i] = (uint32_t)(i0 < 0 ? before : i0) * unit;
         a->i[1][i] = (uint32_t)(i0 < last ? i0 + 1 : after) * unit;
@@ -5024,9 +5030,9 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line,
     }
 }
 
-/* Channel k of a packed texel, from 0 to 1.  Colours are scaled down from where they lie, below
-   the sign, which gives the same product.  Without shifts bilinear textures are 4 to 10 %
-   faster. */
+/* Channel k of a packed texel, from 0 to 1.  The bits of a colour are not shifted down: they are
+   divided by the mask in its place, which gives the same quotient.  They lie below bit 31, so that
+   they are a positive int32_t.  Bilinear textures are 4 to 10 % faster for it. */
 SHADE__INLINE float shade__texel(uint32_t packed, const shade__layout *l, int k)
 {
     const int shift = shade__shift(l, k), down = k < 3 && shade__low_byte_first() ? 0 : shift;
@@ -5075,8 +5081,8 @@ SHADE__INLINE void shade__decode_texels(const shade__reader *r, int k,
     SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__srgb_decode(c[i]); }
 }
 
-/* Blends one channel of texels as floats, in the order of pairs.  A texel without weight is not
-   touched, so that an infinite one stays where it is. */
+/* Blends one channel of texels as floats, in the order of pairs.  A texel without weight is left
+   out, because 0 times infinity would be NaN. */
 SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
                                        shade__out out)
 {
@@ -5179,7 +5185,7 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t,
             weight[i] = shade__clamp_bits(1 - shade__bits_float(away), 0, 1);
             used |= shade__float_bits(weight[i]);
         }
-        if (k && shade__texture_good(&t->mipmaps[k - 1])) {
+        if (k && shade__texture_good(&t->mipmaps[k - 1])) {    /* else the picture itself */
             source = t->mipmaps[k - 1];
             source.wrap_u = t->wrap_u;
             source.wrap_v = t->wrap_v;
@@ -5315,7 +5321,7 @@ SHADE__DISPATCH(shade__pack,
                  uint32_t *packed, int blocks), (t, rgba, x, y, packed, blocks),
                 shade__pack_body(t, rgba, x, y, packed, blocks))
 
-/* Unpacks a block of pixels to linear light; floats are there already. */
+/* Unpacks a block of pixels to linear light.  Pixels of floats need nothing: rgba holds them. */
 SHADE__INLINE void shade__linear_body(const shade_target *t,
                                       shade__in_bits packed, shade__out rgba)
 {
@@ -5383,7 +5389,7 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive,
     }
 }
 
-/* Stores all lanes in pixels of 4 bytes: as one vector where 16 of them lie side by side. */
+/* Stores all lanes in pixels of 4 bytes: as one vector where those of a block lie side by side. */
 SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
                                         shade__in_bits offset,
                                         shade__in_bits packed, int count)
@@ -5404,13 +5410,14 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
     for (; i < count; i++) SHADE_MEMCPY(color + (size_t)offset[i] * 4, packed + i, 4);
 }
 
-/* Blends a block of colours with the stored ones, in whose place the result goes. */
+/* Blends a block of colours with the stored ones by OVER or ADD, and puts the result in their
+   place. */
 SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba,
                                 shade__out stored)
 {
     const uint32_t over = shade__mask(blend == SHADE_BLEND_OVER);
     for (int k = 0; k < 4; k++) {
-        const uint32_t scaled = k < 3 ? over : 0;    /* alpha itself is not */
+        const uint32_t scaled = k < 3 ? over : 0;    /* OVER multiplies colours, not alpha, by a */
         SHADE__FOR(i, SHADE__BLOCK) {
             const int at = k * SHADE_LANES + (int)i;
             float a = rgba[3 * SHADE_LANES + i], t = shade__select(1, 1 - a, over);
@@ -5472,8 +5479,8 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
                      shade__store_body(d, c))
 
 /*------------------------------------------------------------------------------------------ >>check
-   Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Calls
-   that only need to know whether there is a fault inline the function, which drops its sentences.
+   Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
+   a call asks only whether there is one, the function is inlined, and its sentences vanish.
      in      targets, meshes, states, indices
      out     NULL, or the fault; a shade_result                                           >>drive */
 
@@ -5496,7 +5503,8 @@ SHADE__INLINE const char *shade__target_fault(const shade_target *t)
         return "target.row_offset and target.row_count reach beyond target.height or are negative, "
                "or row_count is 0 for a strip.";
     if (pixels > 0xFFFFFFFFu || pixels > SIZE_MAX / 16)
-        return "target.stride times the number of rows exceeds 2^32 - 1 pixels.";
+        return "target.stride times the number of rows exceeds 2^32 - 1 pixels, or memory where "
+               "size_t has 32 bits.";
     return NULL;
 }
 
@@ -5673,7 +5681,7 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign,
 }
 
 /* The planes of the clip rectangle, near and far.  The rectangle reaches half a pixel beyond the
-   centres of its pixels, which is more than snapping and clipping move an edge. */
+   centres of its pixels: snapping and clipping move an edge by less. */
 static SHADE__COLD void shade__frustum_of(const shade_target *t,
                                           const shade_mat4 *clip_from_object,
                                           int zero_to_one, shade__frustum *f)
@@ -5750,7 +5758,7 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     if (!early) plan->early_test.always = UINT32_MAX;
     plan->queued = p->fragment && (plan->color || p->may_discard);
     plan->less_only = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
-    /* blending tells triangles apart, dither asks for x and y */
+    /* blending reads the triangle of a fragment, dither its x and y */
     plan->places_unread = own && early &&
                           p->raster.blend == SHADE_BLEND_REPLACE && !t->dither;
     plan->toward = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
@@ -5758,9 +5766,10 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     plan->half_height = (float)(t->height * 128);
 }
 
-/* The draw to a target that has been checked.  pipe: a copy, which it changes.  how: SHADE__OWN
-   where the shaders are of this file, SHADE__CORNERS where each index is a vertex of its own. */
+/* how a draw runs: the shaders are of this file; each index is a vertex of its own. */
 enum { SHADE__OWN = 1, SHADE__CORNERS = 2 };
+
+/* Draws to a target that has been checked, and changes the pipeline. */
 static shade_result shade__run_draw(const shade_target *target,
                                     shade_pipeline *pipe, int how,
                                     shade__supply *supply, shade_stats *stats)
@@ -5829,14 +5838,15 @@ SHADEDEF shade_result shade_draw(const shade_target *target,
     return shade__run_draw(target, &pipe, 0, &supply, stats);
 }
 
-/* Fills n bytes with a pattern of 256, which are whole vectors. */
+/* Fills n bytes by repeating a pattern of 256 bytes. */
 static void shade__fill(uint8_t *SHADE_RESTRICT p, shade__in pattern, size_t n)
 {
     for (; n >= 256; n -= 256, p += 256) SHADE_MEMCPY(p, pattern, 256);
     SHADE_MEMCPY(p, pattern, n);
 }
 
-/* The 256 bytes that a colour makes from (x, y) on: the dither repeats after 8 pixels. */
+/* The 256 bytes that a colour makes from (x, y) on.  It packs 8 pixels, which hold the dither's
+   period of 4 twice, and repeats them. */
 static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
                                  int y, uint8_t *pattern)
 {
@@ -6006,7 +6016,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture,
      holds   Where faces have values of their own (normals or light), every corner of a triangle is
              a vertex: its index is 3 times the triangle's plus the corner's number.  Where nobody
              reads P and N, they are not computed: textured floors without lamps are drawn 1.15 to
-             1.23 times faster, 1.02 to 1.04 times where they have colours.               >>lines */
+             1.23 times as fast, those with colours 1.02 to 1.04 times.                   >>lines */
 
 typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_mesh *mesh;
@@ -6023,7 +6033,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int colored;                         /* the target has a picture */
     int tinted;                          /* the mesh has colours that somebody reads */
     int lit;                             /* at its vertices, also where that is once a face */
-    int unlit;                           /* nobody reads P and N */
+    int pn_unread;                       /* nobody reads P and N */
     int varyings;                        /* in use; with a map the last two are u, v */
 } shade__scene;
 
@@ -6080,7 +6090,7 @@ static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s,
                                                   shade__v3 *albedo)
 {
     const shade_mesh *m = s->mesh;
-    const int with_normals = !s->face_normals && !s->unlit;
+    const int with_normals = !s->face_normals && !s->pn_unread;
     for (int i = 0; i < SHADE_LANES; i++) {
         uint32_t v = shade__vertex_of(s, in, i);
         shade__put(point, i,
@@ -6197,13 +6207,13 @@ static void shade__mesh_vertex(const void *uniforms,
     const int own = s->state->fragment != NULL;
     shade__v3 apart[SHADE__APART], *point, *normal, *albedo;
     if (s->lit) point = SHADE__APART > 1 ? apart : shade__three_rows(out->varying[6]);
-    else point = shade__three_rows(out->varying[s->unlit ? s->varyings : 0]);
+    else point = shade__three_rows(out->varying[s->pn_unread ? s->varyings : 0]);
     normal = point + 1;
-    albedo = s->unlit ? shade__three_rows(out->varying[0]) : normal + 1;
+    albedo = s->pn_unread ? shade__three_rows(out->varying[0]) : normal + 1;
 
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
-    if (!s->unlit) {
+    if (!s->pn_unread) {
         if (s->face_normals) shade__fetch_faces(s, in, point, normal, albedo);
         shade__lane_world(s->world_from_object, point);
         shade__lane_normal(s->normal_matrix, normal);
@@ -6217,8 +6227,8 @@ static void shade__mesh_vertex(const void *uniforms,
         shade__fetch_texcoords(s, in, out->varying[s->varyings - 2]);
 }
 
-/* The row of alpha comes in with that of the map or of the fragment shader, or 1.  Times the
-   opacity it is what is stored, what the cut-off is compared with, and what ADD multiplies. */
+/* The row of alpha holds that of the map or of the fragment shader, or 1.  It is multiplied by the
+   opacity.  The product is stored, compared with the cut-off, and the factor of colours in ADD. */
 static void shade__mesh_alpha(const shade__scene *s,
                               shade_colors *SHADE_RESTRICT out)
 {
@@ -6238,8 +6248,8 @@ static void shade__mesh_alpha(const shade__scene *s,
     }
 }
 
-/* Light where the colours of the map, which come in rgb, are the albedo.  It is a call, so that
-   only maps take its stack. */
+/* Light where the colours of the map, which come in rgb, are the albedo.  It is kept out of line,
+   so that only maps take its stack. */
 static SHADE__NOINLINE void shade__lit_map(const shade__scene *s,
                                            const shade_rows *rows, float *rgb)
 {
@@ -6270,7 +6280,7 @@ static void shade__mesh_colors(const shade__scene *s,
         SHADE__ZERO(rows);
         rows.position = varying;
         rows.normal = varying + 3 * SHADE_LANES;
-        if (s->tinted) rows.albedo = varying + (s->unlit ? 0 : 6 * SHADE_LANES);
+        if (s->tinted) rows.albedo = varying + (s->pn_unread ? 0 : 6 * SHADE_LANES);
         if (s->map) shade__lit_map(s, &rows, to);
         else shade__lit_packet(&s->surface, &rows, to);
     } else if (s->map) {
@@ -6289,20 +6299,21 @@ static void shade__mesh_fragment(const void *uniforms,
     shade__mesh_alpha(s, out);
 }
 
-/* Decides what the shaders do; the matrices and the surface are there. */
+/* Decides what the shaders do.
+   pre: the matrices and the surface are set */
 static void shade__plan_scene(shade__scene *s)
 {
     const shade_mesh *m = s->mesh;
     const shade_draw_state *state = s->state;
     const int per_fragment = state->shading == SHADE_SHADING_PER_FRAGMENT;
     s->face_normals = !m->normals || state->shading == SHADE_SHADING_PER_FACE;
-    s->unlit = !state->fragment &&
+    s->pn_unread = !state->fragment &&
                (!s->colored || (per_fragment && !s->surface.lamps));
-    s->lit = !per_fragment && !s->unlit;
-    s->corners = s->face_normals && !s->unlit;
+    s->lit = !per_fragment && !s->pn_unread;
+    s->corners = s->face_normals && !s->pn_unread;
     s->tinted = m->colors && (s->colored || state->fragment);
     s->varyings = shade__mesh_varyings(m, state);
-    if (s->unlit) s->varyings = (s->tinted ? 3 : 0) + (s->map ? 2 : 0);
+    if (s->pn_unread) s->varyings = (s->tinted ? 3 : 0) + (s->map ? 2 : 0);
 }
 
 /* Not inlined, because its temporaries would lie below the whole draw: half a kilobyte of stack. */
@@ -6337,7 +6348,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
     shade__plan_scene(s);
 }
 
-/* It is a call, so that only meshes with chunks have the planes on the stack. */
+/* It is kept out of line, so that only meshes with chunks have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
                                                        shade_pipeline *p,
                                                        int how,
@@ -6415,15 +6426,15 @@ typedef struct shade__stroke {           /* uniforms of the line shaders */
 
 /* Shortens the part t[0] .. t[1] of a segment to what is inside a plane, to which its ends have the
    distances a and b. */
-static void shade__cut(double a, double b, double *t)
+static void shade__trim(double a, double b, double *t)
 {
     if (a < 0 && b < 0) t[1] = -1;
     else if (a < 0 && a / (a - b) > t[0]) t[0] = a / (a - b);
     else if (b < 0 && a / (a - b) < t[1]) t[1] = a / (a - b);
 }
 
-/* p becomes the point t of the way along a segment, and at its distance from the middle of the
-   picture, in pixels, y up. */
+/* Sets p to the point t of the way along a segment, and at[] to its place relative to the middle of
+   the picture, in pixels, y up. */
 static void shade__stroke_point(const shade__stroke *s, double end[2][4],
                                 double t, double *p, double *at)
 {
@@ -6432,9 +6443,9 @@ static void shade__stroke_point(const shade__stroke *s, double end[2][4],
 }
 
 /* Finds the part t[0] .. t[1] of a segment that is drawn, and its unit direction on the screen.
-   The segment is cut at near, far and w > 0, then at a margin around the picture that its width and
-   caps do not reach across, so that ends far away are exact to 1/256 pixel.  Returns 0 if nothing
-   is left. */
+   The segment is cut at near, far and w > 0, then 3 half widths and 2 pixels outside of the
+   picture: the ends of the cut stay unseen, and are exact to 1/256 pixel.  Returns 0 if nothing is
+   left. */
 static int shade__stroke_part(const shade__stroke *s, double end[2][4],
                               double *t, double *dir)
 {
@@ -6445,15 +6456,15 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
     double p[4], at[2][2], length = 0;
     t[0] = 0;
     t[1] = 1;
-    shade__cut(z0 + (zero_to_one ? 0 : w0), z1 + (zero_to_one ? 0 : w1), t);
-    shade__cut(w0 - z0, w1 - z1, t);
-    shade__cut(w0 - least, w1 - least, t);
+    shade__trim(z0 + (zero_to_one ? 0 : w0), z1 + (zero_to_one ? 0 : w1), t);
+    shade__trim(w0 - z0, w1 - z1, t);
+    shade__trim(w0 - least, w1 - least, t);
     if (!(t[0] <= t[1])) return 0;
     for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
     for (int i = 0; i < 2; i++) {
         const double limit = 1 + (3 * s->half_width + 2) / s->half[i];
-        shade__cut(limit * w0 - end[0][i], limit * w1 - end[1][i], t);
-        shade__cut(limit * w0 + end[0][i], limit * w1 + end[1][i], t);
+        shade__trim(limit * w0 - end[0][i], limit * w1 - end[1][i], t);
+        shade__trim(limit * w0 + end[0][i], limit * w1 + end[1][i], t);
         dir[i] = at[1][i] - at[0][i];
         length += dir[i] * dir[i];
     }
@@ -6464,6 +6475,10 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
     } else dir[0] = 1;
     return t[0] <= t[1];
 }
+
+/* Wider lines are drawn as wide as this, 2000 times the largest picture.  Their corners stay within
+   2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are floats. */
+#define SHADE__WIDEST 33554432.0f
 
 /* Corner 0 .. 3 of the rectangle around points 2 segment and 2 segment + 1, in clip space.
    Segments that are not drawn get a point outside, and those that are rejected one that is
@@ -6543,7 +6558,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     shade__doubles(&clip_from_points, s.clip_from_points);
     s.half[0] = target->width / 2.0;
     s.half[1] = target->height / 2.0;
-    s.half_width = (state->width > 0 ? (double)state->width : 1) / 2;
+    s.half_width = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
     p.vertex = shade__stroke_vertex;
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
@@ -6784,8 +6799,10 @@ SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
 /*----------------------------------------------------------------------------------------- >>chunks
    The triangles of a mesh sorted in space and cut into chunks with boxes.
      in      meshes                              out  the caller's chunks and indices
-     method  The list is split at the median of its longest axis, and the halves again.
-     holds   The order depends on positions alone and is the same on every machine.        >>rays */
+     method  The list is split across its longest axis, at the border of a chunk nearest to the
+             middle, and the two parts are split again.
+     holds   The order depends on nothing but the mesh and the size of chunks: it is the same on
+             every machine.                                                                >>rays */
 
 /* The size of chunks where the caller gives none.  Of 64, 128, 256 and 512 triangles it is the
    fastest on 16 bands, and within 1 % of the fastest on one thread. */
@@ -6959,7 +6976,7 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
    Rays through pixels, and the triangles of meshes that they meet.
      in      rays in world space, meshes         out  the nearest triangle
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
-     holds   A triangle that is met is met through the box of each chunk that has it.    >>survey */
+     holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
                                    int width, int height, float x, float y)
@@ -7030,9 +7047,9 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b,
 }
 
 /* A ray in object space, for tests of boxes.  Its coordinates are multiplied by the determinant of
-   the model matrix: coordinate i is the product with the cross product of the two other columns.
-   World positions are rounded; slack bounds the error that this makes, from the sizes of the
-   products that they are sums of. */
+   the model matrix, which saves a division by it: coordinate i is the dot product with the cross
+   product of the two other columns.  World positions are rounded; slack bounds the error that this
+   makes, from the sizes of the products that they are sums of. */
 typedef struct shade__slabs {
     double origin[3], direction[3];
     double scale;                     /* the determinant */
@@ -7102,8 +7119,8 @@ static int shade__slabs_met(const shade__slabs *s, shade_vec3 low,
 typedef struct shade__hit { int triangle; float t; shade_vec3 barycentric; } shade__hit;
 
 /* A hit counts if its point lies in the triangle's own box, and so in that of each chunk that has
-   the triangle.  Rays nearly in its plane, where rounding decides, are then met with chunks as they
-   are without. */
+   the triangle.  So rays nearly in its plane, where rounding decides, give the same answer with
+   chunks and without. */
 static void shade__pick_triangle(const shade_mesh *mesh,
                                  const shade_mat4 *model, shade_ray ray,
                                  const shade__slabs *slabs, int triangle,
@@ -7720,7 +7737,7 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
 
 /*------------------------------------------------------------------------------------------ >>image
    Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on, as a
-   target of 8 bits would have them.
+   target of RGBA8 would store them.
                                                                                            >>refs */
 
 static char *shade__decimal(char *p, int n)

@@ -197,6 +197,28 @@ TEST(lines, no_width_is_one_pixel)
     canvas_close(&b);
 }
 
+/* A width far beyond the picture covers all of it, whatever w is, also where width times w is
+   beyond the floats. */
+TEST(lines, any_finite_width_covers_what_it_reaches)
+{
+    static const float widths[4] = { 1e6f, 1e20f, 3e37f, FLT_MAX };
+    static const float scales[3] = { 1, 10, 1e20f };
+    const shade_vec3 points[2] = { shade_v3(-0.5f, -0.25f, 0), shade_v3(0.5f, 0.25f, 0) };
+    for (int k = 0; k < 12; k++) {
+        uint32_t color = 0;
+        shade_target t = { .width = 1, .height = 1, .color = &color };
+        shade_line_state s = line_state(widths[k / 3]);
+        shade_stats stats;
+        s.clip_from_points = shade_mat4_identity();
+        for (int i = 0; i < 4; i++)
+            s.clip_from_points.col[i] = shade_scale4(s.clip_from_points.col[i], scales[k % 3]);
+        s.cap = SHADE_CAP_SQUARE;
+        CHECK_INT(shade_draw_lines(&t, points, 2, &s, &stats), SHADE_OK);
+        CHECK_INT(stats.rejected, 0);
+        CHECK(color != 0);
+    }
+}
+
 TEST(lines, square_ends_close_the_joints_of_a_path)
 {
     canvas c = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA8, 0);
@@ -891,6 +913,7 @@ static const test_case lines_cases[] = {
     CASE(lines, coverage_is_the_pixels_of_the_rectangle_exactly),
     CASE(lines, coverage_is_the_rectangle_in_any_direction),
     CASE(lines, no_width_is_one_pixel),
+    CASE(lines, any_finite_width_covers_what_it_reaches),
     CASE(lines, square_ends_close_the_joints_of_a_path),
     CASE(lines, a_line_without_length_is_nothing_or_a_square),
     CASE(lines, near_and_far_cut_the_segment_before_it_gets_its_width),
