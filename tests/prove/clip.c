@@ -16,7 +16,7 @@ static void any_polygon(void)
         p.corner[i] = Frama_C_unsigned_char_interval(0, SHADE__CLIP_VERTICES - 1);
     }
     any_floats(p.value, SHADE__CLIP_VERTICES * SHADE__VALUES_MAX);
-    p.on_screen = ANY_OF(0, 1);
+    p.in_front = ANY_OF(0, 1);
     p.taken = Frama_C_unsigned_int_interval(1, (1u << SHADE__CLIP_VERTICES) - 1);
     plan.values = plan.value_stride = SHADE__VALUES_MAX;
     plan.divided = ANY_OF(SHADE__FIRST, SHADE__VALUES_MAX);
