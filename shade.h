@@ -45,34 +45,36 @@
    shadows, reflections or physically based materials.                                   >>about
 
    >>contents
-     Each section begins with a banner.  A tag in the last line of a banner names the next section.
+     Each section begins with a banner, in the line that stands here.  A tag in the last line of a
+     banner names the next section.
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config      options               >>types       materials, lamps, targets, states
-       >>plumbing    compilers             >>light       the equation and its terms
-       >>draw        meshes and pixels     >>math        vectors and matrices
+       >>config     115  options               >>types      186  materials, lamps, targets, states
+       >>plumbing   359  compilers             >>light      486  the equation and its terms
+       >>draw       610  meshes and pixels     >>math       853  vectors and matrices
      Inside: words that the rest is written in
-       >>target      processors            >>base        bits, masks, rows of vectors
-       >>matrix      cameras, inverses     >>power       x^n
-       >>pixels      formats, sRGB
+       >>target    1214  processors            >>base      1371  bits, masks, rows of vectors
+       >>matrix    1546  cameras, inverses     >>power     1820  x^n
+       >>pixels    1886  formats, sRGB
      Inside: light
-       >>lamps       attenuation, cones    >>terms       one term at one point
-       >>surface     material and lights   >>lit         the whole sum, at many points
+       >>lamps     2049  attenuation, cones    >>terms     2319  one term at one point
+       >>surface   2457  material and lights   >>lit       2581  the whole sum, at many points
      Inside: the way of a triangle
-       >>state       who owns what         >>vertices    shading, projection
-       >>triangles   edges, planes         >>clip        near, far, behind the eye
-       >>tiles       pixels, depth test    >>cover       what is hidden, tile by tile
-       >>fragments   interpolation         >>texture     texels, mip levels
-       >>store       blending, packing
+       >>state     3020  who owns what         >>vertices  3197  shading, projection
+       >>triangles 3459  edges, planes         >>clip      3826  near, far, behind the eye
+       >>tiles     4004  pixels, depth test    >>cover     4346  what is hidden, tile by tile
+       >>fragments 4569  interpolation         >>texture   4862  texels, mip levels
+       >>store     5258  blending, packing
      Inside: calls
-       >>check       refusals              >>drive       shade_draw, batch by batch
-       >>mesh        shade_draw_mesh       >>lines       shade_draw_lines
-       >>shape       normals, edges        >>chunks      boxes around triangles
-       >>rays        shade_pick            >>survey      experiments on a draw
-       >>explain     why nothing is seen   >>image       PPM
+       >>check     5483  refusals              >>drive     5646  shade_draw, batch by batch
+       >>mesh      6015  shade_draw_mesh       >>lines     6413  shade_draw_lines
+       >>shape     6571  normals, edges        >>chunks    6801  boxes around triangles
+       >>rays      6977  shade_pick            >>survey    7182  experiments on a draw
+       >>explain   7329  why nothing is seen   >>image     7740  PPM
      Sources
-       >>refs  >>history  >>license
+       >>refs      7806                        >>history   7832
+       >>license   7841
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.

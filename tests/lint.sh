@@ -19,6 +19,7 @@ check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H $C)"
 sed -n '/>>contents$/,/^$/p' $H | grep -oE '>>[a-z]+' | grep -v '>>contents' >/tmp/lint_contents.$$
 grep -oE '^/\*-+ >>[a-z]+' $H | grep -oE '>>[a-z]+' >/tmp/lint_banners.$$
 printf '>>about\n>>contents\n>>conventions\n>>model\n' | cat - /tmp/lint_banners.$$ | grep -v '>>contents' >/tmp/lint_want.$$
+check "the contents table has the banners' lines (sh tests/contents.sh --update)" "$(sh tests/contents.sh)"
 check "contents table equals banners" "$(diff /tmp/lint_contents.$$ /tmp/lint_want.$$)"
 rm -f /tmp/lint_contents.$$ /tmp/lint_banners.$$ /tmp/lint_want.$$
 
