@@ -268,11 +268,6 @@ upright() {
     check "says nothing" grep -q "which axis is up: y, as usual" "$T/err"
     check "and no word without --verbose" draw torus.obj a.ppm
     check "at all" test ! -s "$T/err"
-    printf 'newmtl a\nKd 1 0 0\nmap_Bump none.png\nnewmtl b\nnorm none.png\n' >"$T/bump.mtl"
-    printf 'mtllib bump.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n' \
-        >"$T/bump.obj"
-    check "bump maps" draw bump.obj a.ppm --verbose
-    check "are left out, which it says" grep -q "bump and normal maps of 2 surfaces are left out" "$T/err"
 }
 
 both() {
@@ -296,6 +291,7 @@ build=full THUMBNAIL=$T/full
 [ -x "$THUMBNAIL" ] || finish
 both
 [ "$STB" ] && . tests/thumbnail/pictures.sh
+[ "$STB" ] && . tests/thumbnail/reliefs.sh
 [ "$ASSIMP" ] && . tests/thumbnail/formats.sh
 [ "$STB" ] && [ "$ASSIMP" ] && . tests/thumbnail/real.sh
 finish

@@ -6,6 +6,7 @@
 #ifndef MODEL_LOOK_H
 #define MODEL_LOOK_H
 
+#include "relief.h"
 #include "studio.h"
 #include "request.h"
 
@@ -14,6 +15,7 @@ typedef struct look {
     const studio *studio;
     const shade_mesh *mesh;
     const shade_texture *map; /* NULL: none */
+    relief relief;
     shade_material material;  /* its emission stands apart, because the map multiplies that too */
     shade_vec3 emission;
     float metal, rough; /* the part of the reflection that has the surface's colour; its blur */
@@ -146,12 +148,14 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
     if (k->map)
         shade_sample_lanes(k->map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], in->lod,
                            texel[0]);
+    memcpy(N, in->varying[LOOK_N], sizeof N);
+    if (k->relief.map && !k->per_vertex) relief_bend(&k->relief, k->mesh, in, LOOK_UV, N);
     for (int a = 0; a < 3; a++) {
         SHADE_EACH_LANE(i)
         {
             /* back faces are lit as front faces are; front faces keep their normals, which lean
                away from the viewer on the outline of a coarse mesh */
-            N[a][i] = in->front[i] ? in->varying[LOOK_N + a][i] : -in->varying[LOOK_N + a][i];
+            N[a][i] = in->front[i] ? N[a][i] : -N[a][i];
             albedo[a][i] = in->varying[LOOK_ALBEDO + a][i] * (k->map ? texel[a][i] : 1);
         }
     }
@@ -178,11 +182,10 @@ static shade_result look_draw(const shade_target *target, look *k, const shade_m
     p.uniforms = k;
     p.varyings = LOOK_VARYINGS;
     k->mesh = mesh;
+    k->relief.indices = mesh->indices + 3 * (size_t)first;
     p.may_discard = k->alpha_cutoff > 0;
-    if (k->map) {
-        p.lod_texture = k->map;
-        p.lod_varying = LOOK_UV;
-    }
+    p.lod_texture = k->map ? k->map : k->relief.map;
+    p.lod_varying = LOOK_UV;
     if (see_through) {
         p.raster.blend = SHADE_BLEND_OVER;
         p.raster.depth_read_only = 1;
@@ -243,7 +246,9 @@ static shade_result look_draw_chunks(const shade_target *target, look *k, const 
 static void look_dress(look *k, const model_options *o, const model *m, int surface)
 {
     const model_surface *s = m->surface_count ? &m->surface[surface] : NULL;
+    static const relief level;
     k->map = NULL;
+    k->relief = level;
     k->alpha = 1;
     k->alpha_cutoff = 0;
     k->map_is_opaque = 0;
@@ -263,6 +268,7 @@ static void look_dress(look *k, const model_options *o, const model *m, int surf
     k->map_is_opaque = s->opaque;
     if (s->picture >= 0 && m->mesh.texcoords && m->picture[s->picture].map.pixels)
         k->map = &m->picture[s->picture].map;
+    k->relief = relief_of(m, s, k->map);
 }
 
 typedef struct far_triangle {

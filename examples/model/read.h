@@ -6,6 +6,7 @@
 
 #include "pictures.h"
 #include "prepare.h"
+#include "relief.h"
 #include "guard.h"
 #include "request.h"
 #ifdef MODEL_ASSIMP
@@ -91,15 +92,6 @@ static int model_read(const char *path, model *m, const model_request *q)
 }
 /* ---- for the programs ------------------------------------------------------------------------ */
 
-/* Says which maps are left out. */
-static void model_tell(const model *m)
-{
-    int bumped = 0;
-    for (int i = 0; i < m->surface_count; i++) bumped += m->surface[i].bumped;
-    if (bumped) complain("bump and normal maps of %d surface%s are left out", bumped,
-                         bumped == 1 ? "" : "s");
-}
-
 /* Reads the model that the options ask for.  Returns 1 with a line on stderr. */
 static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
                       void *user)
@@ -114,7 +106,6 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     guard_doing = "ending";
     if (failed) return complain("%s", error);
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
-    if (o->verbose) model_tell(m);
     return 0;
 }
 
@@ -139,7 +130,7 @@ static int model_prepare(model *m, const model_options *o, float turn)
 {
     const int flat = o->shading == SHADE_SHADING_PER_FACE;
     int failed = 0;
-    mesh_stand(&m->mesh, model_up(m, o, 1), turn);
+    relief_prepare(m, mesh_stand(&m->mesh, model_up(m, o, 1), turn));
     if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat);
     if (!failed) failed = mesh_chunk_parts(m);
     return failed ? complain("out of memory") : 0;

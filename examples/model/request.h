@@ -21,7 +21,7 @@
     "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"   \
     "                        the machine's)\n"                                                    \
     "  --quiet               prints errors only, no progress and no warnings\n"                   \
-    "  --verbose             says what was guessed, and what is left out\n"
+    "  --verbose             says which axis was guessed to be upright\n"
 #define MODEL_VALUED \
     "--color", "--material", "--model", "--shading", "--up", "--threads", "--max-triangles", \
         "--max-memory"

@@ -30,15 +30,16 @@ static inline void rotate_rows(float *v, size_t n, double row[3][3])
     }
 }
 
-/* The mesh upright, turned, and one unit large about the origin */
-static inline void mesh_stand(owned_mesh *m, int up, float turn)
+/* The mesh upright, turned, and one unit large about the origin.  Returns the scale. */
+static inline float mesh_stand(owned_mesh *m, int up, float turn)
 {
+    const float scale = mesh_normalize(m, 0);
     double row[3][3];
     size_t n = (size_t)m->view.vertex_count;
     upright_rows(up, turn, row);
-    mesh_normalize(m, 0);
     rotate_rows(m->positions, n, row);
     rotate_rows(m->normals, n, row);
+    return scale;
 }
 
 /* ---- a guess --------------------------------------------------------------------------------- */
