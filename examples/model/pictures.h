@@ -6,15 +6,15 @@
 #include "files.h"
 
 /* The number of the picture of that name, read as colours or as a relief; -1: there is none */
-static int picture_find(const model *m, const char *name, int relief)
+static int picture_find(const model *m, const char *name, int as_relief)
 {
     for (int i = 0; i < m->picture_count; i++)
-        if (m->picture[i].relief == relief && !strcmp(m->picture[i].name, name)) return i;
+        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
     return -1;
 }
 
 /* The number of a new picture without pixels, or -1: out of memory */
-static int picture_add(model *m, const char *name, int relief)
+static int picture_add(model *m, const char *name, int as_relief)
 {
     static const model_picture empty;
     model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
@@ -22,7 +22,7 @@ static int picture_add(model *m, const char *name, int relief)
     if (!grown) return -1;
     m->picture = grown;
     grown[m->picture_count] = empty;
-    grown[m->picture_count].relief = relief;
+    grown[m->picture_count].relief = as_relief;
     grown[m->picture_count].name = model_text(name, strlen(name));
     return grown[m->picture_count].name ? m->picture_count++ : -1;
 }
@@ -120,12 +120,12 @@ static const char *picture_decode(model_picture *p, const unsigned char *bytes, 
 
 /* Reads a picture in the folder of the model, by its whole name, or by the part after its last
    slash: names from other machines contain folders that do not exist here. */
-static int picture_load(model *m, const char *path, const char *name, int relief)
+static int picture_load(model *m, const char *path, const char *name, int as_relief)
 {
     char error[300] = "out of memory";
     unsigned char *bytes = NULL;
     size_t size = 0, last = 0;
-    int number = picture_add(m, name, relief), failed = 1;
+    int number = picture_add(m, name, as_relief), failed = 1;
     for (size_t i = 0; name[i]; i++)
         if (name[i] == '/' || name[i] == '\\') last = i + 1;
     for (int attempt = 0; attempt < 2 && failed && number >= 0; attempt++) {
@@ -148,10 +148,10 @@ static int picture_load(model *m, const char *path, const char *name, int relief
 }
 
 /* The number of a picture that a surface names, which is read if it is not there yet */
-static int picture_of(model *m, const char *path, const char *name, int relief)
+static int picture_of(model *m, const char *path, const char *name, int as_relief)
 {
-    const int known = picture_find(m, name, relief);
-    return known < 0 ? picture_load(m, path, name, relief) : known;
+    const int known = picture_find(m, name, as_relief);
+    return known < 0 ? picture_load(m, path, name, as_relief) : known;
 }
 
 /* Reads each picture that surfaces name once, and finds the kind of its alpha. */

@@ -1,10 +1,10 @@
 /* relief.h - bump and normal maps: turns the normals of fragments as the picture of a relief says.
 
-   A normal map holds normals in the frame of a triangle: right and up in the picture, and out of the
-   surface.  A bump map holds heights, whose slope along the surface tilts the normal [Blinn78].
-   Where the picture lies on a triangle tells its texture coordinates; each triangle has a frame of
-   its own, which leans with the normals between its corners.  Light that is computed per vertex
-   knows no reliefs. */
+   A normal map holds normals in the frame of a triangle: right and up in the picture, and out of
+   the surface.  A bump map holds heights, whose slope along the surface tilts the normal [Blinn78].
+   Texture coordinates tell how the picture lies on a triangle; each triangle has a frame of its
+   own, which leans with the normals between its corners.  Light that is computed per vertex knows
+   no reliefs. */
 #ifndef MODEL_RELIEF_H
 #define MODEL_RELIEF_H
 
