@@ -282,8 +282,8 @@ static const struct aiTexture *find_embedded(const struct aiScene *scene, const 
     return NULL;
 }
 
-/* Embedded pictures: a file in memory where the height is 0, else texels of B, G, R, A.  Returns the
-   number of the picture, or -1: out of memory. */
+/* Embedded pictures: a file in memory where the height is 0, else texels of B, G, R, A.  Returns
+   the number of the picture, or -1: out of memory. */
 static int embedded_picture(model *m, const char *name, const struct aiTexture *t, int as_relief)
 {
     const int number = picture_add(m, name, as_relief);
