@@ -358,6 +358,16 @@ static int tree_finish(tree *t, model *m)
     return 0;
 }
 
+/* 1: the format says which axis is up, once for all files or in each, and assimp turns it to y. */
+static int tells_up(const char *kind)
+{
+    static const char *const told[] = { "",    "gltf", "glb", "vrm", "dae", "fbx", "wrl", "vrml",
+                                        "x3d", "x3dv", "ifc", "usd", "usda", "usdc", "usdz" };
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (!strcmp(kind, told[i])) return 1;
+    return 0;
+}
+
 /* The message of assimp in one line */
 static int assimp_failed(mesh_reader *r)
 {
@@ -390,7 +400,7 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     t.model = m;
     t.linear = !strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb");
     m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
-    m->up_told = strcmp(kind.text, "off") != 0;
+    m->up_told = m->z_up || tells_up(kind.text);
     failed = tree_surfaces(&t, m);
     if (!failed && t.scene->mRootNode)
         failed = tree_node(&t, t.scene->mRootNode, shade_mat4_identity());

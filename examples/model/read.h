@@ -120,7 +120,7 @@ static int model_up(const model *m, const model_options *o, int picture)
     up = stand_guess(&m->mesh, usual);
     if (o->verbose)
         complain("the format does not say which axis is up: %s, %s", option_axes[up],
-                 up == usual ? "as usual" : "by a flat base that is wider than the top");
+                 up == usual ? "as usual" : "by the feet on which it stands");
     return up;
 }
 

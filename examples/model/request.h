@@ -13,8 +13,8 @@
     "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"      \
     "                        (blinn-phong)\n"                                                     \
     "  --shading NAME        fragment, vertex, face (fragment)\n"                                 \
-    "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess by the\n" \
-    "                        widest flat base)\n"                                                 \
+    "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess: y, for\n" \
+    "                        STL z, or that of the feet it stands on)\n"                          \
     "  --no-shadow           no shadow on the ground\n"                                           \
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
     "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
