@@ -240,7 +240,7 @@ bombs() {
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/sparse.obj"
     check "some memory" draw sparse.obj a.ppm $flat --max-memory 512
     truncate -s 2G "$T/sparse.obj" 2>/dev/null || { echo "no truncate: a sparse file is left out"; return; }
-    check "too little of it" refused "sparse.obj: out of memory" "$THUMBNAIL" "$T/sparse.obj" \
+    check "too little of it" refused "sparse.obj: out of memory; see --max-memory" "$THUMBNAIL" "$T/sparse.obj" \
         "$T/none.ppm" --max-memory 512
     rm "$T/sparse.obj"
 }

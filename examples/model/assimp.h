@@ -11,6 +11,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/config.h>
+#include <errno.h>
 
 /* ---- meshes --------------------------------------------------------------------------------- */
 
@@ -334,11 +335,16 @@ static int tree_surfaces(tree *t, model *m)
 
 /* ---- the file ------------------------------------------------------------------------------- */
 
+/* 1: since errno was 0, an allocation has failed.  Readers of assimp pass over that, and find an
+   empty file or nothing. */
+static int memory_ran_out(void) { return errno == ENOMEM; }
+
 static int tree_finish(tree *t, model *m)
 {
     owned_mesh *mesh = &m->mesh;
     int vertices = (int)(t->positions.count / 3);
-    if (!t->faces.triangles) return mesh_fail(t->reader, "no faces in it");
+    if (!t->faces.triangles)
+        return mesh_fail(t->reader, memory_ran_out() ? "out of memory" : "no faces in it");
     mesh->positions = t->positions.v;
     t->positions.v = NULL;
     mesh->normals = t->normals.v;
@@ -373,6 +379,8 @@ static int assimp_failed(mesh_reader *r)
 {
     char text[200];
     size_t n = 0;
+    if (memory_ran_out() || strstr(aiGetErrorString(), "bad_alloc"))
+        return mesh_fail(r, "out of memory");
     for (const char *from = aiGetErrorString(); *from && n + 1 < sizeof text; from++)
         text[n++] = (char)(*from >= ' ' ? *from : ' ');
     text[n] = 0;
@@ -390,6 +398,7 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     int failed;
     *m = empty_model;
     if (!set) return mesh_fail(&r, "out of memory");
+    errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     t.scene = aiImportFileExWithProperties(

@@ -92,6 +92,14 @@ static int model_read(const char *path, model *m, const model_request *q)
 }
 /* ---- for the programs ------------------------------------------------------------------------ */
 
+/* 1: the message says that memory was out. */
+static int ran_out(const char *error)
+{
+    static const char words[] = ": out of memory";
+    const size_t n = strlen(error), most = sizeof words - 1;
+    return n >= most && !strcmp(error + n - most, words);
+}
+
 /* Reads the model that the options ask for.  Returns 1 with a line on stderr. */
 static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
                       void *user)
@@ -104,7 +112,7 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     failed = model_read(path, m, &q);
     guard_reading(NULL);
     guard_doing = "ending";
-    if (failed) return complain("%s", error);
+    if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
     return 0;
 }

@@ -37,6 +37,6 @@ if there python3; then
     check "a small bomb" python3 tests/thumbnail/bomb.py "$T/small.3mf" 10000
     check "is a triangle" draw small.3mf a.ppm $flat --max-memory 512
     check "a large bomb" python3 tests/thumbnail/bomb.py "$T/large.3mf" 8000000
-    check "is refused" refused "large.3mf" "$THUMBNAIL" "$T/large.3mf" "$T/none.ppm" --max-memory 512
+    check "is refused" refused "large.3mf: out of memory; see --max-memory" "$THUMBNAIL" "$T/large.3mf" "$T/none.ppm" --max-memory 512
 else echo "no python3: a memory bomb is left out"
 fi
