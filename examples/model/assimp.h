@@ -258,8 +258,8 @@ static int surface_from(model_surface *s, const struct aiMaterial *a, int linear
     s->set = !named || strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) != 0;
     if (!base) take_material_color(a, "$clr.diffuse", linear, &k->diffuse, NULL);
     k->ambient = k->diffuse;
-    if (aiGetMaterialTexture(a, aiTextureType_EMISSIVE, 0, &text, NULL, NULL, NULL, NULL, NULL,
-                             NULL) != aiReturn_SUCCESS)
+    if (!aiGetMaterialTextureCount(a, aiTextureType_EMISSIVE) &&
+        !aiGetMaterialTextureCount(a, aiTextureType_EMISSION_COLOR))
         take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
     if (!named && says_nothing(a, k)) s->set = 0;
     s->transparency = 1 - fminf(alpha, fminf(1, take_material_float(a, "$mat.opacity", 1)));
