@@ -248,6 +248,30 @@ static int relief_from(model_surface *s, const struct aiMaterial *a)
     return 0;
 }
 
+/* The picture of what shines, unless it has other texture coordinates than the others.  Returns 1
+   where memory is out. */
+static int glow_from(model_surface *s, const struct aiMaterial *a)
+{
+    static const enum aiTextureType types[2] = { aiTextureType_EMISSIVE,
+                                                 aiTextureType_EMISSION_COLOR };
+    struct aiString text;
+    for (int i = 0; i < 2 && !s->glow_map; i++) {
+        unsigned set = 0;
+        if (aiGetMaterialTexture(a, types[i], 0, &text, NULL, &set, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+            continue;
+        if ((s->map || s->relief.map) && set != s->texcoords) {
+            s->material.emission = shade_v3(0, 0, 0);
+            continue;
+        }
+        s->texcoords = set;
+        s->set = 1;
+        s->glow_map = model_text(text.data, strlen(text.data));
+        if (!s->glow_map) return 1;
+    }
+    return 0;
+}
+
 static int surface_from(model_surface *s, const struct aiMaterial *a, int linear)
 {
     struct aiString text;
@@ -258,9 +282,7 @@ static int surface_from(model_surface *s, const struct aiMaterial *a, int linear
     s->set = !named || strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) != 0;
     if (!base) take_material_color(a, "$clr.diffuse", linear, &k->diffuse, NULL);
     k->ambient = k->diffuse;
-    if (!aiGetMaterialTextureCount(a, aiTextureType_EMISSIVE) &&
-        !aiGetMaterialTextureCount(a, aiTextureType_EMISSION_COLOR))
-        take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
+    take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
     if (!named && says_nothing(a, k)) s->set = 0;
     s->transparency = 1 - fminf(alpha, fminf(1, take_material_float(a, "$mat.opacity", 1)));
     if (base)
@@ -268,7 +290,9 @@ static int surface_from(model_surface *s, const struct aiMaterial *a, int linear
     else
         material_from_gloss(a, k);
     alpha_from(s, a);
-    return map_from(s, a, base) || relief_from(s, a);
+    if (map_from(s, a, base) || relief_from(s, a) || glow_from(s, a)) return 1;
+    model_glow(s, linear);
+    return 0;
 }
 
 /* "*2" is the third embedded picture; others have the name of their former file. */
@@ -329,6 +353,7 @@ static int tree_surfaces(tree *t, model *m)
             return mesh_fail(t->reader, "out of memory");
         s->picture = tree_picture(t, s->map, 0);
         s->relief.picture = tree_picture(t, s->relief.map, 1);
+        s->glow_picture = tree_picture(t, s->glow_map, 0);
     }
     return 0;
 }

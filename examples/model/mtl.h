@@ -1,8 +1,8 @@
-/* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd, map_d,
-   and map_Bump, bump and norm with their -bm.  Other statements are skipped, as are surfaces that
-   the model does not use.  The alpha of map_Kd counts only where map_d or d < 1 asks for it: often
-   exporters keep other masks there.  Colours are sRGB values.  Ka is ignored, because files hold
-   anything there: k_a = k_d, as daylight wants it. */
+/* mtl.h - reads the surfaces of OBJ files from MTL: newmtl, Kd, Ks, Ke, Ns, d or Tr, map_Kd,
+   map_Ke, map_d, and map_Bump, bump and norm with their -bm.  Other statements are skipped, as are
+   surfaces that the model does not use.  The alpha of map_Kd counts only where map_d or d < 1 asks
+   for it, because exporters often keep other masks there.  Colours are sRGB values.  Ka is ignored,
+   because files hold anything there: k_a = k_d, as daylight wants it. */
 #ifndef MODEL_MTL_H
 #define MODEL_MTL_H
 
@@ -93,6 +93,7 @@ static inline int mtl_statement(mesh_reader *r, model_surface *s, mtl_clear *c)
     if (mesh_take_word(r, "ke")) return mtl_color(r, &k->emission);
     if (mesh_take_word(r, "ns")) return mtl_number(r, 0, 10000, &k->shininess);
     if (mesh_take_word(r, "map_kd")) return mtl_map(r, &s->map, NULL);
+    if (mesh_take_word(r, "map_ke")) return mtl_map(r, &s->glow_map, NULL);
     if (mesh_take_word(r, "map_d")) return mtl_map_of_d(r, c);
     if (mesh_take_word(r, "map_bump") || mesh_take_word(r, "bump") || mesh_take_word(r, "norm") ||
         mesh_take_word(r, "map_kn"))
@@ -139,6 +140,7 @@ static inline int mtl_read(mesh_reader *r, model *m)
     for (int i = 0; m->surface && i < m->surface_count; i++) {
         shade_material *k = &m->surface[i].material;
         k->ambient = k->diffuse;
+        model_glow(&m->surface[i], 0);
         if (k->shininess < 1) k->specular = shade_v3(0, 0, 0); /* too wide */
     }
     return failed;

@@ -161,6 +161,9 @@ static void read_pictures(model *m, const char *path)
         model_surface *s = &m->surface[i];
         model_relief *r = &s->relief;
         if (s->map && s->picture < 0) s->picture = picture_of(m, path, s->map, 0);
+        if (s->glow_map && s->glow_picture < 0)
+            s->glow_picture = picture_of(m, path, s->glow_map, 0);
+        if (s->glow_picture >= 0 && !m->picture[s->glow_picture].pixels) s->glow_picture = -1;
         if (r->map && r->picture < 0) r->picture = picture_of(m, path, r->map, 1);
         if (r->picture >= 0 && !m->picture[r->picture].pixels) r->picture = -1;
     }

@@ -127,16 +127,23 @@ static void relief_bend(const relief *r, const shade_mesh *m, const shade_fragme
     }
 }
 
-/* The relief of a surface, whose colours have the texture map or none */
-static relief relief_of(const model *m, const model_surface *s, const shade_texture *map)
+/* Levels from the texture known to another one; 0 where none is known */
+static int texture_finer(const shade_texture *map, const shade_texture *known)
+{
+    int finer = 0, width;
+    for (width = map->width; known && width >= 2 * known->width; width /= 2) finer++;
+    for (width = map->width; known && 2 * width <= known->width; width *= 2) finer--;
+    return finer;
+}
+
+/* The relief of a surface, where the level of detail is that of the texture known */
+static relief relief_of(const model *m, const model_surface *s, const shade_texture *known)
 {
     relief r = { NULL, NULL, s->relief.strength, 0, 0 };
-    int width;
     if (s->relief.picture < 0 || !m->mesh.texcoords) return r;
     r.map = &m->picture[s->relief.picture].map;
     r.heights = m->picture[s->relief.picture].heights;
-    for (width = r.map->width; map && width >= 2 * map->width; width /= 2) r.finer++;
-    for (width = r.map->width; map && 2 * width <= map->width; width *= 2) r.finer--;
+    r.finer = texture_finer(r.map, known);
     return r;
 }
 
