@@ -39,13 +39,15 @@ static int tree_finite(shade_vec3 v)
     return fabsf(v.x) <= 1e30f && fabsf(v.y) <= 1e30f && fabsf(v.z) <= 1e30f;
 }
 
-/* The texture coordinates that the material of a mesh takes; NULL: there are none */
+/* The texture coordinates that the material of a mesh takes, or where there are no such ones the
+   first; NULL: there are none */
 static const struct aiVector3D *tree_texcoords(const tree *t, const struct aiMesh *mesh)
 {
     const unsigned material = mesh->mMaterialIndex;
     unsigned set = 0;
     if (material < (unsigned)t->model->surface_count) set = t->model->surface[material].texcoords;
-    return set < AI_MAX_NUMBER_OF_TEXTURECOORDS ? mesh->mTextureCoords[set] : NULL;
+    if (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !mesh->mTextureCoords[set]) set = 0;
+    return mesh->mTextureCoords[set];
 }
 
 static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat4 at,
