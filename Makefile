@@ -43,12 +43,12 @@ SIXEL    = $(shell echo 'int main(void) { return !sixel_output_new; }' | \
 # (libassimp-dev)
 STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include \
                    stb/stb_image_write.h -x c - 2>/dev/null && \
-                   echo -DMODEL_STB -DCOMPARE_STB || \
-                   echo 'no stb: PNG and textures of thumbnail, PNG of compare are left out' >&2)
+                   echo -DMODEL_STB || \
+                   echo 'no stb: PNG and textures are left out' >&2)
 ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | \
                    $(CC) -include assimp/cimport.h -x c - -lassimp -o $@.assimp 2>/dev/null && \
                    rm -f $@.assimp && echo -DMODEL_ASSIMP -lassimp || \
-                   echo 'no assimp: thumbnail reads OBJ, STL and PLY alone' >&2)
+                   echo 'no assimp: programs read OBJ, STL and PLY alone' >&2)
 
 NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
 ROOMS    = shared model thumbnail view batch compare pictures
@@ -66,11 +66,10 @@ build/shade.o: shade.h
 	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
 build/%: %.c build/shade.o $(HEADERS)
 	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm $(LIBRARIES) -o $@
-build/19_threads build/thumbnail build/view build/batch: EXACT += -pthread
+build/19_threads $(PROGRAMS): EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
 build/view: LIBRARIES = $(SDL2) $(SIXEL) $(STB) $(ASSIMP)
-build/thumbnail build/batch: LIBRARIES = $(STB) $(ASSIMP)
-build/compare: LIBRARIES = $(STB)
+build/thumbnail build/batch build/compare: LIBRARIES = $(STB) $(ASSIMP)
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@

@@ -1,6 +1,6 @@
 #!/bin/sh
 # compare.sh - examples/compare/compare.c: its numbers beside sums by awk, its exit status, its difference
-# picture, and what it says of bad input.
+# picture, models in place of pictures, and what it says of bad input.
 cd "$(dirname "$0")/.." || exit 1
 . tests/tools.sh
 CC=${CC:-cc}
@@ -18,7 +18,9 @@ refused() {
 }
 
 compare=$T/compare
-check "it compiles" $CC -std=c99 -Wall -Wextra -O1 examples/compare/compare.c -lm -o "$compare"
+FLAGS="-std=c99 -Wall -Wextra -O1 -ffp-contract=off -pthread -I."
+$CC $FLAGS -DSHADE_IMPLEMENTATION -x c -c shade.h -o "$T/shade.o"
+check "it compiles" $CC $FLAGS -DSHADE__IMPLEMENTED examples/compare/compare.c "$T/shade.o" -lm -o "$compare"
 [ -x "$compare" ] || finish
 
 # ---- numbers ------------------------------------------------------------------------------------
@@ -153,9 +155,44 @@ check "that is printed" grep -q '^usage: compare' "$T/err"
 check "help" status 0 "$compare" --help
 check "that too" grep -q '^usage: compare' "$T/out"
 
+# ---- models in place of pictures ----------------------------------------------------------------
+awk 'BEGIN { print "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 2 0"
+             print "f 1 2 3 4\nf 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1" }' >"$T/tent.obj"
+sed 's/^v 0 2 0/v 0 2.2 0/' "$T/tent.obj" >"$T/higher.obj"
+check "a model is itself" status 0 "$compare" "$T/tent.obj" "$T/tent.obj" --size 60x40
+check "as large as --size says" grep -q '^count  0 of 2400 pixels' "$T/out"
+check "and no other" status 1 "$compare" "$T/tent.obj" "$T/higher.obj" --size 60x40
+check "thumbnail" $CC $FLAGS -DSHADE__IMPLEMENTED examples/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/thumbnail"
+drawn() {                       # options: what thumbnail draws, beside the model itself
+    "$T/thumbnail" "$T/tent.obj" "$T/tent.ppm" --size 64x48 "$@" &&
+        status 0 "$compare" "$T/tent.ppm" "$T/tent.obj" "$@" &&
+        status 0 "$compare" "$T/tent.obj" "$T/tent.ppm" "$@"
+}
+check "a model is the picture that thumbnail draws" drawn
+check "with options" drawn --samples 1 --rotate 70 --up -z --material gold --background '#204060'
+check "and others" drawn --no-shadow --model phong --shading face --color red --threads 1
+check "not with other options" status 1 "$compare" "$T/tent.ppm" "$T/tent.obj"
+check "its difference picture" status 1 "$compare" "$T/a.ppm" "$T/tent.obj" --difference "$T/tent.d.ppm"
+check "has the picture's size" same "$(head -c 11 "$T/tent.d.ppm" | tr '\n' ' ')" "P6 23 17 25"
+check "a size of its own is another size" status 1 "$compare" "$T/a.ppm" "$T/tent.obj" --size 9x9
+check "which is said" grep -q '^size   23 x 17 and 9 x 9$' "$T/out"
+printf 'v 0 0 0\nv 1 0\n' >"$T/bad.obj"
+check "a bad model" refused "bad.obj:2: expected a number" "$compare" "$T/a.ppm" "$T/bad.obj"
+check "no model" refused "none.obj: No such file" "$compare" "$T/none.obj" "$T/a.ppm"
+check "a format that needs assimp" refused "tent.glb" "$compare" "$T/a.ppm" "$T/tent.glb"
+check "a transparent background" refused "no colours to compare" "$compare" "$T/a.ppm" "$T/tent.obj" \
+    --background none
+check "a size that is none" refused "--size 0x5: pixels of the picture" "$compare" "$T/a.ppm" \
+    "$T/tent.obj" --size 0x5
+if mkfifo "$T/pipe.obj" 2>/dev/null; then
+    check "time is up" refused "gave up after --max-seconds while reading" "$compare" "$T/pipe.obj" \
+        "$T/a.ppm" --max-seconds 1
+fi
+
 # ---- PNG, by stb --------------------------------------------------------------------------------
 if printf '#include "stb/stb_image.h"\n' | $CC -fsyntax-only -x c - 2>/dev/null; then
-    check "it compiles with stb" $CC -std=c99 -O1 -DCOMPARE_STB examples/compare/compare.c -lm -o "$compare"
+    check "it compiles with stb" $CC $FLAGS -DSHADE__IMPLEMENTED -DMODEL_STB \
+        examples/compare/compare.c "$T/shade.o" -lm -o "$compare"
     # 2 x 1, 8 bits a channel: 1 2 3, 4 5 6
     {   printf '\211PNG\15\12\32\12\0\0\0\15IHDR\0\0\0\2\0\0\0\1\10\2\0\0\0\173\100\350\335'
         printf '\0\0\0\22IDATx\1\1\7\0\370\377\0\1\2\3\4\5\6\0\77\0\26hA\137\215'

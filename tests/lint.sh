@@ -72,7 +72,7 @@ if command -v clang >/dev/null; then
     mkdir -p /tmp/lint_include.$$ && : >/tmp/lint_include.$$/teapot_table.h
     flags="-std=gnu99 -Wno-everything -Wcomma -fsyntax-only -I. -DSHADE__IMPLEMENTED"
     has() { echo | clang -fsyntax-only -include "$1" -x c - 2>/dev/null && flags="$flags $2"; }
-    has stb/stb_image_write.h "-DMODEL_STB -DCOMPARE_STB"
+    has stb/stb_image_write.h -DMODEL_STB
     has assimp/cimport.h -DMODEL_ASSIMP
     has SDL2/SDL.h "-DVIEW_SDL -isystem /usr/include/SDL2"
     has sixel/sixel.h -DVIEW_SIXEL

@@ -1,19 +1,19 @@
 /* compare.c - compares two pictures number by number: are they the same within a tolerance?
 
-   cc -O2 examples/compare/compare.c -lm -o compare && ./compare --limit 2 golden.ppm picture.ppm
+   cc -O2 -pthread -I. examples/compare/compare.c -lm -o compare
+   ./compare --limit 2 golden.ppm picture.ppm
+   ./compare --limit 2 golden.ppm part.stl
 
-   It is made for tests that draw a picture and compare it with one that is kept.  Both pictures are
-   read row by row, so that a poster takes no more memory than an icon.  With -DCOMPARE_STB and stb
-   installed, it also reads PNG and the other formats of stb; make builds it so where it can. */
-#include "../model/options.h"
-#include <errno.h>
-#include <math.h>
-#ifdef COMPARE_STB
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_NO_PNM
+   It is made for tests that draw a picture and compare it with one that is kept.  In place of a
+   picture may stand a model, which is drawn as thumbnail draws it.  Pictures are read row by row,
+   so that a poster takes no more memory than an icon.  With -DMODEL_STB and stb installed, it also
+   reads PNG and the other formats of stb, with -DMODEL_ASSIMP and -lassimp the models of assimp. */
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for POSIX with -std=c99 */
+#define SHADE_IMPLEMENTATION
 #define STBI_FAILURE_USERMSG
-#include "stb/stb_image.h"
-#endif
+#include "shade.h"
+#include "../model/portrait.h"
+#include "../model/read.h"
 
 static const char usage[] =
     "usage: compare [options] golden picture      PPM or PGM; - is standard input\n"
@@ -22,6 +22,11 @@ static const char usage[] =
     "  --difference FILE     writes a PPM: golden in grey, differences in yellow, those beyond\n"
     "                        the limit in red\n"
     "  --help, --version     prints this text; the version\n"
+    "In place of a picture may stand a model. It is drawn as thumbnail draws it, as large as the\n"
+    "picture that it is compared with:\n"
+    PORTRAIT_USAGE
+    MODEL_USAGE
+    "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
     "exit status: 0 the same within limit and count, 1 different, 2 error\n";
 
 enum { SAME, DIFFERENT, ERROR };
@@ -61,7 +66,7 @@ static int read_header(picture *p)
 {
     int kind = getc(p->file), magic = 0;
     if (kind == EOF) return fail(p->name, ferror(p->file) ? strerror(errno) : "an empty file");
-#ifdef COMPARE_STB
+#ifdef MODEL_STB
     if (kind != 'P') {
         ungetc(kind, p->file);
         p->whole = stbi_load_from_file(p->file, &p->width, &p->height, &p->channels, 3);
@@ -83,15 +88,19 @@ static int read_header(picture *p)
     return p->width > 1 << 24 ? fail(p->name, "more than 16777216 pixels in a row") : SAME;
 }
 
-static int open_picture(picture *p, const char *name)
+/* Room for one row */
+static int open_rows(picture *p)
 {
-    p->name = name;
-    p->file = strcmp(name, "-") ? fopen(name, "rb") : stdin;
-    if (!p->file) return fail(name, strerror(errno));
-    if (read_header(p)) return ERROR;
     p->bytes = (unsigned char *)malloc((size_t)p->width * 6);
     p->row = (double *)calloc((size_t)p->width * 3, sizeof *p->row);
-    return p->bytes && p->row ? SAME : fail(name, "out of memory");
+    return p->bytes && p->row ? SAME : fail(p->name, "out of memory");
+}
+
+static int open_picture(picture *p)
+{
+    p->file = strcmp(p->name, "-") ? fopen(p->name, "rb") : stdin;
+    if (!p->file) return fail(p->name, strerror(errno));
+    return read_header(p) || open_rows(p) ? ERROR : SAME;
 }
 
 static int read_row(picture *p, int y)
@@ -182,6 +191,9 @@ typedef struct options {
     const char *names[2], *difference;
     double limit, count;
     int percent;                     /* count is a percentage */
+    int sized, max_seconds;          /* sized: the command line says how large models are drawn */
+    portrait portrait;
+    model_options how;
 } options;
 
 /* Stores one option: the option_take of compare. */
@@ -190,10 +202,17 @@ static int take(void *to, const char *name, const char *value)
     options *o = (options *)to;
     char *end;
     double number;
+    int taken;
     if (!name) {
         o->names[o->names[0] != NULL] = value;
         return OPTION_TAKEN;
     }
+    o->sized |= !strcmp(name, "--size");
+    taken = model_take(&o->how, name, value);
+    if (taken < 0) taken = portrait_take(&o->portrait, name, value);
+    if (taken >= 0) return taken;
+    if (!strcmp(name, "--max-seconds"))
+        return option_integer(value, 0, 1000000000, &o->max_seconds);
     if (!strcmp(name, "--difference")) {
         o->difference = value;
         return OPTION_TAKEN;
@@ -213,8 +232,10 @@ static int take(void *to, const char *name, const char *value)
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(options *o, int argc, char **argv)
 {
-    static const char *const valued[] = { "--limit", "--count", "--difference", NULL };
-    static const char *const flags[] = { NULL };
+    static const char *const valued[] = { "--limit",    "--count",       "--difference",
+                                          MODEL_VALUED, PORTRAIT_VALUED, "--max-seconds",
+                                          NULL };
+    static const char *const flags[] = { MODEL_FLAGS, NULL };
     static const command c = { "compare", usage, valued, flags, 2, take };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
@@ -226,8 +247,91 @@ static int read_options(options *o, int argc, char **argv)
         complain("only one picture can be standard input");
         return OPTIONS_WRONG;
     }
-    return OPTIONS_READ;
+    if (o->portrait.background == PORTRAIT_NONE) {
+        complain("--background none: transparent pixels have no colours to compare");
+        return OPTIONS_WRONG;
+    }
+    return portrait_check(&o->portrait) ? OPTIONS_WRONG : OPTIONS_READ;
 }
+
+/* ---- drawing --------------------------------------------------------------------------------- */
+
+/* 1: the file holds a model, by its extension. */
+static int is_model(const char *name)
+{
+    static const char *const models[] = { "obj", "stl", "ply", "gltf", "glb", "fbx",
+                                          "dae", "3ds", "3mf", "off",  NULL };
+    const model_kind kind = model_kind_of(name);
+#ifdef MODEL_ASSIMP
+    char dotted[sizeof kind.text + 2];
+    snprintf(dotted, sizeof dotted, ".%s", kind.text);
+    if (kind.text[0] && aiIsExtensionSupported(dotted)) return 1;
+#endif
+    return option_among(models, kind.text);
+}
+
+/* Makes a drawn model a picture: the bytes that thumbnail writes. */
+static int take_pixels(picture *p, const shade_target *drawn)
+{
+    p->whole = portrait_bytes(drawn, 3);
+    p->width = drawn->width;
+    p->height = drawn->height;
+    p->channels = 3;
+    p->most = 255;
+    return p->whole ? SAME : fail(p->name, "out of memory");
+}
+
+static int draw_model(picture *p, const portrait *as, const model_options *how)
+{
+    static studio light;
+    model m = { 0 };
+    canvas c;
+    shade_target drawn;
+    shade_result wrong;
+    int failed = ERROR;
+    if (model_open(p->name, how, &m, NULL, NULL)) return ERROR;
+    guard_doing = "drawing";
+    if (!model_prepare(&m, how, as->rotate)) {
+        wrong = portrait_light(&light, &m, as, how, NULL, NULL);
+        c = canvas_try(as->width, as->height, as->samples);
+        if (!c.target.color) wrong = SHADE_ERROR_CAPACITY;
+        if (!wrong) wrong = portrait_draw(&c, &m, &light, as, how, NULL, NULL);
+        if (wrong) {
+            fail(p->name, portrait_says(wrong));
+        } else {
+            drawn = canvas_finish(&c);
+            failed = take_pixels(p, &drawn);
+        }
+        free(c.target.color);
+        free(c.target.depth);
+    }
+    studio_close(&light);
+    model_free(&m);
+    return failed;
+}
+
+/* Opens pictures and draws models; a model beside a picture becomes as large. */
+static int open_both(picture *p, const options *o)
+{
+    portrait as = o->portrait;
+    for (int i = 0; i < 2; i++) {
+        p[i].name = o->names[i];
+        if (is_model(p[i].name)) continue;
+        if (open_picture(&p[i])) return ERROR;
+        if (!o->sized) as.width = p[i].width;
+        if (!o->sized) as.height = p[i].height;
+    }
+    for (int i = 0; i < 2; i++) {
+        if (!is_model(p[i].name)) continue;
+        if (as.width > 8192 || as.height > 8192)
+            return fail(p[i].name, "models are drawn up to 8192x8192 pixels");
+        if (portrait_check(&as) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))
+            return ERROR;
+    }
+    return SAME;
+}
+
+/* ---- the answer ------------------------------------------------------------------------------ */
 
 static int print(const picture *a, const result *r, const options *o)
 {
@@ -244,10 +348,11 @@ static int print(const picture *a, const result *r, const options *o)
     return r->beyond <= allowed ? SAME : DIFFERENT;
 }
 
-static int run(picture *a, picture *b, const options *o)
+static int run(picture *p, const options *o)
 {
+    picture *a = &p[0], *b = &p[1];
     result r = { 0 };
-    if (open_picture(a, o->names[0]) || open_picture(b, o->names[1])) return ERROR;
+    if (open_both(p, o)) return ERROR;
     if (a->width != b->width || a->height != b->height) {
         printf("size   %d x %d and %d x %d\ndifferent\n", a->width, a->height, b->width, b->height);
         return DIFFERENT;
@@ -261,10 +366,12 @@ static int run(picture *a, picture *b, const options *o)
 int main(int argc, char **argv)
 {
     picture p[2] = { 0 };
-    options o = { 0 };
+    options o = { .portrait = portrait_new(), .how = model_options_new() };
     int status = read_options(&o, argc, argv);
+    guard_status = ERROR;
     if (status) return status == OPTIONS_WRONG ? ERROR : SAME;
-    status = run(&p[0], &p[1], &o);
+    guard_program(o.max_seconds, o.how.max_memory);
+    status = run(p, &o);
     if (fflush(stdout) || ferror(stdout)) status = fail("standard output", strerror(errno));
     for (int i = 0; i < 2; i++) {
         if (p[i].file) fclose(p[i].file);

@@ -11,6 +11,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/config.h>
+#include <errno.h>
 
 /* ---- meshes --------------------------------------------------------------------------------- */
 
@@ -38,10 +39,21 @@ static int tree_finite(shade_vec3 v)
     return fabsf(v.x) <= 1e30f && fabsf(v.y) <= 1e30f && fabsf(v.z) <= 1e30f;
 }
 
+/* The texture coordinates that the material of a mesh takes, or where there are no such ones the
+   first; NULL: there are none */
+static const struct aiVector3D *tree_texcoords(const tree *t, const struct aiMesh *mesh)
+{
+    const unsigned material = mesh->mMaterialIndex;
+    unsigned set = 0;
+    if (material < (unsigned)t->model->surface_count) set = t->model->surface[material].texcoords;
+    if (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !mesh->mTextureCoords[set]) set = 0;
+    return mesh->mTextureCoords[set];
+}
+
 static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat4 at,
                        shade_mat3 turn)
 {
-    const struct aiVector3D p = mesh->mVertices[i];
+    const struct aiVector3D p = mesh->mVertices[i], *coords = tree_texcoords(t, mesh);
     shade_vec3 P = shade_mat4_transform_point(at, shade_v3(p.x, p.y, p.z));
     shade_vec3 N = shade_v3(0, 0, 0), C = shade_v3(1, 1, 1);
     float uv[2] = { 0, 0 };
@@ -59,8 +71,8 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
                       : shade_linear_from_srgb(C);
         t->colored = 1;
     }
-    if (mesh->mTextureCoords[0]) {
-        const struct aiVector3D v = mesh->mTextureCoords[0][i];
+    if (coords) {
+        const struct aiVector3D v = coords[i];
         if (fabsf(v.x) < 1e6f && fabsf(v.y) < 1e6f) {
             uv[0] = v.x;
             uv[1] = v.y;
@@ -181,46 +193,107 @@ static int says_nothing(const struct aiMaterial *a, const shade_material *k)
            take_material_float(a, "$mat.roughnessFactor", 0) >= 1;
 }
 
+/* What glTF says of alpha */
+static void alpha_from(model_surface *s, const struct aiMaterial *a)
+{
+    struct aiString mode;
+    if (aiGetMaterialString(a, "$mat.gltf.alphaMode", 0, 0, &mode) != aiReturn_SUCCESS) return;
+    s->opaque = !strcmp(mode.data, "OPAQUE");
+    s->blended = !strcmp(mode.data, "BLEND");
+    if (!strcmp(mode.data, "MASK"))
+        s->alpha_cutoff = fmaxf(1e-6f, take_material_float(a, "$mat.gltf.alphaCutoff", 0.5f));
+    if (!s->blended) s->transparency = 0;
+}
+
+/* The picture for k_d; physical: the material's base colour multiplies it.  Returns 1 where memory
+   is out. */
+static int map_from(model_surface *s, const struct aiMaterial *a, int physical)
+{
+    static const enum aiTextureType types[2] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
+    shade_material *k = &s->material;
+    struct aiString text;
+    for (int i = 0; i < 2 && !s->map; i++) {
+        unsigned set = 0;
+        if (aiGetMaterialTexture(a, types[i], 0, &text, NULL, &set, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+            continue;
+        s->texcoords = set;
+        s->map = model_text(text.data, strlen(text.data));
+        s->set = 1;
+        if (!s->map) return 1;
+        /* a map replaces the colour: some formats leave it black beside a map */
+        if (!physical && k->diffuse.x + k->diffuse.y + k->diffuse.z == 0)
+            k->diffuse = k->ambient = shade_v3(0.8f, 0.8f, 0.8f);
+    }
+    return 0;
+}
+
+/* The bump or normal map of a material, unless it has other texture coordinates than the colours.
+   Returns 1 where memory is out. */
+static int relief_from(model_surface *s, const struct aiMaterial *a)
+{
+    static const enum aiTextureType types[2] = { aiTextureType_NORMALS, aiTextureType_HEIGHT };
+    model_relief *r = &s->relief;
+    struct aiString text;
+    for (int i = 0; i < 2 && !r->map; i++) {
+        unsigned set = 0;
+        if (aiGetMaterialTexture(a, types[i], 0, &text, NULL, &set, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+            continue;
+        if (s->map && set != s->texcoords) continue;
+        s->texcoords = set;
+        r->map = model_text(text.data, strlen(text.data));
+        if (!r->map) return 1;
+        aiGetMaterialFloatArray(a, "$tex.scale", types[i], 0, &r->strength, NULL);
+        r->strength = fabsf(r->strength);
+    }
+    return 0;
+}
+
+/* The picture of what shines, unless it has other texture coordinates than the others.  Returns 1
+   where memory is out. */
+static int glow_from(model_surface *s, const struct aiMaterial *a)
+{
+    static const enum aiTextureType types[2] = { aiTextureType_EMISSIVE,
+                                                 aiTextureType_EMISSION_COLOR };
+    struct aiString text;
+    for (int i = 0; i < 2 && !s->glow_map; i++) {
+        unsigned set = 0;
+        if (aiGetMaterialTexture(a, types[i], 0, &text, NULL, &set, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+            continue;
+        if ((s->map || s->relief.map) && set != s->texcoords) {
+            s->material.emission = shade_v3(0, 0, 0);
+            continue;
+        }
+        s->texcoords = set;
+        s->set = 1;
+        s->glow_map = model_text(text.data, strlen(text.data));
+        if (!s->glow_map) return 1;
+    }
+    return 0;
+}
+
 static int surface_from(model_surface *s, const struct aiMaterial *a, int linear)
 {
     struct aiString text;
     shade_material *k = &s->material;
     float alpha = 1;
-    unsigned types[2] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
     int base = take_material_color(a, "$clr.base", linear, &k->diffuse, &alpha);
     int named = aiGetMaterialString(a, "?mat.name", 0, 0, &text) == aiReturn_SUCCESS;
     s->set = !named || strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) != 0;
     if (!base) take_material_color(a, "$clr.diffuse", linear, &k->diffuse, NULL);
     k->ambient = k->diffuse;
-    if (aiGetMaterialTexture(a, aiTextureType_EMISSIVE, 0, &text, NULL, NULL, NULL, NULL, NULL,
-                             NULL) != aiReturn_SUCCESS)
-        take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
+    take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
     if (!named && says_nothing(a, k)) s->set = 0;
     s->transparency = 1 - fminf(alpha, fminf(1, take_material_float(a, "$mat.opacity", 1)));
     if (base)
         material_from_roughness(a, s);
     else
         material_from_gloss(a, k);
-    if (aiGetMaterialString(a, "$mat.gltf.alphaMode", 0, 0, &text) == aiReturn_SUCCESS) {
-        s->opaque = !strcmp(text.data, "OPAQUE");
-        s->blended = !strcmp(text.data, "BLEND");
-        if (!strcmp(text.data, "MASK"))
-            s->alpha_cutoff = fmaxf(1e-6f, take_material_float(a, "$mat.gltf.alphaCutoff", 0.5f));
-        if (!s->blended) s->transparency = 0;
-    }
-    s->bumped = aiGetMaterialTextureCount(a, aiTextureType_NORMALS) > 0 ||
-                aiGetMaterialTextureCount(a, aiTextureType_HEIGHT) > 0;
-    for (int i = 0; i < 2 && !s->map; i++) {
-        if (aiGetMaterialTexture(a, (enum aiTextureType)types[i], 0, &text, NULL, NULL, NULL, NULL,
-                                 NULL, NULL) != aiReturn_SUCCESS)
-            continue;
-        s->map = model_text(text.data, strlen(text.data));
-        s->set = 1;
-        if (!s->map) return 1;
-        /* a map replaces the colour: some formats leave it black beside a map */
-        if (!base && k->diffuse.x + k->diffuse.y + k->diffuse.z == 0)
-            k->diffuse = k->ambient = shade_v3(0.8f, 0.8f, 0.8f);
-    }
+    alpha_from(s, a);
+    if (map_from(s, a, base) || relief_from(s, a) || glow_from(s, a)) return 1;
+    model_glow(s, linear);
     return 0;
 }
 
@@ -236,16 +309,17 @@ static const struct aiTexture *find_embedded(const struct aiScene *scene, const 
     return NULL;
 }
 
-/* Embedded pictures: a file in memory where the height is 0, else texels of B, G, R, A */
-static void embedded_picture(model *m, model_surface *s, const struct aiTexture *t)
+/* Embedded pictures: a file in memory where the height is 0, else texels of B, G, R, A.  Returns
+   the number of the picture, or -1: out of memory. */
+static int embedded_picture(model *m, const char *name, const struct aiTexture *t, int as_relief)
 {
+    const int number = picture_add(m, name, as_relief);
     model_picture *p;
-    s->picture = picture_add(m, s->map);
-    if (s->picture < 0) return;
-    p = &m->picture[s->picture];
+    if (number < 0) return number;
+    p = &m->picture[number];
     if (!t->mHeight) {
         const char *wrong = picture_decode(p, (const unsigned char *)t->pcData, t->mWidth);
-        if (wrong) model_warn(m, s->map, wrong);
+        if (wrong) model_warn(m, name, wrong);
     } else if (t->mWidth && t->mWidth <= 16384 && t->mHeight <= 16384) {
         size_t n = (size_t)t->mWidth * t->mHeight;
         uint8_t *pixels = (uint8_t *)malloc(4 * n);
@@ -257,36 +331,47 @@ static void embedded_picture(model *m, model_surface *s, const struct aiTexture 
         }
         if (pixels) picture_fill(p, pixels, (int)t->mWidth, (int)t->mHeight);
     }
+    return number;
+}
+
+/* The number of a picture inside the file; -1: it is beside it, or there is none. */
+static int tree_picture(tree *t, const char *name, int as_relief)
+{
+    const int known = name ? picture_find(t->model, name, as_relief) : -1;
+    const struct aiTexture *embedded = name && known < 0 ? find_embedded(t->scene, name) : NULL;
+    return embedded ? embedded_picture(t->model, name, embedded, as_relief) : known;
 }
 
 static int tree_surfaces(tree *t, model *m)
 {
     char name[32];
     for (unsigned i = 0; i < t->scene->mNumMaterials; i++) {
-        const struct aiTexture *embedded;
         model_surface *s;
-        int n = snprintf(name, sizeof name, "%u", i), known = -1;
+        int n = snprintf(name, sizeof name, "%u", i);
         if (model_find_surface(m, name, (size_t)n, 1) != (int)i)
             return mesh_fail(t->reader, "out of memory, or more than 10000 materials");
         s = &m->surface[i];
         if (surface_from(s, t->scene->mMaterials[i], t->linear))
             return mesh_fail(t->reader, "out of memory");
-        for (int k = 0; s->map && k < m->picture_count && known < 0; k++)
-            if (!strcmp(m->picture[k].name, s->map)) known = k;
-        embedded = s->map && known < 0 ? find_embedded(t->scene, s->map) : NULL;
-        s->picture = known;
-        if (embedded) embedded_picture(m, s, embedded);
+        s->picture = tree_picture(t, s->map, 0);
+        s->relief.picture = tree_picture(t, s->relief.map, 1);
+        s->glow_picture = tree_picture(t, s->glow_map, 0);
     }
     return 0;
 }
 
 /* ---- the file ------------------------------------------------------------------------------- */
 
+/* 1: since errno was 0, an allocation has failed.  Readers of assimp pass over that, and find an
+   empty file or nothing. */
+static int memory_ran_out(void) { return errno == ENOMEM; }
+
 static int tree_finish(tree *t, model *m)
 {
     owned_mesh *mesh = &m->mesh;
     int vertices = (int)(t->positions.count / 3);
-    if (!t->faces.triangles) return mesh_fail(t->reader, "no faces in it");
+    if (!t->faces.triangles)
+        return mesh_fail(t->reader, memory_ran_out() ? "out of memory" : "no faces in it");
     mesh->positions = t->positions.v;
     t->positions.v = NULL;
     mesh->normals = t->normals.v;
@@ -306,11 +391,23 @@ static int tree_finish(tree *t, model *m)
     return 0;
 }
 
+/* 1: the format says which axis is up, once for all files or in each, and assimp turns it to y. */
+static int tells_up(const char *kind)
+{
+    static const char *const told[] = { "",    "gltf", "glb", "vrm", "dae", "fbx", "wrl", "vrml",
+                                        "x3d", "x3dv", "ifc", "usd", "usda", "usdc", "usdz" };
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (!strcmp(kind, told[i])) return 1;
+    return 0;
+}
+
 /* The message of assimp in one line */
 static int assimp_failed(mesh_reader *r)
 {
     char text[200];
     size_t n = 0;
+    if (memory_ran_out() || strstr(aiGetErrorString(), "bad_alloc"))
+        return mesh_fail(r, "out of memory");
     for (const char *from = aiGetErrorString(); *from && n + 1 < sizeof text; from++)
         text[n++] = (char)(*from >= ' ' ? *from : ' ');
     text[n] = 0;
@@ -328,6 +425,7 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     int failed;
     *m = empty_model;
     if (!set) return mesh_fail(&r, "out of memory");
+    errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     t.scene = aiImportFileExWithProperties(
@@ -338,7 +436,7 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     t.model = m;
     t.linear = !strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb");
     m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
-    m->up_told = strcmp(kind.text, "off") != 0;
+    m->up_told = m->z_up || tells_up(kind.text);
     failed = tree_surfaces(&t, m);
     if (!failed && t.scene->mRootNode)
         failed = tree_node(&t, t.scene->mRootNode, shade_mat4_identity());

@@ -19,6 +19,7 @@ static char guard_part[4096];
 static const char *volatile guard_doing = "starting";
 static const char *volatile guard_file = ""; /* the file that it reads */
 static int guard_lines = 2;                  /* the descriptor that takes the program's lines */
+static int guard_status = 1;                 /* the exit status where the program is ended */
 
 static void guard_say(const char *text)
 {
@@ -45,7 +46,7 @@ static void guard_end(int signal_number)
     guard_say(guard_doing);
     guard_say(guard_file);
     guard_say("\n");
-    _exit(1);
+    _exit(guard_status);
 }
 
 /* Names the file that is read, and keeps what its readers print off standard error: a library
@@ -130,6 +131,7 @@ static inline void guard_done(void)
 static inline int guard_terminal(void) { return isatty(2); }
 #else
 static const char *guard_doing;
+static int guard_status;
 static inline void guard_program(int max_seconds, int max_memory)
 {
     (void)max_seconds;

@@ -6,6 +6,7 @@
 #ifndef MODEL_LOOK_H
 #define MODEL_LOOK_H
 
+#include "relief.h"
 #include "studio.h"
 #include "request.h"
 
@@ -14,6 +15,9 @@ typedef struct look {
     const studio *studio;
     const shade_mesh *mesh;
     const shade_texture *map; /* NULL: none */
+    const shade_texture *glow_map; /* what shines by itself; NULL: none */
+    shade_vec3 glow;
+    relief relief;
     shade_material material;  /* its emission stands apart, because the map multiplies that too */
     shade_vec3 emission;
     float metal, rough; /* the part of the reflection that has the surface's colour; its blur */
@@ -64,9 +68,10 @@ static shade_vec3 look_fresnel(const look *k, shade_vec3 albedo, float cosine)
     return shade_add(front, shade_scale(shade_sub(white, front), grazing));
 }
 
-/* The light that leaves P toward the eye; only the first count lanes are computed. */
+/* The light that leaves P toward the eye; only the first count lanes are computed.  glow, which may
+   be NULL, is the light that P sends by itself. */
 static void look_light(const look *k, const float *P, const float *N, const float *albedo,
-                       int count, look_rows out)
+                       const float *glow, int count, look_rows out)
 {
     float visibility[SHADE_LANES * 2];
     look_rows sky, mirror;
@@ -105,6 +110,7 @@ static void look_light(const look *k, const float *P, const float *N, const floa
             float own = albedo[i + a * SHADE_LANES];
             float light = out[a][i] + mirror[a][i];
             light += own * (ambient * sky[a][i] + emission);
+            light += glow ? glow[i + a * SHADE_LANES] : 0;
             out[a][i] = light > SHOULDER ? shoulder(light) : light;
         }
     }
@@ -131,9 +137,22 @@ static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_REST
     }
     if (k->per_vertex) {
         look_rows light;
-        look_light(k, out->varying[LOOK_P], out->varying[LOOK_N], out->varying[LOOK_ALBEDO],
+        look_light(k, out->varying[LOOK_P], out->varying[LOOK_N], out->varying[LOOK_ALBEDO], NULL,
                    in->count, light);
         SHADE_MEMCPY(out->varying[LOOK_P], light, sizeof light);
+    }
+}
+
+/* The light that fragments send by themselves */
+static void look_glow(const look *k, const shade_fragments *in, look_rows out)
+{
+    float texel[4][SHADE_LANES], lod[SHADE_LANES];
+    const int finer = texture_finer(k->glow_map, k->map ? k->map : k->relief.map);
+    SHADE_EACH_LANE(i) { lod[i] = in->lod[i] + (float)finer; }
+    shade_sample_lanes(k->glow_map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], lod, texel[0]);
+    for (int a = 0; a < 3; a++) {
+        const float factor = component(k->glow, a);
+        SHADE_EACH_LANE(i) { out[a][i] = factor * texel[a][i]; }
     }
 }
 
@@ -142,20 +161,25 @@ static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RES
 {
     const look *k = (const look *)uniforms;
     float texel[4][SHADE_LANES];
-    look_rows N, albedo, light;
+    look_rows N, albedo, light, glow;
     if (k->map)
         shade_sample_lanes(k->map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], in->lod,
                            texel[0]);
+    memcpy(N, in->varying[LOOK_N], sizeof N);
+    if (k->relief.map && !k->per_vertex) relief_bend(&k->relief, k->mesh, in, LOOK_UV, N);
     for (int a = 0; a < 3; a++) {
         SHADE_EACH_LANE(i)
         {
             /* back faces are lit as front faces are; front faces keep their normals, which lean
                away from the viewer on the outline of a coarse mesh */
-            N[a][i] = in->front[i] ? in->varying[LOOK_N + a][i] : -in->varying[LOOK_N + a][i];
+            N[a][i] = in->front[i] ? N[a][i] : -N[a][i];
             albedo[a][i] = in->varying[LOOK_ALBEDO + a][i] * (k->map ? texel[a][i] : 1);
         }
     }
-    if (!k->per_vertex) look_light(k, in->varying[LOOK_P], N[0], albedo[0], in->count, light);
+    if (k->glow_map) look_glow(k, in, glow);
+    if (!k->per_vertex)
+        look_light(k, in->varying[LOOK_P], N[0], albedo[0], k->glow_map ? glow[0] : NULL, in->count,
+                   light);
     SHADE_EACH_LANE(i)
     {
         float alpha = k->alpha * (k->map && !k->map_is_opaque ? texel[3][i] : 1);
@@ -178,11 +202,10 @@ static shade_result look_draw(const shade_target *target, look *k, const shade_m
     p.uniforms = k;
     p.varyings = LOOK_VARYINGS;
     k->mesh = mesh;
+    k->relief.indices = mesh->indices + 3 * (size_t)first;
     p.may_discard = k->alpha_cutoff > 0;
-    if (k->map) {
-        p.lod_texture = k->map;
-        p.lod_varying = LOOK_UV;
-    }
+    p.lod_texture = k->map ? k->map : k->relief.map ? k->relief.map : k->glow_map;
+    p.lod_varying = LOOK_UV;
     if (see_through) {
         p.raster.blend = SHADE_BLEND_OVER;
         p.raster.depth_read_only = 1;
@@ -243,7 +266,10 @@ static shade_result look_draw_chunks(const shade_target *target, look *k, const 
 static void look_dress(look *k, const model_options *o, const model *m, int surface)
 {
     const model_surface *s = m->surface_count ? &m->surface[surface] : NULL;
+    static const relief level;
     k->map = NULL;
+    k->relief = level;
+    k->glow_map = NULL;
     k->alpha = 1;
     k->alpha_cutoff = 0;
     k->map_is_opaque = 0;
@@ -263,6 +289,9 @@ static void look_dress(look *k, const model_options *o, const model *m, int surf
     k->map_is_opaque = s->opaque;
     if (s->picture >= 0 && m->mesh.texcoords && m->picture[s->picture].map.pixels)
         k->map = &m->picture[s->picture].map;
+    k->relief = relief_of(m, s, k->map);
+    k->glow = s->glow;
+    if (s->glow_picture >= 0 && m->mesh.texcoords) k->glow_map = &m->picture[s->glow_picture].map;
 }
 
 typedef struct far_triangle {

@@ -8,9 +8,20 @@
 typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
     char *name;
+    int relief;                /* it is no picture of colours, but a bump or normal map: */
+    int heights;               /* a bump map, and the mean square of the slopes of its heights, */
+    double slope_square;       /* which go from 0 to 1, in pictures whose edges are 1 long */
     void *pixels, *mipmaps;
     shade_texture level[15];
 } model_picture;
+
+/* A bump map, whose brightness is height, or a normal map: its picture tells which. */
+typedef struct model_relief {
+    char *map;      /* its name in the file; NULL: none */
+    int picture;    /* -1: none */
+    float strength; /* a factor of the slope, or the height of white above black in the units of
+                       the positions; 0: the file does not say */
+} model_relief;
 
 typedef struct model_surface {
     char *name, *map;        /* names in the file; map: the picture for k_d, or NULL */
@@ -20,7 +31,11 @@ typedef struct model_surface {
     int set;             /* 0: the file says nothing about it */
     int opaque, blended; /* the alpha of the map is ignored; is blended by */
     int picture;         /* the map, once it is read; -1: none */
-    int bumped;          /* has a bump or normal map, which is not read */
+    unsigned texcoords;  /* which of several sets in the file all pictures use */
+    model_relief relief;
+    char *glow_map;      /* the picture of what shines by itself, or NULL; its number, its factor */
+    int glow_picture;
+    shade_vec3 glow;
 } model_surface;
 
 typedef struct model_part {
@@ -53,6 +68,8 @@ static inline void model_free(model *m)
     for (int i = 0; i < m->surface_count; i++) {
         free(m->surface[i].name);
         free(m->surface[i].map);
+        free(m->surface[i].relief.map);
+        free(m->surface[i].glow_map);
     }
     for (int i = 0; i < m->library_count; i++) free(m->library[i]);
     for (int i = 0; i < m->object_count; i++) free(m->object_name[i]);
@@ -104,24 +121,26 @@ static inline float model_roughness(float shininess)
     return sqrtf(sqrtf(2 / (2 + fmaxf(0, shininess))));
 }
 
+/* Where there is a picture of what shines, the colour of emission is its factor.  Files that are
+   not exact leave that colour black. */
+static inline void model_glow(model_surface *s, int exact)
+{
+    shade_vec3 *e = &s->material.emission;
+    if (!s->glow_map) return;
+    s->glow = !exact && e->x + e->y + e->z <= 0 ? shade_v3(1, 1, 1) : *e;
+    *e = shade_v3(0, 0, 0);
+}
+
 /* The surface of that name, added if new: 60 % grey without highlight.  -1: out of memory, or
    MODEL_SURFACES of them. */
 enum { MODEL_SURFACES = 10000 };
 static inline int model_find_surface(model *m, const void *name, size_t n, int add)
 {
     static const model_surface fresh = {
-        NULL,
-        NULL,
-        { { 0, 0, 0 }, { 0.32f, 0.32f, 0.32f }, { 0.32f, 0.32f, 0.32f }, { 0, 0, 0 }, 0 },
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        0,
-        -1,
-        0
+        .material = { .ambient = { 0.32f, 0.32f, 0.32f }, .diffuse = { 0.32f, 0.32f, 0.32f } },
+        .picture = -1,
+        .relief = { .picture = -1 },
+        .glow_picture = -1
     };
     model_surface *grown;
     for (int i = m->surface_count - 1; i >= 0; i--)

@@ -5,8 +5,16 @@
 
 #include "files.h"
 
+/* The number of the picture of that name, read as colours or as a relief; -1: there is none */
+static int picture_find(const model *m, const char *name, int as_relief)
+{
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
+    return -1;
+}
+
 /* The number of a new picture without pixels, or -1: out of memory */
-static int picture_add(model *m, const char *name)
+static int picture_add(model *m, const char *name, int as_relief)
 {
     static const model_picture empty;
     model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
@@ -14,6 +22,7 @@ static int picture_add(model *m, const char *name)
     if (!grown) return -1;
     m->picture = grown;
     grown[m->picture_count] = empty;
+    grown[m->picture_count].relief = as_relief;
     grown[m->picture_count].name = model_text(name, strlen(name));
     return grown[m->picture_count].name ? m->picture_count++ : -1;
 }
@@ -25,7 +34,7 @@ static inline void picture_fill(model_picture *p, void *pixels, int width, int h
     p->map.pixels = pixels;
     p->map.width = width;
     p->map.height = height;
-    p->map.srgb = 1;
+    p->map.srgb = !p->relief;
 }
 
 /* Points each texture to its levels, once the array of pictures no longer moves. */
@@ -36,6 +45,38 @@ static void picture_mipmaps(model_picture *p)
     p->mipmaps = malloc(bytes);
     if (!p->mipmaps || shade_build_mipmaps(&p->map, p->level, p->mipmaps, bytes)) return;
     p->map.filter = SHADE_FILTER_TRILINEAR;
+}
+
+/* The mean square of the slopes of a bump map */
+static double picture_slope_square(const model_picture *p)
+{
+    const size_t width = (size_t)p->map.width, height = (size_t)p->map.height;
+    const double scale[2] = { (double)width / 765, (double)height / 765 };
+    double sum = 0;
+    for (size_t y = 0; y + 1 < height; y++) {
+        for (size_t x = 0; x + 1 < width; x++) {
+            const uint8_t *t = (const uint8_t *)p->pixels + 4 * (width * y + x);
+            const uint8_t *beside[2] = { t + 4, t + 4 * width };
+            for (int a = 0; a < 2; a++) {
+                const uint8_t *b = beside[a];
+                const double rise = scale[a] * (b[0] + b[1] + b[2] - t[0] - t[1] - t[2]);
+                sum += rise * rise;
+            }
+        }
+    }
+    return width > 1 && height > 1 ? sum / (double)((width - 1) * (height - 1)) : 0;
+}
+
+/* Finds out whether a relief holds heights or normals: normals are blue.  Files name either under
+   either name. */
+static void picture_look_at_relief(model_picture *p)
+{
+    const size_t n = (size_t)p->map.width * (size_t)p->map.height;
+    const uint8_t *texel = (const uint8_t *)p->pixels;
+    double blue = 0;
+    for (size_t i = 0; i < n; i++, texel += 4) blue += texel[2] - 0.5 * (texel[0] + texel[1]);
+    p->heights = blue < 40 * (double)n;
+    if (p->heights) p->slope_square = picture_slope_square(p);
 }
 
 /* The kind of a picture's alpha: 0 opaque, 1 some texels wholly clear and the others opaque, 2
@@ -79,12 +120,12 @@ static const char *picture_decode(model_picture *p, const unsigned char *bytes, 
 
 /* Reads a picture in the folder of the model, by its whole name, or by the part after its last
    slash: names from other machines contain folders that do not exist here. */
-static int picture_load(model *m, const char *path, const char *name)
+static int picture_load(model *m, const char *path, const char *name, int as_relief)
 {
     char error[300] = "out of memory";
     unsigned char *bytes = NULL;
     size_t size = 0, last = 0;
-    int number = picture_add(m, name), failed = 1;
+    int number = picture_add(m, name, as_relief), failed = 1;
     for (size_t i = 0; name[i]; i++)
         if (name[i] == '/' || name[i] == '\\') last = i + 1;
     for (int attempt = 0; attempt < 2 && failed && number >= 0; attempt++) {
@@ -106,17 +147,31 @@ static int picture_load(model *m, const char *path, const char *name)
     return number;
 }
 
+/* The number of a picture that a surface names, which is read if it is not there yet */
+static int picture_of(model *m, const char *path, const char *name, int as_relief)
+{
+    const int known = picture_find(m, name, as_relief);
+    return known < 0 ? picture_load(m, path, name, as_relief) : known;
+}
+
 /* Reads each picture that surfaces name once, and finds the kind of its alpha. */
 static void read_pictures(model *m, const char *path)
 {
     for (int i = 0; i < m->surface_count; i++) {
         model_surface *s = &m->surface[i];
-        if (!s->map || s->picture >= 0) continue;
-        for (int k = 0; k < m->picture_count && s->picture < 0; k++)
-            if (!strcmp(m->picture[k].name, s->map)) s->picture = k;
-        if (s->picture < 0) s->picture = picture_load(m, path, s->map);
+        model_relief *r = &s->relief;
+        if (s->map && s->picture < 0) s->picture = picture_of(m, path, s->map, 0);
+        if (s->glow_map && s->glow_picture < 0)
+            s->glow_picture = picture_of(m, path, s->glow_map, 0);
+        if (s->glow_picture >= 0 && !m->picture[s->glow_picture].pixels) s->glow_picture = -1;
+        if (r->map && r->picture < 0) r->picture = picture_of(m, path, r->map, 1);
+        if (r->picture >= 0 && !m->picture[r->picture].pixels) r->picture = -1;
     }
-    for (int i = 0; i < m->picture_count; i++) picture_mipmaps(&m->picture[i]);
+    for (int i = 0; i < m->picture_count; i++) {
+        model_picture *p = &m->picture[i];
+        if (p->relief && p->pixels) picture_look_at_relief(p);
+        picture_mipmaps(p);
+    }
     for (int i = 0; i < m->surface_count; i++) {
         model_surface *s = &m->surface[i];
         int clear;

@@ -6,6 +6,7 @@
 
 #include "pictures.h"
 #include "prepare.h"
+#include "relief.h"
 #include "guard.h"
 #include "request.h"
 #ifdef MODEL_ASSIMP
@@ -91,13 +92,12 @@ static int model_read(const char *path, model *m, const model_request *q)
 }
 /* ---- for the programs ------------------------------------------------------------------------ */
 
-/* Says which maps are left out. */
-static void model_tell(const model *m)
+/* 1: the message says that memory was out. */
+static int ran_out(const char *error)
 {
-    int bumped = 0;
-    for (int i = 0; i < m->surface_count; i++) bumped += m->surface[i].bumped;
-    if (bumped) complain("bump and normal maps of %d surface%s are left out", bumped,
-                         bumped == 1 ? "" : "s");
+    static const char words[] = ": out of memory";
+    const size_t n = strlen(error), most = sizeof words - 1;
+    return n >= most && !strcmp(error + n - most, words);
 }
 
 /* Reads the model that the options ask for.  Returns 1 with a line on stderr. */
@@ -112,9 +112,8 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     failed = model_read(path, m, &q);
     guard_reading(NULL);
     guard_doing = "ending";
-    if (failed) return complain("%s", error);
+    if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
-    if (o->verbose) model_tell(m);
     return 0;
 }
 
@@ -129,7 +128,7 @@ static int model_up(const model *m, const model_options *o, int picture)
     up = stand_guess(&m->mesh, usual);
     if (o->verbose)
         complain("the format does not say which axis is up: %s, %s", option_axes[up],
-                 up == usual ? "as usual" : "by a flat base that is wider than the top");
+                 up == usual ? "as usual" : "by the feet on which it stands");
     return up;
 }
 
@@ -139,7 +138,7 @@ static int model_prepare(model *m, const model_options *o, float turn)
 {
     const int flat = o->shading == SHADE_SHADING_PER_FACE;
     int failed = 0;
-    mesh_stand(&m->mesh, model_up(m, o, 1), turn);
+    relief_prepare(m, mesh_stand(&m->mesh, model_up(m, o, 1), turn));
     if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat);
     if (!failed) failed = mesh_chunk_parts(m);
     return failed ? complain("out of memory") : 0;

@@ -13,15 +13,15 @@
     "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"      \
     "                        (blinn-phong)\n"                                                     \
     "  --shading NAME        fragment, vertex, face (fragment)\n"                                 \
-    "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess by the\n" \
-    "                        widest flat base)\n"                                                 \
+    "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess: y, for\n" \
+    "                        STL z, or that of the feet it stands on)\n"                          \
     "  --no-shadow           no shadow on the ground\n"                                           \
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
     "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
     "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"   \
     "                        the machine's)\n"                                                    \
     "  --quiet               prints errors only, no progress and no warnings\n"                   \
-    "  --verbose             says what was guessed, and what is left out\n"
+    "  --verbose             says which axis was guessed to be upright\n"
 #define MODEL_VALUED \
     "--color", "--material", "--model", "--shading", "--up", "--threads", "--max-triangles", \
         "--max-memory"

@@ -13,7 +13,8 @@ typedef struct canvas {
     int width, height, samples;      /* of the finished picture */
 } canvas;
 
-static inline canvas canvas_new(int width, int height, int samples)
+/* A canvas whose target.color is NULL where memory is out */
+static inline canvas canvas_try(int width, int height, int samples)
 {
     canvas c = { { 0 }, width, height, samples };
     size_t pixels = (size_t)(width * samples) * (size_t)(height * samples);
@@ -24,6 +25,17 @@ static inline canvas canvas_new(int width, int height, int samples)
     c.target.color = calloc(pixels, 4 * sizeof(float));
     c.target.depth = (float *)calloc(pixels, sizeof(float));
     if (c.target.color && c.target.depth) return c;
+    free(c.target.color);
+    free(c.target.depth);
+    c.target.color = NULL;
+    c.target.depth = NULL;
+    return c;
+}
+
+static inline canvas canvas_new(int width, int height, int samples)
+{
+    canvas c = canvas_try(width, height, samples);
+    if (c.target.color) return c;
     fprintf(stderr, "out of memory\n");
     exit(1);
 }

@@ -243,7 +243,7 @@ static inline float *mesh_tangents(const owned_mesh *m)
 
 /* Moves the middle of the mesh's box to the origin and makes its largest distance from there 1;
    z up becomes y up.  In double: the place of a model can be far greater than its size. */
-static inline void mesh_normalize(owned_mesh *m, int z_up)
+static inline float mesh_normalize(owned_mesh *m, int z_up)
 {
     double low[3] = { 1e300, 1e300, 1e300 }, high[3] = { -1e300, -1e300, -1e300 }, radius = 0;
     size_t n = 3 * (size_t)m->view.vertex_count;
@@ -272,6 +272,7 @@ static inline void mesh_normalize(owned_mesh *m, int z_up)
         m->normals[i + 1] = m->normals[i + 2];
         m->normals[i + 2] = -ny;
     }
+    return (float)(1 / radius);
 }
 
 /* Draws all triangles of a mesh with a pipeline. */

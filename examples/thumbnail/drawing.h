@@ -168,9 +168,9 @@ static int drawing_open(drawing *d, pen *p)
 {
     const options *o = d->options;
     size_t pixels = (size_t)p->width * (size_t)p->height;
-    size_t samples = pixels * (size_t)(o->samples * o->samples);
-    d->sheet.width = p->width * o->samples;
-    d->sheet.height = p->height * o->samples;
+    size_t samples = pixels * (size_t)(o->picture.samples * o->picture.samples);
+    d->sheet.width = p->width * o->picture.samples;
+    d->sheet.height = p->height * o->picture.samples;
     d->sheet.srgb = 1;
     d->sheet.color = malloc(4 * samples);
     d->sheet.depth = (float *)malloc(samples * sizeof(float));
@@ -341,10 +341,10 @@ static shade_result drawing_view(const drawing *d, const shade_target *target, c
 static shade_result drawing_rows(const drawing *d, const shade_target *rows, int samples,
                                  int items)
 {
-    const shade_vec3 c = d->options->background_color;
+    const shade_vec3 c = d->options->picture.background_color;
     shade_vec4 paper = shade_v4(1, 1, 1, 1);
     shade_result result;
-    if (d->options->background == THUMBNAIL_PLAIN) paper = shade_v4(c.x, c.y, c.z, 1);
+    if (d->options->picture.background == PORTRAIT_PLAIN) paper = shade_v4(c.x, c.y, c.z, 1);
     result = shade_clear(rows, items ? shade_v4(0, 0, 0, 0) : paper, 1);
     for (int i = 0; i < d->views.count && !result; i++) {
         const view *v = &d->views.list[i];
@@ -377,7 +377,7 @@ static void drawing_band(void *data, int band)
         return;
     }
     rows = bands_rows(&d->sheet, band - 1, DRAWING_BANDS);
-    *result = drawing_rows(d, &rows, d->options->samples, 0);
+    *result = drawing_rows(d, &rows, d->options->picture.samples, 0);
     rows = bands_rows(&item, band - 1, DRAWING_BANDS);
     if (!*result) *result = drawing_rows(d, &rows, 1, 1);
 }
@@ -520,7 +520,7 @@ static int drawing_save(drawing *d)
     if (failed) return failed;
     picture.color = malloc((size_t)picture.width * (size_t)picture.height * 4);
     if (!picture.color) return complain("out of memory");
-    shade_resolve(&picture, &d->sheet, d->options->samples);
+    shade_resolve(&picture, &d->sheet, d->options->picture.samples);
     failed = save(&picture, d->options);
     free(picture.color);
     return failed;
@@ -549,10 +549,11 @@ static void drawing_free(drawing *d)
 
 static pen drawing_pen(const options *o)
 {
-    pen p = { .samples = o->samples, .ink = shade_rgb(0x101418), .grey = shade_rgb(0x5A626B) };
+    pen p = { .ink = shade_rgb(0x101418), .grey = shade_rgb(0x5A626B) };
     int least;
-    p.width = o->drawing.sized ? o->width : 1600;
-    p.height = o->drawing.sized ? o->height : 1200;
+    p.samples = o->picture.samples;
+    p.width = o->drawing.sized ? o->picture.width : 1600;
+    p.height = o->drawing.sized ? o->picture.height : 1200;
     least = p.width < p.height ? p.width : p.height;
     p.unit = fmaxf(0.6f, (float)least / 1200);
     p.text = 22 * p.unit;

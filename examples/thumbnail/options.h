@@ -2,40 +2,24 @@
 #ifndef THUMBNAIL_OPTIONS_H
 #define THUMBNAIL_OPTIONS_H
 
-#include "../model/request.h"
+#include "../model/portrait.h"
 #include "drawing_options.h"
 
 static const char thumbnail_usage[] =
     "usage: thumbnail model picture.ppm|picture.png|- [options]        -: standard output\n"
-    "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"
+    PORTRAIT_USAGE
     "  --png                 writes PNG, whatever the picture's name is\n"
-    "  --background COLOR    RRGGBB, #RGB, black, white, grey, red, green, blue, yellow or\n"
-    "                        orange; none: transparent, PNG only (a grey gradient)\n"
-    "  --rotate DEG          turns the model about its upright axis, -36000 .. 36000 (30)\n"
     MODEL_USAGE
-    "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
     "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
     "  --help, --version     prints this text; the version\n" DRAWING_USAGE;
 
-enum { THUMBNAIL_GRADIENT, THUMBNAIL_PLAIN, THUMBNAIL_NONE }; /* backgrounds */
-
 typedef struct options {
     const char *input, *output;
-    int width, height, samples, png, background, max_seconds;
-    float rotate; /* radians */
-    shade_vec3 background_color;
+    int png, max_seconds;
+    portrait picture;
     model_options how;
     drawing_options drawing;
 } options;
-
-/* Reads degrees and stores radians. */
-static int take_angle(const char *text, float *out)
-{
-    char *end;
-    double degrees = strtod(text, &end);
-    *out = (float)(degrees * 0.017453292519943295);
-    return end != text && !*end && degrees >= -36000 && degrees <= 36000;
-}
 
 /* Stores one option: the option_take of thumbnail. */
 static int take(void *to, const char *name, const char *value)
@@ -43,23 +27,14 @@ static int take(void *to, const char *name, const char *value)
     options *o = (options *)to;
     int taken = name ? drawing_take(&o->drawing, name, value) : -1;
     if (taken < 0 && name) taken = model_take(&o->how, name, value);
+    if (taken < 0 && name) taken = portrait_take(&o->picture, name, value);
     if (taken >= 0) return taken;
     if (!name)
         *(o->input ? &o->output : &o->input) = value;
     else if (!strcmp(name, "--png"))
         o->png = 1;
-    else if (!strcmp(name, "--size"))
-        return option_size(value, 8192, &o->width, &o->height);
-    else if (!strcmp(name, "--rotate"))
-        return take_angle(value, &o->rotate);
-    else if (!strcmp(name, "--samples"))
-        return option_samples(value, &o->samples);
-    else if (!strcmp(name, "--max-seconds"))
+    else
         return option_integer(value, 0, 1000000000, &o->max_seconds);
-    else {
-        o->background = same_name(value, "none") ? THUMBNAIL_NONE : THUMBNAIL_PLAIN;
-        return o->background == THUMBNAIL_NONE || take_color(value, &o->background_color);
-    }
     return OPTION_TAKEN;
 }
 
@@ -87,12 +62,11 @@ static int check_options(const options *o)
         fputs(thumbnail_usage, stderr);
         return 1;
     }
-    if (drawing_check(&o->drawing, o->output, o->background == THUMBNAIL_NONE)) return 1;
+    if (drawing_check(&o->drawing, o->output, o->picture.background == PORTRAIT_NONE)) return 1;
     if (!o->png && ends_in(o->output, others))
         return complain("%s: writes pictures named .ppm or .png alone", o->output);
-    if (o->width * o->samples > 16384 || o->height * o->samples > 16384)
-        return complain("size times samples must stay within 16384");
-    if (o->background == THUMBNAIL_NONE && !o->png)
+    if (portrait_check(&o->picture)) return 1;
+    if (o->picture.background == PORTRAIT_NONE && !o->png)
         return complain("--background none needs PNG: PPM has no transparency");
 #ifndef MODEL_STB
     if (o->png) return complain("PNG needs a thumbnail built with stb (libstb-dev)");
@@ -104,8 +78,8 @@ static int check_options(const options *o)
 static int read_options(options *o, int argc, char **argv)
 {
     static const char *const valued[] = {
-        MODEL_VALUED, "--size",  "--background", "--rotate", "--samples", "--max-seconds",
-        "--views",    "--angle", "--depth",      "--id-map", "--json",    NULL
+        MODEL_VALUED, PORTRAIT_VALUED, "--max-seconds", "--views", "--angle", "--depth", "--id-map",
+        "--json",     NULL
     };
     static const char *const flags[] = { MODEL_FLAGS, "--png", "--ortho",      "--edges",
                                          "--hidden",  "--ids", "--dimensions", NULL };

@@ -29,29 +29,6 @@ static int ppm_write(void *user, const void *bytes, size_t size)
     return fwrite(bytes, 1, size, (FILE *)user) != size;
 }
 
-/* Converts to bytes; divides by alpha, by which the canvas has multiplied colours. */
-static uint8_t *picture_bytes(const shade_target *picture, int channels)
-{
-    size_t n = (size_t)picture->width * (size_t)picture->height;
-    const float *from = (const float *)picture->color;
-    uint8_t *bytes = (uint8_t *)malloc(n * (size_t)channels), *to = bytes;
-    if (bytes && picture->format == SHADE_FORMAT_RGBA8) { /* holds what is wanted */
-        for (size_t i = 0; i < n; i++)
-            memcpy(to + (size_t)channels * i, (const uint8_t *)picture->color + 4 * i,
-                   (size_t)channels);
-        return bytes;
-    }
-    for (size_t i = 0; bytes && i < n; i++, from += 4) {
-        float a = from[3], k = channels == 4 && a > 0 ? 1 / a : 1;
-        shade_vec3 c = shade_srgb_from_linear(shade_v3(k * from[0], k * from[1], k * from[2]));
-        *to++ = (uint8_t)(255 * c.x + 0.5f);
-        *to++ = (uint8_t)(255 * c.y + 0.5f);
-        *to++ = (uint8_t)(255 * c.z + 0.5f);
-        if (channels == 4) *to++ = (uint8_t)(255 * a + 0.5f);
-    }
-    return bytes;
-}
-
 /* Writes what data says: 0, or 1 with the reason in errno, which is 0 where memory ran out. */
 typedef int save_writer(FILE *file, const void *data);
 
@@ -69,9 +46,9 @@ static int write_picture(FILE *file, const void *data)
     if (!o->png) return shade_encode_ppm(ppm_write, file, picture) != SHADE_OK;
 #ifdef MODEL_STB
     {
-        int channels = o->background == THUMBNAIL_NONE ? 4 : 3, failed;
+        int channels = o->picture.background == PORTRAIT_NONE ? 4 : 3, failed;
         png_sink sink = { file, 0 };
-        uint8_t *bytes = picture_bytes(picture, channels);
+        uint8_t *bytes = portrait_bytes(picture, channels);
         if (!bytes) return 1;
         failed = !stbi_write_png_to_func(png_write, &sink, picture->width, picture->height,
                                          channels, bytes, picture->width * channels);

@@ -17,7 +17,6 @@
 #include "options.h"
 #include "save.h"
 #include "../model/read.h"
-#include "draw.h"
 #include "drawing.h"
 #include <time.h>
 
@@ -61,7 +60,7 @@ static int read_model(const options *o, model *m, progress *p)
     failed = model_open(o->input, &o->how, m, report, p);
     report_next(p, "");
     if (failed || o->drawing.view_count) return failed;
-    return model_prepare(m, &o->how, o->rotate);
+    return model_prepare(m, &o->how, o->picture.rotate);
 }
 
 static int draw_and_save(const options *o, const model *m, progress *p)
@@ -72,18 +71,18 @@ static int draw_and_save(const options *o, const model *m, progress *p)
     shade_result result;
     int failed;
     report_next(p, "finding shadows");
-    result = SHADE_OK;
-    if (look_has_shadows(&o->how) || !o->how.no_shadow)
-        result = studio_open(&light, m, o->width > o->height ? o->width : o->height, 0,
-                             o->how.threads, report, p);
+    result = portrait_light(&light, m, &o->picture, &o->how, report, p);
     report_next(p, "drawing");
-    c = canvas_new(o->width, o->height, o->samples);
-    if (!result) result = draw_picture(&c, m, &light, o, report, p);
+    c = canvas_try(o->picture.width, o->picture.height, o->picture.samples);
+    if (!c.target.color) result = SHADE_ERROR_CAPACITY;
+    if (!result) result = portrait_draw(&c, m, &light, &o->picture, &o->how, report, p);
     report_next(p, "");
-    picture = canvas_finish(&c);
-    failed = result ? complain("%s", result == SHADE_ERROR_CAPACITY ? "out of memory"
-                                                                    : shade_result_string(result))
-                    : save(&picture, o);
+    if (result) {
+        failed = complain("%s", portrait_says(result));
+    } else {
+        picture = canvas_finish(&c);
+        failed = save(&picture, o);
+    }
     studio_close(&light);
     free(c.target.color);
     free(c.target.depth);
@@ -92,11 +91,10 @@ static int draw_and_save(const options *o, const model *m, progress *p)
 
 int main(int argc, char **argv)
 {
-    options o = { .width = 512, .height = 512, .samples = 2, .how = model_options_new() };
+    options o = { .picture = portrait_new(), .how = model_options_new() };
     progress p = { clock(), "", -1, 0, 0 };
     model m = { 0 };
     int end;
-    o.rotate = shade_radians(30);
     end = read_options(&o, argc, argv);
     if (end) return end == OPTIONS_WRONG;
     p.silent = o.how.quiet || !guard_terminal();

@@ -3,6 +3,7 @@
 
      look same A B MOST           no two bytes differ by more than MOST
      look near A B MEAN           the mean difference is at most MEAN
+     look middle A B MOST         the mean colours of their middle ninths differ by at most MOST
      look pixel A X Y R G B MOST  the pixel at the parts X, Y (0 .. 1) of width and height
      look alpha A X Y ALPHA       of a PNG
      look area A B PART           the pixels that are not as the top left one are as many in A as in
@@ -67,6 +68,24 @@ static const unsigned char *at(const picture *p, double x, double y)
     return p->bytes + (size_t)p->channels * ((size_t)j * (size_t)p->width + (size_t)i);
 }
 
+/* The largest difference between the mean colours of the middle ninths of two pictures of a size */
+static double middle(const picture *a, const picture *b)
+{
+    const int n = (a->width / 3) * (a->height / 3);
+    double most = 0;
+    for (int k = 0; k < 3; k++) {
+        double sum = 0;
+        for (int i = 0; i < n; i++) {
+            size_t x = (size_t)(a->width / 3 + i % (a->width / 3));
+            size_t y = (size_t)(a->height / 3 + i / (a->width / 3));
+            size_t place = (size_t)a->channels * (y * (size_t)a->width + x) + (size_t)k;
+            sum += (double)a->bytes[place] - b->bytes[place];
+        }
+        most = fmax(most, fabs(sum / n));
+    }
+    return most;
+}
+
 int main(int argc, char **argv)
 {
     const char *question = argc > 4 ? argv[1] : "";
@@ -92,6 +111,10 @@ int main(int argc, char **argv)
         double x = (double)area(&a), y = (double)area(&b);
         printf("%g and %g pixels\n", x, y);
         return !(x > 0 && fabs(x - y) <= v[1] * x);
+    }
+    if (!strcmp(question, "middle") && a.width == b.width && a.height == b.height) {
+        printf("differ by %g in the middle\n", middle(&a, &b));
+        return middle(&a, &b) > v[1];
     }
     if (a.width == b.width && a.height == b.height && a.channels == b.channels) {
         size_t n = (size_t)a.channels * (size_t)a.width * (size_t)a.height;

@@ -23,6 +23,15 @@ check "blue" pixel 0.28 0.3 0.00945 0.0360 0.2587
 check "green" pixel 0.72 0.3 0.00593 0.1572 0.0203
 check "red" pixel 0.28 0.75 0.3200 0.0143 0.00302
 check "grey" pixel 0.72 0.75 0.0573 0.0573 0.0573
+sed 's/map_Kd/map_Ke/' "$T/map.mtl" >"$T/glow.mtl"
+sed 's/map.mtl/glow.mtl/' "$T/map.obj" >"$T/glow.obj"
+check "a texture of what shines" draw glow.obj b.ppm $quarters
+check "shines as a colored surface does" "$T/look" same "$T/a.ppm" "$T/b.ppm" 0
+check "no warning about it" test ! -s "$T/err"
+sed '/^Ke/d' "$T/glow.mtl" >"$T/bare.mtl"
+sed 's/map.mtl/bare.mtl/' "$T/map.obj" >"$T/bare.obj"
+check "without Ke" draw bare.obj b.ppm $quarters
+check "it shines as it is" sh -c "'$T/look' pixel '$T/b.ppm' 0.72 0.75 $("$T/look" display 0.128 0.128 0.128) 3"
 check "holes" draw holes.obj a.ppm $quarters
 check "blue stays" pixel 0.28 0.3 0.00945 0.0360 0.2587
 check "red is cut out" pixel 0.28 0.75 0 0 0

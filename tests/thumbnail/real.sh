@@ -15,7 +15,7 @@ real_file() {                   # the name of a golden by the name of a file
     echo "$name" | tr /A-Z -a-z
 }
 
-compile -DCOMPARE_STB examples/compare/compare.c -lm -o "$T/compare"
+compile -DSHADE__IMPLEMENTED $STB examples/compare/compare.c "$T/shade.o" -lm -o "$T/compare"
 if [ -d "$MODELS" ]; then
     for k in OBJ/spider.obj Collada/duck.dae FBX/huesitos.fbx MD2/sydney.md2 MS3D/jeep1.ms3d \
         PLY/Wuson.ply STL/Spider_binary.stl 3DS/fels.3ds AC/Wuson.ac FBX/phong_cube.fbx; do
@@ -37,6 +37,6 @@ if there python3; then
     check "a small bomb" python3 tests/thumbnail/bomb.py "$T/small.3mf" 10000
     check "is a triangle" draw small.3mf a.ppm $flat --max-memory 512
     check "a large bomb" python3 tests/thumbnail/bomb.py "$T/large.3mf" 8000000
-    check "is refused" refused "large.3mf" "$THUMBNAIL" "$T/large.3mf" "$T/none.ppm" --max-memory 512
+    check "is refused" refused "large.3mf: out of memory; see --max-memory" "$THUMBNAIL" "$T/large.3mf" "$T/none.ppm" --max-memory 512
 else echo "no python3: a memory bomb is left out"
 fi
