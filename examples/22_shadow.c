@@ -13,7 +13,6 @@ enum { MAP = 1024, BALL = 2, POT = BALL + 2 * 96 * 47 };    /* the last two: fir
 static const shade_vec3 eye = { 4.1f, 7, 12.4f }, up = { 0, 1, 0 }, grey = { 0.6f, 0.6f, 0.6f };
 typedef struct scene { mesh_scene place; shade_lighting lighting; shade_mat4 from_lamp; } scene;
 static float map[MAP][MAP];
-
 /* The share of light that passes at a point in the lamp's clip space; nearer texels weigh more. */
 static float passes(shade_vec3 p)
 {
@@ -40,11 +39,10 @@ static void light(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
     SHADE_EACH_LANE(i) {
         shade_vec3 P = lane(in->varying[0], i), N = lane(in->varying[3], i);
         float sine = shade_length(shade_cross(N, lane(L[0], i)));
-        /* The depth of a texel holds at its centre, up to 2.1 texels of .018 from P, where a face
-           that leans by theta may be .04 tan(theta) nearer.  Moving P by .04 sin(theta) along N
-           outweighs that; .008 more allow for facets, which are not square to N. */
-        P = shade_mat4_transform_point(s->from_lamp, shade_madd(P, 0.04f * (sine + 0.2f), N));
-        visibility[0][i] = passes(P);
+        /* A texel holds for its centre, up to 2.1 texels of .018 from P; a face leaning by theta
+           may be .04 tan(theta) nearer there.  P moves .04 sin(theta) + .008 (facets) along N. */
+        visibility[0][i] = passes(shade_mat4_transform_point(
+            s->from_lamp, shade_madd(P, 0.04f * (sine + 0.2f), N)));
         visibility[1][i] = 1;    /* the lamp at infinity casts no shadow */
         lane_put(albedo[0], i, paint[(in->primitive[i] >= BALL) + (in->primitive[i] >= POT)]);
     }
@@ -56,14 +54,13 @@ int main(int argc, char **argv)
     const shade_vec3 at = { -3, 10, 6.5f }, aim = { 3, -9.2f, -6.5f }, blue = shade_rgb(0x506888);
     const shade_light lamps[2] = { shade_spot_light(at, aim, 0.42f, 12, shade_v3(2.2f, 2, 1.8f)),
                                    shade_directional_light(shade_v3(-1, -1, 0), blue) };
-    owned_mesh m = shape_moved(mesh_sphere(96, 48), shape_at(4.1f, 1, 0.4f, 1, 0));
+    owned_mesh ball = shape_moved(mesh_sphere(96, 48), shape_at(4.1f, 1, 0.4f, 1, 0));
+    owned_mesh m = shape_join(shape_join(mesh_plane(60, 1), ball), shape_teapot(16));
     scene s = { .place = { .mesh = &m, .model = shade_mat4_identity() },
                 .lighting = { lamps, 2, .ambient = { 0.04f, 0.04f, 0.05f } } };
     shade_pipeline pipeline = { mesh_vertex, light, &s, .varyings = 8 };
     shade_target from_lamp = { .width = MAP, .height = MAP, .depth = map[0] };
     canvas c = canvas_new(960, 540, 2);
-
-    m = shape_join(shape_join(mesh_plane(60, 1), m), shape_teapot(16));
     s.from_lamp = shade_mat4_mul(shade_mat4_perspective(0.9f, 1, 4, 40),
                                  shade_mat4_look_at(at, shade_add(at, aim), up));
     s.place.clip_from_world = s.from_lamp;    /* a cone of .84 and some texels around */
@@ -74,6 +71,9 @@ int main(int argc, char **argv)
     shade_clear(&c.target, shade_v4(0, 0, 0, 1), 1);
     mesh_draw(&c.target, &pipeline, &m);
     label_draw(&c, 24, 40, 22, grey, "visibility: the share of 3 × 3 texels the lamp sees");
+    shade_vec2 far = canvas_depth(canvas_panel(&c, 736, 24, 200, 200), map[0], MAP, 4, 40);
+    label_print(&c, 24, 70, 18, grey, "right: the map, %.1f (white) to %.1f (black) from the lamp",
+                (double)far.x, (double)far.y);
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "shadow.ppm");
 }

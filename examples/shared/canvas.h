@@ -139,6 +139,30 @@ static inline int canvas_difference(const shade_target *a, const shade_target *b
     return count;
 }
 
+/* Shows a square map of window depths, of a perspective from front to back, on a panel: grey is in
+   proportion to distance, white at the least from the camera, black at the most.  Returns both;
+   where the map was cleared to 1 nothing counts, and the panel is black. */
+static inline shade_vec2 canvas_depth(shade_target panel, const float *map, int size, float front,
+                                      float back)
+{
+    shade_vec2 range = { back, front };
+    const int pixels = panel.width * panel.height;
+    for (int k = 0; k < 2 * pixels; k++) {    /* once for the range, once for the picture */
+        const int x = k % pixels % panel.width, y = k % pixels / panel.width;
+        const float z = map[y * size / panel.height * size + x * size / panel.width];
+        const float distance = front * back / (back - z * (back - front));
+        const float near_by = z < 1 ? (range.y - distance) / (range.y - range.x) : 0;
+        const shade_vec3 grey = shade_linear_from_srgb(shade_v3(near_by, near_by, near_by));
+        if (k < pixels && z < 1) {
+            range.x = distance < range.x ? distance : range.x;
+            range.y = distance > range.y ? distance : range.y;
+        } else if (k >= pixels)
+            ((shade_vec4 *)panel.color)[y * panel.stride + x] =
+                shade_v4(grey.x, grey.y, grey.z, 1);
+    }
+    return range;
+}
+
 /* The matrix from pixels of the finished picture to clip space, for shade_draw_lines */
 static inline shade_mat4 canvas_from_pixels(const canvas *c)
 {

@@ -8,6 +8,8 @@
 #define SHARED_TWINS_H
 
 #include "shade.h"
+#include <stdio.h>
+#include <string.h>
 
 enum { TWIN_COLOR, TWIN_GOURAUD, TWIN_PHONG, TWINS };
 
@@ -79,6 +81,27 @@ static const char twin_brass_glsl[] =
     "  return Ka * Ia + Kd * max(dot(l, N), 0.0) * Id\n"
     "       + Ks * pow(max(dot(r, v), 0.0), a) * Is;\n"
     "}\n";
+
+/* A function in C, and its text, whose lines the compiler joins */
+#define TWIN(text, ...) \
+    static const char text[] = #__VA_ARGS__; \
+    __VA_ARGS__
+
+/* Breaks the lines of such a text again: behind ; and behind the braces of bodies. */
+static inline void twin_unjoin(const char *text, char *out)
+{
+    for (int n, depth = 0; *text; text += n) {
+        depth -= *text == '}';
+        for (n = 0; text[n] != ';' && text[n] != '}' && strncmp(text + n, ") {", 3) != 0; n++)
+            if (text[n] == '{') n += (int)strcspn(text + n, "}");
+        n += text[n] == ')' ? 3 : 1;
+        out += sprintf(out, "%*s%.*s\n", 2 * depth, "", n, text);
+        depth += text[n - 1] == '{';
+        while (text[n] == ' ') n++;
+    }
+}
+
+TWIN(twin_brass_c,
 static inline shade_vec3 twin_brass(const twin_uniforms *u, shade_vec3 N, shade_vec3 E)
 {
     const shade_vec3 Ka = { 0.329412f, 0.223529f, 0.027451f };
@@ -86,12 +109,13 @@ static inline shade_vec3 twin_brass(const twin_uniforms *u, shade_vec3 N, shade_
     const shade_vec3 Ks = { 0.992157f, 0.941176f, 0.807843f };
     const float a = 27.89743616f, Ia = 0.3f, Id = 1, Is = 1;
     shade_vec4 d = shade_mat4_transform(u->View, u->direction);
-    shade_vec3 l = shade_normalize(shade_neg(shade_v3(d.x, d.y, d.z)));
+    shade_vec3 l = shade_normalize(shade_v3(-d.x, -d.y, -d.z));
     shade_vec3 v = shade_normalize(shade_neg(E));
     shade_vec3 r = shade_reflect(shade_neg(l), N);
-    return shade_madd(shade_madd(shade_scale(Ka, Ia), shade_lambert(N, l) * Id, Kd),
-                      shade_power(shade_dot(r, v), a) * Is, Ks);    /* clamps its base */
-}
+    shade_vec3 ambient = shade_scale(Ka, Ia);
+    shade_vec3 matte = shade_madd(ambient, shade_lambert(N, l) * Id, Kd);
+    return shade_madd(matte, shade_power(shade_dot(r, v), a) * Is, Ks);    /* clamps its base */
+})
 
 static inline shade_vec3 twin_attribute(const float *array, uint32_t index)
 {
@@ -164,6 +188,7 @@ static inline void twin_fragment_color(const void *uniforms,
     SHADE_EACH_LANE(i) { twin_out(out->color, i, shade_v3(c[0][i], c[1][i], c[2][i])); }
 }
 
+TWIN(twin_fragment_c,
 static inline void twin_fragment_phong(const void *uniforms,
                                        const shade_fragments *SHADE_RESTRICT in,
                                        shade_colors *SHADE_RESTRICT out)
@@ -172,9 +197,10 @@ static inline void twin_fragment_phong(const void *uniforms,
     const float (*v)[SHADE_LANES] = in->varying;
     SHADE_EACH_LANE(i) {
         shade_vec3 N = shade_normalize(shade_v3(v[0][i], v[1][i], v[2][i]));
-        twin_out(out->color, i, twin_brass(u, N, shade_v3(v[3][i], v[4][i], v[5][i])));
+        shade_vec3 E = shade_v3(v[3][i], v[4][i], v[5][i]);
+        twin_out(out->color, i, twin_brass(u, N, E));
     }
-}
+})
 
 /* Twin k as a pipeline without uniforms, which the caller sets */
 static inline shade_pipeline twin_pipeline(int k)
