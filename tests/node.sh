@@ -8,8 +8,7 @@ there node && there npm || { left_out "everything: no node with npm"; finish; }
 mkdir -p "$T/tree" "$T/use"
 cp shade.h "$T/tree"
 mkdir "$T/tree/examples"
-cp -R examples/model examples/shared examples/thumbnail examples/python examples/node \
-    "$T/tree/examples"
+cp -R examples/model examples/shared examples/python examples/node "$T/tree/examples"
 N=$T/tree/examples/node
 rm -f "$N/module.js"
 sh "$N/build.sh" >"$T/built" 2>&1 || { fail "the module is compiled" "$T/built"; finish; }

@@ -415,7 +415,7 @@ static void look_tone(look *k, float turn)
     k->lighting.warm = shade_v3(1.00f, 0.72f, 0.30f);
 }
 
-static void exhibit_close(exhibit *e)
+static inline void exhibit_close(exhibit *e)
 {
     static const exhibit none;
     free(e->see_through);
@@ -427,8 +427,8 @@ static void exhibit_close(exhibit *e)
 
 /* Returns 1 where memory is out.  Model, light and options must outlive the exhibit, which stays
    where it is: its look points into it. */
-static int exhibit_open(exhibit *e, const model *m, const studio *light, const model_options *o,
-                        shade_vec3 eye)
+static inline int exhibit_open(exhibit *e, const model *m, const studio *light,
+                               const model_options *o, shade_vec3 eye)
 {
     static const exhibit none;
     look *k = &e->look;
@@ -453,8 +453,8 @@ static int exhibit_open(exhibit *e, const model *m, const studio *light, const m
 }
 
 /* Draws a band of the picture, over its background. */
-static shade_result exhibit_draw(const exhibit *e, const shade_target *rows, shade_mat4 view,
-                                 shade_mat4 projection)
+static inline shade_result exhibit_draw(const exhibit *e, const shade_target *rows,
+                                        shade_mat4 view, shade_mat4 projection)
 {
     static const shade_mat4 no_turn; /* zero: the identity */
     look k = e->look;

@@ -173,7 +173,7 @@ static double relief_stretch(const model *m, int part)
 /* Finds the strength of each relief, for positions that are scale times those of the file.  Files
    often do not say how high a bump map is, or in what unit: usual is a root mean square of the
    slope of 1 to 4, and none is steeper than 1 to 2. */
-static void relief_prepare(model *m, float scale)
+static inline void relief_prepare(model *m, float scale)
 {
     for (int i = 0; i < m->part_count && m->surface_count && m->mesh.texcoords; i++) {
         model_relief *r = &m->surface[m->part[i].surface].relief;

@@ -269,7 +269,7 @@ static inline shade_result studio_turn(studio *s, const model *m, float turn, in
     return studio_draw_maps(s, m, s->sky, threads, NULL, NULL);
 }
 
-static void studio_close(studio *s)
+static inline void studio_close(studio *s)
 {
     free(s->memory);
     s->memory = NULL;

@@ -10,7 +10,8 @@
 #include "shade.h"
 #include "examples/model/files.h"
 #include "examples/shared/bands.h"
-#include "examples/thumbnail/draw.h"
+#include "examples/model/look.h"
+#include "examples/shared/canvas.h"
 
 typedef struct python_item {      /* a mesh in its place */
     shade_mesh mesh;
@@ -161,7 +162,7 @@ static void paint_in_studio(const painter *p, const shade_rows *rows, int count,
         lane_put(N[0], i, shade_mat4_transform_direction(*p->to_studio, n));
         lane_put(white[0], i, shade_v3(1, 1, 1));
     }
-    look_light(p->look, P[0], N[0], rows->albedo ? rows->albedo : white[0], count,
+    look_light(p->look, P[0], N[0], rows->albedo ? rows->albedo : white[0], NULL, count,
                (float(*)[SHADE_LANES])rgb);
 }
 

@@ -1,6 +1,7 @@
-# real.sh - sourced by thumbnail.sh: a memory bomb, and real files of two packages, their pictures beside goldens of 64 x 64
-# pixels in tests/thumbnail/real.  Versions of assimp read some files differently: of 4096 pixels 3 %
-# may differ by more than 24 of 255.  A package that is not there is named and left out.
+# real.sh - sourced by thumbnail.sh: real files of two packages, their pictures beside goldens of
+# 64 x 64 pixels in tests/thumbnail/real, and a memory bomb.  Versions of assimp read some files
+# differently: of 4096 pixels 3 % may differ by more than 24 of 255.  A package that is not there is
+# named and left out.
 # REAL_GOLDENS=write draws the goldens anew.
 MODELS=/usr/share/assimp/models PROFILES=build/node_modules/@webxr-input-profiles/assets/dist/profiles
 
@@ -18,12 +19,13 @@ real_file() {                   # the name of a golden by the name of a file
 compile -DSHADE__IMPLEMENTED $STB examples/compare/compare.c "$T/shade.o" -lm -o "$T/compare"
 if [ -d "$MODELS" ]; then
     for k in OBJ/spider.obj Collada/duck.dae FBX/huesitos.fbx MD2/sydney.md2 MS3D/jeep1.ms3d \
-        PLY/Wuson.ply STL/Spider_binary.stl 3DS/fels.3ds AC/Wuson.ac FBX/phong_cube.fbx; do
+        PLY/Wuson.ply STL/Spider_binary.stl 3DS/fels.3ds AC/Wuson.ac FBX/phong_cube.fbx \
+        STL/Wuson.stl glTF2/ClearCoat-glTF/ClearCoatTest.gltf; do
         real "$(real_file $k)" "$MODELS/$k"
     done
     check "goldens differ from one another" no "$T/compare" --limit 24 --count 3% \
         tests/thumbnail/real/obj-spider.png tests/thumbnail/real/stl-spider_binary.png
-else echo "no assimp-testmodels: ten real files are left out"
+else echo "no assimp-testmodels: twelve real files are left out"
 fi
 if [ -d "$PROFILES" ]; then
     for k in oculus-touch/left.glb valve-index/left.glb htc-vive/none.glb; do
