@@ -15,8 +15,7 @@ enum { BALLS = 7 };
 int main(int argc, char **argv)
 {
     static const char *const name[3] = { "directional", "point", "spot" };
-    static const char *const formula[3] = { "L everywhere the same", "L = (Q − P) / r",
-                                            "(L·S)^e where L·S ≥ cos β" };
+    char formula[3][80];
     static const uint32_t paint[BALLS] = { 0xD05040, 0xD89040, 0xC8C050, 0x58A060, 0x4088B0,
                                            0x6060B8, 0xA058A8 };
     const shade_vec3 white = { 1, 0.95f, 0.85f }, grey = { 0.7f, 0.7f, 0.7f };
@@ -38,6 +37,15 @@ int main(int argc, char **argv)
     scene.eye = shade_v3(0, 5, 5.2f);
     scene.center = shade_v3(0.08f, 0.1f, 0.1f);
     scene.fovy = 0.60f;
+    shade_vec4 Q = lamp[1].position;
+    shade_vec3 L;
+    shade_light_at(&lamp[0], scene.center, &L, NULL);
+    snprintf(formula[0], sizeof *formula, "L = (%.2f, %.2f, %.2f) everywhere", (double)L.x,
+             (double)L.y, (double)L.z);
+    snprintf(formula[1], sizeof *formula, "L = (Q − P) / r, Q = (%.1f, %.1f, %.1f)", (double)Q.x,
+             (double)Q.y, (double)Q.z);
+    snprintf(formula[2], sizeof *formula, "(L·S)^%.0f where L·S ≥ cos %.1f°",
+             (double)lamp[2].spot_exponent, acos((double)lamp[2].spot_cos_cutoff) * 57.29578);
     scene.lighting.light_count = 1;
     scene.lighting.ambient = shade_v3(0.04f, 0.045f, 0.06f);
     canvas_dark(&c.target);
