@@ -11,15 +11,17 @@ typedef struct terminal_answers {
     int kitty, iterm2, sixel;    /* pictures that it takes */
     int parts;                   /* 6 or 4: it draws glyphs of so many parts; 0: nobody knows */
     int cell_width, cell_height; /* pixels; 0: not said */
+    int sixel_width, sixel_height; /* pixels that sixels may have; 0: not said */
 } terminal_answers;
 
-/* In order: a picture of one pixel in kitty's protocol, which is checked and not shown; the
-   terminal's name (XTVERSION); iTerm2's list of features; the size of a cell; the primary
-   attributes, where 4 is sixel; and a report that every terminal gives, so that it ends the
-   answers. */
-#define TERMINAL_QUESTIONS                                                            \
-    "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\\033[>0q\033]1337;Capabilities\033\\" \
-    "\033[16t\033[c\033[5n"
+/* A picture of one pixel in kitty's protocol, which is checked and not shown.  tmux and screen would
+   take it for a title. */
+#define TERMINAL_TRY_KITTY "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
+/* In order: the terminal's name (XTVERSION); iTerm2's list of features; the size of a cell; the
+   largest sixels (XTSMGRAPHICS); the primary attributes, where 4 is sixel; and a report that every
+   terminal gives, so that it ends the answers. */
+#define TERMINAL_QUESTIONS \
+    "\033[>0q\033]1337;Capabilities\033\\\033[16t\033[?2;1;0S\033[c\033[5n"
 
 /* The parts of a cell that a terminal of this name draws itself, without a gap between cells.
    VTE has drawn sextants since 0.62.  tmux and screen answer for themselves, not for the terminal
@@ -68,6 +70,9 @@ static inline void answers_take(terminal_answers *a, const unsigned char *answer
     else if (sscanf(text, "\033[6;%d;%dt", &height, &width) == 2 && height > 0 && width > 0) {
         a->cell_height = height;
         a->cell_width = width;
+    } else if (sscanf(text, "\033[?2;0;%d;%dS", &width, &height) == 2) {
+        a->sixel_width = width;
+        a->sixel_height = height;
     }
 }
 #endif

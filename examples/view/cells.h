@@ -38,7 +38,7 @@ typedef struct cell_screen {
 enum { CELL_NONE = 0x7fffffff };
 /* A cell costs at most a move, two colours (36 bytes) and a glyph (4); what stands round a frame
    fits into CELL_FRAME. */
-enum { CELL_MOVE = 10, CELL_BYTES = CELL_MOVE + 40, CELL_FRAME = 64 };
+enum { CELL_MOVE = 11, CELL_BYTES = CELL_MOVE + 40, CELL_FRAME = 64 };
 
 static inline int cells_pixels(const cell_screen *s)
 {

@@ -110,6 +110,13 @@ static inline int display_rows(const display *d)
     return d->show == SHOW_KITTY || d->size.rows < 2 ? d->size.rows : d->size.rows - 1;
 }
 
+static inline display_level display_moving(const display *d)
+{
+    return d->show == SHOW_CELLS ? display_cells[d->level] : display_pixels[d->level];
+}
+
+static inline int display_coarsest(const display *d) { return d->show == SHOW_CELLS ? 3 : 4; }
+
 /* Resizes the pictures; as many samples a pixel as fit into 2 million, for pixels 7 million. */
 static inline void display_resize(display *d, terminal_size size)
 {
@@ -138,7 +145,7 @@ static inline void display_resize(display *d, terminal_size size)
     d->large.depth = (float *)example_memory(pixels * n * n, sizeof(float));
     d->sent = d->show == SHOW_CELLS ? NULL : (uint8_t *)example_memory(pixels, 6);
     d->sent_size = 0;
-    d->level = d->show == SHOW_CELLS ? 0 : 2;
+    d->level = d->show == SHOW_CELLS ? 0 : display_coarsest(d);
     d->steady = 0;
     cells_resize(&d->screen, size.columns, size.rows);
     d->changed = 1;
@@ -152,6 +159,19 @@ static inline void display_color(display *d, const terminal_answers *said)
     d->screen.colors = VIEW_TRUE;
     d->scene->said[0] = 0;
     scene_lighten(d->scene);
+}
+
+/* 0: pictures of pixels of this size cannot be shown: kitty takes 10,000 along an edge, sixels have
+   their own limit, and memory should not grow beyond what a screen of 4K takes. */
+static inline int display_has_room(view_show show, terminal_size size, const terminal_answers *said)
+{
+    const int width = size.columns * size.cell_width, height = size.rows * size.cell_height;
+    if (width > 10000 || height > 10000 || (double)width * height > 9e6) return 0;
+    if (show == SHOW_KITTY) return 1;
+    if (show == SHOW_SIXEL && said->sixel_width > 0 &&
+        (width > said->sixel_width || height > said->sixel_height))
+        return 0;
+    return size.rows > 1;
 }
 
 /* Chooses what the terminal has answered that it shows best. */
@@ -170,6 +190,7 @@ static inline void display_choose(display *d, const terminal_answers *said)
     else if (want == SHOW_ASKED && said->sixel && said->parts && size.cell_known &&
              pixels_known(SHOW_SIXEL))
         d->show = SHOW_SIXEL;
+    if (!display_has_room(d->show, size, said)) d->show = SHOW_CELLS;
     d->screen.form = CELL_HALVES;
     if (want == SHOW_SEXTANTS || (want == SHOW_ASKED && said->parts == 6))
         d->screen.form = CELL_SEXTANTS;
@@ -183,19 +204,12 @@ static inline void display_choose(display *d, const terminal_answers *said)
     display_resize(d, size);
 }
 
-static inline display_level display_moving(const display *d)
-{
-    return d->show == SHOW_CELLS ? display_cells[d->level] : display_pixels[d->level];
-}
-
-static inline int display_coarsest(const display *d) { return d->show == SHOW_CELLS ? 3 : 4; }
-
 /* How finely the next picture is drawn */
 static inline void display_refine(display *d)
 {
     const display_level level = display_moving(d);
     d->samples = d->at_rest || level.samples > d->most ? d->most : level.samples;
-    d->zoom = d->at_rest ? 1 : level.zoom;
+    d->zoom = d->at_rest ? 1 : d->help && level.zoom > 2 ? 2 : level.zoom;
     d->small.width = (d->width + d->zoom - 1) / d->zoom;
     d->small.height = (d->height + d->zoom - 1) / d->zoom;
     d->large.width = d->small.width * d->samples;
@@ -375,7 +389,7 @@ static inline int display_frame(display *d, double now)
     display_keep_pace(d, clock_now() - now);
     if (!d->frames++) d->first_bytes = d->bytes;
     d->changed = 0;
-    d->sent_at = now;
+    d->sent_at = clock_now();
     frame_rate_count(&d->rate, now);
     return failed;
 }
@@ -415,9 +429,10 @@ static inline int display_input(display *d)
         input in = terminal_next(&d->keys);
         if (in.kind == INPUT_NONE) return 0;
         if (in.kind == INPUT_END) return 1;
-        if (in.kind == INPUT_ANSWERS)
+        if (in.kind == INPUT_ANSWERS) {
+            d->paced = 1;
             display_choose(d, &d->keys.said);
-        else if (in.kind == INPUT_MOUSE)
+        } else if (in.kind == INPUT_MOUSE)
             display_mouse(d, in);
         else if (display_key(d, in.key))
             return 1;
@@ -436,6 +451,7 @@ static inline void display_signals(display *d, const sigset_t *mask)
     if (terminal_resized) {
         terminal_resized = 0;
         display_choose(d, &d->keys.said);
+        if (d->show == SHOW_SIXEL && d->frames) terminal_ask(); /* the size of a cell */
     }
 }
 
@@ -446,7 +462,6 @@ static inline int display_behind(display *d, double now)
     if (terminal_asked < 2) return 0;
     if (now - d->sent_at < 2) return 1;
     terminal_asked = 0;
-    terminal_questioned = 0;
     d->paced = 0;
     return 0;
 }
@@ -478,8 +493,8 @@ static inline int display_run(display *d, const sigset_t *mask)
     double step = 1.0 / d->options->rate, before = clock_now();
     for (;;) {
         double now = clock_now();
-        if (display_input(d)) return 0;
         display_signals(d, mask);
+        if (display_input(d)) return 0;
         if (d->scene->said[0] && now > d->said_until) {
             d->scene->said[0] = 0;
             d->changed = 1;

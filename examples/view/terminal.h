@@ -74,16 +74,24 @@ static inline input terminal_sequence(const unsigned char *begin, const unsigned
         in.button = number[0];
         in.column = number[1];
         in.row = number[2];
-    } else if (*end == 'n' && terminal_asked > 0) {
-        terminal_asked--;
+    } else if (*end == 'n') {
+        if (terminal_asked > 0) terminal_asked--;
         if (terminal_questioned) in.kind = INPUT_ANSWERS;
     }
     return in;
 }
 
-/* The size of an answer in the form of a string, which ends in BEL or ESC \; 0: its end is not
-   here.  Its beginning is also what Alt and a letter send, so it counts as one only while answers
-   are awaited. */
+/* 1: ESC and this byte may begin an answer in the form of a string.  They are also what Alt and a
+   letter send, so they count only while answers are awaited, and the next byte must be theirs. */
+static inline int terminal_begins_string(const unsigned char *p, size_t size)
+{
+    static const char begin[3] = { 'P', '_', ']' }, next[3] = { '>', 'G', '1' };
+    for (int k = 0; k < 3 && terminal_questioned; k++)
+        if (p[1] == begin[k]) return size < 3 || p[2] == next[k];
+    return 0;
+}
+
+/* The size of such an answer, which ends in BEL or ESC \; 0: its end is not here. */
 static inline size_t terminal_string(const unsigned char *p, size_t size)
 {
     for (size_t n = 2; n < size; n++) {
@@ -115,7 +123,7 @@ static inline size_t terminal_parse(const unsigned char *p, size_t size, input *
     if (*p != 27) return 1;
     in->kind = INPUT_NONE;
     if (size < 2) return 0;
-    if (terminal_questioned && strchr("P_]", p[1])) return terminal_string(p, size);
+    if (terminal_begins_string(p, size)) return terminal_string(p, size);
     if (p[1] != '[' && p[1] != 'O') return 1;
     while (n < size && p[n] >= ' ' && p[n] < '@') n++;
     if (n == size) return size < 64 ? 0 : size;
@@ -128,8 +136,9 @@ static inline size_t terminal_parse(const unsigned char *p, size_t size, input *
 
 /* Enters: the alternate screen, no cursor, reports of buttons and motion of the mouse in decimal */
 #define TERMINAL_ENTER "\033[?1049h\033[?25l\033[?1002h\033[?1006h"
-/* CAN ends a sequence that was cut off in the middle; TERMINAL_FORGET deletes all pictures. */
-#define TERMINAL_FORGET "\030\033_Ga=d,q=2,d=A\033\\"
+/* CAN ends a sequence that was cut off in the middle, ESC \ a picture; TERMINAL_FORGET deletes all
+   pictures. */
+#define TERMINAL_FORGET "\030\033\\\033_Ga=d,q=2,d=A\033\\"
 #define TERMINAL_LEAVE "\030\033[m\033[?1006l\033[?1002l\033[?2026l\033[?25h\033[?1049l"
 
 /* Returns 1 where the terminal accepts no more. */
@@ -151,14 +160,15 @@ static inline int terminal_write(const char *bytes, size_t size)
     return 0;
 }
 
-/* Reads the reports that are on their way, so that the shell does not get them; waits 0.3 s at
+/* Reads the reports that are on their way, so that the shell does not get them; waits a second at
    most. */
 static inline void terminal_drain(void)
 {
     static unsigned char text[512];
+    const double end = clock_now() + 1;
     struct pollfd in = { STDIN_FILENO, POLLIN, 0 };
     size_t size = 0;
-    for (int tries = 0; terminal_asked > 0 && tries < 3; tries++) {
+    while (terminal_asked > 0 && clock_now() < end) {
         input report;
         size_t used;
         ssize_t n = poll(&in, 1, 100) > 0 ? read(STDIN_FILENO, text + size, sizeof text - size) : 0;
@@ -199,17 +209,28 @@ static inline void terminal_enter(void)
     terminal_resized = 1;
 }
 
+/* 1: between this program and the terminal stands another, which draws its screen. */
+static inline int terminal_is_inner(void)
+{
+    const char *term = getenv("TERM");
+    return getenv("TMUX") || getenv("STY") ||
+           (term && (!strncmp(term, "tmux", 4) || !strncmp(term, "screen", 6)));
+}
+
 /* Asks what the terminal can show.  What arrives until INPUT_ANSWERS are the answers. */
 static inline void terminal_ask(void)
 {
     terminal_questioned = 1;
     terminal_asked++;
+    if (!terminal_is_inner())
+        terminal_write(TERMINAL_TRY_KITTY, sizeof TERMINAL_TRY_KITTY - 1);
     terminal_write(TERMINAL_QUESTIONS, sizeof TERMINAL_QUESTIONS - 1);
 }
 
 /* ---- signals -------------------------------------------------------------------------------- */
 
-/* SA_RESETHAND has put the default action back, which does the rest. */
+/* SA_RESETHAND has put the default action back, which does the rest when this returns.  Until then
+   all signals wait: a second ^C must not leave the terminal half restored. */
 static inline void terminal_die(int number)
 {
     terminal_leave();
@@ -229,7 +250,7 @@ static inline void terminal_catch(int number, void (*handler)(int), int flags)
     memset(&action, 0, sizeof action);
     action.sa_handler = handler;
     action.sa_flags = flags;
-    sigemptyset(&action.sa_mask);
+    sigfillset(&action.sa_mask);
     if (!sigaction(number, NULL, &before) && before.sa_handler == SIG_IGN) return;
     sigaction(number, &action, NULL);
 }
@@ -251,7 +272,7 @@ static inline void terminal_catch_all(sigset_t *mask)
     stack.ss_size = sizeof memory;
     sigaltstack(&stack, NULL);
     for (size_t k = 0; k < sizeof fatal / sizeof *fatal; k++)
-        terminal_catch(fatal[k], terminal_die, (int)(SA_RESETHAND | SA_NODEFER | SA_ONSTACK));
+        terminal_catch(fatal[k], terminal_die, (int)(SA_RESETHAND | SA_ONSTACK));
     sigemptyset(&held);
     for (size_t k = 0; k < sizeof noted / sizeof *noted; k++) {
         terminal_catch(noted[k], terminal_note, 0);
@@ -279,6 +300,7 @@ static inline void terminal_stop(void)
     sigprocmask(SIG_SETMASK, &before, NULL);
     sigaction(SIGTSTP, &ours, NULL);
     terminal_enter();
+    if (terminal_questioned) terminal_ask();
 }
 
 /* ---- size ----------------------------------------------------------------------------------- */

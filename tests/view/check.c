@@ -392,7 +392,7 @@ static void test_dither(uint32_t rgb)
 
 static terminal_answers answered(const char *text)
 {
-    terminal_answers a = { 0, 0, 0, 0, 0, 0 };
+    terminal_answers a = { 0, 0, 0, 0, 0, 0, 0, 0 };
     answers_take(&a, (const unsigned char *)text, strlen(text));
     return a;
 }
@@ -422,6 +422,8 @@ static void test_answers(void)
     check(!answered("\033]1337;Capabilities=T3BFGsSy\033\\").iterm2, "focus alone", 1, 0);
     a = answered("\033[6;20;10t");
     check(a.cell_width == 10 && a.cell_height == 20, "a cell", a.cell_width, 10);
+    a = answered("\033[?2;0;1000;800S");
+    check(a.sixel_width == 1000 && a.sixel_height == 800, "sixels", a.sixel_width, 1000);
     a = answered("\033[6;0;-3t");
     check(!a.cell_width && !a.cell_height, "a cell without area", a.cell_width, 0);
 }
@@ -442,6 +444,10 @@ static void test_strings(void)
           "the end of the answers", in.kind, INPUT_ANSWERS);
     terminal_questioned = 0;
     check(terminal_parse(p, sizeof name - 1, &in) == 1, "Alt and P", 0, 1);
+    terminal_questioned = 1;
+    check(terminal_parse((const unsigned char *)"\033Pq", 3, &in) == 1, "Alt and P, then q", 0, 1);
+    check(terminal_parse((const unsigned char *)"\033\0q", 3, &in) == 1, "ESC and NUL", 0, 1);
+    terminal_questioned = 0;
 }
 
 /* ---- bytes to keys -------------------------------------------------------------------------- */

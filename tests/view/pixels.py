@@ -25,7 +25,8 @@ passed = failed = 0
 
 ASKED = {
     'kitty': rb'\x1b_Gi=31', 'name': rb'\x1b\[>0q', 'features': rb'\x1b\]1337;Capabilities\x1b\\',
-    'cell': rb'\x1b\[16t', 'attributes': rb'\x1b\[c', 'report': rb'\x1b\[5n',
+    'cell': rb'\x1b\[16t', 'largest': rb'\x1b\[\?2;1;0S', 'attributes': rb'\x1b\[c',
+    'report': rb'\x1b\[5n',
 }
 TERMINALS = {
     'kitty': {'kitty': b'\x1b_Gi=31;OK\x1b\\', 'name': b'\x1bP>|kitty(0.26.5)\x1b\\',
@@ -35,6 +36,8 @@ TERMINALS = {
                'report': b'\x1b[0n'},
     'sixel': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?63;1;2;4;6;9;15;22c',
               'report': b'\x1b[0n'},
+    'sixel-small': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?63;1;2;4;22c',
+                    'largest': b'\x1b[?2;0;640;400S', 'report': b'\x1b[0n'},
     'sextants': {'name': b'\x1bP>|foot(1.13.1)\x1b\\', 'attributes': b'\x1b[?62;22c',
                  'report': b'\x1b[0n'},
     'quadrants': {'name': b'\x1bP>|XTerm(379)\x1b\\', 'attributes': b'\x1b[?62;22c',
@@ -56,8 +59,9 @@ class Terminal:
     """One run of view in a terminal of some kind; its answers come after some seconds, in pieces of
     some bytes."""
 
-    def __init__(self, kind, *options, late=0.0, piece=1000, colors='truecolor', cells=CELL):
-        self.answers, self.late, self.piece = TERMINALS[kind], late, piece
+    def __init__(self, kind, *options, late=0.0, piece=1000, gap=0.0, colors='truecolor',
+                 cells=CELL):
+        self.answers, self.late, self.piece, self.gap = TERMINALS[kind], late, piece, gap
         self.out, self.looked, self.owed = bytearray(), 0, []
         self.master, self.slave = pty.openpty()
         size = struct.pack('HHHH', ROWS, COLUMNS, COLUMNS * cells[0], ROWS * cells[1])
@@ -78,12 +82,15 @@ class Terminal:
         for name, question in ASKED.items():
             for m in re.finditer(question, self.out[self.looked:]):
                 found.append((m.start(), m.end(), self.answers.get(name, b'')))
-        for _, end, answer in sorted(found):
-            due = time.monotonic() + self.late
-            for at in range(0, len(answer), self.piece):
-                self.owed.append((due, answer[at:at + self.piece]))
         if found:
             self.looked += max(end for _, end, _ in found)
+        else:    # a question may have begun
+            self.looked = max(self.looked, len(self.out) - 40)
+        due = time.monotonic() + self.late
+        for _, _, answer in sorted(found):
+            for at in range(0, len(answer), self.piece):
+                self.owed.append((due, answer[at:at + self.piece]))
+                due += self.gap
 
     def until(self, holds):
         end = time.monotonic() + PATIENCE
@@ -102,22 +109,26 @@ class Terminal:
                 last, since = len(self.out), time.monotonic()
             self.pump(0.05)
 
-    def close(self):
-        """Ends view by q.  True: status 0, and nothing of an answer is left for the shell."""
+    def close(self, left=False):
+        """Ends view by q.  True: status 0, and nothing of an answer is left for the shell, unless
+        that is allowed."""
         os.write(self.master, b'q')
         end = time.monotonic() + PATIENCE
-        while self.view.poll() is None and time.monotonic() < end:
+        while (self.view.poll() is None or self.owed) and time.monotonic() < end:
             self.pump(0.05)
+        if self.view.poll() is None:
+            self.view.kill()
+            return False
         while select.select([self.master], [], [], 0.2)[0]:
             self.pump(0)
         modes = termios.tcgetattr(self.slave)
         modes[3] &= ~termios.ICANON
         termios.tcsetattr(self.slave, termios.TCSANOW, modes)
-        left = bytearray(4)
-        fcntl.ioctl(self.slave, termios.FIONREAD, left)
+        count = bytearray(4)
+        fcntl.ioctl(self.slave, termios.FIONREAD, count)
         os.close(self.master)
         os.close(self.slave)
-        return self.view.returncode == 0 and struct.unpack('i', left)[0] == 0
+        return self.view.returncode == 0 and (left or struct.unpack('i', count)[0] == 0)
 
 
 # ---- decoders ------------------------------------------------------------------------------------
@@ -133,9 +144,13 @@ def kitty(sequence):
     parts = re.findall(rb'm=(\d);([^\x1b]*)\x1b', sequence)
     assert all(len(p) <= 4096 for _, p in parts)
     assert [m for m, _ in parts] == [b'1'] * (len(parts) - 1) + [b'0']
-    assert (int(keys[b'c']), int(keys[b'r'])) == (COLUMNS, ROWS) and keys[b'f'] == b'24'
-    rgb = b''.join(base64.b64decode(p, validate=True) for _, p in parts)
-    return int(keys[b's']), int(keys[b'v']), rgb
+    assert (int(keys[b'c']), int(keys[b'r'])) == (COLUMNS, ROWS)
+    data = b''.join(base64.b64decode(p, validate=True) for _, p in parts)
+    size = int(keys[b's']), int(keys[b'v'])
+    if keys[b'f'] == b'24':
+        return *size, data
+    assert keys[b'f'] == b'100' and png(data)[:2] == size
+    return png(data)
 
 
 def png(data):
@@ -294,16 +309,26 @@ check('256 colors, dithered', cells('plain', '256', '--colors', '256')[0])
 t = Terminal('silent', '--show', 'kitty', '--still')
 check('--show kitty without an answer', t.until(KITTY.search))
 check('it ends', t.close())
-t = Terminal('kitty', '--still', late=1.0)
+t = Terminal('kitty', '--still', late=0.6)
 check('late answers: characters first', t.until(lambda out: b'\xe2\x96' in out))
 check('late answers: then pixels', t.until(KITTY.search))
 check('late answers: it ends, none is left', t.close())
 t = Terminal('kitty', '--still', piece=1)
 check('answers byte by byte', t.until(KITTY.search))
 check('it ends, none is left', t.close())
-t = Terminal('kitty', '--still', late=0.5)
+t = Terminal('kitty', '--still', late=0.1, piece=8, gap=0.03)
 t.until(lambda out: b'\x1b[5n' in out)
 check('answers that come while it ends are not left to the shell', t.close())
+t = Terminal('kitty', late=3.5)
+t.until(lambda out: b'\xe2\x96' in out)
+check('answers after 3.5 s of motion are no keys: pixels', t.until(KITTY.search))
+check('it ends', t.close(left=True))
+t = Terminal('kitty', '--still', cells=(100, 200))
+check('pictures of 38 million pixels: characters', t.until(lambda out: b'\xe2\x96' in out or b'\xf0\x9f' in out))
+check('it ends', t.close())
+t = Terminal('sixel-small', '--still')
+check('sixels of 640 x 400 at most: characters', t.until(lambda out: b'\xe2\x96' in out))
+check('it ends', t.close())
 t = Terminal('kitty', colors='')
 check('a terminal with a name knows all colors: pixels', t.until(KITTY.search))
 check('it turns: another picture', t.until(lambda out: len(KITTY.findall(out)) > 3))

@@ -65,6 +65,8 @@ done
 start 80 24 "$full" --still
 check "the name and the size" soon shows "teapot, [0-9]* triangles"
 check "the other screen, no cursor, a mouse" soon in_modes "1 0 1 1"
+titled() { tm display-message -p '#{pane_title}' | grep AAAA; }
+check "questions are no title" no titled
 start 80 24 TERM=xterm-256color --still
 check "256 colors" soon drawn 256 80 24 ""
 check "no other colors then" no has_color 2
