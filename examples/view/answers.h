@@ -14,8 +14,8 @@ typedef struct terminal_answers {
     int sixel_width, sixel_height; /* pixels that sixels may have; 0: not said */
 } terminal_answers;
 
-/* A picture of one pixel in kitty's protocol, which is checked and not shown.  tmux and screen would
-   take it for a title. */
+/* A picture of one pixel in kitty's protocol, which is checked and not shown.  tmux and screen
+   would take it for a title. */
 #define TERMINAL_TRY_KITTY "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
 /* In order: the terminal's name (XTVERSION); iTerm2's list of features; the size of a cell; the
    largest sixels (XTSMGRAPHICS); the primary attributes, where 4 is sixel; and a report that every

@@ -67,7 +67,8 @@ typedef struct display_level {
     int samples, zoom;
 } display_level;
 static const display_level display_cells[] = { { 4, 1 }, { 3, 1 }, { 2, 1 }, { 1, 1 } };
-static const display_level display_pixels[] = { { 2, 1 }, { 1, 1 }, { 1, 2 }, { 1, 3 }, { 1, 4 } };
+static const display_level display_pixels[] = { { 2, 1 }, { 1, 1 }, { 1, 2 },
+                                               { 1, 3 }, { 1, 4 }, { 1, 6 } };
 
 typedef struct display {
     scene *scene;
@@ -115,7 +116,7 @@ static inline display_level display_moving(const display *d)
     return d->show == SHOW_CELLS ? display_cells[d->level] : display_pixels[d->level];
 }
 
-static inline int display_coarsest(const display *d) { return d->show == SHOW_CELLS ? 3 : 4; }
+static inline int display_coarsest(const display *d) { return d->show == SHOW_CELLS ? 3 : 5; }
 
 /* Resizes the pictures; as many samples a pixel as fit into 2 million, for pixels 7 million. */
 static inline void display_resize(display *d, terminal_size size)

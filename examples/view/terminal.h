@@ -85,7 +85,7 @@ static inline input terminal_sequence(const unsigned char *begin, const unsigned
    letter send, so they count only while answers are awaited, and the next byte must be theirs. */
 static inline int terminal_begins_string(const unsigned char *p, size_t size)
 {
-    static const char begin[3] = { 'P', '_', ']' }, next[3] = { '>', 'G', '1' };
+    static const unsigned char begin[3] = { 'P', '_', ']' }, next[3] = { '>', 'G', '1' };
     for (int k = 0; k < 3 && terminal_questioned; k++)
         if (p[1] == begin[k]) return size < 3 || p[2] == next[k];
     return 0;
