@@ -476,13 +476,13 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
     check('and one can go back', await page.evaluate(() => S.lecture) === 4);
     await page.keyboard.press('Escape');
     await go(page, 'turn=0&bare');
-    check('a frame has no panel', !await page.locator('aside').isVisible() &&
-        await page.locator('#formula').isVisible());
+    check('a frame has no panel', await soon(async () =>
+        !await page.locator('aside').isVisible() && await page.locator('#formula').isVisible()));
     await go(page, 'turn=0');
     await page.keyboard.press('l');
     await page.keyboard.press('Escape');
-    check('and leave', await page.evaluate(() => S.lecture) === 0 &&
-        await page.locator('aside').isVisible());
+    check('and leave', await soon(async () => await page.evaluate(() => S.lecture) === 0 &&
+        await page.locator('aside').isVisible()));
     await page.context().close();
 }
 
@@ -643,6 +643,23 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
     await touch('touchMove', [110, 200], [240, 200]);
     await touch('touchEnd');
     check('two zoom', (await read()).zoom > turned.zoom);
+    const bulb = phone.locator('#maps svg').nth(1).locator('.bulb').first();
+    await bulb.scrollIntoViewIfNeeded();
+    const spotOf = async () => {
+        const box = await bulb.boundingBox();
+        return [box.x + box.width / 2, box.y + box.height / 2];
+    };
+    const [left, top] = await spotOf(), was = (await read()).p1;
+    const scrolled = () => phone.evaluate(() => scrollY), above = await scrolled();
+    await touch('touchStart', [left, top - 20]);
+    for (const k of [5, 10, 15]) await touch('touchMove', [left - k, top - 20 - k]);
+    await touch('touchEnd');
+    const now = (await read()).p1, [goneX, goneY] = await spotOf();
+    check('a finger 20 pixels away drags a lamp on its map', now[0] < was[0] &&
+        now[1] === was[1] && now[2] < was[2] &&
+        Math.hypot(goneX - left + 15, goneY - top + 35) < 2,
+        [was, now, goneX - left, goneY - top]);
+    check('and does not scroll the page', await scrolled() === above);
     await phone.context().close();
 }
 

@@ -24,11 +24,26 @@ function buildMaps() {
         map.point = svg('circle', { r: 2 });
         map.eye = svg('path', { d: 'M-5,4L0,-3L5,4Z', class: 'eye' });
         root.append(svg('circle', { r: UNIT, class: 'model' }), title, map.point);
+        root.addEventListener('pointerdown', event => grab(map, event));
         if (map.name === 'above') root.append(map.eye);
         map.lamps = LAMPS.map(j => lampOn(map, root, j));
         $('#maps').append(root);
     }
     shown.push(() => MAPS.forEach(map => map.lamps.forEach((node, i) => showLamp(map, node, i + 1))));
+}
+
+// The lamp nearest to the pointer, if it is on its grip, or a finger within 24 pixels
+function grab(map, event) {
+    const distance = node => {
+        const { x, y, width, height } = node.getBoundingClientRect();
+        return Math.hypot(event.clientX - x - width / 2, event.clientY - y - height / 2);
+    };
+    const far = map.lamps.map(distance), j = 1 + far.indexOf(Math.min(...far));
+    const node = map.lamps[j - 1], grip = node.getBoundingClientRect().width / 2;
+    if (far[j - 1] > (event.pointerType === 'touch' ? Math.max(24, grip) : grip)) return;
+    node.setPointerCapture(event.pointerId);
+    S.lamp = j;
+    changed();
 }
 
 function lampOn(map, root, j) {
@@ -38,9 +53,6 @@ function lampOn(map, root, j) {
     label.textContent = j;
     node.append(svg('circle', { r: 12, class: 'grip' }), svg('circle', { r: 8.5 }), label);
     root.append(node);
-    node.addEventListener('pointerdown', event => {
-        node.setPointerCapture(event.pointerId), S.lamp = j, changed();
-    });
     node.addEventListener('pointermove', event => {
         if (!node.hasPointerCapture(event.pointerId)) return;
         const at = new DOMPoint(event.clientX, event.clientY)
