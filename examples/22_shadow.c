@@ -72,7 +72,7 @@ int main(int argc, char **argv)
     mesh_draw(&c.target, &pipeline, &m);
     label_draw(&c, 24, 40, 22, grey, "visibility: the share of 3 × 3 texels the lamp sees");
     shade_vec2 far = canvas_depth(canvas_panel(&c, 736, 24, 200, 200), map[0], MAP, 4, 40);
-    label_print(&c, 24, 70, 18, grey, "right: the map, %.1f (white) to %.1f (black) from the lamp",
+    label_print(&c, 24, 70, 18, grey, "right: the map, %.1f (white) to %.1f (black) along the axis",
                 (double)far.x, (double)far.y);
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "shadow.ppm");
