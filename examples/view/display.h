@@ -85,6 +85,7 @@ typedef struct display {
     int most, samples, zoom;   /* most: samples that there is room for */
     int level, steady;         /* while it moves, and frames that it could have been finer */
     int help, changed; /* changed: draw even if nothing turns */
+    int dragged;       /* the mouse has changed it */
     int at_rest;       /* the picture is as good as it gets */
     int paced;         /* frames wait for reports of the terminal */
     int mouse_column, mouse_row;
@@ -365,7 +366,7 @@ static inline int display_send_pixels(display *d)
 static inline void display_keep_pace(display *d, double seconds)
 {
     const double step = 1.0 / d->options->rate;
-    if (d->at_rest) return;
+    if (d->at_rest || !(d->scene->turning || d->dragged)) return;
     d->steady = seconds < 0.4 * step ? d->steady + 1 : 0;
     if (seconds > 1.1 * step && d->level < display_coarsest(d)) d->level++;
     if (d->steady < 30 || !d->level) return;
@@ -389,7 +390,7 @@ static inline int display_frame(display *d, double now)
     }
     display_keep_pace(d, clock_now() - now);
     if (!d->frames++) d->first_bytes = d->bytes;
-    d->changed = 0;
+    d->changed = d->dragged = 0;
     d->sent_at = clock_now();
     frame_rate_count(&d->rate, now);
     return failed;
@@ -408,7 +409,7 @@ static inline void display_mouse(display *d, input in)
                    2 * step * (float)(in.row - d->mouse_row));
     d->mouse_column = in.column;
     d->mouse_row = in.row;
-    d->changed = 1;
+    d->changed = d->dragged = 1;
 }
 
 /* Returns 1 where the user ends the program. */
