@@ -34,7 +34,7 @@ commands() {
     [ -s "$T/commands" ] || { echo "no commands with $1"; return 1; }
     (cd "$E" && sh -e "$T/commands")
 }
-cc -O1 "$TOP/examples/compare/compare.c" -lm -o "$T/compare"
+cc -O1 -pthread "-I$TOP" "$TOP/examples/compare/compare.c" -lm -o "$T/compare"
 cc -O1 -I. examples/embed/cmake/*.c -lm -o "$T/saddle" && "$T/saddle" "$T/saddle.ppm"
 cc -O1 -I. examples/embed/meson/*.c -lm -o "$T/ball" && "$T/ball" >"$T/ball.txt"
 alike() { "$T/compare" "$T/saddle.ppm" "$@"; }

@@ -104,7 +104,7 @@ done
 
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
-apart="compile compare coverage drawing embed lint matrix mutation node prove python static thumbnail vector_report"
+apart="compile compare contents coverage drawing embed lint matrix mutation node prove python static thumbnail vector_report"
 for name in $apart; do
     check "$name.sh has a directory of its own" \
         grep -qE 'T=\$\(mktemp -d\)|^\. tests/tools.sh$|>/tmp/lint_.*\$\$' "tests/$name.sh"
