@@ -41,6 +41,14 @@ page() {                        # name of a course
         right = at ? substr($0, at + length(mark)) : ""
         sub(/ +$/, "", left); sub(/^ +/, "", right)
     }
+    function indexed(text,   name) {    # k_d in a label
+        while (match(text, /[kIn]_[A-Za-z]+/)) {
+            name = substr(text, RSTART, RLENGTH)
+            text = substr(text, 1, RSTART - 1) "<i>" substr(name, 1, 1) "</i><sub>" substr(name, 3) \
+                   "</sub>" substr(text, RSTART + RLENGTH)
+        }
+        return text
+    }
     function finish() { if (open) print "</div></article>"; open = 0 }
     /^course:/ { rest(); cut("|"); print "<h1>" left "</h1>\n<p class=\"about\">" right "</p>"; next }
     /^slide:/ {
@@ -61,7 +69,7 @@ page() {                        # name of a course
     /^text:/ { print "<p>" rest() "</p>" }
     /^play:/ {
         rest(); cut("|")
-        print "<p class=\"play\"><a href=\"index.html#turn=0&amp;" left "\">" right "</a></p>"
+        print "<p class=\"play\"><a href=\"index.html#turn=0&amp;" left "\">" indexed(right) "</a></p>"
     }
     /^c:/ {
         rest(); cut(" -&gt; ")
