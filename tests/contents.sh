@@ -2,8 +2,8 @@
 # contents.sh [--update] - the line numbers in the contents table of shade.h are those of the
 # banners; --update writes them.
 cd "$(dirname "$0")/.." || exit 1
-T=$(mktemp) || exit 1
-trap 'rm -f "$T"' EXIT INT TERM
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT INT TERM
 awk 'NR == FNR { if (/^\/\*-+ >>/) line[$2] = FNR; next }
     />>contents$/ { inside = 1 }
     !NF { inside = 0 }
@@ -16,5 +16,5 @@ awk 'NR == FNR { if (/^\/\*-+ >>/) line[$2] = FNR; next }
         }
         $0 = done rest
     }
-    { print }' shade.h shade.h >"$T" || exit 1
-if [ "$1" = --update ]; then cat "$T" >shade.h; else diff shade.h "$T"; fi
+    { print }' shade.h shade.h >"$T/shade.h" || exit 1
+if [ "$1" = --update ]; then cat "$T/shade.h" >shade.h; else diff shade.h "$T/shade.h"; fi
