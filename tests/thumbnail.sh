@@ -161,10 +161,10 @@ break.obj"
     bad_model "PLY without those vertices" few.ply "no vertex\|out of range"
     bad_model "PLY that is all header" head.ply "header does not end"
     bad_model "STL cut off" cut.stl "ends after"
-    bad_model "noise" noise.obj "noise.obj"
+    bad_model "noise" noise.obj "is no OBJ"
     bad_model "an unknown format is named" words.xyzw "\.xyzw"
     bad_model "a line break in its name" "line
-break.obj" "no faces"
+break.obj" "is no OBJ"
     check "numbers as large as they get" draw large.obj a.ppm $flat
     check "a point" draw point.obj a.ppm $flat
     check "too many triangles" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.obj" \

@@ -156,6 +156,13 @@ static inline int obj_statement(mesh_reader *r, obj_data *o, model *m)
     return 0;
 }
 
+static inline int obj_no_faces(mesh_reader *r, const obj_data *o)
+{
+    r->line = 0;
+    return mesh_fail(r, o->list[OBJ_V].count ? "no faces in it"
+                                             : "is no OBJ: it has neither vertices nor faces");
+}
+
 /* Makes a vertex for each different corner that was read. */
 static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
 {
@@ -163,7 +170,7 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     size_t n = o->corners.count;
     owned_mesh *m = &out->mesh;
     int missing = 0;
-    if (!o->faces.triangles) return mesh_fail(r, "no faces in it");
+    if (!o->faces.triangles) return obj_no_faces(r, o);
     for (int k = 0; k < 3; k++) {
         if (o->highest[k] <= o->list[k].count / (k == OBJ_VT ? 2 : 3)) continue;
         r->line = o->highest_line[k];
