@@ -66,7 +66,7 @@ TEST(drive, missing_pointers_are_bad_arguments)
 
 /* Each row breaks one rule of shade_target: sizes are 1 .. 16384, a stride is at least the width,
    the format is known, there is a buffer, clip rectangles and strips are not negative, a strip is
-   within the picture, and an int counts the pixels of the memory. */
+   within the picture, and 32 bits count the pixels of the memory. */
 #define TARGET_FAULT(field, value) FAULT(shade_target, field, value)
 static const refusal bad_targets[] = {
     { SHADE_ERROR_TARGET, { TARGET_FAULT(width, 0) } },
@@ -160,6 +160,23 @@ TEST(drive, odd_but_legal_targets_are_taken)
         CHECK_INT(canvas_bytes(&d.c, 12, 12)[0], drawn ? 0 : 128);
         canvas_close(&d.c);
     }
+}
+
+/* An empty clip rectangle, so that no call writes to memory which is not there. */
+TEST(drive, memory_of_2_to_the_32_minus_1_pixels_is_the_largest)
+{
+    drive_call d;
+    drive_open(&d, SHADE_FORMAT_RGBA8);
+    shade_target most = d.c.target;
+    most.height = 13107;
+    most.stride = 327685;
+    most.clip_height = 7;
+    const int fits = SIZE_MAX / 16 >= 0xFFFFFFFFu;
+    CHECK_INT(shade_draw(&most, &d.p, d.indices, 6, 6, NULL), fits ? SHADE_OK : SHADE_ERROR_TARGET);
+    CHECK_INT(shade_clear(&most, shade_v4(0, 0, 0, 0), 1), fits ? SHADE_OK : SHADE_ERROR_TARGET);
+    most.stride++;
+    CHECK_INT(shade_clear(&most, shade_v4(0, 0, 0, 0), 1), SHADE_ERROR_TARGET);
+    canvas_close(&d.c);
 }
 
 #define PIPELINE_FAULT(field, value) FAULT(drive_call, p.field, value)
@@ -547,6 +564,7 @@ static const test_case drive_cases[] = {
     CASE(drive, missing_pointers_are_bad_arguments),
     CASE(drive, bad_targets_are_refused_by_every_call),
     CASE(drive, odd_but_legal_targets_are_taken),
+    CASE(drive, memory_of_2_to_the_32_minus_1_pixels_is_the_largest),
     CASE(drive, bad_pipelines_are_refused),
     CASE(drive, bad_indices_are_refused_before_a_pixel_changes),
     CASE(drive, one_bad_index_anywhere_in_a_long_list_is_found),

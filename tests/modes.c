@@ -108,6 +108,8 @@ static void modes_check_flags(const char *what)
 static void modes_ordinary(void (*open)(const char *what), void (*close)(const char *what))
 {
     const float flat[9] = { -1, -1, 0, 0, 0, 0, 1, 1, 0 };
+    const shade_vec3 beside_the_eye[2] = { { 1, 0, 0 }, { 2, 1, 0 } };    /* w = 0 all along */
+    const shade_line_state line = { .clip_from_points = shade_mat4_perspective(1, 1, 0.1f, 10) };
     const shade_vec3 a = shade_v3(0, 0, 0), b = shade_v3(1, 0, 0), c = shade_v3(0, 1, 0);
     const shade_ray along = { shade_v3(-1, 0, 0), shade_v3(1, 0, 0) };
     shade_draw_state s = plain_state(NULL);
@@ -125,6 +127,9 @@ static void modes_ordinary(void (*open)(const char *what), void (*close)(const c
         open("what a triangle without area explains");
         CHECK(*shade_explain(&picture.target, &m, &s, NULL));
         close("what a triangle without area explains");
+        open("a line in the plane of the eye");
+        shade_draw_lines(&picture.target, beside_the_eye, 2, &line, NULL);
+        close("a line in the plane of the eye");
         canvas_close(&picture);
     }
     open("a ray in the triangle's plane");
