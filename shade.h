@@ -3264,7 +3264,7 @@ SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w,
            (shade__mask(w < shade__w_least) & SHADE__OUT_W);
 }
 
-/* Outcodes; x, y and w are kept where the vertex has a window position, and 0, 0, 1 elsewhere. */
+/* Outcodes, and the vertices: 0, 0, 0, 1 in the place of those that get no window position. */
 SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v,
                                    int zero_to_one,
                                    shade__placed *SHADE_RESTRICT p)
