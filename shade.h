@@ -63,18 +63,18 @@
      Inside: the way of a triangle
        >>state     3020  who owns what         >>vertices  3197  shading, projection
        >>triangles 3459  edges, planes         >>clip      3826  near, far, behind the eye
-       >>tiles     4004  pixels, depth test    >>cover     4346  what is hidden, tile by tile
-       >>fragments 4569  interpolation         >>texture   4862  texels, mip levels
-       >>store     5258  blending, packing
+       >>tiles     4004  pixels, depth test    >>cover     4345  what is hidden, tile by tile
+       >>fragments 4568  interpolation         >>texture   4861  texels, mip levels
+       >>store     5257  blending, packing
      Inside: calls
-       >>check     5483  refusals              >>drive     5646  shade_draw, batch by batch
-       >>mesh      6015  shade_draw_mesh       >>lines     6413  shade_draw_lines
-       >>shape     6571  normals, edges        >>chunks    6801  boxes around triangles
-       >>rays      6977  shade_pick            >>survey    7182  experiments on a draw
-       >>explain   7329  why nothing is seen   >>image     7740  PPM
+       >>check     5482  refusals              >>drive     5645  shade_draw, batch by batch
+       >>mesh      6014  shade_draw_mesh       >>lines     6412  shade_draw_lines
+       >>shape     6570  normals, edges        >>chunks    6800  boxes around triangles
+       >>rays      6976  shade_pick            >>survey    7181  experiments on a draw
+       >>explain   7328  why nothing is seen   >>image     7739  PPM
      Sources
-       >>refs      7806                        >>history   7832
-       >>license   7841
+       >>refs      7805                        >>history   7831
+       >>license   7840
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -4332,7 +4332,6 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
 
     SHADE__ZERO(copy);
     row.rows = 1;
-    row.columns = SHADE__TILE;
     row.depth = copy;
     for (int r = 0; r < tile->rows; r++, row.y++) {
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;

@@ -251,7 +251,7 @@ static shade_result mesh_spoil(fuzz_input *in, mesh_scene *s)
     return SHADE_OK;
 }
 
-/* Tame scenes give finite colours, drawn over any that a blend with alpha up to 1e5 leaves finite. */
+/* Tame scenes give finite colours, drawn over any that a blend of alpha up to 1e5 leaves finite. */
 static void mesh_finite(const picture *p, const shade_target *t)
 {
     if (t->format != SHADE_FORMAT_RGBA32F || !p->color) return;
