@@ -63,18 +63,18 @@
      Inside: the way of a triangle
        >>state     3020  who owns what         >>vertices  3197  shading, projection
        >>triangles 3459  edges, planes         >>clip      3826  near, far, behind the eye
-       >>tiles     4004  pixels, depth test    >>cover     4345  what is hidden, tile by tile
-       >>fragments 4568  interpolation         >>texture   4861  texels, mip levels
-       >>store     5257  blending, packing
+       >>tiles     4004  pixels, depth test    >>cover     4349  what is hidden, tile by tile
+       >>fragments 4572  interpolation         >>texture   4865  texels, mip levels
+       >>store     5261  blending, packing
      Inside: calls
-       >>check     5482  refusals              >>drive     5645  shade_draw, batch by batch
-       >>mesh      6014  shade_draw_mesh       >>lines     6412  shade_draw_lines
-       >>shape     6570  normals, edges        >>chunks    6800  boxes around triangles
-       >>rays      6976  shade_pick            >>survey    7181  experiments on a draw
-       >>explain   7328  why nothing is seen   >>image     7739  PPM
+       >>check     5486  refusals              >>drive     5649  shade_draw, batch by batch
+       >>mesh      6018  shade_draw_mesh       >>lines     6416  shade_draw_lines
+       >>shape     6574  normals, edges        >>chunks    6804  boxes around triangles
+       >>rays      6980  shade_pick            >>survey    7185  experiments on a draw
+       >>explain   7332  why nothing is seen   >>image     7743  PPM
      Sources
-       >>refs      7805                        >>history   7831
-       >>license   7840
+       >>refs      7809                        >>history   7835
+       >>license   7844
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -4017,8 +4017,12 @@ enum {
     SHADE__CUT = -(1 << 30)    /* of an edge: outside in all rows of a tile */
 };
 
-/* What is known of a tile: edges cross it; and its first columns are skipped; all is inside. */
-enum { SHADE__CROSSED, SHADE__SKIPPED, SHADE__FULL };
+/* What is known of a tile. */
+enum {
+    SHADE__CROSSED,    /* edges may cross it */
+    SHADE__SKIPPED,    /* edges may cross it, and its first columns may be skipped */
+    SHADE__FULL        /* all of it is inside, and none is skipped */
+};
 
 /* Edge functions in 32 bits: at pixel (x, y), and their steps. */
 typedef struct shade__edges { int x, y; int32_t e[3], dx[3], dy[3]; } shade__edges;
@@ -4039,7 +4043,7 @@ typedef struct shade__reach { int64_t e[3], least[3], most[3]; } shade__reach;
 /* Up to 32 pixels of up to 8 rows. */
 typedef struct shade__tile {
     int      x, y, rows;
-    int      skip, columns;           /* how many are left out on the left; all */
+    int      skip, columns;           /* the columns left out on the left; all columns */
     float   *depth;                   /* of the first pixel */
     int      stride;
     float    row_z[SHADE__TILE_ROWS]; /* depth of the plane at x_ref of each row */
@@ -4382,10 +4386,10 @@ SHADE__INLINE float shade__key(float toward, const shade__triangle *t,
     return toward * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 
-/* In rows s->y .. s->bottom of the triangle's box, which one row of bounds holds: moves s->x to the
-   next column whose bound does not hide it, beyond the box if there is none, and s->last to the
-   last column before one that is hidden or differs in s->inside.  Bounds that the triangle fills
-   come nearer. */
+/* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  It moves s->x
+   on to the first column that no bound hides, or beyond the box where all are hidden, and s->last
+   to the last column before one that is hidden or differs in s->inside.  On the way it brings
+   bounds nearer that the triangle fills. */
 SHADE__UNUSED static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
                                                               shade__bounds *b,
                                                               const shade__triangle *t,
