@@ -810,6 +810,63 @@ TEST(chunks, exactly_the_triangles_of_the_list_are_drawn)
     CHECK_INT(draw_squares(&s, &stats), 1111);
 }
 
+enum { FLAKES = 6, FLAKE_CHUNKS = 40 };
+
+/* Triangles of a few pixels, and chunks of one of them each, the same ones often in a row. */
+typedef struct chunk_flakes {
+    shade_vec3 p[3 * FLAKES];
+    shade_chunk single[FLAKES], chunk[FLAKE_CHUNKS];
+    shade_mesh mesh;
+    shade_material material;
+    shade_draw_state state;
+} chunk_flakes;
+static void random_flakes(chunk_flakes *s)
+{
+    memset(s, 0, sizeof *s);
+    for (int k = 0; k < 3 * FLAKES; k++) {
+        const shade_vec3 middle = k % 3 ? s->p[k / 3 * 3] : random_vector(0.7);
+        s->p[k] = shade_add(middle, k % 3 ? random_vector(0.4) : shade_v3(0, 0, 0));
+    }
+    s->mesh = plain_mesh(&s->p[0].x, 3 * FLAKES);
+    CHECK_INT(shade_mesh_chunks(&s->mesh, 1, s->single, FLAKES, NULL), SHADE_OK);
+    for (int k = 0; k < FLAKE_CHUNKS; k++) {
+        const int again = k && !rnd_one_in(3);
+        s->chunk[k] = again ? s->chunk[k - 1] : s->single[rnd_int(0, FLAKES - 1)];
+    }
+    s->material.emission = shade_v3(rnd_float(0, 1), rnd_float(0, 1), rnd_float(0, 1));
+    s->state.material = &s->material;
+    s->state.transparency = rnd_float(0.1, 0.9);
+    s->state.raster.blend = rnd_one_in(2) ? SHADE_BLEND_ADD : SHADE_BLEND_OVER;
+    s->state.raster.depth_test = rnd_one_in(2) ? SHADE_COMPARE_ALWAYS : SHADE_COMPARE_LESS_EQUAL;
+}
+
+/* Chunks from first to last - 1. */
+static void draw_flakes(chunk_flakes *s, const canvas *c, int first, int last)
+{
+    s->mesh.chunks = s->chunk + first;
+    s->mesh.chunk_count = last - first;
+    CHECK_INT(shade_draw_mesh(&c->target, &s->mesh, &s->state, NULL), SHADE_OK);
+}
+
+TEST(chunks, a_triangle_in_several_chunks_is_blended_as_often)
+{
+    static chunk_flakes s;
+    for (int round = 0; round < 200; round++) {
+        const shade_format format = rnd_one_in(2) ? rnd_format() : SHADE_FORMAT_RGBA32F;
+        const int with_depth = rnd_one_in(2);
+        canvas together = canvas_open(24, 18, 0, format, with_depth);
+        canvas apart = canvas_open(24, 18, 0, format, with_depth);
+        random_flakes(&s);
+        canvas_clear(&together, 1);
+        canvas_clear(&apart, 1);
+        draw_flakes(&s, &together, 0, FLAKE_CHUNKS);
+        for (int k = 0; k < FLAKE_CHUNKS; k++) draw_flakes(&s, &apart, k, k + 1);
+        CHECK_SAY(canvas_same(&together, &apart), "round %d", round);
+        canvas_close(&together);
+        canvas_close(&apart);
+    }
+}
+
 /* The one that is seen comes last or first; every fifth is empty and not counted as skipped. */
 TEST(chunks, thousands_out_of_sight_come_before_the_one_that_is_seen)
 {
@@ -1425,6 +1482,7 @@ static const test_case chunks_cases[] = {
     CASE(chunks, a_box_is_visible_in_the_rectangles_that_have_its_pixels),
     CASE(chunks, lists_that_do_not_fit_the_mesh_are_refused_by_every_call),
     CASE(chunks, exactly_the_triangles_of_the_list_are_drawn),
+    CASE(chunks, a_triangle_in_several_chunks_is_blended_as_often),
     CASE(chunks, thousands_out_of_sight_come_before_the_one_that_is_seen),
     CASE(chunks, runs_tile_the_list_in_boxes_of_their_corners),
     CASE(chunks, counts_are_those_of_whole_chunks_and_a_rest),
