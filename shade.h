@@ -54,27 +54,27 @@
        >>plumbing   359  compilers             >>light      486  the equation and its terms
        >>draw       610  meshes and pixels     >>math       853  vectors and matrices
      Inside: words that the rest is written in
-       >>target    1214  processors            >>base      1371  bits, masks, rows of vectors
+       >>machine   1214  processors            >>base      1371  bits, masks, rows of vectors
        >>matrix    1546  cameras, inverses     >>power     1820  x^n
        >>pixels    1886  formats, sRGB
      Inside: light
-       >>lamps     2054  attenuation, cones    >>terms     2325  one term at one point
-       >>surface   2463  material and lights   >>lit       2587  the whole sum, at many points
+       >>lamps     2054  attenuation, cones    >>terms     2329  one term at one point
+       >>surface   2467  material and lights   >>lit       2591  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3026  who owns what         >>vertices  3205  shading, projection
-       >>triangles 3467  dropped, cut, edges   >>clip      3834  near, far, behind the eye
-       >>tiles     4012  pixels, depth test    >>cover     4357  what is hidden, tile by tile
-       >>fragments 4580  interpolation, lod    >>texture   4873  texels, mipmaps
-       >>store     5269  blending, packing
+       >>state     3029  who owns what         >>vertices  3209  shading, projection
+       >>triangles 3472  dropped, cut, edges   >>clip      3839  near, far, behind the eye
+       >>tiles     4017  pixels, depth test    >>cover     4362  what is hidden, tile by tile
+       >>fragments 4586  interpolation, lod    >>texture   4879  texels, mipmaps
+       >>store     5275  blending, packing
      Inside: calls
-       >>check     5496  refusals              >>drive     5659  shade_draw, batch by batch
-       >>mesh      6026  shade_draw_mesh       >>lines     6424  shade_draw_lines
-       >>shape     6582  normals, edges        >>chunks    6812  boxes around triangles
-       >>rays      6988  shade_pick            >>survey    7193  experiments on a draw
-       >>explain   7340  why nothing is seen   >>image     7751  PPM
+       >>check     5502  refusals              >>drive     5665  shade_draw, batch by batch
+       >>mesh      6032  shade_draw_mesh       >>lines     6430  shade_draw_lines
+       >>shape     6588  normals, edges        >>chunks    6818  boxes around triangles
+       >>rays      6994  shade_pick            >>survey    7199  experiments on a draw
+       >>explain   7346  why nothing is seen   >>image     7757  PPM
      Sources
-       >>refs      7817                        >>history   7843
-       >>license   7852
+       >>refs      7823                        >>history   7849
+       >>license   7858
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -315,7 +315,7 @@ typedef enum shade_interpolation {
     SHADE_INTERPOLATION_CONSTANT            /* the value of the triangle's first vertex */
 } shade_interpolation;
 typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
-typedef enum shade_compare {     /* a fragment passes where: its depth, this, the stored depth */
+typedef enum shade_compare {     /* what its depth must be, compared with the stored one, to pass */
     SHADE_COMPARE_LESS = 0, SHADE_COMPARE_LESS_EQUAL, SHADE_COMPARE_GREATER,
     SHADE_COMPARE_GREATER_EQUAL, SHADE_COMPARE_EQUAL, SHADE_COMPARE_ALWAYS
 } shade_compare;
@@ -448,7 +448,7 @@ typedef struct shade_stats {
    turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
    processors and twice on others.  gcc applies the options of the caller to an inlined function:
    the implementation is exact, and so are the inline functions that it calls.  clang's ?: and calls
-   stay fast; see >>target.  SHADE__END restores the state before, or where clang keeps no stack of
+   stay fast; see >>machine.  SHADE__END restores the state before, or where clang keeps no stack of
    states, that of the options. */
 #ifdef __cplusplus
 #define SHADE__OPEN extern "C" {
@@ -853,7 +853,7 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 /*------------------------------------------------------------------------------------------- >>math
    Vectors are inline; the bodies of most matrix functions stand in >>matrix.  Names without a
    suffix work on shade_vec3.  Vectors up to 1e12 and matrices up to 1e6 give finite results.
-                                                                                         >>target */
+                                                                                        >>machine */
 
 SHADE__INLINE shade_vec2 shade_v2(float x, float y)
 {
@@ -1211,7 +1211,7 @@ SHADE__END
 #ifndef SHADE__IMPLEMENTED
 #define SHADE__IMPLEMENTED
 
-/*----------------------------------------------------------------------------------------- >>target
+/*---------------------------------------------------------------------------------------- >>machine
    What the implementation needs of compilers and processors.                              >>base */
 
 /* clang has no pragma that makes ?: and calls exact: with -ffast-math minima and maxima would lose
@@ -1343,11 +1343,11 @@ typedef uint32_t shade__word;
     __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
 #define SHADE__AVX2 __attribute__((target("avx2")))
-#define SHADE__CALL_BEST(name, widest, parameters, arguments) \
+#define SHADE__CALL_BEST(name, for_avx512, parameters, arguments) \
     static void name parameters \
     { \
         const int best = SHADE__LEVEL; \
-        if (best == 2) widest arguments; \
+        if (best == 2) for_avx512 arguments; \
         else if (best == 1) name##_avx2 arguments; \
         else name##_any arguments; \
     }
@@ -1935,8 +1935,8 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
 
 /* How a format stores a pixel.  A packed pixel is an integer of up to 32 bits, in which channel k
    (R, G, B, A) is pixel >> shift[k] & full[k]; colours lie below bit 31.  Channels that a format
-   lacks are 1: they share one bit above the stored ones, which shade__load_packed sets.  A pixel of
-   four floats has 16 bytes, and its other members mean nothing. */
+   lacks are 1: they share one bit above the stored ones, which shade__load_packed sets.  For pixels
+   of four floats, which have 16 bytes, only bytes means anything. */
 typedef struct shade__layout {
     uint8_t bytes;       /* of a pixel in memory */
     uint8_t swapped;     /* non-zero: its two bytes lie in the order that the processor has not */
@@ -2059,21 +2059,24 @@ SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
              shade_spot are one factor each, for callers, by its plain formula.  The error of 1/sqrt
              stands in >>base, that of powers in >>power.                                 >>terms */
 
-SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel,
-                                             shade_vec3 color)
+static shade_light shade__plain_light(shade_vec4 position, shade_vec3 color)
 {
     shade_light light;
     SHADE__ZERO(light);
-    light.position = shade__xyzw(shade_neg(direction_of_travel), 0);
+    light.position = position;
     light.diffuse = light.specular = color;
     return light;
 }
 
+SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel,
+                                             shade_vec3 color)
+{
+    return shade__plain_light(shade__xyzw(shade_neg(direction_of_travel), 0), color);
+}
+
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color)
 {
-    shade_light light = shade_directional_light(position, color);
-    light.position = shade__xyzw(position, 1);
-    return light;
+    return shade__plain_light(shade__xyzw(position, 1), color);
 }
 
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim,
@@ -2115,7 +2118,7 @@ typedef struct shade__lamp {
     int falls;              /* the attenuation depends on r */
     /* What one surface reflects of it, set by >>surface. */
     shade_vec3 ambient, diffuse, specular;    /* k_a I_La, k_d I_d, k_s I_s */
-    int on;                 /* one of these is not zero; if 0, the fields above are not set */
+    int on;                 /* one of the three is not zero; if 0, no other field is set */
     int masked;             /* lanes without light have to be masked: shade__combine */
 } shade__lamp;
 
@@ -2139,8 +2142,9 @@ static void shade__place_lamp(const shade_light *light, shade__lamp *lamp)
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
-/* What of a lamp arrives at the points of a block.  Members of a union share their memory, because
-   the stack of a draw is bounded: once the next is written, nobody reads the one before. */
+/* What of a lamp arrives at the points of a block.  Rows share their memory in unions, because the
+   stack of a draw is bounded.  They are used in the order in which they stand: nobody reads a row
+   when the one below it has been written. */
 typedef struct shade__arrival {
     SHADE_ALIGNED union {
         shade__v3 to_light;                  /* L, unit */
@@ -2156,7 +2160,7 @@ typedef struct shade__arrival {
     } share;
     union {
         float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
-        float halvings[SHADE_LANES];         /* how often the cone halves the amount */
+        float halvings[SHADE_LANES];         /* -log2 of what the cone leaves of the amount */
         float nl[SHADE_LANES];               /* of >>lit: N.L, signed */
     } angle;
     uint32_t any;    /* 0: no lane is inside the cone, and amount is not set */
@@ -2182,7 +2186,7 @@ SHADE__INLINE void shade__come_from_point(const shade__lamp *lamp,
     SHADE__FOR(i, n) {
         shade_vec3 to_light = shade_sub(at, shade__at(point, i));
         float square = shade_dot(to_light, to_light), root = shade__rsqrt(square);
-        /* before the call that returns a vector, for tcc: see >>config */
+        /* the order of the next two matters to tcc: see >>config */
         r[i] = square * root;
         shade__put(to, i, shade_scale(to_light, root));
     }
@@ -2271,9 +2275,9 @@ enum {
     SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES
 };
 
-/* How many points a loop takes that was built for vectors of so many floats.  The build for any
-   processor takes a multiple of its vector: the & tells this to the compiler, which then makes no
-   loop for a remainder.  The AVX builds take whole packets. */
+/* How many points a loop takes that was built for vectors of so many floats.  The AVX builds take
+   whole packets.  The build for any processor takes whole vectors, and the & says so to the
+   compiler, which then makes no loop for a remainder. */
 SHADE__INLINE int shade__points(int n, int width)
 {
     if (width != SHADE__ANY_WIDTH) return SHADE_LANES;
@@ -2670,7 +2674,7 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
     SHADE__FOR(i, n) {
         shade_vec3 half = shade_add(shade__at(&r->a.way.to_light, i),
                                     shade__at(&r->to_eye, i));
-        /* before h2 is declared, for tcc: see >>config */
+        /* the order of the next two matters to tcc: see >>config */
         r->a.way.lobe.cosine[i] = shade_dot(shade__at(normal, i), half);
         float h2 = shade_dot(half, half);
         opposite |= shade__mask(h2 < SHADE__NEAR);
@@ -2750,7 +2754,7 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
         shade_vec3 to_light = shade__at(&r->a.way.to_light, i), to_eye = shade__at(&r->to_eye, i);
         shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
         d = shade_sub(d, shade_add(to_light, to_eye));
-        /* after the calls that return vectors, for tcc: see >>config */
+        /* declared here, after calls that return vectors, for tcc: see >>config */
         uint32_t exists = shade__mask(shade_dot(to_eye, to_eye) > 0);
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
@@ -2837,9 +2841,8 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
 }
 
 /* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight), where surface->sign makes
-   N.L its size.  masked: a lane that the lamp does not reach adds 0 whatever it holds, as it does
-   where the lamp reaches no lane of the packet.  Else it adds 0 times the factors, which must be
-   finite then. */
+   N.L its size.  Lanes that the lamp does not reach add 0.  With masked they do whatever they hold;
+   without it they add 0 times k_d I_d and k_s I_s, which must be finite. */
 SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
                                   shade__in_v3 albedo, shade__in_v3 tint,
                                   const int masked, const int n,
@@ -3075,12 +3078,13 @@ typedef struct shade__plan {
     int      lod;                     /* the value that is u over w, v follows it; 0: no lod */
     int      varyings;
     int      zero_to_one;
-    int      early, queued;           /* depth is tested by >>tiles; fragments go to the queue */
+    int      early;                   /* depth is tested by >>tiles */
+    int      queued;                  /* fragments go to the queue */
     int      less_only;               /* the early test is LESS, and depth is written */
     int      places_unread;           /* nobody reads x, y, z, primitive and front of fragments */
     shade__compare compare;           /* the test of the draw */
     shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
-    float    toward;                  /* 1, -1: greater, less depth is farther; 0: no bounds */
+    float    toward;                  /* 1: greater depth is farther; -1: less is; 0: no bounds */
     float    half_width, half_height; /* of the picture, in 1/256 pixels: below 2^22, exact */
 } shade__plan;
 
@@ -3118,7 +3122,7 @@ typedef struct shade__polygon {
     uint8_t  corner[SHADE__CLIP_VERTICES];
     int      count;                   /* corners, in order */
     uint32_t taken;                   /* bit v: vertex v is in use */
-    int      in_front;               /* values not divided by w are linear on the screen: w > 0 */
+    int      in_front;                /* all corners have w > 0, and so a place on the screen */
     int64_t  area;                    /* twice, in 1/65536 pixel, of the whole polygon */
 } shade__polygon;
 
@@ -3133,9 +3137,9 @@ typedef struct shade__setup {
 
     /* what they are set up to, their corners in the order of turn */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
-    int32_t  dx[3][SHADE__TRIANGLES], dy[3][SHADE__TRIANGLES];    /* steps of the edges */
+    int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
     int32_t  box[4][SHADE__TRIANGLES];       /* x0, y0, x1, y1, both ends included; or empty */
-    float    side[4][SHADE__TRIANGLES];      /* from corner 0 to 1 and to 2, over the area */
+    float    side[4][SHADE__TRIANGLES];      /* from corner 0 to 1 and to 2, over twice the area */
     float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - corner 0, exact */
     float    z0[SHADE__TRIANGLES];           /* the plane of depth: at corner 0, */
     float    zx[SHADE__TRIANGLES], zy[SHADE__TRIANGLES];          /* and its steps in x and y */
@@ -3146,7 +3150,7 @@ typedef struct shade__setup {
 typedef struct shade__bounds {
     int   log_width, log_height;      /* of the pixels that share a bound */
     int   across;                     /* bounds side by side; 0: not yet begun */
-    float farthest[SHADE__BOUNDS];    /* toward times the depth that no pixel there exceeds */
+    float farthest[SHADE__BOUNDS];    /* at least toward times the depth of any pixel there */
 } shade__bounds;
 
 typedef struct shade__queue {
@@ -3191,10 +3195,10 @@ static void shade__take_batch(shade__draw *d);
 static void shade__shade_vertices(shade__draw *d);
 /* triangles: sets up those of the batch, SHADE__TRIANGLES at a time: edges, box, depth */
 static void shade__triangles(shade__draw *d);
-/* clip: what a triangle that crosses near, far or the guard band leaves; 0: nothing */
+/* clip: the polygon that near, far, w > 0 and the guard band leave of a triangle; 0: nothing */
 static int shade__clip(const shade__draw *d, const uint8_t corner[4],
                        shade__polygon *fan);
-/* cover: tiles of pixels inside the triangles that pass the depth test, as runs */
+/* cover: finds the pixels of triangles that pass the depth test, tile by tile, as runs */
 static void shade__cover(shade__draw *d, int count);
 /* fragments: queues the runs; shades the queue when it is full and after each batch */
 static void shade__push(shade__draw *d, const shade__run *run, int runs);
@@ -3207,7 +3211,8 @@ static void shade__store(shade__draw *d, shade_colors *c);
    triangles among them.
      in      indices                      out  vertices and their values; corners of triangles
      holds   A vertex is shaded once a batch.  Vertices without a window position get a harmless one
-             and a bit in their outcode that sends their triangles to >>clip.         >>triangles */
+             and a bit in their outcode, for which >>triangles drops or clips their triangles.
+                                                                                      >>triangles */
 
 enum {
     SHADE__OUT_NEAR = 16, SHADE__OUT_FAR = 32,
@@ -3216,7 +3221,7 @@ enum {
     SHADE__OUT_GUARD = 64 | 128 | 256 | 512,     /* any side of the guard band */
     SHADE__OUT_W = 1024,                         /* w < 2^-60 */
     SHADE__OUT_BAD = 2048,                       /* NaN, infinite or beyond 1e30 */
-    SHADE__OUT_VOLUME = 63 | SHADE__OUT_W,       /* left, right, bottom, top; near, far */
+    SHADE__OUT_VOLUME = 63 | SHADE__OUT_W,       /* left, right, bottom, top; near, far; w */
     SHADE__OUT_CLIP = SHADE__OUT_NEAR | SHADE__OUT_FAR | SHADE__OUT_GUARD | SHADE__OUT_W,
     /* these leave a vertex without a window position */
     SHADE__OUT_UNPLACED = SHADE__OUT_GUARD | SHADE__OUT_W | SHADE__OUT_BAD
@@ -3263,12 +3268,12 @@ SHADE__INLINE uint32_t shade__sides_passed(float x, float y, float limit)
 SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w,
                                       int zero_to_one)
 {
-    const uint32_t before = shade__mask(z < (zero_to_one ? 0 : -w)) & SHADE__OUT_NEAR;
-    const uint32_t beyond = shade__mask(z > w) & SHADE__OUT_FAR;
+    const uint32_t nearer = shade__mask(z < (zero_to_one ? 0 : -w)) & SHADE__OUT_NEAR;
+    const uint32_t farther = shade__mask(z > w) & SHADE__OUT_FAR;
     const uint32_t bad = shade__beyond(x) | shade__beyond(y) |
                          shade__beyond(z) | shade__beyond(w);
 
-    return shade__sides_passed(x, y, w) | before | beyond | (bad & SHADE__OUT_BAD) |
+    return shade__sides_passed(x, y, w) | nearer | farther | (bad & SHADE__OUT_BAD) |
            (shade__mask(w < shade__w_least) & SHADE__OUT_W);
 }
 
@@ -3283,12 +3288,12 @@ SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v,
         const float x = cx[i], y = cy[i], z = cz[i], w = cw[i];
         const uint32_t out = shade__outcode(x, y, z, w, zero_to_one) |
                              shade__sides_passed(x, y, 3 * w) << 6;
-        const uint32_t bad = shade__mask((out & SHADE__OUT_UNPLACED) != 0);
+        const uint32_t unplaced = shade__mask((out & SHADE__OUT_UNPLACED) != 0);
         p->out[i] = out;
-        p->x[i] = shade__keep(x, ~bad);
-        p->y[i] = shade__keep(y, ~bad);
-        p->z[i] = shade__keep(z, ~bad);
-        p->w[i] = shade__select(w, 1, bad);
+        p->x[i] = shade__keep(x, ~unplaced);
+        p->y[i] = shade__keep(y, ~unplaced);
+        p->z[i] = shade__keep(z, ~unplaced);
+        p->w[i] = shade__select(w, 1, unplaced);
     }
 }
 
@@ -3539,8 +3544,8 @@ SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s,
     }
 }
 
-/* Twice the area, and 256 over its size; 256 where the area is 0, for programs that trap divisions
-   by zero. */
+/* area: twice the signed area.  inverse: 256 / |area|, or 256 where it is 0, for programs that trap
+   divisions by zero. */
 SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c,
                                 shade__out area, double *SHADE_RESTRICT inverse)
 {
@@ -3609,8 +3614,8 @@ SHADE__INLINE int64_t shade__whole(double x)
     return (int64_t)(shade__double_bits(x + 6755399441055744.0) - 0x4338000000000000u);
 }
 
-/* The edge from corner k to the next, at the first pixel of the box, and its steps.  256 e + rest
-   is whole, so that its floor over 256, which is e, is the quotient less 127.5/256, rounded to the
+/* The edge from corner k to the next, at the first pixel of the box, and its steps.  e is the floor
+   of v / 256, v being the whole number 256 e + rest; that is v / 256 - 127.5/256 rounded to the
    nearest.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
@@ -3625,12 +3630,12 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
         int32_t bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;    /* dy < 0, or 0 and dx > 0 */
         double e = (double)dx * (double)y - (double)dy * (double)x + (double)bias;
         s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
-        s->dx[k][i] = -dy;
-        s->dy[k][i] = dx;
+        s->ex[k][i] = -dy;
+        s->ey[k][i] = dx;
     }
 }
 
-/* The sides from corner 0 to 1 and to 2 over the area, for planes: x1, y1, x2, y2. */
+/* The sides from corner 0 to 1 and to 2 over twice the area, for planes: x1, y1, x2, y2. */
 SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
                                 const double *SHADE_RESTRICT inverse,
                                 shade__setup *SHADE_RESTRICT s)
@@ -3678,8 +3683,8 @@ SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull,
     int culled = 0;
 
     SHADE__FOR(i, SHADE__TRIANGLES) {
-        uint32_t none = shade__mask(area[i] == 0), flipped = shade__mask(area[i] < 0);
-        uint32_t gone = (none | (flipped & front) | (~flipped & back)) &
+        uint32_t none = shade__mask(area[i] == 0), facing = shade__mask(area[i] < 0);
+        uint32_t gone = (none | (facing & front) | (~facing & back)) &
                         shade__mask(i < n);
         culled += (int)(gone & 1);
         s->box[2][i] = (int32_t)((uint32_t)s->box[2][i] | gone);
@@ -3835,9 +3840,9 @@ static void shade__triangles(shade__draw *d)
    Cuts triangles that cross near, far, w = 2^-60 (behind the eye) or the guard band, |x| and |y| at
    most 3 w, plane by plane, and leaves a fan.                                     [Sutherland74]
      in      three vertices of the batch     out  a polygon
-     method  The planes are 7.  A convex polygon has room in SHADE__CLIP_VERTICES places: 3 corners,
-             1 more for each plane, 2 while a plane cuts, and vertex 0, which is kept for CONSTANT.
-             One that rounding has bent may need more; it is dropped.
+     method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 for the planes, of which each adds one, 2
+             while a plane cuts, and vertex 0, which is kept for CONSTANT.  A polygon that rounding
+             has bent may need more; it is dropped.
      holds   A new vertex is computed from the inner to the outer end of its edge, so that
              neighbours get the same bits and no crack opens.                             >>tiles */
 
@@ -3859,8 +3864,8 @@ static double shade__distance_to(const float *clip, uint32_t plane,
 }
 
 /* Adds the vertex where an edge leaves through a plane, t of the way from in to out.  On the screen
-   that is s = t w_out / (w_in + t (w_out - w_in)) of the way, written as a sum of positive numbers,
-   d_out being negative: no digit is lost however far apart the two w are.
+   that is s = d_in w_out / (d_in w_out - d_out w_in) of the way.  d_out is negative, so that this
+   adds positive numbers, and no digit is lost however far apart the two w are.
    pre: d_in >= 0 > d_out, a bit of taken is free */
 static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
                                  int in, int out, double d_in, double d_out)
@@ -4015,7 +4020,7 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4],
      out     depth (early test), runs of pixels for >>fragments
      method  A tile is 32 x 8 pixels.  In it, an edge has all pixels outside, and the tile is left
              out; or all inside, and the edge is forgotten; or it crosses the tile, and then
-             |e| <= 31 |dx| + 7 |dy| fits 32 bits however large the triangle is.
+             |e| <= 31 |ex| + 7 |ey| fits 32 bits however large the triangle is.
      holds   A tile stays inside the clip rectangle: stores rewrite only pixels of this thread.  A
              value at a pixel has the same bits however it is reached: row base, then its step in x
              times the exact distance.                                                    >>cover */
@@ -4033,7 +4038,7 @@ enum {
 };
 
 /* Edge functions in 32 bits: at pixel (x, y), and their steps. */
-typedef struct shade__edges { int x, y; int32_t e[3], dx[3], dy[3]; } shade__edges;
+typedef struct shade__edges { int x, y; int32_t e[3], ex[3], ey[3]; } shade__edges;
 
 /* A triangle while its pixels are looked for. */
 typedef struct shade__triangle {
@@ -4076,8 +4081,8 @@ SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i,
     t->lane = i;
     for (int k = 0; k < 3; k++) {
         t->e[k] = s->e[k][i];
-        t->edges.dx[k] = s->dx[k][i];
-        t->edges.dy[k] = s->dy[k][i];
+        t->edges.ex[k] = s->ex[k][i];
+        t->edges.ey[k] = s->ey[k][i];
     }
     t->x_ref = s->x_ref[i];
     t->y_ref = s->y_ref[i];
@@ -4101,9 +4106,9 @@ SHADE__INLINE void shade__reach_of(const shade__triangle *t, int x, int y,
                                    int columns, int rows, shade__reach *r)
 {
     for (int k = 0; k < 3; k++) {
-        const int64_t dx = t->edges.dx[k], dy = t->edges.dy[k];
-        const int64_t across = (columns - 1) * dx, down = (rows - 1) * dy;
-        const int64_t e = t->e[k] + (x - t->x0) * dx + (y - t->y0) * dy;
+        const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
+        const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
+        const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
         r->e[k] = e;
         r->least[k] = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
         r->most[k] = e + (across > 0 ? across : 0) + (down > 0 ? down : 0);
@@ -4118,7 +4123,7 @@ SHADE__INLINE int shade__inside(const shade__triangle *t, const shade__reach *r,
     int64_t outside = 0, crossed = 0;
 
     for (int k = 0; k < 3; k++) {
-        const int64_t e = (int64_t)t->edges.dx[k] * right;
+        const int64_t e = (int64_t)t->edges.ex[k] * right;
         outside |= r->most[k] + e;
         crossed |= r->least[k] + e;
     }
@@ -4126,17 +4131,17 @@ SHADE__INLINE int shade__inside(const shade__triangle *t, const shade__reach *r,
 }
 
 /* The edges in the rectangle of 32 x 8 pixels moved right; those with all pixels inside are 0.
-   pre: none has all outside   post: |e| <= 31 |dx| + 7 |dy| <= 38 2^25 */
+   pre: none has all outside   post: |e| <= 31 |ex| + 7 |ey| <= 38 2^25 */
 SHADE__INLINE void shade__tile_edges(const shade__triangle *t,
                                      const shade__reach *r, int right,
                                      shade__edges *edges)
 {
     for (int k = 0; k < 3; k++) {
-        const int64_t e = (int64_t)t->edges.dx[k] * right;
+        const int64_t e = (int64_t)t->edges.ex[k] * right;
         const int crosses = r->least[k] + e < 0;
         edges->e[k] = crosses ? (int32_t)(r->e[k] + e) : 0;
-        edges->dx[k] = crosses ? t->edges.dx[k] : 0;
-        edges->dy[k] = crosses ? t->edges.dy[k] : 0;
+        edges->ex[k] = crosses ? t->edges.ex[k] : 0;
+        edges->ey[k] = crosses ? t->edges.ey[k] : 0;
     }
 }
 
@@ -4253,18 +4258,18 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     const shade__compare test = plan->early_test;
     const float zx = t->zx, x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const int x = tile->x + at, skip = tile->skip - at, i0 = x - edges->x, j0 = tile->y - edges->y;
-    const int32_t adx = edges->dx[0], ady = edges->dy[0], a = edges->e[0] + i0 * adx + j0 * ady;
-    const int32_t bdx = edges->dx[1], bdy = edges->dy[1], b = edges->e[1] + i0 * bdx + j0 * bdy;
-    const int32_t cdx = edges->dx[2], cdy = edges->dy[2], c = edges->e[2] + i0 * cdx + j0 * cdy;
+    const int32_t ax = edges->ex[0], ay = edges->ey[0], a = edges->e[0] + i0 * ax + j0 * ay;
+    const int32_t bx = edges->ex[1], by = edges->ey[1], b = edges->e[1] + i0 * bx + j0 * by;
+    const int32_t cx = edges->ex[2], cy = edges->ey[2], c = edges->e[2] + i0 * cx + j0 * cy;
     const int rows = tile->rows, stride = tile->stride;
     float *SHADE_RESTRICT depth = tile->depth + at;
     int32_t e0[SHADE__TILE], e1[SHADE__TILE], e2[SHADE__TILE];
     float z_step[SHADE__TILE];
 
     SHADE__FOR(i, width) {
-        e0[i] = kind == SHADE__SKIPPED && i < skip ? SHADE__CUT : a + i * adx;
-        e1[i] = b + i * bdx;
-        e2[i] = c + i * cdx;
+        e0[i] = kind == SHADE__SKIPPED && i < skip ? SHADE__CUT : a + i * ax;
+        e1[i] = b + i * bx;
+        e2[i] = c + i * cx;
         z_step[i] = zx * ((float)(x + i) + x_ref);
     }
 
@@ -4278,9 +4283,9 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
             depth[i] = shade__select(depth[i], z,
                                      less_only ? m : m & test.write);
             any |= m & shade__bit[i];
-            e0[i] += ady;
-            e1[i] += bdy;
-            e2[i] += cdy;
+            e0[i] += ay;
+            e1[i] += by;
+            e2[i] += cy;
         }
         tile->set[r] |= any << at;
     }
@@ -4312,8 +4317,8 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
     }
 }
 
-/* The columns of a tile for n pixels from x on: 8, or as many vectors as they take.  They begin
-   further left where they would leave the clip rectangle, unless that is narrower. */
+/* The columns of a tile for n pixels from x on: 8, or as many vectors as they take.  Where these
+   would leave the clip rectangle the tile begins further left, and skips what comes before x. */
 SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n,
                                        const int width, shade__tile *tile)
 {
@@ -4322,7 +4327,7 @@ SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n,
     tile->skip = x - tile->x;
 }
 
-/* Where a tile's depths are; all its rows are the same one without an early test. */
+/* Where a tile's depths are: without an early test all its rows are the row draw.unread. */
 SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 {
     const size_t early = (size_t)plan->early, row = (size_t)(tile->y - plan->row_offset);
@@ -4358,13 +4363,14 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
    Triangles tile by tile, and what big ones hide from those after them in the same draw: a bound of
    depth for each rectangle of tiles, so that hidden ones are left out whole.            [Greene93]
      in      triangles set up                    out  runs of pixels for >>fragments
-     method  With the tests that only ever bring depth nearer (less, greater, or equal), no pixel of
-             a rectangle is farther than the farthest corner of a triangle that filled it.  Slopes
-             are below 2^34, so all sums are finite; rounding is monotonic, so corners bound every
-             depth between, to the bit.  Bounds draw 1000 big triangles, 163 Mpixel of overdraw,
-             3.7 times as fast, with SSE2 6.2 times.                                  >>fragments */
+     method  LESS, LESS_EQUAL, GREATER and GREATER_EQUAL only ever bring depth nearer.  So no pixel
+             of a rectangle is farther than the farthest corner of a triangle that filled it.  All
+             sums are finite, as slopes are below 2^34, and rounding is monotonic, so that corners
+             bound every depth between, to the bit.  Bounds draw 1000 big triangles, 163 Mpixel of
+             overdraw, 3.7 times as fast, with SSE2 6.2 times.                        >>fragments */
 
-/* Columns x .. last of rows y .. bottom of a triangle; inside: all of their pixels are. */
+/* Columns x .. last of rows y .. bottom of a triangle's box; inside is 1 where the triangle has all
+   of their pixels. */
 typedef struct shade__stretch { int x, y, last, bottom, inside; } shade__stretch;
 
 /* ---- bounds */
@@ -4386,8 +4392,7 @@ static SHADE__UNUSED void shade__begin_bounds(const shade__plan *plan,
     for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
 }
 
-/* toward times the depth at pixel x of a row whose depth is row_z at x_ref: the bits that are
-   tested. */
+/* toward times the depth at pixel x, with the bits that are tested; row_z is the depth at x_ref. */
 SHADE__INLINE float shade__key(float toward, const shade__triangle *t,
                                float row_z, int x)
 {
@@ -4507,8 +4512,9 @@ SHADE__DISPATCH(shade__cover_large, (shade__draw *d, shade__runs *runs, int lane
                 shade__cover_large_body(d, runs, lane, shade__width))
 
 /* Is the triangle at most 32 pixels wide, and do 32 bits hold its edges in its box and 31 pixels
-   beside?  They do where |e| <= 2^28 at its first pixel, in 24 rows, 2^28 + (31 + 24) 2^25 < 2^31,
-   and in 512 where steps are at most 2^21, 2^28 + (31 + 512) 2^21 < 2^31. */
+   beside?  They do if |e| <= 2^28 at its first pixel and it has up to 24 rows, because then edges
+   stay below 2^28 + (31 + 24) 2^25, or up to 512 rows and steps of at most 2^21, because then they
+   stay below 2^28 + (31 + 512) 2^21. */
 SHADE__INLINE int shade__is_narrow(const shade__triangle *t)
 {
     const int64_t most = 1 << 28;
@@ -4518,7 +4524,7 @@ SHADE__INLINE int shade__is_narrow(const shade__triangle *t)
     if (t->x1 - t->x0 >= SHADE__TILE || e >> 29) return 0;
     if (t->y1 - t->y0 < 3 * SHADE__TILE_ROWS) return 1;
     for (int k = 0; k < 3; k++)
-        steps |= (t->edges.dx[k] + (1 << 21)) | (t->edges.dy[k] + (1 << 21));
+        steps |= (t->edges.ex[k] + (1 << 21)) | (t->edges.ey[k] + (1 << 21));
     return t->y1 - t->y0 < 64 * SHADE__TILE_ROWS && !(steps >> 22);
 }
 
@@ -4597,8 +4603,8 @@ typedef struct shade__planes {
     uint32_t primitive, front;
 } shade__planes;
 
-/* Pixels x, x + 1, ... of row y on their way to the lanes of the queue from lane on.  The first
-   ones, as many as back says, are not written: their lanes keep what they hold. */
+/* Pixels x, x + 1, ... of row y on their way to the lanes of the queue from lane on.  The number
+   back says how many of the first are not written: their lanes keep what they hold. */
 typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
 /* The planes of all values in one loop.  k: x and y are the side from corner 0 to 1, z and w that
@@ -5286,7 +5292,7 @@ SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold,
 
 /* A colour of any bits as channel k of a packed pixel: clamped to [0, 1], scaled to full, and
    rounded up where its fraction reaches 1 - threshold. */
-SHADE__INLINE uint32_t shade__packed(float c, const shade__layout *l, int k,
+SHADE__INLINE uint32_t shade__pack_channel(float c, const shade__layout *l, int k,
                                      float threshold)
 {
     const int32_t number = (int32_t)(shade__unit(c) * (float)l->full[k] + threshold);
@@ -5299,10 +5305,10 @@ SHADE__INLINE void shade__pack_channels(const shade__layout *layout,
 {
     const shade__layout l = *layout;
     SHADE__EACH_BLOCK(i, blocks) {
-        packed[i] = shade__packed(rgba[i], &l, 0, threshold[i]) |
-                    shade__packed(rgba[i + SHADE_LANES], &l, 1, threshold[i]) |
-                    shade__packed(rgba[i + 2 * SHADE_LANES], &l, 2, threshold[i]) |
-                    shade__packed(rgba[i + 3 * SHADE_LANES], &l, 3,
+        packed[i] = shade__pack_channel(rgba[i], &l, 0, threshold[i]) |
+                    shade__pack_channel(rgba[i + SHADE_LANES], &l, 1, threshold[i]) |
+                    shade__pack_channel(rgba[i + 2 * SHADE_LANES], &l, 2, threshold[i]) |
+                    shade__pack_channel(rgba[i + 3 * SHADE_LANES], &l, 3,
                                   threshold[i]);
     }
 }
@@ -5335,7 +5341,7 @@ SHADE__DISPATCH(shade__pack,
                 shade__pack_body(t, rgba, x, y, packed, blocks))
 
 /* Unpacks a block of pixels to linear light.  Pixels of floats need nothing: rgba holds them. */
-SHADE__INLINE void shade__linear_body(const shade_target *t,
+SHADE__INLINE void shade__unpack_body(const shade_target *t,
                                       shade__in_bits packed, shade__out rgba)
 {
     const shade__layout l = shade__layouts[t->format];
@@ -5350,9 +5356,9 @@ SHADE__INLINE void shade__linear_body(const shade_target *t,
         }
     }
 }
-SHADE__DISPATCH_AVX2(shade__linear,
+SHADE__DISPATCH_AVX2(shade__unpack,
                      (const shade_target *t, const uint32_t *packed, float *rgba),
-                     (t, packed, rgba), shade__linear_body(t, packed, rgba))
+                     (t, packed, rgba), shade__unpack_body(t, packed, rgba))
 
 /* Packs a block of pixels and stores the first n of them at p.  The first is pixel (x, y) of the
    target, which matters where it dithers. */
@@ -5461,7 +5467,7 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d,
                               plan->color + (size_t)q->offset[last] * l.bytes,
                               packed + last, stored + last);
         }
-        shade__linear(plan->target, packed + base, stored + base);
+        shade__unpack(plan->target, packed + base, stored + base);
         shade__blend(plan->pipe->raster.blend, rgba + base, stored + base);
         shade__pack(plan->target, stored + base, q->f.x + base, q->f.y + base,
                     packed + base, 1);
@@ -5910,7 +5916,7 @@ static void shade__mean_block(const shade_target *in, int factor, int x, int y,
             shade__load_pixel(&l, p, packed + k, c + k);
             p += k < last ? factor * l.bytes : 0;
         }
-        shade__linear(in, packed, c);
+        shade__unpack(in, packed, c);
         for (int k = 0; k < 4; k++) {
             SHADE__FOR(j, size) { sum[k * size + j] += c[k * SHADE_LANES + j]; }
         }
@@ -6235,7 +6241,7 @@ static void shade__mesh_vertex(const void *uniforms,
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
     if (s->lit)
         shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out->varying[0]);
-    /* last, because P may have lain in these rows */
+    /* last, because P may have lain in the rows of u and v: see pn_unread */
     if (s->map || (own && s->mesh->texcoords))
         shade__fetch_texcoords(s, in, out->varying[s->varyings - 2]);
 }

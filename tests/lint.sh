@@ -45,9 +45,9 @@ check "at least 8 % of the implementation is air, 90 % of its code within 80 col
         if (wide > 0.1 * code) print wide " lines of " code " are wider"
     }' $H)"
 check "functions of at most 80 lines" "$(awk '/^\{$/ { start = FNR } /^\}$/ && start { if (FNR - start > 80) print FNR ": " FNR - start; start = 0 }' $H)"
-check "#if on compilers and targets only in >>config, >>plumbing and >>target" "$(awk '
+check "#if on compilers and targets only in >>config, >>plumbing and >>machine" "$(awk '
     /^\/\*-+ >>/ { section = $2 }
-    /^#[ \t]*(if|ifdef|ifndef|elif)/ && section !~ /^>>(config|plumbing|target)$/ &&
+    /^#[ \t]*(if|ifdef|ifndef|elif)/ && section !~ /^>>(config|plumbing|machine)$/ &&
         !/SHADE_H$|SHADE_IMPLEMENTATION|SHADE__IMPLEMENTED|SHADE_NO_STDIO|__cplusplus/ { print FNR ": " $0 }' $H)"
 check "forward declarations of private functions only in >>state" "$(awk '
     /^\/\*-+ >>/ { section = $2 }

@@ -63,8 +63,8 @@ int main(void)
     plan.x0 = 3;
     plan.y0 = 5;
     for (int k = 0; k < 3; k++) {
-        t.edges.dx[k] = ANY_WITHIN(2 * FAR);
-        t.edges.dy[k] = ANY_WITHIN(2 * FAR);
+        t.edges.ex[k] = ANY_WITHIN(2 * FAR);
+        t.edges.ey[k] = ANY_WITHIN(2 * FAR);
     }
     t.x_ref = any_float();
     t.y_ref = any_float();

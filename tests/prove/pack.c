@@ -24,7 +24,7 @@ static void prove_target(shade_target *t)
     shade__store_pixel(l, pixel + (sizeof pixel - bytes), packed[0], rgba);
     for (int i = 0; i < 16; i++) pixel[i] = Frama_C_unsigned_char_interval(0, 255);
     shade__load_pixel(l, pixel + (sizeof pixel - bytes), packed, rgba);
-    shade__linear_any(t, packed, rgba);
+    shade__unpack_any(t, packed, rgba);
     for (int k = 0; k < 4; k++) {
         float c = rgba[k * SHADE_LANES];
         if (t->format != SHADE_FORMAT_RGBA32F && !t->srgb) {

@@ -52,7 +52,7 @@ static void prove_edges(void)
     for (int k = 0; k < 3; k++) shade__edge(&c, k, &s);
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < N; i++) {
-            /*@ assert -2 * FAR <= s.dx[k][i] <= 2 * FAR && -2 * FAR <= s.dy[k][i] <= 2 * FAR; */
+            /*@ assert -2 * FAR <= s.ex[k][i] <= 2 * FAR && -2 * FAR <= s.ey[k][i] <= 2 * FAR; */
         }
     }
 }

@@ -17,8 +17,8 @@ static void prove_reach(void)
     t.y0 = ANY_OF(0, 16383);
     for (int k = 0; k < 3; k++) {
         t.e[k] = ANY_WITHIN(1 << 30) * (int64_t)16384;
-        t.edges.dx[k] = ANY_WITHIN(2 * FAR);
-        t.edges.dy[k] = ANY_WITHIN(2 * FAR);
+        t.edges.ex[k] = ANY_WITHIN(2 * FAR);
+        t.edges.ey[k] = ANY_WITHIN(2 * FAR);
     }
     shade__reach_of(&t, ANY_OF(0, 16383), ANY_OF(0, 16383), ANY_OF(1, 16384), ANY_OF(1, 16384),
                     &reach);
@@ -55,8 +55,8 @@ static void prove_narrow(int width, int less_only, int tiles, int32_t step)
 {
     for (int k = 0; k < 3; k++) {
         edges.e[k] = ANY_WITHIN(1 << 28);
-        edges.dx[k] = ANY_WITHIN(step);
-        edges.dy[k] = ANY_WITHIN(step);
+        edges.ex[k] = ANY_WITHIN(step);
+        edges.ey[k] = ANY_WITHIN(step);
     }
     prove_columns(width, less_only, SHADE__CROSSED, SHADE__TILE - 1, tiles - 1);
 }
@@ -67,8 +67,8 @@ static void prove_crossed(int width, int less_only, int kind)
 {
     for (int k = 0; k < 3; k++) {
         edges.e[k] = ANY_WITHIN(38 * FAR);
-        edges.dx[k] = ANY_WITHIN(FAR);
-        edges.dy[k] = ANY_WITHIN(FAR);
+        edges.ex[k] = ANY_WITHIN(FAR);
+        edges.ey[k] = ANY_WITHIN(FAR);
     }
     prove_columns(width, less_only, kind, 0, 0);
 }
