@@ -815,6 +815,34 @@ TEST(clip, dents_by_snapping_are_filled_without_overlap)
     CHECK(covered > 1000000);
 }
 
+/* Slivers through the near plane, found among millions: snapping turns pieces of what is left of
+   them, and those pieces hold a pixel centre of 64 x 64. */
+TEST(clip, pieces_that_snapping_turns_are_left_out)
+{
+    static const shade_vec4 sliver[][3] = {
+        { { 0x1.6988bep-5f, 0x1.9c0f4ap-4f, 0x1.1f08e4p-3f, 0x1.640a08p-3f },
+          { -0x1.0b2268p-16f, 0x1.50b8c6p-12f, -0x1.3f75f8p-1f, 0x1.b36f76p-11f },
+          { -0x1.7fb6dep-5f, -0x1.b4f9fep-4f, 0x1.bcadc2p-1f, -0x1.791eecp-3f } },
+        { { 0x1.7087dp-9f, -0x1.1185fcp-9f, 0x1.481828p-2f, 0x1.0b89cap-11f },
+          { 0x1.111dp-2f, -0x1.185c84p-3f, -0x1.b0155ap-1f, -0x1.d8c3fap-2f },
+          { -0x1.87ad08p-2f, 0x1.97ee2p-3f, -0x1.4516f6p-1f, 0x1.596dc2p-1f } },
+        { { 0x1.59aee4p-4f, 0x1.bc0d42p-2f, 0x1.067312p-1f, 0x1.4c12bp-1f },
+          { 0x1.8a3a34p-12f, -0x1.b19f8p-13f, -0x1.db25p-4f, 0x1.5d7484p-15f },
+          { 0x1.e1a698p-13f, 0x1.99a0dcp-13f, 0x1.b8f15cp-2f, 0x1.168ec6p-11f } },
+    };
+    recorder r = recorder_open(4096);
+    for (int k = 0; k < TEST_COUNT(sliver); k++) {
+        canvas c = canvas_open(64, 64, 0, SHADE_FORMAT_RGBA8, 0);
+        canvas_clear(&c, 1);
+        r.count = 0;
+        draw_clip_space(&c, sliver[k], 3, 0, &r);
+        CHECK(r.count > 0);
+        for (int i = 1; i < r.count; i++) CHECK_INT(r.fragments[i].front, r.fragments[0].front);
+        canvas_close(&c);
+    }
+    free(r.fragments);
+}
+
 /* What SHADE_INTERPOLATION_AFFINE gives at a point of the screen: with c from [x y w] c = (X, Y, 1)
    the screen's barycentric coordinates are c_i w_i, however far apart the w are. */
 static double affine_at(const shade_vec4 v[3], const float *value, double X, double Y)
@@ -930,6 +958,7 @@ static const test_case clip_cases[] = {
     CASE(clip, a_dent_keeps_out_the_centre_that_is_cut_off),
     CASE(clip, affine_values_survive_a_cut_between_any_two_w),
     CASE(clip, dents_by_snapping_are_filled_without_overlap),
+    CASE(clip, pieces_that_snapping_turns_are_left_out),
     CASE(clip, triangles_outside_one_plane_count_as_clipped),
     CASE(clip, triangles_in_front_of_a_plane_count_as_clipped_not_culled),
     CASE(clip, positions_that_are_no_numbers_are_rejected),

@@ -863,7 +863,8 @@ TEST(explain, a_draw_that_had_pixels_is_not_said_to_have_none)
     CHECK(!*shade_explain(&s->c.target, &s->mesh, &s->state, &stats));
     stage_close(s);
 }
-/* A floor of two triangles, with a pool of light that is small beside it. */
+/* A floor of two triangles, with a pool of light that is small beside it; at times smaller than any
+   pixel, beside a lamp that shines up. */
 TEST(explain, small_pools_of_light_are_light)
 {
     static const shade_vec3 ground[4] = { { -9, 0, 9 }, { 9, 0, 9 }, { 9, 0, -9 }, { -9, 0, -9 } };
@@ -879,8 +880,12 @@ TEST(explain, small_pools_of_light_are_light)
         s->lamps[0] = shade_point_light(above, shade_v3(1, 1, 1));
         s->lamps[0].quadratic = 1000;
         if (k % 2)
-            s->lamps[0] = shade_spot_light(above, shade_v3(0, -1, 0.1f), 0.2f, 1,
-                                           shade_v3(1, 1, 1));
+            s->lamps[0] = shade_spot_light(above, shade_v3(0, -1, 0.1f), k % 4 == 1 ? 0.002f : 0.2f,
+                                           1, shade_v3(1, 1, 1));
+        if (k % 4 == 1) {
+            s->state.lighting.light_count = 2;
+            s->lamps[1] = shade_spot_light(above, shade_v3(0, 1, 0), 0.2f, 1, shade_v3(1, 1, 1));
+        }
         s->state.view = shade_mat4_look_at(shade_v3(0, 3, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
         stage_is_good(s, "a pool");
         stage_close(s);

@@ -386,11 +386,18 @@ TEST(matrix, look_at_puts_eye_center_and_up_where_it_says)
     CHECK_MAT4(ahead, want, 0);
 }
 
-/* G3 */
+/* Every sixth looks exactly along an axis, to either side.   G3 */
 TEST(matrix, degenerate_cameras_are_finite_rotations)
 {
     for (int i = 0; i < 200; i++) {
         shade_vec3 eye = random_vector(5), center = random_vector(5);
+        if (i % 6 == 2) {
+            const float step = i % 12 == 2 ? 2.0f : -3.0f;
+            center = eye;
+            if (i % 18 == 2) center.x += step;
+            else if (i % 18 == 8) center.y += step;
+            else center.z += step;
+        }
         d3 sight = d3_sub(d3_from(center), d3_from(eye));
         shade_mat4 m =
             shade_mat4_look_at(eye, center, d3_round(d3_scale(sight, (double)rnd_float(-3, 3))));
