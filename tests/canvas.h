@@ -246,17 +246,21 @@ static void scene_record_vertices(recorder *r, const shade_vertex_ids *in)
     }
 }
 
+static void scene_put_clip(shade_vertices *out, int i, shade_vec4 p)
+{
+    out->clip[0][i] = p.x;
+    out->clip[1][i] = p.y;
+    out->clip[2][i] = p.z;
+    out->clip[3][i] = p.w;
+}
+
 static void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
                          shade_vertices *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
     if (s->record) scene_record_vertices(s->record, in);
     for (int i = 0; i < SHADE_LANES; i++) {
-        shade_vec4 p = s->clip[in->index[i]];
-        out->clip[0][i] = p.x;
-        out->clip[1][i] = p.y;
-        out->clip[2][i] = p.z;
-        out->clip[3][i] = p.w;
+        scene_put_clip(out, i, s->clip[in->index[i]]);
         for (int k = 0; k < s->varyings; k++) {
             out->varying[k][i] =
                 s->attribute[(size_t)in->index[i] * (size_t)s->varyings + (size_t)k];

@@ -831,11 +831,7 @@ static void lod_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTR
 {
     const lod_scene *s = (const lod_scene *)uniforms;
     for (int i = 0; i < SHADE_LANES; i++) {
-        shade_vec4 p = s->clip[in->index[i]];
-        out->clip[0][i] = p.x;
-        out->clip[1][i] = p.y;
-        out->clip[2][i] = p.z;
-        out->clip[3][i] = p.w;
+        scene_put_clip(out, i, s->clip[in->index[i]]);
         for (int k = 0; k < 5; k++) out->varying[k][i] = s->attribute[in->index[i]][k];
     }
 }

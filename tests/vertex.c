@@ -148,11 +148,7 @@ static void vertex_positions_only(const void *uniforms, const shade_vertex_ids *
 {
     const scene *s = (const scene *)uniforms;
     for (int i = 0; i < SHADE_LANES; i++) {
-        shade_vec4 p = s->clip[in->index[i]];
-        out->clip[0][i] = p.x;
-        out->clip[1][i] = p.y;
-        out->clip[2][i] = p.z;
-        out->clip[3][i] = p.w;
+        scene_put_clip(out, i, s->clip[in->index[i]]);
         if (in->index[i] < 1000) {
             out->varying[0][i] = 7;
             out->varying[2][i] = 7;
