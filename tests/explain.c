@@ -891,6 +891,26 @@ TEST(explain, small_pools_of_light_are_light)
         stage_close(s);
     }
 }
+/* Light of 0.0015: code 5 of 255 as sRGB, which floats are judged as too, and 0 in a linear byte. */
+TEST(explain, dim_light_is_light_where_the_format_shows_it)
+{
+    static const struct { shade_format format; int srgb, shown; } row[] = {
+        { SHADE_FORMAT_RGBA32F, 0, 1 }, { SHADE_FORMAT_RGBA8, 1, 1 }, { SHADE_FORMAT_RGBA8, 0, 0 }
+    };
+    for (int k = 0; k < TEST_COUNT(row); k++) {
+        stage *s = stage_open();
+        canvas_close(&s->c);
+        s->c = canvas_open(STAGE_WIDTH, STAGE_HEIGHT, 0, row[k].format, 1);
+        s->c.target.srgb = row[k].srgb;
+        s->good = s->c.target;
+        s->state.material = &s->material;
+        memset(&s->material, 0, sizeof s->material);
+        s->material.emission = shade_v3(0.0015f, 0.0015f, 0.0015f);
+        if (row[k].shown) stage_is_good(s, "dim light");
+        else CHECK(*stage_explain(s, 1));
+        stage_close(s);
+    }
+}
 /* Neither buffers nor arguments change; the sentence is the same when asked again. */
 TEST(explain, it_writes_nothing)
 {
@@ -1140,6 +1160,7 @@ static const test_case explain_cases[] = {
     CASE(explain, what_other_meshes_explain_gets_none),
     CASE(explain, a_draw_that_had_pixels_is_not_said_to_have_none),
     CASE(explain, small_pools_of_light_are_light),
+    CASE(explain, dim_light_is_light_where_the_format_shows_it),
     CASE(explain, what_is_unusual_is_no_mistake),
     CASE(explain, it_writes_nothing),
     CASE(explain, hostile_input_is_defined),
