@@ -461,6 +461,25 @@ TEST(cover, borders_of_huge_triangles_are_exact)
     }
 }
 
+/* The pixels of columns 0 .. 35 and of so many rows of the canvas, which the picture must have. */
+static void check_left_end(canvas *c, const int64_t x[3], const int64_t y[3], int top, int rows)
+{
+    int wrong = 0;
+    c->target.clip_y = c->target.clip_width = c->target.clip_height = 0;
+    canvas_clear(c, 1);
+    c->target.clip_y = top;
+    c->target.clip_width = 36;
+    c->target.clip_height = rows;
+    draw_fx8(c, x, y, 3, 0, NULL);
+    for (int row = 0; row < c->target.height; row++)
+        for (int column = 0; column < 60; column++) {
+            int want = column < 36 && row >= top && row < top + rows;
+            if (want) want = ref_inside_fx8(x, y, column, row);
+            wrong += (canvas_bytes(c, column, row)[3] != 0) != want;
+        }
+    CHECK_INT(wrong, 0);
+}
+
 /* Slivers of up to 16,000 pixels.  Only their left end is in the clip rectangle, in less than 32
    columns.  Their edges pass less than 64 rows above it, where they fit 32 bits; a few hundred rows
    below they do not, and those that wrap would draw the lower part of the rectangle. */
@@ -468,27 +487,34 @@ TEST(cover, ends_of_slivers_of_thousands_of_pixels_are_exact)
 {
     canvas c = canvas_open(16384, 600, 0, SHADE_FORMAT_RGBA8, 0);
     for (int i = 0; i < 60; i++) {
-        int first = rnd_int(8, 31), wrong = 0;
+        int first = rnd_int(8, 31), top;
         int64_t x[3] = { first * 256 + rnd_int(-300, 300), rnd_int(12000, 16000) * 256, 0 };
         int64_t y[3] = { rnd_int(-2000, 9000), rnd_int(600, 1100) * 256, 0 };
 
         x[2] = (x[0] + x[1]) / 2 + rnd_int(-400000, 400000);
         y[2] = y[0] + (y[1] - y[0]) * (x[2] - x[0]) / (x[1] - x[0]) - rnd_int(0, 3000);
-        c.target.clip_y = c.target.clip_width = c.target.clip_height = 0;
-        canvas_clear(&c, 1);
-        c.target.clip_y = (int)(y[0] / 256) + rnd_int(0, 60);
-        if (c.target.clip_y < 0) c.target.clip_y = 0;
-        c.target.clip_width = 36;
-        c.target.clip_height = rnd_int(400, 512);
-        draw_fx8(&c, x, y, 3, 0, NULL);
-        for (int row = 0; row < 600; row++)
-            for (int column = 0; column < 60; column++) {
-                int below = row - c.target.clip_y;
-                int want = column < 36 && below >= 0 && below < c.target.clip_height;
-                if (want) want = ref_inside_fx8(x, y, column, row);
-                wrong += (canvas_bytes(&c, column, row)[3] != 0) != want;
-            }
-        CHECK_INT(wrong, 0);
+        top = (int)(y[0] / 256) + rnd_int(0, 60);
+        check_left_end(&c, x, y, top < 0 ? 0 : top, rnd_int(400, 512));
+    }
+    canvas_close(&c);
+}
+
+/* The same with a short side at the left, found among 200,000; each corner comes first in turn. */
+TEST(cover, slivers_with_a_short_side_are_exact)
+{
+    static const struct { int64_t x[3], y[3]; int top, rows; } sliver[] = {
+        { { 7202, 4054272, 27047 }, { -942, 197888, -163 }, 42, 497 },
+        { { 4065024, 3823, 19614 }, { 233984, -740, -64 }, 35, 496 },
+        { { 6449, 4040448, 23930 }, { -382, 218880, 50 }, 54, 504 },
+    };
+    canvas c = canvas_open(16384, 600, 0, SHADE_FORMAT_RGBA8, 0);
+    for (int i = 0; i < 3 * TEST_COUNT(sliver); i++) {
+        int64_t x[3], y[3];
+        for (int k = 0; k < 3; k++) {
+            x[k] = sliver[i / 3].x[(i + k) % 3];
+            y[k] = sliver[i / 3].y[(i + k) % 3];
+        }
+        check_left_end(&c, x, y, sliver[i / 3].top, sliver[i / 3].rows);
     }
     canvas_close(&c);
 }
@@ -640,6 +666,7 @@ static const test_case cover_cases[] = {
     CASE(cover, triangles_of_a_million_pixels_are_exact),
     CASE(cover, thin_triangles_across_nine_million_pixels_are_exact),
     CASE(cover, ends_of_slivers_of_thousands_of_pixels_are_exact),
+    CASE(cover, slivers_with_a_short_side_are_exact),
     CASE(cover, borders_of_huge_triangles_are_exact),
     CASE(cover, level_edges_of_big_triangles_follow_the_rule),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),

@@ -891,7 +891,7 @@ TEST(explain, small_pools_of_light_are_light)
         stage_close(s);
     }
 }
-/* Light of 0.0015: code 5 of 255 as sRGB, as which floats are judged too, and 0 in a linear byte. */
+/* Light of 0.0015: code 5 of 255 as sRGB, as floats are judged too, and 0 in a linear byte. */
 TEST(explain, dim_light_is_light_where_the_format_shows_it)
 {
     static const struct { shade_format format; int srgb, shown; } row[] = {
