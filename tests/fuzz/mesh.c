@@ -269,6 +269,18 @@ static void mesh_stats(const shade_stats *t)
     HOLDS(t->triangles == t->skipped + t->culled + t->clipped + t->rejected + t->drawn);
 }
 
+/* The chunks of the mesh in a draw each: the picture of all in one. */
+static void mesh_one_by_one(picture *p, mesh_scene *s)
+{
+    shade_mesh one = s->m;
+    picture_keep(p);
+    picture_restore(p);
+    one.chunk_count = 1;
+    for (int i = 0; i < s->m.chunk_count; i++, one.chunks++)
+        HOLDS(shade_draw_mesh(&p->target, &one, &s->s, NULL) == SHADE_OK);
+    HOLDS(picture_same(p));
+}
+
 /* Lists of any chunks: refused where one lies outside of the triangles, else drawn, whatever the
    boxes are and however often a triangle is named. */
 static void mesh_hostile(fuzz_input *in, picture *p, mesh_scene *s, int triangles)
@@ -297,6 +309,7 @@ static void mesh_hostile(fuzz_input *in, picture *p, mesh_scene *s, int triangle
     else HOLDS(picture_unchanged(p));
     mesh_stats(&stats);
     HOLDS(stats.triangles == (want == SHADE_OK ? sum : 0));
+    if (want == SHADE_OK) mesh_one_by_one(p, s);
 }
 
 /* With the chunks of the mesh: the same picture, the same fragments. */
