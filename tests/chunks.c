@@ -1249,7 +1249,9 @@ static shade_mat4 random_pick_model(void)
     if (rnd_one_in(2))
         m = shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())), m);
     if (rnd_one_in(2)) {
-        const shade_vec3 to = random_vector((double)rnd_log(0.1, 1e4));
+        const float far = rnd_sign() * rnd_log(0.1, 1e6);    /* where positions are rounded most */
+        const shade_vec3 along = with_axis(shade_v3(0, 0, 0), rnd_int(0, 2), far);
+        const shade_vec3 to = rnd_one_in(2) ? along : random_vector((double)far);
         m.col[3] = shade_v4(to.x, to.y, to.z, 1);
     }
     return m;
