@@ -50,31 +50,31 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     115  options               >>types      186  materials, lamps, targets, states
-       >>plumbing   359  compilers             >>light      486  the equation and its terms
-       >>draw       610  meshes and pixels     >>math       853  vectors and matrices
+       >>config     114  options               >>types      187  materials, lamps, targets, states
+       >>plumbing   360  compilers             >>light      487  the equation and its terms
+       >>draw       611  meshes and pixels     >>math       854  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1214  processors            >>base      1371  bits, masks, rows of vectors
-       >>matrix    1546  cameras, inverses     >>power     1820  x^n
-       >>pixels    1886  formats, sRGB
+       >>machine   1215  processors            >>base      1372  bits, masks, rows of vectors
+       >>matrix    1547  cameras, inverses     >>power     1821  x^n
+       >>pixels    1887  formats, sRGB
      Inside: light
-       >>lamps     2054  attenuation, cones    >>terms     2329  one term at one point
-       >>surface   2467  material and lights   >>lit       2591  the whole sum, at many points
+       >>lamps     2055  attenuation, cones    >>terms     2330  one term at one point
+       >>surface   2468  material and lights   >>lit       2592  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3029  who owns what         >>vertices  3209  shading, projection
-       >>triangles 3472  dropped, cut, edges   >>clip      3839  near, far, behind the eye
-       >>tiles     4017  pixels, depth test    >>cover     4362  what is hidden, tile by tile
-       >>fragments 4586  interpolation, lod    >>texture   4879  texels, mipmaps
-       >>store     5275  blending, packing
+       >>state     3030  who owns what         >>vertices  3210  shading, projection
+       >>triangles 3473  dropped, cut, edges   >>clip      3840  near, far, behind the eye
+       >>tiles     4018  pixels, depth test    >>cover     4365  what is hidden, tile by tile
+       >>fragments 4595  interpolation, lod    >>texture   4887  texels, mipmaps
+       >>store     5286  blending, packing
      Inside: calls
-       >>check     5502  refusals              >>drive     5665  shade_draw, batch by batch
-       >>mesh      6032  shade_draw_mesh       >>lines     6430  shade_draw_lines
-       >>shape     6588  normals, edges        >>chunks    6818  boxes around triangles
-       >>rays      6994  shade_pick            >>survey    7199  experiments on a draw
-       >>explain   7346  why nothing is seen   >>image     7757  PPM
+       >>check     5513  refusals              >>drive     5677  shade_draw, batch by batch
+       >>mesh      6041  shade_draw_mesh       >>lines     6435  shade_draw_lines
+       >>shape     6593  normals, edges        >>chunks    6823  boxes around triangles
+       >>rays      6997  shade_pick            >>survey    7202  experiments on a draw
+       >>explain   7349  why nothing is seen   >>image     7761  PPM
      Sources
-       >>refs      7823                        >>history   7849
-       >>license   7858
+       >>refs      7827                        >>history   7853
+       >>license   7862
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -92,8 +92,7 @@
      Directions   N, L, V, H and R are unit vectors and all point AWAY from the surface.
      Colour       linear light, unclamped.  Formats of 8 and 5-6-5 bits store clamp(c, 0, 1),
                   rounded to nearest, and 0 for NaN.
-     Names        shade__x is private.  _ws world space, _cs clip space, _ss screen space, _fx8
-                  24.8 fixed point, rw 1/w.
+     Names        shade__x is private.  _fx8 24.8 fixed point, rw 1/w.
 
    >>model   The equation of light ("iteration four") and its symbols:
 
@@ -125,8 +124,9 @@
                               Meshes lit per fragment need 6, with colours 9, with a map 8 or 11,
                               with a fragment shader of their own 11
      SHADE_NO_STDIO           leaves out shade_write_ppm and <stdio.h>
-     SHADE_NO_LIBM            freestanding: needs only <stddef.h>, <stdint.h> and <float.h>; implies
-                              NO_STDIO and NO_DISPATCH, and leaves assertions out
+     SHADE_NO_LIBM            freestanding: gcc and clang need only <stddef.h>, <stdint.h> and
+                              <float.h>, others <string.h> too; implies NO_STDIO and NO_DISPATCH,
+                              and leaves assertions out
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        builds each loop once, for the processor that the compiler was told
                               of; implied by zig, and by clang for Microsoft's ABI
@@ -146,8 +146,9 @@
    A program linked with -ffast-math flushes denormal numbers to zero; only SHADE_FORMAT_RGBA32F
    shows it.
 
-   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  Declare no
-   int or float last before such a call.  SHADE_EACH_LANE takes a 64-bit counter there.
+   tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
+   variable declared last before such a call must be no int and no float.  SHADE_EACH_LANE takes a
+   64-bit counter there.
                                                                                           >>types */
 #include <float.h>
 #include <stddef.h>
@@ -831,8 +832,8 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* The world-space ray through window point x, y (pixel centres are at + 1/2).  It starts at the
-   eye, or with an orthographic projection on the near plane; its direction is a unit vector, or
-   zero for a degenerate camera. */
+   eye; with an orthographic projection it starts on the near plane, or far - near in front of it
+   where z is from 0 to w.  Its direction is a unit vector, or zero for a degenerate camera. */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -4026,8 +4027,8 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4],
              times the exact distance.                                                    >>cover */
 
 enum {
-    SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
-    SHADE__CUT = -(1 << 30)    /* of an edge: outside in all rows of a tile */
+    SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,    /* at least SHADE__TILE_ROWS */
+    SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
 };
 
 /* What is known of a tile. */
@@ -4059,7 +4060,7 @@ typedef struct shade__tile {
     int      skip, columns;           /* the columns left out on the left; all columns */
     float   *depth;                   /* of the first pixel */
     int      stride;
-    float    row_z[SHADE__TILE_ROWS]; /* depth of the plane at x_ref of each row */
+    float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
 } shade__tile;
 
@@ -4093,7 +4094,7 @@ SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i,
     t->z_high = s->z_high[i];
 }
 
-/* Depth of the triangle's plane at x = x_ref of row y. */
+/* Depth of the triangle's plane in row y, at the x of corner 0. */
 SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 {
     return t->z0 + t->zy * ((float)y + t->y_ref);
@@ -4101,7 +4102,8 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 
 /* ---- edges in rectangles */
 
-/* pre: the rectangle is in the picture   post: |e|, |least|, |most| <= 2^45 */
+/* pre: the rectangle begins in the picture and is at most 2^14 wide and high
+   post: |e|, |least|, |most| <= 2^45 */
 SHADE__INLINE void shade__reach_of(const shade__triangle *t, int x, int y,
                                    int columns, int rows, shade__reach *r)
 {
@@ -4115,8 +4117,8 @@ SHADE__INLINE void shade__reach_of(const shade__triangle *t, int x, int y,
     }
 }
 
-/* Of the rectangle moved right by so many pixels: -1 where an edge has all pixels outside, 1 where
-   all edges have all inside, else 0. */
+/* Moves the rectangle by so many pixels to the right, or to the left if right is negative.  Returns
+   -1 if an edge has all of it outside, 1 if all edges have all of it inside, else 0. */
 SHADE__INLINE int shade__inside(const shade__triangle *t, const shade__reach *r,
                                 int right)
 {
@@ -4171,7 +4173,7 @@ static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r,
 {
     while (set) {
         const int first = SHADE__LOWEST_BIT(set);
-        const int n = SHADE__LOWEST_BIT(~(set >> first));    /* the set lacks one of 32 */
+        const int n = SHADE__LOWEST_BIT(~(set >> first));    /* not 0: full sets are one run */
         if (r->count == SHADE__RUNS) shade__send(d, r);
         shade__add_run(r, lane, x + first, y, n);
         set &= set + (set & (0u - set));    /* without its lowest run */
@@ -4185,7 +4187,7 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* The only tile of a triangle to runs; returns how many pixels they have. */
+/* Adds the runs of a tile that has no neighbour to its left or right; returns their pixels. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
                                   const shade__tile *tile)
 {
@@ -4246,8 +4248,8 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
            (shade__mask(z > s) & c.greater) | c.always;
 }
 
-/* Tests width columns of a tile, from column at on: the three edges unless it is full, then depth.
-   pre: the columns are in the clip rectangle, at + width <= 32 */
+/* Tests columns at .. at + width - 1 of a tile: by the three edges, unless kind is SHADE__FULL, and
+   by depth.   pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
                                        const shade__edges *SHADE_RESTRICT edges,
@@ -4337,7 +4339,8 @@ SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
     tile->stride = plan->early * plan->stride;
 }
 
-/* Tests a tile in a clip rectangle of n columns, fewer than it has, row by row in a copy. */
+/* Tests a tile that has more columns than the clip rectangle, which has n: each row is copied,
+   tested by 4 columns at a time to save code, and copied back. */
 static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
                                              const shade__triangle *t,
                                              const shade__edges *edges, int n,
@@ -4364,10 +4367,11 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
    depth for each rectangle of tiles, so that hidden ones are left out whole.            [Greene93]
      in      triangles set up                    out  runs of pixels for >>fragments
      method  LESS, LESS_EQUAL, GREATER and GREATER_EQUAL only ever bring depth nearer.  So no pixel
-             of a rectangle is farther than the farthest corner of a triangle that filled it.  All
-             sums are finite, as slopes are below 2^34, and rounding is monotonic, so that corners
-             bound every depth between, to the bit.  Bounds draw 1000 big triangles, 163 Mpixel of
-             overdraw, 3.7 times as fast, with SSE2 6.2 times.                        >>fragments */
+             of a rectangle that a triangle filled is farther than that triangle is at the farthest
+             of the rectangle's corners.  All sums are finite, as slopes are below 2^34, and
+             rounding is monotonic, so that corners bound every depth between, to the bit.  Bounds
+             draw 1000 big triangles, 163 Mpixel of overdraw, 3.7 times as fast with AVX-512, and
+             6.2 times with SSE2.                                                     >>fragments */
 
 /* Columns x .. last of rows y .. bottom of a triangle's box; inside is 1 where the triangle has all
    of their pixels. */
@@ -4392,7 +4396,8 @@ static SHADE__UNUSED void shade__begin_bounds(const shade__plan *plan,
     for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
 }
 
-/* toward times the depth at pixel x, with the bits that are tested; row_z is the depth at x_ref. */
+/* toward times the depth at pixel x, with the bits that are tested.  row_z is the depth at the x of
+   corner 0. */
 SHADE__INLINE float shade__key(float toward, const shade__triangle *t,
                                float row_z, int x)
 {
@@ -4438,8 +4443,9 @@ SHADE__UNUSED static SHADE__NOINLINE void shade__next_stretch(const shade__plan 
 
 /* ---- triangles */
 
-/* Draws a stretch of a triangle.  Its last tile may go on beyond it where the triangle ends there;
-   else tiles begin at multiples of 32 columns, as bounds do. */
+/* Draws a stretch of a triangle.  In the stretch that ends the triangle's row tiles begin with it,
+   and the last may go on beyond it.  In others they begin at multiples of 32 columns from the clip
+   rectangle, as bounds do. */
 SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const shade__triangle *t,
                                         shade__runs *runs,
@@ -4454,7 +4460,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
     shade__tile tile;
     int pixels = 0;
 
-    SHADE__ZERO(edges);
+    SHADE__ZERO(edges);    /* edges of 0 have all inside */
     for (int y = s->y; y <= s->bottom; y += SHADE__TILE_ROWS) {
         tile.y = edges.y = y;
         tile.rows = shade__min(SHADE__TILE_ROWS, s->bottom - y + 1);
@@ -4483,7 +4489,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
 
-/* Draws a triangle but what bounds hide of it. */
+/* Draws a triangle, except what bounds hide of it. */
 SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
                                            int lane, const int width)
 {
@@ -4498,6 +4504,7 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
               t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->toward != 0;
     if (bounded && !b->across) shade__begin_bounds(plan, b);
     for (s.y = t.y0; s.y <= t.y1; s.y = s.bottom + 1) {
+        /* a row of bounds, or all rows at once */
         const int below = bounded ? (s.y - plan->y0) | ((1 << b->log_height) - 1) : 16384;
         s.bottom = shade__min(t.y1, plan->y0 + below);
         for (s.x = t.x0; s.x <= t.x1; s.x = s.last + 1) {
@@ -4528,7 +4535,8 @@ SHADE__INLINE int shade__is_narrow(const shade__triangle *t)
     return t->y1 - t->y0 < 64 * SHADE__TILE_ROWS && !(steps >> 22);
 }
 
-/* Draws a narrow triangle, tile below tile, whose edges are taken as they are. */
+/* Draws a narrow triangle, tile below tile, and tests each by all three edges.  Returns how many
+   pixels passed. */
 SHADE__INLINE int shade__cover_narrow(shade__draw *d, shade__triangle *t,
                                       shade__runs *runs, const int width)
 {
@@ -4547,7 +4555,8 @@ SHADE__INLINE int shade__cover_narrow(shade__draw *d, shade__triangle *t,
     return pixels;
 }
 
-/* Draws triangles of the setup up to one that is not narrow. */
+/* Draws triangles of the setup from runs->lane on, and leaves it at the first that is not narrow or
+   at count.  In a clip rectangle narrower than a tile none is: those need shade__test_copy. */
 SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, int count,
                                            const int width)
 {
@@ -4587,7 +4596,7 @@ static void shade__cover(shade__draw *d, int count)
    Pixels that passed, of all triangles of a batch, get their values and levels of detail and wait
    in a queue; a full packet is shaded and stored.  Shading waiting fragments together measured 2 to
    3 times faster on dense meshes than a packet for each run.
-     in      runs of pixels of a triangle, whose planes are made with the first
+     in      runs of pixels of a triangle, whose planes are made when its first run comes
      out     packets of fragments for the shader, its colours for >>store
      holds   The queue has varyings divided by w; they are multiplied by it for the shader, and the
              lanes from count on repeat the last one.                                   >>texture */
@@ -4682,7 +4691,7 @@ SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
     }
 }
 
-/* One row of a plane into width lanes of the queue. */
+/* Interpolates one value at width pixels of a row, into lanes of the queue. */
 SHADE__INLINE void shade__append_plane(float value, float step, shade__in px,
                                        int back, shade__out to, const int width)
 {
@@ -4692,8 +4701,7 @@ SHADE__INLINE void shade__append_plane(float value, float step, shade__in px,
     }
 }
 
-/* Window position, triangle and facing; left out (plan->places_unread) where only this file's
-   shaders run, which do not read them. */
+/* Window position, triangle and facing; left out where nobody reads them: plan->places_unread. */
 SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t,
                                        float row_z, shade__piece p,
                                        shade__in px,
@@ -4741,7 +4749,7 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
     if (!plan->places_unread) shade__append_place(t, row[0], p, px, &q->f, width);
 }
 
-/* Values of the planes at x = x_ref of row y. */
+/* Values of the planes in row y, at the x of corner 0. */
 SHADE__INLINE void shade__row(const shade__planes *SHADE_RESTRICT t, int stride,
                               int y, shade__out row)
 {
@@ -4833,7 +4841,7 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
 
 /* Multiplies n rows of varyings by w.  1/w is positive, as shade__append clamps it to those of the
    vertices. */
-SHADE__INLINE void shade__divide(shade__in rw, shade__out varying, int n)
+SHADE__INLINE void shade__undivide(shade__in rw, shade__out varying, int n)
 {
     SHADE_ALIGNED float w[SHADE_LANES];
 
@@ -4861,11 +4869,11 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (q->f.count == 0) return;
     if (q->f.count < SHADE_LANES) shade__replicate(q, plan);
     if (plan->divided == SHADE__FIRST && plan->varyings)
-        shade__divide(q->rw, q->f.varying[0], plan->varyings);
+        shade__undivide(q->rw, q->f.varying[0], plan->varyings);
     if (plan->lod) shade__lod_of_steps(q->f.lod);
 
     SHADE_EACH_LANE(i) { c.color[3][i] = 1; }
-    if (!plan->places_unread) {    /* this file's shaders set what is read: saves 1 % */
+    if (!plan->places_unread) {    /* else a shader of this file sets all that is read: 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
@@ -4933,7 +4941,8 @@ typedef struct shade__reader {
     uint32_t pair[2][SHADE__TEXELS];    /* the bytes before the left texel, above and below */
 } shade__reader;
 
-/* Finds the places of coordinates of any bits.   post: 0 <= i[0], i[1] <= (size - 1) unit */
+/* Finds the two texels and the weight of each coordinate, which may be any float, NaN too.
+   post: 0 <= i[0], i[1] <= (size - 1) unit */
 SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
                                   shade__axis *SHADE_RESTRICT a)
 {
@@ -4980,8 +4989,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     }
 }
 
-/* Finds the texels of a level for blocks of lanes.  Rows are counted in bytes, unless 32 bits
-   cannot count them: then as rows. */
+/* Finds the texels of a level for blocks of lanes.  y.i counts bytes, or rows where 32 bits do not
+   hold the bytes of the level. */
 SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u,
                                      const float *v, int blocks,
                                      shade__reader *r)
@@ -5049,9 +5058,10 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line,
     }
 }
 
-/* Channel k of a packed texel, from 0 to 1.  The bits of a colour are not shifted down: they are
-   divided by the mask in its place, which gives the same quotient.  They lie below bit 31, so that
-   they are a positive int32_t.  Bilinear textures are 4 to 10 % faster for it. */
+/* Channel k of a packed texel, from 0 to 1.  On little-endian processors red, green and blue are
+   not shifted down: they are divided by their mask where it stands, which gives the same quotient.
+   They lie below bit 31, so that they are a positive int32_t.  Bilinear textures are 4 to 10 %
+   faster for it. */
 SHADE__INLINE float shade__texel(uint32_t packed, const shade__layout *l, int k)
 {
     const int shift = shade__shift(l, k), down = k < 3 && shade__low_byte_first() ? 0 : shift;
@@ -5116,7 +5126,8 @@ SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
     }
 }
 
-/* Adds one channel of a level times its weight; a level without weight is not touched. */
+/* Adds one channel of a level times its weight.  Where the weight is 0 it adds nothing, because 0
+   times infinity would be NaN. */
 SHADE__INLINE void shade__add_level(shade__in c, shade__in weight, int blocks,
                                     shade__out out)
 {
@@ -5606,7 +5617,8 @@ SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
         return "state.fragment needs state.shading to be SHADE_SHADING_PER_FRAGMENT.";
     if (shade__mesh_varyings(m, state) > SHADE_MAX_VARYINGS)
         return "SHADE_MAX_VARYINGS is too small for this draw, which needs 6 varyings, 9 with "
-               "mesh.colors, 2 more with state.diffuse_map, or 11 with state.fragment.";
+               "mesh.colors, 2 more with state.diffuse_map, or 11 with state.fragment; lit by "
+               "vertex or face 3, or 8 with state.diffuse_map.";
     return shade__raster_fault(&state->raster);
 }
 
@@ -5642,7 +5654,7 @@ SHADE__INLINE void shade__highest_body(shade__in_bits indices, ptrdiff_t n,
 SHADE__DISPATCH(shade__highest,
                 (const uint32_t *indices, ptrdiff_t n, uint32_t *highest), (indices, n, highest),
                 shade__highest_body(indices, n, highest))
-/* Indices are compared in lanes, because each band of a picture checks all of them. */
+/* Indices are compared in lanes, because every thread that draws a band checks all of them. */
 static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices,
                                                          int index_count,
                                                          int vertex_count)
@@ -5745,8 +5757,9 @@ static shade__compare shade__compare_of(const shade_raster *r)
     return c;
 }
 
-/* Not SHADE__COLD: gcc takes a function that always calls a cold one for cold too, and then all
-   that it calls, so that the loops of every stage would stay scalar: 4 times slower. */
+/* Not SHADE__COLD, since shade__run_draw always calls it: gcc takes a function that always calls a
+   cold one for cold too, and then all that it calls, so that the loops of every stage would stay
+   scalar: 4 times slower. */
 static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
                                              const shade_pipeline *p, int own,
                                              shade__plan *plan)
@@ -5785,28 +5798,24 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     plan->half_height = (float)(t->height * 128);
 }
 
-/* how a draw runs: the shaders are of this file; each index is a vertex of its own. */
-enum { SHADE__OWN = 1, SHADE__CORNERS = 2 };
-
-/* Draws to a target that has been checked, and changes the pipeline. */
+/* Draws to a target that has been checked, and changes the pipeline.  own: the shaders are of this
+   file. */
 static shade_result shade__run_draw(const shade_target *target,
-                                    shade_pipeline *pipe, int how,
+                                    shade_pipeline *pipe, int own,
                                     shade__supply *supply, shade_stats *stats)
 {
     shade__draw d;
-    if (how & SHADE__CORNERS) supply->indices = NULL;
     if (!pipe->fragment) pipe->may_discard = 0;
     if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* nobody reads them */
         pipe->varyings = 0;
         pipe->lod_texture = NULL;
     }
-    shade__make_plan(target, pipe, how & SHADE__OWN, &d.plan);
+    shade__make_plan(target, pipe, own, &d.plan);
     SHADE__ZERO(d.unread);
     if (!d.plan.early) d.plan.tested = d.unread;
     SHADE__ZERO(d.stats);
     SHADE__ZERO(d.batch.value);
     SHADE__ZERO(d.setup);
-    SHADE__ZERO(d.u.in.ids);
     SHADE__ZERO(d.u.in.slot_of);
     d.bounds.across = 0;
     d.supply = supply;
@@ -6043,7 +6052,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     shade_mat4 clip_from_object, world_from_object;
     shade_mat3 normal_matrix;
     shade_vec3 eye;
-    shade_lighting lighting;             /* of vertices under a map: the terms that it multiplies */
+    shade_lighting lighting;             /* at vertices under a map, of terms that it multiplies */
     unsigned unmapped;                   /* the other terms */
     shade__surface surface;              /* of lighting */
     const shade_texture *map;            /* NULL: none */
@@ -6058,8 +6067,8 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
 
 enum {
     SHADE__TERM_NONE = 128,    /* no term at all, since 0 means all */
-    /* How many vectors of lit vertices lie on the stack.  With 15 varyings they lie in rows of the
-       output that nobody reads, which saves 4 kB. */
+    /* Vertices are lit by P, N and the albedo, which lie on the stack, or with 15 varyings in rows
+       of the output that nobody reads: this saves 4 kB, and the array on the stack is a dummy. */
     SHADE__APART = SHADE_MAX_VARYINGS < 15 ? 3 : 1
 };
 
@@ -6123,8 +6132,8 @@ static SHADE__NOINLINE void shade__fetch_vertices(const shade__scene *s,
     }
 }
 
-/* The normals of faces, and for light once a face their centroids and first colours.  The corners
-   of a face follow each other in the packet. */
+/* Computes the normal of each face for all its corners, which follow each other in the packet; with
+   SHADE_SHADING_PER_FACE its centroid and the colour of its first vertex too. */
 static SHADE__NOINLINE void shade__fetch_faces(const shade__scene *s,
                                                const shade_vertex_ids *in,
                                                shade__v3 *point,
@@ -6195,7 +6204,8 @@ static SHADE__NOINLINE void shade__fetch_texcoords(const shade__scene *s,
     }
 }
 
-/* The light of vertices, and with a map the part of it that the map does not multiply. */
+/* Writes the light of vertices to rows 0 .. 2 of rgb; with a map the part that the map multiplies,
+   and the rest to rows 3 .. 5. */
 static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
                                   const shade__v3 *normal, const float *albedo,
                                   float *rgb)
@@ -6223,7 +6233,7 @@ static void shade__mesh_vertex(const void *uniforms,
                                shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
-    const int own = s->state->fragment != NULL;
+    const int custom = s->state->fragment != NULL;
     shade__v3 apart[SHADE__APART], *point, *normal, *albedo;
     if (s->lit) point = SHADE__APART > 1 ? apart : shade__three_rows(out->varying[6]);
     else point = shade__three_rows(out->varying[s->pn_unread ? s->varyings : 0]);
@@ -6237,12 +6247,12 @@ static void shade__mesh_vertex(const void *uniforms,
         shade__lane_world(s->world_from_object, point);
         shade__lane_normal(s->normal_matrix, normal);
     }
-    if (own && !s->tinted)
+    if (custom && !s->tinted)
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
     if (s->lit)
         shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out->varying[0]);
     /* last, because P may have lain in the rows of u and v: see pn_unread */
-    if (s->map || (own && s->mesh->texcoords))
+    if (s->map || (custom && s->mesh->texcoords))
         shade__fetch_texcoords(s, in, out->varying[s->varyings - 2]);
 }
 
@@ -6252,7 +6262,6 @@ static void shade__mesh_alpha(const shade__scene *s,
                               shade_colors *SHADE_RESTRICT out)
 {
     const float opacity = 1 - s->state->transparency, cutoff = s->state->alpha_cutoff;
-    if (!s->state->fragment) SHADE__ZERO(out->discard);
     SHADE_EACH_LANE(i) { out->color[3][i] *= opacity; }
     if (cutoff > 0) {
         SHADE_EACH_LANE(i) { out->discard[i] |= shade__mask(out->color[3][i] >= cutoff) + 1; }
@@ -6318,8 +6327,7 @@ static void shade__mesh_fragment(const void *uniforms,
     shade__mesh_alpha(s, out);
 }
 
-/* Decides what the shaders do.
-   pre: the matrices and the surface are set */
+/* Decides what the shaders do.   pre: mesh, state, colored, map and surface are set */
 static void shade__plan_scene(shade__scene *s)
 {
     const shade_mesh *m = s->mesh;
@@ -6367,26 +6375,25 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
     shade__plan_scene(s);
 }
 
-/* It is kept out of line, so that only meshes with chunks have the planes on the stack. */
+/* Draws the chunks of a mesh that may be seen.  It is kept out of line, so that only meshes with
+   chunks have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
-                                                       shade_pipeline *p,
-                                                       int how,
+                                                       shade_pipeline *p, int own,
+                                                       shade__supply *supply,
                                                        shade_stats *stats)
 {
     const shade__scene *scene = (const shade__scene *)p->uniforms;
-    const shade_mesh *mesh = scene->mesh;
     shade__frustum frustum;
-    shade__supply supply;
     shade__frustum_of(target, &scene->clip_from_object,
                       p->raster.depth_zero_to_one, &frustum);
-    SHADE__ZERO(supply);
-    supply.indices = mesh->indices;
-    supply.more = shade__next_chunk;
-    supply.chunks = mesh->chunk_count;
-    supply.chunk = mesh->chunks;
-    supply.frustum = &frustum;
-    return shade__run_draw(target, p, how, &supply, stats);
+    supply->end = 0;
+    supply->more = shade__next_chunk;
+    supply->chunks = scene->mesh->chunk_count;
+    supply->chunk = scene->mesh->chunks;
+    supply->frustum = &frustum;
+    return shade__run_draw(target, p, own, supply, stats);
 }
+
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
                                       const shade_mesh *mesh,
                                       const shade_draw_state *state,
@@ -6395,7 +6402,6 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
     shade_pipeline p;
     shade__scene scene;
     shade__supply supply;
-    int how;
     shade_result result = shade__begin(target, mesh && state, stats);
     if (!result) result = shade__check_mesh(mesh);
     if (!result && shade__state_fault(mesh, state)) result = SHADE_ERROR_STATE;
@@ -6407,7 +6413,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
                                mesh->vertex_count, &supply);
     if (result) return result;
     shade__scene_of(target, mesh, state, &scene);
-    how = state->fragment ? 0 : SHADE__OWN;
+    if (scene.corners) supply.indices = NULL;
     SHADE__ZERO(p);
     p.vertex = shade__mesh_vertex;
     p.may_discard = state->alpha_cutoff > 0 ||
@@ -6422,9 +6428,8 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
     if (state->shading == SHADE_SHADING_PER_FACE && !scene.map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
-    if (scene.corners) how |= SHADE__CORNERS;
-    if (mesh->chunks) return shade__draw_chunks(target, &p, how, stats);
-    return shade__run_draw(target, &p, how, &supply, stats);
+    if (mesh->chunks) return shade__draw_chunks(target, &p, !state->fragment, &supply, stats);
+    return shade__run_draw(target, &p, !state->fragment, &supply, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>lines
@@ -6443,8 +6448,8 @@ typedef struct shade__stroke {           /* uniforms of the line shaders */
     double half_width;                   /* of the line, in pixels */
 } shade__stroke;
 
-/* Shortens the part t[0] .. t[1] of a segment to what is inside a plane, to which its ends have the
-   distances a and b. */
+/* Shortens t[0] .. t[1], a part of a segment, to what is inside a plane.  a and b are the signed
+   distances of the segment's ends.  Nothing is left where t[1] < t[0]. */
 static void shade__trim(double a, double b, double *t)
 {
     if (a < 0 && b < 0) t[1] = -1;
@@ -6469,7 +6474,7 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
                               double *t, double *dir)
 {
     const double w0 = end[0][3], w1 = end[1][3], z0 = end[0][2], z1 = end[1][2];
-    /* the least w that a point has: t is rounded, and w by as much times the way */
+    /* not 0: rounding moves t by up to 1e-16, and w by that times the difference of the two */
     const double least = (w0 > w1 ? w0 - w1 : w1 - w0) * 1e-14 + (double)shade__w_least;
     const int zero_to_one = s->state->raster.depth_zero_to_one != 0;
     double p[4], at[2][2], length = 0;
@@ -6499,7 +6504,7 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
    2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are floats. */
 #define SHADE__WIDEST 33554432.0f
 
-/* Corner 0 .. 3 of the rectangle around points 2 segment and 2 segment + 1, in clip space.
+/* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
    Segments that are not drawn get a point outside, and those that are rejected one that is
    rejected. */
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
@@ -6582,7 +6587,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
     (void)shade__supply_all(NULL, 3 * point_count, 3 * point_count, &supply);
-    return shade__run_draw(target, &p, SHADE__OWN, &supply, stats);
+    return shade__run_draw(target, &p, 1, &supply, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
@@ -6591,7 +6596,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
 
-/* atan2(y, x) for y >= 0, within 1e-9.  atan t = pi/4 + atan((t - 1) / (t + 1)) keeps the argument
+/* atan2(y, x) for y >= 0, within 1e-9.  atan q = pi/4 + atan((q - 1) / (q + 1)) keeps the argument
    of the series below tan(pi/8). */
 static double shade__angle(double y, double x)
 {
@@ -6943,9 +6948,7 @@ static void shade__box_chunk(const shade_mesh *m, shade_chunk *c)
     c->high = shade_neg(c->low);
     for (uint32_t k = 3 * (uint32_t)c->first; k < 3 * (uint32_t)(c->first + c->count); k++) {
         const shade_vec3 p = shade__corner(m, k);
-        if (!shade__within(p.x, FLT_MAX) || !shade__within(p.y, FLT_MAX) ||
-            !shade__within(p.z, FLT_MAX))
-            continue;
+        if (!shade__finite3(p)) continue;
         c->low = shade_min(c->low, p);
         c->high = shade_max(c->high, p);
     }
@@ -6983,9 +6986,9 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
         sorted.indices = indices;
         sorted.index_count = corners;
     }
-    for (int i = 0, first = 0; i < count; i++, first += chunks[i - 1].count) {
-        chunks[i].first = first;
-        chunks[i].count = shade__min(size, corners / 3 - first);
+    for (int i = 0; i < count; i++) {
+        chunks[i].first = i * size;
+        chunks[i].count = shade__min(size, corners / 3 - i * size);
         shade__box_chunk(&sorted, &chunks[i]);
     }
     return SHADE_OK;
@@ -7067,12 +7070,12 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b,
 
 /* A ray in object space, for tests of boxes.  Its coordinates are multiplied by the determinant of
    the model matrix, which saves a division by it: coordinate i is the dot product with the cross
-   product of the two other columns.  World positions are rounded; slack bounds the error that this
-   makes, from the sizes of the products that they are sums of. */
+   product of the two other columns.  World positions are rounded sums of products: slack times the
+   sum of the products' sizes bounds the error of that. */
 typedef struct shade__slabs {
     double origin[3], direction[3];
     double scale;                     /* the determinant */
-    double slack[3];                  /* the sizes of the two other columns, times 2^-20 */
+    double slack[3];                  /* the product of the other columns' sizes, 2^-20 */
     double size[3];                   /* of the columns: the sum of |x|, |y| and |z| */
     double reach;                     /* the size of the translation and of the ray's origin */
     int affine;                       /* 0: the matrix divides by w, and no box is tested */
@@ -7094,8 +7097,8 @@ static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
         s->origin[k] = shade__dot3(origin, normal);
         s->direction[k] = shade__dot3(direction, normal);
         s->slack[k] = s->size[a] * s->size[b] * (1 / 1048576.0);
-        s->scale = shade__dot3(column[k], normal);
     }
+    s->scale = shade__dot3(column[2], normal);
     s->reach = shade__size(origin[0]) + shade__size(origin[1]) +
                shade__size(origin[2]);
     for (int k = 0; k < 3; k++) s->reach += 2 * shade__size(column[3][k]);
@@ -7137,9 +7140,9 @@ static int shade__slabs_met(const shade__slabs *s, shade_vec3 low,
 /* The nearest triangle so far. */
 typedef struct shade__hit { int triangle; float t; shade_vec3 barycentric; } shade__hit;
 
-/* A hit counts if its point lies in the triangle's own box, and so in that of each chunk that has
-   the triangle.  So rays nearly in its plane, where rounding decides, give the same answer with
-   chunks and without. */
+/* A hit counts only if its point lies in the triangle's own box, because then it lies in the box of
+   every chunk that has the triangle.  So a ray nearly in the plane of a triangle, where rounding
+   decides, gives one answer with chunks and without. */
 static void shade__pick_triangle(const shade_mesh *mesh,
                                  const shade_mat4 *model, shade_ray ray,
                                  const shade__slabs *slabs, int triangle,
@@ -7345,14 +7348,15 @@ static int shade__eye_inside(const shade__survey *s)
 
 /*---------------------------------------------------------------------------------------- >>explain
    Why a draw gives no picture, or the wrong one, in one sentence.
-     in      what shade_draw_mesh took, its stats      out  a constant sentence, NULL for nothing
+     in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
      method  Arguments and matrices are checked.  Then one thing after the other is changed until
              the mesh appears: the last change names the fault.  Changes are kept, so that two
              faults at once are found as well.
      holds   A band or a strip is never blamed for what another one may show.
                                                                                           >>image */
 
-/* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty. */
+/* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
+   positions overlap. */
 static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
                                   const shade_draw_state *s)
 {
@@ -7439,6 +7443,7 @@ static const char *shade__suspect_state(const shade__survey *s)
 {
     const shade_raster *r = &s->given->raster;
     const shade_mat4 *p = &s->state.projection;
+    /* column 3 has z < 0 in a perspective, > 0 in a reversed one */
     const int perspective = p->col[3].w == 0, reversed = p->col[3].z > 0;
 
     for (int i = 0; i < s->state.lighting.light_count; i++) {
@@ -7705,8 +7710,7 @@ static const char *shade__why(shade__survey *s)
 static void shade__begin_survey(shade__survey *s)
 {
     shade_raster *r = &s->state.raster;
-    const int greater = r->depth_test == SHADE_COMPARE_GREATER ||
-                        r->depth_test == SHADE_COMPARE_GREATER_EQUAL;
+    const int greater = shade__compare_of(r).greater != 0;
     s->farthest = greater ? 0.0f : 1.0f;
     r->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
     r->depth_read_only = 0;

@@ -990,6 +990,56 @@ TEST(ray, a_model_whose_w_is_two_is_picked_at_half_its_size)
     }
 }
 
+/* Integers, so that the ray lies in the plane of the triangle exactly.  Products of them do not fit
+   doubles, so that rounding alone decides whether shade_intersect meets it, and where. */
+static shade_ray ray_in_plane_of(shade_vec3 corner[3])
+{
+    shade_vec3 u, v, p[5];
+    shade_ray ray;
+    u = shade_v3((float)rnd_int(-1000000, 1000000), (float)rnd_int(-1000000, 1000000), 700001);
+    v = shade_v3((float)rnd_int(-1000000, 1000000), 500009, (float)rnd_int(-1000000, 1000000));
+    for (int k = 0; k < 5; k++)
+        p[k] = shade_madd(shade_scale(u, (float)rnd_int(-3, 3)), (float)rnd_int(-3, 3), v);
+    for (int k = 0; k < 3; k++) corner[k] = p[k];
+    ray.origin = p[3];
+    ray.direction = shade_sub(p[4], p[3]);
+    return ray;
+}
+
+/* How far a point is outside of the box of a triangle along one axis. */
+static double beyond(double at, float a, float b, float c)
+{
+    return fmax((double)fminf(a, fminf(b, c)) - at, at - (double)fmaxf(a, fmaxf(b, c)));
+}
+
+TEST(ray, in_the_plane_of_a_triangle_a_ray_meets_it_in_its_box_or_not_at_all)
+{
+    int picked = 0, before = 0, behind = 0;
+    for (int i = 0; i < 20000; i++) {
+        shade_vec3 corner[3];
+        const shade_ray ray = ray_in_plane_of(corner);
+        const shade_mesh m = plain_mesh(&corner[0].x, 3);
+        const d3 middle = d3_scale(d3_add(d3_from(corner[0]), d3_add(d3_from(corner[1]),
+                                                                     d3_from(corner[2]))), 1 / 3.0);
+        const d3 direction = d3_from(ray.direction), origin = d3_from(ray.origin);
+        float t;
+        if (!shade_intersect(ray, corner[0], corner[1], corner[2], &t, NULL)) continue;
+        const d3 at = d3_add(origin, d3_scale(direction, (double)t));
+        const double outside = fmax(beyond(at.x, corner[0].x, corner[1].x, corner[2].x),
+                                    fmax(beyond(at.y, corner[0].y, corner[1].y, corner[2].y),
+                                         beyond(at.z, corner[0].z, corner[1].z, corner[2].z)));
+        if (fabs(outside) < 100) continue; /* within 1e-5 of its size */
+        const int hit = shade_pick(&m, shade_mat4_identity(), ray, NULL, NULL);
+        CHECK_INT(hit, outside < 0 ? 0 : -1);
+        const int short_of_it = d3_dot(d3_sub(at, middle), direction) < 0;
+        picked += hit == 0;
+        before += hit < 0 && short_of_it;
+        behind += hit < 0 && !short_of_it;
+    }
+    CHECK_SAY(picked > 300 && before > 300 && behind > 300,
+              "%d picked, %d before, %d behind", picked, before, behind);
+}
+
 static const test_case ray_cases[] = {
     CASE(ray, perspective_rays_leave_the_eye_through_the_pixel),
     CASE(ray, off_centre_frustums_bend_their_rays),
@@ -1017,4 +1067,5 @@ static const test_case ray_cases[] = {
     CASE(ray, cast_and_drawn_pictures_agree_in_reversed_depth),
     CASE(ray, cast_and_drawn_pictures_agree_without_perspective),
     CASE(ray, a_model_whose_w_is_two_is_picked_at_half_its_size),
+    CASE(ray, in_the_plane_of_a_triangle_a_ray_meets_it_in_its_box_or_not_at_all),
 };
