@@ -61,20 +61,20 @@
        >>lamps     2055  attenuation, cones    >>terms     2330  one term at one point
        >>surface   2468  material and lights   >>lit       2592  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3030  who owns what         >>vertices  3210  shading, projection
-       >>triangles 3473  dropped, cut, edges   >>clip      3840  near, far, behind the eye
-       >>tiles     4018  pixels, depth test    >>cover     4365  what is hidden, tile by tile
-       >>fragments 4595  interpolation, lod    >>texture   4887  texels, mipmaps
-       >>store     5286  blending, packing
+       >>state     3030  who owns what         >>vertices  3211  shading, projection
+       >>triangles 3474  dropped, cut, edges   >>clip      3841  near, far, behind the eye
+       >>tiles     4019  pixels, depth test    >>cover     4366  what is hidden, tile by tile
+       >>fragments 4596  interpolation, lod    >>texture   4888  texels, mipmaps
+       >>store     5287  blending, packing
      Inside: calls
-       >>check     5513  refusals              >>drive     5677  shade_draw, batch by batch
-       >>mesh      6041  shade_draw_mesh       >>lines     6435  shade_draw_lines
-       >>shape     6593  normals, edges        >>chunks    6823  boxes around triangles
-       >>rays      6997  shade_pick            >>survey    7202  experiments on a draw
-       >>explain   7349  why nothing is seen   >>image     7761  PPM
+       >>check     5514  refusals              >>drive     5678  shade_draw, batch by batch
+       >>mesh      6043  shade_draw_mesh       >>lines     6437  shade_draw_lines
+       >>shape     6595  normals, edges        >>chunks    6825  boxes around triangles
+       >>rays      6999  shade_pick            >>survey    7205  experiments on a draw
+       >>explain   7352  why nothing is seen   >>image     7764  PPM
      Sources
-       >>refs      7827                        >>history   7853
-       >>license   7862
+       >>refs      7830                        >>history   7856
+       >>license   7865
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3082,7 +3082,7 @@ typedef struct shade__plan {
     int      early;                   /* depth is tested by >>tiles */
     int      queued;                  /* fragments go to the queue */
     int      less_only;               /* the early test is LESS, and depth is written */
-    int      places_unread;           /* nobody reads x, y, z, primitive and front of fragments */
+    int      inputs_unread;           /* nobody reads x, y, z, primitive, front, nor presets */
     shade__compare compare;           /* the test of the draw */
     shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
     float    toward;                  /* 1: greater depth is farther; -1: less is; 0: no bounds */
@@ -3155,7 +3155,8 @@ typedef struct shade__bounds {
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* varyings from plan.divided on: over w until it is shaded */
+    shade_fragments f;                /* until it is shaded: varyings from plan.divided on are
+                                         over w, and lod is the squared step in texels */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
@@ -4210,7 +4211,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
     return pixels;
 }
 
-/* The same for the next tile of a band: a run goes on where it ended with the tile before. */
+/* The same for the next tile of a row of tiles: a run goes on where the tile before ended it. */
 SHADE__INLINE int shade__join_tile(shade__draw *d, shade__runs *r, int lane,
                                    const shade__tile *tile)
 {
@@ -4381,8 +4382,7 @@ typedef struct shade__stretch { int x, y, last, bottom, inside; } shade__stretch
 
 /* Cuts the clip rectangle into tiles or rectangles of them, SHADE__BOUNDS at most.
    pre: the rectangle is not empty, within 2^14   post: neither logarithm is above 14 */
-static SHADE__UNUSED void shade__begin_bounds(const shade__plan *plan,
-                                              shade__bounds *b)
+static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
 {
     int w = plan->x1 - plan->x0 - 1, h = plan->y1 - plan->y0 - 1;
 
@@ -4408,36 +4408,37 @@ SHADE__INLINE float shade__key(float toward, const shade__triangle *t,
    on to the first column that no bound hides, or beyond the box where all are hidden, and s->last
    to the last column before one that is hidden or differs in s->inside.  On the way it brings
    bounds nearer that the triangle fills. */
-SHADE__UNUSED static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
-                                                              shade__bounds *b,
-                                                              const shade__triangle *t,
-                                                              shade__stretch *s)
+static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
+                                                shade__bounds *b,
+                                                const shade__triangle *t,
+                                                shade__stretch *s)
 {
     const float toward = plan->toward;
-    const int right = toward * t->zx > 0, down = toward * t->zy > 0;
-    const float z_near = shade__row_depth(t, down ? s->y : s->bottom);
-    const float z_far = shade__row_depth(t, down ? s->bottom : s->y);
+    /* where the triangle gets farther */
+    const int rightward = toward * t->zx > 0, downward = toward * t->zy > 0;
+    const float z_near = shade__row_depth(t, downward ? s->y : s->bottom);
+    const float z_far = shade__row_depth(t, downward ? s->bottom : s->y);
     const int size = 1 << b->log_width, row = (s->y - plan->y0) >> b->log_height;
     const int top = plan->y0 + (row << b->log_height);
-    const int low = shade__min(top + (1 << b->log_height), plan->y1) - 1;
-    const int whole = s->y == top && s->bottom == low;
+    const int bottom = shade__min(top + (1 << b->log_height), plan->y1) - 1;
+    const int whole = s->y == top && s->bottom == bottom;
     shade__reach reach;
 
     shade__reach_of(t, t->x0, s->y, size, s->bottom - s->y + 1, &reach);
     for (int from = s->x; from <= t->x1; from = s->last + 1) {
-        const int column = (from - plan->x0) >> b->log_width, first = plan->x0 + column * size;
+        const int cell = (from - plan->x0) >> b->log_width, first = plan->x0 + cell * size;
         const int to = shade__min(first + size - 1, t->x1);
         const int inside = shade__inside(t, &reach, first - t->x0);
-        float *farthest = &b->farthest[row * b->across + column];
+        float *farthest = &b->farthest[row * b->across + cell];
         const int hidden =
-            inside < 0 || shade__key(toward, t, z_near, right ? from : to) > *farthest;
+            inside < 0 || shade__key(toward, t, z_near, rightward ? from : to) > *farthest;
 
         if (from > s->x && (hidden || inside != s->inside)) return;
         s->inside = inside;
         s->last = to;
         if (hidden) s->x = to + 1;
         else if (inside && whole)
-            *farthest = shade__minf(*farthest, shade__key(toward, t, z_far, right ? to : from));
+            *farthest = shade__minf(*farthest, shade__key(toward, t, z_far, rightward ? to : from));
     }
 }
 
@@ -4650,7 +4651,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan,
     t->base[0] = s->z0[i];    /* with the bias */
     t->z_low = s->z_low[i];
     t->z_high = s->z_high[i];
-    t->rw_low = v0[1];
+    t->rw_low = v0[1];    /* corner 0 is the farthest */
     t->rw_high = shade__maxf(v0[1], shade__maxf(v1[1], v2[1]));
     t->x_ref = s->x_ref[i];
     t->y_ref = s->y_ref[i];
@@ -4670,13 +4671,13 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan,
    u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays of moderate size whatever w is. */
 SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
                                      const shade__planes *SHADE_RESTRICT t,
-                                     shade__in row, int x, int back,
+                                     shade__in value, int x, int back,
                                      shade__in rw, shade__out lod)
 {
     const int k = plan->lod;
     const float w = (float)plan->pipe->lod_texture->width;
     const float h = (float)plan->pipe->lod_texture->height;
-    const float u0 = row[k], v0 = row[k + 1], x_ref = t->x_ref;
+    const float u0 = value[k], v0 = value[k + 1], x_ref = t->x_ref;
     const float ux = t->gx[k], vx = t->gx[k + 1], qx = t->gx[1];
     const float uy = t->gy[k], vy = t->gy[k + 1], qy = t->gy[1];
 
@@ -4701,7 +4702,7 @@ SHADE__INLINE void shade__append_plane(float value, float step, shade__in px,
     }
 }
 
-/* Window position, triangle and facing; left out where nobody reads them: plan->places_unread. */
+/* Window position, triangle and facing; left out where nobody reads them. */
 SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t,
                                        float row_z, shade__piece p,
                                        shade__in px,
@@ -4725,11 +4726,11 @@ SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t,
 /* Writes width lanes of the queue.  Where p.back is the constant 0 the choice vanishes. */
 SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
                                  const shade__planes *SHADE_RESTRICT t,
-                                 shade__in row, shade__piece p, const int width)
+                                 shade__in value, shade__piece p, const int width)
 {
     const shade__plan *plan = &d->plan;
     shade__queue *SHADE_RESTRICT q = &d->u.queue;
-    const float x_ref = t->x_ref, rw0 = row[1], rw_dx = t->gx[1];
+    const float x_ref = t->x_ref, rw0 = value[1], rw_dx = t->gx[1];
     const uint32_t above = (uint32_t)(p.y - plan->row_offset) * (uint32_t)plan->stride;
     const uint32_t offset = above + (uint32_t)p.x;
     const int x = p.x, c = p.lane, back = p.back;
@@ -4744,25 +4745,25 @@ SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
         q->offset[c + i] = shade__choose(offset + (uint32_t)i, q->offset[c + i], keep);
     }
     for (int k = 0; k < plan->varyings; k++)
-        shade__append_plane(row[SHADE__FIRST + k], t->gx[SHADE__FIRST + k], px,
+        shade__append_plane(value[SHADE__FIRST + k], t->gx[SHADE__FIRST + k], px,
                             back, q->f.varying[k] + c, width);
-    if (!plan->places_unread) shade__append_place(t, row[0], p, px, &q->f, width);
+    if (!plan->inputs_unread) shade__append_place(t, value[0], p, px, &q->f, width);
 }
 
 /* Values of the planes in row y, at the x of corner 0. */
-SHADE__INLINE void shade__row(const shade__planes *SHADE_RESTRICT t, int stride,
-                              int y, shade__out row)
+SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int count,
+                                     int y, shade__out value)
 {
     const float py = (float)y + t->y_ref;
 
-    for (int s = 0; s < stride; s += 8) {
-        SHADE__FOR(k, 8) { row[s + k] = t->base[s + k] + t->gy[s + k] * py; }
+    for (int s = 0; s < count; s += 8) {
+        SHADE__FOR(k, 8) { value[s + k] = t->base[s + k] + t->gy[s + k] * py; }
     }
 }
 
 /* Appends one run, shading the queue whenever it is full.   post: it is not full */
 SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
-                                   const float *row, const shade__run *run)
+                                   const float *value, const shade__run *run)
 {
     const shade__plan *plan = &d->plan;
     shade__queue *q = &d->u.queue;
@@ -4775,7 +4776,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
         p.x = x;
         p.lane = q->f.count;
         p.back = 0;
-        shade__append(d, t, row, p, 8);
+        shade__append(d, t, value, p, 8);
         q->f.count += n;
         return;
     }
@@ -4787,10 +4788,10 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
         p.x = x - back;    /* the packet may end within the 8 lanes of a piece */
         p.lane = q->f.count - back;
         p.back = SHADE__SPECIALIZE && width > 8 ? 0 : back;
-        if (SHADE__SPECIALIZE && width > 8) shade__append(d, t, row, p, SHADE__WIDE);
-        else shade__append(d, t, row, p, 8);
+        if (SHADE__SPECIALIZE && width > 8) shade__append(d, t, value, p, SHADE__WIDE);
+        else shade__append(d, t, value, p, 8);
         for (int i = 0; plan->lod && i < width; i += 8)
-            shade__append_lod(plan, t, row, p.x + i, back, q->rw + p.lane + i,
+            shade__append_lod(plan, t, value, p.x + i, back, q->rw + p.lane + i,
                               q->f.lod + p.lane + i);
         x += take;
         n -= take;
@@ -4803,13 +4804,13 @@ SHADE__INLINE void shade__push_body(shade__draw *d, const shade__run *run,
                                     int runs)
 {
     shade__planes t;
-    SHADE_ALIGNED float row[SHADE__VALUES_MAX];
+    SHADE_ALIGNED float value[SHADE__VALUES_MAX];
 
     for (int k = 0; k < runs; k++) {
         if (!k || run[k].lane != run[k - 1].lane)
             shade__make_planes(&d->plan, &d->setup, run[k].lane, &t);
-        shade__row(&t, d->plan.value_stride, run[k].y, row);
-        shade__push_run(d, &t, row, &run[k]);
+        shade__row_values(&t, d->plan.value_stride, run[k].y, value);
+        shade__push_run(d, &t, value, &run[k]);
     }
 }
 SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
@@ -4831,7 +4832,7 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
     for (int k = 0; k < plan->varyings; k++) shade__repeat(q->f.varying[k], n);
     shade__repeat(q->rw, n);
     shade__repeat(q->f.lod, n);
-    if (plan->places_unread) return;
+    if (plan->inputs_unread) return;
     shade__repeat(q->f.x, n);
     shade__repeat(q->f.y, n);
     shade__repeat(q->f.z, n);
@@ -4873,7 +4874,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (plan->lod) shade__lod_of_steps(q->f.lod);
 
     SHADE_EACH_LANE(i) { c.color[3][i] = 1; }
-    if (!plan->places_unread) {    /* else a shader of this file sets all that is read: 1 % */
+    if (!plan->inputs_unread) {    /* else a shader of this file sets all that is read: 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
@@ -4934,7 +4935,7 @@ typedef struct shade__axis {
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t row_bytes;            /* how many bytes 1 in y.i stands for; 1 in x.i is one */
+    size_t y_bytes;              /* how many bytes 1 in y.i stands for; 1 in x.i is one */
     int nearest, blocks;
     uint32_t apart[(int)SHADE__TEXELS / (int)SHADE__BLOCK];    /* 0: 8 bytes hold each pair */
     shade__axis x, y;
@@ -5002,7 +5003,7 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u,
     r->layout = &shade__layouts[t->format];
     r->nearest = t->filter == SHADE_FILTER_NEAREST;
     r->blocks = blocks;
-    r->row_bytes = wide ? pitch : 1;
+    r->y_bytes = wide ? pitch : 1;
     r->x.size = t->width;
     r->x.wrap = t->wrap_u;
     r->x.unit = bytes;
@@ -5029,9 +5030,9 @@ SHADE__INLINE void shade__fetch_apart(const shade__reader *r, const uint8_t *p,
                                       const int swapped, shade__word *to)
 {
     const uint32_t *row = r->y.i[line], *left = r->x.i[0], *right = r->x.i[1];
-    const size_t row_bytes = r->row_bytes;
+    const size_t y_bytes = r->y_bytes;
     for (const int end = i + SHADE__BLOCK; i < end; i++) {
-        const uint8_t *at = p + row[i] * row_bytes;
+        const uint8_t *at = p + row[i] * y_bytes;
         to[2 * i] = shade__load_packed(at + left[i], bytes, swapped);
         to[2 * i + 1] = shade__load_packed(at + right[i], bytes, swapped);
     }
@@ -5792,14 +5793,14 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     if (!early) plan->early_test.always = UINT32_MAX;
     plan->queued = p->fragment && (plan->color || p->may_discard);
     plan->less_only = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
-    plan->places_unread = own && early && !t->dither;
+    plan->inputs_unread = own && early && !t->dither;
     plan->toward = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
     plan->half_width = (float)(t->width * 128);
     plan->half_height = (float)(t->height * 128);
 }
 
-/* Draws to a target that has been checked, and changes the pipeline.  own: the shaders are of this
-   file. */
+/* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: the
+   shaders are of this file. */
 static shade_result shade__run_draw(const shade_target *target,
                                     shade_pipeline *pipe, int own,
                                     shade__supply *supply, shade_stats *stats)
@@ -5814,6 +5815,7 @@ static shade_result shade__run_draw(const shade_target *target,
     SHADE__ZERO(d.unread);
     if (!d.plan.early) d.plan.tested = d.unread;
     SHADE__ZERO(d.stats);
+    /* what lanes compute from values that nobody has set must be defined, though nobody reads it */
     SHADE__ZERO(d.batch.value);
     SHADE__ZERO(d.setup);
     SHADE__ZERO(d.u.in.slot_of);
@@ -6058,9 +6060,9 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     const shade_texture *map;            /* NULL: none */
     int face_normals;                    /* N is the normal of the face */
     int corners;                         /* every corner is a vertex */
-    int colored;                         /* the target has a picture */
+    int has_picture;                     /* the target has a picture */
     int tinted;                          /* the mesh has colours that somebody reads */
-    int lit;                             /* at its vertices, also where that is once a face */
+    int lit_vertices;                    /* light at its vertices, also where that is once a face */
     int pn_unread;                       /* nobody reads P and N */
     int varyings;                        /* in use; with a map the last two are u, v */
 } shade__scene;
@@ -6235,7 +6237,7 @@ static void shade__mesh_vertex(const void *uniforms,
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
     shade__v3 apart[SHADE__APART], *point, *normal, *albedo;
-    if (s->lit) point = SHADE__APART > 1 ? apart : shade__three_rows(out->varying[6]);
+    if (s->lit_vertices) point = SHADE__APART > 1 ? apart : shade__three_rows(out->varying[6]);
     else point = shade__three_rows(out->varying[s->pn_unread ? s->varyings : 0]);
     normal = point + 1;
     albedo = s->pn_unread ? shade__three_rows(out->varying[0]) : normal + 1;
@@ -6249,7 +6251,7 @@ static void shade__mesh_vertex(const void *uniforms,
     }
     if (custom && !s->tinted)
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
-    if (s->lit)
+    if (s->lit_vertices)
         shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out->varying[0]);
     /* last, because P may have lain in the rows of u and v: see pn_unread */
     if (s->map || (custom && s->mesh->texcoords))
@@ -6266,7 +6268,7 @@ static void shade__mesh_alpha(const shade__scene *s,
     if (cutoff > 0) {
         SHADE_EACH_LANE(i) { out->discard[i] |= shade__mask(out->color[3][i] >= cutoff) + 1; }
     }
-    if (s->colored && s->state->raster.blend == SHADE_BLEND_ADD) {
+    if (s->has_picture && s->state->raster.blend == SHADE_BLEND_ADD) {
         SHADE_EACH_LANE(i) {
             float a = out->color[3][i];
             out->color[0][i] *= a;
@@ -6301,9 +6303,9 @@ static void shade__mesh_colors(const shade__scene *s,
     if (s->map)
         shade_sample_lanes(s->map, in->varying[uv], in->varying[uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
-    if (!s->colored) return;
+    if (!s->has_picture) return;
 
-    if (!s->lit) {
+    if (!s->lit_vertices) {
         shade_rows rows;
         SHADE__ZERO(rows);
         rows.position = varying;
@@ -6327,7 +6329,7 @@ static void shade__mesh_fragment(const void *uniforms,
     shade__mesh_alpha(s, out);
 }
 
-/* Decides what the shaders do.   pre: mesh, state, colored, map and surface are set */
+/* Decides what the shaders do.   pre: mesh, state, has_picture, map and surface are set */
 static void shade__plan_scene(shade__scene *s)
 {
     const shade_mesh *m = s->mesh;
@@ -6335,10 +6337,10 @@ static void shade__plan_scene(shade__scene *s)
     const int per_fragment = state->shading == SHADE_SHADING_PER_FRAGMENT;
     s->face_normals = !m->normals || state->shading == SHADE_SHADING_PER_FACE;
     s->pn_unread = !state->fragment &&
-               (!s->colored || (per_fragment && !s->surface.lamps));
-    s->lit = !per_fragment && !s->pn_unread;
+               (!s->has_picture || (per_fragment && !s->surface.lamps));
+    s->lit_vertices = !per_fragment && !s->pn_unread;
     s->corners = s->face_normals && !s->pn_unread;
-    s->tinted = m->colors && (s->colored || state->fragment);
+    s->tinted = m->colors && (s->has_picture || state->fragment);
     s->varyings = shade__mesh_varyings(m, state);
     if (s->pn_unread) s->varyings = (s->tinted ? 3 : 0) + (s->map ? 2 : 0);
 }
@@ -6353,7 +6355,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
     shade_mat4 view = shade__or_identity(state->view), camera = shade_mat4_inverse(view);
     s->mesh = mesh;
     s->state = state;
-    s->colored = target->color != NULL;
+    s->has_picture = target->color != NULL;
     s->map = mesh->texcoords ? state->diffuse_map : NULL;
     s->world_from_object = shade__or_identity(state->model);
     s->clip_from_object = shade__or_identity(state->projection);
@@ -6445,7 +6447,7 @@ typedef struct shade__stroke {           /* uniforms of the line shaders */
     const shade_line_state *state;
     double clip_from_points[16];         /* column-major */
     double half[2];                      /* half the width and height of the picture, in pixels */
-    double half_width;                   /* of the line, in pixels */
+    double half_line;                    /* half the width of the lines, in pixels */
 } shade__stroke;
 
 /* Shortens t[0] .. t[1], a part of a segment, to what is inside a plane.  a and b are the signed
@@ -6486,7 +6488,7 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
     if (!(t[0] <= t[1])) return 0;
     for (int j = 0; j < 2; j++) shade__stroke_point(s, end, t[j], p, at[j]);
     for (int i = 0; i < 2; i++) {
-        const double limit = 1 + (3 * s->half_width + 2) / s->half[i];
+        const double limit = 1 + (3 * s->half_line + 2) / s->half[i];
         shade__trim(limit * w0 - end[0][i], limit * w1 - end[1][i], t);
         shade__trim(limit * w0 + end[0][i], limit * w1 + end[1][i], t);
         dir[i] = at[1][i] - at[0][i];
@@ -6510,7 +6512,7 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
                                        int corner)
 {
-    const double *m = s->clip_from_points, width = s->half_width;
+    const double *m = s->clip_from_points, half = s->half_line;
     const int k = corner & 1;
     int placed = 1;
     double end[2][4], t[2], p[4], at[2], dir[2], side, along;
@@ -6525,11 +6527,11 @@ static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
     if (!placed) return shade_v4(FLT_MAX, 2, 2, 1);
     if (!shade__stroke_part(s, end, t, dir)) return shade_v4(2, 2, 2, 1);
     shade__stroke_point(s, end, t[k], p, at);
-    side = corner & 2 ? width : -width;
-    along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? width : -width;
+    side = corner & 2 ? half : -half;
+    along = s->state->cap != SHADE_CAP_SQUARE ? 0 : k ? half : -half;
     at[0] += dir[0] * along - dir[1] * side;
     at[1] += dir[1] * along + dir[0] * side;
-    p[3] = (double)(float)p[3];
+    p[3] = (double)(float)p[3];    /* the w that divides x and y later */
     return shade_v4((float)(at[0] / s->half[0] * p[3]),
                     (float)(at[1] / s->half[1] * p[3]), (float)p[2],
                     (float)p[3]);
@@ -6582,7 +6584,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     shade__doubles(&clip_from_points, s.clip_from_points);
     s.half[0] = target->width / 2.0;
     s.half[1] = target->height / 2.0;
-    s.half_width = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
+    s.half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
     p.vertex = shade__stroke_vertex;
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
@@ -6966,30 +6968,30 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
                                         shade_chunk *chunks, int capacity,
                                         uint32_t *indices)
 {
-    shade_mesh sorted;
+    shade_mesh listed;
     shade_result result;
     const int size = shade__chunk_size(triangles);
     int corners, count;
     if (!mesh || triangles < 0 || capacity < 0 || (!chunks && capacity))
         return SHADE_ERROR_ARGUMENT;
-    sorted = *mesh;
-    sorted.chunk_count = 0;
-    result = shade__check_mesh(&sorted);
-    if (!result) result = shade__check_corners(&sorted);
+    listed = *mesh;
+    listed.chunk_count = 0;
+    result = shade__check_mesh(&listed);
+    if (!result) result = shade__check_corners(&listed);
     if (result) return result;
-    corners = shade__corner_count(&sorted);
+    corners = shade__corner_count(&listed);
     count = shade_chunk_count(corners, triangles);
     if (capacity < count) return SHADE_ERROR_CAPACITY;
     if (indices && corners) {
         for (int i = 0; i < corners; i++) indices[i] = shade__corner_index(mesh, (uint32_t)i);
         shade__sort_triangles(mesh, indices, corners / 3, size);
-        sorted.indices = indices;
-        sorted.index_count = corners;
+        listed.indices = indices;
+        listed.index_count = corners;
     }
     for (int i = 0; i < count; i++) {
         chunks[i].first = i * size;
         chunks[i].count = shade__min(size, corners / 3 - i * size);
-        shade__box_chunk(&sorted, &chunks[i]);
+        shade__box_chunk(&listed, &chunks[i]);
     }
     return SHADE_OK;
 }
@@ -7016,6 +7018,7 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
         ray.origin = shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
         from = shade__xyzw(ray.origin, 1);
     }
+    /* the difference of two homogeneous points, but for its sign */
     d = shade_sub(shade_scale(shade__xyz(to), from.w), shade_scale(shade__xyz(from), to.w));
     ray.direction = shade__unit_vector(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
     return ray;
@@ -7072,16 +7075,16 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b,
    the model matrix, which saves a division by it: coordinate i is the dot product with the cross
    product of the two other columns.  World positions are rounded sums of products: slack times the
    sum of the products' sizes bounds the error of that. */
-typedef struct shade__slabs {
+typedef struct shade__object_ray {
     double origin[3], direction[3];
     double scale;                     /* the determinant */
     double slack[3];                  /* the product of the other columns' sizes, 2^-20 */
     double size[3];                   /* of the columns: the sum of |x|, |y| and |z| */
     double reach;                     /* the size of the translation and of the ray's origin */
     int affine;                       /* 0: the matrix divides by w, and no box is tested */
-} shade__slabs;
+} shade__object_ray;
 
-static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
+static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__object_ray *s)
 {
     double column[4][3], normal[3], origin[3], direction[3];
     s->affine = shade__is_affine(m);
@@ -7108,7 +7111,7 @@ static void shade__slabs_of(const shade_mat4 *m, shade_ray ray, shade__slabs *s)
 /* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box, with
    allowance for rounding.  Returns 0 if it does not meet the box there.  A larger box never has a
    smaller range: a ray that meets the box of a triangle meets that of its chunk. */
-static int shade__slabs_met(const shade__slabs *s, shade_vec3 low,
+static int shade__meets_box(const shade__object_ray *s, shade_vec3 low,
                             shade_vec3 high, float limit, double *range)
 {
     double from[3], to[3], size = s->reach;
@@ -7145,20 +7148,20 @@ typedef struct shade__hit { int triangle; float t; shade_vec3 barycentric; } sha
    decides, gives one answer with chunks and without. */
 static void shade__pick_triangle(const shade_mesh *mesh,
                                  const shade_mat4 *model, shade_ray ray,
-                                 const shade__slabs *slabs, int triangle,
+                                 const shade__object_ray *local, int triangle,
                                  shade__hit *hit)
 {
     shade_vec3 p[3], q[3], where;
     double e[3], f[3], n[3], range[2];
     float t;
     for (uint32_t k = 0; k < 3; k++) q[k] = shade__corner(mesh, 3 * (uint32_t)triangle + k);
-    if (!shade__slabs_met(slabs, shade_min(q[0], shade_min(q[1], q[2])),
+    if (!shade__meets_box(local, shade_min(q[0], shade_min(q[1], q[2])),
                           shade_max(q[0], shade_max(q[1], q[2])), hit->t, range))
         return;
     for (uint32_t k = 0; k < 3; k++) p[k] = shade_mat4_transform_point(*model, q[k]);
     if (!shade_intersect(ray, p[0], p[1], p[2], &t, &where)) return;
     if ((double)t < range[0] || (double)t > range[1]) return;
-    if (t == hit->t && triangle > hit->triangle) return;
+    if (t == hit->t && triangle > hit->triangle) return;    /* t <= hit->t, as range ends there */
     /* model may round three points of a line to a triangle with area */
     if (!shade__edges3(q[0], q[1], q[2], e, f, n)) return;
     hit->triangle = triangle;
@@ -7169,7 +7172,7 @@ static void shade__pick_triangle(const shade_mesh *mesh,
 SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
                         float *t, shade_vec3 *barycentric)
 {
-    shade__slabs slabs;
+    shade__object_ray local;
     shade__hit hit;
     shade_chunk all;
     const shade_chunk *chunk = &all;
@@ -7183,15 +7186,15 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
         chunks = mesh->chunk_count;
     }
     model = shade__or_identity(model);
-    shade__slabs_of(&model, ray, &slabs);
+    shade__object_ray_of(&model, ray, &local);
     hit.triangle = -1;
     hit.t = FLT_MAX;    /* beyond every hit */
     for (; chunks > 0; chunks--, chunk++) {
         double range[2];
-        if (!shade__slabs_met(&slabs, chunk->low, chunk->high, hit.t, range)) continue;
+        if (!shade__meets_box(&local, chunk->low, chunk->high, hit.t, range)) continue;
         if (shade__check_range(mesh, chunk)) return -1;
         for (int i = 0; i < chunk->count; i++)
-            shade__pick_triangle(mesh, &model, ray, &slabs, chunk->first + i,
+            shade__pick_triangle(mesh, &model, ray, &local, chunk->first + i,
                                  &hit);
     }
     if (hit.triangle >= 0 && t) *t = hit.t;
@@ -7214,8 +7217,8 @@ enum {
 
 typedef struct shade__survey {
     const shade_target     *target;      /* what the caller passed */
-    const shade_draw_state *given;
-    const shade_stats      *known;       /* NULL: he passed none */
+    const shade_draw_state *given_state;
+    const shade_stats      *given_stats; /* NULL: none were passed */
 
     shade_mesh       mesh;               /* what the next experiment draws */
     shade_draw_state state;
@@ -7393,11 +7396,11 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
    perspective, or (0, 0, 1, 0) of a left-handed one. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
-    const shade_vec4 row = m->col[3];
+    const shade_vec4 last = m->col[3];
     const float b = m->col[2].w;
-    if (row.w == 0)    /* b is none of 0, 1 and -1 */
-        return (row.z == 1 || row.z == -1) && b * (1 - b * b) != 0;
-    return row.w == 1 && shade__is_zero(shade__xyz(row)) &&
+    if (last.w == 0)    /* b is none of 0, 1 and -1 */
+        return (last.z == 1 || last.z == -1) && b * (1 - b * b) != 0;
+    return last.w == 1 && shade__is_zero(shade__xyz(last)) &&
            !shade__is_affine(m);
 }
 
@@ -7441,7 +7444,7 @@ static const char *shade__suspect_matrices(const shade__survey *s)
 
 static const char *shade__suspect_state(const shade__survey *s)
 {
-    const shade_raster *r = &s->given->raster;
+    const shade_raster *r = &s->given_state->raster;
     const shade_mat4 *p = &s->state.projection;
     /* column 3 has z < 0 in a perspective, > 0 in a reversed one */
     const int perspective = p->col[3].w == 0, reversed = p->col[3].z > 0;
@@ -7469,7 +7472,7 @@ static const char *shade__why_culled(const shade__survey *s)
         return "raster.cull leaves out every triangle in view, and the eye lies inside of the "
                "mesh's box: set state.view, or move the eye out.";
 
-    if (s->given->raster.cull == SHADE_CULL_FRONT)
+    if (s->given_state->raster.cull == SHADE_CULL_FRONT)
         return "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
                "SHADE_CULL_BACK or SHADE_CULL_NONE.";
     return "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
@@ -7479,7 +7482,7 @@ static const char *shade__why_culled(const shade__survey *s)
 
 static const char *shade__why_outside(shade__survey *s)
 {
-    const shade_mat4 p = shade__or_identity(s->given->projection);
+    const shade_mat4 p = shade__or_identity(s->given_state->projection);
     const int others = shade__depth_varies(s);
     if (shade__is_rigid(&p))
         return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
@@ -7538,9 +7541,9 @@ static const char *shade__why_nothing(shade__survey *s)
 static const char *shade__why_hidden(const shade__survey *s)
 {
     const shade_target *t = s->target;
-    const shade__compare test = shade__compare_of(&s->given->raster);
-    const float bias = s->given->raster.depth_bias, side = SHADE__SMALL_SIDE;
-    int fails, seen = 0, failed = 0, stuck = 0;
+    const shade__compare test = shade__compare_of(&s->given_state->raster);
+    const float bias = s->given_state->raster.depth_bias, side = SHADE__SMALL_SIDE;
+    int fails, seen = 0, contested = 0, stuck = 0;
 
     for (int k = 0; k < SHADE__SMALL_PIXELS; k++) {
         const float right = (float)(2 * (k % SHADE__SMALL_SIDE) + 1) / side - 1;
@@ -7554,7 +7557,7 @@ static const char *shade__why_hidden(const shade__survey *s)
         if (t->depth) stored = t->depth[shade__offset_of(t, i, j)];
         fails = !shade__passes(test, 0, s->first[k] + bias, stored);
         seen++;
-        failed += fails || stored != s->farthest;
+        contested += fails || stored != s->farthest;    /* or it passed before another mesh */
         stuck += fails && (stored == 1 - s->farthest || stored != stored);
     }
 
@@ -7563,8 +7566,8 @@ static const char *shade__why_hidden(const shade__survey *s)
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
                "depth of 1, or 0 for a reversed projection.";
 
-    if (!s->known || !s->whole || !seen || shade__is_scattered(s)) return NULL;
-    if (failed > seen / 2)
+    if (!s->given_stats || !s->whole || !seen || shade__is_scattered(s)) return NULL;
+    if (contested > seen / 2)
         return "What target.depth holds hides the mesh: other meshes, the frame before without a "
                "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
                "raster.depth_bias pushes it behind them.";
@@ -7576,7 +7579,7 @@ static const char *shade__why_hidden(const shade__survey *s)
 
 static const char *shade__suspect_picture(shade__survey *s)
 {
-    const shade_raster *r = &s->given->raster;
+    const shade_raster *r = &s->given_state->raster;
     const int covered = shade__try_depth(s);
     if (s->stats.rejected)
         return "Some triangles are left out, since mesh.positions hold NaN, infinite or huge "
@@ -7632,7 +7635,7 @@ static const char *shade__why_unlit(shade__survey *s)
 
 static const char *shade__why_dark(shade__survey *s)
 {
-    const shade_raster *r = &s->given->raster;
+    const shade_raster *r = &s->given_state->raster;
     shade_lighting *l = &s->state.lighting;
     if (s->state.transparency >= 1)
         return "state.transparency is 1, which is invisible; 0 is opaque.";
@@ -7687,7 +7690,7 @@ static const char *shade__why_dark(shade__survey *s)
 
 static const char *shade__why(shade__survey *s)
 {
-    const int sure = s->known && s->known->fragments > 0;
+    const int sure = s->given_stats && s->given_stats->fragments > 0;
     const char *why = shade__suspect_matrices(s);
     int drawn;
 
@@ -7700,9 +7703,9 @@ static const char *shade__why(shade__survey *s)
     SHADE_MEMCPY(s->first, s->depth, sizeof s->first);
     if (!drawn) return sure ? NULL : shade__why_nothing(s);
     if (!sure) why = shade__why_hidden(s);
-    if (why || (s->known && !sure)) return why;
+    if (why || (s->given_stats && !sure)) return why;
     why = shade__suspect_picture(s);
-    return why || !s->target->color || s->given->fragment ? why : shade__why_dark(s);
+    return why || !s->target->color || s->given_state->fragment ? why : shade__why_dark(s);
 }
 
 /* Makes the draw fit for a small picture: depth is tested and written, highlights are too wide to
@@ -7750,9 +7753,9 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
               s.clip[3] - s.clip[1] == target->height;
     s.target = target;
     s.mesh = *mesh;
-    s.given = state;
+    s.given_state = state;
     s.state = *state;
-    s.known = stats;
+    s.given_stats = stats;
     shade__begin_survey(&s);
     why = shade__why(&s);
     return why ? why : "";
@@ -7785,7 +7788,7 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
     SHADE_MEMCPY(p, "\n255\n", 5);
     if (sink(user, head, (size_t)(p + 5 - head))) return SHADE_ERROR_IO;
     from = to = *target;
-    from.srgb = 0;
+    from.srgb = 0;    /* stored sRGB passes unchanged; only floats are encoded */
     to.format = SHADE_FORMAT_RGBA8;
     to.srgb = target->srgb && target->format == SHADE_FORMAT_RGBA32F;
     for (int y = 0; y < shade__rows_held(target); y++) {

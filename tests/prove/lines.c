@@ -19,7 +19,7 @@ int main(void)
     s.state = &state;
     s.half[0] = Frama_C_double_interval(0.5, 8192);
     s.half[1] = Frama_C_double_interval(0.5, 8192);
-    s.half_width = Frama_C_double_interval(0, 1.8e38);
+    s.half_line = Frama_C_double_interval(0, 1.8e38);
     /* 4 points are 12 corners */
     for (int i = 0; i < SHADE_LANES; i++)
         ids.index[i] = Frama_C_unsigned_int_interval(0, 11);

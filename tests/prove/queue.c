@@ -32,7 +32,7 @@ static void prove_push(int varyings, int stride, int lod)
     d.plan.divided = ANY_OF(SHADE__FIRST, d.plan.values);
     d.plan.value_stride = stride;
     d.plan.lod = lod ? varyings + SHADE__FIRST : 0;
-    d.plan.places_unread = ANY_OF(0, 1);
+    d.plan.inputs_unread = ANY_OF(0, 1);
     d.plan.stride = ANY_OF(1, INT32_MAX);
     d.plan.row_offset = ANY_OF(0, 16383);
     texture.width = texture.height = ANY_OF(1, 16384);
@@ -67,7 +67,7 @@ static void prove_flush(int count)
     d.plan.varyings = ANY_OF(0, SHADE_MAX_VARYINGS);
     d.plan.divided = ANY_OF(SHADE__FIRST, SHADE__FIRST + SHADE_MAX_VARYINGS);
     d.plan.lod = ANY_OF(0, 1);
-    d.plan.places_unread = ANY_OF(0, 1);
+    d.plan.inputs_unread = ANY_OF(0, 1);
     d.u.queue.f.count = count;
     shade__flush_body(&d);
     /*@ assert d.u.queue.f.count == 0; */
