@@ -68,13 +68,13 @@
        >>store     5287  blending, packing
      Inside: calls
        >>check     5514  refusals              >>drive     5678  shade_draw, batch by batch
-       >>mesh      6043  shade_draw_mesh       >>lines     6437  shade_draw_lines
-       >>shape     6595  normals, edges        >>chunks    6825  boxes around triangles
-       >>rays      6999  shade_pick            >>survey    7205  experiments on a draw
-       >>explain   7352  why nothing is seen   >>image     7764  PPM
+       >>mesh      6043  shade_draw_mesh       >>lines     6438  shade_draw_lines
+       >>shape     6596  normals, edges        >>chunks    6826  boxes around triangles
+       >>rays      7000  shade_pick            >>survey    7206  experiments on a draw
+       >>explain   7353  why nothing is seen   >>image     7765  PPM
      Sources
-       >>refs      7830                        >>history   7856
-       >>license   7865
+       >>refs      7831                        >>history   7857
+       >>license   7866
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -6381,19 +6381,20 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
    chunks have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
                                                        shade_pipeline *p, int own,
-                                                       shade__supply *supply,
+                                                       const shade__supply *all,
                                                        shade_stats *stats)
 {
     const shade__scene *scene = (const shade__scene *)p->uniforms;
+    shade__supply supply = *all;
     shade__frustum frustum;
     shade__frustum_of(target, &scene->clip_from_object,
                       p->raster.depth_zero_to_one, &frustum);
-    supply->end = 0;
-    supply->more = shade__next_chunk;
-    supply->chunks = scene->mesh->chunk_count;
-    supply->chunk = scene->mesh->chunks;
-    supply->frustum = &frustum;
-    return shade__run_draw(target, p, own, supply, stats);
+    supply.end = 0;
+    supply.more = shade__next_chunk;
+    supply.chunks = scene->mesh->chunk_count;
+    supply.chunk = scene->mesh->chunks;
+    supply.frustum = &frustum;
+    return shade__run_draw(target, p, own, &supply, stats);
 }
 
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
