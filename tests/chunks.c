@@ -34,11 +34,6 @@ static shade_vec3 chunk_corner(const shade_mesh *m, int k)
     return p;
 }
 
-static float chunk_coordinate(shade_vec3 p, int axis)
-{
-    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 /* -------------------------------------------------------------------------------- random scenes */
 
 /* Soups, patches whose neighbours share vertices, slivers, sizes apart by powers of ten; now and
@@ -579,14 +574,6 @@ TEST(chunks, depths_that_underflow_are_not_hidden)
 
 /* -------------------------------------------------------------------------------- the contract */
 
-static shade_vec3 with_axis(shade_vec3 p, int axis, float value)
-{
-    if (axis == 0) p.x = value;
-    if (axis == 1) p.y = value;
-    if (axis == 2) p.z = value;
-    return p;
-}
-
 /* A box that is out of sight until one of its numbers is spoilt: what cannot be told must be
    drawn. */
 TEST(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible)
@@ -963,13 +950,13 @@ static void check_made(const chunk_maker *m, const shade_mesh *mesh, int count, 
             const shade_vec3 p = chunk_corner(mesh, k);
             if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z)) continue;
             for (int axis = 0; axis < 3; axis++) {
-                low[axis] = fminf(low[axis], chunk_coordinate(p, axis));
-                high[axis] = fmaxf(high[axis], chunk_coordinate(p, axis));
+                low[axis] = fminf(low[axis], coordinate(p, axis));
+                high[axis] = fmaxf(high[axis], coordinate(p, axis));
             }
         }
         for (int axis = 0; axis < 3; axis++) {
-            CHECK(chunk_coordinate(c->low, axis) == low[axis]);
-            CHECK(chunk_coordinate(c->high, axis) == high[axis]);
+            CHECK(coordinate(c->low, axis) == low[axis]);
+            CHECK(coordinate(c->high, axis) == high[axis]);
         }
         first += c->count;
     }
@@ -1187,8 +1174,8 @@ TEST(chunks, neighbouring_floats_are_sorted_apart)
         }
         CHECK_INT(make_chunks(&m, 32, 1), 2);
         for (int i = 0; i < 2; i++)
-            CHECK(chunk_coordinate(m.chunk[CHUNK_GUARD + i].low, axis) ==
-                  chunk_coordinate(m.chunk[CHUNK_GUARD + i].high, axis));
+            CHECK(coordinate(m.chunk[CHUNK_GUARD + i].low, axis) ==
+                  coordinate(m.chunk[CHUNK_GUARD + i].high, axis));
     }
     close_maker(&m);
 }
@@ -1278,9 +1265,9 @@ static shade_ray random_pick_ray(const chunk_scene *s, shade_mat4 model)
     if (rnd_one_in(2)) ray.direction = shade_normalize(ray.direction);
     if (rnd_one_in(6)) { /* along an axis, from beside the point: other components are 0 */
         const int axis = rnd_int(0, 2);
-        ray.origin = with_axis(at, axis, chunk_coordinate(from, axis));
+        ray.origin = with_axis(at, axis, coordinate(from, axis));
         ray.direction = with_axis(shade_v3(0, 0, 0), axis,
-                                  chunk_coordinate(shade_sub(at, from), axis));
+                                  coordinate(shade_sub(at, from), axis));
         if (rnd_one_in(3)) ray.direction = with_axis(ray.direction, (axis + 1) % 3, -0.0f);
     }
     if (rnd_one_in(20)) ray.direction = with_axis(ray.direction, rnd_int(0, 2), rnd_nasty());

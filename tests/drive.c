@@ -255,6 +255,17 @@ TEST(drive, bad_indices_are_refused_before_a_pixel_changes)
     canvas_close(&d.c);
 }
 
+/* Lists of whole vectors and of a rest. */
+TEST(drive, every_index_is_0_where_there_is_one_vertex)
+{
+    static uint32_t zeros[99];
+    drive_call d;
+    drive_open(&d, SHADE_FORMAT_RGBA8);
+    for (int n = 0; n <= 99; n += 3)
+        CHECK_INT(shade_draw(&d.c.target, &d.p, zeros, n, 1, NULL), SHADE_OK);
+    canvas_close(&d.c);
+}
+
 /* The list is longer than several batches of vertices; the bad index is the first that is too
    great, the second, or the greatest there is. */
 /* G2 */
@@ -567,6 +578,7 @@ static const test_case drive_cases[] = {
     CASE(drive, memory_of_2_to_the_32_minus_1_pixels_is_the_largest),
     CASE(drive, bad_pipelines_are_refused),
     CASE(drive, bad_indices_are_refused_before_a_pixel_changes),
+    CASE(drive, every_index_is_0_where_there_is_one_vertex),
     CASE(drive, one_bad_index_anywhere_in_a_long_list_is_found),
     CASE(drive, no_triangles_is_no_error),
     CASE(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up),

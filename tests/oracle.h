@@ -18,6 +18,19 @@ static d3 d3_of(double x, double y, double z)
     return v;
 }
 
+/* Coordinate 0, 1 or 2 of a vector, and the vector with another one there. */
+static float coordinate(shade_vec3 p, int axis)
+{
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+static shade_vec3 with_axis(shade_vec3 p, int axis, float value)
+{
+    if (axis == 0) p.x = value;
+    if (axis == 1) p.y = value;
+    if (axis == 2) p.z = value;
+    return p;
+}
+
 static d3 d3_from(shade_vec3 v) { return d3_of((double)v.x, (double)v.y, (double)v.z); }
 static d3 d3_add(d3 a, d3 b) { return d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
 static d3 d3_sub(d3 a, d3 b) { return d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }

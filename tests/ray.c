@@ -1040,6 +1040,31 @@ TEST(ray, in_the_plane_of_a_triangle_a_ray_meets_it_in_its_box_or_not_at_all)
               "%d picked, %d before, %d behind", picked, before, behind);
 }
 
+/* The box of a flat triangle has no depth, while a rotation rounds its corners by 2^-24 of how far
+   they are: by 1/16 at 1e6. */
+TEST(ray, a_flat_triangle_is_met_however_far_it_is)
+{
+    int met = 0;
+    for (int i = 0; i < 5000; i++) {
+        const int axis = rnd_int(0, 2);
+        const shade_vec3 at = shade_scale(d3_round(rnd_direction()), rnd_log(1, 1e6));
+        const shade_mat4 model = shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction()));
+        shade_vec3 corner[3], world[3];
+        for (int k = 0; k < 3; k++) {
+            corner[k] = shade_add(at, shade_scale(d3_round(rnd_direction()), rnd_float(1, 9)));
+            corner[k] = with_axis(corner[k], axis, coordinate(at, axis));
+            world[k] = shade_mat4_transform_point(model, corner[k]);
+        }
+        const shade_mesh m = plain_mesh(&corner[0].x, 3);
+        const shade_vec3 sum = shade_add(world[0], shade_add(world[1], world[2]));
+        const shade_ray ray = { { 0, 0, 0 }, shade_normalize(sum) };
+        if (!shade_intersect(ray, world[0], world[1], world[2], NULL, NULL)) continue;
+        CHECK_INT(shade_pick(&m, model, ray, NULL, NULL), 0);
+        met++;
+    }
+    CHECK_SAY(met > 4000, "%d met", met);
+}
+
 static const test_case ray_cases[] = {
     CASE(ray, perspective_rays_leave_the_eye_through_the_pixel),
     CASE(ray, off_centre_frustums_bend_their_rays),
@@ -1067,5 +1092,6 @@ static const test_case ray_cases[] = {
     CASE(ray, cast_and_drawn_pictures_agree_in_reversed_depth),
     CASE(ray, cast_and_drawn_pictures_agree_without_perspective),
     CASE(ray, a_model_whose_w_is_two_is_picked_at_half_its_size),
+    CASE(ray, a_flat_triangle_is_met_however_far_it_is),
     CASE(ray, in_the_plane_of_a_triangle_a_ray_meets_it_in_its_box_or_not_at_all),
 };
