@@ -329,6 +329,26 @@ MISTAKE(clear_forgotten_where_it_draws)
 MISTAKE(depth_full_of_nan) { stage_leave_depth(s, 255); }
 MISTAKE(second_frame) { s->draws = 2; }
 MISTAKE(cleared_to_zero) { s->clear = 0; }
+/* The rectangle alone is cleared to 0, and depth beside it is fit for a picture. */
+static void clear_to_zero_in(stage *s, int x, int y, int width, int height)
+{
+    shade_clear(&s->c.target, shade_v4(0, 0, 0, 1), 1);
+    s->c.target.clip_x = x;
+    s->c.target.clip_y = y;
+    s->c.target.clip_width = width;
+    s->c.target.clip_height = height;
+    s->clear = 0;
+}
+MISTAKE(zero_on_the_left) { clear_to_zero_in(s, 0, 0, STAGE_WIDTH / 2, STAGE_HEIGHT); }
+MISTAKE(zero_on_the_right)
+{
+    clear_to_zero_in(s, STAGE_WIDTH / 2, 0, STAGE_WIDTH / 2, STAGE_HEIGHT);
+}
+MISTAKE(zero_above) { clear_to_zero_in(s, 0, 0, STAGE_WIDTH, STAGE_HEIGHT / 2); }
+MISTAKE(zero_below)
+{
+    clear_to_zero_in(s, 0, STAGE_HEIGHT / 2, STAGE_WIDTH, STAGE_HEIGHT / 2);
+}
 MISTAKE(hidden_by_the_frame_before) { s->clear = 0.5f; }
 MISTAKE(greater) { s->state.raster.depth_test = SHADE_COMPARE_GREATER; }
 MISTAKE(greater_cleared_to_zero)
@@ -670,6 +690,8 @@ static const mistake mistakes[] = {
     OF(clear_forgotten, "shade_clear"), OF(clear_forgotten_where_it_draws, "holds 0"),
     OF(depth_full_of_nan, "shade_clear"),
     OF_STATS(second_frame, "shade_clear"), OF(cleared_to_zero, "depth_test"),
+    OF(zero_on_the_left, "holds 0"), OF(zero_on_the_right, "holds 0"), OF(zero_above, "holds 0"),
+    OF(zero_below, "holds 0"),
     OF_STATS(hidden_by_the_frame_before, "shade_clear"), OF(greater, "SHADE_COMPARE_LESS"),
     OF(greater_cleared_to_zero, "SHADE_COMPARE_LESS"), OF(reversed_cleared_to_one, "shade_clear"),
     OF(reversed_with_less, "SHADE_COMPARE_GREATER"), OF_STATS(equal, "target.depth"),
