@@ -54,12 +54,12 @@
        >>plumbing   360  compilers             >>light      487  the equation and its terms
        >>draw       611  meshes and pixels     >>math       854  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1215  processors            >>base      1372  bits, masks, rows of vectors
-       >>matrix    1547  cameras, inverses     >>power     1821  x^n
-       >>pixels    1887  formats, sRGB
+       >>machine   1215  processors            >>base      1371  bits, masks, rows of vectors
+       >>matrix    1546  cameras, inverses     >>power     1820  x^n
+       >>pixels    1886  formats, sRGB
      Inside: light
-       >>lamps     2055  attenuation, cones    >>terms     2330  one term at one point
-       >>surface   2468  material and lights   >>lit       2592  the whole sum, at many points
+       >>lamps     2054  attenuation, cones    >>terms     2329  one term at one point
+       >>surface   2467  material and lights   >>lit       2591  the whole sum, at many points
      Inside: the way of a triangle
        >>state     3030  who owns what         >>vertices  3211  shading, projection
        >>triangles 3474  dropped, cut, edges   >>clip      3841  near, far, behind the eye
@@ -1254,8 +1254,7 @@ SHADE__BEGIN
 #endif
 
 /* gcc would turn loops that fill rows into memset or rep stos, which costs 9 % of a flat fill.  -O2
-   makes debug builds fast too.  SHADE__AS_COMPILED keeps the user's own -O, for counting branches.
-   */
+   makes debug builds fast too.  SHADE__AS_COMPILED keeps the user's own -O, to count branches. */
 #if defined(__GNUC__) && !defined(__clang__)
 #if defined(__OPTIMIZE_SIZE__) || defined(SHADE__AS_COMPILED)
 #pragma GCC optimize("fp-contract=off", "no-tree-loop-distribute-patterns")
@@ -1822,13 +1821,13 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
    x^n = 2^(-u), u = -n log2 x, without libm: the same bits everywhere, and loops over lanes that
    vectorise.
      in      x in [0, 1], n >= 0          out  a value in [0, 1], absolute error below 5e-7
-     method  minimax polynomials: log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1], where the
-             error relative to -log2 x of the whole x is least: below 1e-6 in floats, which a power
-             turns into at most 1e-6 / e; two degrees more would give 2.7e-8 and cost 4 to 7 % of
+     method  minimax polynomials.  log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1]: P makes
+             the error relative to -log2 x least, which stays below 1e-6 in floats.  A power turns
+             that into at most 1e-6 / e.  Two degrees more would give 2.7e-8 and cost 4 to 7 % of
              lit packets.  2^-r = 1 + r Q(r) on [-1/2, 1/2], relative error 9.2e-8.  All figures
              were measured over all floats in [0, 1].                                    >>pixels */
 
-/* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0. The addend carries into the exponent where
+/* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0.  The addend carries into the exponent where
    the mantissa is at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is
    lost.   post: >= 0 for those x, finite for any bits */
 SHADE__INLINE float shade__neg_log2(float x)
@@ -1859,7 +1858,7 @@ SHADE__INLINE float shade__exp2_neg(float u)
     return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)), some);
 }
 
-/* In the place of a cosine that does not exist: its power is 0, the zeroth as well. */
+/* Stands for a cosine that does not exist: every power of it is 0, the zeroth too. */
 #define SHADE__NEVER -2.0f
 
 /* n times -log2(min(x, 1)), the exponent that shade__exp2_neg takes.  Where x <= least it is 126,
@@ -1890,8 +1889,8 @@ SHADEDEF float shade_power(float x, float n)
      holds   A new packed format of 1, 2 or 4 bytes is an enumerator and a row of shade__layouts.
      source  sRGB curve [IEC61966]                                                        >>lamps */
 
-/* The sRGB curve and its inverse.   pre: 0 <= c <= 1   post: 0 <= result <= 1, which has been held
-   for every such float */
+/* The sRGB curve and its inverse.   pre: 0 <= c <= 1   post: 0 <= result <= 1, as was tried
+   with every such float */
 SHADE__INLINE float shade__srgb_encode(float c)
 {
     float curve = 1.055f * shade__exp2_neg(shade__neg_log2(c) * (1 / 2.4f)) - 0.055f;
@@ -1940,7 +1939,7 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
    of four floats, which have 16 bytes, only bytes means anything. */
 typedef struct shade__layout {
     uint8_t bytes;       /* of a pixel in memory */
-    uint8_t swapped;     /* non-zero: its two bytes lie in the order that the processor has not */
+    uint8_t swapped;     /* non-zero: its two bytes are in the order that is not the processor's */
     uint8_t shift[4];
     uint8_t full[4];     /* the greatest value of each channel, which stands for 1 */
 } shade__layout;
@@ -2119,7 +2118,7 @@ typedef struct shade__lamp {
     int falls;              /* the attenuation depends on r */
     /* What one surface reflects of it, set by >>surface. */
     shade_vec3 ambient, diffuse, specular;    /* k_a I_La, k_d I_d, k_s I_s */
-    int on;                 /* one of the three is not zero; if 0, no other field is set */
+    int on;                 /* 0: the three are zero, and no other field is set */
     int masked;             /* lanes without light have to be masked: shade__combine */
 } shade__lamp;
 
@@ -2711,9 +2710,9 @@ static void shade__unit3(double *v)
     for (int i = 0; i < 3; i++) v[i] *= k;
 }
 
-/* The lanes that are nearly opposite, where L + V keeps few digits in float, again from the
-   positions, in double.  The square in float decides which lanes they are, as it does for the
-   packet: a lane has the same bits whatever its neighbours hold. */
+/* Computes N.H again, from the positions and in double, in lanes where L and V are nearly opposite:
+   L + V keeps few digits in float there.  The square in float decides which lanes these are, as it
+   does for the packet, so that a lane has the same bits whatever its neighbours hold. */
 static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
                                              const shade__v3 *normal,
                                              const int n, shade__lit *r)
@@ -2841,9 +2840,9 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
     }
 }
 
-/* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight), where surface->sign makes
-   N.L its size.  Lanes that the lamp does not reach add 0.  With masked they do whatever they hold;
-   without it they add 0 times k_d I_d and k_s I_s, which must be finite. */
+/* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight).  With TWO_SIDED_ABS
+   surface->sign makes |N.L| of N.L.  Lanes that the lamp does not reach add 0.  With masked they do
+   whatever they hold; without it they add 0 times k_d I_d and k_s I_s, which must be finite. */
 SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
                                   shade__in_v3 albedo, shade__in_v3 tint,
                                   const int masked, const int n,
@@ -2863,8 +2862,9 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
     }
 }
 
-/* One of the copies of shade__combine.  Whether there are rows is constant in each, because a loop
-   that asks stays scalar.  The mask costs 2 % of the commonest light, so the last goes without. */
+/* Calls one of the copies of shade__combine.  Whether there are rows is constant in each, because a
+   loop that asks stays scalar.  The last goes without the mask, which costs 2 % of the commonest
+   light. */
 SHADE__INLINE void shade__add_light(const shade__lit *r,
                                     const shade__v3 *albedo, const int n,
                                     shade__v3 *rgb)
@@ -3028,9 +3028,9 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
 }
 
 /*------------------------------------------------------------------------------------------ >>state
-  What a draw knows, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB at
-  the defaults, of which the queue takes 12.4 and the batch 8.8, and a draw with light and a map
-  38.4 kB in all.
+   What a draw knows, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB at
+   the defaults, of which the queue takes 12.4 and the batch 8.8, and a draw with light and a map
+   38.4 kB in all.
 
      plan      >>drive       what the draw is; fixed before the first triangle, read by all
      supply    >>drive       the triangles that are still to come
