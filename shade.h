@@ -55,26 +55,26 @@
        >>draw       611  meshes and pixels     >>math       854  vectors and matrices
      Inside: words that the rest is written in
        >>machine   1215  processors            >>base      1371  bits, masks, rows of vectors
-       >>matrix    1546  cameras, inverses     >>power     1820  x^n
-       >>pixels    1886  formats, sRGB
+       >>matrix    1552  cameras, inverses     >>power     1846  x^n
+       >>pixels    1912  formats, sRGB
      Inside: light
-       >>lamps     2054  attenuation, cones    >>terms     2329  one term at one point
-       >>surface   2467  material and lights   >>lit       2591  the whole sum, at many points
+       >>lamps     2089  attenuation, cones    >>terms     2364  one term at one point
+       >>surface   2502  material and lights   >>lit       2626  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3030  who owns what         >>vertices  3211  shading, projection
-       >>triangles 3474  dropped, cut, edges   >>clip      3841  near, far, behind the eye
-       >>tiles     4019  pixels, depth test    >>cover     4365  what is hidden, tile by tile
-       >>fragments 4595  interpolation, lod    >>texture   4887  texels, mipmaps
-       >>store     5286  blending, packing
+       >>state     3065  who owns what         >>vertices  3246  shading, projection
+       >>triangles 3512  dropped, cut, edges   >>clip      3879  near, far, behind the eye
+       >>tiles     4063  pixels, depth test    >>cover     4410  what is hidden, tile by tile
+       >>fragments 4640  interpolation, lod    >>texture   4932  texels, mipmaps
+       >>store     5334  blending, packing
      Inside: calls
-       >>check     5513  refusals              >>drive     5677  shade_draw, batch by batch
-       >>mesh      6042  shade_draw_mesh       >>lines     6437  shade_draw_lines
-       >>shape     6595  normals, edges        >>chunks    6825  boxes around triangles
-       >>rays      6999  shade_pick            >>survey    7205  experiments on a draw
-       >>explain   7352  why nothing is seen   >>image     7764  PPM
+       >>check     5559  refusals              >>drive     5724  shade_draw, batch by batch
+       >>mesh      6089  shade_draw_mesh       >>lines     6484  shade_draw_lines
+       >>shape     6642  normals, edges        >>chunks    6872  boxes around triangles
+       >>rays      7049  shade_pick            >>survey    7256  experiments on a draw
+       >>explain   7403  why nothing is seen   >>image     7815  PPM
      Sources
-       >>refs      7830                        >>history   7856
-       >>license   7865
+       >>refs      7881                        >>history   7907
+       >>license   7916
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1412,6 +1412,9 @@ SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
     return shade__bits_float(shade__choose(shade__float_bits(a), shade__float_bits(b), mask));
 }
 
+/* The float of a number below 2^31; vectors of SSE2 and AVX2 convert signed integers alone. */
+SHADE__INLINE float shade__number(uint32_t n) { return (float)(int32_t)n; }
+
 /* |x| */
 SHADE__INLINE double shade__size(double x)
 {
@@ -1420,22 +1423,25 @@ SHADE__INLINE double shade__size(double x)
 
 SHADE__INLINE uint32_t shade__mask(int condition) { return 0u - (uint32_t)condition; }
 
-/* clamp(x, lo, hi) by the integer order of bit patterns, which is the order of non-negative floats
-   and puts every negative float below them.
+/* The bit pattern of a float as a signed number, and back.  Its order is that of non-negative
+   floats, and every negative float lies below them. */
+SHADE__INLINE int32_t shade__ordinal(float x) { return (int32_t)shade__float_bits(x); }
+SHADE__INLINE float shade__from_ordinal(int32_t i) { return shade__bits_float((uint32_t)i); }
+
+/* clamp(x, lo, hi) by the order of bit patterns.
    pre: 0 <= lo <= hi, x is not NaN: the sign of NaN, which differs between processors, would decide
    whether it gives lo or hi */
 SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 {
-    int32_t i = (int32_t)shade__float_bits(x), least = (int32_t)shade__float_bits(lo);
-    i = shade__min(shade__max(i, least), (int32_t)shade__float_bits(hi));
-    return shade__bits_float((uint32_t)i);
+    const int32_t i = shade__max(shade__ordinal(x), shade__ordinal(lo));
+    return shade__from_ordinal(shade__min(i, shade__ordinal(hi)));
 }
 
 /* clamp(x, 0, 1); NaN gives 0. */
 SHADE__INLINE float shade__unit(float x)
 {
-    int32_t i = (int32_t)shade__float_bits(shade__keep(x, shade__mask(x > 0)));
-    return shade__bits_float((uint32_t)shade__min(i, 0x3F800000));
+    const int32_t i = shade__ordinal(shade__keep(x, shade__mask(x > 0)));
+    return shade__from_ordinal(shade__min(i, 0x3F800000));
 }
 
 /* |x| <= limit, which is finite; 0 for NaN. */
@@ -1572,6 +1578,9 @@ static SHADE__COLD void shade__sincos(float radians, double *sine,
     if ((k + 1) & 2) *cosine = -*cosine;
 }
 
+/* The 16 floats of a matrix, column by column. */
+static const float *shade__entries(const shade_mat4 *m) { return (const float *)m; }
+
 static int shade__is_affine(const shade_mat4 *m)
 {
     return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 &&
@@ -1640,7 +1649,7 @@ SHADEDEF shade_mat4 shade_mat4_identity(void) { return shade_mat4_scaling(shade_
 static shade_mat4 shade__or_identity(shade_mat4 m)
 {
     for (int k = 0; k < 16; k++)
-        if (((const float *)&m)[k] != 0) return m;
+        if (shade__entries(&m)[k] != 0) return m;
     return shade_mat4_identity();
 }
 
@@ -1659,13 +1668,22 @@ SHADEDEF shade_mat4 shade_mat4_translation(shade_vec3 v)
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m)
 {
     shade_mat4 t = m;
-    for (int k = 0; k < 16; k++) ((float *)&t)[k] = ((const float *)&m)[k % 4 * 4 + k / 4];
+    for (int k = 0; k < 16; k++) ((float *)&t)[k] = shade__entries(&m)[k % 4 * 4 + k / 4];
     return t;
 }
 
-static void shade__doubles(const shade_mat4 *m, double *e)
+static void shade__doubles(const float *from, int n, double *to)
 {
-    for (int k = 0; k < 16; k++) e[k] = (double)((const float *)m)[k];
+    for (int k = 0; k < n; k++) to[k] = (double)from[k];
+}
+
+static shade_mat4 shade__mat4_of(const double e[16])
+{
+    float entry[16];
+    shade_mat4 m;
+    for (int k = 0; k < 16; k++) entry[k] = (float)e[k];
+    SHADE_MEMCPY(&m, entry, sizeof m);
+    return m;
 }
 
 /* The 2 x 2 minors of columns a and b, in rows xy xz xw yz yw zw. */
@@ -1680,7 +1698,7 @@ static void shade__minors(const double *a, const double *b, double *m)
 static double shade__expand(const shade_mat4 *m, double *e, double *s,
                             double *c)
 {
-    shade__doubles(m, e);
+    shade__doubles(shade__entries(m), 16, e);
     shade__minors(e, e + 4, s);
     shade__minors(e + 8, e + 12, c);
     return s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] +
@@ -1696,17 +1714,15 @@ SHADEDEF float shade_mat4_determinant(shade_mat4 m)
 static int shade__is_finite(const shade_mat4 *m)
 {
     for (int k = 0; k < 16; k++)
-        if (!shade__within(((const float *)m)[k], FLT_MAX)) return 0;
+        if (!shade__within(shade__entries(m)[k], FLT_MAX)) return 0;
     return 1;
 }
 
-/* The matrix of a camera with these columns; the degenerate camera where good is 0 or an entry is
+/* The matrix of a camera with these entries; the degenerate camera where good is 0 or an entry is
    not finite, as after a division by zero. */
-static shade_mat4 shade__camera(int good, double xx, double yy, shade_vec4 z,
-                                shade_vec4 w)
+static shade_mat4 shade__camera(int good, const double e[16])
 {
-    shade_mat4 none = shade__zero_matrix();
-    shade_mat4 m = shade__m4(shade_v4((float)xx, 0, 0, 0), shade_v4(0, (float)yy, 0, 0), z, w);
+    shade_mat4 none = shade__zero_matrix(), m = shade__mat4_of(e);
     none.col[3] = shade_v4(0, 0, 2, 1);
     return good && shade__is_finite(&m) ? m : none;
 }
@@ -1717,32 +1733,35 @@ static shade_mat4 shade__camera(int good, double xx, double yy, shade_vec4 z,
    double -> float -> double, as they would inside shade_pixel_ray. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
-    double e[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
+    double e[16], inverse[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
     for (int i = 0; i < 4; i++) {
         const double *v = e + 4 * (i ^ 1), *o = i < 2 ? c : s;
         const double sign = 1 - 2 * (i & 1);
         const double x = sign * v[0], y = sign * v[1], z = sign * v[2], w = sign * v[3];
-        float *row = (float *)&m + i;
-        row[0] = (float)((y * o[5] - z * o[4] + w * o[3]) * k);
-        row[4] = (float)((-x * o[5] + z * o[2] - w * o[1]) * k);
-        row[8] = (float)((x * o[4] - y * o[2] + w * o[0]) * k);
-        row[12] = (float)((-x * o[3] + y * o[1] - z * o[0]) * k);
+        double *row = inverse + i;
+        row[0] = (y * o[5] - z * o[4] + w * o[3]) * k;
+        row[4] = (-x * o[5] + z * o[2] - w * o[1]) * k;
+        row[8] = (x * o[4] - y * o[2] + w * o[0]) * k;
+        row[12] = (-x * o[3] + y * o[1] - z * o[0]) * k;
     }
+    m = shade__mat4_of(inverse);
     return shade__is_finite(&m) ? m : shade__zero_matrix();
 }
 
 /* Rodrigues' formula: c 1 + s [a]x + (1 - c) a a^T, with a the unit axis. */
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis)
 {
-    double s, c;
-    shade_vec3 a = shade__unit_vector(axis), sa, t;
+    double sine, cosine;
+    float c;
+    shade_vec3 a = shade__unit_vector(axis), s, t;
     if (shade__is_zero(a)) return shade_mat4_identity();
-    shade__sincos(radians, &s, &c);
-    sa = shade_scale(a, (float)s);
-    t = shade_scale(a, (float)(1 - c));
-    return shade__m4(shade__xyzw(shade_madd(shade_v3((float)c, sa.z, -sa.y), t.x, a), 0),
-                     shade__xyzw(shade_madd(shade_v3(-sa.z, (float)c, sa.x), t.y, a), 0),
-                     shade__xyzw(shade_madd(shade_v3(sa.y, -sa.x, (float)c), t.z, a), 0),
+    shade__sincos(radians, &sine, &cosine);
+    c = (float)cosine;
+    s = shade_scale(a, (float)sine);
+    t = shade_scale(a, (float)(1 - cosine));
+    return shade__m4(shade__xyzw(shade_madd(shade_v3(c, s.z, -s.y), t.x, a), 0),
+                     shade__xyzw(shade_madd(shade_v3(-s.z, c, s.x), t.y, a), 0),
+                     shade__xyzw(shade_madd(shade_v3(s.y, -s.x, c), t.z, a), 0),
                      shade_v4(0, 0, 0, 1));
 }
 
@@ -1776,45 +1795,52 @@ static double shade__focal(float fovy)
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect,
                                            float near_z, float far_z)
 {
-    double y = shade__focal(fovy), n = (double)near_z, f = (double)far_z, d = n - f;
-    return shade__camera(n > 0 && f > 0, y / (double)aspect, y,
-                         shade_v4(0, 0, (float)((n + f) / d), -1),
-                         shade_v4(0, 0, (float)(2 * n * f / d), 0));
+    const double y = shade__focal(fovy), x = y / (double)aspect;
+    const double n = (double)near_z, f = (double)far_z, d = n - f;
+    const double e[16] = { x, 0, 0, 0, 0, y, 0, 0, 0, 0, (n + f) / d, -1, 0, 0, 2 * n * f / d, 0 };
+    return shade__camera(n > 0 && f > 0, e);
 }
 
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect,
                                                     float near_z)
 {
-    double y = shade__focal(fovy);
-    return shade__camera(near_z > 0, y / (double)aspect, y,
-                         shade_v4(0, 0, 0, -1), shade_v4(0, 0, near_z, 0));
+    const double y = shade__focal(fovy), x = y / (double)aspect, n = (double)near_z;
+    const double e[16] = { x, 0, 0, 0, 0, y, 0, 0, 0, 0, 0, -1, 0, 0, n, 0 };
+    return shade__camera(n > 0, e);
 }
 
-/* The camera of a box in eye space, or of the frustum whose near face is that of the box. */
-static shade_mat4 shade__box_camera(int frustum, double l, double r, double b,
-                                    double t, double n, double f)
+/* The camera of a box in eye space, or of the frustum whose near face is that of the box; its sides
+   are l, r, b, t, n and f. */
+static shade_mat4 shade__box_camera(int frustum, const float side[6])
 {
-    const double w = r - l, h = t - b, d = n - f, k = frustum ? 2 * n : 2;
-    const float x = (float)((r + l) / w), y = (float)((t + b) / h), z = (float)((n + f) / d);
-    if (!frustum)
-        return shade__camera(1, k / w, k / h, shade_v4(0, 0, (float)(k / d), 0),
-                             shade_v4(-x, -y, z, 1));
-    return shade__camera(n > 0 && f > 0, k / w, k / h, shade_v4(x, y, z, -1),
-                         shade_v4(0, 0, (float)(k * f / d), 0));
+    double v[6], e[16] = { 0 };
+    shade__doubles(side, 6, v);
+    const double w = v[1] - v[0], h = v[3] - v[2], n = v[4], f = v[5], d = n - f;
+    const double x = (v[1] + v[0]) / w, y = (v[3] + v[2]) / h, z = (n + f) / d;
+    const double k = frustum ? 2 * n : 2;
+    double *column = e + (frustum ? 8 : 12);
+    e[0] = k / w;
+    e[5] = k / h;
+    column[0] = frustum ? x : -x;
+    column[1] = frustum ? y : -y;
+    column[2] = z;
+    column[3] = frustum ? -1 : 1;
+    e[frustum ? 14 : 10] = frustum ? k * f / d : k / d;
+    return shade__camera(!frustum || (n > 0 && f > 0), e);
 }
 
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t,
                                        float n, float f)
 {
-    return shade__box_camera(1, (double)l, (double)r, (double)b, (double)t,
-                             (double)n, (double)f);
+    const float side[6] = { l, r, b, t, n, f };
+    return shade__box_camera(1, side);
 }
 
 SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
                                      float n, float f)
 {
-    return shade__box_camera(0, (double)l, (double)r, (double)b, (double)t,
-                             (double)n, (double)f);
+    const float side[6] = { l, r, b, t, n, f };
+    return shade__box_camera(0, side);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -1840,13 +1866,13 @@ SHADE__INLINE float shade__neg_log2(float x)
     p = p * f + 0.480665863f;
     p = p * f - 0.721388757f;
     p = p * f + 1.4426949f;
-    return (float)(127 - (int32_t)(t >> 23)) - f * p;
+    return 127 - shade__number(t >> 23) - f * p;
 }
 
 /* 2^-u, u >= 0 or infinite; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 */
 SHADE__INLINE float shade__exp2_neg(float u)
 {
-    const uint32_t some = shade__mask((int32_t)shade__float_bits(u) < 0x42FC0000);    /* 126 */
+    const uint32_t some = shade__mask(shade__ordinal(u) < 0x42FC0000);    /* 126 */
     float v = shade__keep(u, some), r, q = -0.00132647273f;
     int32_t k = (int32_t)(v + 0.5f);
     r = v - (float)k;
@@ -1866,8 +1892,8 @@ SHADE__INLINE float shade__exp2_neg(float u)
 SHADE__INLINE float shade__power_log(float x, float n)
 {
     const float least = shade__keep(SHADE__NEVER, shade__mask(!(n > 0)));
-    int32_t i = shade__min((int32_t)shade__float_bits(x), 0x3F800000);
-    float u = n * shade__neg_log2(shade__bits_float((uint32_t)i));
+    const int32_t i = shade__min(shade__ordinal(x), 0x3F800000);
+    const float u = n * shade__neg_log2(shade__from_ordinal(i));
     return shade__select(126.0f, u, shade__mask(x > least));
 }
 
@@ -1953,9 +1979,12 @@ static const shade__layout shade__layouts[] = {    /* in the order of shade_form
     { 1, 0, { 8, 8, 8, 0 }, { 1, 1, 1, 255 } }             /* A8 */
 };
 
+/* Whether an enumerator is one from 0 to last. */
+SHADE__INLINE int shade__known(unsigned value, unsigned last) { return value <= last; }
+
 SHADE__INLINE int shade__is_format(shade_format format)
 {
-    return (unsigned)format < sizeof shade__layouts / sizeof *shade__layouts;
+    return shade__known(format, sizeof shade__layouts / sizeof *shade__layouts - 1);
 }
 
 static size_t shade__pixel_bytes(shade_format format) { return shade__layouts[format].bytes; }
@@ -1980,7 +2009,7 @@ SHADE__INLINE int shade__shift(const shade__layout *l, int k)
 SHADE__INLINE float shade__channel(uint32_t packed, const shade__layout *l,
                                    int k)
 {
-    return (float)(int32_t)(packed >> shade__shift(l, k) & l->full[k]);
+    return shade__number(packed >> shade__shift(l, k) & l->full[k]);
 }
 
 /* Whether a picture's colours are stored as sRGB: those of packed formats that store them. */
@@ -2043,6 +2072,12 @@ SHADE__INLINE int shade__stride_of(const shade_target *t)
 SHADE__INLINE size_t shade__offset_of(const shade_target *t, int x, int y)
 {
     return (size_t)(y - t->row_offset) * (size_t)shade__stride_of(t) + (size_t)x;
+}
+
+/* The pixel with an index. */
+SHADE__INLINE uint8_t *shade__pixel(uint8_t *color, size_t index, size_t bytes)
+{
+    return color + index * bytes;
 }
 
 SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
@@ -2691,7 +2726,7 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
 }
 
 /* Vectors of doubles. */
-static void shade__double3(shade_vec3 v, double *to)
+SHADE__INLINE void shade__double3(shade_vec3 v, double *to)
 {
     to[0] = (double)v.x;
     to[1] = (double)v.y;
@@ -3086,7 +3121,7 @@ typedef struct shade__plan {
     shade__compare compare;           /* the test of the draw */
     shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
     float    toward;                  /* 1: greater depth is farther; -1: less is; 0: no bounds */
-    float    half_width, half_height; /* of the picture, in 1/256 pixels: below 2^22, exact */
+    double   half_width, half_height; /* of the picture, in 1/256 pixels */
 } shade__plan;
 
 typedef struct shade__vertex {        /* a vertex after the vertex shader */
@@ -3119,7 +3154,7 @@ typedef struct shade__incoming {
 /* What is left of a clipped triangle: a fan around its first corner. */
 typedef struct shade__polygon {
     shade__vertex vertex[SHADE__CLIP_VERTICES];
-    float    value[(int)SHADE__CLIP_VERTICES * (int)SHADE__VALUES_MAX];
+    float    value[SHADE__CLIP_VERTICES * SHADE__VALUES_MAX];
     uint8_t  corner[SHADE__CLIP_VERTICES];
     int      count;                   /* corners, in order */
     uint32_t taken;                   /* bit v: vertex v is in use */
@@ -3351,8 +3386,7 @@ SHADE__INLINE void shade__place_body(shade__draw *d,
     shade__placed p;
 
     shade__classify(vertices, plan->zero_to_one, &p);
-    shade__project((double)plan->half_width, (double)plan->half_height,
-                   plan->zero_to_one, &p);
+    shade__project(plan->half_width, plan->half_height, plan->zero_to_one, &p);
     shade__gather(plan, d->u.in.ids.count, vertices, &p, &d->batch);
 }
 SHADE__DISPATCH_AVX2(shade__place, (shade__draw *d, const shade_vertices *vertices), (d, vertices),
@@ -3378,21 +3412,25 @@ static void shade__shade_vertices(shade__draw *d)
 static SHADE__NOINLINE int shade__in_view(const shade__frustum *f,
                                           shade_vec3 low, shade_vec3 high)
 {
-    const double cx = ((double)low.x + (double)high.x) / 2, hx = (double)high.x - cx;
-    const double cy = ((double)low.y + (double)high.y) / 2, hy = (double)high.y - cy;
-    const double cz = ((double)low.z + (double)high.z) / 2, hz = (double)high.z - cz;
-    const double mx = shade__size(cx) + hx, my = shade__size(cy) + hy, mz = shade__size(cz) + hz;
+    double from[3], c[3], h[3], m[3];
     uint64_t signs = 0;
 
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
-    if (!(mx + my + mz <= DBL_MAX)) return 1;
+    shade__double3(low, from);
+    shade__double3(high, h);
+    for (int k = 0; k < 3; k++) {
+        c[k] = (from[k] + h[k]) / 2;
+        h[k] -= c[k];
+        m[k] = shade__size(c[k]) + h[k];
+    }
+    if (!(m[0] + m[1] + m[2] <= DBL_MAX)) return 1;
     SHADE__FOR(i, SHADE__PLANES) {
-        double most = f->k[0][i] * cx + f->k[1][i] * cy + f->k[2][i] * cz + f->k[3][i];
-        double off = f->size[0][i] * mx + f->size[1][i] * my;
-        off += f->size[2][i] * mz + f->size[3][i];
-        most += shade__size(f->k[0][i]) * hx;
-        most += shade__size(f->k[1][i]) * hy;
-        most += shade__size(f->k[2][i]) * hz;
+        double most = f->k[0][i] * c[0] + f->k[1][i] * c[1] + f->k[2][i] * c[2] + f->k[3][i];
+        double off = f->size[0][i] * m[0] + f->size[1][i] * m[1];
+        off += f->size[2][i] * m[2] + f->size[3][i];
+        most += shade__size(f->k[0][i]) * h[0];
+        most += shade__size(f->k[1][i]) * h[1];
+        most += shade__size(f->k[2][i]) * h[2];
         signs |= shade__double_bits(most + off * (1 / 1048576.0));
     }
     return !(signs >> 63);
@@ -3626,11 +3664,11 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
     const int next = k < 2 ? k + 1 : 0;
 
     SHADE__FOR(i, SHADE__TRIANGLES) {
-        int32_t dx = c->x[next][i] - c->x[k][i], dy = c->y[next][i] - c->y[k][i];
-        int32_t x = s->box[0][i] * 256 + 128 - c->x[k][i];
-        int32_t y = s->box[1][i] * 256 + 128 - c->y[k][i];
-        int32_t bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;    /* dy < 0, or 0 and dx > 0 */
-        double e = (double)dx * (double)y - (double)dy * (double)x + (double)bias;
+        const int32_t dx = c->x[next][i] - c->x[k][i], dy = c->y[next][i] - c->y[k][i];
+        const double x = s->box[0][i] * 256 + 128 - c->x[k][i];
+        const double y = s->box[1][i] * 256 + 128 - c->y[k][i];
+        const double bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;    /* dy < 0, or 0 and dx > 0 */
+        const double e = dx * y - dy * x + bias;
         s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
         s->ex[k][i] = -dy;
         s->ey[k][i] = dx;
@@ -3852,8 +3890,10 @@ static void shade__triangles(shade__draw *d)
 static double shade__distance_to(const float *clip, uint32_t plane,
                                  int zero_to_one)
 {
-    double x = (double)clip[0], y = (double)clip[1], z = (double)clip[2], w = (double)clip[3];
+    double p[4];
 
+    shade__doubles(clip, 4, p);
+    const double x = p[0], y = p[1], z = p[2], w = p[3];
     switch (plane) {
     case SHADE__OUT_NEAR: return zero_to_one ? z : z + w;
     case SHADE__OUT_FAR: return w - z;
@@ -3863,6 +3903,13 @@ static double shade__distance_to(const float *clip, uint32_t plane,
     case SHADE__OUT_GUARD_TOP: return 3 * w - y;
     default: return w - (double)shade__w_least;
     }
+}
+
+/* t of the way from one number to another, rounded once. */
+static float shade__between(float from, float to, double t)
+{
+    const double a = (double)from;
+    return (float)(a + t * ((double)to - a));
 }
 
 /* Adds the vertex where an edge leaves through a plane, t of the way from in to out.  On the screen
@@ -3882,13 +3929,10 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
         double inner = d_in * (double)shade__maxf(to[3], shade__w_least);
         s = inner / (inner - d_out * (double)shade__maxf(from[3], shade__w_least));
     }
-    for (int k = 0; k < 4; k++) {
-        double a = (double)from[k];
-        p->vertex[v].clip[k] = (float)(a + t * ((double)to[k] - a));
-    }
+    for (int k = 0; k < 4; k++) p->vertex[v].clip[k] = shade__between(from[k], to[k], t);
     for (int k = SHADE__FIRST; k < plan->values; k++) {
-        double a = (double)p->value[in * stride + k], way = k < plan->divided ? s : t;
-        p->value[v * stride + k] = (float)(a + way * ((double)p->value[out * stride + k] - a));
+        const float a = p->value[in * stride + k], b = p->value[out * stride + k];
+        p->value[v * stride + k] = shade__between(a, b, k < plan->divided ? s : t);
     }
     return (uint8_t)v;
 }
@@ -3955,7 +3999,7 @@ static uint32_t shade__polygon_of(const shade__plan *plan,
 static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
 {
     const int zero_to_one = plan->zero_to_one;
-    const double half_width = (double)plan->half_width, half_height = (double)plan->half_height;
+    const double half_width = plan->half_width, half_height = plan->half_height;
 
     for (int i = 0; i < p->count; i++) {
         shade__vertex *v = &p->vertex[p->corner[i]];
@@ -4028,7 +4072,8 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4],
              times the exact distance.                                                    >>cover */
 
 enum {
-    SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,    /* at least SHADE__TILE_ROWS */
+    SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
+    SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* room for a run in each row */
     SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
 };
 
@@ -4194,14 +4239,14 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
 {
     int pixels = 0;
 
-    if (SHADE__UNLIKELY(r->count > (int)SHADE__RUNS - (int)SHADE__TILE_ROWS)) shade__send(d, r);
+    if (SHADE__UNLIKELY(r->count > SHADE__RUNS_AHEAD)) shade__send(d, r);
     for (int k = 0; k < tile->rows; k++) {    /* nearly every set is one run or empty */
         const uint32_t set = tile->set[k], lowest = set & (0u - set);
         const int n = shade__count_bits(set);
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
             shade__add_set(d, r, lane, tile->x, tile->y + k, set);
-            if (r->count > (int)SHADE__RUNS - (int)SHADE__TILE_ROWS) shade__send(d, r);
+            if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
             continue;
         }
         shade__add_run(r, lane, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u),
@@ -4902,9 +4947,9 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
         return "The texture's stride is less than its width; it counts texels, 0 means the width.";
     if (!shade__is_format(t->format))
         return "The texture's format is no SHADE_FORMAT_... value.";
-    if ((unsigned)t->wrap_u > SHADE_WRAP_MIRROR || (unsigned)t->wrap_v > SHADE_WRAP_MIRROR)
+    if (!shade__known(t->wrap_u, SHADE_WRAP_MIRROR) || !shade__known(t->wrap_v, SHADE_WRAP_MIRROR))
         return "The texture's wrap_u or wrap_v is no SHADE_WRAP_... value.";
-    if ((unsigned)t->filter > SHADE_FILTER_TRILINEAR)
+    if (!shade__known(t->filter, SHADE_FILTER_TRILINEAR))
         return "The texture's filter is no SHADE_FILTER_... value.";
     return NULL;
 }
@@ -4912,14 +4957,17 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
 /* A block is 16 lanes, or all where there are fewer.  Loops run over blocks, so that a single
-   sample costs one of them. */
-enum { SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16 };
+   sample costs one of them.  TEXELS are the lanes filtered at a time: 2.5 % slower than whole
+   packets of 128, for 4.6 kB less of stack. */
+enum {
+    SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16,
+    SHADE__BLOCKS = SHADE_LANES / SHADE__BLOCK,    /* of a packet */
+    SHADE__TEXELS = SHADE_LANES < 64 ? SHADE_LANES : 64,
+    SHADE__TEXEL_BLOCKS = SHADE__TEXELS / SHADE__BLOCK
+};
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
-
-/* Lanes filtered at a time: 2.5 % slower than whole packets of 128, for 4.6 kB less of stack. */
-enum { SHADE__TEXELS = SHADE_LANES < 64 ? SHADE_LANES : 64 };
 
 /* One axis of a level: for each lane the texels before and after its place. */
 typedef struct shade__axis {
@@ -4936,7 +4984,7 @@ typedef struct shade__reader {
     const shade__layout *layout;
     size_t y_bytes;              /* how many bytes 1 in y.i stands for; 1 in x.i is one */
     int nearest, blocks;
-    uint32_t apart[(int)SHADE__TEXELS / (int)SHADE__BLOCK];    /* 0: 8 bytes hold each pair */
+    uint32_t apart[SHADE__TEXEL_BLOCKS];    /* 0: 8 bytes hold each pair */
     shade__axis x, y;
     uint32_t pair[2][SHADE__TEXELS];    /* the bytes before the left texel, above and below */
 } shade__reader;
@@ -5066,7 +5114,7 @@ SHADE__INLINE float shade__texel(uint32_t packed, const shade__layout *l, int k)
 {
     const int shift = shade__shift(l, k), down = k < 3 && shade__low_byte_first() ? 0 : shift;
     const uint32_t mask = (uint32_t)l->full[k] << (shift - down);
-    return (float)(int32_t)(packed >> down & mask) * (1.0f / (float)(int32_t)mask);
+    return shade__number(packed >> down & mask) * (1 / shade__number(mask));
 }
 
 /* Channel k of four packed texels, blended: left and right above, left and right below. */
@@ -5245,7 +5293,7 @@ SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u,
     }
     for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS)
         shade__sample(texture, u + i, v + i, lod ? lod + i : lod,
-                      (int)SHADE__TEXELS / (int)SHADE__BLOCK, rgba + i);
+                      SHADE__TEXEL_BLOCKS, rgba + i);
 }
 
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
@@ -5297,7 +5345,7 @@ SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold,
     SHADE__EACH_BLOCK(i, blocks) {
         uint32_t v = (uint32_t)(int32_t)y[i], d = (uint32_t)(int32_t)x[i] ^ v;
         uint32_t rank = (d & 1) << 3 | (v & 1) << 2 | (d & 2) | (v & 2) >> 1;
-        threshold[i] = ((float)(int32_t)rank + 0.5f) * 0.0625f;
+        threshold[i] = (shade__number(rank) + 0.5f) * 0.0625f;
     }
 }
 
@@ -5414,7 +5462,7 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive,
     const shade__layout l = *d->plan.layout;
     uint8_t *color = d->plan.color;
     for (int i = first; i < last; i++) {
-        uint8_t *p = color + (size_t)d->u.queue.offset[i] * l.bytes;
+        uint8_t *p = shade__pixel(color, d->u.queue.offset[i], l.bytes);
         if (!alive || alive[i]) shade__store_pixel(&l, p, packed[i], rgba + i);
     }
 }
@@ -5430,14 +5478,13 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
         uint32_t apart = 0;
         SHADE__FOR(k, SHADE__BLOCK) { apart |= offset[i + k] - (first + (uint32_t)k); }
         if (!apart) {
-            SHADE_MEMCPY(color + (size_t)first * 4, packed + i,
-                         SHADE__BLOCK * 4);
+            SHADE_MEMCPY(shade__pixel(color, first, 4), packed + i, SHADE__BLOCK * 4);
             continue;
         }
         for (int k = i; k < i + SHADE__BLOCK; k++)
-            SHADE_MEMCPY(color + (size_t)offset[k] * 4, packed + k, 4);
+            SHADE_MEMCPY(shade__pixel(color, offset[k], 4), packed + k, 4);
     }
-    for (; i < count; i++) SHADE_MEMCPY(color + (size_t)offset[i] * 4, packed + i, 4);
+    for (; i < count; i++) SHADE_MEMCPY(shade__pixel(color, offset[i], 4), packed + i, 4);
 }
 
 /* Blends a block of colours with the stored ones, by OVER or else by ADD, and puts the result in
@@ -5474,8 +5521,7 @@ static SHADE__NOINLINE void shade__store_blended(const shade__draw *d,
         const int base = shade__min(i, SHADE_LANES - SHADE__BLOCK);
         for (last = i; last < base + SHADE__BLOCK && last < q->f.count; last++) {
             if (last > i && q->offset[last] <= q->offset[last - 1]) break;
-            shade__load_pixel(&l,
-                              plan->color + (size_t)q->offset[last] * l.bytes,
+            shade__load_pixel(&l, shade__pixel(plan->color, q->offset[last], l.bytes),
                               packed + last, stored + last);
         }
         shade__unpack(plan->target, packed + base, stored + base);
@@ -5502,7 +5548,7 @@ SHADE__INLINE void shade__store_body(shade__draw *d, shade_colors *c)
         return;
     }
     shade__pack(plan->target, c->color[0], q->f.x, q->f.y, packed,
-                (int)SHADE_LANES / (int)SHADE__BLOCK);
+                SHADE__BLOCKS);
     if (plan->layout->bytes == 4 && !only)
         shade__scatter_words(plan->color, q->offset, packed, q->f.count);
     else shade__scatter(d, only, c->color[0], packed, 0, q->f.count);
@@ -5585,10 +5631,11 @@ static shade_result shade__check_mesh(const shade_mesh *m)
 
 SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
 {
-    if ((unsigned)r->cull > SHADE_CULL_FRONT) return "raster.cull is no SHADE_CULL_... value.";
-    if ((unsigned)r->depth_test > SHADE_COMPARE_ALWAYS)
+    if (!shade__known(r->cull, SHADE_CULL_FRONT)) return "raster.cull is no SHADE_CULL_... value.";
+    if (!shade__known(r->depth_test, SHADE_COMPARE_ALWAYS))
         return "raster.depth_test is no SHADE_COMPARE_... value.";
-    if ((unsigned)r->blend > SHADE_BLEND_ADD) return "raster.blend is no SHADE_BLEND_... value.";
+    if (!shade__known(r->blend, SHADE_BLEND_ADD))
+        return "raster.blend is no SHADE_BLEND_... value.";
     if (!shade__within(r->depth_bias, FLT_MAX))
         return "raster.depth_bias is NaN or infinite; 0 means none.";
     return NULL;
@@ -5607,7 +5654,7 @@ static int shade__mesh_varyings(const shade_mesh *m,
 SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
                                              const shade_draw_state *state)
 {
-    if ((unsigned)state->shading > SHADE_SHADING_PER_FACE)
+    if (!shade__known(state->shading, SHADE_SHADING_PER_FACE))
         return "state.shading is no SHADE_SHADING_... value.";
     if (!(state->transparency >= 0 && state->transparency <= 1))
         return "state.transparency must be from 0 (opaque) to 1 (invisible).";
@@ -5626,14 +5673,14 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
 {
     if (!l->lights && l->light_count > 0)
         return "lighting.lights is NULL while lighting.light_count is not 0.";
-    if ((unsigned)l->model > SHADE_MODEL_COOL_TO_WARM)
+    if (!shade__known(l->model, SHADE_MODEL_COOL_TO_WARM))
         return "lighting.model is no SHADE_MODEL_... value.";
     return NULL;
 }
 
 static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
 {
-    if ((unsigned)p->interpolation > SHADE_INTERPOLATION_CONSTANT || p->varyings < 0 ||
+    if (!shade__known(p->interpolation, SHADE_INTERPOLATION_CONSTANT) || p->varyings < 0 ||
         p->varyings > SHADE_MAX_VARYINGS || shade__raster_fault(&p->raster))
         return SHADE_ERROR_STATE;
     if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
@@ -5794,8 +5841,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     plan->less_only = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
     plan->inputs_unread = own && early && !t->dither;
     plan->toward = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
-    plan->half_width = (float)(t->width * 128);
-    plan->half_height = (float)(t->height * 128);
+    plan->half_width = t->width * 128;
+    plan->half_height = t->height * 128;
 }
 
 /* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: the
@@ -6576,12 +6623,12 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     p.raster = state->raster;
     p.raster.cull = SHADE_CULL_NONE;
     if (!(state->width >= 0 && state->width <= FLT_MAX) ||
-        (unsigned)state->cap > SHADE_CAP_SQUARE || shade__raster_fault(&p.raster))
+        !shade__known(state->cap, SHADE_CAP_SQUARE) || shade__raster_fault(&p.raster))
         return SHADE_ERROR_STATE;
     s.points = points;
     s.state = state;
     clip_from_points = shade__or_identity(state->clip_from_points);
-    shade__doubles(&clip_from_points, s.clip_from_points);
+    shade__doubles(shade__entries(&clip_from_points), 16, s.clip_from_points);
     s.half[0] = target->width / 2.0;
     s.half[1] = target->height / 2.0;
     s.half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
@@ -6859,8 +6906,11 @@ static uint32_t shade__centroid_key(const shade_mesh *m,
     return shade__value_key(sum);
 }
 
+/* The indices of triangle i of a list. */
+static uint32_t *shade__three(uint32_t *list, int i) { return list + 3 * (size_t)i; }
+
 /* The axis along which triangles lie furthest apart, with the least and greatest key there. */
-static int shade__longest_axis(const shade_mesh *m, const uint32_t *triangles,
+static int shade__longest_axis(const shade_mesh *m, uint32_t *triangles,
                                int count, uint32_t *low, uint32_t *high)
 {
     uint32_t least[3] = { UINT32_MAX, UINT32_MAX, UINT32_MAX }, most[3] = { 0, 0, 0 };
@@ -6868,7 +6918,7 @@ static int shade__longest_axis(const shade_mesh *m, const uint32_t *triangles,
     for (int i = 0; i < count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             const uint32_t key = shade__centroid_key(m,
-                                                     triangles + 3 * (size_t)i,
+                                                     shade__three(triangles, i),
                                                      axis);
             if (key < least[axis]) least[axis] = key;
             if (key > most[axis]) most[axis] = key;
@@ -6889,7 +6939,7 @@ static int shade__partition(const shade_mesh *m, uint32_t *triangles, int count,
 {
     int front = 0;
     for (int i = 0; i < count; i++) {
-        uint32_t *a = triangles + 3 * (size_t)front, *b = triangles + 3 * (size_t)i;
+        uint32_t *a = shade__three(triangles, front), *b = shade__three(triangles, i);
         if (shade__centroid_key(m, b, axis) > pivot) continue;
         for (int k = 0; k < 3; k++) {
             const uint32_t other = a[k];
@@ -6922,7 +6972,7 @@ static void shade__split(const shade_mesh *m, uint32_t *triangles, int count,
             count = front;
             high = pivot;
         } else {
-            triangles += 3 * (size_t)front;
+            triangles = shade__three(triangles, front);
             count -= front;
             half -= front;
             low = pivot + 1;
@@ -6938,7 +6988,7 @@ static void shade__sort_triangles(const shade_mesh *m, uint32_t *triangles,
         const int half = ((count - 1) / chunk + 1) / 2 * chunk;
         shade__split(m, triangles, count, half);
         shade__sort_triangles(m, triangles, half, chunk);
-        triangles += 3 * (size_t)half;
+        triangles = shade__three(triangles, half);
         count -= half;
     }
 }
@@ -7034,9 +7084,10 @@ SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
 /* c = a - b */
 SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
 {
-    c[0] = (double)a.x - (double)b.x;
-    c[1] = (double)a.y - (double)b.y;
-    c[2] = (double)a.z - (double)b.z;
+    double from[3];
+    shade__double3(a, c);
+    shade__double3(b, from);
+    for (int k = 0; k < 3; k++) c[k] -= from[k];
 }
 
 /* e = b - a, f = c - a, n = e x f.  Returns 0 if n is zero, which it is for a triangle without area
