@@ -45,36 +45,36 @@
    shadows, reflections or physically based materials.                                   >>about
 
    >>contents
-     Each section begins with a banner, in the line that stands here.  A tag in the last line of a
-     banner names the next section.
+     The number is the line in which a section's banner begins.  The tag that ends a banner names
+     the next section.
      About
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     114  options               >>types      187  materials, lamps, targets, states
        >>plumbing   360  compilers             >>light      487  the equation and its terms
-       >>draw       611  meshes and pixels     >>math       854  vectors and matrices
+       >>draw       612  meshes and pixels     >>math       855  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1215  processors            >>base      1371  bits, masks, rows of vectors
-       >>matrix    1552  cameras, inverses     >>power     1846  x^n
-       >>pixels    1912  formats, sRGB
+       >>machine   1216  processors            >>base      1372  bits, masks, rows of vectors
+       >>matrix    1555  cameras, inverses     >>power     1849  x^n
+       >>pixels    1915  formats, sRGB
      Inside: light
-       >>lamps     2089  attenuation, cones    >>terms     2364  one term at one point
-       >>surface   2502  material and lights   >>lit       2626  the whole sum, at many points
+       >>lamps     2092  attenuation, cones    >>terms     2367  one term at one point
+       >>surface   2505  material and lights   >>lit       2629  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3065  who owns what         >>vertices  3246  shading, projection
-       >>triangles 3512  dropped, cut, edges   >>clip      3879  near, far, behind the eye
-       >>tiles     4063  pixels, depth test    >>cover     4410  what is hidden, tile by tile
-       >>fragments 4640  interpolation, lod    >>texture   4932  texels, mipmaps
-       >>store     5334  blending, packing
+       >>state     3066  who owns what         >>vertices  3248  shading, projection
+       >>triangles 3516  dropped, cut, edges   >>clip      3884  near, far, behind the eye
+       >>tiles     4069  pixels, depth test    >>cover     4418  what is hidden, tile by tile
+       >>fragments 4648  interpolation, lod    >>texture   4940  texels, mipmaps
+       >>store     5342  blending, packing
      Inside: calls
-       >>check     5559  refusals              >>drive     5724  shade_draw, batch by batch
-       >>mesh      6089  shade_draw_mesh       >>lines     6484  shade_draw_lines
-       >>shape     6642  normals, edges        >>chunks    6872  boxes around triangles
-       >>rays      7049  shade_pick            >>survey    7256  experiments on a draw
-       >>explain   7403  why nothing is seen   >>image     7815  PPM
+       >>check     5567  refusals              >>drive     5732  shade_draw, batch by batch
+       >>mesh      6097  shade_draw_mesh       >>lines     6492  shade_draw_lines
+       >>shape     6650  normals, edges        >>chunks    6880  boxes around triangles
+       >>rays      7057  shade_pick            >>survey    7264  experiments on a draw
+       >>explain   7411  why nothing is seen   >>image     7823  PPM
      Sources
-       >>refs      7881                        >>history   7907
-       >>license   7916
+       >>refs      7889                        >>history   7915
+       >>license   7924
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -316,7 +316,7 @@ typedef enum shade_interpolation {
     SHADE_INTERPOLATION_CONSTANT            /* the value of the triangle's first vertex */
 } shade_interpolation;
 typedef enum shade_cull { SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT } shade_cull;
-typedef enum shade_compare {     /* what its depth must be, compared with the stored one, to pass */
+typedef enum shade_compare {     /* how a fragment's depth must compare with the stored one */
     SHADE_COMPARE_LESS = 0, SHADE_COMPARE_LESS_EQUAL, SHADE_COMPARE_GREATER,
     SHADE_COMPARE_GREATER_EQUAL, SHADE_COMPARE_EQUAL, SHADE_COMPARE_ALWAYS
 } shade_compare;
@@ -346,7 +346,7 @@ typedef enum shade_shading {
 
 /* What became of the triangles of one call; every call starts from zero.
      triangles = skipped + culled + clipped + rejected + drawn
-   Without chunks skipped is 0, and the other counts do not depend on the clip rectangle. */
+   Without chunks skipped is 0, and none of these six depends on the clip rectangle. */
 typedef struct shade_stats {
     long long triangles;
     long long skipped;           /* their chunk cannot be seen in the clip rectangle */
@@ -447,10 +447,10 @@ typedef struct shade_stats {
 
 /* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
    turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
-   processors and twice on others.  gcc applies the options of the caller to an inlined function:
-   the implementation is exact, and so are the inline functions that it calls.  clang's ?: and calls
-   stay fast; see >>machine.  SHADE__END restores the state before, or where clang keeps no stack of
-   states, that of the options. */
+   processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
+   caller to an inlined function: the implementation is exact, and so are the inline functions that
+   it calls.  clang's ?: and calls stay fast; see >>machine.  SHADE__END restores the state before,
+   or where clang keeps no stack of states, that of the options. */
 #ifdef __cplusplus
 #define SHADE__OPEN extern "C" {
 #define SHADE__CLOSE }
@@ -486,7 +486,8 @@ SHADE__BEGIN
 
 /*------------------------------------------------------------------------------------------ >>light
    The equations of >>model.  All vectors point away from the surface.  Every function is defined
-   for all inputs, and input without NaN and infinity never gives one.
+   for all inputs, and input up to 1e12 never gives NaN or infinity.  Vectors of any length may be
+   1e-18 to 1e18 long; shorter ones count as zero.
 
    Accuracy: the error against exact arithmetic is below
 
@@ -520,9 +521,9 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point,
                                    float *amount);
 
 /* The light that leaves P toward the eye, term by term.  N may have any length; a zero N leaves
-   emission and ambient light.  eye is the viewer's position, or with SHADE_FLAG_INFINITE_VIEWER the
-   direction toward the viewer.  P, N, eye and the lights are in one space.  material NULL is white
-   Lambert: k_d = k_a = 1.  lighting NULL gives zeros. */
+   emission and ambient light, or half of each tone.  eye is the viewer's position, or with
+   SHADE_FLAG_INFINITE_VIEWER the direction toward the viewer.  P, N, eye and the lights are in one
+   space.  material NULL is white Lambert: k_d = k_a = 1.  lighting NULL gives zeros. */
 SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting, const shade_material *material,
                                     shade_vec3 eye, shade_vec3 point, shade_vec3 normal);
 
@@ -1516,11 +1517,13 @@ SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
     rows[i + 3 * stride] = v.w;
 }
 
-/* Public functions take three rows of floats; this views them as vectors.  NULL stays NULL. */
+/* Three rows of floats that begin here, as vectors to read and to write.  NULL stays NULL. */
 SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
 {
     return (const shade__v3 *)(const void *)rows;
 }
+
+SHADE__INLINE shade__v3 *shade__three_rows(float *rows) { return (shade__v3 *)(void *)rows; }
 
 SHADEDEF const char *shade_result_string(shade_result result)
 {
@@ -2090,9 +2093,9 @@ SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
    One light: how it is made, and what of it arrives at points.
      in      a shade_light, rows of P     out  shade__arrival: rows of L and of the amount of light
      holds   Loops run over the SHADE_LANES points of a packet, or over SHADE__POINT copies of a
-             single point: both take the same way and get the same bits.  shade_attenuation and
-             shade_spot are one factor each, for callers, by its plain formula.  The error of 1/sqrt
-             stands in >>base, that of powers in >>power.                                 >>terms */
+             single point: both take the same way and get the same bits.  For users,
+             shade_attenuation and shade_spot compute one factor each by the plain formula.  The
+             error of 1/sqrt stands in >>base, that of powers in >>power.                 >>terms */
 
 static shade_light shade__plain_light(shade_vec4 position, shade_vec3 color)
 {
@@ -2177,9 +2180,9 @@ static void shade__place_lamp(const shade_light *light, shade__lamp *lamp)
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
-/* What of a lamp arrives at the points of a block.  Rows share their memory in unions, because the
-   stack of a draw is bounded.  They are used in the order in which they stand: nobody reads a row
-   when the one below it has been written. */
+/* What of a lamp arrives at the points of a packet.  Rows share their memory in unions, because the
+   stack of a draw is bounded.  The members of a union are used in the order in which they stand:
+   none is read after the next has been written. */
 typedef struct shade__arrival {
     SHADE_ALIGNED union {
         shade__v3 to_light;                  /* L, unit */
@@ -2243,8 +2246,8 @@ SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
     return any;
 }
 
-/* amount = 1 / (a + b r + c r^2).  Where P is beyond 1e18, r is NaN or infinite and counts as far.
-   A sum that overflows both ways is NaN and gives 1e20, as in shade_attenuation. */
+/* amount = 1 / (a + b r + c r^2).  r counts as 1e18 where it is greater, infinite or NaN.  A sum
+   that overflows both ways is NaN and gives 1e20, as in shade_attenuation. */
 SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
                                     shade__arrival *SHADE_RESTRICT to)
 {
@@ -2258,7 +2261,7 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
     }
 }
 
-/* The same where b = c = 0; but 0 where r is NaN. */
+/* The same where b = c = 0; but 0 where P is so far away that r is no number. */
 SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
                                            shade__arrival *SHADE_RESTRICT to)
 {
@@ -2310,9 +2313,9 @@ enum {
     SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES
 };
 
-/* How many points a loop takes that was built for vectors of so many floats.  The AVX builds take
-   whole packets.  The build for any processor takes whole vectors, and the & says so to the
-   compiler, which then makes no loop for a remainder. */
+/* How many points a loop takes that was built for vectors of so many floats.  Builds of
+   another width than the one for any processor take whole packets.  That one takes whole vectors,
+   and the & says so to the compiler, which then makes no loop for a remainder. */
 SHADE__INLINE int shade__points(int n, int width)
 {
     if (width != SHADE__ANY_WIDTH) return SHADE_LANES;
@@ -2364,7 +2367,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
 /*------------------------------------------------------------------------------------------ >>terms
    The terms of >>model one by one, for a single point, and the classic materials.
      in      unit vectors                  out  cosines, powers, colours
-     holds   Roots and divisions are exact.
+     holds   Roots are those of sqrtf, not of shade__rsqrt.
      source  [Phong75], [Blinn77], [Gooch98], [Kilgard94]                               >>surface */
 
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
@@ -2372,8 +2375,8 @@ SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
     return shade__maxf(shade_dot(normal, to_light), 0);
 }
 
-/* R.V of unit N, L, V as (|R|^2 + |V|^2 - |R - V|^2) / 2 with |R| = |L|.  Near 1, where a power
-   magnifies errors, those of the vectors' lengths cancel.  Where L or V is zero it is 0. */
+/* R.V as 1 - |R - V|^2 / 2, which it is where N, L and V are unit.  Near 1, where a power magnifies
+   errors, those of the vectors' lengths cancel.  Where L or V is zero it is 0. */
 SHADE__INLINE float shade__mirror_cosine(shade_vec3 normal, shade_vec3 to_light,
                                          shade_vec3 to_eye)
 {
@@ -2500,24 +2503,23 @@ SHADEDEF const char *shade_preset_name(shade_preset preset)
 }
 
 /*---------------------------------------------------------------------------------------- >>surface
-   What points are lit by, prepared once for all of them: defaults are filled in, materials and
-   lights multiplied, terms that are off made zero.
+   What the points of a call are lit by: defaults are filled in, materials and lights multiplied,
+   terms that are off made zero.
      in      a shade_lighting, a material, the eye      out  shade__surface              >>lit */
 
 /* The first SHADE__LAMPS lights are prepared once a draw, the others anew for each packet. */
 enum { SHADE__LAMPS = SHADE_LANES < 64 ? 1 : 4 };
 
-/* What points are lit by: defaults are filled in, terms that are off are zero. */
 typedef struct shade__surface {
     const shade_lighting *lighting;
     shade_material material;
     unsigned terms;
     shade_vec4 eye;         /* w = 0: a viewer at infinity */
     shade_vec3 emission;
-    shade_vec3 ambient;     /* k_a times the light that no lamp attenuates */
+    shade_vec3 ambient;     /* k_a times the ambient light that is not attenuated */
     shade_vec3 cool, warmth;    /* the tone's: cool, and warm - cool */
     int tone;               /* cool to warm by one lamp; else the equation */
-    int lamps;              /* lights to go through; 0 where none of them can add to a point */
+    int lamps;              /* lights to go through; 0 if no term comes of them; 1 for a tone */
     uint32_t open;          /* all ones with UNGATED_SPECULAR, else 0 */
     uint32_t sign;          /* ANDed to N.L in the diffuse term; TWO_SIDED_ABS: clears its sign */
     shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the one of the tone */
@@ -2560,6 +2562,7 @@ static void shade__reflect_lamp(const shade__surface *s,
     if (!lamp->on) return;
 
     shade__place_lamp(light, lamp);
+    /* lanes outside of a cone may hold infinite N.L */
     lamp->masked = lamp->spot || !shade__finite3(lamp->diffuse) ||
                    !shade__finite3(lamp->specular);
 }
@@ -2627,10 +2630,10 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
    All of the equations of >>model, for a packet or for one point.
      in      shade_rows, a shade__surface         out  rows of rgb
      holds   The light of one lamp is cut into short loops over rows.  One fused loop a light took
-             1.5 times as long, because its many live values outgrow the processor.  A lamp that
+             1.5 times as long, because its many live values outgrow the registers.  A lamp that
              reaches no lane (horizon, cone) is left after its first loops.              >>state */
 
-/* The rows of a block of points while one lamp after the other adds its light. */
+/* The rows of a packet while one lamp after the other adds its light. */
 typedef struct shade__lit {
     const shade__surface *surface;
     const shade__lamp *lamp;
@@ -2699,8 +2702,9 @@ SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 }
 
 /* N.H, or SHADE__NEVER where the gate is shut or there is no H.  Returns all ones if in some lane L
-   and V are nearly opposite: |L + V|^2 is below SHADE__NEAR, which is for shade__half_opposite. */
-#define SHADE__NEAR 1e-3f
+   and V are nearly opposite: |L + V|^2 is below SHADE__OPPOSITE.  shade__half_opposite computes
+   those again. */
+#define SHADE__OPPOSITE 1e-3f
 SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
                                    shade__lit *SHADE_RESTRICT r)
 {
@@ -2712,7 +2716,7 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
         /* the order of the next two matters to tcc: see >>config */
         r->a.way.lobe.cosine[i] = shade_dot(shade__at(normal, i), half);
         float h2 = shade_dot(half, half);
-        opposite |= shade__mask(h2 < SHADE__NEAR);
+        opposite |= shade__mask(h2 < SHADE__OPPOSITE);
         r->a.way.lobe.h2[i] = h2;
     }
     SHADE__FOR(i, n) {
@@ -2753,19 +2757,19 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
                                              const int n, shade__lit *r)
 {
     const shade_vec4 at = r->lamp->light->position, eye = r->surface->eye;
-    const double w = at.w == 0 ? 1 : (double)at.w, near_light = at.w == 0 ? 0 : 1;
+    const double w = at.w == 0 ? 1 : (double)at.w, placed = at.w == 0 ? 0 : 1;
     double lamp[3], viewer[3];
     shade__double3(shade__xyz(at), lamp);
     shade__double3(shade__xyz(eye), viewer);
     for (int i = 0; i < n; i++) {
         double m[3], l[3], v[3], p[3], h2, nh;
-        if (!(r->a.way.lobe.h2[i] < SHADE__NEAR)) continue;
+        if (!(r->a.way.lobe.h2[i] < SHADE__OPPOSITE)) continue;
         if (!shade__gate(r->a.angle.nl[i], r->rn[i], r->surface->open)) continue;
 
         shade__double3(shade__at(point, i), p);
         shade__double3(shade__at(normal, i), m);
         for (int k = 0; k < 3; k++) {
-            l[k] = lamp[k] / w - near_light * p[k];
+            l[k] = lamp[k] / w - placed * p[k];
             v[k] = viewer[k] - (double)eye.w * p[k];
         }
         shade__unit3(l);
@@ -2818,9 +2822,9 @@ SHADE__INLINE void shade__hide(shade__in visibility, const int n,
     }
 }
 
-/* Albedo of lane i, 1 where there is none.  With a constant NULL the compiler drops the choice and
-   the product. */
-SHADE__INLINE shade_vec3 shade__albedo(const shade__v3 *rows, int i)
+/* The albedo or the specular factor of lane i, 1 where there are no rows.  With a constant NULL the
+   compiler drops the choice and the product. */
+SHADE__INLINE shade_vec3 shade__factor(const shade__v3 *rows, int i)
 {
     return rows ? shade__at(rows, i) : shade_v3(1, 1, 1);
 }
@@ -2842,7 +2846,7 @@ SHADE__INLINE void shade__begin_light(const shade__surface *s,
 {
     const shade_vec3 emission = s->emission, ambient = s->ambient;
     SHADE__FOR(i, n) {
-        shade_vec3 light = shade_mul(ambient, shade__albedo(albedo, i));
+        shade_vec3 light = shade_mul(ambient, shade__factor(albedo, i));
         shade__put(rgb, i, shade_add(emission, light));
     }
 }
@@ -2856,7 +2860,7 @@ SHADE__INLINE void shade__add_tone(const shade__lit *SHADE_RESTRICT r,
     SHADE__FOR(i, n) {
         shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->a.angle.nl[i],
                                       warmth);
-        shade__add_to(rgb, i, shade_mul(light, shade__albedo(albedo, i)), ~0u);
+        shade__add_to(rgb, i, shade_mul(light, shade__factor(albedo, i)), ~0u);
     }
 }
 
@@ -2870,7 +2874,7 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
     SHADE__FOR(i, n) {
         const float amount = r->a.share.amount[i];
         shade_vec3 light = shade_scale(ambient, amount);
-        light = shade_mul(light, shade__albedo(albedo, i));
+        light = shade_mul(light, shade__factor(albedo, i));
         shade__add_to(rgb, i, light, shade__mask(amount != 0));
     }
 }
@@ -2889,17 +2893,17 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
         float nl = shade__keep(r->a.angle.nl[i], sign), amount = r->a.share.amount[i];
         uint32_t front = shade__mask(nl > 0);
         uint32_t reached = (front | open) & shade__mask(amount != 0);
-        shade_vec3 diffuse = shade_mul(k_d, shade__albedo(albedo, i));
+        shade_vec3 diffuse = shade_mul(k_d, shade__factor(albedo, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * amount);
-        shade_vec3 specular = shade_mul(k_s, shade__albedo(tint, i));
+        shade_vec3 specular = shade_mul(k_s, shade__factor(tint, i));
         shade_vec3 light = shade_madd(diffuse, r->a.way.lobe.highlight[i] * amount, specular);
         shade__add_to(rgb, i, light, reached | all);
     }
 }
 
-/* Calls one of the copies of shade__combine.  Whether there are rows is constant in each, because a
-   loop that asks stays scalar.  The last goes without the mask, which costs 2 % of the commonest
-   light. */
+/* Calls one of the copies of shade__combine.  Whether there are rows is constant in each, except at
+   -Os, because a loop that asks stays scalar.  The last goes without the mask, which costs 2 % of
+   the commonest light. */
 SHADE__INLINE void shade__add_light(const shade__lit *r,
                                     const shade__v3 *albedo, const int n,
                                     shade__v3 *rgb)
@@ -2937,7 +2941,7 @@ SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
     if (s->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
 }
 
-/* L and amount of a lamp by the build for so many points. */
+/* L and amount of a lamp.  Single points go by the build for any processor. */
 SHADE__INLINE void shade__arrive_at(const shade__v3 *point, const int n,
                                     shade__lit *r)
 {
@@ -2985,11 +2989,11 @@ SHADE__INLINE void shade__lit_rows_body(const shade__surface *s,
 {
     const shade__v3 *point = shade__rows_of(rows->position);
     const shade__v3 *normal = shade__rows_of(rows->normal);
-    const shade__v3 *ambient = shade__is_zero(s->ambient) ? NULL : shade__rows_of(rows->albedo);
+    const shade__v3 *albedo = shade__is_zero(s->ambient) ? NULL : shade__rows_of(rows->albedo);
     shade__lit r;
     r.surface = s;
     r.rows = rows;
-    if (!SHADE__SPECIALIZE || ambient) shade__begin_light(s, ambient, n, rgb);
+    if (!SHADE__SPECIALIZE || albedo) shade__begin_light(s, albedo, n, rgb);
     else shade__begin_light(s, NULL, n, rgb);
     if (!s->lamps) return;
 
@@ -3003,9 +3007,6 @@ SHADE__DISPATCH(shade__lit_rows,
                 (const shade__surface *s, const shade_rows *rows, int n, shade__v3 *rgb),
                 (s, rows, n, rgb),
                 shade__lit_rows_body(s, rows, shade__points(n, shade__width), rgb))
-
-/* Three rows of a packet, from one on. */
-SHADE__INLINE shade__v3 *shade__three_rows(float *row) { return (shade__v3 *)(void *)row; }
 
 static void shade__lit_packet(const shade__surface *s, const shade_rows *rows,
                               float *rgb)
@@ -3076,7 +3077,8 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
      queue     >>fragments   pixels that passed, until a packet of them is shaded
 
      holds     The prototypes below, before the first stage, are the way of a triangle in the order
-               of the file; a stage calls others only through them.                    >>vertices */
+               of the file.  >>cover calls >>tiles; else a stage calls others only through them.
+                                                                                       >>vertices */
 
 typedef struct shade__draw shade__draw;
 
@@ -3109,7 +3111,7 @@ typedef struct shade__plan {
     const shade__layout *layout;      /* of the target's pixels */
     int      stride, row_offset;      /* pixels from row to row; the first row that memory holds */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
-    int      values, value_stride;    /* floats of a vertex; from vertex to vertex, 8 k */
+    int      values, value_stride;    /* floats of a vertex, and of its place: a multiple of 8 */
     int      divided;                 /* values from this one on are kept divided by w */
     int      lod;                     /* the value that is u over w, v follows it; 0: no lod */
     int      varyings;
@@ -3120,7 +3122,7 @@ typedef struct shade__plan {
     int      inputs_unread;           /* nobody reads x, y, z, primitive, front, nor presets */
     shade__compare compare;           /* the test of the draw */
     shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
-    float    toward;                  /* 1: greater depth is farther; -1: less is; 0: no bounds */
+    float    away;                    /* 1: greater depth is farther; -1: less is; 0: no bounds */
     double   half_width, half_height; /* of the picture, in 1/256 pixels */
 } shade__plan;
 
@@ -3130,8 +3132,8 @@ typedef struct shade__vertex {        /* a vertex after the vertex shader */
     float    clip[4];
 } shade__vertex;
 
-/* Triangles of a batch, from first to that of the next part, that follow each other in the draw:
-   the first is number primitive. */
+/* A part of a batch: its triangles, from first up to the first of the next part, are primitive,
+   primitive + 1, ... of the draw. */
 typedef struct shade__part { int first; uint32_t primitive; } shade__part;
 
 typedef struct shade__batch {
@@ -3171,11 +3173,11 @@ typedef struct shade__setup {
     uint32_t primitive[SHADE__TRIANGLES];
     uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: what CONSTANT takes */
 
-    /* what they are set up to, their corners in the order of turn */
+    /* what they become; corners are now in the order of turn */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
     int32_t  ex[3][SHADE__TRIANGLES], ey[3][SHADE__TRIANGLES];    /* their steps in x and y */
     int32_t  box[4][SHADE__TRIANGLES];       /* x0, y0, x1, y1, both ends included; or empty */
-    float    side[4][SHADE__TRIANGLES];      /* from corner 0 to 1 and to 2, over twice the area */
+    float    side[4][SHADE__TRIANGLES];      /* from corner 0: x1 y1 x2 y2, over twice the area */
     float    x_ref[SHADE__TRIANGLES], y_ref[SHADE__TRIANGLES];    /* 1/2 - corner 0, exact */
     float    z0[SHADE__TRIANGLES];           /* the plane of depth: at corner 0, */
     float    zx[SHADE__TRIANGLES], zy[SHADE__TRIANGLES];          /* and its steps in x and y */
@@ -3186,12 +3188,12 @@ typedef struct shade__setup {
 typedef struct shade__bounds {
     int   log_width, log_height;      /* of the pixels that share a bound */
     int   across;                     /* bounds side by side; 0: not yet begun */
-    float farthest[SHADE__BOUNDS];    /* at least toward times the depth of any pixel there */
+    float farthest[SHADE__BOUNDS];    /* at least plan.away times the depth of any pixel there */
 } shade__bounds;
 
 typedef struct shade__queue {
-    shade_fragments f;                /* until it is shaded: varyings from plan.divided on are
-                                         over w, and lod is the squared step in texels */
+    shade_fragments f;                /* until it is shaded: varyings are over w in perspective,
+                                         and lod is the squared step in texels */
     float    rw[SHADE_LANES];         /* 1/w, interpolated */
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
@@ -3244,11 +3246,12 @@ static void shade__flush(shade__draw *d);
 static void shade__store(shade__draw *d, shade_colors *c);
 
 /*--------------------------------------------------------------------------------------- >>vertices
-   A batch: up to SHADE_LANES different vertices, shaded and projected as one packet, and the
+   A batch: up to SHADE_LANES vertices, shaded and projected as one packet, and the
    triangles among them.
      in      indices                      out  vertices and their values; corners of triangles
-     holds   A vertex is shaded once a batch.  Vertices without a window position get a harmless one
-             and a bit in their outcode, for which >>triangles drops or clips their triangles.
+     holds   A vertex is shaded once a batch, or again where an index that differs by a multiple of
+             2 SHADE_LANES came between.  Vertices without a window position get a harmless one and
+             a bit in their outcode, for which >>triangles drops or clips their triangles.
                                                                                       >>triangles */
 
 enum {
@@ -3405,10 +3408,10 @@ static void shade__shade_vertices(shade__draw *d)
     shade__place(d, v);
 }
 
-/* May the box be seen?  0: it lies outside of one plane.  With its centre c and half its size h the
-   greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, off by 2^-22
-   of the sum of the products' sizes, and each of 7 clips rounds by 2^-24 of that; 2^-20 covers
-   both.  Products that underflow are off by 2^-148, which FLT_MIN in the sizes covers. */
+/* May the box be seen?  0: it lies outside of one plane.  With its centre c and half its extent h
+   the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, off by
+   2^-22 of the sum of the |products|, and each of 7 clips rounds by 2^-24 of that; 2^-20 covers
+   both.  Products that underflow are off by 2^-148, which FLT_MIN in frustum.size covers. */
 static SHADE__NOINLINE int shade__in_view(const shade__frustum *f,
                                           shade_vec3 low, shade_vec3 high)
 {
@@ -3456,7 +3459,7 @@ static int shade__next_chunk(shade__draw *d)
     return 0;
 }
 
-/* Takes up to most triangles from first on, while there is room for their vertices; returns how
+/* Takes up to most triangles from first on, while there are at most room vertices; returns how
    many.  Branch-free: slot and index are written whether the vertex is known or not; only the count
    depends on it.  A branch would be mispredicted every other time (2 % of a dense mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in,
@@ -3490,6 +3493,7 @@ static void shade__take_batch(shade__draw *d)
     shade__incoming *in = &d->u.in;
     shade__batch *b = &d->batch;
     shade__supply *s = d->supply;
+    /* with so many vertices a triangle more fits */
     const int room = shade__min(SHADE_LANES, (int)SHADE__BATCH_FLOATS / d->plan.value_stride) - 3;
 
     SHADE_MEMSET(in->known, 255, sizeof in->known);    /* no index: counts end at 2^31 */
@@ -3517,13 +3521,14 @@ static void shade__take_batch(shade__draw *d)
      out     triangles set up in the order of submission, to >>cover
      holds   For the edge p to q and the pixel centre at 256 (i, j) + 128:
                256 e(i,j) + rest = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias
-             is inside where e >= 0; bias 0 on top and left edges, -1 on others; dividing by 256
-             with floor keeps the sign, since the coefficients of i and j are multiples of 256.
-             Neighbours get exactly opposite edges.  All is whole and below 2^53, exact in double.
-             Corner 0 is the farthest, whose 1/w is the smallest: there rounding hurts most.
+             A pixel is inside where all three e >= 0; bias is 0 on top and left edges, -1 on
+             others.  The coefficients of i and j are multiples of 256, so that rest is one for all
+             pixels and steps of e are exact.  Neighbours get exactly opposite edges.  All is whole
+             and below 2^53, exact in double.  Planes start at corner 0, the farthest: its 1/w is
+             the smallest, and rounding hurts it most.
                                                                                            >>clip */
 
-/* Corners of the triangles being set up, the farthest first. */
+/* Corners of the triangles being set up; x, y and z are then turned, the farthest first. */
 typedef struct shade__corner_rows {
     SHADE_ALIGNED int32_t x[3][SHADE__TRIANGLES];
     int32_t y[3][SHADE__TRIANGLES];
@@ -3690,7 +3695,7 @@ SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
 }
 
 /* The plane of depth, and the least and greatest depth of the corners, to which it is clamped: on
-   slivers rounding could leave them.   post: z_low, z_high in [0, 1] */
+   slivers rounding goes beyond them.   post: z_low, z_high in [0, 1] */
 SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c,
                                       float bias,
                                       shade__setup *SHADE_RESTRICT s)
@@ -3925,7 +3930,8 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
 
     SHADE_ASSERT(v < SHADE__CLIP_VERTICES);
     p->taken |= 1u << v;
-    if (p->in_front) {    /* rounding may leave a new vertex without w */
+    if (p->in_front) {
+        /* rounding may leave a new vertex without w */
         double inner = d_in * (double)shade__maxf(to[3], shade__w_least);
         s = inner / (inner - d_out * (double)shade__maxf(from[3], shade__w_least));
     }
@@ -4092,7 +4098,7 @@ typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
     int      lane;                    /* of the setup */
     int64_t  e[3];                    /* edge functions at pixel (x0, y0) */
-    shade__edges edges;               /* the same, where 32 bits hold e: shade__cover_narrow */
+    shade__edges edges;               /* the steps; and e, set by shade__cover_narrow */
     float    x_ref, y_ref;
     float    z0, zx, zy, z_low, z_high;
 } shade__triangle;
@@ -4114,7 +4120,7 @@ typedef struct shade__tile {
 typedef struct shade__runs {
     shade__run run[SHADE__RUNS];
     int count;
-    int lane;                         /* the next triangle */
+    int next;                         /* lane of the next triangle */
     int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may go on; or -1 */
 } shade__runs;
 
@@ -4163,8 +4169,9 @@ SHADE__INLINE void shade__reach_of(const shade__triangle *t, int x, int y,
     }
 }
 
-/* Moves the rectangle by so many pixels to the right, or to the left if right is negative.  Returns
-   -1 if an edge has all of it outside, 1 if all edges have all of it inside, else 0. */
+/* Looks at the rectangle of r, shifted by so many pixels to the right, or to the left if right is
+   negative.  Returns -1 if an edge has all of it outside, 1 if all edges have all of it inside,
+   else 0. */
 SHADE__INLINE int shade__inside(const shade__triangle *t, const shade__reach *r,
                                 int right)
 {
@@ -4178,7 +4185,8 @@ SHADE__INLINE int shade__inside(const shade__triangle *t, const shade__reach *r,
     return outside < 0 ? -1 : crossed >= 0;
 }
 
-/* The edges in the rectangle of 32 x 8 pixels moved right; those with all pixels inside are 0.
+/* The edges in r's rectangle of 32 x 8 pixels, shifted right as above; those with all pixels inside
+   are 0.  x and y are left to the caller.
    pre: none has all outside   post: |e| <= 31 |ex| + 7 |ey| <= 38 2^25 */
 SHADE__INLINE void shade__tile_edges(const shade__triangle *t,
                                      const shade__reach *r, int right,
@@ -4219,7 +4227,7 @@ static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r,
 {
     while (set) {
         const int first = SHADE__LOWEST_BIT(set);
-        const int n = SHADE__LOWEST_BIT(~(set >> first));    /* not 0: full sets are one run */
+        const int n = SHADE__LOWEST_BIT(~(set >> first));    /* ~ is not 0: full sets are one run */
         if (r->count == SHADE__RUNS) shade__send(d, r);
         shade__add_run(r, lane, x + first, y, n);
         set &= set + (set & (0u - set));    /* without its lowest run */
@@ -4440,12 +4448,12 @@ static void shade__begin_bounds(const shade__plan *plan, shade__bounds *b)
     for (int i = 0; i < SHADE__BOUNDS; i++) b->farthest[i] = FLT_MAX;
 }
 
-/* toward times the depth at pixel x, with the bits that are tested.  row_z is the depth at the x of
+/* away times the depth at pixel x, with the bits that are tested.  row_z is the depth at the x of
    corner 0. */
-SHADE__INLINE float shade__key(float toward, const shade__triangle *t,
+SHADE__INLINE float shade__key(float away, const shade__triangle *t,
                                float row_z, int x)
 {
-    return toward * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
+    return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 
 /* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  It moves s->x
@@ -4457,9 +4465,9 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
                                                 const shade__triangle *t,
                                                 shade__stretch *s)
 {
-    const float toward = plan->toward;
+    const float away = plan->away;
     /* where the triangle gets farther */
-    const int rightward = toward * t->zx > 0, downward = toward * t->zy > 0;
+    const int rightward = away * t->zx > 0, downward = away * t->zy > 0;
     const float z_near = shade__row_depth(t, downward ? s->y : s->bottom);
     const float z_far = shade__row_depth(t, downward ? s->bottom : s->y);
     const int size = 1 << b->log_width, row = (s->y - plan->y0) >> b->log_height;
@@ -4475,14 +4483,14 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
         const int inside = shade__inside(t, &reach, first - t->x0);
         float *farthest = &b->farthest[row * b->across + cell];
         const int hidden =
-            inside < 0 || shade__key(toward, t, z_near, rightward ? from : to) > *farthest;
+            inside < 0 || shade__key(away, t, z_near, rightward ? from : to) > *farthest;
 
         if (from > s->x && (hidden || inside != s->inside)) return;
         s->inside = inside;
         s->last = to;
         if (hidden) s->x = to + 1;
         else if (inside && whole)
-            *farthest = shade__minf(*farthest, shade__key(toward, t, z_far, rightward ? to : from));
+            *farthest = shade__minf(*farthest, shade__key(away, t, z_far, rightward ? to : from));
     }
 }
 
@@ -4546,7 +4554,7 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
 
     shade__triangle_of(&d->setup, lane, &t);
     bounded = SHADE__SPECIALIZE && t.x1 - t.x0 >= SHADE__TILE - 1 &&
-              t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->toward != 0;
+              t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->away != 0;
     if (bounded && !b->across) shade__begin_bounds(plan, b);
     for (s.y = t.y0; s.y <= t.y1; s.y = s.bottom + 1) {
         /* a row of bounds, or all rows at once */
@@ -4600,7 +4608,7 @@ SHADE__INLINE int shade__cover_narrow(shade__draw *d, shade__triangle *t,
     return pixels;
 }
 
-/* Draws triangles of the setup from runs->lane on, and leaves it at the first that is not narrow or
+/* Draws triangles of the setup from runs->next on, and leaves it at the first that is not narrow or
    at count.  In a clip rectangle narrower than a tile none is: those need shade__test_copy. */
 SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, int count,
                                            const int width)
@@ -4608,7 +4616,7 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
     const shade__plan *plan = &d->plan;
     const shade__setup *s = &d->setup;
     const int wide = plan->x1 - plan->x0 >= SHADE__TILE;
-    int pixels = 0, i = runs->lane;
+    int pixels = 0, i = runs->next;
 
     for (; i < count; i++) {
         shade__triangle t;
@@ -4617,7 +4625,7 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
         if (!wide || !shade__is_narrow(&t)) break;
         pixels += shade__cover_narrow(d, &t, runs, width);
     }
-    runs->lane = i;
+    runs->next = i;
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
 SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
@@ -4630,9 +4638,9 @@ static void shade__cover(shade__draw *d, int count)
     shade__runs runs;
 
     runs.count = 0;
-    for (runs.lane = 0; runs.lane < count; runs.lane++) {
+    for (runs.next = 0; runs.next < count; runs.next++) {
         if (SHADE__SPECIALIZE) shade__cover_small(d, &runs, count);
-        if (runs.lane < count) shade__cover_large(d, &runs, runs.lane);
+        if (runs.next < count) shade__cover_large(d, &runs, runs.next);
     }
     shade__send(d, &runs);
 }
@@ -5753,7 +5761,7 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign,
                                  double limit, int i, shade__frustum *f)
 {
     for (int k = 0; k < 4; k++) {
-        const double a = (double)((const float *)&m->col[k])[row], w = (double)m->col[k].w;
+        const double a = (double)shade__entries(m)[4 * k + row], w = (double)m->col[k].w;
         f->k[k][i] = sign * (a - limit * w);
         f->size[k][i] = shade__size(a) + shade__size(limit * w) +
                         (double)FLT_MIN;
@@ -5840,7 +5848,7 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     plan->queued = p->fragment && (plan->color || p->may_discard);
     plan->less_only = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
     plan->inputs_unread = own && early && !t->dither;
-    plan->toward = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
+    plan->away = kept ? (float)((plan->compare.less != 0) - (plan->compare.greater != 0)) : 0;
     plan->half_width = t->width * 128;
     plan->half_height = t->height * 128;
 }

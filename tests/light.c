@@ -1266,6 +1266,34 @@ TEST(light, big_and_tiny_finite_input_stays_finite) /* every function is total u
     }
 }
 
+/* Normals, where spots point and where the light of the sun goes, 1e-18 to 1e18 long. */
+/* G3 */
+TEST(light, lengths_of_normals_and_directions_do_not_matter)
+{
+    for (int i = 0; i < 5000; i++) {
+        const d3 n = rnd_direction(), way = rnd_direction();
+        const float size = rnd_log(1.1e-18, 0.9e18), other = rnd_log(1.1e-18, 0.9e18);
+        const shade_vec3 white = shade_v3(1, 1, 1), eye = d3_round(rnd_direction());
+        shade_material m = shade_preset_material(SHADE_PRESET_GOLD);
+        shade_lighting lighting;
+        shade_light lamps[2];
+        memset(&lighting, 0, sizeof lighting);
+        lighting.lights = lamps;
+        lighting.light_count = 2;
+        lamps[0] = shade_directional_light(d3_round(way), white);
+        lamps[1] = shade_spot_light(d3_round(d3_scale(way, -2)), d3_round(way), 1, 3, white);
+        const shade_vec3 want = shade_lit(&lighting, &m, eye, shade_v3(0, 0, 0), d3_round(n));
+        lamps[0] = shade_directional_light(d3_round(d3_scale(way, (double)other)), white);
+        lamps[1].spot_direction = d3_round(d3_scale(way, (double)other));
+        const shade_vec3 got = shade_lit(&lighting, &m, eye, shade_v3(0, 0, 0),
+                                         d3_round(d3_scale(n, (double)size)));
+        const double off = d3_length(d3_sub(d3_from(got), d3_from(want)));
+        CHECK_SAY(off < 1e-4 || fabs(d3_dot(n, way)) < 1e-5,
+                  "%g long: %g %g %g, unit: %g %g %g", (double)size, (double)got.x, (double)got.y,
+                  (double)got.z, (double)want.x, (double)want.y, (double)want.z);
+    }
+}
+
 static const test_case light_cases[] = {
     CASE(light, evaluate_and_lit_match_the_equation_for_every_flag_and_model),
     CASE(light, the_bound_holds_right_up_to_the_limits_it_is_stated_for),
@@ -1308,4 +1336,5 @@ static const test_case light_cases[] = {
     CASE(light, linear_material_decodes_its_four_colours_and_keeps_the_shininess),
     CASE(light, nan_and_infinity_never_crash),
     CASE(light, big_and_tiny_finite_input_stays_finite),
+    CASE(light, lengths_of_normals_and_directions_do_not_matter),
 };

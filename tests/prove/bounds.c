@@ -44,7 +44,7 @@ static void prove_next(int across, int w, int h)
     s.bottom = ANY_OF(5, low);
     s.last = t.x1;
     s.inside = 0;
-    plan.toward = Frama_C_float_interval(-1, 1);
+    plan.away = Frama_C_float_interval(-1, 1);
     shade__next_stretch(&plan, &bounds, &t, &s);
     /*@ assert 2 <= s.last <= 16383 && 3 <= s.x <= 16384; */
 }
