@@ -41,40 +41,40 @@
            return shade_write_ppm("triangle.ppm", &target);
        }
 
-   It does not open windows, parse model files, start threads or emulate OpenGL, and it has no
-   shadows, reflections or physically based materials.                                   >>about
+   It does not open windows, parse model files or emulate OpenGL, and it has no shadows,
+   reflections or physically based materials.                                            >>about
 
    >>contents
      The number is the line in which a section's banner begins.  The tag that ends a banner names
-     the next section.
+     the next section; in and out are what a section takes and gives, holds is what must stay true.
      About
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     114  options               >>types      187  materials, lamps, targets, states
        >>plumbing   360  compilers             >>light      487  the equation and its terms
-       >>draw       612  meshes and pixels     >>math       855  vectors and matrices
+       >>draw       612  meshes and pixels     >>math       856  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1216  processors            >>base      1372  bits, masks, rows of vectors
-       >>matrix    1555  cameras, inverses     >>power     1849  x^n
-       >>pixels    1915  formats, sRGB
+       >>machine   1219  processors            >>base      1376  bits, masks, rows of vectors
+       >>matrix    1606  cameras, inverses     >>power     1900  x^n
+       >>pixels    1966  formats, sRGB
      Inside: light
-       >>lamps     2092  attenuation, cones    >>terms     2367  one term at one point
-       >>surface   2505  material and lights   >>lit       2629  the whole sum, at many points
+       >>lamps     2146  attenuation, cones    >>terms     2421  one term at one point
+       >>surface   2559  material and lights   >>lit       2683  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3066  who owns what         >>vertices  3248  shading, projection
-       >>triangles 3516  dropped, cut, edges   >>clip      3884  near, far, behind the eye
-       >>tiles     4069  pixels, depth test    >>cover     4418  what is hidden, tile by tile
-       >>fragments 4648  interpolation, lod    >>texture   4940  texels, mipmaps
-       >>store     5342  blending, packing
+       >>state     3100  who owns what         >>vertices  3282  shading, projection
+       >>triangles 3550  dropped, cut, edges   >>clip      3918  near, far, behind the eye
+       >>tiles     4103  pixels, depth test    >>cover     4452  what is hidden, tile by tile
+       >>fragments 4682  interpolation, lod    >>texture   4974  texels, mipmaps
+       >>store     5376  blending, packing
      Inside: calls
-       >>check     5567  refusals              >>drive     5732  shade_draw, batch by batch
-       >>mesh      6097  shade_draw_mesh       >>lines     6492  shade_draw_lines
-       >>shape     6650  normals, edges        >>chunks    6880  boxes around triangles
-       >>rays      7057  shade_pick            >>survey    7264  experiments on a draw
-       >>explain   7411  why nothing is seen   >>image     7823  PPM
+       >>check     5601  refusals              >>drive     5766  shade_draw, batch by batch
+       >>mesh      6131  shade_draw_mesh       >>lines     6526  shade_draw_lines
+       >>shape     6684  normals, edges        >>chunks    6917  boxes around triangles
+       >>rays      7094  shade_pick            >>survey    7274  experiments on a draw
+       >>explain   7421  why nothing is seen   >>image     7833  PPM
      Sources
-       >>refs      7889                        >>history   7915
-       >>license   7924
+       >>refs      7899                        >>history   7925
+       >>license   7934
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -144,7 +144,7 @@
    report the other parts of -ffast-math, nor -ffp-contract=fast, which overrides the pragmas of
    >>plumbing: do not use them.  Inline functions follow the flags of the file that includes them.
    A program linked with -ffast-math flushes denormal numbers to zero; only SHADE_FORMAT_RGBA32F
-   shows it.
+   and exponents far below 1 show it.
 
    tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
    variable declared last before such a call must be no int and no float.  SHADE_EACH_LANE takes a
@@ -195,10 +195,10 @@ typedef struct shade_mat4 { shade_vec4 col[4]; } shade_mat4;
 
 typedef enum shade_result {
     SHADE_OK = 0,
-    SHADE_ERROR_ARGUMENT,    /* a NULL the call cannot do without, a factor, sizes that differ */
+    SHADE_ERROR_ARGUMENT,    /* a NULL, a factor, sizes that differ, NaN, memory not aligned to 4 */
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
-    SHADE_ERROR_STATE,       /* an enumerator or range of a draw state, pipeline or line state */
+    SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
     SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count; a count that 3 does not divide */
@@ -486,8 +486,8 @@ SHADE__BEGIN
 
 /*------------------------------------------------------------------------------------------ >>light
    The equations of >>model.  All vectors point away from the surface.  Every function is defined
-   for all inputs, and input up to 1e12 never gives NaN or infinity.  Vectors of any length may be
-   1e-18 to 1e18 long; shorter ones count as zero.
+   for all inputs.  Vectors up to 1e12, with colours up to 1e6, never give NaN or infinity.  Where a
+   vector may have any length, that is 1e-18 to 1e18; a shorter one counts as zero.
 
    Accuracy: the error against exact arithmetic is below
 
@@ -559,8 +559,8 @@ SHADEDEF float shade_phong_specular(shade_vec3 normal, shade_vec3 to_light, shad
 /* B max(0, N.H)^n with H = (L + V) / |L + V|; 0 where N.L <= 0 or |L + V|^2 < 1e-12. [Blinn77] */
 SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal, shade_vec3 to_light,
                                           shade_vec3 to_eye, float exponent);
-/* 1 / (a + b r + c r^2), at most 1e20.  It is 1 where a = b = c = 0.  Where a = 0 alone, r counts
-   as max(r, 1e-4). */
+/* 1 / (a + b r + c r^2), at most 1e20.  It is 1 where a = b = c = 0; where only a is 0, r counts as
+   max(r, 1e-4). */
 SHADEDEF float shade_attenuation(float a, float b, float c, float r);
 /* (L.S)^e where L.S >= cos_cutoff, else 0, with S = -aim / |aim| and L toward the light.  It is 1
    where aim is zero. */
@@ -574,8 +574,8 @@ SHADEDEF shade_vec3 shade_brdf(const shade_material *material, shade_model model
 /* cool + k_w (warm - cool) with k_w = (1 + N.L) / 2.  N and L are unit vectors.      [Gooch98] */
 SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light, shade_vec3 cool,
                                        shade_vec3 warm);
-/* 4 alpha: the Blinn-Phong exponent whose highlight looks like that of Phong's exponent alpha when
-   the light comes from the viewer's side. */
+/* 4 n: the Blinn-Phong exponent whose highlight looks like that of Phong's exponent n when the
+   light comes from the viewer's side. */
 SHADEDEF float shade_blinn_exponent(float phong_exponent);
 /* x^n.  x is clamped to [0, 1], a negative n counts as 0, and x^0 is 1, 0^0 too.  The result is
    never NaN; its absolute error is below 2e-6 for n up to 1e6. */
@@ -600,8 +600,8 @@ typedef enum shade_preset {
 SHADEDEF shade_material shade_preset_material(shade_preset preset);
 SHADEDEF const char    *shade_preset_name(shade_preset preset);
 
-/* The sRGB curve of each component and its inverse.  Components are clamped to [0, 1], NaN counts
-   as 0, and the absolute error is below 4e-6.                                        [IEC61966] */
+/* From sRGB to linear light and back, component by component.  Components are clamped to [0, 1],
+   NaN counts as 0, and the absolute error is below 4e-6.                              [IEC61966] */
 SHADEDEF shade_vec3 shade_linear_from_srgb(shade_vec3 display);
 SHADEDEF shade_vec3 shade_srgb_from_linear(shade_vec3 linear);
 /* The linear colour of the sRGB colour 0xRRGGBB; the upper 8 bits are ignored. */
@@ -615,7 +615,7 @@ SHADEDEF shade_material shade_linear_material(shade_material display);
    indices.  Nothing is ever written outside the target's rows, width and clip rectangle.
                                                                                            >>math */
 
-/* An English sentence that says what a result means and which fields to look at; never NULL. */
+/* What a result means and which fields to look at, in English; never NULL. */
 SHADEDEF const char *shade_result_string(shade_result result);
 
 /* Fills the clip rectangle of both buffers.  NaN as depth is SHADE_ERROR_ARGUMENT. */
@@ -632,9 +632,9 @@ SHADEDEF shade_result shade_write_ppm(const char *path, const shade_target *targ
 #endif
 
 /* Supersampling: each pixel of out becomes the mean of factor x factor pixels of in, in linear
-   light.  in must be factor times as wide and high, and its strip must have factor times the rows;
-   factor is 1 .. 8.  Factor 1 converts formats, and may do so in place where the pixels are of
-   equal size.  Only the clip rectangle of out changes, and depth never. */
+   light.  in must be factor times as wide and high, and so must row_offset and row_count of its
+   strip; factor is 1 .. 8.  Factor 1 converts formats, and may do so in place where the pixels are
+   of equal size.  Only the clip rectangle of out changes, and depth never. */
 SHADEDEF shade_result shade_resolve(const shade_target *out, const shade_target *in, int factor);
 
 /* The texture's linear RGBA at u, v.  lod is the level of detail: log2 of texels per pixel.  A
@@ -686,9 +686,9 @@ typedef void shade_fragment_shader(const void *uniforms, const shade_fragments *
                                    shade_colors *SHADE_RESTRICT out);
 
 /* What shade_draw draws with.  Where lod_texture is set, fragments have a lod for
-   shade_sample_lanes: log2 of the longer of the two steps, in its texels, that (u, v) makes to the
-   next pixel right and below.  The steps are the exact derivatives of the perspective interpolation
-   at the pixel, whatever the interpolation is. */
+   shade_sample_lanes: log2 of the longer of the two steps, in texels of level 0, that (u, v) makes
+   to the next pixel right and below.  The steps are the exact derivatives of the perspective
+   interpolation at the pixel, whatever the interpolation is. */
 typedef struct shade_pipeline {
     shade_vertex_shader   *vertex;
     shade_fragment_shader *fragment;              /* NULL: depth only */
@@ -811,11 +811,11 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
    weighted by their angles there.  It is zero for a vertex without faces; faces without area do not
    count.                                                                             [Thurmer98] */
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals);
-/* Fills normals[index_count], one for each corner of each triangle: the mean, as above, over those
-   faces around the corner's position whose normal has a cosine of at least cos_crease with that of
-   the corner's own face.  Vertices of equal position count as one.  Time grows with the square of
-   the number of faces around a position.  memory must be aligned to 4 and have
-   shade_mesh_corner_normals_bytes, which is 0 for a bad mesh. */
+/* Fills one normal for each corner of each triangle, index_count of them or, without indices,
+   vertex_count: the mean, as above, over those faces around the corner's position whose normal has
+   a cosine of at least cos_crease with that of the corner's own face.  Vertices of equal position
+   count as one.  Time grows with the square of the number of faces around a position.  memory must
+   be aligned to 4 and have shade_mesh_corner_normals_bytes, which is 0 for a bad mesh. */
 SHADEDEF size_t       shade_mesh_corner_normals_bytes(const shade_mesh *mesh);
 SHADEDEF shade_result shade_mesh_corner_normals(const shade_mesh *mesh, float cos_crease,
                                                 shade_vec3 *normals, void *memory, size_t bytes);
@@ -833,8 +833,9 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* The world-space ray through window point x, y (pixel centres are at + 1/2).  It starts at the
-   eye; with an orthographic projection it starts on the near plane, or far - near in front of it
-   where z is from 0 to w.  Its direction is a unit vector, or zero for a degenerate camera. */
+   eye; with an orthographic projection it starts on the near plane or, where z is from 0 to w, by
+   far - near nearer to the viewer.  Its direction is a unit vector, or zero for a degenerate
+   camera, such as a matrix of zeros. */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -913,7 +914,7 @@ SHADE__INLINE uint64_t shade__double_bits(double d)
     return u;
 }
 
-/* Square root of x > 0 in double, to 2^-50. */
+/* Square root of x > 0 in double, within 2^-51.8. */
 SHADE__INLINE double shade__root(double x)
 {
     double y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(x) >> 1));
@@ -922,7 +923,8 @@ SHADE__INLINE double shade__root(double x)
 }
 
 /* The correctly rounded square root, as sqrtf gives it: the root of a float is at least 2^-51 from
-   the middle between two floats, and shade__root errs by less.  0 for x <= 0 and NaN. */
+   the middle between two floats, and shade__root errs by less.  Unlike sqrtf it is 0 for -0 and
+   NaN. */
 static inline float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
@@ -1029,7 +1031,7 @@ SHADE__INLINE shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 }
 
 /* (b - a) x (c - a) made unit: it points to the side from which a, b, c are counter-clockwise.
-   Zero for a degenerate triangle. */
+   Zero where b or c is a; of three points in a line zero, or some unit vector by rounding. */
 SHADE__INLINE shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
     return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)),
@@ -1147,8 +1149,9 @@ SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
                      shade_cross(m.col[0], m.col[1]));
 }
 
-/* (m^-1)^T with its sign and scale.  The zero matrix where the determinant is 0, or where its
-   reciprocal or an entry of the result is beyond FLT_MAX (for entries of m up to 1e6). */
+/* (m^-1)^T itself, not a multiple like shade_normal_matrix.  The zero matrix where the determinant
+   is 0, or where its reciprocal or an entry of the result is beyond FLT_MAX (for entries of m up to
+   1e6). */
 SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
 {
     shade_mat3 c = shade__cofactors(m);
@@ -1160,13 +1163,13 @@ SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
     return s == 0 ? shade__m3(a, b, d) : shade__m3(none, none, none);    /* NaN: not finite */
 }
 
-/* The bodies of these stand in >>matrix.  The inverse of a singular matrix is the zero matrix, and
-   so is one with an entry beyond FLT_MAX. */
+/* The bodies of these stand in >>matrix.  The inverse is the zero matrix where the determinant
+   comes out as 0, or an entry or 1 / determinant beyond FLT_MAX. */
 SHADEDEF shade_mat3 shade_mat3_identity(void);
 SHADEDEF shade_mat3 shade_mat3_from_mat4(shade_mat4 m);    /* the upper left 3 x 3 */
 SHADEDEF shade_mat3 shade_mat3_transpose(shade_mat3 m);
 SHADEDEF float      shade_mat3_determinant(shade_mat3 m);  /* col[0] . (col[1] x col[2]) */
-SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);
+SHADEDEF shade_mat3 shade_mat3_inverse(shade_mat3 m);      /* computed in float */
 SHADEDEF shade_mat4 shade_mat4_identity(void);
 SHADEDEF shade_mat4 shade_mat4_transpose(shade_mat4 m);
 SHADEDEF float      shade_mat4_determinant(shade_mat4 m);  /* computed in double */
@@ -1183,7 +1186,7 @@ SHADEDEF float      shade_radians(float degrees);
 SHADEDEF shade_mat4 shade_mat4_rotation(float radians, shade_vec3 axis);
 
 /* World to eye space: eye goes to the origin, center to the -z axis, up to the upper half of the
-   y-z plane.  Where up is parallel to the line of sight, some other up is taken.  Where eye =
+   y-z plane.  Where up is parallel to the line of sight, up is arbitrary.  Where eye =
    center, the camera looks down -z. */
 SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_vec3 up);
 
@@ -1193,8 +1196,8 @@ SHADEDEF shade_mat4 shade_mat4_look_at(shade_vec3 eye, shade_vec3 center, shade_
    everywhere and w = -z_eye, so that z/w falls from 1 at near to 0 at infinity; use it with
    depth_zero_to_one and SHADE_COMPARE_GREATER.
      Degenerate input gives the matrix that takes every point to (0, 0, 2, 1), so that nothing is
-   drawn: near = far, aspect = 0, left = right, bottom = top, fovy outside (0, pi), NaN, and except
-   in ortho near <= 0 or far <= 0. */
+   drawn: near = far, aspect = 0, left = right, bottom = top, fovy outside (0, pi), NaN, infinity,
+   and near <= 0 or far <= 0, which ortho alone allows. */
 SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect, float near_z, float far_z);
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect, float near_z);
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t, float n, float f);
@@ -1267,7 +1270,7 @@ SHADE__BEGIN
 
 #if defined(__GNUC__) || defined(__clang__)
 #define SHADE__NOINLINE __attribute__((noinline))
-#define SHADE__COLD __attribute__((noinline, cold))    /* the code is a quarter smaller */
+#define SHADE__COLD __attribute__((noinline, cold))    /* such code is a quarter smaller */
 /* gcc treats a function that only cold functions call as cold, and does not vectorise it. */
 #define SHADE__HOT __attribute__((noinline, hot))
 #define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
@@ -1307,8 +1310,9 @@ typedef uint32_t shade__word;
 #endif
 #endif
 
-/* On x86-64 each hot loop is compiled for SSE2, AVX2 and AVX-512 from one always-inlined body, and
-   every call takes the best that the processor runs.  All give the same bits: there is no FMA.
+/* On x86-64 gcc and clang compile each hot loop for any processor, for AVX2 and for AVX-512, from
+   one always-inlined body, and every call takes the best that the processor runs.  All give the
+   same bits: there is no FMA.
 
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
@@ -1465,7 +1469,7 @@ SHADE__INLINE int shade__finite3(shade_vec3 v)
 /* shade_normalize as a call, for code outside of lane loops: it saves 160 bytes at each use. */
 static SHADE__NOINLINE shade_vec3 shade__unit_vector(shade_vec3 v) { return shade_normalize(v); }
 
-/* 1/sqrt(x) for lanes, with a relative error below 2e-7 over all normal x; below 1e-36 it is some
+/* 1/sqrt(x) for lanes, with a relative error below 1.1e-7 over all normal x; of others it is some
    number.  A bit trick and its tuned Newton step [Kadlec10] have an error of 6.5e-4; one cubic step
    y + y e (1/2 + 3/8 e) with e = 1 - x y^2 follows.  sqrtf may set errno, which would keep the loop
    scalar. */
@@ -1525,6 +1529,53 @@ SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
 
 SHADE__INLINE shade__v3 *shade__three_rows(float *rows) { return (shade__v3 *)(void *)rows; }
 
+/* Vectors of doubles. */
+SHADE__INLINE void shade__double3(shade_vec3 v, double *to)
+{
+    to[0] = (double)v.x;
+    to[1] = (double)v.y;
+    to[2] = (double)v.z;
+}
+
+static double shade__dot3(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* c = a - b */
+SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
+{
+    double from[3];
+    shade__double3(a, c);
+    shade__double3(b, from);
+    for (int k = 0; k < 3; k++) c[k] -= from[k];
+}
+
+/* e = b - a, f = c - a, n = e x f.  Returns 0 if n is zero, which it is for a triangle without area
+   where the differences of its floats are exact in double. */
+static int shade__edges3(shade_vec3 a, shade_vec3 b, shade_vec3 c, double *e,
+                         double *f, double *n)
+{
+    shade__sub3(b, a, e);
+    shade__sub3(c, a, f);
+    shade__cross3(e, f, n);
+    return n[0] != 0 || n[1] != 0 || n[2] != 0;
+}
+
+/* Makes v unit, or zero where it is shorter than 1e-18. */
+static void shade__unit3(double *v)
+{
+    double d = shade__dot3(v, v), k = d >= 1e-36 ? 1 / shade__root(d) : 0;
+    for (int i = 0; i < 3; i++) v[i] *= k;
+}
+
 SHADEDEF const char *shade_result_string(shade_result result)
 {
     switch (result) {
@@ -1553,13 +1604,13 @@ SHADEDEF const char *shade_result_string(shade_result result)
 }
 
 /*----------------------------------------------------------------------------------------- >>matrix
-   The matrix functions of >>math, by the formulas that GLM uses; inverses are computed in double.
+   The matrix functions of >>math, by the formulas that GLM uses.
      holds   A degenerate camera takes every point to z = 2, w = 1, which is outside near or far in
              every convention of depth: nothing is drawn.                                 >>power */
 
 /* Sine and cosine.  The argument is reduced to r = x - k pi/2: pi/2 is the sum of two parts, the
    higher of 33 bits, so that k times it is exact and r off by 1e-16 up to |k| = 2^20; beyond, r is
-   off by 2^-53 of x, less than half the way from one float to the next.  Floats beyond 1e9 lie 64
+   off by 2^-53 of x, far less than the distance of two floats.  Floats beyond 1e9 lie 64 or more
    apart, which is no angle: they count as 0.  Taylor series on [-pi/4, pi/4] follow, whose next
    terms are below 5e-17. */
 static SHADE__COLD void shade__sincos(float radians, double *sine,
@@ -1721,9 +1772,9 @@ static int shade__is_finite(const shade_mat4 *m)
     return 1;
 }
 
-/* The matrix of a camera with these entries; the degenerate camera where good is 0 or an entry is
-   not finite, as after a division by zero. */
-static shade_mat4 shade__camera(int good, const double e[16])
+/* The projection with these entries; the degenerate one where good is 0 or an entry is not finite,
+   as after a division by zero. */
+static shade_mat4 shade__projection(int good, const double e[16])
 {
     shade_mat4 none = shade__zero_matrix(), m = shade__mat4_of(e);
     none.col[3] = shade_v4(0, 0, 2, 1);
@@ -1801,7 +1852,7 @@ SHADEDEF shade_mat4 shade_mat4_perspective(float fovy, float aspect,
     const double y = shade__focal(fovy), x = y / (double)aspect;
     const double n = (double)near_z, f = (double)far_z, d = n - f;
     const double e[16] = { x, 0, 0, 0, 0, y, 0, 0, 0, 0, (n + f) / d, -1, 0, 0, 2 * n * f / d, 0 };
-    return shade__camera(n > 0 && f > 0, e);
+    return shade__projection(n > 0 && f > 0, e);
 }
 
 SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect,
@@ -1809,12 +1860,12 @@ SHADEDEF shade_mat4 shade_mat4_perspective_reversed(float fovy, float aspect,
 {
     const double y = shade__focal(fovy), x = y / (double)aspect, n = (double)near_z;
     const double e[16] = { x, 0, 0, 0, 0, y, 0, 0, 0, 0, 0, -1, 0, 0, n, 0 };
-    return shade__camera(n > 0, e);
+    return shade__projection(n > 0, e);
 }
 
-/* The camera of a box in eye space, or of the frustum whose near face is that of the box; its sides
-   are l, r, b, t, n and f. */
-static shade_mat4 shade__box_camera(int frustum, const float side[6])
+/* The projection of a box in eye space, or of the frustum whose near face is that of the box; its
+   sides are l, r, b, t, n and f. */
+static shade_mat4 shade__box_projection(int frustum, const float side[6])
 {
     double v[6], e[16] = { 0 };
     shade__doubles(side, 6, v);
@@ -1829,21 +1880,21 @@ static shade_mat4 shade__box_camera(int frustum, const float side[6])
     column[2] = z;
     column[3] = frustum ? -1 : 1;
     e[frustum ? 14 : 10] = frustum ? k * f / d : k / d;
-    return shade__camera(!frustum || (n > 0 && f > 0), e);
+    return shade__projection(!frustum || (n > 0 && f > 0), e);
 }
 
 SHADEDEF shade_mat4 shade_mat4_frustum(float l, float r, float b, float t,
                                        float n, float f)
 {
     const float side[6] = { l, r, b, t, n, f };
-    return shade__box_camera(1, side);
+    return shade__box_projection(1, side);
 }
 
 SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
                                      float n, float f)
 {
     const float side[6] = { l, r, b, t, n, f };
-    return shade__box_camera(0, side);
+    return shade__box_projection(0, side);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -1853,8 +1904,8 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
      method  minimax polynomials.  log2(1 + f) = f P(f) on [sqrt(1/2) - 1, sqrt(2) - 1]: P makes
              the error relative to -log2 x least, which stays below 1e-6 in floats.  A power turns
              that into at most 1e-6 / e.  Two degrees more would give 2.7e-8 and cost 4 to 7 % of
-             lit packets.  2^-r = 1 + r Q(r) on [-1/2, 1/2], relative error 9.2e-8.  All figures
-             were measured over all floats in [0, 1].                                    >>pixels */
+             lit packets.  2^-r = 1 + r Q(r) on [-1/2, 1/2]: relative error 1.1e-7, in floats 2e-7.
+             All figures were measured over all floats in [0, 1].                        >>pixels */
 
 /* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0.  The addend carries into the exponent where
    the mantissa is at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is
@@ -1872,7 +1923,7 @@ SHADE__INLINE float shade__neg_log2(float x)
     return 127 - shade__number(t >> 23) - f * p;
 }
 
-/* 2^-u, u >= 0 or infinite; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 */
+/* 2^-u, u >= 0, also infinite; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 */
 SHADE__INLINE float shade__exp2_neg(float u)
 {
     const uint32_t some = shade__mask(shade__ordinal(u) < 0x42FC0000);    /* 126 */
@@ -1905,7 +1956,7 @@ SHADEDEF float shade_power(float x, float n)
     float c = shade__unit(x), subnormal = 0;
     if (!(n > 0)) return 1;
     if (!shade__within(n, FLT_MAX)) n = FLT_MAX;
-    if (c > 0 && c < FLT_MIN) {
+    if (c > 0 && c < FLT_MIN) {    /* c 2^24 is normal; from n = 8 on the result is 0 anyway */
         c *= 16777216;
         subnormal = 24 * shade__minf(n, 8);
     }
@@ -1915,10 +1966,11 @@ SHADEDEF float shade_power(float x, float n)
 /*----------------------------------------------------------------------------------------- >>pixels
    Colours as a display has them and as linear light, and how each format stores a pixel.
      in      bytes of any format, or linear floats          out  linear floats, or a stored pixel
-     holds   A new packed format of 1, 2 or 4 bytes is an enumerator and a row of shade__layouts.
+     holds   A new packed format of 1 or 2 bytes, or of four channels of 8 bits, is an enumerator
+             and a row of shade__layouts.
      source  sRGB curve [IEC61966]                                                        >>lamps */
 
-/* The sRGB curve and its inverse.   pre: 0 <= c <= 1   post: 0 <= result <= 1, as was tried
+/* From linear light to sRGB and back.   pre: 0 <= c <= 1   post: 0 <= result <= 1, as was tried
    with every such float */
 SHADE__INLINE float shade__srgb_encode(float c)
 {
@@ -1963,7 +2015,8 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
 }
 
 /* How a format stores a pixel.  A packed pixel is an integer of up to 32 bits, in which channel k
-   (R, G, B, A) is pixel >> shift[k] & full[k]; colours lie below bit 31.  Channels that a format
+   (R, G, B, A) is pixel >> shade__shift(l, k) & full[k]; on little-endian processors colours lie
+   below bit 31.  Channels that a format
    lacks are 1: they share one bit above the stored ones, which shade__load_packed sets.  For pixels
    of four floats, which have 16 bytes, only bytes means anything. */
 typedef struct shade__layout {
@@ -1982,12 +2035,12 @@ static const shade__layout shade__layouts[] = {    /* in the order of shade_form
     { 1, 0, { 8, 8, 8, 0 }, { 1, 1, 1, 255 } }             /* A8 */
 };
 
-/* Whether an enumerator is one from 0 to last. */
-SHADE__INLINE int shade__known(unsigned value, unsigned last) { return value <= last; }
+/* Whether an enumerator is from 0 to last.  Compilers disagree about the sign of enumerations. */
+#define SHADE__KNOWN(value, last) ((unsigned)(value) <= (unsigned)(last))
 
 SHADE__INLINE int shade__is_format(shade_format format)
 {
-    return shade__known(format, sizeof shade__layouts / sizeof *shade__layouts - 1);
+    return (unsigned)format < sizeof shade__layouts / sizeof *shade__layouts;
 }
 
 static size_t shade__pixel_bytes(shade_format format) { return shade__layouts[format].bytes; }
@@ -2015,7 +2068,7 @@ SHADE__INLINE float shade__channel(uint32_t packed, const shade__layout *l,
     return shade__number(packed >> shade__shift(l, k) & l->full[k]);
 }
 
-/* Whether a picture's colours are stored as sRGB: those of packed formats that store them. */
+/* Whether a picture's colours are stored as sRGB: never as floats, and A8 has none. */
 SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 {
     return srgb && l->full[0] > 1;
@@ -2024,7 +2077,8 @@ SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 /* The low two bytes of u, exchanged. */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 255) << 8; }
 
-/* Loads a packed pixel and sets the bit above it, or loads one of four floats as its bits. */
+/* Loads a packed pixel of 1 or 2 bytes and sets the bit above it; or one of 4 bytes, or a float as
+   its bits. */
 SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes,
                                           const int swapped)
 {
@@ -2727,26 +2781,6 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
         r->a.way.lobe.cosine[i] = shade__select(SHADE__NEVER, nh, exists);
     }
     return opposite;
-}
-
-/* Vectors of doubles. */
-SHADE__INLINE void shade__double3(shade_vec3 v, double *to)
-{
-    to[0] = (double)v.x;
-    to[1] = (double)v.y;
-    to[2] = (double)v.z;
-}
-
-static double shade__dot3(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* Makes v unit, or zero where it is shorter than 1e-18. */
-static void shade__unit3(double *v)
-{
-    double d = shade__dot3(v, v), k = d >= 1e-36 ? 1 / shade__root(d) : 0;
-    for (int i = 0; i < 3; i++) v[i] *= k;
 }
 
 /* Computes N.H again, from the positions and in double, in lanes where L and V are nearly opposite:
@@ -4955,9 +4989,9 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
         return "The texture's stride is less than its width; it counts texels, 0 means the width.";
     if (!shade__is_format(t->format))
         return "The texture's format is no SHADE_FORMAT_... value.";
-    if (!shade__known(t->wrap_u, SHADE_WRAP_MIRROR) || !shade__known(t->wrap_v, SHADE_WRAP_MIRROR))
+    if (!SHADE__KNOWN(t->wrap_u, SHADE_WRAP_MIRROR) || !SHADE__KNOWN(t->wrap_v, SHADE_WRAP_MIRROR))
         return "The texture's wrap_u or wrap_v is no SHADE_WRAP_... value.";
-    if (!shade__known(t->filter, SHADE_FILTER_TRILINEAR))
+    if (!SHADE__KNOWN(t->filter, SHADE_FILTER_TRILINEAR))
         return "The texture's filter is no SHADE_FILTER_... value.";
     return NULL;
 }
@@ -5639,10 +5673,10 @@ static shade_result shade__check_mesh(const shade_mesh *m)
 
 SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
 {
-    if (!shade__known(r->cull, SHADE_CULL_FRONT)) return "raster.cull is no SHADE_CULL_... value.";
-    if (!shade__known(r->depth_test, SHADE_COMPARE_ALWAYS))
+    if (!SHADE__KNOWN(r->cull, SHADE_CULL_FRONT)) return "raster.cull is no SHADE_CULL_... value.";
+    if (!SHADE__KNOWN(r->depth_test, SHADE_COMPARE_ALWAYS))
         return "raster.depth_test is no SHADE_COMPARE_... value.";
-    if (!shade__known(r->blend, SHADE_BLEND_ADD))
+    if (!SHADE__KNOWN(r->blend, SHADE_BLEND_ADD))
         return "raster.blend is no SHADE_BLEND_... value.";
     if (!shade__within(r->depth_bias, FLT_MAX))
         return "raster.depth_bias is NaN or infinite; 0 means none.";
@@ -5662,7 +5696,7 @@ static int shade__mesh_varyings(const shade_mesh *m,
 SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
                                              const shade_draw_state *state)
 {
-    if (!shade__known(state->shading, SHADE_SHADING_PER_FACE))
+    if (!SHADE__KNOWN(state->shading, SHADE_SHADING_PER_FACE))
         return "state.shading is no SHADE_SHADING_... value.";
     if (!(state->transparency >= 0 && state->transparency <= 1))
         return "state.transparency must be from 0 (opaque) to 1 (invisible).";
@@ -5681,14 +5715,14 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
 {
     if (!l->lights && l->light_count > 0)
         return "lighting.lights is NULL while lighting.light_count is not 0.";
-    if (!shade__known(l->model, SHADE_MODEL_COOL_TO_WARM))
+    if (!SHADE__KNOWN(l->model, SHADE_MODEL_COOL_TO_WARM))
         return "lighting.model is no SHADE_MODEL_... value.";
     return NULL;
 }
 
 static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
 {
-    if (!shade__known(p->interpolation, SHADE_INTERPOLATION_CONSTANT) || p->varyings < 0 ||
+    if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT) || p->varyings < 0 ||
         p->varyings > SHADE_MAX_VARYINGS || shade__raster_fault(&p->raster))
         return SHADE_ERROR_STATE;
     if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
@@ -6631,7 +6665,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     p.raster = state->raster;
     p.raster.cull = SHADE_CULL_NONE;
     if (!(state->width >= 0 && state->width <= FLT_MAX) ||
-        !shade__known(state->cap, SHADE_CAP_SQUARE) || shade__raster_fault(&p.raster))
+        !SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE) || shade__raster_fault(&p.raster))
         return SHADE_ERROR_STATE;
     s.points = points;
     s.state = state;
@@ -6671,7 +6705,10 @@ static double shade__angle(double y, double x)
 static shade_vec3 shade__triangle_normal(const shade_mesh *m, uint32_t t)
 {
     shade_vec3 p[3], n = shade__face_normal(m, t, p);
-    return shade__within(shade_dot(n, n), 2) ? n : shade_v3(0, 0, 0);
+    double e[3], f[3], cross[3];
+    int good = shade__edges3(p[0], p[1], p[2], e, f, cross);
+    good = good && shade__within(shade_dot(n, n), 2);
+    return good ? n : shade_v3(0, 0, 0);
 }
 
 /* The corner that follows a corner after so many steps around its triangle. */
@@ -7080,33 +7117,6 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
     d = shade_sub(shade_scale(shade__xyz(to), from.w), shade_scale(shade__xyz(from), to.w));
     ray.direction = shade__unit_vector(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
     return ray;
-}
-
-SHADE__INLINE void shade__cross3(const double *a, const double *b, double *c)
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-/* c = a - b */
-SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
-{
-    double from[3];
-    shade__double3(a, c);
-    shade__double3(b, from);
-    for (int k = 0; k < 3; k++) c[k] -= from[k];
-}
-
-/* e = b - a, f = c - a, n = e x f.  Returns 0 if n is zero, which it is for a triangle without area
-   where the differences of its floats are exact in double. */
-static int shade__edges3(shade_vec3 a, shade_vec3 b, shade_vec3 c, double *e,
-                         double *f, double *n)
-{
-    shade__sub3(b, a, e);
-    shade__sub3(c, a, f);
-    shade__cross3(e, f, n);
-    return n[0] != 0 || n[1] != 0 || n[2] != 0;
 }
 
 /* With s = origin - a, q = d x s and det = d.n, Cramer's rule gives t = -s.n / det, u = f.q / det

@@ -805,6 +805,35 @@ TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
     CHECK_INT(shade_is_crease(x, minus, -1), 1);
 }
 
+/* A plane with a T-junction, which a triangle without area closes: its corners lie in a line, and
+   the one in the middle has an angle of pi. */
+TEST(shape, a_triangle_without_area_in_a_junction_turns_no_normal)
+{
+    for (int i = 0; i < 3000; i++) {
+        const shade_vec3 u = shade_v3((float)rnd_int(-9, 9), (float)rnd_int(-9, 9), 7);
+        const shade_vec3 v = shade_v3((float)rnd_int(-9, 9), 11, (float)rnd_int(-9, 9));
+        const float middle = (float)rnd_int(1, 999), end = middle + (float)rnd_int(1, 999);
+        const uint32_t index[12] = { 0, 1, 3, 1, 2, 3, 0, 2, 1, 0, 4, 2 };
+        const d3 want = d3_unit(d3_cross(d3_from(u), d3_from(v)));
+        static uint32_t memory[4 * 12];
+        shade_vec3 p[5], normal[5], corner[12];
+        shade_mesh m;
+        if (d3_length(d3_cross(d3_from(u), d3_from(v))) < 1) continue;
+        p[0] = shade_v3(0, 0, 0);
+        p[1] = shade_scale(u, middle);
+        p[2] = shade_scale(u, end);
+        p[3] = shade_scale(v, middle);
+        p[4] = shade_neg(p[3]);
+        m = plain_mesh(&p[0].x, 5);
+        m.indices = index;
+        m.index_count = 12;
+        CHECK_INT(shade_mesh_normals(&m, normal), SHADE_OK);
+        for (int k = 0; k < 5; k++) CHECK(shape_off(normal[k], want) < 2e-6);
+        CHECK_INT(shade_mesh_corner_normals(&m, -1, corner, memory, sizeof memory), SHADE_OK);
+        for (int k = 0; k < 6; k++) CHECK(shape_off(corner[k], want) < 2e-6);
+    }
+}
+
 static const test_case shape_cases[] = {
     CASE(shape, an_edge_of_exactly_the_threshold_is_smooth),
     CASE(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above),
@@ -827,4 +856,5 @@ static const test_case shape_cases[] = {
     CASE(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes),
     CASE(shape, bad_edge_calls_are_refused),
     CASE(shape, silhouettes_part_front_from_back_and_creases_bend_enough),
+    CASE(shape, a_triangle_without_area_in_a_junction_turns_no_normal),
 };
