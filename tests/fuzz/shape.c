@@ -128,11 +128,24 @@ static shade_vec3 shape_at(const shape_mesh *s, int corner)
     return shape_position(&s->m, shape_corner(&s->m, corner));
 }
 
+/* Component k of (b - a) x (c - a), in double. */
+static double shape_cross(shade_vec3 a, shade_vec3 b, shade_vec3 c, int k)
+{
+    const float p[3] = { a.x, a.y, a.z }, q[3] = { b.x, b.y, b.z }, r[3] = { c.x, c.y, c.z };
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const double ei = (double)q[i] - (double)p[i], ej = (double)q[j] - (double)p[j];
+    const double fi = (double)r[i] - (double)p[i], fj = (double)r[j] - (double)p[j];
+    return ei * fj - ej * fi;
+}
+
+/* Zero for corners in a line: shade_face_normal alone would make a normal of rounding noise. */
 static shade_vec3 shape_face(const shape_mesh *s, int t)
 {
-    shade_vec3 n =
-        shade_face_normal(shape_at(s, 3 * t), shape_at(s, 3 * t + 1), shape_at(s, 3 * t + 2));
-    return shade_dot(n, n) <= 2 ? n : shade_v3(0, 0, 0);
+    const shade_vec3 a = shape_at(s, 3 * t), b = shape_at(s, 3 * t + 1), c = shape_at(s, 3 * t + 2);
+    const shade_vec3 n = shade_face_normal(a, b, c);
+    int line = 1;
+    for (int k = 0; k < 3; k++) line &= shape_cross(a, b, c, k) == 0;
+    return !line && shade_dot(n, n) <= 2 ? n : shade_v3(0, 0, 0);
 }
 
 static double shape_angle(const shape_mesh *s, int corner)
