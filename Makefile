@@ -50,10 +50,10 @@ ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' 
                    rm -f $@.assimp && echo -DMODEL_ASSIMP -lassimp || \
                    echo 'no assimp: programs read OBJ, STL and PLY alone' >&2)
 
-NUMBERED = $(patsubst examples/%.c,%,$(sort $(wildcard examples/[0-9]*.c)))
-ROOMS    = shared model thumbnail view batch compare pictures
+NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/[0-9]*.c)))
+ROOMS    = lessons shared pictures $(addprefix programs/,model thumbnail view batch compare)
 HEADERS  = shade.h $(wildcard $(ROOMS:%=examples/%/*.h))
-vpath %.c examples $(ROOMS:%=examples/%)
+vpath %.c $(ROOMS:%=examples/%)
 
 all: pictures programs
 pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm
@@ -77,18 +77,18 @@ out/gallery.ppm: build/contact examples/README.md $(NUMBERED:%=out/%.ppm)
 	build/contact $@ $$(echo $(NUMBERED) | awk -f examples/pictures/order.awk - examples/README.md)
 
 # -O1 compiles the tests' own code in a third of the time
-build/test_main: $(wildcard tests/*.c tests/*.h) build/shade.o
-	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/main.c build/shade.o -lm -o $@
-build/golden: tests/golden.c shade.h
+build/test_main: $(wildcard tests/unit/*.c tests/unit/*.h) build/shade.o
+	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/unit/main.c build/shade.o -lm -o $@
+build/golden: tests/unit/golden.c shade.h
 	@mkdir -p build
-	$(CC) $(FLAGS) tests/golden.c -o $@
+	$(CC) $(FLAGS) tests/unit/golden.c -o $@
 
 ifdef T
 test: build/test_main
 	build/test_main $(T)
 else
 test:
-	@sh tests/all.sh "$(MAKE)" "$(CC)"
+	@sh tests/scripts/all.sh "$(MAKE)" "$(CC)"
 endif
 
 bench:
@@ -96,30 +96,30 @@ bench:
 bench-plot:
 	@sh bench/plot.sh
 matrix:
-	@sh tests/matrix.sh; same=$$?; sh tests/compilers.sh && exit $$same
+	@sh tests/scripts/matrix.sh; same=$$?; sh tests/scripts/compilers.sh && exit $$same
 conformance:
-	@sh tests/conformance.sh
+	@sh tests/scripts/conformance.sh
 gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
 	@sh examples/playground/build.sh && sh examples/course/build.sh
 coverage:
-	@sh tests/coverage.sh
+	@sh tests/scripts/coverage.sh
 mutation:
-	@sh tests/mutation.sh
+	@sh tests/scripts/mutation.sh
 static:
-	@sh tests/static.sh
+	@sh tests/scripts/static.sh
 vector-report:
-	@sh tests/vector_report.sh
+	@sh tests/scripts/vector_report.sh
 prove:
-	@sh tests/prove.sh
+	@sh tests/scripts/prove.sh
 FUZZ_SECONDS ?= 300
 fuzz:
-	@sh tests/fuzz.sh $(FUZZ_SECONDS)
+	@sh tests/scripts/fuzz.sh $(FUZZ_SECONDS)
 
 # Installed programs begin with shade-, for "view" is anybody's.  The types are those that thumbnail
 # reads; those that shared-mime-info does not know have the names that f3d gives them, in
-# examples/model/mime.xml.  Whether it has assimp and stb shows in the program.
+# examples/programs/model/mime.xml.  Whether it has assimp and stb shows in the program.
 PREFIX  ?= /usr/local
 INSTALL ?= install
 MIME        = model/obj model/stl application/vnd.ply
@@ -134,8 +134,8 @@ FILES     = include/shade.h share/pkgconfig/shade.pc share/thumbnailers/shade.th
             share/mime/packages/shade.xml
 INSTALLED = $(FILES) $(foreach p,thumbnail view batch compare,bin/shade-$p \
             share/man/man1/shade-$p.1)
-build/%.1: build/% examples/model/man.sh
-	sh examples/model/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
+build/%.1: build/% examples/programs/model/man.sh
+	sh examples/programs/model/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
 install: programs
 	@v=$$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h); \
 	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' '' 'Name: shade' \
@@ -155,7 +155,7 @@ install: programs
 	$(INSTALL) -m 644 shade.h "$(PLACE)/include"
 	$(INSTALL) -m 644 build/shade.pc "$(PLACE)/share/pkgconfig"
 	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
-	$(INSTALL) -m 644 examples/model/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
+	$(INSTALL) -m 644 examples/programs/model/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
 uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 

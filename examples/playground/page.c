@@ -10,7 +10,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "../shared/mesh.h"
-#include "../model/files.h"
+#include "../programs/model/files.h"
 #include "../shared/shapes.h"
 #include "look.h"
 

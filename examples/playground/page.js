@@ -600,7 +600,7 @@ function listen() {
         $('#program pre').textContent = text, $('#program').showModal();
     };
     $('#code').addEventListener('click', () => showProgram(program()));
-    $('#by-hand').addEventListener('click', () => showProgram('/* Of examples/47_by_hand.c.  In ' +
+    $('#by-hand').addEventListener('click', () => showProgram('/* Of examples/lessons/47_by_hand.c.  In ' +
         'shade.h search for >>terms, one at one point, and >>lit, all at many. */\n' + BY_HAND));
     $('#copy').addEventListener('click', async () => {
         $('#copy').textContent = await copy($('#program pre').textContent) ? 'Copied' : 'Select it';

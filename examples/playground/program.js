@@ -45,7 +45,7 @@ function program() {
         '#include "shade.h"',
         '#include "examples/shared/mesh.h"',
         ['#include "examples/shared/shapes.h"', false,
-            '#include "examples/model/files.h"'][S.shape],
+            '#include "examples/programs/model/files.h"'][S.shape],
         '',
         `enum { WIDTH = ${width}, HEIGHT = ${height} };`,
         'static uint32_t pixels[WIDTH * HEIGHT];',

@@ -8,9 +8,9 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "examples/model/files.h"
+#include "examples/programs/model/files.h"
 #include "examples/shared/bands.h"
-#include "examples/model/look.h"
+#include "examples/programs/model/look.h"
 #include "examples/shared/canvas.h"
 
 typedef struct python_item {      /* a mesh in its place */

@@ -13,7 +13,7 @@ from setuptools.command.sdist import sdist
 from wheel.bdist_wheel import bdist_wheel
 
 HERE = Path(__file__).resolve().parent
-FOLDERS = ("examples/model", "examples/shared")
+FOLDERS = ("examples/programs/model", "examples/shared")
 
 
 def top() -> Path:

@@ -1,5 +1,5 @@
 /* recipes.h - the lighting of four courses.  examples/README.md shows and explains it under
-   "Reading your course"; tests/course.c compares each recipe with the equations of its notes. */
+   "Reading your course"; tests/unit/recipes.c compares each with the equations of its notes. */
 #ifndef SHARED_RECIPES_H
 #define SHARED_RECIPES_H
 

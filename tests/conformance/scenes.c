@@ -803,7 +803,7 @@ static void scene_shadows(scene *s)
 
 /* -------------------------------------------------- the notes' shaders and their twins, twins.h */
 
-/* Massey's camera and light, a coarse torus, as in examples/38_glsl_twins.c */
+/* Massey's camera and light, a coarse torus, as in examples/lessons/38_glsl_twins.c */
 static void twin(scene *s, const char *name, int k)
 {
     draw *d = add_draw(s);

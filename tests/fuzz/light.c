@@ -1,7 +1,7 @@
 /* light.c - vectors, matrices, colours and the equations of light: total for all input, finite for
    input that is not beyond 1e6 in matrices and 1e12 in vectors. */
 #include "input.h"
-#include "../rows.h"
+#include "../unit/rows.h"
 #include <math.h>
 
 enum { LIGHT_LAMPS = 4 };

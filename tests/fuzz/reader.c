@@ -1,7 +1,7 @@
-/* reader.c - the OBJ, STL and PLY readers of examples/model/files.h: any bytes give a valid model
+/* reader.c - the OBJ, STL and PLY readers of examples/programs/model/files.h: any bytes give a valid model
    or an error. */
 #include "input.h"
-#include "examples/model/files.h"
+#include "examples/programs/model/files.h"
 
 static void reader_check_mesh(const owned_mesh *m)
 {

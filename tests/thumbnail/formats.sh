@@ -1,4 +1,4 @@
-# formats.sh - what assimp gives.  Read by tests/thumbnail.sh.
+# formats.sh - what assimp gives.  Read by tests/scripts/thumbnail.sh.
 
 same "glTF as OBJ" torus.obj torus.gltf 0
 same "nodes that move, turn, stretch and mirror" nodes.obj nodes.gltf 1 "--up y"

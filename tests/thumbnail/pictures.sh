@@ -1,4 +1,4 @@
-# pictures.sh - what stb gives: PNG, its alpha, textures.  Read by tests/thumbnail.sh.
+# pictures.sh - what stb gives: PNG, its alpha, textures.  Read by tests/scripts/thumbnail.sh.
 
 check "PNG by its name" draw torus.obj a.png --samples 1
 check "PPM" draw torus.obj a.ppm --samples 1

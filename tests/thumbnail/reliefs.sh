@@ -1,5 +1,5 @@
 # reliefs.sh - bump and normal maps: a level square whose picture says how it is tilted is lit as the
-# tilted square.  Read by tests/thumbnail.sh.
+# tilted square.  Read by tests/scripts/thumbnail.sh.
 
 # A square whose picture lies on it turned or mirrored: name, slopes along x and y, the directions of
 # u and v as four numbers.  Writes NAME.obj, level, with a material of its name, and tilted.obj.

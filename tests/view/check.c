@@ -11,7 +11,7 @@
 #define _DEFAULT_SOURCE
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "examples/view/display.h"
+#include "examples/programs/view/display.h"
 
 static int passed, failed;
 static uint64_t seed = 88172645463325252u;

@@ -12,7 +12,7 @@ mkdir -p "$OUT" || exit 2
 
 # the program under test, and what compares
 $CC -std=c99 -O2 -I"$SHADE" ../cmake/*.c -lm -o "$OUT/saddle" || exit 2
-$CC -std=c99 -O2 -pthread "-I$SHADE" "$SHADE/examples/compare/compare.c" -lm -o "$OUT/compare" || exit 2
+$CC -std=c99 -O2 -pthread "-I$SHADE" "$SHADE/examples/programs/compare/compare.c" -lm -o "$OUT/compare" || exit 2
 
 # small pictures: less to keep, and a fault that matters shows in them as well
 "$OUT/saddle" "$OUT/picture.ppm" 64 48 || exit 2

@@ -1,0 +1,71 @@
+/* 27_exponent.c - what n does, and what the other numbers do (UW: a smaller or larger n, varying
+   the parameters).  Above: n = 1, 4, 16, 64, 256, and the angle between N and H at which (N.H)^n
+   has fallen to one half: four times n, half as wide.  Below: metal (k_d small, k_s large, both of
+   its colour), plastic (k_s white) and a planet (k_d from a map, no k_s).
+   Try n = 0 for the metal: (N.H)^0 = 1, so that k_s covers all that is lit, like paint.
+
+   cc -O2 -I. examples/lessons/27_exponent.c -lm -o exponent && ./exponent    writes exponent.ppm */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "../shared/mesh.h"
+#include "../shared/noise.h"
+#include "../shared/label.h"
+
+/* The angle between N and H at which the highlight is half as bright, to a tenth of a degree */
+static double half_angle(float n)
+{
+    const shade_vec3 H = { 0, 0, 1 };    /* of L = V = H */
+    for (int tenths = 0;; tenths++) {
+        shade_vec2 t = mesh_turn(((float)tenths + 0.5f) / 3600);
+        if (shade_blinn_phong_specular(shade_v3(t.y, 0, t.x), H, H, n) < 0.5f) return tenths / 10.0;
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const float exponent[5] = { 1, 4, 16, 64, 256 };
+    static const char *const name[3] = { "metal", "plastic", "planet" };
+    static const char *const formula[3] = { "n = 100, k_s = 8 k_d", "n = 30, k_s white",
+                                            "n = 0, k_d a map, k_s = 0" };
+    static float map[256 * 512][4];
+    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, copper = { 0.95f, 0.45f, 0.22f };
+    const shade_vec3 blue = { 0.02f, 0.10f, 0.45f }, white = { 1, 1, 1 }, none = { 0, 0, 0 };
+    const shade_material of[3] = {
+        { none, shade_scale(copper, 0.04f), shade_scale(copper, 0.1f), shade_scale(copper, 0.8f),
+          100 },
+        { none, shade_scale(blue, 0.1f), blue, { 0.45f, 0.45f, 0.45f }, 30 },
+        { none, { 0.05f, 0.05f, 0.05f }, { 0.94f, 0.94f, 0.94f }, none, 0 }
+    };
+    shade_material teal = { none, { 0.03f, 0.2f, 0.22f }, { 0.03f, 0.2f, 0.22f },
+                            { 0.55f, 0.55f, 0.55f }, 0 };
+    const shade_light lamp[2] = { shade_directional_light(shade_v3(0.5f, -0.6f, -1), white),
+                                  shade_directional_light(shade_v3(-1, -0.2f, 0.3f), white) };
+    shade_texture earth = { .pixels = map, .width = 512, .height = 256,
+                            .format = SHADE_FORMAT_RGBA32F };
+    shade_draw_state state = { .lighting = { lamp, 1, .ambient = { 0.15f, 0.15f, 0.17f } } };
+    owned_mesh ball = mesh_sphere(128, 64);
+    canvas c = canvas_new(960, 580, 2);
+    char power[40], half[40];
+
+    noise_planet(map, 512, 256);
+    state.view = shade_mat4_look_at(shade_v3(0, 0, 8), none, shade_v3(0, 1, 0));
+    state.projection = shade_mat4_perspective(0.27f, 1, 1, 10);
+    state.model = shade_mat4_rotation(3.6f, shade_v3(0, 1, 0));
+    canvas_dark(&c.target);
+    for (int i = 0; i < 8; i++) {
+        int w = i < 5 ? 192 : 320, x = i < 5 ? i * w : (i - 5) * w, y = i < 5 ? 8 : 256;
+        int size = i < 5 ? 184 : 264;
+        shade_target panel = canvas_panel(&c, x + (w - size) / 2, y, size, size);
+        if (i < 5) teal.shininess = exponent[i];
+        state.material = i < 5 ? &teal : &of[i - 5];
+        state.lighting.light_count = i == 5 ? 2 : 1;    /* metal shows what is around it */
+        state.diffuse_map = i == 7 ? &earth : NULL;
+        shade_draw_mesh(&panel, &ball.view, &state, NULL);
+        if (i < 5) sprintf(power, "(N·H)^{%d}", (int)exponent[i]);
+        if (i < 5) sprintf(half, "half at %.1f°", half_angle(exponent[i]));
+        label_caption(&c, x + w / 2, y + size + 20, grey, i < 5 ? power : name[i - 5],
+                      i < 5 ? half : formula[i - 5]);
+    }
+    mesh_free(&ball);
+    return canvas_save(&c, argc, argv, "exponent.ppm");
+}

@@ -1,0 +1,196 @@
+/* batch.c - renders films and posters in pieces, on as many machines as there are: the frames of
+   a turntable, or the strips of one large picture.
+
+   cc -O2 -pthread -I. examples/programs/batch/batch.c -lm -o batch
+   ./batch bunny.obj --film bunny.mp4
+
+   A piece is a file that appears whole or not at all.  A piece that exists is not drawn again,
+   and its bits depend on the options alone.  The strips in their order, concatenated, are the
+   poster. */
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for fileno with -std=c99 */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "film.h"
+#include "sheet.h"
+
+static const char usage[] =
+    "usage: batch [model] [options]                   without a model: the teapot\n"
+    "  --frames N            one turn in N pictures (360)\n"
+    "  --strips N            or one picture in N strips\n"
+    "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
+    "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
+    "  --quick               four lamps without shadows, in a tenth of the time\n"
+    MODEL_USAGE
+    "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
+    "  --pipe                to standard output instead, one behind the other\n"
+    "  --film FILE           or a film, .webp or .mp4, where ffmpeg is installed\n"
+    "  --rate N              frames a second of the film, 1 .. 240 (30)\n"
+    "  --piece K             only this one, 0 .. N-1\n"
+    "  --missing             only prints the numbers of those that are not there\n"
+    "  --help, --version     prints this text; the version\n";
+
+typedef struct batch {
+    scene_request request;
+    const char *out, *film;
+    int strips, count, width, height, samples; /* strips: 1 for strips, 0 for frames */
+    int piece, pipe, missing, rate, quick;     /* piece -1: all */
+    FILE *sink;                                /* of the pipe or film; NULL: files of their own */
+    scene scene;
+    sheet sheet;
+} batch;
+
+/* ---- options --------------------------------------------------------------------------------- */
+
+/* Stores one option: the option_take of batch. */
+static int take(void *to, const char *name, const char *value)
+{
+    batch *b = (batch *)to;
+    int taken = name ? model_take(&b->request.how, name, value) : -1;
+    if (taken >= 0) return taken;
+    if (!name)
+        b->request.model = value;
+    else if (!strcmp(name, "--pipe"))
+        b->pipe = 1;
+    else if (!strcmp(name, "--missing"))
+        b->missing = 1;
+    else if (!strcmp(name, "--quick"))
+        b->quick = 1;
+    else if (!strcmp(name, "--size"))
+        return option_size(value, 262144, &b->width, &b->height);
+    else if (!strcmp(name, "--rate"))
+        return option_integer(value, 1, 240, &b->rate);
+    else if (!strcmp(name, "--film")) {
+        b->film = value;
+        return strlen(value) < 4096 && (film_is_webp(value) || film_is_mp4(value));
+    } else if (!strcmp(name, "--samples"))
+        return option_samples(value, &b->samples);
+    else if (!strcmp(name, "--piece"))
+        return option_integer(value, 0, 99999, &b->piece);
+    else if (!strcmp(name, "--out")) {
+        b->out = value;
+        return *value && strlen(value) < 4096;
+    } else {
+        b->strips = !strcmp(name, "--strips");
+        return option_integer(value, 1, 99999, &b->count);
+    }
+    return OPTION_TAKEN;
+}
+
+/* Reads the command line.  Returns what options_read does. */
+static int read_options(batch *b, int argc, char **argv)
+{
+    static const char *const valued[] = { MODEL_VALUED, "--size",   "--samples", "--piece", "--out",
+                                          "--frames",   "--strips", "--film",    "--rate",  NULL };
+    static const char *const flags[] = { MODEL_FLAGS, "--pipe", "--missing", "--quick", NULL };
+    static const command c = { "batch", usage, valued, flags, 1, take };
+    int end = options_read(&c, b, argc, argv);
+    if (end) return end;
+
+    if (!b->out) b->out = b->strips ? "strips" : "frames";
+    if (b->piece >= b->count)
+        return complain("there is no piece %d: they count from 0 to %d", b->piece, b->count - 1);
+    if (b->strips && b->count > b->height) return complain("more strips than rows");
+    if (b->film && (b->strips || b->pipe || b->missing || b->piece >= 0))
+        return complain("--film does not go with --strips, --pipe, --missing or --piece");
+    if (b->film && film_is_mp4(b->film) && (b->width % 2 || b->height % 2))
+        return complain("--size %dx%d: MP4 needs even numbers", b->width, b->height);
+    if (b->pipe && isatty(STDOUT_FILENO))
+        return complain("standard output is a terminal, which shows no PPM");
+    if (b->pipe) b->sink = stdout;
+    return OPTIONS_READ;
+}
+
+/* ---- pieces ---------------------------------------------------------------------------------- */
+
+typedef struct batch_piece {
+    int first, rows;
+    char header[40], path[4200];
+    long long bytes;
+} batch_piece;
+
+static batch_piece find_piece(const batch *b, int k)
+{
+    batch_piece p = { 0, b->height, "", "", 0 };
+    if (b->strips) {
+        p.first = (int)((long long)b->height * k / b->count);
+        p.rows = (int)((long long)b->height * (k + 1) / b->count) - p.first;
+    }
+    if (p.first == 0) snprintf(p.header, sizeof p.header, "P6\n%d %d\n255\n", b->width, b->height);
+    p.bytes = (long long)strlen(p.header) + 3LL * b->width * p.rows;
+    snprintf(p.path, sizeof p.path, "%s/%05d.ppm", b->out, k);
+    return p;
+}
+
+/* Returns 1 where it has complained. */
+static int write_piece(batch *b, int k, const batch_piece *p)
+{
+    FILE *file = b->sink ? b->sink : batch_begin(p->path);
+    int failed;
+    if (!file) return 1;
+    if (!b->strips) b->scene.yaw = -0.5f + 6.2831853f * (float)k / (float)b->count;
+    if (!b->quick) sheet_light(&b->sheet, &b->scene);
+    failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
+    if (!b->sink) return batch_end(file, p->path, failed);
+    failed = failed || fflush(file);
+    if (b->film) return failed; /* film_close tells why */
+    return failed ? complain("standard output: %s", strerror(errno)) : 0;
+}
+
+/* Loads the model and gets memory, before the first piece is drawn.  Returns 1 with a line on
+   stderr. */
+static int get_ready(batch *b)
+{
+    if (b->sheet.scene) return 0;
+    b->request.pieces = 20;
+    while ((float)b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
+    if (!b->sink && !b->film && mkdir(b->out, 0777) && errno != EEXIST) {
+        complain("%s: %s", b->out, strerror(errno));
+        return 1;
+    }
+    if (scene_load(&b->scene, &b->request, NULL, NULL)) return 1;
+    if (!sheet_open(&b->sheet, &b->scene, b->width, b->height, b->samples)) return 0;
+    complain("out of memory");
+    return 1;
+}
+
+/* Draws those of all pieces, or of the one piece of the command line, that are missing. */
+static int write_pieces(batch *b)
+{
+    int first = b->piece < 0 ? 0 : b->piece, last = b->piece < 0 ? b->count : b->piece + 1;
+    batch_clock clock = batch_start(b->strips ? "strips" : "frames");
+    int drawn = 0;
+    for (int k = first; k < last; k++) {
+        batch_piece p = find_piece(b, k);
+        int there = !b->sink && batch_is_whole(p.path, p.header, p.bytes);
+        if (b->missing && !there) printf("%05d\n", k);
+        if (b->missing) continue;
+        if (!there && (get_ready(b) || write_piece(b, k, &p))) return 1;
+        drawn += !there;
+        if (last - first > 1) batch_tell(&clock, k + 1 - first, last - first, drawn);
+    }
+    return 0;
+}
+
+static int write_film(batch *b, const char *path)
+{
+    film f = { path, NULL, 0 };
+    int failed = get_ready(b) || film_open(&f, b->rate);
+    if (failed) return failed;
+    b->sink = f.frames;
+    return film_close(&f, write_pieces(b));
+}
+
+int main(int argc, char **argv)
+{
+    static batch b = {
+        .count = 360, .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30
+    };
+    int end;
+    b.request.how = model_options_new();
+    end = read_options(&b, argc, argv);
+    if (end) return end == OPTIONS_WRONG;
+    end = b.film ? write_film(&b, b.film) : write_pieces(&b);
+    if (b.sheet.scene) sheet_close(&b.sheet);
+    scene_close(&b.scene);
+    return end;
+}

@@ -1,0 +1,30 @@
+#!/bin/sh
+# sheets.sh FOLDER SHEETS [options of thumbnail] - draws a sheet of views of every model in a folder
+# and the folders in it, on all cores, by GNU parallel:
+#
+#     sh examples/programs/batch/sheets.sh parts sheets --edges --hidden --dimensions
+#
+# The sheet of parts/a/bolt.stl is sheets/a/bolt.stl.png.  A sheet that is newer than its model stays,
+# so what was interrupted goes on where it was.  A model that cannot be read is one line on stderr,
+# and the status is not 0.  THUMBNAIL names the program (shade-thumbnail), JOBS the jobs at a time.
+[ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 1; }
+models=$1 sheets=$2; shift 2
+command -v parallel >/dev/null || { echo "sheets.sh: it needs parallel (GNU)" >&2; exit 1; }
+mkdir -p "$sheets" || exit 1
+sheets=$(cd "$sheets" && pwd) THUMBNAIL=${THUMBNAIL:-shade-thumbnail}
+command -v "$THUMBNAIL" >/dev/null || { echo "sheets.sh: no $THUMBNAIL" >&2; exit 1; }
+case $THUMBNAIL in */*) THUMBNAIL=$(cd "${THUMBNAIL%/*}" && pwd)/${THUMBNAIL##*/};; esac
+export sheets THUMBNAIL
+one() {                         # model, options
+    sheet=$sheets/${1#./}.png model=$1; shift
+    [ -n "$(find "$sheet" -newer "$model" 2>/dev/null)" ] && return
+    mkdir -p "${sheet%/*}" &&
+        "$THUMBNAIL" "$model" "$sheet" --views front,right,top,iso --threads 1 --quiet "$@" </dev/null
+}
+if [ "$1" = --one ]; then shift; cd "$models" && one "$@"; exit; fi
+script=$(cd "$(dirname "$0")" && pwd)/${0##*/}
+cd "$models" || exit 1
+find . -type f \( -iname '*.stl' -o -iname '*.obj' -o -iname '*.ply' -o -iname '*.3mf' \
+    -o -iname '*.gltf' -o -iname '*.glb' -o -iname '*.fbx' -o -iname '*.dae' -o -iname '*.3ds' \
+    -o -iname '*.off' -o -iname '*.amf' \) -print0 | sort -z |
+    parallel -0 ${JOBS:+-j "$JOBS"} sh "$script" . "$sheets" --one {} "$@"

@@ -1,0 +1,383 @@
+/* compare.c - compares two pictures number by number: are they the same within a tolerance?
+
+   cc -O2 -pthread -I. examples/programs/compare/compare.c -lm -o compare
+   ./compare --limit 2 golden.ppm picture.ppm
+   ./compare --limit 2 golden.ppm part.stl
+
+   It is made for tests that draw a picture and compare it with one that is kept.  In place of a
+   picture may stand a model, which is drawn as thumbnail draws it.  Pictures are read row by row,
+   so that a poster takes no more memory than an icon.  With -DMODEL_STB and stb installed, it also
+   reads PNG and the other formats of stb, with -DMODEL_ASSIMP and -lassimp the models of assimp. */
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for POSIX with -std=c99 */
+#define SHADE_IMPLEMENTATION
+#define STBI_FAILURE_USERMSG
+#include "shade.h"
+#include "../model/portrait.h"
+#include "../model/read.h"
+
+static const char usage[] =
+    "usage: compare [options] golden picture      PPM or PGM; - is standard input\n"
+    "  --limit N             a channel may differ by N of 255 (0)\n"
+    "  --count N|N%          N pixels, or N % of them, may differ by more than the limit (0)\n"
+    "  --difference FILE     writes a PPM: golden in grey, differences in yellow, those beyond\n"
+    "                        the limit in red\n"
+    "  --help, --version     prints this text; the version\n"
+    "In place of a picture may stand a model. It is drawn as thumbnail draws it, as large as the\n"
+    "picture that it is compared with:\n"
+    PORTRAIT_USAGE
+    MODEL_USAGE
+    "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
+    "exit status: 0 the same within limit and count, 1 different, 2 error\n";
+
+enum { SAME, DIFFERENT, ERROR };
+typedef struct picture {
+    const char *name;
+    FILE *file;
+    int width, height, channels, most, plain;
+    unsigned char *whole, *bytes;    /* all of it where stb has read it; one row as it is stored */
+    double *row;                     /* one row, three channels a pixel, 0 .. 255 */
+} picture;
+
+/* Prints one line on stderr and returns the exit status for it. */
+static int fail(const char *name, const char *what)
+{
+    complain("%s: %s", name, what);
+    return ERROR;
+}
+
+/* ---- reading -------------------------------------------------------------------------------- */
+
+/* The next number of a header or of a plain picture; blanks and comments before it and the one
+   character after it are skipped.  -1: there is none */
+static int number(FILE *f)
+{
+    int c = getc(f), n = 0;
+    while (c == ' ' || (c >= '\t' && c <= '\r') || c == '#') {
+        if (c == '#')
+            while (c != '\n' && c != EOF) c = getc(f);
+        else c = getc(f);
+    }
+    if (c < '0' || c > '9') return -1;
+    for (; c >= '0' && c <= '9'; c = getc(f)) n = n < 100000000 ? 10 * n + c - '0' : n;
+    return n;
+}
+
+static int read_header(picture *p)
+{
+    int kind = getc(p->file), magic = 0;
+    if (kind == EOF) return fail(p->name, ferror(p->file) ? strerror(errno) : "an empty file");
+#ifdef MODEL_STB
+    if (kind != 'P') {
+        ungetc(kind, p->file);
+        p->whole = stbi_load_from_file(p->file, &p->width, &p->height, &p->channels, 3);
+        p->channels = 3;
+        p->most = 255;
+        return p->whole ? SAME : fail(p->name, stbi_failure_reason());
+    }
+#endif
+    if (kind == 'P') magic = getc(p->file);
+    if (magic < '2' || magic > '6' || magic == '4')
+        return fail(p->name, "neither PPM nor PGM");
+    p->plain = magic < '5';
+    p->channels = magic == '2' || magic == '5' ? 1 : 3;
+    p->width = number(p->file);
+    p->height = number(p->file);
+    p->most = number(p->file);
+    if (p->width < 1 || p->height < 1 || p->most < 1 || p->most > 65535)
+        return fail(p->name, "a header without width, height and a maximum up to 65535");
+    return p->width > 1 << 24 ? fail(p->name, "more than 16777216 pixels in a row") : SAME;
+}
+
+/* Room for one row */
+static int open_rows(picture *p)
+{
+    p->bytes = (unsigned char *)malloc((size_t)p->width * 6);
+    p->row = (double *)calloc((size_t)p->width * 3, sizeof *p->row);
+    return p->bytes && p->row ? SAME : fail(p->name, "out of memory");
+}
+
+static int open_picture(picture *p)
+{
+    p->file = strcmp(p->name, "-") ? fopen(p->name, "rb") : stdin;
+    if (!p->file) return fail(p->name, strerror(errno));
+    return read_header(p) || open_rows(p) ? ERROR : SAME;
+}
+
+static int read_row(picture *p, int y)
+{
+    int n = p->width * p->channels, wide = p->most > 255;
+    const unsigned char *b = p->bytes;
+    if (p->whole) b = p->whole + (size_t)n * (size_t)y;
+    else if (!p->plain && fread(p->bytes, (size_t)(1 + wide), (size_t)n, p->file) < (size_t)n)
+        return fail(p->name, ferror(p->file) ? strerror(errno) : "ends too early");
+    for (int k = 0; k < n; k++) {
+        int v = p->plain ? number(p->file) : wide ? b[2 * k] << 8 | b[2 * k + 1] : b[k];
+        if (v < 0) return fail(p->name, "ends too early, or holds what is no number");
+        if (v > p->most) return fail(p->name, "a value above its own maximum");
+        if (p->channels == 3) p->row[k] = 255.0 * v / p->most;
+        else p->row[3 * k] = p->row[3 * k + 1] = p->row[3 * k + 2] = 255.0 * v / p->most;
+    }
+    return SAME;
+}
+
+/* ---- comparing ------------------------------------------------------------------------------ */
+
+typedef struct result { double most, sum, squares, beyond; int x, y; } result;
+
+/* Colours one pixel of the difference picture: dim grey where there is no difference, yellow by
+   the part of the limit that is used, red by the excess over the limit. */
+static void mark(unsigned char *out, const double *golden, double difference, double limit)
+{
+    double grey = (golden[0] + 2 * golden[1] + golden[2]) / 8;
+    double far = difference > limit ? 155 + difference * 100 / 255 : 0;
+    double near = difference > limit || difference <= 0 ? 0 : 60 + 120 * difference / limit;
+    out[0] = (unsigned char)(near + far + (near + far > 0 ? 0 : grey));
+    out[1] = (unsigned char)(near + (near + far > 0 ? 0 : grey));
+    out[2] = (unsigned char)(near + far > 0 ? 0 : grey);
+}
+
+static int compare(picture *a, picture *b, double limit, FILE *difference, result *r)
+{
+    for (int y = 0; y < a->height; y++) {
+        if (read_row(a, y) || read_row(b, y)) return ERROR;
+        for (int x = 0; x < a->width; x++) {
+            double most = 0;
+            for (int k = 3 * x; k < 3 * x + 3; k++) {
+                double d = fabs(a->row[k] - b->row[k]);
+                r->sum += d;
+                r->squares += d * d;
+                if (d > most) most = d;
+            }
+            if (most > r->most) {
+                r->most = most;
+                r->x = x;
+                r->y = y;
+            }
+            r->beyond += most > limit;
+            mark(a->bytes + 3 * x, a->row + 3 * x, most, limit);
+        }
+        if (difference) fwrite(a->bytes, 3, (size_t)a->width, difference);
+    }
+    return SAME;
+}
+
+/* Writes the difference picture, which appears whole or not at all: under another name first,
+   except for devices, which a rename would replace. */
+static int compare_into(picture *a, picture *b, double limit, const char *path, result *r)
+{
+    char *part = (char *)malloc(strlen(path) + 6);
+    FILE *f = NULL;
+    int failed = ERROR, beside = strncmp(path, "/dev/", 5) != 0;
+    if (part) strcat(strcpy(part, path), beside ? ".part" : "");
+    if (part) f = fopen(part, "wb");
+    if (!f) fail(path, part ? strerror(errno) : "out of memory");
+    else {
+        fprintf(f, "P6\n%d %d\n255\n", a->width, a->height);
+        failed = compare(a, b, limit, f, r);
+        errno = 0;
+        if ((fflush(f) || ferror(f)) && !failed)
+            failed = fail(path, errno ? strerror(errno) : "could not be written");
+        fclose(f);
+        if (beside && !failed && rename(part, path)) failed = fail(path, strerror(errno));
+        if (beside && failed) remove(part);
+    }
+    free(part);
+    return failed;
+}
+
+/* ---- command line --------------------------------------------------------------------------- */
+
+typedef struct options {
+    const char *names[2], *difference;
+    double limit, count;
+    int percent;                     /* count is a percentage */
+    int sized, max_seconds;          /* sized: the command line says how large models are drawn */
+    portrait portrait;
+    model_options how;
+} options;
+
+/* Stores one option: the option_take of compare. */
+static int take(void *to, const char *name, const char *value)
+{
+    options *o = (options *)to;
+    char *end;
+    double number;
+    int taken;
+    if (!name) {
+        o->names[o->names[0] != NULL] = value;
+        return OPTION_TAKEN;
+    }
+    o->sized |= !strcmp(name, "--size");
+    taken = model_take(&o->how, name, value);
+    if (taken < 0) taken = portrait_take(&o->portrait, name, value);
+    if (taken >= 0) return taken;
+    if (!strcmp(name, "--max-seconds"))
+        return option_integer(value, 0, 1000000000, &o->max_seconds);
+    if (!strcmp(name, "--difference")) {
+        o->difference = value;
+        return OPTION_TAKEN;
+    }
+
+    number = strtod(value, &end);
+    if (end == value || !(number >= 0)) return OPTION_BAD;
+    if (!strcmp(name, "--limit")) {
+        o->limit = number;
+        return !*end;
+    }
+    o->count = number;
+    o->percent = *end == '%';
+    return !end[o->percent];
+}
+
+/* Reads the command line.  Returns what options_read does. */
+static int read_options(options *o, int argc, char **argv)
+{
+    static const char *const valued[] = { "--limit",    "--count",       "--difference",
+                                          MODEL_VALUED, PORTRAIT_VALUED, "--max-seconds",
+                                          NULL };
+    static const char *const flags[] = { MODEL_FLAGS, NULL };
+    static const command c = { "compare", usage, valued, flags, 2, take };
+    int end = options_read(&c, o, argc, argv);
+    if (end) return end;
+    if (!o->names[1]) {
+        fputs(usage, stderr);
+        return OPTIONS_WRONG;
+    }
+    if (!strcmp(o->names[0], "-") && !strcmp(o->names[1], "-")) {
+        complain("only one picture can be standard input");
+        return OPTIONS_WRONG;
+    }
+    if (o->portrait.background == PORTRAIT_NONE) {
+        complain("--background none: transparent pixels have no colours to compare");
+        return OPTIONS_WRONG;
+    }
+    return portrait_check(&o->portrait) ? OPTIONS_WRONG : OPTIONS_READ;
+}
+
+/* ---- drawing --------------------------------------------------------------------------------- */
+
+/* 1: the file holds a model, by its extension. */
+static int is_model(const char *name)
+{
+    static const char *const models[] = { "obj", "stl", "ply", "gltf", "glb", "fbx",
+                                          "dae", "3ds", "3mf", "off",  NULL };
+    const model_kind kind = model_kind_of(name);
+#ifdef MODEL_ASSIMP
+    char dotted[sizeof kind.text + 2];
+    snprintf(dotted, sizeof dotted, ".%s", kind.text);
+    if (kind.text[0] && aiIsExtensionSupported(dotted)) return 1;
+#endif
+    return option_among(models, kind.text);
+}
+
+/* Makes a drawn model a picture: the bytes that thumbnail writes. */
+static int take_pixels(picture *p, const shade_target *drawn)
+{
+    p->whole = portrait_bytes(drawn, 3);
+    p->width = drawn->width;
+    p->height = drawn->height;
+    p->channels = 3;
+    p->most = 255;
+    return p->whole ? SAME : fail(p->name, "out of memory");
+}
+
+static int draw_model(picture *p, const portrait *as, const model_options *how)
+{
+    static studio light;
+    model m = { 0 };
+    canvas c;
+    shade_target drawn;
+    shade_result wrong;
+    int failed = ERROR;
+    if (model_open(p->name, how, &m, NULL, NULL)) return ERROR;
+    guard_doing = "drawing";
+    if (!model_prepare(&m, how, as->rotate)) {
+        wrong = portrait_light(&light, &m, as, how, NULL, NULL);
+        c = canvas_try(as->width, as->height, as->samples);
+        if (!c.target.color) wrong = SHADE_ERROR_CAPACITY;
+        if (!wrong) wrong = portrait_draw(&c, &m, &light, as, how, NULL, NULL);
+        if (wrong) {
+            fail(p->name, portrait_says(wrong));
+        } else {
+            drawn = canvas_finish(&c);
+            failed = take_pixels(p, &drawn);
+        }
+        free(c.target.color);
+        free(c.target.depth);
+    }
+    studio_close(&light);
+    model_free(&m);
+    return failed;
+}
+
+/* Opens pictures and draws models; a model beside a picture becomes as large. */
+static int open_both(picture *p, const options *o)
+{
+    portrait as = o->portrait;
+    for (int i = 0; i < 2; i++) {
+        p[i].name = o->names[i];
+        if (is_model(p[i].name)) continue;
+        if (open_picture(&p[i])) return ERROR;
+        if (!o->sized) as.width = p[i].width;
+        if (!o->sized) as.height = p[i].height;
+    }
+    for (int i = 0; i < 2; i++) {
+        if (!is_model(p[i].name)) continue;
+        if (as.width > 8192 || as.height > 8192)
+            return fail(p[i].name, "models are drawn up to 8192x8192 pixels");
+        if (portrait_check(&as) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))
+            return ERROR;
+    }
+    return SAME;
+}
+
+/* ---- the answer ------------------------------------------------------------------------------ */
+
+static int print(const picture *a, const result *r, const options *o)
+{
+    double pixels = (double)a->width * a->height, mean_square = r->squares / (3 * pixels);
+    double allowed = o->percent ? floor(o->count * pixels / 100) : floor(o->count);
+    printf("max    %.4g", r->most);
+    if (r->most > 0) printf(" at %d,%d", r->x, r->y);
+    printf("\nmean   %.4g\n", r->sum / (3 * pixels));
+    if (mean_square > 0) printf("PSNR   %.2f dB\n", 10 * log10(255.0 * 255.0 / mean_square));
+    else printf("PSNR   infinite\n");
+    printf("count  %.0f of %.0f pixels beyond %g, %.0f allowed\n", r->beyond, pixels, o->limit,
+           allowed);
+    puts(r->beyond <= allowed ? "same" : "different");
+    return r->beyond <= allowed ? SAME : DIFFERENT;
+}
+
+static int run(picture *p, const options *o)
+{
+    picture *a = &p[0], *b = &p[1];
+    result r = { 0 };
+    if (open_both(p, o)) return ERROR;
+    if (a->width != b->width || a->height != b->height) {
+        printf("size   %d x %d and %d x %d\ndifferent\n", a->width, a->height, b->width, b->height);
+        return DIFFERENT;
+    }
+    if (o->difference ? compare_into(a, b, o->limit, o->difference, &r)
+                      : compare(a, b, o->limit, NULL, &r))
+        return ERROR;
+    return print(a, &r, o);
+}
+
+int main(int argc, char **argv)
+{
+    picture p[2] = { 0 };
+    options o = { .portrait = portrait_new(), .how = model_options_new() };
+    int status = read_options(&o, argc, argv);
+    guard_status = ERROR;
+    if (status) return status == OPTIONS_WRONG ? ERROR : SAME;
+    guard_program(o.max_seconds, o.how.max_memory);
+    status = run(p, &o);
+    if (fflush(stdout) || ferror(stdout)) status = fail("standard output", strerror(errno));
+    for (int i = 0; i < 2; i++) {
+        if (p[i].file) fclose(p[i].file);
+        free(p[i].whole);
+        free(p[i].bytes);
+        free(p[i].row);
+    }
+    return status;
+}

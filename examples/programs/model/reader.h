@@ -1,0 +1,364 @@
+/* reader.h - what the readers of model files share: bytes and where they are read, arrays that
+   grow, sets, normals that a file lacks, and the words and numbers of text. */
+#ifndef MODEL_READER_H
+#define MODEL_READER_H
+
+#include "../../shared/mesh.h"
+#include <errno.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <string.h>
+
+/* Called now and then with the part of the file that has been read, 0 .. 1; may be NULL. */
+typedef void mesh_progress(void *user, double part);
+
+/* ---- bytes, arrays, sets, normals ----------------------------------------------------------- */
+
+typedef struct mesh_reader {
+    const unsigned char *at, *begin, *end;
+    const char *name;
+    long long line;                      /* 0: the file is binary */
+    char *error;
+    size_t error_size;
+    mesh_progress *progress;
+    void *user;
+    size_t most;                         /* triangles; 0: what int can count */
+} mesh_reader;
+
+/* Writes the message and returns 1, which means failure in all readers. */
+static inline int mesh_fail(mesh_reader *r, const char *format, ...)
+{
+    va_list list;
+    int n = 0;
+    if (!r->error_size) return 1;
+    if (r->line) n = snprintf(r->error, r->error_size, "%s:%lld: ", r->name, r->line);
+    else n = snprintf(r->error, r->error_size, "%s: ", r->name);
+    if (n < 0 || (size_t)n >= r->error_size) return 1;
+    va_start(list, format);
+    vsnprintf(r->error + n, r->error_size - (size_t)n, format, list);
+    va_end(list);
+    return 1;
+}
+
+/* Fails if there are more triangles than the caller allows, or than 2^31 - 1 indices can hold. */
+static inline int mesh_check_triangles(mesh_reader *r, size_t triangles)
+{
+    if (triangles > INT_MAX / 3) return mesh_fail(r, "more than 2^31 - 1 indices");
+    if (!r->most || triangles <= r->most) return 0;
+    return mesh_fail(r, "more than %lu triangles", (unsigned long)r->most);
+}
+
+/* An array that doubles: room for count + 1 elements.  Returns NULL where memory or size_t ends. */
+static inline void *mesh_grow(void *array, size_t count, size_t *capacity, size_t size)
+{
+    size_t wanted = *capacity ? *capacity * 2 : 64;
+    void *grown;
+    if (count < *capacity) return array;
+    if (*capacity > SIZE_MAX / 2 / size) return NULL;
+    grown = realloc(array, wanted * size);
+    if (grown) *capacity = wanted;
+    return grown;
+}
+
+/* Growable floats and indices */
+typedef struct mesh_floats { float *v; size_t count, capacity; } mesh_floats;
+typedef struct mesh_uints { uint32_t *v; size_t count, capacity; } mesh_uints;
+
+static inline int mesh_push(mesh_floats *a, const float *v, size_t n)
+{
+    for (size_t k = 0; k < n; k++) {
+        float *grown = (float *)mesh_grow(a->v, a->count, &a->capacity, sizeof *a->v);
+        if (!grown) return 1;
+        a->v = grown;
+        a->v[a->count++] = v[k];
+    }
+    return 0;
+}
+
+static inline int mesh_push_uint(mesh_uints *a, uint32_t v)
+{
+    uint32_t *grown = (uint32_t *)mesh_grow(a->v, a->count, &a->capacity, sizeof *a->v);
+    if (!grown) return 1;
+    a->v = grown;
+    a->v[a->count++] = v;
+    return 0;
+}
+
+static inline int mesh_push_triangle(mesh_uints *a, uint32_t i, uint32_t j, uint32_t k)
+{
+    return mesh_push_uint(a, i) || mesh_push_uint(a, j) || mesh_push_uint(a, k);
+}
+
+/* A set of triples, numbered in order of arrival: hash table with linear probing, at most half
+   full. */
+typedef struct mesh_triple { uint32_t k[3]; } mesh_triple;
+typedef struct mesh_set {
+    mesh_triple *triple;
+    uint32_t *slot;                      /* number + 1; 0: free */
+    size_t count, capacity, slots;       /* slots: 0 or a power of two */
+} mesh_set;
+
+static inline size_t mesh_hash(mesh_triple t, size_t slots)
+{
+    uint64_t h = (uint64_t)t.k[0] * 0x9E3779B97F4A7C15u;
+    h = (h ^ h >> 32 ^ t.k[1]) * 0xD6E8FEB86659FD93u;
+    h = (h ^ h >> 32 ^ t.k[2]) * 0xD6E8FEB86659FD93u;
+    return (size_t)(h ^ h >> 32) & (slots - 1);
+}
+
+static inline int mesh_set_rehash(mesh_set *s)
+{
+    size_t slots = s->slots ? s->slots * 2 : 256;
+    uint32_t *slot = slots > s->slots ? (uint32_t *)calloc(slots, sizeof *slot) : NULL;
+    if (!slot) return 1;
+    for (size_t i = 0; i < s->count; i++) {
+        size_t at = mesh_hash(s->triple[i], slots);
+        while (slot[at]) at = (at + 1) & (slots - 1);
+        slot[at] = (uint32_t)i + 1;
+    }
+    free(s->slot);
+    s->slot = slot;
+    s->slots = slots;
+    return 0;
+}
+
+/* Finds the number of a triple, and adds the triple if it is new.  Returns non-zero where memory is
+   out, or at 2^31 - 1 triples. */
+static inline int mesh_set_add(mesh_set *s, mesh_triple t, uint32_t *number)
+{
+    mesh_triple *grown;
+    size_t at;
+    if (s->count >= INT_MAX || (s->count * 2 >= s->slots && mesh_set_rehash(s))) return 1;
+    for (at = mesh_hash(t, s->slots); s->slot[at]; at = (at + 1) & (s->slots - 1)) {
+        *number = s->slot[at] - 1;
+        if (!memcmp(&s->triple[*number], &t, sizeof t)) return 0;
+    }
+    grown = (mesh_triple *)mesh_grow(s->triple, s->count, &s->capacity, sizeof t);
+    if (!grown) return 1;
+    s->triple = grown;
+    *number = (uint32_t)s->count;
+    s->triple[s->count++] = t;
+    s->slot[at] = *number + 1;
+    return 0;
+}
+
+/* The bits of a position; -0 and 0 are the same place. */
+static inline mesh_triple mesh_position_key(const float *p)
+{
+    mesh_triple t;
+    for (int k = 0; k < 3; k++) {
+        float v = p[k] == 0 ? 0 : p[k];
+        memcpy(&t.k[k], &v, sizeof v);
+    }
+    return t;
+}
+
+/* Fills the normals that are all zero, one normal for each position.  A vertex whose faces
+   cancel out (two sides of a sheet) takes the normal of one of them. */
+static inline int mesh_fill_normals(owned_mesh *m)
+{
+    int vertices = m->view.vertex_count, indices = m->view.index_count, failed = 1;
+    mesh_set places = { NULL, NULL, 0, 0, 0 };
+    owned_mesh welded = { { 0 }, 0, 0, 0, 0, 0, 0 };
+    uint32_t *place = (uint32_t *)malloc(sizeof(uint32_t) * (size_t)vertices);
+    shade_vec3 *mean = NULL;
+    float biggest = 0;
+    if (!place) goto done;
+    for (int i = 0; i < vertices; i++)
+        if (mesh_set_add(&places, mesh_position_key(m->positions + 3 * (size_t)i), &place[i]))
+            goto done;
+    welded.positions = (float *)malloc(3 * sizeof(float) * places.count);
+    welded.indices = (uint32_t *)malloc(sizeof(uint32_t) * (size_t)indices);
+    mean = (shade_vec3 *)malloc(sizeof(shade_vec3) * places.count);
+    if (!welded.positions || !welded.indices || !mean) goto done;
+    for (size_t i = 0; i < 3 * (size_t)vertices; i++)
+        biggest = fmaxf(biggest, fabsf(m->positions[i]));
+    for (size_t i = 0; i < 3 * places.count; i++) {    /* to 1: squares of any size stay in range */
+        float v;
+        memcpy(&v, &places.triple[i / 3].k[i % 3], sizeof v);
+        welded.positions[i] = biggest > 0 ? (float)((double)v / (double)biggest) : 0;
+    }
+    for (int i = 0; i < indices; i++) welded.indices[i] = place[m->indices[i]];
+    mesh_link(&welded, (int)places.count, indices);
+    if (shade_mesh_normals(&welded.view, mean)) goto done;
+    for (int i = 0; i < indices; i++) {
+        shade_vec3 *n = &mean[welded.indices[i]];
+        shade_vec3 p[3];
+        if (n->x != 0 || n->y != 0 || n->z != 0) continue;
+        for (int k = 0; k < 3; k++)
+            memcpy(&p[k], welded.positions + 3 * (size_t)welded.indices[i - i % 3 + k], sizeof *p);
+        *n = shade_face_normal(p[0], p[1], p[2]);
+    }
+    for (int i = 0; i < vertices; i++) {
+        float *n = m->normals + 3 * (size_t)i;
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0) memcpy(n, &mean[place[i]], sizeof *mean);
+    }
+    failed = 0;
+done:
+    free(place);
+    free(mean);
+    free(places.triple);
+    free(places.slot);
+    mesh_free(&welded);
+    return failed;
+}
+
+/* ---- text: characters, words, numbers ------------------------------------------------------- */
+
+/* The length of the line end at a place: 1 for LF or CR, 2 for CR LF, 0 where there is none */
+static inline int mesh_line_end(const mesh_reader *r, const unsigned char *p)
+{
+    if (p == r->end || (*p != '\n' && *p != '\r')) return 0;
+    return *p == '\r' && p + 1 < r->end && p[1] == '\n' ? 2 : 1;
+}
+
+/* Skips blanks and, where joined is set, line ends behind a backslash. */
+static inline void mesh_skip_blanks(mesh_reader *r, int joined)
+{
+    for (; r->at < r->end; r->at++) {
+        int n = joined && *r->at == '\\' ? mesh_line_end(r, r->at + 1) : 0;
+        if (n) {
+            r->at += n;
+            r->line++;
+        } else if (*r->at != ' ' && *r->at != '\t' && *r->at != '\v' && *r->at != '\f') {
+            return;
+        }
+    }
+}
+
+/* Skips blanks and line ends. */
+static inline void mesh_skip_lines(mesh_reader *r)
+{
+    for (mesh_skip_blanks(r, 0); mesh_line_end(r, r->at); mesh_skip_blanks(r, 0)) {
+        r->at += mesh_line_end(r, r->at);
+        r->line++;
+    }
+}
+
+/* Moves to the beginning of the next line, which is past continued lines where joined is set. */
+static inline void mesh_next_line(mesh_reader *r, int joined)
+{
+    while (r->at < r->end) {
+        int n = mesh_line_end(r, r->at), escaped = joined && *r->at == '\\';
+        if (escaped) {
+            r->at++;
+            n = mesh_line_end(r, r->at);
+        }
+        if (n) {
+            r->at += n;
+            r->line++;
+        } else if (!escaped) {
+            r->at++;
+        }
+        if (n && !escaped) return;
+    }
+}
+
+static inline int mesh_is_blank(unsigned char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+static inline int mesh_at_word_end(const mesh_reader *r)
+{
+    return r->at == r->end || mesh_is_blank(*r->at) || *r->at == '#'
+        || (*r->at == '\\' && mesh_line_end(r, r->at + 1));
+}
+
+/* The next few bytes as printable text, for messages */
+typedef struct mesh_quote { char text[28]; } mesh_quote;
+static inline mesh_quote mesh_here(const mesh_reader *r)
+{
+    mesh_quote q = { "the end of the line" };
+    size_t n = 0;
+    const unsigned char *p = r->at;
+    if (mesh_at_word_end(r)) return q;
+    q.text[n++] = '"';
+    for (; p < r->end && !mesh_is_blank(*p) && n < 22; p++)
+        q.text[n++] = (char)(*p > 32 && *p < 127 ? *p : '?');
+    q.text[n++] = '"';
+    q.text[n] = 0;
+    return q;
+}
+
+/* Takes the word if it comes next, in capital or small letters. */
+static inline int mesh_take_word(mesh_reader *r, const char *word)
+{
+    mesh_reader behind = *r;
+    for (; *word; word++, behind.at++) {
+        int c = behind.at < r->end ? *behind.at : 0;
+        if ((c >= 'A' && c <= 'Z' ? c | 32 : c) != *word) return 0;
+    }
+    if (!mesh_at_word_end(&behind)) return 0;
+    r->at = behind.at;
+    return 1;
+}
+
+/* Takes the rest of the line without the blanks around it, and returns where it begins; it ends at
+   r->at. */
+static inline const unsigned char *mesh_take_line(mesh_reader *r)
+{
+    const unsigned char *begin, *end;
+    mesh_skip_blanks(r, 0);
+    begin = end = r->at;
+    for (; r->at < r->end && !mesh_line_end(r, r->at); r->at++)
+        if (!mesh_is_blank(*r->at)) end = r->at + 1;
+    r->at = end;
+    return begin;
+}
+
+/* A decimal number, independent of the locale.  15 digits and powers up to 22 are exact in
+   double, so the float is the nearest in practice; the same on every machine in any case. */
+static inline int mesh_take_double(mesh_reader *r, double *out)
+{
+    static const double ten[] = { 1e1, 1e2, 1e4, 1e8, 1e16, 1e32, 1e64, 1e128, 1e256 };
+    const unsigned char *p = r->at;
+    int negative = 0, digits = 0, point = 0, e = 0, e_negative = 0, e_digits = 0;
+    long long scale = 0;
+    uint64_t mantissa = 0;
+    double value;
+    if (p < r->end && (*p == '-' || *p == '+')) negative = *p++ == '-';
+    for (; p < r->end && ((*p >= '0' && *p <= '9') || (*p == '.' && !point)); p++) {
+        if (*p == '.') { point = 1; continue; }
+        digits = 1;
+        if (mantissa < 100000000000000000u) {
+            mantissa = mantissa * 10 + *p - '0';
+            scale -= point;
+        } else {
+            scale += !point;
+        }
+    }
+    if (digits && p < r->end && (*p | 32) == 'e') {
+        p++;
+        if (p < r->end && (*p == '-' || *p == '+')) e_negative = *p++ == '-';
+        for (; p < r->end && *p >= '0' && *p <= '9'; p++, e_digits = 1)
+            if (e < 100000) e = e * 10 + *p - '0';
+        digits = e_digits;
+    }
+    value = (double)mantissa;
+    scale += e_negative ? -e : e;
+    if (scale > 400) scale = 400;
+    if (scale < -400) scale = -400;
+    for (int k = 0, n = (int)(scale < 0 ? -scale : scale); n; k++, n >>= 1)
+        if (n & 1) value = scale < 0 ? value / ten[k] : value * ten[k];
+    if (value > (double)FLT_MAX) digits = 0;
+    if (digits) {
+        const unsigned char *begin = r->at;
+        r->at = p;
+        if (mesh_at_word_end(r)) {
+            *out = negative ? -value : value;
+            return 0;
+        }
+        r->at = begin;
+    }
+    return mesh_fail(r, "expected a number, found %s", mesh_here(r).text);
+}
+
+static inline int mesh_take_number(mesh_reader *r, float *out)
+{
+    double value = 0;
+    if (mesh_take_double(r, &value)) return 1;
+    *out = (float)value;
+    return 0;
+}
+#endif

@@ -1,0 +1,109 @@
+/* thumbnail.c - draws a picture of a model file, on a machine that needs neither GPU nor window.
+
+   cc -O2 -pthread -I. examples/programs/thumbnail/thumbnail.c -lm -o thumbnail
+   ./thumbnail bunny.obj bunny.ppm
+
+   With libstb-dev it also reads textures and writes PNG, with libassimp-dev it reads more formats
+   than OBJ, STL and PLY:
+   cc -O2 -pthread -I. -DMODEL_STB -DMODEL_ASSIMP examples/programs/thumbnail/thumbnail.c \
+      -lassimp -lm -o thumbnail
+
+   The model may have any size and place: it is moved to the origin and made one unit large, and the
+   camera stands as near as it can without cutting anything off.  The picture's file appears whole
+   or not at all. */
+#define _DEFAULT_SOURCE /* NOLINT: the system's own name, for POSIX with -std=c99 */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "options.h"
+#include "save.h"
+#include "../model/read.h"
+#include "drawing.h"
+#include <time.h>
+
+/* ---- progress ------------------------------------------------------------------------------- */
+
+/* Progress: nothing in the first second of work, then a line that rewrites itself, only on a
+   terminal */
+typedef struct progress {
+    clock_t begin;
+    const char *what;
+    int percent, shown, silent;
+} progress;
+
+static void report(void *user, double part)
+{
+    progress *p = (progress *)user;
+    int percent = (int)(part * 100);
+    char line[80];
+    if (p->silent || percent == p->percent || clock() - p->begin < CLOCKS_PER_SEC) return;
+    p->percent = percent;
+    p->shown = 1;
+    snprintf(line, sizeof line, "\r%s %3d %%", p->what, percent);
+    guard_say(line);
+}
+
+static void report_next(progress *p, const char *what)
+{
+    if (p->shown) fprintf(stderr, "\r%*s\r", (int)strlen(p->what) + 6, "");
+    p->what = what;
+    p->percent = -1;
+    p->shown = 0;
+    guard_doing = *what ? what : "ending";
+}
+
+/* ---- what is done --------------------------------------------------------------------------- */
+
+static int read_model(const options *o, model *m, progress *p)
+{
+    int failed;
+    report_next(p, "reading the model");
+    failed = model_open(o->input, &o->how, m, report, p);
+    report_next(p, "");
+    if (failed || o->drawing.view_count) return failed;
+    return model_prepare(m, &o->how, o->picture.rotate);
+}
+
+static int draw_and_save(const options *o, const model *m, progress *p)
+{
+    static studio light;
+    canvas c;
+    shade_target picture;
+    shade_result result;
+    int failed;
+    report_next(p, "finding shadows");
+    result = portrait_light(&light, m, &o->picture, &o->how, report, p);
+    report_next(p, "drawing");
+    c = canvas_try(o->picture.width, o->picture.height, o->picture.samples);
+    if (!c.target.color) result = SHADE_ERROR_CAPACITY;
+    if (!result) result = portrait_draw(&c, m, &light, &o->picture, &o->how, report, p);
+    report_next(p, "");
+    if (result) {
+        failed = complain("%s", portrait_says(result));
+    } else {
+        picture = canvas_finish(&c);
+        failed = save(&picture, o);
+    }
+    studio_close(&light);
+    free(c.target.color);
+    free(c.target.depth);
+    return failed;
+}
+
+int main(int argc, char **argv)
+{
+    options o = { .picture = portrait_new(), .how = model_options_new() };
+    progress p = { clock(), "", -1, 0, 0 };
+    model m = { 0 };
+    int end;
+    end = read_options(&o, argc, argv);
+    if (end) return end == OPTIONS_WRONG;
+    p.silent = o.how.quiet || !guard_terminal();
+    guard_program(o.max_seconds, o.how.max_memory);
+    end = read_model(&o, &m, &p);
+    if (!end && o.drawing.view_count)
+        end = drawing_run(&o, &m, report, &p);
+    else if (!end)
+        end = draw_and_save(&o, &m, &p);
+    model_free(&m);
+    return end;
+}

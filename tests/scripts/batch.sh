@@ -1,0 +1,251 @@
+#!/bin/sh
+# batch.sh - build/batch: pieces that are whole or absent, resumed, over several jobs and machines,
+# into ffmpeg.  What is not installed is named and left out.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+HERE=$PWD BATCH=$PWD/build/batch CC=${CC:-cc}
+export LC_ALL=C PARALLEL_HOME=/nonexistent
+running= patience=60
+trap 'kill $running 2>/dev/null; rm -rf "$T"' EXIT
+
+${MAKE:-make} -s build/batch build/thumbnail build/compare build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+[ -x "$BATCH" ] || { echo "batch: left out, it needs POSIX"; finish; }
+cd "$T" || exit 1
+
+# ---- frames -------------------------------------------------------------------------------------
+turn="--frames 12 --size 97x60 --samples 2"
+missing() { "$BATCH" $turn --out "$1" --missing | tr '\n' ' '; }
+check "frames into a folder" "$BATCH" $turn --out one
+check "nobody watches: no word" same "$(wc -c <log)" 0
+check "twelve" same "$(ls one | tr '\n' ' ')" "$(seq -f %05g.ppm 0 11 | tr '\n' ' ')"
+check "each one another" same "$(cksum one/* | cut -d ' ' -f 1 | sort -u | wc -l)" 12
+check "none is missing" same "$(missing one)" ""
+check "the same through a pipe" sh -c "'$BATCH' $turn --pipe | cmp - all.ppm" \
+    "$(cat one/* >all.ppm)"
+for k in 7 00007; do check "piece $k alone" "$BATCH" $turn --out alone --piece $k; done
+check "is that piece" cmp one/00007.ppm alone/00007.ppm
+check "and no other" same "$(ls alone)" 00007.ppm
+
+check "the quick light" "$BATCH" $turn --out quick --piece 7 --quick --threads 1
+check "is another one" no cmp -s one/00007.ppm quick/00007.ppm
+check "by threads as well" sh -c "'$BATCH' $turn --piece 7 --quick --threads 2 --pipe | cmp - quick/00007.ppm"
+
+for n in 1 2 7 256; do
+    check "by $n threads" "$BATCH" $turn --out threads$n --threads $n
+    check "the same frames by $n threads" diff -r one threads$n
+done
+
+# resumed: what is there stays, what is cut or of another size is drawn again
+cp -r one two
+rm two/00003.ppm
+: >two/00004.ppm
+head -c 5000 one/00005.ppm >two/00005.ppm
+sed '1,2s/^97 60$/60 97/' one/00006.ppm >two/00006.ppm
+check "four are missing" same "$(missing two)" "00003 00004 00005 00006 "
+: >before
+sleep 1.1                       # the clock of any file system
+check "resumed" "$BATCH" $turn --out two
+check "to the same bits" diff -r one two
+check "four were drawn" same "$(find two -name '*.ppm' -newer before | wc -l)" 4
+
+# ended in the middle
+slow="--frames 40 --size 600x400 --out cut"
+for signal in TERM HUP INT KILL; do
+    rm -rf cut
+    # a job of a shell without jobs would be deaf to INT
+    sh -c 'trap - INT; exec "$@"' sh "$BATCH" $slow & running=$!
+    soon test -s cut/00001.ppm
+    kill -$signal $running
+    wait $running 2>/dev/null
+    check "SIG$signal: frames that are there are whole" \
+        same "$(find cut -name '*.ppm' ! -size 720015c | wc -l)" 0
+    [ $signal = KILL ] || check "SIG$signal: nothing else stays" same "$(ls cut | grep -c part)" 0
+done
+running=
+# parts: of a process of this machine that is gone, of one that lives, of another machine
+host=$(uname -n | sed 's|[].*?[/\\]|-|g')
+dead=$(sh -c 'echo $$')
+mkdir swept
+for part in $host.$dead $host.$$ elsewhere.$dead; do : >"swept/00000.ppm.$part.part"; done
+check "one frame" "$BATCH" --frames 1 --size 60x40 --samples 1 --out swept
+check "sweeps what a killed job has left, nothing else" same "$(ls swept | tr '\n' ' ')" \
+    "$(printf '%s\n' 00000.ppm "00000.ppm.$host.$$.part" "00000.ppm.elsewhere.$dead.part" |
+        sort | tr '\n' ' ')"
+
+# the six axes: a model and its copy with turned coordinates are one picture
+printf 'v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >y.obj
+printf 'v 0 0 0\nv 0 -1 0\nv 2 0 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >x.obj
+printf 'v 0 0 0\nv 0 1 0\nv -2 0 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >-x.obj
+for up in y x -x; do
+    check "--up $up" "$BATCH" ./$up.obj --up $up --frames 1 --size 60x40 --samples 1 --out up$up
+    check "is upright" cmp upy/00000.ppm up$up/00000.ppm
+done
+
+# ---- strips -------------------------------------------------------------------------------------
+poster="--size 301x407 --samples 2"
+check "a poster in one" "$BATCH" $poster --strips 1 --out whole
+check "is a picture" same "$(head -c 15 whole/00000.ppm | tr '\n' ' ')" "P6 301 407 255 "
+check "of its size" same "$(wc -c <whole/00000.ppm)" $((15 + 301 * 407 * 3))
+for n in 2 7 61; do
+    check "in $n strips" "$BATCH" $poster --strips $n --out strips$n
+    check "the same bits in $n strips" sh -c "cat strips$n/*.ppm | cmp - whole/00000.ppm"
+done
+check "five strips by 3 threads" sh -c \
+    "'$BATCH' $poster --strips 5 --pipe --threads 3 | cmp - whole/00000.ppm"
+check "through a pipe" sh -c "'$BATCH' $poster --strips 5 --pipe | cmp - whole/00000.ppm"
+rm strips7/00002.ppm
+check "a strip is missing" same "$("$BATCH" $poster --strips 7 --out strips7 --missing)" 00002
+# in cells, as a picture larger than 16384 samples is: within the rounding of their cameras
+cells="$CC -std=c99 -O2 -w -pthread -I. -DSHADE__IMPLEMENTED -DSHEET_CELL=150 -DSHEET_BAND=9000"
+check "smaller cells" sh -c "cd '$OLDPWD' && $cells examples/programs/batch/batch.c build/shade.o -lm -o $T/cells"
+check "their poster" ./cells $poster --strips 3 --out cells3
+cat cells3/*.ppm >cells.ppm
+check "cells leave no seam" "${BATCH%batch}compare" --limit 2 --count 0 whole/00000.ppm cells.ppm
+check "strips of cells" sh -c "./cells $poster --strips 1 --pipe | cmp - cells.ppm"
+
+# ---- a terminal ---------------------------------------------------------------------------------
+if command -v script >/dev/null; then
+    watched() { script -qec "'$BATCH' $turn $*" /dev/null </dev/null | tr '\r' '\n' >screen; }
+    watched --out watched
+    check "the time that is left" \
+        grep -Eq "^1 of 12 frames, 8 %, [0-9]+:[0-9][0-9]:[0-9][0-9] left" screen
+    check "and the time it took" grep -Eq "^12 of 12 frames, 100 %, [0-9.]+ s" screen
+    watched --pipe
+    check "no picture on a terminal" grep -q "^batch: standard output is a terminal" screen
+else echo "no script: the progress line is left out"
+fi
+
+# ---- bad input ----------------------------------------------------------------------------------
+refused() {                     # what it says, command ...: status 1, one line
+    text=$1; shift
+    "$@" >out 2>err </dev/null
+    same "$?" 1 && same "$(wc -l <err)" 1 && grep "^batch: .*$text" err
+}
+: >empty.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1' >half.obj
+check "a missing model" refused "none.obj: No such file" "$BATCH" none.obj
+check "an empty one" refused "empty" "$BATCH" empty.obj
+check "half a model" refused "half.obj:3" "$BATCH" half.obj
+check "a folder for a model" refused "directory" "$BATCH" one
+check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
+for bad in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256 (one a core)" \
+    "--frames 0: one turn in N pictures"; do
+    # the option and its value end at the colon
+    check "$bad" refused "$bad" "$BATCH" ${bad%%:*}
+done
+for bad in "--frames 0" "--strips 100000" "--size 0x5" "--size 5" "--size 300000x5" "--size 5x5x5" \
+    "--samples 9" "--threads 0" "--threads 257" "--piece -1" "--up w" \
+    "--color redd" "--material x" "--model x" "--shading x" "--max-triangles -1" "--max-memory 31"; do
+    check "$bad" refused "$bad: " "$BATCH" $bad
+done
+check "a piece too far" refused "count from 0" "$BATCH" --frames 3 --piece 3
+check "more strips than rows" refused "more strips than rows" "$BATCH" --size 9x9 --strips 10
+check "an unknown option" refused "unknown option --frob" "$BATCH" --frob
+check "an option without its value" refused "size needs a value" "$BATCH" --size
+check "two models" refused "one file too many: b.obj" "$BATCH" a.obj b.obj
+check "a file for a folder" refused "Not a directory" "$BATCH" $turn --out empty.obj
+check "a folder in none" refused "No such file" "$BATCH" $turn --out none/frames
+check "help" sh -c "'$BATCH' --help | grep -q '^usage: batch'"
+[ -w /dev/full ] && check "no room" refused "No space" sh -c "'$BATCH' $turn --pipe >/dev/full"
+check "no room for a file" refused "too large" \
+    sh -c "trap '' XFSZ; ulimit -f 4; exec '$BATCH' $turn --out full"
+check "nothing half-written" same "$(ls full | wc -l)" 0
+if (ulimit -v 100000) 2>/dev/null; then
+    check "no memory for a large picture" refused "out of memory" sh -c "ulimit -v 100000
+        exec '$BATCH' --frames 1 --size 262144x100 --samples 4 --pipe >/dev/null"
+fi
+check "nobody reads" refused "Broken pipe" \
+    sh -c "trap '' PIPE; { '$BATCH' $turn --pipe; echo \$? >status; } | :; exit \$(cat status)"
+
+for bad in "--film a.gif" "--rate 0" "--rate 241"; do
+    check "$bad" refused "$bad: " "$BATCH" $bad
+done
+mkdir bare; ln -s "$(command -v uname)" bare/uname
+check "a film without ffmpeg" refused "which is not installed" env PATH="$T/bare" "$BATCH" $turn --size 96x60 \
+    --film a.mp4
+
+# ---- several jobs, and machines -----------------------------------------------------------------
+if command -v parallel >/dev/null; then
+    mkdir home; export PARALLEL_HOME=$T/home; : >home/will-cite
+    jobs() {                    # folder, options of parallel
+        folder=$1; shift
+        "$BATCH" $turn --out "$folder" --missing |
+            parallel "$@" "$BATCH" $turn --out "$folder" --piece '{}'
+    }
+    check "two jobs" jobs local -j 2
+    check "the same frames" diff -r one local
+    rm local/00002.ppm local/00009.ppm
+    check "resumed by jobs" jobs local --sshlogin 2/:
+    check "the same again" diff -r one local
+    # ssh to machines that have this folder, too; as sshd does, it names the user's shell
+    printf '#!/bin/sh\n%s\n%s\n' 'echo "$1" >>asked; shift; [ "$1" = -- ] && shift' \
+        'SHELL=/bin/sh exec sh -c "$*"' >ssh
+    chmod +x ssh
+    check "two machines" jobs machines --ssh "$T/ssh" --sshlogin 1/ann,1/bob --workdir "$T"
+    check "their frames" diff -r one machines
+    check "both worked" same "$(sort -u asked | tr '\n' ' ')" "ann bob "
+    check "a poster by two jobs" sh -c \
+        "seq 0 6 | parallel -j 2 '$BATCH' $poster --strips 7 --out jobs --piece {}"
+    check "put together" sh -c "cat jobs/*.ppm | cmp - whole/00000.ppm"
+    # a sheet for each model of a folder, resumed; one model is broken
+    mkdir -p parts/inner
+    cp y.obj "parts/a part.obj"; cp x.obj parts/inner/x.obj; cp half.obj parts/half.obj; : >parts/notes.txt
+    sheets() {
+        THUMBNAIL=${BATCH%batch}thumbnail sh "$HERE/examples/programs/batch/sheets.sh" parts sheets --size 400x300 "$@" \
+            2>sheets.err
+    }
+    check "sheets of a folder, but for a broken model" no sheets --edges
+    check "which is named" grep -q "half.obj:3" sheets.err
+    check "the others are there" same "$(find sheets -name '*.png' | sort | tr '\n' ' ')" \
+        "sheets/a part.obj.png sheets/inner/x.obj.png "
+    rm parts/half.obj sheets/inner/x.obj.png
+    touch -d '2001-01-01' parts/*.obj parts/inner/*.obj
+    sleep 1.1; : >before; sleep 1.1
+    check "resumed" sheets --edges
+    check "the missing one is drawn" test sheets/inner/x.obj.png -nt before
+    check "the other stays" no test "sheets/a part.obj.png" -nt before
+    touch "parts/a part.obj"
+    check "a model that has changed" sheets --edges
+    check "is drawn again" test "sheets/a part.obj.png" -nt before
+else echo "no parallel: several jobs are left out"
+fi
+
+# ---- a film -------------------------------------------------------------------------------------
+if command -v ffmpeg >/dev/null; then
+    film() { ffmpeg -v error -nostdin -y "$@"; }
+    check "frames through ffmpeg" sh -c "'$BATCH' $turn --pipe | ffmpeg -v error -f image2pipe \
+        -framerate 30 -i - -f image2pipe -c:v ppm - | cmp - all.ppm"
+    check "from the folder" film -framerate 30 -i one/%05d.ppm -f image2pipe -c:v ppm film.ppm
+    check "the same frames" cmp film.ppm all.ppm
+    check "a film" sh -c "'$BATCH' $turn --size 96x60 --pipe | ffmpeg -v error -y -f image2pipe \
+        -framerate 30 -i - -pix_fmt yuv420p film.mp4"
+    check "of twelve frames" same "$(ffprobe -v error -count_frames -select_streams v \
+        -show_entries stream=nb_read_frames -of csv=p=0 film.mp4)" 12
+    for k in webp mp4; do
+        check "one command for $k" "$BATCH" $turn --size 96x60 --film turn.$k --rate 25
+        check "no word" same "$(wc -c <log)" 0
+        check "no part" same "$(ls -d *.part 2>/dev/null)" ""
+    done
+    check "twelve frames" same "$(ffprobe -v error -count_frames -select_streams v \
+        -show_entries stream=nb_read_frames,r_frame_rate -of csv=p=0 turn.mp4)" 25/1,12
+    # RIFF, WEBP, and a chunk of animation with a frame for each that differs from the last
+    check "an animation" same "$(head -c 12 turn.webp | tr -d '\0' | cut -c 1-4)" RIFF
+    check "of twelve frames" same "$(grep -ao ANMF turn.webp | wc -l)" 12
+    film -i turn.mp4 -frames:v 1 first.ppm
+    "$BATCH" $turn --size 96x60 --piece 0 --out even
+    check "that shows the first frame" "${BATCH%batch}compare" --limit 40 --count 5% even/00000.ppm first.ppm
+    check "an MP4 of odd size" refused "size 97x60: MP4 needs even" "$BATCH" $turn --film odd.mp4
+    check "a film of strips" refused "does not go with" "$BATCH" --strips 3 --film a.mp4
+    check "a film where nothing can be" refused "none/a.webp" "$BATCH" $turn --film none/a.webp 2>/dev/null
+    for signal in TERM KILL; do
+        "$BATCH" --frames 90 --size 600x400 --film cut.mp4 2>/dev/null & running=$!
+        soon sh -c 'ls cut.mp4.*.part'
+        kill -$signal $running
+        wait $running 2>/dev/null
+        check "SIG$signal: no half film" test ! -e cut.mp4
+        [ $signal = KILL ] || check "SIG$signal: nothing stays" no ls cut.mp4.*.part
+    done
+    running=
+else echo "no ffmpeg: the film is left out"
+fi
+finish

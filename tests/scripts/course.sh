@@ -1,0 +1,115 @@
+#!/bin/sh
+# course.sh - the pages of examples/course: each line of C compiles, its value is what the page says,
+# pictures and links are there, and each word that students search for stands on its page.
+# playground.sh opens the links in a browser.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+CC=${CC:-cc}
+COURSES="uw massey shirley berkeley"
+
+${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+
+# ---- lines of C ---------------------------------------------------------------------------------
+{
+    cat <<'END'
+#include "shade.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+static int failed;
+/* Half of the last digit that the text gives */
+static double half_digit(const char *text)
+{
+    const char *dot = strchr(text, 46), *e = strchr(text, 101);
+    size_t digits = dot ? strspn(dot + 1, "0123456789") : 0;
+    return 0.500001 * pow(10, (e ? atof(e + 1) : 0) - (double)digits);
+}
+static void number(const char *where, double got, const char *text)
+{
+    if (fabs(got - atof(text)) <= half_digit(text)) return;
+    printf("%s: %.9g, not %s\n", where, got, text);
+    failed = 1;
+}
+static void vector(const char *where, shade_vec3 v, const char *x, const char *y, const char *z)
+{
+    number(where, (double)v.x, x);
+    number(where, (double)v.y, y);
+    number(where, (double)v.z, z);
+}
+int main(void)
+{
+END
+    cat examples/course/point.h
+    echo '
+static uint32_t pixels[4], texel = 0xFFFFFFFF;
+shade_target target = { .width = 2, .height = 2, .color = pixels };
+shade_draw_state state = { .material = &brass };
+shade_mesh mesh = { 0 };
+shade_pipeline pipeline = { 0 };
+shade_texture texture = { &texel, 1, 1 };
+float t;
+(void)R; (void)H; (void)V; (void)lamp; (void)t;'
+    for course in $COURSES; do
+        awk -v where=$course.txt '/^c: / {
+            sub(/^c: */, "")
+            at = index($0, " -> "); value = substr($0, at + 4); code = at ? substr($0, 1, at - 1) : $0
+            printf "#line %d \"%s\"\n", FNR, where
+            place = "\"" where ":" FNR "\""
+            if (!at) print "(void)(" code ");"
+            else if (value ~ /^\(/) {
+                gsub(/[()]/, "", value); gsub(/, */, "\", \"", value)
+                print "vector(" place ", " code ", \"" value "\");"
+            } else print "number(" place ", (double)(" code "), \"" value "\");"
+        }' examples/course/$course.txt
+    done
+    echo 'return failed; }'
+} >"$T/lines.c"
+check "lines of C compile" $CC -std=c99 -O0 -w -Werror=implicit -I. -DSHADE__IMPLEMENTED \
+      "$T/lines.c" build/shade.o -lm -o "$T/lines"
+check "their values are those of the pages" "$T/lines"
+check "there are lines of C" test "$(grep -c '^#line' "$T/lines.c")" -ge 60
+
+# ---- pages --------------------------------------------------------------------------------------
+check "pages are built" sh examples/course/build.sh "$T/pages"
+links() { grep -ohE '(src|href)="[^"#]+' "$T"/pages/*.html | sed 's/.*"//' | sort -u; }
+missing() {
+    links | while read -r link; do
+        case $link in data:*|index.html) ;; *) [ -s "$T/pages/$link" ] || echo "$link" ;; esac
+    done
+}
+check "pictures and pages are there" same "$(missing)" ""
+check "no address of another host" no grep -nE '(src|href)="(https?:)?//' "$T"/pages/*.html
+unknown_lines() { grep -nEv '^(course|slide|picture|text|play|c|ask|answer): |^    |^$' examples/course/*.txt; }
+check "lines of the courses begin with a known word" no unknown_lines
+check "each question has its answer" same "$(grep -hc '^ask:' examples/course/*.txt)" \
+    "$(grep -hc '^answer:' examples/course/*.txt)"
+lessons() {                     # pictures, and lessons named in text
+    grep -ohE '\b[0-9]{2}_[a-z_]+' examples/course/*.txt | sort -u | while read -r name; do
+        [ -f "examples/lessons/$name.c" ] || echo "$name"
+    done
+}
+check "lessons that are named are there" same "$(lessons)" ""
+
+# ---- words --------------------------------------------------------------------------------------
+words() {                       # page, words separated by commas: those that are not on it
+    tr '\n' ' ' <"$T/pages/course-$1.html" | sed 's/<[^>]*>//g' | tr -s ' ' >"$T/text"
+    echo "$2" | tr ',' '\n' | while read -r word; do grep -qiF -- "$word" "$T/text" || echo "$word"; done
+}
+on() { check "words on the page of $1" same "$(words "$1" "$2")" ""; }
+on uw "shading model, lighting model, reflection model, local illumination, BRDF, emissivity,
+    directional, positional, point light, falloff, attenuation, spotlight, cutoff, depth buffer, z-buffer,
+    hidden surface, rasterization, texture coordinate, geometry shader, vertex shader, fragment shader,
+    BSSRDF, hair, fluorescence, participating media, microfacet, pigment, glossy, rough specular,
+    directional diffuse, Strasser, Catmull, lambda, beta, alpha, phi, theta, half-angle, homogeneous, gl_Position,
+    centre (center) of projection, image plane, viewing ray, first, fast, physically correct, Gouraud, Phong, Blinn"
+on massey "interface, re-emission, absorb, scatter, irradiance, brass, turquoise, black plastic, cube, createCube,
+    u_Model, u_View, u_Light_Direction, vert_Normal, frag_Colour, reflect, Phong reflection, Phong shading, Ip,
+    normal matrix, lookAt, perspective, value_ptr, ivec, mat2, transparent, refraction, Mach band, clamp, Goraud, GLM"
+on shirley "(10.1), (10.3), (10.4), (10.5), (10.6), (10.7), (10.8), (10.9), (10.10), (10.11), sigma, omega, theta,
+    reflection coefficient, clamp, headlight, silhouette, crease, Warn, table, gold, plastic, barycentric, moon, velvet, cool,
+    cw, octagon, f0(e) f1(e), average, half-angle"
+on berkeley "local, refraction, indirect light, photochromatic, λin, λout, four ways to obtain BRDFs,
+    light leaving from, wool, silk, in space, orthographic, perspective, falloff, directional, half-angle, sharp,
+    Mach, BSSRDF, surface and incoming light"
+finish

@@ -1,0 +1,82 @@
+#!/bin/sh
+# explain.sh - shade_explain is silent about the project's own scenes: every program that draws
+# meshes is built with explain_wrap.h before it, which prints what shade_explain says after each
+# draw, and is run.  Bands, strips, samples and pictures of many meshes are among them.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+CC=${CC:-cc} CXX=${CXX:-c++}
+WRAP="-w -O1 -I. -ffp-contract=off -DSHADE__IMPLEMENTED -include tests/unit/explain_wrap.h"
+${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+OPENMP=$(echo 'int main(void) { return 0; }' | $CC -fopenmp -x c - -o "$T/openmp" 2>/dev/null &&
+    echo -fopenmp)
+POSIX=$(echo | $CC -fsyntax-only -include termios.h -x c - 2>/dev/null && echo batch)
+
+# Runs a program that draws a mesh; fails where a draw was explained.
+silent() {
+    (cd "$T" && "$@") >"$T/out" 2>"$T/err" || { cat "$T/err"; return 1; }
+    grep -q '^a mesh is drawn' "$T/err" || { echo "no mesh is drawn"; return 1; }
+    grep '^explain' "$T/err" | sort | uniq -c | sort -rn >"$T/said"
+    [ ! -s "$T/said" ] || { cat "$T/said"; return 1; }
+}
+build() {                       # name, what compiles and links it
+    name=$1; shift
+    check "$name builds" "$@" build/shade.o -lm -pthread -o "$T/$name"
+}
+c99() { build "$1" "$CC" -std=c99 -D_DEFAULT_SOURCE $WRAP $2; }
+run() { check "nothing is wrong with $1" silent "$T/$@"; }
+
+for file in $(grep -l shade_draw_mesh examples/lessons/[0-9]*.c); do
+    name=$(basename "$file" .c)
+    c99 "$name" "$OPENMP $file"
+    run "$name" "$name.ppm"
+done
+
+cat >"$T/roof.obj" <<'END'
+v -1 0 -1
+v 1 0 -1
+v 1 0 1
+v -1 0 1
+v 0 1 0
+f 1 2 3 4
+f 4 3 5
+f 3 2 5
+f 2 1 5
+f 1 4 5
+END
+c99 thumbnail examples/programs/thumbnail/thumbnail.c
+run thumbnail roof.obj roof.ppm --size 200x160
+run thumbnail roof.obj flat.ppm --shading face --no-shadow --material gold
+if [ -n "$POSIX" ]; then
+    c99 batch examples/programs/batch/batch.c
+    run batch --frames 4 --size 160x120 --out frames
+    run batch --strips 5 --size 320x200 --out strips
+else left_out "batch (no termios.h)"; fi
+
+c99 saddle "examples/embed/cmake/main.c examples/embed/cmake/saddle.c"
+run saddle saddle.ppm 160 120
+if echo 'auto x = __cpp_lib_bit_cast; ' |
+    $CXX -std=c++20 -include bit -include glm/glm.hpp -x c++ -fsyntax-only - 2>/dev/null; then
+    build glm "$CXX" -std=c++20 $WRAP examples/embed/glm.cpp
+    run glm glm.ppm
+else left_out "GLM's program (no C++20, or no GLM)"; fi
+awk '/^```c$/ { inside = 1; text = ""; next }
+     /^```/ { if (inside && text ~ /int main\(/) { printf "%s", text; exit } inside = 0 }
+     inside { text = text $0 "\n" }' README.md >"$T/readme.c"
+c99 readme "$T/readme.c"
+run readme
+{ printf '#include "shade.h"\n'
+  awk '/^ +#include <stdio.h>/ { inside = 1 } inside { print } /^       }/ { inside = 0 }' shade.h
+} >"$T/head.c"
+c99 head "$T/head.c"
+run head
+
+c99 scenes "-DSCENE_MAIN -Itests/unit tests/unit/scene.c"
+run scenes
+conformance="tests/conformance/main.c tests/conformance/scenes.c tests/conformance/gl.c"
+if echo 'int main(void) { return !OSMesaGetProcAddress; }' |
+    $CC -include GL/osmesa.h -x c - -o "$T/probe" -lOSMesa 2>/dev/null; then
+    c99 conformance "$conformance -lOSMesa"
+    GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=0 run conformance
+else left_out "the scenes of conformance.sh (no OSMesa)"; fi
+
+finish

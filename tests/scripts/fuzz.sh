@@ -1,0 +1,69 @@
+#!/bin/sh
+# fuzz.sh [seconds] [target ...] - fuzzes each target of tests/fuzz, 60 seconds in all, from the
+# committed corpus; what it finds grows in build/fuzz/work, and crashes stay in build/fuzz/crash.
+# Without clang and its fuzzer library the corpus is replayed instead.
+#     CC           compiler of the replay; CLANG the one that fuzzes
+#     FUZZ_LANES   SHADE_LANES of the build; small packets are full sooner
+cd "$(dirname "$0")/../.." || exit 1
+seconds=${1:-60}
+[ $# -gt 0 ] && shift
+# G5
+targets=${*:-draw mesh lines texture shape light reader surface}
+CC=${CC:-cc} CLANG=${CLANG:-clang} LANES=${FUZZ_LANES:-16} B=build/fuzz
+FLAGS="-std=c99 -O1 -g -I. -DSHADE_LANES=$LANES"
+CHECKS="-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
+passed=0 failed=0
+count() { if [ "$1" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi; }
+mkdir -p $B/crash
+
+# The last value of a line "name: value" of libFuzzer's statistics
+value() { sed -n "s/^stat::$1: *//p" "$2" | tail -n 1; }
+
+fuzz() {                                     # target, seconds
+    t=$1 log=$B/$1.log
+    mkdir -p $B/work/$t
+    if ! "$CLANG" $FLAGS $CHECKS -fsanitize=fuzzer tests/fuzz/$t.c $B/shade.o -lm -o $B/$t; then
+        echo "$t does not build"; count 1; return
+    fi
+    # G1, G4
+    $B/$t -max_total_time="$2" -max_len=1024 -len_control=0 -timeout=20 -rss_limit_mb=2048 \
+        -print_final_stats=1 -artifact_prefix=$B/crash/$t- $B/work/$t tests/fuzz/corpus/$t \
+        >"$log" 2>&1
+    status=$?
+    covered=$(grep -oE 'cov: [0-9]+' "$log" | tail -n 1)
+    printf '%-8s %9s executions   %-10s %s\n' $t "$(value number_of_executed_units "$log")" \
+        "$covered" "$([ $status -eq 0 ] && echo no crash || echo CRASH)"
+    if [ $status -ne 0 ]; then
+        grep -E 'does not hold|runtime error|ERROR:|SUMMARY|shade\.h:[0-9]|written to' "$log" | head -n 12
+    fi
+    count $status
+}
+replay() {                                   # target
+    t=$1
+    "$CC" $FLAGS $checks tests/fuzz/replay.c tests/fuzz/$t.c $B/replay.o -lm -o $B/replay-$t ||
+        { count 1; return; }
+    log=$($B/replay-$t tests/fuzz/corpus/$t/* 2>&1)
+    status=$?
+    printf '%-8s %s\n' $t "$(printf '%s\n' "$log" | tail -n 1)"
+    [ $status -ne 0 ] && printf '%s\n' "$log" | head -n 20
+    count $status
+}
+
+printf '#include <stddef.h>\nint LLVMFuzzerTestOneInput(const unsigned char *p, size_t n);
+int LLVMFuzzerTestOneInput(const unsigned char *p, size_t n) { return p && n == 0; }\n' >$B/probe.c
+if "$CLANG" -fsanitize=fuzzer,address $B/probe.c -o $B/probe >/dev/null 2>&1; then
+    "$CLANG" $FLAGS $CHECKS -fsanitize=fuzzer-no-link -c tests/fuzz/shade.c -o $B/shade.o ||
+        { echo "0 passed, 1 failed"; exit 1; }
+    share=$((seconds / $(echo $targets | wc -w)))
+    for t in $targets; do fuzz "$t" $((share > 0 ? share : 1)); done
+else
+    echo "no $CLANG with a fuzzer library (libclang-rt-14-dev): the corpus is replayed"
+    checks=$CHECKS                           # or none, where the compiler has no sanitizers
+    "$CC" $CHECKS $B/probe.c -c -o $B/probe.o 2>/dev/null &&
+        "$CC" $CHECKS tests/fuzz/replay.c $B/probe.o -o $B/probe 2>/dev/null || checks=
+    "$CC" $FLAGS $checks -c tests/fuzz/shade.c -o $B/replay.o ||
+        { echo "0 passed, 1 failed"; exit 1; }
+    for t in $targets; do replay "$t"; done
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,82 @@
+#!/bin/sh
+# matrix.sh - the built-in scenes from other compilers, flags, vector widths and processors have the same bits.
+# What is not installed is named and left out.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+grep '^{' tests/unit/scenes.h >"$T/want"
+
+builds() { "$@" -w -DSCENE_MAIN -I. tests/unit/scene.c -lm -o "$T/scenes"; }
+# With -ffast-math the linker adds code that flushes denormal numbers to zero, in all of the program.
+builds_fast() {
+    "$@" -w -DSCENE_MAIN -I. -c tests/unit/scene.c -o "$T/scenes.o" &&
+        "$1" $static "$T/scenes.o" -lm -o "$T/scenes"
+}
+# name, runner (or ""), compiler and flags
+one() {
+    name=$1 runner=$2; shift 2
+    if ! there "$1" || { [ -n "$runner" ] && ! there "${runner%% *}"; }; then
+        left_out "$name"
+    elif ! $build "$@" 2>"$T/log"; then
+        fail "$name does not compile" "$T/log"
+    elif $runner "$T/scenes" >"$T/got" 2>&1 && cmp -s "$T/want" "$T/got"; then
+        passed=$((passed + 1)); echo "same      $name"
+    else
+        diff "$T/want" "$T/got" >"$T/log"; fail "$name" "$T/log"
+    fi
+}
+
+# G12, G13
+build=builds
+for cc in gcc clang; do
+    for o in -O0 -O1 -O2 -O3 -Os; do one "$cc $o" "" $cc $o; done
+    for flags in "-std=c99 -O2" "-std=gnu17 -O2" "-O3 -march=native" "-O2 -mavx2 -mfma" \
+        "-O2 -DSHADE_NO_DISPATCH" "-O2 -DSHADE__LEVEL=0" "-O2 -DSHADE__LEVEL=1" "-O2 -DSHADE_NO_LIBM" \
+        "-O2 -DSHADE_LANES=8" "-O2 -DSHADE_LANES=16" "-O2 -DSHADE_LANES=64" "-O2 -DSHADE_LANES=256"; do
+        one "$cc $flags" "" $cc $flags
+    done
+done
+# clang's back end fuses whatever the source says under -ffp-contract=fast; gcc heeds the header
+one "gcc -ffp-contract=fast" "" gcc -O2 -ffp-contract=fast -march=native -DSHADE_NO_DISPATCH
+if grep -q avx512vl /proc/cpuinfo 2>/dev/null; then
+    one "gcc -O2, AVX-512 forced" "" gcc -O2 -DSHADE__LEVEL=2
+    one "clang -O2, AVX-512 forced" "" clang -O2 -DSHADE__LEVEL=2
+fi
+one "tcc" "" tcc
+one "i686 -msse2 -mfpmath=sse" "" i686-linux-gnu-gcc -static -msse2 -mfpmath=sse -O2
+for std in "" "-std=c99"; do
+    one "aarch64 $std" qemu-aarch64 aarch64-linux-gnu-gcc -static -O2 $std
+    one "armhf $std" qemu-arm arm-linux-gnueabihf-gcc -static -O2 $std
+    one "riscv64 $std" qemu-riscv64 riscv64-linux-gnu-gcc -static -O2 $std
+done
+for std in "" "-std=c99"; do
+    one "s390x, big-endian $std" qemu-s390x s390x-linux-gnu-gcc -static -O2 $std
+done
+one "aarch64 -O3 -ffp-contract=fast" qemu-aarch64 aarch64-linux-gnu-gcc -static -O3 -ffp-contract=fast
+
+# gcc heeds the header under -ffast-math too; clang is refused
+build=builds_fast static=
+for flags in -Ofast "-O3 -march=native -ffast-math" \
+    "-O3 -march=native -ffast-math -DSHADE__AS_COMPILED" \
+    "-O0 -ffast-math" "-Os -ffast-math" "-O2 -ffast-math -DSHADE_NO_LIBM" \
+    "-O2 -ffast-math -ffp-contract=fast -mfma -DSHADE__LEVEL=0" "-O2 -funsafe-math-optimizations" \
+    "-O2 -fassociative-math -fno-signed-zeros -fno-trapping-math" "-O2 -freciprocal-math" \
+    "-O2 -ffinite-math-only" "-O2 -fsingle-precision-constant"; do
+    one "gcc $flags" "" gcc $flags
+done
+static=-static
+one "i686 -Ofast" "" i686-linux-gnu-gcc -msse2 -mfpmath=sse -Ofast
+one "aarch64 -Ofast" qemu-aarch64 aarch64-linux-gnu-gcc -Ofast
+one "armhf -Ofast" qemu-arm arm-linux-gnueabihf-gcc -Ofast
+one "riscv64 -Ofast" qemu-riscv64 riscv64-linux-gnu-gcc -Ofast
+one "s390x -Ofast" qemu-s390x s390x-linux-gnu-gcc -Ofast
+build=builds
+
+wasi="node --no-warnings --experimental-wasi-unstable-preview1 tests/scripts/wasi.js"
+if echo '#include <stdio.h>' | clang --target=wasm32-wasi -x c -fsyntax-only - 2>/dev/null; then
+    one "wasm32 under Node" "$wasi" clang --target=wasm32-wasi -O2
+    one "wasm32 with SIMD" "$wasi" clang --target=wasm32-wasi -O2 -msimd128
+else
+    left_out "wasm32: no wasi-libc"
+fi
+
+finish

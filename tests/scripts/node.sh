@@ -1,0 +1,63 @@
+#!/bin/sh
+# node.sh - the package of examples/node: packed, installed into an empty folder, README's programs,
+# the bytes of the package for Python, PNG files read by Pillow, hostile arguments, and a browser.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+there node && there npm || { left_out "everything: no node with npm"; finish; }
+
+mkdir -p "$T/tree" "$T/use"
+cp shade.h "$T/tree"
+mkdir -p "$T/tree/examples/programs"
+cp -R examples/programs/model "$T/tree/examples/programs"
+cp -R examples/shared examples/python examples/node "$T/tree/examples"
+N=$T/tree/examples/node
+rm -f "$N/module.js"
+sh "$N/build.sh" >"$T/built" 2>&1 || { fail "the module is compiled" "$T/built"; finish; }
+[ -f "$N/module.js" ] || { left_out "everything: no clang for wasm32 with wasi-libc"; finish; }
+
+# as a user has it: a package of its own, installed without the tree
+check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/node"
+check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-*.tgz"
+P=$T/use/node_modules/shade
+check "no file but what runs" same "$(ls "$P" | tr '\n' ' ')" \
+    "README.md arguments.js camera.js index.d.ts index.js module.js package.json picture.js "
+awk -v out="$T/use/program" '/^```js$/ { n++; inside = 1; next } /^```/ { inside = 0 }
+    inside { print > (out n ".mjs") }' "$N/README.md"
+{ sed '/^import/!d' "$T/use/program1.mjs"; cat "$T/use/program2.mjs"; } >"$T/use/both.mjs"
+check "README's first program" sh -c "cd '$T/use' && node program1.mjs"
+check "README's second program" sh -c "cd '$T/use' && node both.mjs"
+if there pngtopnm; then
+    check "its picture is a PNG" sh -c "pngtopnm '$T/use/gear.png' | head -c 15 | grep -q '640 480'"
+else left_out "the picture by netpbm"; fi
+
+cp -R "$N/test" "$T/use/test"
+check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
+
+for python in python3 /usr/bin/python3; do
+    $python -c 'import numpy, setuptools, wheel, PIL' 2>/dev/null && break
+    python=
+done
+if [ "$python" ]; then
+    check "the package for Python" sh -c "cd '$T/tree/examples/python' &&
+        $python setup.py -q build_ext --build-lib '$T/python' && cp shade/*.py '$T/python/shade'"
+    mkdir "$T/oracle"
+    check "the scenes in Python" env PYTHONPATH="$T/python" PYTHONDONTWRITEBYTECODE=1 \
+        $python "$N/test/oracle.py" "$T/oracle"
+    check "the same bytes" env ORACLE="$T/oracle" sh -c "cd '$T/use' && node --test test/same.test.js"
+    check "the same PNG files" $python -c "
+import sys, pathlib
+from PIL import Image
+pictures = sorted(pathlib.Path('$T/oracle').glob('*.png'))
+for path in pictures:
+    assert Image.open(path).convert('RGBA').tobytes() == path.with_suffix('.rgba').read_bytes(), path
+sys.exit(len(pictures) < 20)"
+else left_out "comparison with Python: no numpy, setuptools or Pillow"; fi
+
+browser=; for name in chromium chromium-browser google-chrome; do there $name && browser=$name; done
+if [ "$browser" ]; then
+    cp "$N"/*.js "$T/use/"
+    cp "$N/package.json" "$T/use/package.json"
+    check "the same bytes in a browser" \
+        timeout 180 node "$T/use/test/browser.js" $browser --no-sandbox "--user-data-dir=$T/browser"
+else left_out "a browser"; fi
+finish

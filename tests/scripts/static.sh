@@ -1,0 +1,32 @@
+#!/bin/sh
+# static.sh - clang-tidy (checks and reasons in .clang-tidy) and cppcheck find nothing in shade.h,
+# tests and examples.  A tool that is not installed is named and left out.
+cd "$(dirname "$0")/../.." || exit 1
+T=$(mktemp -d) || exit 1
+trap 'rm -rf "$T"' EXIT INT TERM
+passed=0 failed=0
+check() {                       # name, command ...: no output but of passing is wanted
+    name=$1; shift
+    if ! command -v "$1" >/dev/null; then echo "left out: $name"; return; fi
+    if "$@" >"$T/log" 2>"$T/errors"; then passed=$((passed + 1)); echo "ok    $name"
+    else
+        failed=$((failed + 1)); echo "FAIL  $name"
+        cat "$T/log" "$T/errors" | grep -E '(warning|error|style|performance|portability):' |
+            sort -u | head -n 20
+    fi
+}
+# Tests and examples are read without the implementation, which has its own turn.
+EXAMPLES="examples/lessons/*.c examples/pictures/*.c examples/programs/*/*.c"
+FLAGS="-std=c99 -I. -DSHADE_NO_DISPATCH"
+printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/shade.c"
+check "clang-tidy, shade.h" clang-tidy -quiet "-config-file=.clang-tidy" "$T/shade.c" -- $FLAGS
+check "clang-tidy, tests" clang-tidy -quiet tests/unit/main.c tests/unit/golden.c -- $FLAGS \
+    -DSHADE__IMPLEMENTED
+check "clang-tidy, examples" clang-tidy -quiet $EXAMPLES -- $FLAGS -DSHADE__IMPLEMENTED
+CPPCHECK="--std=c99 --language=c --quiet --error-exitcode=1 --inline-suppr -I. -D__GNUC__=12
+    --enable=warning,performance,portability -DSHADE_NO_DISPATCH"
+check "cppcheck, shade.h" cppcheck $CPPCHECK -DSHADE_IMPLEMENTATION shade.h
+check "cppcheck, tests" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED tests/unit/main.c tests/unit/golden.c
+check "cppcheck, examples" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED $EXAMPLES
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

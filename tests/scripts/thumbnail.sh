@@ -1,0 +1,336 @@
+#!/bin/sh
+# thumbnail.sh - build/thumbnail without libraries, and with those that are here: polygons, readers,
+# surfaces, formats, options, and what goes wrong.  What is not installed is named and left out.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+CC=${CC:-cc}
+export LC_ALL=C
+trap 'chmod -R u+w "$T"; rm -rf "$T"' EXIT
+ulimit -c 0
+
+check() {                       # what, command ...
+    what=$1; shift
+    if "$@" >"$T/log" 2>&1; then passed=$((passed + 1)); return; fi
+    fail "$build: $what" "$T/log"
+}
+
+# ---- programs ------------------------------------------------------------------------------------
+build=programs
+STB= ASSIMP= LIBRARIES=
+echo | $CC -fsyntax-only -include stb/stb_image.h -include stb/stb_image_write.h -x c - \
+    2>/dev/null && STB=-DMODEL_STB
+[ "$STB" ] || echo "no stb (libstb-dev): PNG and textures are left out"
+echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | $CC -include assimp/cimport.h \
+    -x c - -lassimp -o "$T/probe" 2>/dev/null && ASSIMP=-DMODEL_ASSIMP LIBRARIES=-lassimp
+[ "$ASSIMP" ] || echo "no assimp (libassimp-dev): its formats are left out"
+FLAGS="-std=c99 -O2 -ffp-contract=off -pthread -I."
+compile() { $CC $FLAGS "$@" || { echo "0 passed, 1 failed"; exit 1; }; }
+compile -DSHADE_IMPLEMENTATION -x c -c shade.h -o "$T/shade.o"
+compile -DSHADE__IMPLEMENTED examples/programs/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/plain"
+[ "$STB$ASSIMP" ] && compile -DSHADE__IMPLEMENTED $STB $ASSIMP examples/programs/thumbnail/thumbnail.c "$T/shade.o" \
+    $LIBRARIES -lm -o "$T/full"
+compile -DSHADE__IMPLEMENTED -DBANDS_ALONE examples/programs/thumbnail/thumbnail.c "$T/shade.o" -lm -o "$T/alone"
+compile tests/thumbnail/models.c -lm -o "$T/models"
+compile $STB tests/thumbnail/look.c -lm -o "$T/look"
+compile tests/thumbnail/ears.c -lm -o "$T/ears"
+check "models" "$T/models" "$T"
+
+build=ears
+"$T/ears" >"$T/ears.log" || grep FAIL "$T/ears.log"
+passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' "$T/ears.log")))
+failed=$((failed + $(sed -n 's/.* \([0-9]*\) failed$/\1/p' "$T/ears.log")))
+
+# ---- what both builds do -------------------------------------------------------------------------
+# model, picture, options: a small picture of a file in T
+draw() {
+    model=$1 picture=$2; shift 2
+    "$THUMBNAIL" "$T/$model" "$T/$picture" --size 120x90 --samples 1 "$@" 2>"$T/err" </dev/null
+}
+# draws both and compares: what, A, B, difference at most, options
+same() {
+    check "$1: $2" draw "$2" a.ppm $5
+    check "$1: $3" draw "$3" b.ppm $5
+    check "$1" "$T/look" same "$T/a.ppm" "$T/b.ppm" "$4"
+}
+# x, y of the picture a.ppm has the display's color of linear r g b
+pixel() { "$T/look" pixel "$T/a.ppm" "$1" "$2" $("$T/look" display "$3" "$4" "$5") 1; }
+# Status 1, one line on stderr with a text, no output but what was there
+refused() {
+    text=$1; shift
+    rm -f "$T/none.ppm"
+    "$@" >"$T/out" 2>"$T/err" </dev/null
+    [ $? -eq 1 ] && [ "$(wc -l <"$T/err")" -eq 1 ] && grep "^thumbnail: .*$text" "$T/err" &&
+        [ ! -e "$T/none.ppm" ] && [ ! -s "$T/out" ] && no ls "$T"/*.part
+}
+bad_model() { check "$1" refused "$3" "$THUMBNAIL" "$T/$2" "$T/none.ppm"; }
+
+# what needs no lamps
+flat="--model emissive --background black --no-shadow"
+
+formats() {
+    for k in torus.ply torus.little.ply torus.big.ply torus.stl torus.binary.stl; do
+        same "the same mesh" torus.obj $k 0 "--up y"
+    done
+    for k in star comb; do
+        check "$k drawn" draw $k.obj a.ppm $flat
+        check "its triangles drawn" draw $k.parts.obj b.ppm $flat
+        check "$k covers what its triangles cover" "$T/look" area "$T/a.ppm" "$T/b.ppm" 0.005
+        check "$k and its triangles are one picture" "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.3
+    done
+    check "one color" draw flat.obj a.ppm $flat
+    check "k_e of the MTL is what one sees" pixel 0.5 0.5 0.448 0.1329 0.0331
+    check "glass before" draw glass.obj a.ppm $flat --rotate 0
+    check "glass is mixed, d is believed" pixel 0.5 0.5 0.2390 0 0.0797
+    same "glass, whatever comes first in the file" glass.obj glass2.obj 0 "$flat"
+    check "colors of vertices" draw colors.ply a.ppm --color white --model lambert
+    check "PLY's colors are a display's" sh -c "'$T/look' pixel '$T/a.ppm' .5 .6 200 100 50 60"
+    check "matte" draw matte.obj a.ppm --rotate 0
+    check "a lit face has about its color" "$T/look" pixel "$T/a.ppm" .5 .6 170 62 21 45
+    same "one color in place of the file's" matte.obj matte.obj 0 "--color #c08040"
+    for k in x y z -x -y -z; do check "up $k" draw torus.obj a.ppm --up $k $flat; done
+    same "three shadings draw" flat.obj flat.obj 0 "--shading vertex"
+    check "faces" draw torus.obj a.ppm --shading face
+    check "fragments" draw torus.obj b.ppm
+    printf 'newmtl black\nKd 0 0 0\n' >"$T/black.mtl"
+    { printf 'mtllib black.mtl\nusemtl black\n'; cat "$T/torus.obj"; } >"$T/black.obj"
+    check "black without gloss" draw black.obj c.ppm --no-shadow
+    check "and by Lambert" draw black.obj d.ppm --no-shadow --model lambert
+    check "shows form by what it reflects" no "$T/look" same "$T/c.ppm" "$T/d.ppm" 60
+    check "faces show" no "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.2
+    check "a plain background" draw torus.obj a.ppm --background 204060 --no-shadow
+    check "is the color asked for" "$T/look" pixel "$T/a.ppm" 0.01 0.01 32 64 96 0
+    check "a shadow" draw torus.obj b.ppm --background 204060
+    check "darkens below" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    for k in torus glass; do
+        check "$k by one thread" draw $k.obj one.ppm --threads 1
+        for n in 2 5 256; do
+            check "$k by $n threads" draw $k.obj many.ppm --threads $n
+            check "$k, the same bits by $n threads" cmp "$T/one.ppm" "$T/many.ppm"
+        done
+        check "$k, no threads" "$T/alone" "$T/$k.obj" "$T/many.ppm" --size 120x90 --samples 1
+        check "$k, the same bits without threads" cmp "$T/one.ppm" "$T/many.ppm"
+    done
+    cp "$T/torus.ply" "$T/torus"
+    check "name without an end" draw torus b.ppm $flat
+    "$THUMBNAIL" "$T/torus.obj" - --size 120x90 >"$T/b.ppm" 2>"$T/err"
+    check "standard output" "$T/look" near "$T/a.ppm" "$T/b.ppm" 200
+    check "no progress into a file" test ! -s "$T/err"
+}
+
+# The program ends by a signal while it reads: one line names the file
+crashed() {
+    "$THUMBNAIL" "$T/pipe.obj" "$T/none.ppm" --max-seconds 60 2>"$T/err" &
+    exec 3>"$T/pipe.obj"                # goes on when the reader has opened it
+    kill -"$1" $!
+    wait $!
+    status=$?
+    exec 3>&-
+    cat "$T/err"
+    [ $status -eq 1 ] && [ "$(cat "$T/err")" = "thumbnail: crashed while reading $T/pipe.obj" ]
+}
+
+bad_input() {
+    : >"$T/empty.obj"
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1' >"$T/cut.obj"
+    printf 'v 0 0 0\nv 1 0 0\nf 1 2\nf 1\nf\n' >"$T/lines.obj"
+    printf 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/nan.obj"
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4000000000\n' >"$T/index.obj"
+    head -c 300 "$T/torus.big.ply" >"$T/cut.ply"
+    sed 's/^element face.*/element face 4000000000/' "$T/torus.ply" >"$T/huge.ply"
+    sed 's/vertex 288/vertex 10/' "$T/torus.ply" >"$T/few.ply"
+    printf 'ply\nformat ascii 1.0\nelement vertex 3\n' >"$T/head.ply"
+    head -c 1000 "$T/torus.binary.stl" >"$T/cut.stl"
+    head -c 100000 "$T/plain" >"$T/noise.obj"
+    printf 'v 1e38 1e38 -1e38\nv -1e38 1e38 1e38\nv 1e38 -1e38 0\nf 1 2 3\n' >"$T/large.obj"
+    printf 'v 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\n' >"$T/point.obj"
+    printf 'hello\n' >"$T/words.xyzw"
+    printf 'hello\n' >"$T/line
+break.obj"
+    mkdir -p "$T/folder.obj"
+    bad_model "missing" missing.obj "No such file"
+    bad_model "empty" empty.obj "empty"
+    bad_model "a folder" folder.obj "directory"
+    bad_model "cut off" cut.obj "expected a number"
+    bad_model "faces of two corners and fewer" lines.obj "no faces in it"
+    { cat "$T/torus.obj"; printf 'f 1 2\nf\n'; } >"$T/torus.lines.obj"
+    same "such faces beside others" torus.obj torus.lines.obj 0 "$flat"
+    bad_model "not a number" nan.obj "expected a number"
+    bad_model "an index too large" index.obj "out of range"
+    bad_model "PLY cut off" cut.ply "too early"
+    bad_model "PLY with more faces than bytes" huge.ply "expected a number"
+    bad_model "PLY without those vertices" few.ply "no vertex\|out of range"
+    bad_model "PLY that is all header" head.ply "header does not end"
+    bad_model "STL cut off" cut.stl "ends after"
+    bad_model "noise" noise.obj "is no OBJ"
+    bad_model "an unknown format is named" words.xyzw "\.xyzw"
+    bad_model "a line break in its name" "line
+break.obj" "is no OBJ"
+    check "numbers as large as they get" draw large.obj a.ppm $flat
+    check "a point" draw point.obj a.ppm $flat
+    check "too many triangles" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/none.ppm" --max-triangles 100
+    check "too many in PLY" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.ply" \
+        "$T/none.ppm" --max-triangles 100
+    check "too many in STL" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.stl" \
+        "$T/none.ppm" --max-triangles 100
+    awk 'BEGIN { for (i = 0; i < 200000; i++) print "v", cos(i), sin(i), 0; printf "f"
+                 for (i = 1; i <= 200000; i++) printf " %d", i; print "" }' >"$T/tangle.obj"
+    check "one polygon of 200000 corners" refused "more than 150000" "$THUMBNAIL" \
+        "$T/tangle.obj" "$T/none.ppm" --max-triangles 150000
+    # three million vertices take 36 MB of floats, and half as much again while the array grows
+    if (ulimit -v 4000000) 2>/dev/null; then
+        awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"
+                     for (i = 0; i < 3000000; i++) print "v 0 0 0" }' >"$T/sparse.obj"
+        check "less memory than the model takes" refused "out of memory" "$THUMBNAIL" \
+            "$T/sparse.obj" "$T/none.ppm" --threads 2 --max-memory 64
+        check "enough" draw sparse.obj a.ppm $flat --threads 2 --max-memory 1000
+    fi
+    if mkfifo "$T/pipe.obj" 2>/dev/null; then
+        check "time is up" refused "gave up after --max-seconds" "$THUMBNAIL" "$T/pipe.obj" \
+            "$T/none.ppm" --max-seconds 1
+        check "a crash of the reader" crashed SEGV
+        check "an abort" crashed ABRT
+    fi
+}
+
+bad_output() {
+    cp "$T/torus.obj" "$T/kept.ppm"
+    check "a picture stays where the model is bad" refused "empty" "$THUMBNAIL" \
+        "$T/empty.obj" "$T/kept.ppm"
+    check "as it was" cmp "$T/torus.obj" "$T/kept.ppm"
+    check "a folder as the picture" refused "directory" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/folder.obj" $flat
+    check "no such folder" refused "No such file" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/nowhere/a.ppm" $flat
+    [ -e /dev/full ] &&
+        check "a full device" refused "No space left" "$THUMBNAIL" "$T/torus.obj" /dev/full $flat &&
+        check "a full standard output" sh -c "'$THUMBNAIL' '$T/torus.obj' - $flat >/dev/full \
+            2>'$T/err'; [ \$? -eq 1 ] && grep 'No space left' '$T/err'"
+    check "a closed pipe" sh -c "{ '$THUMBNAIL' '$T/flat.obj' - $flat --size 900x900 2>'$T/err'
+        echo \$? >'$T/status'; } | head -c 1 >/dev/null; [ \$(cat '$T/status') = 1 ] &&
+        grep 'Broken pipe' '$T/err'"
+    check "a full disk" sh -c "ulimit -f 8; trap '' XFSZ
+        '$THUMBNAIL' '$T/torus.obj' '$T/none.ppm' $flat 2>'$T/err'; [ \$? -eq 1 ] &&
+        grep 'File too large' '$T/err' && [ ! -e '$T/none.ppm' ] && ! ls '$T'/*.part"
+    check "rights as others have" sh -c "umask 027; '$THUMBNAIL' '$T/flat.obj' '$T/r.ppm' $flat &&
+        ls -l '$T/r.ppm' | grep '^-rw-r-----'"
+}
+
+bad_options() {
+    for k in "--frobnicate" "--size" "--size 0x5" "--size 10" "--size 99999x1" "--samples 3" \
+        "--up w" "--color 12345" "--color redd" "--background no" "--material x" "--shading x" \
+        "--model x" "--rotate x" "--threads 0" "--threads 257" "--threads x" "--threads" \
+        "--max-memory 31" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra"; do
+        check "$k" refused "${k%% *}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
+    done
+    for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256"; do
+        check "$k" refused "$k" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" ${k%%:*}
+    done
+    check "a range of two lines" refused 'or a name that --material list prints$' "$THUMBNAIL" \
+        "$T/torus.obj" "$T/none.ppm" --material x
+    for k in jpg JPEG webp gif tga; do
+        check "a picture.$k" refused "\.ppm or \.png" "$THUMBNAIL" "$T/torus.obj" "$T/none.$k"
+        check "is not there" test ! -e "$T/none.$k"
+    done
+    check "version" sh -c "'$THUMBNAIL' --version | grep -qx 'thumbnail 1\.[0-9]*\.[0-9]*'"
+    check "none needs PNG" refused "needs PNG" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" \
+        --background none
+    check "help" sh -c "'$THUMBNAIL' --help | grep -q '^usage: thumbnail'"
+    check "materials" sh -c "'$THUMBNAIL' --material list | grep -qx 'gold'"
+}
+
+# a file of 2 GB that takes a block of the disk
+bombs() {
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$T/sparse.obj"
+    check "some memory" draw sparse.obj a.ppm $flat --max-memory 512
+    truncate -s 2G "$T/sparse.obj" 2>/dev/null || { echo "no truncate: a sparse file is left out"; return; }
+    check "too little of it" refused "sparse.obj: out of memory; see --max-memory" "$THUMBNAIL" "$T/sparse.obj" \
+        "$T/none.ppm" --max-memory 512
+    rm "$T/sparse.obj"
+}
+
+# Formats like OBJ do not say which axis is up.  Points and faces of a model that stands on y become
+# one that stands on another axis: name, axis, points, faces
+stand() {
+    echo "$3" | awk -v up="$2" -v faces="$4" '{
+        sign = up ~ /-/ ? -1 : 1
+        for (i = 1; i <= NF; i += 3) {
+            x = $i; y = sign * $(i + 1); z = sign * $(i + 2)
+            print "v", up ~ /x/ ? y " " z " " x : up ~ /y/ ? x " " y " " z : z " " x " " y
+        }
+        printf faces "\n" }' >"$T/$1.obj"
+}
+# name, axis: the guess, as --verbose says it, and the picture of --up with that axis
+guessed() {
+    check "$1" draw $1.obj a.ppm --verbose
+    check "$1: $2 is up" grep -q "which axis is up: $2," "$T/err"
+    check "$1 with --up $2" draw $1.obj b.ppm --up $2
+    check "$1: is that picture" cmp "$T/a.ppm" "$T/b.ppm"
+}
+upright() {
+    # a body with six tips, on four legs whose feet are boxes
+    beast="3 2 0  -3 2 0  0 2.8 0  0 1.2 0  0 2 0.8  0 2 -0.8"
+    limbs="f 3 5 1\nf 3 1 6\nf 3 6 2\nf 3 2 5\nf 4 1 5\nf 4 6 1\nf 4 2 6\nf 4 5 2"
+    n=7
+    for leg in "1.4 0.4" "1.4 -0.7" "-1.7 0.4" "-1.7 -0.7"; do
+        set -- $leg
+        beast="$beast $(echo $1 $2 | awk '{ for (y = 0; y < 3; y += 2)
+            print $1, y, $2, $1 + 0.3, y, $2, $1 + 0.3, y, $2 + 0.3, $1, y, $2 + 0.3 }' | tr '\n' ' ')"
+        limbs="$limbs$(echo $n | awk '{ a = $1
+            printf "\\nf %d %d %d %d", a, a + 1, a + 2, a + 3
+            for (k = 0; k < 4; k++)
+                printf "\\nf %d %d %d %d", a + k, a + k + 4, a + (k + 1) % 4 + 4, a + (k + 1) % 4 }')"
+        n=$((n + 8))
+    done
+    for up in x z -x -z; do
+        stand beast $up "$beast" "$limbs"
+        guessed beast $up
+        check "drawings keep to habit" draw beast.obj b.ppm --size 400x300 --views front --json "$T/beast.json"
+        check "whatever the feet are" grep -q '"up": "y"' "$T/beast.json"
+    done
+    for up in y -y; do          # no file is upside down
+        stand beast $up "$beast" "$limbs"
+        guessed beast y
+    done
+    # a house and a cupboard can stand on any wall; a lamp hangs on a wall by its plate
+    house="0 0 0  6 0 0  6 0 4  0 0 4  0 3 0  6 3 0  6 3 4  0 3 4  1 5 2  5 5 2"
+    walls="f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\nf 5 9 10 6\nf 6 10 7\nf 7 10 9 8\nf 8 9 5"
+    lamp="-1 -1 0  1 -1 0  1 1 0  -1 1 0  -0.2 0 3  0.2 0 3  0 0.3 3"
+    plate="f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 7\nf 4 1 5 7\nf 5 6 7"
+    for up in x y z -x -y -z; do
+        stand house $up "$house" "$walls"
+        guessed house y
+    done
+    stand lamp y "$lamp" "$plate"
+    guessed lamp y
+    check "a torus" draw torus.obj a.ppm --verbose
+    check "says nothing" grep -q "which axis is up: y, as usual" "$T/err"
+    check "and no word without --verbose" draw torus.obj a.ppm
+    check "at all" test ! -s "$T/err"
+}
+
+both() {
+    bombs
+    upright
+    formats
+    bad_input
+    bad_output
+    bad_options
+}
+
+build=plain THUMBNAIL=$T/plain
+both
+cp "$T/torus.gltf" "$T/torus.fbx"
+bad_model "glTF is named with what it needs" torus.gltf "\.gltf files need .*libassimp-dev"
+bad_model "FBX likewise" torus.fbx "\.fbx files need .*libassimp-dev"
+check "PNG likewise" refused "libstb-dev" "$T/plain" "$T/torus.obj" "$T/none.png"
+check "a texture likewise" sh -c "'$T/plain' '$T/map.obj' '$T/a.ppm' 2>&1 | grep libstb-dev"
+
+build=full THUMBNAIL=$T/full
+[ -x "$THUMBNAIL" ] || finish
+both
+[ "$STB" ] && . tests/thumbnail/pictures.sh
+[ "$STB" ] && . tests/thumbnail/reliefs.sh
+[ "$ASSIMP" ] && . tests/thumbnail/formats.sh
+[ "$STB" ] && [ "$ASSIMP" ] && . tests/thumbnail/real.sh
+finish
