@@ -50,31 +50,33 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     114  options               >>types      187  materials, lamps, targets, states
-       >>plumbing   360  compilers             >>light      487  the equation and its terms
-       >>draw       612  meshes and pixels     >>math       856  vectors and matrices
+       >>config     116  options               >>types      189  materials, lamps, targets, states
+       >>plumbing   362  compilers             >>light      489  the equation and its terms
+       >>draw       614  meshes and pixels     >>math       858  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1219  processors            >>base      1376  bits, masks, rows of vectors
-       >>matrix    1606  cameras, inverses     >>power     1900  x^n
-       >>pixels    1966  formats, sRGB
+       >>machine   1221  processors            >>base      1378  bits, masks, rows of vectors
+       >>matrix    1608  cameras, inverses     >>power     1902  x^n
+       >>pixels    1968  formats, sRGB
      Inside: light
-       >>lamps     2146  attenuation, cones    >>terms     2421  one term at one point
-       >>surface   2559  material and lights   >>lit       2683  the whole sum, at many points
+       >>lamps     2148  attenuation, cones    >>terms     2423  one term at one point
+       >>surface   2561  material and lights   >>lit       2685  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3100  who owns what         >>vertices  3282  shading, projection
-       >>triangles 3550  dropped, cut, edges   >>clip      3918  near, far, behind the eye
-       >>tiles     4103  pixels, depth test    >>cover     4452  what is hidden, tile by tile
-       >>fragments 4682  interpolation, lod    >>texture   4974  texels, mipmaps
-       >>store     5376  blending, packing
-     Inside: calls
-       >>check     5601  refusals              >>drive     5766  shade_draw, batch by batch
-       >>mesh      6131  shade_draw_mesh       >>lines     6526  shade_draw_lines
-       >>shape     6684  normals, edges        >>chunks    6917  boxes around triangles
-       >>rays      7094  shade_pick            >>survey    7274  experiments on a draw
-       >>explain   7421  why nothing is seen   >>image     7833  PPM
+       >>state     3102  who owns what         >>vertices  3276  shading, projection
+       >>triangles 3493  dropped, cut, edges   >>clip      3861  near, far, behind the eye
+       >>tiles     4046  pixels, depth test    >>cover     4395  what is hidden, tile by tile
+       >>fragments 4625  interpolation, lod    >>texture   4917  texels, mipmaps
+       >>store     5319  blending, packing
+     Inside: calls of the renderer
+       >>check     5544  refusals              >>seen      5709  what can be seen, chunks
+       >>drive     5846  shade_draw            >>mesh      6154  shade_draw_mesh
+     Inside: tools, which call the renderer; it names none of them
+       >>lines     6544  shade_draw_lines      >>shape     6702  normals, edges
+       >>chunks    6935  boxes of triangles    >>rays      7112  shade_pick
+       >>survey    7292  experiments on a draw >>explain   7439  why nothing is seen
+       >>image     7851  PPM
      Sources
-       >>refs      7899                        >>history   7925
-       >>license   7934
+       >>refs      7917                        >>history   7943
+       >>license   7952
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3232,15 +3234,7 @@ typedef struct shade__queue {
     uint32_t offset[SHADE_LANES];     /* of the pixel in color and depth, from the strip's first */
 } shade__queue;
 
-/* The planes around what can be seen, in object space: left, right, top, bottom, near, and far
-   three times, to fill the lanes.  A point is outside where k.(P, 1) < 0.  size is in double too:
-   with floats gcc 12.2 addresses one of the rows by the other, at half the stride, takes the stores
-   to both for dead and drops them. */
-enum { SHADE__PLANES = 8 };
-typedef struct shade__frustum {
-    double k[4][SHADE__PLANES];
-    double size[4][SHADE__PLANES];    /* of the numbers that k was made of, for rounding */
-} shade__frustum;
+typedef struct shade__frustum shade__frustum;    /* of >>seen */
 
 /* The triangles of a draw, handed out in their order. */
 typedef struct shade__supply {
@@ -3440,57 +3434,6 @@ static void shade__shade_vertices(shade__draw *d)
     if (varyings) SHADE_MEMSET(v->varying, 0, (size_t)varyings * sizeof v->varying[0]);
     d->plan.pipe->vertex(d->plan.pipe->uniforms, ids, v);
     shade__place(d, v);
-}
-
-/* May the box be seen?  0: it lies outside of one plane.  With its centre c and half its extent h
-   the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, off by
-   2^-22 of the sum of the |products|, and each of 7 clips rounds by 2^-24 of that; 2^-20 covers
-   both.  Products that underflow are off by 2^-148, which FLT_MIN in frustum.size covers. */
-static SHADE__NOINLINE int shade__in_view(const shade__frustum *f,
-                                          shade_vec3 low, shade_vec3 high)
-{
-    double from[3], c[3], h[3], m[3];
-    uint64_t signs = 0;
-
-    if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
-    shade__double3(low, from);
-    shade__double3(high, h);
-    for (int k = 0; k < 3; k++) {
-        c[k] = (from[k] + h[k]) / 2;
-        h[k] -= c[k];
-        m[k] = shade__size(c[k]) + h[k];
-    }
-    if (!(m[0] + m[1] + m[2] <= DBL_MAX)) return 1;
-    SHADE__FOR(i, SHADE__PLANES) {
-        double most = f->k[0][i] * c[0] + f->k[1][i] * c[1] + f->k[2][i] * c[2] + f->k[3][i];
-        double off = f->size[0][i] * m[0] + f->size[1][i] * m[1];
-        off += f->size[2][i] * m[2] + f->size[3][i];
-        most += shade__size(f->k[0][i]) * h[0];
-        most += shade__size(f->k[1][i]) * h[1];
-        most += shade__size(f->k[2][i]) * h[2];
-        signs |= shade__double_bits(most + off * (1 / 1048576.0));
-    }
-    return !(signs >> 63);
-}
-
-/* Moves on to the next chunk that may be seen; returns 0 where there is none. */
-static int shade__next_chunk(shade__draw *d)
-{
-    shade__supply *s = d->supply;
-
-    for (; s->chunks > 0; s->chunks--) {
-        const shade_chunk *c = s->chunk++;
-        d->stats.triangles += c->count;
-        s->first = c->first;
-        s->end = c->first + c->count;
-        if (c->count && shade__in_view(s->frustum, c->low, c->high)) {
-            s->chunks--;
-            return 1;
-        }
-        d->stats.skipped += c->count;
-    }
-    s->end = s->first;
-    return 0;
 }
 
 /* Takes up to most triangles from first on, while there are at most room vertices; returns how
@@ -5602,7 +5545,7 @@ SHADE__DISPATCH_AVX2(shade__store, (shade__draw *d, shade_colors *c), (d, c),
    Whether arguments can be used.  A fault is the sentence that shade_explain says about it.  Where
    a call asks only whether there is one, the function is inlined, and its sentences vanish.
      in      targets, meshes, states, indices
-     out     NULL, or the fault; a shade_result                                           >>drive */
+     out     NULL, or the fault; a shade_result                                            >>seen */
 
 SHADE__INLINE const char *shade__target_fault(const shade_target *t)
 {
@@ -5763,17 +5706,11 @@ static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices
     return highest[0] < (uint32_t)vertex_count ? SHADE_OK : SHADE_ERROR_INDEX;
 }
 
-/*------------------------------------------------------------------------------------------ >>drive
-   The public calls: arguments are checked before any pixel changes, then batch follows batch.
-     in      the arguments of a call             out  pixels and stats, or a shade_result
-                                                                                         >>mesh */
-
-/* Checks a target that must have colours. */
-static shade_result shade__check_picture(const shade_target *t)
-{
-    if (!t) return SHADE_ERROR_ARGUMENT;
-    return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
-}
+/*------------------------------------------------------------------------------------------- >>seen
+   What can be seen of the picture at all: the clip rectangle, and boxes beside the planes of view.
+     in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn
+     holds   A box with a pixel in the clip rectangle is never left out, whatever rounding does.
+     method  A box that lies outside of one plane is not seen.                           >>drive */
 
 /* r becomes the clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the last two
    exclusive.  Returns 0 if it is empty. */
@@ -5788,6 +5725,16 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
     r[3] = all || y1 > bottom ? bottom : (int)y1;
     return r[0] < r[2] && r[1] < r[3];
 }
+
+/* The planes around what can be seen, in object space: left, right, top, bottom, near, and far
+   three times, to fill the lanes.  A point is outside where k.(P, 1) < 0.  size is in double too:
+   with floats gcc 12.2 addresses one of the rows by the other, at half the stride, takes the stores
+   to both for dead and drops them. */
+enum { SHADE__PLANES = 8 };
+struct shade__frustum {
+    double k[4][SHADE__PLANES];
+    double size[4][SHADE__PLANES];    /* of the numbers that k was made of, for rounding */
+};
 
 /* Plane i of the frustum: sign (c - limit w) >= 0 in clip space, where c is x, y or z for row 0, 1
    or 2. */
@@ -5820,6 +5767,70 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t,
     if (!shade__is_finite(clip_from_object)) SHADE__ZERO(*f);    /* no box lies outside */
 }
 
+/* May the box be seen?  0: it lies outside of one plane.  With its centre c and half its extent h
+   the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, off by
+   2^-22 of the sum of the |products|, and each of 7 clips rounds by 2^-24 of that; 2^-20 covers
+   both.  Products that underflow are off by 2^-148, which FLT_MIN in frustum.size covers. */
+static SHADE__NOINLINE int shade__in_view(const shade__frustum *f,
+                                          shade_vec3 low, shade_vec3 high)
+{
+    double from[3], c[3], h[3], m[3];
+    uint64_t signs = 0;
+
+    if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z)) return 1;
+    shade__double3(low, from);
+    shade__double3(high, h);
+    for (int k = 0; k < 3; k++) {
+        c[k] = (from[k] + h[k]) / 2;
+        h[k] -= c[k];
+        m[k] = shade__size(c[k]) + h[k];
+    }
+    if (!(m[0] + m[1] + m[2] <= DBL_MAX)) return 1;
+    SHADE__FOR(i, SHADE__PLANES) {
+        double most = f->k[0][i] * c[0] + f->k[1][i] * c[1] + f->k[2][i] * c[2] + f->k[3][i];
+        double off = f->size[0][i] * m[0] + f->size[1][i] * m[1];
+        off += f->size[2][i] * m[2] + f->size[3][i];
+        most += shade__size(f->k[0][i]) * h[0];
+        most += shade__size(f->k[1][i]) * h[1];
+        most += shade__size(f->k[2][i]) * h[2];
+        signs |= shade__double_bits(most + off * (1 / 1048576.0));
+    }
+    return !(signs >> 63);
+}
+
+/* Moves on to the next chunk that may be seen; returns 0 where there is none. */
+static int shade__next_chunk(shade__draw *d)
+{
+    shade__supply *s = d->supply;
+
+    for (; s->chunks > 0; s->chunks--) {
+        const shade_chunk *c = s->chunk++;
+        d->stats.triangles += c->count;
+        s->first = c->first;
+        s->end = c->first + c->count;
+        if (c->count && shade__in_view(s->frustum, c->low, c->high)) {
+            s->chunks--;
+            return 1;
+        }
+        d->stats.skipped += c->count;
+    }
+    s->end = s->first;
+    return 0;
+}
+
+/* Hands out the chunks of a mesh that may be seen, in place of all its triangles. */
+static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from_object,
+                              int zero_to_one, const shade_mesh *mesh,
+                              shade__frustum *frustum, shade__supply *s)
+{
+    shade__frustum_of(t, clip_from_object, zero_to_one, frustum);
+    s->end = 0;
+    s->more = shade__next_chunk;
+    s->chunks = mesh->chunk_count;
+    s->chunk = mesh->chunks;
+    s->frustum = frustum;
+}
+
 SHADEDEF int shade_box_visible(const shade_target *target,
                                shade_mat4 clip_from_object,
                                int depth_zero_to_one, shade_vec3 low,
@@ -5830,6 +5841,18 @@ SHADEDEF int shade_box_visible(const shade_target *target,
     clip_from_object = shade__or_identity(clip_from_object);
     shade__frustum_of(target, &clip_from_object, depth_zero_to_one, &frustum);
     return shade__in_view(&frustum, low, high);
+}
+
+/*------------------------------------------------------------------------------------------ >>drive
+   The public calls: arguments are checked before any pixel changes, then batch follows batch.
+     in      the arguments of a call             out  pixels and stats, or a shade_result
+                                                                                         >>mesh */
+
+/* Checks a target that must have colours. */
+static shade_result shade__check_picture(const shade_target *t)
+{
+    if (!t) return SHADE_ERROR_ARGUMENT;
+    return t->color ? shade__check_target(t) : SHADE_ERROR_TARGET;
 }
 
 static shade__compare shade__compare_of(const shade_raster *r)
@@ -6475,13 +6498,8 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     const shade__scene *scene = (const shade__scene *)p->uniforms;
     shade__supply supply = *all;
     shade__frustum frustum;
-    shade__frustum_of(target, &scene->clip_from_object,
-                      p->raster.depth_zero_to_one, &frustum);
-    supply.end = 0;
-    supply.more = shade__next_chunk;
-    supply.chunks = scene->mesh->chunk_count;
-    supply.chunk = scene->mesh->chunks;
-    supply.frustum = &frustum;
+    shade__see_chunks(target, &scene->clip_from_object, p->raster.depth_zero_to_one,
+                      scene->mesh, &frustum, &supply);
     return shade__run_draw(target, p, own, &supply, stats);
 }
 

@@ -1,5 +1,5 @@
-/* reader.c - the OBJ, STL and PLY readers of examples/programs/model/files.h: any bytes give a valid model
-   or an error. */
+/* reader.c - the OBJ, STL and PLY readers of examples/programs/model/files.h: any bytes give a
+   valid model or an error. */
 #include "input.h"
 #include "examples/programs/model/files.h"
 

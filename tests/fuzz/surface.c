@@ -1,5 +1,5 @@
-/* surface.c - the MTL reader of examples/programs/model/mtl.h: any bytes fill the surfaces of a model
-   with colours that can be drawn, or stop with an error. */
+/* surface.c - the MTL reader of examples/programs/model/mtl.h: any bytes fill the surfaces of
+   a model with colours that can be drawn, or stop with an error. */
 #include "input.h"
 #include "examples/programs/model/mtl.h"
 

@@ -129,9 +129,11 @@ check "a number stands in a line of its own directly above a TEST" "$(awk '
     { mark = /^ *\/\* *G[0-9]/ ? FILENAME ":" FNR ": " $0 : "" }' tests/unit/*.c)"
 rm -f /tmp/lint_promised.$$ /tmp/lint_marks.$$ /tmp/lint_held.$$
 if command -v python3 >/dev/null; then
+    check "the renderer names no tool; both keep their budgets of tokens" "$(
+        python3 tests/scripts/halves.py $H 2>&1)"
     check "entries of mutation.txt are current" "$(
         python3 tests/scripts/mutate.py --check $H tests/scripts/mutation.txt 2>&1 | grep -v '^[0-9]* entries$')"
-else echo "left out: entries of mutation.txt (no python3)"; fi
+else echo "left out: the halves of shade.h, entries of mutation.txt (no python3)"; fi
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

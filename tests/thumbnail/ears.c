@@ -1,6 +1,7 @@
-/* ears.c - polygons cut into triangles by examples/programs/model/ears.h, against the polygon itself: n - 2
-   triangles, none turned over, areas that add up to the polygon's (so none overlaps another), each
-   point inside in exactly one of them (by crossings of a ray), corners none but the polygon's. */
+/* ears.c - polygons cut into triangles by examples/programs/model/ears.h, against the polygon
+   itself: n - 2 triangles, none turned over, areas that add up to the polygon's (so none overlaps
+   another), each point inside in exactly one of them (by crossings of a ray), corners none but the
+   polygon's. */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "examples/programs/model/ears.h"

@@ -1,5 +1,5 @@
-/* look.c - questions about pictures, for tests/scripts/thumbnail.sh.  Prints what it found, exit status 0
-   where the answer is yes.
+/* look.c - questions about pictures, for tests/scripts/thumbnail.sh.  Prints what it found, exit
+   status 0 where the answer is yes.
 
      look same A B MOST           no two bytes differ by more than MOST
      look near A B MEAN           the mean difference is at most MEAN

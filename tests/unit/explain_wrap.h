@@ -1,6 +1,6 @@
 /* explain_wrap.h - included before a program by explain.sh: each shade_draw_mesh is followed by
    shade_explain, with and without stats; what it says goes to stderr, and that it was called.
-   Scenes of infinite light are left out: tests/unit/scene.c draws them to have NaN in the picture. */
+   Scenes of infinite light are left out: tests/unit/scene.c draws them for NaN in the picture. */
 #ifndef EXPLAIN_WRAP_H
 #define EXPLAIN_WRAP_H
 #include "shade.h"

@@ -1,6 +1,6 @@
-/* independent.c - a lane depends on itself alone: its light, texel and pixel are the same bits whatever
-   the other lanes of its packet hold, infinities and NaN included, and those of the scalar call.  A
-   NaN equals a NaN: its sign and its other bits are not promised.
+/* independent.c - a lane depends on itself alone: its light, texel and pixel are the same bits
+   whatever the other lanes of its packet hold, infinities and NaN included, and those of the
+   scalar call.  A NaN equals a NaN: its sign and its other bits are not promised.
 
    The scalar calls run the build for any processor, the packets that of this one, so that both meet
    here as well. */

@@ -1,5 +1,5 @@
-/* refusals.c - what is wrong with a call: of several faults the first category is told, in the order
-   NULLs, target, mesh, state, lights, texture, indices, room; nothing is written. */
+/* refusals.c - what is wrong with a call: of several faults the first category is told, in the
+   order NULLs, target, mesh, state, lights, texture, indices, room; nothing is written. */
 
 typedef struct whole_call { /* all that any call is given, good until it is spoilt */
     canvas c;

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""halves.py FILE - shade.h is a renderer (to the banner of >>lines) and the tools behind it.
+
+Prints what breaks the house's two rules of them: a half with more C tokens than its budget, and a
+line of the renderer's implementation that names a function, type or constant of a tool.
+"""
+import re
+import sys
+
+BUDGET = {"renderer": 47600, "tools": 13000}
+TOKEN = re.compile(
+    r"""
+    "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*'                  # strings, characters
+    | [A-Za-z_]\w*                                        # names
+    | \.?[0-9](?:[eEpP][-+]|[.\w])*                       # numbers
+    | \.\.\. | <<= | >>= | [-+&|<>=#]{2} | [-+*/%&|^<>=!]= # operators of several characters
+    | \S""",
+    re.VERBOSE,
+)
+
+
+def code_of(text):
+    """Returns the text with each comment as blanks, so that lines keep their numbers."""
+    def blanks(match):
+        return " " + "\n" * match.group().count("\n")
+    return re.sub(r"/\*.*?\*/", blanks, text, flags=re.DOTALL)
+
+
+def main():
+    text = open(sys.argv[1], encoding="ascii").read()
+    begin = text.index("\n", text.rindex("/*", 0, text.index(">>lines\n")) - 1)
+    end = text.rindex("/*", 0, text.index(">>refs\n"))
+    halves = {"renderer": code_of(text[:begin]), "tools": code_of(text[begin:end])}
+    for name, code in halves.items():
+        tokens = len(TOKEN.findall(code.replace("\\\n", " ")))
+        if tokens > BUDGET[name]:
+            print(f"the {name} have {tokens} tokens, {tokens - BUDGET[name]} beyond the budget")
+
+    defined = r"^(?:static|SHADEDEF|SHADE__INLINE)\b[^;{}()=]*?\b(\w+)\((?=[^;]*?\)\s*\{)"
+    tools = set(re.findall(defined, halves["tools"], re.MULTILINE))
+    tools |= set(re.findall(r"^\} (shade__\w+);", halves["tools"], re.MULTILINE))
+    tools |= set(re.findall(r"\b(SHADE__\w+) = ", halves["tools"]))
+    inside = False
+    for number, line in enumerate(halves["renderer"].split("\n"), 1):
+        inside |= line.startswith("#ifdef SHADE_IMPLEMENTATION")
+        for name in re.findall(r"\w+", line) if inside else []:
+            if name in tools:
+                print(f"{number}: the renderer names {name} of the tools")
+
+
+main()
