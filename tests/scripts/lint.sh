@@ -104,25 +104,25 @@ check "no heap, no exit, no print" "$(sed '1,/^#ifndef SHADE_H/s/.*//' $H | grep
 
 check "every file of tests stands in tests/README.md" "$(for file in tests/unit/*.c tests/scripts/*.sh; do
     grep -qF "\`${file##*/}\`" tests/README.md || echo "$file"; done)"
-check "tests/README.md speaks of files and names that are there, in 80 lines" "$(
+check "tests/README.md speaks of files and names that are there, in 170 lines" "$(
     grep -oE '`[a-z_/]+\.[a-z]+`' tests/README.md | tr -d '`' | sort -u | while read -r file; do
         [ -e "tests/unit/$file" ] || [ -e "tests/scripts/$file" ] || [ -e "tests/$file" ] || [ -e "$file" ] || echo "$file"; done
     grep -oE '`[A-Za-z0-9]+_[A-Za-z0-9_]*`' tests/README.md | tr -d '`' | sort -u | while read -r name; do
         grep -qwF "$name" $H tests/*/*.[ch] || echo "$name"; done
     grep -oE '>>[a-z]+' tests/README.md | sort -u | while read -r place; do
         grep -qE "^/\*-+ $place\$" $H || echo "$place"; done
-    awk 'END { if (NR > 80) print NR " lines" }' tests/README.md)"
+    awk 'END { if (NR > 170) print NR " lines" }' tests/README.md)"
 
-# README's guarantees, and the numbers that tests carry: a comment above a TEST, a line of a script
-grep -oE '^\* \*\*G[0-9]+' README.md | grep -oE 'G[0-9]+' | sort >/tmp/lint_promised.$$
+# The guarantees of tests/README.md, and the numbers that tests carry: a comment above a TEST, a line of a script
+grep -oE '^\* \*\*G[0-9]+' tests/README.md | grep -oE 'G[0-9]+' | sort >/tmp/lint_promised.$$
 awk '/^\/\* G[0-9]+(, G[0-9]+)* \*\/$/ { mark = $0; next }
      mark && /^TEST\(/ { print mark }
      { mark = "" }' tests/unit/*.c >/tmp/lint_marks.$$
 grep -hE '^ *# G[0-9]+(, G[0-9]+)*$' tests/scripts/*.sh >>/tmp/lint_marks.$$
 grep -oE 'G[0-9]+' /tmp/lint_marks.$$ | sort -u >/tmp/lint_held.$$
-check "guarantees of README have different numbers" "$(uniq -d /tmp/lint_promised.$$)"
-check "every guarantee of README has a test" "$(comm -23 /tmp/lint_promised.$$ /tmp/lint_held.$$)"
-check "tests carry numbers of README's guarantees" "$(comm -13 /tmp/lint_promised.$$ /tmp/lint_held.$$)"
+check "the guarantees have different numbers" "$(uniq -d /tmp/lint_promised.$$)"
+check "every guarantee has a test" "$(comm -23 /tmp/lint_promised.$$ /tmp/lint_held.$$)"
+check "tests carry numbers of guarantees" "$(comm -13 /tmp/lint_promised.$$ /tmp/lint_held.$$)"
 check "a number stands in a line of its own directly above a TEST" "$(awk '
     FNR == 1 && mark { print mark; mark = "" }
     mark && !/^TEST\(/ { print mark }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# readme.sh [README] - what the README shows compiles and does what it says.
+# readme.sh [README] - what the README and the READMEs of rooms show compiles and does what it says.
 # Its one block with main is the program: C99, gnu17 behind other headers, C++20; it is run.  The
 # other blocks of C make one file, in their order, behind readme_prelude.h, and readme_run.c runs
 # them.  SDL2, stb and a C++ compiler are used where they are.  Names, keys and files that the README
@@ -12,6 +12,10 @@ if [ -z "${CXX:-}" ]; then
     for c in c++ g++ clang++; do command -v $c >/dev/null 2>&1 && CXX=$c && break; done
 fi
 README=${1:-README.md}
+# what continues it, in the order in which its snippets compile, and other pages with names
+CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
+PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md
+    examples/microcontroller/README.md"
 WARN="-Wall -Wextra -Werror -Wno-missing-field-initializers"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
 T=$(mktemp -d) || exit 1
@@ -30,23 +34,23 @@ accepts() {                     # compiler, flags, c or c++, text
 
 # the blocks: program.c once, then snippets, each behind its place in the README
 : >"$T/readme_snippets.h"
-awk -v dir="$T" -v readme="$README" '
+awk -v dir="$T" '
     function put(   file) {
         file = "readme_snippets.h"
         if (text ~ /SDL_/) file = "readme_sdl.h"
         if (text ~ /stbi_/) file = "readme_stb.h"
         if (text ~ /int main\(/) file = "program.c"
-        printf "#line %d \"%s\"\n%s", line, readme, text > (dir "/" file)
+        printf "#line %d \"%s\"\n%s", line, FILENAME, text > (dir "/" file)
         blocks[file]++
     }
     /^```/ {
         if (inside && kind == "c") put()
-        inside = !inside; kind = substr($0, 4); text = ""; line = NR + 1
+        inside = !inside; kind = substr($0, 4); text = ""; line = FNR + 1
         next
     }
     inside { text = text $0 "\n" }
     END { if (blocks["program.c"] != 1) print blocks["program.c"] + 0 > (dir "/programs") }
-' "$README"
+' "$README" $CONTINUED
 check "one program" test ! -f "$T/programs"
 
 # the program; the implementation stands in an object that all share
@@ -94,7 +98,7 @@ fi
 none() { [ -z "$1" ] || { printf '%s\n' "$1"; return 1; }; }
 words() { tr -c 'A-Za-z0-9_' '\n' <"$1" | sort -u; }
 words shade.h >"$T/known"
-cat "$README" examples/README.md >"$T/text"
+cat $PAGES >"$T/text"
 check "every name is one of shade.h" none "$(
     words "$T/text" | grep -E '^(shade|SHADE)_' |
     comm -23 - "$T/known")"
@@ -125,7 +129,7 @@ awk '/^#ifdef SHADE_IMPLEMENTATION/ { exit }
      /^(SHADEDEF|SHADE__INLINE) / && match($0, /shade_[a-z0-9_]+\(/) {
          print substr($0, RSTART, RLENGTH - 1)
      }' shade.h | grep -v shade__ | sort -u >"$T/functions"
-cat "$README" examples/*/*.[ch] examples/*/*/*.[ch] bench/*.[ch] bench/*/*.[ch] >"$T/shown"
+cat $PAGES examples/*/*.[ch] examples/*/*/*.[ch] bench/*.[ch] bench/*/*.[ch] >"$T/shown"
 words "$T/shown" >"$T/shown_words"
 check "more than 90 public functions" test "$(wc -l <"$T/functions")" -gt 90
 check "every public function is shown" none "$(comm -23 "$T/functions" "$T/shown_words")"
