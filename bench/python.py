@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-LIBRARIES = ("shade", "vtk", "open3d", "matplotlib")
+LIBRARIES = ("shade_h", "vtk", "open3d", "matplotlib")
 FRAMES = 32
 SLICES, STACKS = 28, 16         # of round geoms: MuJoCo's own numbers
 FOV = 45.0
@@ -129,7 +129,7 @@ class Shade:
     """The package, one call a picture, into the same arrays; batch() is one call for all."""
 
     def __init__(self, scene, cores):
-        import shade
+        import shade_h as shade
         self.scene, self.cores = scene, cores
         self.drawn = shade.Scene([shade.Light.directional(LAMP)], (0.3, 0.3, 0.3))
         made = [shade.Mesh(p, f, normals=n) for p, f, n in scene.meshes]
@@ -340,7 +340,7 @@ class Matplotlib:
         return rgb, None, None
 
 
-ADAPTERS = {"shade": Shade, "vtk": Vtk, "open3d": Open3d, "matplotlib": Matplotlib}
+ADAPTERS = {"shade_h": Shade, "vtk": Vtk, "open3d": Open3d, "matplotlib": Matplotlib}
 
 
 # ---- one process ------------------------------------------------------------------------------
@@ -427,7 +427,7 @@ def row(library, rounds, folder, environment):
     if subprocess.run([sys.executable, "-c", f"import {library}"], env=environment,
                       stderr=subprocess.DEVNULL).returncode:
         if library == LIBRARIES[0]:
-            sys.exit("shade is not installed: pip install examples/python")
+            sys.exit("shade-h is not installed: pip install examples/python")
         print(f"left out: {library}, which is not installed", file=sys.stderr)
         return ""
     few = max(2, rounds // 8)

@@ -1,8 +1,8 @@
-/* native.c - what the Python package shade calls through ctypes: pictures of many meshes, cut into
+/* native.c - what the Python package shade_h calls through ctypes: pictures of many meshes, cut into
    bands that threads share, and the equations over arrays of any length.
 
    The package checks shapes, types and sizes before a call; shade.h checks the rest.  The structs
-   here have twins in shade/_native.py, which compares their sizes when it is imported. */
+   here have twins in shade_h/_native.py, which compares their sizes when it is imported. */
 #if defined(_WIN32) && !defined(SHADEDEF)
 #define SHADEDEF extern __declspec(dllexport)
 #endif

@@ -74,7 +74,7 @@ FLAGS = [] if sys.platform == "win32" else ["-O2", "-std=gnu99", "-fno-wrapv",
 windows = sys.platform == "win32"
 setup(
     ext_modules=[Extension(
-        "shade.libshade", ["native.c"], include_dirs=[str(top())],
+        "shade_h.libshade", ["native.c"], include_dirs=[str(top())],
         define_macros=[("_DEFAULT_SOURCE", None)],
         extra_compile_args=FLAGS,
         extra_link_args=[] if windows else ["-lm", "-pthread"])],

@@ -39,7 +39,7 @@ for python in python3 /usr/bin/python3; do
 done
 if [ "$python" ]; then
     check "the package for Python" sh -c "cd '$T/tree/examples/python' &&
-        $python setup.py -q build_ext --build-lib '$T/python' && cp shade/*.py '$T/python/shade'"
+        $python setup.py -q build_ext --build-lib '$T/python' && cp shade_h/*.py '$T/python/shade_h'"
     mkdir "$T/oracle"
     check "the scenes in Python" env PYTHONPATH="$T/python" PYTHONDONTWRITEBYTECODE=1 \
         $python "$N/test/oracle.py" "$T/oracle"

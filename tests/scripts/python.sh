@@ -12,23 +12,24 @@ for python in python3 /usr/bin/python3; do
 done
 [ "$python" ] || { left_out "everything: no Python with numpy, pytest, setuptools and build"; finish; }
 
-mkdir -p "$T/tree/examples"
+mkdir -p "$T/tree/examples/programs"
 cp shade.h "$T/tree"
-for folder in model shared thumbnail python; do cp -R "examples/$folder" "$T/tree/examples"; done
+cp -R examples/programs/model "$T/tree/examples/programs"
+cp -R examples/shared examples/python "$T/tree/examples"
 P=$T/tree/examples/python
-rm -rf "$P/build" "$P/dist" "$P/headers" "$P"/shade/libshade.* "$P"/*.egg-info
+rm -rf "$P/build" "$P/dist" "$P/headers" "$P"/shade_h/libshade.* "$P"/*.egg-info
 
 # without isolation and index: nothing is fetched
 (cd "$P" && $python -m build --no-isolation --outdir "$T/dist" .) >"$T/built" 2>&1 ||
     { fail "an sdist, and a wheel from it" "$T/built"; tail -n 15 "$T/built"; finish; }
-check "one wheel for all Pythons" sh -c "ls '$T'/dist/shade-*-py3-none-*.whl"
-check "the sdist holds shade.h" sh -c "tar tzf '$T'/dist/shade-*.tar.gz | grep -q headers/shade.h"
+check "one wheel for all Pythons" sh -c "ls '$T'/dist/shade_h-*-py3-none-*.whl"
+check "the sdist holds shade.h" sh -c "tar tzf '$T'/dist/shade*.tar.gz | grep -q headers/shade.h"
 check "an environment" $python -m venv --system-site-packages "$T/env"
 python=$T/env/bin/python
 check "the wheel can be installed" $python -m pip install -q --no-index --no-deps "$T"/dist/*.whl
 cd "$T" || exit 1
 check "it is the wheel that is imported" \
-    $python -c "import shade; assert shade.__file__.startswith('$T/env'), shade.__file__"
+    $python -c "import shade_h; assert shade_h.__file__.startswith('$T/env'), shade_h.__file__"
 
 # the tests, beside the tree but not beside its sources
 mkdir -p "$T/run/examples/python"
@@ -36,12 +37,12 @@ ln -s "$T/tree/shade.h" "$T/run/shade.h"
 cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/python"
 check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/python/tests"
 check "the scenes of bench/python.py are drawn" sh -c "
-    $python '$OLDPWD/bench/python.py' --one shade robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"
+    $python '$OLDPWD/bench/python.py' --one shade_h robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"
 if $python -c 'import mypy' 2>/dev/null; then
     check "mypy --strict" sh -c "cd '$P' && $python -m mypy --strict --cache-dir '$T/mypy'"
 else left_out "mypy"; fi
 if $python -c 'import nbclient, ipykernel' 2>/dev/null; then
-    PYTHONPATH=$($python -c 'import pathlib, shade; print(pathlib.Path(shade.__file__).parents[1])')
+    PYTHONPATH=$($python -c 'import pathlib, shade_h; print(pathlib.Path(shade_h.__file__).parents[1])')
     export PYTHONPATH    # the kernel is the system's Python
     check "the notebook is executed" $python -c "import nbformat, nbclient
 nbclient.NotebookClient(nbformat.read('$P/course.ipynb', 4), timeout=300, kernel_name='python3').execute()"

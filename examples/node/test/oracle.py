@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-import shade
+import shade_h as shade
 
 OUT = Path(sys.argv[1])
 told = []

@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-import shade
+import shade_h as shade
 
 
 def unit(v):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from shapes import box, torus
 
-import shade
+import shade_h as shade
 
 
 def ray(camera, size, x, y):
@@ -200,11 +200,11 @@ def test_files_and_the_command(tmp_path):
         assert np.array_equal(mesh.vertices.max(0), [3, 2, 1])
         got = shade.render(tmp_path / name, size=(80, 60))
         assert np.array_equal(got.ids, shade.render(vertices, triangles, size=(80, 60)).ids)
-    done = subprocess.run([sys.executable, "-m", "shade", tmp_path / "b.stl", tmp_path / "s.png",
+    done = subprocess.run([sys.executable, "-m", "shade_h", tmp_path / "b.stl", tmp_path / "s.png",
                            "--views", "front,right,top,iso", "--size", "100x80"], check=False)
     assert done.returncode == 0
     assert shade.Picture.open(tmp_path / "s.png").size == (406, 80)
-    done = subprocess.run([sys.executable, "-m", "shade", tmp_path, tmp_path / "t.png"],
+    done = subprocess.run([sys.executable, "-m", "shade_h", tmp_path, tmp_path / "t.png"],
                           stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 1 and done.stderr.count("\n") == 1
 

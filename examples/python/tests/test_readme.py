@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import shade
+import shade_h as shade
 
 HERE = Path(__file__).resolve().parents[1]
 

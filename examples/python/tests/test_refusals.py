@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from shapes import box, torus
 
-import shade
+import shade_h as shade
 
 VERTICES, FACES = box()
 VERY = float("nan"), float("inf"), -1e30, 0, -1, 1e-30, 2**31, 2**63, 10**400, "x", None, b"", {}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from shapes import torus
 
-import shade
+import shade_h as shade
 
 TOP = Path(__file__).resolve().parents[3]
 EYE, SIZE = (4.0, -6.0, 5.0), (320, 240)

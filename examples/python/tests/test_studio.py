@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from shapes import box, torus
 
-import shade
+import shade_h as shade
 
 SIZE = (160, 120)
 

@@ -187,7 +187,7 @@ def _orthographic(turn: Matrix, low: Matrix, high: Matrix, size: tuple[int, int]
 def at(camera: object) -> Camera:
     """The camera itself, where it is one."""
     if not isinstance(camera, Camera):
-        raise Error(f"camera must be a shade.Camera, not {arguments.shown(camera)}")
+        raise Error(f"camera must be a shade_h.Camera, not {arguments.shown(camera)}")
     return camera
 
 

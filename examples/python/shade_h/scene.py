@@ -70,10 +70,10 @@ class Scene:
             **options: Any) -> int:
         """Adds a mesh and returns its number.
 
-        pose is 4 x 4 and takes the mesh to the world.  material is a shade.Material or the name of
+        pose is 4 x 4 and takes the mesh to the world.  material is a Material or the name of
         a preset; without one a colour of the mesh, or clay, is a little glossy.  edges draws its
         silhouettes, creases and boundaries.  two_sided=False leaves faces out that are seen from
-        behind, which is faster.  options are those of shade.Mesh.
+        behind, which is faster.  options are those of shade_h.Mesh.
         """
         made = as_mesh(mesh, **options)
         place = arguments.floats("pose", IDENTITY if pose is None else pose, (4, 4), finite=True)
@@ -81,7 +81,7 @@ class Scene:
             material = preset(material)
         flags = arguments.flag("edges", edges), arguments.flag("two_sided", two_sided)
         if material is not None and not isinstance(material, Material):
-            raise Error(f"material must be a shade.Material or a name, "
+            raise Error(f"material must be a shade_h.Material or a name, "
                         f"not {arguments.shown(material)}")
         self.parts.append(Part(made, place.astype(np.float64), material or _gloss(made),
                                str(name), *flags))
@@ -249,7 +249,7 @@ def _cameras(cameras: Any, poses: int | None) -> list[Camera]:
     try:
         seen = [at(camera) for camera in cameras]
     except TypeError:
-        raise Error(f"cameras must be shade.Camera, not {arguments.shown(cameras)}") from None
+        raise Error(f"cameras must be shade_h.Camera, not {arguments.shown(cameras)}") from None
     if len(seen) == 1 and poses is not None:
         seen *= poses
     if poses is not None and len(seen) != poses:
@@ -265,7 +265,7 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
            threads: int = 0) -> Picture:
     """Draws a mesh, seen from a side by a camera that is fitted to it.
 
-    Pass vertices and faces, or a mesh alone: a path, a shade.Mesh, an object of trimesh, cadquery
+    Pass vertices and faces, or a mesh alone: a path, a shade_h.Mesh, an object of trimesh, cadquery
     or build123d.  view is "front", "right", "back", "left", "top", "bottom", "iso" or (azimuth,
     elevation) in degrees.  light is "quick", three lamps beside the camera, or "studio", soft
     shadows that take longer.

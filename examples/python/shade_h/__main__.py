@@ -1,4 +1,4 @@
-"""python -m shade part.stl sheet.png --views front,right,top,iso"""
+"""python -m shade_h part.stl sheet.png --views front,right,top,iso"""
 from __future__ import annotations
 
 import argparse
@@ -9,7 +9,7 @@ from . import Error, load, render, sheet
 
 def main(words: list[str] | None = None) -> int:
     """Draws a file of a model.  Returns the status of the process."""
-    parser = argparse.ArgumentParser(prog="python -m shade", description=main.__doc__)
+    parser = argparse.ArgumentParser(prog="python -m shade_h", description=main.__doc__)
     parser.add_argument("model", help="STL, OBJ or PLY")
     parser.add_argument("picture", help="PNG")
     parser.add_argument("--views", default="iso", help="front,right,back,left,top,bottom,iso")
@@ -30,7 +30,7 @@ def main(words: list[str] | None = None) -> int:
             picture = sheet(mesh, views, size=size, samples=o.samples, up=o.up, edges=edges)
         picture.save(o.picture)
     except (Error, OSError, ValueError) as why:
-        print(f"shade: {why}", file=sys.stderr)
+        print(f"shade_h: {why}", file=sys.stderr)
         return 1
     return 0
 

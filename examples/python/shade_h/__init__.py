@@ -1,7 +1,7 @@
-"""shade: pictures of meshes without a GPU, a driver or a window, the same bytes on every machine.
+"""shade_h: pictures of meshes without a GPU, a driver or a window, the same bytes on every machine.
 
-    import shade
-    shade.render("part.stl", edges=True).save("part.png")
+    import shade_h
+    shade_h.render("part.stl", edges=True).save("part.png")
 """
 from ._native import Error
 from .camera import VIEWS, Camera, fitted

@@ -43,7 +43,7 @@ class Picture:
 
     def __repr__(self) -> str:
         """Says the size."""
-        return f"<shade.Picture {self.size[0]} x {self.size[1]}>"
+        return f"<shade_h.Picture {self.size[0]} x {self.size[1]}>"
 
     def png(self) -> bytes:
         """The bytes of a PNG file: RGB where every pixel is opaque, else RGBA."""

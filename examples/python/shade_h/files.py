@@ -65,7 +65,7 @@ def load(path: Union[str, "os.PathLike[str]"], **options: Any) -> Mesh:
     Without a color or texture of their own meshes have those of the file: colours by vertex, or the
     diffuse colours of OBJ's MTL, with their picture where all surfaces have the same.
 
-    Raises OSError where the file cannot be opened, and shade.Error with the line where it is wrong.
+    Raises OSError where the file cannot be opened, and Error with the line where it is wrong.
     """
     try:
         name = os.fsencode(path)

@@ -143,7 +143,7 @@ class Lighting:
             raise Error(f"lights must be a sequence, not {arguments.shown(self.lights)}") from None
         for i, lamp in enumerate(lamps):
             if not isinstance(lamp, Light):
-                raise Error(f"lights[{i}] must be a shade.Light, not {arguments.shown(lamp)}")
+                raise Error(f"lights[{i}] must be a shade_h.Light, not {arguments.shown(lamp)}")
         out = NativeLighting()
         if lamps:
             out.lights = (NativeLight * len(lamps))(*(lamp.native() for lamp in lamps))
@@ -180,7 +180,7 @@ def lit(lighting: Lighting, material: Material, eye: Vector, points: object, nor
     eye is a position, or with Flag.INFINITE_VIEWER the direction toward the viewer.
     """
     if not isinstance(lighting, Lighting) or not isinstance(material, Material):
-        raise Error("lighting must be a shade.Lighting and material a shade.Material")
+        raise Error("lighting must be a shade_h.Lighting and material a shade_h.Material")
     p = arguments.floats("points", points, (None, 3))
     n = arguments.floats("normals", normals, (len(p), 3))
     a = None if albedo is None else arguments.floats("albedo", albedo, (len(p), 3))
@@ -197,7 +197,7 @@ def light_at(light: Light, points: object) -> tuple[Floats, Floats, Floats]:
     """How much of a lamp arrives at each point if nothing is in the way: the factor (n,), the unit
     vector L toward the lamp (n, 3), and the distance (n,), 3.4e38 for a lamp at infinity."""
     if not isinstance(light, Light):
-        raise Error(f"light must be a shade.Light, not {arguments.shown(light)}")
+        raise Error(f"light must be a shade_h.Light, not {arguments.shown(light)}")
     p = arguments.floats("points", points, (None, 3))
     amount, distance = np.empty(len(p), np.float32), np.empty(len(p), np.float32)
     toward, lamp = np.empty_like(p), light.native()
