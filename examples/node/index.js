@@ -7,9 +7,9 @@ import { Picture } from "./picture.js";
 const { ShadeError } = check;
 export { Picture, ShadeError };
 
+// Compiled at once, without await, which neither require nor a classic script can do.
 const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));
-const { instance } = await WebAssembly.instantiate(binary);
-const library = instance.exports;
+const library = new WebAssembly.Instance(new WebAssembly.Module(binary)).exports;
 library._initialize();
 
 // Structs of module.c, in words of four bytes

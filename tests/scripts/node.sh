@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.." || exit 1
 there node && there npm || { left_out "everything: no node with npm"; finish; }
 
 mkdir -p "$T/tree" "$T/use"
-cp shade.h "$T/tree"
+cp shade.h LICENSE "$T/tree"
 mkdir -p "$T/tree/examples/programs"
 cp -R examples/programs/model "$T/tree/examples/programs"
 cp -R examples/shared examples/python examples/node "$T/tree/examples"
@@ -17,18 +17,37 @@ sh "$N/build.sh" >"$T/built" 2>&1 || { fail "the module is compiled" "$T/built";
 
 # as a user has it: a package of its own, installed without the tree
 check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/node"
-check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-*.tgz"
-P=$T/use/node_modules/shade
-check "no file but what runs" same "$(ls "$P" | tr '\n' ' ')" \
-    "README.md arguments.js camera.js index.d.ts index.js module.js package.json picture.js "
+check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-h-*.tgz"
+P=$T/use/node_modules/shade-h
+check "no file but what runs" same "$(LC_ALL=C ls "$P" | tr '\n' ' ')" \
+    "LICENSE README.md arguments.js camera.js index.cjs index.d.cts index.d.ts index.js module.js package.json picture.js "
 awk -v out="$T/use/program" '/^```js$/ { n++; inside = 1; next } /^```/ { inside = 0 }
     inside { print > (out n ".mjs") }' "$N/README.md"
 { sed '/^import/!d' "$T/use/program1.mjs"; cat "$T/use/program2.mjs"; } >"$T/use/both.mjs"
 check "README's first program" sh -c "cd '$T/use' && node program1.mjs"
 check "README's second program" sh -c "cd '$T/use' && node both.mjs"
+cat >"$T/use/required.js" <<'END'
+const shade = require("shade-h"), { data } = shade.render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] });
+import("shade-h").then((other) => {    // a Mesh of one is a Mesh of the other
+    const same = Object.keys(shade).every((name) => shade[name] === other[name]);
+    console.log(same && data.some((x) => x !== 255) ? "the same module" : "two modules");
+});
+END
+check "require" same "$(cd "$T/use" && node required.js 2>&1)" "the same module"
 if there pngtopnm; then
     check "its picture is a PNG" sh -c "pngtopnm '$T/use/gear.png' | head -c 15 | grep -q '640 480'"
 else left_out "the picture by netpbm"; fi
+
+# what is of npm, of fixed versions, in a folder that no test looks into
+if npm install --silent --no-audit --no-fund --prefix "$T/npm" esbuild@0.25.12 typescript@5.9.3 \
+    >"$T/log" 2>&1; then
+    check "types, both ways of import" node "$N/test/types.mjs" "$T/use" "$T/npm/node_modules"
+    check "a bundle for a classic script" sh -c "cd '$T/use' &&
+        sed 's/writeFile(\(.*\), await \(.*\));/\2.then((x) => console.log(x.length));/
+             /node:fs/d; s/^await //' program1.mjs >classic.mjs &&
+        '$T/npm/node_modules/.bin/esbuild' --bundle --format=iife --platform=browser classic.mjs \
+            --outfile=classic.js --log-level=warning && [ \"\$(node classic.js)\" -gt 10000 ]"
+else left_out "types and bundles: npm cannot fetch esbuild and typescript"; fi
 
 cp -R "$N/test" "$T/use/test"
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
@@ -55,7 +74,7 @@ else left_out "comparison with Python: no numpy, setuptools or Pillow"; fi
 
 browser=; for name in chromium chromium-browser google-chrome; do there $name && browser=$name; done
 if [ "$browser" ]; then
-    cp "$N"/*.js "$T/use/"
+    cp "$P"/*.js "$P"/*.cjs "$T/use/"
     cp "$N/package.json" "$T/use/package.json"
     check "the same bytes in a browser" \
         timeout 180 node "$T/use/test/browser.js" $browser --no-sandbox "--user-data-dir=$T/browser"

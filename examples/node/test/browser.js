@@ -3,7 +3,7 @@
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
-import { render } from "shade";
+import { render } from "shade-h";
 
 const here = new URL(".", import.meta.url);
 const page = readFileSync(new URL("page.html", here), "utf8");

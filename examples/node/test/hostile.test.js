@@ -1,7 +1,7 @@
 // Whatever is passed, the module answers by a picture or by an error with a sentence, and goes on.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Mesh, PRESETS, ShadeError, render } from "shade";
+import { Mesh, PRESETS, ShadeError, render } from "shade-h";
 
 const box = () => ({
     positions: [0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1],

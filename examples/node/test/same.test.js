@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import test from "node:test";
-import { Mesh, render } from "shade";
+import { Mesh, render } from "shade-h";
 
 const folder = process.env.ORACLE;
 const scenes = JSON.parse(readFileSync(`${folder}/scenes.json`, "utf8"));

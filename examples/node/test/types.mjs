@@ -1,0 +1,49 @@
+// types.mjs folder modules - compiles a program in TypeScript that uses all of index.d.ts, as a module
+// and as CommonJS; and programs whose mistakes the types must tell.
+import { execFileSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+const [folder, modules] = process.argv.slice(2);
+const right = `
+import { Mesh, PRESETS, Picture, ShadeError, render } from "shade-h";
+import type { Camera, Color, Material, MeshSource, Numbers, Options, Texture, Viewpoint } from "shade-h";
+const positions: Numbers = new Float64Array(9), texture: Texture = { data: [1, 2, 3], width: 1, height: 1 };
+const material: Material = { diffuse: [1, 0, 0], shininess: 3 }, color: Color = "steel";
+const source: MeshSource = { positions, indices: [0, 1, 2], normals: "flat", color, material, edges: true,
+    colors: new Uint8Array(9), pose: new Float32Array(16), twoSided: false };
+const view: Viewpoint = [30, 20], camera: Camera = { view: [], projection: [] };
+const options: Options = { view, size: 64, samples: 2, background: null, ortho: true, up: "y", depth: true };
+const mesh = new Mesh({ ...source, uv: [0, 0, 0, 0, 0, 0], texture });
+const picture: Picture = render([mesh, source], options);
+render(mesh, { view: camera, size: [1, 2] });
+const bytes: Uint8ClampedArray = picture.data, depth: Float32Array | null = picture.depth;
+const ids: Int32Array | null = picture.ids, file: Promise<Uint8Array> = picture.png();
+const names: readonly string[] = PRESETS, wrong: TypeError = new ShadeError("size");
+mesh.free();
+export { bytes, depth, file, ids, names, wrong };
+`;
+const mistakes = ['render({})', 'render({ positions: "0" })', 'render({ positions: [], edges: 1 })',
+                  'render({ positions: [] }, { veiw: "top" })', 'render({ positions: [] }, { up: "x" })',
+                  'new Mesh()', 'render({ positions: [] }).data = null'];
+
+function compile(name, text) {
+    writeFileSync(join(folder, name), text);
+    const flags = ["--strict", "--noEmit", "--module", "node16", "--moduleResolution", "node16", "--target",
+                   "es2022", "--lib", "es2022"];
+    execFileSync(process.execPath, [join(modules, "typescript/lib/tsc.js"), ...flags, name],
+                 { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+}
+for (const name of ["right.mts", "right.cts"]) {
+    try { compile(name, right); }
+    catch (error) { console.log(`${error.stdout}`); process.exit(1); }
+}
+for (const [i, line] of mistakes.entries()) {
+    try { compile(`wrong${i}.mts`, `import { Mesh, render } from "shade-h";\n${line};\nvoid Mesh;\n`); }
+    catch (error) {
+        if (/wrong\d\.mts\(2,/.test(`${error.stdout}`)) continue;
+        console.log(`${error.stdout}`);
+    }
+    console.log(`no error: ${line}`);
+    process.exit(1);
+}
