@@ -834,10 +834,14 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 /* n0.n1 <= threshold, for unit normals. */
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
-/* The world-space ray through window point x, y (pixel centres are at + 1/2).  It starts at the
-   eye; with an orthographic projection it starts on the near plane or, where z is from 0 to w, by
-   far - near nearer to the viewer.  Its direction is a unit vector, or zero for a degenerate
-   camera, such as a matrix of zeros. */
+/* The world-space ray through window point x, y (pixel centres are at + 1/2), for every camera that
+   draws.  It starts at the centre of projection, where clip x, y and w are 0, and flies to where w
+   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, it starts
+   where clip z = -w (on the near plane or, where z is from 0 to w, by far - near nearer to the
+   viewer) and flies to where depth grows, so that it meets first what SHADE_COMPARE_LESS draws.
+     Its direction is a unit vector; it is zero for a degenerate camera, where both w and depth are
+   constant, and for a zero matrix, which is no identity here: for the zero matrices of a draw state
+   pass shade_mat4_identity(). */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -7115,25 +7119,38 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
      holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
+/* The centre of projection in eye space, which projection takes to (0, 0, z, 0); its w is 0 where
+   rays are parallel.  It does not depend on the row of z: where the camera is singular because depth
+   is constant, that row becomes 0, 0, 0, 1. */
+static shade_vec4 shade__centre(shade_mat4 *projection)
+{
+    shade_vec4 c = shade_mat4_inverse(*projection).col[2];
+    if (shade_dot4(c, c) != 0) return c;
+    for (int k = 0; k < 4; k++) ((float *)projection)[4 * k + 2] = k == 3;
+    return shade_mat4_inverse(*projection).col[2];
+}
+
+/* m takes the window's (nx, ny, z, 1) to homogeneous points.  The w of such a point is 1 / w of clip
+   space, so that d, the difference of two of them, needs no sign: it points to where w grows from 0
+   at the centre or, on a parallel ray, to where z grows. */
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
                                    int width, int height, float x, float y)
 {
     shade_ray ray;
-    shade_mat4 camera = shade_mat4_inverse(view);
-    shade_mat4 m = shade_mat4_inverse(shade__mat4_product(&projection, &view));
-    float nx = 2 * x / (float)shade__max(width, 1) - 1,
-          ny = 1 - 2 * y / (float)shade__max(height, 1);
+    const shade_vec4 centre = shade__centre(&projection);
+    const shade_mat4 m = shade_mat4_inverse(shade__mat4_product(&projection, &view));
+    const float nx = 2 * x / (float)shade__max(width, 1) - 1;
+    const float ny = 1 - 2 * y / (float)shade__max(height, 1);
     shade_vec4 from = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
-    shade_vec4 to = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
-    shade_vec3 forward = shade_mat4_transform_direction(camera, shade_v3(0, 0, -1)), d;
+    const shade_vec4 to = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
     ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
-    if (projection.col[0].w != 0 || projection.col[1].w != 0 || projection.col[2].w != 0) {
-        ray.origin = shade_mat4_transform_point(camera, shade_v3(0, 0, 0));
+    if (centre.w != 0) {
+        const shade_vec3 eye = shade_scale(shade__xyz(centre), 1 / centre.w);
+        ray.origin = shade_mat4_transform_point(shade_mat4_inverse(view), eye);
         from = shade__xyzw(ray.origin, 1);
     }
-    /* the difference of two homogeneous points, but for its sign */
-    d = shade_sub(shade_scale(shade__xyz(to), from.w), shade_scale(shade__xyz(from), to.w));
-    ray.direction = shade__unit_vector(shade_dot(d, forward) < 0 ? shade_neg(d) : d);
+    ray.direction = shade__unit_vector(shade_sub(shade_scale(shade__xyz(to), from.w),
+                                                 shade_scale(shade__xyz(from), to.w)));
     return ray;
 }
 
