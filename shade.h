@@ -52,31 +52,31 @@
      Public
        >>config     116  options               >>types      189  materials, lamps, targets, states
        >>plumbing   362  compilers             >>light      489  the equation and its terms
-       >>draw       614  meshes and pixels     >>math       858  vectors and matrices
+       >>draw       614  meshes and pixels     >>math       862  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1221  processors            >>base      1378  bits, masks, rows of vectors
-       >>matrix    1608  cameras, inverses     >>power     1902  x^n
-       >>pixels    1968  formats, sRGB
+       >>machine   1225  processors            >>base      1382  bits, masks, rows of vectors
+       >>matrix    1612  cameras, inverses     >>power     1906  x^n
+       >>pixels    1972  formats, sRGB
      Inside: light
-       >>lamps     2148  attenuation, cones    >>terms     2423  one term at one point
-       >>surface   2561  material and lights   >>lit       2685  the whole sum, at many points
+       >>lamps     2152  attenuation, cones    >>terms     2427  one term at one point
+       >>surface   2565  material and lights   >>lit       2689  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3102  who owns what         >>vertices  3276  shading, projection
-       >>triangles 3493  dropped, cut, edges   >>clip      3861  near, far, behind the eye
-       >>tiles     4046  pixels, depth test    >>cover     4395  what is hidden, tile by tile
-       >>fragments 4625  interpolation, lod    >>texture   4917  texels, mipmaps
-       >>store     5319  blending, packing
+       >>state     3106  who owns what         >>vertices  3280  shading, projection
+       >>triangles 3497  dropped, cut, edges   >>clip      3865  near, far, behind the eye
+       >>tiles     4050  pixels, depth test    >>cover     4399  what is hidden, tile by tile
+       >>fragments 4629  interpolation, lod    >>texture   4921  texels, mipmaps
+       >>store     5323  blending, packing
      Inside: calls of the renderer
-       >>check     5544  refusals              >>seen      5709  what can be seen, chunks
-       >>drive     5846  shade_draw            >>mesh      6154  shade_draw_mesh
+       >>check     5548  refusals              >>seen      5713  what can be seen, chunks
+       >>drive     5850  shade_draw            >>mesh      6158  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6544  shade_draw_lines      >>shape     6702  normals, edges
-       >>chunks    6935  boxes of triangles    >>rays      7112  shade_pick
-       >>survey    7292  experiments on a draw >>explain   7439  why nothing is seen
-       >>image     7851  PPM
+       >>lines     6548  shade_draw_lines      >>shape     6706  normals, edges
+       >>chunks    6939  boxes of triangles    >>rays      7116  shade_pick
+       >>survey    7309  experiments on a draw >>explain   7456  why nothing is seen
+       >>image     7868  PPM
      Sources
-       >>refs      7917                        >>history   7943
-       >>license   7952
+       >>refs      7934                        >>history   7960
+       >>license   7969
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7120,8 +7120,8 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
      holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
 /* The centre of projection in eye space, which projection takes to (0, 0, z, 0); its w is 0 where
-   rays are parallel.  It does not depend on the row of z: where the camera is singular because depth
-   is constant, that row becomes 0, 0, 0, 1. */
+   rays are parallel.  It does not depend on the row of z: where the matrix is singular because
+   depth is constant, that row becomes 0, 0, 0, 1. */
 static shade_vec4 shade__centre(shade_mat4 *projection)
 {
     shade_vec4 c = shade_mat4_inverse(*projection).col[2];
@@ -7130,9 +7130,9 @@ static shade_vec4 shade__centre(shade_mat4 *projection)
     return shade_mat4_inverse(*projection).col[2];
 }
 
-/* m takes the window's (nx, ny, z, 1) to homogeneous points.  The w of such a point is 1 / w of clip
-   space, so that d, the difference of two of them, needs no sign: it points to where w grows from 0
-   at the centre or, on a parallel ray, to where z grows. */
+/* m takes (nx, ny, z, 1) to homogeneous points, whose w is the 1 / w of clip space.  So the sign of
+   their difference is right: it points to where w grows from 0 at the centre or, on a parallel ray,
+   to where z grows. */
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
                                    int width, int height, float x, float y)
 {

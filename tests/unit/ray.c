@@ -713,6 +713,16 @@ static int picked_for_sure(const picked_screen *p, double X, double Y, int rever
     return !covered || second - end_of_nearest >= 1e-4;
 }
 
+/* Whether two triangles have the same corners, perhaps in another order, so that rounding decides
+   which is nearer. */
+static int same_corners(const pick_scene *s, int a, int b)
+{
+    int shared = 0;
+    if (a < 0 || b < 0 || !s->mesh.indices) return a == b;
+    for (int k = 0; k < 9; k++) shared += s->index[3 * a + k / 3] == s->index[3 * b + k % 3];
+    return shared == 3;
+}
+
 /* G10 */
 TEST(ray, pick_says_what_is_drawn_at_every_pixel)
 {
@@ -742,7 +752,8 @@ TEST(ray, pick_says_what_is_drawn_at_every_pixel)
             shade_ray ray = shade_pixel_ray(view, projection, W, H, (float)X, (float)Y);
             int drawn = (int)canvas_float(&c, k % W, k / W, 0) - 1;
             int got = shade_pick(&s.mesh, s.model, ray, NULL, NULL);
-            CHECK_SAY(got == drawn, "pixel %d %d: %d drawn, %d picked", k % W, k / W, drawn, got);
+            CHECK_SAY(got == drawn || same_corners(&s, got, drawn),
+                      "pixel %d %d: %d drawn, %d picked", k % W, k / W, drawn, got);
             compared++;
             hits += got >= 0;
         }
