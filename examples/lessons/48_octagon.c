@@ -3,7 +3,7 @@
    interpolated along them.  The band outside shows the light of each point, by shade_lambert: eight
    flat pieces, or a curve without steps.  The number is the greatest angle to the normals of the
    circle.
-   Try SIDES = 24: 7.2 degrees, and steps that are hard to see.
+   Try SIDES = 24: 7.5 degrees, and steps that are hard to see.
 
    cc -O2 -I. examples/lessons/48_octagon.c -lm -o octagon && ./octagon        writes octagon.ppm */
 #define SHADE_IMPLEMENTATION
@@ -42,7 +42,7 @@ static double figure(const canvas *c, int x, shade_vec3 L, int smooth)
         s.pen.cap = SHADE_CAP_SQUARE;
         sketch_ink(&s, black, 2);
         sketch_line(&s, P, Q);
-        least = fminf(least, shade_dot(N, shade_normalize(shade_lerp(P, Q, 0.5f))));
+        least = fminf(least, shade_dot(normal(side, t, smooth), shade_normalize(P)));
         if (k != (smooth ? 0 : STEPS / 2)) continue;
         sketch_ink(&s, blue, 2.5f);
         sketch_arrow(&s, shade_scale(P, 1.19f), shade_madd(shade_scale(P, 1.19f), 0.33f, N));
