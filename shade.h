@@ -61,22 +61,22 @@
        >>lamps     2152  attenuation, cones    >>terms     2427  one term at one point
        >>surface   2565  material and lights   >>lit       2689  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3106  who owns what         >>vertices  3280  shading, projection
-       >>triangles 3497  dropped, cut, edges   >>clip      3865  near, far, behind the eye
-       >>tiles     4050  pixels, depth test    >>cover     4399  what is hidden, tile by tile
-       >>fragments 4629  interpolation, lod    >>texture   4921  texels, mipmaps
-       >>store     5323  blending, packing
+       >>state     3106  who owns what         >>vertices  3289  shading, projection
+       >>triangles 3506  dropped, cut, edges   >>clip      3874  near, far, behind the eye
+       >>tiles     4059  pixels, depth test    >>cover     4408  what is hidden, tile by tile
+       >>fragments 4638  interpolation, lod    >>texture   4930  texels, mipmaps
+       >>store     5332  blending, packing
      Inside: calls of the renderer
-       >>check     5548  refusals              >>seen      5713  what can be seen, chunks
-       >>drive     5850  shade_draw            >>mesh      6158  shade_draw_mesh
+       >>check     5557  refusals              >>seen      5722  what can be seen, chunks
+       >>drive     5859  shade_draw            >>mesh      6167  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6548  shade_draw_lines      >>shape     6706  normals, edges
-       >>chunks    6939  boxes of triangles    >>rays      7116  shade_pick
-       >>survey    7309  experiments on a draw >>explain   7456  why nothing is seen
-       >>image     7868  PPM
+       >>lines     6557  shade_draw_lines      >>shape     6715  normals, edges
+       >>chunks    6948  boxes of triangles    >>rays      7125  shade_pick
+       >>survey    7318  experiments on a draw >>explain   7465  why nothing is seen
+       >>image     7877  PPM
      Sources
-       >>refs      7934                        >>history   7960
-       >>license   7969
+       >>refs      7943                        >>history   7969
+       >>license   7978
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3142,6 +3142,15 @@ enum {
     SHADE__TILE = 32, SHADE__TILE_ROWS = 8    /* pixels that >>tiles looks at together */
 };
 
+/* What a draw is.  Its flags, all set by shade__make_plan:
+
+     flag            set where                                        asked by
+     zero_to_one     the raster says so                               >>vertices, >>clip
+     early           there is depth and no shader may discard         >>tiles (rows of a tile)
+     queued          there is a fragment shader whose result counts   >>tiles (runs go on)
+     less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
+     inputs_unread   the shader is of this file, early, no dither     >>fragments
+     lod             a texture for lod is named: not 0, a place       >>fragments */
 typedef struct shade__plan {
     const shade_target   *target;
     const shade_pipeline *pipe;
