@@ -76,7 +76,7 @@
        >>image     7877  PPM
      Sources
        >>refs      7943                        >>history   7969
-       >>license   7978
+       >>license   7981
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -111,7 +111,7 @@
 */
 #ifndef SHADE_H
 #define SHADE_H
-#define SHADE_VERSION 10100    /* major * 10000 + minor * 100 + patch */
+#define SHADE_VERSION 10200    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options.  Define them before the #include, with the same value in every file of a program.
@@ -7967,6 +7967,9 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
+   1.2    2026-11-23   shade_mesh_bounds and shade_mat4_fit, the first look at a mesh of one's own;
+                       SHADE_VARYING_...; rays for every camera that draws; shade_explain says what
+                       the draw proves; a triangle takes time by its rows and the tiles it crosses.
    1.1    2026-11-22   An error for each kind of argument; shade_explain; shade_rows, which takes
                        the place of the last arguments of shade_lit_lanes; fragment shaders of draw
                        states; chunks; SHADE_FORMAT_A8; shade_radians.  From here on the pixels

@@ -1,4 +1,4 @@
-/* native.c - what the Python package shade_h calls through ctypes: pictures of many meshes, cut into
+/* native.c - what the Python package shade_h calls through ctypes: pictures of many meshes, cut
    bands that threads share, and the equations over arrays of any length.
 
    The package checks shapes, types and sizes before a call; shade.h checks the rest.  The structs

@@ -12,7 +12,7 @@ from .mesh import Mesh
 from .picture import Picture, assert_same
 from .scene import Part, Scene, render, sheet
 
-__version__ = "1.1.0"
+__version__ = "1.2.0"
 __all__ = ["Camera", "Error", "Flag", "Light", "Lighting", "Material", "Mesh", "Model", "PRESETS",
            "Part", "Picture", "Scene", "Term", "VIEWS", "assert_same", "berkeley", "fitted",
            "light_at", "lit", "load", "massey", "preset", "render", "sheet", "shirley",
