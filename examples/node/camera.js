@@ -78,6 +78,19 @@ export function used({ positions, indices }) {
     return marks;
 }
 
+/** Calls take with each point of the meshes in the world, but those with NaN or beyond 1e8. */
+function eachPoint(meshes, take) {
+    for (const { positions: p, pose: m, used: marks } of meshes) {
+        for (let i = 0, at = 0; i < marks.length; i++, at += 3) {
+            const x = Math.fround(p[at] * m[0] + p[at + 1] * m[4] + p[at + 2] * m[8] + m[12]);
+            const y = Math.fround(p[at] * m[1] + p[at + 1] * m[5] + p[at + 2] * m[9] + m[13]);
+            const z = Math.fround(p[at] * m[2] + p[at + 1] * m[6] + p[at + 2] * m[10] + m[14]);
+            const most = Math.max(Math.abs(x), Math.abs(y), Math.abs(z));
+            if (marks[i] && most <= MOST) take(x, y, z);
+        }
+    }
+}
+
 /** Extremes of the points in the axes of the camera, and of what bounds the eye from four sides.
     Points with NaN or beyond 1e8 do not count. */
 function extremes(meshes, turn, [across, along]) {
@@ -96,21 +109,14 @@ function extremes(meshes, turn, [across, along]) {
         below[1] = Math.max(none ? -Infinity : below[1], along * back - up);
         none = false;
     };
-    for (const { positions: p, pose: m, used: marks } of meshes) {
-        for (let i = 0, at = 0; i < marks.length; i++, at += 3) {
-            const x = Math.fround(p[at] * m[0] + p[at + 1] * m[4] + p[at + 2] * m[8] + m[12]);
-            const y = Math.fround(p[at] * m[1] + p[at + 1] * m[5] + p[at + 2] * m[9] + m[13]);
-            const z = Math.fround(p[at] * m[2] + p[at + 1] * m[6] + p[at + 2] * m[10] + m[14]);
-            const most = Math.max(Math.abs(x), Math.abs(y), Math.abs(z));
-            if (marks[i] && most <= MOST) take(x, y, z);
-        }
-    }
+    eachPoint(meshes, take);
     if (none) take(0, 0, 0);
     return { low, high, above, below };
 }
 
-/** The nearest camera that sees all meshes from a side: { view, projection }. */
-export function fitted(meshes, view, [width, height], up, ortho) {
+/** The nearest camera that sees all meshes from a side: { view, projection }.  room is how much deeper
+    than the meshes the picture reaches, as a part of their extent. */
+export function fitted(meshes, view, [width, height], up, ortho, room) {
     const turn = facing(...direction(view, up)), slope = Math.tan(FOV * (Math.PI / 180) / 2);
     const slopes = [slope * width / height, slope];
     const { low, high, above, below } = extremes(meshes, turn, slopes);
@@ -121,11 +127,32 @@ export function fitted(meshes, view, [width, height], up, ortho) {
     const bounds = [0, 1].map((k) => (above[k] + below[k]) / (2 * slopes[k]));
     const least = Math.max(...bounds, high[2] + 1e-3 * reach);
     const distance = least + (MARGIN - 1) * (least - (low[2] + high[2]) / 2);
-    const far = distance - low[2], near = Math.max(0.9 * (distance - high[2]), 1e-4 * far);
+    const far = distance - low[2] + room * reach;
+    const near = Math.max(0.9 * (distance - high[2] - room * reach), (room ? 0.01 : 1e-4) * far);
     return {
         view: rigid(turn, [-shift[0], -shift[1], -distance]),
         projection: perspective(width, height, near, 1.1 * far + 1e-3 * reach),
     };
+}
+
+/** 4 x 4 by columns: takes the meshes to the studio, about the origin and within distance 1, with +y
+    up and +z toward the eye. */
+export function studio(meshes, { view }, up) {
+    let low = null, high = null, size = 0;
+    eachPoint(meshes, (...p) => {
+        low = p.map((x, k) => Math.min(x, low?.[k] ?? x));
+        high = p.map((x, k) => Math.max(x, high?.[k] ?? x));
+    });
+    const middle = (low ?? [0, 0, 0]).map((x, k) => (x + (high?.[k] ?? 0)) / 2);
+    eachPoint(meshes, (...p) => { size = Math.max(size, norm(p.map((x, k) => x - middle[k]))); });
+    const y = choice("up", up, ["y", "z"]) === "z" ? [0, 0, 1] : [0, 1, 0];
+    const [across, over] = [0, 1].map((row) => {
+        const way = [view[row], view[row + 4], view[row + 8]];
+        return way.map((x, k) => x - dot(way, y) * y[k]);
+    });
+    const x = norm(across) < 1e-3 ? scale(over, 1 / norm(over)) : scale(across, 1 / norm(across));
+    const turn = [x, y, cross(x, y)].map((row) => scale(row, 1 / Math.max(size, 1e-12)));
+    return rigid(turn, turn.map((row) => -dot(row, middle)));
 }
 
 /** The camera that a caller describes by its matrices. */

@@ -1,6 +1,6 @@
 /** Numbers in a row: a typed array (not of BigInt) or a plain one. */
 export type Numbers = ArrayLike<number>;
-/** "#RRGGBB", "#RGB", a name such as "steel", or red, green and blue of a display, 0 .. 1. */
+/** "#RRGGBB", "#RGB", a name of CSS or "steel" or "clay", or red, green and blue of a display, 0 .. 1. */
 export type Color = string | Numbers;
 /** A side, or azimuth and elevation in degrees. */
 export type Viewpoint = "front" | "right" | "back" | "left" | "top" | "bottom" | "iso" | Numbers;
@@ -58,7 +58,42 @@ export class Mesh {
 /** Matrices of WebGL, 4 x 4 by columns.  view is a rotation and a translation. */
 export interface Camera { view: Numbers; projection: Numbers; }
 
+/** A lamp, in linear light. */
+export interface Light {
+    /** x, y, z, 1 of a point; x, y, z, 0 of the way toward a lamp at infinity. */
+    position: Numbers;
+    /** Stands for diffuse and specular; default 1, 1, 1. */
+    color?: Numbers;
+    diffuse?: Numbers;
+    specular?: Numbers;
+    /** default 0 */
+    ambient?: Numbers;
+    /** a, b, c of 1 / (a + b r + c r^2); default: no attenuation. */
+    constant?: number;
+    linear?: number;
+    quadratic?: number;
+    /** Where the lamp points; default 0, 0, 0: it is no spot. */
+    spotDirection?: Numbers;
+    spotExponent?: number;
+    /** The cosine of the angle from the axis to the edge of the cone. */
+    spotCosCutoff?: number;
+}
+
+/** Light of one's own, and the equation that surfaces answer with. */
+export interface Lighting {
+    lights?: readonly Light[];
+    /** Global ambient light; default 0. */
+    ambient?: Numbers;
+    /** default "blinn-phong" */
+    model?: "blinn-phong" | "phong" | "lambert" | "ambient" | "emissive" | "cool-to-warm";
+    /** A sum of SHADE_FLAG_ numbers of shade.h, 0 .. 63; default 0. */
+    flags?: number;
+}
+
 export interface Options {
+    /** "quick", three lamps that stay with the camera; "studio", a large lamp and a sky that throw soft
+        shadows, also on a ground below; or lamps of your own.  default "quick" */
+    light?: "quick" | "studio" | Lighting;
     /** Where it is seen from: a camera that is fitted to the meshes, or your own; default "iso". */
     view?: Viewpoint | Camera;
     /** [width, height], or one number for both, 1 .. 16384; default [640, 480]. */
@@ -95,7 +130,7 @@ export class ShadeError extends TypeError {}
 /** The names of the 24 classic materials. */
 export const PRESETS: readonly string[];
 
-/** Draws one mesh or several, lit by three lamps beside the camera.  Throws ShadeError for a bad
+/** Draws one mesh or several.  Throws ShadeError for a bad
     argument and RangeError where memory is not enough. */
 export function render(meshes: Mesh | MeshSource | readonly (Mesh | MeshSource)[],
                        options?: Options): Picture;

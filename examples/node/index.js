@@ -1,6 +1,6 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
-import { eyeOf, fitted, given, used } from "./camera.js";
+import { eyeOf, fitted, given, studio, used } from "./camera.js";
 import encoded from "./module.js";
 import { Picture } from "./picture.js";
 
@@ -13,7 +13,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary)).exports
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 12, ITEM = 40, VIEW = 49, LIGHT = 21;
+const MESH = 12, ITEM = 40, VIEW = 66, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -101,6 +101,14 @@ function material(value) {
     return row;
 }
 
+/** Says why a mesh cannot be seen: a white page would not. */
+function warn({ positions, indices }) {
+    const seen = (i) => [0, 1, 2].every((k) => Math.abs(positions[3 * indices[i] + k]) <= 1e8);
+    for (let i = 0; i < indices.length; i += 3) if (seen(i) && seen(i + 1) && seen(i + 2)) return;
+    console.warn(indices.length ? "shade-h: positions: no triangle has three corners within 1e8: nothing is drawn"
+                                : "shade-h: indices: there are no triangles: nothing is drawn");
+}
+
 /** A little gloss on a colour */
 function gloss(color) {
     return Float32Array.of(0, 0, 0, ...color, ...color, 0.08, 0.08, 0.08, 40);
@@ -123,6 +131,7 @@ export class Mesh {
         const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
         this.indices = check.indices("indices", got.indices, vertices, sentence).slice();
         this.used = used(this);
+        warn(this);
         this.pose = got.pose === undefined ? IDENTITY : check.vector("pose", got.pose, 16);
         this.edges = check.flag("edges", edges);
         this.twoSided = check.flag("twoSided", twoSided);
@@ -189,16 +198,18 @@ export class Mesh {
 
 // ---- pictures
 
-/** Writes three lamps beside the camera, and returns their number and the ambient light. */
-function writeLights(at, { view }) {
-    const lamps = floats(at, QUICK.length * LIGHT).fill(0);
-    QUICK.forEach(([way, color], i) => {
+/** Three lamps beside the camera. */
+function quick({ view }) {
+    const lights = QUICK.map(([way, color]) => {
         const toward = [0, 1, 2].map((k) => -(way[0] * view[4 * k] + way[1] * view[4 * k + 1] +
                                               way[2] * view[4 * k + 2]));
-        lamps.set(toward, i * LIGHT);
-        lamps.set(color, i * LIGHT + 7);
-        lamps.set(color, i * LIGHT + 10);
+        const row = new Float32Array(LIGHT);
+        row.set(toward);
+        row.set(color, 7);
+        row.set(color, 10);
+        return row;
     });
+    return { lights, ambient: QUICK_AMBIENT, model: 0, flags: 0 };
 }
 
 function writeItems(at, meshes, camera) {
@@ -213,20 +224,23 @@ function writeItems(at, meshes, camera) {
 }
 
 /** Draws into memory of the module, and copies the picture out. */
-function drawn(meshes, camera, { width, height, samples, background, depth }) {
+function drawn(meshes, camera, { width, height, samples, background, depth, light, toStudio }) {
     const pixels = width * height;
     return withMemory((room) => {
         const [view, items] = [room(4 * VIEW), room(4 * ITEM * meshes.length)];
-        const [lights, rgba] = [room(4 * LIGHT * QUICK.length), room(4 * pixels)];
+        const [lights, rgba] = [room(4 * LIGHT * light.lights.length), room(4 * pixels)];
         const [depths, ids] = depth ? [room(4 * pixels), room(4 * pixels)] : [0, 0];
-        const flags = camera.projection[15] !== 0 ? INFINITE_VIEWER : 0;
-        writeLights(lights, camera);
+        const flags = light.flags | (camera.projection[15] !== 0 ? INFINITE_VIEWER : 0);
+        light.lights.forEach((row, i) => floats(lights, light.lights.length * LIGHT).set(row, i * LIGHT));
         writeItems(items, meshes, camera);
-        words(view, 10).set([lights, rgba, depths, ids, QUICK.length, width, height, samples, flags, 0]);
-        floats(view + 40, 3).set(QUICK_AMBIENT);
+        words(view, 10).set([lights, rgba, depths, ids, light.lights.length, width, height, samples, flags,
+                             light.model]);
+        floats(view + 40, 3).set(light.ambient);
         floats(view + 52, 4).set(background);
         floats(view + 68, 16).set(camera.view);
         floats(view + 132, 16).set(camera.projection);
+        words(view + 196, 1)[0] = toStudio ? 1 : 0;
+        floats(view + 200, 16).set(toStudio ?? IDENTITY);
         succeed("mesh", library.draw(view, items, meshes.length));
         const data = new Uint8ClampedArray(library.memory.buffer, rgba, 4 * pixels).slice();
         return new Picture(width, height, data, depth ? floats(depths, pixels).slice() : null,
@@ -234,12 +248,14 @@ function drawn(meshes, camera, { width, height, samples, background, depth }) {
     });
 }
 
-const OPTIONS = ["view", "size", "samples", "background", "ortho", "up", "depth"];
+const OPTIONS = ["view", "size", "samples", "background", "ortho", "up", "depth", "light"];
 
 export function render(meshes, options) {
     const got = check.record("options", options, OPTIONS);
     const { view = "iso", size = [640, 480], samples = 3, background = "white" } = got;
-    const { ortho = false, up = "z", depth = false } = got;
+    const { ortho = false, up = "z", depth = false, light = "quick" } = got;
+    const named = typeof light === "string" ? check.choice("light", light, ["quick", "studio"]) : null;
+    const own = named ? null : check.lighting("light", light);
     const [width, height] = check.size("size", size);
     check.integer("samples", samples, 1, 8);
     if (Math.max(width, height) * samples > 16384) {
@@ -255,10 +271,12 @@ export function render(meshes, options) {
             made.push(new Mesh(mesh));
             return made[made.length - 1];
         });
-        const named = typeof view === "string" || check.isArray(view);
-        const camera = named ? fitted(several, view, [width, height], up, ortho) : given(view);
+        const soft = named === "studio", side = typeof view === "string" || check.isArray(view);
+        const camera = side ? fitted(several, view, [width, height], up, ortho, soft ? 1.5 : 0) : given(view);
         check.flag("depth", depth);
-        return drawn(several, camera, { width, height, samples, background: behind, depth });
+        return drawn(several, camera, { width, height, samples, background: behind, depth,
+                                        light: own ?? quick(camera),
+                                        toStudio: soft ? studio(several, camera, up) : null });
     } finally {
         made.forEach((mesh) => mesh.free());
     }

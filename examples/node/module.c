@@ -42,6 +42,8 @@ typedef struct asked_view {
     shade_vec3 ambient;
     shade_vec4 background;
     shade_mat4 view, projection;
+    int in_studio;
+    shade_mat4 to_studio;
 } asked_view;
 
 typedef struct module_mesh {
@@ -393,6 +395,8 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
     view.lighting.ambient = asked->ambient;
     view.lighting.model = asked->model;
     view.lighting.flags = asked->flags;
+    view.in_studio = asked->in_studio;
+    view.to_studio = asked->to_studio;
     view.rgba = asked->rgba;
     view.depth = asked->depth;
     view.ids = asked->ids;

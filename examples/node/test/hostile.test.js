@@ -53,8 +53,39 @@ test("errors begin with the name of the argument", () => {
     refused(/^up must be one of y, z/, box(), { up: "x" });
     refused(/^options.sampels is no option/, box(), { sampels: 2 });
     refused(/^background must be/, box(), { background: "nowhere" });
+    refused(/^light must be one of quick, studio, not "soft"/, box(), { light: "soft" });
+    refused(/^light.lights must be an array, not 3/, box(), { light: { lights: 3 } });
+    refused(/^light.lights\[0\].position must be an array/, box(), { light: { lights: [{}] } });
+    refused(/^light.lights\[1\].colour is no option/, box(),
+            { light: { lights: [{ position: [0, 0, 1, 0] }, { colour: 1 }] } });
+    refused(/^light.model must be one of/, box(), { light: { model: "gouraud" } });
+    refused(/^light.flags must be a number from 0 to 63/, box(), { light: { flags: 64 } });
     refused(/^mesh was freed/, (() => { const mesh = new Mesh(box()); mesh.free(); mesh.free();
                                         return mesh; })());
+});
+
+test("names of CSS", () => {
+    const drawn = (color) => render({ ...box(), color }, small).data;
+    for (const [name, digits] of [["tomato", "#ff6347"], ["RebeccaPurple", "#663399"],
+                                  ["yellowgreen", "9acd32"], ["aliceblue", "#f0f8ff"], ["lime", "#0f0"]]) {
+        assert.deepEqual(drawn(name), drawn(digits), name);
+    }
+    assert.deepEqual(drawn("Steel"), drawn("#8FA3B5"));
+});
+
+test("what cannot be seen is a warning", (context) => {
+    const said = context.mock.method(console, "warn", () => {}).mock;
+    const last = () => said.calls.at(-1)?.arguments[0];
+    render(box(), small);
+    assert.equal(said.callCount(), 0);
+    render({ ...box(), indices: [] }, small);
+    assert.match(last(), /^shade-h: indices: there are no triangles/);
+    render({ positions: [] }, small);
+    assert.equal(said.callCount(), 2);
+    render({ positions: [NaN, 0, 0, 1, 0, 0, 0, 1, 0] }, small);
+    assert.match(last(), /^shade-h: positions: no triangle has/);
+    render({ positions: [1e30, 0, 0, 1, 0, 0, 0, 1, 0] }, small);
+    assert.equal(said.callCount(), 4);
 });
 
 test("arrays that others change or reuse", () => {
@@ -127,12 +158,16 @@ function anyOptions() {
     if (random() < 0.2) options.background = wild(one([null, "black"]));
     if (random() < 0.2) options.ortho = wild(true);
     if (random() < 0.2) options.depth = wild(true);
+    if (random() < 0.3) options.light = wild(one(["quick", "studio",
+        { lights: [wild({ position: numbers(4, 9), color: wild(numbers(3, 2)), linear: wild(1) })],
+          ambient: wild(numbers(3, 1)), model: wild("phong") }]));
     return wild(options);
 }
 
 test("1000 calls with arguments at random", () => {
     const mesh = new Mesh({ ...box(), edges: true }), before = render(mesh, small);
     let drawn = 0;
+    console.warn = () => {};
     for (let i = 0; i < 1000; i++) {
         try {
             render(random() < 0.2 ? [anyMesh(), mesh, anyMesh()] : anyMesh(), anyOptions());

@@ -2,6 +2,7 @@
 and ids as they are."""
 import json
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -44,9 +45,18 @@ def plain(value):
     return value.reshape(-1).tolist() if isinstance(value, np.ndarray) else value
 
 
-def draw(name, meshes, view="iso", size=(200, 150), **options):
+def own_light(lamps, ambient, model, flags):
+    """The lamps as the package for JavaScript takes them."""
+    keys = {"spot_direction": "spotDirection", "spot_exponent": "spotExponent",
+            "spot_cos_cutoff": "spotCosCutoff"}
+    models = ("blinn-phong", "phong", "lambert", "ambient", "emissive", "cool-to-warm")
+    return {"lights": [{keys.get(k, k): v for k, v in asdict(lamp).items()} for lamp in lamps],
+            "ambient": ambient, "model": models[model], "flags": int(flags)}
+
+
+def draw(name, meshes, view="iso", size=(200, 150), lighting=None, **options):
     """meshes: dicts of vertices, faces, the options of shade.Mesh, and of Scene.add."""
-    scene, given = shade.Scene(), []
+    scene, given = shade.Scene(*lighting or ()), []
     for mesh in meshes:
         own = dict(mesh)
         place = {k: own.pop(k) for k in ("material", "pose", "edges", "two_sided") if k in own}
@@ -66,7 +76,8 @@ def draw(name, meshes, view="iso", size=(200, 150), **options):
     camera = view if not isinstance(view, shade.Camera) else \
         {"view": plain(view.view.T), "projection": plain(view.projection.T)}
     told.append({"name": name, "meshes": given, "options":
-                 {"view": camera, "size": size, **options}})
+                 {"view": camera, "size": size, **options,
+                  **({"light": own_light(*lighting)} if lighting else {})}})
 
 
 vertices, faces, normals, uv = torus(24)
@@ -100,5 +111,14 @@ hole[7], hole[300], hole[301] = np.nan, 3e38, -np.inf
 draw("bad", [{**ring, "vertices": np.where(np.isfinite(hole), hole, 1e30)}])
 draw("camera", [ring], shade.Camera.look_at((4, -6, 5), fov=40, aspect=1.5, near=1, far=20),
      (180, 120))
+for side in ("iso", "top", (200, 15)):
+    draw(f"studio {side}", [{**ring, "color": "steel"}, {**brick, "edges": True}], side, light="studio")
+draw("studio y", [brick], up="y", light="studio", samples=2, background=None)
+lamps = [shade.Light.point((3, -4, 4), (9, 8, 7), (1, 0, 0.5)),
+         shade.Light.spot((0, -5, 6), (0, 0.6, -1), 0.5, 3, (0.9, 0.9, 1)),
+         shade.Light.directional((1, 2, -3), (0.2, 0.3, 0.2))]
+for model in shade.Model:
+    draw(f"lamps {model.name}", [{**ring, "material": "gold"}],
+         lighting=(lamps, (0.1, 0.1, 0.2), model, shade.Flag.UNGATED_SPECULAR), samples=1)
 draw("nothing", [{"vertices": np.zeros((0, 3)), "faces": np.zeros((0, 3), int)}], size=(9, 7))
 (OUT / "scenes.json").write_text(json.dumps(told))

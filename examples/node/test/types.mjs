@@ -7,13 +7,15 @@ import { join } from "node:path";
 const [folder, modules] = process.argv.slice(2);
 const right = `
 import { Mesh, PRESETS, Picture, ShadeError, render } from "shade-h";
-import type { Camera, Color, Material, MeshSource, Numbers, Options, Texture, Viewpoint } from "shade-h";
+import type { Camera, Color, Light, Lighting, Material, MeshSource, Numbers, Options, Texture, Viewpoint } from "shade-h";
 const positions: Numbers = new Float64Array(9), texture: Texture = { data: [1, 2, 3], width: 1, height: 1 };
 const material: Material = { diffuse: [1, 0, 0], shininess: 3 }, color: Color = "steel";
 const source: MeshSource = { positions, indices: [0, 1, 2], normals: "flat", color, material, edges: true,
     colors: new Uint8Array(9), pose: new Float32Array(16), twoSided: false };
 const view: Viewpoint = [30, 20], camera: Camera = { view: [], projection: [] };
-const options: Options = { view, size: 64, samples: 2, background: null, ortho: true, up: "y", depth: true };
+const lamp: Light = { position: [1, 2, 3, 0], color: [1, 1, 1], spotCosCutoff: 0.5, linear: 1 };
+const light: Lighting = { lights: [lamp], ambient: [0, 0, 0], model: "phong", flags: 4 };
+const options: Options = { light, view, size: 64, samples: 2, background: null, ortho: true, up: "y", depth: true };
 const mesh = new Mesh({ ...source, uv: [0, 0, 0, 0, 0, 0], texture });
 const picture: Picture = render([mesh, source], options);
 render(mesh, { view: camera, size: [1, 2] });
