@@ -79,6 +79,10 @@ out/gallery.ppm: build/contact examples/README.md $(NUMBERED:%=out/%.ppm)
 # -O1 compiles the tests' own code in a third of the time
 build/test_main: $(wildcard tests/unit/*.c tests/unit/*.h) build/shade.o
 	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/unit/main.c build/shade.o -lm -o $@
+# with the implementation inside, which counts what it does
+build/test_count: $(wildcard tests/unit/*.c tests/unit/*.h) shade.h
+	@mkdir -p build
+	$(CC) $(FLAGS:-O2=-O0) -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED tests/unit/main.c -lm -o $@
 build/golden: tests/unit/golden.c shade.h
 	@mkdir -p build
 	$(CC) $(FLAGS) tests/unit/golden.c -o $@

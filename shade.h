@@ -52,31 +52,31 @@
      Public
        >>config     116  options               >>types      189  materials, lamps, targets, states
        >>plumbing   362  compilers             >>light      489  the equation and its terms
-       >>draw       614  meshes and pixels     >>math       862  vectors and matrices
+       >>draw       614  meshes and pixels     >>math       864  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1225  processors            >>base      1382  bits, masks, rows of vectors
-       >>matrix    1612  cameras, inverses     >>power     1906  x^n
-       >>pixels    1972  formats, sRGB
+       >>machine   1227  processors            >>base      1388  bits, masks, rows of vectors
+       >>matrix    1618  cameras, inverses     >>power     1912  x^n
+       >>pixels    1978  formats, sRGB
      Inside: light
-       >>lamps     2152  attenuation, cones    >>terms     2427  one term at one point
-       >>surface   2565  material and lights   >>lit       2689  the whole sum, at many points
+       >>lamps     2158  attenuation, cones    >>terms     2433  one term at one point
+       >>surface   2571  material and lights   >>lit       2695  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3106  who owns what         >>vertices  3289  shading, projection
-       >>triangles 3506  dropped, cut, edges   >>clip      3874  near, far, behind the eye
-       >>tiles     4059  pixels, depth test    >>cover     4408  what is hidden, tile by tile
-       >>fragments 4638  interpolation, lod    >>texture   4930  texels, mipmaps
-       >>store     5332  blending, packing
+       >>state     3112  who owns what         >>vertices  3295  shading, projection
+       >>triangles 3512  dropped, cut, edges   >>clip      3880  near, far, behind the eye
+       >>tiles     4065  pixels, depth test    >>cover     4421  what is hidden, tile by tile
+       >>fragments 4645  interpolation, lod    >>texture   4937  texels, mipmaps
+       >>store     5339  blending, packing
      Inside: calls of the renderer
-       >>check     5557  refusals              >>seen      5722  what can be seen, chunks
-       >>drive     5859  shade_draw            >>mesh      6167  shade_draw_mesh
+       >>check     5564  refusals              >>seen      5729  what can be seen, chunks
+       >>drive     5866  shade_draw            >>mesh      6174  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6557  shade_draw_lines      >>shape     6715  normals, edges
-       >>chunks    6948  boxes of triangles    >>rays      7125  shade_pick
-       >>survey    7318  experiments on a draw >>explain   7465  why nothing is seen
-       >>image     7877  PPM
+       >>lines     6564  shade_draw_lines      >>shape     6722  normals, edges
+       >>chunks    6955  boxes of triangles    >>rays      7132  shade_pick
+       >>survey    7325  experiments on a draw >>explain   7472  why nothing is seen
+       >>image     7884  PPM
      Sources
-       >>refs      7943                        >>history   7969
-       >>license   7981
+       >>refs      7950                        >>history   7976
+       >>license   7988
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -706,6 +706,8 @@ typedef struct shade_pipeline {
 /* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  A vertex that nearby
    triangles share is shaded about once.  Facing is decided once per triangle, on the screen.  stats
    may be NULL.  Without a colour buffer the fragment shader runs only where may_discard is set.
+   A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses: the
+   diagonal of a picture of 16384 rows, of any width, takes less than 0.2 ms (make bench).
    Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
    those of one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -1334,7 +1336,11 @@ typedef uint32_t shade__word;
          else shade__push_any(d, run, runs);
      }
 
-   Tests force a build by defining SHADE__LEVEL to an int expression: 0, 1 or 2. */
+   Tests force a build by defining SHADE__LEVEL to an int expression: 0, 1 or 2.  They count the
+   tiles that are looked at by defining SHADE__TILE_TESTED. */
+#ifndef SHADE__TILE_TESTED
+#define SHADE__TILE_TESTED() ((void)0)
+#endif
 #define SHADE__BUILD(name, attribute, width, parameters, body) \
     attribute static SHADE__HOT void name parameters \
     { \
@@ -4062,7 +4068,8 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4],
      out     depth (early test), runs of pixels for >>fragments
      method  A tile is 32 x 8 pixels.  In it, an edge has all pixels outside, and the tile is left
              out; or all inside, and the edge is forgotten; or it crosses the tile, and then
-             |e| <= 31 |ex| + 7 |ey| fits 32 bits however large the triangle is.
+             |e| <= 32 |ex| + 7 |ey| fits 32 bits however large the triangle is.  Rows of tiles
+             begin and end where the edges do, so that time follows the tiles that are crossed.
      holds   A tile stays inside the clip rectangle: stores rewrite only pixels of this thread.  A
              value at a pixel has the same bits however it is reached: row base, then its step in x
              times the exact distance.                                                    >>cover */
@@ -4071,13 +4078,6 @@ enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
     SHADE__RUNS_AHEAD = SHADE__RUNS - (int)SHADE__TILE_ROWS,    /* room for a run in each row */
     SHADE__CUT = -(1 << 30)    /* an edge function that is negative in all rows of a tile */
-};
-
-/* What is known of a tile. */
-enum {
-    SHADE__CROSSED,    /* edges may cross it */
-    SHADE__SKIPPED,    /* edges may cross it, and its first columns may be skipped */
-    SHADE__FULL        /* all of it is inside, and none is skipped */
 };
 
 /* Edge functions in 32 bits: at pixel (x, y), and their steps. */
@@ -4093,8 +4093,8 @@ typedef struct shade__triangle {
     float    z0, zx, zy, z_low, z_high;
 } shade__triangle;
 
-/* The edge functions in a rectangle: at its first pixel, the least and the greatest. */
-typedef struct shade__reach { int64_t e[3], least[3], most[3]; } shade__reach;
+/* The edge functions in a rectangle: at its first pixel, and the least. */
+typedef struct shade__reach { int64_t e[3], least[3]; } shade__reach;
 
 /* Up to 32 pixels of up to 8 rows. */
 typedef struct shade__tile {
@@ -4145,7 +4145,7 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 /* ---- edges in rectangles */
 
 /* pre: the rectangle begins in the picture and is at most 2^14 wide and high
-   post: |e|, |least|, |most| <= 2^45 */
+   post: |e|, |least| <= 2^45 */
 SHADE__INLINE void shade__reach_of(const shade__triangle *t, int x, int y,
                                    int columns, int rows, shade__reach *r)
 {
@@ -4155,29 +4155,41 @@ SHADE__INLINE void shade__reach_of(const shade__triangle *t, int x, int y,
         const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
         r->e[k] = e;
         r->least[k] = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
-        r->most[k] = e + (across > 0 ? across : 0) + (down > 0 ? down : 0);
     }
 }
 
-/* Looks at the rectangle of r, shifted by so many pixels to the right, or to the left if right is
-   negative.  Returns -1 if an edge has all of it outside, 1 if all edges have all of it inside,
-   else 0. */
+/* Have all edges all of r's rectangle inside, when it is shifted by so many pixels to the right, or
+   to the left if right is negative? */
 SHADE__INLINE int shade__inside(const shade__triangle *t, const shade__reach *r,
                                 int right)
 {
-    int64_t outside = 0, crossed = 0;
+    int64_t crossed = 0;
 
+    for (int k = 0; k < 3; k++) crossed |= r->least[k] + (int64_t)t->edges.ex[k] * right;
+    return crossed >= 0;
+}
+
+/* Moves *first and *last to the columns between which each edge has pixels inside in some of the
+   rows.  Floats are wrong by less than 0.016 pixel, for which a column may stay on either side.
+   pre: rows of the box   post: *first does not fall, *last does not rise; both within -1 .. 16384
+   pixels of t->x0 if they were */
+SHADE__INLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
+                                      int *first, int *last)
+{
     for (int k = 0; k < 3; k++) {
-        const int64_t e = (int64_t)t->edges.ex[k] * right;
-        outside |= r->most[k] + e;
-        crossed |= r->least[k] + e;
+        const int32_t ex = t->edges.ex[k];
+        const int64_t ey = t->edges.ey[k];
+        const int64_t e = t->e[k] + (y - t->y0 + (ey > 0 ? rows - 1 : 0)) * ey;
+        const float x = -(float)e / (float)(ex ? ex : 1);    /* where e is 0 */
+        const float near_x = shade__minf(shade__maxf(x, -2), 16384);
+        if (ex > 0) *first = shade__max(*first, t->x0 + (int)(near_x + 0.984f));
+        if (ex < 0) *last = shade__min(*last, t->x0 + (int)(near_x + 0.016f));
     }
-    return outside < 0 ? -1 : crossed >= 0;
 }
 
 /* The edges in r's rectangle of 32 x 8 pixels, shifted right as above; those with all pixels inside
    are 0.  x and y are left to the caller.
-   pre: none has all outside   post: |e| <= 31 |ex| + 7 |ey| <= 38 2^25 */
+   pre: none has all outside by more than a column   post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
 SHADE__INLINE void shade__tile_edges(const shade__triangle *t,
                                      const shade__reach *r, int right,
                                      shade__edges *edges)
@@ -4291,14 +4303,14 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
            (shade__mask(z > s) & c.greater) | c.always;
 }
 
-/* Tests columns at .. at + width - 1 of a tile: by the three edges, unless kind is SHADE__FULL, and
-   by depth.   pre: depth holds the columns, at + width <= 32 */
+/* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
+   depth.   pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
                                        const shade__edges *SHADE_RESTRICT edges,
                                        shade__tile *SHADE_RESTRICT tile, int at,
                                        const int width, const int less_only,
-                                       const int kind)
+                                       const int full)
 {
     const shade__compare test = plan->early_test;
     const float zx = t->zx, x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
@@ -4312,7 +4324,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     float z_step[SHADE__TILE];
 
     SHADE__FOR(i, width) {
-        e0[i] = kind == SHADE__SKIPPED && i < skip ? SHADE__CUT : a + i * ax;
+        e0[i] = i < skip ? SHADE__CUT : a + i * ax;
         e1[i] = b + i * bx;
         e2[i] = c + i * cx;
         z_step[i] = zx * ((float)(x + i) + x_ref);
@@ -4323,11 +4335,12 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
         uint32_t any = 0;
         SHADE__FOR(i, width) {
             float z = shade__clamp_bits(row_z + z_step[i], z_low, z_high);
-            uint32_t m = shade__mask(kind == SHADE__FULL || (e0[i] | e1[i] | e2[i]) >= 0);
+            uint32_t m = shade__mask(full || (e0[i] | e1[i] | e2[i]) >= 0);
             m &= shade__passes(test, less_only, z, depth[i]);
             depth[i] = shade__select(depth[i], z,
                                      less_only ? m : m & test.write);
             any |= m & shade__bit[i];
+            if (full) continue;    /* clang would store them */
             e0[i] += ay;
             e1[i] += by;
             e2[i] += cy;
@@ -4341,24 +4354,24 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
                                     const shade__triangle *t,
                                     const shade__edges *edges,
                                     shade__tile *tile, const int width,
-                                    const int kind)
+                                    const int full)
 {
     const int less = SHADE__SPECIALIZE && plan->less_only;
     const int slim = width > 8 && tile->columns <= 8;
-    const int from = kind == SHADE__SKIPPED && !slim ? tile->skip & -width : 0;
 
+    SHADE__TILE_TESTED();
     SHADE__FOR(r, SHADE__TILE_ROWS) {
         tile->set[r] = 0;
         tile->row_z[r] = shade__row_depth(t, tile->y + r);
     }
     if (slim) {
-        if (less) shade__test_columns(plan, t, edges, tile, 0, 8, 1, kind);
-        else shade__test_columns(plan, t, edges, tile, 0, 8, 0, kind);
+        if (less) shade__test_columns(plan, t, edges, tile, 0, 8, 1, 0);
+        else shade__test_columns(plan, t, edges, tile, 0, 8, 0, 0);
         return;
     }
-    for (int at = from; at < tile->columns; at += width) {
-        if (less) shade__test_columns(plan, t, edges, tile, at, width, 1, kind);
-        else shade__test_columns(plan, t, edges, tile, at, width, 0, kind);
+    for (int at = tile->skip & -width; at < tile->columns; at += width) {
+        if (less) shade__test_columns(plan, t, edges, tile, at, width, 1, full);
+        else shade__test_columns(plan, t, edges, tile, at, width, 0, full);
     }
 }
 
@@ -4399,7 +4412,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
     for (int r = 0; r < tile->rows; r++, row.y++) {
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;
         SHADE_MEMCPY(copy, depth, bytes);
-        shade__test_tile(plan, t, edges, &row, 4, SHADE__SKIPPED);
+        shade__test_tile(plan, t, edges, &row, 4, 0);
         SHADE_MEMCPY(depth, copy, bytes);
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
     }
@@ -4416,9 +4429,9 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
              draw 1000 big triangles, 163 Mpixel of overdraw, 3.7 times as fast with AVX-512, and
              6.2 times with SSE2.                                                     >>fragments */
 
-/* Columns x .. last of rows y .. bottom of a triangle's box; inside is 1 where the triangle has all
-   of their pixels. */
-typedef struct shade__stretch { int x, y, last, bottom, inside; } shade__stretch;
+/* Columns x .. last of rows y .. bottom of a triangle's box; in these rows the triangle goes on to
+   column end.  inside is 1 where it has all of their pixels. */
+typedef struct shade__stretch { int x, y, last, bottom, end, inside; } shade__stretch;
 
 /* ---- bounds */
 
@@ -4447,7 +4460,7 @@ SHADE__INLINE float shade__key(float away, const shade__triangle *t,
 }
 
 /* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  It moves s->x
-   on to the first column that no bound hides, or beyond the box where all are hidden, and s->last
+   on to the first column that no bound hides, or beyond s->end where all are hidden, and s->last
    to the last column before one that is hidden or differs in s->inside.  On the way it brings
    bounds nearer that the triangle fills. */
 static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
@@ -4467,13 +4480,12 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
     shade__reach reach;
 
     shade__reach_of(t, t->x0, s->y, size, s->bottom - s->y + 1, &reach);
-    for (int from = s->x; from <= t->x1; from = s->last + 1) {
+    for (int from = s->x; from <= s->end; from = s->last + 1) {
         const int cell = (from - plan->x0) >> b->log_width, first = plan->x0 + cell * size;
-        const int to = shade__min(first + size - 1, t->x1);
+        const int to = shade__min(first + size - 1, s->end);
         const int inside = shade__inside(t, &reach, first - t->x0);
         float *farthest = &b->farthest[row * b->across + cell];
-        const int hidden =
-            inside < 0 || shade__key(away, t, z_near, rightward ? from : to) > *farthest;
+        const int hidden = shade__key(away, t, z_near, rightward ? from : to) > *farthest;
 
         if (from > s->x && (hidden || inside != s->inside)) return;
         s->inside = inside;
@@ -4486,9 +4498,9 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
 
 /* ---- triangles */
 
-/* Draws a stretch of a triangle.  In the stretch that ends the triangle's row tiles begin with it,
-   and the last may go on beyond it.  In others they begin at multiples of 32 columns from the clip
-   rectangle, as bounds do. */
+/* Draws a stretch of a triangle.  In the stretch that ends the triangle's row tiles begin where the
+   edges do, and the last may go on beyond it.  In others they begin at multiples of 32 columns from
+   the clip rectangle, as bounds do. */
 SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const shade__triangle *t,
                                         shade__runs *runs,
@@ -4496,36 +4508,35 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const int width)
 {
     const shade__plan *plan = &d->plan;
-    const int across = plan->x1 - plan->x0, ends = s->last == t->x1;
-    const int x0 = s->x - (ends ? 0 : (s->x - plan->x0) & (SHADE__TILE - 1));
+    const int across = plan->x1 - plan->x0;
     shade__reach reach;
     shade__edges edges;
     shade__tile tile;
-    int pixels = 0;
+    int pixels = 0, inside;
 
     SHADE__ZERO(edges);    /* edges of 0 have all inside */
     for (int y = s->y; y <= s->bottom; y += SHADE__TILE_ROWS) {
+        int first = s->x, last = s->last;
         tile.y = edges.y = y;
         tile.rows = shade__min(SHADE__TILE_ROWS, s->bottom - y + 1);
         for (int k = 0; k < SHADE__TILE_ROWS; k++) runs->open[k] = -1;
-        if (!s->inside) shade__reach_of(t, x0, y, SHADE__TILE, tile.rows, &reach);
-        for (int x = x0; x <= s->last; x += SHADE__TILE) {
-            int inside = 1;
+        if (!s->inside) {
+            shade__cut_columns(t, y, tile.rows, &first, &last);
+            if (s->last < s->end) first -= (first - plan->x0) & (SHADE__TILE - 1);
+            shade__reach_of(t, first, y, SHADE__TILE, tile.rows, &reach);
+        }
+        for (int x = first; x <= last; x += SHADE__TILE) {
             shade__tile_columns(plan, x,
-                                shade__min(SHADE__TILE, s->last - x + 1), width,
+                                shade__min(SHADE__TILE, last - x + 1), width,
                                 &tile);
-            if (!s->inside) {
-                inside = shade__inside(t, &reach, tile.x - x0);
-                if (inside < 0) continue;
-                shade__tile_edges(t, &reach, tile.x - x0, &edges);
-            }
+            inside = s->inside || shade__inside(t, &reach, tile.x - first);
+            if (!s->inside) shade__tile_edges(t, &reach, tile.x - first, &edges);
             edges.x = tile.x;
             shade__tile_depth(plan, &tile);
             if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
             else if (SHADE__SPECIALIZE && inside && tile.columns - tile.skip == SHADE__TILE)
-                shade__test_tile(plan, t, &edges, &tile, SHADE__TILE,
-                                 SHADE__FULL);
-            else shade__test_tile(plan, t, &edges, &tile, width, SHADE__SKIPPED);
+                shade__test_tile(plan, t, &edges, &tile, SHADE__TILE, 1);
+            else shade__test_tile(plan, t, &edges, &tile, width, 0);
             pixels += shade__join_tile(d, runs, t->lane, &tile);
         }
     }
@@ -4550,8 +4561,11 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
         /* a row of bounds, or all rows at once */
         const int below = bounded ? (s.y - plan->y0) | ((1 << b->log_height) - 1) : 16384;
         s.bottom = shade__min(t.y1, plan->y0 + below);
-        for (s.x = t.x0; s.x <= t.x1; s.x = s.last + 1) {
-            s.last = t.x1;
+        s.x = t.x0;
+        s.end = t.x1;
+        if (bounded) shade__cut_columns(&t, s.y, s.bottom - s.y + 1, &s.x, &s.end);
+        for (; s.x <= s.end; s.x = s.last + 1) {
+            s.last = s.end;
             s.inside = 0;
             if (bounded) shade__next_stretch(plan, b, &t, &s);
             if (s.x <= s.last) shade__cover_stretch(d, &t, runs, &s, width);
@@ -4561,21 +4575,14 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
 SHADE__DISPATCH(shade__cover_large, (shade__draw *d, shade__runs *runs, int lane), (d, runs, lane),
                 shade__cover_large_body(d, runs, lane, shade__width))
 
-/* Is the triangle at most 32 pixels wide, and do 32 bits hold its edges in its box and 31 pixels
-   beside?  They do if |e| <= 2^28 at its first pixel and it has up to 24 rows, because then edges
-   stay below 2^28 + (31 + 24) 2^25, or up to 512 rows and steps of at most 2^21, because then they
-   stay below 2^28 + (31 + 512) 2^21. */
+/* Is the triangle at most 32 pixels wide and 24 high, and do 32 bits hold its edges in its box and
+   31 pixels beside?  They do if |e| <= 2^28 at its first pixel, because then edges stay below
+   2^28 + (31 + 24) 2^25. */
 SHADE__INLINE int shade__is_narrow(const shade__triangle *t)
 {
     const int64_t most = 1 << 28;
     const int64_t e = (t->e[0] + most) | (t->e[1] + most) | (t->e[2] + most);
-    int32_t steps = 0;
-
-    if (t->x1 - t->x0 >= SHADE__TILE || e >> 29) return 0;
-    if (t->y1 - t->y0 < 3 * SHADE__TILE_ROWS) return 1;
-    for (int k = 0; k < 3; k++)
-        steps |= (t->edges.ex[k] + (1 << 21)) | (t->edges.ey[k] + (1 << 21));
-    return t->y1 - t->y0 < 64 * SHADE__TILE_ROWS && !(steps >> 22);
+    return t->x1 - t->x0 < SHADE__TILE && t->y1 - t->y0 < 24 && !(e >> 29);
 }
 
 /* Draws a narrow triangle, tile below tile, and tests each by all three edges.  Returns how many
@@ -4592,7 +4599,7 @@ SHADE__INLINE int shade__cover_narrow(shade__draw *d, shade__triangle *t,
     for (tile.y = t->y0; tile.y <= t->y1; tile.y += SHADE__TILE_ROWS) {
         tile.rows = shade__min(SHADE__TILE_ROWS, t->y1 - tile.y + 1);
         shade__tile_depth(plan, &tile);
-        shade__test_tile(plan, t, &t->edges, &tile, width, SHADE__CROSSED);
+        shade__test_tile(plan, t, &t->edges, &tile, width, 0);
         pixels += shade__add_tile(d, runs, t->lane, &tile);
     }
     return pixels;

@@ -104,6 +104,43 @@ static void pixels(void)
     }
 }
 
+/* Diagonals of pictures of 16384 rows, depth alone: a sliver that ends in two corners, and covers
+   next to nothing.  Of depth only what the diagonal crosses is touched. */
+static void diagonals(void)
+{
+    static const int widths[] = { 64, 512, 2048, 8192, 16384 };
+    printf("\nA triangle half a pixel wide, along the diagonal of a picture of 16384 rows.\n\n"
+           "| width | ms | pixels passed |\n|---|---|---|\n");
+    for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) {
+        scene s = scene_new("diagonal", SCENE_DEPTH, widths[i], 16384);
+        const float aside = 1 - 1.0f / (float)widths[i];
+        double least = 1e30;
+        shade_pipeline p;
+        shade_stats stats;
+        shade_target t;
+        scene_geometry(&s, 3, 3);
+        scene_put(&s, 0, shade_v3(-1, -1, 0), shade_v3(0, 0, 1));
+        scene_put(&s, 1, shade_v3(1, 1, 0), shade_v3(0, 0, 1));
+        scene_put(&s, 2, shade_v3(aside, 1, 0), shade_v3(0, 0, 1));
+        for (uint32_t k = 0; k < 3; k++) s.indices[k] = k;
+        t = scene_target(&s);
+        memset(&p, 0, sizeof p);
+        p.vertex = scene_vertex;
+        p.uniforms = &s;
+        for (int r = 0; r < 10 * rounds; r++) {
+            double start = clock_cpu();
+            if (shade_draw(&t, &p, s.indices, 3, 3, &stats) != SHADE_OK) exit(1);
+            start = (clock_cpu() - start) / 1e6;
+            if (start < least) least = start;
+        }
+        printf("| %d | %.3f | %lld |\n", widths[i], least, stats.fragments);
+        if (tsv) fprintf(tsv, "diagonals\t%d\t%.4f\t0\n", widths[i], least);
+        fflush(stdout);
+        free(t.depth);
+        scene_free(&s);
+    }
+}
+
 /* ---- meshes in chunks ---- */
 
 /* A lit scene whose mesh can have chunks. */
@@ -515,6 +552,7 @@ int main(int argc, char **argv)
     clock_machine();
     triangles();
     pixels();
+    diagonals();
     bands();
     threads();
     strips();

@@ -42,7 +42,8 @@ static void prove_next(int across, int w, int h)
     s.x = ANY_OF(3, right);
     s.y = ANY_OF(5, low);
     s.bottom = ANY_OF(5, low);
-    s.last = t.x1;
+    s.end = t.x1;
+    s.last = s.end;
     s.inside = 0;
     plan.away = Frama_C_float_interval(-1, 1);
     shade__next_stretch(&plan, &bounds, &t, &s);

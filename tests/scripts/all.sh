@@ -35,6 +35,8 @@ step readme sh tests/scripts/readme.sh
 step slides sh tests/scripts/course.sh
 build build/test_main
 step runner build/test_main
+build build/test_count
+step count build/test_count work
 build build/golden pictures
 # G15
 step pictures build/golden out/*.ppm

@@ -22,7 +22,7 @@ fi
 python3 tests/scripts/mutate.py shade.h "$seed" $((want * 2)) "$T" ${since:+"$T/lines"} || exit 1
 
 # Mutants of the implementation are linked to tests compiled once; of inline functions, to all.
-FLAGS="-std=c99 -w -DSHADE_NO_DISPATCH"
+FLAGS="-std=c99 -w -DSHADE_NO_DISPATCH -include $H/tests/unit/count.h"
 gcc $FLAGS -O2 -I. -DSHADE__IMPLEMENTED -c tests/unit/main.c -o "$T/tests.o" || exit 1
 build() {                       # the folder of a shade.h, public or implementation
     if [ "$2" = public ]; then gcc $FLAGS -O1 -I"$1" tests/unit/main.c -lm -o "$T/run"
@@ -42,7 +42,7 @@ first() {                       # sections of the tests that know a section of s
     base) echo power lanes store ;; pixels | store) echo store resolve texture ;;
     lamps | terms) echo light lanes ;; lit) echo lanes light ;; vertices) echo vertex clip ;;
     triangles) echo packets depth cover ;; clip) echo clip depth ;;
-    cover) echo cover blocks fragment ;; fragments) echo packets fragment store ;;
+    tiles) echo work cover ;; cover) echo work cover blocks fragment ;; fragments) echo packets fragment store ;;
     texture) echo texture ;; check) echo check ;; drive) echo drive resolve ;;
     mesh) echo mesh texture own ;; lines) echo lines ;; shape) echo shape ;;
     chunks) echo chunks ;; rays) echo ray ;; survey | explain) echo explain ;;

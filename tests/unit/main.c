@@ -6,6 +6,10 @@
                                   scenes.h, and writes their pictures into the folder */
 #include <time.h>
 
+/* Tiles are counted where the implementation is compiled here, or was with -include count.h. */
+#ifndef SHADE__IMPLEMENTED
+#include "count.h"
+#endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 
@@ -45,6 +49,10 @@
 #include "scene.c"
 #include "modes.c"
 #include "explain.c"
+#ifdef SHADE__TILE_TESTED
+long tiles_tested;
+#include "work.c"
+#endif
 
 static const test_section sections[] = {
     SECTION(math),   SECTION(matrix),  SECTION(power),   SECTION(light),    SECTION(lanes),
@@ -53,6 +61,9 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
+#ifdef SHADE__TILE_TESTED
+    SECTION(work),
+#endif
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
 
