@@ -50,33 +50,33 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     116  options               >>types      189  materials, lamps, targets, states
-       >>plumbing   362  compilers             >>light      489  the equation and its terms
-       >>draw       614  meshes and pixels     >>math       864  vectors and matrices
+       >>config     116  options               >>types      192  materials, lamps, targets, states
+       >>plumbing   365  compilers             >>light      491  the equation and its terms
+       >>draw       616  meshes and pixels     >>math       866  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1227  processors            >>base      1388  bits, masks, rows of vectors
-       >>matrix    1618  cameras, inverses     >>power     1912  x^n
-       >>pixels    1978  formats, sRGB
+       >>machine   1229  processors            >>base      1430  bits, masks, rows of vectors
+       >>matrix    1660  cameras, inverses     >>power     1954  x^n
+       >>pixels    2020  formats, sRGB
      Inside: light
-       >>lamps     2158  attenuation, cones    >>terms     2433  one term at one point
-       >>surface   2571  material and lights   >>lit       2695  the whole sum, at many points
+       >>lamps     2200  attenuation, cones    >>terms     2475  one term at one point
+       >>surface   2613  material and lights   >>lit       2737  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3112  who owns what         >>vertices  3295  shading, projection
-       >>triangles 3512  dropped, cut, edges   >>clip      3880  near, far, behind the eye
-       >>tiles     4065  pixels, depth test    >>cover     4421  what is hidden, tile by tile
-       >>fragments 4645  interpolation, lod    >>texture   4937  texels, mipmaps
-       >>store     5339  blending, packing
+       >>state     3154  who owns what         >>vertices  3337  shading, projection
+       >>triangles 3554  dropped, cut, edges   >>clip      3922  near, far, behind the eye
+       >>tiles     4107  pixels, depth test    >>cover     4463  what is hidden, tile by tile
+       >>fragments 4687  interpolation, lod    >>texture   4979  texels, mipmaps
+       >>store     5381  blending, packing
      Inside: calls of the renderer
-       >>check     5564  refusals              >>seen      5729  what can be seen, chunks
-       >>drive     5866  shade_draw            >>mesh      6174  shade_draw_mesh
+       >>check     5606  refusals              >>seen      5771  what can be seen, chunks
+       >>drive     5908  shade_draw            >>mesh      6216  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6564  shade_draw_lines      >>shape     6722  normals, edges
-       >>chunks    6955  boxes of triangles    >>rays      7132  shade_pick
-       >>survey    7325  experiments on a draw >>explain   7472  why nothing is seen
-       >>image     7884  PPM
+       >>lines     6606  shade_draw_lines      >>shape     6764  normals, edges
+       >>chunks    6997  boxes of triangles    >>rays      7174  shade_pick
+       >>survey    7367  experiments on a draw >>explain   7514  why nothing is seen
+       >>image     7926  PPM
      Sources
-       >>refs      7950                        >>history   7976
-       >>license   7988
+       >>refs      7992                        >>history   8020
+       >>license   8032
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -131,7 +131,7 @@
                               and leaves assertions out
      SHADE_MEMCPY(d, s, n)    default memcpy; SHADE_MEMSET(d, c, n) default memset
      SHADE_NO_DISPATCH        builds each loop once, for the processor that the compiler was told
-                              of; implied by zig, and by clang for Microsoft's ABI
+                              of
      SHADE_ALLOW_FAST_MATH    lets clang compile the implementation with -ffast-math; the bits
                               change, and NaN may get through
 
@@ -172,18 +172,21 @@
 /* With 16 lanes and 8 varyings the linker sees shade_draw as shade_draw_16_8.  Files that disagree
    would otherwise draw nothing, or write past their packets. */
 #define SHADE__JOIN(name, lanes, varyings) name##_##lanes##_##varyings
-#define SHADE__LINKED(name, lanes, varyings) SHADE__JOIN(name, lanes, varyings)
+#define SHADE__JOINED(name, lanes, varyings) SHADE__JOIN(name, lanes, varyings)
+#define SHADE__LINKED(name) SHADE__JOINED(name, SHADE_LANES, SHADE_MAX_VARYINGS)
 #if SHADE_LANES != 128 || SHADE_MAX_VARYINGS != 16
-#define shade_draw SHADE__LINKED(shade_draw, SHADE_LANES, SHADE_MAX_VARYINGS)
-#define shade_draw_mesh SHADE__LINKED(shade_draw_mesh, SHADE_LANES, SHADE_MAX_VARYINGS)
-#define shade_lit_lanes SHADE__LINKED(shade_lit_lanes, SHADE_LANES, SHADE_MAX_VARYINGS)
-#define shade_light_at_lanes SHADE__LINKED(shade_light_at_lanes, SHADE_LANES, SHADE_MAX_VARYINGS)
-#define shade_sample_lanes SHADE__LINKED(shade_sample_lanes, SHADE_LANES, SHADE_MAX_VARYINGS)
+#define shade_draw SHADE__LINKED(shade_draw)
+#define shade_draw_mesh SHADE__LINKED(shade_draw_mesh)
+#define shade_lit_lanes SHADE__LINKED(shade_lit_lanes)
+#define shade_light_at_lanes SHADE__LINKED(shade_light_at_lanes)
+#define shade_sample_lanes SHADE__LINKED(shade_sample_lanes)
 #endif
 
 #ifdef SHADE_NO_LIBM
 #undef SHADE_NO_STDIO
 #define SHADE_NO_STDIO
+#undef SHADE_NO_DISPATCH
+#define SHADE_NO_DISPATCH
 #endif
 
 /*------------------------------------------------------------------------------------------ >>types
@@ -367,16 +370,14 @@ typedef struct shade_stats {
 #if defined(__s390x__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__)
 #define SHADE__EVAL_FLOAT _Pragma("GCC optimize(\"excess-precision=fast\")")
 #elif defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
-#ifdef __s390x__
-#error "shade.h: floats are evaluated in double; compile with -std=gnu99 or -fexcess-precision=fast"
-#else
-#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse"
-#endif
+#error "shade.h: floats are evaluated in a wider type; for 32-bit x86: -msse2 -mfpmath=sse, for \
+s390x: -std=gnu99 or -fexcess-precision=fast"
 #else
 #define SHADE__EVAL_FLOAT
 #endif
 
 #if defined(__GNUC__) || defined(__clang__)
+#define SHADE__GNU
 #define SHADE__INLINE static inline __attribute__((always_inline))
 #define SHADE__UNUSED __attribute__((unused))
 #define SHADE__64_BYTES __attribute__((aligned(64)))
@@ -415,18 +416,18 @@ typedef struct shade_stats {
 
 /* Compilers fold the builtin with -ffreestanding as well. */
 #ifndef SHADE_MEMCPY
-#if defined(__GNUC__) || defined(__clang__)
-#define SHADE_MEMCPY(d, s, n) __builtin_memcpy(d, s, n)
+#ifdef SHADE__GNU
+#define SHADE_MEMCPY __builtin_memcpy
 #else
 #include <string.h>
-#define SHADE_MEMCPY(d, s, n) memcpy(d, s, n)
+#define SHADE_MEMCPY memcpy
 #endif
 #endif
 #ifdef SHADE_NO_LIBM
-#define SHADE__SQRT(x) shade__own_sqrt(x)
+#define SHADE__SQRT shade__own_sqrt
 #else
 #include <math.h>
-#define SHADE__SQRT(x) sqrtf(x)
+#define SHADE__SQRT sqrtf
 #endif
 
 /* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
@@ -441,10 +442,11 @@ typedef struct shade_stats {
 #define SHADE__NO_UNROLL
 #endif
 #ifdef __TINYC__
-#define SHADE__FOR(i, n) for (ptrdiff_t i = 0; i < (n); i++)
+#define SHADE__COUNTER ptrdiff_t
 #else
-#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (int i = 0; i < (n); i++)
+#define SHADE__COUNTER int
 #endif
+#define SHADE__FOR(i, n) SHADE__NO_UNROLL for (SHADE__COUNTER i = 0; i < (n); i++)
 #define SHADE_EACH_LANE(i) SHADE__FOR(i, SHADE_LANES)
 
 /* SHADE__BEGIN opens C linkage and makes arithmetic exact, whatever the compiler's options say: it
@@ -1247,11 +1249,11 @@ define SHADE_ALLOW_FAST_MATH"
 #endif
 #endif
 #ifndef SHADE_MEMSET
-#if defined(__GNUC__) || defined(__clang__)
-#define SHADE_MEMSET(d, c, n) __builtin_memset(d, c, n)
+#ifdef SHADE__GNU
+#define SHADE_MEMSET __builtin_memset
 #else
 #include <string.h>
-#define SHADE_MEMSET(d, c, n) memset(d, c, n)
+#define SHADE_MEMSET memset
 #endif
 #endif
 
@@ -1276,12 +1278,12 @@ SHADE__BEGIN
 #endif
 #endif
 
-#if defined(__GNUC__) || defined(__clang__)
+#ifdef SHADE__GNU
 #define SHADE__NOINLINE __attribute__((noinline))
 #define SHADE__COLD __attribute__((noinline, cold))    /* such code is a quarter smaller */
 /* gcc treats a function that only cold functions call as cold, and does not vectorise it. */
 #define SHADE__HOT __attribute__((noinline, hot))
-#define SHADE__LOWEST_BIT(x) __builtin_ctz(x)
+#define SHADE__LOWEST_BIT __builtin_ctz
 #define SHADE__UNLIKELY(x) __builtin_expect((x) != 0, 0)
 typedef uint32_t __attribute__((may_alias)) shade__word;    /* reads memory of any type */
 #else
@@ -1292,7 +1294,7 @@ typedef uint32_t __attribute__((may_alias)) shade__word;    /* reads memory of a
 #endif
 #define SHADE__COLD SHADE__NOINLINE
 #define SHADE__HOT SHADE__NOINLINE
-#define SHADE__LOWEST_BIT(x) shade__lowest_bit(x)
+#define SHADE__LOWEST_BIT shade__lowest_bit
 #define SHADE__UNLIKELY(x) (x)
 typedef uint32_t shade__word;
 #endif
@@ -1304,18 +1306,6 @@ typedef uint32_t shade__word;
 #define SHADE__ANY_WIDTH 8
 #else
 #define SHADE__ANY_WIDTH 4
-#endif
-
-/* __builtin_cpu_supports needs __cpu_model.  The libraries that clang links for Microsoft's ABI,
-   and those of zig, do not have it.  zig defines no macro; it is known by the library that lies
-   beside its headers. */
-#ifdef SHADE_NO_LIBM
-#undef SHADE_NO_DISPATCH
-#define SHADE_NO_DISPATCH
-#elif defined(__clang__) && !defined(SHADE_NO_DISPATCH)
-#if defined(_MSC_VER) || __has_include(<../std/std.zig>)
-#define SHADE_NO_DISPATCH
-#endif
 #endif
 
 /* On x86-64 gcc and clang compile each hot loop for any processor, for AVX2 and for AVX-512, from
@@ -1347,20 +1337,76 @@ typedef uint32_t shade__word;
         enum { shade__width = width }; \
         body; \
     }
-#if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
+#if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && defined(SHADE__GNU)
+/* __builtin_cpu_supports reads __cpu_model, which the compiler's library fills before main.  The
+   libraries that clang links for Microsoft's ABI, and those of zig, do not have it: there
+   shade__best_build asks the processor.  zig defines no macro; it is known by the library that lies
+   beside its headers. */
+#ifdef __clang__
+#if defined(_MSC_VER) || __has_include(<../std/std.zig>)
+#define SHADE__ASK_PROCESSOR
+#endif
+#endif
 #ifndef SHADE__LEVEL
+#ifdef SHADE__ASK_PROCESSOR
+#define SHADE__LEVEL shade__best_build()
+#else
 #define SHADE__LEVEL \
     (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && \
      __builtin_cpu_supports("avx512dq") ? 2 : __builtin_cpu_supports("avx2") ? 1 : 0)
 #endif
+#endif
+#ifdef SHADE__ASK_PROCESSOR
+/* EBX of a leaf of cpuid; its ECX goes to *ecx. */
+SHADE__INLINE uint32_t shade__cpuid(uint32_t leaf, uint32_t *ecx)
+{
+    uint32_t ebx, edx;
+    __asm__("cpuid" : "+a"(leaf), "=b"(ebx), "=c"(*ecx), "=d"(edx) : "2"(0));
+    return ebx;
+}
+
+/* The build for a processor, 0, 1 or 2 as in SHADE__LEVEL.  features is EBX of leaf 7: AVX-512
+   needs AVX2, F, DQ, BW and VL there, and in saved (XCR0) a system that saves masks and 512 bits of
+   each vector; AVX2 needs one that saves 256.                                       [Intel25] */
+SHADE__INLINE int shade__build_for(uint32_t features, uint32_t saved)
+{
+    if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 2;
+    return (features & 0x20) && !(~saved & 6);
+}
+
+/* 1 + the build, or 0 before the first call: the one variable of the library.  The answer is kept
+   because a virtual machine is left for each cpuid, which takes 5 us or more, and a draw of one
+   triangle takes less than 2 us.  Threads that ask at the same time store the same number. */
+static int shade__known_build;
+/* OSXSAVE, bit 27 of leaf 1, says that xgetbv does not trap.  A processor that has it has leaf 13,
+   and so leaf 7. */
+static SHADE__COLD int shade__ask_processor(void)
+{
+    uint32_t ecx, edx, saved = 0, features = shade__cpuid(7, &ecx);
+    int best;
+    shade__cpuid(1, &ecx);
+    if (ecx >> 27 & 1) __asm__ volatile("xgetbv" : "=a"(saved), "=d"(edx) : "c"(0));
+    best = shade__build_for(features, saved);
+    __atomic_store_n(&shade__known_build, best + 1, __ATOMIC_RELAXED);
+    return best;
+}
+
+SHADE__INLINE int shade__best_build(void)
+{
+    const int known = __atomic_load_n(&shade__known_build, __ATOMIC_RELAXED);
+    return known ? known - 1 : shade__ask_processor();
+}
+#endif
+
 #ifdef __clang__
 #define SHADE__AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl")))
 #else
 #define SHADE__AVX512 \
     __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
-#define SHADE__AVX2 __attribute__((target("avx2")))
-#define SHADE__CALL_BEST(name, for_avx512, parameters, arguments) \
+#define SHADE__CALL_BEST(name, for_avx512, parameters, arguments, body) \
+    SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
+    SHADE__BUILD(name##_avx2, __attribute__((target("avx2"))), 8, parameters, body) \
     static void name parameters \
     { \
         const int best = SHADE__LEVEL; \
@@ -1369,15 +1415,11 @@ typedef uint32_t shade__word;
         else name##_any arguments; \
     }
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
-    SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
-    SHADE__BUILD(name##_avx2, SHADE__AVX2, 8, parameters, body) \
     SHADE__BUILD(name##_avx512, SHADE__AVX512, 16, parameters, body) \
-    SHADE__CALL_BEST(name, name##_avx512, parameters, arguments)
+    SHADE__CALL_BEST(name, name##_avx512, parameters, arguments, body)
 /* For loops that AVX-512 makes no faster. */
 #define SHADE__DISPATCH_AVX2(name, parameters, arguments, body) \
-    SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
-    SHADE__BUILD(name##_avx2, SHADE__AVX2, 8, parameters, body) \
-    SHADE__CALL_BEST(name, name##_avx2, parameters, arguments)
+    SHADE__CALL_BEST(name, name##_avx2, parameters, arguments, body)
 #else
 #define SHADE__DISPATCH(name, parameters, arguments, body) \
     SHADE__BUILD(name##_any, , SHADE__ANY_WIDTH, parameters, body) \
@@ -7956,6 +7998,8 @@ SHADE__END
                   Computers C-20(6), 623-629.
    [Greene93]     N. Greene, M. Kass, G. Miller, "Hierarchical Z-Buffer Visibility", SIGGRAPH 1993.
    [IEC61966]     IEC 61966-2-1:1999, the sRGB colour space.
+   [Intel25]      Intel 64 and IA-32 Architectures Software Developer's Manual, volume 1, 2025,
+                  chapters 14 and 15.
    [Kadlec10]     J. Kadlec, "Improving the fast inverse square root", 2010: the constant and its
                   Newton step.
    [Kilgard94]    The materials of teapots.c, Silicon Graphics 1993, M. J. Kilgard 1994.

@@ -37,9 +37,9 @@ contraction() {                 # off, on or fast; compiler and flags
     if [ "$how" = off ]; then test ! -s "$T/behind"; else test -s "$T/behind"; fi &&
         diff "$T/behind" "$T/both"
 }
-# the libraries that clang links for Microsoft's ABI have no __cpu_model
+# The libraries that clang links for Microsoft's ABI have no __cpu_model, and must not be asked.
 asks_cpu_model() { grep -q __cpu_model "$T/impl.o"; }
-asks_no_cpu_model() { ! asks_cpu_model; }
+asks_processor() { ! asks_cpu_model && grep -q shade__push_avx512 "$T/impl.o"; }
 if there clang; then
     for target in x86_64-linux-gnu i386-linux-gnu aarch64-linux-gnu arm-linux-gnueabihf \
         riscv64-linux-gnu mips-linux-gnu powerpc64-linux-gnu s390x-linux-gnu wasm32 \
@@ -52,8 +52,8 @@ if there clang; then
         cxx="$clang -std=c++17 -nostdinc++ -x c++"
         check "clang for $target" $clang -std=c99 $WARN -O2 -c "$T/impl.c" -o "$T/impl.o"
         case $target in
-        x86_64-linux-gnu) check "clang for $target asks the processor" asks_cpu_model ;;
-        x86_64-pc-windows-msvc) check "clang for $target does not" asks_no_cpu_model ;;
+        x86_64-linux-gnu) check "clang for $target asks its library" asks_cpu_model ;;
+        x86_64-pc-windows-msvc) check "clang for $target asks the processor" asks_processor ;;
         esac
         check "clang for $target, C++" $cxx $WARN -fsyntax-only "$T/impl.c"
         for how in off on fast; do
@@ -177,5 +177,43 @@ program "mingw-w64 for 32 bits, C++" none C++ i686-w64-mingw32-g++ -static $sse
 program "zig cc" "" C "$zig" cc -ffp-contract=off
 program "zig cc, C++" "" C++ "$zig" cc -ffp-contract=off -fno-sanitize=function
 program "zig cc for Windows" "$wine" C "$zig" cc -target x86_64-windows-gnu
+
+# Each program runs the loops that are built for its processor: it tells the level of them, 0 to 2.
+# gcc's and clang's libraries answer as the processor itself does; qemu's and valgrind's processors
+# have less.  zig builds for this processor unless it is told.
+level=
+takes_best() {                  # runner (or ""), level (or "": the first one's), compiler and flags
+    runner=$1 want=${2:-$level}; shift 2
+    "$@" -std=c99 -O1 $WARN -finstrument-functions -I. tests/unit/processor.c -lm -o "$T/processor.exe" &&
+        got=$($runner "$T/processor.exe" | tr -d '\r') && same "$got" "${want:-$got}" &&
+        level=${level:-$got}
+}
+processor() {                   # name, runner, level, compiler and flags
+    name="processor, $1"; shift
+    if ! there "$3"; then left_out "$name"; return; fi
+    case $1 in
+    "") ;;
+    none) left_out "$name"; return ;;
+    *) if ! there "${1%% *}"; then left_out "$name"; return; fi ;;
+    esac
+    check "$name" takes_best "$@"
+}
+if [ "$(uname -m)" = x86_64 ]; then
+    own="-DSHADE__ASK_PROCESSOR -DHAS_CPU_MODEL"
+    processor "gcc" "" "" gcc $own
+    processor "gcc, its library" "" "" gcc -DHAS_CPU_MODEL
+    processor "clang" "" "" clang $own
+    for cpu in Nehalem:0 SandyBridge:0 Haswell:1; do
+        processor "${cpu%:*}" "qemu-x86_64 -cpu ${cpu%:*}" "level ${cpu#*:}" gcc -static $own
+    done
+    processor "valgrind" "valgrind -q --error-exitcode=9" "level 1" gcc -g $own
+    processor "zig cc" "" "" "$zig" cc
+    processor "zig cc for musl" "" "" "$zig" cc -target x86_64-linux-musl
+    processor "zig cc for old glibc" "" "" "$zig" cc -target x86_64-linux-gnu.2.17
+    processor "mingw-w64" "$wine" "" x86_64-w64-mingw32-gcc -static $own
+    processor "zig cc for Windows" "$wine" "" "$zig" cc -target x86_64-windows-gnu
+else
+    left_out "processors of x86-64"
+fi
 
 finish

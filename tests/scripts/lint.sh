@@ -90,7 +90,7 @@ if command -v clang >/dev/null; then
     rm -f /tmp/lint_clang.$$
 else echo "left out: comma expressions (no clang)"; fi
 if command -v gcc >/dev/null && ctags --version 2>/dev/null | grep -q Universal; then
-    gcc -std=c99 -w -fsyntax-only -aux-info /tmp/lint_aux.$$ -DSHADE_IMPLEMENTATION -x c $H
+    gcc -std=c99 -w -fsyntax-only -aux-info /tmp/lint_aux.$$ -DSHADE_IMPLEMENTATION -DSHADE__ASK_PROCESSOR -x c $H
     sed -n 's/ (.*//; s|^/\* shade.h:[0-9]*:.F .*[ *]||p' /tmp/lint_aux.$$ | sort -u >/tmp/lint_functions.$$
     ctags -x $H | awk '$2 == "function" { print $1 }' | sort -u | cat - /tmp/lint_functions.$$ | sort | uniq -u |
         grep -vE '_(any|avx2|avx512)$' | while read -r f; do    # made by SHADE__DISPATCH of name_body
