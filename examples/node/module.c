@@ -400,8 +400,11 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
     view.rgba = asked->rgba;
     view.depth = asked->depth;
     view.ids = asked->ids;
-    for (int i = 0; i < count && !result; i++) result = item_of(&items[i], &item[i]);
-    if (!result) result = (shade_result)python_draw(item, count, &view, 1, 1);
+    for (int i = 0; i < count && !result; i++) {
+        result = item_of(&items[i], &item[i]);
+        item[i].id = i;
+    }
+    if (!result) result = (shade_result)python_draw(item, count, &view, 1, 1, NULL);
     for (int i = 0; item && i < count; i++) free((void *)(uintptr_t)item[i].lines);
     free(item);
     return result;

@@ -11,6 +11,7 @@
 #include "examples/programs/model/files.h"
 #include "examples/shared/bands.h"
 #include "examples/programs/model/look.h"
+#include "examples/programs/model/stand.h"
 #include "examples/shared/canvas.h"
 
 typedef struct python_item {      /* a mesh in its place */
@@ -20,6 +21,9 @@ typedef struct python_item {      /* a mesh in its place */
     int line_points, two_sided;
     float line_width;             /* in pixels of the finished picture */
     shade_vec4 line_color;
+    int32_t id;                   /* of its part, which is also the number of its pose */
+    int blended;                  /* drawn over what is there; notes and depth leave it out */
+    float opacity, alpha_cutoff;  /* less alpha is discarded; 0: none */
 } python_item;
 
 typedef struct python_view {      /* a camera and where its picture goes */
@@ -48,6 +52,7 @@ typedef struct python_job {
     const python_view *views;
     shade_result *results;        /* of each piece */
     int item_count, bands;
+    const volatile int *stop;     /* non-zero: the caller does not want the pictures any more */
 } python_job;
 
 /* ---- what a pixel shows ---------------------------------------------------------------------- */
@@ -63,7 +68,6 @@ typedef struct painter {          /* of one mesh in one band */
     const look *look;             /* of the surface in the studio; NULL: lit by lighting */
     const shade_mat4 *to_studio;
     int uv;                       /* the varying that u is; 0: there is no map */
-    int32_t id;
 } painter;
 
 static void fetch(const float *from, int width, const shade_vertex_ids *in, float *rows)
@@ -114,23 +118,27 @@ static void note_normal(float *to, const shade_fragments *in, int i)
     SHADE_MEMCPY(to, &N, sizeof N);
 }
 
-/* Notes what lies at the centre of a pixel. */
+/* Notes what lies at the centre of a pixel.  Fragments of a surface with holes have not been tested
+   for depth yet: the nearest stays, where depth is noted. */
 static void note_pixel(const painter *p, const shade_fragments *in, int i, size_t at)
 {
     const python_view *v = p->view;
     const shade_mat4 *m = &v->view;
-    if (v->ids) v->ids[at] = p->id;
-    if (v->depth)
-        v->depth[at] = -(m->col[0].z * in->varying[0][i] + m->col[1].z * in->varying[1][i] +
-                         m->col[2].z * in->varying[2][i] + m->col[3].z);
+    const float depth = -(m->col[0].z * in->varying[0][i] + m->col[1].z * in->varying[1][i] +
+                          m->col[2].z * in->varying[2][i] + m->col[3].z);
+    if (p->item->alpha_cutoff > 0 && v->depth && depth > v->depth[at]) return;
+    if (v->ids) v->ids[at] = p->item->id;
+    if (v->depth) v->depth[at] = depth;
     if (v->normals) note_normal(v->normals + 3 * at, in, i);
 }
 
-/* Only fragments that pass the depth test come here, the nearest of a pixel last. */
-static void note(const painter *p, const shade_fragments *in)
+/* Of a surface without holes only fragments that pass the depth test come here, the nearest of a
+   pixel last.  Others are tested after the shader, so that here the nearest counts. */
+static void note(const painter *p, const shade_fragments *in, const shade_colors *colors)
 {
     for (int i = 0; i < in->count; i++) {
         const int x = (int)in->x[i], y = (int)in->y[i];
+        if (colors->discard[i]) continue;
         if (p->step > 1 && (x % p->step != p->step / 2 || y % p->step != p->step / 2)) continue;
         note_pixel(p, in, i,
                    (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
@@ -147,6 +155,11 @@ static const float *albedo_of(const painter *p, const shade_fragments *in, float
     for (int k = 0; k < 3 && tint; k++)
         SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= tint[k * SHADE_LANES + i]; }
     return texels;
+}
+
+static void cut_out(float cutoff, shade_colors *out)
+{
+    SHADE_EACH_LANE(i) { out->discard[i] = out->color[3][i] < cutoff; }
 }
 
 /* The thumbnail's light at places of the world */
@@ -182,17 +195,26 @@ static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
     rows.albedo = albedo_of(p, in, texels);
     if (p->look) paint_in_studio(p, &rows, in->count, out->color[0]);
     else shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
-    if (rows.albedo == texels)
+    if (p->item->state.diffuse_map)
         SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
-    if (p->step) note(p, in);
+    if (p->item->alpha_cutoff > 0) cut_out(p->item->alpha_cutoff, out);
+    if (p->item->blended)
+        SHADE_EACH_LANE(i) { out->color[3][i] *= p->item->opacity; }
+    else if (p->step) note(p, in, out);
 }
 
 /* Notes alone, where colours have no sample at the centre of a pixel */
 static void survey(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                    shade_colors *SHADE_RESTRICT out)
 {
-    note((const painter *)uniforms, in);
-    (void)out;
+    const painter *p = (const painter *)uniforms;
+    float texels[4 * SHADE_LANES];
+    if (p->item->alpha_cutoff > 0) {
+        albedo_of(p, in, texels);
+        SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
+        cut_out(p->item->alpha_cutoff, out);
+    }
+    note(p, in, out);
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
@@ -202,8 +224,12 @@ static shade_draw_state item_state(const python_item *items, const python_view *
     shade_draw_state state = items[i].state;
     state.view = v->view;
     state.projection = v->projection;
-    if (v->poses) state.model = v->poses[i];
+    if (v->poses) state.model = v->poses[items[i].id];
     if (!items[i].two_sided) state.raster.cull = SHADE_CULL_BACK;
+    if (items[i].blended) {
+        state.raster.blend = SHADE_BLEND_OVER;
+        state.raster.depth_read_only = 1;
+    }
     return state;
 }
 
@@ -285,8 +311,9 @@ static shade_result draw_meshes(const shade_target *target, const python_job *jo
         shade_pipeline pipe = { .vertex = place, .fragment = fragment, .uniforms = &p };
         if (job->studio) in_studio = look_of(job->studio, p.view, state.material);
         p.look = job->studio ? &in_studio : NULL;
+        if (fragment == survey && job->items[i].blended) continue;
         p.item = &job->items[i];
-        p.id = i;
+        pipe.may_discard = p.item->alpha_cutoff > 0;
         p.world = state.model;
         p.clip = shade_mat4_mul(shade_mat4_mul(state.projection, state.view), state.model);
         p.normal = shade_normal_matrix(state.model);
@@ -418,7 +445,8 @@ static shade_result draw_share(const python_job *job, const python_view *v, int 
 static void draw_piece(void *data, int piece)
 {
     const python_job *job = (const python_job *)data;
-    job->results[piece] = draw_share(job, &job->views[piece / job->bands], piece % job->bands);
+    if (!job->stop || !*job->stop)
+        job->results[piece] = draw_share(job, &job->views[piece / job->bands], piece % job->bands);
 }
 
 /* Bands enough for the threads, and so many that one has no more than 8 million samples.  Each band
@@ -499,13 +527,14 @@ static light_studio *open_studio(const python_item *items, int count, const pyth
 }
 
 /* Draws views of one size, by so many threads (0: one a core).  Only a single view may be in the
-   studio.  Returns the first result that is no success. */
+   studio.  Once *stop is set, which may be NULL, the rest of the pictures is left out.  Returns the
+   first result that is no success. */
 SHADEDEF int python_draw(const python_item *items, int item_count, const python_view *views,
-                         int view_count, int threads);
+                         int view_count, int threads, const volatile int *stop);
 int python_draw(const python_item *items, int item_count, const python_view *views, int view_count,
-                int threads)
+                int threads, const volatile int *stop)
 {
-    python_job job = { NULL, items, views, NULL, item_count, 1 };
+    python_job job = { NULL, items, views, NULL, item_count, 1, stop };
     light_studio *light = NULL;
     shade_result result = SHADE_OK;
     double triangles = 0;
@@ -634,13 +663,20 @@ int python_weld(const uint32_t *vertex, int count, const float *value, int width
 
 /* ---- files of models ------------------------------------------------------------------------- */
 
-/* Reads an OBJ, STL or PLY file.  Returns NULL with a sentence in error. */
-SHADEDEF model *python_load(const char *path, char *error, size_t room);
-model *python_load(const char *path, char *error, size_t room)
+/* Reads an OBJ, STL or PLY file from memory; what stands beside path, which may be NULL, describes
+   its surfaces.  name stands in messages, and its end tells the format where there is one.  Returns
+   NULL with a sentence in error. */
+SHADEDEF model *python_read(const void *bytes, size_t size, const char *name, const char *path,
+                            char *error, size_t room);
+model *python_read(const void *bytes, size_t size, const char *name, const char *path, char *error,
+                   size_t room)
 {
     const model_request q = { error, room, NULL, NULL, 0 };
     model *m = (model *)calloc(1, sizeof *m);
-    if (m && !model_read_file(path, m, &q)) return m;
+    if (m && !model_read_memory(bytes, size, name, m, &q)) {
+        if (path) model_read_libraries(path, m);
+        return m;
+    }
     free(m);
     return NULL;
 }
@@ -652,32 +688,43 @@ void python_unload(model *m)
     free(m);
 }
 
-/* Writes the linear colour of each triangle's surface, and returns whether the file says any. */
-SHADEDEF int python_tints(const model *m, float *rgb);
-int python_tints(const model *m, float *rgb)
+/* What the file lacks, or "" */
+SHADEDEF const char *python_warning(const model *m);
+const char *python_warning(const model *m) { return m->warning; }
+
+/* The upright axis, 0 .. 5 for x y z -x -y -z: that of the format, or a guess as in the programs */
+SHADEDEF int python_upright(const model *m);
+int python_upright(const model *m)
 {
-    int set = 0;
-    for (int i = 0; i < m->part_count && m->surface_count; i++) {
-        const model_surface *s = &m->surface[m->part[i].surface];
-        float *to = rgb + m->part[i].first;    /* three indices and three colours a triangle */
-        set |= s->set;
-        for (int k = 0; k < m->part[i].count; k += 3)
-            memcpy(to + k, &s->material.diffuse, sizeof s->material.diffuse);
-    }
-    return set;
+    const int usual = m->z_up ? 2 : 1;
+    return m->up_told ? usual : stand_guess(&m->mesh, usual);
 }
 
-/* The name of the picture that all surfaces show; NULL where they differ or have none */
-SHADEDEF const char *python_map(const model *m);
-const char *python_map(const model *m)
+/* A run of triangles of one surface */
+typedef struct python_part {
+    int first, count;    /* of the indices */
+    float color[3], transparency;
+    const char *map;     /* the name of its picture, or NULL */
+    int set, opaque;     /* set: the file says something of it; opaque: the map's alpha is ignored */
+} python_part;
+
+/* Writes run i and returns how many there are; with part NULL it only counts. */
+SHADEDEF int python_part_of(const model *m, int i, python_part *part);
+int python_part_of(const model *m, int i, python_part *part)
 {
-    const char *map = NULL;
-    for (int i = 0; i < m->part_count && m->surface_count; i++) {
-        const char *own = m->surface[m->part[i].surface].map;
-        if (!own || (map && strcmp(own, map) != 0)) return NULL;
-        map = own;
-    }
-    return m->mesh.texcoords ? map : NULL;
+    const model_part *from = m->part + i;
+    const model_surface *s = m->surface_count ? &m->surface[from->surface] : NULL;
+    if (!part || i < 0 || i >= m->part_count) return m->part_count;
+    memset(part, 0, sizeof *part);
+    part->first = from->first;
+    part->count = from->count;
+    if (!s) return m->part_count;
+    memcpy(part->color, &s->material.diffuse, sizeof part->color);
+    part->transparency = s->transparency >= 1 ? 0 : s->transparency;
+    part->map = m->mesh.texcoords ? s->map : NULL;
+    part->set = s->set;
+    part->opaque = s->opaque;
+    return m->part_count;
 }
 
 /* The sizes that the twins of these structs must have */
@@ -687,6 +734,7 @@ size_t python_size(int which)
     static const size_t size[] = { sizeof(shade_mesh),     sizeof(shade_draw_state),
                                    sizeof(python_item),    sizeof(python_view),
                                    sizeof(shade_lighting), sizeof(shade_texture),
-                                   sizeof(shade_light),    sizeof(shade_chunk) };
+                                   sizeof(shade_light),    sizeof(shade_chunk),
+                                   sizeof(python_part) };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

@@ -8,12 +8,12 @@ from .camera import VIEWS, Camera, fitted
 from .files import load
 from .light import (PRESETS, Flag, Light, Lighting, Material, Model, Term, berkeley, light_at, lit,
                     massey, preset, shirley, shirley_surface, uw)
-from .mesh import Mesh
+from .mesh import Mesh, Surface
 from .picture import Picture, assert_same
 from .scene import Part, Scene, render, sheet
 
 __version__ = "1.2.0"
 __all__ = ["Camera", "Error", "Flag", "Light", "Lighting", "Material", "Mesh", "Model", "PRESETS",
-           "Part", "Picture", "Scene", "Term", "VIEWS", "assert_same", "berkeley", "fitted",
-           "light_at", "lit", "load", "massey", "preset", "render", "sheet", "shirley",
+           "Part", "Picture", "Scene", "Surface", "Term", "VIEWS", "assert_same", "berkeley",
+           "fitted", "light_at", "lit", "load", "massey", "preset", "render", "sheet", "shirley",
            "shirley_surface", "uw"]

@@ -5,23 +5,34 @@ import argparse
 import sys
 
 from . import Error, load, render, sheet
+from .camera import UPRIGHT
 
 
 def main(words: list[str] | None = None) -> int:
     """Draws a file of a model.  Returns the status of the process."""
     parser = argparse.ArgumentParser(prog="python -m shade_h", description=main.__doc__)
-    parser.add_argument("model", help="STL, OBJ or PLY")
-    parser.add_argument("picture", help="PNG")
+    parser.add_argument("model", help="STL, OBJ, PLY, GLB or 3MF")
+    parser.add_argument("picture", help="PNG: a name that ends in .png")
+    parser.add_argument("more", nargs="*", help=argparse.SUPPRESS)
     parser.add_argument("--views", default="iso", help="front,right,back,left,top,bottom,iso")
     parser.add_argument("--size", default="640x480", help="of each view, WxH")
     parser.add_argument("--color", default=None, help="#RRGGBB or a name")
     parser.add_argument("--no-edges", action="store_true", help="shaded faces alone")
-    parser.add_argument("--up", default="z", choices=("y", "z"), help="the upright axis")
+    parser.add_argument("--up", default=None, choices=list(UPRIGHT),
+                        help="the upright axis; that of the file where it is not said")
     parser.add_argument("--samples", type=int, default=3, help="1 .. 8")
     o = parser.parse_args(words)
+    if o.more or not o.picture.lower().endswith(".png"):
+        several = o.more or o.picture.lower().endswith((".stl", ".obj", ".ply", ".glb", ".3mf"))
+        print("shade_h: " + (
+            "one model and one picture: shade_h.sheet([...]) draws several" if several else
+            f"the picture must end in .png, not {o.picture!r}"), file=sys.stderr)
+        return 2
     try:
         size = tuple(int(n) for n in o.size.split("x"))
         mesh = load(o.model, **({"color": o.color} if o.color else {}))
+        if not len(mesh.faces):
+            raise Error(f"{o.model} has no triangles")
         views, edges = o.views.split(","), not o.no_edges
         if len(views) == 1:
             picture = render(mesh, view=views[0], size=size, samples=o.samples, up=o.up,

@@ -7,13 +7,14 @@ from typing import Any, Sequence, Union
 
 import numpy as np
 
-from ._native import Array, Bytes, Error, Floats, Indices, library, pointer
+from ._native import Array, Bytes, Doubles, Error, Floats, Indices, library, pointer
 
 Color = Union[str, Sequence[float], Array]
 NAMES = {"white": 0xFFFFFF, "black": 0, "gray": 0x808080, "grey": 0x808080, "red": 0xD62728,
          "green": 0x2CA02C, "blue": 0x1F77B4, "orange": 0xFF7F0E, "yellow": 0xF2C037,
          "purple": 0x9467BD, "brown": 0x8C564B, "pink": 0xE377C2, "cyan": 0x17BECF,
          "steel": 0x8FA3B5, "clay": 0xBFB2A4}
+MATERIALS = [library.shade_preset_name(i).decode().replace(" ", "_") for i in range(24)]
 MOST = 2**31 - 1
 
 
@@ -46,6 +47,16 @@ def floats(name: str, value: object, shape: tuple[int | None, ...], finite: bool
     with np.errstate(over="ignore"):
         got = np.ascontiguousarray(array(name, value, shape), dtype=np.float32)
     if finite and not np.isfinite(got).all():
+        raise Error(f"{name} must hold finite numbers that fit float32")
+    return got
+
+
+def doubles(name: str, value: object, shape: tuple[int | None, ...],
+            finite: bool = False) -> Doubles:
+    """A contiguous array of float64; with finite, one whose numbers fit float32."""
+    with np.errstate(over="ignore"):
+        got = np.ascontiguousarray(array(name, value, shape), dtype=np.float64)
+    if finite and not (np.abs(got) <= 3e38).all():
         raise Error(f"{name} must hold finite numbers that fit float32")
     return got
 
@@ -118,7 +129,11 @@ def linear(name: str, value: object, columns: tuple[int, ...] = (3, 4)) -> Float
     got = array(name, value, (None, None))
     if got.shape[1] not in columns:
         raise Error(f"{name} must have 3 or 4 columns, not {got.shape[1]}")
-    scale = 1 / 255 if got.dtype.kind in "iu" else 1.0
+    whole = got.dtype.kind in "iu"
+    if got.size and not (got.min() >= 0 and got.max() <= (255 if whole else 1)):
+        raise Error(f"{name} must be from 0 to {'255' if whole else '1 (or whole, to 255)'}, "
+                    f"not {got.min():g} .. {got.max():g}")
+    scale = 1 / 255 if whole else 1.0
     rgb = np.ascontiguousarray(got[:, :3] * np.float32(scale), dtype=np.float32)
     library.python_linear(pointer(rgb), len(rgb))
     return rgb
@@ -135,6 +150,8 @@ def hexadecimal(name: str, text: str) -> list[float]:
         value = sum((value >> 4 * k & 15) * 17 << 8 * k for k in range(3))
     elif text not in NAMES and len(digits) != 6:
         value = -1
+    if value < 0 and text.lower().replace(" ", "_").replace("-", "_") in MATERIALS:
+        raise Error(f"{name}: {text} is a material: say material={text!r} instead")
     if value < 0:
         raise Error(f"{name} must be #RRGGBB, #RGB or one of {', '.join(NAMES)}, not {shown(text)}")
     return [(value >> shift & 255) / 255 for shift in (16, 8, 0)]
@@ -144,6 +161,8 @@ def color(name: str, value: object) -> tuple[float, float, float]:
     """One display colour in linear light."""
     if isinstance(value, str):
         value = hexadecimal(name, value)
+    if isinstance(value, (tuple, list)) and all(type(v) is int and 0 <= v <= 1 for v in value):
+        value = [float(v) for v in value]    # (1, 0, 0) is red: nobody writes nearly black so
     rgb = linear(name, array(name, value, (None,))[None])[0]
     return float(rgb[0]), float(rgb[1]), float(rgb[2])
 

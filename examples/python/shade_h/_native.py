@@ -80,7 +80,8 @@ class State(Structure):
 class Item(Structure):
     """python_item"""
     _fields_ = [("mesh", Mesh), ("state", State), ("lines", c_void_p), ("line_points", c_int),
-                ("two_sided", c_int), ("line_width", c_float), ("line_color", c_float * 4)]
+                ("two_sided", c_int), ("line_width", c_float), ("line_color", c_float * 4),
+                ("id", c_int), ("blended", c_int), ("opacity", c_float), ("alpha_cutoff", c_float)]
 
 
 class View(Structure):
@@ -95,6 +96,12 @@ class View(Structure):
 class Chunk(Structure):
     """shade_chunk"""
     _fields_ = [("low", c_float * 3), ("high", c_float * 3), ("first", c_int), ("count", c_int)]
+
+
+class Run(Structure):
+    """python_part"""
+    _fields_ = [("first", c_int), ("count", c_int), ("color", c_float * 3),
+                ("transparency", c_float), ("map", c_char_p), ("set", c_int), ("opaque", c_int)]
 
 
 class Edge(Structure):
@@ -116,16 +123,18 @@ def _open() -> Any:
         raise ImportError(f"{path} is missing: install the package with pip, which compiles it")
     library = ctypes.CDLL(str(path))
     for name, result, arguments in (
-            ("python_draw", c_int, [c_void_p, c_int, c_void_p, c_int, c_int]),
+            ("python_draw", c_int, [c_void_p, c_int, c_void_p, c_int, c_int, c_void_p]),
             ("python_lit", None, [c_void_p, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p]),
             ("python_light_at", None, [c_void_p, c_void_p, c_size_t] + 3 * [c_void_p]),
             ("python_weld", c_int, [c_void_p, c_int, c_void_p, c_int] + 4 * [c_void_p]),
             ("python_face_normals", None, [c_void_p, c_void_p]),
             ("python_linear", None, [c_void_p, c_size_t]),
-            ("python_load", POINTER(OwnedMesh), [c_char_p, c_char_p, c_size_t]),
+            ("python_read", POINTER(OwnedMesh),
+             [c_char_p, c_size_t, c_char_p, c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
-            ("python_tints", c_int, [POINTER(OwnedMesh), c_void_p]),
-            ("python_map", c_char_p, [POINTER(OwnedMesh)]),
+            ("python_warning", c_char_p, [POINTER(OwnedMesh)]),
+            ("python_upright", c_int, [POINTER(OwnedMesh)]),
+            ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
             ("python_size", c_size_t, [c_int]),
             ("shade_result_string", c_char_p, [c_int]),
             ("shade_mesh_normals", c_int, [c_void_p, c_void_p]),
@@ -143,7 +152,7 @@ def _open() -> Any:
             ("shade_linear_material", Material, [Material])):
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
-    twins = (Mesh, State, Item, View, Lighting, Texture, Light, Chunk)
+    twins = (Mesh, State, Item, View, Lighting, Texture, Light, Chunk, Run)
     for i, twin in enumerate(twins):
         if library.python_size(i) != ctypes.sizeof(twin):
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Sequence, Union
 
 import numpy as np
@@ -18,22 +18,32 @@ VIEWS = {"front": (0.0, 0.0), "right": (90.0, 0.0), "back": (180.0, 0.0), "left"
          "iso": (45.0, math.degrees(math.atan(0.5**0.5)))}
 
 
+#: The frame, z upright and -y the front, as columns, that each upright axis asks for.
+_HALF_TURN = np.diag([1.0, -1.0, -1.0])
+_FRAMES = {"z": np.eye(3), "y": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
+           "x": np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]])}
+UPRIGHT = {**_FRAMES, **{f"-{name}": frame @ _HALF_TURN for name, frame in _FRAMES.items()}}
+
+
 @dataclass(frozen=True, eq=False)
 class Camera:
     """Where a picture is seen from.
 
     view takes points of the world to the camera, which looks down -z with +y up; projection takes
-    them on to clip space, -w <= x, y, z <= w.  Both are 4 x 4 and multiply columns.
+    them on to clip space, -w <= x, y, z <= w.  Both are 4 x 4, in double precision, and multiply
+    columns.
     """
 
     view: Matrix
     projection: Matrix
+    _near: tuple[Matrix, Matrix] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         """Refuses matrices of another shape, with NaN, or whose view is no rigid motion."""
-        for name in ("view", "projection"):
-            got = arguments.floats(name, getattr(self, name), (4, 4), finite=True)
-            object.__setattr__(self, name, got.astype(np.float64))
+        view = arguments.doubles("view", self.view, (4, 4), finite=True)
+        projection = arguments.floats("projection", self.projection, (4, 4), finite=True)
+        object.__setattr__(self, "view", view.copy())
+        object.__setattr__(self, "projection", projection.astype(np.float64))
         turn = self.view[:3, :3]
         if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-3) or \
                 not np.allclose(self.view[3], (0, 0, 0, 1)):
@@ -44,13 +54,21 @@ class Camera:
         """The position of the camera in the world."""
         return np.asarray(-self.view[:3, :3].T @ self.view[:3, 3])
 
+    def view_from(self, origin: Matrix) -> Matrix:
+        """The view of points whose coordinates count from an origin."""
+        if self._near is not None and np.array_equal(self._near[0], origin):
+            return self._near[1]
+        out = self.view.copy()
+        out[:3, 3] += out[:3, :3] @ origin
+        return out
+
     @staticmethod
     def look_at(eye: Sequence[float], target: Sequence[float] = (0, 0, 0),
                 up: Sequence[float] = (0, 0, 1), fov: float = 45.0, aspect: float = 1.0,
                 near: float = 0.01, far: float = 1000.0) -> Camera:
         """A camera at eye that looks at target; fov is the vertical angle in degrees."""
-        at = arguments.floats("eye", eye, (3,), finite=True).astype(float)
-        back = at - arguments.floats("target", target, (3,), finite=True)
+        at = arguments.doubles("eye", eye, (3,), finite=True)
+        back = at - arguments.doubles("target", target, (3,), finite=True)
         if not np.any(back):
             raise Error("eye and target must differ")
         turn = _facing(back, arguments.floats("up", up, (3,), finite=True).astype(float))
@@ -64,8 +82,8 @@ class Camera:
         """A camera of OpenCV: K is 3 x 3, in pixels whose centres are whole numbers; extrinsics,
         3 x 4 or 4 x 4, take the world to a camera that looks down +z with +y down."""
         width, height = arguments.size("size", size)
-        k = arguments.floats("K", K, (3, 3), finite=True).astype(float)
-        out = arguments.floats("extrinsics", extrinsics, (None, 4), finite=True).astype(float)
+        k = arguments.doubles("K", K, (3, 3), finite=True)
+        out = arguments.doubles("extrinsics", extrinsics, (None, 4), finite=True)
         if len(out) not in (3, 4) or k[0, 0] == 0 or k[1, 1] == 0:
             raise Error("extrinsics must be 3 x 4 or 4 x 4, and the focal lengths of K not 0")
         view = np.eye(4)
@@ -82,7 +100,7 @@ class Camera:
     @staticmethod
     def opengl(projection: object, pose: object) -> Camera:
         """A camera of OpenGL matrices: pose takes the camera to the world, as in pyrender."""
-        place = arguments.floats("pose", pose, (4, 4), finite=True).astype(float)
+        place = arguments.doubles("pose", pose, (4, 4), finite=True)
         if abs(np.linalg.det(place)) < 1e-6:
             raise Error("pose must be a rotation and a translation")
         return Camera(np.linalg.inv(place), np.asarray(projection))
@@ -127,16 +145,14 @@ def direction(view: Viewpoint, up: str) -> tuple[Matrix, Matrix]:
     a, e = math.radians(azimuth), math.radians(elevation)
     back = np.array([math.sin(a) * math.cos(e), -math.cos(a) * math.cos(e), math.sin(e)])
     head = np.array([-math.sin(a) * math.sin(e), math.cos(a) * math.sin(e), math.cos(e)])
-    if arguments.choice("up", up, ("y", "z")) == "y":
-        order = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
-        return order @ back, order @ head
-    return back, head
+    frame = UPRIGHT[arguments.choice("up", up, list(UPRIGHT))]
+    return frame @ back, frame @ head
 
 
 def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640, 480),
            up: str = "z", ortho: bool = False, fov: float = 28.0, margin: float = 1.08,
-           room: float = 0.0) -> Camera:
-    """The nearest camera that sees all points from a side.
+           room: float = 0.0, origin: Matrix | None = None) -> Camera:
+    """The nearest camera that sees all points, which count from an origin, from a side.
 
     Each side of the picture gives one bound on the eye, linear in a point's coordinates; their
     extremes give the distance and the shift that centres.  room is how much deeper than the points
@@ -155,7 +171,7 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     reach = max(float(np.linalg.norm(high - low)), float(np.abs(p).max()) * 1e-6, 1e-6)
     slopes = (slope * size[0] / size[1], slope)
     if flat:
-        return _orthographic(turn, low, high, size, margin, reach)
+        return _moved(_orthographic(turn, low, high, size, margin, reach), origin)
     shift, least = [0.0, 0.0], 0.0
     for axis in (0, 1):
         above = float((p[:, axis] + slopes[axis] * p[:, 2]).max())
@@ -170,7 +186,17 @@ def fitted(points: Floats, view: Viewpoint = "iso", size: tuple[int, int] = (640
     near = distance - float(high[2]) - room * reach
     far = distance - float(low[2]) + room * reach
     near = max(0.9 * near, 1e-4 * far if room == 0 else 0.01 * far)
-    return Camera(view_matrix, perspective(fov, size[0] / size[1], near, 1.1 * far + 1e-3 * reach))
+    made = Camera(view_matrix, perspective(fov, size[0] / size[1], near, 1.1 * far + 1e-3 * reach))
+    return _moved(made, origin)
+
+
+def _moved(camera: Camera, origin: Matrix | None) -> Camera:
+    """The camera in the world of one that was made for points which count from an origin."""
+    if origin is None or not np.any(origin):
+        return camera
+    view = camera.view.copy()
+    view[:3, 3] -= view[:3, :3] @ origin
+    return Camera(view, camera.projection, (np.array(origin), camera.view))
 
 
 def _orthographic(turn: Matrix, low: Matrix, high: Matrix, size: tuple[int, int], margin: float,
@@ -200,7 +226,7 @@ def studio(points: Floats, camera: Camera, up: str) -> Matrix:
     good = good if len(good) else np.zeros((1, 3))
     middle = (good.min(0) + good.max(0)) / 2
     size = max(float(np.linalg.norm(good - middle, axis=1).max()), 1e-12)
-    y = np.array([0.0, 0, 1] if up == "z" else [0.0, 1, 0])
+    y = UPRIGHT[up][:, 2]
     x = camera.view[0, :3] - camera.view[0, :3] @ y * y
     if np.linalg.norm(x) < 1e-3:
         x = camera.view[1, :3] - camera.view[1, :3] @ y * y

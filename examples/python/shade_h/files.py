@@ -2,16 +2,25 @@
 from __future__ import annotations
 
 import ctypes
+import io
 import os
+import re
+import warnings
 from importlib import import_module
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 
 from ._arguments import shown
-from ._native import Error, library, pointer
-from .mesh import Mesh
-from .picture import Picture
+from ._native import Array, Bytes, Error, Run, library, pointer
+from .mesh import Mesh, Surface, origin_of
+from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
+
+MODEL_BYTES = 4_000_000_000
+AXES = ("x", "y", "z", "-x", "-y", "-z")
+#: The lines of text that have positions: of OBJ, and of STL.
+POSITIONS = {b"v": re.compile(rb"(?mi)^([ \t]*v[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)"),
+             b"vertex": re.compile(rb"(?mi)^([ \t]*vertex[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)")}
 
 
 def _copied(address: int | None, count: int, columns: int, kind: Any) -> Any:
@@ -23,73 +32,118 @@ def _copied(address: int | None, count: int, columns: int, kind: Any) -> Any:
 
 def _display(linear: Any) -> Any:
     """Display colours, as Mesh takes them, of linear ones."""
-    return np.where(linear <= 0.0031308, 12.92 * linear,
-                    1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
+    out = np.where(linear <= 0.0031308, 12.92 * linear,
+                   1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
+    return np.clip(np.nan_to_num(out), 0, 1)
 
 
-def _tints(owned: Any, faces: int) -> Any:
-    """The display colour of each face's surface, or None where the file says nothing."""
-    tints = np.zeros((faces, 3), np.float32)
-    return _display(tints) if library.python_tints(owned, pointer(tints)) else None
+# ---- pictures on surfaces ------------------------------------------------------------------------
+
+def decoded(data: bytes, name: str) -> Bytes:
+    """RGBA of the bytes of a picture: PNG as it is, other kinds where Pillow is installed."""
+    if data.startswith(SIGNATURE):
+        try:
+            return Picture.open(io.BytesIO(data)).rgba
+        except Error:
+            pass    # palettes, 16 bits and interlaced files are for Pillow
+    try:
+        image = import_module("PIL.Image").open(io.BytesIO(data))
+        if image.size[0] * image.size[1] > PIXELS:
+            raise Error(f"{name} has {image.size[0]} x {image.size[1]} pixels; "
+                        f"at most {PIXELS} are read")
+        return np.asarray(image.convert("RGBA"))
+    except ImportError:
+        raise Error(f"{name} needs Pillow, which is not installed") from None
+    except Error:
+        raise
+    except Exception as why:    # whatever Pillow raises for a damaged file
+        raise Error(f"{name} cannot be read: {type(why).__name__}") from None
 
 
-def _image(model: str, name: str) -> Any:
-    """The pixels of a picture beside the model; None where it cannot be read."""
+def _image(model: str, name: str) -> Bytes | None:
+    """The pixels of a picture beside the model; None, with a warning, where it cannot be read."""
     folder, words = os.path.dirname(model), name.replace("\\", "/")
+    why = f"{words} is missing"
     for path in (os.path.join(folder, words), os.path.join(folder, os.path.basename(words))):
         try:
-            return Picture.open(path).rgba
-        except (OSError, Error):
+            return decoded(read_file(path, PICTURE_BYTES), words)
+        except FileNotFoundError:
             pass
-        try:
-            pillow = import_module("PIL.Image")    # for JPEG and the rest, where there is Pillow
-            return np.asarray(pillow.open(path).convert("RGBA"))
-        except (ImportError, OSError, ValueError):
-            pass
+        except (OSError, Error) as reason:
+            why = str(reason)
+    _warn(f"{model}: {why}; its faces are drawn without it")
     return None
+
+
+def _warn(words: str) -> None:
+    warnings.warn(words, stacklevel=4)
+
+
+# ---- OBJ, STL and PLY, by the reader of the programs ---------------------------------------------
+
+def _runs(owned: Any) -> list[Any]:
+    """The runs of triangles of one surface."""
+    runs = [Run() for _ in range(library.python_part_of(owned, -1, None))]
+    for i, run in enumerate(runs):
+        library.python_part_of(owned, i, ctypes.byref(run))
+    return runs
 
 
 def _surfaces(owned: Any, model: str, faces: int, uv: Any) -> dict[str, Any]:
     """What the file says of its surfaces, as options of Mesh."""
-    tints, name = _tints(owned, faces), library.python_map(owned)
-    out: dict[str, Any] = {} if tints is None else {"color": tints}
-    image = _image(model, os.fsdecode(name)) if name and uv is not None else None
-    if image is not None:
-        out.update(uv=np.stack([uv[:, 0], 1 - uv[:, 1]], 1), texture=image)
+    runs = _runs(owned)
+    tints = np.zeros((faces, 3), np.float32)
+    number, looks = np.zeros(faces, int), [Surface()]
+    known: dict[tuple[Any, ...], int] = {(None, 0.0, True): 0}
+    images: dict[Any, Any] = {}
+    for run in runs:
+        where = slice(run.first // 3, (run.first + run.count) // 3)
+        tints[where] = run.color[:]
+        name = run.map if uv is not None else None
+        if name is not None and name not in images and len(images) < 256:
+            images[name] = _image(model, os.fsdecode(name))
+        image = images.get(name)
+        key = (name if image is not None else None, run.transparency, bool(run.opaque))
+        if image is None and not run.transparency:
+            continue
+        if key not in known:
+            known[key] = len(looks)
+            holes = image is not None and not run.opaque
+            looks.append(Surface(None, image, blend=run.transparency > 0,
+                                 opacity=1 - run.transparency,
+                                 cutoff=0.5 if holes and not run.transparency else 0.0))
+        number[where] = known[key]
+    out: dict[str, Any] = {}
+    if any(run.set for run in runs):
+        out["color"] = _display(tints)
+    if len(looks) > 1:
+        if any(look.texture is not None for look in looks):
+            out["uv"] = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
+        out["surfaces"] = number, looks
     return out
 
 
-def load(path: Union[str, "os.PathLike[str]"], **options: Any) -> Mesh:
-    """Reads an STL (binary or text), OBJ or PLY file.  options are those of Mesh.
-
-    Without a color or texture of their own meshes have those of the file: colours by vertex, or the
-    diffuse colours of OBJ's MTL, with their picture where all surfaces have the same.
-
-    Raises OSError where the file cannot be opened, and Error with the line where it is wrong.
-    """
-    try:
-        name = os.fsencode(path)
-    except TypeError:
-        raise Error(f"path must be a path, not {shown(path)}") from None
-    if b"\0" in name:
-        raise Error("path must not contain a zero byte")
-    with open(name, "rb"):
-        pass
+def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, Any]]:
+    """Vertices and faces, and options of Mesh."""
     words = ctypes.create_string_buffer(400)
-    owned = library.python_load(name, words, len(words))
+    title = os.fsencode(name)
+    owned = library.python_read(data, len(data), title, path, words, len(words))
     if not owned:
         raise Error(words.value.decode("utf-8", "replace") or "out of memory")
     try:
         view, own = owned.contents.view, owned.contents
         vertices = _copied(own.positions, view.vertex_count, 3, ctypes.c_float)
         faces = _copied(own.indices, view.index_count // 3, 3, ctypes.c_uint)
+        if vertices is None or faces is None:
+            raise Error(f"{name} has no triangles")
         colors = _copied(own.colors, view.vertex_count, 3, ctypes.c_float)
         uv = _copied(own.texcoords, view.vertex_count, 2, ctypes.c_float)
-        found = _surfaces(owned, os.fsdecode(name), view.index_count // 3, uv)
+        found = _surfaces(owned, name, len(faces), uv)
+        found["up"] = AXES[library.python_upright(owned)]
+        if library.python_warning(owned):
+            _warn(library.python_warning(owned).decode("utf-8", "replace"))
     finally:
         library.python_unload(owned)
-    if vertices is None or faces is None:
-        raise Error(f"{os.fsdecode(name)} has no triangles")
     if colors is not None:
         found["color"] = _display(colors)
     elif "color" in found and len(faces) == len(vertices):
@@ -97,5 +151,109 @@ def load(path: Union[str, "os.PathLike[str]"], **options: Any) -> Mesh:
         vertices = np.concatenate([vertices, vertices[:1]])
         if "uv" in found:
             found["uv"] = np.concatenate([found["uv"], found["uv"][:1]])
-    plain = options.get("color") is not None or options.get("texture") is not None
-    return Mesh(vertices, faces, **{**({} if plain else found), **options})
+    return (vertices, faces), found
+
+
+def _number(text: bytes) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")
+
+
+def _moved_text(data: bytes, origin: Array, word: bytes) -> bytes:
+    """The text with positions that count from an origin, in double precision."""
+    def line(found: re.Match[bytes]) -> bytes:
+        moved = [_number(found[k + 2]) - origin[k] for k in range(3)]
+        return found[1] + b" ".join(repr(float(v)).encode() for v in moved) \
+            if np.isfinite(moved).all() else found[0]
+
+    return POSITIONS[word].sub(line, data)
+
+
+def _moved_ply(data: bytes, origin: Array) -> bytes | None:
+    """A PLY file whose first element is vertices with x, y and z in double, moved to an origin."""
+    end = re.search(rb"end_header[^\n]*\n", data)
+    head = re.findall(rb"(?m)^(format|element|property)\s+(\S+)\s+([^\r\n]*)", data[:end.end()]) \
+        if end else []
+    if end is None or len(head) < 2 or head[1][:2] != (b"element", b"vertex"):
+        return None
+    mark = {b"binary_little_endian": "<", b"binary_big_endian": ">", b"ascii": ""}.get(head[0][1])
+    kinds = {b"double": "f8", b"float64": "f8", b"float": "f4", b"float32": "f4", b"int": "i4",
+             b"uint": "u4", b"int32": "i4", b"uint32": "u4", b"short": "i2", b"ushort": "u2",
+             b"int16": "i2", b"uint16": "u2", b"char": "i1", b"uchar": "u1", b"int8": "i1",
+             b"uint8": "u1"}
+    rows = [(kind, name.strip()) for what, kind, name in
+            head[2:next((i for i, h in enumerate(head) if i > 1 and h[0] == b"element"),
+                        len(head))]]
+    names = [name for _, name in rows]
+    count = _number(head[1][2])
+    if mark is None or not {b"x", b"y", b"z"} <= set(names) or count != count or \
+            any(kind not in kinds for kind, _ in rows):
+        return None
+    start, count = end.end(), int(count)
+    places = [names.index(axis) for axis in (b"x", b"y", b"z")]
+    if not mark:
+        lines = data[start:].split(b"\n", count)
+        for i in range(min(count, len(lines))):
+            words = lines[i].split()
+            for k, place in enumerate(places):
+                if place < len(words):
+                    words[place] = repr(_number(words[place]) - float(origin[k])).encode()
+            lines[i] = b" ".join(words)
+        return data[:start] + b"\n".join(lines)
+    kind = np.dtype([(f"p{i}", mark + kinds[k]) for i, (k, _) in enumerate(rows)])
+    if start + count * kind.itemsize > len(data):
+        return None
+    values = np.frombuffer(data, kind, count, start).copy()
+    for k, place in enumerate(places):
+        values[f"p{place}"] -= origin[k]
+    return data[:start] + values.tobytes() + data[start + count * kind.itemsize:]
+
+
+def _far(data: bytes, name: str, path: bytes | None, first: Any) -> Any:
+    """Reads a file again whose positions lie so far from the origin that floats lose what they
+    tell: they are centred in double first.  None where the file itself has floats."""
+    vertices = first[0][0].astype(np.float64)
+    origin = origin_of(vertices.min(0), vertices.max(0))
+    if not np.isfinite(origin).all() or not origin.any():
+        return None
+    binary = data[84:] and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
+    if data[:3] == b"ply":
+        moved = _moved_ply(data, origin)
+    else:
+        moved = None if binary else _moved_text(
+            data, origin, b"vertex" if first[1]["up"] == "z" and b"facet" in data[:2000] else b"v")
+    if moved is None:
+        return None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")    # each was told once
+        (near, faces), found = _read(moved, name, path)
+    return (near + origin, faces), found
+
+
+# ---- all -----------------------------------------------------------------------------------------
+
+def load(path: Any, **options: Any) -> Mesh:
+    """Reads an STL (binary or text), OBJ or PLY file: a path, or a file open for bytes.
+    options are those of Mesh.
+
+    Without a color or texture of their own meshes have those of the file: colours by vertex, or the
+    diffuse colours, pictures and transparency of OBJ's MTL.  What is missing there is a warning.
+
+    Raises OSError where the file cannot be opened, and Error with the line where it is wrong.
+    """
+    beside: bytes | None = None
+    if callable(getattr(path, "read", None)):
+        data, name = path.read(), "model"
+        if not isinstance(data, bytes):
+            raise Error(f"path must be open for bytes, not for {type(data).__name__}")
+    else:
+        data = read_file(path, MODEL_BYTES)
+        name, beside = os.fsdecode(path), os.fsencode(path)
+    made = _read(data, name, beside)
+    (vertices, faces), found = _far(data, name, beside, made) or made
+    plain = any(options.get(k) is not None for k in ("color", "texture", "surfaces"))
+    if plain:
+        found = {"up": found["up"]}
+    return Mesh(vertices, faces, **{**found, **options})

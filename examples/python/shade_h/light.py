@@ -102,7 +102,8 @@ class Light:
               attenuation: Sequence[float] = (0, 0, 0)) -> Light:
         """A lamp at a position; attenuation is a, b, c of 1 / (a + b r + c r^2)."""
         a, b, c = _vector("attenuation", attenuation)
-        return Light((*_vector("position", position), 1.0), color, color, BLACK, a, b, c)
+        place = arguments.doubles("position", position, (3,), finite=True).tolist()
+        return Light((*place, 1.0), color, color, BLACK, a, b, c)
 
     @staticmethod
     def spot(position: Vector, aim: Vector, cutoff: float, exponent: float = 0.0,

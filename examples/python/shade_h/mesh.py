@@ -3,17 +3,84 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Iterable, Union
+from dataclasses import dataclass
+from typing import Any, Iterable, Sequence, Union
 
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import (Array, Bytes, Chunk, Edge, Error, Floats, Indices, Texture, check, library,
-                      pointer)
+from ._native import (Array, Bytes, Chunk, Doubles, Edge, Error, Floats, Indices, Texture, check,
+                      library, pointer)
 from ._native import Mesh as NativeMesh
+from .camera import UPRIGHT
+from .light import Material
 
 CREASE_TRIANGLES = 200_000
 COS_CREASE = 0.766    # faces that meet at less than 40 degrees are rounded
+
+
+def origin_of(low: Doubles, high: Doubles) -> Doubles:
+    """From where coordinates in a box are counted, so that floats keep their digits: zero, or for a
+    box far away a round number near it, of which doubles subtract without rounding."""
+    middle, extent = (low + high) / 2, float((high - low).max())
+    if not np.isfinite(middle).all() or np.abs(middle).max() <= 16 * extent:
+        return np.zeros(3)
+    step = 10.0 ** np.ceil(np.log10(extent)) if extent > 0 else 1.0
+    return np.asarray(np.round(middle / step) * step)
+
+
+def _box(points: Doubles) -> tuple[Doubles, Doubles]:
+    """The box around the points that are finite and fit floats."""
+    with np.errstate(invalid="ignore"):
+        good = (np.abs(points) <= 1e30).all(1)
+    some = points if good.all() else points[good]
+    return (some.min(0), some.max(0)) if len(some) else (np.zeros(3), np.zeros(3))
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
+    4), or None.  With blend the alpha of the texture times opacity shows what is behind; with a
+    cutoff texels of less alpha are holes; else alpha is ignored."""
+
+    material: Material | None = None
+    texture: object = None
+    blend: bool = False
+    opacity: float = 1.0
+    cutoff: float = 0.0
+
+
+class Piece:
+    """A run of a mesh's triangles with one surface, as the library has it."""
+
+    def __init__(self, mesh: Mesh, surface: Surface, first: int, count: int,
+                 texture: Bytes | None) -> None:
+        """Triangles first to first + count."""
+        self.surface, self.first, self.count, self.texture = surface, first, count, texture
+        self.mesh = mesh.native(self)
+        self.map = self._make_map()
+        self._make_chunks()
+
+    def _make_chunks(self) -> None:
+        count = library.shade_chunk_count(3 * self.count, 0)
+        if count < 8:
+            return
+        self.chunks = (Chunk * count)()
+        check(library.shade_mesh_chunks(ctypes.byref(self.mesh), 0, self.chunks, count, None),
+              "faces")
+        self.mesh.chunks, self.mesh.chunk_count = ctypes.addressof(self.chunks), count
+
+    def _make_map(self) -> Any:
+        """The texture with its mipmaps."""
+        if self.texture is None:
+            return None
+        h, w = self.texture.shape[:2]
+        out = Texture(pixels=pointer(self.texture), width=w, height=h, srgb=1, filter=2)
+        self._mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
+        self._levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
+        check(library.shade_build_mipmaps(ctypes.byref(out), self._levels, pointer(self._mipmaps),
+                                          self._mipmaps.size), "texture")
+        return out
 
 
 class Mesh:
@@ -23,32 +90,94 @@ class Mesh:
     face, as display colours 0 .. 1 or bytes.  normals is (n, 3), or "auto": rounded where faces
     meet at less than 40 degrees (beyond 200,000 triangles "flat"), "smooth" or "flat".  uv is
     (n, 2) with v upward, as in OBJ files, and needs a texture, (h, w, 3 or 4).
+
+    surfaces, a pair of one number a face (0, 1, ...; of triangles or of polygons, as faces has
+    them) and a list of Surface, takes the place of texture where there are several.  up is the
+    upright axis that views count on, None for z.
     """
 
     def __init__(self, vertices: object, faces: object, *, color: object = None,
-                 normals: object = "auto", uv: object = None, texture: object = None) -> None:
+                 normals: object = "auto", uv: object = None, texture: object = None,
+                 surfaces: tuple[object, Sequence[Surface]] | None = None,
+                 up: str | None = None) -> None:
         """Refuses arrays of a wrong shape, type or size by their names."""
-        self.vertices = arguments.floats("vertices", points(vertices), (None, 3))
-        self.faces = arguments.faces("faces", _listed(faces), len(self.vertices))
+        exact = arguments.array("vertices", points(vertices), (None, 3))
+        self.origin = np.zeros(3)
+        if exact.dtype.itemsize > 4 and len(exact):
+            exact = exact.astype(np.float64)
+            self.origin = origin_of(*_box(exact))
+            exact = exact - self.origin if self.origin.any() else exact
+        self.local = arguments.floats("vertices", exact, (None, 3))
+        self.faces = arguments.faces("faces", _listed(faces), len(self.local))
         if not len(self.faces):
             self.faces = self.faces.reshape(0, 3)
+        self.up = None if up is None else arguments.choice("up", up, list(UPRIGHT))
+        order, runs, looks = self._sorted(surfaces, np.asarray(_listed(faces)), texture)
+        if order is not None:
+            self.faces = np.ascontiguousarray(self.faces[order])
+            tints = None if isinstance(color, str) else np.asarray(color)
+            if tints is not None and tints.ndim == 2 and len(tints) == len(order) and \
+                    len(order) != len(self.local):
+                color = tints[order]
         self.color: tuple[float, float, float] | None = None
         self.colors: Floats | None = None
-        self.positions, self.indices = self.vertices, self.faces
+        self.positions, self.indices = self.local, self.faces
         self.normals: Floats | None = None
         self.uv: Floats | None = None
         self.texture: Bytes | None = None
-        self._edges: Array | None = None
+        self._edges: tuple[Array, Doubles] | None = None
+        self._radius: float | None = None
         by_face = self._take_color(color)
-        if (uv is None) != (texture is None):
+        if surfaces is None and (uv is None) != (texture is None):
             raise Error("uv and texture belong together: one of them is missing")
         if uv is not None:
-            self.uv = arguments.floats("uv", uv, (len(self.vertices), 2)) 
+            self.uv = arguments.floats("uv", uv, (len(self.local), 2))
             self.uv = np.stack([self.uv[:, 0], 1 - self.uv[:, 1]], 1)
-            self.texture = arguments.texture("texture", texture)
+        maps = [None if look.texture is None else arguments.texture("texture", look.texture)
+                for look in looks]
+        for look, picture in zip(looks, maps):
+            if surfaces is not None and picture is not None and not look.blend and not look.cutoff:
+                picture[:, :, 3] = 255
+        if self.uv is None and any(m is not None for m in maps):
+            raise Error("uv is missing: a surface has a texture")
+        self.texture = maps[0] if len(maps) == 1 else None
         self._take_normals(normals, by_face)
-        self._chunks = self._make_chunks()
-        self._map = self._make_map()
+        self.pieces = [Piece(self, look, first, count, picture)
+                       for look, (first, count), picture in zip(looks, runs, maps)]
+
+    def _sorted(self, surfaces: Any, faces: Array, texture: object) -> tuple[Any, Any, Any]:
+        """The order of the triangles by their surfaces, None for that of faces; of each surface
+        its first triangle and how many there are; and the surfaces."""
+        if surfaces is None:
+            return None, [(0, len(self.faces))], [Surface(None, texture, cutoff=0.0)]
+        try:
+            numbers, looks = surfaces
+        except (TypeError, ValueError):
+            raise Error("surfaces must be a pair: a number for each face, a list of Surface") \
+                from None
+        if not looks or not all(isinstance(look, Surface) for look in looks):
+            raise Error("surfaces[1] must hold one shade_h.Surface or more")
+        number = arguments.array("surfaces[0]", numbers, (len(faces),))
+        if number.dtype.kind not in "iu" or \
+                number.size and not 0 <= number.min() <= number.max() < len(looks):
+            raise Error(f"surfaces[0] must hold whole numbers from 0 to {len(looks) - 1}")
+        if len(self.faces) != len(faces):
+            number = np.repeat(number, len(self.faces) // max(1, len(faces)))
+        order = np.argsort(number, kind="stable")
+        count = np.bincount(number, minlength=len(looks)).tolist()
+        first = np.cumsum([0, *count])[:-1].tolist()
+        return order, list(zip(first, count)), list(looks)
+
+    @property
+    def vertices(self) -> Array:
+        """(n, 3), in the coordinates of the caller: float32, or float64 far from the origin."""
+        return self.local + self.origin if self.origin.any() else self.local
+
+    def __repr__(self) -> str:
+        """Says how many triangles there are, and how large the box around them is."""
+        low, high = _box(self.drawn_vertices().astype(np.float64))
+        sides = " x ".join(f"{side:.6g}" for side in high - low)
+        return f"<shade_h.Mesh of {len(self.faces)} triangles, {sides}>"
 
     def _take_color(self, color: object) -> bool:
         """Returns whether there is a colour by face."""
@@ -60,11 +189,11 @@ class Mesh:
             self.color = arguments.color("color", color)
             return False
         self.colors = arguments.linear("color", color)
-        if len(self.colors) == len(self.vertices):
+        if len(self.colors) == len(self.local):
             return False
         if len(self.colors) == len(self.faces):
             return True
-        raise Error(f"color must have a row for each of {len(self.vertices)} vertices or "
+        raise Error(f"color must have a row for each of {len(self.local)} vertices or "
                     f"{len(self.faces)} faces, not {len(self.colors)}")
 
     def _take_normals(self, normals: object, by_face: bool) -> None:
@@ -74,11 +203,11 @@ class Mesh:
             if kind == "auto" and 0 < len(self.faces) <= CREASE_TRIANGLES:
                 own = self._creased()
             if kind == "smooth" and len(self.faces):
-                self.normals = np.empty_like(self.vertices)
+                self.normals = np.empty_like(self.local)
                 native = ctypes.byref(self.native())
                 check(library.shade_mesh_normals(native, pointer(self.normals)), "normals")
         elif normals is not None:
-            self.normals = arguments.floats("normals", normals, self.vertices.shape)
+            self.normals = arguments.floats("normals", normals, self.local.shape)
         flat = own is None and self.normals is None
         if flat:
             own = self._flat()
@@ -100,7 +229,7 @@ class Mesh:
             index, made = self._welded(corner, own, by_face)
             own = None if own is None else own[made]
         vertex = corner[made]
-        self.positions, self.indices = self.vertices.take(vertex, 0), index.reshape(-1, 3)
+        self.positions, self.indices = self.local.take(vertex, 0), index.reshape(-1, 3)
         self.normals = own if own is not None else None if self.normals is None \
             else self.normals.take(vertex, 0)
         self.uv = None if self.uv is None else self.uv.take(vertex, 0)
@@ -114,7 +243,7 @@ class Mesh:
                               if by_face and self.colors is not None else None) if v is not None]
         value = np.ascontiguousarray(np.concatenate(values, 1) if len(values) > 1 else values[0])
         index, made, link = (np.empty(len(corner), np.uint32) for _ in range(3))
-        first = np.full(len(self.vertices), -1, np.int32)
+        first = np.full(len(self.local), -1, np.int32)
         count = library.python_weld(pointer(corner), len(corner), pointer(value), value.shape[1],
                                     pointer(index), pointer(made), pointer(first), pointer(link))
         return index, made[:count]
@@ -130,94 +259,77 @@ class Mesh:
                                                 memory.size), "normals")
         return out
 
+    @property
+    def radius(self) -> float:
+        """How far from the mesh's origin its box reaches."""
+        if self._radius is None:
+            sides = np.abs(_box(self.drawn_vertices().astype(np.float64)))
+            self._radius = float(sides.max()) * 3**0.5
+        return self._radius
+
     def drawn_vertices(self) -> Floats:
-        """The vertices that faces have."""
-        used = np.zeros(len(self.vertices), bool)
+        """The vertices that faces have, which count from the mesh's origin."""
+        used = np.zeros(len(self.local), bool)
         used[self.faces.reshape(-1)] = True
-        out: Floats = self.vertices if used.all() else self.vertices[used]
+        out: Floats = self.local if used.all() else self.local[used]
         return out
 
-    def native(self) -> Any:
-        """The struct of the library, which points into this mesh."""
-        chunks = getattr(self, "_chunks", None)
-        mesh = NativeMesh(
+    def native(self, piece: Piece | None = None) -> Any:
+        """The struct of the library, which points into this mesh: all of it, or a piece."""
+        indices = self.indices
+        if piece is not None:
+            indices = indices[piece.first:piece.first + piece.count]
+        return NativeMesh(
             positions=pointer(self.positions), normals=pointer(self.normals),
             texcoords=pointer(self.uv), colors=pointer(self.colors),
-            vertex_count=len(self.positions), indices=pointer(self.indices),
-            index_count=self.indices.size)
-        if chunks is not None:
-            mesh.chunks, mesh.chunk_count = ctypes.addressof(chunks), len(chunks)
-        return mesh
+            vertex_count=len(self.positions), indices=pointer(indices),
+            index_count=indices.size)
 
-    def _make_chunks(self) -> Any:
-        count = library.shade_chunk_count(self.indices.size, 0)
-        if count < 8:
-            return None
-        chunks = (Chunk * count)()
-        native = ctypes.byref(self.native())
-        check(library.shade_mesh_chunks(native, 0, chunks, count, None), "faces")
-        return chunks
-
-    def _make_map(self) -> Any:
-        """The texture with its mipmaps."""
-        if self.texture is None:
-            return None
-        h, w = self.texture.shape[:2]
-        out = Texture(pixels=pointer(self.texture), width=w, height=h, srgb=1, filter=2)
-        self._mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
-        self._levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
-        check(library.shade_build_mipmaps(ctypes.byref(out), self._levels, pointer(self._mipmaps),
-                                          self._mipmaps.size), "texture")
-        return out
-
-    def map(self) -> Any:
-        """The texture as the library has it, or None."""
-        return self._map
-
-    def edges(self) -> Array:
-        """Each edge once, with its faces, where vertices of one position count as one."""
+    def edges(self) -> tuple[Array, Doubles]:
+        """Each edge once, with its faces, where vertices of one position count as one, and the
+        normals of faces.  Threads may compute them twice, but see them whole or not at all."""
         if self._edges is None:
-            bits = np.ascontiguousarray(self.vertices + np.float32(0)).view(np.uint32)
+            bits = np.ascontiguousarray(self.local + np.float32(0)).view(np.uint32)
             _, first, place = np.unique(bits, axis=0, return_index=True, return_inverse=True)
             welded = np.ascontiguousarray(first[place.reshape(-1)][self.faces], np.uint32)
             good = (welded[:, 0] != welded[:, 1]) & (welded[:, 1] != welded[:, 2]) & \
                 (welded[:, 0] != welded[:, 2])
             welded = np.ascontiguousarray(welded[good])
-            mesh = NativeMesh(positions=pointer(self.vertices), vertex_count=len(self.vertices),
+            mesh = NativeMesh(positions=pointer(self.local), vertex_count=len(self.local),
                               indices=pointer(welded), index_count=welded.size)
             room, count = (Edge * max(1, welded.size))(), ctypes.c_int()
             if welded.size:
                 check(library.shade_mesh_edges(ctypes.byref(mesh), room, welded.size,
                                                ctypes.byref(count)), "faces")
-            self._edges = np.ctypeslib.as_array(room).view(np.int32).reshape(-1, 4)[:count.value]
-            self._normals_of_edges(welded)
+            edges = np.ctypeslib.as_array(room).view(np.int32).reshape(-1, 4)[:count.value]
+            self._edges = edges, self._face_normals(welded)
         return self._edges
 
-    def _normals_of_edges(self, welded: Indices) -> None:
-        p = self.vertices[welded].astype(np.float64)
-        self._face_normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    def _face_normals(self, welded: Indices) -> Doubles:
+        p = self.local[welded].astype(np.float64)
         with np.errstate(all="ignore"):
-            self._face_normals /= np.linalg.norm(self._face_normals, axis=1, keepdims=True)
-        self._centres = p[:, 0]
+            normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+            normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        return np.asarray(normals)
 
     def drawn_edges(self, eye: Floats, ortho_back: Floats | None, angle: float = 30.0) -> Floats:
-        """Pairs of points of the edges that an illustrator draws from an eye in object space:
-        silhouettes, creases sharper than the angle, and boundaries."""
-        edges = self.edges()
+        """Pairs of points of the edges that an illustrator draws from an eye: silhouettes, creases
+        sharper than the angle, and boundaries.  Eye and points count from the mesh's origin."""
+        edges, normals = self.edges()
         if not len(edges):
             return np.empty((0, 3), np.float32)
         a, b, f, g = edges.T
-        n0, n1 = self._face_normals[f], self._face_normals[g]
-        to_eye = eye - self.vertices[a] if ortho_back is None else ortho_back
+        n0, n1 = normals[f], normals[g]
+        to_eye = eye - self.local[a] if ortho_back is None else ortho_back
         with np.errstate(all="ignore"):
             outline = (n0 * to_eye).sum(1) * (n1 * to_eye).sum(1) <= 0
             crease = (n0 * n1).sum(1) <= np.cos(np.radians(angle))
         keep = (g < 0) | outline | crease
-        pairs = self.vertices[np.stack([a[keep], b[keep]], 1)].reshape(-1, 3)
+        pairs = self.local[np.stack([a[keep], b[keep]], 1)].reshape(-1, 3)
         return np.ascontiguousarray(pairs, np.float32)
 
 
-Like = Union[Mesh, "os.PathLike[str]", str, Any]
+Like = Union[Mesh, "os.PathLike[str]", str, bytes, Any]
 
 
 def _point(p: object) -> object:
@@ -273,7 +385,7 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return value
     if isinstance(value, Mesh):
         return Mesh(value.vertices, value.faces, **options)
-    if isinstance(value, (str, os.PathLike)):
+    if isinstance(value, (str, bytes, os.PathLike)) or callable(getattr(value, "read", None)):
         from .files import load
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:

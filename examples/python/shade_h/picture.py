@@ -4,8 +4,9 @@ from __future__ import annotations
 import os
 import struct
 import zlib
+import stat
 from pathlib import Path
-from typing import Union
+from typing import Any, Union
 
 import numpy as np
 
@@ -13,7 +14,9 @@ from ._arguments import array, shown
 from ._native import Bytes, Error, Floats, Integers
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
-File = Union[str, "os.PathLike[str]"]
+File = Union[str, bytes, "os.PathLike[str]"]
+PICTURE_BYTES = 500_000_000
+PIXELS = 2**27
 
 
 class Picture:
@@ -43,7 +46,19 @@ class Picture:
 
     def __repr__(self) -> str:
         """Says the size."""
-        return f"<shade_h.Picture {self.size[0]} x {self.size[1]}>"
+        covered = float((self.ids >= 0).mean())
+        return f"<shade_h.Picture {self.size[0]} x {self.size[1]}, {covered:.0%} covered>"
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        """numpy.asarray(picture) is its bytes, (H, W, 4)."""
+        if dtype is not None and np.dtype(dtype) != np.uint8:
+            return self.rgba.astype(dtype)
+        return self.rgba.copy() if copy else self.rgba
+
+    @property
+    def blank(self) -> bool:
+        """Is there no part in the picture?"""
+        return not bool((self.ids >= 0).any())
 
     def png(self) -> bytes:
         """The bytes of a PNG file: RGB where every pixel is opaque, else RGBA."""
@@ -55,12 +70,13 @@ class Picture:
         """Shows the picture in a notebook."""
         return self.png()
 
-    def save(self, path: File) -> None:
-        """Writes a PNG file, which appears whole or not at all."""
-        try:
-            target = Path(path)
-        except TypeError:
-            raise Error(f"path must be a path, not {shown(path)}") from None
+    def save(self, path: Any) -> None:
+        """Writes a PNG file, which appears whole or not at all; or its bytes into a file that is
+        open for them.  A path must end in .png, so that no model is taken for a picture."""
+        if callable(getattr(path, "write", None)):
+            path.write(self.png())
+            return
+        target = png_path("path", path)
         beside = target.with_name(f"{target.name}.{os.getpid()}.part")
         try:
             beside.write_bytes(self.png())
@@ -72,12 +88,11 @@ class Picture:
                 beside.unlink(missing_ok=True)
 
     @staticmethod
-    def open(path: File) -> Picture:
-        """Reads a PNG file of 8-bit RGB or RGBA that is not interlaced."""
-        try:
-            return Picture(_decode(Path(path).read_bytes(), str(path)))
-        except TypeError:
-            raise Error(f"path must be a path, not {shown(path)}") from None
+    def open(path: Any) -> Picture:
+        """Reads a PNG file of 8-bit RGB or RGBA that is not interlaced: a path, or an open file."""
+        if callable(getattr(path, "read", None)):
+            return Picture(_decode(path.read(), "the file"))
+        return Picture(_decode(read_file(path, PICTURE_BYTES), os.fsdecode(path)))
 
     def __eq__(self, other: object) -> bool:
         """Are all pixels the same?"""
@@ -94,6 +109,35 @@ class Picture:
                         f"not {other.size[0]} x {other.size[1]}")
         apart = np.abs(self.rgba.astype(np.int32) - other.rgba.astype(np.int32))
         return np.asarray(apart.max(2), np.int32)
+
+
+def read_file(path: Any, most: int) -> bytes:
+    """The bytes of a regular file of at most so many: a device would not end, a pipe would wait."""
+    try:
+        name = os.fsdecode(path)
+    except TypeError:
+        raise Error(f"path must be a path, not {shown(path)}") from None
+    if "\0" in name:
+        raise Error("path must not contain a zero byte")
+    file = os.open(name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(file, "rb") as opened:
+        there = os.fstat(file)
+        if not stat.S_ISREG(there.st_mode):
+            raise Error(f"{name} is no regular file")
+        if there.st_size > most:
+            raise Error(f"{name} has {there.st_size} bytes; at most {most} are read")
+        return opened.read(most)
+
+
+def png_path(name: str, path: Any) -> Path:
+    """A path that ends in .png, in small or capital letters."""
+    try:
+        target = Path(os.fsdecode(path))
+    except TypeError:
+        raise Error(f"{name} must be a path, not {shown(path)}") from None
+    if target.suffix.lower() != ".png":
+        raise Error(f"{name} must end in .png, because a PNG file is written, not {target.name!r}")
+    return target
 
 
 def _chunk(kind: bytes, data: bytes) -> bytes:
@@ -131,11 +175,14 @@ def _decode(data: bytes, name: str) -> Bytes:
     channels = {2: 3, 6: 4}.get(kind_of, 0)
     if bits != 8 or not channels or interlaced or not 0 < width <= 16384 >= height > 0:
         raise Error(f"{name} must be RGB or RGBA of 8 bits, not interlaced")
+    if width * height > PIXELS:
+        raise Error(f"{name} has {width} x {height} pixels; at most {PIXELS} are read")
+    wanted = height * (1 + width * channels)
     try:
-        lines = zlib.decompress(b"".join(packed))
+        lines = zlib.decompressobj().decompress(b"".join(packed), wanted)
     except zlib.error as why:
         raise Error(f"{name}: {why}") from None
-    if len(lines) != height * (1 + width * channels):
+    if len(lines) != wanted:
         raise Error(f"{name} ends early")
     rows = _unfilter(np.frombuffer(lines, np.uint8).reshape(height, -1), channels, name)
     rgba = np.full((height, width, 4), 255, np.uint8)
@@ -179,7 +226,7 @@ def assert_same(picture: Picture, golden: File, limit: int = 0) -> None:
     Then NAME.got.png and NAME.difference.png appear beside the golden file.  Where there is no
     golden file, the picture is written as NAME.got.png: look at it, and rename it.
     """
-    path = Path(golden)
+    path = png_path("golden", golden)
     got, shows = path.with_suffix(".got.png"), path.with_suffix(".difference.png")
     if not path.exists():
         picture.save(got)

@@ -2,18 +2,20 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
+import threading
+import warnings
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Sequence, Union
+from typing import Any, Callable, Sequence, Union
 
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import Array, Bytes, Error, Floats, Integers, Item, View, check
+from ._native import Array, Bytes, Doubles, Error, Floats, Integers, Item, View, check
 from ._native import library, pointer
-from .camera import Camera, Viewpoint, at, fitted, studio
+from .camera import UPRIGHT, Camera, Viewpoint, at, fitted, studio
 from .light import Flag, Light, Lighting, Material, Model, preset
-from .mesh import Like, Mesh, mesh as as_mesh
+from .mesh import Like, Mesh, mesh as as_mesh, origin_of
 from .picture import Picture
 
 Color = Union[str, Sequence[float], Array]
@@ -39,14 +41,20 @@ class Part:
 
     @cached_property
     def native(self) -> Any:
-        """The struct of the library, which points into the mesh."""
-        material = self.material.native()
-        item = Item(mesh=self.mesh.native(), two_sided=self.two_sided)
-        item.state.material = ctypes.pointer(material)
-        item.state.model = tuple(self.pose.T.reshape(-1))
-        if self.mesh.map() is not None:
-            item.state.diffuse_map = ctypes.pointer(self.mesh.map())
-        return item
+        """The structs of the library, one for each surface, which point into the mesh.  Where they
+        are is told later."""
+        items = []
+        for piece in self.mesh.pieces:
+            if not piece.count:
+                continue
+            look = piece.surface
+            item = Item(mesh=piece.mesh, two_sided=self.two_sided, blended=look.blend,
+                        opacity=look.opacity, alpha_cutoff=look.cutoff)
+            item.state.material = ctypes.pointer((look.material or self.material).native())
+            if piece.map is not None:
+                item.state.diffuse_map = ctypes.pointer(piece.map)
+            items.append(item)
+        return items
 
 
 class Scene:
@@ -65,6 +73,11 @@ class Scene:
         self.lights = None if lights is None else list(lights)
         self.ambient, self.model, self.flags = ambient, model, flags
 
+    def __repr__(self) -> str:
+        """Says how many parts there are."""
+        names = ", ".join(part.name for part in self.parts[:5] if part.name)
+        return f"<shade_h.Scene of {len(self.parts)} parts{names and ': ' + names}>"
+
     def add(self, mesh: Like, pose: object = None, material: Material | str | None = None,
             name: str = "", *, edges: bool = False, two_sided: bool = True,
             **options: Any) -> int:
@@ -76,45 +89,75 @@ class Scene:
         behind, which is faster.  options are those of shade_h.Mesh.
         """
         made = as_mesh(mesh, **options)
-        place = arguments.floats("pose", IDENTITY if pose is None else pose, (4, 4), finite=True)
+        place = arguments.doubles("pose", IDENTITY if pose is None else pose, (4, 4), finite=True)
         if isinstance(material, str):
             material = preset(material)
         flags = arguments.flag("edges", edges), arguments.flag("two_sided", two_sided)
         if material is not None and not isinstance(material, Material):
             raise Error(f"material must be a shade_h.Material or a name, "
                         f"not {arguments.shown(material)}")
-        self.parts.append(Part(made, place.astype(np.float64), material or _gloss(made),
+        self.parts.append(Part(made, place.copy(), material or _gloss(made),
                                str(name), *flags))
         return len(self.parts) - 1
 
-    def fit(self, view: Viewpoint = "iso", size: object = (640, 480), *, up: str = "z",
+    def fit(self, view: Viewpoint = "iso", size: object = (640, 480), *, up: str | None = None,
             ortho: bool = False) -> Camera:
         """The nearest camera that sees all of the scene from a side."""
-        return fitted(self._points(), view, arguments.size("size", size), up, ortho)
+        origin, places = self._places(None)
+        return fitted(self._points(places[0]), view, arguments.size("size", size), self._up(up),
+                      ortho, origin=origin)
 
-    def _points(self) -> Floats:
-        """Every vertex of a face, in the world."""
+    def _up(self, up: str | None) -> str:
+        """The upright axis: what the caller says, or that of the first part that knows one."""
+        known = [part.mesh.up for part in self.parts if part.mesh.up is not None]
+        return up if up is not None else known[0] if known else "z"
+
+    def _places(self, poses: Doubles | None) -> tuple[Doubles, Doubles]:
+        """The origin from which a picture counts, so that floats keep their digits far away; and
+        the matrices from each mesh's own coordinates to those, (N, parts, 4, 4)."""
+        if poses is None:
+            poses = np.array([[part.pose for part in self.parts]]).reshape(1, -1, 4, 4)
+        out = np.array(poses, np.float64)
+        if not out.size:
+            return np.zeros(3), out
+        own = np.array([part.mesh.origin for part in self.parts])
+        reach = np.array([part.mesh.radius for part in self.parts])
         with np.errstate(all="ignore"):
-            placed = [part.mesh.drawn_vertices() @ part.pose[:3, :3].T
-                      + part.pose[:3, 3] for part in self.parts]
+            if own.any():
+                out[..., :3, 3] += np.einsum("npij,pj->npi", out[..., :3, :3], own)
+            middle = out[..., :3, 3]
+            radius = (np.abs(out[..., :3, :3]).max((2, 3)) * reach)[..., None]
+            origin = origin_of((middle - radius).min((0, 1)), (middle + radius).max((0, 1)))
+        out[..., :3, 3] -= origin
+        return origin, out
+
+    def _points(self, places: Doubles) -> Floats:
+        """Every vertex of a face, counted from the origin of the places."""
+        with np.errstate(all="ignore"):
+            placed = [part.mesh.drawn_vertices() @ place[:3, :3].T
+                      + place[:3, 3] for part, place in zip(self.parts, places)]
         points = np.concatenate(placed) if placed else np.zeros((0, 3))
         return np.asarray(points, np.float32)
 
     def render(self, camera: Camera | Viewpoint = "iso", size: object = (640, 480), *,
                samples: int = 3, background: Color | None = "white", threads: int = 0,
-               up: str = "z", ortho: bool = False, light: str = "scene") -> Picture:
+               up: str | None = None, ortho: bool = False, light: str = "scene") -> Picture:
         """Draws one picture; a viewpoint instead of a camera is fitted to the scene.
 
         samples, 1 .. 8, are taken along each edge of a pixel.  background None is transparent.
-        threads 0 is one a core; the picture is the same with any number.  light "studio" takes the
+        threads 0 is one a core; the picture is the same with any number.  up is the upright axis,
+        x, y, z, -x, -y or -z; None is that of the file, or z.  light "studio" takes the
         place of the scene's lamps: a large lamp and a sky that throw soft shadows, also on a ground
         below the scene, which a camera of one's own must reach with its near and far.
         """
         width, height = arguments.size("size", size)
         soft = arguments.choice("light", light, ("scene", "studio")) == "studio"
-        points = self._points() if soft or not isinstance(camera, Camera) else None
+        fit = not isinstance(camera, Camera)
+        origin, places = self._places(None)
+        points = self._points(places[0]) if soft or fit else None
         if points is not None and not isinstance(camera, Camera):
-            camera = fitted(points, camera, (width, height), up, ortho, room=1.5 if soft else 0.0)
+            camera = fitted(points, camera, (width, height), self._up(up), ortho,
+                            room=1.5 if soft else 0.0, origin=origin)
         camera = at(camera)
         many = arguments.integer("samples", samples, 1, 8)
         _small_enough(width, height, many)
@@ -124,15 +167,26 @@ class Scene:
         ids = np.empty((height, width), np.int32)
         view = View(width=width, height=height, samples=many, channels=4, rgba=pointer(rgba),
                     depth=pointer(depth), normals=pointer(normals), ids=pointer(ids))
-        items, kept = self._items(camera)
-        self._aim(view, camera, _background(background))
+        items, kept = self._items(camera, places[0], origin)
+        self._aim(view, camera, _background(background), origin)
         if soft and points is not None:
             view.in_studio = 1
-            to_studio = studio(points, camera, arguments.choice("up", up, ("y", "z")))
-            view.to_studio = tuple(to_studio.T.reshape(-1))
-        self._draw(items, (View * 1)(view), threads)
-        del kept
-        return Picture(rgba, depth, ids, normals)
+            upright = arguments.choice("up", self._up(up), list(UPRIGHT))
+            view.to_studio = tuple(studio(points, camera, upright).T.reshape(-1))
+        self._draw(items, (View * 1)(view), threads, (rgba, depth, normals, ids, kept),
+                   soft)
+        made = Picture(rgba, depth, ids, normals)
+        if fit and self.parts and made.blank:
+            warnings.warn(f"nothing of {self!r} can be seen: {self._why_blank()}", stacklevel=2)
+        return made
+
+    def _why_blank(self) -> str:
+        """What keeps parts from being seen."""
+        if not any(len(part.mesh.faces) for part in self.parts):
+            return "there are no triangles"
+        if not any((np.abs(part.mesh.drawn_vertices()) <= 1e8).all(1).any() for part in self.parts):
+            return "all vertices are NaN or infinite, or lie beyond 1e8"
+        return "its triangles have no area, or show their edge to the camera"
 
     def render_batch(self, cameras: Sequence[Camera] | Camera, poses: object = None,
                      size: object = (256, 256), *, samples: int = 1,
@@ -149,7 +203,7 @@ class Scene:
         width, height = arguments.size("size", size)
         many = arguments.integer("samples", samples, 1, 8)
         _small_enough(width, height, many)
-        placed = None if poses is None else arguments.floats(
+        placed = None if poses is None else arguments.doubles(
             "poses", poses, (None, len(self.parts), 4, 4), finite=True)
         seen = _cameras(cameras, None if placed is None else len(placed))
         n = len(seen)
@@ -157,7 +211,9 @@ class Scene:
         colors = arguments.into("rgb", rgb, (*shape, 3), np.uint8)
         depths = arguments.into("depth", depth, shape, np.float32)
         numbers = arguments.into("ids", ids, shape, np.int32)
-        columns = None if placed is None else np.ascontiguousarray(placed.transpose(0, 1, 3, 2))
+        origin, places = self._places(placed)
+        columns = None if placed is None else np.ascontiguousarray(
+            places.transpose(0, 1, 3, 2), dtype=np.float32)
         if any(np.may_share_memory(x, y) for x, y in ((colors, depths), (depths, numbers),
                                                       (colors, numbers)) if n):
             raise Error("rgb, depth and ids must not overlap")
@@ -169,42 +225,65 @@ class Scene:
             view.rgba, view.depth = pointer(colors[i]), pointer(depths[i])
             view.ids = pointer(numbers[i])
             view.poses = None if columns is None else pointer(columns[i])
-            self._aim(view, camera, behind)
-        items, kept = self._items(seen[0] if n else None)
+            self._aim(view, camera, behind, origin)
         if n:
-            self._draw(items, views, threads)
-        del kept
+            still = self._places(None)[1][0] if columns is None else places[0]
+            items, kept = self._items(seen[0], still, origin)
+            self._draw(items, views, threads, (colors, depths, numbers, columns, kept), n > 16)
         return colors, depths, numbers
 
-    def _draw(self, items: Any, views: Any, threads: int) -> None:
+    def _draw(self, items: Any, views: Any, threads: int, kept: object, slow: bool) -> None:
+        """kept are the arrays that must live until the last pixel.  What is slow can be ended by
+        Ctrl-C: it is drawn by a thread, because signals wait for the main one."""
         count = arguments.integer("threads", threads, 0, 256)
-        check(library.python_draw(items, len(self.parts), views, len(views), count), "scene")
+        stop = ctypes.c_int(0)
 
-    def _items(self, camera: Camera | None) -> tuple[Any, list[Any]]:
-        """The parts as the library has them, and what must live as long as they."""
-        items = (Item * max(1, len(self.parts)))()
+        def draw() -> int:
+            drawn: int = library.python_draw(items, len(items), views, len(views), count,
+                                             ctypes.addressof(stop))
+            del keep[:]
+            return drawn
+
+        keep = [kept]
+        in_thread = slow and threading.current_thread() is threading.main_thread()
+        check(_interruptible(draw, stop) if in_thread else draw(), "scene")
+
+    def _items(self, camera: Camera, places: Doubles, origin: Doubles) -> tuple[Any, list[Any]]:
+        """The surfaces of all parts as the library has them, those that blend last, and what must
+        live as long as they."""
         kept: list[Any] = []
-        for item, part in zip(items, self.parts):
-            kept.append(part.native)
-            ctypes.pointer(item)[0] = part.native
-            if part.edges and camera is not None:
-                lines = _lines(part, camera)
-                item.lines, item.line_points = pointer(lines), len(lines)
-                item.line_width, item.line_color = 1.4, (*INK, 1.0)
-                kept.append(lines)
-        return items, kept
+        solid: list[Any] = []
+        clear: list[Any] = []
+        for number, (part, place) in enumerate(zip(self.parts, places)):
+            natives = part.native
+            kept.append(natives)
+            for i, native in enumerate(natives):
+                item = Item.from_buffer_copy(native)
+                item.id, item.state.model = number, tuple(place.T.reshape(-1))
+                if part.edges and not i:
+                    lines = _lines(part, camera, place, origin)
+                    item.lines, item.line_points = pointer(lines), len(lines)
+                    item.line_width, item.line_color = 1.4, (*INK, 1.0)
+                    kept.append(lines)
+                (clear if item.blended else solid).append(item)
+        kept += [solid, clear]
+        return (Item * (len(solid) + len(clear)))(*solid, *clear), kept
 
-    def _aim(self, view: Any, camera: Camera, background: tuple[float, ...]) -> None:
+    def _aim(self, view: Any, camera: Camera, background: tuple[float, ...],
+             origin: Doubles) -> None:
         """Camera, lamps and background of a view."""
-        view.view = tuple(camera.view.T.reshape(-1))
+        local = camera.view_from(origin).astype(np.float32).astype(np.float64)
+        view.view = tuple(local.T.reshape(-1))
         view.projection = tuple(camera.projection.T.reshape(-1))
         view.background = background
         lights, ambient = self.lights, self.ambient
         if lights is None:
-            turn = camera.view[:3, :3]
+            turn = local[:3, :3]
             lights = [Light.directional(tuple(np.asarray(way) @ turn), color)
                       for way, color in QUICK]
             ambient = QUICK_AMBIENT if ambient is None else ambient
+        elif origin.any():
+            lights = [_moved(lamp, origin) for lamp in lights]
         flags = self.flags
         if camera.projection[3, 3] != 0:
             flags |= Flag.INFINITE_VIEWER
@@ -212,21 +291,45 @@ class Scene:
         view.lighting = Lighting(lights, light, self.model, flags).native()
 
 
-def _lines(part: Part, camera: Camera) -> Floats:
-    """The edges to draw of a part, as seen by a camera."""
+def _interruptible(draw: Callable[[], int], stop: Any) -> int:
+    """Calls draw in a thread; Ctrl-C sets stop, and does not wait for what is begun."""
+    result: list[int] = []
+    thread = threading.Thread(target=lambda: result.append(draw()), daemon=True)
+    thread.start()
+    try:
+        while thread.is_alive():
+            thread.join(0.1)
+    except BaseException:
+        stop.value = 1
+        thread.join(0.5)
+        raise
+    return result[0]
+
+
+def _moved(lamp: Light, origin: Doubles) -> Light:
+    """A lamp whose position counts from an origin."""
+    x, y, z, w = (float(k) for k in lamp.position)
+    near = np.array([x, y, z]) - w * origin
+    return replace(lamp, position=(*near.tolist(), w))
+
+
+def _lines(part: Part, camera: Camera, place: Doubles, origin: Doubles) -> Floats:
+    """The edges to draw of a part in a place, as seen by a camera."""
     with np.errstate(all="ignore"):
-        if abs(np.linalg.det(part.pose)) < 1e-30:
+        if abs(np.linalg.det(place)) < 1e-30:
             return np.empty((0, 3), np.float32)
-        back = np.linalg.inv(part.pose)
+        back = np.linalg.inv(place)
+    view = camera.view_from(origin).astype(np.float32).astype(np.float64)
     ortho = camera.projection[3, 3] != 0
-    way = back[:3, :3] @ camera.view[2, :3] if ortho else None
-    eye = back[:3, :3] @ camera.eye + back[:3, 3]
+    way = back[:3, :3] @ view[2, :3] if ortho else None
+    eye = back[:3, :3] @ (-view[:3, :3].T @ view[:3, 3]) + back[:3, 3]
     return part.mesh.drawn_edges(np.asarray(eye, np.float64), way)
 
 
 def _gloss(made: Mesh) -> Material:
     """A little gloss on the colour of a mesh; white where vertices have colours of their own."""
-    white = (1.0, 1.0, 1.0) if made.colors is not None or made.texture is not None else None
+    mapped = any(piece.texture is not None for piece in made.pieces)
+    white = (1.0, 1.0, 1.0) if made.colors is not None or mapped else None
     color = made.color or white or CLAY
     return Material((0, 0, 0), color, color, (0.08, 0.08, 0.08), 40.0)
 
@@ -261,36 +364,36 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
            size: object = (640, 480), color: object = None, normals: object = "auto",
            uv: object = None, texture: object = None, edges: bool = False,
            background: Color | None = "white", ortho: bool = False, samples: int = 3,
-           light: str = "quick", material: Material | str | None = None, up: str = "z",
+           light: str = "quick", material: Material | str | None = None, up: str | None = None,
            threads: int = 0) -> Picture:
     """Draws a mesh, seen from a side by a camera that is fitted to it.
 
-    Pass vertices and faces, or a mesh alone: a path, a shade_h.Mesh, an object of trimesh, cadquery
-    or build123d.  view is "front", "right", "back", "left", "top", "bottom", "iso" or (azimuth,
-    elevation) in degrees.  light is "quick", three lamps beside the camera, or "studio", soft
-    shadows that take longer.
+    Pass vertices and faces, or a mesh alone: a path, a file, a shade_h.Mesh, an object of trimesh,
+    cadquery or build123d, or a list of these, whose places in it are their ids.  view is "front",
+    "right", "back", "left", "top", "bottom", "iso" or (azimuth, elevation) in degrees.  light is
+    "quick", three lamps beside the camera, or "studio", soft shadows that take longer.
     """
     soft = arguments.choice("light", light, ("quick", "studio")) == "studio"
     options: dict[str, Any] = {"color": color, "normals": normals, "uv": uv, "texture": texture}
-    source = vertices if faces is None else (vertices, faces)
+    source: Any = vertices if faces is None else (vertices, faces)
     defaults = {"normals": "auto"}
     given = {k: v for k, v in options.items()
              if v is not None and not (isinstance(v, str) and defaults.get(k) == v)}
     scene = Scene()
-    scene.add(source, None, material, edges=edges, **given)
+    for one in source if _several(source) else [source]:
+        scene.add(one, None, material, edges=edges, **given)
     return scene.render(view, size, samples=samples, background=background, threads=threads, up=up,
                         ortho=ortho, light="studio" if soft else "scene")
 
 
 def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top", "iso"), *,
-          edges: bool = True, size: object = (480, 400), samples: int = 3, up: str = "z",
+          edges: bool = True, size: object = (480, 400), samples: int = 3, up: str | None = None,
           background: Color | None = "white", gap: int = 2) -> Picture:
     """The drawing of parts: a row for each mesh, a column for each view.
 
     The named sides are orthographic and of one scale in a row; "iso" and angles are in perspective.
     """
-    several = isinstance(meshes, list) and not (len(meshes) == 2 and _is_array(meshes[0]))
-    rows = meshes if isinstance(meshes, list) and several else [meshes]
+    rows: Any = meshes if _several(meshes) else [meshes]
     if not rows or not isinstance(views, (list, tuple)) or not views:
         raise Error("meshes and views must be lists of at least one")
     width, height = arguments.size("size", size)
@@ -312,13 +415,23 @@ def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top",
     return Picture(out, depth, ids, normals)
 
 
+def _several(value: object) -> bool:
+    """Is it a list of meshes, not a pair of vertices and faces?"""
+    return isinstance(value, list) and not (len(value) == 2 and _is_array(value[0]))
+
+
 def _is_array(value: object) -> bool:
-    return isinstance(value, np.ndarray) or (isinstance(value, (list, tuple)) and len(value) > 0
-                                             and not hasattr(value[0], "vertices"))
+    """Vertices; a list or tuple is one where it holds no mesh."""
+    if not isinstance(value, (list, tuple)) or not value:
+        return isinstance(value, (np.ndarray, list, tuple))
+    first = value[0]
+    pair = isinstance(value, tuple) and len(value) == 2 and isinstance(first, np.ndarray) \
+        and first.ndim == 2
+    return not pair and not isinstance(first, (str, bytes)) and not hasattr(first, "vertices")
 
 
 def _of_one_scale(scene: Scene, views: Sequence[Viewpoint], size: tuple[int, int],
-                  up: str) -> list[Camera]:
+                  up: str | None) -> list[Camera]:
     flat = [isinstance(view, str) and view != "iso" for view in views]
     cameras = [scene.fit(view, size, up=up, ortho=o) for view, o in zip(views, flat)]
     scales = [c.projection[1, 1] for c, o in zip(cameras, flat) if o]

@@ -198,7 +198,7 @@ def test_files_and_the_command(tmp_path):
         mesh = shade.load(tmp_path / name)
         assert len(mesh.faces) == 12
         assert np.array_equal(mesh.vertices.max(0), [3, 2, 1])
-        got = shade.render(tmp_path / name, size=(80, 60))
+        got = shade.render(tmp_path / name, size=(80, 60), up="z")
         assert np.array_equal(got.ids, shade.render(vertices, triangles, size=(80, 60)).ids)
     done = subprocess.run([sys.executable, "-m", "shade_h", tmp_path / "b.stl", tmp_path / "s.png",
                            "--views", "front,right,top,iso", "--size", "100x80"], check=False)
@@ -216,7 +216,7 @@ def test_the_surfaces_of_an_obj_file(tmp_path):
                    for i, f in enumerate((faces + 1).tolist()))
     (tmp_path / "b.obj").write_text(head + body, "utf-8")
     (tmp_path / "b.mtl").write_text("newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n", "utf-8")
-    top = {"view": "top", "size": (40, 40), "samples": 1, "ortho": True}
+    top = {"view": "top", "size": (40, 40), "samples": 1, "ortho": True, "up": "z"}
     blue = shade.render(tmp_path / "b.obj", **top).rgba[20, 20]
     red = shade.render(tmp_path / "b.obj", **{**top, "view": "bottom"}).rgba[20, 20]
     assert blue[2] > 100 > blue[0] and red[0] > 100 > red[2]
@@ -226,7 +226,7 @@ def test_the_surfaces_of_an_obj_file(tmp_path):
     (tmp_path / "t.obj").write_text(
         "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 3 2\nf 1 2 4\n"
         "f 1 4 3\nusemtl b\nf 2 3 4\n", "utf-8")
-    far = shade.render(tmp_path / "t.obj", view=(135, 30), size=(40, 40), samples=1)
+    far = shade.render(tmp_path / "t.obj", view=(135, 30), size=(40, 40), samples=1, up="z")
     assert (far.rgba[far.ids == 0][:, 2] > far.rgba[far.ids == 0][:, 0]).all()
 
 
@@ -238,12 +238,14 @@ def test_the_picture_on_an_obj_file(tmp_path):
     (tmp_path / "q.obj").write_text(
         "mtllib q.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
         "usemtl m\nf 1/1 2/2 3/3 4/4\n", "utf-8")
-    got = shade.render(tmp_path / "q.obj", view="top", size=(64, 64), ortho=True, samples=1).rgba
+    got = shade.render(tmp_path / "q.obj", view="top", size=(64, 64), ortho=True, samples=1,
+                       up="z").rgba
     for y, x, wanted in ((16, 16, (1, 0, 0)), (16, 48, (0, 1, 0)), (48, 16, (0, 0, 1)),
                          (48, 48, (1, 1, 0))):
         assert np.array_equal(got[y, x, :3] > 128, np.array(wanted, bool))
     (tmp_path / "q.png").unlink()
-    assert shade.load(tmp_path / "q.obj").texture is None
+    with pytest.warns(UserWarning, match="q.png is missing"):
+        assert shade.load(tmp_path / "q.obj").texture is None
 
 
 def test_a_sheet_has_one_scale_in_a_row():

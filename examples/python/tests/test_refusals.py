@@ -19,7 +19,7 @@ VERY = float("nan"), float("inf"), -1e30, 0, -1, 1e-30, 2**31, 2**63, 10**400, "
     ("color", {"color": np.zeros((5, 3))}), ("normals", {"normals": np.zeros((8, 2))}),
     ("normals", {"normals": "round"}), ("uv", {"uv": np.zeros((8, 2))}),
     ("background", {"background": (1, 2)}), ("threads", {"threads": -1}),
-    ("material", {"material": 7}), ("name", {"material": "wood"}), ("up", {"up": "x"}),
+    ("material", {"material": 7}), ("name", {"material": "wood"}), ("up", {"up": "w"}),
     ("light", {"light": "candle"}), ("samples", {"size": (9000, 10), "samples": 2})])
 def test_the_word_that_is_wrong_is_named(words, arguments):
     given = {"vertices": VERTICES, "faces": FACES, **arguments}

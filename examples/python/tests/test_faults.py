@@ -1,0 +1,355 @@
+"""What would lose data, hang, race or lose digits: each a test of its own."""
+import io
+import os
+import subprocess
+import sys
+import threading
+import time
+import zlib
+
+import numpy as np
+import pytest
+from shapes import box, torus
+
+import shade_h as shade
+
+VERTICES, FACES = box()
+SMALL = {"size": (64, 48), "samples": 1}
+
+
+def obj_text(vertices, faces, move=(0, 0, 0)):
+    return "".join(f"v {x + move[0]!r} {y + move[1]!r} {z + move[2]!r}\n"
+                   for x, y, z in np.asarray(vertices).tolist()) + \
+        "".join("f " + " ".join(map(str, f)) + "\n" for f in (np.asarray(faces) + 1).tolist())
+
+
+# ---- files that are written ----------------------------------------------------------------------
+
+@pytest.mark.parametrize("words", [["b.stl"], ["b.obj"], ["b.jpg"], ["b.stl", "c.png"], ["b"],
+                                   ["--views", "front,top", "b.ply"]])
+def test_the_command_writes_no_picture_over_a_model(tmp_path, words):
+    for name in "a.obj", "b.stl", "b.obj", "b.ply", "b.jpg", "b", "c.png":
+        (tmp_path / name).write_text(obj_text(VERTICES, FACES), "utf-8")
+    before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+    done = subprocess.run([sys.executable, "-m", "shade_h", "a.obj", *words], cwd=tmp_path,
+                          stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 2 and len(done.stderr) > 20 and "Traceback" not in done.stderr
+    assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
+
+
+def test_a_picture_is_saved_under_names_that_end_in_png_alone(tmp_path):
+    got = shade.render(VERTICES, FACES, **SMALL)
+    for name in ("x.jpg", "x", "x.stl", "x.png.obj", b"x.ppm"):
+        with pytest.raises(shade.Error, match="must end in .png"):
+            got.save(name if isinstance(name, bytes) else tmp_path / name)
+    with pytest.raises(shade.Error, match="must end in .png"):
+        shade.assert_same(got, tmp_path / "part.stl")
+    assert not list(tmp_path.iterdir())
+    got.save(tmp_path / "X.PNG")
+    got.save(os.fsencode(tmp_path / "y.png"))
+    memory = io.BytesIO()
+    got.save(memory)
+    assert memory.getvalue() == (tmp_path / "X.PNG").read_bytes() == got.png()
+    memory.seek(0)
+    assert shade.Picture.open(memory) == got
+
+
+# ---- files that are read -------------------------------------------------------------------------
+
+def with_picture(folder, name):
+    (folder / "m.mtl").write_text(f"newmtl a\nKd 1 0 0\nmap_Kd {name}\n", "utf-8")
+    (folder / "m.obj").write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1"
+                                  "\nusemtl a\nf 1/1 2/2 3/3\n", "utf-8")
+    return folder / "m.obj"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes")
+def test_devices_and_pipes_are_refused_at_once(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for name in ("/dev/zero", "pipe", "."):
+        with pytest.warns(UserWarning, match="m.obj"):
+            mesh = shade.load(with_picture(tmp_path, name))
+        assert mesh.texture is None and len(mesh.faces) == 1
+    for path in ("/dev/zero", tmp_path / "pipe"):
+        with pytest.raises(shade.Error, match="no regular file"):
+            shade.load(path)
+        with pytest.raises(shade.Error, match="no regular file"):
+            shade.Picture.open(path)
+
+
+def test_a_picture_that_unpacks_to_more_than_it_says_takes_no_memory(tmp_path):
+    small = shade.Picture(np.zeros((4, 4, 4), np.uint8)).png()
+    at = small.index(b"IDAT") - 4
+    bomb = zlib.compress(bytes(300_000_000), 9)
+    forged = small[:at] + len(bomb).to_bytes(4, "big") + b"IDAT" + bomb + bytes(4) + small[-12:]
+    (tmp_path / "b.png").write_bytes(forged)
+    program = "import resource, sys, shade_h\n" \
+        "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n" \
+        "assert shade_h.Picture.open(sys.argv[1]).size == (4, 4)\n" \
+        "grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before\n" \
+        "assert grown < 50_000, grown\n"
+    subprocess.run([sys.executable, "-c", program, tmp_path / "b.png"], check=True)
+    wide = bytearray(small)
+    wide[16:24] = (16384).to_bytes(4, "big") * 2
+    with pytest.raises(shade.Error, match="at most"):
+        shade.Picture.open(io.BytesIO(bytes(wide)))
+
+
+def test_two_pictures_of_one_obj_are_drawn_and_a_missing_one_is_a_warning(tmp_path):
+    for name, color in (("r", (255, 0, 0)), ("b", (0, 0, 255))):
+        texels = np.full((8, 8, 4), 255, np.uint8)
+        texels[:, :, :3] = color
+        shade.Picture(texels).save(tmp_path / f"{name}.png")
+    (tmp_path / "t.mtl").write_text("newmtl r\nKd 1 1 1\nmap_Kd r.png\nnewmtl b\nKd 1 1 1\n"
+                                    "map_Kd b.png\n", "utf-8")
+    (tmp_path / "t.obj").write_text(
+        "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
+        "vt 1 1\nvt 0 1\nusemtl r\nf 1/1 2/2 3/3 4/4\nusemtl b\nf 2/1 5/2 6/3 3/4\n", "utf-8")
+    flat = {"view": "top", "ortho": True, "up": "z", **SMALL}
+    got = shade.render(tmp_path / "t.obj", **flat).rgba.astype(int)
+    assert got[24, 16, 0] > 100 > got[24, 16, 2] and got[24, 48, 2] > 100 > got[24, 48, 0]
+    (tmp_path / "b.png").unlink()
+    with pytest.warns(UserWarning, match="b.png is missing"):
+        got = shade.render(tmp_path / "t.obj", **flat).rgba.astype(int)
+    assert got[24, 16, 0] > 100 > got[24, 16, 2] and got[24, 48].min() > 100
+
+
+def test_transparent_surfaces_of_an_obj_show_what_is_behind(tmp_path):
+    (tmp_path / "g.mtl").write_text("newmtl red\nKd 1 0 0\nnewmtl glass\nKd 0 0 1\nd 0.5\n")
+    (tmp_path / "g.obj").write_text(
+        "mtllib g.mtl\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+        "usemtl glass\nf 1 2 3 4\nusemtl red\nf 5 6 7 8\n", "utf-8")
+    got = shade.render(tmp_path / "g.obj", view="top", ortho=True, up="z", **SMALL)
+    red, _, blue, alpha = got.rgba[24, 32].tolist()
+    assert red > 80 and blue > 80 and alpha == 255
+    assert got.depth[24, 32] > got.depth[np.isfinite(got.depth)].max() - 0.01
+
+
+def test_models_from_bytes_and_paths_of_any_kind(tmp_path):
+    text = obj_text(VERTICES, FACES).encode()
+    (tmp_path / "x.obj").write_bytes(text)
+    wanted = shade.render(tmp_path / "x.obj", **SMALL)
+
+    class Path:
+        def __fspath__(self):
+            return str(tmp_path / "x.obj")
+
+    with open(tmp_path / "x.obj", "rb") as file:
+        for one in (Path(), os.fsencode(tmp_path / "x.obj"), str(tmp_path / "x.obj"),
+                    io.BytesIO(text), file):
+            assert shade.render(one, **SMALL) == wanted
+    with pytest.raises(shade.Error, match="open for bytes"):
+        shade.load(io.StringIO("v 0 0 0"))
+
+
+def test_the_upright_axis_is_that_of_the_format_and_can_be_said(tmp_path):
+    (tmp_path / "x.obj").write_text(obj_text(VERTICES, FACES), "utf-8")
+    assert shade.load(tmp_path / "x.obj").up == "y"
+    turned = shade.render(VERTICES, FACES, up="y", **SMALL)
+    assert shade.render(tmp_path / "x.obj", **SMALL) == turned
+    plain = shade.render(VERTICES, FACES, **SMALL)
+    assert shade.render(tmp_path / "x.obj", up="z", **SMALL) == plain
+    # a table that lies: its legs end in small feet around a wide rectangle, along x
+    parts = [(np.asarray(box(0.1, 2, 2)[0]), FACES)]
+    for y in (0, 1.9):
+        for z in (0, 1.9):
+            parts.append((np.asarray(box(1.5, 0.1, 0.1)[0]) + [-1.5, y, z], FACES))
+    vertices = np.concatenate([v for v, _ in parts])
+    faces = np.concatenate([f + 8 * i for i, (_, f) in enumerate(parts)])
+    (tmp_path / "table.obj").write_text(obj_text(vertices, faces), "utf-8")
+    table = shade.load(tmp_path / "table.obj")
+    assert table.up in ("x", "y")
+    for up in ("x", "-x", "y", "-y", "-z"):
+        side = shade.render(VERTICES, FACES, view="front", ortho=True, up=up, **SMALL)
+        axis = "xyz".index(up[-1])
+        rows = np.argwhere((side.ids == 0).any(1))
+        columns = np.argwhere((side.ids == 0).any(0))
+        tall, wide = np.ptp(rows) + 1, np.ptp(columns) + 1
+        across = {"x": 1, "y": 0, "z": 0}[up[-1]]
+        assert tall / wide == pytest.approx((3, 2, 1)[axis] / (3, 2, 1)[across], rel=0.1)
+
+
+# ---- digits --------------------------------------------------------------------------------------
+
+def grid(vertices):
+    """Coordinates that doubles keep at 1e8."""
+    return np.round(np.asarray(vertices) * 1024) / 1024
+
+
+@pytest.mark.parametrize("shift", [1e6, 1e8, (4.5e5, 5.2e6, 300.0)])
+@pytest.mark.parametrize("ortho", [False, True])
+def test_a_mesh_far_from_the_origin_has_the_same_picture(shift, ortho):
+    vertices, faces, _ = torus(24)
+    vertices = grid(vertices)
+    one = shade.render(vertices, faces, edges=True, ortho=ortho, size=(160, 120))
+    far = shade.render(vertices + shift, faces, edges=True, ortho=ortho, size=(160, 120))
+    assert np.array_equal(one.ids, far.ids)
+    if np.isscalar(shift):
+        assert one == far and np.array_equal(one.depth, far.depth)
+    assert (one.difference(far) > 8).mean() < 0.01
+
+
+def test_cameras_lamps_and_poses_speak_the_callers_coordinates():
+    vertices, faces, _ = torus(24)
+    shift = np.array([1e8, -1e8, 3e7])
+
+    def scene(move, by_pose):
+        made = shade.Scene([shade.Light.point(np.array([4, -4, 5]) + move, (30, 30, 30),
+                                              attenuation=(1, 0, 1))], (0.2, 0.2, 0.2))
+        pose = np.eye(4)
+        pose[:3, 3] = move if by_pose else 0
+        made.add((grid(vertices) + (0 if by_pose else move), faces), pose, edges=True)
+        camera = shade.Camera.look_at(np.array([5, -6, 4]) + move, move, aspect=4 / 3)
+        return made, camera
+
+    near, camera = scene(np.zeros(3), False)
+    wanted = near.render(camera, (120, 90))
+    for by_pose in (False, True):
+        far, camera = scene(shift, by_pose)
+        got = far.render(camera, (120, 90))
+        assert np.array_equal(got.ids, wanted.ids)
+        assert (got.difference(wanted) > 2).mean() < 0.02    # an edge more or less
+        assert np.allclose(got.depth, wanted.depth, rtol=1e-5)
+        poses = np.stack([part.pose for part in far.parts])[None]
+        rgb, depth, ids = far.render_batch(camera, poses, size=(120, 90))
+        assert np.array_equal(ids[0], far.render(camera, (120, 90), samples=1).ids)
+        assert np.array_equal(depth[0], far.render(camera, (120, 90), samples=1).depth)
+    # a pixel taken back to the world by camera and depth lies on the torus
+    y, x = np.argwhere(got.ids == 0)[500]
+    way = np.array([((x + .5) / 60 - 1) / camera.projection[0, 0],
+                    (1 - (y + .5) / 45) / camera.projection[1, 1], -1])
+    world = camera.eye + camera.view[:3, :3].T @ way * got.depth[y, x] - shift
+    around = np.hypot(np.hypot(world[0], world[1]) - 2, world[2])
+    assert around == pytest.approx(0.8, abs=0.02)
+
+
+@pytest.mark.parametrize("kind", ["obj", "stl", "ply", "binary"])
+def test_files_of_surveyors_are_centred_in_double(tmp_path, kind):
+    vertices, faces, _ = torus(24)
+    vertices, triangles = grid(vertices), faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    far = vertices + [4.5e7, 5.2e7, 0]
+    head = "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\n" \
+        "property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n"
+    if kind == "obj":
+        text = obj_text(far, triangles).encode()
+    elif kind == "stl":
+        text = ("solid a\n" + "".join(
+            "facet normal 0 0 0\nouter loop\n" + "".join(
+                "vertex {!r} {!r} {!r}\n".format(*p) for p in t) + "endloop\nendfacet\n"
+            for t in far[triangles].tolist()) + "endsolid a\n").encode()
+    elif kind == "ply":
+        text = (head.format("ascii", len(far), len(triangles)) + "".join(
+            "{!r} {!r} {!r}\n".format(*p) for p in far.tolist()) + "".join(
+            "3 {} {} {}\n".format(*t) for t in triangles.tolist())).encode()
+    else:
+        rows = np.zeros(len(triangles), [("n", "u1"), ("i", "<i4", 3)])
+        rows["n"], rows["i"] = 3, triangles
+        text = head.format("binary_little_endian", len(far), len(triangles)).encode() + \
+            far.astype("<f8").tobytes() + rows.tobytes()
+    name = tmp_path / ("a.ply" if kind == "binary" else f"a.{kind}")
+    name.write_bytes(text)
+    mesh = shade.load(name)
+    low, high = mesh.vertices.min(0), mesh.vertices.max(0)
+    assert np.array_equal(low, far.min(0)) and np.array_equal(high, far.max(0))
+    got = shade.render(mesh, up="z", normals="flat", **SMALL)
+    plain = shade.render(vertices, triangles, normals="flat", **SMALL)
+    assert (got.ids != plain.ids).mean() < 0.01 and got.difference(plain).mean() < 3
+
+
+# ---- threads and signals -------------------------------------------------------------------------
+
+def test_eight_threads_share_a_mesh_with_edges():
+    vertices, faces, _ = torus(40)
+    wanted = shade.render(shade.Mesh(vertices, faces), edges=True, threads=1, **SMALL)
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1e-5)
+    try:
+        for _ in range(6):
+            mesh, wrong = shade.Mesh(vertices, faces), []
+            start = threading.Barrier(8)
+
+            def draw():
+                start.wait()
+                try:
+                    if shade.render(mesh, edges=True, threads=1, **SMALL) != wanted:
+                        wrong.append("another picture")
+                except Exception as why:
+                    wrong.append(repr(why))
+
+            threads = [threading.Thread(target=draw) for _ in range(8)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            assert not wrong
+    finally:
+        sys.setswitchinterval(before)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_ctrl_c_ends_the_studio_before_it_is_done():
+    program = "import os, signal, threading, numpy as np, shade_h\n" \
+        "u = np.linspace(0, 6, 1200)\n" \
+        "x, y = np.meshgrid(u, u)\n" \
+        "v = np.stack([x, y, np.sin(3 * x) * np.cos(2 * y)], -1).reshape(-1, 3)\n" \
+        "i = (np.arange(1199)[:, None] * 1200 + np.arange(1199)).reshape(-1)\n" \
+        "mesh = shade_h.Mesh(v, np.stack([i, i + 1, i + 1201, i + 1200], 1), normals='smooth')\n" \
+        "print('ready', flush=True)\n" \
+        "shade_h.render(mesh, light='studio', size=2000, samples=4, threads=1)\n" \
+        "print('drawn', flush=True)\n"
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(0.3)
+    process.send_signal(2)
+    told, why = process.communicate(timeout=120)
+    assert "drawn" not in told and "KeyboardInterrupt" in why
+
+
+# ---- arguments -----------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("vertices", [np.full((8, 3), np.nan), np.full((8, 3), 1e35),
+                                      np.zeros((8, 3))])
+def test_a_mesh_that_cannot_be_seen_is_a_warning(vertices):
+    with pytest.warns(UserWarning, match="can be seen"):
+        assert shade.render(vertices, FACES, **SMALL).blank
+    with pytest.warns(UserWarning, match="no triangles"):
+        shade.render(VERTICES, np.zeros((0, 3), int), **SMALL)
+
+
+@pytest.mark.parametrize("color", [(2, 0, 0), (0, -1, 0), (256, 0, 0), (0.1, 1.5, 0),
+                                   (float("nan"), 0, 0), np.full((8, 3), 1.5)])
+def test_a_color_out_of_range_is_refused(color):
+    with pytest.raises(shade.Error, match="color"):
+        if np.shape(color) == (3,) and color == (2, 0, 0):
+            color = (2.0, 0, 0)
+        shade.render(VERTICES, FACES, color=color, **SMALL)
+
+
+def test_words_and_whole_numbers_mean_what_they_look_like():
+    with pytest.raises(shade.Error, match="material='gold'"):
+        shade.render(VERTICES, FACES, color="gold", **SMALL)
+    red = shade.render(VERTICES, FACES, color=(1.0, 0, 0), **SMALL)
+    assert shade.render(VERTICES, FACES, color=(1, 0, 0), **SMALL) == red
+    assert shade.render(VERTICES, FACES, color=np.uint8([255, 0, 0]), **SMALL) == red
+
+
+def test_a_list_of_meshes_is_one_picture():
+    moved = np.asarray(VERTICES) + [4, 0, 0]
+    for both in ([(VERTICES, FACES), (moved, FACES)],
+                 [shade.Mesh(VERTICES, FACES), shade.Mesh(moved, FACES)]):
+        assert set(np.unique(shade.render(both, **SMALL).ids)) == {-1, 0, 1}
+    pair = shade.render([VERTICES, FACES], **SMALL)
+    assert pair == shade.render([np.asarray(VERTICES).tolist(), FACES.tolist()], **SMALL)
+    assert set(np.unique(pair.ids)) == {-1, 0}
+
+
+def test_arrays_and_words_of_objects():
+    got = shade.render(VERTICES, FACES, **SMALL)
+    assert np.asarray(got) is got.rgba and np.asarray(got, float).dtype == float
+    assert "64 x 48" in repr(got) and "% covered" in repr(got)
+    assert repr(shade.Mesh(VERTICES, FACES)) == "<shade_h.Mesh of 12 triangles, 3 x 2 x 1>"
+    scene = shade.Scene()
+    scene.add((VERTICES, FACES), name="lid")
+    assert repr(scene) == "<shade_h.Scene of 1 parts: lid>"
+    assert "Camera(view=" in repr(scene.fit())
