@@ -13,6 +13,7 @@
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
 # make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
 #                 and beside it the slides of four courses, course-uw.html and so on
+# make assignments   tries the graders of examples/assignments: solutions, starters, mistakes
 # make install    header, shade.pc, shade-thumbnail, -view, -batch and -compare with man pages, and
 #                 what file managers need for thumbnails, below PREFIX (/usr/local) in DESTDIR;
 #                 make uninstall removes them
@@ -107,6 +108,8 @@ gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
 	@sh examples/playground/build.sh && sh examples/course/build.sh
+assignments:
+	@sh tests/scripts/assignments.sh
 coverage:
 	@sh tests/scripts/coverage.sh
 mutation:
@@ -165,6 +168,6 @@ uninstall:
 
 clean:
 	rm -rf build out
-.PHONY: all pictures programs test bench bench-plot matrix conformance coverage mutation static \
-        prove fuzz gallery playground vector-report install uninstall clean
+.PHONY: all pictures programs test assignments bench bench-plot matrix conformance coverage \
+        mutation static prove fuzz gallery playground vector-report install uninstall clean
 .SECONDARY:

@@ -1,0 +1,88 @@
+/* grade.c - the grader of 09_texture; README.md says what to write.
+   cc -O2 -I. examples/assignments/09_texture/grade.c my.c -lm -o grade && ./grade */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "../grade.h"
+
+shade_vec2 texture_at(const float w[3], const shade_vec2 uv[3], const float abc[3]);
+
+static void yours(const float *in, float *out)
+{
+    shade_vec2 uv[3], got;
+    memcpy(uv, in + 3, sizeof uv);
+    got = texture_at(in, uv, in + 9);
+    out[0] = got.x;
+    out[1] = got.y;
+}
+/* Weights of the corners are abc / w, divided by their sum where divided is set. */
+static void weighted(const float *in, float *out, int over_w, int divided)
+{
+    double u = 0, v = 0, sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const double weight = (double)in[9 + k] / (over_w ? (double)in[k] : 1);
+        u += weight * (double)in[3 + 2 * k];
+        v += weight * (double)in[4 + 2 * k];
+        sum += weight;
+    }
+    out[0] = (float)(divided ? u / sum : u);
+    out[1] = (float)(divided ? v / sum : v);
+}
+static void right(const float *in, float *out) { weighted(in, out, 1, 1); }
+static void affine(const float *in, float *out) { weighted(in, out, 0, 0); }
+static void not_divided(const float *in, float *out) { weighted(in, out, 1, 0); }
+static void times_w(const float *in, float *out)
+{
+    float other[GRADE_IN];
+    memcpy(other, in, sizeof other);
+    for (int k = 0; k < 3; k++) other[k] = 1 / in[k];
+    right(other, out);
+}
+
+static void inputs(float *in, float far)
+{
+    for (int k = 0; k < 3; k++) in[k] = grade_between(1, far);
+    for (int k = 0; k < 6; k++) in[3 + k] = grade_between(0, 1);
+    in[9] = grade_between(0, 1);
+    in[10] = grade_between(0, 1 - in[9]);
+    in[11] = 1 - in[9] - in[10];
+}
+static void tilted(float *in) { inputs(in, 10); }
+static void facing(float *in)
+{
+    inputs(in, 1);
+    in[0] = in[1] = in[2] = grade_between(0.5f, 4);
+}
+
+static int place(float x, float y, float *in)
+{
+    const float at[9] = { 1, 1, 5, 0, 0, 1, 0, 0.5f, 1 };
+    memcpy(in, at, sizeof at);
+    in[11] = (y + 1) / 2;
+    in[10] = (1 - in[11]) * (x + 1) / 2;
+    in[9] = 1 - in[10] - in[11];
+    return 1;
+}
+static const grade_task task = {
+    .name = "09_texture",
+    .names = "w3 uv6 abc3",
+    .outputs = 2,
+    .tolerance = 5e-6f,
+    .yours = GRADE_ANSWER,
+    .right = right,
+    .cases = { { "triangles that tilt away", 6, tilted },
+               { "triangles that face the eye", 2, facing } },
+    .mistakes = { { "affine", affine,
+                    "This is linear on the screen, so textures swim where a triangle tilts: "
+                    "interpolate u/w, v/w and 1/w, then divide." },
+                  { "not_divided", not_divided,
+                    "u/w and v/w are interpolated, but not divided by the "
+                    "interpolated 1/w." },
+                  { "times_w", times_w,
+                    "The corners are multiplied by w where they should be divided." } },
+    .place = place,
+    .scale = 1,
+    .offset = 0,
+    .picture_points = 2,
+};
+
+int main(int argc, char **argv) { return grade_main(&task, argc, argv); }

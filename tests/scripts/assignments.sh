@@ -1,0 +1,87 @@
+#!/bin/sh
+# assignments.sh - the graders of examples/assignments: solutions get full points, starters less than
+# half, and each common mistake loses points and is named by its sentence; results.json and Python.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+CC=${CC:-cc}
+A=examples/assignments
+WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror"
+${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
+build() {                       # grader, answer, flags ...
+    grader=$1 answer=$2; shift 2
+    $CC -std=c99 -O1 $WARN "$@" -I. -DSHADE__IMPLEMENTED "$A/$grader/grade.c" "$answer" build/shade.o \
+        -lm -o "$T/grade"
+}
+scored() {                      # the share of the points, in percent, that the last line tells
+    sed -n '$s/.*: \([0-9.]*\) of \([0-9]*\) points$/\1 \2/p' "$1" | awk '{ print int(100 * $1 / $2) }'
+}
+run() { "$T/grade" "$@" >"$T/said" 2>&1; }
+less_than_half() { ! run && [ "$(scored "$T/said")" -lt 50 ]; }
+# The sentence of a mistake, of the lines of its strings in grade.c.
+sentence() {
+    awk -v name="{ \"$2\"," '
+        index($0, name) { inside = 1; sub(/.*\{ "[a-z_]+", [a-z_]+,/, "") }
+        inside { while (match($0, /"[^"]*"/)) { text = text substr($0, RSTART + 1, RLENGTH - 2)
+                     $0 = substr($0, RSTART + RLENGTH) }
+                 if (/}/) { print text; exit } }' "$A/$1/grade.c"
+}
+named() { ! run --seed "$3" && grep -qF "$(sentence "$1" "$2")" "$T/said"; }
+
+for task in "$A"/[0-9]*/; do
+    task=$(basename "$task")
+    check "$task: the solution compiles" build "$task" tests/assignments/solutions.c
+    check "$task: full points" run
+    check "$task: full points with other inputs" run --seed 20
+    check "$task: the starter compiles" build "$task" "$A/$task/starter.c"
+    check "$task: a starter gets less than half" less_than_half
+    for mistake in $(sed -n '/\.mistakes/,/\.place/s/.*{ "\([a-z_]*\)", \1,.*/\1/p' "$A/$task/grade.c"); do
+        check "$task: $mistake compiles" build "$task" tests/assignments/solutions.c \
+            -Wno-unused-function "-DGRADE_ANSWER=$mistake"
+        check "$task: $mistake is named" named "$task" "$mistake" 3
+    done
+    check "$task: its page has the command" grep -qF "$A/$task/grade.c $A/$task/starter.c" "$A/$task/README.md"
+done
+there python3 || { left_out "results.json and grade.py: no python3"; finish; }
+
+build 01_lambert "$A/01_lambert/starter.c"
+"$T/grade" --json "$T/results.json" --picture "$T/out.ppm" >/dev/null
+check "results.json is Gradescope's" python3 -c "
+import json, sys
+tests = json.load(open(sys.argv[1]))['tests']
+assert [t['max_score'] for t in tests] == [4, 4, 2] and tests[0]['score'] == 0 and tests[0]['output']
+" "$T/results.json"
+check "the picture is a PPM" sh -c "head -c 15 '$T/out.ppm' | grep -q '320 160'"
+
+cat >"$T/answer.py" <<'END'
+import math
+def dot(a, b): return sum(x * y for x, y in zip(a, b))
+def lambert(N, L): return max(0, dot(N, L))
+def mirror(L, N): return [2 * dot(N, L) * n - l for n, l in zip(N, L)]
+def halfway(L, V):
+    s = [l + v for l, v in zip(L, V)]
+    d = math.sqrt(dot(s, s))
+    return [x / d for x in s] if d > 1e-6 else [0, 0, 0]
+def phong(N, L, V, n): return max(0, dot(mirror(L, N), V)) ** n if dot(N, L) > 0 else 0
+def attenuation(a, b, c, r): return 1 / (a + b * r + c * r * r)
+def spot(L, aim, cos_cutoff, e):
+    c = -dot(L, aim)
+    return c ** e if c >= cos_cutoff - 1e-9 else 0
+def cross(a, b): return [a[1]*b[2] - a[2]*b[1], a[2]*b[0] - a[0]*b[2], a[0]*b[1] - a[1]*b[0]]
+def normal_matrix(m):
+    x, y, z = m[0:3], m[4:7], m[8:11]
+    sign = math.copysign(1, dot(x, cross(y, z)))
+    return [[sign * e for e in c] for c in (cross(y, z), cross(z, x), cross(x, y))]
+END
+sed 's/max(0, dot(N, L))/dot(N, L)/; s/return \[2 \*/return [-2 */; s/n - l for/n + l for/' "$T/answer.py" >"$T/wrong.py"
+for task in 01_lambert 02_mirror 03_highlight 04_attenuation 05_spot 06_normal_matrix; do
+    build "$task" tests/assignments/solutions.c && "$T/grade" --vectors >"$T/v.json"
+    check "$task in Python: full points" python3 "$A/grade.py" "$T/answer.py" "$T/v.json"
+    check "$task in Python: the starter compiles and fails" \
+        sh -c "! python3 '$A/grade.py' '$A/$task/starter.py' '$T/v.json' >'$T/said' && ! grep -q raises '$T/said'"
+done
+for task in 01_lambert:unclamped 02_mirror:as_printed; do
+    build "${task%:*}" tests/assignments/solutions.c && "$T/grade" --vectors >"$T/v.json"
+    python3 "$A/grade.py" "$T/wrong.py" "$T/v.json" >"$T/said"
+    check "${task%:*} in Python: ${task#*:} is named" grep -qF "$(sentence "${task%:*}" "${task#*:}")" "$T/said"
+done
+finish
