@@ -813,9 +813,22 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_v
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
 
+/* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
+   infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
+SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
+                                        shade_vec3 *high);
+/* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
+   direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
+   as -w <= x, y <= w allows at all eight corners; near and far are not looked at.  A side of an
+   off-centre one that leaves out the line of sight is ignored.  With a projection that does not
+   look down -z, such as an orthographic one, the eye is one diagonal of the box away.  The identity
+   for NaN, infinity and low > high. */
+SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
+                                   shade_vec3 toward_eye, shade_vec3 up);
+
 /* Fills normals[vertex_count] with the unit mean of the normals of the faces around each vertex,
    weighted by their angles there.  It is zero for a vertex without faces; faces without area do not
-   count.                                                                             [Thurmer98] */
+   count, for corners in a line to the bit.                                           [Thurmer98] */
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh, shade_vec3 *normals);
 /* Fills one normal for each corner of each triangle, index_count of them or, without indices,
    vertex_count: the mean, as above, over those faces around the corner's position whose normal has
@@ -850,7 +863,8 @@ typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
 /* 1 if the ray meets the triangle, from either side: at origin + t direction with t >= 0, which is
-   barycentric.x a + barycentric.y b + barycentric.z c.  t and barycentric may be NULL.
+   barycentric.x a + barycentric.y b + barycentric.z c.  Corners in a line to the bit are never hit.
+   t and barycentric may be NULL.
                                                                                       [Moller97] */
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b, shade_vec3 c, float *t,
                              shade_vec3 *barycentric);
@@ -1610,17 +1624,6 @@ SHADE__INLINE void shade__sub3(shade_vec3 a, shade_vec3 b, double *c)
     shade__double3(a, c);
     shade__double3(b, from);
     for (int k = 0; k < 3; k++) c[k] -= from[k];
-}
-
-/* e = b - a, f = c - a, n = e x f.  Returns 0 if n is zero, which it is for a triangle without area
-   where the differences of its floats are exact in double. */
-static int shade__edges3(shade_vec3 a, shade_vec3 b, shade_vec3 c, double *e,
-                         double *f, double *n)
-{
-    shade__sub3(b, a, e);
-    shade__sub3(c, a, f);
-    shade__cross3(e, f, n);
-    return n[0] != 0 || n[1] != 0 || n[2] != 0;
 }
 
 /* Makes v unit, or zero where it is shorter than 1e-18. */
@@ -6762,7 +6765,8 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
-   What a mesh knows of its shape: normals of vertices and corners, and edges.
+   What a mesh knows of its shape: normals of vertices and corners, edges, its box, and the view
+   that shows it.
      in      meshes, the caller's memory         out  the caller's arrays
      method  normals of faces, weighted by their angle at the vertex [Thurmer98]; edges by sorting
                                                                                          >>chunks */
@@ -6781,13 +6785,47 @@ static double shade__angle(double y, double x)
     return x < 0 ? 4 * quarter - a : a;
 }
 
+/* Whether six doubles sum to 0 exactly.  x[0] .. x[i - 1] are kept as a sum whose parts do not
+   overlap, which is 0 only if each is; a + b is sum and, without rounding, the error of that.
+                                                                                     [Shewchuk97] */
+static int shade__sum_is_zero(double x[6])
+{
+    for (int i = 1; i < 6; i++) {
+        for (int k = 0; k < i; k++) {
+            const double a = x[i], b = x[k], sum = a + b, rounded = sum - a;
+            x[k] = (a - (sum - rounded)) + (b - rounded);
+            x[i] = sum;
+        }
+    }
+    for (int i = 0; i < 6; i++)
+        if (x[i] != 0) return 0;
+    return 1;
+}
+
+/* 0 if three points lie in a line, to the bit.  Products of two floats are exact in double, while
+   differences of far and near points may round. */
+static int shade__has_area(const shade_vec3 p[3])
+{
+    double v[3][3];
+    for (int k = 0; k < 3; k++) shade__double3(p[k], v[k]);
+    for (int i = 0; i < 3; i++) {
+        const int j = i < 2 ? i + 1 : 0;
+        double x[6];
+        for (int k = 0; k < 3; k++) {
+            const double *a = v[k], *b = v[k < 2 ? k + 1 : 0];
+            x[2 * k] = a[i] * b[j];
+            x[2 * k + 1] = -a[j] * b[i];
+        }
+        if (!shade__sum_is_zero(x)) return 1;
+    }
+    return 0;
+}
+
 /* The unit normal of triangle t; zero where it has no area or a corner that is not finite. */
 static shade_vec3 shade__triangle_normal(const shade_mesh *m, uint32_t t)
 {
     shade_vec3 p[3], n = shade__face_normal(m, t, p);
-    double e[3], f[3], cross[3];
-    int good = shade__edges3(p[0], p[1], p[2], e, f, cross);
-    good = good && shade__within(shade_dot(n, n), 2);
+    const int good = shade__within(shade_dot(n, n), 2) && shade__has_area(p);
     return good ? n : shade_v3(0, 0, 0);
 }
 
@@ -6994,6 +7032,62 @@ SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold)
     return shade_dot(n0, n1) <= threshold;
 }
 
+/* Computes the box around the finite corners of a chunk; low > high where there are none. */
+static void shade__box_chunk(const shade_mesh *m, shade_chunk *c)
+{
+    c->low = shade_v3(FLT_MAX, FLT_MAX, FLT_MAX);
+    c->high = shade_neg(c->low);
+    for (uint32_t k = 3 * (uint32_t)c->first; k < 3 * (uint32_t)(c->first + c->count); k++) {
+        const shade_vec3 p = shade__corner(m, k);
+        if (!shade__finite3(p)) continue;
+        c->low = shade_min(c->low, p);
+        c->high = shade_max(c->high, p);
+    }
+}
+
+SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
+                                        shade_vec3 *high)
+{
+    shade_chunk all;
+    shade_result result = shade__check_shape(mesh, low ? high : NULL);
+    if (!result) result = shade__check_corners(mesh);
+    if (result) return result;
+    all.first = 0;
+    all.count = shade__corner_count(mesh) / 3;
+    shade__box_chunk(mesh, &all);
+    *low = all.low.x <= all.high.x ? all.low : shade_v3(1, 1, 1);
+    *high = all.low.x <= all.high.x ? all.high : shade_v3(0, 0, 0);
+    return SHADE_OK;
+}
+
+/* First the eye stands in the middle of the box.  For each side of the picture, where g = w +- x or
+   w +- y is 0, it steps back along z until g is not negative at the corner where it is least.  The
+   millionths are for rounding. */
+SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
+                                   shade_vec3 high, shade_vec3 toward_eye,
+                                   shade_vec3 up)
+{
+    const shade_vec3 half = shade_scale(shade_sub(high, low), 0.5f);
+    const shade_mat4 row = shade_mat4_transpose(projection);
+    shade_mat4 view = shade_mat4_look_at(toward_eye, shade_v3(0, 0, 0), up);
+    const shade_mat3 to_world = shade_mat3_transpose(shade_mat3_from_mat4(view));
+    const int perspective = row.col[3].z < 0;
+    float step = perspective ? -FLT_MAX : 2 * shade_length(half);
+    shade_vec3 t = shade_neg(shade_mat4_transform_direction(view, shade_add(low, half)));
+    for (int side = 0; perspective && side < 4; side++) {
+        const float sign = side & 1 ? -1.0f : 1.0f;
+        const shade_vec4 g = shade_add4(row.col[3], shade_scale4(row.col[side / 2], sign));
+        const shade_vec3 n = shade_mat3_transform(to_world, shade__xyz(g));
+        const float least = g.w - shade_dot(shade_max(n, shade_neg(n)), half);
+        if (g.z < 0 && least / g.z > step) step = least / g.z;
+    }
+    t.z -= step;
+    t.z -= 2e-6f * shade_length(t);
+    view.col[3] = shade__xyzw(t, 1);
+    return half.x >= 0 && half.y >= 0 && half.z >= 0 && shade__finite3(toward_eye) &&
+           shade__finite3(up) && shade__is_finite(&view) ? view : shade_mat4_identity();
+}
+
 /*----------------------------------------------------------------------------------------- >>chunks
    The triangles of a mesh sorted in space and cut into chunks with boxes.
      in      meshes                              out  the caller's chunks and indices
@@ -7118,19 +7212,6 @@ static void shade__sort_triangles(const shade_mesh *m, uint32_t *triangles,
     }
 }
 
-/* Computes the box around the finite corners of a chunk; low > high where there are none. */
-static void shade__box_chunk(const shade_mesh *m, shade_chunk *c)
-{
-    c->low = shade_v3(FLT_MAX, FLT_MAX, FLT_MAX);
-    c->high = shade_neg(c->low);
-    for (uint32_t k = 3 * (uint32_t)c->first; k < 3 * (uint32_t)(c->first + c->count); k++) {
-        const shade_vec3 p = shade__corner(m, k);
-        if (!shade__finite3(p)) continue;
-        c->low = shade_min(c->low, p);
-        c->high = shade_max(c->high, p);
-    }
-}
-
 static int shade__chunk_size(int triangles) { return triangles ? triangles : SHADE__CHUNK; }
 
 SHADEDEF int shade_chunk_count(int index_count, int triangles)
@@ -7217,8 +7298,11 @@ SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
 SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b,
                              shade_vec3 c, float *t, shade_vec3 *barycentric)
 {
+    const shade_vec3 p[3] = { a, b, c };
     double d[3], e[3], f[3], s[3], n[3], q[3], det, u, v, at;
-    shade__edges3(a, b, c, e, f, n);
+    shade__sub3(b, a, e);
+    shade__sub3(c, a, f);
+    shade__cross3(e, f, n);
     shade__double3(ray.direction, d);
     shade__sub3(ray.origin, a, s);
     shade__cross3(d, s, q);
@@ -7228,6 +7312,7 @@ SHADEDEF int shade_intersect(shade_ray ray, shade_vec3 a, shade_vec3 b,
     v = -shade__dot3(e, q) / det;
     at = -shade__dot3(s, n) / det;
     if (!(u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 3e38)) return 0;
+    if (!shade__has_area(p)) return 0;
     if (t) *t = (float)at;
     if (barycentric) *barycentric = shade_v3((float)(1 - (u + v)), (float)u, (float)v);
     return 1;
@@ -7314,7 +7399,7 @@ static void shade__pick_triangle(const shade_mesh *mesh,
                                  shade__hit *hit)
 {
     shade_vec3 p[3], q[3], where;
-    double e[3], f[3], n[3], range[2];
+    double range[2];
     float t;
     for (uint32_t k = 0; k < 3; k++) q[k] = shade__corner(mesh, 3 * (uint32_t)triangle + k);
     if (!shade__meets_box(local, shade_min(q[0], shade_min(q[1], q[2])),
@@ -7325,7 +7410,7 @@ static void shade__pick_triangle(const shade_mesh *mesh,
     if ((double)t < range[0] || (double)t > range[1]) return;
     if (t == hit->t && triangle > hit->triangle) return;    /* t <= hit->t, as range ends there */
     /* model may round three points of a line to a triangle with area */
-    if (!shade__edges3(q[0], q[1], q[2], e, f, n)) return;
+    if (!shade__has_area(q)) return;
     hit->triangle = triangle;
     hit->t = t;
     hit->barycentric = where;
@@ -8009,6 +8094,8 @@ SHADE__END
                   ACM 18(6), 311-317.
    [Pineda88]     J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988,
                   Computer Graphics 22(4), 17-20.
+   [Shewchuk97]   J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
+                  Geometric Predicates", Discrete & Computational Geometry 18(3), 305-363.
    [Sutherland74] I. E. Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping", Communications of
                   the ACM 17(1), 32-42.
    [Thurmer98]    G. Thuermer, C. A. Wuethrich, "Computing Vertex Normals from Polygonal Facets",

@@ -128,14 +128,38 @@ static shade_vec3 shape_at(const shape_mesh *s, int corner)
     return shape_position(&s->m, shape_corner(&s->m, corner));
 }
 
-/* Component k of (b - a) x (c - a), in double. */
-static double shape_cross(shade_vec3 a, shade_vec3 b, shade_vec3 c, int k)
+/* Adds sign x y to a number in limbs of 24 bits, the lowest 2^-348. */
+static void shape_add(int64_t *limb, int sign, float x, float y)
 {
-    const float p[3] = { a.x, a.y, a.z }, q[3] = { b.x, b.y, b.z }, r[3] = { c.x, c.y, c.z };
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const double ei = (double)q[i] - (double)p[i], ej = (double)q[j] - (double)p[j];
-    const double fi = (double)r[i] - (double)p[i], fj = (double)r[j] - (double)p[j];
-    return ei * fj - ej * fi;
+    int ex, ey;
+    const int64_t mx = (int64_t)ldexp(frexp((double)x, &ex), 24) * sign;
+    const int64_t my = (int64_t)ldexp(frexp((double)y, &ey), 24);
+    const int64_t product = mx * my, high = product / (1 << 24), low = product % (1 << 24);
+    const int shift = ex + ey - 48 + 348;
+    limb[shift / 24] += low * (1 << shift % 24);
+    limb[shift / 24 + 1] += high * (1 << shift % 24);
+}
+
+/* Whether a triangle's three points are finite and lie on a line, in integers: all three sums of
+   products in (b - a) x (c - a) are 0. */
+static int shape_flat(shade_vec3 a, shade_vec3 b, shade_vec3 c)
+{
+    const float p[3][3] = { { a.x, a.y, a.z }, { b.x, b.y, b.z }, { c.x, c.y, c.z } };
+    for (int k = 0; k < 9; k++)
+        if (!isfinite(p[k / 3][k % 3])) return 0;
+    for (int i = 0; i < 3; i++) {
+        int64_t limb[32] = { 0 };
+        const int j = (i + 1) % 3;
+        for (int k = 0; k < 3; k++) {
+            shape_add(limb, 1, p[k][i], p[(k + 1) % 3][j]);
+            shape_add(limb, -1, p[k][j], p[(k + 1) % 3][i]);
+        }
+        for (int k = 0; k < 31; k++) {
+            if (limb[k] % (1 << 24)) return 0;
+            limb[k + 1] += limb[k] / (1 << 24);
+        }
+    }
+    return 1;
 }
 
 /* Zero for corners in a line: shade_face_normal alone would make a normal of rounding noise. */
@@ -143,9 +167,7 @@ static shade_vec3 shape_face(const shape_mesh *s, int t)
 {
     const shade_vec3 a = shape_at(s, 3 * t), b = shape_at(s, 3 * t + 1), c = shape_at(s, 3 * t + 2);
     const shade_vec3 n = shade_face_normal(a, b, c);
-    int line = 1;
-    for (int k = 0; k < 3; k++) line &= shape_cross(a, b, c, k) == 0;
-    return !line && shade_dot(n, n) <= 2 ? n : shade_v3(0, 0, 0);
+    return !shape_flat(a, b, c) && shade_dot(n, n) <= 2 ? n : shade_v3(0, 0, 0);
 }
 
 static double shape_angle(const shape_mesh *s, int corner)
@@ -240,15 +262,6 @@ static void shape_edges(fuzz_input *in, const shape_mesh *s)
         uint32_t b = shape_corner(&s->m, i % 3 == 2 ? i - 2 : i + 1);
         HOLDS(shape_named(edges, count, a, b, i / 3) == (a != b));
     }
-}
-
-/* Whether a triangle's three points lie on a line: (b - a) x (c - a) = 0 in doubles. */
-static int shape_flat(shade_vec3 a, shade_vec3 b, shade_vec3 c)
-{
-    double ex = (double)b.x - (double)a.x, fx = (double)c.x - (double)a.x;
-    double ey = (double)b.y - (double)a.y, fy = (double)c.y - (double)a.y;
-    double ez = (double)b.z - (double)a.z, fz = (double)c.z - (double)a.z;
-    return ey * fz == ez * fy && ez * fx == ex * fz && ex * fy == ey * fx;
 }
 
 /* Whether a ray lies in the plane of a triangle but for a millionth, or t is denormal: rounding
@@ -366,6 +379,7 @@ static void shape_rays(fuzz_input *in, const shape_mesh *s)
                                   kind & 16 ? NULL : &t, kind & 32 ? NULL : &at);
         HOLDS(hit == 0 || hit == 1);
         if (!hit) continue;
+        HOLDS(!shape_flat(shape_at(s, i), shape_at(s, i + 1), shape_at(s, i + 2)));
         if (!(kind & 16)) HOLDS(t >= 0 && t <= FLT_MAX);
         if (kind & 32) continue;
         HOLDS(at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x <= 1 && at.y <= 1 && at.z <= 1);

@@ -295,6 +295,25 @@ TEST(ray, triangles_without_area_are_never_hit)
     }
 }
 
+TEST(ray, corners_in_a_line_to_the_bit_are_never_hit)
+{
+    int rounded = 0;
+    for (int i = 0; i < 100000; i++) {
+        shade_vec3 p[3];
+        shade_ray r;
+        corners_in_a_line(p);
+        const int a = rnd_int(0, 2), b = (a + 1) % 3, c = (a + 2) % 3;
+        const d3 e = d3_sub(d3_from(p[b]), d3_from(p[a])), f = d3_sub(d3_from(p[c]), d3_from(p[a]));
+        rounded += d3_length(d3_cross(e, f)) > 0;
+        r.origin = random_vector(4);
+        r.direction = shade_sub(shade_scale(p[rnd_int(0, 2)], rnd_float(0, 1)), r.origin);
+        CHECK_INT(shade_intersect(r, p[a], p[b], p[c], NULL, NULL), 0);
+        const shade_mesh m = plain_mesh(&p[0].x, 3);
+        CHECK_INT(shade_pick(&m, shade_mat4_identity(), r, NULL, NULL), -1);
+    }
+    CHECK_SAY(rounded > 1000, "%d", rounded);
+}
+
 TEST(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at)
 {
     /* Aimed at points of edges, a ray meets at least one of the two triangles in most cases, and
@@ -1251,6 +1270,7 @@ static const test_case ray_cases[] = {
     CASE(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say),
     CASE(ray, corners_edges_and_the_origin_itself_belong_to_the_triangle),
     CASE(ray, triangles_without_area_are_never_hit),
+    CASE(ray, corners_in_a_line_to_the_bit_are_never_hit),
     CASE(ray, rays_through_a_closed_ball_hit_it_whatever_edge_they_aim_at),
     CASE(ray, no_numbers_meet_nothing_or_something_finite),
     CASE(ray, pick_is_the_nearest_triangle_of_all),

@@ -805,6 +805,38 @@ TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
     CHECK_INT(shade_is_crease(x, minus, -1), 1);
 }
 
+/* Three multiples of one vector by powers of two are floats on a line to the bit, while differences
+   of them round, even in double. */
+static void corners_in_a_line(shade_vec3 p[3])
+{
+    const shade_vec3 v = d3_round(rnd_direction());
+    for (int k = 0; k < 3; k++) p[k] = shade_scale(v, rnd_sign() * (float)ldexp(1, rnd_int(-40, 3)));
+}
+
+TEST(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal)
+{
+    for (int i = 0; i < 20000; i++) {
+        const uint32_t index[6] = { 0, 1, 2, 0, 1, 3 };
+        static uint32_t memory[4 * 6];
+        shade_vec3 p[4], normal[4], corner[6];
+        shade_mesh m = plain_mesh(&p[0].x, 4);
+        corners_in_a_line(p);
+        p[3] = shade_madd(p[0], shade_length(p[0]) + shade_length(p[1]), d3_round(rnd_direction()));
+        m.indices = index;
+        m.index_count = 6;
+        CHECK_INT(shade_mesh_normals(&m, normal), SHADE_OK);
+        CHECK_VEC(normal[2], d3_of(0, 0, 0), 0);
+        CHECK_INT(shade_mesh_corner_normals(&m, -1, corner, memory, sizeof memory), SHADE_OK);
+        if (memcmp(&p[0], &p[2], 12) && memcmp(&p[1], &p[2], 12)) /* equal positions are one */
+            CHECK_VEC(corner[2], d3_of(0, 0, 0), 0);
+        const d3 face = d3_cross(d3_unit(d3_sub(d3_from(p[1]), d3_from(p[0]))),
+                                 d3_unit(d3_sub(d3_from(p[3]), d3_from(p[0]))));
+        if (d3_length(face) < 0.2) continue;
+        CHECK_VEC(normal[3], d3_unit(face), 1e-4);
+        CHECK_VEC(corner[5], d3_unit(face), 1e-4);
+    }
+}
+
 /* A plane with a T-junction, which a triangle without area closes: its corners lie in a line, and
    the one in the middle has an angle of pi. */
 TEST(shape, a_triangle_without_area_in_a_junction_turns_no_normal)
@@ -818,7 +850,7 @@ TEST(shape, a_triangle_without_area_in_a_junction_turns_no_normal)
         static uint32_t memory[4 * 12];
         shade_vec3 p[5], normal[5], corner[12];
         shade_mesh m;
-        if (d3_length(d3_cross(d3_from(u), d3_from(v))) < 1) continue;
+        if (d3_length(d3_cross(d3_unit(d3_from(u)), d3_unit(d3_from(v)))) < 0.1) continue;
         p[0] = shade_v3(0, 0, 0);
         p[1] = shade_scale(u, middle);
         p[2] = shade_scale(u, end);
@@ -856,5 +888,6 @@ static const test_case shape_cases[] = {
     CASE(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes),
     CASE(shape, bad_edge_calls_are_refused),
     CASE(shape, silhouettes_part_front_from_back_and_creases_bend_enough),
+    CASE(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal),
     CASE(shape, a_triangle_without_area_in_a_junction_turns_no_normal),
 };
