@@ -109,6 +109,12 @@
      B                   1 where N.L > 0, else 0
      H                   (L + V) / |L + V|; SHADE_MODEL_PHONG has (R.V)^n instead, R = 2 (N.L) N - L
 */
+#if !defined(__cplusplus) && (defined(__GNUC__) || defined(__STDC_VERSION__)) && \
+    !(defined(__STDC_VERSION__) && __STDC_VERSION__ >= 199901L)
+#error "shade.h needs C99 or later: compile with -std=c99, or without -std and -ansi"
+#define SHADE_H    /* so that this is the only error */
+#undef SHADE_IMPLEMENTATION
+#endif
 #ifndef SHADE_H
 #define SHADE_H
 #define SHADE_VERSION 10200    /* major * 10000 + minor * 100 + patch */
@@ -750,6 +756,14 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
     const void *uniforms;                         /* passed to it */
 } shade_draw_state;
 
+/* The first rows of what a fragment shader of a draw state finds in shade_fragments.varying. */
+enum {
+    SHADE_VARYING_POSITION = 0,                   /* P, world space */
+    SHADE_VARYING_NORMAL = 3,                     /* N, world space; unit at the vertices alone */
+    SHADE_VARYING_COLOR = 6,                      /* of the vertices; 1 without colours */
+    SHADE_VARYING_TEXCOORD = 9                    /* u, v; 0 without texcoords */
+};
+
 /* Draws a mesh lit by the equations of >>model in world space.  The eye is the position of the
    camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
    the centroid, with the face's normal and the colour of the first vertex; a map still varies from
@@ -758,12 +772,10 @@ typedef struct shade_draw_state {                 /* how one mesh is drawn */
    blends by alpha, ADD adds the colour times alpha.  Fragments whose alpha is below alpha_cutoff
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
-     A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  Varyings
-   0 .. 2 are P and 3 .. 5 are N, in world space (N is unit at the vertices, not between them), 6 ..
-   8 are the vertex colour (1 without colours), 9 and 10 are u and v (0 without texcoords); lod is
-   that of diffuse_map.  The shader samples maps itself.  Alpha is (1 - transparency) times its
-   color[3]; ADD, OVER and alpha_cutoff use that.  In depth-only draws it is called only where
-   alpha_cutoff > 0. */
+     A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
+   the SHADE_VARYING_... above, and lod of diffuse_map.  It samples maps itself.  Alpha is (1 -
+   transparency) times its color[3]; ADD, OVER and alpha_cutoff use that.  In depth-only draws it is
+   called only where alpha_cutoff > 0. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
@@ -2476,10 +2488,10 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
 }
 
 /*------------------------------------------------------------------------------------------ >>terms
-   The terms of >>model one by one, for a single point, and the classic materials.
+   The terms of >>model one by one, for a single point.
      in      unit vectors                  out  cosines, powers, colours
      holds   Roots are those of sqrtf, not of shade__rsqrt.
-     source  [Phong75], [Blinn77], [Gooch98], [Kilgard94]                               >>surface */
+     source  [Phong75], [Blinn77], [Gooch98]                                            >>surface */
 
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
 {
@@ -2525,12 +2537,21 @@ SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal,
     return shade__highlight(0, normal, to_light, to_eye, exponent);
 }
 
+/* The material of a call that is given none. */
+static shade_material shade__white_lambert(void)
+{
+    shade_material m;
+    SHADE__ZERO(m);
+    m.ambient = m.diffuse = shade_v3(1, 1, 1);
+    return m;
+}
+
 SHADEDEF shade_vec3 shade_brdf(const shade_material *material,
                                shade_model model, shade_vec3 normal,
                                shade_vec3 to_light, shade_vec3 to_eye)
 {
     const int phong = model == SHADE_MODEL_PHONG;
-    shade_material m = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
+    shade_material m = material ? *material : shade__white_lambert();
     if (phong || model == SHADE_MODEL_BLINN_PHONG) {
         float lobe = shade__highlight(phong, normal, to_light, to_eye,
                                       m.shininess);
@@ -2546,72 +2567,6 @@ SHADEDEF shade_vec3 shade_cool_to_warm(shade_vec3 normal, shade_vec3 to_light,
 }
 
 SHADEDEF float shade_blinn_exponent(float phong_exponent) { return 4 * phong_exponent; }
-
-/* One row of the table: name; k_a, k_d, k_s, shininess / 128. [Kilgard94] */
-typedef struct shade__preset_row {
-    const char *name;
-    float ar, ag, ab, dr, dg, db, sr, sg, sb, shininess;
-} shade__preset_row;
-static const shade__preset_row *shade__preset(int preset)
-{
-    static const shade__preset_row table[SHADE_PRESET_COUNT + 1] = {
-        { "emerald", 0.0215f, 0.1745f, 0.0215f, 0.07568f, 0.61424f, 0.07568f,
-            0.633f, 0.727811f, 0.633f, 0.6f },
-        { "jade", 0.135f, 0.2225f, 0.1575f, 0.54f, 0.89f, 0.63f,
-            0.316228f, 0.316228f, 0.316228f, 0.1f },
-        { "obsidian", 0.05375f, 0.05f, 0.06625f, 0.18275f, 0.17f, 0.22525f,
-            0.332741f, 0.328634f, 0.346435f, 0.3f },
-        { "pearl", 0.25f, 0.20725f, 0.20725f, 1, 0.829f, 0.829f,
-            0.296648f, 0.296648f, 0.296648f, 0.088f },
-        { "ruby", 0.1745f, 0.01175f, 0.01175f, 0.61424f, 0.04136f, 0.04136f,
-            0.727811f, 0.626959f, 0.626959f, 0.6f },
-        { "turquoise", 0.1f, 0.18725f, 0.1745f, 0.396f, 0.74151f, 0.69102f,
-            0.297254f, 0.30829f, 0.306678f, 0.1f },
-        { "brass", 0.329412f, 0.223529f, 0.027451f, 0.780392f, 0.568627f, 0.113725f,
-            0.992157f, 0.941176f, 0.807843f, 0.21794872f },
-        { "bronze", 0.2125f, 0.1275f, 0.054f, 0.714f, 0.4284f, 0.18144f,
-            0.393548f, 0.271906f, 0.166721f, 0.2f },
-        { "chrome", 0.25f, 0.25f, 0.25f, 0.4f, 0.4f, 0.4f, 0.774597f, 0.774597f, 0.774597f, 0.6f },
-        { "copper", 0.19125f, 0.0735f, 0.0225f, 0.7038f, 0.27048f, 0.0828f,
-            0.256777f, 0.137622f, 0.086014f, 0.1f },
-        { "gold", 0.24725f, 0.1995f, 0.0745f, 0.75164f, 0.60648f, 0.22648f,
-            0.628281f, 0.555802f, 0.366065f, 0.4f },
-        { "silver", 0.19225f, 0.19225f, 0.19225f, 0.50754f, 0.50754f, 0.50754f,
-            0.508273f, 0.508273f, 0.508273f, 0.4f },
-        { "black plastic", 0, 0, 0, 0.01f, 0.01f, 0.01f, 0.5f, 0.5f, 0.5f, 0.25f },
-        { "cyan plastic", 0, 0.1f, 0.06f, 0, 0.50980392f, 0.50980392f,
-            0.50196078f, 0.50196078f, 0.50196078f, 0.25f },
-        { "green plastic", 0, 0, 0, 0.1f, 0.35f, 0.1f, 0.45f, 0.55f, 0.45f, 0.25f },
-        { "red plastic", 0, 0, 0, 0.5f, 0, 0, 0.7f, 0.6f, 0.6f, 0.25f },
-        { "white plastic", 0, 0, 0, 0.55f, 0.55f, 0.55f, 0.7f, 0.7f, 0.7f, 0.25f },
-        { "yellow plastic", 0, 0, 0, 0.5f, 0.5f, 0, 0.6f, 0.6f, 0.5f, 0.25f },
-        { "black rubber", 0.02f, 0.02f, 0.02f, 0.01f, 0.01f, 0.01f, 0.4f, 0.4f, 0.4f, 0.078125f },
-        { "cyan rubber", 0, 0.05f, 0.05f, 0.4f, 0.5f, 0.5f, 0.04f, 0.7f, 0.7f, 0.078125f },
-        { "green rubber", 0, 0.05f, 0, 0.4f, 0.5f, 0.4f, 0.04f, 0.7f, 0.04f, 0.078125f },
-        { "red rubber", 0.05f, 0, 0, 0.5f, 0.4f, 0.4f, 0.7f, 0.04f, 0.04f, 0.078125f },
-        { "white rubber", 0.05f, 0.05f, 0.05f, 0.5f, 0.5f, 0.5f, 0.7f, 0.7f, 0.7f, 0.078125f },
-        { "yellow rubber", 0.05f, 0.05f, 0, 0.5f, 0.5f, 0.4f, 0.7f, 0.7f, 0.04f, 0.078125f },
-        { "", 1, 1, 1, 1, 1, 1, 0, 0, 0, 0 }    /* white Lambert */
-    };
-    return &table[preset < 0 || preset > SHADE_PRESET_COUNT ? (int)SHADE_PRESET_COUNT : preset];
-}
-
-SHADEDEF shade_material shade_preset_material(shade_preset preset)
-{
-    const shade__preset_row *row = shade__preset((int)preset);
-    shade_material m;
-    m.emission = shade_v3(0, 0, 0);
-    m.ambient = shade_v3(row->ar, row->ag, row->ab);
-    m.diffuse = shade_v3(row->dr, row->dg, row->db);
-    m.specular = shade_v3(row->sr, row->sg, row->sb);
-    m.shininess = row->shininess * 128;
-    return m;
-}
-
-SHADEDEF const char *shade_preset_name(shade_preset preset)
-{
-    return shade__preset((int)preset)->name;
-}
 
 /*---------------------------------------------------------------------------------------- >>surface
    What the points of a call are lit by: defaults are filled in, materials and lights multiplied,
@@ -2716,7 +2671,7 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
     if (flags & SHADE_FLAG_ATTENUATED_AMBIENT) by_lamps |= SHADE_TERM_AMBIENT;
     s->lighting = lighting;
     s->terms = terms;
-    s->material = material ? *material : shade_preset_material(SHADE_PRESET_COUNT);
+    s->material = material ? *material : shade__white_lambert();
     s->eye = shade__xyzw(eye, flags & SHADE_FLAG_INFINITE_VIEWER ? 0.0f : 1.0f);
     s->open = shade__mask((flags & SHADE_FLAG_UNGATED_SPECULAR) != 0);
     s->sign = flags & SHADE_FLAG_TWO_SIDED_ABS ? 0x7FFFFFFF : 0xFFFFFFFF;
@@ -5696,7 +5651,7 @@ static int shade__mesh_varyings(const shade_mesh *m,
                                 const shade_draw_state *state)
 {
     const int map = state->diffuse_map && m->texcoords;
-    if (state->fragment) return 11;
+    if (state->fragment) return SHADE_VARYING_TEXCOORD + 2;
     if (state->shading != SHADE_SHADING_PER_FRAGMENT) return map ? 8 : 3;
     return (m->colors ? 9 : 6) + (map ? 2 : 0);
 }
@@ -6485,8 +6440,9 @@ static void shade__mesh_colors(const shade__scene *s,
         shade_rows rows;
         SHADE__ZERO(rows);
         rows.position = varying;
-        rows.normal = varying + 3 * SHADE_LANES;
-        if (s->tinted) rows.albedo = varying + (s->pn_unread ? 0 : 6 * SHADE_LANES);
+        rows.normal = varying + SHADE_VARYING_NORMAL * SHADE_LANES;
+        if (s->tinted)
+            rows.albedo = varying + (s->pn_unread ? 0 : SHADE_VARYING_COLOR * SHADE_LANES);
         if (s->map) shade__lit_map(s, &rows, to);
         else shade__lit_packet(&s->surface, &rows, to);
     } else if (s->map) {
@@ -7060,30 +7016,36 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
-/* First the eye stands in the middle of the box.  For each side of the picture, where g = w +- x or
-   w +- y is 0, it steps back along z until g is not negative at the corner where it is least.  The
-   millionths are for rounding. */
+/* First the eye stands in the middle of the box.  For each side of the picture it steps back along
+   z until the side's plane, w +- x or w +- y, is not negative at the corner where it is least.
+   6e-8 is for the rounding to float. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
                                    shade_vec3 high, shade_vec3 toward_eye,
                                    shade_vec3 up)
 {
     const shade_vec3 half = shade_scale(shade_sub(high, low), 0.5f);
-    const shade_mat4 row = shade_mat4_transpose(projection);
+    const float box[2][4] = { { low.x, low.y, low.z, 1 }, { high.x, high.y, high.z, 1 } };
+    const int perspective = projection.col[2].w < 0;
+    shade__frustum f;
     shade_mat4 view = shade_mat4_look_at(toward_eye, shade_v3(0, 0, 0), up);
-    const shade_mat3 to_world = shade_mat3_transpose(shade_mat3_from_mat4(view));
-    const int perspective = row.col[3].z < 0;
-    float step = perspective ? -FLT_MAX : 2 * shade_length(half);
-    shade_vec3 t = shade_neg(shade_mat4_transform_direction(view, shade_add(low, half)));
+    double v[16], step = perspective ? -DBL_MAX : 2 * (double)shade_length(half);
+    view.col[3] = shade__xyzw(
+        shade_neg(shade_mat4_transform_direction(view, shade_add(low, half))), 1);
+    shade__doubles(shade__entries(&view), 16, v);
     for (int side = 0; perspective && side < 4; side++) {
-        const float sign = side & 1 ? -1.0f : 1.0f;
-        const shade_vec4 g = shade_add4(row.col[3], shade_scale4(row.col[side / 2], sign));
-        const shade_vec3 n = shade_mat3_transform(to_world, shade__xyz(g));
-        const float least = g.w - shade_dot(shade_max(n, shade_neg(n)), half);
-        if (g.z < 0 && least / g.z > step) step = least / g.z;
+        const int sign = side & 1 ? -1 : 1;
+        double least = 0, back;
+        shade__frustum_plane(&projection, side / 2, sign, -sign, side, &f);
+        for (int k = 0; k < 4; k++) {
+            double n = 0;
+            for (int i = 0; i < 4; i++) n += f.k[i][side] * v[4 * k + i];
+            least += n * (double)box[n < 0][k];
+        }
+        back = f.k[2][side];
+        if (back < 0 && least / back > step) step = least / back;
     }
-    t.z -= step;
-    t.z -= 2e-6f * shade_length(t);
-    view.col[3] = shade__xyzw(t, 1);
+    v[14] -= step;
+    view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
     return half.x >= 0 && half.y >= 0 && half.z >= 0 && shade__finite3(toward_eye) &&
            shade__finite3(up) && shade__is_finite(&view) ? view : shade_mat4_identity();
 }
@@ -8011,7 +7973,7 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
 /*------------------------------------------------------------------------------------------ >>image
    Pictures as binary PPM: "P6", width, height, 255, then R, G, B bytes from the top row on, as a
    target of RGBA8 would store them.
-                                                                                           >>refs */
+                                                                                        >>presets */
 
 static char *shade__decimal(char *p, int n)
 {
@@ -8069,6 +8031,78 @@ SHADEDEF shade_result shade_write_ppm(const char *path,
     return result;
 }
 #endif
+
+/*---------------------------------------------------------------------------------------- >>presets
+   The classic materials, as colours of a display.
+     source  [Kilgard94]                                                                   >>refs */
+
+/* One row of the table: name; k_a, k_d, k_s, shininess / 128. */
+typedef struct shade__preset_row {
+    const char *name;
+    float ar, ag, ab, dr, dg, db, sr, sg, sb, shininess;
+} shade__preset_row;
+
+/* NULL where there is no such material. */
+static const shade__preset_row *shade__preset(int preset)
+{
+    static const shade__preset_row table[SHADE_PRESET_COUNT] = {
+        { "emerald", 0.0215f, 0.1745f, 0.0215f, 0.07568f, 0.61424f, 0.07568f,
+            0.633f, 0.727811f, 0.633f, 0.6f },
+        { "jade", 0.135f, 0.2225f, 0.1575f, 0.54f, 0.89f, 0.63f,
+            0.316228f, 0.316228f, 0.316228f, 0.1f },
+        { "obsidian", 0.05375f, 0.05f, 0.06625f, 0.18275f, 0.17f, 0.22525f,
+            0.332741f, 0.328634f, 0.346435f, 0.3f },
+        { "pearl", 0.25f, 0.20725f, 0.20725f, 1, 0.829f, 0.829f,
+            0.296648f, 0.296648f, 0.296648f, 0.088f },
+        { "ruby", 0.1745f, 0.01175f, 0.01175f, 0.61424f, 0.04136f, 0.04136f,
+            0.727811f, 0.626959f, 0.626959f, 0.6f },
+        { "turquoise", 0.1f, 0.18725f, 0.1745f, 0.396f, 0.74151f, 0.69102f,
+            0.297254f, 0.30829f, 0.306678f, 0.1f },
+        { "brass", 0.329412f, 0.223529f, 0.027451f, 0.780392f, 0.568627f, 0.113725f,
+            0.992157f, 0.941176f, 0.807843f, 0.21794872f },
+        { "bronze", 0.2125f, 0.1275f, 0.054f, 0.714f, 0.4284f, 0.18144f,
+            0.393548f, 0.271906f, 0.166721f, 0.2f },
+        { "chrome", 0.25f, 0.25f, 0.25f, 0.4f, 0.4f, 0.4f, 0.774597f, 0.774597f, 0.774597f, 0.6f },
+        { "copper", 0.19125f, 0.0735f, 0.0225f, 0.7038f, 0.27048f, 0.0828f,
+            0.256777f, 0.137622f, 0.086014f, 0.1f },
+        { "gold", 0.24725f, 0.1995f, 0.0745f, 0.75164f, 0.60648f, 0.22648f,
+            0.628281f, 0.555802f, 0.366065f, 0.4f },
+        { "silver", 0.19225f, 0.19225f, 0.19225f, 0.50754f, 0.50754f, 0.50754f,
+            0.508273f, 0.508273f, 0.508273f, 0.4f },
+        { "black plastic", 0, 0, 0, 0.01f, 0.01f, 0.01f, 0.5f, 0.5f, 0.5f, 0.25f },
+        { "cyan plastic", 0, 0.1f, 0.06f, 0, 0.50980392f, 0.50980392f,
+            0.50196078f, 0.50196078f, 0.50196078f, 0.25f },
+        { "green plastic", 0, 0, 0, 0.1f, 0.35f, 0.1f, 0.45f, 0.55f, 0.45f, 0.25f },
+        { "red plastic", 0, 0, 0, 0.5f, 0, 0, 0.7f, 0.6f, 0.6f, 0.25f },
+        { "white plastic", 0, 0, 0, 0.55f, 0.55f, 0.55f, 0.7f, 0.7f, 0.7f, 0.25f },
+        { "yellow plastic", 0, 0, 0, 0.5f, 0.5f, 0, 0.6f, 0.6f, 0.5f, 0.25f },
+        { "black rubber", 0.02f, 0.02f, 0.02f, 0.01f, 0.01f, 0.01f, 0.4f, 0.4f, 0.4f, 0.078125f },
+        { "cyan rubber", 0, 0.05f, 0.05f, 0.4f, 0.5f, 0.5f, 0.04f, 0.7f, 0.7f, 0.078125f },
+        { "green rubber", 0, 0.05f, 0, 0.4f, 0.5f, 0.4f, 0.04f, 0.7f, 0.04f, 0.078125f },
+        { "red rubber", 0.05f, 0, 0, 0.5f, 0.4f, 0.4f, 0.7f, 0.04f, 0.04f, 0.078125f },
+        { "white rubber", 0.05f, 0.05f, 0.05f, 0.5f, 0.5f, 0.5f, 0.7f, 0.7f, 0.7f, 0.078125f },
+        { "yellow rubber", 0.05f, 0.05f, 0, 0.5f, 0.5f, 0.4f, 0.7f, 0.7f, 0.04f, 0.078125f }
+    };
+    return preset >= 0 && preset < SHADE_PRESET_COUNT ? &table[preset] : NULL;
+}
+
+SHADEDEF shade_material shade_preset_material(shade_preset preset)
+{
+    const shade__preset_row *row = shade__preset((int)preset);
+    shade_material m = shade__white_lambert();
+    if (!row) return m;
+    m.ambient = shade_v3(row->ar, row->ag, row->ab);
+    m.diffuse = shade_v3(row->dr, row->dg, row->db);
+    m.specular = shade_v3(row->sr, row->sg, row->sb);
+    m.shininess = row->shininess * 128;
+    return m;
+}
+
+SHADEDEF const char *shade_preset_name(shade_preset preset)
+{
+    const shade__preset_row *row = shade__preset((int)preset);
+    return row ? row->name : "";
+}
 
 SHADE__END
 #endif /* SHADE__IMPLEMENTED */

@@ -52,6 +52,19 @@ for std in c99 c11 c17 c2x; do
     check "header, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/header.c"
     check "implementation, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/impl.c"
 done
+# C before C99 is refused in one sentence; a compiler that states no version, as Microsoft's by
+# default, is not refused
+one_sentence() {                # option
+    ! $CC "$1" -w -I. -fsyntax-only "$T/impl.c" 2>"$T/refusal" || return 1
+    [ "$(grep -c 'error: ' "$T/refusal")" -eq 1 ] && grep -q 'error: .*C99 or later' "$T/refusal"
+}
+printf '#if __STDC_VERSION__ + 0 >= 199901L\n#error\n#endif\n' >"$T/before_c99.c"
+for std in c89 gnu89 iso9899:199409; do
+    $CC -std=$std -fsyntax-only "$T/before_c99.c" 2>/dev/null || continue
+    check "refusal of $std" one_sentence -std=$std
+done
+check "no version stated" $CC -std=c99 -w -DSHADE_NO_LIBM -U__GNUC__ -U__STDC_VERSION__ -I. \
+    -fsyntax-only "$T/header.c"
 if [ -n "${CXX:-}" ] && command -v "$CXX" >/dev/null 2>&1; then
     for std in c++11 c++14 c++17 c++20; do
         accepts "$CXX" -std=$std c++ || { echo "compile: $CXX has no $std: left out"; continue; }

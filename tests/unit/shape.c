@@ -590,6 +590,12 @@ static void check_bad_normals(int row, const refusal *r, int bad_mesh)
     check_refusal(row, shade_mesh_corner_normals(bad.mesh, bad.threshold, bad.normals, bad.memory,
                                                  bytes), r->want);
     if (bad_mesh) CHECK_INT(shade_mesh_corner_normals_bytes(bad.mesh), 0);
+    if (bad_mesh) {
+        shade_vec3 low = shade_v3(7, 7, 7), high = low;
+        CHECK_INT(shade_mesh_bounds(bad.mesh, &low, &high), r->want);
+        CHECK(low.x == 7 && low.y == 7 && low.z == 7);
+        CHECK(high.x == 7 && high.y == 7 && high.z == 7);
+    }
     CHECK_SAY(untouched(out, sizeof out), "row %d", row);
 }
 
@@ -810,7 +816,8 @@ TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
 static void corners_in_a_line(shade_vec3 p[3])
 {
     const shade_vec3 v = d3_round(rnd_direction());
-    for (int k = 0; k < 3; k++) p[k] = shade_scale(v, rnd_sign() * (float)ldexp(1, rnd_int(-40, 3)));
+    for (int k = 0; k < 3; k++)
+        p[k] = shade_scale(v, rnd_sign() * (float)ldexp(1, rnd_int(-40, 3)));
 }
 
 TEST(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal)
@@ -866,6 +873,159 @@ TEST(shape, a_triangle_without_area_in_a_junction_turns_no_normal)
     }
 }
 
+/* ---------------------------------------------------------------------------- boxes and cameras */
+
+/* Some vertices belong to no triangle; some corners are NaN or infinite, or all of them. */
+TEST(shape, bounds_are_those_of_the_finite_corners_of_triangles)
+{
+    int none = 0;
+    for (int i = 0; i < 2000; i++) {
+        static shape_mesh s;
+        d3 low = d3_of(INFINITY, INFINITY, INFINITY), high = d3_scale(low, -1);
+        shade_vec3 got_low, got_high;
+        random_shape(&s);
+        s.mesh.index_count = 3 * rnd_int(0, s.mesh.index_count / 3);
+        for (int k = 0; k < s.mesh.vertex_count; k++) {
+            s.position[k] = random_vector((double)rnd_log(1e-3, 1e30));
+            if (rnd_one_in(i % 5 ? 9 : 1))
+                s.position[k] = with_axis(s.position[k], rnd_int(0, 2),
+                                          rnd_one_in(2) ? (float)NAN : rnd_sign() * INFINITY);
+        }
+        for (int k = 0; k < s.mesh.index_count; k++) {
+            const d3 p = d3_from(s.position[s.index[k]]);
+            if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z)) continue;
+            low = d3_of(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+            high = d3_of(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+        }
+        if (low.x > high.x) {
+            low = d3_of(1, 1, 1);
+            high = d3_of(0, 0, 0);
+            none++;
+        }
+        CHECK_INT(shade_mesh_bounds(&s.mesh, &got_low, &got_high), SHADE_OK);
+        CHECK_VEC(got_low, low, 0);
+        CHECK_VEC(got_high, high, 0);
+        CHECK_INT(shade_mesh_bounds(&s.mesh, NULL, &got_high), SHADE_ERROR_ARGUMENT);
+        CHECK_INT(shade_mesh_bounds(&s.mesh, &got_low, NULL), SHADE_ERROR_ARGUMENT);
+    }
+    CHECK(none > 200 && none < 1000);
+}
+
+/* Boxes that may be flat in any of their axes, at most ten times their size from the origin. */
+static void random_box(shade_vec3 *low, shade_vec3 *high)
+{
+    const double size = (double)rnd_log(1e-3, 1e3);
+    *low = random_vector(10 * size);
+    *high = shade_add(*low, d3_round(d3_of(size * rnd_unit(), size * rnd_unit(), size)));
+    for (int axis = 0; axis < 2; axis++)
+        if (rnd_one_in(4)) *high = with_axis(*high, axis, coordinate(*low, axis));
+}
+
+/* How far inside of the nearest side of the picture the eight corners are, as a part of w, in
+   double from the floats of the matrices. */
+static double inside_picture(shade_mat4 projection, shade_mat4 view, shade_vec3 low,
+                             shade_vec3 high)
+{
+    const dmat m = dmat_mul(dmat_from(projection), dmat_from(view));
+    double least = 1e300;
+    for (int k = 0; k < 8; k++) {
+        const double in[4] = { (double)(k & 1 ? high : low).x, (double)(k & 2 ? high : low).y,
+                               (double)(k & 4 ? high : low).z, 1 };
+        double c[4];
+        dmat_apply(m, in, c);
+        least = fmin(least, (c[3] - fmax(fabs(c[0]), fabs(c[1]))) / fabs(c[3]));
+    }
+    return least;
+}
+
+/* A perspective whose eye is where the view has it, or, with w = 1 - z / k, k in front of it. */
+static shade_mat4 random_lens(void)
+{
+    const float aspect = rnd_log(0.5, 2), fovy = rnd_float(0.2, 2);
+    const float l = rnd_float(-0.9, -0.1), b = rnd_float(-0.9, -0.1);
+    shade_mat4 p = shade_mat4_perspective(fovy, aspect, 0.1f, 100);
+    switch (rnd_int(0, 3)) {
+    case 0: return p;
+    case 1: return shade_mat4_perspective_reversed(fovy, aspect, 0.1f);
+    case 2: return shade_mat4_frustum(l, l + 1, b, b + 1, 1, 100);
+    default:
+        p = shade_mat4_scaling(shade_v3(1 / aspect, 1, -0.1f));
+        p.col[2].w = -1 / rnd_log(0.5, 2);
+        return p;
+    }
+}
+
+TEST(shape, a_fitted_view_is_as_near_as_all_corners_of_the_box_stay_in_the_picture)
+{
+    int touching = 0;
+    for (int i = 0; i < 20000; i++) {
+        const shade_mat4 p = random_lens();
+        const shade_vec3 side = random_vector((double)rnd_log(1e-6, 1e6));
+        const shade_vec3 up = rnd_one_in(5) ? side : d3_round(rnd_direction());
+        shade_vec3 low, high;
+        random_box(&low, &high);
+        const shade_mat4 view = shade_mat4_fit(p, low, high, side, up);
+        const double inside = inside_picture(p, view, low, high);
+        CHECK_SAY(inside >= -1e-12, "outside by %g of w", -inside);
+        touching += inside < 1e-4;
+        shade_mat4 nearer = view;
+        nearer.col[3].z += 4e-7f * fabsf(view.col[3].z);
+        CHECK(inside_picture(p, nearer, low, high) < 0);
+        /* the middle straight ahead, the eye on that side, up upward */
+        const d3 middle = d3_scale(d3_add(d3_from(low), d3_from(high)), 0.5);
+        const d3 at = dmat_point(dmat_from(view), middle);
+        const double reach = d3_max(middle) + fabs(at.z);
+        CHECK(fabs(at.x) < 1e-6 * reach && fabs(at.y) < 1e-6 * reach);
+        CHECK(dmat_direction(dmat_from(view), d3_unit(d3_from(side))).z > 0.999999);
+        CHECK(dmat_direction(dmat_from(view), d3_unit(d3_from(up))).y > -1e-5);
+    }
+    CHECK_SAY(touching > 19700, "%d", touching); /* but where w is small beside the view's floats */
+}
+
+TEST(shape, a_view_fitted_without_perspective_is_one_diagonal_away)
+{
+    for (int i = 0; i < 2000; i++) {
+        shade_mat4 p = shade_mat4_ortho(-2, 3, -1, 2, rnd_float(1, 5), rnd_float(6, 9));
+        shade_vec3 low, high;
+        random_box(&low, &high);
+        if (i % 3 == 0) memset(&p, 0, sizeof p);    /* the identity in a draw state */
+        if (i % 3 == 1) p.col[2].x = rnd_float(-1, 1);    /* oblique */
+        const shade_mat4 view = shade_mat4_fit(p, low, high, d3_round(rnd_direction()),
+                                               d3_round(rnd_direction()));
+        const d3 middle = d3_scale(d3_add(d3_from(low), d3_from(high)), 0.5);
+        const double diagonal = d3_length(d3_sub(d3_from(high), d3_from(low)));
+        CHECK_VEC(d3_round(dmat_point(dmat_from(view), middle)), d3_of(0, 0, -diagonal),
+                  1e-5 * (diagonal + d3_max(middle)));
+    }
+}
+
+TEST(shape, nothing_to_fit_gives_the_identity)
+{
+    const shade_mat4 p = shade_mat4_perspective(1, 1, 1, 9), one = shade_mat4_identity();
+    const float bad[3] = { (float)NAN, INFINITY, -INFINITY };
+    for (int k = 0; k < 12 * 3; k++) {
+        shade_vec3 v[4] = { { -1, -1, -1 }, { 1, 1, 1 }, { 0, 1, 2 }, { 0, 1, 0 } };
+        v[k / 9] = with_axis(v[k / 9], k / 3 % 3, bad[k % 3]);
+        const shade_mat4 view = shade_mat4_fit(p, v[0], v[1], v[2], v[3]);
+        CHECK(!memcmp(&view, &one, sizeof one));
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const shade_vec3 low = with_axis(shade_v3(-1, -1, -1), axis, 1.0001f);
+        const shade_mat4 view = shade_mat4_fit(p, low, shade_v3(1, 1, 1), shade_v3(0, 0, 1),
+                                               shade_v3(0, 1, 0));
+        CHECK(!memcmp(&view, &one, sizeof one));
+    }
+    for (int i = 0; i < 3000; i++) { /* any bits: a view or the identity, but finite */
+        shade_vec3 v[4];
+        float f[16];
+        for (int k = 0; k < 12; k++) (&v[0].x)[k] = rnd_one_in(2) ? rnd_nasty() : rnd_float(-2, 2);
+        for (int k = 0; k < 16; k++) f[k] = rnd_nasty();
+        shade_mat4 any;
+        memcpy(&any, f, sizeof any);
+        CHECK(finite_mat4(shade_mat4_fit(any, v[0], v[1], v[2], v[3])));
+    }
+}
+
 static const test_case shape_cases[] = {
     CASE(shape, an_edge_of_exactly_the_threshold_is_smooth),
     CASE(shape, a_cube_is_sharp_below_the_threshold_and_smooth_above),
@@ -888,6 +1048,10 @@ static const test_case shape_cases[] = {
     CASE(shape, too_small_an_edge_list_is_refused_with_the_room_it_takes),
     CASE(shape, bad_edge_calls_are_refused),
     CASE(shape, silhouettes_part_front_from_back_and_creases_bend_enough),
+    CASE(shape, bounds_are_those_of_the_finite_corners_of_triangles),
+    CASE(shape, a_fitted_view_is_as_near_as_all_corners_of_the_box_stay_in_the_picture),
+    CASE(shape, a_view_fitted_without_perspective_is_one_diagonal_away),
+    CASE(shape, nothing_to_fit_gives_the_identity),
     CASE(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal),
     CASE(shape, a_triangle_without_area_in_a_junction_turns_no_normal),
 };
