@@ -50,33 +50,33 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     116  options               >>types      192  materials, lamps, targets, states
-       >>plumbing   365  compilers             >>light      491  the equation and its terms
-       >>draw       616  meshes and pixels     >>math       866  vectors and matrices
+       >>config     122  options               >>types      198  materials, lamps, targets, states
+       >>plumbing   371  compilers             >>light      497  the equation and its terms
+       >>draw       622  meshes and pixels     >>math       892  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1229  processors            >>base      1430  bits, masks, rows of vectors
-       >>matrix    1660  cameras, inverses     >>power     1954  x^n
-       >>pixels    2020  formats, sRGB
+       >>machine   1255  processors            >>base      1456  bits, masks, rows of vectors
+       >>matrix    1675  cameras, inverses     >>power     1969  x^n
+       >>pixels    2035  formats, sRGB
      Inside: light
-       >>lamps     2200  attenuation, cones    >>terms     2475  one term at one point
-       >>surface   2613  material and lights   >>lit       2737  the whole sum, at many points
+       >>lamps     2215  attenuation, cones    >>terms     2490  one term at one point
+       >>surface   2571  material and lights   >>lit       2695  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3154  who owns what         >>vertices  3337  shading, projection
-       >>triangles 3554  dropped, cut, edges   >>clip      3922  near, far, behind the eye
-       >>tiles     4107  pixels, depth test    >>cover     4463  what is hidden, tile by tile
-       >>fragments 4687  interpolation, lod    >>texture   4979  texels, mipmaps
-       >>store     5381  blending, packing
+       >>state     3112  who owns what         >>vertices  3295  shading, projection
+       >>triangles 3512  dropped, cut, edges   >>clip      3880  near, far, behind the eye
+       >>tiles     4065  pixels, depth test    >>cover     4421  what is hidden, tile by tile
+       >>fragments 4645  interpolation, lod    >>texture   4937  texels, mipmaps
+       >>store     5339  blending, packing
      Inside: calls of the renderer
-       >>check     5606  refusals              >>seen      5771  what can be seen, chunks
-       >>drive     5908  shade_draw            >>mesh      6216  shade_draw_mesh
+       >>check     5564  refusals              >>seen      5729  what can be seen, chunks
+       >>drive     5866  shade_draw            >>mesh      6174  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6606  shade_draw_lines      >>shape     6764  normals, edges
-       >>chunks    6997  boxes of triangles    >>rays      7174  shade_pick
-       >>survey    7367  experiments on a draw >>explain   7514  why nothing is seen
-       >>image     7926  PPM
+       >>lines     6565  shade_draw_lines      >>shape     6723  normals, edges
+       >>chunks    7053  boxes of triangles    >>rays      7217  shade_pick
+       >>survey    7414  experiments on a draw >>explain   7561  why nothing is seen
+       >>image     7973  PPM
      Sources
-       >>refs      7992                        >>history   8020
-       >>license   8032
+       >>refs      8111                        >>history   8141
+       >>license   8153
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
