@@ -705,7 +705,7 @@ typedef struct python_part {
     int first, count;    /* of the indices */
     float color[3], transparency;
     const char *map;     /* the name of its picture, or NULL */
-    int set, opaque;     /* set: the file says something of it; opaque: the map's alpha is ignored */
+    int set, opaque;     /* the file says something of it; the alpha of the map is ignored */
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */

@@ -11,7 +11,7 @@ from .camera import UPRIGHT
 def main(words: list[str] | None = None) -> int:
     """Draws a file of a model.  Returns the status of the process."""
     parser = argparse.ArgumentParser(prog="python -m shade_h", description=main.__doc__)
-    parser.add_argument("model", help="STL, OBJ, PLY, GLB or 3MF")
+    parser.add_argument("model", help="STL, OBJ, PLY, GLB, glTF or 3MF")
     parser.add_argument("picture", help="PNG: a name that ends in .png")
     parser.add_argument("more", nargs="*", help=argparse.SUPPRESS)
     parser.add_argument("--views", default="iso", help="front,right,back,left,top,bottom,iso")

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ._arguments import shown
 from ._native import Array, Bytes, Error, Run, library, pointer
+from . import gltf, threemf
 from .mesh import Mesh, Surface, origin_of
 from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
@@ -232,14 +232,42 @@ def _far(data: bytes, name: str, path: bytes | None, first: Any) -> Any:
     return (near + origin, faces), found
 
 
+def _gltf(data: bytes, name: str, path: bytes | None) -> Any:
+    """Reads glTF; files that it names lie in its folder or below."""
+    def file(uri: str) -> bytes:
+        if path is None:
+            raise Error(f"{uri[:60]!r} is beside a model that was read from memory")
+        return read_file(gltf.beside(os.path.dirname(name), uri), PICTURE_BYTES)
+
+    def picture(bytes_of: bytes | None, what: str) -> Bytes | None:
+        return decoded(bytes_of or b"", what)
+
+    return gltf.read(data, file, picture, lambda words: _warn(f"{name}: {words}"), _display)
+
+
+def _any(data: bytes, name: str, path: bytes | None) -> Any:
+    """Vertices, faces and options of Mesh of a file of any kind, which its first bytes tell."""
+    try:
+        if data[:4] == b"glTF" or name.lower().endswith((".gltf", ".glb")) or \
+                data.lstrip()[:1] == b"{":
+            return _gltf(data, name, path)
+        if data[:4] == b"PK\x03\x04" or name.lower().endswith(".3mf"):
+            return threemf.read(data)
+    except Error as why:
+        raise Error(f"{name}: {why}") from None
+    made = _read(data, name, path)
+    return _far(data, name, path, made) or made
+
+
 # ---- all -----------------------------------------------------------------------------------------
 
 def load(path: Any, **options: Any) -> Mesh:
-    """Reads an STL (binary or text), OBJ or PLY file: a path, or a file open for bytes.
-    options are those of Mesh.
+    """Reads an STL (binary or text), OBJ, PLY, GLB, glTF or 3MF file: a path, or a file open for
+    bytes.  options are those of Mesh.  All that a file shows is one mesh.
 
-    Without a color or texture of their own meshes have those of the file: colours by vertex, or the
-    diffuse colours, pictures and transparency of OBJ's MTL.  What is missing there is a warning.
+    Without a color or texture of their own meshes have those of the file: colours by vertex or
+    face, the diffuse colours, pictures and transparency of OBJ's MTL, the materials of glTF as
+    their nearest Phong.  What is missing there is a warning.
 
     Raises OSError where the file cannot be opened, and Error with the line where it is wrong.
     """
@@ -251,8 +279,7 @@ def load(path: Any, **options: Any) -> Mesh:
     else:
         data = read_file(path, MODEL_BYTES)
         name, beside = os.fsdecode(path), os.fsencode(path)
-    made = _read(data, name, beside)
-    (vertices, faces), found = _far(data, name, beside, made) or made
+    (vertices, faces), found = _any(data, name, beside)
     plain = any(options.get(k) is not None for k in ("color", "texture", "surfaces"))
     if plain:
         found = {"up": found["up"]}

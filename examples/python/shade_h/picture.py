@@ -126,7 +126,7 @@ def read_file(path: Any, most: int) -> bytes:
             raise Error(f"{name} is no regular file")
         if there.st_size > most:
             raise Error(f"{name} has {there.st_size} bytes; at most {most} are read")
-        return opened.read(most)
+        return opened.read(there.st_size)
 
 
 def png_path(name: str, path: Any) -> Path:

@@ -1,0 +1,344 @@
+"""GLB and 3MF: what they show, and that damaged ones are drawn or refused."""
+import io
+import json
+import struct
+import subprocess
+import sys
+import zipfile
+
+import numpy as np
+import pytest
+from shapes import box
+
+import shade_h as shade
+
+FLAT = {"view": "front", "ortho": True, "size": (64, 48), "samples": 1}
+
+
+class Glb:
+    """Writes GLB files."""
+
+    def __init__(self):
+        self.binary = b""
+        self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+                     "nodes": [], "meshes": [], "accessors": [], "bufferViews": [],
+                     "materials": [], "buffers": [{}]}
+
+    def view(self, data):
+        self.binary += bytes(-len(self.binary) % 4)
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary),
+                                         "byteLength": len(data)})
+        self.binary += data
+        return len(self.json["bufferViews"]) - 1
+
+    def accessor(self, array, kind, **more):
+        array = np.asarray(array)
+        code = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
+        self.json["accessors"].append({
+            "bufferView": self.view(array.tobytes()), "count": len(array), "type": kind,
+            "componentType": code[array.dtype.str[1:]], **more})
+        return len(self.json["accessors"]) - 1
+
+    def quad(self, material=None, uv=None, **more):
+        """A unit square that looks along +z."""
+        points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4")
+        attributes = {"POSITION": self.accessor(points, "VEC3")}
+        if uv is not None:
+            attributes["TEXCOORD_0"] = self.accessor(np.asarray(uv, "<f4"), "VEC2")
+        index = self.accessor(np.array([0, 1, 2, 0, 2, 3], "<u2"), "SCALAR")
+        it = {"attributes": attributes, "indices": index, **more}
+        if material is not None:
+            self.json["materials"].append(material)
+            it["material"] = len(self.json["materials"]) - 1
+        self.json["meshes"].append({"primitives": [it]})
+        return len(self.json["meshes"]) - 1
+
+    def node(self, **more):
+        self.json["nodes"].append(more)
+        return len(self.json["nodes"]) - 1
+
+    def bytes(self):
+        self.json["buffers"][0]["byteLength"] = len(self.binary)
+        self.json["scenes"][0]["nodes"] = list(range(len(self.json["nodes"])))
+        text = json.dumps(self.json).encode()
+        text += b" " * (-len(text) % 4)
+        body = struct.pack("<II", len(text), 0x4E4F534A) + text + \
+            struct.pack("<II", len(self.binary), 0x004E4942) + self.binary
+        return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body
+
+
+def colored(red, green, blue, alpha=1.0, **more):
+    return {"pbrMetallicRoughness": {"baseColorFactor": [red, green, blue, alpha],
+                                     "metallicFactor": 0, "roughnessFactor": 0.9}, **more}
+
+
+def drawn(data, **more):
+    return shade.render(io.BytesIO(data), **{**FLAT, **more})
+
+
+def test_nodes_of_glb_are_where_their_transforms_say():
+    made = Glb()
+    mesh = made.quad(colored(1, 0, 0))
+    made.node(mesh=mesh, translation=[1e7, 0, 0])
+    turn = np.diag([2.0, 2, 2, 1])
+    turn[:3, 3] = 1e7 + 2, 1, 0
+    made.node(mesh=mesh, matrix=turn.T.reshape(-1).tolist())
+    half = np.sqrt(0.5)
+    made.node(mesh=mesh, translation=[1e7, 2, 0], rotation=[0, 0, half, half], scale=[1, -1, 1])
+    got = shade.load(io.BytesIO(made.bytes()))
+    assert got.up == "y" and len(got.faces) == 6
+    assert np.allclose(got.vertices[4:8] - [1e7, 0, 0],
+                       [[2, 1, 0], [4, 1, 0], [4, 3, 0], [2, 3, 0]], atol=1e-6)
+    assert np.allclose(got.vertices[8:] - [1e7, 0, 0],
+                       [[0, 2, 0], [0, 3, 0], [1, 3, 0], [1, 2, 0]], atol=1e-6)
+    sides = np.cross(*(got.vertices[got.faces[:, k]] - got.vertices[got.faces[:, 0]]
+                       for k in (1, 2)))
+    assert (sides[:, 2] > 0).all()    # the mirrored one looks the same way
+
+
+def test_materials_and_alpha_of_glb():
+    made = Glb()
+    made.node(mesh=made.quad(colored(1, 0, 0)))
+    made.node(mesh=made.quad(colored(0, 0, 1, 0.5, alphaMode="BLEND")), translation=[0.5, 0, 1])
+    made.node(mesh=made.quad(colored(0, 1, 0, 0.1)), translation=[2, 0, 0])
+    got = drawn(made.bytes())
+    row = got.rgba[24].astype(int)
+    there = np.flatnonzero(row[:, :3].min(1) < 250)
+    step = (there[-1] - there[0] + 1) / 3
+    red, both, blue, green = (row[int(there[0] + step * k)] for k in (0.25, 0.75, 1.25, 2.5))
+    assert red[0] > 100 > red[2] and both[0] > 60 and both[2] > 60
+    assert blue[2] > blue[0] > 60 and green[1] > 100 > green[0]
+    ids = [got.ids[24, int(there[0] + step * at)] for at in (0.75, 1.25)]
+    assert ids == [0, -1]    # what blends does not count
+
+
+def test_pictures_and_holes_of_glb():
+    texels = np.full((2, 2, 4), 255, np.uint8)
+    texels[:, :, :3] = [[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 0]]]
+    texels[0, 0, 3] = 0
+    png = shade.Picture(np.repeat(np.repeat(texels, 16, 0), 16, 1)).png()
+    for mode in ("OPAQUE", "MASK"):
+        made = Glb()
+        material = colored(1, 1, 1, alphaMode=mode)
+        material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+        made.node(mesh=made.quad(material, [[0, 1], [1, 1], [1, 0], [0, 0]]))
+        made.json["textures"] = [{"source": 0}]
+        made.json["images"] = [{"bufferView": made.view(png), "mimeType": "image/png"}]
+        got = drawn(made.bytes(), size=(48, 48))
+        for y, x, wanted in ((12, 36, (0, 1, 0)), (36, 12, (0, 0, 1)), (36, 36, (1, 1, 0))):
+            assert np.array_equal(got.rgba[y, x, :3] > 128, np.array(wanted, bool)), (mode, y, x)
+        hole = got.rgba[12, 12].tolist() == [255] * 4
+        assert hole == (mode == "MASK") and (got.ids[12, 12] == -1) == hole
+
+
+def test_strips_fans_vertex_colours_and_normalised_integers():
+    made = Glb()
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], "<f4")
+    tint = np.array([[0, 255, 0, 255]] * 4, "<u1")
+    made.json["meshes"] = [{"primitives": [{"mode": 5, "attributes": {
+        "POSITION": made.accessor(points, "VEC3"),
+        "COLOR_0": made.accessor(tint, "VEC4", normalized=True)}}]}, {"primitives": [{
+            "mode": 6, "attributes": {"POSITION": made.accessor(
+                points[[0, 1, 3, 2]] + np.float32([2, 0, 0]), "VEC3")}}]}]
+    made.node(mesh=0)
+    made.node(mesh=1)
+    got = shade.load(io.BytesIO(made.bytes()))
+    p = got.vertices[got.faces]
+    area = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])[:, 2] / 2
+    assert area == pytest.approx([0.5] * 4)
+    row = drawn(made.bytes()).rgba[24].astype(int)
+    assert (row[:, 1] - row[:, 0]).max() > 100
+
+
+# ---- 3MF -----------------------------------------------------------------------------------------
+
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+
+
+def mesh_xml(vertices, faces, marks=None):
+    points = "".join(f'<vertex x="{x!r}" y="{y!r}" z="{z!r}"/>' for x, y, z in vertices.tolist())
+    told = marks or [""] * len(faces)
+    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}" {mark}/>'
+                        for (a, b, c), mark in zip(faces.tolist(), told))
+    return f"<mesh><vertices>{points}</vertices><triangles>{triangles}</triangles></mesh>"
+
+
+def threemf(resources, items, head="", more=None, method=zipfile.ZIP_DEFLATED):
+    memory = io.BytesIO()
+    with zipfile.ZipFile(memory, "w", method) as archive:
+        archive.writestr("_rels/.rels", '<Relationships xmlns="http://schemas.openxmlformats.org/'
+                         'package/2006/relationships"><Relationship Target="/3D/3dmodel.model" '
+                         'Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/'
+                         '3dmodel"/></Relationships>')
+        archive.writestr(
+            "3D/3dmodel.model",
+            f'<?xml version="1.0"?>{head}<model unit="millimeter" xmlns="{CORE}" xmlns:p='
+            '"http://schemas.microsoft.com/3dmanufacturing/production/2015/06" '
+            'xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02">'
+            f"<resources>{resources}</resources><build>{items}</build></model>")
+        for name, data in (more or {}).items():
+            archive.writestr(name, data)
+    return memory.getvalue()
+
+
+def plate():
+    vertices, faces = box(1, 1, 1)
+    return vertices, faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+
+
+def test_instances_components_and_colours_of_3mf():
+    marks = ['pid="9" p1="1"'] * 12
+    data = threemf(
+        '<basematerials id="9"><base name="a" displaycolor="#FF0000"/>'
+        '<base name="b" displaycolor="#0000FFFF"/></basematerials>'
+        f'<object id="1" pid="9" pindex="0">{mesh_xml(*plate())}</object>'
+        f'<object id="2">{mesh_xml(*plate(), marks)}</object>'
+        '<object id="3"><components><component objectid="1"/><component objectid="2" '
+        'transform="1 0 0 0 1 0 0 0 1 2 0 0"/></components></object>',
+        '<item objectid="3"/><item objectid="1" transform="2 0 0 0 1 0 0 0 -1 4 0 1"/>')
+    got = shade.load(io.BytesIO(data))
+    assert got.up == "z" and len(got.faces) == 36
+    assert np.array_equal(got.vertices.min(0), [0, 0, 0])
+    assert np.array_equal(got.vertices.max(0), [6, 1, 1])
+    p = got.vertices[got.faces]
+    volume = (p[:, 0] * np.cross(p[:, 1], p[:, 2])).sum() / 6
+    assert abs(volume) == pytest.approx(4)    # mirrored ones have not changed sides
+    row = drawn(data).rgba[24].astype(int)
+    there = np.flatnonzero(row[:, :3].min(1) < 250)
+    step = (there[-1] - there[0] + 1) / 6
+    for at, channel in ((0.5, 0), (2.5, 2), (5, 0)):
+        color = row[int(there[0] + step * at)]
+        assert color[channel] > 100 > color[2 - channel]
+
+
+def test_models_of_3mf_in_several_files():
+    vertices, faces = plate()
+    other = f'<model xmlns="{CORE}"><resources><object id="7">{mesh_xml(vertices, faces)}' \
+        "</object></resources></model>"
+    data = threemf('<object id="1"><components><component p:path="/3D/Objects/a.model" '
+                   'objectid="7"/></components></object>', '<item objectid="1"/>',
+                   more={"3D/Objects/a.model": other})
+    assert len(shade.load(io.BytesIO(data)).faces) == 12
+
+
+# ---- bombs, and anything -------------------------------------------------------------------------
+
+def bombs():
+    vertices, faces = plate()
+    mesh = f'<object id="0">{mesh_xml(vertices, faces)}</object>'
+    nested = "".join(f'<object id="{i}"><components>' + f'<component objectid="{i - 1}"/>' * 10 +
+                     "</components></object>" for i in range(1, 12))
+    laughs = '<!DOCTYPE m [<!ENTITY a "ha">' + "".join(
+        f'<!ENTITY {b} "{f"&{a};" * 10}">' for a, b in zip("abcdefgh", "bcdefghi")) + "]>"
+    yield "instances", threemf(mesh + nested, '<item objectid="11"/>')
+    yield "circle", threemf('<object id="1"><components><component objectid="1"/></components>'
+                            "</object>", '<item objectid="1"/>')
+    yield "laughs", threemf(mesh + "<object id='2'>&i;</object>", '<item objectid="0"/>', laughs)
+    yield "spaces", threemf(mesh + " " * 200_000_000, '<item objectid="0"/>')
+    made = Glb()
+    made.quad()
+    for i in range(40):
+        made.node(children=[i + 1, i + 1])
+    made.node(mesh=0)
+    yield "tree", made.bytes()
+    made = Glb()
+    made.json["meshes"] = [{"primitives": [{"attributes": {"POSITION": 0}}]}]
+    made.json["accessors"] = [{"count": 2**31, "componentType": 5126, "type": "VEC3"}]
+    made.node(mesh=0)
+    yield "accessor", made.bytes()
+    made.json["nodes"] = [{"children": [0]}]
+    yield "ring", made.bytes()
+    yield "deep", b"glTF" + struct.pack("<IIII", 2, 200_020, 200_000, 0x4E4F534A) + b"[" * 200_000
+
+
+@pytest.mark.parametrize("name", ["instances", "circle", "laughs", "spaces", "tree", "accessor",
+                                  "ring", "deep"])
+def test_bombs_are_refused_in_little_memory(name, tmp_path):
+    (tmp_path / "bomb").write_bytes(dict(bombs())[name])
+    program = "import resource, sys, shade_h\n" \
+        "resource.setrlimit(resource.RLIMIT_AS, (3 << 30, 3 << 30))\n" \
+        "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n" \
+        "try: shade_h.load(sys.argv[1])\n" \
+        "except ValueError as why: print(why)\n" \
+        "grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before\n" \
+        "assert grown < 600_000, grown\n"
+    done = subprocess.run([sys.executable, "-c", program, tmp_path / "bomb"], check=True,
+                          stdout=subprocess.PIPE, text=True)
+    assert len(done.stdout.strip()) > 20
+
+
+def good_files():
+    made = Glb()
+    material = colored(1, 0.5, 0.5, 0.5, alphaMode="MASK", alphaCutoff=0.3)
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+    made.node(mesh=made.quad(material, [[0, 1], [1, 1], [1, 0], [0, 0]]))
+    made.node(mesh=0, rotation=[0, 0, 0, 1], scale=[1, 2, 3], children=[])
+    made.json["textures"] = [{"source": 0}]
+    made.json["images"] = [{"bufferView": made.view(
+        shade.Picture(np.full((4, 4, 4), 200, np.uint8)).png())}]
+    vertices, faces = plate()
+    inside = '<basematerials id="9"><base displaycolor="#FF0000"/></basematerials>' \
+        f'<object id="1" pid="9" pindex="0">{mesh_xml(vertices, faces)}</object>' \
+        '<object id="3"><components><component objectid="1" transform="1 0 0 0 1 0 0 0 1 2 0 0"/>' \
+        "</components></object>"
+    obj = "".join(f"v {x} {y} {z}\n" for x, y, z in vertices.tolist()) + \
+        "vt 0 1\nvn 0 0 1\n" + "".join(f"f {a}/1/1 {b}/1/1 {c}/1/1\n"
+                                       for a, b, c in (faces + 1).tolist())
+    corner = np.asarray(vertices, "<f4")[faces]
+    stl = bytes(80) + struct.pack("<I", 12) + b"".join(bytes(12) + t.tobytes() + b"\0\0"
+                                                       for t in corner)
+    glb = made.bytes()
+    size = struct.unpack_from("<I", glb, 12)[0]
+
+    def archive(text):
+        return threemf(text.decode("latin-1"), '<item objectid="3"/>')
+
+    def rejoined(text):
+        head = struct.pack("<IIIII", 0x46546C67, 2, len(glb) - size + len(text), len(text),
+                           0x4E4F534A)
+        return head + text + glb[20 + size:]
+
+    # what is changed, and how a file is made of it: text within containers is changed too
+    return [(glb, bytes), (archive(inside.encode()), bytes), (inside.encode(), archive),
+            (glb[20:20 + size], rejoined), (obj.encode(), bytes), (stl, bytes)]
+
+
+WORDS = [b"0", b"-1", b"1e999", b"4294967296", b'""', b"[]", b"{}", b"null", b"NaN", b"\xff\xfe",
+         b"<", b"&", b"\0\0\0\0", b"\xff\xff\xff\xff", b"9" * 30]
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.filterwarnings("ignore")
+def test_mutants_of_good_files_are_drawn_or_refused(seed):
+    random, drawn_ones, refused = np.random.default_rng(seed), 0, 0
+    files = good_files()
+    for data, whole in files:
+        assert not drawn(whole(data), size=(16, 12), view="iso").blank
+    for _ in range(200):
+        text, whole = files[random.integers(len(files))]
+        data = bytearray(text)
+        for _ in range(random.integers(1, 3)):
+            at, kind = int(random.integers(len(data))), random.integers(5)
+            if kind == 0:
+                data[at] = random.integers(256)
+            elif kind == 1:
+                del data[at:at + int(random.integers(1, 40))]
+            elif kind == 2:
+                word = WORDS[random.integers(len(WORDS))]
+                data[at:at + len(word)] = word
+            elif kind == 3:
+                other = int(random.integers(len(data)))
+                data[at:at] = data[other:other + 20]
+            else:    # a number of the text becomes another
+                digits = [i for i in range(at, min(at + 200, len(data))) if 48 <= data[i] <= 57]
+                if digits:
+                    data[digits[0]:digits[0] + 1] = WORDS[random.integers(5)]
+            data = data or bytearray(b" ")
+        try:
+            with np.errstate(all="ignore"):
+                drawn(whole(bytes(data)), size=(16, 12), view="iso")
+            drawn_ones += 1
+        except shade.Error as why:
+            assert len(str(why)) > 8
+            refused += 1
+    assert refused > 40 and drawn_ones > 8
