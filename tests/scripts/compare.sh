@@ -147,6 +147,33 @@ for value in x -1 nan 3x ''; do
         "$T/a.ppm" --limit "$value"
 done
 check "a bad count" refused "--count x: N pixels, or N % of them" "$compare" --count x "$T/a.ppm" "$T/a.ppm"
+# ---- files that stay ----------------------------------------------------------------------------
+kept() {                        # text, file, command ...
+    text=$1 file=$2; shift 2
+    cp "$file" "$T/before"
+    refused "$text" "$@" && cmp "$file" "$T/before"
+}
+cp "$T/a.ppm" "$T/d.png"; cp "$T/a.ppm" "$T/d.obj"
+for k in d.png d.obj; do
+    check "no PPM into $k" kept "--difference .*$k: FILE, named .ppm" "$T/$k" "$compare" "$T/a.ppm" \
+        "$T/b.ppm" --difference "$T/$k"
+done
+check "no difference over a picture that is compared" kept "a.ppm is read" "$T/a.ppm" "$compare" \
+    "$T/b.ppm" "$T/a.ppm" --difference "$T/./a.ppm"
+if mkfifo "$T/rows" 2>/dev/null; then
+    for signal in INT TERM; do  # rows that do not come
+        env --default-signal=INT "$compare" "$T/a.ppm" - --difference "$T/cut.ppm" <>"$T/rows" \
+            >/dev/null 2>&1 &
+        printf 'P6 23 17 255\n' >"$T/rows"
+        soon sh -c "ls $T/cut.ppm.*.part"
+        kill -$signal $!
+        wait $!
+        check "SIG$signal ends it" test $? -gt 128
+        check "SIG$signal: no difference picture" no ls "$T"/cut.ppm*
+    done
+    check "time is up" sh -c "printf 'P6 23 17 255\n' >'$T/rows' & '$compare' '$T/a.ppm' - --max-seconds 1 \
+        <>'$T/rows' 2>'$T/err'; [ \$? -eq 2 ] && grep 'gave up after --max-seconds while comparing' '$T/err'"
+fi
 check "a limit in percent" refused "--limit 3%: a channel" "$compare" --limit 3% "$T/a.ppm" "$T/a.ppm"
 check "three pictures" refused "one file too many" "$compare" "$T/a.ppm" "$T/b.ppm" "$T/a.ppm"
 check "standard input twice" refused "only one picture" "$compare" - -
@@ -184,11 +211,6 @@ check "a transparent background" refused "no colours to compare" "$compare" "$T/
     --background none
 check "a size that is none" refused "--size 0x5: pixels of the picture" "$compare" "$T/a.ppm" \
     "$T/tent.obj" --size 0x5
-if mkfifo "$T/pipe.obj" 2>/dev/null; then
-    check "time is up" refused "gave up after --max-seconds while reading" "$compare" "$T/pipe.obj" \
-        "$T/a.ppm" --max-seconds 1
-fi
-
 # ---- PNG, by stb --------------------------------------------------------------------------------
 if printf '#include "stb/stb_image.h"\n' | $CC -fsyntax-only -x c - 2>/dev/null; then
     check "it compiles with stb" $CC $FLAGS -DSHADE__IMPLEMENTED -DMODEL_STB \

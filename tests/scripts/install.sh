@@ -32,7 +32,7 @@ check "the header is this one" cmp shade.h "$P/include/shade.h"
 for p in thumbnail view batch compare; do
     page="$P/share/man/man1/shade-$p.1"
     check "$p is the one built" cmp build/$p "$P/bin/shade-$p"
-    check "$p has a version" sh -c "'$P/bin/shade-$p' --version | grep -q '^$p 1[.]'"
+    check "$p has a version" sh -c "'$P/bin/shade-$p' --version | grep -q '^shade-$p 1[.]'"
     for option in $("$P/bin/shade-$p" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p'); do
         check "its page has $option" grep -q "^[.]B $(echo "$option" | sed 's/-/\\\\-/g')" "$page"
     done

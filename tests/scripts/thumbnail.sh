@@ -117,18 +117,20 @@ formats() {
     check "no progress into a file" test ! -s "$T/err"
 }
 
-# The program ends by a signal while it reads: one line names the file
-crashed() {
-    "$THUMBNAIL" "$T/pipe.obj" "$T/none.ppm" --max-seconds 60 2>"$T/err" &
-    exec 3>"$T/pipe.obj"                # goes on when the reader has opened it
+# The program gets a signal while it reads, which more bytes than a pipe holds tell: a status, a line
+ended() {                       # signal, status, line
+    # a job of a shell without job control is deaf to INT and QUIT
+    env --default-signal=INT,QUIT "$THUMBNAIL" - "$T/none.ppm" --max-seconds 60 \
+        <"$T/pipe.obj" 2>"$T/err" &
+    exec 3>"$T/pipe.obj"
+    head -c 200000 /dev/zero >&3
     kill -"$1" $!
     wait $!
     status=$?
     exec 3>&-
-    cat "$T/err"
-    [ $status -eq 1 ] && [ "$(cat "$T/err")" = "thumbnail: crashed while reading $T/pipe.obj" ]
+    echo "status $status"; cat "$T/err"
+    [ $status -eq "$2" ] && [ "$(cat "$T/err")" = "thumbnail: $3 while reading standard input" ]
 }
-
 bad_input() {
     : >"$T/empty.obj"
     printf 'v 0 0 0\nv 1 0 0\nv 0 1' >"$T/cut.obj"
@@ -186,20 +188,88 @@ break.obj" "is no OBJ"
         check "enough" draw sparse.obj a.ppm $flat --threads 2 --max-memory 1000
     fi
     if mkfifo "$T/pipe.obj" 2>/dev/null; then
-        check "time is up" refused "gave up after --max-seconds" "$THUMBNAIL" "$T/pipe.obj" \
-            "$T/none.ppm" --max-seconds 1
-        check "a crash of the reader" crashed SEGV
-        check "an abort" crashed ABRT
+        check "time is up" sh -c "'$THUMBNAIL' - '$T/none.ppm' --max-seconds 1 <>'$T/pipe.obj' 2>'$T/err'
+            [ \$? -eq 1 ] && grep 'gave up after --max-seconds' '$T/err'"
+        check "a crash of the reader" ended SEGV 1 crashed
+        check "an abort" ended ABRT 1 crashed
+        for k in INT:130 TERM:143 HUP:129 QUIT:131; do
+            check "SIG${k%:*} ends the program itself" ended ${k%:*} ${k#*:} interrupted
+        done
+        check "a pipe for a model" bounded refused "pipe.obj: is no regular file" "$THUMBNAIL" \
+            "$T/pipe.obj" "$T/none.ppm"
+        { printf 'mtllib pipe.obj\n'; cat "$T/torus.obj"; } >"$T/piped.obj"
+        check "a pipe for an MTL" bounded draw piped.obj a.ppm $flat
+        check "is left out" grep "pipe.obj: is no regular file (left out)" "$T/err"
+        printf 'newmtl m\nmap_Kd pipe.obj\nmap_Ke /dev/zero\n' >"$T/piped.mtl"
+        { printf 'mtllib piped.mtl\nusemtl m\n'; cat "$T/torus.obj"; } >"$T/piped.obj"
+        check "a pipe for a picture" bounded draw piped.obj a.ppm $flat
+        check "is left out, too" grep "is no regular file (left out)" "$T/err"
+        check "and /dev/zero for a model" bounded refused "zero: is no regular file" "$THUMBNAIL" \
+            /dev/zero "$T/none.ppm"
     fi
+    for k in torus.obj torus.binary.stl torus.big.ply; do
+        check "$k" draw $k a.ppm $flat
+        check "$k from standard input" sh -c "'$THUMBNAIL' - - --size 120x90 --samples 1 $flat \
+            <'$T/$k' >'$T/b.ppm'"
+        check "$k: the same picture" cmp "$T/a.ppm" "$T/b.ppm"
+    done
+    check "nothing from standard input" refused "standard input: the file is empty" "$THUMBNAIL" - \
+        "$T/none.ppm"
+    check "no v 4000, and how many there are" sh -c "printf 'v 0 0 0\nv 1 0 0\n\nf 1 2 4000\n' >'$T/i.obj'"
+    bad_model "as a message says" i.obj "i.obj:4: there is no v number 4000: the file has 2"
+    printf 'v 0 0 0\nv 1 0 0\nf 1 2 -3\n' >"$T/i.obj"
+    bad_model "back from the last" i.obj 'i.obj:3: index "-3" is out of range: 2 v stand before it'
+}
+
+# A command that ends within seconds, or is ended
+bounded() {
+    ("$@") & waited=$!
+    (sleep 20; kill $waited) >/dev/null 2>&1 & watch=$!
+    wait $waited
+    status=$?
+    kill $watch 2>/dev/null
+    return $status
+}
+
+# A picture is written to a name that says what it is, never over what was read.
+kept() {                        # text, file that stays, command ...
+    text=$1 file=$2; shift 2
+    cp "$file" "$T/before"
+    refused "$text" "$@" && cmp "$file" "$T/before"
+}
+data_loss() {
+    cp "$T/torus.obj" "$T/v2.obj"
+    for k in v2.mtl v2.jpg v2 v2.ppm.gz; do
+        cp "$T/torus.obj" "$T/$k"
+        check "no picture over $k" kept "$k: .*\.ppm or \.png" "$T/$k" "$THUMBNAIL" "$T/torus.obj" "$T/$k"
+    done
+    for k in "shade-batch" "--views"; do
+        check "two models name $k" kept "v2.obj is a model.*$k" "$T/v2.obj" "$THUMBNAIL" \
+            "$T/torus.obj" "$T/v2.obj"
+        check "three name $k" kept "one file too many.*$k" "$T/v2.obj" "$THUMBNAIL" "$T/torus.obj" \
+            "$T/v2.obj" "$T/v2.obj"
+    done
+    cp "$T/torus.ply" "$T/ply.ppm"
+    check "no picture over its model" kept "ply.ppm is read" "$T/ply.ppm" "$THUMBNAIL" "$T/ply.ppm" \
+        "$T/./ply.ppm"
+    check "a JSON over a model" kept "FILE ends in .json" "$T/v2.obj" "$THUMBNAIL" "$T/torus.obj" \
+        "$T/none.ppm" --views front --json "$T/v2.obj"
+    cp "$THUMBNAIL" "$T/shade-thumbnail"
+    "$T/shade-thumbnail" >"$T/out" 2>"$T/err"
+    check "the installed program's name" grep -q "^usage: shade-thumbnail model" "$T/err"
+    "$T/shade-thumbnail" "$T/empty.obj" "$T/none.ppm" 2>"$T/err"
+    check "begins its lines" grep -q "^shade-thumbnail: " "$T/err"
 }
 
 bad_output() {
     cp "$T/torus.obj" "$T/kept.ppm"
+    data_loss
     check "a picture stays where the model is bad" refused "empty" "$THUMBNAIL" \
         "$T/empty.obj" "$T/kept.ppm"
     check "as it was" cmp "$T/torus.obj" "$T/kept.ppm"
+    mkdir -p "$T/folder.ppm"
     check "a folder as the picture" refused "directory" "$THUMBNAIL" "$T/torus.obj" \
-        "$T/folder.obj" $flat
+        "$T/folder.ppm" $flat
     check "no such folder" refused "No such file" "$THUMBNAIL" "$T/torus.obj" \
         "$T/nowhere/a.ppm" $flat
     [ -e /dev/full ] &&
@@ -212,6 +282,9 @@ bad_output() {
     check "a full disk" sh -c "ulimit -f 8; trap '' XFSZ
         '$THUMBNAIL' '$T/torus.obj' '$T/none.ppm' $flat 2>'$T/err'; [ \$? -eq 1 ] &&
         grep 'File too large' '$T/err' && [ ! -e '$T/none.ppm' ] && ! ls '$T'/*.part"
+    check "a full disk, with a shell that lets the signal through" sh -c "ulimit -f 8
+        '$THUMBNAIL' '$T/torus.obj' '$T/none.ppm' $flat 2>'$T/err'; [ \$? -eq 1 ] &&
+        grep 'File too large' '$T/err' && [ ! -e '$T/none.ppm' ] && ! ls '$T'/*.part"
     check "rights as others have" sh -c "umask 027; '$THUMBNAIL' '$T/flat.obj' '$T/r.ppm' $flat &&
         ls -l '$T/r.ppm' | grep '^-rw-r-----'"
 }
@@ -220,7 +293,7 @@ bad_options() {
     for k in "--frobnicate" "--size" "--size 0x5" "--size 10" "--size 99999x1" "--samples 3" \
         "--up w" "--color 12345" "--color redd" "--background no" "--material x" "--shading x" \
         "--model x" "--rotate x" "--threads 0" "--threads 257" "--threads x" "--threads" \
-        "--max-memory 31" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra"; do
+        "--max-memory 31" "--max-memory x" "--max-seconds x" "--max-triangles -1" "extra" "-v" "--png=1"; do
         check "$k" refused "${k%% *}" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" $k
     done
     for k in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256"; do
@@ -232,6 +305,12 @@ bad_options() {
         check "a picture.$k" refused "\.ppm or \.png" "$THUMBNAIL" "$T/torus.obj" "$T/none.$k"
         check "is not there" test ! -e "$T/none.$k"
     done
+    check "an option and its value in one word" draw torus.obj a.ppm --up=y $flat
+    check "apart" draw torus.obj b.ppm --up y $flat
+    check "are the same" cmp "$T/a.ppm" "$T/b.ppm"
+    cp "$T/torus.obj" "$T/-dash.obj"
+    check "files behind --" sh -c "cd '$T' && '$THUMBNAIL' --size 120x90 --samples=1 $flat --up y -- -dash.obj b.ppm"
+    check "are files" cmp "$T/a.ppm" "$T/b.ppm"
     check "version" sh -c "'$THUMBNAIL' --version | grep -qx 'thumbnail 1\.[0-9]*\.[0-9]*'"
     check "none needs PNG" refused "needs PNG" "$THUMBNAIL" "$T/torus.obj" "$T/none.ppm" \
         --background none

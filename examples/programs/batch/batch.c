@@ -82,7 +82,7 @@ static int read_options(batch *b, int argc, char **argv)
     static const char *const valued[] = { MODEL_VALUED, "--size",   "--samples", "--piece", "--out",
                                           "--frames",   "--strips", "--film",    "--rate",  NULL };
     static const char *const flags[] = { MODEL_FLAGS, "--pipe", "--missing", "--quick", NULL };
-    static const command c = { "batch", usage, valued, flags, 1, take };
+    static const command c = { "batch", usage, valued, flags, 0, 1, "", take };
     int end = options_read(&c, b, argc, argv);
     if (end) return end;
 
@@ -124,13 +124,13 @@ static batch_piece find_piece(const batch *b, int k)
 /* Returns 1 where it has complained. */
 static int write_piece(batch *b, int k, const batch_piece *p)
 {
-    FILE *file = b->sink ? b->sink : batch_begin(p->path);
+    FILE *file = b->sink ? b->sink : save_begin(p->path);
     int failed;
     if (!file) return 1;
     if (!b->strips) b->scene.yaw = -0.5f + 6.2831853f * (float)k / (float)b->count;
     if (!b->quick) sheet_light(&b->sheet, &b->scene);
     failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
-    if (!b->sink) return batch_end(file, p->path, failed);
+    if (!b->sink) return save_end(file, p->path, failed);
     failed = failed || fflush(file);
     if (b->film) return failed; /* film_close tells why */
     return failed ? complain("standard output: %s", strerror(errno)) : 0;
@@ -189,6 +189,8 @@ int main(int argc, char **argv)
     b.request.how = model_options_new();
     end = read_options(&b, argc, argv);
     if (end) return end == OPTIONS_WRONG;
+    guard_interrupts();
+    guard_doing = "drawing";
     end = b.film ? write_film(&b, b.film) : write_pieces(&b);
     if (b.sheet.scene) sheet_close(&b.sheet);
     scene_close(&b.scene);

@@ -42,7 +42,7 @@ static inline void film_run(const char *path, int rate, int frames)
     const int is_webp = film_is_webp(path);
     memcpy(words, begin, sizeof begin);
     memcpy(words + 12, is_webp ? webp : mp4, is_webp ? sizeof webp : sizeof mp4);
-    words[is_webp ? 20 : 22] = batch_part;
+    words[is_webp ? 20 : 22] = guard_part;
     snprintf(framerate, sizeof framerate, "%d", rate);
     dup2(frames, STDIN_FILENO);
     execvp("ffmpeg", (char **)(uintptr_t)words);
@@ -53,7 +53,7 @@ static inline void film_run(const char *path, int rate, int frames)
 static inline int film_open(film *f, int rate)
 {
     int ends[2];
-    FILE *part = batch_begin(f->path);
+    FILE *part = save_begin(f->path);
     if (!part) return 1;
     fclose(part);
     signal(SIGPIPE, SIG_IGN); /* ffmpeg may end early: writing fails then */
@@ -63,7 +63,7 @@ static inline int film_open(film *f, int rate)
         film_run(f->path, rate, ends[0]);
     }
     if (f->process < 0) {
-        unlink(batch_part);
+        unlink(guard_part);
         return complain("ffmpeg: %s", strerror(errno));
     }
     close(ends[0]);
@@ -81,10 +81,10 @@ static inline int film_close(film *f, int failed)
         failed = complain("films are made by ffmpeg, which is not installed");
     else if (status || failed)
         failed = complain("%s: ffmpeg could not make it", f->path);
-    else if (rename(batch_part, f->path))
+    else if (rename(guard_part, f->path))
         failed = complain("%s: %s", f->path, strerror(errno));
-    if (failed) unlink(batch_part);
-    *batch_part = 0;
+    if (failed) unlink(guard_part);
+    *guard_part = 0;
     return failed;
 }
 #endif

@@ -13,14 +13,13 @@
 #define STBI_FAILURE_USERMSG
 #include "shade.h"
 #include "../model/portrait.h"
-#include "../model/read.h"
 
 static const char usage[] =
     "usage: compare [options] golden picture      PPM or PGM; - is standard input\n"
     "  --limit N             a channel may differ by N of 255 (0)\n"
     "  --count N|N%          N pixels, or N % of them, may differ by more than the limit (0)\n"
-    "  --difference FILE     writes a PPM: golden in grey, differences in yellow, those beyond\n"
-    "                        the limit in red\n"
+    "  --difference FILE     FILE, named .ppm: golden in grey, differences in yellow, those\n"
+    "                        beyond the limit in red\n"
     "  --help, --version     prints this text; the version\n"
     "In place of a picture may stand a model. It is drawn as thumbnail draws it, as large as the\n"
     "picture that it is compared with:\n"
@@ -136,14 +135,24 @@ static void mark(unsigned char *out, const double *golden, double difference, do
     out[2] = (unsigned char)(near + far > 0 ? 0 : grey);
 }
 
-static int compare(picture *a, picture *b, double limit, FILE *difference, result *r)
+typedef struct comparison {
+    picture *a, *b;
+    double limit;
+    result *result;
+} comparison;
+
+/* A save_writer: writes the rows of a difference picture, which may be NULL. */
+static int compare_rows(FILE *difference, const void *data)
 {
+    const comparison *c = (const comparison *)data;
+    picture *a = c->a;
+    result *r = c->result;
     for (int y = 0; y < a->height; y++) {
-        if (read_row(a, y) || read_row(b, y)) return ERROR;
+        if (read_row(a, y) || read_row(c->b, y)) return SAVE_SAID;
         for (int x = 0; x < a->width; x++) {
             double most = 0;
             for (int k = 3 * x; k < 3 * x + 3; k++) {
-                double d = fabs(a->row[k] - b->row[k]);
+                double d = fabs(a->row[k] - c->b->row[k]);
                 r->sum += d;
                 r->squares += d * d;
                 if (d > most) most = d;
@@ -153,36 +162,20 @@ static int compare(picture *a, picture *b, double limit, FILE *difference, resul
                 r->x = x;
                 r->y = y;
             }
-            r->beyond += most > limit;
-            mark(a->bytes + 3 * x, a->row + 3 * x, most, limit);
+            r->beyond += most > c->limit;
+            mark(a->bytes + 3 * x, a->row + 3 * x, most, c->limit);
         }
-        if (difference) fwrite(a->bytes, 3, (size_t)a->width, difference);
+        if (difference && fwrite(a->bytes, 3, (size_t)a->width, difference) < (size_t)a->width)
+            return 1;
     }
     return SAME;
 }
 
-/* Writes the difference picture, which appears whole or not at all: under another name first,
-   except for devices, which a rename would replace. */
-static int compare_into(picture *a, picture *b, double limit, const char *path, result *r)
+static int compare_into(FILE *file, const void *data)
 {
-    char *part = (char *)malloc(strlen(path) + 6);
-    FILE *f = NULL;
-    int failed = ERROR, beside = strncmp(path, "/dev/", 5) != 0;
-    if (part) strcat(strcpy(part, path), beside ? ".part" : "");
-    if (part) f = fopen(part, "wb");
-    if (!f) fail(path, part ? strerror(errno) : "out of memory");
-    else {
-        fprintf(f, "P6\n%d %d\n255\n", a->width, a->height);
-        failed = compare(a, b, limit, f, r);
-        errno = 0;
-        if ((fflush(f) || ferror(f)) && !failed)
-            failed = fail(path, errno ? strerror(errno) : "could not be written");
-        fclose(f);
-        if (beside && !failed && rename(part, path)) failed = fail(path, strerror(errno));
-        if (beside && failed) remove(part);
-    }
-    free(part);
-    return failed;
+    const picture *a = ((const comparison *)data)->a;
+    fprintf(file, "P6\n%d %d\n255\n", a->width, a->height);
+    return compare_rows(file, data);
 }
 
 /* ---- command line --------------------------------------------------------------------------- */
@@ -199,6 +192,7 @@ typedef struct options {
 /* Stores one option: the option_take of compare. */
 static int take(void *to, const char *name, const char *value)
 {
+    static const char *const ppm[] = { "ppm", NULL };
     options *o = (options *)to;
     char *end;
     double number;
@@ -215,7 +209,7 @@ static int take(void *to, const char *name, const char *value)
         return option_integer(value, 0, 1000000000, &o->max_seconds);
     if (!strcmp(name, "--difference")) {
         o->difference = value;
-        return OPTION_TAKEN;
+        return save_is_device(value) || save_ends_in(value, ppm);
     }
 
     number = strtod(value, &end);
@@ -236,39 +230,20 @@ static int read_options(options *o, int argc, char **argv)
                                           MODEL_VALUED, PORTRAIT_VALUED, "--max-seconds",
                                           NULL };
     static const char *const flags[] = { MODEL_FLAGS, NULL };
-    static const command c = { "compare", usage, valued, flags, 2, take };
+    static const command c = { "compare", usage, valued, flags, 2, 2, "", take };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
-    if (!o->names[1]) {
-        fputs(usage, stderr);
-        return OPTIONS_WRONG;
-    }
-    if (!strcmp(o->names[0], "-") && !strcmp(o->names[1], "-")) {
-        complain("only one picture can be standard input");
-        return OPTIONS_WRONG;
-    }
-    if (o->portrait.background == PORTRAIT_NONE) {
-        complain("--background none: transparent pixels have no colours to compare");
-        return OPTIONS_WRONG;
-    }
+    if (!strcmp(o->names[0], "-") && !strcmp(o->names[1], "-"))
+        return complain("only one picture can be standard input");
+    if (o->portrait.background == PORTRAIT_NONE)
+        return complain("--background none: transparent pixels have no colours to compare");
+    for (int i = 0; o->difference && i < 2; i++)
+        if (save_same(o->names[i], o->difference))
+            return complain("%s is read: it cannot be written as well", o->difference);
     return portrait_check(&o->portrait) ? OPTIONS_WRONG : OPTIONS_READ;
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
-
-/* 1: the file holds a model, by its extension. */
-static int is_model(const char *name)
-{
-    static const char *const models[] = { "obj", "stl", "ply", "gltf", "glb", "fbx",
-                                          "dae", "3ds", "3mf", "off",  NULL };
-    const model_kind kind = model_kind_of(name);
-#ifdef MODEL_ASSIMP
-    char dotted[sizeof kind.text + 2];
-    snprintf(dotted, sizeof dotted, ".%s", kind.text);
-    if (kind.text[0] && aiIsExtensionSupported(dotted)) return 1;
-#endif
-    return option_among(models, kind.text);
-}
 
 /* Makes a drawn model a picture: the bytes that thumbnail writes. */
 static int take_pixels(picture *p, const shade_target *drawn)
@@ -316,13 +291,13 @@ static int open_both(picture *p, const options *o)
     portrait as = o->portrait;
     for (int i = 0; i < 2; i++) {
         p[i].name = o->names[i];
-        if (is_model(p[i].name)) continue;
+        if (model_has_name(p[i].name)) continue;
         if (open_picture(&p[i])) return ERROR;
         if (!o->sized) as.width = p[i].width;
         if (!o->sized) as.height = p[i].height;
     }
     for (int i = 0; i < 2; i++) {
-        if (!is_model(p[i].name)) continue;
+        if (!model_has_name(p[i].name)) continue;
         if (as.width > 8192 || as.height > 8192)
             return fail(p[i].name, "models are drawn up to 8192x8192 pixels");
         if (portrait_check(&as) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))
@@ -352,13 +327,15 @@ static int run(picture *p, const options *o)
 {
     picture *a = &p[0], *b = &p[1];
     result r = { 0 };
+    const comparison both = { a, b, o->limit, &r };
     if (open_both(p, o)) return ERROR;
+    guard_doing = "comparing";
     if (a->width != b->width || a->height != b->height) {
         printf("size   %d x %d and %d x %d\ndifferent\n", a->width, a->height, b->width, b->height);
         return DIFFERENT;
     }
-    if (o->difference ? compare_into(a, b, o->limit, o->difference, &r)
-                      : compare(a, b, o->limit, NULL, &r))
+    if (o->difference ? save_bytes(o->difference, compare_into, &both)
+                      : compare_rows(NULL, &both))
         return ERROR;
     return print(a, &r, o);
 }

@@ -414,8 +414,12 @@ static int assimp_failed(mesh_reader *r)
     return mesh_fail(r, "%s", n ? text : "assimp cannot read it");
 }
 
-static int assimp_read(const char *path, model *m, const model_request *q)
+/* Reads a file or, where bytes is not NULL, the size bytes there, which path names in messages. */
+static int assimp_read(const char *path, const unsigned char *bytes, size_t size, model *m,
+                       const model_request *q)
 {
+    const unsigned flags =
+        aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
     static const model empty_model;
     static const tree empty_tree;
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, q->most };
@@ -424,12 +428,16 @@ static int assimp_read(const char *path, model *m, const model_request *q)
     tree t = empty_tree;
     int failed;
     *m = empty_model;
+    if (!kind.text[0] && size > 3 && !memcmp(bytes, "glTF", 4)) kind = model_kind_of("a.glb");
+    if (!kind.text[0] && size > 3 && !memcmp(bytes, "PK\3\4", 4)) kind = model_kind_of("a.3mf");
     if (!set) return mesh_fail(&r, "out of memory");
     errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    t.scene = aiImportFileExWithProperties(
-        path, aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords, NULL, set);
+    if (!bytes) t.scene = aiImportFileExWithProperties(path, flags, NULL, set);
+    else if (size <= UINT_MAX)
+        t.scene = aiImportFileFromMemoryWithProperties((const char *)bytes, (unsigned)size, flags,
+                                                       kind.text, set);
     aiReleasePropertyStore(set);
     if (!t.scene) return assimp_failed(&r);
     t.reader = &r;

@@ -18,7 +18,22 @@
 #include "ply.h"
 #include "stl.h"
 
-#define MODEL_BYTES 4000000000.0 /* larger files are refused */
+/* Larger files are refused. */
+#define MODEL_BYTES 4e9
+#define MODEL_PICTURE_BYTES 5e8
+#define MODEL_LIBRARY_BYTES 1e8
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+/* 1: there is something that is no file: a pipe would let us wait, a device would not end. */
+static inline int model_is_device(const char *path)
+{
+    struct stat there;
+    return !stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
+}
+#else
+static inline int model_is_device(const char *path) { return (void)path, 0; }
+#endif
 
 /* The extension of a file name in small letters; "" where it has none, or a long one */
 typedef struct model_kind {
@@ -97,17 +112,27 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
     return failed;
 }
 
-/* Loads a whole file; the caller frees *bytes.  Returns non-zero with the error in r. */
-static inline int model_load(mesh_reader *r, const char *path, unsigned char **bytes, size_t *size)
+/* Opens a file; NULL with the error in r */
+static inline FILE *model_open_file(mesh_reader *r, const char *path)
+{
+    FILE *file = NULL;
+    errno = 0;
+    if (model_is_device(path))
+        mesh_fail(r, "is no regular file");
+    else if ((file = fopen(path, "rb")) == NULL)
+        mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be opened");
+    return file;
+}
+
+/* Loads a whole file of at most so many bytes; the caller frees *bytes.  Returns non-zero with the
+   error in r. */
+static inline int model_load_from(mesh_reader *r, FILE *file, double most, unsigned char **bytes,
+                                  size_t *size)
 {
     size_t capacity = 0, got = 1;
     int failed = 0;
-    FILE *file;
     *bytes = NULL;
     *size = 0;
-    errno = 0;
-    file = fopen(path, "rb");
-    if (!file) return mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be opened");
     while (got && !failed) {
         unsigned char *grown = *bytes;
         if (*size == capacity) {
@@ -121,15 +146,25 @@ static inline int model_load(mesh_reader *r, const char *path, unsigned char **b
         *bytes = grown;
         got = fread(*bytes + *size, 1, capacity - *size, file);
         *size += got;
-        if ((double)*size > MODEL_BYTES) failed = mesh_fail(r, "larger than 4 GB");
+        if ((double)*size > most) failed = mesh_fail(r, "larger than %.0f MB", most / 1e6);
     }
     if (!failed && ferror(file))
         failed = mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be read");
-    fclose(file);
     if (failed) {
         free(*bytes);
         *bytes = NULL;
     }
+    return failed;
+}
+
+static inline int model_load(mesh_reader *r, const char *path, double most, unsigned char **bytes,
+                             size_t *size)
+{
+    FILE *file = model_open_file(r, path);
+    int failed = 1;
+    *bytes = NULL;
+    if (file) failed = model_load_from(r, file, most, bytes, size);
+    if (file) fclose(file);
     return failed;
 }
 
@@ -141,7 +176,7 @@ static inline void model_read_libraries(const char *path, model *m)
         unsigned char *bytes = NULL;
         size_t size = 0;
         mesh_reader r = { NULL, NULL, NULL, m->library[i], 0, error, sizeof error, NULL, NULL, 0 };
-        if (beside && !model_load(&r, beside, &bytes, &size)) {
+        if (beside && !model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size)) {
             r.at = r.begin = bytes;
             r.end = bytes + size;
             r.line = 1;
@@ -159,7 +194,7 @@ static inline int model_read_file(const char *path, model *m, const model_reques
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
     unsigned char *bytes = NULL;
     size_t size = 0;
-    int failed = model_load(&r, path, &bytes, &size);
+    int failed = model_load(&r, path, MODEL_BYTES, &bytes, &size);
     *m = empty;
     if (!failed) failed = model_read_memory(bytes, size, path, m, q);
     free(bytes);

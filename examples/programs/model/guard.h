@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 /* The data of the signal handler: the file that is being written, and the work in progress */
-static char guard_part[4096];
+static char guard_part[4400];
 static const char *volatile guard_doing = "starting";
 static const char *volatile guard_file = ""; /* the file that it reads */
 static int guard_lines = 2;                  /* the descriptor that takes the program's lines */
@@ -32,20 +32,29 @@ static void guard_say(const char *text)
     }
 }
 
-static void guard_end(int signal_number)
+/* A signal from outside ends the program itself, so that a loop of a shell ends with it. */
+static void guard_pass_on(int number)
 {
+    sigset_t only;
+    signal(number, SIG_DFL);
+    sigemptyset(&only);
+    sigaddset(&only, number);
+    sigprocmask(SIG_UNBLOCK, &only, NULL);
+    raise(number);
+}
+
+static void guard_end(int number)
+{
+    const int crashed = number == SIGSEGV || number == SIGBUS || number == SIGFPE ||
+                        number == SIGILL || number == SIGABRT;
     if (guard_part[0]) unlink(guard_part);
     guard_say(program_name);
-    guard_say(": ");
-    if (signal_number == SIGALRM)
-        guard_say("gave up after --max-seconds while ");
-    else if (signal_number == SIGINT || signal_number == SIGTERM || signal_number == SIGHUP)
-        guard_say("interrupted while ");
-    else
-        guard_say("crashed while ");
+    guard_say(number == SIGALRM ? ": gave up after --max-seconds while "
+              : crashed         ? ": crashed while " : ": interrupted while ");
     guard_say(guard_doing);
     guard_say(guard_file);
     guard_say("\n");
+    if (!crashed && number != SIGALRM) guard_pass_on(number);
     _exit(guard_status);
 }
 
@@ -88,14 +97,14 @@ static void guard_memory(int megabytes)
 }
 
 /* What guard_begin has changed, for guard_done: the signals of crashes, then those of others */
-static const int guard_signals[] = { SIGSEGV, SIGBUS,  SIGFPE, SIGILL, SIGABRT,
-                                     SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGPIPE };
+static const int guard_signals[] = { SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT, SIGALRM,
+                                     SIGINT,  SIGTERM, SIGHUP,  SIGQUIT, SIGXCPU };
 enum { GUARD_CRASHES = 5, GUARD_SIGNALS = sizeof guard_signals / sizeof *guard_signals };
 static struct sigaction guard_before[GUARD_SIGNALS];
 static struct rlimit guard_limit;
 
-/* Watches the first count of guard_signals, and the memory. */
-static void guard_watch(int count, int max_memory)
+/* Watches guard_signals from first on, but not those that who started the program ignores. */
+static void guard_watch(int first, int end)
 {
     static char stack[65536]; /* the program's own stack may be what overflowed */
     stack_t other = { 0 };
@@ -105,7 +114,24 @@ static void guard_watch(int count, int max_memory)
     sigaltstack(&other, NULL);
     action.sa_handler = guard_end;
     action.sa_flags = SA_ONSTACK;
-    for (int i = 0; i < count; i++) sigaction(guard_signals[i], &action, &guard_before[i]);
+    for (int i = first; i < end; i++) {
+        sigaction(guard_signals[i], &action, &guard_before[i]);
+        if (i >= GUARD_CRASHES && guard_before[i].sa_handler == SIG_IGN)
+            signal(guard_signals[i], SIG_IGN);
+    }
+}
+
+/* Watches what ends the program from outside; a file that grows too large is an error of write. */
+static inline void guard_interrupts(void)
+{
+    guard_watch(GUARD_CRASHES, GUARD_SIGNALS);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
+/* Watches the reading of a model; what else may come is the program's. */
+static inline void guard_begin(int max_memory)
+{
+    guard_watch(0, GUARD_CRASHES);
     getrlimit(RLIMIT_AS, &guard_limit);
     guard_memory(max_memory);
 }
@@ -113,13 +139,11 @@ static void guard_watch(int count, int max_memory)
 /* Watches the whole program. */
 static inline void guard_program(int max_seconds, int max_memory)
 {
-    guard_watch(GUARD_SIGNALS, max_memory);
+    guard_begin(max_memory);
+    guard_interrupts();
     signal(SIGPIPE, SIG_IGN); /* write reports it instead */
     if (max_seconds) alarm((unsigned)max_seconds);
 }
-
-/* Watches the reading of a model; what else may come is the program's. */
-static inline void guard_begin(int max_memory) { guard_watch(GUARD_CRASHES, max_memory); }
 
 /* Ends guard_begin: signals and memory are as they were. */
 static inline void guard_done(void)
@@ -137,6 +161,7 @@ static inline void guard_program(int max_seconds, int max_memory)
     (void)max_seconds;
     (void)max_memory;
 }
+static inline void guard_interrupts(void) {}
 static inline void guard_begin(int max_memory) { (void)max_memory; }
 static inline void guard_done(void) {}
 static void guard_reading(const char *path) { (void)path; }

@@ -7,7 +7,7 @@
 
 typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
-    char *name;
+    char *name, *path;         /* in the file; where it was found, or NULL */
     int relief;                /* it is no picture of colours, but a bump or normal map: */
     int heights;               /* a bump map, and the mean square of the slopes of its heights, */
     double slope_square;       /* which go from 0 to 1, in pictures whose edges are 1 long */
@@ -77,6 +77,7 @@ static inline void model_free(model *m)
     free(m->object);
     for (int i = 0; i < m->picture_count; i++) {
         free(m->picture[i].name);
+        free(m->picture[i].path);
         free(m->picture[i].pixels);
         free(m->picture[i].mipmaps);
     }

@@ -8,6 +8,7 @@
 #include "faces.h"
 
 enum { OBJ_V, OBJ_VT, OBJ_VN };
+static const char *const obj_names[3] = { "v", "vt", "vn" };
 
 typedef struct obj_data {
     mesh_floats list[3], color;          /* color: of the first so many v; empty: none has one */
@@ -75,7 +76,8 @@ static inline int obj_index(mesh_reader *r, obj_data *o, int kind, uint32_t *out
     if (r->at == begin.at + negative)
         return mesh_fail(&begin, "expected an index, found %s", mesh_here(&begin).text);
     if (value < 1 || value > INT_MAX || (negative && value > count))
-        return mesh_fail(&begin, "index %s is out of range", mesh_here(&begin).text);
+        return mesh_fail(&begin, "index %s is out of range: %lld %s stand before it",
+                         mesh_here(&begin).text, count, obj_names[kind]);
     *out = (uint32_t)value;
     if (*out > o->highest[kind]) {
         o->highest[kind] = *out;
@@ -166,16 +168,16 @@ static inline int obj_no_faces(mesh_reader *r, const obj_data *o)
 /* Makes a vertex for each different corner that was read. */
 static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
 {
-    static const char *const kind_name[3] = { "v", "vt", "vn" };
     size_t n = o->corners.count;
     owned_mesh *m = &out->mesh;
     int missing = 0;
     if (!o->faces.triangles) return obj_no_faces(r, o);
     for (int k = 0; k < 3; k++) {
-        if (o->highest[k] <= o->list[k].count / (k == OBJ_VT ? 2 : 3)) continue;
+        const size_t count = o->list[k].count / (k == OBJ_VT ? 2 : 3);
+        if (o->highest[k] <= count) continue;
         r->line = o->highest_line[k];
-        return mesh_fail(r, "there is no %s number %lu", kind_name[k],
-                         (unsigned long)o->highest[k]);
+        return mesh_fail(r, "there is no %s number %lu: the file has %lu", obj_names[k],
+                         (unsigned long)o->highest[k], (unsigned long)count);
     }
     m->positions = (float *)malloc(3 * sizeof(float) * n);
     m->normals = (float *)calloc(n, 3 * sizeof(float));

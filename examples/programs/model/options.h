@@ -3,11 +3,12 @@
 
        static int take(void *to, const char *name, const char *value) { ... }
        static const char *const valued[] = { "--size", NULL }, *const flags[] = { "--quiet", NULL };
-       const command c = { "thumbnail", usage, valued, flags, 2, take };
+       const command c = { "thumbnail", usage, valued, flags, 2, 2, "", take };
        int end = options_read(&c, &settings, argc, argv);
        if (end) return end == OPTIONS_WRONG;
 
-   Options and files may come in any order.  Whatever is wrong is one line on stderr. */
+   Options and files may come in any order, --option=value is --option value, what stands behind --
+   are files.  Whatever is wrong is one line on stderr. */
 #ifndef MODEL_OPTIONS_H
 #define MODEL_OPTIONS_H
 
@@ -19,7 +20,7 @@
 
 /* What options_read returns: go on; a line on stderr has said what is wrong; --help, or another
    option that is a question, has been answered. */
-enum { OPTIONS_READ, OPTIONS_WRONG, OPTIONS_ANSWERED };
+enum { OPTIONS_READ, OPTIONS_WRONG, OPTIONS_ANSWERED }; /* complain returns the second */
 
 /* What a take function returns: the value is none that this option can have; it is stored; or
    OPTIONS_ANSWERED. */
@@ -31,7 +32,8 @@ typedef int option_take(void *to, const char *name, const char *value);
 typedef struct command {
     const char *name, *usage;
     const char *const *valued, *const *flags; /* options with a value and without, up to a NULL */
-    int files;                                /* at most so many */
+    int least, most;                          /* files */
+    const char *many;                         /* what a user may have wanted who names more */
     option_take *take;
 } command;
 
@@ -99,10 +101,11 @@ static inline int option_axis(const char *text, int *out)
 
 /* ---- the command line ------------------------------------------------------------------------ */
 
-static inline int option_among(const char *const *list, const char *name)
+/* The name as the list has it, or NULL */
+static inline const char *option_among(const char *const *list, const char *name)
 {
     while (*list && strcmp(*list, name)) list++;
-    return *list != NULL;
+    return *list;
 }
 
 /* The values that an option can have: what its usage says in one line, without the word that
@@ -132,56 +135,77 @@ static inline void option_said(const char *usage, const char *name, char *out, s
     out[used] = 0;
 }
 
-/* The option or file at argv[*i].  Moves *i onto the last word that belongs to it. */
+/* The name under which a program is installed, where it has been called by that; else its own */
+static inline const char *options_name(const command *c, const char *path)
+{
+    const char *slash = path ? strrchr(path, '/') : NULL, *name = slash ? slash + 1 : path;
+    return name && !strncmp(name, "shade-", 6) && !strcmp(name + 6, c->name) ? name : c->name;
+}
+
+/* The usage begins with "usage: " and the program's own name. */
+static inline void options_help(const command *c, FILE *file)
+{
+    fprintf(file, "usage: %s%s", program_name, c->usage + strlen("usage: ") + strlen(c->name));
+}
+
+/* Takes the option at argv[*i].  Moves *i onto the last word that belongs to it. */
 static inline int options_take(const command *c, void *to, int argc, char **argv, int *i)
 {
-    const char *name = argv[*i];
-    char said[400];
+    const char *equals = strchr(argv[*i], '='), *value = equals ? equals + 1 : NULL;
+    const size_t n = equals ? (size_t)(equals - argv[*i]) : strlen(argv[*i]);
+    char word[40], said[400];
+    const char *name;
     int taken;
-    if (option_among(c->flags, name)) {
+    snprintf(word, sizeof word, "%.*s", n < sizeof word ? (int)n : 0, argv[*i]);
+    if (!equals && (name = option_among(c->flags, word)) != NULL) {
         c->take(to, name, "");
         return OPTIONS_READ;
     }
-    if (!option_among(c->valued, name)) {
-        complain("unknown option %s (--help lists them)", name);
-        return OPTIONS_WRONG;
-    }
-    if (++*i == argc) {
-        complain("%s needs a value", name);
-        return OPTIONS_WRONG;
-    }
+    name = option_among(c->valued, word);
+    if (!name && option_among(c->flags, word))
+        return complain("%s: %s takes no value", argv[*i], word);
+    if (!name) return complain("unknown option %s (--help lists them)", argv[*i]);
+    if (!value && ++*i < argc) value = argv[*i];
+    if (!value) return complain("%s needs a value", name);
 
-    taken = c->take(to, name, argv[*i]);
+    taken = c->take(to, name, value);
     if (taken == OPTIONS_ANSWERED) return OPTIONS_ANSWERED;
     if (taken == OPTION_TAKEN) return OPTIONS_READ;
     option_said(c->usage, name, said, sizeof said);
-    complain("%s %s: %s", name, argv[*i], said);
-    return OPTIONS_WRONG;
+    return complain("%s %s: %s", name, value, said);
+}
+
+/* Answers --help and --version.  Returns 0 where the word is neither. */
+static inline int options_answer(const command *c, const char *word)
+{
+    if (!strcmp(word, "--help")) {
+        options_help(c, stdout);
+        return 1;
+    }
+    if (strcmp(word, "--version") != 0) return 0;
+    printf("%s %d.%d.%d\n", program_name, SHADE_VERSION / 10000, SHADE_VERSION / 100 % 100,
+           SHADE_VERSION % 100);
+    return 1;
 }
 
 static inline int options_read(const command *c, void *to, int argc, char **argv)
 {
-    int files = 0, end = OPTIONS_READ;
-    program_name = c->name;
+    int files = 0, end = OPTIONS_READ, rest = 0;
+    program_name = options_name(c, argv[0]);
     for (int i = 1; i < argc && end == OPTIONS_READ; i++) {
-        if (!strcmp(argv[i], "--help")) {
-            fputs(c->usage, stdout);
-            return OPTIONS_ANSWERED;
-        }
-        if (!strcmp(argv[i], "--version")) {
-            printf("%s %d.%d.%d\n", c->name, SHADE_VERSION / 10000, SHADE_VERSION / 100 % 100,
-                   SHADE_VERSION % 100);
-            return OPTIONS_ANSWERED;
-        }
-        if (!strncmp(argv[i], "--", 2)) {
+        if (!rest && options_answer(c, argv[i])) return OPTIONS_ANSWERED;
+        if (!rest && !strcmp(argv[i], "--")) {
+            rest = 1;
+        } else if (!rest && argv[i][0] == '-' && argv[i][1]) {
             end = options_take(c, to, argc, argv, &i);
-        } else if (files++ == c->files) {
-            complain("one file too many: %s", argv[i]);
-            return OPTIONS_WRONG;
+        } else if (files++ == c->most) {
+            return complain("one file too many: %s%s", argv[i], c->many);
         } else {
             c->take(to, NULL, argv[i]);
         }
     }
-    return end;
+    if (end != OPTIONS_READ || files >= c->least) return end;
+    options_help(c, stderr);
+    return OPTIONS_WRONG;
 }
 #endif

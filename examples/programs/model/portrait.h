@@ -10,7 +10,11 @@
 
 #include "../../shared/canvas.h"
 #include "look.h"
-#include "request.h"
+#include "read.h"
+#ifdef MODEL_STB
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+#endif
 
 #define PORTRAIT_USAGE                                                                            \
     "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"                 \
@@ -193,5 +197,95 @@ static inline uint8_t *portrait_bytes(const shade_target *picture, int channels)
         if (channels == 4) *to++ = (uint8_t)(255 * a + 0.5f);
     }
     return bytes;
+}
+
+/* ---- its file -------------------------------------------------------------------------------- */
+
+typedef struct portrait_file {
+    const shade_target *picture;
+    int png, channels; /* channels: 4 with alpha, which only PNG has */
+} portrait_file;
+
+static inline int portrait_sink(void *user, const void *bytes, size_t size)
+{
+    return fwrite(bytes, 1, size, (FILE *)user) != size;
+}
+
+#ifdef MODEL_STB
+typedef struct portrait_png {
+    FILE *file;
+    int failed;
+} portrait_png;
+
+static inline void portrait_png_sink(void *user, void *bytes, int size)
+{
+    portrait_png *s = (portrait_png *)user;
+    s->failed |= portrait_sink(s->file, bytes, (size_t)size);
+}
+
+static inline int portrait_write_png(FILE *file, const portrait_file *f)
+{
+    const int width = f->picture->width, channels = f->channels;
+    portrait_png sink = { file, 0 };
+    uint8_t *bytes = portrait_bytes(f->picture, channels);
+    if (!bytes) return 1;
+    sink.failed |= !stbi_write_png_to_func(portrait_png_sink, &sink, width, f->picture->height,
+                                           channels, bytes, width * channels);
+    free(bytes);
+    return sink.failed;
+}
+#else
+static inline int portrait_write_png(FILE *file, const portrait_file *f)
+{
+    (void)file;
+    (void)f;
+    return 1;
+}
+#endif
+
+/* A save_writer of a portrait_file */
+static inline int portrait_write(FILE *file, const void *data)
+{
+    const portrait_file *f = (const portrait_file *)data;
+    errno = 0;
+    if (f->png) return portrait_write_png(file, f);
+    return shade_encode_ppm(portrait_sink, file, f->picture) != SHADE_OK;
+}
+
+/* 1: a file may become a PNG whose name does not say so, as file managers ask for with names of
+   their own: it is new or empty, or is one. */
+static inline int portrait_may_become_png(const char *name)
+{
+    static const char sign[4] = { (char)0x89, 'P', 'N', 'G' };
+    char begin[4];
+    size_t n;
+    FILE *file = fopen(name, "rb");
+    if (!file) return 1;
+    n = fread(begin, 1, sizeof begin, file);
+    fclose(file);
+    return !n || (n == sizeof begin && !memcmp(begin, sign, n));
+}
+
+/* Finds out whether the picture of that name is a PNG; *png is what the options say.  Returns 1
+   where the name is that of something else; a line on stderr has said so. */
+static inline int portrait_name(const char *name, int *png)
+{
+    static const char *const ppm[] = { "ppm", NULL };
+    static const char *const others[] = { "jpg",  "jpeg", "webp", "gif", "bmp", "tga", "tif",
+                                          "tiff", "avif", "jxl",  "svg", "hdr", "pgm", NULL };
+    const int free_name = !strcmp(name, "-") || save_is_device(name);
+    if (model_has_name(name))
+        return complain("%s is a model: the names of pictures end in .ppm or .png (shade-batch "
+                        "draws several models, --views several views of one)", name);
+    if (save_is_png(name)) *png = 1;
+    if (!*png && !free_name && !save_ends_in(name, ppm))
+        return complain("%s: the names of pictures end in .ppm or .png", name);
+    if (*png && !free_name && !save_is_png(name) &&
+        (save_ends_in(name, ppm) || save_ends_in(name, others) || !portrait_may_become_png(name)))
+        return complain("%s: the names of PNG pictures end in .png", name);
+#ifndef MODEL_STB
+    if (*png) return complain("PNG needs a %s built with stb (libstb-dev)", program_name);
+#endif
+    return 0;
 }
 #endif

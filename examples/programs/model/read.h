@@ -7,21 +7,41 @@
 #include "pictures.h"
 #include "prepare.h"
 #include "relief.h"
-#include "guard.h"
-#include "request.h"
+#include "save.h"
 #ifdef MODEL_ASSIMP
 #include "assimp.h"
 #endif
 
-/* Whether the file can be opened and has anything in it; a folder opens, but cannot be read. */
+/* 1: the name is that of a model, by its ending. */
+static inline int model_has_name(const char *name)
+{
+    static const char *const models[] = { "obj", "stl", "ply", "gltf", "glb", "fbx",
+                                          "dae", "3ds", "3mf", "off",  NULL };
+    const model_kind kind = model_kind_of(name);
+#ifdef MODEL_ASSIMP
+    char dotted[sizeof kind.text + 2];
+    snprintf(dotted, sizeof dotted, ".%s", kind.text);
+    if (kind.text[0] && aiIsExtensionSupported(dotted)) return 1;
+#endif
+    return option_among(models, kind.text) != NULL;
+}
+
+/* 1: the model of that path has been read from the file name, or has its pictures there. */
+static inline int model_has_read(const model *m, const char *path, const char *name)
+{
+    if (save_same(path, name)) return 1;
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].path && save_same(m->picture[i].path, name)) return 1;
+    return 0;
+}
+
+/* The first bytes of a file that has any; a folder opens, but cannot be read. */
 static int check_file(const char *path, const model_request *q, unsigned char *head, size_t *size)
 {
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
-    FILE *file;
+    FILE *file = model_open_file(&r, path);
     int failed;
-    errno = 0;
-    file = fopen(path, "rb");
-    if (!file) return mesh_fail(&r, "%s", errno ? strerror(errno) : "cannot be opened");
+    if (!file) return 1;
     *size = fread(head, 1, *size, file);
     failed = ferror(file) != 0;
     if (failed)
@@ -47,7 +67,7 @@ static int read_other(const char *path, model_kind kind, model *m, const model_r
 #ifdef MODEL_ASSIMP
     char dotted[sizeof kind.text + 2];
     snprintf(dotted, sizeof dotted, ".%s", kind.text[0] ? kind.text : "glb");
-    if (!kind.text[0] || aiIsExtensionSupported(dotted)) return assimp_read(path, m, q);
+    if (!kind.text[0] || aiIsExtensionSupported(dotted)) return assimp_read(path, NULL, 0, m, q);
     return mesh_fail(&r, "neither %s nor assimp reads %s files", program_name, dotted);
 #else
     (void)m;
@@ -65,14 +85,36 @@ static void show_invisible(model *m)
         if (m->surface[i].transparency >= 1) m->surface[i].transparency = 0;
 }
 
-static int model_read(const char *path, model *m, const model_request *q)
+/* Reads a model from standard input, its format by the contents; files that it names, from the
+   folder of work. */
+static const char model_input[] = "standard input";
+static int read_input(model *m, const model_request *q)
 {
-    static const model empty;
+    mesh_reader r = { NULL, NULL, NULL, model_input, 0, q->error, q->error_size, NULL, NULL, 0 };
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    int failed;
+    errno = 0;
+    if (model_load_from(&r, stdin, MODEL_BYTES, &bytes, &size)) return 1;
+    failed = size ? model_read_memory(bytes, size, model_input, m, q)
+                  : mesh_fail(&r, "the file is empty");
+#ifdef MODEL_ASSIMP
+    if (failed && size) {
+        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+        failed = assimp_read(model_input, bytes, size, m, &silent);
+    }
+#endif
+    free(bytes);
+    if (!failed) model_read_libraries(model_input, m);
+    return failed;
+}
+
+static int read_path(const char *path, model *m, const model_request *q)
+{
     unsigned char head[1024] = { 0 };
     size_t size = sizeof head;
     model_kind kind = model_kind_of(path);
     int failed = check_file(path, q, head, &size);
-    *m = empty;
     if (failed) return failed;
     if (is_ours(kind, head, size))
         failed = model_read_file(path, m, q);
@@ -81,9 +123,18 @@ static int model_read(const char *path, model *m, const model_request *q)
 #ifdef MODEL_ASSIMP
     if (failed && !kind.text[0]) { /* no extension: assimp may know the contents */
         const model_request silent = { NULL, 0, NULL, NULL, q->most };
-        failed = assimp_read(path, m, &silent);
+        failed = assimp_read(path, NULL, 0, m, &silent);
     }
 #endif
+    return failed;
+}
+
+static int model_read(const char *path, model *m, const model_request *q)
+{
+    static const model empty;
+    int failed;
+    *m = empty;
+    failed = path == model_input ? read_input(m, q) : read_path(path, m, q);
     if (!failed) {
         show_invisible(m);
         read_pictures(m, path);
@@ -100,13 +151,15 @@ static int ran_out(const char *error)
     return n >= most && !strcmp(error + n - most, words);
 }
 
-/* Reads the model that the options ask for.  Returns 1 with a line on stderr. */
+/* Reads the model that the options ask for; - is standard input.  Returns 1 with a line on
+   stderr. */
 static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
                       void *user)
 {
     char error[400] = "";
     const model_request q = { error, sizeof error, progress, user, (size_t)o->max_triangles };
     int failed;
+    if (!strcmp(path, "-")) path = model_input;
     guard_doing = "reading ";
     guard_reading(path);
     failed = model_read(path, m, &q);

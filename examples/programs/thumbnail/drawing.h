@@ -521,7 +521,7 @@ static int drawing_save(drawing *d)
     picture.color = malloc((size_t)picture.width * (size_t)picture.height * 4);
     if (!picture.color) return complain("out of memory");
     shade_resolve(&picture, &d->sheet, d->options->picture.samples);
-    failed = save(&picture, d->options);
+    failed = save_picture(&picture, d->options);
     free(picture.color);
     return failed;
 }

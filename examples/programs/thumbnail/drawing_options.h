@@ -2,7 +2,7 @@
 #ifndef THUMBNAIL_DRAWING_OPTIONS_H
 #define THUMBNAIL_DRAWING_OPTIONS_H
 
-#include "../model/options.h"
+#include "../model/save.h"
 
 #define DRAWING_USAGE                                                                            \
     "drawings of parts:\n"                                                                       \
@@ -17,7 +17,7 @@
     "  --dimensions          the size of the box around the model, in the file's units\n"        \
     "  --depth FILE          depth of each pixel, .png or .pgm of 16 bits; 65535: nothing\n"     \
     "  --id-map FILE         part of each pixel, likewise; 0: nothing\n"                         \
-    "  --json FILE|-         views, matrices, scales, parts and colours\n"
+    "  --json FILE|-         views, matrices, scales, parts and colours; FILE ends in .json\n"
 
 enum { VIEW_FRONT, VIEW_BACK, VIEW_RIGHT, VIEW_LEFT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO, VIEW_KINDS };
 static const char *const view_names[] = { "front", "back",   "right", "left",
@@ -50,11 +50,17 @@ static inline int drawing_views(drawing_options *d, const char *text)
     }
 }
 
-/* 1: the file's name ends in .png or .pgm. */
+/* 1: the file's name ends in .png or .pgm; in .json, or it is - or a device. */
 static inline int drawing_is_map(const char *name)
 {
-    size_t n = strlen(name);
-    return n > 4 && (!strcmp(name + n - 4, ".png") || !strcmp(name + n - 4, ".pgm"));
+    static const char *const maps[] = { "png", "pgm", NULL };
+    return save_ends_in(name, maps);
+}
+
+static inline int drawing_is_json(const char *name)
+{
+    static const char *const json[] = { "json", NULL };
+    return !strcmp(name, "-") || save_is_device(name) || save_ends_in(name, json);
 }
 
 /* Stores an option of drawings.  Returns what an option_take does, or -1 where the option is
@@ -88,6 +94,7 @@ static inline int drawing_take(drawing_options *d, const char *name, const char 
         taken = drawing_is_map(value);
     } else if (!strcmp(name, "--json")) {
         d->json = value;
+        taken = drawing_is_json(value);
     } else {
         return -1;
     }
@@ -108,13 +115,13 @@ static inline int drawing_same_file(const drawing_options *d, const char *sheet)
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
 static inline int drawing_check(const drawing_options *d, const char *sheet, int transparent)
 {
-    const char *png = d->depth && strstr(d->depth, ".png") ? d->depth : d->id_map;
+    const char *png = d->depth && save_is_png(d->depth) ? d->depth : d->id_map;
     if (!d->view_count) return d->needs_views ? complain("%s needs --views", d->needs_views) : 0;
     if (d->needs_light) return complain("%s does not go with --views", d->needs_light);
     if (transparent) return complain("--background none does not go with --views");
     if (drawing_same_file(d, sheet)) return complain("two results cannot have the same name");
 #ifndef MODEL_STB
-    if (png && strstr(png, ".png"))
+    if (png && save_is_png(png))
         return complain("%s: PNG needs a thumbnail built with stb (libstb-dev), PGM does not",
                         png);
 #endif

@@ -4,7 +4,7 @@
 #define THUMBNAIL_MAPS_H
 
 #include "annotate.h"
-#include "save.h"
+#include "options.h"
 
 enum { MAP_NOTHING = 65535 }; /* a depth: nothing is there */
 
@@ -105,7 +105,7 @@ static int map_write(FILE *file, const void *data)
 
 static int map_save(const char *path, const uint16_t *value, int width, int height)
 {
-    const drawing_map m = { value, width, height, ends_in_png(path) };
+    const drawing_map m = { value, width, height, save_is_png(path) };
     return save_bytes(path, map_write, &m);
 }
 

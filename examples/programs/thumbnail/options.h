@@ -6,9 +6,10 @@
 #include "drawing_options.h"
 
 static const char thumbnail_usage[] =
-    "usage: thumbnail model picture.ppm|picture.png|- [options]        -: standard output\n"
+    "usage: thumbnail model picture.ppm|picture.png [options]   -: standard input and output\n"
     PORTRAIT_USAGE
-    "  --png                 writes PNG, whatever the picture's name is\n"
+    "  --png                 writes PNG also to standard output, and under a new name that does\n"
+    "                        not say so\n"
     MODEL_USAGE
     "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
     "  --help, --version     prints this text; the version\n" DRAWING_USAGE;
@@ -38,39 +39,13 @@ static int take(void *to, const char *name, const char *value)
     return OPTION_TAKEN;
 }
 
-/* 1: the name has a dot and one of the endings, a list up to a NULL, after it. */
-static int ends_in(const char *name, const char *const *endings)
-{
-    const char *dot = strrchr(name, '.');
-    for (; dot && *endings; endings++)
-        if (same_name(dot + 1, *endings)) return 1;
-    return 0;
-}
-
-static int ends_in_png(const char *name)
-{
-    static const char *const png[] = { "png", NULL };
-    return ends_in(name, png);
-}
-
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
-static int check_options(const options *o)
+static int check_options(options *o)
 {
-    static const char *const others[] = { "jpg",  "jpeg", "webp", "gif", "bmp",  "tga", "tif",
-                                          "tiff", "avif", "jxl",  "svg", "heic", NULL };
-    if (!o->output) {
-        fputs(thumbnail_usage, stderr);
-        return 1;
-    }
     if (drawing_check(&o->drawing, o->output, o->picture.background == PORTRAIT_NONE)) return 1;
-    if (!o->png && ends_in(o->output, others))
-        return complain("%s: writes pictures named .ppm or .png alone", o->output);
-    if (portrait_check(&o->picture)) return 1;
+    if (portrait_name(o->output, &o->png) || portrait_check(&o->picture)) return 1;
     if (o->picture.background == PORTRAIT_NONE && !o->png)
         return complain("--background none needs PNG: PPM has no transparency");
-#ifndef MODEL_STB
-    if (o->png) return complain("PNG needs a thumbnail built with stb (libstb-dev)");
-#endif
     return 0;
 }
 
@@ -83,10 +58,30 @@ static int read_options(options *o, int argc, char **argv)
     };
     static const char *const flags[] = { MODEL_FLAGS, "--png", "--ortho",      "--edges",
                                          "--hidden",  "--ids", "--dimensions", NULL };
-    static const command c = { "thumbnail", thumbnail_usage, valued, flags, 2, take };
+    static const command c = { "thumbnail", thumbnail_usage, valued, flags, 2, 2,
+                               "; shade-batch draws several models, --views several "
+                               "views of one",
+                               take };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
-    if (o->output && ends_in_png(o->output)) o->png = 1;
     return check_options(o) ? OPTIONS_WRONG : OPTIONS_READ;
+}
+
+static int save_picture(const shade_target *picture, const options *o)
+{
+    const int clear = o->picture.background == PORTRAIT_NONE;
+    const portrait_file f = { picture, o->png, clear ? 4 : 3 };
+    guard_doing = "writing the picture";
+    return save_bytes(o->output, portrait_write, &f);
+}
+
+/* Returns 1, with a line on stderr, where a result would replace a file that has been read. */
+static int check_inputs(const options *o, const model *m)
+{
+    const char *const results[] = { o->output, o->drawing.depth, o->drawing.id_map };
+    for (int i = 0; i < 3; i++)
+        if (results[i] && model_has_read(m, o->input, results[i]))
+            return complain("%s is read: it cannot be written as well", results[i]);
+    return 0;
 }
 #endif

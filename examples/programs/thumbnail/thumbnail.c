@@ -15,8 +15,6 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "options.h"
-#include "save.h"
-#include "../model/read.h"
 #include "drawing.h"
 #include <time.h>
 
@@ -59,6 +57,7 @@ static int read_model(const options *o, model *m, progress *p)
     report_next(p, "reading the model");
     failed = model_open(o->input, &o->how, m, report, p);
     report_next(p, "");
+    if (!failed) failed = check_inputs(o, m);
     if (failed || o->drawing.view_count) return failed;
     return model_prepare(m, &o->how, o->picture.rotate);
 }
@@ -81,7 +80,7 @@ static int draw_and_save(const options *o, const model *m, progress *p)
         failed = complain("%s", portrait_says(result));
     } else {
         picture = canvas_finish(&c);
-        failed = save(&picture, o);
+        failed = save_picture(&picture, o);
     }
     studio_close(&light);
     free(c.target.color);

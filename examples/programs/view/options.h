@@ -98,7 +98,7 @@ static inline int view_read_options(view_options *o, int argc, char **argv)
         MODEL_VALUED, "--rate", "--frames", "--colors", "--show", NULL
     };
     static const char *const flags[] = { MODEL_FLAGS, "--window", "--still", "--ascii", NULL };
-    static const command view = { "view", view_usage, valued, flags, 1, view_take };
+    static const command view = { "view", view_usage, valued, flags, 0, 1, "", view_take };
     int end = options_read(&view, o, argc, argv);
     if (!o->rate) o->rate = o->window ? 60 : 30;
     return end;
