@@ -16,15 +16,18 @@ typedef enum scene_kind {
     SCENE_MAP,      /* a bilinear texture; positions in the world, u and v in the normals */
     SCENE_FLAT,     /* one colour; positions are clip-space x, y, z with w = 1 */
     SCENE_DEPTH,    /* the same, depth only */
-    SCENE_CLEAR     /* no triangle at all */
+    SCENE_CLEAR,    /* no triangle at all */
+    SCENE_MIPMAPS,  /* the mipmaps of a texture of twice the picture's size, which is level 1 */
+    SCENE_RESOLVE   /* a picture of twice the size is scaled down */
 } scene_kind;
 
 typedef struct scene {
     const char *name;
     scene_kind kind;
     int width, height;
+    int srgb;                      /* the picture and what is sampled are sRGB */
     float *positions, *normals;
-    uint32_t *indices, *texels;    /* SCENE_TEXELS squared */
+    uint32_t *indices, *texels;    /* SCENE_TEXELS squared, or twice the picture's size */
     int vertex_count, index_count;
     shade_material material;
     shade_light lights[4];
@@ -33,7 +36,7 @@ typedef struct scene {
     shade_vec4 background, color;
 } scene;
 
-enum { SCENE_COUNT = 12, SCENE_TEXELS = 512 };
+enum { SCENE_COUNT = 20, SCENE_TEXELS = 512 };
 
 static inline void scene_link(scene *s)
 {
@@ -314,8 +317,20 @@ static inline scene scene_fill(const char *name, int width, int height)
     return s;
 }
 
-/* A floor to the horizon's edge under one texture, without steps between texels that 8-bit weights
-   of a filter would show. */
+/* A picture without steps between texels, which 8-bit weights of a filter would show. */
+static inline void scene_texels(scene *s, int width, int height)
+{
+    s->texels = (uint32_t *)scene_memory((size_t)width * (size_t)height, 4);
+    for (int i = 0; i < width * height; i++) {
+        int x = i % width, y = i / width, c[3] = { 8 * x + 4 * y, 4 * x, 8 * y };
+        unsigned char *rgba = (unsigned char *)&s->texels[i];
+        for (int k = 0; k < 3; k++)
+            rgba[k] = (unsigned char)(c[k] & 256 ? 255 - (c[k] & 255) : c[k] & 255);
+        rgba[3] = 255;
+    }
+}
+
+/* A floor to the horizon's edge under one texture. */
 static inline scene scene_map(const char *name)
 {
     scene s = scene_new(name, SCENE_MAP, 1920, 1080);
@@ -325,15 +340,47 @@ static inline scene scene_map(const char *name)
         scene_put(&s, k, shade_v3(x, 0, z), shade_v3(x / 4, z / 4, 0));
     }
     scene_cells(&s, 1, 1);
-    s.texels = (uint32_t *)scene_memory(SCENE_TEXELS * SCENE_TEXELS, 4);
-    for (int i = 0; i < SCENE_TEXELS * SCENE_TEXELS; i++) {
-        int x = i % SCENE_TEXELS, y = i / SCENE_TEXELS, c[3] = { 8 * x + 4 * y, 4 * x, 8 * y };
-        unsigned char *rgba = (unsigned char *)&s.texels[i];
-        for (int k = 0; k < 3; k++)
-            rgba[k] = (unsigned char)(c[k] & 256 ? 255 - (c[k] & 255) : c[k] & 255);
-        rgba[3] = 255;
-    }
+    scene_texels(&s, SCENE_TEXELS, SCENE_TEXELS);
     scene_camera(&s, shade_v3(0, 3, 0.1f), shade_v3(0, 0, -1.5f), 1);
+    return s;
+}
+
+/* The first program of the README. */
+static inline scene scene_readme(const char *name)
+{
+    scene s = scene_new(name, SCENE_LIT, 640, 480);
+    s.srgb = 1;
+    s.background = shade_v4(0.02f, 0.02f, 0.05f, 1);
+    scene_geometry(&s, teapot_vertex_count(8), teapot_index_count(8));
+    teapot_build(8, s.positions, s.normals, NULL, s.indices);
+    scene_camera(&s, shade_v3(0, 4, 8), shade_v3(0, 1.4f, 0), 0.7f);
+    s.material = shade_linear_material(shade_preset_material(SHADE_PRESET_GOLD));
+    s.lights[0] = shade_point_light(shade_v3(4, 6, 5), shade_v3(1, 1, 1));
+    s.state.lighting.light_count = 1;
+    return s;
+}
+
+/* The same scene, stored as sRGB. */
+static inline scene scene_srgb(scene s)
+{
+    s.srgb = 1;
+    return s;
+}
+
+static inline scene scene_small(const char *name, int size)
+{
+    scene s = scene_teapot(name, SHADE_SHADING_PER_FRAGMENT, SHADE_CULL_NONE);
+    s.width = s.height = size;
+    scene_camera(&s, shade_v3(0.2f, 1.6f, 8.5f), shade_v3(0.2f, 1.55f, 0), 0.75f);
+    return s;
+}
+
+/* A picture made of one of twice its size. */
+static inline scene scene_halved(const char *name, scene_kind kind, int width, int height, int srgb)
+{
+    scene s = scene_new(name, kind, width, height);
+    scene_texels(&s, 2 * width, 2 * height);
+    s.srgb = srgb;
     return s;
 }
 
@@ -354,6 +401,15 @@ static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
     out[9] = scene_fill("flat fill with depth 320 x 180, in cache", 320, 180);
     out[10] = scene_new("clear colour and depth 1080p", SCENE_CLEAR, 1920, 1080);
     out[11] = scene_map("bilinear texture 1080p");
+    out[12] = scene_readme("README's first program, sRGB 640 x 480");
+    out[13] = scene_srgb(scene_teapot("sRGB teapot 720p, per pixel", SHADE_SHADING_PER_FRAGMENT,
+                                      SHADE_CULL_NONE));
+    out[14] = scene_srgb(scene_map("sRGB bilinear texture, sRGB picture 1080p"));
+    out[15] = scene_small("teapot 256 x 256, per pixel", 256);
+    out[16] = scene_small("teapot 64 x 64, per pixel", 64);
+    out[17] = scene_halved("mipmaps of 1024 x 1024", SCENE_MIPMAPS, 512, 512, 0);
+    out[18] = scene_halved("mipmaps of 1024 x 1024, sRGB", SCENE_MIPMAPS, 512, 512, 1);
+    out[19] = scene_halved("resolve 2560 x 1440 by 2, sRGB", SCENE_RESOLVE, 1280, 720, 1);
     for (int i = 0; i < SCENE_COUNT; i++) scene_link(&out[i]);
 }
 
@@ -366,8 +422,10 @@ static inline shade_target scene_target(const scene *s)
     memset(&t, 0, sizeof t);
     t.width = s->width;
     t.height = s->height;
+    t.srgb = s->srgb;
+    if (s->kind == SCENE_MIPMAPS) pixels *= 2;    /* the smaller levels follow */
     if (s->kind != SCENE_DEPTH) t.color = scene_memory(pixels, 4);
-    t.depth = (float *)scene_memory(pixels, sizeof(float));
+    if (s->kind < SCENE_MIPMAPS) t.depth = (float *)scene_memory(pixels, sizeof(float));
     return t;
 }
 
@@ -435,19 +493,41 @@ static inline void scene_map_fragment(const void *uniforms,
     memset(&t, 0, sizeof t);
     t.pixels = s->texels;
     t.width = t.height = SCENE_TEXELS;
+    t.srgb = s->srgb;
     shade_sample_lanes(&t, in->varying[0], in->varying[1], NULL, (float *)out->color);
+}
+
+static inline shade_result scene_halve(const scene *s, const shade_target *t)
+{
+    if (s->kind == SCENE_MIPMAPS) {
+        shade_texture map, levels[16];
+        memset(&map, 0, sizeof map);
+        map.pixels = s->texels;
+        map.width = 2 * s->width;
+        map.height = 2 * s->height;
+        map.srgb = s->srgb;
+        return shade_build_mipmaps(&map, levels, t->color,
+                                   2 * (size_t)s->width * (size_t)s->height * 4);
+    }
+    shade_target from = *t;
+    from.width = 2 * s->width;
+    from.height = 2 * s->height;
+    from.color = s->texels;
+    return shade_resolve(t, &from, 2);
 }
 
 /* One whole frame, from the clear on. */
 static inline shade_stats scene_draw(const scene *s, const shade_target *t)
 {
     shade_stats stats;
-    shade_result result = shade_clear(t, s->background, 1);
+    shade_result result;
     memset(&stats, 0, sizeof stats);
+    if (s->kind >= SCENE_MIPMAPS) result = scene_halve(s, t);
+    else result = shade_clear(t, s->background, 1);
     if (result == SHADE_OK && s->kind == SCENE_LIT) {
         shade_mesh m = scene_mesh(s);
         result = shade_draw_mesh(t, &m, &s->state, &stats);
-    } else if (result == SHADE_OK && s->kind != SCENE_CLEAR) {
+    } else if (result == SHADE_OK && s->kind < SCENE_CLEAR) {
         shade_pipeline p;
         memset(&p, 0, sizeof p);
         p.vertex = scene_vertex;

@@ -5,6 +5,7 @@
 enum { WIDTH = 9, HEIGHT = 3 };
 
 static shade_target in, out;
+static shade__decoder decoder;
 static uint8_t fine[16 * 64 * WIDTH * HEIGHT], coarse[16 * WIDTH * HEIGHT];
 
 /* a row of blocks, the last of them cut off by the picture's edge */
@@ -18,12 +19,13 @@ static void prove_resolve(shade_format format, int factor)
     out.height = HEIGHT;
     in.color = fine + sizeof fine - (size_t)(WIDTH * HEIGHT * factor * factor) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(WIDTH * HEIGHT) * bytes;
+    shade__open_decoder(&in, &decoder);
     for (int y = 0; y < HEIGHT; y += HEIGHT - 1)
         for (int x = 0; x < WIDTH; x += SHADE__BLOCK) {
+            const int n = shade__min(SHADE__BLOCK, WIDTH - x);
             float rgba[4 * SHADE_LANES];
-            shade__mean_block(&in, factor, x, y, rgba);
-            shade__store_block(&out, rgba, x, y, shade__min(SHADE__BLOCK, WIDTH - x),
-                               shade__pixel_at(&out, x, y));
+            shade__mean_block(&decoder, &in, factor, x, y, n, rgba);
+            shade__store_block(&out, rgba, x, y, n, shade__pixel_at(&out, x, y));
         }
 }
 
@@ -38,10 +40,11 @@ static void prove_shrink(shade_format format, int width, int height)
     out.height = height / 2 > 0 ? height / 2 : 1;
     in.color = fine + sizeof fine - (size_t)(width * height) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(out.width * out.height) * bytes;
+    shade__open_decoder(&in, &decoder);
     for (int y = 0; y < out.height; y++)
         for (int x = 0; x < out.width; x++) {
             float mean[4 * SHADE_LANES] = { 0 };
-            shade__shrink(&in, &out, x, y, mean);
+            shade__shrink_row(&decoder, &in, &out, x, y, 1, mean);
             shade__store_block(&out, mean, x, y, 1, shade__pixel_at(&out, x, y));
         }
 }

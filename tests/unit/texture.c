@@ -341,6 +341,41 @@ TEST(texture, srgb_texels_are_decoded_before_they_are_blended)
     }
 }
 
+/* A texel's code times 1 / full, decoded by the curve, to the last bit: 1.1 computed maps so.
+   Every code of 5, 6 and 8 bits, in each format that can be sRGB, by every filter. */
+TEST(texture, light_of_an_srgb_code_has_the_bits_of_the_curve)
+{
+    static const shade_format formats[] = { SHADE_FORMAT_RGBA8, SHADE_FORMAT_BGRA8,
+                                            SHADE_FORMAT_RGB565, SHADE_FORMAT_RGB565_SWAPPED };
+    for (int n = 0; n < 4 * 3 * 256; n++) {
+        const int code = n % 256, wide = n / 256 % 4 < 2;
+        const float fifth = 1 / 31.0f, sixth = 1 / 63.0f, eighth = 1 / 255.0f;
+        unsigned char pixels[2][4];
+        uint16_t half = (uint16_t)((code & 31) << 11 | (code & 63) << 5 | (code & 31));
+        const float c8 = (float)code * eighth;
+        shade_vec3 want = shade_v3(c8, c8, c8);
+        shade_texture t;
+        memset(&t, 0, sizeof t);
+        t.pixels = pixels;
+        t.width = t.height = 1;
+        t.srgb = 1;
+        t.format = formats[n / 256 % 4];
+        t.filter = (shade_filter)(n / 1024);
+        if (t.format == SHADE_FORMAT_RGB565_SWAPPED) half = (uint16_t)(half << 8 | half >> 8);
+        memset(pixels, code, sizeof pixels);
+        if (!wide) {
+            memcpy(pixels, &half, 2);
+            want = shade_v3((float)(code & 31) * fifth, (float)(code & 63) * sixth,
+                            (float)(code & 31) * fifth);
+        }
+        want = shade_linear_from_srgb(want);
+        shade_vec4 c = shade_sample(&t, 0.3f, 0.7f, 0);
+        CHECK_SAY(!memcmp(&c, &want, sizeof want), "format %d, code %d: %a %a %a, not %a %a %a",
+                  (int)t.format, code, (double)c.x, (double)c.y, (double)c.z, (double)want.x,
+                  (double)want.y, (double)want.z);
+    }
+}
+
 /* Four texels 0, 1, 2, 3: a sample says where it is.  Coordinates at texel centres, between
    them, at the seam, beyond the whole numbers that floats tell apart, and none at all.  The
    other axis, one texel long, may wrap in any way. */
@@ -1630,6 +1665,7 @@ static const test_case texture_cases[] = {
     CASE(texture, nearest_takes_nothing_from_other_texels),
     CASE(texture, full_texels_are_exactly_one_and_empty_ones_zero),
     CASE(texture, srgb_texels_are_decoded_before_they_are_blended),
+    CASE(texture, light_of_an_srgb_code_has_the_bits_of_the_curve),
     CASE(texture, beyond_the_edges_each_axis_wraps_by_its_own_rule),
     CASE(texture, any_address_and_any_stride_give_the_same_bits),
     CASE(texture, a_bad_texture_is_white),
