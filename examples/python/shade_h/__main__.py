@@ -20,6 +20,8 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--no-edges", action="store_true", help="shaded faces alone")
     parser.add_argument("--up", default=None, choices=list(UPRIGHT),
                         help="the upright axis; that of the file where it is not said")
+    parser.add_argument("--section", default=None,
+                        help="x, y or z: cuts the model open there; x=12 says where")
     parser.add_argument("--samples", type=int, default=3, help="1 .. 8")
     o = parser.parse_args(words)
     if o.more or not o.picture.lower().endswith(".png"):
@@ -33,12 +35,16 @@ def main(words: list[str] | None = None) -> int:
         mesh = load(o.model, **({"color": o.color} if o.color else {}))
         if not len(mesh.faces):
             raise Error(f"{o.model} has no triangles")
+        section = None if o.section is None else tuple(
+            k if i == 0 else float(k) for i, k in enumerate(o.section.split("=")))
+        section = section[0] if section is not None and len(section) == 1 else section
         views, edges = o.views.split(","), not o.no_edges
         if len(views) == 1:
             picture = render(mesh, view=views[0], size=size, samples=o.samples, up=o.up,
-                             edges=edges)
+                             edges=edges, section=section)
         else:
-            picture = sheet(mesh, views, size=size, samples=o.samples, up=o.up, edges=edges)
+            picture = sheet(mesh, views, size=size, samples=o.samples, up=o.up, edges=edges,
+                            section=section)
         picture.save(o.picture)
     except (Error, OSError, ValueError) as why:
         print(f"shade_h: {why}", file=sys.stderr)

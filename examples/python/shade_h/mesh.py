@@ -127,6 +127,7 @@ class Mesh:
         self.texture: Bytes | None = None
         self._edges: tuple[Array, Doubles] | None = None
         self._radius: float | None = None
+        self.edged = len(self.faces)    # faces from here on have no edges: those of a cap
         by_face = self._take_color(color)
         if surfaces is None and (uv is None) != (texture is None):
             raise Error("uv and texture belong together: one of them is missing")
@@ -175,7 +176,7 @@ class Mesh:
 
     def __repr__(self) -> str:
         """Says how many triangles there are, and how large the box around them is."""
-        low, high = _box(self.drawn_vertices().astype(np.float64))
+        low, high = self.box()
         sides = " x ".join(f"{side:.6g}" for side in high - low)
         return f"<shade_h.Mesh of {len(self.faces)} triangles, {sides}>"
 
@@ -259,6 +260,11 @@ class Mesh:
                                                 memory.size), "normals")
         return out
 
+    def box(self) -> tuple[Doubles, Doubles]:
+        """The least and greatest coordinates of vertices that faces have."""
+        low, high = _box(self.drawn_vertices().astype(np.float64))
+        return low + self.origin, high + self.origin
+
     @property
     def radius(self) -> float:
         """How far from the mesh's origin its box reaches."""
@@ -291,7 +297,8 @@ class Mesh:
         if self._edges is None:
             bits = np.ascontiguousarray(self.local + np.float32(0)).view(np.uint32)
             _, first, place = np.unique(bits, axis=0, return_index=True, return_inverse=True)
-            welded = np.ascontiguousarray(first[place.reshape(-1)][self.faces], np.uint32)
+            welded = np.ascontiguousarray(
+                first[place.reshape(-1)][self.faces[:self.edged]], np.uint32)
             good = (welded[:, 0] != welded[:, 1]) & (welded[:, 1] != welded[:, 2]) & \
                 (welded[:, 0] != welded[:, 2])
             welded = np.ascontiguousarray(welded[good])

@@ -11,7 +11,7 @@ from typing import Any, Union
 import numpy as np
 
 from ._arguments import array, shown
-from ._native import Bytes, Error, Floats, Integers
+from ._native import Bytes, Doubles, Error, Floats, Integers
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 File = Union[str, bytes, "os.PathLike[str]"]
@@ -38,6 +38,7 @@ class Picture:
         self.depth = np.full((h, w), np.inf, np.float32) if depth is None else depth
         self.ids = np.full((h, w), -1, np.int32) if ids is None else ids
         self.normals = np.zeros((h, w, 3), np.float32) if normals is None else normals
+        self.parts: tuple[Any, ...] = ()
 
     @property
     def size(self) -> tuple[int, int]:
@@ -59,6 +60,43 @@ class Picture:
     def blank(self) -> bool:
         """Is there no part in the picture?"""
         return not bool((self.ids >= 0).any())
+
+    def report(self) -> str:
+        """What is in the picture, in words, for a program that cannot look: what is covered, the
+        box around the scene, and of each part its sides and its share of the picture.  A part is
+        thin where its least side is below a hundredth of its greatest."""
+        height, width = self.ids.shape
+        y, x = np.nonzero(self.ids >= 0)
+        if not len(x):
+            lines = [f"{width} x {height} pixels, blank: no part is in view."]
+        else:
+            lines = [f"{width} x {height} pixels, {_percent(len(x) / self.ids.size)} covered, "
+                     f"from column {x.min()} to {x.max()} and row {y.min()} to {y.max()}."]
+            cut = [side for side, there in (("left", x.min() == 0), ("top", y.min() == 0),
+                                            ("right", x.max() == width - 1),
+                                            ("bottom", y.max() == height - 1)) if there]
+            lines += [f"Parts reach over the border: {', '.join(cut)}."] if cut else []
+        boxes = [_placed_box(part) for part in self.parts]
+        if boxes:
+            low, high = (np.array([box[k] for box in boxes]) for k in (0, 1))
+            lines.append(f"The scene is {_sides(low.min(0), high.max(0))}, from "
+                         f"{_point(low.min(0))} to {_point(high.max(0))}.")
+        for number, (part, box) in enumerate(zip(self.parts, boxes)):
+            lines.append(self._line_of(number, part, box))
+        return "\n".join(lines)
+
+    def _line_of(self, number: int, part: Any, box: tuple[Doubles, Doubles]) -> str:
+        """A part in words."""
+        there, sides = self.ids == number, box[1] - box[0]
+        words = f"Part {number}{' ' + part.name if part.name else ''}: " \
+            f"{len(part.mesh.faces)} triangles, {_sides(*box)}, "
+        if there.any():
+            depth = self.depth[there]
+            words += f"{_percent(float(there.mean()))} of the picture, " \
+                f"{depth.min():.6g} to {depth.max():.6g} before the eye"
+        else:
+            words += "not in view"
+        return words + ("; thin." if sides.min() < 0.01 * sides.max() else ".")
 
     def png(self) -> bytes:
         """The bytes of a PNG file: RGB where every pixel is opaque, else RGBA."""
@@ -109,6 +147,27 @@ class Picture:
                         f"not {other.size[0]} x {other.size[1]}")
         apart = np.abs(self.rgba.astype(np.int32) - other.rgba.astype(np.int32))
         return np.asarray(apart.max(2), np.int32)
+
+
+def _percent(part: float) -> str:
+    return f"{100 * part:.2g} %" if part < 0.1 else f"{100 * part:.0f} %"
+
+
+def _point(p: Doubles) -> str:
+    return "(" + ", ".join(f"{v:.6g}" for v in p) + ")"
+
+
+def _sides(low: Doubles, high: Doubles) -> str:
+    return " x ".join(f"{v:.6g}" for v in high - low)
+
+
+def _placed_box(part: Any) -> tuple[Doubles, Doubles]:
+    """The box around a part in its place."""
+    points = part.mesh.drawn_vertices() + part.mesh.origin
+    with np.errstate(all="ignore"):
+        points = points @ part.pose[:3, :3].T + part.pose[:3, 3]
+        points = points[(np.abs(points) <= 1e30).all(1)]
+    return (points.min(0), points.max(0)) if len(points) else (np.zeros(3), np.zeros(3))
 
 
 def read_file(path: Any, most: int) -> bytes:

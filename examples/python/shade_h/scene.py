@@ -16,7 +16,7 @@ from ._native import library, pointer
 from .camera import UPRIGHT, Camera, Viewpoint, at, fitted, studio
 from .light import Flag, Light, Lighting, Material, Model, preset
 from .mesh import Like, Mesh, mesh as as_mesh, origin_of
-from .picture import Picture
+from .picture import Picture, png_path
 
 Color = Union[str, Sequence[float], Array]
 CLAY = arguments.color("color", "clay")
@@ -176,6 +176,7 @@ class Scene:
         self._draw(items, (View * 1)(view), threads, (rgba, depth, normals, ids, kept),
                    soft)
         made = Picture(rgba, depth, ids, normals)
+        made.parts = tuple(self.parts)
         if fit and self.parts and made.blank:
             warnings.warn(f"nothing of {self!r} can be seen: {self._why_blank()}", stacklevel=2)
         return made
@@ -328,7 +329,8 @@ def _lines(part: Part, camera: Camera, place: Doubles, origin: Doubles) -> Float
 
 def _gloss(made: Mesh) -> Material:
     """A little gloss on the colour of a mesh; white where vertices have colours of their own."""
-    mapped = any(piece.texture is not None for piece in made.pieces)
+    mapped = any(piece.texture is not None and piece.surface.material is None
+                 for piece in made.pieces)
     white = (1.0, 1.0, 1.0) if made.colors is not None or mapped else None
     color = made.color or white or CLAY
     return Material((0, 0, 0), color, color, (0.08, 0.08, 0.08), 40.0)
@@ -365,13 +367,15 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
            uv: object = None, texture: object = None, edges: bool = False,
            background: Color | None = "white", ortho: bool = False, samples: int = 3,
            light: str = "quick", material: Material | str | None = None, up: str | None = None,
-           threads: int = 0) -> Picture:
+           threads: int = 0, section: object = None) -> Picture:
     """Draws a mesh, seen from a side by a camera that is fitted to it.
 
     Pass vertices and faces, or a mesh alone: a path, a file, a shade_h.Mesh, an object of trimesh,
     cadquery or build123d, or a list of these, whose places in it are their ids.  view is "front",
     "right", "back", "left", "top", "bottom", "iso" or (azimuth, elevation) in degrees.  light is
-    "quick", three lamps beside the camera, or "studio", soft shadows that take longer.
+    "quick", three lamps beside the camera, or "studio", soft shadows that take longer.  section
+    cuts away what lies beyond a plane, and hatches the cut: "x", "y" or "z" through the middle,
+    ("x", where), or (point, normal).
     """
     soft = arguments.choice("light", light, ("quick", "studio")) == "studio"
     options: dict[str, Any] = {"color": color, "normals": normals, "uv": uv, "texture": texture}
@@ -380,18 +384,67 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
     given = {k: v for k, v in options.items()
              if v is not None and not (isinstance(v, str) and defaults.get(k) == v)}
     scene = Scene()
-    for one in source if _several(source) else [source]:
-        scene.add(one, None, material, edges=edges, **given)
+    _add_all(scene, source if _several(source) else [source], section, material=material,
+             edges=edges, **given)
     return scene.render(view, size, samples=samples, background=background, threads=threads, up=up,
                         ortho=ortho, light="studio" if soft else "scene")
 
 
+def _add_all(scene: Scene, sources: Any, section: object, **options: Any) -> None:
+    """Adds meshes, all cut by one plane where a section is asked for."""
+    material, edges = options.pop("material", None), options.pop("edges", False)
+    made = [as_mesh(one, **options) for one in sources]
+    if section is not None:
+        from .section import cut, plane_of
+        boxes = np.array([mesh.box() for mesh in made])
+        plane = plane_of(section, boxes[:, 0].min(0), boxes[:, 1].max(0))
+        made = [cut(mesh, *plane) for mesh in made]
+    for mesh in made:
+        scene.add(mesh, None, material, edges=edges)
+
+
+def export_png(shape: object, path: object = None, *,
+               views: Sequence[Viewpoint] = ("front", "right", "top", "iso"),
+               size: object = (480, 400), edges: bool = True, section: object = None,
+               up: str | None = None, samples: int = 3, background: Color | None = "white",
+               **options: Any) -> bytes:
+    """The bytes of a PNG file with a part seen from sides, which is also written to a path where
+    one is given.
+
+    shape is all that render takes, a list of parts too, which then are one picture.  options are
+    those of Mesh.
+    """
+    if path is not None:
+        png_path("path", path)
+    scene = Scene()
+    _add_all(scene, shape if _several(shape) else [shape], section, edges=edges, **options)
+    drawn = _row(scene, views, size, samples, up, background)
+    width, height = drawn[0].size
+    out = np.full((height, len(drawn) * (width + 2) - 2, 4), (200, 204, 210, 255), np.uint8)
+    for c, picture in enumerate(drawn):
+        out[:, c * (width + 2):c * (width + 2) + width] = picture.rgba
+    made = Picture(out)
+    if path is not None:
+        made.save(path)
+    return made.png()
+
+
+def _row(scene: Scene, views: Any, size: object, samples: int, up: str | None,
+         background: Color | None) -> list[Picture]:
+    """A scene seen from several sides, with one scale for the named ones."""
+    if not isinstance(views, (list, tuple)) or not views:
+        raise Error("views must be a list of at least one")
+    pair = arguments.size("size", size)
+    return [scene.render(camera, pair, samples=samples, background=background)
+            for camera in _of_one_scale(scene, views, pair, up)]
+
+
 def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top", "iso"), *,
           edges: bool = True, size: object = (480, 400), samples: int = 3, up: str | None = None,
-          background: Color | None = "white", gap: int = 2) -> Picture:
+          background: Color | None = "white", gap: int = 2, section: object = None) -> Picture:
     """The drawing of parts: a row for each mesh, a column for each view.
 
-    The named sides are orthographic and of one scale in a row; "iso" and angles are in perspective.
+    section is that of render, for each mesh by itself.  The named sides are orthographic and of one scale in a row; "iso" and angles are in perspective.
     """
     rows: Any = meshes if _several(meshes) else [meshes]
     if not rows or not isinstance(views, (list, tuple)) or not views:
@@ -405,7 +458,7 @@ def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top",
     ids = np.full((h, w), -1, np.int32)
     for r, one in enumerate(rows):
         scene = Scene()
-        scene.add(one, edges=edges)
+        _add_all(scene, [one], section, edges=edges)
         for c, camera in enumerate(_of_one_scale(scene, views, (width, height), up)):
             got = scene.render(camera, (width, height), samples=samples, background=background)
             y, x = r * (height + between), c * (width + between)
@@ -442,4 +495,4 @@ def _of_one_scale(scene: Scene, views: Sequence[Viewpoint], size: tuple[int, int
     return cameras
 
 
-__all__ = ["Part", "Scene", "render", "sheet"]
+__all__ = ["Part", "Scene", "export_png", "render", "sheet"]
