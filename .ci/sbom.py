@@ -1,0 +1,43 @@
+"""sbom.py folder version time - the files of a release as an SPDX 2.3 document."""
+import hashlib
+import json
+import sys
+from datetime import datetime, timezone
+from pathlib import Path
+
+folder, version, time = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
+names = sorted(p.name for p in folder.iterdir()
+               if p.is_file() and p.name != "SHA256SUMS" and not p.name.endswith(".spdx.json"))
+sums = {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in names}
+whole = hashlib.sha256("".join(sums[name] for name in names).encode()).hexdigest()
+
+
+def package(name, extra):
+    """What all packages say alike."""
+    return {"name": name, "versionInfo": version, "licenseConcluded": "MIT OR Unlicense",
+            "licenseDeclared": "MIT OR Unlicense", "copyrightText": "NOASSERTION",
+            "downloadLocation": "NOASSERTION", "filesAnalyzed": False, **extra}
+
+
+packages = [package("shade-h", {"SPDXID": "SPDXRef-shade-h"})]
+packages += [package(name, {"SPDXID": f"SPDXRef-file-{i}", "packageFileName": name,
+                            "checksums": [{"algorithm": "SHA256", "checksumValue": sums[name]}]})
+             for i, name in enumerate(names)]
+needed = {"SPDXID": "SPDXRef-numpy", "name": "numpy", "versionInfo": ">=1.21",
+          "downloadLocation": "https://pypi.org/project/numpy", "filesAnalyzed": False,
+          "licenseConcluded": "NOASSERTION", "licenseDeclared": "BSD-3-Clause",
+          "copyrightText": "NOASSERTION"}
+relations = [("SPDXRef-DOCUMENT", "DESCRIBES", "SPDXRef-shade-h")]
+relations += [(f"SPDXRef-file-{i}", "PACKAGE_OF", "SPDXRef-shade-h") for i in range(len(names))]
+relations += [(f"SPDXRef-file-{i}", "DEPENDS_ON", "SPDXRef-numpy")
+              for i, name in enumerate(names) if name.startswith("shade_h-")]
+json.dump({
+    "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
+    "name": f"shade-h-{version}",
+    "documentNamespace": f"https://spdx.org/spdxdocs/shade-h-{version}-{whole}",
+    "creationInfo": {"created": datetime.fromtimestamp(time, timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+                     "creators": ["Tool: sbom.py"]},
+    "packages": [*packages, needed],
+    "relationships": [{"spdxElementId": a, "relationshipType": kind, "relatedSpdxElement": b}
+                      for a, kind, b in relations]}, sys.stdout, indent=1)
+print()

@@ -1,0 +1,121 @@
+#!/bin/sh
+# dist.sh - what `make dist` writes: the same bytes twice, from git and from its own tarball; each file
+# used alone, in an empty environment; versions that are repeated are those of shade.h.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+D=$T/dist
+number=$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h)
+V=$((number / 10000)).$((number / 100 % 100)).$((number % 100))
+
+# ---- versions
+repeats() {                     # file, pattern of sed that gives the version
+    check "the version of $1" same "$(sed -n "$2" "$1" | head -n 1)" "$V"
+}
+repeats examples/node/package.json 's/^ *"version": "\(.*\)",/\1/p'
+repeats examples/python/pyproject.toml 's/^version = "\(.*\)"/\1/p'
+repeats examples/python/shade_h/__init__.py 's/^__version__ = "\(.*\)"/\1/p'
+for f in examples/embed/packages/*; do
+    [ -f "$f" ] && grep -q '[0-9]\.[0-9]\.[0-9]' "$f" || continue
+    check "the version of $f" grep -qF "$V" "$f"
+done
+check "the version of >>history" grep -q "^   ${V%.*}  " shade.h
+
+# ---- the tarball: twice from git, and from itself
+git rev-parse --is-inside-work-tree >/dev/null 2>&1 || [ -f .ci/files ] ||
+    { left_out "the release: no clone and no tarball"; finish; }
+made() { sh .ci/dist.sh "$@" >"$T/made" 2>&1 || { cat "$T/made"; return 1; }; }
+check "make dist" made "$D"
+A=$D/shade-h-$V.tar.gz
+check "a tarball again" sh .ci/dist.sh "$T/again" source
+check "the same bytes" cmp "$A" "$T/again/shade-h-$V.tar.gz"
+mkdir "$T/own" && tar -C "$T/own" -xzf "$A"
+check "a tarball of the tarball" sh "$T/own/shade-h-$V/.ci/dist.sh" "$T/third" source
+check "the same bytes from it" cmp "$A" "$T/third/shade-h-$V.tar.gz"
+check "checksums" sh -c "cd '$D' && sha256sum --quiet -c SHA256SUMS"
+check "notes" grep -q . "$D/NOTES.txt"
+clean="env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=$T/own"
+check "the tarball's own tests" $clean make -s -C "$T/own/shade-h-$V" build/test_main
+check "they pass" $clean sh -c "cd '$T/own/shade-h-$V' && build/test_main"
+
+# ---- shade.h alone, and each library: a triangle with the same bits everywhere
+mkdir "$T/alone" && cp "$D/shade.h" "$T/alone"
+cp tests/scripts/dist.c "$T/alone"
+check "shade.h alone" cc -std=c99 -Wall -Werror -O2 -DSHADE_IMPLEMENTATION "$T/alone/dist.c" -I"$T/alone" -lm -o "$T/alone/own"
+want=$("$T/alone/own")
+check "it draws" sh -c "echo '$want' | grep -Eqx '[0-9a-f]{8}'"
+unpacked() {                    # end of a wheel's name: its folder
+    rm -rf "$T/wheel"
+    mkdir "$T/wheel" && python3 -m zipfile -e "$D"/shade_h-*$1.whl "$T/wheel" && ls "$T"/wheel/shade_h/libshade.*
+}
+loaded() {                      # end of a wheel's name, compiler, what runs it
+    there "$2" || { left_out "$1: no $2"; return; }
+    [ -z "$3" ] || there "${3%% *}" || { left_out "$1: no ${3%% *}"; return; }
+    ls "$D"/shade_h-*"$1".whl >/dev/null 2>&1 || { left_out "$1: no wheel"; return; }
+    file=$(unpacked "$1")
+    case $file in *.dll) link= ;; *) link=-ldl ;; esac
+    check "a program for $1" "$2" -std=gnu99 -O1 -DLOADED "$T/alone/dist.c" -I"$T/alone" $link -lm \
+        -o "$T/alone/load.exe"
+    case $1 in win*) file=$(echo "$file" | tr / '\\' | sed 's/^/Z:/') ;; esac
+    check "the library of $1" same "$($3 "$T/alone/load.exe" "$file" 2>/dev/null | tr -d '\r')" "$want"
+}
+loaded manylinux_2_17_x86_64 gcc ""
+loaded musllinux_1_2_x86_64 musl-gcc ""
+loaded manylinux_2_17_aarch64 aarch64-linux-gnu-gcc "qemu-aarch64 -L /usr/aarch64-linux-gnu"
+export WINEDEBUG=-all WINEPREFIX="$T/wine"
+loaded win_amd64 x86_64-w64-mingw32-gcc wine
+left_out "musllinux aarch64, macOS and Windows on Arm: nothing here runs them"
+
+# ---- wheels
+for wheel in "$D"/shade_h-*.whl; do
+    [ -f "$wheel" ] || { left_out "wheels: none"; break; }
+    name=${wheel##*/}
+    check "licence, types and one library in $name" sh -c "python3 -m zipfile -l '$wheel' >'$T/list' &&
+        grep -q 'dist-info/LICENSE' '$T/list' && grep -q 'shade_h/py.typed' '$T/list' &&
+        [ \$(grep -c 'shade_h/libshade' '$T/list') -eq 1 ]"
+    if there readelf; then
+        case $name in *manylinux*)
+            most=$(readelf -V "$(unpacked "${name##*.}" 2>/dev/null || unpacked "$(echo "$name" |
+                sed 's/.*\(manylinux_2_17_[a-z0-9_]*\)\.whl/\1/')")" | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
+            check "glibc 2.17 is enough for $name" sh -c "printf '%s\n' $most GLIBC_2.17 | sort -V | tail -n 1 |
+                grep -qx GLIBC_2.17" ;;
+        esac
+    fi
+done
+if there twine; then check "twine" sh -c "twine check --strict '$D'/shade_h-*"
+else left_out "twine"; fi
+python=
+for p in python3 /usr/bin/python3; do
+    $p -c 'import numpy, venv, ensurepip' 2>/dev/null && python=$p && break
+done
+if [ "$python" ] && ls "$D"/shade_h-*manylinux_2_17_x86_64.whl >/dev/null 2>&1 && [ "$(uname -m)" = x86_64 ]; then
+    check "an environment" $python -m venv --system-site-packages "$T/env"
+    check "the wheel is installed" $clean "$T/env/bin/pip" install -q --no-index --no-deps \
+        "$D"/shade_h-*manylinux_2_17_x86_64.whl
+    check "and draws" $clean sh -c "cd '$T' && '$T/env/bin/python' -c \"
+import shade_h
+shade_h.render([[0, 0, 0], [1, 0, 0], [0, 0, 1]], [[0, 1, 2]]).save('wheel.png')\" && [ -s wheel.png ]"
+else left_out "the wheel in Python: no numpy with venv"; fi
+
+# ---- npm
+if [ -f "$D/shade-h-$V.tgz" ]; then
+    mkdir "$T/npm"
+    check "the npm package is installed" sh -c "cd '$T/npm' && npm install --silent --offline --no-audit '$D/shade-h-$V.tgz'"
+    check "and draws" sh -c "cd '$T/npm' && node -e \"
+        require('shade-h').render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] }).png().then((x) =>
+            process.exit(x.length > 500 ? 0 : 1))\""
+else left_out "npm"; fi
+if [ -f "$D/shade-h-$V-pages.zip" ]; then
+    check "the pages" sh -c "python3 -m zipfile -l '$D/shade-h-$V-pages.zip' | grep -q index.html"
+else left_out "pages"; fi
+
+# ---- the bill of materials, by the schema of SPDX
+check "SBOM: a version, and a sum for each file" python3 -c "
+import hashlib, json, pathlib
+told = json.load(open('$D/shade-h-$V.spdx.json'))
+files = {p['packageFileName']: p['checksums'][0]['checksumValue'] for p in told['packages'] if 'packageFileName' in p}
+own = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in pathlib.Path('$D').iterdir()
+       if p.name != 'SHA256SUMS' and not p.name.endswith('.spdx.json')}
+assert files == own, set(files) ^ set(own)
+ids = {p['SPDXID'] for p in told['packages']} | {told['SPDXID']}
+assert all({r['spdxElementId'], r['relatedSpdxElement']} <= ids for r in told['relationships'])"
+finish
