@@ -13,11 +13,8 @@
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
 # make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
 #                 and beside it the slides of four courses, course-uw.html and so on
-<<<<<<< HEAD
 # make assignments   tries the graders of examples/assignments: solutions, starters, mistakes
-=======
 # make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
->>>>>>> 2e2a573 (make dist: one command writes the release, the same bytes from git and from its own tarball)
 # make install    header, shade.pc, shade-thumbnail, -view, -batch and -compare with man pages, and
 #                 what file managers need for thumbnails, below PREFIX (/usr/local) in DESTDIR;
 #                 make uninstall removes them
@@ -174,11 +171,6 @@ uninstall:
 
 clean:
 	rm -rf build out
-<<<<<<< HEAD
 .PHONY: all pictures programs test assignments bench bench-plot matrix conformance coverage \
-        mutation static prove fuzz gallery playground vector-report install uninstall clean
-=======
-.PHONY: all pictures programs test bench bench-plot matrix conformance coverage mutation static \
-        prove fuzz gallery playground vector-report dist install uninstall clean
->>>>>>> 2e2a573 (make dist: one command writes the release, the same bytes from git and from its own tarball)
+        mutation static prove fuzz gallery playground vector-report dist install uninstall clean
 .SECONDARY:
