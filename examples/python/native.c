@@ -18,7 +18,7 @@ typedef struct python_item {      /* a mesh in its place */
     shade_mesh mesh;
     shade_draw_state state;       /* camera and lights are those of the view */
     const shade_vec3 *lines;      /* pairs of points in object space */
-    int line_points, two_sided;
+    int line_points, two_sided, lines_over;    /* lines_over: nothing hides the lines */
     float line_width;             /* in pixels of the finished picture */
     shade_vec4 line_color;
     int32_t id;                   /* of its part, which is also the number of its pose */
@@ -244,7 +244,7 @@ static shade_result draw_edges(const shade_target *target, const python_item *it
     shade_mat4 to_eye = shade_mat4_mul(state->view, state->model);
     to_eye = shade_mat4_mul(shade_mat4_scaling(shade_v3(s, s, s)), to_eye);
     pen.color = item->line_color;
-    pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    pen.raster.depth_test = item->lines_over ? SHADE_COMPARE_ALWAYS : SHADE_COMPARE_LESS_EQUAL;
     pen.raster.depth_bias = parallel ? -1e-3f : 0;
     pen.clip_from_points = shade_mat4_mul(state->projection, to_eye);
     return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);

@@ -34,7 +34,8 @@ check "it is the wheel that is imported" \
 # the tests, beside the tree but not beside its sources
 mkdir -p "$T/run/examples/python"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
-cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" "$T/run/examples/python"
+cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" \
+    "$P/mcp_server.py" "$T/run/examples/python"
 check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/python/tests"
 check "the scenes of bench/python.py are drawn" sh -c "
     $python '$OLDPWD/bench/python.py' --one shade_h robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"

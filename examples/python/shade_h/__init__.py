@@ -15,5 +15,5 @@ from .scene import Part, Scene, export_png, render, sheet
 __version__ = "1.2.0"
 __all__ = ["Camera", "Error", "Flag", "Light", "Lighting", "Material", "Mesh", "Model", "PRESETS",
            "Part", "Picture", "Scene", "Surface", "Term", "VIEWS", "assert_same", "berkeley",
-           "export_png", "fitted", "light_at", "lit", "load", "massey", "preset", "render", "sheet", "shirley",
-           "shirley_surface", "uw"]
+           "export_png", "fitted", "light_at", "lit", "load", "massey", "preset", "render", "sheet",
+           "shirley", "shirley_surface", "uw"]

@@ -80,7 +80,8 @@ class State(Structure):
 class Item(Structure):
     """python_item"""
     _fields_ = [("mesh", Mesh), ("state", State), ("lines", c_void_p), ("line_points", c_int),
-                ("two_sided", c_int), ("line_width", c_float), ("line_color", c_float * 4),
+                ("two_sided", c_int), ("lines_over", c_int), ("line_width", c_float),
+                ("line_color", c_float * 4),
                 ("id", c_int), ("blended", c_int), ("opacity", c_float), ("alpha_cutoff", c_float)]
 
 

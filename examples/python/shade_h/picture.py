@@ -88,8 +88,10 @@ class Picture:
     def _line_of(self, number: int, part: Any, box: tuple[Doubles, Doubles]) -> str:
         """A part in words."""
         there, sides = self.ids == number, box[1] - box[0]
-        words = f"Part {number}{' ' + part.name if part.name else ''}: " \
-            f"{len(part.mesh.faces)} triangles, {_sides(*box)}, "
+        title = f"Part {number}{' ' + part.name if part.name else ''}: "
+        if part.stroke is not None:
+            return f"{title}{len(part.stroke.pairs) // 2} lines or points, {_sides(*box)}."
+        words = f"{title}{len(part.mesh.faces)} triangles, {_sides(*box)}, "
         if there.any():
             depth = self.depth[there]
             words += f"{_percent(float(there.mean()))} of the picture, " \

@@ -28,6 +28,16 @@ QUICK = (((0.55, -0.85, -0.75), (1.02, 0.99, 0.95)), ((-1.0, 0.05, -0.55), (0.20
 QUICK_AMBIENT = (0.17, 0.175, 0.19)
 
 
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """Segments of lines, pairs of points that count from the origin of their part's mesh."""
+
+    pairs: Floats
+    width: float
+    color: tuple[float, float, float]
+    over: bool
+
+
 @dataclass(frozen=True)
 class Part:
     """A mesh in a scene: its number in pictures' ids is its place in scene.parts."""
@@ -38,6 +48,7 @@ class Part:
     name: str
     edges: bool
     two_sided: bool
+    stroke: Stroke | None = None
 
     @cached_property
     def native(self) -> Any:
@@ -98,6 +109,42 @@ class Scene:
                         f"not {arguments.shown(material)}")
         self.parts.append(Part(made, place.copy(), material or _gloss(made),
                                str(name), *flags))
+        return len(self.parts) - 1
+
+    def add_lines(self, points: object, color: Color = "red", width: float = 2.0, *,
+                  over: bool = True, name: str = "") -> int:
+        """Adds a polyline through points, (n, 3), or a list of such, and returns its number.
+
+        width is in pixels.  over=False hides what lies behind parts.  Lines count for the camera
+        that is fitted, but not in ids and depth.
+        """
+        try:
+            single = np.ndim(points) == 2    # type: ignore[arg-type]
+        except ValueError:    # lines of different lengths
+            single = False
+        lines = [points] if single or not isinstance(points, (list, tuple)) else list(points)
+        rows = [arguments.doubles(f"points[{i}]", line, (None, 3), finite=True)
+                for i, line in enumerate(lines)]
+        ends = np.cumsum([0, *map(len, rows)])
+        starts = [np.arange(a, b - 1) for a, b in zip(ends, ends[1:])]
+        return self._add_stroke(rows, np.concatenate(starts) if starts else np.zeros(0, int), 1,
+                                color, width, over, name)
+
+    def add_points(self, points: object, color: Color = "red", width: float = 6.0, *,
+                   over: bool = True, name: str = "") -> int:
+        """Adds points, (n, 3), as squares of so many pixels, and returns their number."""
+        rows = [arguments.doubles("points", points, (None, 3), finite=True)]
+        return self._add_stroke(rows, np.arange(len(rows[0])), 0, color, width, over, name)
+
+    def _add_stroke(self, rows: list[Doubles], start: Array, step: int, color: Any, width: float,
+                    over: bool, name: str) -> int:
+        points = np.concatenate(rows) if rows else np.zeros((0, 3))
+        # faces without area let the camera see the points, and draw nothing
+        made = Mesh(points, np.stack([start, start + step, start + step], 1), normals="flat")
+        pairs = made.local[np.stack([start, start + step], 1)].reshape(-1, 3)
+        stroke = Stroke(np.ascontiguousarray(pairs), arguments.number("width", width, 0, 1000),
+                        arguments.color("color", color), arguments.flag("over", over))
+        self.parts.append(Part(made, IDENTITY.copy(), _gloss(made), str(name), False, True, stroke))
         return len(self.parts) - 1
 
     def fit(self, view: Viewpoint = "iso", size: object = (640, 480), *, up: str | None = None,
@@ -177,7 +224,7 @@ class Scene:
                    soft)
         made = Picture(rgba, depth, ids, normals)
         made.parts = tuple(self.parts)
-        if fit and self.parts and made.blank:
+        if fit and made.blank and any(part.stroke is None for part in self.parts):
             warnings.warn(f"nothing of {self!r} can be seen: {self._why_blank()}", stacklevel=2)
         return made
 
@@ -261,7 +308,12 @@ class Scene:
             for i, native in enumerate(natives):
                 item = Item.from_buffer_copy(native)
                 item.id, item.state.model = number, tuple(place.T.reshape(-1))
-                if part.edges and not i:
+                if part.stroke is not None:
+                    stroke = part.stroke
+                    item.lines, item.line_points = pointer(stroke.pairs), len(stroke.pairs)
+                    item.line_width, item.line_color = stroke.width, (*stroke.color, 1.0)
+                    item.lines_over = stroke.over
+                elif part.edges and not i:
                     lines = _lines(part, camera, place, origin)
                     item.lines, item.line_points = pointer(lines), len(lines)
                     item.line_width, item.line_color = 1.4, (*INK, 1.0)
@@ -444,7 +496,8 @@ def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top",
           background: Color | None = "white", gap: int = 2, section: object = None) -> Picture:
     """The drawing of parts: a row for each mesh, a column for each view.
 
-    section is that of render, for each mesh by itself.  The named sides are orthographic and of one scale in a row; "iso" and angles are in perspective.
+    section is that of render, for each mesh by itself.  The named sides are orthographic and of one
+    scale in a row; "iso" and angles are in perspective.
     """
     rows: Any = meshes if _several(meshes) else [meshes]
     if not rows or not isinstance(views, (list, tuple)) or not views:

@@ -77,6 +77,15 @@ def test_devices_and_pipes_are_refused_at_once(tmp_path):
             shade.Picture.open(path)
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes")
+def test_surfaces_are_not_waited_for_either(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for name in ("pipe", "/dev/zero"):
+        (tmp_path / "m.obj").write_text(f"mtllib {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        with pytest.warns(UserWarning, match="m.obj"):
+            assert len(shade.load(tmp_path / "m.obj").faces) == 1
+
+
 def test_a_picture_that_unpacks_to_more_than_it_says_takes_no_memory(tmp_path):
     small = shade.Picture(np.zeros((4, 4, 4), np.uint8)).png()
     at = small.index(b"IDAT") - 4

@@ -154,3 +154,39 @@ def test_the_command_cuts(tmp_path):
     done = subprocess.run([sys.executable, "-m", "shade_h", "a.obj", "b.png", "--section", "q"],
                           cwd=tmp_path, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 1 and "section" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_lines_and_points_lie_where_they_say_over_parts_or_behind():
+    for far in (0.0, 1e8):
+        scene = shade.Scene()
+        scene.add((np.asarray(box(2, 2, 2)[0]) + far, box()[1]), color="white")
+        line = np.array([[1.0, 0.5, 1], [1, 1.5, 1]]) + far
+        dots = np.array([[0.5, 1, 1], [1.5, 1, 1.0]]) + far
+        plain = scene.render("top", (100, 100), ortho=True, samples=1)
+        for over in (True, False):
+            marked = shade.Scene()
+            marked.parts += scene.parts
+            marked.add_lines(line, "blue", over=over)
+            marked.add_points(dots, "red", 8, over=over, name="dots")
+            got = marked.render("top", (100, 100), ortho=True, samples=1)
+            changed = got.difference(plain) > 40
+            assert changed.any() == over and np.array_equal(got.ids, plain.ids)
+            assert "Part 2 dots: 2 lines or points" in got.report()
+        y, x = np.nonzero((got.ids >= 0))
+        middle, scale = (x.min() + x.max() + 1) / 2, np.ptp(x) + 1
+        marked.parts[1:] = []
+        marked.add_lines([line], "blue", 3)
+        marked.add_points(dots, "red", 8)
+        rgba = marked.render("top", (100, 100), ortho=True, samples=1).rgba.astype(int)
+        blue = np.argwhere((rgba[..., 2] > 120) & (rgba[..., 0] < 100))
+        red = np.argwhere((rgba[..., 0] > 150) & (rgba[..., 1] < 100))
+        assert abs(blue[:, 1].mean() + 0.5 - middle) < 1
+        assert np.ptp(blue[:, 0]) == pytest.approx(scale / 2, abs=4)
+        assert len(red) == pytest.approx(2 * 64, abs=40)
+        assert np.ptp(red[:, 1]) == pytest.approx(scale / 2 + 8, abs=3)
+    for bad in ("x", [[1, 2]], [[[0, 0, np.nan]]], 7):
+        with pytest.raises(shade.Error, match="points"):
+            shade.Scene().add_lines(bad)
+    alone = shade.Scene()
+    alone.add_lines([[0, 0, 0], [1, 1, 1]])
+    assert (alone.render("front", (40, 40)).rgba[..., 1] < 100).any()

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""An MCP server that lets a language model see the parts that it makes: pictures, and what is in
+them in words.  Register `python3 mcp_server.py` with a client; messages are lines of JSON."""
+import base64
+import json
+import sys
+
+import shade_h
+
+TEXT = {"type": "string"}
+MODEL = {"model": {**TEXT, "description": "path of an STL, OBJ, PLY, GLB or 3MF file"}}
+VIEW = {"view": {**TEXT, "description": "front, right, back, left, top, bottom, iso, or 30,20: "
+                                        "azimuth and elevation in degrees"}}
+
+
+def side(words="iso"):
+    return tuple(float(word) for word in words.split(",")) if "," in words else words
+
+
+def render(model, view="iso"):
+    return shade_h.render(model, view=side(view), edges=True)
+
+
+def sheet(model):
+    return shade_h.sheet([shade_h.load(model)])
+
+
+def section(model, axis, at=None, view="iso"):
+    plane = axis if at is None else (axis, float(at))
+    return shade_h.render(model, view=side(view), edges=True, section=plane)
+
+
+def compare(model, other, view="iso"):
+    scene = shade_h.Scene()
+    scene.add(model)
+    scene.add(other)
+    camera = scene.fit(side(view))    # one for both, so that what is alike is in one place
+    pictures = [shade_h.Scene() for _ in range(2)]
+    for single, path in zip(pictures, (model, other)):
+        single.add(path, edges=True)
+    one, two = (single.render(camera) for single in pictures)
+    apart = one.difference(two)
+    two.rgba[apart > 16, :3] = 255, 0, 0
+    return two, f"{(apart > 16).mean():.1%} of the pixels differ; they are red in {other}."
+
+
+TOOLS = {  # name: function, what it does, its arguments, those that it needs
+    "render": (render, "A picture of a part.", {**MODEL, **VIEW}, ["model"]),
+    "sheet": (sheet, "Front, right, top and iso of a part.", MODEL, ["model"]),
+    "section": (section, "A part cut open at a plane, the cut hatched.",
+                {**MODEL, **VIEW, "axis": {"enum": ["x", "y", "z"]}, "at": {"type": "number"}},
+                ["model", "axis"]),
+    "compare": (compare, "Where two parts look different.", {**MODEL, **VIEW, "other": TEXT},
+                ["model", "other"])}
+
+
+def call(name, arguments):
+    got = TOOLS[name][0](**arguments)
+    picture, words = got if isinstance(got, tuple) else (got, got.report())
+    data = base64.b64encode(picture.png()).decode()
+    return {"content": [{"type": "text", "text": words},
+                        {"type": "image", "data": data, "mimeType": "image/png"}]}
+
+
+def answer(method, given):
+    if method == "initialize":
+        return {"protocolVersion": given.get("protocolVersion", "2025-06-18"),
+                "capabilities": {"tools": {}},
+                "serverInfo": {"name": "shade-h", "version": shade_h.__version__}}
+    if method == "tools/list":
+        return {"tools": [{"name": name, "description": what, "inputSchema": {
+            "type": "object", "properties": takes, "required": needs}}
+            for name, (_, what, takes, needs) in TOOLS.items()]}
+    if method == "tools/call" and given.get("name") in TOOLS:
+        try:
+            return call(given["name"], given.get("arguments", {}))
+        except (ValueError, TypeError, OSError) as why:    # the model reads it and tries again
+            return {"content": [{"type": "text", "text": str(why)}], "isError": True}
+    return {} if method == "ping" else None
+
+
+for line in sys.stdin:
+    try:
+        asked = json.loads(line)
+        number, method, given = asked.get("id"), asked.get("method"), asked.get("params") or {}
+    except (ValueError, AttributeError):
+        number, method, given = None, None, {}
+    else:
+        if number is None:
+            continue    # a notification
+    result = answer(method, given)
+    told = {"result": result} if result is not None else \
+        {"error": {"code": -32601 if method else -32700, "message": f"unknown: {method}"}}
+    print(json.dumps({"jsonrpc": "2.0", "id": number, **told}), flush=True)
