@@ -7039,7 +7039,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
     }
     v[14] -= step;
     view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
-    return half.x >= 0 && half.y >= 0 && half.z >= 0 && shade__finite3(toward_eye) &&
+    return low.x <= high.x && low.y <= high.y && low.z <= high.z && shade__finite3(toward_eye) &&
            shade__finite3(up) && shade__is_finite(&view) ? view : shade_mat4_identity();
 }
 

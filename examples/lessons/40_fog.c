@@ -16,10 +16,11 @@ static void fog(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                 shade_colors *SHADE_RESTRICT out)
 {
     const shade_draw_state *s = (const shade_draw_state *)uniforms;
-    const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
+    const shade_rows rows = { .position = in->varying[SHADE_VARYING_POSITION],
+                              .normal = in->varying[SHADE_VARYING_NORMAL] };
     shade_lit_lanes(&s->lighting, s->material, eye, &rows, out->color[0]);
     SHADE_EACH_LANE(i) {
-        shade_vec3 at = lane(in->varying[0], i);
+        shade_vec3 at = lane(in->varying[SHADE_VARYING_POSITION], i);
         float through = shade_power(0.96f, shade_distance(at, eye));
         out->color[0][i] = air.x + through * (out->color[0][i] - air.x);
         out->color[1][i] = air.y + through * (out->color[1][i] - air.y);

@@ -512,6 +512,30 @@ static void shape_clear_and_encode(fuzz_input *in)
     picture_close(&p);
 }
 
+/* Boxes hold every finite corner, and the view of anything is finite. */
+static void shape_fit(fuzz_input *in, const shape_mesh *s)
+{
+    const uint32_t kind = fuzz_byte(in);
+    const float most = kind & 1 ? 1e3f : 0;
+    const shade_mat4 projection = fuzz_matrix(in, most);
+    shade_vec3 low = shade_v3(-7, -7, -7), high = low;
+    HOLDS(shade_mesh_bounds(&s->m, NULL, &high) == SHADE_ERROR_ARGUMENT);
+    HOLDS(shade_mesh_bounds(&s->m, &low, &high) == s->want);
+    for (int k = 0; s->want == SHADE_OK && k < s->corners; k++) {
+        const shade_vec3 p = shape_at(s, k);
+        if (!fuzz_finite3(p)) continue;
+        HOLDS(p.x >= low.x && p.y >= low.y && p.z >= low.z);
+        HOLDS(p.x <= high.x && p.y <= high.y && p.z <= high.z);
+    }
+    if (kind & 2) low = fuzz_vec3(in, most);
+    if (kind & 4) high = fuzz_vec3(in, most);
+    const shade_vec3 side = fuzz_vec3(in, most);
+    const shade_mat4 view = shade_mat4_fit(projection, low, high, side, fuzz_vec3(in, most));
+    for (int k = 0; k < 16; k++) HOLDS(isfinite((&view.col[0].x)[k]));
+    if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z))
+        HOLDS(view.col[3].z == 0 && view.col[0].x == 1);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_input in = { data, data + size };
@@ -528,6 +552,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         shape_corner_normals(&in, &s);
         shape_edges(&in, &s);
         shape_rays(&in, &s);
+        shape_fit(&in, &s);
     }
     guard_close();
     return 0;

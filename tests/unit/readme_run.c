@@ -120,6 +120,35 @@ TEST(readme, three_lamps_shine_as_said)
     CHECK_NEAR(shade_light_at(&lights[2], shade_v3(4 * 0.55f, 0, 0), NULL, NULL), 0, 0);
 }
 
+/* The teapot at any place and of any size, from any side: the picture holds all of it, and one of
+   its sides is near. */
+TEST(readme, first_picture_shows_all_of_any_mesh)
+{
+    for (int i = 0; i < 20; i++) {
+        const float size = rnd_log(1e-3, 1e3);
+        int low[2] = { 640, 480 }, high[2] = { -1, -1 };
+        start(640, 480, shade_v3(0, 0, 5), shade_v3(0, 0, 0));
+        mesh.vertex_count = teapot_vertex_count(8);
+        mesh.index_count = teapot_index_count(8);
+        teapot_build(8, run_positions, run_normals, NULL, run_indices);
+        const float away = size * rnd_float(-5, 5);
+        for (int k = 0; k < 3 * mesh.vertex_count; k++)
+            run_positions[k] = run_positions[k] * size + away;
+        first_picture(d3_round(rnd_direction()));
+        for (int k = 0; k < MOST; k++) {
+            const int at[2] = { k % 640, k / 640 };
+            if (run_depth[k] >= 1) continue;
+            for (int n = 0; n < 2; n++) {
+                low[n] = at[n] < low[n] ? at[n] : low[n];
+                high[n] = at[n] > high[n] ? at[n] : high[n];
+            }
+        }
+        CHECK_SAY(high[0] - low[0] > 200 || high[1] - low[1] > 150, "%d .. %d, %d .. %d", low[0],
+                  high[0], low[1], high[1]);
+        CHECK(low[0] > 0 && low[1] > 0 && high[0] < 639 && high[1] < 479);
+    }
+}
+
 /* ------------------------------------------------------------------------------------- pictures */
 
 TEST(readme, floats_become_bytes)
@@ -468,6 +497,7 @@ TEST(readme, chunks_draw_the_same_and_skip_what_is_not_seen)
 
 static const test_case readme_cases[] = {
     CASE(readme, program_draws_gold),           CASE(readme, three_lamps_shine_as_said),
+    CASE(readme, first_picture_shows_all_of_any_mesh),
     CASE(readme, floats_become_bytes),          CASE(readme, window_shows_the_target),
     CASE(readme, png_holds_the_target),         CASE(readme, shaders_draw_map_and_shadow),
     CASE(readme, picking_finds_what_was_drawn),
