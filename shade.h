@@ -63,7 +63,7 @@
      Inside: the way of a triangle
        >>state     3193  who owns what         >>vertices  3376  shading, projection
        >>triangles 3593  dropped, cut, edges   >>clip      3961  near, far, behind the eye
-       >>tiles     4146  pixels, depth test    >>cover     4502  what is hidden, tile by tile
+       >>tiles     4146  pixels, depth test    >>cover     4494  what is hidden, tile by tile
        >>fragments 4726  interpolation, lod    >>texture   5018  texels, mipmaps
        >>store     5454  blending, packing
      Inside: calls of the renderer
@@ -4174,9 +4174,6 @@ typedef struct shade__triangle {
     float    z0, zx, zy, z_low, z_high;
 } shade__triangle;
 
-/* The edge functions in a rectangle: at its first pixel, and the least. */
-typedef struct shade__reach { int64_t e[3], least[3]; } shade__reach;
-
 /* Up to 32 pixels of up to 8 rows. */
 typedef struct shade__tile {
     int      x, y, rows;
@@ -4225,37 +4222,26 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 
 /* ---- edges in rectangles */
 
-/* pre: the rectangle begins in the picture and is at most 2^14 wide and high
-   post: |e|, |least| <= 2^45 */
-SHADE__INLINE void shade__reach_of(const shade__triangle *t, int x, int y,
-                                   int columns, int rows, shade__reach *r)
+/* Edge k at pixel (x, y), and the least that it is in the rectangle that begins there.
+   pre: it begins in the picture and is at most 2^14 wide and high   post: both within 2^45 */
+SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x,
+                                     int y, int columns, int rows,
+                                     int64_t *least)
 {
-    for (int k = 0; k < 3; k++) {
-        const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
-        const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
-        const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
-        r->e[k] = e;
-        r->least[k] = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
-    }
-}
+    const int64_t ex = t->edges.ex[k], ey = t->edges.ey[k];
+    const int64_t across = (columns - 1) * ex, down = (rows - 1) * ey;
+    const int64_t e = t->e[k] + (x - t->x0) * ex + (y - t->y0) * ey;
 
-/* Have all edges all of r's rectangle inside, when it is shifted by so many pixels to the right, or
-   to the left if right is negative? */
-SHADE__INLINE int shade__inside(const shade__triangle *t, const shade__reach *r,
-                                int right)
-{
-    int64_t crossed = 0;
-
-    for (int k = 0; k < 3; k++) crossed |= r->least[k] + (int64_t)t->edges.ex[k] * right;
-    return crossed >= 0;
+    *least = e + (across < 0 ? across : 0) + (down < 0 ? down : 0);
+    return e;
 }
 
 /* Moves *first and *last to the columns between which each edge has pixels inside in some of the
    rows.  Floats are wrong by less than 0.016 pixel, for which a column may stay on either side.
    pre: rows of the box   post: *first does not fall, *last does not rise; both within -1 .. 16384
    pixels of t->x0 if they were */
-SHADE__INLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
-                                      int *first, int *last)
+static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y,
+                                               int rows, int *first, int *last)
 {
     for (int k = 0; k < 3; k++) {
         const int32_t ex = t->edges.ex[k];
@@ -4268,20 +4254,26 @@ SHADE__INLINE void shade__cut_columns(const shade__triangle *t, int y, int rows,
     }
 }
 
-/* The edges in r's rectangle of 32 x 8 pixels, shifted right as above; those with all pixels inside
-   are 0.  x and y are left to the caller.
-   pre: none has all outside by more than a column   post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
-SHADE__INLINE void shade__tile_edges(const shade__triangle *t,
-                                     const shade__reach *r, int right,
-                                     shade__edges *edges)
+/* The edges in a tile of 32 columns; those that have all of it inside are 0.  Returns whether all
+   have.   pre: none has all of it outside by more than a column
+   post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
+SHADE__INLINE int shade__tile_edges(const shade__triangle *t,
+                                    const shade__tile *tile, shade__edges *edges)
 {
+    int inside = 1;
+
+    edges->x = tile->x;
+    edges->y = tile->y;
     for (int k = 0; k < 3; k++) {
-        const int64_t e = (int64_t)t->edges.ex[k] * right;
-        const int crosses = r->least[k] + e < 0;
-        edges->e[k] = crosses ? (int32_t)(r->e[k] + e) : 0;
+        int64_t least;
+        const int64_t e = shade__edge_in(t, k, tile->x, tile->y, SHADE__TILE, tile->rows, &least);
+        const int crosses = least < 0;
+        edges->e[k] = crosses ? (int32_t)e : 0;
         edges->ex[k] = crosses ? t->edges.ex[k] : 0;
         edges->ey[k] = crosses ? t->edges.ey[k] : 0;
+        inside &= !crosses;
     }
+    return inside;
 }
 
 /* ---- runs */
@@ -4540,6 +4532,17 @@ SHADE__INLINE float shade__key(float away, const shade__triangle *t,
     return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 
+/* Have all edges a rectangle inside, so many pixels to the right of the one of which they are at
+   least so much, or to the left if right is negative? */
+SHADE__INLINE int shade__all_inside(const shade__triangle *t,
+                                    const int64_t least[3], int right)
+{
+    int64_t crossed = 0;
+
+    for (int k = 0; k < 3; k++) crossed |= least[k] + (int64_t)t->edges.ex[k] * right;
+    return crossed >= 0;
+}
+
 /* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  It moves s->x
    on to the first column that no bound hides, or beyond s->end where all are hidden, and s->last
    to the last column before one that is hidden or differs in s->inside.  On the way it brings
@@ -4558,13 +4561,14 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
     const int top = plan->y0 + (row << b->log_height);
     const int bottom = shade__min(top + (1 << b->log_height), plan->y1) - 1;
     const int whole = s->y == top && s->bottom == bottom;
-    shade__reach reach;
+    int64_t least[3];
 
-    shade__reach_of(t, t->x0, s->y, size, s->bottom - s->y + 1, &reach);
+    for (int k = 0; k < 3; k++)
+        shade__edge_in(t, k, t->x0, s->y, size, s->bottom - s->y + 1, &least[k]);
     for (int from = s->x; from <= s->end; from = s->last + 1) {
         const int cell = (from - plan->x0) >> b->log_width, first = plan->x0 + cell * size;
         const int to = shade__min(first + size - 1, s->end);
-        const int inside = shade__inside(t, &reach, first - t->x0);
+        const int inside = shade__all_inside(t, least, first - t->x0);
         float *farthest = &b->farthest[row * b->across + cell];
         const int hidden = shade__key(away, t, z_near, rightward ? from : to) > *farthest;
 
@@ -4590,29 +4594,25 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
 {
     const shade__plan *plan = &d->plan;
     const int across = plan->x1 - plan->x0;
-    shade__reach reach;
     shade__edges edges;
     shade__tile tile;
     int pixels = 0, inside;
 
-    SHADE__ZERO(edges);    /* edges of 0 have all inside */
+    SHADE__ZERO(edges);    /* as where a tile is inside */
     for (int y = s->y; y <= s->bottom; y += SHADE__TILE_ROWS) {
         int first = s->x, last = s->last;
-        tile.y = edges.y = y;
+        tile.y = y;
         tile.rows = shade__min(SHADE__TILE_ROWS, s->bottom - y + 1);
         for (int k = 0; k < SHADE__TILE_ROWS; k++) runs->open[k] = -1;
         if (!s->inside) {
             shade__cut_columns(t, y, tile.rows, &first, &last);
             if (s->last < s->end) first -= (first - plan->x0) & (SHADE__TILE - 1);
-            shade__reach_of(t, first, y, SHADE__TILE, tile.rows, &reach);
         }
         for (int x = first; x <= last; x += SHADE__TILE) {
             shade__tile_columns(plan, x,
                                 shade__min(SHADE__TILE, last - x + 1), width,
                                 &tile);
-            inside = s->inside || shade__inside(t, &reach, tile.x - first);
-            if (!s->inside) shade__tile_edges(t, &reach, tile.x - first, &edges);
-            edges.x = tile.x;
+            inside = s->inside || shade__tile_edges(t, &tile, &edges);
             shade__tile_depth(plan, &tile);
             if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
             else if (SHADE__SPECIALIZE && inside && tile.columns - tile.skip == SHADE__TILE)
