@@ -12,15 +12,11 @@ from typing import Any
 import numpy as np
 
 from ._native import Array, Bytes, Error, Run, library, pointer
-from . import gltf, threemf
 from .mesh import Mesh, Surface, origin_of
 from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
 MODEL_BYTES = 4_000_000_000
 AXES = ("x", "y", "z", "-x", "-y", "-z")
-#: The lines of text that have positions: of OBJ, and of STL.
-POSITIONS = {b"v": re.compile(rb"(?mi)^([ \t]*v[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)"),
-             b"vertex": re.compile(rb"(?mi)^([ \t]*vertex[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)")}
 
 
 def _copied(address: int | None, count: int, columns: int, kind: Any) -> Any:
@@ -162,13 +158,13 @@ def _number(text: bytes) -> float:
 
 
 def _moved_text(data: bytes, origin: Array, word: bytes) -> bytes:
-    """The text with positions that count from an origin, in double precision."""
+    """The text with positions, which stand behind a word, that count from an origin in double."""
     def line(found: re.Match[bytes]) -> bytes:
         moved = [_number(found[k + 2]) - origin[k] for k in range(3)]
         return found[1] + b" ".join(repr(float(v)).encode() for v in moved) \
             if np.isfinite(moved).all() else found[0]
 
-    return POSITIONS[word].sub(line, data)
+    return re.sub(rb"(?mi)^([ \t]*" + word + rb"[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)", line, data)
 
 
 def _moved_ply(data: bytes, origin: Array) -> bytes | None:
@@ -234,6 +230,8 @@ def _far(data: bytes, name: str, path: bytes | None, first: Any) -> Any:
 
 def _gltf(data: bytes, name: str, path: bytes | None) -> Any:
     """Reads glTF; files that it names lie in its folder or below."""
+    from . import gltf    # json and base64 are imported when they are needed
+
     def file(uri: str) -> bytes:
         if path is None:
             raise Error(f"{uri[:60]!r} is beside a model that was read from memory")
@@ -252,6 +250,7 @@ def _any(data: bytes, name: str, path: bytes | None) -> Any:
                 data.lstrip()[:1] == b"{":
             return _gltf(data, name, path)
         if data[:4] == b"PK\x03\x04" or name.lower().endswith(".3mf"):
+            from . import threemf
             return threemf.read(data)
     except Error as why:
         raise Error(f"{name}: {why}") from None
