@@ -388,8 +388,43 @@ upright() {
     check "at all" test ! -s "$T/err"
 }
 
+# A part of 3 x 2 x 1, with eighths in it, far from the origin of its coordinates: x, name
+far() {
+    awk -v x="$1" -v n="$2" 'function p(k) { return sprintf("%.3f %.3f %.3f", x + 3 * (k % 2) + 0.125 * (k == 3),
+            -2 * x + 2 * (int(k / 2) % 2), x + int(k / 4) + 0.125 * (k == 6)) }
+        BEGIN { split("0 2 3 0 3 1 4 5 7 4 7 6 0 1 5 0 5 4 2 6 7 2 7 3 0 4 6 0 6 2 1 3 7 1 7 5", f)
+            for (k = 0; k < 8; k++) { print "v", p(k) >n ".obj"; ply = ply p(k) "\n" }
+            for (i = 1; i <= 36; i += 3) {
+                print "f", f[i] + 1, f[i + 1] + 1, f[i + 2] + 1 >n ".obj"
+                ply = ply "3 " f[i] " " f[i + 1] " " f[i + 2] "\n"
+                print "facet normal 0 0 0\nouter loop\nvertex " p(f[i]) "\nvertex " p(f[i + 1]) "\nvertex " \
+                    p(f[i + 2]) "\nendloop\nendfacet" >n ".body" }
+            printf "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\n" >n ".ply"
+            printf "property double z\nelement face 12\nproperty list uchar int vertex_indices\nend_header\n%s", ply >n ".ply" }'
+    { echo solid; cat "$2.body"; echo endsolid; } >"$2.stl"
+}
+# coordinates of surveyors: floats have no digits for a part and its place
+surveyed() {
+    far 0 "$T/here"
+    for x in 1000000 100000000; do
+        far $x "$T/there"
+        for k in obj stl ply; do
+            check "$k here" draw here.$k a.ppm --up z
+            check "$k at $x" draw there.$k b.ppm --up z
+            check "$k at $x: the same picture" cmp "$T/a.ppm" "$T/b.ppm"
+            check "$k at $x: a drawing" "$THUMBNAIL" "$T/there.$k" "$T/b.ppm" --views front --size 300x200 \
+                --json "$T/there.json"
+            check "the box and that of its part, of the file" same_text 2 \
+                "$(grep -c "\"low\": \[$x, -$((2 * x)), $x\].*\"size\": \[3.125, 2, 1.125\]" "$T/there.json")"
+        done
+    done
+}
+
+same_text() { [ "$1" = "$2" ] || { echo "got $1, want $2"; return 1; }; }
+
 both() {
     bombs
+    surveyed
     upright
     formats
     bad_input

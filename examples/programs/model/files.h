@@ -69,7 +69,7 @@ static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size
 
 static inline int model_read_stl(mesh_reader *r, model *m)
 {
-    if (stl_read(r, &m->mesh)) return 1;
+    if (stl_read(r, m)) return 1;
     m->part = (model_part *)calloc(1, sizeof *m->part);
     if (!m->part) return mesh_fail(r, "out of memory");
     m->part->count = m->mesh.view.index_count;

@@ -45,6 +45,7 @@ typedef struct model_part {
 
 /* Zeroed: empty. */
 typedef struct model {
+    double origin[3]; /* of the positions, in the coordinates of the file */
     owned_mesh mesh; /* its chunks are those of the parts, one after the other, not of its view */
     model_surface *surface; /* NULL: the file has no surfaces */
     model_part *part;

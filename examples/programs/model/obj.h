@@ -12,6 +12,7 @@ static const char *const obj_names[3] = { "v", "vt", "vn" };
 
 typedef struct obj_data {
     mesh_floats list[3], color;          /* color: of the first so many v; empty: none has one */
+    mesh_origin origin;
     mesh_set corners;                    /* v, vt, vn, counted from 1; 0: absent */
     faces faces;
     int has_objects;                     /* an o was read: groups do not count */
@@ -20,12 +21,12 @@ typedef struct obj_data {
 } obj_data;
 
 /* v, vt or vn: numbers wanted, as many as allowed are taken */
-static inline int obj_numbers(mesh_reader *r, float *out, int wanted, int allowed, int *count)
+static inline int obj_numbers(mesh_reader *r, double *out, int wanted, int allowed, int *count)
 {
     for (*count = 0; *count < allowed; ++*count) {
         mesh_skip_blanks(r, 1);
         if (*count >= wanted && mesh_at_word_end(r)) break;
-        if (mesh_take_number(r, &out[*count])) return 1;
+        if (mesh_take_double(r, &out[*count])) return 1;
     }
     return 0;
 }
@@ -33,34 +34,40 @@ static inline int obj_numbers(mesh_reader *r, float *out, int wanted, int allowe
 static inline int obj_vertex(mesh_reader *r, obj_data *o)
 {
     static const float white[3] = { 1, 1, 1 };
-    float v[7];
+    double v[7];
+    float place[3];
     int count;
     if (obj_numbers(r, v, 3, 7, &count)) return 1;
+    mesh_relative(&o->origin, v, place);
     if (count >= 6) {    /* colours are sRGB values */
-        shade_vec3 rgb = shade_linear_from_srgb(shade_v3(v[3], v[4], v[5]));
+        shade_vec3 rgb = shade_linear_from_srgb(shade_v3((float)v[3], (float)v[4], (float)v[5]));
         while (o->color.count < o->list[OBJ_V].count)
             if (mesh_push(&o->color, white, 3)) return mesh_fail(r, "out of memory");
         if (mesh_push(&o->color, (const float *)&rgb, 3)) return mesh_fail(r, "out of memory");
     }
-    if (mesh_push(&o->list[OBJ_V], v, 3)) return mesh_fail(r, "out of memory");
+    if (mesh_push(&o->list[OBJ_V], place, 3)) return mesh_fail(r, "out of memory");
     return 0;
 }
 
 static inline int obj_texcoord(mesh_reader *r, obj_data *o)
 {
-    float v[3] = { 0, 0, 0 };
+    double v[3] = { 0, 0, 0 };
     int count;
+    float uv[2];
     if (obj_numbers(r, v, 1, 3, &count)) return 1;
-    v[1] = 1 - v[1];                     /* OBJ counts v upward, shade.h downward */
-    return mesh_push(&o->list[OBJ_VT], v, 2) ? mesh_fail(r, "out of memory") : 0;
+    uv[0] = (float)v[0];
+    uv[1] = 1 - (float)v[1];             /* OBJ counts v upward, shade.h downward */
+    return mesh_push(&o->list[OBJ_VT], uv, 2) ? mesh_fail(r, "out of memory") : 0;
 }
 
 static inline int obj_normal(mesh_reader *r, obj_data *o)
 {
-    float v[3];
+    double v[3];
+    float n[3];
     int count;
     if (obj_numbers(r, v, 3, 3, &count)) return 1;
-    return mesh_push(&o->list[OBJ_VN], v, 3) ? mesh_fail(r, "out of memory") : 0;
+    for (int k = 0; k < 3; k++) n[k] = (float)v[k];
+    return mesh_push(&o->list[OBJ_VN], n, 3) ? mesh_fail(r, "out of memory") : 0;
 }
 
 /* Reads one index of a corner; *out counts from 1. */
@@ -199,6 +206,7 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     }
     if (faces_finish(&o->faces, out)) return mesh_fail(r, "out of memory");
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
+    memcpy(out->origin, o->origin.at, sizeof out->origin);
     out->normals_given = !missing;
     return missing && mesh_fill_normals(m) ? mesh_fail(r, "out of memory") : 0;
 }

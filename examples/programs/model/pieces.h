@@ -13,7 +13,7 @@ enum { PIECES_MOST = 65535 }; /* what lies beyond joins the last */
 typedef struct piece {
     char name[64];
     int triangles;
-    float low[3], high[3]; /* the box, in the units of the file */
+    float low[3], high[3]; /* the box, in the units of the file, from the origin of the model */
 } piece;
 
 typedef struct pieces {

@@ -40,6 +40,7 @@ typedef struct ply_data {
     int has[PLY_VALUES];
     mesh_floats vertex; /* PLY_VALUES each */
     faces faces;
+    mesh_origin origin;
     double highest; /* corner */
 } ply_data;
 
@@ -284,6 +285,7 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
         if (k < PLY_NX && !finite) return mesh_fail(r, "a position is not finite");
         single[k] = finite ? (float)v[k] : 0;
     }
+    mesh_relative(&p->origin, v, single);
     if (p->vertex.count / PLY_VALUES >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
     return mesh_push(&p->vertex, single, PLY_VALUES) ? mesh_fail(r, "out of memory") : 0;
 }
@@ -330,6 +332,7 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
     }
     if (faces_finish(&p->faces, out)) return mesh_fail(r, "out of memory");
     mesh_link(m, (int)n, 3 * (int)p->faces.triangles);
+    memcpy(out->origin, p->origin.at, sizeof out->origin);
     out->normals_given = !missing;
     return missing && mesh_fill_normals(m) ? mesh_fail(r, "out of memory") : 0;
 }

@@ -265,6 +265,22 @@ static inline int mesh_at_word_end(const mesh_reader *r)
         || (*r->at == '\\' && mesh_line_end(r, r->at + 1));
 }
 
+/* Where positions are counted from: coordinates of surveyors are large beside their model, and
+   floats have no digits for both.  0, or the whole number below the first position where that is
+   farther than 4096. */
+typedef struct mesh_origin {
+    double at[3];
+    int known;
+} mesh_origin;
+
+static inline void mesh_relative(mesh_origin *o, const double *v, float *out)
+{
+    for (int k = 0; k < 3 && !o->known; k++)
+        if (fabs(v[k]) > 4096 && fabs(v[k]) < 1e12) o->at[k] = floor(v[k]);
+    o->known = 1;
+    for (int k = 0; k < 3; k++) out[k] = (float)(v[k] - o->at[k]);
+}
+
 /* The next few bytes as printable text, for messages */
 typedef struct mesh_quote { char text[28]; } mesh_quote;
 static inline mesh_quote mesh_here(const mesh_reader *r)

@@ -3,9 +3,13 @@
 #ifndef MODEL_STL_H
 #define MODEL_STL_H
 
-#include "reader.h"
+#include "model.h"
 
-typedef struct stl_data { mesh_set places; mesh_uints indices; } stl_data;
+typedef struct stl_data {
+    mesh_set places;
+    mesh_uints indices;
+    mesh_origin origin; /* of text; binary files hold floats */
+} stl_data;
 
 static inline int stl_place(mesh_reader *r, stl_data *s, const float *p, uint32_t *number)
 {
@@ -57,11 +61,13 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
 
 static inline int stl_vertex(mesh_reader *r, stl_data *s, uint32_t *number)
 {
+    double v[3];
     float p[3];
     for (int k = 0; k < 3; k++) {
         mesh_skip_lines(r);
-        if (mesh_take_number(r, &p[k])) return 1;
+        if (mesh_take_double(r, &v[k])) return 1;
     }
+    mesh_relative(&s->origin, v, p);
     return stl_place(r, s, p, number);
 }
 
@@ -125,8 +131,9 @@ static inline int stl_is_text(const mesh_reader *r)
     return mesh_take_word(&copy, "solid") && !memchr(r->begin, 0, head);
 }
 
-static inline int stl_read(mesh_reader *r, owned_mesh *m)
+static inline int stl_read(mesh_reader *r, model *out)
 {
+    owned_mesh *m = &out->mesh;
     static const stl_data empty;
     stl_data s = empty;
     int failed = stl_is_text(r) ? stl_read_text(r, &s) : stl_read_binary(r, &s);
@@ -140,6 +147,7 @@ static inline int stl_read(mesh_reader *r, owned_mesh *m)
         for (size_t i = 0; m->positions && i < n; i++)
             memcpy(m->positions + 3 * i, &s.places.triple[i], 3 * sizeof(float));
         mesh_link(m, (int)n, (int)s.indices.count);
+        memcpy(out->origin, s.origin.at, sizeof out->origin);
         failed = !m->positions || !m->normals || mesh_fill_normals(m);
         if (failed) mesh_fail(r, "out of memory");
     }

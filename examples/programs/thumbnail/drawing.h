@@ -56,6 +56,10 @@ static void drawing_stand(drawing *d)
     }
     rotate_rows(m->positions, n, row);
     rotate_rows(m->normals, n, row);
+    for (int k = 0; k < 3; k++) {
+        d->low[k] += d->model->origin[k];
+        d->high[k] += d->model->origin[k];
+    }
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
             d->model_from_file.row[i][k] = row[i][k] / half;
@@ -499,6 +503,7 @@ static int drawing_save_json(drawing *d)
     t.up = option_axes[d->up];
     t.model_from_file = d->model_from_file;
     t.pixels = d->pixels;
+    t.origin = d->model->origin;
     t.color = d->color;
     t.triangles = d->model->mesh.view.index_count / 3;
     memcpy(t.low, d->low, sizeof t.low);

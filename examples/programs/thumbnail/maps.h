@@ -120,6 +120,7 @@ typedef struct drawing_text {
     const char *up;          /* the upright axis of the file */
     matrix4 model_from_file; /* upright, about the origin, half as large as 2 at most */
     double low[3], high[3];  /* the box, in the units of the file */
+    const double *origin;    /* of the boxes of pieces */
     const int *pixels;       /* of each piece in each view: VIEW_KINDS a piece */
     const shade_vec3 *color; /* of each piece, linear */
     int triangles;
@@ -218,8 +219,8 @@ static void json_piece(FILE *file, const drawing_text *t, int i)
     const shade_vec3 c = shade_srgb_from_linear(t->color[i]);
     double low[3], high[3];
     for (int k = 0; k < 3; k++) {
-        low[k] = (double)p->low[k];
-        high[k] = (double)p->high[k];
+        low[k] = (double)p->low[k] + t->origin[k];
+        high[k] = (double)p->high[k] + t->origin[k];
     }
     fprintf(file, "    { \"id\": %d, \"name\": ", i + 1);
     json_string(file, p->name);
