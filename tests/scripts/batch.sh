@@ -124,10 +124,11 @@ refused() {                     # what it says, command ...: status 1, one line
 }
 : >empty.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1' >half.obj
-check "a missing model" refused "none.obj: No such file" "$BATCH" none.obj
-check "an empty one" refused "empty" "$BATCH" empty.obj
-check "half a model" refused "half.obj:3" "$BATCH" half.obj
-check "a folder for a model" refused "directory" "$BATCH" one
+check "a missing model" refused "none.obj: No such file" "$BATCH" none.obj --frames 2
+check "an empty one" refused "empty" "$BATCH" empty.obj --frames 2
+check "half a model" refused "half.obj:3" "$BATCH" half.obj --frames 2
+check "a folder for a model" refused "directory" "$BATCH" one --frames 2
+check "nothing to make" refused "what shall it make? --frames" "$BATCH" y.obj
 check "no frame of them" same "$(ls frames 2>/dev/null | wc -l)" 0
 for bad in "--samples 3: 1, 2 or 4" "--up w: x, y, z, -x, -y or -z" "--threads 0: 1 .. 256 (one a core)" \
     "--frames 0: one turn in N pictures"; do

@@ -168,7 +168,9 @@ break.obj"
     bad_model "a line break in its name" "line
 break.obj" "is no OBJ"
     check "numbers as large as they get" draw large.obj a.ppm $flat
+    check "a triangle as large" test ! -s "$T/err"
     check "a point" draw point.obj a.ppm $flat
+    check "shows nothing, which is said" grep -q "point.obj: no triangle of it has an area" "$T/err"
     check "too many triangles" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.obj" \
         "$T/none.ppm" --max-triangles 100
     check "too many in PLY" refused "more than 100 triangles" "$THUMBNAIL" "$T/torus.ply" \
@@ -422,8 +424,27 @@ surveyed() {
 
 same_text() { [ "$1" = "$2" ] || { echo "got $1, want $2"; return 1; }; }
 
+# Creases of a large mesh: a box of 202,800 triangles is the box of 12.
+creases() {
+    awk 'BEGIN { n = 130
+        for (f = 0; f < 6; f++) for (j = 0; j <= n; j++) for (i = 0; i <= n; i++) {
+            u = 2 * i / n - 1; v = 2 * j / n - 1; s = f % 2 ? -1 : 1
+            print "v", f < 2 ? s " " u " " s * v : f < 4 ? s * v " " s " " u : u " " s * v " " s }
+        for (f = 0; f < 6; f++) for (j = 0; j < n; j++) for (i = 0; i < n; i++) {
+            a = f * (n + 1) * (n + 1) + j * (n + 1) + i + 1
+            print "f", a, a + 1, a + n + 2, a + n + 1 } }' >"$T/many.obj"
+    printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
+f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n' >"$T/few.obj"
+    check "a box of many triangles" draw many.obj a.ppm --no-shadow --up y
+    check "a box of few" draw few.obj b.ppm --no-shadow --up y
+    check "have the same edges" "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.6
+    check "which are sharp" draw many.obj b.ppm --no-shadow --up y --shading face
+    check "as those of faces are" "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.2
+}
+
 both() {
     bombs
+    creases
     surveyed
     upright
     formats

@@ -15,7 +15,7 @@
 
 static const char usage[] =
     "usage: batch [model] [options]                   without a model: the teapot\n"
-    "  --frames N            one turn in N pictures (360)\n"
+    "  --frames N            one turn in N pictures (of a film 360)\n"
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
     "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
@@ -33,7 +33,7 @@ typedef struct batch {
     scene_request request;
     const char *out, *film;
     int strips, count, width, height, samples; /* strips: 1 for strips, 0 for frames */
-    int piece, pipe, missing, rate, quick;     /* piece -1: all */
+    int piece, pipe, missing, rate, quick;     /* piece -1: all; count 0: not said */
     FILE *sink;                                /* of the pipe or film; NULL: files of their own */
     scene scene;
     sheet sheet;
@@ -86,6 +86,9 @@ static int read_options(batch *b, int argc, char **argv)
     int end = options_read(&c, b, argc, argv);
     if (end) return end;
 
+    if (!b->count && !b->film)
+        return complain("what shall it make? --frames 360, --strips N or --film FILE");
+    if (!b->count) b->count = 360;
     if (!b->out) b->out = b->strips ? "strips" : "frames";
     if (b->piece >= b->count)
         return complain("there is no piece %d: they count from 0 to %d", b->piece, b->count - 1);
@@ -183,7 +186,7 @@ static int write_film(batch *b, const char *path)
 int main(int argc, char **argv)
 {
     static batch b = {
-        .count = 360, .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30
+        .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30
     };
     int end;
     b.request.how = model_options_new();

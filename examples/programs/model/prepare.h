@@ -89,8 +89,122 @@ static int mesh_crease_at(owned_mesh *m, int flat, float least)
     return failed;
 }
 
+/* ---- creases of large meshes ----------------------------------------------------------------- */
+
+/* Most vertices of a large mesh have no crease: all faces there lean less from the vertex's normal
+   than half the angle of a crease, so that the normal serves all.  The corners of the others are
+   given vertices of their own.  2 million triangles of a torus take 0.3 s instead of 2.7, and keep
+   1 million vertices instead of 6. */
+enum { CREASE_LARGE = 200000 }; /* triangles */
+
+typedef struct crease_part {
+    char *creased;     /* by vertex */
+    owned_mesh around; /* the triangles with such a vertex; positions and indices alone */
+    uint32_t *at;      /* where their indices stand in the whole mesh */
+    size_t corners;    /* that get a vertex of their own */
+} crease_part;
+
+/* Finds the vertices with creases.  Non-zero: out of memory */
+static int crease_find(crease_part *c, const owned_mesh *m, float least)
+{
+    const float lean = sqrtf((1 + fmaxf(least, 0)) / 2);
+    const int n = m->view.index_count;
+    int count = 0;
+    c->creased = (char *)calloc((size_t)m->view.vertex_count + 1, 1);
+    c->around.indices = (uint32_t *)malloc(((size_t)n + 1) * sizeof(uint32_t));
+    c->at = (uint32_t *)malloc(((size_t)n + 1) * sizeof(uint32_t));
+    if (!c->creased || !c->around.indices || !c->at) return 1;
+    for (int i = 0; i < n; i++) {
+        const uint32_t *corner = m->indices + i - i % 3;
+        shade_vec3 p[3], face, normal;
+        if (i % 3) continue;
+        for (int k = 0; k < 3; k++) memcpy(&p[k], m->positions + 3 * (size_t)corner[k], 12);
+        face = shade_face_normal(p[0], p[1], p[2]);
+        if (!(shade_dot(face, face) > 0)) continue;
+        for (int k = 0; k < 3; k++) {
+            memcpy(&normal, m->normals + 3 * (size_t)corner[k], 12);
+            if (shade_dot(face, shade_normalize(normal)) < lean) c->creased[corner[k]] = 1;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        const uint32_t *corner = m->indices + i - i % 3;
+        c->corners += c->creased[m->indices[i]] != 0;
+        if (!c->creased[corner[0]] && !c->creased[corner[1]] && !c->creased[corner[2]]) continue;
+        c->at[count] = (uint32_t)i;
+        c->around.indices[count++] = m->indices[i];
+    }
+    c->around.positions = m->positions;
+    mesh_link(&c->around, m->view.vertex_count, count);
+    return 0;
+}
+
+/* Appends a copy of an element for each creased corner.  Non-zero: out of memory */
+static int crease_append(float **v, size_t size, const owned_mesh *m, const crease_part *c)
+{
+    const size_t n = (size_t)m->view.vertex_count;
+    float *grown = *v ? (float *)realloc(*v, (n + c->corners + 1) * size * sizeof *grown) : NULL;
+    float *to = grown ? grown + n * size : NULL;
+    if (!*v) return 0;
+    if (!grown) return 1;
+    *v = grown;
+    for (int i = 0; i < c->around.view.index_count; i++) {
+        const size_t from = c->around.indices[i];
+        if (!c->creased[from]) continue;
+        memcpy(to, grown + size * from, size * sizeof *to);
+        to += size;
+    }
+    return 0;
+}
+
+/* Gives creased corners vertices with normals of their own.  Non-zero: out of memory */
+static int crease_split(owned_mesh *m, crease_part *c, const shade_vec3 *normal)
+{
+    uint32_t next = (uint32_t)m->view.vertex_count;
+    if (crease_append(&m->positions, 3, m, c) || crease_append(&m->normals, 3, m, c) ||
+        crease_append(&m->texcoords, 2, m, c) || crease_append(&m->colors, 3, m, c))
+        return 1;
+    for (int i = 0; i < c->around.view.index_count; i++) {
+        if (!c->creased[c->around.indices[i]]) continue;
+        if (shade_dot(normal[i], normal[i]) > 0)
+            memcpy(m->normals + 3 * (size_t)next, &normal[i], sizeof *normal);
+        m->indices[c->at[i]] = next++;
+    }
+    mesh_link(m, (int)next, m->view.index_count);
+    return 0;
+}
+
+static int crease_large(owned_mesh *m, float least)
+{
+    static const crease_part empty;
+    crease_part c = empty;
+    shade_vec3 *normal = NULL;
+    void *memory = NULL;
+    int failed = crease_find(&c, m, least);
+    const size_t n = (size_t)c.around.view.index_count;
+    const size_t bytes = shade_mesh_corner_normals_bytes(&c.around.view);
+    double cost = failed || !n ? 0 : crease_cost(&c.around);
+    if (!failed && n && cost <= 20.0 * (double)n + 1e6 &&
+        c.corners + (size_t)m->view.vertex_count < INT_MAX) {
+        normal = (shade_vec3 *)malloc(n * sizeof *normal);
+        memory = malloc(bytes);
+        failed = !(cost > 0) || !normal || !memory ||
+                 shade_mesh_corner_normals(&c.around.view, least, normal, memory, bytes) ||
+                 crease_split(m, &c, normal);
+    }
+    free(memory);
+    free(normal);
+    free(c.creased);
+    free(c.around.indices);
+    free(c.at);
+    return failed;
+}
+
 /* The same, rounded where faces meet at less than 40 degrees */
-static int mesh_crease(owned_mesh *m, int flat) { return mesh_crease_at(m, flat, 0.766f); }
+static int mesh_crease(owned_mesh *m, int flat)
+{
+    const int large = m->view.index_count / 3 > CREASE_LARGE;
+    return large && !flat ? crease_large(m, 0.766f) : mesh_crease_at(m, flat, 0.766f);
+}
 
 /* Sorts the triangles of each part in space and finds the boxes around runs of them, by which
    bands skip what they do not see.  Non-zero: out of memory. */

@@ -151,6 +151,21 @@ static int ran_out(const char *error)
     return n >= most && !strcmp(error + n - most, words);
 }
 
+/* 1: a triangle has an area.  In double, where no product of floats overflows. */
+static int model_shows(const model *m)
+{
+    for (int i = 0; i < m->mesh.view.index_count; i += 3) {
+        const uint32_t *corner = m->mesh.indices + i;
+        double e[2][3];
+        for (int k = 0; k < 6; k++)
+            e[k / 3][k % 3] = (double)m->mesh.positions[3 * (size_t)corner[1 + k / 3] + (size_t)k % 3] -
+                              (double)m->mesh.positions[3 * (size_t)corner[0] + (size_t)k % 3];
+        for (int k = 0, l = 1; k < 3; k++, l = (k + 1) % 3)
+            if (e[0][k] * e[1][l] - e[0][l] * e[1][k] != 0) return 1;
+    }
+    return 0;
+}
+
 /* Reads the model that the options ask for; - is standard input.  Returns 1 with a line on
    stderr. */
 static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
@@ -167,6 +182,8 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     guard_doing = "ending";
     if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
+    if (!o->quiet && !model_shows(m))
+        complain("%s: no triangle of it has an area, so nothing of it can be seen", path);
     return 0;
 }
 
