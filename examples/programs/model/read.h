@@ -157,9 +157,11 @@ static int model_shows(const model *m)
     for (int i = 0; i < m->mesh.view.index_count; i += 3) {
         const uint32_t *corner = m->mesh.indices + i;
         double e[2][3];
-        for (int k = 0; k < 6; k++)
-            e[k / 3][k % 3] = (double)m->mesh.positions[3 * (size_t)corner[1 + k / 3] + (size_t)k % 3] -
-                              (double)m->mesh.positions[3 * (size_t)corner[0] + (size_t)k % 3];
+        for (int k = 0; k < 6; k++) {
+            const float *p = m->mesh.positions + k % 3;
+            e[k / 3][k % 3] = (double)p[3 * (size_t)corner[1 + k / 3]] -
+                              (double)p[3 * (size_t)corner[0]];
+        }
         for (int k = 0, l = 1; k < 3; k++, l = (k + 1) % 3)
             if (e[0][k] * e[1][l] - e[0][l] * e[1][k] != 0) return 1;
     }
