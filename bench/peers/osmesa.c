@@ -14,7 +14,7 @@
 static struct {
     OSMesaContext context;
     uint32_t window[16];        /* OSMesa wants a default framebuffer; nothing is drawn there */
-    GLuint frame, color, depth, array, buffers[3], texture, program;
+    GLuint frame, large, color, depth, array, buffers[3], texture, program;
     scene s;
 } gl;
 
@@ -224,17 +224,37 @@ static GLuint renderbuffer(GLenum format, GLenum attachment)
     return id;
 }
 
+static void texture(const scene *s, int width, int height)
+{
+    glGenTextures(1, &gl.texture);
+    glBindTexture(GL_TEXTURE_2D, gl.texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, s->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, width, height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, s->texels);
+}
+
+/* The picture of twice the size; for resolve it is in a framebuffer object of its own. */
+static void load_halved(const scene *s)
+{
+    texture(s, 2 * s->width, 2 * s->height);
+    if (s->kind == SCENE_MIPMAPS) return;
+    glGenFramebuffers(1, &gl.large);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, gl.large);
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, gl.texture, 0);
+}
+
 static void osmesa_load(const scene *s)
 {
     gl.s = *s;
     glGenFramebuffers(1, &gl.frame);
     glBindFramebuffer(GL_FRAMEBUFFER, gl.frame);
-    gl.color = renderbuffer(GL_RGBA8, GL_COLOR_ATTACHMENT0);
+    gl.color = renderbuffer(s->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, GL_COLOR_ATTACHMENT0);
     gl.depth = renderbuffer(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);    /* 32F is as fast */
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         fprintf(stderr, "framebuffer incomplete\n"), exit(1);
     glViewport(0, 0, s->width, s->height);
     glDisable(GL_DITHER);
+    if (s->srgb) glEnable(GL_FRAMEBUFFER_SRGB);
+    else glDisable(GL_FRAMEBUFFER_SRGB);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     if (s->state.raster.cull == SHADE_CULL_BACK)
@@ -245,7 +265,8 @@ static void osmesa_load(const scene *s)
         glDrawBuffer(GL_NONE);
     } else glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glClearColor(s->background.x, s->background.y, s->background.z, s->background.w);
-    if (s->kind == SCENE_CLEAR) return;
+    if (s->kind >= SCENE_MIPMAPS) load_halved(s);
+    if (s->kind >= SCENE_CLEAR) return;
     glGenVertexArrays(1, &gl.array);
     glBindVertexArray(gl.array);
     glGenBuffers(3, gl.buffers);
@@ -253,10 +274,7 @@ static void osmesa_load(const scene *s)
     if (s->kind == SCENE_LIT || s->kind == SCENE_MAP)
         attribute(1, gl.buffers[1], s->normals, s->vertex_count);
     if (s->kind == SCENE_MAP) {
-        glGenTextures(1, &gl.texture);
-        glBindTexture(GL_TEXTURE_2D, gl.texture);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, SCENE_TEXELS, SCENE_TEXELS, 0, GL_RGBA,
-                     GL_UNSIGNED_BYTE, s->texels);
+        texture(s, SCENE_TEXELS, SCENE_TEXELS);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     }
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl.buffers[2]);
@@ -268,8 +286,12 @@ static void osmesa_load(const scene *s)
 static void osmesa_draw(void)
 {
     GLbitfield color = gl.s.kind == SCENE_DEPTH ? 0 : GL_COLOR_BUFFER_BIT;
-    glClear(color | GL_DEPTH_BUFFER_BIT);
-    if (gl.s.kind != SCENE_CLEAR)
+    const int w = gl.s.width, h = gl.s.height;
+    if (gl.s.kind < SCENE_MIPMAPS) glClear(color | GL_DEPTH_BUFFER_BIT);
+    if (gl.s.kind == SCENE_MIPMAPS) glGenerateMipmap(GL_TEXTURE_2D);
+    if (gl.s.kind == SCENE_RESOLVE)
+        glBlitFramebuffer(0, 0, 2 * w, 2 * h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    if (gl.s.kind < SCENE_CLEAR)
         glDrawElements(GL_TRIANGLES, gl.s.index_count, GL_UNSIGNED_INT, NULL);
     glFinish();
 }
@@ -286,6 +308,13 @@ static void flip(void *rows, size_t bytes, int height)
 static void osmesa_read(uint32_t *rgba, float *depth)
 {
     int w = gl.s.width, h = gl.s.height;
+    if (gl.s.kind >= SCENE_MIPMAPS) {    /* its rows went in from the top, and come out so */
+        glBindFramebuffer(GL_FRAMEBUFFER, gl.frame);
+        if (gl.s.kind == SCENE_RESOLVE) glReadPixels(0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+        else glGetTexImage(GL_TEXTURE_2D, 1, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, gl.large);
+        return;
+    }
     if (gl.s.kind != SCENE_DEPTH) glReadPixels(0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
     glReadPixels(0, 0, w, h, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
     flip(rgba, (size_t)w * 4, h);
@@ -297,7 +326,10 @@ static void osmesa_unload(void)
 {
     glDeleteRenderbuffers(1, &gl.color), glDeleteRenderbuffers(1, &gl.depth);
     glDeleteFramebuffers(1, &gl.frame);
-    if (gl.s.kind == SCENE_CLEAR) return;
+    if (gl.s.kind == SCENE_RESOLVE) glDeleteFramebuffers(1, &gl.large);
+    if (gl.s.kind >= SCENE_MIPMAPS) glDeleteTextures(1, &gl.texture);
+    gl.large = 0;
+    if (gl.s.kind >= SCENE_CLEAR) return;
     glDeleteVertexArrays(1, &gl.array), glDeleteBuffers(3, gl.buffers);
     glUseProgram(0), glDeleteProgram(gl.program);
     if (gl.s.kind == SCENE_MAP) glDeleteTextures(1, &gl.texture);
