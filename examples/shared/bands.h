@@ -6,48 +6,46 @@
        bands_run(0, 64, draw_band, &job);                       (on all cores; returns when done)
 
    The result of a piece may depend on its number, but not on the thread or the time.  Threads are
-   POSIX's.  Where there are none, or with BANDS_ALONE, the pieces are done one after the other. */
+   those of thread.h.  Where there are none, or with BANDS_ALONE, the pieces are done one after the
+   other. */
 #ifndef SHARED_BANDS_H
 #define SHARED_BANDS_H
 
 #include "shade.h"
+#include "thread.h"
 #include <stddef.h>
 
 enum { BANDS_MOST = 256 };    /* threads, at most */
 typedef void bands_work(void *data, int piece);
 typedef void bands_progress(void *user, double part);
 
-#if (defined(__unix__) || defined(__APPLE__)) && !defined(BANDS_ALONE)
-#include <pthread.h>
-#include <unistd.h>
-
+#ifndef THREAD_NONE
 typedef struct bands {
     bands_work *work;
     void *data;
     int next, count;
-    pthread_mutex_t lock; /* of next */
+    thread_lock lock; /* of next */
 } bands;
 
 /* Returns the number of the next piece, or -1 where all are taken. */
 static inline int bands_take(bands *b)
 {
     int piece;
-    pthread_mutex_lock(&b->lock);
+    thread_lock_take(&b->lock);
     piece = b->next < b->count ? b->next++ : -1;
-    pthread_mutex_unlock(&b->lock);
+    thread_lock_give(&b->lock);
     return piece;
 }
 
-static inline void *bands_thread(void *data)
+static inline void bands_thread(void *data)
 {
     bands *b = (bands *)data;
     for (int piece; (piece = bands_take(b)) >= 0;) b->work(b->data, piece);
-    return NULL;
 }
 
 static inline int bands_cores(void)
 {
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    long cores = thread_cores();
     return cores < 1 ? 1 : cores < BANDS_MOST ? (int)cores : BANDS_MOST;
 }
 
@@ -56,20 +54,25 @@ static inline int bands_cores(void)
 static inline void bands_run_told(int threads, int count, bands_work *work, void *data,
                                   bands_progress *progress, void *user)
 {
-    bands b = { work, data, 0, count, PTHREAD_MUTEX_INITIALIZER };
-    pthread_t thread[BANDS_MOST];
+    bands b;
+    thread helper[BANDS_MOST];
     int others = 0;
+    b.work = work;
+    b.data = data;
+    b.next = 0;
+    b.count = count;
+    thread_lock_open(&b.lock);
     if (threads < 1) threads = bands_cores();
     if (threads > count) threads = count;
     while (others < threads - 1 && others < BANDS_MOST &&
-           !pthread_create(&thread[others], NULL, bands_thread, &b))
+           thread_start(&helper[others], bands_thread, &b))
         others++;
     for (int piece; (piece = bands_take(&b)) >= 0;) {
         if (progress) progress(user, (double)piece / count);
         work(data, piece);
     }
-    while (others > 0) pthread_join(thread[--others], NULL);
-    pthread_mutex_destroy(&b.lock);
+    while (others > 0) thread_join(&helper[--others]);
+    thread_lock_close(&b.lock);
 }
 #else
 static inline int bands_cores(void) { return 1; }

@@ -97,7 +97,7 @@ static int open_rows(picture *p)
 
 static int open_picture(picture *p)
 {
-    p->file = strcmp(p->name, "-") ? fopen(p->name, "rb") : stdin;
+    p->file = strcmp(p->name, "-") ? path_open(p->name, "rb") : stdin;
     if (!p->file) return fail(p->name, strerror(errno));
     return read_header(p) || open_rows(p) ? ERROR : SAME;
 }
@@ -344,7 +344,9 @@ int main(int argc, char **argv)
 {
     picture p[2] = { 0 };
     options o = { .portrait = portrait_new(), .how = model_options_new() };
-    int status = read_options(&o, argc, argv);
+    int status;
+    path_arguments(&argc, &argv);
+    status = read_options(&o, argc, argv);
     guard_status = ERROR;
     if (status) return status == OPTIONS_WRONG ? ERROR : SAME;
     guard_program(o.max_seconds, o.how.max_memory);

@@ -13,6 +13,7 @@
 #ifndef MODEL_FILES_H
 #define MODEL_FILES_H
 
+#include "../../shared/paths.h"
 #include "mtl.h"
 #include "obj.h"
 #include "ply.h"
@@ -119,7 +120,7 @@ static inline FILE *model_open_file(mesh_reader *r, const char *path)
     errno = 0;
     if (model_is_device(path))
         mesh_fail(r, "is no regular file");
-    else if ((file = fopen(path, "rb")) == NULL)
+    else if ((file = path_open(path, "rb")) == NULL)
         mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be opened");
     return file;
 }

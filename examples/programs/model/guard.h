@@ -160,12 +160,13 @@ static inline void guard_program(int max_seconds, int max_memory)
 {
     (void)max_seconds;
     (void)max_memory;
+    (void)guard_status;
 }
 static inline void guard_interrupts(void) {}
 static inline void guard_begin(int max_memory) { (void)max_memory; }
 static inline void guard_done(void) {}
 static void guard_reading(const char *path) { (void)path; }
-static void guard_say(const char *text) { fputs(text, stderr); }
+static inline void guard_say(const char *text) { fputs(text, stderr); }
 static inline int guard_terminal(void) { return 0; }
 #endif
 #endif

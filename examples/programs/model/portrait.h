@@ -259,7 +259,7 @@ static inline int portrait_may_become_png(const char *name)
     static const char sign[4] = { (char)0x89, 'P', 'N', 'G' };
     char begin[4];
     size_t n;
-    FILE *file = fopen(name, "rb");
+    FILE *file = path_open(name, "rb");
     if (!file) return 1;
     n = fread(begin, 1, sizeof begin, file);
     fclose(file);

@@ -6,6 +6,7 @@
 #ifndef MODEL_SAVE_H
 #define MODEL_SAVE_H
 
+#include "../../shared/paths.h"
 #include "guard.h"
 #include "request.h"
 #include <errno.h>
@@ -127,7 +128,7 @@ static inline int save_same(const char *a, const char *b) { return !strcmp(a, b)
 
 static inline FILE *save_begin(const char *path)
 {
-    FILE *file = fopen(path, "wb");
+    FILE *file = path_open(path, "wb");
     if (!file) save_failed(path);
     return file;
 }
@@ -137,7 +138,7 @@ static inline int save_end(FILE *file, const char *path, int failed)
 {
     if (fclose(file) && !failed) failed = 1;
     if (failed && failed != SAVE_SAID) save_failed(path);
-    if (failed) remove(path);
+    if (failed) path_remove(path);
     return failed != 0;
 }
 #endif
@@ -157,7 +158,7 @@ static inline int save_bytes(const char *path, save_writer *writes, const void *
         file = save_begin(path);
         return file ? save_end(file, path, writes(file, data)) : 1;
     }
-    file = out ? stdout : fopen(path, "wb");
+    file = out ? stdout : path_open(path, "wb");
     failed = file ? writes(file, data) : 1;
     if (file && (out ? fflush(file) : fclose(file)) && !failed) failed = 1;
     if (failed == 1) save_failed(out ? "standard output" : path);

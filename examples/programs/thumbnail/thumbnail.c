@@ -94,6 +94,7 @@ int main(int argc, char **argv)
     progress p = { clock(), "", -1, 0, 0 };
     model m = { 0 };
     int end;
+    path_arguments(&argc, &argv);
     end = read_options(&o, argc, argv);
     if (end) return end == OPTIONS_WRONG;
     p.silent = o.how.quiet || !guard_terminal();
