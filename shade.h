@@ -715,7 +715,7 @@ typedef struct shade_pipeline {
    triangles share is shaded about once.  Facing is decided once per triangle, on the screen.  stats
    may be NULL.  Without a colour buffer the fragment shader runs only where may_discard is set.
    A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses: the
-   diagonal of a picture of 16384 rows, of any width, takes less than 0.2 ms (make bench).
+   diagonal of a picture of 16384 rows, of any width, takes less than 0.3 ms (make bench).
    Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
    those of one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
