@@ -52,31 +52,31 @@
      Public
        >>config     122  options               >>types      198  materials, lamps, targets, states
        >>plumbing   371  compilers             >>light      497  the equation and its terms
-       >>draw       622  meshes and pixels     >>math       892  vectors and matrices
+       >>draw       622  meshes and pixels     >>math       894  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1255  processors            >>base      1456  bits, masks, rows of vectors
-       >>matrix    1675  cameras, inverses     >>power     1969  x^n
-       >>pixels    2035  formats, sRGB
+       >>machine   1257  processors            >>base      1458  bits, masks, rows of vectors
+       >>matrix    1677  cameras, inverses     >>power     1971  x^n
+       >>pixels    2037  formats, sRGB
      Inside: light
-       >>lamps     2312  attenuation, cones    >>terms     2586  one term at one point
-       >>surface   2667  material and lights   >>lit       2788  the whole sum, at many points
+       >>lamps     2314  attenuation, cones    >>terms     2588  one term at one point
+       >>surface   2669  material and lights   >>lit       2790  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3193  who owns what         >>vertices  3376  shading, projection
-       >>triangles 3593  dropped, cut, edges   >>clip      3961  near, far, behind the eye
-       >>tiles     4146  pixels, depth test    >>cover     4494  what is hidden, tile by tile
-       >>fragments 4726  interpolation, lod    >>texture   5018  texels, mipmaps
-       >>store     5454  blending, packing
+       >>state     3195  who owns what         >>vertices  3378  shading, projection
+       >>triangles 3595  dropped, cut, edges   >>clip      3963  near, far, behind the eye
+       >>tiles     4148  pixels, depth test    >>cover     4496  what is hidden, tile by tile
+       >>fragments 4728  interpolation, lod    >>texture   5020  texels, mipmaps
+       >>store     5456  blending, packing
      Inside: calls of the renderer
-       >>check     5686  refusals              >>seen      5851  what can be seen, chunks
-       >>drive     5988  shade_draw            >>mesh      6167  shade_draw_mesh
+       >>check     5688  refusals              >>seen      5853  what can be seen, chunks
+       >>drive     5990  shade_draw            >>mesh      6169  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6558  shade_draw_lines      >>shape     6716  normals, edges
-       >>chunks    7046  boxes of triangles    >>rays      7210  shade_pick
-       >>survey    7407  experiments on a draw >>explain   7554  why nothing is seen
-       >>image     7966  mipmaps, PPM           >>presets   8235  classic materials
+       >>lines     6572  shade_draw_lines      >>shape     6730  normals, edges
+       >>chunks    7060  boxes of triangles    >>rays      7224  shade_pick
+       >>survey    7421  experiments on a draw >>explain   7682  why nothing is seen
+       >>image     8279  mipmaps, PPM           >>presets   8548  classic materials
      Sources
-       >>refs      8311                        >>history   8341
-       >>license   8353
+       >>refs      8624                        >>history   8654
+       >>license   8666
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -781,11 +781,13 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
 
 /* Says in one sentence why a draw gives no picture, or a wrong one, and which field to change; ""
    where nothing is suspicious; never NULL.  Call it after shade_draw_mesh, with the same arguments
-   and the stats it wrote; without stats it leaves out what only they can tell.  It recognises every
-   refusal by its field, matrices that are transposed, swapped or in degrees, meshes out of view,
-   culling, depth that was not cleared, and light that does not arrive.  It writes nothing.  It
-   draws the mesh again, some twenty times, into a small picture on the stack, which takes 10 kB
-   more than shade_draw_mesh: call it when a picture is black, not in every frame. */
+   and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
+   recognises every refusal by its field, matrices that are transposed, swapped or in degrees,
+   meshes out of view, culling, depth that was not cleared, and light that does not arrive or clips.
+   It writes nothing: it draws the mesh again up to some twenty times, with one thing changed after
+   the other, and counts pixels.  What it says is missing, no pixel of the picture shows.  It takes
+   the time of so many frames and 8 kB more stack than shade_draw_mesh: call it when a picture
+   is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
 
@@ -1853,7 +1855,7 @@ static shade_mat4 shade__projection(int good, const double e[16])
 /* Cramer's rule.  Columns come in pairs, 0 with 1 and 2 with 3: row i of the inverse is made of
    column i ^ 1 and the minors of the other pair.  A determinant of 0 leaves no entry finite.
    Not inlined: gcc 12's SLP vectoriser loses the rounding to float where two neighbouring values go
-   double -> float -> double, as they would inside shade_pixel_ray. */
+   double -> float -> double, as they would where it is inlined. */
 SHADEDEF SHADE__NOINLINE shade_mat4 shade_mat4_inverse(shade_mat4 m)
 {
     double e[16], inverse[16], s[6], c[6], k = 1 / shade__expand(&m, e, s, c);
@@ -6517,14 +6519,44 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     return shade__run_draw(target, p, own, &supply, stats);
 }
 
+/* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader.
+   It can fail only where indices are bad. */
+static shade_result shade__draw_scene(const shade_target *target,
+                                      const shade__scene *scene,
+                                      shade_fragment_shader *fragment,
+                                      int may_discard, shade_stats *stats)
+{
+    const shade_mesh *mesh = scene->mesh;
+    const shade_draw_state *state = scene->state;
+    shade_pipeline p;
+    shade__supply supply;
+    shade_result result = shade__supply_all(mesh->indices, shade__corner_count(mesh),
+                                            mesh->vertex_count, &supply);
+    if (result) return result;
+    if (scene->corners) supply.indices = NULL;
+    SHADE__ZERO(p);
+    p.vertex = shade__mesh_vertex;
+    p.may_discard = may_discard;
+    p.fragment = fragment;
+    p.uniforms = scene;
+    p.varyings = scene->varyings;
+    if (scene->map && (scene->map->mipmap_count || state->fragment)) {
+        p.lod_texture = scene->map;
+        p.lod_varying = scene->varyings - 2;
+    }
+    if (state->shading == SHADE_SHADING_PER_FACE && !scene->map)
+        p.interpolation = SHADE_INTERPOLATION_CONSTANT;
+    p.raster = state->raster;
+    if (mesh->chunks) return shade__draw_chunks(target, &p, !state->fragment, &supply, stats);
+    return shade__run_draw(target, &p, !state->fragment, &supply, stats);
+}
+
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
                                       const shade_mesh *mesh,
                                       const shade_draw_state *state,
                                       shade_stats *stats)
 {
-    shade_pipeline p;
     shade__scene scene;
-    shade__supply supply;
     shade_result result = shade__begin(target, mesh && state, stats);
     if (!result) result = shade__check_mesh(mesh);
     if (!result && shade__state_fault(mesh, state)) result = SHADE_ERROR_STATE;
@@ -6532,27 +6564,9 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
     if (result) return result;
     if (mesh->texcoords && state->diffuse_map && !shade__texture_good(state->diffuse_map))
         return SHADE_ERROR_TEXTURE;
-    result = shade__supply_all(mesh->indices, shade__corner_count(mesh),
-                               mesh->vertex_count, &supply);
-    if (result) return result;
     shade__scene_of(target, mesh, state, &scene);
-    if (scene.corners) supply.indices = NULL;
-    SHADE__ZERO(p);
-    p.vertex = shade__mesh_vertex;
-    p.may_discard = state->alpha_cutoff > 0 ||
-                    (state->fragment && target->color);
-    p.fragment = shade__mesh_fragment;
-    p.uniforms = &scene;
-    p.varyings = scene.varyings;
-    if (scene.map && (scene.map->mipmap_count || state->fragment)) {
-        p.lod_texture = scene.map;
-        p.lod_varying = scene.varyings - 2;
-    }
-    if (state->shading == SHADE_SHADING_PER_FACE && !scene.map)
-        p.interpolation = SHADE_INTERPOLATION_CONSTANT;
-    p.raster = state->raster;
-    if (mesh->chunks) return shade__draw_chunks(target, &p, !state->fragment, &supply, stats);
-    return shade__run_draw(target, &p, !state->fragment, &supply, stats);
+    return shade__draw_scene(target, &scene, shade__mesh_fragment,
+                             state->alpha_cutoff > 0 || (state->fragment && target->color), stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>lines
@@ -7405,119 +7419,229 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 }
 
 /*----------------------------------------------------------------------------------------- >>survey
-   Experiments for >>explain: a mesh is drawn again, with one thing changed after the other, into a
-   small picture on the stack.  The picture shows the part of the mesh that was in view.
-     in      what shade_draw_mesh took     out  colours, depths and stats of the small picture
+   Experiments for >>explain: a mesh is drawn again, with one thing changed after the other, in the
+   pixels of the real picture, so that what no pixel shows is not there.  Each counts pixels: a
+   fragment shader of this section discards those that the question is not about.
+     in      what shade_draw_mesh took     out  numbers of pixels, stats; depths of some pixels
      holds   The caller's memory is read, never written, and his fragment shader is not called.
                                                                                         >>explain */
 
 enum {
-    SHADE__SMALL_SIDE = 24,              /* width and height of the small picture */
-    SHADE__SMALL_PIXELS = SHADE__SMALL_SIDE * SHADE__SMALL_SIDE,
-    SHADE__SUSPECTS = 16                 /* more lamps than these are left out of experiments */
+    SHADE__SUSPECTS = 16,                /* more lamps than these are left out of experiments */
+    SHADE__PROBES = 256                 /* pixels whose depths are compared; a power of two */
 };
 
+/* What the fragments of one pixel were, in drawing order. */
+typedef struct shade__probe {
+    uint32_t place;                      /* 0: none yet */
+    float    nearest, last;              /* depths */
+    uint32_t front, any_front;           /* is the nearest front-facing; is one of them */
+} shade__probe;
+
 typedef struct shade__survey {
+    shade__scene scene;                  /* of the experiment; first, as its shaders expect */
     const shade_target     *target;      /* what the caller passed */
+    const shade_mesh       *given_mesh;
     const shade_draw_state *given_state;
     const shade_stats      *given_stats; /* NULL: none were passed */
 
-    shade_mesh       mesh;               /* what the next experiment draws */
+    shade_target     picture;            /* what the next experiment draws, and to which pixels */
+    shade_mesh       mesh;
     shade_draw_state state;
     shade_material   material;
     shade_light      lamp[SHADE__SUSPECTS];
+    float            least;              /* pixels count if a channel is this; 0: all of them */
+    uint32_t         every;              /* one of so many pixels is sampled; 0: none */
+    shade__probe   *probes;
 
     int        clip[4], whole;           /* the clip rectangle; is it the whole picture? */
+    int        exact;                    /* experiments see what the picture shows, no more */
+    float      black;                    /* channels below it are stored as 0 */
     uint32_t   outside;                  /* the SHADE__OUT_... bits that all corners share */
+    int        inside;                   /* is a triangle outside of no plane with all corners? */
+    float      from[2], to[2];           /* the mesh's box on the screen, x and y from -1 to 1 */
     shade_vec3 low, high;                /* the mesh's box in object space */
-    float      middle[2], half[2];       /* its box on the screen, x and y from -1 to 1 */
     float      farthest;                 /* depth of pixels that do not show the mesh */
-
     shade_stats stats;                   /* of the last experiment */
-    uint8_t     color[4 * SHADE__SMALL_PIXELS];
-    float       depth[SHADE__SMALL_PIXELS];
-    float       first[SHADE__SMALL_PIXELS];    /* depth when nothing was changed yet */
 } shade__survey;
 
-/* Finds the mesh's boxes in object space and on the screen.  The second is the whole picture if a
-   corner lies behind the eye, or if all of them lie outside of one plane of the view volume. */
+/* Notes the depth of lane i, if its pixel is among those sampled. */
+static void shade__take_probe(const shade__survey *s,
+                               const shade_fragments *in, int i)
+{
+    const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * 16384 + 1;
+    const uint32_t hash = place * 2654435769u >> 8;
+    shade__probe *at = s->probes + hash / s->every % SHADE__PROBES;
+    const float z = in->z[i];
+    float nearer = 1;
+    if (hash % s->every || (at->place && at->place != place)) return;
+    if (at->place) nearer = (at->nearest - z) * (2 * s->farthest - 1);
+    if (nearer > 1e-6f) {
+        at->nearest = z;
+        at->front = 0;
+    }
+    if (nearer > -1e-6f) at->front |= in->front[i];
+    at->place = place;
+    at->last = z;
+    at->any_front |= in->front[i];
+}
+
+/* The fragment shader of experiments. */
+static void shade__judge(const void *uniforms,
+                         const shade_fragments *SHADE_RESTRICT in,
+                         shade_colors *SHADE_RESTRICT out)
+{
+    const shade__survey *s = (const shade__survey *)uniforms;
+    const int over = s->state.raster.blend == SHADE_BLEND_OVER;
+    shade__mesh_colors(&s->scene, in, out);
+    shade__mesh_alpha(&s->scene, out);
+    for (int i = 0; i < in->count; i++) {
+        const float a = over ? out->color[3][i] : 1;
+        int counts = !(s->least > 0);
+        for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= s->least;
+        if (!counts) out->discard[i] = 1;
+        if (s->every && !out->discard[i]) shade__take_probe(s, in, i);
+    }
+}
+
+/* Draws the mesh.  Returns how many pixels show it, with a channel of least or more. */
+static long long shade__count(shade__survey *s, float least)
+{
+    shade_target t = s->picture;
+    s->least = least;
+    if (!(least > 0)) t.color = NULL;
+    shade__scene_of(&t, &s->mesh, &s->state, &s->scene);
+    t.color = NULL;
+    shade__draw_scene(&t, &s->scene, shade__judge, 1, &s->stats);
+    return s->stats.fragments;
+}
+
+
+/* Draws the mesh.  Returns how many pixels show it. */
+static long long shade__covered(shade__survey *s) { return shade__count(s, 0); }
+
+/* Is a pixel of the mesh not black when stored? */
+static int shade__shows(shade__survey *s)
+{
+    return shade__count(s, s->black) > 0;
+}
+
+/* Is there light that a surface of its square root would still show? */
+static int shade__bright(shade__survey *s)
+{
+    return shade__count(s, shade__sqrt(s->black)) > 0;
+}
+
+/* Makes the given draw fit for experiments: depth is not written, highlights are too wide to lie
+   between pixels, and the caller's fragment shader is not called. */
+static void shade__begin_survey(shade__survey *s)
+{
+    const shade__layout *l = &shade__layouts[s->target->format];
+    shade_vec4 last;
+    s->mesh = *s->given_mesh;
+    s->state = *s->given_state;
+    s->state.projection = shade__or_identity(s->state.projection);
+    last = s->state.projection.col[3];
+    s->farthest = 1;
+    if (s->target->depth ? shade__compare_of(&s->state.raster).greater != 0
+                         : last.w == 0 && last.z > 0)
+        s->farthest = 0;
+    s->state.raster.depth_read_only = 1;
+    s->every = 0;
+
+    s->black = s->target->dither && l->bytes == 2 ? 0.03f : 0.499f;
+    s->black /= (float)l->full[1];
+    if (shade__is_encoded(s->target->srgb, l)) s->black /= 12.92f;
+    if (l->bytes == 16) s->black = FLT_MIN;
+
+    SHADE__ZERO(s->material);
+    s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
+    if (s->state.material) s->material = *s->state.material;
+    s->material.shininess = shade__minf(s->material.shininess, 4);
+    s->state.material = &s->material;
+
+    if (s->state.fragment) s->state.alpha_cutoff = 0;
+    s->state.fragment = NULL;
+    s->state.model = shade__or_identity(s->state.model);
+    s->state.view = shade__or_identity(s->state.view);
+}
+
+/* Experiments draw all fragments, in the whole picture, without a depth test. */
+static void shade__look_at_all(shade__survey *s)
+{
+    SHADE__ZERO(s->picture);
+    s->picture.width = s->target->width;
+    s->picture.height = s->target->height;
+    s->picture.color = s->target->color;
+    s->exact = 0;
+}
+
+/* Experiments draw the fragments in the clip rectangle that pass this depth test now. */
+static void shade__look_through(shade__survey *s, shade_compare test)
+{
+    s->picture = *s->target;
+    s->state.raster.depth_test = test;
+}
+
+/* Experiments draw what the picture shows: after a draw these are the fragments of stored depth.
+   A band shows too little, blending shows more, and depth may have changed since: all fragments are
+   drawn then, so that what they lack is not there.  Returns how many they are. */
+static long long shade__look_at_seen(shade__survey *s)
+{
+    const shade_draw_state *d = s->given_state;
+    const shade_raster *r = &d->raster;
+    const int over = r->blend == SHADE_BLEND_OVER && d->transparency == 0 &&
+                     !d->diffuse_map;
+    const int opaque = over || r->blend == SHADE_BLEND_REPLACE;
+    shade__look_through(s, r->depth_read_only ? r->depth_test
+                                              : SHADE_COMPARE_EQUAL);
+    s->exact = s->whole && s->target->depth &&
+               (r->depth_read_only || opaque) && shade__covered(s);
+    if (!s->exact) shade__look_at_all(s);
+    return shade__covered(s);
+}
+
+/* Draws the mesh with this culling, and fills probes, which must be zero. */
+static void shade__take_probes(shade__survey *s, shade_cull cull,
+                                shade__probe *probes)
+{
+    s->state.raster.cull = cull;
+    s->state.raster.depth_bias = 0;    /* depths at the end of their range would be equal */
+    s->every = 1 + (uint32_t)(shade__covered(s) * 2 / SHADE__PROBES);
+    s->probes = probes;
+    shade__covered(s);
+    s->every = 0;
+}
+
+/* Finds the mesh's boxes in object space and on the screen, and on which side of the view volume
+   it lies. */
 static void shade__measure(shade__survey *s)
 {
-    const shade_mat4 eye_from_object = shade__mat4_product(&s->state.view,
-                                                           &s->state.model);
-    const shade_mat4 m = shade__mat4_product(&s->state.projection,
-                                             &eye_from_object);
-    const int zero_to_one = s->state.raster.depth_zero_to_one;
-    float from[2] = { 1, 1 }, to[2] = { -1, -1 };
-    uint32_t any = 0;
-
+    const shade_mat4 *m = &s->scene.clip_from_object;
+    uint32_t out[3] = { 0, 0, 0 };
     s->outside = ~0u;
+    s->inside = 0;
+    s->from[0] = s->from[1] = 1;
+    s->to[0] = s->to[1] = -1;
     s->low = shade_v3(FLT_MAX, FLT_MAX, FLT_MAX);
     s->high = shade_neg(s->low);
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
-        const shade_vec4 c = shade_mat4_transform(m, shade__xyzw(p, 1));
-        const uint32_t out = shade__outcode(c.x, c.y, c.z, c.w, zero_to_one);
-        const float w = shade__maxf(c.w, shade__w_least), xy[2] = { c.x, c.y };
-        if (out & SHADE__OUT_BAD) continue;
-        any |= out;
-        s->outside &= out;
+        const shade_vec4 c = shade_mat4_transform(*m, shade__xyzw(p, 1));
+        out[i % 3] = shade__outcode(c.x, c.y, c.z, c.w,
+                                    s->state.raster.depth_zero_to_one);
+        if (i % 3 == 2 && !(out[0] & out[1] & out[2])) s->inside = 1;
+        if (out[i % 3] & SHADE__OUT_BAD) continue;
+        s->outside &= out[i % 3];
         s->low = shade_min(s->low, p);
         s->high = shade_max(s->high, p);
         for (int k = 0; k < 2; k++) {
-            const float at = shade__minf(shade__maxf(xy[k], -w), w) / w;
-            from[k] = shade__minf(from[k], at);
-            to[k] = shade__maxf(to[k], at);
+            const float w = shade__maxf(c.w, shade__w_least), xy = k ? c.y : c.x;
+            const float at = shade__minf(shade__maxf(xy, -w), w) / w;
+            s->from[k] = shade__minf(s->from[k], at);
+            s->to[k] = shade__maxf(s->to[k], at);
         }
     }
-    for (int k = 0; k < 2; k++) {
-        const int all = (any & SHADE__OUT_W) || s->outside;
-        s->middle[k] = all ? 0 : (from[k] + to[k]) / 2;
-        s->half[k] = all ? 1 : (to[k] - from[k]) / 2 + 1e-4f;
-    }
-}
-
-/* Narrows the projection to the mesh's box on the screen. */
-static void shade__zoom_in(shade__survey *s)
-{
-    float *m = (float *)&s->state.projection;
-    for (int k = 0; k < 2; k++)
-        for (int j = 0; j < 16; j += 4)
-            m[j + k] = (m[j + k] - s->middle[k] * m[j + 3]) / s->half[k];
-}
-
-/* Draws the mesh.  Returns 0 if no pixel shows it. */
-static int shade__try(shade__survey *s)
-{
-    shade_target t;
-    SHADE__ZERO(t);
-    t.width = t.height = SHADE__SMALL_SIDE;
-    t.color = s->color;
-    t.depth = s->depth;
-    t.srgb = s->target->srgb || s->target->format == SHADE_FORMAT_RGBA32F;
-    shade_clear(&t, shade_v4(0, 0, 0, 0), s->farthest);
-    shade_draw_mesh(&t, &s->mesh, &s->state, &s->stats);
-    return s->stats.fragments > 0;
-}
-
-/* Draws the mesh.  Returns 0 if all of it is black when stored in 8 bits. */
-static int shade__try_light(shade__survey *s)
-{
-    shade__try(s);
-    for (int k = 0; k < 4 * SHADE__SMALL_PIXELS; k++)
-        if (k % 4 < 3 && s->color[k]) return 1;
-    return 0;
-}
-
-/* Draws the mesh.  Returns how many of its first pixels have kept their depth. */
-static int shade__try_depth(shade__survey *s)
-{
-    int n = 0;
-    shade__try(s);
-    for (int k = 0; k < SHADE__SMALL_PIXELS; k++)
-        n += s->first[k] != s->farthest &&
-             shade__within(s->depth[k] - s->first[k], 1e-6f);
-    return n;
 }
 
 /* Was anything drawn before?  Then the caller's depth buffer holds different values. */
@@ -7536,18 +7660,22 @@ static int shade__depth_varies(const shade__survey *s)
     return 0;
 }
 
-/* Is the mesh one of many in a scene, and less than half as wide and as high as the picture?  Such
-   a mesh may well be hidden, or seen edge-on. */
-static int shade__is_scattered(const shade__survey *s)
+/* Is the mesh one of many in a scene, and less than half as wide and high as the picture?  Such a
+   mesh may well be hidden, or seen edge-on. */
+static int shade__is_scattered(shade__survey *s)
 {
-    return s->half[0] < 0.5f && s->half[1] < 0.5f && shade__depth_varies(s);
+    shade__measure(s);
+    return s->to[0] - s->from[0] < 1 && s->to[1] - s->from[1] < 1 &&
+           shade__depth_varies(s);
 }
 
-static int shade__eye_inside(const shade__survey *s)
+static int shade__eye_inside(shade__survey *s)
 {
     const shade_mat4 m = shade__mat4_product(&s->state.view, &s->state.model);
     const shade_vec3 eye = shade__xyz(shade_mat4_inverse(m).col[3]);
-    const shade_vec3 p = shade_clamp(eye, s->low, s->high);
+    shade_vec3 p;
+    shade__measure(s);
+    p = shade_clamp(eye, s->low, s->high);
     return p.x == eye.x && p.y == eye.y && p.z == eye.z;
 }
 
@@ -7557,7 +7685,8 @@ static int shade__eye_inside(const shade__survey *s)
      method  Arguments and matrices are checked.  Then one thing after the other is changed until
              the mesh appears: the last change names the fault.  Changes are kept, so that two
              faults at once are found as well.
-     holds   A band or a strip is never blamed for what another one may show.
+     holds   A sentence is said where the matrices or the pixels of the real picture prove it.  A
+             band or a strip is never blamed for what another one may show.
                                                                                           >>image */
 
 /* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
@@ -7574,7 +7703,8 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
     if (!fault) fault = shade__mesh_fault(m);
     if (!fault) fault = shade__state_fault(m, s);
     if (!fault) fault = shade__lights_fault(&s->lighting);
-    if (!fault && m->texcoords && s->diffuse_map) fault = shade__texture_fault(s->diffuse_map);
+    if (!fault && s->diffuse_map && (m->texcoords || !s->fragment))
+        fault = shade__texture_fault(s->diffuse_map);
     if (fault) return fault;
 
     if (shade__corner_count(m) % 3)
@@ -7595,22 +7725,37 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
 /* ---- matrices and numbers of the state */
 
 /* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), (0, 0, -1, 0) of a
-   perspective, or (0, 0, 1, 0) of a left-handed one. */
+   perspective, or (0, 0, 1, 0) of a left-handed one.  A matrix that flattens, as those of shadows
+   on planes do, is none of them. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
     const shade_vec4 last = m->col[3];
     const float b = m->col[2].w;
+    if (shade_mat4_determinant(*m) == 0) return 0;
     if (last.w == 0)    /* b is none of 0, 1 and -1 */
         return (last.z == 1 || last.z == -1) && b * (1 - b * b) != 0;
     return last.w == 1 && shade__is_zero(shade__xyz(last)) &&
            !shade__is_affine(m);
 }
 
-/* Does the matrix keep volumes, as turning and moving do?  Projections do not. */
+/* Does the matrix only turn, mirror and move? */
 static int shade__is_rigid(const shade_mat4 *m)
 {
-    return shade__is_affine(m) &&
-           shade__within(shade_mat4_determinant(*m) - 1, 0.01f);
+    int rigid = shade__is_affine(m);
+    for (int j = 0; j < 3; j++)
+        for (int k = 0; k <= j; k++) {
+            const float d = shade_dot(shade__xyz(m->col[j]), shade__xyz(m->col[k]));
+            rigid &= shade__within(d - (float)(j == k), 0.01f);
+        }
+    return rigid;
+}
+
+/* Is nothing but 0 in the first two columns, save x and y of the picture?  Then depth is the same
+   all over a plane that the viewer faces. */
+static int shade__faces_ahead(const shade_mat4 *p)
+{
+    const shade_vec4 x = p->col[0], y = p->col[1];
+    return x.y == 0 && x.z == 0 && x.w == 0 && y.x == 0 && y.z == 0 && y.w == 0;
 }
 
 static const char *shade__suspect_matrices(const shade__survey *s)
@@ -7619,26 +7764,25 @@ static const char *shade__suspect_matrices(const shade__survey *s)
         "state.model looks transposed (row-major): its translation belongs in col[3]; pass it "
         "through shade_mat4_transpose.",
         "state.view looks transposed (row-major): its translation belongs in col[3]; pass it "
-        "through shade_mat4_transpose.",
-        "state.projection looks transposed (row-major): its -1 belongs in col[2].w, its "
-        "translation in col[3]; pass it through shade_mat4_transpose."
+        "through shade_mat4_transpose."
     };
     const shade_mat4 *m[3] = { &s->state.model, &s->state.view, &s->state.projection };
     const shade_mat4 *view = m[1], *p = m[2];
     for (int k = 0; k < 3; k++) {
         if (!shade__is_finite(m[k]))
             return "state.model, state.view or state.projection holds a NaN or infinity.";
-        if (shade__is_transposed(m[k])) return transposed[k];
+        if (k < 2 && shade__is_transposed(m[k])) return transposed[k];
     }
 
-    if (shade__is_zero(shade__xyz(p->col[0])))
+    if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
         return "state.projection is what cameras give for bad arguments: fovy must be in radians "
                "and below pi (use shade_radians for degrees), near and far above 0 and different, "
                "the aspect not 0, left not equal to right, bottom not to top.";
     if (!shade__is_affine(view) || (!shade__is_rigid(view) && shade__is_rigid(p) &&
                                     !shade__is_zero(shade__xyz(p->col[3]))))
         return "state.view holds a projection: state.view and state.projection look swapped.";
-    if (p->col[3].w == 0 && p->col[2].z == 0 && !s->state.raster.depth_zero_to_one)
+    if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(p) &&
+        !s->state.raster.depth_zero_to_one)
         return "state.projection is that of shade_mat4_perspective_reversed, which needs "
                "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
     return NULL;
@@ -7646,29 +7790,22 @@ static const char *shade__suspect_matrices(const shade__survey *s)
 
 static const char *shade__suspect_state(const shade__survey *s)
 {
-    const shade_raster *r = &s->given_state->raster;
-    const shade_mat4 *p = &s->state.projection;
-    /* column 3 has z < 0 in a perspective, > 0 in a reversed one */
-    const int perspective = p->col[3].w == 0, reversed = p->col[3].z > 0;
-
-    for (int i = 0; i < s->state.lighting.light_count; i++) {
-        const shade_light *lamp = &s->state.lighting.lights[i];
+    const shade_lighting *l = &s->state.lighting;
+    if (l->light_count < 0)
+        return "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
+    for (int i = 0; i < l->light_count; i++) {
+        const shade_light *lamp = &l->lights[i];
         if (!shade__is_zero(lamp->spot_direction) && !shade__within(lamp->spot_cos_cutoff, 1.001f))
             return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the "
                    "angle, not the angle; make the light with shade_spot_light.";
     }
 
-    if (s->target->depth && perspective && r->depth_test < SHADE_COMPARE_EQUAL &&
-        !r->depth_read_only && reversed != (s->farthest == 0))
-        return "raster.depth_test does not fit state.projection, so that what is far hides what "
-               "is near: SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER "
-               "and 0 for shade_mat4_perspective_reversed.";
     return NULL;
 }
 
-/* ---- not even the small picture shows the mesh */
+/* ---- no pixel of the whole picture shows the mesh */
 
-static const char *shade__why_culled(const shade__survey *s)
+static const char *shade__why_culled(shade__survey *s)
 {
     if (shade__eye_inside(s))
         return "raster.cull leaves out every triangle in view, and the eye lies inside of the "
@@ -7684,9 +7821,9 @@ static const char *shade__why_culled(const shade__survey *s)
 
 static const char *shade__why_outside(shade__survey *s)
 {
-    const shade_mat4 p = shade__or_identity(s->given_state->projection);
     const int others = shade__depth_varies(s);
-    if (shade__is_rigid(&p))
+    shade__measure(s);
+    if (!s->inside && shade__is_rigid(&s->state.projection))
         return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
                "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
 
@@ -7695,7 +7832,7 @@ static const char *shade__why_outside(shade__survey *s)
                "eye of state.view nearer.";
 
     s->state.view = shade_mat4_inverse(s->state.view);
-    if (!others && shade__try(s))
+    if (!others && shade__covered(s))
         return "The mesh is out of view, but the inverse of state.view would show it: state.view "
                "takes the world to the eye, as shade_mat4_look_at does.";
 
@@ -7705,10 +7842,24 @@ static const char *shade__why_outside(shade__survey *s)
     if (s->outside & SHADE__OUT_NEAR)
         return "The whole mesh lies nearer than the near plane of state.projection, or behind the "
                "eye of state.view; move near in, or the eye back.";
-    if (others) return NULL;    /* one of several meshes may stand there */
-    return "The whole mesh lies beside the picture, before near or beyond far; check state.model, "
-           "and where state.view looks.";
+    if (others) return "";    /* one of several meshes may stand there */
+    if (!s->inside)
+        return "The whole mesh lies beside the picture, before near or beyond far; check "
+               "state.model, and where state.view looks.";
+    return "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen "
+           "edge-on, or lies beside the picture; check state.model and state.view.";
 }
+
+static int shade__chunks_leave_out(const shade_mesh *m)
+{
+    long long count = 0;
+    for (int i = 0; i < m->chunk_count; i++) count += m->chunks[i].count;
+    return m->chunks && count < shade__corner_count(m) / 3;
+}
+
+static const char *const shade__left_out =
+    "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
+    "drawn: pass all the chunks that shade_mesh_chunks made, and heed its result.";
 
 static const char *shade__why_nothing(shade__survey *s)
 {
@@ -7716,89 +7867,135 @@ static const char *shade__why_nothing(shade__survey *s)
 
     s->mesh.chunks = NULL;
     s->mesh.chunk_count = 0;
-    if (shade__try(s))
-        return "No box of mesh.chunks holds the triangles in view: make the chunks again with "
-               "shade_mesh_chunks after the positions have changed.";
+    if (shade__covered(s))
+        return shade__chunks_leave_out(s->given_mesh)
+                   ? shade__left_out
+                   : "No box of mesh.chunks holds the triangles in view: make the chunks again "
+                     "with shade_mesh_chunks after the positions have changed.";
 
     s->state.raster.cull = SHADE_CULL_NONE;
-    if (shade__try(s)) return shade__why_culled(s);
+    if (shade__covered(s)) return shade__why_culled(s);
     if (stats->rejected == stats->triangles)
         return "mesh.positions hold NaN, infinite or huge numbers, or state.model, state.view and "
                "state.projection make them so (beyond 1e30).";
 
-    if (shade__is_scattered(s)) return NULL;
+    if (shade__is_scattered(s)) return "";
     s->state.alpha_cutoff = 0;
-    if (shade__try(s))
+    if (shade__covered(s))
         return "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) "
                "times that of diffuse_map; lower it.";
 
-    if (stats->rejected + stats->clipped < stats->triangles)
+    if (!stats->drawn && stats->culled)
         return "No triangle in view has an area on the screen: state.model scales by 0, the mesh "
                "is smaller than a pixel or seen edge-on, or corners in mesh.indices coincide.";
+
+    if (shade__is_transposed(&s->state.projection)) {
+        const shade_mat4 given = s->state.projection;
+        s->state.projection = shade_mat4_transpose(given);
+        if (shade__covered(s))
+            return "state.projection looks transposed (row-major): its -1 belongs in col[2].w, "
+                   "its translation in col[3]; pass it through shade_mat4_transpose.";
+        s->state.projection = given;
+        shade__covered(s);
+    }
     return shade__why_outside(s);
 }
 
-/* ---- the small picture shows the mesh, that of the caller does not */
+/* ---- the mesh covers pixels, but the draw gave none, or maybe none */
 
-static const char *shade__why_hidden(const shade__survey *s)
+static const char *shade__why_hidden(shade__survey *s)
 {
-    const shade_target *t = s->target;
-    const shade__compare test = shade__compare_of(&s->given_state->raster);
-    const float bias = s->given_state->raster.depth_bias, side = SHADE__SMALL_SIDE;
-    int fails, seen = 0, contested = 0, stuck = 0;
+    const int greater = s->farthest == 0;
+    long long passed;
+    shade__look_through(s, s->given_state->raster.depth_test);
+    passed = shade__covered(s);
+    if (passed && s->given_stats && s->given_state->fragment)
+        return "state.fragment discards all pixels of the mesh.";
+    if (passed || !s->target->depth) return NULL;
 
-    for (int k = 0; k < SHADE__SMALL_PIXELS; k++) {
-        const float right = (float)(2 * (k % SHADE__SMALL_SIDE) + 1) / side - 1;
-        const float down = (float)(2 * (k / SHADE__SMALL_SIDE) + 1) / side - 1;
-        const float x = s->middle[0] + s->half[0] * right, y = s->middle[1] - s->half[1] * down;
-        const int i = (int)((1 + x) / 2 * (float)t->width);
-        const int j = (int)((1 - y) / 2 * (float)t->height);
-        float stored = s->farthest;
-        if (shade__within(s->first[k] - stored, 1e-6f)) continue;    /* none, or too far to tell */
-        if (i < s->clip[0] || j < s->clip[1] || i >= s->clip[2] || j >= s->clip[3]) continue;
-        if (t->depth) stored = t->depth[shade__offset_of(t, i, j)];
-        fails = !shade__passes(test, 0, s->first[k] + bias, stored);
-        seen++;
-        contested += fails || stored != s->farthest;    /* or it passed before another mesh */
-        stuck += fails && (stored == 1 - s->farthest || stored != stored);
-    }
-
-    if (seen && stuck == seen)
+    shade__look_through(s, SHADE_COMPARE_EQUAL);
+    if (!s->given_stats && shade__covered(s)) return NULL;    /* the mesh itself is stored */
+    shade__look_through(s, greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS);
+    s->state.raster.depth_bias = greater ? 1.0f : -1.0f;    /* not even the nearest depth passes */
+    if (!shade__covered(s))
         return "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
                "depth of 1, or 0 for a reversed projection.";
 
-    if (!s->given_stats || !s->whole || !seen || shade__is_scattered(s)) return NULL;
-    if (contested > seen / 2)
-        return "What target.depth holds hides the mesh: other meshes, the frame before without a "
-               "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
-               "raster.depth_bias pushes it behind them.";
-    return "The mesh covers the centre of a pixel nowhere, since it is too small on the screen, "
-           "or state.fragment discards all pixels.";
+    if (!s->given_stats || !s->whole || shade__is_scattered(s)) return NULL;
+    return "What target.depth holds hides the mesh: other meshes, the frame before without a "
+           "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
+           "raster.depth_bias pushes it behind them.";
+}
+
+static const char *shade__suspect_test(const shade__survey *s)
+{
+    const shade_raster *r = &s->given_state->raster;
+    const shade_mat4 *p = &s->state.projection;
+    /* depth is a number plus col[3].z / w */
+    if (s->target->depth && p->col[3].w == 0 && shade__faces_ahead(p) && !r->depth_read_only &&
+        r->depth_test < SHADE_COMPARE_EQUAL && (p->col[3].z > 0) != (s->farthest == 0))
+        return "raster.depth_test does not fit state.projection, so that what is far hides what "
+               "is near: SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER "
+               "and 0 for shade_mat4_perspective_reversed.";
+    return NULL;
+}
+
+static const char *shade__why_unseen(shade__survey *s)
+{
+    const shade_target *t = s->target;
+    s->picture = *t;
+    s->picture.depth = NULL;
+    if (shade__covered(s)) return shade__why_hidden(s);
+    if (t->row_count || s->clip[2] - s->clip[0] == t->width ||
+        s->clip[3] - s->clip[1] == t->height)
+        return NULL;    /* a band */
+    return "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
+           "clip_height; all four zero mean everywhere.";
 }
 
 /* ---- the mesh is drawn, but wrongly */
 
+/* Are the fronts of all pixels that show one behind a back?  Or else, has a pixel a last fragment
+   that is not its nearest? */
+static int shade__found(const shade__probe *at, int inside_out)
+{
+    uint32_t fronts = 0, behind = 0;
+    int n = 0;
+    for (int k = 0; k < SHADE__PROBES; k++) {
+        fronts += at[k].any_front;
+        behind += at[k].any_front & !at[k].front;
+        n += !shade__within(at[k].last - at[k].nearest, 1e-6f);
+    }
+    return inside_out ? fronts > 23 && behind == fronts : n;    /* fewer prove too little */
+}
+
 static const char *shade__suspect_picture(shade__survey *s)
 {
     const shade_raster *r = &s->given_state->raster;
-    const int covered = shade__try_depth(s);
+    shade__probe probes[SHADE__PROBES];
+    SHADE__ZERO(probes);
+    shade__look_at_all(s);
+    shade__covered(s);
     if (s->stats.rejected)
         return "Some triangles are left out, since mesh.positions hold NaN, infinite or huge "
                "numbers there.";
 
-    s->state.raster.cull = SHADE_CULL_NONE;
-    if (r->cull == SHADE_CULL_BACK && !shade__eye_inside(s) && !shade__try_depth(s))
-        return "The mesh is drawn inside out: its triangles are wound clockwise, or state.model, "
-               "state.view or state.projection mirrors; reverse the winding or raster.cull.";
-    s->state.raster.cull = r->cull;
+    if (r->cull == SHADE_CULL_BACK && !shade__eye_inside(s)) {
+        shade__take_probes(s, SHADE_CULL_NONE, probes);
+        if (shade__found(probes, 1))
+            return "The mesh is drawn inside out: its triangles are wound clockwise, or "
+                   "state.model, state.view or state.projection mirrors; reverse the winding or "
+                   "raster.cull.";
+        SHADE__ZERO(probes);
+    }
 
-    s->state.raster.depth_test = SHADE_COMPARE_ALWAYS;
-    if (!s->target->depth && r->blend == SHADE_BLEND_REPLACE && shade__try_depth(s) < covered)
-        return "target.depth is NULL, so that the triangles drawn last hide those before them, not "
-               "the near ones the far ones; give the target a depth buffer.";
-    s->state.raster.depth_test = s->farthest == 0 ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
-    return NULL;
+    if (s->target->depth || r->blend != SHADE_BLEND_REPLACE) return NULL;
+    shade__take_probes(s, r->cull, probes);
+    return shade__found(probes, 0)
+               ? "target.depth is NULL, so that the triangles drawn last hide those before them, "
+                 "not the near ones the far ones; give the target a depth buffer."
+               : NULL;
 }
 
 /* ---- the mesh is drawn, but black */
@@ -7808,65 +8005,84 @@ static const char *shade__why_unlit(shade__survey *s)
 {
     shade_lighting *l = &s->state.lighting;
     const shade_light *lamps = l->lights;
-    int met = 0;
+    int any, met = 0;
+    if (SHADE_MAX_VARYINGS > 5) s->state.shading = SHADE_SHADING_PER_FRAGMENT;
+    any = shade__count(s, FLT_MIN) > 0;
+    if (shade__bright(s))
+        return "state.shading lights vertices or middles of faces, which no light reaches, though "
+               "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
 
     l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
     l->lights = s->lamp;
     for (int i = 0; i < l->light_count; i++) {
         s->lamp[i] = lamps[i];
         s->lamp[i].constant = s->lamp[i].linear = s->lamp[i].quadratic = 0;
+        s->lamp[i].spot_exponent = 0;
     }
-    if (shade__try_light(s))
-        return "Attenuation leaves less than 1/255 of every light; lower its constant, linear or "
-               "quadratic, or raise the light's diffuse and specular.";
+    if (shade__bright(s))
+        return "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower "
+               "its constant, linear or quadratic, or raise the light's diffuse and specular.";
 
+    l->flags |= SHADE_FLAG_ATTENUATED_AMBIENT;    /* it shows cones at any angle to the face */
+    for (int i = 0; i < l->light_count; i++) s->lamp[i].ambient = shade_v3(1, 1, 1);
+    any |= shade__count(s, FLT_MIN) > 0;
     for (int i = 0; i < l->light_count; i++) {
         shade_ray axis;
         axis.origin = shade__xyz(lamps[i].position);
         axis.direction = lamps[i].spot_direction;
         met |= shade_pick(&s->mesh, s->state.model, axis, NULL, NULL) >= 0;
-        s->lamp[i].spot_direction = shade_v3(0, 0, 0);
+        s->lamp[i].spot_direction = s->lamp[i].ambient = shade_v3(0, 0, 0);
     }
     if (met) return NULL;    /* its pool of light may be smaller than a pixel */
-    if (shade__try_light(s))
+    if (!any && shade__bright(s))
         return "No cone of the lights meets what is in view; check spot_direction and "
                "spot_cos_cutoff, the cosine of an angle in radians.";
-    return "The lights have no colour: diffuse and specular of every lighting.lights are zero, or "
-           "diffuse is, and the highlights do not reach the eye.";
+    return "The lights have no colour, or too little: diffuse and specular of every "
+           "lighting.lights are dark, or diffuse is, and the highlights do not reach the eye.";
+}
+
+/* Gives the mesh a surface that reflects all light. */
+static void shade__whiten(shade__survey *s)
+{
+    s->mesh.colors = NULL;
+    s->state.diffuse_map = NULL;
+    s->material.diffuse = s->material.specular = s->material.ambient = shade_v3(1, 1, 1);
 }
 
 static const char *shade__why_dark(shade__survey *s)
 {
     const shade_raster *r = &s->given_state->raster;
+    const shade_material given = s->material;
     shade_lighting *l = &s->state.lighting;
-    if (s->state.transparency >= 1)
-        return "state.transparency is 1, which is invisible; 0 is opaque.";
+    const int over = r->blend == SHADE_BLEND_OVER;
 
-    if (r->blend == SHADE_BLEND_ADD || shade__try_light(s)) return NULL;
     s->state.raster.blend = SHADE_BLEND_REPLACE;
-    if (shade__try_light(s))
-        return "The alpha of state.diffuse_map is 0 where the mesh is in view, so that "
-               "raster.blend leaves nothing of it.";
+    if (r->blend != SHADE_BLEND_REPLACE && shade__shows(s))
+        return "Alpha is 0 or almost where the mesh is in view, so that raster.blend leaves "
+               "nothing of it: it is 1 - state.transparency, times that of state.diffuse_map.";
 
-    /* shadows, which are blended over a ground, and outlines of back faces are meant to be black */
-    if (r->blend == SHADE_BLEND_OVER || r->cull == SHADE_CULL_FRONT) return NULL;
+    /* outlines of back faces are meant to be black, and so are shadows, blended over a ground */
+    if (r->cull == SHADE_CULL_FRONT) return NULL;
+    if (over && shade__is_zero(shade_add(shade_add(given.emission, given.ambient),
+                                         shade_add(given.diffuse, given.specular))))
+        return NULL;
 
     l->terms = 0;
     l->model = SHADE_MODEL_BLINN_PHONG;
-    if (shade__try_light(s))
+    if (shade__shows(s))
         return "lighting.terms or lighting.model leaves out every term that would be seen; 0 "
                "means all terms, and the model SHADE_MODEL_BLINN_PHONG.";
 
-    s->mesh.colors = NULL;
-    s->state.diffuse_map = NULL;
-    if (shade__try_light(s))
-        return "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in "
-               "view; check mesh.texcoords and the picture.";
-
-    s->material.diffuse = s->material.specular = s->material.ambient = shade_v3(1, 1, 1);
-    if (shade__try_light(s))
-        return "state.material reflects nothing of the light that there is: lamps need diffuse or "
-               "specular, lighting.ambient needs material.ambient; NULL is white.";
+    shade__whiten(s);
+    if (shade__bright(s)) {    /* light is there, and the surface takes it */
+        s->material = given;
+        if (over) return NULL;
+        return shade__shows(s) ? "mesh.colors, or the texels of state.diffuse_map, are black where "
+                               "the mesh is in view; check mesh.texcoords and the picture."
+                             : "state.material reflects nothing, or almost, of the light that "
+                               "there is: lamps need diffuse or specular, lighting.ambient needs "
+                               "material.ambient; NULL is white.";
+    }
 
     if (l->light_count <= 0)
         return l->lights ? "lighting.light_count is 0 while lighting.lights is set, and "
@@ -7875,7 +8091,7 @@ static const char *shade__why_dark(shade__survey *s)
                            "dark; add a light, or ambient light.";
 
     l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    if (shade__try_light(s))
+    if (shade__bright(s))
         return shade__eye_inside(s)
                    ? "The eye lies inside of the mesh's box and sees faces whose normals point "
                      "away from every lamp; check state.view, or move the eye out."
@@ -7884,54 +8100,151 @@ static const char *shade__why_dark(shade__survey *s)
                      "light.position, or set SHADE_FLAG_TWO_SIDED.";
 
     s->mesh.normals = NULL;
-    if (shade__try_light(s))
-        return "mesh.normals are zero, so that no lamp lights them; fill them by "
+    if (shade__bright(s))
+        return "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
                "shade_mesh_normals, or make mesh.normals NULL.";
     return shade__why_unlit(s);
+}
+
+/* ---- the mesh is lit, but wrongly */
+
+/* Are almost all of n pixels among the counted ones?  All, where some of them may be hidden. */
+static int shade__almost_all(const shade__survey *s, long long counted,
+                             long long n)
+{
+    return n > 0 && counted * 8 >= n * (s->exact ? 7 : 8);
+}
+
+/* Is a surface whose normals are right lit by ambient light alone, or by none? */
+static const char *shade__why_flat(shade__survey *s)
+{
+    shade_lighting *l = &s->state.lighting;
+    const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
+    const unsigned terms = l->terms ? l->terms : ~0u;
+    if (l->model > SHADE_MODEL_LAMBERT || !(terms & lamps) ||
+        !shade__is_zero(s->material.emission) || shade__is_zero(s->material.diffuse))
+        return NULL;
+    l->terms = terms & lamps;
+    if (shade__shows(s)) return NULL;
+    if (l->light_count <= 0) {
+        const float most = l->ambient.x + l->ambient.y + l->ambient.z;
+        if (l->lights)
+            return "Only ambient light arrives: lighting.light_count is 0 while lighting.lights "
+                   "is set.";
+        if (!s->mesh.normals || most >= 1) return NULL;    /* unlit, as overlays are */
+        return "Only ambient light arrives, which shows no form: lighting.lights is NULL.";
+    }
+    shade__whiten(s);
+    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    if (shade__shows(s))
+        return "Only ambient light arrives: every lamp is behind the faces in view; turn "
+               "mesh.normals (without them the winding), move light.position, or set "
+               "SHADE_FLAG_TWO_SIDED.";
+    s->mesh.normals = NULL;
+    return shade__shows(s) ? "Only ambient light arrives, because mesh.normals are zero or NaN; "
+                             "fill them by shade_mesh_normals, or make mesh.normals NULL."
+                           : NULL;
+}
+
+/* Does a lamp at the eye leave faces dark that are wound toward it? */
+static int shade__normals_turned(shade__survey *s)
+{
+    shade_lighting *l = &s->state.lighting;
+    const shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
+    long long all = shade__covered(s), front, toward;
+    if (s->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
+        (l->flags & SHADE_FLAG_TWO_SIDED) || s->state.raster.cull == SHADE_CULL_FRONT)
+        return 0;
+    s->state.raster.cull = SHADE_CULL_BACK;
+    if (SHADE_MAX_VARYINGS > 5) s->state.shading = SHADE_SHADING_PER_FRAGMENT;
+    /* at the centre of projection, which is infinitely far away where projection is parallel */
+    s->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
+    s->lamp[0].position = shade_mat4_transform(shade_mat4_inverse(m),
+                                               shade_v4(0, 0, s->farthest == 0 ? 1.0f : -1.0f, 0));
+    SHADE__ZERO(*l);
+    l->lights = s->lamp;
+    l->light_count = 1;
+    shade__whiten(s);
+    front = shade__covered(s);
+    toward = shade__count(s, FLT_MIN);
+    if (!shade__almost_all(s, front, all) || !shade__almost_all(s, front - toward, front)) return 0;
+    l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* they are not 0 */
+    if (!shade__almost_all(s, shade__count(s, FLT_MIN), front)) return 0;
+    l->flags = 0;
+    s->mesh.normals = NULL;
+    return shade__almost_all(s, shade__count(s, FLT_MIN), front);
+}
+
+static const char *shade__suspect_light(shade__survey *s)
+{
+    const char *why;
+    long long lit;
+    if (s->given_state->material) s->material = *s->given_state->material;
+    lit = shade__count(s, s->black);
+    s->material.emission = shade_v3(0, 0, 0);
+    if (s->target->format != SHADE_FORMAT_RGBA32F &&
+        s->state.raster.blend != SHADE_BLEND_OVER &&
+        shade__almost_all(s, shade__count(s, 2), lit))
+        return "Almost all that is lit is clipped to white: colours of lighting.lights, "
+               "lighting.ambient, state.material and mesh.colors are linear, with 1 for full "
+               "light, not 255.";
+    shade__begin_survey(s);
+    shade__look_at_seen(s);
+    why = shade__why_flat(s);
+    if (why) return why;
+    shade__begin_survey(s);
+    shade__look_at_seen(s);
+    return shade__normals_turned(s)
+               ? "mesh.normals point away from the eye on faces that are wound toward it: turn "
+                 "mesh.normals, or reverse the winding."
+               : NULL;
+}
+
+/* ---- what is true of the state, whatever the picture is */
+
+static const char *shade__suspect_rest(const shade__survey *s)
+{
+    const shade_mat4 *p = &s->state.projection;
+    const shade_texture *map = s->given_state->fragment ? NULL : s->given_state->diffuse_map;
+    const double wide = shade__size(p->col[0].x) * s->target->width;
+    const double high = shade__size(p->col[1].y) * s->target->height;
+
+    if (shade__chunks_leave_out(s->given_mesh)) return shade__left_out;
+    if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))
+        return "state.view scales or shears, but it must only turn and move, as that of "
+               "shade_mat4_look_at does; scale by state.model.";
+    if (p->col[3].w == 0 && shade__faces_ahead(p) && shade__size(wide - high) > 0.03 * wide)
+        return "The aspect of state.projection is not that of the picture: pass width / height of "
+               "the target as floats to shade_mat4_perspective.";
+
+    if (!s->target->color || !map) return NULL;
+    if (!s->mesh.texcoords)
+        return "state.diffuse_map is set while mesh.texcoords is NULL, so that it is not drawn.";
+    if (shade_mipmap_count(map->width, map->height) &&
+        (map->filter == SHADE_FILTER_TRILINEAR || map->mipmap_count) &&
+        (!map->mipmaps || map->mipmap_count <= 0))
+        return "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; "
+               "fill them by shade_build_mipmaps.";
+    return NULL;
 }
 
 static const char *shade__why(shade__survey *s)
 {
     const int sure = s->given_stats && s->given_stats->fragments > 0;
     const char *why = shade__suspect_matrices(s);
-    int drawn;
-
     if (!why) why = shade__suspect_state(s);
-    if (why) return why;
-
-    shade__measure(s);
-    shade__zoom_in(s);
-    drawn = shade__try(s);
-    SHADE_MEMCPY(s->first, s->depth, sizeof s->first);
-    if (!drawn) return sure ? NULL : shade__why_nothing(s);
-    if (!sure) why = shade__why_hidden(s);
+    shade__look_at_all(s);
+    if (!why && !sure && !shade__covered(s)) why = shade__why_nothing(s);
+    if (!why) why = shade__suspect_test(s);
+    if (!why && !sure) why = shade__why_unseen(s);
     if (why || (s->given_stats && !sure)) return why;
+
+    shade__begin_survey(s);
     why = shade__suspect_picture(s);
-    return why || !s->target->color || s->given_state->fragment ? why : shade__why_dark(s);
-}
-
-/* Makes the draw fit for a small picture: depth is tested and written, highlights are too wide to
-   lie between pixels, and the caller's fragment shader is not called. */
-static void shade__begin_survey(shade__survey *s)
-{
-    shade_raster *r = &s->state.raster;
-    const int greater = shade__compare_of(r).greater != 0;
-    s->farthest = greater ? 0.0f : 1.0f;
-    r->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
-    r->depth_read_only = 0;
-    r->depth_bias = 0;
-
-    SHADE__ZERO(s->material);
-    s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
-    if (s->state.material) s->material = *s->state.material;
-    s->material.shininess = shade__minf(s->material.shininess, 4);
-    s->state.material = &s->material;
-
-    if (s->state.fragment) s->state.alpha_cutoff = 0;
-    s->state.fragment = NULL;
-    s->state.model = shade__or_identity(s->state.model);
-    s->state.view = shade__or_identity(s->state.view);
-    s->state.projection = shade__or_identity(s->state.projection);
+    shade__begin_survey(s);
+    if (why || !s->target->color || s->given_state->fragment) return why;
+    if (!shade__look_at_seen(s)) return NULL;
+    return shade__shows(s) ? shade__suspect_light(s) : shade__why_dark(s);
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
@@ -7954,12 +8267,12 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
     s.whole = s.clip[2] - s.clip[0] == target->width &&
               s.clip[3] - s.clip[1] == target->height;
     s.target = target;
-    s.mesh = *mesh;
+    s.given_mesh = mesh;
     s.given_state = state;
-    s.state = *state;
     s.given_stats = stats;
     shade__begin_survey(&s);
     why = shade__why(&s);
+    if (!why && (!stats || stats->fragments)) why = shade__suspect_rest(&s);
     return why ? why : "";
 }
 

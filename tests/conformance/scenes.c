@@ -863,6 +863,6 @@ void scene_build(scene *s, int which)
         state->material = &s->draws[k].material;
         state->lighting.lights = s->lights;
         state->lighting.light_count = s->light_count;
-        if (s->has_map) state->diffuse_map = &s->map;
+        if (s->has_map && s->draws[k].mesh.has_texcoords) state->diffuse_map = &s->map;
     }
 }

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.." || exit 1
 seconds=${1:-60}
 [ $# -gt 0 ] && shift
 # G5
-targets=${*:-draw mesh lines texture shape light reader surface}
+targets=${*:-draw mesh explain lines texture shape light reader surface}
 CC=${CC:-cc} CLANG=${CLANG:-clang} LANES=${FUZZ_LANES:-16} B=build/fuzz
 FLAGS="-std=c99 -O1 -g -I. -DSHADE_LANES=$LANES"
 CHECKS="-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"

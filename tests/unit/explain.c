@@ -1,5 +1,8 @@
 /* explain.c - shade_explain: each mistake, made on a good scene, gets a sentence that names the
-   field to look at; good scenes get none; hostile ones cost no memory and no crash. */
+   field to look at; good scenes get none; what is said of random draws is so; hostile ones cost no
+   memory and no crash. */
+static int explained_pick(int n) { return rnd_int(0, n - 1); }
+#include "../fuzz/explained.h"
 
 enum { STAGE_RINGS = 12, STAGE_SECTORS = 16, STAGE_WIDTH = 96, STAGE_HEIGHT = 64 };
 enum { STAGE_VERTICES = (STAGE_RINGS + 1) * (STAGE_SECTORS + 1) };
@@ -533,7 +536,9 @@ MISTAKE(view_forgotten)
 MISTAKE(view_of_w_two) { s->state.view.col[3].w = 2; }
 MISTAKE(left_handed_projection_by_rows)
 {
-    s->state.projection.col[2].w = 1;
+    const shade_mat4 turn = shade_mat4_scaling(shade_v3(1, 1, -1));
+    s->state.view = shade_mat4_mul(turn, s->state.view);
+    s->state.projection = shade_mat4_mul(s->state.projection, turn);
     mistake_projection_by_rows(s);
 }
 MISTAKE(projection_onto_a_point)
@@ -626,6 +631,11 @@ MISTAKE(map_black_and_lamp_behind)
     mistake_map_black(s);
     mistake_lamp_behind(s);
 }
+MISTAKE(drawn_twice_where_depth_is_too_coarse)
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 1e-6f, 100);
+    s->draws = 2;
+}
 MISTAKE(many_cones_elsewhere)
 {
     enum { COUNT = 17 };    /* one more than shade_explain tries without their cone */
@@ -634,6 +644,168 @@ MISTAKE(many_cones_elsewhere)
     for (int i = 0; i < COUNT; i++) many[i] = s->lamps[0];
     s->state.lighting.lights = many;
     s->state.lighting.light_count = COUNT;
+}
+
+/* What a mistake is under every blend. */
+MISTAKE(no_light_over)
+{
+    s->state.raster.blend = SHADE_BLEND_OVER;
+    mistake_no_light(s);
+}
+MISTAKE(no_light_added)
+{
+    s->state.raster.blend = SHADE_BLEND_ADD;
+    mistake_no_light(s);
+}
+MISTAKE(overlay_without_light)
+{
+    s->state.material = NULL;
+    s->state.transparency = 0.5f;
+    s->c.target.depth = NULL;
+    s->state.raster.cull = SHADE_CULL_BACK;
+    mistake_no_light_over(s);
+}
+MISTAKE(material_zero_added)
+{
+    s->state.raster.blend = SHADE_BLEND_ADD;
+    mistake_material_zero(s);
+}
+MISTAKE(lamp_behind_over)
+{
+    s->state.raster.blend = SHADE_BLEND_OVER;
+    mistake_lamp_behind(s);
+}
+MISTAKE(almost_invisible)
+{
+    s->state.transparency = 0.9999f;
+    s->state.raster.blend = SHADE_BLEND_OVER;
+}
+
+static void stage_ambient(stage *s)
+{
+    s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
+}
+MISTAKE(ambient_and_lamp_behind)
+{
+    stage_ambient(s);
+    mistake_lamp_behind(s);
+}
+MISTAKE(ambient_and_no_lamps)
+{
+    stage_ambient(s);
+    mistake_no_light(s);
+}
+MISTAKE(ambient_and_light_count_forgotten)
+{
+    stage_ambient(s);
+    mistake_light_count_forgotten(s);
+}
+MISTAKE(ambient_and_normals_zero)
+{
+    stage_ambient(s);
+    mistake_normals_zero(s);
+}
+MISTAKE(ambient_and_normals_nan)
+{
+    stage_ambient(s);
+    for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i].x = NAN;
+}
+MISTAKE(normals_nan)
+{
+    for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i].x = NAN;
+}
+MISTAKE(light_count_negative)
+{
+    stage_ambient(s);
+    s->state.lighting.light_count = -2;
+}
+
+MISTAKE(map_without_texcoords) { s->state.diffuse_map = &s->map; }
+MISTAKE(bad_map_without_texcoords)
+{
+    s->map.pixels = NULL;
+    mistake_map_without_texcoords(s);
+}
+MISTAKE(trilinear_without_mipmaps)
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->map.filter = SHADE_FILTER_TRILINEAR;
+}
+MISTAKE(mipmap_count_without_mipmaps)
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->map.mipmap_count = 1;
+}
+MISTAKE(chunks_of_half_the_triangles)
+{
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(-1, -1, -1);
+    s->chunk.high = shade_v3(1, 1, 1);
+    s->chunk.count /= 2;
+}
+/* as they are where shade_mesh_chunks had too little room */
+MISTAKE(chunks_of_zeros)
+{
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    memset(&s->chunk, 0, sizeof s->chunk);
+}
+MISTAKE(aspect_of_a_square) { s->state.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 100); }
+MISTAKE(aspect_upside_down)
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1 / 1.5f, 0.1f, 100);
+}
+MISTAKE(view_that_scales)
+{
+    s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(2, 2, 2)), s->state.view);
+}
+MISTAKE(view_that_shears) { s->state.view.col[1].x += 0.4f; }
+MISTAKE(light_of_255)
+{
+    for (int i = 0; i < 2; i++) s->lamps[i].diffuse = shade_v3(255, 255, 255);
+}
+MISTAKE(ambient_of_255) { s->state.lighting.ambient = shade_v3(200, 200, 255); }
+MISTAKE(colors_of_255)
+{
+    for (int i = 0; i < STAGE_VERTICES; i++) s->color[i] = shade_v3(200, 128, 30);
+    s->mesh.colors = &s->color[0].x;
+}
+MISTAKE(normals_against_the_winding)
+{
+    for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i] = shade_neg(s->normal[i]);
+    s->lamps[1] = shade_directional_light(shade_v3(0, 1, 4), shade_v3(1, 1, 1));
+}
+MISTAKE(beside_the_clip_rectangle)
+{
+    s->c.target.clip_x = s->c.target.clip_y = 2;
+    s->c.target.clip_width = s->c.target.clip_height = 9;
+}
+
+/* What sentences were false of: the words are those of the true cause. */
+MISTAKE(attenuation_of_far_lamps)
+{
+    s->lamps[0] = shade_point_light(shade_v3(0, 7, 27), shade_v3(1, 1, 1));
+    s->lamps[0].quadratic = 1;
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(attenuation_of_far_lamps_with_a_map)
+{
+    mistake_attenuation_of_far_lamps(s);
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    for (int k = 0; k < 16; k++) s->texel[k] = 140;
+}
+/* corners right of the picture, below it and far beyond: outside, but of no plane with all three */
+MISTAKE(around_a_corner_of_the_picture)
+{
+    stage_two_triangles(s, shade_v3(0, 0, 0), shade_v3(0, 0, 0));
+    s->position[0] = shade_v3(5.4f, 0, -4);
+    s->position[1] = shade_v3(0, 4.2f, -4);
+    s->position[2] = shade_v3(5.4f, 4.2f, -4);
+    s->mesh.index_count = 3;
 }
 
 typedef struct mistake {
@@ -724,6 +896,29 @@ static const mistake mistakes[] = {
     OF(no_light_on_the_default, "no light"), OF(no_light_on_a_mirror, "no light"),
     OF(lamp_of_highlights_behind, "no colour"), OF(map_black_and_lamp_behind, "behind"),
     OF(highlights_alone_on_a_matte_material, "state.material"),
+    OF_STATS(drawn_twice_where_depth_is_too_coarse, "LESS_EQUAL"),
+    OF(no_light_over, "no light"), OF(no_light_added, "no light"),
+    OF(overlay_without_light, "no light"), OF(material_zero_added, "state.material"),
+    OF(lamp_behind_over, "behind"), OF(almost_invisible, "transparency"),
+    OF(ambient_and_lamp_behind, "Only ambient light arrives: every lamp is behind"),
+    OF(ambient_and_no_lamps, "Only ambient light"),
+    OF(ambient_and_light_count_forgotten, "light_count"),
+    OF(ambient_and_normals_zero, "Only ambient light arrives, because mesh.normals"),
+    OF(ambient_and_normals_nan, "Only ambient light arrives, because mesh.normals"),
+    OF(normals_nan, "mesh.normals are zero or NaN"), OF(light_count_negative, "negative"),
+    OF(map_without_texcoords, "mesh.texcoords is NULL"),
+    OF(bad_map_without_texcoords, "pixels are NULL"),
+    OF(trilinear_without_mipmaps, "no mipmaps"), OF(mipmap_count_without_mipmaps, "no mipmaps"),
+    OF(chunks_of_half_the_triangles, "mesh.chunks sum to fewer"),
+    OF(chunks_of_zeros, "mesh.chunks sum to fewer"), OF(aspect_of_a_square, "aspect"),
+    OF(aspect_upside_down, "aspect"), OF(view_that_scales, "state.view scales"),
+    OF(view_that_shears, "state.view scales or shears"), OF(light_of_255, "255"),
+    OF(ambient_of_255, "255"), OF(colors_of_255, "255"),
+    OF(normals_against_the_winding, "mesh.normals point away"),
+    OF(beside_the_clip_rectangle, "beside the clip rectangle"),
+    OF(attenuation_of_far_lamps, "Attenuation"),
+    OF(attenuation_of_far_lamps_with_a_map, "Attenuation"),
+    OF(around_a_corner_of_the_picture, "covers the centre of a pixel nowhere"),
     OF(many_cones_elsewhere, "spot_direction"),
 };
 
@@ -974,11 +1169,6 @@ UNUSUAL(texcoords_with_their_stride)
     s->state.diffuse_map = &s->map;
 }
 UNUSUAL(texcoords_without_a_map) { s->mesh.texcoords = &s->texcoord[0].x; }
-UNUSUAL(drawn_twice_where_depth_is_too_coarse)
-{
-    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 1e-6f, 100);
-    s->draws = 2;
-}
 UNUSUAL(parallel_from_the_eye) { s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, 0, 20); }
 UNUSUAL(near_one_half) { s->state.projection.col[3].z = -1; }
 UNUSUAL(left_handed_camera)
@@ -1012,6 +1202,83 @@ UNUSUAL(box_always_looked_into)
     s->mesh.chunk_count = 1;
     s->chunk.low = shade_v3(1, 1, 1);
     s->chunk.high = shade_v3(-1, -1, -1);
+}
+/* w = 1 - z/3: the eye stands at (0, 0, 3), and matrices of the projection are identity else */
+UNUSUAL(one_point_projection)
+{
+    memset(&s->state.view, 0, sizeof s->state.view);
+    s->state.projection = shade_mat4_identity();
+    s->state.projection.col[2] = shade_v4(0, 0, -0.2f, -1 / 3.0f);
+    s->state.model = shade_mat4_scaling(shade_v3(0.5f, 0.5f, 0.5f));
+}
+UNUSUAL(shadow_on_a_plane)
+{
+    shade_mat4 m = shade_mat4_identity();    /* of a lamp at (2, 1, 1), onto y = 0 */
+    m.col[1] = shade_v4(-2, 0, -1, -1);
+    s->state.model = shade_mat4_mul(m, shade_mat4_scaling(shade_v3(0.4f, 0.4f, 0.4f)));
+}
+UNUSUAL(reversed_camera_along_x)
+{
+    const shade_mat4 turn = shade_mat4_rotation(1.57079633f, shade_v3(0, 1, 0));
+    s->state.view = shade_mat4_mul(shade_mat4_inverse(turn), s->state.view);
+    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 0.1f);
+    s->state.projection = shade_mat4_mul(s->state.projection, turn);
+    s->state.projection.col[0].x = s->state.projection.col[0].y = s->state.projection.col[0].z = 0;
+    s->state.raster.depth_zero_to_one = 1;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
+/* A floor at so flat an angle that it covers a row or two. */
+UNUSUAL(floor_at_a_flat_angle)
+{
+    static const shade_vec3 ground[4] = { { -9, 0, 9 }, { 9, 0, 9 }, { 9, 0, -9 }, { -9, 0, -9 } };
+    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
+    memcpy(s->position, ground, sizeof ground);
+    memcpy(s->index, corners, sizeof corners);
+    s->mesh.normals = NULL;
+    s->mesh.index_count = 6;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0.06f, 12), shade_v3(0, 0, 0),
+                                       shade_v3(0, 1, 0));
+}
+UNUSUAL(unlit)
+{
+    mistake_no_light(s);
+    s->state.lighting.ambient = shade_v3(1, 1, 1);
+}
+UNUSUAL(overlay_of_dim_ambient)
+{
+    mistake_no_light(s);
+    stage_ambient(s);
+    s->mesh.normals = NULL;
+    s->state.raster.blend = SHADE_BLEND_OVER;
+    s->state.transparency = 0.5f;
+}
+UNUSUAL(stored_where_alpha_is_zero) { s->state.transparency = 1; }
+UNUSUAL(part_of_an_atlas)
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->map.width = s->map.height = 1;
+    s->map.stride = 2;
+    s->map.filter = SHADE_FILTER_TRILINEAR;    /* one texel has no mipmaps */
+}
+UNUSUAL(turned_by_a_quarter)
+{
+    const shade_mat4 turn = shade_mat4_rotation(1.57079633f, shade_v3(0, 0, 1));
+    s->state.projection = shade_mat4_mul(turn, s->state.projection);
+}
+UNUSUAL(light_of_255_in_floats)
+{
+    canvas_close(&s->c);
+    s->c = canvas_open(STAGE_WIDTH, STAGE_HEIGHT, STAGE_WIDTH + 3, SHADE_FORMAT_RGBA32F, 1);
+    s->good = s->c.target;
+    mistake_light_of_255(s);
+}
+UNUSUAL(lamp_in_its_glowing_globe)
+{
+    s->material.emission = shade_v3(0.9f, 0.9f, 0.7f);
+    s->lamps[0].position = shade_v4(0, 0, 0, 1);
+    s->state.lighting.light_count = 1;
 }
 UNUSUAL(depth_read_only) { s->state.raster.depth_read_only = 1; }
 UNUSUAL(depth_alone) { s->c.target.color = NULL; }
@@ -1079,7 +1346,6 @@ TEST(explain, what_is_unusual_is_no_mistake)
     static const unusual all[] = {
         { "texcoords with their stride", unusual_texcoords_with_their_stride },
         { "texcoords without a map", unusual_texcoords_without_a_map },
-        { "drawn twice, where depth is too coarse", unusual_drawn_twice_where_depth_is_too_coarse },
         { "parallel from the eye", unusual_parallel_from_the_eye },
         { "near at one half", unusual_near_one_half },
         { "a left-handed camera", unusual_left_handed_camera },
@@ -1087,6 +1353,17 @@ TEST(explain, what_is_unusual_is_no_mistake)
         { "a projection that nods", unusual_projection_that_nods },
         { "a view that scales, without projection", unusual_view_that_scales_alone },
         { "a box always looked into", unusual_box_always_looked_into },
+        { "a one-point projection", unusual_one_point_projection },
+        { "a shadow on a plane", unusual_shadow_on_a_plane },
+        { "a reversed camera along x", unusual_reversed_camera_along_x },
+        { "a floor at a flat angle", unusual_floor_at_a_flat_angle },
+        { "unlit", unusual_unlit },
+        { "an overlay of dim ambient light", unusual_overlay_of_dim_ambient },
+        { "stored where alpha is zero", unusual_stored_where_alpha_is_zero },
+        { "part of an atlas", unusual_part_of_an_atlas },
+        { "turned by a quarter", unusual_turned_by_a_quarter },
+        { "light of 255 in floats", unusual_light_of_255_in_floats },
+        { "a lamp in its glowing globe", unusual_lamp_in_its_glowing_globe },
         { "depth read only", unusual_depth_read_only },
         { "depth alone", unusual_depth_alone },
         { "added without depth", unusual_added_without_depth },
@@ -1105,6 +1382,19 @@ TEST(explain, what_is_unusual_is_no_mistake)
         stage_is_good(s, all[k].name);
         stage_close(s);
     }
+}
+
+/* The fuzz target of tests/fuzz/explain.c goes on where these end. */
+TEST(explain, no_sentence_about_a_random_draw_is_false)
+{
+    static explained e;
+    int said = 0;
+    for (int k = 0; k < 4000; k++) {
+        const char *wrong = ex_false_sentence(&e);
+        CHECK_SAY(!wrong, "draw %d: \"%s\"", k, wrong ? wrong : "");
+        said += *shade_explain(&e.target, &e.mesh, &e.state, &e.stats) != 0;
+    }
+    CHECK(said > 2000 && said < 3800);
 }
 
 static void nasty_floats(void *at, size_t bytes)
@@ -1184,6 +1474,7 @@ static const test_case explain_cases[] = {
     CASE(explain, small_pools_of_light_are_light),
     CASE(explain, dim_light_is_light_where_the_format_shows_it),
     CASE(explain, what_is_unusual_is_no_mistake),
+    CASE(explain, no_sentence_about_a_random_draw_is_false),
     CASE(explain, it_writes_nothing),
     CASE(explain, hostile_input_is_defined),
 };
