@@ -65,18 +65,18 @@
        >>triangles 3595  dropped, cut, edges   >>clip      3963  near, far, behind the eye
        >>tiles     4148  pixels, depth test    >>cover     4496  what is hidden, tile by tile
        >>fragments 4728  interpolation, lod    >>texture   5020  texels, mipmaps
-       >>store     5456  blending, packing
+       >>store     5458  blending, packing
      Inside: calls of the renderer
-       >>check     5688  refusals              >>seen      5853  what can be seen, chunks
-       >>drive     5990  shade_draw            >>mesh      6169  shade_draw_mesh
+       >>check     5690  refusals              >>seen      5855  what can be seen, chunks
+       >>drive     5992  shade_draw            >>mesh      6171  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6572  shade_draw_lines      >>shape     6730  normals, edges
-       >>chunks    7060  boxes of triangles    >>rays      7224  shade_pick
-       >>survey    7421  experiments on a draw >>explain   7682  why nothing is seen
-       >>image     8279  mipmaps, PPM           >>presets   8548  classic materials
+       >>lines     6574  shade_draw_lines      >>shape     6732  normals, edges
+       >>chunks    7062  boxes of triangles    >>rays      7226  shade_pick
+       >>survey    7423  experiments on a draw >>explain   7684  why nothing is seen
+       >>image     8281  mipmaps, PPM           >>presets   8550  classic materials
      Sources
-       >>refs      8624                        >>history   8654
-       >>license   8666
+       >>refs      8626                        >>history   8656
+       >>license   8668
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5090,7 +5090,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const int32_t limit = wrap == SHADE_WRAP_CLAMP ? 0x7F800000 : 0x4B800000;
     const float period = wrap == SHADE_WRAP_MIRROR ? 0.5f : 1.0f;
     const float n = (float)a->size, half = nearest ? 0.0f : 0.5f;
-    const uint32_t unit = a->unit, blended = shade__mask(!nearest);
+    const uint32_t unit = a->unit;
     SHADE_ALIGNED float place[SHADE__TEXELS];    /* from 0 to 1 */
 
     /* From 2^24 on all floats are even numbers: each lies where a period begins, as 0 does, and is
@@ -5119,7 +5119,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
         float s = place[i] * n - half;
         int32_t i0 = (int32_t)s - (s < 0 ? 1 : 0);    /* floor(s), as s >= -1/2 */
         i0 = shade__min(i0, last);    /* a place of 1 would be beyond the end if nearest */
-        a->f[i] = shade__keep(s - (float)i0, blended);
+        a->f[i] = s - (float)i0;
         a->i[0][i] = (uint32_t)(i0 < 0 ? before : i0) * unit;
         a->i[1][i] = (uint32_t)(i0 < last ? i0 + 1 : after) * unit;
     }
@@ -5147,6 +5147,8 @@ SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u,
     r->y.unit = wide ? 1 : (uint32_t)pitch;
     shade__address(u, blocks, r->nearest, &r->x);
     shade__address(v, blocks, r->nearest, &r->y);
+    if (r->nearest) SHADE__ZERO(r->x.f);
+    if (r->nearest) SHADE__ZERO(r->y.f);
     for (int b = 0; b < blocks; b++) {
         uint32_t apart = (uint32_t)(bytes != 4 || wide);
         SHADE__FOR(k, SHADE__BLOCK) {
