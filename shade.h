@@ -8208,8 +8208,8 @@ static const char *shade__suspect_rest(const shade__survey *s)
 {
     const shade_mat4 *p = &s->state.projection;
     const shade_texture *map = s->given_state->fragment ? NULL : s->given_state->diffuse_map;
-    const double wide = shade__size(p->col[0].x) * s->target->width;
-    const double high = shade__size(p->col[1].y) * s->target->height;
+    const double wide = shade__size((double)p->col[0].x) * s->target->width;
+    const double high = shade__size((double)p->col[1].y) * s->target->height;
 
     if (shade__chunks_leave_out(s->given_mesh)) return shade__left_out;
     if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))

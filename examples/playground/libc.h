@@ -154,6 +154,7 @@ typedef struct FILE FILE;
 static FILE *const stderr = NULL;
 FILE *fopen(const char *path, const char *mode);
 int fclose(FILE *file);
+int remove(const char *path);
 int ferror(FILE *file);
 size_t fread(void *to, size_t size, size_t count, FILE *file);
 char *strerror(int number);
@@ -216,6 +217,8 @@ __attribute__((noreturn)) static inline void exit(int status) { (void)status, __
 
 static inline double sqrt(double x) { return __builtin_sqrt(x); }
 static inline float sqrtf(float x) { return __builtin_sqrtf(x); }
+static inline double fabs(double x) { return __builtin_fabs(x); }
+static inline double floor(double x) { return __builtin_floor(x); }
 static inline float fabsf(float x) { return __builtin_fabsf(x); }
 static inline float fmaxf(float a, float b) { return a > b ? a : b; }
 #endif
