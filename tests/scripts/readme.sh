@@ -99,6 +99,20 @@ none() { [ -z "$1" ] || { printf '%s\n' "$1"; return 1; }; }
 words() { tr -c 'A-Za-z0-9_' '\n' <"$1" | sort -u; }
 words shade.h >"$T/known"
 cat $PAGES >"$T/text"
+check "each item of a list begins a line" none "$(grep -nE '[.;)] +[*]( +([*][*]|\[)|$)' $PAGES)"
+# G12
+ran=$(tr '\n' ' ' <"$README" | sed -n 's/.*Where it has been run[^;]*`make matrix` \([^;]*\);.*/\1/p')
+check "the machines it has been run on are those of matrix.sh" test \
+    "$(echo "$ran" | grep -oE '[a-z]+[0-9]+[a-z0-9]*|armhf' | sort | tr '\n' ' ')" = \
+    "$(sed -n 's/^ *one "\([a-z][a-z0-9]*\).*/\1/p' tests/scripts/matrix.sh |
+        grep -vxE 'gcc|clang|tcc' | sort -u | tr '\n' ' ')"
+for script in matrix windows compilers; do
+    check "where it has been run: $script.sh" grep -q "^step .*$script.sh" .ci/run
+done
+check "Wine runs the runner's tests" grep -q '"$wine" "$T/runner.exe"' tests/scripts/windows.sh
+for target in windows-msvc apple-darwin; do
+    check "clang compiles for $target" grep -q -- "-$target" tests/scripts/compilers.sh
+done
 check "every name is one of shade.h" none "$(
     words "$T/text" | grep -E '^(shade|SHADE)_' | grep -vx shade_h |
     comm -23 - "$T/known")"
