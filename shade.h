@@ -7913,7 +7913,7 @@ static const char *shade__why_hidden(shade__survey *s)
     passed = shade__covered(s);
     if (passed && s->given_stats && s->given_state->fragment)
         return "state.fragment discards all pixels of the mesh.";
-    if (passed || !s->target->depth) return NULL;
+    if (passed) return NULL;    /* without depth all pass */
 
     shade__look_through(s, SHADE_COMPARE_EQUAL);
     if (!s->given_stats && shade__covered(s)) return NULL;    /* the mesh itself is stored */

@@ -738,6 +738,11 @@ MISTAKE(mipmap_count_without_mipmaps)
     s->state.diffuse_map = &s->map;
     s->map.mipmap_count = 1;
 }
+MISTAKE(mipmaps_not_counted)
+{
+    mistake_trilinear_without_mipmaps(s);
+    s->map.mipmaps = &s->map;
+}
 MISTAKE(chunks_of_half_the_triangles)
 {
     s->mesh.chunks = &s->chunk;
@@ -909,6 +914,7 @@ static const mistake mistakes[] = {
     OF(map_without_texcoords, "mesh.texcoords is NULL"),
     OF(bad_map_without_texcoords, "pixels are NULL"),
     OF(trilinear_without_mipmaps, "no mipmaps"), OF(mipmap_count_without_mipmaps, "no mipmaps"),
+    OF(mipmaps_not_counted, "no mipmaps"),
     OF(chunks_of_half_the_triangles, "mesh.chunks sum to fewer"),
     OF(chunks_of_zeros, "mesh.chunks sum to fewer"), OF(aspect_of_a_square, "aspect"),
     OF(aspect_upside_down, "aspect"), OF(view_that_scales, "state.view scales"),
@@ -1340,6 +1346,52 @@ UNUSUAL(shader_that_maps_by_itself)
     s->state.fragment = shader_white;
     s->state.diffuse_map = &s->map;
 }
+/* Columns of the picture, as threads may take them: the mesh lies in others. */
+UNUSUAL(columns_beside_the_mesh)
+{
+    s->c.target.clip_width = 4;
+    s->c.target.clip_height = STAGE_HEIGHT;
+}
+static const unsigned char one_texel[4] = { 255, 255, 255, 255 };
+static const shade_texture last_mipmap = { .pixels = one_texel, .width = 1, .height = 1 };
+UNUSUAL(trilinear_with_mipmaps)
+{
+    mistake_trilinear_without_mipmaps(s);
+    s->map.mipmaps = &last_mipmap;
+    s->map.mipmap_count = 1;
+}
+/* Its last column, (0, 0, 1, 0), is also that of a transposed matrix. */
+UNUSUAL(reversed_with_near_one)
+{
+    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 1);
+    s->state.raster.depth_zero_to_one = 1;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
+/* Of these the aspect does not follow from two entries. */
+UNUSUAL(projection_that_shears)
+{
+    s->state.projection.col[0].x *= 2;
+    s->state.projection.col[1].x = 0.3f;
+}
+UNUSUAL(projection_of_a_keystone)
+{
+    s->state.projection.col[0].x *= 2;
+    s->state.projection.col[1].w = 0.1f;
+}
+
+TEST(explain, depth_that_changed_since_the_draw_is_not_blamed)
+{
+    stage *s = stage_open();
+    shade_stats stats;
+    shade_clear(&s->c.target, shade_v4(0, 0, 0, 1), 0);
+    CHECK_INT(shade_draw_mesh(&s->c.target, &s->mesh, &s->state, &stats), SHADE_OK);
+    CHECK(stats.drawn > 0 && stats.fragments == 0);
+    CHECK(strstr(shade_explain(&s->c.target, &s->mesh, &s->state, &stats), "depth") != NULL);
+    shade_clear(&s->c.target, shade_v4(0, 0, 0, 1), 1);
+    CHECK(!*shade_explain(&s->c.target, &s->mesh, &s->state, &stats));
+    stage_close(s);
+}
 
 TEST(explain, what_is_unusual_is_no_mistake)
 {
@@ -1375,6 +1427,11 @@ TEST(explain, what_is_unusual_is_no_mistake)
         { "a black outline", unusual_black_outline },
         { "a shader with alpha of its own", unusual_shader_with_alpha_of_its_own },
         { "a shader that maps by itself", unusual_shader_that_maps_by_itself },
+        { "columns beside the mesh", unusual_columns_beside_the_mesh },
+        { "mipmaps that are there", unusual_trilinear_with_mipmaps },
+        { "reversed, near at one", unusual_reversed_with_near_one },
+        { "a projection that shears", unusual_projection_that_shears },
+        { "a keystone", unusual_projection_of_a_keystone },
     };
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         stage *s = stage_open();
@@ -1474,6 +1531,7 @@ static const test_case explain_cases[] = {
     CASE(explain, small_pools_of_light_are_light),
     CASE(explain, dim_light_is_light_where_the_format_shows_it),
     CASE(explain, what_is_unusual_is_no_mistake),
+    CASE(explain, depth_that_changed_since_the_draw_is_not_blamed),
     CASE(explain, no_sentence_about_a_random_draw_is_false),
     CASE(explain, it_writes_nothing),
     CASE(explain, hostile_input_is_defined),
