@@ -72,11 +72,11 @@
      Inside: tools, which call the renderer; it names none of them
        >>lines     6574  shade_draw_lines      >>shape     6732  normals, edges
        >>chunks    7062  boxes of triangles    >>rays      7226  shade_pick
-       >>survey    7423  experiments on a draw >>explain   7684  why nothing is seen
-       >>image     8281  mipmaps, PPM           >>presets   8550  classic materials
+       >>survey    7423  experiments on a draw >>explain   7689  why nothing is seen
+       >>image     8288  mipmaps, PPM           >>presets   8557  classic materials
      Sources
-       >>refs      8626                        >>history   8656
-       >>license   8668
+       >>refs      8633                        >>history   8663
+       >>license   8675
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7454,6 +7454,7 @@ typedef struct shade__survey {
     shade_light      lamp[SHADE__SUSPECTS];
     float            least;              /* pixels count if a channel is this; 0: all of them */
     uint32_t         every;              /* one of so many pixels is sampled; 0: none */
+    uint32_t         nearer;             /* leave out what is within 1e-6 of farthest? */
     shade__probe   *probes;
 
     int        clip[4], whole;           /* the clip rectangle; is it the whole picture? */
@@ -7501,6 +7502,7 @@ static void shade__judge(const void *uniforms,
         const float a = over ? out->color[3][i] : 1;
         int counts = !(s->least > 0);
         for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= s->least;
+        if (s->nearer) counts &= !shade__within(in->z[i] - s->farthest, 1e-6f);
         if (!counts) out->discard[i] = 1;
         if (s->every && !out->discard[i]) shade__take_probe(s, in, i);
     }
@@ -7549,7 +7551,7 @@ static void shade__begin_survey(shade__survey *s)
                          : last.w == 0 && last.z > 0)
         s->farthest = 0;
     s->state.raster.depth_read_only = 1;
-    s->every = 0;
+    s->nearer = s->every = 0;
 
     s->black = s->target->dither && l->bytes == 2 ? 0.03f : 0.499f;
     s->black /= (float)l->full[1];
@@ -7586,20 +7588,23 @@ static void shade__look_through(shade__survey *s, shade_compare test)
 }
 
 /* Experiments draw what the picture shows: after a draw these are the fragments of stored depth.
-   A band shows too little, blending shows more, and depth may have changed since: all fragments are
-   drawn then, so that what they lack is not there.  Returns how many they are. */
+   A band shows too little, blending shows more, a bias makes depths equal at the end of their
+   range, and depth may have changed since: all fragments are drawn then, so that what they lack is
+   not there.  Where depth is not written, fragments that passed hide others.  Returns how many they
+   are. */
 static long long shade__look_at_seen(shade__survey *s)
 {
     const shade_draw_state *d = s->given_state;
     const shade_raster *r = &d->raster;
-    const int over = r->blend == SHADE_BLEND_OVER && d->transparency == 0 &&
-                     !d->diffuse_map;
-    const int opaque = over || r->blend == SHADE_BLEND_REPLACE;
+    const int opaque = r->blend == SHADE_BLEND_REPLACE ||
+                       (r->blend == SHADE_BLEND_OVER && d->transparency == 0 && !d->diffuse_map);
+    shade__begin_survey(s);
     shade__look_through(s, r->depth_read_only ? r->depth_test
                                               : SHADE_COMPARE_EQUAL);
-    s->exact = s->whole && s->target->depth &&
-               (r->depth_read_only || opaque) && shade__covered(s);
-    if (!s->exact) shade__look_at_all(s);
+    if (s->whole && s->target->depth &&
+        (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(s))
+        s->exact = !r->depth_read_only;
+    else shade__look_at_all(s);
     return shade__covered(s);
 }
 
@@ -7925,6 +7930,10 @@ static const char *shade__why_hidden(shade__survey *s)
                "depth of 1, or 0 for a reversed projection.";
 
     if (!s->given_stats || !s->whole || shade__is_scattered(s)) return NULL;
+    shade__look_at_all(s);
+    s->state.raster.depth_bias = 0;
+    s->nearer = 1;
+    if (!shade__covered(s)) return NULL;    /* floats are too coarse there to tell what is nearer */
     return "What target.depth holds hides the mesh: other meshes, the frame before without a "
            "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
            "raster.depth_bias pushes it behind them.";
@@ -8114,7 +8123,7 @@ static const char *shade__why_dark(shade__survey *s)
 static int shade__almost_all(const shade__survey *s, long long counted,
                              long long n)
 {
-    return n > 0 && counted * 8 >= n * (s->exact ? 7 : 8);
+    return n > 0 && counted * 8 >= n * (8 - s->exact);
 }
 
 /* Is a surface whose normals are right lit by ambient light alone, or by none? */
@@ -8155,7 +8164,8 @@ static int shade__normals_turned(shade__survey *s)
     const shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     long long all = shade__covered(s), front, toward;
     if (s->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
-        (l->flags & SHADE_FLAG_TWO_SIDED) || s->state.raster.cull == SHADE_CULL_FRONT)
+        (l->flags & SHADE_FLAG_TWO_SIDED) || s->state.raster.cull == SHADE_CULL_FRONT ||
+        (s->state.diffuse_map && s->state.alpha_cutoff > 0))    /* white has no holes */
         return 0;
     s->state.raster.cull = SHADE_CULL_BACK;
     if (SHADE_MAX_VARYINGS > 5) s->state.shading = SHADE_SHADING_PER_FRAGMENT;
@@ -8190,11 +8200,9 @@ static const char *shade__suspect_light(shade__survey *s)
         return "Almost all that is lit is clipped to white: colours of lighting.lights, "
                "lighting.ambient, state.material and mesh.colors are linear, with 1 for full "
                "light, not 255.";
-    shade__begin_survey(s);
     shade__look_at_seen(s);
     why = shade__why_flat(s);
     if (why) return why;
-    shade__begin_survey(s);
     shade__look_at_seen(s);
     return shade__normals_turned(s)
                ? "mesh.normals point away from the eye on faces that are wound toward it: turn "
@@ -8243,7 +8251,6 @@ static const char *shade__why(shade__survey *s)
 
     shade__begin_survey(s);
     why = shade__suspect_picture(s);
-    shade__begin_survey(s);
     if (why || !s->target->color || s->given_state->fragment) return why;
     if (!shade__look_at_seen(s)) return NULL;
     return shade__shows(s) ? shade__suspect_light(s) : shade__why_dark(s);

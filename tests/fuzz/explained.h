@@ -359,9 +359,10 @@ typedef struct ex_asked {
 } ex_asked;
 static shade_mat4 ex_or_identity(shade_mat4 m)
 {
-    const float *f = &m.col[0].x;
-    for (int k = 0; k < 16; k++)
-        if (f[k] != 0) return m;
+    for (int k = 0; k < 4; k++) {
+        const shade_vec4 c = m.col[k];
+        if (c.x != 0 || c.y != 0 || c.z != 0 || c.w != 0) return m;
+    }
     return shade_mat4_identity();
 }
 static shade_vec3 ex_eye(const shade_draw_state *s)
@@ -438,9 +439,8 @@ static int ex_corner_inside(const explained *e, int plane)
     const shade_mat4 m = ex_or_identity(e->state.projection);
     const shade_mat4 view = ex_or_identity(e->state.view);
     for (int i = 0; i < e->mesh.index_count; i++) {
-        shade_vec4 c = shade_v4(0, 0, 0, 1);
         const shade_vec3 p = e->position[e->index[i]];
-        c = shade_mat4_transform(model, shade_v4(p.x, p.y, p.z, 1));
+        shade_vec4 c = shade_mat4_transform(model, shade_v4(p.x, p.y, p.z, 1));
         c = shade_mat4_transform(m, shade_mat4_transform(view, c));
         if (plane == 0 && c.z < c.w - 1e-4f) return 1;
         if (plane == 1 && c.w > 1e-4f) return 1;

@@ -108,7 +108,7 @@ if [ -f "$D/shade-h-$V-pages.zip" ]; then
     check "the pages" sh -c "python3 -m zipfile -l '$D/shade-h-$V-pages.zip' | grep -q index.html"
 else left_out "pages"; fi
 
-# ---- the bill of materials, by the schema of SPDX
+# ---- the bill of materials, its ids, relations and checksums
 check "SBOM: a version, and a sum for each file" python3 -c "
 import hashlib, json, pathlib
 told = json.load(open('$D/shade-h-$V.spdx.json'))

@@ -631,11 +631,6 @@ MISTAKE(map_black_and_lamp_behind)
     mistake_map_black(s);
     mistake_lamp_behind(s);
 }
-MISTAKE(drawn_twice_where_depth_is_too_coarse)
-{
-    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 1e-6f, 100);
-    s->draws = 2;
-}
 MISTAKE(many_cones_elsewhere)
 {
     enum { COUNT = 17 };    /* one more than shade_explain tries without their cone */
@@ -901,7 +896,6 @@ static const mistake mistakes[] = {
     OF(no_light_on_the_default, "no light"), OF(no_light_on_a_mirror, "no light"),
     OF(lamp_of_highlights_behind, "no colour"), OF(map_black_and_lamp_behind, "behind"),
     OF(highlights_alone_on_a_matte_material, "state.material"),
-    OF_STATS(drawn_twice_where_depth_is_too_coarse, "LESS_EQUAL"),
     OF(no_light_over, "no light"), OF(no_light_added, "no light"),
     OF(overlay_without_light, "no light"), OF(material_zero_added, "state.material"),
     OF(lamp_behind_over, "behind"), OF(almost_invisible, "transparency"),
@@ -1174,6 +1168,13 @@ UNUSUAL(texcoords_with_their_stride)
     s->mesh.position_stride = s->mesh.normal_stride = 12;
     s->state.diffuse_map = &s->map;
 }
+/* All depths are within 1e-6 of the cleared one: which of two surfaces stays is known to be chance,
+   as lesson 17 shows on purpose. */
+UNUSUAL(drawn_twice_where_depth_is_too_coarse)
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 1e-6f, 100);
+    s->draws = 2;
+}
 UNUSUAL(texcoords_without_a_map) { s->mesh.texcoords = &s->texcoord[0].x; }
 UNUSUAL(parallel_from_the_eye) { s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, 0, 20); }
 UNUSUAL(near_one_half) { s->state.projection.col[3].z = -1; }
@@ -1397,6 +1398,7 @@ TEST(explain, what_is_unusual_is_no_mistake)
 {
     static const unusual all[] = {
         { "texcoords with their stride", unusual_texcoords_with_their_stride },
+        { "drawn twice, where depth is too coarse", unusual_drawn_twice_where_depth_is_too_coarse },
         { "texcoords without a map", unusual_texcoords_without_a_map },
         { "parallel from the eye", unusual_parallel_from_the_eye },
         { "near at one half", unusual_near_one_half },
@@ -1452,6 +1454,20 @@ TEST(explain, no_sentence_about_a_random_draw_is_false)
         said += *shade_explain(&e.target, &e.mesh, &e.state, &e.stats) != 0;
     }
     CHECK(said > 2000 && said < 3800);
+}
+
+/* One draw in 140,000 is of these kinds: a bias that makes all depths 1, so that hidden fragments
+   equal the stored depth; fragments over each other, where depth is read only; and a map whose
+   holes show the back, while a white surface would have none. */
+TEST(explain, no_sentence_about_a_rare_draw_is_false)
+{
+    static const uint32_t seeds[] = { 482357, 519162, 637204, 830954, 955739, 551290, 822060 };
+    static explained e;
+    for (int k = 0; k < TEST_COUNT(seeds); k++) {
+        test_now.state = (uint64_t)seeds[k] * 1000003;
+        const char *wrong = ex_false_sentence(&e);
+        CHECK_SAY(!wrong, "draw %d: \"%s\"", (int)seeds[k], wrong ? wrong : "");
+    }
 }
 
 static void nasty_floats(void *at, size_t bytes)
@@ -1533,6 +1549,7 @@ static const test_case explain_cases[] = {
     CASE(explain, what_is_unusual_is_no_mistake),
     CASE(explain, depth_that_changed_since_the_draw_is_not_blamed),
     CASE(explain, no_sentence_about_a_random_draw_is_false),
+    CASE(explain, no_sentence_about_a_rare_draw_is_false),
     CASE(explain, it_writes_nothing),
     CASE(explain, hostile_input_is_defined),
 };

@@ -18,10 +18,10 @@ check "of a file, at rest" $dummy --frames 2 --still "$T/one.obj"
 for file in missing.obj "$T" "$T/empty.obj" "$T/cut.obj" "$T/cut.stl"; do
     check "in a window: ${file##*/}" refused "$file" $dummy "$file"
 done
-mkfifo "$T/slow.obj"
-$dummy "$T/slow.obj" & window=$!
+mkfifo "$T/slow"
+$dummy - <"$T/slow" & window=$!
 # opened for writing as soon as view has opened it for reading
-{ : >"$T/opened"; exec sleep 600; } >"$T/slow.obj" & writer=$!
+{ : >"$T/opened"; exec sleep 600; } >"$T/slow" & writer=$!
 soon test -e "$T/opened"
 kill -TERM "$window"
 check "closed while it waits for its file" closed

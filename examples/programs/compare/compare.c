@@ -297,7 +297,7 @@ static int open_both(picture *p, const options *o)
         if (!o->sized) as.height = p[i].height;
     }
     for (int i = 0; i < 2; i++) {
-        if (!model_has_name(p[i].name)) continue;
+        if (p[i].file) continue;
         if (as.width > 8192 || as.height > 8192)
             return fail(p[i].name, "models are drawn up to 8192x8192 pixels");
         if (portrait_check(&as) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))

@@ -303,11 +303,11 @@ static inline int window_load(window *w)
 {
     static scene loaded;
     static window_loading l;
-    SDL_Thread *thread;
+    SDL_Thread *reader;
     l.scene = &loaded;
     l.options = w->options;
-    thread = SDL_CreateThread(window_load_thread, "reader", &l);
-    if (!thread) return complain("no thread: %s", SDL_GetError());
+    reader = SDL_CreateThread(window_load_thread, "reader", &l);
+    if (!reader) return complain("no thread: %s", SDL_GetError());
     while (!SDL_AtomicGet(&l.done)) {
         window_events(w, 0.05);
         if (w->closed) {
@@ -316,7 +316,7 @@ static inline int window_load(window *w)
         }
         window_show_progress(w, SDL_AtomicGet(&l.percent));
     }
-    SDL_WaitThread(thread, NULL);
+    SDL_WaitThread(reader, NULL);
     *w->scene = loaded;
     if (!l.failed) SDL_SetWindowTitle(w->window, w->scene->title);
     return l.failed;
