@@ -382,6 +382,10 @@ if command -v nm >/dev/null 2>&1; then
     check "no mutable globals, freestanding" no_mutable_globals "$T/bare.o"
     option '#define SHADE_STATIC'
     check "SHADE_STATIC compiles" $CC -std=c99 $WARN -O1 -I. -c "$T/option.c" -o "$T/static.o"
+    printf '#define SHADE_STATIC\n#define SHADE_IMPLEMENTATION\n#include "shade.h"\n%s\n' \
+        'float term(void) { return shade_lambert(shade_v3(0, 0, 1), shade_v3(0, 1, 0)); }' >"$T/term.c"
+    $CC -std=c99 -w -O1 -I. -c "$T/term.c" -o "$T/term.o"
+    check "SHADE_STATIC holds what is called" sh -c "! nm '$T/term.o' | grep -q 'shade_.*draw'"
     check "SHADE_STATIC exports nothing" sh -c "test -z \"\$(nm -g '$T/static.o' | awk 'NF == 3')\""
 else
     echo "compile: no nm: what objects need and export is left out"
