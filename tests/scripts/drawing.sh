@@ -85,7 +85,9 @@ bad "depth" $v --depth .png
 bad "id-map" $v --id-map "$T/none"
 bad "needs a value" $v --json
 bad "same name" $v --depth "$T/none.pgm" --id-map "$T/none.pgm"
-bad "same name" $v --json "$T/none.ppm"
+bad "FILE ends in .json" $v --json "$T/none.ppm"
+check "a map of the sheet's name" refused "same name" "$THUMBNAIL" "$T/box.stl" "$T/none.png" $v \
+    --depth "$T/none.png"
 bad "too small" $v --size 60x40
 bad "too small" --views front,back,left,right,top,bottom,iso --dimensions --size 200x600
 bad "No such file" $v --depth "$T/nowhere/none.pgm"

@@ -20,8 +20,8 @@ for file in missing.obj "$T" "$T/empty.obj" "$T/cut.obj" "$T/cut.stl"; do
 done
 mkfifo "$T/slow"
 $dummy - <"$T/slow" & window=$!
-# opened for writing as soon as view has opened it for reading
-{ : >"$T/opened"; exec sleep 600; } >"$T/slow" & writer=$!
+# a comment longer than a pipe holds: once it is written, view is reading
+{ head -c 300000 /dev/zero | tr '\0' '#'; : >"$T/opened"; exec sleep 600; } >"$T/slow" & writer=$!
 soon test -e "$T/opened"
 kill -TERM "$window"
 check "closed while it waits for its file" closed

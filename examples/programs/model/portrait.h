@@ -275,8 +275,9 @@ static inline int portrait_name(const char *name, int *png)
                                           "tiff", "avif", "jxl",  "svg", "hdr", "pgm", NULL };
     const int free_name = !strcmp(name, "-") || save_is_device(name);
     if (model_has_name(name))
-        return complain("%s is a model: the names of pictures end in .ppm or .png (shade-batch "
-                        "draws several models, --views several views of one)", name);
+        return complain("%s is a model: the names of pictures end in .ppm or .png (a call draws "
+                        "one model, --views several views of it; sheets.sh calls it for a "
+                        "folder of models)", name);
     if (save_is_png(name)) *png = 1;
     if (!*png && !free_name && !save_ends_in(name, ppm))
         return complain("%s: the names of pictures end in .ppm or .png", name);

@@ -17,6 +17,7 @@
 static inline int save_ends_in(const char *name, const char *const *endings)
 {
     const char *dot = strrchr(name, '.');
+    if (dot && (dot == name || dot[-1] == '/')) return 0;
     for (; dot && *endings; endings++)
         if (same_name(dot + 1, *endings)) return 1;
     return 0;

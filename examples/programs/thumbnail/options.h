@@ -59,8 +59,8 @@ static int read_options(options *o, int argc, char **argv)
     static const char *const flags[] = { MODEL_FLAGS, "--png", "--ortho",      "--edges",
                                          "--hidden",  "--ids", "--dimensions", NULL };
     static const command c = { "thumbnail", thumbnail_usage, valued, flags, 2, 2,
-                               "; shade-batch draws several models, --views several "
-                               "views of one",
+                               "; a call draws one model, --views several views of "
+                               "it; sheets.sh calls it for a folder of models",
                                take };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
