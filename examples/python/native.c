@@ -663,6 +663,9 @@ int python_weld(const uint32_t *vertex, int count, const float *value, int width
 
 /* ---- files of models ------------------------------------------------------------------------- */
 
+/* Python takes a model for its mesh, which must be what it begins with. */
+typedef char python_mesh_first[offsetof(model, mesh) == 0 ? 1 : -1];
+
 /* Reads an OBJ, STL or PLY file from memory; what stands beside path, which may be NULL, describes
    its surfaces.  name stands in messages, and its end tells the format where there is one.  Returns
    NULL with a sentence in error. */

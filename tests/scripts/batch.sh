@@ -53,7 +53,7 @@ slow="--frames 40 --size 600x400 --out cut"
 for signal in TERM HUP INT KILL; do
     rm -rf cut
     # a job of a shell without job control is deaf to INT
-    env --default-signal=INT "$BATCH" $slow & running=$!
+    env --default-signal=INT,TERM,HUP "$BATCH" $slow & running=$!
     soon test -s cut/00001.ppm
     kill -$signal $running
     wait $running 2>/dev/null

@@ -120,7 +120,7 @@ formats() {
 # The program gets a signal while it reads, which more bytes than a pipe holds tell: a status, a line
 ended() {                       # signal, status, line
     # a job of a shell without job control is deaf to INT and QUIT
-    env --default-signal=INT,QUIT "$THUMBNAIL" - "$T/none.ppm" --max-seconds 60 \
+    env --default-signal=INT,QUIT,HUP,TERM "$THUMBNAIL" - "$T/none.ppm" --max-seconds 60 \
         <"$T/pipe.obj" 2>"$T/err" &
     exec 3>"$T/pipe.obj"
     head -c 200000 /dev/zero >&3

@@ -45,7 +45,6 @@ typedef struct model_part {
 
 /* Zeroed: empty. */
 typedef struct model {
-    double origin[3]; /* of the positions, in the coordinates of the file */
     owned_mesh mesh; /* its chunks are those of the parts, one after the other, not of its view */
     model_surface *surface; /* NULL: the file has no surfaces */
     model_part *part;
@@ -59,6 +58,7 @@ typedef struct model {
     size_t object_room;
     int normals_given; /* each vertex had a normal in the file */
     int z_up, up_told; /* up_told: by the format, not by habit */
+    double origin[3]; /* of the positions, in the coordinates of the file */
     char warning[400]; /* what the picture lacks; "": nothing */
 } model;
 
