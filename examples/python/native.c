@@ -8,6 +8,7 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
+#define MODEL_CENTRED 0    /* Python centres in double, and tells the origin */
 #include "examples/programs/model/files.h"
 #include "examples/shared/bands.h"
 #include "examples/programs/model/look.h"

@@ -268,6 +268,9 @@ static inline int mesh_at_word_end(const mesh_reader *r)
 /* Where positions are counted from: coordinates of surveyors are large beside their model, and
    floats have no digits for both.  0, or the whole number below the first position where that is
    farther than 4096. */
+#ifndef MODEL_CENTRED
+#define MODEL_CENTRED 1    /* 0: for callers that centre what they read by themselves */
+#endif
 typedef struct mesh_origin {
     double at[3];
     int known;
@@ -275,7 +278,7 @@ typedef struct mesh_origin {
 
 static inline void mesh_relative(mesh_origin *o, const double *v, float *out)
 {
-    for (int k = 0; k < 3 && !o->known; k++)
+    for (int k = 0; k < 3 && MODEL_CENTRED && !o->known; k++)
         if (fabs(v[k]) > 4096 && fabs(v[k]) < 1e12) o->at[k] = floor(v[k]);
     o->known = 1;
     for (int k = 0; k < 3; k++) out[k] = (float)(v[k] - o->at[k]);
