@@ -738,6 +738,15 @@ MISTAKE(mipmaps_not_counted)
     mistake_trilinear_without_mipmaps(s);
     s->map.mipmaps = &s->map;
 }
+/* Its last column, (0, 0, 1, 0), is also that of a transposed matrix. */
+MISTAKE(reversed_beside)
+{
+    mistake_beside(s);
+    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 1);
+    s->state.raster.depth_zero_to_one = 1;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
 MISTAKE(chunks_of_half_the_triangles)
 {
     s->mesh.chunks = &s->chunk;
@@ -908,7 +917,7 @@ static const mistake mistakes[] = {
     OF(map_without_texcoords, "mesh.texcoords is NULL"),
     OF(bad_map_without_texcoords, "pixels are NULL"),
     OF(trilinear_without_mipmaps, "no mipmaps"), OF(mipmap_count_without_mipmaps, "no mipmaps"),
-    OF(mipmaps_not_counted, "no mipmaps"),
+    OF(mipmaps_not_counted, "no mipmaps"), OF(reversed_beside, "beside"),
     OF(chunks_of_half_the_triangles, "mesh.chunks sum to fewer"),
     OF(chunks_of_zeros, "mesh.chunks sum to fewer"), OF(aspect_of_a_square, "aspect"),
     OF(aspect_upside_down, "aspect"), OF(view_that_scales, "state.view scales"),
