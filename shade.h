@@ -59,24 +59,24 @@
        >>pixels    2037  formats, sRGB
      Inside: light
        >>lamps     2314  attenuation, cones    >>terms     2588  one term at one point
-       >>surface   2669  material and lights   >>lit       2790  the whole sum, at many points
+       >>surface   2670  material and lights   >>lit       2791  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3195  who owns what         >>vertices  3378  shading, projection
-       >>triangles 3595  dropped, cut, edges   >>clip      3963  near, far, behind the eye
-       >>tiles     4148  pixels, depth test    >>cover     4496  what is hidden, tile by tile
-       >>fragments 4728  interpolation, lod    >>texture   5020  texels, mipmaps
-       >>store     5458  blending, packing
+       >>state     3196  who owns what         >>vertices  3379  shading, projection
+       >>triangles 3596  dropped, cut, edges   >>clip      3964  near, far, behind the eye
+       >>tiles     4149  pixels, depth test    >>cover     4497  what is hidden, tile by tile
+       >>fragments 4729  interpolation, lod    >>texture   5021  texels, mipmaps
+       >>store     5459  blending, packing
      Inside: calls of the renderer
-       >>check     5690  refusals              >>seen      5855  what can be seen, chunks
-       >>drive     5992  shade_draw            >>mesh      6171  shade_draw_mesh
+       >>check     5691  refusals              >>seen      5856  what can be seen, chunks
+       >>drive     5993  shade_draw            >>mesh      6172  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6574  shade_draw_lines      >>shape     6732  normals, edges
-       >>chunks    7062  boxes of triangles    >>rays      7226  shade_pick
-       >>survey    7423  experiments on a draw >>explain   7689  why nothing is seen
-       >>image     8288  mipmaps, PPM           >>presets   8557  classic materials
+       >>lines     6575  shade_draw_lines      >>shape     6733  normals, edges
+       >>chunks    7063  boxes of triangles    >>rays      7227  shade_pick
+       >>survey    7424  experiments on a draw >>explain   7690  why nothing is seen
+       >>image     8289  mipmaps, PPM           >>presets   8558  classic materials
      Sources
-       >>refs      8633                        >>history   8663
-       >>license   8675
+       >>refs      8634                        >>history   8664
+       >>license   8676
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -155,8 +155,8 @@
    and exponents far below 1 show it.
 
    tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
-   variable declared last before such a call must be no int and no float.  SHADE_EACH_LANE takes a
-   64-bit counter there.
+   variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
+   an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
                                                                                           >>types */
 #include <float.h>
 #include <stddef.h>
@@ -2638,9 +2638,10 @@ SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal,
 /* The material of a call that is given none. */
 static shade_material shade__white_lambert(void)
 {
+    const shade_vec3 white = shade_v3(1, 1, 1);     /* before m, for tcc: see >>config */
     shade_material m;
     SHADE__ZERO(m);
-    m.ambient = m.diffuse = shade_v3(1, 1, 1);
+    m.ambient = m.diffuse = white;
     return m;
 }
 
