@@ -1,7 +1,7 @@
 /* explain.c - no sentence of shade_explain is false: see explained.h. */
-#include <math.h>
-
 #include "input.h"
+
+#include <math.h>
 
 static fuzz_input explain_input;
 static int explained_pick(int n)
