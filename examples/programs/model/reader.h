@@ -265,12 +265,13 @@ static inline int mesh_at_word_end(const mesh_reader *r)
         || (*r->at == '\\' && mesh_line_end(r, r->at + 1));
 }
 
-/* Where positions are counted from: coordinates of surveyors are large beside their model, and
-   floats have no digits for both.  0, or the whole number below the first position where that is
-   farther than 4096. */
 #ifndef MODEL_CENTRED
 #define MODEL_CENTRED 1    /* 0: for callers that centre what they read by themselves */
 #endif
+
+/* Where positions are counted from: coordinates of surveyors are large beside their model, and
+   floats have no digits for both.  0, or the whole number below the first position where that is
+   farther than 4096. */
 typedef struct mesh_origin {
     double at[3];
     int known;
