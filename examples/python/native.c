@@ -14,6 +14,7 @@
 #include "examples/programs/model/look.h"
 #include "examples/programs/model/stand.h"
 #include "examples/shared/canvas.h"
+#include "examples/shared/renderer.h"
 
 typedef struct python_item {      /* a mesh in its place */
     shade_mesh mesh;
@@ -731,6 +732,41 @@ int python_part_of(const model *m, int i, python_part *part)
     return m->part_count;
 }
 
+/* ---- cameras of renderer.h ------------------------------------------------------------------- */
+
+SHADEDEF renderer_scene *python_scene_open(void);
+renderer_scene *python_scene_open(void) { return renderer_scene_open(); }
+
+SHADEDEF void python_scene_close(renderer_scene *scene);
+void python_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
+
+SHADEDEF int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh);
+int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh)
+{
+    return renderer_add_mesh(scene, mesh);
+}
+
+SHADEDEF int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
+                                  int faces, int srgb);
+int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
+                         int faces, int srgb)
+{
+    return renderer_add_texture(scene, rgba, width, height, faces, srgb);
+}
+
+SHADEDEF renderer *python_renderer_open(void);
+renderer *python_renderer_open(void) { return renderer_open(); }
+
+SHADEDEF void python_renderer_close(renderer *r);
+void python_renderer_close(renderer *r) { renderer_close(r); }
+
+SHADEDEF int python_renderer_draw(renderer *r, const renderer_scene *scene,
+                                  const renderer_picture *picture);
+int python_renderer_draw(renderer *r, const renderer_scene *scene, const renderer_picture *picture)
+{
+    return (int)renderer_draw(r, scene, picture);
+}
+
 /* The sizes that the twins of these structs must have */
 SHADEDEF size_t python_size(int which);
 size_t python_size(int which)
@@ -739,6 +775,7 @@ size_t python_size(int which)
                                    sizeof(python_item),    sizeof(python_view),
                                    sizeof(shade_lighting), sizeof(shade_texture),
                                    sizeof(shade_light),    sizeof(shade_chunk),
-                                   sizeof(python_part) };
+                                   sizeof(python_part),    sizeof(renderer_object),
+                                   sizeof(renderer_picture) };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

@@ -94,6 +94,27 @@ class View(Structure):
                 ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16)]
 
 
+class Shot(Structure):
+    """renderer_picture"""
+    _fields_ = [*((name, c_int) for name in
+                  ("width", "height", "samples", "channels", "srgb", "solid", "parallel",
+                   "object_count", "light_count", "shadow_light", "shadow_size", "sky",
+                   "sky_texture")),
+                ("near_z", c_float), ("far_z", c_float), ("empty_depth", c_float),
+                ("tolerance", c_float), ("view", c_float * 16), ("projection", c_float * 16),
+                ("background", c_float * 4), ("sky_low", c_float * 3), ("sky_high", c_float * 3),
+                ("ambient", c_float * 3), ("objects", c_void_p), ("lights", c_void_p),
+                ("color", c_void_p), ("depth", c_void_p), ("ids", c_void_p),
+                ("normals", c_void_p)]
+
+
+#: renderer_object
+SOLID = np.dtype([("kind", np.int32), ("mesh", np.int32), ("texture", np.int32),
+                  ("flags", np.int32), ("size", np.float32, 3), ("turn", np.float32, (3, 3)),
+                  ("place", np.float32, 3), ("rgba", np.float32, 4), ("specular", np.float32),
+                  ("shininess", np.float32), ("emission", np.float32), ("repeat", np.float32, 2)])
+
+
 class Chunk(Structure):
     """shade_chunk"""
     _fields_ = [("low", c_float * 3), ("high", c_float * 3), ("first", c_int), ("count", c_int)]
@@ -136,6 +157,13 @@ def _open() -> Any:
             ("python_warning", c_char_p, [POINTER(OwnedMesh)]),
             ("python_upright", c_int, [POINTER(OwnedMesh)]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),
+            ("python_scene_open", c_void_p, []),
+            ("python_scene_close", None, [c_void_p]),
+            ("python_scene_mesh", c_int, [c_void_p, c_void_p]),
+            ("python_scene_texture", c_int, [c_void_p, c_void_p] + 4 * [c_int]),
+            ("python_renderer_open", c_void_p, []),
+            ("python_renderer_close", None, [c_void_p]),
+            ("python_renderer_draw", c_int, 3 * [c_void_p]),
             ("python_size", c_size_t, [c_int]),
             ("shade_result_string", c_char_p, [c_int]),
             ("shade_mesh_normals", c_int, [c_void_p, c_void_p]),
@@ -157,6 +185,8 @@ def _open() -> Any:
     for i, twin in enumerate(twins):
         if library.python_size(i) != ctypes.sizeof(twin):
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
+    if (library.python_size(9), library.python_size(10)) != (SOLID.itemsize, ctypes.sizeof(Shot)):
+        raise ImportError(f"{path} does not belong to this version: renderer_object")
     return library
 
 
