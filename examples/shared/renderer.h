@@ -110,6 +110,7 @@ typedef struct renderer_entry {
     float distance;           /* of its nearest point from the eye, at least */
     float sag;                /* in the unit of the scene */
     int object, key, first;   /* its first triangle in a draw of several */
+    int uneven;               /* normals must be made unit, because it is scaled unevenly */
 } renderer_entry;
 
 /* Places and values of vertices in the world */
@@ -589,6 +590,8 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
     e->object = number;
     e->world = renderer_world(o);
     e->sag = e->lift = 0;
+    e->uneven = (o->kind == RENDERER_MESH || o->kind == RENDERER_ELLIPSOID) &&
+                (o->size[0] != o->size[1] || o->size[0] != o->size[2]);
     switch (o->kind) {
     case RENDERER_MESH: e->shape = &v->scene->meshes[o->mesh]; break;
     case RENDERER_BOX: e->shape = &v->scene->box; break;
@@ -704,7 +707,11 @@ static inline renderer_vertex renderer_vertex_of(const renderer_batch *b, const 
     const shade_vec3 world = renderer_place(e, s->positions + at, k < s->upper);
     renderer_vertex out = { { 0 } };
     renderer_set(out.value, world);
-    renderer_set(out.value + 3, shade_normalize(shade_mat3_transform(normal, n)));
+    renderer_set(out.value + 3, shade_mat3_transform(normal, n));
+    if (e->uneven) {
+        const shade_vec3 unit = shade_normalize(shade_mat3_transform(normal, n));
+        renderer_set(out.value + 3, unit);
+    }
     if (b->texture) {
         const shade_vec3 local = renderer_local(o, world);
         if (b->texture->cube) renderer_set(out.value + 6, local);
@@ -755,29 +762,50 @@ typedef struct renderer_surface {
     int glossy, glows, alike;    /* alike: one shininess for all lanes */
 } renderer_surface;
 
-static inline const renderer_entry *renderer_owner(const renderer_batch *b, uint32_t triangle)
+/* The entries that the lanes' triangles belong to.  Non-zero: all to the first */
+static inline int renderer_find_owners(const renderer_batch *b, const shade_fragments *in,
+                                       uint32_t *owner)
 {
-    return b->entry + (b->owners ? b->owners[triangle] : 0);
+    uint32_t others = 0;
+    if (!b->owners) {
+        memset(owner, 0, SHADE_LANES * sizeof *owner);
+        return 1;
+    }
+    for (int i = 0; i < SHADE_LANES; i++) owner[i] = b->owners[in->primitive[i]];
+    for (int i = 0; i < SHADE_LANES; i++) others |= owner[i] ^ owner[0];
+    return !others;
 }
 
-static inline void renderer_surfaces(const renderer_batch *b, const shade_fragments *in,
+static inline void renderer_surface_of(const renderer_batch *b, const renderer_entry *e,
+                                       renderer_surface *s, int first, int last)
+{
+    const renderer_object *o = &b->v->p->objects[e->object];
+    s->glossy |= o->specular > 0;
+    s->glows |= o->emission > 0;
+    s->alike &= !first || o->shininess == s->shininess[0];
+    for (int k = 0; k < 3; k++)
+        for (int i = first; i < last; i++) s->albedo[k][i] = o->rgba[k];
+    for (int i = first; i < last; i++) s->alpha[i] = o->rgba[3];
+    for (int i = first; i < last; i++) s->shininess[i] = o->shininess;
+    for (int i = first; i < last; i++) s->emission[i] = o->emission;
+    for (int i = first; i < last; i++) s->sag[i] = e->sag;
+    for (int i = first; i < last; i++) s->specular[0][i] = o->specular;
+}
+
+/* Neighbouring lanes mostly belong to one object. */
+static inline void renderer_surfaces(const renderer_batch *b, const uint32_t *owner, int one,
                                      renderer_surface *s)
 {
     s->glossy = s->glows = 0;
     s->alike = 1;
-    for (int i = 0; i < SHADE_LANES; i++) {
-        const renderer_entry *e = renderer_owner(b, in->primitive[i]);
-        const renderer_object *o = &b->v->p->objects[e->object];
-        for (int k = 0; k < 3; k++) s->albedo[k][i] = o->rgba[k];
-        for (int k = 0; k < 3; k++) s->specular[k][i] = o->specular;
-        s->alpha[i] = o->rgba[3];
-        s->shininess[i] = o->shininess;
-        s->emission[i] = o->emission;
-        s->sag[i] = e->sag;
-        s->glossy |= o->specular > 0;
-        s->glows |= o->emission > 0;
-        s->alike &= o->shininess == s->shininess[0];
+    for (int i = 0, end; i < SHADE_LANES; i = end) {
+        end = one ? SHADE_LANES : i + 1;
+        while (end < SHADE_LANES && owner[end] == owner[i]) end++;
+        renderer_surface_of(b, b->entry + owner[i], s, i, end);
     }
+    if (!s->glossy) return;
+    memcpy(s->specular[1], s->specular[0], sizeof s->specular[0]);
+    memcpy(s->specular[2], s->specular[0], sizeof s->specular[0]);
 }
 
 /* Texels of a cube, face by face of those that the lanes look at, with the axis of greatest size
@@ -894,17 +922,19 @@ static inline void renderer_light(const renderer_batch *b, const renderer_surfac
 /* Numbers and normals of pixels.  Fragments come here that passed the depth test, the nearest of a
    pixel last. */
 static inline void renderer_note(const renderer_batch *b, const shade_fragments *in,
-                                 const float (*N)[SHADE_LANES])
+                                 const uint32_t *owner, const float (*N)[SHADE_LANES])
 {
     const renderer_picture *p = b->v->p;
-    for (int i = 0; i < in->count; i++) {
-        const size_t at = (size_t)(int)in->y[i] * (size_t)p->width + (size_t)(int)in->x[i];
-        const renderer_entry *e = renderer_owner(b, in->primitive[i]);
-        if (p->ids) {
-            p->ids[2 * at] = e->object;
-            p->ids[2 * at + 1] = (int32_t)in->primitive[i] - (b->owners ? e->first : 0);
-        }
-        if (p->normals) renderer_set(p->normals + 3 * at, shade_normalize(lane(N[0], i)));
+    for (int i = 0; i < in->count && p->ids; i++) {
+        const int at = (int)in->y[i] * p->width + (int)in->x[i];
+        const renderer_entry *e = b->entry + owner[i];
+        int32_t *id = p->ids + 2 * (size_t)at;
+        id[0] = e->object;
+        id[1] = (int32_t)in->primitive[i] - e->first;
+    }
+    for (int i = 0; i < in->count && p->normals; i++) {
+        const int at = (int)in->y[i] * p->width + (int)in->x[i];
+        renderer_set(p->normals + 3 * (size_t)at, shade_normalize(lane(N[0], i)));
     }
 }
 
@@ -914,15 +944,18 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
     const renderer_batch *b = (const renderer_batch *)uniforms;
     float N[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
     renderer_surface s;
+    uint32_t owner[SHADE_LANES];
+    int one;
     shade_rows rows = { .position = in->varying[0], .normal = N[0] };
     for (int k = 0; k < 3; k++)
         SHADE_EACH_LANE(i) {
             const float n = in->varying[3 + k][i];
             N[k][i] = in->front[i] != (uint32_t)b->mirrored ? n : -n;
         }
-    if (b->notes) renderer_note(b, in, (const float(*)[SHADE_LANES])N);
+    one = renderer_find_owners(b, in, owner);
+    if (b->notes) renderer_note(b, in, owner, (const float(*)[SHADE_LANES])N);
     if (!b->lighting) return;
-    renderer_surfaces(b, in, &s);
+    renderer_surfaces(b, owner, one, &s);
     for (int k = 0; k < 3 && b->colors; k++)
         SHADE_EACH_LANE(i) { s.albedo[k][i] *= in->varying[b->colors + k][i]; }
     if (b->texture) renderer_paint_map(b, in, &s);
@@ -1000,6 +1033,7 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     const uint32_t *indices = e->shape->indices;
     int vertex_count = e->shape->vertex_count, index_count = e->shape->index_count;
     b->entry = e;
+    e->first = 0;
     b->texture = b->lighting && texture >= 0 ? &b->v->scene->textures[texture] : NULL;
     b->uv = b->texture ? 6 : 0;
     b->colors = b->lighting && (key & RENDERER_KEY_COLORS) ? (b->texture ? 9 : 6) : 0;

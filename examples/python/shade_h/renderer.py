@@ -124,8 +124,8 @@ class Renderer:
         self._lamps: Any = None
         self._shadow = -1
         self.shadow_size = 0
-        self._ambient = (0.0, 0.0, 0.0)
-        self._background = (1.0, 1.0, 1.0, 1.0)
+        self._ambient: tuple[float, ...] = (0.0, 0.0, 0.0)
+        self._background: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
         self._sky: tuple[int, int, Any, Any] = (0, -1, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
         self.light([Light.directional((-0.5, 1, -1.2), (0.75, 0.75, 0.75))], (0.25, 0.25, 0.25))
 
@@ -421,6 +421,9 @@ class Renderer:
         made, self._made, self._scene = self._made, [], _Scene()
         self._meshes = self._textures = 0
         for what, *rest in made:
-            (self._keep_mesh if what == "mesh" else self._keep_texture)(*rest)
+            if what == "mesh":
+                self._keep_mesh(*rest)
+            else:
+                self._keep_texture(*rest)
         shadow = None if self._shadow < 0 else self._shadow
         self.light(self._lights, self._ambient, shadow)
