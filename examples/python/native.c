@@ -15,6 +15,7 @@
 #include "examples/programs/model/stand.h"
 #include "examples/shared/canvas.h"
 #include "examples/shared/renderer.h"
+#include "examples/shared/label.h"
 
 typedef struct python_item {      /* a mesh in its place */
     shade_mesh mesh;
@@ -661,6 +662,39 @@ int python_weld(const uint32_t *vertex, int count, const float *value, int width
         index[i] = (uint32_t)at;
     }
     return n;
+}
+
+/* ---- text ------------------------------------------------------------------------------------ */
+
+static float text_glyph(const shade_target *t, int code, float x, float y, float size)
+{
+    const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
+    int k = 0, shape = 0;
+    while (k < glyphs && font_glyphs[k].code != code) k++;
+    if (k == glyphs) k = '?' - ' ';    /* the table begins with those of ASCII */
+    for (int i = 0; i < k; i++)
+        shape += (font_glyphs[i].width * font_glyphs[i].height + 1) / 2;
+    if (t->color) label_glyph(t, &font_glyphs[k], shape, x, y, size / 24, shade_v3(1, 1, 1));
+    return size * (float)font_glyphs[k].advance / 240;
+}
+
+/* Writes text in white from x on, y its baseline, over bytes of RGBA that were 0, so that red tells
+   how much of a pixel is covered; rgba NULL: nowhere.  size is the em in pixels.  Unlike label_set
+   it has no signs for raised letters.  The sign of a diameter is made of O and /, what the font
+   lacks is a question mark.  Returns the width. */
+SHADEDEF float python_text(const char *text, float size, float x, float y, unsigned char *rgba,
+                           int width, int height);
+float python_text(const char *text, float size, float x, float y, unsigned char *rgba, int width,
+                  int height)
+{
+    const shade_target t = { .color = rgba, .width = width, .height = height };
+    const float start = x;
+    while (*text) {
+        const int code = label_code(&text), diameter = code == 0xD8 || code == 0x2300;
+        if (diameter) text_glyph(&t, '/', x + size / 8, y, size);
+        x += text_glyph(&t, diameter ? 'O' : code, x, y, size);
+    }
+    return x - start;
 }
 
 /* ---- files of models ------------------------------------------------------------------------- */

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ._native import Array, Bytes, Error, Run, library, pointer
+from .annotate import display as _display
 from .mesh import Mesh, Surface, origin_of
 from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
@@ -24,13 +25,6 @@ def _copied(address: int | None, count: int, columns: int, kind: Any) -> Any:
         return None
     made = (kind * (count * columns)).from_address(address)
     return np.frombuffer(made, kind).reshape(count, columns).copy()
-
-
-def _display(linear: Any) -> Any:
-    """Display colours, as Mesh takes them, of linear ones."""
-    out = np.where(linear <= 0.0031308, 12.92 * linear,
-                   1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
-    return np.clip(np.nan_to_num(out), 0, 1)
 
 
 # ---- pictures on surfaces ------------------------------------------------------------------------

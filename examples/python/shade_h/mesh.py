@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import warnings
 from dataclasses import dataclass
 from typing import Any, Iterable, Sequence, Union
 
@@ -12,6 +13,7 @@ from . import _arguments as arguments
 from ._native import (Array, Bytes, Chunk, Doubles, Edge, Error, Floats, Indices, Texture, check,
                       library, pointer)
 from ._native import Mesh as NativeMesh
+from .annotate import NONE, Bar, bar_of, sampled
 from .camera import UPRIGHT
 from .light import Material
 
@@ -94,12 +96,18 @@ class Mesh:
     surfaces, a pair of one number a face (0, 1, ...; of triangles or of polygons, as faces has
     them) and a list of Surface, takes the place of texture where there are several.  up is the
     upright axis that views count on, None for z.
+
+    scalars, a number for each vertex or face, take the place of colours: cmap is "viridis",
+    "cool-to-warm", "grey" or colours of one's own, (n, 3), from clim[0] to clim[1], or from the
+    least number to the greatest.  Numbers beyond have the colours of the ends; faces with NaN are
+    grey, and told in a warning.  Pictures show a bar with figures and the title.
     """
 
     def __init__(self, vertices: object, faces: object, *, color: object = None,
                  normals: object = "auto", uv: object = None, texture: object = None,
                  surfaces: tuple[object, Sequence[Surface]] | None = None,
-                 up: str | None = None) -> None:
+                 up: str | None = None, scalars: object = None, cmap: object = "viridis",
+                 clim: object = None, title: str = "") -> None:
         """Refuses arrays of a wrong shape, type or size by their names."""
         exact = arguments.array("vertices", points(vertices), (None, 3))
         self.origin = np.zeros(3)
@@ -112,6 +120,13 @@ class Mesh:
         if not len(self.faces):
             self.faces = self.faces.reshape(0, 3)
         self.up = None if up is None else arguments.choice("up", up, list(UPRIGHT))
+        self.bar: Bar | None = None
+        if scalars is not None:
+            if any(other is not None for other in (color, uv, texture, surfaces)):
+                raise Error("scalars take the place of color, uv, texture and surfaces")
+            color, uv, surfaces = self._take_scalars(scalars, len(np.asarray(_listed(faces))),
+                                                     (cmap, clim, title))
+            faces = self.faces
         order, runs, looks = self._sorted(surfaces, np.asarray(_listed(faces)), texture)
         if order is not None:
             self.faces = np.ascontiguousarray(self.faces[order])
@@ -179,6 +194,34 @@ class Mesh:
         low, high = self.box()
         sides = " x ".join(f"{side:.6g}" for side in high - low)
         return f"<shade_h.Mesh of {len(self.faces)} triangles, {sides}>"
+
+    def _take_scalars(self, scalars: object, rows: int, options: tuple[Any, ...]) -> Any:
+        """Colours by face of numbers by face; of numbers by vertex the place in a map, so that they
+        are mixed before they become colours, and the surfaces with the map."""
+        got = arguments.array("scalars", scalars, (None,)).astype(np.float64)
+        count, faces = len(self.local), len(self.faces)
+        if len(got) not in (count, rows, faces):
+            raise Error(f"scalars must have a number for each of {count} vertices or {rows} faces, "
+                        f"not {len(got)}")
+        self.bar = bar = bar_of(got, *options)
+        if bar.gaps:
+            warnings.warn(f"scalars has {int(np.isnan(got).sum())} NaN: their faces are grey",
+                          stacklevel=4)
+        grey = arguments.color("color", NONE)
+        plain = Surface(Material((0, 0, 0), grey, grey))
+        if len(got) != count:
+            each = bar.place(np.repeat(got, faces // max(rows, 1)) if len(got) == rows else got)
+            number = np.isnan(each).astype(int)
+            tints = sampled(bar.colors, np.nan_to_num(each))
+            tints[number > 0] = 1
+            if faces == count:    # else the rows would be taken for those of vertices
+                self.local = np.concatenate([self.local, self.local[:1]])
+            return tints, None, (number, [Surface(), plain])
+        texture, first, growth = bar.texture()
+        at = bar.place(got)
+        uv = np.stack([first + growth * np.nan_to_num(at), np.full(count, 0.5)], 1)
+        number = np.isnan(at)[self.faces].any(1).astype(int)
+        return None, uv, (number, [Surface(None, texture), plain])
 
     def _take_color(self, color: object) -> bool:
         """Returns whether there is a colour by face."""

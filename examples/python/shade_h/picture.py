@@ -39,6 +39,7 @@ class Picture:
         self.ids = np.full((h, w), -1, np.int32) if ids is None else ids
         self.normals = np.zeros((h, w, 3), np.float32) if normals is None else normals
         self.parts: tuple[Any, ...] = ()
+        self.written: frozenset[int] = frozenset()    # the parts whose text can be seen
 
     @property
     def size(self) -> tuple[int, int]:
@@ -89,6 +90,9 @@ class Picture:
         """A part in words."""
         there, sides = self.ids == number, box[1] - box[0]
         title = f"Part {number}{' ' + part.name if part.name else ''}: "
+        if part.text is not None:
+            there_is = "" if number in self.written else ", not in view"
+            return f"{title}the text {part.text.words!r}{there_is}."
         if part.stroke is not None:
             return f"{title}{len(part.stroke.pairs) // 2} lines or points, {_sides(*box)}."
         words = f"{title}{len(part.mesh.faces)} triangles, {_sides(*box)}, "
@@ -98,6 +102,8 @@ class Picture:
                 f"{depth.min():.6g} to {depth.max():.6g} before the eye"
         else:
             words += "not in view"
+        bar = part.mesh.bar
+        words += f"; {bar.title or 'scalars'} from {bar.low:.6g} to {bar.high:.6g}" if bar else ""
         return words + ("; thin." if sides.min() < 0.01 * sides.max() else ".")
 
     def png(self) -> bytes:

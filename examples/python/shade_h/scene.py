@@ -13,6 +13,7 @@ import numpy as np
 from . import _arguments as arguments
 from ._native import Array, Bytes, Doubles, Error, Floats, Integers, Item, View, check
 from ._native import library, pointer
+from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
 from .camera import UPRIGHT, Camera, Viewpoint, at, fitted, studio
 from .light import Flag, Light, Lighting, Material, Model, preset
 from .mesh import Like, Mesh, mesh as as_mesh, origin_of
@@ -37,6 +38,12 @@ class Stroke:
     color: tuple[float, float, float]
     over: bool
 
+    def put(self, item: Any) -> None:
+        """Hands the lines to an item, which points to them."""
+        item.lines, item.line_points = pointer(self.pairs), len(self.pairs)
+        item.line_width, item.line_color = self.width, (*self.color, 1.0)
+        item.lines_over = self.over
+
 
 @dataclass(frozen=True)
 class Part:
@@ -49,6 +56,8 @@ class Part:
     edges: bool
     two_sided: bool
     stroke: Stroke | None = None
+    ends: Stroke | None = None    # of a dimension
+    text: Text | None = None
 
     @cached_property
     def native(self) -> Any:
@@ -136,6 +145,45 @@ class Scene:
         rows = [arguments.doubles("points", points, (None, 3), finite=True)]
         return self._add_stroke(rows, np.arange(len(rows[0])), 0, color, width, over, name)
 
+    def add_label(self, point: object, text: str, color: Color = "black", size: float = 14.0, *,
+                  over: bool = True, name: str = "") -> int:
+        """Adds text beside a point, which a small square marks, and returns its number.
+
+        size is in pixels.  over=False leaves it out where a part hides the point.  Labels are not
+        drawn into batches.
+        """
+        words, ink = words_of("text", text), arguments.color("color", color)
+        rows = [arguments.doubles("point", point, (3,), finite=True)[None]]
+        number = self._add_stroke(rows, np.arange(1), 0, color, 5.0, over, name)
+        self._write(number, words, ink, size, over, False)
+        return number
+
+    def add_dimension(self, a: object, b: object, text: str | None = None, color: Color = "black",
+                      size: float = 14.0, *, over: bool = True, name: str = "") -> int:
+        """Adds a line between two points with text at its middle, None for their distance, and
+        returns its number.  over=False hides what lies behind parts; the text as add_label does."""
+        ends = [arguments.doubles(what, point, (3,), finite=True)
+                for what, point in (("a", a), ("b", b))]
+        words = f"{float(np.linalg.norm(ends[1] - ends[0])):.6g}" if text is None \
+            else words_of("text", text)
+        ink = arguments.color("color", color)
+        number = self._add_stroke([np.stack(ends)], np.arange(1), 1, color, 1.4, over, name)
+        part = self.parts[number]
+        dots = Stroke(np.repeat(part.mesh.local, 2, 0), 5.0, ink, over)
+        self.parts[number] = replace(part, ends=dots)
+        self._write(number, words, ink, size, over, True)
+        return number
+
+    def _write(self, number: int, words: str, ink: tuple[float, float, float], size: float,
+               over: bool, middle: bool) -> None:
+        """Gives a part its text, at the mean of its points."""
+        part = self.parts[number]
+        shown = np.round(255 * np.asarray(display(np.array(ink))))
+        text = Text(words, part.mesh.local.astype(np.float64).mean(0).astype(np.float32),
+                    (int(shown[0]), int(shown[1]), int(shown[2])),
+                    arguments.number("size", size, 6, 200), over, middle)
+        self.parts[number] = replace(part, text=text)
+
     def _add_stroke(self, rows: list[Doubles], start: Array, step: int, color: Any, width: float,
                     over: bool, name: str) -> int:
         points = np.concatenate(rows) if rows else np.zeros((0, 3))
@@ -151,8 +199,44 @@ class Scene:
             ortho: bool = False) -> Camera:
         """The nearest camera that sees all of the scene from a side."""
         origin, places = self._places(None)
-        return fitted(self._points(places[0]), view, arguments.size("size", size), self._up(up),
-                      ortho, origin=origin)
+        return self._fitted(self._points(places[0]), view, arguments.size("size", size), up, ortho,
+                            origin=origin)
+
+    def _fitted(self, points: Floats, view: Viewpoint, size: tuple[int, int], up: str | None,
+                ortho: bool, **options: Any) -> Camera:
+        """The fitted camera, which leaves the columns of bars free."""
+        room = sum(bar_room(bar, *size) for bar in self._bars())
+        room = min(room, size[0] // 2)
+        made = fitted(points, view, (size[0] - room, size[1]), self._up(up), ortho, **options)
+        if not room:
+            return made
+        projection, share = made.projection.copy(), room / size[0]
+        projection[0] = (1 - share) * projection[0] - share * projection[3]
+        return replace(made, projection=projection)
+
+    def _bars(self) -> list[Any]:
+        """The bars of the parts, those that look alike once."""
+        bars: list[Any] = []
+        for part in self.parts:
+            bar = part.mesh.bar
+            if bar is not None and not any(bar.same(other) for other in bars):
+                bars.append(bar)
+        return bars
+
+    def _annotate(self, picture: Picture, camera: Camera, places: Doubles, origin: Doubles) -> None:
+        """Draws bars and text over a picture."""
+        right = picture.size[0]
+        for bar in self._bars():
+            room = bar_room(bar, *picture.size)
+            if not room or right < room:
+                break
+            draw_bar(picture.rgba, bar, right)
+            right -= room
+        view = camera.view_from(origin).astype(np.float32).astype(np.float64)
+        picture.written = frozenset(
+            number for number, (part, place) in enumerate(zip(self.parts, places))
+            if part.text is not None and write_text(picture.rgba, picture.depth, part.text,
+                                                    view @ place, camera.projection))
 
     def _up(self, up: str | None) -> str:
         """The upright axis: what the caller says, or that of the first part that knows one."""
@@ -203,8 +287,8 @@ class Scene:
         origin, places = self._places(None)
         points = self._points(places[0]) if soft or fit else None
         if points is not None and not isinstance(camera, Camera):
-            camera = fitted(points, camera, (width, height), self._up(up), ortho,
-                            room=1.5 if soft else 0.0, origin=origin)
+            camera = self._fitted(points, camera, (width, height), up, ortho,
+                                  room=1.5 if soft else 0.0, origin=origin)
         camera = at(camera)
         many = arguments.integer("samples", samples, 1, 8)
         _small_enough(width, height, many)
@@ -224,6 +308,7 @@ class Scene:
                    soft)
         made = Picture(rgba, depth, ids, normals)
         made.parts = tuple(self.parts)
+        self._annotate(made, camera, places[0], origin)
         if fit and made.blank and any(part.stroke is None for part in self.parts):
             warnings.warn(f"nothing of {self!r} can be seen: {self._why_blank()}", stacklevel=2)
         return made
@@ -309,16 +394,16 @@ class Scene:
                 item = Item.from_buffer_copy(native)
                 item.id, item.state.model = number, tuple(place.T.reshape(-1))
                 if part.stroke is not None:
-                    stroke = part.stroke
-                    item.lines, item.line_points = pointer(stroke.pairs), len(stroke.pairs)
-                    item.line_width, item.line_color = stroke.width, (*stroke.color, 1.0)
-                    item.lines_over = stroke.over
+                    part.stroke.put(item)
                 elif part.edges and not i:
                     lines = _lines(part, camera, place, origin)
                     item.lines, item.line_points = pointer(lines), len(lines)
                     item.line_width, item.line_color = 1.4, (*INK, 1.0)
                     kept.append(lines)
                 (clear if item.blended else solid).append(item)
+                if part.ends is not None:
+                    solid.append(Item.from_buffer_copy(item))
+                    part.ends.put(solid[-1])
         kept += [solid, clear]
         return (Item * (len(solid) + len(clear)))(*solid, *clear), kept
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from . import _arguments as arguments
 from ._native import Array, Bytes, Doubles, Error
+from .annotate import display
 from .light import Material
 from .mesh import Mesh, Surface
 
@@ -154,8 +155,7 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
     options["normals"] = np.concatenate([
         kept[:, :, at[0]:at[1]], np.broadcast_to(normal, cap.shape)]).reshape(-1, 3)
     if mesh.colors is not None:
-        from .files import _display
-        options["color"] = _display(np.concatenate([
+        options["color"] = display(np.concatenate([
             kept[:, :, at[1]:at[2]], np.ones(cap.shape)]).reshape(-1, 3))
     tint = mesh.color or arguments.color("color", "clay")
     looks = [Surface(piece.surface.material, piece.texture, piece.surface.blend,
@@ -164,5 +164,6 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
     numbers = np.concatenate([number[whence], np.full(len(cap), len(mesh.pieces))])
     made = Mesh(points + mesh.origin, np.arange(len(points)).reshape(-1, 3), up=mesh.up,
                 surfaces=(numbers, looks), **options)
+    made.bar = mesh.bar
     made.color, made.edged = mesh.color, len(kept)    # the cut's outline is a boundary
     return made

@@ -14,11 +14,13 @@ def test_the_blocks_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = {}
     blocks = re.findall(r"```python\n(.*?)```", (HERE / "README.md").read_text("utf-8"), re.S)
-    assert len(blocks) == 6
+    assert len(blocks) == 7
     for block in blocks:
         exec(compile(block, "README.md", "exec"), names)
     assert names["light"].shape == (1000, 3) and names["rgb"].shape == (8, 48, 64, 3)
     assert shade.Picture.open("gear.png") == shade.Picture.open(HERE / "picture.png")
+    stress = shade.Picture.open("stress.png")
+    assert stress.size == (640, 480) and np.ptp(stress.rgba[:, 560:, 0]) > 200
     for name in shade.__all__:
         assert name in ("Error", "fitted", "VIEWS", "PRESETS", "Part", "load") or \
             getattr(shade, name).__doc__, name
