@@ -442,9 +442,39 @@ f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n' >"$T/few.obj
     check "as those of faces are" "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.2
 }
 
+# Two boxes, one on the other, of 12 n^2 triangles each.  A large model is sorted and lit by ways of
+# its own, and looks like a small one.
+boxes() {                       # n
+    awk -v n="$1" 'BEGIN {
+        print "ply\nformat ascii 1.0\nelement vertex " 12 * (n + 1) ^ 2
+        print "property float x\nproperty float y\nproperty float z\nelement face " 24 * n * n
+        print "property list uchar int vertex_indices\nend_header"
+        for (box = 0; box < 2; box++) for (side = 0; side < 6; side++)
+            for (i = 0; i <= n; i++) for (j = 0; j <= n; j++) {
+                a = side % 3; sign = side < 3 ? 1 : -1
+                p[a] = sign; p[(a + 1) % 3] = 2 * i / n - 1; p[(a + 2) % 3] = sign * (2 * j / n - 1)
+                size = box ? 0.4 : 1
+                printf "%.6f %.6f %.6f\n", size * p[0], size * p[1] + box * 1.4, size * p[2]
+            }
+        for (f = 0; f < 12; f++) for (i = 0; i < n; i++) for (j = 0; j < n; j++) {
+            c = (f * (n + 1) + i) * (n + 1) + j
+            print 3, c, c + n + 1, c + n + 2; print 3, c, c + n + 2, c + 1
+        }
+    }'
+}
+large() {
+    boxes 4 >"$T/few.ply"
+    boxes 100 >"$T/many.ply"
+    same "a large model as a small one" few.ply many.ply 8
+    check "in the mean of a picture" "$T/look" near "$T/a.ppm" "$T/b.ppm" 0.02
+    check "the large one by one thread" draw many.ply one.ppm --threads 1
+    check "has the same bits" cmp "$T/one.ppm" "$T/b.ppm"
+}
+
 both() {
     bombs
     creases
+    large
     surveyed
     upright
     formats

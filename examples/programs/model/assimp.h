@@ -387,7 +387,8 @@ static int tree_finish(tree *t, model *m)
     if (faces_finish(&t->faces, m)) return mesh_fail(t->reader, "out of memory");
     mesh_link(mesh, vertices, 3 * (int)t->faces.triangles);
     m->normals_given = !t->lacks_normals;
-    if (t->lacks_normals && mesh_fill_normals(mesh)) return mesh_fail(t->reader, "out of memory");
+    if (t->lacks_normals && mesh_fill_normals(mesh, 0))
+        return mesh_fail(t->reader, "out of memory");
     return 0;
 }
 

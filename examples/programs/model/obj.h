@@ -208,7 +208,7 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);
     memcpy(out->origin, o->origin.at, sizeof out->origin);
     out->normals_given = !missing;
-    return missing && mesh_fill_normals(m) ? mesh_fail(r, "out of memory") : 0;
+    return missing && mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
 }
 
 static inline int obj_read(mesh_reader *r, model *m)

@@ -334,7 +334,7 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
     mesh_link(m, (int)n, 3 * (int)p->faces.triangles);
     memcpy(out->origin, p->origin.at, sizeof out->origin);
     out->normals_given = !missing;
-    return missing && mesh_fill_normals(m) ? mesh_fail(r, "out of memory") : 0;
+    return missing && mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
 }
 
 static inline int ply_read(mesh_reader *r, model *m)

@@ -91,6 +91,29 @@ static inline stand_end stand_bottom(const owned_mesh *m, int up, const float *l
     return stand_look(m, k, up < 3 ? -1 : 1, (double)(up < 3 ? low : high)[k], near, box);
 }
 
+/* Copies the triangles that have a corner near an end of the box, of which alone stand_bottom asks;
+   the caller frees the indices, which are NULL where memory is out. */
+static inline owned_mesh stand_ends(const owned_mesh *m, const float *low, const float *high)
+{
+    owned_mesh ends = *m;
+    uint32_t *to = (uint32_t *)malloc(((size_t)m->view.index_count + 1) * sizeof *to);
+    int count = 0;
+    for (int i = 0; i < m->view.index_count && to; i += 3) {
+        int inside = 0;
+        for (int c = 0; c < 9 && !inside; c++) {
+            const int k = c % 3;
+            const float p = m->positions[3 * (size_t)m->indices[i + c / 3] + (size_t)k];
+            const float near = 0.021f * (high[k] - low[k]);
+            inside = p - low[k] <= near || high[k] - p <= near;
+        }
+        if (inside) memcpy(to + count, m->indices + i, 3 * sizeof *to);
+        if (inside) count += 3;
+    }
+    ends.indices = to;
+    mesh_link(&ends, m->view.vertex_count, count);
+    return ends;
+}
+
 /* The upright axis, 0 .. 5: the usual one, unless the model cannot stand on it, but stands on
    another on small feet around a wide rectangle, and is narrow above.  A large flat face says
    nothing, because much leans on a wall or hangs on it.  Files are not upside down.  Of 1484 real
@@ -99,6 +122,7 @@ static inline int stand_guess(const owned_mesh *m, int usual)
 {
     float low[3] = { 1e38f, 1e38f, 1e38f }, high[3] = { -1e38f, -1e38f, -1e38f };
     stand_end end[6];
+    owned_mesh ends;
     double best = 0.3;
     int guess = usual;
     for (int i = 0; i < m->view.vertex_count; i++) {
@@ -107,7 +131,10 @@ static inline int stand_guess(const owned_mesh *m, int usual)
             high[k] = fmaxf(high[k], m->positions[3 * (size_t)i + (size_t)k]);
         }
     }
-    for (int up = 0; up < 6; up++) end[up] = stand_bottom(m, up, low, high);
+    ends = stand_ends(m, low, high);
+    if (!ends.indices) return usual;
+    for (int up = 0; up < 6; up++) end[up] = stand_bottom(&ends, up, low, high);
+    free(ends.indices);
     for (int up = 0; up < 6; up++) {
         const stand_end base = end[up], top = end[(up + 3) % 6];
         const int feet = base.flat >= 0.01 && base.flat <= base.wide / 10;

@@ -148,7 +148,7 @@ static inline int stl_read(mesh_reader *r, model *out)
             memcpy(m->positions + 3 * i, &s.places.triple[i], 3 * sizeof(float));
         mesh_link(m, (int)n, (int)s.indices.count);
         memcpy(out->origin, s.origin.at, sizeof out->origin);
-        failed = !m->positions || !m->normals || mesh_fill_normals(m);
+        failed = !m->positions || !m->normals || mesh_fill_normals(m, 1);
         if (failed) mesh_fail(r, "out of memory");
     }
     free(s.places.triple);

@@ -236,14 +236,105 @@ static shade_result studio_draw_maps(studio *s, const model *m, int first, int t
     return SHADE_OK;
 }
 
+/* ---- a coarser mesh -------------------------------------------------------------------------- */
+
+/* Maps of 256 x 256 texels cannot show what is smaller.  All vertices of a cell as large as a texel
+   become one, at their mean; triangles with two corners in a cell vanish.  Of 2 million triangles
+   of a sphere 0.4 are left. */
+enum { STUDIO_LARGE = 200000 }; /* triangles */
+
+static int studio_may_thin(const model *m)
+{
+    for (int i = 0; i < m->surface_count; i++)
+        if (m->surface[i].alpha_cutoff > 0) return 0; /* its map would be needed */
+    return m->mesh.view.index_count / 3 > STUDIO_LARGE;
+}
+
+/* The cell of each vertex; *mean becomes four floats a cell: the mean position, and a count.  NULL:
+   out of memory */
+static uint32_t *studio_cells(const owned_mesh *m, float **mean, size_t *count)
+{
+    static const mesh_set empty;
+    const size_t n = (size_t)m->view.vertex_count;
+    const float scale = 128 / STUDIO_REACH;
+    mesh_set set = empty;
+    uint32_t *cell = (uint32_t *)malloc((n + 1) * sizeof *cell);
+    int failed = !cell;
+    for (size_t i = 0; i < n && !failed; i++) {
+        mesh_triple t;
+        for (size_t k = 0; k < 3; k++)
+            t.k[k] = (uint32_t)((m->positions[3 * i + k] + STUDIO_REACH) * scale);
+        failed = mesh_set_add(&set, t, &cell[i]);
+    }
+    *count = set.count;
+    *mean = failed ? NULL : (float *)calloc(set.count + 1, 4 * sizeof **mean);
+    for (size_t i = 0; i < n && *mean; i++) {
+        float *to = *mean + 4 * (size_t)cell[i];
+        for (size_t k = 0; k < 3; k++)
+            to[k] += (m->positions[3 * i + k] - to[k]) / (to[3] + 1);
+        to[3] += 1;
+    }
+    free(set.triple);
+    free(set.slot);
+    if (*mean) return cell;
+    free(cell);
+    return NULL;
+}
+
+static void studio_thin_free(model *thin)
+{
+    free(thin->mesh.positions);
+    free(thin->mesh.indices);
+    free(thin->part);
+}
+
+/* Makes *thin such a copy, for studio_thin_free; it has the surfaces of the other.  Returns 1 where
+   memory is out. */
+static int studio_thin(model *thin, const model *m)
+{
+    const size_t corners = (size_t)m->mesh.view.index_count;
+    static const owned_mesh none;
+    size_t cells = 0;
+    float *mean = NULL;
+    uint32_t *cell = studio_cells(&m->mesh, &mean, &cells);
+    int count = 0;
+    *thin = *m;
+    thin->mesh = none;
+    thin->mesh.positions = mean;
+    thin->mesh.indices = (uint32_t *)malloc((corners + 1) * sizeof(uint32_t));
+    thin->part = (model_part *)malloc(((size_t)m->part_count + 1) * sizeof *thin->part);
+    if (!cell || !thin->mesh.indices || !thin->part) {
+        free(cell);
+        return 1;
+    }
+    for (int i = 0; i < m->part_count; i++) {
+        const model_part *part = &m->part[i];
+        thin->part[i] = (model_part){ count, 0, part->surface, 0, 0 };
+        for (int t = part->first; t < part->first + part->count; t += 3) {
+            const uint32_t *corner = m->mesh.indices + t;
+            const uint32_t a = cell[corner[0]], b = cell[corner[1]], c = cell[corner[2]];
+            if (a == b || b == c || c == a) continue;
+            thin->mesh.indices[count++] = a;
+            thin->mesh.indices[count++] = b;
+            thin->mesh.indices[count++] = c;
+        }
+        thin->part[i].count = count - thin->part[i].first;
+    }
+    for (size_t i = 0; i < cells; i++) memmove(mean + 3 * i, mean + 4 * i, 3 * sizeof *mean);
+    mesh_link(&thin->mesh, (int)cells, count);
+    free(cell);
+    return 0;
+}
+
 /* Draws all maps for a picture whose longer edge has so many pixels.  There are fewer for large
-   models, because each map draws the whole model, and for small pictures, which show less. */
-static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
-                                mesh_progress *progress, void *user)
+   models, because each map draws the whole model, and for small pictures, which show less: all maps
+   of the sky together draw so many corners, but there are 12 at least. */
+static shade_result studio_open_for(studio *s, const model *m, double corners, int pixels,
+                                    float turn, int threads, mesh_progress *progress, void *user)
 {
     const int most = pixels <= 128 ? 24 : pixels <= 256 ? 40 : STUDIO_SKY;
     const int sky_size = pixels <= 128 ? 128 : 256, key_size = 2 * sky_size;
-    double draws = 40e6 / (double)m->mesh.view.index_count;
+    double draws = corners / (double)m->mesh.view.index_count;
     int sky = draws > most ? most : draws > 12 ? (int)draws : 12;
     int key = draws > most ? STUDIO_KEY * most / STUDIO_SKY : 4;
     size_t sky_texels = (size_t)sky_size * (size_t)sky_size, key_texels = 4 * sky_texels;
@@ -260,6 +351,21 @@ static shade_result studio_open(studio *s, const model *m, int pixels, float tur
                     : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
     }
     return studio_draw_maps(s, m, 0, threads, progress, user);
+}
+
+/* Opens the studio of a model, by the coarser copy of a large one, which has taken a fifth of the
+   time already. */
+static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
+                                mesh_progress *progress, void *user)
+{
+    shade_result result = SHADE_ERROR_CAPACITY;
+    model thin;
+    if (!studio_may_thin(m))
+        return studio_open_for(s, m, 40e6, pixels, turn, threads, progress, user);
+    if (!studio_thin(&thin, m))
+        result = studio_open_for(s, &thin, 16e6, pixels, turn, threads, progress, user);
+    studio_thin_free(&thin);
+    return result;
 }
 
 /* Turns the lamps about the model; those of the sky stay, so that its light does not flicker. */
