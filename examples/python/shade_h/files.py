@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from . import cloud
 from ._native import Array, Bytes, Error, Run, library, pointer
 from .annotate import display as _display
 from .mesh import Mesh, Surface, origin_of
@@ -246,6 +247,11 @@ def _any(data: bytes, name: str, path: bytes | None) -> Any:
         if data[:4] == b"PK\x03\x04" or name.lower().endswith(".3mf"):
             from . import threemf
             return threemf.read(data)
+        if name.lower().endswith(".off") or cloud.is_off(data):
+            return cloud.read_off(data)
+        points = cloud.ply_points(data) if data[:3] == b"ply" else None
+        if points is not None:
+            return (points[0], None), points[1]
     except Error as why:
         raise Error(f"{name}: {why}") from None
     made = _read(data, name, path)
@@ -255,8 +261,8 @@ def _any(data: bytes, name: str, path: bytes | None) -> Any:
 # ---- all -----------------------------------------------------------------------------------------
 
 def load(path: Any, **options: Any) -> Mesh:
-    """Reads an STL (binary or text), OBJ, PLY, GLB, glTF or 3MF file: a path, or a file open for
-    bytes.  options are those of Mesh.  All that a file shows is one mesh.
+    """Reads an STL (binary or text), OBJ, PLY, OFF, GLB, glTF or 3MF file: a path, or a file open
+    for bytes.  options are those of Mesh.  All that a file shows is one mesh.
 
     Without a color or texture of their own meshes have those of the file: colours by vertex or
     face, the diffuse colours, pictures and transparency of OBJ's MTL, the materials of glTF as
@@ -276,4 +282,7 @@ def load(path: Any, **options: Any) -> Mesh:
     plain = any(options.get(k) is not None for k in ("color", "texture", "surfaces"))
     if plain:
         found = {"up": found["up"]}
+    if faces is None:
+        vertices, faces, options = cloud.balls(vertices, {**found, **options})
+        found = {}
     return Mesh(vertices, faces, **{**found, **options})

@@ -15,6 +15,7 @@ from ._native import (Array, Bytes, Chunk, Doubles, Edge, Error, Floats, Indices
 from ._native import Mesh as NativeMesh
 from .annotate import NONE, Bar, bar_of, sampled
 from .camera import UPRIGHT
+from .cloud import balls
 from .light import Material
 
 CREASE_TRIANGLES = 200_000
@@ -430,7 +431,8 @@ def _visual(mesh: Any, count: tuple[int, int]) -> dict[str, Any]:
 
 def mesh(value: Like, **options: Any) -> Mesh:
     """Makes a Mesh of a path, of a pair (vertices, faces), of an object with .vertices and .faces
-    (trimesh), or of one with .tessellate (cadquery, build123d).  options are those of Mesh."""
+    (trimesh), or of one with .tessellate (cadquery, build123d); of points alone, (n, 3), small
+    balls.  options are those of Mesh."""
     if isinstance(value, Mesh) and not options:
         return value
     if isinstance(value, Mesh):
@@ -440,6 +442,9 @@ def mesh(value: Like, **options: Any) -> Mesh:
         return load(value, **options)
     if isinstance(value, (tuple, list)) and len(value) == 2:
         return Mesh(value[0], value[1], **options)
+    if isinstance(value, np.ndarray) and value.ndim == 2:
+        corners, triangles, more = balls(value, options)
+        return Mesh(corners, triangles, **more)
     shape = value.val() if callable(getattr(value, "val", None)) else value
     faces = getattr(shape, "faces", None)
     if callable(getattr(shape, "tessellate", None)) and (faces is None or callable(faces)):

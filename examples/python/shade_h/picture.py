@@ -112,20 +112,29 @@ class Picture:
         rows = self.rgba[:, :, :3] if opaque else self.rgba
         return _encode(np.ascontiguousarray(rows), opaque)
 
+    def ppm(self) -> bytes:
+        """The bytes of a PPM file (P6), which cannot be transparent."""
+        if not (self.rgba[:, :, 3] == 255).all():
+            raise Error("path: PPM has no alpha: save a .png, or draw with a background")
+        width, height = self.size
+        return b"P6\n%d %d\n255\n" % (width, height) + self.rgba[:, :, :3].tobytes()
+
     def _repr_png_(self) -> bytes:
         """Shows the picture in a notebook."""
         return self.png()
 
     def save(self, path: Any) -> None:
-        """Writes a PNG file, which appears whole or not at all; or its bytes into a file that is
-        open for them.  A path must end in .png, so that no model is taken for a picture."""
+        """Writes a PNG or, where the path ends in .ppm, a PPM file, which appears whole or not at
+        all; or the bytes of a PNG file into a file that is open for them.  A path must end in .png
+        or .ppm, so that no model is taken for a picture."""
         if callable(getattr(path, "write", None)):
             path.write(self.png())
             return
-        target = png_path("path", path)
+        target = png_path("path", path, ".ppm")
+        data = self.ppm() if target.suffix.lower() == ".ppm" else self.png()
         beside = target.with_name(f"{target.name}.{os.getpid()}.part")
         try:
-            beside.write_bytes(self.png())
+            beside.write_bytes(data)
             os.replace(beside, target)
         except ValueError as why:
             raise Error(f"path: {why}") from None
@@ -196,14 +205,16 @@ def read_file(path: Any, most: int) -> bytes:
         return opened.read(there.st_size)
 
 
-def png_path(name: str, path: Any) -> Path:
-    """A path that ends in .png, in small or capital letters."""
+def png_path(name: str, path: Any, other: str = ".png") -> Path:
+    """A path that ends in .png or in another ending, in small or capital letters."""
     try:
         target = Path(os.fsdecode(path))
     except TypeError:
         raise Error(f"{name} must be a path, not {shown(path)}") from None
-    if target.suffix.lower() != ".png":
-        raise Error(f"{name} must end in .png, because a PNG file is written, not {target.name!r}")
+    if target.suffix.lower() not in (".png", other):
+        also = f" or {other}" if other != ".png" else ""
+        raise Error(f"{name} must end in .png{also}, which tells what is written, "
+                    f"not {target.name!r}")
     return target
 
 

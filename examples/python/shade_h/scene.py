@@ -508,7 +508,8 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
     """Draws a mesh, seen from a side by a camera that is fitted to it.
 
     Pass vertices and faces, or a mesh alone: a path, a file, a shade_h.Mesh, an object of trimesh,
-    cadquery or build123d, or a list of these, whose places in it are their ids.  view is "front",
+    cadquery or build123d, points (n, 3), which become small balls, or a list of these, whose places
+    in it are their ids.  view is "front",
     "right", "back", "left", "top", "bottom", "iso" or (azimuth, elevation) in degrees.  light is
     "quick", three lamps beside the camera, or "studio", soft shadows that take longer.  section
     cuts away what lies beyond a plane, and hatches the cut: "x", "y" or "z" through the middle,

@@ -37,9 +37,9 @@ def test_the_command_writes_no_picture_over_a_model(tmp_path, words):
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before
 
 
-def test_a_picture_is_saved_under_names_that_end_in_png_alone(tmp_path):
+def test_a_picture_is_saved_under_names_that_end_in_png_or_ppm_alone(tmp_path):
     got = shade.render(VERTICES, FACES, **SMALL)
-    for name in ("x.jpg", "x", "x.stl", "x.png.obj", b"x.ppm"):
+    for name in ("x.jpg", "x", "x.stl", "x.png.obj", b"x.pgm"):
         with pytest.raises(shade.Error, match="must end in .png"):
             got.save(name if isinstance(name, bytes) else tmp_path / name)
     with pytest.raises(shade.Error, match="must end in .png"):
