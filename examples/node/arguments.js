@@ -112,6 +112,21 @@ export function rows(name, value, width) {
     return got instanceof Float32Array ? got : Float32Array.from(got);
 }
 
+/** Numbers as they are, so many a row: in double where they are not floats already. */
+export function doubles(name, value, width) {
+    const got = numbers(name, value);
+    if (got.length % width) {
+        throw new ShadeError(`${name} must hold ${width} numbers a row, not ${got.length} in all`);
+    }
+    return got instanceof Float32Array ? got : Float64Array.from(got);
+}
+
+/** 4 x 4 by columns, in double, of numbers that fit floats. */
+export function matrix(name, value) {
+    vector(name, value, 16);
+    return Float64Array.from(value);
+}
+
 /** Floats that are finite. */
 export function vector(name, value, length) {
     const got = rows(name, value, 1);
@@ -188,10 +203,11 @@ const LAMP = ["position", "color", "diffuse", "specular", "ambient", "constant",
 
 /** A lamp as the words of shade_light. */
 function lamp(name, value) {
-    const got = record(name, value, LAMP), row = new Float32Array(21);
+    const got = record(name, value, LAMP), row = new Float64Array(21);
     const put = (at, key, given, length = 3) => row.set(vector(`${name}.${key}`, given, length), at);
     const { color: own = [1, 1, 1], ambient = [0, 0, 0], spotDirection = [0, 0, 0] } = got;
     put(0, "position", got.position, 4);
+    row.set(got.position);    // in double, as meshes are far away
     put(4, "ambient", ambient);
     put(7, "diffuse", got.diffuse ?? own);
     put(10, "specular", got.specular ?? own);

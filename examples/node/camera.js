@@ -1,5 +1,5 @@
 // Cameras: a view from the world and a projection, as matrices of WebGL, by columns.
-import { ShadeError, choice, flag, isArray, record, vector } from "./arguments.js";
+import { ShadeError, choice, flag, isArray, matrix, record, vector } from "./arguments.js";
 
 // Azimuth and elevation in degrees of the views that have names
 const VIEWS = {
@@ -36,6 +36,53 @@ function direction(view, up) {
     const head = [-Math.sin(a) * Math.sin(e), Math.cos(a) * Math.sin(e), Math.cos(e)];
     const turned = (v) => choice("up", up, ["y", "z"]) === "y" ? [v[0], v[2], -v[1]] : v;
     return [turned(back), turned(head)];
+}
+
+/** From where coordinates in a box are counted, so that floats keep their digits: zero, or for a box
+    far away a round number near it, of which doubles subtract without rounding. */
+export function originOf(low, high) {
+    const middle = low.map((x, k) => (x + high[k]) / 2);
+    const extent = Math.max(...low.map((x, k) => high[k] - x));
+    const far = Math.max(...middle.map(Math.abs));
+    if (!Number.isFinite(far) || !Number.isFinite(extent) || far <= 16 * extent) return [0, 0, 0];
+    const step = extent > 0 ? Number(`1e${Math.ceil(Math.log10(extent))}`) : 1;
+    return middle.map((x) => {
+        const half = x / step, whole = Math.round(half);    // ties go to even numbers, as in NumPy
+        return (whole - half === 0.5 && whole % 2 ? whole - 1 : whole) * step;
+    });
+}
+
+/** The box around the rows that are finite and fit floats; marks leaves others out. */
+export function boxOf(rows, marks) {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < rows.length; i += 3) {
+        const most = Math.max(Math.abs(rows[i]), Math.abs(rows[i + 1]), Math.abs(rows[i + 2]));
+        if (!(most <= 1e30) || (marks && !marks[i / 3])) continue;
+        for (let k = 0; k < 3; k++) {
+            low[k] = Math.min(low[k], rows[i + k]);
+            high[k] = Math.max(high[k], rows[i + k]);
+        }
+    }
+    return low[0] <= high[0] ? [low, high] : [[0, 0, 0], [0, 0, 0]];
+}
+
+/** The meshes in a world that counts from an origin: { origin, placed }. */
+export function placed(meshes) {
+    let low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    const own = meshes.map(({ pose: m, origin: o, reach }) => {
+        const out = Float64Array.from(m);
+        for (let k = 0; k < 3; k++) out[12 + k] += m[k] * o[0] + m[4 + k] * o[1] + m[8 + k] * o[2];
+        const scale = Math.max(...[0, 1, 2, 4, 5, 6, 8, 9, 10].map((k) => Math.abs(m[k])));
+        const middle = [out[12], out[13], out[14]];
+        low = middle.map((x, k) => Math.min(low[k], x - scale * reach));
+        high = middle.map((x, k) => Math.max(high[k], x + scale * reach));
+        return out;
+    });
+    const origin = meshes.length ? originOf(low, high) : [0, 0, 0];
+    return { origin, placed: meshes.map((mesh, i) => {
+        own[i].set(origin.map((x, k) => own[i][12 + k] - x), 12);
+        return { mesh, positions: mesh.positions, used: mesh.used, pose: own[i] };
+    }) };
 }
 
 /** 4 x 4 by columns, of three rows and a translation. */
@@ -155,10 +202,10 @@ export function studio(meshes, { view }, up) {
     return rigid(turn, turn.map((row) => -dot(row, middle)));
 }
 
-/** The camera that a caller describes by its matrices. */
-export function given(value) {
+/** The camera that a caller describes by its matrices, in a world that counts from an origin. */
+export function given(value, origin) {
     const { view, projection } = record("view", value, ["view", "projection"]);
-    const camera = { view: vector("view.view", view, 16),
+    const camera = { view: matrix("view.view", view),
                      projection: vector("view.projection", projection, 16) };
     const rows = [0, 1, 2].map((k) => [camera.view[k], camera.view[4 + k], camera.view[8 + k]]);
     const last = [3, 7, 11].every((k) => camera.view[k] === 0) && camera.view[15] === 1;
@@ -166,6 +213,8 @@ export function given(value) {
     if (!last || Math.max(...apart.flat()) > 1e-3) {
         throw new ShadeError("view.view must be a rotation and a translation, without scale");
     }
+    for (let k = 0; k < 3; k++) camera.view[12 + k] += dot(rows[k], origin);
+    camera.view = Float32Array.from(camera.view);
     return camera;
 }
 

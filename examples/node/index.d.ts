@@ -24,7 +24,8 @@ export interface Texture { data: Numbers; width: number; height: number; }
 
 /** What a mesh is made of.  Arrays are copied. */
 export interface MeshSource {
-    /** x, y, z of each vertex.  Triangles with NaN or infinity are left out. */
+    /** x, y, z of each vertex; in double they may lie anywhere.  Triangles with NaN or infinity are left
+        out. */
     positions: Numbers;
     /** Three a triangle, counter-clockwise from outside; default 0, 1, 2, ... */
     indices?: Numbers;

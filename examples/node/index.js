@@ -1,6 +1,6 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
-import { eyeOf, fitted, given, studio, used } from "./camera.js";
+import { boxOf, eyeOf, fitted, given, originOf, placed, studio, used } from "./camera.js";
 import encoded from "./module.js";
 import { Picture } from "./picture.js";
 
@@ -127,12 +127,18 @@ export class Mesh {
         if (source === undefined) throw new ShadeError("mesh must be an object with positions");
         const got = check.record("mesh", source, MESH_OPTIONS);
         const { normals = "auto", color, colors, edges = false, twoSided = true } = got;
-        this.positions = check.rows("positions", got.positions, 3).slice();
+        const exact = check.doubles("positions", got.positions, 3);
+        this.origin = exact instanceof Float64Array ? originOf(...boxOf(exact)) : [0, 0, 0];
+        this.positions = Float32Array.from(exact);
+        if (this.origin.some((x) => x !== 0)) {
+            for (let i = 0; i < exact.length; i++) this.positions[i] = exact[i] - this.origin[i % 3];
+        }
         const vertices = this.positions.length / 3, sentence = text(library.words(INDEX));
         this.indices = check.indices("indices", got.indices, vertices, sentence).slice();
         this.used = used(this);
+        this.reach = Math.max(...boxOf(this.positions, this.used).flat().map(Math.abs)) * Math.sqrt(3);
         warn(this);
-        this.pose = got.pose === undefined ? IDENTITY : check.vector("pose", got.pose, 16);
+        this.pose = got.pose === undefined ? IDENTITY : check.matrix("pose", got.pose);
         this.edges = check.flag("edges", edges);
         this.twoSided = check.flag("twoSided", twoSided);
         const plain = color === undefined ? null : linear(check.color("color", color));
@@ -213,13 +219,13 @@ function quick({ view }) {
 }
 
 function writeItems(at, meshes, camera) {
-    meshes.forEach((mesh, i) => {
-        const start = at + 4 * ITEM * i, from = eyeOf(camera, mesh.pose);
+    meshes.forEach(({ mesh, pose }, i) => {
+        const start = at + 4 * ITEM * i, from = eyeOf(camera, pose);
         new Float64Array(library.memory.buffer, start, 3).set(from?.eye ?? [0, 0, 0]);
         words(start + 24, 4).set([mesh.address, mesh.edges && from ? 1 : 0, mesh.twoSided ? 1 : 0,
                                   from?.parallel ? 1 : 0]);
         floats(start + 40, 13).set(mesh.material);
-        floats(start + 92, 16).set(mesh.pose);
+        floats(start + 92, 16).set(pose);
     });
 }
 
@@ -272,11 +278,16 @@ export function render(meshes, options) {
             return made[made.length - 1];
         });
         const soft = named === "studio", side = typeof view === "string" || check.isArray(view);
-        const camera = side ? fitted(several, view, [width, height], up, ortho, soft ? 1.5 : 0) : given(view);
+        const { origin, placed: near } = placed(several);
+        const camera = side ? fitted(near, view, [width, height], up, ortho, soft ? 1.5 : 0)
+            : given(view, origin);
+        own?.lights.forEach((row) => {    // rows begin with x, y, z, w of a lamp
+            row.set(origin.map((x, k) => row[k] - row[3] * x));
+        });
         check.flag("depth", depth);
-        return drawn(several, camera, { width, height, samples, background: behind, depth,
+        return drawn(near, camera, { width, height, samples, background: behind, depth,
                                         light: own ?? quick(camera),
-                                        toStudio: soft ? studio(several, camera, up) : null });
+                                        toStudio: soft ? studio(near, camera, up) : null });
     } finally {
         made.forEach((mesh) => mesh.free());
     }

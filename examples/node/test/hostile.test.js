@@ -18,6 +18,19 @@ function refused(words, mesh, options = small) {
     });
 }
 
+test("a mesh far from the origin is drawn as it is at the origin", () => {
+    const { positions, ...rest } = box(), near = render({ positions, ...rest }, { ...small, depth: true });
+    for (const far of [1e6, 1e8, -1e11]) {
+        const moved = positions.map((x) => x + far);
+        for (const kind of [moved, Float64Array.from(moved)]) {
+            const got = render({ positions: kind, ...rest }, { ...small, depth: true });
+            for (const part of ["data", "depth", "ids"]) assert.deepEqual(got[part], near[part]);
+        }
+        const pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, far, far, far, 1];
+        assert.deepEqual(render({ positions, ...rest, pose }, small).data, near.data);
+    }
+});
+
 test("errors begin with the name of the argument", () => {
     refused(/^mesh must be an object/, 7);
     refused(/^mesh must be an object/, undefined);

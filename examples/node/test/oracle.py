@@ -120,5 +120,16 @@ lamps = [shade.Light.point((3, -4, 4), (9, 8, 7), (1, 0, 0.5)),
 for model in shade.Model:
     draw(f"lamps {model.name}", [{**ring, "material": "gold"}],
          lighting=(lamps, (0.1, 0.1, 0.2), model, shade.Flag.UNGATED_SPECULAR), samples=1)
+far = {**ring, "vertices": vertices + [1e8, -3e7, 2e6]}
+far_pose = np.eye(4)
+far_pose[:3, 3] = 1e8 + 4.5, -3e7, 2e6
+draw("far", [{**far, "edges": True}])
+draw("far by its pose", [far, {**brick, "pose": far_pose, "edges": True}], "top", ortho=True)
+draw("far camera", [far], shade.Camera.look_at((1e8 + 4, -3e7 - 6, 2e6 + 5), (1e8, -3e7, 2e6),
+                                               near=1, far=20))
+draw("far lamps", [far], lighting=(
+    [shade.Light.point((1e8 + 3, -3e7 - 4, 2e6 + 4), (9, 8, 7), (1, 0, 0.5))], (0.1, 0.1, 0.2),
+    shade.Model.PHONG, shade.Flag.NONE))
+draw("far studio", [far], light="studio", samples=1)
 draw("nothing", [{"vertices": np.zeros((0, 3)), "faces": np.zeros((0, 3), int)}], size=(9, 7))
 (OUT / "scenes.json").write_text(json.dumps(told))
