@@ -2,7 +2,9 @@
 import * as check from "./arguments.js";
 import { boxOf, eyeOf, fitted, given, originOf, placed, studio, used } from "./camera.js";
 import encoded from "./module.js";
+import { mujocoOf } from "./mujoco.js";
 import { Picture } from "./picture.js";
+import { rendererOf } from "./renderer.js";
 
 const { ShadeError } = check;
 export { Picture, ShadeError };
@@ -292,3 +294,11 @@ export function render(meshes, options) {
         made.forEach((mesh) => mesh.free());
     }
 }
+
+// ---- cameras
+
+/** One scene and many cameras: see index.d.ts. */
+export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed });
+
+/** MuJoCo's own class without OpenGL: new mujoco.Renderer(mj, model, height, width). */
+export const mujoco = mujocoOf(Renderer);

@@ -410,6 +410,42 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
     return result;
 }
 
+/* ---- cameras of renderer.h ------------------------------------------------------------------ */
+
+EXPORT(scene_open) renderer_scene *module_scene_open(void);
+renderer_scene *module_scene_open(void) { return renderer_scene_open(); }
+
+EXPORT(scene_close) void module_scene_close(renderer_scene *scene);
+void module_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
+
+EXPORT(scene_mesh) int module_scene_mesh(renderer_scene *scene, const shade_mesh *m, int smooth);
+int module_scene_mesh(renderer_scene *scene, const shade_mesh *m, int smooth)
+{
+    return renderer_add_mesh(scene, m, smooth);
+}
+
+EXPORT(scene_texture)
+int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height, int faces,
+                         int srgb);
+int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height, int faces,
+                         int srgb)
+{
+    return renderer_add_texture(scene, rgba, width, height, faces, srgb);
+}
+
+EXPORT(renderer_open) renderer *module_renderer_open(void);
+renderer *module_renderer_open(void) { return renderer_open(); }
+
+EXPORT(renderer_close) void module_renderer_close(renderer *r);
+void module_renderer_close(renderer *r) { renderer_close(r); }
+
+EXPORT(renderer_draw)
+int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_picture *p);
+int module_renderer_draw(renderer *r, const renderer_scene *s, const renderer_picture *p)
+{
+    return (int)renderer_draw(r, s, p);
+}
+
 /* ---- words, colours and sizes --------------------------------------------------------------- */
 
 EXPORT(words) const char *module_words(shade_result result);
@@ -432,8 +468,9 @@ EXPORT(size) int module_size(int which);
 int module_size(int which)
 {
     static const size_t size[] = { sizeof(asked_mesh), sizeof(asked_item), sizeof(asked_view),
-                                   sizeof(shade_light) };
-    return which >= 0 && which < 4 ? (int)size[which] : 0;
+                                   sizeof(shade_light), sizeof(renderer_object),
+                                   sizeof(renderer_picture) };
+    return which >= 0 && which < 6 ? (int)size[which] : 0;
 }
 
 EXPORT(take) void *module_take(size_t bytes);

@@ -774,10 +774,10 @@ renderer_scene *python_scene_open(void) { return renderer_scene_open(); }
 SHADEDEF void python_scene_close(renderer_scene *scene);
 void python_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
 
-SHADEDEF int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh);
-int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh)
+SHADEDEF int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh, int smooth);
+int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh, int smooth)
 {
-    return renderer_add_mesh(scene, mesh);
+    return renderer_add_mesh(scene, mesh, smooth);
 }
 
 SHADEDEF int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,

@@ -333,12 +333,44 @@ static inline void renderer_bound(renderer_shape *s, const shade_mesh *m)
     s->radius = 0.5001f * shade_distance(low, high);
 }
 
-/* Copies a mesh with tight rows, indices below vertex_count, and normals or NULL: then faces have
-   theirs, and no vertex may belong to two of them.  Returns its number, -1 without memory. */
-static inline int renderer_add_mesh(renderer_scene *scene, const shade_mesh *m)
+static inline shade_vec3 renderer_get(const float *p) { return shade_v3(p[0], p[1], p[2]); }
+
+/* A vertex for each corner, with the normal of its face.  0: out of memory */
+static inline int renderer_split(renderer_shape *s)
+{
+    renderer_shape out;
+    if (!renderer_shape_open(&out, s->index_count, s->index_count)) return 0;
+    if (s->texcoords) out.texcoords = (float *)calloc((size_t)s->index_count + 1, 8);
+    if (s->colors) out.colors = (float *)calloc((size_t)s->index_count + 1, 12);
+    if ((s->texcoords && !out.texcoords) || (s->colors && !out.colors)) {
+        renderer_shape_free(&out);
+        return 0;
+    }
+    for (int i = 0; i < s->index_count; i += 3) {
+        const float *p[3];
+        shade_vec3 n;
+        for (int k = 0; k < 3; k++) p[k] = s->positions + 3 * (size_t)s->indices[i + k];
+        n = shade_face_normal(renderer_get(p[0]), renderer_get(p[1]), renderer_get(p[2]));
+        for (int k = 0; k < 3; k++) renderer_put(&out, renderer_get(p[k]), n);
+        renderer_face(&out, i, i + 1, i + 2);
+    }
+    for (int i = 0; i < s->index_count; i++) {
+        const size_t to = (size_t)i, at = s->indices[i];
+        if (out.texcoords) memcpy(out.texcoords + 2 * to, s->texcoords + 2 * at, 8);
+        if (out.colors) memcpy(out.colors + 3 * to, s->colors + 3 * at, 12);
+    }
+    renderer_shape_free(s);
+    *s = out;
+    return 1;
+}
+
+/* Copies a mesh with tight rows and indices below vertex_count.  Without normals faces have theirs,
+   or with smooth vertices the mean of their faces.  Returns its number, -1 without memory. */
+static inline int renderer_add_mesh(renderer_scene *scene, const shade_mesh *m, int smooth)
 {
     renderer_shape s, *grown;
     const size_t count = (size_t)scene->mesh_count + 1;
+    int good;
     if (!renderer_shape_open(&s, m->vertex_count, m->index_count)) return -1;
     grown = (renderer_shape *)realloc(scene->meshes, count * sizeof s);
     if (grown) scene->meshes = grown;
@@ -346,14 +378,16 @@ static inline int renderer_add_mesh(renderer_scene *scene, const shade_mesh *m)
     s.index_count = m->index_count;
     memcpy(s.positions, m->positions, (size_t)s.vertex_count * 3 * sizeof(float));
     memcpy(s.indices, m->indices, (size_t)s.index_count * sizeof(uint32_t));
+    good = renderer_copy(&s.texcoords, m->texcoords, m->vertex_count, 2) &&
+           renderer_copy(&s.colors, m->colors, m->vertex_count, 3);
     if (m->normals) memcpy(s.normals, m->normals, (size_t)s.vertex_count * 3 * sizeof(float));
-    else if (shade_mesh_normals(m, (shade_vec3 *)(void *)s.normals)) grown = NULL;
-    renderer_bound(&s, m);
-    if (!grown || !renderer_copy(&s.texcoords, m->texcoords, m->vertex_count, 2) ||
-        !renderer_copy(&s.colors, m->colors, m->vertex_count, 3)) {
+    else if (good && smooth) good = !shade_mesh_normals(m, (shade_vec3 *)(void *)s.normals);
+    else if (good) good = renderer_split(&s);
+    if (!grown || !good) {
         renderer_shape_free(&s);
         return -1;
     }
+    renderer_bound(&s, m);
     scene->meshes[scene->mesh_count] = s;
     return scene->mesh_count++;
 }
@@ -675,6 +709,14 @@ static inline shade_vec3 renderer_local(const renderer_object *o, shade_vec3 wor
                     t[2] * d.x + t[5] * d.y + t[8] * d.z);
 }
 
+/* The way out of the cube that a cube texture is pasted on: objects are scaled to fit it. */
+static inline shade_vec3 renderer_in_cube(const renderer_object *o, shade_vec3 local)
+{
+    const float *z = o->size;
+    if (o->kind == RENDERER_MESH || z[0] <= 0 || z[1] <= 0 || z[2] <= 0) return local;
+    return shade_v3(local.x / z[0], local.y / z[1], local.z / z[2]);
+}
+
 static inline shade_vec3 renderer_place(const renderer_entry *e, const float *p, int upper)
 {
     const shade_vec4 *m = e->world.col;
@@ -714,7 +756,7 @@ static inline renderer_vertex renderer_vertex_of(const renderer_batch *b, const 
     }
     if (b->texture) {
         const shade_vec3 local = renderer_local(o, world);
-        if (b->texture->cube) renderer_set(out.value + 6, local);
+        if (b->texture->cube) renderer_set(out.value + 6, renderer_in_cube(o, local));
         else {
             const shade_vec2 uv = renderer_uv(s, o, (size_t)k, local);
             out.value[6] = uv.x;

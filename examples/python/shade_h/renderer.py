@@ -146,26 +146,22 @@ class Renderer:
         positions = np.ascontiguousarray(made.positions + made.origin.astype(np.float32))
         if not np.isfinite(positions).all():
             raise Error("vertices must hold finite numbers that fit float32")
-        normal = made.normals
         indices = np.ascontiguousarray(made.indices, np.uint32)
-        arrays = (positions, normal, made.uv, made.colors, indices)
-        if normal is None:    # faces have their own
-            arrays = (positions[indices.ravel()], None,
-                      None if made.uv is None else made.uv[indices.ravel()],
-                      None if made.colors is None else made.colors[indices.ravel()],
-                      np.arange(indices.size, dtype=np.uint32))
-        return self._keep_mesh(*(None if a is None else np.ascontiguousarray(a) for a in arrays))
+        return self._keep_mesh(positions, made.normals, made.uv, made.colors, indices)
 
-    def _keep_mesh(self, positions: Any, normals: Any, uv: Any, colors: Any,
-                   indices: Any) -> Shape:
+    def _keep_mesh(self, positions: Any, normals: Any, uv: Any, colors: Any, indices: Any,
+                   smooth: bool = False) -> Shape:
+        positions, normals, uv, colors = (
+            None if a is None else np.ascontiguousarray(a, np.float32)
+            for a in (positions, normals, uv, colors))
         mesh = NativeMesh()
         for name, array in (("positions", positions), ("normals", normals), ("texcoords", uv),
                             ("colors", colors), ("indices", indices)):
             setattr(mesh, name, pointer(array))
         mesh.vertex_count, mesh.index_count = len(positions), indices.size
-        if library.python_scene_mesh(self._scene.handle, ctypes.byref(mesh)) < 0:
+        if library.python_scene_mesh(self._scene.handle, ctypes.byref(mesh), int(smooth)) < 0:
             raise MemoryError("memory is not enough for the mesh")
-        self._made.append(("mesh", positions, normals, uv, colors, indices))
+        self._made.append(("mesh", positions, normals, uv, colors, indices, smooth))
         self._meshes += 1
         return Shape(self._meshes - 1, indices.size // 3)
 
@@ -177,13 +173,13 @@ class Renderer:
         if min(rows, columns) < 2:
             raise Error(f"heights must have two rows and columns at least, not {z.shape}")
         a, b = arguments.doubles("half", half, (2,), finite=True)
-        y, x = np.meshgrid(np.linspace(-b, b, rows), np.linspace(-a, a, columns), indexing="ij")
+        y, x = np.meshgrid(2 * b * np.arange(rows) / (rows - 1) - b,
+                           2 * a * np.arange(columns) / (columns - 1) - a, indexing="ij")
         i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
         k = (i * columns + j).ravel()
-        faces = np.concatenate([np.stack([k, k + 1, k + columns + 1], 1),
-                                np.stack([k, k + columns + 1, k + columns], 1)])
-        return self.mesh(np.stack([x, y, z], -1).reshape(-1, 3).astype(np.float32), faces,
-                         normals="smooth")
+        faces = np.stack([k, k + 1, k + columns + 1, k, k + columns + 1, k + columns], 1)
+        return self._keep_mesh(np.stack([x, y, z], -1).reshape(-1, 3), None, None, None,
+                               np.ascontiguousarray(faces.reshape(-1, 3), np.uint32), smooth=True)
 
     def texture(self, picture: object) -> int:
         """A picture for add(): (h, w, 3 or 4), or (6, h, h, 3 or 4) for a cube, whose faces are +x,
@@ -372,13 +368,18 @@ class Renderer:
         if not isinstance(camera, Camera):
             raise Error(f"camera must be a shade_h.Camera, not {arguments.shown(camera)}")
         frame = self.frame(normals=normals) if out is None else self._checked(out)
+        near, far, parallel = _range_of(camera.projection)
+        return self._draw(frame, camera.view, camera.projection, near, far, parallel, solid,
+                          empty_depth)
+
+    def _draw(self, frame: Frame, view: Array, projection: Array, near: float, far: float,
+              parallel: bool, solid: bool, empty_depth: float) -> Frame:
         shot = Shot(width=self.width, height=self.height, samples=self.samples)
         shot.channels = 3 if frame.color is None else frame.color.shape[2]
         shot.srgb, shot.solid, shot.tolerance = self.srgb, bool(solid), self.tolerance
-        shot.near_z, shot.far_z, shot.parallel = _range_of(camera.projection)
+        shot.near_z, shot.far_z, shot.parallel = near, far, parallel
         shot.empty_depth = float(empty_depth)
-        shot.view[:] = camera.view.T.ravel().tolist()
-        shot.projection[:] = camera.projection.T.ravel().tolist()
+        shot.view[:], shot.projection[:] = view.T.ravel().tolist(), projection.T.ravel().tolist()
         shot.background[:], shot.ambient[:] = self._background, self._ambient
         shot.sky, shot.sky_texture, shot.sky_low[:], shot.sky_high[:] = self._sky
         shot.objects, shot.object_count = pointer(self._objects), self._count

@@ -1,0 +1,336 @@
+// Cameras for simulators, learners and graders: one scene, many pictures of colour, depth, numbers of
+// objects and normals.  Names and bytes are those of the package for Python.
+import * as check from "./arguments.js";
+
+const { ShadeError } = check;
+
+// Words of renderer_object, of renderer_picture, of shade_mesh and of shade_light
+const OBJECT = 28, SHOT = 68, MESH = 13, LIGHT = 21;
+const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box: 6 };
+// What the numbers of a size are for x, y and z
+const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
+                cylinder: [0, 0, 1], box: [0, 1, 2] };
+const HIDDEN = 1, TWO_SIDED = 2, NO_SHADOW = 4, LAMPS = 8;
+
+/** The rotation and the place of a matrix of 4 x 4 by columns. */
+function rigid(name, value) {
+    const m = check.vector(name, value, 16);
+    for (let i = 0; i < 3; i++) {
+        for (let j = 0; j < 3; j++) {
+            const dot = [0, 1, 2].reduce((sum, k) => sum + m[4 * i + k] * m[4 * j + k], 0);
+            if (Math.abs(dot - (i === j ? 1 : 0)) > 1e-3) {
+                throw new ShadeError(`${name} must be a rotation and a translation, without scale`);
+            }
+        }
+    }
+    return { turn: [0, 4, 8, 1, 5, 9, 2, 6, 10].map((k) => m[k]), place: [12, 13, 14].map((k) => m[k]) };
+}
+
+/** near, far and whether the projection is parallel, of a matrix of OpenGL by columns. */
+function rangeOf(p) {
+    const refused = () => new ShadeError("camera: its projection must be that of OpenGL, with near before far");
+    if (p[15] !== 0) {
+        const near = (p[14] + 1) / p[10], far = (p[14] - 1) / p[10];
+        if (!(near < far)) throw refused();
+        return { near, far, parallel: 1 };
+    }
+    const a = p[10] / -p[11], b = p[14] / -p[11];
+    const near = b / (a - 1), far = a < -1 ? b / (a + 1) : 3e30;
+    if (!(near > 0 && near < far)) throw refused();
+    return { near, far: Math.min(far, 3e30), parallel: 0 };
+}
+
+/** The class, over the functions of index.js that know the module's memory. */
+export function rendererOf({ library, take, put, withMemory, linear, succeed }) {
+    [[4, OBJECT], [5, SHOT], [3, LIGHT]].forEach(([i, words]) => {
+        if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
+    });
+    const forgotten = new FinalizationRegistry(({ scene, scratch, held }) => {
+        library.renderer_close(scratch);
+        library.scene_close(scene);
+        Object.values(held).forEach(({ at }) => library.give(at));
+    });
+
+    return class Renderer {
+        #scene = library.scene_open();
+        #scratch = library.renderer_open();
+        #held = {};    // memory of the module that stays: name to { at, bytes }
+        #objects = new ArrayBuffer(0);
+        #count = 0;
+        #meshes = 0;
+        #cubes = [];
+        #state = { lamps: new Float32Array(0), ambient: [0, 0, 0], shadow: -1,
+                   background: [1, 1, 1, 1], sky: 0, skyTexture: -1, low: [0, 0, 0], high: [0, 0, 0] };
+
+        constructor(height, width, options) {
+            const got = check.record("options", options, ["samples", "srgb", "tolerance"]);
+            this.height = check.integer("height", height, 1, 16384);
+            this.width = check.integer("width", width, 1, 16384);
+            this.samples = check.integer("samples", got.samples ?? 1, 1, 8);
+            this.srgb = check.flag("srgb", got.srgb ?? true);
+            this.tolerance = check.number("tolerance", got.tolerance ?? 0.25, 1e-3, 16);
+            if (Math.max(height, width) * this.samples > 16384) {
+                throw new ShadeError("height and width times samples must be at most 16384, not " +
+                                     `${Math.max(height, width) * this.samples}`);
+            }
+            if (!this.#scene || !this.#scratch) throw new RangeError("memory is not enough for a scene");
+            forgotten.register(this, { scene: this.#scene, scratch: this.#scratch, held: this.#held }, this);
+            this.light([{ position: [0.5, -1, 1.2, 0], diffuse: [0.75, 0.75, 0.75],
+                          specular: [0.75, 0.75, 0.75] }], [0.25, 0.25, 0.25]);
+        }
+
+        /** Memory that is kept, at least so large */
+        #room(name, bytes) {
+            const held = this.#held[name];
+            if (held && held.bytes >= bytes) return held.at;
+            if (held) library.give(held.at);
+            delete this.#held[name];
+            this.#held[name] = { at: take(bytes), bytes };
+            return this.#held[name].at;
+        }
+
+        // ---- what is drawn
+
+        /** A mesh for add(): normals are "flat", "smooth" or three numbers a vertex. */
+        mesh(source) {
+            const got = check.record("mesh", source, ["positions", "indices", "normals", "uv"]);
+            const positions = check.rows("positions", got.positions, 3), vertices = positions.length / 3;
+            if (!positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
+            const indices = check.indices("indices", got.indices, vertices, "bad indices");
+            const given = check.isArray(got.normals);
+            const kind = given ? "flat" : check.choice("normals", got.normals ?? "flat", ["flat", "smooth"]);
+            const arrays = [positions, given ? check.rows("normals", got.normals, 3) : null,
+                            got.uv ? check.rows("uv", got.uv, 2) : null, null, indices];
+            [[1, 3, "normals"], [2, 2, "uv"]].forEach(([k, width, name]) => {
+                if (arrays[k] && arrays[k].length !== width * vertices) {
+                    throw new ShadeError(`${name} must have a row for each of ${vertices} vertices`);
+                }
+            });
+            const made = withMemory((room) => {
+                const at = arrays.map((array) => (array ? put(room(array.byteLength || 4), array) : 0));
+                const ask = Uint32Array.of(at[0], 0, at[1], 0, at[2], 0, 0, 0, vertices, at[4],
+                                           indices.length, 0, 0);
+                return library.scene_mesh(this.#scene, put(room(4 * MESH), ask), kind === "smooth" ? 1 : 0);
+            });
+            if (made < 0) throw new RangeError("memory is not enough for the mesh");
+            this.#meshes++;
+            return { mesh: made, triangles: indices.length / 3 };
+        }
+
+        /** Ground for add(): rows of heights along y, over x from -half[0] to half[0]. */
+        height_field(heights, rows, columns, half) {
+            const z = check.vector("heights", heights, rows * columns);
+            const [a, b] = Array.from(half), positions = new Float32Array(3 * rows * columns), indices = [];
+            if (Math.min(rows, columns) < 2) throw new ShadeError("heights must have two rows and columns at least");
+            for (let i = 0, k = 0; i < rows; i++) {
+                for (let j = 0; j < columns; j++, k++) {
+                    positions.set([2 * a * j / (columns - 1) - a, 2 * b * i / (rows - 1) - b, z[k]], 3 * k);
+                    if (i === rows - 1 || j === columns - 1) continue;
+                    indices.push(k, k + 1, k + columns + 1, k, k + columns + 1, k + columns);
+                }
+            }
+            return this.mesh({ positions, indices, normals: "smooth" });
+        }
+
+        /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
+         *  other, +x, -x, +y, -y, +z, -z as in OpenGL.  Mipmaps are made of it. */
+        texture({ data, width, height, faces = 1 }) {
+            check.integer("width", width, 1, 16384);
+            check.integer("height", height, 1, 16384);
+            if (faces !== 1 && (faces !== 6 || height !== 6 * width)) {
+                throw new ShadeError("faces must be 1, or 6 with height = 6 width");
+            }
+            if (!check.isArray(data) || data.length !== 4 * width * height) {
+                throw new ShadeError(`data must hold ${4 * width * height} bytes`);
+            }
+            const made = withMemory((room) => library.scene_texture(
+                this.#scene, put(room(data.length), Uint8Array.from(data)), width, height / faces, faces,
+                this.srgb ? 1 : 0));
+            if (made < 0) throw new RangeError("memory is not enough for the texture");
+            this.#cubes.push(faces === 6);
+            return made;
+        }
+
+        /** A texture of 2 x 2 squares, which repeats. */
+        checker(one = "#5a6e82", other = "#8fa3b5") {
+            const data = new Uint8Array(4 * 64 * 64).fill(255);
+            const colors = [one, other].map((c) => check.color("color", c).map((x) => Math.round(255 * x)));
+            for (let i = 0; i < 64 * 64; i++) data.set(colors[(i < 2048) !== (i % 64 < 32) ? 0 : 1], 4 * i);
+            return this.texture({ data, width: 64, height: 64 });
+        }
+
+        #color(name, value) {
+            const rgb = Float32Array.from(check.color(name, value));
+            return this.srgb ? linear(rgb) : rgb;
+        }
+
+        /** Adds an object, of "plane", "sphere", "ellipsoid", "capsule", "cylinder", "box" or what mesh()
+         *  and height_field() return, and gives its number, which ids have. */
+        add(shape, size, options) {
+            const got = check.record("options", options,
+                ["at", "pose", "color", "alpha", "specular", "shininess", "emission", "texture", "repeat",
+                 "two_sided", "casts_shadow"]);
+            const bytes = new ArrayBuffer(4 * OBJECT), ints = new Int32Array(bytes);
+            const floats = new Float32Array(bytes);
+            if (typeof shape === "string") {
+                check.choice("shape", shape, Object.keys(KINDS));
+                ints[0] = KINDS[shape];
+                floats.set(this.#size(shape, size), 4);
+            } else {
+                check.integer("shape", shape?.mesh, 0, this.#meshes - 1);
+                ints[1] = shape.mesh;
+                floats.set(size === undefined ? [1, 1, 1] : check.isArray(size) ? check.vector("size", size, 3)
+                                                          : [size, size, size], 4);
+            }
+            ints[2] = got.texture === undefined ? -1
+                : check.integer("texture", got.texture, 0, this.#cubes.length - 1);
+            ints[3] = (got.two_sided ? TWO_SIDED : 0) | (got.casts_shadow === false ? NO_SHADOW : 0);
+            floats.set(this.#color("color", got.color ?? "white"), 19);
+            floats[22] = check.number("alpha", got.alpha ?? 1, 0, 1);
+            floats[23] = check.number("specular", got.specular ?? 0, 0, 1e6);
+            floats[24] = check.number("shininess", got.shininess ?? 32, 0, 1e6);
+            floats[25] = check.number("emission", got.emission ?? 0, 0, 1e6);
+            floats.set(check.vector("repeat", got.repeat ?? [1, 1], 2), 26);
+            floats.set([1, 0, 0, 0, 1, 0, 0, 0, 1, ...check.vector("at", got.at ?? [0, 0, 0], 3)], 7);
+            this._put(this.#count, floats);
+            if (got.pose !== undefined) {
+                this.#count--;
+                const { turn, place } = rigid("pose", got.pose);
+                floats.set([...turn, ...place], 7);
+                this._put(this.#count, floats);
+            }
+            return this.#count - 1;
+        }
+
+        #size(shape, size) {
+            if (size === undefined && shape === "plane") return [0, 0, 0];
+            const count = Math.max(...SIZES[shape]) + 1;
+            const got = check.vector("size", check.isArray(size) ? size : [size], count);
+            if (!got.every((x) => x > 0)) throw new ShadeError(`size of a ${shape} must be positive`);
+            return SIZES[shape].map((k) => got[k]);
+        }
+
+        /** The words of object number, or of one more. */
+        _put(number, words) {
+            if (4 * OBJECT * (number + 1) > this.#objects.byteLength) {
+                const grown = new ArrayBuffer(2 * 4 * OBJECT * (number + 8));
+                new Uint8Array(grown).set(new Uint8Array(this.#objects));
+                this.#objects = grown;
+            }
+            new Float32Array(this.#objects).set(words, OBJECT * number);
+            new Int32Array(this.#objects).set(new Int32Array(words.buffer, words.byteOffset, 4), OBJECT * number);
+            this.#count = Math.max(this.#count, number + 1);
+        }
+
+        /** Leaves the first objects alone. */
+        _keep(count) { this.#count = count; }
+
+        /** Moves an object: 4 x 4 by columns, a rotation and a translation. */
+        pose(number, pose) {
+            check.integer("number", number, 0, this.#count - 1);
+            const { turn, place } = rigid(`pose of object ${number}`, pose);
+            new Float32Array(this.#objects).set([...turn, ...place], OBJECT * number + 7);
+        }
+
+        /** Hides an object, or shows it again. */
+        show(number, visible = true) {
+            check.integer("number", number, 0, this.#count - 1);
+            const flags = new Int32Array(this.#objects, 4 * (OBJECT * number + 3), 1);
+            flags[0] = (flags[0] & ~HIDDEN) | (visible ? 0 : HIDDEN);
+        }
+
+        // ---- what it is lit by
+
+        /** Up to 8 lamps, ambient light, and the number of the one lamp that casts shadows. */
+        light(lights, ambient = [0, 0, 0], shadow = undefined) {
+            if (lights.length > LAMPS) throw new ShadeError(`lights: at most ${LAMPS} lamps are drawn, not ${lights.length}`);
+            const { lights: rows } = check.lighting("light", { lights });
+            const lamps = new Float32Array(Math.max(1, rows.length) * LIGHT);
+            rows.forEach((row, i) => lamps.set(row, LIGHT * i));
+            let number = -1;
+            if (shadow !== undefined) {
+                number = check.integer("shadow", shadow, 0, rows.length - 1);
+                const row = rows[number];
+                if (row[3] !== 0 && !(row[16] || row[17] || row[18])) {
+                    throw new ShadeError(`shadow: lights[${number}] is a point; directional lamps and spots can cast shadows`);
+                }
+            }
+            Object.assign(this.#state, { lamps, count: rows.length, shadow: number,
+                                         ambient: check.vector("ambient", ambient, 3) });
+        }
+
+        /** One colour behind all objects. */
+        background(color) {
+            Object.assign(this.#state, { background: [...this.#color("color", color), 1], sky: 0 });
+        }
+
+        /** A sky from the colour straight below to that straight above, +z. */
+        sky(low = "#dfe8f0", high = "#4a7ab0") {
+            Object.assign(this.#state, { sky: 1, low: this.#color("low", low), high: this.#color("high", high) });
+        }
+
+        /** A sky of a cube texture, whose +y is up (+z of the world), as in OpenGL. */
+        sky_texture(texture) {
+            check.integer("texture", texture, 0, this.#cubes.length - 1);
+            if (!this.#cubes[texture]) throw new ShadeError(`texture ${texture} is no cube`);
+            Object.assign(this.#state, { sky: 2, skyTexture: texture });
+        }
+
+        // ---- pictures
+
+        /** New arrays for render(). */
+        frame({ color = true, depth = true, ids = true, normals = false } = {}) {
+            const pixels = this.height * this.width;
+            return { color: color ? new Uint8Array(3 * pixels) : null, depth: depth ? new Float32Array(pixels) : null,
+                     ids: ids ? new Int32Array(2 * pixels) : null, normals: normals ? new Float32Array(3 * pixels) : null };
+        }
+
+        /** Draws what a camera { view, projection }, matrices of WebGL, sees, into the arrays of out or new ones. */
+        render(camera, out = this.frame(), options = undefined) {
+            const got = check.record("options", options, ["solid", "empty_depth"]);
+            const view = check.vector("camera.view", camera?.view, 16);
+            const projection = check.vector("camera.projection", camera?.projection, 16);
+            return this._draw(out, view, projection, rangeOf(projection), got.solid ?? false,
+                              got.empty_depth ?? Infinity);
+        }
+
+        _draw(out, view, projection, { near, far, parallel }, solid, emptyDepth) {
+            const pixels = this.height * this.width, s = this.#state;
+            const channels = out.color?.length === 4 * pixels ? 4 : 3;
+            for (const [name, width] of [["color", channels], ["depth", 1], ["ids", 2], ["normals", 3]]) {
+                if (out[name] && out[name].length !== width * pixels) {
+                    throw new ShadeError(`out.${name} must hold ${width * pixels} numbers, not ${out[name].length}`);
+                }
+            }
+            const at = {}, sizes = { color: channels, depth: 4, ids: 8, normals: 12 };
+            for (const name of Object.keys(sizes)) at[name] = out[name] ? this.#room(name, sizes[name] * pixels) : 0;
+            const objects = new Uint8Array(this.#objects, 0, 4 * OBJECT * this.#count);
+            at.objects = this.#room("objects", this.#objects.byteLength + 4);
+            at.lights = this.#room("lights", 4 * LIGHT * LAMPS);
+            const shot = this.#room("shot", 4 * SHOT);
+            put(at.objects, objects);
+            put(at.lights, s.lamps);
+            const ints = new Int32Array(library.memory.buffer, shot, SHOT);
+            const floats = new Float32Array(library.memory.buffer, shot, SHOT);
+            ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, solid ? 1 : 0, parallel,
+                      this.#count, s.count, s.shadow, 0, s.sky, s.skyTexture]);
+            floats.set([near, far, emptyDepth, this.tolerance, ...view, ...projection, ...s.background, ...s.low,
+                        ...s.high, ...s.ambient], 13);
+            ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 62);
+            succeed("camera", library.renderer_draw(this.#scratch, this.#scene, shot));
+            for (const [name, Kind, width] of [["color", Uint8Array, channels], ["depth", Float32Array, 1],
+                                               ["ids", Int32Array, 2], ["normals", Float32Array, 3]]) {
+                if (out[name]) out[name].set(new Kind(library.memory.buffer, at[name], width * pixels));
+            }
+            return out;
+        }
+
+        free() {
+            forgotten.unregister(this);
+            library.renderer_close(this.#scratch);
+            library.scene_close(this.#scene);
+            Object.values(this.#held).forEach(({ at }) => library.give(at));
+            [this.#scratch, this.#scene, this.#held] = [0, 0, {}];
+        }
+    };
+}
