@@ -135,3 +135,64 @@ export const PRESETS: readonly string[];
     argument and RangeError where memory is not enough. */
 export function render(meshes: Mesh | MeshSource | readonly (Mesh | MeshSource)[],
                        options?: Options): Picture;
+
+/** What a Renderer fills; null is left out. */
+export interface Frame {
+    /** R, G, B bytes (or R, G, B, A), row by row. */
+    color: Uint8Array | null;
+    /** Along the camera's axis, in the unit of the scene. */
+    depth: Float32Array | null;
+    /** Object and triangle of each pixel, -1 where there is nothing. */
+    ids: Int32Array | null;
+    /** Unit vectors in the world, zero where there is nothing. */
+    normals: Float32Array | null;
+}
+
+/** A mesh of a Renderer, of which any number of objects are instances. */
+export interface Shape { readonly mesh: number; readonly triangles: number; }
+export type ShapeName = "plane" | "sphere" | "ellipsoid" | "capsule" | "cylinder" | "box";
+
+/** One scene and many cameras: colour, depth, ids and normals in one call, the bytes of the Python
+    package's class of this name, whose names these are. */
+export class Renderer {
+    constructor(height: number, width: number, options?: { samples?: number; srgb?: boolean; tolerance?: number });
+    readonly height: number;
+    readonly width: number;
+    mesh(source: { positions: Numbers; indices?: Numbers; normals?: "flat" | "smooth" | Numbers; uv?: Numbers }): Shape;
+    height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;
+    texture(picture: { data: Numbers; width: number; height: number; faces?: 1 | 6 }): number;
+    checker(one?: Color, other?: Color): number;
+    /** Size: half the sides of a plane (none: endless) and box, a radius, radii, or radius and half the
+        length along z; of a shape its scale. */
+    add(shape: ShapeName | Shape, size?: number | Numbers, options?: {
+        at?: Numbers; pose?: Numbers; color?: Color; alpha?: number; specular?: number; shininess?: number;
+        emission?: number; texture?: number; repeat?: Numbers; two_sided?: boolean; casts_shadow?: boolean;
+    }): number;
+    pose(number: number, pose: Numbers): void;
+    show(number: number, visible?: boolean): void;
+    light(lights: readonly Light[], ambient?: Numbers, shadow?: number): void;
+    background(color: Color): void;
+    sky(low?: Color, high?: Color): void;
+    sky_texture(texture: number): void;
+    frame(wanted?: { color?: boolean; depth?: boolean; ids?: boolean; normals?: boolean }): Frame;
+    render(camera: Camera, out?: Frame, options?: { solid?: boolean; empty_depth?: number }): Frame;
+    free(): void;
+}
+
+/** MuJoCo's own Renderer without OpenGL, over the module of @mujoco/mujoco. */
+export namespace mujoco {
+    class Renderer {
+        constructor(mj: unknown, model: unknown, height?: number, width?: number, max_geom?: number);
+        readonly height: number;
+        readonly width: number;
+        readonly scene: unknown;
+        update_scene(data: unknown, camera?: number | string | object, scene_option?: unknown): void;
+        /** Colour, 3 bytes a pixel; or depth in metres; or pairs of object and type, as Python has them. */
+        render<T extends Uint8Array | Float32Array | Int32Array>(out?: T): T;
+        enable_depth_rendering(): void;
+        disable_depth_rendering(): void;
+        enable_segmentation_rendering(): void;
+        disable_segmentation_rendering(): void;
+        close(): void;
+    }
+}

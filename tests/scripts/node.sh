@@ -26,6 +26,7 @@ awk -v out="$T/use/program" '/^```js$/ { n++; inside = 1; next } /^```/ { inside
 { sed '/^import/!d' "$T/use/program1.mjs"; cat "$T/use/program2.mjs"; } >"$T/use/both.mjs"
 check "README's first program" sh -c "cd '$T/use' && node program1.mjs"
 check "README's second program" sh -c "cd '$T/use' && node both.mjs"
+check "README's third program" sh -c "cd '$T/use' && node program3.mjs"
 cat >"$T/use/required.js" <<'END'
 const shade = require("shade-h"), { data } = shade.render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] });
 import("shade-h").then((other) => {    // a Mesh of one is a Mesh of the other
@@ -50,6 +51,11 @@ if npm install --silent --no-audit --no-fund --prefix "$T/npm" esbuild@0.25.12 t
 else left_out "types and bundles: npm cannot fetch esbuild and typescript"; fi
 
 cp -R "$N/test" "$T/use/test"
+if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco@3.14.0 >"$T/log" 2>&1; then
+    check "what MuJoCo steps" env MUJOCO="$T/mujoco/node_modules/@mujoco/mujoco/mujoco.js" \
+        RECORDING="$T/tree/examples/python/tests/robots.json" \
+        sh -c "cd '$T/use' && node --test test/robots.test.js"
+else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
 
 for python in python3 /usr/bin/python3; do

@@ -44,3 +44,15 @@ ${free(".7 0 .46", '<geom type="box" size=".05 .05 .05" rgba=".9 .2 .2 1"/>')}<b
     tumble: world("", floor + eye("0 -5 3") + Array.from({ length: 20 }, (_, i) => free(`${(i % 5 - 2) * 0.5} ${(i % 3 - 1) * 0.4} ${0.5 + 0.35 * i}`,
         `<geom type="${["box", "capsule", "cylinder", "sphere"][i % 4]}" size="${["0.2 0.15 0.1", "0.1 0.15", "0.14 0.12", "0.17"][i % 4]}" rgba=".${i % 9} .${9 - i % 7} .${3 + i % 6} 1"/>`)).join("")),
 };
+
+// A small scene with all of it, of which examples/python/tests/robots.json holds one state
+export const recorded = `<mujoco><asset><texture name="sky" type="skybox" builtin="gradient" rgb1=".5 .7 .9" rgb2=".1 .15 .2" width="4" height="24"/>
+<texture name="ground" type="2d" builtin="checker" rgb1=".25 .35 .45" rgb2=".15 .22 .3" width="4" height="4"/><texture name="cube" type="cube" builtin="gradient" rgb1=".9 .6 .1" rgb2=".2 .1 .4" width="4" height="24"/>
+<material name="ground" texture="ground" texrepeat="2 3"/><material name="cube" texture="cube" emission=".2"/>${octahedron}
+<hfield name="hills" nrow="4" ncol="3" size=".6 .5 .3 .1" elevation="0 1 .2 .5 .3 .9 1 .1 .4 .2 .8 0"/></asset><worldbody>
+<light pos="1 -1 4" dir="-.3 .3 -1" directional="true"/><light pos="-1 0 2" dir="0 0 -1" diffuse=".5 .1 .1" cutoff="35" exponent="2"/>
+<camera name="eye" pos="0 -4 2.4" xyaxes="1 0 0 0 .5 .87" fovy="50"/><geom type="plane" size="3 2 .1" material="ground"/>
+<geom type="hfield" hfield="hills" pos="1.4 .8 .1" rgba=".3 .6 .3 1"/>
+${["sphere .25", "capsule .15 .25", "ellipsoid .3 .2 .15", "cylinder .2 .25", "box .2 .25 .15"].map((g, i) => { const [type, ...size] = g.split(" ");
+    return free(`${i * 0.7 - 1.6} 0 ${0.6 + 0.1 * i}`, `<geom type="${type}" size="${size.join(" ")}" rgba="${i % 2} .${3 + i} ${1 - i % 2} ${i === 2 ? 0.5 : 1}" ${i === 4 ? 'material="cube"' : ""}/>`); }).join("")}
+${free("-1.2 1 .8", '<geom type="mesh" mesh="gem" rgba=".8 .3 .6 1"/>')}</worldbody></mujoco>`;

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import importlib
 import math
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from .renderer import Frame, Renderer as _Base
 
 _HEIGHT_FIELD, _MESH, _KINDS = 1, 7, (1, 0, 2, 4, 3, 5, 6, 0)    # of mjGEOM_..., as kinds here
 _CUBE, _SKYBOX, _SPOT, _DIRECTIONAL = 1, 2, 0, 1                 # mjTEXTURE_..., mjLIGHT_...
-_SHADOWS, _SKIES, _FIXED, _CAMERA, _LAMPS = 0, 4, 2, 7, 8        # mjRND_..., mjCAMERA_, mjOBJ_
+_SHADOWS, _SKIES, _LAMPS = 0, 4, 8                               # mjRND_...
 
 
 def _texels(model: Any, i: int) -> tuple[Array, int]:
@@ -218,14 +218,15 @@ class Renderer:
 
     @staticmethod
     def _lamp(lamp: Any) -> Light:
-        colors = [tuple(_floats(getattr(lamp, k))) for k in ("diffuse", "specular", "ambient")]
-        way = _floats(lamp.dir)
+        diffuse, specular, ambient = (tuple(_floats(getattr(lamp, k)))
+                                      for k in ("diffuse", "specular", "ambient"))
+        way, fall = _floats(lamp.dir), cast("tuple[float, float, float]", _floats(lamp.attenuation))
         if lamp.type == _DIRECTIONAL:
-            return Light((-way[0], -way[1], -way[2], 0.0), *colors, *_floats(lamp.attenuation))
+            return Light((-way[0], -way[1], -way[2], 0.0), diffuse, specular, ambient, *fall)
         cone: tuple[Any, ...] = ()
         if lamp.type == _SPOT and lamp.cutoff < 90:
             cone = (tuple(way), float(lamp.exponent), math.cos(float(lamp.cutoff) * math.pi / 180))
-        return Light((*_floats(lamp.pos), 1.0), *colors, *_floats(lamp.attenuation), *cone)
+        return Light((*_floats(lamp.pos), 1.0), diffuse, specular, ambient, *fall, *cone)
 
     def update_scene(self, data: Any, camera: Any = -1, scene_option: Any = None) -> None:
         """Takes the state of data as a camera sees it: a number (-1: free), a name or an MjvCamera."""
@@ -235,13 +236,12 @@ class Renderer:
             self._option = self._mujoco.MjvOption()
         mj, used = self._mujoco, camera
         if isinstance(camera, (int, str)):
-            number = camera
-            if isinstance(camera, str):
-                number = mj.mj_name2id(self._model, mj.mjtObj.mjOBJ_CAMERA, camera)
-                if number < 0:
-                    raise ValueError(f'The camera "{camera}" does not exist.')
+            number = camera if isinstance(camera, int) else \
+                int(mj.mj_name2id(self._model, mj.mjtObj.mjOBJ_CAMERA, camera))
+            if isinstance(camera, str) and number < 0:
+                raise Error(f'camera "{camera}" does not exist')
             if number < -1 or number >= self._model.ncam:
-                raise ValueError(f"The camera id {number} is out of range [-1, {self._model.ncam}).")
+                raise Error(f"camera {number} is out of range [-1, {self._model.ncam})")
             used = mj.MjvCamera()
             used.fixedcamid = number
             if number == -1:

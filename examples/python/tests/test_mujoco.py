@@ -1,0 +1,107 @@
+"""mujoco.Renderer's twin, over a recording of MuJoCo's own scene: the package for JavaScript, which draws
+what the real engine steps, made robots.json with the hashes of its pictures."""
+import hashlib
+import json
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import shade_h as shade
+from shade_h.mujoco import Renderer
+
+TOLD = json.loads(Path(__file__).with_name("robots.json").read_text("utf-8"))
+
+
+def model():
+    return SimpleNamespace(**{k: np.array(v) for k, v in TOLD["model"].items()}, ncam=1)
+
+
+def scene():
+    told = TOLD["scene"]
+    def objects(rows):    # noqa: E306
+        return [SimpleNamespace(**{k: np.array(v) if isinstance(v, list) else v
+                                   for k, v in row.items()}) for row in rows]
+    return SimpleNamespace(ngeom=len(told["geoms"]), geoms=objects(told["geoms"]),
+                           nlight=len(told["lights"]), lights=objects(told["lights"]),
+                           camera=objects(told["cameras"]), flags=told["flags"])
+
+
+def test_pictures_are_those_of_the_package_for_javascript():
+    with Renderer(model(), 60, 80) as renderer:
+        renderer.take(scene())
+        got = {"color": renderer.render()}
+        renderer.enable_depth_rendering()
+        got["depth"] = renderer.render()
+        renderer.enable_segmentation_rendering()
+        got["segmentation"] = renderer.render()
+    assert [a.shape for a in got.values()] == [(60, 80, 3), (60, 80), (60, 80, 2)]
+    assert [a.dtype for a in got.values()] == [np.uint8, np.float32, np.int32]
+    for name, array in got.items():
+        assert hashlib.sha256(array.tobytes()).hexdigest() == TOLD["hashes"][name], name
+    pairs = got["segmentation"].reshape(-1, 2)
+    assert len(np.unique(pairs, axis=0)) >= 8 and set(pairs[:, 1]) == {-1, 5}
+    far = TOLD["scene"]["cameras"][0]["frustum_far"]
+    assert np.allclose(got["depth"].reshape(-1)[pairs[:, 0] < 0], far)
+    assert len(np.unique(got["color"])) > 60
+
+
+def test_modes_and_out():
+    renderer = Renderer(model(), 60, 80)
+    with pytest.raises(shade.Error, match="update_scene first"):
+        renderer.render()
+    renderer.take(scene())
+    first = renderer.render()
+    renderer.enable_depth_rendering()
+    renderer.enable_segmentation_rendering()
+    assert renderer.render().shape == (60, 80, 2)
+    renderer.disable_segmentation_rendering()
+    out = np.zeros((60, 80, 3), np.uint8)
+    assert renderer.render(out=out) is out and np.array_equal(out, first)
+    with pytest.raises(shade.Error, match=r"out must be uint8 of shape \(60, 80, 3\)"):
+        renderer.render(out=np.zeros((60, 80), np.float32))
+
+
+class Engine:
+    """What update_scene asks of the mujoco module."""
+
+    mjtObj = SimpleNamespace(mjOBJ_CAMERA=7)
+    mjtCamera = SimpleNamespace(mjCAMERA_FREE=0, mjCAMERA_FIXED=2)
+    mjtCatBit = SimpleNamespace(mjCAT_ALL=SimpleNamespace(value=7))
+
+    def __init__(self):
+        self.asked = []
+
+    @staticmethod
+    def MjvScene(model, maxgeom):    # noqa: N802
+        return scene()
+
+    MjvOption = MjvCamera = staticmethod(SimpleNamespace)
+
+    @staticmethod
+    def mj_name2id(model, kind, name):
+        return 0 if (kind, name) == (7, "eye") else -1
+
+    @staticmethod
+    def mjv_defaultFreeCamera(model, camera):    # noqa: N802
+        camera.free = True
+
+    def mjv_updateScene(self, model, data, option, perturb, camera, category, scene):    # noqa: N802
+        self.asked.append((data, camera, category))
+
+
+def test_cameras_by_number_name_and_object(monkeypatch):
+    engine = Engine()
+    monkeypatch.setitem(__import__("sys").modules, "mujoco", engine)
+    renderer = Renderer(model(), 60, 80)
+    renderer.update_scene("state")
+    renderer.update_scene("state", camera="eye")
+    own = SimpleNamespace()
+    renderer.update_scene("state", camera=own)
+    assert [a[0] for a in engine.asked] == ["state"] * 3 and {a[2] for a in engine.asked} == {7}
+    assert engine.asked[0][1].free and engine.asked[1][1].type == 2 and engine.asked[2][1] is own
+    assert hashlib.sha256(renderer.render().tobytes()).hexdigest() == TOLD["hashes"]["color"]
+    for wrong in ("nobody", 5, -2):
+        with pytest.raises(shade.Error, match="camera"):
+            renderer.update_scene("state", camera=wrong)
