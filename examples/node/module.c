@@ -425,10 +425,10 @@ int module_scene_mesh(renderer_scene *scene, const shade_mesh *m, int smooth)
 }
 
 EXPORT(scene_texture)
-int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height, int faces,
-                         int srgb);
-int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height, int faces,
-                         int srgb)
+int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
+                         int faces, int srgb);
+int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
+                         int faces, int srgb)
 {
     return renderer_add_texture(scene, rgba, width, height, faces, srgb);
 }
