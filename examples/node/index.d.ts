@@ -196,3 +196,11 @@ export namespace mujoco {
         close(): void;
     }
 }
+
+/** Decodes the bytes of a picture in a model, of "image/png" or "image/jpeg", or null: it is left out. */
+export type Decoder = (bytes: Uint8Array, mimeType: string | undefined) => Texture | null;
+
+/** Reads glTF 2.0, GLB or JSON whose buffers are data URIs: one mesh for each surface, as render takes
+    them, with +y up.  What is not drawn, pictures without a decoder among it, is a warning.  Throws
+    ShadeError for a file that is damaged or needs what is not read. */
+export function readGltf(bytes: Uint8Array, options?: { picture?: Decoder }): MeshSource[];

@@ -1,13 +1,14 @@
 // Pictures of meshes by shade.h, compiled for WebAssembly.  index.d.ts describes what is exported.
 import * as check from "./arguments.js";
 import { boxOf, eyeOf, fitted, given, originOf, placed, studio, used } from "./camera.js";
+import { readGltf } from "./gltf.js";
 import encoded from "./module.js";
 import { mujocoOf } from "./mujoco.js";
 import { Picture } from "./picture.js";
 import { rendererOf } from "./renderer.js";
 
 const { ShadeError } = check;
-export { Picture, ShadeError };
+export { Picture, ShadeError, readGltf };
 
 // Compiled at once, without await, which neither require nor a classic script can do.
 const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));

@@ -20,13 +20,20 @@ check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/n
 check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-h-*.tgz"
 P=$T/use/node_modules/shade-h
 check "no file but what runs" same "$(LC_ALL=C ls "$P" | tr '\n' ' ')" \
-    "LICENSE README.md arguments.js camera.js index.cjs index.d.cts index.d.ts index.js module.js mujoco.js package.json picture.js renderer.js "
+    "LICENSE README.md arguments.js camera.js gltf.js index.cjs index.d.cts index.d.ts index.js module.js mujoco.js package.json picture.js renderer.js "
 awk -v out="$T/use/program" '/^```js$/ { n++; inside = 1; next } /^```/ { inside = 0 }
     inside { print > (out n ".mjs") }' "$N/README.md"
 { sed '/^import/!d' "$T/use/program1.mjs"; cat "$T/use/program2.mjs"; } >"$T/use/both.mjs"
 check "README's first program" sh -c "cd '$T/use' && node program1.mjs"
 check "README's second program" sh -c "cd '$T/use' && node both.mjs"
 check "README's third program" sh -c "cd '$T/use' && node program3.mjs"
+cat >"$T/use/part.glb" <<'END'
+{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],
+    "buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+END
+check "README's fourth program" sh -c "cd '$T/use' && node program4.mjs && test -s part.png"
 cat >"$T/use/required.js" <<'END'
 const shade = require("shade-h"), { data } = shade.render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] });
 import("shade-h").then((other) => {    // a Mesh of one is a Mesh of the other

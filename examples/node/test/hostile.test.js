@@ -1,7 +1,7 @@
 // Whatever is passed, the module answers by a picture or by an error with a sentence, and goes on.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Mesh, PRESETS, ShadeError, render } from "shade-h";
+import { Mesh, PRESETS, ShadeError, readGltf, render } from "shade-h";
 
 const box = () => ({
     positions: [0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1],
@@ -192,4 +192,118 @@ test("1000 calls with arguments at random", () => {
     }
     assert.ok(drawn > 100, `${drawn} drawn`);
     assert.deepEqual(render(mesh, small).data, before.data);
+});
+
+// ---- glTF
+
+/** A quad that looks along +z, as GLB; change alters its JSON. */
+function glb(change = () => {}) {
+    const numbers = Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1);
+    const data = new Uint8Array(numbers.byteLength + 12);
+    data.set(new Uint8Array(numbers.buffer));
+    data.set(new Uint8Array(Uint16Array.of(0, 1, 2, 0, 2, 3).buffer), numbers.byteLength);
+    const json = {
+        asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }],
+        nodes: [{ children: [1], rotation: [0, 0, 0, 1] }, { mesh: 0, scale: [1, 1, 1] }],
+        meshes: [{ primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, indices: 2, material: 0 }] }],
+        materials: [{ pbrMetallicRoughness: { baseColorFactor: [1, 0, 0, 1], metallicFactor: 0 } }],
+        accessors: [{ bufferView: 0, componentType: 5126, type: "VEC3", count: 4 },
+                    { bufferView: 1, componentType: 5126, type: "VEC2", count: 4 },
+                    { bufferView: 2, componentType: 5123, type: "SCALAR", count: 6 }],
+        bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 32 },
+                      { buffer: 0, byteOffset: 80, byteLength: 12 }],
+        buffers: [{ byteLength: 92 }],
+    };
+    change(json);
+    let text = JSON.stringify(json);
+    text += " ".repeat((4 - text.length % 4) % 4);
+    const out = new Uint8Array(28 + text.length + data.length), view = new DataView(out.buffer);
+    [0x46546C67, 2, out.length, text.length, 0x4E4F534A].forEach((x, i) => view.setUint32(4 * i, x, true));
+    out.set(new TextEncoder().encode(text), 20);
+    view.setUint32(20 + text.length, data.length, true);
+    view.setUint32(24 + text.length, 0x004E4942, true);
+    out.set(data, 28 + text.length);
+    return out;
+}
+const front = { ...small, view: "front", up: "y", ortho: true };
+
+test("a GLB is what its nodes and material say", () => {
+    const [mesh] = readGltf(glb());
+    assert.deepEqual([...mesh.positions], [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
+    assert.deepEqual([...mesh.indices], [0, 1, 2, 0, 2, 3]);
+    const { data } = render(mesh, front), middle = data.subarray(4 * (16 * 32 + 16));
+    assert.ok(middle[0] > 100 && middle[1] < 80 && middle[2] < 80);
+    const [moved] = readGltf(glb((json) => { json.nodes[0].translation = [5, 0, 0]; json.nodes[1].scale = [-2, 1, 1]; }));
+    assert.deepEqual([...moved.positions], [5, 0, 0, 3, 0, 0, 3, 1, 0, 5, 1, 0]);
+    assert.deepEqual([...moved.indices], [2, 1, 0, 3, 2, 0]);    // mirrored: still counter-clockwise
+    const strip = (json) => { json.meshes[0].primitives[0].mode = 5; };
+    assert.deepEqual([...readGltf(glb(strip))[0].indices], [0, 1, 2, 2, 1, 0, 2, 0, 2, 2, 0, 3]);
+});
+
+test("pictures of a GLB are decoded by the caller", () => {
+    const textured = glb((json) => {
+        json.materials[0].pbrMetallicRoughness = { baseColorTexture: { index: 0 }, metallicFactor: 0 };
+        json.textures = [{ source: 0 }];
+        json.images = [{ uri: "data:image/png;base64,AAEC", mimeType: "image/png" }];
+    });
+    const asked = [], data = Uint8Array.of(0, 0, 255, 0);
+    const [mesh] = readGltf(textured, { picture: (bytes, kind) => { asked.push([...bytes], kind); return { data, width: 1, height: 1 }; } });
+    assert.deepEqual(asked, [[0, 1, 2], "image/png"]);
+    const middle = render(mesh, front).data.subarray(4 * (16 * 32 + 16));
+    assert.ok(middle[2] > 100 && middle[0] < 80 && middle[3] === 255);
+    const { warn } = console, told = [];
+    console.warn = (words) => { told.push(words); };
+    try { readGltf(textured); } finally { console.warn = warn; }
+    assert.match(told.join(), /^shade-h: model: it has pictures/);
+});
+
+test("damaged GLB files are refused with a sentence", () => {
+    const bad = (words, change) => assert.throws(() => readGltf(glb(change)), (error) =>
+        error instanceof ShadeError && words.test(error.message) || assert.fail(`${error}`));
+    bad(/^model: there is no accessors\[9\]/, (json) => { json.meshes[0].primitives[0].indices = 9; });
+    bad(/go in circles/, (json) => { json.nodes[1].children = [0]; });
+    bad(/ends behind its buffer/, (json) => { json.bufferViews[0].byteLength = 1e6; });
+    bad(/ends behind its view/, (json) => { json.accessors[0].count = 5; });
+    bad(/too many values/, (json) => { json.accessors[0].count = 1e11; });
+    bad(/points behind the vertices/, (json) => { json.accessors[0].count = 3; });
+    bad(/needs KHR_draco/, (json) => { json.extensionsRequired = ["KHR_draco_mesh_compression"]; });
+    bad(/glTF 1 is not read/, (json) => { delete json.asset; });
+    bad(/scale must be 3 numbers/, (json) => { json.nodes[1].scale = [1, null, 1]; });
+    bad(/file of its own/, (json) => { json.buffers[0].uri = "../../etc/passwd"; });
+    for (const value of [undefined, null, "x.glb", [1, 2], new ArrayBuffer(8)]) {
+        assert.throws(() => readGltf(value), /model: must be the bytes of a file/);
+    }
+});
+
+test("mutants of a GLB are read or refused", () => {
+    let state = 7, read = 0, refusals = 0;
+    const next = (n) => { state = (Math.imul(state, 1664525) + 1013904223) >>> 0; return Math.floor(state / 2 ** 32 * n); };
+    const { warn } = console, count = Number(process.env.MUTANTS ?? 20000), whole = glb();
+    const words = ["-1", "1e99", "null", "[]", "{}", "true", '"x"', "0.5", "4294967296", "9"];
+    console.warn = () => {};
+    try {
+        for (let i = 0; i < count; i++) {
+            let bytes = whole.slice();
+            if (next(2)) {    // a number of the JSON by another word, so that it stays JSON
+                const from = new TextDecoder().decode(whole.subarray(20, 20 + new DataView(whole.buffer).getUint32(12, true)));
+                const places = [...from.matchAll(/-?[0-9.]+(?=[,\]}])/g)], place = places[next(places.length)];
+                const text = from.slice(0, place.index) + words[next(words.length)] + from.slice(place.index + place[0].length);
+                try { bytes = glb((json) => { for (const key of Object.keys(json)) delete json[key]; Object.assign(json, JSON.parse(text)); }); } catch { continue; }
+            } else {
+                for (let k = 1 + next(4); k > 0; k--) bytes[next(bytes.length)] = next(256);
+                if (!next(4)) bytes = bytes.subarray(0, next(bytes.length));
+            }
+            try {
+                const meshes = readGltf(bytes);
+                read++;
+                if (i % 8 === 0) render(meshes, small);
+            } catch (error) {
+                if (!(error instanceof ShadeError)) assert.fail(`${error.stack}: ${Buffer.from(bytes).toString("hex")}`);
+                refusals++;
+            }
+        }
+    } finally {
+        console.warn = warn;
+    }
+    assert.ok(read > count / 20 && refusals > count / 20, `${read} read, ${refusals} refused`);
 });

@@ -1,6 +1,7 @@
 """oracle.py folder - scenes drawn by the package for Python: what goes in as JSON, RGBA bytes, depth
 and ids as they are."""
 import json
+import struct
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -132,4 +133,39 @@ draw("far lamps", [far], lighting=(
     shade.Model.PHONG, shade.Flag.NONE))
 draw("far studio", [far], light="studio", samples=1)
 draw("nothing", [{"vertices": np.zeros((0, 3)), "faces": np.zeros((0, 3), int)}], size=(9, 7))
+
+
+def glb():
+    """A ring in two places, one of them mirrored, with normals, colours and two materials."""
+    data, views, accessors = b"", [], []
+    for array, kind, code in ((vertices.astype("<f4"), "VEC3", 5126), (normals.astype("<f4"), "VEC3", 5126),
+                              (np.abs(normals).astype("<f4"), "VEC3", 5126),
+                              (faces.astype("<u2").reshape(-1), "SCALAR", 5123),
+                              (uv.astype("<f4"), "VEC2", 5126)):
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": array.nbytes})
+        accessors.append({"bufferView": len(views) - 1, "componentType": code, "type": kind,
+                          "count": len(array)})
+        data += array.tobytes() + bytes(-array.nbytes % 4)
+    base = {"POSITION": 0, "NORMAL": 1}
+    text = json.dumps({
+        "asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data)}], "bufferViews": views,
+        "accessors": accessors, "scenes": [{"nodes": [0, 2]}], "nodes": [
+            {"mesh": 0, "translation": [0.5, 0.25, 1], "children": [1]},
+            {"mesh": 1, "scale": [-0.5, 0.5, 0.75], "translation": [0, 2, 0]},
+            {"mesh": 1, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 3, -2, 0, 1]}],
+        "meshes": [{"primitives": [{"attributes": {**base, "COLOR_0": 2}, "indices": 3, "material": 1}]},
+                   {"primitives": [{"attributes": base, "indices": 3, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.3, 0.1, 1],
+                                                "roughnessFactor": 0.4}},
+                      {"pbrMetallicRoughness": {"metallicFactor": 0.25}, "emissiveFactor": [0, 0, 0.1]}],
+    }).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A) + \
+        text + struct.pack("<II", len(data), 0x004E4942) + data
+
+
+(OUT / "model.glb").write_bytes(glb())
+model = shade.render(OUT / "model.glb", size=(200, 150))
+(OUT / "model.rgba").write_bytes(model.rgba.tobytes())
+assert len(np.unique(model.rgba)) > 100
 (OUT / "scenes.json").write_text(json.dumps(told))

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import test from "node:test";
-import { Mesh, render } from "shade-h";
+import { Mesh, readGltf, render } from "shade-h";
 
 const folder = process.env.ORACLE;
 const scenes = JSON.parse(readFileSync(`${folder}/scenes.json`, "utf8"));
@@ -28,6 +28,13 @@ for (const { name, meshes, options } of scenes) {
         made.forEach((mesh) => mesh.free());
     });
 }
+
+test("a GLB", () => {
+    const meshes = readGltf(readFileSync(`${folder}/model.glb`));
+    assert.equal(meshes.length, 2);
+    const { data } = render(meshes, { size: [200, 150], up: "y" });
+    assert.ok(readFileSync(`${folder}/model.rgba`).equals(bytes(data)));
+});
 
 test("PNG files for another reader", async () => {
     for (const { name, meshes, options } of scenes) {
