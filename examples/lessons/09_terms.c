@@ -15,7 +15,7 @@ int main(int argc, char **argv)
                                          "emission", "+ ambient", "+ diffuse", "+ specular" };
     static const char *const term[4] = { "k_e", "k_a I_a", "Σ k_d I (N·L)", "Σ k_s I (N·H)^n" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
-    const shade_material glaze = { { 0.05f, 0.012f, 0.003f }, { 0.03f, 0.20f, 0.24f },
+    const shade_material glaze = { { 0.03f, 0.004f, 0.001f }, { 0.03f, 0.20f, 0.24f },
                                    { 0.03f, 0.20f, 0.24f }, { 0.6f, 0.6f, 0.6f }, 50 };
     shade_light lamps[2];
     shade_draw_state state = { .material = &glaze };

@@ -51,11 +51,11 @@ int main(int argc, char **argv)
         shade_vec3 seen = cast(&m, &state, ray, shade_v3(p->x, p->y, p->z));
         *p = shade_v4(seen.x, seen.y, seen.z, 1);
     }
-    sprintf(text, "%d of %d pixels differ",
+    sprintf(text, "%d of %d pixels: another code of 255",
             canvas_difference(&panel[0], &panel[1], &panel[2], 250, &most), WIDTH * HEIGHT);
     label_caption(&c, 159, 298, grey, "z-buffer", "each triangle: its pixels");
     label_caption(&c, 480, 298, grey, "rays", "each pixel: its triangle");
-    label_caption(&c, 801, 298, grey, "difference × 250", text);
+    label_caption(&c, 801, 298, grey, "difference of light × 250", text);
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "ray_cast.ppm");
 }

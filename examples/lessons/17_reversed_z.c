@@ -16,8 +16,9 @@ enum { BOARDS = 6, SIZE = 108 };    /* pixels of a board's panel */
 int main(int argc, char **argv)
 {
     static const float km[BOARDS] = { 1, 3, 10, 30, 100, 300 };
-    static const char *const name[2] = { "standard: z = (1 − n/d) / (1 − n/f)",
-                                         "reversed: z = n/d" };
+    static const char *const name[2] = {
+        "standard: z = (1 − n/d) / (1 − n/f), and what is lost of the orange",
+        "reversed: z = n/d, and what is lost" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     const shade_material pale = { .emission = { 0.6f, 0.58f, 0.52f } };
     const shade_material orange = { .emission = { 0.75f, 0.18f, 0.02f } };
@@ -61,11 +62,12 @@ int main(int argc, char **argv)
             shade_draw_mesh(&panel, &square.view, &state, &left);
             sprintf(text, "%d km", (int)km[i]);
             label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 16, 19, grey, text);
-            sprintf(text, "%d %% of it lost", (int)(100 - 100 * left.fragments / alone.fragments));
+            sprintf(text, "%d %%", (int)(100 - 100 * left.fragments / alone.fragments));
             label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 40, 19, grey, text);
         }
         label_draw(&c, 12, y - 6, 22, grey, name[row]);
-        canvas_zoom(&c, 3 * SIZE + 6 + 30, y + 38, 46, 34, 674, y - 16, 6);
+        canvas_zoom(&c, 3 * SIZE + 6 + 26, y + 38, 55, 34, 674, y - 16, 5);
+        label_center(&c, 811, y + 176, 19, grey, row ? "30 km, reversed" : "30 km, standard");
     }
     mesh_free(&square);
     return canvas_save(&c, argc, argv, "reversed_z.ppm");

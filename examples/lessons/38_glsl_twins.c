@@ -1,8 +1,8 @@
 /* 38_glsl_twins.c - shaders of the lecture notes, drawn by their twins in C.  Left: colours of
    vertices, interpolated between them (UW).  Middle and right: brass, lit in the vertex shader and
    in the fragment shader, with Massey's camera (67 degrees, 5 away), turn (.8 about x) and light.
-   Lit in the vertex shader, it loses one highlight and tears the other.  Below, the equation and
-   the shader of the right picture in both languages; twins.h has the others.  Where OSMesa is
+   Lit in the vertex shader, it loses one highlight and tears the other.  Below, the equation
+   of both in both languages, line by line; twins.h has the rest.  Where OSMesa is
    installed, make conformance draws a ring by each GLSL as well: of 255 no pixel is off by more
    than .53, of which .5 is rounding.
    Try p.interpolation = SHADE_INTERPOLATION_CONSTANT: one colour a triangle.
@@ -23,7 +23,7 @@ int main(int argc, char **argv)
                                              "lit in the fragment shader" };
     shade_vec2 profile[9];
     char text[2000];
-    canvas c = canvas_new(1440, 965, 2);
+    canvas c = canvas_new(1440, 690, 2);
 
     for (int i = 0; i < 9; i++) {
         shade_vec2 t = mesh_turn((float)(i % 8) / 8);
@@ -46,12 +46,9 @@ int main(int argc, char **argv)
         mesh_draw(&panel, &p, &ring);
         label_center(&c, 240 + 480 * k, 330, 24, grey, name[k]);
     }
-    int y = mono_listing(&c, 20, 370, 68, grey, twin_brass_glsl);
-    mono_listing(&c, 20, y, 68, grey, twin_fragment_glsl[TWIN_PHONG]);
+    mono_listing(&c, 20, 370, 60, grey, twin_brass_glsl);
     twin_unjoin(twin_brass_c, text);
-    y = mono_listing(&c, 640, 370, 76, grey, text);
-    twin_unjoin(twin_fragment_c, text);
-    mono_listing(&c, 640, y, 76, grey, text);
+    mono_listing(&c, 640, 370, 78, grey, text);
     mesh_free(&ring);
     return canvas_save(&c, argc, argv, "glsl_twins.ppm");
 }

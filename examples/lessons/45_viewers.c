@@ -2,7 +2,7 @@
    direction from each pixel to the eye, and every ball carries its highlight elsewhere.  Middle: an
    orthographic camera, but V still aims at a point: highlights wander where views are parallel.
    Right: SHADE_FLAG_INFINITE_VIEWER, V the same everywhere, and all nine balls are alike.  The
-   number counts pixels of the corner balls that differ by more than 2 of 255 codes.
+   number counts pixels of the two framed balls that differ by more than 2 of 255 codes.
    Try SHADE_MODEL_LAMBERT: the two orthographic pictures are the same, k_d does not know V.
 
    cc -O2 -I. examples/lessons/45_viewers.c -lm -o viewers && ./viewers        writes viewers.ppm */
@@ -26,6 +26,18 @@ static int differing(const canvas *c, int x, int y)
         count += shade_distance(p, q) > 2 / 255.0f;
     }
     return count;
+}
+
+/* A square about a cell */
+static void frame(const canvas *c, int x, int y)
+{
+    const shade_vec3 white = { 0.6f, 0.6f, 0.6f };
+    for (int k = 0; k < 2; k++) {
+        shade_target row = canvas_panel(c, x, y + k * (CELL - 1), CELL, 1);
+        shade_target column = canvas_panel(c, x + k * (CELL - 1), y, 1, CELL);
+        canvas_fill(&row, 0, 0, row.width, row.height, white);
+        canvas_fill(&column, 0, 0, column.width, column.height, white);
+    }
 }
 
 int main(int argc, char **argv)
@@ -56,7 +68,9 @@ int main(int argc, char **argv)
             state.model = shape_at((float)(k % 3) - 1, (float)(k / 3) - 1, 0, 0.44f, 0);
             shade_draw_mesh(&panel, &ball.view, &state, NULL);
         }
-        sprintf(text, i ? "%d of %d pixels differ" : "V = (eye − P) / |eye − P|",
+        frame(&c, x + EDGE, 8 + EDGE);
+        frame(&c, x + EDGE + 2 * CELL, 8 + EDGE + 2 * CELL);
+        sprintf(text, i ? "framed: %d of %d pixels differ" : "V = (eye − P) / |eye − P|",
                 differing(&c, x, 8), CELL * CELL);
         label_caption(&c, x + SIZE / 2, 348, grey, name[i], text);
     }

@@ -37,8 +37,9 @@ static double figure(const canvas *c, int x, shade_vec3 L, int smooth)
         shade_vec3 N = normal(side, (t + next) / 2, smooth);
         float light = 0.03f + 0.9f * shade_lambert(N, L);
         s.pen.cap = SHADE_CAP_BUTT;
-        sketch_ink(&s, shade_v3(light, 0.8f * light, 0.5f * light), 16);
-        sketch_line(&s, shade_scale(P, 1.1f), shade_scale(Q, 1.1f));
+        sketch_ink(&s, shade_v3(light, 0.8f * light, 0.5f * light), 1.5f);
+        for (float r = 1.04f; r < 1.17f; r += 0.005f)    /* a band whose ends meet at corners */
+            sketch_line(&s, shade_scale(P, r), shade_scale(Q, r));
         s.pen.cap = SHADE_CAP_SQUARE;
         sketch_ink(&s, black, 2);
         sketch_line(&s, P, Q);

@@ -75,17 +75,19 @@ static const char twin_brass_glsl[] =
     "  vec3 Kd = vec3(0.780392, 0.568627, 0.113725);\n"
     "  vec3 Ks = vec3(0.992157, 0.941176, 0.807843);\n"
     "  float a = 27.89743616, Ia = 0.3, Id = 1.0, Is = 1.0;\n"
-    "  vec3 l = normalize(-(View * direction).xyz);\n"
+    "  vec4 d = View * direction;\n"
+    "  vec3 l = normalize(-d.xyz);\n"
     "  vec3 v = normalize(-E);\n"
     "  vec3 r = reflect(-l, N);\n"
-    "  return Ka * Ia + Kd * max(dot(l, N), 0.0) * Id\n"
-    "       + Ks * pow(max(dot(r, v), 0.0), a) * Is;\n"
+    "  vec3 ambient = Ka * Ia;\n"
+    "  vec3 matte = ambient + max(dot(N, l), 0.0) * Id * Kd;\n"
+    "  return matte + pow(max(dot(r, v), 0.0), a) * Is * Ks;\n"
     "}\n";
 
 /* A function in C, and its text, whose lines the compiler joins */
 #define TWIN(text, ...) \
     static const char text[] = #__VA_ARGS__; \
-    __VA_ARGS__
+    static inline __VA_ARGS__
 
 /* Breaks the lines of such a text again: behind ; and behind the braces of bodies. */
 static inline void twin_unjoin(const char *text, char *out)
@@ -102,7 +104,7 @@ static inline void twin_unjoin(const char *text, char *out)
 }
 
 TWIN(twin_brass_c,
-static inline shade_vec3 twin_brass(const twin_uniforms *u, shade_vec3 N, shade_vec3 E)
+shade_vec3 twin_brass(const twin_uniforms *u, shade_vec3 N, shade_vec3 E)
 {
     const shade_vec3 Ka = { 0.329412f, 0.223529f, 0.027451f };
     const shade_vec3 Kd = { 0.780392f, 0.568627f, 0.113725f };
@@ -188,7 +190,6 @@ static inline void twin_fragment_color(const void *uniforms,
     SHADE_EACH_LANE(i) { twin_out(out->color, i, shade_v3(c[0][i], c[1][i], c[2][i])); }
 }
 
-TWIN(twin_fragment_c,
 static inline void twin_fragment_phong(const void *uniforms,
                                        const shade_fragments *SHADE_RESTRICT in,
                                        shade_colors *SHADE_RESTRICT out)
@@ -200,7 +201,7 @@ static inline void twin_fragment_phong(const void *uniforms,
         shade_vec3 E = shade_v3(v[3][i], v[4][i], v[5][i]);
         twin_out(out->color, i, twin_brass(u, N, E));
     }
-})
+}
 
 /* Twin k as a pipeline without uniforms, which the caller sets */
 static inline shade_pipeline twin_pipeline(int k)
