@@ -1,10 +1,18 @@
-/* canvas.h - a picture to draw on, its parts, and its file.  Programs exit if memory runs out. */
+/* canvas.h - a picture to draw on, its parts, and its file.  Programs exit if memory runs out.
+
+   With -DCANVAS_STB and stb_image_write (libstb-dev) pictures are PNG, without it PPM. */
 #ifndef SHARED_CANVAS_H
 #define SHARED_CANVAS_H
 
 #include "shade.h"
 #include <stdio.h>
 #include <stdlib.h>
+#ifdef CANVAS_STB
+#include <string.h>
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+#endif
 
 /* A picture of linear light in 32-bit floats, drawn samples times larger both ways and averaged
    at the end. */
@@ -183,14 +191,43 @@ static inline shade_target canvas_finish(const canvas *c)
     return t;
 }
 
-/* Writes the picture to argv[1], or to path where there is no argument, and frees the canvas.
-   Returns the exit status of the program. */
-static inline int canvas_save(canvas *c, int argc, char **argv, const char *path)
+#ifdef CANVAS_STB
+/* Writes the colours that shade_write_ppm writes, as PNG. */
+static inline shade_result canvas_write_png(const char *path, const shade_target *t)
+{
+    const shade_vec4 *from = (const shade_vec4 *)t->color;
+    /* the bytes of a pixel lie before its floats */
+    unsigned char *bytes = (unsigned char *)t->color;
+    int written;
+    for (int i = 0; i < t->width * t->height; i++) {
+        shade_vec3 k = shade_srgb_from_linear(shade_v3(from[i].x, from[i].y, from[i].z));
+        bytes[3 * i] = (unsigned char)(255 * k.x + 0.5f);
+        bytes[3 * i + 1] = (unsigned char)(255 * k.y + 0.5f);
+        bytes[3 * i + 2] = (unsigned char)(255 * k.z + 0.5f);
+    }
+    written = stbi_write_png(path, t->width, t->height, 3, bytes, 3 * t->width);
+    return written ? SHADE_OK : SHADE_ERROR_IO;
+}
+#endif
+
+/* Writes the picture to argv[1], or to a name where there is no argument, and frees the canvas: a
+   PPM, with CANVAS_STB a PNG unless argv[1] ends in .ppm.  Returns the exit status of the
+   program. */
+static inline int canvas_save(canvas *c, int argc, char **argv, const char *name)
 {
     shade_target picture = canvas_finish(c);
+    const char *path = argc > 1 ? argv[1] : name;
     shade_result result;
-    if (argc > 1) path = argv[1];
+#ifdef CANVAS_STB
+    char png[80];
+    const size_t stem = strlen(path) - (strlen(path) > 4 ? 4 : 0);
+    snprintf(png, sizeof png, "%.*s.png", (int)stem, name);
+    if (argc < 2) path = png;
+    result = strcmp(path + stem, ".ppm") == 0 ? shade_write_ppm(path, &picture)
+                                              : canvas_write_png(path, &picture);
+#else
     result = shade_write_ppm(path, &picture);
+#endif
     if (result) fprintf(stderr, "%s: %s\n", path, shade_result_string(result));
     free(c->target.color);
     free(c->target.depth);

@@ -139,6 +139,19 @@ check "every example is listed" none "$(
         name=$(basename "$file" .c)
         grep -qE "src=\"pictures/$name\.png\".*</a> \| \`$name\`" examples/README.md || echo "$name"
     done)"
+check "every lesson says the line that builds it" none "$(
+    for file in examples/lessons/[0-9]*.c; do
+        grep -qE "^   cc -O2 (-fopenmp |-pthread )?-I\. $file -lm( -pthread)? -o ([a-z_]+) && \./\3" "$file" ||
+            echo "$file"
+    done)"
+# A lesson with stb's writer: by its line, as PNG, the colours of the PPM
+if echo | cc -fsyntax-only -include stb/stb_image_write.h -x c - 2>/dev/null &&
+    command -v pngtopnm >/dev/null; then
+    cc -O2 -DCANVAS_STB -I. examples/lessons/46_ambient.c -lm -o "$T/ambient"
+    (cd "$T" && ./ambient && ./ambient ambient.ppm && pngtopnm ambient.png) >"$T/from_png" 2>/dev/null
+    check "a lesson built with stb writes a PNG of the same colours" cmp "$T/from_png" "$T/ambient.ppm"
+    check "a PNG that cannot be written is an error" sh -c "! '$T/ambient' '$T/none/x.png' 2>/dev/null"
+else echo "left out: lessons as PNG, no stb (libstb-dev) or pngtopnm (netpbm)"; fi
 awk '/^#ifdef SHADE_IMPLEMENTATION/ { exit }
      /^(SHADEDEF|SHADE__INLINE) / && match($0, /shade_[a-z0-9_]+\(/) {
          print substr($0, RSTART, RLENGTH - 1)
