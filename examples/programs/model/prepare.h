@@ -227,7 +227,7 @@ typedef struct chunk_place {
 static int chunk_sort(const shade_mesh *m, uint32_t *sorted)
 {
     const size_t n = (size_t)m->index_count / 3;
-    chunk_place *list = (chunk_place *)malloc(2 * (n + 1) * sizeof *list), *from = list, *to;
+    chunk_place *list = (chunk_place *)calloc(2 * (n + 1), sizeof *list), *from = list, *to;
     to = list ? list + n : NULL;
     for (size_t i = 0; list && i < n; i++) {
         shade_vec3 sum = shade_v3(0, 0, 0), p;
