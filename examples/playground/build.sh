@@ -37,7 +37,7 @@ awk -v out="$out" '
     /@by_hand@/ {                      # one function of the lesson
         split($0, side, "@by_hand@"); printf "%s", side[1]
         while ((getline line <"../lessons/47_by_hand.c") > 0) {
-            if (line ~ /^static shade_vec3 by_hand/) inside = 1
+            if (line ~ /^static float of/) inside = 1
             if (inside) { gsub(/[\\`$]/, "\\\\&", line); print line }
             if (line == "}") inside = 0
         }

@@ -433,7 +433,7 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
         [...document.querySelectorAll('#formula .total .v span')].map(node => node.className[0])
             .join('') === 'RGB'));
     await page.locator('#by-hand').click();
-    check('the equation in C', />>terms[^]*\nstatic shade_vec3 by_hand\([^]*f_atten[^]*\n}\n?$/.test(
+    check('the equation in C', />>terms[^]*\nstatic float by_hand\([^]*f_spot[^]*\n}\n?$/.test(
         await page.locator('dialog pre').textContent()));
     await page.keyboard.press('Escape');
     for (const hash of ['turn=0&compare=1', 'turn=0&bare', 'turn=0&maps=0']) {
