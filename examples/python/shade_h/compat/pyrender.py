@@ -1,0 +1,453 @@
+"""pyrender's names without OpenGL.
+
+    import shade_h.compat.pyrender as pyrender
+
+Scenes, nodes, meshes, cameras, lights and OffscreenRenderer are there.  Light is Blinn-Phong in place
+of pyrender's physically based materials, so that colours are close and not equal; depth and
+segmentation are the same up to the edges of pixels.  There is no Viewer, no skin and no normal map.
+"""
+from __future__ import annotations
+
+import math
+from typing import Any, Iterable, Sequence
+
+import numpy as np
+
+from .. import _arguments as arguments
+from .._native import SOLID, Array, Error
+from ..light import Light as _Lamp
+from ..renderer import Frame, Renderer as _Renderer
+
+
+class RenderFlags:
+    """What OffscreenRenderer.render is asked for; flags may be added."""
+
+    NONE, DEPTH_ONLY, OFFSCREEN, FLIP_WIREFRAME, ALL_WIREFRAME, ALL_SOLID = 0, 1, 2, 4, 8, 16
+    SHADOWS_DIRECTIONAL, SHADOWS_POINT, SHADOWS_SPOT, SHADOWS_ALL = 32, 64, 128, 224
+    VERTEX_NORMALS, FACE_NORMALS, SKIP_CULL_FACES, RGBA, FLAT, SEG = 256, 512, 1024, 2048, 4096, 8192
+
+
+class MetallicRoughnessMaterial:
+    """baseColorFactor is a colour, 0 .. 1, with alpha; baseColorTexture an array of bytes."""
+
+    def __init__(self, name: str | None = None, baseColorFactor: Sequence[float] = (1, 1, 1, 1),
+                 metallicFactor: float = 1.0, roughnessFactor: float = 1.0,
+                 emissiveFactor: Sequence[float] = (0, 0, 0), alphaMode: str = "OPAQUE",
+                 doubleSided: bool = False, baseColorTexture: Any = None, **others: Any) -> None:
+        """Other arguments of pyrender's are taken and not used."""
+        base = arguments.doubles("baseColorFactor", baseColorFactor, (None,), finite=True).tolist()
+        self.name, self.baseColorFactor = name, [*base[:3], *(base[3:] or [1.0])]
+        self.metallicFactor = arguments.number("metallicFactor", metallicFactor, 0, 1)
+        self.roughnessFactor = arguments.number("roughnessFactor", roughnessFactor, 0, 1)
+        self.emissiveFactor, self.alphaMode = emissiveFactor, alphaMode
+        self.doubleSided = bool(doubleSided)
+        self.baseColorTexture = getattr(baseColorTexture, "source", baseColorTexture)
+
+
+Material = MetallicRoughnessMaterial
+
+
+class Primitive:
+    """Triangles: positions (n, 3), and normals, texcoord_0, color_0 and indices (m, 3) or None."""
+
+    def __init__(self, positions: Any, normals: Any = None, tangents: Any = None,
+                 texcoord_0: Any = None, texcoord_1: Any = None, color_0: Any = None,
+                 joints_0: Any = None, weights_0: Any = None, indices: Any = None,
+                 material: Any = None, mode: Any = None, targets: Any = None,
+                 poses: Any = None) -> None:
+        """Refuses arrays of a wrong shape by their names."""
+        self.positions = arguments.floats("positions", positions, (None, 3), finite=True)
+        count = len(self.positions)
+        given = np.arange(count - count % 3).reshape(-1, 3) if indices is None else indices
+        self.indices = arguments.faces("indices", given, count)
+        self.normals = None if normals is None else arguments.floats("normals", normals, (count, 3))
+        self.texcoord_0 = None if texcoord_0 is None else \
+            arguments.floats("texcoord_0", np.asarray(texcoord_0)[:, :2], (count, 2))
+        self.color_0 = None if color_0 is None else arguments.linear("color_0", color_0)
+        self.material = material or MetallicRoughnessMaterial()
+        self.poses = None if poses is None else arguments.doubles("poses", poses, (None, 4, 4), True)
+
+
+class Mesh:
+    """Primitives that share a name and a place."""
+
+    def __init__(self, primitives: Iterable[Primitive], name: str | None = None,
+                 weights: Any = None, is_visible: bool = True) -> None:
+        """Keeps the primitives."""
+        self.primitives, self.name, self.is_visible = list(primitives), name, bool(is_visible)
+
+    @staticmethod
+    def from_trimesh(mesh: Any, material: Any = None, is_visible: bool = True, poses: Any = None,
+                     wireframe: bool = False, smooth: bool = True) -> Mesh:
+        """A mesh of a trimesh.Trimesh, or of a list of them."""
+        all_of = mesh if isinstance(mesh, (list, tuple, set)) else [mesh]
+        return Mesh([_primitive(m, material, poses, smooth) for m in all_of], is_visible=is_visible)
+
+
+def _primitive(mesh: Any, material: Any, poses: Any, smooth: bool) -> Primitive:
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    visual, colors, uv = getattr(mesh, "visual", None), None, None
+    kind = getattr(visual, "kind", None)
+    normals = np.asarray(mesh.vertex_normals) if smooth and hasattr(mesh, "vertex_normals") else None
+    if visual is not None and kind == "vertex":
+        colors = np.asarray(visual.vertex_colors)
+    elif visual is not None and kind == "face":
+        colors, smooth = np.repeat(np.asarray(visual.face_colors), 3, axis=0), False
+    elif visual is not None and kind == "texture" and getattr(visual, "uv", None) is not None:
+        uv, own = np.asarray(visual.uv), visual.material
+        image = getattr(own, "image", None)
+        image = getattr(own, "baseColorTexture", None) if image is None else image
+        if material is None and image is not None:
+            material = MetallicRoughnessMaterial(baseColorTexture=np.asarray(image.convert("RGBA")))
+    if not smooth or normals is None and colors is not None and len(colors) != len(vertices):
+        corners = vertices[faces]
+        across: Array = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        length = np.linalg.norm(across, axis=1, keepdims=True)
+        normals = np.repeat(across / np.where(length > 0, length, 1), 3, axis=0)
+        if colors is not None and len(colors) == len(vertices):
+            colors = colors[faces.ravel()]
+        uv = None if uv is None else uv[faces.ravel()]
+        vertices, faces = corners.reshape(-1, 3), np.arange(faces.size).reshape(-1, 3)
+    return Primitive(vertices, normals, texcoord_0=uv, color_0=colors, indices=faces,
+                     material=material, poses=poses)
+
+
+class Camera:
+    """What the cameras have in common: znear, zfar and a matrix of OpenGL."""
+
+    def __init__(self, znear: float = 0.05, zfar: float | None = None, name: str | None = None) -> None:
+        """zfar None: everything is seen, however far."""
+        self.znear = arguments.number("znear", znear, 1e-9, 1e9)
+        self.zfar = None if zfar is None else arguments.number("zfar", zfar, self.znear, 1e12)
+        self.name = name
+
+    def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Array:
+        """The matrix for a picture of a size."""
+        raise NotImplementedError
+
+    def _depth(self, p: Array) -> Array:
+        n, f = self.znear, self.zfar
+        p[2, 2], p[2, 3], p[3, 2] = -1.0, -2 * n, -1.0
+        if f is not None:
+            p[2, 2:] = (f + n) / (n - f), 2 * f * n / (n - f)
+        return p
+
+
+class PerspectiveCamera(Camera):
+    """yfov is the vertical angle in radians; without aspectRatio that of the picture is taken."""
+
+    def __init__(self, yfov: float, znear: float = 0.05, zfar: float | None = None,
+                 aspectRatio: float | None = None, name: str | None = None) -> None:
+        """A camera that looks down -z."""
+        super().__init__(znear, zfar, name)
+        self.yfov, self.aspectRatio = arguments.number("yfov", yfov, 1e-4, 3.14), aspectRatio
+
+    def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Array:
+        """The matrix for a picture of a size."""
+        aspect = self.aspectRatio
+        if aspect is None:
+            if not width or not height:
+                raise Error("aspectRatio is missing, and the size of the picture too")
+            aspect = width / height
+        p, t = np.zeros((4, 4)), math.tan(self.yfov / 2)
+        p[0, 0], p[1, 1] = 1 / (aspect * t), 1 / t
+        return self._depth(p)
+
+
+class IntrinsicsCamera(Camera):
+    """fx, fy, cx and cy in pixels."""
+
+    def __init__(self, fx: float, fy: float, cx: float, cy: float, znear: float = 0.05,
+                 zfar: float | None = 100.0, name: str | None = None) -> None:
+        """A camera that looks down -z."""
+        super().__init__(znear, zfar, name)
+        self.fx, self.fy, self.cx, self.cy = fx, fy, cx, cy
+
+    def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Array:
+        """The matrix for a picture of a size."""
+        if not width or not height:
+            raise Error("width and height are needed")
+        p = np.zeros((4, 4))
+        p[0, 0], p[1, 1] = 2 * self.fx / width, 2 * self.fy / height
+        p[0, 2], p[1, 2] = 1 - 2 * self.cx / width, 2 * self.cy / height - 1
+        return self._depth(p)
+
+
+class OrthographicCamera(Camera):
+    """xmag and ymag are half the width and height of what is seen."""
+
+    def __init__(self, xmag: float, ymag: float, znear: float = 0.05, zfar: float = 100.0,
+                 name: str | None = None) -> None:
+        """A camera that looks down -z."""
+        super().__init__(znear, zfar, name)
+        self.xmag, self.ymag = float(xmag), float(ymag)
+
+    def get_projection_matrix(self, width: int | None = None, height: int | None = None) -> Array:
+        """The matrix for a picture of a size."""
+        n, f = self.znear, self.zfar or 100.0
+        p = np.diag([1 / self.xmag, 1 / self.ymag, 2 / (n - f), 1.0])
+        p[2, 3] = (f + n) / (n - f)
+        return p
+
+
+class Light:
+    """color, 0 .. 1, times intensity."""
+
+    def __init__(self, color: Any = None, intensity: float = 1.0, range: float | None = None,
+                 name: str | None = None) -> None:
+        """range is taken and not used."""
+        rgb = np.ones(3) if color is None else np.asarray(color, float)[:3]
+        self.color = arguments.doubles("color", rgb, (3,), finite=True)
+        self.intensity, self.range, self.name = float(intensity), range, name
+
+
+class DirectionalLight(Light):
+    """A distant lamp that shines along -z of its node."""
+
+
+class PointLight(Light):
+    """A lamp at its node."""
+
+
+class SpotLight(Light):
+    """A lamp that points along -z of its node; angles in radians from the axis."""
+
+    def __init__(self, color: Any = None, intensity: float = 1.0, range: float | None = None,
+                 innerConeAngle: float = 0.0, outerConeAngle: float = math.pi / 4,
+                 name: str | None = None) -> None:
+        """Light is even within the cone."""
+        super().__init__(color, intensity, range, name)
+        self.innerConeAngle, self.outerConeAngle = float(innerConeAngle), float(outerConeAngle)
+
+
+class Node:
+    """A mesh, a camera or a light in its place, and the nodes that move with it."""
+
+    def __init__(self, name: str | None = None, camera: Any = None, children: Any = None,
+                 skin: Any = None, matrix: Any = None, mesh: Any = None, light: Any = None,
+                 **others: Any) -> None:
+        """matrix is 4 x 4, from the node to its parent."""
+        self.name, self.camera, self.mesh, self.light = name, camera, mesh, light
+        self.children = list(children or ())
+        self.matrix = np.eye(4) if matrix is None else matrix
+
+    @property
+    def matrix(self) -> Array:
+        """From the node to its parent."""
+        return self._matrix
+
+    @matrix.setter
+    def matrix(self, value: Any) -> None:
+        self._matrix = arguments.doubles("matrix", value, (4, 4), finite=True).copy()
+
+
+class Scene:
+    """Nodes, a background and ambient light."""
+
+    def __init__(self, nodes: Iterable[Node] | None = None, bg_color: Any = None,
+                 ambient_light: Any = None, name: str | None = None) -> None:
+        """bg_color and ambient_light are colours, 0 .. 1."""
+        self.bg_color = np.ones(4) if bg_color is None else np.asarray(bg_color, float)
+        self.ambient_light = np.zeros(3) if ambient_light is None else \
+            np.asarray(ambient_light, float)[:3]
+        self.name, self._roots, self.main_camera_node = name, list(nodes or ()), None
+
+    def _walk(self) -> list[tuple[Node, Array]]:
+        out, left = [], [(n, np.eye(4)) for n in reversed(self._roots)]
+        while left:
+            node, parent = left.pop()
+            pose = parent @ node.matrix
+            out.append((node, pose))
+            left += [(child, pose) for child in reversed(node.children)]
+        return out
+
+    @property
+    def nodes(self) -> list[Node]:
+        """All nodes, in the order in which they were added."""
+        return [node for node, _ in self._walk()]
+
+    @property
+    def mesh_nodes(self) -> list[Node]:
+        """Those with a mesh."""
+        return [n for n in self.nodes if n.mesh is not None]
+
+    @property
+    def camera_nodes(self) -> list[Node]:
+        """Those with a camera."""
+        return [n for n in self.nodes if n.camera is not None]
+
+    @property
+    def light_nodes(self) -> list[Node]:
+        """Those with a light."""
+        return [n for n in self.nodes if n.light is not None]
+
+    def add(self, obj: Any, name: str | None = None, pose: Any = None, parent_node: Node | None = None,
+            parent_name: str | None = None) -> Node:
+        """Adds a mesh, a camera or a light, and returns its node."""
+        kinds = {"mesh": Mesh, "camera": Camera, "light": Light}
+        slot = [k for k, kind in kinds.items() if isinstance(obj, kind)]
+        if not slot:
+            raise TypeError(f"obj must be a Mesh, a Camera or a Light, not {arguments.shown(obj)}")
+        node = Node(name or obj.name, matrix=pose)
+        setattr(node, slot[0], obj)
+        if parent_name is not None and parent_node is None:
+            parent_node = next(iter(self.get_nodes(name=parent_name)), None)
+            if parent_node is None:
+                raise ValueError(f"no node is named {parent_name}")
+        self.add_node(node, parent_node)
+        return node
+
+    def add_node(self, node: Node, parent_node: Node | None = None) -> None:
+        """Adds a node below another one, or at the root."""
+        (self._roots if parent_node is None else parent_node.children).append(node)
+
+    def remove_node(self, node: Node) -> None:
+        """Removes a node and all below it."""
+        for among in [self._roots, *(n.children for n in self.nodes)]:
+            if node in among:
+                among.remove(node)
+                return
+        raise ValueError("node is not in the scene")
+
+    def get_nodes(self, node: Node | None = None, name: str | None = None, obj: Any = None,
+                  obj_name: str | None = None) -> set[Node]:
+        """The nodes of a name or with an object; all without an argument."""
+        return {n for n in self.nodes if (node is None or n is node)
+                and (name is None or n.name == name)
+                and (obj is None or obj in (n.mesh, n.camera, n.light))
+                and (obj_name is None or obj_name in (getattr(o, "name", None) for o in
+                                                      (n.mesh, n.camera, n.light)))}
+
+    def set_pose(self, node: Node, pose: Any) -> None:
+        """Moves a node within its parent."""
+        node.matrix = pose
+
+    def get_pose(self, node: Node) -> Array:
+        """From the node to the world."""
+        for other, pose in self._walk():
+            if other is node:
+                return pose
+        raise ValueError("node is not in the scene")
+
+
+class OffscreenRenderer:
+    """Draws scenes into arrays."""
+
+    def __init__(self, viewport_width: int, viewport_height: int, point_size: float = 1.0) -> None:
+        """The size of pictures; point_size is taken and not used."""
+        self._base: _Renderer | None = None
+        self.viewport_width, self.viewport_height = viewport_width, viewport_height
+        self.point_size = point_size
+        self._shapes: dict[int, tuple[Any, int, int]] = {}
+        self._made()
+
+    def _made(self) -> _Renderer:
+        base, size = self._base, (self.viewport_height, self.viewport_width)
+        if base is None or (base.height, base.width) != size:
+            base = self._base = _Renderer(*size)
+            self._shapes = {}
+        return base
+
+    def render(self, scene: Scene, flags: int = 0, seg_node_map: Any = None) -> Any:
+        """color, (h, w, 3) bytes (4 with RGBA), and depth, (h, w) float32, 0 where there is nothing;
+        depth alone with DEPTH_ONLY.  With SEG color has the colours of seg_node_map."""
+        base, lamps, cameras = self._made(), [], []
+        used: list[Node] = []
+        base._count = 0
+        for node, pose in scene._walk():
+            if node.camera is not None:
+                cameras.append((node, pose))
+            if node.light is not None:
+                lamps.append((node.light, pose))
+            if node.mesh is not None and node.mesh.is_visible:
+                for primitive in node.mesh.primitives:
+                    self._put(base, primitive, pose, flags)
+                    used += [node] * (base._count - len(used))
+        main = [c for c in cameras if c[0] is scene.main_camera_node] or cameras[:1]
+        if not main:
+            raise ValueError("the scene has no camera")
+        self._light(base, scene, lamps, flags)
+        p = main[0][0].camera.get_projection_matrix(self.viewport_width, self.viewport_height)
+        h, w = self.viewport_height, self.viewport_width
+        seg, channels = bool(flags & RenderFlags.SEG), 4 if flags & RenderFlags.RGBA else 3
+        color = None if flags & RenderFlags.DEPTH_ONLY or seg else np.empty((h, w, channels), np.uint8)
+        ids = np.empty((h, w, 2), np.int32) if seg else None
+        depth = np.empty((h, w), np.float32)
+        camera = main[0][0].camera
+        far = 3e30 if camera.zfar is None else camera.zfar
+        base._draw(Frame(color, depth, ids, None), np.linalg.inv(main[0][1]), p, camera.znear, far,
+                   bool(p[3, 3]), seg, 0.0)
+        if flags & RenderFlags.DEPTH_ONLY:
+            return depth
+        if ids is None:
+            return color, depth
+        table = np.zeros((len(used) + 1, 3), np.uint8)
+        for i, node in enumerate(used):
+            if seg_node_map and node in seg_node_map:
+                shown = np.asarray(seg_node_map[node])
+                table[i + 1] = np.broadcast_to(shown, 3)
+        return table[ids[..., 0] + 1], depth
+
+    def _put(self, base: _Renderer, primitive: Primitive, pose: Array, flags: int) -> None:
+        known = self._shapes.get(id(primitive))
+        if known is None:
+            m, uv = primitive.material, primitive.texcoord_0
+            texture = -1
+            if m.baseColorTexture is not None and uv is not None:
+                texture = base.texture(m.baseColorTexture)
+            if uv is not None:
+                uv = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
+            shape = base._keep_mesh(primitive.positions, primitive.normals, uv, primitive.color_0,
+                                    primitive.indices)
+            known = self._shapes[id(primitive)] = (primitive, shape.number, texture)
+        m = primitive.material
+        for place in [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]:
+            if base._count == len(base._objects):
+                base._objects = np.concatenate([base._objects, np.zeros(base._count, SOLID)])
+            o = base._objects[base._count]
+            base._objects[base._count] = np.zeros((), SOLID)
+            size = np.maximum(np.linalg.norm(place[:3, :3], axis=0), 1e-30)
+            o["mesh"], o["texture"], o["size"] = known[1], known[2], size
+            o["turn"], o["place"] = place[:3, :3] / size, place[:3, 3]
+            two_sided = m.doubleSided or flags & RenderFlags.SKIP_CULL_FACES
+            o["flags"] = 2 if two_sided else 0
+            o["rgba"] = m.baseColorFactor
+            o["rgba"][3] = m.baseColorFactor[3] if m.alphaMode == "BLEND" else 1
+            o["specular"] = 0.04 + 0.4 * m.metallicFactor * (1 - m.roughnessFactor)
+            o["shininess"] = 2 / max(m.roughnessFactor, 0.05) ** 4
+            o["repeat"] = 1
+            if flags & RenderFlags.FLAT:
+                o["emission"], o["specular"] = 1, 0
+            base._count += 1
+
+    @staticmethod
+    def _light(base: _Renderer, scene: Scene, lamps: list[tuple[Light, Array]], flags: int) -> None:
+        made: list[_Lamp] = []
+        shadow = None
+        for light, pose in lamps[:8]:
+            power = light.intensity / math.pi
+            color = (light.color[0] * power, light.color[1] * power, light.color[2] * power)
+            at, aim = pose[:3, 3].tolist(), (-pose[:3, 2]).tolist()
+            if isinstance(light, DirectionalLight):
+                lamp, wanted = _Lamp.directional(aim, color), RenderFlags.SHADOWS_DIRECTIONAL
+            elif isinstance(light, SpotLight):
+                lamp = _Lamp.spot(at, aim, light.outerConeAngle, 0, color)
+                wanted = RenderFlags.SHADOWS_SPOT
+            else:
+                lamp, wanted = _Lamp.point(at, color), 0
+            if flags & wanted and shadow is None:
+                shadow = len(made)
+            made.append(lamp)
+        flat = bool(flags & RenderFlags.FLAT)
+        base.light([] if flat else made, (0, 0, 0) if flat else scene.ambient_light.tolist(),
+                   None if flat else shadow)
+        base._background = (*base._color("bg_color", scene.bg_color[:3]),
+                            float(scene.bg_color[3]) if len(scene.bg_color) > 3 else 1.0)
+
+    def delete(self) -> None:
+        """There is no context to delete."""
+
+
+__all__ = ["Camera", "DirectionalLight", "IntrinsicsCamera", "Light", "Material", "Mesh",
+           "MetallicRoughnessMaterial", "Node", "OffscreenRenderer", "OrthographicCamera",
+           "PerspectiveCamera", "PointLight", "Primitive", "RenderFlags", "Scene", "SpotLight"]
