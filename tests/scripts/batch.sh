@@ -30,6 +30,14 @@ check "the quick light" "$BATCH" $turn --out quick --piece 7 --quick --threads 1
 check "is another one" no cmp -s one/00007.ppm quick/00007.ppm
 check "by threads as well" sh -c "'$BATCH' $turn --piece 7 --quick --threads 2 --pipe | cmp - quick/00007.ppm"
 
+# a turn begins where --view stands; a quarter of it later the left side is seen
+check "four frames from the front" "$BATCH" --frames 4 --size 97x60 --view front --out turned
+check "and two from the left" "$BATCH" --frames 2 --size 97x60 --view left --out left
+check "begin where the second was" "$HERE/build/compare" --limit 3 turned/00001.ppm left/00000.ppm
+check "which the first was not" no "$HERE/build/compare" --limit 3 --count 20 turned/00000.ppm left/00000.ppm
+check "from above" "$BATCH" --strips 1 --size 97x60 --view top --out above
+check "is another picture" no "$HERE/build/compare" --limit 3 --count 20 turned/00000.ppm above/00000.ppm
+
 for n in 1 2 7 256; do
     check "by $n threads" "$BATCH" $turn --out threads$n --threads $n
     check "the same frames by $n threads" diff -r one threads$n

@@ -198,6 +198,8 @@ drawn() {                       # options: what thumbnail draws, beside the mode
 check "a model is the picture that thumbnail draws" drawn
 check "with options" drawn --samples 1 --rotate 70 --up -z --material gold --background '#204060'
 check "and others" drawn --no-shadow --model phong --shading face --color red --threads 1
+check "a view" drawn --view 200,-30,1.5
+check "the quick light" drawn --quick
 check "not with other options" status 1 "$compare" "$T/tent.ppm" "$T/tent.obj"
 check "its difference picture" status 1 "$compare" "$T/a.ppm" "$T/tent.obj" --difference "$T/tent.d.ppm"
 check "has the picture's size" same "$(head -c 11 "$T/tent.d.ppm" | tr '\n' ' ')" "P6 23 17 25"

@@ -75,7 +75,7 @@ for k in "" front, ,front front,front Front front,side "front top"; do bad "view
 bad "needs a value" --views
 for k in --ortho --edges --hidden --ids --dimensions "--angle first" "--depth $T/none.pgm" \
     "--id-map $T/none.pgm" "--json $T/none.json"; do bad "needs --views" $k; done
-for k in "--rotate 10" "--model phong" "--shading face" "--material gold" --no-shadow; do
+for k in "--rotate 10" "--model phong" "--shading face" "--material gold" --no-shadow "--view top" --quick; do
     bad "does not go with --views" $v $k
 done
 bad "background none" $v --background none

@@ -471,10 +471,56 @@ large() {
     check "has the same bits" cmp "$T/one.ppm" "$T/b.ppm"
 }
 
+# A cube with a colour for each side, seen from each side: +z is the front.
+shown() { "$T/look" pixel "$T/a.ppm" "$@" 1; }   # x, y, red, green, blue
+views() {
+    { echo "mtllib sides.mtl"
+      printf 'v %s\n' "-1 -1 -1" "1 -1 -1" "1 1 -1" "-1 1 -1" "-1 -1 1" "1 -1 1" "1 1 1" "-1 1 1"
+      printf 'usemtl %s\nf %s\n' front "5 6 7 8" back "1 4 3 2" right "2 3 7 6" left "1 5 8 4" \
+          top "3 4 8 7" bottom "1 2 6 5"; } >"$T/sides.obj"
+    printf 'newmtl %s\nKd 0 0 0\nKe %s\n' front ".2 .4 .6" back ".6 .4 .2" right ".4 0 .2" \
+        left "0 .6 .2" top ".6 .6 0" bottom "0 .2 .6" >"$T/sides.mtl"
+    for k in "front 51 102 153" "back 153 102 51" "right 102 0 51" "left 0 153 51" "top 153 153 0" \
+        "bottom 0 51 153" "90,0 102 0 51" "-90,1,2 0 153 51" "0,89 153 153 0"; do
+        check "--view ${k%% *}" draw sides.obj a.ppm $flat --view "${k%% *}"
+        check "sees that side" shown 0.5 0.5 ${k#* }
+    done
+    check "two sides and the top" draw sides.obj a.ppm $flat --view iso
+    check "the front on the left" shown 0.4 0.6 51 102 153
+    check "the right side on the right" shown 0.6 0.6 102 0 51
+    check "the top above" shown 0.5 0.3 153 153 0
+    same "degrees as a turn" sides.obj sides.obj 40 "--no-shadow --view=-30,19.8"
+    check "all of the cube" draw sides.obj a.ppm $flat --view 0,0
+    check "leaves a margin" shown 0.03 0.5 0 0 0
+    check "nearer" draw sides.obj a.ppm $flat --view 0,0,3
+    check "it fills the picture" shown 0.03 0.5 51 102 153
+    for k in north 30 "30," ",30" "30,91" "30,20,0" "30,20,21" "30,20,1," "30,20,1,1" "x,y" "nan,0"; do
+        check "--view $k" refused "--view $k: from where it is seen: front," "$THUMBNAIL" \
+            "$T/sides.obj" "$T/none.ppm" --view "$k"
+    done
+    check "a view turns the model" refused "--rotate does not go with --view" "$THUMBNAIL" "$T/sides.obj" \
+        "$T/none.ppm" --rotate 3 --view top
+}
+
+# Without maps of shadows the outline is the same, and what is open is lit alike.
+quick() {
+    check "all the light" draw torus.obj a.ppm --up y --no-shadow --background black
+    check "quick" draw torus.obj b.ppm --up y --no-shadow --background black --quick
+    check "covers the same pixels" "$T/look" area "$T/a.ppm" "$T/b.ppm" 0.001
+    check "in about the same light" "$T/look" near "$T/a.ppm" "$T/b.ppm" 3
+    check "but no shadows" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 5
+    check "another shadow on the ground" draw torus.obj a.ppm --up y --quick
+    check "is drawn" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 20
+    check "by one thread" draw torus.obj b.ppm --up y --quick --threads 1
+    check "the same" cmp "$T/a.ppm" "$T/b.ppm"
+}
+
 both() {
     bombs
     creases
     large
+    views
+    quick
     surveyed
     upright
     formats

@@ -19,7 +19,6 @@ static const char usage[] =
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
     "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
-    "  --quick               four lamps without shadows, in a tenth of the time\n"
     MODEL_USAGE
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
@@ -33,7 +32,7 @@ typedef struct batch {
     scene_request request;
     const char *out, *film;
     int strips, count, width, height, samples; /* strips: 1 for strips, 0 for frames */
-    int piece, pipe, missing, rate, quick;     /* piece -1: all; count 0: not said */
+    int piece, pipe, missing, rate;            /* piece -1: all; count 0: not said */
     FILE *sink;                                /* of the pipe or film; NULL: files of their own */
     scene scene;
     sheet sheet;
@@ -53,8 +52,6 @@ static int take(void *to, const char *name, const char *value)
         b->pipe = 1;
     else if (!strcmp(name, "--missing"))
         b->missing = 1;
-    else if (!strcmp(name, "--quick"))
-        b->quick = 1;
     else if (!strcmp(name, "--size"))
         return option_size(value, 262144, &b->width, &b->height);
     else if (!strcmp(name, "--rate"))
@@ -81,7 +78,7 @@ static int read_options(batch *b, int argc, char **argv)
 {
     static const char *const valued[] = { MODEL_VALUED, "--size",   "--samples", "--piece", "--out",
                                           "--frames",   "--strips", "--film",    "--rate",  NULL };
-    static const char *const flags[] = { MODEL_FLAGS, "--pipe", "--missing", "--quick", NULL };
+    static const char *const flags[] = { MODEL_FLAGS, "--pipe", "--missing", NULL };
     static const command c = { "batch", usage, valued, flags, 0, 1, "", take };
     int end = options_read(&c, b, argc, argv);
     if (end) return end;
@@ -130,8 +127,8 @@ static int write_piece(batch *b, int k, const batch_piece *p)
     FILE *file = b->sink ? b->sink : save_begin(p->path);
     int failed;
     if (!file) return 1;
-    if (!b->strips) b->scene.yaw = -0.5f + 6.2831853f * (float)k / (float)b->count;
-    if (!b->quick) sheet_light(&b->sheet, &b->scene);
+    if (!b->strips) b->scene.yaw = scene_home_yaw(&b->scene) + 6.2831853f * (float)k / (float)b->count;
+    if (!b->request.how.quick) sheet_light(&b->sheet, &b->scene);
     failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
     if (!b->sink) return save_end(file, p->path, failed);
     failed = failed || fflush(file);

@@ -240,7 +240,7 @@ static int read_options(options *o, int argc, char **argv)
     for (int i = 0; o->difference && i < 2; i++)
         if (save_same(o->names[i], o->difference))
             return complain("%s is read: it cannot be written as well", o->difference);
-    return portrait_check(&o->portrait) ? OPTIONS_WRONG : OPTIONS_READ;
+    return portrait_check(&o->portrait, &o->how) ? OPTIONS_WRONG : OPTIONS_READ;
 }
 
 /* ---- drawing --------------------------------------------------------------------------------- */
@@ -266,7 +266,7 @@ static int draw_model(picture *p, const portrait *as, const model_options *how)
     int failed = ERROR;
     if (model_open(p->name, how, &m, NULL, NULL)) return ERROR;
     guard_doing = "drawing";
-    if (!model_prepare(&m, how, as->rotate)) {
+    if (!model_prepare(&m, how, portrait_turn(as, how))) {
         wrong = portrait_light(&light, &m, as, how, NULL, NULL);
         c = canvas_try(as->width, as->height, as->samples);
         if (!c.target.color) wrong = SHADE_ERROR_CAPACITY;
@@ -300,7 +300,7 @@ static int open_both(picture *p, const options *o)
         if (p[i].file) continue;
         if (as.width > 8192 || as.height > 8192)
             return fail(p[i].name, "models are drawn up to 8192x8192 pixels");
-        if (portrait_check(&as) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))
+        if (portrait_check(&as, &o->how) || draw_model(&p[i], &as, &o->how) || open_rows(&p[i]))
             return ERROR;
     }
     return SAME;

@@ -448,7 +448,9 @@ static inline int exhibit_open(exhibit *e, const model *m, const studio *light,
     e->near_chunks = near_chunks(m, k->eye);
     if (!e->see_through || !e->near_chunks) return 1;
     for (int i = 0; i < m->part_count; i++) e->see_through[i] = (char)part_is_clear(m, o, i);
-    if (!o->no_shadow && studio_cast(&e->ground, light, &m->mesh, o->threads)) return 1;
+    if (o->quick && !o->no_shadow)
+        ground_cast(&e->ground, &m->mesh.view);
+    else if (!o->no_shadow && studio_cast(&e->ground, light, &m->mesh, o->threads)) return 1;
     return far_list_make(&e->far_list, m, e->see_through, k->eye); /* NOLINT: the caller frees */
 }
 

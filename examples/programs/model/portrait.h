@@ -27,7 +27,7 @@
 enum { PORTRAIT_GRADIENT, PORTRAIT_PLAIN, PORTRAIT_NONE }; /* backgrounds */
 
 typedef struct portrait {
-    int width, height, samples, background;
+    int width, height, samples, background, rotated; /* rotated: by an option */
     float rotate; /* radians */
     shade_vec3 background_color;
 } portrait;
@@ -55,6 +55,7 @@ static inline int portrait_angle(const char *text, float *out)
 static inline int portrait_take(portrait *p, const char *name, const char *value)
 {
     if (!strcmp(name, "--size")) return option_size(value, 8192, &p->width, &p->height);
+    if (!strcmp(name, "--rotate")) p->rotated = 1;
     if (!strcmp(name, "--rotate")) return portrait_angle(value, &p->rotate);
     if (!strcmp(name, "--samples")) return option_samples(value, &p->samples);
     if (strcmp(name, "--background") != 0) return -1;
@@ -63,8 +64,9 @@ static inline int portrait_take(portrait *p, const char *name, const char *value
 }
 
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
-static inline int portrait_check(const portrait *p)
+static inline int portrait_check(const portrait *p, const model_options *how)
 {
+    if (p->rotated && how->viewed) return complain("--rotate does not go with --view");
     if (p->width * p->samples <= 16384 && p->height * p->samples <= 16384) return 0;
     return complain("size times samples must stay within 16384");
 }
@@ -76,14 +78,22 @@ typedef struct camera {
     shade_vec3 eye;
 } camera;
 
-/* The camera looks along a fixed direction.  Every point must lie inside four planes through the
+/* How far a model is turned about its upright axis */
+static inline float portrait_turn(const portrait *p, const model_options *how)
+{
+    return how->viewed ? -how->azimuth : p->rotate;
+}
+
+/* The camera looks along a fixed direction, the model has been turned.  Every point must lie inside four planes through the
    eye, and each plane gives one linear bound: their extremes give the nearest eye, and the
    sideways shift that centres. */
-static inline camera camera_frame(const owned_mesh *m, float aspect)
+static inline camera camera_frame(const owned_mesh *m, float aspect, const model_options *how)
 {
     const float half = shade_radians(14), margin = 1.10f;
-    shade_mat4 turn =
-        shade_mat4_look_at(shade_v3(0, 0.36f, 1), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    const shade_vec4 e = shade_mat4_rotation(how->elevation, shade_v3(1, 0, 0)).col[1];
+    const shade_vec3 toward = how->viewed ? shade_v3(0, e.z, e.y) : shade_v3(0, 0.36f, 1);
+    const shade_vec3 up = how->viewed ? shade_v3(0, e.y, -e.z) : shade_v3(0, 1, 0);
+    shade_mat4 turn = shade_mat4_look_at(toward, shade_v3(0, 0, 0), up);
     shade_mat4 lens, world;
     float slope_y, slope_x, left = -9, right = -9, below = -9, above = -9, front = -9, back = 9, d;
     camera c;
@@ -107,6 +117,8 @@ static inline camera camera_frame(const owned_mesh *m, float aspect)
         shade_mat4_translation(shade_v3((left - right) / 2, (below - above) / 2, -d)), turn);
     c.projection =
         shade_mat4_perspective(2 * half, aspect, 0.04f * (d - front) + 0.001f, d - back + 4);
+    c.projection.col[0].x *= how->zoom;
+    c.projection.col[1].y *= how->zoom;
     world = shade_mat4_inverse(c.view);
     c.eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
     return c;
@@ -130,7 +142,8 @@ static inline shade_result portrait_light(studio *light, const model *m, const p
                                           void *user)
 {
     const int pixels = p->width > p->height ? p->width : p->height;
-    if (!look_has_shadows(how) && how->no_shadow) return SHADE_OK;
+    if (how->quick) studio_open_quick(light);
+    if (how->quick || (!look_has_shadows(how) && how->no_shadow)) return SHADE_OK;
     return studio_open(light, m, pixels, 0, how->threads, progress, user);
 }
 
@@ -164,7 +177,7 @@ static inline shade_result portrait_draw(const canvas *c, const model *m, const 
     exhibit e;
     portrait_work w = { .target = &c->target, .exhibit = &e };
     shade_result result = SHADE_ERROR_CAPACITY;
-    w.camera = camera_frame(&m->mesh, (float)p->width / (float)p->height);
+    w.camera = camera_frame(&m->mesh, (float)p->width / (float)p->height, how);
     if (!exhibit_open(&e, m, light, how, w.camera.eye)) {
         portrait_background(&c->target, p);
         bands_run_told(how->threads, PORTRAIT_BANDS, portrait_band, &w, progress, user);

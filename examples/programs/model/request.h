@@ -15,6 +15,10 @@
     "  --shading NAME        fragment, vertex, face (fragment)\n"                                 \
     "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess: y, for\n" \
     "                        STL z, or that of the feet it stands on)\n"                          \
+    "  --view VIEW           from where it is seen: front, right, back, left, top, bottom, iso,\n" \
+    "                        or degrees AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM; azimuth\n"    \
+    "                        -36000 .. 36000, 90: right; elevation -90 .. 90; zoom 0.05 .. 20\n"   \
+    "  --quick               light without shadows among parts, in a part of the time\n"            \
     "  --no-shadow           no shadow on the ground\n"                                           \
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
     "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
@@ -23,15 +27,18 @@
     "  --quiet               prints errors only, no progress and no warnings\n"                   \
     "  --verbose             says which axis was guessed to be upright\n"
 #define MODEL_VALUED \
-    "--color", "--material", "--model", "--shading", "--up", "--threads", "--max-triangles", \
-        "--max-memory"
-#define MODEL_FLAGS "--no-shadow", "--quiet", "--verbose"
+    "--color", "--material", "--model", "--shading", "--up", "--view", "--threads", \
+        "--max-triangles", "--max-memory"
+#define MODEL_FLAGS "--quick", "--no-shadow", "--quiet", "--verbose"
 
 typedef struct model_options {
     int up; /* 0 .. 5 for x y z -x -y -z; -1: by the file */
     int threads, max_triangles, max_memory; /* threads 0: all cores */
     int quiet, verbose;
     int plain, no_shadow; /* plain: one material instead of the file's */
+    int quick;            /* no maps of shadows are drawn */
+    int viewed;           /* the view is said: */
+    float azimuth, elevation, zoom; /* radians: 0 sees the front, a right angle the right side */
     shade_material material;
     shade_model model;
     shade_shading shading;
@@ -116,7 +123,7 @@ static inline void list_materials(void)
 
 static inline model_options model_options_new(void)
 {
-    model_options o = { .up = -1, .max_triangles = 20000000 };
+    model_options o = { .up = -1, .max_triangles = 20000000, .zoom = 1 };
     o.material = clay();
     return o;
 }
@@ -157,11 +164,45 @@ static inline int model_take_shading(model_options *o, const char *value)
     return k >= 0;
 }
 
+/* Reads a number of lowest .. highest at *text, which moves behind it and a comma. */
+static inline int view_number(const char **text, double lowest, double highest, double *out)
+{
+    char *end;
+    *out = strtod(*text, &end);
+    if (end == *text || !(*out >= lowest && *out <= highest)) return 0;
+    if (*end == ',' && end[1]) end++;
+    *text = end;
+    return 1;
+}
+
+static inline int model_take_view(model_options *o, const char *value)
+{
+    static const char *const names[] = { "front", "right", "back", "left", "top", "bottom", "iso" };
+    static const double angles[][2] = { { 0, 0 },  { 90, 0 },  { 180, 0 },         { 270, 0 },
+                                        { 0, 90 }, { 0, -90 }, { 45, 35.264389683 } };
+    const int name = find_name(value, names, 7);
+    double azimuth = 0, elevation = 0, zoom = 1;
+    if (name >= 0) {
+        azimuth = angles[name][0];
+        elevation = angles[name][1];
+    } else if (!strchr(value, ',') || !view_number(&value, -36000, 36000, &azimuth) ||
+               !view_number(&value, -90, 90, &elevation) ||
+               (*value && !view_number(&value, 0.05, 20, &zoom)) || *value) {
+        return OPTION_BAD;
+    }
+    o->viewed = 1;
+    o->azimuth = (float)(azimuth * 0.017453292519943295);
+    o->elevation = (float)(elevation * 0.017453292519943295);
+    o->zoom = (float)zoom;
+    return OPTION_TAKEN;
+}
+
 /* Stores an option of all programs.  Returns what an option_take does, or -1 where the option is
    the program's own. */
 static inline int model_take(model_options *o, const char *name, const char *value)
 {
     int *flag = !strcmp(name, "--no-shadow") ? &o->no_shadow
+              : !strcmp(name, "--quick")     ? &o->quick
               : !strcmp(name, "--quiet")     ? &o->quiet
               : !strcmp(name, "--verbose")   ? &o->verbose : NULL;
     if (flag) *flag = 1;
@@ -170,6 +211,7 @@ static inline int model_take(model_options *o, const char *name, const char *val
     if (!strcmp(name, "--material")) return model_take_material(o, value);
     if (!strcmp(name, "--model")) return model_take_model(o, value);
     if (!strcmp(name, "--shading")) return model_take_shading(o, value);
+    if (!strcmp(name, "--view")) return model_take_view(o, value);
     if (!strcmp(name, "--up")) return option_axis(value, &o->up);
     if (!strcmp(name, "--threads")) return option_integer(value, 1, 256, &o->threads);
     if (!strcmp(name, "--max-triangles"))

@@ -118,12 +118,22 @@ static inline void frame_rate_count(frame_rate *f, double now)
 
 /* ---- the model ------------------------------------------------------------------------------ */
 
+/* How the model stands after loading */
+static inline float scene_home_yaw(const scene *s)
+{
+    return s->how.viewed ? -s->how.azimuth : -0.5f;
+}
+static inline float scene_home_pitch(const scene *s)
+{
+    return s->how.viewed ? s->how.elevation : SCENE_PITCH;
+}
+
 /* Restores the state after loading. */
 static inline void scene_go_home(scene *s)
 {
-    s->yaw = -0.5f;
-    s->pitch = SCENE_PITCH;
-    s->zoom = 1;
+    s->yaw = scene_home_yaw(s);
+    s->pitch = scene_home_pitch(s);
+    s->zoom = s->how.zoom;
     s->turning = s->turning_at_home;
     memcpy(s->choice, s->home, sizeof s->choice);
 }
@@ -333,7 +343,7 @@ static inline void scene_fit(const scene *s, float slope_x, float slope_y, float
 {
     shade_vec2 tilt;
     float side = 0, above = -9, below = -9;
-    shade_mat4 turn = shade_mat4_rotation(SCENE_PITCH, shade_v3(1, 0, 0));
+    shade_mat4 turn = shade_mat4_rotation(scene_home_pitch(s), shade_v3(1, 0, 0));
     tilt = shade_v2(turn.col[1].y, turn.col[1].z); /* cosine, sine */
     for (int i = 0; i < s->model.mesh.view.vertex_count; i++) {
         const float *p = s->model.mesh.positions + 3 * (size_t)i;
@@ -465,7 +475,7 @@ static inline model_options scene_options(const scene *s)
 /* 1: the studio can light what the choices want. */
 static inline int scene_has_studio(const scene *s)
 {
-    return s->choice[CHOICE_LAMP] == LAMP_STUDIO && !s->choice[CHOICE_TERM] &&
+    return !s->how.quick && s->choice[CHOICE_LAMP] == LAMP_STUDIO && !s->choice[CHOICE_TERM] &&
            !s->choice[CHOICE_FLAG] && !s->choice[CHOICE_WIRE] && s->model.mesh.view.index_count &&
            (s->flat || s->choice[CHOICE_SHADING] < 2);
 }

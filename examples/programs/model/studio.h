@@ -368,6 +368,15 @@ static shade_result studio_open(studio *s, const model *m, int pixels, float tur
     return result;
 }
 
+/* Lamps whose maps are not drawn: nothing throws a shadow. */
+static inline void studio_open_quick(studio *s)
+{
+    static const studio none;
+    *s = none;
+    studio_place(s, 12, 1);
+    studio_place_key(s, 0);
+}
+
 /* Turns the lamps about the model; those of the sky stay, so that its light does not flicker. */
 static inline shade_result studio_turn(studio *s, const model *m, float turn, int threads)
 {

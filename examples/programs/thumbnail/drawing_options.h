@@ -68,7 +68,8 @@ static inline int drawing_is_json(const char *name)
 static inline int drawing_take(drawing_options *d, const char *name, const char *value)
 {
     static const char *const lit[] = { "--rotate",  "--model",     "--shading",
-                                       "--material", "--no-shadow", NULL };
+                                       "--material", "--no-shadow", "--view",
+                                       "--quick",    NULL };
     int taken = OPTION_TAKEN;
     if (option_among(lit, name)) d->needs_light = name;
     if (!strcmp(name, "--size")) d->sized = 1;

@@ -43,7 +43,7 @@ static int take(void *to, const char *name, const char *value)
 static int check_options(options *o)
 {
     if (drawing_check(&o->drawing, o->output, o->picture.background == PORTRAIT_NONE)) return 1;
-    if (portrait_name(o->output, &o->png) || portrait_check(&o->picture)) return 1;
+    if (portrait_name(o->output, &o->png) || portrait_check(&o->picture, &o->how)) return 1;
     if (o->picture.background == PORTRAIT_NONE && !o->png)
         return complain("--background none needs PNG: PPM has no transparency");
     return 0;

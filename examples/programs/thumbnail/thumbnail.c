@@ -59,7 +59,7 @@ static int read_model(const options *o, model *m, progress *p)
     report_next(p, "");
     if (!failed) failed = check_inputs(o, m);
     if (failed || o->drawing.view_count) return failed;
-    return model_prepare(m, &o->how, o->picture.rotate);
+    return model_prepare(m, &o->how, portrait_turn(&o->picture, &o->how));
 }
 
 static int draw_and_save(const options *o, const model *m, progress *p)
