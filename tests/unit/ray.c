@@ -485,8 +485,9 @@ static void check_picks(int exact)
             misses += want < 0;
             if (want < 0) CHECK(t == -7 && b.x == -7 && b.y == -7 && b.z == -7);
             if (want < 0 || got != want) continue;
-            CHECK_NEAR(t, want_t, 1e-6 * want_t + (exact ? 0 : pick_rounding(&s, want, &ray, size)));
+            double rounding = exact ? 0 : pick_rounding(&s, want, &ray, size);
             double near = exact ? 1e-6 : 30 * margin;
+            CHECK_NEAR(t, want_t, 1e-6 * want_t + rounding);
             CHECK_VEC(b, d3_of(want_b[0], want_b[1], want_b[2]), near);
         }
     }

@@ -297,7 +297,8 @@ def test_eight_threads_share_a_mesh_with_edges():
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 def test_ctrl_c_ends_the_studio_before_it_is_done():
-    program = "import os, signal, threading, numpy as np, shade_h\n" \
+    program = "import signal, numpy as np, shade_h\n" \
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n" \
         "u = np.linspace(0, 6, 1200)\n" \
         "x, y = np.meshgrid(u, u)\n" \
         "v = np.stack([x, y, np.sin(3 * x) * np.cos(2 * y)], -1).reshape(-1, 3)\n" \
