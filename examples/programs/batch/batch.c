@@ -127,7 +127,8 @@ static int write_piece(batch *b, int k, const batch_piece *p)
     FILE *file = b->sink ? b->sink : save_begin(p->path);
     int failed;
     if (!file) return 1;
-    if (!b->strips) b->scene.yaw = scene_home_yaw(&b->scene) + 6.2831853f * (float)k / (float)b->count;
+    if (!b->strips)
+        b->scene.yaw = scene_home_yaw(&b->scene) + 6.2831853f * (float)k / (float)b->count;
     if (!b->request.how.quick) sheet_light(&b->sheet, &b->scene);
     failed = fputs(p->header, file) < 0 || sheet_write(&b->sheet, p->first, p->rows, file);
     if (!b->sink) return save_end(file, p->path, failed);

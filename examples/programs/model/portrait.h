@@ -84,9 +84,9 @@ static inline float portrait_turn(const portrait *p, const model_options *how)
     return how->viewed ? -how->azimuth : p->rotate;
 }
 
-/* The camera looks along a fixed direction, the model has been turned.  Every point must lie inside four planes through the
-   eye, and each plane gives one linear bound: their extremes give the nearest eye, and the
-   sideways shift that centres. */
+/* The camera looks along a fixed direction, the model has been turned.  Every point must lie inside
+   four planes through the eye, and each plane gives one linear bound: their extremes give the
+   nearest eye, and the sideways shift that centres. */
 static inline camera camera_frame(const owned_mesh *m, float aspect, const model_options *how)
 {
     const float half = shade_radians(14), margin = 1.10f;

@@ -18,7 +18,7 @@
     "  --view VIEW           from where it is seen: front, right, back, left, top, bottom, iso,\n" \
     "                        or degrees AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM; azimuth\n"    \
     "                        -36000 .. 36000, 90: right; elevation -90 .. 90; zoom 0.05 .. 20\n"   \
-    "  --quick               light without shadows among parts, in a part of the time\n"            \
+    "  --quick               light without shadows among parts, in a part of the time\n"          \
     "  --no-shadow           no shadow on the ground\n"                                           \
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
     "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
