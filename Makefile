@@ -67,7 +67,7 @@ build/shade.o: shade.h
 	@mkdir -p build
 	$(CC) $(FLAGS) -DSHADE_IMPLEMENTATION -x c -c shade.h -o $@
 build/%: %.c build/shade.o $(HEADERS)
-	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm $(LIBRARIES) -o $@
+	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o $(LDFLAGS) -lm $(LIBRARIES) -o $@
 build/19_threads $(PROGRAMS): EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
 build/view: LIBRARIES = $(SDL2) $(SIXEL) $(STB) $(ASSIMP)
@@ -170,7 +170,7 @@ uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 
 clean:
-	rm -rf build out
+	rm -rf build out dist
 .PHONY: all pictures programs test assignments bench bench-plot matrix conformance coverage \
         mutation static prove fuzz gallery playground vector-report dist install uninstall clean
 .SECONDARY:

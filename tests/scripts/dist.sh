@@ -14,10 +14,18 @@ repeats() {                     # file, pattern of sed that gives the version
 repeats examples/node/package.json 's/^ *"version": "\(.*\)",/\1/p'
 repeats examples/python/pyproject.toml 's/^version = "\(.*\)"/\1/p'
 repeats examples/python/shade_h/__init__.py 's/^__version__ = "\(.*\)"/\1/p'
-for f in examples/embed/packages/*; do
-    [ -f "$f" ] && grep -q '[0-9]\.[0-9]\.[0-9]' "$f" || continue
-    check "the version of $f" grep -qF "$V" "$f"
-done
+E=examples/embed P=examples/embed/packages
+repeats $E/README.md 's/.*and `v\([0-9.]*\)` by.*/\1/p'
+repeats $E/cmake/CMakeLists.txt 's/.*GIT_TAG v\([0-9.]*\)).*/\1/p'
+repeats $E/meson/subprojects/shade.wrap 's/^revision = v//p'
+repeats $E/meson/subprojects/packagefiles/shade/meson.build "s/.* version: '\(.*\)')/\1/p"
+repeats $P/vcpkg/vcpkg.json 's/^ *"version": "\(.*\)",/\1/p'
+repeats $P/conan/conanfile.py 's/^ *version = "\(.*\)"/\1/p'
+repeats $P/esp-idf/idf_component.yml 's/^version: "\(.*\)"/\1/p'
+repeats $P/zig/build.zig.zon 's/^ *\.version = "\(.*\)",/\1/p'
+repeats $P/xmake/xmake.lua 's/.*add_versions("\([^"]*\)".*/\1/p'
+repeats $P/debian/changelog 's/^shade-h (\(.*\)-1).*/\1/p'
+repeats $P/README.md 's/.*tar -xzf shade-h-\(.*\)\.tar\.gz/\1/p'
 check "the version of >>history" grep -q "^   ${V%.*}  " shade.h
 
 # ---- the tarball: twice from git, and from itself

@@ -4,6 +4,8 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc} MAKE=${MAKE:-make}
+number=$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h)
+V=$((number / 10000)).$((number / 100 % 100)).$((number % 100))
 
 modes() {
     (cd "$1" && find . ! -type d -exec ls -l {} +) |
@@ -32,7 +34,8 @@ check "the header is this one" cmp shade.h "$P/include/shade.h"
 for p in thumbnail view batch compare; do
     page="$P/share/man/man1/shade-$p.1"
     check "$p is the one built" cmp build/$p "$P/bin/shade-$p"
-    check "$p has a version" sh -c "'$P/bin/shade-$p' --version | grep -q '^shade-$p 1[.]'"
+    check "$p has the version of shade.h" same "$("$P/bin/shade-$p" --version)" "shade-$p $V"
+    check "its page has it" grep -qF "$V" "$page"
     for option in $("$P/bin/shade-$p" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p'); do
         check "its page has $option" grep -q "^[.]B $(echo "$option" | sed 's/-/\\\\-/g')" "$page"
     done

