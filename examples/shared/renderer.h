@@ -921,18 +921,27 @@ static inline void renderer_shadow(const renderer_batch *b, const renderer_surfa
                                    int count, float *visible)
 {
     const renderer *r = b->r;
-    float L[3][SHADE_LANES];
+    const shade_vec4 axis = r->lamp_axis;
+    const shade_mat4 from_lamp = r->from_lamp;
+    float L[3][SHADE_LANES], at[3][SHADE_LANES], facing[SHADE_LANES], clip[4][SHADE_LANES];
     shade_light_at_lanes(&r->known_light, P[0], L[0], NULL);
-    for (int i = 0; i < count; i++) {
-        const shade_vec3 at = lane(P[0], i), n = shade_normalize(lane(N[0], i));
-        const shade_vec3 l = lane(L[0], i);
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 p = lane(P[0], i), n = shade_normalize(lane(N[0], i)), l = lane(L[0], i);
         const float sine = shade_length(shade_cross(n, l));
-        const float away = r->lamp_axis.x * at.x + r->lamp_axis.y * at.y + r->lamp_axis.z * at.z +
-                           r->lamp_axis.w;
-        const float texel = r->texel + (away > 0 ? r->texel_slope * away : 0);
+        const float away = axis.x * p.x + axis.y * p.y + axis.z * p.z + axis.w;
+        const float texel = r->texel + r->texel_slope * (away > 0 ? away : 0);
         const float off = 2.2f * texel * (sine + 0.2f) + 2 * s->sag[i];
-        visible[i] = shade_dot(n, l) <= 0 ? 0 :
-            renderer_passes(r, shade_mat4_transform_point(r->from_lamp, shade_madd(at, off, n)));
+        facing[i] = shade_dot(n, l);
+        lane_put(at[0], i, shade_madd(p, off, n));
+    }
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 p = lane(at[0], i);
+        lane_put4(clip[0], i, shade_mat4_transform(from_lamp, shade_v4(p.x, p.y, p.z, 1)));
+    }
+    for (int i = 0; i < count; i++) {
+        const float w = clip[3][i] > 0 ? 1 / clip[3][i] : 0;
+        const shade_vec3 p = shade_scale(shade_v3(clip[0][i], clip[1][i], clip[2][i]), w);
+        visible[i] = facing[i] > 0 ? renderer_passes(r, p) : 0;
     }
     for (int i = count; i < SHADE_LANES; i++) visible[i] = visible[count - 1];
 }
