@@ -109,9 +109,12 @@ typedef struct renderer_entry {
     float lift;               /* of a capsule: half the length of its cylinder */
     float distance;           /* of its nearest point from the eye, at least */
     float sag;                /* in the unit of the scene */
-    int object, key, first;   /* its first triangle in a draw of several */
+    int object, key;
     int uneven;               /* normals must be made unit, because it is scaled unevenly */
 } renderer_entry;
+
+/* What ids hold for a triangle */
+typedef struct renderer_mark { int32_t object, triangle; } renderer_mark;
 
 /* Places and values of vertices in the world */
 typedef struct renderer_vertex { float value[12]; } renderer_vertex;
@@ -120,13 +123,14 @@ typedef struct renderer {
     renderer_entry *entries;
     renderer_vertex *vertices;
     uint32_t *indices, *owners;    /* of a triangle: the entry */
+    renderer_mark *marks;          /* of a triangle */
     float *depth, *large_depth, *map;
     uint32_t *color, *large_color;
     renderer_object *known;        /* what the shadow map holds */
     int known_count, map_valid;
     shade_light known_light;
     float known_tolerance;
-    size_t room[10];
+    size_t room[11];
     shade_mat4 from_lamp;          /* world to the shadow map's clip space */
     float texel, texel_slope;      /* size of its texels: texel + texel_slope times the distance */
     shade_vec4 lamp_axis;          /* distance from the lamp along its axis */
@@ -431,6 +435,7 @@ static inline void renderer_close(renderer *r)
     free(r->vertices);
     free(r->indices);
     free(r->owners);
+    free(r->marks);
     free(r->depth);
     free(r->large_depth);
     free(r->map);
@@ -596,7 +601,9 @@ static inline void renderer_detail(const renderer_view *v, const renderer_object
     const float radius = which ? o->size[0] : renderer_most(o->size);
     const renderer_shape *levels = v->scene->round[which];
     const float pixels = radius * (v->parallel ? v->scale : v->scale / nearest);
-    e->shape = levels + renderer_level(levels, pixels, v->p->tolerance);
+    /* in a shadow map a chord too far inside moves an outline, and hides nothing that is lit */
+    const float tolerance = v->p->tolerance * (v->shadows ? 4.0f : 1.0f);
+    e->shape = levels + renderer_level(levels, pixels, tolerance);
     e->sag = e->shape->sag * radius;
     e->lift = which == 1 ? o->size[2] : 0;
 }
@@ -975,17 +982,16 @@ static inline void renderer_light(const renderer_batch *b, const renderer_surfac
 /* Numbers and normals of pixels.  Fragments come here that passed the depth test, the nearest of a
    pixel last. */
 static inline void renderer_note(const renderer_batch *b, const shade_fragments *in,
-                                 const uint32_t *owner, const float (*N)[SHADE_LANES])
+                                 const float (*N)[SHADE_LANES])
 {
-    const renderer_entry *entries = b->entry;
-    const int width = b->v->p->width;
+    const renderer_mark *marks = b->owners ? b->r->marks : NULL;
+    const int width = b->v->p->width, object = b->entry->object;
     int32_t *ids = b->v->p->ids;
     float *normals = b->v->p->normals;
     for (int i = 0; i < in->count && ids; i++) {
-        const renderer_entry *e = &entries[owner[i]];
-        int32_t *id = ids + 2 * ((int)in->y[i] * width + (int)in->x[i]);
-        id[0] = e->object;
-        id[1] = (int32_t)in->primitive[i] - e->first;
+        const uint32_t k = in->primitive[i];
+        const renderer_mark mark = marks ? marks[k] : (renderer_mark){ object, (int32_t)k };
+        memcpy(ids + 2 * ((int)in->y[i] * width + (int)in->x[i]), &mark, sizeof mark);
     }
     for (int i = 0; i < in->count && normals; i++) {
         const int at = (int)in->y[i] * width + (int)in->x[i];
@@ -1008,7 +1014,7 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
             N[k][i] = in->front[i] != (uint32_t)b->mirrored ? n : -n;
         }
     one = renderer_find_owners(b, in, owner);
-    if (b->notes) renderer_note(b, in, owner, (const float(*)[SHADE_LANES])N);
+    if (b->notes) renderer_note(b, in, (const float(*)[SHADE_LANES])N);
     if (!b->lighting) return;
     renderer_surfaces(b, owner, one, &s);
     for (int k = 0; k < 3 && b->colors; k++)
@@ -1044,7 +1050,9 @@ static inline int renderer_room_for(renderer *r, const renderer_entry *e, int co
                                                    vertices * sizeof *r->vertices);
     r->indices = (uint32_t *)renderer_room(r->indices, &r->room[2], indices * sizeof(uint32_t));
     r->owners = (uint32_t *)renderer_room(r->owners, &r->room[3], indices / 3 * sizeof(uint32_t));
-    return r->vertices && r->indices && r->owners;
+    r->marks = (renderer_mark *)renderer_room(r->marks, &r->room[10],
+                                              indices / 3 * sizeof *r->marks);
+    return r->vertices && r->indices && r->owners && r->marks;
 }
 
 static inline int renderer_mirrors(shade_mat4 m)
@@ -1069,8 +1077,10 @@ static inline int renderer_join(renderer *r, const renderer_batch *b, renderer_e
             to[k + 1] = (uint32_t)vertices + s->indices[k + 1 + flip];
             to[k + 2] = (uint32_t)vertices + s->indices[k + 2 - flip];
         }
-        e[j].first = indices / 3;
-        for (int k = 0; k < s->index_count / 3; k++) r->owners[e[j].first + k] = (uint32_t)j;
+        for (int k = 0, at = indices / 3; k < s->index_count / 3; k++, at++) {
+            r->owners[at] = (uint32_t)j;
+            r->marks[at] = (renderer_mark){ e[j].object, k };
+        }
         vertices += s->vertex_count;
         indices += s->index_count;
     }
@@ -1088,7 +1098,6 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     const uint32_t *indices = e->shape->indices;
     int vertex_count = e->shape->vertex_count, index_count = e->shape->index_count;
     b->entry = e;
-    e->first = 0;
     b->texture = b->lighting && texture >= 0 ? &b->v->scene->textures[texture] : NULL;
     b->uv = b->texture ? 6 : 0;
     b->colors = b->lighting && (key & RENDERER_KEY_COLORS) ? (b->texture ? 9 : 6) : 0;
@@ -1261,12 +1270,12 @@ static inline renderer_view renderer_lamp_view(renderer *r, const renderer_pictu
     return v;
 }
 
-/* Four texels for a row of the picture, as a power of two */
+/* Two texels for a row of the picture, or more, as a power of two */
 static inline int renderer_map_size(const renderer_picture *p)
 {
-    int size = 256;
+    int size = 128;
     if (p->shadow_size) return p->shadow_size;
-    while (size < 4 * p->height && size < 2048) size *= 2;
+    while (size < 2 * p->height && size < 2048) size *= 2;
     return size;
 }
 
@@ -1310,15 +1319,17 @@ static inline void renderer_distances(const renderer_picture *p, const float *z,
 {
     const size_t pixels = (size_t)p->width * (size_t)p->height;
     const int endless = p->far_z >= 1e30f, parallel = p->parallel;
-    const float n = p->near_z, span = p->far_z - n, nf = endless ? n : n * p->far_z;
+    const float n = p->near_z, far_z = p->far_z, span = far_z - n, nf = endless ? n : n * far_z;
     const float base = endless ? 0 : n, slope = endless ? 1 : span, empty = p->empty_depth;
     for (size_t i = 0; i < pixels; i += SHADE_LANES) {
         const size_t left = pixels - i, count = left < SHADE_LANES ? left : SHADE_LANES;
         float from[SHADE_LANES] = { 0 }, to[SHADE_LANES];
+        int32_t seen[SHADE_LANES] = { 0 };    /* the bits: integers are compared by lanes */
         memcpy(from, z + i, count * sizeof *z);
+        memcpy(seen, z + i, count * sizeof *z);
         SHADE_EACH_LANE(k) { to[k] = nf / (base + from[k] * slope); }
-        for (size_t k = 0; k < count && parallel; k++) to[k] = p->far_z - from[k] * span;
-        for (size_t k = 0; k < count; k++) to[k] = from[k] > 0 ? to[k] : empty;
+        if (parallel) SHADE_EACH_LANE(k) { to[k] = far_z - from[k] * span; }
+        SHADE_EACH_LANE(k) { to[k] = seen[k] > 0 ? to[k] : empty; }
         memcpy(depth + i, to, count * sizeof *to);
     }
 }
