@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import struct
 import sys
 from ctypes import (POINTER, Structure, c_char_p, c_float, c_int, c_size_t, c_uint,
                     c_void_p)
@@ -94,18 +95,11 @@ class View(Structure):
                 ("ids", c_void_p), ("in_studio", c_int), ("to_studio", c_float * 16)]
 
 
-class Shot(Structure):
-    """renderer_picture"""
-    _fields_ = [*((name, c_int) for name in
-                  ("width", "height", "samples", "channels", "srgb", "solid", "parallel",
-                   "object_count", "light_count", "shadow_light", "shadow_size", "sky",
-                   "sky_texture")),
-                ("near_z", c_float), ("far_z", c_float), ("empty_depth", c_float),
-                ("tolerance", c_float), ("view", c_float * 16), ("projection", c_float * 16),
-                ("background", c_float * 4), ("sky_low", c_float * 3), ("sky_high", c_float * 3),
-                ("ambient", c_float * 3), ("objects", c_void_p), ("lights", c_void_p),
-                ("color", c_void_p), ("depth", c_void_p), ("ids", c_void_p),
-                ("normals", c_void_p)]
+#: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count,
+#: light_count, shadow_light, shadow_size, sky, sky_texture; near_z, far_z, empty_depth, tolerance;
+#: view, projection; background, sky_low, sky_high, ambient; objects, lights, color, depth, ids,
+#: normals
+SHOT = struct.Struct("@13i4f32f13f6P")
 
 
 #: renderer_object
@@ -186,7 +180,7 @@ def _open() -> Any:
     for i, twin in enumerate(twins):
         if library.python_size(i) != ctypes.sizeof(twin):
             raise ImportError(f"{path} does not belong to this version: {twin.__doc__}")
-    if (library.python_size(9), library.python_size(10)) != (SOLID.itemsize, ctypes.sizeof(Shot)):
+    if (library.python_size(9), library.python_size(10)) != (SOLID.itemsize, SHOT.size):
         raise ImportError(f"{path} does not belong to this version: renderer_object")
     return library
 

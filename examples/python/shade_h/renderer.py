@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, Sequence
 import numpy as np
 
 from . import _arguments as arguments
-from ._native import (SOLID, Array, Bytes, Error, Floats, Integers, Light as NativeLight,
-                      Mesh as NativeMesh, Shot, check, library, pointer)
+from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Integers, Light as NativeLight,
+                      Mesh as NativeMesh, check, library, pointer)
 from .camera import Camera
 from .light import Light
 from .mesh import Mesh
@@ -20,6 +20,7 @@ SHAPES = {"plane": 2, "sphere": 1, "ellipsoid": 3, "capsule": 2, "cylinder": 2, 
 _KINDS = {"mesh": 0, "plane": 1, "sphere": 2, "ellipsoid": 3, "capsule": 4, "cylinder": 5, "box": 6}
 _HIDDEN, _TWO_SIDED, _NO_SHADOW = 1, 2, 4
 _LAMPS = 8
+_UNIT = np.eye(3)
 
 
 class Frame(NamedTuple):
@@ -294,9 +295,10 @@ class Renderer:
         """Moves all objects: (n, 4, 4), a row for each; nothing moves where one is refused."""
         got = arguments.doubles("poses", poses, (self._count, 4, 4), finite=True)
         turns = got[:, :3, :3]
-        wrong = np.abs(turns @ turns.transpose(0, 2, 1) - np.eye(3)).max((1, 2)) > 1e-3
-        if wrong.any():
-            raise Error(f"poses[{int(wrong.argmax())}] must be a rotation and a translation, "
+        error = np.abs(turns @ turns.transpose(0, 2, 1) - _UNIT)
+        if error.size and error.max() > 1e-3:
+            wrong = int((error.max((1, 2)) > 1e-3).argmax())
+            raise Error(f"poses[{wrong}] must be a rotation and a translation, "
                         "without scale")
         self._objects["turn"][:self._count] = turns
         self._objects["place"][:self._count] = got[:, :3, 3]
@@ -374,22 +376,18 @@ class Renderer:
 
     def _draw(self, frame: Frame, view: Array, projection: Array, near: float, far: float,
               parallel: bool, solid: bool, empty_depth: float) -> Frame:
-        shot = Shot(width=self.width, height=self.height, samples=self.samples)
-        shot.channels = 3 if frame.color is None else frame.color.shape[2]
-        shot.srgb, shot.solid, shot.tolerance = self.srgb, bool(solid), self.tolerance
-        shot.near_z, shot.far_z, shot.parallel = near, far, parallel
-        shot.empty_depth = float(empty_depth)
-        shot.view[:], shot.projection[:] = view.T.ravel().tolist(), projection.T.ravel().tolist()
-        shot.background[:], shot.ambient[:] = self._background, self._ambient
-        shot.sky, shot.sky_texture, shot.sky_low[:], shot.sky_high[:] = self._sky
-        shot.objects, shot.object_count = pointer(self._objects), self._count
-        shot.lights, shot.light_count = ctypes.addressof(self._lamps), len(self._lights)
-        shot.shadow_light, shot.shadow_size = self._shadow, self.shadow_size
-        shot.color, shot.depth = pointer(frame.color), pointer(frame.depth)
-        shot.ids, shot.normals = pointer(frame.ids), pointer(frame.normals)
+        sky, sky_texture, low, high = self._sky
+        shot = SHOT.pack(
+            self.width, self.height, self.samples, 3 if frame.color is None else frame.color.shape[2],
+            self.srgb, bool(solid), parallel, self._count, len(self._lights), self._shadow,
+            self.shadow_size, sky, sky_texture, near, far, ctypes.c_float(empty_depth).value,
+            self.tolerance,
+            *view.T.ravel().tolist(), *projection.T.ravel().tolist(), *self._background, *low, *high,
+            *self._ambient, pointer(self._objects), ctypes.addressof(self._lamps),
+            *(pointer(array) or 0 for array in frame))
         scratch = self._scene.take()
         try:
-            check(library.python_renderer_draw(scratch, self._scene.handle, ctypes.byref(shot)),
+            check(library.python_renderer_draw(scratch, self._scene.handle, shot),
                   "camera")
         finally:
             self._scene.free.append(scratch)
