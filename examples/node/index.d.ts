@@ -158,7 +158,9 @@ export class Renderer {
     constructor(height: number, width: number, options?: { samples?: number; srgb?: boolean; tolerance?: number });
     readonly height: number;
     readonly width: number;
-    mesh(source: { positions: Numbers; indices?: Numbers; normals?: "flat" | "smooth" | Numbers; uv?: Numbers }): Shape;
+    /** Fields as of MeshSource, without its texture; uv needs one in add(). */
+    mesh(source: Mesh | { positions: Numbers; indices?: Numbers; normals?: "auto" | "flat" | "smooth" | Numbers;
+                          uv?: Numbers; colors?: Numbers }): Shape;
     height_field(heights: Numbers, rows: number, columns: number, half: Numbers): Shape;
     texture(picture: { data: Numbers; width: number; height: number; faces?: 1 | 6 }): number;
     checker(one?: Color, other?: Color): number;
@@ -169,6 +171,7 @@ export class Renderer {
         emission?: number; texture?: number; repeat?: Numbers; two_sided?: boolean; casts_shadow?: boolean;
     }): number;
     pose(number: number, pose: Numbers): void;
+    poses(poses: readonly Numbers[]): void;
     show(number: number, visible?: boolean): void;
     light(lights: readonly Light[], ambient?: Numbers, shadow?: number): void;
     background(color: Color): void;

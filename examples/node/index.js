@@ -205,6 +205,14 @@ export class Mesh {
     }
 }
 
+/** A Mesh, or one of the fields that a Renderer's mesh has; the texture stands in for that of its objects. */
+function prepared(source) {
+    if (source instanceof Mesh) return source;
+    const got = check.record("mesh", source, ["positions", "indices", "normals", "uv", "colors"]);
+    const texture = { data: [255, 255, 255], width: 1, height: 1 };
+    return new Mesh(got.uv === undefined ? got : { ...got, texture });
+}
+
 // ---- pictures
 
 /** Three lamps beside the camera. */
@@ -299,7 +307,7 @@ export function render(meshes, options) {
 // ---- cameras
 
 /** One scene and many cameras: see index.d.ts. */
-export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed });
+export const Renderer = rendererOf({ library, take, put, withMemory, linear, succeed, prepared });
 
 /** MuJoCo's own class without OpenGL: new mujoco.Renderer(mj, model, height, width). */
 export const mujoco = mujocoOf(Renderer);

@@ -424,6 +424,24 @@ int module_scene_mesh(renderer_scene *scene, const shade_mesh *m, int smooth)
     return renderer_add_mesh(scene, m, smooth);
 }
 
+/* The same of a mesh that is ready, whose coordinates begin at (x, y, z) */
+EXPORT(scene_made)
+int module_scene_made(renderer_scene *scene, const module_mesh *m, float x, float y, float z);
+int module_scene_made(renderer_scene *scene, const module_mesh *m, float x, float y, float z)
+{
+    const float origin[3] = { x, y, z };
+    shade_mesh placed = m->mesh;
+    const size_t floats = 3 * (size_t)placed.vertex_count;
+    float *positions = (float *)malloc(floats * sizeof *positions + 1);
+    int number = -1;
+    for (size_t i = 0; positions && i < floats; i++)
+        positions[i] = m->mesh.positions[i] + origin[i % 3];
+    placed.positions = positions;
+    if (positions) number = renderer_add_mesh(scene, &placed, 0);
+    free(positions);
+    return number;
+}
+
 EXPORT(scene_texture)
 int module_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
                          int faces, int srgb);

@@ -94,7 +94,7 @@ class Stage {
 
     #mesh(type, id) {
         const name = `${type} ${id}`, make = type === MESH ? meshOf : groundOf;
-        if (!this.#meshes.has(name)) this.#meshes.set(name, this.#renderer.mesh(make(this.#model, id)).mesh);
+        if (!this.#meshes.has(name)) this.#meshes.set(name, this.#renderer._mesh(make(this.#model, id)).mesh);
         return this.#meshes.get(name);
     }
 

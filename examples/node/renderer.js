@@ -41,7 +41,7 @@ function rangeOf(p) {
 }
 
 /** The class, over the functions of index.js that know the module's memory. */
-export function rendererOf({ library, take, put, withMemory, linear, succeed }) {
+export function rendererOf({ library, take, put, withMemory, linear, succeed, prepared }) {
     [[4, OBJECT], [5, SHOT], [3, LIGHT]].forEach(([i, words]) => {
         if (library.size(i) !== 4 * words) throw new Error("renderer.js and module.js do not fit");
     });
@@ -91,8 +91,19 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed }) 
 
         // ---- what is drawn
 
-        /** A mesh for add(): normals are "flat", "smooth" or three numbers a vertex. */
+        /** A mesh for add(): a Mesh, or its positions, indices, normals, uv and colors. */
         mesh(source) {
+            const made = prepared(source);
+            if (!made.positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
+            const number = library.scene_made(this.#scene, made.address, ...made.origin);
+            if (made !== source) made.free();
+            if (number < 0) throw new RangeError("memory is not enough for the mesh");
+            this.#meshes++;
+            return { mesh: number, triangles: made.indices.length / 3 };
+        }
+
+        /** The same of arrays as they are: v downward, and normals "flat", "smooth" or three numbers a vertex. */
+        _mesh(source) {
             const got = check.record("mesh", source, ["positions", "indices", "normals", "uv"]);
             const positions = check.rows("positions", got.positions, 3), vertices = positions.length / 3;
             if (!positions.every(Number.isFinite)) throw new ShadeError("positions must hold finite numbers");
@@ -129,7 +140,7 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed }) 
                     indices.push(k, k + 1, k + columns + 1, k, k + columns + 1, k + columns);
                 }
             }
-            return this.mesh({ positions, indices, normals: "smooth" });
+            return this._mesh({ positions, indices, normals: "smooth" });
         }
 
         /** A picture { data, width, height } of RGBA bytes for add(); with faces 6 a cube's, one below the
@@ -230,6 +241,13 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed }) 
             check.integer("number", number, 0, this.#count - 1);
             const { turn, place } = rigid(`pose of object ${number}`, pose);
             new Float32Array(this.#objects).set([...turn, ...place], OBJECT * number + 7);
+        }
+
+        /** Moves all objects: a matrix for each; nothing moves where one is refused. */
+        poses(poses) {
+            if (poses?.length !== this.#count) throw new ShadeError(`poses must hold ${this.#count} matrices`);
+            const got = Array.from(poses, (pose, i) => rigid(`poses[${i}]`, pose)), floats = new Float32Array(this.#objects);
+            got.forEach(({ turn, place }, i) => floats.set([...turn, ...place], OBJECT * i + 7));
         }
 
         /** Hides an object, or shows it again. */

@@ -90,6 +90,7 @@ if [ "$browser" ]; then
     cp "$P"/*.js "$P"/*.cjs "$T/use/"
     cp "$N/package.json" "$T/use/package.json"
     check "the same bytes in a browser" \
-        timeout 180 node "$T/use/test/browser.js" $browser --no-sandbox "--user-data-dir=$T/browser"
+        timeout 180 env ${python:+ORACLE="$T/oracle"} \
+        node "$T/use/test/browser.js" $browser --no-sandbox "--user-data-dir=$T/browser"
 else left_out "a browser"; fi
 finish

@@ -39,6 +39,8 @@ cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" \
 check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/python/tests"
 check "the scenes of bench/python.py are drawn" sh -c "
     $python '$OLDPWD/bench/python.py' --one shade_h robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"
+check "the scenes of bench/robots.py are drawn" sh -c "
+    echo | $python '$OLDPWD/bench/robots.py' --one 'shade.h, chequered and with shadows' 64 0 0.1"
 if $python -c 'import mypy' 2>/dev/null; then
     check "mypy --strict" sh -c "cd '$P' && $python -m mypy --strict --cache-dir '$T/mypy'"
 else left_out "mypy"; fi

@@ -169,3 +169,32 @@ model = shade.render(OUT / "model.glb", size=(200, 150))
 (OUT / "model.rgba").write_bytes(model.rgba.tobytes())
 assert len(np.unique(model.rgba)) > 100
 (OUT / "scenes.json").write_text(json.dumps(told))
+
+
+# a Renderer: colour, depth, numbers and normals one after the other
+def sight():
+    sim = shade.Renderer(60, 80)
+    sim.add("plane", texture=sim.checker(), repeat=(0.5, 0.5))
+    points, faces = box(0.6, 0.6, 0.6)
+    uv = points[:, :2] / 0.6
+    tinted = sim.mesh(points + [5e4, 0, 0], faces, colors=np.tile([[0.9, 0.4, 0.2], [0.2, 0.5, 0.9]], (4, 1)))
+    mapped = sim.mesh(points, faces, uv=uv)
+    sim.add(tinted, at=(-5e4, 0.6, 0.1))
+    sim.add(mapped, at=(-1.2, -0.6, 0.1), texture=sim.checker("red", "white"))
+    sim.add(sim.mesh(*torus(9)[:2]), 0.2, at=(1.2, -1, 0.4), color="green", specular=0.5)
+    for i, (name, size) in enumerate({"sphere": 0.3, "ellipsoid": (0.35, 0.2, 0.15), "capsule": (0.15, 0.3),
+                                      "cylinder": (0.2, 0.3), "box": (0.25, 0.2, 0.3)}.items()):
+        sim.add(name, size, at=(i * 0.8 - 2, -0.2, 0.5), color="yellow", alpha=0.5 if i == 1 else 1)
+    sim.light([shade.Light.directional((-0.5, 1, -1.5), (0.8, 0.8, 0.8))], (0.3, 0.3, 0.3), 0)
+    sim.sky()
+    camera = shade.Camera.look_at((0, -4, 2.5), (0, 0, 0.3), fov=45, aspect=80 / 60, near=0.1, far=50)
+    frame = sim.render(camera, normals=True)
+    assert len(np.unique(frame.ids[..., 0])) >= 8
+    (OUT / "sight.bytes").write_bytes(b"".join(array.tobytes() for array in frame))
+    told = {"view": camera.view.T.ravel().tolist(), "projection": camera.projection.T.ravel().tolist(),
+            "box": points.ravel().tolist(), "faces": faces.ravel().tolist(), "uv": uv.ravel().tolist(),
+            "torus": [a.ravel().tolist() for a in torus(9)[:2]]}
+    (OUT / "sight.json").write_text(json.dumps(told))
+
+
+sight()

@@ -3,7 +3,8 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import test from "node:test";
-import { Mesh, readGltf, render } from "shade-h";
+import { Mesh, readGltf, render, Renderer } from "shade-h";
+import { sight } from "./sight.js";
 
 const folder = process.env.ORACLE;
 const scenes = JSON.parse(readFileSync(`${folder}/scenes.json`, "utf8"));
@@ -28,6 +29,12 @@ for (const { name, meshes, options } of scenes) {
         made.forEach((mesh) => mesh.free());
     });
 }
+
+test("a Renderer", () => {
+    const got = sight(Renderer, JSON.parse(readFileSync(`${folder}/sight.json`, "utf8")));
+    const wanted = readFileSync(`${folder}/sight.bytes`), at = got.findIndex((x, i) => x !== wanted[i]);
+    assert.ok(wanted.equals(got), `byte ${at} of ${got.length}: 14400 of colour, 19200 of depth, 38400 of numbers`);
+});
 
 test("a GLB", () => {
     const meshes = readGltf(readFileSync(`${folder}/model.glb`));

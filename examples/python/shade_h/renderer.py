@@ -14,6 +14,7 @@ from ._native import (SHOT, SOLID, Array, Bytes, Error, Floats, Integers, Light 
 from .camera import Camera
 from .light import Light
 from .mesh import Mesh
+from .picture import Picture
 
 #: The shapes that are made once for all scenes, and the numbers that their size is.
 SHAPES = {"plane": 2, "sphere": 1, "ellipsoid": 3, "capsule": 2, "cylinder": 2, "box": 3}
@@ -35,6 +36,29 @@ class Frame(NamedTuple):
     depth: Floats | None
     ids: Integers | None
     normals: Floats | None
+
+    def picture(self) -> Picture:
+        """What there is of colour, depth (near is bright), objects (a colour for each) and normals,
+        side by side: notebooks show it."""
+        parts: list[Any] = [] if self.color is None else [self.color[..., :3]]
+        if self.depth is not None:
+            seen = np.isfinite(self.depth)
+            low, high = (self.depth[seen].min(), self.depth[seen].max()) if seen.any() else (0, 1)
+            near = (high - np.where(seen, self.depth, high)) / max(high - low, 1e-30)
+            grey = np.where(seen, 40 + 215 * near, 0)
+            parts.append(np.repeat(grey[..., None], 3, 2))
+        if self.ids is not None:
+            number = self.ids[..., :1].astype(np.int64) + 1
+            parts.append(np.where(number > 0, 64 + number * (67, 113, 151) % 192, 0))
+        if self.normals is not None:
+            parts.append(127.5 + 127.5 * self.normals)
+        if not parts:
+            raise Error("frame has no arrays")
+        rgb = np.concatenate([np.asarray(part, np.uint8) for part in parts], 1)
+        return Picture(np.concatenate([rgb, np.full_like(rgb[..., :1], 255)], 2))
+
+    def _repr_png_(self) -> bytes:
+        return self.picture().png()
 
 
 class Shape:
@@ -138,12 +162,8 @@ class Renderer:
         if isinstance(vertices, Mesh):
             made = vertices
         else:
-            made = Mesh(vertices, faces, normals=normals, color=colors)
-            if uv is not None:
-                if len(made.positions) != len(made.local):
-                    raise Error("uv: give normals by vertex, or normals='smooth', beside uv")
-                made.uv = arguments.floats("uv", uv, (len(made.local), 2), finite=True)
-                made.uv = np.stack([made.uv[:, 0], 1 - made.uv[:, 1]], 1)
+            texture = None if uv is None else np.full((1, 1, 3), 255, np.uint8)
+            made = Mesh(vertices, faces, normals=normals, color=colors, uv=uv, texture=texture)
         positions = np.ascontiguousarray(made.positions + made.origin.astype(np.float32))
         if not np.isfinite(positions).all():
             raise Error("vertices must hold finite numbers that fit float32")

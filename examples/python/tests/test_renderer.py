@@ -1,6 +1,7 @@
 """Cameras of one scene: depth, ids and normals beside closed forms, and the same bytes whoever draws."""
 import ctypes
 import multiprocessing
+import os
 import pickle
 import threading
 
@@ -146,9 +147,47 @@ def test_each_kind_is_hit_where_its_equation_says(parallel):
         assert (np.abs(frame.depth - at)[both] > 0.03).sum() <= 6, kind
 
 
-def test_corners_of_a_checkerboard_by_opencv_and_opengl():
-    """Triangles that meet in a corner are told apart pixel by pixel: the corner lies within 1/256
-    pixel and half a pixel of where K puts it, whichever convention the camera came by."""
+def test_corners_of_a_checkerboard_lie_within_1_256_pixel():
+    """The principal point moves by 1/64 pixel, so that the lines between corners pass the centres of
+    pixels at all distances.  Centres farther than 1/256 pixel from each line, by K and the pose in
+    double, show the square that they lie in; of those that are nearer some do not."""
+    turn = np.linalg.qr(np.random.default_rng(8).normal(size=(3, 3)) + 4 * np.eye(3))[0]
+    turn *= np.sign(np.diag(turn))
+    outside = np.column_stack([turn, [0.05, -0.1, 4]])
+    made, size = shade.Renderer(96, 96), 0.2
+    for i in range(-3, 3):
+        for j in range(-3, 3):
+            corners = [[size * (i + a), size * (j + b), 0] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            made.add(made.mesh(corners, [[0, 1, 2], [0, 2, 3]], normals="flat"), two_sided=True)
+    lines = size * np.arange(-3, 4)
+    ends = np.array([[[x, lines[0], 0], [x, lines[-1], 0]] for x in lines] +
+                    [[[lines[0], y, 0], [lines[-1], y, 0]] for y in lines])
+    near = wrong = closer = 0
+    for step in range(64):
+        K = np.array([[301.0, 0, 47.5 + step / 64], [0, 299.0, 48.2 + step % 8 / 8], [0, 0, 1]])
+        ids = made.render(shade.Camera.opencv(K, outside, (96, 96), 0.1, 20)).ids[..., 0]
+        seen = (ends @ turn.T + outside[:, 3]) @ K.T
+        seen = seen[..., :2] / seen[..., 2:]
+        v, u = np.meshgrid(np.arange(96), np.arange(96), indexing="ij")
+        # OpenCV has the centre of the first pixel at (0, 0)
+        way = np.stack([u, v, np.ones_like(u)], -1) @ np.linalg.inv(K).T @ turn
+        eye = -turn.T @ outside[:, 3]
+        on = eye - eye[2] / way[..., 2:] * way
+        cell = np.floor(on[..., :2] / size).astype(int)
+        within = ((cell >= -3) & (cell < 3)).all(-1)
+        wanted = np.where(within, (cell[..., 0] + 3) * 6 + cell[..., 1] + 3, -1)
+        # distance of each centre from the nearest of the lines, in pixels
+        a, b = seen[:, 0], seen[:, 1]
+        along = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
+        gap = np.abs((u[..., None] - a[:, 0]) * along[:, 1] - (v[..., None] - a[:, 1]) * along[:, 0]).min(-1)
+        near += int(((gap < 1 / 32) & (gap > 1 / 256)).sum())
+        wrong += int(((ids != wanted) & (gap > 1 / 256)).sum())
+        closer += int((ids != wanted).sum())
+    assert wrong == 0 and near > 4000 and closer > 0, (wrong, near, closer)
+
+
+def test_each_square_of_a_checkerboard_is_told_by_opencv_and_opengl():
+    """The object of a pixel is that which its ray meets, whichever convention the camera came by."""
     K = np.array([[310.7, 0, 158.3], [0, 305.2, 121.9], [0, 0, 1]])
     turn = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)) + 3 * np.eye(3))[0]
     turn *= np.sign(np.diag(turn))
@@ -373,6 +412,50 @@ def test_pictures_leave_memory_where_it_was():
         made.render(cameras[i % 5], out)
     after = libc.mallinfo2()
     assert after.h - before.h < 50000 and after.e == before.e
+
+
+def test_a_notebook_shows_the_outputs_side_by_side():
+    frame = crowd().render(eyes(1)[0], normals=True)
+    shown = frame.picture()
+    assert shown.size == (4 * 80, 60) and frame._repr_png_() == shown.png()
+    color, depth, ids, normals = np.split(shown.rgba[..., :3].astype(int), 4, 1)
+    assert np.array_equal(color, frame.color)
+    near = np.unravel_index(frame.depth.argmin(), frame.depth.shape)
+    seen = np.isfinite(frame.depth)
+    assert (depth[near] == 255).all() and (depth[~seen] == 0).all() and (depth[seen] >= 40).all()
+    numbers = frame.ids[..., 0]
+    tints = {n: np.unique(ids[numbers == n], axis=0) for n in np.unique(numbers)}
+    assert all(len(t) == 1 for t in tints.values())
+    assert len(np.unique(np.concatenate(list(tints.values())), axis=0)) == len(tints) > 10
+    assert np.abs((normals - 127) / 128 - frame.normals).max() < 0.02
+    with pytest.raises(shade.Error, match="frame has no arrays"):
+        shade.Frame(None, None, None, None).picture()
+    empty = shade.Renderer(4, 4).render(eyes(1)[0])
+    assert (empty.picture().rgba[:, 4:, :3] == 0).all()
+
+
+def test_many_pictures_leave_the_process_as_large_as_it_was():
+    """LONG=1 draws 100,000; the size of the process is that which the system tells."""
+    try:
+        with open("/proc/self/statm", encoding="ascii") as told:
+            told.read()
+    except OSError:
+        pytest.skip("this system does not tell the size of a process")
+
+    def resident():
+        with open("/proc/self/statm", encoding="ascii") as told:
+            return int(told.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    made, cameras = crowd(24, 32), eyes(5)
+    made.render(cameras[0])
+    out = made.frame(normals=True)
+    count = 100_000 if os.environ.get("LONG") else 2_000
+    for i in range(200):
+        made.render(cameras[i % 5], out)
+    before = resident()
+    for i in range(count):
+        made.pose(3, _at(np.sin(0.01 * i), np.cos(0.01 * i), 0.7))
+        made.render(cameras[i % 5], out if i % 2 else None)
+    assert resident() - before < 2**20, resident() - before
 
 
 # ---- refusals
