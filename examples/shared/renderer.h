@@ -642,6 +642,12 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
         break;
     default: renderer_detail(v, o, e, e->distance);
     }
+    /* all that casts shadows is drawn together; a distant lamp needs no backs of what is closed */
+    if (v->shadows) {
+        const int closed = o->kind != RENDERER_MESH && o->kind != RENDERER_PLANE;
+        e->key = closed && v->parallel ? 0 : RENDERER_KEY_TWO_SIDED;
+        return 1;
+    }
     e->key = (e->shape->colors ? RENDERER_KEY_COLORS : 0) +
              (o->flags & RENDERER_TWO_SIDED ? RENDERER_KEY_TWO_SIDED : 0) +
              (1 + o->texture) * RENDERER_KEY_TEXTURE;
@@ -1121,7 +1127,7 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     }
     if (b->v->shadows || (!b->lighting && !b->notes)) pipeline.fragment = NULL;
     if (!pipeline.fragment) pipeline.varyings = 0;
-    if (!b->v->shadows && !(key & RENDERER_KEY_TWO_SIDED))
+    if (!(key & RENDERER_KEY_TWO_SIDED))
         pipeline.raster.cull = b->mirrored ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
     if (!b->v->shadows) {
         pipeline.raster.depth_test = SHADE_COMPARE_GREATER;
