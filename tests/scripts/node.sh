@@ -15,6 +15,10 @@ rm -f "$N/module.js"
 sh "$N/build.sh" >"$T/built" 2>&1 || { fail "the module is compiled" "$T/built"; finish; }
 [ -f "$N/module.js" ] || { left_out "everything: no clang for wasm32 with wasi-libc"; finish; }
 
+cp -R bench "$T/tree"
+check "the scene of bench/robots.mjs is drawn" sh -c "
+    node '$T/tree/bench/robots.mjs' 0.05 | grep -q '256 x 256: [1-9]'"
+
 # as a user has it: a package of its own, installed without the tree
 check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/node"
 check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-h-*.tgz"
