@@ -104,7 +104,8 @@ done
 
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
-apart="dialects compare contents coverage drawing embed lint matrix mutation node prove python static thumbnail vector_report"
+apart="dialects compare contents coverage drawing embed lint matrix mutation node packages prove python
+       static thumbnail vector_report"
 for name in $apart; do
     check "$name.sh has a directory of its own" \
         grep -qE 'T=\$\(mktemp -d\)|^\. tests/scripts/tools.sh$|>/tmp/lint_.*\$\$' "tests/scripts/$name.sh"
