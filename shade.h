@@ -70,13 +70,13 @@
        >>check     5691  refusals              >>seen      5856  what can be seen, chunks
        >>drive     5993  shade_draw            >>mesh      6172  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6575  shade_draw_lines      >>shape     6733  normals, edges
-       >>chunks    7063  boxes of triangles    >>rays      7227  shade_pick
-       >>survey    7424  experiments on a draw >>explain   7690  why nothing is seen
-       >>image     8289  mipmaps, PPM           >>presets   8558  classic materials
+       >>lines     6578  shade_draw_lines      >>shape     6736  normals, edges
+       >>chunks    7072  boxes of triangles    >>rays      7236  shade_pick
+       >>survey    7432  experiments on a draw >>explain   7707  why nothing is seen
+       >>image     8304  mipmaps, PPM           >>presets   8573  classic materials
      Sources
-       >>refs      8634                        >>history   8664
-       >>license   8676
+       >>refs      8649                        >>history   8679
+       >>license   8691
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -6187,6 +6187,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     unsigned unmapped;                   /* the other terms */
     shade__surface surface;              /* of lighting */
     const shade_texture *map;            /* NULL: none */
+    uint32_t white_map;                  /* of the map only the holes matter */
     int face_normals;                    /* N is the normal of the face */
     int corners;                         /* every corner is a vertex */
     int has_picture;                     /* the target has a picture */
@@ -6433,6 +6434,7 @@ static void shade__mesh_colors(const shade__scene *s,
         shade_sample_lanes(s->map, in->varying[uv], in->varying[uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
     if (!s->has_picture) return;
+    for (int i = 0; s->white_map && i < 3 * SHADE_LANES; i++) to[i] = 1;
 
     if (!s->lit_vertices) {
         shade_rows rows;
@@ -6487,6 +6489,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
     s->state = state;
     s->has_picture = target->color != NULL;
     s->map = mesh->texcoords ? state->diffuse_map : NULL;
+    s->white_map = 0;
     s->world_from_object = shade__or_identity(state->model);
     s->clip_from_object = shade__or_identity(state->projection);
     s->clip_from_object = shade__mat4_product(&s->clip_from_object, &view);
@@ -6756,6 +6759,12 @@ static double shade__angle(double y, double x)
                                                                                      [Shewchuk97] */
 static int shade__sum_is_zero(double x[6])
 {
+    double rough = 0, size = 0;
+    for (int i = 0; i < 6; i++) {
+        rough += x[i];
+        size += shade__size(x[i]);
+    }
+    if (shade__size(rough) > size * 1e-15) return 0;    /* beyond what five roundings err by */
     for (int i = 1; i < 6; i++) {
         for (int k = 0; k < i; k++) {
             const double a = x[i], b = x[k], sum = a + b, rounded = sum - a;
@@ -6772,13 +6781,13 @@ static int shade__sum_is_zero(double x[6])
    differences of far and near points may round. */
 static int shade__has_area(const shade_vec3 p[3])
 {
-    double v[3][3];
-    for (int k = 0; k < 3; k++) shade__double3(p[k], v[k]);
+    double v[4][3];
+    for (int k = 0; k < 4; k++) shade__double3(p[k % 3], v[k]);
     for (int i = 0; i < 3; i++) {
         const int j = i < 2 ? i + 1 : 0;
         double x[6];
         for (int k = 0; k < 3; k++) {
-            const double *a = v[k], *b = v[k < 2 ? k + 1 : 0];
+            const double *a = v[k], *b = v[k + 1];
             x[2 * k] = a[i] * b[j];
             x[2 * k + 1] = -a[j] * b[i];
         }
@@ -7310,9 +7319,12 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
     for (int k = 0; k < 4; k++) shade__double3(shade__xyz(m->col[k]), column[k]);
     shade__double3(ray.direction, direction);
     shade__sub3(ray.origin, shade__xyz(m->col[3]), origin);
-    for (int k = 0; k < 3; k++)
+    s->reach = (double)FLT_MIN;    /* world positions and t may be denormal */
+    for (int k = 0; k < 3; k++) {
         s->size[k] = shade__size(column[k][0]) + shade__size(column[k][1]) +
                      shade__size(column[k][2]);
+        s->reach += shade__size(origin[k]) + 2 * shade__size(column[3][k]);
+    }
     for (int k = 0; k < 3; k++) {
         const int a = k < 2 ? k + 1 : 0, b = k > 0 ? k - 1 : 2;
         shade__cross3(column[a], column[b], normal);
@@ -7321,10 +7333,6 @@ static void shade__object_ray_of(const shade_mat4 *m, shade_ray ray, shade__obje
         s->slack[k] = s->size[a] * s->size[b] * (1 / 1048576.0);
     }
     s->scale = shade__dot3(column[2], normal);
-    s->reach = shade__size(origin[0]) + shade__size(origin[1]) +
-               shade__size(origin[2]);
-    for (int k = 0; k < 3; k++) s->reach += 2 * shade__size(column[3][k]);
-    s->reach += (double)FLT_MIN;    /* world positions and t may be denormal */
 }
 
 /* Finds the range[0] .. range[1] of t, at most limit, in which the ray may be inside a box, with
@@ -7459,12 +7467,14 @@ typedef struct shade__survey {
     shade__probe   *probes;
 
     int        clip[4], whole;           /* the clip rectangle; is it the whole picture? */
+    uint32_t   white;                    /* are the colours of the map left out? */
     int        exact;                    /* experiments see what the picture shows, no more */
     float      black;                    /* channels below it are stored as 0 */
     uint32_t   outside;                  /* the SHADE__OUT_... bits that all corners share */
     int        inside;                   /* is a triangle outside of no plane with all corners? */
     float      from[2], to[2];           /* the mesh's box on the screen, x and y from -1 to 1 */
     shade_vec3 low, high;                /* the mesh's box in object space */
+    int        reversed;                 /* is z = w on the eye's side of a perspective? */
     float      farthest;                 /* depth of pixels that do not show the mesh */
     shade_stats stats;                   /* of the last experiment */
 } shade__survey;
@@ -7516,6 +7526,7 @@ static long long shade__count(shade__survey *s, float least)
     s->least = least;
     if (!(least > 0)) t.color = NULL;
     shade__scene_of(&t, &s->mesh, &s->state, &s->scene);
+    s->scene.white_map = s->white;
     t.color = NULL;
     shade__draw_scene(&t, &s->scene, shade__judge, 1, &s->stats);
     return s->stats.fragments;
@@ -7547,12 +7558,11 @@ static void shade__begin_survey(shade__survey *s)
     s->state = *s->given_state;
     s->state.projection = shade__or_identity(s->state.projection);
     last = s->state.projection.col[3];
-    s->farthest = 1;
-    if (s->target->depth ? shade__compare_of(&s->state.raster).greater != 0
-                         : last.w == 0 && last.z > 0)
-        s->farthest = 0;
+    s->reversed = last.w == 0 && last.z > 0;
+    s->farthest = (float)!(s->target->depth ? (int)shade__compare_of(&s->state.raster).greater
+                                            : s->reversed);
     s->state.raster.depth_read_only = 1;
-    s->nearer = s->every = 0;
+    s->white = s->nearer = s->every = 0;
 
     s->black = s->target->dither && l->bytes == 2 ? 0.03f : 0.499f;
     s->black /= (float)l->full[1];
@@ -7677,6 +7687,13 @@ static int shade__is_scattered(shade__survey *s)
            shade__depth_varies(s);
 }
 
+/* Lights every fragment, where there is room for its position and normal. */
+static void shade__light_fragments(shade__survey *s)
+{
+    if (SHADE_MAX_VARYINGS > (s->state.diffuse_map ? 7 : 5))
+        s->state.shading = SHADE_SHADING_PER_FRAGMENT;
+}
+
 static int shade__eye_inside(shade__survey *s)
 {
     const shade_mat4 m = shade__mat4_product(&s->state.view, &s->state.model);
@@ -7684,7 +7701,7 @@ static int shade__eye_inside(shade__survey *s)
     shade_vec3 p;
     shade__measure(s);
     p = shade_clamp(eye, s->low, s->high);
-    return p.x == eye.x && p.y == eye.y && p.z == eye.z;
+    return shade__is_zero(shade_sub(p, eye));
 }
 
 /*---------------------------------------------------------------------------------------- >>explain
@@ -7835,7 +7852,7 @@ static const char *shade__why_outside(shade__survey *s)
         return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
                "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
 
-    if (s->outside & SHADE__OUT_FAR)
+    if (s->outside & (s->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
         return "The whole mesh lies beyond the far plane of state.projection; move far out, or the "
                "eye of state.view nearer.";
 
@@ -7847,7 +7864,7 @@ static const char *shade__why_outside(shade__survey *s)
     if (s->outside & SHADE__OUT_W)
         return "The whole mesh lies behind the eye: the camera of state.view looks down -z in its "
                "own space; check state.view and state.model.";
-    if (s->outside & SHADE__OUT_NEAR)
+    if (s->outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
         return "The whole mesh lies nearer than the near plane of state.projection, or behind the "
                "eye of state.view; move near in, or the eye back.";
     if (others) return "";    /* one of several meshes may stand there */
@@ -7913,7 +7930,6 @@ static const char *shade__why_nothing(shade__survey *s)
 
 static const char *shade__why_hidden(shade__survey *s)
 {
-    const int greater = s->farthest == 0;
     long long passed;
     shade__look_through(s, s->given_state->raster.depth_test);
     passed = shade__covered(s);
@@ -7923,8 +7939,8 @@ static const char *shade__why_hidden(shade__survey *s)
 
     shade__look_through(s, SHADE_COMPARE_EQUAL);
     if (!s->given_stats && shade__covered(s)) return NULL;    /* the mesh itself is stored */
-    shade__look_through(s, greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS);
-    s->state.raster.depth_bias = greater ? 1.0f : -1.0f;    /* not even the nearest depth passes */
+    shade__look_through(s, s->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
+    s->state.raster.depth_bias = 1 - 2 * s->farthest;    /* not even the nearest depth passes */
     if (!shade__covered(s))
         return "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
@@ -7946,7 +7962,7 @@ static const char *shade__suspect_test(const shade__survey *s)
     const shade_mat4 *p = &s->state.projection;
     /* depth is a number plus col[3].z / w */
     if (s->target->depth && p->col[3].w == 0 && shade__faces_ahead(p) && !r->depth_read_only &&
-        r->depth_test < SHADE_COMPARE_EQUAL && (p->col[3].z > 0) != (s->farthest == 0))
+        r->depth_test < SHADE_COMPARE_EQUAL && (float)s->reversed == s->farthest)
         return "raster.depth_test does not fit state.projection, so that what is far hides what "
                "is near: SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER "
                "and 0 for shade_mat4_perspective_reversed.";
@@ -8018,7 +8034,7 @@ static const char *shade__why_unlit(shade__survey *s)
     shade_lighting *l = &s->state.lighting;
     const shade_light *lamps = l->lights;
     int any, met = 0;
-    if (SHADE_MAX_VARYINGS > 5) s->state.shading = SHADE_SHADING_PER_FRAGMENT;
+    shade__light_fragments(s);
     any = shade__count(s, FLT_MIN) > 0;
     if (shade__bright(s))
         return "state.shading lights vertices or middles of faces, which no light reaches, though "
@@ -8053,11 +8069,11 @@ static const char *shade__why_unlit(shade__survey *s)
            "lighting.lights are dark, or diffuse is, and the highlights do not reach the eye.";
 }
 
-/* Gives the mesh a surface that reflects all light. */
+/* Gives the mesh a surface that reflects all light, with the holes of its map. */
 static void shade__whiten(shade__survey *s)
 {
     s->mesh.colors = NULL;
-    s->state.diffuse_map = NULL;
+    s->white = 1;
     s->material.diffuse = s->material.specular = s->material.ambient = shade_v3(1, 1, 1);
 }
 
@@ -8165,15 +8181,14 @@ static int shade__normals_turned(shade__survey *s)
     const shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     long long all = shade__covered(s), front, toward;
     if (s->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
-        (l->flags & SHADE_FLAG_TWO_SIDED) || s->state.raster.cull == SHADE_CULL_FRONT ||
-        (s->state.diffuse_map && s->state.alpha_cutoff > 0))    /* white has no holes */
+        (l->flags & SHADE_FLAG_TWO_SIDED) || s->state.raster.cull == SHADE_CULL_FRONT)
         return 0;
     s->state.raster.cull = SHADE_CULL_BACK;
-    if (SHADE_MAX_VARYINGS > 5) s->state.shading = SHADE_SHADING_PER_FRAGMENT;
+    shade__light_fragments(s);
     /* at the centre of projection, which is infinitely far away where projection is parallel */
     s->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
     s->lamp[0].position = shade_mat4_transform(shade_mat4_inverse(m),
-                                               shade_v4(0, 0, s->farthest == 0 ? 1.0f : -1.0f, 0));
+                                               shade_v4(0, 0, 1 - 2 * s->farthest, 0));
     SHADE__ZERO(*l);
     l->lights = s->lamp;
     l->light_count = 1;

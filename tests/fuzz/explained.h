@@ -356,6 +356,7 @@ static shade_stats ex_cover(explained *e, const shade_mesh *mesh, const shade_dr
 typedef struct ex_asked {
     const explained *e;
     shade_vec3 eye;
+    int holes;              /* are texels below the cut-off left out? */
 } ex_asked;
 static shade_mat4 ex_or_identity(shade_mat4 m)
 {
@@ -377,7 +378,13 @@ static void ex_write(const void *uniforms, const shade_fragments *SHADE_RESTRICT
                      shade_colors *SHADE_RESTRICT out)
 {
     const ex_asked *a = (const ex_asked *)uniforms;
-    const shade_lighting *l = &a->e->state.lighting;
+    const shade_draw_state *s = &a->e->state;
+    const shade_lighting *l = &s->lighting;
+    const int holes = a->holes && s->diffuse_map && a->e->mesh.texcoords;
+    float texel[4 * SHADE_LANES];
+    if (holes)
+        shade_sample_lanes(s->diffuse_map, in->varying[6], in->varying[7],
+                           s->diffuse_map->mipmap_count ? in->lod : NULL, texel);
     for (int i = 0; i < in->count; i++) {
         const shade_vec3 p = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
         const shade_vec3 n = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
@@ -397,6 +404,8 @@ static void ex_write(const void *uniforms, const shade_fragments *SHADE_RESTRICT
                            (shade_dot(n, shade_sub(a->eye, p)) < 0 ? 2.0f : 0.0f);
         out->color[2][i] = cone;
         out->color[3][i] = 1 + before;
+        if (holes && !(texel[3 * SHADE_LANES + i] * (1 - s->transparency) >= s->alpha_cutoff))
+            out->color[3][i] = 0;
     }
 }
 /* Draws that into value; alpha is 0 where nothing is drawn.  As the draw saw its depth, or with
@@ -423,7 +432,9 @@ static void ex_values(explained *e, shade_cull cull, int tested)
     }
     s.raster.cull = cull;
     s.raster.blend = SHADE_BLEND_REPLACE;
-    s.transparency = s.alpha_cutoff = 0;
+    asked.holes = tested < 0 && s.alpha_cutoff > 0 && !s.fragment;
+    s.transparency = 0;
+    s.alpha_cutoff = asked.holes ? 0.5f : 0.0f;
     s.shading = SHADE_SHADING_PER_FRAGMENT;
     s.fragment = ex_write;
     s.uniforms = &asked;

@@ -584,6 +584,28 @@ static void stage_two_triangles(stage *s, shade_vec3 a, shade_vec3 b)
     s->mesh.index_count = 6;
     memset(&s->state.view, 0, sizeof s->state.view);
 }
+/* The left one faces the lamp, and its texels are holes; the right one turns away.  Stored depth
+   would tell which pixels are drawn. */
+MISTAKE(lamp_behind_what_the_map_leaves)
+{
+    stage_two_triangles(s, shade_v3(-1.2f, 0, 0), shade_v3(0.2f, 0, 0));
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    for (int i = 0; i < 6; i++) {
+        s->normal[i] = shade_v3(0, 0, i < 3 ? 1.0f : -1.0f);
+        s->texcoord[i] = shade_v2(i < 3 ? 0.25f : 0.75f, 0.25f);
+    }
+    s->texel[3] = s->texel[11] = 0;
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->state.alpha_cutoff = 0.5f;
+    s->state.lighting.light_count = 1;
+    s->c.target.depth = NULL;
+}
+MISTAKE(lamp_behind_what_the_map_leaves_in_ambient_light)
+{
+    mistake_lamp_behind_what_the_map_leaves(s);
+    s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.1f);
+}
 MISTAKE(on_both_sides) { stage_two_triangles(s, shade_v3(-99, 0, -4), shade_v3(99, 0, -4)); }
 MISTAKE(before_and_beyond) { stage_two_triangles(s, shade_v3(0, 0, -0.01f), shade_v3(0, 0, -999)); }
 MISTAKE(all_discarded_of_depth)
@@ -738,12 +760,29 @@ MISTAKE(mipmaps_not_counted)
     mistake_trilinear_without_mipmaps(s);
     s->map.mipmaps = &s->map;
 }
+static void stage_reverse(stage *s, float z_near)
+{
+    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, z_near);
+    s->state.raster.depth_zero_to_one = 1;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
 /* Its last column, (0, 0, 1, 0), is also that of a transposed matrix. */
 MISTAKE(reversed_beside)
 {
     mistake_beside(s);
-    s->state.projection = shade_mat4_perspective_reversed(0.8f, 1.5f, 1);
-    s->state.raster.depth_zero_to_one = 1;
+    stage_reverse(s, 1);
+}
+/* Everything has z = near > w: behind the eye, w < 0, or before the near plane. */
+MISTAKE(reversed_looks_away)
+{
+    mistake_looks_away(s);
+    stage_reverse(s, 1);
+}
+MISTAKE(reversed_before_near) { stage_reverse(s, 50); }
+MISTAKE(reversed_beyond_far)
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 2, 0.1f);
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
@@ -918,6 +957,10 @@ static const mistake mistakes[] = {
     OF(bad_map_without_texcoords, "pixels are NULL"),
     OF(trilinear_without_mipmaps, "no mipmaps"), OF(mipmap_count_without_mipmaps, "no mipmaps"),
     OF(mipmaps_not_counted, "no mipmaps"), OF(reversed_beside, "beside"),
+    OF(reversed_looks_away, "behind the eye"), OF(reversed_before_near, "nearer than the near"),
+    OF(reversed_beyond_far, "beyond the far plane"),
+    OF(lamp_behind_what_the_map_leaves, "Every lamp is behind"),
+    OF(lamp_behind_what_the_map_leaves_in_ambient_light, "every lamp is behind"),
     OF(chunks_of_half_the_triangles, "mesh.chunks sum to fewer"),
     OF(chunks_of_zeros, "mesh.chunks sum to fewer"), OF(aspect_of_a_square, "aspect"),
     OF(aspect_upside_down, "aspect"), OF(view_that_scales, "state.view scales"),
