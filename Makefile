@@ -12,7 +12,9 @@
 # make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
 # make gallery    the PNGs of the README (needs netpbm and pngquant)
 # make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
-#                 and beside it the slides of four courses, course-uw.html and so on
+#                 and beside it four courses, courses.html
+# make course     pages and slides of the courses alone, and their slides with answers as PDF (needs
+#                 pandoc, reveal.js of npm, chromium)
 # make assignments   tries the graders of examples/assignments: solutions, starters, mistakes
 # make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install    header, shade.pc, shade-thumbnail, -view, -batch and -compare with man pages, and
@@ -109,6 +111,8 @@ gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
 	@sh examples/playground/build.sh && sh examples/course/build.sh
+course:
+	@PDF=1 sh examples/course/build.sh
 assignments:
 	@sh tests/scripts/assignments.sh
 coverage:
@@ -171,6 +175,6 @@ uninstall:
 
 clean:
 	rm -rf build out dist
-.PHONY: all pictures programs test assignments bench bench-plot matrix conformance coverage \
+.PHONY: all pictures programs test assignments course bench bench-plot matrix conformance coverage \
         mutation static prove fuzz gallery playground vector-report dist install uninstall clean
 .SECONDARY:

@@ -98,10 +98,15 @@ if wants npm && command -v npm >/dev/null && sh examples/node/build.sh >"$WORK/l
 elif wants npm; then left_out "npm: no node, or no clang for wasm32 with wasi-libc"; fi
 
 # ---- the playground and the courses, to be opened without a network
-if wants pages && command -v zip >/dev/null && make -s playground >"$WORK/log" 2>&1 &&
+reveal=${REVEAL:-$TOP/build/node_modules/reveal.js}
+if wants pages && command -v zip >/dev/null && REVEAL="$reveal" make -s playground >"$WORK/log" 2>&1 &&
     [ -f build/playground/index.html ]; then
     mkdir "$WORK/$NAME-pages"
     cp build/playground/*.html "$WORK/$NAME-pages"
+    for folder in pictures reveal; do
+        [ ! -d build/playground/$folder ] || cp -R build/playground/$folder "$WORK/$NAME-pages"
+    done
+    [ -d build/playground/reveal ] || left_out "slides: no pandoc or no reveal.js"
     cp LICENSE "$WORK/$NAME-pages"
     find "$WORK/$NAME-pages" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
     rm -f "$out/$NAME-pages.zip"

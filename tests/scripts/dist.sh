@@ -114,6 +114,14 @@ if [ -f "$D/shade-h-$V.tgz" ]; then
 else left_out "npm"; fi
 if [ -f "$D/shade-h-$V-pages.zip" ]; then
     check "the pages" sh -c "python3 -m zipfile -l '$D/shade-h-$V-pages.zip' | grep -q index.html"
+    mkdir "$T/pages"
+    check "they unpack" python3 -m zipfile -e "$D/shade-h-$V-pages.zip" "$T/pages"
+    lost() {                    # what a page of the courses names and the archive lacks
+        cd "$T/pages/shade-h-$V-pages" || return
+        grep -ohE '(src|href)="[^"#:]+["#]' course*.html slides*.html 2>/dev/null |
+            sed 's/["#]$//; s/.*"//' | sort -u | while read -r file; do [ -s "$file" ] || echo "$file"; done
+    }
+    check "pictures and scripts of the courses are in it" same "$(lost)" ""
 else left_out "pages"; fi
 
 # ---- the bill of materials, its ids, relations and checksums

@@ -731,6 +731,47 @@ check('slides have links', slides.size > 60, slides.size);
     await page.context().close();
 }
 
+// ---- the same as slides: from the first to the last by keys, nothing beyond the screen ----------
+
+for (const name of fs.readdirSync(path.dirname(page_file)).filter(n => /^slides-.*html$/.test(n))) {
+    for (const [width, height, colorScheme] of [[1024, 768, 'light'], [1366, 768, 'dark'],
+        [1920, 1080, 'light'], [3840, 2160, 'dark']]) {
+        const context = await browser.newContext({ viewport: { width, height }, colorScheme });
+        const page = await context.newPage(), what = `${name}, ${width} x ${height}`;
+        page.on('console', line => complaints.push(line.text()));
+        await page.goto('file://' + path.join(path.dirname(page_file), name));
+        await page.waitForFunction(() => Reveal.isReady());
+        const beyond = await page.evaluate(() => Reveal.getSlides().filter((slide, i) => {
+            Reveal.slide(i, 0, 9);
+            return [...slide.querySelectorAll('h1, h2, p, li, math, figure')].some(part => {
+                const { right, bottom } = part.getBoundingClientRect();
+                return !part.closest('.notes') && (right > innerWidth + 1 || bottom > innerHeight + 1);
+            });
+        }).map(slide => slide.textContent.slice(0, 60)));
+        check('slides within the screen: ' + what, !beyond.length, beyond);
+        const [paper, ink] = await page.evaluate(() => [[document.body, 'backgroundColor'],
+            [document.querySelector('.reveal p'), 'color']].map(([part, of]) => {
+            const [r, g, b] = getComputedStyle(part)[of].match(/\d+/g).map(Number);
+            return (r + g + b) / 3;
+        }));
+        check('ink on paper: ' + what, colorScheme === 'dark' ? ink > 180 && paper < 60 :
+            ink < 60 && paper > 200, [paper, ink]);
+        check('capital letters of 3.5 % of the height: ' + what, await page.evaluate(() =>
+            parseFloat(getComputedStyle(document.querySelector('.reveal p')).fontSize) * 0.71 *
+            Reveal.getScale() >= 0.035 * innerHeight));
+        await context.close();
+    }
+    const page = await (await browser.newContext()).newPage();
+    await page.goto('file://' + path.join(path.dirname(page_file), name));
+    await page.waitForFunction(() => Reveal.isReady());
+    const steps = await page.evaluate(() => Reveal.getSlides().length +
+        document.querySelectorAll('.answer').length - 1);
+    for (let i = 0; i < steps; i++) await page.keyboard.press(i % 2 ? 'Space' : 'ArrowRight');
+    check('keys reach the last slide of ' + name, await page.evaluate(() => Reveal.isLastSlide() &&
+        Reveal.availableFragments().next === false));
+    await page.context().close();
+}
+
 // ---- time ---------------------------------------------------------------------------------------
 
 for (const simd of [1, 0]) {
