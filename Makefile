@@ -17,9 +17,9 @@
 #                 pandoc, reveal.js of npm, chromium)
 # make assignments   tries the graders of examples/assignments: solutions, starters, mistakes
 # make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
-# make install    header, shade.pc, shade-thumbnail, -view, -batch and -compare with man pages, and
-#                 what file managers need for thumbnails, below PREFIX (/usr/local) in DESTDIR;
-#                 make uninstall removes them
+# make install    header, shade.pc, shade-thumbnail, -view, -batch, -sheets and -compare with man
+#                 pages, and what file managers need for thumbnails, below PREFIX (/usr/local) in
+#                 DESTDIR; make uninstall removes them
 # make vector-report   loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
@@ -33,7 +33,8 @@ OPENMP   = $(shell echo 'int main(void) { return 0; }' | \
 # view and batch need POSIX; the window of view SDL2 (libsdl2-dev), its sixels libsixel
 # (libsixel-dev)
 POSIX    = $(shell echo | $(CC) -fsyntax-only -include termios.h -x c - 2>/dev/null && \
-                   echo build/view build/batch || echo 'no termios.h: view, batch left out' >&2)
+                   echo build/view build/batch build/sheets || \
+                   echo 'no termios.h: view, batch and sheets are left out' >&2)
 SDL2     = $(shell flags="$$(sdl2-config --cflags --libs 2>/dev/null | sed 's/-I/-isystem /g')"; \
                    echo 'int main(int n, char **v) { return v && SDL_Init(0) > n; }' | \
                    $(CC) -include SDL.h -x c - $$flags -o $@.sdl2 2>/dev/null && rm -f $@.sdl2 && \
@@ -74,6 +75,10 @@ build/19_threads $(PROGRAMS): EXACT += -pthread
 build/20_openmp:  EXACT += $(OPENMP)
 build/view: LIBRARIES = $(SDL2) $(SIXEL) $(STB) $(ASSIMP)
 build/thumbnail build/batch build/compare: LIBRARIES = $(STB) $(ASSIMP)
+build/sheets.1: build/thumbnail
+build/sheets: examples/programs/batch/sheets.sh
+	@mkdir -p build
+	cp $< $@ && chmod +x $@
 out/%.ppm: build/%
 	@mkdir -p out
 	build/$* $@
@@ -142,14 +147,15 @@ MIME_ASSIMP = model/gltf+json model/gltf-binary model/3mf image/x-3ds applicatio
 SAYS_thumbnail = draws a picture of a model file
 SAYS_view      = shows a model turning, in a terminal or a window
 SAYS_batch     = renders films and posters of a model, in pieces that machines can share
+SAYS_sheets    = draws a sheet of views of every model in a folder
 SAYS_compare   = tells by how much two pictures differ
 PLACE     = $(DESTDIR)$(PREFIX)
 FILES     = include/shade.h share/pkgconfig/shade.pc share/thumbnailers/shade.thumbnailer \
             share/mime/packages/shade.xml
-INSTALLED = $(FILES) $(foreach p,thumbnail view batch compare,bin/shade-$p \
+INSTALLED = $(FILES) $(foreach p,thumbnail view batch sheets compare,bin/shade-$p \
             share/man/man1/shade-$p.1)
 build/%.1: build/% examples/programs/model/man.sh
-	sh examples/programs/model/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
+	THUMBNAIL=build/thumbnail sh examples/programs/model/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
 install: programs
 	@v=$$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h); \
 	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' '' 'Name: shade' \

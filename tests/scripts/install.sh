@@ -13,11 +13,13 @@ modes() {
 }
 files='-rwxr-xr-x ./bin/shade-batch
 -rwxr-xr-x ./bin/shade-compare
+-rwxr-xr-x ./bin/shade-sheets
 -rwxr-xr-x ./bin/shade-thumbnail
 -rwxr-xr-x ./bin/shade-view
 -rw-r--r-- ./include/shade.h
 -rw-r--r-- ./share/man/man1/shade-batch.1
 -rw-r--r-- ./share/man/man1/shade-compare.1
+-rw-r--r-- ./share/man/man1/shade-sheets.1
 -rw-r--r-- ./share/man/man1/shade-thumbnail.1
 -rw-r--r-- ./share/man/man1/shade-view.1
 -rw-r--r-- ./share/mime/packages/shade.xml
@@ -28,10 +30,11 @@ files='-rwxr-xr-x ./bin/shade-batch
 P=$T/prefix
 strict_umask() { (umask 077 && $MAKE -s install PREFIX="$P"); }
 check "make install" strict_umask
-check "twelve files, readable by all" same "$(modes "$P")" "$files"
+check "fourteen files, readable by all" same "$(modes "$P")" "$files"
 check "in directories open to all" same "$(find "$P" -type d ! -perm -755)" ""
 check "the header is this one" cmp shade.h "$P/include/shade.h"
-for p in thumbnail view batch compare; do
+export THUMBNAIL="$P/bin/shade-thumbnail"    # which sheets calls
+for p in thumbnail view batch sheets compare; do
     page="$P/share/man/man1/shade-$p.1"
     check "$p is the one built" cmp build/$p "$P/bin/shade-$p"
     check "$p has the version of shade.h" same "$("$P/bin/shade-$p" --version)" "shade-$p $V"
@@ -220,6 +223,11 @@ picture() {
     esac
     [ "$(od -An -v -tx1 -w3 "$1" | sort -u | wc -l)" -gt 9 ]
 }
+if there parallel; then
+    mkdir "$T/parts" && cp "$input.obj" "$T/parts/a.obj"
+    check "shade-sheets" "$P/bin/shade-sheets" "$T/parts" "$T/sheets" --size 200x150
+    check "draws what it reads" test -s "$T/sheets/a.obj.png"
+else left_out "sheets: no parallel"; fi
 check "a group and its three keys" same "$(sed 's/=.*//' "$P/share/thumbnailers/shade.thumbnailer" |
     tr '\n' ' ')" "[Thumbnailer Entry] TryExec Exec MimeType "
 check "TryExec is a program" test -x "$(entry TryExec)"

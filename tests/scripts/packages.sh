@@ -108,7 +108,8 @@ if there dpkg-buildpackage && there dh_python3 && there lintian && [ -f /usr/inc
     check "a program with the header of libshade-dev" cc -O1 -I"$T/root/usr/include" \
         examples/embed/meson/ball.c examples/embed/meson/shade.c -lm -o "$T/deb/ball"
     check "draws the ball" is_ball "$T/deb/ball"
-    for p in thumbnail view batch compare; do
+    export THUMBNAIL="$T/root/usr/bin/shade-thumbnail"    # which sheets calls
+    for p in thumbnail view batch sheets compare; do
         check "shade-$p" sh -c "'$T/root/usr/bin/shade-$p' --version | grep -qxF 'shade-$p $V'"
         check "its man page" gzip -t "$T/root/usr/share/man/man1/shade-$p.1.gz"
     done

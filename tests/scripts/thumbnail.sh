@@ -245,7 +245,7 @@ data_loss() {
         cp "$T/torus.obj" "$T/$k"
         check "no picture over $k" kept "$k: .*\.ppm or \.png" "$T/$k" "$THUMBNAIL" "$T/torus.obj" "$T/$k"
     done
-    for k in "sheets.sh" "--views"; do
+    for k in "shade-sheets" "--views"; do
         check "two models name $k" kept "v2.obj is a model.*$k" "$T/v2.obj" "$THUMBNAIL" \
             "$T/torus.obj" "$T/v2.obj"
         check "three name $k" kept "one file too many.*$k" "$T/v2.obj" "$THUMBNAIL" "$T/torus.obj" \

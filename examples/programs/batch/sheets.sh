@@ -7,12 +7,27 @@
 # The sheet of parts/a/bolt.stl is sheets/a/bolt.stl.png.  A sheet that is newer than its model stays,
 # so what was interrupted goes on where it was.  A model that cannot be read is one line on stderr,
 # and the status is not 0.  THUMBNAIL names the program (shade-thumbnail), JOBS the jobs at a time.
-[ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 1; }
+THUMBNAIL=${THUMBNAIL:-shade-thumbnail}
+usage() {
+    cat <<END
+usage: shade-sheets FOLDER SHEETS [options of shade-thumbnail]
+  --help      prints this text
+  --version   prints the version
+the sheet of FOLDER/a/bolt.stl is SHEETS/a/bolt.stl.png; a sheet that is newer than its model stays.
+a model that cannot be read is one line on stderr, and the status is not 0.
+the environment: THUMBNAIL names the program (shade-thumbnail), JOBS the jobs at a time.
+END
+}
+case $1 in
+--version) version=$("$THUMBNAIL" --version) && echo "shade-sheets ${version##* }"; exit ;;
+--help) usage; exit ;;
+esac
+[ $# -ge 2 ] || { usage >&2; exit 1; }
 models=$1 sheets=$2; shift 2
-command -v parallel >/dev/null || { echo "sheets.sh: it needs parallel (GNU)" >&2; exit 1; }
+command -v parallel >/dev/null || { echo "shade-sheets: this needs GNU parallel" >&2; exit 1; }
 mkdir -p "$sheets" || exit 1
-sheets=$(cd "$sheets" && pwd) THUMBNAIL=${THUMBNAIL:-shade-thumbnail}
-command -v "$THUMBNAIL" >/dev/null || { echo "sheets.sh: no $THUMBNAIL" >&2; exit 1; }
+sheets=$(cd "$sheets" && pwd)
+command -v "$THUMBNAIL" >/dev/null || { echo "shade-sheets: there is no $THUMBNAIL" >&2; exit 1; }
 case $THUMBNAIL in */*) THUMBNAIL=$(cd "${THUMBNAIL%/*}" && pwd)/${THUMBNAIL##*/};; esac
 export sheets THUMBNAIL
 one() {                         # model, options

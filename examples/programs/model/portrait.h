@@ -289,7 +289,7 @@ static inline int portrait_name(const char *name, int *png)
     const int free_name = !strcmp(name, "-") || save_is_device(name);
     if (model_has_name(name))
         return complain("%s is a model: the names of pictures end in .ppm or .png (a call draws "
-                        "one model, --views several views of it; sheets.sh calls it for a "
+                        "one model, --views several views of it; shade-sheets calls it for a "
                         "folder of models)", name);
     if (save_is_png(name)) *png = 1;
     if (!*png && !free_name && !save_ends_in(name, ppm))

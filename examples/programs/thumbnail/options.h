@@ -60,7 +60,7 @@ static int read_options(options *o, int argc, char **argv)
                                          "--hidden",  "--ids", "--dimensions", NULL };
     static const command c = { "thumbnail", thumbnail_usage, valued, flags, 2, 2,
                                "; a call draws one model, --views several views of "
-                               "it; sheets.sh calls it for a folder of models",
+                               "it; shade-sheets calls it for a folder of models",
                                take };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
