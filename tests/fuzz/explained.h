@@ -383,7 +383,8 @@ static void ex_write(const void *uniforms, const shade_fragments *SHADE_RESTRICT
     const int holes = a->holes && s->diffuse_map && a->e->mesh.texcoords;
     float texel[4 * SHADE_LANES];
     if (holes)
-        shade_sample_lanes(s->diffuse_map, in->varying[6], in->varying[7],
+        shade_sample_lanes(s->diffuse_map, in->varying[SHADE_VARYING_TEXCOORD],
+                           in->varying[SHADE_VARYING_TEXCOORD + 1],
                            s->diffuse_map->mipmap_count ? in->lod : NULL, texel);
     for (int i = 0; i < in->count; i++) {
         const shade_vec3 p = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
@@ -432,7 +433,7 @@ static void ex_values(explained *e, shade_cull cull, int tested)
     }
     s.raster.cull = cull;
     s.raster.blend = SHADE_BLEND_REPLACE;
-    asked.holes = tested < 0 && s.alpha_cutoff > 0 && !s.fragment;
+    asked.holes = tested <= 0 && s.alpha_cutoff > 0 && !s.fragment;
     s.transparency = 0;
     s.alpha_cutoff = asked.holes ? 0.5f : 0.0f;
     s.shading = SHADE_SHADING_PER_FRAGMENT;
