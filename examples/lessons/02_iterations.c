@@ -16,7 +16,7 @@ int main(int argc, char **argv)
                                           SHADE_MODEL_BLINN_PHONG };
     static const char *const name[5] = { "zero", "one", "two", "three", "four" };
     static const char *const adds[5] = { "k_e", "+ k_a I_a", "+ k_d I B (N·L)",
-                                         "+ k_s I B (N·H)^n", "Σ_j f_{spot} f_{atten} I_j …" };
+                                         "+ k_s I B (N·H)^n", "Σ_j, over four lamps" };
     shade_material clay = { { 0.035f, 0.006f, 0.004f }, { 0.75f, 0.16f, 0.09f },
                             { 0.75f, 0.16f, 0.09f }, { 0.35f, 0.35f, 0.35f }, 40 };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
@@ -34,7 +34,7 @@ int main(int argc, char **argv)
     lamps[3] = shade_spot_light(shade_v3(2, 1, 4), shade_v3(-1.75f, -1.1f, -3.2f), 0.12f, 150,
                                 shade_v3(1.8f, 1.5f, 0.7f));
     state.view = shade_mat4_look_at(shade_v3(0, 0, 6), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.37f, 1, 1, 10);
+    state.projection = shade_mat4_perspective(0.40f, 1, 1, 10);
     state.material = &clay;
     state.lighting.lights = lamps;
     state.lighting.ambient = shade_v3(0.11f, 0.12f, 0.15f);

@@ -36,7 +36,7 @@ int main(int argc, char **argv)
                                shade_scale(white, 1.3f));
     scene.eye = shade_v3(0, 5, 5.2f);
     scene.center = shade_v3(0.08f, 0.1f, 0.1f);
-    scene.fovy = 0.60f;
+    scene.fovy = 0.66f;
     shade_vec4 Q = lamp[1].position;
     shade_vec3 L;
     shade_light_at(&lamp[0], scene.center, &L, NULL);

@@ -23,7 +23,7 @@ int main(int argc, char **argv)
     state.model = shade_mat4_mul(shade_mat4_rotation(-0.45f, shade_v3(0, 1, 0)),
                                  shade_mat4_translation(shade_v3(-0.38f, -1.5f, 0)));
     state.view = shade_mat4_look_at(shade_v3(0, 5, 13), shade_v3(0, -0.25f, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.40f, (float)width / (float)height, 5, 25);
+    state.projection = shade_mat4_perspective(0.44f, (float)width / (float)height, 5, 25);
     state.lighting.lights = lamps;
     state.lighting.light_count = 2;
     state.lighting.ambient = shade_v3(0.5f, 0.5f, 0.5f);

@@ -13,7 +13,6 @@
 #include <math.h>
 
 static const shade_vec3 size = { 1, 0.35f, 1 };
-
 /* A sphere of 2 n slices, its points moved by M and its normals by of_normals */
 static owned_mesh pressed(int n, shade_mat4 M, shade_mat3 of_normals)
 {
@@ -66,14 +65,15 @@ int main(int argc, char **argv)
         const shade_vec3 *p = (const shade_vec3 *)(const void *)few.positions;
         const shade_vec3 *n = (const shade_vec3 *)(const void *)few.normals;
         shade_draw_mesh(&panel, &body.view, &state, NULL);
-        for (int k = 0; k < few.view.vertex_count; k++) {    /* a normal of each */
+        for (int k = 0; k < few.view.vertex_count; k++) {
             shade_vec3 stick[2] = { p[k], shade_madd(p[k], 0.22f, n[k]) };
             shade_draw_lines(&panel, stick, 2, &pen, NULL);
         }
-        sprintf(text, "%.1f° off on average", mean_angle(&body));
-        label_caption(&c, 480 * i + 240, 340, grey, name[i], text);
+        sprintf(text, "%.1f° off the true ones on average", mean_angle(&body));
+        label_caption(&c, 480 * i + 240, 345, grey, name[i], text);
         mesh_free(&body);
         mesh_free(&few);
     }
+    label_center(&c, 480, 28, 19, grey, "points: by M = scale(1, 0.35, 1)     sticks: normals");
     return canvas_save(&c, argc, argv, "normal_matrix.ppm");
 }

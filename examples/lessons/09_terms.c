@@ -15,7 +15,7 @@ int main(int argc, char **argv)
                                          "emission", "+ ambient", "+ diffuse", "+ specular" };
     static const char *const term[4] = { "k_e", "k_a I_a", "Σ k_d I (N·L)", "Σ k_s I (N·H)^n" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
-    const shade_material glaze = { { 0.03f, 0.004f, 0.001f }, { 0.03f, 0.20f, 0.24f },
+    const shade_material glaze = { { 0.008f, 0.008f, 0.05f }, { 0.03f, 0.20f, 0.24f },
                                    { 0.03f, 0.20f, 0.24f }, { 0.6f, 0.6f, 0.6f }, 50 };
     shade_light lamps[2];
     shade_draw_state state = { .material = &glaze };
@@ -26,7 +26,7 @@ int main(int argc, char **argv)
     lamps[1] = shade_directional_light(shade_v3(-1, -0.3f, 0.1f), shade_v3(0.25f, 0.3f, 0.45f));
     state.model = shape_at(-0.4f, -1.5f, -0.17f, 1, -0.45f);
     state.view = shade_mat4_look_at(shade_v3(0, 5, 13), shade_v3(0, -0.05f, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.33f, 240 / 180.0f, 9, 19);
+    state.projection = shade_mat4_perspective(0.36f, 240 / 180.0f, 9, 19);
     state.lighting.lights = lamps;
     state.lighting.light_count = 2;
     state.lighting.ambient = shade_v3(0.11f, 0.12f, 0.13f);

@@ -38,7 +38,7 @@ int main(int argc, char **argv)
     for (int i = 0; i < 256; i++)
         texels[i] = (uint8_t)((i / 4 + i / 32) % 2 ? 230 - i % 4 * 15 : 35 + i % 4 * 30);
     s.place.clip_from_world = shade_mat4_mul(
-        shade_mat4_perspective(0.7f, (float)WIDTH / HEIGHT, 0.1f, 10),
+        shade_mat4_perspective(0.74f, (float)WIDTH / HEIGHT, 0.1f, 10),
         shade_mat4_look_at(shade_v3(0, 1.5f, 2.2f), shade_v3(0, -0.03f, 0.1f), shade_v3(0, 1, 0)));
     canvas_dark(&c.target);
     for (int i = 0; i < 2; i++) {

@@ -61,9 +61,9 @@ int main(int argc, char **argv)
         draw(i < 2 ? &panel : &fine.target, &floor.view, &tiles);
         if (i == 2) shade_resolve(&panel, &fine.target, 8);
         canvas_zoom(&c, 121 + 320 * i, 71, 77, 36, 6 + 320 * i, 292, 4);
-        sprintf(text, "%.1f of 255 off on average", (double)apart(&c, 121 + 320 * i, 121 + 640));
+        sprintf(text, "%.1f of 255 off the right one", (double)apart(&c, 121 + 320 * i, 121 + 640));
         label_caption(&c, 320 * i + 160, 462, shade_v3(0.7f, 0.7f, 0.7f), name[i],
-                      i < 2 ? text : "");
+                      i < 2 ? text : "what a camera would see");
     }
     mesh_free(&floor);
     free(fine.target.color);

@@ -2,7 +2,7 @@
    draw hides the edges behind faces.  Right: what an illustrator draws.  Silhouettes lie between a
    face seen from the front and one seen from behind, creases where faces meet at a sharp angle,
    boundaries where an edge has only one face.
-   Try 0.9f for the crease threshold 0.5f: handle and spout are drawn full of facets.
+   Try 0.99f for the crease threshold 0.5f: handle and spout are drawn full of facets.
 
    cc -O2 -I. examples/lessons/12_edges.c -lm -o edges && ./edges        writes edges.ppm */
 #define SHADE_IMPLEMENTATION
@@ -22,19 +22,19 @@ int main(int argc, char **argv)
     };
     static const shade_vec2 tube[2] = { { 1, 2 }, { 1, 0 } };
     const shade_vec3 eye = { 2.5f, 7, 12 }, black = { 0.02f, 0.02f, 0.03f };
-    owned_mesh scene = mesh_new(4000, 16000);
+    owned_mesh scene = mesh_new(9000, 32000);
     shade_draw_state state = { 0 };
     shade_line_state pen = { .cap = SHADE_CAP_SQUARE };
     edge_lines lines;
     canvas c = canvas_new(960, 420, 3);
 
     scene.view.vertex_count = scene.view.index_count = 0;
-    edges_add(&scene, shape_teapot(6), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
+    edges_add(&scene, shape_teapot(12), shape_at(-0.3f, 0, -0.6f, 1, -0.35f));
     edges_add(&scene, mesh_cube(), shape_at(-1.6f, 0.65f, 2.6f, 0.65f, 0.5f));
     edges_add(&scene, shape_turned(tube, 2, 16), shape_at(1.5f, 0, 3, 0.7f, 0));
     lines = edges_sort(&scene, eye, 0.5f);
     state.view = shade_mat4_look_at(eye, shade_v3(0.08f, 0.85f, 0.8f), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.475f, 320 / 300.0f, 5, 25);
+    state.projection = shade_mat4_perspective(0.5f, 320 / 300.0f, 5, 25);
     canvas_gradient(&c.target, shade_v3(0.92f, 0.90f, 0.84f), shade_v3(0.80f, 0.76f, 0.68f));
     for (int i = 0; i < 3; i++) {
         shade_target panel = canvas_panel(&c, 320 * i, 0, 320, 300), fill = panel;
@@ -42,10 +42,10 @@ int main(int argc, char **argv)
         if (i > 0) shade_draw_mesh(&fill, &scene.view, &state, NULL);
         pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
         pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
-        pen.raster.depth_bias = i > 0 ? -0.003f : 0;
+        pen.raster.depth_bias = i > 0 ? -0.002f : 0;
         for (int k = i < 2 ? EDGE_OTHER : EDGE_BOUNDARY; k >= 0; k--) {
             pen.color = ink[i < 2 ? EDGE_OTHER : k];
-            pen.width = i < 2 ? 3 : 9;
+            pen.width = i < 2 ? 2 : 9;
             shade_draw_lines(&panel, lines.points[k], lines.count[k], &pen, NULL);
         }
         label_center(&c, 320 * i + 160, 330, 22, black, name[i]);

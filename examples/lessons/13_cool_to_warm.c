@@ -14,7 +14,8 @@
 int main(int argc, char **argv)
 {
     static const char *const name[3] = { "Phong", "tone alone", "tone with outlines" };
-    static const char *const formula[3] = { "k_d (N·L) + k_s (R·V)^n", "k_w = (1 + N·L) / 2",
+    static const char *const formula[3] = { "k_a I_a + k_d (N·L) + k_s (R·V)^n",
+                                            "k_w = (1 + N·L) / 2",
                                             "k_w c_w + (1 − k_w) c_c" };
     const shade_vec3 eye = { -1.5f, 5.5f, 14 }, ink = { 0.02f, 0.02f, 0.03f };
     const shade_material clay = { { 0, 0, 0 }, { 0.6f, 0.55f, 0.5f }, { 0.6f, 0.55f, 0.5f },
@@ -31,10 +32,11 @@ int main(int argc, char **argv)
     c.target.srgb = 0;
     state.lighting.lights = &lamp;
     state.lighting.light_count = 1;
+    state.lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f);
     state.lighting.cool = shade_v3(0.4f, 0.4f, 0.7f);
     state.lighting.warm = shade_v3(0.8f, 0.6f, 0.6f);
     state.view = shade_mat4_look_at(eye, shade_v3(0.16f, 1.5f, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.335f, 320 / 230.0f, 8, 22);
+    state.projection = shade_mat4_perspective(0.36f, 320 / 230.0f, 8, 22);
     pen.clip_from_points = shade_mat4_mul(state.projection, state.view);
     pen.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
     pen.raster.depth_bias = -0.002f;

@@ -51,7 +51,7 @@ int main(int argc, char **argv)
     state.model = shade_mat4_rotation(0.3f, shade_v3(0, 1, 0.4f));
     state.view = shade_mat4_look_at(shade_v3(0, 2, 10), shade_v3(-0.1f, -0.05f, 0),
                                     shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.285f, 480 / 215.0f, 4, 20);
+    state.projection = shade_mat4_perspective(0.31f, 480 / 215.0f, 4, 20);
     state.lighting.lights = &lamp;
     state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.04f, 0.04f, 0.05f);

@@ -20,7 +20,7 @@ int main(int argc, char **argv)
     char text[40];
 
     state.model = shade_mat4_rotation(shade_radians(90), shade_v3(1, 0, 0));    /* upright */
-    state.projection = shade_mat4_ortho(-0.98f, 0.98f, -0.98f, 0.98f, 1, 10);
+    state.projection = shade_mat4_ortho(-1.06f, 1.06f, -1.06f, 1.06f, 1, 10);
     state.view = shade_mat4_translation(shade_v3(0, 0, -5));
     state.lighting.ambient = shade_v3(0.08f, 0.09f, 0.12f);
     canvas_dark(&c.target);

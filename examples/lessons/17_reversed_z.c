@@ -26,7 +26,7 @@ int main(int argc, char **argv)
     owned_mesh square = mesh_plane(0.2f, 1);
     const shade_mat4 lean = shade_mat4_mul(shade_mat4_rotation(1, shade_v3(1, 0, 0)),
                                            shade_mat4_rotation(0.5f, shade_v3(0, 1, 0)));
-    canvas c = canvas_new(960, 448, 1);
+    canvas c = canvas_new(960, 452, 1);
     char text[60];
 
     canvas_dark(&c.target);
@@ -69,6 +69,8 @@ int main(int argc, char **argv)
         canvas_zoom(&c, 3 * SIZE + 6 + 26, y + 38, 55, 34, 674, y - 16, 5);
         label_center(&c, 811, y + 176, 19, grey, row ? "30 km, reversed" : "30 km, standard");
     }
+    label_draw(&c, 12, 438, 19, grey,
+               "n = 0.1 m, f = 1000 km; the pale board is half a percent farther away");
     mesh_free(&square);
     return canvas_save(&c, argc, argv, "reversed_z.ppm");
 }

@@ -1,5 +1,5 @@
 /* 18_supersampling.c - One, 2 x 2 and 4 x 4 samples a pixel; below, the handle eight times as
-   large.  A pixel of n samples has n + 1 steps between two colours, and their mean is taken in
+   large.  A pixel of n samples has n + 1 levels between two colours, and their mean is taken in
    linear light.  The large picture never exists as a whole: each strip of 16 rows of the small
    picture is drawn large and averaged by shade_resolve, in a sixteenth of the memory.
    Try MOST 8 and f = 1 << (i + (i > 1)): 64 samples can hardly be told from 16.
@@ -15,7 +15,8 @@ enum { WIDTH = 310, HEIGHT = 256, ROWS = 16, MOST = 4 };
 int main(int argc, char **argv)
 {
     static const char *const name[3] = { "one sample", "2 × 2", "4 × 4" };
-    static const char *const steps[3] = { "2 steps", "5 steps", "17 steps" };
+    static const char *const steps[3] = { "2 levels at an edge", "5 levels at an edge",
+                                          "17 levels at an edge" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     static float color[WIDTH * MOST * ROWS * MOST * 4];
     static float depth[WIDTH * MOST * ROWS * MOST];

@@ -19,8 +19,7 @@ int main(int argc, char **argv)
     static float leaf[SIZE * SIZE][4], light[SIZE * SIZE][4];
     const shade_vec3 soil = shade_rgb(0x706050), tallow = shade_rgb(0xE8D8B8);
     const shade_material wax = { { 0.35f, 0.16f, 0.05f }, tallow, tallow, { 0, 0, 0 }, 0 };
-    const shade_material pane = { .diffuse = { 0.05f, 0.1f, 0.1f }, .specular = { 8, 8, 8 },
-                                  .shininess = 150 };
+    const shade_material pane = { { 0, 0, 0 }, { 0, 0, 0 }, { .05f, .1f, .1f }, { 8, 8, 8 }, 150 };
     const shade_texture leaf_map = paint_texture(leaf, SIZE), fire = paint_texture(light, SIZE);
     shade_material matte = { .ambient = soil, .diffuse = soil };
     shade_light lamps[3] = {
@@ -71,7 +70,8 @@ int main(int argc, char **argv)
     shade_draw_mesh(&c.target, &plane.view, &flame, NULL);
     glass.raster.cull = SHADE_CULL_BACK;
     shade_draw_mesh(&c.target, &jar.view, &glass, NULL);
-    label_draw(&c, 24, 40, 22, tallow, "glass: α s + (1 − α) d;   flame: α s + d");
+    label_draw(&c, 24, 36, 20, tallow, "s over d:     leaves: s where α ≥ 1/2, else d     "
+               "glass: α s + (1 − α) d     flame: α s + d");
     mesh_free(&plane);
     mesh_free(&candle);
     mesh_free(&jar);

@@ -66,13 +66,13 @@ int main(int argc, char **argv)
     s.place.clip_from_world = s.from_lamp;    /* a cone of .84 and some texels around */
     shade_clear(&from_lamp, shade_v4(0, 0, 0, 0), 1);
     mesh_draw(&from_lamp, &pipeline, &m);
-    s.place.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.5f, 960 / 540.0f, 2, 80),
-                                             shade_mat4_look_at(eye, shade_v3(0.5f, 1, -0.2f), up));
+    s.place.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.6f, 960 / 540.0f, 2, 80),
+                                             shade_mat4_look_at(eye, shade_v3(0.9f, 0.9f, 0), up));
     shade_clear(&c.target, shade_v4(0, 0, 0, 1), 1);
     mesh_draw(&c.target, &pipeline, &m);
     label_draw(&c, 24, 40, 22, grey, "visibility: the share of 3 × 3 texels the lamp sees");
     shade_vec2 far = canvas_depth(canvas_panel(&c, 736, 24, 200, 200), map[0], MAP, 4, 40);
-    label_print(&c, 24, 70, 18, grey, "right: the map, %.1f (white) to %.1f (black) along the axis",
+    label_print(&c, 24, 70, 18, grey, "right: the lamp's map, %.1f (white) to %.1f (black) away",
                 (double)far.x, (double)far.y);
     mesh_free(&m);
     return canvas_save(&c, argc, argv, "shadow.ppm");

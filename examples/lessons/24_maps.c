@@ -49,7 +49,7 @@ int main(int argc, char **argv)
     shade_target right = canvas_panel(&c, 510, 5, 430, 430);
 
     noise_planet(texels, WIDTH, HEIGHT);
-    state.model = shade_mat4_mul(shade_mat4_rotation(0.35f, shade_v3(1, 0, 0.5f)),
+    state.model = shade_mat4_mul(shade_mat4_rotation(0.75f, shade_v3(1, 0, 0.25f)),
                                  shade_mat4_rotation(2.1f, shade_v3(0, 1, 0)));
     state.view = shade_mat4_look_at(eye, shade_v3(0, 0, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.35f, 1, 0.1f, 10);

@@ -13,19 +13,20 @@
 #include "../shared/label.h"
 #include <math.h>
 
-enum { BALLS = 5, WIDTH = 370, HEIGHT = 124, ROW = 166, PLOT = 188 };
+enum { BALLS = 5, WIDTH = 370, HEIGHT = 124, ROW = 166, PLOT = 180 };
 
 /* What a display shows of the light: numbers at distances 1 to 5, and a curve from 1 to 5 */
 static void print_light(const canvas *c, int x, int y, const shade_light *lamp, int raw)
 {
     static const int column[BALLS] = { 43, 126, 188, 246, 304 };    /* below the balls */
     const shade_vec3 ink[2] = { { 0.7f, 0.65f, 0.55f }, { 0.8f, 0.25f, 0.03f } };
+    canvas_fill(&c->target, 2 * 762, 2 * (y - 124), 2, 2 * 106, ink[0]);    /* the axes */
+    canvas_fill(&c->target, 2 * 762, 2 * (y - 18), 2 * PLOT, 2, ink[0]);
     for (int k = 0; k <= PLOT; k++) {
         float r = 1 + 4 * (float)k / PLOT;
         float light = shade_attenuation(lamp->constant, lamp->linear, lamp->quadratic, r);
         if (raw) light = shade_linear_from_srgb(shade_v3(light, 0, 0)).x;
-        shade_target dot = canvas_panel(c, 764 + k, y - 24 - (int)(100 * light), 1, 4);
-        canvas_fill(&dot, 0, 0, dot.width, dot.height, ink[raw]);
+        canvas_fill(&c->target, 2 * (764 + k), 2 * (y - 22 - (int)(100 * light)), 2, 8, ink[raw]);
         if (k * 4 % PLOT == 0)
             label_print(c, x + column[k * 4 / PLOT], y, 17, ink[raw], "%.3f", (double)light);
     }
@@ -46,24 +47,23 @@ int main(int argc, char **argv)
                                             { "no fall-off", "1/r, shown as 1/r^{2.2}",
                                               "1/r^2, shown as 1/r^{4.4}" } };
     const shade_vec3 white = { 1, 0.95f, 0.85f }, grey = { 0.7f, 0.7f, 0.7f };
-    const shade_vec3 clay = { 0.7f, 0.4f, 0.2f };
     shade_vec4 place[BALLS];
-    shade_vec3 color[BALLS] = { clay, clay, clay, clay, clay };
+    shade_vec3 color[BALLS];
     shade_light lamp = shade_point_light(shade_v3(-3, 0.9f, 0.8f), white);
-    balls scene = { BALLS, place, color, .floor = { 0.8f, 0.77f, 0.72f }, .no_shadows = 1 };
+    balls scene = { BALLS, place, color, .floor = { 0.8f, 0.77f, 0.72f }, .no_shadows = 1,
+                    .eye = { -0.9f, 1.8f, 6 }, .lighting = { &lamp, 1 } };
     canvas c = canvas_new(960, 38 + 3 * ROW, 2);
 
-    for (int i = 0; i < BALLS; i++)    /* i + 1 away from the lamp, .8 behind and .5 below it */
+    for (int i = 0; i < BALLS; i++) {    /* i + 1 away from the lamp, .8 behind and .5 below it */
         place[i] = shade_v4(sqrtf((float)((i + 1) * (i + 1)) - 0.89f) - 3, 0.4f, 0, 0.4f);
-    scene.eye = shade_v3(-0.9f, 1.8f, 6);
+        color[i] = shade_v3(0.7f, 0.4f, 0.2f);
+    }
     scene.center = shade_v3(-0.57f, 0.38f, 0);
     scene.fovy = 0.35f;
-    scene.lighting.lights = &lamp;
-    scene.lighting.light_count = 1;
     canvas_dark(&c.target);
-    label_center(&c, 185, 26, 22, grey, "stored with sRGB");
-    label_center(&c, 561, 26, 22, grey, "stored as computed");
-    label_center(&c, 859, 26, 22, grey, "shown, r = 1 to 5");
+    label_draw(&c, 100, 26, 22, grey, "stored with sRGB");
+    label_draw(&c, 466, 26, 22, grey, "stored as computed");
+    label_draw(&c, 764, 26, 20, grey, "light shown, r = 1 to 5");
     for (int i = 0; i < 6; i++) {
         int x = i % 2 * 376, y = 38 + i / 2 * ROW;
         shade_target panel = canvas_panel(&c, x, y, WIDTH, HEIGHT);

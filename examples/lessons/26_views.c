@@ -34,7 +34,9 @@ static void look(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
 int main(int argc, char **argv)
 {
     static const char *const name[3] = { "normals", "depth", "triangles" };
-    static const char *const formula[3] = { "(1 + N) / 2", "1 − z", "in->primitive, mixed" };
+    static const char *const formula[3] = { "red, green, blue: (1 + N) / 2",
+                                            "1 − z: near is bright",
+                                            "a colour for each in->primitive" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     owned_mesh pot = shape_teapot(8);
     scene s = { .place = { .mesh = &pot } };
@@ -45,7 +47,7 @@ int main(int argc, char **argv)
 
     s.place.model = shape_at(-0.4f, -1.5f, -0.17f, 1, -0.45f);
     /* near and far close around the pot, so that depth uses its whole range */
-    s.place.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.33f, 4 / 3.0f, 12, 16), view);
+    s.place.clip_from_world = shade_mat4_mul(shade_mat4_perspective(0.36f, 4 / 3.0f, 12, 16), view);
     s.eye_from_world = shade_mat3_from_mat4(view);
     canvas_dark(&c.target);
     for (s.view = NORMALS; s.view <= TRIANGLES; s.view++) {

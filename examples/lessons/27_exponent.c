@@ -1,6 +1,7 @@
 /* 27_exponent.c - what n does, and what the other numbers do (UW: a smaller or larger n, varying
    the parameters).  Above: n = 1, 4, 16, 64, 256, and the angle between N and H at which (N.H)^n
-   has fallen to one half: four times n, half as wide.  Below: metal (k_d small, k_s large, both of
+   has fallen to one half: four times n, half as wide.  For n = 1 the highlight is still bright
+   where N.L = 0, and B cuts it off there, a hard rim.  Below: metal (k_d small, k_s large, both of
    its colour), plastic (k_s white) and a planet (k_d from a map, no k_s).
    Try n = 0 for the metal: (N.H)^0 = 1, so that k_s covers all that is lit, like paint.
 
@@ -62,7 +63,8 @@ int main(int argc, char **argv)
         state.diffuse_map = i == 7 ? &earth : NULL;
         shade_draw_mesh(&panel, &ball.view, &state, NULL);
         if (i < 5) sprintf(power, "(N·H)^{%d}", (int)exponent[i]);
-        if (i < 5) sprintf(half, "half at %.1f°", half_angle(exponent[i]));
+        if (i < 5) sprintf(half, i ? "half at %.1f°" : "half at %.1f°; rim: B",
+                           half_angle(exponent[i]));
         label_caption(&c, x + w / 2, y + size + 20, grey, i < 5 ? power : name[i - 5],
                       i < 5 ? half : formula[i - 5]);
     }

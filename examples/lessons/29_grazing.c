@@ -67,7 +67,7 @@ int main(int argc, char **argv)
         state.diffuse_map = NULL;
         state.model = shade_mat4_translation(shade_v3(0, 30 * t.x, -30 * t.y));
         if (i > 1) shade_draw_mesh(&panel, &ball.view, &state, NULL); /* above, it is out of view */
-        sprintf(text, "θ = %.0f°: %d × %d pixels", (double)theta[i / 2],
+        sprintf(text, "θ = %.0f°: highlight of %d × %d pixels", (double)theta[i / 2],
                 extent(&panel, 1, 0) / 2, extent(&panel, 0, 1) / 2);
         label_caption(&c, x + WIDTH / 2, y + HEIGHT + 22, shade_v3(0.7f, 0.7f, 0.7f), name[i % 2],
                       text);

@@ -1,79 +1,79 @@
 /* 32_z_buffer.c - the z-buffer as a picture.  Above: the picture, and the depth of every pixel,
    bright where it is near, black where it was cleared (z = 1, UW's FAR).  Below: z along the marked
-   row, near at the bottom.  It consists of straight pieces, one for each face, because z/w is
-   linear on the screen.  So a row needs one addition a pixel, z + dz + dz ...; the number tells how
-   far that strays over the longest piece (UW's incremental z).
+   row: straight pieces, one for each face, because z/w is linear on the screen.  So one addition a
+   pixel is enough, z += dz (UW's incremental z); the number tells how far the longest sum strays.
    Try near_z = 0.4: the pieces flatten against FAR, as most depths go to the space before them.
 
    cc -O2 -I. examples/lessons/32_z_buffer.c -lm -o z_buffer && ./z_buffer    writes z_buffer.ppm */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "../shared/shapes.h"
-#include "../shared/label.h"
+#include "../shared/sketch.h"
 #include <math.h>
 
-enum { W = 960, H = 540, ROW = 330 };    /* of a panel; two samples to a pixel */
+enum { W = 960, H = 540, ROW = 330 };    /* samples of a panel, two to a pixel; the marked row */
 static const float near_z = 4, far_z = 10;
+static const shade_vec3 white = { 1, 1, 1 }, grey = { 0.3f, 0.3f, 0.3f };
 
-/* The longest run of equal steps in a row of depths: where it begins; its steps */
-static int longest_run(const float *z, int *begin)
+/* Adds dz from the first sample of the longest straight piece to its last. */
+static void add_up(const canvas *c, const float *z)
 {
-    int most = 0;
-    for (int i = 0, from = 0; i + 1 < W; i++) {
-        if (i > from && fabsf(z[i + 1] - 2 * z[i] + z[i - 1]) > 1e-6f) from = i;
-        if (z[i + 1] == 1) from = i + 1;
-        if (i + 1 - from > most) {
-            most = i + 1 - from;
-            *begin = from;
-        }
+    int begin = 0, count = 0, from = 0;
+    for (int i = 1; i + 1 < W; i++) {
+        if (z[i] == 1 || fabsf(z[i + 1] - 2 * z[i] + z[i - 1]) > 1e-6f) from = i;
+        if (z[i + 1] == 1 || i + 1 - from <= count) continue;
+        count = i + 1 - (begin = from);
     }
-    return most;
+    float sum = z[begin], dz = (z[begin + count] - sum) / (float)count, off = 0;
+    for (int i = 0; i <= count; i++, sum += dz) off = fmaxf(off, fabsf(sum - z[begin + i]));
+    label_print(c, 80, 530, 20, white, "z along x: after %d times z += dz it is off by %.1e",
+                count, (double)off);
+}
+
+/* Where the plot has sample x of the row, at depth z */
+static shade_vec3 at(int x, float z) { return shade_v3((float)x * 860 / W, 360 * (z - 0.4f), 0); }
+
+static void plot(const canvas *c, const float *z, const shade_vec4 *color)
+{
+    sketch s = sketch_new(c, 80, 498, 1);
+    sketch_ink(&s, white, 1);
+    sketch_arrow(&s, at(0, 0.4f), at(W, 0.4f));
+    sketch_arrow(&s, at(0, 0.4f), at(0, 1.05f));
+    sketch_name(&s, at(-44, 1), 20, "FAR 1");
+    sketch_name(&s, at(-38, 0.5f), 20, "z 0.5");
+    for (int i = 0; i + 1 < W; i++) {
+        sketch_ink(&s, z[i] < 1 ? shade_v3(color[i].x, color[i].y, color[i].z) : grey, 3);
+        if (fabsf(z[i + 1] - z[i]) < 0.01f) sketch_line(&s, at(i, z[i]), at(i + 1, z[i + 1]));
+    }
 }
 
 int main(int argc, char **argv)
 {
-    static const shade_vec3 paint[4] = { { 0.6f, 0.1f, 0.03f }, { 0.5f, 0.38f, 0.03f },
-                                         { 0.05f, 0.2f, 0.55f }, { 0.1f, 0.35f, 0.08f } };
-    const shade_vec3 white = { 1, 1, 1 }, grey = { 0.3f, 0.3f, 0.3f };
-    shade_light lamp = shade_directional_light(shade_v3(0.5f, -1, -0.7f), white);
+    static const uint32_t paint[4] = { 0xCC5A30, 0xBEA632, 0x4080C8, 0x58A050 };
+    const shade_light lamp = shade_directional_light(shade_v3(0.5f, -1, -0.7f), white);
     shade_material paper = { .shininess = 0 };
-    shade_draw_state state = { .material = &paper,
-                               .lighting = { &lamp, 1, .ambient = { 0.25f, 0.25f, 0.27f } } };
-    owned_mesh cube = mesh_cube();
+    shade_draw_state state = { .material = &paper, .lighting = { &lamp, 1, .ambient = grey } };
     canvas c = canvas_new(W, H, 2);
-    shade_target picture = canvas_panel(&c, 0, 0, W / 2, H / 2);
+    owned_mesh cube = mesh_cube();
+    const shade_target picture = canvas_panel(&c, 0, 0, W / 2, H / 2);
     const float *z = picture.depth + ROW * 2 * W;
-    char text[80];
-
-    state.view = shade_mat4_look_at(shade_v3(0, 2, 6.5f), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
+    state.view = shade_mat4_look_at(shade_v3(0, 2, 6.9f), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.6f, (float)W / H, near_z, far_z);
     shade_clear(&c.target, shade_v4(0.03f, 0.033f, 0.04f, 1), 1);
     for (int k = 0; k < 4; k++) {
-        float i = (float)k, x = 1.45f * i - 2.2f;
-        state.model = shape_at(x, 0, k % 2 ? 0.5f : -1.2f, 0.72f, 0.7f + 0.9f * i);
-        paper.ambient = paper.diffuse = paint[k];
+        float x = 1.45f * (float)k - 2.25f, turn = 0.7f + 0.9f * (float)k;
+        state.model = shape_at(x, 0, k % 2 ? 0.5f : -1.2f, 0.72f, turn);
+        paper.ambient = paper.diffuse = shade_rgb(paint[k]);
         shade_draw_mesh(&picture, &cube.view, &state, NULL);
     }
     for (int i = 0; i < W * H; i++) {
         float near = 1 - picture.depth[i / W * 2 * W + i % W];
         canvas_fill(&c.target, W + i % W, i / W, 1, 1, shade_v3(near, near, near));
     }
-    for (int i = 0; i < W; i++) {
-        int y = (int)(760 * (1 - z[i]));
-        shade_vec4 k = ((const shade_vec4 *)picture.color)[ROW * 2 * W + i];
-        canvas_fill(&c.target, 2 * i - 2, H + 6 + y, 6, 6, y ? shade_v3(k.x, k.y, k.z) : grey);
-    }
-    int begin = 0, steps = longest_run(z, &begin);
-    float dz = (z[begin + steps] - z[begin]) / (float)steps, sum = z[begin], worst = 0;
-    for (int i = 0; i <= steps; i++, sum += dz) worst = fmaxf(worst, fabsf(sum - z[begin + i]));
-    sprintf(text, "z along the row; %d times z += dz: off by %.1e of its range", steps,
-            (double)worst);
-    label_draw(&c, 12, H / 2 + 28, 20, white, "FAR, z = 1");
-    label_draw(&c, 12, H / 2 + 200, 20, white, "z = 0.5");
-    canvas_fill(&c.target, 2 * 90, H + 6 + 380, 40, 2, grey);
-    label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer");
-    label_draw(&c, 12, H - 14, 22, white, text);
+    plot(&c, z, (const shade_vec4 *)picture.color + ROW * 2 * W);
+    add_up(&c, z);
     canvas_fill(&c.target, 0, ROW, 2 * W, 2, grey);
+    label_draw(&c, W / 2 + 12, 30, 22, white, "its z-buffer");
     mesh_free(&cube);
     return canvas_save(&c, argc, argv, "z_buffer.ppm");
 }

@@ -46,8 +46,8 @@ static void scatter(const void *uniforms, const shade_fragments *SHADE_RESTRICT 
 
 int main(int argc, char **argv)
 {
-    static const char *const name[4] = { "moon, Lambert", "moon, Lommel-Seeliger",
-                                         "pot, Lambert", "pot, velvet" };
+    static const char *const name[4] = { "moon, Lambert", "moon, Lommel-Seeliger, τ = 100",
+                                         "pot, Lambert", "pot, velvet, τ = 0.03" };
     static const char *const formula[4] = { "N·L", "2 N·L / (N·L + N·V)", "k_d N·L",
                                             "k_d N·L T + k N·L / (N·L + N·V) (1 − T)" };
     static const float tau[4] = { 0, 100, 0, 0.03f };
@@ -56,10 +56,10 @@ int main(int argc, char **argv)
     owned_mesh of[2] = { mesh_sphere(128, 64), shape_teapot(16) };
     const shade_mat4 place[2] = { shape_at(0, 0, 0, 1, 0),
                                   shape_at(-0.05f, -0.8f, 0, 0.5f, 0.3f) };
-    canvas c = canvas_new(960, 720, 2);
+    canvas c = canvas_new(960, 745, 4);
     shade_mat4 view = shade_mat4_look_at(eye, shade_v3(0, 0, 0), shade_v3(0, 1, 0));
 
-    view = shade_mat4_mul(shade_mat4_perspective(0.0214f, 480 / 300.0f, 90, 110), view);
+    view = shade_mat4_mul(shade_mat4_perspective(0.0228f, 480 / 300.0f, 90, 110), view);
     canvas_dark(&c.target);
     for (int i = 0; i < 4; i++) {
         int x = 480 * (i % 2), y = 360 * (i / 2), pot = i / 2;
@@ -71,6 +71,7 @@ int main(int argc, char **argv)
         shade_pipeline pipeline = { mesh_vertex, scatter, &s, .varyings = 8 };
         mesh_draw(&panel, &pipeline, &of[pot]);
         label_caption(&c, x + 240, y + 320, grey, name[i], formula[i]);
+        if (i == 3) label_center(&c, 720, 730, 19, grey, "T = e^{−τ/(N·L) − τ/(N·V)}");
     }
     mesh_free(&of[0]);
     mesh_free(&of[1]);

@@ -44,6 +44,8 @@ static void metal(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
 int main(int argc, char **argv)
 {
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, white = { 1, 1, 1 };
+    const shade_vec3 from[4] = { { 1, -.6f, -1 }, { -1, -.6f, -1 }, { 1, -.6f, 1.3f },
+                                 { -1, -.6f, 1.3f } };    /* both sides, before and behind */
     const shade_vec3 axis[4] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 0, 0, 0 } };
     const shade_material paint = { { 0 }, shade_scale(F_0, 0.02f), shade_scale(F_0, 0.12f),
                                    shade_scale(F_0, 0.5f), 2 / (m * m) - 4 };
@@ -53,11 +55,9 @@ int main(int argc, char **argv)
     shade_draw_state state = { .material = &paint, .lighting = { s.lamp, 4, .ambient = white } };
     canvas c = canvas_new(960, 490, 2);
     shade_target panel = canvas_panel(&c, 0, 0, 480, 340);
-    for (int j = 0; j < 4; j++)    /* from both sides, from before and behind */
-        s.lamp[j] = shade_directional_light(shade_v3(j & 1 ? -1 : 1, -0.6f, j & 2 ? 1.3f : -1),
-                                            grey);
+    for (int j = 0; j < 4; j++) s.lamp[j] = shade_directional_light(from[j], grey);
     state.view = shade_mat4_look_at(eye, shade_v3(0.2f, 1.2f, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.42f, 480 / 340.0f, 1, 20);
+    state.projection = shade_mat4_perspective(0.46f, 480 / 340.0f, 1, 20);
     s.place.clip_from_world = shade_mat4_mul(state.projection, state.view);
     canvas_dark(&c.target);
     shade_draw_mesh(&panel, &pot.view, &state, NULL);
@@ -68,12 +68,12 @@ int main(int argc, char **argv)
         panel = canvas_panel(&c, 60 + i / 4, 455 - (int)(75 * shade_dot(f, k)), 1, 3 - i % 4 / 3);
         shade_clear(&panel, shade_v4(.1f + .7f * k.x, .1f + .7f * k.y, .1f + .7f * k.z, 1), 1);
     }
-    label_center(&c, 240, 352, 22, grey, "Blinn-Phong");
+    for (int i = 0; i < 2; i++) canvas_zoom(&c, 480 * i + 118, 80, 30, 18, 480 * i + 12, 10, 4);
+    label_center(&c, 240, 352, 22, grey, "Blinn-Phong; its rim four times as large");
     label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V))");
-    label_center(&c, 480, 482, 19, grey, "F of gold, over the angle between V and H");
-    label_center(&c, 60, 482, 19, grey, "0°");
-    label_center(&c, 900, 482, 19, grey, "90°");
+    label_center(&c, 480, 482, 19, grey, "F of gold, angle between V and H from 0° to 90°");
     label_draw(&c, 36, 387, 19, grey, "1");
+    label_draw(&c, 36, 461, 19, grey, "0");
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "cook_torrance.ppm");
 }

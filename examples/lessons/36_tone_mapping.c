@@ -41,7 +41,7 @@ int main(int argc, char **argv)
     lamp.quadratic = 1;    /* 1 / r^2, without bound */
     state.view = shade_mat4_look_at(shade_v3(1, 4, 10), shade_v3(0.1f, 1.2f, 0),
                                     shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.66f, 320 / 340.0f, 1, 60);
+    state.projection = shade_mat4_perspective(0.74f, 320 / 340.0f, 1, 60);
     shade_clear(&c.target, shade_v4(0, 0, 0, 1), 1);
     for (int k = 0; k < 3; k++) {
         state.material = &paint[k];
@@ -60,7 +60,8 @@ int main(int argc, char **argv)
             cut += I.x > 1 || I.y > 1 || I.z > 1;
             p[k * panel.width] = shade_v4(I.x, I.y, I.z, 1);
         }
-        sprintf(text, "%.1f %% of the pixels are cut", 100.0 * cut / count);
+        sprintf(text, k < 2 ? "%.1f %% of the pixels are cut" : "%.1f %% are cut, L_w = %.0f",
+                100.0 * cut / count, (double)L_w);
         label_caption(&c, 160 + 320 * k, 365, grey, name[k], text);
     }
     return canvas_save(&c, argc, argv, "tone_mapping.ppm");

@@ -23,7 +23,7 @@ int main(int argc, char **argv)
                                              "lit in the fragment shader" };
     shade_vec2 profile[9];
     char text[2000];
-    canvas c = canvas_new(1440, 690, 2);
+    canvas c = canvas_new(1440, 716, 2);
 
     for (int i = 0; i < 9; i++) {
         shade_vec2 t = mesh_turn((float)(i % 8) / 8);
@@ -46,9 +46,11 @@ int main(int argc, char **argv)
         mesh_draw(&panel, &p, &ring);
         label_center(&c, 240 + 480 * k, 330, 24, grey, name[k]);
     }
-    mono_listing(&c, 20, 370, 60, grey, twin_brass_glsl);
+    label_draw(&c, 20, 372, 22, grey, "GLSL, as in the notes:");
+    label_draw(&c, 640, 372, 22, grey, "C, its twin:");
+    mono_listing(&c, 20, 398, 60, grey, twin_brass_glsl);
     twin_unjoin(twin_brass_c, text);
-    mono_listing(&c, 640, 370, 78, grey, text);
+    mono_listing(&c, 640, 398, 78, grey, text);
     mesh_free(&ring);
     return canvas_save(&c, argc, argv, "glsl_twins.ppm");
 }

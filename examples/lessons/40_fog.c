@@ -70,6 +70,8 @@ int main(int argc, char **argv)
         state.model = shape_at(x, height(x, z), z, 0.35f + 0.4f * paint_chance(i, 3), (float)i);
         if (x * x > 2 + 2 * paint_chance(i, 5)) shade_draw_mesh(&c.target, &fir.view, &state, NULL);
     }
+    label_draw(&c, 24, 40, 22, shade_v3(0.02f, 0.03f, 0.05f),
+               "I = T I_{lit} + (1 − T) I_{air},   T = 0.96^d through d units of air");
     mesh_free(&fir);
     mesh_free(&ground);
     return canvas_save(&c, argc, argv, "fog.ppm");

@@ -15,10 +15,7 @@ static const shade_vec3 P = { 0, 0, 0 }, N = { 0, 1, 0 };
 static const shade_vec3 black = { 0.02f, 0.02f, 0.02f }, grey = { 0.2f, 0.2f, 0.2f };
 static const shade_vec3 red = { 0.65f, 0.08f, 0.01f }, blue = { 0.02f, 0.12f, 0.6f };
 
-static double degrees(shade_vec3 a, shade_vec3 b)
-{
-    return acos((double)shade_dot(a, b)) * 57.295779513;
-}
+static double arc(shade_vec3 a, shade_vec3 b) { return acos((double)shade_dot(a, b)) * 57.29578; }
 
 static void vector(sketch *s, shade_vec3 v, const char *name, shade_vec3 color)
 {
@@ -41,14 +38,15 @@ static sketch figure(const canvas *c, int x, const shade_vec3 d[5], const char *
     sketch s = sketch_new(c, x, 425, 240);
     sketch_ink(&s, grey, 2);
     sketch_line(&s, shade_v3(-0.9f, 0, 0), shade_v3(0.9f, 0, 0));
-    shade_vec3 end = shade_add(d[3], d[4]);
+    const shade_vec3 end = shade_add(d[3], d[4]);
     sketch_dashes(&s, d[3], end);
     sketch_dashes(&s, d[4], end);
     sketch_dashes(&s, shade_scale(shade_normalize(end), 1.14f), end);
     sketch_name(&s, shade_add(end, shade_v3(0, 0.08f, 0)), 22, sum);
     vector(&s, N, "N", black);
     vector(&s, d[0], "L", black);
-    vector(&s, d[1], "V", black);
+    vector(&s, d[1], "", black);
+    sketch_name(&s, shade_add(d[1], shade_v3(*letter == 'R' ? -0.08f : 0.07f, 0.03f, 0)), 26, "V");
     vector(&s, d[2], letter, *letter == 'R' ? red : blue);
     return s;
 }
@@ -72,8 +70,8 @@ int main(int argc, char **argv)
     label_center(&c, 240, 470, 24, red, "R = 2 (L·N) N − L");
     label_center(&c, 720, 470, 24, blue, "H = (L + V) / |L + V|");
     label_print(&c, 90, 503, 20, black, "θ = %.1f°, σ = %.1f°, cos σ = R·V = %.4f",
-                degrees(N, L), degrees(R, V), (double)shade_dot(R, V));
-    label_print(&c, 600, 503, 20, black, "ω = %.1f°, cos ω = N·H = %.4f", degrees(N, H),
+                arc(N, L), arc(R, V), (double)shade_dot(R, V));
+    label_print(&c, 600, 503, 20, black, "ω = %.1f°, cos ω = N·H = %.4f", arc(N, H),
                 (double)shade_dot(N, H));
     return canvas_save(&c, argc, argv, "angles.ppm");
 }

@@ -1,8 +1,8 @@
 /* 44_microfacets.c - what k_s and k_d stand for.  Light is mirrored at the interface of a surface,
-   or enters and is scattered by pigment.  A smooth interface is glossy: rays leave side by side.  A
-   rough one is made of microfacets, each of them a mirror, and spreads them about R: the highlight,
-   with a smaller n the rougher it is.  Pigment absorbs some light and re-emits the rest in its own
-   colour, in all directions: the diffuse light.  The angles are root mean squares over 20,000 rays.
+   or enters and is scattered by pigment.  A smooth interface is a mirror: rays leave side by side.
+   A rough one is glossy: it is made of microfacets, each of them a mirror, and spreads the rays
+   about R, the highlight, with a smaller n the rougher it is.  Pigment absorbs some light and
+   re-emits the rest in its own colour, in all directions.  Angles: RMS of 20,000 rays.
    Try 0.02f for the roughness 0.22f: the second surface becomes the first.
 
    cc -O2 -I. examples/lessons/44_microfacets.c -lm -o microfacets && ./microfacets */
@@ -60,10 +60,10 @@ static void draw_ray(sketch *s, int k, shade_vec3 L, float roughness)
 
 int main(int argc, char **argv)
 {
-    static const char *const name[3] = { "smooth: glossy", "microfacets", "pigment: diffuse" };
+    static const char *const name[3] = { "smooth: mirror", "rough: glossy", "pigment: diffuse" };
     static const char *const format[3] = { "k_s, ±%.1f° about R", "k_s, ±%.1f° about R",
                                            "k_d, ±%.1f° about N" };
-    static const float roughness[3] = { 0.01f, 0.22f, -1 };
+    static const float roughness[3] = { 0, 0.22f, -1 };
     const shade_vec3 L = sketch_direction(-30), N = { 0, 1, 0 };
     canvas c = canvas_new(960, 400, 3);
     sketch_paper(&c);

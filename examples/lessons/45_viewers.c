@@ -1,8 +1,8 @@
 /* 45_viewers.c - a viewer nearby and one at infinity (Berkeley).  Left: in perspective V is the
    direction from each pixel to the eye, and every ball carries its highlight elsewhere.  Middle: an
    orthographic camera, but V still aims at a point: highlights wander where views are parallel.
-   Right: SHADE_FLAG_INFINITE_VIEWER, V the same everywhere, and all nine balls are alike.  The
-   number counts pixels of the two framed balls that differ by more than 2 of 255 codes.
+   Right: SHADE_FLAG_INFINITE_VIEWER, V the same everywhere, and all nine balls are alike.  Below:
+   the framed two, and how many of their pixels differ by more than 2 of 255 codes.
    Try SHADE_MODEL_LAMBERT: the two orthographic pictures are the same, k_d does not know V.
 
    cc -O2 -I. examples/lessons/45_viewers.c -lm -o viewers && ./viewers        writes viewers.ppm */
@@ -16,8 +16,7 @@ enum { SIZE = 312, CELL = 100, SAMPLES = 3, EDGE = 6 };    /* pixels; 3 cells an
 /* Pixels of the balls in two opposite corners of a panel that differ by more than 2 codes */
 static int differing(const canvas *c, int x, int y)
 {
-    const int apart = 2 * CELL;
-    int count = 0;
+    int count = 0, apart = 2 * CELL;
     for (int k = 0; k < CELL * CELL; k++) {
         int i = x + EDGE + k % CELL, j = y + EDGE + k / CELL;
         shade_vec4 a = canvas_pixel(c, i, j), b = canvas_pixel(c, i + apart, j + apart);
@@ -49,11 +48,10 @@ int main(int argc, char **argv)
     const shade_material glaze = { none, clay, clay, { 0.6f, 0.6f, 0.6f }, 30 };
     const float half = 1.5f * SIZE / (SIZE - 2 * EDGE);
     shade_light lamp = shade_directional_light(shade_v3(0.5f, -0.7f, -1), white);
-    shade_draw_state state = { .material = &glaze, .lighting = { .lights = &lamp } };
+    shade_draw_state state = { .material = &glaze, .lighting = { &lamp, 1 } };
     owned_mesh ball = mesh_sphere(96, 48);
-    canvas c = canvas_new(960, 390, SAMPLES);
+    canvas c = canvas_new(960, 550, SAMPLES);
 
-    state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.15f, 0.15f, 0.17f);
     state.view = shade_mat4_look_at(shade_v3(0, 0, 4), none, shade_v3(0, 1, 0));
     shade_clear(&c.target, shade_v4(0.02f, 0.022f, 0.026f, 1), 1);
@@ -70,9 +68,11 @@ int main(int argc, char **argv)
         }
         frame(&c, x + EDGE, 8 + EDGE);
         frame(&c, x + EDGE + 2 * CELL, 8 + EDGE + 2 * CELL);
-        sprintf(text, i ? "framed: %d of %d pixels differ" : "V = (eye − P) / |eye − P|",
+        canvas_zoom(&c, x + 18, 20, 76, 76, x + 2, 328, 2);    /* the framed two, larger */
+        canvas_zoom(&c, x + 18 + 2 * CELL, 20 + 2 * CELL, 76, 76, x + 158, 328, 2);
+        sprintf(text, i ? "the two: %d of %d pixels differ" : "V = (eye − P) / |eye − P|",
                 differing(&c, x, 8), CELL * CELL);
-        label_caption(&c, x + SIZE / 2, 348, grey, name[i], text);
+        label_caption(&c, x + SIZE / 2, 508, grey, name[i], text);
     }
     mesh_free(&ball);
     return canvas_save(&c, argc, argv, "viewers.ppm");

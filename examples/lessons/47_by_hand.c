@@ -62,18 +62,18 @@ int main(int argc, char **argv)
     s.lamp[1].constant = s.lamp[1].quadratic = 0.3f;
     state.model = shape_at(-0.5f, -1.5f, -0.17f, 1, -0.45f);
     state.view = shade_mat4_look_at(s.eye, shade_v3(0, -0.05f, 0), shade_v3(0, 1, 0));
-    state.projection = shade_mat4_perspective(0.37f, (float)SIZE / HEIGHT, 9, 19);
+    state.projection = shade_mat4_perspective(0.39f, (float)SIZE / HEIGHT, 9, 19);
     canvas_dark(&c.target);
     for (int i = 0; i < 3; i++) {
         panel[i] = canvas_panel(&c, STEP * i, 0, SIZE, HEIGHT);
         state.fragment = i ? NULL : fragment;
         if (i < 2) shade_draw_mesh(&panel[i], &pot.view, &state, NULL);
     }
-    sprintf(text, "%d of %d pixels: another code of 255",
+    sprintf(text, "%d of %d pixels off by a code",
             canvas_difference(&panel[0], &panel[1], &panel[2], 1e4f, &most), SIZE * HEIGHT);
     label_caption(&c, SIZE / 2, 292, grey, "by hand", "a channel at a time");
     label_caption(&c, SIZE / 2 + STEP, 292, grey, "shade.h", "the same draw, no shader");
-    label_caption(&c, SIZE / 2 + 2 * STEP, 292, grey, "difference of light × 10000", text);
+    label_caption(&c, SIZE / 2 + 2 * STEP, 292, grey, "difference × 10000", text);
     mesh_free(&pot);
     return canvas_save(&c, argc, argv, "by_hand.ppm");
 }
