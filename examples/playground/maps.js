@@ -62,7 +62,7 @@ function lampOn(map, root, j) {
     node.addEventListener('keydown', event => {
         const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -map.sign],
             ArrowDown: [0, map.sign] }[event.key], p = S['p' + j];
-        if (!way) return;
+        if (!way || modified(event)) return;
         const step = event.shiftKey ? 1 : 0.1;
         S.lamp = j;
         moveLamp(map, j, p[map.right] + step * way[0], p[map.down] + step * way[1]);
@@ -101,7 +101,7 @@ function showMaps(answer, last) {
     for (const name of answer.hit ? ['V', 'H', 'L', 'N'] : []) {
         if (name === 'L' && !S['on' + S.lamp]) continue;
         const [x, y] = onMap(MAPS[1], answer['unit' + name]).map(v => 6 * v);
-        html += `<g class="${name}"><line x2="${x}" y2="${y}"/>` + head(x, y, x, y) +
+        html += `<g class="${name}"><line x2="${x}" y2="${y}"/>` + head(name, x, y, x, y) +
             (Math.hypot(x, y) < 14 ? '' : `<text x="${1.17 * x}" y="${1.17 * y}" dy="5" ` +
                 `text-anchor="middle">${name === 'H' ? last : name}</text>`) + '</g>';
     }

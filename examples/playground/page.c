@@ -11,11 +11,13 @@
 #include "shade.h"
 #include "../shared/mesh.h"
 #include "../programs/model/files.h"
-#include "../shared/shapes.h"
 #include "look.h"
+#include "scene.h"
 
 enum { PAGE_MOST = 4 << 20 };                        /* pixels of a picture */
-enum { PAGE_TEAPOT, PAGE_SPHERE, PAGE_FILE, PAGE_SHAPES };
+enum { PAGE_WIDEST = 16384 };
+enum { PAGE_TEAPOT, PAGE_SPHERE, PAGE_FILE, PAGE_BALLS, PAGE_RIBBON, PAGE_SHAPES };
+enum { PAGE_MODEL, PAGE_ROOM, PAGE_PARTS };           /* what stands in the picture */
 enum { PAGE_LIT, PAGE_NORMALS, PAGE_DEPTH };
 enum { PAGE_LAMPS = 3, PAGE_PANELS = 3 };
 
@@ -28,6 +30,7 @@ typedef struct page_lamp {
 
 typedef struct page_state {
     float width, height, shape, view, compare, wire, model, shading, flags, terms, probed_lamp;
+    float detail, room, floor;                       /* floor: the height of the room's */
     float yaw, pitch, distance, near_z, far_z, scale;
     shade_vec3 center, background, ink;
     shade_material material;
@@ -38,12 +41,15 @@ typedef struct page_state {
 /* Likewise, in the order of ANSWER.  Vectors are of the probed lamp; what is named lamp_ is its
    share, without the others. */
 typedef struct page_answer {
-    float hit;
+    float hit, part, hidden;                         /* hidden: something stands in front of P */
+    shade_vec3 mark;                                 /* P where the part has not been turned */
     shade_terms terms;
     shade_vec3 scene_ambient, lamp_ambient, lamp_diffuse, lamp_specular;
     float r, attenuation, spot, gate, n_dot_l, base, power;
     shade_vec2 point, tip[4];                        /* on the picture: P and the ends of N L V H */
     shade_vec3 place, unit[4];                       /* in the world: P; N L V H */
+    shade_vec3 weights, corner[3], normal[3];        /* of the triangle, in the world */
+    shade_material material;
 } page_answer;
 
 static page_state state;
@@ -55,11 +61,13 @@ static float depth[PAGE_MOST];
 
 typedef struct page_mesh {
     owned_mesh mesh;
+    int detail;                                      /* that it was built with */
     shade_vec3 *wires;
     int wire_count;                                  /* points; 0: not asked for yet */
-    float bounds[4];                                 /* middle of the box, radius around it */
+    float bounds[5];                     /* middle of the box, radius around it, half its height */
 } page_mesh;
 static page_mesh meshes[PAGE_SHAPES];
+static owned_mesh room;
 
 /* Returns 0 where the numbers are too big or too small to be drawn. */
 static int measure(page_mesh *m)
@@ -85,19 +93,40 @@ static int measure(page_mesh *m)
         if (low[k] < -1e6 || high[k] > 1e6) return 0;
     }
     m->bounds[3] = (float)sqrt(most);
+    m->bounds[4] = (float)((high[1] - low[1]) / 2);
     return most > 1e-12;
+}
+
+static owned_mesh shape_of(int shape, int detail)
+{
+    switch (shape) {
+    case PAGE_SPHERE: return mesh_sphere(8 * detail, 4 * detail);
+    case PAGE_BALLS: return scene_balls(detail);
+    case PAGE_RIBBON: return scene_ribbon(detail);
+    default: return shape_teapot(detail);
+    }
 }
 
 static page_mesh *mesh_of(int shape)
 {
     page_mesh *m = &meshes[shape];
-    if (m->mesh.positions || shape == PAGE_FILE) return m;
-    m->mesh = shape == PAGE_SPHERE ? mesh_sphere(96, 48) : shape_teapot(12);
+    int detail = (int)state.detail > 1 ? (int)state.detail : 1;
+    if (shape == PAGE_FILE || m->detail == detail) return m;
+    mesh_free(&m->mesh);
+    free(m->wires);
+    m->wires = NULL;
+    m->wire_count = 0;
+    m->mesh = shape_of(shape, detail);
+    m->detail = detail;
     measure(m);
     return m;
 }
 
-PAGE(const float *, page_bounds)(int shape) { return mesh_of(shape)->bounds; }
+PAGE(const float *, page_bounds)(int shape, int detail)
+{
+    state.detail = (float)detail;
+    return mesh_of(shape)->bounds;
+}
 
 /* Room for the bytes of a file and its name; NULL: none. */
 PAGE(void *, page_room)(size_t bytes) { return malloc(bytes); }
@@ -107,7 +136,7 @@ PAGE(void *, page_room)(size_t bytes) { return malloc(bytes); }
 PAGE(const char *, page_load)(void *bytes, size_t size, const char *name)
 {
     static char error[300];
-    page_mesh m = { { { 0 }, 0, 0, 0, 0, 0, 0 }, NULL, 0, { 0, 0, 0, 0 } };
+    page_mesh m = { { { 0 }, 0, 0, 0, 0, 0, 0 }, 0, NULL, 0, { 0, 0, 0, 0, 0 } };
     page_mesh *old = &meshes[PAGE_FILE];
     error[0] = 0;
     if (!mesh_read_memory(bytes, size, name, &m.mesh, error, sizeof error) && !measure(&m)) {
@@ -182,6 +211,12 @@ static shade_material material_of(int panel)
     return m;
 }
 
+static const owned_mesh *room_of(void)
+{
+    if (!room.positions) room = scene_room();
+    return &room;
+}
+
 static void draw_panel(const shade_target *target, int panel)
 {
     page_mesh *m = mesh_of((int)state.shape);
@@ -190,6 +225,8 @@ static void draw_panel(const shade_target *target, int panel)
     page_scene s;
     scene_of(&s, panel);
     s.draw.material = &material;
+    if (state.room != 0 && (int)state.view == PAGE_LIT)
+        scene_draw_room(target, &room_of()->view, s.draw, state.pitch, state.floor);
     if ((int)state.view == PAGE_LIT) shade_draw_mesh(target, mesh, &s.draw, NULL);
     else look_draw(target, mesh, &s.draw, state.near_z, state.far_z, (int)state.view == PAGE_DEPTH);
     if (!(state.wire > 0)) return;
@@ -199,26 +236,56 @@ static void draw_panel(const shade_target *target, int panel)
 
 PAGE(page_state *, page_input)(void) { return &state; }
 
-/* Draws the state.  Returns the pixels, RGBA. */
-PAGE(const void *, page_draw)(void)
+/* Draws the panels of the state into a target of the whole picture. */
+static void draw_panels(shade_target target, int bytes)
 {
-    shade_target target = { .width = (int)state.width, .height = (int)state.height,
-                            .color = pixels, .depth = depth, .srgb = 1 };
-    int panel = target.width / PAGE_PANELS;
+    unsigned char *left = (unsigned char *)target.color;
+    float *left_depth = target.depth;
+    const int panel = target.width / PAGE_PANELS;
     shade_clear(&target,
                 shade_v4(state.background.x, state.background.y, state.background.z, 1), 1);
     if (state.compare == 0) {
         draw_panel(&target, -1);
-        return pixels;
+        return;
     }
     target.stride = target.width;
     target.width = panel;
     for (int i = 0; i < PAGE_PANELS; i++) {
-        target.color = pixels + i * panel;
-        target.depth = depth + i * panel;
+        target.color = left + (ptrdiff_t)bytes * i * panel;
+        target.depth = left_depth + i * panel;
         draw_panel(&target, i);
     }
+}
+
+/* Draws the state.  Returns the pixels, RGBA. */
+PAGE(const void *, page_draw)(void)
+{
+    const shade_target target = { .width = (int)state.width, .height = (int)state.height,
+                                  .color = pixels, .depth = depth, .srgb = 1 };
+    draw_panels(target, 4);
     return pixels;
+}
+
+/* Draws one row of the picture with these terms alone.  Returns the luminance of its pixels, which
+   is linear and may exceed 1; beside the model it is 0. */
+PAGE(const float *, page_row)(int y, int terms)
+{
+    static float rgba[4 * PAGE_WIDEST], far[PAGE_WIDEST], bright[PAGE_WIDEST];
+    const page_state kept = state;
+    const shade_target row = { .width = (int)state.width, .height = (int)state.height,
+                               .color = rgba, .depth = far, .format = SHADE_FORMAT_RGBA32F,
+                               .row_offset = y, .row_count = 1 };
+    if (row.width > PAGE_WIDEST || y < 0 || y >= row.height) return bright;
+    state.terms = (float)terms;
+    state.wire = 0;
+    state.background = shade_v3(0, 0, 0);
+    draw_panels(row, 16);
+    state = kept;
+    for (int i = 0; i < row.width; i++) {
+        const float *c = rgba + 4 * i;
+        bright[i] = 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+    }
+    return bright;
 }
 
 /* ---- the point under the pointer ------------------------------------------------------------- */
@@ -276,82 +343,176 @@ static void factors(const shade_lighting *lighting, const shade_light *lamp, sha
     out[3] = H;
 }
 
-/* Fills the answer for a point of the picture and the lamp that state.probed_lamp names. */
-PAGE(const page_answer *, page_probe)(float x, float y)
-{
-    static const page_answer none;
-    const shade_mesh *mesh = &mesh_of((int)state.shape)->mesh.view;
-    int width = (int)state.width, panel = -1, lamp = (int)state.probed_lamp;
-    page_scene s;
+/* A part of the scene, as it stands in a panel */
+typedef struct page_part {
+    const shade_mesh *mesh;
+    shade_mat4 model, turned;                        /* turned: the rotation in model */
     shade_material material;
-    shade_lighting alone;
-    shade_light light = lamp_of(&state.lamp[lamp]);
-    shade_vec3 weights, P[3], N[3], point, normal, eye = shade_v3(0, 0, state.distance), vectors[4];
-    shade_mat4 to_clip;
-    shade_mat3 normals;
-    shade_terms t;
-    float distance, left = 0;
-    int triangle;
-    answer = none;
-    if (state.compare != 0) {
-        width /= PAGE_PANELS;
-        panel = (int)x / width < 2 ? (int)x / width : 2;
-        left = (float)(panel * width);
-    }
-    scene_of(&s, panel);
-    material = material_of(panel);
-    s.draw.material = &material;
-    triangle = shade_pick(mesh, s.draw.model,
-                          shade_pixel_ray(s.draw.view, s.draw.projection, width, (int)state.height,
-                                          x - left, y), &distance, &weights);
-    if (triangle < 0) return &answer;
-    normals = shade_normal_matrix(s.draw.model);
-    for (int k = 0; k < 3; k++) {
-        const uint32_t *index = mesh->indices + 3 * triangle;
-        P[k] = shade_mat4_transform_point(s.draw.model, corner_of(mesh->positions, index, k));
-        N[k] = shade_normalize(
-            shade_mat3_transform(normals, corner_of(mesh->normals, index, k)));
-    }
-    point = mix(P, weights);
-    normal = shade_normalize(mix(N, weights));
-    if (s.draw.shading == SHADE_SHADING_PER_FACE) {
-        normal = shade_face_normal(P[0], P[1], P[2]);
-        point = mix(P, shade_v3(1 / 3.0f, 1 / 3.0f, 1 / 3.0f));
-    }
-    if (s.draw.shading != SHADE_SHADING_PER_VERTEX) {
-        P[0] = point;
-        N[0] = normal;
-    }
-    if (s.draw.lighting.flags & SHADE_FLAG_INFINITE_VIEWER) eye = shade_v3(0, 0, 1);
-    answer.hit = 1;
-    answer.terms = shaded(&s, &s.draw.lighting, eye, P, N, weights);
+} page_part;
 
-    alone = s.draw.lighting;
+static page_part part_of(const page_scene *s, int part, int panel)
+{
+    const shade_mat4 tilt = shade_mat4_rotation(state.pitch, shade_v3(1, 0, 0));
+    page_part p = { &mesh_of((int)state.shape)->mesh.view, s->draw.model, tilt,
+                    material_of(panel) };
+    p.turned = shade_mat4_mul(tilt, shade_mat4_rotation(state.yaw, shade_v3(0, 1, 0)));
+    if (part == PAGE_MODEL) return p;
+    p.mesh = &room_of()->view;
+    p.turned = tilt;
+    p.model = shade_mat4_mul(tilt, shade_mat4_translation(shade_v3(0, state.floor, 0)));
+    p.material = scene_grey;
+    return p;
+}
+
+/* What a ray meets */
+typedef struct page_hit { int part, triangle; float t; shade_vec3 weights; } page_hit;
+
+static page_hit meet(const page_scene *s, int panel, shade_ray ray)
+{
+    page_hit nearest = { 0, -1, FLT_MAX, { 0, 0, 0 } }, hit;
+    int parts = state.room != 0 && (int)state.view == PAGE_LIT ? PAGE_PARTS : 1;
+    for (hit.part = 0; hit.part < parts; hit.part++) {
+        const page_part p = part_of(s, hit.part, panel);
+        hit.triangle = shade_pick(p.mesh, p.model, ray, &hit.t, &hit.weights);
+        if (hit.triangle >= 0 && hit.t < nearest.t) nearest = hit;
+    }
+    return nearest;
+}
+
+/* The corners of the triangle that was hit, in the world, with unit normals */
+static void corners_of(const page_part *p, int triangle, shade_vec3 *P, shade_vec3 *N)
+{
+    const shade_mat3 normals = shade_normal_matrix(p->model);
+    for (int k = 0; k < 3; k++) {
+        const uint32_t *index = p->mesh->indices + 3 * triangle;
+        P[k] = shade_mat4_transform_point(p->model, corner_of(p->mesh->positions, index, k));
+        N[k] = shade_normalize(
+            shade_mat3_transform(normals, corner_of(p->mesh->normals, index, k)));
+    }
+}
+
+/* The terms at what was hit: all of them, then those of the scene and of one lamp alone */
+static void answer_terms(const page_scene *s, const shade_light *lamp, int on, shade_vec3 eye,
+                         const shade_vec3 *P, const shade_vec3 *N, shade_vec3 weights)
+{
+    shade_lighting alone = s->draw.lighting;
+    shade_terms t;
+    answer.terms = shaded(s, &s->draw.lighting, eye, P, N, weights);
     alone.light_count = 0;
-    answer.scene_ambient = shaded(&s, &alone, eye, P, N, weights).ambient;
-    alone.lights = &light;
-    alone.light_count = state.lamp[lamp].on != 0;
+    answer.scene_ambient = shaded(s, &alone, eye, P, N, weights).ambient;
+    alone.lights = lamp;
+    alone.light_count = on;
     alone.ambient = shade_v3(0, 0, 0);
-    t = shaded(&s, &alone, eye, P, N, weights);
+    t = shaded(s, &alone, eye, P, N, weights);
     answer.lamp_ambient = t.ambient;
     answer.lamp_diffuse = t.diffuse;
     answer.lamp_specular = t.specular;
+}
 
-    if (!(s.draw.lighting.flags & SHADE_FLAG_INFINITE_VIEWER))
-        eye = shade_normalize(shade_sub(eye, point));
-    if ((s.draw.lighting.flags & SHADE_FLAG_TWO_SIDED) && shade_dot(normal, eye) < 0)
-        normal = shade_neg(normal);
-    factors(&s.draw.lighting, &light, eye, point, normal, material.shininess, vectors);
-    answer.place = point;
-    for (int k = 0; k < 4; k++) answer.unit[k] = vectors[k];
-    to_clip = shade_mat4_mul(s.draw.projection, s.draw.view);
+/* Where P and the ends of N L V H are in the picture */
+static void answer_places(const page_scene *s, int width, float left)
+{
+    const shade_mat4 to_clip = shade_mat4_mul(s->draw.projection, s->draw.view);
     for (int k = 0; k < 5; k++) {
-        shade_vec3 tip = k ? shade_madd(point, 0.45f, vectors[k - 1]) : point;
+        shade_vec3 tip = k ? shade_madd(answer.place, 0.45f, answer.unit[k - 1]) : answer.place;
         shade_vec2 *out = k ? &answer.tip[k - 1] : &answer.point;
         tip = shade_mat4_transform_point(to_clip, tip);
         out->x = left + (tip.x + 1) / 2 * (float)width;
         out->y = (1 - tip.y) / 2 * state.height;
     }
+}
+
+static int panel_width(int panel)
+{
+    return panel < 0 ? (int)state.width : (int)state.width / PAGE_PANELS;
+}
+
+/* Fills the answer for what a ray has met in a panel, and the lamp that state.probed_lamp names. */
+static const page_answer *answer_hit(page_scene *s, int panel, page_hit hit)
+{
+    const int lamp = (int)state.probed_lamp, width = panel_width(panel);
+    const shade_light light = lamp_of(&state.lamp[lamp]);
+    const unsigned flags = s->draw.lighting.flags;
+    const page_part p = part_of(s, hit.part, panel);
+    shade_vec3 P[3], N[3], point, normal, eye = shade_v3(0, 0, state.distance);
+    corners_of(&p, hit.triangle, P, N);
+    for (int k = 0; k < 3; k++) {
+        answer.corner[k] = P[k];
+        answer.normal[k] = N[k];
+    }
+    answer.weights = hit.weights;
+    answer.material = p.material;
+    answer.part = (float)hit.part;
+    s->draw.material = &p.material;
+    point = mix(P, hit.weights);
+    answer.mark = shade_mat4_transform_direction(shade_mat4_transpose(p.turned), point);
+    normal = shade_normalize(mix(N, hit.weights));
+    if (s->draw.shading == SHADE_SHADING_PER_FACE) {
+        normal = shade_face_normal(P[0], P[1], P[2]);
+        point = mix(P, shade_v3(1 / 3.0f, 1 / 3.0f, 1 / 3.0f));
+    }
+    if (s->draw.shading != SHADE_SHADING_PER_VERTEX) {
+        P[0] = point;
+        N[0] = normal;
+    }
+    if (flags & SHADE_FLAG_INFINITE_VIEWER) eye = shade_v3(0, 0, 1);
+    answer.hit = 1;
+    answer_terms(s, &light, state.lamp[lamp].on != 0, eye, P, N, hit.weights);
+    if (!(flags & SHADE_FLAG_INFINITE_VIEWER)) eye = shade_normalize(shade_sub(eye, point));
+    if ((flags & SHADE_FLAG_TWO_SIDED) && shade_dot(normal, eye) < 0) normal = shade_neg(normal);
+    factors(&s->draw.lighting, &light, eye, point, normal, p.material.shininess, answer.unit);
+    answer.place = point;
+    answer_places(s, width, (float)(panel < 0 ? 0 : panel * width));
+    return &answer;
+}
+
+/* Fills the answer for a point of the picture. */
+PAGE(const page_answer *, page_probe)(float x, float y)
+{
+    static const page_answer none;
+    const int panel = state.compare == 0 ? -1 : (int)x / panel_width(0) < 2
+                    ? (int)x / panel_width(0) : 2;
+    page_scene s;
+    page_hit hit;
+    answer = none;
+    scene_of(&s, panel);
+    if (panel > 0) x -= (float)(panel * panel_width(0));
+    hit = meet(&s, panel, shade_pixel_ray(s.draw.view, s.draw.projection, panel_width(panel),
+                                          (int)state.height, x, y));
+    return hit.triangle < 0 ? &answer : answer_hit(&s, panel, hit);
+}
+
+/* Fills the answer for a mark, which turns with its part.  Where the mesh has changed and the mark is
+   no longer on it, what the eye sees in that direction is marked, or in the middle. */
+PAGE(const page_answer *, page_probe_mark)(int panel, int part, float x, float y, float z)
+{
+    static const page_answer none;
+    const shade_vec3 eye = shade_v3(0, 0, state.distance);
+    page_scene s;
+    page_part p;
+    page_hit hit = { part, -1, 0, { 0, 0, 0 } }, first;
+    shade_vec3 P;
+    shade_ray ray = { { 0, 0, state.distance }, { 0, 0, -1 } };
+    answer = none;
+    if (state.compare == 0) panel = -1;
+    scene_of(&s, panel);
+    p = part_of(&s, part, panel);
+    P = shade_mat4_transform_direction(p.turned, shade_v3(x, y, z));
+    ray.direction = shade_normalize(shade_sub(P, eye));
+    first = meet(&s, panel, ray);
+    ray.origin = shade_madd(P, -0.05f, ray.direction);
+    hit.triangle = shade_pick(p.mesh, p.model, ray, &hit.t, &hit.weights);
+    if (hit.triangle < 0 || hit.t > 0.15f) {
+        if (first.triangle < 0) {
+            ray.origin = eye;
+            ray.direction = shade_v3(0, 0, -1);
+            first = meet(&s, panel, ray);
+        }
+        hit = first;
+    }
+    if (hit.triangle < 0) return &answer;
+    answer_hit(&s, panel, hit);
+    answer.hidden = first.triangle != hit.triangle || first.part != hit.part;
     return &answer;
 }
 

@@ -13,10 +13,13 @@ const FLAGS = [['two-sided', 'N is turned toward the viewer'], ['|N·L|', 'in th
     ['distant eye', 'V is the same everywhere']];
 const LAMPS = [1, 2, 3];
 
+const MARK = [-0.0557, 0.2281, 0.4574]; // on the teapot, beside the highlight of lamp 1
+
 // name: [lowest, highest, first value ...]
 const FIELDS = {
-    shape: [0, 2, 0], view: [0, 2, 0], compare: [0, 1, 0], wire: [0, 1, 0], vectors: [0, 1, 1],
-    maps: [0, 1, 1],
+    shape: [0, 4, 0], detail: [1, 24, 12], room: [0, 1, 0], view: [0, 2, 0], compare: [0, 1, 0],
+    wire: [0, 1, 0], vectors: [0, 1, 1], maps: [0, 1, 1], curve: [0, 1, 0], lobe: [0, 1, 0],
+    mark: [-20, 20, ...MARK], part: [0, 1, 0], panel: [0, 2, 1],
     turn: [0, 1, 1], model: [0, 5, 0], shading: [0, 2, 0], flags: [0, 63, 0], terms: [1, 15, 15],
     lamp: [1, 3, 1], yaw: [-7, 7, 0.5], pitch: [-1.6, 1.6, 0.4], zoom: [0.4, 4, 1],
     simd: [0, 1, 1], lecture: [0, 5, 0], bare: [0, 1, 0],
@@ -33,10 +36,11 @@ function lamp(j, on, far, position, color, c, beta = 180, e = 0) {
         ['e' + j]: [0, 64, e] };
 }
 // those that are whole numbers
-const WHOLE = RegExp('^(shape|view|compare|wire|vectors|maps|turn|model|shading|flags|terms|lamp|' +
-    'simd|lecture|bare|on.|far.)$');
+const WHOLE = RegExp('^(shape|detail|room|view|compare|wire|vectors|maps|curve|lobe|part|panel|turn|' +
+    'model|shading|flags|terms|lamp|simd|lecture|bare|on.|far.)$');
 
 const S = {};
+let asked = [];                         // names of the controls that a bare page shows: with=n,c1
 const round = v => Math.round(v * 1e4) / 1e4 + 0;
 const limit = (v, low, high) => Math.min(Math.max(v, low), high);
 
@@ -50,7 +54,12 @@ function readAddress() {
     const given = new URLSearchParams(location.hash.slice(1));
     for (const name in FIELDS) setField(name, FIELDS[name].slice(2));
     setField('lecture', [Number(given.get('lecture'))]);
+    before = { ...S, lecture: 0 };
     Object.assign(S, stepState(S.lecture), { bare: +given.has('bare') });
+    asked = (given.get('with') || '').split(',').filter(name => /^[a-zA-Z]+\d*$/.test(name));
+    for (const name of asked)                           // with=c2 is a row of lamp 2
+        if (FIELDS[name] && /[a-zA-Z][123]$/.test(name)) S.lamp = +name.slice(-1);
+    pointed = null;
     for (const name in FIELDS) {
         const text = given.get(name);
         if (text) setField(name, text.split(',').map(Number));
@@ -64,7 +73,9 @@ function readAddress() {
 function address() {
     const parts = Object.keys(FIELDS).filter(name =>
         String(S[name]) !== String(FIELDS[name].slice(2)));
-    return '#' + parts.map(name => name + '=' + S[name]).join('&');
+    const shown = parts.map(name => name + '=' + S[name]);
+    if (asked.length) shown.push('with=' + asked);
+    return '#' + shown.join('&');
 }
 
 // ---- the module ---------------------------------------------------------------------------------
@@ -83,28 +94,33 @@ async function loadModule() {
     wasm = made.instance.exports;
 }
 
-const bounds = () => Array.from(floats(wasm.page_bounds(S.shape), 4), v => +v.toPrecision(6));
+const bounds = () =>
+    Array.from(floats(wasm.page_bounds(S.shape, S.detail), 5), v => +v.toPrecision(6));
 
-// Where the camera stands: the ball around the model fits a panel; the teapot is flatter than it.
+// Where the camera stands: the ball around the model fits a panel; most models are flatter than it.
+const HIGH = [0.82, 1.06, 1.06, 0.4, 0.85];
 function camera(width, height) {
     const aspect = (S.compare && !S.view ? Math.floor(width / 3) : width) / height;
     const wide = 1.06 / Math.sin(Math.atan(Math.tan(0.25) * aspect));
-    const high = (S.shape ? 1.06 : 0.82) / Math.sin(0.25);
-    const distance = round(Math.max(wide, high) / S.zoom);
-    return { distance, near: round(Math.max(distance - 1.05, 0.05)), far: round(distance + 1.05) };
+    const distance = round(Math.max(wide, HIGH[S.shape] / Math.sin(0.25)) / S.zoom);
+    const room = S.room && !S.view;
+    return { distance, near: round(Math.max(distance - (room ? 4 : 1.05), 0.05)),
+        far: round(distance + (room ? 12 : 1.05)) };
 }
 
 // The floats of page_state, in its order
 let alone = 0;                          // the one term that is shown, as its bit; 0: all that are on
 function words(width, height, pen, terms = alone || S.terms) {
-    const { distance, near, far } = camera(width, height), [x, y, z, radius] = bounds();
+    const { distance, near, far } = camera(width, height), [x, y, z, radius, tall] = bounds();
     return [width, height, S.shape, S.view, S.compare && !S.view, S.wire * pen, S.model, S.shading,
-        S.flags, terms, S.lamp - 1, S.yaw, S.pitch, distance, near, far, scaleOf(radius), x, y, z,
+        S.flags, terms, S.lamp - 1, S.detail, S.room, floorOf(radius, tall), S.yaw, S.pitch,
+        distance, near, far, scaleOf(radius), x, y, z,
         ...paper, ...ink, ...S.ke, ...S.ka, ...S.kd, ...S.ks, S.n, ...S.Ia,
         ...LAMPS.flatMap(j => [S['on' + j], S['far' + j], S['p' + j], S['I' + j], S['A' + j],
             S['a' + j], S['b' + j], S['c' + j], S['beta' + j], S['e' + j]].flat())];
 }
 const scaleOf = radius => +(1 / radius).toPrecision(6);
+const floorOf = (radius, tall) => round(-tall / radius);
 
 function tell(list) { floats(wasm.page_input(), list.length).set(list); }
 function draw(width, height, pen) {
@@ -114,13 +130,14 @@ function draw(width, height, pen) {
     return new Uint8ClampedArray(wasm.memory.buffer, at, 4 * width * height);
 }
 
-const ANSWER = { hit: 1, emission: 3, ambient: 3, diffuse: 3, specular: 3, sceneAmbient: 3,
+const ANSWER = { hit: 1, part: 1, hidden: 1, mark: 3, emission: 3, ambient: 3, diffuse: 3, specular: 3, sceneAmbient: 3,
     lampAmbient: 3, lampDiffuse: 3, lampSpecular: 3, r: 1, attenuation: 1, spot: 1, gate: 1, nl: 1,
     base: 1, power: 1, point: 2, N: 2, L: 2, V: 2, H: 2, place: 3, unitN: 3, unitL: 3, unitV: 3,
-    unitH: 3 };
-function probe(x, y) {
+    unitH: 3, weights: 3, corners: 9, normals: 9, ke: 3, ka: 3, kd: 3, ks: 3, n: 1 };
+const probe = (x, y) => answerAt(wasm.page_probe(x, y));
+const probeMark = () => answerAt(wasm.page_probe_mark(S.panel, S.part, ...S.mark));
+function answerAt(at) {
     const answer = {};
-    let at = wasm.page_probe(x, y);
     for (const name in ANSWER) {
         const n = ANSWER[name], values = Array.from(floats(at, n));
         answer[name] = n > 1 ? values : values[0];
@@ -186,8 +203,9 @@ const controls = $('#controls');
 const group = (title, ...children) =>
     make('fieldset', {}, make('legend', {}, title), ...children);
 
-function choice(name, labels, values = labels.map((_, i) => i)) {
-    return make('div', { class: 'choice' }, ...labels.map((label, i) => {
+function choice(name, title, labels, values = labels.map((_, i) => i)) {
+    return make('div', { class: 'choice', role: 'radiogroup', 'aria-label': title,
+        'data-name': name }, ...labels.map((label, i) => {
         const input = make('input', { type: 'radio', name, value: values[i],
             onchange: () => { S[name] = values[i], changed(); } });
         shown.push(() => { input.checked = S[name] === values[i]; });
@@ -203,15 +221,18 @@ function toggle(name, label, title = '', bit = 1) {
             changed();
         } });
     shown.push(() => { input.checked = !!(S[name] & bit); });
-    return make('label', { class: 'toggle', title }, input, make('span', { html: label }));
+    return make('label', { class: 'toggle', title,
+        'data-name': FIELDS[name][1] > 1 ? name + bit : name }, input, make('span', { html: label }));
 }
-function symbol(html, title) {
+function symbol(tex, title) {
     const word = `<small>${title.split(' ')[0]}</small>`;
-    return make('span', { class: 'symbol', title, html: html + word });
+    return make('span', { class: 'symbol', title, html: mathml(tex) + word });
 }
+// What with= calls a row: its field, without the number of the lamp
+const rowName = name => typeof name === 'string' ? name : name().replace(/\d$/, '');
 // A row: symbol, slider, number.  name() is the field, which for lamps depends on the one chosen;
 // part: of a vector.  curve 2: fine at the low end.
-function slider(name, html, title, { css = '', step = 0.01, curve = 1, part = -1 } = {}) {
+function slider(name, tex, title, { css = '', step = 0.01, curve = 1, part = -1 } = {}) {
     const field = () => typeof name === 'string' ? name : name();
     const value = () => part < 0 ? S[field()] : S[field()][part];
     const [low, high] = FIELDS[field()], to = v => Math.sign(v) * Math.abs(v) ** (1 / curve);
@@ -228,10 +249,11 @@ function slider(name, html, title, { css = '', step = 0.01, curve = 1, part = -1
         number.textContent = +value().toFixed(2);
         input.setAttribute('aria-valuetext', number.textContent);
     });
-    return make('div', { class: 'row ' + css }, symbol(html, title), input, number);
+    return make('div', { class: 'row ' + css, 'data-name': rowName(name) }, symbol(tex, title), input,
+        number);
 }
 // A row: symbol, colour, slider of its brightest component, number
-function color(name, html, title, css = '') {
+function color(name, tex, title, css = '') {
     const field = () => typeof name === 'string' ? name : name();
     const hues = {}, high = FIELDS[field()][1], number = make('span', { class: 'number' });
     const set = rgb => { S[field()] = rgb.map(v => limit(round(v), 0, high)), changed(); };
@@ -250,19 +272,21 @@ function color(name, html, title, css = '') {
         number.textContent = +most.toFixed(2);
         input.setAttribute('aria-valuetext', number.textContent);
     });
-    return make('div', { class: 'row ' + css }, symbol(html, title), picker, input, number);
+    return make('div', { class: 'row ' + css, 'data-name': rowName(name) }, symbol(tex, title), picker,
+        input, number);
 }
 
 // Small balls, each drawn by the module in its material
 function presets() {
-    const list = make('div', { class: 'presets' }), kept = { ...S };
+    const list = make('div', { class: 'presets', role: 'group', 'aria-label': 'Materials',
+        'data-name': 'presets' }), kept = { ...S };
     const size = Math.round(40 * Math.max(2, devicePixelRatio));
     for (let i = 0, name; (name = text(wasm.page_preset_name(i))); i++) {
         const m = Array.from(floats(wasm.page_preset(i), 13), round);
         const values = { ke: m.slice(0, 3), ka: m.slice(3, 6), kd: m.slice(6, 9),
             ks: m.slice(9, 12), n: m[12] };
         const canvas = make('canvas', { width: size, height: size });
-        Object.assign(S, values, { shape: 1, view: 0, compare: 0, wire: 0, model: 0, shading: 0,
+        Object.assign(S, values, { shape: 1, detail: 12, room: 0, view: 0, compare: 0, wire: 0, model: 0, shading: 0,
             flags: 0, terms: 15, zoom: 1.08, on1: 1, far1: 1, p1: [3, 4, 5], I1: [1.2, 1.2, 1.2],
             beta1: 180, on2: 0, on3: 0, Ia: [0.5, 0.5, 0.5] });
         canvas.getContext('2d').putImageData(new ImageData(draw(size, size, 1), size), 0, 0);
@@ -279,10 +303,16 @@ function buildControls() {
             if (file.files[0]) openFile(file.files[0]);
             file.value = '';
         } });
-    const shapes = choice('shape', ['Teapot', 'Sphere', 'File']);
-    const third = shapes.lastChild.firstChild, of = field => () => field + S.lamp;
-    shown.push(() => { third.disabled = !fileName; });
-    const on = make('label', { class: 'toggle' }), far = make('label', { class: 'toggle' });
+    const shapes = choice('shape', 'Model', ['Teapot', 'Sphere', 'Balls', 'Ribbon', 'File'],
+        [0, 1, 3, 4, 2]);
+    const own = shapes.lastChild.firstChild, of = field => () => field + S.lamp;
+    shown.push(() => { own.disabled = own.parentNode.hidden = !fileName; });
+    const on = make('label', { class: 'toggle', 'data-name': 'on' });
+    const far = make('label', { class: 'toggle', 'data-name': 'far' });
+    // the lamp in hand goes to a place that the courses speak of
+    const place = (label, ...to) => make('button', { type: 'button', onclick: () => {
+        S['p' + S.lamp] = to, changed();
+    } }, label);
     for (const [label, field, name] of [[on, 'on', 'on'], [far, 'far', 'at infinity']]) {
         const input = make('input', { type: 'checkbox', name: field, onchange: () => {
             S[field + S.lamp] ^= 1, changed();
@@ -291,44 +321,61 @@ function buildControls() {
         label.append(input, make('span', {}, name));
     }
     const row = (...nodes) => make('div', { class: 'buttons' }, ...nodes);
+    const places = row(place('aside', 3, 2.5, 3.5), place('above', 0, 5, 1), place('behind', -3, 1, -3),
+        place('at the eye', 0, 0, 6));
+    places.dataset.name = 'place';
+    const flags = row(...FLAGS.map((label, i) => toggle('flags', ...label, 1 << i)));
+    flags.dataset.name = 'flags';
     controls.append(
         group('Model', row(shapes, make('label', { class: 'open' }, file,
-            make('span', {}, 'Open …')))),
-        group('Picture', choice('view', ['Light', 'Normals', 'Depth']),
-            row(toggle('wire', 'wire'), toggle('vectors', 'vectors'), toggle('maps', 'lamps'),
-                toggle('turn', 'turning'))),
+            make('span', {}, 'Open …'))),
+            slider('detail', '\\text{mesh}', 'fineness of the mesh', { step: 1 })),
+        group('Picture', choice('view', 'Picture', ['Light', 'Normals', 'Depth']),
+            row(toggle('room', 'floor', 'a floor and a wall behind'), toggle('wire', 'wire'),
+                toggle('vectors', 'vectors'), toggle('maps', 'lamps'), toggle('turn', 'turning')),
+            row(toggle('curve', 'brightness', 'along a line through the marked point, term by term'),
+                toggle('lobe', 'lobe', 'of the highlight, as a curve around its axis'))),
         group('Material', presets(),
-            color('ke', '<i>k</i><sub>e</sub>', 'emission', 'e'),
-            color('ka', '<i>k</i><sub>a</sub>', 'ambient reflection', 'a'),
-            color('kd', '<i>k</i><sub>d</sub>', 'diffuse reflection', 'd'),
-            color('ks', '<i>k</i><sub>s</sub>', 'specular reflection', 's'),
-            slider('n', '<i>n</i>', 'shininess', { css: 's', curve: 2 })),
-        group('Light', color('Ia', '<i>I</i><sub>a</sub>', 'ambient light of the scene', 'a'),
-            row(choice('lamp', ['Lamp 1', '2', '3'], LAMPS), on, far),
-            color(of('I'), '<i>I</i><sub>d</sub>, <i>I</i><sub>s</sub>', 'light of the lamp',
-                'lamps'),
-            color(of('A'), '<i>I</i><sub>La</sub>', 'ambient light of the lamp', 'a'),
+            color('ke', 'k_e', 'emission', 'e'),
+            color('ka', 'k_a', 'ambient reflection', 'a'),
+            color('kd', 'k_d', 'diffuse reflection', 'd'),
+            color('ks', 'k_s', 'specular reflection', 's'),
+            slider('n', 'n', 'shininess', { css: 's', curve: 2 })),
+        group('Light', color('Ia', 'I_a', 'ambient light of the scene', 'a'),
+            row(choice('lamp', 'Lamp in hand', ['Lamp 1', '2', '3'], LAMPS), on, far), places,
+            color(of('I'), 'I_d,\\,I_s', 'light of the lamp', 'lamps'),
+            color(of('A'), 'I_{La}', 'ambient light of the lamp', 'a'),
             ...['x', 'y', 'z'].map((axis, part) =>
-                slider(of('p'), `<i>${axis}</i>`, 'position ' + axis, { part, step: 0.1 })),
-            slider(of('a'), '<i>a</i>', 'constant attenuation'),
-            slider(of('b'), '<i>b</i>', 'linear attenuation'),
-            slider(of('c'), '<i>c</i>', 'quadratic attenuation'),
-            slider(of('beta'), '<i>β</i>', 'cutoff in degrees, 180 for no cone', { step: 1 }),
-            slider(of('e'), '<i>e</i>', 'exponent of the cone', { curve: 2 })),
-        group('Shading', choice('shading', ['By fragment', 'By vertex', 'By face'])),
-        group('Flags', row(...FLAGS.map((label, i) => toggle('flags', ...label, 1 << i)))));
+                slider(of('p'), axis, 'position ' + axis, { part, step: 0.1 })),
+            slider(of('a'), 'a', 'constant attenuation'),
+            slider(of('b'), 'b', 'linear attenuation'),
+            slider(of('c'), 'c', 'quadratic attenuation'),
+            slider(of('beta'), '\\beta', 'cutoff in degrees, 180 for no cone', { step: 1 }),
+            slider(of('e'), 'e', 'exponent of the cone', { curve: 2 })),
+        group('Shading', choice('shading', 'Shading', ['By fragment', 'By vertex', 'By face'])),
+        group('Flags', flags));
     controls.append($('#links').content);
     buildEquation();
     buildMaps();
     buildLecture();
 }
+// A bare page shows the controls that with= names.
+function showAsked() {
+    const plain = new Set([...asked, ...asked.map(name => /^(flags|terms)/.test(name) ? name
+        : name.replace(/[123]$/, ''))]);
+    for (const node of document.querySelectorAll('[data-name]'))
+        node.classList.toggle('asked', plain.has(node.dataset.name));
+    document.body.classList.toggle('with', !!S.bare && asked.length > 0);
+}
 
 // ---- the equation -------------------------------------------------------------------------------
 
 const cells = {};
+const VECTORS = { NL: '\\mathbf{N}\\cdot\\mathbf{L}', NH: '\\mathbf{N}\\cdot\\mathbf{H}',
+    RV: '\\mathbf{R}\\cdot\\mathbf{V}' };
 // A piece of the formula over its values
-function piece(name, css, html) {
-    const formula = make('span', { class: 'f', html });
+function piece(name, css, tex) {
+    const formula = make('span', { class: 'f', html: tex && mathml(tex) });
     cells[name] = { formula, values: make('span', { class: 'v' }) };
     const node = make('span', { class: 'piece ' + css }, formula, cells[name].values);
     if (!'eads'.includes(css)) return node;
@@ -351,18 +398,21 @@ const usedTerms = () => [15, 15, 7, 3, 1, 5][shownModel().model] & S.terms;
 function buildEquation() {
     const mark = html => make('span', { class: 'mark', html });
     const brace = html => make('span', { class: 'brace', html });
-    $('#models').append(choice('model', MODELS),
+    $('#models').append(choice('model', 'Shading model', MODELS),
         toggle('compare', 'Phong | Blinn–Phong | 4<i>n</i>', 'the three side by side'));
     const line = (...nodes) => make('span', { class: 'line' }, ...nodes);
     $('#formula').append(line(
-        piece('total', 'total', '<i>I</i>'), mark('='),
-        piece('emission', 'e', '<i>k</i><sub>e</sub>'), mark('+'),
-        piece('sceneAmbient', 'a', '<i>k</i><sub>a</sub> <i>I</i><sub>a</sub>'), mark('+')), line(
-        piece('lamp', 'lamp', ''), brace('{'),
-        piece('lampAmbient', 'a', '<i>k</i><sub>a</sub> <i>I</i><sub>La</sub>'), mark('+'),
-        piece('arriving', 'arriving', ''), piece('gate', 'gate', '<i>B</i>'), brace('('),
+        piece('total', 'total', 'I'), mark('='),
+        piece('emission', 'e', 'k_e'), mark('+'),
+        piece('sceneAmbient', 'a', 'k_a I_a'), mark('+')), line(
+        piece('lamp', 'lamp', '\\sum_j'), brace('{'),
+        piece('lampAmbient', 'a', 'k_a I_{La}'), mark('+'),
+        piece('arriving', 'arriving', '\\frac{\\text{spot}}{a + b r + c r^2}'),
+        piece('gate', 'gate', 'B'), brace('('),
         piece('lampDiffuse', 'd', ''), mark('+'),
         make('span', { class: 'last' }, piece('lampSpecular', 's', ''), brace(')'), brace('}'))));
+    $('#formula').dataset.name = 'formula';
+    $('#sum').dataset.name = 'terms';
     $('#sum').append(...TERMS.map((name, i) => {
         const label = toggle('terms', name, 'switch this term on or off', 1 << i);
         label.classList.add(name[0]);
@@ -370,29 +420,24 @@ function buildEquation() {
         label.lastChild.append(cells['sum' + name].values);
         return label;
     }));
-    cells.lamp.formula.innerHTML = '<span class="sigma">Σ</span><sub><i>j</i></sub>';
-    cells.arriving.formula.innerHTML = '<span class="over"><span>spot</span>' +
-        '<span><i>a</i> + <i>b r</i> + <i>c r</i>²</span></span>';
 }
 // The model and exponent of the panel that the point lies in
 function shownModel() {
-    const panel = Math.floor(3 * spot[0]), compare = S.compare && !S.view;
-    return { model: compare ? +(panel < 1) : S.model,
-        n: compare && panel > 1 ? '4<i>n</i>' : '<i>n</i>' };
+    const panel = pointed ? Math.floor(3 * pointed[0]) : S.panel, compare = S.compare && !S.view;
+    return { model: compare ? +(panel < 1) : S.model, n: compare && panel > 1 ? '4n' : 'n' };
 }
 function showFormula({ model, n }) {
-    const weight = S.flags & 8 ? ' (<b>N</b>·<b>L</b>)' : '', gooch = model === 5;
+    const gooch = model === 5, weight = S.flags & 8 ? `(${VECTORS.NL})` : '';
     const used = usedTerms();
     const off = { emission: !(used & 1), sceneAmbient: !(used & 2), lampAmbient: !(used & 2),
         lampDiffuse: !(used & 4), lampSpecular: !(used & 8), gate: S.flags & 4 || gooch,
         arriving: gooch };
     for (const name in off)
         cells[name].formula.parentNode.classList.toggle('off', !!off[name]);
-    put(cells.lampDiffuse.formula, gooch ? 'cool + <i>k<sub>w</sub></i> (warm − cool)'
-        : '<i>k</i><sub>d</sub> <i>I</i><sub>d</sub> ' +
-            (S.flags & 2 ? '|<b>N</b>·<b>L</b>|' : '(<b>N</b>·<b>L</b>)'));
-    put(cells.lampSpecular.formula, `<i>k</i><sub>s</sub> <i>I</i><sub>s</sub>${weight} (` +
-        (model === 1 ? '<b>R</b>·<b>V</b>' : '<b>N</b>·<b>H</b>') + `)<sup>${n}</sup>`);
+    put(cells.lampDiffuse.formula, mathml(gooch ? '\\text{cool} + k_w (\\text{warm} - \\text{cool})'
+        : `k_d I_d ${S.flags & 2 ? `|${VECTORS.NL}|` : `(${VECTORS.NL})`}`));
+    put(cells.lampSpecular.formula,
+        mathml(`k_s I_s ${weight} (${model === 1 ? VECTORS.RV : VECTORS.NH})^{${n}}`));
 }
 
 const figure = v => (Math.abs(v) < 9.995 ? v.toFixed(2) : v.toFixed(1)).replace(/^(-?)0\./, '$1.');
@@ -406,20 +451,20 @@ function put(node, html) {
 function showAnswer(answer) {
     const sums = TERMS.map(name => answer[name]), { model, n } = shownModel();
     const total = [0, 1, 2].map(k => sums.reduce((sum, rgb) => sum + rgb[k], 0));
-    const base = model === 1 ? '<b>R</b>·<b>V</b>' : '<b>N</b>·<b>H</b>';
+    const base = model === 1 ? VECTORS.RV : VECTORS.NH;
     const value = (name, html) => put(cells[name].values, answer.hit ? html : '–');
     showFormula({ model, n });
     value('total', triple(total, true));
     for (const name of ['emission', 'sceneAmbient', 'lampAmbient'])
         value(name, triple(answer[name]));
     value('arriving', figure(answer.spot * answer.attenuation) +
-        `<small><i>r</i> = ${answer.r > 1e9 ? '∞' : figure(answer.r)}</small>`);
+        `<small>${mathml('r')} = ${answer.r > 1e9 ? '∞' : figure(answer.r)}</small>`);
     value('gate', String(answer.gate));
     value('lampDiffuse', triple(answer.lampDiffuse) +
-        `<small><b>N</b>·<b>L</b> = ${figure(answer.nl)}</small>`);
+        `<small>${mathml(VECTORS.NL)} = ${figure(answer.nl)}</small>`);
     value('lampSpecular', triple(answer.lampSpecular) +
-        `<small>${base} = ${figure(answer.base)}</small>` +
-        `<small>(${base})<sup>${n}</sup> = ${figure(answer.power)}</small>`);
+        `<small>${mathml(base)} = ${figure(answer.base)}</small>` +
+        `<small>${mathml(`(${base})^{${n}}`)} = ${figure(answer.power)}</small>`);
     put(cells.lamp.values, `<small>lamp ${S.lamp}${S['on' + S.lamp] ? '' : ', off'}</small>`);
     TERMS.forEach((name, i) => value('sum' + name, triple(sums[i], true)));
     const light = sums.map(luminance), all = light.reduce((a, b) => a + b, 0) || 1;
@@ -429,18 +474,21 @@ function showAnswer(answer) {
     showVectors(answer, model === 1 ? 'R' : 'H');
     showMaps(answer, model === 1 ? 'R' : 'H');
     showLobe(answer);
+    showCurve(answer);
 }
-// An arrow's head at (X, Y), which is (dx, dy) from where it begins
-function head(dx, dy, X, Y, large = 1) {
+// An arrow's head at (X, Y), which is (dx, dy) from where it begins; a diamond for H, so that H and N
+// differ by more than colour
+function head(name, dx, dy, X, Y, large = 1) {
     const length = Math.hypot(dx, dy), a = 11 * large / length, b = 4 * large / length;
     if (length < 14) return '';
-    return `<polygon points="${X},${Y} ${X - a * dx + b * dy},${Y - a * dy - b * dx} ` +
+    const tail = name === 'H' ? `${X - 2 * a * dx},${Y - 2 * a * dy} ` : '';
+    return `<polygon points="${X},${Y} ${X - a * dx + b * dy},${Y - a * dy - b * dx} ${tail}` +
         `${X - a * dx - b * dy},${Y - a * dy + b * dx}"/>`;
 }
 function showVectors(answer, last) {
     const svg = $('#arrows'), ratio = canvas.clientWidth / canvas.width;
     const at = p => p.map(v => (v * ratio).toFixed(1));
-    const large = S.lecture ? Math.max(1, innerWidth / 1400) : 1;
+    const large = Math.max(1, innerWidth / (S.lecture ? 1400 : 1920));
     let html = '';
     if (answer.hit) {
         const [x, y] = at(answer.point);
@@ -449,12 +497,13 @@ function showVectors(answer, last) {
             if (name === 'L' && !S['on' + S.lamp]) continue;
             const label = Math.hypot(X - x, Y - y) < 20 ? '' : name === 'H' ? last : name;
             html += `<g class="${name}"><line x1="${x}" y1="${y}" x2="${X}" y2="${Y}"/>` +
-                head(X - x, Y - y, X, Y, large) + '<text ' +
+                head(name, X - x, Y - y, X, Y, large) + '<text ' +
                 `x="${X}" y="${Y}" dx="${name === 'H' ? -22 : 6}" dy="-4">${label}</text></g>`;
         }
-        html += `<circle cx="${x}" cy="${y}" r="4"/>`;
+        html += `<circle cx="${x}" cy="${y}" r="${4 * large}"/>`;
     }
     svg.innerHTML = html;
+    svg.classList.toggle('hidden', !!answer.hidden);
 }
 
 // ---- frames: as many pixels as time allows while something moves, all of them at rest -----------
@@ -464,7 +513,9 @@ const MOST = 4 << 20;                   // PAGE_MOST of page.c
 const LEAST = 1.5;                      // in motion: 2.25 samples a pixel of the page
 const times = [];                       // of the last pictures, ms
 let quality = LEAST, requested = 0, last = 0, moved = -1000, stale = true, probeAfter = 0;
-let spot = [0.57, 0.47];
+// The point that is marked: one of the picture, as parts of its width and height, while a pointer is
+// on it; else a point of the object, S.mark, which turns with it and stands in the address.
+let pointed = null, hovering = false;
 
 const finest = () => {
     const pixels = Math.max(1, canvas.clientWidth * canvas.clientHeight);
@@ -479,6 +530,8 @@ function request() {
 function refresh() {
     for (const show of shown) show();
     document.body.classList.toggle('bare', !!S.bare);
+    document.body.classList.toggle('lobe', !!S.lobe);
+    showAsked();
     $('#panels').hidden = !(S.compare && !S.view);
     document.body.classList.toggle('unmapped', !S.maps || !!(S.compare && !S.view));
     stale = true, request();
@@ -508,12 +561,23 @@ function frame(now) {
     const asked = performance.now();
     clearTimeout(frame.timer);
     if (asked > probeAfter) {           // a model of a million triangles is asked less often
-        const answer = probe(spot[0] * width, spot[1] * height);
+        const answer = marked(width, height);
         probeAfter = asked + 8 * Math.max(0, performance.now() - asked - 3);
         showAnswer(answer);
     } else frame.timer = setTimeout(request, probeAfter - asked + 1);
     if (stale) request();
     last = now;
+}
+function marked(width, height) {
+    if (!pointed) return probeMark();
+    const answer = probe(pointed[0] * width, pointed[1] * height);
+    if (answer.hit) {
+        S.mark = answer.mark.map(round);
+        S.part = answer.part;
+        if (S.compare && !S.view) S.panel = limit(Math.floor(3 * pointed[0]), 0, 2);
+        if (!hovering) pointed = null, changed();
+    }
+    return answer;
 }
 function adapt(spent, moving) {
     $('#speed').textContent =
@@ -538,11 +602,21 @@ function turn(x, y) {
     S.pitch = limit(round(S.pitch + 0.009 * y), -1.5708, 1.5708);
     changed();
 }
+// Ctrl, Alt and Meta belong to the browser.
+const modified = event => event.ctrlKey || event.altKey || event.metaKey;
+// Moves the mark by a hundredth of the picture.
+function nudge(step) {
+    const { point } = probeMark(), from = pointed ||
+        [point[0] / canvas.width, point[1] / canvas.height];
+    hovering = false;
+    pointed = from.map((v, i) => limit(v + step[i] * 0.01, 0, 1));
+    request();
+}
 function zoom(factor) { S.zoom = limit(round(S.zoom * factor), 0.4, 4), changed(); }
 function point(event) {
     const box = canvas.getBoundingClientRect();
-    spot = [(event.clientX - box.x) / box.width, (event.clientY - box.y) / box.height];
-    request();
+    pointed = [(event.clientX - box.x) / box.width, (event.clientY - box.y) / box.height];
+    hovering = true, request();
 }
 function spread() {
     const [a, b] = [...pointers.values()];
@@ -563,14 +637,17 @@ function listen() {
     });
     for (const end of ['pointerup', 'pointercancel'])
         canvas.addEventListener(end, event => { pointers.delete(event.pointerId), changed(); });
+    canvas.addEventListener('pointerleave', () => {
+        if (!pointers.size) hovering = false, pointed = null, changed();
+    });
     canvas.addEventListener('wheel', event => {
         event.preventDefault(), zoom(Math.exp(-limit(event.deltaY, -200, 200) * 0.0015));
     }, { passive: false });
     canvas.addEventListener('keydown', event => {
         const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
         const step = way[event.key];
-        if (step && event.shiftKey)
-            spot = spot.map((v, i) => limit(v + step[i] * 0.01, 0, 1)), request();
+        if (modified(event) || (S.lecture && !event.shiftKey)) return;
+        if (step && event.shiftKey) nudge(step);
         else if (step) turn(9 * step[0], 9 * step[1]);
         else if (event.key === '+' || event.key === '=') zoom(1.1);
         else if (event.key === '-') zoom(1 / 1.1);
@@ -594,7 +671,7 @@ function listen() {
     });
     $('#reset').addEventListener('click', () => {
         for (const name in FIELDS) setField(name, FIELDS[name].slice(2));
-        changed();
+        pointed = null, changed();
     });
     const showProgram = text => {
         $('#program pre').textContent = text, $('#program').showModal();
@@ -626,8 +703,8 @@ function speak() {
 
 // ---- begin --------------------------------------------------------------------------------------
 
-(async () => {
+async function begin() {
     readAddress(), readTheme();
     await loadModule();
     buildControls(), listen(), refresh();
-})().catch(error => say('This browser cannot run the page: ' + error.message));
+}

@@ -2,8 +2,8 @@
 
 function program() {
     const [width, height] = size(finest()), { distance, near, far } = camera(width, height);
-    const [x, y, z, radius] = bounds(), scale = scaleOf(radius);
-    const lit = !S.view, compare = S.compare && lit, tab = compare ? '        ' : '    ';
+    const [x, y, z, radius, tall] = bounds(), scale = scaleOf(radius);
+    const lit = !S.view, room = S.room && lit, compare = S.compare && lit, tab = compare ? '        ' : '    ';
     const f = v => Number.isInteger(v) ? String(v) : v + 'f';
     const list = (...v) => v.flat().map(f).join(', '), v3 = (...v) => `shade_v3(${list(...v)})`;
     const name = prefix => n => `SHADE_${prefix}_${n.toUpperCase().replace(/ /g, '_')}`;
@@ -33,6 +33,8 @@ function program() {
         `    state.lighting.${which} = shade_linear_from_srgb(${v3(rgb)});`;
     const target = compare ? '&panel' : '&target';
     const drawing = [
+        room && `${tab}scene_draw_room(${target}, &room.view, state, ${f(S.pitch)}, ` +
+            `${f(floorOf(radius, tall))});`,
         lit ? `${tab}shade_draw_mesh(${target}, &mesh.view, &state, NULL);`
             : `${tab}look_draw(${target}, &mesh.view, &state, ${list(near, far)}, ${S.view - 1});`,
         S.wire && `${tab}wire_draw(${target}, wires, wire_count, &state, ` +
@@ -44,8 +46,9 @@ function program() {
         '#define SHADE_IMPLEMENTATION',
         '#include "shade.h"',
         '#include "examples/shared/mesh.h"',
-        ['#include "examples/shared/shapes.h"', false,
-            '#include "examples/programs/model/files.h"'][S.shape],
+        S.shape === 2 && '#include "examples/programs/model/files.h"',
+        S.shape === 0 && !room && '#include "examples/shared/shapes.h"',
+        (S.shape > 2 || room) && '#include "examples/playground/scene.h"',
         '',
         `enum { WIDTH = ${width}, HEIGHT = ${height} };`,
         'static uint32_t pixels[WIDTH * HEIGHT];',
@@ -65,8 +68,12 @@ function program() {
         '    shade_draw_state state = { .material = &material };',
         '    shade_light lamps[3];',
         S.wire && '    shade_vec3 *wires;\n    int wire_count;',
-        ['    owned_mesh mesh = shape_teapot(12);', '    owned_mesh mesh = mesh_sphere(96, 48);',
-            '    owned_mesh mesh;\n    char error[300];'][S.shape],
+        [`    owned_mesh mesh = shape_teapot(${S.detail});`,
+            `    owned_mesh mesh = mesh_sphere(${8 * S.detail}, ${4 * S.detail});`,
+            '    owned_mesh mesh;\n    char error[300];',
+            `    owned_mesh mesh = scene_balls(${S.detail});`,
+            `    owned_mesh mesh = scene_ribbon(${S.detail});`][S.shape],
+        room && '    owned_mesh room = scene_room();',
         '',
         S.shape === 2 && `    if (mesh_read_file(${file}, &mesh, error, sizeof error))\n` +
             '        return puts(error), 1;',

@@ -29,7 +29,7 @@ const RICH = 'turn=0&Ia=.3,.3,.3&ke=.05,.02,.01&n=30&' + [1, 2, 3].map(j =>
     `A${j}=.2,.1,.1&a${j}=.5&b${j}=.1&c${j}=.05&beta${j}=5&e${j}=4`).join('&');
 
 // the fields of the rows, in their order; the lamp's number follows from I on
-const SYMBOLS = ['ke', 'ka', 'kd', 'ks', 'n', 'Ia', 'I', 'A', 'p', 'p', 'p', 'a', 'b', 'c', 'beta',
+const SYMBOLS = ['detail', 'ke', 'ka', 'kd', 'ks', 'n', 'Ia', 'I', 'A', 'p', 'p', 'p', 'a', 'b', 'c', 'beta',
     'e'];
 
 const browser = await chromium.launch({ executablePath: browser_path, args: ['--no-sandbox',
@@ -147,7 +147,7 @@ for (const simd of [1, 0]) {
     // ---- sliders and colours, of every lamp -----------------------------------------------------
     for (const lamp of simd ? [1, 2, 3] : [1]) {
         await page.locator(`input[name=lamp][value="${lamp}"] + span`).click();
-        const rows = page.locator('aside .row'), from = lamp > 1 ? 6 : 0;    // the lamp's alone
+        const rows = page.locator('aside .row'), from = lamp > 1 ? 7 : 0;    // the lamp's alone
         const count = await rows.count();
         let before = await draws(page);
         for (let i = from; i < count; i++) {
@@ -162,7 +162,7 @@ for (const simd of [1, 0]) {
             const after = await same(page, name);
             const moved = differing(before.state, after.state);
             check('the slider moves its symbol alone: ' + name,
-                moved.join() === SYMBOLS[i] + (i > 5 ? lamp : ''), moved);
+                moved.join() === SYMBOLS[i] + (i > 6 ? lamp : ''), moved);
             check('the slider moves its number: ' + name,
                 number !== await rows.nth(i).locator('.number').innerText());
             check('and the picture: ' + name, !before.pixels.equals(after.pixels));
@@ -241,10 +241,9 @@ for (const simd of [1, 0]) {
             far.hits > 50 && far.off <= far.hits / 50, JSON.stringify(far));
         check(`the factors make the terms: ${hash} ${kind}`, !far.wrong, far.wrong);
     }
-    await page.evaluate(() => { spot = [0.5, 0.5]; });
     await go(page, 'turn=0');
     const texts = await page.evaluate(() => {
-        const a = probe(spot[0] * canvas.width, spot[1] * canvas.height);
+        const a = probeMark();
         return TERMS.map(n => [cells['sum' + n].values.textContent, a[n].map(figure).join(' ')]);
     });
     check('the text is the values', texts[2][1] !== '.00 .00 .00' &&
@@ -284,7 +283,7 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
     check('no click scrolls the page', await page.evaluate(() =>
         [document.documentElement, document.body, $('main')].every(node => !node.scrollTop) &&
         $('header').getBoundingClientRect().top >= 0));
-    const slider = page.locator('aside .row input[type=range]').first();
+    const slider = page.locator('aside .row:has([type=color]) input[type=range]').first();
     await page.locator('aside .row input[type=color]').first().focus();
     await page.keyboard.press('Tab');
     check('one ring around a slider', await slider.evaluate(node =>
@@ -392,13 +391,12 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
     await page.mouse.move(5, 5);
     check('V is drawn from above', await page.evaluate(() => {
         const line = document.querySelector('#side .V line'), at = name => line[name].baseVal.value;
-        const a = probe(spot[0] * canvas.width, spot[1] * canvas.height);
+        const a = probeMark();
         return Math.abs(at('x2') - 60 * a.unitV[0]) < 0.01 && a.unitV[2] > 0.9 &&
             Math.abs(at('y2') - 60 * a.unitV[2]) < 0.01;
     }));
 
     const texts = () => page.locator('#sum .v').allTextContents();
-    await page.evaluate(() => { spot = [0.5, 0.5]; });
     await go(page, 'turn=0&ke=.1,0,0');
     const values = await texts();
     for (const [i, css] of ['e', 'a', 'd', 's'].entries()) {
@@ -426,7 +424,7 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
     await go(page, 'turn=0&ke=1,.1,.1&kd=1,1,.1&I1=3,3,3');
     await soon(async () => (await clipped()).length);
     check('what is above 1 is marked', (await clipped()).length === await page.evaluate(() => {
-        const a = probe(spot[0] * canvas.width, spot[1] * canvas.height);
+        const a = probeMark();
         return [0, 1, 2].filter(k => TERMS.reduce((sum, name) => sum + a[name][k], 0) > 1).length;
     }));
     check('red, green and blue are told apart', await page.evaluate(() =>
@@ -452,8 +450,9 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
         const [formula, small, inside] = await page.evaluate(() => {
             const seen = [...document.querySelectorAll('#lecture *, #sum *')].filter(node =>
                 [...node.childNodes].some(child => child.nodeType === 3 && child.data.trim()) &&
-                node.checkVisibility() && !node.closest('sub, sup'));
-            return [$('#lecture p').innerText, seen.filter(node =>
+                node.checkVisibility() &&
+                !node.closest('msub > :nth-child(2), msup > :nth-child(2), msubsup > :nth-child(n+2)'));
+            return [$('#lecture p').textContent, seen.filter(node =>
                 parseFloat(getComputedStyle(node).fontSize) < 24).map(node => node.textContent),
             seen.every(node => node.getBoundingClientRect().bottom <= innerHeight &&
                 node.getBoundingClientRect().right <= innerWidth + 1)];
@@ -592,7 +591,7 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
 
 {
     const page = await open(''), canvas = page.locator('canvas').first();
-    const state = () => page.evaluate(() => ({ ...S, spot }));
+    const state = () => page.evaluate(() => ({ ...S, x: probeMark().point[0] / canvas.width }));
     const box = await canvas.boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2;
     const start = await state();
     await page.mouse.move(x, y), await page.mouse.down(), await page.mouse.move(x + 80, y + 30);
@@ -608,7 +607,7 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
         await page.keyboard.press(key);
     const after = await state();
     check('keys', after.yaw > before.yaw && after.pitch > before.pitch &&
-        after.zoom > before.zoom && after.spot[0] < before.spot[0] && after.turn === 1,
+        after.zoom > before.zoom && after.x < before.x && after.turn === 1,
         JSON.stringify([before, after]));
     await page.waitForFunction(() => /emission .*specular/.test($('#spoken').textContent));
     await page.keyboard.press('Tab');
