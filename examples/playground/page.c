@@ -482,8 +482,8 @@ PAGE(const page_answer *, page_probe)(float x, float y)
     return hit.triangle < 0 ? &answer : answer_hit(&s, panel, hit);
 }
 
-/* Fills the answer for a mark, which turns with its part.  Where the mesh has changed and the mark is
-   no longer on it, what the eye sees in that direction is marked, or in the middle. */
+/* Fills the answer for a mark, which turns with its part.  Where the mesh has changed and the mark
+   is no longer on it, what the eye sees in that direction is marked, or in the middle. */
 PAGE(const page_answer *, page_probe_mark)(int panel, int part, float x, float y, float z)
 {
     static const page_answer none;
