@@ -729,7 +729,7 @@ void python_unload(model *m)
 
 /* What the file lacks, or "" */
 SHADEDEF const char *python_warning(const model *m);
-const char *python_warning(const model *m) { return m->warning; }
+const char *python_warning(const model *m) { return m->warning[0] ? m->warning : m->note; }
 
 /* The upright axis, 0 .. 5 for x y z -x -y -z: that of the format, or a guess as in the programs */
 SHADEDEF int python_upright(const model *m);

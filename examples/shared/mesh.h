@@ -241,17 +241,28 @@ static inline float *mesh_tangents(const owned_mesh *m)
     return (float *)T;
 }
 
-/* Moves the middle of the mesh's box to the origin and makes its largest distance from there 1;
-   z up becomes y up.  In double: the place of a model can be far greater than its size. */
-static inline float mesh_normalize(owned_mesh *m, int z_up)
+/* The box around all vertices; without vertices low is above high. */
+static inline void mesh_box(const owned_mesh *m, double low[3], double high[3])
 {
-    double low[3] = { 1e300, 1e300, 1e300 }, high[3] = { -1e300, -1e300, -1e300 }, radius = 0;
-    size_t n = 3 * (size_t)m->view.vertex_count;
+    const size_t n = 3 * (size_t)m->view.vertex_count;
+    for (int k = 0; k < 3; k++) {
+        low[k] = 1e300;
+        high[k] = -1e300;
+    }
     for (size_t i = 0; i < n; i++) {
         double v = (double)m->positions[i];
         if (v < low[i % 3]) low[i % 3] = v;
         if (v > high[i % 3]) high[i % 3] = v;
     }
+}
+
+/* Moves the middle of the mesh's box to the origin and makes its largest distance from there 1;
+   z up becomes y up.  In double: the place of a model can be far greater than its size. */
+static inline float mesh_normalize(owned_mesh *m, int z_up)
+{
+    double low[3], high[3], radius = 0;
+    size_t n = 3 * (size_t)m->view.vertex_count;
+    mesh_box(m, low, high);
     for (size_t i = 0; i < n; i += 3) {
         double square = 0;
         for (size_t k = 0; k < 3; k++) {

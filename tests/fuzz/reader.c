@@ -1,7 +1,7 @@
 /* reader.c - the OBJ, STL and PLY readers of examples/programs/model/files.h: any bytes give a
-   valid model or an error. */
+   valid model, which a section leaves valid, or an error. */
 #include "input.h"
-#include "examples/programs/model/files.h"
+#include "examples/programs/model/section.h"
 
 static void reader_check_mesh(const owned_mesh *m)
 {
@@ -82,6 +82,26 @@ static void reader_progress(void *user, double part)
     ++*(int *)user;
 }
 
+/* Cut through its middle, a model is one still, and nothing of it lies beyond the plane. */
+static void reader_cut(model *m, uint32_t kind)
+{
+    const model_options options = model_options_new();
+    section s = { .from = m, .axis = (int)(kind % 3), .sign = kind & 4 ? 1 : -1 };
+    const double sign = s.sign;
+    double low[3], high[3], where;
+    mesh_box(&m->mesh, s.low, s.high);
+    where = s.where = (s.low[s.axis] + s.high[s.axis]) / 2;
+    if (!(where > s.low[s.axis] && where < s.high[s.axis])) return;
+    HOLDS(!section_cut(&s, m, &options));
+    reader_check_parts(m);
+    if (!m->mesh.view.index_count) return;
+    reader_check_mesh(&m->mesh);
+    mesh_box(&m->mesh, low, high);
+    for (int k = 0; k < 3; k++) HOLDS(low[k] >= s.low[k] && high[k] <= s.high[k]);
+    if (sign > 0) HOLDS(high[s.axis] <= (double)(float)where);
+    else HOLDS(low[s.axis] >= (double)(float)where);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const char *const names[4] = { "a.obj", "a.stl", "a", "A.STL" };
@@ -112,6 +132,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         HOLDS(!request.most || m.mesh.view.index_count <= 3 * 4);
     }
     if ((kind & 8) && n && !request.most) reader_line_ends(bytes, n, name, result, &m.mesh);
+    if (!result) reader_cut(&m, kind >> 2);
     if (!result) model_free(&m);
     guard_close();
     return 0;

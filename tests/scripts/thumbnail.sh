@@ -515,11 +515,64 @@ quick() {
     check "the same" cmp "$T/a.ppm" "$T/b.ppm"
 }
 
+# A section cuts away the viewer's side.  Of a cube of one colour for each side the cut is seen in
+# place of the side; where it does not cut, the message says from where to where the model reaches.
+sections() {
+    check "a cube seen from the right" draw sides.obj b.ppm --no-shadow --view right
+    for k in "x right" "x left" "y top" "y bottom" "z front" "z back" "x=.9 right"; do
+        check "--section $k" draw sides.obj a.ppm --no-shadow --section "${k% *}" --view "${k#* }"
+        check "shows a hatch in place of the side" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 90
+        check "covers what the cube covers" "$T/look" area "$T/a.ppm" "$T/b.ppm" 0.25
+    done
+    check "a section seen from its side" draw sides.obj a.ppm $flat --section x --view front
+    check "shows the side that is left" shown 0.45 0.6 51 102 153
+    check "one colour" draw sides.obj a.ppm --section x --view right --color white
+    check "another number of threads" draw sides.obj b.ppm --section x --view right --color white --threads 1
+    check "the same bits" cmp "$T/a.ppm" "$T/b.ppm"
+    for k in x=1 x=-1 y=3 z=77; do
+        check "--section $k" refused "--section $k.* does not cut the model, which reaches from -1 to 1" \
+            "$THUMBNAIL" "$T/sides.obj" "$T/none.ppm" --section $k
+    done
+    for k in "" w x= x=a x=1b xy X x=nan x=1e31; do
+        check "--section $k" refused "--section $k: x, y or z: cuts the model open" \
+            "$THUMBNAIL" "$T/sides.obj" "$T/none.ppm" --section "$k"
+    done
+    printf 'v 500000000 0 0\nv 500000002 0 0\nv 500000000 2 0\nv 500000000 0 2
+f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >"$T/survey.obj"
+    check "in the file's coordinates" draw survey.obj a.ppm --section x=500000000.5
+}
+
+# Points without faces are small balls, and a line says so: of PLY and OBJ the same.
+points() {
+    awk 'BEGIN { for (i = 0; i < 1000; i++) print i % 10, int(i / 10) % 10, int(i / 100) }' >"$T/grid.txt"
+    { printf 'ply\nformat ascii 1.0\nelement vertex 1000\nproperty float x\nproperty float y\n'
+      printf 'property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n'
+      sed 's/$/ 200 100 50/' "$T/grid.txt"; } >"$T/cloud.ply"
+    sed 's/^/v /; s/$/ .7843137 .3921569 .1960784/' "$T/grid.txt" >"$T/cloud.obj"
+    check "a cloud" draw cloud.ply a.ppm --up y
+    check "is told" grep "cloud.ply: 1000 points have no faces: they are drawn as small balls of radius 0.1" "$T/err"
+    check "of OBJ" draw cloud.obj b.ppm --up y
+    check "is told as well" grep "cloud.obj: 1000 points have no faces" "$T/err"
+    check "looks the same" "$T/look" same "$T/a.ppm" "$T/b.ppm" 3
+    check "quietly" draw cloud.obj b.ppm --up y --quiet
+    check "no line" test ! -s "$T/err"
+    check "a picture of balls that are small" draw cloud.ply a.ppm --model emissive --background white --no-shadow
+    check "few triangles are allowed" draw cloud.ply a.ppm --max-triangles 80
+    check "fewer balls" grep "one of 100" "$T/err"
+    check "none are" refused "more than 7 triangles" "$THUMBNAIL" "$T/cloud.ply" "$T/none.ppm" --max-triangles 7
+    sed 's/^element vertex.*/&/; s/^end_header/element face 1\nproperty list uchar int vertex_indices\nend_header/' \
+        "$T/cloud.ply" >"$T/edge.ply"
+    echo "2 0 1" >>"$T/edge.ply"
+    bad_model "a file of faces that have no area" edge.ply "no face of it has three corners"
+}
+
 both() {
     bombs
     creases
     large
     views
+    sections
+    points
     quick
     surveyed
     upright

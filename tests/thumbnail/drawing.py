@@ -3,6 +3,7 @@ known of these parts.  It reads 16-bit pictures by Pillow and takes points back 
 by the matrices of the JSON."""
 import base64
 import json
+import math
 import os
 import struct
 import subprocess
@@ -384,10 +385,46 @@ def files():
         "box.stl", "--views", "front,right,top,iso", "--samples", "4").ids).all())
 
 
+def sections():
+    """plate.stl is cut open on the viewer's side: how much of each view is cut, and where it is."""
+    for axis, where, view, whole, hole in (
+            ("x", 6, "right", 50 * 20, 2 * math.sqrt(12.5 ** 2 - 36) * 20),
+            ("y", -3, "front", 80 * 20, 2 * math.sqrt(12.5 ** 2 - 9) * 20),
+            ("z", 15, "top", 80 * 50, 32 * 12.5 ** 2 * math.sin(2 * math.pi / 64))):
+        k, away = "xyz".index(axis), -1 if axis == "y" else 1
+        words = ["--views", view + ",iso", "--section", f"{axis}={where}"]
+        d = Drawing("plate.stl", *words)
+        part = [p["name"] for p in d.text["parts"]].index("section") + 1
+        points, ids = d.points(view)
+        cut = points[ids == part]
+        share, wanted = len(cut) / len(ids), (whole - hole) / (whole if axis != "z" else whole - hole)
+        check(f"{axis}: the cut's area", abs(share - wanted) < 0.012, share, wanted)
+        check(f"{axis}: it lies in the plane", np.abs(cut[:, k] - where).max() < 0.05)
+        beyond = np.concatenate([points, d.points("iso")[0]])[:, k] * away - where * away
+        check(f"{axis}: nothing lies beyond", beyond.max() < 0.05, beyond.max())
+        check(f"{axis}: iso sees the cut", (d.points("iso")[1] == part).sum() > 500)
+        inside = d.ids == part
+        for step in (4, -4):    # away from the lines about the cut
+            inside &= (np.roll(d.ids, step, 0) == part) & (np.roll(d.ids, step, 1) == part)
+        dark = (d.sheet.max(2) < 100)[inside].mean()
+        check(f"{axis}: 0.28 of it is hatched", abs(dark - 0.28) < 0.03, dark)
+        lines = Drawing("plate.stl", *words, "--edges")
+        check(f"{axis}: no lines are drawn within it",
+              (lines.sheet[inside] == d.sheet[inside]).all())
+    outer, inner = parts.box((0, 0, 0), (100, 80, 60)), parts.box((30, 20, 10), (70, 60, 40))
+    parts.write_stl(f"{T}/cavity.stl", outer + [(a, c, b) for a, b, c in inner])
+    for part, wanted in (("inner", 1), ("cavity", 1 - 40 * 30 / (80 * 60))):
+        d = Drawing(part + ".stl", "--views", "right", "--section", "x")
+        n = [p["name"] for p in d.text["parts"]].index("section") + 1
+        share = (d.ids == n).sum() / (d.ids > 0).sum()
+        check(f"{part}: a cavity is hollow, a part within a part is not", abs(share - wanted) < 0.01,
+              share, wanted)
+
+
 def main():
     parts.main(T)
     for work in (directions, up_axes, hole, dashes, one_behind_another, numbers, assembly,
-                 what_is_a_part, dimensions, files):
+                 what_is_a_part, dimensions, files, sections):
         work()
     if "assimp" in sys.argv:
         nodes()

@@ -266,7 +266,7 @@ static int draw_model(picture *p, const portrait *as, const model_options *how)
     int failed = ERROR;
     if (model_open(p->name, how, &m, NULL, NULL)) return ERROR;
     guard_doing = "drawing";
-    if (!model_prepare(&m, how, portrait_turn(as, how))) {
+    if (!portrait_prepare(&m, as, how)) {
         wrong = portrait_light(&light, &m, as, how, NULL, NULL);
         c = canvas_try(as->width, as->height, as->samples);
         if (!c.target.color) wrong = SHADE_ERROR_CAPACITY;

@@ -7,8 +7,8 @@
 #define MODEL_LOOK_H
 
 #include "relief.h"
+#include "section.h"
 #include "studio.h"
-#include "request.h"
 
 /* Uniforms of both shaders, for one surface */
 typedef struct look {
@@ -278,7 +278,7 @@ static void look_dress(look *k, const model_options *o, const model *m, int surf
     k->rough = model_roughness(k->material.shininess);
     k->emission = o->material.emission;
     k->material.emission = shade_v3(0, 0, 0);
-    if (!s || !s->set || o->plain) return;
+    if (!s || !s->set || (o->plain && !s->section)) return;
     k->material = s->material;
     k->metal = s->metal;
     k->rough = s->rough > 0 ? s->rough : model_roughness(k->material.shininess);

@@ -29,6 +29,7 @@ typedef struct model_surface {
     float transparency, alpha_cutoff;
     float metal, rough;  /* of physically based materials; rough 0: by the shininess */
     int set;             /* 0: the file says nothing about it */
+    int section;         /* it is the cut of a section */
     int opaque, blended; /* the alpha of the map is ignored; is blended by */
     int picture;         /* the map, once it is read; -1: none */
     unsigned texcoords;  /* which of several sets in the file all pictures use */
@@ -58,8 +59,10 @@ typedef struct model {
     size_t object_room;
     int normals_given; /* each vertex had a normal in the file */
     int z_up, up_told; /* up_told: by the format, not by habit */
+    int up;            /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
     double origin[3]; /* of the positions, in the coordinates of the file */
     char warning[400]; /* what the picture lacks; "": nothing */
+    char note[200];    /* what it shows otherwise than the file has it; "": nothing */
 } model;
 
 static inline void model_free(model *m)
@@ -101,6 +104,12 @@ static inline shade_mesh model_part_mesh(const model *m, int i)
     return mesh;
 }
 
+/* 1: the part is the cut of a section. */
+static inline int model_is_section(const model *m, int part)
+{
+    return m->surface_count && m->surface[m->part[part].surface].section;
+}
+
 /* Keeps the first warning. */
 static inline void model_warn(model *m, const char *about, const char *what)
 {
@@ -133,10 +142,8 @@ static inline void model_glow(model_surface *s, int exact)
     *e = shade_v3(0, 0, 0);
 }
 
-/* The surface of that name, added if new: 60 % grey without highlight.  -1: out of memory, or
-   MODEL_SURFACES of them. */
-enum { MODEL_SURFACES = 10000 };
-static inline int model_find_surface(model *m, const void *name, size_t n, int add)
+/* Adds a surface, 60 % grey without highlight, and returns its number.  -1: out of memory */
+static inline int model_add_surface(model *m, const void *name, size_t n)
 {
     static const model_surface fresh = {
         .material = { .ambient = { 0.32f, 0.32f, 0.32f }, .diffuse = { 0.32f, 0.32f, 0.32f } },
@@ -144,17 +151,23 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
         .relief = { .picture = -1 },
         .glow_picture = -1
     };
-    model_surface *grown;
-    for (int i = m->surface_count - 1; i >= 0; i--)
-        if (strlen(m->surface[i].name) == n && !memcmp(m->surface[i].name, name, n)) return i;
-    if (!add || m->surface_count >= MODEL_SURFACES) return -1;
-    grown = (model_surface *)mesh_grow(m->surface, (size_t)m->surface_count, &m->surface_room,
-                                       sizeof *grown);
+    model_surface *grown =
+        (model_surface *)mesh_grow(m->surface, (size_t)m->surface_count, &m->surface_room,
+                                   sizeof *grown);
     if (!grown) return -1;
     m->surface = grown;
     grown[m->surface_count] = fresh;
     grown[m->surface_count].name = model_text(name, n);
     return grown[m->surface_count].name ? m->surface_count++ : -1;
+}
+
+/* The surface of that name, added if new.  -1: out of memory, or MODEL_SURFACES of them */
+enum { MODEL_SURFACES = 10000 };
+static inline int model_find_surface(model *m, const void *name, size_t n, int add)
+{
+    for (int i = m->surface_count - 1; i >= 0; i--)
+        if (strlen(m->surface[i].name) == n && !memcmp(m->surface[i].name, name, n)) return i;
+    return add && m->surface_count < MODEL_SURFACES ? model_add_surface(m, name, n) : -1;
 }
 
 /* Adds an object and returns its number; beyond MODEL_SURFACES of them all are the last.  -1: out

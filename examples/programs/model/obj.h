@@ -6,6 +6,7 @@
 #define MODEL_OBJ_H
 
 #include "faces.h"
+#include "points.h"
 
 enum { OBJ_V, OBJ_VT, OBJ_VN };
 static const char *const obj_names[3] = { "v", "vt", "vn" };
@@ -172,12 +173,29 @@ static inline int obj_no_faces(mesh_reader *r, const obj_data *o)
                                              : "is no OBJ: it has neither vertices nor faces");
 }
 
+/* Vertices of a file without a single corner */
+static inline int obj_points(mesh_reader *r, const obj_data *o, model *out)
+{
+    const size_t n = o->list[OBJ_V].count / 3;
+    owned_mesh *m = &out->mesh;
+    r->line = 0;
+    m->positions = (float *)malloc(3 * sizeof(float) * n);
+    if (o->color.count) m->colors = (float *)malloc(3 * sizeof(float) * n);
+    if (!m->positions || (o->color.count && !m->colors)) return mesh_fail(r, "out of memory");
+    memcpy(m->positions, o->list[OBJ_V].v, 3 * sizeof(float) * n);
+    for (size_t i = 0; m->colors && i < 3 * n; i++)
+        m->colors[i] = i < o->color.count ? o->color.v[i] : 1;
+    memcpy(out->origin, o->origin.at, sizeof out->origin);
+    return points_finish(r, out, n);
+}
+
 /* Makes a vertex for each different corner that was read. */
 static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
 {
     size_t n = o->corners.count;
     owned_mesh *m = &out->mesh;
     int missing = 0;
+    if (!n && o->list[OBJ_V].count) return obj_points(r, o, out);
     if (!o->faces.triangles) return obj_no_faces(r, o);
     for (int k = 0; k < 3; k++) {
         const size_t count = o->list[k].count / (k == OBJ_VT ? 2 : 3);

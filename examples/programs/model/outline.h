@@ -63,13 +63,40 @@ static inline int outline_sort(outline *o, int edges)
     return !sorted;
 }
 
-/* Non-zero: out of memory */
-static inline int outline_find(outline *o, const owned_mesh *m)
+/* Finds the edges of all triangles but those of a section's cut, whose outline the others leave;
+   index: the places of all corners, of which those of the cut are dropped.  Non-zero: out of
+   memory */
+static inline int outline_edges(outline *o, const model *whole, shade_mesh *welded, uint32_t *index)
 {
+    const int n = welded->index_count;
+    int *triangle = (int *)malloc(((size_t)n / 3 + 1) * sizeof *triangle);
+    int corners = 0, count = 0, failed = !triangle;
+    for (int i = 0; i < whole->part_count && triangle; i++) {
+        const model_part *part = &whole->part[i];
+        if (model_is_section(whole, i)) continue;
+        for (int k = part->first; k < part->first + part->count; k++) {
+            triangle[corners / 3] = k / 3;
+            index[corners++] = index[k];
+        }
+    }
+    welded->index_count = corners;
+    failed = failed || shade_mesh_edges(welded, o->edge, n, &count);
+    for (int i = 0; i < 2 * count && !failed; i++) {
+        int *of = &o->edge[i / 2].triangle[i % 2];
+        if (*of >= 0) *of = triangle[*of];
+    }
+    free(triangle);
+    return failed || outline_sort(o, count);
+}
+
+/* Non-zero: out of memory */
+static inline int outline_find(outline *o, const model *whole)
+{
+    const owned_mesh *m = &whole->mesh;
     uint32_t *at = NULL, *place = mesh_places(m, &at, &o->places);
     size_t n = (size_t)m->view.index_count;
     uint32_t *index = (uint32_t *)malloc((n + 1) * sizeof *index);
-    int count = 0, failed = 1;
+    int failed = 1;
     shade_mesh welded = { 0 };
     o->position = (float *)malloc((3 * o->places + 1) * sizeof *o->position);
     o->edge = (shade_edge *)malloc((n + 1) * sizeof *o->edge);
@@ -83,7 +110,7 @@ static inline int outline_find(outline *o, const owned_mesh *m)
         welded.indices = index;
         welded.index_count = (int)n;
         outline_normals(o, &welded);
-        failed = shade_mesh_edges(&welded, o->edge, (int)n, &count) || outline_sort(o, count);
+        failed = outline_edges(o, whole, &welded, index);
     }
     free(index);
     if (place) free(at);

@@ -20,6 +20,7 @@ typedef struct pieces {
     piece *list;
     int *of_part; /* the piece of each part of the model */
     int count, by_objects;
+    int section; /* 1: one of them is the cut of a section */
 } pieces;
 
 static inline void pieces_free(pieces *p)
@@ -219,6 +220,18 @@ static inline int pieces_sort(pieces *p, model *m, const uint32_t *number)
     return failed;
 }
 
+/* Makes the cut of a section, whose triangles are connected with nothing, one piece. */
+static inline void pieces_section(const model *m, uint32_t *number, size_t *numbers)
+{
+    for (int i = 0; i < m->part_count; i++) {
+        const model_part *part = &m->part[i];
+        if (!model_is_section(m, i)) continue;
+        for (int t = part->first / 3; t < (part->first + part->count) / 3; t++)
+            number[t] = (uint32_t)*numbers;
+    }
+    ++*numbers;
+}
+
 /* Finds the pieces of a model as it was read, and sorts its triangles by them.  Non-zero: out of
    memory */
 static inline int pieces_find(pieces *p, model *m)
@@ -232,10 +245,16 @@ static inline int pieces_find(pieces *p, model *m)
         m->object = NULL;
     } else {
         number = pieces_connected(&m->mesh, &numbers);
+        if (number) pieces_section(m, number, &numbers);
     }
     failed = !number || pieces_rank(p, m, number, numbers);
     if (!failed) pieces_boxes(p, &m->mesh, number);
     if (!failed) failed = pieces_sort(p, m, number);
+    for (int i = 0; i < m->part_count && !failed; i++) {
+        if (!model_is_section(m, i)) continue;
+        p->section = 1;
+        strcpy(p->list[p->of_part[i]].name, "section");
+    }
     free(number);
     return failed;
 }

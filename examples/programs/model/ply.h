@@ -5,6 +5,7 @@
 #define MODEL_PLY_H
 
 #include "faces.h"
+#include "points.h"
 
 enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
 enum { PLY_OTHER, PLY_VERTEX, PLY_FACE, PLY_STRIP }; /* kinds of elements */
@@ -156,7 +157,6 @@ static inline int ply_take_comment(mesh_reader *r, model *m)
 
 static inline int ply_read_header(mesh_reader *r, ply_data *p, model *m)
 {
-    int has_faces = 0;
     p->format = -1;
     for (int line = 0, failed = 0; r->at < r->end && !failed; line++) {
         if (!line && !mesh_take_word(r, "ply")) return mesh_fail(r, "does not begin with ply");
@@ -165,8 +165,6 @@ static inline int ply_read_header(mesh_reader *r, ply_data *p, model *m)
             if (p->format < 0) return mesh_fail(r, "the header names no format");
             if (!p->has[PLY_X] || !p->has[PLY_X + 1] || !p->has[PLY_X + 2])
                 return mesh_fail(r, "vertices need x, y and z");
-            for (int k = 0; k < p->elements; k++) has_faces |= p->element[k].kind >= PLY_FACE;
-            if (!has_faces) return mesh_fail(r, "points without faces");
             mesh_next_line(r, 0);
             if (p->format != PLY_TEXT) r->line = 0;
             return 0;
@@ -307,32 +305,37 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
 {
     size_t n = p->vertex.count / PLY_VALUES;
     owned_mesh *m = &out->mesh;
-    int missing = 0;
-    if (!p->faces.triangles)
-        return mesh_fail(r, n ? "points without faces" : "neither vertices nor faces in it");
+    int missing = 0, has_faces = 0;
+    for (int k = 0; k < p->elements; k++)
+        has_faces |= p->element[k].kind >= PLY_FACE && p->element[k].count > 0;
+    if (!p->faces.triangles && (!n || has_faces))
+        return mesh_fail(r, n ? "no face of it has three corners"
+                              : "neither vertices nor faces in it");
     if (p->highest >= (double)n)
         return mesh_fail(r, "there is no vertex %lu", (unsigned long)p->highest);
     m->positions = (float *)malloc(3 * sizeof(float) * n);
-    m->normals = (float *)malloc(3 * sizeof(float) * n);
-    if (p->has[PLY_U]) m->texcoords = (float *)malloc(2 * sizeof(float) * n);
+    if (has_faces) m->normals = (float *)malloc(3 * sizeof(float) * n);
+    if (has_faces && p->has[PLY_U]) m->texcoords = (float *)malloc(2 * sizeof(float) * n);
     if (p->has[PLY_RED]) m->colors = (float *)malloc(3 * sizeof(float) * n);
-    if (!m->positions || !m->normals || (p->has[PLY_U] && !m->texcoords) ||
-        (p->has[PLY_RED] && !m->colors))
+    if (!m->positions || (p->has[PLY_RED] && !m->colors) ||
+        (has_faces && (!m->normals || (p->has[PLY_U] && !m->texcoords))))
         return mesh_fail(r, "out of memory");
     for (size_t i = 0; i < n; i++) {
         const float *v = p->vertex.v + PLY_VALUES * i, *N = v + PLY_NX, *c = v + PLY_RED;
         shade_vec3 rgb = shade_linear_from_srgb(shade_v3(c[0], c[1], c[2]));
         memcpy(m->positions + 3 * i, v, 3 * sizeof(float));
+        if (m->colors) memcpy(m->colors + 3 * i, &rgb, sizeof rgb);
+        if (!has_faces) continue;
         memcpy(m->normals + 3 * i, N, 3 * sizeof(float));
         if (N[0] == 0 && N[1] == 0 && N[2] == 0) missing = 1;
-        if (m->colors) memcpy(m->colors + 3 * i, &rgb, sizeof rgb);
         if (!m->texcoords) continue;
         m->texcoords[2 * i] = v[PLY_U];
         m->texcoords[2 * i + 1] = 1 - v[PLY_U + 1];
     }
+    memcpy(out->origin, p->origin.at, sizeof out->origin);
+    if (!has_faces) return points_finish(r, out, n);
     if (faces_finish(&p->faces, out)) return mesh_fail(r, "out of memory");
     mesh_link(m, (int)n, 3 * (int)p->faces.triangles);
-    memcpy(out->origin, p->origin.at, sizeof out->origin);
     out->normals_given = !missing;
     return missing && mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
 }

@@ -84,6 +84,13 @@ static inline float portrait_turn(const portrait *p, const model_options *how)
     return how->viewed ? -how->azimuth : p->rotate;
 }
 
+/* The way toward the eye, where the model has been turned */
+static inline shade_vec3 camera_toward(const model_options *how)
+{
+    const shade_vec4 e = shade_mat4_rotation(how->elevation, shade_v3(1, 0, 0)).col[1];
+    return how->viewed ? shade_v3(0, e.z, e.y) : shade_v3(0, 0.36f, 1);
+}
+
 /* The camera looks along a fixed direction, the model has been turned.  Every point must lie inside
    four planes through the eye, and each plane gives one linear bound: their extremes give the
    nearest eye, and the sideways shift that centres. */
@@ -91,7 +98,7 @@ static inline camera camera_frame(const owned_mesh *m, float aspect, const model
 {
     const float half = shade_radians(14), margin = 1.10f;
     const shade_vec4 e = shade_mat4_rotation(how->elevation, shade_v3(1, 0, 0)).col[1];
-    const shade_vec3 toward = how->viewed ? shade_v3(0, e.z, e.y) : shade_v3(0, 0.36f, 1);
+    const shade_vec3 toward = camera_toward(how);
     const shade_vec3 up = how->viewed ? shade_v3(0, e.y, -e.z) : shade_v3(0, 1, 0);
     shade_mat4 turn = shade_mat4_look_at(toward, shade_v3(0, 0, 0), up);
     shade_mat4 lens, world;
@@ -123,6 +130,14 @@ static inline camera camera_frame(const owned_mesh *m, float aspect, const model
     c.eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
     return c;
 }
+/* Makes a model ready for its portrait: cut open where the options say so, upright and turned.
+   Returns 1 with a line on stderr. */
+static inline int portrait_prepare(model *m, const portrait *p, const model_options *how)
+{
+    const float turn = portrait_turn(p, how);
+    return model_cut(m, how, 1, turn, camera_toward(how)) || model_prepare(m, how, turn);
+}
+
 /* ---- the picture ----------------------------------------------------------------------------- */
 
 static inline void portrait_background(const shade_target *target, const portrait *p)

@@ -184,6 +184,7 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     guard_doing = "ending";
     if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
+    if (m->note[0] && !o->quiet) complain("%s: %s", path, m->note);
     if (!o->quiet && !model_shows(m))
         complain("%s: no triangle of it has an area, so nothing of it can be seen", path);
     return 0;
@@ -195,6 +196,7 @@ static int model_up(const model *m, const model_options *o, int picture)
 {
     const int usual = m->z_up ? 2 : 1;
     int up;
+    if (m->up) return m->up - 1;
     if (o->up >= 0) return o->up;
     if (m->up_told || !picture) return usual;
     up = stand_guess(&m->mesh, usual);

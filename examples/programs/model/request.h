@@ -18,6 +18,8 @@
     "  --view VIEW           from where it is seen: front, right, back, left, top, bottom, iso,\n" \
     "                        or degrees AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM; azimuth\n"    \
     "                        -36000 .. 36000, 90: right; elevation -90 .. 90; zoom 0.05 .. 20\n"   \
+    "  --section AXIS[=N]    x, y or z: cuts the model open across that axis of the file, at N\n"  \
+    "                        or in its middle, on the viewer's side, and hatches the cut\n"       \
     "  --quick               light without shadows among parts, in a part of the time\n"          \
     "  --no-shadow           no shadow on the ground\n"                                           \
     "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
@@ -27,8 +29,8 @@
     "  --quiet               prints errors only, no progress and no warnings\n"                   \
     "  --verbose             says which axis was guessed to be upright\n"
 #define MODEL_VALUED \
-    "--color", "--material", "--model", "--shading", "--up", "--view", "--threads", \
-        "--max-triangles", "--max-memory"
+    "--color", "--material", "--model", "--shading", "--up", "--view", "--section", \
+        "--threads", "--max-triangles", "--max-memory"
 #define MODEL_FLAGS "--quick", "--no-shadow", "--quiet", "--verbose"
 
 typedef struct model_options {
@@ -38,6 +40,8 @@ typedef struct model_options {
     int plain, no_shadow; /* plain: one material instead of the file's */
     int quick;            /* no maps of shadows are drawn */
     int viewed;           /* the view is said: */
+    int section, section_placed; /* section: 0 none, 1 .. 3 across x, y, z; placed: at */
+    double section_at;
     float azimuth, elevation, zoom; /* radians: 0 sees the front, a right angle the right side */
     shade_material material;
     shade_model model;
@@ -197,6 +201,17 @@ static inline int model_take_view(model_options *o, const char *value)
     return OPTION_TAKEN;
 }
 
+static inline int model_take_section(model_options *o, const char *value)
+{
+    char *end = NULL;
+    if (*value < 'x' || *value > 'z') return OPTION_BAD;
+    o->section = *value - 'x' + 1;
+    o->section_placed = value[1] == '=';
+    if (!value[1]) return OPTION_TAKEN;
+    o->section_at = strtod(value + 2, &end);
+    return o->section_placed && end > value + 2 && !*end && fabs(o->section_at) <= 1e30;
+}
+
 /* Stores an option of all programs.  Returns what an option_take does, or -1 where the option is
    the program's own. */
 static inline int model_take(model_options *o, const char *name, const char *value)
@@ -212,6 +227,7 @@ static inline int model_take(model_options *o, const char *name, const char *val
     if (!strcmp(name, "--model")) return model_take_model(o, value);
     if (!strcmp(name, "--shading")) return model_take_shading(o, value);
     if (!strcmp(name, "--view")) return model_take_view(o, value);
+    if (!strcmp(name, "--section")) return model_take_section(o, value);
     if (!strcmp(name, "--up")) return option_axis(value, &o->up);
     if (!strcmp(name, "--threads")) return option_integer(value, 1, 256, &o->threads);
     if (!strcmp(name, "--max-triangles"))

@@ -128,6 +128,13 @@ static inline float scene_home_pitch(const scene *s)
     return s->how.viewed ? s->how.elevation : SCENE_PITCH;
 }
 
+/* From where the camera sees it then */
+static inline shade_vec3 scene_home_eye(const scene *s)
+{
+    const shade_vec4 turned = shade_mat4_rotation(scene_home_pitch(s), shade_v3(1, 0, 0)).col[1];
+    return shade_v3(0, turned.z, turned.y);
+}
+
 /* Restores the state after loading. */
 static inline void scene_go_home(scene *s)
 {
@@ -182,7 +189,8 @@ static inline int scene_load(scene *s, const scene_request *o, mesh_progress *pr
     failed = o->model ? model_open(o->model, &o->how, &s->model, progress, user)
                       : scene_teapot(&s->model, o->pieces);
     guard_doing = "preparing the model";
-    failed = failed || model_prepare(&s->model, &o->how, 0);
+    failed = failed || model_cut(&s->model, &o->how, 1, scene_home_yaw(s), scene_home_eye(s)) ||
+             model_prepare(&s->model, &o->how, 0);
     guard_done();
     if (failed) return 1;
     if (s->model.part_count == 1) s->model.mesh.view = model_part_mesh(&s->model, 0);
@@ -231,7 +239,7 @@ static inline void scene_find_runs(scene *s)
 static inline void scene_find_wires(scene *s)
 {
     outline *o = &s->outline;
-    const size_t room = outline_find(o, &s->model.mesh) ? 0 : 2 * (size_t)o->count;
+    const size_t room = outline_find(o, &s->model) ? 0 : 2 * (size_t)o->count;
     double length = 0;
     s->wires = (shade_vec3 *)malloc((room + 1) * sizeof *s->wires);
     s->few = (shade_vec3 *)malloc((room + 1) * sizeof *s->few);

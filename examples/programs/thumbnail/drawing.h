@@ -40,14 +40,8 @@ static void drawing_stand(drawing *d)
     owned_mesh *m = &d->model->mesh;
     size_t n = (size_t)m->view.vertex_count;
     double row[3][3], half = 0;
-    for (int k = 0; k < 3; k++) {
-        d->low[k] = d->high[k] = (double)m->positions[k];
-        for (size_t i = 0; i < n; i++) {
-            d->low[k] = fmin(d->low[k], (double)m->positions[3 * i + (size_t)k]);
-            d->high[k] = fmax(d->high[k], (double)m->positions[3 * i + (size_t)k]);
-        }
-        half = fmax(half, (d->high[k] - d->low[k]) / 2);
-    }
+    mesh_box(m, d->low, d->high);
+    for (int k = 0; k < 3; k++) half = fmax(half, (d->high[k] - d->low[k]) / 2);
     if (!(half > 0)) half = 1;
     upright_rows(d->up, 0, row);
     for (size_t i = 0; i < 3 * n; i++) {
@@ -75,8 +69,10 @@ static shade_vec3 drawing_color(const drawing *d, int part)
 {
     const model *m = d->model;
     const model_surface *s = m->surface_count ? &m->surface[m->part[part].surface] : NULL;
+    if (s && s->section && s->set) return shade_rgb(0x3A424A); /* lines of the hatch */
     if (d->options->drawing.ids) return piece_color(d->pieces.of_part[part]);
     if (d->options->how.plain) return d->options->how.material.diffuse;
+    if (s && s->section) return shade_rgb(0xE6EAEE);
     if (s && s->set) return shade_lerp(s->material.diffuse, shade_v3(1, 1, 1), 0.2f);
     return m->mesh.colors ? shade_v3(1, 1, 1) : shade_rgb(0xB9C4CF);
 }
@@ -376,7 +372,7 @@ static void drawing_band(void *data, int band)
     shade_target rows;
     shade_result *result = &d->result[band];
     if (!band) {
-        if (d->options->drawing.edges && outline_find(&d->outline, &d->model->mesh))
+        if (d->options->drawing.edges && outline_find(&d->outline, d->model))
             *result = SHADE_ERROR_CAPACITY;
         return;
     }
@@ -437,6 +433,7 @@ static void drawing_text_about(const drawing *d, pen *p)
     const float margin = 18 * d->unit, low = (float)p->height - margin, u = d->unit;
     const float right = (float)p->width - margin, line = low - 1.9f * p->text;
     const float base = low - 0.6f * p->text, room = right - margin - 150 * u;
+    const int parts = d->pieces.count - d->pieces.section;
     char text[200];
     int flat = 0;
     pen_line(p, margin, margin, right, margin, 1.2f * u, p->ink);
@@ -447,7 +444,7 @@ static void drawing_text_about(const drawing *d, pen *p)
     pen_fit(p, margin + 12 * u, base, p->text, 0.45f * room, drawing_base(d->options->input));
     snprintf(text, sizeof text, "%.6g × %.6g × %.6g    %d triangles, %d part%s",
              d->high[0] - d->low[0], d->high[1] - d->low[1], d->high[2] - d->low[2],
-             d->model->mesh.view.index_count / 3, d->pieces.count, d->pieces.count > 1 ? "s" : "");
+             d->model->mesh.view.index_count / 3, parts, parts > 1 ? "s" : "");
     pen_fit(p, margin + 30 * u + 0.45f * room, base, 0.85f * p->text, 0.55f * room, text);
     for (int i = 0; i < d->views.count; i++) flat += d->views.list[i].kind != VIEW_ISO;
     if (flat > 1)

@@ -58,8 +58,9 @@ static int read_model(const options *o, model *m, progress *p)
     failed = model_open(o->input, &o->how, m, report, p);
     report_next(p, "");
     if (!failed) failed = check_inputs(o, m);
-    if (failed || o->drawing.view_count) return failed;
-    return model_prepare(m, &o->how, portrait_turn(&o->picture, &o->how));
+    if (failed) return failed;
+    if (o->drawing.view_count) return model_cut(m, &o->how, 0, 0, shade_v3(1, 1, 1));
+    return portrait_prepare(m, &o->picture, &o->how);
 }
 
 static int draw_and_save(const options *o, const model *m, progress *p)

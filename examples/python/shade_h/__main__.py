@@ -23,7 +23,6 @@ def main(words: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m shade_h", description=main.__doc__)
     parser.add_argument("model", help="STL, OBJ, PLY, OFF, GLB, glTF or 3MF")
     parser.add_argument("picture", help="a name that ends in .png or .ppm")
-    parser.add_argument("more", nargs="*", help=argparse.SUPPRESS)
     parser.add_argument("--views", default="iso", help="front,right,back,left,top,bottom,iso")
     parser.add_argument("--view", default=None,
                         help="one of these, or azimuth,elevation in degrees: --view=30,20")
@@ -34,11 +33,15 @@ def main(words: list[str] | None = None) -> int:
                         help="the upright axis; that of the file where it is not said")
     parser.add_argument("--section", default=None,
                         help="x, y or z: cuts the model open there; x=12 says where")
+    parser.add_argument("--light", default="quick", choices=["quick", "studio"],
+                        help="studio: soft shadows, which take longer")
     parser.add_argument("--samples", type=int, default=3, help="1 .. 8")
-    o = parser.parse_args(words)
-    if o.more or not o.picture.lower().endswith((".png", ".ppm")):
+    o, more = parser.parse_known_args(words)
+    if any(word.startswith("-") for word in more):
+        parser.error(f"unknown option {' '.join(more)} (--help lists them)")
+    if more or not o.picture.lower().endswith((".png", ".ppm")):
         models = (".stl", ".obj", ".ply", ".off", ".glb", ".3mf")
-        several = o.more or o.picture.lower().endswith(models)
+        several = more or o.picture.lower().endswith(models)
         print("shade_h: " + (
             "one model and one picture: shade_h.sheet([...]) draws several" if several else
             f"the picture must end in .png or .ppm, not {o.picture!r}"), file=sys.stderr)
@@ -55,10 +58,10 @@ def main(words: list[str] | None = None) -> int:
         views: Any = o.views.split(",") if o.view is None else [viewpoint(o.view)]
         if len(views) == 1:
             picture = render(mesh, view=views[0], size=size, samples=o.samples, up=o.up,
-                             edges=edges, section=section)
+                             edges=edges, section=section, light=o.light)
         else:
             picture = sheet(mesh, views, size=size, samples=o.samples, up=o.up, edges=edges,
-                            section=section)
+                            section=section, light=o.light)
         picture.save(o.picture)
     except (Error, OSError, ValueError) as why:
         print(f"shade_h: {why}", file=sys.stderr)

@@ -195,9 +195,9 @@ def read_file(path: Any, most: int) -> bytes:
         raise Error(f"path must be a path, not {shown(path)}") from None
     if "\0" in name:
         raise Error("path must not contain a zero byte")
-    file = os.open(name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    with os.fdopen(file, "rb") as opened:
-        there = os.fstat(file)
+    more = getattr(os, "O_NONBLOCK", 0)
+    with open(name, "rb", opener=lambda path, flags: os.open(path, flags | more)) as opened:
+        there = os.fstat(opened.fileno())
         if not stat.S_ISREG(there.st_mode):
             raise Error(f"{name} is no regular file")
         if there.st_size > most:

@@ -14,7 +14,7 @@ from . import _arguments as arguments
 from ._native import Array, Bytes, Doubles, Error, Floats, Integers, Item, View, check
 from ._native import library, pointer
 from .annotate import Text, bar_room, display, draw_bar, words_of, write_text
-from .camera import UPRIGHT, Camera, Viewpoint, at, fitted, studio
+from .camera import UPRIGHT, Camera, Viewpoint, at, direction, fitted, studio
 from .light import Flag, Light, Lighting, Material, Model, preset
 from .mesh import Like, Mesh, mesh as as_mesh, origin_of
 from .picture import Picture, png_path
@@ -196,11 +196,12 @@ class Scene:
         return len(self.parts) - 1
 
     def fit(self, view: Viewpoint = "iso", size: object = (640, 480), *, up: str | None = None,
-            ortho: bool = False) -> Camera:
-        """The nearest camera that sees all of the scene from a side."""
+            ortho: bool = False, ground: bool = False) -> Camera:
+        """The nearest camera that sees all of the scene from a side.  With ground its far plane
+        lies behind the studio's ground."""
         origin, places = self._places(None)
         return self._fitted(self._points(places[0]), view, arguments.size("size", size), up, ortho,
-                            origin=origin)
+                            room=1.5 if ground else 0.0, origin=origin)
 
     def _fitted(self, points: Floats, view: Viewpoint, size: tuple[int, int], up: str | None,
                 ortho: bool, **options: Any) -> Camera:
@@ -302,8 +303,7 @@ class Scene:
         self._aim(view, camera, _background(background), origin)
         if soft and points is not None:
             view.in_studio = 1
-            upright = arguments.choice("up", self._up(up), list(UPRIGHT))
-            view.to_studio = tuple(studio(points, camera, upright).T.reshape(-1))
+            view.to_studio = self._studio(places[0], camera, up)
         self._draw(items, (View * 1)(view), threads, (rgba, depth, normals, ids, kept),
                    soft)
         made = Picture(rgba, depth, ids, normals)
@@ -312,6 +312,11 @@ class Scene:
         if fit and made.blank and any(part.stroke is None for part in self.parts):
             warnings.warn(f"nothing of {self!r} can be seen: {self._why_blank()}", stacklevel=2)
         return made
+
+    def _studio(self, places: Doubles, camera: Camera, up: str | None) -> tuple[float, ...]:
+        """The matrix to the studio, where the parts are in their places."""
+        upright = arguments.choice("up", self._up(up), list(UPRIGHT))
+        return tuple(studio(self._points(places), camera, upright).T.reshape(-1))
 
     def _why_blank(self) -> str:
         """What keeps parts from being seen."""
@@ -324,15 +329,17 @@ class Scene:
     def render_batch(self, cameras: Sequence[Camera] | Camera, poses: object = None,
                      size: object = (256, 256), *, samples: int = 1,
                      background: Color = "white", threads: int = 0, rgb: object = None,
-                     depth: object = None, ids: object = None
-                     ) -> tuple[Bytes, Floats, Integers]:
+                     depth: object = None, ids: object = None, light: str = "scene",
+                     up: str | None = None) -> tuple[Bytes, Floats, Integers]:
         """Draws N pictures: rgb (N, H, W, 3), depth (N, H, W), ids (N, H, W).
 
         poses, (N, parts, 4, 4), are those of every part in every picture; None leaves all parts
         where they are.  One camera serves all pictures.  rgb (uint8), depth (float32) and ids
         (int32) may be handed in to be filled.  Threads share the pictures, without the
-        interpreter's lock.
+        interpreter's lock.  light and up are those of render; the studio stays where the first
+        camera has it, and is lit once where no part moves.
         """
+        soft = arguments.choice("light", light, ("scene", "studio")) == "studio"
         width, height = arguments.size("size", size)
         many = arguments.integer("samples", samples, 1, 8)
         _small_enough(width, height, many)
@@ -359,10 +366,18 @@ class Scene:
             view.ids = pointer(numbers[i])
             view.poses = None if columns is None else pointer(columns[i])
             self._aim(view, camera, behind, origin)
-        if n:
+            if soft:
+                view.in_studio = 1
+                view.to_studio = self._studio(places[i if placed is not None else 0], seen[0], up)
+        arrays = colors, depths, numbers, columns
+        if soft and placed is not None:    # each picture has shadows of its own
+            for i, camera in enumerate(seen):
+                items, kept = self._items(camera, places[i], origin)
+                self._draw(items, (View * 1)(views[i]), threads, (*arrays, kept), True)
+        elif n:
             still = self._places(None)[1][0] if columns is None else places[0]
             items, kept = self._items(seen[0], still, origin)
-            self._draw(items, views, threads, (colors, depths, numbers, columns, kept), n > 16)
+            self._draw(items, views, threads, (*arrays, kept), soft or n > 16)
         return colors, depths, numbers
 
     def _draw(self, items: Any, views: Any, threads: int, kept: object, slow: bool) -> None:
@@ -512,8 +527,8 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
     in it are their ids.  view is "front",
     "right", "back", "left", "top", "bottom", "iso" or (azimuth, elevation) in degrees.  light is
     "quick", three lamps beside the camera, or "studio", soft shadows that take longer.  section
-    cuts away what lies beyond a plane, and hatches the cut: "x", "y" or "z" through the middle,
-    ("x", where), or (point, normal).
+    cuts away one side of a plane, and hatches the cut: of "x", "y" or "z", through the middle, and
+    of ("x", where) the side of the eye; of (point, normal) that of the normal.
     """
     soft = arguments.choice("light", light, ("quick", "studio")) == "studio"
     options: dict[str, Any] = {"color": color, "normals": normals, "uv": uv, "texture": texture}
@@ -522,20 +537,24 @@ def render(vertices: object, faces: object = None, *, view: Viewpoint = "iso",
     given = {k: v for k, v in options.items()
              if v is not None and not (isinstance(v, str) and defaults.get(k) == v)}
     scene = Scene()
-    _add_all(scene, source if _several(source) else [source], section, material=material,
-             edges=edges, **given)
+    _add_all(scene, source if _several(source) else [source], section, view, up,
+             material=material, edges=edges, **given)
     return scene.render(view, size, samples=samples, background=background, threads=threads, up=up,
                         ortho=ortho, light="studio" if soft else "scene")
 
 
-def _add_all(scene: Scene, sources: Any, section: object, **options: Any) -> None:
-    """Adds meshes, all cut by one plane where a section is asked for."""
+def _add_all(scene: Scene, sources: Any, section: object, view: Viewpoint, up: str | None,
+             **options: Any) -> None:
+    """Adds meshes, all cut by one plane, which is seen from a side, where a section is asked for."""
     material, edges = options.pop("material", None), options.pop("edges", False)
     made = [as_mesh(one, **options) for one in sources]
     if section is not None:
         from .section import cut, plane_of
         boxes = np.array([mesh.box() for mesh in made])
-        plane = plane_of(section, boxes[:, 0].min(0), boxes[:, 1].max(0))
+        known = [mesh.up for mesh in made if mesh.up is not None]
+        upright = up if up is not None else known[0] if known else "z"
+        ways = direction(view, upright)[0], direction("iso", upright)[0]
+        plane = plane_of(section, boxes[:, 0].min(0), boxes[:, 1].max(0), ways)
         made = [cut(mesh, *plane) for mesh in made]
     for mesh in made:
         scene.add(mesh, None, material, edges=edges)
@@ -545,18 +564,19 @@ def export_png(shape: object, path: object = None, *,
                views: Sequence[Viewpoint] = ("front", "right", "top", "iso"),
                size: object = (480, 400), edges: bool = True, section: object = None,
                up: str | None = None, samples: int = 3, background: Color | None = "white",
-               **options: Any) -> bytes:
+               light: str = "quick", **options: Any) -> bytes:
     """The bytes of a PNG file with a part seen from sides, which is also written to a path where
     one is given.
 
-    shape is all that render takes, a list of parts too, which then are one picture.  options are
-    those of Mesh.
+    shape is all that render takes, a list of parts too, which then are one picture.  section is
+    that of render, as the iso view sees it, and light as well.  options are those of Mesh.
     """
     if path is not None:
         png_path("path", path)
     scene = Scene()
-    _add_all(scene, shape if _several(shape) else [shape], section, edges=edges, **options)
-    drawn = _row(scene, views, size, samples, up, background)
+    _add_all(scene, shape if _several(shape) else [shape], section, "iso", up, edges=edges,
+             **options)
+    drawn = _row(scene, views, size, samples, up, background, light)
     width, height = drawn[0].size
     out = np.full((height, len(drawn) * (width + 2) - 2, 4), (200, 204, 210, 255), np.uint8)
     for c, picture in enumerate(drawn):
@@ -568,22 +588,24 @@ def export_png(shape: object, path: object = None, *,
 
 
 def _row(scene: Scene, views: Any, size: object, samples: int, up: str | None,
-         background: Color | None) -> list[Picture]:
+         background: Color | None, light: str) -> list[Picture]:
     """A scene seen from several sides, with one scale for the named ones."""
     if not isinstance(views, (list, tuple)) or not views:
         raise Error("views must be a list of at least one")
     pair = arguments.size("size", size)
-    return [scene.render(camera, pair, samples=samples, background=background)
-            for camera in _of_one_scale(scene, views, pair, up)]
+    lamps = {"quick": "scene"}.get(arguments.choice("light", light, ("quick", "studio")), light)
+    return [scene.render(camera, pair, samples=samples, background=background, up=up, light=lamps)
+            for camera in _of_one_scale(scene, views, pair, up, lamps == "studio")]
 
 
 def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top", "iso"), *,
           edges: bool = True, size: object = (480, 400), samples: int = 3, up: str | None = None,
-          background: Color | None = "white", gap: int = 2, section: object = None) -> Picture:
+          background: Color | None = "white", gap: int = 2, section: object = None,
+          light: str = "quick") -> Picture:
     """The drawing of parts: a row for each mesh, a column for each view.
 
-    section is that of render, for each mesh by itself.  The named sides are orthographic and of one
-    scale in a row; "iso" and angles are in perspective.
+    section is that of render, for each mesh by itself, as the iso view sees it.  The named sides are orthographic and of one
+    scale in a row; "iso" and angles are in perspective.  light is that of render.
     """
     rows: Any = meshes if _several(meshes) else [meshes]
     if not rows or not isinstance(views, (list, tuple)) or not views:
@@ -597,9 +619,9 @@ def sheet(meshes: object, views: Sequence[Viewpoint] = ("front", "right", "top",
     ids = np.full((h, w), -1, np.int32)
     for r, one in enumerate(rows):
         scene = Scene()
-        _add_all(scene, [one], section, edges=edges)
-        for c, camera in enumerate(_of_one_scale(scene, views, (width, height), up)):
-            got = scene.render(camera, (width, height), samples=samples, background=background)
+        _add_all(scene, [one], section, "iso", up, edges=edges)
+        row = _row(scene, views, (width, height), samples, up, background, light)
+        for c, got in enumerate(row):
             y, x = r * (height + between), c * (width + between)
             cell = np.s_[y:y + height, x:x + width]
             out[cell], depth[cell], normals[cell] = got.rgba, got.depth, got.normals
@@ -623,9 +645,9 @@ def _is_array(value: object) -> bool:
 
 
 def _of_one_scale(scene: Scene, views: Sequence[Viewpoint], size: tuple[int, int],
-                  up: str | None) -> list[Camera]:
+                  up: str | None, soft: bool) -> list[Camera]:
     flat = [isinstance(view, str) and view != "iso" for view in views]
-    cameras = [scene.fit(view, size, up=up, ortho=o) for view, o in zip(views, flat)]
+    cameras = [scene.fit(view, size, up=up, ortho=o, ground=soft) for view, o in zip(views, flat)]
     scales = [c.projection[1, 1] for c, o in zip(cameras, flat) if o]
     for camera, o in zip(cameras, flat):
         if o:

@@ -13,22 +13,31 @@ from .mesh import Mesh, Surface
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 PIECES = 4_000_000    # of a cap; beyond, it is filled by fewer rows
-LINES = 24            # of the hatch across a cap
+LINES = 24            # of the hatch across a mesh
 
 
-def plane_of(section: Any, low: Doubles, high: Doubles) -> tuple[Doubles, Doubles]:
+def _facing(normal: Doubles, ways: tuple[Doubles, Doubles]) -> Doubles:
+    """The normal or its opposite, toward the first way that is not along the plane."""
+    along = [float(normal @ way) for way in ways]
+    return -normal if (along[0] if abs(along[0]) > 0.01 else along[1]) < 0 else normal
+
+
+def plane_of(section: Any, low: Doubles, high: Doubles, ways: tuple[Doubles, Doubles]
+             ) -> tuple[Doubles, Doubles]:
     """A point of the plane and its unit normal, toward which all is cut away: "x", "y" or "z"
-    through the middle of a box, ("x", where), or (point, normal)."""
+    through the middle of a box, ("x", where), or (point, normal).  ways lead toward the eye, and
+    toward another that serves where the first looks along the plane."""
     if isinstance(section, str):
         normal = np.array(AXES[arguments.choice("section", section, list(AXES))])
-        return (low + high) / 2, normal
+        return (low + high) / 2, _facing(normal, ways)
     if not isinstance(section, (tuple, list)) or len(section) != 2:
         raise Error("section must be x, y, z, (axis, where) or (point, normal), "
                     f"not {arguments.shown(section)}")
     first, second = section
     if isinstance(first, str):
         normal = np.array(AXES[arguments.choice("section[0]", first, list(AXES))])
-        return normal * arguments.number("section[1]", second, -1e30, 1e30), normal
+        point = normal * arguments.number("section[1]", second, -1e30, 1e30)
+        return point, _facing(normal, ways)
     point = arguments.doubles("section[0]", first, (3,), finite=True)
     normal = arguments.doubles("section[1]", second, (3,), finite=True)
     length = float(np.linalg.norm(normal))
@@ -141,7 +150,7 @@ def cut(mesh: Mesh, point: Doubles, normal: Doubles) -> Mesh:
     flat = np.stack([(cuts - point) @ u, (cuts - point) @ v], 2)
     quads = _filled(flat)
     cap = (quads[..., :1] * u + quads[..., 1:] * v + point)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 3)
-    extent = float(np.ptp(flat.reshape(-1, 2), 0).max()) if len(flat) else 1.0
+    extent = float(np.ptp(corners[:, :, :3].reshape(-1, 3), 0).max()) if len(corners) else 1.0
     size = (extent or 1.0) / LINES
     at = [3]
     for p in parts[1:]:

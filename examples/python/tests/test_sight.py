@@ -62,6 +62,23 @@ def test_a_section_shows_the_hatched_cut_in_front_of_what_is_left():
     assert shades.max() - shades.min() > 40 and (got.rgba[cut_pixels][:, 2] < 110).all()
 
 
+@pytest.mark.parametrize("axis,view,up,normal", [
+    ("x", "right", "z", (1, 0, 0)), ("x", "left", "z", (-1, 0, 0)), ("y", "front", "z", (0, -1, 0)),
+    ("y", "iso", "z", (0, -1, 0)), ("y", "iso", "y", (0, 1, 0)), ("z", "iso", "y", (0, 0, 1)),
+    (("z", 0.5), "bottom", "z", (0, 0, -1)), ("z", "front", "z", (0, 0, 1))])
+def test_a_section_is_cut_open_on_the_side_of_the_eye(axis, view, up, normal):
+    from shade_h.camera import direction
+    from shade_h.section import plane_of
+    ways = direction(view, up)[0], direction("iso", up)[0]
+    assert plane_of(axis, np.zeros(3), np.ones(3), ways)[1].tolist() == list(normal)
+    got = shade.render(*box(1, 1, 1), section=axis, view=view, up=up,
+                       **{**FLAT, "size": (480, 360)})
+    facing = np.isclose(got.normals, np.array(normal, np.float32), atol=1e-3).all(2)
+    assert facing.sum() > 100 or (axis, view) == ("z", "front")
+    shades = got.rgba[facing][:, :3].astype(int).max(1)
+    assert not facing.any() or shades.max() - shades.min() > 40
+
+
 def test_the_outline_of_a_cut_is_drawn_but_no_line_within_it():
     mesh = shade.Mesh(*tube())
     made = cut(mesh, np.zeros(3), np.array([0.0, 1, 0]))

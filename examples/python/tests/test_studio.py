@@ -1,4 +1,6 @@
 """The light of the studio, and the one draw that gives all arrays, against what must hold."""
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from shapes import box, torus
@@ -54,6 +56,30 @@ def test_a_soft_shadow_lies_on_the_ground_alone(background):
         assert 100 < ground[:, :3].min() < 220 and ground[:, 3].min() == 255
     from_below = table().render("bottom", SIZE, samples=1, light="studio", ortho=True)
     assert (from_below.rgba[from_below.ids < 0] == 255).all()
+
+
+def test_sheets_and_batches_have_the_studio_too():
+    camera = shade.Camera.look_at((3, -9, 7), (3, 3, 0), fov=50, aspect=4 / 3)
+    other = shade.Camera.look_at((9, -9, 7), (3, 3, 0), fov=50, aspect=4 / 3)
+    one = table().render(camera, SIZE, samples=1, light="studio")
+    rgb, depth, ids = table().render_batch([camera, other], size=SIZE, light="studio")
+    assert np.array_equal(rgb[0], one.rgba[..., :3]) and np.array_equal(depth[0], one.depth)
+    quick = table().render_batch([camera, other], size=SIZE)
+    assert np.array_equal(quick[2], ids) and not np.array_equal(quick[0][1], rgb[1])
+    poses = np.array([[part.pose for part in table().parts]] * 2)
+    poses[1, 1, 2, 3] = 0.2    # the box stands on the plate: its shadow is elsewhere
+    moved = table().render_batch(camera, poses, size=SIZE, light="studio")[0]
+    again = table()
+    again.parts[1] = replace(again.parts[1], pose=poses[1, 1])
+    assert np.array_equal(moved[0], rgb[0])
+    assert np.array_equal(moved[1],
+                          again.render(camera, SIZE, samples=1, light="studio").rgba[..., :3])
+    mesh = shade.Mesh(*box(2, 2, 1))
+    soft = shade.sheet(mesh, ["front", "iso"], size=SIZE, samples=1, light="studio", edges=False)
+    plain = shade.sheet(mesh, ["front", "iso"], size=SIZE, samples=1, edges=False)
+    assert np.array_equal(soft.ids, plain.ids) and soft.difference(plain).max() > 20
+    assert shade.export_png(mesh, views=["front", "iso"], size=SIZE, samples=1, light="studio",
+                            edges=False) == soft.png()
 
 
 @pytest.mark.parametrize("up", ["y", "z"])
