@@ -46,7 +46,7 @@ typedef struct renderer_object {
     float repeat[2];          /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
 } renderer_object;
 
-enum { RENDERER_LAMPS = 8, RENDERER_LEVELS = 8 };
+enum { RENDERER_LAMPS = 8, RENDERER_LEVELS = 11 };
 enum { RENDERER_SKY_PLAIN, RENDERER_SKY_GRADIENT, RENDERER_SKY_CUBE };
 
 /* What is drawn and where to.  Rows of the arrays follow each other without gaps. */
@@ -80,6 +80,7 @@ typedef struct renderer_picture {
 typedef struct renderer_shape {
     float *positions, *normals, *texcoords, *colors;
     uint32_t *indices;
+    float *planes;            /* of faces: rows of a unit normal's x, y, z, and distances from 0 */
     int vertex_count, index_count;
     int upper;                /* of a capsule: vertices before this one are its upper end */
     float sag;                /* how far chords lie inside of the true surface of radius 1 */
@@ -106,24 +107,24 @@ typedef struct renderer_scene {
 typedef struct renderer_entry {
     const renderer_shape *shape;
     shade_mat4 world;         /* from the shape's space */
+    shade_mat3 normal;        /* world, for normals */
     float lift;               /* of a capsule: half the length of its cylinder */
     float distance;           /* of its nearest point from the eye, at least */
+    float order;              /* opaque objects are drawn by it */
     float sag;                /* in the unit of the scene */
     int object, key;
+    int first;                /* vertex of the draw that it has a part in */
     int uneven;               /* normals must be made unit, because it is scaled unevenly */
 } renderer_entry;
 
 /* What ids hold for a triangle */
 typedef struct renderer_mark { int32_t object, triangle; } renderer_mark;
 
-/* Places and values of vertices in the world */
-typedef struct renderer_vertex { float value[12]; } renderer_vertex;
-
 typedef struct renderer {
     renderer_entry *entries;
-    renderer_vertex *vertices;
-    uint32_t *indices, *owners;    /* of a triangle: the entry */
-    renderer_mark *marks;          /* of a triangle */
+    uint32_t *indices;
+    uint32_t *whose, *owners;      /* the entries of vertices and of triangles */
+    renderer_mark *marks;          /* of triangles */
     float *depth, *large_depth, *map;
     uint32_t *color, *large_color;
     renderer_object *known;        /* what the shadow map holds */
@@ -142,7 +143,7 @@ typedef struct renderer {
 /* Slices of round shapes by level */
 static inline int renderer_slices(int level)
 {
-    static const int slices[RENDERER_LEVELS] = { 8, 12, 16, 24, 32, 48, 64, 96 };
+    static const int slices[RENDERER_LEVELS] = { 8, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96 };
     return slices[level];
 }
 
@@ -153,6 +154,7 @@ static inline void renderer_shape_free(renderer_shape *s)
     free(s->texcoords);
     free(s->colors);
     free(s->indices);
+    free(s->planes);
     memset(s, 0, sizeof *s);
 }
 
@@ -180,6 +182,38 @@ static inline void renderer_face(renderer_shape *s, int a, int b, int c)
     s->indices[s->index_count++] = (uint32_t)a;
     s->indices[s->index_count++] = (uint32_t)b;
     s->indices[s->index_count++] = (uint32_t)c;
+}
+
+static inline shade_vec3 renderer_get(const float *p) { return shade_v3(p[0], p[1], p[2]); }
+
+/* Triangles in packets of SHADE_LANES, the last one filled up with planes that face nobody */
+static inline size_t renderer_plane_row(const renderer_shape *s)
+{
+    return ((size_t)s->index_count / 3 + SHADE_LANES - 1) / SHADE_LANES * SHADE_LANES;
+}
+
+/* Planes of the faces.  The halves of a capsule are lifted apart first, so that its cylinder, which
+   is flat until then, has some.  0: out of memory */
+static inline int renderer_make_planes(renderer_shape *s)
+{
+    const size_t row = renderer_plane_row(s);
+    s->planes = (float *)calloc(4 * row + 1, sizeof(float));
+    if (!s->planes) return 0;
+    for (int i = 0; i < s->index_count; i += 3) {
+        float *to = s->planes + i / 3;
+        shade_vec3 p[3], n;
+        for (int k = 0; k < 3; k++) {
+            const int at = (int)s->indices[i + k];
+            p[k] = renderer_get(s->positions + 3 * (size_t)at);
+            if (s->upper) p[k].z += at < s->upper ? 1.0f : -1.0f;
+        }
+        n = shade_face_normal(p[0], p[1], p[2]);
+        to[0] = n.x;
+        to[row] = n.y;
+        to[2 * row] = n.z;
+        to[3 * row] = shade_dot(n, p[0]) - (s->upper ? (n.z < 0 ? -n.z : n.z) : 0);
+    }
+    return 1;
 }
 
 /* Cosine and sine of a part of a full turn, by shade.h: no C library decides their bits. */
@@ -220,7 +254,7 @@ static inline int renderer_make_sphere(renderer_shape *s, int n, int capsule)
     renderer_join_rings(s, 0, rings, n, 1);
     s->upper = capsule ? (n / 4 + 1) * (n + 1) : 0;
     s->sag = 1 - renderer_turn(0.5f / (float)n).x;
-    return 1;
+    return renderer_make_planes(s);
 }
 
 static inline int renderer_make_cylinder(renderer_shape *s, int n)
@@ -240,7 +274,7 @@ static inline int renderer_make_cylinder(renderer_shape *s, int n)
     }
     renderer_join_rings(s, n + 1, 2, n, 0);
     s->sag = 1 - renderer_turn(0.5f / (float)n).x;
-    return 1;
+    return renderer_make_planes(s);
 }
 
 static inline int renderer_make_box(renderer_shape *s)
@@ -260,7 +294,7 @@ static inline int renderer_make_box(renderer_shape *s)
         renderer_face(s, first, first + 1, first + 2);
         renderer_face(s, first, first + 2, first + 3);
     }
-    return 1;
+    return renderer_make_planes(s);
 }
 
 /* A square of 8 x 8 cells that grow from the middle: there the eye is, where it is endless. */
@@ -280,7 +314,7 @@ static inline int renderer_make_plane(renderer_shape *s)
             renderer_face(s, a, a + 1, b + 1);
             renderer_face(s, a, b + 1, b);
         }
-    return 1;
+    return renderer_make_planes(s);
 }
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
@@ -337,8 +371,6 @@ static inline void renderer_bound(renderer_shape *s, const shade_mesh *m)
     s->radius = 0.5001f * shade_distance(low, high);
 }
 
-static inline shade_vec3 renderer_get(const float *p) { return shade_v3(p[0], p[1], p[2]); }
-
 /* A vertex for each corner, with the normal of its face.  0: out of memory */
 static inline int renderer_split(renderer_shape *s)
 {
@@ -387,6 +419,7 @@ static inline int renderer_add_mesh(renderer_scene *scene, const shade_mesh *m, 
     if (m->normals) memcpy(s.normals, m->normals, (size_t)s.vertex_count * 3 * sizeof(float));
     else if (good && smooth) good = !shade_mesh_normals(m, (shade_vec3 *)(void *)s.normals);
     else if (good) good = renderer_split(&s);
+    good = good && renderer_make_planes(&s);
     if (!grown || !good) {
         renderer_shape_free(&s);
         return -1;
@@ -432,7 +465,7 @@ static inline void renderer_close(renderer *r)
 {
     if (!r) return;
     free(r->entries);
-    free(r->vertices);
+    free(r->whose);
     free(r->indices);
     free(r->owners);
     free(r->marks);
@@ -628,6 +661,9 @@ static inline int renderer_enter(const renderer_view *v, int number, renderer_en
     if ((o->flags & RENDERER_HIDDEN) || o->rgba[3] <= 0) return 0;
     e->distance = v->far_z;
     if (!endless && !renderer_in_view(v, centre, radius, &e->distance)) return 0;
+    /* spheres around ground and walls reach behind the eye, which mostly sees them behind others:
+       drawn last, they are not lit where they are hidden, a fifth of the pixels of robots.py */
+    e->order = e->distance > v->near_z ? e->distance : v->far_z;
     e->object = number;
     e->world = renderer_world(o);
     e->sag = e->lift = 0;
@@ -660,7 +696,7 @@ static inline int renderer_order(const void *a, const void *b)
 {
     const renderer_entry *x = (const renderer_entry *)a, *y = (const renderer_entry *)b;
     if (x->key != y->key) return x->key < y->key ? -1 : 1;
-    if (x->distance != y->distance) return x->distance < y->distance ? -1 : 1;
+    if (x->order != y->order) return x->order < y->order ? -1 : 1;
     return x->object - y->object;
 }
 
@@ -697,11 +733,11 @@ typedef struct renderer_batch {
     const renderer_view *v;
     const renderer_entry *entry;      /* the first */
     const renderer_texture *texture;
-    const uint32_t *owners;           /* NULL: there is one object */
     const shade_lighting *lighting;   /* NULL: colours are not wanted */
-    shade_mat3 normal;                /* of the one object */
+    int several;                      /* more than one object */
     int uv, colors;                   /* the varyings that they are; 0: there are none */
-    int notes, blended, mirrored;
+    int notes, blended, two_sided;
+    int meshes;                       /* whether any of its objects is one */
     int glossy, glows;                /* whether any of its objects is so */
 } renderer_batch;
 
@@ -752,30 +788,30 @@ static inline void renderer_set(float *to, shade_vec3 v)
     to[2] = v.z;
 }
 
-/* Vertex k of an entry in the world: place, normal, what its texture follows, colour */
-static inline void renderer_vertex_of(const renderer_batch *b, const renderer_entry *e,
-                                      const shade_mat3 *normal, int k, renderer_vertex *out)
+/* Places and values of a vertex in the world: place, normal, what its texture follows, colour */
+static inline void renderer_vertex_of(const renderer_batch *b, const renderer_entry *e, int k,
+                                      float *out)
 {
     const renderer_shape *s = e->shape;
     const renderer_object *o = &b->v->p->objects[e->object];
     const size_t at = 3 * (size_t)k;
     const shade_vec3 world = renderer_place(e, s->positions + at, k < s->upper);
-    renderer_set(out->value, world);
+    renderer_set(out, world);
     if (b->v->shadows) return;
-    const shade_vec3 n = shade_mat3_transform(*normal, renderer_get(s->normals + at));
-    renderer_set(out->value + 3, e->uneven ? shade_normalize(n) : n);
+    const shade_vec3 n = shade_mat3_transform(e->normal, renderer_get(s->normals + at));
+    renderer_set(out + 3, e->uneven ? shade_normalize(n) : n);
     if (b->texture) {
         const shade_vec3 local = renderer_local(o, world);
-        if (b->texture->cube) renderer_set(out->value + 6, renderer_in_cube(o, local));
+        if (b->texture->cube) renderer_set(out + 6, renderer_in_cube(o, local));
         else {
             const shade_vec2 uv = renderer_uv(s, o, (size_t)k, local);
-            renderer_set(out->value + 6, shade_v3(uv.x, uv.y, 0));
+            renderer_set(out + 6, shade_v3(uv.x, uv.y, 0));
         }
     }
-    if (b->colors) memcpy(out->value + 9, s->colors + at, 3 * sizeof(float));
+    if (b->colors) memcpy(out + 9, s->colors + at, 3 * sizeof(float));
 }
 
-/* Vertices that are ready, or those of one object, made as they are asked for */
+/* Vertices are made as they are asked for: those of faces that look away mostly are not. */
 static inline void renderer_shade_vertices(const void *uniforms,
                                            const shade_vertex_ids *SHADE_RESTRICT in,
                                            shade_vertices *SHADE_RESTRICT out)
@@ -783,13 +819,14 @@ static inline void renderer_shade_vertices(const void *uniforms,
     const renderer_batch *b = (const renderer_batch *)uniforms;
     const shade_mat4 clip = b->v->clip;
     const int count = b->v->shadows ? 3 : b->colors ? 12 : b->uv ? 9 : 6;
-    float rows[12][SHADE_LANES];
-    renderer_vertex made = { { 0 } };
+    float rows[12][SHADE_LANES], one[12] = { 0 };
     for (int i = 0; i < SHADE_LANES; i++) {
-        const renderer_vertex *one = b->owners ? &b->r->vertices[in->index[i]] : &made;
-        if (!b->owners && i < in->count)
-            renderer_vertex_of(b, b->entry, &b->normal, (int)in->index[i], &made);
-        for (int k = 0; k < count; k++) rows[k][i] = one->value[k];
+        if (i < in->count) {
+            const uint32_t at = in->index[i];
+            const renderer_entry *e = b->entry + (b->several ? b->r->whose[at] : 0);
+            renderer_vertex_of(b, e, (int)at - e->first, one);
+        }
+        for (int k = 0; k < count; k++) rows[k][i] = one[k];
     }
     SHADE_EACH_LANE(i) {
         const shade_vec4 at = shade_v4(rows[0][i], rows[1][i], rows[2][i], 1);
@@ -811,16 +848,14 @@ typedef struct renderer_surface {
     int glossy, glows, alike;    /* alike: one shininess for all lanes */
 } renderer_surface;
 
-/* The entries that the lanes' triangles belong to.  Non-zero: all to the first */
+/* The entries that the lanes' triangles belong to.  Non-zero: all to owner[0] */
 static inline int renderer_find_owners(const renderer_batch *b, const shade_fragments *in,
                                        uint32_t *owner)
 {
     uint32_t others = 0;
-    if (!b->owners) {
-        memset(owner, 0, SHADE_LANES * sizeof *owner);
-        return 1;
-    }
-    for (int i = 0; i < SHADE_LANES; i++) owner[i] = b->owners[in->primitive[i]];
+    owner[0] = 0;
+    if (!b->several) return 1;
+    for (int i = 0; i < SHADE_LANES; i++) owner[i] = b->r->owners[in->primitive[i]];
     for (int i = 0; i < SHADE_LANES; i++) others |= owner[i] ^ owner[0];
     return !others;
 }
@@ -909,29 +944,74 @@ static inline void renderer_paint_map(const renderer_batch *b, const shade_fragm
     if (b->blended) SHADE_EACH_LANE(i) { s->alpha[i] *= texels[3][i]; }
 }
 
-/* The share of 3 x 3 texels, weighted by their nearness, that lets the lamp's light pass at a point
-   of its clip space.  Beyond the map nothing is in the way. */
-static inline float renderer_passes(const renderer *r, shade_vec3 p)
+/* Where points of a lamp's clip space lie on its map: the first of 3 x 3 texels, how far beyond the
+   middle one's corner they are, and their depth.  That is -1, before all that is drawn, beside the
+   map, and 1, as deep as what is empty, beyond its far plane: ground that lies far below what casts
+   shadows. */
+static inline void renderer_on_map(int size, const float (*clip)[SHADE_LANES],
+                                   int32_t *SHADE_RESTRICT at, float *SHADE_RESTRICT u,
+                                   float *SHADE_RESTRICT v, float *SHADE_RESTRICT z)
 {
-    const float size = (float)r->map_size;
-    const float x = (1 + p.x) * size / 2, y = (1 - p.y) * size / 2, z = (1 + p.z) / 2;
-    float sum = 0;
-    if (!(x >= 1 && y >= 1 && x < size - 1 && y < size - 1 && z < 1)) return 1;
-    const float u = x - (float)(int)x, across[3] = { 1 - u, 1, u };
-    const float v = y - (float)(int)y, down[3] = { 1 - v, 1, v };
-    const float *row = r->map + (size_t)((int)y - 1) * (size_t)r->map_size + (int)x - 1;
-    for (int k = 0; k < 3; k++, row += r->map_size)
-        for (int j = 0; j < 3; j++)
-            if (z <= row[j]) sum += across[j] * down[k];
-    return sum / 4;
+    const float edge = (float)size;
+    SHADE_EACH_LANE(i) {
+        const float w = clip[3][i], half = 0.5f / (w > 1e-6f ? w : 1e-6f);
+        const float x = edge * (0.5f + clip[0][i] * half), y = edge * (0.5f - clip[1][i] * half);
+        const float right = x > 0 ? x : 0, down = y > 0 ? y : 0;
+        const int32_t column = (int32_t)(right < edge ? right : edge);
+        const int32_t line = (int32_t)(down < edge ? down : edge);
+        const int32_t out = (column - 1) | (size - 2 - column) | (line - 1) | (size - 2 - line);
+        const int32_t first = (line - 1) * size + column - 1;
+        const float along = 0.5f + clip[2][i] * half, depth = along < 1 ? along : 1;
+        u[i] = x - (float)column;
+        v[i] = y - (float)line;
+        z[i] = out < 0 ? -1 : depth;
+        at[i] = out < 0 ? 0 : first;
+    }
+}
+
+/* The share of 3 x 3 texels, weighted by their nearness, that lets the lamp's light pass.  Texels
+   are fetched one by one.  Depths are compared as integers, because gcc makes no vectors of floats
+   that conditions add to. */
+static inline void renderer_passes(const renderer *r, const float (*clip)[SHADE_LANES],
+                                   float *SHADE_RESTRICT passes)
+{
+    float z[SHADE_LANES], u[SHADE_LANES], v[SHADE_LANES], share[SHADE_LANES];
+    int32_t at[SHADE_LANES], depth[SHADE_LANES], texel[SHADE_LANES];
+    renderer_on_map(r->map_size, clip, at, u, v, z);
+    memcpy(depth, z, sizeof z);
+    SHADE_EACH_LANE(i) { passes[i] = 0; }
+    for (int k = 0; k < 9; k++) {
+        const float *map = r->map + k / 3 * r->map_size + k % 3;
+        const float a = k % 3 < 2, b = (float)(k % 3 - 1), c = k / 3 < 2, d = (float)(k / 3 - 1);
+        for (int i = 0; i < SHADE_LANES; i++) memcpy(&texel[i], map + at[i], sizeof *texel);
+        SHADE_EACH_LANE(i) { share[i] = 0.25f * (a + b * u[i]) * (c + d * v[i]); }
+        SHADE_EACH_LANE(i) { share[i] = depth[i] <= texel[i] ? share[i] : 0; }
+        SHADE_EACH_LANE(i) { passes[i] += share[i]; }
+    }
+    SHADE_EACH_LANE(i) { passes[i] = depth[i] < 0 ? 1 : passes[i]; }
+}
+
+/* Normals of the faces of meshes: those of their vertices may lean any way. */
+static inline void renderer_face_normals(const renderer_batch *b, const shade_fragments *in,
+                                         const uint32_t *owner, int one, float (*N)[SHADE_LANES])
+{
+    for (int i = 0; i < in->count; i++) {
+        const renderer_entry *e = b->entry + owner[one ? 0 : i];
+        const size_t row = renderer_plane_row(e->shape);
+        const float *n = e->shape->planes + b->r->marks[in->primitive[i]].triangle;
+        if (b->v->p->objects[e->object].kind != RENDERER_MESH) continue;
+        const shade_vec3 local = shade_v3(n[0], n[row], n[2 * row]);
+        const shade_vec3 face = shade_normalize(shade_mat3_transform(e->normal, local));
+        lane_put(N[0], i, in->front[i] ? face : shade_neg(face));
+    }
 }
 
 /* A texel holds for its centre, up to 2.1 texels from P, and a face that leans by theta is nearer
-   to the lamp there by their tangent.  P moves along N by what makes up for it, and for the chords
-   of round shapes, which differ from map to picture. */
+   to the lamp there by their tangent.  P moves along N, which is nearly unit, by what makes up for
+   it, and for the chords of round shapes, which differ from map to picture. */
 static inline void renderer_shadow(const renderer_batch *b, const renderer_surface *s,
                                    const float (*P)[SHADE_LANES], const float (*N)[SHADE_LANES],
-                                   int count, float *visible)
+                                   float *visible)
 {
     const renderer *r = b->r;
     const shade_vec4 axis = r->lamp_axis;
@@ -939,44 +1019,37 @@ static inline void renderer_shadow(const renderer_batch *b, const renderer_surfa
     float L[3][SHADE_LANES], at[3][SHADE_LANES], facing[SHADE_LANES], clip[4][SHADE_LANES];
     shade_light_at_lanes(&r->known_light, P[0], L[0], NULL);
     SHADE_EACH_LANE(i) {
-        const shade_vec3 p = lane(P[0], i), n = shade_normalize(lane(N[0], i)), l = lane(L[0], i);
-        const float sine = shade_length(shade_cross(n, l));
+        const shade_vec3 p = lane(P[0], i), n = lane(N[0], i), l = lane(L[0], i);
+        const float cosine = shade_dot(n, l), square = 1 - cosine * cosine;
+        /* three tangents of the root of the square stand in for the sine, which is below them */
+        const float low = 0.125f + 2 * square, high = 0.5f + 0.5f * square;
+        const float middle = 0.25f + square, least = low < middle ? low : middle;
+        const float sine = least < high ? least : high;
         const float away = axis.x * p.x + axis.y * p.y + axis.z * p.z + axis.w;
         const float texel = r->texel + r->texel_slope * (away > 0 ? away : 0);
-        const float off = 2.2f * texel * (sine + 0.2f) + 2 * s->sag[i];
-        facing[i] = shade_dot(n, l);
-        lane_put(at[0], i, shade_madd(p, off, n));
+        facing[i] = cosine;
+        lane_put(at[0], i, shade_madd(p, 2.2f * texel * (sine + 0.1f) + 2 * s->sag[i], n));
     }
     SHADE_EACH_LANE(i) {
         const shade_vec3 p = lane(at[0], i);
         lane_put4(clip[0], i, shade_mat4_transform(from_lamp, shade_v4(p.x, p.y, p.z, 1)));
     }
-    for (int i = 0; i < count; i++) {
-        const float w = clip[3][i] > 0 ? 1 / clip[3][i] : 0;
-        const shade_vec3 p = shade_scale(shade_v3(clip[0][i], clip[1][i], clip[2][i]), w);
-        visible[i] = facing[i] > 0 ? renderer_passes(r, p) : 0;
-    }
-    for (int i = count; i < SHADE_LANES; i++) visible[i] = visible[count - 1];
+    renderer_passes(r, (const float(*)[SHADE_LANES])clip, visible);
+    SHADE_EACH_LANE(i) { visible[i] = facing[i] > 0 ? visible[i] : 0; }
 }
 
-/* The lanes of one shininess after the other: a material has one. */
-static inline void renderer_light(const renderer_batch *b, const renderer_surface *s,
-                                  const shade_rows *rows, int count, float (*rgb)[SHADE_LANES])
+/* Lanes of another shininess than the first, one shininess after the other: a material has one. */
+static inline void renderer_light_others(const renderer_surface *s, const shade_lighting *lighting,
+                                         shade_material m, shade_vec3 eye, const shade_rows *rows,
+                                         int count, float (*rgb)[SHADE_LANES])
 {
-    const shade_vec3 one = { 1, 1, 1 }, none = { 0, 0, 0 };
-    shade_material m = { none, one, one, s->glossy ? one : none, s->shininess[0] };
-    shade_lighting lighting = *b->lighting;
-    float lit[3][SHADE_LANES], done[SHADE_LANES] = { 0 };
-    if (!s->glossy) lighting.model = SHADE_MODEL_LAMBERT;
-    shade_lit_lanes(&lighting, &m, b->v->parallel ? shade_v3(b->v->place.col[2].x,
-        b->v->place.col[2].y, b->v->place.col[2].z) : b->v->eye, rows, rgb[0]);
-    if (!s->glossy || s->alike) return;
+    float lit[3][SHADE_LANES];
+    uint8_t done[SHADE_LANES];
     for (int i = 0; i < count; i++) done[i] = s->shininess[i] == m.shininess;
     for (int i = 0; i < count; i++) {
-        if (done[i] != 0) continue;
+        if (done[i]) continue;
         m.shininess = s->shininess[i];
-        shade_lit_lanes(&lighting, &m, b->v->parallel ? shade_v3(b->v->place.col[2].x,
-            b->v->place.col[2].y, b->v->place.col[2].z) : b->v->eye, rows, lit[0]);
+        shade_lit_lanes(lighting, &m, eye, rows, lit[0]);
         for (int j = i; j < count; j++) {
             if (s->shininess[j] != m.shininess) continue;
             lane_put(rgb[0], j, lane(lit[0], j));
@@ -985,42 +1058,55 @@ static inline void renderer_light(const renderer_batch *b, const renderer_surfac
     }
 }
 
+static inline void renderer_light(const renderer_batch *b, const renderer_surface *s,
+                                  const shade_rows *rows, int count, float (*rgb)[SHADE_LANES])
+{
+    const shade_vec3 one = { 1, 1, 1 }, none = { 0, 0, 0 }, place = b->v->eye;
+    const shade_vec4 back = b->v->place.col[2];
+    const shade_vec3 eye = b->v->parallel ? shade_v3(back.x, back.y, back.z) : place;
+    shade_material m = { none, one, one, s->glossy ? one : none, s->shininess[0] };
+    shade_lighting lighting = *b->lighting;
+    if (!s->glossy) lighting.model = SHADE_MODEL_LAMBERT;
+    shade_lit_lanes(&lighting, &m, eye, rows, rgb[0]);
+    if (s->glossy && !s->alike) renderer_light_others(s, &lighting, m, eye, rows, count, rgb);
+}
+
 /* Numbers and normals of pixels.  Fragments come here that passed the depth test, the nearest of a
    pixel last. */
 static inline void renderer_note(const renderer_batch *b, const shade_fragments *in,
                                  const float (*N)[SHADE_LANES])
 {
-    const renderer_mark *marks = b->owners ? b->r->marks : NULL;
-    const int width = b->v->p->width, object = b->entry->object;
-    int32_t *ids = b->v->p->ids;
+    const renderer_mark *marks = b->r->marks;
+    const int width = b->v->p->width, count = in->count;
+    int32_t *ids = b->v->p->ids, at[SHADE_LANES];
     float *normals = b->v->p->normals;
-    for (int i = 0; i < in->count && ids; i++) {
-        const uint32_t k = in->primitive[i];
-        const renderer_mark mark = marks ? marks[k] : (renderer_mark){ object, (int32_t)k };
-        memcpy(ids + 2 * ((int)in->y[i] * width + (int)in->x[i]), &mark, sizeof mark);
-    }
-    for (int i = 0; i < in->count && normals; i++) {
-        const int at = (int)in->y[i] * width + (int)in->x[i];
-        renderer_set(normals + 3 * (size_t)at, shade_normalize(lane(N[0], i)));
-    }
+    SHADE_EACH_LANE(i) { at[i] = (int32_t)in->y[i] * width + (int32_t)in->x[i]; }
+    for (int i = 0; i < count && ids; i++)
+        memcpy(ids + 2 * at[i], marks + in->primitive[i], sizeof *marks);
+    for (int i = 0; i < count && normals; i++)
+        renderer_set(normals + 3 * (size_t)at[i], shade_normalize(lane(N[0], i)));
 }
 
 static inline void renderer_shade(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                   shade_colors *SHADE_RESTRICT out)
 {
     const renderer_batch *b = (const renderer_batch *)uniforms;
-    float N[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
+    const int lamp = b->v->p->shadow_light;
+    float turned[3][SHADE_LANES], faces[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
+    const float (*P)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[0];
+    const float (*N)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[3];
     renderer_surface s;
     uint32_t owner[SHADE_LANES];
     int one;
-    shade_rows rows = { .position = in->varying[0], .normal = N[0] };
-    for (int k = 0; k < 3; k++)
-        SHADE_EACH_LANE(i) {
-            const float n = in->varying[3 + k][i];
-            N[k][i] = in->front[i] != (uint32_t)b->mirrored ? n : -n;
-        }
+    shade_rows rows = { .position = P[0] };
+    if (b->two_sided) {
+        for (int k = 0; k < 3; k++)
+            SHADE_EACH_LANE(i) { turned[k][i] = in->front[i] ? N[k][i] : -N[k][i]; }
+        N = (const float(*)[SHADE_LANES])turned;
+    }
+    rows.normal = N[0];
     one = renderer_find_owners(b, in, owner);
-    if (b->notes) renderer_note(b, in, (const float(*)[SHADE_LANES])N);
+    if (b->notes) renderer_note(b, in, N);
     if (!b->lighting) return;
     renderer_surfaces(b, owner, one, &s);
     for (int k = 0; k < 3 && b->colors; k++)
@@ -1028,12 +1114,12 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
     if (b->texture) renderer_paint_map(b, in, &s);
     rows.albedo = s.albedo[0];
     if (s.glossy) rows.specular = s.specular[0];
-    if (b->v->p->shadow_light >= 0) {
+    if (lamp >= 0) {
+        memcpy(faces, N, sizeof faces);
+        if (b->meshes) renderer_face_normals(b, in, owner, one, faces);
         for (int k = 0; k < b->lighting->light_count; k++)
             SHADE_EACH_LANE(i) { visible[k][i] = 1; }
-        renderer_shadow(b, &s, (const float(*)[SHADE_LANES])in->varying[0],
-                        (const float(*)[SHADE_LANES])N, in->count,
-                        visible[b->v->p->shadow_light]);
+        renderer_shadow(b, &s, P, (const float(*)[SHADE_LANES])faces, visible[lamp]);
         rows.visibility = visible[0];
     }
     renderer_light(b, &s, &rows, in->count, out->color);
@@ -1044,82 +1130,130 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
 
 /* ---- drawing --------------------------------------------------------------------------------- */
 
-/* Room for the vertices, triangles and owners of entries.  0: out of memory */
+/* Room for the triangles of entries, with one more, and for the owners of their vertices.  0: there
+   is not enough memory */
 static inline int renderer_room_for(renderer *r, const renderer_entry *e, int count)
 {
-    size_t vertices = 0, indices = 0;
+    size_t vertices = 0, triangles = 1;
     for (int i = 0; i < count; i++) {
         vertices += (size_t)e[i].shape->vertex_count;
-        indices += (size_t)e[i].shape->index_count;
+        triangles += (size_t)e[i].shape->index_count / 3;
     }
-    r->vertices = (renderer_vertex *)renderer_room(r->vertices, &r->room[1],
-                                                   vertices * sizeof *r->vertices);
-    r->indices = (uint32_t *)renderer_room(r->indices, &r->room[2], indices * sizeof(uint32_t));
-    r->owners = (uint32_t *)renderer_room(r->owners, &r->room[3], indices / 3 * sizeof(uint32_t));
+    r->whose = (uint32_t *)renderer_room(r->whose, &r->room[1], vertices * sizeof(uint32_t));
+    r->indices = (uint32_t *)renderer_room(r->indices, &r->room[2],
+                                           3 * triangles * sizeof(uint32_t));
+    r->owners = (uint32_t *)renderer_room(r->owners, &r->room[3], triangles * sizeof(uint32_t));
     r->marks = (renderer_mark *)renderer_room(r->marks, &r->room[10],
-                                              indices / 3 * sizeof *r->marks);
-    return r->vertices && r->indices && r->owners && r->marks;
+                                              triangles * sizeof *r->marks);
+    return r->whose && r->indices && r->owners && r->marks;
 }
 
-static inline int renderer_mirrors(shade_mat4 m)
+/* The eye in the space of an entry's shape, or with w = 0 the way to it; 0, 0, 0, 0 where faces
+   that look away are drawn too. */
+static inline shade_vec4 renderer_eye_of(const renderer_view *v, const renderer_entry *e)
 {
-    return shade_mat3_determinant(shade_mat3_from_mat4(m)) < 0;
+    const shade_vec4 back = v->place.col[2], none = { 0, 0, 0, 0 };
+    const shade_vec4 eye = v->parallel ? shade_v4(back.x, back.y, back.z, 0)
+                                       : shade_v4(v->eye.x, v->eye.y, v->eye.z, 1);
+    if (e->key & RENDERER_KEY_TWO_SIDED) return none;
+    if (shade_mat3_determinant(shade_mat3_from_mat4(e->world)) == 0) return none;
+    return shade_mat4_transform(shade_mat4_inverse(e->world), eye);
+}
+
+/* Which of a packet of faces the eye may see.  Sums may be off by 1e-6 of what is in them: a face
+   that is seen edge-on counts as seen, and shade_draw culls it. */
+static inline void renderer_facing(const renderer_entry *e, shade_vec4 eye, int first,
+                                   int *SHADE_RESTRICT seen)
+{
+    const size_t row = renderer_plane_row(e->shape);
+    const float *n = e->shape->planes + first;
+    const shade_vec4 *m = e->world.col;
+    const float most = shade_length(shade_v3(eye.x, eye.y, eye.z)) +
+                       eye.w * (shade_length(e->shape->centre) + e->shape->radius);
+    const float lift = e->lift > 0 ? e->lift / shade_length(shade_v3(m[2].x, m[2].y, m[2].z)) : 0;
+    const float slack = -1e-5f * (most + lift);
+    SHADE_EACH_LANE(i) {
+        const float z = n[2 * row + (size_t)i], up = z < 0 ? -z : z;
+        const float away = n[3 * row + (size_t)i] + up * lift;
+        const float toward = n[i] * eye.x + n[row + (size_t)i] * eye.y + z * eye.z;
+        seen[i] = !(toward - away * eye.w < slack);
+    }
+}
+
+/* Adds the faces of entry number j that may be seen, and its vertices, to those of a draw; returns
+   how many triangles there are then.  Without a branch: whether a face is seen cannot be
+   predicted. */
+static inline int renderer_add_faces(renderer *r, const renderer_view *v, renderer_entry *e, int j,
+                                     int triangles)
+{
+    const renderer_shape *s = e->shape;
+    const int flip = shade_mat3_determinant(shade_mat3_from_mat4(e->world)) < 0;
+    const int count = s->index_count / 3;
+    const uint32_t first = (uint32_t)e->first;
+    const shade_vec4 eye = renderer_eye_of(v, e);
+    int seen[SHADE_LANES];
+    for (int k = 0; k < count; k++) {
+        const uint32_t *from = s->indices + 3 * (size_t)k;
+        uint32_t *to = r->indices + 3 * (size_t)triangles;
+        if (k % SHADE_LANES == 0) renderer_facing(e, eye, k, seen);
+        to[0] = first + from[0];
+        to[1] = first + from[1 + flip];
+        to[2] = first + from[2 - flip];
+        r->owners[triangles] = (uint32_t)j;
+        r->marks[triangles] = (renderer_mark){ e->object, k };
+        triangles += seen[k % SHADE_LANES];
+    }
+    return triangles;
+}
+
+/* Takes normals of shapes to the world.  Those of stretched meshes and of ellipsoids must be made
+   unit then; the others are turned alone, and keep their length. */
+static inline shade_mat3 renderer_normals(const renderer_view *v, const renderer_entry *e)
+{
+    const renderer_object *o = &v->p->objects[e->object];
+    const float *t = o->turn;
+    shade_mat3 turn;
+    for (int k = 0; k < 3; k++) turn.col[k] = shade_v3(t[k], t[3 + k], t[6 + k]);
+    return e->uneven || o->size[0] < 0 ? shade_normal_matrix(e->world) : turn;
 }
 
 /* Puts the objects of a batch behind each other.  Returns the number of indices. */
 static inline int renderer_join(renderer *r, const renderer_batch *b, renderer_entry *e, int count,
                                 int *vertex_count)
 {
-    int vertices = 0, indices = 0;
+    int vertices = 0, triangles = 0;
     for (int j = 0; j < count; j++) {
-        const renderer_shape *s = e[j].shape;
-        const shade_mat3 normal = shade_normal_matrix(e[j].world);
-        const int flip = renderer_mirrors(e[j].world);
-        uint32_t *to = r->indices + indices;
-        for (int k = 0; k < s->vertex_count; k++)
-            renderer_vertex_of(b, &e[j], &normal, k, &r->vertices[vertices + k]);
-        for (int k = 0; k < s->index_count; k += 3) {
-            to[k] = (uint32_t)vertices + s->indices[k];
-            to[k + 1] = (uint32_t)vertices + s->indices[k + 1 + flip];
-            to[k + 2] = (uint32_t)vertices + s->indices[k + 2 - flip];
-        }
-        for (int k = 0, at = indices / 3; k < s->index_count / 3; k++, at++) {
-            r->owners[at] = (uint32_t)j;
-            r->marks[at] = (renderer_mark){ e[j].object, k };
-        }
-        vertices += s->vertex_count;
-        indices += s->index_count;
+        e[j].first = vertices;
+        vertices += e[j].shape->vertex_count;
+        if (!b->v->shadows) e[j].normal = renderer_normals(b->v, e + j);
+        for (int k = e[j].first; k < vertices && b->several; k++) r->whose[k] = (uint32_t)j;
+        triangles = renderer_add_faces(r, b->v, e + j, j, triangles);
     }
     *vertex_count = vertices;
-    return indices;
+    return 3 * triangles;
 }
 
-/* Draws entries of one key: several small ones, or a large one from its own mesh. */
+/* Draws entries of one key: several small ones, or a large one. */
 static inline shade_result renderer_draw_batch(renderer *r, const shade_target *target,
                                                renderer_batch *b, renderer_entry *e, int count)
 {
-    const int key = e->key, several = count > 1 || e->shape->vertex_count < RENDERER_ALONE;
-    const int texture = key / RENDERER_KEY_TEXTURE - 1;
+    const int key = e->key, texture = key / RENDERER_KEY_TEXTURE - 1;
     shade_pipeline pipeline = { renderer_shade_vertices, renderer_shade, b, .varyings = 6 };
-    const uint32_t *indices = e->shape->indices;
-    int vertex_count = e->shape->vertex_count, index_count = e->shape->index_count;
+    int vertex_count, index_count;
     b->entry = e;
     b->texture = b->lighting && texture >= 0 ? &b->v->scene->textures[texture] : NULL;
     b->uv = b->texture ? 6 : 0;
     b->colors = b->lighting && (key & RENDERER_KEY_COLORS) ? (b->texture ? 9 : 6) : 0;
-    b->owners = several ? r->owners : NULL;
-    b->mirrored = !several && renderer_mirrors(e->world);
-    b->normal = shade_normal_matrix(e->world);
-    b->glossy = b->glows = 0;
+    b->several = count > 1;
+    b->two_sided = (key & RENDERER_KEY_TWO_SIDED) != 0;
+    b->glossy = b->glows = b->meshes = 0;
     for (int k = 0; k < count; k++) {
         const renderer_object *o = &b->v->p->objects[e[k].object];
         b->glossy |= o->specular > 0;
         b->glows |= o->emission > 0;
+        b->meshes |= o->kind == RENDERER_MESH;
     }
-    if (several) {
-        index_count = renderer_join(r, b, e, count, &vertex_count);
-        indices = r->indices;
-    }
+    index_count = renderer_join(r, b, e, count, &vertex_count);
     pipeline.varyings += (b->texture ? 3 : 0) + (b->colors ? 3 : 0);
     if (b->texture && !b->texture->cube) {
         pipeline.lod_texture = b->texture->face;
@@ -1127,8 +1261,7 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
     }
     if (b->v->shadows || (!b->lighting && !b->notes)) pipeline.fragment = NULL;
     if (!pipeline.fragment) pipeline.varyings = 0;
-    if (!(key & RENDERER_KEY_TWO_SIDED))
-        pipeline.raster.cull = b->mirrored ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
+    if (!b->two_sided) pipeline.raster.cull = SHADE_CULL_BACK;
     if (!b->v->shadows) {
         pipeline.raster.depth_test = SHADE_COMPARE_GREATER;
         pipeline.raster.depth_zero_to_one = 1;
@@ -1137,7 +1270,7 @@ static inline shade_result renderer_draw_batch(renderer *r, const shade_target *
         pipeline.raster.blend = SHADE_BLEND_OVER;
         pipeline.raster.depth_read_only = 1;
     }
-    return shade_draw(target, &pipeline, indices, index_count, vertex_count, NULL);
+    return shade_draw(target, &pipeline, r->indices, index_count, vertex_count, NULL);
 }
 
 /* Draws all entries in their order, as few draws as their keys and sizes allow. */
@@ -1229,7 +1362,7 @@ static inline float renderer_casters(const renderer_picture *p, const renderer_s
     return low.x <= high.x ? 0.5f * shade_distance(low, high) : 0;
 }
 
-/* The sine of an angle of the first quadrant, by its cosine: the part of (1, c) across (c, s) */
+/* The sine of an angle of the first quadrant by its cosine, or the cosine by the sine */
 static inline float renderer_sine(float c)
 {
     double low = 0, high = 1;    /* halved: no C library decides the bits */
@@ -1241,7 +1374,25 @@ static inline float renderer_sine(float c)
     return (float)low;
 }
 
-/* The view of the lamp: of a distant one the sphere, of a spot its cone. */
+/* What a spot's map shows: its cone, or the sphere around what casts shadows where that is less.
+   Returns the tangent of half the angle. */
+static inline float renderer_aim_spot(const shade_light *lamp, shade_vec3 at, shade_vec3 centre,
+                                      float reach, renderer_view *v, shade_vec3 *aim)
+{
+    const float cone = lamp->spot_cos_cutoff > 0.2f ? lamp->spot_cos_cutoff : 0.2f;
+    const shade_vec3 way = shade_sub(centre, at);
+    const float distance = shade_length(way), sine = reach / (distance > 0 ? distance : 1);
+    v->far_z = distance + 4 * reach;
+    v->near_z = 0.002f * v->far_z;
+    *aim = shade_normalize(lamp->spot_direction);
+    if (reach <= 0 || sine >= 1 || renderer_sine(sine) <= cone)
+        return 1.02f * renderer_sine(cone) / cone;
+    if (distance - reach > v->near_z) v->near_z = distance - reach;
+    *aim = shade_normalize(way);
+    return 1.02f * sine / renderer_sine(sine);
+}
+
+/* The view of the lamp: of a distant one the sphere around what casts shadows */
 static inline renderer_view renderer_lamp_view(renderer *r, const renderer_picture *p,
                                                const renderer_scene *s)
 {
@@ -1258,11 +1409,7 @@ static inline renderer_view renderer_lamp_view(renderer *r, const renderer_pictu
         v.projection = shade_mat4_ortho(-reach, reach, -reach, reach, v.near_z, v.far_z);
         v.scale = 0.5f * size / reach;
     } else {
-        const float c = lamp->spot_cos_cutoff > 0.2f ? lamp->spot_cos_cutoff : 0.2f;
-        const float tangent = 1.02f * renderer_sine(c) / c;
-        aim = shade_normalize(lamp->spot_direction);
-        v.far_z = shade_distance(at, centre) + 4 * reach;
-        v.near_z = 0.002f * v.far_z;
+        const float tangent = renderer_aim_spot(lamp, at, centre, reach, &v, &aim);
         const float half = tangent * v.near_z;
         v.projection = shade_mat4_frustum(-half, half, -half, half, v.near_z, v.far_z);
         v.scale = 0.5f * size / tangent;

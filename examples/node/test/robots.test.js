@@ -6,7 +6,7 @@ import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import test from "node:test";
 import { mujoco, ShadeError } from "shade-h";
-import { recorded, robots } from "./robots.js";
+import { drives, recorded, robots } from "./robots.js";
 
 const mj = await (await import(process.env.MUJOCO)).default();
 const model_of = (xml) => mj.MjModel.from_xml_string?.(xml) ?? mj.from_xml_string(xml);
@@ -18,6 +18,7 @@ for (const [name, xml] of Object.entries(robots)) {
         const model = model_of(xml), data = new mj.MjData(model), renderer = new mujoco.Renderer(mj, model, 90, 120);
         const seen = new Set(), pictures = new Set();
         for (let frame = 0; frame < 24; frame++) {
+            if (drives[name]) data.ctrl.set(drives[name](frame));
             for (let k = 0; k < 20; k++) mj.mj_step(model, data);
             renderer.update_scene(data, "eye");
             renderer.disable_segmentation_rendering();

@@ -296,6 +296,77 @@ def test_a_spot_casts_shadows_and_a_point_is_refused():
         made.light([shade.Light.point((0, 0, 2))], shadow=0)
 
 
+@pytest.mark.parametrize("height", [2, 10, 40])
+@pytest.mark.parametrize("kind", ["directional", "spot"])
+def test_what_is_high_over_the_ground_casts_shadows(kind, height):
+    """A point of the ground is dark where its ray to the lamp passes the ball's centre closely."""
+    made, way = shade.Renderer(64, 64), np.array([-0.6, 0, -1])
+    made.add("plane")
+    ball, lamp = -height * way, -3 * height * way
+    made.add("sphere", 0.5, at=ball)
+    made.light([shade.Light.directional(way) if kind == "directional" else
+                shade.Light.spot(lamp, way, 0.4, 0, (1, 1, 1))], (0.1, 0.1, 0.1), shadow=0)
+    camera = shade.Camera.look_at((0, -9, 6), (0, 0, 0), fov=40, near=1, far=50)
+    frame = made.render(camera)
+    made.light([], (0.1, 0.1, 0.1))
+    dark = (frame.color == made.render(camera).color).all(-1)
+    eye, ways = rays(camera, 64, 64)
+    ground = eye - eye[2] / ways[..., 2:] * ways
+    toward = -way if kind == "directional" else lamp - ground
+    toward = toward / np.linalg.norm(toward, axis=-1, keepdims=True)
+    off = np.linalg.norm(np.cross(ball - ground, toward), axis=-1)
+    within = frame.ids[..., 0] == 0
+    if kind == "spot":
+        within &= -toward @ way / np.linalg.norm(way) > np.cos(0.38)
+    assert dark[within & (off < 0.42)].all() and not dark[within & (off > 0.58)].any()
+    assert (within & (off < 0.42)).sum() > 15 and (within & (off > 0.58)).sum() > 500
+
+
+@pytest.mark.parametrize("lean", [0, 0.6])
+def test_no_face_of_a_convex_mesh_shadows_itself(lean):
+    """Normals of vertices lean away from those of the faces, as those that simulators make of meshes
+    do; a convex mesh hides no part of itself that looks at the lamp."""
+    gem = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1.4], [0, 0, -1.4]])
+    faces = np.array([[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5],
+                      [0, 3, 5]])
+    normals, looked = gem + lean * np.array([0.5, -0.3, 1.0]), 0
+    rng = np.random.default_rng(9)
+    corners = gem[faces]
+    outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    outward /= np.linalg.norm(outward, axis=1)[:, None]
+    for i in range(12):
+        made, pose = shade.Renderer(96, 96), turned(rng)
+        pose[:3, 3] = 0, 0, 0
+        made.add(made.mesh(gem, faces, normals=normals), (1, 1, 1) if i % 2 else (1, 0.6, 0.8),
+                 pose=pose)
+        way = rng.normal(size=3)
+        way /= np.linalg.norm(way)
+        lamp = shade.Light.directional(way) if i % 3 else \
+            shade.Light.spot(-4 * way, way, 0.5, 0, (1, 1, 1))
+        camera = shade.Camera.look_at(4 * (rng.normal(size=3) * 0.3 - way), (0, 0, 0), near=0.5, far=12)
+        made.light([lamp], (0.1, 0.1, 0.1))
+        bright = made.render(camera)
+        made.light([lamp], (0.1, 0.1, 0.1), shadow=0)
+        dark = made.render(camera)
+        world = outward / ((1, 1, 1) if i % 2 else (1, 0.6, 0.8)) @ pose[:3, :3].T
+        world /= np.linalg.norm(world, axis=1)[:, None]
+        facing = np.append(-world @ way, -1)[bright.ids[..., 1]] > 0.2
+        looked += facing.sum()
+        assert np.array_equal(dark.color[facing], bright.color[facing]), i
+    assert looked > 8000
+
+
+def test_ground_without_anything_on_it_is_lit():
+    made = shade.Renderer(20, 30)
+    made.add("plane")
+    camera = eyes(1)[0]
+    for lamp in (shade.Light.directional((0.2, 0, -1)), shade.Light.spot((0, 0, 3), (0, 0, -1), 0.6)):
+        made.light([lamp])
+        bright = made.render(camera)
+        made.light([lamp], shadow=0)
+        assert np.array_equal(made.render(camera).color, bright.color)
+
+
 def test_objects_that_blend_are_sorted_and_are_no_part_of_depth():
     made = shade.Renderer(8, 8)
     made.light([], (1, 1, 1))
