@@ -13,6 +13,7 @@
 #include "../programs/model/files.h"
 #include "look.h"
 #include "scene.h"
+#include "raster.h"
 
 enum { PAGE_MOST = 4 << 20 };                        /* pixels of a picture */
 enum { PAGE_WIDEST = 16384 };

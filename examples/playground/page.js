@@ -23,6 +23,10 @@ const FIELDS = {
     turn: [0, 1, 1], model: [0, 5, 0], shading: [0, 2, 0], flags: [0, 63, 0], terms: [1, 15, 15],
     lamp: [1, 3, 1], yaw: [-7, 7, 0.5], pitch: [-1.6, 1.6, 0.4], zoom: [0.4, 4, 1],
     simd: [0, 1, 1], lecture: [0, 5, 0], bare: [0, 1, 0],
+    // the stepper of the rasterizer; a triangle is three corners of x, y and w
+    raster: [0, 1, 0], order: [0, 1, 0], step: [0, 576, 0], count: [1, 3, 2], hand: [1, 3, 1],
+    cell: [-1, 15, -1, -1], t1: [-2, 18, 3.5, 1.5, 3, 3.5, 9.5, 3, 11.5, 9.5, 3],
+    t2: [-2, 18, 3.5, 1.5, 3, 11.5, 9.5, 3, 11.5, 1.5, 3], t3: [-2, 18, 1, 10, 2, 15, 11, 2, 8, 2, 5],
     ke: [0, 1, 0, 0, 0], ka: [0, 1, 0.02, 0.16, 0.2], kd: [0, 1, 0.02, 0.16, 0.2],
     ks: [0, 1, 0.7, 0.7, 0.7], n: [0, 256, 81], Ia: [0, 1, 0.1, 0.11, 0.13],
     ...lamp(1, 1, 0, [3, 2.5, 3.5], [1.9, 1.75, 1.5], 0),
@@ -37,7 +41,7 @@ function lamp(j, on, far, position, color, c, beta = 180, e = 0) {
 }
 // those that are whole numbers
 const WHOLE = RegExp('^(shape|detail|room|view|compare|wire|vectors|maps|curve|lobe|part|panel|turn|' +
-    'model|shading|flags|terms|lamp|simd|lecture|bare|on.|far.)$');
+    'model|shading|flags|terms|lamp|simd|lecture|bare|raster|order|step|count|hand|cell|on.|far.)$');
 
 const S = {};
 let asked = [];                         // names of the controls that a bare page shows: with=n,c1
@@ -232,10 +236,12 @@ function symbol(tex, title) {
 const rowName = name => typeof name === 'string' ? name : name().replace(/\d$/, '');
 // A row: symbol, slider, number.  name() is the field, which for lamps depends on the one chosen;
 // part: of a vector.  curve 2: fine at the low end.
-function slider(name, tex, title, { css = '', step = 0.01, curve = 1, part = -1 } = {}) {
+function slider(name, tex, title, { css = '', step = 0.01, curve = 1, part = -1,
+    low = FIELDS[typeof name === 'string' ? name : name()][0],
+    high = FIELDS[typeof name === 'string' ? name : name()][1] } = {}) {
     const field = () => typeof name === 'string' ? name : name();
     const value = () => part < 0 ? S[field()] : S[field()][part];
-    const [low, high] = FIELDS[field()], to = v => Math.sign(v) * Math.abs(v) ** (1 / curve);
+    const to = v => Math.sign(v) * Math.abs(v) ** (1 / curve);
     const number = make('span', { class: 'number' });
     const input = make('input', { type: 'range', min: to(low), max: to(high), step,
         'aria-label': title, oninput: () => {
@@ -358,6 +364,7 @@ function buildControls() {
     buildEquation();
     buildMaps();
     buildLecture();
+    buildRaster();
 }
 // A bare page shows the controls that with= names.
 function showAsked() {
@@ -543,6 +550,7 @@ function changed() {
 }
 function frame(now) {
     requested = 0;
+    if (S.raster) { stale = false; return; }
     const turning = S.turn && !pointers.size, moving = turning || now - moved < 200;
     const scale = moving ? Math.min(Math.floor(8 * quality) / 8, finest()) : finest();
     const [width, height] = size(scale), begin = performance.now();
@@ -665,7 +673,7 @@ function listen() {
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
         readTheme(), refresh();
     });
-    $('#share').addEventListener('click', async () => {
+    for (const id of ['#share', '#share-raster']) $(id).addEventListener('click', async () => {
         history.replaceState(null, '', address());
         say(await copy(location.href) ? 'The address is copied.' : 'The address shows this.');
     });

@@ -258,7 +258,8 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
     'f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n';
 {
     const page = await open('turn=0', { viewport: { width: 960, height: 620 } });
-    for (const hash of ['', 'shape=1&compare=1&n=16', 'wire=1', 'view=1', 'view=2&wire=1',
+    for (const hash of ['', 'shape=1&compare=1&n=16', 'wire=1', 'view=1', 'shape=3&room=1&detail=5',
+        'shape=4&flags=1&detail=20', 'room=1&compare=1&detail=3', 'view=2&wire=1',
         'shading=2&flags=63&terms=13', 'shading=1&model=1&wire=1&compare=1', 'model=5',
         RICH + '&zoom=2.3&pitch=-.7', 'on1=0&on2=0&ke=.1,.2,.3']) {
         await go(page, 'turn=0&' + hash);
@@ -443,7 +444,7 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
 
 // ---- a lecture ----------------------------------------------------------------------------------
 
-for (const [width, height] of [[1366, 768], [1920, 1080]]) {
+for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080], [3840, 2160]]) {
     const page = await open('turn=0&lecture=1', { viewport: { width, height } });
     for (let step = 1; step <= 5; step++) {
         const { state } = await same(page, `lecture ${step}, ${width}`);
@@ -463,8 +464,9 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
             formula.includes('spot') === step > 4, formula);
         check(`values are 24 px and more: ${step}, ${width}`, !small.length, small);
         check(`all of it is on the screen: ${step}, ${width}`, inside);
-        check(`the formula is one line: ${step}, ${width}`, await page.evaluate(() =>
-            $('#lecture p').scrollWidth <= $('#lecture p').clientWidth));
+        check(`the formula is whole: ${step}, ${width}`, await page.evaluate(() =>
+            [...document.querySelectorAll('#lecture p math')].every(node =>
+                node.getBoundingClientRect().right <= innerWidth)));
         check(`one slider: ${step}, ${width}`,
             await page.locator('input[type=range]:visible').count() === 1);
         await page.keyboard.press('PageDown');
@@ -482,6 +484,216 @@ for (const [width, height] of [[1366, 768], [1920, 1080]]) {
     await page.keyboard.press('Escape');
     check('and leave', await soon(async () => await page.evaluate(() => S.lecture) === 0 &&
         await page.locator('aside').isVisible()));
+    await page.context().close();
+}
+
+// ---- the rasterizer, a pixel at a time ------------------------------------------------------------
+
+{
+    const page = await open('turn=0', { viewport: { width: 1366, height: 650 } });
+    await go(page, 'raster=1');
+    // the module's numbers beside those of the definitions, for triangles with corners anywhere and on
+    // pixel centres, of both windings
+    const wrong = await page.evaluate(() => {
+        let seed = 7;
+        const wrong = [], next = n => (seed = (seed * 48271) % 2147483647) % n;
+        const near = (a, b, most) => Math.abs(a - b) <= most;
+        let covered = 0, onEdge = 0;
+        for (let i = 0; i < 60; i++) {
+            const grain = i % 2 ? 16 : 2, place = n => next(n * grain) / grain + (i % 2 ? 0 : 0.5);
+            S.t1 = [0, 1, 2].flatMap(() => [place(16), place(12), 1 + next(36) / 4]);
+            S.count = 1, S.step = 0, tellRaster();
+            const c = [0, 1, 2].map(k => S.t1.slice(3 * k, 3 * k + 3));
+            for (let y = 0; y < 12; y++) for (let x = 0; x < 16; x++) {
+                const a = askRaster(0, x, y), P = [x + 0.5, y + 0.5];
+                let e = [0, 1, 2].map(k => {
+                    const [A, B] = [c[(k + 1) % 3], c[(k + 2) % 3]];
+                    return (B[0] - A[0]) * (P[1] - A[1]) - (B[1] - A[1]) * (P[0] - A[0]);
+                });
+                const area = e[0] + e[1] + e[2], sign = area < 0 ? -1 : 1;
+                e = e.map(v => sign * v);
+                // a point that is a little below and, far less, to the right of the centre decides
+                // what an edge through it owns
+                const inside = area !== 0 && e.every((v, k) => {
+                    const [A, B] = [c[(k + 1) % 3], c[(k + 2) % 3]];
+                    const tilt = sign * ((B[0] - A[0]) * 1e-9 - (B[1] - A[1]) * 1e-6);
+                    onEdge += v === 0;
+                    return v > 0 || (v === 0 && tilt > 0);
+                });
+                const bad = what => wrong.push([i, x, y, what, JSON.stringify(a)].join(' '));
+                if (!!a.covered !== inside) bad('coverage ' + inside);
+                if (area && e.some((v, k) => v !== a.edge[k])) bad('edges ' + e);
+                if (area && e.every((v, k) => v > 0 || (v === 0 && a.owns[k])) !== inside) bad('owns');
+                if (!inside) continue;
+                covered++;
+                const share = e.map(v => v / Math.abs(area));
+                const rw = share.reduce((sum, v, k) => sum + v / c[k][2], 0), w = 1 / rw;
+                const z = 12 * (w - 0.5) / (w * 11.5);
+                if (share.some((v, k) => !near(v, a.share[k], 2e-6))) bad('share ' + share);
+                if (share.some((v, k) => !near(v * w / c[k][2], a.weight[k], 1e-5))) bad('weights');
+                if (!near(rw, a.rw, 2e-6) || !near(z, a.z, 2e-6)) bad('1/w ' + rw + ' z ' + z);
+                if (a.before !== 1 || a.after !== a.z || !a.passes) bad('depth');
+            }
+        }
+        return { wrong: wrong.slice(0, 5), covered, onEdge };
+    });
+    check('numbers of a step are those of the definitions', !wrong.wrong.length &&
+        wrong.covered > 500 && wrong.onEdge > 100, JSON.stringify(wrong));
+
+    const SCENE = 'raster=1&count=3&t1=1,1,2,3,11,2,14,5,6&t2=15,1,2,2,6.5,6,13,11,2&t3=3,3,4,4,9,4,12,8,4';
+    const buffers = order => page.evaluate(order => {
+        S.order = order, tellRaster();
+        const total = rasterSteps, copy = () => [...floats(wasm.page_raster_depth(), 192)];
+        let before = null, stray = 0, changes = 0, order0 = [];
+        for (let i = 0; i <= total; i++) {
+            S.step = i, tellRaster();
+            const now = copy(), step = rasterStep();
+            if (before) now.forEach((z, p) => {
+                if (z === before[p]) return;
+                changes++;
+                if (p !== 16 * step.y + step.x || z >= before[p]) stray++;
+            });
+            if (step) order0.push([step.t, step.x, step.y].join());
+            before = now;
+        }
+        const pixels = new Uint32Array(wasm.memory.buffer, wasm.page_raster_pixels(), 192);
+        return { total, stray, changes, picture: [...pixels].join() + before.join(),
+            steps: order0, same: new Set(order0).size };
+    }, order);
+    await go(page, SCENE);
+    const first = await buffers(0), second = await buffers(1);
+    check('a step changes its own pixel alone, to what is nearer', !first.stray && !second.stray &&
+        first.changes > 50, [first.stray, second.stray, first.changes]);
+    check('both orders make the same steps and picture', first.picture === second.picture &&
+        first.total === second.total && first.same === first.total &&
+        [...first.steps].sort().join(';') === [...second.steps].sort().join(';') &&
+        first.steps.join(';') !== second.steps.join(';'));
+
+    await go(page, SCENE + '&step=30');
+    const caption = () => page.locator('#numbers caption').textContent();
+    check('an address holds a step', /step 30 is triangle 1/.test(await caption()), await caption());
+    for (const [key, step] of [[' ', 31], ['ArrowRight', 32], ['ArrowLeft', 31], ['Backspace', 30],
+        ['End', first.total], ['Home', 0], ['Control+ArrowRight', 0]]) {
+        await page.keyboard.press(key === ' ' ? 'Space' : key);
+        check('key of the stepper: ' + key, await page.evaluate(() => S.step) === step);
+    }
+    await page.keyboard.press('Enter');
+    check('it plays', await soon(() => page.evaluate(() => S.step > 3)));
+    await page.keyboard.press('Enter');
+    await page.locator('#grid').focus();
+    await page.keyboard.press('ArrowDown');
+    check('keys choose a pixel', /^Pixel \(\d+, \d+\), centre [\d.]+, [\d.]+$/.test(await caption()),
+        await caption());
+    const corner = page.locator('.corner').nth(0), box = await corner.boundingBox();
+    const unit = await page.locator('#grid').evaluate(node => node.getScreenCTM().a);
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + 2 * unit, box.y + box.height / 2 + unit, { steps: 4 });
+    await page.mouse.up();
+    check('a corner is dragged', String(await page.evaluate(() => S.t1.slice(0, 3))) === '3,2,2');
+    await corner.focus();
+    await page.keyboard.press('Shift+ArrowLeft');
+    await page.keyboard.press('ArrowUp');
+    check('or moved by keys', String(await page.evaluate(() => S.t1.slice(0, 3))) === '2.9375,1.5,2');
+    await page.keyboard.press('Escape');
+    check('Escape leads back to light', await soon(() => page.locator('#formula').isVisible()));
+    await go(page, 'raster=1&cell=9,99&step=1e9&t1=nan&count=7&t2=99,-99,0,0,0,0,0,0,0');
+    check('bad numbers stay within the grid', await page.evaluate(() => S.cell[1] === 11 &&
+        S.step <= rasterSteps && S.count === 3));
+    await page.context().close();
+
+    const phone = await open('turn=0', { viewport: { width: 320, height: 600 }, isMobile: true,
+        hasTouch: true });
+    await go(phone, SCENE);
+    check('the stepper fits 320 pixels', await phone.evaluate(() =>
+        document.scrollingElement.scrollWidth <= innerWidth));
+    await phone.locator('#steps button').nth(3).tap();
+    check('a finger steps', await phone.evaluate(() => S.step) === 1);
+    await phone.locator('#to-light').tap();
+    for (const hash of ['', 'lecture=1', 'lecture=4', 'lecture=5', 'curve=1&lobe=1', 'bare']) {
+        await go(phone, 'turn=0&' + hash);
+        check('nothing overflows 320 pixels: ' + hash, await phone.evaluate(() =>
+            document.scrollingElement.scrollWidth <= innerWidth && ![...document.querySelectorAll(
+                '#lecture p > *, #sum label, header button')].some(node => node.checkVisibility() &&
+                (node.getBoundingClientRect().right > innerWidth + 1 ||
+                node.getBoundingClientRect().left < -1))));
+    }
+    await go(phone, 'turn=0&lecture=2');
+    for (const [name, step] of [['Next', 3], ['Previous', 2], ['Exit', 0]]) {
+        await phone.locator(`#lecture button[aria-label=${name}]`).tap();
+        check('a finger in the lecture: ' + name, await phone.evaluate(() => S.lecture) === step);
+    }
+    await phone.context().close();
+}
+
+// ---- what a slide speaks of, alone; the mark ---------------------------------------------------------
+
+{
+    const page = await open('turn=0', { viewport: { width: 700, height: 560 } });
+    const names = ['n', 'kd', 'c2', 'p1', 'detail', 'shape', 'shading', 'model', 'compare', 'room', 'curve',
+        'lobe', 'flags4', 'flags', 'place', 'lamp', 'presets', 'terms', 'formula', 'turn', 'e3'];
+    for (const name of names) {
+        await go(page, `turn=0&bare&with=${name}`);
+        const [seen, height, lamp] = await page.evaluate(() => [
+            [...document.querySelectorAll('[data-name]')].filter(node => node.checkVisibility() &&
+                !node.querySelector('.asked') && !node.parentNode.closest('[data-name].asked')).map(node => node.dataset.name),
+            canvas.clientHeight, S.lamp]);
+        const want = /^(flags|terms)/.test(name) ? name : name.replace(/[123]$/, '');
+        check(`with=${name} shows this control alone`, seen.length > 0 &&
+            seen.every(other => other === want), seen);
+        check(`and the picture: ${name}`, height > 250, height);
+        if (/[a-z][123]$/.test(name)) check('of its lamp: ' + name, lamp === +name.slice(-1), lamp);
+    }
+    await go(page, 'turn=0&bare&with=n,shading');
+    await page.locator('aside [data-name=n] input').press('PageUp');
+    check('the address keeps with=', await soon(() => page.evaluate(() =>
+        /n=\d/.test(location.hash) && /with=n,shading/.test(location.hash))));
+
+    // a mark in the address is the same point of the object at every size, and turns with it
+    const values = [];
+    for (const [width, height] of [[700, 560], [1366, 768], [1920, 1080], [390, 844]]) {
+        await page.setViewportSize({ width, height });
+        await go(page, 'turn=0&yaw=.2&mark=.1,.25,.45&width=' + width);
+        values.push(await page.evaluate(() => JSON.stringify(probeMark().mark.map(v => v.toFixed(3)))));
+    }
+    check('a mark is a point of the object', new Set(values).size === 1, values);
+    const kept = await page.evaluate(() => {
+        S.mark = probeMark().mark;
+        const at = probeMark().place, radius = Math.hypot(at[0], at[1], at[2]);
+        S.yaw = 1.2, S.pitch = -0.2, tell(words(canvas.width, canvas.height, 1));
+        const then = probeMark();
+        return [radius - Math.hypot(...then.place), Math.hypot(...then.place.map((v, i) => v - at[i]))];
+    });
+    check('and turns with it', Math.abs(kept[0]) < 1e-3 && kept[1] > 0.2, kept);
+    await page.setViewportSize({ width: 1366, height: 768 });
+    await go(page, 'turn=0');
+    const box = await page.locator('canvas').first().boundingBox();
+    await page.mouse.move(box.x + box.width * 0.45, box.y + box.height * 0.55);
+    await page.mouse.move(box.x + box.width * 0.46, box.y + box.height * 0.56);
+    await page.mouse.move(5, 5);
+    check('where the pointer was, the mark stays, and stands in the address', await soon(() =>
+        page.evaluate(() => /mark=/.test(location.hash))) && Math.hypot(...(await page.evaluate(() => {
+        const { point } = probeMark();
+        return [point[0] / canvas.width - 0.46, point[1] / canvas.height - 0.56];
+    }))) < 0.02);
+
+    // the brightness along the line is that of the picture
+    await go(page, 'turn=0&curve=1&room=1&shape=3&terms=13');
+    check('brightness along a line', await page.evaluate(() => {
+        const w = 320, h = 240, picture = draw(w, h, 1).slice();
+        let worst = 0;
+        for (const y of [60, 120, 180]) {
+            const sum = new Float32Array(w);
+            for (const bit of [1, 4, 8]) floats(wasm.page_row(y, bit), w).forEach((v, x) => { sum[x] += v; });
+            for (let x = 0; x < w; x++) {
+                const rgb = [0, 1, 2].map(k => picture[4 * (y * w + x) + k]);
+                if (rgb.some(v => v === 255) || !probe(x + 0.5, y + 0.5).hit) continue;
+                worst = Math.max(worst, Math.abs(encode(luminance(rgb.map(v => decode(v / 255)))) -
+                    encode(sum[x])));
+            }
+        }
+        return worst < 3 / 255 && document.querySelectorAll('#curve polygon').length === 3;
+    }));
     await page.context().close();
 }
 
