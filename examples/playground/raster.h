@@ -15,8 +15,8 @@ typedef struct raster_state {
 
 typedef struct raster_step { int triangle, x, y; } raster_step;
 
-/* One triangle at one pixel.  edge[i] is twice the area that pixel and the edge opposite to corner i
-   span, in square pixels, positive inside; owns[i]: pixels on that edge belong to the triangle.
+/* One triangle at one pixel.  edge[i] is twice the area that pixel and the edge opposite to corner
+   i span, in square pixels, positive inside; owns[i]: pixels on that edge belong to the triangle.
    share: the weights on the screen; weight: those in the plane of the triangle. */
 typedef struct raster_answer {
     double covered, edge[3], owns[3], area, share[3], weight[3], rw, z, before, passes, after;
@@ -27,7 +27,7 @@ static uint32_t raster_pixels[RASTER_PIXELS];
 static float raster_depth[RASTER_PIXELS];
 static raster_step raster_list[RASTER_MOST * RASTER_PIXELS];
 
-/* ---- what shade_draw is given, and what it gives ---------------------------------------------- */
+/* ---- what shade_draw is given, and what it gives --------------------------------------------- */
 
 typedef struct raster_record { int count; float z, varying[4]; } raster_record;
 static raster_record raster_seen;
@@ -88,7 +88,7 @@ static int raster_draw(raster_step s, shade_fragment_shader *fragment,
     return stats.fragments > 0;
 }
 
-/* ---- edge functions, exact in 1/256 pixel ----------------------------------------------------- */
+/* ---- edge functions, exact in 1/256 pixel ---------------------------------------------------- */
 
 static int64_t raster_snap(float x) { return (int64_t)floor(256 * (double)x + 0.5); }
 
@@ -115,7 +115,7 @@ static void raster_edges(raster_step s, raster_answer *a)
     a->area = (double)(area < 0 ? -area : area) / 65536;
 }
 
-/* ---- what the page calls ----------------------------------------------------------------------- */
+/* ---- what the page calls --------------------------------------------------------------------- */
 
 PAGE(raster_state *, page_raster)(void) { return &raster; }
 PAGE(const uint32_t *, page_raster_pixels)(void) { return raster_pixels; }
