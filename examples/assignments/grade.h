@@ -3,10 +3,11 @@
 
      cc -O2 -I. examples/assignments/01_lambert/grade.c my.c -lm -o grade && ./grade
 
-   ./grade [--seed N] [--json results.json] [--picture out.ppm] [--vectors]
+   ./grade [--seed N] [--json results.json] [--picture out.ppm] [--mistake NAME] [--vectors]
      --seed      other random inputs; graders of a class keep theirs to themselves
      --json      the results as Gradescope's autograder reads them
      --picture   what the answers draw, the student's on the left, shade.h's on the right
+     --mistake   what a common mistake of grade.c would be told, in place of the student's answers
      --vectors   inputs, answers and mistakes as JSON, for grade.py
    The exit status is 0 for full points. */
 #ifndef ASSIGNMENTS_GRADE_H
@@ -17,12 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* whose answers are judged: tests put the right ones, and each mistake, in the student's place */
-#ifndef GRADE_ANSWER
-#define GRADE_ANSWER yours
-#endif
-
-enum { GRADE_IN = 64, GRADE_OUT = 12, GRADE_CASES = 8, GRADE_TRIES = 200, GRADE_SIDE = 160 };
+enum { GRADE_IN = 64, GRADE_OUT = 12, GRADE_CASES = 8, GRADE_MISTAKES = 12 };
+enum { GRADE_TRIES = 200, GRADE_SIDE = 160 }; /* inputs of a case; pixels of each picture */
 
 /* Reads its arguments from in, in the order of grade_task.names, and writes its result to out. */
 typedef void grade_answer(const float *in, float *out);
@@ -32,10 +29,11 @@ typedef struct grade_case {
     const char *name;
     int points;
     grade_inputs *make;
+    const char *hint; /* for wrong answers that are no known mistake */
 } grade_case;
 
 typedef struct grade_mistake {
-    const char *name; /* of the wrong answer, for tests */
+    const char *name; /* of the wrong answer, for --mistake */
     grade_answer *answer;
     const char *says;
 } grade_mistake;
@@ -43,11 +41,12 @@ typedef struct grade_mistake {
 typedef struct grade_task {
     const char *name;
     const char *names; /* of the arguments with their numbers of floats: "N3 L3 n1" */
+    const char *parts; /* of the outputs, named likewise; NULL: they are one thing */
     int outputs;
     float tolerance; /* of a number x: tolerance * max(1, |x|); 0: to the bit */
     grade_answer *yours, *right;
     grade_case cases[GRADE_CASES];
-    grade_mistake mistakes[GRADE_CASES];
+    grade_mistake mistakes[GRADE_MISTAKES];
     int (*place)(float x, float y, float *in); /* inputs of a place of the picture, x and y from
                                                      -1 to 1; 0: nothing is there */
     float scale, offset;                       /* outputs to brightness */
@@ -56,7 +55,7 @@ typedef struct grade_task {
 
 typedef struct grade_result {
     double score;
-    char says[1200];
+    char says[1600];
 } grade_result;
 
 /* ---- random inputs ------------------------------------------------------------------------- */
@@ -107,12 +106,17 @@ static inline int grade_ball(float x, float y, shade_vec3 *N)
 
 /* ---- judging ------------------------------------------------------------------------------- */
 
+/* Are two numbers equal within the tolerance?  No right answer is a NaN; two NaN are the same
+   mistake. */
+static int grade_close(const grade_task *t, float got, float want)
+{
+    if (got == want || (isnan(got) && isnan(want))) return 1;
+    return isfinite(want) && fabsf(got - want) <= t->tolerance * fmaxf(1, fabsf(want));
+}
 static int grade_near(const grade_task *t, const float *got, const float *want)
 {
-    for (int k = 0; k < t->outputs; k++) {
-        const float bound = t->tolerance * fmaxf(1, fabsf(want[k]));
-        if (!(fabsf(got[k] - want[k]) <= bound)) return 0; /* a NaN is not near */
-    }
+    for (int k = 0; k < t->outputs; k++)
+        if (!grade_close(t, got[k], want[k])) return 0;
     return 1;
 }
 
@@ -122,6 +126,12 @@ static size_t grade_append(char *to, size_t at, size_t size, const char *text)
     if (at + n + 1 > size) return at;
     memcpy(to + at, text, n + 1);
     return at + n;
+}
+/* Appends a sentence to what a result says. */
+static void grade_say(grade_result *r, const char *sentence)
+{
+    const size_t at = grade_append(r->says, strlen(r->says), sizeof r->says, " ");
+    grade_append(r->says, at, sizeof r->says, sentence);
 }
 static size_t grade_numbers(char *to, size_t at, size_t size, const float *v, int n)
 {
@@ -133,11 +143,11 @@ static size_t grade_numbers(char *to, size_t at, size_t size, const float *v, in
     }
     return n > 1 ? grade_append(to, at, size, ")") : at;
 }
-/* "N = (0, 0, 1), n = 8" */
-static size_t grade_arguments(char *to, size_t at, size_t size, const grade_task *t,
+/* "N = (0, 0, 1), n = 8" for the names "N3 n1" */
+static size_t grade_arguments(char *to, size_t at, size_t size, const char *names,
                               const float *in)
 {
-    const char *p = t->names;
+    const char *p = names;
     for (int from = 0; *p;) {
         char name[32];
         int used = 0, count = 0;
@@ -153,55 +163,126 @@ static size_t grade_arguments(char *to, size_t at, size_t size, const grade_task
     return at;
 }
 
-/* The mistake that gives all of these answers, the right ones among them; NULL: none. */
-static const grade_mistake *grade_which(const grade_task *t, float (*in)[GRADE_IN], int tries)
+static size_t grade_output(char *to, size_t at, size_t size, const grade_task *t, const float *out)
 {
-    for (int m = 0; m < GRADE_CASES && t->mistakes[m].answer; m++) {
-        int same = 1;
-        for (int i = 0; i < tries && same; i++) {
-            float got[GRADE_OUT] = { 0 }, wrong[GRADE_OUT] = { 0 };
-            t->yours(in[i], got);
-            t->mistakes[m].answer(in[i], wrong);
-            same = grade_near(t, got, wrong);
-        }
-        if (same) return &t->mistakes[m];
-    }
-    return NULL;
+    return t->parts ? grade_arguments(to, at, size, t->parts, out)
+                    : grade_numbers(to, at, size, out, t->outputs);
 }
 
-/* A mistake that explains the answers of all cases is the one; else one that explains those of
-   this case. */
-static void grade_explain(const grade_task *t, const grade_mistake *of_all, float (*in)[GRADE_IN],
-                          int first, grade_result *r)
+/* Does a mistake give the student's answers?  If whole is not set, only outputs count in which it
+   is a mistake: H and the lobe of one answer may be wrong in a way of their own. */
+static int grade_gives(const grade_task *t, const grade_mistake *m, float (*in)[GRADE_IN],
+                       int tries, int whole)
 {
-    const grade_mistake *mistake = of_all ? of_all : grade_which(t, in, GRADE_TRIES);
+    int differs[GRADE_OUT] = { 0 }, other[GRADE_OUT] = { 0 }, any = 0;
+    for (int i = 0; i < tries; i++) {
+        float got[GRADE_OUT] = { 0 }, want[GRADE_OUT] = { 0 }, wrong[GRADE_OUT] = { 0 };
+        t->yours(in[i], got);
+        t->right(in[i], want);
+        m->answer(in[i], wrong);
+        for (int k = 0; k < t->outputs; k++) {
+            differs[k] |= !grade_close(t, wrong[k], want[k]);
+            other[k] |= !grade_close(t, got[k], wrong[k]);
+        }
+    }
+    for (int k = 0; k < t->outputs; k++) {
+        any |= differs[k];
+        if ((whole || differs[k]) && other[k]) return 0;
+    }
+    return any;
+}
+
+/* The mistakes that give these answers, as bits in their order */
+static unsigned grade_which(const grade_task *t, float (*in)[GRADE_IN], int tries, int whole)
+{
+    unsigned bits = 0;
+    for (int m = 0; m < GRADE_MISTAKES && t->mistakes[m].answer; m++)
+        if (grade_gives(t, &t->mistakes[m], in, tries, whole)) bits |= 1u << m;
+    return bits;
+}
+
+/* Is the answer the same whatever the input? */
+static int grade_constant(const grade_task *t, float (*in)[GRADE_IN], int tries)
+{
+    float first[GRADE_OUT] = { 0 };
+    t->yours(in[0], first);
+    for (int i = 1; i < tries; i++) {
+        float got[GRADE_OUT] = { 0 };
+        t->yours(in[i], got);
+        if (!grade_near(t, got, first)) return 0;
+    }
+    return 1;
+}
+
+/* What is known of the answers to all inputs */
+typedef struct grade_known {
+    int constant;
+    unsigned mistakes;
+} grade_known;
+
+/* What numbers tell by themselves; NULL: nothing */
+static const char *grade_not_finite(const grade_task *t, const float *got)
+{
+    const char *says = NULL;
+    for (int k = 0; k < t->outputs; k++) {
+        if (isinf(got[k])) says = "An infinity comes from a division by 0.";
+        if (isnan(got[k]))
+            return "A NaN comes from 0 / 0, or from a root or a power of a negative number.";
+    }
+    return says;
+}
+
+/* Appends why the answers of a case are wrong: the mistakes that explain all cases, else one that
+   explains this case alone, else what its numbers tell, else the hint. */
+static void grade_why(const grade_task *t, const grade_case *c, const grade_known *all,
+                      float (*in)[GRADE_IN], const float *got, grade_result *r)
+{
+    const unsigned sure = grade_which(t, in, GRADE_TRIES, 0) & all->mistakes;
+    const int alike = grade_constant(t, in, GRADE_TRIES); /* then any mistake may fit */
+    const unsigned here = alike ? 0 : grade_which(t, in, GRADE_TRIES, 1);
+    const unsigned named = sure ? sure : here & (~here + 1);
+    const char *numbers = grade_not_finite(t, got);
+    if (all->constant) grade_say(r, "Your answer is the same for every input.");
+    if (named && !sure) grade_say(r, "In this case, perhaps:");
+    for (int m = 0; m < GRADE_MISTAKES; m++)
+        if (named >> m & 1) grade_say(r, t->mistakes[m].says);
+    if (!named && numbers) grade_say(r, numbers);
+    if (!named && !all->constant) grade_say(r, c->hint);
+}
+
+/* The first wrong answer of a case, and why it is wrong */
+static void grade_explain(const grade_task *t, const grade_case *c, const grade_known *all,
+                          float (*in)[GRADE_IN], int first, int wrong, grade_result *r)
+{
+    const size_t size = sizeof r->says;
     float got[GRADE_OUT] = { 0 }, want[GRADE_OUT] = { 0 };
-    size_t at = 0;
+    size_t at;
     t->yours(in[first], got);
     t->right(in[first], want);
-    at = grade_append(r->says, at, sizeof r->says, "For ");
-    at = grade_arguments(r->says, at, sizeof r->says, t, in[first]);
-    at = grade_append(r->says, at, sizeof r->says, " yours is ");
-    at = grade_numbers(r->says, at, sizeof r->says, got, t->outputs);
-    at = grade_append(r->says, at, sizeof r->says, ", right is ");
-    at = grade_numbers(r->says, at, sizeof r->says, want, t->outputs);
-    at = grade_append(r->says, at, sizeof r->says, ". ");
-    if (mistake) grade_append(r->says, at, sizeof r->says, mistake->says);
+    snprintf(r->says, size, "Wrong for %d of %d inputs. For ", wrong, GRADE_TRIES);
+    at = grade_arguments(r->says, strlen(r->says), size, t->names, in[first]);
+    at = grade_append(r->says, at, size, " yours is ");
+    at = grade_output(r->says, at, size, t, got);
+    at = grade_append(r->says, at, size, ", right is ");
+    at = grade_output(r->says, at, size, t, want);
+    grade_append(r->says, at, size, ".");
+    grade_why(t, c, all, in, got, r);
 }
 
-static void grade_run_case(const grade_task *t, const grade_case *c, const grade_mistake *of_all,
+static void grade_run_case(const grade_task *t, const grade_case *c, const grade_known *all,
                            float (*in)[GRADE_IN], grade_result *r)
 {
-    int first = -1;
+    int first = -1, wrong = 0;
     for (int i = 0; i < GRADE_TRIES; i++) {
         float got[GRADE_OUT] = { 0 }, want[GRADE_OUT] = { 0 };
         t->yours(in[i], got);
         t->right(in[i], want);
-        if (first < 0 && !grade_near(t, got, want)) first = i;
+        if (grade_near(t, got, want)) continue;
+        if (!wrong++) first = i;
     }
-    r->score = first < 0 ? c->points : 0;
+    r->score = wrong ? 0 : c->points;
     r->says[0] = 0;
-    if (first >= 0) grade_explain(t, of_all, in, first, r);
+    if (wrong) grade_explain(t, c, all, in, first, wrong, r);
 }
 
 /* ---- the picture --------------------------------------------------------------------------- */
@@ -247,7 +328,8 @@ static int grade_draw(const grade_task *t, uint32_t *pixels)
 static void grade_json(const char *path, const grade_task *t, const grade_case *cases,
                        const grade_result *r, int count)
 {
-    FILE *f = fopen(path, "w");
+    FILE *f = path ? fopen(path, "w") : NULL;
+    if (!path) return;
     if (!f) {
         fprintf(stderr, "%s cannot be written.\n", path);
         exit(2);
@@ -290,12 +372,12 @@ static void grade_vectors(const grade_task *t)
     const int n = grade_count_inputs(t);
     printf("{\"name\":\"%s\",\"names\":\"%s\",\"tolerance\":%g,\"mistakes\":[", t->name, t->names,
            (double)t->tolerance);
-    for (int m = 0; m < GRADE_CASES && t->mistakes[m].answer; m++)
+    for (int m = 0; m < GRADE_MISTAKES && t->mistakes[m].answer; m++)
         printf("%s\"%s\"", m ? "," : "", t->mistakes[m].says);
     printf("],\"cases\":[");
     for (int c = 0; c < GRADE_CASES && t->cases[c].make; c++) {
-        printf("%s{\"name\":\"%s\",\"points\":%d,\"tries\":[", c ? "," : "", t->cases[c].name,
-               t->cases[c].points);
+        printf("%s{\"name\":\"%s\",\"points\":%d,\"hint\":\"%s\",\"tries\":[", c ? "," : "",
+               t->cases[c].name, t->cases[c].points, t->cases[c].hint);
         for (int i = 0; i < GRADE_TRIES; i++) {
             float in[GRADE_IN] = { 0 }, out[GRADE_OUT] = { 0 };
             t->cases[c].make(in);
@@ -304,7 +386,7 @@ static void grade_vectors(const grade_task *t)
             grade_json_numbers(in, n);
             printf(",");
             grade_json_numbers(out, t->outputs);
-            for (int m = 0; m < GRADE_CASES && t->mistakes[m].answer; m++) {
+            for (int m = 0; m < GRADE_MISTAKES && t->mistakes[m].answer; m++) {
                 memset(out, 0, sizeof out);
                 t->mistakes[m].answer(in, out);
                 printf(",");
@@ -317,71 +399,123 @@ static void grade_vectors(const grade_task *t)
     printf("]}\n");
 }
 
-static int grade_main(const grade_task *t, int argc, char **argv)
-{
-    static uint32_t pixels[2 * GRADE_SIDE * GRADE_SIDE];
-    static float in[GRADE_CASES * GRADE_TRIES][GRADE_IN];
-    const char *json = NULL, *picture = NULL;
-    grade_case cases[GRADE_CASES + 1];
-    grade_result results[GRADE_CASES + 1];
-    double score = 0;
-    int count = 0, points = 0, vectors = 0;
+typedef struct grade_options {
+    const char *json, *picture, *mistake;
+    int vectors;
+} grade_options;
 
+/* Returns 0 where the arguments are not those of the usage. */
+static int grade_read_options(int argc, char **argv, grade_options *o)
+{
     grade_state = 1;
     for (int i = 1; i < argc; i++) {
-        if (!strcmp(argv[i], "--vectors"))
-            vectors = 1;
-        else if (!strcmp(argv[i], "--seed") && i + 1 < argc)
-            grade_state = strtoull(argv[++i], NULL, 10);
-        else if (!strcmp(argv[i], "--json") && i + 1 < argc)
-            json = argv[++i];
-        else if (!strcmp(argv[i], "--picture") && i + 1 < argc)
-            picture = argv[++i];
+        const char *value = i + 1 < argc ? argv[i + 1] : NULL;
+        if (!strcmp(argv[i], "--vectors")) {
+            o->vectors = 1;
+            continue;
+        }
+        if (value && !strcmp(argv[i], "--seed"))
+            grade_state = strtoull(value, NULL, 10);
+        else if (value && !strcmp(argv[i], "--json"))
+            o->json = value;
+        else if (value && !strcmp(argv[i], "--picture"))
+            o->picture = value;
+        else if (value && !strcmp(argv[i], "--mistake"))
+            o->mistake = value;
         else {
             fprintf(stderr,
                     "usage: %s [--seed N] [--json results.json] [--picture out.ppm] "
-                    "[--vectors]\n",
+                    "[--mistake NAME] [--vectors]\n",
                     argv[0]);
-            return 2;
+            return 0;
         }
+        i++;
     }
-    if (vectors) {
-        grade_vectors(t);
-        return 0;
+    return 1;
+}
+
+/* Puts a mistake in the place of the student's answers; 0: the task has none of that name. */
+static int grade_put_mistake(grade_task *t, const char *name)
+{
+    for (int m = 0; m < GRADE_MISTAKES && t->mistakes[m].answer; m++) {
+        if (strcmp(t->mistakes[m].name, name)) continue;
+        t->yours = t->mistakes[m].answer;
+        return 1;
     }
+    fprintf(stderr, "%s has no mistake of the name %s.\n", t->name, name);
+    return 0;
+}
+
+/* Makes the inputs of all cases, and adds the picture as the last.  Every result is 0 at first, and
+   says what is true if the student's function never returns.  Returns how many there are. */
+static int grade_prepare(const grade_task *t, float (*in)[GRADE_IN], grade_case *cases,
+                         grade_result *results)
+{
+    int count = 0;
     for (; count < GRADE_CASES && t->cases[count].make; count++) {
         cases[count] = t->cases[count];
         for (int i = 0; i < GRADE_TRIES; i++) cases[count].make(in[count * GRADE_TRIES + i]);
     }
-    const grade_mistake *of_all = grade_which(t, in, count * GRADE_TRIES);
-    for (int i = 0; i < count; i++)
-        grade_run_case(t, &cases[i], of_all, in + i * GRADE_TRIES, &results[i]);
     cases[count].name = "the picture";
-    cases[count].points = t->picture_points;
-    const int differ = grade_draw(t, pixels);
-    results[count].score = differ ? 0 : t->picture_points;
-    results[count].says[0] = 0;
-    if (differ)
-        snprintf(results[count].says, sizeof results[count].says,
-                 "%d of its pixels are not those of shade.h; --picture out.ppm shows both.",
-                 differ);
-    count++;
+    cases[count++].points = t->picture_points;
     for (int i = 0; i < count; i++) {
-        printf("%s  %s: %g of %d\n", results[i].says[0] ? "FAIL" : "ok  ", cases[i].name,
-               results[i].score, cases[i].points);
-        if (results[i].says[0]) printf("      %s\n", results[i].says);
-        score += results[i].score;
+        results[i].score = 0;
+        snprintf(results[i].says, sizeof results[i].says,
+                 "The program did not finish: it crashed, called exit, or ran into a loop.");
+    }
+    return count;
+}
+
+/* Prints the results; returns whether all points were reached. */
+static int grade_print(const grade_task *t, const grade_case *cases, const grade_result *r,
+                       int count)
+{
+    double score = 0;
+    int points = 0;
+    for (int i = 0; i < count; i++) {
+        printf("%s  %s: %g of %d\n", r[i].says[0] ? "FAIL" : "ok  ", cases[i].name, r[i].score,
+               cases[i].points);
+        if (r[i].says[0]) printf("      %s\n", r[i].says);
+        score += r[i].score;
         points += cases[i].points;
     }
     printf("%s: %g of %d points\n", t->name, score, points);
-    if (json) grade_json(json, t, cases, results, count);
-    if (picture) {
-        shade_target target = { .width = 2 * GRADE_SIDE, .height = GRADE_SIDE, .color = pixels };
-        if (shade_write_ppm(picture, &target)) {
-            fprintf(stderr, "%s cannot be written.\n", picture);
-            return 2;
-        }
+    return score >= points;
+}
+
+static int grade_main(const grade_task *of, int argc, char **argv)
+{
+    grade_task task = *of, *const t = &task;
+    static uint32_t pixels[2 * GRADE_SIDE * GRADE_SIDE];
+    static float in[GRADE_CASES * GRADE_TRIES][GRADE_IN];
+    static grade_result results[GRADE_CASES + 1];
+    grade_case cases[GRADE_CASES + 1];
+    grade_options o = { 0 };
+    const shade_target picture = { .width = 2 * GRADE_SIDE, .height = GRADE_SIDE, .color = pixels };
+
+    if (!grade_read_options(argc, argv, &o)) return 2;
+    if (o.mistake && !grade_put_mistake(t, o.mistake)) return 2;
+    if (o.vectors) {
+        grade_vectors(t);
+        return 0;
     }
-    return score < points;
+    const int count = grade_prepare(t, in, cases, results), tries = (count - 1) * GRADE_TRIES;
+    grade_json(o.json, t, cases, results, count);
+    const grade_known all = { grade_constant(t, in, tries), grade_which(t, in, tries, 0) };
+    for (int i = 0; i < count - 1; i++)
+        grade_run_case(t, &cases[i], &all, in + i * GRADE_TRIES, &results[i]);
+    const int differ = grade_draw(t, pixels);
+    results[count - 1].score = differ ? 0 : t->picture_points;
+    snprintf(results[count - 1].says, sizeof results->says,
+             differ ? "%d of its pixels are not those of shade.h; --picture out.ppm shows both."
+                    : "",
+             differ);
+    const int full = grade_print(t, cases, results, count);
+    grade_json(o.json, t, cases, results, count);
+    if (o.picture && shade_write_ppm(o.picture, &picture)) {
+        fprintf(stderr, "%s cannot be written.\n", o.picture);
+        return 2;
+    }
+    return !full;
 }
 #endif

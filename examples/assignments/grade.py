@@ -30,10 +30,17 @@ ANSWERS = {
 }
 
 
+def close(got, want, tolerance):
+    """Tells whether two numbers are equal within the tolerance; two NaN are the same mistake."""
+    if got == want or (math.isnan(got) and math.isnan(want)):
+        return True
+    return math.isfinite(want) and abs(got - want) <= tolerance * max(1, abs(want))
+
+
 def near(got, want, tolerance):
-    """Tells whether numbers are those wanted; a NaN never is."""
-    return len(got) == len(want) and all(
-        abs(g - w) <= tolerance * max(1, abs(w)) for g, w in zip(got, want))
+    """Tells whether an answer is the right one."""
+    return isinstance(got, list) and len(got) == len(want) and all(
+        close(g, w, tolerance) for g, w in zip(got, want))
 
 
 def ask_all(case, names, ask):
@@ -52,24 +59,74 @@ def ask_all(case, names, ask):
     return answers
 
 
-def which(answers, vectors):
-    """Returns the sentence of the mistake that gives all of these answers, or ""."""
-    for k, says in enumerate(vectors["mistakes"]):
-        if all(isinstance(got, list) and near(got, mistakes[k], vectors["tolerance"])
-               for _, got, _, mistakes in answers):
-            return says
-    return ""
+def gives(answers, k, tolerance, whole):
+    """Tells whether mistake k gives these answers, if not whole in those outputs in which it is one."""
+    differs = False
+    for part in range(len(answers[0][2])):
+        wrong = not all(close(mistakes[k][part], want[part], tolerance)
+                        for _, _, want, mistakes in answers)
+        differs = differs or wrong
+        if (wrong or whole) and not all(isinstance(got, list) and len(got) == len(want) and
+                   close(got[part], mistakes[k][part], tolerance)
+                   for _, got, want, mistakes in answers):
+            return False
+    return differs
 
 
-def judge(answers, of_all, vectors):
+def which(answers, vectors, whole):
+    """Returns the numbers of the mistakes that give these answers."""
+    return [k for k in range(len(vectors["mistakes"]))
+            if gives(answers, k, vectors["tolerance"], whole)]
+
+
+def show(numbers):
+    """Returns numbers as text, one alone without brackets."""
+    texts = [f"{x:.9g}" for x in (numbers if isinstance(numbers, list) else [numbers])]
+    return texts[0] if len(texts) == 1 else f"({', '.join(texts)})"
+
+
+def alike(answers, tolerance):
+    """Tells whether all answers are the same, whatever the input."""
+    first = answers[0][1]
+    return isinstance(first, list) and all(near(got, first, tolerance) for _, got, _, _ in answers)
+
+
+def why(case, answers, known, vectors):
+    """Returns why the answers of a case are wrong: a mistake, or the hint of the case."""
+    start = " Your answer is the same for every input." if known["constant"] else ""
+    sure = [k for k in which(answers, vectors, False) if k in known["mistakes"]]
+    if sure or start:
+        return start + "".join(" " + vectors["mistakes"][k] for k in sure)
+    if not alike(answers, vectors["tolerance"]):
+        for k in which(answers, vectors, True)[:1]:
+            return " In this case, perhaps: " + vectors["mistakes"][k]
+    return " " + case["hint"]
+
+
+def judge(case, answers, known, vectors):
     """Returns what is wrong with the answers of a case, or ""."""
-    for arguments, got, want, _ in answers:
-        said = ", ".join(f"{k} = {v}" for k, v in arguments.items())
-        if isinstance(got, Exception):
-            return f"For {said} yours raises {type(got).__name__}: {got}."
-        if not near(got, want, vectors["tolerance"]):
-            return f"For {said} yours is {got}, right is {want}. {of_all or which(answers, vectors)}"
-    return ""
+    wrong = [a for a in answers if not near(a[1], a[2], vectors["tolerance"])]
+    if not wrong:
+        return ""
+    arguments, got, want, _ = wrong[0]
+    said = ", ".join(f"{k} = {show(v)}" for k, v in arguments.items())
+    start = f"Wrong for {len(wrong)} of {len(answers)} inputs. For {said} yours "
+    if isinstance(got, Exception):
+        return f"{start}raises {type(got).__name__}: {got}."
+    if len(got) != len(want):
+        return f"{start}has {len(got)} numbers, right are {len(want)}."
+    return f"{start}is {show(got)}, right is {show(want)}.{why(case, answers, known, vectors)}"
+
+
+def load(path):
+    """Returns the student's module, and a sentence where it cannot be run."""
+    spec = importlib.util.spec_from_file_location("answer", path)
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:  # a SyntaxError above all
+        return None, f"The file cannot be run: {type(error).__name__}: {error}."
+    return module, ""
 
 
 def main():
@@ -83,17 +140,17 @@ def main():
         vectors = json.load(file)
     if vectors["name"] not in ANSWERS:
         sys.exit(f"{vectors['name']} is an assignment in C alone")
-    spec = importlib.util.spec_from_file_location("answer", options.answer)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module, broken = load(options.answer)
     names = [(n, int(k)) for n, k in re.findall(r"(\w*?[A-Za-z_])(\d+)(?: |$)", vectors["names"])]
 
     asked = [ask_all(case, names, lambda *a: ANSWERS[vectors["name"]](module, *a))
              for case in vectors["cases"]]
-    of_all = which([answer for answers in asked for answer in answers], vectors)
+    every = [answer for answers in asked for answer in answers]
+    known = {"constant": alike(every, vectors["tolerance"]),
+             "mistakes": which(every, vectors, False)}
     tests, total = [], 0
     for case, answers in zip(vectors["cases"], asked):
-        says = judge(answers, of_all, vectors)
+        says = broken or judge(case, answers, known, vectors)
         points = 0 if says else case["points"]
         print(f"{'FAIL' if says else 'ok  '}  {case['name']}: {points} of {case['points']}")
         if says:

@@ -25,32 +25,88 @@ sentence() {
                      $0 = substr($0, RSTART + RLENGTH) }
                  if (/}/) { print text; exit } }' "$A/$1/grade.c"
 }
-named() { ! run --seed "$3" && grep -qF "$(sentence "$1" "$2")" "$T/said"; }
+# A mistake loses points, and its sentence is among the sure ones.
+named() {
+    says=$(sentence "$1" "$2")
+    [ -n "$says" ] && ! run --seed 3 --mistake "$2" && grep -vF 'perhaps:' "$T/said" | grep -qF "$says"
+}
 
 for task in "$A"/[0-9]*/; do
     task=$(basename "$task")
     check "$task: the solution compiles" build "$task" tests/assignments/solutions.c
     check "$task: full points" run
     check "$task: full points with other inputs" run --seed 20
+    for mistake in $(sed -n '/\.mistakes/,/\.place/s/.*{ "\([a-z_]*\)", \1,.*/\1/p' "$A/$task/grade.c"); do
+        check "$task: $mistake is named" named "$task" "$mistake"
+    done
+    check "$task: a name that is no mistake is refused" sh -c "! '$T/grade' --mistake nobody 2>/dev/null"
     check "$task: the starter compiles" build "$task" "$A/$task/starter.c"
     check "$task: a starter gets less than half" less_than_half
-    for mistake in $(sed -n '/\.mistakes/,/\.place/s/.*{ "\([a-z_]*\)", \1,.*/\1/p' "$A/$task/grade.c"); do
-        check "$task: $mistake compiles" build "$task" tests/assignments/solutions.c \
-            -Wno-unused-function "-DGRADE_ANSWER=$mistake"
-        check "$task: $mistake is named" named "$task" "$mistake" 3
-    done
     check "$task: its page has the command" grep -qF "$A/$task/grade.c $A/$task/starter.c" "$A/$task/README.md"
 done
 there python3 || { left_out "results.json and grade.py: no python3"; finish; }
 
 build 01_lambert "$A/01_lambert/starter.c"
-"$T/grade" --json "$T/results.json" --picture "$T/out.ppm" >/dev/null
+"$T/grade" --json "$T/results.json" --picture "$T/out.ppm" >"$T/said"
+check "a starter is told that its answer never changes" grep -q 'the same for every input' "$T/said"
 check "results.json is Gradescope's" python3 -c "
 import json, sys
 tests = json.load(open(sys.argv[1]))['tests']
 assert [t['max_score'] for t in tests] == [4, 4, 2] and tests[0]['score'] == 0 and tests[0]['output']
 " "$T/results.json"
 check "the picture is a PPM" sh -c "head -c 15 '$T/out.ppm' | grep -q '320 160'"
+
+# Answers in C that are wrong in two ways, in no known way, not a number, and not at all.
+wrong() { printf '#include "shade.h"\n#include <math.h>\n%s\n' "$2" >"$T/wrong.c" && build "$1" "$T/wrong.c" -w; }
+LOBE='float phong(shade_vec3 N, shade_vec3 L, shade_vec3 V, float n)'
+HALF='shade_vec3 halfway(shade_vec3 L, shade_vec3 V)'
+wrong 03_highlight "$HALF { return shade_scale(shade_add(L, V), .5f); }
+    $LOBE { return shade_blinn_phong_specular(N, L, V, n); }"
+run
+check "of two mistakes both are named" test "$(grep -F "$(sentence 03_highlight not_unit)" "$T/said" |
+    grep -cF "$(sentence 03_highlight blinn)")" -ge 1
+wrong 03_highlight "$HALF { return shade_halfway(L, V); } $LOBE { return n * shade_dot(shade_mirror(L, N), V); }"
+run
+check "an unknown mistake gets the hint of its case" grep -qF 'look at each by itself.' "$T/said"
+wrong 01_lambert 'float lambert(shade_vec3 N, shade_vec3 L) { return sqrtf(-1 - shade_dot(N, L) * shade_dot(N, L)); }'
+run
+check "a NaN is explained" grep -qF 'A NaN comes from' "$T/said"
+wrong 04_attenuation 'float attenuation(float a, float b, float c, float r) { return a; }'
+run
+check "an infinite wrong answer is not near to all" sh -c "! grep -qF '1 / (c r^2)' '$T/said'"
+wrong 01_lambert 'float lambert(shade_vec3 N, shade_vec3 L) { __builtin_trap(); }'
+run --json "$T/crash.json"
+check "a crash leaves results" python3 -c "
+import json, sys
+tests = json.load(open(sys.argv[1]))['tests']
+assert len(tests) == 3 and all(t['score'] == 0 and 'did not finish' in t['output'] for t in tests)
+" "$T/crash.json"
+
+# What gradescope.sh packs, where Gradescope unpacks it, with a file that a student hands in
+hands_in() {                    # file, its name, a Python expression about the results r
+    rm -rf "$T/gs/submission" "$T/gs/results" && mkdir -p "$T/gs/submission"
+    [ -z "$1" ] || cp "$1" "$T/gs/submission/$2" || return 1
+    AUTOGRADER=$T/gs sh "$T/gs/source/run_autograder" >"$T/said" 2>&1
+    python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert $3, r" "$T/gs/results/results.json"
+}
+if there zip; then
+    mkdir -p "$T/gs/source"
+    check "gradescope.sh packs a task" sh $A/gradescope.sh 03_highlight 4711 "$T/gs.zip"
+    python3 -m zipfile -e "$T/gs.zip" "$T/gs/source"
+    check "what Gradescope starts lies at the root" test -s "$T/gs/source/setup.sh"
+    check "a solution gets full points" hands_in tests/assignments/solutions.c my.c \
+        "sum(t['score'] for t in r['tests']) == 10"
+    check "a starter in Python gets none, and sentences" hands_in $A/03_highlight/starter.py my.py \
+        "all(t['score'] == 0 and t['output'] for t in r['tests'])"
+    check "what does not compile shows the compiler's words" hands_in LICENSE my.c \
+        "r['score'] == 0 and 'does not compile' in r['output'] and 'error' in r['output']"
+    check "Python that cannot be read says so" hands_in LICENSE my.py \
+        "all('cannot be run' in t['output'] for t in r['tests'])"
+    check "nothing handed in says so" hands_in "" "" "r['score'] == 0 and 'There is no' in r['output']"
+    for wrong in "03_highlight x" "04_nothing 5"; do
+        check "gradescope.sh refuses $wrong" sh -c "! sh $A/gradescope.sh $wrong '$T/no.zip' 2>/dev/null"
+    done
+else left_out "gradescope.sh: no zip"; fi
 
 cat >"$T/answer.py" <<'END'
 import math

@@ -23,6 +23,19 @@ static void absolute(const float *in, float *out)
     out[0] = fabsf(shade_dot(grade_vec(in), grade_vec(in + 3)));
 }
 
+static void reversed(const float *in, float *out)
+{
+    out[0] = fmaxf(0, -shade_dot(grade_vec(in), grade_vec(in + 3)));
+}
+static void angle(const float *in, float *out)
+{
+    out[0] = acosf(shade_dot(grade_vec(in), grade_vec(in + 3)));
+}
+static void half(const float *in, float *out)
+{
+    out[0] = 0.5f + 0.5f * shade_dot(grade_vec(in), grade_vec(in + 3));
+}
+
 static void lamp(float *in, float side)
 {
     const shade_vec3 N = grade_direction();
@@ -46,16 +59,28 @@ static const grade_task task = {
     .names = "N3 L3",
     .outputs = 1,
     .tolerance = 1e-5f,
-    .yours = GRADE_ANSWER,
+    .yours = yours,
     .right = right,
-    .cases = { { "a lamp in front of the surface", 4, in_front },
-               { "a lamp behind the surface", 4, behind } },
+    .cases = { { "a lamp in front of the surface", 4, in_front,
+                 "Where the lamp is in front the answer is N.L, the sum of the products of "
+                 "the coordinates, and nothing else: no root, no angle, no least light." },
+               { "a lamp behind the surface", 4, behind,
+                 "Where the lamp is behind, N.L is negative, and the answer is exactly 0." } },
     .mistakes = { { "unclamped", unclamped,
                     "A lamp behind the surface cannot take light away: where N.L is "
                     "negative the answer is 0." },
                   { "absolute", absolute,
                     "The absolute value lights the side away from the lamp too: where "
-                    "N.L is negative the answer is 0." } },
+                    "N.L is negative the answer is 0." },
+                  { "reversed", reversed,
+                    "This lights the side away from the lamp: L points to the lamp already, so "
+                    "its sign stays." },
+                  { "angle", angle,
+                    "This is the angle between N and L. The light falls with its cosine, which "
+                    "is N.L as it is." },
+                  { "half", half,
+                    "(1 + N.L) / 2 is a tone that reaches all around the surface. Light that "
+                    "arrives is N.L, and 0 where that is negative." } },
     .place = place,
     .scale = 0.9f,
     .offset = 0.05f,

@@ -24,6 +24,25 @@ static void without_two(const float *in, float *out)
     grade_put(out, shade_sub(shade_scale(N, shade_dot(L, N)), L));
 }
 
+static void plus(const float *in, float *out)
+{
+    const shade_vec3 L = grade_vec(in), N = grade_vec(in + 3);
+    grade_put(out, shade_madd(L, 2 * shade_dot(L, N), N));
+}
+static void exchanged(const float *in, float *out)
+{
+    grade_put(out, shade_mirror(grade_vec(in + 3), grade_vec(in)));
+}
+static void no_cosine(const float *in, float *out)
+{
+    grade_put(out, shade_sub(shade_scale(grade_vec(in + 3), 2), grade_vec(in)));
+}
+static void half(const float *in, float *out)
+{
+    grade_put(out, shade_halfway(grade_vec(in), grade_vec(in + 3)));
+}
+static void negated(const float *in, float *out) { grade_put(out, shade_neg(grade_vec(in))); }
+
 static void any(float *in)
 {
     const shade_vec3 N = grade_direction();
@@ -51,15 +70,34 @@ static const grade_task task = {
     .names = "L3 N3",
     .outputs = 3,
     .tolerance = 1e-5f,
-    .yours = GRADE_ANSWER,
+    .yours = yours,
     .right = right,
-    .cases = { { "lamps in front", 5, any }, { "grazing lamps", 3, grazing } },
+    .cases = { { "lamps in front", 5, any,
+                 "The part of L along N is (N.L) N; the mirror keeps it and turns what is "
+                 "left over, L - (N.L) N." }, { "grazing lamps", 3, grazing,
+                 "With the lamp near the horizon L and R are almost opposite: R is 2 (N.L) N "
+                 "- L, of unit length without a normalize." } },
     .mistakes = { { "as_printed", as_printed,
                     "This points below the surface: L - 2 (N.L) N mirrors a vector "
                     "that arrives, and L points away; R is its negative." },
                   { "without_two", without_two,
                     "The way from L to R is twice the way from L to N: the factor "
-                    "of 2 before (N.L) N is missing." } },
+                    "of 2 before (N.L) N is missing." },
+                  { "plus", plus,
+                    "L and R lie on the two sides of N and add up to 2 (N.L) N: L is subtracted "
+                    "from it, not added." },
+                  { "exchanged", exchanged,
+                    "This mirrors N at L: the function takes L first, then N, and N is what L "
+                    "is mirrored at." },
+                  { "no_cosine", no_cosine,
+                    "2 N - L takes all of N: what mirrors L is its part along N, which is "
+                    "N.L long." },
+                  { "half", half,
+                    "This is halfway between L and N. It is N that lies halfway, between L "
+                    "and R." },
+                  { "negated", negated,
+                    "This sends the light on along its way, through the surface: a mirror turns "
+                    "only the part along N, (N.L) N." } },
     .place = place,
     .scale = 0.5f,
     .offset = 0.5f,

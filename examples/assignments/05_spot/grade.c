@@ -32,6 +32,31 @@ static void no_exponent(const float *in, float *out)
     out[0] = shade_spot(grade_vec(in), grade_vec(in + 3), in[6], 0);
 }
 
+static void times_e(const float *in, float *out)
+{
+    out[0] = in[7] * shade_spot(grade_vec(in), grade_vec(in + 3), in[6], 1);
+}
+static void inverted(const float *in, float *out)
+{
+    const float c = -shade_dot(grade_vec(in), grade_vec(in + 3));
+    if (c < in[6]) out[0] = shade_spot(grade_vec(in), grade_vec(in + 3), 0, in[7]);
+}
+static void exchanged_power(const float *in, float *out)
+{
+    const float c = -shade_dot(grade_vec(in), grade_vec(in + 3));
+    if (c >= in[6]) out[0] = powf(in[7], c);
+}
+static void faded_to_rim(const float *in, float *out)
+{
+    const float c = -shade_dot(grade_vec(in), grade_vec(in + 3));
+    if (c >= in[6]) out[0] = powf((c - in[6]) / (1 - in[6]), in[7]);
+}
+static void cut_after_power(const float *in, float *out)
+{
+    const float power = shade_spot(grade_vec(in), grade_vec(in + 3), 0, in[7]);
+    out[0] = power >= in[6] ? power : 0;
+}
+
 /* L is off the axis by an angle from low to high times the cutoff. */
 static void beam(float *in, float low, float high)
 {
@@ -68,11 +93,17 @@ static const grade_task task = {
     .names = "L3 aim3 cos_cutoff1 e1",
     .outputs = 1,
     .tolerance = 2e-5f,
-    .yours = GRADE_ANSWER,
+    .yours = yours,
     .right = right,
-    .cases = { { "inside the cone", 4, inside },
-               { "outside", 2, outside },
-               { "on the rim, which is lit", 2, rim } },
+    .cases = { { "inside the cone", 4, inside,
+                 "Inside the cone the answer is (L.S)^e with S = -aim, whatever the cutoff "
+                 "is." },
+               { "outside", 2, outside,
+                 "Where L.S is below cos_cutoff the answer is 0. Both are cosines: compare "
+                 "them as they are." },
+               { "on the rim, which is lit", 2, rim,
+                 "On the rim L.S equals cos_cutoff, to the bit for these inputs, and the rim "
+                 "is lit." } },
     .mistakes = { { "wrong_way", wrong_way,
                     "L points to the lamp and aim away from it: the cosine off the "
                     "axis is that between L and -aim." },
@@ -82,7 +113,19 @@ static const grade_task task = {
                   { "exclusive", exclusive, "The rim itself is lit: compare with >=, not with >." },
                   { "no_exponent", no_exponent,
                     "The light is as strong everywhere in the cone: raise the "
-                    "cosine to the power e." } },
+                    "cosine to the power e." },
+                  { "times_e", times_e, "e is an exponent: (L.S)^e, not e times L.S." },
+                  { "inverted", inverted,
+                    "The light is outside of the cone: a small angle has a large cosine, so "
+                    "inside is where L.S is at least cos_cutoff." },
+                  { "exchanged_power", exchanged_power,
+                    "This is e to the power L.S: exchange the two." },
+                  { "faded_to_rim", faded_to_rim,
+                    "This fades to 0 at the rim. In the notes' spotlight the cutoff only cuts, "
+                    "and what falls off is (L.S)^e." },
+                  { "cut_after_power", cut_after_power,
+                    "The power is compared with cos_cutoff: compare L.S itself, before it is "
+                    "raised to e." } },
     .place = place,
     .scale = 1,
     .offset = 0,

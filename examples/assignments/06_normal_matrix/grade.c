@@ -33,6 +33,25 @@ static void transpose_alone(const float *in, float *out)
     through(shade_mat3_transpose(shade_mat3_from_mat4(matrix(in))), out);
 }
 
+static void cofactors(const float *in, float *out)
+{
+    const shade_mat3 m = shade_mat3_from_mat4(matrix(in));
+    const shade_mat3 c = { { shade_cross(m.col[1], m.col[2]), shade_cross(m.col[2], m.col[0]),
+                             shade_cross(m.col[0], m.col[1]) } };
+    through(c, out);
+}
+static void unit_columns(const float *in, float *out)
+{
+    shade_mat3 m = shade_mat3_from_mat4(matrix(in));
+    for (int k = 0; k < 3; k++) m.col[k] = shade_normalize(m.col[k]);
+    through(m, out);
+}
+static void not_moved(const float *in, float *out)
+{
+    (void)in;
+    through(shade_mat3_from_mat4(shade_mat4_identity()), out);
+}
+
 static void put(float *in, shade_vec3 scale)
 {
     shade_mat4 m = shade_mat4_mul(shade_mat4_rotation(grade_between(-3, 3), grade_direction()),
@@ -58,11 +77,18 @@ static const grade_task task = {
     .names = "model16",
     .outputs = 3,
     .tolerance = 1e-4f,
-    .yours = GRADE_ANSWER,
+    .yours = yours,
     .right = right,
-    .cases = { { "rotations and translations", 2, rotated },
-               { "scaled in one direction", 4, scaled },
-               { "mirrored", 2, mirrored } },
+    .cases = { { "rotations and translations", 2, rotated,
+                 "For a rotation the inverse transpose is the rotation itself; a translation "
+                 "does not turn normals." },
+               { "scaled in one direction", 4, scaled,
+                 "A normal N stays at right angles to each edge M e of the moved mesh only "
+                 "if it becomes the inverse transpose times N: then its product with M e is "
+                 "that of N and e." },
+               { "mirrored", 2, mirrored,
+                 "A mirror has a negative determinant; the normals still point out of the "
+                 "mesh." } },
     .mistakes = { { "as_points", as_points,
                     "Normals are transformed as points are. Where a matrix scales one "
                     "direction more than another, that tilts them: take the inverse transpose." },
@@ -70,7 +96,15 @@ static const grade_task task = {
                     "This is the inverse; it must be transposed too." },
                   { "transpose_alone", transpose_alone,
                     "This is the transpose; it is the inverse that must be "
-                    "transposed." } },
+                    "transposed." },
+                  { "cofactors", cofactors,
+                    "The cofactors are the inverse transpose times the determinant, which is "
+                    "negative where the matrix mirrors: there the normals point inward." },
+                  { "unit_columns", unit_columns,
+                    "The columns are made unit: that takes the scale away, but normals need "
+                    "its inverse." },
+                  { "not_moved", not_moved,
+                    "The normals stay as they are: they must turn with the mesh." } },
     .place = place,
     .scale = 0.5f,
     .offset = 0.5f,

@@ -34,6 +34,35 @@ static void minus_to_plus(const float *in, float *out)
     by_screen(in, out);
     out[0] = 2 * out[0] - 1;
 }
+static void divided_after(const float *in, float *out)
+{
+    double z = 0, w = 0;
+    for (int k = 0; k < 3; k++) {
+        z += (double)in[6 + k] * (double)in[3 + k];
+        w += (double)in[6 + k] * (double)in[k];
+    }
+    out[0] = (float)(0.5 * z / w + 0.5);
+}
+static void reversed(const float *in, float *out)
+{
+    by_screen(in, out);
+    out[0] = 1 - out[0];
+}
+static void undivided_unmapped(const float *in, float *out)
+{
+    out[0] = in[6] * in[3] + in[7] * in[4] + in[8] * in[5];
+}
+static void centre(const float *in, float *out)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += (double)in[3 + k] / (double)in[k] / 3;
+    out[0] = (float)(0.5 * sum + 0.5);
+}
+static void half_alone(const float *in, float *out)
+{
+    by_screen(in, out);
+    out[0] -= 0.5f;
+}
 static void yours(const float *in, float *out) { out[0] = depth_at(in, in + 3, in + 6); }
 
 static void weights(float *in)
@@ -71,10 +100,14 @@ static const grade_task task = {
     .names = "w3 z3 abc3",
     .outputs = 1,
     .tolerance = 2e-6f,
-    .yours = GRADE_ANSWER,
+    .yours = yours,
     .right = by_screen,
-    .cases = { { "triangles that tilt away", 5, tilted },
-               { "triangles that face the eye", 3, facing } },
+    .cases = { { "triangles that tilt away", 5, tilted,
+                 "Divide z by w at each corner, mix the three quotients by abc, then bring "
+                 "-1 .. 1 to 0 .. 1." },
+               { "triangles that face the eye", 3, facing,
+                 "With w = 1 everywhere z / w is z: mix the three by abc, then bring -1 .. 1 "
+                 "to 0 .. 1." } },
     .mistakes = { { "perspective", perspective,
                     "Window depth z/w is linear on the screen already: dividing by "
                     "the interpolated 1/w is for texture coordinates and colours." },
@@ -83,7 +116,20 @@ static const grade_task task = {
                     "corner first." },
                   { "minus_to_plus", minus_to_plus,
                     "This runs from -1 to 1, as clip space does: the window "
-                    "has 0 near and 1 far, (z/w + 1) / 2." } },
+                    "has 0 near and 1 far, (z/w + 1) / 2." },
+                  { "divided_after", divided_after,
+                    "z and w are interpolated and then divided: neither is linear on the "
+                    "screen, only their quotient at the corners is." },
+                  { "reversed", reversed,
+                    "This is 1 near and 0 far; the window has it the other way." },
+                  { "undivided_unmapped", undivided_unmapped,
+                    "This mixes z of clip space: divide by w at each corner, and bring "
+                    "-1 .. 1 to 0 .. 1." },
+                  { "centre", centre,
+                    "This is the same all over the triangle: the weights of the corners are "
+                    "abc." },
+                  { "half_alone", half_alone,
+                    "z/w / 2 runs from -1/2 to 1/2: add 1/2." } },
     .place = place,
     .scale = 1,
     .offset = 0,

@@ -38,6 +38,38 @@ static void times_w(const float *in, float *out)
     right(other, out);
 }
 
+/* u/w and v/w times the mean of w, which is not linear on the screen */
+static void times_mean_w(const float *in, float *out)
+{
+    float w = 0;
+    for (int k = 0; k < 3; k++) w += in[9 + k] * in[k];
+    not_divided(in, out);
+    out[0] *= w;
+    out[1] *= w;
+}
+/* The sums divided by the mean of w */
+static void over_mean_w(const float *in, float *out)
+{
+    float w = 0;
+    for (int k = 0; k < 3; k++) w += in[9 + k] * in[k];
+    not_divided(in, out);
+    out[0] /= w;
+    out[1] /= w;
+}
+static void nearest_corner(const float *in, float *out)
+{
+    int best = 0;
+    for (int k = 1; k < 3; k++)
+        if (in[9 + k] > in[9 + best]) best = k;
+    out[0] = in[3 + 2 * best];
+    out[1] = in[4 + 2 * best];
+}
+static void v_up(const float *in, float *out)
+{
+    right(in, out);
+    out[1] = 1 - out[1];
+}
+
 static void inputs(float *in, float far)
 {
     for (int k = 0; k < 3; k++) in[k] = grade_between(1, far);
@@ -67,10 +99,13 @@ static const grade_task task = {
     .names = "w3 uv6 abc3",
     .outputs = 2,
     .tolerance = 5e-6f,
-    .yours = GRADE_ANSWER,
+    .yours = yours,
     .right = right,
-    .cases = { { "triangles that tilt away", 6, tilted },
-               { "triangles that face the eye", 2, facing } },
+    .cases = { { "triangles that tilt away", 6, tilted,
+                 "Mix u/w, v/w and 1/w by abc, each by itself, then divide the first two by "
+                 "the third." },
+               { "triangles that face the eye", 2, facing,
+                 "Where all w are the same they cancel: u and v are mixed by abc." } },
     .mistakes = { { "affine", affine,
                     "This is linear on the screen, so textures swim where a triangle tilts: "
                     "interpolate u/w, v/w and 1/w, then divide." },
@@ -78,7 +113,18 @@ static const grade_task task = {
                     "u/w and v/w are interpolated, but not divided by the "
                     "interpolated 1/w." },
                   { "times_w", times_w,
-                    "The corners are multiplied by w where they should be divided." } },
+                    "The corners are multiplied by w where they should be divided." },
+                  { "times_mean_w", times_mean_w,
+                    "w is not linear on the screen, 1/w is: interpolate 1/w and divide by it, "
+                    "rather than multiply by an interpolated w." },
+                  { "over_mean_w", over_mean_w,
+                    "u/w and v/w are divided by an interpolated w; they must be divided by the "
+                    "interpolated 1/w." },
+                  { "nearest_corner", nearest_corner,
+                    "This is the texture coordinate of one corner: mix all three." },
+                  { "v_up", v_up,
+                    "v is turned upside down: which way pictures lie is no matter of "
+                    "interpolation." } },
     .place = place,
     .scale = 1,
     .offset = 0,

@@ -87,6 +87,83 @@ static void emission_often(const float *in, float *out)
     for (int k = 0; k < 3; k++) out[k] += (float)(s.lighting.light_count - 1) * in[9];
 }
 
+static void no_distance(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    for (int k = 0; k < LIGHTS; k++) s.lights[k].quadratic = 0;
+    lit(&s, out);
+}
+static void no_cone(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    for (int k = 0; k < LIGHTS; k++) {
+        s.lights[k].spot_cos_cutoff = -1;
+        s.lights[k].spot_exponent = 0;
+    }
+    lit(&s, out);
+}
+static void reversed_cone(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    for (int k = 0; k < LIGHTS; k++) {
+        shade_light *l = &s.lights[k];
+        l->spot_direction = shade_neg(l->spot_direction);
+    }
+    lit(&s, out);
+}
+/* V from the origin of the world in place of P */
+static void eye_as_direction(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    s.eye = shade_add(s.P, s.eye);
+    lit(&s, out);
+}
+static void colors_of_diffuse(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    s.material.specular = s.material.diffuse;
+    lit(&s, out);
+}
+/* Lamps behind the surface count with their negative N.L. */
+static void no_gate(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    s.lighting.flags = SHADE_FLAG_UNGATED_SPECULAR;
+    lit(&s, out);
+    for (int j = 0; j < s.lighting.light_count; j++) {
+        scene turned = s;
+        shade_vec3 away;
+        turned.lighting.lights = &s.lights[j];
+        turned.lighting.light_count = 1;
+        turned.lighting.flags = 0;
+        turned.lighting.terms = SHADE_TERM_DIFFUSE;
+        turned.N = shade_neg(s.N);
+        away = shade_lit(&turned.lighting, &turned.material, turned.eye, turned.P, turned.N);
+        grade_put(out, shade_sub(grade_vec(out), away));
+    }
+}
+static void last_lamp(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    if (s.lighting.light_count > 1) s.lighting.lights += s.lighting.light_count - 1;
+    s.lighting.light_count = s.lighting.light_count > 0;
+    lit(&s, out);
+}
+static void no_lamp_ambient(const float *in, float *out)
+{
+    scene s;
+    read_scene(in, &s);
+    for (int k = 0; k < LIGHTS; k++) s.lights[k].ambient = shade_v3(0, 0, 0);
+    lit(&s, out);
+}
+
 static void fill(float *in, int lights, float side)
 {
     const shade_vec3 N = grade_direction(), P = shade_scale(grade_direction(), 0.3f);
@@ -137,12 +214,19 @@ static const grade_task task = {
     .names = "eye3 P3 N3 k_e1 k_a1 k_d3 k_s3 n1 I_a3 lamps1 lamp12 lamp12",
     .outputs = 3,
     .tolerance = 1e-4f,
-    .yours = GRADE_ANSWER,
+    .yours = yours,
     .right = right,
-    .cases = { { "no lamp", 3, none },
-               { "one lamp", 5, one },
-               { "two lamps", 5, two },
-               { "lamps behind the surface", 4, behind } },
+    .cases = { { "no lamp", 3, none,
+                 "Without a lamp the answer is k_e + k_a I_a." },
+               { "one lamp", 5, one,
+                 "Look at one term after the other: L and V are unit vectors from P, S is "
+                 "-spot_direction, the highlight has the lamp's specular colour, and cone "
+                 "and distance dim k_d and k_s alone." },
+               { "two lamps", 5, two,
+                 "If one lamp is right and two are not, the sum is: each lamp has its own L, "
+                 "H, r, cone and B." },
+               { "lamps behind the surface", 4, behind,
+                 "Where N.L is not above 0 a lamp adds its ambient light alone, k_a I_La." } },
     .mistakes = { { "ungated", ungated,
                     "The highlight has no B: where N.L is not above 0 both terms are 0." },
                   { "dimmed_ambient", dimmed_ambient,
@@ -151,7 +235,28 @@ static const grade_task task = {
                   { "phong", phong,
                     "The highlight is Phong's (R.V)^n; iteration four has (N.H)^n." },
                   { "emission_often", emission_often,
-                    "k_e is added for each lamp: it stands before the sum." } },
+                    "k_e is added for each lamp: it stands before the sum." },
+                  { "no_distance", no_distance,
+                    "Lamps are as bright far away as nearby: divide by a + b r + c r^2." },
+                  { "no_cone", no_cone,
+                    "Lamps shine outside of their cones: spot_j is 0 where L.S is below "
+                    "spot_cos_cutoff, else (L.S) to the power spot_exponent." },
+                  { "reversed_cone", reversed_cone,
+                    "The cones point the wrong way: S is -spot_direction, and L.S is 1 on the "
+                    "axis." },
+                  { "eye_as_direction", eye_as_direction,
+                    "V is taken from the eye alone: it is the unit vector from P to the eye, "
+                    "eye - P." },
+                  { "colors_of_diffuse", colors_of_diffuse,
+                    "The highlight has the colour k_d: it has a colour of its own, k_s." },
+                  { "no_gate", no_gate,
+                    "B is missing: a lamp behind the surface takes light away, because its N.L "
+                    "is negative. B is 0 there, for both terms." },
+                  { "last_lamp", last_lamp,
+                    "Only the last lamp is left: add up the lamps, each with +=." },
+                  { "no_lamp_ambient", no_lamp_ambient,
+                    "The ambient light that each lamp adds is missing: k_a I_La stands inside "
+                    "the sum." } },
     .place = place,
     .scale = 1,
     .offset = 0,
