@@ -31,12 +31,15 @@ named() {
     [ -n "$says" ] && ! run --seed 3 --mistake "$2" && grep -vF 'perhaps:' "$T/said" | grep -qF "$says"
 }
 
+# The names of the mistakes of graders
+mistakes() { sed -n '/\.mistakes/,/\.place/s/.*{ "\([a-z_]*\)", \1,.*/\1/p' "$@"; }
+
 for task in "$A"/[0-9]*/; do
     task=$(basename "$task")
     check "$task: the solution compiles" build "$task" tests/assignments/solutions.c
     check "$task: full points" run
     check "$task: full points with other inputs" run --seed 20
-    for mistake in $(sed -n '/\.mistakes/,/\.place/s/.*{ "\([a-z_]*\)", \1,.*/\1/p' "$A/$task/grade.c"); do
+    for mistake in $(mistakes "$A/$task/grade.c"); do
         check "$task: $mistake is named" named "$task" "$mistake"
     done
     check "$task: a name that is no mistake is refused" sh -c "! '$T/grade' --mistake nobody 2>/dev/null"
@@ -44,6 +47,12 @@ for task in "$A"/[0-9]*/; do
     check "$task: a starter gets less than half" less_than_half
     check "$task: its page has the command" grep -qF "$A/$task/grade.c $A/$task/starter.c" "$A/$task/README.md"
 done
+check "README tells how many mistakes are known" grep -qF \
+    "one of the $(mistakes $A/[0-9]*/grade.c | wc -l | tr -d ' ') that the graders know" $A/README.md
+build 02_mirror tests/assignments/solutions.c
+run --mistake as_printed
+check "README shows what a student reads" test "$(sed -n '/^```text/,/^```$/p' $A/README.md | sed '1d;$d' | tr -s ' \n' ' ')" = \
+    "$(head -n 2 "$T/said" | tr -s ' \n' ' ')"
 there python3 || { left_out "results.json and grade.py: no python3"; finish; }
 
 build 01_lambert "$A/01_lambert/starter.c"
