@@ -221,4 +221,6 @@ static inline double fabs(double x) { return __builtin_fabs(x); }
 static inline double floor(double x) { return __builtin_floor(x); }
 static inline float fabsf(float x) { return __builtin_fabsf(x); }
 static inline float fmaxf(float a, float b) { return a > b ? a : b; }
+static inline double fmax(double a, double b) { return a > b ? a : b; }
+static inline double fmin(double a, double b) { return a < b ? a : b; }
 #endif
