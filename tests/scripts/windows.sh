@@ -1,7 +1,7 @@
 #!/bin/sh
 # windows.sh - programs that mingw-w64 builds for Windows, run under Wine: all of the runner, the
-# built-in scenes, thumbnail and compare with threads of Windows and with names that are no ASCII.
-# Their pictures have the bits of this system's.  batch and view need POSIX and are left out.
+# built-in scenes, thumbnail, compare and batch with threads of Windows and with names that are no
+# ASCII.  Their pictures have the bits of this system's.  view needs a POSIX terminal and is left out.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 cc=x86_64-w64-mingw32-gcc
@@ -29,7 +29,7 @@ scenes() {
 }
 check "the scenes have the hashes of all systems" scenes
 
-for p in thumbnail compare; do
+for p in thumbnail compare batch; do
     check "$p builds for Windows" $cc $built -static examples/programs/$p/$p.c -lm -lshell32 -o "$T/$p.exe"
     check "$p builds" cc $built -pthread examples/programs/$p/$p.c -lm -o "$T/$p"
 done
@@ -78,4 +78,63 @@ differs() {                     # the status is 1, the difference is a picture; 
 check "compare: a difference, its picture to the bit" differs
 from_input() { "$wine" "$T/compare.exe" - "$T/linux.ppm" <"$T/linux.ppm"; }
 check "compare: from standard input" from_input
+
+# ---- nothing is lost: the old picture stays where the new one fails, and no part of a file stays
+parts() { ls "$T" | grep -c '\.part$'; }
+check "no parts stay" same "$(parts)" 0
+cp "$T/linux.ppm" "$T/kept.ppm"
+late() {
+    there_too --max-seconds 1 --size 8000x8000 --samples 2 "$name" "$T/kept.ppm" 2>"$T/said"
+    same "$? $(tr -d '\r' <"$T/said" | grep -c 'gave up after --max-seconds while')" "1 1"
+}
+check "--max-seconds" late
+check "leaves the picture that was there" bits "$T/kept.ppm"
+itself() { there_too "$T/würfel куб 立方.obj" "$T/WÜRFEL куб 立方.OBJ" 2>"$T/said"; }
+cp "$name" "$T/model.copy"
+itself
+check "a model is not replaced by its picture" cmp "$name" "$T/model.copy"
+
+# ---- batch
+turn="--frames 5 --size 60x40 --samples 1 --quick"
+there_batch() { "$wine" "$T/batch.exe" "$@"; }
+check "batch here" "$T/batch" "$name" $turn --out "$T/own"
+check "batch under Wine" there_batch "$name" $turn --out "$T/bilder ж 絵"
+check "its frames to the bit" diff -r "$T/own" "$T/bilder ж 絵"
+: >"$T/bilder ж 絵/00002.ppm"
+rm "$T/bilder ж 絵/00004.ppm"
+check "two are missing" same "$(there_batch "$name" $turn --out "$T/bilder ж 絵" --missing | tr -d '\r' | tr '\n' ' ')" "00002 00004 "
+check "resumed" there_batch "$name" $turn --out "$T/bilder ж 絵"
+check "to the bit" diff -r "$T/own" "$T/bilder ж 絵"
+piped() { there_batch "$name" $turn --pipe >"$T/frames" && cat "$T"/own/*.ppm | cmp - "$T/frames"; }
+check "through a pipe" piped
+strips() { there_batch "$name" --strips 3 --size 61x47 --out "$T/strips" && "$T/batch" "$name" --strips 1 --size 61x47 --pipe >"$T/poster.ppm" &&
+    cat "$T"/strips/*.ppm | cmp - "$T/poster.ppm"; }
+check "strips of a poster" strips
+# a program in ffmpeg's place, which writes what it reads into the file that its last word names
+cat >"$T/ffmpeg.c" <<'END'
+#include <stdio.h>
+#include <fcntl.h>
+#include <io.h>
+#include <wchar.h>
+int wmain(int n, wchar_t **word)
+{
+    FILE *film = _wfopen(word[n - 1], L"wb");
+    int c;
+    _setmode(_fileno(stdin), _O_BINARY);
+    while (film && (c = getchar()) != EOF) putc(c, film);
+    return !film || fclose(film) || wcscmp(word[1], L"-v");
+}
+END
+no_ffmpeg() {
+    there_batch "$name" $turn --film "$T/kept.mp4" 2>"$T/said" && return 1
+    grep -q 'ffmpeg, which is not installed' "$T/said" && same "$(cat "$T/kept.mp4")" kept
+}
+echo kept >"$T/kept.mp4"
+check "a film without ffmpeg leaves what was there" no_ffmpeg
+mkdir "$T/bin"
+check "a program in its place" $cc -municode "$T/ffmpeg.c" -o "$T/bin/ffmpeg.exe"
+film() { WINEPATH=$(echo "Z:$T/bin" | tr / '\\') there_batch "$name" $turn --film "$T/film ж 絵.mp4"; }
+check "a film" film
+check "of all frames" cmp "$T/frames" "$T/film ж 絵.mp4"
+check "no parts stay" same "$(parts)" 0
 finish

@@ -94,7 +94,7 @@ static int read_options(batch *b, int argc, char **argv)
         return complain("--film does not go with --strips, --pipe, --missing or --piece");
     if (b->film && film_is_mp4(b->film) && (b->width % 2 || b->height % 2))
         return complain("--size %dx%d: MP4 needs even numbers", b->width, b->height);
-    if (b->pipe && isatty(STDOUT_FILENO))
+    if (b->pipe && batch_is_terminal(stdout))
         return complain("standard output is a terminal, which shows no PPM");
     if (b->pipe) b->sink = stdout;
     return OPTIONS_READ;
@@ -144,7 +144,7 @@ static int get_ready(batch *b)
     if (b->sheet.scene) return 0;
     b->request.pieces = 20;
     while ((float)b->request.pieces < 0.7f * sqrtf((float)b->height)) b->request.pieces++;
-    if (!b->sink && !b->film && mkdir(b->out, 0777) && errno != EEXIST) {
+    if (!b->sink && !b->film && batch_folder(b->out) && errno != EEXIST) {
         complain("%s: %s", b->out, strerror(errno));
         return 1;
     }
@@ -174,10 +174,10 @@ static int write_pieces(batch *b)
 
 static int write_film(batch *b, const char *path)
 {
-    film f = { path, NULL, 0 };
+    film f = { .path = path };
     int failed = get_ready(b) || film_open(&f, b->rate);
     if (failed) return failed;
-    b->sink = f.frames;
+    b->sink = f.encoder.input;
     return film_close(&f, write_pieces(b));
 }
 
@@ -187,6 +187,7 @@ int main(int argc, char **argv)
         .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30
     };
     int end;
+    path_arguments(&argc, &argv);
     b.request.how = model_options_new();
     end = read_options(&b, argc, argv);
     if (end) return end == OPTIONS_WRONG;

@@ -1,19 +1,43 @@
-/* file.h - tells which pieces are there, and how long the rest will take.  POSIX. */
+/* file.h - tells which pieces are there, and how long the rest will take.  POSIX or Windows. */
 #ifndef BATCH_FILE_H
 #define BATCH_FILE_H
 
 #include "../model/clock.h"
 #include "../model/save.h"
 
+#ifdef GUARD_WINDOWS
+#include <direct.h>
+
+/* Makes a folder.  Non-zero: errno tells why it could not. */
+static inline int batch_folder(const char *path)
+{
+    wchar_t *name = path_wide(path);
+    int failed = !name || _wmkdir(name);
+    free(name);
+    return failed;
+}
+
+/* Bytes of an open file, -1 where it has no size */
+static inline long long batch_size(FILE *file) { return _filelengthi64(_fileno(file)); }
+static inline int batch_is_terminal(FILE *file) { return _isatty(_fileno(file)); }
+#else
+static inline int batch_folder(const char *path) { return mkdir(path, 0777); }
+static inline long long batch_size(FILE *file)
+{
+    struct stat about;
+    return fstat(fileno(file), &about) ? -1 : (long long)about.st_size;
+}
+static inline int batch_is_terminal(FILE *file) { return isatty(fileno(file)); }
+#endif
+
 /* 1: there is a file of this size that begins with this header. */
 static inline int batch_is_whole(const char *path, const char *header, long long bytes)
 {
     char begin[64];
     size_t n = strlen(header);
-    struct stat about;
-    FILE *file = fopen(path, "rb");
-    int whole = file && !fstat(fileno(file), &about) && about.st_size == bytes &&
-                fread(begin, 1, n, file) == n && !memcmp(begin, header, n);
+    FILE *file = path_open(path, "rb");
+    int whole = file && batch_size(file) == bytes && fread(begin, 1, n, file) == n &&
+                !memcmp(begin, header, n);
     if (file) fclose(file);
     return whole;
 }
@@ -28,7 +52,7 @@ typedef struct batch_clock {
 
 static inline batch_clock batch_start(const char *unit)
 {
-    batch_clock c = { unit, clock_now(), 0, isatty(STDERR_FILENO) };
+    batch_clock c = { unit, clock_now(), 0, batch_is_terminal(stderr) };
     return c;
 }
 

@@ -1,20 +1,19 @@
 /* film.h - makes a film of pictures as they are drawn, by ffmpeg, which must be installed.  The
-   film appears whole or not at all.  POSIX.
+   film appears whole or not at all.
 
-       film f = { "turn.webp", NULL, 0 };
+       film f = { .path = "turn.webp" };
        if (film_open(&f, 30)) ...                              (a line on stderr has said why)
-       fwrite(ppm, 1, size, f.frames);                         (for each frame, one after the other)
+       fwrite(ppm, 1, size, f.encoder.input);                  (for each frame, one after the other)
        return film_close(&f, 0); */
 #ifndef BATCH_FILM_H
 #define BATCH_FILM_H
 
+#include "child.h"
 #include "file.h"
-#include <sys/wait.h>
 
 typedef struct film {
     const char *path;
-    FILE *frames; /* takes the frames as PPM */
-    pid_t process;
+    child encoder; /* takes the frames as PPM */
 } film;
 
 /* 1: the name ends in .webp or .mp4, the films that are made. */
@@ -29,8 +28,8 @@ static inline int film_is_mp4(const char *path)
     return n > 4 && !strcmp(path + n - 4, ".mp4");
 }
 
-/* The child process: frames come from its standard input. */
-static inline void film_run(const char *path, int rate, int frames)
+/* Starts ffmpeg, which writes part. */
+static inline int film_start(film *f, int rate, const char *part)
 {
     char framerate[16];
     const char *begin[] = { "ffmpeg", "-v", "error", "-y", "-f", "image2pipe", "-c:v", "ppm",
@@ -39,52 +38,38 @@ static inline void film_run(const char *path, int rate, int frames)
     const char *mp4[] = { "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags",
                           "+faststart", "-f", "mp4" };
     const char *words[32] = { NULL };
-    const int is_webp = film_is_webp(path);
+    const int is_webp = film_is_webp(f->path);
     memcpy(words, begin, sizeof begin);
     memcpy(words + 12, is_webp ? webp : mp4, is_webp ? sizeof webp : sizeof mp4);
-    words[is_webp ? 20 : 22] = guard_part;
+    words[is_webp ? 20 : 22] = part;
     snprintf(framerate, sizeof framerate, "%d", rate);
-    dup2(frames, STDIN_FILENO);
-    execvp("ffmpeg", (char **)(uintptr_t)words);
-    _exit(127);
+    return child_start(&f->encoder, words);
 }
 
-/* Starts ffmpeg.  Returns 1 with a line on stderr. */
+/* Returns 1 with a line on stderr. */
 static inline int film_open(film *f, int rate)
 {
-    int ends[2];
     FILE *part = save_begin(f->path);
+    char *name;
+    int failed;
     if (!part) return 1;
     fclose(part);
-    signal(SIGPIPE, SIG_IGN); /* ffmpeg may end early: writing fails then */
-    f->process = pipe(ends) ? -1 : fork();
-    if (f->process == 0) {
-        close(ends[1]);
-        film_run(f->path, rate, ends[0]);
-    }
-    if (f->process < 0) {
-        unlink(guard_part);
-        return complain("ffmpeg: %s", strerror(errno));
-    }
-    close(ends[0]);
-    f->frames = fdopen(ends[1], "wb");
-    return f->frames ? 0 : complain("out of memory");
+    name = save_part();
+    failed = !name || film_start(f, rate, name);
+    free(name);
+    if (!failed) return 0;
+    complain("ffmpeg: %s", strerror(errno));
+    return save_end(NULL, f->path, SAVE_SAID);
 }
 
 /* Ends the film and gives it its name, or removes it.  Returns 1 with a line on stderr. */
 static inline int film_close(film *f, int failed)
 {
-    int status = 0;
-    if (fclose(f->frames)) failed = 1;
-    while (waitpid(f->process, &status, 0) < 0 && errno == EINTR) continue;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+    int status = child_end(&f->encoder);
+    if (status == CHILD_MISSING)
         failed = complain("films are made by ffmpeg, which is not installed");
     else if (status || failed)
         failed = complain("%s: ffmpeg could not make it", f->path);
-    else if (rename(guard_part, f->path))
-        failed = complain("%s: %s", f->path, strerror(errno));
-    if (failed) unlink(guard_part);
-    *guard_part = 0;
-    return failed;
+    return save_end(NULL, f->path, failed ? SAVE_SAID : 0);
 }
 #endif

@@ -1,6 +1,6 @@
 /* guard.h - ends the program with one line on stderr and no half-written file, whatever happens:
-   the time is up, the user interrupts, a library crashes on a file made to break it.  Without
-   POSIX signals only memory and files are watched. */
+   the time is up, the user interrupts, a library crashes on a file made to break it.  Systems that
+   are neither POSIX nor Windows have none of this. */
 #ifndef MODEL_GUARD_H
 #define MODEL_GUARD_H
 
@@ -153,6 +153,94 @@ static inline void guard_done(void)
 }
 
 static inline int guard_terminal(void) { return isatty(2); }
+#elif defined(_WIN32)
+#define GUARD_WINDOWS
+#include "../../shared/paths.h"
+
+/* What the watchers read: the file that is being written, in UTF-16, and the work in progress */
+static wchar_t guard_part[4400];
+static const char *volatile guard_doing = "starting";
+static const char *volatile guard_file = "";
+static int guard_status = 1;
+
+static inline void guard_say(const char *text)
+{
+    DWORD said;
+    WriteFile(GetStdHandle(STD_ERROR_HANDLE), text, (DWORD)strlen(text), &said, NULL);
+}
+
+static void guard_tell(const char *what)
+{
+    if (guard_part[0]) DeleteFileW(guard_part);    /* save_begin shares it, so that it may be */
+    guard_say(program_name);
+    guard_say(what);
+    guard_say(guard_doing);
+    guard_say(guard_file);
+    guard_say("\n");
+}
+
+/* A thread of the system calls this.  ExitProcess would wait for locks that others may hold. */
+static void CALLBACK guard_time(void *data, BOOLEAN fired)
+{
+    (void)data;
+    (void)fired;
+    guard_tell(": gave up after --max-seconds while ");
+    TerminateProcess(GetCurrentProcess(), (UINT)guard_status);
+}
+
+static LONG WINAPI guard_crash(EXCEPTION_POINTERS *where)
+{
+    (void)where;
+    guard_tell(": crashed while ");
+    TerminateProcess(GetCurrentProcess(), (UINT)guard_status);
+    return EXCEPTION_CONTINUE_SEARCH;
+}
+
+/* FALSE: the system ends the program as one that was interrupted. */
+static BOOL WINAPI guard_interrupt(DWORD event)
+{
+    (void)event;
+    guard_tell(": interrupted while ");
+    return FALSE;
+}
+
+static void guard_reading(const char *path) { guard_file = path ? path : ""; }
+
+/* Limits the memory to megabytes; 0 sets no limit. */
+static inline void guard_memory(int megabytes)
+{
+    JOBOBJECT_EXTENDED_LIMIT_INFORMATION limit = { 0 };
+    HANDLE job = megabytes ? CreateJobObjectW(NULL, NULL) : NULL;
+    if (!job) return;
+    limit.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_PROCESS_MEMORY;
+    limit.ProcessMemoryLimit = (SIZE_T)megabytes * 1000000;
+    SetInformationJobObject(job, JobObjectExtendedLimitInformation, &limit, sizeof limit);
+    AssignProcessToJobObject(job, GetCurrentProcess());
+}
+
+static inline void guard_interrupts(void) { SetConsoleCtrlHandler(guard_interrupt, TRUE); }
+
+/* The limit stays after guard_done: a process does not leave its job. */
+static inline void guard_begin(int max_memory)
+{
+    ULONG stack = 65536;    /* kept for guard_crash where the program's stack overflows */
+    SetThreadStackGuarantee(&stack);
+    SetUnhandledExceptionFilter(guard_crash);
+    guard_memory(max_memory);
+}
+static inline void guard_done(void) { SetUnhandledExceptionFilter(NULL); }
+
+static inline void guard_program(int max_seconds, int max_memory)
+{
+    HANDLE timer;
+    const DWORD limit = max_seconds < 4000000 ? 1000 * (DWORD)max_seconds : 4000000000u;
+    guard_begin(max_memory);
+    guard_interrupts();
+    if (max_seconds)
+        CreateTimerQueueTimer(&timer, NULL, guard_time, NULL, limit, 0, WT_EXECUTEONLYONCE);
+}
+
+static inline int guard_terminal(void) { return _isatty(2); }
 #else
 static const char *guard_doing;
 static int guard_status;

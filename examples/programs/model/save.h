@@ -80,6 +80,13 @@ static inline void save_sweep(const char *path)
     globfree(&found);
 }
 
+/* The name of the part that is being written, which the caller frees; NULL without memory */
+static inline char *save_part(void)
+{
+    char *name = (char *)malloc(strlen(guard_part) + 1);
+    return name ? strcpy(name, guard_part) : NULL;
+}
+
 /* Opens the file to write under another name, with the usual permissions.  Returns NULL with a line
    on stderr. */
 static inline FILE *save_begin(const char *path)
@@ -103,13 +110,14 @@ static inline FILE *save_begin(const char *path)
     return NULL;
 }
 
-/* Closes the file and gives it its name, or removes it.  Returns 1 with a line on stderr, which the
-   caller has printed where failed is SAVE_SAID. */
+/* Closes the file, or with NULL takes it as another program has left it, and gives it its name, or
+   removes it.  Returns 1 with a line on stderr, which the caller has printed where failed is
+   SAVE_SAID. */
 enum { SAVE_SAID = 2 };
 static inline int save_end(FILE *file, const char *path, int failed)
 {
     int error = errno;
-    if (fclose(file) && !failed) {
+    if (file && fclose(file) && !failed) {
         error = errno;
         failed = 1;
     }
@@ -121,6 +129,83 @@ static inline int save_end(FILE *file, const char *path, int failed)
     if (failed && failed != SAVE_SAID) save_failed(path);
     if (failed) unlink(guard_part);
     guard_part[0] = 0;
+    return failed != 0;
+}
+#elif defined(GUARD_WINDOWS)
+static inline int save_is_device(const char *name) { return (void)name, 0; }
+
+/* What names a file on its volume.  0: there is none. */
+static inline int save_identity(const char *path, BY_HANDLE_FILE_INFORMATION *about)
+{
+    wchar_t *name = path_wide(path);
+    const DWORD all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+    HANDLE file = name ? CreateFileW(name, 0, all, NULL, OPEN_EXISTING, 0, NULL)
+                       : INVALID_HANDLE_VALUE;
+    int found = file != INVALID_HANDLE_VALUE && GetFileInformationByHandle(file, about);
+    if (file != INVALID_HANDLE_VALUE) CloseHandle(file);
+    free(name);
+    return found;
+}
+
+static inline int save_same(const char *a, const char *b)
+{
+    BY_HANDLE_FILE_INFORMATION one, other;
+    return save_identity(a, &one) && save_identity(b, &other) &&
+           one.dwVolumeSerialNumber == other.dwVolumeSerialNumber &&
+           one.nFileIndexHigh == other.nFileIndexHigh && one.nFileIndexLow == other.nFileIndexLow;
+}
+
+static inline char *save_part(void) { return path_narrow(guard_part); }
+
+/* The reason that the system gives, where the C library has a word for it */
+static inline void save_reason(void)
+{
+    const DWORD error = GetLastError();
+    errno = error == ERROR_ACCESS_DENIED || error == ERROR_SHARING_VIOLATION ? EACCES
+            : error == ERROR_PATH_NOT_FOUND || error == ERROR_FILE_NOT_FOUND ||
+              error == ERROR_INVALID_NAME ? ENOENT
+            : error == ERROR_DISK_FULL    ? ENOSPC : EIO;
+}
+
+static inline FILE *save_begin(const char *path)
+{
+    char part[4400];
+    wchar_t *name;
+    HANDLE at = INVALID_HANDLE_VALUE;
+    FILE *file = NULL;
+    int n = snprintf(part, sizeof part, "%s.%lu.part", path, GetCurrentProcessId());
+    errno = ENAMETOOLONG;
+    name = n < (int)sizeof part ? path_wide(part) : NULL;
+    if (name) {
+        at = CreateFileW(name, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, NULL,
+                         CREATE_ALWAYS, 0, NULL);
+        if (at == INVALID_HANDLE_VALUE) save_reason();
+    }
+    if (at != INVALID_HANDLE_VALUE) {
+        wcscpy(guard_part, name);    /* UTF-16 has no more units than UTF-8 has bytes */
+        n = _open_osfhandle((intptr_t)at, 0);
+        file = n < 0 ? NULL : _fdopen(n, "wb");
+    }
+    free(name);
+    if (file) return file;
+    save_failed(path);
+    guard_part[0] = 0;
+    return NULL;
+}
+
+enum { SAVE_SAID = 2 };
+static inline int save_end(FILE *file, const char *path, int failed)
+{
+    wchar_t *name = path_wide(path);
+    if (file && fclose(file) && !failed) failed = 1;
+    if (!failed && (!name || !MoveFileExW(guard_part, name, MOVEFILE_REPLACE_EXISTING))) {
+        if (name) save_reason();
+        failed = 1;
+    }
+    if (failed && failed != SAVE_SAID) save_failed(path);
+    if (failed) DeleteFileW(guard_part);
+    guard_part[0] = 0;
+    free(name);
     return failed != 0;
 }
 #else
@@ -137,7 +222,7 @@ static inline FILE *save_begin(const char *path)
 enum { SAVE_SAID = 2 };
 static inline int save_end(FILE *file, const char *path, int failed)
 {
-    if (fclose(file) && !failed) failed = 1;
+    if (file && fclose(file) && !failed) failed = 1;
     if (failed && failed != SAVE_SAID) save_failed(path);
     if (failed) path_remove(path);
     return failed != 0;

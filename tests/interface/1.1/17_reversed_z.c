@@ -1,0 +1,72 @@
+/* 17_reversed_z.c - orange boards, each half a percent of its distance before a pale one.  Above:
+   the usual depth goes to 1 with the distance, where floats are 6e-8 apart.  From 10 km on both
+   boards have the same depth, and the one drawn first stays.  Below: reversed depth is n/d and goes
+   to 0, where floats are ever finer.  Right: the board at 30 km, enlarged.  UW's z-buffer has
+   "bigger is closer" as well.
+   Try near_z 1 for 0.1f: the boards fight for pixels from ten times as far away.
+
+   cc -O2 -I. examples/17_reversed_z.c -lm -o reversed_z && ./reversed_z */
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#include "shared/mesh.h"
+#include "shared/label.h"
+
+enum { BOARDS = 6, SIZE = 108 };    /* pixels of a board's panel */
+
+int main(int argc, char **argv)
+{
+    static const float km[BOARDS] = { 1, 3, 10, 30, 100, 300 };
+    static const char *const name[2] = { "standard: z = (1 − n/d) / (1 − n/f)",
+                                         "reversed: z = n/d" };
+    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
+    const shade_material pale = { .emission = { 0.6f, 0.58f, 0.52f } };
+    const shade_material orange = { .emission = { 0.75f, 0.18f, 0.02f } };
+    const float near_z = 0.1f, far_z = 1e6f;
+    owned_mesh square = mesh_plane(0.2f, 1);
+    const shade_mat4 lean = shade_mat4_mul(shade_mat4_rotation(1, shade_v3(1, 0, 0)),
+                                           shade_mat4_rotation(0.5f, shade_v3(0, 1, 0)));
+    canvas c = canvas_new(960, 448, 1);
+    char text[60];
+
+    canvas_dark(&c.target);
+    for (int row = 0; row < 2; row++) {
+        int y = 220 * row + 32;
+        shade_draw_state state = { .projection = shade_mat4_perspective(0.56f, 1, near_z, far_z) };
+        if (row) {
+            state.projection = shade_mat4_perspective_reversed(0.56f, 1, near_z);
+            state.raster.depth_zero_to_one = 1;
+            state.raster.depth_test = SHADE_COMPARE_GREATER;
+        }
+        for (int i = 0; i < BOARDS; i++) {
+            shade_target panel = canvas_panel(&c, SIZE * i + 6, y, SIZE, SIZE), depth = panel;
+            shade_stats alone, left;
+            float d = 1000 * km[i], small = 0.7f * d;
+            shade_mat4 back = shade_mat4_scaling(shade_v3(d, d, d));
+            shade_mat4 front = shade_mat4_scaling(shade_v3(small, small, small));
+            back = shade_mat4_mul(lean, back);
+            front = shade_mat4_mul(lean, front);
+            back.col[3].z = -1.005f * d;
+            front.col[3].z = -d;
+            depth.color = NULL;
+            state.material = &orange;
+            state.model = front;
+            shade_clear(&depth, shade_v4(0, 0, 0, 0), row ? 0 : 1);
+            shade_draw_mesh(&depth, &square.view, &state, &alone);
+            shade_clear(&depth, shade_v4(0, 0, 0, 0), row ? 0 : 1);
+            state.material = &pale;
+            state.model = back;
+            shade_draw_mesh(&panel, &square.view, &state, NULL);
+            state.material = &orange;
+            state.model = front;
+            shade_draw_mesh(&panel, &square.view, &state, &left);
+            sprintf(text, "%d km", (int)km[i]);
+            label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 16, 19, grey, text);
+            sprintf(text, "%d %% of it lost", (int)(100 - 100 * left.fragments / alone.fragments));
+            label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 40, 19, grey, text);
+        }
+        label_draw(&c, 12, y - 6, 22, grey, name[row]);
+        canvas_zoom(&c, 3 * SIZE + 6 + 30, y + 38, 46, 34, 674, y - 16, 6);
+    }
+    mesh_free(&square);
+    return canvas_save(&c, argc, argv, "reversed_z.ppm");
+}

@@ -1,0 +1,90 @@
+#!/bin/sh
+# abi.sh - the interface only grows.  A library of today's header is compared with what abidw wrote of
+# 1.1's (tests/interface/1.1.abi), and programs of 1.0 and 1.1 compile as they were and draw the same bits.
+#
+# Each picture of 1.1 is drawn by the lesson as it stands, or by its text of 1.1, which goes to
+# tests/interface/1.1 when the picture changes.  Of 1.0 README's program is kept.  In a clone with its
+# history all lessons of both versions are taken from there.  A new version is recorded by
+#     gcc -g -O0 -fPIC -shared -DSHADE_IMPLEMENTATION -x c shade.h -o libshade.so -lm
+#     abidw $(sed -n 's/^# abidw //p' tests/scripts/abi.sh) libshade.so --out-file tests/interface/1.N.abi
+# abidw --no-corpus-path --no-comp-dir-path --no-show-locs --no-architecture --no-elf-needed --exported-interfaces-only --no-parameter-names --no-write-default-sizes
+cd "$(dirname "$0")/../.." || exit 1
+. tests/scripts/tools.sh
+I=tests/interface
+
+# ---- functions, types, enumerators
+# None of the structs has changed since 1.1.  One that gets fields, at its end and with a zero that
+# means what was before, is named by a file for abidiff's --suppressions, [suppress_type] and name:
+# what may change in any struct would hide that a field became wider.
+library() {                     # header, library
+    gcc -std=c99 -w -g -O0 -fPIC -shared -DSHADE_IMPLEMENTATION -x c "$1" -o "$2" -lm -Wl,-soname,libshade.so
+}
+compared() {                    # library: what was added is not counted
+    abidiff --no-architecture --no-corpus-path --no-added-syms "$I/1.1.abi" "$1"
+}
+# A copy of the header with one change: the comparison must tell it.
+tells() {                       # what, sed's command
+    sed "$2" shade.h >"$T/changed.h"
+    cmp -s shade.h "$T/changed.h" && { fail "$1: nothing was changed" /dev/null; return; }
+    check "$1 compiles" library "$T/changed.h" "$T/changed.so"
+    check "$1 is told" no compared "$T/changed.so"
+}
+if there abidiff && there gcc; then
+    check "the library" library shade.h "$T/libshade.so"
+    check "1.1's interface is all there, and as it was" compared "$T/libshade.so"
+    tells "a function of another name" 's/shade_write_ppm/shade_save_ppm/g'
+    tells "a field that is wider" 's/^\( *\)float  *shininess;/\1double shininess;/'
+    tells "a field of another name" 's/\bshininess\b/gloss/g'
+    tells "two enumerators swapped" 's/SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT/SHADE_CULL_NONE = 0, SHADE_CULL_FRONT, SHADE_CULL_BACK/'
+else left_out "the interface of 1.1: no abidiff (abigail-tools) or no gcc"; fi
+# what a library does not show
+check "inline functions and flags of 1.1" cc -std=c99 -Wall -Wextra -Werror -I. -fsyntax-only $I/1.1/inline.c
+if there c++; then check "in C++" c++ -x c++ -w -I. -fsyntax-only $I/1.1/inline.c
+else left_out "inline functions in C++: no C++ compiler"; fi
+
+# ---- old programs
+compiled() {                    # the implementation, once for all programs
+    cc -std=c99 -w -O2 -DSHADE_IMPLEMENTATION -I. -x c -c shade.h -o "$T/shade.o" &&
+        cc -std=c99 -w -O2 -I. tests/unit/golden.c -o "$T/golden"
+}
+check "the implementation" compiled
+openmp=
+echo 'int main(void) { return 0; }' | cc -fopenmp -x c - -o "$T/openmp" 2>/dev/null && openmp=-fopenmp
+# source, folder of its headers, list of hashes, picture: it compiles as it is and draws that
+draws() {
+    name=${1##*/} name=${name%.c} place=$2 picture=$4
+    cc -std=c99 -w -O2 -ffp-contract=off $openmp -DSHADE__IMPLEMENTED -I"$T/top" -I"$place" "$1" \
+        "$T/shade.o" -lm -pthread -o "$T/program" || return 1
+    (cd "$T/top" && "$T/program" "$picture") && "$T/golden" --list "$3" "$T/top/$picture"
+}
+# The header alone, with the teapot in the two places that it has had.
+mkdir -p "$T/top/examples/shared"
+cp shade.h "$T/top" && cp examples/shared/teapot.h "$T/top/examples" && cp examples/shared/*.h "$T/top/examples/shared"
+check "README's program of 1.0" draws $I/1.0/teapot.c "$T/top" $I/1.0.txt teapot.ppm
+newest=$(ls tests/golden/[0-9]*.txt | sort -V | tail -n 1)
+while read -r picture hash; do
+    name=${picture%.ppm}
+    [ "$name" = gallery ] && continue
+    if [ -f "$I/1.1/$name.c" ]; then
+        check "$name of 1.1" draws "$I/1.1/$name.c" examples tests/golden/1.1.txt "$picture"
+    else
+        check "$name draws what it drew in 1.1 (or its text of 1.1 goes to $I/1.1)" \
+            grep -qx "$picture $hash" "$newest"
+    fi
+done <tests/golden/1.1.txt
+
+# ---- the lessons of both versions from history: before 1.1, and before 1.2
+of_history() {                  # first line of the commit after it, list of hashes, number of lessons
+    next=$(git log -1 --format=%H --grep "^$1" 2>/dev/null)
+    mkdir -p "$T/$3" && [ "$next" ] && git archive "$next^" examples 2>/dev/null | tar -x -C "$T/$3" 2>/dev/null ||
+        { left_out "$3 lessons before \"$1\": they are in the history of a clone alone"; return; }
+    check "lessons" same "$(ls "$T/$3"/examples/[0-9]*.c | wc -l)" "$3"
+    for source in "$T/$3"/examples/[0-9]*.c; do
+        picture=${source##*/} picture=${picture%.c}.ppm
+        cmp -s "$source" "$I/1.1/${source##*/}" ||
+            check "$picture before \"$1\"" draws "$source" "$T/$3/examples" "$2" "$picture"
+    done
+}
+of_history "Interface 1.1: an error for each kind of argument" $I/1.0.txt 38
+of_history "examples/ in lessons and programs, tests/ in unit and scripts" tests/golden/1.1.txt 48
+finish
