@@ -3,7 +3,7 @@
 
        int main(int argc, char **argv)
        {
-           path_arguments(&argc, &argv);            (its names in UTF-8, binary standard streams)
+           path_arguments(&argc, &argv);            (its names in UTF-8 with /, binary standard streams)
            FILE *file = path_open(argv[1], "rb"); */
 #ifndef SHARED_PATHS_H
 #define SHARED_PATHS_H
@@ -57,13 +57,22 @@ static inline char *path_narrow(const wchar_t *wide)
     return path;
 }
 
+/* Windows takes / in place of \ everywhere but behind \\?\, and the programs look for / alone. */
+static inline void path_slashes(char *path)
+{
+    if (path[0] == '\\' && path[1] == '\\' && path[2] == '?') return;
+    for (; *path; path++)
+        if (*path == '\\') *path = '/';
+}
+
 /* The arguments live as long as the program.  They stay as they are where there is no memory. */
 static inline void path_arguments(int *argc, char ***argv)
 {
     int count = 0, narrow = 0;
     wchar_t **wide = CommandLineToArgvW(GetCommandLineW(), &count);
     char **all = (char **)calloc((size_t)count + 1, sizeof *all);
-    while (wide && all && narrow < count && (all[narrow] = path_narrow(wide[narrow]))) narrow++;
+    while (wide && all && narrow < count && (all[narrow] = path_narrow(wide[narrow])))
+        path_slashes(all[narrow++]);
     if (wide && all && narrow == count) {
         *argc = count;
         *argv = all;

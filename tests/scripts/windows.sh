@@ -55,6 +55,13 @@ check "thumbnail under Wine" there_too "$name" "$T/bild ж 絵.ppm"
 check "its picture to the bit" bits "$T/bild ж 絵.ppm"
 check "a picture that is there is replaced" there_too "$name" "$T/bild ж 絵.ppm"
 check "to the bit again" bits "$T/bild ж 絵.ppm"
+# a model's materials lie in its folder, which Windows names with a backslash
+mkdir "$T/ordner"
+printf 'mtllib red.mtl\nusemtl r\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >"$T/ordner/red.obj"
+printf 'newmtl r\nKd 1 0 0\n' >"$T/ordner/red.mtl"
+check "a red triangle here" here "$T/ordner/red.obj" "$T/red.ppm"
+check "a red triangle under Wine" there_too "$(echo "Z:$T/ordner/red.obj" | tr / '\\')" "$T/red there.ppm"
+check "is as red" cmp "$T/red.ppm" "$T/red there.ppm"
 piped() { there_too "$name" - >"$T/piped.ppm"; }
 check "thumbnail to standard output" piped
 check "bytes, not lines of text" bits "$T/piped.ppm"
