@@ -51,32 +51,32 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     122  options               >>types      198  materials, lamps, targets, states
-       >>plumbing   371  compilers             >>light      497  the equation and its terms
-       >>draw       622  meshes and pixels     >>math       894  vectors and matrices
+       >>plumbing   371  compilers             >>light      501  the equation and its terms
+       >>draw       626  meshes and pixels     >>math       898  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1257  processors            >>base      1458  bits, masks, rows of vectors
-       >>matrix    1677  cameras, inverses     >>power     1971  x^n
-       >>pixels    2037  formats, sRGB
+       >>machine   1261  processors            >>base      1467  bits, masks, rows of vectors
+       >>matrix    1686  cameras, inverses     >>power     1980  x^n
+       >>pixels    2046  formats, sRGB
      Inside: light
-       >>lamps     2314  attenuation, cones    >>terms     2588  one term at one point
-       >>surface   2670  material and lights   >>lit       2791  the whole sum, at many points
+       >>lamps     2323  attenuation, cones    >>terms     2597  one term at one point
+       >>surface   2679  material and lights   >>lit       2800  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3196  who owns what         >>vertices  3379  shading, projection
-       >>triangles 3596  dropped, cut, edges   >>clip      3964  near, far, behind the eye
-       >>tiles     4149  pixels, depth test    >>cover     4497  what is hidden, tile by tile
-       >>fragments 4729  interpolation, lod    >>texture   5021  texels, mipmaps
-       >>store     5459  blending, packing
+       >>state     3205  who owns what         >>vertices  3388  shading, projection
+       >>triangles 3605  dropped, cut, edges   >>clip      3973  near, far, behind the eye
+       >>tiles     4158  pixels, depth test    >>cover     4506  what is hidden, tile by tile
+       >>fragments 4738  interpolation, lod    >>texture   5030  texels, mipmaps
+       >>store     5468  blending, packing
      Inside: calls of the renderer
-       >>check     5691  refusals              >>seen      5856  what can be seen, chunks
-       >>drive     5993  shade_draw            >>mesh      6172  shade_draw_mesh
+       >>check     5700  refusals              >>seen      5865  what can be seen, chunks
+       >>drive     6002  shade_draw            >>mesh      6181  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6578  shade_draw_lines      >>shape     6736  normals, edges
-       >>chunks    7072  boxes of triangles    >>rays      7236  shade_pick
-       >>survey    7432  experiments on a draw >>explain   7707  why nothing is seen
-       >>image     8304  mipmaps, PPM           >>presets   8573  classic materials
+       >>lines     6587  shade_draw_lines      >>shape     6745  normals, edges
+       >>chunks    7081  boxes of triangles    >>rays      7245  shade_pick
+       >>survey    7441  experiments on a draw >>explain   7716  why nothing is seen
+       >>image     8313  mipmaps, PPM           >>presets   8582  classic materials
      Sources
-       >>refs      8649                        >>history   8679
-       >>license   8691
+       >>refs      8658                        >>history   8688
+       >>license   8700
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -399,7 +399,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 
 /* Rows of packets are aligned to the widest vector.  Unaligned vectors straddle two cache lines,
    which costs 4 % of a lit floor and 12 % of a flat fill in cache.  Small packets are made for
-   small stacks and stay unaligned. */
+   small stacks and stay unaligned.  Packets are passed by pointer: MSVC for 32-bit x86 refuses
+   aligned parameters (C2719), and inlines no function that has one. */
 #if SHADE_LANES < 64
 #define SHADE_ALIGNED
 #else
@@ -460,7 +461,10 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
    processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
    caller to an inlined function: the implementation is exact, and so are the inline functions that
    it calls.  clang's ?: and calls stay fast; see >>machine.  SHADE__END restores the state before,
-   or where clang keeps no stack of states, that of the options. */
+   or where clang keeps no stack of states, that of the options.  MSVC restores float_control alone:
+   behind this file contraction stays off, as /fp:precise has it since 2022 and /fp:fast has not.
+   Of the warnings of its fourth level, constant conditions (4127) and SHADE_ALIGNED's padding (4324)
+   are meant. */
 #ifdef __cplusplus
 #define SHADE__OPEN extern "C" {
 #define SHADE__CLOSE }
@@ -479,8 +483,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__END SHADE__CLOSE _Pragma("STDC FP_CONTRACT DEFAULT")
 #elif defined(_MSC_VER)
 #define SHADE__BEGIN __pragma(float_control(push)) __pragma(float_control(precise, on)) \
-    __pragma(fp_contract(off)) SHADE__OPEN
-#define SHADE__END SHADE__CLOSE __pragma(float_control(pop))
+    __pragma(fp_contract(off)) __pragma(warning(push, 3)) SHADE__OPEN
+#define SHADE__END SHADE__CLOSE __pragma(warning(pop)) __pragma(float_control(pop))
 #elif defined(__GNUC__)
 #define SHADE__BEGIN _Pragma("GCC push_options") \
     _Pragma("GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\")") \
@@ -1267,6 +1271,11 @@ define SHADE_ALLOW_FAST_MATH"
 
 #ifndef SHADE_NO_STDIO
 #include <stdio.h>
+#ifdef _MSC_VER    /* its headers call fopen deprecated */
+#define SHADE__CREATE(file, path) fopen_s(&file, path, "wb")
+#else
+#define SHADE__CREATE(file, path) file = fopen(path, "wb")
+#endif
 #endif
 #ifndef SHADE_ASSERT
 #ifdef SHADE_NO_LIBM
@@ -8562,7 +8571,7 @@ SHADEDEF shade_result shade_write_ppm(const char *path,
     FILE *file;
     shade_result result = path ? shade__check_picture(target) : SHADE_ERROR_ARGUMENT;
     if (result) return result;
-    file = fopen(path, "wb");
+    SHADE__CREATE(file, path);
     if (!file) return SHADE_ERROR_IO;
     result = shade_encode_ppm(shade__write_file, file, target);
     if (fclose(file)) result = SHADE_ERROR_IO;

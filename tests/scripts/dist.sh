@@ -69,8 +69,8 @@ loaded() {                      # end of a wheel's name, compiler, what runs it
 loaded manylinux_2_17_x86_64 gcc ""
 loaded musllinux_1_2_x86_64 musl-gcc ""
 loaded manylinux_2_17_aarch64 aarch64-linux-gnu-gcc "qemu-aarch64 -L /usr/aarch64-linux-gnu"
-export WINEDEBUG=-all WINEPREFIX="$T/wine"
-loaded win_amd64 x86_64-w64-mingw32-gcc wine
+find_wine
+loaded win_amd64 x86_64-w64-mingw32-gcc "${wine:-wine}"
 left_out "musllinux aarch64, macOS and Windows on Arm: nothing here runs them"
 
 # ---- wheels
@@ -123,6 +123,27 @@ if [ -f "$D/shade-h-$V-pages.zip" ]; then
     }
     check "pictures and scripts of the courses are in it" same "$(lost)" ""
 else left_out "pages"; fi
+
+# ---- the programs for Windows, as a newcomer tries them: the first commands of the zip's README
+Z=$D/shade-h-$V-windows.zip
+if [ -f "$Z" ] && [ "$wine" ]; then
+    check "the zip for Windows unpacks" python3 -m zipfile -e "$Z" "$T"
+    first() {                   # the command of README.txt that begins with .\ and a word
+        cd "$T/shade-h-$V-windows" || return
+        line=$(tr -d '\r' <README.txt | sed -n "s/^ *\.\\\\\\(shade-$1\\( .*\\)*\\)\$/\1/p" | sed -n "${2:-1}p")
+        echo "$line"
+        name=${line%% *}
+        "$wine" "$name.exe" ${line#* }
+    }
+    check "a thumbnail" first thumbnail
+    check "is a PNG" grep -q IHDR "$T/shade-h-$V-windows/nut.png"
+    check "a sheet" first thumbnail 2
+    check "is a PNG too" grep -q IHDR "$T/shade-h-$V-windows/sheet.png"
+    check "a turn" first batch
+    check "of 36 pictures" same "$(ls "$T/shade-h-$V-windows/frames" | wc -l)" 36
+    check "the picture and the model agree" first compare
+    check "the program tells its version" sh -c "'$wine' '$T/shade-h-$V-windows/shade-thumbnail.exe' --version | grep -q '$V'"
+else left_out "the zip for Windows: no wine, or no zip"; fi
 
 # ---- the bill of materials, its ids, relations and checksums
 check "SBOM: a version, and a sum for each file" python3 -c "

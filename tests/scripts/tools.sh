@@ -20,6 +20,19 @@ soon() {                        # waits up to $patience seconds, 20, for a comma
     for i in $(seq $((10 * ${patience:-20}))); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
     "$@"
 }
+# Sets $wine to what runs programs for Windows, or to nothing.  Debian's wine64 alone is not on the
+# path.  Wine's server writes into its folder until it ends.
+find_wine() {
+    export WINEPREFIX="$T/wine" WINEDEBUG=-all
+    wine=
+    for w in wine64 wine /usr/lib/wine/wine64; do there "$w" && wine=$w && break; done
+    trap 'stop_wine >/dev/null 2>&1; rm -rf "$T"' EXIT
+}
+stop_wine() {
+    for w in wineserver /usr/lib/wine/wineserver64; do
+        [ -d "$WINEPREFIX" ] && there "$w" && "$w" -k && "$w" -w && break
+    done
+}
 finish() {
     [ "$skipped" -eq 0 ] || echo "$skipped left out"
     echo "$passed passed, $failed failed"

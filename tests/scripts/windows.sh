@@ -5,18 +5,11 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 cc=x86_64-w64-mingw32-gcc
-wine=
-for w in wine64 wine /usr/lib/wine/wine64; do there "$w" && wine=$w && break; done
-export WINEPREFIX="$T/wine" WINEDEBUG=-all
+find_wine
 if [ -z "$wine" ] || ! there $cc || ! "$wine" cmd /c exit >/dev/null 2>&1; then
     left_out "programs for Windows: no mingw-w64 or no Wine"
     finish
 fi
-# Wine's server writes into its folder until it ends.
-stop_wine() {
-    for w in wineserver /usr/lib/wine/wineserver64; do there "$w" && "$w" -k && "$w" -w && break; done
-}
-trap 'stop_wine >/dev/null 2>&1; rm -rf "$T"' EXIT
 
 built="-std=c99 -Wall -Wextra -Werror -O1 -ffp-contract=off -I."
 check "the runner builds" $cc $built -w -static tests/unit/main.c -lm -o "$T/runner.exe"
