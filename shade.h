@@ -463,8 +463,8 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
    it calls.  clang's ?: and calls stay fast; see >>machine.  SHADE__END restores the state before,
    or where clang keeps no stack of states, that of the options.  MSVC restores float_control alone:
    behind this file contraction stays off, as /fp:precise has it since 2022 and /fp:fast has not.
-   Of the warnings of its fourth level, constant conditions (4127) and SHADE_ALIGNED's padding (4324)
-   are meant. */
+   What its warnings of the fourth level speak of, constant conditions (4127) and the padding of
+   SHADE_ALIGNED (4324), is meant. */
 #ifdef __cplusplus
 #define SHADE__OPEN extern "C" {
 #define SHADE__CLOSE }
