@@ -37,7 +37,8 @@ left_out() { echo "left out: $1"; }
 parts=$*
 
 mkdir -p "$WORK/$NAME/.ci"
-tar -cf - -T "$WORK/files" | tar -C "$WORK/$NAME" -xf -
+tar -cf "$WORK/tree.tar" -T "$WORK/files"    # no pipe: a file that is missing ends the script
+tar -C "$WORK/$NAME" -xf "$WORK/tree.tar"
 cp "$WORK/files" "$WORK/$NAME/.ci/files"
 packed "$NAME" "$out/$NAME.tar.gz"
 cp shade.h "$out/shade.h"

@@ -25,7 +25,21 @@ for page in .github/*.md; do
         check "$page: $link" test -e ".github/$link"
     done
 done
-# the step of mingw and Unix, as it stands
-step=$(sed -n 's/.*run: \(gcc .*test_main\)$/\1/p' $W/ci.yml)
-check "a step of ci.yml compiles" sh -c "$(echo "$step" | sed "s,-o test_main,-fsyntax-only,")"
+# what a step of mingw compiles, by mingw where it is there; the scripts and files that steps name
+mingw=x86_64-w64-mingw32-gcc
+there $mingw || mingw=
+sed -n 's/.*run: gcc \(.*\) -o [a-z_]*$/\1/p' $W/ci.yml >"$T/steps"
+check "steps compile" test -s "$T/steps"
+while read -r words; do
+    if [ "$mingw" ]; then check "gcc $words" $mingw $words -fsyntax-only
+    else left_out "gcc $words: no mingw-w64"; fi
+done <"$T/steps"
+for file in $(grep -oE '(tests|examples|\.ci)[/\\][A-Za-z0-9_./\\-]+' $W/*.yml | sed 's/.*yml://' | tr '\\' / | sort -u); do
+    check "$file" test -f "$file"
+done
+# clang-cl and cl get C11 without what Microsoft's compiler lacks
+if there clang; then
+    check "the tests have no arrays of variable length and nothing of GNU's" clang -std=c11 -pedantic -Wvla -Wgnu \
+        -Werror -fsyntax-only -I. tests/unit/main.c
+fi
 finish
