@@ -3,7 +3,7 @@
 
        int main(int argc, char **argv)
        {
-           path_arguments(&argc, &argv);            (its names in UTF-8 with /, binary standard streams)
+           path_arguments(&argc, &argv);            (names in UTF-8 with /, binary streams)
            FILE *file = path_open(argv[1], "rb"); */
 #ifndef SHARED_PATHS_H
 #define SHARED_PATHS_H
