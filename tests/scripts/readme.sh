@@ -15,7 +15,7 @@ README=${1:-README.md}
 # what continues it, in the order in which its snippets compile, and other pages with names
 CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
 PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md
-    examples/microcontroller/README.md"
+    examples/microcontroller/README.md examples/lessons/TEACHING.md"
 WARN="-Wall -Wextra -Werror -Wno-missing-field-initializers"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
 T=$(mktemp -d) || exit 1
@@ -138,6 +138,13 @@ check "every example is listed" none "$(
     for file in examples/lessons/[0-9]*.c; do
         name=$(basename "$file" .c)
         grep -qE "src=\"pictures/$name\.png\".*</a> \| \`$name\`" examples/README.md || echo "$name"
+    done)"
+check "the teacher's guide has the lessons of each course in the order of its slides" none "$(
+    for course in UW:uw Massey:massey Shirley:shirley Berkeley:berkeley; do
+        grep -oE 'pictures/[0-9]{2}_' "examples/course/${course#*:}.md" | grep -oE '[0-9]{2}' | awk '!seen[$0]++' |
+            tr '\n' ' ' >"$T/of_slides"
+        sed -n "s/^| ${course%:*}, [^|]*| //p" examples/lessons/TEACHING.md | tr -d '|' | tr -s ' ' >"$T/of_guide"
+        [ "$(cat "$T/of_slides")" = "$(cat "$T/of_guide")" ] || { echo "$course"; cat "$T/of_slides"; }
     done)"
 check "every lesson says the line that builds it" none "$(
     for file in examples/lessons/[0-9]*.c; do
