@@ -64,7 +64,7 @@ function buildLecture() {
         // what has the focus keeps the keys that it knows
         const own = event.target.closest?.('button, input, a, .bulb') &&
             !/^Page|Escape/.test(event.key);
-        if (modified(event) || own || event.shiftKey || $('#program').open) return;
+        if (modified(event) || own || event.shiftKey || document.querySelector('dialog[open]')) return;
         if (!S.lecture && !S.raster && event.key === 'l') goStep(1);
         else if (S.lecture && steps[event.key])
             goStep(limit(S.lecture + steps[event.key], +(event.key !== 'Escape'), STEPS.length));

@@ -103,7 +103,7 @@ function showMaps(answer, last) {
         const [x, y] = onMap(MAPS[1], answer['unit' + name]).map(v => 6 * v);
         html += `<g class="${name}"><line x2="${x}" y2="${y}"/>` + head(name, x, y, x, y) +
             (Math.hypot(x, y) < 14 ? '' : `<text x="${1.17 * x}" y="${1.17 * y}" dy="5" ` +
-                `text-anchor="middle">${name === 'H' ? last : name}</text>`) + '</g>';
+                `text-anchor="${name === 'H' ? 'end' : 'middle'}">${name === 'H' ? last : name}</text>`) + '</g>';
     }
     put($('#side'), html + '<circle r="4"/>');
 }

@@ -3,7 +3,7 @@
 // names of SIGNS.
 
 const SIGNS = { cdot: '·', sum: 'Σ', beta: 'β', alpha: 'α', gamma: 'γ', lambda: 'λ', times: '×',
-    ge: '≥', le: '≤', quad: '\u2003', '{': '{', '}': '}', ',': '\u2009', to: '→' };
+    ge: '≥', le: '≤', '{': '{', '}': '}' };
 const NAMES = ['cos', 'max', 'sin'];
 const escapeXml = text => text.replace(/[&<>"]/g, c => `&#${c.charCodeAt(0)};`);
 
@@ -31,7 +31,10 @@ function mathml(tex) {
         if (token === '\\frac') return `<mfrac>${group()}${group()}</mfrac>`;
         if (token === '\\sqrt') return `<msqrt>${group()}</msqrt>`;
         if (token === '\\mathbf') return `<mi class="bold">${word()}</mi>`;
-        if (token === '\\text') return word(), `<mtext>${escapeXml(texts.shift())}</mtext>`;
+        if (token === '\\text')
+            return word(), `<mtext>${escapeXml(texts.shift().replace(/ /g, '\u00a0'))}</mtext>`;
+        if (token === '\\,') return '<mspace width=".17em"></mspace>';
+        if (token === '\\quad') return '<mspace width="1em"></mspace>';
         if (token === '\\class') return `<mrow class="${word()}">${group()}</mrow>`;
         if (token[0] === '\\' && NAMES.includes(token.slice(1)))
             return `<mi>${token.slice(1)}</mi>`;
@@ -39,8 +42,10 @@ function mathml(tex) {
         if (/^[a-zA-Zα-ω]$/.test(sign)) return `<mi>${sign}</mi>`;
         if (/[\d∞]/.test(sign)) return `<mn>${sign}</mn>`;
         if ('()[]{}|'.includes(sign)) return `<mo stretchy="false">${sign}</mo>`;
-        const infix = '+='.includes(sign) ? ' form="infix"' : '';
-        return `<mo${infix}>${escapeXml(sign === '-' ? '−' : sign)}</mo>`;
+        // a sign of a number has no room after it
+        const unary = sign === '-' && (at < 2 || /^([(=,]|\\,|\\cdot)$/.test(tokens[at - 2]));
+        const form = unary ? ' form="prefix"' : '+-='.includes(sign) ? ' form="infix"' : '';
+        return `<mo${form}>${escapeXml(sign === '-' ? '−' : sign)}</mo>`;
     };
     const row = end => {
         let out = '';

@@ -423,6 +423,13 @@ static void answer_places(const page_scene *s, int width, float left)
     }
 }
 
+/* What was marked last: where the equation is evaluated there, and with what */
+static struct page_seen {
+    page_scene scene;
+    shade_material material;
+    shade_vec3 P[3], N[3], eye;
+} seen;
+
 static int panel_width(int panel)
 {
     return panel < 0 ? (int)state.width : (int)state.width / PAGE_PANELS;
@@ -457,6 +464,13 @@ static const page_answer *answer_hit(page_scene *s, int panel, page_hit hit)
         N[0] = normal;
     }
     if (flags & SHADE_FLAG_INFINITE_VIEWER) eye = shade_v3(0, 0, 1);
+    seen.scene = *s;
+    seen.material = p.material;
+    seen.eye = eye;
+    for (int k = 0; k < 3; k++) {
+        seen.P[k] = P[k];
+        seen.N[k] = N[k];
+    }
     answer.hit = 1;
     answer_terms(s, &light, state.lamp[lamp].on != 0, eye, P, N, hit.weights);
     if (!(flags & SHADE_FLAG_INFINITE_VIEWER)) eye = shade_normalize(shade_sub(eye, point));
@@ -514,6 +528,25 @@ PAGE(const page_answer *, page_probe_mark)(int panel, int part, float x, float y
     if (hit.triangle < 0) return &answer;
     answer_hit(&s, panel, hit);
     answer.hidden = first.triangle != hit.triangle || first.part != hit.part;
+    return &answer;
+}
+
+/* Fills the answer for one of the points where the equation was evaluated for what was marked last
+   (by vertex: corner 0, 1 or 2; else 0 alone), and for one lamp. */
+PAGE(const page_answer *, page_factors)(int corner, int lamp)
+{
+    page_scene *s = &seen.scene;
+    const shade_light light = lamp_of(&state.lamp[lamp]);
+    const unsigned flags = s->draw.lighting.flags;
+    const shade_vec3 P = seen.P[corner], w = shade_v3(corner == 0, corner == 1, corner == 2);
+    shade_vec3 V = seen.eye, N = shade_normalize(seen.N[corner]);
+    s->draw.lighting.lights = s->lamps;
+    s->draw.material = &seen.material;
+    answer_terms(s, &light, state.lamp[lamp].on != 0, seen.eye, seen.P, seen.N, w);
+    if (!(flags & SHADE_FLAG_INFINITE_VIEWER)) V = shade_normalize(shade_sub(V, P));
+    if ((flags & SHADE_FLAG_TWO_SIDED) && shade_dot(N, V) < 0) N = shade_neg(N);
+    factors(&s->draw.lighting, &light, V, P, N, seen.material.shininess, answer.unit);
+    answer.place = P;
     return &answer;
 }
 

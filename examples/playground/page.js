@@ -365,6 +365,7 @@ function buildControls() {
     buildMaps();
     buildLecture();
     buildRaster();
+    buildExplain();
 }
 // A bare page shows the controls that with= names.
 function showAsked() {

@@ -252,7 +252,7 @@ function buildRaster() {
     shown.push(showRaster);
 }
 function rasterKey(event) {
-    if (!S.raster || modified(event) || $('#program').open) return;
+    if (!S.raster || modified(event)) return;
     const own = event.target.closest?.('button, input, a, .corner'), { key } = event;
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key];
     if (key === 'Escape' && !S.bare) S.raster = 0, changed();

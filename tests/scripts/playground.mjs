@@ -626,6 +626,74 @@ for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080], [3840, 21
     await phone.context().close();
 }
 
+// ---- the marked pixel, explained -------------------------------------------------------------------
+
+{
+    const page = await open('turn=0', { viewport: { width: 1366, height: 768 } });
+    const pandoc = (() => {
+        try { execFileSync('pandoc', ['--version']); return true; } catch { return false; }
+    })();
+    for (const hash of ['', RICH, RICH + '&beta1=60&beta2=90&beta3=170', RICH + '&model=1&beta1=90',
+        RICH + '&shading=1&beta1=90&beta2=80', 'shading=2', 'flags=1&shape=4&yaw=2', 'flags=2&pitch=-1',
+        'flags=4&p1=-3,1,-3&n=4', RICH + '&flags=24&beta1=90', 'flags=32&model=1', 'model=2', 'model=3&ke=.1,.2,.3',
+        'model=4&ke=.1,.2,.3', 'model=5', 'terms=9&ke=.1,.1,.1', 'on1=0&on2=0', 'room=1&part=1&mark=1,.5,1',
+        'compare=1&panel=2&n=9', 'compare=1&panel=0&n=9', 'a1=0&b1=0&c1=0', 'kd=1,1,1&I1=3,3,3&on3=1']) {
+        await go(page, 'turn=0&' + hash);
+        const { lines, code, tex, terms } = await page.evaluate(() => {
+            const found = explanation(), a = probeMark();
+            return { lines: found.lines, code: asC(found), tex: asLatex(found),
+                terms: [0, 1, 2].map(k => TERMS.reduce((sum, name) => sum + a[name][k], 0)) };
+        });
+        const last = lines[lines.length - 1].value;
+        check('the lines add up to the pixel: ' + hash,
+            last.every((v, k) => Math.abs(v - terms[k]) < 1e-5), [last, terms]);
+        fs.writeFileSync(T + '/pixel.c', code);
+        let printed = '';
+        try {
+            execFileSync(cc, ['-std=c99', '-Wall', '-Wextra', '-Werror', T + '/pixel.c', '-lm', '-o',
+                T + '/pixel'], { stdio: 'pipe' });
+            printed = String(execFileSync(T + '/pixel'));
+        } catch (error) { printed = String(error.stderr || error); }
+        const got = new Map(printed.trim().split('\n').map(line => line.split(' = ')));
+        const off = lines.filter(line => line.c).filter(({ c, value }) => {
+            const numbers = (got.get(c) || '').split(' ').map(Number), want = [value].flat();
+            return numbers.length !== want.length || numbers.some((v, k) =>
+                !(Math.abs(v - want[k]) <= 2e-4 * Math.max(1, Math.abs(want[k]))));
+        });
+        check('each line of C gives its number: ' + hash, got.size === lines.filter(line => line.c).length &&
+            !off.length, JSON.stringify(off.slice(0, 3)) + printed.slice(0, 300));
+        check('lines of 100 columns: ' + hash, code.split('\n').every(line => line.length <= 100));
+        // each line as pandoc reads it, which complains of what is no LaTeX
+        const all = tex.split('\n').slice(1, -2).map(line => '$$' + line.replace('&', '')
+            .replace(/ \\\\$/, '') + '$$').join('\n\n');
+        if (pandoc) check('it is LaTeX: ' + hash, execFileSync('sh', ['-c', 'pandoc -f markdown -t html ' +
+            '--mathml 2>&1 >/dev/null'], { input: all }).length === 0);
+    }
+    await go(page, 'turn=0');
+    await page.keyboard.press('e');
+    check('it is shown as MathML', await page.evaluate(() => $('#explanation').open &&
+        document.querySelectorAll('#lines math').length > 20 && !/undefined|NaN|\\\\/.test($('#lines').textContent)));
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    for (const [id, wanted] of [['#copy-latex', /^\\begin\{align\*\}[^]*N\}[^]*align\*\}\n$/],
+        ['#copy-c', /^\/\* The equation[^]*return 0;\n\}\n$/]]) {
+        await page.locator(id).click();
+        check('copied: ' + id, wanted.test(await page.evaluate(() => navigator.clipboard.readText())));
+    }
+    await page.keyboard.press('Escape');
+    for (const key of ['Control+e', 'Alt+l', 'Control+l', 'Meta+e']) await page.keyboard.press(key);
+    check('keys with Ctrl, Alt and Meta are the browser\'s', await page.evaluate(() => !S.lecture &&
+        !document.querySelector('dialog[open]')));
+    await page.locator('canvas').first().focus();
+    const state = () => page.evaluate(() => [S.zoom, S.yaw, S.pitch].join());
+    const before = await state();
+    for (const key of ['Control+=', 'Alt+ArrowLeft', 'Meta+-', 'Control+ArrowUp']) await page.keyboard.press(key);
+    check('on the picture too', before === await state());
+    check('radio groups have names', await page.evaluate(() =>
+        [...document.querySelectorAll('input[type=radio]')].every(node =>
+            node.closest('[role=radiogroup]')?.getAttribute('aria-label'))));
+    await page.context().close();
+}
+
 // ---- what a slide speaks of, alone; the mark ---------------------------------------------------------
 
 {
