@@ -7468,7 +7468,7 @@ typedef struct shade__survey {
     shade_target     picture;            /* what the next experiment draws, and to which pixels */
     shade_mesh       mesh;
     shade_draw_state state;
-    shade_material   material;
+    shade_material   material, surface;  /* surface: the one given, or white */
     shade_light      lamp[SHADE__SUSPECTS];
     float            least;              /* pixels count if a channel is this; 0: all of them */
     uint32_t         every;              /* one of so many pixels is sampled; 0: none */
@@ -7578,10 +7578,11 @@ static void shade__begin_survey(shade__survey *s)
     if (shade__is_encoded(s->target->srgb, l)) s->black /= 12.92f;
     if (l->bytes == 16) s->black = FLT_MIN;
 
-    SHADE__ZERO(s->material);
-    s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
-    if (s->state.material) s->material = *s->state.material;
-    s->material.shininess = shade__minf(s->material.shininess, 4);
+    SHADE__ZERO(s->surface);
+    s->surface.diffuse = s->surface.ambient = shade_v3(1, 1, 1);
+    if (s->state.material) s->surface = *s->state.material;
+    s->material = s->surface;
+    s->material.shininess = shade__minf(s->surface.shininess, 4);
     s->state.material = &s->material;
 
     if (s->state.fragment) s->state.alpha_cutoff = 0;
@@ -7710,7 +7711,7 @@ static int shade__eye_inside(shade__survey *s)
     shade_vec3 p;
     shade__measure(s);
     p = shade_clamp(eye, s->low, s->high);
-    return shade__is_zero(shade_sub(p, eye));
+    return shade_mat4_determinant(m) != 0 && shade__is_zero(shade_sub(p, eye));
 }
 
 /*---------------------------------------------------------------------------------------- >>explain
@@ -8037,19 +8038,74 @@ static const char *shade__suspect_picture(shade__survey *s)
 
 /* ---- the mesh is drawn, but black */
 
-/* Tries the lamps without attenuation, then without their cones. */
-static const char *shade__why_unlit(shade__survey *s)
+/* Gives the mesh a surface that reflects all light, with the holes of its map.  A material that is
+   NULL has no highlights. */
+static void shade__whiten(shade__survey *s)
+{
+    const shade_vec3 one = shade_v3(1, 1, 1);
+    s->mesh.colors = NULL;
+    s->white = 1;
+    s->material.diffuse = s->material.ambient = one;
+    if (s->given_state->material) s->material.specular = one;
+}
+
+/* Lights the mesh by one white lamp and nothing else. */
+static void shade__light_by(shade__survey *s, shade_vec4 position, unsigned flags)
 {
     shade_lighting *l = &s->state.lighting;
-    const shade_light *lamps = l->lights;
-    int any, met = 0;
-    shade__light_fragments(s);
-    any = shade__count(s, FLT_MIN) > 0;
-    if (shade__bright(s))
-        return "state.shading lights vertices or middles of faces, which no light reaches, though "
-               "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
+    s->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
+    s->lamp[0].position = position;
+    SHADE__ZERO(*l);
+    l->lights = s->lamp;
+    l->light_count = 1;
+    l->flags = flags;
+}
 
-    l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
+/* Is no normal in view a direction?  Open highlights of exponent 0 are 1 wherever there is one. */
+static int shade__lacks_normals(shade__survey *s)
+{
+    const shade_lighting given = s->state.lighting;
+    const shade_material material = s->material;
+    int any;
+    shade__light_by(s, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
+    s->material.specular = shade_v3(1, 1, 1);
+    s->material.shininess = 0;
+    any = shade__bright(s);
+    s->state.lighting = given;
+    s->material = material;
+    return !any;
+}
+
+/* Why no lamp lights a white surface, or, with ambient set, why ambient light alone does. */
+static const char *shade__why_unlit(shade__survey *s, int ambient)
+{
+    static const char *const behind[] = {
+        "Every lamp is behind the faces in view, on the side that their normals point away from: "
+        "turn mesh.normals (without them the winding), move light.position, or set "
+        "SHADE_FLAG_TWO_SIDED.",
+        "Only ambient light arrives: every lamp is behind the faces in view; turn mesh.normals "
+        "(without them the winding), move light.position, or set SHADE_FLAG_TWO_SIDED."
+    };
+    static const char *const zero[] = {
+        "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
+        "shade_mesh_normals, or make mesh.normals NULL.",
+        "Only ambient light arrives, because mesh.normals are zero or NaN; fill them by "
+        "shade_mesh_normals, or make mesh.normals NULL."
+    };
+    shade_lighting *l = &s->state.lighting;
+    const shade_light *lamps = l->lights;
+    const int count = l->light_count;
+    int any, met = 0;
+    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    if (shade__bright(s)) {
+        if (ambient || !shade__eye_inside(s)) return behind[ambient];
+        return "The eye lies inside of the mesh's box and sees faces whose normals point away from "
+               "every lamp; check state.view, or move the eye out.";
+    }
+    if (shade__lacks_normals(s)) return zero[ambient];
+    if (ambient) return NULL;
+
+    l->light_count = shade__min(count, SHADE__SUSPECTS);
     l->lights = s->lamp;
     for (int i = 0; i < l->light_count; i++) {
         s->lamp[i] = lamps[i];
@@ -8060,65 +8116,78 @@ static const char *shade__why_unlit(shade__survey *s)
         return "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower "
                "its constant, linear or quadratic, or raise the light's diffuse and specular.";
 
-    l->flags |= SHADE_FLAG_ATTENUATED_AMBIENT;    /* it shows cones at any angle to the face */
-    for (int i = 0; i < l->light_count; i++) s->lamp[i].ambient = shade_v3(1, 1, 1);
-    any |= shade__count(s, FLT_MIN) > 0;
+    /* a lamp's own ambient light shows its cone at any angle to the face */
+    l->flags |= SHADE_FLAG_ATTENUATED_AMBIENT;
     for (int i = 0; i < l->light_count; i++) {
         shade_ray axis;
         axis.origin = shade__xyz(lamps[i].position);
         axis.direction = lamps[i].spot_direction;
         met |= shade_pick(&s->mesh, s->state.model, axis, NULL, NULL) >= 0;
-        s->lamp[i].spot_direction = s->lamp[i].ambient = shade_v3(0, 0, 0);
+        s->lamp[i].ambient = shade_add(s->lamp[i].diffuse, s->lamp[i].specular);
     }
-    if (met) return NULL;    /* its pool of light may be smaller than a pixel */
-    if (!any && shade__bright(s))
-        return "No cone of the lights meets what is in view; check spot_direction and "
-               "spot_cos_cutoff, the cosine of an angle in radians.";
+    any = shade__count(s, FLT_MIN) > 0;
+    for (int i = 0; i < l->light_count; i++) {
+        s->lamp[i].spot_direction = shade_v3(0, 0, 0);
+        s->lamp[i].ambient = s->lamp[i].diffuse;
+    }
+    if (shade__bright(s))    /* a pool of light may be smaller than a pixel, or dim at its angle */
+        return any || met ? NULL
+                          : "No cone of the lights meets what is in view; check spot_direction and "
+                            "spot_cos_cutoff, the cosine of an angle in radians.";
+    if (count > SHADE__SUSPECTS) return NULL;
     return "The lights have no colour, or too little: diffuse and specular of every "
            "lighting.lights are dark, or diffuse is, and the highlights do not reach the eye.";
-}
-
-/* Gives the mesh a surface that reflects all light, with the holes of its map. */
-static void shade__whiten(shade__survey *s)
-{
-    s->mesh.colors = NULL;
-    s->white = 1;
-    s->material.diffuse = s->material.specular = s->material.ambient = shade_v3(1, 1, 1);
 }
 
 static const char *shade__why_dark(shade__survey *s)
 {
     const shade_raster *r = &s->given_state->raster;
-    const shade_material given = s->material;
+    const shade_material wide = s->material;
     shade_lighting *l = &s->state.lighting;
     const int over = r->blend == SHADE_BLEND_OVER;
 
-    s->state.raster.blend = SHADE_BLEND_REPLACE;
-    if (r->blend != SHADE_BLEND_REPLACE && shade__shows(s))
-        return "Alpha is 0 or almost where the mesh is in view, so that raster.blend leaves "
-               "nothing of it: it is 1 - state.transparency, times that of state.diffuse_map.";
+    if (r->blend != SHADE_BLEND_REPLACE) {
+        s->material.emission = shade_v3(1, 1, 1);
+        l->model = SHADE_MODEL_EMISSIVE;
+        l->terms = 0;
+        if (!shade__bright(s))
+            return "Alpha is 0 or almost where the mesh is in view, so that raster.blend leaves "
+                   "nothing of it: it is 1 - state.transparency, times that of state.diffuse_map.";
+        s->material = wide;
+        *l = s->given_state->lighting;
+        s->state.raster.blend = SHADE_BLEND_REPLACE;
+        if (shade__shows(s)) return NULL;    /* dim light, dimmed more by alpha */
+    }
 
     /* outlines of back faces are meant to be black, and so are shadows, blended over a ground */
     if (r->cull == SHADE_CULL_FRONT) return NULL;
-    if (over && shade__is_zero(shade_add(shade_add(given.emission, given.ambient),
-                                         shade_add(given.diffuse, given.specular))))
+    if (over && shade__is_zero(shade_add(shade_add(wide.emission, wide.ambient),
+                                         shade_add(wide.diffuse, wide.specular))))
         return NULL;
 
+    s->material = s->surface;
+    shade__light_fragments(s);
+    if (shade__bright(s))
+        return "state.shading lights vertices or middles of faces, which no light reaches, though "
+               "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
     l->terms = 0;
-    l->model = SHADE_MODEL_BLINN_PHONG;
-    if (shade__shows(s))
+    if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
+    if (shade__bright(s))
         return "lighting.terms or lighting.model leaves out every term that would be seen; 0 "
                "means all terms, and the model SHADE_MODEL_BLINN_PHONG.";
 
+    s->material = wide;
     shade__whiten(s);
     if (shade__bright(s)) {    /* light is there, and the surface takes it */
-        s->material = given;
+        s->material = s->surface;
         if (over) return NULL;
-        return shade__shows(s) ? "mesh.colors, or the texels of state.diffuse_map, are black where "
-                               "the mesh is in view; check mesh.texcoords and the picture."
-                             : "state.material reflects nothing, or almost, of the light that "
-                               "there is: lamps need diffuse or specular, lighting.ambient needs "
-                               "material.ambient; NULL is white.";
+        if (shade__bright(s))
+            return "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is "
+                   "in view; check mesh.texcoords and the picture.";
+        s->material = wide;
+        if (shade__shows(s)) return NULL;    /* a highlight between pixels, or too little of all */
+        return "state.material reflects nothing, or almost, of the light that there is: lamps need "
+               "diffuse or specular, lighting.ambient needs material.ambient; NULL is white.";
     }
 
     if (l->light_count <= 0)
@@ -8126,21 +8195,7 @@ static const char *shade__why_dark(shade__survey *s)
                            "lighting.ambient is dark; set light_count."
                          : "There is no light: lighting.lights is NULL and lighting.ambient is "
                            "dark; add a light, or ambient light.";
-
-    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    if (shade__bright(s))
-        return shade__eye_inside(s)
-                   ? "The eye lies inside of the mesh's box and sees faces whose normals point "
-                     "away from every lamp; check state.view, or move the eye out."
-                   : "Every lamp is behind the faces in view, on the side that their normals point "
-                     "away from: turn mesh.normals (without them the winding), move "
-                     "light.position, or set SHADE_FLAG_TWO_SIDED.";
-
-    s->mesh.normals = NULL;
-    if (shade__bright(s))
-        return "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
-               "shade_mesh_normals, or make mesh.normals NULL.";
-    return shade__why_unlit(s);
+    return shade__why_unlit(s, 0);
 }
 
 /* ---- the mesh is lit, but wrongly */
@@ -8162,6 +8217,7 @@ static const char *shade__why_flat(shade__survey *s)
         !shade__is_zero(s->material.emission) || shade__is_zero(s->material.diffuse))
         return NULL;
     l->terms = terms & lamps;
+    s->state.raster.blend = SHADE_BLEND_REPLACE;
     if (shade__shows(s)) return NULL;
     if (l->light_count <= 0) {
         const float most = l->ambient.x + l->ambient.y + l->ambient.z;
@@ -8172,15 +8228,7 @@ static const char *shade__why_flat(shade__survey *s)
         return "Only ambient light arrives, which shows no form: lighting.lights is NULL.";
     }
     shade__whiten(s);
-    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    if (shade__shows(s))
-        return "Only ambient light arrives: every lamp is behind the faces in view; turn "
-               "mesh.normals (without them the winding), move light.position, or set "
-               "SHADE_FLAG_TWO_SIDED.";
-    s->mesh.normals = NULL;
-    return shade__shows(s) ? "Only ambient light arrives, because mesh.normals are zero or NaN; "
-                             "fill them by shade_mesh_normals, or make mesh.normals NULL."
-                           : NULL;
+    return shade__why_unlit(s, 1);
 }
 
 /* Does a lamp at the eye leave faces dark that are wound toward it? */
@@ -8195,12 +8243,8 @@ static int shade__normals_turned(shade__survey *s)
     s->state.raster.cull = SHADE_CULL_BACK;
     shade__light_fragments(s);
     /* at the centre of projection, which is infinitely far away where projection is parallel */
-    s->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
-    s->lamp[0].position = shade_mat4_transform(shade_mat4_inverse(m),
-                                               shade_v4(0, 0, 1 - 2 * s->farthest, 0));
-    SHADE__ZERO(*l);
-    l->lights = s->lamp;
-    l->light_count = 1;
+    shade__light_by(s, shade_mat4_transform(shade_mat4_inverse(m),
+                                            shade_v4(0, 0, 1 - 2 * s->farthest, 0)), 0);
     shade__whiten(s);
     front = shade__covered(s);
     toward = shade__count(s, FLT_MIN);
@@ -8216,7 +8260,7 @@ static const char *shade__suspect_light(shade__survey *s)
 {
     const char *why;
     long long lit;
-    if (s->given_state->material) s->material = *s->given_state->material;
+    s->material = s->surface;
     lit = shade__count(s, s->black);
     s->material.emission = shade_v3(0, 0, 0);
     if (s->target->format != SHADE_FORMAT_RGBA32F &&

@@ -7,8 +7,10 @@
 #ifndef EXPLAINED_H
 #define EXPLAINED_H
 
-enum { EX_WIDTH = 40, EX_HEIGHT = 28, EX_PIXELS = EX_WIDTH * EX_HEIGHT, EX_VERTICES = 70,
-       EX_INDICES = 288, EX_LAMPS = 3 };
+#include "examples/shared/teapot.h"
+
+enum { EX_WIDTH = 40, EX_HEIGHT = 28, EX_PIXELS = EX_WIDTH * EX_HEIGHT, EX_VERTICES = 176,
+       EX_INDICES = 720, EX_LAMPS = 3 };
 
 typedef struct explained {
     shade_target target;
@@ -79,7 +81,7 @@ static void ex_triangles(explained *e)
         e->index[i] = (uint32_t)i;
     }
 }
-static void ex_mesh(explained *e)
+static void ex_shape(explained *e)
 {
     shade_mesh *m = &e->mesh;
     const int kind = explained_pick(4);
@@ -88,10 +90,15 @@ static void ex_mesh(explained *e)
     else ex_ball(e);
     m->positions = &e->position[0].x;
     m->indices = e->index;
-    for (int i = 0; i < m->vertex_count; i++) {
+    for (int i = 0; i < m->vertex_count; i++)
         e->normal[i] = kind ? e->position[i] : shade_v3(0, 1, 0);
+}
+/* Gives the mesh other arrays, which may be wrong. */
+static void ex_arrays(explained *e)
+{
+    shade_mesh *m = &e->mesh;
+    for (int i = 0; i < m->vertex_count; i++)
         e->texcoord[i] = shade_v2(e->position[i].x, e->position[i].z);
-    }
     if (ex_one_in(16)) e->position[explained_pick(m->vertex_count)].y = NAN;
     if (ex_one_in(24)) m->index_count = 3;
     if (ex_one_in(6))
@@ -100,7 +107,7 @@ static void ex_mesh(explained *e)
             e->index[i] = e->index[i + 1];
             e->index[i + 1] = k;
         }
-    if (explained_pick(3)) m->normals = &e->normal[0].x;
+    m->normals = explained_pick(3) ? &e->normal[0].x : NULL;
     if (ex_one_in(8)) {
         const float k = ex_one_in(3) ? NAN : -(float)explained_pick(2);
         for (int i = 0; i < m->vertex_count; i++) e->normal[i] = shade_scale(e->normal[i], k);
@@ -270,16 +277,48 @@ static void ex_target(explained *e)
     }
 }
 
-/* Draws anything, after another mesh at times. */
-static void ex_draw(explained *e)
+/* The first program of the README, with the teapot of few triangles. */
+static void ex_first_program(explained *e)
+{
+    shade_draw_state *s = &e->state;
+    shade_target *t = &e->target;
+    teapot_build(2, &e->position[0].x, &e->normal[0].x, NULL, e->index);
+    e->mesh.positions = &e->position[0].x;
+    e->mesh.normals = &e->normal[0].x;
+    e->mesh.indices = e->index;
+    e->mesh.vertex_count = teapot_vertex_count(2);
+    e->mesh.index_count = teapot_index_count(2);
+    e->lamp[0] = shade_point_light(shade_v3(4, 6, 5), shade_v3(1, 1, 1));
+    e->material = shade_linear_material(shade_preset_material(SHADE_PRESET_GOLD));
+    s->view = shade_mat4_look_at(shade_v3(0, 4, 8), shade_v3(0, 1.4f, 0), shade_v3(0, 1, 0));
+    s->projection = shade_mat4_perspective(0.7f, 40 / 28.0f, 0.1f, 100);
+    s->material = &e->material;
+    s->lighting.lights = e->lamp;
+    s->lighting.light_count = 1;
+    t->width = EX_WIDTH;
+    t->height = EX_HEIGHT;
+    t->color = e->pixel;
+    t->depth = e->depth;
+    t->srgb = 1;
+}
+static void ex_state(explained *e, int first)
+{
+    memset(e, 0, sizeof *e);
+    if (first) ex_first_program(e);
+    else ex_shape(e);
+    if (!first || ex_one_in(5)) ex_arrays(e);
+    if (!first || ex_one_in(5)) ex_camera(e);
+    if (!first || ex_one_in(5)) ex_light(e);
+    if (!first || ex_one_in(5)) ex_surface(e);
+    if (!first || ex_one_in(5)) ex_target(e);
+}
+
+/* Draws anything, or the first program with some of its fields changed, after another mesh at
+   times. */
+static void ex_draw(explained *e, int first)
 {
     float clear;
-    memset(e, 0, sizeof *e);
-    ex_mesh(e);
-    ex_camera(e);
-    ex_light(e);
-    ex_surface(e);
-    ex_target(e);
+    ex_state(e, first);
     clear = e->state.raster.depth_test == SHADE_COMPARE_GREATER ? 0.0f : 1.0f;
     if (ex_one_in(16)) clear = (float)explained_pick(3) / 2;
     for (int i = 0; i < EX_PIXELS; i++) e->depth[i] = clear;
@@ -320,17 +359,60 @@ static int ex_lit(const explained *e, int *clipped)
 }
 
 /* Draws the mesh again onto black, with these states and the depth of before. */
-static int ex_lit_again(const explained *e, const shade_draw_state *state)
+static int ex_lit_again(const explained *e, const shade_mesh *mesh, const shade_draw_state *state,
+                        int whole)
 {
     static explained again;
+    shade_target *t = &again.target;
     int clipped;
     again = *e;
     memset(again.pixel, 0, sizeof again.pixel);
     memcpy(again.depth, e->before, sizeof again.depth);
-    again.target.color = again.pixel;
-    if (e->target.depth) again.target.depth = again.depth;
-    shade_draw_mesh(&again.target, &e->mesh, state, NULL);
+    t->color = again.pixel;
+    if (e->target.depth) t->depth = again.depth;
+    if (whole) {
+        t->depth = NULL;
+        t->row_offset = t->row_count = t->clip_x = t->clip_y = t->clip_width = t->clip_height = 0;
+    }
+    shade_draw_mesh(t, mesh, state, NULL);
     return ex_lit(&again, &clipped);
+}
+
+/* What is changed, one after the other, until a black mesh is lit. */
+enum ex_cure { EX_EACH, EX_TERMS, EX_COLORS, EX_MATERIAL, EX_SIDES, EX_DISTANCE };
+
+/* With all changes up to this one, does any fragment of the whole picture have light?  Those of one
+   pixel are added, so that none hides another. */
+static int ex_helps(const explained *e, enum ex_cure cure)
+{
+    static const shade_material white = { .ambient = { 1, 1, 1 }, .diffuse = { 1, 1, 1 },
+                                          .specular = { 1, 1, 1 }, .shininess = 1 };
+    shade_mesh mesh = e->mesh;
+    shade_draw_state s = e->state;
+    shade_texture map = e->map;
+    shade_light lamp[EX_LAMPS];
+    uint8_t texel[16];
+    memcpy(lamp, e->lamp, sizeof lamp);
+    memcpy(texel, e->texel, sizeof texel);
+    for (int k = 0; k < 16; k++) texel[k] = k % 4 == 3 || cure >= EX_COLORS ? 255 : texel[k];
+    map.pixels = texel;
+    if (s.diffuse_map) s.diffuse_map = &map;
+    s.transparency = s.alpha_cutoff = 0;
+    s.lighting.lights = lamp;
+    s.raster.blend = SHADE_BLEND_ADD;
+    s.shading = SHADE_SHADING_PER_FRAGMENT;
+    if (cure >= EX_TERMS) {
+        if (s.lighting.model > SHADE_MODEL_PHONG) s.lighting.model = SHADE_MODEL_BLINN_PHONG;
+        s.lighting.terms = 0;
+    }
+    if (cure >= EX_COLORS) mesh.colors = NULL;
+    if (cure >= EX_MATERIAL) s.material = s.material ? &white : NULL;
+    if (cure >= EX_SIDES) s.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    for (int k = 0; k < EX_LAMPS; k++) {
+        shade_light *l = &lamp[k];
+        if (cure >= EX_DISTANCE) l->constant = l->linear = l->quadratic = l->spot_exponent = 0;
+    }
+    return ex_lit_again(e, &mesh, &s, 1);
 }
 
 /* The stats of a draw of depth alone, where each fragment passes: of the whole picture or of the
@@ -351,8 +433,9 @@ static shade_stats ex_cover(explained *e, const shade_mesh *mesh, const shade_dr
     return stats;
 }
 
-/* What shaders write about a fragment: depth, facing, whether the normal turns away from the eye,
-   whether a cone holds it, and whether light is on the side of its normal. */
+/* What shaders write about a fragment: depth, and 2 more where the normal is no direction; facing,
+   and 2 more where the normal turns away from the eye; 1 and the alpha of the texel, negative where
+   no cone holds the point; 1, and more where light is on the side of the normal. */
 typedef struct ex_asked {
     const explained *e;
     shade_vec3 eye;
@@ -366,10 +449,18 @@ static shade_mat4 ex_or_identity(shade_mat4 m)
     }
     return shade_mat4_identity();
 }
-static shade_vec3 ex_eye(const shade_draw_state *s)
+static int ex_is_greater(const shade_draw_state *s)
 {
+    return s->raster.depth_test == SHADE_COMPARE_GREATER ||
+           s->raster.depth_test == SHADE_COMPARE_GREATER_EQUAL;
+}
+/* The centre of projection.  Of parallel rays it is far away, on the side whose depths the test
+   takes for near. */
+static shade_vec3 ex_eye(const explained *e)
+{
+    const shade_draw_state *s = &e->state;
     const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->projection), ex_or_identity(s->view));
-    const float toward = s->raster.depth_test == SHADE_COMPARE_GREATER ? 1.0f : -1.0f;
+    const float toward = e->target.depth && ex_is_greater(s) ? 1.0f : -1.0f;
     const shade_vec4 at = shade_mat4_transform(shade_mat4_inverse(m), shade_v4(0, 0, toward, 0));
     const float scale = at.w == 0 ? 1e6f : 1 / at.w;
     return shade_v3(at.x * scale, at.y * scale, at.z * scale);
@@ -380,15 +471,16 @@ static void ex_write(const void *uniforms, const shade_fragments *SHADE_RESTRICT
     const ex_asked *a = (const ex_asked *)uniforms;
     const shade_draw_state *s = &a->e->state;
     const shade_lighting *l = &s->lighting;
-    const int holes = a->holes && s->diffuse_map && a->e->mesh.texcoords;
+    const int mapped = s->diffuse_map && a->e->mesh.texcoords;
     float texel[4 * SHADE_LANES];
-    if (holes)
+    if (mapped)
         shade_sample_lanes(s->diffuse_map, in->varying[SHADE_VARYING_TEXCOORD],
                            in->varying[SHADE_VARYING_TEXCOORD + 1],
                            s->diffuse_map->mipmap_count ? in->lod : NULL, texel);
     for (int i = 0; i < in->count; i++) {
         const shade_vec3 p = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
         const shade_vec3 n = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
+        const float alpha = mapped ? texel[3 * SHADE_LANES + i] : 1;
         float cone = 0, before = 0;
         for (int k = 0; k < l->light_count; k++) {
             shade_light lamp = l->lights[k];
@@ -400,12 +492,12 @@ static void ex_write(const void *uniforms, const shade_fragments *SHADE_RESTRICT
             lamp.constant = lamp.linear = lamp.quadratic = lamp.spot_exponent = 0;
             if (most > 0 && shade_light_at(&lamp, p, NULL, NULL) > 0) cone = 1;
         }
-        out->color[0][i] = in->z[i];
+        out->color[0][i] = in->z[i] + (shade_length(n) > 0 ? 0.0f : 2.0f);
         out->color[1][i] = (float)in->front[i] +
                            (shade_dot(n, shade_sub(a->eye, p)) < 0 ? 2.0f : 0.0f);
-        out->color[2][i] = cone;
+        out->color[2][i] = cone > 0 ? 1 + alpha : -1 - alpha;
         out->color[3][i] = 1 + before;
-        if (holes && !(texel[3 * SHADE_LANES + i] * (1 - s->transparency) >= s->alpha_cutoff))
+        if (a->holes && !(alpha * (1 - s->transparency) >= s->alpha_cutoff))
             out->color[3][i] = 0;
     }
 }
@@ -417,7 +509,7 @@ static void ex_values(explained *e, shade_cull cull, int tested)
     shade_draw_state s = e->state;
     ex_asked asked;
     asked.e = e;
-    asked.eye = ex_eye(&s);
+    asked.eye = ex_eye(e);
     memset(e->value, 0, sizeof e->value);
     t.format = SHADE_FORMAT_RGBA32F;
     t.color = e->value;
@@ -472,6 +564,7 @@ static int ex_part(const explained *e, int (*right)(const float *), int eighths)
     return n && n * 8 >= all * eighths;
 }
 static int ex_is_turned(const float *v) { return v[1] == 3; }
+static int ex_has_normal(const float *v) { return v[0] < 2; }
 static int ex_in_cone(const float *v) { return v[2] > 0; }
 static int ex_before_lamp(const float *v) { return v[3] > 1.3f; }
 
@@ -487,17 +580,14 @@ static int ex_near_is_greater(const explained *e)
 }
 static int ex_far_wins(const explained *e)
 {
-    const shade_compare test = e->state.raster.depth_test;
-    const int greater = test == SHADE_COMPARE_GREATER || test == SHADE_COMPARE_GREATER_EQUAL;
-    return greater != ex_near_is_greater(e);
+    return ex_is_greater(&e->state) != ex_near_is_greater(e);
 }
 /* Is a back before the front-facing ones in most of their pixels? */
 static int ex_is_inside_out(explained *e)
 {
     static float mask[EX_PIXELS];
-    const shade_compare test = e->state.raster.depth_test;
-    const int greater = test == SHADE_COMPARE_GREATER || test == SHADE_COMPARE_GREATER_EQUAL;
-    const int tested = (e->target.depth ? greater : ex_near_is_greater(e)) ? 2 : 1;
+    const int greater = e->target.depth ? ex_is_greater(&e->state) : ex_near_is_greater(e);
+    const int tested = greater ? 2 : 1;
     int all = 0, n = 0;
     ex_values(e, SHADE_CULL_BACK, tested);
     for (int i = 0; i < EX_PIXELS; i++) mask[i] = e->value[4 * i + 3];
@@ -521,38 +611,46 @@ static int ex_is_overdrawn(explained *e)
 }
 
 enum ex_claim {
-    EX_DARK, EX_CONE, EX_BEHIND, EX_AMBIENT, EX_CLIPPED, EX_TURNED, EX_NOTHING, EX_FAR, EX_EYE,
-    EX_AREA, EX_CULLED, EX_BOXES, EX_FEWER, EX_CUT, EX_REJECTED, EX_SOME, EX_CLIP, EX_HIDDEN,
-    EX_DISCARDED, EX_FAR_WINS, EX_INSIDE_OUT, EX_OVERDRAWN, EX_ROWS, EX_FIELD
+    EX_ALPHA, EX_NO_TERM, EX_BLACK_COLORS, EX_BLACK_MATERIAL, EX_NO_LAMP, EX_NO_COUNT, EX_INSIDE,
+    EX_BEHIND, EX_BAD_NORMALS, EX_COARSE, EX_FAINT, EX_CONE, EX_NO_COLOR,
+    EX_ALL_BEHIND, EX_AMBIENT_NORMALS, EX_AMBIENT_COUNT, EX_AMBIENT_ALONE, EX_CLIPPED, EX_TURNED,
+    EX_NOTHING, EX_FAR, EX_EYE, EX_AREA, EX_CULLED, EX_CULLED_INSIDE, EX_BOXES, EX_FEWER, EX_CUT,
+    EX_REJECTED, EX_SOME, EX_CLIP, EX_UNCLEARED, EX_HIDDEN, EX_DISCARDED, EX_FAR_WINS,
+    EX_INSIDE_OUT, EX_OVERDRAWN, EX_ROWS, EX_VIEW_ROWS, EX_SWAPPED, EX_DEGENERATE, EX_NO_FLAG,
+    EX_COUNT, EX_EMPTY, EX_SCALES, EX_ASPECT, EX_TEXCOORDS, EX_MIPMAPS, EX_UNKNOWN
 };
 static const struct { const char *words; enum ex_claim claim; } ex_claims[] = {
-    { "There is no light", EX_DARK }, { "and lighting.ambient is dark", EX_DARK },
-    { "sees faces whose normals point away", EX_DARK }, { "Every lamp is behind", EX_BEHIND },
-    { "mesh.normals are zero or NaN, so that", EX_DARK }, { "Attenuation, or", EX_DARK },
-    { "No cone of the lights", EX_CONE }, { "The lights have no colour", EX_DARK },
-    { "mesh.colors, or the texels", EX_DARK }, { "state.material reflects", EX_DARK },
-    { "leaves out every term", EX_DARK }, { "Alpha is 0", EX_DARK },
-    { "Only ambient light arrives", EX_AMBIENT }, { "lit is clipped", EX_CLIPPED },
+    { "Alpha is 0", EX_ALPHA }, { "leaves out every term", EX_NO_TERM },
+    { "mesh.colors, or the texels", EX_BLACK_COLORS },
+    { "state.material reflects", EX_BLACK_MATERIAL },
+    { "There is no light", EX_NO_LAMP }, { "and lighting.ambient is dark", EX_NO_COUNT },
+    { "sees faces whose normals point away", EX_INSIDE }, { "Every lamp is behind", EX_BEHIND },
+    { "mesh.normals are zero or NaN, so that", EX_BAD_NORMALS },
+    { "state.shading lights", EX_COARSE }, { "Attenuation, or", EX_FAINT },
+    { "No cone of the lights", EX_CONE }, { "The lights have no colour", EX_NO_COLOR },
+    { "every lamp is behind", EX_ALL_BEHIND },
+    { "because mesh.normals are zero", EX_AMBIENT_NORMALS },
+    { "arrives: lighting.light_count is 0", EX_AMBIENT_COUNT },
+    { "which shows no form", EX_AMBIENT_ALONE }, { "lit is clipped", EX_CLIPPED },
     { "mesh.normals point away from the eye", EX_TURNED },
     { "outside of the cube", EX_NOTHING }, { "beside the picture, before near", EX_NOTHING },
     { "beyond the far plane", EX_FAR }, { "lies behind the eye", EX_EYE },
     { "nearer than the near plane", EX_NOTHING }, { "the inverse of state.view", EX_NOTHING },
     { "covers the centre of a pixel nowhere", EX_NOTHING }, { "has an area", EX_AREA },
-    { "raster.cull leaves out", EX_CULLED }, { "raster.cull is SHADE_CULL", EX_CULLED },
+    { "raster.cull leaves out", EX_CULLED_INSIDE }, { "raster.cull is SHADE_CULL", EX_CULLED },
     { "No box of mesh.chunks", EX_BOXES }, { "sum to fewer", EX_FEWER },
     { "above every alpha", EX_CUT }, { "make them so", EX_REJECTED },
     { "Some triangles are left out", EX_SOME }, { "beside the clip rectangle", EX_CLIP },
-    { "target.depth holds 0", EX_HIDDEN }, { "What target.depth holds", EX_HIDDEN },
+    { "target.depth holds 0", EX_UNCLEARED }, { "What target.depth holds", EX_HIDDEN },
     { "state.fragment discards", EX_DISCARDED }, { "does not fit state.proj", EX_FAR_WINS },
     { "inside out", EX_INSIDE_OUT }, { "target.depth is NULL", EX_OVERDRAWN },
     { "state.projection looks transposed", EX_ROWS },
-    /* these repeat what a field holds */
-    { "clip rectangle is empty", EX_FIELD }, { "state.view looks transposed", EX_FIELD },
-    { "state.view holds a projection", EX_FIELD }, { "light_count is negative", EX_FIELD },
-    { "perspective_reversed, which", EX_FIELD }, { "what cameras give", EX_FIELD },
-    { "state.view scales", EX_FIELD }, { "aspect", EX_FIELD },
-    { "diffuse_map is set while", EX_FIELD }, { "but no mipmaps", EX_FIELD },
-    { "SHADE_MAX_VARYINGS", EX_FIELD }, { "state.shading lights", EX_DARK }
+    { "state.view looks transposed", EX_VIEW_ROWS },
+    { "state.view holds a projection", EX_SWAPPED },
+    { "what cameras give", EX_DEGENERATE }, { "perspective_reversed, which", EX_NO_FLAG },
+    { "light_count is negative", EX_COUNT }, { "clip rectangle is empty", EX_EMPTY },
+    { "state.view scales", EX_SCALES }, { "The aspect of", EX_ASPECT },
+    { "diffuse_map is set while", EX_TEXCOORDS }, { "but no mipmaps", EX_MIPMAPS }
 };
 
 static int ex_is_dark(const explained *e)
@@ -566,33 +664,150 @@ static int ex_is_whole(const explained *e)
     return !e->target.clip_width && !e->target.row_count && e->stats.fragments;
 }
 
+/* Has the mesh normals, and is none in view a direction? */
+static int ex_has_bad_normals(explained *e)
+{
+    int good;
+    ex_values(e, e->state.raster.cull, -1);
+    good = ex_part(e, ex_has_normal, 0);
+    if (e->state.shading) good = shade_length(e->normal[e->index[0]]) > 0;
+    return e->mesh.normals && !good;
+}
+/* Does the box around the mesh hold the eye of state.view? */
+static int ex_eye_inside(const explained *e)
+{
+    const shade_mat4 m = shade_mat4_mul(ex_or_identity(e->state.view),
+                                        ex_or_identity(e->state.model));
+    const shade_vec4 eye = shade_mat4_inverse(m).col[3];
+    shade_vec3 low = shade_v3(1e9f, 1e9f, 1e9f), high = shade_neg(low);
+    for (int i = 0; i < e->mesh.index_count; i++) {
+        const shade_vec3 p = e->position[e->index[i]];
+        if (!(p.y < 1e9f)) continue;
+        low = shade_min(low, p);
+        high = shade_max(high, p);
+    }
+    low = shade_sub(shade_v3(eye.x, eye.y, eye.z), low);
+    high = shade_sub(high, shade_v3(eye.x, eye.y, eye.z));
+    low = shade_min(low, high);
+    if (shade_mat4_determinant(m) == 0) return 0;
+    return low.x > -1e-3f && low.y > -1e-3f && low.z > -1e-3f;
+}
+/* Is the depth of before at the near end of the test, or NaN, wherever the mesh covers a pixel? */
+static int ex_is_uncleared(explained *e)
+{
+    const float near = ex_is_greater(&e->state) ? 1.0f : 0.0f;
+    shade_target *t = &e->target;
+    int n = 0;
+    t->depth = NULL;
+    ex_values(e, e->state.raster.cull, -1);
+    t->depth = e->depth;
+    for (int i = 0; i < EX_PIXELS; i++)
+        n += e->value[4 * i + 3] != 0 && e->before[i] != near && e->before[i] == e->before[i];
+    return !n;
+}
+static float ex_most(shade_vec3 color) { return fmaxf(color.x, fmaxf(color.y, color.z)); }
+/* Is no pixel lit, whatever of a colour, a map and ambient light it has? */
+static int ex_only_ambient(const explained *e)
+{
+    shade_draw_state s = e->state;
+    s.lighting.terms = (s.lighting.terms ? s.lighting.terms : 15u) &
+                       (SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR);
+    return !ex_lit_again(e, &e->mesh, &s, 0);
+}
+/* Has every pixel alpha below a hundredth, in a picture that alpha dims? */
+static int ex_is_clear(explained *e)
+{
+    if (e->state.raster.blend == SHADE_BLEND_REPLACE) return 0;
+    ex_values(e, e->state.raster.cull, -1);
+    for (int i = 0; i < EX_PIXELS; i++) {
+        const float *v = e->value + 4 * i, alpha = (fabsf(v[2]) - 1) * (1 - e->state.transparency);
+        if (v[3] != 0 && alpha > 0.2f) return 0;
+    }
+    return 1;
+}
+
+static int ex_is_rigid(shade_mat4 m)
+{
+    for (int j = 0; j < 3; j++)
+        for (int k = 0; k < 3; k++) {
+            const shade_vec4 a = m.col[j], b = m.col[k];
+            if (fabsf(a.x * b.x + a.y * b.y + a.z * b.z - (float)(j == k)) > 0.005f) return 0;
+        }
+    return m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == 0 && m.col[3].w == 1;
+}
+/* What repeats the numbers of fields. */
+static int ex_field(const explained *e, enum ex_claim claim)
+{
+    const shade_draw_state *s = &e->state;
+    const shade_mat4 view = ex_or_identity(s->view), p = ex_or_identity(s->projection);
+    const shade_target *t = &e->target;
+    const float wide = p.col[0].x * (float)t->width, high = p.col[1].y * (float)t->height;
+    switch (claim) {
+    case EX_VIEW_ROWS: return view.col[3].x == 0 && view.col[3].y == 0 && view.col[3].z == 0;
+    case EX_SWAPPED: return !ex_is_rigid(view);
+    case EX_DEGENERATE: return p.col[0].x == 0 && p.col[0].y == 0 && p.col[0].w == 0;
+    case EX_NO_FLAG: return p.col[2].z == 0 && !s->raster.depth_zero_to_one;
+    case EX_COUNT: return s->lighting.light_count < 0;
+    case EX_EMPTY: return t->clip_x >= t->width || t->clip_y >= t->height;
+    case EX_SCALES: return !ex_is_rigid(view);
+    case EX_ASPECT:
+        return p.col[3].w == 0 && fabsf(fabsf(wide) - fabsf(high)) > 0.02f * fabsf(wide);
+    case EX_TEXCOORDS: return s->diffuse_map && !e->mesh.texcoords && t->color;
+    case EX_MIPMAPS: return s->diffuse_map && s->diffuse_map->width > 1 && !s->diffuse_map->mipmaps;
+    default: return 0;
+    }
+}
+/* What is said of a picture without light: each needs the change that it names. */
+static int ex_black(explained *e, enum ex_claim claim)
+{
+    const shade_draw_state *s = &e->state;
+    const shade_lighting *l = &s->lighting;
+    const int sided = s->shading || (l->flags & SHADE_FLAG_TWO_SIDED);
+    float most = 0;
+    switch (claim) {
+    case EX_ALPHA: return ex_is_clear(e);
+    case EX_NO_TERM: return ex_helps(e, EX_TERMS) && (l->terms || l->model);
+    case EX_BLACK_COLORS:
+        return ex_helps(e, EX_COLORS) && (e->mesh.colors || (e->mesh.texcoords && s->diffuse_map));
+    case EX_BLACK_MATERIAL: return ex_helps(e, EX_MATERIAL) && s->material;
+    case EX_NO_LAMP: return !l->lights && ex_most(l->ambient) < 0.1f;
+    case EX_NO_COUNT: return l->light_count <= 0 && ex_most(l->ambient) < 0.1f;
+    case EX_INSIDE: return ex_helps(e, EX_SIDES) && ex_eye_inside(e);
+    case EX_BEHIND:
+        ex_values(e, s->raster.cull, -1);
+        return ex_helps(e, EX_SIDES) && (sided || !ex_part(e, ex_before_lamp, 0));
+    case EX_BAD_NORMALS: return ex_has_bad_normals(e);
+    case EX_COARSE: return ex_helps(e, EX_EACH) && s->shading;
+    case EX_FAINT: return ex_helps(e, EX_DISTANCE);
+    case EX_CONE:
+        ex_values(e, s->raster.cull, -1);
+        return !ex_part(e, ex_in_cone, 0);
+    default:
+        for (int k = 0; k < l->light_count; k++) most = fmaxf(most, ex_most(e->lamp[k].diffuse));
+        return most < 0.3f;
+    }
+}
 /* Whether a sentence is true of the draw. */
 static int ex_true(explained *e, const char *said)
 {
     const shade_draw_state *s = &e->state;
+    const shade_lighting *l = &s->lighting;
     shade_mesh bare = e->mesh;
     shade_draw_state open = *s;
-    int k = 0, clipped, lit;
-    const int count = (int)(sizeof ex_claims / sizeof *ex_claims);
+    enum ex_claim claim = EX_UNKNOWN;
+    int clipped, lit;
     bare.chunks = NULL;
     bare.chunk_count = 0;
     open.raster.cull = SHADE_CULL_NONE;
-    while (k < count && !strstr(said, ex_claims[k].words)) k++;
-    if (k == count) return 0;
-    switch (ex_claims[k].claim) {
-    case EX_DARK: return ex_is_dark(e);
-    case EX_CONE:
-        ex_values(e, s->raster.cull, -1);
-        return ex_is_dark(e) && !ex_part(e, ex_in_cone, 0);
-    case EX_BEHIND:
-        if (s->shading || (s->lighting.flags & SHADE_FLAG_TWO_SIDED)) return ex_is_dark(e);
-        ex_values(e, s->raster.cull, -1);
-        return ex_is_dark(e) && !ex_part(e, ex_before_lamp, 0);
-    case EX_AMBIENT:
-        open.raster = s->raster;
-        open.lighting.terms = (s->lighting.terms ? s->lighting.terms : 15u) &
-                              (SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR);
-        return !ex_lit_again(e, &open);
+    for (size_t k = 0; k < sizeof ex_claims / sizeof *ex_claims && claim == EX_UNKNOWN; k++)
+        if (strstr(said, ex_claims[k].words)) claim = ex_claims[k].claim;
+    if (claim <= EX_NO_COLOR) return ex_is_dark(e) && ex_black(e, claim);
+    switch (claim) {
+    case EX_ALL_BEHIND: return ex_only_ambient(e) && ex_helps(e, EX_SIDES);
+    case EX_AMBIENT_NORMALS:
+        return ex_only_ambient(e) && ex_has_bad_normals(e);
+    case EX_AMBIENT_COUNT: return ex_only_ambient(e) && l->light_count <= 0 && l->lights;
+    case EX_AMBIENT_ALONE: return ex_only_ambient(e) && !l->lights;
     case EX_CLIPPED: lit = ex_lit(e, &clipped); return clipped * 5 >= lit * 4;
     case EX_TURNED:
         ex_values(e, s->raster.cull, e->target.depth && ex_is_whole(e) ? -1 : 0);
@@ -602,6 +817,9 @@ static int ex_true(explained *e, const char *said)
     case EX_NOTHING: return !ex_cover(e, &bare, &open, 1).fragments;
     case EX_AREA:
         return !ex_cover(e, &bare, &open, 1).drawn && ex_cover(e, &bare, &open, 1).culled > 0;
+    case EX_CULLED_INSIDE:
+        if (!ex_eye_inside(e)) return 0;
+        return !ex_cover(e, &bare, s, 1).fragments && ex_cover(e, &bare, &open, 1).fragments;
     case EX_CULLED:
         return !ex_cover(e, &bare, s, 1).fragments && ex_cover(e, &bare, &open, 1).fragments;
     case EX_BOXES: return !ex_cover(e, &e->mesh, s, 1).fragments &&
@@ -617,6 +835,7 @@ static int ex_true(explained *e, const char *said)
     case EX_SOME: return ex_cover(e, &e->mesh, s, 1).rejected > 0;
     case EX_CLIP:
         return !ex_cover(e, &e->mesh, s, 0).fragments && ex_cover(e, &e->mesh, s, 1).fragments;
+    case EX_UNCLEARED: return !e->stats.fragments && ex_is_uncleared(e);
     case EX_HIDDEN: return !e->stats.fragments && ex_cover(e, &e->mesh, s, 0).fragments;
     case EX_DISCARDED: return !e->stats.fragments && s->fragment;
     case EX_FAR_WINS: return ex_far_wins(e);
@@ -626,15 +845,15 @@ static int ex_true(explained *e, const char *said)
         open.alpha_cutoff = 0;
         open.projection = shade_mat4_transpose(open.projection);
         return !ex_cover(e, &e->mesh, s, 1).fragments && ex_cover(e, &bare, &open, 1).fragments;
-    default: return 1;
+    default: return ex_field(e, claim);
     }
 }
 
 /* Draws something and has it explained, with stats and without.  Returns the sentence that is not
-   so, or NULL. */
-static const char *ex_false_sentence(explained *e)
+   so, or NULL.  first: as ex_draw has it. */
+static const char *ex_false_sentence(explained *e, int first)
 {
-    ex_draw(e);
+    ex_draw(e, first);
     for (int with = 0; with < 2; with++) {
         const char *said = shade_explain(&e->target, &e->mesh, &e->state, with ? &e->stats : NULL);
         if (!said || (e->result && !*said)) return "(nothing)";
