@@ -72,11 +72,11 @@
      Inside: tools, which call the renderer; it names none of them
        >>lines     6587  shade_draw_lines      >>shape     6745  normals, edges
        >>chunks    7081  boxes of triangles    >>rays      7245  shade_pick
-       >>survey    7441  experiments on a draw >>explain   7716  why nothing is seen
-       >>image     8313  mipmaps, PPM           >>presets   8582  classic materials
+       >>survey    7441  experiments on a draw >>explain   7692  why nothing is seen
+       >>image     8334  mipmaps, PPM           >>presets   8603  classic materials
      Sources
-       >>refs      8658                        >>history   8688
-       >>license   8700
+       >>refs      8679                        >>history   8709
+       >>license   8721
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7479,10 +7479,6 @@ typedef struct shade__survey {
     uint32_t   white;                    /* are the colours of the map left out? */
     int        exact;                    /* experiments see what the picture shows, no more */
     float      black;                    /* channels below it are stored as 0 */
-    uint32_t   outside;                  /* the SHADE__OUT_... bits that all corners share */
-    int        inside;                   /* is a triangle outside of no plane with all corners? */
-    float      from[2], to[2];           /* the mesh's box on the screen, x and y from -1 to 1 */
-    shade_vec3 low, high;                /* the mesh's box in object space */
     int        reversed;                 /* is z = w on the eye's side of a perspective? */
     float      farthest;                 /* depth of pixels that do not show the mesh */
     shade_stats stats;                   /* of the last experiment */
@@ -7540,7 +7536,6 @@ static long long shade__count(shade__survey *s, float least)
     shade__draw_scene(&t, &s->scene, shade__judge, 1, &s->stats);
     return s->stats.fragments;
 }
-
 
 /* Draws the mesh.  Returns how many pixels show it. */
 static long long shade__covered(shade__survey *s) { return shade__count(s, 0); }
@@ -7641,59 +7636,39 @@ static void shade__take_probes(shade__survey *s, shade_cull cull,
     s->every = 0;
 }
 
-/* Finds the mesh's boxes in object space and on the screen, and on which side of the view volume
-   it lies. */
-static void shade__measure(shade__survey *s)
+/* The SHADE__OUT_... bits that all corners share in the last experiment. */
+static uint32_t shade__outside(const shade__survey *s)
 {
-    const shade_mat4 *m = &s->scene.clip_from_object;
-    uint32_t out[3] = { 0, 0, 0 };
-    s->outside = ~0u;
-    s->inside = 0;
-    s->from[0] = s->from[1] = 1;
-    s->to[0] = s->to[1] = -1;
-    s->low = shade_v3(FLT_MAX, FLT_MAX, FLT_MAX);
-    s->high = shade_neg(s->low);
+    uint32_t all = ~0u;
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
-        const shade_vec4 c = shade_mat4_transform(*m, shade__xyzw(p, 1));
-        out[i % 3] = shade__outcode(c.x, c.y, c.z, c.w,
-                                    s->state.raster.depth_zero_to_one);
-        if (i % 3 == 2 && !(out[0] & out[1] & out[2])) s->inside = 1;
-        if (out[i % 3] & SHADE__OUT_BAD) continue;
-        s->outside &= out[i % 3];
-        s->low = shade_min(s->low, p);
-        s->high = shade_max(s->high, p);
-        for (int k = 0; k < 2; k++) {
-            const float w = shade__maxf(c.w, shade__w_least), xy = k ? c.y : c.x;
-            const float at = shade__minf(shade__maxf(xy, -w), w) / w;
-            s->from[k] = shade__minf(s->from[k], at);
-            s->to[k] = shade__maxf(s->to[k], at);
-        }
+        const shade_vec4 c = shade_mat4_transform(s->scene.clip_from_object, shade__xyzw(p, 1));
+        const uint32_t out =
+            shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
+        if (!(out & SHADE__OUT_BAD)) all &= out;
     }
+    return all;
 }
 
 /* Was anything drawn before?  Then the caller's depth buffer holds different values. */
 static int shade__depth_varies(const shade__survey *s)
 {
     const shade_target *t = s->target;
-    const int w = s->clip[2] - s->clip[0], h = s->clip[3] - s->clip[1];
-    float first = 0;
-    for (int k = 0; k < 256 && t->depth; k++) {
-        const int x = s->clip[0] + w * (2 * (k & 15) + 1) / 32;
-        const int y = s->clip[1] + h * (2 * (k >> 4) + 1) / 32;
-        const float depth = t->depth[shade__offset_of(t, x, y)];
-        if (!k) first = depth;
-        if (depth != first) return 1;
-    }
+    const int *clip = s->clip;
+    if (!t->depth) return 0;
+    for (int y = clip[1]; y < clip[3]; y++)
+        for (int x = clip[0]; x < clip[2]; x++)
+            if (t->depth[shade__offset_of(t, x, y)] !=
+                t->depth[shade__offset_of(t, clip[0], clip[1])])
+                return 1;
     return 0;
 }
 
-/* Is the mesh one of many in a scene, and less than half as wide and high as the picture?  Such a
-   mesh may well be hidden, or seen edge-on. */
+/* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
+   Such a mesh may well be hidden, or seen edge-on. */
 static int shade__is_scattered(shade__survey *s)
 {
-    shade__measure(s);
-    return s->to[0] - s->from[0] < 1 && s->to[1] - s->from[1] < 1 &&
+    return shade__covered(s) * 4 < (long long)s->target->width * s->target->height &&
            shade__depth_varies(s);
 }
 
@@ -7708,10 +7683,10 @@ static int shade__eye_inside(shade__survey *s)
 {
     const shade_mat4 m = shade__mat4_product(&s->state.view, &s->state.model);
     const shade_vec3 eye = shade__xyz(shade_mat4_inverse(m).col[3]);
-    shade_vec3 p;
-    shade__measure(s);
-    p = shade_clamp(eye, s->low, s->high);
-    return shade_mat4_determinant(m) != 0 && shade__is_zero(shade_sub(p, eye));
+    shade_vec3 low, high;
+    shade_mesh_bounds(&s->mesh, &low, &high);
+    return shade_mat4_determinant(m) != 0 &&
+           shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
 }
 
 /*---------------------------------------------------------------------------------------- >>explain
@@ -7856,13 +7831,15 @@ static const char *shade__why_culled(shade__survey *s)
 
 static const char *shade__why_outside(shade__survey *s)
 {
+    const shade_stats *stats = &s->stats;
+    const int apart = stats->clipped + stats->rejected == stats->triangles;
     const int others = shade__depth_varies(s);
-    shade__measure(s);
-    if (!s->inside && shade__is_rigid(&s->state.projection))
+    const uint32_t outside = shade__outside(s);
+    if (apart && shade__is_rigid(&s->state.projection))
         return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
                "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
 
-    if (s->outside & (s->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
+    if (outside & (s->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
         return "The whole mesh lies beyond the far plane of state.projection; move far out, or the "
                "eye of state.view nearer.";
 
@@ -7871,14 +7848,14 @@ static const char *shade__why_outside(shade__survey *s)
         return "The mesh is out of view, but the inverse of state.view would show it: state.view "
                "takes the world to the eye, as shade_mat4_look_at does.";
 
-    if (s->outside & SHADE__OUT_W)
+    if (outside & SHADE__OUT_W)
         return "The whole mesh lies behind the eye: the camera of state.view looks down -z in its "
                "own space; check state.view and state.model.";
-    if (s->outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
+    if (outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
         return "The whole mesh lies nearer than the near plane of state.projection, or behind the "
                "eye of state.view; move near in, or the eye back.";
     if (others) return "";    /* one of several meshes may stand there */
-    if (!s->inside)
+    if (apart)
         return "The whole mesh lies beside the picture, before near or beyond far; check "
                "state.model, and where state.view looks.";
     return "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen "
@@ -7956,9 +7933,9 @@ static const char *shade__why_hidden(shade__survey *s)
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
                "depth of 1, or 0 for a reversed projection.";
 
-    if (!s->given_stats || !s->whole || shade__is_scattered(s)) return NULL;
     shade__look_at_all(s);
     s->state.raster.depth_bias = 0;
+    if (!s->given_stats || !s->whole || shade__is_scattered(s)) return NULL;
     s->nearer = 1;
     if (!shade__covered(s)) return NULL;    /* floats are too coarse there to tell what is nearer */
     return "What target.depth holds hides the mesh: other meshes, the frame before without a "
