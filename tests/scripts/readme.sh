@@ -151,6 +151,12 @@ check "every lesson says the line that builds it" none "$(
         grep -qE "^   cc -O2 (-fopenmp |-pthread )?-I\. $file -lm( -pthread)? -o ([a-z_]+) && \./\3" "$file" ||
             echo "$file"
     done)"
+if command -v tcc >/dev/null; then
+    cc -O1 -I. -DSHADE__IMPLEMENTED examples/lessons/46_ambient.c build/shade.o -lm -o "$T/by_cc" &&
+        "$T/by_cc" "$T/by_cc.ppm"
+    tcc -w -I. examples/lessons/46_ambient.c -lm -o "$T/by_tcc" && "$T/by_tcc" "$T/by_tcc.ppm"
+    check "a lesson built by tcc draws the same picture" cmp "$T/by_cc.ppm" "$T/by_tcc.ppm"
+else left_out tcc; fi
 # A lesson with stb's writer: by its line, as PNG, the colours of the PPM
 if echo | cc -fsyntax-only -include stb/stb_image_write.h -x c - 2>/dev/null &&
     command -v pngtopnm >/dev/null; then
