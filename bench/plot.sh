@@ -31,15 +31,15 @@ if [ -s "$build/bench_compare.tsv" ]; then
 set label 1 "shade.h beside llvmpipe, one core each, the same pictures: how many times as fast" \\
     at screen 0.02, screen 0.965 font ',13'
 set label 2 "1: as fast as llvmpipe" at 1, graph 1.012 center tc rgb '#aa3333'
-set label 3 "thick: the widest vectors, and ms a frame" right \\
-    at graph 0.99, graph 0.62 tc rgb '#3b6ea5'
+set label 3 "thick: the widest vectors, and ms a frame" \\
+    at screen 0.02, screen 0.925 tc rgb '#3b6ea5'
 stats '$build/bench_ratio.tsv' using 4 name 'NARROW' nooutput
 if (NARROW_max > 0) {
-    set label 4 "thin: SSE2 alone, as any x86-64 has it" right \\
-        at graph 0.99, graph 0.57 tc rgb '#7799bb'
+    set label 4 "thin: SSE2 alone, as any x86-64 has it" \\
+        at screen 0.39, screen 0.925 tc rgb '#7799bb'
 }
-set label 5 "red: slower than llvmpipe" right at graph 0.99, graph 0.52 tc rgb '#cc4433'
-set tmargin 4.5
+set label 5 "red: slower than llvmpipe" at screen 0.74, screen 0.925 tc rgb '#cc4433'
+set tmargin 6.5
 set style fill solid 1.0 noborder
 stats '$build/bench_ratio.tsv' using 3 nooutput
 set yrange [$rows - 0.4 : -0.6]
