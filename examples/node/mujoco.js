@@ -78,6 +78,7 @@ function groundOf(model, i) {
 /** What draws a model's scenes: geoms, lights and cameras of an mjvScene. */
 class Stage {
     #renderer; #model; #meshes = new Map(); #textures = new Map();
+    #unnumbered = [];    // geoms that depth and segmentation leave out, as MuJoCo does
 
     constructor(Renderer, model, height, width) {
         this.#renderer = new Renderer(height, width, { srgb: false });
@@ -126,9 +127,11 @@ class Stage {
     take({ geoms, lights, cameras, flags }) {
         const pairs = [];
         this.#renderer._keep(0);
+        this.#unnumbered = [];
         for (const g of geoms) {
             const words = this.#words(g);
             if (!words) continue;
+            if (g.segid < 0) this.#unnumbered.push(pairs.length / 2);
             this.#renderer._put(pairs.length / 2, words);
             pairs.push(g.objid, g.objtype);
         }
@@ -176,7 +179,12 @@ class Stage {
     }
 
     draw(out, solid) {
-        return this.#renderer._draw(out, this.view, this.projection, this.range, solid, this.range.far);
+        if (solid) this.#unnumbered.forEach((i) => this.#renderer.show(i, false));
+        try {
+            return this.#renderer._draw(out, this.view, this.projection, this.range, solid, this.range.far);
+        } finally {
+            if (solid) this.#unnumbered.forEach((i) => this.#renderer.show(i));
+        }
     }
 
     free() { this.#renderer.free(); }
@@ -185,7 +193,7 @@ class Stage {
 /** The class of MuJoCo's name, over the Renderer of this package. */
 export function mujocoOf(Base) {
     class Renderer {
-        #mj; #stage; #depth = false; #segmentation = false; #own = []; #taken = false;
+        #mj; #stage; #depth = false; #segmentation = false; #own = []; #taken = false; #live = false;
 
         /** mj is the module of @mujoco/mujoco, model one of its MjModel. */
         constructor(mj, model, height = 240, width = 320, max_geom = 10000) {
@@ -197,6 +205,7 @@ export function mujocoOf(Base) {
             if (mj) this.#own = [new mj.MjvScene(model, max_geom), new mj.MjvOption(), new mj.MjvPerturb(), new mj.MjvCamera()];
         }
 
+        /** The MjvScene that update_scene fills.  Its flags may be set before render(). */
         get scene() { return this.#own[0]; }
 
         /** Takes the state of data as camera sees it: a number, a name or an MjvCamera; -1 is free. */
@@ -213,13 +222,14 @@ export function mujocoOf(Base) {
                 else [used.type, used.fixedcamid] = [FIXED, id];
             }
             this.#mj.mjv_updateScene(this.model, data, scene_option ?? option, perturb, used, 7, scene);
-            this.take(read(scene));
+            this.#live = true;
         }
 
         /** Takes { geoms, lights, cameras, flags } with the fields of an mjvScene. */
         take(scene) {
             this.#stage.take(scene);
             this.#taken = true;
+            this.#live = false;
         }
 
         /** Colour, (height, width, 3) bytes; or depth, float32 metres; or pairs of object and type. */
@@ -227,6 +237,10 @@ export function mujocoOf(Base) {
             const pixels = this.height * this.width;
             const [Kind, width] = this.#depth ? [Float32Array, 1] : this.#segmentation ? [Int32Array, 2] : [Uint8Array, 3];
             const to = out ?? new Kind(width * pixels);
+            if (this.#live) {
+                this.take(read(this.#own[0]));
+                this.#live = true;
+            }
             if (!this.#taken) throw new ShadeError("render: call update_scene first");
             if (!(to instanceof Kind) || to.length !== width * pixels) {
                 throw new ShadeError(`out must be a ${Kind.name} of ${width * pixels}`);
@@ -255,7 +269,7 @@ export function mujocoOf(Base) {
     return { Renderer };
 }
 
-const GEOM = ["type", "dataid", "objid", "objtype", "texid", "texcoord", "texuniform", "specular", "shininess", "emission"];
+const GEOM = ["type", "dataid", "objid", "objtype", "segid", "texid", "texcoord", "texuniform", "specular", "shininess", "emission"];
 const LAMP = ["type", "headlight", "castshadow", "cutoff", "exponent"];
 const EYE = ["frustum_near", "frustum_far", "frustum_top", "frustum_bottom", "frustum_center", "frustum_width", "orthographic"];
 

@@ -59,6 +59,19 @@ test("a sphere has the depth of MuJoCo's units and the number of its geom", () =
     renderer.close();
 });
 
+test("flags of the scene count that are set before render", () => {
+    const model = model_of(`<mujoco><worldbody><light pos="0 0 3" dir="1 0 -1" directional="true"/><camera name="eye" pos="0 0 3"/>
+        <geom type="plane" size="2 2 .1"/><geom type="sphere" pos="0 0 .6" size=".3"/></worldbody></mujoco>`);
+    const data = new mj.MjData(model), renderer = new mujoco.Renderer(mj, model, 60, 80);
+    mj.mj_forward(model, data);
+    renderer.update_scene(data, "eye");
+    const shadows = renderer.render();
+    renderer.scene.flags[0] = 0;    // mjRND_SHADOW
+    const bright = renderer.render();
+    assert.ok(bright.every((x, i) => x >= shadows[i]) && bright.some((x, i) => x > shadows[i] + 20));
+    renderer.close();
+});
+
 const FIELDS = ["tex_type", "tex_width", "tex_height", "tex_nchannel", "tex_adr", "tex_data", "mesh_vertadr", "mesh_vertnum",
     "mesh_vert", "mesh_normaladr", "mesh_normalnum", "mesh_normal", "mesh_faceadr", "mesh_facenum", "mesh_face", "mesh_facenormal",
     "mesh_texcoordadr", "mesh_texcoordnum", "mesh_texcoord", "mesh_facetexcoord", "hfield_nrow", "hfield_ncol", "hfield_size",
@@ -71,7 +84,9 @@ test("the recorded state has the recorded pictures", () => {
     const take = renderer.take.bind(renderer);
     renderer.take = (taken) => { scene = taken; };
     renderer.update_scene(data, "eye");
+    assert.throws(() => renderer.render(), /update_scene/);
     const kept = process.env.UPDATE ? null : JSON.parse(readFileSync(process.env.RECORDING, "utf8"));
+    delete renderer.take;
     take(kept?.scene ?? scene);
     const hashes = { color: hash(renderer.render()) };
     renderer.enable_depth_rendering();

@@ -6,7 +6,9 @@
     pixels = renderer.render()
 
 The scene is made by mujoco's own mjv_updateScene; geoms, lights and the camera of it are drawn here.
-Skins, flexes, arrows, lines, fog and reflections are left out.
+What is changed in renderer.scene before render() is drawn: flags, geoms that mjv_initGeom adds.  Of
+the lamps that cast shadows the first one does.  Skins, flexes, arrows, lines, fog, haze and
+reflections are left out.
 """
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ import numpy as np
 from . import _arguments as arguments
 from ._native import SOLID, Array, Error
 from .light import Light
-from .renderer import Frame, Renderer as _Base
+from .renderer import _HIDDEN, Frame, Renderer as _Base
 
 _HEIGHT_FIELD, _MESH, _KINDS = 1, 7, (1, 0, 2, 4, 3, 5, 6, 0)    # of mjGEOM_..., as kinds here
 _CUBE, _SKYBOX, _SPOT, _DIRECTIONAL = 1, 2, 0, 1                 # mjTEXTURE_..., mjLIGHT_...
@@ -126,8 +128,9 @@ class Renderer:
     """Renders MuJoCo scenes, as mujoco.Renderer does, without OpenGL."""
 
     def __init__(self, model: Any, height: int = 240, width: int = 320, max_geom: int = 10000,
-                 font_scale: Any = None) -> None:
-        """model is an MjModel.  font_scale is accepted, because mujoco.Renderer has it."""
+                 font_scale: Any = None, depth_mapping: Any = None,
+                 depth_precision: Any = None) -> None:
+        """model is an MjModel.  The last three, which mujoco.Renderer has, are taken and not used."""
         self._base = _Base(height, width, srgb=False)
         self._model, self._max_geom = model, max_geom
         self._meshes: dict[tuple[int, int], int] = {}
@@ -135,8 +138,10 @@ class Renderer:
         self._depth = self._segmentation = False
         self._camera: Any = None
         self._pairs = np.full((1, 2), -1, np.int32)
+        self._unnumbered: list[int] = []
         self._mujoco: Any = None
         self._scene: Any = None
+        self._filled = False
         self._base.background((0.0, 0.0, 0.0))
         types = list(getattr(model, "tex_type", ()))
         self._sky = self._texture(types.index(_SKYBOX)) if _SKYBOX in types else None
@@ -158,7 +163,11 @@ class Renderer:
 
     @property
     def scene(self) -> Any:
-        """The MjvScene that update_scene fills; before it None."""
+        """The MjvScene that update_scene fills."""
+        if self._scene is None:
+            self._mujoco = importlib.import_module("mujoco")
+            self._scene = self._mujoco.MjvScene(self._model, maxgeom=self._max_geom)
+            self._option = self._mujoco.MjvOption()
         return self._scene
 
     def _texture(self, i: int) -> int:
@@ -191,8 +200,11 @@ class Renderer:
             o["repeat"][k] = repeat / (1 if once else 2 * size[k])
 
     def take(self, scene: Any) -> None:
-        """Takes any object with the fields of an mjvScene: ngeom, geoms, nlight, lights, camera and
-        flags."""
+        """Takes any object with the fields of an mjvScene, in place of update_scene: ngeom, geoms,
+        nlight, lights, camera and flags."""
+        self._scene, self._filled = scene, True
+
+    def _read(self, scene: Any) -> None:
         base = self._base
         geoms = [scene.geoms[i] for i in range(int(scene.ngeom))]
         geoms = [g for g in geoms if 0 <= g.type < len(_KINDS)]
@@ -203,6 +215,7 @@ class Renderer:
         for i, g in enumerate(geoms):
             self._put(base._objects[i], g)
         self._pairs = np.array([[-1, -1]] + [[g.objid, g.objtype] for g in geoms], np.int32)
+        self._unnumbered = [i for i, g in enumerate(geoms) if getattr(g, "segid", i) < 0]
         lamps = [scene.lights[i] for i in range(min(int(scene.nlight), _LAMPS))]
         shadow = None
         for i, lamp in enumerate(lamps):
@@ -230,11 +243,10 @@ class Renderer:
 
     def update_scene(self, data: Any, camera: Any = -1, scene_option: Any = None) -> None:
         """Takes the state of data as a camera sees it: a number (-1: free), a name or an MjvCamera."""
-        if self._mujoco is None:
-            self._mujoco = importlib.import_module("mujoco")
-            self._scene = self._mujoco.MjvScene(self._model, maxgeom=self._max_geom)
-            self._option = self._mujoco.MjvOption()
-        mj, used = self._mujoco, camera
+        scene, used = self.scene, camera
+        mj = self._mujoco
+        if mj is None:
+            raise Error("update_scene: there is no engine beside a scene that take() was given")
         if isinstance(camera, (int, str)):
             number = camera if isinstance(camera, int) else \
                 int(mj.mj_name2id(self._model, mj.mjtObj.mjOBJ_CAMERA, camera))
@@ -250,24 +262,27 @@ class Renderer:
             else:
                 used.type = mj.mjtCamera.mjCAMERA_FIXED
         mj.mjv_updateScene(self._model, data, scene_option or self._option, None, used,
-                           mj.mjtCatBit.mjCAT_ALL.value, self._scene)
-        self.take(self._scene)
+                           mj.mjtCatBit.mjCAT_ALL.value, scene)
+        self._filled = True
 
     def render(self, *, out: Any = None) -> Array:
         """Colour, (height, width, 3) bytes; or depth, (height, width) float32 in metres; or
         segmentation, (height, width, 2) int32, pairs of object and type, (-1, -1) where there is
         nothing."""
-        if self._camera is None:
+        if not self._filled:
             raise Error("render: call update_scene first")
         size = (self.height, self.width)
         shape, kind = (size, np.float32) if self._depth else \
             ((*size, 2), np.int32) if self._segmentation else ((*size, 3), np.uint8)
         to = arguments.into("out", out, shape, kind)
+        self._read(self._scene)
+        solid = self._depth or self._segmentation
+        if solid:    # what has no number is in colour alone, as MuJoCo draws it
+            self._base._objects["flags"][self._unnumbered] |= _HIDDEN
         frame = Frame(None if self._depth or self._segmentation else to, to if self._depth else None,
                       to if self._segmentation else None, None)
         view, projection, near, far, parallel = self._camera
-        self._base._draw(frame, view, projection, near, far, parallel,
-                         self._depth or self._segmentation, far)
+        self._base._draw(frame, view, projection, near, far, parallel, solid, far)
         if self._segmentation:
             to[...] = self._pairs[to[..., 0] + 1]
         return to

@@ -63,6 +63,29 @@ def test_modes_and_out():
         renderer.render(out=np.zeros((60, 80), np.float32))
 
 
+def test_what_is_changed_before_render_is_drawn():
+    """As programs do that turn shadows off, or add geoms of their own after update_scene."""
+    renderer, told = Renderer(model(), 60, 80), scene()
+    renderer.take(told)
+    first = renderer.render()
+    told.flags = [0, *told.flags[1:]]
+    bright = renderer.render()
+    assert (bright >= first).all() and (bright > first).any()
+    ball = next(g for g in told.geoms if g.type == 2)
+    added = SimpleNamespace(**{**vars(ball), "pos": ball.pos + [0, 0, 0.7], "objid": 77, "segid": 9,
+                               "rgba": np.array([1.0, 0, 0, 1])})
+    told.geoms.append(added)
+    told.ngeom += 1
+    more = renderer.render()
+    assert (more != bright).any()
+    renderer.enable_segmentation_rendering()
+    assert (renderer.render()[..., 0] == 77).sum() > 20
+    added.segid = -1    # what has no number is in colour alone
+    assert not (renderer.render()[..., 0] == 77).any()
+    renderer.disable_segmentation_rendering()
+    assert np.array_equal(renderer.render(), more)
+
+
 class Engine:
     """What update_scene asks of the mujoco module."""
 
@@ -102,6 +125,7 @@ def test_cameras_by_number_name_and_object(monkeypatch):
     assert [a[0] for a in engine.asked] == ["state"] * 3 and {a[2] for a in engine.asked} == {7}
     assert engine.asked[0][1].free and engine.asked[1][1].type == 2 and engine.asked[2][1] is own
     assert hashlib.sha256(renderer.render().tobytes()).hexdigest() == TOLD["hashes"]["color"]
+    assert renderer.scene is renderer.scene and renderer.scene.ngeom == len(TOLD["scene"]["geoms"])
     for wrong in ("nobody", 5, -2):
         with pytest.raises(shade.Error, match="camera"):
             renderer.update_scene("state", camera=wrong)

@@ -2,13 +2,17 @@
 
     import shade_h.compat.pyrender as pyrender
 
-Scenes, nodes, meshes, cameras, lights and OffscreenRenderer are there.  Light is Blinn-Phong in place
-of pyrender's physically based materials, so that colours are close and not equal; depth and
-segmentation are the same up to the edges of pixels.  There is no Viewer, no skin and no normal map.
+Scenes, nodes, meshes, points, cameras, lights and OffscreenRenderer are there.  Light is Blinn-Phong
+in place of pyrender's physically based materials, so that colours are close and not equal; depth and
+segmentation are the same up to the edges of pixels.  Viewer opens no window: it draws one picture.
+There is no skin, no wireframe and no map but that of the base colour.
 """
 from __future__ import annotations
 
+import functools
 import math
+import warnings
+from dataclasses import replace
 from typing import Any, Iterable, Sequence
 
 import numpy as np
@@ -16,7 +20,9 @@ import numpy as np
 from .. import _arguments as arguments
 from .._native import SOLID, Array, Error
 from ..light import Light as _Lamp
-from ..renderer import Frame, Renderer as _Renderer
+from ..renderer import _KINDS, _NO_SHADOW, Frame, Renderer as _Renderer
+
+_BALL = _KINDS["sphere"]
 
 
 class RenderFlags:
@@ -27,28 +33,82 @@ class RenderFlags:
     VERTEX_NORMALS, FACE_NORMALS, SKIP_CULL_FACES, RGBA, FLAT, SEG = 256, 512, 1024, 2048, 4096, 8192
 
 
+class GLTF:
+    """The modes of a Primitive that are drawn."""
+
+    POINTS, TRIANGLES = 0, 4
+
+
+class Texture:
+    """A picture: bytes, or what numpy makes an array of."""
+
+    def __init__(self, name: str | None = None, sampler: Any = None, source: Any = None,
+                 source_channels: str | None = None, width: int | None = None,
+                 height: int | None = None, **others: Any) -> None:
+        """Keeps source; the rest is taken and not used."""
+        self.name, self.source = name, source
+
+
+def _vector(name: str, value: Any, length: int) -> Array:
+    """A colour of so many channels, 0 .. 1: whole numbers are bytes, and what is missing is 1."""
+    given: Array = np.atleast_1d(np.asarray(value)).ravel()
+    if np.issubdtype(given.dtype, np.integer):
+        given = given / 255.0
+    if given.size == 1:
+        given = np.repeat(given, length)
+    whole = np.concatenate([given, np.ones(max(0, length - given.size))])[:length]
+    return arguments.doubles(name, whole, (length,), finite=True)
+
+
 class MetallicRoughnessMaterial:
     """baseColorFactor is a colour, 0 .. 1, with alpha; baseColorTexture an array of bytes."""
 
-    def __init__(self, name: str | None = None, baseColorFactor: Sequence[float] = (1, 1, 1, 1),
+    def __init__(self, name: str | None = None, baseColorFactor: Any = 1.0,
                  metallicFactor: float = 1.0, roughnessFactor: float = 1.0,
                  emissiveFactor: Sequence[float] = (0, 0, 0), alphaMode: str = "OPAQUE",
                  doubleSided: bool = False, baseColorTexture: Any = None, **others: Any) -> None:
         """Other arguments of pyrender's are taken and not used."""
-        base = arguments.doubles("baseColorFactor", baseColorFactor, (None,), finite=True).tolist()
-        self.name, self.baseColorFactor = name, [*base[:3], *(base[3:] or [1.0])]
+        self.name, self.baseColorFactor = name, _vector("baseColorFactor", baseColorFactor, 4).tolist()
         self.metallicFactor = arguments.number("metallicFactor", metallicFactor, 0, 1)
         self.roughnessFactor = arguments.number("roughnessFactor", roughnessFactor, 0, 1)
         self.emissiveFactor, self.alphaMode = emissiveFactor, alphaMode
         self.doubleSided = bool(doubleSided)
-        self.baseColorTexture = getattr(baseColorTexture, "source", baseColorTexture)
+        source = getattr(baseColorTexture, "source", baseColorTexture)
+        if hasattr(source, "convert"):    # a picture of Pillow's
+            source = source.convert("RGBA")
+        self.baseColorTexture = None if source is None else np.asarray(source)
 
 
 Material = MetallicRoughnessMaterial
 
 
-class Primitive:
-    """Triangles: positions (n, 3), and normals, texcoord_0, color_0 and indices (m, 3) or None."""
+class _Bounded:
+    """What has bounds has these."""
+
+    @property
+    def bounds(self) -> Array:
+        """(2, 3): the lowest and the highest coordinates."""
+        raise NotImplementedError
+
+    @property
+    def centroid(self) -> Array:
+        """The middle of the bounds."""
+        return np.asarray(self.bounds.mean(0))
+
+    @property
+    def extents(self) -> Array:
+        """The sides of the bounds."""
+        return np.asarray(self.bounds[1] - self.bounds[0])
+
+    @property
+    def scale(self) -> float:
+        """The diagonal of the bounds."""
+        return float(np.linalg.norm(self.extents))
+
+
+class Primitive(_Bounded):
+    """Triangles: positions (n, 3), and normals, texcoord_0, color_0 and indices (m, 3) or None.  With
+    mode GLTF.POINTS, points."""
 
     def __init__(self, positions: Any, normals: Any = None, tangents: Any = None,
                  texcoord_0: Any = None, texcoord_1: Any = None, color_0: Any = None,
@@ -57,24 +117,71 @@ class Primitive:
                  poses: Any = None) -> None:
         """Refuses arrays of a wrong shape by their names."""
         self.positions = arguments.floats("positions", positions, (None, 3), finite=True)
+        self.mode = GLTF.TRIANGLES if mode is None else arguments.integer("mode", mode, 0, 6)
+        if self.mode not in (GLTF.POINTS, GLTF.TRIANGLES):
+            raise Error(f"mode must be GLTF.POINTS or GLTF.TRIANGLES, not {self.mode}")
         count = len(self.positions)
         given = np.arange(count - count % 3).reshape(-1, 3) if indices is None else indices
         self.indices = arguments.faces("indices", given, count)
         self.normals = None if normals is None else arguments.floats("normals", normals, (count, 3))
         self.texcoord_0 = None if texcoord_0 is None else \
             arguments.floats("texcoord_0", np.asarray(texcoord_0)[:, :2], (count, 2))
-        self.color_0 = None if color_0 is None else arguments.linear("color_0", color_0)
+        self.color_0 = None if color_0 is None else self._colors(color_0, count)
         self.material = material or MetallicRoughnessMaterial()
         self.poses = None if poses is None else arguments.doubles("poses", poses, (None, 4, 4), True)
 
+    @staticmethod
+    def _colors(value: Any, count: int) -> Any:
+        """Factors of the base colour: a row for each position, or one for all."""
+        given = np.asarray(value)
+        if np.issubdtype(given.dtype, np.integer):
+            given = given / 255.0
+        if given.ndim == 1:
+            given = np.tile(given, (count, 1))
+        return arguments.floats("color_0", given[:, :3], (count, 3), finite=True)
 
-class Mesh:
+    @property
+    def bounds(self) -> Array:
+        """(2, 3): the lowest and the highest coordinates, of all poses."""
+        low, high = self.positions.min(0), self.positions.max(0)
+        if self.poses is None:
+            return np.array([low, high], float)
+        return _bounds_of(_moved(pose, low, high) for pose in self.poses)
+
+
+def _moved(pose: Array, low: Any, high: Any) -> Array:
+    """The corners of bounds in another place."""
+    corners = np.stack(np.meshgrid(*np.stack([low, high], 1), indexing="ij"), -1).reshape(-1, 3)
+    return np.asarray(corners @ pose[:3, :3].T + pose[:3, 3])
+
+
+def _bounds_of(corners: Iterable[Array]) -> Array:
+    points = list(corners)
+    if not points:
+        return np.zeros((2, 3))
+    whole = np.concatenate(points)
+    return np.array([whole.min(0), whole.max(0)])
+
+
+class Mesh(_Bounded):
     """Primitives that share a name and a place."""
 
     def __init__(self, primitives: Iterable[Primitive], name: str | None = None,
                  weights: Any = None, is_visible: bool = True) -> None:
         """Keeps the primitives."""
         self.primitives, self.name, self.is_visible = list(primitives), name, bool(is_visible)
+
+    @property
+    def bounds(self) -> Array:
+        """(2, 3): the lowest and the highest coordinates."""
+        return _bounds_of(p.bounds for p in self.primitives)
+
+    @staticmethod
+    def from_points(points: Any, colors: Any = None, normals: Any = None, is_visible: bool = True,
+                    poses: Any = None) -> Mesh:
+        """Points, as wide as the point_size of the renderer, with a colour each or one for all."""
+        return Mesh([Primitive(points, color_0=colors, mode=GLTF.POINTS, poses=poses)],
+                    is_visible=is_visible)
 
     @staticmethod
     def from_trimesh(mesh: Any, material: Any = None, is_visible: bool = True, poses: Any = None,
@@ -87,6 +194,8 @@ class Mesh:
 def _primitive(mesh: Any, material: Any, poses: Any, smooth: bool) -> Primitive:
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     visual, colors, uv = getattr(mesh, "visual", None), None, None
+    if not getattr(visual, "defined", True):
+        visual = None
     kind = getattr(visual, "kind", None)
     normals = np.asarray(mesh.vertex_normals) if smooth and hasattr(mesh, "vertex_normals") else None
     if visual is not None and kind == "vertex":
@@ -98,7 +207,10 @@ def _primitive(mesh: Any, material: Any, poses: Any, smooth: bool) -> Primitive:
         image = getattr(own, "image", None)
         image = getattr(own, "baseColorTexture", None) if image is None else image
         if material is None and image is not None:
-            material = MetallicRoughnessMaterial(baseColorTexture=np.asarray(image.convert("RGBA")))
+            material = MetallicRoughnessMaterial(baseColorTexture=image)
+    if material is None:    # pyrender's own
+        material = MetallicRoughnessMaterial(baseColorFactor=(0.3, 0.3, 0.3, 1.0), metallicFactor=0.2,
+                                             roughnessFactor=0.8)
     if not smooth or normals is None and colors is not None and len(colors) != len(vertices):
         corners = vertices[faces]
         across: Array = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -196,8 +308,7 @@ class Light:
     def __init__(self, color: Any = None, intensity: float = 1.0, range: float | None = None,
                  name: str | None = None) -> None:
         """range is taken and not used."""
-        rgb = np.ones(3) if color is None else np.asarray(color, float)[:3]
-        self.color = arguments.doubles("color", rgb, (3,), finite=True)
+        self.color = _vector("color", 1.0 if color is None else color, 3)
         self.intensity, self.range, self.name = float(intensity), range, name
 
 
@@ -215,21 +326,45 @@ class SpotLight(Light):
     def __init__(self, color: Any = None, intensity: float = 1.0, range: float | None = None,
                  innerConeAngle: float = 0.0, outerConeAngle: float = math.pi / 4,
                  name: str | None = None) -> None:
-        """Light is even within the cone."""
+        """Light falls from innerConeAngle to nothing at outerConeAngle."""
         super().__init__(color, intensity, range, name)
         self.innerConeAngle, self.outerConeAngle = float(innerConeAngle), float(outerConeAngle)
+
+
+@functools.lru_cache(maxsize=64)
+def _falloff(inner: float, outer: float) -> float:
+    """The exponent whose power of the cosine is nearest to pyrender's fall of a spot's light."""
+    low = math.cos(outer)
+    cosine = np.linspace(low, 1, 200)
+    wanted = np.clip((cosine - low) / max(0.001, math.cos(inner) - low), 0, 1) ** 2
+    tried = np.concatenate([[0], np.geomspace(0.1, 400, 120)])
+    error = ((cosine[None] ** tried[:, None] - wanted) ** 2).sum(1)
+    return float(tried[error.argmin()])
 
 
 class Node:
     """A mesh, a camera or a light in its place, and the nodes that move with it."""
 
     def __init__(self, name: str | None = None, camera: Any = None, children: Any = None,
-                 skin: Any = None, matrix: Any = None, mesh: Any = None, light: Any = None,
-                 **others: Any) -> None:
-        """matrix is 4 x 4, from the node to its parent."""
+                 skin: Any = None, matrix: Any = None, mesh: Any = None, rotation: Any = None,
+                 scale: Any = None, translation: Any = None, weights: Any = None,
+                 light: Any = None) -> None:
+        """matrix is 4 x 4, from the node to its parent; without it rotation, a unit quaternion
+        x, y, z, w, scale and translation, three numbers each, make it."""
+        for slot, value, kind in (("camera", camera, Camera), ("mesh", mesh, Mesh),
+                                  ("light", light, Light)):
+            if value is not None and not isinstance(value, kind):
+                raise TypeError(f"{slot} must be a {kind.__name__}, not {arguments.shown(value)}")
         self.name, self.camera, self.mesh, self.light = name, camera, mesh, light
         self.children = list(children or ())
-        self.matrix = np.eye(4) if matrix is None else matrix
+        self._rotation = np.array([0.0, 0.0, 0.0, 1.0])
+        self._scale, self._translation = np.ones(3), np.zeros(3)
+        if matrix is not None:
+            self.matrix = matrix
+            return
+        self.rotation = self._rotation if rotation is None else rotation
+        self.scale = self._scale if scale is None else scale
+        self.translation = self._translation if translation is None else translation
 
     @property
     def matrix(self) -> Array:
@@ -238,19 +373,147 @@ class Node:
 
     @matrix.setter
     def matrix(self, value: Any) -> None:
-        self._matrix = arguments.doubles("matrix", value, (4, 4), finite=True).copy()
+        m = arguments.doubles("matrix", value, (4, 4), finite=True).copy()
+        self._scale = np.linalg.norm(m[:3, :3], axis=0)
+        self._translation = m[:3, 3].copy()
+        self._rotation = _quaternion(m[:3, :3] / np.where(self._scale > 0, self._scale, 1))
+        self._matrix = m
+
+    def _compose(self) -> None:
+        x, y, z, w = self._rotation
+        turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+        self._matrix = np.eye(4)
+        self._matrix[:3, :3], self._matrix[:3, 3] = turn * self._scale, self._translation
+
+    @property
+    def rotation(self) -> Array:
+        """A unit quaternion x, y, z, w."""
+        return self._rotation
+
+    @rotation.setter
+    def rotation(self, value: Any) -> None:
+        q = arguments.doubles("rotation", value, (4,), finite=True).copy()
+        if abs(np.linalg.norm(q) - 1) > 1e-3:
+            raise Error("rotation must be a unit quaternion x, y, z, w")
+        self._rotation = q
+        self._compose()
+
+    @property
+    def scale(self) -> Array:
+        """Factors along x, y and z."""
+        return self._scale
+
+    @scale.setter
+    def scale(self, value: Any) -> None:
+        self._scale = arguments.doubles("scale", value, (3,), finite=True).copy()
+        self._compose()
+
+    @property
+    def translation(self) -> Array:
+        """The place in the parent."""
+        return self._translation
+
+    @translation.setter
+    def translation(self, value: Any) -> None:
+        self._translation = arguments.doubles("translation", value, (3,), finite=True).copy()
+        self._compose()
 
 
-class Scene:
+def _quaternion(turn: Array) -> Array:
+    """x, y, z, w of a rotation: of four products the largest is divided by."""
+    m = turn
+    own = np.array([[m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0],
+                     m[2, 1] - m[1, 2]],
+                    [0, m[1, 1] - m[0, 0] - m[2, 2], m[1, 2] + m[2, 1], m[0, 2] - m[2, 0]],
+                    [0, 0, m[2, 2] - m[0, 0] - m[1, 1], m[1, 0] - m[0, 1]],
+                    [0, 0, 0, m[0, 0] + m[1, 1] + m[2, 2]]])
+    own = own + np.triu(own, 1).T + np.eye(4)
+    row = own[np.diag(own).argmax()]
+    return np.asarray(row / max(float(np.linalg.norm(row)), 1e-30))
+
+
+class Scene(_Bounded):
     """Nodes, a background and ambient light."""
 
     def __init__(self, nodes: Iterable[Node] | None = None, bg_color: Any = None,
                  ambient_light: Any = None, name: str | None = None) -> None:
         """bg_color and ambient_light are colours, 0 .. 1."""
-        self.bg_color = np.ones(4) if bg_color is None else np.asarray(bg_color, float)
-        self.ambient_light = np.zeros(3) if ambient_light is None else \
-            np.asarray(ambient_light, float)[:3]
-        self.name, self._roots, self.main_camera_node = name, list(nodes or ()), None
+        self.bg_color, self.ambient_light = bg_color, ambient_light
+        self.name, self._main = name, None
+        given = list(nodes or ())
+        below = {id(child) for node in given for child in node.children}
+        self._roots: list[Node] = [node for node in given if id(node) not in below]
+
+    @staticmethod
+    def from_trimesh_scene(trimesh_scene: Any, bg_color: Any = None,
+                           ambient_light: Any = None) -> Scene:
+        """A scene of all nodes with geometry of a trimesh.Scene."""
+        scene = Scene(bg_color=bg_color, ambient_light=ambient_light)
+        made = {name: Mesh.from_trimesh(one) for name, one in trimesh_scene.geometry.items()}
+        for node in trimesh_scene.graph.nodes_geometry:
+            pose, name = trimesh_scene.graph[node]
+            scene.add(made[name], pose=pose)
+        return scene
+
+    @property
+    def bg_color(self) -> Array:
+        """The colour behind all, with alpha."""
+        return self._bg_color
+
+    @bg_color.setter
+    def bg_color(self, value: Any) -> None:
+        self._bg_color = _vector("bg_color", 1.0 if value is None else value, 4)
+
+    @property
+    def ambient_light(self) -> Array:
+        """Light from everywhere."""
+        return self._ambient_light
+
+    @ambient_light.setter
+    def ambient_light(self, value: Any) -> None:
+        self._ambient_light = _vector("ambient_light", 0.0 if value is None else value, 3)
+
+    @property
+    def main_camera_node(self) -> Node | None:
+        """The node whose camera is drawn by: the first one, until another is set."""
+        cameras = self.camera_nodes
+        return self._main if self._main in cameras else next(iter(cameras), None)
+
+    @main_camera_node.setter
+    def main_camera_node(self, value: Node) -> None:
+        if not self.has_node(value) or value.camera is None:
+            raise ValueError("main_camera_node must be in the scene and have a camera")
+        self._main = value
+
+    @property
+    def bounds(self) -> Array:
+        """(2, 3): the lowest and the highest coordinates of all meshes."""
+        return _bounds_of(_moved(pose, *n.mesh.bounds) for n, pose in self._walk() if n.mesh is not None)
+
+    @property
+    def meshes(self) -> set[Mesh]:
+        """All meshes."""
+        return {n.mesh for n in self.mesh_nodes}
+
+    @property
+    def cameras(self) -> set[Camera]:
+        """All cameras."""
+        return {n.camera for n in self.camera_nodes}
+
+    @property
+    def lights(self) -> set[Light]:
+        """All lights."""
+        return {n.light for n in self.light_nodes}
+
+    def has_node(self, node: Node) -> bool:
+        """Whether a node is in the scene."""
+        return any(node is n for n in self.nodes)
+
+    def clear(self) -> None:
+        """Takes all nodes out."""
+        self._roots, self._main = [], None
 
     def _walk(self) -> list[tuple[Node, Array]]:
         out, left = [], [(n, np.eye(4)) for n in reversed(self._roots)]
@@ -299,6 +562,10 @@ class Scene:
 
     def add_node(self, node: Node, parent_node: Node | None = None) -> None:
         """Adds a node below another one, or at the root."""
+        if self.has_node(node):
+            raise ValueError("node is in the scene already")
+        if parent_node is not None and not self.has_node(parent_node):
+            raise ValueError("parent_node is not in the scene")
         (self._roots if parent_node is None else parent_node.children).append(node)
 
     def remove_node(self, node: Node) -> None:
@@ -359,13 +626,17 @@ class OffscreenRenderer:
                 cameras.append((node, pose))
             if node.light is not None:
                 lamps.append((node.light, pose))
-            if node.mesh is not None and node.mesh.is_visible:
-                for primitive in node.mesh.primitives:
-                    self._put(base, primitive, pose, flags)
-                    used += [node] * (base._count - len(used))
-        main = [c for c in cameras if c[0] is scene.main_camera_node] or cameras[:1]
+        main = [c for c in cameras if c[0] is scene.main_camera_node]
         if not main:
             raise ValueError("the scene has no camera")
+        for node, pose in scene._walk():
+            if node.mesh is not None and node.mesh.is_visible:
+                for primitive in node.mesh.primitives:
+                    if primitive.mode == GLTF.POINTS:
+                        self._put_points(base, primitive, pose, main[0])
+                    else:
+                        self._put(base, primitive, pose, flags)
+                    used += [node] * (base._count - len(used))
         self._light(base, scene, lamps, flags)
         p = main[0][0].camera.get_projection_matrix(self.viewport_width, self.viewport_height)
         h, w = self.viewport_height, self.viewport_width
@@ -402,8 +673,7 @@ class OffscreenRenderer:
             known = self._shapes[id(primitive)] = (primitive, shape.number, texture)
         m = primitive.material
         for place in [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]:
-            if base._count == len(base._objects):
-                base._objects = np.concatenate([base._objects, np.zeros(base._count, SOLID)])
+            self._room(base, 1)
             o = base._objects[base._count]
             base._objects[base._count] = np.zeros((), SOLID)
             size = np.maximum(np.linalg.norm(place[:3, :3], axis=0), 1e-30)
@@ -421,6 +691,35 @@ class OffscreenRenderer:
             base._count += 1
 
     @staticmethod
+    def _room(base: _Renderer, count: int) -> None:
+        """Makes room for so many objects more."""
+        missing = base._count + count - len(base._objects)
+        if missing > 0:
+            more = max(missing, len(base._objects))
+            base._objects = np.concatenate([base._objects, np.zeros(more, SOLID)])
+
+    def _put_points(self, base: _Renderer, primitive: Primitive, pose: Array,
+                    eye: tuple[Node, Array]) -> None:
+        """Balls that glow in their colours, as wide as point_size pixels, and a pixel at least."""
+        p = eye[0].camera.get_projection_matrix(self.viewport_width, self.viewport_height)
+        view = np.linalg.inv(eye[1])
+        for place in [pose] if primitive.poses is None else [pose @ q for q in primitive.poses]:
+            at = primitive.positions @ place[:3, :3].T + place[:3, 3]
+            depth = 1 if p[3, 3] else np.maximum(-(at @ view[2, :3] + view[2, 3]), 1e-6)
+            # half the diagonal of a pixel, so that a ball reaches the centre of one
+            radius = 0.71 * max(self.point_size, 1.0) * 2 / self.viewport_height * depth / p[1, 1]
+            self._room(base, len(at))
+            o = base._objects[base._count:base._count + len(at)]
+            o[:] = np.zeros((), SOLID)
+            o["kind"], o["texture"], o["place"], o["turn"] = _BALL, -1, at, np.eye(3)
+            o["size"] = np.broadcast_to(np.reshape(radius, (-1, 1)), (len(at), 3))
+            o["flags"] = _NO_SHADOW
+            factor = np.asarray(primitive.material.baseColorFactor)
+            o["rgba"][:, :3] = factor[:3] if primitive.color_0 is None else factor[:3] * primitive.color_0
+            o["rgba"][:, 3], o["emission"] = 1, 1
+            base._count += len(at)
+
+    @staticmethod
     def _light(base: _Renderer, scene: Scene, lamps: list[tuple[Light, Array]], flags: int) -> None:
         made: list[_Lamp] = []
         shadow = None
@@ -431,10 +730,11 @@ class OffscreenRenderer:
             if isinstance(light, DirectionalLight):
                 lamp, wanted = _Lamp.directional(aim, color), RenderFlags.SHADOWS_DIRECTIONAL
             elif isinstance(light, SpotLight):
-                lamp = _Lamp.spot(at, aim, light.outerConeAngle, 0, color)
+                power = _falloff(light.innerConeAngle, light.outerConeAngle)
+                lamp = replace(_Lamp.spot(at, aim, light.outerConeAngle, power, color), quadratic=1.0)
                 wanted = RenderFlags.SHADOWS_SPOT
             else:
-                lamp, wanted = _Lamp.point(at, color), 0
+                lamp, wanted = _Lamp.point(at, color, attenuation=(0, 0, 1)), 0
             if flags & wanted and shadow is None:
                 shadow = len(made)
             made.append(lamp)
@@ -448,6 +748,62 @@ class OffscreenRenderer:
         """There is no context to delete."""
 
 
-__all__ = ["Camera", "DirectionalLight", "IntrinsicsCamera", "Light", "Material", "Mesh",
+class Viewer:
+    """In place of a window one picture, which notebooks show, with the bytes color and depth.  Without
+    a camera in the scene it looks at its middle; with use_raymond_lighting, or without a light, three
+    lamps light it."""
+
+    def __init__(self, scene: Scene, viewport_size: Any = None, render_flags: Any = None,
+                 viewer_flags: Any = None, registered_keys: Any = None, run_in_thread: bool = False,
+                 **others: Any) -> None:
+        """Draws and returns at once.  Of others use_raymond_lighting, shadows, flat and cull_faces
+        count."""
+        asked = {**(render_flags or {}), **(viewer_flags or {}), **others}
+        width, height = viewport_size or (640, 480)
+        flags = RenderFlags.SHADOWS_ALL if asked.get("shadows") else RenderFlags.NONE
+        flags |= RenderFlags.FLAT if asked.get("flat") else RenderFlags.NONE
+        flags |= RenderFlags.NONE if asked.get("cull_faces", True) else RenderFlags.SKIP_CULL_FACES
+        added = []
+        if scene.main_camera_node is None:
+            added.append(scene.add(PerspectiveCamera(yfov=math.pi / 3), pose=self._aim(scene)))
+        if asked.get("use_raymond_lighting") or not scene.light_nodes:
+            camera = scene.main_camera_node
+            pose = np.eye(4) if camera is None else scene.get_pose(camera)
+            added += [scene.add(DirectionalLight(intensity=2.0), pose=pose @ turn)
+                      for turn in self._raymond()]
+        try:
+            self.color, self.depth = OffscreenRenderer(width, height).render(scene, flags)
+        finally:
+            for node in added:
+                scene.remove_node(node)
+        warnings.warn("Viewer opens no window here: it drew one picture, in its color and depth",
+                      stacklevel=2)
+
+    @staticmethod
+    def _aim(scene: Scene) -> Array:
+        """A pose from which the whole scene is seen."""
+        pose, s = np.eye(4), math.sqrt(0.5)
+        pose[:3, :3] = [[0, -s, s], [1, 0, 0], [0, s, s]]
+        pose[:3, 3] = scene.centroid + max(scene.scale, 1e-9) * 1.1 * pose[:3, 2]
+        return pose
+
+    @staticmethod
+    def _raymond() -> list[Array]:
+        """Three lamps around the way of the view, 30 degrees off."""
+        turns = []
+        for angle in (math.pi / 2, math.pi * 7 / 6, math.pi * 11 / 6):
+            z = np.array([math.cos(angle) / 2, math.sin(angle) / 2, math.sqrt(0.75)])
+            x = np.array([-math.sin(angle), math.cos(angle), 0])
+            turn = np.eye(4)
+            turn[:3, 0], turn[:3, 1], turn[:3, 2] = x, np.cross(z, x), z
+            turns.append(turn)
+        return turns
+
+    def _repr_png_(self) -> bytes:
+        return Frame(self.color, None, None, None).picture().png()
+
+
+__all__ = ["Camera", "DirectionalLight", "GLTF", "IntrinsicsCamera", "Light", "Material", "Mesh",
            "MetallicRoughnessMaterial", "Node", "OffscreenRenderer", "OrthographicCamera",
-           "PerspectiveCamera", "PointLight", "Primitive", "RenderFlags", "Scene", "SpotLight"]
+           "PerspectiveCamera", "PointLight", "Primitive", "RenderFlags", "Scene", "SpotLight",
+           "Texture", "Viewer"]
