@@ -37,7 +37,7 @@ cat >"$T/use/part.glb" <<'END'
     "bufferViews":[{"buffer":0,"byteLength":36}],
     "buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
 END
-check "README's fourth program" sh -c "cd '$T/use' && node program4.mjs && test -s part.png"
+check "README's fifth program" sh -c "cd '$T/use' && node program5.mjs && test -s part.png"
 cat >"$T/use/required.js" <<'END'
 const shade = require("shade-h"), { data } = shade.render({ positions: [0, 0, 0, 1, 0, 0, 0, 0, 1] });
 import("shade-h").then((other) => {    // a Mesh of one is a Mesh of the other
@@ -63,6 +63,10 @@ else left_out "types and bundles: npm cannot fetch esbuild and typescript"; fi
 
 cp -R "$N/test" "$T/use/test"
 if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco@3.14.0 >"$T/log" 2>&1; then
+    cp -R "$T/mujoco/node_modules/@mujoco" "$T/use/node_modules/"
+    check "README's fourth program" same "$(cd "$T/use" && node program4.mjs 2>&1)" \
+        "38 2.0527708530426025 0"
+    rm -r "$T/use/node_modules/@mujoco"
     check "what MuJoCo steps" env MUJOCO="$T/mujoco/node_modules/@mujoco/mujoco/mujoco.js" \
         RECORDING="$T/tree/examples/python/tests/robots.json" \
         sh -c "cd '$T/use' && node --test test/robots.test.js"

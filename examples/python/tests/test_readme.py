@@ -1,9 +1,12 @@
 """What README.md shows runs, one block after the other."""
 import re
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from test_mujoco import Engine, model
 
 import shade_h as shade
 
@@ -12,11 +15,23 @@ HERE = Path(__file__).resolve().parents[1]
 
 def test_the_blocks_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    names = {}
+    names, alone = {}, []
+    engine = Engine()    # the package itself is not to be had everywhere
+    engine.MjModel = SimpleNamespace(from_xml_string=lambda xml: model())
+    engine.MjData, engine.mj_forward = (lambda model: "state"), (lambda model, data: None)
+    monkeypatch.setitem(sys.modules, "mujoco", engine)
     blocks = re.findall(r"```python\n(.*?)```", (HERE / "README.md").read_text("utf-8"), re.S)
-    assert len(blocks) == 7
-    for block in blocks:
-        exec(compile(block, "README.md", "exec"), names)
+    assert len(blocks) == 9
+    for i, block in enumerate(blocks):
+        if i and block.startswith("import"):    # a program of its own
+            alone.append({})
+        exec(compile(block, "README.md", "exec"), alone[-1] if i and block.startswith("import") else names)
+    cameras, mujoco, pyrender = alone
+    assert cameras["ids"].shape == (96, 128, 2) and len(np.unique(cameras["ids"][..., 0])) == 3
+    assert shade.Picture.open("cameras.png").size == (4 * 128, 96)
+    assert mujoco["pairs"].shape == (60, 80, 2) and len(np.unique(mujoco["pairs"][..., 0])) > 5
+    assert mujoco["metres"].dtype == np.float32 and mujoco["pixels"].shape == (60, 80, 3)
+    assert 0.05 < (pyrender["depth"] > 0).mean() < 0.5 and 3 <= pyrender["depth"].max() <= 4
     assert names["light"].shape == (1000, 3) and names["rgb"].shape == (8, 48, 64, 3)
     assert shade.Picture.open("gear.png") == shade.Picture.open(HERE / "picture.png")
     stress = shade.Picture.open("stress.png")

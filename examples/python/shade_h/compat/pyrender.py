@@ -441,7 +441,8 @@ class Scene(_Bounded):
                  ambient_light: Any = None, name: str | None = None) -> None:
         """bg_color and ambient_light are colours, 0 .. 1."""
         self.bg_color, self.ambient_light = bg_color, ambient_light
-        self.name, self._main = name, None
+        self.name = name
+        self._main: Node | None = None
         given = list(nodes or ())
         below = {id(child) for node in given for child in node.children}
         self._roots: list[Node] = [node for node in given if id(node) not in below]
@@ -479,7 +480,9 @@ class Scene(_Bounded):
     def main_camera_node(self) -> Node | None:
         """The node whose camera is drawn by: the first one, until another is set."""
         cameras = self.camera_nodes
-        return self._main if self._main in cameras else next(iter(cameras), None)
+        if self._main is not None and self._main in cameras:
+            return self._main
+        return cameras[0] if cameras else None
 
     @main_camera_node.setter
     def main_camera_node(self, value: Node) -> None:
