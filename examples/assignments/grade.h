@@ -49,7 +49,8 @@ typedef struct grade_task {
     grade_mistake mistakes[GRADE_MISTAKES];
     int (*place)(float x, float y, float *in); /* inputs of a place of the picture, x and y from
                                                      -1 to 1; 0: nothing is there */
-    float scale, offset;                       /* outputs to brightness */
+    int shown;           /* the first output in the picture: three are a colour, two red and green */
+    float scale, offset; /* outputs to brightness */
     int picture_points;
 } grade_task;
 
@@ -290,8 +291,9 @@ static void grade_run_case(const grade_task *t, const grade_case *c, const grade
 static uint32_t grade_color(const grade_task *t, const float *out)
 {
     uint32_t color = 0xFF000000u;
-    for (int k = 0; k < 3; k++) {
-        const float v = t->scale * out[t->outputs < 3 ? 0 : k] + t->offset;
+    const int n = t->outputs - t->shown;
+    for (int k = 0; k < (n == 2 ? 2 : 3); k++) {
+        const float v = t->scale * out[t->shown + (n < 2 ? 0 : k)] + t->offset;
         const float kept = v > 0 ? fminf(v, 1) : 0; /* NaN too is black */
         color |= (uint32_t)(kept * 255 + 0.5f) << (8 * k);
     }

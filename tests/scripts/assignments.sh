@@ -31,6 +31,21 @@ named() {
     [ -n "$says" ] && ! run --seed 3 --mistake "$2" && grep -vF 'perhaps:' "$T/said" | grep -qF "$says"
 }
 
+# Each "ok    lamps in front: 3 of 3" of a solution is "3 lamps in front" of the page.
+page_has_points() {
+    tr '\n' ' ' <"$1" >"$T/page"
+    sed -n 's/^ok *\(.*\): \([0-9]*\) of .*/\2 \1/p' "$T/said" >"$T/points"
+    while read -r points; do
+        grep -qE "[ ;] ?$(printf '%s' "$points" | sed 's/[.|+()]/\\&/g')[;. ]" "$T/page" || return 1
+    done <"$T/points"
+}
+# A golden picture is the right half of what the solution draws.
+drawn() {
+    there pngtopnm || return 0
+    run --picture "$T/drawn.ppm" && pngtopnm "$1" >"$T/golden" &&
+        pnmcut -left 160 -top 0 -width 160 -height 160 "$T/drawn.ppm" | pnmtopng | pngtopnm >"$T/right" &&
+        cmp "$T/golden" "$T/right"
+}
 # The names of the mistakes of graders
 mistakes() { sed -n '/\.mistakes/,/\.place/s/.*{ "\([a-z_]*\)", \1,.*/\1/p' "$@"; }
 
@@ -38,6 +53,11 @@ for task in "$A"/[0-9]*/; do
     task=$(basename "$task")
     check "$task: the solution compiles" build "$task" tests/assignments/solutions.c
     check "$task: full points" run
+    check "$task: its page has the points" page_has_points "$A/$task/README.md"
+    tolerance=$(sed -n 's/.*\.tolerance = \([0-9.e-]*[0-9]\)f*,.*/\1/p' "$A/$task/grade.c")
+    check "$task: its page has the tolerance" grep -qE \
+        "$([ "$tolerance" = 0 ] && echo "must be exact" || echo "off by $tolerance max")" "$T/page"
+    check "$task: its page shows the picture of right answers" drawn "$A/$task/picture.png"
     check "$task: full points with other inputs" run --seed 20
     for mistake in $(mistakes "$A/$task/grade.c"); do
         check "$task: $mistake is named" named "$task" "$mistake"

@@ -148,8 +148,9 @@ static const grade_task task = {
                     "powf of a negative number is a NaN or, for an even n, a second "
                     "highlight: take 0 there." } },
     .place = place,
-    .scale = 0.5f,
-    .offset = 0.5f,
+    .shown = 3,
+    .scale = 0.8f,
+    .offset = 0.1f,
     .picture_points = 2,
 };
 
