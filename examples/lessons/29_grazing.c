@@ -29,7 +29,7 @@ static int extent(const shade_target *t, int dx, int dy)
 
 int main(int argc, char **argv)
 {
-    static const char *const name[2] = { "Phong, (R·V)^n", "Blinn-Phong, (N·H)^{4n}" };
+    static const char *const name[2] = { "Phong, (R·V)^n, n = 100", "Blinn-Phong, (N·H)^{4n}" };
     const shade_vec3 origin = { 0, 0, 0 }, up = { 0, 1, 0 };
     static float texels[TILES * TILES][4], memory[TILES * TILES][4];
     shade_material water = { .ambient = { 0.15f, 0.15f, 0.15f }, .specular = { 1, 0.95f, 0.8f } };
