@@ -49,7 +49,7 @@ typedef struct grade_task {
     grade_mistake mistakes[GRADE_MISTAKES];
     int (*place)(float x, float y, float *in); /* inputs of a place of the picture, x and y from
                                                      -1 to 1; 0: nothing is there */
-    int shown;           /* the first output in the picture: three are a colour, two red and green */
+    int shown;           /* the first output in the picture; three are a colour, two red, green */
     float scale, offset; /* outputs to brightness */
     int picture_points;
 } grade_task;

@@ -2,7 +2,7 @@
 
      golden file ...              compares each file, prints N passed, N failed
      golden --list LIST file ...  compares with the hashes of that file
-     golden --update file ...     writes the file of this version anew
+     golden --update file ...     writes the file of this version anew, if all its pictures are given
 
    tests/golden/1.1.txt has the hashes of version 1.1, and so on: one line per picture, its name
    without folder and its 64-bit FNV-1a hash.  Files are compared with the newest one that is not
@@ -67,9 +67,27 @@ static int recorded_hash(const char *name, uint64_t *hash)
     return found;
 }
 
+/* Do all pictures of the list stand among the paths? */
+static int names_all(int count, char **paths)
+{
+    FILE *f = fopen(list, "r");
+    char line[400], recorded[300];
+    int all = 1;
+    while (f && fgets(line, sizeof line, f)) {
+        int found = 0;
+        if (sscanf(line, "%299s", recorded) != 1) continue;
+        for (int i = 0; i < count && !found; i++) found = !strcmp(name_of(paths[i]), recorded);
+        if (!found) printf("%s: name it too, or remove its line of %s\n", recorded, list);
+        all = all && found;
+    }
+    if (f) fclose(f);
+    return all;
+}
+
 static int update(int count, char **paths)
 {
     name_list(SHADE_VERSION / 100 % 100);
+    if (!names_all(count, paths)) return 1;
     FILE *f = fopen(list, "w");
     int ok = f != NULL;
     for (int i = 0; i < count && ok; i++) {
