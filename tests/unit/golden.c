@@ -2,7 +2,7 @@
 
      golden file ...              compares each file, prints N passed, N failed
      golden --list LIST file ...  compares with the hashes of that file
-     golden --update file ...     writes the file of this version anew, if all its pictures are given
+     golden --update file ...     writes this version's file anew, if all its pictures are given
 
    tests/golden/1.1.txt has the hashes of version 1.1, and so on: one line per picture, its name
    without folder and its 64-bit FNV-1a hash.  Files are compared with the newest one that is not
