@@ -878,16 +878,16 @@ static drawing_camera random_drawing_camera(int kind)
 static int triangles_in_sight(const drawing_camera *c, pick_scene *s, int *reversed)
 {
     dmat world, m = dmat_mul(dmat_from(c->with_depth), dmat_from(c->view));
-    double w[2];
+    double rw[2];    /* 1 / w, which is linear in depth, even where w passes through infinity */
     memset(s, 0, sizeof *s);
     if (fabs(dmat_invert(m, 4, &world)) < 1e-3 * pow(dmat_max(m), 4)) return 0;
     for (int k = 0; k < 2; k++) {
         const double in[4] = { 0, 0, k ? 0.9 : 0.1, 1 };
         double out[4];
         dmat_apply(world, in, out);
-        w[k] = 1 / out[3];
+        rw[k] = out[3];
     }
-    *reversed = w[1] < w[0] * (1 - 1e-6);
+    *reversed = rw[1] - rw[0] > 1e-6 * (fabs(rw[0]) + fabs(rw[1]));
     for (int k = 0; k < 3 * c->triangles; k++) {
         static double middle[2];
         double in[4] = { 0, 0, 0.9 * rnd_unit(), 1 }, out[4];
