@@ -124,6 +124,7 @@ static void modes_ordinary(void (*open)(const char *what), void (*close)(const c
         open("a triangle without area");
         shade_draw_mesh(&picture.target, &m, &s, NULL);
         close("a triangle without area");
+        shade_clear(&picture.target, shade_v4(0, 0, 0, 1), 1);    /* alone, it is a mistake */
         open("what a triangle without area explains");
         CHECK(*shade_explain(&picture.target, &m, &s, NULL));
         close("what a triangle without area explains");
