@@ -1352,7 +1352,8 @@ TEST(chunks, picks_through_chunks_are_the_nearest_triangles_of_all)
 }
 
 /* The nearest of all triangles, each met by shade_intersect where the model puts it, projective
-   models among them; -2: a ray so nearly in the plane of one that rounding decides. */
+   models among them; -2: a ray so nearly in the plane of one that rounding decides, or a distance
+   below FLT_MIN, of which floats keep few digits, in directions as long as 1e38. */
 static int intersect_all(const shade_mesh *mesh, shade_mat4 model, shade_ray ray)
 {
     int found = -1;
@@ -1370,7 +1371,7 @@ static int intersect_all(const shade_mesh *mesh, shade_mat4 model, shade_ray ray
                                 d3_sub(d3_from(chunk_corner(mesh, 3 * n + 2)), q));
         if (own.x == 0 && own.y == 0 && own.z == 0) continue; /* a line is never hit */
         if (!shade_intersect(ray, p[0], p[1], p[2], &t, NULL)) continue;
-        if (!(fabs(d3_dot(normal, direction)) > 1e-5 * size)) return -2;
+        if (!(fabs(d3_dot(normal, direction)) > 1e-5 * size) || t < FLT_MIN) return -2;
         if (t < nearest) found = n;
         nearest = fminf(t, nearest);
     }
