@@ -5,43 +5,22 @@
 /* ---- normals as red, green, blue; depth as grey, near is bright */
 
 typedef struct look {
-    const shade_mesh *mesh;
-    shade_mat4 model, clip_from_world;
-    shade_mat3 normals;
+    shade_mat4 view;
     float near_z, far_z;
     int depth;
 } look;
-
-static inline void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
-                               shade_vertices *SHADE_RESTRICT out)
-{
-    const look *l = (const look *)uniforms;
-    SHADE_EACH_LANE(i) {
-        const float *p = l->mesh->positions + 3 * in->index[i];
-        const float *n = l->mesh->normals + 3 * in->index[i];
-        shade_vec4 P = shade_mat4_transform(l->model, shade_v4(p[0], p[1], p[2], 1));
-        shade_vec4 clip = shade_mat4_transform(l->clip_from_world, P);
-        shade_vec3 N = shade_mat3_transform(l->normals, shade_v3(n[0], n[1], n[2]));
-        N = shade_normalize(N);
-        out->clip[0][i] = clip.x;
-        out->clip[1][i] = clip.y;
-        out->clip[2][i] = clip.z;
-        out->clip[3][i] = clip.w;
-        out->varying[0][i] = N.x;
-        out->varying[1][i] = N.y;
-        out->varying[2][i] = N.z;
-        out->varying[3][i] = clip.w;                     /* the distance from the eye, along -z */
-    }
-}
 
 static inline void look_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                  shade_colors *SHADE_RESTRICT out)
 {
     const look *l = (const look *)uniforms;
+    const float(*P)[SHADE_LANES] = in->varying + SHADE_VARYING_POSITION;
+    const float(*N)[SHADE_LANES] = in->varying + SHADE_VARYING_NORMAL;
     SHADE_EACH_LANE(i) {
-        shade_vec3 N = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
-        float grey = (l->far_z - in->varying[3][i]) / (l->far_z - l->near_z);
-        shade_vec3 c = shade_scale(shade_add(shade_normalize(N), shade_v3(1, 1, 1)), 0.5f);
+        shade_vec3 n = shade_normalize(shade_v3(N[0][i], N[1][i], N[2][i]));
+        shade_vec3 c = shade_scale(shade_add(n, shade_v3(1, 1, 1)), 0.5f);
+        float away = -shade_mat4_transform(l->view, shade_v4(P[0][i], P[1][i], P[2][i], 1)).z;
+        float grey = (l->far_z - away) / (l->far_z - l->near_z);
         grey *= grey * (3 - 2 * grey);                   /* more contrast in the middle */
         if (l->depth) c = shade_v3(grey, grey, grey);
         /* squared, since the target encodes for the screen */
@@ -51,14 +30,18 @@ static inline void look_fragment(const void *uniforms, const shade_fragments *SH
     }
 }
 
+/* A mesh that is shaded per face shows the normals of its faces. */
 static inline void look_draw(const shade_target *target, const shade_mesh *mesh,
                              const shade_draw_state *state, float near_z, float far_z, int depth)
 {
-    look l = { mesh, state->model, shade_mat4_mul(state->projection, state->view),
-               shade_normal_matrix(state->model), near_z, far_z, depth };
-    shade_pipeline p = { .vertex = look_vertex, .fragment = look_fragment, .uniforms = &l,
-                         .varyings = 4 };
-    shade_draw(target, &p, mesh->indices, mesh->index_count, mesh->vertex_count, NULL);
+    const look l = { state->view, near_z, far_z, depth };
+    shade_draw_state s = *state;
+    shade_mesh m = *mesh;
+    if (s.shading == SHADE_SHADING_PER_FACE) m.normals = NULL;
+    s.shading = SHADE_SHADING_PER_FRAGMENT;
+    s.fragment = look_fragment;
+    s.uniforms = &l;
+    shade_draw_mesh(target, &m, &s, NULL);
 }
 
 /* ---- each edge once, as a pair of points in memory to be freed; NULL where there is too little */

@@ -55,6 +55,7 @@ function setField(name, values) {
     S[name] = fit.length > 1 ? fit : fit[0];
 }
 function readAddress() {
+    readHash = location.hash;
     const given = new URLSearchParams(location.hash.slice(1));
     for (const name in FIELDS) setField(name, FIELDS[name].slice(2));
     setField('lecture', [Number(given.get('lecture'))]);
@@ -73,6 +74,11 @@ function readAddress() {
         say('This address shows a model that it cannot hold: drop its file here.');
     }
     if (!given.has('turn') && matchMedia('(prefers-reduced-motion: reduce)').matches) S.turn = 0;
+}
+let readHash = '';                      // of the page, as it was read or written last
+function writeAddress() {
+    history.replaceState(null, '', address());
+    readHash = location.hash;
 }
 function address() {
     const parts = Object.keys(FIELDS).filter(name =>
@@ -547,7 +553,10 @@ function refresh() {
 function changed() {
     moved = performance.now(), refresh();
     clearTimeout(changed.timer);
-    changed.timer = setTimeout(() => history.replaceState(null, '', address()), 300);
+    changed.timer = setTimeout(() => {
+        // a link that was followed since then is read first
+        if (location.hash === readHash) writeAddress();
+    }, 300);
 }
 function frame(now) {
     requested = 0;
@@ -675,7 +684,7 @@ function listen() {
         readTheme(), refresh();
     });
     for (const id of ['#share', '#share-raster']) $(id).addEventListener('click', async () => {
-        history.replaceState(null, '', address());
+        writeAddress();
         say(await copy(location.href) ? 'The address is copied.' : 'The address shows this.');
     });
     $('#reset').addEventListener('click', () => {

@@ -148,6 +148,7 @@ function showRaster() {
     $('#step').setAttribute('aria-valuetext', `step ${S.step} of ${rasterSteps}`);
     $('#step-number').textContent = `${S.step} / ${rasterSteps}`;
     $('#play').textContent = running ? '❚❚' : '▶';
+    $('#numbers').setAttribute('aria-live', running ? 'off' : 'polite');
 }
 
 // ---- steps, pointer, keys -----------------------------------------------------------------------

@@ -177,7 +177,7 @@ for (const simd of [1, 0]) {
     }
 
     // ---- buttons --------------------------------------------------------------------------------
-    const inputs = type => page.locator(`input[type=${type}]:not(:disabled)`).evaluateAll(all =>
+    const inputs = type => page.locator(`:is(main, aside) input[type=${type}]:not(:disabled)`).evaluateAll(all =>
         all.map(({ name, value }) => ({ name, value })));
     for (const { name, value } of await inputs('radio')) {
         const input = page.locator(`input[name=${name}][value="${value}"]`);
@@ -267,9 +267,9 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
     }
     await page.locator('#code').click();
     check('the program is shown', await page.evaluate(() =>
-        $('dialog pre').textContent === program() && $('dialog').open));
+        $('#program pre').textContent === program() && $('#program').open));
     await page.keyboard.press('Escape');
-    check('and goes', !await page.locator('dialog').isVisible());
+    check('and goes', !await page.locator('#program').isVisible());
     await page.context().close();
 }
 
@@ -279,8 +279,21 @@ const cube = 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n' +
 {
     const page = await open('turn=0', { viewport: { width: 1366, height: 650 } });
     const labels = page.locator('aside .row input, ' +
-        'label:has(input:not(:disabled):not([type=file]))');
+        ':is(main, aside) label:has(input:not(:disabled):not([type=file]))');
     for (let i = 0; i < await labels.count(); i++) await labels.nth(i).click();
+    const covering = () => page.evaluate(() => {
+        const help = $('#help').getBoundingClientRect();
+        return [...document.querySelectorAll('.map, #lobe, #curve, canvas, #speed')].filter(node => {
+            const box = node.getBoundingClientRect();
+            return box.width && box.left < help.right && box.right > help.left &&
+                box.top < help.bottom - 1 && box.bottom > help.top + 1;
+        }).map(node => node.id || node.tagName);
+    });
+    for (const height of [600, 650, 768]) {
+        await page.setViewportSize({ width: 1366, height });
+        check(`nothing covers the help: ${height}`, !(await covering()).length, await covering());
+    }
+    await page.setViewportSize({ width: 1366, height: 650 });
     check('no click scrolls the page', await page.evaluate(() =>
         [document.documentElement, document.body, $('main')].every(node => !node.scrollTop) &&
         $('header').getBoundingClientRect().top >= 0));
@@ -433,7 +446,7 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
             .join('') === 'RGB'));
     await page.locator('#by-hand').click();
     check('the equation in C', />>terms[^]*\nstatic float by_hand\([^]*f_spot[^]*\n}\n?$/.test(
-        await page.locator('dialog pre').textContent()));
+        await page.locator('#program pre').textContent()));
     await page.keyboard.press('Escape');
     for (const hash of ['turn=0&compare=1', 'turn=0&bare', 'turn=0&maps=0']) {
         await go(page, hash);
@@ -444,6 +457,7 @@ for (const [width, height] of [[1920, 1080], [1440, 900], [1366, 768], [1280, 72
 
 // ---- a lecture ----------------------------------------------------------------------------------
 
+const read = new Set();
 for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080], [3840, 2160]]) {
     const page = await open('turn=0&lecture=1', { viewport: { width, height } });
     for (let step = 1; step <= 5; step++) {
@@ -467,9 +481,15 @@ for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080], [3840, 21
         check(`the formula is whole: ${step}, ${width}`, await page.evaluate(() =>
             [...document.querySelectorAll('#lecture p math')].every(node =>
                 node.getBoundingClientRect().right <= innerWidth)));
+        if (step === 4) read.add(await page.locator('#sum').innerText());
         check(`one slider: ${step}, ${width}`,
             await page.locator('input[type=range]:visible').count() === 1);
         await page.keyboard.press('PageDown');
+    }
+    for (const [key, step] of [['ArrowLeft', 4], ['ArrowUp', 3], ['Backspace', 2], ['ArrowRight', 3],
+        ['ArrowDown', 4], ['Space', 5], ['Enter', 5], ['Control+ArrowLeft', 5]]) {
+        await page.keyboard.press(key);
+        check(`key in the lecture: ${key}, ${width}`, await page.evaluate(() => S.lecture) === step);
     }
     check('each step has its address', await soon(() => page.evaluate(() =>
         /lecture=5/.test(location.hash))));
@@ -480,12 +500,21 @@ for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080], [3840, 21
     check('a frame has no panel', await soon(async () =>
         !await page.locator('aside').isVisible() && await page.locator('#formula').isVisible()));
     await go(page, 'turn=0');
+    await go(page, 'turn=0&model=1&yaw=1&kd=.5,.4,.3&on3=1&mark=.1,.2,.3');
+    const before = await page.evaluate(() => JSON.stringify(S));
     await page.keyboard.press('l');
+    check('the key L begins', await page.evaluate(() => S.lecture) === 1);
+    await page.keyboard.press('Space');
     await page.keyboard.press('Escape');
     check('and leave', await soon(async () => await page.evaluate(() => S.lecture) === 0 &&
         await page.locator('aside').isVisible()));
+    check('which brings back what was there', before === await page.evaluate(() => JSON.stringify(S)));
+    check(`type grows with the screen: ${width}`, Math.abs(Math.max(14, 14 * width / 1920) - await page.evaluate(() =>
+        parseFloat(getComputedStyle(document.documentElement).fontSize))) < 0.1);
     await page.context().close();
 }
+check('iteration three reads the same on every screen', read.size === 1 &&
+    !/specular \.00/.test([...read][0].replace(/\s+/g, ' ')), [...read]);
 
 // ---- the rasterizer, a pixel at a time ------------------------------------------------------------
 
@@ -711,6 +740,13 @@ for (const [width, height] of [[1024, 768], [1366, 768], [1920, 1080], [3840, 21
             seen.every(other => other === want), seen);
         check(`and the picture: ${name}`, height > 250, height);
         if (/[a-z][123]$/.test(name)) check('of its lamp: ' + name, lamp === +name.slice(-1), lamp);
+    }
+    for (const name of ['steps', 'numbers', 'loops', 'order', 'count', 'hand', 'w', 'scenes']) {
+        await go(page, `raster=1&step=20&bare&with=${name}`);
+        const seen = await page.evaluate(() => [...document.querySelectorAll('[data-name]')].filter(node =>
+            node.checkVisibility()).map(node => node.dataset.name));
+        check(`with=${name} of the stepper`, seen.length > 0 && seen.every(other => other === name) &&
+            await page.evaluate(() => $('#grid').clientHeight > 180), seen);
     }
     await go(page, 'turn=0&bare&with=n,shading');
     await page.locator('aside [data-name=n] input').press('PageUp');
