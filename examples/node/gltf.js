@@ -229,16 +229,19 @@ class Scene {
         if (this.surfaces.has(at)) return this.surfaces.get(at);
         const material = at === undefined ? {} : this.file.item("materials", at);
         const texture = object(object(material, "pbrMetallicRoughness"), "baseColorTexture");
-        const mode = material.alphaMode ?? "OPAQUE";
-        if (mode !== "OPAQUE") this.warn(`alphaMode ${`${mode}`.slice(0, 10)} is drawn opaque`);
+        const mode = material.alphaMode ?? "OPAQUE", pbr = object(material, "pbrMetallicRoughness");
+        const alpha = clamp(numbers(pbr, "baseColorFactor", [1, 1, 1, 1])[3], 0, 1);
         let image = texture.index === undefined ? null : this.image(texture);
-        if (image) {    // without its alpha
+        if (image && mode !== "BLEND" && mode !== "MASK") {    // without its alpha
             const step = image.data.length / (image.width * image.height);
             const data = Uint8ClampedArray.from(image.data, (x, i) => (step === 4 && i % 4 === 3 ? 255 : x));
             image = { ...image, data };
         }
         const plain = { pbrMetallicRoughness: { metallicFactor: 0 } };
-        const made = { material: phong(at === undefined ? plain : material), texture, image, runs: [] };
+        const clear = mode === "BLEND" ? { blend: true, opacity: alpha }
+            : mode === "MASK" && image ? { cutoff: clamp(number(material, "alphaCutoff", 0.5), 0, 1) / Math.max(alpha, 1e-3) }
+                : {};
+        const made = { material: phong(at === undefined ? plain : material), texture, image, clear, runs: [] };
         this.surfaces.set(at, made);
         return made;
     }
@@ -333,7 +336,7 @@ class Scene {
         if (!this.triangles) fail("there are no triangles");
         const made = [...this.surfaces.values()], runs = made.flatMap((surface) => surface.runs);
         const smooth = runs.every((run) => run.normals), tinted = runs.some((run) => run.colors);
-        return made.filter((surface) => surface.runs.length).map(({ material, image, runs: own }) => {
+        return made.filter((surface) => surface.runs.length).map(({ material, image, clear, runs: own }) => {
             const size = own.reduce((sum, run) => sum + run.positions.length / 3, 0);
             const joined = (name, width, usual) => {
                 const out = new Float64Array(width * size).fill(usual);
@@ -350,7 +353,7 @@ class Scene {
                 run.corners.forEach((i) => { indices[at++] = i + first; });
                 first += run.positions.length / 3;
             }
-            return { positions: joined("positions", 3, 0), indices, material,
+            return { positions: joined("positions", 3, 0), indices, material, ...clear,
                      ...(smooth ? { normals: joined("normals", 3, 0) } : {}),
                      ...(tinted ? { colors: joined("colors", 3, 1) } : {}),
                      ...(image ? { uv: joined("uv", 2, 0), texture: image } : {}) };

@@ -47,6 +47,13 @@ export interface MeshSource {
     edges?: boolean;
     /** false leaves faces out that are seen from behind, which is faster; default true. */
     twoSided?: boolean;
+    /** 0 .. 1, times the texture's alpha: how much of what lies behind is hidden; default 1. */
+    opacity?: number;
+    /** Whether alpha blends, which is drawn last and leaves depth and ids as they are; default: opacity is
+        below 1. */
+    blend?: boolean;
+    /** Texels of less alpha are holes; default 0, none. */
+    cutoff?: number;
 }
 
 /** A mesh that is prepared once and may be drawn many times. */

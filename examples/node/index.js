@@ -16,7 +16,7 @@ const library = new WebAssembly.Instance(new WebAssembly.Module(binary)).exports
 library._initialize();
 
 // Structs of module.c, in words of four bytes
-const MESH = 12, ITEM = 40, VIEW = 66, LIGHT = 21;
+const MESH = 12, ITEM = 42, VIEW = 66, LIGHT = 21;
 [MESH, ITEM, VIEW, LIGHT].forEach((words, i) => {
     if (library.size(i) !== 4 * words) throw new Error("index.js and module.js do not fit");
 });
@@ -121,7 +121,7 @@ function gloss(color) {
 
 const forgotten = new FinalizationRegistry((at) => library.mesh_free(at));
 const MESH_OPTIONS = ["positions", "indices", "normals", "color", "colors", "uv", "texture",
-                      "material", "pose", "edges", "twoSided"];
+                      "material", "pose", "edges", "twoSided", "opacity", "blend", "cutoff"];
 
 export class Mesh {
     #at = 0;
@@ -144,6 +144,9 @@ export class Mesh {
         this.pose = got.pose === undefined ? IDENTITY : check.matrix("pose", got.pose);
         this.edges = check.flag("edges", edges);
         this.twoSided = check.flag("twoSided", twoSided);
+        this.opacity = check.number("opacity", got.opacity ?? 1, 0, 1);
+        this.blend = check.flag("blend", got.blend ?? this.opacity < 1);
+        this.cutoff = check.number("cutoff", got.cutoff ?? 0, 0, 1000);
         const plain = color === undefined ? null : linear(check.color("color", color));
         const white = colors !== undefined || got.texture !== undefined;
         this.material = got.material !== undefined ? material(got.material)
@@ -237,6 +240,8 @@ function writeItems(at, meshes, camera) {
                                   from?.parallel ? 1 : 0]);
         floats(start + 40, 13).set(mesh.material);
         floats(start + 92, 16).set(pose);
+        words(start + 156, 1)[0] = mesh.blend ? 1 : 0;
+        floats(start + 160, 2).set([mesh.opacity, mesh.cutoff]);
     });
 }
 

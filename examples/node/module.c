@@ -29,6 +29,8 @@ typedef struct asked_item {
     int edges, two_sided, parallel;    /* parallel: eye is a direction */
     shade_material material;
     shade_mat4 pose;
+    int blended;
+    float opacity, alpha_cutoff;
 } asked_item;
 
 typedef struct asked_view {
@@ -373,6 +375,9 @@ static shade_result item_of(const asked_item *asked, python_item *item)
     item->state.model = asked->pose;
     if (asked->mesh->map.pixels) item->state.diffuse_map = &asked->mesh->map;
     item->two_sided = asked->two_sided;
+    item->blended = asked->blended;
+    item->opacity = asked->opacity;
+    item->alpha_cutoff = asked->alpha_cutoff;
     return asked->edges ? lines_of(asked, item) : SHADE_OK;
 }
 
@@ -382,6 +387,7 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
     python_item *item = (python_item *)calloc((size_t)count + 1, sizeof *item);
     python_view view;
     shade_result result = item ? SHADE_OK : SHADE_ERROR_CAPACITY;
+    int made = 0;
     memset(&view, 0, sizeof view);
     view.width = asked->width;
     view.height = asked->height;
@@ -400,9 +406,10 @@ shade_result module_draw(const asked_view *asked, const asked_item *items, int c
     view.rgba = asked->rgba;
     view.depth = asked->depth;
     view.ids = asked->ids;
-    for (int i = 0; i < count && !result; i++) {
-        result = item_of(&items[i], &item[i]);
-        item[i].id = i;
+    for (int i = 0; i < 2 * count && !result; i++) {    /* first what hides, then what blends */
+        if (!items[i % count].blended != (i < count)) continue;
+        result = item_of(&items[i % count], &item[made]);
+        item[made++].id = i % count;
     }
     if (!result) result = (shade_result)python_draw(item, count, &view, 1, 1, NULL);
     for (int i = 0; item && i < count; i++) free((void *)(uintptr_t)item[i].lines);

@@ -155,7 +155,7 @@ kept() {                        # text, file, command ...
 }
 cp "$T/a.ppm" "$T/d.png"; cp "$T/a.ppm" "$T/d.obj"
 for k in d.png d.obj; do
-    check "no PPM into $k" kept "--difference .*$k: FILE, named .ppm" "$T/$k" "$compare" "$T/a.ppm" \
+    check "no PPM into $k" kept "--difference .*$k: FILE ends in .ppm" "$T/$k" "$compare" "$T/a.ppm" \
         "$T/b.ppm" --difference "$T/$k"
 done
 check "no difference over a picture that is compared" kept "a.ppm is read" "$T/a.ppm" "$compare" \

@@ -259,6 +259,8 @@ data_loss() {
     cp "$THUMBNAIL" "$T/shade-thumbnail"
     "$T/shade-thumbnail" >"$T/out" 2>"$T/err"
     check "the installed program's name" grep -q "^usage: shade-thumbnail model" "$T/err"
+    check "where to read on, and no more" same_text "$(sed 1d "$T/err")" \
+        "shade-thumbnail: --help lists the options"
     "$T/shade-thumbnail" "$T/empty.obj" "$T/none.ppm" 2>"$T/err"
     check "begins its lines" grep -q "^shade-thumbnail: " "$T/err"
 }

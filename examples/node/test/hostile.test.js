@@ -257,6 +257,43 @@ test("pictures of a GLB are decoded by the caller", () => {
     assert.match(told.join(), /^shade-h: model: it has pictures/);
 });
 
+test("alpha modes of a GLB", () => {
+    const picture = () => ({ data: Uint8Array.of(0, 0, 255, 100), width: 1, height: 1 });
+    const shown = (mode, more) => {
+        const [mesh] = readGltf(glb((json) => {
+            json.materials[0] = { alphaMode: mode, ...more, pbrMetallicRoughness: {
+                baseColorTexture: { index: 0 }, metallicFactor: 0, baseColorFactor: [1, 1, 1, 0.5] } };
+            json.textures = [{ source: 0 }];
+            json.images = [{ uri: "data:image/png;base64,AAEC" }];
+        }), { picture });
+        return render(mesh, { ...front, depth: true });
+    };
+    const middle = 16 * 32 + 16, pixel = ({ data }) => [...data.subarray(4 * middle, 4 * middle + 4)];
+    const [opaque, clear] = [shown("OPAQUE"), shown("BLEND")];
+    assert.ok(pixel(opaque)[0] < 80 && pixel(clear)[0] > pixel(opaque)[0] + 60, `${pixel(clear)}`);
+    assert.deepEqual([opaque.ids[middle], clear.ids[middle]], [0, -1]);
+    assert.deepEqual(pixel(shown("MASK")), [255, 255, 255, 255]);    // 0.39 is below 0.5 / 0.5
+    assert.ok(pixel(shown("MASK", { alphaCutoff: 0.1 }))[0] < 80);
+});
+
+test("meshes that blend", () => {
+    const square = (z, more) => ({ positions: [0, 0, z, 1, 0, z, 1, 1, z, 0, 1, z], indices: [0, 1, 2, 0, 2, 3],
+                                   ...more });
+    const options = { view: "top", size: 32, depth: true, light: { ambient: [1, 1, 1] } };
+    const middle = ({ data }) => [...data.subarray(4 * (16 * 32 + 16), 4 * (16 * 32 + 16) + 3)];
+    const glass = square(1, { opacity: 0.5, color: "#f00" }), floor = square(0, { color: "#00f" });
+    const [a, b] = [render([glass, floor], options), render([floor, glass], options)];
+    assert.deepEqual(a.data, b.data);    // what blends is drawn last
+    assert.ok(middle(a)[0] > 150 && middle(a)[2] > 150, `${middle(a)}`);
+    assert.deepEqual([a.ids[16 * 32 + 16], b.ids[16 * 32 + 16]], [1, 0]);
+    assert.deepEqual(middle(render([square(1, { opacity: 0.5, blend: false, color: "#f00" }), floor], options)),
+                     middle(render(square(1, { color: "#f00" }), options)));
+    for (const [field, value] of [["opacity", 2], ["opacity", NaN], ["opacity", "1"], ["blend", 1], ["cutoff", -1]]) {
+        assert.throws(() => render(square(0, { [field]: value })), (error) =>
+            error instanceof ShadeError && error.message.startsWith(field));
+    }
+});
+
 test("damaged GLB files are refused with a sentence", () => {
     const bad = (words, change) => assert.throws(() => readGltf(glb(change)), (error) =>
         error instanceof ShadeError && words.test(error.message) || assert.fail(`${error}`));

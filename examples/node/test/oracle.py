@@ -135,7 +135,7 @@ draw("far studio", [far], light="studio", samples=1)
 draw("nothing", [{"vertices": np.zeros((0, 3)), "faces": np.zeros((0, 3), int)}], size=(9, 7))
 
 
-def glb():
+def glb(mode, alpha):
     """A ring in two places, one of them mirrored, with normals, colours and two materials."""
     data, views, accessors = b"", [], []
     for array, kind, code in ((vertices.astype("<f4"), "VEC3", 5126), (normals.astype("<f4"), "VEC3", 5126),
@@ -157,17 +157,19 @@ def glb():
                    {"primitives": [{"attributes": base, "indices": 3, "material": 0}]}],
         "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.3, 0.1, 1],
                                                 "roughnessFactor": 0.4}},
-                      {"pbrMetallicRoughness": {"metallicFactor": 0.25}, "emissiveFactor": [0, 0, 0.1]}],
+                      {"pbrMetallicRoughness": {"metallicFactor": 0.25, "baseColorFactor": [1, 1, 1, alpha]},
+                       "emissiveFactor": [0, 0, 0.1], "alphaMode": mode}],
     }).encode()
     text += b" " * (-len(text) % 4)
     return struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A) + \
         text + struct.pack("<II", len(data), 0x004E4942) + data
 
 
-(OUT / "model.glb").write_bytes(glb())
-model = shade.render(OUT / "model.glb", size=(200, 150))
-(OUT / "model.rgba").write_bytes(model.rgba.tobytes())
-assert len(np.unique(model.rgba)) > 100
+for name, mode, alpha in (("model", "OPAQUE", 0.3), ("glass", "BLEND", 0.3)):
+    (OUT / f"{name}.glb").write_bytes(glb(mode, alpha))
+    model = shade.render(OUT / f"{name}.glb", size=(200, 150))
+    (OUT / f"{name}.rgba").write_bytes(model.rgba.tobytes())
+    assert len(np.unique(model.rgba)) > 100
 (OUT / "scenes.json").write_text(json.dumps(told))
 
 

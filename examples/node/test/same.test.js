@@ -36,12 +36,14 @@ test("a Renderer", () => {
     assert.ok(wanted.equals(got), `byte ${at} of ${got.length}: 14400 of colour, 19200 of depth, 38400 of numbers`);
 });
 
-test("a GLB", () => {
-    const meshes = readGltf(readFileSync(`${folder}/model.glb`));
-    assert.equal(meshes.length, 2);
-    const { data } = render(meshes, { size: [200, 150], up: "y" });
-    assert.ok(readFileSync(`${folder}/model.rgba`).equals(bytes(data)));
-});
+for (const name of ["model", "glass"]) {
+    test(`a GLB: ${name}`, () => {
+        const meshes = readGltf(readFileSync(`${folder}/${name}.glb`));
+        assert.equal(meshes.length, 2);
+        const { data } = render(meshes, { size: [200, 150], up: "y" });
+        assert.ok(readFileSync(`${folder}/${name}.rgba`).equals(bytes(data)));
+    });
+}
 
 test("PNG files for another reader", async () => {
     for (const { name, meshes, options } of scenes) {

@@ -11,7 +11,7 @@ import type { Camera, Color, Light, Lighting, Material, MeshSource, Numbers, Opt
 const positions: Numbers = new Float64Array(9), texture: Texture = { data: [1, 2, 3], width: 1, height: 1 };
 const material: Material = { diffuse: [1, 0, 0], shininess: 3 }, color: Color = "steel";
 const source: MeshSource = { positions, indices: [0, 1, 2], normals: "flat", color, material, edges: true,
-    colors: new Uint8Array(9), pose: new Float32Array(16), twoSided: false };
+    colors: new Uint8Array(9), pose: new Float32Array(16), twoSided: false, opacity: 0.5, blend: true, cutoff: 0.1 };
 const view: Viewpoint = [30, 20], camera: Camera = { view: [], projection: [] };
 const lamp: Light = { position: [1, 2, 3, 0], color: [1, 1, 1], spotCosCutoff: 0.5, linear: 1 };
 const light: Lighting = { lights: [lamp], ambient: [0, 0, 0], model: "phong", flags: 4 };

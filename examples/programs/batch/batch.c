@@ -22,7 +22,7 @@ static const char usage[] =
     MODEL_USAGE
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
-    "  --film FILE           or a film, .webp or .mp4, where ffmpeg is installed\n"
+    "  --film FILE           FILE ends in .webp or .mp4: a film, where ffmpeg is installed\n"
     "  --rate N              frames a second of the film, 1 .. 240 (30)\n"
     "  --piece K             only this one, 0 .. N-1\n"
     "  --missing             only prints the numbers of those that are not there\n"

@@ -15,10 +15,10 @@
 #include "../model/portrait.h"
 
 static const char usage[] =
-    "usage: compare [options] golden picture      PPM or PGM; - is standard input\n"
+    "usage: compare [options] golden picture      PPM, PGM or, with stb, PNG; -: standard input\n"
     "  --limit N             a channel may differ by N of 255 (0)\n"
     "  --count N|N%          N pixels, or N % of them, may differ by more than the limit (0)\n"
-    "  --difference FILE     FILE, named .ppm: golden in grey, differences in yellow, those\n"
+    "  --difference FILE     FILE ends in .ppm: golden in grey, differences in yellow, those\n"
     "                        beyond the limit in red\n"
     "  --help, --version     prints this text; the version\n"
     "In place of a picture may stand a model. It is drawn as thumbnail draws it, as large as the\n"

@@ -142,10 +142,10 @@ static inline const char *options_name(const command *c, const char *path)
     return name && !strncmp(name, "shade-", 6) && !strcmp(name + 6, c->name) ? name : c->name;
 }
 
-/* The usage begins with "usage: " and the program's own name. */
-static inline void options_help(const command *c, FILE *file)
+/* The usage behind "usage: " and the program's own name, with which it begins */
+static inline const char *options_words(const command *c)
 {
-    fprintf(file, "usage: %s%s", program_name, c->usage + strlen("usage: ") + strlen(c->name));
+    return c->usage + strlen("usage: ") + strlen(c->name);
 }
 
 /* Takes the option at argv[*i].  Moves *i onto the last word that belongs to it. */
@@ -179,7 +179,7 @@ static inline int options_take(const command *c, void *to, int argc, char **argv
 static inline int options_answer(const command *c, const char *word)
 {
     if (!strcmp(word, "--help")) {
-        options_help(c, stdout);
+        printf("usage: %s%s", program_name, options_words(c));
         return 1;
     }
     if (strcmp(word, "--version") != 0) return 0;
@@ -205,7 +205,8 @@ static inline int options_read(const command *c, void *to, int argc, char **argv
         }
     }
     if (end != OPTIONS_READ || files >= c->least) return end;
-    options_help(c, stderr);
+    fprintf(stderr, "usage: %s%.*s\n%s: --help lists the options\n", program_name,
+            (int)strcspn(options_words(c), "\n"), options_words(c), program_name);
     return OPTIONS_WRONG;
 }
 #endif
