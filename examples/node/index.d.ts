@@ -214,3 +214,8 @@ export type Decoder = (bytes: Uint8Array, mimeType: string | undefined) => Textu
     them, with +y up.  What is not drawn, pictures without a decoder among it, is a warning.  Throws
     ShadeError for a file that is damaged or needs what is not read. */
 export function readGltf(bytes: Uint8Array, options?: { picture?: Decoder }): MeshSource[];
+
+/** Reads 3MF: one mesh with the colours of its faces, and +z up, of all that the file builds.  Browsers have
+    the DOMParser; in Node.js, from 20.12 on, that of @xmldom/xmldom is handed over.  Rejects with a
+    ShadeError for a file that is damaged or unpacks to far more than it has. */
+export function read3mf(bytes: Uint8Array, options?: { DOMParser?: unknown }): Promise<MeshSource[]>;

@@ -6,9 +6,10 @@ import encoded from "./module.js";
 import { mujocoOf } from "./mujoco.js";
 import { Picture } from "./picture.js";
 import { rendererOf } from "./renderer.js";
+import { read3mf } from "./threemf.js";
 
 const { ShadeError } = check;
-export { Picture, ShadeError, readGltf };
+export { Picture, ShadeError, read3mf, readGltf };
 
 // Compiled at once, without await, which neither require nor a classic script can do.
 const binary = Uint8Array.from(atob(encoded), (c) => c.charCodeAt(0));

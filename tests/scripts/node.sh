@@ -24,7 +24,7 @@ check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/n
 check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-h-*.tgz"
 P=$T/use/node_modules/shade-h
 check "no file but what runs" same "$(LC_ALL=C ls "$P" | tr '\n' ' ')" \
-    "LICENSE README.md arguments.js camera.js gltf.js index.cjs index.d.cts index.d.ts index.js module.js mujoco.js package.json picture.js renderer.js "
+    "LICENSE README.md arguments.js camera.js gltf.js index.cjs index.d.cts index.d.ts index.js module.js mujoco.js package.json picture.js renderer.js threemf.js "
 awk -v out="$T/use/program" '/^```js$/ { n++; inside = 1; next } /^```/ { inside = 0 }
     inside { print > (out n ".mjs") }' "$N/README.md"
 { sed '/^import/!d' "$T/use/program1.mjs"; cat "$T/use/program2.mjs"; } >"$T/use/both.mjs"
@@ -71,6 +71,10 @@ if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco
         RECORDING="$T/tree/examples/python/tests/robots.json" \
         sh -c "cd '$T/use' && node --test test/robots.test.js"
 else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
+npm install --silent --no-audit --no-fund --prefix "$T/xml" @xmldom/xmldom@0.9.12 >"$T/log" 2>&1 ||
+    left_out "3MF: npm cannot fetch @xmldom/xmldom"
+XMLDOM=$T/xml/node_modules/@xmldom/xmldom/lib/index.js
+[ -f "$XMLDOM" ] && export XMLDOM
 check "hostile arguments" sh -c "cd '$T/use' && node --test test/hostile.test.js"
 
 for python in python3 /usr/bin/python3; do

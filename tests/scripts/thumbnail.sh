@@ -523,7 +523,7 @@ sections() {
     check "a cube seen from the right" draw sides.obj b.ppm --no-shadow --view right
     for k in "x right" "x left" "y top" "y bottom" "z front" "z back" "x=.9 right"; do
         check "--section $k" draw sides.obj a.ppm --no-shadow --section "${k% *}" --view "${k#* }"
-        check "shows a hatch in place of the side" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 90
+        check "shows a hatch in place of the side" no "$T/look" same "$T/a.ppm" "$T/b.ppm" 50
         check "covers what the cube covers" "$T/look" area "$T/a.ppm" "$T/b.ppm" 0.25
     done
     check "a section seen from its side" draw sides.obj a.ppm $flat --section x --view front

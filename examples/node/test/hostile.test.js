@@ -1,7 +1,8 @@
 // Whatever is passed, the module answers by a picture or by an error with a sentence, and goes on.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Mesh, PRESETS, ShadeError, readGltf, render } from "shade-h";
+import { deflateRawSync } from "node:zlib";
+import { Mesh, PRESETS, ShadeError, read3mf, readGltf, render } from "shade-h";
 
 const box = () => ({
     positions: [0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1],
@@ -343,4 +344,87 @@ test("mutants of a GLB are read or refused", () => {
         console.warn = warn;
     }
     assert.ok(read > count / 20 && refusals > count / 20, `${read} read, ${refusals} refused`);
+});
+
+/** A ZIP archive; method 0 stores, 8 packs. */
+function zip(files, method = 8) {
+    const bodies = [], directory = [], uint = (size, ...values) => values.map((value) => {
+        const out = Buffer.alloc(size);
+        out.writeUIntLE(value, 0, size);
+        return out;
+    });
+    let offset = 0;
+    for (const [name, words] of Object.entries(files)) {
+        const packed = method ? deflateRawSync(Buffer.from(words)) : Buffer.from(words), title = Buffer.from(name);
+        const common = [...uint(2, 20, 0, method, 0, 0), ...uint(4, 0, packed.length, words.length),
+                        ...uint(2, title.length, 0)];
+        const local = Buffer.concat([...uint(4, 0x04034B50), ...common, title, packed]);
+        directory.push(...uint(4, 0x02014B50), ...uint(2, 20), ...common, ...uint(2, 0, 0, 0), ...uint(4, 0, offset), title);
+        bodies.push(local);
+        offset += local.length;
+    }
+    const list = Buffer.concat(directory), count = Object.keys(files).length;
+    return new Uint8Array(Buffer.concat([...bodies, list, ...uint(4, 0x06054B50), ...uint(2, 0, 0, count, count),
+                                         ...uint(4, list.length, offset), ...uint(2, 0)]));
+}
+
+const MODEL = `<?xml version="1.0"?>
+<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>
+<basematerials id="5"><base name="a" displaycolor="#FF8000"/></basematerials>
+<object id="1" pid="5" pindex="0"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
+<vertex x="0" y="2" z="0"/><vertex x="0" y="0" z="3"/></vertices><triangles><triangle v1="0" v2="2" v3="1"/>
+<triangle v1="0" v2="1" v3="3"/><triangle v1="1" v2="2" v3="3"/></triangles></mesh></object>
+<object id="2"><components><component objectid="1" transform="-1 0 0 0 1 0 0 0 1 10 0 0"/></components></object>
+</resources><build><item objectid="1"/><item objectid="2"/></build></model>`;
+
+test("a 3MF", { skip: !process.env.XMLDOM }, async () => {
+    const { DOMParser } = await import(process.env.XMLDOM);
+    const read = (change, method) => read3mf(zip({ "3D/3dmodel.model": change(MODEL) }, method), { DOMParser });
+    for (const method of [0, 8]) {
+        const [{ positions, indices, colors }] = await read((words) => words, method);
+        assert.deepEqual([...positions].slice(12), [10, 0, 0, 9, 0, 0, 10, 2, 0, 10, 0, 3]);
+        assert.deepEqual([...indices], [0, 2, 1, 0, 1, 3, 1, 2, 3, 5, 6, 4, 7, 5, 4, 7, 6, 5]);    // mirrored
+        assert.deepEqual([...colors].slice(-3), [1, 128 / 255, 0]);
+    }
+    const bad = async (words, change, bytes) => assert.rejects(
+        bytes ? read3mf(bytes, { DOMParser }) : read((all) => change(all)),
+        (error) => error instanceof ShadeError && words.test(error.message) || assert.fail(`${error}`));
+    await bad(/^model: there is no object 9 /, (all) => all.replace('objectid="2"', 'objectid="9"'));
+    await bad(/go in circles/, (all) => all.replace('component objectid="1"', 'component objectid="2"'));
+    await bad(/vertex that is not there: there are 4/, (all) => all.replace('v2="2"', 'v2="4"'));
+    await bad(/vertex that is not there/, (all) => all.replace('v2="2"', 'v2="0.5"'));
+    await bad(/x of vertex is no number/, (all) => all.replace('x="1"', 'x="one"'));
+    await bad(/vertex has no x/, (all) => all.replace('x="1"', ""));
+    await bad(/a transform must be 12 numbers/, (all) => all.replace("10 0 0", "10 0"));
+    await bad(/"?#FF80"? is no colour|#FF80 is no colour/, (all) => all.replace("#FF8000", "#FF80"));
+    await bad(/document types and entities are refused/, (all) => all.replace("<model", "<!DOCTYPE a><model"));
+    await bad(/its XML is wrong/, (all) => all.replace("</build>", ""));
+    await bad(/there are no triangles/, (all) => all.replace(/<build>.*<.build>/, "<build/>").replaceAll(/<triangle [^>]*>/g, ""));
+    await bad(/is no ZIP archive/, null, new TextEncoder().encode(MODEL));
+    await bad(/there is no 3D\/3dmodel.model/, null, zip({ "a.txt": "a" }));
+    await bad(/unpacks to more than/, null, zip({ "3D/3dmodel.model": " ".repeat(3e7) }));
+    await assert.rejects(read3mf("plate.3mf", { DOMParser }), /must be the bytes of a file/);
+    await assert.rejects(read3mf(zip({ a: "b" })), /options.DOMParser: Node.js has none/);
+});
+
+test("mutants of a 3MF are read or refused", { skip: !process.env.XMLDOM }, async () => {
+    const { DOMParser } = await import(process.env.XMLDOM), { warn } = console;
+    const whole = [0, 8].map((method) => zip({ "3D/3dmodel.model": MODEL }, method));
+    let state = 11, read = 0, refusals = 0;
+    const next = (n) => { state = (Math.imul(state, 1664525) + 1013904223) >>> 0; return Math.floor(state / 2 ** 32 * n); };
+    console.warn = () => {};
+    try {
+        for (let i = 0; i < Number(process.env.MUTANTS ?? 3000); i++) {
+            const bytes = whole[next(2)].slice();
+            for (let k = 1 + next(3); k > 0; k--) bytes[next(bytes.length)] = next(2) ? 48 + next(10) : next(256);
+            try {
+                render(await read3mf(bytes, { DOMParser }), small);
+                read++;
+            } catch (error) {
+                assert.ok(error instanceof ShadeError, `${i}: ${error.stack}`);
+                refusals++;
+            }
+        }
+    } finally { console.warn = warn; }
+    assert.ok(read > 20 && refusals > 20, `${read} read, ${refusals} refused`);
 });

@@ -3,6 +3,7 @@ and ids as they are."""
 import json
 import struct
 import sys
+import zipfile
 from dataclasses import asdict
 from pathlib import Path
 
@@ -170,6 +171,38 @@ for name, mode, alpha in (("model", "OPAQUE", 0.3), ("glass", "BLEND", 0.3)):
     model = shade.render(OUT / f"{name}.glb", size=(200, 150))
     (OUT / f"{name}.rgba").write_bytes(model.rgba.tobytes())
     assert len(np.unique(model.rgba)) > 100
+
+
+def threemf():
+    """A box in two colours, mirrored and moved, and a part of two of another file."""
+    head = '<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"' \
+        ' xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"' \
+        ' xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02"><resources>'
+
+    def mesh(points, corners, marks):
+        return "<mesh><vertices>" + "".join(
+            '<vertex x="%r" y="%r" z="%r"/>' % tuple(map(float, p)) for p in points) + "</vertices><triangles>" + \
+            "".join('<triangle v1="%d" v2="%d" v3="%d"%s/>' % (*f, marks[i % len(marks)])
+                    for i, f in enumerate(corners)) + "</triangles></mesh>"
+
+    root = head + '<basematerials id="5"><base name="a" displaycolor="#FF8000"/></basematerials>' \
+        '<m:colorgroup id="6"><m:color color="#00FF00"/><m:color color="#0000FF80"/></m:colorgroup>' \
+        '<object id="1" pid="5" pindex="0">' + mesh(*box(3, 2, 1), ["", ' pid="6" p1="1"']) + '</object>' \
+        '<object id="2"><components><component objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 2"/>' \
+        '<component objectid="7" p:path="/3D/other.model" transform="0 1 0 -1 0 0 0 0 1 5 0 0.5"/></components></object>' \
+        '</resources><build><item objectid="2"/><item objectid="1" transform="-1 0 0 0 1 0 0 0 1 -1 0.25 0"/></build></model>'
+    other = head + '<object id="7">' + mesh(vertices, faces, [""]) + "</object></resources><build/></model>"
+    relations = '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship ' \
+        'Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+    with zipfile.ZipFile(OUT / "model.3mf", "w", zipfile.ZIP_DEFLATED) as file:
+        for name, words in (("_rels/.rels", relations), ("3D/3dmodel.model", root), ("3D/other.model", other)):
+            file.writestr(name, words)
+
+
+threemf()
+model = shade.render(OUT / "model.3mf", size=(200, 150))
+(OUT / "plate.rgba").write_bytes(model.rgba.tobytes())
+assert len(np.unique(model.rgba)) > 100
 (OUT / "scenes.json").write_text(json.dumps(told))
 
 

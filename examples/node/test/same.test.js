@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import test from "node:test";
-import { Mesh, readGltf, render, Renderer } from "shade-h";
+import { Mesh, read3mf, readGltf, render, Renderer } from "shade-h";
 import { sight } from "./sight.js";
 
 const folder = process.env.ORACLE;
@@ -44,6 +44,13 @@ for (const name of ["model", "glass"]) {
         assert.ok(readFileSync(`${folder}/${name}.rgba`).equals(bytes(data)));
     });
 }
+
+test("a 3MF", { skip: !process.env.XMLDOM }, async () => {
+    const { DOMParser } = await import(process.env.XMLDOM);
+    const [mesh] = await read3mf(readFileSync(`${folder}/model.3mf`), { DOMParser });
+    const { data } = render(mesh, { size: [200, 150] });
+    assert.ok(readFileSync(`${folder}/plate.rgba`).equals(bytes(data)));
+});
 
 test("PNG files for another reader", async () => {
     for (const { name, meshes, options } of scenes) {

@@ -195,6 +195,7 @@ static inline shade_result portrait_draw(const canvas *c, const model *m, const 
     w.camera = camera_frame(&m->mesh, (float)p->width / (float)p->height, how);
     if (!exhibit_open(&e, m, light, how, w.camera.eye)) {
         portrait_background(&c->target, p);
+        exhibit_aim(&e, shade_mat4_mul(w.camera.projection, w.camera.view));
         bands_run_told(how->threads, PORTRAIT_BANDS, portrait_band, &w, progress, user);
         result = SHADE_OK;
     }

@@ -95,8 +95,6 @@ static int mesh_crease_at(owned_mesh *m, int flat, float least)
    than half the angle of a crease, so that the normal serves all.  The corners of the others are
    given vertices of their own.  2 million triangles of a torus take 0.3 s instead of 2.7, and keep
    1 million vertices instead of 6. */
-enum { CREASE_LARGE = 200000 }; /* triangles */
-
 typedef struct crease_part {
     char *creased;     /* by vertex */
     owned_mesh around; /* the triangles with such a vertex; positions and indices alone */
@@ -202,7 +200,7 @@ static int crease_large(owned_mesh *m, float least)
 /* The same, rounded where faces meet at less than 40 degrees */
 static int mesh_crease(owned_mesh *m, int flat)
 {
-    const int large = m->view.index_count / 3 > CREASE_LARGE;
+    const int large = m->view.index_count / 3 > MESH_LARGE;
     return large && !flat ? crease_large(m, 0.766f) : mesh_crease_at(m, flat, 0.766f);
 }
 
@@ -270,7 +268,7 @@ static int mesh_chunk_parts(model *m)
         return 1;
     }
     for (int i = 0; i < m->part_count; i++) {
-        const int large = m->part[i].count / 3 > CREASE_LARGE;
+        const int large = m->part[i].count / 3 > MESH_LARGE;
         uint32_t *own = sorted + m->part[i].first;
         shade_mesh mesh = model_part_mesh(m, i);
         if (large) failed |= chunk_sort(&mesh, own);

@@ -97,14 +97,17 @@ static inline owned_mesh stand_ends(const owned_mesh *m, const float *low, const
 {
     owned_mesh ends = *m;
     uint32_t *to = (uint32_t *)malloc(((size_t)m->view.index_count + 1) * sizeof *to);
+    float below[3], above[3];
     int count = 0;
+    for (int k = 0; k < 3; k++) {
+        below[k] = low[k] + 0.021f * (high[k] - low[k]);
+        above[k] = high[k] - 0.021f * (high[k] - low[k]);
+    }
     for (int i = 0; i < m->view.index_count && to; i += 3) {
         int inside = 0;
-        for (int c = 0; c < 9 && !inside; c++) {
-            const int k = c % 3;
-            const float p = m->positions[3 * (size_t)m->indices[i + c / 3] + (size_t)k];
-            const float near = 0.021f * (high[k] - low[k]);
-            inside = p - low[k] <= near || high[k] - p <= near;
+        for (int c = 0; c < 3 && !inside; c++) {
+            const float *p = m->positions + 3 * (size_t)m->indices[i + c];
+            for (int k = 0; k < 3; k++) inside |= p[k] <= below[k] || p[k] >= above[k];
         }
         if (inside) memcpy(to + count, m->indices + i, 3 * sizeof *to);
         if (inside) count += 3;
@@ -120,16 +123,16 @@ static inline owned_mesh stand_ends(const owned_mesh *m, const float *low, const
    models this turns 8, all of which lay or stood on their nose. */
 static inline int stand_guess(const owned_mesh *m, int usual)
 {
-    float low[3] = { 1e38f, 1e38f, 1e38f }, high[3] = { -1e38f, -1e38f, -1e38f };
+    float low[3], high[3];
+    double box[2][3];
     stand_end end[6];
     owned_mesh ends;
     double best = 0.3;
     int guess = usual;
-    for (int i = 0; i < m->view.vertex_count; i++) {
-        for (int k = 0; k < 3; k++) {
-            low[k] = fminf(low[k], m->positions[3 * (size_t)i + (size_t)k]);
-            high[k] = fmaxf(high[k], m->positions[3 * (size_t)i + (size_t)k]);
-        }
+    mesh_box(m, box[0], box[1]);
+    for (int k = 0; k < 3; k++) {
+        low[k] = (float)box[0][k];
+        high[k] = (float)box[1][k];
     }
     ends = stand_ends(m, low, high);
     if (!ends.indices) return usual;

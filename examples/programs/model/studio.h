@@ -241,13 +241,11 @@ static shade_result studio_draw_maps(studio *s, const model *m, int first, int t
 /* Maps of 256 x 256 texels cannot show what is smaller.  All vertices of a cell as large as a texel
    become one, at their mean; triangles with two corners in a cell vanish.  Of 2 million triangles
    of a sphere 0.4 are left. */
-enum { STUDIO_LARGE = 200000 }; /* triangles */
-
 static int studio_may_thin(const model *m)
 {
     for (int i = 0; i < m->surface_count; i++)
         if (m->surface[i].alpha_cutoff > 0) return 0; /* its map would be needed */
-    return m->mesh.view.index_count / 3 > STUDIO_LARGE;
+    return m->mesh.view.index_count / 3 > MESH_LARGE;
 }
 
 /* The cell of each vertex; *mean becomes four floats a cell: the mean position, and a count.  NULL:
