@@ -19,6 +19,7 @@ if [ "$reveal" ]; then
        "$out/reveal/" || exit 1
     chmod u+w "$out"/reveal/*
 else echo "courses: no reveal.js (npm install --no-save --prefix build reveal.js): no slides"; fi
+cp ./*.svg "$out/" || exit 1
 live=
 [ -f "$out/index.html" ] && live="-M live"
 
@@ -26,8 +27,8 @@ live=
 made() {
     name=$1 template=$2 style=$3
     shift 3
-    pandoc -f markdown-smart -t html5 --mathml --wrap=none -s --template "$template" --lua-filter slides.lua \
-        -V "style=$(cat "$style")" -V "point=$(sed 's/&/\&amp;/g; s/</\&lt;/g' point.h)" "$@" "$name.md"
+    pandoc -f markdown-smart -t html5 --mathml --no-highlight --wrap=none -s --template "$template" --lua-filter slides.lua \
+        -V "style=$(cat "$style")" -V "script=$(cat deck.js)" -V "point=$(sed 's/&/\&amp;/g; s/</\&lt;/g' point.h)" "$@" "$name.md"
 }
 for course in $COURSES; do
     made $course page.html course.css >"$out/course-$course.html" || exit 1
@@ -60,12 +61,13 @@ The <a href="index.html">playground</a> has a slider for every symbol of the equ
 if [ "$PDF" ] && [ "$reveal" ]; then
     browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || browser=
     [ "$browser" ] || echo "courses: no chromium, which prints slides: no PDF"
-    for course in ${browser:+$COURSES}; do
-        "$browser" --headless --no-sandbox --disable-gpu --virtual-time-budget=20000 --no-pdf-header-footer \
-            --print-to-pdf="$out/slides-$course.pdf" "file://$out/slides-$course.html?print-pdf" \
-            >"$out/print.log" 2>&1 && [ -s "$out/slides-$course.pdf" ] ||
-            { cat "$out/print.log" >&2; exit 1; }
+    for scheme in ${browser:+light dark}; do
+        set --
+        [ $scheme = light ] && end=.pdf || end=-dark.pdf
+        for course in $COURSES; do
+            set -- "$@" "$out/slides-$course.html" "$out/slides-$course$end"
+        done
+        node print.mjs "$browser" $scheme "$@" || exit 1
     done
-    rm -f "$out/print.log"
 fi
 echo "courses: $out/courses.html"
