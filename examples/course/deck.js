@@ -22,7 +22,7 @@ function begin() {
         keyboardCondition: event => !event.ctrlKey && !event.altKey && !event.metaKey,
         plugins: [RevealNotes],
     });
-    addEventListener('resize', () => Reveal.configure(size()));
+    if (!paper) addEventListener('resize', () => Reveal.configure(size()));
     Reveal.on('slidechanged', ({ previousSlide }) => {
         if (previousSlide) previousSlide.classList.remove('zoomed');
         mark(current().querySelector('a.play'));
@@ -37,10 +37,12 @@ function begin() {
         });
     document.getElementById('all').addEventListener('click', () => Reveal.toggleOverview());
     document.getElementById('zoom').addEventListener('click', zoom);
-    document.addEventListener('click', ({ target }) => {
-        const word = target.closest && target.closest('a.play');
-        if (word) mark(word);
-        else if (target.closest && target.closest('figure') && !Reveal.isOverview()) zoom();
+    document.addEventListener('click', event => {
+        const word = event.target.closest('a.play');
+        if (word && !event.ctrlKey && !event.metaKey) {
+            event.preventDefault();
+            move(word);
+        } else if (event.target.closest('figure') && !Reveal.isOverview()) zoom();
     });
 }
 // The answer of this slide, or of the question that follows it, is shown or hidden.
@@ -53,6 +55,12 @@ function answer() {
 function zoom() {
     if (current().querySelector('figure')) current().classList.toggle('zoomed');
 }
+// A word moves the picture of its slide, which is not loaded anew.
+function move(word) {
+    const frame = document.getElementsByName(word.target)[0];
+    frame.contentWindow.postMessage({ go: word.hash.slice(1) }, '*');
+    mark(word);
+}
 // The word whose state the picture shows
 function mark(word) {
     if (!word) return;
@@ -63,7 +71,10 @@ function mark(word) {
 // ---- frames: they learn how large letters are, and hand back the keys that turn slides
 addEventListener('message', ({ data }) => {
     if (!data || data.namespace) return;
-    if (data.key && Reveal.isReady()) Reveal.triggerKey(KEYS[data.key] || data.key.toUpperCase().charCodeAt(0));
+    if (!data.key || !Reveal.isReady()) return;
+    document.activeElement.blur();      // the next key is the deck's at once
+    focus();
+    Reveal.triggerKey(KEYS[data.key] || data.key.toUpperCase().charCodeAt(0));
 });
 const KEYS = { PageDown: 34, PageUp: 33, Home: 36, End: 35, Escape: 27, Enter: 13, ArrowLeft: 37, ArrowUp: 38,
     ArrowRight: 39, ArrowDown: 40, '.': 190 };

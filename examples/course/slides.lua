@@ -168,7 +168,7 @@ local function notes(slide)
     local out = pandoc.List{ html('<aside class="notes">') }
     for _, ask in ipairs(slide.questions) do
         out:extend(ask.question)
-        out:extend(ask.answer)
+        out:extend(with_links(ask.answer, function(link) return is_live(link) and link.content or nil end))
     end
     out:extend(slide.code)
     out:insert(html('</aside>'))

@@ -8,6 +8,10 @@ addEventListener('message', ({ data, source }) => {
         document.documentElement.classList.add('slide');
         document.documentElement.style.fontSize = data.letter + 'px';
     }
+    if (typeof data.go === 'string') {
+        history.replaceState(null, '', '#' + data.go);
+        readAddress(), refresh();
+    }
     if (typeof data.draw === 'string') drawForPaper(source, data.draw);
 });
 addEventListener('keydown', event => {

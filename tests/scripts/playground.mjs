@@ -42,7 +42,7 @@ const server = http.createServer((request, answer) => {
 });
 await new Promise(ready => server.listen(0, '127.0.0.1', ready));
 const served = `http://127.0.0.1:${server.address().port}/`, opened = 'file://' + page_file;
-const complaints = [], requests = [], slideRequests = [];
+const complaints = [], requests = [];
 
 async function open(hash, options = {}, url = opened) {
     const context = await browser.newContext({ viewport: { width: 960, height: 700 }, ...options });
@@ -999,92 +999,6 @@ check('iteration three reads the same on every screen', read.size === 1 &&
         await page.context().close();
     }
     check('two papers', papers[0] !== papers[1]);
-}
-
-// ---- the slides of the courses: pages that fit, and links that set what they say ----------------
-
-const slides = new Set();
-for (const name of fs.readdirSync(path.dirname(page_file)).filter(n => /^course-.*html$/.test(n))) {
-    const url = 'file://' + path.join(path.dirname(page_file), name);
-    for (const [width, height, colorScheme] of [[1366, 768, 'light'], [1920, 1080, 'dark'],
-        [390, 844, 'light'], [320, 600, 'dark']]) {
-        const context = await browser.newContext({ viewport: { width, height }, colorScheme });
-        const page = await context.newPage(), what = `${name}, ${width} x ${height}`;
-        page.on('console', line => complaints.push(line.text()));
-        page.on('request', request => {
-            if (!request.url().startsWith('data:')) slideRequests.push(request.url());
-        });
-        await page.goto(url);
-        const lost = await page.evaluate(async () => {
-            const images = [...document.images];
-            images.forEach(image => { image.loading = 'eager'; });
-            await Promise.all(images.map(image => image.decode().catch(() => 0)));
-            return images.filter(image => !image.naturalWidth).map(image => image.src);
-        });
-        check('pictures: ' + what, !lost.length, lost);
-        check('no wider than the screen: ' + what, await page.evaluate(() =>
-            document.documentElement.scrollWidth <= innerWidth));
-        const links = await page.evaluate(() =>
-            [...document.querySelectorAll('.play a')].map(a => a.getAttribute('href')));
-        links.forEach(link => slides.add(link));
-        await context.close();
-    }
-}
-check('slides ask for nothing but files', slideRequests.every(url =>
-    url.startsWith('file://' + path.dirname(page_file) + '/')), slideRequests);
-check('slides have links', slides.size > 60, slides.size);
-{
-    const page = await open('turn=0');
-    for (const link of slides) {
-        const hash = link.split('#')[1];
-        await go(page, hash);
-        const { state } = await same(page, 'slide ' + link);
-        for (const [field, value] of new URLSearchParams(hash))
-            check(`${field} of slide ${link}`,
-                String(state[field]) === value.split(',').map(Number).join(), state[field]);
-    }
-    await page.context().close();
-}
-
-// ---- the same as slides: from the first to the last by keys, nothing beyond the screen ----------
-
-for (const name of fs.readdirSync(path.dirname(page_file)).filter(n => /^slides-.*html$/.test(n))) {
-    for (const [width, height, colorScheme] of [[1024, 768, 'light'], [1366, 768, 'dark'],
-        [1920, 1080, 'light'], [3840, 2160, 'dark']]) {
-        const context = await browser.newContext({ viewport: { width, height }, colorScheme });
-        const page = await context.newPage(), what = `${name}, ${width} x ${height}`;
-        page.on('console', line => complaints.push(line.text()));
-        await page.goto('file://' + path.join(path.dirname(page_file), name));
-        await page.waitForFunction(() => Reveal.isReady());
-        const beyond = await page.evaluate(() => Reveal.getSlides().filter((slide, i) => {
-            Reveal.slide(i, 0, 9);
-            return [...slide.querySelectorAll('h1, h2, p, li, math, figure')].some(part => {
-                const { right, bottom } = part.getBoundingClientRect();
-                return !part.closest('.notes') && (right > innerWidth + 1 || bottom > innerHeight + 1);
-            });
-        }).map(slide => slide.textContent.slice(0, 60)));
-        check('slides within the screen: ' + what, !beyond.length, beyond);
-        const [paper, ink] = await page.evaluate(() => [[document.body, 'backgroundColor'],
-            [document.querySelector('.reveal p'), 'color']].map(([part, of]) => {
-            const [r, g, b] = getComputedStyle(part)[of].match(/\d+/g).map(Number);
-            return (r + g + b) / 3;
-        }));
-        check('ink on paper: ' + what, colorScheme === 'dark' ? ink > 180 && paper < 60 :
-            ink < 60 && paper > 200, [paper, ink]);
-        check('capital letters of 3.5 % of the height: ' + what, await page.evaluate(() =>
-            parseFloat(getComputedStyle(document.querySelector('.reveal p')).fontSize) * 0.71 *
-            Reveal.getScale() >= 0.035 * innerHeight));
-        await context.close();
-    }
-    const page = await (await browser.newContext()).newPage();
-    await page.goto('file://' + path.join(path.dirname(page_file), name));
-    await page.waitForFunction(() => Reveal.isReady());
-    const steps = await page.evaluate(() => Reveal.getSlides().length +
-        document.querySelectorAll('.answer').length - 1);
-    for (let i = 0; i < steps; i++) await page.keyboard.press(i % 2 ? 'Space' : 'ArrowRight');
-    check('keys reach the last slide of ' + name, await page.evaluate(() => Reveal.isLastSlide() &&
-        Reveal.availableFragments().next === false));
-    await page.context().close();
 }
 
 // ---- time ---------------------------------------------------------------------------------------

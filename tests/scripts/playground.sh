@@ -27,5 +27,9 @@ FLAGS="-std=c11 -O2 -Wall -Wextra -Wno-unused-function -ffp-contract=off -I."
 $CC $FLAGS examples/playground/native.c -lm -o $B/native &&
 $CC -std=c99 -O2 -I. -DSHADE_IMPLEMENTATION -x c -c shade.h -o $B/native-shade.o ||
     { echo "0 passed, 1 failed"; exit 1; }
-cp tests/scripts/playground.mjs $DRIVER/playground.mjs
-node $DRIVER/playground.mjs "$PWD/$B/index.html" $B/native "$CC" "$browser"
+cp tests/scripts/playground.mjs tests/scripts/slides.mjs $DRIVER/
+failed=0
+if ls $B/slides-*.html >/dev/null 2>&1; then
+    node $DRIVER/slides.mjs "$PWD/$B" "$browser" || failed=1
+else echo "slides: no pandoc, or no reveal.js of npm: left out"; fi
+node $DRIVER/playground.mjs "$PWD/$B/index.html" $B/native "$CC" "$browser" && [ $failed = 0 ]
