@@ -233,6 +233,7 @@ function explain() {
             setTimeout(() => { $(id).textContent = label; }, 1500);
         };
     dialog.showModal();
+    dialog.querySelector('form').lastElementChild.focus();
 }
 function buildExplain() {
     $('#models').append(make('button', { type: 'button', id: 'explain', 'data-name': 'explain',

@@ -322,6 +322,7 @@ for (const name of decks) {
     check('a swipe goes on', await soon(async () => await at(page) === 1));
     await swipe(50, 350);
     check('and back', await soon(async () => await at(page) === 0));
+    await new Promise(done => setTimeout(done, 1000));      // a tap right after a swipe ends the swipe
     await page.locator('#all').tap();
     check('a button shows all slides', await soon(() => page.evaluate(() => Reveal.isOverview())));
     await page.locator('#all').tap();
