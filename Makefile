@@ -14,7 +14,8 @@
 # make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
 #                 and beside it four courses, courses.html
 # make course     pages and slides of the courses alone, and their slides with answers as PDF (needs
-#                 pandoc, reveal.js of npm, chromium)
+#                 pandoc, reveal.js of npm, chromium, node)
+# make course-zip   all of it in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the graders of examples/assignments: solutions, starters, mistakes
 # make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install    header, shade.pc, shade-thumbnail, -view, -batch, -sheets and -compare with man
@@ -121,6 +122,8 @@ playground:
 	@sh examples/playground/build.sh && sh examples/course/build.sh
 course:
 	@PDF=1 sh examples/course/build.sh
+course-zip:
+	@ZIP=1 PLAYGROUND="$(PLAYGROUND)" sh examples/course/build.sh
 assignments:
 	@sh tests/scripts/assignments.sh
 coverage:
@@ -184,6 +187,6 @@ uninstall:
 
 clean:
 	rm -rf build out dist
-.PHONY: all pictures programs test assignments course bench bench-plot matrix conformance coverage \
-        mutation static prove fuzz gallery playground vector-report dist install uninstall clean
+.PHONY: all pictures programs test assignments course course-zip bench bench-plot matrix \
+        conformance coverage mutation static prove fuzz gallery playground vector-report dist install uninstall clean
 .SECONDARY:

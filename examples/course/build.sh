@@ -1,7 +1,8 @@
 #!/bin/sh
 # build.sh [directory] - four courses in Markdown become pages, slides and a first screen, beside the
 # playground. Pages need pandoc; slides need reveal.js too, of npm (REVEAL says where it is); with PDF=1
-# headless Chromium prints slides with their answers. What is missing is named.
+# headless Chromium prints slides with their answers, light and dark, and with ZIP=1 all is packed into
+# courses.zip. PLAYGROUND names an index.html that was built elsewhere. What is missing is named.
 cd "$(dirname "$0")" || exit 1
 out=${1:-../../build/playground}
 mkdir -p "$out/pictures" && out=$(cd "$out" && pwd) || exit 1
@@ -19,7 +20,9 @@ if [ "$reveal" ]; then
        "$out/reveal/" || exit 1
     chmod u+w "$out"/reveal/*
 else echo "courses: no reveal.js (npm install --no-save --prefix build reveal.js): no slides"; fi
-cp ./*.svg "$out/" || exit 1
+cp ./*.svg "$out/pictures/" || exit 1
+# a page that was built elsewhere, as that of a release, serves where there is no clang
+[ -f "$out/index.html" ] || [ ! -f "${PLAYGROUND:-}" ] || cp "$PLAYGROUND" "$out/index.html"
 live=
 [ -f "$out/index.html" ] && live="-M live"
 
@@ -69,5 +72,12 @@ if [ "$PDF" ] && [ "$reveal" ]; then
         done
         node print.mjs "$browser" $scheme "$@" || exit 1
     done
+fi
+if [ "$ZIP" ]; then
+    command -v zip >/dev/null 2>&1 || { echo "courses: no zip, which packs them" >&2; exit 1; }
+    (cd "$out" && rm -f courses.zip && set -- pictures *.html &&
+        for part in reveal slides-*.pdf; do [ ! -e "$part" ] || set -- "$@" "$part"; done &&
+        find "$@" -type f | sort | zip -qX courses.zip -@) || exit 1
+    echo "courses: $out/courses.zip, all of it, for a hall without a network"
 fi
 echo "courses: $out/courses.html"

@@ -95,7 +95,9 @@ local function class_of(image)
     end
     return ''
 end
-local function file_of(image) return (image.src:gsub('^%.%./', '')) end
+local function file_of(image)
+    return image.src:match('/') and (image.src:gsub('^%.%./', '')) or 'pictures/' .. image.src
+end
 local function alt_of(image) return escaped(pandoc.utils.stringify(image.caption)) end
 local function with_links(blocks, change)
     return pandoc.walk_block(pandoc.Div(blocks), { Link = change }).content

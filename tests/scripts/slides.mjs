@@ -23,7 +23,7 @@ const browser = await chromium.launch({ executablePath: browser_path, args: ['--
 const complaints = [], asked = [];
 async function open(name, options = {}, query = '', frames = true) {
     const context = await browser.newContext({ viewport: { width: 1024, height: 768 }, ...options });
-    context.setDefaultTimeout(30000);
+    context.setDefaultTimeout(90000);
     const page = await context.newPage();
     page.on('console', line => {
         if (frames || !/ERR_FAILED/.test(line.text())) complaints.push(line.text());
