@@ -188,5 +188,6 @@ uninstall:
 clean:
 	rm -rf build out dist
 .PHONY: all pictures programs test assignments course course-zip bench bench-plot matrix \
-        conformance coverage mutation static prove fuzz gallery playground vector-report dist install uninstall clean
+        conformance coverage mutation static prove fuzz gallery playground vector-report dist \
+        install uninstall clean
 .SECONDARY:
