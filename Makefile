@@ -123,7 +123,7 @@ playground:
 course:
 	@PDF=1 sh examples/course/build.sh
 course-zip:
-	@ZIP=1 PLAYGROUND="$(PLAYGROUND)" sh examples/course/build.sh
+	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/course/build.sh
 assignments:
 	@sh tests/scripts/assignments.sh
 coverage:

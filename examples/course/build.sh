@@ -1,7 +1,7 @@
 #!/bin/sh
 # build.sh [directory] - four courses in Markdown become pages, slides and a first screen, beside the
 # playground. Pages need pandoc; slides need reveal.js too, of npm (REVEAL says where it is); with PDF=1
-# headless Chromium prints slides with their answers, light and dark, and with ZIP=1 all is packed into
+# headless Chromium prints slides with their answers, light and dark, and with PACK=1 all is packed into
 # courses.zip. PLAYGROUND names an index.html that was built elsewhere. What is missing is named.
 cd "$(dirname "$0")" || exit 1
 out=${1:-../../build/playground}
@@ -73,11 +73,11 @@ if [ "$PDF" ] && [ "$reveal" ]; then
         node print.mjs "$browser" $scheme "$@" || exit 1
     done
 fi
-if [ "$ZIP" ]; then
+if [ "$PACK" ]; then
     command -v zip >/dev/null 2>&1 || { echo "courses: no zip, which packs them" >&2; exit 1; }
     (cd "$out" && rm -f courses.zip && set -- pictures *.html &&
         for part in reveal slides-*.pdf; do [ ! -e "$part" ] || set -- "$@" "$part"; done &&
-        find "$@" -type f | sort | zip -qX courses.zip -@) || exit 1
+        find "$@" -type f | sort | zip -qX9 courses.zip -@) || exit 1
     echo "courses: $out/courses.zip, all of it, for a hall without a network"
 fi
 echo "courses: $out/courses.html"

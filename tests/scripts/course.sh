@@ -94,6 +94,14 @@ if [ -d build/node_modules/reveal.js ]; then
 else left_out "slides: no reveal.js (npm install --no-save --prefix build reveal.js)"
 fi
 check "pictures and pages are there" same "$(missing)" ""
+if command -v zip >/dev/null 2>&1 && command -v unzip >/dev/null 2>&1; then
+    echo page >"$T/built.html"
+    check "one archive holds all of it" env PACK=1 PLAYGROUND="$T/built.html" sh examples/course/build.sh "$T/packed"
+    check "with each page, picture and script" same \
+        "$(links | grep -v '^data:' | while read -r name; do
+            unzip -l "$T/packed/courses.zip" "$name" >/dev/null 2>&1 || echo "$name"
+        done)" ""
+else left_out "the archive: no zip or no unzip"; fi
 check "no address of another host" no grep -nE '(src|href)="(https?:)?//' "$T"/pages/*.html
 check "each question has its answer" same "$(grep -hc '^<details>' examples/course/*.md)" \
     "$(grep -hc '^</details>' examples/course/*.md)"
