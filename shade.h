@@ -73,10 +73,10 @@
        >>lines     6587  shade_draw_lines      >>shape     6745  normals, edges
        >>chunks    7081  boxes of triangles    >>rays      7245  shade_pick
        >>survey    7441  experiments on a draw >>explain   7692  why nothing is seen
-       >>image     8334  mipmaps, PPM           >>presets   8603  classic materials
+       >>image     8335  mipmaps, PPM           >>presets   8604  classic materials
      Sources
-       >>refs      8679                        >>history   8709
-       >>license   8721
+       >>refs      8680                        >>history   8710
+       >>license   8722
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -788,7 +788,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    and the stats and depth that it wrote; without stats it leaves out what only they can tell.  It
    recognises every refusal by its field, matrices that are transposed, swapped or in degrees,
    meshes out of view, culling, depth that was not cleared, and light that does not arrive or clips.
-   It writes nothing: it draws the mesh again up to some twenty times, with one thing changed after
+   It writes nothing: it draws the mesh again, up to some 25 times, with one thing changed after
    the other, and counts pixels.  What it says is missing, no pixel of the picture shows.  It takes
    the time of so many frames and 8 kB more stack than shade_draw_mesh: call it when a picture
    is wrong, not in every frame. */
@@ -7448,7 +7448,7 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 
 enum {
     SHADE__SUSPECTS = 16,                /* more lamps than these are left out of experiments */
-    SHADE__PROBES = 256                 /* pixels whose depths are compared; a power of two */
+    SHADE__PROBES = 256                  /* pixels whose depths are compared; a power of two */
 };
 
 /* What the fragments of one pixel were, in drawing order. */
@@ -8038,7 +8038,8 @@ static void shade__light_by(shade__survey *s, shade_vec4 position, unsigned flag
     l->flags = flags;
 }
 
-/* Is no normal in view a direction?  Open highlights of exponent 0 are 1 wherever there is one. */
+/* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
+   there is one. */
 static int shade__lacks_normals(shade__survey *s)
 {
     const shade_lighting given = s->state.lighting;
@@ -8050,7 +8051,7 @@ static int shade__lacks_normals(shade__survey *s)
     any = shade__bright(s);
     s->state.lighting = given;
     s->material = material;
-    return !any;
+    return s->mesh.normals && !any;
 }
 
 /* Why no lamp lights a white surface, or, with ambient set, why ambient light alone does. */

@@ -386,7 +386,7 @@ enum ex_cure { EX_EACH, EX_TERMS, EX_COLORS, EX_MATERIAL, EX_SIDES, EX_DISTANCE 
 static int ex_helps(const explained *e, enum ex_cure cure)
 {
     static const shade_material white = { .ambient = { 1, 1, 1 }, .diffuse = { 1, 1, 1 },
-                                          .specular = { 1, 1, 1 }, .shininess = 1 };
+                                          .specular = { 1, 1, 1 } };    /* the widest highlight */
     shade_mesh mesh = e->mesh;
     shade_draw_state s = e->state;
     shade_texture map = e->map;
