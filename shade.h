@@ -50,33 +50,33 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     122  options               >>types      198  materials, lamps, targets, states
-       >>plumbing   371  compilers             >>light      501  the equation and its terms
-       >>draw       626  meshes and pixels     >>math       898  vectors and matrices
+       >>config     122  options               >>types      199  materials, lamps, targets, states
+       >>plumbing   372  compilers             >>light      502  the equation and its terms
+       >>draw       627  meshes and pixels     >>math       899  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1261  processors            >>base      1467  bits, masks, rows of vectors
-       >>matrix    1686  cameras, inverses     >>power     1980  x^n
-       >>pixels    2046  formats, sRGB
+       >>machine   1262  processors            >>base      1479  bits, masks, rows of vectors
+       >>matrix    1698  cameras, inverses     >>power     1992  x^n
+       >>pixels    2058  formats, sRGB
      Inside: light
-       >>lamps     2323  attenuation, cones    >>terms     2597  one term at one point
-       >>surface   2679  material and lights   >>lit       2800  the whole sum, at many points
+       >>lamps     2335  attenuation, cones    >>terms     2609  one term at one point
+       >>surface   2691  material and lights   >>lit       2812  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3205  who owns what         >>vertices  3388  shading, projection
-       >>triangles 3605  dropped, cut, edges   >>clip      3973  near, far, behind the eye
-       >>tiles     4158  pixels, depth test    >>cover     4506  what is hidden, tile by tile
-       >>fragments 4738  interpolation, lod    >>texture   5030  texels, mipmaps
-       >>store     5468  blending, packing
+       >>state     3219  who owns what         >>vertices  3402  shading, projection
+       >>triangles 3619  dropped, cut, edges   >>clip      3987  near, far, behind the eye
+       >>tiles     4172  pixels, depth test    >>cover     4528  what is hidden, tile by tile
+       >>fragments 4754  interpolation, lod    >>texture   5047  texels, mipmaps
+       >>store     5487  blending, packing
      Inside: calls of the renderer
-       >>check     5700  refusals              >>seen      5865  what can be seen, chunks
-       >>drive     6002  shade_draw            >>mesh      6181  shade_draw_mesh
+       >>check     5719  refusals              >>seen      5868  what can be seen, chunks
+       >>drive     6005  shade_draw            >>mesh      6184  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6587  shade_draw_lines      >>shape     6745  normals, edges
-       >>chunks    7081  boxes of triangles    >>rays      7245  shade_pick
-       >>survey    7441  experiments on a draw >>explain   7692  why nothing is seen
-       >>image     8335  mipmaps, PPM           >>presets   8604  classic materials
+       >>lines     6584  shade_draw_lines      >>shape     6742  normals, edges
+       >>chunks    7078  boxes of triangles    >>rays      7242  shade_pick
+       >>survey    7438  experiments on a draw >>explain   7689  why nothing is seen
+       >>image     8332  mipmaps, PPM           >>presets   8601  classic materials
      Sources
-       >>refs      8680                        >>history   8710
-       >>license   8722
+       >>refs      8677                        >>history   8707
+       >>license   8719
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -123,7 +123,8 @@
    Options.  Define them before the #include, with the same value in every file of a program.
 
      SHADE_IMPLEMENTATION     compiles the function bodies too; define it in one file only
-     SHADE_STATIC             makes all functions static: a private copy in this file
+     SHADE_STATIC             makes all functions static: a private copy in this file, of which the
+                              compiler leaves out what is not called
      SHADEDEF                 linkage of public functions; default extern (static with SHADE_STATIC)
      SHADE_ASSERT(x)          guards the library's own invariants; default assert(x)
      SHADE_LANES              vertices or fragments that a shader is given at once, a packet: a
@@ -1296,13 +1297,24 @@ define SHADE_ALLOW_FAST_MATH"
 
 SHADE__BEGIN
 
-/* 1: hot loops get a second, specialised copy for their commonest case.  0, for -Os: the general
-   one alone. */
+/* The hot loops that have a second, specialised copy; -Os has none.  bench/run.sh copies prints
+   what each is worth, in time and in bytes.  A copy that takes more than 2 kB for each percent of
+   the scene that it serves best goes. */
+enum {
+    SHADE__PLAIN = 1,      /* light without rows of albedo and specular */
+    SHADE__LESS = 2,       /* the depth test LESS, with depth written */
+    SHADE__FULL = 4,       /* tiles that lie inside a triangle */
+    SHADE__BOUNDED = 8,    /* what big triangles hide is left out */
+    SHADE__NARROW = 16,    /* triangles of one column of tiles */
+    SHADE__SHORT = 32,     /* runs of up to 8 pixels */
+    SHADE__LONG = 64       /* 32 pixels of a run at a time */
+};
 #ifdef __OPTIMIZE_SIZE__
 #define SHADE__SPECIALIZE 0
-#else
-#define SHADE__SPECIALIZE 1
+#elif !defined(SHADE__SPECIALIZE)
+#define SHADE__SPECIALIZE 127
 #endif
+#define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)
 
 /* gcc would turn loops that fill rows into memset or rep stos, which costs 9 % of a flat fill.  -O2
    makes debug builds fast too.  SHADE__AS_COMPILED keeps the user's own -O, to count branches. */
@@ -3041,9 +3053,9 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
 
 /* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight).  With TWO_SIDED_ABS
    surface->sign makes |N.L| of N.L.  Lanes that the lamp does not reach add 0 whatever they hold:
-   outside of a cone N.L may be infinite. */
+   outside of a cone N.L may be infinite.  plain: albedo and tint are 1. */
 SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
-                                  shade__in_v3 albedo, shade__in_v3 tint,
+                                  shade__in_v3 albedo, shade__in_v3 tint, const int plain,
                                   const int n, shade__out_v3 rgb)
 {
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
@@ -3052,9 +3064,9 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
         float nl = shade__keep(r->a.angle.nl[i], sign), amount = r->a.share.amount[i];
         uint32_t front = shade__mask(nl > 0);
         uint32_t reached = (front | open) & shade__mask(amount != 0);
-        shade_vec3 diffuse = shade_mul(k_d, shade__at(albedo, i));
+        shade_vec3 diffuse = plain ? k_d : shade_mul(k_d, shade__at(albedo, i));
+        shade_vec3 specular = plain ? k_s : shade_mul(k_s, shade__at(tint, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * amount);
-        shade_vec3 specular = shade_mul(k_s, shade__at(tint, i));
         shade_vec3 light = shade_madd(diffuse, r->a.way.lobe.highlight[i] * amount, specular);
         shade__add_to(rgb, i, light, reached);
     }
@@ -3120,7 +3132,9 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r,
 
     shade__shine(point, normal, n, r);
     if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.share.amount);
-    shade__combine(r, albedo, shade__factors(r->rows->specular), n, rgb);
+    if (SHADE__HAS(SHADE__PLAIN) && !r->rows->albedo && !r->rows->specular)
+        shade__combine(r, albedo, albedo, 1, n, rgb);
+    else shade__combine(r, albedo, shade__factors(r->rows->specular), 0, n, rgb);
 }
 
 SHADE__INLINE void shade__lit_rows_body(const shade__surface *s,
@@ -4441,7 +4455,7 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
                                     shade__tile *tile, const int width,
                                     const int full)
 {
-    const int less = SHADE__SPECIALIZE && plan->less_only;
+    const int less = SHADE__HAS(SHADE__LESS) && plan->less_only;
     const int slim = width > 8 && tile->columns <= 8;
 
     SHADE__TILE_TESTED();
@@ -4459,6 +4473,14 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
         else shade__test_columns(plan, t, edges, tile, at, width, 0, full);
     }
 }
+
+/* Tests a tile of a large triangle; tiles that are inside with all their columns have a copy. */
+SHADE__DISPATCH(shade__test_large,
+                (const shade__plan *plan, const shade__triangle *t, const shade__edges *edges,
+                 shade__tile *tile, int full), (plan, t, edges, tile, full),
+                if (SHADE__HAS(SHADE__FULL) && full)
+                    shade__test_tile(plan, t, edges, tile, SHADE__TILE, 1);
+                else shade__test_tile(plan, t, edges, tile, shade__width, 0))
 
 /* The columns of a tile for n pixels from x on: 8, or as many vectors as they take.  Where these
    would leave the clip rectangle the tile begins further left, and skips what comes before x. */
@@ -4481,7 +4503,7 @@ SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 }
 
 /* Tests a tile that has more columns than the clip rectangle, which has n: each row is copied,
-   tested by 4 columns at a time to save code, and copied back. */
+   tested and copied back. */
 static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
                                              const shade__triangle *t,
                                              const shade__edges *edges, int n,
@@ -4497,7 +4519,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
     for (int r = 0; r < tile->rows; r++, row.y++) {
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;
         SHADE_MEMCPY(copy, depth, bytes);
-        shade__test_tile(plan, t, edges, &row, 4, 0);
+        shade__test_large(plan, t, edges, &row, 0);
         SHADE_MEMCPY(depth, copy, bytes);
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
     }
@@ -4601,8 +4623,7 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
 SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const shade__triangle *t,
                                         shade__runs *runs,
-                                        const shade__stretch *s,
-                                        const int width)
+                                        const shade__stretch *s)
 {
     const shade__plan *plan = &d->plan;
     const int across = plan->x1 - plan->x0;
@@ -4621,15 +4642,13 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
             if (s->last < s->end) first -= (first - plan->x0) & (SHADE__TILE - 1);
         }
         for (int x = first; x <= last; x += SHADE__TILE) {
-            shade__tile_columns(plan, x,
-                                shade__min(SHADE__TILE, last - x + 1), width,
-                                &tile);
+            shade__tile_columns(plan, x, shade__min(SHADE__TILE, last - x + 1),
+                                SHADE__TILE / 2, &tile);
             inside = s->inside || shade__tile_edges(t, &tile, &edges);
             shade__tile_depth(plan, &tile);
             if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
-            else if (SHADE__SPECIALIZE && inside && tile.columns - tile.skip == SHADE__TILE)
-                shade__test_tile(plan, t, &edges, &tile, SHADE__TILE, 1);
-            else shade__test_tile(plan, t, &edges, &tile, width, 0);
+            else shade__test_large(plan, t, &edges, &tile,
+                                   inside && tile.columns - tile.skip == SHADE__TILE);
             pixels += shade__join_tile(d, runs, t->lane, &tile);
         }
     }
@@ -4637,8 +4656,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
 }
 
 /* Draws a triangle, except what bounds hide of it. */
-SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
-                                           int lane, const int width)
+static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int lane)
 {
     const shade__plan *plan = &d->plan;
     shade__bounds *b = &d->bounds;
@@ -4647,7 +4665,7 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
     int bounded;
 
     shade__triangle_of(&d->setup, lane, &t);
-    bounded = SHADE__SPECIALIZE && t.x1 - t.x0 >= SHADE__TILE - 1 &&
+    bounded = SHADE__HAS(SHADE__BOUNDED) && t.x1 - t.x0 >= SHADE__TILE - 1 &&
               t.y1 - t.y0 >= SHADE__TILE_ROWS - 1 && plan->away != 0;
     if (bounded && !b->across) shade__begin_bounds(plan, b);
     for (s.y = t.y0; s.y <= t.y1; s.y = s.bottom + 1) {
@@ -4661,12 +4679,10 @@ SHADE__INLINE void shade__cover_large_body(shade__draw *d, shade__runs *runs,
             s.last = s.end;
             s.inside = 0;
             if (bounded) shade__next_stretch(plan, b, &t, &s);
-            if (s.x <= s.last) shade__cover_stretch(d, &t, runs, &s, width);
+            if (s.x <= s.last) shade__cover_stretch(d, &t, runs, &s);
         }
     }
 }
-SHADE__DISPATCH(shade__cover_large, (shade__draw *d, shade__runs *runs, int lane), (d, runs, lane),
-                shade__cover_large_body(d, runs, lane, shade__width))
 
 /* Is the triangle at most 32 pixels wide and 24 high, and do 32 bits hold its edges in its box and
    31 pixels beside?  They do if |e| <= 2^28 at its first pixel, because then edges stay below
@@ -4729,7 +4745,7 @@ static void shade__cover(shade__draw *d, int count)
 
     runs.count = 0;
     for (runs.next = 0; runs.next < count; runs.next++) {
-        if (SHADE__SPECIALIZE) shade__cover_small(d, &runs, count);
+        if (SHADE__HAS(SHADE__NARROW)) shade__cover_small(d, &runs, count);
         if (runs.next < count) shade__cover_large(d, &runs, runs.next);
     }
     shade__send(d, &runs);
@@ -4914,7 +4930,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
 
     p.y = run->y;
     /* a short run fits one piece: to know that is worth 5 % of a dense mesh */
-    if (SHADE__SPECIALIZE && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
+    if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
         p.x = x;
         p.lane = q->f.count;
         p.back = 0;
@@ -4925,12 +4941,13 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
 
     while (n > 0) {
         const int room = SHADE_LANES - q->f.count, back = shade__max(0, 8 - room);
-        const int width = SHADE__SPECIALIZE && n > 8 && room >= SHADE__WIDE ? SHADE__WIDE : 8;
+        const int wide = SHADE__HAS(SHADE__LONG) && n > 8 && room >= SHADE__WIDE;
+        const int width = wide ? SHADE__WIDE : 8;
         const int take = shade__min(n, width - back);
         p.x = x - back;    /* the packet may end within the 8 lanes of a piece */
         p.lane = q->f.count - back;
-        p.back = SHADE__SPECIALIZE && width > 8 ? 0 : back;
-        if (SHADE__SPECIALIZE && width > 8) shade__append(d, t, value, p, SHADE__WIDE);
+        p.back = wide ? 0 : back;
+        if (wide) shade__append(d, t, value, p, SHADE__WIDE);
         else shade__append(d, t, value, p, 8);
         for (int i = 0; plan->lod && i < width; i += 8)
             shade__append_lod(plan, t, value, p.x + i, back, q->rw + p.lane + i,
@@ -5196,9 +5213,11 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line,
     const shade__layout l = *r->layout;
     for (int first = 0; first < r->blocks * SHADE__BLOCK; first += SHADE__BLOCK) {
         if (!r->apart[first / SHADE__BLOCK]) {
-            for (int i = first; i < first + SHADE__BLOCK; i++) {
-                const uint8_t *left = p + pair[i];
-                SHADE_MEMCPY(to + 2 * i, left, 8);
+            for (int i = first; i < first + SHADE__BLOCK; i += 4) {
+                SHADE_MEMCPY(to + 2 * i, p + pair[i], 8);
+                SHADE_MEMCPY(to + 2 * i + 2, p + pair[i + 1], 8);
+                SHADE_MEMCPY(to + 2 * i + 4, p + pair[i + 2], 8);
+                SHADE_MEMCPY(to + 2 * i + 6, p + pair[i + 3], 8);
             }
         } else if (l.bytes == 2) shade__fetch_apart(r, p, line, first, 2, l.swapped, to);
         else if (l.bytes == 1) shade__fetch_apart(r, p, line, first, 1, 0, to);
@@ -5830,36 +5849,20 @@ static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
     return SHADE_OK;
 }
 
-/* Raises the 16 values of highest to those of n lists of 16 indices. */
-SHADE__INLINE void shade__highest_body(shade__in_bits indices, ptrdiff_t n,
-                                       shade__out_bits highest)
-{
-    for (; n > 0; n--, indices += 16) {
-        SHADE__FOR(i, 16) { highest[i] = indices[i] > highest[i] ? indices[i] : highest[i]; }
-    }
-}
-
-SHADE__DISPATCH_AVX2(shade__highest,
-                     (const uint32_t *indices, ptrdiff_t n, uint32_t *highest),
-                     (indices, n, highest), shade__highest_body(indices, n, highest))
 /* Indices are compared in lanes, because every thread that draws a band checks all of them. */
 static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices,
                                                          int index_count,
                                                          int vertex_count)
 {
-    uint32_t highest[16] = { 0 };
+    const uint32_t n = (uint32_t)vertex_count;
+    uint32_t beyond = 0;
     int i = 0;
     if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
-    if (!indices || !index_count) return SHADE_OK;
-    if (SHADE__SPECIALIZE) {
-        i = index_count & ~15;
-        shade__highest(indices, i / 16, highest);
-        for (int k = 1; k < 16; k++)
-            if (highest[k] > highest[0]) highest[0] = highest[k];
-    }
-    for (; i < index_count; i++)
-        if (indices[i] > highest[0]) highest[0] = indices[i];
-    return highest[0] < (uint32_t)vertex_count ? SHADE_OK : SHADE_ERROR_INDEX;
+    if (!indices) return SHADE_OK;
+    for (; index_count - i >= 16; i += 16)
+        SHADE__FOR(k, 16) { beyond |= shade__mask(indices[i + k] >= n); }
+    for (; i < index_count; i++) beyond |= shade__mask(indices[i] >= n);
+    return beyond ? SHADE_ERROR_INDEX : SHADE_OK;
 }
 
 /*------------------------------------------------------------------------------------------- >>seen
@@ -6206,12 +6209,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int varyings;                        /* in use; with a map the last two are u, v */
 } shade__scene;
 
-enum {
-    SHADE__TERM_NONE = 128,    /* no term at all, since 0 means all */
-    /* Vertices are lit by P, N and the albedo, which lie on the stack, or with 15 varyings in rows
-       of the output that nobody reads: this saves 4 kB, and the array on the stack is a dummy. */
-    SHADE__APART = SHADE_MAX_VARYINGS < 15 ? 3 : 1
-};
+enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
 
 /* Element i of an array of vectors.  stride: in bytes; 0 if they follow each other. */
 SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride,
@@ -6375,9 +6373,8 @@ static void shade__mesh_vertex(const void *uniforms,
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
-    shade__v3 apart[SHADE__APART], *point, *normal, *albedo;
-    if (s->lit_vertices) point = SHADE__APART > 1 ? apart : shade__three_rows(out->varying[6]);
-    else point = shade__three_rows(out->varying[s->pn_unread ? s->varyings : 0]);
+    shade__v3 lit[3], *point = lit, *normal, *albedo;    /* of vertices that are lit */
+    if (!s->lit_vertices) point = shade__three_rows(out->varying[s->pn_unread ? s->varyings : 0]);
     normal = point + 1;
     albedo = s->pn_unread ? shade__three_rows(out->varying[0]) : normal + 1;
 

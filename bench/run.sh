@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh - builds and runs the programs of bench/ and prints their tables as Markdown.
 #
-#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size]     all of them where none is named
+#   run.sh [compare] [levels] [maths] [kernel] [scaling] [size] [copies]     all where none is named
 #   BASE=revision run.sh     this shade.h against that of another revision, frames in turns
 #
 # CC, CXX, CFLAGS (-O2), BUILD (where to build, from the top directory: build), ROUNDS and MESH (an
@@ -104,6 +104,36 @@ size_of() {
     echo
 }
 
+# What each specialised copy of a hot loop is worth: the library without it beside the whole one, in
+# the scene that it serves best.
+copies() {
+    $cc $standard $flags -fPIC -shared bench/frames.c -o "$build/whole.so" -lm
+    $cc $standard $flags "-DBENCH_FLAGS=\"$flags\"" bench/against.c -o "$build/against" -ldl
+    echo "## Specialised copies of hot loops"
+    echo
+    echo "| without the copy for | bytes of .text fewer | scene | times as long |"
+    echo "|---|---|---|---|"
+    all=127 bit=1
+    while read -r copy scene; do
+        $cc $standard $flags -fPIC -shared -DSHADE__SPECIALIZE=$((all - bit)) bench/frames.c \
+            -o "$build/without.so" -lm
+        $pin "$build/against" "$build/whole.so" "$build/without.so" $rounds --only "$scene" |
+            awk -F' *[|] *' -v copy="$copy" -v fewer=$(($(text_of whole) - $(text_of without))) '
+                $3 ~ /^[0-9.]+$/ { print "| " copy " | " fewer " | " $2 " | " $5 " |"; exit }'
+        bit=$((bit * 2))
+    done <<'SCENES'
+light-without-rows every pixel in every cone
+LESS 1000 big
+tiles-inside 1000 big
+bounds 1000 big
+narrow-triangles teapot 64
+short-runs knot of 124k
+long-runs flat fill with depth 320
+SCENES
+    echo
+}
+text_of() { size -A "$build/$1.so" | awk '$1 == ".text" { print $2 }'; }
+
 # The scenes of today with the header of another revision, whose names must be those of 1.0.
 against() {
     old=$build/base
@@ -128,9 +158,9 @@ if [ -n "${BASE:-}" ]; then
     exit
 fi
 
-for part in ${*:-compare levels maths kernel scaling size}; do
+for part in ${*:-compare levels maths kernel scaling size copies}; do
     case $part in
-    compare | levels | maths | kernel | scaling) $part ;;
+    compare | levels | maths | kernel | scaling | copies) $part ;;
     size) size_of ;;
     *)
         echo "run.sh: no part is called $part" >&2
