@@ -63,20 +63,20 @@
      Inside: the way of a triangle
        >>state     3219  who owns what         >>vertices  3402  shading, projection
        >>triangles 3619  dropped, cut, edges   >>clip      3987  near, far, behind the eye
-       >>tiles     4172  pixels, depth test    >>cover     4528  what is hidden, tile by tile
-       >>fragments 4754  interpolation, lod    >>texture   5047  texels, mipmaps
-       >>store     5487  blending, packing
+       >>tiles     4172  pixels, depth test    >>cover     4529  what is hidden, tile by tile
+       >>fragments 4755  interpolation, lod    >>texture   5048  texels, mipmaps
+       >>store     5493  blending, packing
      Inside: calls of the renderer
-       >>check     5719  refusals              >>seen      5868  what can be seen, chunks
-       >>drive     6005  shade_draw            >>mesh      6184  shade_draw_mesh
+       >>check     5725  refusals              >>seen      5874  what can be seen, chunks
+       >>drive     6011  shade_draw            >>mesh      6190  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6584  shade_draw_lines      >>shape     6742  normals, edges
-       >>chunks    7078  boxes of triangles    >>rays      7242  shade_pick
-       >>survey    7438  experiments on a draw >>explain   7689  why nothing is seen
-       >>image     8332  mipmaps, PPM           >>presets   8601  classic materials
+       >>lines     6590  shade_draw_lines      >>shape     6748  normals, edges
+       >>chunks    7084  boxes of triangles    >>rays      7248  shade_pick
+       >>survey    7444  experiments on a draw >>explain   7695  why nothing is seen
+       >>image     8338  mipmaps, PPM           >>presets   8607  classic materials
      Sources
-       >>refs      8677                        >>history   8707
-       >>license   8719
+       >>refs      8683                        >>history   8713
+       >>license   8725
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3219,7 +3219,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
 /*------------------------------------------------------------------------------------------ >>state
    What a draw knows, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB at
    the defaults, of which the queue takes 12.4 and the batch 8.8.  bench/stack.c measures whole
-   calls: a lit mesh with a map takes 40.8 kB where triangles are clipped, 43 kB with clang.
+   calls: a lit mesh with a map takes 40.7 kB where triangles are clipped, 42 kB with clang.
 
      plan      >>drive       what the draw is; fixed before the first triangle, read by all
      supply    >>drive       the triangles that are still to come
@@ -4450,9 +4450,9 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
 
 /* Tests a tile; the commonest depth test has a copy of its own. */
 SHADE__INLINE void shade__test_tile(const shade__plan *plan,
-                                    const shade__triangle *t,
+                                    const shade__triangle *SHADE_RESTRICT t,
                                     const shade__edges *edges,
-                                    shade__tile *tile, const int width,
+                                    shade__tile *SHADE_RESTRICT tile, const int width,
                                     const int full)
 {
     const int less = SHADE__HAS(SHADE__LESS) && plan->less_only;
@@ -4476,8 +4476,9 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
 
 /* Tests a tile of a large triangle; tiles that are inside with all their columns have a copy. */
 SHADE__DISPATCH(shade__test_large,
-                (const shade__plan *plan, const shade__triangle *t, const shade__edges *edges,
-                 shade__tile *tile, int full), (plan, t, edges, tile, full),
+                (const shade__plan *plan, const shade__triangle *SHADE_RESTRICT t,
+                 const shade__edges *edges, shade__tile *SHADE_RESTRICT tile, int full),
+                (plan, t, edges, tile, full),
                 if (SHADE__HAS(SHADE__FULL) && full)
                     shade__test_tile(plan, t, edges, tile, SHADE__TILE, 1);
                 else shade__test_tile(plan, t, edges, tile, shade__width, 0))
@@ -5202,6 +5203,11 @@ SHADE__INLINE void shade__fetch_apart(const shade__reader *r, const uint8_t *p,
     }
 }
 
+SHADE__INLINE void shade__fetch_pair(const uint8_t *left, shade__word *to)
+{
+    SHADE_MEMCPY(to, left, 8);
+}
+
 /* Fetches the pairs of the row above (line 0) or below (1), left and right in turns, one word each;
    of texels of four floats the words of channel k.  Not inlined, because gcc would make vectors of
    the loads, which takes longer. */
@@ -5214,10 +5220,10 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line,
     for (int first = 0; first < r->blocks * SHADE__BLOCK; first += SHADE__BLOCK) {
         if (!r->apart[first / SHADE__BLOCK]) {
             for (int i = first; i < first + SHADE__BLOCK; i += 4) {
-                SHADE_MEMCPY(to + 2 * i, p + pair[i], 8);
-                SHADE_MEMCPY(to + 2 * i + 2, p + pair[i + 1], 8);
-                SHADE_MEMCPY(to + 2 * i + 4, p + pair[i + 2], 8);
-                SHADE_MEMCPY(to + 2 * i + 6, p + pair[i + 3], 8);
+                shade__fetch_pair(p + pair[i], to + 2 * i);
+                shade__fetch_pair(p + pair[i + 1], to + 2 * i + 2);
+                shade__fetch_pair(p + pair[i + 2], to + 2 * i + 4);
+                shade__fetch_pair(p + pair[i + 3], to + 2 * i + 6);
             }
         } else if (l.bytes == 2) shade__fetch_apart(r, p, line, first, 2, l.swapped, to);
         else if (l.bytes == 1) shade__fetch_apart(r, p, line, first, 1, 0, to);
