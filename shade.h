@@ -73,10 +73,10 @@
        >>lines     6590  shade_draw_lines      >>shape     6748  normals, edges
        >>chunks    7084  boxes of triangles    >>rays      7248  shade_pick
        >>survey    7444  experiments on a draw >>explain   7695  why nothing is seen
-       >>image     8338  mipmaps, PPM           >>presets   8607  classic materials
+       >>image     8336  mipmaps, PPM           >>presets   8605  classic materials
      Sources
-       >>refs      8683                        >>history   8713
-       >>license   8725
+       >>refs      8681                        >>history   8711
+       >>license   8723
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7836,7 +7836,6 @@ static const char *shade__why_outside(shade__survey *s)
 {
     const shade_stats *stats = &s->stats;
     const int apart = stats->clipped + stats->rejected == stats->triangles;
-    const int others = shade__depth_varies(s);
     const uint32_t outside = shade__outside(s);
     if (apart && shade__is_rigid(&s->state.projection))
         return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
@@ -7847,7 +7846,7 @@ static const char *shade__why_outside(shade__survey *s)
                "eye of state.view nearer.";
 
     s->state.view = shade_mat4_inverse(s->state.view);
-    if (!others && shade__covered(s))
+    if (shade__covered(s))
         return "The mesh is out of view, but the inverse of state.view would show it: state.view "
                "takes the world to the eye, as shade_mat4_look_at does.";
 
@@ -7857,7 +7856,6 @@ static const char *shade__why_outside(shade__survey *s)
     if (outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
         return "The whole mesh lies nearer than the near plane of state.projection, or behind the "
                "eye of state.view; move near in, or the eye back.";
-    if (others) return "";    /* one of several meshes may stand there */
     if (apart)
         return "The whole mesh lies beside the picture, before near or beyond far; check "
                "state.model, and where state.view looks.";

@@ -1120,6 +1120,19 @@ TEST(explain, what_other_meshes_explain_gets_none)
     stage_is_good(s, "one beside, where the inverse of the view looks");
     stage_close(s);
 }
+/* Experiments leave out lamps beyond the sixteenth, so that nothing is said of the colours of all. */
+TEST(explain, of_more_than_sixteen_lamps_no_colour_is_blamed)
+{
+    shade_light dark[17];
+    stage *s = stage_open();
+    for (int i = 0; i < 17; i++) dark[i] = shade_point_light(shade_v3(3, 4, 6), shade_v3(0, 0, 0));
+    s->state.lighting.lights = dark;
+    s->state.lighting.light_count = 16;
+    CHECK(strstr(stage_explain(s, 1), "lights have no colour"));
+    s->state.lighting.light_count = 17;
+    CHECK(!strstr(stage_explain(s, 1), "lights have no colour"));
+    stage_close(s);
+}
 /* The stats are believed: the small picture of shade_explain may miss what the large one shows. */
 TEST(explain, a_draw_that_had_pixels_is_not_said_to_have_none)
 {
