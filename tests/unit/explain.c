@@ -1120,7 +1120,7 @@ TEST(explain, what_other_meshes_explain_gets_none)
     stage_is_good(s, "one beside, where the inverse of the view looks");
     stage_close(s);
 }
-/* Experiments leave out lamps beyond the sixteenth, so that nothing is said of the colours of all. */
+/* Experiments leave out lamps beyond the sixteenth: nothing is said of the colours of all. */
 TEST(explain, of_more_than_sixteen_lamps_no_colour_is_blamed)
 {
     shade_light dark[17];
