@@ -1608,6 +1608,7 @@ static const test_case explain_cases[] = {
     CASE(explain, the_scene_without_a_mistake_gets_none),
     CASE(explain, random_good_scenes_get_none),
     CASE(explain, what_other_meshes_explain_gets_none),
+    CASE(explain, of_more_than_sixteen_lamps_no_colour_is_blamed),
     CASE(explain, a_draw_that_had_pixels_is_not_said_to_have_none),
     CASE(explain, small_pools_of_light_are_light),
     CASE(explain, dim_light_is_light_where_the_format_shows_it),
