@@ -73,10 +73,10 @@
        >>lines     6590  shade_draw_lines      >>shape     6748  normals, edges
        >>chunks    7084  boxes of triangles    >>rays      7248  shade_pick
        >>survey    7444  experiments on a draw >>explain   7695  why nothing is seen
-       >>image     8336  mipmaps, PPM           >>presets   8605  classic materials
+       >>image     8340  mipmaps, PPM           >>presets   8609  classic materials
      Sources
-       >>refs      8681                        >>history   8711
-       >>license   8723
+       >>refs      8685                        >>history   8715
+       >>license   8727
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8052,7 +8052,7 @@ static int shade__lacks_normals(shade__survey *s)
     any = shade__bright(s);
     s->state.lighting = given;
     s->material = material;
-    return s->mesh.normals && !any;
+    return s->mesh.normals && s->state.shading != SHADE_SHADING_PER_FACE && !any;
 }
 
 /* Why no lamp lights a white surface, or, with ambient set, why ambient light alone does. */
@@ -8149,6 +8149,10 @@ static const char *shade__why_dark(shade__survey *s)
     if (shade__bright(s))
         return "state.shading lights vertices or middles of faces, which no light reaches, though "
                "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
+    if (s->given_state->shading == SHADE_SHADING_PER_FACE) {
+        s->mesh.normals = NULL;    /* the normals of faces are what lamps meet */
+        if (shade__bright(s)) return NULL;
+    }
     l->terms = 0;
     if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
     if (shade__bright(s))

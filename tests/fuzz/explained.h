@@ -401,6 +401,7 @@ static int ex_helps(const explained *e, enum ex_cure cure)
     s.lighting.lights = lamp;
     s.raster.blend = SHADE_BLEND_ADD;
     s.shading = SHADE_SHADING_PER_FRAGMENT;
+    if (cure > EX_EACH && e->state.shading == SHADE_SHADING_PER_FACE) mesh.normals = NULL;
     if (cure >= EX_TERMS) {
         if (s.lighting.model > SHADE_MODEL_PHONG) s.lighting.model = SHADE_MODEL_BLINN_PHONG;
         s.lighting.terms = 0;
@@ -671,7 +672,7 @@ static int ex_has_bad_normals(explained *e)
     ex_values(e, e->state.raster.cull, -1);
     good = ex_part(e, ex_has_normal, 0);
     if (e->state.shading) good = shade_length(e->normal[e->index[0]]) > 0;
-    return e->mesh.normals && !good;
+    return e->mesh.normals && e->state.shading != SHADE_SHADING_PER_FACE && !good;
 }
 /* Does the box around the mesh hold the eye of state.view? */
 static int ex_eye_inside(const explained *e)

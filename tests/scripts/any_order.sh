@@ -104,8 +104,8 @@ done
 
 # ---- none is forgotten --------------------------------------------------------------------------
 # These write into a directory of mktemp alone and name no product of the tree ...
-apart="dialects compare contents coverage drawing embed lint matrix mutation node packages prove python
-       static thumbnail vector_report"
+apart="abi dialects compare contents coverage drawing embed lint matrix mutation node packages prove
+       python sizes static thumbnail vector_report"
 for name in $apart; do
     check "$name.sh has a directory of its own" \
         grep -qE 'T=\$\(mktemp -d\)|^\. tests/scripts/tools.sh$|>/tmp/lint_.*\$\$' "tests/scripts/$name.sh"
@@ -117,6 +117,8 @@ done
 # compilers.sh and playground.sh build/zig, build/playwright and the page.  bench/size.sh measures for
 # a minute; what it writes in build/ is size.* and stack*.
 others="all view batch explain compilers playground any_order tools assignments dist github windows"
+# dist.sh makes course-zip, and the step fuzz runs the script that make fuzz does
+elsewhere="assignments clean conformance course-zip dist fuzz matrix programs vector-report"
 forgotten() {                   # scripts and targets that are neither a step nor named here
     for script in tests/scripts/*.sh; do
         name=$(basename "$script" .sh)
@@ -124,7 +126,7 @@ forgotten() {                   # scripts and targets that are neither a step no
         grep -qF "$script" "$T"/steps/* || echo "$script"
     done
     for target in $(sed -n '/^\.PHONY:/,$s/^\.PHONY:\|^\.SECONDARY:\|\\$//gp' Makefile); do
-        case " $(echo $apart) assignments dist conformance programs matrix clean vector-report " in *" $target "*) continue ;; esac
+        case " $(echo $apart) $elsewhere " in *" $target "*) continue ;; esac
         grep -qE "(MAKE|make).* $target( |;|\$)" "$T"/steps/* || echo "make $target"
     done
 }

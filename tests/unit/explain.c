@@ -1133,6 +1133,24 @@ TEST(explain, of_more_than_sixteen_lamps_no_colour_is_blamed)
     CHECK(!strstr(stage_explain(s, 1), "lights have no colour"));
     stage_close(s);
 }
+/* Faces that are lit by normals of their own show nothing of mesh.normals. */
+TEST(explain, of_faces_no_normals_are_blamed)
+{
+    static const char *const unlit[2] = { "Every lamp is behind", "every lamp is behind" };
+    for (int ambient = 0; ambient < 2; ambient++) {
+        stage *s = stage_open();
+        const char *said;
+        memset(s->normal, 0, sizeof s->normal);
+        if (ambient) s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.1f);
+        CHECK(strstr(stage_explain(s, 1), "mesh.normals are zero"));
+        s->state.shading = SHADE_SHADING_PER_FACE;
+        stage_is_good(s, "faces of zero normals");
+        s->lamps[0] = s->lamps[1] = shade_directional_light(shade_v3(0, 0, 1), shade_v3(1, 1, 1));
+        said = stage_explain(s, 1);
+        CHECK_SAY(strstr(said, unlit[ambient]) != NULL, "%s", said);
+        stage_close(s);
+    }
+}
 /* The stats are believed: the small picture of shade_explain may miss what the large one shows. */
 TEST(explain, a_draw_that_had_pixels_is_not_said_to_have_none)
 {
@@ -1609,6 +1627,7 @@ static const test_case explain_cases[] = {
     CASE(explain, random_good_scenes_get_none),
     CASE(explain, what_other_meshes_explain_gets_none),
     CASE(explain, of_more_than_sixteen_lamps_no_colour_is_blamed),
+    CASE(explain, of_faces_no_normals_are_blamed),
     CASE(explain, a_draw_that_had_pixels_is_not_said_to_have_none),
     CASE(explain, small_pools_of_light_are_light),
     CASE(explain, dim_light_is_light_where_the_format_shows_it),
