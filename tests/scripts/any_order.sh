@@ -117,7 +117,7 @@ done
 # compilers.sh and playground.sh build/zig, build/playwright and the page.  bench/size.sh measures for
 # a minute; what it writes in build/ is size.* and stack*.
 others="all view batch explain compilers playground any_order tools assignments dist github windows"
-# dist.sh makes course-zip, and the step fuzz runs the script that make fuzz does
+# course.sh packs what course-zip packs, and the step fuzz runs the script that make fuzz runs
 elsewhere="assignments clean conformance course-zip dist fuzz matrix programs vector-report"
 forgotten() {                   # scripts and targets that are neither a step nor named here
     for script in tests/scripts/*.sh; do
