@@ -54,29 +54,29 @@
        >>plumbing   372  compilers             >>light      502  the equation and its terms
        >>draw       627  meshes and pixels     >>math       899  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1262  processors            >>base      1479  bits, masks, rows of vectors
-       >>matrix    1698  cameras, inverses     >>power     1992  x^n
-       >>pixels    2058  formats, sRGB
+       >>machine   1262  processors            >>base      1484  bits, masks, rows of vectors
+       >>matrix    1703  cameras, inverses     >>power     1997  x^n
+       >>pixels    2063  formats, sRGB
      Inside: light
-       >>lamps     2335  attenuation, cones    >>terms     2609  one term at one point
-       >>surface   2691  material and lights   >>lit       2812  the whole sum, at many points
+       >>lamps     2340  attenuation, cones    >>terms     2614  one term at one point
+       >>surface   2696  material and lights   >>lit       2817  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3219  who owns what         >>vertices  3402  shading, projection
-       >>triangles 3619  dropped, cut, edges   >>clip      3987  near, far, behind the eye
-       >>tiles     4172  pixels, depth test    >>cover     4529  what is hidden, tile by tile
-       >>fragments 4755  interpolation, lod    >>texture   5048  texels, mipmaps
-       >>store     5493  blending, packing
+       >>state     3224  who owns what         >>vertices  3407  shading, projection
+       >>triangles 3624  dropped, cut, edges   >>clip      3992  near, far, behind the eye
+       >>tiles     4177  pixels, depth test    >>cover     4534  what is hidden, tile by tile
+       >>fragments 4760  interpolation, lod    >>texture   5053  texels, mipmaps
+       >>store     5498  blending, packing
      Inside: calls of the renderer
-       >>check     5725  refusals              >>seen      5874  what can be seen, chunks
-       >>drive     6011  shade_draw            >>mesh      6190  shade_draw_mesh
+       >>check     5730  refusals              >>seen      5879  what can be seen, chunks
+       >>drive     6016  shade_draw            >>mesh      6195  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6590  shade_draw_lines      >>shape     6748  normals, edges
-       >>chunks    7084  boxes of triangles    >>rays      7248  shade_pick
-       >>survey    7444  experiments on a draw >>explain   7695  why nothing is seen
-       >>image     8340  mipmaps, PPM           >>presets   8609  classic materials
+       >>lines     6595  shade_draw_lines      >>shape     6753  normals, edges
+       >>chunks    7089  boxes of triangles    >>rays      7253  shade_pick
+       >>survey    7449  experiments on a draw >>explain   7700  why nothing is seen
+       >>image     8345  mipmaps, PPM           >>presets   8614  classic materials
      Sources
-       >>refs      8685                        >>history   8715
-       >>license   8727
+       >>refs      8690                        >>history   8720
+       >>license   8732
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1324,6 +1324,11 @@ enum {
 #else
 #pragma GCC optimize("O2", "fp-contract=off", "no-tree-loop-distribute-patterns", \
                      "no-inline-functions")
+#endif
+/* On Windows, where callees keep the low 128 bits of xmm6 to xmm15, gcc 12 takes a function that
+   jumps to an AVX2 build for one that keeps all 256, and light comes out wrong. */
+#ifdef _WIN64
+#pragma GCC optimize("no-ipa-ra")
 #endif
 #endif
 

@@ -1151,6 +1151,25 @@ TEST(explain, of_faces_no_normals_are_blamed)
         stage_close(s);
     }
 }
+/* A pool of light beside the middle of its face, and normals that would not show it per fragment:
+   no one change would be a cure. */
+TEST(explain, of_a_pool_beside_the_middle_of_a_face_nothing_is_said)
+{
+    stage *s = stage_open();
+    for (int k = 0; k < 3; k++)
+        s->position[k] = shade_v3(k == 1 ? 9.0f : -9.0f, 0, k == 2 ? -9.0f : 9.0f);
+    for (uint32_t k = 0; k < 3; k++) s->index[k] = k;
+    memset(s->normal, 0, sizeof s->normal);
+    s->mesh.index_count = 3;
+    s->state.shading = SHADE_SHADING_PER_FACE;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 6, 9), shade_v3(-2, 0, 3), shade_v3(0, 1, 0));
+    s->lamps[0] = shade_spot_light(shade_v3(-2, 2, 3), shade_v3(0, -1, 0), 0.3f, 0, shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+    stage_is_good(s, "a pool beside the middle");
+    s->mesh.normals = NULL;
+    CHECK(strstr(stage_explain(s, 1), "state.shading lights vertices or middles"));
+    stage_close(s);
+}
 /* The stats are believed: the small picture of shade_explain may miss what the large one shows. */
 TEST(explain, a_draw_that_had_pixels_is_not_said_to_have_none)
 {
@@ -1628,6 +1647,7 @@ static const test_case explain_cases[] = {
     CASE(explain, what_other_meshes_explain_gets_none),
     CASE(explain, of_more_than_sixteen_lamps_no_colour_is_blamed),
     CASE(explain, of_faces_no_normals_are_blamed),
+    CASE(explain, of_a_pool_beside_the_middle_of_a_face_nothing_is_said),
     CASE(explain, a_draw_that_had_pixels_is_not_said_to_have_none),
     CASE(explain, small_pools_of_light_are_light),
     CASE(explain, dim_light_is_light_where_the_format_shows_it),
