@@ -49,16 +49,6 @@ TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
             CHECK(finite3(got));
             total++;
             if (want.unsure) continue;
-            const shade_light *l = s.lights; /* xyz/w is rounded: near P its direction is lost */
-            int lost = 0;
-            for (int j = 0; j < s.lighting.light_count; j++) {
-                double r, at = d3_length(d3_of((double)l[j].position.x, (double)l[j].position.y,
-                                               (double)l[j].position.z));
-                ref_to_light(&l[j], d3_from(k.p[i]), &r);
-                float w = l[j].position.w;
-                lost |= w != 0 && w != 1 && r * 50 < at / fabs((double)w);
-            }
-            if (lost) continue;
             sure++;
             if (check_color(__LINE__, "packet", got, want.total, want.bound)) continue;
             s.P = k.p[i];
@@ -313,8 +303,7 @@ TEST(lanes, light_at_lanes_is_what_arrives_at_each_lane)
             ref_arrival want = ref_arriving(&s.lights[0], d3_from(k.p[i]));
             shade_vec3 toward = shade_v3(L[i], L[SHADE_LANES + i], L[2 * SHADE_LANES + i]);
             CHECK(finite3(toward) && isfinite(amount[i]));
-            if (want.lost) continue;
-            check_color(__LINE__, "L", toward, want.L, at.w == 0 || at.w == 1 ? 1e-6 : 2e-5);
+            check_color(__LINE__, "L", toward, want.L, 1e-6);
             if (want.unsure) continue;
             checked++;
             dark += want.amount == 0;
@@ -811,6 +800,7 @@ TEST(lanes, a_lane_of_rows_has_the_bits_of_the_scalar_call_where_rows_are_powers
             if (r.rows.specular) m.specular = shade_mul(m.specular, a);
             if (r.s.lighting.model == SHADE_MODEL_COOL_TO_WARM) break; /* a ramp is no k_d */
             shade_vec3 c = shade_lit(&r.s.lighting, &m, r.s.eye, r.k.p[i], r.k.n[i]);
+            if (d3_length(d3_from(c)) < 1e-30) continue; /* denormal products are rounded */
             CHECK(c.x == rgb[0][i] && c.y == rgb[1][i] && c.z == rgb[2][i]);
         }
     }

@@ -279,14 +279,15 @@ static d3 ref_cool_to_warm(double NL, d3 cool, d3 warm)
     return d3_add(d3_scale(warm, k), d3_scale(cool, 1 - k));
 }
 
-/* From P toward the lamp; its distance in *r, 0 for lights at infinity. */
+/* From P toward the lamp, which stands at xyz / w in floats; its distance in *r, 0 for lights at
+   infinity. */
 static d3 ref_to_light(const shade_light *light, d3 P, double *r)
 {
     d3 p = d3_of((double)light->position.x, (double)light->position.y, (double)light->position.z);
     double w = (double)light->position.w;
     *r = 0;
     if (w == 0) return d3_unit(p);
-    d3 d = d3_sub(d3_scale(p, 1 / w), P);
+    d3 d = d3_sub(d3_from(d3_round(d3_of(p.x / w, p.y / w, p.z / w))), P);
     *r = d3_length(d);
     return d3_unit(d);
 }
