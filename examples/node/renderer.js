@@ -5,7 +5,7 @@ import * as check from "./arguments.js";
 const { ShadeError } = check;
 
 // Words of renderer_object, of renderer_picture, of shade_mesh and of shade_light
-const OBJECT = 28, SHOT = 68, MESH = 13, LIGHT = 21;
+const OBJECT = 28, SHOT = 67, MESH = 13, LIGHT = 21;
 const KINDS = { plane: 1, sphere: 2, ellipsoid: 3, capsule: 4, cylinder: 5, box: 6 };
 // What the numbers of a size are for x, y and z
 const SIZES = { plane: [0, 1, 1], sphere: [0, 0, 0], ellipsoid: [0, 1, 2], capsule: [0, 0, 1],
@@ -331,10 +331,10 @@ export function rendererOf({ library, take, put, withMemory, linear, succeed, pr
             const ints = new Int32Array(library.memory.buffer, shot, SHOT);
             const floats = new Float32Array(library.memory.buffer, shot, SHOT);
             ints.set([this.width, this.height, this.samples, channels, this.srgb ? 1 : 0, solid ? 1 : 0, parallel,
-                      this.#count, s.count, s.shadow, 0, s.sky, s.skyTexture]);
+                      this.#count, s.count, s.shadow, s.sky, s.skyTexture]);
             floats.set([near, far, emptyDepth, this.tolerance, ...view, ...projection, ...s.background, ...s.low,
-                        ...s.high, ...s.ambient], 13);
-            ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 62);
+                        ...s.high, ...s.ambient], 12);
+            ints.set([at.objects, at.lights, at.color, at.depth, at.ids, at.normals], 61);
             succeed("camera", library.renderer_draw(this.#scratch, this.#scene, shot));
             for (const [name, Kind, width] of [["color", Uint8Array, channels], ["depth", Float32Array, 1],
                                                ["ids", Int32Array, 2], ["normals", Float32Array, 3]]) {

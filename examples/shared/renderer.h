@@ -59,7 +59,6 @@ typedef struct renderer_picture {
     int32_t parallel;         /* non-zero: the projection is orthographic */
     int32_t object_count, light_count;
     int32_t shadow_light;     /* the one lamp that casts shadows, -1: none */
-    int32_t shadow_size;      /* texels along the edge of its map; 0: by the size of the picture */
     int32_t sky, sky_texture; /* RENDERER_SKY_...; what was added by renderer_add_cube */
     float near_z, far_z;      /* far_z from 1e30 on: there is none */
     float empty_depth;        /* the depth of pixels that show nothing */
@@ -1427,7 +1426,6 @@ static inline renderer_view renderer_lamp_view(renderer *r, const renderer_pictu
 static inline int renderer_map_size(const renderer_picture *p)
 {
     int size = 128;
-    if (p->shadow_size) return p->shadow_size;
     while (size < 2 * p->height && size < 2048) size *= 2;
     return size;
 }

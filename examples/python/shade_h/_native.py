@@ -96,10 +96,10 @@ class View(Structure):
 
 
 #: renderer_picture: width, height, samples, channels, srgb, solid, parallel, object_count,
-#: light_count, shadow_light, shadow_size, sky, sky_texture; near_z, far_z, empty_depth, tolerance;
+#: light_count, shadow_light, sky, sky_texture; near_z, far_z, empty_depth, tolerance;
 #: view, projection; background, sky_low, sky_high, ambient; objects, lights, color, depth, ids,
 #: normals
-SHOT = struct.Struct("@13i4f32f13f6P")
+SHOT = struct.Struct("@12i4f32f13f6P")
 
 
 #: renderer_object

@@ -148,7 +148,6 @@ class Renderer:
         self._lights: list[Light] = []
         self._lamps: Any = None
         self._shadow = -1
-        self.shadow_size = 0
         self._ambient: tuple[float, ...] = (0.0, 0.0, 0.0)
         self._background: tuple[float, ...] = (1.0, 1.0, 1.0, 1.0)
         self._sky: tuple[int, int, Any, Any] = (0, -1, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -400,7 +399,7 @@ class Renderer:
         shot = SHOT.pack(
             self.width, self.height, self.samples, 3 if frame.color is None else frame.color.shape[2],
             self.srgb, bool(solid), parallel, self._count, len(self._lights), self._shadow,
-            self.shadow_size, sky, sky_texture, near, far, ctypes.c_float(empty_depth).value,
+            sky, sky_texture, near, far, ctypes.c_float(empty_depth).value,
             self.tolerance,
             *view.T.ravel().tolist(), *projection.T.ravel().tolist(), *self._background, *low, *high,
             *self._ambient, pointer(self._objects), ctypes.addressof(self._lamps),
