@@ -30,6 +30,31 @@ check "the quick light" "$BATCH" $turn --out quick --piece 7 --quick --threads 1
 check "is another one" no cmp -s one/00007.ppm quick/00007.ppm
 check "by threads as well" sh -c "'$BATCH' $turn --piece 7 --quick --threads 2 --pipe | cmp - quick/00007.ppm"
 
+# A square whose normal map leans is lit by the quick light as a square that leans itself.
+leaning() {                     # name, its slopes along x and y, a line of its material: eight pixels in the middle
+    awk -v name="$1" -v a="$2" -v b="$3" 'BEGIN {
+        print "mtllib " name ".mtl\nusemtl m"
+        for (i = 0; i < 4; i++) {
+            x = (i == 1 || i == 2) - 0.5; y = (i > 1) - 0.5
+            print "v", x, y, a * x + b * y
+            print "vt", x + 0.5, y + 0.5
+        }
+        print "f 1/1 2/2 3/3 4/4"
+    }' >"$1.obj"
+    printf 'newmtl m\nKd .8 .5 .3\n%s\n' "$4" >"$1.mtl"
+    "$BATCH" "$1.obj" --frames 1 --size 64x64 --quick --no-shadow --up z --view 20,60 --quiet --pipe |
+        tail -c 6048 | head -c 24 >"$1.pixels"
+    { printf 'P6 8 1 255\n'; cat "$1.pixels"; } >"$1.ppm"
+}
+if echo | $CC -fsyntax-only -include stb/stb_image.h -x c - 2>/dev/null; then
+    printf 'P6 1 1 255\n\122\242\362' >normal.ppm    # of (-.4, .3, 1)
+    leaning level 0 0
+    leaning leans .4 -.3
+    leaning mapped 0 0 "norm normal.ppm"
+    check "a normal map bends the quick light" "$HERE/build/compare" --limit 1 leans.ppm mapped.ppm
+    check "which a level square has otherwise" no "$HERE/build/compare" --limit 9 --count 7 level.ppm mapped.ppm
+fi
+
 # a turn begins where --view stands; a quarter of it later the left side is seen
 check "four frames from the front" "$BATCH" --frames 4 --size 97x60 --view front --out turned
 check "and two from the left" "$BATCH" --frames 2 --size 97x60 --view left --out left

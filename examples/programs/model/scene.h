@@ -512,6 +512,54 @@ static inline void scene_light(scene *s, const scene_camera *c, int pixels)
 
 /* ---- the quick light ------------------------------------------------------------------------- */
 
+/* A part whose bump or normal map bends the quick light */
+typedef struct scene_relief {
+    const look *k;
+    const shade_mesh *mesh;
+    const shade_draw_state *state;
+} scene_relief;
+
+/* V comes from here: from the eye in the world, or the viewer's direction. */
+static inline shade_vec3 scene_eye(const shade_draw_state *s)
+{
+    const shade_vec4 *axis = s->view.col, at = shade_mat4_inverse(s->view).col[3];
+    if (s->lighting.flags & SHADE_FLAG_INFINITE_VIEWER)
+        return shade_v3(axis[0].z, axis[1].z, axis[2].z);
+    return shade_v3(at.x, at.y, at.z);
+}
+
+/* The equation with a bent N.  The relief lies on the model as it is in its file, and the model's
+   matrix only turns it: the transpose turns N back. */
+static void scene_relief_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                  shade_colors *SHADE_RESTRICT out)
+{
+    const scene_relief *r = (const scene_relief *)uniforms;
+    const look *k = r->k;
+    const shade_mat3 turn = shade_mat3_from_mat4(r->state->model);
+    const shade_mat3 back = shade_mat3_transpose(turn);
+    const float *u = in->varying[SHADE_VARYING_TEXCOORD];
+    float texel[4][SHADE_LANES];
+    look_rows N, albedo;
+    const shade_rows rows = { .position = in->varying[SHADE_VARYING_POSITION], .normal = N[0],
+                              .albedo = albedo[0] };
+    for (int i = 0; i < SHADE_LANES; i++)
+        lane_put(N[0], i,
+                 shade_mat3_transform(back, lane(in->varying[SHADE_VARYING_NORMAL], i)));
+    relief_bend(&k->relief, r->mesh, in, SHADE_VARYING_TEXCOORD, N);
+    for (int i = 0; i < SHADE_LANES; i++)
+        lane_put(N[0], i, shade_mat3_transform(turn, lane(N[0], i)));
+
+    if (k->map) shade_sample_lanes(k->map, u, u + SHADE_LANES, in->lod, texel[0]);
+    for (int a = 0; a < 3; a++) {
+        const float *color = in->varying[SHADE_VARYING_COLOR + a];
+        SHADE_EACH_LANE(i) { albedo[a][i] = color[i] * (k->map ? texel[a][i] : 1); }
+    }
+    shade_lit_lanes(&r->state->lighting, r->state->material, scene_eye(r->state), &rows, out->color[0]);
+    if (k->map) {
+        SHADE_EACH_LANE(i) { out->color[3][i] = texel[3][i]; }
+    }
+}
+
 /* Draws front faces first, then back faces (of sheets, or seen through holes) with normals
    turned to the viewer.  Front faces keep their normals: turned to the viewer, they would leave
    dark specks along the outline of a coarse mesh, where they lean away. */
@@ -535,6 +583,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
                                       SHADE_FLAG_TWO_SIDED_ABS, SHADE_FLAG_INFINITE_VIEWER };
     const model_options o = scene_options(s);
     shade_draw_state state = *lit;
+    scene_relief bent;
     shade_result result = SHADE_OK;
     state.raster.blend = clear ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
     state.raster.depth_read_only = clear;
@@ -550,6 +599,16 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
         state.diffuse_map = k.map;
         state.alpha_cutoff = k.alpha_cutoff;
         state.transparency = 1 - k.alpha;
+        state.fragment = NULL;
+        if (k.relief.map && state.shading == SHADE_SHADING_PER_FRAGMENT) {
+            k.relief.indices = mesh.indices;
+            bent.k = &k;
+            bent.mesh = &mesh;
+            bent.state = &state;
+            state.fragment = scene_relief_fragment;
+            state.uniforms = &bent;
+            if (!k.map) state.diffuse_map = k.relief.map;    /* whose lod the shader gets */
+        }
         result = scene_draw_mesh(&mesh, target, &state, flag[s->choice[CHOICE_FLAG]]);
     }
     return result;
