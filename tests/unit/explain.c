@@ -1163,7 +1163,8 @@ TEST(explain, of_a_pool_beside_the_middle_of_a_face_nothing_is_said)
     s->mesh.index_count = 3;
     s->state.shading = SHADE_SHADING_PER_FACE;
     s->state.view = shade_mat4_look_at(shade_v3(0, 6, 9), shade_v3(-2, 0, 3), shade_v3(0, 1, 0));
-    s->lamps[0] = shade_spot_light(shade_v3(-2, 2, 3), shade_v3(0, -1, 0), 0.3f, 0, shade_v3(1, 1, 1));
+    s->lamps[0] = shade_spot_light(shade_v3(-2, 2, 3), shade_v3(0, -1, 0), 0.3f, 0,
+                                   shade_v3(1, 1, 1));
     s->state.lighting.light_count = 1;
     stage_is_good(s, "a pool beside the middle");
     s->mesh.normals = NULL;

@@ -554,7 +554,8 @@ static void scene_relief_fragment(const void *uniforms, const shade_fragments *S
         const float *color = in->varying[SHADE_VARYING_COLOR + a];
         SHADE_EACH_LANE(i) { albedo[a][i] = color[i] * (k->map ? texel[a][i] : 1); }
     }
-    shade_lit_lanes(&r->state->lighting, r->state->material, scene_eye(r->state), &rows, out->color[0]);
+    shade_lit_lanes(&r->state->lighting, r->state->material, scene_eye(r->state), &rows,
+                    out->color[0]);
     if (k->map) {
         SHADE_EACH_LANE(i) { out->color[3][i] = texel[3][i]; }
     }
