@@ -51,32 +51,32 @@
        >>about  >>contents  >>conventions  >>model
      Public
        >>config     122  options               >>types      199  materials, lamps, targets, states
-       >>plumbing   372  compilers             >>light      502  the equation and its terms
-       >>draw       627  meshes and pixels     >>math       899  vectors and matrices
+       >>plumbing   373  compilers             >>light      503  the equation and its terms
+       >>draw       628  meshes and pixels     >>math       901  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1262  processors            >>base      1484  bits, masks, rows of vectors
-       >>matrix    1703  cameras, inverses     >>power     1997  x^n
-       >>pixels    2063  formats, sRGB
+       >>machine   1264  processors            >>base      1486  bits, masks, rows of vectors
+       >>matrix    1705  cameras, inverses     >>power     1999  x^n
+       >>pixels    2065  formats, sRGB
      Inside: light
-       >>lamps     2340  attenuation, cones    >>terms     2614  one term at one point
-       >>surface   2696  material and lights   >>lit       2817  the whole sum, at many points
+       >>lamps     2342  attenuation, cones    >>terms     2616  one term at one point
+       >>surface   2698  material and lights   >>lit       2819  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3224  who owns what         >>vertices  3407  shading, projection
-       >>triangles 3624  dropped, cut, edges   >>clip      3992  near, far, behind the eye
-       >>tiles     4177  pixels, depth test    >>cover     4534  what is hidden, tile by tile
-       >>fragments 4760  interpolation, lod    >>texture   5053  texels, mipmaps
-       >>store     5498  blending, packing
+       >>state     3226  who owns what         >>vertices  3409  shading, projection
+       >>triangles 3626  dropped, cut, edges   >>clip      3995  near, far, behind the eye
+       >>tiles     4180  pixels, depth test    >>cover     4537  what is hidden, tile by tile
+       >>fragments 4763  interpolation, lod    >>texture   5056  texels, mipmaps
+       >>store     5501  blending, packing
      Inside: calls of the renderer
-       >>check     5730  refusals              >>seen      5879  what can be seen, chunks
-       >>drive     6016  shade_draw            >>mesh      6195  shade_draw_mesh
+       >>check     5733  refusals              >>seen      5882  what can be seen, chunks
+       >>drive     6019  shade_draw            >>mesh      6198  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6595  shade_draw_lines      >>shape     6753  normals, edges
-       >>chunks    7089  boxes of triangles    >>rays      7253  shade_pick
-       >>survey    7449  experiments on a draw >>explain   7700  why nothing is seen
-       >>image     8345  mipmaps, PPM           >>presets   8614  classic materials
+       >>lines     6598  shade_draw_lines      >>shape     6756  normals, edges
+       >>chunks    7092  how boxes are made    >>rays      7256  shade_pick
+       >>survey    7452  experiments on a draw >>explain   7703  why nothing is seen
+       >>image     8348  mipmaps, PPM           >>presets   8617  classic materials
      Sources
-       >>refs      8690                        >>history   8720
-       >>license   8732
+       >>refs      8693                        >>history   8723
+       >>license   8735
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -319,7 +319,8 @@ typedef struct shade_target {
     int   dither;                /* non-zero: 4 x 4 ordered dither in 5-6-5 bits */
     int   clip_x, clip_y;        /* draws and clears change nothing outside this rectangle, */
     int   clip_width, clip_height;    /* nothing at all if it is empty; four zeros: none is set */
-    int   row_offset, row_count; /* a strip: memory holds only these rows; count 0: all rows */
+    int   row_offset, row_count; /* a strip: color and depth point at row row_offset and hold */
+                                 /* row_count rows; count 0: all rows of the picture */
 } shade_target;
 
 typedef enum shade_interpolation {
@@ -358,13 +359,13 @@ typedef enum shade_shading {
 
 /* What became of the triangles of one call; every call starts from zero.
      triangles = skipped + culled + clipped + rejected + drawn
-   Without chunks skipped is 0, and none of these six depends on the clip rectangle. */
+   Without chunks skipped is 0, and none of the six numbers depends on the clip rectangle. */
 typedef struct shade_stats {
     long long triangles;
     long long skipped;           /* their chunk cannot be seen in the clip rectangle */
     long long culled;            /* they face the wrong way, or have no area after snapping */
     long long clipped;           /* nothing of them is inside the view volume; not those cut */
-    long long rejected;          /* a position is NaN, infinite or beyond 1e30 */
+    long long rejected;          /* a corner in clip space is NaN, infinite or beyond 1e30 */
     long long drawn;
     long long fragments;         /* pixels in the clip rectangle that passed the depth test */
 } shade_stats;
@@ -690,7 +691,8 @@ typedef struct shade_fragments {                  /* pixels to shade, of any tri
 } shade_fragments;
 typedef struct shade_colors {
     SHADE_ALIGNED float color[4][SHADE_LANES];    /* linear RGBA, preset to 0, 0, 0, 1 */
-    uint32_t discard[SHADE_LANES];                /* preset to 0; else the pixel does not change */
+    uint32_t discard[SHADE_LANES];                /* preset to 0; another number keeps the pixel */
+                                                  /* as it was (pipelines need may_discard) */
 } shade_colors;
 
 /* Shaders work on whole packets: the compiler turns plain loops with SHADE_EACH_LANE into vector
@@ -3769,7 +3771,8 @@ SHADE__INLINE int64_t shade__whole(double x)
 
 /* The edge from corner k to the next, at the first pixel of the box, and its steps.  e is the floor
    of v / 256, v being the whole number 256 e + rest; that is v / 256 - 127.5/256 rounded to the
-   nearest.
+   nearest.  The top-left rule: bias is 0 on left edges (dy < 0) and top ones (dy = 0, dx > 0) and
+   -1 on all others, so that a centre on a shared edge belongs to one triangle.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
                                int k, shade__setup *SHADE_RESTRICT s)
@@ -3780,7 +3783,7 @@ SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
         const int32_t dx = c->x[next][i] - c->x[k][i], dy = c->y[next][i] - c->y[k][i];
         const double x = s->box[0][i] * 256 + 128 - c->x[k][i];
         const double y = s->box[1][i] * 256 + 128 - c->y[k][i];
-        const double bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;    /* dy < 0, or 0 and dx > 0 */
+        const double bias = 2 * dy - (dx > 0 ? 1 : 0) < 0 ? 0 : -1;
         const double e = dx * y - dy * x + bias;
         s->e[k][i] = shade__whole(e * (1 / 256.0) - 127.5 / 256);
         s->ex[k][i] = -dy;
