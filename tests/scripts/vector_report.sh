@@ -68,5 +68,13 @@ if command -v gcc >/dev/null && [ "$(uname -m)" = x86_64 ]; then
     cat "$T/missed"
     if [ -s "$T/missed" ]; then failed=$((failed + 1)); else passed=$((passed + 1)); fi
 fi
+
+# README says that gcc for armv7 leaves the arithmetic of floats to the scalar unit.
+arm=arm-linux-gnueabihf-gcc
+if command -v $arm >/dev/null; then
+    if $arm -std=c99 -O2 -mfpu=neon -I. -S "$T/impl.c" -o "$T/impl.s" &&
+        ! grep -E '\sv(add|sub|mul|ml[as])\.f32\s+[qd]' "$T/impl.s"; then passed=$((passed + 1))
+    else failed=$((failed + 1)); fi
+else echo "left out: gcc for armv7"; fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

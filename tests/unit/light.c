@@ -632,17 +632,16 @@ typedef struct ref_arrival {
 static ref_arrival ref_arriving(const shade_light *light, d3 P)
 {
     ref_arrival a;
-    double e = (double)light->spot_exponent, brightest;
+    double e = (double)light->spot_exponent;
     memset(&a, 0, sizeof a);
     a.L = ref_to_light(light, P, &a.distance);
     a.amount = 1;
     if (light->position.w != 0)
         a.amount = ref_attenuation((double)light->constant, (double)light->linear,
                                    (double)light->quadratic, a.distance);
-    brightest = fmax(1, a.amount);
     a.amount *=
         ref_spot(a.L, d3_from(light->spot_direction), (double)light->spot_cos_cutoff, e, &a.unsure);
-    a.bound = 5e-5 * brightest * fmax(1, e / 100);
+    a.bound = 5e-5 * fmax(1, a.amount) * fmax(1, e / 100);
     return a;
 }
 

@@ -517,15 +517,15 @@ typedef struct scene_relief {
     const look *k;
     const shade_mesh *mesh;
     const shade_draw_state *state;
+    shade_vec3 eye;      /* in the world */
 } scene_relief;
 
-/* V comes from here: from the eye in the world, or the viewer's direction. */
-static inline shade_vec3 scene_eye(const shade_draw_state *s)
+/* What V comes from: the eye, or with a viewer at infinity the direction toward it. */
+static inline shade_vec3 scene_eye(shade_mat4 view, unsigned flags)
 {
-    const shade_vec4 *axis = s->view.col, at = shade_mat4_inverse(s->view).col[3];
-    if (s->lighting.flags & SHADE_FLAG_INFINITE_VIEWER)
-        return shade_v3(axis[0].z, axis[1].z, axis[2].z);
-    return shade_v3(at.x, at.y, at.z);
+    const shade_mat4 world = shade_mat4_inverse(view);
+    const shade_vec4 from = world.col[flags & SHADE_FLAG_INFINITE_VIEWER ? 2 : 3];
+    return shade_v3(from.x, from.y, from.z);
 }
 
 /* The equation with a bent N.  The relief lies on the model as it is in its file, and the model's
@@ -554,8 +554,7 @@ static void scene_relief_fragment(const void *uniforms, const shade_fragments *S
         const float *color = in->varying[SHADE_VARYING_COLOR + a];
         SHADE_EACH_LANE(i) { albedo[a][i] = color[i] * (k->map ? texel[a][i] : 1); }
     }
-    shade_lit_lanes(&r->state->lighting, r->state->material, scene_eye(r->state), &rows,
-                    out->color[0]);
+    shade_lit_lanes(&r->state->lighting, r->state->material, r->eye, &rows, out->color[0]);
     if (k->map) {
         SHADE_EACH_LANE(i) { out->color[3][i] = texel[3][i]; }
     }
@@ -606,6 +605,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
             bent.k = &k;
             bent.mesh = &mesh;
             bent.state = &state;
+            bent.eye = scene_eye(state.view, flag[s->choice[CHOICE_FLAG]]);
             state.fragment = scene_relief_fragment;
             state.uniforms = &bent;
             if (!k.map) state.diffuse_map = k.relief.map;    /* whose lod the shader gets */
