@@ -63,20 +63,20 @@
      Inside: the way of a triangle
        >>state     3226  who owns what         >>vertices  3409  shading, projection
        >>triangles 3626  dropped, cut, edges   >>clip      3995  near, far, behind the eye
-       >>tiles     4180  pixels, depth test    >>cover     4537  what is hidden, tile by tile
-       >>fragments 4763  interpolation, lod    >>texture   5056  texels, mipmaps
-       >>store     5501  blending, packing
+       >>tiles     4180  pixels, depth test    >>cover     4540  what is hidden, tile by tile
+       >>fragments 4807  interpolation, lod    >>texture   5100  texels, mipmaps
+       >>store     5545  blending, packing
      Inside: calls of the renderer
-       >>check     5733  refusals              >>seen      5882  what can be seen, chunks
-       >>drive     6019  shade_draw            >>mesh      6198  shade_draw_mesh
+       >>check     5777  refusals              >>seen      5926  what can be seen, chunks
+       >>drive     6063  shade_draw            >>mesh      6242  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6598  shade_draw_lines      >>shape     6756  normals, edges
-       >>chunks    7092  how boxes are made    >>rays      7256  shade_pick
-       >>survey    7452  experiments on a draw >>explain   7703  why nothing is seen
-       >>image     8348  mipmaps, PPM           >>presets   8617  classic materials
+       >>lines     6642  shade_draw_lines      >>shape     6800  normals, edges
+       >>chunks    7136  how boxes are made    >>rays      7300  shade_pick
+       >>survey    7496  experiments on a draw >>explain   7747  why nothing is seen
+       >>image     8392  mipmaps, PPM           >>presets   8661  classic materials
      Sources
-       >>refs      8693                        >>history   8723
-       >>license   8735
+       >>refs      8737                        >>history   8767
+       >>license   8779
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1307,7 +1307,7 @@ enum {
     SHADE__LESS = 2,       /* the depth test LESS, with depth written */
     SHADE__FULL = 4,       /* tiles that lie inside a triangle */
     SHADE__BOUNDED = 8,    /* what big triangles hide is left out */
-    SHADE__NARROW = 16,    /* triangles of one column of tiles */
+    SHADE__NARROW = 16,    /* small triangles of one column of tiles */
     SHADE__SHORT = 32,     /* runs of up to 8 pixels */
     SHADE__LONG = 64       /* 32 pixels of a run at a time */
 };
@@ -3226,7 +3226,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
 /*------------------------------------------------------------------------------------------ >>state
    What a draw knows, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB at
    the defaults, of which the queue takes 12.4 and the batch 8.8.  bench/stack.c measures whole
-   calls: a lit mesh with a map takes 40.7 kB where triangles are clipped, 42 kB with clang.
+   calls: a lit mesh with a map takes 40.8 kB where triangles are clipped, 43.4 kB with clang.
 
      plan      >>drive       what the draw is; fixed before the first triangle, read by all
      supply    >>drive       the triangles that are still to come
@@ -4216,14 +4216,15 @@ typedef struct shade__tile {
     int      stride;
     float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
     uint32_t set[SHADE__TILE_ROWS];   /* bit i: pixel x + i is drawn */
+    uint32_t any;                     /* is 0 where all sets are empty */
 } shade__tile;
 
 /* Runs of pixels on their way to the queue, handed over when there are as many as fit. */
 typedef struct shade__runs {
-    shade__run run[SHADE__RUNS];
+    shade__run run[SHADE__RUNS + 1];  /* the last ends where no other begins */
     int count;
     int next;                         /* lane of the next triangle */
-    int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may go on; or -1 */
+    int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may go on */
 } shade__runs;
 
 SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i,
@@ -4312,11 +4313,16 @@ SHADE__INLINE int shade__tile_edges(const shade__triangle *t,
 
 /* ---- runs */
 
-SHADE__INLINE void shade__send(shade__draw *d, shade__runs *r)
+SHADE__INLINE void shade__close_runs(shade__runs *r)
+{
+    for (int k = 0; k < SHADE__TILE_ROWS; k++) r->open[k] = SHADE__RUNS;
+}
+
+static SHADE__NOINLINE void shade__send(shade__draw *d, shade__runs *r)
 {
     if (r->count && d->plan.queued) shade__push(d, r->run, r->count);
     r->count = 0;
-    for (int k = 0; k < SHADE__TILE_ROWS; k++) r->open[k] = -1;
+    shade__close_runs(r);
 }
 
 /* pre: r has room for one */
@@ -4330,7 +4336,8 @@ SHADE__INLINE void shade__add_run(shade__runs *r, int lane, int x, int y, int n)
     run->lane = lane;
 }
 
-/* The runs of a set; bit i stands for pixel x + i of row y. */
+/* The runs of a set; bit i stands for pixel x + i of row y.   post: r has room for a run in each
+   row of a tile */
 static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r,
                                            int lane, int x, int y, uint32_t set)
 {
@@ -4341,6 +4348,7 @@ static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r,
         shade__add_run(r, lane, x + first, y, n);
         set &= set + (set & (0u - set));    /* without its lowest run */
     }
+    if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
 }
 
 SHADE__INLINE int shade__count_bits(uint32_t m)
@@ -4350,52 +4358,40 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* Adds the runs of a tile that has no neighbour to its left or right; returns their pixels. */
+/* Adds the runs of a tile; returns their pixels.  With joined, a run goes on here that the tile to
+   the left ended at the first of its pixels. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
-                                  const shade__tile *tile)
+                                  const shade__tile *tile, const int joined)
 {
-    int pixels = 0;
+    int pixels = 0, count;
 
+    if (!tile->any) return 0;
     if (SHADE__UNLIKELY(r->count > SHADE__RUNS_AHEAD)) shade__send(d, r);
+    count = r->count;
     for (int k = 0; k < tile->rows; k++) {    /* nearly every set is one run or empty */
         const uint32_t set = tile->set[k], lowest = set & (0u - set);
         const int n = shade__count_bits(set);
+        shade__run *run = &r->run[count], *open = &r->run[r->open[k]];
+        int goes_on;
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
+            r->count = count;
             shade__add_set(d, r, lane, tile->x, tile->y + k, set);
-            if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
+            count = r->count;
             continue;
         }
-        shade__add_run(r, lane, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u),
-                       tile->y + k, n);
-        r->count -= !n;
-    }
-    return pixels;
-}
-
-/* The same for the next tile of a row of tiles: a run goes on where the tile before ended it. */
-SHADE__INLINE int shade__join_tile(shade__draw *d, shade__runs *r, int lane,
-                                   const shade__tile *tile)
-{
-    int pixels = 0;
-
-    for (int k = 0; k < tile->rows; k++) {
-        const uint32_t set = tile->set[k], lowest = set & (0u - set);
-        const int n = shade__count_bits(set), open = r->open[k];
-        int x;
-        pixels += n;
-        if (!n) continue;
-        x = tile->x + SHADE__LOWEST_BIT(set);
-        if (set & (set + lowest)) {
-            shade__add_set(d, r, lane, tile->x, tile->y + k, set);
-        } else if (open >= 0 && r->run[open].x + r->run[open].n == x) {
-            r->run[open].n += n;
-        } else {
-            if (r->count == SHADE__RUNS) shade__send(d, r);
-            r->open[k] = r->count;
-            shade__add_run(r, lane, x, tile->y + k, n);
+        run->x = tile->x + SHADE__LOWEST_BIT(set | 0x80000000u);
+        run->y = tile->y + k;
+        run->n = n;
+        run->lane = lane;
+        goes_on = joined && open->x + open->n == run->x;
+        if (joined) {
+            open->n += goes_on ? n : 0;
+            r->open[k] = goes_on ? r->open[k] : n ? count : SHADE__RUNS;
         }
+        count += n && !goes_on;
     }
+    r->count = count;
     return pixels;
 }
 
@@ -4411,7 +4407,8 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
 }
 
 /* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
-   depth.   pre: depth holds the columns, at + width <= 32 */
+   depth.  Its loops are no SHADE__FOR, with which clang 14 keeps the rows in memory: teapots take
+   1.1 times as long.   pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
                                        const shade__edges *SHADE_RESTRICT edges,
@@ -4429,8 +4426,9 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     float *SHADE_RESTRICT depth = tile->depth + at;
     int32_t e0[SHADE__TILE], e1[SHADE__TILE], e2[SHADE__TILE];
     float z_step[SHADE__TILE];
+    uint32_t all = 0;
 
-    SHADE__FOR(i, width) {
+    for (int i = 0; i < width; i++) {
         e0[i] = i < skip ? SHADE__CUT : a + i * ax;
         e1[i] = b + i * bx;
         e2[i] = c + i * cx;
@@ -4440,7 +4438,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     for (int r = 0; r < rows; r++, depth += stride) {
         const float row_z = tile->row_z[r];
         uint32_t any = 0;
-        SHADE__FOR(i, width) {
+        for (int i = 0; i < width; i++) {
             float z = shade__clamp_bits(row_z + z_step[i], z_low, z_high);
             uint32_t m = shade__mask(full || (e0[i] | e1[i] | e2[i]) >= 0);
             m &= shade__passes(test, less_only, z, depth[i]);
@@ -4453,7 +4451,9 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
             e2[i] += cy;
         }
         tile->set[r] |= any << at;
+        all |= any;
     }
+    tile->any |= all;
 }
 
 /* Tests a tile; the commonest depth test has a copy of its own. */
@@ -4467,6 +4467,7 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
     const int slim = width > 8 && tile->columns <= 8;
 
     SHADE__TILE_TESTED();
+    tile->any = 0;
     SHADE__FOR(r, SHADE__TILE_ROWS) {
         tile->set[r] = 0;
         tile->row_z[r] = shade__row_depth(t, tile->y + r);
@@ -4525,12 +4526,14 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
     SHADE__ZERO(copy);
     row.rows = 1;
     row.depth = copy;
+    tile->any = 0;
     for (int r = 0; r < tile->rows; r++, row.y++) {
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;
         SHADE_MEMCPY(copy, depth, bytes);
         shade__test_large(plan, t, edges, &row, 0);
         SHADE_MEMCPY(depth, copy, bytes);
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
+        tile->any |= tile->set[r];
     }
 }
 
@@ -4645,7 +4648,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
         int first = s->x, last = s->last;
         tile.y = y;
         tile.rows = shade__min(SHADE__TILE_ROWS, s->bottom - y + 1);
-        for (int k = 0; k < SHADE__TILE_ROWS; k++) runs->open[k] = -1;
+        shade__close_runs(runs);
         if (!s->inside) {
             shade__cut_columns(t, y, tile.rows, &first, &last);
             if (s->last < s->end) first -= (first - plan->x0) & (SHADE__TILE - 1);
@@ -4658,10 +4661,78 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
             if (across < tile.columns) shade__test_copy(plan, t, &edges, across, &tile);
             else shade__test_large(plan, t, &edges, &tile,
                                    inside && tile.columns - tile.skip == SHADE__TILE);
-            pixels += shade__join_tile(d, runs, t->lane, &tile);
+            pixels += shade__add_tile(d, runs, t->lane, &tile, 1);
         }
     }
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
+}
+
+/* Has the triangle fewer columns than so many, and do 32 bits hold its edges in its box and 31
+   pixels beside?  They do where two sides reach at most 2^17 / 256 = 512 pixels across and down:
+   then |step| <= 2^18 for all three, and |e| <= 2^29 in the box, as corners and pixels are within
+   2^18 of each other. */
+SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
+{
+    const int32_t most = 1 << 17;
+    const int32_t side = (s->ex[0][i] + most) | (s->ey[0][i] + most) |
+                         (s->ex[1][i] + most) | (s->ey[1][i] + most);
+    return s->box[2][i] - s->box[0][i] < columns && !(side & -2 * most);
+}
+
+/* Has an edge all pixels of a tile outside? */
+SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__tile *tile)
+{
+    int32_t most = 0;
+
+    for (int k = 0; k < 3; k++) {
+        const int32_t ex = edges->ex[k], ey = edges->ey[k];
+        const int right = ex > 0 ? SHADE__TILE - 1 : 0, down = ey > 0 ? tile->rows - 1 : 0;
+        most |= edges->e[k] + (tile->x - edges->x + right) * ex + (tile->y - edges->y + down) * ey;
+    }
+    return most < 0;
+}
+
+/* Draws a small triangle, tile below tile, and tests each by all three edges.  Narrow ones have one
+   column of tiles.  Returns how many pixels passed. */
+SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
+                                       shade__runs *runs, const int width, const int narrow)
+{
+    const shade__plan *plan = &d->plan;
+    shade__tile tile;
+    int pixels = 0;
+
+    for (int k = 0; k < 3; k++) t->edges.e[k] = (int32_t)t->e[k];
+    for (int x = t->x0; x <= (narrow ? t->x0 : t->x1); x += SHADE__TILE) {
+        const int n = t->x1 - x + 1;
+        shade__tile_columns(plan, x, narrow ? n : shade__min(SHADE__TILE, n), width, &tile);
+        for (tile.y = t->y0; tile.y <= t->y1; tile.y += SHADE__TILE_ROWS) {
+            tile.rows = shade__min(SHADE__TILE_ROWS, t->y1 - tile.y + 1);
+            if (!narrow && shade__tile_outside(&t->edges, &tile)) continue;
+            shade__tile_depth(plan, &tile);
+            if (narrow) shade__test_tile(plan, t, &t->edges, &tile, width, 0);
+            else shade__test_large(plan, t, &t->edges, &tile, 0);
+            pixels += shade__add_tile(d, runs, t->lane, &tile, 0);
+        }
+    }
+    return pixels;
+}
+
+/* Draws a small triangle of a few columns of tiles, and returns whether it was one: teapots of 720
+   rows have many, and take 1.04 to 1.08 times as long without.  Where bounds have begun it leaves
+   the triangle to shade__cover_large, which knows what they hide. */
+static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int lane)
+{
+    const shade__plan *plan = &d->plan;
+    shade__triangle t;
+    int pixels;
+
+    if (d->bounds.across || plan->x1 - plan->x0 < SHADE__TILE ||
+        !shade__is_small(&d->setup, lane, 4 * SHADE__TILE))
+        return 0;
+    shade__triangle_of(&d->setup, lane, &t);
+    pixels = shade__cover_columns(d, &t, runs, SHADE__TILE / 2, 0);
+    if (!plan->pipe->may_discard) d->stats.fragments += pixels;
+    return 1;
 }
 
 /* Draws a triangle, except what bounds hide of it. */
@@ -4693,38 +4764,9 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     }
 }
 
-/* Is the triangle at most 32 pixels wide and 24 high, and do 32 bits hold its edges in its box and
-   31 pixels beside?  They do if |e| <= 2^28 at its first pixel, because then edges stay below
-   2^28 + (31 + 24) 2^25. */
-SHADE__INLINE int shade__is_narrow(const shade__triangle *t)
-{
-    const int64_t most = 1 << 28;
-    const int64_t e = (t->e[0] + most) | (t->e[1] + most) | (t->e[2] + most);
-    return t->x1 - t->x0 < SHADE__TILE && t->y1 - t->y0 < 24 && !(e >> 29);
-}
-
-/* Draws a narrow triangle, tile below tile, and tests each by all three edges.  Returns how many
-   pixels passed. */
-SHADE__INLINE int shade__cover_narrow(shade__draw *d, shade__triangle *t,
-                                      shade__runs *runs, const int width)
-{
-    const shade__plan *plan = &d->plan;
-    shade__tile tile;
-    int pixels = 0;
-
-    for (int k = 0; k < 3; k++) t->edges.e[k] = (int32_t)t->e[k];
-    shade__tile_columns(plan, t->x0, t->x1 - t->x0 + 1, width, &tile);
-    for (tile.y = t->y0; tile.y <= t->y1; tile.y += SHADE__TILE_ROWS) {
-        tile.rows = shade__min(SHADE__TILE_ROWS, t->y1 - tile.y + 1);
-        shade__tile_depth(plan, &tile);
-        shade__test_tile(plan, t, &t->edges, &tile, width, 0);
-        pixels += shade__add_tile(d, runs, t->lane, &tile);
-    }
-    return pixels;
-}
-
-/* Draws triangles of the setup from runs->next on, and leaves it at the first that is not narrow or
-   at count.  In a clip rectangle narrower than a tile none is: those need shade__test_copy. */
+/* Draws triangles of the setup from runs->next on, and leaves it at the first that is not small or
+   not narrow, or at count.  A clip rectangle narrower than a tile has none: it needs
+   shade__test_copy. */
 SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, int count,
                                            const int width)
 {
@@ -4736,9 +4778,9 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
     for (; i < count; i++) {
         shade__triangle t;
         if (((s->box[2][i] - s->box[0][i]) | (s->box[3][i] - s->box[1][i])) < 0) continue;
+        if (!wide || !shade__is_small(s, i, SHADE__TILE)) break;
         shade__triangle_of(s, i, &t);
-        if (!wide || !shade__is_narrow(&t)) break;
-        pixels += shade__cover_narrow(d, &t, runs, width);
+        pixels += shade__cover_columns(d, &t, runs, width, 1);
     }
     runs->next = i;
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
@@ -4753,9 +4795,11 @@ static void shade__cover(shade__draw *d, int count)
     shade__runs runs;
 
     runs.count = 0;
+    runs.run[SHADE__RUNS].x = runs.run[SHADE__RUNS].n = -1;
     for (runs.next = 0; runs.next < count; runs.next++) {
         if (SHADE__HAS(SHADE__NARROW)) shade__cover_small(d, &runs, count);
-        if (runs.next < count) shade__cover_large(d, &runs, runs.next);
+        if (runs.next < count && !shade__cover_medium(d, &runs, runs.next))
+            shade__cover_large(d, &runs, runs.next);
     }
     shade__send(d, &runs);
 }

@@ -6,6 +6,7 @@ enum { FAR = 1 << 24, WIDTH = 64, ROWS = 16 };
 
 static shade__triangle t;
 static shade__edges edges;
+static shade__tile tile;
 static shade__plan plan;
 static float depth[WIDTH * ROWS];
 
@@ -37,15 +38,12 @@ static void prove_cut(void)
     /*@ assert 0 <= first <= 32767 && -1 <= last <= 16383; */
 }
 
-/* Columns of a tile at the end of the memory of depths.  Only differences of positions count; more
-   rows touch more.  beside, above: pixels and tiles from where the edges are given to the tile. */
-static void prove_columns(int width, int less_only, int full, int beside, int above)
+/* Columns of a tile at the end of the memory of depths, at pixel (8192, 8192): only differences of
+   positions count.  More rows touch more. */
+static void prove_columns(int width, int less_only, int full)
 {
-    shade__tile tile;
     tile.x = 8192;
     tile.y = 8192;
-    edges.x = 8192 + ANY_OF(0, beside);
-    edges.y = 8192 - ANY_OF(0, above) * SHADE__TILE_ROWS;
     tile.rows = SHADE__TILE_ROWS;
     tile.skip = ANY_OF(0, SHADE__TILE - 1);
     tile.columns = SHADE__TILE;
@@ -58,15 +56,21 @@ static void prove_columns(int width, int less_only, int full, int beside, int ab
     shade__test_columns(&plan, &t, &edges, &tile, SHADE__TILE - width, width, less_only, full);
 }
 
-/* The edges of a narrow triangle of up to three tiles, one above the other. */
-static void prove_narrow(int width, int less_only)
+/* The edges of a small triangle: anywhere in the 1024 rows of its box, from 31 pixels before its
+   first to the last of its columns of tiles. */
+static void prove_small(int width, int less_only)
 {
     for (int k = 0; k < 3; k++) {
-        edges.e[k] = ANY_WITHIN(1 << 28);
-        edges.ex[k] = ANY_WITHIN(2 * FAR);
-        edges.ey[k] = ANY_WITHIN(2 * FAR);
+        edges.e[k] = ANY_WITHIN(1 << 29);
+        edges.ex[k] = ANY_WITHIN(1 << 18);
+        edges.ey[k] = ANY_WITHIN(1 << 18);
     }
-    prove_columns(width, less_only, 0, SHADE__TILE - 1, 2);
+    edges.x = 8192 + ANY_OF(1 - 4 * SHADE__TILE, SHADE__TILE - 1);
+    edges.y = 8192 - ANY_OF(0, 127) * SHADE__TILE_ROWS;
+    prove_columns(width, less_only, 0);
+    tile.rows = ANY_OF(1, SHADE__TILE_ROWS);
+    const int outside = shade__tile_outside(&edges, &tile);
+    /*@ assert 0 <= outside <= 1; */
 }
 
 /* Edges that cross a tile.  The guard band is 3 pictures wide and high, so that steps are below
@@ -78,7 +82,8 @@ static void prove_crossed(int width, int less_only, int full)
         edges.ex[k] = ANY_WITHIN(FAR);
         edges.ey[k] = ANY_WITHIN(FAR);
     }
-    prove_columns(width, less_only, full, 0, 0);
+    edges.x = edges.y = 8192;
+    prove_columns(width, less_only, full);
 }
 
 int main(void)
@@ -96,8 +101,8 @@ int main(void)
     prove_reach();
     prove_cut();
     for (int less_only = 0; less_only < 2; less_only++) {
-        prove_narrow(8, less_only);
-        prove_narrow(16, less_only);
+        prove_small(8, less_only);
+        prove_small(16, less_only);
         prove_crossed(16, less_only, 0);
         prove_crossed(SHADE__TILE, less_only, 1);
     }

@@ -331,6 +331,41 @@ TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing
     canvas_close(&c);
 }
 
+/* Boxes of few pixels, which the clip rectangle cuts out of triangles with a side of at most 510
+   pixels and two of thousands, in each order: their edges take more than 32 bits there. */
+TEST(cover, small_boxes_of_long_triangles_are_exact)
+{
+    canvas c = canvas_strip(16384, 16384, 0, SHADE_FORMAT_RGBA8, 1, 8000, 16);
+    shade_target *t = &c.target;
+    t->clip_height = 16;
+    t->clip_y = 8000;
+    for (int i = 0; i < 1800; i++) {
+        const int along = i % 3, turn = i / 3 % 3;    /* along x, along y, along both */
+        const int beside = rnd_int(-250, 250) * 256;
+        int64_t x[3], y[3];
+        int wrong = 0;
+        t->clip_x = rnd_int(600, 15600);
+        t->clip_width = rnd_int(32, 160);
+        for (int k = 0; k < 3; k++) {
+            const int v = (k + turn) % 3, far = k == 2;
+            x[v] = t->clip_x * 256 + rnd_int(-255 * 256, 255 * 256) + beside;
+            y[v] = 8000 * 256 + rnd_int(-255 * 256, 255 * 256) + beside;
+            if (far && along != 1) x[v] = rnd_one_in(2) ? -16384 * 255 : 16384 * 511;
+            if (far && along != 0) y[v] = rnd_int(-16384 * 255, 16384 * 511);
+        }
+        canvas_clear(&c, 1);
+        draw_fx8(&c, x, y, 3, 0, NULL);
+        for (int j = 0; j < 16; j++)
+            for (int a = t->clip_x; a < t->clip_x + t->clip_width; a++)
+                wrong += (canvas_bytes(&c, a, 8000 + j)[3] != 0) !=
+                         ref_inside_fx8(x, y, a, 8000 + j);
+        CHECK_SAY(wrong == 0, "%d wrong pixels; corners %lld %lld  %lld %lld  %lld %lld", wrong,
+                  (long long)x[0], (long long)y[0], (long long)x[1], (long long)y[1],
+                  (long long)x[2], (long long)y[2]);
+    }
+    canvas_close(&c);
+}
+
 /* G7 */
 TEST(cover, the_biggest_pictures_are_exact) /* 16384 wide, or high by strips */
 {
@@ -659,6 +694,7 @@ static const test_case cover_cases[] = {
     CASE(cover, depth_of_slivers_stays_between_their_corners),
     CASE(cover, varyings_of_slivers_are_finite),
     CASE(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing),
+    CASE(cover, small_boxes_of_long_triangles_are_exact),
     CASE(cover, the_biggest_pictures_are_exact),
     CASE(cover, wide_flat_triangles_are_exact),
     CASE(cover, wide_triangles_between_pixel_centres_are_exact),
