@@ -63,20 +63,20 @@
      Inside: the way of a triangle
        >>state     3226  who owns what         >>vertices  3409  shading, projection
        >>triangles 3626  dropped, cut, edges   >>clip      3995  near, far, behind the eye
-       >>tiles     4180  pixels, depth test    >>cover     4540  what is hidden, tile by tile
-       >>fragments 4807  interpolation, lod    >>texture   5100  texels, mipmaps
-       >>store     5545  blending, packing
+       >>tiles     4180  pixels, depth test    >>cover     4541  what is hidden, tile by tile
+       >>fragments 4808  interpolation, lod    >>texture   5101  texels, mipmaps
+       >>store     5546  blending, packing
      Inside: calls of the renderer
-       >>check     5777  refusals              >>seen      5926  what can be seen, chunks
-       >>drive     6063  shade_draw            >>mesh      6242  shade_draw_mesh
+       >>check     5778  refusals              >>seen      5927  what can be seen, chunks
+       >>drive     6064  shade_draw            >>mesh      6243  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6642  shade_draw_lines      >>shape     6800  normals, edges
-       >>chunks    7136  how boxes are made    >>rays      7300  shade_pick
-       >>survey    7496  experiments on a draw >>explain   7747  why nothing is seen
-       >>image     8392  mipmaps, PPM           >>presets   8661  classic materials
+       >>lines     6643  shade_draw_lines      >>shape     6801  normals, edges
+       >>chunks    7137  how boxes are made    >>rays      7301  shade_pick
+       >>survey    7497  experiments on a draw >>explain   7748  why nothing is seen
+       >>image     8393  mipmaps, PPM           >>presets   8662  classic materials
      Sources
-       >>refs      8737                        >>history   8767
-       >>license   8779
+       >>refs      8738                        >>history   8768
+       >>license   8780
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -4371,7 +4371,8 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
     for (int k = 0; k < tile->rows; k++) {    /* nearly every set is one run or empty */
         const uint32_t set = tile->set[k], lowest = set & (0u - set);
         const int n = shade__count_bits(set);
-        shade__run *run = &r->run[count], *open = &r->run[r->open[k]];
+        shade__run *run = &r->run[count];
+        shade__run *open = &r->run[joined ? r->open[k] : SHADE__RUNS];
         int goes_on;
         pixels += n;
         if (SHADE__UNLIKELY(set & (set + lowest))) {
