@@ -54,29 +54,29 @@
        >>plumbing   373  compilers             >>light      503  the equation and its terms
        >>draw       628  meshes and pixels     >>math       901  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1264  processors            >>base      1486  bits, masks, rows of vectors
-       >>matrix    1705  cameras, inverses     >>power     1999  x^n
-       >>pixels    2065  formats, sRGB
+       >>machine   1264  processors            >>base      1487  bits, masks, rows of vectors
+       >>matrix    1706  cameras, inverses     >>power     2000  x^n
+       >>pixels    2066  formats, sRGB
      Inside: light
-       >>lamps     2342  attenuation, cones    >>terms     2616  one term at one point
-       >>surface   2698  material and lights   >>lit       2819  the whole sum, at many points
+       >>lamps     2343  attenuation, cones    >>terms     2617  one term at one point
+       >>surface   2699  material and lights   >>lit       2820  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3226  who owns what         >>vertices  3409  shading, projection
-       >>triangles 3626  dropped, cut, edges   >>clip      3995  near, far, behind the eye
-       >>tiles     4180  pixels, depth test    >>cover     4541  what is hidden, tile by tile
-       >>fragments 4808  interpolation, lod    >>texture   5101  texels, mipmaps
-       >>store     5546  blending, packing
+       >>state     3227  who owns what         >>vertices  3410  shading, projection
+       >>triangles 3627  dropped, cut, edges   >>clip      3996  near, far, behind the eye
+       >>tiles     4181  pixels, depth test    >>cover     4536  what is hidden, tile by tile
+       >>fragments 4803  interpolation, lod    >>texture   5096  texels, mipmaps
+       >>store     5541  blending, packing
      Inside: calls of the renderer
-       >>check     5778  refusals              >>seen      5927  what can be seen, chunks
-       >>drive     6064  shade_draw            >>mesh      6243  shade_draw_mesh
+       >>check     5773  refusals              >>seen      5922  what can be seen, chunks
+       >>drive     6059  shade_draw            >>mesh      6238  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6643  shade_draw_lines      >>shape     6801  normals, edges
-       >>chunks    7137  how boxes are made    >>rays      7301  shade_pick
-       >>survey    7497  experiments on a draw >>explain   7748  why nothing is seen
-       >>image     8393  mipmaps, PPM           >>presets   8662  classic materials
+       >>lines     6638  shade_draw_lines      >>shape     6796  normals, edges
+       >>chunks    7132  how boxes are made    >>rays      7296  shade_pick
+       >>survey    7492  experiments on a draw >>explain   7743  why nothing is seen
+       >>image     8388  mipmaps, PPM           >>presets   8657  classic materials
      Sources
-       >>refs      8738                        >>history   8768
-       >>license   8780
+       >>refs      8733                        >>history   8763
+       >>license   8775
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1309,12 +1309,13 @@ enum {
     SHADE__BOUNDED = 8,    /* what big triangles hide is left out */
     SHADE__NARROW = 16,    /* small triangles of one column of tiles */
     SHADE__SHORT = 32,     /* runs of up to 8 pixels */
-    SHADE__LONG = 64       /* 32 pixels of a run at a time */
+    SHADE__LONG = 64,      /* 32 pixels of a run at a time */
+    SHADE__MEDIUM = 128    /* small triangles of up to four columns of tiles */
 };
 #ifdef __OPTIMIZE_SIZE__
 #define SHADE__SPECIALIZE 0
 #elif !defined(SHADE__SPECIALIZE)
-#define SHADE__SPECIALIZE 127
+#define SHADE__SPECIALIZE 255
 #endif
 #define SHADE__HAS(copy) (SHADE__SPECIALIZE & copy)
 
@@ -4325,11 +4326,8 @@ static SHADE__NOINLINE void shade__send(shade__draw *d, shade__runs *r)
     shade__close_runs(r);
 }
 
-/* pre: r has room for one */
-SHADE__INLINE void shade__add_run(shade__runs *r, int lane, int x, int y, int n)
+SHADE__INLINE void shade__set_run(shade__run *run, int lane, int x, int y, int n)
 {
-    shade__run *run = &r->run[r->count++];
-
     run->x = x;
     run->y = y;
     run->n = n;
@@ -4345,7 +4343,7 @@ static SHADE__NOINLINE void shade__add_set(shade__draw *d, shade__runs *r,
         const int first = SHADE__LOWEST_BIT(set);
         const int n = SHADE__LOWEST_BIT(~(set >> first));    /* ~ is not 0: full sets are one run */
         if (r->count == SHADE__RUNS) shade__send(d, r);
-        shade__add_run(r, lane, x + first, y, n);
+        shade__set_run(&r->run[r->count++], lane, x + first, y, n);
         set &= set + (set & (0u - set));    /* without its lowest run */
     }
     if (r->count > SHADE__RUNS_AHEAD) shade__send(d, r);
@@ -4381,10 +4379,7 @@ SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
             count = r->count;
             continue;
         }
-        run->x = tile->x + SHADE__LOWEST_BIT(set | 0x80000000u);
-        run->y = tile->y + k;
-        run->n = n;
-        run->lane = lane;
+        shade__set_run(run, lane, tile->x + SHADE__LOWEST_BIT(set | 0x80000000u), tile->y + k, n);
         goes_on = joined && open->x + open->n == run->x;
         if (joined) {
             open->n += goes_on ? n : 0;
@@ -4408,8 +4403,8 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
 }
 
 /* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
-   depth.  Its loops are no SHADE__FOR, with which clang 14 keeps the rows in memory: teapots take
-   1.1 times as long.   pre: depth holds the columns, at + width <= 32 */
+   depth.  Its loops are no SHADE__FOR, with which clang 14 keeps the rows in memory.
+   pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
                                        const shade__edges *SHADE_RESTRICT edges,
@@ -4718,9 +4713,8 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
     return pixels;
 }
 
-/* Draws a small triangle of a few columns of tiles, and returns whether it was one: teapots of 720
-   rows have many, and take 1.04 to 1.08 times as long without.  Where bounds have begun it leaves
-   the triangle to shade__cover_large, which knows what they hide. */
+/* Draws a small triangle of up to four columns of tiles, and returns whether it was one.  Where
+   bounds have begun it leaves the triangle to shade__cover_large, which knows what they hide. */
 static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int lane)
 {
     const shade__plan *plan = &d->plan;
@@ -4789,8 +4783,8 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
 SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
                 (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
 
-/* Draws all triangles of the setup, by one function after the other to save stack.  The second can
-   draw narrow triangles as well. */
+/* Draws all triangles of the setup, by one function after the other to save stack.  The last can
+   draw any triangle. */
 static void shade__cover(shade__draw *d, int count)
 {
     shade__runs runs;
@@ -4799,8 +4793,9 @@ static void shade__cover(shade__draw *d, int count)
     runs.run[SHADE__RUNS].x = runs.run[SHADE__RUNS].n = -1;
     for (runs.next = 0; runs.next < count; runs.next++) {
         if (SHADE__HAS(SHADE__NARROW)) shade__cover_small(d, &runs, count);
-        if (runs.next < count && !shade__cover_medium(d, &runs, runs.next))
-            shade__cover_large(d, &runs, runs.next);
+        if (runs.next >= count) break;
+        if (SHADE__HAS(SHADE__MEDIUM) && shade__cover_medium(d, &runs, runs.next)) continue;
+        shade__cover_large(d, &runs, runs.next);
     }
     shade__send(d, &runs);
 }
