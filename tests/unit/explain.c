@@ -806,6 +806,10 @@ MISTAKE(aspect_upside_down)
 {
     s->state.projection = shade_mat4_perspective(0.8f, 1 / 1.5f, 0.1f, 100);
 }
+MISTAKE(aspect_a_little_wide)
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1.56f, 0.1f, 100);
+}
 MISTAKE(view_that_scales)
 {
     s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(2, 2, 2)), s->state.view);
@@ -963,7 +967,8 @@ static const mistake mistakes[] = {
     OF(lamp_behind_what_the_map_leaves_in_ambient_light, "every lamp is behind"),
     OF(chunks_of_half_the_triangles, "mesh.chunks sum to fewer"),
     OF(chunks_of_zeros, "mesh.chunks sum to fewer"), OF(aspect_of_a_square, "aspect"),
-    OF(aspect_upside_down, "aspect"), OF(view_that_scales, "state.view scales"),
+    OF(aspect_upside_down, "aspect"), OF(aspect_a_little_wide, "aspect"),
+    OF(view_that_scales, "state.view scales"),
     OF(view_that_shears, "state.view scales or shears"), OF(light_of_255, "255"),
     OF(ambient_of_255, "255"), OF(colors_of_255, "255"),
     OF(normals_against_the_winding, "mesh.normals point away"),
@@ -1472,6 +1477,8 @@ UNUSUAL(reversed_with_near_one)
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
+/* The pixels of a display need not be square, and windows are rounded to whole ones. */
+UNUSUAL(aspect_rounded) { s->state.projection = shade_mat4_perspective(0.8f, 1.47f, 0.1f, 100); }
 /* Of these the aspect does not follow from two entries. */
 UNUSUAL(projection_that_shears)
 {
@@ -1506,6 +1513,7 @@ TEST(explain, what_is_unusual_is_no_mistake)
         { "parallel from the eye", unusual_parallel_from_the_eye },
         { "near at one half", unusual_near_one_half },
         { "a left-handed camera", unusual_left_handed_camera },
+        { "an aspect rounded by 2 %", unusual_aspect_rounded },
         { "a projection that turns", unusual_projection_that_turns },
         { "a projection that nods", unusual_projection_that_nods },
         { "a view that scales, without projection", unusual_view_that_scales_alone },
