@@ -73,10 +73,10 @@
        >>lines     6638  shade_draw_lines      >>shape     6796  normals, edges
        >>chunks    7132  how boxes are made    >>rays      7296  shade_pick
        >>survey    7492  experiments on a draw >>explain   7743  why nothing is seen
-       >>image     8388  mipmaps, PPM           >>presets   8657  classic materials
+       >>image     8387  mipmaps, PPM           >>presets   8656  classic materials
      Sources
-       >>refs      8733                        >>history   8763
-       >>license   8775
+       >>refs      8732                        >>history   8762
+       >>license   8774
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7927,7 +7927,6 @@ static const char *shade__why_nothing(shade__survey *s)
     const shade_stats *stats = &s->stats;
 
     s->mesh.chunks = NULL;
-    s->mesh.chunk_count = 0;
     if (shade__covered(s))
         return shade__chunks_leave_out(s->given_mesh)
                    ? shade__left_out

@@ -552,6 +552,39 @@ TEST(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box)
               "%ld touch a pixel, %ld by rounding, %ld hidden", touching, by_rounding, hidden);
 }
 
+/* Where x and y, of millions each, leave a difference of about 0, they round by several pixels, and
+   neither z nor the constant of the plane says so.  The clip rectangle begins at -1/32. */
+TEST(chunks, rounding_of_numbers_that_cancel_hides_nothing)
+{
+    static uint32_t pixels[64 * 64];
+    long by_rounding = 0;
+    shade_target t;
+    memset(&t, 0, sizeof t);
+    t.width = t.height = 64;
+    t.color = pixels;
+    for (int i = 0; i < 20000; i++) {
+        const float c = rnd_float(0.5, 1), s = rnd_float(0.5, 1), x = rnd_float(8e6, 16e6);
+        const double most = -1 / 32.0 - (double)rnd_float(0, 0.5);
+        const double y = ((double)c * (double)x - most) / (double)s;
+        const int turned = rnd_one_in(2);
+        shade_mat4 m = shade_mat4_identity();
+        shade_vec3 p[3], low, high;
+        for (int k = 0; k < 3; k++) p[k] = shade_v3(x, (float)y + (float)k, rnd_float(-1, 1));
+        m.col[0] = turned ? shade_v4(0, c, 0, 0) : shade_v4(c, 0, 0, 0);
+        m.col[1] = turned ? shade_v4(0, -s, 0, 0) : shade_v4(-s, 0, 0, 0);
+        m.col[2] = turned ? shade_v4(1, 0, 0, 0) : shade_v4(0, 1, 0, 0);
+        t.clip_x = turned ? 0 : 31;
+        t.clip_width = turned ? 64 : 33;
+        t.clip_height = turned ? 33 : 64;
+        low = shade_min(p[0], shade_min(p[1], p[2]));
+        high = shade_max(p[0], shade_max(p[1], p[2]));
+        if (!chunk_fragments(&t, m, 0, p)) continue;
+        by_rounding += (double)c * (double)high.x - (double)s * (double)low.y < -1 / 32.0;
+        CHECK_SAY(shade_box_visible(&t, m, 0, low, high), "triangle %d is hidden", i);
+    }
+    CHECK_SAY(by_rounding > 100, "%ld by rounding", by_rounding);
+}
+
 /* Where products are below the least float, rounding is no part of their size: z/w >= 0 for all the
    least negative z. */
 TEST(chunks, depths_that_underflow_are_not_hidden)
@@ -1466,6 +1499,7 @@ static const test_case chunks_cases[] = {
     CASE(chunks, bands_with_chunks_together_make_the_picture_without),
     CASE(chunks, strips_with_chunks_together_make_the_picture_without),
     CASE(chunks, a_triangle_that_touches_a_pixel_is_visible_in_its_box),
+    CASE(chunks, rounding_of_numbers_that_cancel_hides_nothing),
     CASE(chunks, depths_that_underflow_are_not_hidden),
     CASE(chunks, a_box_of_no_numbers_or_the_wrong_way_round_is_visible),
     CASE(chunks, a_zero_matrix_is_the_identity),

@@ -332,7 +332,7 @@ TEST(cover, triangles_thousands_of_pixels_beside_the_clip_rectangle_draw_nothing
 }
 
 /* Boxes of few pixels, which the clip rectangle cuts out of triangles with a side of at most 510
-   pixels and two of thousands, in each order: their edges take more than 32 bits there. */
+   pixels and two of hundreds or thousands, in each order: most edges need more than 32 bits. */
 TEST(cover, small_boxes_of_long_triangles_are_exact)
 {
     canvas c = canvas_strip(16384, 16384, 0, SHADE_FORMAT_RGBA8, 1, 8000, 16);
@@ -352,6 +352,10 @@ TEST(cover, small_boxes_of_long_triangles_are_exact)
             y[v] = 8000 * 256 + rnd_int(-255 * 256, 255 * 256) + beside;
             if (far && along != 1) x[v] = rnd_one_in(2) ? -16384 * 255 : 16384 * 511;
             if (far && along != 0) y[v] = rnd_int(-16384 * 255, 16384 * 511);
+            if (far && i % 2 && along != 1)
+                x[v] = x[(v + 1) % 3] + rnd_int(-1600 * 256, 1600 * 256);
+            if (far && i % 2 && along != 0)
+                y[v] = y[(v + 1) % 3] + rnd_int(-1600 * 256, 1600 * 256);
         }
         canvas_clear(&c, 1);
         draw_fx8(&c, x, y, 3, 0, NULL);

@@ -283,6 +283,17 @@ MISTAKE(inside_out)
     }
     s->state.raster.cull = SHADE_CULL_BACK;
 }
+/* Rings from the far one to the near one, and the other way: fronts are drawn first, or last. */
+MISTAKE(inside_out_from_below)
+{
+    s->state.view = shade_mat4_look_at(shade_v3(0, -4, 0.1f), shade_v3(0, 0, 0), shade_v3(0, 0, 1));
+    mistake_inside_out(s);
+}
+MISTAKE(inside_out_from_above)
+{
+    s->state.view = shade_mat4_look_at(shade_v3(0, 4, 0.1f), shade_v3(0, 0, 0), shade_v3(0, 0, 1));
+    mistake_inside_out(s);
+}
 MISTAKE(inside_out_open)
 {
     s->mesh.index_count = STAGE_INDICES * 2 / 3;
@@ -511,6 +522,22 @@ MISTAKE(target_instead_of_direction)
     s->lamps[0] = shade_spot_light(shade_v3(0, 0, 4), shade_v3(0, 0, 0.5f), 0.3f, 1,
                                    shade_v3(1, 1, 1));
     s->state.lighting.light_count = 1;
+}
+/* Seen from afar and lit at a flat angle: R.V is 0.08 at most and shows nothing, N.H would. */
+MISTAKE(mirror_turned_away)
+{
+    static const uint32_t two[6] = { 0, 1, 2, 0, 2, 3 };
+    mistake_wound_clockwise_quad(s);
+    memcpy(s->index, two, sizeof two);
+    for (int k = 0; k < 4; k++) s->normal[k] = shade_v3(0, 0, 1);
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 40), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    s->state.projection = shade_mat4_perspective(0.08f, 1.5f, 0.1f, 100);
+    s->lamps[0] = shade_directional_light(shade_v3(-1, 0, -0.05f), shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+    s->state.lighting.model = SHADE_MODEL_PHONG;
+    s->material.diffuse = s->material.ambient = shade_v3(0, 0, 0);
+    s->material.specular = shade_v3(1, 1, 1);
+    s->material.shininess = 4;
 }
 MISTAKE(terms_of_emission) { s->state.lighting.terms = SHADE_TERM_EMISSION; }
 MISTAKE(model_emissive) { s->state.lighting.model = SHADE_MODEL_EMISSIVE; }
@@ -907,6 +934,7 @@ static const mistake mistakes[] = {
     OF(wound_clockwise_quad, "counter-clockwise"),
     OF(culled_by_mirror, "state.model that mirrors"), OF(culled_front, "SHADE_CULL_FRONT"),
     OF(culled_inside, "the eye lies inside"), OF(inside_out, "inside out"),
+    OF(inside_out_from_below, "inside out"), OF(inside_out_from_above, "inside out"),
     OF(inside_out_open, "inside out"), OF(mirrored_open, "inside out"),
     OF(inside_out_without_normals, "inside out"), OF(mirrored, "inside out"),
     OF(upside_down, "inside out"),
@@ -933,6 +961,7 @@ static const mistake mistakes[] = {
     OF(lamp_behind, "behind"), OF(lamp_inside, "behind"), OF(direction_toward_the_sun, "behind"),
     OF(attenuated_away, "Attenuation"), OF(spot_attenuated_away, "Attenuation"),
     OF(cutoff_in_degrees, "spot_cos_cutoff"), OF(cone_elsewhere, "spot_direction"),
+    OF(mirror_turned_away, "state.material"),
     OF(target_instead_of_direction, "spot_direction"), OF(terms_of_emission, "lighting.terms"),
     OF(model_emissive, "lighting.model"), OF(invisible, "transparency"),
     OF(invisible_map, "diffuse_map"), OF(view_forgotten, "the eye"),
@@ -1069,27 +1098,31 @@ static void stage_random_mesh(stage *s)
             shade_mat4_rotation(rnd_float(-3, 3), shade_v3(rnd_float(-1, 1), 1, 0)),
             shade_mat4_scaling(shade_v3(rnd_float(0.5, 1.1), rnd_float(0.5, 1.1), 1)));
 }
-/* Whole, in bands and in strips; some of them do not touch the mesh. */
+/* Whole, in bands of rows, of columns and in strips; some of them do not touch the mesh. */
 TEST(explain, random_good_scenes_get_none)
 {
     for (int k = 0; k < 150; k++) {
         stage *s = stage_open();
-        const int high = rnd_int(1, STAGE_HEIGHT);
+        const int y = rnd_int(0, STAGE_HEIGHT - 1), high = rnd_int(1, STAGE_HEIGHT - y);
+        const int x = rnd_int(0, STAGE_WIDTH - 1);
         s->c.target.srgb = rnd_one_in(2);
         stage_random_camera(s);
         stage_random_mesh(s);
         stage_is_good(s, "whole");
-        for (int y = 0; y < STAGE_HEIGHT; y += high) {
-            s->c.target = s->good;
-            s->c.target.clip_y = y;
-            s->c.target.clip_height = high;
-            s->c.target.clip_width = STAGE_WIDTH;
-            stage_is_good(s, "a band");
-            s->c.target = s->good;
-            s->c.target.row_offset = y;
-            s->c.target.row_count = high < STAGE_HEIGHT - y ? high : STAGE_HEIGHT - y;
-            stage_is_good(s, "a strip");
-        }
+        s->c.target = s->good;
+        s->c.target.clip_y = y;
+        s->c.target.clip_height = high;
+        s->c.target.clip_width = STAGE_WIDTH;
+        stage_is_good(s, "a band of rows");
+        s->c.target.clip_x = x;
+        s->c.target.clip_y = 0;
+        s->c.target.clip_height = STAGE_HEIGHT;
+        s->c.target.clip_width = rnd_one_in(2) ? STAGE_WIDTH - x : rnd_int(1, STAGE_WIDTH - x);
+        stage_is_good(s, "a band of columns");
+        s->c.target = s->good;
+        s->c.target.row_offset = y;
+        s->c.target.row_count = high;
+        stage_is_good(s, "a strip");
         stage_close(s);
     }
 }
@@ -1477,6 +1510,36 @@ UNUSUAL(reversed_with_near_one)
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
+/* Each triangle lies there twice, the back of it first. */
+UNUSUAL(faces_of_both_sides)
+{
+    static uint32_t both[2 * STAGE_INDICES];
+    for (int i = 0; i < STAGE_INDICES; i += 3) {
+        const uint32_t *t = s->index + i;
+        const uint32_t two[6] = { t[0], t[2], t[1], t[0], t[1], t[2] };
+        memcpy(both + 2 * i, two, sizeof two);
+    }
+    s->mesh.indices = both;
+    s->mesh.index_count = 2 * STAGE_INDICES;
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+UNUSUAL(normals_that_faces_do_not_take)
+{
+    mistake_normals_against_the_winding(s);
+    s->state.shading = SHADE_SHADING_PER_FACE;
+}
+UNUSUAL(normals_that_no_lamp_meets)
+{
+    mistake_normals_against_the_winding(s);
+    s->state.lighting.lights = NULL;
+    s->state.lighting.light_count = 0;
+    s->state.lighting.ambient = shade_v3(1, 1, 1);
+}
+UNUSUAL(ambient_term_alone)
+{
+    mistake_ambient_and_lamp_behind(s);
+    s->state.lighting.terms = SHADE_TERM_AMBIENT;
+}
 /* The pixels of a display need not be square, and windows are rounded to whole ones. */
 UNUSUAL(aspect_rounded) { s->state.projection = shade_mat4_perspective(0.8f, 1.47f, 0.1f, 100); }
 /* Of these the aspect does not follow from two entries. */
@@ -1504,6 +1567,64 @@ TEST(explain, depth_that_changed_since_the_draw_is_not_blamed)
     stage_close(s);
 }
 
+/* The lower half of the ball alone would be inside out. */
+TEST(explain, a_band_is_not_blamed_for_its_half_of_a_mesh)
+{
+    stage *s = stage_open();
+    for (int i = STAGE_INDICES / 2; i < STAGE_INDICES; i += 3) {
+        const uint32_t k = s->index[i];
+        s->index[i] = s->index[i + 1];
+        s->index[i + 1] = k;
+    }
+    s->state.raster.cull = SHADE_CULL_BACK;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    stage_is_good(s, "whole");
+    s->c.target.clip_y = STAGE_HEIGHT / 2;
+    s->c.target.clip_width = STAGE_WIDTH;
+    s->c.target.clip_height = STAGE_HEIGHT / 2;
+    stage_is_good(s, "the lower band");
+    stage_close(s);
+}
+
+/* A multiple of a projection is the same one, though its -1 is another number then, and though the
+   transposed one shows the mesh. */
+TEST(explain, a_multiple_of_a_projection_is_the_same_one)
+{
+    stage *s = stage_open();
+    const char *said;
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 6, 100);
+    for (int i = 0; i < 4; i++) {
+        shade_vec4 *column = &s->state.projection.col[i];
+        *column = shade_v4(column->x / 2, column->y / 2, column->z / 2, column->w / 2);
+    }
+    said = stage_explain(s, 1);
+    CHECK_SAY(strstr(said, "nearer than the near plane") != NULL, "\"%s\"", said);
+    stage_close(s);
+}
+
+/* A band may be hidden whole while the picture is not, and a draw without stats may have drawn what
+   is stored nearer. */
+TEST(explain, depth_is_blamed_after_whole_draws_with_stats_alone)
+{
+    stage *s = stage_open();
+    s->clear = 0.25f;
+    CHECK(strstr(stage_explain(s, 1), "What target.depth holds hides") != NULL);
+    CHECK(!*stage_explain(s, 0));
+    s->c.target.clip_width = STAGE_WIDTH;
+    s->c.target.clip_height = STAGE_HEIGHT - 1;
+    stage_is_good(s, "a band that is hidden");
+    s->c.target.clip_x = 1;
+    s->c.target.clip_width = STAGE_WIDTH - 1;
+    s->c.target.clip_height = STAGE_HEIGHT;
+    stage_is_good(s, "a band of columns that is hidden");
+    s->c.target.clip_x = 0;
+    s->c.target.clip_y = 4;
+    s->c.target.clip_width = STAGE_WIDTH;
+    s->c.target.clip_height = STAGE_HEIGHT - 8;
+    stage_is_good(s, "a band in the middle that is hidden");
+    stage_close(s);
+}
+
 TEST(explain, what_is_unusual_is_no_mistake)
 {
     static const unusual all[] = {
@@ -1513,6 +1634,10 @@ TEST(explain, what_is_unusual_is_no_mistake)
         { "parallel from the eye", unusual_parallel_from_the_eye },
         { "near at one half", unusual_near_one_half },
         { "a left-handed camera", unusual_left_handed_camera },
+        { "faces of both sides", unusual_faces_of_both_sides },
+        { "normals that faces do not take", unusual_normals_that_faces_do_not_take },
+        { "normals that no lamp meets", unusual_normals_that_no_lamp_meets },
+        { "the ambient term alone", unusual_ambient_term_alone },
         { "an aspect rounded by 2 %", unusual_aspect_rounded },
         { "a projection that turns", unusual_projection_that_turns },
         { "a projection that nods", unusual_projection_that_nods },
@@ -1660,6 +1785,9 @@ static const test_case explain_cases[] = {
     CASE(explain, a_draw_that_had_pixels_is_not_said_to_have_none),
     CASE(explain, small_pools_of_light_are_light),
     CASE(explain, dim_light_is_light_where_the_format_shows_it),
+    CASE(explain, a_band_is_not_blamed_for_its_half_of_a_mesh),
+    CASE(explain, a_multiple_of_a_projection_is_the_same_one),
+    CASE(explain, depth_is_blamed_after_whole_draws_with_stats_alone),
     CASE(explain, what_is_unusual_is_no_mistake),
     CASE(explain, depth_that_changed_since_the_draw_is_not_blamed),
     CASE(explain, no_sentence_about_a_random_draw_is_false),

@@ -115,7 +115,40 @@ TEST(work, triangles_take_their_rows_and_the_tiles_that_they_cross)
     canvas_close(&c);
 }
 
+/* Triangles behind one that fills the picture cost no tile, with depth either way round. */
+TEST(work, what_lies_behind_a_big_triangle_takes_no_tiles)
+{
+    enum { BEHIND = 40 };
+    canvas c = canvas_open(1024, 640, 0, SHADE_FORMAT_RGB565, 1);
+    for (int reversed = 0; reversed < 2; reversed++) {
+        shade_vec4 clip[3 * (BEHIND + 1)] = { { -1, -1, 0, 1 }, { 3, -1, 0, 1 }, { -1, 3, 0, 1 } };
+        scene s = { clip, NULL, 0, NULL, NULL };
+        shade_pipeline p = scene_pipeline(&s);
+        long alone, behind;
+        for (int k = 3; k < 3 * (BEHIND + 1); k++) {
+            const float z = rnd_float(0.01, 0.9);
+            const float x = rnd_float(-1, -0.3) + 0.65f * (float)(k % 3);
+            clip[k] = shade_v4(x, k % 3 == 1 ? rnd_float(-1, -0.3) : rnd_float(0.3, 1),
+                               reversed ? -z : z, 1);
+        }
+        if (reversed) p.raster.depth_test = SHADE_COMPARE_GREATER;
+        canvas_clear(&c, !reversed);
+        tiles_tested = 0;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3, 3, NULL), SHADE_OK);
+        alone = tiles_tested;
+        CHECK(alone >= 1024 / 32 * (640 / 8));
+        canvas_clear(&c, !reversed);
+        tiles_tested = 0;
+        CHECK_INT(shade_draw(&c.target, &p, NULL, 3 * (BEHIND + 1), 3 * (BEHIND + 1), NULL),
+                  SHADE_OK);
+        behind = tiles_tested - alone;
+        CHECK_SAY(behind == 0, "%ld tiles of %d triangles behind", behind, BEHIND);
+    }
+    canvas_close(&c);
+}
+
 static const test_case work_cases[] = {
     CASE(work, diagonals_take_the_tiles_that_they_cross),
     CASE(work, triangles_take_their_rows_and_the_tiles_that_they_cross),
+    CASE(work, what_lies_behind_a_big_triangle_takes_no_tiles),
 };
