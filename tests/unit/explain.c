@@ -1535,6 +1535,11 @@ UNUSUAL(normals_that_no_lamp_meets)
     s->state.lighting.light_count = 0;
     s->state.lighting.ambient = shade_v3(1, 1, 1);
 }
+UNUSUAL(normals_of_both_sides)
+{
+    mistake_normals_against_the_winding(s);
+    s->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
+}
 UNUSUAL(ambient_term_alone)
 {
     mistake_ambient_and_lamp_behind(s);
@@ -1637,6 +1642,7 @@ TEST(explain, what_is_unusual_is_no_mistake)
         { "faces of both sides", unusual_faces_of_both_sides },
         { "normals that faces do not take", unusual_normals_that_faces_do_not_take },
         { "normals that no lamp meets", unusual_normals_that_no_lamp_meets },
+        { "normals of both sides", unusual_normals_of_both_sides },
         { "the ambient term alone", unusual_ambient_term_alone },
         { "an aspect rounded by 2 %", unusual_aspect_rounded },
         { "a projection that turns", unusual_projection_that_turns },
