@@ -6135,7 +6135,7 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
 }
 
 /* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: the
-   shaders are of this file. */
+   fragment shader is of this file, or it may discard, so that the depth test is late. */
 static shade_result shade__run_draw(const shade_target *target,
                                     shade_pipeline *pipe, int own,
                                     shade__supply *supply, shade_stats *stats)
@@ -6584,7 +6584,7 @@ static SHADE__COLD void shade__scene_of(const shade_target *target,
 /* Draws the chunks of a mesh that may be seen.  It is kept out of line, so that only meshes with
    chunks have the planes on the stack. */
 static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *target,
-                                                       shade_pipeline *p, int own,
+                                                       shade_pipeline *p,
                                                        const shade__supply *all,
                                                        shade_stats *stats)
 {
@@ -6593,7 +6593,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     shade__frustum frustum;
     shade__see_chunks(target, &scene->clip_from_object, p->raster.depth_zero_to_one,
                       scene->mesh, &frustum, &supply);
-    return shade__run_draw(target, p, own, &supply, stats);
+    return shade__run_draw(target, p, 1, &supply, stats);
 }
 
 /* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader.
@@ -6624,8 +6624,8 @@ static shade_result shade__draw_scene(const shade_target *target,
     if (state->shading == SHADE_SHADING_PER_FACE && !scene->map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
-    if (mesh->chunks) return shade__draw_chunks(target, &p, !state->fragment, &supply, stats);
-    return shade__run_draw(target, &p, !state->fragment, &supply, stats);
+    if (mesh->chunks) return shade__draw_chunks(target, &p, &supply, stats);
+    return shade__run_draw(target, &p, 1, &supply, stats);
 }
 
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target,

@@ -302,7 +302,7 @@ int main(void)
     return 0;
 }
 END
-for n in 8; do
+for n in 6 8; do
     check "meshes with $n varyings" $CC -std=c99 $WARN -Os -DSHADE_NO_DISPATCH -DSHADE_LANES=16 \
           -DSHADE_MAX_VARYINGS=$n -I. "$T/few.c" -lm -o "$T/few"
     check "meshes with $n varyings are drawn or refused" run "$T/few"

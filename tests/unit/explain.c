@@ -294,6 +294,11 @@ MISTAKE(inside_out_from_above)
     s->state.view = shade_mat4_look_at(shade_v3(0, 4, 0.1f), shade_v3(0, 0, 0), shade_v3(0, 0, 1));
     mistake_inside_out(s);
 }
+MISTAKE(inside_out_with_a_bias)
+{
+    mistake_inside_out(s);
+    s->state.raster.depth_bias = -1;
+}
 MISTAKE(inside_out_open)
 {
     s->mesh.index_count = STAGE_INDICES * 2 / 3;
@@ -514,6 +519,13 @@ MISTAKE(cutoff_in_degrees)
 MISTAKE(cone_elsewhere)
 {
     s->lamps[0] = shade_spot_light(shade_v3(0, 1, 4), shade_v3(0, 1, 4), 0.5f, 1,
+                                   shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+}
+/* The mesh lies in the cone, and far from its axis. */
+MISTAKE(exponent_of_thousands)
+{
+    s->lamps[0] = shade_spot_light(shade_v3(0, 1, 4), shade_v3(0, 1, -1), 1.5f, 5000,
                                    shade_v3(1, 1, 1));
     s->state.lighting.light_count = 1;
 }
@@ -934,6 +946,7 @@ static const mistake mistakes[] = {
     OF(wound_clockwise_quad, "counter-clockwise"),
     OF(culled_by_mirror, "state.model that mirrors"), OF(culled_front, "SHADE_CULL_FRONT"),
     OF(culled_inside, "the eye lies inside"), OF(inside_out, "inside out"),
+    OF(inside_out_with_a_bias, "inside out"),
     OF(inside_out_from_below, "inside out"), OF(inside_out_from_above, "inside out"),
     OF(inside_out_open, "inside out"), OF(mirrored_open, "inside out"),
     OF(inside_out_without_normals, "inside out"), OF(mirrored, "inside out"),
@@ -961,6 +974,7 @@ static const mistake mistakes[] = {
     OF(lamp_behind, "behind"), OF(lamp_inside, "behind"), OF(direction_toward_the_sun, "behind"),
     OF(attenuated_away, "Attenuation"), OF(spot_attenuated_away, "Attenuation"),
     OF(cutoff_in_degrees, "spot_cos_cutoff"), OF(cone_elsewhere, "spot_direction"),
+    OF(exponent_of_thousands, "spot_exponent, leaves too little"),
     OF(mirror_turned_away, "state.material"),
     OF(target_instead_of_direction, "spot_direction"), OF(terms_of_emission, "lighting.terms"),
     OF(model_emissive, "lighting.model"), OF(invisible, "transparency"),
@@ -1540,6 +1554,13 @@ UNUSUAL(normals_of_both_sides)
     mistake_normals_against_the_winding(s);
     s->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
 }
+/* Light of 1.2 to 1.8 is clipped, but not that of numbers up to 255. */
+UNUSUAL(overexposed)
+{
+    s->state.lighting.ambient = shade_v3(3, 3, 3);
+    for (int i = 0; i < 2; i++)
+        s->lamps[i].diffuse = s->lamps[i].specular = shade_v3(0.05f, 0.05f, 0.05f);
+}
 UNUSUAL(ambient_term_alone)
 {
     mistake_ambient_and_lamp_behind(s);
@@ -1643,6 +1664,7 @@ TEST(explain, what_is_unusual_is_no_mistake)
         { "normals that faces do not take", unusual_normals_that_faces_do_not_take },
         { "normals that no lamp meets", unusual_normals_that_no_lamp_meets },
         { "normals of both sides", unusual_normals_of_both_sides },
+        { "overexposed", unusual_overexposed },
         { "the ambient term alone", unusual_ambient_term_alone },
         { "an aspect rounded by 2 %", unusual_aspect_rounded },
         { "a projection that turns", unusual_projection_that_turns },

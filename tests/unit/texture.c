@@ -796,6 +796,29 @@ TEST(texture, mipmaps_of_one_colour_are_that_colour)
     }
 }
 
+/* Of these widths the end of the last texel, computed in doubles, lies a hair beyond the picture,
+   where there is NaN. */
+TEST(texture, mipmaps_take_nothing_from_beyond_the_picture)
+{
+    static const int sizes[] = { 27, 29, 31, 47, 55, 89, 107 };
+    for (int i = 0; i < 2 * TEST_COUNT(sizes); i++) {
+        const int n = sizes[i / 2], upright = i % 2;
+        float texel[4 * 2 * 108], memory[4 * 108];
+        shade_texture t, levels[16];
+        CHECK((double)n / (n / 2) * (n / 2) > n);
+        for (int k = 0; k < 4 * 2 * 108; k++) texel[k] = NAN;
+        for (int k = 0; k < 4 * n; k++) texel[upright ? k / 4 * 8 + k % 4 : k] = 0.5f;
+        memset(&t, 0, sizeof t);
+        t.pixels = texel;
+        t.width = upright ? 1 : n;
+        t.height = upright ? n : 1;
+        t.stride = upright ? 2 : n + 1;
+        t.format = SHADE_FORMAT_RGBA32F;
+        CHECK_INT(shade_build_mipmaps(&t, levels, memory, sizeof memory), SHADE_OK);
+        for (int k = 0; k < 4 * (n / 2); k++) CHECK(memory[k] == 0.5f);
+    }
+}
+
 /* What shade_build_mipmaps is given, for a picture whose sizes are odd. */
 typedef struct mipmap_call {
     shade_texture *texture, *levels;
@@ -1676,6 +1699,7 @@ static const test_case texture_cases[] = {
     CASE(texture, mipmap_counts_and_bytes_are_those_of_halving_downward),
     CASE(texture, mipmaps_are_means_by_area_in_linear_light),
     CASE(texture, mipmaps_of_one_colour_are_that_colour),
+    CASE(texture, mipmaps_take_nothing_from_beyond_the_picture),
     CASE(texture, bad_mipmap_calls_are_refused_and_change_nothing),
     CASE(texture, one_pixel_takes_no_mipmaps_and_no_memory_for_them),
     CASE(texture, lod_is_the_log_of_the_longer_step_under_perspective),
