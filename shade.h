@@ -1363,8 +1363,8 @@ typedef uint32_t __attribute__((may_alias)) shade__word;    /* reads memory of a
 typedef uint32_t shade__word;
 #endif
 
-/* k = 0 .. 3.  gcc would keep the sums of a loop that it does not unroll in memory, and mipmaps of
-   packed pixels would take 1.5 times as long. */
+/* k = 0 .. 3.  gcc keeps the sums of a loop that it does not unroll in memory, which slows mipmaps
+   down. */
 #define SHADE__FOR_4(k) SHADE__UNROLL_4 for (int k = 0; k < 4; k++)
 
 /* The floats in a vector of the build for any processor. */
