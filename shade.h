@@ -73,10 +73,10 @@
        >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
        >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
        >>survey    7503  experiments on a draw >>explain   7754  why nothing is seen
-       >>image     8398  mipmaps, PPM           >>presets   8666  classic materials
+       >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
      Sources
-       >>refs      8742                        >>history   8772
-       >>license   8784
+       >>refs      8743                        >>history   8773
+       >>license   8785
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7938,6 +7938,7 @@ static const char *shade__why_nothing(shade__survey *s)
     const shade_stats *stats = &s->stats;
 
     s->mesh.chunks = NULL;
+    s->mesh.chunk_count = 0;
     if (shade__covered(s))
         return shade__chunks_leave_out(s->given_mesh)
                    ? shade__left_out

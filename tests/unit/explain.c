@@ -274,6 +274,14 @@ MISTAKE(culled_inside)
     s->state.raster.cull = SHADE_CULL_BACK;
     s->state.view = shade_mat4_look_at(shade_v3(0, 0, 0), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
 }
+MISTAKE(culled_inside_with_chunks)
+{
+    mistake_culled_inside(s);
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(-1, -1, -1);
+    s->chunk.high = shade_v3(1, 1, 1);
+}
 MISTAKE(inside_out)
 {
     for (int i = 0; i < STAGE_INDICES; i += 3) {
@@ -945,7 +953,8 @@ static const mistake mistakes[] = {
 
     OF(wound_clockwise_quad, "counter-clockwise"),
     OF(culled_by_mirror, "state.model that mirrors"), OF(culled_front, "SHADE_CULL_FRONT"),
-    OF(culled_inside, "the eye lies inside"), OF(inside_out, "inside out"),
+    OF(culled_inside, "the eye lies inside"),
+    OF(culled_inside_with_chunks, "the eye lies inside"), OF(inside_out, "inside out"),
     OF(inside_out_with_a_bias, "inside out"),
     OF(inside_out_from_below, "inside out"), OF(inside_out_from_above, "inside out"),
     OF(inside_out_open, "inside out"), OF(mirrored_open, "inside out"),
