@@ -58,25 +58,25 @@
        >>matrix    1717  cameras, inverses     >>power     2011  x^n
        >>pixels    2077  formats, sRGB
      Inside: light
-       >>lamps     2354  attenuation, cones    >>terms     2628  one term at one point
-       >>surface   2710  material and lights   >>lit       2831  the whole sum, at many points
+       >>lamps     2354  attenuation, cones    >>terms     2614  one term at one point
+       >>surface   2696  material and lights   >>lit       2817  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3238  who owns what         >>vertices  3421  shading, projection
-       >>triangles 3638  dropped, cut, edges   >>clip      4007  near, far, behind the eye
-       >>tiles     4192  pixels, depth test    >>cover     4547  what is hidden, tile by tile
-       >>fragments 4814  interpolation, lod    >>texture   5107  texels, mipmaps
-       >>store     5552  blending, packing
+       >>state     3228  who owns what         >>vertices  3411  shading, projection
+       >>triangles 3628  dropped, cut, edges   >>clip      3997  near, far, behind the eye
+       >>tiles     4182  pixels, depth test    >>cover     4537  what is hidden, tile by tile
+       >>fragments 4804  interpolation, lod    >>texture   5097  texels, mipmaps
+       >>store     5542  blending, packing
      Inside: calls of the renderer
-       >>check     5784  refusals              >>seen      5933  what can be seen, chunks
-       >>drive     6070  shade_draw            >>mesh      6249  shade_draw_mesh
+       >>check     5774  refusals              >>seen      5923  what can be seen, chunks
+       >>drive     6060  shade_draw            >>mesh      6239  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
-       >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
-       >>survey    7503  experiments on a draw >>explain   7754  why nothing is seen
-       >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
+       >>lines     6639  shade_draw_lines      >>shape     6797  normals, edges
+       >>chunks    7133  how boxes are made    >>rays      7297  shade_pick
+       >>survey    7493  experiments on a draw >>explain   7744  why nothing is seen
+       >>image     8389  mipmaps, PPM           >>presets   8657  classic materials
      Sources
-       >>refs      8743                        >>history   8773
-       >>license   8785
+       >>refs      8733                        >>history   8763
+       >>license   8775
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -2441,27 +2441,13 @@ static void shade__place_lamp(const shade_light *light, shade__lamp *lamp)
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
-/* What of a lamp arrives at the points of a packet.  Rows share their memory in unions, because the
-   stack of a draw is bounded.  The members of a union are used in the order in which they stand:
-   none is read after the next has been written. */
+/* What of a lamp arrives at the points of a packet. */
 typedef struct shade__arrival {
-    SHADE_ALIGNED union {
-        shade__v3 to_light;                  /* L, unit */
-        struct {                             /* of >>lit: */
-            float cosine[SHADE_LANES];       /* N.H or R.V */
-            float h2[SHADE_LANES];           /* |L + V|^2 */
-            float highlight[SHADE_LANES];    /* B (N.H)^n or B (R.V)^n */
-        } lobe;
-    } way;
-    union {
-        float r[SHADE_LANES];                /* |P - lamp|; not set at infinity */
-        float amount[SHADE_LANES];           /* the share of I_d and I_s that arrives */
-    } share;
-    union {
-        float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
-        float halvings[SHADE_LANES];         /* -log2 of what the cone leaves of the amount */
-        float nl[SHADE_LANES];               /* of >>lit: N.L, signed */
-    } angle;
+    SHADE_ALIGNED shade__v3 to_light;    /* L, unit */
+    float r[SHADE_LANES];                /* |P - lamp|; not set at infinity */
+    float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
+    float halvings[SHADE_LANES];         /* -log2 of what the cone leaves of the amount */
+    float amount[SHADE_LANES];           /* the share of I_d and I_s that arrives */
     uint32_t any;    /* 0: no lane is inside the cone, and amount is not set */
 } shade__arrival;
 
@@ -2471,8 +2457,8 @@ SHADE__INLINE void shade__come_from_infinity(const shade__lamp *lamp,
 {
     const shade_vec3 to_light = lamp->at;
     SHADE__FOR(i, n) {
-        shade__put(&a->way.to_light, i, to_light);
-        a->share.amount[i] = 1;
+        shade__put(&a->to_light, i, to_light);
+        a->amount[i] = 1;
     }
 }
 
@@ -2499,9 +2485,9 @@ SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
     const float cos_cutoff = lamp->light->spot_cos_cutoff;
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float ls = shade_dot(shade__at(&a->way.to_light, i), axis);
+        float ls = shade_dot(shade__at(&a->to_light, i), axis);
         uint32_t inside = shade__mask(ls >= cos_cutoff);
-        a->angle.ls[i] = shade__select(SHADE__NEVER, ls, inside);
+        a->ls[i] = shade__select(SHADE__NEVER, ls, inside);
         any |= inside;
     }
     return any;
@@ -2515,10 +2501,10 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
     const float a = lamp->a, b = lamp->light->linear, c = lamp->light->quadratic;
     const float nearest = lamp->nearest;
     SHADE__FOR(i, n) {
-        float r = shade__keep(to->share.r[i], 0x7FFFFFFF), sum;
+        float r = shade__keep(to->r[i], 0x7FFFFFFF), sum;
         r = shade__clamp_bits(r, nearest, 1e18f);
         sum = a + b * r + c * (r * r);
-        to->share.amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
+        to->amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
     }
 }
 
@@ -2528,7 +2514,7 @@ SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
 {
     const float even = 1 / shade__maxf(a, 1e-20f);
     SHADE__FOR(i, n) {
-        to->share.amount[i] = shade__keep(even, shade__mask(to->share.r[i] >= 0));
+        to->amount[i] = shade__keep(even, shade__mask(to->r[i] >= 0));
     }
 }
 
@@ -2537,8 +2523,8 @@ SHADE__INLINE void shade__apply_cone(float exponent, const int n,
                                      shade__arrival *SHADE_RESTRICT a)
 {
     const float e = shade__minf(exponent, FLT_MAX);
-    SHADE__FOR(i, n) { a->angle.halvings[i] = shade__power_log(a->angle.ls[i], e); }
-    SHADE__FOR(i, n) { a->share.amount[i] *= shade__exp2_neg(a->angle.halvings[i]); }
+    SHADE__FOR(i, n) { a->halvings[i] = shade__power_log(a->ls[i], e); }
+    SHADE__FOR(i, n) { a->amount[i] *= shade__exp2_neg(a->halvings[i]); }
 }
 
 /* The same for e = 0. */
@@ -2546,8 +2532,8 @@ SHADE__INLINE void shade__apply_cone_evenly(const int n,
                                             shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
-        const uint32_t inside = shade__mask(a->angle.ls[i] > SHADE__NEVER);
-        a->share.amount[i] = shade__keep(a->share.amount[i], inside);
+        const uint32_t inside = shade__mask(a->ls[i] > SHADE__NEVER);
+        a->amount[i] = shade__keep(a->amount[i], inside);
     }
 }
 
@@ -2556,7 +2542,7 @@ SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp,
                                       shade__arrival *a)
 {
     if (lamp->infinite) shade__come_from_infinity(lamp, n, a);
-    else shade__come_from_point(lamp, point, n, a->share.r, &a->way.to_light);
+    else shade__come_from_point(lamp, point, n, a->r, &a->to_light);
 
     a->any = lamp->spot ? shade__meet_cone(lamp, n, a) : 1;
     if (!a->any) return;
@@ -2596,10 +2582,10 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point,
     if (light && point) {
         shade__place_lamp(light, &lamp);
         shade__arrive(&lamp, shade__rows_of(point), SHADE_LANES, &a);
-        if (!a.any) SHADE__ZERO(a.share.amount);
+        if (!a.any) SHADE__ZERO(a.amount);
     } else SHADE__ZERO(a);
-    if (to_light) SHADE_MEMCPY(to_light, &a.way.to_light, sizeof a.way.to_light);
-    if (amount) SHADE_MEMCPY(amount, a.share.amount, sizeof a.share.amount);
+    if (to_light) SHADE_MEMCPY(to_light, &a.to_light, sizeof a.to_light);
+    if (amount) SHADE_MEMCPY(amount, a.amount, sizeof a.amount);
 }
 
 static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
@@ -2620,9 +2606,9 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
         r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, point);
         shade__arrive_any(&lamp, &block, SHADE__POINT, &a);
     } else SHADE__ZERO(a);
-    if (to_light) *to_light = shade__at(&a.way.to_light, 0);
+    if (to_light) *to_light = shade__at(&a.to_light, 0);
     if (distance) *distance = r;
-    return a.any ? a.share.amount[0] : 0;
+    return a.any ? a.amount[0] : 0;
 }
 
 /*------------------------------------------------------------------------------------------ >>terms
@@ -2843,6 +2829,10 @@ typedef struct shade__lit {
     shade__arrival a;             /* of the lamp */
     shade__v3 to_eye;             /* V, unit */
     float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
+    float nl[SHADE_LANES];        /* N.L, signed */
+    float h2[SHADE_LANES];        /* |L + V|^2 */
+    float cosine[SHADE_LANES];    /* N.H or R.V */
+    float highlight[SHADE_LANES]; /* B (N.H)^n or B (R.V)^n */
 } shade__lit;
 
 SHADE__INLINE void shade__inverse_lengths(shade__in_v3 normal, const int n,
@@ -2888,8 +2878,8 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
 {
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float nl = shade_dot(shade__at(normal, i), shade__at(&r->a.way.to_light, i)) * r->rn[i];
-        r->a.angle.nl[i] = nl;
+        float nl = shade_dot(shade__at(normal, i), shade__at(&r->a.to_light, i)) * r->rn[i];
+        r->nl[i] = nl;
         any |= shade__mask(nl > 0);
     }
     return any;
@@ -2913,20 +2903,20 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
     const uint32_t open = r->surface->open;
     uint32_t opposite = 0;
     SHADE__FOR(i, n) {
-        shade_vec3 half = shade_add(shade__at(&r->a.way.to_light, i),
+        shade_vec3 half = shade_add(shade__at(&r->a.to_light, i),
                                     shade__at(&r->to_eye, i));
         /* the order of the next two matters to tcc: see >>config */
-        r->a.way.lobe.cosine[i] = shade_dot(shade__at(normal, i), half);
+        r->cosine[i] = shade_dot(shade__at(normal, i), half);
         float h2 = shade_dot(half, half);
         opposite |= shade__mask(h2 < SHADE__OPPOSITE);
-        r->a.way.lobe.h2[i] = h2;
+        r->h2[i] = h2;
     }
     SHADE__FOR(i, n) {
-        float h2 = r->a.way.lobe.h2[i], rn = r->rn[i];
-        float nh = r->a.way.lobe.cosine[i] * (rn * shade__rsqrt_normal(h2));
-        uint32_t exists = shade__mask(shade__gate(r->a.angle.nl[i], rn, open));
+        float h2 = r->h2[i], rn = r->rn[i];
+        float nh = r->cosine[i] * (rn * shade__rsqrt_normal(h2));
+        uint32_t exists = shade__mask(shade__gate(r->nl[i], rn, open));
         exists &= shade__mask(h2 >= 1e-12f);
-        r->a.way.lobe.cosine[i] = shade__select(SHADE__NEVER, nh, exists);
+        r->cosine[i] = shade__select(SHADE__NEVER, nh, exists);
     }
     return opposite;
 }
@@ -2945,8 +2935,8 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
     shade__double3(shade__xyz(eye), viewer);
     for (int i = 0; i < n; i++) {
         double m[3], l[3], v[3], p[3], h2, nh;
-        if (!(r->a.way.lobe.h2[i] < SHADE__OPPOSITE)) continue;
-        if (!shade__gate(r->a.angle.nl[i], r->rn[i], r->surface->open)) continue;
+        if (!(r->h2[i] < SHADE__OPPOSITE)) continue;
+        if (!shade__gate(r->nl[i], r->rn[i], r->surface->open)) continue;
 
         shade__double3(shade__at(point, i), p);
         shade__double3(shade__at(normal, i), m);
@@ -2961,7 +2951,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
         h2 = shade__dot3(l, l);
         shade__unit3(l);
         nh = r->rn[i] < 0 ? -shade__dot3(m, l) : shade__dot3(m, l);
-        r->a.way.lobe.cosine[i] = h2 >= 1e-12 ? (float)nh : SHADE__NEVER;
+        r->cosine[i] = h2 >= 1e-12 ? (float)nh : SHADE__NEVER;
     }
 }
 
@@ -2971,8 +2961,8 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
 {
     const uint32_t open = r->surface->open;
     SHADE__FOR(i, n) {
-        float nl = r->a.angle.nl[i], rn = r->rn[i], cosine;
-        shade_vec3 to_light = shade__at(&r->a.way.to_light, i), to_eye = shade__at(&r->to_eye, i);
+        float nl = r->nl[i], rn = r->rn[i], cosine;
+        shade_vec3 to_light = shade__at(&r->a.to_light, i), to_eye = shade__at(&r->to_eye, i);
         shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
         d = shade_sub(d, shade_add(to_light, to_eye));
         /* declared here, after calls that return vectors, for tcc: see >>config */
@@ -2980,7 +2970,7 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
         cosine = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
-        r->a.way.lobe.cosine[i] = cosine;
+        r->cosine[i] = cosine;
     }
 }
 
@@ -2988,8 +2978,8 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
 SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
-        float nl = r->a.angle.nl[i];
-        r->a.way.lobe.highlight[i] *= shade__keep(nl, shade__mask(nl > 0));
+        float nl = r->nl[i];
+        r->highlight[i] *= shade__keep(nl, shade__mask(nl > 0));
     }
 }
 
@@ -3049,7 +3039,7 @@ SHADE__INLINE void shade__add_tone(const shade__lit *SHADE_RESTRICT r,
 {
     const shade_vec3 cool = r->surface->cool, warmth = r->surface->warmth;
     SHADE__FOR(i, n) {
-        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->a.angle.nl[i],
+        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->nl[i],
                                       warmth);
         shade__add_to(rgb, i, shade_mul(light, shade__at(albedo, i)), ~0u);
     }
@@ -3063,7 +3053,7 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
 {
     const shade_vec3 ambient = r->lamp->ambient;
     SHADE__FOR(i, n) {
-        const float amount = r->a.share.amount[i];
+        const float amount = r->a.amount[i];
         shade_vec3 light = shade_scale(ambient, amount);
         light = shade_mul(light, shade__at(albedo, i));
         shade__add_to(rgb, i, light, shade__mask(amount != 0));
@@ -3080,13 +3070,13 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
     const uint32_t sign = r->surface->sign, open = r->surface->open;
     SHADE__FOR(i, n) {
-        float nl = shade__keep(r->a.angle.nl[i], sign), amount = r->a.share.amount[i];
+        float nl = shade__keep(r->nl[i], sign), amount = r->a.amount[i];
         uint32_t front = shade__mask(nl > 0);
         uint32_t reached = (front | open) & shade__mask(amount != 0);
         shade_vec3 diffuse = plain ? k_d : shade_mul(k_d, shade__at(albedo, i));
         shade_vec3 specular = plain ? k_s : shade_mul(k_s, shade__at(tint, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * amount);
-        shade_vec3 light = shade_madd(diffuse, r->a.way.lobe.highlight[i] * amount, specular);
+        shade_vec3 light = shade_madd(diffuse, r->highlight[i] * amount, specular);
         shade__add_to(rgb, i, light, reached);
     }
 }
@@ -3106,13 +3096,13 @@ SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
 {
     const shade__surface *s = r->surface;
     if (shade__is_zero(r->lamp->specular)) {
-        SHADE__ZERO(r->a.way.lobe.highlight);
+        SHADE__ZERO(r->highlight);
         return;
     }
     if (s->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(normal, n, r);
     else if (shade__half(normal, n, r)) shade__half_opposite(point, normal, n, r);
-    shade__raise(r->a.way.lobe.cosine, s->material.shininess, n,
-                 r->a.way.lobe.highlight);
+    shade__raise(r->cosine, s->material.shininess, n,
+                 r->highlight);
     if (s->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
 }
 
@@ -3150,7 +3140,7 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r,
     if (!(any | s->open | ~s->sign)) return;
 
     shade__shine(point, normal, n, r);
-    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.share.amount);
+    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
     if (SHADE__HAS(SHADE__PLAIN) && !r->rows->albedo && !r->rows->specular)
         shade__combine(r, albedo, albedo, 1, n, rgb);
     else shade__combine(r, albedo, shade__factors(r->rows->specular), 0, n, rgb);
