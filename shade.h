@@ -65,18 +65,18 @@
        >>triangles 3628  dropped, cut, edges   >>clip      3997  near, far, behind the eye
        >>tiles     4182  pixels, depth test    >>cover     4537  what is hidden, tile by tile
        >>fragments 4804  interpolation, lod    >>texture   5097  texels, mipmaps
-       >>store     5542  blending, packing
+       >>store     5537  blending, packing
      Inside: calls of the renderer
-       >>check     5774  refusals              >>seen      5923  what can be seen, chunks
-       >>drive     6060  shade_draw            >>mesh      6239  shade_draw_mesh
+       >>check     5769  refusals              >>seen      5918  what can be seen, chunks
+       >>drive     6055  shade_draw            >>mesh      6234  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6639  shade_draw_lines      >>shape     6797  normals, edges
-       >>chunks    7133  how boxes are made    >>rays      7297  shade_pick
-       >>survey    7493  experiments on a draw >>explain   7744  why nothing is seen
-       >>image     8389  mipmaps, PPM           >>presets   8657  classic materials
+       >>lines     6634  shade_draw_lines      >>shape     6792  normals, edges
+       >>chunks    7128  how boxes are made    >>rays      7292  shade_pick
+       >>survey    7488  experiments on a draw >>explain   7739  why nothing is seen
+       >>image     8384  mipmaps, PPM           >>presets   8652  classic materials
      Sources
-       >>refs      8733                        >>history   8763
-       >>license   8775
+       >>refs      8728                        >>history   8758
+       >>license   8770
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3228,7 +3228,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
 /*------------------------------------------------------------------------------------------ >>state
    What a draw knows, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB at
    the defaults, of which the queue takes 12.4 and the batch 8.8.  bench/stack.c measures whole
-   calls: a lit mesh with a map takes 40.8 kB where triangles are clipped, 43.4 kB with clang.
+   calls: a lit mesh with a map takes 44.7 kB where triangles are clipped, 47.1 kB with clang.
 
      plan      >>drive       what the draw is; fixed before the first triangle, read by all
      supply    >>drive       the triangles that are still to come
@@ -5122,13 +5122,10 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
 /* A block is 16 lanes, or all where there are fewer.  Loops run over blocks, so that a single
-   sample costs one of them.  TEXELS are the lanes filtered at a time: 2.5 % slower than whole
-   packets of 128, for 4.6 kB less of stack. */
+   sample costs one of them. */
 enum {
     SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16,
-    SHADE__BLOCKS = SHADE_LANES / SHADE__BLOCK,    /* of a packet */
-    SHADE__TEXELS = SHADE_LANES < 64 ? SHADE_LANES : 64,
-    SHADE__TEXEL_BLOCKS = SHADE__TEXELS / SHADE__BLOCK
+    SHADE__BLOCKS = SHADE_LANES / SHADE__BLOCK     /* of a packet */
 };
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
@@ -5139,8 +5136,8 @@ typedef struct shade__axis {
     int size;                    /* in texels */
     shade_wrap wrap;
     uint32_t unit;               /* how far apart neighbours are in i */
-    SHADE_ALIGNED uint32_t i[2][SHADE__TEXELS];
-    float f[SHADE__TEXELS];      /* the weight of the texel after; 0 if nearest */
+    SHADE_ALIGNED uint32_t i[2][SHADE_LANES];
+    float f[SHADE_LANES];        /* the weight of the texel after; 0 if nearest */
 } shade__axis;
 
 /* One level of a texture, and where its texels lie for some blocks of lanes. */
@@ -5149,9 +5146,9 @@ typedef struct shade__reader {
     const shade__layout *layout;
     size_t y_bytes;              /* how many bytes 1 in y.i stands for; 1 in x.i is one */
     int nearest, blocks;
-    uint32_t apart[SHADE__TEXEL_BLOCKS];    /* 0: 8 bytes hold each pair */
+    uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
     shade__axis x, y;
-    uint32_t pair[2][SHADE__TEXELS];    /* the bytes before the left texel, above and below */
+    uint32_t pair[2][SHADE_LANES];        /* the bytes before the left texel, above and below */
 } shade__reader;
 
 /* Finds the two texels and the weight of each coordinate, which may be any float, NaN too.
@@ -5168,7 +5165,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const float period = wrap == SHADE_WRAP_MIRROR ? 0.5f : 1.0f;
     const float n = (float)a->size, half = nearest ? 0.0f : 0.5f;
     const uint32_t unit = a->unit;
-    SHADE_ALIGNED float place[SHADE__TEXELS];    /* from 0 to 1 */
+    SHADE_ALIGNED float place[SHADE_LANES];    /* from 0 to 1 */
 
     /* From 2^24 on all floats are even numbers: each lies where a period begins, as 0 does, and is
        replaced by 0.  So are NaN and infinity, and where the texture is clamped these alone. */
@@ -5313,7 +5310,7 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r,
                                        shade__out green, shade__out blue,
                                        shade__out alpha)
 {
-    const uint32_t *second = texel + 2 * SHADE__TEXELS;
+    const uint32_t *second = texel + 2 * SHADE_LANES;
     const shade__layout l = *r->layout;
     SHADE__EACH_BLOCK(i, r->blocks) {
         const uint32_t a = texel[2 * i], b = texel[2 * i + 1];
@@ -5346,7 +5343,7 @@ SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const 
 static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_t *texel,
                                            shade__corners *SHADE_RESTRICT to)
 {
-    enum { below = 2 * SHADE__TEXELS };
+    enum { below = 2 * SHADE_LANES };
     const uint8_t *p = (const uint8_t *)texel;
     const int red = l->shift[0] / 8;
     for (int i = 0; i < SHADE__BLOCK && l->bytes == 4; i++, p += 8) {
@@ -5368,7 +5365,7 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
                                         shade__in y, int stride, shade__out out)
 {
     const shade__layout l = *r->layout;
-    const uint32_t *below = above + 2 * SHADE__TEXELS;
+    const uint32_t *below = above + 2 * SHADE_LANES;
     SHADE_ALIGNED shade__corners t;
     shade__look_up(&l, above, &t);
     for (int k = 0; k < 3; k++) {
@@ -5388,7 +5385,7 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
 SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
                                        shade__out out)
 {
-    const float *second = c + 2 * SHADE__TEXELS;
+    const float *second = c + 2 * SHADE_LANES;
     const int blocks = r->blocks;
     SHADE__EACH_BLOCK(i, blocks) {
         float x = r->x.f[i], y = r->y.f[i], c0 = c[2 * i], c2 = second[2 * i];
@@ -5413,7 +5410,7 @@ SHADE__INLINE void shade__add_level(shade__in c, shade__in weight, int blocks,
 SHADE__INLINE void shade__filter(const shade__reader *r, int encoded,
                                  const float *weight, float *out)
 {
-    enum { size = SHADE__TEXELS };
+    enum { size = SHADE_LANES };
     const int floats = r->layout->bytes == 16, blocks = r->blocks;
     const int lines = r->nearest && !encoded ? 1 : 2;
     SHADE_ALIGNED uint32_t texel[4 * size];
@@ -5469,8 +5466,8 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t,
 {
     const int levels = shade__min(t->mipmap_count, 16);
     int least = levels, most = 0;
-    SHADE_ALIGNED float level[SHADE__TEXELS];
-    SHADE_ALIGNED float weight[SHADE__TEXELS];
+    SHADE_ALIGNED float level[SHADE_LANES];
+    SHADE_ALIGNED float weight[SHADE_LANES];
     SHADE__EACH_BLOCK(i, blocks) {
         int32_t bits = (int32_t)(shade__float_bits(lod[i]) & 0x7FFFFFFFu);
         float finite = shade__keep(lod[i], shade__mask(bits < 0x7F800000));
@@ -5519,9 +5516,7 @@ SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u,
         for (int i = 0; i < 4 * SHADE_LANES; i++) rgba[i] = 1;
         return;
     }
-    for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS)
-        shade__sample(texture, u + i, v + i, lod ? lod + i : lod,
-                      SHADE__TEXEL_BLOCKS, rgba + i);
+    shade__sample(texture, u, v, lod, SHADE__BLOCKS, rgba);
 }
 
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
