@@ -67,16 +67,16 @@
        >>fragments 4804  interpolation, lod    >>texture   5097  texels, mipmaps
        >>store     5537  blending, packing
      Inside: calls of the renderer
-       >>check     5769  refusals              >>seen      5918  what can be seen, chunks
-       >>drive     6055  shade_draw            >>mesh      6234  shade_draw_mesh
+       >>check     5769  refusals              >>seen      5950  what can be seen, chunks
+       >>drive     6087  shade_draw            >>mesh      6266  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6634  shade_draw_lines      >>shape     6792  normals, edges
-       >>chunks    7128  how boxes are made    >>rays      7292  shade_pick
-       >>survey    7488  experiments on a draw >>explain   7739  why nothing is seen
-       >>image     8384  mipmaps, PPM           >>presets   8652  classic materials
+       >>lines     6672  shade_draw_lines      >>shape     6830  normals, edges
+       >>chunks    7166  how boxes are made    >>rays      7330  shade_pick
+       >>survey    7526  experiments on a draw >>explain   7777  why nothing is seen
+       >>image     8422  mipmaps, PPM           >>presets   8690  classic materials
      Sources
-       >>refs      8728                        >>history   8758
-       >>license   8770
+       >>refs      8766                        >>history   8796
+       >>license   8808
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5851,14 +5851,45 @@ SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
     return NULL;
 }
 
-/* Returns how many varyings the shaders of a mesh need. */
-static int shade__mesh_varyings(const shade_mesh *m,
-                                const shade_draw_state *state)
+/* The row at which each varying of a mesh begins; -1: the draw has none of it.
+
+     row                           0        3        6        8       9
+     lit per fragment              P        N        albedo           u v    without colours u v at 6
+     no lamps, or depth alone      albedo   u v
+     lit per vertex or face        light
+     the same, with a map          light    rest     u v
+     state.fragment                P        N        albedo           u v    always all 11
+
+   A map multiplies the light of vertices, but not the rest of it (emission, highlights). */
+typedef struct shade__mesh_rows {
+    int point, normal, light, rest, albedo, uv;
+    int count;
+} shade__mesh_rows;
+
+/* Takes the next n rows if they are wanted. */
+static int shade__take_rows(shade__mesh_rows *r, int n, int wanted)
 {
-    const int map = state->diffuse_map && m->texcoords;
-    if (state->fragment) return SHADE_VARYING_TEXCOORD + 2;
-    if (state->shading != SHADE_SHADING_PER_FRAGMENT) return map ? 8 : 3;
-    return (m->colors ? 9 : 6) + (map ? 2 : 0);
+    const int first = r->count;
+    if (!wanted) return -1;
+    r->count += n;
+    return first;
+}
+
+static shade__mesh_rows shade__rows_of_mesh(const shade_draw_state *state, int map, int tinted,
+                                            int pn_unread)
+{
+    const int custom = state->fragment != NULL;
+    const int by_pixel = state->shading == SHADE_SHADING_PER_FRAGMENT && !pn_unread;
+    const int by_vertex = state->shading != SHADE_SHADING_PER_FRAGMENT && !pn_unread;
+    shade__mesh_rows r;
+    r.count = 0;
+    r.point = shade__take_rows(&r, 3, by_pixel);
+    r.normal = shade__take_rows(&r, 3, by_pixel);
+    r.light = shade__take_rows(&r, 3, by_vertex);
+    r.rest = shade__take_rows(&r, 3, by_vertex && map);
+    r.albedo = shade__take_rows(&r, 3, !by_vertex && (custom || tinted));
+    r.uv = shade__take_rows(&r, 2, custom || map);
+    return r;
 }
 
 SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
@@ -5872,7 +5903,8 @@ SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
         return "state.alpha_cutoff must be from 0 (nothing is cut) to 1.";
     if (state->fragment && state->shading != SHADE_SHADING_PER_FRAGMENT)
         return "state.fragment needs state.shading to be SHADE_SHADING_PER_FRAGMENT.";
-    if (shade__mesh_varyings(m, state) > SHADE_MAX_VARYINGS)
+    if (shade__rows_of_mesh(state, state->diffuse_map && m->texcoords, m->colors != NULL, 0).count >
+        SHADE_MAX_VARYINGS)
         return "SHADE_MAX_VARYINGS is too small for this draw, which needs 6 varyings, 9 with "
                "mesh.colors, 2 more with state.diffuse_map, or 11 with state.fragment; lit by "
                "vertex or face 3, or 8 with state.diffuse_map.";
@@ -6256,7 +6288,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int tinted;                          /* the mesh has colours that somebody reads */
     int lit_vertices;                    /* light at its vertices, also where that is once a face */
     int pn_unread;                       /* nobody reads P and N */
-    int varyings;                        /* in use; with a map the last two are u, v */
+    shade__mesh_rows row;
 } shade__scene;
 
 enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
@@ -6413,20 +6445,23 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
     }
 }
 
-/* The varyings of a mesh are P, N, albedo if it has colours, and u, v if it has a map.  P and N are
-   left out where nobody reads them; a fragment shader of the state gets all.  A mesh that is lit
-   at its vertices has its colour as varyings, or with a map the light that the map multiplies, the
-   rest of the light, and u, v. */
+/* The rows of a varying; of one that the draw does not have, others. */
+SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *others)
+{
+    return row < 0 ? others : shade__three_rows(out->varying[row]);
+}
+
+/* Vertices are fetched into the rows of their varyings, and what is no varying into own. */
 static void shade__mesh_vertex(const void *uniforms,
                                const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
-    shade__v3 lit[3], *point = lit, *normal, *albedo;    /* of vertices that are lit */
-    if (!s->lit_vertices) point = shade__three_rows(out->varying[s->pn_unread ? s->varyings : 0]);
-    normal = point + 1;
-    albedo = s->pn_unread ? shade__three_rows(out->varying[0]) : normal + 1;
+    shade__v3 own[3];
+    shade__v3 *point = shade__rows_at(out, s->row.point, &own[0]);
+    shade__v3 *normal = shade__rows_at(out, s->row.normal, &own[1]);
+    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &own[2]);
 
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
@@ -6438,10 +6473,10 @@ static void shade__mesh_vertex(const void *uniforms,
     if (custom && !s->tinted)
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
     if (s->lit_vertices)
-        shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out->varying[0]);
-    /* last, because P may have lain in the rows of u and v: see pn_unread */
-    if (s->map || (custom && s->mesh->texcoords))
-        shade__fetch_texcoords(s, in, out->varying[s->varyings - 2]);
+        shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL,
+                              out->varying[s->row.light]);
+    if (s->row.uv >= 0 && s->mesh->texcoords)
+        shade__fetch_texcoords(s, in, out->varying[s->row.uv]);
 }
 
 /* The row of alpha holds that of the map or of the fragment shader, or 1.  It is multiplied by the
@@ -6477,17 +6512,22 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s,
     shade__lit_packet(&s->surface, &mapped, rgb);
 }
 
+/* The rows of a varying; NULL where the draw does not have it. */
+SHADE__INLINE const float *shade__row(const shade_fragments *in, int row)
+{
+    return row < 0 ? NULL : in->varying[row];
+}
+
 /* The colour of the map, lit by what arrives: P and N of the pixel, or light of the vertices.
    Draws without a picture need the map alone, for the holes that it cuts. */
 static void shade__mesh_colors(const shade__scene *s,
                                const shade_fragments *SHADE_RESTRICT in,
                                shade_colors *SHADE_RESTRICT out)
 {
-    const float *varying = in->varying[0];
-    const int uv = s->varyings - 2;
+    const shade__mesh_rows *row = &s->row;
     float *to = out->color[0];
     if (s->map)
-        shade_sample_lanes(s->map, in->varying[uv], in->varying[uv + 1],
+        shade_sample_lanes(s->map, in->varying[row->uv], in->varying[row->uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
     if (!s->has_picture) return;
     for (int i = 0; s->white_map && i < 3 * SHADE_LANES; i++) to[i] = 1;
@@ -6495,16 +6535,15 @@ static void shade__mesh_colors(const shade__scene *s,
     if (!s->lit_vertices) {
         shade_rows rows;
         SHADE__ZERO(rows);
-        rows.position = varying;
-        rows.normal = varying + SHADE_VARYING_NORMAL * SHADE_LANES;
-        if (s->tinted)
-            rows.albedo = varying + (s->pn_unread ? 0 : SHADE_VARYING_COLOR * SHADE_LANES);
+        rows.position = shade__row(in, row->point);
+        rows.normal = shade__row(in, row->normal);
+        rows.albedo = shade__row(in, row->albedo);
         if (s->map) shade__lit_map(s, &rows, to);
         else shade__lit_packet(&s->surface, &rows, to);
     } else if (s->map) {
-        for (int i = 0; i < 3 * SHADE_LANES; i++)
-            to[i] = varying[i] * to[i] + varying[i + 3 * SHADE_LANES];
-    } else SHADE_MEMCPY(to, varying, 3 * sizeof in->varying[0]);
+        const float *light = in->varying[row->light], *rest = in->varying[row->rest];
+        for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = light[i] * to[i] + rest[i];
+    } else SHADE_MEMCPY(to, in->varying[row->light], 3 * sizeof in->varying[0]);
 }
 
 static void shade__mesh_fragment(const void *uniforms,
@@ -6529,8 +6568,7 @@ static void shade__plan_scene(shade__scene *s)
     s->lit_vertices = !per_fragment && !s->pn_unread;
     s->corners = s->face_normals && !s->pn_unread;
     s->tinted = m->colors && (s->has_picture || state->fragment);
-    s->varyings = shade__mesh_varyings(m, state);
-    if (s->pn_unread) s->varyings = (s->tinted ? 3 : 0) + (s->map ? 2 : 0);
+    s->row = shade__rows_of_mesh(state, s->map != NULL, s->tinted, s->pn_unread);
 }
 
 /* Not inlined, because its temporaries would lie below the whole draw: half a kilobyte of stack. */
@@ -6601,10 +6639,10 @@ static shade_result shade__draw_scene(const shade_target *target,
     p.may_discard = may_discard;
     p.fragment = fragment;
     p.uniforms = scene;
-    p.varyings = scene->varyings;
+    p.varyings = scene->row.count;
     if (scene->map && (scene->map->mipmap_count || state->fragment)) {
         p.lod_texture = scene->map;
-        p.lod_varying = scene->varyings - 2;
+        p.lod_varying = scene->row.uv;
     }
     if (state->shading == SHADE_SHADING_PER_FACE && !scene->map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
