@@ -65,18 +65,18 @@
        >>triangles 3628  dropped, cut, edges   >>clip      3997  near, far, behind the eye
        >>tiles     4182  pixels, depth test    >>cover     4537  what is hidden, tile by tile
        >>fragments 4804  interpolation, lod    >>texture   5097  texels, mipmaps
-       >>store     5537  blending, packing
+       >>store     5541  blending, packing
      Inside: calls of the renderer
-       >>check     5769  refusals              >>seen      5950  what can be seen, chunks
-       >>drive     6087  shade_draw            >>mesh      6266  shade_draw_mesh
+       >>check     5777  refusals              >>seen      5958  what can be seen, chunks
+       >>drive     6095  shade_draw            >>mesh      6274  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6672  shade_draw_lines      >>shape     6830  normals, edges
-       >>chunks    7166  how boxes are made    >>rays      7330  shade_pick
-       >>survey    7526  experiments on a draw >>explain   7777  why nothing is seen
-       >>image     8422  mipmaps, PPM           >>presets   8690  classic materials
+       >>lines     6680  shade_draw_lines      >>shape     6838  normals, edges
+       >>chunks    7174  how boxes are made    >>rays      7338  shade_pick
+       >>survey    7534  experiments on a draw >>explain   7785  why nothing is seen
+       >>image     8430  mipmaps, PPM           >>presets   8737  classic materials
      Sources
-       >>refs      8766                        >>history   8796
-       >>license   8808
+       >>refs      8813                        >>history   8843
+       >>license   8855
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5127,6 +5127,10 @@ enum {
     SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16,
     SHADE__BLOCKS = SHADE_LANES / SHADE__BLOCK     /* of a packet */
 };
+
+/* The blocks that hold n lanes. */
+SHADE__INLINE int shade__blocks_of(int n) { return (n + SHADE__BLOCK - 1) / SHADE__BLOCK; }
+
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
@@ -5629,19 +5633,23 @@ SHADE__DISPATCH_AVX2(shade__unpack,
                      (const shade_target *t, const uint32_t *packed, float *rgba),
                      (t, packed, rgba), shade__unpack_body(t, packed, rgba))
 
-/* Packs a block of pixels and stores the first n of them at p.  The first is pixel (x, y) of the
-   target, which matters where it dithers. */
-static void shade__store_block(const shade_target *t, float *rgba, int x, int y,
-                               int n, uint8_t *p)
+/* Packs n pixels and stores them at p.  The first is pixel (x, y) of the target, which matters
+   where it dithers.   pre: 0 < n <= SHADE_LANES; the rows hold whole blocks of numbers */
+static void shade__store_run(const shade_target *t, float *rgba, int x, int y, int n, uint8_t *p)
 {
     const shade__layout l = shade__layouts[t->format];
-    float px[SHADE__BLOCK], py[SHADE__BLOCK];
-    uint32_t packed[SHADE__BLOCK] = { 0 };
-    for (int i = 0; i < SHADE__BLOCK; i++) {
+    SHADE_ALIGNED float px[SHADE_LANES];
+    SHADE_ALIGNED float py[SHADE_LANES];
+    SHADE_ALIGNED uint32_t packed[SHADE_LANES] = { 0 };    /* floats are stored from rgba */
+    SHADE_EACH_LANE(i) {
         px[i] = (float)(x + i) + 0.5f;
         py[i] = (float)y + 0.5f;
     }
-    shade__pack(t, rgba, px, py, packed, 1);
+    shade__pack(t, rgba, px, py, packed, shade__blocks_of(n));
+    if (l.bytes == 4) {
+        SHADE_MEMCPY(p, packed, (size_t)n * 4);
+        return;
+    }
     for (int i = 0; i < n; i++) shade__store_pixel(&l, p + i * l.bytes, packed[i], rgba + i);
 }
 
@@ -6235,7 +6243,7 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
     const size_t period = 8 * shade__pixel_bytes(t->format);
     float rgba[4 * SHADE_LANES];
     for (int i = 0; i < SHADE__BLOCK; i++) shade__put4(rgba, SHADE_LANES, i, color);
-    shade__store_block(t, rgba, x, y, 8, pattern);
+    shade__store_run(t, rgba, x, y, 8, pattern);
     for (size_t i = period; i < 256; i++) pattern[i] = pattern[i - period];
 }
 
@@ -8450,12 +8458,11 @@ static void shade__open_decoder(const shade_target *t, shade__decoder *d)
     }
 }
 
-/* The linear light of channel k of a pixel of so many bytes.  Loops pass 4 and 16 as constants, so
-   that they need not ask: means are 2.5 times as fast. */
-SHADE__INLINE float shade__light_of(const shade__decoder *d, const uint8_t *p, int k,
-                                    const int bytes)
+/* The linear light of channel k of a pixel of so many bytes.  Loops pass 4 and 16 as constants, and
+   a copy of the layout, which no store can change: means are 2.5 times as fast. */
+SHADE__INLINE float shade__light_of(const shade__decoder *d, const shade__layout *l,
+                                    const uint8_t *p, int k, const int bytes)
 {
-    const shade__layout *l = &d->layout;
     float c;
     if (bytes == 16) {
         SHADE_MEMCPY(&c, p + 4 * k, 4);
@@ -8465,33 +8472,128 @@ SHADE__INLINE float shade__light_of(const shade__decoder *d, const uint8_t *p, i
     return d->of[k][shade__load_packed(p, bytes, l->swapped) >> l->shift[k] & l->full[k]];
 }
 
-/* The means of factor x factor pixels each, from pixel p on, side by side.  From the n-th on the
-   last is repeated. */
-SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_t pitch, int factor,
-                                int n, const int bytes, float *mean)
+/* The means of factor x factor pixels, for n pixels of a smaller picture. */
+SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_t pitch,
+                                const int factor, int n, const int bytes, float *mean)
 {
+    const shade__layout l = d->layout;
     const float count = (float)(factor * factor);
-    for (int i = 0; i < SHADE__BLOCK; i++)
-        for (int k = 0; k < 4; k++) {
-            const uint8_t *at = p + shade__min(i, n - 1) * factor * bytes;
-            float sum = 0;
-            for (int j = 0; j < factor; j++, at += pitch)
-                for (int s = 0; s < factor; s++)
-                    sum += shade__light_of(d, at + s * bytes, k, bytes);
-            mean[k * SHADE_LANES + i] = sum / count;
-        }
+    for (int i = 0; i < n; i++, p += factor * bytes) {
+        const uint8_t *at = p;
+        float sum[4] = { 0, 0, 0, 0 };
+        for (int j = 0; j < factor; j++, at += pitch)
+            for (int s = 0; s < factor; s++)
+                SHADE__FOR_4(k) sum[k] += shade__light_of(d, &l, at + s * bytes, k, bytes);
+        SHADE__FOR_4(k) mean[k * SHADE_LANES + i] = sum[k] / count;
+    }
 }
 
-/* The same for any format, from pixel (x, y) of the smaller picture on. */
-static void shade__mean_block(const shade__decoder *d, const shade_target *in, int factor, int x,
-                              int y, int n, float *mean)
+/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
+   2 i + 2 of the level above, and of each a share. */
+typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
+
+/* What a level of mipmaps is made with. */
+typedef struct shade__halving {
+    double light[512];                  /* the table of the decoder, for sums in double */
+    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
+} shade__halving;
+
+static shade__cut shade__cut_of(int size, int smaller, int i)
+{
+    const double scale = (double)size / smaller, from = i * scale, to = (i + 1) * scale;
+    shade__cut c = { size == smaller ? 1 : 2 + size % 2, { 0, 0, 0 } };
+    for (int k = 0; k < c.pixels; k++) {
+        const int first = 2 * i + k;
+        c.share[k] = (first + 1 < to ? first + 1 : to) - (first > from ? first : from);
+    }
+    return c;
+}
+
+/* The means of 2 x 2 pixels of 4 bytes, whose sums are exact in double. */
+SHADE__INLINE void shade__halve(const shade__layout *l, const double *light, const uint8_t *p,
+                                size_t pitch, int n, float *mean)
+{
+    for (int k = 0; k < 4; k++) {
+        const double *of = light + (k == 3 ? 256 : 0);
+        const uint8_t *a = p + l->shift[k] / 8, *b = a + pitch;
+        for (int i = 0; i < n; i++) {
+            const double sum = of[a[8 * i]] + of[a[8 * i + 4]] + of[b[8 * i]] + of[b[8 * i + 4]];
+            mean[k * SHADE_LANES + i] = (float)(sum * 0.25);
+        }
+    }
+}
+
+/* The same for any format and size. */
+SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *h,
+                                 const shade__cut *rows, const uint8_t *p, size_t pitch, int n,
+                                 const int bytes, float *mean)
+{
+    const shade__layout l = d->layout;
+    const int columns = h->column[0].pixels, lines = rows->pixels;
+    for (int i = 0; i < n; i++, p += 2 * bytes) {
+        const shade__cut *c = &h->column[i];
+        const uint8_t *at = p;
+        double sum[4] = { 0, 0, 0, 0 }, all = 0;
+        for (int j = 0; j < lines; j++, at += pitch)
+            for (int s = 0; s < columns; s++) {
+                const double share = c->share[s] * rows->share[j];
+                const uint8_t *q = at + s * bytes;
+                SHADE__FOR_4(k) {
+                    sum[k] += (bytes == 4 ? h->light[(k == 3 ? 256 : 0) + q[l.shift[k] / 8]]
+                                          : (double)shade__light_of(d, &l, q, k, bytes)) *
+                              share;
+                }
+                all += share;
+            }
+        SHADE__FOR_4(k) mean[k * SHADE_LANES + i] = (float)(sum[k] / all);
+    }
+}
+
+/* The light of pixels x .. x + n - 1 of row y of a picture that is made of another one: means of
+   factor x factor pixels, or of what the texels of a mipmap cover. */
+static void shade__reduce(const shade__decoder *d, const shade__halving *h,
+                          const shade_target *from, const shade_target *to, int factor, int x,
+                          int y, int n, float *mean)
 {
     const int bytes = d->layout.bytes;
-    const size_t pitch = (size_t)shade__stride_of(in) * (size_t)bytes;
-    const uint8_t *p = shade__pixel_at(in, x * factor, y * factor);
-    if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
+    const size_t pitch = (size_t)shade__stride_of(from) * (size_t)bytes;
+    const uint8_t *p = shade__pixel_at(from, x * factor, y * factor);
+    if (h) {
+        const shade__cut rows = shade__cut_of(from->height, to->height, y);
+        const int even = rows.pixels == 2 && h->column[0].pixels == 2;
+        if (bytes == 4 && even) shade__halve(&d->layout, h->light, p, pitch, n, mean);
+        else if (bytes == 4) shade__shrink(d, h, &rows, p, pitch, n, 4, mean);
+        else shade__shrink(d, h, &rows, p, pitch, n, bytes, mean);
+    } else if (bytes == 4 && factor == 2) shade__means(d, p, pitch, 2, n, 4, mean);
+    else if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
     else if (bytes == 16) shade__means(d, p, pitch, factor, n, 16, mean);
     else shade__means(d, p, pitch, factor, n, bytes, mean);
+}
+
+/* Makes a picture of another one, in its clip rectangle.  With a sink the picture is one row of
+   RGBA8 that goes there as R, G, B bytes. */
+static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
+                                   const shade_target *from, const shade_target *to, int factor,
+                                   shade_write_fn *sink, void *user)
+{
+    float rgba[4 * SHADE_LANES] = { 0 };
+    uint8_t pixels[4 * SHADE_LANES], rgb[3 * SHADE_LANES];
+    int clip[4];
+    shade__clip_rectangle(to, clip);
+    for (int x = clip[0]; x < clip[2]; x += SHADE_LANES) {
+        const int n = shade__min(SHADE_LANES, clip[2] - x);
+        for (int i = 0; h && i < n; i++)
+            h->column[i] = shade__cut_of(from->width, to->width, x + i);
+        for (int y = clip[1]; y < clip[3]; y++) {
+            shade__reduce(d, h, from, to, factor, x, y, n, rgba);
+            shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
+            if (!sink) continue;
+
+            for (int i = 0; i < n; i++) SHADE_MEMCPY(rgb + 3 * i, pixels + 4 * i, 3);
+            if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
+        }
+    }
+    return SHADE_OK;
 }
 
 SHADEDEF shade_result shade_resolve(const shade_target *out,
@@ -8499,8 +8601,6 @@ SHADEDEF shade_result shade_resolve(const shade_target *out,
 {
     shade_result result;
     shade__decoder decoder;
-    int clip[4];
-    float rgba[4 * SHADE_LANES];
     if (!out || !in) return SHADE_ERROR_ARGUMENT;
     result = shade__check_picture(out);
     if (!result) result = shade__check_picture(in);
@@ -8511,51 +8611,7 @@ SHADEDEF shade_result shade_resolve(const shade_target *out,
         return SHADE_ERROR_ARGUMENT;
 
     shade__open_decoder(in, &decoder);
-    shade__clip_rectangle(out, clip);
-    for (int y = clip[1]; y < clip[3]; y++)
-        for (int x = clip[0]; x < clip[2]; x += SHADE__BLOCK) {
-            const int n = shade__min(SHADE__BLOCK, clip[2] - x);
-            shade__mean_block(&decoder, in, factor, x, y, n, rgba);
-            shade__store_block(out, rgba, x, y, n, shade__pixel_at(out, x, y));
-        }
-    return SHADE_OK;
-}
-
-/* The length of the part of first .. first + 1 that lies in from .. to. */
-SHADE__INLINE double shade__overlap(int first, double from, double to)
-{
-    return (first + 1 < to ? first + 1 : to) - (first > from ? first : from);
-}
-
-/* The mean of the part of a picture that texel (x, y) of a smaller one covers. */
-SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade_target *from,
-                                 const shade_target *to, int x, int y,
-                                 const int bytes, float *mean)
-{
-    const double sx = (double)from->width / to->width, sy = (double)from->height / to->height;
-    const double left = x * sx, right = (x + 1) * sx, top = y * sy, low = (y + 1) * sy;
-    double sum[4] = { 0, 0, 0, 0 }, all = 0;
-    for (int j = (int)top; j < from->height && j < low; j++)
-        for (int i = (int)left; i < from->width && i < right; i++) {
-            const double share = shade__overlap(i, left, right) * shade__overlap(j, top, low);
-            const uint8_t *p = shade__pixel((uint8_t *)from->color,
-                                            shade__offset_of(from, i, j), (size_t)bytes);
-            SHADE__FOR_4(k)
-                sum[k] += (double)shade__light_of(d, p, k, bytes) * share;
-            all += share;
-        }
-    SHADE__FOR_4(k) mean[SHADE_LANES * k] = (float)(sum[k] / all);
-}
-
-/* The same for n texels of any format, from (x, y) on. */
-static void shade__shrink_row(const shade__decoder *d, const shade_target *from,
-                              const shade_target *to, int x, int y, int n, float *mean)
-{
-    const int bytes = d->layout.bytes;
-    for (int i = 0; i < n; i++) {
-        if (bytes == 4) shade__shrink(d, from, to, x + i, y, 4, mean + i);
-        else shade__shrink(d, from, to, x + i, y, bytes, mean + i);
-    }
+    return shade__convert(&decoder, NULL, in, out, factor, NULL, NULL);
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
@@ -8584,6 +8640,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture,
 {
     shade_target from, to;
     shade__decoder decoder;
+    shade__halving halving;
     const int count = texture ? shade_mipmap_count(texture->width, texture->height) : 0;
     if (!texture || (count && (!levels || !memory || (uintptr_t)memory % 4)))
         return SHADE_ERROR_ARGUMENT;
@@ -8598,20 +8655,14 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture,
     from.srgb = texture->srgb;
     from.color = (void *)(uintptr_t)texture->pixels;
     shade__open_decoder(&from, &decoder);
+    for (int v = 0; v < 512; v++) halving.light[v] = (double)decoder.value[v];
     for (int n = 0; n < count; n++, from = to) {
         to = from;
         to.width = shade__max(from.width / 2, 1);
         to.height = shade__max(from.height / 2, 1);
         to.stride = 0;
         to.color = memory;
-        for (int y = 0; y < to.height; y++)
-            for (int x = 0; x < to.width; x += SHADE__BLOCK) {
-                const int texels = shade__min(SHADE__BLOCK, to.width - x);
-                float rgba[4 * SHADE_LANES] = { 0 };
-                shade__shrink_row(&decoder, &from, &to, x, y, texels, rgba);
-                shade__store_block(&to, rgba, x, y, texels,
-                                   shade__pixel_at(&to, x, y));
-            }
+        shade__convert(&decoder, &halving, &from, &to, 2, NULL, NULL);
         memory = shade__pixel_at(&to, 0, to.height);
         levels[n] = *texture;
         levels[n].pixels = to.color;
@@ -8638,8 +8689,6 @@ static char *shade__decimal(char *p, int n)
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target)
 {
-    uint8_t pixels[4 * SHADE__BLOCK], rgb[3 * SHADE__BLOCK];
-    float linear[4 * SHADE_LANES];
     char head[32] = "P6\n", *p = head + 3;
     shade_target from, to;
     shade__decoder decoder;
@@ -8654,17 +8703,15 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
     from.srgb = 0;    /* stored sRGB passes unchanged; only floats are encoded */
     to.format = SHADE_FORMAT_RGBA8;
     to.srgb = target->srgb && target->format == SHADE_FORMAT_RGBA32F;
+    to.clip_x = 0;
+    to.clip_width = to.width;
+    to.clip_height = 1;
     shade__open_decoder(&from, &decoder);
-    for (int y = 0; y < shade__rows_held(target); y++) {
-        for (int x = 0; x < target->width; x += SHADE__BLOCK) {
-            int n = shade__min(SHADE__BLOCK, target->width - x);
-            shade__mean_block(&decoder, &from, 1, x, y + target->row_offset, n, linear);
-            shade__store_block(&to, linear, x, y, n, pixels);
-            for (int i = 0; i < n; i++) SHADE_MEMCPY(rgb + 3 * i, pixels + 4 * i, 3);
-            if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
-        }
+    for (int y = 0; y < shade__rows_held(target) && !result; y++) {
+        to.clip_y = to.row_offset + y;
+        result = shade__convert(&decoder, NULL, &from, &to, 1, sink, user);
     }
-    return SHADE_OK;
+    return result;
 }
 
 #ifndef SHADE_NO_STDIO
