@@ -18,10 +18,10 @@ FOLDERS = ("examples/programs/model", "examples/shared")
 
 def top() -> Path:
     """Returns the folder that shade.h is in."""
-    for folder in (HERE / "headers", HERE.parent.parent):
+    for folder in (HERE / "headers", HERE.parents[2]):
         if (folder / "shade.h").is_file():
             return folder
-    sys.exit("shade.h is neither in headers/ nor two folders up: build from a clone or an sdist")
+    sys.exit("shade.h is neither in headers/ nor three folders up: build from a clone or an sdist")
 
 
 class BuildLibrary(build_ext):

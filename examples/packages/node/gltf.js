@@ -1,4 +1,4 @@
-// Reads glTF 2.0, GLB or JSON with its buffers inside, as examples/python/shade_h/gltf.py does: each
+// Reads glTF 2.0, GLB or JSON with its buffers inside, as ../python/shade_h/gltf.py does: each
 // surface becomes one mesh, as render takes them.
 import { ShadeError, record } from "./arguments.js";
 

@@ -9,7 +9,7 @@ WARN="-Werror -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion 
     -Wno-unused-function"
 # The stack lies first: what overflows it is caught.
 FLAGS="--target=wasm32-wasi -std=c99 -O2 $WARN -msimd128 -mbulk-memory -mnontrapping-fptoint
-    -ffp-contract=off -fno-math-errno -ftls-model=local-exec -mexec-model=reactor -I../..
+    -ffp-contract=off -fno-math-errno -ftls-model=local-exec -mexec-model=reactor -I../../..
     -Wl,--stack-first,-z,stack-size=262144,--strip-all"
 
 if ! echo '#include <stdlib.h>' | $CLANG --target=wasm32-wasi -x c -fsyntax-only - 2>/dev/null; then
@@ -22,4 +22,4 @@ $CLANG $FLAGS module.c -o "$out/module.wasm" || exit 1
     printf 'export default "%s";\n' "$(base64 "$out/module.wasm" | tr -d '\n')"
 } >"$out/module.js" && rm "$out/module.wasm" && echo "node: $out/module.js"
 [ "$out" = . ] && command -v node >/dev/null || exit 0
-cp index.d.ts index.d.cts && cp ../../LICENSE . && node commonjs.js index.cjs
+cp index.d.ts index.d.cts && cp ../../../LICENSE . && node commonjs.js index.cjs

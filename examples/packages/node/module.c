@@ -1,5 +1,5 @@
 /* module.c - what index.js calls: meshes are prepared and drawn in the memory of a WebAssembly
-   module.  They are prepared as examples/python/shade_h/mesh.py does, and drawn by the same C.
+   module.  They are prepared as ../python/shade_h/mesh.py does, and drawn by the same C.
 
    index.js writes the structs that begin with "asked" word by word and is the only caller: it
    checks lengths, indices and sizes before.  A pointer that it hands over is freed here. */

@@ -1,4 +1,4 @@
-// Reads 3MF, a ZIP archive of XML, as examples/python/shade_h/threemf.py does.  The archive is unpacked
+// Reads 3MF, a ZIP archive of XML, as ../python/shade_h/threemf.py does.  The archive is unpacked
 // by the platform, the XML parsed by the DOMParser of browsers or one that the caller has.
 import { ShadeError, record } from "./arguments.js";
 

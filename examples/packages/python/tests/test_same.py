@@ -9,7 +9,7 @@ from shapes import torus
 
 import shade_h as shade
 
-TOP = Path(__file__).resolve().parents[3]
+TOP = Path(__file__).resolve().parents[4]
 EYE, SIZE = (4.0, -6.0, 5.0), (320, 240)
 
 
