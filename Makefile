@@ -16,7 +16,7 @@
 # make course     pages and slides of the courses alone, and their slides with answers as PDF (needs
 #                 pandoc, reveal.js of npm, chromium, node)
 # make course-zip   all of it in build/playground/courses.zip; PLAYGROUND=an index.html, built
-# make assignments   tries the graders of examples/assignments: solutions, starters, mistakes
+# make assignments   tries the graders of the assignments: solutions, starters, mistakes
 # make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install    header, shade.pc, shade-thumbnail, -view, -batch, -sheets and -compare with man
 #                 pages, and what file managers need for thumbnails, below PREFIX (/usr/local) in
@@ -119,11 +119,11 @@ conformance:
 gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
-	@sh examples/playground/build.sh && sh examples/course/build.sh
+	@sh examples/teaching/playground/build.sh && sh examples/teaching/course/build.sh
 course:
-	@PDF=1 sh examples/course/build.sh
+	@PDF=1 sh examples/teaching/course/build.sh
 course-zip:
-	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/course/build.sh
+	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/teaching/course/build.sh
 assignments:
 	@sh tests/scripts/assignments.sh
 coverage:

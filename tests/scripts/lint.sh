@@ -10,7 +10,7 @@ check() {                                    # what, the lines that offend
     failed=$((failed + 1)); echo "lint: $1"; printf '%s\n' "$2" | head -n 12 | sed 's/^/    /'
 }
 
-C="examples/*/*.[ch] examples/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/*/*.[ch]"
+C="examples/*/*.[ch] examples/*/*/*.[ch] examples/*/*/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/*/*.[ch]"
 check "lines within 100 columns" "$(awk 'length > 100 { print FILENAME ":" FNR ": " length " columns" }' \
     $H Makefile $C)"
 check "no tabs, no trailing blanks" "$(grep -nE '	| $' $H $C)"
@@ -78,7 +78,7 @@ if command -v clang >/dev/null; then
     has sixel/sixel.h -DVIEW_SIXEL
     check "no comma expressions in examples but in the head of a for" "$(
         clang $flags -I/tmp/lint_include.$$ -x c $(find examples -name '*.c') \
-            examples/shared/recipes.h examples/playground/libc.h 2>&1 | grep Wcomma)"
+            examples/shared/recipes.h examples/teaching/playground/libc.h 2>&1 | grep Wcomma)"
     rm -rf /tmp/lint_include.$$
     # All but two of tests/unit/*.c stand in main.c.  Where a header is missing clang reads no further.
     for file in tests/unit/main.c tests/unit/golden.c tests/unit/readme_run.c tests/[!u]*/*.c bench/*.c; do
