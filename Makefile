@@ -60,7 +60,8 @@ NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/
 # those of README, which read well when they are small
 POSTER   = 27_exponent 29_grazing 14_two_sided 04_interpolation 07_shaders 24_maps 39_bricks \
            40_fog 22_shadow 21_transparency 37_rays 12_edges
-ROOMS    = lessons shared pictures $(addprefix programs/,model thumbnail view batch compare)
+ROOMS    = lessons shared pictures $(addprefix kit/,read scene draw image command) \
+           $(addprefix programs/,thumbnail view batch compare)
 HEADERS  = shade.h $(wildcard $(ROOMS:%=examples/%/*.h))
 vpath %.c $(ROOMS:%=examples/%)
 
@@ -144,7 +145,7 @@ fuzz:
 
 # Installed programs begin with shade-, for "view" is anybody's.  The types are those that thumbnail
 # reads; those that shared-mime-info does not know have the names that f3d gives them, in
-# examples/programs/model/mime.xml.  Whether it has assimp and stb shows in the program.
+# examples/programs/install/mime.xml.  Whether it has assimp and stb shows in the program.
 PREFIX  ?= /usr/local
 INSTALL ?= install
 MIME        = model/obj model/stl application/vnd.ply
@@ -160,8 +161,8 @@ FILES     = include/shade.h share/pkgconfig/shade.pc share/thumbnailers/shade.th
             share/mime/packages/shade.xml
 INSTALLED = $(FILES) $(foreach p,thumbnail view batch sheets compare,bin/shade-$p \
             share/man/man1/shade-$p.1)
-build/%.1: build/% examples/programs/model/man.sh
-	THUMBNAIL=build/thumbnail sh examples/programs/model/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
+build/%.1: build/% examples/programs/install/man.sh
+	THUMBNAIL=build/thumbnail sh examples/programs/install/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
 install: programs
 	@v=$$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h); \
 	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' '' 'Name: shade' \
@@ -181,7 +182,7 @@ install: programs
 	$(INSTALL) -m 644 shade.h "$(PLACE)/include"
 	$(INSTALL) -m 644 build/shade.pc "$(PLACE)/share/pkgconfig"
 	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
-	$(INSTALL) -m 644 examples/programs/model/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
+	$(INSTALL) -m 644 examples/programs/install/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
 uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 

@@ -56,7 +56,7 @@ export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$WORK/zig}" ZIG_LOCAL_CACHE
 library() {                     # target, file
     case $1 in *windows*) flags= ;; *) flags="-fPIC -lm -pthread" ;; esac
     "$zig" cc -target "$1" -O2 -std=gnu99 -ffp-contract=off -D_DEFAULT_SOURCE -Wno-unused-function \
-        -I. -shared -s examples/packages/python/native.c -o "$2" $flags
+        -I. -shared -s examples/kit/native.c -o "$2" $flags
 }
 wheel_of() {                    # target, file of the library, platforms that pip knows
     rm -rf "$WORK/wheel"

@@ -7,9 +7,8 @@ there node && there npm || { left_out "everything: no node with npm"; finish; }
 
 mkdir -p "$T/tree" "$T/use"
 cp shade.h LICENSE "$T/tree"
-mkdir -p "$T/tree/examples/programs" "$T/tree/examples/packages"
-cp -R examples/programs/model "$T/tree/examples/programs"
-cp -R examples/shared "$T/tree/examples"
+mkdir -p "$T/tree/examples/packages"
+cp -R examples/shared examples/kit "$T/tree/examples"
 cp -R examples/packages/python examples/packages/node "$T/tree/examples/packages"
 N=$T/tree/examples/packages/node
 rm -f "$N/module.js"

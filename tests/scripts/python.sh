@@ -12,10 +12,9 @@ for python in python3 /usr/bin/python3; do
 done
 [ "$python" ] || { left_out "everything: no Python with numpy, pytest, setuptools and build"; finish; }
 
-mkdir -p "$T/tree/examples/programs" "$T/tree/examples/packages"
+mkdir -p "$T/tree/examples/packages"
 cp shade.h "$T/tree"
-cp -R examples/programs/model "$T/tree/examples/programs"
-cp -R examples/shared "$T/tree/examples"
+cp -R examples/shared examples/kit "$T/tree/examples"
 cp -R examples/packages/python "$T/tree/examples/packages"
 P=$T/tree/examples/packages/python
 rm -rf "$P/build" "$P/dist" "$P/headers" "$P"/shade_h/libshade.* "$P"/*.egg-info

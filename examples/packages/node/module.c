@@ -4,7 +4,7 @@
    index.js writes the structs that begin with "asked" word by word and is the only caller: it
    checks lengths, indices and sizes before.  A pointer that it hands over is freed here. */
 #define SHADE_ASSERT(x) ((void)0)
-#include "../python/native.c"
+#include "examples/kit/native.c"
 #include <math.h>
 
 #ifdef __wasm__

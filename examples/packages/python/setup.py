@@ -1,4 +1,4 @@
-"""Compiles native.c with shade.h into a library that is loaded by ctypes.
+"""Compiles library.c with shade.h into a library that is loaded by ctypes.
 
 The library knows nothing of Python, so that one wheel serves all versions on a platform.  In a
 clone the headers are those of the tree; a source distribution carries copies in headers/.
@@ -13,7 +13,7 @@ from setuptools.command.sdist import sdist
 from wheel.bdist_wheel import bdist_wheel
 
 HERE = Path(__file__).resolve().parent
-FOLDERS = ("examples/programs/model", "examples/shared")
+FOLDERS = ("examples/kit", "examples/shared")
 
 
 def top() -> Path:
@@ -57,11 +57,12 @@ class SourceWithHeaders(sdist):
         super().make_release_tree(base_dir, files)
         headers = Path(base_dir) / "headers"
         for folder in FOLDERS:
-            (headers / folder).mkdir(parents=True, exist_ok=True)
-            for header in (top() / folder).glob("*.h"):
-                shutil.copy(header, headers / folder)
+            for header in (top() / folder).rglob("*.[ch]"):
+                copy = headers / header.relative_to(top())
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(header, copy)
         shutil.copy(top() / "shade.h", headers)
-        for path in (headers / "shade.h", Path(base_dir) / "native.c"):
+        for path in (headers / "shade.h", Path(base_dir) / "library.c"):
             if not path.is_file():
                 sys.exit(f"{path} is missing from the archive")
 
@@ -74,7 +75,7 @@ FLAGS = [] if sys.platform == "win32" else ["-O2", "-std=gnu99", "-fno-wrapv",
 windows = sys.platform == "win32"
 setup(
     ext_modules=[Extension(
-        "shade_h.libshade", ["native.c"], include_dirs=[str(top())],
+        "shade_h.libshade", ["library.c"], include_dirs=[str(top())],
         define_macros=[("_DEFAULT_SOURCE", None)],
         extra_compile_args=FLAGS,
         extra_link_args=[] if windows else ["-lm", "-pthread"])],

@@ -10,7 +10,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "../../shared/mesh.h"
-#include "../../programs/model/files.h"
+#include "../../kit/read/files.h"
 #include "look.h"
 #include "scene.h"
 #include "raster.h"

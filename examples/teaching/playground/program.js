@@ -46,7 +46,7 @@ function program() {
         '#define SHADE_IMPLEMENTATION',
         '#include "shade.h"',
         '#include "examples/shared/mesh.h"',
-        S.shape === 2 && '#include "examples/programs/model/files.h"',
+        S.shape === 2 && '#include "examples/kit/read/files.h"',
         S.shape === 0 && !room && '#include "examples/shared/shapes.h"',
         (S.shape > 2 || room) && '#include "examples/teaching/playground/scene.h"',
         '',

@@ -7,7 +7,7 @@
 #define MODEL_LOOK_H
 
 #include "relief.h"
-#include "section.h"
+#include "../draw/section.h"
 #include "studio.h"
 
 /* Uniforms of both shaders, for one surface */

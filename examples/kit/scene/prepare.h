@@ -2,7 +2,7 @@
 #ifndef MODEL_PREPARE_H
 #define MODEL_PREPARE_H
 
-#include "files.h"
+#include "../read/files.h"
 #include "stand.h"
 
 /* The sum of the squares of how many corners meet at each position: what corner normals cost.

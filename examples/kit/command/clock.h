@@ -3,7 +3,7 @@
 #define MODEL_CLOCK_H
 
 #ifdef _WIN32
-#include "../../shared/paths.h"
+#include "paths.h"
 #else
 #include <time.h>
 #endif

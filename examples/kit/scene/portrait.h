@@ -10,7 +10,7 @@
 
 #include "../../shared/canvas.h"
 #include "look.h"
-#include "read.h"
+#include "../read/read.h"
 #ifdef MODEL_STB
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>

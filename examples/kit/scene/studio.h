@@ -14,7 +14,7 @@
 
 #include "../../shared/bands.h"
 #include "ground.h"
-#include "model.h"
+#include "../read/model.h"
 
 enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
 enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow on the ground, at most */

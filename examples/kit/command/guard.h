@@ -155,7 +155,7 @@ static inline void guard_done(void)
 static inline int guard_terminal(void) { return isatty(2); }
 #elif defined(_WIN32)
 #define GUARD_WINDOWS
-#include "../../shared/paths.h"
+#include "paths.h"
 
 /* What the watchers read: the file that is being written, in UTF-16, and the work in progress */
 static wchar_t guard_part[4400];

@@ -4,7 +4,7 @@
 #ifndef MODEL_OUTLINE_H
 #define MODEL_OUTLINE_H
 
-#include "pieces.h"
+#include "../read/pieces.h"
 
 #define OUTLINE_CREASE 0.906f /* the cosine below which an edge is sharp, that of 25 degrees */
 

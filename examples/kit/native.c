@@ -1,4 +1,4 @@
-/* native.c - what the Python package shade_h calls through ctypes: pictures of many meshes, cut
+/* native.c - what both packages call, Python's through ctypes: pictures of many meshes, cut
    bands that threads share, and the equations over arrays of any length.
 
    The package checks shapes, types and sizes before a call; shade.h checks the rest.  The structs
@@ -9,12 +9,12 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #define MODEL_CENTRED 0    /* Python centres in double, and tells the origin */
-#include "examples/programs/model/files.h"
+#include "examples/kit/read/files.h"
 #include "examples/shared/bands.h"
-#include "examples/programs/model/look.h"
-#include "examples/programs/model/stand.h"
+#include "examples/kit/scene/look.h"
+#include "examples/kit/scene/stand.h"
 #include "examples/shared/canvas.h"
-#include "examples/shared/renderer.h"
+#include "examples/kit/scene/renderer.h"
 #include "examples/shared/label.h"
 
 typedef struct python_item {      /* a mesh in its place */

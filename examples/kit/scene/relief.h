@@ -9,7 +9,7 @@
 #define MODEL_RELIEF_H
 
 #include "../../shared/lane.h"
-#include "model.h"
+#include "../read/model.h"
 
 typedef struct relief {
     const shade_texture *map; /* NULL: none */

@@ -9,7 +9,7 @@
 #ifndef MODEL_SECTION_H
 #define MODEL_SECTION_H
 
-#include "read.h"
+#include "../read/read.h"
 
 enum {
     SECTION_LINES = 24,       /* of the hatch across the model */

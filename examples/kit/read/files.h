@@ -13,7 +13,7 @@
 #ifndef MODEL_FILES_H
 #define MODEL_FILES_H
 
-#include "../../shared/paths.h"
+#include "../command/paths.h"
 #include "mtl.h"
 #include "obj.h"
 #include "ply.h"

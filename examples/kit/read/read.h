@@ -4,10 +4,10 @@
 #ifndef MODEL_READ_H
 #define MODEL_READ_H
 
-#include "pictures.h"
-#include "prepare.h"
-#include "relief.h"
-#include "save.h"
+#include "../image/pictures.h"
+#include "../scene/prepare.h"
+#include "../scene/relief.h"
+#include "../command/save.h"
 #ifdef MODEL_ASSIMP
 #include "assimp.h"
 #endif

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "shade.h"
-#include "lane.h"
+#include "../../shared/lane.h"
 
 typedef enum renderer_kind {
     RENDERER_MESH = 0,        /* size multiplies its coordinates */

@@ -6,7 +6,7 @@
 #ifndef MODEL_SAVE_H
 #define MODEL_SAVE_H
 
-#include "../../shared/paths.h"
+#include "paths.h"
 #include "guard.h"
 #include "request.h"
 #include <errno.h>

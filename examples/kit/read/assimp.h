@@ -3,7 +3,7 @@
 #ifndef MODEL_ASSIMP_H
 #define MODEL_ASSIMP_H
 
-#include "pictures.h"
+#include "../image/pictures.h"
 #include "faces.h"
 #include <assimp/cimport.h>
 #include <assimp/material.h>

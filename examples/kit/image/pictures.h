@@ -3,7 +3,7 @@
 #ifndef MODEL_PICTURES_H
 #define MODEL_PICTURES_H
 
-#include "files.h"
+#include "../read/files.h"
 
 /* The number of the picture of that name, read as colours or as a relief; -1: there is none */
 static int picture_find(const model *m, const char *name, int as_relief)

@@ -10,8 +10,8 @@
 #include "../../shared/bands.h"
 #include "../../shared/shapes.h"
 #include "look.h"
-#include "outline.h"
-#include "read.h"
+#include "../draw/outline.h"
+#include "../read/read.h"
 
 /* Keys beyond characters */
 enum { KEY_UP = 256, KEY_DOWN, KEY_LEFT, KEY_RIGHT };
