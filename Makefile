@@ -91,15 +91,18 @@ out/gallery.ppm: build/contact $(POSTER:%=out/%.ppm)
 	build/contact $@ $(POSTER:%=out/%.ppm)
 
 # -O1 compiles the tests' own code in a third of the time
-build/test_main: $(wildcard tests/unit/*.c tests/unit/*.h) build/shade.o
-	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/unit/main.c build/shade.o -lm -o $@
-# with the implementation inside, which counts what it does
-build/test_count: $(wildcard tests/unit/*.c tests/unit/*.h) shade.h
+UNITS = $(patsubst tests/%.c,build/%.o,$(wildcard tests/unit/*.c))
+build/unit/%.o: tests/unit/%.c $(wildcard tests/*/*.h) shade.h
+	@mkdir -p build/unit
+	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED -c $< -o $@
+build/test_main: $(UNITS) build/shade.o
+	$(CC) $^ $(LDFLAGS) -lm -o $@
+# with an implementation in main.c, which counts what it does
+build/test_count: $(filter-out build/unit/main.o,$(UNITS)) tests/unit/main.c
+	$(CC) $(FLAGS:-O2=-O0) -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED $^ -lm -o $@
+build/golden: tests/golden/golden.c shade.h
 	@mkdir -p build
-	$(CC) $(FLAGS:-O2=-O0) -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED tests/unit/main.c -lm -o $@
-build/golden: tests/unit/golden.c shade.h
-	@mkdir -p build
-	$(CC) $(FLAGS) tests/unit/golden.c -o $@
+	$(CC) $(FLAGS) tests/golden/golden.c -o $@
 
 ifdef T
 test: build/test_main

@@ -84,8 +84,8 @@ done
 for part in sdl stb; do    # a README without such a snippet fails
     check "a snippet for $part" test -s "$T/readme_$part.h"
 done
-check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I. -Itests/unit -I"$T" $BUILT \
-      tests/unit/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
+check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I. -I"$T" $BUILT \
+      tests/scripts/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
 if [ -x "$T/readme_run" ]; then
     (cd "$T" && SDL_VIDEODRIVER=dummy ./readme_run teapot.ppm) >"$T/run" 2>&1
     grep -vE '^[0-9]+ passed, ' "$T/run"

@@ -19,8 +19,10 @@
 #endif
 #include "examples/shared/teapot.h"
 
-#include "test.h"
-#include "oracle.h"
+#include "../unit/test.h"
+#include "../unit/oracle.h"
+
+struct test_run test_now;
 
 enum { MOST = 640 * 480 };
 static const char *teapot_ppm;
