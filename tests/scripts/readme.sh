@@ -14,7 +14,7 @@ fi
 README=${1:-README.md}
 # what continues it, in the order in which its snippets compile, and other pages with names
 CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
-PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md
+PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md tests/GUARANTEES.md
     examples/microcontroller/README.md examples/lessons/TEACHING.md examples/teaching/course/README.md"
 WARN="-Wall -Wextra -Werror -Wno-missing-field-initializers"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
