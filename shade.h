@@ -65,18 +65,18 @@
        >>triangles 3628  dropped, cut, edges   >>clip      3997  near, far, behind the eye
        >>tiles     4182  pixels, depth test    >>cover     4537  what is hidden, tile by tile
        >>fragments 4804  interpolation, lod    >>texture   5097  texels, mipmaps
-       >>store     5541  blending, packing
+       >>store     5556  blending, packing
      Inside: calls of the renderer
-       >>check     5777  refusals              >>seen      5958  what can be seen, chunks
-       >>drive     6095  shade_draw            >>mesh      6274  shade_draw_mesh
+       >>check     5792  refusals              >>seen      5973  what can be seen, chunks
+       >>drive     6110  shade_draw            >>mesh      6289  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6680  shade_draw_lines      >>shape     6838  normals, edges
-       >>chunks    7174  how boxes are made    >>rays      7338  shade_pick
-       >>survey    7534  experiments on a draw >>explain   7785  why nothing is seen
-       >>image     8430  mipmaps, PPM           >>presets   8737  classic materials
+       >>lines     6695  shade_draw_lines      >>shape     6853  normals, edges
+       >>chunks    7189  how boxes are made    >>rays      7353  shade_pick
+       >>survey    7549  experiments on a draw >>explain   7800  why nothing is seen
+       >>image     8445  mipmaps, PPM           >>presets   8752  classic materials
      Sources
-       >>refs      8813                        >>history   8843
-       >>license   8855
+       >>refs      8828                        >>history   8858
+       >>license   8870
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -5350,13 +5350,16 @@ static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_
     enum { below = 2 * SHADE_LANES };
     const uint8_t *p = (const uint8_t *)texel;
     const int red = l->shift[0] / 8;
-    for (int i = 0; i < SHADE__BLOCK && l->bytes == 4; i++, p += 8) {
-        shade__look_up_bytes(p, red, i, 0, to);
-        shade__look_up_bytes(p + 4, red, i, 1, to);
-        shade__look_up_bytes(p + 4 * below, red, i, 2, to);
-        shade__look_up_bytes(p + 4 * below + 4, red, i, 3, to);
+    if (l->bytes == 4) {
+        for (int i = 0; i < SHADE__BLOCK; i++, p += 8) {
+            shade__look_up_bytes(p, red, i, 0, to);
+            shade__look_up_bytes(p + 4, red, i, 1, to);
+            shade__look_up_bytes(p + 4 * below, red, i, 2, to);
+            shade__look_up_bytes(p + 4 * below + 4, red, i, 3, to);
+        }
+        return;
     }
-    for (int n = 0; n < 4 * SHADE__BLOCK && l->bytes == 2; n++) {
+    for (int n = 0; n < 4 * SHADE__BLOCK; n++) {
         const uint32_t word = texel[n / 4 * 2 + n % 2 + (n & 2 ? below : 0)];
         for (int k = 0; k < 3; k++)
             to->c[k][n % 4][n / 4] =
@@ -5366,7 +5369,7 @@ static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_
 
 /* Blends a block of sRGB texels, whose pairs begin here, into four rows, or takes the nearest. */
 SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *above, shade__in x,
-                                        shade__in y, int stride, shade__out out)
+                                        shade__in y, shade__out out)
 {
     const shade__layout l = *r->layout;
     const uint32_t *below = above + 2 * SHADE_LANES;
@@ -5375,12 +5378,12 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
     for (int k = 0; k < 3; k++) {
         const float *a = t.c[k][0], *b = t.c[k][1], *c = t.c[k][2], *d = t.c[k][3];
         SHADE__FOR(i, SHADE__BLOCK) {
-            out[k * stride + i] = shade__blend_four(a[i], b[i], c[i], d[i], x[i], y[i]);
+            out[k * SHADE_LANES + i] = shade__blend_four(a[i], b[i], c[i], d[i], x[i], y[i]);
         }
     }
     SHADE__FOR(i, SHADE__BLOCK) {
-        out[3 * stride + i] = shade__bilinear(&l, 3, above[2 * i], above[2 * i + 1], below[2 * i],
-                                              below[2 * i + 1], x[i], y[i]);
+        out[3 * SHADE_LANES + i] = shade__bilinear(&l, 3, above[2 * i], above[2 * i + 1],
+                                                   below[2 * i], below[2 * i + 1], x[i], y[i]);
     }
 }
 
@@ -5410,43 +5413,55 @@ SHADE__INLINE void shade__add_level(shade__in c, shade__in weight, int blocks,
     }
 }
 
-/* Filters the texels found: sets four rows, or with weights adds the weighted level to them. */
+/* Filters one channel of texels of four floats. */
+SHADE__INLINE void shade__filter_floats(const shade__reader *r, int k, float *row)
+{
+    SHADE_ALIGNED float value[4 * SHADE_LANES];
+    shade__fetch(r, 0, k, shade__words(value));
+    if (r->nearest) {    /* -0 becomes 0, as in a blend */
+        SHADE__EACH_BLOCK(i, r->blocks) { row[i] = value[2 * i] + 0; }
+        return;
+    }
+    shade__fetch(r, 1, k, shade__words(value + 2 * SHADE_LANES));
+    shade__blend_floats(r, value, row);
+}
+
+/* Filters all channels of packed texels. */
+SHADE__INLINE void shade__filter_packed(const shade__reader *r, int encoded, float *to)
+{
+    const shade__layout l = *r->layout;
+    const int blocks = r->blocks;
+    SHADE_ALIGNED uint32_t texel[4 * SHADE_LANES];
+    shade__fetch(r, 0, 0, texel);
+    if (r->nearest && !encoded) {
+        for (int k = 0; k < 4; k++) {
+            float *row = to + k * SHADE_LANES;
+            SHADE__EACH_BLOCK(i, blocks) { row[i] = shade__texel(texel[2 * i], &l, k); }
+        }
+        return;
+    }
+    shade__fetch(r, 1, 0, texel + 2 * SHADE_LANES);
+    if (!encoded) {
+        shade__blend_packed(r, texel, to, to + SHADE_LANES, to + 2 * SHADE_LANES,
+                            to + 3 * SHADE_LANES);
+        return;
+    }
+    for (int i = 0; i < blocks * SHADE__BLOCK; i += SHADE__BLOCK)
+        shade__blend_encoded(r, texel + 2 * i, r->x.f + i, r->y.f + i, to + i);
+}
+
+/* Filters the texels found: sets four rows, or adds the level to them with its weights. */
 SHADE__INLINE void shade__filter(const shade__reader *r, int encoded,
                                  const float *weight, float *out)
 {
-    enum { size = SHADE_LANES };
-    const int floats = r->layout->bytes == 16, blocks = r->blocks;
-    const int lines = r->nearest && !encoded ? 1 : 2;
-    SHADE_ALIGNED uint32_t texel[4 * size];
-    SHADE_ALIGNED float value[4 * size];
-    SHADE_ALIGNED float blend[size];
-    for (int j = 0; j < lines && !floats; j++) shade__fetch(r, j, 0, texel + 2 * j * size);
-
-    if (encoded || (!floats && !r->nearest)) {
-        float *to = weight ? value : out;
-        const int stride = weight ? size : SHADE_LANES;
-        if (!encoded)
-            shade__blend_packed(r, texel, to, to + stride, to + 2 * stride,
-                                to + 3 * stride);
-        for (int i = 0; encoded && i < blocks * SHADE__BLOCK; i += SHADE__BLOCK)
-            shade__blend_encoded(r, texel + 2 * i, r->x.f + i, r->y.f + i, stride, to + i);
-        for (int k = 0; weight && k < 4; k++)
-            shade__add_level(value + k * size, weight, blocks,
-                             out + k * SHADE_LANES);
-        return;
-    }
-    for (int k = 0; k < 4; k++) {
-        const shade__layout l = *r->layout;
-        float *row = weight ? blend : out + k * SHADE_LANES;
-        for (int j = 0; j < lines && floats; j++)
-            shade__fetch(r, j, k, shade__words(value + 2 * j * size));
-        if (!floats) {
-            SHADE__EACH_BLOCK(i, blocks) { row[i] = shade__texel(texel[2 * i], &l, k); }
-        } else if (r->nearest) {    /* -0 becomes 0, as where it is blended */
-            SHADE__EACH_BLOCK(i, blocks) { row[i] = value[2 * i] + 0; }
-        } else shade__blend_floats(r, value, row);
-        if (weight) shade__add_level(row, weight, blocks, out + k * SHADE_LANES);
-    }
+    SHADE_ALIGNED float level[4 * SHADE_LANES];
+    float *to = weight ? level : out;
+    if (r->layout->bytes == 16)
+        for (int k = 0; k < 4; k++) shade__filter_floats(r, k, to + k * SHADE_LANES);
+    else shade__filter_packed(r, encoded, to);
+    if (!weight) return;
+    for (int k = 0; k < 4; k++)
+        shade__add_level(level + k * SHADE_LANES, weight, r->blocks, out + k * SHADE_LANES);
 }
 
 SHADE__INLINE void shade__level_body(const shade_texture *t, const float *u,
