@@ -54,29 +54,29 @@
        >>plumbing   373  compilers             >>light      510  the equation and its terms
        >>draw       635  meshes and pixels     >>math       908  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1271  processors            >>base      1498  bits, masks, rows of vectors
-       >>matrix    1717  cameras, inverses     >>power     2011  x^n
-       >>pixels    2077  formats, sRGB
+       >>machine   1271  processors            >>base      1496  bits, masks, rows of vectors
+       >>matrix    1715  cameras, inverses     >>power     2009  x^n
+       >>pixels    2075  formats, sRGB
      Inside: light
-       >>lamps     2354  attenuation, cones    >>terms     2614  one term at one point
-       >>surface   2696  material and lights   >>lit       2817  the whole sum, at many points
+       >>lamps     2351  attenuation, cones    >>terms     2613  one term at one point
+       >>surface   2695  material and lights   >>lit       2816  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3228  who owns what         >>vertices  3411  shading, projection
-       >>triangles 3628  dropped, cut, edges   >>clip      3997  near, far, behind the eye
-       >>tiles     4182  pixels, depth test    >>cover     4537  what is hidden, tile by tile
-       >>fragments 4804  interpolation, lod    >>texture   5097  texels, mipmaps
-       >>store     5556  blending, packing
+       >>state     3227  who owns what         >>vertices  3423  shading, projection
+       >>triangles 3642  dropped, cut, edges   >>clip      4020  near, far, behind the eye
+       >>tiles     4216  pixels, depth test    >>cover     4581  what is hidden, tile by tile
+       >>fragments 4856  interpolation, lod    >>texture   5150  texels, mipmaps
+       >>store     5610  blending, packing
      Inside: calls of the renderer
-       >>check     5792  refusals              >>seen      5973  what can be seen, chunks
-       >>drive     6110  shade_draw            >>mesh      6289  shade_draw_mesh
+       >>check     5846  refusals              >>seen      6027  what can be seen, chunks
+       >>drive     6164  shade_draw            >>mesh      6343  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6695  shade_draw_lines      >>shape     6853  normals, edges
-       >>chunks    7189  how boxes are made    >>rays      7353  shade_pick
-       >>survey    7549  experiments on a draw >>explain   7800  why nothing is seen
-       >>image     8445  mipmaps, PPM           >>presets   8752  classic materials
+       >>lines     6749  shade_draw_lines      >>shape     6907  normals, edges
+       >>chunks    7243  how boxes are made    >>rays      7407  shade_pick
+       >>survey    7603  experiments on a draw >>explain   7854  why nothing is seen
+       >>image     8499  mipmaps, PPM           >>presets   8806  classic materials
      Sources
-       >>refs      8828                        >>history   8858
-       >>license   8870
+       >>refs      8882                        >>history   8912
+       >>license   8924
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -1271,7 +1271,7 @@ SHADE__END
 /*---------------------------------------------------------------------------------------- >>machine
    What the implementation needs of compilers and processors.                              >>base */
 
-/* clang has no pragma that makes ?: and calls exact: with -ffast-math minima and maxima would lose
+/* No pragma keeps clang's -ffast-math away from ?: and calls, and minima and maxima would then lose
    NaN and -0. */
 #if defined(__clang__) && !defined(SHADE_ALLOW_FAST_MATH) && \
     (defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0))
@@ -1307,13 +1307,13 @@ define SHADE_ALLOW_FAST_MATH"
 SHADE__BEGIN
 
 /* The hot loops that have a second, specialised copy; -Os has none.  bench/run.sh copies prints
-   what each is worth, in time and in bytes.  A copy that takes more than 2 kB for each percent of
-   the scene that it serves best goes. */
+   what each copy gains and how many bytes it takes.  A copy must gain 1 % of its best scene for
+   every 2 kB, or it is removed. */
 enum {
     SHADE__PLAIN = 1,      /* light without rows of albedo and specular */
     SHADE__LESS = 2,       /* the depth test LESS, with depth written */
-    SHADE__FULL = 4,       /* tiles that lie inside a triangle */
-    SHADE__BOUNDED = 8,    /* what big triangles hide is left out */
+    SHADE__FULL = 4,       /* tiles inside a triangle */
+    SHADE__BOUNDED = 8,    /* tiles behind big triangles are skipped */
     SHADE__NARROW = 16,    /* small triangles of one column of tiles */
     SHADE__SHORT = 32,     /* runs of up to 8 pixels */
     SHADE__LONG = 64,      /* 32 pixels of a run at a time */
@@ -1335,8 +1335,8 @@ enum {
 #pragma GCC optimize("O2", "fp-contract=off", "no-tree-loop-distribute-patterns", \
                      "no-inline-functions")
 #endif
-/* On Windows, where callees keep the low 128 bits of xmm6 to xmm15, gcc 12 takes a function that
-   jumps to an AVX2 build for one that keeps all 256, and light comes out wrong. */
+/* The Windows ABI preserves only the low half of ymm6 to ymm15.  gcc 12's -fipa-ra assumes that all
+   256 bits survive a tail call into an AVX2 build, and light comes out wrong. */
 #ifdef _WIN64
 #pragma GCC optimize("no-ipa-ra")
 #endif
@@ -1344,7 +1344,7 @@ enum {
 
 #ifdef SHADE__GNU
 #define SHADE__NOINLINE __attribute__((noinline))
-#define SHADE__COLD __attribute__((noinline, cold))    /* such code is a quarter smaller */
+#define SHADE__COLD __attribute__((noinline, cold))    /* a quarter smaller */
 /* gcc treats a function that only cold functions call as cold, and does not vectorise it. */
 #define SHADE__HOT __attribute__((noinline, hot))
 #define SHADE__LOWEST_BIT __builtin_ctz
@@ -1363,8 +1363,7 @@ typedef uint32_t __attribute__((may_alias)) shade__word;    /* reads memory of a
 typedef uint32_t shade__word;
 #endif
 
-/* k = 0 .. 3.  gcc keeps the sums of a loop that it does not unroll in memory, which slows mipmaps
-   down. */
+/* k = 0 .. 3, unrolled: gcc would keep the four sums of a loop in memory, which slows mipmaps. */
 #define SHADE__FOR_4(k) SHADE__UNROLL_4 for (int k = 0; k < 4; k++)
 
 /* The floats in a vector of the build for any processor. */
@@ -1376,15 +1375,15 @@ typedef uint32_t shade__word;
 #define SHADE__ANY_WIDTH 4
 #endif
 
-/* On x86-64 gcc and clang compile each hot loop for any processor, for AVX2 and for AVX-512, from
-   one always-inlined body, and every call takes the best that the processor runs.  All give the
-   same bits: there is no FMA.
+/* On x86-64 gcc and clang compile each hot loop three times from one always-inlined body: for any
+   processor, for AVX2 and for AVX-512.  A call runs the best build that the processor supports.
+   All builds give the same bits, because none uses FMA.
 
      SHADE__DISPATCH(shade__push, (shade__draw *d, const shade__run *run, int runs), (d, run, runs),
                      shade__push_body(d, run, runs))
 
-   defines shade__push_any, shade__push_avx2 and shade__push_avx512, which differ in the
-   instructions they may use and in shade__width, the number of floats in a vector, and
+   defines shade__push_any, shade__push_avx2 and shade__push_avx512.  They differ in the
+   instructions they may use and in shade__width, the number of floats in a vector.  It also defines
 
      static void shade__push(shade__draw *d, const shade__run *run, int runs)
      {
@@ -1394,8 +1393,8 @@ typedef uint32_t shade__word;
          else shade__push_any(d, run, runs);
      }
 
-   Tests force a build by defining SHADE__LEVEL to an int expression: 0, 1 or 2.  They count the
-   tiles that are looked at by defining SHADE__TILE_TESTED. */
+   Tests define SHADE__LEVEL as an int expression, 0, 1 or 2, to force a build, and
+   SHADE__TILE_TESTED to count tested tiles. */
 #ifndef SHADE__TILE_TESTED
 #define SHADE__TILE_TESTED() ((void)0)
 #endif
@@ -1406,10 +1405,9 @@ typedef uint32_t shade__word;
         body; \
     }
 #if !defined(SHADE_NO_DISPATCH) && defined(__x86_64__) && defined(SHADE__GNU)
-/* __builtin_cpu_supports reads __cpu_model, which the compiler's library fills before main.  The
-   libraries that clang links for Microsoft's ABI, and those of zig, do not have it: there
-   shade__best_build asks the processor.  zig defines no macro; it is known by the library that lies
-   beside its headers. */
+/* __builtin_cpu_supports reads __cpu_model, which the compiler's library fills before main.  zig,
+   and clang for Microsoft's ABI, link libraries without it; there shade__best_build executes cpuid.
+   zig defines no macro of its own, but its standard library lies beside its headers. */
 #ifdef __clang__
 #if defined(_MSC_VER) || __has_include(<../std/std.zig>)
 #define SHADE__ASK_PROCESSOR
@@ -1433,21 +1431,21 @@ SHADE__INLINE uint32_t shade__cpuid(uint32_t leaf, uint32_t *ecx)
     return ebx;
 }
 
-/* The build for a processor, 0, 1 or 2 as in SHADE__LEVEL.  features is EBX of leaf 7: AVX-512
-   needs AVX2, F, DQ, BW and VL there, and in saved (XCR0) a system that saves masks and 512 bits of
-   each vector; AVX2 needs one that saves 256.                                       [Intel25] */
+/* The build for a processor, 0, 1 or 2 as in SHADE__LEVEL.  features is EBX of leaf 7, saved is
+   XCR0, the registers that the operating system saves.  AVX-512 needs the features AVX2, F, DQ, BW
+   and VL, and saved masks and 512-bit vectors; AVX2 needs saved 256-bit vectors.     [Intel25] */
 SHADE__INLINE int shade__build_for(uint32_t features, uint32_t saved)
 {
     if (!(~features & 0xC0030020u) && !(~saved & 0xE6)) return 2;
     return (features & 0x20) && !(~saved & 6);
 }
 
-/* 1 + the build, or 0 before the first call: the one variable of the library.  The answer is kept
-   because a virtual machine is left for each cpuid, which takes 5 us or more, and a draw of one
-   triangle takes less than 2 us.  Threads that ask at the same time store the same number. */
+/* 1 + the build, or 0 before the first call: the only variable of the library.  In a virtual
+   machine each cpuid traps and takes 5 us or more; a draw of one triangle takes less than 2 us.
+   Threads that race here store the same number. */
 static int shade__known_build;
-/* OSXSAVE, bit 27 of leaf 1, says that xgetbv does not trap.  A processor that has it has leaf 13,
-   and so leaf 7. */
+/* xgetbv does not trap where OSXSAVE, bit 27 of leaf 1, is set.  Such a processor has leaf 13, and
+   so leaf 7. */
 static SHADE__COLD int shade__ask_processor(void)
 {
     uint32_t ecx, edx, saved = 0, features = shade__cpuid(7, &ecx);
@@ -1496,9 +1494,9 @@ SHADE__INLINE int shade__best_build(void)
 #endif
 
 /*------------------------------------------------------------------------------------------- >>base
-   The words that the rest is written in: numbers as bit patterns, selection and clamps without
-   branches, rows of vectors.
-     holds   Loops over lanes select by masks and clamp by integers, because gcc turns float selects
+   The vocabulary of the rest: floats as bit patterns, selects and clamps without branches, rows of
+   vectors.
+     holds   Loops over lanes select by masks and clamp as integers, because gcc turns float selects
              into branches and leaves the loop scalar.  A mask is all ones or all zeros.
                                                                                          >>matrix */
 
@@ -1539,7 +1537,7 @@ SHADE__INLINE float shade__select(float a, float b, uint32_t mask)
     return shade__bits_float(shade__choose(shade__float_bits(a), shade__float_bits(b), mask));
 }
 
-/* The float of a number below 2^31; vectors of SSE2 and AVX2 convert signed integers alone. */
+/* (float)n for n < 2^31.  SSE2 and AVX2 convert only signed integers. */
 SHADE__INLINE float shade__number(uint32_t n) { return (float)(int32_t)n; }
 
 /* |x| */
@@ -1550,14 +1548,14 @@ SHADE__INLINE double shade__size(double x)
 
 SHADE__INLINE uint32_t shade__mask(int condition) { return 0u - (uint32_t)condition; }
 
-/* The bit pattern of a float as a signed number, and back.  Its order is that of non-negative
-   floats, and every negative float lies below them. */
+/* The bit pattern of a float as a signed integer, and back.  Non-negative floats have the same
+   order as their patterns, and all negative ones lie below them. */
 SHADE__INLINE int32_t shade__ordinal(float x) { return (int32_t)shade__float_bits(x); }
 SHADE__INLINE float shade__from_ordinal(int32_t i) { return shade__bits_float((uint32_t)i); }
 
 /* clamp(x, lo, hi) by the order of bit patterns.
-   pre: 0 <= lo <= hi, x is not NaN: the sign of NaN, which differs between processors, would decide
-   whether it gives lo or hi */
+   pre: 0 <= lo <= hi; x is not NaN, since its sign, which differs between processors, would choose
+   between lo and hi */
 SHADE__INLINE float shade__clamp_bits(float x, float lo, float hi)
 {
     const int32_t i = shade__max(shade__ordinal(x), shade__ordinal(lo));
@@ -1588,13 +1586,13 @@ SHADE__INLINE int shade__finite3(shade_vec3 v)
            shade__within(v.z, FLT_MAX);
 }
 
-/* shade_normalize as a call, for code outside of lane loops: it saves 160 bytes at each use. */
+/* shade_normalize out of line, for code outside of lane loops: it saves 160 bytes a call. */
 static SHADE__NOINLINE shade_vec3 shade__unit_vector(shade_vec3 v) { return shade_normalize(v); }
 
-/* 1/sqrt(x) for lanes, with a relative error below 1.1e-7 over all normal x; of others it is some
-   number.  A bit trick and its tuned Newton step [Kadlec10] have an error of 6.5e-4; one cubic step
-   y + y e (1/2 + 3/8 e) with e = 1 - x y^2 follows.  sqrtf may set errno, which would keep the loop
-   scalar. */
+/* 1/sqrt(x) for lanes, with a relative error below 1.1e-7 for normal x; other x give an arbitrary
+   number.  A bit trick with a tuned Newton step [Kadlec10] is accurate to 6.5e-4; one cubic step,
+   y + y e (1/2 + 3/8 e) with e = 1 - x y^2, does the rest.  sqrtf may set errno, which would keep
+   the loop scalar. */
 SHADE__INLINE float shade__rsqrt_normal(float x)
 {
     float y = shade__bits_float(0x5F1FFFF9u - (shade__float_bits(x) >> 1)), e;
@@ -1603,7 +1601,7 @@ SHADE__INLINE float shade__rsqrt_normal(float x)
     return y + y * e * (0.5f + 0.375f * e);
 }
 
-/* The same, but 0 where x < 1e-36, so that vectors shorter than 1e-18 normalise to zero. */
+/* The same, but 0 for x < 1e-36: vectors shorter than 1e-18 normalise to zero. */
 SHADE__INLINE float shade__rsqrt(float x)
 {
     return shade__keep(shade__rsqrt_normal(x), shade__mask(x >= 1e-36f));
@@ -1612,7 +1610,7 @@ SHADE__INLINE float shade__rsqrt(float x)
 /* Three rows of floats: a vector for each lane. */
 typedef struct shade__v3 { float x[SHADE_LANES], y[SHADE_LANES], z[SHADE_LANES]; } shade__v3;
 
-/* Rows that a loop over lanes reads, and rows that it writes: none of them overlap. */
+/* Rows that a loop over lanes reads or writes; no two of them overlap. */
 typedef const float     *SHADE_RESTRICT shade__in;
 typedef const int32_t   *SHADE_RESTRICT shade__in_ints;
 typedef const uint32_t  *SHADE_RESTRICT shade__in_bits;
@@ -1634,7 +1632,7 @@ SHADE__INLINE void shade__put(shade__v3 *rows, int i, shade_vec3 v)
     rows->z[i] = v.z;
 }
 
-/* The same for four rows that are stride apart. */
+/* The same for four rows, stride floats apart. */
 SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
 {
     rows[i] = v.x;
@@ -1643,7 +1641,7 @@ SHADE__INLINE void shade__put4(float *rows, int stride, int i, shade_vec4 v)
     rows[i + 3 * stride] = v.w;
 }
 
-/* Three rows of floats that begin here, as vectors to read and to write.  NULL stays NULL. */
+/* Three rows of floats as vectors, to read or to write.  NULL stays NULL. */
 SHADE__INLINE const shade__v3 *shade__rows_of(const float *rows)
 {
     return (const shade__v3 *)(const void *)rows;
@@ -2018,9 +2016,9 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
              lit packets.  2^-r = 1 + r Q(r) on [-1/2, 1/2]: relative error 1.1e-7, in floats 2e-7.
              All figures were measured over all floats in [0, 1].                        >>pixels */
 
-/* -log2 x, 0 <= x <= 1 not subnormal; 127 for x = 0.  The addend carries into the exponent where
-   the mantissa is at or above sqrt(2), so that near x = 1 the exponent part is 0 and no digit is
-   lost.   post: >= 0 for those x, finite for any bits */
+/* -log2 x for 0 <= x <= 1, not subnormal; 127 for x = 0.  The addend carries into the exponent for
+   a mantissa of sqrt(2) and above: near x = 1 the exponent part is 0, and no digit is lost.
+   post: >= 0 for these x, finite for any bits */
 SHADE__INLINE float shade__neg_log2(float x)
 {
     uint32_t t = shade__float_bits(x) + (0x3F800000u - 0x3F3504F3u);
@@ -2034,7 +2032,7 @@ SHADE__INLINE float shade__neg_log2(float x)
     return 127 - shade__number(t >> 23) - f * p;
 }
 
-/* 2^-u, u >= 0, also infinite; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 */
+/* 2^-u for u >= 0, infinity included; exactly 1 at 0, exactly 0 from 126 on.   post: 0 .. 1 */
 SHADE__INLINE float shade__exp2_neg(float u)
 {
     const uint32_t some = shade__mask(shade__ordinal(u) < 0x42FC0000);    /* 126 */
@@ -2049,11 +2047,11 @@ SHADE__INLINE float shade__exp2_neg(float u)
     return shade__keep(shade__bits_float(shade__float_bits(q) - ((uint32_t)k << 23)), some);
 }
 
-/* Stands for a cosine that does not exist: every power of it is 0, the zeroth too. */
+/* A cosine that does not exist: each of its powers is 0, even the zeroth. */
 #define SHADE__NEVER -2.0f
 
-/* n times -log2(min(x, 1)), the exponent that shade__exp2_neg takes.  Where x <= least it is 126,
-   which gives 0; least is 0 for n > 0 and SHADE__NEVER for n = 0.   pre: n >= 0, finite */
+/* n times -log2(min(x, 1)), for shade__exp2_neg; 126, which gives 0, for x <= least: 0 for n > 0,
+   SHADE__NEVER for n = 0.   pre: n >= 0, finite */
 SHADE__INLINE float shade__power_log(float x, float n)
 {
     const float least = shade__keep(SHADE__NEVER, shade__mask(!(n > 0)));
@@ -2075,16 +2073,16 @@ SHADEDEF float shade_power(float x, float n)
 }
 
 /*----------------------------------------------------------------------------------------- >>pixels
-   Colours as a display has them and as linear light, and how each format stores a pixel.
+   Display colours, linear light, and how each format stores a pixel.
      in      bytes of any format, or linear floats          out  linear floats, or a stored pixel
      holds   A new packed format of 1 or 2 bytes, or of four channels of 8 bits, is an enumerator
              and a row of shade__layouts.
      source  sRGB curve [IEC61966]                                                        >>lamps */
 
-/* From linear light to sRGB and back: the logarithm of the curve, then the curve, each for a loop
-   over lanes of its own.  One loop that does both has more constants than registers, and an sRGB
-   picture of the teapot takes up to 1.13 times as long.
-   pre: 0 <= c <= 1   post: 0 <= result <= 1, as was tried with every such float */
+/* From linear light to sRGB and back, in two steps, the logarithm and the curve.  Each step gets
+   its own loop over lanes: one loop for both has more constants than registers, and an sRGB picture
+   of the teapot takes up to 1.13 times as long.
+   pre: 0 <= c <= 1   post: 0 <= result <= 1 (tried with every such float) */
 SHADE__INLINE float shade__encode_log(float c) { return shade__neg_log2(c) * (1 / 2.4f); }
 
 SHADE__INLINE float shade__encode_curve(float c, float u)
@@ -2103,7 +2101,7 @@ SHADE__INLINE float shade__decode_curve(float c, float u)
     return shade__select(c * (1 / 12.92f), shade__exp2_neg(u), shade__mask(c > 0.04045f));
 }
 
-/* The same for any c, which is clamped: one copy of each, for code outside of lane loops. */
+/* The same with c clamped, out of line, for code outside of lane loops. */
 static SHADE__NOINLINE float shade__encode(float c)
 {
     c = shade__unit(c);
@@ -2116,9 +2114,9 @@ static SHADE__NOINLINE float shade__decode(float c)
     return shade__decode_curve(c, shade__decode_log(c));
 }
 
-/* The linear light of sRGB maps: shade__decode(v * (1 / full)) for v = 0 .. full, where full is 31,
-   then 63, then 255.  Maps that compute it take 1.6 to 2.6 times as long.  Blending and >>image
-   decode v / full, which is another float for half of the values. */
+/* The linear light of sRGB maps: shade__decode(v * (1 / full)) for v = 0 .. full, with full 31,
+   then 63, then 255.  Without the table such maps take 1.6 to 2.6 times as long.  Blending and
+   >>image use v / full instead, which rounds differently for half of the values. */
 static const float shade__map_light[] = {
     /* of 5 bits */
     0.0f, 0.002496754f, 0.005370535f, 0.009529466f, 0.015133498f, 0.022298891f,
@@ -2222,16 +2220,15 @@ SHADEDEF shade_material shade_linear_material(shade_material display)
     return display;
 }
 
-/* How a format stores a pixel.  A packed pixel is an integer of up to 32 bits, in which channel k
-   (R, G, B, A) is pixel >> shade__shift(l, k) & full[k]; on little-endian processors colours lie
-   below bit 31.  Channels that a format lacks are 1: they share one bit above the stored ones,
-   which shade__load_packed sets.  For pixels of four floats, which have 16 bytes, only bytes means
-   anything. */
+/* How a format stores a pixel.  A packed pixel is an integer of up to 32 bits.  Its channel k (R,
+   G, B, A) is pixel >> shade__shift(l, k) & full[k]; on little-endian processors colours lie below
+   bit 31.  A channel that the format lacks is 1: one bit above the stored ones, set by
+   shade__load_packed.  RGBA32F uses only the field bytes. */
 typedef struct shade__layout {
     uint8_t bytes;       /* of a pixel in memory */
-    uint8_t swapped;     /* non-zero: its two bytes are in the order that is not the processor's */
+    uint8_t swapped;     /* non-zero: its two bytes are not in the processor's order */
     uint8_t shift[4];
-    uint8_t full[4];     /* the greatest value of each channel, which stands for 1 */
+    uint8_t full[4];     /* the value of each channel that stands for 1 */
 } shade__layout;
 
 static const shade__layout shade__layouts[] = {    /* in the order of shade_format */
@@ -2243,7 +2240,7 @@ static const shade__layout shade__layouts[] = {    /* in the order of shade_form
     { 1, 0, { 8, 8, 8, 0 }, { 1, 1, 1, 255 } }             /* A8 */
 };
 
-/* Whether an enumerator is from 0 to last.  Compilers disagree about the sign of enumerations. */
+/* Whether an enumerator lies in 0 .. last.  The sign of an enumeration depends on the compiler. */
 #define SHADE__KNOWN(value, last) ((unsigned)(value) <= (unsigned)(last))
 
 SHADE__INLINE int shade__is_format(shade_format format)
@@ -2262,8 +2259,8 @@ SHADE__INLINE int shade__low_byte_first(void)
     return first;
 }
 
-/* Where channel k of a packed pixel begins.  Pixels of 4 bytes are bytes in the order of memory,
-   which big-endian processors count from the other end of an integer. */
+/* The lowest bit of channel k in a packed pixel.  Pixels of 4 bytes are bytes in memory order, and
+   big-endian processors have the first byte on top. */
 SHADE__INLINE int shade__shift(const shade__layout *l, int k)
 {
     return l->bytes == 4 && !shade__low_byte_first() ? 24 - l->shift[k] : l->shift[k];
@@ -2276,7 +2273,7 @@ SHADE__INLINE float shade__channel(uint32_t packed, const shade__layout *l,
     return shade__number(packed >> shade__shift(l, k) & l->full[k]);
 }
 
-/* Whether a picture's colours are stored as sRGB: never as floats, and A8 has none. */
+/* Whether colours are stored as sRGB: floats never are, and A8 has no colours. */
 SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 {
     return srgb && l->full[0] > 1;
@@ -2285,8 +2282,8 @@ SHADE__INLINE int shade__is_encoded(int srgb, const shade__layout *l)
 /* The low two bytes of u, exchanged. */
 SHADE__INLINE uint32_t shade__swap16(uint32_t u) { return (u >> 8 & 255) | (u & 255) << 8; }
 
-/* Loads a packed pixel of 1 or 2 bytes and sets the bit above it; or one of 4 bytes, or a float as
-   its bits. */
+/* Loads a packed pixel.  One of 1 or 2 bytes gets the bit above it set.  4 bytes may also be the
+   bits of a float. */
 SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes,
                                           const int swapped)
 {
@@ -2301,7 +2298,7 @@ SHADE__INLINE uint32_t shade__load_packed(const uint8_t *p, const int bytes,
     return word;
 }
 
-/* Loads a pixel: its packed form, or its four floats into rows that lie SHADE_LANES apart. */
+/* Loads a pixel in packed form, or its four floats into rows that are SHADE_LANES apart. */
 SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p,
                                      uint32_t *packed, float *rgba)
 {
@@ -2310,7 +2307,7 @@ SHADE__INLINE void shade__load_pixel(const shade__layout *l, const uint8_t *p,
         SHADE__FOR_4(k) SHADE_MEMCPY(rgba + k * SHADE_LANES, p + 4 * k, 4);
 }
 
-/* Stores a pixel: its packed form, or its four floats from rows that lie SHADE_LANES apart. */
+/* Stores a pixel from its packed form, or from four rows of floats that are SHADE_LANES apart. */
 SHADE__INLINE void shade__store_pixel(const shade__layout *l, uint8_t *p,
                                       uint32_t packed, const float *rgba)
 {
@@ -2322,7 +2319,7 @@ SHADE__INLINE void shade__store_pixel(const shade__layout *l, uint8_t *p,
         SHADE__FOR_4(k) SHADE_MEMCPY(p + 4 * k, rgba + k * SHADE_LANES, 4);
 }
 
-/* How many rows of the picture the target's memory holds. */
+/* The number of rows of the picture in the target's memory. */
 SHADE__INLINE int shade__rows_held(const shade_target *t)
 {
     return t->row_count ? t->row_count : t->height;
@@ -2352,12 +2349,14 @@ SHADE__INLINE uint8_t *shade__pixel_at(const shade_target *t, int x, int y)
 }
 
 /*------------------------------------------------------------------------------------------ >>lamps
-   One light: how it is made, and what of it arrives at points.
+   One light: how it is made, and how much of it arrives at a point.
      in      a shade_light, rows of P     out  shade__arrival: rows of L and of the amount of light
+     way     shade__place_lamp once a lamp; shade__arrive: come_from_infinity or come_from_point,
+             meet_cone, attenuate, apply_cone
      holds   Loops run over the SHADE_LANES points of a packet, or over SHADE__POINT copies of a
-             single point: both take the same way and get the same bits.  For users,
-             shade_attenuation and shade_spot compute one factor each by the plain formula.  The
-             error of 1/sqrt stands in >>base, that of powers in >>power.                 >>terms */
+             single point, through the same code: both get the same bits.  shade_attenuation and
+             shade_spot, for users, compute one factor each by the plain formula.  The error of
+             1/sqrt stands in >>base, the error of powers in >>power.                     >>terms */
 
 static shade_light shade__plain_light(shade_vec4 position, shade_vec3 color)
 {
@@ -2477,7 +2476,7 @@ SHADE__INLINE void shade__come_from_point(const shade__lamp *lamp,
     }
 }
 
-/* L.S; returns all ones if some lane is inside the cone. */
+/* L.S; returns all ones if a lane is inside the cone, else 0. */
 SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
                                         shade__arrival *SHADE_RESTRICT a)
 {
@@ -2493,8 +2492,8 @@ SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
     return any;
 }
 
-/* amount = 1 / (a + b r + c r^2).  r counts as 1e18 where it is greater, infinite or NaN.  A sum
-   that overflows both ways is NaN and gives 1e20, as in shade_attenuation. */
+/* amount = 1 / (a + b r + c r^2).  Greater, infinite and NaN r count as 1e18.  A sum of infinities
+   of both signs is NaN and gives 1e20, as in shade_attenuation. */
 SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
                                     shade__arrival *SHADE_RESTRICT to)
 {
@@ -2508,7 +2507,7 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
     }
 }
 
-/* The same where b = c = 0; but 0 where P is so far away that r is no number. */
+/* The same for b = c = 0; but 0 where P is so far away that r is NaN. */
 SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
                                            shade__arrival *SHADE_RESTRICT to)
 {
@@ -2560,9 +2559,9 @@ enum {
     SHADE__POINT = SHADE__ANY_WIDTH < SHADE_LANES ? SHADE__ANY_WIDTH : SHADE_LANES
 };
 
-/* How many points a loop takes that was built for vectors of so many floats.  Builds of
-   another width than the one for any processor take whole packets.  That one takes whole vectors,
-   and the & says so to the compiler, which then makes no loop for a remainder. */
+/* The number of points that a loop runs over.  The AVX builds always run over a whole packet.  The
+   build for any processor rounds n down to whole vectors, so that the compiler emits no remainder
+   loop. */
 SHADE__INLINE int shade__points(int n, int width)
 {
     if (width != SHADE__ANY_WIDTH) return SHADE_LANES;
@@ -2614,7 +2613,7 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
 /*------------------------------------------------------------------------------------------ >>terms
    The terms of >>model one by one, for a single point.
      in      unit vectors                  out  cosines, powers, colours
-     holds   Roots are those of sqrtf, not of shade__rsqrt.
+     holds   Roots are made by sqrtf, not by shade__rsqrt.
      source  [Phong75], [Blinn77], [Gooch98]                                            >>surface */
 
 SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
@@ -2622,8 +2621,8 @@ SHADEDEF float shade_lambert(shade_vec3 normal, shade_vec3 to_light)
     return shade__maxf(shade_dot(normal, to_light), 0);
 }
 
-/* R.V as 1 - |R - V|^2 / 2, which it is where N, L and V are unit.  Near 1, where a power magnifies
-   errors, those of the vectors' lengths cancel.  Where L or V is zero it is 0. */
+/* R.V = 1 - |R - V|^2 / 2 for unit vectors; 0 where L or V is zero.  In this form errors in the
+   lengths of the vectors cancel near 1, where a power would magnify them. */
 SHADE__INLINE float shade__mirror_cosine(shade_vec3 normal, shade_vec3 to_light,
                                          shade_vec3 to_eye)
 {
@@ -2661,7 +2660,7 @@ SHADEDEF float shade_blinn_phong_specular(shade_vec3 normal,
     return shade__highlight(0, normal, to_light, to_eye, exponent);
 }
 
-/* The material of a call that is given none. */
+/* The material of calls that pass NULL. */
 static shade_material shade__white_lambert(void)
 {
     const shade_vec3 white = shade_v3(1, 1, 1);     /* before m, for tcc: see >>config */
@@ -2710,13 +2709,13 @@ typedef struct shade__surface {
     shade_vec3 ambient;     /* k_a times the ambient light that is not attenuated */
     shade_vec3 cool, warmth;    /* the tone's: cool, and warm - cool */
     int tone;               /* cool to warm by one lamp; else the equation */
-    int lamps;              /* lights to go through; 0 if no term comes of them; 1 for a tone */
+    int lamps;              /* lights to loop over; 0 if no term needs them; 1 for a tone */
     uint32_t open;          /* all ones with UNGATED_SPECULAR, else 0 */
     uint32_t sign;          /* ANDed to N.L in the diffuse term; TWO_SIDED_ABS: clears its sign */
     shade__lamp lamp[SHADE__LAMPS];    /* the first lights, or the one of the tone */
 } shade__surface;
 
-/* The terms that the model has and the caller wants. */
+/* The terms of the model that lighting->terms selects. */
 static unsigned shade__terms_of(const shade_lighting *lighting)
 {
     const unsigned terms = lighting->terms ? lighting->terms : ~0u;
@@ -2729,7 +2728,7 @@ static unsigned shade__terms_of(const shade_lighting *lighting)
     }
 }
 
-/* k I, or zero where the term is off, whatever k and I hold. */
+/* k I, or zero if the term is off, even for NaN. */
 SHADE__INLINE shade_vec3 shade__product(unsigned on, shade_vec3 k,
                                         shade_vec3 light)
 {
@@ -2755,7 +2754,7 @@ static void shade__reflect_lamp(const shade__surface *s,
     shade__place_lamp(light, lamp);
 }
 
-/* Cool to warm: only L of the first light counts; without a light L is zero.          [Gooch98] */
+/* Cool to warm uses only L of the first light; without lights L is zero.              [Gooch98] */
 static SHADE__COLD void shade__begin_tone(shade__surface *s)
 {
     const shade_lighting *l = s->lighting;
@@ -2770,7 +2769,7 @@ static SHADE__COLD void shade__begin_tone(shade__surface *s)
     s->warmth = shade_sub(s->warmth, s->cool);
 }
 
-/* k_a times I_a and, where it is not attenuated, the I_La of all lights. */
+/* k_a times the sum of I_a and, unless ATTENUATED_AMBIENT is set, the I_La of all lights. */
 static shade_vec3 shade__ambient(const shade__surface *s)
 {
     const shade_lighting *l = s->lighting;
@@ -2800,7 +2799,7 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
 
     s->lamps = lighting->lights ? shade__max(lighting->light_count, 0) : 0;
     s->emission = terms & SHADE_TERM_EMISSION ? s->material.emission : none;
-    s->emission = shade_add(s->emission, none);    /* no -0, which a lamp's 0 would change */
+    s->emission = shade_add(s->emission, none);    /* -0 becomes 0, as it does under a lamp */
     s->ambient = shade__ambient(s);
 
     s->tone = lighting->model == SHADE_MODEL_COOL_TO_WARM &&
@@ -2815,20 +2814,22 @@ static SHADE__NOINLINE void shade__begin_surface(const shade_lighting *lighting,
 }
 
 /*-------------------------------------------------------------------------------------------- >>lit
-   All of the equations of >>model, for a packet or for one point.
+   The whole equation of >>model, for a packet or for one point.
      in      shade_rows, a shade__surface         out  rows of rgb
-     holds   The light of one lamp is cut into short loops over rows.  One fused loop a light took
-             1.5 times as long, because its many live values outgrow the registers.  A lamp that
-             reaches no lane (horizon, cone) is left after its first loops.              >>state */
+     way     shade__lit_rows: begin_light; then for each lamp add_lamp: arrive, horizon, shine
+             (half or mirrored, raise), combine
+     holds   The light of one lamp is cut into short loops over rows.  One loop for all of it takes
+             1.5 times as long, because its live values outgrow the registers.  A lamp that reaches
+             no lane (horizon, cone) ends after its first loops.                         >>state */
 
-/* The rows of a packet while one lamp after the other adds its light. */
+/* The rows of a packet while the lamps add their light, one after the other. */
 typedef struct shade__lit {
     const shade__surface *surface;
     const shade__lamp *lamp;
     const shade_rows *rows;
     shade__arrival a;             /* of the lamp */
     shade__v3 to_eye;             /* V, unit */
-    float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
+    float rn[SHADE_LANES];        /* 1/|N|; negative where N is flipped toward the viewer */
     float nl[SHADE_LANES];        /* N.L, signed */
     float h2[SHADE_LANES];        /* |L + V|^2 */
     float cosine[SHADE_LANES];    /* N.H or R.V */
@@ -2844,13 +2845,13 @@ SHADE__INLINE void shade__inverse_lengths(shade__in_v3 normal, const int n,
     }
 }
 
-/* Toward the viewer, not unit.  eye.w is 0 for a viewer at infinity, else 1. */
+/* Toward the viewer, not unit.  eye.w is 1, or 0 for a viewer at infinity. */
 SHADE__INLINE shade_vec3 shade__view(shade_vec4 eye, shade_vec3 point)
 {
     return shade_madd(shade__xyz(eye), -eye.w, point);
 }
 
-/* Turns the sign of rn where N points away from the viewer. */
+/* Flips the sign of rn where N points away from the viewer. */
 SHADE__INLINE void shade__two_sides(shade__in_v3 point, shade__in_v3 normal,
                                     shade_vec4 eye, const int n, shade__out rn)
 {
@@ -2872,7 +2873,7 @@ SHADE__INLINE void shade__viewer(shade__in_v3 point, shade_vec4 eye,
     }
 }
 
-/* N.L; returns all ones if some lane faces the lamp. */
+/* N.L; returns all ones if a lane faces the lamp, else 0. */
 SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
                                       shade__lit *SHADE_RESTRICT r)
 {
@@ -2885,7 +2886,7 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
     return any;
 }
 
-/* Is there a highlight?  Gated: where N.L > 0.  Open: wherever N is not zero. */
+/* Whether there is a highlight: where N.L > 0, or with open wherever N is not zero. */
 SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
 {
     uint32_t either = shade__float_bits(nl) & ~open;
@@ -2893,9 +2894,8 @@ SHADE__INLINE int shade__gate(float nl, float rn, uint32_t open)
     return shade__bits_float(either) > 0;
 }
 
-/* N.H, or SHADE__NEVER where the gate is shut or there is no H.  Returns all ones if in some lane L
-   and V are nearly opposite: |L + V|^2 is below SHADE__OPPOSITE.  shade__half_opposite computes
-   those again. */
+/* N.H, or SHADE__NEVER where there is no highlight or no H.  Returns all ones if L and V are nearly
+   opposite in a lane, |L + V|^2 < SHADE__OPPOSITE; shade__half_opposite then computes it again. */
 #define SHADE__OPPOSITE 1e-3f
 SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
                                    shade__lit *SHADE_RESTRICT r)
@@ -2921,9 +2921,9 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
     return opposite;
 }
 
-/* Computes N.H again, from the positions and in double, in lanes where L and V are nearly opposite:
-   L + V keeps few digits in float there.  The square in float decides which lanes these are, as it
-   does for the packet, so that a lane has the same bits whatever its neighbours hold. */
+/* Computes N.H in double, from the positions, in lanes where L and V are nearly opposite and L + V
+   has few digits in float.  The same float square as above selects the lanes, so that the bits of
+   a lane do not depend on its neighbours. */
 static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
                                              const shade__v3 *normal,
                                              const int n, shade__lit *r)
@@ -2983,8 +2983,7 @@ SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
     }
 }
 
-/* The amount times visibility.  Outside the cone it stays 0 whatever visibility is, as it does
-   where no lane of the packet is inside. */
+/* amount *= visibility.  An amount of 0, outside the cone, stays 0 even for a visibility of NaN. */
 SHADE__INLINE void shade__hide(shade__in visibility, const int n,
                                shade__out amount)
 {
@@ -3010,7 +3009,7 @@ SHADE__INLINE const shade__v3 *shade__factors(const float *rows)
     return rows ? shade__rows_of(rows) : &shade__ones;
 }
 
-/* rgb of lane i += light, or += 0 where the mask is not set. */
+/* Adds light to rgb of lane i, or 0 where the mask is not set. */
 SHADE__INLINE void shade__add_to(shade__v3 *rgb, int i, shade_vec3 light,
                                  uint32_t mask)
 {
@@ -3045,8 +3044,8 @@ SHADE__INLINE void shade__add_tone(const shade__lit *SHADE_RESTRICT r,
     }
 }
 
-/* rgb += amount k_a I_La albedo; outside the cone += 0 whatever the colours are, as it is where no
-   lane of the packet is inside. */
+/* rgb += amount k_a I_La albedo.  Lanes outside the cone add exactly 0, even for NaN colours, as if
+   the lamp had been skipped. */
 SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
                                       shade__in_v3 albedo, const int n,
                                       shade__out_v3 rgb)
@@ -3060,9 +3059,9 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
     }
 }
 
-/* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight).  With TWO_SIDED_ABS
-   surface->sign makes |N.L| of N.L.  Lanes that the lamp does not reach add 0 whatever they hold:
-   outside of a cone N.L may be infinite.  plain: albedo and tint are 1. */
+/* rgb += amount (albedo k_d I_d max(0, N.L) + tint k_s I_s highlight).  surface->sign turns N.L
+   into |N.L| for TWO_SIDED_ABS.  Lanes out of the lamp's reach add exactly 0: N.L may be infinite
+   there.  plain: albedo and tint are 1. */
 SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
                                   shade__in_v3 albedo, shade__in_v3 tint, const int plain,
                                   const int n, shade__out_v3 rgb)
@@ -3081,8 +3080,8 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
     }
 }
 
-/* power = base^exponent, in two loops: one that does both has so many constants that a light takes
-   1.5 times as long. */
+/* power = base^exponent, in two loops: in a single one the constants outgrow the registers, and a
+   light takes 1.5 times as long. */
 SHADE__INLINE void shade__raise(shade__in base, float exponent, const int n,
                                 shade__out power)
 {
@@ -3106,7 +3105,7 @@ SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
     if (s->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
 }
 
-/* L and amount of a lamp.  Single points go by the build for any processor. */
+/* L and amount of a lamp.  Single points use the build for any processor. */
 SHADE__INLINE void shade__arrive_at(const shade__v3 *point, const int n,
                                     shade__lit *r)
 {
@@ -3114,7 +3113,7 @@ SHADE__INLINE void shade__arrive_at(const shade__v3 *point, const int n,
     else shade__arrive_any(r->lamp, point, n, &r->a);
 }
 
-/* Adds the light of lamp k, but for its ambient light where that is not attenuated. */
+/* Adds the light of lamp k.  Ambient light that is not attenuated has been added before. */
 SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r,
                                    shade__v3 *rgb)
 {
@@ -3226,20 +3225,33 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
 }
 
 /*------------------------------------------------------------------------------------------ >>state
-   What a draw knows, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB at
-   the defaults, of which the queue takes 12.4 and the batch 8.8.  bench/stack.c measures whole
-   calls: a lit mesh with a map takes 44.7 kB where triangles are clipped, 47.1 kB with clang.
+   The state of a draw, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB
+   at the defaults, the queue 12.4 and the batch 8.8 of these.  bench/stack.c measures whole calls:
+   a lit mesh with a map takes 44.7 kB where triangles are clipped, 47.1 kB with clang.
 
-     plan      >>drive       what the draw is; fixed before the first triangle, read by all
+     plan      >>drive       fixed before the first triangle, read by all stages
      supply    >>drive       the triangles that are still to come
      incoming  >>vertices    vertices of a batch until they have window positions
      batch     >>vertices    vertices in the window and the triangles among them
      setup     >>triangles   up to SHADE__TRIANGLES triangles, a lane each
-     bounds    >>cover       what big triangles of the draw hide
-     queue     >>fragments   pixels that passed, until a packet of them is shaded
+     bounds    >>cover       the depths behind which big triangles hide everything
+     queue     >>fragments   pixels that passed the depth test, until a packet of them is shaded
 
-     holds     The prototypes below, before the first stage, are the way of a triangle in the order
-               of the file.  >>cover calls >>tiles; else a stage calls others only through them.
+     The life of a packet.  A stage calls the next one through its prototype below:
+
+       indices -> take_batch -> shade_vertices -> place            up to SHADE_LANES vertices
+                                     |            clip space -> window, outcodes
+                                     v
+                  triangles: drop, clip (a fan) or add             SHADE__TRIANGLES at a time
+                                     |
+                                     v
+                  set_up -> cover -> tiles: edges, depth test      32 x 8 pixels at a time
+                                     |      runs of pixels in rows
+                                     v
+                  push: values into lanes of the queue             until SHADE_LANES are full
+                                     |
+                                     v
+                  flush: fragment shader -> store                  SHADE_LANES pixels
                                                                                        >>vertices */
 
 typedef struct shade__draw shade__draw;
@@ -3247,7 +3259,7 @@ typedef struct shade__draw shade__draw;
 /* Pixels x .. x + n - 1 of row y, inside the triangle of a lane of the setup. */
 typedef struct shade__run { int32_t x, y, n, lane; } shade__run;
 
-/* The depth test as masks: which comparisons pass, and whether depth is written. */
+/* The depth test as masks: the comparisons that pass, and whether depth is written. */
 typedef struct shade__compare { uint32_t less, equal, greater, always, write; } shade__compare;
 
 /* The values of a vertex are z, 1/w and the varyings.  Where a level of detail is wanted without
@@ -3261,36 +3273,36 @@ enum {
     SHADE__TRIANGLES = SHADE_LANES < 64 ? 4 : 16,
     SHADE__BOUNDS = SHADE_LANES * SHADE_LANES / 32,
     SHADE__CLIP_VERTICES = 13,        /* see >>clip */
-    SHADE__TILE = 32, SHADE__TILE_ROWS = 8    /* pixels that >>tiles looks at together */
+    SHADE__TILE = 32, SHADE__TILE_ROWS = 8    /* pixels that >>tiles tests together */
 };
 
-/* What a draw is.  Its flags, all set by shade__make_plan:
+/* The plan of a draw.  Its flags, all set by shade__make_plan:
 
-     flag            set where                                        asked by
+     flag            set where                                        read by
      zero_to_one     the raster says so                               >>vertices, >>clip
      early           there is depth and no shader may discard         >>tiles (rows of a tile)
      queued          there is a fragment shader whose result counts   >>tiles (runs go on)
      less_only       early, the test is LESS, and depth is written    >>tiles (its own copy)
      inputs_unread   the shader is of this file, early, no dither     >>fragments
-     lod             a texture for lod is named: not 0, a place       >>fragments */
+     lod             lod_texture is set; the index of u, else 0       >>fragments */
 typedef struct shade__plan {
     const shade_target   *target;
     const shade_pipeline *pipe;
     uint8_t *color;                   /* NULL: none */
     float   *depth;                   /* NULL: none */
-    float   *tested;                  /* by >>tiles: depth, or a row of a tile that nobody reads */
+    float   *tested;                  /* what >>tiles tests: depth, or a row that is never read */
     const shade__layout *layout;      /* of the target's pixels */
     int      stride, row_offset;      /* pixels from row to row; the first row that memory holds */
     int      x0, y0, x1, y1;          /* clip rectangle, the last two exclusive */
     int      values, value_stride;    /* floats of a vertex, and of its place: a multiple of 8 */
     int      divided;                 /* values from this one on are kept divided by w */
-    int      lod;                     /* the value that is u over w, v follows it; 0: no lod */
+    int      lod;                     /* the value that is u / w, followed by v / w; 0: no lod */
     int      varyings;
     int      zero_to_one;
     int      early;                   /* depth is tested by >>tiles */
     int      queued;                  /* fragments go to the queue */
     int      less_only;               /* the early test is LESS, and depth is written */
-    int      inputs_unread;           /* nobody reads x, y, z, primitive, front, nor presets */
+    int      inputs_unread;           /* x, y, z, primitive, front and presets are not read */
     shade__compare compare;           /* the test of the draw */
     shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
     float    away;                    /* 1: greater depth is farther; -1: less is; 0: no bounds */
@@ -3303,8 +3315,8 @@ typedef struct shade__vertex {        /* a vertex after the vertex shader */
     float    clip[4];
 } shade__vertex;
 
-/* A part of a batch: its triangles, from first up to the first of the next part, are primitive,
-   primitive + 1, ... of the draw. */
+/* A part of a batch: triangles first, first + 1, ... up to the first of the next part are triangles
+   primitive, primitive + 1, ... of the draw. */
 typedef struct shade__part { int first; uint32_t primitive; } shade__part;
 
 typedef struct shade__batch {
@@ -3320,29 +3332,29 @@ typedef struct shade__batch {
 typedef struct shade__incoming {
     shade_vertices   vertices;
     shade_vertex_ids ids;
-    uint32_t known[2 * SHADE_LANES];  /* direct-mapped: an index that is in the batch, */
+    uint32_t known[2 * SHADE_LANES];  /* direct-mapped cache: an index in the batch */
     uint8_t  slot_of[2 * SHADE_LANES];    /* and its vertex */
 } shade__incoming;
 
-/* What is left of a clipped triangle: a fan around its first corner. */
+/* The rest of a clipped triangle: a fan around its first corner. */
 typedef struct shade__polygon {
     shade__vertex vertex[SHADE__CLIP_VERTICES];
     float    value[SHADE__CLIP_VERTICES * SHADE__VALUES_MAX];
     uint8_t  corner[SHADE__CLIP_VERTICES];
     int      count;                   /* corners, in order */
     uint32_t taken;                   /* bit v: vertex v is in use */
-    int      in_front;                /* all corners have w > 0, and so a place on the screen */
+    int      in_front;                /* all corners have w > 0: they have window positions */
     int64_t  area;                    /* twice, in 1/65536 pixel, of the whole polygon */
 } shade__polygon;
 
 typedef struct shade__setup {
     /* the triangles as they were submitted */
-    const shade__vertex *vertex;      /* what corner indexes: vertices of the batch or a fan, */
+    const shade__vertex *vertex;      /* indexed by corner: vertices of the batch or of a fan */
     const float *value;               /* and their values */
     int      count;
     int      of_fan;                  /* pieces of one clipped triangle, which has been counted */
     uint32_t primitive[SHADE__TRIANGLES];
-    uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: what CONSTANT takes */
+    uint8_t  corner[SHADE__TRIANGLES][4];    /* the last: the vertex that CONSTANT takes */
 
     /* what they become; corners are now in the order of turn */
     SHADE_ALIGNED int64_t e[3][SHADE__TRIANGLES];   /* edges at the box's first pixel */
@@ -3357,7 +3369,7 @@ typedef struct shade__setup {
 } shade__setup;
 
 typedef struct shade__bounds {
-    int   log_width, log_height;      /* of the pixels that share a bound */
+    int   log_width, log_height;      /* log2 of the pixels that share a bound */
     int   across;                     /* bounds side by side; 0: not yet begun */
     float farthest[SHADE__BOUNDS];    /* at least plan.away times the depth of any pixel there */
 } shade__bounds;
@@ -3409,19 +3421,20 @@ static void shade__flush(shade__draw *d);
 static void shade__store(shade__draw *d, shade_colors *c);
 
 /*--------------------------------------------------------------------------------------- >>vertices
-   A batch: up to SHADE_LANES vertices, shaded and projected as one packet, and the
-   triangles among them.
+   A batch: up to SHADE_LANES vertices, shaded and projected as one packet, and their triangles.
      in      indices                      out  vertices and their values; corners of triangles
-     holds   A vertex is shaded once a batch, or again where an index that differs by a multiple of
-             2 SHADE_LANES came between.  Vertices without a window position get a harmless one and
-             a bit in their outcode, for which >>triangles drops or clips their triangles.
+     way     take_batch: take_triangles; shade_vertices: the user's shader, place: classify,
+             project, gather
+     holds   A vertex is shaded once a batch, or twice if an index that differs by a multiple of
+             2 SHADE_LANES came between.  A vertex without a window position gets a harmless one
+             and a bit in its outcode; >>triangles then drops or clips its triangles.
                                                                                       >>triangles */
 
 enum {
     SHADE__OUT_NEAR = 16, SHADE__OUT_FAR = 32,
     SHADE__OUT_GUARD_LEFT = 64, SHADE__OUT_GUARD_RIGHT = 128,
     SHADE__OUT_GUARD_BOTTOM = 256, SHADE__OUT_GUARD_TOP = 512,
-    SHADE__OUT_GUARD = 15 << 6,                  /* any side of the guard band */
+    SHADE__OUT_GUARD = 15 << 6,                  /* each side of the guard band */
     SHADE__OUT_W = 1024,                         /* w < 2^-60 */
     SHADE__OUT_BAD = 2048,                       /* NaN, infinite or beyond 1e30 */
     SHADE__OUT_VOLUME = 63 | SHADE__OUT_W,       /* left, right, bottom, top; near, far; w */
@@ -3480,7 +3493,7 @@ SHADE__INLINE uint32_t shade__outcode(float x, float y, float z, float w,
            (shade__mask(w < shade__w_least) & SHADE__OUT_W);
 }
 
-/* Outcodes, and the vertices: 0, 0, 0, 1 in the place of those that get no window position. */
+/* Outcodes, and clip positions: 0, 0, 0, 1 for vertices that get no window position. */
 SHADE__INLINE void shade__classify(const shade_vertices *SHADE_RESTRICT v,
                                    int zero_to_one,
                                    shade__placed *SHADE_RESTRICT p)
@@ -3512,7 +3525,7 @@ SHADE__INLINE void shade__project(double half_width, double half_height,
     SHADE_EACH_LANE(i) { p->rw[i] = 1 / p->w[i]; }
 }
 
-/* Turns rows into one record a vertex: what a triangle reads of it lies together. */
+/* Turns rows into one record a vertex, so that a triangle finds its vertex in one place. */
 SHADE__INLINE void shade__gather(const shade__plan *SHADE_RESTRICT plan, int n,
                                  const shade_vertices *SHADE_RESTRICT v,
                                  const shade__placed *SHADE_RESTRICT p,
@@ -3571,9 +3584,10 @@ static void shade__shade_vertices(shade__draw *d)
     shade__place(d, v);
 }
 
-/* Takes up to most triangles from first on, while there are at most room vertices; returns how
-   many.  Branch-free: slot and index are written whether the vertex is known or not; only the count
-   depends on it.  A branch would be mispredicted every other time (2 % of a dense mesh). */
+/* Takes up to most triangles from first on, while there are at most room vertices; returns the
+   number taken.  Branch-free: slot and index are always written, and only the count depends on
+   whether the vertex is known.  A branch would be mispredicted every other time (2 % of a dense
+   mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in,
                                         const uint32_t *indices, uint32_t first,
                                         int most, int room,
@@ -3599,13 +3613,13 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in,
     return n;
 }
 
-/* Makes a batch of the triangles that follow in the draw; its count is 0 where none are left. */
+/* Makes a batch of the next triangles of the draw; its count is 0 at the end. */
 static void shade__take_batch(shade__draw *d)
 {
     shade__incoming *in = &d->u.in;
     shade__batch *b = &d->batch;
     shade__supply *s = d->supply;
-    /* with so many vertices a triangle more fits */
+    /* up to room vertices one more triangle fits */
     const int room = shade__min(SHADE_LANES, (int)SHADE__BATCH_FLOATS / d->plan.value_stride) - 3;
 
     SHADE_MEMSET(in->known, 255, sizeof in->known);    /* no index: counts end at 2^31 */
@@ -3628,26 +3642,36 @@ static void shade__take_batch(shade__draw *d)
 /*-------------------------------------------------------------------------------------- >>triangles
    Each triangle of a batch is dropped, cut by >>clip, or set up, SHADE__TRIANGLES at a time, a lane
    each: three snapped vertices become three edge functions, a box of pixels and the plane of depth.
-   The planes of the other values are made where a pixel is drawn.                      [Pineda88]
+   The planes of the other values are made when a pixel is drawn.                       [Pineda88]
      in      positions in 24.8 fixed point, |x|, |y| <= 2^24; depths and 1/w
      out     triangles set up in the order of submission, to >>cover
+     way     triangles: sort_out, draw_fan, add_triangles; draw_setup: set_up: fetch_corners, areas,
+             choose_turns, turn, box, edge, sides, depth_plane, cull
      holds   For the edge p to q and the pixel centre at 256 (i, j) + 128:
                256 e(i,j) + rest = (q.x - p.x)(y - p.y) - (q.y - p.y)(x - p.x) + bias
-             A pixel is inside where all three e >= 0; bias is 0 on top and left edges, -1 on
-             others.  The coefficients of i and j are multiples of 256, so that rest is one for all
-             pixels and steps of e are exact.  Neighbours get exactly opposite edges.  All is whole
-             and below 2^53, exact in double.  Planes start at corner 0, the farthest: its 1/w is
-             the smallest, and rounding hurts it most.
+             A pixel is inside where all three e >= 0.  The coefficients of i and j are multiples
+             of 256, so rest is the same for all pixels, and steps of e are exact.  Neighbours get
+             exactly opposite edges.  All values are integers below 2^53, exact in double.  Planes
+             start at corner 0, the farthest: its 1/w is the smallest, and rounding hurts it most.
+
+             Corners are reordered so that they turn clockwise on the screen and corner 0 is the
+             farthest.  The bias of the three edges 0 1, 1 2, 2 0 is the top-left rule:
+
+                 0 -----> 1        top edge, bias 0
+                  ^      /         A centre exactly on a shared edge is inside the triangle
+        left edge  \    /          that has the edge on its top or left, and outside the
+        bias 0      \  v           other one, because there e + bias is -1: it belongs to
+                     2             one of them.  Right and bottom edges: bias -1.
                                                                                            >>clip */
 
-/* Corners of the triangles being set up; x, y and z are then turned, the farthest first. */
+/* Corners of the triangles being set up; x, y and z are reordered, the farthest corner first. */
 typedef struct shade__corner_rows {
     SHADE_ALIGNED int32_t x[3][SHADE__TRIANGLES];
     int32_t y[3][SHADE__TRIANGLES];
     float   z[3][SHADE__TRIANGLES], rw[3][SHADE__TRIANGLES];
 } shade__corner_rows;
 
-/* Which corner becomes the first, as masks, and whether the other two change places. */
+/* As masks: the corner that becomes the first, and whether the other two are swapped. */
 typedef struct shade__turns {
     SHADE_ALIGNED uint32_t first_is_1[SHADE__TRIANGLES];
     uint32_t first_is_2[SHADE__TRIANGLES], flipped[SHADE__TRIANGLES];
@@ -3701,7 +3725,7 @@ SHADE__INLINE void shade__fetch_corners(shade__setup *SHADE_RESTRICT s,
     }
 }
 
-/* area: twice the signed area.  inverse: 256 / |area|, or 256 where it is 0, for programs that trap
+/* area: twice the signed area.  inverse: 256 / |area|, or 256 for an area of 0: programs may trap
    divisions by zero. */
 SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c,
                                 shade__out area, double *SHADE_RESTRICT inverse)
@@ -3715,7 +3739,7 @@ SHADE__INLINE void shade__areas(const shade__corner_rows *SHADE_RESTRICT c,
     }
 }
 
-/* Chooses the order of the corners; order receives its number, 0 .. 5. */
+/* Chooses the order of the corners, and writes its number, 0 .. 5, to order. */
 SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT c,
                                        shade__in area,
                                        shade__turns *SHADE_RESTRICT t,
@@ -3734,8 +3758,8 @@ SHADE__INLINE void shade__choose_turns(const shade__corner_rows *SHADE_RESTRICT 
     }
 }
 
-/* Reorders one value of the three corners: the chosen corner becomes first, the others follow in
-   their order, or reversed where flipped is set. */
+/* Reorders one value of the three corners: the chosen corner first, then the others in their order,
+   or swapped where flipped is set. */
 SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v,
                                const shade__turns *SHADE_RESTRICT t)
 {
@@ -3750,7 +3774,7 @@ SHADE__INLINE void shade__turn(shade__word *SHADE_RESTRICT v,
     }
 }
 
-/* Pixel centres between the extremes of one axis, within lo .. hi; both ends are included.
+/* Pixel centres between the extremes of one axis, within lo .. hi, ends included.
    pre: |a|, |b|, |c| <= 2^24, 0 <= lo, hi < 2^14
    post: 0 <= first <= 2^16, -2^16 - 1 <= last < 2^14; the box is empty where first > last */
 SHADE__INLINE void shade__box(shade__in_ints a, shade__in_ints b,
@@ -3771,10 +3795,9 @@ SHADE__INLINE int64_t shade__whole(double x)
     return (int64_t)(shade__double_bits(x + 6755399441055744.0) - 0x4338000000000000u);
 }
 
-/* The edge from corner k to the next, at the first pixel of the box, and its steps.  e is the floor
-   of v / 256, v being the whole number 256 e + rest; that is v / 256 - 127.5/256 rounded to the
-   nearest.  The top-left rule: bias is 0 on left edges (dy < 0) and top ones (dy = 0, dx > 0) and
-   -1 on all others, so that a centre on a shared edge belongs to one triangle.
+/* The edge from corner k to the next, at the first pixel of the box, and its steps.  With the
+   integer v = 256 e + rest, e = floor(v / 256) is v / 256 - 127.5/256 rounded to the nearest.
+   Left edges have dy < 0, top edges dy = 0 and dx > 0: their bias is 0, the others' -1.
    pre: |q - p| <= 2^25, so that all is exact   post: |e| <= 2^43, |step| <= 2^25 */
 SHADE__INLINE void shade__edge(const shade__corner_rows *SHADE_RESTRICT c,
                                int k, shade__setup *SHADE_RESTRICT s)
@@ -3807,8 +3830,8 @@ SHADE__INLINE void shade__sides(const shade__corner_rows *SHADE_RESTRICT c,
     }
 }
 
-/* The plane of depth, and the least and greatest depth of the corners, to which it is clamped: on
-   slivers rounding goes beyond them.   post: z_low, z_high in [0, 1] */
+/* The plane of depth.  Pixels clamp it to the least and greatest depth of the corners, because
+   rounding leaves that range on slivers.   post: z_low, z_high in [0, 1] */
 SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c,
                                       float bias,
                                       shade__setup *SHADE_RESTRICT s)
@@ -3831,7 +3854,7 @@ SHADE__INLINE void shade__depth_plane(const shade__corner_rows *SHADE_RESTRICT c
     }
 }
 
-/* Empties the boxes of triangles that are not drawn; returns how many they are. */
+/* Empties the boxes of culled triangles; returns their number. */
 SHADE__INLINE int shade__cull(shade__setup *SHADE_RESTRICT s, shade_cull cull,
                               shade__in area)
 {
@@ -3882,7 +3905,7 @@ SHADE__INLINE void shade__set_up_body(shade__draw *d)
 }
 SHADE__DISPATCH_AVX2(shade__set_up, (shade__draw *d), (d), shade__set_up_body(d))
 
-/* Draws the triangles that wait to be set up. */
+/* Sets up and draws the triangles collected so far. */
 static void shade__draw_setup(shade__draw *d)
 {
     const int n = d->setup.count;
@@ -3893,7 +3916,7 @@ static void shade__draw_setup(shade__draw *d)
     shade__cover(d, n);
 }
 
-/* Adds triangles that follow each other, the first of them number primitive. */
+/* Adds consecutive triangles; the first is triangle primitive of the draw. */
 SHADE__INLINE void shade__add_triangles(shade__draw *d,
                                         uint8_t (*corner)[4], int count,
                                         uint32_t primitive)
@@ -3913,8 +3936,8 @@ SHADE__INLINE void shade__add_triangles(shade__draw *d,
     }
 }
 
-/* Clips a triangle and draws the fan that is left of it.  The fan is culled by the area of the
-   whole polygon; pieces that snapping has turned the other way are left out. */
+/* Clips a triangle and draws the resulting fan.  The area of the whole polygon decides culling.
+   Pieces that snapping has turned the other way are left out. */
 static SHADE__COLD void shade__draw_fan(shade__draw *d, const uint8_t corner[4],
                                         uint32_t primitive)
 {
@@ -3998,9 +4021,20 @@ static void shade__triangles(shade__draw *d)
    Cuts triangles that cross near, far, w = 2^-60 (behind the eye) or the guard band, |x| and |y| at
    most 3 w, plane by plane, and leaves a fan.                                     [Sutherland74]
      in      three vertices of the batch     out  a polygon
-     method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 for the planes, of which each adds one, 2
-             while a plane cuts, and vertex 0, which is kept for CONSTANT.  A polygon that rounding
-             has bent may need more; it is dropped.
+     way     clip: polygon_of, clip_plane: new_vertex, place_polygon, apex
+     method  SHADE__CLIP_VERTICES is 13: 3 corners, 7 more because each plane adds one at most, 2
+             while a plane cuts, and vertex 0, kept for CONSTANT.  If rounding made the polygon
+             concave it may need more vertices; it is dropped.
+
+               3w  +-----------------------+
+                   |      guard band       |      A corner between the picture and the guard band
+                   |      +---------+      |      stays: the box of pixels ends at the picture
+                w  |      |   c ---------- p - b  anyway.  A corner beyond the band is cut off:
+                   |      | picture |      |      q and p replace b, and the polygon a q p c is a
+               -w  |      +---------+      q      fan around a corner for which all its triangles
+                   |         a        '    |      turn the same way, here a q p and a p c.
+              -3w  +-----------------------+
+
      holds   A new vertex is computed from the inner to the outer end of its edge, so that
              neighbours get the same bits and no crack opens.                             >>tiles */
 
@@ -4030,9 +4064,9 @@ static float shade__between(float from, float to, double t)
     return (float)(a + t * ((double)to - a));
 }
 
-/* Adds the vertex where an edge leaves through a plane, t of the way from in to out.  On the screen
-   that is s = d_in w_out / (d_in w_out - d_out w_in) of the way.  d_out is negative, so that this
-   adds positive numbers, and no digit is lost however far apart the two w are.
+/* Adds the vertex where an edge crosses a plane, at the fraction t from in to out.  On the screen
+   that is the fraction s = d_in w_out / (d_in w_out - d_out w_in).  As d_out is negative, the sum
+   has positive terms and loses no digits, however different the two w are.
    pre: d_in >= 0 > d_out, a bit of taken is free */
 static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
                                  int in, int out, double d_in, double d_out)
@@ -4057,7 +4091,7 @@ static uint8_t shade__new_vertex(const shade__plan *plan, shade__polygon *p,
 }
 
 /* pre: taken has vertex 0 and the corners   post: at most SHADE__CLIP_VERTICES corners, as each new
-   one takes a bit of it */
+   one takes a bit of taken */
 static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
                               uint32_t plane)
 {
@@ -4066,8 +4100,8 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
     int count = 0;
 
     for (int i = 0; i < p->count; i++) {
-        if (p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {    /* an edge makes one at most */
-            p->count = 0;    /* rounding has bent it, and no place is free: drop it */
+        if (p->taken + 1 >= 1u << SHADE__CLIP_VERTICES) {    /* an edge adds one at most */
+            p->count = 0;    /* rounding made it concave, and no place is free: drop it */
             return;
         }
         uint8_t a = p->corner[i], b = p->corner[i + 1 < p->count ? i + 1 : 0];
@@ -4086,8 +4120,8 @@ static void shade__clip_plane(const shade__plan *plan, shade__polygon *p,
     }
 }
 
-/* Makes the polygon of a triangle, with values that are linear in clip space: those over w are
-   multiplied by it.  Returns the planes it crosses. */
+/* Makes the polygon of a triangle.  Its values are linear in clip space: values over w are
+   multiplied by w.  Returns the planes that the triangle crosses. */
 static uint32_t shade__polygon_of(const shade__plan *plan,
                                   const shade__batch *b,
                                   const uint8_t corner[4], shade__polygon *p)
@@ -4113,7 +4147,7 @@ static uint32_t shade__polygon_of(const shade__plan *plan,
     return out;
 }
 
-/* Window positions and values of the corners, as >>vertices makes them.
+/* Window positions and values of the corners, computed as in >>vertices.
    post: |x|, |y| <= 2^23 */
 static void shade__place_polygon(const shade__plan *plan, shade__polygon *p)
 {
@@ -4143,8 +4177,8 @@ static int64_t shade__fan_area(const shade__polygon *p, int a, int i)
                        &p->vertex[p->corner[(a + i + 1) % p->count]]);
 }
 
-/* Returns a corner from which all triangles of the fan have the polygon's own orientation (snapping
-   may dent it), or 0 if there is none. */
+/* Returns a corner around which all triangles of the fan turn as the polygon does, or 0: snapping
+   may have dented the polygon. */
 static int shade__apex(const shade__polygon *p)
 {
     for (int a = 0; a < p->count; a++) {
@@ -4180,16 +4214,26 @@ static int shade__clip(const shade__draw *d, const uint8_t corner[4],
 }
 
 /*------------------------------------------------------------------------------------------ >>tiles
-   The pixels of a tile that are inside of a triangle and pass the depth test.
+   The pixels of a tile that are inside a triangle and pass the depth test.
      in      a triangle that was set up, tiles of its box
      out     depth (early test), runs of pixels for >>fragments
-     method  A tile is 32 x 8 pixels.  In it, an edge has all pixels outside, and the tile is left
-             out; or all inside, and the edge is forgotten; or it crosses the tile, and then
-             |e| <= 32 |ex| + 7 |ey| fits 32 bits however large the triangle is.  Rows of tiles
-             begin and end where the edges do, so that time follows the tiles that are crossed.
+     way     tile_columns, tile_depth, tile_edges; test_tile: test_columns; add_tile: add_set, send
+     method  A tile is 32 x 8 pixels.  For each edge, a tile is outside (skipped), inside (the edge
+             is ignored) or crossed, and then |e| <= 32 |ex| + 7 |ey| fits 32 bits, however large
+             the triangle is.  Rows of tiles begin and end at the edges, so that time depends on
+             the number of crossed tiles.
+
+               x                    x + columns       columns: tested, a multiple of the vectors
+               |     skip                |            skip: tested, but left out, because the tile
+               . . . | # # # # - - # # # |  row 0           was moved left into the clip rectangle
+               . . . | - # # # # # # # # |  row 1     #: inside and nearer, a bit of set[row]
+                       |     |   |     |
+                       run 0     run 1                runs of row 0: x, y, n of pixels in a row
+
+             A run that ends with its tile is open: the next tile to the right may extend it.
      holds   A tile stays inside the clip rectangle: stores rewrite only pixels of this thread.  A
-             value at a pixel has the same bits however it is reached: row base, then its step in x
-             times the exact distance.                                                    >>cover */
+             value at a pixel has the same bits whichever tile it is in: the base of its row plus
+             its step in x times the exact distance.                                      >>cover */
 
 enum {
     SHADE__RUNS = SHADE_LANES < 64 ? 12 : 16,
@@ -4200,7 +4244,7 @@ enum {
 /* Edge functions in 32 bits: at pixel (x, y), and their steps. */
 typedef struct shade__edges { int x, y; int32_t e[3], ex[3], ey[3]; } shade__edges;
 
-/* A triangle while its pixels are looked for. */
+/* A triangle while its pixels are found. */
 typedef struct shade__triangle {
     int      x0, y0, x1, y1;          /* pixels whose centre may be inside, both ends included */
     int      lane;                    /* of the setup */
@@ -4213,7 +4257,7 @@ typedef struct shade__triangle {
 /* Up to 32 pixels of up to 8 rows. */
 typedef struct shade__tile {
     int      x, y, rows;
-    int      skip, columns;           /* the columns left out on the left; all columns */
+    int      skip, columns;           /* columns to leave out on the left; all columns */
     float   *depth;                   /* of the first pixel */
     int      stride;
     float    row_z[SHADE__TILE_ROWS]; /* depth of the plane in each row at corner 0's x */
@@ -4221,12 +4265,12 @@ typedef struct shade__tile {
     uint32_t any;                     /* is 0 where all sets are empty */
 } shade__tile;
 
-/* Runs of pixels on their way to the queue, handed over when there are as many as fit. */
+/* Runs of pixels on their way to the queue, sent when the array is full. */
 typedef struct shade__runs {
-    shade__run run[SHADE__RUNS + 1];  /* the last ends where no other begins */
+    shade__run run[SHADE__RUNS + 1];  /* the last is a sentinel that no run can extend */
     int count;
     int next;                         /* lane of the next triangle */
-    int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may go on */
+    int open[SHADE__TILE_ROWS];       /* the run in each row that the next tile may extend */
 } shade__runs;
 
 SHADE__INLINE void shade__triangle_of(const shade__setup *s, int i,
@@ -4259,7 +4303,7 @@ SHADE__INLINE float shade__row_depth(const shade__triangle *t, int y)
 
 /* ---- edges in rectangles */
 
-/* Edge k at pixel (x, y), and the least that it is in the rectangle that begins there.
+/* Edge k at pixel (x, y), and its least value in the rectangle that begins there.
    pre: it begins in the picture and is at most 2^14 wide and high   post: both within 2^45 */
 SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x,
                                      int y, int columns, int rows,
@@ -4273,10 +4317,10 @@ SHADE__INLINE int64_t shade__edge_in(const shade__triangle *t, int k, int x,
     return e;
 }
 
-/* Moves *first and *last to the columns between which each edge has pixels inside in some of the
-   rows.  Floats are wrong by less than 0.016 pixel, for which a column may stay on either side.
-   pre: rows of the box   post: *first does not fall, *last does not rise; both within -1 .. 16384
-   pixels of t->x0 if they were */
+/* Moves *first and *last inward, to the columns where each edge has pixels inside in one of the
+   rows.  The crossing is off by less than 0.016 pixel; columns that close are kept.
+   pre: rows of the box   post: *first does not fall, *last does not rise; both stay within -1 ..
+   16384 pixels of t->x0 */
 static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y,
                                                int rows, int *first, int *last)
 {
@@ -4291,8 +4335,8 @@ static SHADE__NOINLINE void shade__cut_columns(const shade__triangle *t, int y,
     }
 }
 
-/* The edges in a tile of 32 columns; those that have all of it inside are 0.  Returns whether all
-   have.   pre: none has all of it outside by more than a column
+/* The edges in a tile of 32 columns; an edge with the whole tile inside becomes 0.  Returns whether
+   all three are.   pre: the tile is not outside an edge by more than a column
    post: |e| <= 32 |ex| + 7 |ey| <= 39 2^25 */
 SHADE__INLINE int shade__tile_edges(const shade__triangle *t,
                                     const shade__tile *tile, shade__edges *edges)
@@ -4357,8 +4401,8 @@ SHADE__INLINE int shade__count_bits(uint32_t m)
     return (int)(((m + (m >> 4)) & 0x0F0F0F0Fu) * 0x01010101u >> 24);
 }
 
-/* Adds the runs of a tile; returns their pixels.  With joined, a run goes on here that the tile to
-   the left ended at the first of its pixels. */
+/* Adds the runs of a tile; returns the number of their pixels.  joined: a run of the tile to the
+   left that ends where a run of this tile begins is extended instead. */
 SHADE__INLINE int shade__add_tile(shade__draw *d, shade__runs *r, int lane,
                                   const shade__tile *tile, const int joined)
 {
@@ -4404,7 +4448,7 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
 }
 
 /* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
-   depth.  Its loops are no SHADE__FOR, with which clang 14 keeps the rows in memory.
+   depth.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in memory.
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
@@ -4453,7 +4497,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     tile->any |= all;
 }
 
-/* Tests a tile; the commonest depth test has a copy of its own. */
+/* Tests a tile, with a specialised copy for the commonest depth test. */
 SHADE__INLINE void shade__test_tile(const shade__plan *plan,
                                     const shade__triangle *SHADE_RESTRICT t,
                                     const shade__edges *edges,
@@ -4480,7 +4524,7 @@ SHADE__INLINE void shade__test_tile(const shade__plan *plan,
     }
 }
 
-/* Tests a tile of a large triangle; tiles that are inside with all their columns have a copy. */
+/* Tests a tile of a large triangle, with a copy for tiles that are inside as a whole. */
 SHADE__DISPATCH(shade__test_large,
                 (const shade__plan *plan, const shade__triangle *SHADE_RESTRICT t,
                  const shade__edges *edges, shade__tile *SHADE_RESTRICT tile, int full),
@@ -4489,8 +4533,8 @@ SHADE__DISPATCH(shade__test_large,
                     shade__test_tile(plan, t, edges, tile, SHADE__TILE, 1);
                 else shade__test_tile(plan, t, edges, tile, shade__width, 0))
 
-/* The columns of a tile for n pixels from x on: 8, or as many vectors as they take.  Where these
-   would leave the clip rectangle the tile begins further left, and skips what comes before x. */
+/* The columns of a tile for n pixels from x on: 8, or whole vectors.  A tile that would leave the
+   clip rectangle is moved to the left, and skips the columns before x. */
 SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n,
                                        const int width, shade__tile *tile)
 {
@@ -4499,7 +4543,7 @@ SHADE__INLINE void shade__tile_columns(const shade__plan *plan, int x, int n,
     tile->skip = x - tile->x;
 }
 
-/* Where a tile's depths are: without an early test all its rows are the row draw.unread. */
+/* The depths of a tile.  Without an early test all its rows are the one row draw.unread. */
 SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
 {
     const size_t early = (size_t)plan->early, row = (size_t)(tile->y - plan->row_offset);
@@ -4509,8 +4553,8 @@ SHADE__INLINE void shade__tile_depth(const shade__plan *plan, shade__tile *tile)
     tile->stride = plan->early * plan->stride;
 }
 
-/* Tests a tile that has more columns than the clip rectangle, which has n: each row is copied,
-   tested and copied back. */
+/* Tests a tile wider than the n columns of the clip rectangle: each row is copied, tested and
+   copied back. */
 static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
                                              const shade__triangle *t,
                                              const shade__edges *edges, int n,
@@ -4535,18 +4579,29 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
 }
 
 /*------------------------------------------------------------------------------------------ >>cover
-   Triangles tile by tile, and what big ones hide from those after them in the same draw: a bound of
-   depth for each rectangle of tiles, so that hidden ones are left out whole.            [Greene93]
+   Draws triangles tile by tile.  Big triangles leave a bound of depth for each rectangle of tiles
+   that they fill; tiles of later triangles that lie behind it are skipped.              [Greene93]
      in      triangles set up                    out  runs of pixels for >>fragments
-     method  LESS, LESS_EQUAL, GREATER and GREATER_EQUAL only ever bring depth nearer.  So no pixel
-             of a rectangle that a triangle filled is farther than that triangle is at the farthest
-             of the rectangle's corners.  All sums are finite, as slopes are below 2^34, and
-             rounding is monotonic, so that corners bound every depth between, to the bit.  Bounds
-             draw 1000 big triangles, 163 Mpixel of overdraw, 3.7 times as fast with AVX-512, and
-             6.2 times with SSE2.                                                     >>fragments */
+     way     cover: cover_small, cover_medium: cover_columns; cover_large: next_stretch,
+             cover_stretch
+     method  LESS, LESS_EQUAL, GREATER and GREATER_EQUAL only ever bring depth nearer.  Once a
+             triangle fills a rectangle, no pixel there is farther than the triangle's farthest
+             corner of it.  All sums are finite, as slopes are below 2^34, and rounding is
+             monotonic, so that corners bound every depth between, to the bit.  Bounds draw 1000
+             big triangles, 163 Mpixel of overdraw, 3.7 times as fast with AVX-512, and 6.2 times
+             with SSE2.
 
-/* Columns x .. last of rows y .. bottom of a triangle's box; in these rows the triangle goes on to
-   column end.  inside is 1 where it has all of their pixels. */
+             A triangle in a row of bounds, #, cut into stretches:
+
+               |      ./|########|########|#hidden#|####\   |
+                      ^s.x                                ^s.end
+                      1-|2----------------|        |3-----|
+
+             A stretch ends before a hidden bound, and where the triangle begins or ceases to fill
+             bounds.  Stretch 2 fills its bounds, and brings them nearer.             >>fragments */
+
+/* Columns x .. last of rows y .. bottom of a triangle's box.  In these rows the triangle extends to
+   column end.  inside: it has all of their pixels. */
 typedef struct shade__stretch { int x, y, last, bottom, end, inside; } shade__stretch;
 
 /* ---- bounds */
@@ -4575,8 +4630,8 @@ SHADE__INLINE float shade__key(float away, const shade__triangle *t,
     return away * shade__clamp_bits(row_z + t->zx * ((float)x + t->x_ref), t->z_low, t->z_high);
 }
 
-/* Have all edges a rectangle inside, so many pixels to the right of the one of which they are at
-   least so much, or to the left if right is negative? */
+/* least is the least value of each edge in a rectangle.  Is the same rectangle, moved right by so
+   many pixels (left if negative), inside all edges? */
 SHADE__INLINE int shade__all_inside(const shade__triangle *t,
                                     const int64_t least[3], int right)
 {
@@ -4586,17 +4641,17 @@ SHADE__INLINE int shade__all_inside(const shade__triangle *t,
     return crossed >= 0;
 }
 
-/* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  It moves s->x
-   on to the first column that no bound hides, or beyond s->end where all are hidden, and s->last
-   to the last column before one that is hidden or differs in s->inside.  On the way it brings
-   bounds nearer that the triangle fills. */
+/* Finds the next stretch of rows s->y .. s->bottom, which lie in one row of bounds.  Moves s->x to
+   the first column that is not hidden, or beyond s->end if all are, and s->last to the last column
+   before one that is hidden or differs in s->inside.  Brings the bounds nearer that the triangle
+   fills. */
 static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
                                                 shade__bounds *b,
                                                 const shade__triangle *t,
                                                 shade__stretch *s)
 {
     const float away = plan->away;
-    /* where the triangle gets farther */
+    /* the directions in which the triangle gets farther */
     const int rightward = away * t->zx > 0, downward = away * t->zy > 0;
     const float z_near = shade__row_depth(t, downward ? s->y : s->bottom);
     const float z_far = shade__row_depth(t, downward ? s->bottom : s->y);
@@ -4626,9 +4681,8 @@ static SHADE__NOINLINE void shade__next_stretch(const shade__plan *plan,
 
 /* ---- triangles */
 
-/* Draws a stretch of a triangle.  In the stretch that ends the triangle's row tiles begin where the
-   edges do, and the last may go on beyond it.  In others they begin at multiples of 32 columns from
-   the clip rectangle, as bounds do. */
+/* Draws a stretch of a triangle.  In the last stretch of a row tiles begin at the edges and may
+   overrun its end.  In the others they begin at multiples of 32 columns, as bounds do. */
 SHADE__INLINE void shade__cover_stretch(shade__draw *d,
                                         const shade__triangle *t,
                                         shade__runs *runs,
@@ -4640,7 +4694,7 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
     shade__tile tile;
     int pixels = 0, inside;
 
-    SHADE__ZERO(edges);    /* as where a tile is inside */
+    SHADE__ZERO(edges);    /* as for tiles that are inside */
     for (int y = s->y; y <= s->bottom; y += SHADE__TILE_ROWS) {
         int first = s->x, last = s->last;
         tile.y = y;
@@ -4664,10 +4718,9 @@ SHADE__INLINE void shade__cover_stretch(shade__draw *d,
     if (!plan->pipe->may_discard) d->stats.fragments += pixels;
 }
 
-/* Has the triangle fewer columns than so many, and do 32 bits hold its edges in its box and 31
-   pixels beside?  They do where two sides reach at most 2^17 / 256 = 512 pixels across and down:
-   then |step| <= 2^18 for all three, and |e| <= 2^29 in the box, as corners and pixels are within
-   2^18 of each other. */
+/* Is the box narrower than columns, and do its edge functions fit 32 bits, 31 pixels of margin
+   included?  They do if two sides span at most 2^17 / 256 = 512 pixels across and down: |step| <=
+   2^18 for all three, and |e| <= 2^29 in the box, as corners and pixels are within 2^18. */
 SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
 {
     const int32_t most = 1 << 17;
@@ -4676,7 +4729,7 @@ SHADE__INLINE int shade__is_small(const shade__setup *s, int i, int columns)
     return s->box[2][i] - s->box[0][i] < columns && !(side & -2 * most);
 }
 
-/* Has an edge all pixels of a tile outside? */
+/* Is the whole tile outside an edge? */
 SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__tile *tile)
 {
     int32_t most = 0;
@@ -4689,8 +4742,8 @@ SHADE__INLINE int shade__tile_outside(const shade__edges *edges, const shade__ti
     return most < 0;
 }
 
-/* Draws a small triangle, tile below tile, and tests each by all three edges.  Narrow ones have one
-   column of tiles.  Returns how many pixels passed. */
+/* Draws a small triangle, tile below tile, each tested by all three edges.  narrow: it has one
+   column of tiles.  Returns the number of pixels that passed. */
 SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
                                        shade__runs *runs, const int width, const int narrow)
 {
@@ -4714,8 +4767,8 @@ SHADE__INLINE int shade__cover_columns(shade__draw *d, shade__triangle *t,
     return pixels;
 }
 
-/* Draws a small triangle of up to four columns of tiles, and returns whether it was one.  Where
-   bounds have begun it leaves the triangle to shade__cover_large, which knows what they hide. */
+/* Draws a small triangle of up to four columns of tiles, or returns 0 if it is none.  Once bounds
+   have begun shade__cover_large draws all of them, because it skips what bounds hide. */
 static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs, int lane)
 {
     const shade__plan *plan = &d->plan;
@@ -4731,7 +4784,7 @@ static SHADE__NOINLINE int shade__cover_medium(shade__draw *d, shade__runs *runs
     return 1;
 }
 
-/* Draws a triangle, except what bounds hide of it. */
+/* Draws the parts of a triangle that bounds do not hide. */
 static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int lane)
 {
     const shade__plan *plan = &d->plan;
@@ -4760,9 +4813,8 @@ static SHADE__HOT void shade__cover_large(shade__draw *d, shade__runs *runs, int
     }
 }
 
-/* Draws triangles of the setup from runs->next on, and leaves it at the first that is not small or
-   not narrow, or at count.  A clip rectangle narrower than a tile has none: it needs
-   shade__test_copy. */
+/* Draws triangles of the setup from runs->next on, up to the first that is not small and narrow, or
+   to count.  In a clip rectangle narrower than a tile none is: shade__test_copy is needed there. */
 SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, int count,
                                            const int width)
 {
@@ -4784,8 +4836,8 @@ SHADE__INLINE void shade__cover_small_body(shade__draw *d, shade__runs *runs, in
 SHADE__DISPATCH(shade__cover_small, (shade__draw *d, shade__runs *runs, int count),
                 (d, runs, count), shade__cover_small_body(d, runs, count, shade__width))
 
-/* Draws all triangles of the setup, by one function after the other to save stack.  The last can
-   draw any triangle. */
+/* Draws all triangles of the setup.  The three functions are called one after the other to save
+   stack; the last can draw any triangle. */
 static void shade__cover(shade__draw *d, int count)
 {
     shade__runs runs;
@@ -4803,11 +4855,12 @@ static void shade__cover(shade__draw *d, int count)
 
 /*-------------------------------------------------------------------------------------- >>fragments
    Pixels that passed, of all triangles of a batch, get their values and levels of detail and wait
-   in a queue; a full packet is shaded and stored.  Shading waiting fragments together measured 2 to
-   3 times faster on dense meshes than a packet for each run.
-     in      runs of pixels of a triangle, whose planes are made when its first run comes
+   in a queue until a packet is full; it is then shaded and stored.  On dense meshes this measured 2
+   to 3 times as fast as a packet for each run.
+     in      runs of pixels; the planes of a triangle are made when its first run comes
      out     packets of fragments for the shader, its colours for >>store
-     holds   The queue has varyings divided by w; they are multiplied by it for the shader, and the
+     way     push: make_planes, append; flush: undivide, repeat, the user's shader, store
+     holds   Varyings in the queue are divided by w, and multiplied by w again for the shader.  The
              lanes from count on repeat the last one.                                   >>texture */
 
 enum { SHADE__WIDE = SHADE_LANES < 32 ? SHADE_LANES : 32 };    /* most pixels appended at once */
@@ -4821,12 +4874,12 @@ typedef struct shade__planes {
     uint32_t primitive, front;
 } shade__planes;
 
-/* Pixels x, x + 1, ... of row y on their way to the lanes of the queue from lane on.  The number
-   back says how many of the first are not written: their lanes keep what they hold. */
+/* Pixels x, x + 1, ... of row y, for the lanes of the queue from lane on.  The first `back` lanes
+   are not written. */
 typedef struct shade__piece { int x, y, lane, back; } shade__piece;
 
-/* The planes of all values in one loop.  k: x and y are the side from corner 0 to 1, z and w that
-   from 0 to 2, divided by twice the area. */
+/* The planes of all values in one loop.  k: the sides from corner 0 to 1 (x, y) and from 0 to 2
+   (z, w), divided by twice the area. */
 SHADE__INLINE void shade__slopes(shade__in v0, shade__in v1, shade__in v2,
                                  shade_vec4 k, int stride,
                                  shade__planes *SHADE_RESTRICT t)
@@ -4876,7 +4929,7 @@ SHADE__INLINE void shade__make_planes(const shade__plan *plan,
 }
 
 /* The squared length, in texels, of the longer step of (u, v) to the next pixel, in 8 lanes.  With
-   u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays of moderate size whatever w is. */
+   u = U / q and q = 1/w, du/dx = (U_x - u q_x) / q, which stays moderate for any w. */
 SHADE__INLINE void shade__append_lod(const shade__plan *SHADE_RESTRICT plan,
                                      const shade__planes *SHADE_RESTRICT t,
                                      shade__in value, int x, int back,
@@ -4910,7 +4963,7 @@ SHADE__INLINE void shade__append_plane(float value, float step, shade__in px,
     }
 }
 
-/* Window position, triangle and facing; left out where nobody reads them. */
+/* Window position, triangle and facing; skipped if they are not read. */
 SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t,
                                        float row_z, shade__piece p,
                                        shade__in px,
@@ -4931,7 +4984,7 @@ SHADE__INLINE void shade__append_place(const shade__planes *SHADE_RESTRICT t,
     }
 }
 
-/* Writes width lanes of the queue.  Where p.back is the constant 0 the choice vanishes. */
+/* Writes width lanes of the queue.  For a constant p.back of 0 the compiler drops the selects. */
 SHADE__INLINE void shade__append(shade__draw *SHADE_RESTRICT d,
                                  const shade__planes *SHADE_RESTRICT t,
                                  shade__in value, shade__piece p, const int width)
@@ -4969,7 +5022,7 @@ SHADE__INLINE void shade__row_values(const shade__planes *SHADE_RESTRICT t, int 
     }
 }
 
-/* Appends one run, shading the queue whenever it is full.   post: it is not full */
+/* Appends one run; shades the queue each time it is full.   post: it is not full */
 SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
                                    const float *value, const shade__run *run)
 {
@@ -4979,7 +5032,7 @@ SHADE__INLINE void shade__push_run(shade__draw *d, const shade__planes *t,
     shade__piece p;
 
     p.y = run->y;
-    /* a short run fits one piece: to know that is worth 5 % of a dense mesh */
+    /* a short run fits one piece: 5 % of a dense mesh */
     if (SHADE__HAS(SHADE__SHORT) && n <= 8 && SHADE_LANES - q->f.count > 8 && !plan->lod) {
         p.x = x;
         p.lane = q->f.count;
@@ -5049,8 +5102,8 @@ static void shade__replicate(shade__queue *q, const shade__plan *plan)
     shade__repeat(q->f.front, n);
 }
 
-/* Multiplies n rows of varyings by w.  1/w is positive, as shade__append clamps it to those of the
-   vertices. */
+/* Multiplies n rows of varyings by w.  1/w is positive: shade__append clamps it to the range of the
+   three vertices. */
 SHADE__INLINE void shade__undivide(shade__in rw, shade__out varying, int n)
 {
     SHADE_ALIGNED float w[SHADE_LANES];
@@ -5061,7 +5114,7 @@ SHADE__INLINE void shade__undivide(shade__in rw, shade__out varying, int n)
     }
 }
 
-/* Makes lod of the squared step: half its logarithm to base 2.  NaN counts as 0. */
+/* lod = log2(square) / 2, of the squared step; NaN counts as 0. */
 SHADE__INLINE void shade__lod_of_steps(shade__out lod)
 {
     SHADE_EACH_LANE(i) {
@@ -5083,7 +5136,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
     if (plan->lod) shade__lod_of_steps(q->f.lod);
 
     SHADE_EACH_LANE(i) { c.color[3][i] = 1; }
-    if (!plan->inputs_unread) {    /* else a shader of this file sets all that is read: 1 % */
+    if (!plan->inputs_unread) {    /* else the shader sets all that is read: 1 % */
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
@@ -5095,14 +5148,16 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
 SHADE__DISPATCH_AVX2(shade__flush, (shade__draw *d), (d), shade__flush_body(d))
 
 /*---------------------------------------------------------------------------------------- >>texture
-   Filters texels for blocks of lanes: the places and weights along both axes, a pair of texels in
-   each of two rows of the texture, then their blend, one level of detail after the other.
+   Filters texels for blocks of lanes: places and weights along both axes, a pair of texels in each
+   of two rows of the texture, then their blend, one mipmap after the other.
      in      rows u, v, lod               out  four rows of linear RGBA, SHADE_LANES apart
-     holds   Every index lies in the texture whatever u and v are.  Each mipmap has the weight
-             max(0, 1 - |lod - level|), which is trilinear filtering.               [Williams83]
+     way     shade_sample_lanes: sample_levels; level: open_level: address; filter: fetch,
+             blend_packed, blend_encoded or blend_floats, add_level
+     holds   Every index lies in the texture, for any u and v.  Each mipmap has the weight max(0,
+             1 - |lod - level|), which is trilinear filtering.                      [Williams83]
                                                                                           >>store */
 
-/* What is wrong with a texture, as a sentence; NULL where nothing is. */
+/* The fault of a texture as a sentence, or NULL. */
 SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 {
     if (!t->pixels) return "The texture's pixels are NULL; point them at its texels.";
@@ -5121,8 +5176,8 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
-/* A block is 16 lanes, or all where there are fewer.  Loops run over blocks, so that a single
-   sample costs one of them. */
+/* A block is 16 lanes, or the whole packet if it is smaller.  Loops run over blocks, so that a
+   single sample costs one block. */
 enum {
     SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16,
     SHADE__BLOCKS = SHADE_LANES / SHADE__BLOCK     /* of a packet */
@@ -5135,7 +5190,7 @@ SHADE__INLINE int shade__blocks_of(int n) { return (n + SHADE__BLOCK - 1) / SHAD
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
 
-/* One axis of a level: for each lane the texels before and after its place. */
+/* One axis of a level: for each lane, the texels on both sides of its place. */
 typedef struct shade__axis {
     int size;                    /* in texels */
     shade_wrap wrap;
@@ -5144,25 +5199,25 @@ typedef struct shade__axis {
     float f[SHADE_LANES];        /* the weight of the texel after; 0 if nearest */
 } shade__axis;
 
-/* One level of a texture, and where its texels lie for some blocks of lanes. */
+/* One level of a texture, and the texels that some blocks of lanes read. */
 typedef struct shade__reader {
     const uint8_t *pixels;
     const shade__layout *layout;
-    size_t y_bytes;              /* how many bytes 1 in y.i stands for; 1 in x.i is one */
+    size_t y_bytes;              /* the bytes of one unit of y.i; x.i counts bytes */
     int nearest, blocks;
     uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
     shade__axis x, y;
     uint32_t pair[2][SHADE_LANES];        /* the bytes before the left texel, above and below */
 } shade__reader;
 
-/* Finds the two texels and the weight of each coordinate, which may be any float, NaN too.
+/* Finds the two texels and the weight of each coordinate, which may be any float, even NaN.
    post: 0 <= i[0], i[1] <= (size - 1) unit */
 SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
                                   shade__axis *SHADE_RESTRICT a)
 {
     const shade_wrap wrap = a->wrap;
     const int32_t last = a->size - 1;
-    /* beyond an end lies the texel of the other end where texels repeat, else that of this end */
+    /* beyond an end: the texel of the other end if the texture repeats, else of this end */
     const int32_t before = wrap == SHADE_WRAP_REPEAT ? last : 0;
     const int32_t after = wrap == SHADE_WRAP_REPEAT ? 0 : last;
     const int32_t limit = wrap == SHADE_WRAP_CLAMP ? 0x7F800000 : 0x4B800000;
@@ -5171,8 +5226,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const uint32_t unit = a->unit;
     SHADE_ALIGNED float place[SHADE_LANES];    /* from 0 to 1 */
 
-    /* From 2^24 on all floats are even numbers: each lies where a period begins, as 0 does, and is
-       replaced by 0.  So are NaN and infinity, and where the texture is clamped these alone. */
+    /* From 2^24 on all floats are even integers, where a period begins: they are replaced by 0.  So
+       are NaN and infinity; a clamped texture replaces only these. */
     SHADE__EACH_BLOCK(i, blocks) {
         int32_t bits = (int32_t)(shade__float_bits(c[i]) & 0x7FFFFFFFu);
         uint32_t usable = shade__mask(bits < limit);
@@ -5203,8 +5258,8 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     }
 }
 
-/* Finds the texels of a level for blocks of lanes.  y.i counts bytes, or rows where 32 bits do not
-   hold the bytes of the level. */
+/* Finds the texels of a level for blocks of lanes.  y.i counts bytes, or rows if the level has more
+   bytes than 32 bits can count. */
 SHADE__INLINE void shade__open_level(const shade_texture *t, const float *u,
                                      const float *v, int blocks,
                                      shade__reader *r)
@@ -5258,9 +5313,9 @@ SHADE__INLINE void shade__fetch_pair(const uint8_t *left, shade__word *to)
     SHADE_MEMCPY(to, left, 8);
 }
 
-/* Fetches the pairs of the row above (line 0) or below (1), left and right in turns, one word each;
-   of texels of four floats the words of channel k.  Not inlined, because gcc would make vectors of
-   the loads, which takes longer. */
+/* Fetches the pairs of the row above (line 0) or below (1), left and right alternating, one word
+   each; of RGBA32F texels, the words of channel k.  Not inlined, because gcc would vectorise the
+   loads, which takes longer. */
 static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line,
                                          int k, shade__word *to)
 {
@@ -5282,9 +5337,8 @@ static SHADE__NOINLINE void shade__fetch(const shade__reader *r, int line,
 }
 
 /* Channel k of a packed texel, from 0 to 1.  On little-endian processors red, green and blue are
-   not shifted down: they are divided by their mask where it stands, which gives the same quotient.
-   They lie below bit 31, so that they are a positive int32_t.  Bilinear textures are 4 to 10 %
-   faster for it. */
+   not shifted down: divided by their mask in place they give the same quotient, and as they lie
+   below bit 31 they are a positive int32_t.  Bilinear textures gain 4 to 10 %. */
 SHADE__INLINE float shade__texel(uint32_t packed, const shade__layout *l, int k)
 {
     const int shift = shade__shift(l, k), down = k < 3 && shade__low_byte_first() ? 0 : shift;
@@ -5299,7 +5353,7 @@ SHADE__INLINE float shade__blend_four(float a, float b, float c, float d, float 
     return top + y * (low - top);
 }
 
-/* The same of channel k of packed texels. */
+/* The same for channel k of packed texels. */
 SHADE__INLINE float shade__bilinear(const shade__layout *l, int k, uint32_t a,
                                     uint32_t b, uint32_t c, uint32_t d, float x,
                                     float y)
@@ -5331,8 +5385,8 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r,
    and right below. */
 typedef struct shade__corners { float c[3][4][SHADE__BLOCK]; } shade__corners;
 
-/* Looks up a texel of 4 bytes.  Light is copied as memory, because processors store more integers
-   at a time than floats. */
+/* Looks up a texel of 4 bytes.  Floats are copied as integers, of which processors store more at a
+   time. */
 SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const int corner,
                                         shade__corners *to)
 {
@@ -5342,8 +5396,8 @@ SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const 
     SHADE_MEMCPY(&to->c[2][corner][i], &light[p[2 - red]], 4);
 }
 
-/* Looks up the sRGB texels of a block, whose pairs begin here.  Not inlined, because gcc would make
-   vectors of it, which takes longer. */
+/* Looks up the sRGB texels of the block of pairs at texel.  Not inlined, because gcc would
+   vectorise it, which takes longer. */
 static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_t *texel,
                                            shade__corners *SHADE_RESTRICT to)
 {
@@ -5367,7 +5421,7 @@ static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_
     }
 }
 
-/* Blends a block of sRGB texels, whose pairs begin here, into four rows, or takes the nearest. */
+/* Blends the block of sRGB texels at above into four rows, or takes the nearest. */
 SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *above, shade__in x,
                                         shade__in y, shade__out out)
 {
@@ -5387,8 +5441,8 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
     }
 }
 
-/* Blends one channel of texels as floats, in the order of pairs.  A texel without weight is left
-   out, because 0 times infinity would be NaN. */
+/* Blends one channel of float texels, in the order of pairs.  A texel of weight 0 is left out: 0
+   times infinity would be NaN. */
 SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
                                        shade__out out)
 {
@@ -5403,8 +5457,8 @@ SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
     }
 }
 
-/* Adds one channel of a level times its weight.  Where the weight is 0 it adds nothing, because 0
-   times infinity would be NaN. */
+/* Adds one channel of a level times its weight; nothing for a weight of 0, since 0 times infinity
+   would be NaN. */
 SHADE__INLINE void shade__add_level(shade__in c, shade__in weight, int blocks,
                                     shade__out out)
 {
@@ -5477,7 +5531,7 @@ SHADE__DISPATCH(shade__level,
                  int blocks, float *out), (t, u, v, weight, blocks, out),
                 shade__level_body(t, u, v, weight, blocks, out))
 
-/* Samples a texture that has mipmaps: the levels that some lane needs, weighted. */
+/* Samples a texture with mipmaps: the levels that any lane needs, weighted. */
 static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t,
                                                  const float *u, const float *v,
                                                  const float *lod, int blocks,
@@ -5876,12 +5930,12 @@ SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
 
 /* The row at which each varying of a mesh begins; -1: the draw has none of it.
 
-     row                           0        3        6        8       9
-     lit per fragment              P        N        albedo           u v    without colours u v at 6
+     row                           0        3        6
+     lit per fragment              P        N        albedo   u v at 9, without colours at 6
      no lamps, or depth alone      albedo   u v
      lit per vertex or face        light
      the same, with a map          light    rest     u v
-     state.fragment                P        N        albedo           u v    always all 11
+     state.fragment                P        N        albedo   u v at 9; always all 11 rows
 
    A map multiplies the light of vertices, but not the rest of it (emission, highlights). */
 typedef struct shade__mesh_rows {
