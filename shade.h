@@ -68,15 +68,15 @@
        >>store     5610  blending, packing
      Inside: calls of the renderer
        >>check     5846  refusals              >>seen      6027  what can be seen, chunks
-       >>drive     6164  shade_draw            >>mesh      6343  shade_draw_mesh
+       >>drive     6164  shade_draw            >>mesh      6344  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6749  shade_draw_lines      >>shape     6907  normals, edges
-       >>chunks    7243  how boxes are made    >>rays      7407  shade_pick
-       >>survey    7603  experiments on a draw >>explain   7854  why nothing is seen
-       >>image     8499  mipmaps, PPM           >>presets   8806  classic materials
+       >>lines     6750  shade_draw_lines      >>shape     6908  normals, edges
+       >>chunks    7244  how boxes are made    >>rays      7408  shade_pick
+       >>survey    7604  experiments on a draw >>explain   7855  why nothing is seen
+       >>image     8500  mipmaps, PPM           >>presets   8807  classic materials
      Sources
-       >>refs      8882                        >>history   8912
-       >>license   8924
+       >>refs      8883                        >>history   8913
+       >>license   8925
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -3304,7 +3304,7 @@ typedef struct shade__plan {
     int      less_only;               /* the early test is LESS, and depth is written */
     int      inputs_unread;           /* x, y, z, primitive, front and presets are not read */
     shade__compare compare;           /* the test of the draw */
-    shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
+    shade__compare tile_test;        /* the test of >>tiles: it lets all pass unless early */
     float    away;                    /* 1: greater depth is farther; -1: less is; 0: no bounds */
     double   half_width, half_height; /* of the picture, in 1/256 pixels */
 } shade__plan;
@@ -4457,7 +4457,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const int width, const int less_only,
                                        const int full)
 {
-    const shade__compare test = plan->early_test;
+    const shade__compare test = plan->tile_test;
     const float zx = t->zx, x_ref = t->x_ref, z_low = t->z_low, z_high = t->z_high;
     const int x = tile->x + at, skip = tile->skip - at, i0 = x - edges->x, j0 = tile->y - edges->y;
     const int32_t ax = edges->ex[0], ay = edges->ey[0], a = edges->e[0] + i0 * ax + j0 * ay;
@@ -5608,10 +5608,11 @@ SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
 }
 
 /*------------------------------------------------------------------------------------------ >>store
-   The colours of a packet go to the caller's memory: late depth test, blending, formats.
+   Writes the colours of a packet to the caller's memory: late depth test, blending, formats.
      in      rows of linear RGBA, the queue's pixels     out  colour, and with may_discard depth
+     way     store: late_depth; store_blended: unpack, blend; pack; scatter
      holds   Pixels are stored in drawing order.  A channel of 8 bits is floor(255 clamp(c) + 1/2),
-             NaN is 0.  The four rows of colours lie SHADE_LANES apart.                   >>check */
+             NaN is 0.  The four rows of colours are SHADE_LANES apart.                   >>check */
 
 /* The thresholds of a 4 x 4 ordered dither at window positions x, y: the bits of x ^ y and of y,
    interleaved and reversed.   pre: 0 <= x, y < 2^31   post: 0 < threshold < 1 */
@@ -5625,8 +5626,8 @@ SHADE__INLINE void shade__dither(shade__in x, shade__in y, shade__out threshold,
     }
 }
 
-/* A colour of any bits as channel k of a packed pixel: clamped to [0, 1], scaled to full, and
-   rounded up where its fraction reaches 1 - threshold. */
+/* Channel k of a packed pixel: c, which may be any float, clamped to [0, 1], scaled to full, and
+   rounded up if its fraction reaches 1 - threshold. */
 SHADE__INLINE uint32_t shade__pack_channel(float c, const shade__layout *l, int k,
                                      float threshold)
 {
@@ -5658,8 +5659,8 @@ SHADE__INLINE void shade__encode_row(shade__out c, int blocks)
     SHADE__EACH_BLOCK(i, blocks) { c[i] = shade__encode_curve(c[i], u[i]); }
 }
 
-/* Packs blocks of colours for the target, and encodes them in place where it stores sRGB.  x and y
-   are read where it dithers; floats are left as they are. */
+/* Packs blocks of colours for the target; encodes them in place if it stores sRGB.  Only dithering
+   reads x and y.  RGBA32F colours are left as they are. */
 SHADE__INLINE void shade__pack_body(const shade_target *t, float *rgba,
                                     const float *x, const float *y,
                                     uint32_t *packed, int blocks)
@@ -5680,7 +5681,7 @@ SHADE__DISPATCH(shade__pack,
                  uint32_t *packed, int blocks), (t, rgba, x, y, packed, blocks),
                 shade__pack_body(t, rgba, x, y, packed, blocks))
 
-/* Unpacks a block of pixels to linear light.  Pixels of floats need nothing: rgba holds them. */
+/* Unpacks a block of pixels to linear light.  RGBA32F pixels are in rgba already. */
 SHADE__INLINE void shade__unpack_body(const shade_target *t,
                                       shade__in_bits packed, shade__out rgba)
 {
@@ -5702,8 +5703,8 @@ SHADE__DISPATCH_AVX2(shade__unpack,
                      (const shade_target *t, const uint32_t *packed, float *rgba),
                      (t, packed, rgba), shade__unpack_body(t, packed, rgba))
 
-/* Packs n pixels and stores them at p.  The first is pixel (x, y) of the target, which matters
-   where it dithers.   pre: 0 < n <= SHADE_LANES; the rows hold whole blocks of numbers */
+/* Packs n pixels and stores them at p.  The first is pixel (x, y) of the target, for dithering.
+   pre: 0 < n <= SHADE_LANES; the rows hold whole blocks of numbers */
 static void shade__store_run(const shade_target *t, float *rgba, int x, int y, int n, uint8_t *p)
 {
     const shade__layout l = shade__layouts[t->format];
@@ -5722,8 +5723,8 @@ static void shade__store_run(const shade_target *t, float *rgba, int x, int y, i
     for (int i = 0; i < n; i++) shade__store_pixel(&l, p + i * l.bytes, packed[i], rgba + i);
 }
 
-/* Tests depth, and writes it, in drawing order, after a shader that may discard.  alive: 1 for the
-   lanes whose colours are to be stored, else 0. */
+/* Tests and writes depth in drawing order, after a shader that may discard. alive: 1 for lanes that
+   store their colour, else 0. */
 static void shade__late_depth(shade__draw *d, const uint32_t *discard,
                               uint32_t *alive)
 {
@@ -5741,7 +5742,7 @@ static void shade__late_depth(shade__draw *d, const uint32_t *discard,
     }
 }
 
-/* Stores those of the lanes first .. last - 1 that are alive; with alive NULL all. */
+/* Stores the lanes first .. last - 1 that are alive, or all if alive is NULL. */
 SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive,
                                   const float *rgba, const uint32_t *packed,
                                   int first, int last)
@@ -5754,7 +5755,7 @@ SHADE__INLINE void shade__scatter(const shade__draw *d, const uint32_t *alive,
     }
 }
 
-/* Stores all lanes in pixels of 4 bytes: as one vector where those of a block lie side by side. */
+/* Stores all lanes in pixels of 4 bytes; a block of adjacent pixels is stored as one vector. */
 SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
                                         shade__in_bits offset,
                                         shade__in_bits packed, int count)
@@ -5774,10 +5775,9 @@ SHADE__INLINE void shade__scatter_words(uint8_t *SHADE_RESTRICT color,
     for (; i < count; i++) SHADE_MEMCPY(shade__pixel(color, offset[i], 4), packed + i, 4);
 }
 
-/* Blends a block of colours with the stored ones, by OVER or else by ADD, and puts the result in
-   their place.  A new mode needs its sum here, its number in shade__raster_fault, what alpha does
-   to the colours of meshes in shade__mesh_alpha, and whether black may be meant in
-   shade__why_dark. */
+/* Blends a block of colours with the stored ones, by OVER or ADD, into stored.  A new mode needs
+   its sum here, its number in shade__raster_fault, the effect of alpha on the colours of meshes in
+   shade__mesh_alpha, and in shade__why_dark whether black may be meant. */
 SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba,
                                 shade__out stored)
 {
@@ -5793,8 +5793,8 @@ SHADE__INLINE void shade__blend(shade_blend blend, shade__in rgba,
     }
 }
 
-/* Blends and stores in drawing order, in pieces of up to a block.  The pixels of a piece go up in
-   memory, so that none comes twice in it.  Other lanes of its block are not stored. */
+/* Blends and stores in drawing order, in pieces of up to a block.  The addresses within a piece
+   rise, so that no pixel is in it twice.  Other lanes of its block are not stored. */
 static SHADE__NOINLINE void shade__store_blended(const shade__draw *d,
                                                  const uint32_t *alive,
                                                  const float *rgba,
@@ -6025,12 +6025,13 @@ static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices
 }
 
 /*------------------------------------------------------------------------------------------- >>seen
-   What can be seen of the picture at all: the clip rectangle, and boxes beside the planes of view.
-     in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn
-     holds   A box with a pixel in the clip rectangle is never left out, whatever rounding does.
-     method  A box that lies outside of one plane is not seen.                           >>drive */
+   What can be visible: the clip rectangle, and boxes against the planes of the view volume.
+     in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn way
+     see_chunks: frustum_of; then next_chunk: in_view, as batches need triangles holds   A box with
+     a pixel in the clip rectangle is never skipped; bounds of rounding are added. method  A box
+     that lies outside one plane is invisible. >>drive */
 
-/* r becomes the clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the last two
+/* Sets r to the clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the last two
    exclusive.  Returns 0 if it is empty. */
 static int shade__clip_rectangle(const shade_target *t, int *r)
 {
@@ -6044,14 +6045,13 @@ static int shade__clip_rectangle(const shade_target *t, int *r)
     return r[0] < r[2] && r[1] < r[3];
 }
 
-/* The planes around what can be seen, in object space: left, right, top, bottom, near, and far
-   three times, to fill the lanes.  A point is outside where k.(P, 1) < 0.  size is in double too:
-   with floats gcc 12.2 addresses one of the rows by the other, at half the stride, takes the stores
-   to both for dead and drops them. */
+/* The planes of the view volume in object space: left, right, top, bottom, near, and far three
+   times, to fill the lanes.  A point is outside where k.(P, 1) < 0.  size is in double too: with
+   floats gcc 12.2 takes the stores to both rows for dead and drops them. */
 enum { SHADE__PLANES = 8 };
 struct shade__frustum {
     double k[4][SHADE__PLANES];
-    double size[4][SHADE__PLANES];    /* of the numbers that k was made of, for rounding */
+    double size[4][SHADE__PLANES];    /* the sum of the |terms| of k, to bound its rounding */
 };
 
 /* Plane i of the frustum: sign (c - limit w) >= 0 in clip space, where c is x, y or z for row 0, 1
@@ -6067,8 +6067,8 @@ static void shade__frustum_plane(const shade_mat4 *m, int row, double sign,
     }
 }
 
-/* The planes of the clip rectangle, near and far.  The rectangle reaches half a pixel beyond the
-   centres of its pixels: snapping and clipping move an edge by less. */
+/* The planes of the clip rectangle, near and far.  The rectangle extends half a pixel beyond the
+   centres of its pixels, and snapping and clipping move an edge by less. */
 static SHADE__COLD void shade__frustum_of(const shade_target *t,
                                           const shade_mat4 *clip_from_object,
                                           int zero_to_one, shade__frustum *f)
@@ -6085,10 +6085,10 @@ static SHADE__COLD void shade__frustum_of(const shade_target *t,
     if (!shade__is_finite(clip_from_object)) SHADE__ZERO(*f);    /* no box lies outside */
 }
 
-/* May the box be seen?  0: it lies outside of one plane.  With its centre c and half its extent h
-   the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, off by
-   2^-22 of the sum of the |products|, and each of 7 clips rounds by 2^-24 of that; 2^-20 covers
-   both.  Products that underflow are off by 2^-148, which FLT_MIN in frustum.size covers. */
+/* Can the box be visible?  0: it lies outside one plane.  For the centre c and half the extent h
+   the greatest value of a plane is k.(c, 1) + |k|.h.  Vertices are transformed in float, with an
+   error of 2^-22 of the sum of the |products|, and each of 7 clips adds 2^-24 of it; 2^-20 covers
+   both.  FLT_MIN in frustum.size covers products that underflow, with an error of 2^-148. */
 static SHADE__NOINLINE int shade__in_view(const shade__frustum *f,
                                           shade_vec3 low, shade_vec3 high)
 {
@@ -6116,7 +6116,7 @@ static SHADE__NOINLINE int shade__in_view(const shade__frustum *f,
     return !(signs >> 63);
 }
 
-/* Moves on to the next chunk that may be seen; returns 0 where there is none. */
+/* Takes the next chunk that can be visible; returns 0 if there is none. */
 static int shade__next_chunk(shade__draw *d)
 {
     shade__supply *s = d->supply;
@@ -6136,7 +6136,7 @@ static int shade__next_chunk(shade__draw *d)
     return 0;
 }
 
-/* Hands out the chunks of a mesh that may be seen, in place of all its triangles. */
+/* Supplies the chunks of a mesh that can be visible, in place of all its triangles. */
 static void shade__see_chunks(const shade_target *t, const shade_mat4 *clip_from_object,
                               int zero_to_one, const shade_mesh *mesh,
                               shade__frustum *frustum, shade__supply *s)
@@ -6164,6 +6164,8 @@ SHADEDEF int shade_box_visible(const shade_target *target,
 /*------------------------------------------------------------------------------------------ >>drive
    The public calls: arguments are checked before any pixel changes, then batch follows batch.
      in      the arguments of a call             out  pixels and stats, or a shade_result
+     way     shade_draw: check_pipeline, supply_all; run_draw: make_plan, then take_batch,
+             shade_vertices and triangles until no triangle is left
                                                                                          >>mesh */
 
 /* Checks a target that must have colours. */
@@ -6187,9 +6189,8 @@ static shade__compare shade__compare_of(const shade_raster *r)
     return c;
 }
 
-/* Not SHADE__COLD, since shade__run_draw always calls it: gcc takes a function that always calls a
-   cold one for cold too, and then all that it calls, so that the loops of every stage would stay
-   scalar: 4 times slower. */
+/* Not SHADE__COLD: gcc propagates `cold` to callers, here shade__run_draw, and from there to every
+   stage, whose loops would stay scalar (4 times slower). */
 static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
                                              const shade_pipeline *p, int own,
                                              shade__plan *plan)
@@ -6218,8 +6219,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     plan->zero_to_one = p->raster.depth_zero_to_one != 0;
     plan->compare = shade__compare_of(&p->raster);
     plan->early = early;
-    plan->early_test = plan->compare;
-    if (!early) plan->early_test.always = UINT32_MAX;
+    plan->tile_test = plan->compare;
+    if (!early) plan->tile_test.always = UINT32_MAX;
     plan->queued = p->fragment && (plan->color || p->may_discard);
     plan->less_only = kept && p->raster.depth_test == SHADE_COMPARE_LESS;
     plan->inputs_unread = own && early && !t->dither;
@@ -6228,15 +6229,15 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
     plan->half_height = t->height * 128;
 }
 
-/* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: the
-   fragment shader is of this file, or it may discard, so that the depth test is late. */
+/* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: no
+   shader of the user reads the fragments. */
 static shade_result shade__run_draw(const shade_target *target,
                                     shade_pipeline *pipe, int own,
                                     shade__supply *supply, shade_stats *stats)
 {
     shade__draw d;
     if (!pipe->fragment) pipe->may_discard = 0;
-    if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* nobody reads them */
+    if (!pipe->fragment || (!target->color && !pipe->may_discard)) {    /* they are not read */
         pipe->varyings = 0;
         pipe->lod_texture = NULL;
     }
@@ -6244,7 +6245,7 @@ static shade_result shade__run_draw(const shade_target *target,
     SHADE__ZERO(d.unread);
     if (!d.plan.early) d.plan.tested = d.unread;
     SHADE__ZERO(d.stats);
-    /* what lanes compute from values that nobody has set must be defined, though nobody reads it */
+    /* lanes without a vertex or triangle compute too: their input must be defined */
     SHADE__ZERO(d.batch.value);
     SHADE__ZERO(d.setup);
     SHADE__ZERO(d.u.in.slot_of);
@@ -6272,7 +6273,7 @@ static shade_result shade__supply_all(const uint32_t *indices, int index_count,
     return shade__check_indices(indices, index_count, vertex_count);
 }
 
-/* What every drawing call does first: clears stats, refuses missing arguments and bad targets. */
+/* The first step of every drawing call: clears stats, refuses missing arguments and bad targets. */
 static shade_result shade__begin(const shade_target *t, int given,
                                  shade_stats *stats)
 {
@@ -6304,8 +6305,8 @@ static void shade__fill(uint8_t *SHADE_RESTRICT p, shade__in pattern, size_t n)
     SHADE_MEMCPY(p, pattern, n);
 }
 
-/* The 256 bytes that a colour makes from (x, y) on.  It packs 8 pixels, which hold the dither's
-   period of 4 twice, and repeats them. */
+/* The 256 bytes of a colour from (x, y) on: 8 packed pixels, twice the period of the dither,
+   repeated. */
 static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
                                  int y, uint8_t *pattern)
 {
@@ -6693,7 +6694,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     shade__frustum frustum;
     shade__see_chunks(target, &scene->clip_from_object, p->raster.depth_zero_to_one,
                       scene->mesh, &frustum, &supply);
-    return shade__run_draw(target, p, 1, &supply, stats);
+    return shade__run_draw(target, p, !scene->state->fragment, &supply, stats);
 }
 
 /* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader.
@@ -6725,7 +6726,7 @@ static shade_result shade__draw_scene(const shade_target *target,
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
     if (mesh->chunks) return shade__draw_chunks(target, &p, &supply, stats);
-    return shade__run_draw(target, &p, 1, &supply, stats);
+    return shade__run_draw(target, &p, !state->fragment, &supply, stats);
 }
 
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
