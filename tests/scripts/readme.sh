@@ -57,6 +57,7 @@ awk -v dir="$T" -v readme="$README" '
     inside { text = text $0 "\n" }
     END { if (blocks["alone/knot.c"] != 1) print blocks["alone/knot.c"] + 0 > (dir "/programs") }
 ' "$README" $CONTINUED
+sed -n 's/^| [^|]*| \("[^"]*"\) |.*/\1,/p' "$README" >"$T/sentences.h"
 check "one program" test ! -f "$T/programs"
 awk '/#define SHADE_IMPLEMENTATION/ { seen = 1 }
      seen && /^       / { print substr($0, 8) }
@@ -143,6 +144,8 @@ check "every source is one of shade.h" none "$(
     grep -oE '\[[A-Z][a-z]+[0-9]+\]' "$T/text" | sort -u | while read -r key; do
         grep -qF -- "$key" shade.h || echo "$key"
     done)"
+check "README counts the pictures" test "$(($(ls examples/lessons/[0-9]*.c | wc -l) - 12))" = \
+    "$(sed -n 's/.*twelve pictures and \([0-9]*\) more.*/\1/p' "$README")"
 check "every file is there" none "$(
     grep -oE '(^|[^A-Za-z/])(examples|tests|bench|\.ci)/[A-Za-z0-9_./]*' "$T/text" |
     sed 's/^[^a-z.]//; s/[.]$//' | sort -u | while read -r file; do [ -e "$file" ] || echo "$file"; done)"

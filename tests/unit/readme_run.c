@@ -55,6 +55,8 @@ static void start(int width, int height, shade_vec3 from, shade_vec3 to)
     shade_clear(&target, shade_v4(0.02f, 0.02f, 0.05f, 1), 1);
 }
 
+static void put_square(int k, double size, double y);    /* square number k, seen from above */
+
 /* --------------------------------------------------------------------------------- the programs */
 
 /* The 640 x 480 pixels of a PPM, three bytes each */
@@ -172,6 +174,34 @@ TEST(readme, program_of_the_header_draws_a_triangle)
     CHECK_SAY(inside > 30000 && outside > 200000, "%d inside, %d outside", inside, outside);
 }
 
+/* Six mistakes, in the order of the README's table, and the sentences that stand there. */
+TEST(readme, explain_says_what_the_table_quotes)
+{
+    static const char *quoted[] = {
+#include "sentences.h"
+    };
+    const shade_vec3 up = { 0, 1, 0 };
+    CHECK_INT(TEST_COUNT(quoted), 6);
+    for (int k = 0; k < TEST_COUNT(quoted); k++) {
+        shade_stats stats;
+        shade_light sun = shade_directional_light(shade_v3(0, -1, -1), shade_v3(1, 1, 1));
+        start(64, 48, shade_v3(0, 4, 6), shade_v3(0, 0, 0));
+        put_square(0, 2, 0);
+        state.lighting.lights = &sun;
+        state.lighting.light_count = 1;
+        if (k == 0) mesh.index_count = 5;
+        if (k == 1) state.projection = shade_mat4_perspective(45, 64 / 48.0f, 0.5f, 50);
+        if (k == 2) state.view = shade_mat4_look_at(shade_v3(0, 4, 6), shade_v3(0, 8, 12), up);
+        if (k == 3) state.raster.cull = SHADE_CULL_BACK;
+        if (k == 3) state.view = shade_mat4_look_at(shade_v3(0, -4, 6), shade_v3(0, 0, 0), up);
+        if (k == 4) shade_clear(&target, shade_v4(0, 0, 0, 1), 0);
+        if (k == 5) memset(&state.lighting, 0, sizeof state.lighting);
+        shade_draw_mesh(&target, &mesh, &state, &stats);
+        const char *said = shade_explain(&target, &mesh, &state, &stats);
+        CHECK_SAY(strstr(said, quoted[k]), "README: \"%s\"; said: \"%s\"", quoted[k], said);
+    }
+}
+
 /* ---------------------------------------------------------------------------------------- light */
 
 TEST(readme, three_lamps_shine_as_said)
@@ -273,7 +303,8 @@ TEST(readme, window_shows_the_target)
         if (!surface || surface->w != 64 || surface->h != 48) return;
         for (int i = 0; i < 64 * 48; i++) {
             const unsigned char *want = (const unsigned char *)&run_bytes[i];
-            const unsigned char *row = (const unsigned char *)surface->pixels + i / 64 * surface->pitch;
+            const unsigned char *row = (const unsigned char *)surface->pixels;
+            row += i / 64 * surface->pitch;
             int bytes = surface->format->BytesPerPixel;
             uint32_t pixel = 0;
             uint8_t r, g, b;
@@ -344,7 +375,6 @@ static void put(int at, float x, float y, float z)
     run_texcoords[2 * at + 1] = z;
 }
 
-/* Square number k, seen from above */
 static void put_square(int k, double size, double y)
 {
     static const float side[4] = { -1, 1, 1, -1 };
@@ -438,6 +468,92 @@ TEST(readme, shaders_draw_map_and_shadow)
                   i % W, i / W, what, got.y, want.y);
     }
     CHECK(seen[0] > 500 && seen[ROOF] > 500 && seen[FLOOR] > 5000 && seen[SHADOW] > 500);
+}
+
+/* A floor below a roof, and a map of depth from a lamp aslant.  Counts the places of the floor that
+   the map calls dark though the roof, made larger by two texels, lets light pass (acne), and those
+   it calls lit though the roof, made smaller, does not (leaks).  share: of the offset advised. */
+typedef struct shadow_count { int lit, acne, blocked, leaks; } shadow_count;
+static shadow_count count_shadows(int around, double height, float share)
+{
+    enum { SIDE = 128, PLACES = 300 };
+    static float map[SIDE][SIDE];
+    const float fovy = 1.3f;
+    const shade_vec3 at = { 4, 2.5f, 1.5f };
+    const shade_vec3 axis = shade_normalize(shade_neg(at)), N = { 0, 1, 0 };
+    shade_target lamp_target;
+    shade_pipeline pipeline;
+    shadow_count n = { 0, 0, 0, 0 };
+    memset(&lamp_target, 0, sizeof lamp_target);
+    memset(&pipeline, 0, sizeof pipeline);
+    lamp_target.width = lamp_target.height = SIDE;
+    lamp_target.depth = map[0];
+    start(8, 8, shade_v3(0, 4, 6), shade_v3(0, 0, 0));
+    put_square(0, floor_size, 0);
+    put_square(1, roof_size, height);
+    uniforms u = { shade_mat4_mul(shade_mat4_perspective(fovy, 1, 0.5f, 40),
+                                  shade_mat4_look_at(at, shade_v3(0, 0, 0), N)),
+                   { 0 } };
+    pipeline.vertex = vertex;
+    pipeline.uniforms = &u;
+    shade_clear(&lamp_target, shade_v4(0, 0, 0, 0), 1);
+    CHECK_INT(shade_draw(&lamp_target, &pipeline, mesh.indices, mesh.index_count,
+                         mesh.vertex_count, NULL), SHADE_OK);
+    for (int k = 0; k < PLACES * PLACES; k++) {
+        const float step = 4.0f / PLACES;
+        shade_vec3 P = { step * (float)(k % PLACES) - 2, 0, step * (float)(k / PLACES) - 2 };
+        float w = shade_dot(axis, shade_sub(P, at)), texel = 2 * w * tanf(fovy / 2) / SIDE;
+        float reach = (around ? 2.12f : 0.71f) * texel;
+        shade_vec3 p = shade_mat4_transform_point(u.clip_from_world,
+                                                  off_surface(P, N, axis, share * reach));
+        int x = (int)((1 + p.x) * SIDE / 2), y = (int)((1 - p.y) * SIDE / 2), dark = 0;
+        CHECK(x >= 1 && y >= 1 && x < SIDE - 1 && y < SIDE - 1);
+        for (int j = y - around; j <= y + around; j++) {
+            for (int i = x - around; i <= x + around; i++) dark += (1 + p.z) / 2 > map[j][i];
+        }
+        /* where the way to the lamp passes the height of the roof */
+        double way = height / (double)at.y, rim = (5 + around) * (double)texel;
+        double X = P.x + way * ((double)at.x - P.x), Z = P.z + way * ((double)at.z - P.z);
+        double out = fmax(fabs(X), fabs(Z)) - roof_size;
+        n.lit += out > rim;
+        n.acne += out > rim && dark > 0;
+        n.blocked += out < -rim;
+        n.leaks += out < -rim && !dark;
+    }
+    return n;
+}
+
+TEST(readme, the_offset_advised_leaves_no_shadow_acne)
+{
+    for (int around = 0; around <= 1; around++) {
+        const shadow_count without = count_shadows(around, 0.5, 0);
+        const shadow_count half = count_shadows(around, 0.5, 0.5f);
+        const shadow_count with = count_shadows(around, 0.5, 1);
+        const shadow_count more = count_shadows(around, 0.25, 10);
+        CHECK_SAY(without.acne > without.lit * 4 / 10, "%d of %d", without.acne, without.lit);
+        CHECK_SAY(half.acne > half.lit / 100, "%d of %d", half.acne, half.lit);
+        CHECK_SAY(with.lit > 40000 && !with.acne, "%d of %d", with.acne, with.lit);
+        CHECK_SAY(with.blocked > 5000 && !with.leaks, "%d of %d", with.leaks, with.blocked);
+        CHECK_SAY(more.leaks > 0, "%d of %d", more.leaks, more.blocked);
+    }
+}
+
+/* Vertex colours as they are, with lamps or without */
+TEST(readme, unlit_shows_the_colours_alone)
+{
+    static float colors[3 * 4];
+    start(64, 48, shade_v3(0, 6, 0.01f), shade_v3(0, 0, 0));
+    put_square(0, 50, 0);
+    for (int k = 0; k < 12; k++) colors[k] = 0.1f + 0.25f * (float)(k % 3);
+    mesh.colors = colors;
+    three_lamps();
+    shade_material dark = shade_preset_material(SHADE_PRESET_JADE);
+    state.material = &dark;
+    unlit();
+    CHECK_INT(shade_draw_mesh(&target, &mesh, &state, NULL), SHADE_OK);
+    for (int i = 0; i < 64 * 48; i++) {
+        for (int k = 0; k < 3; k++) CHECK_NEAR(run_color[i][k], colors[k], 1e-6);
+    }
 }
 
 /* The roof over the floor of another colour; white from far away is grey. */
@@ -570,14 +686,20 @@ TEST(readme, chunks_draw_the_same_and_skip_what_is_not_seen)
 }
 
 static const test_case readme_cases[] = {
-    CASE(readme, program_draws_a_knot_of_gold), CASE(readme, program_of_the_header_draws_a_triangle),
+    CASE(readme, program_draws_a_knot_of_gold),
+    CASE(readme, program_of_the_header_draws_a_triangle),
+    CASE(readme, explain_says_what_the_table_quotes),
     CASE(readme, three_lamps_shine_as_said),
+    CASE(readme, unlit_shows_the_colours_alone),
     CASE(readme, first_picture_shows_all_of_any_mesh),
-    CASE(readme, floats_become_bytes),          CASE(readme, window_shows_the_target),
-    CASE(readme, png_holds_the_target),         CASE(readme, shaders_draw_map_and_shadow),
+    CASE(readme, floats_become_bytes),
+    CASE(readme, window_shows_the_target),
+    CASE(readme, png_holds_the_target),
+    CASE(readme, shaders_draw_map_and_shadow),
+    CASE(readme, the_offset_advised_leaves_no_shadow_acne),
+    CASE(readme, mist_takes_a_tenth_of_the_light_each_unit),
     CASE(readme, picking_finds_what_was_drawn),
     CASE(readme, chunks_draw_the_same_and_skip_what_is_not_seen),
-    CASE(readme, mist_takes_a_tenth_of_the_light_each_unit),
 };
 static const test_section readme_section = SECTION(readme);
 
