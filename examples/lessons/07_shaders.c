@@ -41,7 +41,7 @@ static void ripple(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT 
 static void toon(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                  shade_colors *SHADE_RESTRICT out)
 {
-    const shade_vec3 sand = { .95f, .55f, .16f }, sea = { .1f, .32f, .4f }, dark = { .02f, .01f, .03f };
+    shade_vec3 sand = { .95f, .55f, .16f }, sea = { .1f, .32f, .4f }, dark = { .02f, .01f, .03f };
     const scene *s = (const scene *)uniforms;
     const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3] };
     float light[3][SHADE_LANES];
