@@ -1,8 +1,8 @@
 /* 17_reversed_z.c - orange boards, each half a percent of its distance before a pale one.  Above:
    the usual depth goes to 1 with the distance, where floats are 6e-8 apart.  From 10 km on that
-   step is wider than the gap between the boards: where both get the same depth, the one drawn first
-   stays.  Below: reversed depth is n/d and goes to 0, where floats are ever finer.  Right: the board at 30 km, enlarged.  UW's z-buffer has
-   "bigger is closer" as well.
+   step is wider than the gap of the boards: where both get the same depth, the first one drawn
+   stays.  Below: reversed depth is n/d and goes to 0, where floats are ever finer.  Right: the
+   board at 30 km, enlarged.  UW's z-buffer has "bigger is closer" as well.
    Try near_z 1 for 0.1f: the boards fight for pixels from ten times as far away.
 
    cc -O2 -I. examples/lessons/17_reversed_z.c -lm -o reversed_z && ./reversed_z */

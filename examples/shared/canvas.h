@@ -122,8 +122,8 @@ static inline void canvas_zoom(const canvas *c, int x, int y, int w, int h, int 
     }
 }
 
-/* Marks where two panels of one size differ: shows a in dim grey on a third panel, with a square of
-   size x size over each sample that is not the same colour of 8 bits.  Returns how many there are. */
+/* Marks where two panels of one size differ: shows a in dim grey on a third panel, with a square
+   of size x size over each sample that is not the same colour of 8 bits, and counts those. */
 static inline int canvas_difference(const shade_target *a, const shade_target *b,
                                     const shade_target *out, int size)
 {
