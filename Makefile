@@ -16,7 +16,7 @@
 # make course     pages and slides of the courses alone, and their slides with answers as PDF (needs
 #                 pandoc, reveal.js of npm, chromium, node)
 # make course-zip   all of it in build/playground/courses.zip; PLAYGROUND=an index.html, built
-# make assignments   tries the graders of examples/assignments: solutions, starters, mistakes
+# make assignments   tries the graders of the assignments: solutions, starters, mistakes
 # make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install    header, shade.pc, shade-thumbnail, -view, -batch, -sheets and -compare with man
 #                 pages, and what file managers need for thumbnails, below PREFIX (/usr/local) in
@@ -60,7 +60,8 @@ NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/
 # those of README, which read well when they are small
 POSTER   = 27_exponent 29_grazing 14_two_sided 04_interpolation 07_shaders 24_maps 39_bricks \
            40_fog 22_shadow 21_transparency 37_rays 12_edges
-ROOMS    = lessons shared pictures $(addprefix programs/,model thumbnail view batch compare)
+ROOMS    = lessons shared pictures $(addprefix kit/,read scene draw image command) \
+           $(addprefix programs/,thumbnail view batch compare)
 HEADERS  = shade.h $(wildcard $(ROOMS:%=examples/%/*.h))
 vpath %.c $(ROOMS:%=examples/%)
 
@@ -99,15 +100,18 @@ out/knot.ppm: build/knot.c build/shade.o
 	cd out && ../build/knot
 
 # -O1 compiles the tests' own code in a third of the time
-build/test_main: $(wildcard tests/unit/*.c tests/unit/*.h) build/shade.o
-	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/unit/main.c build/shade.o -lm -o $@
-# with the implementation inside, which counts what it does
-build/test_count: $(wildcard tests/unit/*.c tests/unit/*.h) shade.h
+UNITS = $(patsubst tests/%.c,build/%.o,$(wildcard tests/unit/*.c))
+build/unit/%.o: tests/unit/%.c $(wildcard tests/*/*.h) shade.h
+	@mkdir -p build/unit
+	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED -c $< -o $@
+build/test_main: $(UNITS) build/shade.o
+	$(CC) $^ $(LDFLAGS) -lm -o $@
+# with an implementation in main.c, which counts what it does
+build/test_count: $(filter-out build/unit/main.o,$(UNITS)) tests/unit/main.c
+	$(CC) $(FLAGS:-O2=-O0) -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED $^ -lm -o $@
+build/golden: tests/golden/golden.c shade.h
 	@mkdir -p build
-	$(CC) $(FLAGS:-O2=-O0) -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED tests/unit/main.c -lm -o $@
-build/golden: tests/unit/golden.c shade.h
-	@mkdir -p build
-	$(CC) $(FLAGS) tests/unit/golden.c -o $@
+	$(CC) $(FLAGS) tests/golden/golden.c -o $@
 
 ifdef T
 test: build/test_main
@@ -128,11 +132,11 @@ conformance:
 gallery: all
 	@sh examples/pictures/gallery.sh
 playground:
-	@sh examples/playground/build.sh && sh examples/course/build.sh
+	@sh examples/teaching/playground/build.sh && sh examples/teaching/course/build.sh
 course:
-	@PDF=1 sh examples/course/build.sh
+	@PDF=1 sh examples/teaching/course/build.sh
 course-zip:
-	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/course/build.sh
+	@PACK=1 PLAYGROUND="$(PLAYGROUND)" sh examples/teaching/course/build.sh
 assignments:
 	@sh tests/scripts/assignments.sh
 coverage:
@@ -153,7 +157,7 @@ fuzz:
 
 # Installed programs begin with shade-, for "view" is anybody's.  The types are those that thumbnail
 # reads; those that shared-mime-info does not know have the names that f3d gives them, in
-# examples/programs/model/mime.xml.  Whether it has assimp and stb shows in the program.
+# examples/programs/install/mime.xml.  Whether it has assimp and stb shows in the program.
 PREFIX  ?= /usr/local
 INSTALL ?= install
 MIME        = model/obj model/stl application/vnd.ply
@@ -169,8 +173,8 @@ FILES     = include/shade.h share/pkgconfig/shade.pc share/thumbnailers/shade.th
             share/mime/packages/shade.xml
 INSTALLED = $(FILES) $(foreach p,thumbnail view batch sheets compare,bin/shade-$p \
             share/man/man1/shade-$p.1)
-build/%.1: build/% examples/programs/model/man.sh
-	THUMBNAIL=build/thumbnail sh examples/programs/model/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
+build/%.1: build/% examples/programs/install/man.sh
+	THUMBNAIL=build/thumbnail sh examples/programs/install/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
 install: programs
 	@v=$$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h); \
 	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' '' 'Name: shade' \
@@ -190,7 +194,7 @@ install: programs
 	$(INSTALL) -m 644 shade.h "$(PLACE)/include"
 	$(INSTALL) -m 644 build/shade.pc "$(PLACE)/share/pkgconfig"
 	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
-	$(INSTALL) -m 644 examples/programs/model/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
+	$(INSTALL) -m 644 examples/programs/install/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
 uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 

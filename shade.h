@@ -57,25 +57,25 @@
        >>matrix    1717  cameras, inverses     >>power     2011  x^n
        >>pixels    2077  formats, sRGB
      Inside: light
-       >>lamps     2354  attenuation, cones    >>terms     2628  one term at one point
-       >>surface   2710  material and lights   >>lit       2831  the whole sum, at many points
+       >>lamps     2354  attenuation, cones    >>terms     2614  one term at one point
+       >>surface   2696  material and lights   >>lit       2817  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3238  who owns what         >>vertices  3421  shading, projection
-       >>triangles 3638  dropped, cut, edges   >>clip      4007  near, far, behind the eye
-       >>tiles     4192  pixels, depth test    >>cover     4547  what is hidden, tile by tile
-       >>fragments 4814  interpolation, lod    >>texture   5107  texels, mipmaps
-       >>store     5552  blending, packing
+       >>state     3228  who owns what         >>vertices  3411  shading, projection
+       >>triangles 3628  dropped, cut, edges   >>clip      3997  near, far, behind the eye
+       >>tiles     4182  pixels, depth test    >>cover     4537  what is hidden, tile by tile
+       >>fragments 4804  interpolation, lod    >>texture   5097  texels, mipmaps
+       >>store     5541  blending, packing
      Inside: calls of the renderer
-       >>check     5784  refusals              >>seen      5933  what can be seen, chunks
-       >>drive     6070  shade_draw            >>mesh      6249  shade_draw_mesh
+       >>check     5777  refusals              >>seen      5958  what can be seen, chunks
+       >>drive     6095  shade_draw            >>mesh      6274  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
-       >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
-       >>survey    7503  experiments on a draw >>explain   7754  why nothing is seen
-       >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
+       >>lines     6680  shade_draw_lines      >>shape     6838  normals, edges
+       >>chunks    7174  how boxes are made    >>rays      7338  shade_pick
+       >>survey    7534  experiments on a draw >>explain   7785  why nothing is seen
+       >>image     8430  mipmaps, PPM           >>presets   8737  classic materials
      Sources
-       >>refs      8743                        >>history   8773
-       >>license   8785
+       >>refs      8813                        >>history   8843
+       >>license   8855
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -2441,27 +2441,13 @@ static void shade__place_lamp(const shade_light *light, shade__lamp *lamp)
     if (!lamp->falls && lamp->a == 0) lamp->a = 1;
 }
 
-/* What of a lamp arrives at the points of a packet.  Rows share their memory in unions, because the
-   stack of a draw is bounded.  The members of a union are used in the order in which they stand:
-   none is read after the next has been written. */
+/* What of a lamp arrives at the points of a packet. */
 typedef struct shade__arrival {
-    SHADE_ALIGNED union {
-        shade__v3 to_light;                  /* L, unit */
-        struct {                             /* of >>lit: */
-            float cosine[SHADE_LANES];       /* N.H or R.V */
-            float h2[SHADE_LANES];           /* |L + V|^2 */
-            float highlight[SHADE_LANES];    /* B (N.H)^n or B (R.V)^n */
-        } lobe;
-    } way;
-    union {
-        float r[SHADE_LANES];                /* |P - lamp|; not set at infinity */
-        float amount[SHADE_LANES];           /* the share of I_d and I_s that arrives */
-    } share;
-    union {
-        float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
-        float halvings[SHADE_LANES];         /* -log2 of what the cone leaves of the amount */
-        float nl[SHADE_LANES];               /* of >>lit: N.L, signed */
-    } angle;
+    SHADE_ALIGNED shade__v3 to_light;    /* L, unit */
+    float r[SHADE_LANES];                /* |P - lamp|; not set at infinity */
+    float ls[SHADE_LANES];               /* L.S inside the cone, else SHADE__NEVER */
+    float halvings[SHADE_LANES];         /* -log2 of what the cone leaves of the amount */
+    float amount[SHADE_LANES];           /* the share of I_d and I_s that arrives */
     uint32_t any;    /* 0: no lane is inside the cone, and amount is not set */
 } shade__arrival;
 
@@ -2471,8 +2457,8 @@ SHADE__INLINE void shade__come_from_infinity(const shade__lamp *lamp,
 {
     const shade_vec3 to_light = lamp->at;
     SHADE__FOR(i, n) {
-        shade__put(&a->way.to_light, i, to_light);
-        a->share.amount[i] = 1;
+        shade__put(&a->to_light, i, to_light);
+        a->amount[i] = 1;
     }
 }
 
@@ -2499,9 +2485,9 @@ SHADE__INLINE uint32_t shade__meet_cone(const shade__lamp *lamp, const int n,
     const float cos_cutoff = lamp->light->spot_cos_cutoff;
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float ls = shade_dot(shade__at(&a->way.to_light, i), axis);
+        float ls = shade_dot(shade__at(&a->to_light, i), axis);
         uint32_t inside = shade__mask(ls >= cos_cutoff);
-        a->angle.ls[i] = shade__select(SHADE__NEVER, ls, inside);
+        a->ls[i] = shade__select(SHADE__NEVER, ls, inside);
         any |= inside;
     }
     return any;
@@ -2515,10 +2501,10 @@ SHADE__INLINE void shade__attenuate(const shade__lamp *lamp, const int n,
     const float a = lamp->a, b = lamp->light->linear, c = lamp->light->quadratic;
     const float nearest = lamp->nearest;
     SHADE__FOR(i, n) {
-        float r = shade__keep(to->share.r[i], 0x7FFFFFFF), sum;
+        float r = shade__keep(to->r[i], 0x7FFFFFFF), sum;
         r = shade__clamp_bits(r, nearest, 1e18f);
         sum = a + b * r + c * (r * r);
-        to->share.amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
+        to->amount[i] = 1 / shade__select(1e-20f, sum, shade__mask(sum > 1e-20f));
     }
 }
 
@@ -2528,7 +2514,7 @@ SHADE__INLINE void shade__attenuate_evenly(float a, const int n,
 {
     const float even = 1 / shade__maxf(a, 1e-20f);
     SHADE__FOR(i, n) {
-        to->share.amount[i] = shade__keep(even, shade__mask(to->share.r[i] >= 0));
+        to->amount[i] = shade__keep(even, shade__mask(to->r[i] >= 0));
     }
 }
 
@@ -2537,8 +2523,8 @@ SHADE__INLINE void shade__apply_cone(float exponent, const int n,
                                      shade__arrival *SHADE_RESTRICT a)
 {
     const float e = shade__minf(exponent, FLT_MAX);
-    SHADE__FOR(i, n) { a->angle.halvings[i] = shade__power_log(a->angle.ls[i], e); }
-    SHADE__FOR(i, n) { a->share.amount[i] *= shade__exp2_neg(a->angle.halvings[i]); }
+    SHADE__FOR(i, n) { a->halvings[i] = shade__power_log(a->ls[i], e); }
+    SHADE__FOR(i, n) { a->amount[i] *= shade__exp2_neg(a->halvings[i]); }
 }
 
 /* The same for e = 0. */
@@ -2546,8 +2532,8 @@ SHADE__INLINE void shade__apply_cone_evenly(const int n,
                                             shade__arrival *SHADE_RESTRICT a)
 {
     SHADE__FOR(i, n) {
-        const uint32_t inside = shade__mask(a->angle.ls[i] > SHADE__NEVER);
-        a->share.amount[i] = shade__keep(a->share.amount[i], inside);
+        const uint32_t inside = shade__mask(a->ls[i] > SHADE__NEVER);
+        a->amount[i] = shade__keep(a->amount[i], inside);
     }
 }
 
@@ -2556,7 +2542,7 @@ SHADE__INLINE void shade__arrive_body(const shade__lamp *lamp,
                                       shade__arrival *a)
 {
     if (lamp->infinite) shade__come_from_infinity(lamp, n, a);
-    else shade__come_from_point(lamp, point, n, a->share.r, &a->way.to_light);
+    else shade__come_from_point(lamp, point, n, a->r, &a->to_light);
 
     a->any = lamp->spot ? shade__meet_cone(lamp, n, a) : 1;
     if (!a->any) return;
@@ -2596,10 +2582,10 @@ SHADEDEF void shade_light_at_lanes(const shade_light *light, const float *point,
     if (light && point) {
         shade__place_lamp(light, &lamp);
         shade__arrive(&lamp, shade__rows_of(point), SHADE_LANES, &a);
-        if (!a.any) SHADE__ZERO(a.share.amount);
+        if (!a.any) SHADE__ZERO(a.amount);
     } else SHADE__ZERO(a);
-    if (to_light) SHADE_MEMCPY(to_light, &a.way.to_light, sizeof a.way.to_light);
-    if (amount) SHADE_MEMCPY(amount, a.share.amount, sizeof a.share.amount);
+    if (to_light) SHADE_MEMCPY(to_light, &a.to_light, sizeof a.to_light);
+    if (amount) SHADE_MEMCPY(amount, a.amount, sizeof a.amount);
 }
 
 static void shade__fill_point(shade_vec3 v, shade__v3 *rows)
@@ -2620,9 +2606,9 @@ SHADEDEF float shade_light_at(const shade_light *light, shade_vec3 point,
         r = lamp.infinite ? FLT_MAX : shade_distance(lamp.at, point);
         shade__arrive_any(&lamp, &block, SHADE__POINT, &a);
     } else SHADE__ZERO(a);
-    if (to_light) *to_light = shade__at(&a.way.to_light, 0);
+    if (to_light) *to_light = shade__at(&a.to_light, 0);
     if (distance) *distance = r;
-    return a.any ? a.share.amount[0] : 0;
+    return a.any ? a.amount[0] : 0;
 }
 
 /*------------------------------------------------------------------------------------------ >>terms
@@ -2843,6 +2829,10 @@ typedef struct shade__lit {
     shade__arrival a;             /* of the lamp */
     shade__v3 to_eye;             /* V, unit */
     float rn[SHADE_LANES];        /* +-1/|N|: minus where N is turned toward the viewer */
+    float nl[SHADE_LANES];        /* N.L, signed */
+    float h2[SHADE_LANES];        /* |L + V|^2 */
+    float cosine[SHADE_LANES];    /* N.H or R.V */
+    float highlight[SHADE_LANES]; /* B (N.H)^n or B (R.V)^n */
 } shade__lit;
 
 SHADE__INLINE void shade__inverse_lengths(shade__in_v3 normal, const int n,
@@ -2888,8 +2878,8 @@ SHADE__INLINE uint32_t shade__horizon(shade__in_v3 normal, const int n,
 {
     uint32_t any = 0;
     SHADE__FOR(i, n) {
-        float nl = shade_dot(shade__at(normal, i), shade__at(&r->a.way.to_light, i)) * r->rn[i];
-        r->a.angle.nl[i] = nl;
+        float nl = shade_dot(shade__at(normal, i), shade__at(&r->a.to_light, i)) * r->rn[i];
+        r->nl[i] = nl;
         any |= shade__mask(nl > 0);
     }
     return any;
@@ -2913,20 +2903,20 @@ SHADE__INLINE uint32_t shade__half(shade__in_v3 normal, const int n,
     const uint32_t open = r->surface->open;
     uint32_t opposite = 0;
     SHADE__FOR(i, n) {
-        shade_vec3 half = shade_add(shade__at(&r->a.way.to_light, i),
+        shade_vec3 half = shade_add(shade__at(&r->a.to_light, i),
                                     shade__at(&r->to_eye, i));
         /* the order of the next two matters to tcc: see >>config */
-        r->a.way.lobe.cosine[i] = shade_dot(shade__at(normal, i), half);
+        r->cosine[i] = shade_dot(shade__at(normal, i), half);
         float h2 = shade_dot(half, half);
         opposite |= shade__mask(h2 < SHADE__OPPOSITE);
-        r->a.way.lobe.h2[i] = h2;
+        r->h2[i] = h2;
     }
     SHADE__FOR(i, n) {
-        float h2 = r->a.way.lobe.h2[i], rn = r->rn[i];
-        float nh = r->a.way.lobe.cosine[i] * (rn * shade__rsqrt_normal(h2));
-        uint32_t exists = shade__mask(shade__gate(r->a.angle.nl[i], rn, open));
+        float h2 = r->h2[i], rn = r->rn[i];
+        float nh = r->cosine[i] * (rn * shade__rsqrt_normal(h2));
+        uint32_t exists = shade__mask(shade__gate(r->nl[i], rn, open));
         exists &= shade__mask(h2 >= 1e-12f);
-        r->a.way.lobe.cosine[i] = shade__select(SHADE__NEVER, nh, exists);
+        r->cosine[i] = shade__select(SHADE__NEVER, nh, exists);
     }
     return opposite;
 }
@@ -2945,8 +2935,8 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
     shade__double3(shade__xyz(eye), viewer);
     for (int i = 0; i < n; i++) {
         double m[3], l[3], v[3], p[3], h2, nh;
-        if (!(r->a.way.lobe.h2[i] < SHADE__OPPOSITE)) continue;
-        if (!shade__gate(r->a.angle.nl[i], r->rn[i], r->surface->open)) continue;
+        if (!(r->h2[i] < SHADE__OPPOSITE)) continue;
+        if (!shade__gate(r->nl[i], r->rn[i], r->surface->open)) continue;
 
         shade__double3(shade__at(point, i), p);
         shade__double3(shade__at(normal, i), m);
@@ -2961,7 +2951,7 @@ static SHADE__COLD void shade__half_opposite(const shade__v3 *point,
         h2 = shade__dot3(l, l);
         shade__unit3(l);
         nh = r->rn[i] < 0 ? -shade__dot3(m, l) : shade__dot3(m, l);
-        r->a.way.lobe.cosine[i] = h2 >= 1e-12 ? (float)nh : SHADE__NEVER;
+        r->cosine[i] = h2 >= 1e-12 ? (float)nh : SHADE__NEVER;
     }
 }
 
@@ -2971,8 +2961,8 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
 {
     const uint32_t open = r->surface->open;
     SHADE__FOR(i, n) {
-        float nl = r->a.angle.nl[i], rn = r->rn[i], cosine;
-        shade_vec3 to_light = shade__at(&r->a.way.to_light, i), to_eye = shade__at(&r->to_eye, i);
+        float nl = r->nl[i], rn = r->rn[i], cosine;
+        shade_vec3 to_light = shade__at(&r->a.to_light, i), to_eye = shade__at(&r->to_eye, i);
         shade_vec3 d = shade_scale(shade__at(normal, i), 2 * nl * rn);
         d = shade_sub(d, shade_add(to_light, to_eye));
         /* declared here, after calls that return vectors, for tcc: see >>config */
@@ -2980,7 +2970,7 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
         exists &= shade__mask(shade_dot(to_light, to_light) > 0);
         cosine = shade__keep(1 - 0.5f * shade_dot(d, d), exists);
         cosine = shade__select(SHADE__NEVER, cosine, shade__mask(shade__gate(nl, rn, open)));
-        r->a.way.lobe.cosine[i] = cosine;
+        r->cosine[i] = cosine;
     }
 }
 
@@ -2988,8 +2978,8 @@ SHADE__INLINE void shade__mirrored(shade__in_v3 normal, const int n,
 SHADE__INLINE void shade__weigh(const int n, shade__lit *SHADE_RESTRICT r)
 {
     SHADE__FOR(i, n) {
-        float nl = r->a.angle.nl[i];
-        r->a.way.lobe.highlight[i] *= shade__keep(nl, shade__mask(nl > 0));
+        float nl = r->nl[i];
+        r->highlight[i] *= shade__keep(nl, shade__mask(nl > 0));
     }
 }
 
@@ -3049,7 +3039,7 @@ SHADE__INLINE void shade__add_tone(const shade__lit *SHADE_RESTRICT r,
 {
     const shade_vec3 cool = r->surface->cool, warmth = r->surface->warmth;
     SHADE__FOR(i, n) {
-        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->a.angle.nl[i],
+        shade_vec3 light = shade_madd(cool, 0.5f + 0.5f * r->nl[i],
                                       warmth);
         shade__add_to(rgb, i, shade_mul(light, shade__at(albedo, i)), ~0u);
     }
@@ -3063,7 +3053,7 @@ SHADE__INLINE void shade__add_ambient(const shade__lit *SHADE_RESTRICT r,
 {
     const shade_vec3 ambient = r->lamp->ambient;
     SHADE__FOR(i, n) {
-        const float amount = r->a.share.amount[i];
+        const float amount = r->a.amount[i];
         shade_vec3 light = shade_scale(ambient, amount);
         light = shade_mul(light, shade__at(albedo, i));
         shade__add_to(rgb, i, light, shade__mask(amount != 0));
@@ -3080,13 +3070,13 @@ SHADE__INLINE void shade__combine(const shade__lit *SHADE_RESTRICT r,
     const shade_vec3 k_d = r->lamp->diffuse, k_s = r->lamp->specular;
     const uint32_t sign = r->surface->sign, open = r->surface->open;
     SHADE__FOR(i, n) {
-        float nl = shade__keep(r->a.angle.nl[i], sign), amount = r->a.share.amount[i];
+        float nl = shade__keep(r->nl[i], sign), amount = r->a.amount[i];
         uint32_t front = shade__mask(nl > 0);
         uint32_t reached = (front | open) & shade__mask(amount != 0);
         shade_vec3 diffuse = plain ? k_d : shade_mul(k_d, shade__at(albedo, i));
         shade_vec3 specular = plain ? k_s : shade_mul(k_s, shade__at(tint, i));
         diffuse = shade_scale(diffuse, shade__keep(nl, front) * amount);
-        shade_vec3 light = shade_madd(diffuse, r->a.way.lobe.highlight[i] * amount, specular);
+        shade_vec3 light = shade_madd(diffuse, r->highlight[i] * amount, specular);
         shade__add_to(rgb, i, light, reached);
     }
 }
@@ -3106,13 +3096,13 @@ SHADE__INLINE void shade__shine(const shade__v3 *point, const shade__v3 *normal,
 {
     const shade__surface *s = r->surface;
     if (shade__is_zero(r->lamp->specular)) {
-        SHADE__ZERO(r->a.way.lobe.highlight);
+        SHADE__ZERO(r->highlight);
         return;
     }
     if (s->lighting->model == SHADE_MODEL_PHONG) shade__mirrored(normal, n, r);
     else if (shade__half(normal, n, r)) shade__half_opposite(point, normal, n, r);
-    shade__raise(r->a.way.lobe.cosine, s->material.shininess, n,
-                 r->a.way.lobe.highlight);
+    shade__raise(r->cosine, s->material.shininess, n,
+                 r->highlight);
     if (s->lighting->flags & SHADE_FLAG_WEIGHTED_SPECULAR) shade__weigh(n, r);
 }
 
@@ -3150,7 +3140,7 @@ SHADE__INLINE void shade__add_lamp(int k, const int n, shade__lit *r,
     if (!(any | s->open | ~s->sign)) return;
 
     shade__shine(point, normal, n, r);
-    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.share.amount);
+    if (visibility) shade__hide(visibility + (size_t)k * SHADE_LANES, n, r->a.amount);
     if (SHADE__HAS(SHADE__PLAIN) && !r->rows->albedo && !r->rows->specular)
         shade__combine(r, albedo, albedo, 1, n, rgb);
     else shade__combine(r, albedo, shade__factors(r->rows->specular), 0, n, rgb);
@@ -3238,7 +3228,7 @@ SHADEDEF shade_terms shade_evaluate(const shade_lighting *lighting,
 /*------------------------------------------------------------------------------------------ >>state
    What a draw knows, by owner.  All of it lies on the stack of the call: shade__draw has 25.5 kB at
    the defaults, of which the queue takes 12.4 and the batch 8.8.  bench/stack.c measures whole
-   calls: a lit mesh with a map takes 40.8 kB where triangles are clipped, 43.4 kB with clang.
+   calls: a lit mesh with a map takes 44.7 kB where triangles are clipped, 47.1 kB with clang.
 
      plan      >>drive       what the draw is; fixed before the first triangle, read by all
      supply    >>drive       the triangles that are still to come
@@ -5132,14 +5122,15 @@ SHADE__INLINE const char *shade__texture_fault(const shade_texture *t)
 static int shade__texture_good(const shade_texture *t) { return t && !shade__texture_fault(t); }
 
 /* A block is 16 lanes, or all where there are fewer.  Loops run over blocks, so that a single
-   sample costs one of them.  TEXELS are the lanes filtered at a time: 2.5 % slower than whole
-   packets of 128, for 4.6 kB less of stack. */
+   sample costs one of them. */
 enum {
     SHADE__BLOCK = SHADE_LANES < 16 ? SHADE_LANES : 16,
-    SHADE__BLOCKS = SHADE_LANES / SHADE__BLOCK,    /* of a packet */
-    SHADE__TEXELS = SHADE_LANES < 64 ? SHADE_LANES : 64,
-    SHADE__TEXEL_BLOCKS = SHADE__TEXELS / SHADE__BLOCK
+    SHADE__BLOCKS = SHADE_LANES / SHADE__BLOCK     /* of a packet */
 };
+
+/* The blocks that hold n lanes. */
+SHADE__INLINE int shade__blocks_of(int n) { return (n + SHADE__BLOCK - 1) / SHADE__BLOCK; }
+
 #define SHADE__EACH_BLOCK(i, blocks) \
     for (int i##_block = 0; i##_block < SHADE__BLOCK * (blocks); i##_block += SHADE__BLOCK) \
         SHADE__NO_UNROLL for (int i = i##_block; i < i##_block + SHADE__BLOCK; i++)
@@ -5149,8 +5140,8 @@ typedef struct shade__axis {
     int size;                    /* in texels */
     shade_wrap wrap;
     uint32_t unit;               /* how far apart neighbours are in i */
-    SHADE_ALIGNED uint32_t i[2][SHADE__TEXELS];
-    float f[SHADE__TEXELS];      /* the weight of the texel after; 0 if nearest */
+    SHADE_ALIGNED uint32_t i[2][SHADE_LANES];
+    float f[SHADE_LANES];        /* the weight of the texel after; 0 if nearest */
 } shade__axis;
 
 /* One level of a texture, and where its texels lie for some blocks of lanes. */
@@ -5159,9 +5150,9 @@ typedef struct shade__reader {
     const shade__layout *layout;
     size_t y_bytes;              /* how many bytes 1 in y.i stands for; 1 in x.i is one */
     int nearest, blocks;
-    uint32_t apart[SHADE__TEXEL_BLOCKS];    /* 0: 8 bytes hold each pair */
+    uint32_t apart[SHADE__BLOCKS];        /* 0: 8 bytes hold each pair */
     shade__axis x, y;
-    uint32_t pair[2][SHADE__TEXELS];    /* the bytes before the left texel, above and below */
+    uint32_t pair[2][SHADE_LANES];        /* the bytes before the left texel, above and below */
 } shade__reader;
 
 /* Finds the two texels and the weight of each coordinate, which may be any float, NaN too.
@@ -5178,7 +5169,7 @@ SHADE__INLINE void shade__address(shade__in c, int blocks, int nearest,
     const float period = wrap == SHADE_WRAP_MIRROR ? 0.5f : 1.0f;
     const float n = (float)a->size, half = nearest ? 0.0f : 0.5f;
     const uint32_t unit = a->unit;
-    SHADE_ALIGNED float place[SHADE__TEXELS];    /* from 0 to 1 */
+    SHADE_ALIGNED float place[SHADE_LANES];    /* from 0 to 1 */
 
     /* From 2^24 on all floats are even numbers: each lies where a period begins, as 0 does, and is
        replaced by 0.  So are NaN and infinity, and where the texture is clamped these alone. */
@@ -5323,7 +5314,7 @@ SHADE__INLINE void shade__blend_packed(const shade__reader *r,
                                        shade__out green, shade__out blue,
                                        shade__out alpha)
 {
-    const uint32_t *second = texel + 2 * SHADE__TEXELS;
+    const uint32_t *second = texel + 2 * SHADE_LANES;
     const shade__layout l = *r->layout;
     SHADE__EACH_BLOCK(i, r->blocks) {
         const uint32_t a = texel[2 * i], b = texel[2 * i + 1];
@@ -5356,7 +5347,7 @@ SHADE__INLINE void shade__look_up_bytes(const uint8_t *p, int red, int i, const 
 static SHADE__NOINLINE void shade__look_up(const shade__layout *l, const uint32_t *texel,
                                            shade__corners *SHADE_RESTRICT to)
 {
-    enum { below = 2 * SHADE__TEXELS };
+    enum { below = 2 * SHADE_LANES };
     const uint8_t *p = (const uint8_t *)texel;
     const int red = l->shift[0] / 8;
     for (int i = 0; i < SHADE__BLOCK && l->bytes == 4; i++, p += 8) {
@@ -5378,7 +5369,7 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
                                         shade__in y, int stride, shade__out out)
 {
     const shade__layout l = *r->layout;
-    const uint32_t *below = above + 2 * SHADE__TEXELS;
+    const uint32_t *below = above + 2 * SHADE_LANES;
     SHADE_ALIGNED shade__corners t;
     shade__look_up(&l, above, &t);
     for (int k = 0; k < 3; k++) {
@@ -5398,7 +5389,7 @@ SHADE__INLINE void shade__blend_encoded(const shade__reader *r, const uint32_t *
 SHADE__INLINE void shade__blend_floats(const shade__reader *r, shade__in c,
                                        shade__out out)
 {
-    const float *second = c + 2 * SHADE__TEXELS;
+    const float *second = c + 2 * SHADE_LANES;
     const int blocks = r->blocks;
     SHADE__EACH_BLOCK(i, blocks) {
         float x = r->x.f[i], y = r->y.f[i], c0 = c[2 * i], c2 = second[2 * i];
@@ -5423,7 +5414,7 @@ SHADE__INLINE void shade__add_level(shade__in c, shade__in weight, int blocks,
 SHADE__INLINE void shade__filter(const shade__reader *r, int encoded,
                                  const float *weight, float *out)
 {
-    enum { size = SHADE__TEXELS };
+    enum { size = SHADE_LANES };
     const int floats = r->layout->bytes == 16, blocks = r->blocks;
     const int lines = r->nearest && !encoded ? 1 : 2;
     SHADE_ALIGNED uint32_t texel[4 * size];
@@ -5479,8 +5470,8 @@ static SHADE__NOINLINE void shade__sample_levels(const shade_texture *t,
 {
     const int levels = shade__min(t->mipmap_count, 16);
     int least = levels, most = 0;
-    SHADE_ALIGNED float level[SHADE__TEXELS];
-    SHADE_ALIGNED float weight[SHADE__TEXELS];
+    SHADE_ALIGNED float level[SHADE_LANES];
+    SHADE_ALIGNED float weight[SHADE_LANES];
     SHADE__EACH_BLOCK(i, blocks) {
         int32_t bits = (int32_t)(shade__float_bits(lod[i]) & 0x7FFFFFFFu);
         float finite = shade__keep(lod[i], shade__mask(bits < 0x7F800000));
@@ -5529,9 +5520,7 @@ SHADEDEF void shade_sample_lanes(const shade_texture *texture, const float *u,
         for (int i = 0; i < 4 * SHADE_LANES; i++) rgba[i] = 1;
         return;
     }
-    for (int i = 0; i < SHADE_LANES; i += SHADE__TEXELS)
-        shade__sample(texture, u + i, v + i, lod ? lod + i : lod,
-                      SHADE__TEXEL_BLOCKS, rgba + i);
+    shade__sample(texture, u, v, lod, SHADE__BLOCKS, rgba);
 }
 
 SHADEDEF shade_vec4 shade_sample(const shade_texture *texture, float u, float v,
@@ -5644,19 +5633,23 @@ SHADE__DISPATCH_AVX2(shade__unpack,
                      (const shade_target *t, const uint32_t *packed, float *rgba),
                      (t, packed, rgba), shade__unpack_body(t, packed, rgba))
 
-/* Packs a block of pixels and stores the first n of them at p.  The first is pixel (x, y) of the
-   target, which matters where it dithers. */
-static void shade__store_block(const shade_target *t, float *rgba, int x, int y,
-                               int n, uint8_t *p)
+/* Packs n pixels and stores them at p.  The first is pixel (x, y) of the target, which matters
+   where it dithers.   pre: 0 < n <= SHADE_LANES; the rows hold whole blocks of numbers */
+static void shade__store_run(const shade_target *t, float *rgba, int x, int y, int n, uint8_t *p)
 {
     const shade__layout l = shade__layouts[t->format];
-    float px[SHADE__BLOCK], py[SHADE__BLOCK];
-    uint32_t packed[SHADE__BLOCK] = { 0 };
-    for (int i = 0; i < SHADE__BLOCK; i++) {
+    SHADE_ALIGNED float px[SHADE_LANES];
+    SHADE_ALIGNED float py[SHADE_LANES];
+    SHADE_ALIGNED uint32_t packed[SHADE_LANES] = { 0 };    /* floats are stored from rgba */
+    SHADE_EACH_LANE(i) {
         px[i] = (float)(x + i) + 0.5f;
         py[i] = (float)y + 0.5f;
     }
-    shade__pack(t, rgba, px, py, packed, 1);
+    shade__pack(t, rgba, px, py, packed, shade__blocks_of(n));
+    if (l.bytes == 4) {
+        SHADE_MEMCPY(p, packed, (size_t)n * 4);
+        return;
+    }
     for (int i = 0; i < n; i++) shade__store_pixel(&l, p + i * l.bytes, packed[i], rgba + i);
 }
 
@@ -5866,14 +5859,45 @@ SHADE__INLINE const char *shade__raster_fault(const shade_raster *r)
     return NULL;
 }
 
-/* Returns how many varyings the shaders of a mesh need. */
-static int shade__mesh_varyings(const shade_mesh *m,
-                                const shade_draw_state *state)
+/* The row at which each varying of a mesh begins; -1: the draw has none of it.
+
+     row                           0        3        6        8       9
+     lit per fragment              P        N        albedo           u v    without colours u v at 6
+     no lamps, or depth alone      albedo   u v
+     lit per vertex or face        light
+     the same, with a map          light    rest     u v
+     state.fragment                P        N        albedo           u v    always all 11
+
+   A map multiplies the light of vertices, but not the rest of it (emission, highlights). */
+typedef struct shade__mesh_rows {
+    int point, normal, light, rest, albedo, uv;
+    int count;
+} shade__mesh_rows;
+
+/* Takes the next n rows if they are wanted. */
+static int shade__take_rows(shade__mesh_rows *r, int n, int wanted)
 {
-    const int map = state->diffuse_map && m->texcoords;
-    if (state->fragment) return SHADE_VARYING_TEXCOORD + 2;
-    if (state->shading != SHADE_SHADING_PER_FRAGMENT) return map ? 8 : 3;
-    return (m->colors ? 9 : 6) + (map ? 2 : 0);
+    const int first = r->count;
+    if (!wanted) return -1;
+    r->count += n;
+    return first;
+}
+
+static shade__mesh_rows shade__rows_of_mesh(const shade_draw_state *state, int map, int tinted,
+                                            int pn_unread)
+{
+    const int custom = state->fragment != NULL;
+    const int by_pixel = state->shading == SHADE_SHADING_PER_FRAGMENT && !pn_unread;
+    const int by_vertex = state->shading != SHADE_SHADING_PER_FRAGMENT && !pn_unread;
+    shade__mesh_rows r;
+    r.count = 0;
+    r.point = shade__take_rows(&r, 3, by_pixel);
+    r.normal = shade__take_rows(&r, 3, by_pixel);
+    r.light = shade__take_rows(&r, 3, by_vertex);
+    r.rest = shade__take_rows(&r, 3, by_vertex && map);
+    r.albedo = shade__take_rows(&r, 3, !by_vertex && (custom || tinted));
+    r.uv = shade__take_rows(&r, 2, custom || map);
+    return r;
 }
 
 SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
@@ -5887,7 +5911,8 @@ SHADE__INLINE const char *shade__state_fault(const shade_mesh *m,
         return "state.alpha_cutoff must be from 0 (nothing is cut) to 1.";
     if (state->fragment && state->shading != SHADE_SHADING_PER_FRAGMENT)
         return "state.fragment needs state.shading to be SHADE_SHADING_PER_FRAGMENT.";
-    if (shade__mesh_varyings(m, state) > SHADE_MAX_VARYINGS)
+    if (shade__rows_of_mesh(state, state->diffuse_map && m->texcoords, m->colors != NULL, 0).count >
+        SHADE_MAX_VARYINGS)
         return "SHADE_MAX_VARYINGS is too small for this draw, which needs 6 varyings, 9 with "
                "mesh.colors, 2 more with state.diffuse_map, or 11 with state.fragment; lit by "
                "vertex or face 3, or 8 with state.diffuse_map.";
@@ -6218,7 +6243,7 @@ static void shade__clear_pattern(const shade_target *t, shade_vec4 color, int x,
     const size_t period = 8 * shade__pixel_bytes(t->format);
     float rgba[4 * SHADE_LANES];
     for (int i = 0; i < SHADE__BLOCK; i++) shade__put4(rgba, SHADE_LANES, i, color);
-    shade__store_block(t, rgba, x, y, 8, pattern);
+    shade__store_run(t, rgba, x, y, 8, pattern);
     for (size_t i = period; i < 256; i++) pattern[i] = pattern[i - period];
 }
 
@@ -6271,7 +6296,7 @@ typedef struct shade__scene {            /* uniforms of the mesh shaders */
     int tinted;                          /* the mesh has colours that somebody reads */
     int lit_vertices;                    /* light at its vertices, also where that is once a face */
     int pn_unread;                       /* nobody reads P and N */
-    int varyings;                        /* in use; with a map the last two are u, v */
+    shade__mesh_rows row;
 } shade__scene;
 
 enum { SHADE__TERM_NONE = 128 };    /* no term at all, since 0 means all */
@@ -6428,20 +6453,23 @@ static void shade__light_vertices(const shade__scene *s, const shade__v3 *point,
     }
 }
 
-/* The varyings of a mesh are P, N, albedo if it has colours, and u, v if it has a map.  P and N are
-   left out where nobody reads them; a fragment shader of the state gets all.  A mesh that is lit
-   at its vertices has its colour as varyings, or with a map the light that the map multiplies, the
-   rest of the light, and u, v. */
+/* The rows of a varying; of one that the draw does not have, others. */
+SHADE__INLINE shade__v3 *shade__rows_at(shade_vertices *out, int row, shade__v3 *others)
+{
+    return row < 0 ? others : shade__three_rows(out->varying[row]);
+}
+
+/* Vertices are fetched into the rows of their varyings, and what is no varying into own. */
 static void shade__mesh_vertex(const void *uniforms,
                                const shade_vertex_ids *SHADE_RESTRICT in,
                                shade_vertices *SHADE_RESTRICT out)
 {
     const shade__scene *s = (const shade__scene *)uniforms;
     const int custom = s->state->fragment != NULL;
-    shade__v3 lit[3], *point = lit, *normal, *albedo;    /* of vertices that are lit */
-    if (!s->lit_vertices) point = shade__three_rows(out->varying[s->pn_unread ? s->varyings : 0]);
-    normal = point + 1;
-    albedo = s->pn_unread ? shade__three_rows(out->varying[0]) : normal + 1;
+    shade__v3 own[3];
+    shade__v3 *point = shade__rows_at(out, s->row.point, &own[0]);
+    shade__v3 *normal = shade__rows_at(out, s->row.normal, &own[1]);
+    shade__v3 *albedo = shade__rows_at(out, s->row.albedo, &own[2]);
 
     shade__fetch_vertices(s, in, point, normal, albedo);
     shade__lane_clip(s->clip_from_object, point, out->clip[0]);
@@ -6453,10 +6481,10 @@ static void shade__mesh_vertex(const void *uniforms,
     if (custom && !s->tinted)
         for (int i = 0; i < SHADE_LANES; i++) shade__put(albedo, i, shade_v3(1, 1, 1));
     if (s->lit_vertices)
-        shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL, out->varying[0]);
-    /* last, because P may have lain in the rows of u and v: see pn_unread */
-    if (s->map || (custom && s->mesh->texcoords))
-        shade__fetch_texcoords(s, in, out->varying[s->varyings - 2]);
+        shade__light_vertices(s, point, normal, s->tinted ? albedo->x : NULL,
+                              out->varying[s->row.light]);
+    if (s->row.uv >= 0 && s->mesh->texcoords)
+        shade__fetch_texcoords(s, in, out->varying[s->row.uv]);
 }
 
 /* The row of alpha holds that of the map or of the fragment shader, or 1.  It is multiplied by the
@@ -6492,17 +6520,22 @@ static SHADE__NOINLINE void shade__lit_map(const shade__scene *s,
     shade__lit_packet(&s->surface, &mapped, rgb);
 }
 
+/* The rows of a varying; NULL where the draw does not have it. */
+SHADE__INLINE const float *shade__row(const shade_fragments *in, int row)
+{
+    return row < 0 ? NULL : in->varying[row];
+}
+
 /* The colour of the map, lit by what arrives: P and N of the pixel, or light of the vertices.
    Draws without a picture need the map alone, for the holes that it cuts. */
 static void shade__mesh_colors(const shade__scene *s,
                                const shade_fragments *SHADE_RESTRICT in,
                                shade_colors *SHADE_RESTRICT out)
 {
-    const float *varying = in->varying[0];
-    const int uv = s->varyings - 2;
+    const shade__mesh_rows *row = &s->row;
     float *to = out->color[0];
     if (s->map)
-        shade_sample_lanes(s->map, in->varying[uv], in->varying[uv + 1],
+        shade_sample_lanes(s->map, in->varying[row->uv], in->varying[row->uv + 1],
                            s->map->mipmap_count ? in->lod : NULL, to);
     if (!s->has_picture) return;
     for (int i = 0; s->white_map && i < 3 * SHADE_LANES; i++) to[i] = 1;
@@ -6510,16 +6543,15 @@ static void shade__mesh_colors(const shade__scene *s,
     if (!s->lit_vertices) {
         shade_rows rows;
         SHADE__ZERO(rows);
-        rows.position = varying;
-        rows.normal = varying + SHADE_VARYING_NORMAL * SHADE_LANES;
-        if (s->tinted)
-            rows.albedo = varying + (s->pn_unread ? 0 : SHADE_VARYING_COLOR * SHADE_LANES);
+        rows.position = shade__row(in, row->point);
+        rows.normal = shade__row(in, row->normal);
+        rows.albedo = shade__row(in, row->albedo);
         if (s->map) shade__lit_map(s, &rows, to);
         else shade__lit_packet(&s->surface, &rows, to);
     } else if (s->map) {
-        for (int i = 0; i < 3 * SHADE_LANES; i++)
-            to[i] = varying[i] * to[i] + varying[i + 3 * SHADE_LANES];
-    } else SHADE_MEMCPY(to, varying, 3 * sizeof in->varying[0]);
+        const float *light = in->varying[row->light], *rest = in->varying[row->rest];
+        for (int i = 0; i < 3 * SHADE_LANES; i++) to[i] = light[i] * to[i] + rest[i];
+    } else SHADE_MEMCPY(to, in->varying[row->light], 3 * sizeof in->varying[0]);
 }
 
 static void shade__mesh_fragment(const void *uniforms,
@@ -6544,8 +6576,7 @@ static void shade__plan_scene(shade__scene *s)
     s->lit_vertices = !per_fragment && !s->pn_unread;
     s->corners = s->face_normals && !s->pn_unread;
     s->tinted = m->colors && (s->has_picture || state->fragment);
-    s->varyings = shade__mesh_varyings(m, state);
-    if (s->pn_unread) s->varyings = (s->tinted ? 3 : 0) + (s->map ? 2 : 0);
+    s->row = shade__rows_of_mesh(state, s->map != NULL, s->tinted, s->pn_unread);
 }
 
 /* Not inlined, because its temporaries would lie below the whole draw: half a kilobyte of stack. */
@@ -6616,10 +6647,10 @@ static shade_result shade__draw_scene(const shade_target *target,
     p.may_discard = may_discard;
     p.fragment = fragment;
     p.uniforms = scene;
-    p.varyings = scene->varyings;
+    p.varyings = scene->row.count;
     if (scene->map && (scene->map->mipmap_count || state->fragment)) {
         p.lod_texture = scene->map;
-        p.lod_varying = scene->varyings - 2;
+        p.lod_varying = scene->row.uv;
     }
     if (state->shading == SHADE_SHADING_PER_FACE && !scene->map)
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
@@ -8427,12 +8458,11 @@ static void shade__open_decoder(const shade_target *t, shade__decoder *d)
     }
 }
 
-/* The linear light of channel k of a pixel of so many bytes.  Loops pass 4 and 16 as constants, so
-   that they need not ask: means are 2.5 times as fast. */
-SHADE__INLINE float shade__light_of(const shade__decoder *d, const uint8_t *p, int k,
-                                    const int bytes)
+/* The linear light of channel k of a pixel of so many bytes.  Loops pass 4 and 16 as constants, and
+   a copy of the layout, which no store can change: means are 2.5 times as fast. */
+SHADE__INLINE float shade__light_of(const shade__decoder *d, const shade__layout *l,
+                                    const uint8_t *p, int k, const int bytes)
 {
-    const shade__layout *l = &d->layout;
     float c;
     if (bytes == 16) {
         SHADE_MEMCPY(&c, p + 4 * k, 4);
@@ -8442,33 +8472,128 @@ SHADE__INLINE float shade__light_of(const shade__decoder *d, const uint8_t *p, i
     return d->of[k][shade__load_packed(p, bytes, l->swapped) >> l->shift[k] & l->full[k]];
 }
 
-/* The means of factor x factor pixels each, from pixel p on, side by side.  From the n-th on the
-   last is repeated. */
-SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_t pitch, int factor,
-                                int n, const int bytes, float *mean)
+/* The means of factor x factor pixels, for n pixels of a smaller picture. */
+SHADE__INLINE void shade__means(const shade__decoder *d, const uint8_t *p, size_t pitch,
+                                const int factor, int n, const int bytes, float *mean)
 {
+    const shade__layout l = d->layout;
     const float count = (float)(factor * factor);
-    for (int i = 0; i < SHADE__BLOCK; i++)
-        for (int k = 0; k < 4; k++) {
-            const uint8_t *at = p + shade__min(i, n - 1) * factor * bytes;
-            float sum = 0;
-            for (int j = 0; j < factor; j++, at += pitch)
-                for (int s = 0; s < factor; s++)
-                    sum += shade__light_of(d, at + s * bytes, k, bytes);
-            mean[k * SHADE_LANES + i] = sum / count;
-        }
+    for (int i = 0; i < n; i++, p += factor * bytes) {
+        const uint8_t *at = p;
+        float sum[4] = { 0, 0, 0, 0 };
+        for (int j = 0; j < factor; j++, at += pitch)
+            for (int s = 0; s < factor; s++)
+                SHADE__FOR_4(k) sum[k] += shade__light_of(d, &l, at + s * bytes, k, bytes);
+        SHADE__FOR_4(k) mean[k * SHADE_LANES + i] = sum[k] / count;
+    }
 }
 
-/* The same for any format, from pixel (x, y) of the smaller picture on. */
-static void shade__mean_block(const shade__decoder *d, const shade_target *in, int factor, int x,
-                              int y, int n, float *mean)
+/* Along one axis, texel i of a mipmap covers pixels 2 i, 2 i + 1 and, where the size is odd,
+   2 i + 2 of the level above, and of each a share. */
+typedef struct shade__cut { int pixels; double share[3]; } shade__cut;
+
+/* What a level of mipmaps is made with. */
+typedef struct shade__halving {
+    double light[512];                  /* the table of the decoder, for sums in double */
+    shade__cut column[SHADE_LANES];     /* of the texels of a packet */
+} shade__halving;
+
+static shade__cut shade__cut_of(int size, int smaller, int i)
+{
+    const double scale = (double)size / smaller, from = i * scale, to = (i + 1) * scale;
+    shade__cut c = { size == smaller ? 1 : 2 + size % 2, { 0, 0, 0 } };
+    for (int k = 0; k < c.pixels; k++) {
+        const int first = 2 * i + k;
+        c.share[k] = (first + 1 < to ? first + 1 : to) - (first > from ? first : from);
+    }
+    return c;
+}
+
+/* The means of 2 x 2 pixels of 4 bytes, whose sums are exact in double. */
+SHADE__INLINE void shade__halve(const shade__layout *l, const double *light, const uint8_t *p,
+                                size_t pitch, int n, float *mean)
+{
+    for (int k = 0; k < 4; k++) {
+        const double *of = light + (k == 3 ? 256 : 0);
+        const uint8_t *a = p + l->shift[k] / 8, *b = a + pitch;
+        for (int i = 0; i < n; i++) {
+            const double sum = of[a[8 * i]] + of[a[8 * i + 4]] + of[b[8 * i]] + of[b[8 * i + 4]];
+            mean[k * SHADE_LANES + i] = (float)(sum * 0.25);
+        }
+    }
+}
+
+/* The same for any format and size. */
+SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade__halving *h,
+                                 const shade__cut *rows, const uint8_t *p, size_t pitch, int n,
+                                 const int bytes, float *mean)
+{
+    const shade__layout l = d->layout;
+    const int columns = h->column[0].pixels, lines = rows->pixels;
+    for (int i = 0; i < n; i++, p += 2 * bytes) {
+        const shade__cut *c = &h->column[i];
+        const uint8_t *at = p;
+        double sum[4] = { 0, 0, 0, 0 }, all = 0;
+        for (int j = 0; j < lines; j++, at += pitch)
+            for (int s = 0; s < columns; s++) {
+                const double share = c->share[s] * rows->share[j];
+                const uint8_t *q = at + s * bytes;
+                SHADE__FOR_4(k) {
+                    sum[k] += (bytes == 4 ? h->light[(k == 3 ? 256 : 0) + q[l.shift[k] / 8]]
+                                          : (double)shade__light_of(d, &l, q, k, bytes)) *
+                              share;
+                }
+                all += share;
+            }
+        SHADE__FOR_4(k) mean[k * SHADE_LANES + i] = (float)(sum[k] / all);
+    }
+}
+
+/* The light of pixels x .. x + n - 1 of row y of a picture that is made of another one: means of
+   factor x factor pixels, or of what the texels of a mipmap cover. */
+static void shade__reduce(const shade__decoder *d, const shade__halving *h,
+                          const shade_target *from, const shade_target *to, int factor, int x,
+                          int y, int n, float *mean)
 {
     const int bytes = d->layout.bytes;
-    const size_t pitch = (size_t)shade__stride_of(in) * (size_t)bytes;
-    const uint8_t *p = shade__pixel_at(in, x * factor, y * factor);
-    if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
+    const size_t pitch = (size_t)shade__stride_of(from) * (size_t)bytes;
+    const uint8_t *p = shade__pixel_at(from, x * factor, y * factor);
+    if (h) {
+        const shade__cut rows = shade__cut_of(from->height, to->height, y);
+        const int even = rows.pixels == 2 && h->column[0].pixels == 2;
+        if (bytes == 4 && even) shade__halve(&d->layout, h->light, p, pitch, n, mean);
+        else if (bytes == 4) shade__shrink(d, h, &rows, p, pitch, n, 4, mean);
+        else shade__shrink(d, h, &rows, p, pitch, n, bytes, mean);
+    } else if (bytes == 4 && factor == 2) shade__means(d, p, pitch, 2, n, 4, mean);
+    else if (bytes == 4) shade__means(d, p, pitch, factor, n, 4, mean);
     else if (bytes == 16) shade__means(d, p, pitch, factor, n, 16, mean);
     else shade__means(d, p, pitch, factor, n, bytes, mean);
+}
+
+/* Makes a picture of another one, in its clip rectangle.  With a sink the picture is one row of
+   RGBA8 that goes there as R, G, B bytes. */
+static shade_result shade__convert(const shade__decoder *d, shade__halving *h,
+                                   const shade_target *from, const shade_target *to, int factor,
+                                   shade_write_fn *sink, void *user)
+{
+    float rgba[4 * SHADE_LANES] = { 0 };
+    uint8_t pixels[4 * SHADE_LANES], rgb[3 * SHADE_LANES];
+    int clip[4];
+    shade__clip_rectangle(to, clip);
+    for (int x = clip[0]; x < clip[2]; x += SHADE_LANES) {
+        const int n = shade__min(SHADE_LANES, clip[2] - x);
+        for (int i = 0; h && i < n; i++)
+            h->column[i] = shade__cut_of(from->width, to->width, x + i);
+        for (int y = clip[1]; y < clip[3]; y++) {
+            shade__reduce(d, h, from, to, factor, x, y, n, rgba);
+            shade__store_run(to, rgba, x, y, n, sink ? pixels : shade__pixel_at(to, x, y));
+            if (!sink) continue;
+
+            for (int i = 0; i < n; i++) SHADE_MEMCPY(rgb + 3 * i, pixels + 4 * i, 3);
+            if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
+        }
+    }
+    return SHADE_OK;
 }
 
 SHADEDEF shade_result shade_resolve(const shade_target *out,
@@ -8476,8 +8601,6 @@ SHADEDEF shade_result shade_resolve(const shade_target *out,
 {
     shade_result result;
     shade__decoder decoder;
-    int clip[4];
-    float rgba[4 * SHADE_LANES];
     if (!out || !in) return SHADE_ERROR_ARGUMENT;
     result = shade__check_picture(out);
     if (!result) result = shade__check_picture(in);
@@ -8488,51 +8611,7 @@ SHADEDEF shade_result shade_resolve(const shade_target *out,
         return SHADE_ERROR_ARGUMENT;
 
     shade__open_decoder(in, &decoder);
-    shade__clip_rectangle(out, clip);
-    for (int y = clip[1]; y < clip[3]; y++)
-        for (int x = clip[0]; x < clip[2]; x += SHADE__BLOCK) {
-            const int n = shade__min(SHADE__BLOCK, clip[2] - x);
-            shade__mean_block(&decoder, in, factor, x, y, n, rgba);
-            shade__store_block(out, rgba, x, y, n, shade__pixel_at(out, x, y));
-        }
-    return SHADE_OK;
-}
-
-/* The length of the part of first .. first + 1 that lies in from .. to. */
-SHADE__INLINE double shade__overlap(int first, double from, double to)
-{
-    return (first + 1 < to ? first + 1 : to) - (first > from ? first : from);
-}
-
-/* The mean of the part of a picture that texel (x, y) of a smaller one covers. */
-SHADE__INLINE void shade__shrink(const shade__decoder *d, const shade_target *from,
-                                 const shade_target *to, int x, int y,
-                                 const int bytes, float *mean)
-{
-    const double sx = (double)from->width / to->width, sy = (double)from->height / to->height;
-    const double left = x * sx, right = (x + 1) * sx, top = y * sy, low = (y + 1) * sy;
-    double sum[4] = { 0, 0, 0, 0 }, all = 0;
-    for (int j = (int)top; j < from->height && j < low; j++)
-        for (int i = (int)left; i < from->width && i < right; i++) {
-            const double share = shade__overlap(i, left, right) * shade__overlap(j, top, low);
-            const uint8_t *p = shade__pixel((uint8_t *)from->color,
-                                            shade__offset_of(from, i, j), (size_t)bytes);
-            SHADE__FOR_4(k)
-                sum[k] += (double)shade__light_of(d, p, k, bytes) * share;
-            all += share;
-        }
-    SHADE__FOR_4(k) mean[SHADE_LANES * k] = (float)(sum[k] / all);
-}
-
-/* The same for n texels of any format, from (x, y) on. */
-static void shade__shrink_row(const shade__decoder *d, const shade_target *from,
-                              const shade_target *to, int x, int y, int n, float *mean)
-{
-    const int bytes = d->layout.bytes;
-    for (int i = 0; i < n; i++) {
-        if (bytes == 4) shade__shrink(d, from, to, x + i, y, 4, mean + i);
-        else shade__shrink(d, from, to, x + i, y, bytes, mean + i);
-    }
+    return shade__convert(&decoder, NULL, in, out, factor, NULL, NULL);
 }
 
 SHADEDEF int shade_mipmap_count(int width, int height)
@@ -8561,6 +8640,7 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture,
 {
     shade_target from, to;
     shade__decoder decoder;
+    shade__halving halving;
     const int count = texture ? shade_mipmap_count(texture->width, texture->height) : 0;
     if (!texture || (count && (!levels || !memory || (uintptr_t)memory % 4)))
         return SHADE_ERROR_ARGUMENT;
@@ -8575,20 +8655,14 @@ SHADEDEF shade_result shade_build_mipmaps(shade_texture *texture,
     from.srgb = texture->srgb;
     from.color = (void *)(uintptr_t)texture->pixels;
     shade__open_decoder(&from, &decoder);
+    for (int v = 0; v < 512; v++) halving.light[v] = (double)decoder.value[v];
     for (int n = 0; n < count; n++, from = to) {
         to = from;
         to.width = shade__max(from.width / 2, 1);
         to.height = shade__max(from.height / 2, 1);
         to.stride = 0;
         to.color = memory;
-        for (int y = 0; y < to.height; y++)
-            for (int x = 0; x < to.width; x += SHADE__BLOCK) {
-                const int texels = shade__min(SHADE__BLOCK, to.width - x);
-                float rgba[4 * SHADE_LANES] = { 0 };
-                shade__shrink_row(&decoder, &from, &to, x, y, texels, rgba);
-                shade__store_block(&to, rgba, x, y, texels,
-                                   shade__pixel_at(&to, x, y));
-            }
+        shade__convert(&decoder, &halving, &from, &to, 2, NULL, NULL);
         memory = shade__pixel_at(&to, 0, to.height);
         levels[n] = *texture;
         levels[n].pixels = to.color;
@@ -8615,8 +8689,6 @@ static char *shade__decimal(char *p, int n)
 SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
                                        const shade_target *target)
 {
-    uint8_t pixels[4 * SHADE__BLOCK], rgb[3 * SHADE__BLOCK];
-    float linear[4 * SHADE_LANES];
     char head[32] = "P6\n", *p = head + 3;
     shade_target from, to;
     shade__decoder decoder;
@@ -8631,17 +8703,15 @@ SHADEDEF shade_result shade_encode_ppm(shade_write_fn *sink, void *user,
     from.srgb = 0;    /* stored sRGB passes unchanged; only floats are encoded */
     to.format = SHADE_FORMAT_RGBA8;
     to.srgb = target->srgb && target->format == SHADE_FORMAT_RGBA32F;
+    to.clip_x = 0;
+    to.clip_width = to.width;
+    to.clip_height = 1;
     shade__open_decoder(&from, &decoder);
-    for (int y = 0; y < shade__rows_held(target); y++) {
-        for (int x = 0; x < target->width; x += SHADE__BLOCK) {
-            int n = shade__min(SHADE__BLOCK, target->width - x);
-            shade__mean_block(&decoder, &from, 1, x, y + target->row_offset, n, linear);
-            shade__store_block(&to, linear, x, y, n, pixels);
-            for (int i = 0; i < n; i++) SHADE_MEMCPY(rgb + 3 * i, pixels + 4 * i, 3);
-            if (sink(user, rgb, (size_t)n * 3)) return SHADE_ERROR_IO;
-        }
+    for (int y = 0; y < shade__rows_held(target) && !result; y++) {
+        to.clip_y = to.row_offset + y;
+        result = shade__convert(&decoder, NULL, &from, &to, 1, sink, user);
     }
-    return SHADE_OK;
+    return result;
 }
 
 #ifndef SHADE_NO_STDIO

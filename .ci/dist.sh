@@ -56,7 +56,7 @@ export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$WORK/zig}" ZIG_LOCAL_CACHE
 library() {                     # target, file
     case $1 in *windows*) flags= ;; *) flags="-fPIC -lm -pthread" ;; esac
     "$zig" cc -target "$1" -O2 -std=gnu99 -ffp-contract=off -D_DEFAULT_SOURCE -Wno-unused-function \
-        -I. -shared -s examples/python/native.c -o "$2" $flags
+        -I. -shared -s examples/kit/native.c -o "$2" $flags
 }
 wheel_of() {                    # target, file of the library, platforms that pip knows
     rm -rf "$WORK/wheel"
@@ -77,8 +77,8 @@ for p in python3 /usr/bin/python3; do
     $p -c 'import build, setuptools, wheel' 2>/dev/null && python=$p && break
 done
 if wants python && [ "$python" ]; then
-    cp LICENSE examples/python/LICENSE
-    built $python -m build --no-isolation --outdir "$WORK/made" examples/python
+    cp LICENSE examples/packages/python/LICENSE
+    built $python -m build --no-isolation --outdir "$WORK/made" examples/packages/python
     mkdir "$WORK/shade_h-$V"    # old setuptools call it shade-h, which is the tarball's name
     tar -C "$WORK/shade_h-$V" --strip-components=1 -xzf "$WORK"/made/*.tar.gz
     packed "shade_h-$V" "$out/shade_h-$V.tar.gz"
@@ -95,9 +95,9 @@ if wants python && [ "$python" ]; then
 elif wants python; then left_out "Python: no python3 with build, setuptools and wheel"; fi
 
 # ---- npm, which packs with times of its own that are always the same
-wants npm && built sh examples/node/build.sh
-if wants npm && command -v npm >/dev/null && [ -f examples/node/index.cjs ]; then
-    (cd "$out" && npm pack --silent --offline --ignore-scripts "$WORK/$NAME/examples/node")
+wants npm && built sh examples/packages/node/build.sh
+if wants npm && command -v npm >/dev/null && [ -f examples/packages/node/index.cjs ]; then
+    (cd "$out" && npm pack --silent --offline --ignore-scripts "$WORK/$NAME/examples/packages/node")
 elif wants npm; then left_out "npm: no node, or no clang for wasm32 with wasi-libc"; fi
 
 # ---- the playground and the courses, to be opened without a network

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""python.py - the package of examples/python beside VTK, Open3D and matplotlib: the same scenes,
+"""python.py - the Python package beside VTK, Open3D and matplotlib: the same scenes,
 each library in a process of its own, and a table in Markdown.
 
     python3 bench/python.py [rounds]      what is not installed is left out with a line
 
-The package must be importable (pip install examples/python).  VTK and Open3D draw by OpenGL into a
+The package must be importable (pip install examples/packages/python).  VTK and Open3D draw by OpenGL into a
 window: without a DISPLAY, Xvfb gives them one.  Pictures are of one sample a pixel.  A row stands
 only where its pictures cover the pixels that those of the first row cover.
 """
@@ -427,7 +427,7 @@ def row(library, rounds, folder, environment):
     if subprocess.run([sys.executable, "-c", f"import {library}"], env=environment,
                       stderr=subprocess.DEVNULL).returncode:
         if library == LIBRARIES[0]:
-            sys.exit("shade-h is not installed: pip install examples/python")
+            sys.exit("shade-h is not installed: pip install examples/packages/python")
         print(f"left out: {library}, which is not installed", file=sys.stderr)
         return ""
     few = max(2, rounds // 8)

@@ -1,8 +1,8 @@
 // robots.mjs - the scene of robots.py in Node.js: pictures a second of 32 geoms that move, with colour,
 // depth, and the object and triangle of each pixel, by one thread.  Seconds are those of processor time,
 // and the figure is the best of ten parts.
-//     sh examples/node/build.sh && node bench/robots.mjs [seconds]
-import { Renderer } from "../examples/node/index.js";
+//     sh examples/packages/node/build.sh && node bench/robots.mjs [seconds]
+import { Renderer } from "../examples/packages/node/index.js";
 
 const seconds = Number(process.argv[2] ?? 2), FRAMES = 16, PARTS = 10;
 const now = () => { const { user, system } = process.cpuUsage(); return (user + system) / 1e6; };

@@ -4,7 +4,7 @@ the number of the object of each pixel, by shade.h's package, Mesa's llvmpipe an
 
     python3 bench/robots.py [seconds]     of each figure; what is not installed is left out, with a line
 
-The package must be importable (pip install examples/python).  Each process draws by one thread on a
+The package must be importable (pip install examples/packages/python).  Each process draws by one thread on a
 core of its own; two processes begin together.  Seconds are those of processor time, so that other programs of the
 machine count little, and the figure of a process is the best of ten parts.  llvmpipe is called through OSMesa (Debian:
 libosmesa6) by display lists, as MuJoCo draws, and VTK (python3-vtk9) needs Xvfb or a DISPLAY; both
@@ -21,7 +21,7 @@ import numpy as np
 from python import FOV, LAMP, Scene, Vtk, box, capsule, display
 
 HERE = Path(__file__).resolve().parent
-sys.path.append(str(HERE.parent / "examples" / "python" / "tests"))
+sys.path.append(str(HERE.parent / "examples" / "packages" / "python" / "tests"))
 SIZES, FRAMES, COUNT, PARTS = (64, 84, 128, 256), 16, 32, 10
 GREY = (0.7, 0.65, 0.6)
 

@@ -1,6 +1,6 @@
 /* mesh.h - meshes that own their arrays, simple shapes, and a vertex shader for them.
 
-   The shapes are made for lessons: they exit where memory runs out.  The readers of model/files.h
+   The shapes are made for lessons: they exit where memory runs out.  The readers of kit/read
    return an error instead. */
 #ifndef SHARED_MESH_H
 #define SHARED_MESH_H

@@ -1,7 +1,7 @@
-/* reader.c - the OBJ, STL and PLY readers of examples/programs/model/files.h: any bytes give a
+/* reader.c - the OBJ, STL and PLY readers of examples/kit/read/files.h: any bytes give a
    valid model, which a section leaves valid, or an error. */
 #include "input.h"
-#include "examples/programs/model/section.h"
+#include "examples/kit/draw/section.h"
 
 static void reader_check_mesh(const owned_mesh *m)
 {

@@ -1,7 +1,7 @@
-/* surface.c - the MTL reader of examples/programs/model/mtl.h: any bytes fill the surfaces of
+/* surface.c - the MTL reader of examples/kit/read/mtl.h: any bytes fill the surfaces of
    a model with colours that can be drawn, or stop with an error. */
 #include "input.h"
-#include "examples/programs/model/mtl.h"
+#include "examples/kit/read/mtl.h"
 
 static void surface_check(const model_surface *s)
 {

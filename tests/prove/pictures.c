@@ -6,9 +6,10 @@ enum { WIDTH = 9, HEIGHT = 3 };
 
 static shade_target in, out;
 static shade__decoder decoder;
+static shade__halving halving;
 static uint8_t fine[16 * 64 * WIDTH * HEIGHT], coarse[16 * WIDTH * HEIGHT];
 
-/* a row of blocks, the last of them cut off by the picture's edge */
+/* rows that end within a block */
 static void prove_resolve(shade_format format, int factor)
 {
     const size_t bytes = shade__pixel_bytes(format);
@@ -20,13 +21,7 @@ static void prove_resolve(shade_format format, int factor)
     in.color = fine + sizeof fine - (size_t)(WIDTH * HEIGHT * factor * factor) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(WIDTH * HEIGHT) * bytes;
     shade__open_decoder(&in, &decoder);
-    for (int y = 0; y < HEIGHT; y += HEIGHT - 1)
-        for (int x = 0; x < WIDTH; x += SHADE__BLOCK) {
-            const int n = shade__min(SHADE__BLOCK, WIDTH - x);
-            float rgba[4 * SHADE_LANES];
-            shade__mean_block(&decoder, &in, factor, x, y, n, rgba);
-            shade__store_block(&out, rgba, x, y, n, shade__pixel_at(&out, x, y));
-        }
+    shade__convert(&decoder, NULL, &in, &out, factor, NULL, NULL);
 }
 
 /* a level of mipmaps from the one before, in memory that ends with the last texel of each */
@@ -41,12 +36,8 @@ static void prove_shrink(shade_format format, int width, int height)
     in.color = fine + sizeof fine - (size_t)(width * height) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(out.width * out.height) * bytes;
     shade__open_decoder(&in, &decoder);
-    for (int y = 0; y < out.height; y++)
-        for (int x = 0; x < out.width; x++) {
-            float mean[4 * SHADE_LANES] = { 0 };
-            shade__shrink_row(&decoder, &in, &out, x, y, 1, mean);
-            shade__store_block(&out, mean, x, y, 1, shade__pixel_at(&out, x, y));
-        }
+    for (int v = 0; v < 512; v++) halving.light[v] = (double)decoder.value[v];
+    shade__convert(&decoder, &halving, &in, &out, 2, NULL, NULL);
 }
 
 /* offsets of pixels in the greatest picture, its rows however far apart */

@@ -1,10 +1,10 @@
 #!/bin/sh
-# assignments.sh - the graders of examples/assignments: solutions get full points, starters less than
+# assignments.sh - the graders of the assignments: solutions get full points, starters less than
 # half, and each common mistake loses points and is named by its sentence; results.json and Python.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
-A=examples/assignments
+A=examples/teaching/assignments
 WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Werror"
 ${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
 build() {                       # grader, answer, flags ...

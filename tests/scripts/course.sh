@@ -1,5 +1,5 @@
 #!/bin/sh
-# course.sh - the pages of examples/course: each line of C compiles, its value is what the page says,
+# course.sh - the pages of the courses: each line of C compiles, its value is what the page says,
 # pictures and links are there, and each word that students search for stands on its page.
 # playground.sh opens the links in a browser.
 cd "$(dirname "$0")/../.." || exit 1
@@ -40,7 +40,7 @@ static void vector(const char *where, shade_vec3 v, const char *x, const char *y
 int main(void)
 {
 END
-    cat examples/course/point.h
+    cat examples/teaching/course/point.h
     echo '
 static uint32_t pixels[4], texel = 0xFFFFFFFF;
 shade_target target = { .width = 2, .height = 2, .color = pixels };
@@ -60,7 +60,7 @@ float t;
                 gsub(/[()]/, "", value); gsub(/, */, "\", \"", value)
                 print "vector(" place ", " code ", \"" value "\");"
             } else print "number(" place ", (double)(" code "), \"" value "\");"
-        }' examples/course/$course.md
+        }' examples/teaching/course/$course.md
     done
     echo 'return failed; }'
 } >"$T/lines.c"
@@ -74,7 +74,7 @@ if ! command -v pandoc >/dev/null 2>&1; then
     left_out "pages: no pandoc"
     finish
 fi
-check "pages are built" sh examples/course/build.sh "$T/pages"
+check "pages are built" sh examples/teaching/course/build.sh "$T/pages"
 # what a reader sees: neither code nor TeX kept beside MathML
 for course in $COURSES; do
     sed 's/<annotation[^>]*>[^<]*<\/annotation>//g; s/<pre>.*<\/pre>//; s/<[^>]*>//g' "$T/pages/course-$course.html"
@@ -89,25 +89,25 @@ if [ -d build/node_modules/reveal.js ]; then
     for course in $COURSES; do
         check "slides of $course: one at least for each heading" test \
             "$(grep -c '^<section\|^<section class' "$T/pages/slides-$course.html")" -gt \
-            "$(grep -c '^## ' "examples/course/$course.md")"
+            "$(grep -c '^## ' "examples/teaching/course/$course.md")"
     done
 else left_out "slides: no reveal.js (npm install --no-save --prefix build reveal.js)"
 fi
 check "pictures and pages are there" same "$(missing)" ""
 if command -v zip >/dev/null 2>&1 && command -v unzip >/dev/null 2>&1; then
     echo page >"$T/built.html"
-    check "one archive holds all of it" env PACK=1 PLAYGROUND="$T/built.html" sh examples/course/build.sh "$T/packed"
+    check "one archive holds all of it" env PACK=1 PLAYGROUND="$T/built.html" sh examples/teaching/course/build.sh "$T/packed"
     check "with each page, picture and script" same \
         "$(links | grep -v '^data:' | while read -r name; do
             unzip -l "$T/packed/courses.zip" "$name" >/dev/null 2>&1 || echo "$name"
         done)" ""
 else left_out "the archive: no zip or no unzip"; fi
 check "no address of another host" no grep -nE '(src|href)="(https?:)?//' "$T"/pages/*.html
-check "each question has its answer" same "$(grep -hc '^<details>' examples/course/*.md)" \
-    "$(grep -hc '^</details>' examples/course/*.md)"
+check "each question has its answer" same "$(grep -hc '^<details>' examples/teaching/course/*.md)" \
+    "$(grep -hc '^</details>' examples/teaching/course/*.md)"
 check "formulas became MathML" no grep -nE '\$|class="math' "$T"/course-words
 lessons() {                     # pictures, and lessons named in text
-    grep -ohE '\b[0-9]{2}_[a-z_]+' examples/course/*.md | sort -u | while read -r name; do
+    grep -ohE '\b[0-9]{2}_[a-z_]+' examples/teaching/course/*.md | sort -u | while read -r name; do
         [ -f "examples/lessons/$name.c" ] || echo "$name"
     done
 }

@@ -11,9 +11,9 @@ V=$((number / 10000)).$((number / 100 % 100)).$((number % 100))
 repeats() {                     # file, pattern of sed that gives the version
     check "the version of $1" same "$(sed -n "$2" "$1" | head -n 1)" "$V"
 }
-repeats examples/node/package.json 's/^ *"version": "\(.*\)",/\1/p'
-repeats examples/python/pyproject.toml 's/^version = "\(.*\)"/\1/p'
-repeats examples/python/shade_h/__init__.py 's/^__version__ = "\(.*\)"/\1/p'
+repeats examples/packages/node/package.json 's/^ *"version": "\(.*\)",/\1/p'
+repeats examples/packages/python/pyproject.toml 's/^version = "\(.*\)"/\1/p'
+repeats examples/packages/python/shade_h/__init__.py 's/^__version__ = "\(.*\)"/\1/p'
 E=examples/embed P=examples/embed/packages
 repeats $E/README.md 's/.*and `v\([0-9.]*\)` by.*/\1/p'
 repeats $E/cmake/CMakeLists.txt 's/.*GIT_TAG v\([0-9.]*\)).*/\1/p'

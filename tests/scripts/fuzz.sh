@@ -38,13 +38,14 @@ quick() {
 fuzz() {                                     # target, seconds
     t=$1 log=$B/$1.log checks=$CHECKS object=shade
     mkdir -p $B/work/$t
+    sh tests/fuzz/corpus.sh unpack $t $B/corpus/$t
     [ $t = explain ] && { checks= object=quick; quick; }
     if ! "$CLANG" $FLAGS $checks -fsanitize=fuzzer tests/fuzz/$t.c $B/$object.o -lm -o $B/$t; then
         echo "$t does not build"; count 1; return
     fi
     # G1, G4
     $B/$t -max_total_time="$2" -max_len=1024 -len_control=0 -timeout=20 -rss_limit_mb=2048 \
-        -print_final_stats=1 -artifact_prefix=$B/crash/$t- $B/work/$t tests/fuzz/corpus/$t \
+        -print_final_stats=1 -artifact_prefix=$B/crash/$t- $B/work/$t $B/corpus/$t \
         >"$log" 2>&1
     status=$?
     value number_of_executed_units "$log" >>$B/inputs
@@ -60,7 +61,8 @@ replay() {                                   # target
     t=$1
     "$CC" $FLAGS $checks tests/fuzz/replay.c tests/fuzz/$t.c $B/replay.o -lm -o $B/replay-$t ||
         { count 1; return; }
-    log=$($B/replay-$t tests/fuzz/corpus/$t/* 2>&1)
+    sh tests/fuzz/corpus.sh unpack $t $B/corpus/$t
+    log=$($B/replay-$t $B/corpus/$t/* 2>&1)
     status=$?
     printf '%-8s %s\n' $t "$(printf '%s\n' "$log" | tail -n 1)"
     [ $status -ne 0 ] && printf '%s\n' "$log" | head -n 20

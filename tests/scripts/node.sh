@@ -1,5 +1,5 @@
 #!/bin/sh
-# node.sh - the package of examples/node: packed, installed into an empty folder, README's programs,
+# node.sh - the package for JavaScript: packed, installed into an empty folder, README's programs,
 # the bytes of the package for Python, PNG files read by Pillow, hostile arguments, and a browser.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
@@ -7,10 +7,10 @@ there node && there npm || { left_out "everything: no node with npm"; finish; }
 
 mkdir -p "$T/tree" "$T/use"
 cp shade.h LICENSE "$T/tree"
-mkdir -p "$T/tree/examples/programs"
-cp -R examples/programs/model "$T/tree/examples/programs"
-cp -R examples/shared examples/python examples/node "$T/tree/examples"
-N=$T/tree/examples/node
+mkdir -p "$T/tree/examples/packages"
+cp -R examples/shared examples/kit "$T/tree/examples"
+cp -R examples/packages/python examples/packages/node "$T/tree/examples/packages"
+N=$T/tree/examples/packages/node
 rm -f "$N/module.js"
 sh "$N/build.sh" >"$T/built" 2>&1 || { fail "the module is compiled" "$T/built"; finish; }
 [ -f "$N/module.js" ] || { left_out "everything: no clang for wasm32 with wasi-libc"; finish; }
@@ -20,7 +20,7 @@ check "the scene of bench/robots.mjs is drawn" sh -c "
     node '$T/tree/bench/robots.mjs' 0.05 | grep -q '256 x 256: [1-9]'"
 
 # as a user has it: a package of its own, installed without the tree
-check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/node"
+check "npm pack" sh -c "cd '$T' && npm pack --silent --offline ./tree/examples/packages/node"
 check "npm install" sh -c "cd '$T/use' && npm install --silent --offline --no-audit ../shade-h-*.tgz"
 P=$T/use/node_modules/shade-h
 check "no file but what runs" same "$(LC_ALL=C ls "$P" | tr '\n' ' ')" \
@@ -75,7 +75,7 @@ if npm install --silent --no-audit --no-fund --prefix "$T/mujoco" @mujoco/mujoco
         "38 2.0527708530426025 0"
     rm -r "$T/use/node_modules/@mujoco"
     check "what MuJoCo steps" env MUJOCO="$T/mujoco/node_modules/@mujoco/mujoco/mujoco.js" \
-        RECORDING="$T/tree/examples/python/tests/robots.json" \
+        RECORDING="$T/tree/examples/packages/python/tests/robots.json" \
         sh -c "cd '$T/use' && node --test test/robots.test.js"
 else left_out "MuJoCo's engine: npm cannot fetch @mujoco/mujoco"; fi
 npm install --silent --no-audit --no-fund --prefix "$T/xml" @xmldom/xmldom@0.9.12 >"$T/log" 2>&1 ||
@@ -89,7 +89,7 @@ for python in python3 /usr/bin/python3; do
     python=
 done
 if [ "$python" ]; then
-    check "the package for Python" sh -c "cd '$T/tree/examples/python' &&
+    check "the package for Python" sh -c "cd '$T/tree/examples/packages/python' &&
         $python setup.py -q build_ext --build-lib '$T/python' && cp shade_h/*.py '$T/python/shade_h'"
     mkdir "$T/oracle"
     check "the scenes in Python" env PYTHONPATH="$T/python" PYTHONDONTWRITEBYTECODE=1 \

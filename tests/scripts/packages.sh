@@ -5,7 +5,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 TOP=$PWD P=$PWD/examples/embed/packages
-V=$(sed -n 's/^version = "\(.*\)"/\1/p' examples/python/pyproject.toml)
+V=$(sed -n 's/^version = "\(.*\)"/\1/p' examples/packages/python/pyproject.toml)
 cc -O1 -I. examples/embed/meson/*.c -lm -o "$T/ball" && "$T/ball" >"$T/ball.txt"
 check "the ball" grep -q '@@' "$T/ball.txt"
 is_ball() { "$@" >"$T/drawn.txt" && cmp "$T/drawn.txt" "$T/ball.txt"; }

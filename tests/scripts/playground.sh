@@ -11,9 +11,9 @@ leave_out() { echo "playground: no $1: left out"; echo "0 passed, 0 failed"; exi
 
 mkdir -p $B || exit 1
 rm -f $B/index.html
-sh examples/playground/build.sh || { echo "0 passed, 1 failed"; exit 1; }
+sh examples/teaching/playground/build.sh || { echo "0 passed, 1 failed"; exit 1; }
 [ -f $B/index.html ] || leave_out "clang and lld for wasm32"
-sh examples/course/build.sh || { echo "0 passed, 1 failed"; exit 1; }
+sh examples/teaching/course/build.sh || { echo "0 passed, 1 failed"; exit 1; }
 command -v node >/dev/null 2>&1 || leave_out node
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
     leave_out chromium
@@ -24,7 +24,7 @@ fi
 
 # the page's C and its readers, compiled here
 FLAGS="-std=c11 -O2 -Wall -Wextra -Wno-unused-function -ffp-contract=off -I."
-$CC $FLAGS examples/playground/native.c -lm -o $B/native &&
+$CC $FLAGS examples/teaching/playground/native.c -lm -o $B/native &&
 $CC -std=c99 -O2 -I. -DSHADE_IMPLEMENTATION -x c -c shade.h -o $B/native-shade.o ||
     { echo "0 passed, 1 failed"; exit 1; }
 cp tests/scripts/playground.mjs tests/scripts/slides.mjs $DRIVER/

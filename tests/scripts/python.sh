@@ -1,5 +1,5 @@
 #!/bin/sh
-# python.sh - the package of examples/python: an sdist from the tree and a wheel from that sdist, in
+# python.sh - the package for Python: an sdist from the tree and a wheel from that sdist, in
 # an empty environment of its own; its tests by pytest; mypy --strict; the notebook.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
@@ -12,11 +12,11 @@ for python in python3 /usr/bin/python3; do
 done
 [ "$python" ] || { left_out "everything: no Python with numpy, pytest, setuptools and build"; finish; }
 
-mkdir -p "$T/tree/examples/programs"
+mkdir -p "$T/tree/examples/packages"
 cp shade.h "$T/tree"
-cp -R examples/programs/model "$T/tree/examples/programs"
-cp -R examples/shared examples/python "$T/tree/examples"
-P=$T/tree/examples/python
+cp -R examples/shared examples/kit "$T/tree/examples"
+cp -R examples/packages/python "$T/tree/examples/packages"
+P=$T/tree/examples/packages/python
 rm -rf "$P/build" "$P/dist" "$P/headers" "$P"/shade_h/libshade.* "$P"/*.egg-info
 
 # without isolation and index: nothing is fetched
@@ -32,11 +32,11 @@ check "it is the wheel that is imported" \
     $python -c "import shade_h; assert shade_h.__file__.startswith('$T/env'), shade_h.__file__"
 
 # the tests, beside the tree but not beside its sources
-mkdir -p "$T/run/examples/python"
+mkdir -p "$T/run/examples/packages/python"
 ln -s "$T/tree/shade.h" "$T/run/shade.h"
 cp -R "$P/tests" "$P/README.md" "$P/picture.png" "$P/course.ipynb" \
-    "$P/mcp_server.py" "$T/run/examples/python"
-check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/python/tests"
+    "$P/mcp_server.py" "$T/run/examples/packages/python"
+check "pytest" $python -m pytest -q -p no:cacheprovider "$T/run/examples/packages/python/tests"
 check "the scenes of bench/python.py are drawn" sh -c "
     $python '$OLDPWD/bench/python.py' --one shade_h robot 1 1 '$T/robot.npy' | grep -q '\"batch\"'"
 check "the scenes of bench/robots.py are drawn" sh -c "

@@ -2,7 +2,7 @@
 # readme.sh [README] - what the README, the READMEs of rooms and the head of shade.h show compiles and
 # does what it says.  The README's one block with main is its program.  It is built by the command of
 # its first line in a folder with shade.h and nothing else, without a warning as C and as C++.  Its
-# snippets compile behind it there, in their order.  tests/unit/readme_run.c looks at the pixels that
+# snippets compile behind it there, in their order.  tests/scripts/readme_run.c looks at the pixels that
 # programs and snippets draw.  SDL2, stb and a C++ compiler are used where they are.  Names, keys and
 # files that the README and examples/README.md speak of exist; the C of the latter is recipes.h, which
 # tests/unit/recipes.c holds; every public function stands in the README, an example or the bench;
@@ -15,8 +15,8 @@ fi
 README=${1:-README.md}
 # what continues it, in the order in which its snippets compile, and other pages with names
 CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
-PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md
-    examples/microcontroller/README.md examples/lessons/TEACHING.md examples/course/README.md"
+PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md tests/GUARANTEES.md
+    examples/microcontroller/README.md examples/lessons/TEACHING.md examples/teaching/course/README.md"
 WARN="-Wall -Wextra -Werror"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
 T=$(mktemp -d) || exit 1
@@ -105,7 +105,7 @@ for part in more sdl stb; do    # a README without such a snippet fails
     check "a snippet for $part" test -s "$T/$part.h"
 done
 check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I"$T/alone" -I"$T" -I. -Itests/unit \
-      -DSHADE__IMPLEMENTED tests/unit/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
+      -DSHADE__IMPLEMENTED tests/scripts/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
 if [ -x "$T/readme_run" ]; then
     (cd "$T" && SDL_VIDEODRIVER=dummy ./readme_run alone/knot.ppm head/triangle.ppm) >"$T/run" 2>&1
     grep -vE '^[0-9]+ passed, ' "$T/run"
@@ -163,7 +163,7 @@ check "every example is listed" none "$(
     done)"
 check "the teacher's guide has the lessons of each course in the order of its slides" none "$(
     for course in UW:uw Massey:massey Shirley:shirley Berkeley:berkeley; do
-        grep -oE 'pictures/[0-9]{2}_' "examples/course/${course#*:}.md" | grep -oE '[0-9]{2}' | awk '!seen[$0]++' |
+        grep -oE 'pictures/[0-9]{2}_' "examples/teaching/course/${course#*:}.md" | grep -oE '[0-9]{2}' | awk '!seen[$0]++' |
             tr '\n' ' ' >"$T/of_slides"
         sed -n "s/^| ${course%:*}, [^|]*| //p" examples/lessons/TEACHING.md | tr -d '|' | tr -s ' ' >"$T/of_guide"
         [ "$(cat "$T/of_slides")" = "$(cat "$T/of_guide")" ] || { echo "$course"; cat "$T/of_slides"; }
@@ -191,7 +191,7 @@ awk '/^#ifdef SHADE_IMPLEMENTATION/ { exit }
      /^(SHADEDEF|SHADE__INLINE) / && match($0, /shade_[a-z0-9_]+\(/) {
          print substr($0, RSTART, RLENGTH - 1)
      }' shade.h | grep -v shade__ | sort -u >"$T/functions"
-cat $PAGES examples/*/*.[ch] examples/*/*/*.[ch] bench/*.[ch] bench/*/*.[ch] >"$T/shown"
+cat $PAGES examples/*/*.[ch] examples/*/*/*.[ch] examples/*/*/*/*.[ch] bench/*.[ch] bench/*/*.[ch] >"$T/shown"
 words "$T/shown" >"$T/shown_words"
 check "more than 90 public functions" test "$(wc -l <"$T/functions")" -gt 90
 check "every public function is shown" none "$(comm -23 "$T/functions" "$T/shown_words")"

@@ -1,10 +1,10 @@
-/* ears.c - polygons cut into triangles by examples/programs/model/ears.h, against the polygon
+/* ears.c - polygons cut into triangles by examples/kit/read/ears.h, against the polygon
    itself: n - 2 triangles, none turned over, areas that add up to the polygon's (so none overlaps
    another), each point inside in exactly one of them (by crossings of a ray), corners none but the
    polygon's. */
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "examples/programs/model/ears.h"
+#include "examples/kit/read/ears.h"
 #include <time.h>
 
 static int passed, failed;

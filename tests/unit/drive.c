@@ -1,4 +1,5 @@
 /* drive.c - the whole of a draw: arguments, results, stats, bands and strips, memory. */
+#include "unit.h"
 
 typedef struct drive_call { /* everything a draw is given, to be spoiled one field at a time */
     canvas c;
@@ -362,13 +363,6 @@ static void random_canvas_flags(shade_target *t)
     t->dither = rnd_one_in(3);
 }
 
-static int stats_add_up(const shade_stats *s, int triangles)
-{
-    return s->triangles == triangles && s->culled >= 0 && s->clipped >= 0 && s->rejected >= 0 &&
-           s->drawn >= 0 && s->fragments >= 0 &&
-           s->culled + s->clipped + s->rejected + s->drawn == s->triangles;
-}
-
 /* G1 */
 TEST(drive, any_draw_keeps_to_its_memory_and_its_stats_add_up)
 {
@@ -588,3 +582,5 @@ static const test_case drive_cases[] = {
     CASE(drive, drawing_twice_gives_the_same_bits),
     CASE(drive, one_draw_equals_its_triangles_drawn_one_by_one),
 };
+
+SECTION(drive);

@@ -1,4 +1,5 @@
 /* lines.c - lines as rectangles of the screen: coverage, ends, clipping, depth, arguments. */
+#include "unit.h"
 
 typedef struct line_places { /* the rectangle of one line, window pixels, y down */
     double x[4], y[4];       /* in order around it */
@@ -942,3 +943,5 @@ static const test_case lines_cases[] = {
     CASE(lines, bad_arguments_are_refused_before_a_pixel_changes),
     CASE(lines, depth_only_targets_take_lines_too),
 };
+
+SECTION(lines);

@@ -1,14 +1,5 @@
 /* matrix.c - transforms, inverses, cameras and the normal matrix, against double precision. */
-
-static shade_mat4 random_mat4(double size)
-{
-    shade_mat4 m;
-    for (int c = 0; c < 4; c++) {
-        m.col[c] = shade_v4(rnd_float(-size, size), rnd_float(-size, size), rnd_float(-size, size),
-                            rnd_float(-size, size));
-    }
-    return m;
-}
+#include "unit.h"
 
 static void check_mat4(int line, shade_mat4 got, dmat want, double within)
 {
@@ -32,14 +23,6 @@ static shade_mat4 widen(shade_mat3 m)
     return r;
 }
 #define CHECK_MAT3(got, want, within) check_mat4(__LINE__, widen(got), want, within)
-static int finite_mat4(shade_mat4 m)
-{
-    for (int c = 0; c < 4; c++) {
-        if (!isfinite(m.col[c].x) || !isfinite(m.col[c].y)) return 0;
-        if (!isfinite(m.col[c].z) || !isfinite(m.col[c].w)) return 0;
-    }
-    return 1;
-}
 
 static dmat transposed(dmat a)
 {
@@ -480,94 +463,6 @@ TEST(matrix, reversed_projection_falls_from_one_at_near_to_zero)
     }
 }
 
-/* Projections that are none: perspective, reversed, frustum, ortho, and their arguments.  Each row
-   breaks one rule: an angle in (0, pi), an aspect above 0, near and far above 0 and apart, left and
-   right as well as bottom and top apart, all finite, also what the matrix holds. */
-#define FLOAT_ABOVE_PI 3.14159274f
-static const struct {
-    char kind;
-    float v[6];
-} degenerate_cameras[] = {
-    { 'p', { 1, 1, 2, 2 } },
-    { 'p', { 1, 0, 1, 2 } },
-    { 'p', { 1, -0.0f, 1, 2 } },
-    { 'p', { 0, 1, 1, 2 } },
-    { 'p', { -1, 1, 1, 2 } },
-    { 'p', { -7, 1, 1, 2 } },
-    { 'p', { FLOAT_ABOVE_PI, 1, 1, 2 } },
-    { 'p', { 2 * FLOAT_ABOVE_PI, 1, 1, 2 } },
-    { 'p', { 2 * FLOAT_ABOVE_PI + 1, 1, 1, 2 } },
-    { 'p', { 100, 1, 1, 2 } },
-    { 'p', { INFINITY, 1, 1, 2 } },
-    { 'p', { 1, 1, 0, 2 } },
-    { 'p', { 1, 1, -1, 2 } },
-    { 'p', { 1, 1, -2, -1 } },
-    { 'p', { 1, 1, 1, 0 } },
-    { 'p', { 1, 1, 1, -2 } },
-    { 'p', { NAN, 1, 1, 2 } },
-    { 'p', { 1, NAN, 1, 2 } },
-    { 'p', { 1, 1, NAN, 2 } },
-    { 'p', { 1, 1, 1, NAN } },
-    { 'p', { 1e-45f, 1, 1, 2 } },
-    { 'p', { 1, 1e-45f, 1, 2 } },
-    { 'p', { 1, 1, 3e38f, 2.9e38f } },
-    { 'r', { 1, 0, 1 } },
-    { 'r', { 0, 1, 1 } },
-    { 'r', { -1, 1, 1 } },
-    { 'r', { FLOAT_ABOVE_PI, 1, 1 } },
-    { 'r', { 2 * FLOAT_ABOVE_PI + 1, 1, 1 } },
-    { 'r', { INFINITY, 1, 1 } },
-    { 'r', { 1, 1, 0 } },
-    { 'r', { 1, 1, -1 } },
-    { 'r', { NAN, 1, 1 } },
-    { 'r', { 1, NAN, 1 } },
-    { 'r', { 1, 1, NAN } },
-    { 'r', { 1, 1e-45f, 1 } },
-    { 'f', { 1, 1, -1, 1, 1, 9 } },
-    { 'f', { -1, 1, 1, 1, 1, 9 } },
-    { 'f', { -1, 1, -1, 1, 9, 9 } },
-    { 'f', { -1, 1, -1, 1, 0, 9 } },
-    { 'f', { -1, 1, -1, 1, -1, 9 } },
-    { 'f', { -1, 1, -1, 1, 1, 0 } },
-    { 'f', { -1, 1, -1, 1, 1, -9 } },
-    { 'f', { -1, 1, -1, 1, -1, -9 } },
-    { 'f', { NAN, 1, -1, 1, 1, 9 } },
-    { 'f', { -1, NAN, -1, 1, 1, 9 } },
-    { 'f', { -1, 1, NAN, 1, 1, 9 } },
-    { 'f', { -1, 1, -1, NAN, 1, 9 } },
-    { 'f', { -1, 1, -1, 1, NAN, 9 } },
-    { 'f', { -1, 1, -1, 1, 1, NAN } },
-    { 'f', { 0, 1e-45f, -1, 1, 1, 9 } },
-    { 'f', { 0, 0.1f, -1, 1, 3e38f, 9 } },
-    { 'o', { 1, 1, -1, 1, 1, 9 } },
-    { 'o', { -1, 1, 1, 1, 1, 9 } },
-    { 'o', { -1, 1, -1, 1, 9, 9 } },
-    { 'o', { -1, 1, -1, 1, 0, 0 } },
-    { 'o', { NAN, 1, -1, 1, 1, 9 } },
-    { 'o', { -1, NAN, -1, 1, 1, 9 } },
-    { 'o', { -1, 1, NAN, 1, 1, 9 } },
-    { 'o', { -1, 1, -1, NAN, 1, 9 } },
-    { 'o', { -1, 1, -1, 1, NAN, 9 } },
-    { 'o', { -1, 1, -1, 1, 1, NAN } },
-    { 'o', { 0, 1e-45f, -1, 1, 1, 9 } },
-};
-enum { DEGENERATE_CAMERAS = sizeof degenerate_cameras / sizeof degenerate_cameras[0] };
-
-static shade_mat4 degenerate_camera(int k)
-{
-    const float *v = degenerate_cameras[k].v;
-    switch (degenerate_cameras[k].kind) {
-    case 'p':
-        return shade_mat4_perspective(v[0], v[1], v[2], v[3]);
-    case 'r':
-        return shade_mat4_perspective_reversed(v[0], v[1], v[2]);
-    case 'f':
-        return shade_mat4_frustum(v[0], v[1], v[2], v[3], v[4], v[5]);
-    default:
-        return shade_mat4_ortho(v[0], v[1], v[2], v[3], v[4], v[5]);
-    }
-}
-
 /* (0, 0, 2, 1) for every point: outside near or far whether z/w is in [-1, 1] or [0, 1]. */
 /* G3 */
 TEST(matrix, degenerate_projections_put_every_point_outside)
@@ -672,3 +567,5 @@ static const test_case matrix_cases[] = {
     CASE(matrix, degenerate_projections_put_every_point_outside),
     CASE(matrix, near_beyond_far_and_left_beyond_right_are_cameras),
 };
+
+SECTION(matrix);

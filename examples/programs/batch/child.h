@@ -8,7 +8,7 @@
 #ifndef BATCH_CHILD_H
 #define BATCH_CHILD_H
 
-#include "../model/guard.h"
+#include "../../kit/command/guard.h"
 #include <errno.h>
 
 /* It did not end by itself, or did not read all; there is no program of that name. */

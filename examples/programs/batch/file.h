@@ -2,8 +2,8 @@
 #ifndef BATCH_FILE_H
 #define BATCH_FILE_H
 
-#include "../model/clock.h"
-#include "../model/save.h"
+#include "../../kit/command/clock.h"
+#include "../../kit/command/save.h"
 
 #ifdef GUARD_WINDOWS
 #include <direct.h>

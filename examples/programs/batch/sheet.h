@@ -12,7 +12,7 @@
 #ifndef BATCH_SHEET_H
 #define BATCH_SHEET_H
 
-#include "../model/scene.h"
+#include "../../kit/scene/scene.h"
 
 #ifndef SHEET_CELL
 #define SHEET_CELL 16384 /* samples along the edge of a cell */

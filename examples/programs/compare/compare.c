@@ -12,7 +12,7 @@
 #define SHADE_IMPLEMENTATION
 #define STBI_FAILURE_USERMSG
 #include "shade.h"
-#include "../model/portrait.h"
+#include "../../kit/scene/portrait.h"
 
 static const char usage[] =
     "usage: compare [options] golden picture      PPM, PGM or, with stb, PNG; -: standard input\n"

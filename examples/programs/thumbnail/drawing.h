@@ -2,7 +2,7 @@
 #ifndef THUMBNAIL_DRAWING_H
 #define THUMBNAIL_DRAWING_H
 
-#include "../model/prepare.h"
+#include "../../kit/scene/prepare.h"
 #include "../../shared/bands.h"
 #include "maps.h"
 

@@ -2,7 +2,7 @@
 #ifndef THUMBNAIL_DRAWING_OPTIONS_H
 #define THUMBNAIL_DRAWING_OPTIONS_H
 
-#include "../model/save.h"
+#include "../../kit/command/save.h"
 
 #define DRAWING_USAGE                                                                            \
     "drawings of parts:\n"                                                                       \

@@ -2,7 +2,7 @@
 #ifndef THUMBNAIL_OPTIONS_H
 #define THUMBNAIL_OPTIONS_H
 
-#include "../model/portrait.h"
+#include "../../kit/scene/portrait.h"
 #include "drawing_options.h"
 
 static const char thumbnail_usage[] =

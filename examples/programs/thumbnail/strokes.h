@@ -9,7 +9,7 @@
 #ifndef THUMBNAIL_STROKES_H
 #define THUMBNAIL_STROKES_H
 
-#include "../model/outline.h"
+#include "../../kit/draw/outline.h"
 #include "views.h"
 
 /* What is seen at each pixel of the sheet: the triangle's number + 1, and its depth */

@@ -3,7 +3,7 @@
 #ifndef VIEW_DISPLAY_H
 #define VIEW_DISPLAY_H
 
-#include "../model/scene.h"
+#include "../../kit/scene/scene.h"
 #include "terminal.h"
 #include "cells.h"
 #include "pixels.h"

@@ -2,8 +2,8 @@
 #ifndef VIEW_OPTIONS_H
 #define VIEW_OPTIONS_H
 
-#include "../model/options.h"
-#include "../model/scene.h"
+#include "../../kit/command/options.h"
+#include "../../kit/scene/scene.h"
 
 /* What a terminal knows of colours: none; the 256 of xterm; any, as 0xRRGGBB.  VIEW_COLORS_ASKED:
    the terminal's own variables say. */

@@ -3,7 +3,7 @@
 #ifndef VIEW_TERMINAL_H
 #define VIEW_TERMINAL_H
 
-#include "../model/clock.h"
+#include "../../kit/command/clock.h"
 #include "answers.h"
 #include <errno.h>
 #include <poll.h>

@@ -15,7 +15,7 @@
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
 #include "options.h"
-#include "../model/scene.h"
+#include "../../kit/scene/scene.h"
 #include "display.h"
 #ifdef VIEW_SDL
 #include "window.h"

@@ -3,7 +3,7 @@
 #define VIEW_WORDS_H
 
 #include "../../shared/label.h"
-#include "../model/scene.h"
+#include "../../kit/scene/scene.h"
 
 typedef struct words {
     const scene *scene;

@@ -1,0 +1,186 @@
+/* pictures.h - the pictures on surfaces, by stb_image: PNG, JPEG, TGA, BMP, PSD, GIF,
+   HDR, PIC, PNM.  What cannot be read is a warning, and the surface has its plain colour. */
+#ifndef MODEL_PICTURES_H
+#define MODEL_PICTURES_H
+
+#include "../read/files.h"
+
+/* The number of the picture of that name, read as colours or as a relief; -1: there is none */
+static int picture_find(const model *m, const char *name, int as_relief)
+{
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
+    return -1;
+}
+
+/* The number of a new picture without pixels, or -1: out of memory */
+static int picture_add(model *m, const char *name, int as_relief)
+{
+    static const model_picture empty;
+    model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
+                                                      &m->picture_room, sizeof *grown);
+    if (!grown) return -1;
+    m->picture = grown;
+    grown[m->picture_count] = empty;
+    grown[m->picture_count].relief = as_relief;
+    grown[m->picture_count].name = model_text(name, strlen(name));
+    return grown[m->picture_count].name ? m->picture_count++ : -1;
+}
+
+/* Gives a picture its pixels (RGBA8, from malloc) and its mipmaps. */
+static inline void picture_fill(model_picture *p, void *pixels, int width, int height)
+{
+    p->pixels = pixels;
+    p->map.pixels = pixels;
+    p->map.width = width;
+    p->map.height = height;
+    p->map.srgb = !p->relief;
+}
+
+/* Points each texture to its levels, once the array of pictures no longer moves. */
+static void picture_mipmaps(model_picture *p)
+{
+    size_t bytes = shade_mipmap_bytes(p->map.width, p->map.height, SHADE_FORMAT_RGBA8);
+    if (!p->pixels || !bytes) return;
+    p->mipmaps = malloc(bytes);
+    if (!p->mipmaps || shade_build_mipmaps(&p->map, p->level, p->mipmaps, bytes)) return;
+    p->map.filter = SHADE_FILTER_TRILINEAR;
+}
+
+/* The mean square of the slopes of a bump map */
+static double picture_slope_square(const model_picture *p)
+{
+    const size_t width = (size_t)p->map.width, height = (size_t)p->map.height;
+    const double scale[2] = { (double)width / 765, (double)height / 765 };
+    double sum = 0;
+    for (size_t y = 0; y + 1 < height; y++) {
+        for (size_t x = 0; x + 1 < width; x++) {
+            const uint8_t *t = (const uint8_t *)p->pixels + 4 * (width * y + x);
+            const uint8_t *beside[2] = { t + 4, t + 4 * width };
+            for (int a = 0; a < 2; a++) {
+                const uint8_t *b = beside[a];
+                const double rise = scale[a] * (b[0] + b[1] + b[2] - t[0] - t[1] - t[2]);
+                sum += rise * rise;
+            }
+        }
+    }
+    return width > 1 && height > 1 ? sum / (double)((width - 1) * (height - 1)) : 0;
+}
+
+/* Finds out whether a relief holds heights or normals: normals are blue.  Files name either under
+   either name. */
+static void picture_look_at_relief(model_picture *p)
+{
+    const size_t n = (size_t)p->map.width * (size_t)p->map.height;
+    const uint8_t *texel = (const uint8_t *)p->pixels;
+    double blue = 0;
+    for (size_t i = 0; i < n; i++, texel += 4) blue += texel[2] - 0.5 * (texel[0] + texel[1]);
+    p->heights = blue < 40 * (double)n;
+    if (p->heights) p->slope_square = picture_slope_square(p);
+}
+
+/* The kind of a picture's alpha: 0 opaque, 1 some texels wholly clear and the others opaque, 2
+   others */
+static int picture_clearness(const model_picture *p)
+{
+    size_t n = (size_t)p->map.width * (size_t)p->map.height, between = 0, clear = 0;
+    const uint8_t *alpha = (const uint8_t *)p->pixels + 3;
+    for (size_t i = 0; i < n; i++) {
+        clear += alpha[4 * i] < 16;
+        between += alpha[4 * i] >= 16 && alpha[4 * i] < 240;
+    }
+    return between > n / 8 ? 2 : clear || between ? 1 : 0;
+}
+
+#ifdef MODEL_STB
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_MAX_DIMENSIONS 16384
+#include <stb/stb_image.h>
+
+/* Reads one picture.  Returns the error, or NULL. */
+static const char *picture_decode(model_picture *p, const unsigned char *bytes, size_t size)
+{
+    int width, height, channels;
+    unsigned char *pixels;
+    if (size > INT_MAX || !stbi_info_from_memory(bytes, (int)size, &width, &height, &channels))
+        return "no picture that stb_image reads";
+    if ((double)width * height > 1e8) return "a picture of more than 100 million pixels";
+    pixels = stbi_load_from_memory(bytes, (int)size, &width, &height, &channels, 4);
+    if (!pixels) return stbi_failure_reason();
+    picture_fill(p, pixels, width, height);
+    return NULL;
+}
+#else
+static const char *picture_decode(model_picture *p, const unsigned char *bytes, size_t size)
+{
+    (void)p, (void)bytes, (void)size;
+    return "built without stb (libstb-dev), so without pictures on surfaces";
+}
+#endif
+
+/* Reads a picture in the folder of the model, by its whole name, or by the part after its last
+   slash: names from other machines contain folders that do not exist here. */
+static int picture_load(model *m, const char *path, const char *name, int as_relief)
+{
+    char error[300] = "out of memory";
+    unsigned char *bytes = NULL;
+    size_t size = 0, last = 0;
+    int number = picture_add(m, name, as_relief), failed = 1;
+    for (size_t i = 0; name[i]; i++)
+        if (name[i] == '/' || name[i] == '\\') last = i + 1;
+    for (int attempt = 0; attempt < 2 && failed && number >= 0; attempt++) {
+        mesh_reader r = {
+            NULL, NULL, NULL, name, 0, attempt ? NULL : error, attempt ? 0 : sizeof error,
+            NULL, NULL, 0
+        };
+        char *beside = model_beside(path, attempt ? name + last : name);
+        failed = !beside || model_load(&r, beside, MODEL_PICTURE_BYTES, &bytes, &size);
+        if (failed) free(beside);
+        else m->picture[number].path = beside;
+    }
+    if (!failed) {
+        const char *wrong = picture_decode(&m->picture[number], bytes, size);
+        if (wrong) model_warn(m, name, wrong);
+    } else {
+        model_warn(m, path, error);
+    }
+    free(bytes);
+    return number;
+}
+
+/* The number of a picture that a surface names, which is read if it is not there yet */
+static int picture_of(model *m, const char *path, const char *name, int as_relief)
+{
+    const int known = picture_find(m, name, as_relief);
+    return known < 0 ? picture_load(m, path, name, as_relief) : known;
+}
+
+/* Reads each picture that surfaces name once, and finds the kind of its alpha. */
+static void read_pictures(model *m, const char *path)
+{
+    for (int i = 0; i < m->surface_count; i++) {
+        model_surface *s = &m->surface[i];
+        model_relief *r = &s->relief;
+        if (s->map && s->picture < 0) s->picture = picture_of(m, path, s->map, 0);
+        if (s->glow_map && s->glow_picture < 0)
+            s->glow_picture = picture_of(m, path, s->glow_map, 0);
+        if (s->glow_picture >= 0 && !m->picture[s->glow_picture].pixels) s->glow_picture = -1;
+        if (r->map && r->picture < 0) r->picture = picture_of(m, path, r->map, 1);
+        if (r->picture >= 0 && !m->picture[r->picture].pixels) r->picture = -1;
+    }
+    for (int i = 0; i < m->picture_count; i++) {
+        model_picture *p = &m->picture[i];
+        if (p->relief && p->pixels) picture_look_at_relief(p);
+        picture_mipmaps(p);
+    }
+    for (int i = 0; i < m->surface_count; i++) {
+        model_surface *s = &m->surface[i];
+        int clear;
+        if (s->picture < 0 || !m->picture[s->picture].pixels || s->opaque) continue;
+        if (s->alpha_cutoff > 0 || s->blended) continue;
+        clear = picture_clearness(&m->picture[s->picture]);
+        s->blended = clear == 2;
+        s->alpha_cutoff = clear == 1 ? 0.5f : 0;
+    }
+}
+#endif

@@ -1,0 +1,815 @@
+/* native.c - what both packages call, Python's through ctypes: pictures of many meshes, cut
+   bands that threads share, and the equations over arrays of any length.
+
+   The package checks shapes, types and sizes before a call; shade.h checks the rest.  The structs
+   here have twins in shade_h/_native.py, which compares their sizes when it is imported. */
+#if defined(_WIN32) && !defined(SHADEDEF)
+#define SHADEDEF extern __declspec(dllexport)
+#endif
+#define SHADE_IMPLEMENTATION
+#include "shade.h"
+#define MODEL_CENTRED 0    /* Python centres in double, and tells the origin */
+#include "examples/kit/read/files.h"
+#include "examples/shared/bands.h"
+#include "examples/kit/scene/look.h"
+#include "examples/kit/scene/stand.h"
+#include "examples/shared/canvas.h"
+#include "examples/kit/scene/renderer.h"
+#include "examples/shared/label.h"
+
+typedef struct python_item {      /* a mesh in its place */
+    shade_mesh mesh;
+    shade_draw_state state;       /* camera and lights are those of the view */
+    const shade_vec3 *lines;      /* pairs of points in object space */
+    int line_points, two_sided, lines_over;    /* lines_over: nothing hides the lines */
+    float line_width;             /* in pixels of the finished picture */
+    shade_vec4 line_color;
+    int32_t id;                   /* of its part, which is also the number of its pose */
+    int blended;                  /* drawn over what is there; notes and depth leave it out */
+    float opacity, alpha_cutoff;  /* less alpha is discarded; 0: none */
+} python_item;
+
+typedef struct python_view {      /* a camera and where its picture goes */
+    int width, height, samples, channels;    /* channels of rgba: 4 or 3 */
+    shade_mat4 view, projection;
+    shade_vec4 background;                   /* linear; alpha 0: transparent */
+    shade_lighting lighting;
+    const shade_mat4 *poses;                 /* one for each item, or NULL: those of the states */
+    uint8_t *rgba;
+    float *depth, *normals;                  /* each may be NULL; along the axis of view */
+    int32_t *ids;
+    int in_studio;                           /* else lit by lighting */
+    shade_mat4 to_studio;                    /* the scene about the origin, within distance 1 */
+} python_view;
+
+typedef struct light_studio {     /* the thumbnail's light, and all items as one model in it */
+    studio light;
+    ground ground;
+    model scene;
+    shade_mat4 from_world, to_world;
+} light_studio;
+
+typedef struct python_job {
+    const light_studio *studio;   /* NULL: none */
+    const python_item *items;
+    const python_view *views;
+    shade_result *results;        /* of each piece */
+    int item_count, bands;
+    const volatile int *stop;     /* non-zero: the caller does not want the pictures any more */
+} python_job;
+
+/* ---- what a pixel shows ---------------------------------------------------------------------- */
+
+typedef struct painter {          /* of one mesh in one band */
+    const python_view *view;
+    const python_item *item;
+    shade_lighting lighting;
+    shade_vec3 eye;
+    shade_mat4 clip, world;       /* from object space */
+    shade_mat3 normal;
+    int step;                     /* samples along the edge of a pixel; 0: nothing is noted */
+    const look *look;             /* of the surface in the studio; NULL: lit by lighting */
+    const shade_mat4 *to_studio;
+    int uv;                       /* the varying that u is; 0: there is no map */
+} painter;
+
+static void fetch(const float *from, int width, const shade_vertex_ids *in, float *rows)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        const float *p = from + (size_t)width * in->index[i];
+        for (int k = 0; k < width; k++) rows[k * SHADE_LANES + i] = p[k];
+    }
+}
+
+/* Varyings: P and N in the world, then the colour of vertices and the place in the map, where there
+   are any. */
+static void place(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                  shade_vertices *SHADE_RESTRICT out)
+{
+    const painter *p = (const painter *)uniforms;
+    const shade_mesh *mesh = &p->item->mesh;
+    float P[3][SHADE_LANES], N[3][SHADE_LANES];
+    fetch(mesh->positions, 3, in, P[0]);
+    fetch(mesh->normals, 3, in, N[0]);
+    SHADE_EACH_LANE(i) {
+        const shade_vec4 at = shade_v4(P[0][i], P[1][i], P[2][i], 1);
+        const shade_vec4 clip = shade_mat4_transform(p->clip, at);
+        const shade_vec4 world = shade_mat4_transform(p->world, at);
+        out->clip[0][i] = clip.x;
+        out->clip[1][i] = clip.y;
+        out->clip[2][i] = clip.z;
+        out->clip[3][i] = clip.w;
+        out->varying[0][i] = world.x;
+        out->varying[1][i] = world.y;
+        out->varying[2][i] = world.z;
+    }
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 n = shade_mat3_transform(p->normal, shade_v3(N[0][i], N[1][i], N[2][i]));
+        const shade_vec3 unit = shade_normalize(n);
+        out->varying[3][i] = unit.x;
+        out->varying[4][i] = unit.y;
+        out->varying[5][i] = unit.z;
+    }
+    if (mesh->colors) fetch(mesh->colors, 3, in, out->varying[6]);
+    if (p->uv) fetch(mesh->texcoords, 2, in, out->varying[p->uv]);
+}
+
+static void note_normal(float *to, const shade_fragments *in, int i)
+{
+    shade_vec3 N = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
+    N = shade_scale(shade_normalize(N), in->front[i] ? 1.0f : -1.0f);
+    SHADE_MEMCPY(to, &N, sizeof N);
+}
+
+/* Notes what lies at the centre of a pixel.  Fragments of a surface with holes have not been tested
+   for depth yet: the nearest stays, where depth is noted. */
+static void note_pixel(const painter *p, const shade_fragments *in, int i, size_t at)
+{
+    const python_view *v = p->view;
+    const shade_mat4 *m = &v->view;
+    const float depth = -(m->col[0].z * in->varying[0][i] + m->col[1].z * in->varying[1][i] +
+                          m->col[2].z * in->varying[2][i] + m->col[3].z);
+    if (p->item->alpha_cutoff > 0 && v->depth && depth > v->depth[at]) return;
+    if (v->ids) v->ids[at] = p->item->id;
+    if (v->depth) v->depth[at] = depth;
+    if (v->normals) note_normal(v->normals + 3 * at, in, i);
+}
+
+/* Of a surface without holes only fragments that pass the depth test come here, the nearest of a
+   pixel last.  Others are tested after the shader, so that here the nearest counts. */
+static void note(const painter *p, const shade_fragments *in, const shade_colors *colors)
+{
+    for (int i = 0; i < in->count; i++) {
+        const int x = (int)in->x[i], y = (int)in->y[i];
+        if (colors->discard[i]) continue;
+        if (p->step > 1 && (x % p->step != p->step / 2 || y % p->step != p->step / 2)) continue;
+        note_pixel(p, in, i,
+                   (size_t)(y / p->step) * (size_t)p->view->width + (size_t)(x / p->step));
+    }
+}
+
+/* The colours of the map times those of the vertices */
+static const float *albedo_of(const painter *p, const shade_fragments *in, float *texels)
+{
+    const shade_texture *map = p->item->state.diffuse_map;
+    const float *tint = p->item->mesh.colors ? in->varying[6] : NULL;
+    if (!map) return tint;
+    shade_sample_lanes(map, in->varying[p->uv], in->varying[p->uv + 1], in->lod, texels);
+    for (int k = 0; k < 3 && tint; k++)
+        SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= tint[k * SHADE_LANES + i]; }
+    return texels;
+}
+
+static void cut_out(float cutoff, shade_colors *out)
+{
+    SHADE_EACH_LANE(i) { out->discard[i] = out->color[3][i] < cutoff; }
+}
+
+/* The thumbnail's light at places of the world */
+static void paint_in_studio(const painter *p, const shade_rows *rows, int count, float *rgb)
+{
+    look_rows P, N, white;
+    SHADE_EACH_LANE(i) {
+        const shade_vec3 at = shade_v3(rows->position[i], rows->position[i + SHADE_LANES],
+                                       rows->position[i + 2 * SHADE_LANES]);
+        const shade_vec3 n = shade_v3(rows->normal[i], rows->normal[i + SHADE_LANES],
+                                      rows->normal[i + 2 * SHADE_LANES]);
+        lane_put(P[0], i, shade_mat4_transform_point(*p->to_studio, at));
+        lane_put(N[0], i, shade_mat4_transform_direction(*p->to_studio, n));
+        lane_put(white[0], i, shade_v3(1, 1, 1));
+    }
+    look_light(p->look, P[0], N[0], rows->albedo ? rows->albedo : white[0], NULL, count,
+               (float(*)[SHADE_LANES])rgb);
+}
+
+/* Lights front faces by their normals as they are: turned to the viewer, they would leave dark
+   specks along the outline of a coarse mesh.  Back faces have the opposite normals. */
+static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                  shade_colors *SHADE_RESTRICT out)
+{
+    const painter *p = (const painter *)uniforms;
+    float texels[4 * SHADE_LANES], normal[3 * SHADE_LANES];
+    shade_rows rows = { .position = in->varying[0], .normal = normal };
+    for (int k = 0; k < 3; k++)
+        SHADE_EACH_LANE(i) {
+            normal[k * SHADE_LANES + i] = in->front[i] ? in->varying[3 + k][i]
+                                                       : -in->varying[3 + k][i];
+        }
+    rows.albedo = albedo_of(p, in, texels);
+    if (p->look) paint_in_studio(p, &rows, in->count, out->color[0]);
+    else shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
+    if (p->item->state.diffuse_map)
+        SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
+    if (p->item->alpha_cutoff > 0) cut_out(p->item->alpha_cutoff, out);
+    if (p->item->blended)
+        SHADE_EACH_LANE(i) { out->color[3][i] *= p->item->opacity; }
+    else if (p->step) note(p, in, out);
+}
+
+/* Notes alone, where colours have no sample at the centre of a pixel */
+static void survey(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                   shade_colors *SHADE_RESTRICT out)
+{
+    const painter *p = (const painter *)uniforms;
+    float texels[4 * SHADE_LANES];
+    if (p->item->alpha_cutoff > 0) {
+        albedo_of(p, in, texels);
+        SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
+        cut_out(p->item->alpha_cutoff, out);
+    }
+    note(p, in, out);
+}
+
+/* ---- drawing --------------------------------------------------------------------------------- */
+
+static shade_draw_state item_state(const python_item *items, const python_view *v, int i)
+{
+    shade_draw_state state = items[i].state;
+    state.view = v->view;
+    state.projection = v->projection;
+    if (v->poses) state.model = v->poses[items[i].id];
+    if (!items[i].two_sided) state.raster.cull = SHADE_CULL_BACK;
+    if (items[i].blended) {
+        state.raster.blend = SHADE_BLEND_OVER;
+        state.raster.depth_read_only = 1;
+    }
+    return state;
+}
+
+/* Edges lie on faces, and so are drawn a little nearer: in perspective by 1/2000 of their distance,
+   which depends on no near and far, else by 1/1000 of the range of depth. */
+static shade_result draw_edges(const shade_target *target, const python_item *item,
+                               const shade_draw_state *state, int samples)
+{
+    const int parallel = state->projection.col[3].w != 0;
+    const float s = parallel ? 1 : 1 - 5e-4f;
+    shade_line_state pen = { .width = item->line_width * (float)samples, .cap = SHADE_CAP_SQUARE };
+    shade_mat4 to_eye = shade_mat4_mul(state->view, state->model);
+    to_eye = shade_mat4_mul(shade_mat4_scaling(shade_v3(s, s, s)), to_eye);
+    pen.color = item->line_color;
+    pen.raster.depth_test = item->lines_over ? SHADE_COMPARE_ALWAYS : SHADE_COMPARE_LESS_EQUAL;
+    pen.raster.depth_bias = parallel ? -1e-3f : 0;
+    pen.clip_from_points = shade_mat4_mul(state->projection, to_eye);
+    return shade_draw_lines(target, item->lines, item->line_points, &pen, NULL);
+}
+
+/* The surface of an item; a viewer at infinity is far away. */
+static look look_of(const light_studio *s, const python_view *v, const shade_material *material)
+{
+    const shade_mat4 eye = shade_mat4_mul(s->from_world, shade_mat4_inverse(v->view));
+    look k = { .studio = &s->light, .material = *material, .emission = material->emission };
+    k.material.emission = shade_v3(0, 0, 0);
+    k.rough = model_roughness(material->shininess);
+    k.lighting.lights = s->light.lamp;
+    k.lighting.light_count = 2;
+    k.shadows = k.mirrors = 1;
+    k.eye = shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
+    if (v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER) {
+        k.eye = shade_mat4_transform_direction(eye, shade_v3(0, 0, 1));
+        k.eye = shade_scale(shade_normalize(k.eye), 1e4f);
+    }
+    return k;
+}
+
+static painter painter_of(const python_view *v, int step)
+{
+    const shade_mat4 eye = shade_mat4_inverse(v->view);
+    painter p = { .view = v, .lighting = v->lighting, .step = step };
+    p.eye = v->lighting.flags & SHADE_FLAG_INFINITE_VIEWER
+                ? shade_mat4_transform_direction(eye, shade_v3(0, 0, 1))
+                : shade_mat4_transform_point(eye, shade_v3(0, 0, 0));
+    return p;
+}
+
+/* Draws runs of chunks that can be seen; a mesh without chunks whole. */
+static shade_result draw_chunks(const shade_target *target, const shade_mesh *mesh,
+                                const shade_pipeline *pipe, shade_mat4 clip)
+{
+    const shade_chunk *c = mesh->chunks, *end = c + (c ? mesh->chunk_count : 0);
+    shade_result result = SHADE_OK;
+    if (!c)
+        return shade_draw(target, pipe, mesh->indices, mesh->index_count, mesh->vertex_count, NULL);
+    while (c < end && !result) {
+        const int first = c->first;
+        int count = 0;
+        for (; c < end && shade_box_visible(target, clip, 0, c->low, c->high); c++)
+            count += c->count;
+        if (count)
+            result = shade_draw(target, pipe, mesh->indices + 3 * (size_t)first, 3 * count,
+                                mesh->vertex_count, NULL);
+        c += !count;
+    }
+    return result;
+}
+
+static shade_result draw_meshes(const shade_target *target, const python_job *job, painter p,
+                                shade_fragment_shader *fragment)
+{
+    shade_result result = SHADE_OK;
+    look in_studio = { .rough = 1 };
+    if (job->studio) p.to_studio = &job->studio->from_world;
+    for (int i = 0; i < job->item_count && !result; i++) {
+        const shade_draw_state state = item_state(job->items, p.view, i);
+        const shade_mesh *mesh = &job->items[i].mesh;
+        shade_pipeline pipe = { .vertex = place, .fragment = fragment, .uniforms = &p };
+        if (job->studio) in_studio = look_of(job->studio, p.view, state.material);
+        p.look = job->studio ? &in_studio : NULL;
+        if (fragment == survey && job->items[i].blended) continue;
+        p.item = &job->items[i];
+        pipe.may_discard = p.item->alpha_cutoff > 0;
+        p.world = state.model;
+        p.clip = shade_mat4_mul(shade_mat4_mul(state.projection, state.view), state.model);
+        p.normal = shade_normal_matrix(state.model);
+        p.uv = !state.diffuse_map ? 0 : mesh->colors ? 9 : 6;
+        pipe.varyings = p.uv ? p.uv + 2 : mesh->colors ? 9 : 6;
+        pipe.raster = state.raster;
+        pipe.lod_texture = state.diffuse_map;
+        pipe.lod_varying = p.uv;
+        result = draw_chunks(target, mesh, &pipe, p.clip);
+    }
+    return result;
+}
+
+static shade_result draw_colors(const shade_target *target, const python_job *job, painter p)
+{
+    shade_result result = shade_clear(target, p.view->background, 1);
+    if (!result) result = draw_meshes(target, job, p, paint);
+    if (!result && job->studio)
+        result = ground_draw(&job->studio->ground, target, job->studio->to_world, p.view->view,
+                             p.view->projection);
+    for (int i = 0; i < job->item_count && !result; i++) {
+        const shade_draw_state state = item_state(job->items, p.view, i);
+        if (job->items[i].line_points)
+            result = draw_edges(target, &job->items[i], &state, p.view->samples);
+    }
+    return result;
+}
+
+/* Colours over nothing are multiplied by their alpha after the mean; this divides it out. */
+static void divide_alpha(float *rgba, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++, rgba += 4)
+        for (int k = 0; k < 3 && rgba[3] > 0; k++) rgba[k] /= rgba[3];
+}
+
+/* The mean of several samples, through floats where the background is transparent */
+static shade_result resolve(const shade_target *out, const shade_target *in, int samples,
+                            float alpha)
+{
+    const size_t pixels = (size_t)out->width * (size_t)out->row_count;
+    shade_target floats = *out;
+    shade_result result;
+    if (samples == 1) return SHADE_OK;
+    if (alpha >= 1) return shade_resolve(out, in, samples);
+    floats.format = SHADE_FORMAT_RGBA32F;
+    floats.color = malloc(pixels * 16);
+    if (!floats.color) return SHADE_ERROR_CAPACITY;
+    result = shade_resolve(&floats, in, samples);
+    divide_alpha((float *)floats.color, pixels);
+    if (!result) result = shade_resolve(out, &floats, 1);
+    free(floats.color);
+    return result;
+}
+
+static void pack_rgb(uint8_t *rgb, const uint8_t *rgba, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t k = 0; k < 3; k++) rgb[3 * i + k] = rgba[4 * i + k];
+}
+
+static void clear_notes(const python_view *v, size_t first, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++) {
+        if (v->ids) v->ids[first + i] = -1;
+        if (v->depth) v->depth[first + i] = HUGE_VALF;
+    }
+    if (v->normals) memset(v->normals + 3 * first, 0, 12 * pixels);
+}
+
+/* Draws the rows of out with samples in large's.  An odd number of samples has one at the centre of
+   the pixel; else what lies there is drawn apart. */
+static shade_result draw_rows(const python_job *job, const python_view *v, shade_target *out,
+                              shade_target *large)
+{
+    shade_result result;
+    const size_t first = (size_t)out->row_offset * (size_t)v->width;
+    const size_t pixels = (size_t)out->row_count * (size_t)v->width;
+    const int noted = v->ids || v->depth || v->normals, apart = noted && v->samples % 2 == 0;
+    painter p = painter_of(v, noted && !apart ? v->samples : 0);
+    if (noted) clear_notes(v, first, pixels);
+    result = draw_colors(large, job, p);
+    if (!result) result = resolve(out, large, v->samples, v->background.w);
+    if (result) return result;
+    if (v->channels == 3) pack_rgb(v->rgba + 3 * first, (const uint8_t *)out->color, pixels);
+    if (!apart) return SHADE_OK;
+    out->color = large->color;    /* which nobody reads any more */
+    out->depth = large->depth;
+    p.step = 1;
+    result = shade_clear(out, shade_v4(0, 0, 0, 0), 1);
+    return result ? result : draw_meshes(out, job, p, survey);
+}
+
+/* Draws rows whose targets have no memory yet.  A picture of one sample a pixel is drawn where it
+   stays. */
+static shade_result draw_strip(const python_job *job, const python_view *v, shade_target *out,
+                               shade_target *large)
+{
+    const size_t first = 4 * (size_t)out->row_offset * (size_t)v->width;
+    const size_t bytes = 4 * (size_t)out->row_count * (size_t)v->width;
+    const size_t most = bytes * (size_t)(v->samples * v->samples);
+    const int in_place = v->channels == 4;
+    shade_result result = SHADE_ERROR_CAPACITY;
+    void *own = in_place ? NULL : malloc(bytes), *depth = malloc(most);
+    void *color = v->samples > 1 ? malloc(most) : NULL;
+    out->color = in_place ? (void *)(v->rgba + first) : own;
+    large->color = v->samples > 1 ? color : out->color;
+    large->depth = (float *)depth;
+    if (out->color && large->color && depth) result = draw_rows(job, v, out, large);
+    free(own);
+    free(depth);
+    free(color);
+    return result;
+}
+
+static shade_result draw_share(const python_job *job, const python_view *v, int band)
+{
+    const long long rows = v->height;
+    shade_target out = { .width = v->width, .height = v->height, .srgb = 1 }, large;
+    out.row_offset = (int)(rows * band / job->bands);
+    out.row_count = (int)(rows * (band + 1) / job->bands) - out.row_offset;
+    large = out;
+    large.width *= v->samples;
+    large.height *= v->samples;
+    large.row_offset *= v->samples;
+    large.row_count *= v->samples;
+    return out.row_count ? draw_strip(job, v, &out, &large) : SHADE_OK;
+}
+
+static void draw_piece(void *data, int piece)
+{
+    const python_job *job = (const python_job *)data;
+    if (!job->stop || !*job->stop)
+        job->results[piece] = draw_share(job, &job->views[piece / job->bands], piece % job->bands);
+}
+
+/* Bands enough for the threads, and so many that one has no more than 8 million samples.  Each band
+   looks at the triangles anew: of a mesh of many, in no order in space, a thread draws one band. */
+static int bands_of(const python_view *v, double triangles, int views, int threads)
+{
+    const double samples = (double)v->width * v->height * v->samples * v->samples;
+    const int least = 1 + (int)(samples / 8e6);
+    const int wanted = views >= 2 * threads ? 1
+                     : 8 * triangles > samples ? threads : bands_count(threads, v->height);
+    const int most = least > wanted ? least : wanted;
+    return most < v->height ? most : v->height;
+}
+
+/* ---- the studio ------------------------------------------------------------------------------ */
+
+/* Appends an item to the mesh of the studio, which has room. */
+static void append(owned_mesh *m, const shade_mesh *from, shade_mat4 place)
+{
+    const size_t vertices = (size_t)m->view.vertex_count;
+    float *to = m->positions + 3 * vertices;
+    for (int k = 0; k < from->index_count; k++)
+        m->indices[m->view.index_count++] = (uint32_t)vertices + from->indices[k];
+    for (int k = 0; k < from->vertex_count; k++, to += 3) {
+        const float *p = from->positions + 3 * (size_t)k;
+        const shade_vec3 q = shade_mat4_transform_point(place, shade_v3(p[0], p[1], p[2]));
+        memcpy(to, &q, sizeof q);
+    }
+    m->view.vertex_count += from->vertex_count;
+}
+
+/* All items as one mesh in the studio.  Non-zero: out of memory, or too large for one mesh */
+static int gather(light_studio *s, const python_item *items, int count)
+{
+    double vertices = 0, indices = 0;
+    owned_mesh *m = &s->scene.mesh;
+    for (int i = 0; i < count; i++) {
+        vertices += items[i].mesh.vertex_count;
+        indices += items[i].mesh.index_count;
+    }
+    if (vertices > INT_MAX || indices > INT_MAX) return 1;
+    m->positions = (float *)calloc((size_t)vertices + 1, 3 * sizeof(float));
+    m->indices = (uint32_t *)calloc((size_t)indices + 1, sizeof(uint32_t));
+    s->scene.part = (model_part *)calloc(1, sizeof *s->scene.part);
+    if (!m->positions || !m->indices || !s->scene.part) return 1;
+    mesh_link(m, 0, 0);
+    for (int i = 0; i < count; i++)
+        append(m, &items[i].mesh, shade_mat4_mul(s->from_world, items[i].state.model));
+    s->scene.part->count = m->view.index_count;
+    s->scene.part_count = 1;
+    return 0;
+}
+
+static void close_studio(light_studio *s)
+{
+    if (!s) return;
+    model_free(&s->scene);
+    ground_free(&s->ground);
+    free(s->light.memory);
+    free(s);
+}
+
+/* The shadows that the items throw on each other and the ground.  NULL: out of memory */
+static light_studio *open_studio(const python_item *items, int count, const python_view *v,
+                                 int threads)
+{
+    light_studio *s = (light_studio *)calloc(1, sizeof *s);
+    const int pixels = v->width > v->height ? v->width : v->height;
+    if (!s) return NULL;
+    s->from_world = v->to_studio;
+    s->to_world = shade_mat4_inverse(v->to_studio);
+    if (!gather(s, items, count) && s->scene.part->count &&
+        !studio_open(&s->light, &s->scene, pixels, 0, threads, NULL, NULL) &&
+        !studio_cast(&s->ground, &s->light, &s->scene.mesh, threads))
+        return s;
+    close_studio(s);
+    return NULL;
+}
+
+/* Draws views of one size, by so many threads (0: one a core).  Only a single view may be in the
+   studio.  Once *stop is set, which may be NULL, the rest of the pictures is left out.  Returns the
+   first result that is no success. */
+SHADEDEF int python_draw(const python_item *items, int item_count, const python_view *views,
+                         int view_count, int threads, const volatile int *stop);
+int python_draw(const python_item *items, int item_count, const python_view *views, int view_count,
+                int threads, const volatile int *stop)
+{
+    python_job job = { NULL, items, views, NULL, item_count, 1, stop };
+    light_studio *light = NULL;
+    shade_result result = SHADE_OK;
+    double triangles = 0;
+    int pieces;
+    if (view_count < 1) return SHADE_OK;
+    if (threads < 1) threads = bands_cores();
+    for (int i = 0; i < item_count; i++) triangles += items[i].mesh.index_count / 3;
+    job.bands = bands_of(views, triangles, view_count, threads);
+    if (job.bands > INT_MAX / view_count) return SHADE_ERROR_CAPACITY;
+    pieces = view_count * job.bands;
+    job.results = (shade_result *)calloc((size_t)pieces, sizeof *job.results);
+    if (job.results && views->in_studio && triangles > 0) {
+        job.studio = light = open_studio(items, item_count, views, threads);
+        if (!light) result = SHADE_ERROR_CAPACITY;
+    }
+    if (!job.results) return SHADE_ERROR_CAPACITY;
+    if (!result) bands_run(threads, pieces, draw_piece, &job);
+    for (int i = 0; i < pieces && !result; i++) result = job.results[i];
+    free(job.results);
+    close_studio(light);
+    return (int)result;
+}
+
+/* ---- the equations over arrays --------------------------------------------------------------- */
+
+enum { ROWS = 3 * SHADE_LANES };
+
+/* Three rows from count points, and back; lanes from count on repeat the last point. */
+static void rows_from(float *rows, const float *points, size_t count)
+{
+    SHADE_EACH_LANE(i)
+    {
+        size_t at = (size_t)i < count ? (size_t)i : count - 1;
+        for (size_t k = 0; k < 3; k++) rows[k * SHADE_LANES + (size_t)i] = points[3 * at + k];
+    }
+}
+
+static void rows_to(float *points, const float *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < 3; k++) points[3 * i + k] = rows[k * SHADE_LANES + i];
+}
+
+/* shade_lit for count points: positions, normals and rgb have three floats a point.  albedo may be
+   NULL. */
+SHADEDEF void python_lit(const shade_lighting *lighting, const shade_material *material,
+                         const float *eye, const float *const arrays[3], size_t count, float *rgb);
+void python_lit(const shade_lighting *lighting, const shade_material *material, const float *eye,
+                const float *const arrays[3], size_t count, float *rgb)
+{
+    float rows[3][ROWS], lit[ROWS];
+    for (size_t i = 0; i < count; i += SHADE_LANES) {
+        size_t n = count - i < SHADE_LANES ? count - i : SHADE_LANES;
+        for (int a = 0; a < 3; a++)
+            if (arrays[a]) rows_from(rows[a], arrays[a] + 3 * i, n);
+        const shade_rows in = { .position = rows[0], .normal = rows[1],
+                                .albedo = arrays[2] ? rows[2] : NULL };
+        shade_lit_lanes(lighting, material, shade_v3(eye[0], eye[1], eye[2]), &in, lit);
+        rows_to(rgb + 3 * i, lit, n);
+    }
+}
+
+/* shade_light_at for count points */
+SHADEDEF void python_light_at(const shade_light *light, const float *points, size_t count,
+                              float *amount, float *to_light, float *distance);
+void python_light_at(const shade_light *light, const float *points, size_t count, float *amount,
+                     float *to_light, float *distance)
+{
+    for (size_t i = 0; i < count; i++) {
+        const float *p = points + 3 * i;
+        shade_vec3 L;
+        amount[i] = shade_light_at(light, shade_v3(p[0], p[1], p[2]), &L, &distance[i]);
+        SHADE_MEMCPY(to_light + 3 * i, &L, sizeof L);
+    }
+}
+
+/* shade_linear_from_srgb for count colours, in place */
+SHADEDEF void python_linear(float *rgb, size_t count);
+void python_linear(float *rgb, size_t count)
+{
+    for (size_t i = 0; i < count; i++, rgb += 3) {
+        shade_vec3 c = shade_linear_from_srgb(shade_v3(rgb[0], rgb[1], rgb[2]));
+        SHADE_MEMCPY(rgb, &c, sizeof c);
+    }
+}
+
+/* ---- corners that are alike become one vertex ------------------------------------------------ */
+
+/* The unit normal of each corner's face */
+SHADEDEF void python_face_normals(const shade_mesh *mesh, float *normals);
+void python_face_normals(const shade_mesh *mesh, float *normals)
+{
+    for (int i = 0; i < mesh->index_count; i += 3) {
+        shade_vec3 p[3], N;
+        for (int k = 0; k < 3; k++)
+            memcpy(&p[k], mesh->positions + 3 * (size_t)mesh->indices[i + k], sizeof p[k]);
+        N = shade_face_normal(p[0], p[1], p[2]);
+        for (int k = 0; k < 3; k++, normals += 3) memcpy(normals, &N, sizeof N);
+    }
+}
+
+/* Gives each corner the number of the first one with its vertex and its value, of width floats, and
+   returns how many differ.  made has their corners.  Of a vertex with many values the last ones
+   alone are compared.  first, of vertex_count, and next, of count, are scratch. */
+SHADEDEF int python_weld(const uint32_t *vertex, int count, const float *value, int width,
+                         uint32_t *index, uint32_t *made, int32_t *first, int32_t *next);
+int python_weld(const uint32_t *vertex, int count, const float *value, int width, uint32_t *index,
+                uint32_t *made, int32_t *first, int32_t *next)
+{
+    const size_t floats = (size_t)width, bytes = floats * sizeof *value;
+    int n = 0;
+    for (int i = 0; i < count; i++) {
+        int32_t *head = &first[vertex[i]], at = *head;
+        int steps = 0;
+        while (at >= 0 && memcmp(value + floats * made[at], value + floats * (size_t)i, bytes))
+            at = ++steps < 16 ? next[at] : -1;
+        if (at < 0) {
+            made[n] = (uint32_t)i;
+            next[n] = *head;
+            *head = at = n++;
+        }
+        index[i] = (uint32_t)at;
+    }
+    return n;
+}
+
+/* ---- text ------------------------------------------------------------------------------------ */
+
+static float text_glyph(const shade_target *t, int code, float x, float y, float size)
+{
+    const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
+    int k = 0, shape = 0;
+    while (k < glyphs && font_glyphs[k].code != code) k++;
+    if (k == glyphs) k = '?' - ' ';    /* the table begins with those of ASCII */
+    for (int i = 0; i < k; i++)
+        shape += (font_glyphs[i].width * font_glyphs[i].height + 1) / 2;
+    if (t->color) label_glyph(t, &font_glyphs[k], shape, x, y, size / 24, shade_v3(1, 1, 1));
+    return size * (float)font_glyphs[k].advance / 240;
+}
+
+/* Writes text in white from x on, y its baseline, over bytes of RGBA that were 0, so that red tells
+   how much of a pixel is covered; rgba NULL: nowhere.  size is the em in pixels.  Unlike label_set
+   it has no signs for raised letters.  The sign of a diameter is made of O and /, what the font
+   lacks is a question mark.  Returns the width. */
+SHADEDEF float python_text(const char *text, float size, float x, float y, unsigned char *rgba,
+                           int width, int height);
+float python_text(const char *text, float size, float x, float y, unsigned char *rgba, int width,
+                  int height)
+{
+    const shade_target t = { .color = rgba, .width = width, .height = height };
+    const float start = x;
+    while (*text) {
+        const int code = label_code(&text), diameter = code == 0xD8 || code == 0x2300;
+        if (diameter) text_glyph(&t, '/', x + size / 8, y, size);
+        x += text_glyph(&t, diameter ? 'O' : code, x, y, size);
+    }
+    return x - start;
+}
+
+/* ---- files of models ------------------------------------------------------------------------- */
+
+/* Python takes a model for its mesh, which must be what it begins with. */
+typedef char python_mesh_first[offsetof(model, mesh) == 0 ? 1 : -1];
+
+/* Reads an OBJ, STL or PLY file from memory; what stands beside path, which may be NULL, describes
+   its surfaces.  name stands in messages, and its end tells the format where there is one.  Returns
+   NULL with a sentence in error. */
+SHADEDEF model *python_read(const void *bytes, size_t size, const char *name, const char *path,
+                            char *error, size_t room);
+model *python_read(const void *bytes, size_t size, const char *name, const char *path, char *error,
+                   size_t room)
+{
+    const model_request q = { error, room, NULL, NULL, 0 };
+    model *m = (model *)calloc(1, sizeof *m);
+    if (m && !model_read_memory(bytes, size, name, m, &q)) {
+        if (path) model_read_libraries(path, m);
+        return m;
+    }
+    free(m);
+    return NULL;
+}
+
+SHADEDEF void python_unload(model *m);
+void python_unload(model *m)
+{
+    if (m) model_free(m);
+    free(m);
+}
+
+/* What the file lacks, or "" */
+SHADEDEF const char *python_warning(const model *m);
+const char *python_warning(const model *m) { return m->warning[0] ? m->warning : m->note; }
+
+/* The upright axis, 0 .. 5 for x y z -x -y -z: that of the format, or a guess as in the programs */
+SHADEDEF int python_upright(const model *m);
+int python_upright(const model *m)
+{
+    const int usual = m->z_up ? 2 : 1;
+    return m->up_told ? usual : stand_guess(&m->mesh, usual);
+}
+
+/* A run of triangles of one surface */
+typedef struct python_part {
+    int first, count;    /* of the indices */
+    float color[3], transparency;
+    const char *map;     /* the name of its picture, or NULL */
+    int set, opaque;     /* the file says something of it; the alpha of the map is ignored */
+} python_part;
+
+/* Writes run i and returns how many there are; with part NULL it only counts. */
+SHADEDEF int python_part_of(const model *m, int i, python_part *part);
+int python_part_of(const model *m, int i, python_part *part)
+{
+    const model_part *from = m->part + i;
+    const model_surface *s = m->surface_count ? &m->surface[from->surface] : NULL;
+    if (!part || i < 0 || i >= m->part_count) return m->part_count;
+    memset(part, 0, sizeof *part);
+    part->first = from->first;
+    part->count = from->count;
+    if (!s) return m->part_count;
+    memcpy(part->color, &s->material.diffuse, sizeof part->color);
+    part->transparency = s->transparency >= 1 ? 0 : s->transparency;
+    part->map = m->mesh.texcoords ? s->map : NULL;
+    part->set = s->set;
+    part->opaque = s->opaque;
+    return m->part_count;
+}
+
+/* ---- cameras of renderer.h ------------------------------------------------------------------- */
+
+SHADEDEF renderer_scene *python_scene_open(void);
+renderer_scene *python_scene_open(void) { return renderer_scene_open(); }
+
+SHADEDEF void python_scene_close(renderer_scene *scene);
+void python_scene_close(renderer_scene *scene) { renderer_scene_close(scene); }
+
+SHADEDEF int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh, int smooth);
+int python_scene_mesh(renderer_scene *scene, const shade_mesh *mesh, int smooth)
+{
+    return renderer_add_mesh(scene, mesh, smooth);
+}
+
+SHADEDEF int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
+                                  int faces, int srgb);
+int python_scene_texture(renderer_scene *scene, const uint8_t *rgba, int width, int height,
+                         int faces, int srgb)
+{
+    return renderer_add_texture(scene, rgba, width, height, faces, srgb);
+}
+
+SHADEDEF renderer *python_renderer_open(void);
+renderer *python_renderer_open(void) { return renderer_open(); }
+
+SHADEDEF void python_renderer_close(renderer *r);
+void python_renderer_close(renderer *r) { renderer_close(r); }
+
+SHADEDEF int python_renderer_draw(renderer *r, const renderer_scene *scene,
+                                  const renderer_picture *picture);
+int python_renderer_draw(renderer *r, const renderer_scene *scene, const renderer_picture *picture)
+{
+    return (int)renderer_draw(r, scene, picture);
+}
+
+/* The sizes that the twins of these structs must have */
+SHADEDEF size_t python_size(int which);
+size_t python_size(int which)
+{
+    static const size_t size[] = { sizeof(shade_mesh),     sizeof(shade_draw_state),
+                                   sizeof(python_item),    sizeof(python_view),
+                                   sizeof(shade_lighting), sizeof(shade_texture),
+                                   sizeof(shade_light),    sizeof(shade_chunk),
+                                   sizeof(python_part),    sizeof(renderer_object),
+                                   sizeof(renderer_picture) };
+    return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
+}

@@ -1,0 +1,462 @@
+/* assimp.h - reads every format that assimp reads, as a model: its meshes where the tree of nodes
+   puts them, their materials in the terms of shade.h, and embedded pictures. */
+#ifndef MODEL_ASSIMP_H
+#define MODEL_ASSIMP_H
+
+#include "../image/pictures.h"
+#include "faces.h"
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/GltfMaterial.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/config.h>
+#include <errno.h>
+
+/* ---- meshes --------------------------------------------------------------------------------- */
+
+typedef struct tree {
+    const struct aiScene *scene;
+    mesh_reader *reader;
+    mesh_floats positions, normals, texcoords, colors;
+    faces faces;
+    model *model; /* gets the names of nodes */
+    int textured, colored, lacks_normals, linear;
+    unsigned depth;
+} tree;
+
+static shade_mat4 tree_matrix(const struct aiMatrix4x4 *a)
+{
+    shade_mat4 m = { { { a->a1, a->b1, a->c1, a->d1 },
+                       { a->a2, a->b2, a->c2, a->d2 },
+                       { a->a3, a->b3, a->c3, a->d3 },
+                       { a->a4, a->b4, a->c4, a->d4 } } };
+    return m;
+}
+
+static int tree_finite(shade_vec3 v)
+{
+    return fabsf(v.x) <= 1e30f && fabsf(v.y) <= 1e30f && fabsf(v.z) <= 1e30f;
+}
+
+/* The texture coordinates that the material of a mesh takes, or where there are no such ones the
+   first; NULL: there are none */
+static const struct aiVector3D *tree_texcoords(const tree *t, const struct aiMesh *mesh)
+{
+    const unsigned material = mesh->mMaterialIndex;
+    unsigned set = 0;
+    if (material < (unsigned)t->model->surface_count) set = t->model->surface[material].texcoords;
+    if (set >= AI_MAX_NUMBER_OF_TEXTURECOORDS || !mesh->mTextureCoords[set]) set = 0;
+    return mesh->mTextureCoords[set];
+}
+
+static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat4 at,
+                       shade_mat3 turn)
+{
+    const struct aiVector3D p = mesh->mVertices[i], *coords = tree_texcoords(t, mesh);
+    shade_vec3 P = shade_mat4_transform_point(at, shade_v3(p.x, p.y, p.z));
+    shade_vec3 N = shade_v3(0, 0, 0), C = shade_v3(1, 1, 1);
+    float uv[2] = { 0, 0 };
+    if (!tree_finite(P)) return mesh_fail(t->reader, "a position is not finite");
+    if (mesh->mNormals) {
+        const struct aiVector3D n = mesh->mNormals[i];
+        N = shade_normalize(shade_mat3_transform(turn, shade_v3(n.x, n.y, n.z)));
+        if (!tree_finite(N)) N = shade_v3(0, 0, 0);
+    }
+    if (N.x == 0 && N.y == 0 && N.z == 0) t->lacks_normals = 1;
+    if (mesh->mColors[0]) {
+        const struct aiColor4D c = mesh->mColors[0][i];
+        C = shade_v3(c.r, c.g, c.b);
+        C = t->linear ? shade_clamp(C, shade_v3(0, 0, 0), shade_v3(1, 1, 1))
+                      : shade_linear_from_srgb(C);
+        t->colored = 1;
+    }
+    if (coords) {
+        const struct aiVector3D v = coords[i];
+        if (fabsf(v.x) < 1e6f && fabsf(v.y) < 1e6f) {
+            uv[0] = v.x;
+            uv[1] = v.y;
+        }
+        t->textured = 1;
+    }
+    if (mesh_push(&t->positions, (const float *)&P, 3) ||
+        mesh_push(&t->normals, (const float *)&N, 3) ||
+        mesh_push(&t->colors, (const float *)&C, 3) || mesh_push(&t->texcoords, uv, 2))
+        return mesh_fail(t->reader, "out of memory");
+    return 0;
+}
+
+static int tree_mesh(tree *t, const struct aiMesh *mesh, shade_mat4 at)
+{
+    size_t first = t->positions.count / 3;
+    shade_mat3 turn = shade_normal_matrix(at);
+    int mirrored = shade_mat3_determinant(shade_mat3_from_mat4(at)) < 0;
+    if (!mesh->mNumFaces ||
+        !(mesh->mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON)))
+        return 0;
+    if (first + mesh->mNumVertices >= INT_MAX) return mesh_fail(t->reader, "too many vertices");
+    if (faces_surface(&t->faces, (int)mesh->mMaterialIndex))
+        return mesh_fail(t->reader, "out of memory");
+    for (unsigned i = 0; i < mesh->mNumVertices; i++)
+        if (tree_vertex(t, mesh, i, at, turn)) return 1;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+        const struct aiFace *f = &mesh->mFaces[i];
+        if (faces_begin(&t->faces)) return mesh_fail(t->reader, "out of memory");
+        for (unsigned k = 0; k < f->mNumIndices; k++) {
+            unsigned corner = f->mIndices[mirrored ? f->mNumIndices - 1 - k : k];
+            if (corner >= mesh->mNumVertices)
+                return mesh_fail(t->reader, "a corner is out of range");
+            if (faces_corner(&t->faces, (uint32_t)(first + corner)))
+                return mesh_fail(t->reader, "out of memory");
+        }
+        faces_end(&t->faces);
+        if (mesh_check_triangles(t->reader, t->faces.triangles)) return 1;
+    }
+    return 0;
+}
+
+static int tree_node(tree *t, const struct aiNode *node, shade_mat4 above)
+{
+    shade_mat4 at = shade_mat4_mul(above, tree_matrix(&node->mTransformation));
+    int failed = 0, object;
+    if (t->depth > 1000) return mesh_fail(t->reader, "nodes more than 1000 deep");
+    if (node->mNumMeshes) {
+        object = model_add_object(t->model, node->mName.data, strlen(node->mName.data));
+        if (object < 0 || faces_object(&t->faces, object))
+            return mesh_fail(t->reader, "out of memory");
+    }
+    for (unsigned i = 0; i < node->mNumMeshes && !failed; i++)
+        failed = tree_mesh(t, t->scene->mMeshes[node->mMeshes[i]], at);
+    t->depth++;
+    for (unsigned i = 0; i < node->mNumChildren && !failed; i++)
+        failed = tree_node(t, node->mChildren[i], at);
+    t->depth--;
+    return failed;
+}
+
+/* ---- materials ------------------------------------------------------------------------------ */
+
+/* A colour of a material, in linear light; returns 0 where the material has none. */
+static int take_material_color(const struct aiMaterial *a, const char *key, int linear,
+                               shade_vec3 *out, float *alpha)
+{
+    struct aiColor4D c = { 0, 0, 0, 1 };
+    if (aiGetMaterialColor(a, key, 0, 0, &c) != aiReturn_SUCCESS) return 0;
+    *out = shade_v3(c.r, c.g, c.b);
+    *out = linear ? shade_clamp(*out, shade_v3(0, 0, 0), shade_v3(1, 1, 1))
+                  : shade_linear_from_srgb(*out);
+    if (alpha) *alpha = c.a;
+    return 1;
+}
+
+static float take_material_float(const struct aiMaterial *a, const char *key, float none)
+{
+    float v = none;
+    unsigned count = 1;
+    if (aiGetMaterialFloatArray(a, key, 0, 0, &v, &count) != aiReturn_SUCCESS) return none;
+    return v >= 0 ? v : none;
+}
+
+/* Metal has its colour in the highlight and the reflection; the studio is too plain to mirror
+   alone, so that part of it stays diffuse.
+   Roughness r becomes the exponent of a lobe as wide, 2 / r^4 - 2, and rough highlights dim. */
+static void material_from_roughness(const struct aiMaterial *a, model_surface *s)
+{
+    shade_material *k = &s->material;
+    float metal = fminf(1, take_material_float(a, "$mat.metallicFactor", 0));
+    float rough = fminf(1, fmaxf(0.2f, take_material_float(a, "$mat.roughnessFactor", 0.7f)));
+    float square = rough * rough, gloss = (1 - rough) * (1 - 0.5f * rough);
+    shade_vec3 base = k->diffuse, plain = shade_v3(0.25f, 0.25f, 0.25f);
+    k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
+    k->diffuse = k->ambient = shade_scale(base, 1 - 0.55f * metal);
+    s->metal = metal;
+    s->rough = rough;
+    k->shininess = fmaxf(1, 2 / (square * square) - 2);
+}
+
+static void material_from_gloss(const struct aiMaterial *a, shade_material *k)
+{
+    float strength = fminf(1, take_material_float(a, "$mat.shinpercent", 1));
+    k->shininess = take_material_float(a, "$mat.shininess", 0);
+    k->specular = shade_v3(0, 0, 0);
+    take_material_color(a, "$clr.specular", 0, &k->specular, NULL);
+    k->specular = shade_scale(k->specular, strength);
+    if (k->shininess < 1) k->specular = shade_v3(0, 0, 0);
+}
+
+/* 1: the material says only what materials without a colour are taken to say: white rough metal. */
+static int says_nothing(const struct aiMaterial *a, const shade_material *k)
+{
+    const shade_vec3 c = k->diffuse, e = k->emission;
+    return c.x >= 1 && c.y >= 1 && c.z >= 1 && e.x + e.y + e.z <= 0 &&
+           take_material_float(a, "$mat.metallicFactor", 0) >= 1 &&
+           take_material_float(a, "$mat.roughnessFactor", 0) >= 1;
+}
+
+/* What glTF says of alpha */
+static void alpha_from(model_surface *s, const struct aiMaterial *a)
+{
+    struct aiString mode;
+    if (aiGetMaterialString(a, "$mat.gltf.alphaMode", 0, 0, &mode) != aiReturn_SUCCESS) return;
+    s->opaque = !strcmp(mode.data, "OPAQUE");
+    s->blended = !strcmp(mode.data, "BLEND");
+    if (!strcmp(mode.data, "MASK"))
+        s->alpha_cutoff = fmaxf(1e-6f, take_material_float(a, "$mat.gltf.alphaCutoff", 0.5f));
+    if (!s->blended) s->transparency = 0;
+}
+
+/* The picture for k_d; physical: the material's base colour multiplies it.  Returns 1 where memory
+   is out. */
+static int map_from(model_surface *s, const struct aiMaterial *a, int physical)
+{
+    static const enum aiTextureType types[2] = { aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE };
+    shade_material *k = &s->material;
+    struct aiString text;
+    for (int i = 0; i < 2 && !s->map; i++) {
+        unsigned set = 0;
+        if (aiGetMaterialTexture(a, types[i], 0, &text, NULL, &set, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+            continue;
+        s->texcoords = set;
+        s->map = model_text(text.data, strlen(text.data));
+        s->set = 1;
+        if (!s->map) return 1;
+        /* a map replaces the colour: some formats leave it black beside a map */
+        if (!physical && k->diffuse.x + k->diffuse.y + k->diffuse.z == 0)
+            k->diffuse = k->ambient = shade_v3(0.8f, 0.8f, 0.8f);
+    }
+    return 0;
+}
+
+/* The bump or normal map of a material, unless it has other texture coordinates than the colours.
+   Returns 1 where memory is out. */
+static int relief_from(model_surface *s, const struct aiMaterial *a)
+{
+    static const enum aiTextureType types[2] = { aiTextureType_NORMALS, aiTextureType_HEIGHT };
+    model_relief *r = &s->relief;
+    struct aiString text;
+    for (int i = 0; i < 2 && !r->map; i++) {
+        unsigned set = 0;
+        if (aiGetMaterialTexture(a, types[i], 0, &text, NULL, &set, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+            continue;
+        if (s->map && set != s->texcoords) continue;
+        s->texcoords = set;
+        r->map = model_text(text.data, strlen(text.data));
+        if (!r->map) return 1;
+        aiGetMaterialFloatArray(a, "$tex.scale", types[i], 0, &r->strength, NULL);
+        r->strength = fabsf(r->strength);
+    }
+    return 0;
+}
+
+/* The picture of what shines, unless it has other texture coordinates than the others.  Returns 1
+   where memory is out. */
+static int glow_from(model_surface *s, const struct aiMaterial *a)
+{
+    static const enum aiTextureType types[2] = { aiTextureType_EMISSIVE,
+                                                 aiTextureType_EMISSION_COLOR };
+    struct aiString text;
+    for (int i = 0; i < 2 && !s->glow_map; i++) {
+        unsigned set = 0;
+        if (aiGetMaterialTexture(a, types[i], 0, &text, NULL, &set, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+            continue;
+        if ((s->map || s->relief.map) && set != s->texcoords) {
+            s->material.emission = shade_v3(0, 0, 0);
+            continue;
+        }
+        s->texcoords = set;
+        s->set = 1;
+        s->glow_map = model_text(text.data, strlen(text.data));
+        if (!s->glow_map) return 1;
+    }
+    return 0;
+}
+
+static int surface_from(model_surface *s, const struct aiMaterial *a, int linear)
+{
+    struct aiString text;
+    shade_material *k = &s->material;
+    float alpha = 1;
+    int base = take_material_color(a, "$clr.base", linear, &k->diffuse, &alpha);
+    int named = aiGetMaterialString(a, "?mat.name", 0, 0, &text) == aiReturn_SUCCESS;
+    s->set = !named || strcmp(text.data, AI_DEFAULT_MATERIAL_NAME) != 0;
+    if (!base) take_material_color(a, "$clr.diffuse", linear, &k->diffuse, NULL);
+    k->ambient = k->diffuse;
+    take_material_color(a, "$clr.emissive", linear, &k->emission, NULL);
+    if (!named && says_nothing(a, k)) s->set = 0;
+    s->transparency = 1 - fminf(alpha, fminf(1, take_material_float(a, "$mat.opacity", 1)));
+    if (base)
+        material_from_roughness(a, s);
+    else
+        material_from_gloss(a, k);
+    alpha_from(s, a);
+    if (map_from(s, a, base) || relief_from(s, a) || glow_from(s, a)) return 1;
+    model_glow(s, linear);
+    return 0;
+}
+
+/* "*2" is the third embedded picture; others have the name of their former file. */
+static const struct aiTexture *find_embedded(const struct aiScene *scene, const char *name)
+{
+    for (unsigned i = 0; i < scene->mNumTextures; i++) {
+        char number[16];
+        snprintf(number, sizeof number, "*%u", i);
+        if (!strcmp(name, number) || !strcmp(name, scene->mTextures[i]->mFilename.data))
+            return scene->mTextures[i];
+    }
+    return NULL;
+}
+
+/* Embedded pictures: a file in memory where the height is 0, else texels of B, G, R, A.  Returns
+   the number of the picture, or -1: out of memory. */
+static int embedded_picture(model *m, const char *name, const struct aiTexture *t, int as_relief)
+{
+    const int number = picture_add(m, name, as_relief);
+    model_picture *p;
+    if (number < 0) return number;
+    p = &m->picture[number];
+    if (!t->mHeight) {
+        const char *wrong = picture_decode(p, (const unsigned char *)t->pcData, t->mWidth);
+        if (wrong) model_warn(m, name, wrong);
+    } else if (t->mWidth && t->mWidth <= 16384 && t->mHeight <= 16384) {
+        size_t n = (size_t)t->mWidth * t->mHeight;
+        uint8_t *pixels = (uint8_t *)malloc(4 * n);
+        for (size_t i = 0; pixels && i < n; i++) {
+            pixels[4 * i] = t->pcData[i].r;
+            pixels[4 * i + 1] = t->pcData[i].g;
+            pixels[4 * i + 2] = t->pcData[i].b;
+            pixels[4 * i + 3] = t->pcData[i].a;
+        }
+        if (pixels) picture_fill(p, pixels, (int)t->mWidth, (int)t->mHeight);
+    }
+    return number;
+}
+
+/* The number of a picture inside the file; -1: it is beside it, or there is none. */
+static int tree_picture(tree *t, const char *name, int as_relief)
+{
+    const int known = name ? picture_find(t->model, name, as_relief) : -1;
+    const struct aiTexture *embedded = name && known < 0 ? find_embedded(t->scene, name) : NULL;
+    return embedded ? embedded_picture(t->model, name, embedded, as_relief) : known;
+}
+
+static int tree_surfaces(tree *t, model *m)
+{
+    char name[32];
+    for (unsigned i = 0; i < t->scene->mNumMaterials; i++) {
+        model_surface *s;
+        int n = snprintf(name, sizeof name, "%u", i);
+        if (model_find_surface(m, name, (size_t)n, 1) != (int)i)
+            return mesh_fail(t->reader, "out of memory, or more than 10000 materials");
+        s = &m->surface[i];
+        if (surface_from(s, t->scene->mMaterials[i], t->linear))
+            return mesh_fail(t->reader, "out of memory");
+        s->picture = tree_picture(t, s->map, 0);
+        s->relief.picture = tree_picture(t, s->relief.map, 1);
+        s->glow_picture = tree_picture(t, s->glow_map, 0);
+    }
+    return 0;
+}
+
+/* ---- the file ------------------------------------------------------------------------------- */
+
+/* 1: since errno was 0, an allocation has failed.  Readers of assimp pass over that, and find an
+   empty file or nothing. */
+static int memory_ran_out(void) { return errno == ENOMEM; }
+
+static int tree_finish(tree *t, model *m)
+{
+    owned_mesh *mesh = &m->mesh;
+    int vertices = (int)(t->positions.count / 3);
+    if (!t->faces.triangles)
+        return mesh_fail(t->reader, memory_ran_out() ? "out of memory" : "no faces in it");
+    mesh->positions = t->positions.v;
+    t->positions.v = NULL;
+    mesh->normals = t->normals.v;
+    t->normals.v = NULL;
+    if (t->textured) {
+        mesh->texcoords = t->texcoords.v;
+        t->texcoords.v = NULL;
+    }
+    if (t->colored) {
+        mesh->colors = t->colors.v;
+        t->colors.v = NULL;
+    }
+    if (faces_finish(&t->faces, m)) return mesh_fail(t->reader, "out of memory");
+    mesh_link(mesh, vertices, 3 * (int)t->faces.triangles);
+    m->normals_given = !t->lacks_normals;
+    if (t->lacks_normals && mesh_fill_normals(mesh, 0))
+        return mesh_fail(t->reader, "out of memory");
+    return 0;
+}
+
+/* 1: the format says which axis is up, once for all files or in each, and assimp turns it to y. */
+static int tells_up(const char *kind)
+{
+    static const char *const told[] = { "",    "gltf", "glb", "vrm", "dae", "fbx", "wrl", "vrml",
+                                        "x3d", "x3dv", "ifc", "usd", "usda", "usdc", "usdz" };
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (!strcmp(kind, told[i])) return 1;
+    return 0;
+}
+
+/* The message of assimp in one line */
+static int assimp_failed(mesh_reader *r)
+{
+    char text[200];
+    size_t n = 0;
+    if (memory_ran_out() || strstr(aiGetErrorString(), "bad_alloc"))
+        return mesh_fail(r, "out of memory");
+    for (const char *from = aiGetErrorString(); *from && n + 1 < sizeof text; from++)
+        text[n++] = (char)(*from >= ' ' ? *from : ' ');
+    text[n] = 0;
+    return mesh_fail(r, "%s", n ? text : "assimp cannot read it");
+}
+
+/* Reads a file or, where bytes is not NULL, the size bytes there, which path names in messages. */
+static int assimp_read(const char *path, const unsigned char *bytes, size_t size, model *m,
+                       const model_request *q)
+{
+    const unsigned flags =
+        aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
+    static const model empty_model;
+    static const tree empty_tree;
+    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, q->most };
+    model_kind kind = model_kind_of(path);
+    struct aiPropertyStore *set = aiCreatePropertyStore();
+    tree t = empty_tree;
+    int failed;
+    *m = empty_model;
+    if (!kind.text[0] && size > 3 && !memcmp(bytes, "glTF", 4)) kind = model_kind_of("a.glb");
+    if (!kind.text[0] && size > 3 && !memcmp(bytes, "PK\3\4", 4)) kind = model_kind_of("a.3mf");
+    if (!set) return mesh_fail(&r, "out of memory");
+    errno = 0;
+    aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
+                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    if (!bytes) t.scene = aiImportFileExWithProperties(path, flags, NULL, set);
+    else if (size <= UINT_MAX)
+        t.scene = aiImportFileFromMemoryWithProperties((const char *)bytes, (unsigned)size, flags,
+                                                       kind.text, set);
+    aiReleasePropertyStore(set);
+    if (!t.scene) return assimp_failed(&r);
+    t.reader = &r;
+    t.model = m;
+    t.linear = !strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb");
+    m->z_up = !strcmp(kind.text, "3mf") || !strcmp(kind.text, "amf") || !strcmp(kind.text, "blend");
+    m->up_told = m->z_up || tells_up(kind.text);
+    failed = tree_surfaces(&t, m);
+    if (!failed && t.scene->mRootNode)
+        failed = tree_node(&t, t.scene->mRootNode, shade_mat4_identity());
+    if (!failed) failed = tree_finish(&t, m);
+    free(t.positions.v);
+    free(t.normals.v);
+    free(t.texcoords.v);
+    free(t.colors.v);
+    faces_free(&t.faces);
+    aiReleaseImport(t.scene);
+    if (failed) model_free(m);
+    return failed;
+}
+#endif

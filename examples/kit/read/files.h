@@ -1,0 +1,238 @@
+/* files.h - reads model files: OBJ with MTL, STL as text or binary, PLY as text or binary.
+
+       owned_mesh m;  char error[300];
+       if (mesh_read_file("bunny.obj", &m, error, sizeof error)) fprintf(stderr, "%s\n", error);
+
+   reads the mesh alone; model_read_file reads a model (model.h) with its surfaces.  Where a file
+   has no normals, they are means of the faces around a position, also across seams of texture.
+   Polygons may be concave.
+
+   Time is linear in the size of the file.  Whatever the bytes are, the result is a valid mesh or
+   an error, for text "name:line: message".  Limits: MODEL_BYTES, 2^31 - 1 vertices and indices,
+   and the memory. */
+#ifndef MODEL_FILES_H
+#define MODEL_FILES_H
+
+#include "../command/paths.h"
+#include "mtl.h"
+#include "obj.h"
+#include "ply.h"
+#include "stl.h"
+
+/* Larger files are refused. */
+#define MODEL_BYTES 4e9
+#define MODEL_PICTURE_BYTES 5e8
+#define MODEL_LIBRARY_BYTES 1e8
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+/* 1: there is something that is no file: a pipe would let us wait, a device would not end. */
+static inline int model_is_device(const char *path)
+{
+    struct stat there;
+    return !stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
+}
+#else
+static inline int model_is_device(const char *path) { return (void)path, 0; }
+#endif
+
+/* The extension of a file name in small letters; "" where it has none, or a long one */
+typedef struct model_kind {
+    char text[8];
+} model_kind;
+static inline model_kind model_kind_of(const char *name)
+{
+    model_kind kind = { "" };
+    size_t n = strlen(name), dot = n;
+    while (dot && name[dot - 1] != '.' && name[dot - 1] != '/') dot--;
+    if (!dot || name[dot - 1] != '.' || n - dot >= sizeof kind.text) return kind;
+    for (size_t i = dot; i < n; i++)
+        kind.text[i - dot] = (char)(name[i] >= 'A' && name[i] <= 'Z' ? name[i] | 32 : name[i]);
+    return kind;
+}
+
+/* 1: the file is STL, by its extension or, where that is none of ours, by its contents. */
+static inline int mesh_is_stl(const char *name, const unsigned char *bytes, size_t size)
+{
+    model_kind kind = model_kind_of(name);
+    if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "ply")) return 0;
+    if (!strcmp(kind.text, "stl")) return 1;
+    return (size >= 5 && !memcmp(bytes, "solid", 5)) || stl_fits(bytes, size);
+}
+
+static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size_t size)
+{
+    model_kind kind = model_kind_of(name);
+    if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "stl")) return 0;
+    if (!strcmp(kind.text, "ply")) return 1;
+    return size >= 4 && (!memcmp(bytes, "ply\n", 4) || !memcmp(bytes, "ply\r", 4));
+}
+
+static inline int model_read_stl(mesh_reader *r, model *m)
+{
+    if (stl_read(r, m)) return 1;
+    m->part = (model_part *)calloc(1, sizeof *m->part);
+    if (!m->part) return mesh_fail(r, "out of memory");
+    m->part->count = m->mesh.view.index_count;
+    m->part_count = 1;
+    m->z_up = 1;
+    return 0;
+}
+
+/* Who asks: where errors and progress go (either may be missing), and how many triangles are too
+   many (0: no limit) */
+typedef struct model_request {
+    char *error;
+    size_t error_size;
+    mesh_progress *progress;
+    void *user;
+    size_t most;
+} model_request;
+
+/* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
+   with model_free; else m is empty and error, if error_size > 0, holds one line. */
+static inline int model_read_memory(const void *bytes, size_t size, const char *name, model *m,
+                                    const model_request *q)
+{
+    static const model empty;
+    static const unsigned char nothing[1];
+    const unsigned char *begin = size ? (const unsigned char *)bytes : nothing;
+    mesh_reader r = { begin,    begin,         begin + size, name,    1,
+                      q->error, q->error_size, q->progress,  q->user, q->most };
+    int failed;
+    *m = empty;
+    if (!size)
+        failed = mesh_fail(&r, "the file is empty");
+    else if (mesh_is_ply(name, begin, size))
+        failed = ply_read(&r, m);
+    else if (mesh_is_stl(name, begin, size))
+        failed = model_read_stl(&r, m);
+    else
+        failed = obj_read(&r, m);
+    if (failed) model_free(m);
+    return failed;
+}
+
+/* Opens a file; NULL with the error in r */
+static inline FILE *model_open_file(mesh_reader *r, const char *path)
+{
+    FILE *file = NULL;
+    errno = 0;
+    if (model_is_device(path))
+        mesh_fail(r, "is no regular file");
+    else if ((file = path_open(path, "rb")) == NULL)
+        mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be opened");
+    return file;
+}
+
+/* Loads a whole file of at most so many bytes; the caller frees *bytes.  Returns non-zero with the
+   error in r. */
+static inline int model_load_from(mesh_reader *r, FILE *file, double most, unsigned char **bytes,
+                                  size_t *size)
+{
+    size_t capacity = 0, got = 1;
+    int failed = 0;
+    *bytes = NULL;
+    *size = 0;
+    while (got && !failed) {
+        unsigned char *grown = *bytes;
+        if (*size == capacity) {
+            capacity = capacity ? capacity <= SIZE_MAX / 2 ? capacity * 2 : 0 : 65536;
+            grown = capacity ? (unsigned char *)realloc(*bytes, capacity) : NULL;
+        }
+        if (!grown) {
+            failed = mesh_fail(r, "out of memory");
+            break;
+        }
+        *bytes = grown;
+        got = fread(*bytes + *size, 1, capacity - *size, file);
+        *size += got;
+        if ((double)*size > most) failed = mesh_fail(r, "larger than %.0f MB", most / 1e6);
+    }
+    if (!failed && ferror(file))
+        failed = mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be read");
+    if (failed) {
+        free(*bytes);
+        *bytes = NULL;
+    }
+    return failed;
+}
+
+static inline int model_load(mesh_reader *r, const char *path, double most, unsigned char **bytes,
+                             size_t *size)
+{
+    FILE *file = model_open_file(r, path);
+    int failed = 1;
+    *bytes = NULL;
+    if (file) failed = model_load_from(r, file, most, bytes, size);
+    if (file) fclose(file);
+    return failed;
+}
+
+/* Reads the files that describe the surfaces.  What is missing there is a warning, not an error. */
+static inline void model_read_libraries(const char *path, model *m)
+{
+    for (int i = 0; i < m->library_count; i++) {
+        char error[300], *beside = model_beside(path, m->library[i]);
+        unsigned char *bytes = NULL;
+        size_t size = 0;
+        mesh_reader r = { NULL, NULL, NULL, m->library[i], 0, error, sizeof error, NULL, NULL, 0 };
+        if (beside && !model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size)) {
+            r.at = r.begin = bytes;
+            r.end = bytes + size;
+            r.line = 1;
+            if (mtl_read(&r, m)) model_warn(m, path, error);
+        } else if (beside)
+            model_warn(m, path, error);
+        free(bytes);
+        free(beside);
+    }
+}
+
+static inline int model_read_file(const char *path, model *m, const model_request *q)
+{
+    static const model empty;
+    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    int failed = model_load(&r, path, MODEL_BYTES, &bytes, &size);
+    *m = empty;
+    if (!failed) failed = model_read_memory(bytes, size, path, m, q);
+    free(bytes);
+    if (!failed) model_read_libraries(path, m);
+    return failed;
+}
+
+/* ---- the mesh alone ------------------------------------------------------------------------- */
+
+/* Takes the mesh out of a model and frees the rest. */
+static inline int model_keep_mesh(int failed, model *from, owned_mesh *m)
+{
+    static const owned_mesh empty;
+    *m = from->mesh;
+    from->mesh = empty;
+    model_free(from);
+    return failed;
+}
+
+static inline int mesh_read_memory(const void *bytes, size_t size, const char *name, owned_mesh *m,
+                                   char *error, size_t error_size)
+{
+    const model_request q = { error, error_size, NULL, NULL, 0 };
+    model from;
+    return model_keep_mesh(model_read_memory(bytes, size, name, &from, &q), &from, m);
+}
+
+static inline int mesh_read_file_progress(const char *path, owned_mesh *m, char *error,
+                                          size_t error_size, mesh_progress *progress, void *user)
+{
+    const model_request q = { error, error_size, progress, user, 0 };
+    model from;
+    return model_keep_mesh(model_read_file(path, &from, &q), &from, m);
+}
+
+static inline int mesh_read_file(const char *path, owned_mesh *m, char *error, size_t error_size)
+{
+    return mesh_read_file_progress(path, m, error, error_size, NULL, NULL);
+}
+#endif

@@ -1,0 +1,220 @@
+/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL and PLY by own
+   readers, other formats by assimp, the pictures on surfaces by stb_image.  A message names a
+   library that is missing. */
+#ifndef MODEL_READ_H
+#define MODEL_READ_H
+
+#include "../image/pictures.h"
+#include "../scene/prepare.h"
+#include "../scene/relief.h"
+#include "../command/save.h"
+#ifdef MODEL_ASSIMP
+#include "assimp.h"
+#endif
+
+/* 1: the name is that of a model, by its ending. */
+static inline int model_has_name(const char *name)
+{
+    static const char *const models[] = { "obj", "stl", "ply", "gltf", "glb", "fbx",
+                                          "dae", "3ds", "3mf", "off",  NULL };
+    const model_kind kind = model_kind_of(name);
+#ifdef MODEL_ASSIMP
+    char dotted[sizeof kind.text + 2];
+    snprintf(dotted, sizeof dotted, ".%s", kind.text);
+    if (kind.text[0] && aiIsExtensionSupported(dotted)) return 1;
+#endif
+    return option_among(models, kind.text) != NULL;
+}
+
+/* 1: the model of that path has been read from the file name, or has its pictures there. */
+static inline int model_has_read(const model *m, const char *path, const char *name)
+{
+    if (save_same(path, name)) return 1;
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].path && save_same(m->picture[i].path, name)) return 1;
+    return 0;
+}
+
+/* The first bytes of a file that has any; a folder opens, but cannot be read. */
+static int check_file(const char *path, const model_request *q, unsigned char *head, size_t *size)
+{
+    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+    FILE *file = model_open_file(&r, path);
+    int failed;
+    if (!file) return 1;
+    *size = fread(head, 1, *size, file);
+    failed = ferror(file) != 0;
+    if (failed)
+        mesh_fail(&r, "%s", errno ? strerror(errno) : "cannot be read");
+    else if (!*size)
+        failed = mesh_fail(&r, "the file is empty");
+    fclose(file);
+    return failed;
+}
+
+/* 1: the file is for our own readers, by its extension or, where it has none, by its contents. */
+static int is_ours(model_kind kind, const unsigned char *head, size_t size)
+{
+    const char *const none = kind.text;
+    if (!strcmp(none, "obj") || !strcmp(none, "stl") || !strcmp(none, "ply")) return 1;
+    if (!strcmp(none, "")) return size < 4 || memcmp(head, "glTF", 4) != 0;
+    return mesh_is_ply("", head, size);
+}
+
+static int read_other(const char *path, model_kind kind, model *m, const model_request *q)
+{
+    mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+#ifdef MODEL_ASSIMP
+    char dotted[sizeof kind.text + 2];
+    snprintf(dotted, sizeof dotted, ".%s", kind.text[0] ? kind.text : "glb");
+    if (!kind.text[0] || aiIsExtensionSupported(dotted)) return assimp_read(path, NULL, 0, m, q);
+    return mesh_fail(&r, "neither %s nor assimp reads %s files", program_name, dotted);
+#else
+    (void)m;
+    return mesh_fail(&r,
+                     "%s%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
+                     "STL and PLY",
+                     kind.text[0] ? "." : "glTF", kind.text, program_name);
+#endif
+}
+
+/* A file that makes a surface wholly invisible mostly means the opposite. */
+static void show_invisible(model *m)
+{
+    for (int i = 0; i < m->surface_count; i++)
+        if (m->surface[i].transparency >= 1) m->surface[i].transparency = 0;
+}
+
+/* Reads a model from standard input, its format by the contents; files that it names, from the
+   folder of work. */
+static const char model_input[] = "standard input";
+static int read_input(model *m, const model_request *q)
+{
+    mesh_reader r = { NULL, NULL, NULL, model_input, 0, q->error, q->error_size, NULL, NULL, 0 };
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    int failed;
+    errno = 0;
+    if (model_load_from(&r, stdin, MODEL_BYTES, &bytes, &size)) return 1;
+    failed = size ? model_read_memory(bytes, size, model_input, m, q)
+                  : mesh_fail(&r, "the file is empty");
+#ifdef MODEL_ASSIMP
+    if (failed && size) {
+        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+        failed = assimp_read(model_input, bytes, size, m, &silent);
+    }
+#endif
+    free(bytes);
+    if (!failed) model_read_libraries(model_input, m);
+    return failed;
+}
+
+static int read_path(const char *path, model *m, const model_request *q)
+{
+    unsigned char head[1024] = { 0 };
+    size_t size = sizeof head;
+    model_kind kind = model_kind_of(path);
+    int failed = check_file(path, q, head, &size);
+    if (failed) return failed;
+    if (is_ours(kind, head, size))
+        failed = model_read_file(path, m, q);
+    else
+        failed = read_other(path, kind, m, q);
+#ifdef MODEL_ASSIMP
+    if (failed && !kind.text[0]) { /* no extension: assimp may know the contents */
+        const model_request silent = { NULL, 0, NULL, NULL, q->most };
+        failed = assimp_read(path, NULL, 0, m, &silent);
+    }
+#endif
+    return failed;
+}
+
+static int model_read(const char *path, model *m, const model_request *q)
+{
+    static const model empty;
+    int failed;
+    *m = empty;
+    failed = path == model_input ? read_input(m, q) : read_path(path, m, q);
+    if (!failed) {
+        show_invisible(m);
+        read_pictures(m, path);
+    }
+    return failed;
+}
+/* ---- for the programs ------------------------------------------------------------------------ */
+
+/* 1: the message says that memory was out. */
+static int ran_out(const char *error)
+{
+    static const char words[] = ": out of memory";
+    const size_t n = strlen(error), most = sizeof words - 1;
+    return n >= most && !strcmp(error + n - most, words);
+}
+
+/* 1: a triangle has an area.  In double, where no product of floats overflows. */
+static int model_shows(const model *m)
+{
+    for (int i = 0; i < m->mesh.view.index_count; i += 3) {
+        const uint32_t *corner = m->mesh.indices + i;
+        double e[2][3];
+        for (int k = 0; k < 6; k++) {
+            const float *p = m->mesh.positions + k % 3;
+            e[k / 3][k % 3] = (double)p[3 * (size_t)corner[1 + k / 3]] -
+                              (double)p[3 * (size_t)corner[0]];
+        }
+        for (int k = 0, l = 1; k < 3; k++, l = (k + 1) % 3)
+            if (e[0][k] * e[1][l] - e[0][l] * e[1][k] != 0) return 1;
+    }
+    return 0;
+}
+
+/* Reads the model that the options ask for; - is standard input.  Returns 1 with a line on
+   stderr. */
+static int model_open(const char *path, const model_options *o, model *m, mesh_progress *progress,
+                      void *user)
+{
+    char error[400] = "";
+    const model_request q = { error, sizeof error, progress, user, (size_t)o->max_triangles };
+    int failed;
+    if (!strcmp(path, "-")) path = model_input;
+    guard_doing = "reading ";
+    guard_reading(path);
+    failed = model_read(path, m, &q);
+    guard_reading(NULL);
+    guard_doing = "ending";
+    if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
+    if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
+    if (m->note[0] && !o->quiet) complain("%s: %s", path, m->note);
+    if (!o->quiet && !model_shows(m))
+        complain("%s: no triangle of it has an area, so nothing of it can be seen", path);
+    return 0;
+}
+
+/* The upright axis, 0 .. 5: that of the options or of the format; of a picture where neither says,
+   a guess.  Drawings keep to habit, so that their front is the same for all parts. */
+static int model_up(const model *m, const model_options *o, int picture)
+{
+    const int usual = m->z_up ? 2 : 1;
+    int up;
+    if (m->up) return m->up - 1;
+    if (o->up >= 0) return o->up;
+    if (m->up_told || !picture) return usual;
+    up = stand_guess(&m->mesh, usual);
+    if (o->verbose)
+        complain("the format does not say which axis is up: %s, %s", option_axes[up],
+                 up == usual ? "as usual" : "by the feet on which it stands");
+    return up;
+}
+
+/* Makes a model ready to be drawn: upright, turned, with normals and chunks.  Returns 1 with a line
+   on stderr. */
+static int model_prepare(model *m, const model_options *o, float turn)
+{
+    const int flat = o->shading == SHADE_SHADING_PER_FACE;
+    int failed = 0;
+    relief_prepare(m, mesh_stand(&m->mesh, model_up(m, o, 1), turn));
+    if (flat || !m->normals_given) failed = mesh_crease(&m->mesh, flat);
+    if (!failed) failed = mesh_chunk_parts(m);
+    return failed ? complain("out of memory") : 0;
+}
+#endif

@@ -1,0 +1,512 @@
+/* look.h - draws a model in the light of the studio: its shaders, and the order of its parts.
+
+       if (exhibit_open(&e, &model, &studio, &options, eye)) ...                  (out of memory)
+       exhibit_draw(&e, &rows, view, projection);                  (for each band of the picture)
+       exhibit_close(&e); */
+#ifndef MODEL_LOOK_H
+#define MODEL_LOOK_H
+
+#include "relief.h"
+#include "../draw/section.h"
+#include "studio.h"
+
+/* Uniforms of both shaders, for one surface */
+typedef struct look {
+    const studio *studio;
+    const shade_mesh *mesh;
+    const shade_texture *map; /* NULL: none */
+    const shade_texture *glow_map; /* what shines by itself; NULL: none */
+    shade_vec3 glow;
+    relief relief;
+    shade_material material;  /* its emission stands apart, because the map multiplies that too */
+    shade_vec3 emission;
+    float metal, rough; /* the part of the reflection that has the surface's colour; its blur */
+    shade_lighting lighting;
+    shade_light tone_lamp; /* of cool-to-warm */
+    shade_mat4 clip_from_world;
+    shade_vec3 eye;
+    float alpha, alpha_cutoff;
+    int per_vertex, map_is_opaque, shadows, mirrors;
+    int aimed; /* it is known how far up chunks reach */
+} look;
+
+/* Varyings: P, N, the albedo of the vertex, u and v.  Where light is computed per vertex, it
+   takes the place of P. */
+enum { LOOK_P, LOOK_N = 3, LOOK_ALBEDO = 6, LOOK_UV = 9, LOOK_VARYINGS = 11 };
+typedef float look_rows[3][SHADE_LANES];
+
+/* Emission and cool-to-warm tones have no shadows. */
+static int look_has_shadows(const model_options *o)
+{
+    return o->model != SHADE_MODEL_EMISSIVE && o->model != SHADE_MODEL_COOL_TO_WARM;
+}
+
+/* Bends light above SHOULDER toward white instead of clipping it; 3 becomes 1. */
+#define SHOULDER 0.6f
+static float shoulder(float light)
+{
+    float over = (light - SHOULDER) / 0.5f;
+    return SHOULDER + 0.5f * over / (1 + over);
+}
+
+static float component(shade_vec3 v, int a) { return a == 0 ? v.x : a == 1 ? v.y : v.z; }
+
+/* Models without a highlight reflect nothing. */
+static int look_mirrors(const model_options *o)
+{
+    return o->model == SHADE_MODEL_BLINN_PHONG || o->model == SHADE_MODEL_PHONG;
+}
+
+/* The part of the studio's light that a surface of this albedo reflects toward the eye, by
+   component: 4 % seen from the front, metal its colour, and more at grazing angles. */
+static shade_vec3 look_fresnel(const look *k, shade_vec3 albedo, float cosine)
+{
+    const float g = 1 - fmaxf(0.1f, cosine), grazing = g * g * g * g * g * (1 - k->rough);
+    const shade_vec3 plain = shade_v3(0.04f, 0.04f, 0.04f), white = shade_v3(1, 1, 1);
+    shade_vec3 metal = shade_mul(albedo, k->material.ambient), front;
+    metal = shade_v3(fmaxf(metal.x, 0.04f), fmaxf(metal.y, 0.04f), fmaxf(metal.z, 0.04f));
+    front = shade_lerp(plain, metal, k->metal);
+    return shade_add(front, shade_scale(shade_sub(white, front), grazing));
+}
+
+/* The light that leaves P toward the eye; only the first count lanes are computed.  glow, which may
+   be NULL, is the light that P sends by itself. */
+static void look_light(const look *k, const float *P, const float *N, const float *albedo,
+                       const float *glow, int count, look_rows out)
+{
+    float visibility[SHADE_LANES * 2];
+    look_rows sky, mirror;
+    SHADE_EACH_LANE(i)
+    {
+        int lane = i < count ? i : count - 1;
+        const float *p = P + lane, *n = N + lane;
+        shade_vec3 at = shade_v3(p[0], p[SHADE_LANES], p[2 * SHADE_LANES]);
+        shade_vec3 E = shade_v3(0, 0, 0), M = E;
+        shade_vec3 normal = shade_v3(n[0], n[SHADE_LANES], n[2 * SHADE_LANES]);
+        normal = shade_normalize(normal);
+        visibility[i] = visibility[SHADE_LANES + i] = 1;
+        if (k->shadows && i < count) {
+            shade_vec3 V = shade_normalize(shade_sub(k->eye, at)), R = shade_mirror(V, normal);
+            float open;
+            E = studio_sky(k->studio, at, normal, R, &open);
+            visibility[i] = studio_lamp(k->studio, at, normal);
+            if (k->mirrors) {
+                const float *c = albedo + lane;
+                shade_vec3 own = shade_v3(c[0], c[SHADE_LANES], c[2 * SHADE_LANES]);
+                M = shade_mul(look_fresnel(k, own, shade_dot(normal, V)),
+                              studio_mirror(k->studio, R, k->rough, open, visibility[i]));
+            }
+        }
+        lane_put(sky[0], i, E);
+        lane_put(mirror[0], i, M);
+    }
+    shade_lit_lanes(&k->lighting, &k->material, k->eye,
+                    &(shade_rows){ .position = P, .normal = N, .albedo = albedo,
+                                   .visibility = visibility }, out[0]);
+    for (int a = 0; a < 3; a++) {
+        const float ambient = component(k->material.ambient, a);
+        const float emission = component(k->emission, a);
+        SHADE_EACH_LANE(i)
+        {
+            float own = albedo[i + a * SHADE_LANES];
+            float light = out[a][i] + mirror[a][i];
+            light += own * (ambient * sky[a][i] + emission);
+            light += glow ? glow[i + a * SHADE_LANES] : 0;
+            out[a][i] = light > SHOULDER ? shoulder(light) : light;
+        }
+    }
+}
+
+static void look_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                        shade_vertices *SHADE_RESTRICT out)
+{
+    const look *k = (const look *)uniforms;
+    SHADE_EACH_LANE(i)
+    {
+        size_t at = in->index[i];
+        const float *p = k->mesh->positions + 3 * at, *n = k->mesh->normals + 3 * at;
+        const float *c = k->mesh->colors, *uv = k->mesh->texcoords;
+        shade_vec4 clip = shade_mat4_transform(k->clip_from_world, shade_v4(p[0], p[1], p[2], 1));
+        lane_put4(out->clip[0], i, clip);
+        for (size_t a = 0; a < 3; a++) {
+            out->varying[LOOK_P + a][i] = p[a];
+            out->varying[LOOK_N + a][i] = n[a];
+            out->varying[LOOK_ALBEDO + a][i] = c ? c[3 * at + a] : 1;
+        }
+        out->varying[LOOK_UV][i] = uv ? uv[2 * at] : 0;
+        out->varying[LOOK_UV + 1][i] = uv ? uv[2 * at + 1] : 0;
+    }
+    if (k->per_vertex) {
+        look_rows light;
+        look_light(k, out->varying[LOOK_P], out->varying[LOOK_N], out->varying[LOOK_ALBEDO], NULL,
+                   in->count, light);
+        SHADE_MEMCPY(out->varying[LOOK_P], light, sizeof light);
+    }
+}
+
+/* The light that fragments send by themselves */
+static void look_glow(const look *k, const shade_fragments *in, look_rows out)
+{
+    float texel[4][SHADE_LANES], lod[SHADE_LANES];
+    const int finer = texture_finer(k->glow_map, k->map ? k->map : k->relief.map);
+    SHADE_EACH_LANE(i) { lod[i] = in->lod[i] + (float)finer; }
+    shade_sample_lanes(k->glow_map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], lod, texel[0]);
+    for (int a = 0; a < 3; a++) {
+        const float factor = component(k->glow, a);
+        SHADE_EACH_LANE(i) { out[a][i] = factor * texel[a][i]; }
+    }
+}
+
+static void look_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                          shade_colors *SHADE_RESTRICT out)
+{
+    const look *k = (const look *)uniforms;
+    float texel[4][SHADE_LANES];
+    look_rows N, albedo, light, glow;
+    if (k->map)
+        shade_sample_lanes(k->map, in->varying[LOOK_UV], in->varying[LOOK_UV + 1], in->lod,
+                           texel[0]);
+    memcpy(N, in->varying[LOOK_N], sizeof N);
+    if (k->relief.map && !k->per_vertex) relief_bend(&k->relief, k->mesh, in, LOOK_UV, N);
+    for (int a = 0; a < 3; a++) {
+        SHADE_EACH_LANE(i)
+        {
+            /* back faces are lit as front faces are; front faces keep their normals, which lean
+               away from the viewer on the outline of a coarse mesh */
+            N[a][i] = in->front[i] ? N[a][i] : -N[a][i];
+            albedo[a][i] = in->varying[LOOK_ALBEDO + a][i] * (k->map ? texel[a][i] : 1);
+        }
+    }
+    if (k->glow_map) look_glow(k, in, glow);
+    if (!k->per_vertex)
+        look_light(k, in->varying[LOOK_P], N[0], albedo[0], k->glow_map ? glow[0] : NULL, in->count,
+                   light);
+    SHADE_EACH_LANE(i)
+    {
+        float alpha = k->alpha * (k->map && !k->map_is_opaque ? texel[3][i] : 1);
+        for (int a = 0; a < 3; a++)
+            out->color[a][i] = !k->per_vertex
+                                   ? light[a][i]
+                                   : in->varying[LOOK_P + a][i] * (k->map ? texel[a][i] : 1);
+        out->color[3][i] = alpha;
+        out->discard[i] = alpha < k->alpha_cutoff;
+    }
+}
+
+/* ---- parts ---------------------------------------------------------------------------------- */
+
+/* Draws count triangles of a mesh from first on. */
+static shade_result look_draw(const shade_target *target, look *k, const shade_mesh *mesh,
+                              int first, int count, int see_through)
+{
+    shade_pipeline p = { .vertex = look_vertex, .fragment = look_fragment };
+    p.uniforms = k;
+    p.varyings = LOOK_VARYINGS;
+    k->mesh = mesh;
+    k->relief.indices = mesh->indices + 3 * (size_t)first;
+    p.may_discard = k->alpha_cutoff > 0;
+    p.lod_texture = k->map ? k->map : k->relief.map ? k->relief.map : k->glow_map;
+    p.lod_varying = LOOK_UV;
+    if (see_through) {
+        p.raster.blend = SHADE_BLEND_OVER;
+        p.raster.depth_read_only = 1;
+    }
+    return shade_draw(target, &p, mesh->indices + 3 * (size_t)first, 3 * count,
+                      mesh->vertex_count, NULL);
+}
+
+/* A chunk of a part, the distance of its middle from the eye, and how far up it reaches in the
+   picture, -1 .. 1 from its lower to its upper edge, once it is known */
+typedef struct near_chunk {
+    float distance, low, high;
+    shade_chunk chunk;
+} near_chunk;
+
+static int near_first(const void *a, const void *b)
+{
+    const near_chunk *x = (const near_chunk *)a, *y = (const near_chunk *)b;
+    if (x->distance != y->distance) return x->distance > y->distance ? 1 : -1;
+    return x->chunk.first > y->chunk.first ? 1 : -1;
+}
+
+/* The chunks of each part, sorted from near to far: hidden fragments are not lit, which would
+   cost 64 lookups in the sky.  A bunny of 69 thousand triangles has half the fragments.  NULL:
+   out of memory */
+static near_chunk *near_chunks(const model *m, shade_vec3 eye)
+{
+    size_t room = 1;
+    near_chunk *list;
+    for (int i = 0; i < m->part_count; i++) room += (size_t)m->part[i].chunk_count;
+    list = (near_chunk *)malloc(room * sizeof *list);
+    for (int i = 0; i < m->part_count && list; i++) {
+        near_chunk *of_part = list + m->part[i].first_chunk;
+        const shade_chunk *c = m->mesh.chunks + m->part[i].first_chunk;
+        size_t count = (size_t)m->part[i].chunk_count;
+        for (size_t k = 0; k < count; k++) {
+            of_part[k].chunk = c[k];
+            of_part[k].distance = shade_distance(shade_lerp(c[k].low, c[k].high, 0.5f), eye);
+        }
+        qsort(of_part, count, sizeof *of_part, near_first);
+    }
+    return list;
+}
+
+/* Finds how far up a chunk reaches; what lies beside the eye reaches everywhere. */
+static void near_chunk_reach(near_chunk *c, shade_mat4 clip)
+{
+    const shade_vec3 corner[2] = { c->chunk.low, c->chunk.high };
+    c->low = 9;
+    c->high = -9;
+    for (int i = 0; i < 8; i++) {
+        const shade_vec4 p = { corner[i & 1].x, corner[i >> 1 & 1].y, corner[i >> 2].z, 1 };
+        const shade_vec4 q = shade_mat4_transform(clip, p);
+        const float y = q.w > 1e-3f ? q.y / q.w : 0;
+        if (!(q.w > 1e-3f)) c->low = -9;
+        if (!(q.w > 1e-3f)) c->high = 9;
+        c->low = y < c->low ? y : c->low;
+        c->high = y > c->high ? y : c->high;
+    }
+}
+
+/* 0: the chunk lies above or below the rows of the target, with two of them to spare.  That
+   spares most calls of shade_box_visible, which finds six planes: 6 % of 2 million triangles in 64
+   bands. */
+static int near_chunk_is_level(const near_chunk *c, const shade_target *target)
+{
+    const float half = 0.5f * (float)target->height;
+    const float top = half - half * c->high, bottom = half - half * c->low;
+    return bottom >= (float)target->clip_y - 2 &&
+           top <= (float)target->clip_y + (float)target->clip_height + 2;
+}
+
+/* Draws those of count chunks that the target may see. */
+static shade_result look_draw_chunks(const shade_target *target, look *k, const shade_mesh *mesh,
+                                     const near_chunk *list, int count)
+{
+    shade_result result = SHADE_OK;
+    for (int i = 0; i < count && !result; i++) {
+        const shade_chunk *c = &list[i].chunk;
+        if (k->aimed && !near_chunk_is_level(&list[i], target)) continue;
+        if (shade_box_visible(target, k->clip_from_world, 0, c->low, c->high))
+            result = look_draw(target, k, mesh, c->first, c->count, 0);
+    }
+    return result;
+}
+
+/* Sets the surface of a part: that of the command line, or of the file, or the default. */
+static void look_dress(look *k, const model_options *o, const model *m, int surface)
+{
+    const model_surface *s = m->surface_count ? &m->surface[surface] : NULL;
+    static const relief level;
+    k->map = NULL;
+    k->relief = level;
+    k->glow_map = NULL;
+    k->alpha = 1;
+    k->alpha_cutoff = 0;
+    k->map_is_opaque = 0;
+    k->metal = 0;
+    k->material = o->material;
+    k->rough = model_roughness(k->material.shininess);
+    k->emission = o->material.emission;
+    k->material.emission = shade_v3(0, 0, 0);
+    if (!s || !s->set || (o->plain && !s->section)) return;
+    k->material = s->material;
+    k->metal = s->metal;
+    k->rough = s->rough > 0 ? s->rough : model_roughness(k->material.shininess);
+    k->emission = s->material.emission;
+    k->material.emission = shade_v3(0, 0, 0);
+    k->alpha = 1 - s->transparency;
+    k->alpha_cutoff = s->alpha_cutoff;
+    k->map_is_opaque = s->opaque;
+    if (s->picture >= 0 && m->mesh.texcoords && m->picture[s->picture].map.pixels)
+        k->map = &m->picture[s->picture].map;
+    k->relief = relief_of(m, s, k->map);
+    k->glow = s->glow;
+    if (s->glow_picture >= 0 && m->mesh.texcoords) k->glow_map = &m->picture[s->glow_picture].map;
+}
+
+typedef struct far_triangle {
+    float distance;
+    uint32_t first;
+    int surface;
+} far_triangle;
+
+static int far_first(const void *a, const void *b)
+{
+    const far_triangle *x = (const far_triangle *)a, *y = (const far_triangle *)b;
+    if (x->distance != y->distance) return x->distance < y->distance ? 1 : -1;
+    return x->first > y->first ? 1 : -1;
+}
+
+/* The transparent triangles, sorted from far to near, and their indices in that order */
+typedef struct far_list {
+    far_triangle *triangle;
+    uint32_t *indices;
+    size_t count;
+} far_list;
+
+static void far_list_free(far_list *l)
+{
+    free(l->triangle);
+    free(l->indices);
+}
+
+/* Returns 1 where memory is out. */
+static int far_list_make(far_list *l, const model *m, const char *see_through, shade_vec3 eye)
+{
+    size_t room = 0;
+    for (int i = 0; i < m->part_count; i++)
+        if (see_through[i]) room += (size_t)m->part[i].count / 3;
+    if (!room) return 0;
+    l->triangle = (far_triangle *)malloc(room * sizeof *l->triangle);
+    l->indices = (uint32_t *)malloc(3 * room * sizeof *l->indices);
+    if (!l->triangle || !l->indices) return 1;
+    for (int i = 0; i < m->part_count; i++) {
+        int end = see_through[i] ? m->part[i].first + m->part[i].count : 0;
+        for (int t = m->part[i].first; t < end; t += 3) {
+            far_triangle *f = &l->triangle[l->count++];
+            shade_vec3 sum = shade_v3(0, 0, 0), p;
+            for (int c = 0; c < 3; c++) {
+                memcpy(&p, m->mesh.positions + 3 * (size_t)m->mesh.indices[t + c], sizeof p);
+                sum = shade_add(sum, p);
+            }
+            f->distance = shade_distance(shade_scale(sum, 1 / 3.0f), eye);
+            f->first = (uint32_t)t;
+            f->surface = m->part[i].surface;
+        }
+    }
+    qsort(l->triangle, l->count, sizeof *l->triangle, far_first);
+    for (size_t i = 0; i < l->count; i++)
+        memcpy(l->indices + 3 * i, m->mesh.indices + l->triangle[i].first, 12);
+    return 0;
+}
+
+/* Draws the transparent triangles; neighbours in the list with the same surface are one draw. */
+static shade_result draw_far_first(const shade_target *target, look *k, const model_options *o,
+                                   const model *m, const far_list *l)
+{
+    shade_mesh mesh = m->mesh.view;
+    shade_result result = SHADE_OK;
+    mesh.indices = l->indices;
+    for (size_t i = 0, end; i < l->count && !result; i = end) {
+        for (end = i; end < l->count && l->triangle[end].surface == l->triangle[i].surface;) end++;
+        look_dress(k, o, m, l->triangle[i].surface);
+        result = look_draw(target, k, &mesh, (int)i, (int)(end - i), 1);
+    }
+    return result;
+}
+
+static shade_result draw_opaque(const shade_target *target, look *k, const model_options *o,
+                                const model *m, const char *see_through,
+                                const near_chunk *list)
+{
+    shade_result result = SHADE_OK;
+    for (int i = 0; i < m->part_count && !result; i++) {
+        const shade_mesh mesh = model_part_mesh(m, i);
+        if (see_through[i]) continue;
+        look_dress(k, o, m, m->part[i].surface);
+        result = look_draw_chunks(target, k, &mesh, list + m->part[i].first_chunk,
+                                  m->part[i].chunk_count);
+    }
+    return result;
+}
+
+/* ---- the picture ---------------------------------------------------------------------------- */
+
+/* 1: something shows through the part, by its transparency or by alpha between 0 and 1 in its
+   map. */
+static int part_is_clear(const model *m, const model_options *o, int part)
+{
+    const model_surface *s = m->surface_count ? &m->surface[m->part[part].surface] : NULL;
+    if (!s || !s->set || o->plain) return 0;
+    return s->transparency > 0 || (s->blended && s->picture >= 0);
+}
+
+/* A model in the light of its studio, seen from one place */
+typedef struct exhibit {
+    const model *model;
+    const model_options *options;
+    look look;
+    ground ground;
+    char *see_through; /* by part */
+    near_chunk *near_chunks;
+    far_list far_list;
+} exhibit;
+
+/* The tones of cool-to-warm, whose key lamp shines across the line of sight, from the right and
+   above: so the whole range of tones is in view [Gooch98]. */
+static void look_tone(look *k, float turn)
+{
+    if (k->lighting.model != SHADE_MODEL_COOL_TO_WARM) return;
+    k->tone_lamp = shade_directional_light(studio_turned(turn, shade_v3(-0.75f, -0.65f, 0.2f)),
+                                           shade_v3(1, 1, 1));
+    k->lighting.lights = &k->tone_lamp;
+    k->lighting.light_count = 1;
+    k->lighting.cool = shade_v3(0.04f, 0.06f, 0.30f);
+    k->lighting.warm = shade_v3(1.00f, 0.72f, 0.30f);
+}
+
+static inline void exhibit_close(exhibit *e)
+{
+    static const exhibit none;
+    free(e->see_through);
+    free(e->near_chunks);
+    ground_free(&e->ground);
+    far_list_free(&e->far_list);
+    *e = none;
+}
+
+/* Returns 1 where memory is out.  Model, light and options must outlive the exhibit, which stays
+   where it is: its look points into it. */
+static inline int exhibit_open(exhibit *e, const model *m, const studio *light,
+                               const model_options *o, shade_vec3 eye)
+{
+    static const exhibit none;
+    look *k = &e->look;
+    *e = none;
+    e->model = m;
+    e->options = o;
+    k->studio = light;
+    k->eye = eye;
+    k->lighting.lights = light->lamp;
+    k->lighting.light_count = 2;
+    k->lighting.model = o->model;
+    k->shadows = look_has_shadows(o);
+    k->mirrors = look_mirrors(o);
+    look_tone(k, light->turn);
+    k->per_vertex = o->shading == SHADE_SHADING_PER_VERTEX;
+    e->see_through = (char *)calloc((size_t)m->part_count + 1, 1);
+    e->near_chunks = near_chunks(m, k->eye);
+    if (!e->see_through || !e->near_chunks) return 1;
+    for (int i = 0; i < m->part_count; i++) e->see_through[i] = (char)part_is_clear(m, o, i);
+    if (o->quick && !o->no_shadow)
+        ground_cast(&e->ground, &m->mesh.view);
+    else if (!o->no_shadow && studio_cast(&e->ground, light, &m->mesh, o->threads)) return 1;
+    return far_list_make(&e->far_list, m, e->see_through, k->eye); /* NOLINT: the caller frees */
+}
+
+/* Tells through which matrix all bands of the picture will be drawn, which makes that faster where
+   there are many. */
+static inline void exhibit_aim(exhibit *e, shade_mat4 clip_from_world)
+{
+    size_t chunks = 0;
+    for (int i = 0; i < e->model->part_count; i++) chunks += (size_t)e->model->part[i].chunk_count;
+    for (size_t i = 0; i < chunks; i++) near_chunk_reach(&e->near_chunks[i], clip_from_world);
+    e->look.aimed = 1;
+}
+
+/* Draws a band of the picture, over its background. */
+static inline shade_result exhibit_draw(const exhibit *e, const shade_target *rows,
+                                        shade_mat4 view, shade_mat4 projection)
+{
+    static const shade_mat4 no_turn; /* zero: the identity */
+    look k = e->look;
+    shade_result result;
+    k.clip_from_world = shade_mat4_mul(projection, view);
+    result = draw_opaque(rows, &k, e->options, e->model, e->see_through, e->near_chunks);
+    if (!result && e->ground.shadow)
+        result = ground_draw(&e->ground, rows, no_turn, view, projection);
+    if (!result) result = draw_far_first(rows, &k, e->options, e->model, &e->far_list);
+    return result;
+}
+#endif

@@ -1,0 +1,321 @@
+/* portrait.h - the picture of a model that thumbnail writes and compare compares: how large it is,
+   from where the model is seen, what is behind it.
+
+       portrait p = portrait_new();                     (then portrait_take for each option)
+       result = portrait_light(&light, &model, &p, &how, NULL, NULL);
+       c = canvas_try(p.width, p.height, p.samples);
+       if (!result) result = portrait_draw(&c, &model, &light, &p, &how, NULL, NULL); */
+#ifndef MODEL_PORTRAIT_H
+#define MODEL_PORTRAIT_H
+
+#include "../../shared/canvas.h"
+#include "look.h"
+#include "../read/read.h"
+#ifdef MODEL_STB
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+#endif
+
+#define PORTRAIT_USAGE                                                                            \
+    "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"                 \
+    "  --background COLOR    RRGGBB, #RGB, black, white, grey, red, green, blue, yellow or\n"     \
+    "                        orange; none: transparent, PNG only (a grey gradient)\n"             \
+    "  --rotate DEG          turns the model about its upright axis, -36000 .. 36000 (30)\n"      \
+    "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
+#define PORTRAIT_VALUED "--size", "--background", "--rotate", "--samples"
+
+enum { PORTRAIT_GRADIENT, PORTRAIT_PLAIN, PORTRAIT_NONE }; /* backgrounds */
+
+typedef struct portrait {
+    int width, height, samples, background, rotated; /* rotated: by an option */
+    float rotate; /* radians */
+    shade_vec3 background_color;
+} portrait;
+
+/* ---- options --------------------------------------------------------------------------------- */
+
+static inline portrait portrait_new(void)
+{
+    portrait p = { .width = 512, .height = 512, .samples = 2 };
+    p.rotate = shade_radians(30);
+    return p;
+}
+
+/* Reads degrees and stores radians. */
+static inline int portrait_angle(const char *text, float *out)
+{
+    char *end;
+    double degrees = strtod(text, &end);
+    *out = (float)(degrees * 0.017453292519943295);
+    return end != text && !*end && degrees >= -36000 && degrees <= 36000;
+}
+
+/* Stores an option of portraits.  Returns what an option_take does, or -1 where the option is
+   another's. */
+static inline int portrait_take(portrait *p, const char *name, const char *value)
+{
+    if (!strcmp(name, "--size")) return option_size(value, 8192, &p->width, &p->height);
+    if (!strcmp(name, "--rotate")) p->rotated = 1;
+    if (!strcmp(name, "--rotate")) return portrait_angle(value, &p->rotate);
+    if (!strcmp(name, "--samples")) return option_samples(value, &p->samples);
+    if (strcmp(name, "--background") != 0) return -1;
+    p->background = same_name(value, "none") ? PORTRAIT_NONE : PORTRAIT_PLAIN;
+    return p->background == PORTRAIT_NONE || take_color(value, &p->background_color);
+}
+
+/* Returns 1 where the options do not fit together; a line on stderr has said why. */
+static inline int portrait_check(const portrait *p, const model_options *how)
+{
+    if (p->rotated && how->viewed) return complain("--rotate does not go with --view");
+    if (p->width * p->samples <= 16384 && p->height * p->samples <= 16384) return 0;
+    return complain("size times samples must stay within 16384");
+}
+
+/* ---- the camera, which sees all of a model, from as near as it can --------------------------- */
+
+typedef struct camera {
+    shade_mat4 view, projection;
+    shade_vec3 eye;
+} camera;
+
+/* How far a model is turned about its upright axis */
+static inline float portrait_turn(const portrait *p, const model_options *how)
+{
+    return how->viewed ? -how->azimuth : p->rotate;
+}
+
+/* The way toward the eye, where the model has been turned */
+static inline shade_vec3 camera_toward(const model_options *how)
+{
+    const shade_vec4 e = shade_mat4_rotation(how->elevation, shade_v3(1, 0, 0)).col[1];
+    return how->viewed ? shade_v3(0, e.z, e.y) : shade_v3(0, 0.36f, 1);
+}
+
+/* The camera looks along a fixed direction, the model has been turned.  Every point must lie inside
+   four planes through the eye, and each plane gives one linear bound: their extremes give the
+   nearest eye, and the sideways shift that centres. */
+static inline camera camera_frame(const owned_mesh *m, float aspect, const model_options *how)
+{
+    const float half = shade_radians(14), margin = 1.10f;
+    const shade_vec4 e = shade_mat4_rotation(how->elevation, shade_v3(1, 0, 0)).col[1];
+    const shade_vec3 toward = camera_toward(how);
+    const shade_vec3 up = how->viewed ? shade_v3(0, e.y, -e.z) : shade_v3(0, 1, 0);
+    shade_mat4 turn = shade_mat4_look_at(toward, shade_v3(0, 0, 0), up);
+    shade_mat4 lens, world;
+    float slope_y, slope_x, left = -9, right = -9, below = -9, above = -9, front = -9, back = 9, d;
+    camera c;
+    turn.col[3] = shade_v4(0, 0, 0, 1);
+    lens = shade_mat4_perspective(2 * half, 1, 1, 2);
+    slope_y = 1 / lens.col[1].y;
+    slope_x = slope_y * aspect;
+    for (size_t i = 0; i < 3 * (size_t)m->view.vertex_count; i += 3) {
+        const float *p = m->positions + i;
+        shade_vec3 q = shade_mat4_transform_direction(turn, shade_v3(p[0], p[1], p[2]));
+        right = fmaxf(right, q.x + slope_x * q.z);
+        left = fmaxf(left, -q.x + slope_x * q.z);
+        above = fmaxf(above, q.y + slope_y * q.z);
+        below = fmaxf(below, -q.y + slope_y * q.z);
+        front = fmaxf(front, q.z);
+        back = fminf(back, q.z);
+    }
+    d = fmaxf((right + left) / (2 * slope_x), (above + below) / (2 * slope_y)) * margin;
+    d = fmaxf(d, front + 0.05f);
+    c.view = shade_mat4_mul(
+        shade_mat4_translation(shade_v3((left - right) / 2, (below - above) / 2, -d)), turn);
+    c.projection =
+        shade_mat4_perspective(2 * half, aspect, 0.04f * (d - front) + 0.001f, d - back + 4);
+    c.projection.col[0].x *= how->zoom;
+    c.projection.col[1].y *= how->zoom;
+    world = shade_mat4_inverse(c.view);
+    c.eye = shade_v3(world.col[3].x, world.col[3].y, world.col[3].z);
+    return c;
+}
+/* Makes a model ready for its portrait: cut open where the options say so, upright and turned.
+   Returns 1 with a line on stderr. */
+static inline int portrait_prepare(model *m, const portrait *p, const model_options *how)
+{
+    const float turn = portrait_turn(p, how);
+    return model_cut(m, how, 1, turn, camera_toward(how)) || model_prepare(m, how, turn);
+}
+
+/* ---- the picture ----------------------------------------------------------------------------- */
+
+static inline void portrait_background(const shade_target *target, const portrait *p)
+{
+    const shade_vec3 c = p->background_color;
+    if (p->background == PORTRAIT_GRADIENT)
+        canvas_gradient(target, shade_rgb(0xEEF0F3), shade_rgb(0xC3C8CF));
+    else if (p->background == PORTRAIT_PLAIN)
+        shade_clear(target, shade_v4(c.x, c.y, c.z, 1), 1);
+    else
+        shade_clear(target, shade_v4(0, 0, 0, 0), 1);
+}
+
+/* Opens the studio that the options want, or leaves it dark. */
+static inline shade_result portrait_light(studio *light, const model *m, const portrait *p,
+                                          const model_options *how, mesh_progress *progress,
+                                          void *user)
+{
+    const int pixels = p->width > p->height ? p->width : p->height;
+    if (how->quick) studio_open_quick(light);
+    if (how->quick || (!look_has_shadows(how) && how->no_shadow)) return SHADE_OK;
+    return studio_open(light, m, pixels, 0, how->threads, progress, user);
+}
+
+/* The data that all bands share, and the result of each band */
+enum { PORTRAIT_BANDS = 64 };
+typedef struct portrait_work {
+    const shade_target *target;
+    const exhibit *exhibit;
+    camera camera;
+    shade_result result[PORTRAIT_BANDS];
+} portrait_work;
+
+static inline void portrait_band(void *data, int band)
+{
+    portrait_work *w = (portrait_work *)data;
+    const shade_target rows = bands_rows(w->target, band, PORTRAIT_BANDS);
+    w->result[band] = exhibit_draw(w->exhibit, &rows, w->camera.view, w->camera.projection);
+}
+
+/* What a program says where light or picture failed */
+static inline const char *portrait_says(shade_result result)
+{
+    return result == SHADE_ERROR_CAPACITY ? "out of memory; see --max-memory"
+                                          : shade_result_string(result);
+}
+
+static inline shade_result portrait_draw(const canvas *c, const model *m, const studio *light,
+                                         const portrait *p, const model_options *how,
+                                         mesh_progress *progress, void *user)
+{
+    exhibit e;
+    portrait_work w = { .target = &c->target, .exhibit = &e };
+    shade_result result = SHADE_ERROR_CAPACITY;
+    w.camera = camera_frame(&m->mesh, (float)p->width / (float)p->height, how);
+    if (!exhibit_open(&e, m, light, how, w.camera.eye)) {
+        portrait_background(&c->target, p);
+        exhibit_aim(&e, shade_mat4_mul(w.camera.projection, w.camera.view));
+        bands_run_told(how->threads, PORTRAIT_BANDS, portrait_band, &w, progress, user);
+        result = SHADE_OK;
+    }
+    for (int i = 0; i < PORTRAIT_BANDS; i++)
+        if (w.result[i]) result = w.result[i];
+    exhibit_close(&e);
+    return result;
+}
+
+/* Converts to bytes; divides by alpha, by which the canvas has multiplied colours. */
+static inline uint8_t *portrait_bytes(const shade_target *picture, int channels)
+{
+    size_t n = (size_t)picture->width * (size_t)picture->height;
+    const float *from = (const float *)picture->color;
+    uint8_t *bytes = (uint8_t *)malloc(n * (size_t)channels), *to = bytes;
+    if (bytes && picture->format == SHADE_FORMAT_RGBA8) { /* holds what is wanted */
+        for (size_t i = 0; i < n; i++)
+            memcpy(to + (size_t)channels * i, (const uint8_t *)picture->color + 4 * i,
+                   (size_t)channels);
+        return bytes;
+    }
+    for (size_t i = 0; bytes && i < n; i++, from += 4) {
+        float a = from[3], k = channels == 4 && a > 0 ? 1 / a : 1;
+        shade_vec3 c = shade_srgb_from_linear(shade_v3(k * from[0], k * from[1], k * from[2]));
+        *to++ = (uint8_t)(255 * c.x + 0.5f);
+        *to++ = (uint8_t)(255 * c.y + 0.5f);
+        *to++ = (uint8_t)(255 * c.z + 0.5f);
+        if (channels == 4) *to++ = (uint8_t)(255 * a + 0.5f);
+    }
+    return bytes;
+}
+
+/* ---- its file -------------------------------------------------------------------------------- */
+
+typedef struct portrait_file {
+    const shade_target *picture;
+    int png, channels; /* channels: 4 with alpha, which only PNG has */
+} portrait_file;
+
+static inline int portrait_sink(void *user, const void *bytes, size_t size)
+{
+    return fwrite(bytes, 1, size, (FILE *)user) != size;
+}
+
+#ifdef MODEL_STB
+typedef struct portrait_png {
+    FILE *file;
+    int failed;
+} portrait_png;
+
+static inline void portrait_png_sink(void *user, void *bytes, int size)
+{
+    portrait_png *s = (portrait_png *)user;
+    s->failed |= portrait_sink(s->file, bytes, (size_t)size);
+}
+
+static inline int portrait_write_png(FILE *file, const portrait_file *f)
+{
+    const int width = f->picture->width, channels = f->channels;
+    portrait_png sink = { file, 0 };
+    uint8_t *bytes = portrait_bytes(f->picture, channels);
+    if (!bytes) return 1;
+    sink.failed |= !stbi_write_png_to_func(portrait_png_sink, &sink, width, f->picture->height,
+                                           channels, bytes, width * channels);
+    free(bytes);
+    return sink.failed;
+}
+#else
+static inline int portrait_write_png(FILE *file, const portrait_file *f)
+{
+    (void)file;
+    (void)f;
+    return 1;
+}
+#endif
+
+/* A save_writer of a portrait_file */
+static inline int portrait_write(FILE *file, const void *data)
+{
+    const portrait_file *f = (const portrait_file *)data;
+    errno = 0;
+    if (f->png) return portrait_write_png(file, f);
+    return shade_encode_ppm(portrait_sink, file, f->picture) != SHADE_OK;
+}
+
+/* 1: a file may become a PNG whose name does not say so, as file managers ask for with names of
+   their own: it is new or empty, or is one. */
+static inline int portrait_may_become_png(const char *name)
+{
+    static const char sign[4] = { (char)0x89, 'P', 'N', 'G' };
+    char begin[4];
+    size_t n;
+    FILE *file = path_open(name, "rb");
+    if (!file) return 1;
+    n = fread(begin, 1, sizeof begin, file);
+    fclose(file);
+    return !n || (n == sizeof begin && !memcmp(begin, sign, n));
+}
+
+/* Finds out whether the picture of that name is a PNG; *png is what the options say.  Returns 1
+   where the name is that of something else; a line on stderr has said so. */
+static inline int portrait_name(const char *name, int *png)
+{
+    static const char *const ppm[] = { "ppm", NULL };
+    static const char *const others[] = { "jpg",  "jpeg", "webp", "gif", "bmp", "tga", "tif",
+                                          "tiff", "avif", "jxl",  "svg", "hdr", "pgm", NULL };
+    const int free_name = !strcmp(name, "-") || save_is_device(name);
+    if (model_has_name(name))
+        return complain("%s is a model: the names of pictures end in .ppm or .png (a call draws "
+                        "one model, --views several views of it; shade-sheets calls it for a "
+                        "folder of models)", name);
+    if (save_is_png(name)) *png = 1;
+    if (!*png && !free_name && !save_ends_in(name, ppm))
+        return complain("%s: the names of pictures end in .ppm or .png", name);
+    if (*png && !free_name && !save_is_png(name) &&
+        (save_ends_in(name, ppm) || save_ends_in(name, others) || !portrait_may_become_png(name)))
+        return complain("%s: the names of PNG pictures end in .png", name);
+#ifndef MODEL_STB
+    if (*png) return complain("PNG needs a %s built with stb (libstb-dev)", program_name);
+#endif
+    return 0;
+}
+#endif

@@ -1,0 +1,458 @@
+/* studio.h - the light of a photographer's studio: a large lamp from the upper right that throws
+   soft shadows, a weak lamp from behind, and a sky, bright above and dim at the horizon, whose
+   light reaches into hollows as far as they are open.
+
+   The sky consists of many weak lamps at infinity.  For each of them, and for some points of the
+   large lamp, a depth-only draw from the lamp makes a shadow map.  A point is lit by the lamps
+   whose maps show it.
+
+   Surfaces also reflect the studio, by Fresnel's term [Schlick94]: without that, a black part
+   would show no form.  The lamps of the sky around the reflected direction say how much of it the
+   rest of the model hides. */
+#ifndef MODEL_STUDIO_H
+#define MODEL_STUDIO_H
+
+#include "../../shared/bands.h"
+#include "ground.h"
+#include "../read/model.h"
+
+enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
+enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow on the ground, at most */
+#define STUDIO_REACH 1.02f /* half the edge of the square that a map sees */
+
+typedef struct studio_map {
+    shade_vec3 toward, right, up; /* unit vectors; toward points to the lamp */
+    float *depth;                 /* NULL: not drawn, everything is lit */
+    float weight;                 /* its part of the sky, or of the large lamp */
+    int size;
+} studio_map;
+
+typedef struct studio {
+    studio_map map[STUDIO_MAPS]; /* the sky, then the large lamp */
+    int sky, key;                /* the number of maps of each */
+    int ground;          /* texels along an edge of the shadow on the ground */
+    float *memory;
+    shade_light lamp[2];
+    float turn;          /* of the lamps about +y, in radians; the sky looks alike all around */
+    shade_vec3 strip;    /* toward the strip of light behind, which mirrors show */
+} studio;
+
+/* ---- where the lamps are -------------------------------------------------------------------- */
+
+static void studio_aim(studio_map *m, shade_vec3 toward)
+{
+    shade_vec3 helper = fabsf(toward.y) < 0.9f ? shade_v3(0, 1, 0) : shade_v3(1, 0, 0);
+    m->toward = shade_normalize(toward);
+    m->right = shade_normalize(shade_cross(helper, m->toward));
+    m->up = shade_cross(m->toward, m->right);
+}
+
+/* Point i of n on a spiral that fills a disk evenly: radius and angle [Vogel] */
+static shade_vec2 studio_spiral(int i, int n)
+{
+    shade_mat4 m = shade_mat4_rotation(2.3999632f * (float)i, shade_v3(0, 0, 1));
+    float r = sqrtf(((float)i + 0.5f) / (float)n);
+    return shade_v2(r * m.col[0].x, r * m.col[0].y);
+}
+
+/* Places the lamps of the sky as densely as Lambert's cosine weights them on level ground, where
+   all have the same weight. */
+static void studio_place(studio *s, int sky, int key)
+{
+    float sum = 0;
+    s->sky = sky;
+    s->key = key;
+    for (int i = 0; i < sky; i++) {
+        shade_vec2 p = studio_spiral(i, sky);
+        float y = sqrtf(1 - p.x * p.x - p.y * p.y);
+        studio_aim(&s->map[i], shade_v3(p.x, y, p.y));
+        s->map[i].weight = 1 / (0.6f + y); /* half as bright at the horizon as above */
+        sum += s->map[i].weight * y;
+    }
+    for (int i = 0; i < sky; i++) s->map[i].weight /= sum;
+}
+
+/* A direction of the studio, turned about +y */
+static shade_vec3 studio_turned(float turn, shade_vec3 v)
+{
+    return shade_mat4_transform_direction(shade_mat4_rotation(turn, shade_v3(0, 1, 0)), v);
+}
+
+/* Places the lamps that turn with the studio: the large one, the weak one, the strip. */
+static void studio_place_key(studio *s, float turn)
+{
+    const shade_vec3 main_lamp = studio_turned(turn, shade_v3(0.90f, 0.95f, 0.60f));
+    studio_map middle;
+    s->turn = turn;
+    studio_aim(&middle, main_lamp);
+    for (int i = 0; i < s->key; i++) {
+        shade_vec2 p = studio_spiral(i, s->key);
+        shade_vec3 d = shade_madd(middle.toward, 0.13f * p.x, middle.right);
+        studio_aim(&s->map[s->sky + i], shade_madd(d, 0.13f * p.y, middle.up));
+        s->map[s->sky + i].weight = 1 / (float)s->key;
+    }
+    s->lamp[0] = shade_directional_light(shade_neg(main_lamp), shade_v3(1.06f, 1.00f, 0.91f));
+    s->lamp[1] = shade_directional_light(studio_turned(turn, shade_v3(0.8f, -0.25f, 0.75f)),
+                                         shade_v3(0.22f, 0.25f, 0.30f));
+    s->strip = studio_turned(turn, shade_v3(-0.76f, 0.36f, -0.54f));
+}
+
+/* ---- who sees what -------------------------------------------------------------------------- */
+
+/* The matrix from world space to x and y of the map and depth 0 (at the lamp) .. 1 */
+static shade_mat4 studio_view(const studio_map *m)
+{
+    shade_mat4 view = { { { m->right.x, m->up.x, m->toward.x, 0 },
+                          { m->right.y, m->up.y, m->toward.y, 0 },
+                          { m->right.z, m->up.z, m->toward.z, 0 },
+                          { 0, 0, 0, 1 } } };
+    return view;
+}
+
+/* Draws the depth of the opaque parts. */
+static shade_result studio_draw(studio_map *map, const model *m)
+{
+    shade_target target = { .width = map->size, .height = map->size, .depth = map->depth };
+    shade_draw_state state = { .view = studio_view(map) };
+    shade_result result;
+    state.projection = shade_mat4_ortho(-STUDIO_REACH, STUDIO_REACH, -STUDIO_REACH, STUDIO_REACH,
+                                        -STUDIO_REACH, STUDIO_REACH);
+    result = shade_clear(&target, shade_v4(0, 0, 0, 0), 1);
+    for (int i = 0; i < m->part_count && !result; i++) {
+        const model_surface *s = m->surface_count ? &m->surface[m->part[i].surface] : NULL;
+        const shade_mesh mesh = model_part_mesh(m, i);
+        if (s && (s->transparency > 0 || s->blended)) continue;
+        state.alpha_cutoff = s ? s->alpha_cutoff : 0;
+        state.diffuse_map =
+            s && s->alpha_cutoff > 0 && s->picture >= 0 ? &m->picture[s->picture].map : NULL;
+        result = shade_draw_mesh(&target, &mesh, &state, NULL);
+    }
+    return result;
+}
+
+/* The part of a point that the lamp sees: four neighbours in the map, weighted by distance.  P
+   is moved a little off its surface, or the surface would shade itself. */
+static float studio_seen(const studio_map *m, shade_vec3 P)
+{
+    float scale = 0.5f * (float)m->size / STUDIO_REACH, last = (float)m->size - 1.001f;
+    float x = (shade_dot(P, m->right) + STUDIO_REACH) * scale - 0.5f;
+    float y = (STUDIO_REACH - shade_dot(P, m->up)) * scale - 0.5f;
+    float z = 0.5f - 0.5f * shade_dot(P, m->toward) / STUDIO_REACH;
+    const float *row;
+    float u, v;
+    int i, j;
+    if (!m->depth || !(x >= 0 && y >= 0 && x < last && y < last)) return 1;
+    i = (int)x;
+    j = (int)y;
+    u = x - (float)i;
+    v = y - (float)j;
+    row = m->depth + (size_t)j * (size_t)m->size + (size_t)i;
+    return (1 - v) * ((1 - u) * (float)(row[0] >= z) + u * (float)(row[1] >= z)) +
+           v * ((1 - u) * (float)(row[m->size] >= z) + u * (float)(row[m->size + 1] >= z));
+}
+
+/* The light of the sky on a surface, and the light that the ground throws back; 0.4 on open
+   level ground.  The sky goes from a bluish zenith to a warm horizon.  *open becomes the part of
+   the lamps near the direction R that P sees, 1 where none is near. */
+static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N, shade_vec3 R,
+                             float *open)
+{
+    float sum[2] = { 0, 0 }, back = 0.06f * (1 - N.y), seen_near = 1e-3f, near_weight = 1e-3f;
+    for (int i = 0; i < s->sky; i++) {
+        const studio_map *m = &s->map[i];
+        float cosine = shade_dot(N, m->toward);
+        float texel = 2 * STUDIO_REACH / (float)m->size, along, seen;
+        if (cosine <= 0) continue;
+        seen = studio_seen(m, shade_madd(P, 2 * texel, N));
+        along = fmaxf(0, shade_dot(R, m->toward));
+        along *= along * along;
+        near_weight += along;
+        seen_near += along * seen;
+        cosine *= m->weight * seen;
+        sum[0] += cosine * m->toward.y;
+        sum[1] += cosine * (1 - m->toward.y);
+    }
+    *open = seen_near / near_weight;
+    return shade_madd(shade_madd(shade_v3(back, back, back), sum[0], shade_v3(0.40f, 0.42f, 0.46f)),
+                      sum[1], shade_v3(0.41f, 0.40f, 0.38f));
+}
+
+static float studio_lamp(const studio *s, shade_vec3 P, shade_vec3 N)
+{
+    float sum = 0;
+    for (int i = s->sky; i < s->sky + s->key; i++) {
+        const studio_map *m = &s->map[i];
+        float texel = 2 * STUDIO_REACH / (float)m->size, cosine = shade_dot(N, m->toward);
+        if (cosine <= 0) continue;
+        sum += m->weight * studio_seen(m, shade_madd(P, 2.5f * texel, N));
+    }
+    return sum;
+}
+
+/* 0 below from, 1 above to, smooth between */
+static float studio_step(float from, float to, float x)
+{
+    float t = fminf(1, fmaxf(0, (x - from) / (to - from)));
+    return t * t * (3 - 2 * t);
+}
+
+/* The studio as a mirror of some roughness shows it in the direction R: a dark floor, walls that
+   brighten upward, the large lamp, and a strip of light behind. */
+static shade_vec3 studio_mirror(const studio *s, shade_vec3 R, float rough, float open, float lamp)
+{
+    const shade_vec3 warm = shade_v3(1.03f, 1, 0.96f), blue = shade_v3(0.93f, 0.98f, 1.06f);
+    const shade_vec3 key = s->map[s->sky].toward;
+    float wide = 0.05f + 0.8f * rough, width = 1 - 0.6f * rough;
+    float wall = studio_step(-wide, wide, R.y), floor_light = 0.14f + 0.12f * (1 + R.y);
+    float light = floor_light + (0.42f + 0.50f * fmaxf(0, R.y) - floor_light) * wall * open;
+    light += 1.3f * width * lamp * studio_step(0.90f - 0.5f * rough, 0.97f, shade_dot(R, key));
+    light += 0.8f * width * open * studio_step(0.70f - 0.4f * rough, 0.95f, shade_dot(R, s->strip));
+    return shade_scale(shade_lerp(warm, blue, wall), light);
+}
+
+/* The data that the threads share, and each map's result */
+typedef struct studio_work {
+    studio *studio;
+    const model *model;
+    int first; /* of the maps to draw */
+    shade_result result[STUDIO_MAPS];
+} studio_work;
+
+static void studio_draw_map(void *data, int i)
+{
+    studio_work *w = (studio_work *)data;
+    w->result[i] = studio_draw(&w->studio->map[w->first + i], w->model);
+}
+
+/* Draws the maps from the first one on. */
+static shade_result studio_draw_maps(studio *s, const model *m, int first, int threads,
+                                     mesh_progress *progress, void *user)
+{
+    studio_work work = { s, m, first, { SHADE_OK } };
+    const int count = s->sky + s->key - first;
+    bands_run_told(threads, count, studio_draw_map, &work, progress, user);
+    for (int i = 0; i < count; i++)
+        if (work.result[i]) return work.result[i];
+    return SHADE_OK;
+}
+
+/* ---- a coarser mesh -------------------------------------------------------------------------- */
+
+/* Maps of 256 x 256 texels cannot show what is smaller.  All vertices of a cell as large as a texel
+   become one, at their mean; triangles with two corners in a cell vanish.  Of 2 million triangles
+   of a sphere 0.4 are left. */
+static int studio_may_thin(const model *m)
+{
+    for (int i = 0; i < m->surface_count; i++)
+        if (m->surface[i].alpha_cutoff > 0) return 0; /* its map would be needed */
+    return m->mesh.view.index_count / 3 > MESH_LARGE;
+}
+
+/* The cell of each vertex; *mean becomes four floats a cell: the mean position, and a count.  NULL:
+   out of memory */
+static uint32_t *studio_cells(const owned_mesh *m, float **mean, size_t *count)
+{
+    static const mesh_set empty;
+    const size_t n = (size_t)m->view.vertex_count;
+    const float scale = 128 / STUDIO_REACH;
+    mesh_set set = empty;
+    uint32_t *cell = (uint32_t *)malloc((n + 1) * sizeof *cell);
+    int failed = !cell;
+    for (size_t i = 0; i < n && !failed; i++) {
+        mesh_triple t;
+        for (size_t k = 0; k < 3; k++)
+            t.k[k] = (uint32_t)((m->positions[3 * i + k] + STUDIO_REACH) * scale);
+        failed = mesh_set_add(&set, t, &cell[i]);
+    }
+    *count = set.count;
+    *mean = failed ? NULL : (float *)calloc(set.count + 1, 4 * sizeof **mean);
+    for (size_t i = 0; i < n && *mean; i++) {
+        float *to = *mean + 4 * (size_t)cell[i];
+        for (size_t k = 0; k < 3; k++)
+            to[k] += (m->positions[3 * i + k] - to[k]) / (to[3] + 1);
+        to[3] += 1;
+    }
+    free(set.triple);
+    free(set.slot);
+    if (*mean) return cell;
+    free(cell);
+    return NULL;
+}
+
+static void studio_thin_free(model *thin)
+{
+    free(thin->mesh.positions);
+    free(thin->mesh.indices);
+    free(thin->part);
+}
+
+/* Makes *thin such a copy, for studio_thin_free; it has the surfaces of the other.  Returns 1 where
+   memory is out. */
+static int studio_thin(model *thin, const model *m)
+{
+    const size_t corners = (size_t)m->mesh.view.index_count;
+    static const owned_mesh none;
+    size_t cells = 0;
+    float *mean = NULL;
+    uint32_t *cell = studio_cells(&m->mesh, &mean, &cells);
+    int count = 0;
+    *thin = *m;
+    thin->mesh = none;
+    thin->mesh.positions = mean;
+    thin->mesh.indices = (uint32_t *)malloc((corners + 1) * sizeof(uint32_t));
+    thin->part = (model_part *)malloc(((size_t)m->part_count + 1) * sizeof *thin->part);
+    if (!cell || !thin->mesh.indices || !thin->part) {
+        free(cell);
+        return 1;
+    }
+    for (int i = 0; i < m->part_count; i++) {
+        const model_part *part = &m->part[i];
+        thin->part[i] = (model_part){ count, 0, part->surface, 0, 0 };
+        for (int t = part->first; t < part->first + part->count; t += 3) {
+            const uint32_t *corner = m->mesh.indices + t;
+            const uint32_t a = cell[corner[0]], b = cell[corner[1]], c = cell[corner[2]];
+            if (a == b || b == c || c == a) continue;
+            thin->mesh.indices[count++] = a;
+            thin->mesh.indices[count++] = b;
+            thin->mesh.indices[count++] = c;
+        }
+        thin->part[i].count = count - thin->part[i].first;
+    }
+    for (size_t i = 0; i < cells; i++) memmove(mean + 3 * i, mean + 4 * i, 3 * sizeof *mean);
+    mesh_link(&thin->mesh, (int)cells, count);
+    free(cell);
+    return 0;
+}
+
+/* Draws all maps for a picture whose longer edge has so many pixels.  There are fewer for large
+   models, because each map draws the whole model, and for small pictures, which show less: all maps
+   of the sky together draw so many corners, but there are 12 at least. */
+static shade_result studio_open_for(studio *s, const model *m, double corners, int pixels,
+                                    float turn, int threads, mesh_progress *progress, void *user)
+{
+    const int most = pixels <= 128 ? 24 : pixels <= 256 ? 40 : STUDIO_SKY;
+    const int sky_size = pixels <= 128 ? 128 : 256, key_size = 2 * sky_size;
+    double draws = corners / (double)m->mesh.view.index_count;
+    int sky = draws > most ? most : draws > 12 ? (int)draws : 12;
+    int key = draws > most ? STUDIO_KEY * most / STUDIO_SKY : 4;
+    size_t sky_texels = (size_t)sky_size * (size_t)sky_size, key_texels = 4 * sky_texels;
+    s->ground = pixels <= 128 ? STUDIO_GROUND / 2 : STUDIO_GROUND;
+    studio_place(s, sky, key);
+    studio_place_key(s, turn);
+    s->memory =
+        (float *)malloc(sizeof(float) * ((size_t)sky * sky_texels + (size_t)key * key_texels));
+    if (!s->memory) return SHADE_ERROR_CAPACITY;
+    for (int i = 0; i < sky + key; i++) {
+        s->map[i].size = i < sky ? sky_size : key_size;
+        s->map[i].depth =
+            i < sky ? s->memory + (size_t)i * sky_texels
+                    : s->memory + (size_t)sky * sky_texels + (size_t)(i - sky) * key_texels;
+    }
+    return studio_draw_maps(s, m, 0, threads, progress, user);
+}
+
+/* Opens the studio of a model, by the coarser copy of a large one, which has taken a fifth of the
+   time already. */
+static shade_result studio_open(studio *s, const model *m, int pixels, float turn, int threads,
+                                mesh_progress *progress, void *user)
+{
+    shade_result result = SHADE_ERROR_CAPACITY;
+    model thin;
+    if (!studio_may_thin(m))
+        return studio_open_for(s, m, 40e6, pixels, turn, threads, progress, user);
+    if (!studio_thin(&thin, m))
+        result = studio_open_for(s, &thin, 16e6, pixels, turn, threads, progress, user);
+    studio_thin_free(&thin);
+    return result;
+}
+
+/* Lamps whose maps are not drawn: nothing throws a shadow. */
+static inline void studio_open_quick(studio *s)
+{
+    static const studio none;
+    *s = none;
+    studio_place(s, 12, 1);
+    studio_place_key(s, 0);
+}
+
+/* Turns the lamps about the model; those of the sky stay, so that its light does not flicker. */
+static inline shade_result studio_turn(studio *s, const model *m, float turn, int threads)
+{
+    studio_place_key(s, turn);
+    return studio_draw_maps(s, m, s->sky, threads, NULL, NULL);
+}
+
+static inline void studio_close(studio *s)
+{
+    free(s->memory);
+    s->memory = NULL;
+}
+
+/* ---- the ground ------------------------------------------------------------------------------ */
+
+#define STUDIO_GROUND_HALF 2.2f /* half that edge; the shadow fades out toward it */
+
+/* The data that the threads share */
+typedef struct studio_shadow {
+    const studio *light;
+    float level;
+    float *dark; /* how much of the light of open ground is missing, 0 .. 1, by texel */
+} studio_shadow;
+
+/* One row of texels: how much of the light of open ground is missing there */
+static void studio_shadow_row(void *data, int row)
+{
+    const studio_shadow *w = (const studio_shadow *)data;
+    const int size = w->light->ground;
+    const float half = STUDIO_GROUND_HALF, step = 2 * half / (float)size;
+    const shade_vec3 up = shade_v3(0, 1, 0);
+    float unused, open = studio_sky(w->light, shade_v3(0, 9, 0), up, up, &unused).y;
+    for (int i = 0; i < size; i++) {
+        float *dark = w->dark + row * size + i, sky, lamp, fade;
+        shade_vec3 P = shade_v3(((float)i + 0.5f) * step - half, w->level,
+                                ((float)row + 0.5f) * step - half);
+        fade = 1 - (P.x * P.x + P.z * P.z) / (half * half);
+        *dark = 0;
+        if (fade <= 0) continue;
+        sky = studio_sky(w->light, P, up, up, &unused).y / open;
+        lamp = studio_lamp(w->light, P, up);
+        *dark = fade * (1 - (0.72f * sky + 0.28f) * (0.4f * lamp + 0.6f));
+    }
+}
+
+/* Weighted means over three texels along a line of steps */
+static void studio_blur(float *line, int step, int count)
+{
+    float before = line[0];
+    for (int i = 1; i < count - 1; i++) {
+        float here = line[i * step];
+        line[i * step] = 0.25f * before + 0.5f * here + 0.25f * line[(i + 1) * step];
+        before = here;
+    }
+}
+
+/* Finds the shadow of a mesh in the light of its studio.  Returns 1 where memory is out. */
+static int studio_cast(ground *g, const studio *light, const owned_mesh *m, int threads)
+{
+    const int size = light->ground, texels = size * size;
+    studio_shadow work = { light, ground_lowest(&m->view, 1) - 0.002f, NULL };
+    work.dark = (float *)malloc((size_t)texels * sizeof *work.dark);
+    g->shadow = (uint8_t *)calloc((size_t)texels, 4);
+    g->size = size;
+    g->half = g->reach = STUDIO_GROUND_HALF;
+    g->level = work.level;
+    if (!work.dark || !g->shadow) {
+        free(work.dark);
+        return 1;
+    }
+
+    bands_run(threads, size, studio_shadow_row, &work);
+    for (int k = 0; k < 4 * size; k++) {
+        studio_blur(work.dark + k % size * size, 1, size);
+        studio_blur(work.dark + k % size, size, size);
+    }
+    for (int i = 0; i < texels; i++) g->shadow[4 * i + 3] = (uint8_t)(255 * work.dark[i] + 0.5f);
+    free(work.dark);
+    return 0;
+}
+#endif

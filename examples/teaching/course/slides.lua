@@ -1,0 +1,258 @@
+-- slides.lua - turns a course in Markdown into articles of a page or, with `-M deck`, into slides.
+-- A heading of level 2 begins a slide; what follows " · " in it is the place in the notes. Below it stand
+-- a picture, one statement whose links set the live picture, one equation in $$ $$, C lines with their
+-- values, and questions in <details>. An ordered list becomes boxes with arrows between them.
+local deck, live, count = false, false, 0
+
+local function html(text) return pandoc.RawBlock('html', text) end
+local function escaped(text)
+    return (text:gsub('&', '&amp;'):gsub('<', '&lt;'):gsub('"', '&quot;'))
+end
+
+-- ---- addresses of the playground: those of one slide share its first `with`
+
+local PLAYGROUND = '^%.%./playground/index%.html#'
+local function is_live(inline) return inline.t == 'Link' and inline.target:match(PLAYGROUND) end
+local function hash_of(link) return (link.target:gsub(PLAYGROUND, '')) end
+local function page_address(link)
+    return 'index.html#turn=0&' .. hash_of(link):gsub('&?with=[^&]*', '')
+end
+local function slide_address(link, with)
+    local hash = hash_of(link)
+    return 'index.html#bare&' .. (hash:match('turn=') and '' or 'turn=0&') ..
+        (hash:match('with=') and '' or 'with=' .. with .. '&') .. hash
+end
+
+-- ---- the parts of a slide
+
+local function is_equation(block)
+    return block.t == 'Para' and #block.content == 1 and block.content[1].t == 'Math' and
+        block.content[1].mathtype == 'DisplayMath'
+end
+local function picture_of(block)
+    return block.t == 'Para' and #block.content == 1 and block.content[1].t == 'Image' and block.content[1]
+end
+local function live_links(blocks)
+    local links = pandoc.List()
+    pandoc.walk_block(pandoc.Div(blocks), { Link = function(link)
+        if is_live(link) then links:insert(link) end
+    end })
+    return links
+end
+
+-- C lines: code // = value
+local function code_lines(text)
+    local lines = pandoc.List()
+    for line in text:gmatch('[^\n]+') do
+        local code, value = line:match('^(.-) // = (.*)$')
+        lines:insert(html('<pre><code>' .. escaped(code or line) .. '</code>' ..
+            (value and ' <b>= ' .. value .. '</b>' or '') .. '</pre>'))
+    end
+    return lines
+end
+
+local function parts_of(blocks)
+    local slide = { text = pandoc.List(), equations = pandoc.List(), code = pandoc.List(),
+                    listings = pandoc.List(), questions = pandoc.List() }
+    local asking
+    for _, block in ipairs(blocks) do
+        if block.t == 'RawBlock' then
+            if block.text:match('^<details>') then
+                asking = { question = pandoc.List(), answer = pandoc.List() }
+                asking.to = asking.question
+                slide.questions:insert(asking)
+            elseif block.text:match('^</summary>') then asking.to = asking.answer
+            elseif block.text:match('^</details>') then asking = nil end
+        elseif asking then asking.to:insert(block)
+        elseif picture_of(block) then slide.picture = picture_of(block)
+        elseif is_equation(block) then slide.equations:insert(block)
+        elseif block.t == 'CodeBlock' and block.classes[1] == 'c' then
+            slide.code:extend(code_lines(block.text))
+        elseif block.t == 'CodeBlock' then slide.listings:insert(block)
+        else slide.text:insert(block) end
+    end
+    slide.links = live_links(slide.text)
+    slide.with = slide.links[1] and slide.links[1].target:match('with=([^&]*)') or 'none'
+    return slide
+end
+
+-- "Lambert's law · 10.1.1": what the slide is called, and its place in the notes
+local function title_of(heading)
+    local title, place = pandoc.List(), pandoc.List()
+    local to = title
+    for _, inline in ipairs(heading) do
+        if inline.t == 'Str' and inline.text == '·' then to = place else to:insert(inline) end
+    end
+    while #title > 0 and title[#title].t == 'Space' do title:remove() end
+    return title, place
+end
+
+-- Drawings on white paper: dark pages turn their lightness round.
+local DRAWINGS = { '12_edges', '28_lobes', '41_beam', '42_angles', '43_pinhole', '44_microfacets', 'svg$' }
+local function class_of(image)
+    for _, name in ipairs(DRAWINGS) do
+        if image.src:match(name) then return ' class="drawing"' end
+    end
+    return ''
+end
+local function file_of(image)
+    return image.src:match('/') and (image.src:gsub('^%.%./%.%./', '')) or 'pictures/' .. image.src
+end
+local function alt_of(image) return escaped(pandoc.utils.stringify(image.caption)) end
+local function with_links(blocks, change)
+    return pandoc.walk_block(pandoc.Div(blocks), { Link = change }).content
+end
+
+-- ---- a page
+
+local function article(heading, slide)
+    local out = pandoc.List{ html('<article id="' .. count .. '"><h2><a href="#' .. count .. '">'),
+        pandoc.Plain(heading), html('</a></h2>') }
+    local function words(blocks)
+        return with_links(blocks, function(link)
+            if is_live(link) then
+                return pandoc.Link(link.content, page_address(link), '', { class = 'play' })
+            end
+        end)
+    end
+    if slide.picture then
+        local file = file_of(slide.picture)
+        out:insert(html('<a class="picture" href="' .. file .. '"><img src="' .. file .. '"' ..
+            class_of(slide.picture) .. ' alt="' .. alt_of(slide.picture) .. '" loading="lazy"></a>'))
+    end
+    out:insert(html('<div class="words">'))
+    out:extend(words(slide.text))
+    out:extend(slide.listings)
+    for _, equation in ipairs(slide.equations) do
+        out:extend{ html('<div class="equation" tabindex="0">'), equation, html('</div>') }
+    end
+    out:extend(slide.code)
+    for _, ask in ipairs(slide.questions) do
+        out:insert(html('<details><summary>'))
+        for _, block in ipairs(ask.question) do out:insert(pandoc.Plain(block.content)) end
+        out:insert(html('</summary>'))
+        out:extend(words(ask.answer))
+        out:insert(html('</details>'))
+    end
+    out:insert(html('</div></article>'))
+    return out
+end
+
+-- ---- slides
+
+-- The live picture in a frame that has a name, so that links reach it; or the picture of the lesson
+local function figure(slide, name)
+    local link = live and slide.links[1]
+    if link then
+        return html('<figure class="live"><iframe name="' .. name .. '" title="' ..
+            escaped(pandoc.utils.stringify(pandoc.Plain(link.content))) .. '" data-src="' ..
+            escaped(slide_address(link, slide.with)) .. '"></iframe></figure>')
+    end
+    if not slide.picture then return nil end
+    return html('<figure><img src="' .. file_of(slide.picture) .. '"' .. class_of(slide.picture) ..
+        ' alt="' .. alt_of(slide.picture) .. '"></figure>')
+end
+-- Words that move the live picture
+local function moving(blocks, slide, name)
+    return with_links(blocks, function(link)
+        if not is_live(link) then return nil end
+        if not live then return link.content end
+        return pandoc.Link(link.content, slide_address(link, slide.with), '',
+                           { class = 'play', target = name })
+    end)
+end
+local function flow(blocks)
+    return blocks:map(function(block)
+        return block.t == 'OrderedList' and pandoc.Div(block, { class = 'flow' }) or block
+    end)
+end
+local function notes(slide)
+    local out = pandoc.List{ html('<aside class="notes">') }
+    for _, ask in ipairs(slide.questions) do
+        out:extend(ask.question)
+        out:extend(with_links(ask.answer, function(link) return is_live(link) and link.content or nil end))
+    end
+    out:extend(slide.code)
+    out:insert(html('</aside>'))
+    return out
+end
+local function section(class, title, place, parts)
+    local out = pandoc.List{ html('<section class="' .. class .. '" data-place="' ..
+        escaped(pandoc.utils.stringify(pandoc.Plain(place))) .. '"><h2>'), pandoc.Plain(title), html('</h2>') }
+    for _, part in ipairs(parts) do out:extend(part) end
+    out:insert(html('</section>'))
+    return out
+end
+local function layout(slide)
+    if live and slide.links[1] then return 'beside' end
+    return slide.picture and 'below' or 'words'
+end
+
+local function sections(heading, slide)
+    local title, place = title_of(heading)
+    local name = 'live-' .. count
+    local parts = pandoc.List{ pandoc.List{ html('<div class="statement">') } }
+    parts:extend{ flow(moving(slide.text, slide, name)), slide.listings, pandoc.List{ html('</div>') } }
+    local shown = figure(slide, name)
+    if shown then parts:insert(pandoc.List{ shown }) end
+    if #slide.equations > 0 then
+        parts:extend{ pandoc.List{ html('<div class="equation">') }, slide.equations,
+            pandoc.List{ html('</div>') } }
+    end
+    parts:insert(notes(slide))
+    local out = section(layout(slide), title, place, parts)
+    for i, ask in ipairs(slide.questions) do
+        local own = 'ask-' .. count .. '-' .. i
+        local links = live_links(ask.answer)
+        local asked = { picture = slide.picture, with = slide.with,
+            links = #links > 0 and pandoc.List{ slide.links[1] or links[1] } or slide.links }
+        local answer = pandoc.List{ html('<div class="statement"><div class="fragment answer">') }
+        answer:extend(moving(ask.answer, asked, own))
+        answer:insert(html('</div></div>'))
+        local picture = figure(asked, own)
+        local class = 'ask ' .. (picture and layout(asked) or 'words')
+        local inlines = ask.question[1].content
+        out:extend(section(class, inlines, place,
+            { answer, picture and pandoc.List{ picture } or pandoc.List(), notes(slide) }))
+    end
+    return out
+end
+
+-- A comma stays on the line of the formula before it.
+local function glued(inlines)
+    local out = pandoc.List()
+    for _, inline in ipairs(inlines) do
+        local before = out[#out]
+        if before and before.t == 'Math' and inline.t == 'Str' and inline.text:match('^[,.;:)?]') then
+            out[#out] = pandoc.Span({ before, inline }, { class = 'glued' })
+        else out:insert(inline) end
+    end
+    return out
+end
+
+function Pandoc(doc)
+    doc = pandoc.Pandoc(pandoc.walk_block(pandoc.Div(doc.blocks), { Inlines = glued }).content, doc.meta)
+    deck, live = doc.meta.deck ~= nil, doc.meta.live ~= nil
+    local out, about, heading, body = pandoc.List(), pandoc.List(), nil, pandoc.List()
+    local contents = pandoc.List()
+    local function finish()
+        if not heading then about:extend(body)
+        else
+            count = count + 1
+            out:extend((deck and sections or article)(heading, parts_of(body)))
+            contents:insert({ pandoc.Plain{ pandoc.Link(title_of(heading), '#' .. count) } })
+        end
+        body = pandoc.List()
+    end
+    for _, block in ipairs(doc.blocks) do
+        if block.t == 'Header' and block.level == 2 then
+            finish()
+            heading = block.content
+        else body:insert(block) end
+    end
+    finish()
+    doc.meta.about = pandoc.MetaBlocks(about)
+    doc.meta.slides = pandoc.MetaBlocks{ pandoc.OrderedList(contents) }
+    doc.blocks = out
+    return doc
+end
