@@ -66,7 +66,7 @@ HEADERS  = shade.h $(wildcard $(ROOMS:%=examples/%/*.h))
 vpath %.c $(ROOMS:%=examples/%)
 
 all: pictures programs
-pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm
+pictures: $(NUMBERED:%=out/%.ppm) out/gallery.ppm out/knot.ppm
 PROGRAMS = build/thumbnail build/compare $(POSIX)
 programs: $(PROGRAMS)
 
@@ -89,6 +89,15 @@ out/%.ppm: build/%
 	build/$* $@
 out/gallery.ppm: build/contact $(POSTER:%=out/%.ppm)
 	build/contact $@ $(POSTER:%=out/%.ppm)
+
+# README's program: its first block of C
+build/knot.c: README.md
+	@mkdir -p build
+	sed -n '/^```c$$/,/^```$$/{/^```/d;p;};/^```$$/q' README.md >$@
+out/knot.ppm: build/knot.c build/shade.o
+	@mkdir -p out
+	$(CC) $(FLAGS) $(EXACT) -DSHADE__IMPLEMENTED $< build/shade.o -lm -o build/knot
+	cd out && ../build/knot
 
 # -O1 compiles the tests' own code in a third of the time
 UNITS = $(patsubst tests/%.c,build/%.o,$(wildcard tests/unit/*.c))

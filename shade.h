@@ -18,27 +18,26 @@
 
        #include <stdio.h>
        static uint32_t pixels[480 * 640];  static float depth[480 * 640];
+       static shade_target target;  static shade_mesh mesh;  static shade_draw_state state;
 
        int main(void) {
            static const float corner[] = { -1, -1, 0,   1, -1, 0,   0, 1, 0 };
-           shade_target target = { 640, 480 };
-           shade_mesh mesh = { corner };
-           shade_draw_state state = { 0 };
-           shade_stats stats;
-           shade_result result;
            shade_light sun = shade_directional_light(shade_v3(0, 0, -1), shade_v3(1, 0.8f, 0.5f));
+           shade_stats stats;
+           target.width = 640;
+           target.height = 480;
            target.color = pixels;
            target.depth = depth;
+           mesh.positions = corner;
            mesh.vertex_count = 3;
            state.projection = shade_mat4_perspective(1, 640 / 480.0f, 0.1f, 10);
            state.view = shade_mat4_look_at(shade_v3(0, 0, 3), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
            state.lighting.lights = &sun;
            state.lighting.light_count = 1;
            shade_clear(&target, shade_v4(0.1f, 0.1f, 0.2f, 1), 1);
-           result = shade_draw_mesh(&target, &mesh, &state, &stats);
-           if (result) puts(shade_result_string(result));
-           if (!stats.fragments) puts(shade_explain(&target, &mesh, &state, &stats));
-           return shade_write_ppm("triangle.ppm", &target);
+           shade_draw_mesh(&target, &mesh, &state, &stats);
+           puts(shade_explain(&target, &mesh, &state, &stats));
+           return shade_write_ppm("triangle.ppm", &target) != SHADE_OK;
        }
 
    It does not open windows, parse model files or emulate OpenGL, and it has no shadows,
@@ -50,7 +49,7 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     122  options               >>types      199  materials, lamps, targets, states
+       >>config     121  options               >>types      198  materials, lamps, targets, states
        >>plumbing   373  compilers             >>light      510  the equation and its terms
        >>draw       635  meshes and pixels     >>math       908  vectors and matrices
      Inside: words that the rest is written in
@@ -264,7 +263,8 @@ enum {                                 /* shade_lighting.terms; 0 = all */
 /* The light that falls on a scene, and the equation that surfaces answer with.  Positions, normals
    and eye must be in one space whose axes are orthogonal and of equal scale: world or eye space,
    never clip space.  On the outline of a coarse mesh some interpolated normals point away from the
-   viewer; SHADE_FLAG_TWO_SIDED turns them, and specks show there.  A finer mesh has fewer. */
+   viewer; SHADE_FLAG_TWO_SIDED turns them, and specks show there.  A finer mesh has fewer.
+     Unlit: terms SHADE_TERM_AMBIENT and ambient 1, 1, 1 show k_a times vertex colour and map. */
 typedef struct shade_lighting {
     const shade_light *lights;         /* NULL: none; shade_draw_mesh refuses it with a count */
     int         light_count;           /* a negative one counts as 0 */

@@ -345,7 +345,7 @@ static inline scene scene_map(const char *name)
     return s;
 }
 
-/* The first program of the README. */
+/* A gold teapot, as a first program draws it. */
 static inline scene scene_readme(const char *name)
 {
     scene s = scene_new(name, SCENE_LIT, 640, 480);
@@ -401,7 +401,7 @@ static inline void scenes_build(scene out[SCENE_COUNT], const char *obj)
     out[9] = scene_fill("flat fill with depth 320 x 180, in cache", 320, 180);
     out[10] = scene_new("clear colour and depth 1080p", SCENE_CLEAR, 1920, 1080);
     out[11] = scene_map("bilinear texture 1080p");
-    out[12] = scene_readme("README's first program, sRGB 640 x 480");
+    out[12] = scene_readme("gold teapot, sRGB 640 x 480");
     out[13] = scene_srgb(scene_teapot("sRGB teapot 720p, per pixel", SHADE_SHADING_PER_FRAGMENT,
                                       SHADE_CULL_NONE));
     out[14] = scene_srgb(scene_map("sRGB bilinear texture, sRGB picture 1080p"));

@@ -33,10 +33,8 @@ static double mean_angle(const owned_mesh *m)
     const shade_vec3 *n = (const shade_vec3 *)(const void *)m->normals;
     const shade_vec3 k = { 1 / (size.x * size.x), 1 / (size.y * size.y), 1 / (size.z * size.z) };
     double sum = 0;
-    for (int i = 0; i < m->view.vertex_count; i++) {
-        shade_vec3 true_normal = shade_normalize(shade_mul(p[i], k));
-        sum += acos(fmin(1, (double)shade_dot(n[i], true_normal)));
-    }
+    for (int i = 0; i < m->view.vertex_count; i++)
+        sum += acos(fmin(1, (double)shade_dot(n[i], shade_normalize(shade_mul(p[i], k)))));
     return sum / m->view.vertex_count * 57.29578;
 }
 
@@ -53,7 +51,7 @@ int main(int argc, char **argv)
                                .lighting = { &lamp, 1, .ambient = { 0.20f, 0.21f, 0.25f } } };
     shade_line_state pen = { .width = 4, .color = { 0.3f, 0.75f, 0.9f, 1 } };
     canvas c = canvas_new(960, 380, 3);
-    char text[60];
+    char text[80];
 
     state.view = shade_mat4_look_at(shade_v3(0, 3.2f, 7), shade_v3(0, 0.05f, 0), shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.24f, 480 / 310.0f, 5, 25);
@@ -74,6 +72,8 @@ int main(int argc, char **argv)
         mesh_free(&body);
         mesh_free(&few);
     }
-    label_center(&c, 480, 28, 19, grey, "points: by M = scale(1, 0.35, 1)     sticks: normals");
+    sprintf(text, "points: by M = scale(%g, %g, %g)     sticks: normals", (double)size.x,
+            (double)size.y, (double)size.z);
+    label_center(&c, 480, 28, 19, grey, text);
     return canvas_save(&c, argc, argv, "normal_matrix.ppm");
 }

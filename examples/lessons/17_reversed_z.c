@@ -1,8 +1,8 @@
 /* 17_reversed_z.c - orange boards, each half a percent of its distance before a pale one.  Above:
-   the usual depth goes to 1 with the distance, where floats are 6e-8 apart.  From 10 km on both
-   boards have the same depth, and the one drawn first stays.  Below: reversed depth is n/d and goes
-   to 0, where floats are ever finer.  Right: the board at 30 km, enlarged.  UW's z-buffer has
-   "bigger is closer" as well.
+   the usual depth goes to 1 with the distance, where floats are 6e-8 apart.  From 10 km on that
+   step is wider than the gap of the boards: where both get the same depth, the first one drawn
+   stays.  Below: reversed depth is n/d and goes to 0, where floats are ever finer.  Right: the
+   board at 30 km, enlarged.  UW's z-buffer has "bigger is closer" as well.
    Try near_z 1 for 0.1f: the boards fight for pixels from ten times as far away.
 
    cc -O2 -I. examples/lessons/17_reversed_z.c -lm -o reversed_z && ./reversed_z */
@@ -10,6 +10,7 @@
 #include "shade.h"
 #include "../shared/mesh.h"
 #include "../shared/label.h"
+#include <math.h>
 
 enum { BOARDS = 6, SIZE = 108 };    /* pixels of a board's panel */
 
@@ -17,8 +18,8 @@ int main(int argc, char **argv)
 {
     static const float km[BOARDS] = { 1, 3, 10, 30, 100, 300 };
     static const char *const name[2] = {
-        "standard: z = (1 − n/d) / (1 − n/f), and what is lost of the orange",
-        "reversed: z = n/d, and what is lost" };
+        "standard: z = (1 − n/d) / (1 − n/f); a step of z / the gap of the boards",
+        "reversed: z = n/d; a step of z / the gap of the boards" };
     const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
     const shade_material pale = { .emission = { 0.6f, 0.58f, 0.52f } };
     const shade_material orange = { .emission = { 0.75f, 0.18f, 0.02f } };
@@ -40,8 +41,9 @@ int main(int argc, char **argv)
         }
         for (int i = 0; i < BOARDS; i++) {
             shade_target panel = canvas_panel(&c, SIZE * i + 6, y, SIZE, SIZE), depth = panel;
-            shade_stats alone, left;
             float d = 1000 * km[i], small = 0.7f * d;
+            float z = row ? near_z / d : (1 - near_z / d) / (1 - near_z / far_z);
+            float step = (z - nextafterf(z, 0)) * d * d / near_z;    /* in metres: dz/dd = n/d^2 */
             shade_mat4 back = shade_mat4_scaling(shade_v3(d, d, d));
             shade_mat4 front = shade_mat4_scaling(shade_v3(small, small, small));
             back = shade_mat4_mul(lean, back);
@@ -49,20 +51,16 @@ int main(int argc, char **argv)
             back.col[3].z = -1.005f * d;
             front.col[3].z = -d;
             depth.color = NULL;
-            state.material = &orange;
-            state.model = front;
-            shade_clear(&depth, shade_v4(0, 0, 0, 0), row ? 0 : 1);
-            shade_draw_mesh(&depth, &square.view, &state, &alone);
             shade_clear(&depth, shade_v4(0, 0, 0, 0), row ? 0 : 1);
             state.material = &pale;
             state.model = back;
             shade_draw_mesh(&panel, &square.view, &state, NULL);
             state.material = &orange;
             state.model = front;
-            shade_draw_mesh(&panel, &square.view, &state, &left);
+            shade_draw_mesh(&panel, &square.view, &state, NULL);
             sprintf(text, "%d km", (int)km[i]);
             label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 16, 19, grey, text);
-            sprintf(text, "%d %%", (int)(100 - 100 * left.fragments / alone.fragments));
+            sprintf(text, "%.2g", (double)(step / (0.005f * d)));
             label_center(&c, SIZE * i + 6 + SIZE / 2, y + SIZE + 40, 19, grey, text);
         }
         label_draw(&c, 12, y - 6, 22, grey, name[row]);

@@ -1,7 +1,8 @@
-/* 22_shadow.c - a shadow, which local light does not know (UW, Berkeley), by a shadow map: a
-   depth-only draw from the lamp stores how far light gets, then each pixel asks 3 x 3 texels of
-   that map how much light reaches it, which is the visibility of the lamp.
-   Try MAP 128: the shadow's rim shows texels, and lit faces shadow themselves.
+/* 22_shadow.c - a shadow, which local light does not know (UW, Berkeley), by a shadow map: depth
+   alone, drawn from the lamp.  The share of 3 x 3 texels that a pixel's own depth passes is the
+   visibility of the lamp.  Shadow acne: a texel holds the depth at its centre, and beside it a
+   slanted face is farther and shadows itself.  So points first move along N (a normal offset), by
+   the reach of the lookup times the sine of N to the lamp.  Try reach = facets = 0: stripes.
 
    cc -O2 -I. examples/lessons/22_shadow.c -lm -o shadow && ./shadow            writes shadow.ppm */
 #define SHADE_IMPLEMENTATION
@@ -11,6 +12,9 @@
 
 enum { MAP = 1024, BALL = 2, POT = BALL + 2 * 96 * 47 };    /* the last two: first triangles */
 static const shade_vec3 eye = { 4.1f, 7, 12.4f }, up = { 0, 1, 0 }, grey = { 0.6f, 0.6f, 0.6f };
+static const shade_vec3 at = { -3, 10, 6.5f }, aim = { 3, -9.2f, -6.5f }, left = { -1, -1, 0 };
+/* 3 x 3 centres lie within 2.12 texels, .019 wide at 20 from the lamp, and the mesh has facets */
+static const float reach = 2.12f * 0.019f, facets = 0.008f;
 typedef struct scene { mesh_scene place; shade_lighting lighting; shade_mat4 from_lamp; } scene;
 static float map[MAP][MAP];
 /* The share of light that passes at a point in the lamp's clip space; nearer texels weigh more. */
@@ -32,17 +36,14 @@ static void light(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
     const shade_material glaze = { { 0 }, { 1, 1, 1 }, { 1, 1, 1 }, { 0.3f, 0.3f, 0.3f }, 60 };
     const shade_vec3 paint[3] = { shade_rgb(0xB0A898), shade_rgb(0x508058), shade_rgb(0xC06028) };
     const scene *s = (const scene *)uniforms;
-    float L[3][SHADE_LANES], albedo[3][SHADE_LANES], visibility[2][SHADE_LANES];
+    const shade_vec3 axis = shade_normalize(aim);
+    float albedo[3][SHADE_LANES], visibility[2][SHADE_LANES];
     const shade_rows rows = { .position = in->varying[0], .normal = in->varying[3],
                               .albedo = albedo[0], .visibility = visibility[0] };
-    shade_light_at_lanes(s->lighting.lights, in->varying[0], L[0], NULL);
     SHADE_EACH_LANE(i) {
         shade_vec3 P = lane(in->varying[0], i), N = lane(in->varying[3], i);
-        float sine = shade_length(shade_cross(N, lane(L[0], i)));
-        /* A texel holds for its centre, up to 2.1 texels of .018 from P; a face leaning by theta
-           may be .04 tan(theta) nearer there.  P moves .04 sin(theta) + .008 (facets) along N. */
-        visibility[0][i] = passes(shade_mat4_transform_point(
-            s->from_lamp, shade_madd(P, 0.04f * (sine + 0.2f), N)));
+        P = shade_madd(P, reach * shade_length(shade_cross(N, axis)) + facets, N);
+        visibility[0][i] = passes(shade_mat4_transform_point(s->from_lamp, P));
         visibility[1][i] = 1;    /* the lamp at infinity casts no shadow */
         lane_put(albedo[0], i, paint[(in->primitive[i] >= BALL) + (in->primitive[i] >= POT)]);
     }
@@ -51,9 +52,8 @@ static void light(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
 
 int main(int argc, char **argv)
 {
-    const shade_vec3 at = { -3, 10, 6.5f }, aim = { 3, -9.2f, -6.5f }, blue = shade_rgb(0x506888);
     const shade_light lamps[2] = { shade_spot_light(at, aim, 0.42f, 12, shade_v3(2.2f, 2, 1.8f)),
-                                   shade_directional_light(shade_v3(-1, -1, 0), blue) };
+                                   shade_directional_light(left, shade_rgb(0x506888)) };
     owned_mesh ball = shape_moved(mesh_sphere(96, 48), shape_at(4.1f, 1, 0.4f, 1, 0));
     owned_mesh m = shape_join(shape_join(mesh_plane(60, 1), ball), shape_teapot(16));
     scene s = { .place = { .mesh = &m, .model = shade_mat4_identity() },

@@ -22,52 +22,58 @@ static double half_angle(float n)
     }
 }
 
+/* One ball with two lines of text below it */
+static void ball(const canvas *c, const owned_mesh *mesh, const shade_draw_state *state, int middle,
+                 int top, int size, const char *name, const char *formula)
+{
+    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f };
+    shade_target panel = canvas_panel(c, middle - size / 2, top, size, size);
+    shade_draw_mesh(&panel, &mesh->view, state, NULL);
+    label_caption(c, middle, top + size + 20, grey, name, formula);
+}
+
 int main(int argc, char **argv)
 {
-    static const float exponent[5] = { 1, 4, 16, 64, 256 };
-    static const char *const name[3] = { "metal", "plastic", "planet" };
-    static const char *const formula[3] = { "n = 100, k_s = 8 k_d", "n = 30, k_s white",
-                                            "n = 0, k_d a map, k_s = 0" };
     static float map[256 * 512][4];
-    const shade_vec3 grey = { 0.7f, 0.7f, 0.7f }, copper = { 0.95f, 0.45f, 0.22f };
-    const shade_vec3 blue = { 0.02f, 0.10f, 0.45f }, white = { 1, 1, 1 }, none = { 0, 0, 0 };
-    const shade_material of[3] = {
-        { none, shade_scale(copper, 0.04f), shade_scale(copper, 0.1f), shade_scale(copper, 0.8f),
-          100 },
-        { none, shade_scale(blue, 0.1f), blue, { 0.45f, 0.45f, 0.45f }, 30 },
-        { none, { 0.05f, 0.05f, 0.05f }, { 0.94f, 0.94f, 0.94f }, none, 0 }
-    };
-    shade_material teal = { none, { 0.03f, 0.2f, 0.22f }, { 0.03f, 0.2f, 0.22f },
-                            { 0.55f, 0.55f, 0.55f }, 0 };
+    const shade_vec3 white = { 1, 1, 1 }, half_white = { 0.45f, 0.45f, 0.45f }, none = { 0, 0, 0 };
+    const shade_vec3 copper = { 0.95f, 0.45f, 0.22f }, blue = { 0.02f, 0.10f, 0.45f };
+    const shade_vec3 teal = { 0.03f, 0.2f, 0.22f }, gloss = { 0.55f, 0.55f, 0.55f };
+    const shade_material metal = { none, shade_scale(copper, 0.04f), shade_scale(copper, 0.1f),
+                                   shade_scale(copper, 0.8f), 100 };
+    const shade_material plastic = { none, shade_scale(blue, 0.1f), blue, half_white, 30 };
+    const shade_material planet = { none, { 0.05f, 0.05f, 0.05f }, { 0.94f, 0.94f, 0.94f }, none,
+                                    0 };
+    shade_material glossy = { none, teal, teal, gloss, 0 };
     const shade_light lamp[2] = { shade_directional_light(shade_v3(0.5f, -0.6f, -1), white),
                                   shade_directional_light(shade_v3(-1, -0.2f, 0.3f), white) };
-    shade_texture earth = { .pixels = map, .width = 512, .height = 256,
-                            .format = SHADE_FORMAT_RGBA32F };
+    const shade_texture earth = { .pixels = map, .width = 512, .height = 256,
+                                  .format = SHADE_FORMAT_RGBA32F };
     shade_draw_state state = { .lighting = { lamp, 1, .ambient = { 0.15f, 0.15f, 0.17f } } };
-    owned_mesh ball = mesh_sphere(128, 64);
+    owned_mesh mesh = mesh_sphere(128, 64);
     canvas c = canvas_new(960, 580, 2);
-    char power[40], half[40];
 
-    noise_planet(map, 512, 256);
     state.view = shade_mat4_look_at(shade_v3(0, 0, 8), none, shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.27f, 1, 1, 10);
     state.model = shade_mat4_rotation(3.6f, shade_v3(0, 1, 0));
     canvas_dark(&c.target);
-    for (int i = 0; i < 8; i++) {
-        int w = i < 5 ? 192 : 320, x = i < 5 ? i * w : (i - 5) * w, y = i < 5 ? 8 : 256;
-        int size = i < 5 ? 184 : 264;
-        shade_target panel = canvas_panel(&c, x + (w - size) / 2, y, size, size);
-        if (i < 5) teal.shininess = exponent[i];
-        state.material = i < 5 ? &teal : &of[i - 5];
-        state.lighting.light_count = i == 5 ? 2 : 1;    /* metal shows what is around it */
-        state.diffuse_map = i == 7 ? &earth : NULL;
-        shade_draw_mesh(&panel, &ball.view, &state, NULL);
-        if (i < 5) sprintf(power, "(N·H)^{%d}", (int)exponent[i]);
-        if (i < 5) sprintf(half, i ? "half at %.1f°" : "half at %.1f°; rim: B",
-                           half_angle(exponent[i]));
-        label_caption(&c, x + w / 2, y + size + 20, grey, i < 5 ? power : name[i - 5],
-                      i < 5 ? half : formula[i - 5]);
+    state.material = &glossy;
+    for (int i = 0, n = 1; i < 5; i++, n *= 4) {
+        char name[40], half[40];
+        glossy.shininess = (float)n;
+        sprintf(name, "(N·H)^{%d}", n);
+        sprintf(half, n > 1 ? "half at %.1f°" : "half at %.1f°; rim: B", half_angle((float)n));
+        ball(&c, &mesh, &state, 96 + 192 * i, 8, 184, name, half);
     }
-    mesh_free(&ball);
+    state.material = &metal;
+    state.lighting.light_count = 2;    /* metal shows what is around it */
+    ball(&c, &mesh, &state, 160, 256, 264, "metal", "n = 100, k_s = 8 k_d");
+    state.material = &plastic;
+    state.lighting.light_count = 1;
+    ball(&c, &mesh, &state, 480, 256, 264, "plastic", "n = 30, k_s white");
+    noise_planet(map, 512, 256);
+    state.material = &planet;
+    state.diffuse_map = &earth;
+    ball(&c, &mesh, &state, 800, 256, 264, "planet", "n = 0, k_d a map, k_s = 0");
+    mesh_free(&mesh);
     return canvas_save(&c, argc, argv, "exponent.ppm");
 }

@@ -32,12 +32,12 @@ static void scatter(const void *uniforms, const shade_fragments *SHADE_RESTRICT 
     float L[3][SHADE_LANES], amount[SHADE_LANES];
     shade_light_at_lanes(&s->sun, v[0], L[0], amount);
     SHADE_EACH_LANE(i) {
-        shade_vec3 P = lane(v[0], i);
+        shade_vec3 P = lane(v[0], i), at = shade_add(P, shade_v3(0.4f, -0.2f, 0.3f));
         shade_vec3 N = shade_normalize(lane(v[3], i));
         float NL = shade_lambert(N, lane(L[0], i)) + 1e-6f;
         float NV = shade_lambert(N, shade_normalize(shade_sub(eye, P))) + 1e-6f;
         float T = shade_power(0.36787944f, s->tau / NL + s->tau / NV);
-        float sea = s->seas * noise(shade_scale(P, 2.5f)) * noise(shade_scale(P, 6));
+        float sea = s->seas * noise(shade_scale(at, 3.1f)) * noise(shade_scale(at, 5));
         float E = NL * (amount[i] - sea), layer = E / (NL + NV) * (1 - T);
         shade_vec3 I = shade_madd(shade_scale(s->k_d, E * T), layer, s->k);
         lane_put(out->color[0], i, I);

@@ -1,5 +1,5 @@
-/* 34_cook_torrance.c - gold as paint and as metal.  Left: Blinn-Phong.  Right: the model of Cook
-   and Torrance (ACM Transactions on Graphics 1 (1982), 7-24), by a fragment shader:
+/* 34_cook_torrance.c - gold as paint and as metal.  Left: the preset, by Blinn-Phong.  Right: Cook
+   and Torrance's model (ACM Transactions on Graphics 1 (1982), 7-24), by a fragment shader:
        I = SUM of I_s (N.L) D F G / (4 (N.L) (N.V)),   D = e^-((tan a / m)^2) / (pi m^2 cos^4 a),
        G = min(1, 2 (N.H) (N.V) / (V.H), 2 (N.H) (N.L) / (V.H)),   cos a = N.H
    They divide by pi.  F = F_0 + (1 - F_0) (1 - V.H)^5 is C. Schlick's Fresnel term (Computer
@@ -47,13 +47,13 @@ int main(int argc, char **argv)
     const shade_vec3 from[4] = { { 1, -.6f, -1 }, { -1, -.6f, -1 }, { 1, -.6f, 1.3f },
                                  { -1, -.6f, 1.3f } };    /* both sides, before and behind */
     const shade_vec3 axis[4] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 0, 0, 0 } };
-    const shade_material paint = { { 0 }, shade_scale(F_0, 0.02f), shade_scale(F_0, 0.12f),
-                                   shade_scale(F_0, 0.5f), 2 / (m * m) - 4 };
+    shade_material paint = shade_linear_material(shade_preset_material(SHADE_PRESET_GOLD));
     owned_mesh pot = shape_teapot(16);
     scene s = { .place = { .mesh = &pot, .model = shade_mat4_identity() } };
     shade_pipeline pipeline = { mesh_vertex, metal, &s, .varyings = 8 };
     shade_draw_state state = { .material = &paint, .lighting = { s.lamp, 4, .ambient = white } };
     canvas c = canvas_new(960, 490, 2);
+    paint.shininess = 2 / (m * m) - 4;
     shade_target panel = canvas_panel(&c, 0, 0, 480, 340);
     for (int j = 0; j < 4; j++) s.lamp[j] = shade_directional_light(from[j], grey);
     state.view = shade_mat4_look_at(eye, shade_v3(0.2f, 1.2f, 0), shade_v3(0, 1, 0));
@@ -69,8 +69,8 @@ int main(int argc, char **argv)
         shade_clear(&panel, shade_v4(.1f + .7f * k.x, .1f + .7f * k.y, .1f + .7f * k.z, 1), 1);
     }
     for (int i = 0; i < 2; i++) canvas_zoom(&c, 480 * i + 118, 80, 30, 18, 480 * i + 12, 10, 4);
-    label_center(&c, 240, 352, 22, grey, "Blinn-Phong; its rim four times as large");
-    label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V))");
+    label_center(&c, 240, 352, 22, grey, "Blinn-Phong, preset gold; rim × 4");
+    label_center(&c, 720, 352, 22, grey, "Cook-Torrance, D F G / (4 (N·L) (N·V)); rim × 4");
     label_center(&c, 480, 482, 19, grey, "F of gold, angle between V and H from 0° to 90°");
     label_draw(&c, 36, 387, 19, grey, "1");
     label_draw(&c, 36, 461, 19, grey, "0");

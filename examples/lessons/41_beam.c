@@ -19,19 +19,26 @@ static shade_vec3 landing(shade_vec3 P, shade_vec3 L)
     return shade_madd(P, -P.y / L.y, L);
 }
 
+/* The light of a point of a white surface, by the equation */
+static float light_of(shade_vec3 N, shade_vec3 L)
+{
+    const shade_light lamp = shade_directional_light(shade_neg(L), shade_v3(1, 1, 1));
+    const shade_lighting lighting = { .lights = &lamp, .light_count = 1 };
+    return shade_lit(&lighting, NULL, N, shade_v3(0, 0, 0), N).x;
+}
+
 static void panel(const canvas *c, int i, float theta)
 {
     const shade_vec3 N = { 0, 1, 0 }, L = sketch_direction(-theta), across = { L.y, -L.x, 0 };
     const shade_vec3 far_end = shade_scale(L, 3.6f), origin = { 0, 0, 0 };
+    /* a beam of width 1: its rims are half of it to each side */
     const shade_vec3 begin = landing(shade_madd(far_end, -0.5f, across), L);
     const shade_vec3 end = landing(shade_madd(far_end, 0.5f, across), L);
-    const shade_light lamp = shade_directional_light(shade_neg(L), shade_v3(1, 1, 1));
-    const shade_lighting lighting = { .lights = &lamp, .light_count = 1 };
-    const float light = shade_lit(&lighting, NULL, N, origin, N).x;
-    const float length = shade_distance(begin, end);
+    const float light = light_of(N, L), length = shade_distance(begin, end);
+
+    /* all that follows draws this */
     const int middle = 180 + 310 * i;
     sketch s = sketch_new(c, middle, 330, UNIT);
-
     sketch_ink(&s, shade_v3(1, 0.86f, 0.42f), UNIT);
     s.pen.cap = SHADE_CAP_BUTT;
     sketch_line(&s, shade_scale(L, -1.5f), far_end);

@@ -55,6 +55,7 @@ int main(int argc, char **argv)
 {
     const shade_vec3 L = sketch_direction(-40);
     canvas c = canvas_new(960, 450, 3);
+    char text[60];
     sketch_paper(&c);
     for (int i = 0; i < 2; i++) {
         int x = 240 + 480 * i;
@@ -65,7 +66,8 @@ int main(int argc, char **argv)
         sketch_name(&s, shade_scale(L, 0.82f), 24, "L");
         label_center(&c, x, 412, 22, black,
                      i ? "normals of corners, interpolated" : "normals of sides");
-        label_print(&c, x - 62, 438, 19, black, "at most %.1f° off", off);
+        sprintf(text, "at most %.1f° off the circle's", off);
+        label_center(&c, x, 438, 19, black, text);
     }
     return canvas_save(&c, argc, argv, "octagon.ppm");
 }

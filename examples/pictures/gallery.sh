@@ -20,4 +20,5 @@ for ppm in out/[0-9]*.ppm out/gallery.ppm build/microcontroller.ppm build/drawin
     fi
     echo "$png $(wc -c <"$png")"
 done
+pnmtopng -compression 9 out/knot.ppm 2>/dev/null >examples/pictures/knot.png || exit 1    # a test compares it
 echo "$(cat examples/pictures/*.png | wc -c) bytes of PNG in all"

@@ -122,27 +122,30 @@ static inline void canvas_zoom(const canvas *c, int x, int y, int w, int h, int 
     }
 }
 
-/* Draws the difference of two panels of one size, gain times as bright, on a third.  Returns how
-   many samples are not the same colour of 8 bits; most becomes the greatest difference of light. */
+/* Marks where two panels of one size differ: shows a in dim grey on a third panel, with a square
+   of size x size over each sample that is not the same colour of 8 bits, and counts those. */
 static inline int canvas_difference(const shade_target *a, const shade_target *b,
-                                    const shade_target *out, float gain, float *most)
+                                    const shade_target *out, int size)
 {
+    const shade_vec3 mark = { 1, 0.35f, 0.02f };
     int count = 0;
-    *most = 0;
-    for (int i = 0; i < a->width * a->height; i++) {
-        size_t at = (size_t)(i / a->width) * (size_t)a->stride + (size_t)(i % a->width);
-        shade_vec4 p = ((const shade_vec4 *)a->color)[at], q = ((const shade_vec4 *)b->color)[at];
-        shade_vec3 d = shade_sub(shade_v3(p.x, p.y, p.z), shade_v3(q.x, q.y, q.z)), s, t;
-        d = shade_max(d, shade_neg(d));
-        s = shade_srgb_from_linear(shade_v3(p.x, p.y, p.z));
-        t = shade_srgb_from_linear(shade_v3(q.x, q.y, q.z));
-        count += (int)(255 * s.x + 0.5f) != (int)(255 * t.x + 0.5f) ||
-                 (int)(255 * s.y + 0.5f) != (int)(255 * t.y + 0.5f) ||
-                 (int)(255 * s.z + 0.5f) != (int)(255 * t.z + 0.5f);
-        *most = d.x > *most ? d.x : *most;
-        *most = d.y > *most ? d.y : *most;
-        *most = d.z > *most ? d.z : *most;
-        ((shade_vec4 *)out->color)[at] = shade_v4(gain * d.x, gain * d.y, gain * d.z, 1);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < a->width * a->height; i++) {
+            const int x = i % a->width, y = i / a->width;
+            const size_t at = (size_t)y * (size_t)a->stride + (size_t)x;
+            shade_vec4 p = ((const shade_vec4 *)a->color)[at];
+            shade_vec4 q = ((const shade_vec4 *)b->color)[at];
+            shade_vec3 s = shade_srgb_from_linear(shade_v3(p.x, p.y, p.z));
+            shade_vec3 t = shade_srgb_from_linear(shade_v3(q.x, q.y, q.z));
+            const float grey = 0.02f + 0.06f * (s.x + s.y + s.z);
+            const int differ = (int)(255 * s.x + 0.5f) != (int)(255 * t.x + 0.5f) ||
+                               (int)(255 * s.y + 0.5f) != (int)(255 * t.y + 0.5f) ||
+                               (int)(255 * s.z + 0.5f) != (int)(255 * t.z + 0.5f);
+            if (!pass) canvas_fill(out, x, y, 1, 1, shade_v3(grey, grey, grey));
+            if (!pass || !differ) continue;
+            canvas_fill(out, x - size / 2, y - size / 2, size, size, mark);
+            count++;
+        }
     }
     return count;
 }

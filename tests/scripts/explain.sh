@@ -59,9 +59,7 @@ if echo 'auto x = __cpp_lib_bit_cast; ' |
     build glm "$CXX" -std=c++20 $WRAP examples/embed/glm.cpp
     run glm glm.ppm
 else left_out "GLM's program (no C++20, or no GLM)"; fi
-awk '/^```c$/ { inside = 1; text = ""; next }
-     /^```/ { if (inside && text ~ /int main\(/) { printf "%s", text; exit } inside = 0 }
-     inside { text = text $0 "\n" }' README.md >"$T/readme.c"
+${MAKE:-make} -s build/knot.c && cp build/knot.c "$T/readme.c"
 c99 readme "$T/readme.c"
 run readme
 { printf '#include "shade.h"\n'

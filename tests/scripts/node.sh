@@ -30,7 +30,13 @@ awk -v out="$T/use/program" '/^```js$/ { n++; inside = 1; next } /^```/ { inside
 { sed '/^import/!d' "$T/use/program1.mjs"; cat "$T/use/program2.mjs"; } >"$T/use/both.mjs"
 check "README's first program" sh -c "cd '$T/use' && node program1.mjs"
 check "README's second program" sh -c "cd '$T/use' && node both.mjs"
-check "README's third program" sh -c "cd '$T/use' && node program3.mjs"
+cat "$T/use/program3.mjs" - >"$T/use/drawn3.mjs" <<'END'
+let seen = 0, red = 0;    // a ball of radius 0.4, 3.82 away, 115.2 pixels a unit at distance 1
+for (let i = 0; i < 96 * 128; i++)
+    if (ids[2 * i] === ball) { seen++; red += color[3 * i] > 2 * color[3 * i + 1]; }
+console.log(Math.abs(seen / (Math.PI * 12.1 ** 2) - 1) < 0.05 && red === seen ? "a red ball" : [seen, red]);
+END
+check "README's third program" same "$(cd "$T/use" && node drawn3.mjs 2>&1)" "a red ball"
 cat >"$T/use/part.glb" <<'END'
 {"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
     "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
@@ -47,7 +53,8 @@ import("shade-h").then((other) => {    // a Mesh of one is a Mesh of the other
 END
 check "require" same "$(cd "$T/use" && node required.js 2>&1)" "the same module"
 if there pngtopnm; then
-    check "its picture is a PNG" sh -c "pngtopnm '$T/use/gear.png' | head -c 15 | grep -q '640 480'"
+    for picture in "$T/use/gear.png" "$N/../python/picture.png"; do pngtopnm "$picture" >"$picture.ppm"; done
+    check "its picture is that of the Python package" cmp "$T/use/gear.png.ppm" "$N/../python/picture.png.ppm"
 else left_out "the picture by netpbm"; fi
 
 # what is of npm, of fixed versions, in a folder that no test looks into

@@ -1,11 +1,12 @@
 #!/bin/sh
-# readme.sh [README] - what the README and the READMEs of rooms show compiles and does what it says.
-# Its one block with main is the program: C99, gnu17 behind other headers, C++20; it is run.  The
-# other blocks of C make one file, in their order, behind readme_prelude.h, and readme_run.c runs
-# them.  SDL2, stb and a C++ compiler are used where they are.  Names, keys and files that the README
-# and examples/README.md speak of exist; the C of the latter is recipes.h, which tests/unit/recipes.c
-# holds; every public function stands in the README, an example or the bench; every example in
-# examples/README.md.
+# readme.sh [README] - what the README, the READMEs of rooms and the head of shade.h show compiles and
+# does what it says.  The README's one block with main is its program.  It is built by the command of
+# its first line in a folder with shade.h and nothing else, without a warning as C and as C++.  Its
+# snippets compile behind it there, in their order.  tests/scripts/readme_run.c looks at the pixels that
+# programs and snippets draw.  SDL2, stb and a C++ compiler are used where they are.  Names, keys and
+# files that the README and examples/README.md speak of exist; the C of the latter is recipes.h, which
+# tests/unit/recipes.c holds; every public function stands in the README, an example or the bench;
+# every example in examples/README.md.
 cd "$(dirname "$0")/../.." || exit 1
 CC=${CC:-cc}
 if [ -z "${CXX:-}" ]; then
@@ -16,7 +17,7 @@ README=${1:-README.md}
 CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
 PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md tests/GUARANTEES.md
     examples/microcontroller/README.md examples/lessons/TEACHING.md examples/teaching/course/README.md"
-WARN="-Wall -Wextra -Werror -Wno-missing-field-initializers"
+WARN="-Wall -Wextra -Werror"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
 T=$(mktemp -d) || exit 1
 trap 'rm -rf "$T"' EXIT INT TERM
@@ -28,19 +29,24 @@ check() {                       # what, command ...
     else failed=$((failed + 1)); echo "readme: $name"; sed 's/^/    /;20q' "$T/log"; fi
 }
 left_out() { echo "readme: no $1: left out"; }
+shown() { pngtopnm examples/pictures/knot.png | cmp - "$T/alone/knot.ppm"; }
 accepts() {                     # compiler, flags, c or c++, text
     printf '%s\n' "$4" | $1 $2 -x "$3" -c - -o "$T/accepted.o" >/dev/null 2>&1
 }
 
-# the blocks: program.c once, then snippets, each behind its place in the README
-: >"$T/readme_snippets.h"
-awk -v dir="$T" '
+# the blocks, each behind its place in its page; and the program of shade.h's head
+mkdir "$T/alone" "$T/head"
+cp shade.h "$T/alone"
+cp shade.h "$T/head"
+: >"$T/alone/snippets.h"
+awk -v dir="$T" -v readme="$README" '
     function put(   file) {
-        file = "readme_snippets.h"
-        if (text ~ /SDL_/) file = "readme_sdl.h"
-        if (text ~ /stbi_/) file = "readme_stb.h"
-        if (text ~ /int main\(/) file = "program.c"
-        printf "#line %d \"%s\"\n%s", line, FILENAME, text > (dir "/" file)
+        file = FILENAME == readme ? "alone/snippets.h" : "more.h"
+        if (text ~ /SDL_/) file = "sdl.h"
+        if (text ~ /stbi_/) file = "stb.h"
+        if (text ~ /int main\(/) file = "alone/knot.c"
+        if (file !~ /knot/) printf "#line %d \"%s\"\n", line, FILENAME > (dir "/" file)
+        printf "%s", text > (dir "/" file)
         blocks[file]++
     }
     /^```/ {
@@ -49,30 +55,44 @@ awk -v dir="$T" '
         next
     }
     inside { text = text $0 "\n" }
-    END { if (blocks["program.c"] != 1) print blocks["program.c"] + 0 > (dir "/programs") }
+    END { if (blocks["alone/knot.c"] != 1) print blocks["alone/knot.c"] + 0 > (dir "/programs") }
 ' "$README" $CONTINUED
+sed -n 's/^| [^|]*| \("[^"]*"\) |.*/\1,/p' "$README" >"$T/sentences.h"
 check "one program" test ! -f "$T/programs"
+awk '/#define SHADE_IMPLEMENTATION/ { seen = 1 }
+     seen && /^       / { print substr($0, 8) }
+     /^       }$/ { exit }' shade.h >"$T/head/triangle.c"
 
-# the program; the implementation stands in an object that all share
-${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
-BUILT=-DSHADE__IMPLEMENTED
-in_t() { (cd "$T" && "$@"); }
-check "the program, C99" $CC -std=c99 $WARN -I. -fsyntax-only "$T/program.c"
-check "the program links" $CC -std=c99 $WARN -I. $BUILT "$T/program.c" build/shade.o -lm \
-      -o "$T/program"
-check "the program runs" in_t ./program
+# the programs, in a folder with what the README says to copy
+in_folder() { (cd "$T/$1" && shift && "$@"); }
+command=$(sed -n '1s/.* \(cc .*&& [^ ]*\) .*/\1/p' "$T/alone/knot.c" | sed "s|^cc |$CC |")
+check "the program has its command" test -n "$command"
+check "the program, by its command" in_folder alone sh -c "$command"
+if command -v pngtopnm >/dev/null; then check "the picture shown is the program's" shown
+else left_out "pngtopnm (netpbm)"; fi
+check "the program of shade.h" in_folder head $CC -std=c99 $WARN triangle.c -lm
+check "the program of shade.h runs" in_folder head ./a.out
 headers='#include <string.h>
 #include <math.h>
 #include <complex.h>'
-{ echo "$headers"; cat "$T/program.c"; } >"$T/behind.c"
-if accepts "$CC" -std=gnu17 c "$headers"; then
-    check "the program, gnu17 behind other headers" $CC -std=gnu17 $WARN -I. -fsyntax-only "$T/behind.c"
-else left_out "gnu17 with complex.h in $CC"; fi
-if [ -n "${CXX:-}" ] && accepts "$CXX" -std=c++20 c++ 'struct { int a; } x = { .a = 1 };'; then
-    check "the program, C++20" $CXX -std=c++20 $WARN -I. -x c++ -fsyntax-only "$T/program.c"
-else left_out "C++20"; fi
+for file in alone/knot.c head/triangle.c; do
+    check "$file, C99" in_folder ${file%/*} $CC -std=c99 $WARN -fsyntax-only ${file#*/}
+    { echo "$headers"; cat "$T/$file"; } >"$T/${file%/*}/behind.c"
+    if accepts "$CC" -std=gnu17 c "$headers"; then
+        check "$file, gnu17 behind other headers" in_folder ${file%/*} $CC -std=gnu17 $WARN -fsyntax-only behind.c
+    else left_out "gnu17 with complex.h in $CC"; fi
+done
+{ cat "$T/alone/knot.c"; echo 'static shade_vec3 eye;'; cat "$T/alone/snippets.h"; } >"$T/alone/all.c"
+check "the snippets, C99" in_folder alone $CC -std=c99 $WARN -Wno-unused -fsyntax-only all.c
+for dialect in c++11 c++20; do
+    if [ -n "${CXX:-}" ] && accepts "$CXX" -std=$dialect c++ 'int x;'; then
+        check "the program and its snippets, $dialect" in_folder alone \
+              $CXX -std=$dialect $WARN -Wno-unused -x c++ -fsyntax-only all.c
+    else left_out $dialect; fi
+done
 
 # the snippets
+${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
 sdl=$(sdl2-config --cflags 2>/dev/null)
 if [ -n "$sdl" ] && accepts "$CC" "$sdl" c '#include <SDL.h>'; then
     sdl="-DREADME_SDL $sdl $(sdl2-config --libs)"
@@ -81,13 +101,13 @@ stb=''
 for dir in $(pkg-config --cflags-only-I stb 2>/dev/null | sed 's/-I//g') /usr/include/stb; do
     accepts "$CC" "-I$dir" c '#include "stb_image_write.h"' && stb="-DREADME_STB -isystem $dir" && break
 done
-for part in sdl stb; do    # a README without such a snippet fails
-    check "a snippet for $part" test -s "$T/readme_$part.h"
+for part in more sdl stb; do    # a README without such a snippet fails
+    check "a snippet for $part" test -s "$T/$part.h"
 done
-check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I. -I"$T" $BUILT \
-      tests/scripts/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
+check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I"$T/alone" -I"$T" -I. -Itests/unit \
+      -DSHADE__IMPLEMENTED tests/scripts/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
 if [ -x "$T/readme_run" ]; then
-    (cd "$T" && SDL_VIDEODRIVER=dummy ./readme_run teapot.ppm) >"$T/run" 2>&1
+    (cd "$T" && SDL_VIDEODRIVER=dummy ./readme_run alone/knot.ppm head/triangle.ppm) >"$T/run" 2>&1
     grep -vE '^[0-9]+ passed, ' "$T/run"
     p=$(sed -n 's/^\([0-9]*\) passed, .*/\1/p' "$T/run")
     f=$(sed -n 's/.* passed, \([0-9]*\) failed$/\1/p' "$T/run")
@@ -124,6 +144,8 @@ check "every source is one of shade.h" none "$(
     grep -oE '\[[A-Z][a-z]+[0-9]+\]' "$T/text" | sort -u | while read -r key; do
         grep -qF -- "$key" shade.h || echo "$key"
     done)"
+check "README counts the pictures" test "$(($(ls examples/lessons/[0-9]*.c | wc -l) - 12))" = \
+    "$(sed -n 's/.*twelve pictures and \([0-9]*\) more.*/\1/p' "$README")"
 check "every file is there" none "$(
     grep -oE '(^|[^A-Za-z/])(examples|tests|bench|\.ci)/[A-Za-z0-9_./]*' "$T/text" |
     sed 's/^[^a-z.]//; s/[.]$//' | sort -u | while read -r file; do [ -e "$file" ] || echo "$file"; done)"
