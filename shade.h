@@ -4431,6 +4431,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     const int32_t cx = edges->ex[2], cy = edges->ey[2], c = edges->e[2] + i0 * cx + j0 * cy;
     const int rows = tile->rows, stride = tile->stride;
     float *SHADE_RESTRICT depth = tile->depth + at;
+    float nearest[SHADE__TILE];
     int32_t e0[SHADE__TILE], e1[SHADE__TILE], e2[SHADE__TILE];
     float z_step[SHADE__TILE];
     uint32_t all = 0;
@@ -4444,19 +4445,20 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
 
     for (int r = 0; r < rows; r++, depth += stride) {
         const float row_z = tile->row_z[r];
+        float *to = less_only ? depth : nearest;
         uint32_t any = 0;
         for (int i = 0; i < width; i++) {
             float z = shade__clamp_bits(row_z + z_step[i], z_low, z_high);
             uint32_t m = shade__mask(full || (e0[i] | e1[i] | e2[i]) >= 0);
             m &= shade__passes(test, less_only, z, depth[i]);
-            depth[i] = shade__select(depth[i], z,
-                                     less_only ? m : m & test.write);
+            to[i] = shade__select(depth[i], z, m);
             any |= m & shade__bit[i];
             if (full) continue;    /* clang would store them */
             e0[i] += ay;
             e1[i] += by;
             e2[i] += cy;
         }
+        if (!less_only && test.write) SHADE_MEMCPY(depth, nearest, (size_t)width * sizeof *depth);
         tile->set[r] |= any << at;
         all |= any;
     }
@@ -4538,7 +4540,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;
         SHADE_MEMCPY(copy, depth, bytes);
         shade__test_large(plan, t, edges, &row, 0);
-        SHADE_MEMCPY(depth, copy, bytes);
+        if (plan->early_test.write) SHADE_MEMCPY(depth, copy, bytes);
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
         tile->any |= tile->set[r];
     }

@@ -4,6 +4,7 @@
    test_main --stop [section ...] runs these sections, then the others, up to the first failure
    test_main --scenes [folder]    prints the hashes of the built-in scenes as the lines of
                                   scenes.h, and writes their pictures into the folder */
+#include "pages.h"
 #include <time.h>
 
 /* Tiles are counted where the implementation is compiled here, or was with -include count.h. */
@@ -19,6 +20,7 @@
 #include "faults.h"
 #include "meshes.h"
 #include "rows.h"
+#include "calls.h"
 
 #include "math.c"
 #include "matrix.c"
@@ -50,6 +52,7 @@
 #include "modes.c"
 #include "explain.c"
 #include "beginner.c"
+#include "reads.c"
 #ifdef SHADE__TILE_TESTED
 long tiles_tested;
 #include "work.c"
@@ -62,7 +65,7 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
-    SECTION(beginner),
+    SECTION(beginner), SECTION(reads),
 #ifdef SHADE__TILE_TESTED
     SECTION(work),
 #endif
