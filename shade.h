@@ -4414,7 +4414,9 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
 }
 
 /* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
-   depth.  Its loops are no SHADE__FOR, with which clang 14 keeps the rows in memory.
+   depth.  Memory that is only read may be read-only, or shared with other threads: then nothing is
+   stored, not even what it holds already.  The loops are no SHADE__FOR, with which clang 14 keeps
+   the rows in memory.
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
@@ -4445,13 +4447,13 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
 
     for (int r = 0; r < rows; r++, depth += stride) {
         const float row_z = tile->row_z[r];
-        float *to = less_only ? depth : nearest;
         uint32_t any = 0;
         for (int i = 0; i < width; i++) {
             float z = shade__clamp_bits(row_z + z_step[i], z_low, z_high);
             uint32_t m = shade__mask(full || (e0[i] | e1[i] | e2[i]) >= 0);
             m &= shade__passes(test, less_only, z, depth[i]);
-            to[i] = shade__select(depth[i], z, m);
+            if (less_only) depth[i] = shade__select(depth[i], z, m);
+            else nearest[i] = shade__select(depth[i], z, m);
             any |= m & shade__bit[i];
             if (full) continue;    /* clang would store them */
             e0[i] += ay;
