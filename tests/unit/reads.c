@@ -76,6 +76,96 @@ TEST(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else)
 #endif
 }
 
+#if PAGES
+/* Does depth z pass this test against s? */
+static int reads_passes(shade_compare test, float z, float s)
+{
+    switch (test) {
+    case SHADE_COMPARE_LESS: return z < s;
+    case SHADE_COMPARE_LESS_EQUAL: return z <= s;
+    case SHADE_COMPARE_GREATER: return z > s;
+    case SHADE_COMPARE_GREATER_EQUAL: return z >= s;
+    case SHADE_COMPARE_EQUAL: return z == s;
+    default: return 1;
+    }
+}
+
+enum { READS_WIDTH = 300, READS_HEIGHT = 60, READS_CELLS = READS_WIDTH * READS_HEIGHT };
+
+typedef struct reads_draw {
+    shade_target target;
+    shade_pipeline pipe;
+    uint32_t color[READS_CELLS];
+} reads_draw;
+
+static int reads_draw_corners(void *argument)
+{
+    const reads_draw *d = (const reads_draw *)argument;
+    return (int)shade_draw(&d->target, &d->pipe, NULL, 3, 3, NULL);
+}
+
+/* A triangle of depth 1/2, so many pixels wide, is drawn over depths 1/4, 1/2 and 3/4 that are
+   read-only.  The pixels that a draw without depth covers change where their depth passes. */
+static void reads_check_size(reads_draw *d, float *depth, float pixels)
+{
+    static uint32_t covered[READS_CELLS];
+    const shade_vec4 clip[3] = { { -0.95f, -0.9f, 0, 1 },
+                                 { -0.95f + 2 * pixels / READS_WIDTH, -0.8f, 0, 1 },
+                                 { -0.94f, 0.9f, 0, 1 } };
+    const scene s = { clip, NULL, 0, NULL, NULL };
+    const shade_compare test = d->pipe.raster.depth_test;
+    int faulted, result = -1, wrong = 0, shown = 0;
+    d->pipe.uniforms = &s;
+    d->target.depth = NULL;
+    memset(d->color, 0, sizeof d->color);
+    CHECK_INT(reads_draw_corners(d), SHADE_OK);
+    memcpy(covered, d->color, sizeof covered);
+    memset(d->color, 0, sizeof d->color);
+    d->target.depth = depth;
+    faulted = page_faults(reads_draw_corners, d, &result);
+    CHECK_SAY(!faulted && result == SHADE_OK, "%g pixels, test %d, may_discard %d, %d columns: %s",
+              (double)pixels, (int)test, d->pipe.may_discard, d->target.clip_width,
+              faulted ? "depth was written" : "refused");
+    for (int i = 0; i < READS_CELLS; i++) {
+        wrong += d->color[i] != (reads_passes(test, 0.5f, depth[i]) ? covered[i] : 0);
+        shown += d->color[i] != 0;
+    }
+    CHECK_INT(wrong, 0);
+    CHECK(shown > 0);
+}
+#endif
+
+/* G19 */
+TEST(reads, depth_that_is_only_read_may_lie_in_read_only_memory)
+{
+#if PAGES
+    static const float levels[3] = { 0.25f, 0.5f, 0.75f };
+    static const float widths[3] = { 20, 100, 280 };    /* each is covered by other code */
+    static reads_draw d;
+    float *depth = (float *)page_take(READS_CELLS * sizeof *depth);
+    for (int i = 0; i < READS_CELLS; i++) depth[i] = levels[rnd_int(0, 2)];
+    page_allow(depth, READS_CELLS * sizeof *depth, PROT_READ);
+    memset(&d, 0, sizeof d);
+    d.target.width = READS_WIDTH;
+    d.target.height = READS_HEIGHT;
+    d.target.color = d.color;
+    d.pipe.vertex = scene_vertex;
+    d.pipe.fragment = scene_flat;
+    d.pipe.raster.depth_read_only = 1;
+    for (int i = 0; i < 6 * 3 * 2 * 2; i++) {
+        d.pipe.raster.depth_test = (shade_compare)(i % 6);
+        d.pipe.may_discard = i / 18 % 2;
+        d.target.clip_width = i / 36 ? 25 : 0;    /* narrower than a tile */
+        d.target.clip_height = i / 36 ? READS_HEIGHT : 0;
+        reads_check_size(&d, depth, widths[i / 6 % 3]);
+    }
+    page_free(depth, READS_CELLS * sizeof *depth);
+#else
+    test_skip("no mprotect");
+#endif
+}
+
 static const test_case reads_cases[] = {
+    CASE(reads, depth_that_is_only_read_may_lie_in_read_only_memory),
     CASE(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else),
 };
