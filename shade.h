@@ -63,20 +63,20 @@
      Inside: the way of a triangle
        >>state     3238  who owns what         >>vertices  3421  shading, projection
        >>triangles 3638  dropped, cut, edges   >>clip      4007  near, far, behind the eye
-       >>tiles     4192  pixels, depth test    >>cover     4547  what is hidden, tile by tile
-       >>fragments 4814  interpolation, lod    >>texture   5107  texels, mipmaps
-       >>store     5552  blending, packing
+       >>tiles     4192  pixels, depth test    >>cover     4551  what is hidden, tile by tile
+       >>fragments 4818  interpolation, lod    >>texture   5111  texels, mipmaps
+       >>store     5556  blending, packing
      Inside: calls of the renderer
-       >>check     5784  refusals              >>seen      5933  what can be seen, chunks
-       >>drive     6070  shade_draw            >>mesh      6249  shade_draw_mesh
+       >>check     5788  refusals              >>seen      5937  what can be seen, chunks
+       >>drive     6074  shade_draw            >>mesh      6253  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
-       >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
-       >>survey    7503  experiments on a draw >>explain   7754  why nothing is seen
-       >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
+       >>lines     6653  shade_draw_lines      >>shape     6811  normals, edges
+       >>chunks    7147  how boxes are made    >>rays      7311  shade_pick
+       >>survey    7507  experiments on a draw >>explain   7758  why nothing is seen
+       >>image     8403  mipmaps, PPM           >>presets   8671  classic materials
      Sources
-       >>refs      8743                        >>history   8773
-       >>license   8785
+       >>refs      8747                        >>history   8777
+       >>license   8789
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.

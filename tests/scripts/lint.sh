@@ -80,8 +80,8 @@ if command -v clang >/dev/null; then
         clang $flags -I/tmp/lint_include.$$ -x c $(find examples -name '*.c') \
             examples/shared/recipes.h examples/playground/libc.h 2>&1 | grep Wcomma)"
     rm -rf /tmp/lint_include.$$
-    # All but two of tests/unit/*.c stand in main.c.  Where a header is missing clang reads no further.
-    for file in tests/unit/main.c tests/unit/golden.c tests/unit/readme_run.c tests/[!u]*/*.c bench/*.c; do
+    # All but three of tests/unit/*.c stand in main.c.  Where a header is missing clang reads no further.
+    for file in tests/unit/main.c tests/unit/golden.c tests/unit/readme_run.c tests/unit/sharing.c tests/[!u]*/*.c bench/*.c; do
         clang -std=c99 -w -Wcomma -fsyntax-only -I. $file 2>&1
     done >/tmp/lint_clang.$$
     check "none in tests and bench either" "$(
@@ -104,14 +104,14 @@ check "no heap, no exit, no print" "$(sed '1,/^#ifndef SHADE_H/s/.*//' $H | grep
 
 check "every file of tests stands in tests/README.md" "$(for file in tests/unit/*.c tests/scripts/*.sh; do
     grep -qF "\`${file##*/}\`" tests/README.md || echo "$file"; done)"
-check "tests/README.md speaks of files and names that are there, in 170 lines" "$(
+check "tests/README.md speaks of files and names that are there, in 215 lines" "$(
     grep -oE '`[a-z_/]+\.[a-z]+`' tests/README.md | tr -d '`' | sort -u | while read -r file; do
         [ -e "tests/unit/$file" ] || [ -e "tests/scripts/$file" ] || [ -e "tests/$file" ] || [ -e "$file" ] || echo "$file"; done
     grep -oE '`[A-Za-z0-9]+_[A-Za-z0-9_]*`' tests/README.md | tr -d '`' | sort -u | while read -r name; do
         grep -qwF "$name" $H tests/*/*.[ch] || echo "$name"; done
     grep -oE '>>[a-z]+' tests/README.md | sort -u | while read -r place; do
         grep -qE "^/\*-+ $place\$" $H || echo "$place"; done
-    awk 'END { if (NR > 170) print NR " lines" }' tests/README.md)"
+    awk 'END { if (NR > 215) print NR " lines" }' tests/README.md)"
 
 # The guarantees of tests/README.md, and the numbers that tests carry: a comment above a TEST, a line of a script
 grep -oE '^\* \*\*G[0-9]+' tests/README.md | grep -oE 'G[0-9]+' | sort >/tmp/lint_promised.$$

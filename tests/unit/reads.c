@@ -165,7 +165,62 @@ TEST(reads, depth_that_is_only_read_may_lie_in_read_only_memory)
 #endif
 }
 
+/* A whole file, or NULL. */
+static char *reads_file(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    long size;
+    if (!file) return NULL;
+    if (!fseek(file, 0, SEEK_END) && (size = ftell(file)) >= 0 && !fseek(file, 0, SEEK_SET)) {
+        text = test_memory((size_t)size + 1);
+        text[fread(text, 1, (size_t)size, file)] = 0;
+    }
+    fclose(file);
+    return text;
+}
+
+static int reads_has_row(const char *name, size_t length)
+{
+    for (int i = 0; i < WORLD_CALLS; i++) {
+        if (strlen(world_calls[i].name) == length && !memcmp(world_calls[i].name, name, length))
+            return 1;
+    }
+    return 0;
+}
+
+/* Every function of shade.h that takes a pointer has a row, and every row stands in the README. */
+TEST(reads, the_table_of_the_readme_has_every_call)
+{
+    char *readme = reads_file("tests/README.md"), *header = reads_file("shade.h");
+    char row[512];
+    if (!readme || !header) {
+        test_skip("not started where shade.h is");
+        free(readme);
+        free(header);
+        return;
+    }
+    for (int i = 0; i < WORLD_CALLS; i++) {
+        const world_call *c = &world_calls[i];
+        snprintf(row, sizeof row, "\n| `%s` | %s | %s | %s |\n", c->name, c->when, c->reads,
+                 c->writes);
+        CHECK_SAY(strstr(readme, row), "tests/README.md has no line%s", row);
+    }
+    for (char *p = header; (p = strstr(p, "\nSHADEDEF ")) != NULL;) {
+        char *open = strchr(p, '('), *close = open ? strchr(open, ')') : NULL, *name = open;
+        if (!close || close[1] != ';') break;    /* the bodies begin */
+        while (name[-1] == '_' || isalnum((unsigned char)name[-1])) name--;
+        if (memchr(open, '*', (size_t)(close - open)))
+            CHECK_SAY(reads_has_row(name, (size_t)(open - name)), "calls.h has no row of %.*s",
+                      (int)(open - name), name);
+        p = close;
+    }
+    free(readme);
+    free(header);
+}
+
 static const test_case reads_cases[] = {
+    CASE(reads, the_table_of_the_readme_has_every_call),
     CASE(reads, depth_that_is_only_read_may_lie_in_read_only_memory),
     CASE(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else),
 };
