@@ -745,6 +745,7 @@ typedef struct shade_mesh {
     int vertex_count;
     const uint32_t *indices; int index_count;        /* NULL: vertices 0, 1, 2, ... */
     const struct shade_chunk *chunks; int chunk_count;    /* NULL: no triangle is skipped */
+    const uint16_t *indices16;                       /* in place of indices: one of them is NULL */
 } shade_mesh;
 
 /* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  A mesh
@@ -812,7 +813,8 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    mesh already has are ignored; a corner that is NaN or infinite does not count for its box.
      With indices NULL the triangles stay in their order, which is good where neighbours in the list
    are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
-   where the mesh has no indices: it receives the triangles sorted in space; set mesh.indices to it.
+   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it,
+   and mesh.indices16 to NULL.
    Sorting splits the list at the median of its longest axis, and the halves again, in n log n steps
    and without further memory.  The order is the same on every machine.
      chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
@@ -3381,9 +3383,18 @@ typedef struct shade__queue {
 
 typedef struct shade__frustum shade__frustum;    /* of >>seen */
 
+/* Indices of 32 bits or of 16; both NULL: 0, 1, 2, ... */
+typedef struct shade__indices { const uint32_t *wide; const uint16_t *narrow; } shade__indices;
+
+SHADE__INLINE uint32_t shade__index(shade__indices list, size_t i)
+{
+    if (list.wide) return list.wide[i];
+    return list.narrow ? list.narrow[i] : (uint32_t)i;
+}
+
 /* The triangles of a draw, handed out in their order. */
 typedef struct shade__supply {
-    const uint32_t *indices;          /* NULL: 0, 1, 2, ... */
+    shade__indices indices;
     int first, end;                   /* of the triangles at hand */
     int (*more)(shade__draw *);       /* shade__next_chunk, linked with meshes only; or NULL */
     int chunks;                       /* how many are left */
@@ -3585,7 +3596,7 @@ static void shade__shade_vertices(shade__draw *d)
    many.  Branch-free: slot and index are written whether the vertex is known or not; only the count
    depends on it.  A branch would be mispredicted every other time (2 % of a dense mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in,
-                                        const uint32_t *indices, uint32_t first,
+                                        shade__indices indices, uint32_t first,
                                         int most, int room,
                                         uint8_t (*corner)[4])
 {
@@ -3594,7 +3605,7 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in,
 
     for (; n < most && vertices <= room; n++) {
         for (int k = 0; k < 3; k++, at++) {
-            const uint32_t index = indices ? indices[at] : at;
+            const uint32_t index = shade__index(indices, at);
             const int place = (int)(index & (2 * SHADE_LANES - 1)), hit = in->known[place] == index;
             const int slot = vertices + ((in->slot_of[place] - vertices) & -hit);
             index_of[vertices] = index;
@@ -5822,7 +5833,7 @@ static shade_result shade__check_target(const shade_target *t)
 
 static int shade__corner_count(const shade_mesh *m)
 {
-    return m->indices ? m->index_count : m->vertex_count;
+    return m->indices || m->indices16 ? m->index_count : m->vertex_count;
 }
 
 SHADE__INLINE int shade__chunk_outside(const shade_chunk *c, int triangles)
@@ -5837,7 +5848,9 @@ SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
     if (m->vertex_count < 0) return "mesh.vertex_count is negative; it counts vertices.";
     if (!m->positions && m->vertex_count)
         return "mesh.positions is NULL while mesh.vertex_count is not 0.";
-    if (m->indices && m->index_count < 0)
+    if (m->indices && m->indices16)
+        return "mesh.indices and mesh.indices16 are both set; one of them must be NULL.";
+    if ((m->indices || m->indices16) && m->index_count < 0)
         return "mesh.index_count is negative; it counts indices, three a triangle.";
     if (strides < 0 || strides % 4)
         return "mesh.position_stride, normal_stride, texcoord_stride or color_stride is negative "
@@ -5918,20 +5931,41 @@ static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
     return SHADE_OK;
 }
 
-/* Indices are compared in lanes, because every thread that draws a band checks all of them. */
-static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices,
-                                                         int index_count,
+/* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes, because
+   every thread that draws a band checks all of them. */
+SHADE__INLINE uint32_t shade__any_beyond(shade__indices list, int first, int end, uint32_t n)
+{
+    uint32_t beyond = 0;
+    int i = first;
+    for (; end - i >= 16; i += 16)
+        SHADE__FOR(k, 16) { beyond |= shade__mask(shade__index(list, (size_t)(i + k)) >= n); }
+    for (; i < end; i++) beyond |= shade__mask(shade__index(list, (size_t)i) >= n);
+    return beyond;
+}
+
+/* Checks count indices from first on; each width has a loop of its own. */
+static SHADE__NOINLINE shade_result shade__check_indices(shade__indices list, int first, int count,
                                                          int vertex_count)
 {
-    const uint32_t n = (uint32_t)vertex_count;
-    uint32_t beyond = 0;
-    int i = 0;
-    if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
-    if (!indices) return SHADE_OK;
-    for (; index_count - i >= 16; i += 16)
-        SHADE__FOR(k, 16) { beyond |= shade__mask(indices[i + k] >= n); }
-    for (; i < index_count; i++) beyond |= shade__mask(indices[i] >= n);
+    const shade__indices wide = { list.wide, NULL }, narrow = { NULL, list.narrow };
+    const int end = first + count;
+    uint32_t beyond;
+    if (count % 3) return SHADE_ERROR_INDEX;
+    if (wide.wide) beyond = shade__any_beyond(wide, first, end, (uint32_t)vertex_count);
+    else if (narrow.narrow) beyond = shade__any_beyond(narrow, first, end, (uint32_t)vertex_count);
+    else beyond = end > vertex_count;
     return beyond ? SHADE_ERROR_INDEX : SHADE_OK;
+}
+
+static shade__indices shade__indices_of(const shade_mesh *m)
+{
+    const shade__indices list = { m->indices, m->indices16 };
+    return list;
+}
+
+static shade_result shade__check_corners(const shade_mesh *m)
+{
+    return shade__check_indices(shade__indices_of(m), 0, shade__corner_count(m), m->vertex_count);
 }
 
 /*------------------------------------------------------------------------------------------- >>seen
@@ -6172,14 +6206,14 @@ static shade_result shade__run_draw(const shade_target *target,
 }
 
 /* Supplies all triangles of a list, one after the other, after a check of its indices. */
-static shade_result shade__supply_all(const uint32_t *indices, int index_count,
+static shade_result shade__supply_all(shade__indices indices, int index_count,
                                       int vertex_count, shade__supply *s)
 {
     s->indices = indices;
     s->first = 0;
     s->end = index_count / 3;
     s->more = NULL;
-    return shade__check_indices(indices, index_count, vertex_count);
+    return shade__check_indices(indices, 0, index_count, vertex_count);
 }
 
 /* What every drawing call does first: clears stats, refuses missing arguments and bad targets. */
@@ -6195,13 +6229,14 @@ SHADEDEF shade_result shade_draw(const shade_target *target,
                                  const uint32_t *indices, int index_count,
                                  int vertex_count, shade_stats *stats)
 {
+    const shade__indices list = { indices, NULL };
     shade__supply supply;
     shade_pipeline pipe;
     shade_result result = shade__begin(target, pipeline && pipeline->vertex,
                                        stats);
     if (!result && (index_count < 0 || vertex_count < 0)) result = SHADE_ERROR_MESH;
     if (!result) result = shade__check_pipeline(pipeline);
-    if (!result) result = shade__supply_all(indices, index_count, vertex_count, &supply);
+    if (!result) result = shade__supply_all(list, index_count, vertex_count, &supply);
     if (result) return result;
     pipe = *pipeline;
     return shade__run_draw(target, &pipe, 0, &supply, stats);
@@ -6291,7 +6326,7 @@ SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride,
 
 SHADE__INLINE uint32_t shade__corner_index(const shade_mesh *m, uint32_t corner)
 {
-    return m->indices ? m->indices[corner] : corner;
+    return shade__index(shade__indices_of(m), corner);
 }
 
 /* The position of a corner; corners are counted through all triangles. */
@@ -6611,10 +6646,10 @@ static shade_result shade__draw_scene(const shade_target *target,
     const shade_draw_state *state = scene->state;
     shade_pipeline p;
     shade__supply supply;
-    shade_result result = shade__supply_all(mesh->indices, shade__corner_count(mesh),
+    shade_result result = shade__supply_all(shade__indices_of(mesh), shade__corner_count(mesh),
                                             mesh->vertex_count, &supply);
     if (result) return result;
-    if (scene->corners) supply.indices = NULL;
+    if (scene->corners) SHADE__ZERO(supply.indices);
     SHADE__ZERO(p);
     p.vertex = shade__mesh_vertex;
     p.may_discard = may_discard;
@@ -6779,6 +6814,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
                                        const shade_line_state *state,
                                        shade_stats *stats)
 {
+    const shade__indices in_order = { NULL, NULL };
     shade_pipeline p;
     shade__stroke s;
     shade__supply supply;
@@ -6804,7 +6840,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     p.vertex = shade__stroke_vertex;
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
-    (void)shade__supply_all(NULL, 3 * point_count, 3 * point_count, &supply);
+    (void)shade__supply_all(in_order, 3 * point_count, 3 * point_count, &supply);
     return shade__run_draw(target, &p, 1, &supply, stats);
 }
 
@@ -6901,20 +6937,12 @@ static shade_result shade__check_shape(const shade_mesh *m, const void *out)
     return m && out ? shade__check_mesh(m) : SHADE_ERROR_ARGUMENT;
 }
 
-static shade_result shade__check_corners(const shade_mesh *m)
-{
-    return shade__check_indices(m->indices, shade__corner_count(m),
-                                m->vertex_count);
-}
-
 /* Checks the number of all indices, and the indices of a chunk. */
 static shade_result shade__check_range(const shade_mesh *m,
                                        const shade_chunk *c)
 {
     if (shade__corner_count(m) % 3) return SHADE_ERROR_INDEX;
-    if (!m->indices) return SHADE_OK;
-    return shade__check_indices(m->indices + 3 * (size_t)c->first, 3 * c->count,
-                                m->vertex_count);
+    return shade__check_indices(shade__indices_of(m), 3 * c->first, 3 * c->count, m->vertex_count);
 }
 
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh,
@@ -7298,6 +7326,7 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
         for (int i = 0; i < corners; i++) indices[i] = shade__corner_index(mesh, (uint32_t)i);
         shade__sort_triangles(mesh, indices, corners / 3, size);
         listed.indices = indices;
+        listed.indices16 = NULL;
         listed.index_count = corners;
     }
     for (int i = 0; i < count; i++) {
@@ -7786,9 +7815,9 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
     if (shade__corner_count(m) % 3)
         return "mesh.index_count is no multiple of 3, or without mesh.indices mesh.vertex_count "
                "is none; they count indices and vertices, three a triangle.";
-    if (shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count))
+    if (shade__check_corners(m))
         return "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
-               "vertices, not floats, and indices are 32 bits wide.";
+               "vertices, not floats, and indices are 32 bits wide, those of mesh.indices16 16.";
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
         return "There is no triangle to draw: mesh.index_count is 0, or mesh.vertex_count without "
                "mesh.indices, or mesh.chunk_count with mesh.chunks.";

@@ -29,6 +29,7 @@ enum {
     X(texcoords, float, 2 * CALLS_VERTICES)                                   \
     X(colors, float, 3 * CALLS_VERTICES)                                      \
     X(indices, uint32_t, CALLS_CORNERS)                                       \
+    X(indices16, uint16_t, CALLS_CORNERS)                                     \
     X(chunks, shade_chunk, CALLS_CHUNKS)                                      \
     X(state, shade_draw_state, 1)                                             \
     X(lighting, shade_lighting, 1)                                            \
@@ -89,9 +90,8 @@ static void world_put(call_world *w, int buffer, void *p)
 }
 
 /* Is a buffer named in a list of names with ", " between them? */
-static int world_named(const char *list, int buffer)
+static int world_named(const char *list, const char *name)
 {
-    const char *name = world_buffers[buffer].name;
     const size_t n = strlen(name);
     for (const char *p = list; (p = strstr(p, name)) != NULL; p += n) {
         const int begins = p == list || p[-1] == ' ';
@@ -144,7 +144,10 @@ static void world_fill_mesh(const call_world *w)
     world_numbers(w->normals, 3 * CALLS_VERTICES, 1000);
     world_numbers(w->texcoords, 2 * CALLS_VERTICES, 2000);
     world_numbers(w->colors, 3 * CALLS_VERTICES, 3000);
-    for (uint32_t i = 0; i < CALLS_CORNERS; i++) w->indices[i] = (i * 7 + i / 3) % CALLS_VERTICES;
+    for (uint32_t i = 0; i < CALLS_CORNERS; i++) {
+        w->indices[i] = (i * 7 + i / 3) % CALLS_VERTICES;
+        w->indices16[i] = (uint16_t)w->indices[i];
+    }
     /* small triangles too */
     for (int i = 0; i < 9; i++) w->positions[i] = tiny * w->positions[i];
     w->mesh->positions = w->positions;
@@ -216,6 +219,13 @@ static void world_fill_states(const call_world *w)
     w->line_state->width = 3;
     w->line_state->color = shade_v4(1, 1, 0, 1);
     world_numbers(&w->points[0].x, 3 * CALLS_POINTS, 6000);
+}
+
+/* The mesh takes its indices from indices16. */
+static void world_narrow(const call_world *w)
+{
+    w->mesh->indices = NULL;
+    w->mesh->indices16 = w->indices16;
 }
 
 /* Makes the contents anew, with structs that point at the buffers of this world. */

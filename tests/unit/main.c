@@ -53,6 +53,7 @@
 #include "explain.c"
 #include "beginner.c"
 #include "reads.c"
+#include "indices.c"
 #ifdef SHADE__TILE_TESTED
 long tiles_tested;
 #include "work.c"
@@ -65,7 +66,7 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
-    SECTION(beginner), SECTION(reads),
+    SECTION(beginner), SECTION(reads),   SECTION(indices),
 #ifdef SHADE__TILE_TESTED
     SECTION(work),
 #endif

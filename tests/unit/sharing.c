@@ -59,12 +59,12 @@ static int shared_row(const world_call *c, const call_world own[2])
     job jobs[2];
     call_world second = own[1];
     for (int k = 0; k < WORLD_BUFFERS; k++)
-        if (world_named(c->reads, k)) world_put(&second, k, world_at(&own[0], k));
+        if (world_named(c->reads, world_buffers[k].name)) world_put(&second, k, world_at(&own[0], k));
     for (int k = 0; k < 2; k++) jobs[k].run = c->run;
     jobs[0].world = own[0];
     jobs[1].world = second;
-    world_fill(&second);               /* the second world's first: what they share points into the first */
-    world_fill(&own[0]);
+    world_fill(&second);
+    world_fill(&own[0]);               /* last: what both share points into the first world */
     c->set(&own[0]);
     /* a target names what is written, so that the second thread has one of its own */
     jobs[1].world.target = own[1].target;
