@@ -52,31 +52,31 @@
      Public
        >>config     122  options               >>types      199  materials, lamps, targets, states
        >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       908  vectors and matrices
+       >>draw       635  meshes and pixels     >>math       913  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1271  processors            >>base      1498  bits, masks, rows of vectors
-       >>matrix    1717  cameras, inverses     >>power     2011  x^n
-       >>pixels    2077  formats, sRGB
+       >>machine   1276  processors            >>base      1503  bits, masks, rows of vectors
+       >>matrix    1722  cameras, inverses     >>power     2016  x^n
+       >>pixels    2082  formats, sRGB
      Inside: light
-       >>lamps     2354  attenuation, cones    >>terms     2628  one term at one point
-       >>surface   2710  material and lights   >>lit       2831  the whole sum, at many points
+       >>lamps     2359  attenuation, cones    >>terms     2633  one term at one point
+       >>surface   2715  material and lights   >>lit       2836  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3238  who owns what         >>vertices  3421  shading, projection
-       >>triangles 3638  dropped, cut, edges   >>clip      4007  near, far, behind the eye
-       >>tiles     4192  pixels, depth test    >>cover     4551  what is hidden, tile by tile
-       >>fragments 4818  interpolation, lod    >>texture   5111  texels, mipmaps
-       >>store     5556  blending, packing
+       >>state     3243  who owns what         >>vertices  3436  shading, projection
+       >>triangles 3653  dropped, cut, edges   >>clip      4022  near, far, behind the eye
+       >>tiles     4207  pixels, depth test    >>cover     4566  what is hidden, tile by tile
+       >>fragments 4833  interpolation, lod    >>texture   5127  texels, mipmaps
+       >>store     5572  blending, packing
      Inside: calls of the renderer
-       >>check     5788  refusals              >>seen      5937  what can be seen, chunks
-       >>drive     6074  shade_draw            >>mesh      6253  shade_draw_mesh
+       >>check     5804  refusals              >>seen      5976  what can be seen, chunks
+       >>drive     6113  shade_draw            >>mesh      6293  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6653  shade_draw_lines      >>shape     6811  normals, edges
-       >>chunks    7147  how boxes are made    >>rays      7311  shade_pick
-       >>survey    7507  experiments on a draw >>explain   7758  why nothing is seen
-       >>image     8403  mipmaps, PPM           >>presets   8671  classic materials
+       >>lines     6693  shade_draw_lines      >>shape     6852  normals, edges
+       >>chunks    7180  how boxes are made    >>rays      7345  shade_pick
+       >>survey    7541  experiments on a draw >>explain   7792  why nothing is seen
+       >>image     8437  mipmaps, PPM           >>presets   8705  classic materials
      Sources
-       >>refs      8747                        >>history   8777
-       >>license   8789
+       >>refs      8781                        >>history   8811
+       >>license   8826
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -117,7 +117,7 @@
 #endif
 #ifndef SHADE_H
 #define SHADE_H
-#define SHADE_VERSION 10200    /* major * 10000 + minor * 100 + patch */
+#define SHADE_VERSION 10300    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options.  Define them before the #include, with the same value in every file of a program.
@@ -695,6 +695,8 @@ typedef struct shade_fragments {                  /* pixels to shade, of any tri
     uint32_t primitive[SHADE_LANES];              /* index of the triangle in this draw */
     uint32_t front[SHADE_LANES];                  /* 1: front-facing, 0: back-facing */
     float    lod[SHADE_LANES];                    /* of pipeline.lod_texture; 0 without one */
+    shade_vec3 eye;                               /* of a draw state, in world space; 0 in */
+                                                  /* shade_draw.  See shade_draw_mesh */
 } shade_fragments;
 typedef struct shade_colors {
     SHADE_ALIGNED float color[4][SHADE_LANES];    /* linear RGBA, preset to 0, 0, 0, 1 */
@@ -788,7 +790,8 @@ enum {
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
      A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
-   the SHADE_VARYING_... above, and lod of diffuse_map.  It samples maps itself.  Alpha is (1 -
+   the SHADE_VARYING_... above, lod of diffuse_map, and the eye that the equations would take: pass in->eye
+   on to shade_lit_lanes.  It samples maps itself.  Alpha is (1 -
    transparency) times its color[3]; ADD, OVER and alpha_cutoff use that.  In depth-only draws it is
    called only where alpha_cutoff > 0. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
@@ -3303,6 +3306,7 @@ typedef struct shade__plan {
     int      queued;                  /* fragments go to the queue */
     int      less_only;               /* the early test is LESS, and depth is written */
     int      inputs_unread;           /* nobody reads x, y, z, primitive, front, nor presets */
+    shade_vec3 eye;                   /* for the fragment shader; 0 without a draw state */
     shade__compare compare;           /* the test of the draw */
     shade__compare early_test;        /* the test of >>tiles: it lets all pass unless early */
     float    away;                    /* 1: greater depth is farther; -1: less is; 0: no bounds */
@@ -5112,6 +5116,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
+        q->f.eye = plan->eye;
     }
     plan->pipe->fragment(plan->pipe->uniforms, &q->f, &c);
     shade__store(d, &c);
@@ -6174,9 +6179,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
 
 /* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: the
    fragment shader is of this file, or it may discard, so that the depth test is late. */
-static shade_result shade__run_draw(const shade_target *target,
-                                    shade_pipeline *pipe, int own,
-                                    shade__supply *supply, shade_stats *stats)
+static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int own,
+                                    shade_vec3 eye, shade__supply *supply, shade_stats *stats)
 {
     shade__draw d;
     if (!pipe->fragment) pipe->may_discard = 0;
@@ -6185,6 +6189,7 @@ static shade_result shade__run_draw(const shade_target *target,
         pipe->lod_texture = NULL;
     }
     shade__make_plan(target, pipe, own, &d.plan);
+    d.plan.eye = eye;
     SHADE__ZERO(d.unread);
     if (!d.plan.early) d.plan.tested = d.unread;
     SHADE__ZERO(d.stats);
@@ -6239,7 +6244,7 @@ SHADEDEF shade_result shade_draw(const shade_target *target,
     if (!result) result = shade__supply_all(list, index_count, vertex_count, &supply);
     if (result) return result;
     pipe = *pipeline;
-    return shade__run_draw(target, &pipe, 0, &supply, stats);
+    return shade__run_draw(target, &pipe, 0, shade_v3(0, 0, 0), &supply, stats);
 }
 
 /* Fills n bytes by repeating a pattern of 256 bytes. */
@@ -6632,7 +6637,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     shade__frustum frustum;
     shade__see_chunks(target, &scene->clip_from_object, p->raster.depth_zero_to_one,
                       scene->mesh, &frustum, &supply);
-    return shade__run_draw(target, p, 1, &supply, stats);
+    return shade__run_draw(target, p, 1, scene->eye, &supply, stats);
 }
 
 /* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader.
@@ -6664,7 +6669,7 @@ static shade_result shade__draw_scene(const shade_target *target,
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
     if (mesh->chunks) return shade__draw_chunks(target, &p, &supply, stats);
-    return shade__run_draw(target, &p, 1, &supply, stats);
+    return shade__run_draw(target, &p, 1, scene->eye, &supply, stats);
 }
 
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
@@ -6841,7 +6846,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
     (void)shade__supply_all(in_order, 3 * point_count, 3 * point_count, &supply);
-    return shade__run_draw(target, &p, 1, &supply, stats);
+    return shade__run_draw(target, &p, 1, shade_v3(0, 0, 0), &supply, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
@@ -8804,6 +8809,9 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
+   1.3    2026-11-27   Memory that is only read is never written, depth with depth_read_only among
+                       it; meshes with indices of 16 bits; the eye for fragment shaders of draw
+                       states.
    1.2    2026-11-23   shade_mesh_bounds and shade_mat4_fit, the first look at a mesh of one's own;
                        SHADE_VARYING_...; rays for every camera that draws; shade_explain says what
                        the draw proves; a triangle takes time by its rows and the tiles it crosses.

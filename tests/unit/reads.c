@@ -1,6 +1,14 @@
 /* reads.c - what is only read is never written: memory in pages that allow no more than the table
    of calls.h says. */
 
+/* Every build refuses a mesh for which it has too few varyings. */
+static int world_fits(void)
+{
+    if (SHADE_MAX_VARYINGS >= 11) return 1;
+    test_skip("a mesh with colours and a map takes 11 varyings");
+    return 0;
+}
+
 #if PAGES
 /* ------------------------------------------------------------------------ the table, row by row */
 
@@ -76,6 +84,7 @@ TEST(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else)
 {
 #if PAGES
     call_world w;
+    if (!world_fits()) return;
     for (int k = 0; k < WORLD_BUFFERS; k++) world_put(&w, k, page_take(world_buffers[k].bytes));
     for (int i = 0; i < WORLD_CALLS; i++) {
         const char *reads = world_calls[i].reads;
