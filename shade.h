@@ -51,31 +51,31 @@
      Public
        >>config     121  options               >>types      198  materials, lamps, targets, states
        >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       908  vectors and matrices
+       >>draw       635  meshes and pixels     >>math       913  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1271  processors            >>base      1496  bits, masks, rows of vectors
-       >>matrix    1715  cameras, inverses     >>power     2009  x^n
-       >>pixels    2075  formats, sRGB
+       >>machine   1276  processors            >>base      1501  bits, masks, rows of vectors
+       >>matrix    1720  cameras, inverses     >>power     2014  x^n
+       >>pixels    2080  formats, sRGB
      Inside: light
-       >>lamps     2351  attenuation, cones    >>terms     2613  one term at one point
-       >>surface   2695  material and lights   >>lit       2816  the whole sum, at many points
+       >>lamps     2356  attenuation, cones    >>terms     2618  one term at one point
+       >>surface   2700  material and lights   >>lit       2821  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3227  who owns what         >>vertices  3423  shading, projection
-       >>triangles 3642  dropped, cut, edges   >>clip      4020  near, far, behind the eye
-       >>tiles     4216  pixels, depth test    >>cover     4581  what is hidden, tile by tile
-       >>fragments 4856  interpolation, lod    >>texture   5150  texels, mipmaps
-       >>store     5610  blending, packing
+       >>state     3232  who owns what         >>vertices  3438  shading, projection
+       >>triangles 3657  dropped, cut, edges   >>clip      4035  near, far, behind the eye
+       >>tiles     4231  pixels, depth test    >>cover     4600  what is hidden, tile by tile
+       >>fragments 4875  interpolation, lod    >>texture   5170  texels, mipmaps
+       >>store     5630  blending, packing
      Inside: calls of the renderer
-       >>check     5846  refusals              >>seen      6027  what can be seen, chunks
-       >>drive     6164  shade_draw            >>mesh      6344  shade_draw_mesh
+       >>check     5866  refusals              >>seen      6070  what can be seen, chunks
+       >>drive     6207  shade_draw            >>mesh      6388  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6750  shade_draw_lines      >>shape     6908  normals, edges
-       >>chunks    7244  how boxes are made    >>rays      7408  shade_pick
-       >>survey    7604  experiments on a draw >>explain   7855  why nothing is seen
-       >>image     8500  mipmaps, PPM           >>presets   8807  classic materials
+       >>lines     6794  shade_draw_lines      >>shape     6953  normals, edges
+       >>chunks    7281  how boxes are made    >>rays      7446  shade_pick
+       >>survey    7642  experiments on a draw >>explain   7893  why nothing is seen
+       >>image     8538  mipmaps, PPM           >>presets   8845  classic materials
      Sources
-       >>refs      8883                        >>history   8913
-       >>license   8925
+       >>refs      8921                        >>history   8951
+       >>license   8966
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -116,7 +116,7 @@
 #endif
 #ifndef SHADE_H
 #define SHADE_H
-#define SHADE_VERSION 10200    /* major * 10000 + minor * 100 + patch */
+#define SHADE_VERSION 10300    /* major * 10000 + minor * 100 + patch */
 
 /*----------------------------------------------------------------------------------------- >>config
    Options.  Define them before the #include, with the same value in every file of a program.
@@ -695,6 +695,8 @@ typedef struct shade_fragments {                  /* pixels to shade, of any tri
     uint32_t primitive[SHADE_LANES];              /* index of the triangle in this draw */
     uint32_t front[SHADE_LANES];                  /* 1: front-facing, 0: back-facing */
     float    lod[SHADE_LANES];                    /* of pipeline.lod_texture; 0 without one */
+    shade_vec3 eye;                               /* of a draw state, in world space; 0 in */
+                                                  /* shade_draw.  See shade_draw_mesh */
 } shade_fragments;
 typedef struct shade_colors {
     SHADE_ALIGNED float color[4][SHADE_LANES];    /* linear RGBA, preset to 0, 0, 0, 1 */
@@ -745,6 +747,7 @@ typedef struct shade_mesh {
     int vertex_count;
     const uint32_t *indices; int index_count;        /* NULL: vertices 0, 1, 2, ... */
     const struct shade_chunk *chunks; int chunk_count;    /* NULL: no triangle is skipped */
+    const uint16_t *indices16;                       /* in place of indices: one of them is NULL */
 } shade_mesh;
 
 /* Triangles first .. first + count - 1 of a mesh, and a box around them in object space.  A mesh
@@ -787,7 +790,8 @@ enum {
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
      A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
-   the SHADE_VARYING_... above, and lod of diffuse_map.  It samples maps itself.  Alpha is (1 -
+   the SHADE_VARYING_... above, lod of diffuse_map, and the eye that the equations would take: pass in->eye
+   on to shade_lit_lanes.  It samples maps itself.  Alpha is (1 -
    transparency) times its color[3]; ADD, OVER and alpha_cutoff use that.  In depth-only draws it is
    called only where alpha_cutoff > 0. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
@@ -812,7 +816,8 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    mesh already has are ignored; a corner that is NaN or infinite does not count for its box.
      With indices NULL the triangles stay in their order, which is good where neighbours in the list
    are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
-   where the mesh has no indices: it receives the triangles sorted in space; set mesh.indices to it.
+   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it,
+   and mesh.indices16 to NULL.
    Sorting splits the list at the median of its longest axis, and the halves again, in n log n steps
    and without further memory.  The order is the same on every machine.
      chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
@@ -3303,6 +3308,7 @@ typedef struct shade__plan {
     int      queued;                  /* fragments go to the queue */
     int      less_only;               /* the early test is LESS, and depth is written */
     int      inputs_unread;           /* x, y, z, primitive, front and presets are not read */
+    shade_vec3 eye;                   /* for the fragment shader; 0 without a draw state */
     shade__compare compare;           /* the test of the draw */
     shade__compare tile_test;        /* the test of >>tiles: it lets all pass unless early */
     float    away;                    /* 1: greater depth is farther; -1: less is; 0: no bounds */
@@ -3383,9 +3389,18 @@ typedef struct shade__queue {
 
 typedef struct shade__frustum shade__frustum;    /* of >>seen */
 
+/* Indices of 32 bits or of 16; both NULL: 0, 1, 2, ... */
+typedef struct shade__indices { const uint32_t *wide; const uint16_t *narrow; } shade__indices;
+
+SHADE__INLINE uint32_t shade__index(shade__indices list, size_t i)
+{
+    if (list.wide) return list.wide[i];
+    return list.narrow ? list.narrow[i] : (uint32_t)i;
+}
+
 /* The triangles of a draw, handed out in their order. */
 typedef struct shade__supply {
-    const uint32_t *indices;          /* NULL: 0, 1, 2, ... */
+    shade__indices indices;
     int first, end;                   /* of the triangles at hand */
     int (*more)(shade__draw *);       /* shade__next_chunk, linked with meshes only; or NULL */
     int chunks;                       /* how many are left */
@@ -3589,7 +3604,7 @@ static void shade__shade_vertices(shade__draw *d)
    whether the vertex is known.  A branch would be mispredicted every other time (2 % of a dense
    mesh). */
 SHADE__INLINE int shade__take_triangles(shade__incoming *in,
-                                        const uint32_t *indices, uint32_t first,
+                                        shade__indices indices, uint32_t first,
                                         int most, int room,
                                         uint8_t (*corner)[4])
 {
@@ -3598,7 +3613,7 @@ SHADE__INLINE int shade__take_triangles(shade__incoming *in,
 
     for (; n < most && vertices <= room; n++) {
         for (int k = 0; k < 3; k++, at++) {
-            const uint32_t index = indices ? indices[at] : at;
+            const uint32_t index = shade__index(indices, at);
             const int place = (int)(index & (2 * SHADE_LANES - 1)), hit = in->known[place] == index;
             const int slot = vertices + ((in->slot_of[place] - vertices) & -hit);
             index_of[vertices] = index;
@@ -4448,7 +4463,9 @@ SHADE__INLINE uint32_t shade__passes(shade__compare c, const int less_only,
 }
 
 /* Tests columns at .. at + width - 1 of a tile: by the three edges, unless full is set, and by
-   depth.  The loops are plain because SHADE__FOR makes clang 14 keep the rows in memory.
+   depth.  Depth that is not written may lie in read-only memory, or be shared with other threads:
+   nothing is stored there, not even what it holds.  The loops are plain because SHADE__FOR makes
+   clang 14 keep the rows in memory.
    pre: depth holds the columns, at + width <= 32 */
 SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
                                        const shade__triangle *SHADE_RESTRICT t,
@@ -4465,6 +4482,7 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
     const int32_t cx = edges->ex[2], cy = edges->ey[2], c = edges->e[2] + i0 * cx + j0 * cy;
     const int rows = tile->rows, stride = tile->stride;
     float *SHADE_RESTRICT depth = tile->depth + at;
+    float nearest[SHADE__TILE];
     int32_t e0[SHADE__TILE], e1[SHADE__TILE], e2[SHADE__TILE];
     float z_step[SHADE__TILE];
     uint32_t all = 0;
@@ -4483,14 +4501,15 @@ SHADE__INLINE void shade__test_columns(const shade__plan *SHADE_RESTRICT plan,
             float z = shade__clamp_bits(row_z + z_step[i], z_low, z_high);
             uint32_t m = shade__mask(full || (e0[i] | e1[i] | e2[i]) >= 0);
             m &= shade__passes(test, less_only, z, depth[i]);
-            depth[i] = shade__select(depth[i], z,
-                                     less_only ? m : m & test.write);
+            if (less_only) depth[i] = shade__select(depth[i], z, m);
+            else nearest[i] = shade__select(depth[i], z, m);
             any |= m & shade__bit[i];
             if (full) continue;    /* clang would store them */
             e0[i] += ay;
             e1[i] += by;
             e2[i] += cy;
         }
+        if (!less_only && test.write) SHADE_MEMCPY(depth, nearest, (size_t)width * sizeof *depth);
         tile->set[r] |= any << at;
         all |= any;
     }
@@ -4572,7 +4591,7 @@ static SHADE__NOINLINE void shade__test_copy(const shade__plan *plan,
         float *depth = tile->depth + (ptrdiff_t)r * tile->stride;
         SHADE_MEMCPY(copy, depth, bytes);
         shade__test_large(plan, t, edges, &row, 0);
-        SHADE_MEMCPY(depth, copy, bytes);
+        if (plan->tile_test.write) SHADE_MEMCPY(depth, copy, bytes);
         tile->set[r] = row.set[0] & (UINT32_MAX >> (SHADE__TILE - n));
         tile->any |= tile->set[r];
     }
@@ -5140,6 +5159,7 @@ SHADE__INLINE void shade__flush_body(shade__draw *d)
         SHADE_EACH_LANE(i) { c.color[0][i] = c.color[1][i] = c.color[2][i] = 0; }
         SHADE_EACH_LANE(i) { c.discard[i] = 0; }
         if (!plan->lod) SHADE__ZERO(q->f.lod);
+        q->f.eye = plan->eye;
     }
     plan->pipe->fragment(plan->pipe->uniforms, &q->f, &c);
     shade__store(d, &c);
@@ -5880,7 +5900,7 @@ static shade_result shade__check_target(const shade_target *t)
 
 static int shade__corner_count(const shade_mesh *m)
 {
-    return m->indices ? m->index_count : m->vertex_count;
+    return m->indices || m->indices16 ? m->index_count : m->vertex_count;
 }
 
 SHADE__INLINE int shade__chunk_outside(const shade_chunk *c, int triangles)
@@ -5895,7 +5915,9 @@ SHADE__INLINE const char *shade__mesh_fault(const shade_mesh *m)
     if (m->vertex_count < 0) return "mesh.vertex_count is negative; it counts vertices.";
     if (!m->positions && m->vertex_count)
         return "mesh.positions is NULL while mesh.vertex_count is not 0.";
-    if (m->indices && m->index_count < 0)
+    if (m->indices && m->indices16)
+        return "mesh.indices and mesh.indices16 are both set; one of them must be NULL.";
+    if ((m->indices || m->indices16) && m->index_count < 0)
         return "mesh.index_count is negative; it counts indices, three a triangle.";
     if (strides < 0 || strides % 4)
         return "mesh.position_stride, normal_stride, texcoord_stride or color_stride is negative "
@@ -6008,28 +6030,49 @@ static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
     return SHADE_OK;
 }
 
-/* Indices are compared in lanes, because every thread that draws a band checks all of them. */
-static SHADE__NOINLINE shade_result shade__check_indices(const uint32_t *indices,
-                                                         int index_count,
+/* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes, because
+   every thread that draws a band checks all of them. */
+SHADE__INLINE uint32_t shade__any_beyond(shade__indices list, int first, int end, uint32_t n)
+{
+    uint32_t beyond = 0;
+    int i = first;
+    for (; end - i >= 16; i += 16)
+        SHADE__FOR(k, 16) { beyond |= shade__mask(shade__index(list, (size_t)(i + k)) >= n); }
+    for (; i < end; i++) beyond |= shade__mask(shade__index(list, (size_t)i) >= n);
+    return beyond;
+}
+
+/* Checks count indices from first on; each width has a loop of its own. */
+static SHADE__NOINLINE shade_result shade__check_indices(shade__indices list, int first, int count,
                                                          int vertex_count)
 {
-    const uint32_t n = (uint32_t)vertex_count;
-    uint32_t beyond = 0;
-    int i = 0;
-    if (index_count % 3 || (!indices && index_count > vertex_count)) return SHADE_ERROR_INDEX;
-    if (!indices) return SHADE_OK;
-    for (; index_count - i >= 16; i += 16)
-        SHADE__FOR(k, 16) { beyond |= shade__mask(indices[i + k] >= n); }
-    for (; i < index_count; i++) beyond |= shade__mask(indices[i] >= n);
+    const shade__indices wide = { list.wide, NULL }, narrow = { NULL, list.narrow };
+    const int end = first + count;
+    uint32_t beyond;
+    if (count % 3) return SHADE_ERROR_INDEX;
+    if (wide.wide) beyond = shade__any_beyond(wide, first, end, (uint32_t)vertex_count);
+    else if (narrow.narrow) beyond = shade__any_beyond(narrow, first, end, (uint32_t)vertex_count);
+    else beyond = end > vertex_count;
     return beyond ? SHADE_ERROR_INDEX : SHADE_OK;
+}
+
+static shade__indices shade__indices_of(const shade_mesh *m)
+{
+    const shade__indices list = { m->indices, m->indices16 };
+    return list;
+}
+
+static shade_result shade__check_corners(const shade_mesh *m)
+{
+    return shade__check_indices(shade__indices_of(m), 0, shade__corner_count(m), m->vertex_count);
 }
 
 /*------------------------------------------------------------------------------------------- >>seen
    What can be visible: the clip rectangle, and boxes against the planes of the view volume.
-     in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn way
-     see_chunks: frustum_of; then next_chunk: in_view, as batches need triangles holds   A box with
-     a pixel in the clip rectangle is never skipped; bounds of rounding are added. method  A box
-     that lies outside one plane is invisible. >>drive */
+     in      a target, a matrix, boxes           out  the chunks of a mesh that are drawn
+     way     see_chunks: frustum_of; then next_chunk: in_view, as batches need triangles
+     holds   A box with a pixel in the clip rectangle is never skipped: rounding is allowed for.
+     method  A box that lies outside one plane is invisible.                             >>drive */
 
 /* Sets r to the clip rectangle, cut to the picture and the strip: x0, y0, x1, y1, the last two
    exclusive.  Returns 0 if it is empty. */
@@ -6231,9 +6274,8 @@ static SHADE__NOINLINE void shade__make_plan(const shade_target *t,
 
 /* Draws to a target that has been checked, and changes the pipeline; it cannot fail.  own: no
    shader of the user reads the fragments. */
-static shade_result shade__run_draw(const shade_target *target,
-                                    shade_pipeline *pipe, int own,
-                                    shade__supply *supply, shade_stats *stats)
+static shade_result shade__run_draw(const shade_target *target, shade_pipeline *pipe, int own,
+                                    shade_vec3 eye, shade__supply *supply, shade_stats *stats)
 {
     shade__draw d;
     if (!pipe->fragment) pipe->may_discard = 0;
@@ -6242,6 +6284,7 @@ static shade_result shade__run_draw(const shade_target *target,
         pipe->lod_texture = NULL;
     }
     shade__make_plan(target, pipe, own, &d.plan);
+    d.plan.eye = eye;
     SHADE__ZERO(d.unread);
     if (!d.plan.early) d.plan.tested = d.unread;
     SHADE__ZERO(d.stats);
@@ -6263,14 +6306,14 @@ static shade_result shade__run_draw(const shade_target *target,
 }
 
 /* Supplies all triangles of a list, one after the other, after a check of its indices. */
-static shade_result shade__supply_all(const uint32_t *indices, int index_count,
+static shade_result shade__supply_all(shade__indices indices, int index_count,
                                       int vertex_count, shade__supply *s)
 {
     s->indices = indices;
     s->first = 0;
     s->end = index_count / 3;
     s->more = NULL;
-    return shade__check_indices(indices, index_count, vertex_count);
+    return shade__check_indices(indices, 0, index_count, vertex_count);
 }
 
 /* The first step of every drawing call: clears stats, refuses missing arguments and bad targets. */
@@ -6286,16 +6329,17 @@ SHADEDEF shade_result shade_draw(const shade_target *target,
                                  const uint32_t *indices, int index_count,
                                  int vertex_count, shade_stats *stats)
 {
+    const shade__indices list = { indices, NULL };
     shade__supply supply;
     shade_pipeline pipe;
     shade_result result = shade__begin(target, pipeline && pipeline->vertex,
                                        stats);
     if (!result && (index_count < 0 || vertex_count < 0)) result = SHADE_ERROR_MESH;
     if (!result) result = shade__check_pipeline(pipeline);
-    if (!result) result = shade__supply_all(indices, index_count, vertex_count, &supply);
+    if (!result) result = shade__supply_all(list, index_count, vertex_count, &supply);
     if (result) return result;
     pipe = *pipeline;
-    return shade__run_draw(target, &pipe, 0, &supply, stats);
+    return shade__run_draw(target, &pipe, 0, shade_v3(0, 0, 0), &supply, stats);
 }
 
 /* Fills n bytes by repeating a pattern of 256 bytes. */
@@ -6382,7 +6426,7 @@ SHADE__INLINE shade_vec3 shade__vec3_at(const float *array, int stride,
 
 SHADE__INLINE uint32_t shade__corner_index(const shade_mesh *m, uint32_t corner)
 {
-    return m->indices ? m->indices[corner] : corner;
+    return shade__index(shade__indices_of(m), corner);
 }
 
 /* The position of a corner; corners are counted through all triangles. */
@@ -6694,7 +6738,7 @@ static SHADE__NOINLINE shade_result shade__draw_chunks(const shade_target *targe
     shade__frustum frustum;
     shade__see_chunks(target, &scene->clip_from_object, p->raster.depth_zero_to_one,
                       scene->mesh, &frustum, &supply);
-    return shade__run_draw(target, p, !scene->state->fragment, &supply, stats);
+    return shade__run_draw(target, p, !scene->state->fragment, scene->eye, &supply, stats);
 }
 
 /* Draws a scene that has been checked, with the vertex shader of meshes and this fragment shader.
@@ -6708,10 +6752,10 @@ static shade_result shade__draw_scene(const shade_target *target,
     const shade_draw_state *state = scene->state;
     shade_pipeline p;
     shade__supply supply;
-    shade_result result = shade__supply_all(mesh->indices, shade__corner_count(mesh),
+    shade_result result = shade__supply_all(shade__indices_of(mesh), shade__corner_count(mesh),
                                             mesh->vertex_count, &supply);
     if (result) return result;
-    if (scene->corners) supply.indices = NULL;
+    if (scene->corners) SHADE__ZERO(supply.indices);
     SHADE__ZERO(p);
     p.vertex = shade__mesh_vertex;
     p.may_discard = may_discard;
@@ -6726,7 +6770,7 @@ static shade_result shade__draw_scene(const shade_target *target,
         p.interpolation = SHADE_INTERPOLATION_CONSTANT;
     p.raster = state->raster;
     if (mesh->chunks) return shade__draw_chunks(target, &p, &supply, stats);
-    return shade__run_draw(target, &p, !state->fragment, &supply, stats);
+    return shade__run_draw(target, &p, !state->fragment, scene->eye, &supply, stats);
 }
 
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
@@ -6876,6 +6920,7 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
                                        const shade_line_state *state,
                                        shade_stats *stats)
 {
+    const shade__indices in_order = { NULL, NULL };
     shade_pipeline p;
     shade__stroke s;
     shade__supply supply;
@@ -6901,8 +6946,8 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     p.vertex = shade__stroke_vertex;
     p.fragment = shade__stroke_color;
     p.uniforms = &s;
-    (void)shade__supply_all(NULL, 3 * point_count, 3 * point_count, &supply);
-    return shade__run_draw(target, &p, 1, &supply, stats);
+    (void)shade__supply_all(in_order, 3 * point_count, 3 * point_count, &supply);
+    return shade__run_draw(target, &p, 1, shade_v3(0, 0, 0), &supply, stats);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
@@ -6998,20 +7043,12 @@ static shade_result shade__check_shape(const shade_mesh *m, const void *out)
     return m && out ? shade__check_mesh(m) : SHADE_ERROR_ARGUMENT;
 }
 
-static shade_result shade__check_corners(const shade_mesh *m)
-{
-    return shade__check_indices(m->indices, shade__corner_count(m),
-                                m->vertex_count);
-}
-
 /* Checks the number of all indices, and the indices of a chunk. */
 static shade_result shade__check_range(const shade_mesh *m,
                                        const shade_chunk *c)
 {
     if (shade__corner_count(m) % 3) return SHADE_ERROR_INDEX;
-    if (!m->indices) return SHADE_OK;
-    return shade__check_indices(m->indices + 3 * (size_t)c->first, 3 * c->count,
-                                m->vertex_count);
+    return shade__check_indices(shade__indices_of(m), 3 * c->first, 3 * c->count, m->vertex_count);
 }
 
 SHADEDEF shade_result shade_mesh_normals(const shade_mesh *mesh,
@@ -7395,6 +7432,7 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
         for (int i = 0; i < corners; i++) indices[i] = shade__corner_index(mesh, (uint32_t)i);
         shade__sort_triangles(mesh, indices, corners / 3, size);
         listed.indices = indices;
+        listed.indices16 = NULL;
         listed.index_count = corners;
     }
     for (int i = 0; i < count; i++) {
@@ -7883,9 +7921,9 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
     if (shade__corner_count(m) % 3)
         return "mesh.index_count is no multiple of 3, or without mesh.indices mesh.vertex_count "
                "is none; they count indices and vertices, three a triangle.";
-    if (shade__check_indices(m->indices, shade__corner_count(m), m->vertex_count))
+    if (shade__check_corners(m))
         return "mesh.indices holds an index at or past mesh.vertex_count; vertex_count counts "
-               "vertices, not floats, and indices are 32 bits wide.";
+               "vertices, not floats, and indices are 32 bits wide, those of mesh.indices16 16.";
     if (!shade__corner_count(m) || (m->chunks && !m->chunk_count))
         return "There is no triangle to draw: mesh.index_count is 0, or mesh.vertex_count without "
                "mesh.indices, or mesh.chunk_count with mesh.chunks.";
@@ -8911,6 +8949,9 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
+   1.3    2026-11-27   Memory that is only read is never written, depth with depth_read_only among
+                       it; meshes with indices of 16 bits; the eye for fragment shaders of draw
+                       states.
    1.2    2026-11-23   shade_mesh_bounds and shade_mat4_fit, the first look at a mesh of one's own;
                        SHADE_VARYING_...; rays for every camera that draws; shade_explain says what
                        the draw proves; a triangle takes time by its rows and the tiles it crosses.

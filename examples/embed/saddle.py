@@ -29,7 +29,7 @@ Target = struct(width=c_int, height=c_int, stride=c_int, format=c_int, color=c_v
 Mesh = struct(positions=c_void_p, position_stride=c_int, normals=c_void_p, normal_stride=c_int,
               texcoords=c_void_p, texcoord_stride=c_int, colors=c_void_p, color_stride=c_int,
               vertex_count=c_int, indices=c_void_p, index_count=c_int, chunks=c_void_p,
-              chunk_count=c_int)
+              chunk_count=c_int, indices16=c_void_p)
 Lighting = struct(lights=c_void_p, light_count=c_int, ambient=Vec3, model=c_int, flags=c_uint,
                   terms=c_uint, cool=Vec3, warm=Vec3)
 State = struct(model=Mat4, view=Mat4, projection=Mat4, material=c_void_p, lighting=Lighting,

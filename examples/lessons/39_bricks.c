@@ -12,7 +12,6 @@
 enum { COLOR, RELIEF, GLOSS, MAPS };
 enum { SIZE = 1024, SAMPLES = 3 };    /* texels along an edge of a map, samples of a pixel */
 typedef struct scene { shade_texture map[MAPS], level[MAPS][15]; shade_lighting lighting; } scene;
-static const shade_vec3 eye = { 0, 1.5f, 4.2f };
 static const shade_material brick = { .diffuse = { 1, 1, 1 }, .ambient = { 1, 1, 1 },
                                       .specular = { 0.5f, 0.5f, 0.5f }, .shininess = 50 };
 
@@ -37,7 +36,7 @@ static void bricks(const void *uniforms, const shade_fragments *SHADE_RESTRICT i
         texel[RELIEF][2][i] = right ? n.z : N.z;
         for (int k = 0; k < 3; k++) texel[GLOSS][k][i] = right ? texel[GLOSS][3][i] : 0.4f;
     }
-    shade_lit_lanes(&s->lighting, &brick, eye, &rows, out->color[0]);
+    shade_lit_lanes(&s->lighting, &brick, in->eye, &rows, out->color[0]);
 }
 
 int main(int argc, char **argv)
@@ -68,7 +67,8 @@ int main(int argc, char **argv)
     lamps[0].linear = lamps[1].linear = 0.95f;
     for (int i = 0; i < 2 * plane.view.vertex_count; i++) plane.texcoords[i] *= 8;
     plane.view.colors = plane.colors = mesh_tangents(&plane);
-    state.view = shade_mat4_look_at(eye, shade_v3(0, 0, 0.8f), shade_v3(0, 1, 0));
+    state.view = shade_mat4_look_at(shade_v3(0, 1.5f, 4.2f), shade_v3(0, 0, 0.8f),
+                                    shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.56f, 960 / 540.0f, 0.1f, 30);
     canvas_dark(&c.target);
     shade_draw_mesh(&picture, &plane.view, &state, NULL);

@@ -10,7 +10,7 @@
 #include "../shared/paint.h"
 #include "../shared/label.h"
 
-static const shade_vec3 eye = { 0, 3.6f, 14 }, air = { 0.60f, 0.62f, 0.64f };
+static const shade_vec3 air = { 0.60f, 0.62f, 0.64f };
 
 static void fog(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                 shade_colors *SHADE_RESTRICT out)
@@ -18,10 +18,10 @@ static void fog(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
     const shade_draw_state *s = (const shade_draw_state *)uniforms;
     const shade_rows rows = { .position = in->varying[SHADE_VARYING_POSITION],
                               .normal = in->varying[SHADE_VARYING_NORMAL] };
-    shade_lit_lanes(&s->lighting, s->material, eye, &rows, out->color[0]);
+    shade_lit_lanes(&s->lighting, s->material, in->eye, &rows, out->color[0]);
     SHADE_EACH_LANE(i) {
         shade_vec3 at = lane(in->varying[SHADE_VARYING_POSITION], i);
-        float through = shade_power(0.96f, shade_distance(at, eye));
+        float through = shade_power(0.96f, shade_distance(at, in->eye));
         out->color[0][i] = air.x + through * (out->color[0][i] - air.x);
         out->color[1][i] = air.y + through * (out->color[1][i] - air.y);
         out->color[2][i] = air.z + through * (out->color[2][i] - air.z);
@@ -59,7 +59,8 @@ int main(int argc, char **argv)
     state.lighting.lights = &sun;
     state.lighting.light_count = 1;
     state.lighting.ambient = shade_v3(0.35f, 0.45f, 0.60f);
-    state.view = shade_mat4_look_at(eye, shade_v3(0, 2.9f, 0), shade_v3(0, 1, 0));
+    state.view = shade_mat4_look_at(shade_v3(0, 3.6f, 14), shade_v3(0, 2.9f, 0),
+                                    shade_v3(0, 1, 0));
     state.projection = shade_mat4_perspective(0.6f, 960 / 540.0f, 0.1f, 90);
     canvas_gradient(&c.target, air, air);
     canvas_gradient(&sky, shade_v3(0.24f, 0.38f, 0.60f), air);

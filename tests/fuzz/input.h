@@ -316,6 +316,18 @@ static inline void guard_close(void)
     guard_count = 0;
 }
 
+/* A list of indices in 16 bits; NULL where one has more. */
+static inline const uint16_t *guard_narrow(const uint32_t *indices, int count, int right)
+{
+    uint16_t *narrow;
+    for (int i = 0; i < count; i++)
+        if (indices[i] > UINT16_MAX) return NULL;
+    narrow = (uint16_t *)guard_take((size_t)count * sizeof *narrow, right);
+    for (int i = 0; i < count; i++) narrow[i] = (uint16_t)indices[i];
+    guard_seal(narrow);
+    return narrow;
+}
+
 /* Bytes without a meaning. */
 static inline void fuzz_noise(void *memory, size_t size, uint32_t seed)
 {

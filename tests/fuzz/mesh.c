@@ -11,8 +11,14 @@ typedef struct mesh_scene {
     shade_material material;
     shade_light lights[MESH_LIGHTS];
     shade_texture map, levels[20];
+    const uint32_t *wide;                /* the list of m.indices16 in 32 bits */
     int tame;
 } mesh_scene;
+
+static int mesh_corners(const shade_mesh *m)
+{
+    return m->indices || m->indices16 ? m->index_count : m->vertex_count;
+}
 
 /* A refused draw has a sentence; every other one a sentence or none. */
 static void mesh_explained(const mesh_scene *s, const shade_target *target,
@@ -37,7 +43,7 @@ static shade_result mesh_call(void *user, const shade_target *target, shade_stat
 static void mesh_check_fragment(const mesh_scene *s, const shade_fragments *in, int i)
 {
     const int last = in->count - 1, tame = s->tame;
-    HOLDS(in->primitive[i] < (uint32_t)(s->m.indices ? s->m.index_count : s->m.vertex_count) / 3);
+    HOLDS(in->primitive[i] < (uint32_t)mesh_corners(&s->m) / 3);
     HOLDS(in->front[i] <= 1 && in->z[i] >= 0 && in->z[i] <= 1);
     HOLDS(in->x[i] > 0 && in->y[i] > 0);
     if (!s->m.texcoords || !s->s.diffuse_map) HOLDS(in->lod[i] == 0);
@@ -205,7 +211,9 @@ static void mesh_arrays(fuzz_input *in, mesh_scene *s, float most, int *bad_inde
             *bad_index |= indices[i] >= (uint32_t)n;
         }
         guard_seal(indices);
-        m->indices = indices;
+        s->wide = indices;
+        if (kind & 32) m->indices16 = guard_narrow(indices, m->index_count, right >> 5 & 1);
+        if (!m->indices16) m->indices = indices;
         *bad_index |= m->index_count % 3;
     } else {
         if (!(kind & 16)) m->vertex_count = n / 3 * 3;
@@ -237,14 +245,18 @@ static int mesh_shader(fuzz_input *in, mesh_scene *s)    /* 0: refused */
 static shade_result mesh_spoil(fuzz_input *in, mesh_scene *s)
 {
     int wild = fuzz_wild_int(in), bad = wild < 0 || wild % 4;
-    if (bad || fuzz_one_in(in, 2)) switch (fuzz_byte(in) % 6) {
+    if (bad || fuzz_one_in(in, 2)) switch (fuzz_byte(in) % 7) {
         case 0: s->m.position_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
         case 1: s->m.normal_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
         case 2: s->m.texcoord_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
         case 3: s->m.color_stride = bad ? wild : -4; return SHADE_ERROR_MESH;
         case 4: s->m.vertex_count = -1; return SHADE_ERROR_MESH;
+        case 5:
+            if (!s->m.indices16) return SHADE_OK;
+            s->m.indices = s->wide;
+            return SHADE_ERROR_MESH;
         default:
-            if (!s->m.indices) return SHADE_OK;
+            if (!s->m.indices && !s->m.indices16) return SHADE_OK;
             s->m.index_count = INT_MIN;
             return SHADE_ERROR_MESH;
     }
@@ -327,6 +339,8 @@ static void mesh_chunks(fuzz_input *in, picture *p, mesh_scene *s, int triangles
     picture_restore(p);
     s->m.chunks = c;
     s->m.chunk_count = count;
+    if (s->m.indices16) s->m.indices = s->wide;
+    s->m.indices16 = NULL;
     HOLDS(shade_draw_mesh(&p->target, &s->m, &s->s, &with) == SHADE_OK);
     HOLDS(picture_same(p));
     mesh_stats(&with);
@@ -370,7 +384,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (kind & 16) good_map = mesh_map(&in, &s, most > 0);
     bad |= !mesh_alpha(&in, &s);
     if (!bad) bad = !mesh_shader(&in, &s);
-    triangles = (s.m.indices ? s.m.index_count : s.m.vertex_count) / 3;
+    triangles = mesh_corners(&s.m) / 3;
     if (want == SHADE_OK && bad) want = SHADE_ERROR_STATE;
     if (want == SHADE_OK && !good_light) want = SHADE_ERROR_LIGHTS;
     if (want == SHADE_OK && !good_map) want = SHADE_ERROR_TEXTURE;

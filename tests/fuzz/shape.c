@@ -14,6 +14,7 @@ typedef struct shape_mesh {
 
 static uint32_t shape_corner(const shade_mesh *m, int i)
 {
+    if (m->indices16) return m->indices16[i];
     return m->indices ? m->indices[i] : (uint32_t)i;
 }
 
@@ -69,11 +70,18 @@ static shape_mesh shape_open(fuzz_input *in)
         }
         guard_seal(indices);
     }
-    s.m.indices = indices;
+    if (kind & 32 && indices) s.m.indices16 = guard_narrow(indices, s.corners, kind >> 4 & 1);
+    s.m.indices = s.m.indices16 ? NULL : indices;
     s.m.index_count = indices ? s.corners : fuzz_wild_int(in);
     if (s.corners % 3) s.want = SHADE_ERROR_INDEX;
     if ((kind & 0xE0) != 0xE0) return s;
     switch (fuzz_byte(in) % 8) {
+        case 5:
+            if (s.m.indices16) {
+                s.m.indices = indices;
+                s.want = SHADE_ERROR_MESH;
+            }
+            break;
         case 0:
             s.m.vertex_count = -1;
             s.want = SHADE_ERROR_MESH;
@@ -347,6 +355,7 @@ static void shape_chunks(fuzz_input *in, const shape_mesh *s, shade_ray ray)
     for (int i = 0; i < count; i++) HOLDS(c[i].first == (i ? c[i - 1].first + c[i - 1].count : 0));
     if (sorted && corners) {
         m.indices = sorted;
+        m.indices16 = NULL;
         m.index_count = s->corners;
     }
     const int found = shade_pick(&m, model, ray, &t, &a);

@@ -24,13 +24,14 @@ static void prove_take(int most, int room)
 {
     static uint32_t list[3 * SHADE__BATCH_TRIANGLES];
     static uint8_t corner[SHADE__BATCH_TRIANGLES][4];
+    const shade__indices wide = { list, NULL };
     const int first = SHADE__BATCH_TRIANGLES - most;
     int taken;
     any_incoming(&d.u.in, room + 3);
     memset(corner, 0, sizeof corner);
     any_ints((int32_t *)list, 3 * SHADE__BATCH_TRIANGLES, INT32_MIN, INT32_MAX);
     d.u.in.ids.count = ANY_OF(0, room);
-    taken = shade__take_triangles(&d.u.in, list, (uint32_t)first, most, room, corner + first);
+    taken = shade__take_triangles(&d.u.in, wide, (uint32_t)first, most, room, corner + first);
     /*@ assert 0 <= taken <= most; */
     /*@ assert 0 <= d.u.in.ids.count <= room + 3; */
     for (int i = 0; i < 4 * SHADE__BATCH_TRIANGLES; i++) {

@@ -11,15 +11,22 @@ cd "$(dirname "$0")/../.." || exit 1
 I=tests/interface
 
 # ---- functions, types, enumerators
-# No struct and no enum has changed since 1.1.  One that gets fields, at its end and with a zero that
-# means what was before, or an enumerator at its end, is named by a file for abidiff's --suppressions,
-# [suppress_type] and name: what may change in any type would hide that a field became wider.
-# --harmless tells what machine code does not see: a field of another name.
+# A struct that has got fields at its end, with a zero that means what was before, or an enum with
+# enumerators at its end stands in tests/interface/grown.txt as abidiff reports it: nothing else of
+# it may have changed, and the first new field must begin where the struct ended.  --harmless tells
+# what machine code does not see: a field of another name.
 library() {                     # header, library
     gcc -std=c99 -w -g -O0 -fPIC -shared -DSHADE_IMPLEMENTATION -x c "$1" -o "$2" -lm -Wl,-soname,libshade.so
 }
-compared() {                    # library: what was added is not counted
-    abidiff --harmless --no-architecture --no-corpus-path --no-added-syms "$I/1.1.abi" "$1"
+report() {                      # library: what changed but for functions that were added
+    abidiff --leaf-changes-only --harmless --no-architecture --no-corpus-path --no-added-syms \
+        --no-show-locs "$I/1.1.abi" "$1" | grep -v summary: | grep .
+}
+compared() { report "$1" >"$T/report"; diff "$I/grown.txt" "$T/report"; }
+at_the_end() {
+    awk '/type size changed from/ { end = $5; first = 1 }
+         /, at offset/ && first { first = 0; if ($(NF - 2) != end) { print; bad = 1 } }
+         END { exit bad }' "$I/grown.txt"
 }
 # A copy of the header with one change: the comparison must tell it.
 tells() {                       # what, sed's command
@@ -31,9 +38,13 @@ tells() {                       # what, sed's command
 if there abidiff && there gcc; then
     check "the library" library shade.h "$T/libshade.so"
     check "1.1's interface is all there, and as it was" compared "$T/libshade.so"
+    check "fields are added at the end" at_the_end
     tells "a function of another name" 's/shade_write_ppm/shade_save_ppm/g'
     tells "a field that is wider" 's/^\( *\)float  *shininess;/\1double shininess;/'
     tells "a field of another name" 's/\bshininess\b/gloss/g'
+    tells "a wider field of a struct that grew" 's/^    int vertex_count;/    long long vertex_count;/'
+    tells "another name in one that grew" 's/\bvertex_count\b/vertices/g'
+    tells "another pointer in one that grew" 's/^    const uint32_t \*indices;/    const uint16_t *indices;/'
     tells "two enumerators swapped" 's/SHADE_CULL_NONE = 0, SHADE_CULL_BACK, SHADE_CULL_FRONT/SHADE_CULL_NONE = 0, SHADE_CULL_FRONT, SHADE_CULL_BACK/'
 else left_out "the interface of 1.1: no abidiff (abigail-tools) or no gcc"; fi
 check "README tells what is deprecated" same "$(grep -c 'Nothing is deprecated today' README.md)" \

@@ -15,6 +15,7 @@ typedef struct whole_call { /* all that any call is given, good until it is spoi
     shade_vec4 clip[6];
     float positions[18], crease;
     uint32_t indices[6];
+    uint16_t indices16[6];
     int index_count, vertex_count, point_count, factor, capacity, triangles;
     size_t bytes;
     const shade_target *target;
@@ -196,6 +197,7 @@ static const char *fault_mesh(whole_call *w, int k)
         w->m.chunk_count = 1;
         w->chunk.first = 1;
         return "MNCE";
+    case 12: w->m.indices16 = w->indices16; return "MNCEB";
     default: return NULL;
     }
 }

@@ -412,7 +412,128 @@ TEST(shaders, colours_of_vertices_cut_holes_into_depth_alone)
     }
 }
 
+typedef struct own_eyes { /* the eye of the first packet of a draw; packets with another */
+    shade_vec3 eye;
+    long packets, others;
+} own_eyes;
+
+static void own_eye_recorder(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                             shade_colors *SHADE_RESTRICT out)
+{
+    own_eyes *e = (own_eyes *)(uintptr_t)uniforms;
+    (void)out;
+    if (!e->packets++) e->eye = in->eye;
+    e->others += memcmp(&e->eye, &in->eye, sizeof e->eye) != 0;
+}
+
+/* Three squares across each other, so that one is seen from any side, over and over again. */
+static shade_mesh own_squares(float *positions, uint32_t *indices, int index_count)
+{
+    for (int i = 0; i < 18; i++) {
+        for (int k = 0; k < 3; k++) positions[3 * i + k] = own_square[3 * (i % 6) + (k + i / 6) % 3];
+    }
+    for (int i = 0; i < index_count; i++) indices[i] = (uint32_t)i % 18;
+    shade_mesh m = plain_mesh(positions, 18);
+    m.indices = indices;
+    m.index_count = index_count;
+    return m;
+}
+
+TEST(shaders, it_is_handed_the_eye_of_the_view)
+{
+    enum { INDICES = 54 * 40 }; /* several batches */
+    static float positions[54];
+    static uint32_t indices[INDICES];
+    static const shade_chunk chunk = { { -1, -1, -1 }, { 1, 1, 1 }, 0, INDICES / 3 };
+    shade_mesh m = own_squares(positions, indices, INDICES);
+    canvas c = canvas_open(OWN_W, OWN_H, 0, SHADE_FORMAT_RGBA8, 1);
+    if (!own_fits()) {
+        canvas_close(&c);
+        return;
+    }
+    for (int round = 0; round < 200; round++) {
+        const float far = rnd_log(4, 1000);
+        const shade_vec3 middle = shade_v3(rnd_float(-9, 9), rnd_float(-9, 9), rnd_float(-9, 9));
+        const d3 way = rnd_direction();
+        const shade_vec3 eye = shade_madd(middle, far, d3_round(way));
+        const int endless = rnd_one_in(2), depth_alone = rnd_one_in(4);
+        own_eyes e = { { 0, 0, 0 }, 0, 0 };
+        shade_draw_state s = plain_state(NULL);
+        shade_target t = c.target;
+        dmat back = dmat_identity();
+        s.model = shade_mat4_translation(middle);
+        s.view = shade_mat4_look_at(eye, middle, shade_v3(0.1f, 1, 0.2f));
+        if (rnd_one_in(4)) s.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(-1, 1, 1)), s.view);
+        s.projection = shade_mat4_perspective(2 / far, 1, far / 2, 2 * far);
+        if (rnd_one_in(4)) s.projection = shade_mat4_ortho(-2, 2, -2, 2, far / 2, 2 * far);
+        s.lighting.flags = endless ? SHADE_FLAG_INFINITE_VIEWER : 0;
+        s.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+        s.fragment = own_eye_recorder;
+        s.uniforms = &e;
+        if (depth_alone) {
+            t.color = NULL;
+            s.alpha_cutoff = 0.5f;
+        }
+        m.chunks = rnd_one_in(2) ? &chunk : NULL;
+        m.chunk_count = m.chunks != NULL;
+        canvas_clear(&c, 1);
+        CHECK_INT(shade_draw_mesh(&t, &m, &s, NULL), SHADE_OK);
+        CHECK(e.packets > 2);
+        CHECK_INT(e.others, 0);
+        dmat_invert(dmat_from(s.view), 4, &back);
+        const d3 want = endless ? d3_of(back.m[0][2], back.m[1][2], back.m[2][2])
+                                : d3_of(back.m[0][3], back.m[1][3], back.m[2][3]);
+        const double size = endless ? 1 : 20 + (double)far;
+        CHECK_NEAR(d3_length(d3_sub(d3_from(e.eye), want)), 0, 2e-6 * size);
+        /* the camera that was given to look_at */
+        CHECK_NEAR(d3_length(d3_sub(want, endless ? way : d3_from(eye))), 0, 2e-5 * size);
+    }
+    canvas_close(&c);
+}
+
+typedef struct own_pair { /* uniforms of both shaders of a pipeline */
+    const scene *corners;
+    own_eyes eyes;
+} own_pair;
+
+static void own_pair_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                            shade_vertices *SHADE_RESTRICT out)
+{
+    scene_vertex(((const own_pair *)uniforms)->corners, in, out);
+}
+
+static void own_pair_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                              shade_colors *SHADE_RESTRICT out)
+{
+    own_eye_recorder(&((const own_pair *)uniforms)->eyes, in, out);
+}
+
+TEST(shaders, those_of_pipelines_have_no_eye)
+{
+    const shade_vec4 clip[3] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 }, { 0, 1, 0, 1 } };
+    canvas c = canvas_open(OWN_W, OWN_H, 0, SHADE_FORMAT_RGBA8, 1);
+    const scene corners = { clip, NULL, 0, NULL, NULL };
+    own_pair u;
+    u.corners = &corners;
+    for (int late = 0; late < 2; late++) {
+        shade_pipeline p = scene_pipeline(&corners);
+        memset(&u.eyes, 0, sizeof u.eyes);
+        p.vertex = own_pair_vertex;
+        p.fragment = own_pair_fragment;
+        p.uniforms = &u;
+        p.may_discard = late;
+        canvas_clear(&c, 1);
+        canvas_draw(&c, &p, 3);
+        CHECK(u.eyes.packets > 0);
+        CHECK_INT(u.eyes.others, 0);
+        CHECK(u.eyes.eye.x == 0 && u.eyes.eye.y == 0 && u.eyes.eye.z == 0);
+    }
+    canvas_close(&c);
+}
+
 static const test_case shaders_cases[] = {
+    CASE(shaders, it_is_handed_the_eye_of_the_view),
+    CASE(shaders, those_of_pipelines_have_no_eye),
     CASE(shaders, it_is_handed_what_a_pipeline_of_the_same_mesh_hands_on),
     CASE(shaders, its_colour_is_the_pixel_s_and_alpha_cutoff_blend_and_discard_apply),
     CASE(shaders, depth_alone_asks_it_for_holes_of_a_cutoff_and_for_nothing_else),

@@ -7,6 +7,7 @@
 #ifndef TEST_H
 #define TEST_H
 
+#include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdarg.h>

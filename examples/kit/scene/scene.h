@@ -517,16 +517,7 @@ typedef struct scene_relief {
     const look *k;
     const shade_mesh *mesh;
     const shade_draw_state *state;
-    shade_vec3 eye;      /* in the world */
 } scene_relief;
-
-/* What V comes from: the eye, or with a viewer at infinity the direction toward it. */
-static inline shade_vec3 scene_eye(shade_mat4 view, unsigned flags)
-{
-    const shade_mat4 world = shade_mat4_inverse(view);
-    const shade_vec4 from = world.col[flags & SHADE_FLAG_INFINITE_VIEWER ? 2 : 3];
-    return shade_v3(from.x, from.y, from.z);
-}
 
 /* The equation with a bent N.  The relief lies on the model as it is in its file, and the model's
    matrix only turns it: the transpose turns N back. */
@@ -554,7 +545,7 @@ static void scene_relief_fragment(const void *uniforms, const shade_fragments *S
         const float *color = in->varying[SHADE_VARYING_COLOR + a];
         SHADE_EACH_LANE(i) { albedo[a][i] = color[i] * (k->map ? texel[a][i] : 1); }
     }
-    shade_lit_lanes(&r->state->lighting, r->state->material, r->eye, &rows, out->color[0]);
+    shade_lit_lanes(&r->state->lighting, r->state->material, in->eye, &rows, out->color[0]);
     if (k->map) {
         SHADE_EACH_LANE(i) { out->color[3][i] = texel[3][i]; }
     }
@@ -605,7 +596,6 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
             bent.k = &k;
             bent.mesh = &mesh;
             bent.state = &state;
-            bent.eye = scene_eye(state.view, flag[s->choice[CHOICE_FLAG]]);
             state.fragment = scene_relief_fragment;
             state.uniforms = &bent;
             if (!k.map) state.diffuse_map = k.relief.map;    /* whose lod the shader gets */

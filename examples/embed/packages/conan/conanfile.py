@@ -9,7 +9,7 @@ class Shade(ConanFile):
     """One header; the program that uses it compiles the implementation."""
 
     name = "shade-h"
-    version = "1.2.0"
+    version = "1.3.0"
     description = "Phong and Blinn-Phong light and an exact z-buffer rasterizer, one header"
     license = ("MIT", "Unlicense")
     homepage = "https://example.org/shade"

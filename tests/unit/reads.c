@@ -1,0 +1,255 @@
+/* reads.c - what is only read is never written: memory in pages that allow no more than the table
+   of calls.h says. */
+#include "pages.h"
+#include "unit.h"
+#include "calls.h"
+
+/* Every build refuses a mesh for which it has too few varyings. */
+static int world_fits(void)
+{
+    if (SHADE_MAX_VARYINGS >= 11) return 1;
+    test_skip("a mesh with colours and a map takes 11 varyings");
+    return 0;
+}
+
+#if PAGES
+/* ------------------------------------------------------------------------ the table, row by row */
+
+typedef struct protected_call { const call_world *w; const world_call *call; } protected_call;
+
+static int reads_narrow;               /* does the mesh have indices16? then they are read */
+
+static int reads_run(void *argument)
+{
+    const protected_call *p = (const protected_call *)argument;
+    return p->call->run(p->w);
+}
+
+/* What a buffer allows while a row of the table runs. */
+static int reads_access(const world_call *c, int buffer)
+{
+    const char *name = world_buffers[buffer].name;
+    int reads = world_named(c->reads, name);
+    if (world_named(c->writes, name)) return PROT_READ | PROT_WRITE;
+    if (reads_narrow && !strncmp(name, "indices", 7))
+        reads = !strcmp(name, "indices16") && world_named(c->reads, "indices");
+    return reads ? PROT_READ : PROT_NONE;
+}
+
+/* Fills a world, runs a row with the access that it names, but for one buffer (-1: none); 1 if it
+   faulted. */
+static int reads_faults(const call_world *w, const world_call *c, int other, int access,
+                        int *result)
+{
+    protected_call p = { w, c };
+    int faulted;
+    for (int k = 0; k < WORLD_BUFFERS; k++)
+        page_allow(world_at(w, k), world_buffers[k].bytes, PROT_READ | PROT_WRITE);
+    world_fill(w);
+    if (reads_narrow) world_narrow(w);
+    c->set(w);
+    for (int k = 0; k < WORLD_BUFFERS; k++)
+        page_allow(world_at(w, k), world_buffers[k].bytes,
+                   k == other ? access : reads_access(c, k));
+    faulted = page_faults(reads_run, &p, result);
+    for (int k = 0; k < WORLD_BUFFERS; k++)
+        page_allow(world_at(w, k), world_buffers[k].bytes, PROT_READ | PROT_WRITE);
+    return faulted;
+}
+
+static void reads_check(const call_world *w, const world_call *c)
+{
+    const char *touched = "what no buffer alone cures";
+    int result = 0;
+    if (reads_faults(w, c, -1, 0, &result)) {
+        for (int k = 0; k < WORLD_BUFFERS; k++) {
+            if (!reads_faults(w, c, k, PROT_READ | PROT_WRITE, &result))
+                touched = world_buffers[k].name;
+        }
+        CHECK_SAY(0, "%s (%s) touches %s", c->name, c->when, touched);
+        return;
+    }
+    CHECK_SAY(!result, "%s (%s) returns %d", c->name, c->when, result);
+    for (int k = 0; k < WORLD_BUFFERS; k++) {
+        const int access = reads_access(c, k);
+        if (access == PROT_READ)
+            CHECK_SAY(reads_faults(w, c, k, PROT_NONE, &result), "%s (%s) never reads %s",
+                      c->name, c->when, world_buffers[k].name);
+        if (access == (PROT_READ | PROT_WRITE))
+            CHECK_SAY(reads_faults(w, c, k, PROT_READ, &result), "%s (%s) never writes %s",
+                      c->name, c->when, world_buffers[k].name);
+    }
+}
+#endif
+
+/* G19 */
+TEST(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else)
+{
+#if PAGES
+    call_world w;
+    if (!world_fits()) return;
+    for (int k = 0; k < WORLD_BUFFERS; k++) world_put(&w, k, page_take(world_buffers[k].bytes));
+    for (int i = 0; i < WORLD_CALLS; i++) {
+        const char *reads = world_calls[i].reads;
+        reads_narrow = 0;
+        reads_check(&w, &world_calls[i]);
+        reads_narrow = 1;
+        if (world_named(reads, "mesh") && world_named(reads, "indices"))
+            reads_check(&w, &world_calls[i]);
+    }
+    for (int k = 0; k < WORLD_BUFFERS; k++) page_free(world_at(&w, k), world_buffers[k].bytes);
+#else
+    test_skip("no mprotect");
+#endif
+}
+
+#if PAGES
+/* Does depth z pass this test against s? */
+static int reads_passes(shade_compare test, float z, float s)
+{
+    switch (test) {
+    case SHADE_COMPARE_LESS: return z < s;
+    case SHADE_COMPARE_LESS_EQUAL: return z <= s;
+    case SHADE_COMPARE_GREATER: return z > s;
+    case SHADE_COMPARE_GREATER_EQUAL: return z >= s;
+    case SHADE_COMPARE_EQUAL: return z == s;
+    default: return 1;
+    }
+}
+
+enum { READS_WIDTH = 300, READS_HEIGHT = 60, READS_CELLS = READS_WIDTH * READS_HEIGHT };
+
+typedef struct reads_draw {
+    shade_target target;
+    shade_pipeline pipe;
+    uint32_t color[READS_CELLS];
+} reads_draw;
+
+static int reads_draw_corners(void *argument)
+{
+    const reads_draw *d = (const reads_draw *)argument;
+    return (int)shade_draw(&d->target, &d->pipe, NULL, 3, 3, NULL);
+}
+
+/* A triangle of depth 1/2, so many pixels wide, is drawn over depths 1/4, 1/2 and 3/4 that are
+   read-only.  The pixels that a draw without depth covers change where their depth passes. */
+static void reads_check_size(reads_draw *d, float *depth, float pixels)
+{
+    static uint32_t covered[READS_CELLS];
+    const shade_vec4 clip[3] = { { -0.95f, -0.9f, 0, 1 },
+                                 { -0.95f + 2 * pixels / READS_WIDTH, -0.8f, 0, 1 },
+                                 { -0.94f, 0.9f, 0, 1 } };
+    const scene s = { clip, NULL, 0, NULL, NULL };
+    const shade_compare test = d->pipe.raster.depth_test;
+    int faulted, result = -1, wrong = 0, shown = 0;
+    d->pipe.uniforms = &s;
+    d->target.depth = NULL;
+    memset(d->color, 0, sizeof d->color);
+    CHECK_INT(reads_draw_corners(d), SHADE_OK);
+    memcpy(covered, d->color, sizeof covered);
+    memset(d->color, 0, sizeof d->color);
+    d->target.depth = depth;
+    faulted = page_faults(reads_draw_corners, d, &result);
+    CHECK_SAY(!faulted && result == SHADE_OK, "%g pixels, test %d, may_discard %d, %d columns: %s",
+              (double)pixels, (int)test, d->pipe.may_discard, d->target.clip_width,
+              faulted ? "depth was written" : "refused");
+    for (int i = 0; i < READS_CELLS; i++) {
+        wrong += d->color[i] != (reads_passes(test, 0.5f, depth[i]) ? covered[i] : 0);
+        shown += d->color[i] != 0;
+    }
+    CHECK_INT(wrong, 0);
+    CHECK(shown > 0);
+}
+#endif
+
+/* G19 */
+TEST(reads, depth_that_is_only_read_may_lie_in_read_only_memory)
+{
+#if PAGES
+    static const float levels[3] = { 0.25f, 0.5f, 0.75f };
+    static const float widths[3] = { 20, 100, 280 };    /* each is covered by other code */
+    static reads_draw d;
+    float *depth = (float *)page_take(READS_CELLS * sizeof *depth);
+    for (int i = 0; i < READS_CELLS; i++) depth[i] = levels[rnd_int(0, 2)];
+    page_allow(depth, READS_CELLS * sizeof *depth, PROT_READ);
+    memset(&d, 0, sizeof d);
+    d.target.width = READS_WIDTH;
+    d.target.height = READS_HEIGHT;
+    d.target.color = d.color;
+    d.pipe.vertex = scene_vertex;
+    d.pipe.fragment = scene_flat;
+    d.pipe.raster.depth_read_only = 1;
+    for (int i = 0; i < 6 * 3 * 2 * 2; i++) {
+        d.pipe.raster.depth_test = (shade_compare)(i % 6);
+        d.pipe.may_discard = i / 18 % 2;
+        d.target.clip_width = i / 36 ? 25 : 0;    /* narrower than a tile */
+        d.target.clip_height = i / 36 ? READS_HEIGHT : 0;
+        reads_check_size(&d, depth, widths[i / 6 % 3]);
+    }
+    page_free(depth, READS_CELLS * sizeof *depth);
+#else
+    test_skip("no mprotect");
+#endif
+}
+
+/* A whole file, or NULL. */
+static char *reads_file(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    long size;
+    if (!file) return NULL;
+    if (!fseek(file, 0, SEEK_END) && (size = ftell(file)) >= 0 && !fseek(file, 0, SEEK_SET)) {
+        text = test_memory((size_t)size + 1);
+        text[fread(text, 1, (size_t)size, file)] = 0;
+    }
+    fclose(file);
+    return text;
+}
+
+static int reads_has_row(const char *name, size_t length)
+{
+    for (int i = 0; i < WORLD_CALLS; i++) {
+        if (strlen(world_calls[i].name) == length && !memcmp(world_calls[i].name, name, length))
+            return 1;
+    }
+    return 0;
+}
+
+/* Every function of shade.h that takes a pointer has a row, and every row stands in the README. */
+TEST(reads, the_table_of_the_readme_has_every_call)
+{
+    char *readme = reads_file("tests/README.md"), *header = reads_file("shade.h");
+    char row[512];
+    if (!readme || !header) {
+        test_skip("not started where shade.h is");
+        free(readme);
+        free(header);
+        return;
+    }
+    for (int i = 0; i < WORLD_CALLS; i++) {
+        const world_call *c = &world_calls[i];
+        snprintf(row, sizeof row, "\n| `%s` | %s | %s | %s |\n", c->name, c->when, c->reads,
+                 c->writes);
+        CHECK_SAY(strstr(readme, row), "tests/README.md has no line%s", row);
+    }
+    for (char *p = header; (p = strstr(p, "\nSHADEDEF ")) != NULL;) {
+        char *open = strchr(p, '('), *close = open ? strchr(open, ')') : NULL, *name = open;
+        if (!close || close[1] != ';') break;    /* the bodies begin */
+        while (name[-1] == '_' || isalnum((unsigned char)name[-1])) name--;
+        if (memchr(open, '*', (size_t)(close - open)))
+            CHECK_SAY(reads_has_row(name, (size_t)(open - name)), "calls.h has no row of %.*s",
+                      (int)(open - name), name);
+        p = close;
+    }
+    free(readme);
+    free(header);
+}
+
+static const test_case reads_cases[] = {
+    CASE(reads, the_table_of_the_readme_has_every_call),
+    CASE(reads, depth_that_is_only_read_may_lie_in_read_only_memory),
+    CASE(reads, calls_touch_what_their_row_of_the_table_says_and_nothing_else),
+};
+
+SECTION(reads);
