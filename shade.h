@@ -6,7 +6,8 @@
    matrix maths that this needs, and a small, fast triangle rasterizer with programmable vertex and
    fragment shaders to see it with.  It allocates nothing, keeps no global state, starts no threads
    and draws into memory that you own.  Every compiler and processor produces the same pixels, to
-   the bit, because all arithmetic is IEEE single and double precision and is never contracted.
+   the bit, because all arithmetic is IEEE single and double precision and is never contracted;
+   shaders of yours need -ffp-contract=off for that (>>config, "Fast math").
 
    To use it, write in exactly one C or C++ file
 
@@ -50,33 +51,33 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     122  options               >>types      199  materials, lamps, targets, states
-       >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       908  vectors and matrices
+       >>config     123  options               >>types      205  materials, lamps, targets, states
+       >>plumbing   379  compilers             >>light      527  the equation and its terms
+       >>draw       652  meshes and pixels     >>math       925  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1271  processors            >>base      1498  bits, masks, rows of vectors
-       >>matrix    1717  cameras, inverses     >>power     2011  x^n
-       >>pixels    2077  formats, sRGB
+       >>machine   1301  processors            >>base      1528  bits, masks, rows of vectors
+       >>matrix    1747  cameras, inverses     >>power     2041  x^n
+       >>pixels    2107  formats, sRGB
      Inside: light
-       >>lamps     2354  attenuation, cones    >>terms     2628  one term at one point
-       >>surface   2710  material and lights   >>lit       2831  the whole sum, at many points
+       >>lamps     2384  attenuation, cones    >>terms     2658  one term at one point
+       >>surface   2740  material and lights   >>lit       2861  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3238  who owns what         >>vertices  3421  shading, projection
-       >>triangles 3638  dropped, cut, edges   >>clip      4007  near, far, behind the eye
-       >>tiles     4192  pixels, depth test    >>cover     4547  what is hidden, tile by tile
-       >>fragments 4814  interpolation, lod    >>texture   5107  texels, mipmaps
-       >>store     5552  blending, packing
+       >>state     3268  who owns what         >>vertices  3451  shading, projection
+       >>triangles 3668  dropped, cut, edges   >>clip      4037  near, far, behind the eye
+       >>tiles     4222  pixels, depth test    >>cover     4577  what is hidden, tile by tile
+       >>fragments 4844  interpolation, lod    >>texture   5137  texels, mipmaps
+       >>store     5582  blending, packing
      Inside: calls of the renderer
-       >>check     5784  refusals              >>seen      5933  what can be seen, chunks
-       >>drive     6070  shade_draw            >>mesh      6249  shade_draw_mesh
+       >>check     5814  refusals              >>seen      5963  what can be seen, chunks
+       >>drive     6100  shade_draw            >>mesh      6279  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
-       >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
-       >>survey    7503  experiments on a draw >>explain   7754  why nothing is seen
-       >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
+       >>lines     6679  shade_draw_lines      >>shape     6837  normals, edges
+       >>chunks    7173  how boxes are made    >>rays      7337  shade_pick
+       >>survey    7533  experiments on a draw >>explain   7784  why nothing is seen
+       >>image     8429  mipmaps, PPM           >>presets   8697  classic materials
      Sources
-       >>refs      8743                        >>history   8773
-       >>license   8785
+       >>refs      8773                        >>history   8803
+       >>license   8815
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -148,12 +149,17 @@
    You may define any macro whose name is one capital letter; in files without the implementation
    also e, g, i, j, o and q.
 
-   Fast math.  gcc gives the same bits with -ffast-math, -Ofast and their parts.  clang cannot be
-   told to keep them: the implementation refuses -ffast-math and -ffinite-math-only.  clang does not
-   report the other parts of -ffast-math, nor -ffp-contract=fast, which overrides the pragmas of
-   >>plumbing: do not use them.  Inline functions follow the flags of the file that includes them.
-   A program linked with -ffast-math flushes denormal numbers to zero; only SHADE_FORMAT_RGBA32F
-   and exponents far below 1 show it.
+   Fast math.  From gcc the implementation has the same bits with -ffast-math, -Ofast and their
+   parts.  clang cannot be told to keep them: the implementation refuses -ffast-math and
+   -ffinite-math-only.  clang does not report the other parts, nor -ffp-contract=fast, which
+   overrides the pragmas of >>plumbing: do not use them.  A program linked with -ffast-math flushes
+   denormal numbers to zero; only SHADE_FORMAT_RGBA32F and exponents far below 1 show it.
+     Inline functions are compiled into your files.  They have the same bits under all flags but
+   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
+   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
+     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
+   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
+   give the same bits everywhere with -ffp-contract=off.
 
    tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
    variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
@@ -439,6 +445,16 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #define SHADE__SQRT sqrtf
 #endif
 
+/* A product in an inline function.  Where the processor has a fused a b + c, gcc fuses the sums of
+   your file, and a product that it inlines there, whatever the pragmas of this file say; gcc
+   -std=c99 does not.  The fused a b + -0 has the bits of a b, and cannot be fused again. */
+#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
+    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
+#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
+#else
+#define SHADE__TIMES(a, b) ((a) * (b))
+#endif
+
 /* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
    vector code where the block is straight arithmetic on arrays indexed by i.  Without the pragma
    they would unroll the loop before they vectorise it, which is 1.5 to 2.4 times slower.  Put
@@ -469,9 +485,10 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
    turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
    processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
    caller to an inlined function: the implementation is exact, and so are the inline functions that
-   it calls.  clang's ?: and calls stay fast; see >>machine.  SHADE__END restores the state before,
-   or where clang keeps no stack of states, that of the options.  MSVC restores float_control alone:
-   behind this file contraction stays off, as /fp:precise has it since 2022 and /fp:fast has not.
+   it calls; those that you call have SHADE__TIMES.  clang's ?: and calls stay fast; see >>machine.
+   SHADE__END restores the state before, or where clang keeps no stack of states, that of the
+   options.  MSVC restores float_control alone: behind this file contraction stays off, as
+   /fp:precise has it since 2022 and /fp:fast has not.
    What its warnings of the fourth level speak of, constant conditions (4127) and the padding of
    SHADE_ALIGNED (4324), is meant. */
 #ifdef __cplusplus
@@ -985,6 +1002,9 @@ static inline float shade__own_sqrt(float x)
 
 SHADE__INLINE float shade__sqrt(float x) { return SHADE__SQRT(x); }
 
+/* a b, rounded before it is added to anything. */
+SHADE__INLINE float shade__times(float a, float b) { return SHADE__TIMES(a, b); }
+
 SHADE__INLINE shade_vec3 shade_add(shade_vec3 a, shade_vec3 b)
 {
     return shade_v3(a.x + b.x, a.y + b.y, a.z + b.z);
@@ -998,30 +1018,32 @@ SHADE__INLINE shade_vec3 shade_sub(shade_vec3 a, shade_vec3 b)
 /* The product of each component, as of two colours. */
 SHADE__INLINE shade_vec3 shade_mul(shade_vec3 a, shade_vec3 b)
 {
-    return shade_v3(a.x * b.x, a.y * b.y, a.z * b.z);
+    return shade_v3(shade__times(a.x, b.x), shade__times(a.y, b.y), shade__times(a.z, b.z));
 }
 
 SHADE__INLINE shade_vec3 shade_scale(shade_vec3 v, float s)
 {
-    return shade_v3(v.x * s, v.y * s, v.z * s);
+    return shade_v3(shade__times(v.x, s), shade__times(v.y, s), shade__times(v.z, s));
 }
 
 /* a + s b */
 SHADE__INLINE shade_vec3 shade_madd(shade_vec3 a, float s, shade_vec3 b)
 {
-    return shade_v3(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
+    return shade_add(a, shade_scale(b, s));
 }
 
 SHADE__INLINE shade_vec3 shade_neg(shade_vec3 v) { return shade_v3(-v.x, -v.y, -v.z); }
 SHADE__INLINE float shade_dot(shade_vec3 a, shade_vec3 b)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return shade__times(a.x, b.x) + shade__times(a.y, b.y) + shade__times(a.z, b.z);
 }
 
 /* Right-handed: x cross y = z. */
 SHADE__INLINE shade_vec3 shade_cross(shade_vec3 a, shade_vec3 b)
 {
-    return shade_v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return shade_v3(shade__times(a.y, b.z) - shade__times(a.z, b.y),
+                    shade__times(a.z, b.x) - shade__times(a.x, b.z),
+                    shade__times(a.x, b.y) - shade__times(a.y, b.x));
 }
 
 SHADE__INLINE float shade_length(shade_vec3 v) { return shade__sqrt(shade_dot(v, v)); }
@@ -1100,8 +1122,16 @@ SHADE__INLINE shade_vec2 shade_sub2(shade_vec2 a, shade_vec2 b)
     return shade_v2(a.x - b.x, a.y - b.y);
 }
 
-SHADE__INLINE shade_vec2 shade_scale2(shade_vec2 v, float s) { return shade_v2(v.x * s, v.y * s); }
-SHADE__INLINE float shade_dot2(shade_vec2 a, shade_vec2 b) { return a.x * b.x + a.y * b.y; }
+SHADE__INLINE shade_vec2 shade_scale2(shade_vec2 v, float s)
+{
+    return shade_v2(shade__times(v.x, s), shade__times(v.y, s));
+}
+
+SHADE__INLINE float shade_dot2(shade_vec2 a, shade_vec2 b)
+{
+    return shade__times(a.x, b.x) + shade__times(a.y, b.y);
+}
+
 SHADE__INLINE shade_vec2 shade_lerp2(shade_vec2 a, shade_vec2 b, float t)
 {
     return shade_add2(a, shade_scale2(shade_sub2(b, a), t));
@@ -1119,12 +1149,14 @@ SHADE__INLINE shade_vec4 shade_sub4(shade_vec4 a, shade_vec4 b)
 
 SHADE__INLINE shade_vec4 shade_scale4(shade_vec4 v, float s)
 {
-    return shade_v4(v.x * s, v.y * s, v.z * s, v.w * s);
+    return shade_v4(shade__times(v.x, s), shade__times(v.y, s), shade__times(v.z, s),
+                    shade__times(v.w, s));
 }
 
 SHADE__INLINE float shade_dot4(shade_vec4 a, shade_vec4 b)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+    return shade__times(a.x, b.x) + shade__times(a.y, b.y) + shade__times(a.z, b.z) +
+           shade__times(a.w, b.w);
 }
 
 SHADE__INLINE shade_vec4 shade_lerp4(shade_vec4 a, shade_vec4 b, float t)
@@ -1155,17 +1187,15 @@ SHADE__INLINE shade_mat4 shade__m4(shade_vec4 a, shade_vec4 b, shade_vec4 c, sha
 
 SHADE__INLINE shade_vec3 shade_mat3_transform(shade_mat3 m, shade_vec3 v)
 {
-    return shade_v3(m.col[0].x * v.x + m.col[1].x * v.y + m.col[2].x * v.z,
-                    m.col[0].y * v.x + m.col[1].y * v.y + m.col[2].y * v.z,
-                    m.col[0].z * v.x + m.col[1].z * v.y + m.col[2].z * v.z);
+    const shade_vec3 xy = shade_add(shade_scale(m.col[0], v.x), shade_scale(m.col[1], v.y));
+    return shade_add(xy, shade_scale(m.col[2], v.z));
 }
 
 SHADE__INLINE shade_vec4 shade_mat4_transform(shade_mat4 m, shade_vec4 v)
 {
-    return shade_v4(m.col[0].x * v.x + m.col[1].x * v.y + m.col[2].x * v.z + m.col[3].x * v.w,
-                    m.col[0].y * v.x + m.col[1].y * v.y + m.col[2].y * v.z + m.col[3].y * v.w,
-                    m.col[0].z * v.x + m.col[1].z * v.y + m.col[2].z * v.z + m.col[3].z * v.w,
-                    m.col[0].w * v.x + m.col[1].w * v.y + m.col[2].w * v.z + m.col[3].w * v.w);
+    const shade_vec4 xy = shade_add4(shade_scale4(m.col[0], v.x), shade_scale4(m.col[1], v.y));
+    const shade_vec4 xyz = shade_add4(xy, shade_scale4(m.col[2], v.z));
+    return shade_add4(xyz, shade_scale4(m.col[3], v.w));
 }
 
 /* The product a b, which transforms by b first, then by a. */
