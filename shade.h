@@ -55,29 +55,29 @@
        >>plumbing   379  compilers             >>light      527  the equation and its terms
        >>draw       652  meshes and pixels     >>math       925  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1301  processors            >>base      1528  bits, masks, rows of vectors
-       >>matrix    1747  cameras, inverses     >>power     2041  x^n
-       >>pixels    2107  formats, sRGB
+       >>machine   1285  processors            >>base      1512  bits, masks, rows of vectors
+       >>matrix    1731  cameras, inverses     >>power     2025  x^n
+       >>pixels    2091  formats, sRGB
      Inside: light
-       >>lamps     2384  attenuation, cones    >>terms     2658  one term at one point
-       >>surface   2740  material and lights   >>lit       2861  the whole sum, at many points
+       >>lamps     2368  attenuation, cones    >>terms     2642  one term at one point
+       >>surface   2724  material and lights   >>lit       2845  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3268  who owns what         >>vertices  3451  shading, projection
-       >>triangles 3668  dropped, cut, edges   >>clip      4037  near, far, behind the eye
-       >>tiles     4222  pixels, depth test    >>cover     4577  what is hidden, tile by tile
-       >>fragments 4844  interpolation, lod    >>texture   5137  texels, mipmaps
-       >>store     5582  blending, packing
+       >>state     3252  who owns what         >>vertices  3435  shading, projection
+       >>triangles 3652  dropped, cut, edges   >>clip      4021  near, far, behind the eye
+       >>tiles     4206  pixels, depth test    >>cover     4561  what is hidden, tile by tile
+       >>fragments 4828  interpolation, lod    >>texture   5121  texels, mipmaps
+       >>store     5566  blending, packing
      Inside: calls of the renderer
-       >>check     5814  refusals              >>seen      5963  what can be seen, chunks
-       >>drive     6100  shade_draw            >>mesh      6279  shade_draw_mesh
+       >>check     5798  refusals              >>seen      5947  what can be seen, chunks
+       >>drive     6084  shade_draw            >>mesh      6263  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6679  shade_draw_lines      >>shape     6837  normals, edges
-       >>chunks    7173  how boxes are made    >>rays      7337  shade_pick
-       >>survey    7533  experiments on a draw >>explain   7784  why nothing is seen
-       >>image     8429  mipmaps, PPM           >>presets   8697  classic materials
+       >>lines     6663  shade_draw_lines      >>shape     6821  normals, edges
+       >>chunks    7157  how boxes are made    >>rays      7321  shade_pick
+       >>survey    7517  experiments on a draw >>explain   7768  why nothing is seen
+       >>image     8413  mipmaps, PPM           >>presets   8681  classic materials
      Sources
-       >>refs      8773                        >>history   8803
-       >>license   8815
+       >>refs      8757                        >>history   8787
+       >>license   8799
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -929,28 +929,19 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 
 SHADE__INLINE shade_vec2 shade_v2(float x, float y)
 {
-    shade_vec2 v;
-    v.x = x;
-    v.y = y;
+    const shade_vec2 v = { x, y };
     return v;
 }
 
 SHADE__INLINE shade_vec3 shade_v3(float x, float y, float z)
 {
-    shade_vec3 v;
-    v.x = x;
-    v.y = y;
-    v.z = z;
+    const shade_vec3 v = { x, y, z };
     return v;
 }
 
 SHADE__INLINE shade_vec4 shade_v4(float x, float y, float z, float w)
 {
-    shade_vec4 v;
-    v.x = x;
-    v.y = y;
-    v.z = z;
-    v.w = w;
+    const shade_vec4 v = { x, y, z, w };
     return v;
 }
 
@@ -1168,20 +1159,13 @@ SHADE__INLINE shade_vec3 shade__xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.
 SHADE__INLINE shade_vec4 shade__xyzw(shade_vec3 v, float w) { return shade_v4(v.x, v.y, v.z, w); }
 SHADE__INLINE shade_mat3 shade__m3(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
-    shade_mat3 m;
-    m.col[0] = a;
-    m.col[1] = b;
-    m.col[2] = c;
+    const shade_mat3 m = { { a, b, c } };
     return m;
 }
 
 SHADE__INLINE shade_mat4 shade__m4(shade_vec4 a, shade_vec4 b, shade_vec4 c, shade_vec4 d)
 {
-    shade_mat4 m;
-    m.col[0] = a;
-    m.col[1] = b;
-    m.col[2] = c;
-    m.col[3] = d;
+    const shade_mat4 m = { { a, b, c, d } };
     return m;
 }
 
