@@ -6,7 +6,8 @@
    matrix maths that this needs, and a small, fast triangle rasterizer with programmable vertex and
    fragment shaders to see it with.  It allocates nothing, keeps no global state, starts no threads
    and draws into memory that you own.  Every compiler and processor produces the same pixels, to
-   the bit, because all arithmetic is IEEE single and double precision and is never contracted.
+   the bit, because all arithmetic is IEEE single and double precision and is never contracted;
+   shaders of yours need -ffp-contract=off for that (>>config, "Fast math").
 
    To use it, write in exactly one C or C++ file
 
@@ -49,33 +50,33 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     121  options               >>types      198  materials, lamps, targets, states
-       >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       913  vectors and matrices
+       >>config     122  options               >>types      213  materials, lamps, targets, states
+       >>plumbing   388  compilers             >>light      547  the equation and its terms
+       >>draw       672  meshes and pixels     >>math       950  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1276  processors            >>base      1501  bits, masks, rows of vectors
-       >>matrix    1720  cameras, inverses     >>power     2014  x^n
-       >>pixels    2080  formats, sRGB
+       >>machine   1310  processors            >>base      1535  bits, masks, rows of vectors
+       >>matrix    1754  cameras, inverses     >>power     2048  x^n
+       >>pixels    2114  formats, sRGB
      Inside: light
-       >>lamps     2356  attenuation, cones    >>terms     2618  one term at one point
-       >>surface   2700  material and lights   >>lit       2821  the whole sum, at many points
+       >>lamps     2390  attenuation, cones    >>terms     2652  one term at one point
+       >>surface   2734  material and lights   >>lit       2855  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3232  who owns what         >>vertices  3438  shading, projection
-       >>triangles 3657  dropped, cut, edges   >>clip      4035  near, far, behind the eye
-       >>tiles     4231  pixels, depth test    >>cover     4600  what is hidden, tile by tile
-       >>fragments 4875  interpolation, lod    >>texture   5170  texels, mipmaps
-       >>store     5630  blending, packing
+       >>state     3266  who owns what         >>vertices  3472  shading, projection
+       >>triangles 3691  dropped, cut, edges   >>clip      4069  near, far, behind the eye
+       >>tiles     4265  pixels, depth test    >>cover     4634  what is hidden, tile by tile
+       >>fragments 4909  interpolation, lod    >>texture   5204  texels, mipmaps
+       >>store     5664  blending, packing
      Inside: calls of the renderer
-       >>check     5866  refusals              >>seen      6070  what can be seen, chunks
-       >>drive     6207  shade_draw            >>mesh      6388  shade_draw_mesh
+       >>check     5900  refusals              >>seen      6104  what can be seen, chunks
+       >>drive     6241  shade_draw            >>mesh      6422  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6794  shade_draw_lines      >>shape     6953  normals, edges
-       >>chunks    7281  how boxes are made    >>rays      7446  shade_pick
-       >>survey    7642  experiments on a draw >>explain   7893  why nothing is seen
-       >>image     8538  mipmaps, PPM           >>presets   8845  classic materials
+       >>lines     6828  shade_draw_lines      >>shape     6987  normals, edges
+       >>chunks    7315  how boxes are made    >>rays      7480  shade_pick
+       >>survey    7676  experiments on a draw >>explain   7927  why nothing is seen
+       >>image     8572  mipmaps, PPM           >>presets   8879  classic materials
      Sources
-       >>refs      8921                        >>history   8951
-       >>license   8966
+       >>refs      8955                        >>history   8985
+       >>license   9000
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -147,17 +148,31 @@
    You may define any macro whose name is one capital letter; in files without the implementation
    also e, g, i, j, o and q.
 
-   Fast math.  gcc gives the same bits with -ffast-math, -Ofast and their parts.  clang cannot be
-   told to keep them: the implementation refuses -ffast-math and -ffinite-math-only.  clang does not
-   report the other parts of -ffast-math, nor -ffp-contract=fast, which overrides the pragmas of
-   >>plumbing: do not use them.  Inline functions follow the flags of the file that includes them.
-   A program linked with -ffast-math flushes denormal numbers to zero; only SHADE_FORMAT_RGBA32F
-   and exponents far below 1 show it.
+   Fast math.  From gcc the implementation has the same bits with -ffast-math, -Ofast and their
+   parts.  clang cannot be told to keep them: the implementation refuses -ffast-math and
+   -ffinite-math-only.  clang does not report the other parts, nor -ffp-contract=fast, which
+   overrides the pragmas of >>plumbing: do not use them.  A program linked with -ffast-math flushes
+   denormal numbers to zero; only SHADE_FORMAT_RGBA32F and exponents far below 1 show it.
+     Inline functions are compiled into your files.  They have the same bits under all flags but
+   -ffast-math, -Ofast and their parts, and -ffp-contract=fast of clang or beside -std=c99 of gcc.
+   Attributes and pragmas that turn fused instructions on for a part of a file may change them.
+     Your own sums of products, as in a shader, follow your flags: where the processor can (arm64,
+   riscv64, s390x, -march=haswell), gcc and clang round a * b + c once.  Compile files that must
+   give the same bits everywhere with -ffp-contract=off.
+
+   C++.  A module may export all functions: export using ::shade_dot;  To include this file inside a
+   namespace, include <float.h>, <stddef.h> and <stdint.h> before the namespace, for the
+   implementation <assert.h> and <stdio.h> too, for MSVC <math.h>.
 
    tcc 0.9.27 on x86-64 writes 16 bytes when a function returns the 12 of a shade_vec3.  The
    variable declared last before such a call loses its first 4 bytes if it has 4, 12, 20, ... bytes:
    an int, a float, a shade_material.  SHADE_EACH_LANE takes a 64-bit counter there.
                                                                                           >>types */
+#if defined(__cplusplus) && !(defined(FLT_MAX) && defined(offsetof) && defined(UINT32_MAX))
+/* The one error inside a namespace, where these headers would declare their types. */
+struct shade__before_the_namespace_include_float_h_stddef_h_stdint_h;
+typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__global;
+#endif
 #include <float.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -386,17 +401,26 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 
 #if defined(__GNUC__) || defined(__clang__)
 #define SHADE__GNU
-#define SHADE__INLINE static inline __attribute__((always_inline))
+#define SHADE__ALWAYS_INLINE inline __attribute__((always_inline))
 #define SHADE__UNUSED __attribute__((unused))
 #define SHADE__64_BYTES __attribute__((aligned(64)))
 #elif defined(_MSC_VER)
-#define SHADE__INLINE static __forceinline
+#define SHADE__ALWAYS_INLINE __forceinline
 #define SHADE__UNUSED
 #define SHADE__64_BYTES __declspec(align(64))
 #else
-#define SHADE__INLINE static inline
+#define SHADE__ALWAYS_INLINE inline
 #define SHADE__UNUSED
 #define SHADE__64_BYTES
+#endif
+
+/* The functions of >>math are SHADE__EXPORT, because a C++ module cannot export what is static.
+   The implementation's are SHADE__INLINE: files with other options have other ones. */
+#define SHADE__INLINE static SHADE__ALWAYS_INLINE
+#ifdef __cplusplus
+#define SHADE__EXPORT SHADE__ALWAYS_INLINE
+#else
+#define SHADE__EXPORT SHADE__INLINE
 #endif
 
 /* Rows of packets are aligned to the widest vector.  Unaligned vectors straddle two cache lines,
@@ -434,9 +458,21 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
 #endif
 #ifdef SHADE_NO_LIBM
 #define SHADE__SQRT shade__own_sqrt
+#elif defined(__cplusplus) && defined(SHADE__GNU)
+#define SHADE__SQRT __builtin_sqrtf    /* <math.h> in a namespace is 200 more errors */
 #else
 #include <math.h>
 #define SHADE__SQRT sqrtf
+#endif
+
+/* A product in an inline function.  Where the processor has a fused a b + c, gcc fuses the sums of
+   your file, and a product that it inlines there, whatever the pragmas of this file say; gcc
+   -std=c99 does not.  The fused a b + -0 has the bits of a b, and cannot be fused again. */
+#if defined(__FP_FAST_FMAF) && defined(SHADE__GNU) && !defined(__clang__) && \
+    (defined(__cplusplus) || !defined(__STRICT_ANSI__))
+#define SHADE__TIMES(a, b) __builtin_fmaf(a, b, -0.0f)
+#else
+#define SHADE__TIMES(a, b) ((a) * (b))
 #endif
 
 /* SHADE_EACH_LANE(i) { ... } runs the block for i = 0 .. SHADE_LANES - 1.  Compilers turn it into
@@ -469,9 +505,10 @@ s390x: -std=gnu99 or -fexcess-precision=fast"
    turns off the parts of -ffast-math, and contraction, which rounds a * b + c once on some
    processors and twice on others; for gcc >>machine does that.  gcc applies the options of the
    caller to an inlined function: the implementation is exact, and so are the inline functions that
-   it calls.  clang's ?: and calls stay fast; see >>machine.  SHADE__END restores the state before,
-   or where clang keeps no stack of states, that of the options.  MSVC restores float_control alone:
-   behind this file contraction stays off, as /fp:precise has it since 2022 and /fp:fast has not.
+   it calls; those that you call have SHADE__TIMES.  clang's ?: and calls stay fast; see >>machine.
+   SHADE__END restores the state before, or where clang keeps no stack of states, that of the
+   options.  MSVC restores float_control alone: behind this file contraction stays off, as
+   /fp:precise has it since 2022 and /fp:fast has not.
    What its warnings of the fourth level speak of, constant conditions (4127) and the padding of
    SHADE_ALIGNED (4324), is meant. */
 #ifdef __cplusplus
@@ -915,56 +952,47 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
    suffix work on shade_vec3.  Vectors up to 1e12 and matrices up to 1e6 give finite results.
                                                                                         >>machine */
 
-SHADE__INLINE shade_vec2 shade_v2(float x, float y)
+SHADE__EXPORT shade_vec2 shade_v2(float x, float y)
 {
-    shade_vec2 v;
-    v.x = x;
-    v.y = y;
+    const shade_vec2 v = { x, y };
     return v;
 }
 
-SHADE__INLINE shade_vec3 shade_v3(float x, float y, float z)
+SHADE__EXPORT shade_vec3 shade_v3(float x, float y, float z)
 {
-    shade_vec3 v;
-    v.x = x;
-    v.y = y;
-    v.z = z;
+    const shade_vec3 v = { x, y, z };
     return v;
 }
 
-SHADE__INLINE shade_vec4 shade_v4(float x, float y, float z, float w)
+SHADE__EXPORT shade_vec4 shade_v4(float x, float y, float z, float w)
 {
-    shade_vec4 v;
-    v.x = x;
-    v.y = y;
-    v.z = z;
-    v.w = w;
+    const shade_vec4 v = { x, y, z, w };
     return v;
 }
 
 /* The bit pattern of a number, and back. */
-SHADE__INLINE float shade__bits_float(uint32_t u)
+SHADE__EXPORT float shade__bits_float(uint32_t u)
 {
     float f;
     SHADE_MEMCPY(&f, &u, 4);
     return f;
 }
 
-SHADE__INLINE uint32_t shade__float_bits(float f)
+SHADE__EXPORT uint32_t shade__float_bits(float f)
 {
     uint32_t u;
     SHADE_MEMCPY(&u, &f, 4);
     return u;
 }
 
-SHADE__INLINE double shade__bits_double(uint64_t u)
+SHADE__EXPORT double shade__bits_double(uint64_t u)
 {
     double d;
     SHADE_MEMCPY(&d, &u, 8);
     return d;
 }
 
-SHADE__INLINE uint64_t shade__double_bits(double d)
+SHADE__EXPORT uint64_t shade__double_bits(double d)
 {
     uint64_t u;
     SHADE_MEMCPY(&u, &d, 8);
@@ -972,7 +1000,7 @@ SHADE__INLINE uint64_t shade__double_bits(double d)
 }
 
 /* Square root of x > 0 in double, within 2^-51.8. */
-SHADE__INLINE double shade__root(double x)
+SHADE__EXPORT double shade__root(double x)
 {
     double y = shade__bits_double(0x5FE6EB50C7B537A9u - (shade__double_bits(x) >> 1));
     for (int k = 0; k < 5; k++) y *= 1.5 - 0.5 * x * y * y;
@@ -982,106 +1010,111 @@ SHADE__INLINE double shade__root(double x)
 /* The correctly rounded square root, as sqrtf gives it: the root of a float is at least 2^-51 from
    the middle between two floats, and shade__root errs by less.  Unlike sqrtf it is 0 for -0 and
    NaN. */
-static inline float shade__own_sqrt(float x)
+SHADE__EXPORT float shade__own_sqrt(float x)
 {
     if (!(x > 0) || x > FLT_MAX) return x > 0 ? x : 0;
     return (float)shade__root((double)x);
 }
 
-SHADE__INLINE float shade__sqrt(float x) { return SHADE__SQRT(x); }
+SHADE__EXPORT float shade__sqrt(float x) { return SHADE__SQRT(x); }
 
-SHADE__INLINE shade_vec3 shade_add(shade_vec3 a, shade_vec3 b)
+/* a b, rounded before it is added to anything. */
+SHADE__EXPORT float shade__times(float a, float b) { return SHADE__TIMES(a, b); }
+
+SHADE__EXPORT shade_vec3 shade_add(shade_vec3 a, shade_vec3 b)
 {
     return shade_v3(a.x + b.x, a.y + b.y, a.z + b.z);
 }
 
-SHADE__INLINE shade_vec3 shade_sub(shade_vec3 a, shade_vec3 b)
+SHADE__EXPORT shade_vec3 shade_sub(shade_vec3 a, shade_vec3 b)
 {
     return shade_v3(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 /* The product of each component, as of two colours. */
-SHADE__INLINE shade_vec3 shade_mul(shade_vec3 a, shade_vec3 b)
+SHADE__EXPORT shade_vec3 shade_mul(shade_vec3 a, shade_vec3 b)
 {
-    return shade_v3(a.x * b.x, a.y * b.y, a.z * b.z);
+    return shade_v3(shade__times(a.x, b.x), shade__times(a.y, b.y), shade__times(a.z, b.z));
 }
 
-SHADE__INLINE shade_vec3 shade_scale(shade_vec3 v, float s)
+SHADE__EXPORT shade_vec3 shade_scale(shade_vec3 v, float s)
 {
-    return shade_v3(v.x * s, v.y * s, v.z * s);
+    return shade_v3(shade__times(v.x, s), shade__times(v.y, s), shade__times(v.z, s));
 }
 
 /* a + s b */
-SHADE__INLINE shade_vec3 shade_madd(shade_vec3 a, float s, shade_vec3 b)
+SHADE__EXPORT shade_vec3 shade_madd(shade_vec3 a, float s, shade_vec3 b)
 {
-    return shade_v3(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
+    return shade_add(a, shade_scale(b, s));
 }
 
-SHADE__INLINE shade_vec3 shade_neg(shade_vec3 v) { return shade_v3(-v.x, -v.y, -v.z); }
-SHADE__INLINE float shade_dot(shade_vec3 a, shade_vec3 b)
+SHADE__EXPORT shade_vec3 shade_neg(shade_vec3 v) { return shade_v3(-v.x, -v.y, -v.z); }
+SHADE__EXPORT float shade_dot(shade_vec3 a, shade_vec3 b)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return shade__times(a.x, b.x) + shade__times(a.y, b.y) + shade__times(a.z, b.z);
 }
 
 /* Right-handed: x cross y = z. */
-SHADE__INLINE shade_vec3 shade_cross(shade_vec3 a, shade_vec3 b)
+SHADE__EXPORT shade_vec3 shade_cross(shade_vec3 a, shade_vec3 b)
 {
-    return shade_v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return shade_v3(shade__times(a.y, b.z) - shade__times(a.z, b.y),
+                    shade__times(a.z, b.x) - shade__times(a.x, b.z),
+                    shade__times(a.x, b.y) - shade__times(a.y, b.x));
 }
 
-SHADE__INLINE float shade_length(shade_vec3 v) { return shade__sqrt(shade_dot(v, v)); }
-SHADE__INLINE float shade_distance(shade_vec3 a, shade_vec3 b)
+SHADE__EXPORT float shade_length(shade_vec3 v) { return shade__sqrt(shade_dot(v, v)); }
+SHADE__EXPORT float shade_distance(shade_vec3 a, shade_vec3 b)
 {
     return shade_length(shade_sub(a, b));
 }
 
 /* v / |v|, or zero where |v| < 1e-18. */
-SHADE__INLINE shade_vec3 shade_normalize(shade_vec3 v)
+SHADE__EXPORT shade_vec3 shade_normalize(shade_vec3 v)
 {
     float d = shade_dot(v, v);
     return shade_scale(v, d >= 1e-36f ? 1 / shade__sqrt(d) : 0);
 }
 
 /* a + t (b - a): exactly a at t = 0, b up to rounding at t = 1.  t is not clamped. */
-SHADE__INLINE shade_vec3 shade_lerp(shade_vec3 a, shade_vec3 b, float t)
+SHADE__EXPORT shade_vec3 shade_lerp(shade_vec3 a, shade_vec3 b, float t)
 {
     return shade_madd(a, t, shade_sub(b, a));
 }
 
-SHADE__INLINE float shade__minf(float a, float b) { return a < b ? a : b; }
-SHADE__INLINE float shade__maxf(float a, float b) { return a > b ? a : b; }
-SHADE__INLINE shade_vec3 shade_min(shade_vec3 a, shade_vec3 b)
+SHADE__EXPORT float shade__minf(float a, float b) { return a < b ? a : b; }
+SHADE__EXPORT float shade__maxf(float a, float b) { return a > b ? a : b; }
+SHADE__EXPORT shade_vec3 shade_min(shade_vec3 a, shade_vec3 b)
 {
     return shade_v3(shade__minf(a.x, b.x), shade__minf(a.y, b.y), shade__minf(a.z, b.z));
 }
 
-SHADE__INLINE shade_vec3 shade_max(shade_vec3 a, shade_vec3 b)
+SHADE__EXPORT shade_vec3 shade_max(shade_vec3 a, shade_vec3 b)
 {
     return shade_v3(shade__maxf(a.x, b.x), shade__maxf(a.y, b.y), shade__maxf(a.z, b.z));
 }
 
 /* max(lo, min(v, hi)) of each component; NaN in v gives hi. */
-SHADE__INLINE shade_vec3 shade_clamp(shade_vec3 v, shade_vec3 lo, shade_vec3 hi)
+SHADE__EXPORT shade_vec3 shade_clamp(shade_vec3 v, shade_vec3 lo, shade_vec3 hi)
 {
     return shade_max(shade_min(v, hi), lo);
 }
 
 /* GLSL's reflect, I - 2 (N.I) N: I points TO the surface, the result away from it.  N is unit. */
-SHADE__INLINE shade_vec3 shade_reflect(shade_vec3 incident, shade_vec3 n)
+SHADE__EXPORT shade_vec3 shade_reflect(shade_vec3 incident, shade_vec3 n)
 {
     return shade_madd(incident, -2 * shade_dot(n, incident), n);
 }
 
 /* The mirror direction of the books, R = 2 (N.L) N - L = reflect(-L, N): L and R both point away
    from the surface.  N is unit. */
-SHADE__INLINE shade_vec3 shade_mirror(shade_vec3 to_light, shade_vec3 n)
+SHADE__EXPORT shade_vec3 shade_mirror(shade_vec3 to_light, shade_vec3 n)
 {
     return shade_reflect(shade_neg(to_light), n);
 }
 
 /* H = (L + V) / |L + V| of unit L and V that both point away from the surface; zero where
    |L + V|^2 < 1e-12.                                                                 [Blinn77] */
-SHADE__INLINE shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
+SHADE__EXPORT shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 {
     shade_vec3 h = shade_add(to_light, to_eye);
     return shade_dot(h, h) < 1e-12f ? shade_v3(0, 0, 0) : shade_normalize(h);
@@ -1089,118 +1122,119 @@ SHADE__INLINE shade_vec3 shade_halfway(shade_vec3 to_light, shade_vec3 to_eye)
 
 /* (b - a) x (c - a) made unit: it points to the side from which a, b, c are counter-clockwise.
    Zero where b or c is a; of three points in a line zero, or some unit vector by rounding. */
-SHADE__INLINE shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
+SHADE__EXPORT shade_vec3 shade_face_normal(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
     return shade_normalize(shade_cross(shade_normalize(shade_sub(b, a)),
                                        shade_normalize(shade_sub(c, a))));
 }
 
-SHADE__INLINE shade_vec2 shade_add2(shade_vec2 a, shade_vec2 b)
+SHADE__EXPORT shade_vec2 shade_add2(shade_vec2 a, shade_vec2 b)
 {
     return shade_v2(a.x + b.x, a.y + b.y);
 }
 
-SHADE__INLINE shade_vec2 shade_sub2(shade_vec2 a, shade_vec2 b)
+SHADE__EXPORT shade_vec2 shade_sub2(shade_vec2 a, shade_vec2 b)
 {
     return shade_v2(a.x - b.x, a.y - b.y);
 }
 
-SHADE__INLINE shade_vec2 shade_scale2(shade_vec2 v, float s) { return shade_v2(v.x * s, v.y * s); }
-SHADE__INLINE float shade_dot2(shade_vec2 a, shade_vec2 b) { return a.x * b.x + a.y * b.y; }
-SHADE__INLINE shade_vec2 shade_lerp2(shade_vec2 a, shade_vec2 b, float t)
+SHADE__EXPORT shade_vec2 shade_scale2(shade_vec2 v, float s)
+{
+    return shade_v2(shade__times(v.x, s), shade__times(v.y, s));
+}
+
+SHADE__EXPORT float shade_dot2(shade_vec2 a, shade_vec2 b)
+{
+    return shade__times(a.x, b.x) + shade__times(a.y, b.y);
+}
+
+SHADE__EXPORT shade_vec2 shade_lerp2(shade_vec2 a, shade_vec2 b, float t)
 {
     return shade_add2(a, shade_scale2(shade_sub2(b, a), t));
 }
 
-SHADE__INLINE shade_vec4 shade_add4(shade_vec4 a, shade_vec4 b)
+SHADE__EXPORT shade_vec4 shade_add4(shade_vec4 a, shade_vec4 b)
 {
     return shade_v4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w);
 }
 
-SHADE__INLINE shade_vec4 shade_sub4(shade_vec4 a, shade_vec4 b)
+SHADE__EXPORT shade_vec4 shade_sub4(shade_vec4 a, shade_vec4 b)
 {
     return shade_v4(a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w);
 }
 
-SHADE__INLINE shade_vec4 shade_scale4(shade_vec4 v, float s)
+SHADE__EXPORT shade_vec4 shade_scale4(shade_vec4 v, float s)
 {
-    return shade_v4(v.x * s, v.y * s, v.z * s, v.w * s);
+    return shade_v4(shade__times(v.x, s), shade__times(v.y, s), shade__times(v.z, s),
+                    shade__times(v.w, s));
 }
 
-SHADE__INLINE float shade_dot4(shade_vec4 a, shade_vec4 b)
+SHADE__EXPORT float shade_dot4(shade_vec4 a, shade_vec4 b)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+    return shade__times(a.x, b.x) + shade__times(a.y, b.y) + shade__times(a.z, b.z) +
+           shade__times(a.w, b.w);
 }
 
-SHADE__INLINE shade_vec4 shade_lerp4(shade_vec4 a, shade_vec4 b, float t)
+SHADE__EXPORT shade_vec4 shade_lerp4(shade_vec4 a, shade_vec4 b, float t)
 {
     return shade_add4(a, shade_scale4(shade_sub4(b, a), t));
 }
 
-SHADE__INLINE shade_vec3 shade__xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
-SHADE__INLINE shade_vec4 shade__xyzw(shade_vec3 v, float w) { return shade_v4(v.x, v.y, v.z, w); }
-SHADE__INLINE shade_mat3 shade__m3(shade_vec3 a, shade_vec3 b, shade_vec3 c)
+SHADE__EXPORT shade_vec3 shade__xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
+SHADE__EXPORT shade_vec4 shade__xyzw(shade_vec3 v, float w) { return shade_v4(v.x, v.y, v.z, w); }
+SHADE__EXPORT shade_mat3 shade__m3(shade_vec3 a, shade_vec3 b, shade_vec3 c)
 {
-    shade_mat3 m;
-    m.col[0] = a;
-    m.col[1] = b;
-    m.col[2] = c;
+    const shade_mat3 m = { { a, b, c } };
     return m;
 }
 
-SHADE__INLINE shade_mat4 shade__m4(shade_vec4 a, shade_vec4 b, shade_vec4 c, shade_vec4 d)
+SHADE__EXPORT shade_mat4 shade__m4(shade_vec4 a, shade_vec4 b, shade_vec4 c, shade_vec4 d)
 {
-    shade_mat4 m;
-    m.col[0] = a;
-    m.col[1] = b;
-    m.col[2] = c;
-    m.col[3] = d;
+    const shade_mat4 m = { { a, b, c, d } };
     return m;
 }
 
-SHADE__INLINE shade_vec3 shade_mat3_transform(shade_mat3 m, shade_vec3 v)
+SHADE__EXPORT shade_vec3 shade_mat3_transform(shade_mat3 m, shade_vec3 v)
 {
-    return shade_v3(m.col[0].x * v.x + m.col[1].x * v.y + m.col[2].x * v.z,
-                    m.col[0].y * v.x + m.col[1].y * v.y + m.col[2].y * v.z,
-                    m.col[0].z * v.x + m.col[1].z * v.y + m.col[2].z * v.z);
+    const shade_vec3 xy = shade_add(shade_scale(m.col[0], v.x), shade_scale(m.col[1], v.y));
+    return shade_add(xy, shade_scale(m.col[2], v.z));
 }
 
-SHADE__INLINE shade_vec4 shade_mat4_transform(shade_mat4 m, shade_vec4 v)
+SHADE__EXPORT shade_vec4 shade_mat4_transform(shade_mat4 m, shade_vec4 v)
 {
-    return shade_v4(m.col[0].x * v.x + m.col[1].x * v.y + m.col[2].x * v.z + m.col[3].x * v.w,
-                    m.col[0].y * v.x + m.col[1].y * v.y + m.col[2].y * v.z + m.col[3].y * v.w,
-                    m.col[0].z * v.x + m.col[1].z * v.y + m.col[2].z * v.z + m.col[3].z * v.w,
-                    m.col[0].w * v.x + m.col[1].w * v.y + m.col[2].w * v.z + m.col[3].w * v.w);
+    const shade_vec4 xy = shade_add4(shade_scale4(m.col[0], v.x), shade_scale4(m.col[1], v.y));
+    const shade_vec4 xyz = shade_add4(xy, shade_scale4(m.col[2], v.z));
+    return shade_add4(xyz, shade_scale4(m.col[3], v.w));
 }
 
 /* The product a b, which transforms by b first, then by a. */
-SHADE__INLINE shade_mat3 shade_mat3_mul(shade_mat3 a, shade_mat3 b)
+SHADE__EXPORT shade_mat3 shade_mat3_mul(shade_mat3 a, shade_mat3 b)
 {
     return shade__m3(shade_mat3_transform(a, b.col[0]), shade_mat3_transform(a, b.col[1]),
                      shade_mat3_transform(a, b.col[2]));
 }
 
-SHADE__INLINE shade_mat4 shade_mat4_mul(shade_mat4 a, shade_mat4 b)
+SHADE__EXPORT shade_mat4 shade_mat4_mul(shade_mat4 a, shade_mat4 b)
 {
     return shade__m4(shade_mat4_transform(a, b.col[0]), shade_mat4_transform(a, b.col[1]),
                      shade_mat4_transform(a, b.col[2]), shade_mat4_transform(a, b.col[3]));
 }
 
 /* m (p, 1) divided by its w; not divided where w = 0. */
-SHADE__INLINE shade_vec3 shade_mat4_transform_point(shade_mat4 m, shade_vec3 p)
+SHADE__EXPORT shade_vec3 shade_mat4_transform_point(shade_mat4 m, shade_vec3 p)
 {
     shade_vec4 h = shade_mat4_transform(m, shade__xyzw(p, 1));
     return h.w == 0 ? shade__xyz(h) : shade_v3(h.x / h.w, h.y / h.w, h.z / h.w);
 }
 
 /* m (d, 0): translation does not move a direction.  The result is not made unit. */
-SHADE__INLINE shade_vec3 shade_mat4_transform_direction(shade_mat4 m, shade_vec3 d)
+SHADE__EXPORT shade_vec3 shade_mat4_transform_direction(shade_mat4 m, shade_vec3 d)
 {
     return shade__xyz(shade_mat4_transform(m, shade__xyzw(d, 0)));
 }
 
 /* det(m) m^-T: its columns are cross products of the columns of m. */
-SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
+SHADE__EXPORT shade_mat3 shade__cofactors(shade_mat3 m)
 {
     return shade__m3(shade_cross(m.col[1], m.col[2]), shade_cross(m.col[2], m.col[0]),
                      shade_cross(m.col[0], m.col[1]));
@@ -1209,7 +1243,7 @@ SHADE__INLINE shade_mat3 shade__cofactors(shade_mat3 m)
 /* (m^-1)^T itself, not a multiple like shade_normal_matrix.  The zero matrix where the determinant
    is 0, or where its reciprocal or an entry of the result is beyond FLT_MAX (for entries of m up to
    1e6). */
-SHADE__INLINE shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
+SHADE__EXPORT shade_mat3 shade_mat3_inverse_transpose(shade_mat3 m)
 {
     shade_mat3 c = shade__cofactors(m);
     float det = shade_dot(m.col[0], c.col[0]), s = det != 0 ? 1 / det : 0;

@@ -93,6 +93,24 @@ else
     left_out "clang for other processors"
 fi
 
+# A C++ module exports every inline function of the header, and a program calls them through it
+# (gcc 12 exports no types).
+module() {
+    inline_functions >"$T/inline"
+    { printf 'module;\n#include "shade.h"\nexport module shade;\n'
+      printf 'export using ::%s;\n' shade_vec3 shade_mat4 shade_mat4_identity $(cat "$T/inline")
+    } >"$T/shade.cppm"
+    printf '%s\n' 'import shade;' 'int main()' '{' \
+        '    shade_vec3 v = shade_mat4_transform_point(shade_mat4_identity(), shade_v3(3, 4, 0));' \
+        '    return shade_length(v) != 5;' '}' >"$T/imports.cpp"
+    test "$(wc -l <"$T/inline")" -gt 50 &&
+        clang++-19 -std=c++20 -I. --precompile "$T/shade.cppm" -o "$T/shade.pcm" &&
+        clang++-19 -std=c++20 -O1 -I. -x c++ -c "$T/impl.c" -o "$T/shade.o" &&
+        clang++-19 -std=c++20 -fmodule-file=shade="$T/shade.pcm" "$T/imports.cpp" "$T/shade.pcm" \
+            "$T/shade.o" -o "$T/imports" && "$T/imports"
+}
+if there clang++-19; then check "a C++ module" module; else left_out "a C++ module, clang++-19"; fi
+
 # every dialect and option
 version() { "$1" --version 2>/dev/null | sed '1s/^[^ ]* //'; }
 for cc in gcc clang; do

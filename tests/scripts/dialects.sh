@@ -9,9 +9,7 @@ if [ -z "${CXX:-}" ]; then
     for c in c++ g++ clang++; do command -v $c >/dev/null 2>&1 && CXX=$c && break; done
 fi
 WARN="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion -Wundef -Werror"
-T=$(mktemp -d) || exit 1
-trap 'rm -rf "$T"' EXIT INT TERM
-passed=0 failed=0
+. tests/scripts/tools.sh
 
 check() {                       # name, command ...
     name=$1; shift
@@ -52,6 +50,44 @@ for std in c99 c11 c17 c2x; do
     check "header, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/header.c"
     check "implementation, $std" $CC -std=$std $WARN -I. -fsyntax-only "$T/impl.c"
 done
+# In C++ an inline function is one function in all files of a program, as modules need it; a
+# namespace around the header is refused in one sentence, unless the standard headers stand before it
+inline_functions >"$T/inline"
+addresses() {                   # name of a function that returns one address after the other
+    printf '#include "shade.h"\ntypedef void (*address)();\naddress %s(int i);\n' "$1"
+    printf 'address %s(int i)\n{\n    static const address all[] = {\n' "$1"
+    sed 's/.*/        (address)\&&,/' "$T/inline"
+    printf '        0 };\n    return all[i];\n}\n'
+}
+one_function_each() {
+    test "$(wc -l <"$T/inline")" -gt 50 && addresses first >"$T/first.cpp" &&
+        addresses second >"$T/second.cpp" || return 1
+    printf '%s\n' 'typedef void (*address)();' 'address first(int), second(int);' 'int main() {' \
+        '    int i = 0;' '    while (first(i) && first(i) == second(i)) i++;' \
+        "    return i != $(wc -l <"$T/inline") || second(i);" '}' >"$T/both.cpp"
+    $CXX -std=c++11 -w -I. "$T/first.cpp" "$T/second.cpp" "$T/both.cpp" -o "$T/both" && "$T/both"
+}
+namespace() {                   # lines before it
+    printf '%s\n' "$@" 'namespace ours {' '#include "shade.h"' '}' \
+        'float five();' 'float five() { return ours::shade_length(ours::shade_v3(3, 4, 0)); }' >"$T/ours.cpp"
+    $CXX -std=c++11 $WARN -I. -fsyntax-only "$T/ours.cpp"
+}
+namespace_refused() {           # header that is missing
+    set -- $(printf '#include<%s.h>\n' float stddef stdint | grep -v "$1")
+    ! namespace "$@" 2>"$T/refusal" && cat "$T/refusal" &&
+        [ "$(grep -c 'error: ' "$T/refusal")" -eq 1 ] &&
+        grep -q 'error: .*shade__before_the_namespace_include_float_h_stddef_h_stdint_h' "$T/refusal"
+}
+if [ -n "$CXX" ]; then
+    check "inline functions of two files are one" one_function_each
+    check "in a namespace" namespace '#include <float.h>' '#include <stddef.h>' '#include <stdint.h>'
+    check "in a namespace, with the implementation" namespace '#include <float.h>' '#include <stddef.h>' \
+        '#include <stdint.h>' '#include <stdio.h>' '#include <assert.h>' '#define SHADE_IMPLEMENTATION'
+    check "in a namespace without headers is refused in one sentence" namespace_refused .
+    for h in float stddef stdint; do
+        check "in a namespace without $h.h is refused in one sentence" namespace_refused $h
+    done
+fi
 # C before C99 is refused in one sentence; a compiler that states no version, as Microsoft's by
 # default, is not refused
 one_sentence() {                # option

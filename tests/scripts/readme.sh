@@ -188,7 +188,7 @@ if echo | cc -fsyntax-only -include stb/stb_image_write.h -x c - 2>/dev/null &&
     check "a PNG that cannot be written is an error" sh -c "! '$T/ambient' '$T/none/x.png' 2>/dev/null"
 else echo "left out: lessons as PNG, no stb (libstb-dev) or pngtopnm (netpbm)"; fi
 awk '/^#ifdef SHADE_IMPLEMENTATION/ { exit }
-     /^(SHADEDEF|SHADE__INLINE) / && match($0, /shade_[a-z0-9_]+\(/) {
+     /^(SHADEDEF|SHADE__EXPORT) / && match($0, /shade_[a-z0-9_]+\(/) {
          print substr($0, RSTART, RLENGTH - 1)
      }' shade.h | grep -v shade__ | sort -u >"$T/functions"
 cat $PAGES examples/*/*.[ch] examples/*/*/*.[ch] examples/*/*/*/*.[ch] bench/*.[ch] bench/*/*.[ch] >"$T/shown"

@@ -16,6 +16,8 @@ check() {                       # what, command ...
 }
 no() { ! "$@"; }
 same() { [ "$1" = "$2" ] || { echo "got \"$1\", want \"$2\""; return 1; }; }
+# The inline functions of shade.h's public part, one a line
+inline_functions() { sed -n 's/^SHADE__EXPORT [a-z0-9_]* \(shade_[a-z0-9_]*\)(.*/\1/p' shade.h; }
 soon() {                        # waits up to $patience seconds, 20, for a command to succeed
     for i in $(seq $((10 * ${patience:-20}))); do "$@" >/dev/null 2>&1 && return 0; sleep 0.1; done
     "$@"
