@@ -128,6 +128,9 @@ check "a number stands in a line of its own directly above a TEST" "$(awk '
     mark && !/^TEST\(/ { print mark }
     { mark = /^ *\/\* *G[0-9]/ ? FILENAME ":" FNR ": " $0 : "" }' tests/unit/*.c)"
 rm -f /tmp/lint_promised.$$ /tmp/lint_marks.$$ /tmp/lint_held.$$
+if git cat-file -e fd18a07 2>/dev/null; then
+    check "titles of commits of at most 72 characters" "$(git log --format='%s' fd18a07.. | awk 'length > 72')"
+else echo "left out: titles of commits (no history)"; fi
 if command -v python3 >/dev/null; then
     check "the renderer names no tool; both keep their budgets of tokens" "$(
         python3 tests/scripts/halves.py $H 2>&1)"
