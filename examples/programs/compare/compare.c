@@ -184,53 +184,50 @@ typedef struct options {
     const char *names[2], *difference;
     double limit, count;
     int percent;                     /* count is a percentage */
-    int sized, max_seconds;          /* sized: the command line says how large models are drawn */
+    int max_seconds;
     portrait portrait;
     model_options how;
 } options;
 
-/* Stores one option: the option_take of compare. */
-static int take(void *to, const char *name, const char *value)
+static int take_limit(void *to, const char *value)
+{
+    char *end;
+    *(double *)to = strtod(value, &end);
+    return end > value && *(double *)to >= 0 && !*end;
+}
+
+static int take_count(void *to, const char *value)
+{
+    options *all = (options *)to;
+    char *end;
+    all->count = strtod(value, &end);
+    all->percent = *end == '%';
+    return end > value && all->count >= 0 && !end[all->percent];
+}
+
+static int take_difference(void *to, const char *value)
 {
     static const char *const ppm[] = { "ppm", NULL };
-    options *o = (options *)to;
-    char *end;
-    double number;
-    int taken;
-    if (!name) {
-        o->names[o->names[0] != NULL] = value;
-        return OPTION_TAKEN;
-    }
-    o->sized |= !strcmp(name, "--size");
-    taken = model_take(&o->how, name, value);
-    if (taken < 0) taken = portrait_take(&o->portrait, name, value);
-    if (taken >= 0) return taken;
-    if (!strcmp(name, "--max-seconds"))
-        return option_integer(value, 0, 1000000000, &o->max_seconds);
-    if (!strcmp(name, "--difference")) {
-        o->difference = value;
-        return save_is_device(value) || save_ends_in(value, ppm);
-    }
-
-    number = strtod(value, &end);
-    if (end == value || !(number >= 0)) return OPTION_BAD;
-    if (!strcmp(name, "--limit")) {
-        o->limit = number;
-        return !*end;
-    }
-    o->count = number;
-    o->percent = *end == '%';
-    return !end[o->percent];
+    *(const char **)to = value;
+    return save_is_device(value) || save_ends_in(value, ppm);
 }
 
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(options *o, int argc, char **argv)
 {
-    static const char *const valued[] = { "--limit",    "--count",       "--difference",
-                                          MODEL_VALUED, PORTRAIT_VALUED, "--max-seconds",
-                                          NULL };
-    static const char *const flags[] = { MODEL_FLAGS, NULL };
-    static const command c = { "compare", usage, valued, flags, 2, 2, "", take };
+    static const option own[] = {
+        { "--limit", take_limit, offsetof(options, limit), 0, 0 },
+        { "--count", take_count, 0, 0, 0 },
+        { "--difference", take_difference, offsetof(options, difference), 0, 0 },
+        { "--max-seconds", NULL, offsetof(options, max_seconds), 0, 1000000000 },
+        { NULL, NULL, 0, 0, 0 }
+    };
+    static const option_group groups[] = { { model_option, offsetof(options, how) },
+                                           { portrait_option, offsetof(options, portrait) },
+                                           { own, 0 },
+                                           { NULL, 0 } };
+    static const command c = { "compare", usage, groups, offsetof(options, names), 2, 2, "",
+                               NULL };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
     if (!strcmp(o->names[0], "-") && !strcmp(o->names[1], "-"))
@@ -293,8 +290,8 @@ static int open_both(picture *p, const options *o)
         p[i].name = o->names[i];
         if (model_has_name(p[i].name)) continue;
         if (open_picture(&p[i])) return ERROR;
-        if (!o->sized) as.width = p[i].width;
-        if (!o->sized) as.height = p[i].height;
+        if (!as.sized) as.width = p[i].width;
+        if (!as.sized) as.height = p[i].height;
     }
     for (int i = 0; i < 2; i++) {
         if (p[i].file) continue;

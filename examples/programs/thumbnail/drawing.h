@@ -554,8 +554,8 @@ static pen drawing_pen(const options *o)
     pen p = { .ink = shade_rgb(0x101418), .grey = shade_rgb(0x5A626B) };
     int least;
     p.samples = o->picture.samples;
-    p.width = o->drawing.sized ? o->picture.width : 1600;
-    p.height = o->drawing.sized ? o->picture.height : 1200;
+    p.width = o->picture.sized ? o->picture.width : 1600;
+    p.height = o->picture.sized ? o->picture.height : 1200;
     least = p.width < p.height ? p.width : p.height;
     p.unit = fmaxf(0.6f, (float)least / 1200);
     p.text = 22 * p.unit;
