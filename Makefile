@@ -1,7 +1,7 @@
 # make               builds the examples and draws the gallery into out/
 # make test          all tests, with a C compiler and make alone; T=clip runs one section
 # make lint          the house rules that a script can hold
-# make format        lays C files out by .clang-format: FORMAT="files"
+# make format        lays C files out by .clang-format (clang-format 14); FORMAT=files
 # make bench         shade.h beside its rivals, as Markdown; BASE=revision: beside that shade.h
 # make bench-plot    charts of the bench
 # make matrix        the same pictures from other compilers, flags, processors, without a warning
@@ -137,8 +137,11 @@ vector-report:
 	@sh tests/scripts/vector_report.sh
 lint:
 	@sh tests/scripts/lint.sh
+FORMAT ?= $(wildcard $(addprefix examples/,kit/*.c kit/*/*.h programs/*/*.[ch]))
 format:
 	clang-format -i --style=file $(FORMAT)
+format-check:
+	@clang-format -n -Werror --style=file $(FORMAT)
 dist:
 	@sh .ci/dist.sh
 prove:
@@ -181,6 +184,6 @@ uninstall:
 clean:
 	rm -rf build out dist
 .PHONY: all pictures programs test assignments course course-zip bench bench-plot matrix \
-        conformance coverage mutation static lint format prove fuzz gallery playground vector-report \
-        dist install uninstall clean
+        conformance coverage mutation static lint format format-check prove fuzz gallery \
+        playground vector-report dist install uninstall clean
 .SECONDARY:

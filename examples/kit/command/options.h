@@ -45,15 +45,18 @@ typedef struct option {
 } option;
 
 /* Options up to one without a name, and where their settings lie in those of the program */
-typedef struct option_group { const option *options; size_t at; } option_group;
+typedef struct option_group {
+    const option *options;
+    size_t at;
+} option_group;
 
 typedef struct command {
     const char *name, *usage;
-    const option_group *groups;                  /* up to one without options */
-    size_t files;                                /* where an array of names is in the settings */
+    const option_group *groups; /* up to one without options */
+    size_t files;               /* where an array of names is in the settings */
     int least_files, most_files;
-    const char *many;                            /* what a user may have wanted who names more */
-    void (*notice)(void *to, const char *name);  /* told of each option, or NULL */
+    const char *many;                           /* what a user may have wanted who names more */
+    void (*notice)(void *to, const char *name); /* told of each option, or NULL */
 } command;
 
 /* The program's name, which begins its lines on stderr */
@@ -155,8 +158,11 @@ static inline void option_said(const char *usage, const char *name, char *out, s
     at += n + 1;
     for (end = at + strcspn(at, " "); *at < 'A' || *at > 'Z'; at = bar + 1) {
         bar = at + strcspn(at, "| ");
-        used += (size_t)snprintf(out + used, room - used, "%s%.*s", !used ? ""
-                                 : bar == end ? " or " : ", ", (int)(bar - at), at);
+        used += (size_t)snprintf(out + used, room - used, "%s%.*s",
+                                 !used        ? ""
+                                 : bar == end ? " or "
+                                              : ", ",
+                                 (int)(bar - at), at);
         if (bar == end) return;
     }
     for (at = end; *at && used + 1 < room; at++) {

@@ -5,37 +5,37 @@
 
 #include "options.h"
 
-#define MODEL_USAGE                                                                               \
-    "  --color COLOR         one colour for all surfaces, instead of the file's materials:\n"     \
-    "                        RRGGBB, #RGB or a name\n"                                            \
-    "  --material NAME       one material for all surfaces: clay, or a name that\n"               \
-    "                        --material list prints\n"                                            \
-    "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"      \
-    "                        (blinn-phong)\n"                                                     \
-    "  --shading NAME        fragment, vertex, face (fragment)\n"                                 \
+#define MODEL_USAGE                                                                                \
+    "  --color COLOR         one colour for all surfaces, instead of the file's materials:\n"      \
+    "                        RRGGBB, #RGB or a name\n"                                             \
+    "  --material NAME       one material for all surfaces: clay, or a name that\n"                \
+    "                        --material list prints\n"                                             \
+    "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"       \
+    "                        (blinn-phong)\n"                                                      \
+    "  --shading NAME        fragment, vertex, face (fragment)\n"                                  \
     "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess: y, for\n" \
-    "                        STL z, or that of the feet it stands on)\n"                          \
+    "                        STL z, or that of the feet it stands on)\n"                           \
     "  --view VIEW           from where it is seen: front, right, back, left, top, bottom, iso,\n" \
     "                        or degrees AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM; azimuth\n"    \
     "                        -36000 .. 36000, 90: right; elevation -90 .. 90; zoom 0.05 .. 20\n"   \
     "  --section AXIS[=N]    x, y or z: cuts the model open across that axis of the file, at N\n"  \
-    "                        or in its middle, on the viewer's side, and hatches the cut\n"       \
-    "  --quick               light without shadows among parts, in a part of the time\n"          \
-    "  --no-shadow           no shadow on the ground\n"                                           \
-    "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
-    "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
-    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"   \
-    "                        the machine's)\n"                                                    \
-    "  --quiet               prints errors only, no progress and no warnings\n"                   \
+    "                        or in its middle, on the viewer's side, and hatches the cut\n"        \
+    "  --quick               light without shadows among parts, in a part of the time\n"           \
+    "  --no-shadow           no shadow on the ground\n"                                            \
+    "  --threads N           1 .. 256 (one a core); the picture is the same\n"                     \
+    "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"      \
+    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"    \
+    "                        the machine's)\n"                                                     \
+    "  --quiet               prints errors only, no progress and no warnings\n"                    \
     "  --verbose             says which axis was guessed to be upright\n"
 
 typedef struct model_options {
-    int up; /* 0 .. 5 for x y z -x -y -z; -1: by the file */
+    int up;                                 /* 0 .. 5 for x y z -x -y -z; -1: by the file */
     int threads, max_triangles, max_memory; /* threads 0: all cores */
     int quiet, verbose;
-    int plain, no_shadow; /* plain: one material instead of the file's */
-    int quick;            /* no maps of shadows are drawn */
-    int viewed;           /* the view is said: */
+    int plain, no_shadow;        /* plain: one material instead of the file's */
+    int quick;                   /* no maps of shadows are drawn */
+    int viewed;                  /* the view is said: */
     int section, section_placed; /* section: 0 none, 1 .. 3 across x, y, z; placed: at */
     double section_at;
     float azimuth, elevation, zoom; /* radians: 0 sees the front, a right angle the right side */
@@ -183,7 +183,7 @@ static inline int model_take_view(void *to, const char *value)
 {
     model_options *o = (model_options *)to;
     static const char *const names[] = { "front", "right", "back", "left", "top", "bottom", "iso" };
-    static const double angles[][2] = { { 0, 0 },  { 90, 0 },  { 180, 0 },         { 270, 0 },
+    static const double angles[][2] = { { 0, 0 },  { 90, 0 },  { 180, 0 },          { 270, 0 },
                                         { 0, 90 }, { 0, -90 }, { 45, 35.264389683 } };
     const int name = find_name(value, names, 7);
     double azimuth = 0, elevation = 0, zoom = 1;

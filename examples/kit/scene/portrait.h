@@ -16,18 +16,18 @@
 #include <stb/stb_image_write.h>
 #endif
 
-#define PORTRAIT_USAGE                                                                            \
-    "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"                 \
-    "  --background COLOR    RRGGBB, #RGB, black, white, grey, red, green, blue, yellow or\n"     \
-    "                        orange; none: transparent, PNG only (a grey gradient)\n"             \
-    "  --rotate DEG          turns the model about its upright axis, -36000 .. 36000 (30)\n"      \
+#define PORTRAIT_USAGE                                                                             \
+    "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"                  \
+    "  --background COLOR    RRGGBB, #RGB, black, white, grey, red, green, blue, yellow or\n"      \
+    "                        orange; none: transparent, PNG only (a grey gradient)\n"              \
+    "  --rotate DEG          turns the model about its upright axis, -36000 .. 36000 (30)\n"       \
     "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
 
 enum { PORTRAIT_GRADIENT, PORTRAIT_PLAIN, PORTRAIT_NONE }; /* backgrounds */
 
 typedef struct portrait {
     int width, height, samples, background, sized, rotated; /* sized, rotated: by an option */
-    float rotate; /* radians */
+    float rotate;                                           /* radians */
     shade_vec3 background_color;
 } portrait;
 
@@ -65,13 +65,12 @@ static inline int portrait_take_background(void *to, const char *value)
     return p->background == PORTRAIT_NONE || take_color(value, &p->background_color);
 }
 
-static const option portrait_option[] = {
-    { "--size", portrait_take_size, 0, 0, 0 },
-    { "--rotate", portrait_take_rotate, 0, 0, 0 },
-    { "--samples", option_samples, offsetof(portrait, samples), 0, 0 },
-    { "--background", portrait_take_background, 0, 0, 0 },
-    { NULL, NULL, 0, 0, 0 }
-};
+static const option portrait_option[] = { { "--size", portrait_take_size, 0, 0, 0 },
+                                          { "--rotate", portrait_take_rotate, 0, 0, 0 },
+                                          { "--samples", option_samples,
+                                            offsetof(portrait, samples), 0, 0 },
+                                          { "--background", portrait_take_background, 0, 0, 0 },
+                                          { NULL, NULL, 0, 0, 0 } };
 
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
 static inline int portrait_check(const portrait *p, const model_options *how)
@@ -314,9 +313,11 @@ static inline int portrait_name(const char *name, int *png)
                                           "tiff", "avif", "jxl",  "svg", "hdr", "pgm", NULL };
     const int free_name = !strcmp(name, "-") || save_is_device(name);
     if (model_has_name(name))
-        return complain("%s is a model: the names of pictures end in .ppm or .png (a call draws "
-                        "one model, --views several views of it; shade-sheets calls it for a "
-                        "folder of models)", name);
+        return complain(
+            "%s is a model: the names of pictures end in .ppm or .png (a call draws "
+            "one model, --views several views of it; shade-sheets calls it for a "
+            "folder of models)",
+            name);
     if (save_is_png(name)) *png = 1;
     if (!*png && !free_name && !save_ends_in(name, ppm))
         return complain("%s: the names of pictures end in .ppm or .png", name);

@@ -18,8 +18,7 @@ static const char usage[] =
     "  --frames N            one turn in N pictures (of a film 360)\n"
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
-    "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
-    MODEL_USAGE
+    "  --samples 1|2|4       samples along each edge of a pixel (2)\n" MODEL_USAGE
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
     "  --film FILE           FILE ends in .webp or .mp4: a film, where ffmpeg is installed\n"
@@ -75,24 +74,22 @@ static int take_strips(void *to, const char *value)
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(batch *b, int argc, char **argv)
 {
-    static const option own[] = {
-        { "--frames", take_frames, 0, 0, 0 },
-        { "--strips", take_strips, 0, 0, 0 },
-        { "--film", take_film, offsetof(batch, film), 0, 0 },
-        { "--out", take_folder, offsetof(batch, out), 0, 0 },
-        { "--size", take_size, 0, 0, 0 },
-        { "--samples", option_samples, offsetof(batch, samples), 0, 0 },
-        { "--piece", NULL, offsetof(batch, piece), 0, 99999 },
-        { "--rate", NULL, offsetof(batch, rate), 1, 240 },
-        { "--pipe", NULL, offsetof(batch, pipe), 1, 0 },
-        { "--missing", NULL, offsetof(batch, missing), 1, 0 },
-        { NULL, NULL, 0, 0, 0 }
-    };
+    static const option own[] = { { "--frames", take_frames, 0, 0, 0 },
+                                  { "--strips", take_strips, 0, 0, 0 },
+                                  { "--film", take_film, offsetof(batch, film), 0, 0 },
+                                  { "--out", take_folder, offsetof(batch, out), 0, 0 },
+                                  { "--size", take_size, 0, 0, 0 },
+                                  { "--samples", option_samples, offsetof(batch, samples), 0, 0 },
+                                  { "--piece", NULL, offsetof(batch, piece), 0, 99999 },
+                                  { "--rate", NULL, offsetof(batch, rate), 1, 240 },
+                                  { "--pipe", NULL, offsetof(batch, pipe), 1, 0 },
+                                  { "--missing", NULL, offsetof(batch, missing), 1, 0 },
+                                  { NULL, NULL, 0, 0, 0 } };
     static const option_group groups[] = { { model_option, offsetof(batch, request.how) },
                                            { own, 0 },
                                            { NULL, 0 } };
-    static const command c = { "batch", usage, groups, offsetof(batch, request.model), 0, 1, "",
-                               NULL };
+    static const command c = { "batch", usage, groups, offsetof(batch, request.model),
+                               0,       1,     "",     NULL };
     int end = options_read(&c, b, argc, argv);
     if (end) return end;
 
@@ -196,9 +193,7 @@ static int write_film(batch *b, const char *path)
 
 int main(int argc, char **argv)
 {
-    static batch b = {
-        .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30
-    };
+    static batch b = { .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30 };
     int end;
     path_arguments(&argc, &argv);
     b.request.how = model_options_new();

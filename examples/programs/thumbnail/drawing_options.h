@@ -4,19 +4,19 @@
 
 #include "../../kit/command/save.h"
 
-#define DRAWING_USAGE                                                                            \
-    "drawings of parts:\n"                                                                       \
-    "  --views LIST          a sheet of views: front,right,top,iso or others of back, left,\n"   \
-    "                        bottom (1600x1200 unless --size says otherwise)\n"                  \
-    "  --angle third|first   where the views stand about the front (third)\n"                    \
-    "  --ortho               iso in parallel projection and, where it fits, to the scale of\n"   \
-    "                        the other views, which always are\n"                                \
-    "  --edges               draws outlines, edges of more than 25 degrees, and open edges\n"    \
-    "  --hidden              the same, and dashed what lies behind, but in iso\n"                \
-    "  --ids                 a colour for each part, and a legend\n"                             \
-    "  --dimensions          the size of the box around the model, in the file's units\n"        \
-    "  --depth FILE          depth of each pixel, .png or .pgm of 16 bits; 65535: nothing\n"     \
-    "  --id-map FILE         part of each pixel, likewise; 0: nothing\n"                         \
+#define DRAWING_USAGE                                                                              \
+    "drawings of parts:\n"                                                                         \
+    "  --views LIST          a sheet of views: front,right,top,iso or others of back, left,\n"     \
+    "                        bottom (1600x1200 unless --size says otherwise)\n"                    \
+    "  --angle third|first   where the views stand about the front (third)\n"                      \
+    "  --ortho               iso in parallel projection and, where it fits, to the scale of\n"     \
+    "                        the other views, which always are\n"                                  \
+    "  --edges               draws outlines, edges of more than 25 degrees, and open edges\n"      \
+    "  --hidden              the same, and dashed what lies behind, but in iso\n"                  \
+    "  --ids                 a colour for each part, and a legend\n"                               \
+    "  --dimensions          the size of the box around the model, in the file's units\n"          \
+    "  --depth FILE          depth of each pixel, .png or .pgm of 16 bits; 65535: nothing\n"       \
+    "  --id-map FILE         part of each pixel, likewise; 0: nothing\n"                           \
     "  --json FILE|-         views, matrices, scales, parts and colours; FILE ends in .json\n"
 
 enum { VIEW_FRONT, VIEW_BACK, VIEW_RIGHT, VIEW_LEFT, VIEW_TOP, VIEW_BOTTOM, VIEW_ISO, VIEW_KINDS };
@@ -90,9 +90,8 @@ static const option drawing_option[] = {
 /* Keeps the names of options that drawings need, or that say nothing with them. */
 static inline void drawing_notice(drawing_options *d, const char *name)
 {
-    static const char *const lit[] = { "--rotate",  "--model",     "--shading",
-                                       "--material", "--no-shadow", "--view",
-                                       "--quick",    NULL };
+    static const char *const lit[] = { "--rotate",    "--model", "--shading", "--material",
+                                       "--no-shadow", "--view",  "--quick",   NULL };
     const option *o = drawing_option + 1; /* all but --views */
     while (o->name && strcmp(o->name, name) != 0) o++;
     if (o->name) d->needs_views = name;
@@ -120,8 +119,7 @@ static inline int drawing_check(const drawing_options *d, const char *sheet, int
     if (drawing_same_file(d, sheet)) return complain("two results cannot have the same name");
 #ifndef MODEL_STB
     if (png && save_is_png(png))
-        return complain("%s: PNG needs a thumbnail built with stb (libstb-dev), PGM does not",
-                        png);
+        return complain("%s: PNG needs a thumbnail built with stb (libstb-dev), PGM does not", png);
 #endif
     (void)png;
     return 0;

@@ -6,11 +6,10 @@
 #include "drawing_options.h"
 
 static const char thumbnail_usage[] =
-    "usage: thumbnail model picture.ppm|picture.png [options]   -: standard input and output\n"
-    PORTRAIT_USAGE
+    "usage: thumbnail model picture.ppm|picture.png [options]   -: standard input and "
+    "output\n" PORTRAIT_USAGE
     "  --png                 writes PNG also to standard output, and under a new name that does\n"
-    "                        not say so\n"
-    MODEL_USAGE
+    "                        not say so\n" MODEL_USAGE
     "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
     "  --help, --version     prints this text; the version\n" DRAWING_USAGE;
 
@@ -37,17 +36,21 @@ static int check_options(options *o)
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(options *o, int argc, char **argv)
 {
-    static const option own[] = {
-        { "--png", NULL, offsetof(options, png), 1, 0 },
-        { "--max-seconds", NULL, offsetof(options, max_seconds), 0, 1000000000 },
-        { NULL, NULL, 0, 0, 0 }
-    };
+    static const option own[] = { { "--png", NULL, offsetof(options, png), 1, 0 },
+                                  { "--max-seconds", NULL, offsetof(options, max_seconds), 0,
+                                    1000000000 },
+                                  { NULL, NULL, 0, 0, 0 } };
     static const option_group groups[] = { { drawing_option, offsetof(options, drawing) },
                                            { model_option, offsetof(options, how) },
                                            { portrait_option, offsetof(options, picture) },
                                            { own, 0 },
                                            { NULL, 0 } };
-    static const command c = { "thumbnail", thumbnail_usage, groups, offsetof(options, files), 2, 2,
+    static const command c = { "thumbnail",
+                               thumbnail_usage,
+                               groups,
+                               offsetof(options, files),
+                               2,
+                               2,
                                "; a call draws one model, --views several views of "
                                "it; shade-sheets calls it for a folder of models",
                                notice };

@@ -39,17 +39,15 @@ static const char view_usage[] =
     "                        the terminal says it can): parts of characters, or pixels\n"
     "  --ascii               plain characters, no colors\n"
     "  --still               the model does not turn by itself\n"
-    "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
-    MODEL_USAGE
+    "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n" MODEL_USAGE
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
     "  --help, --version     prints this text; the version\n"
     "The key ? lists the others.\n";
 
 static inline int view_take_show(void *to, const char *value)
 {
-    static const char *const name[] = {
-        "halves", "quadrants", "sextants", "kitty", "iterm2", "sixel"
-    };
+    static const char *const name[] = { "halves", "quadrants", "sextants",
+                                        "kitty",  "iterm2",    "sixel" };
     const int found = find_name(value, name, 6);
     *(view_show *)to = (view_show)(SHOW_HALVES + found);
     return found >= 0;
@@ -86,7 +84,7 @@ static inline int view_read_options(view_options *o, int argc, char **argv)
                                            { own, 0 },
                                            { NULL, 0 } };
     static const command view = { "view", view_usage, groups, offsetof(view_options, scene.model),
-                                  0, 1, "", NULL };
+                                  0,      1,          "",     NULL };
     int end = options_read(&view, o, argc, argv);
     if (!o->rate) o->rate = o->window ? 60 : 30;
     return end;
