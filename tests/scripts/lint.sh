@@ -1,7 +1,6 @@
 #!/bin/sh
-# lint.sh - the house rules that a script can hold shade.h to.  Lines are laid out by hand: columns,
-# tabs and trailing blanks are held here, indents by .editorconfig; no formatter keeps members in
-# columns and short pairs of lines.
+# lint.sh - the house rules that a script can hold.  make format lays out the files that it names;
+# elsewhere columns, tabs and trailing blanks are held here, indents by .editorconfig.
 cd "$(dirname "$0")/../.." || exit 1
 H=shade.h
 passed=0 failed=0
@@ -128,6 +127,12 @@ check "a number stands in a line of its own directly above a TEST" "$(awk '
     mark && !/^TEST\(/ { print mark }
     { mark = /^ *\/\* *G[0-9]/ ? FILENAME ":" FNR ": " $0 : "" }' tests/unit/*.c)"
 rm -f /tmp/lint_promised.$$ /tmp/lint_marks.$$ /tmp/lint_held.$$
+if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
+    check "what make format lays out" "$(${MAKE:-make} -s format-check 2>&1 | grep 'error:')"
+else echo "left out: what make format lays out (no clang-format 14)"; fi
+if git cat-file -e fd18a07 2>/dev/null; then
+    check "titles of commits of at most 72 characters" "$(git log --format='%s' fd18a07.. | awk 'length > 72')"
+else echo "left out: titles of commits (no history)"; fi
 if command -v python3 >/dev/null; then
     check "the renderer names no tool; both keep their budgets of tokens" "$(
         python3 tests/scripts/halves.py $H 2>&1)"

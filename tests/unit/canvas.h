@@ -201,6 +201,23 @@ static inline void canvas_clear(canvas *c, float depth)
     CHECK_INT(shade_clear(&c->target, shade_v4(0, 0, 0, 0), depth), SHADE_OK);
 }
 
+/* Two canvases cleared alike, and their end, where the same was to be drawn on both. */
+static inline void canvas_twins(canvas c[2], int width, int height, shade_format format,
+                                float depth)
+{
+    for (int k = 0; k < 2; k++) {
+        c[k] = canvas_open(width, height, 0, format, 1);
+        canvas_clear(&c[k], depth);
+    }
+}
+
+static inline void canvas_twins_close(canvas c[2])
+{
+    CHECK(canvas_same(&c[0], &c[1]));
+    canvas_close(&c[0]);
+    canvas_close(&c[1]);
+}
+
 /* -------------------------------------------------------------------------------------- shaders */
 
 typedef struct fragment_record {

@@ -410,6 +410,18 @@ static dmat ref_frustum(double l, double r, double b, double t, double n, double
     return m;
 }
 
+static dmat ref_ortho(double l, double r, double b, double t, double n, double f)
+{
+    dmat m = dmat_identity();
+    m.m[0][0] = 2 / (r - l);
+    m.m[0][3] = -(r + l) / (r - l);
+    m.m[1][1] = 2 / (t - b);
+    m.m[1][3] = -(t + b) / (t - b);
+    m.m[2][2] = -2 / (f - n);
+    m.m[2][3] = -(f + n) / (f - n);
+    return m;
+}
+
 /* The oracle takes the arguments as rounded to float, so that only the roundings of the library
    are left. */
 TEST(matrix, projections_match_double)
@@ -435,13 +447,7 @@ TEST(matrix, projections_match_double)
         want = ref_frustum(l, r, b, t, n_f, f_f);
         CHECK_MAT4(shade_mat4_frustum((float)l, (float)r, (float)b, (float)t, (float)n, (float)f),
                    want, 4e-6 * dmat_max(want));
-        want = dmat_identity();
-        want.m[0][0] = 2 / (r - l);
-        want.m[0][3] = -(r + l) / (r - l);
-        want.m[1][1] = 2 / (t - b);
-        want.m[1][3] = -(t + b) / (t - b);
-        want.m[2][2] = -2 / (f_f - n_f);
-        want.m[2][3] = -(f_f + n_f) / (f_f - n_f);
+        want = ref_ortho(l, r, b, t, n_f, f_f);
         CHECK_MAT4(shade_mat4_ortho((float)l, (float)r, (float)b, (float)t, (float)n, (float)f),
                    want, 4e-6 * dmat_max(want));
     }
@@ -518,13 +524,7 @@ TEST(matrix, near_beyond_far_and_left_beyond_right_are_cameras)
                    want, 4e-6 * dmat_max(want));
         double from = (double)rnd_float(-9, 9), to = from + (double)(rnd_sign() * rnd_log(0.1, 9));
         to = (double)(float)to;
-        want = dmat_identity();
-        want.m[0][0] = 2 / (r - l);
-        want.m[0][3] = -(r + l) / (r - l);
-        want.m[1][1] = 2 / (t - b);
-        want.m[1][3] = -(t + b) / (t - b);
-        want.m[2][2] = -2 / (to - from);
-        want.m[2][3] = -(to + from) / (to - from);
+        want = ref_ortho(l, r, b, t, from, to);
         CHECK_MAT4(shade_mat4_ortho((float)l, (float)r, (float)b, (float)t, (float)from, (float)to),
                    want, 4e-6 * dmat_max(want));
     }
