@@ -1,5 +1,5 @@
 #!/bin/sh
-# threads.sh - ThreadSanitizer finds nothing: lesson 19's bands, and tests/unit/sharing.c, in which
+# threads.sh - ThreadSanitizer finds nothing: lesson 19's bands, and tests/scripts/sharing.c, in which
 # threads share what they only read.  In both builds of the hot loops: for the processor as it was
 # compiled for, and chosen when the program runs.
 cd "$(dirname "$0")/../.." || exit 1
@@ -19,7 +19,7 @@ for asks in -DTHREADS -DSHADE__ASK_PROCESSOR; do
     check "lesson 19 compiles, $asks" sanitized "$T/bands" examples/lessons/19_threads.c $asks
     check "bands, $asks" "$T/bands" "$T/bands.ppm"
     check "their picture, $asks" cmp "$T/bands.ppm" "$T/lesson.ppm"
-    check "sharing.c compiles, $asks" sanitized "$T/sharing" tests/unit/sharing.c $asks
+    check "sharing.c compiles, $asks" sanitized "$T/sharing" tests/scripts/sharing.c $asks
     check "what is only read is shared, $asks" "$T/sharing"
 done
 finish

@@ -31,7 +31,7 @@ static size_t page_bytes(size_t bytes)
 
 /* Pages that end with the last of so many bytes, a multiple of their alignment, behind a page
    without access. */
-static void *page_take(size_t bytes)
+static inline void *page_take(size_t bytes)
 {
     const size_t used = page_bytes(bytes), page = page_bytes(1);
     char *p = (char *)mmap(NULL, used + page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

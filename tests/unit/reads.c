@@ -4,14 +4,6 @@
 #include "unit.h"
 #include "calls.h"
 
-/* Every build refuses a mesh for which it has too few varyings. */
-static int world_fits(void)
-{
-    if (SHADE_MAX_VARYINGS >= 11) return 1;
-    test_skip("a mesh with colours and a map takes 11 varyings");
-    return 0;
-}
-
 #if PAGES
 /* ------------------------------------------------------------------------ the table, row by row */
 

@@ -2,7 +2,7 @@
    calls.h runs in two threads at once, in two worlds that share all that it only reads; and a pass
    that only reads depth runs beside one that draws elsewhere in the same buffers.
 
-   clang -std=c99 -O1 -g -fsanitize=thread -I. tests/unit/sharing.c -lm -pthread -o sharing */
+   clang -std=c99 -O1 -g -fsanitize=thread -I. tests/scripts/sharing.c -lm -pthread -o sharing */
 #define _DEFAULT_SOURCE                /* barriers under -std=c99 */
 #include <pthread.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include <string.h>
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#include "calls.h"
+#include "../unit/calls.h"
 
 typedef struct job {
     call_world world;
