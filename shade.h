@@ -52,31 +52,31 @@
      Public
        >>config     122  options               >>types      199  materials, lamps, targets, states
        >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       914  vectors and matrices
+       >>draw       635  meshes and pixels     >>math       913  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1277  processors            >>base      1504  bits, masks, rows of vectors
-       >>matrix    1723  cameras, inverses     >>power     2017  x^n
-       >>pixels    2083  formats, sRGB
+       >>machine   1276  processors            >>base      1503  bits, masks, rows of vectors
+       >>matrix    1722  cameras, inverses     >>power     2016  x^n
+       >>pixels    2082  formats, sRGB
      Inside: light
-       >>lamps     2360  attenuation, cones    >>terms     2634  one term at one point
-       >>surface   2716  material and lights   >>lit       2837  the whole sum, at many points
+       >>lamps     2359  attenuation, cones    >>terms     2633  one term at one point
+       >>surface   2715  material and lights   >>lit       2836  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3244  who owns what         >>vertices  3437  shading, projection
-       >>triangles 3654  dropped, cut, edges   >>clip      4023  near, far, behind the eye
-       >>tiles     4208  pixels, depth test    >>cover     4567  what is hidden, tile by tile
-       >>fragments 4834  interpolation, lod    >>texture   5128  texels, mipmaps
-       >>store     5573  blending, packing
+       >>state     3243  who owns what         >>vertices  3436  shading, projection
+       >>triangles 3653  dropped, cut, edges   >>clip      4022  near, far, behind the eye
+       >>tiles     4207  pixels, depth test    >>cover     4566  what is hidden, tile by tile
+       >>fragments 4833  interpolation, lod    >>texture   5127  texels, mipmaps
+       >>store     5572  blending, packing
      Inside: calls of the renderer
-       >>check     5805  refusals              >>seen      5977  what can be seen, chunks
-       >>drive     6114  shade_draw            >>mesh      6294  shade_draw_mesh
+       >>check     5804  refusals              >>seen      5976  what can be seen, chunks
+       >>drive     6113  shade_draw            >>mesh      6293  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6694  shade_draw_lines      >>shape     6853  normals, edges
-       >>chunks    7181  how boxes are made    >>rays      7346  shade_pick
-       >>survey    7542  experiments on a draw >>explain   7793  why nothing is seen
-       >>image     8438  mipmaps, PPM           >>presets   8706  classic materials
+       >>lines     6693  shade_draw_lines      >>shape     6852  normals, edges
+       >>chunks    7180  how boxes are made    >>rays      7345  shade_pick
+       >>survey    7541  experiments on a draw >>explain   7792  why nothing is seen
+       >>image     8437  mipmaps, PPM           >>presets   8705  classic materials
      Sources
-       >>refs      8782                        >>history   8812
-       >>license   8827
+       >>refs      8781                        >>history   8811
+       >>license   8826
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -730,7 +730,7 @@ typedef struct shade_pipeline {
 /* Draws index_count / 3 triangles.  indices NULL means vertices 0, 1, 2, ...  A vertex that nearby
    triangles share is shaded about once.  Facing is decided once per triangle, on the screen.  stats
    may be NULL.  Without a colour buffer the fragment shader runs only where may_discard is set.
-   A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses.  The
+   A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses: the
    diagonal of a picture of 16384 rows, of any width, takes less than 1 ms in depth that was just
    cleared, or 2 ms where its memory has pages of 4 kB, one for each row (make bench).
    Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
@@ -791,10 +791,9 @@ enum {
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
      A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
-   the SHADE_VARYING_... above, lod of diffuse_map, and the eye that the equations would take: pass in->eye
-   on to shade_lit_lanes.  It samples maps itself.  Alpha is (1 -
-   transparency) times its color[3]; ADD, OVER and alpha_cutoff use that.  In depth-only draws it is
-   called only where alpha_cutoff > 0. */
+   the SHADE_VARYING_... above, lod of diffuse_map, and the eye of the equations: pass in->eye to
+   shade_lit_lanes.  It samples maps itself.  Alpha is (1 - transparency) times its color[3]; ADD,
+   OVER and alpha_cutoff use that.  In depth-only draws it is called only where alpha_cutoff > 0. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
@@ -817,10 +816,10 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    mesh already has are ignored; a corner that is NaN or infinite does not count for its box.
      With indices NULL the triangles stay in their order, which is good where neighbours in the list
    are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
-   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it,
-   and mesh.indices16 to NULL.
-   Sorting splits the list at the median of its longest axis, and the halves again, in n log n steps
-   and without further memory.  The order is the same on every machine.
+   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to
+   it, and mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and
+   the halves again, in n log n steps and without further memory.  The order is the same on every
+   machine.
      chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
    nothing changes.  chunks and indices must not overlap the mesh's arrays. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
@@ -5937,8 +5936,8 @@ static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
     return SHADE_OK;
 }
 
-/* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes, because
-   every thread that draws a band checks all of them. */
+/* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes,
+   because every thread that draws a band checks all of them. */
 SHADE__INLINE uint32_t shade__any_beyond(shade__indices list, int first, int end, uint32_t n)
 {
     uint32_t beyond = 0;
