@@ -768,7 +768,8 @@ typedef struct shade_pipeline {
    triangles share is shaded about once.  Facing is decided once per triangle, on the screen.  stats
    may be NULL.  Without a colour buffer the fragment shader runs only where may_discard is set.
    A triangle takes time for the rows of its box and the tiles of 32 x 8 pixels that it crosses: the
-   diagonal of a picture of 16384 rows, of any width, takes less than 0.3 ms (make bench).
+   diagonal of a picture of 16384 rows, of any width, takes less than 1 ms in depth that was just
+   cleared, or 2 ms where its memory has pages of 4 kB, one for each row (make bench).
    Threads: each draws the same triangles with its own clip rectangle or target; the pixels are
    those of one thread, to the bit. */
 SHADEDEF shade_result shade_draw(const shade_target *target, const shade_pipeline *pipeline,
@@ -827,10 +828,9 @@ enum {
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
    then the transparent ones from back to front; transparency 1 still writes depth.
      A fragment shader in the state replaces the equations; it needs PER_FRAGMENT shading.  It gets
-   the SHADE_VARYING_... above, lod of diffuse_map, and the eye that the equations would take: pass in->eye
-   on to shade_lit_lanes.  It samples maps itself.  Alpha is (1 -
-   transparency) times its color[3]; ADD, OVER and alpha_cutoff use that.  In depth-only draws it is
-   called only where alpha_cutoff > 0. */
+   the SHADE_VARYING_... above, lod of diffuse_map, and the eye of the equations: pass in->eye to
+   shade_lit_lanes.  It samples maps itself.  Alpha is (1 - transparency) times its color[3]; ADD,
+   OVER and alpha_cutoff use that.  In depth-only draws it is called only where alpha_cutoff > 0. */
 SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_mesh *mesh,
                                       const shade_draw_state *state, shade_stats *stats);
 
@@ -853,10 +853,10 @@ SHADEDEF int shade_chunk_count(int index_count, int triangles);
    mesh already has are ignored; a corner that is NaN or infinite does not count for its box.
      With indices NULL the triangles stay in their order, which is good where neighbours in the list
    are neighbours in space.  Else indices must have room for index_count entries, or vertex_count
-   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to it,
-   and mesh.indices16 to NULL.
-   Sorting splits the list at the median of its longest axis, and the halves again, in n log n steps
-   and without further memory.  The order is the same on every machine.
+   where the mesh has no indices: it receives the triangles sorted in space.  Set mesh.indices to
+   it, and mesh.indices16 to NULL.  Sorting splits the list at the median of its longest axis, and
+   the halves again, in n log n steps and without further memory.  The order is the same on every
+   machine.
      chunks has room for capacity entries; with too few the result is SHADE_ERROR_CAPACITY, and
    nothing changes.  chunks and indices must not overlap the mesh's arrays. */
 SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles, shade_chunk *chunks,
@@ -6064,8 +6064,8 @@ static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
     return SHADE_OK;
 }
 
-/* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes, because
-   every thread that draws a band checks all of them. */
+/* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes,
+   because every thread that draws a band checks all of them. */
 SHADE__INLINE uint32_t shade__any_beyond(shade__indices list, int first, int end, uint32_t n)
 {
     uint32_t beyond = 0;

@@ -59,7 +59,8 @@ static int shared_row(const world_call *c, const call_world own[2])
     job jobs[2];
     call_world second = own[1];
     for (int k = 0; k < WORLD_BUFFERS; k++)
-        if (world_named(c->reads, world_buffers[k].name)) world_put(&second, k, world_at(&own[0], k));
+        if (world_named(c->reads, world_buffers[k].name))
+            world_put(&second, k, world_at(&own[0], k));
     for (int k = 0; k < 2; k++) jobs[k].run = c->run;
     jobs[0].world = own[0];
     jobs[1].world = second;

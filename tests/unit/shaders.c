@@ -430,7 +430,8 @@ static void own_eye_recorder(const void *uniforms, const shade_fragments *SHADE_
 static shade_mesh own_squares(float *positions, uint32_t *indices, int index_count)
 {
     for (int i = 0; i < 18; i++) {
-        for (int k = 0; k < 3; k++) positions[3 * i + k] = own_square[3 * (i % 6) + (k + i / 6) % 3];
+        const float *corner = own_square + 3 * (i % 6);
+        for (int k = 0; k < 3; k++) positions[3 * i + k] = corner[(k + i / 6) % 3];
     }
     for (int i = 0; i < index_count; i++) indices[i] = (uint32_t)i % 18;
     shade_mesh m = plain_mesh(positions, 18);
