@@ -4,8 +4,8 @@
 
 #include "shade.h"
 
-/* A strip takes WIDTH x ROWS x (2 bytes of colour + 4 of depth) = 11,520 bytes. */
-enum { PICTURE_WIDTH = 320, PICTURE_HEIGHT = 240, PICTURE_ROWS = 6 };
+/* A strip takes WIDTH x ROWS x (2 bytes of colour + 4 of depth) = 9,600 bytes. */
+enum { PICTURE_WIDTH = 320, PICTURE_HEIGHT = 240, PICTURE_ROWS = 5 };
 
 /* Pixels in order, two bytes each, the high one first (from a little-endian machine): what display
    controllers take, so that a strip goes to the bus as it is. */

@@ -36,7 +36,7 @@ static void prove_shrink(shade_format format, int width, int height)
     in.color = fine + sizeof fine - (size_t)(width * height) * bytes;
     out.color = coarse + sizeof coarse - (size_t)(out.width * out.height) * bytes;
     shade__open_decoder(&in, &decoder);
-    for (int v = 0; v < 512; v++) halving.light[v] = (double)decoder.value[v];
+    for (int v = 0; v < SHADE__DOUBLES; v++) halving.light[v] = (double)decoder.value[v];
     shade__convert(&decoder, &halving, &in, &out, 2, NULL, NULL);
 }
 
