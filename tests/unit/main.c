@@ -49,7 +49,6 @@
 #include "scene.c"
 #include "modes.c"
 #include "explain.c"
-#include "beginner.c"
 #ifdef SHADE__TILE_TESTED
 long tiles_tested;
 #include "work.c"
@@ -62,7 +61,6 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
-    SECTION(beginner),
 #ifdef SHADE__TILE_TESTED
     SECTION(work),
 #endif
