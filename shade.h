@@ -52,31 +52,31 @@
      Public
        >>config     122  options               >>types      199  materials, lamps, targets, states
        >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       908  vectors and matrices
+       >>draw       635  meshes and pixels     >>math       913  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1271  processors            >>base      1498  bits, masks, rows of vectors
-       >>matrix    1717  cameras, inverses     >>power     2011  x^n
-       >>pixels    2077  formats, sRGB
+       >>machine   1276  processors            >>base      1503  bits, masks, rows of vectors
+       >>matrix    1727  cameras, inverses     >>power     2095  x^n
+       >>pixels    2161  formats, sRGB
      Inside: light
-       >>lamps     2354  attenuation, cones    >>terms     2628  one term at one point
-       >>surface   2710  material and lights   >>lit       2831  the whole sum, at many points
+       >>lamps     2438  attenuation, cones    >>terms     2712  one term at one point
+       >>surface   2794  material and lights   >>lit       2915  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3238  who owns what         >>vertices  3421  shading, projection
-       >>triangles 3638  dropped, cut, edges   >>clip      4007  near, far, behind the eye
-       >>tiles     4192  pixels, depth test    >>cover     4547  what is hidden, tile by tile
-       >>fragments 4814  interpolation, lod    >>texture   5107  texels, mipmaps
-       >>store     5552  blending, packing
+       >>state     3322  who owns what         >>vertices  3505  shading, projection
+       >>triangles 3722  dropped, cut, edges   >>clip      4091  near, far, behind the eye
+       >>tiles     4276  pixels, depth test    >>cover     4631  what is hidden, tile by tile
+       >>fragments 4898  interpolation, lod    >>texture   5191  texels, mipmaps
+       >>store     5636  blending, packing
      Inside: calls of the renderer
-       >>check     5784  refusals              >>seen      5933  what can be seen, chunks
-       >>drive     6070  shade_draw            >>mesh      6249  shade_draw_mesh
+       >>check     5868  refusals              >>seen      6017  what can be seen, chunks
+       >>drive     6154  shade_draw            >>mesh      6333  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
-       >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
-       >>survey    7503  experiments on a draw >>explain   7754  why nothing is seen
-       >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
+       >>lines     6733  shade_draw_lines      >>shape     6891  normals, edges
+       >>chunks    7253  how boxes are made    >>rays      7417  shade_pick
+       >>survey    7593  experiments on a draw >>explain   7844  why nothing is seen
+       >>image     8489  mipmaps, PPM           >>presets   8757  classic materials
      Sources
-       >>refs      8743                        >>history   8773
-       >>license   8785
+       >>refs      8833                        >>history   8863
+       >>license   8875
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -779,9 +779,11 @@ enum {
 };
 
 /* Draws a mesh lit by the equations of >>model in world space.  The eye is the position of the
-   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
-   the centroid, with the face's normal and the colour of the first vertex; a map still varies from
-   pixel to pixel.
+   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  Light takes it
+   from view alone: highlights are wrong where projection moves the centre of projection, and where
+   the camera looks along +z, as left-handed ones do, the backward axis points away from the viewer;
+   negate eye there in a shader of your own.  PER_FACE lights the centroid, with the face's normal
+   and the colour of the first vertex; a map still varies from pixel to pixel.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments whose alpha is below alpha_cutoff
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
@@ -848,9 +850,10 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far are not looked at.  A side of an
-   off-centre one that leaves out the line of sight is ignored.  With a projection that does not
-   look down -z, such as an orthographic one, the eye is one diagonal of the box away.  The identity
-   for NaN, infinity and low > high. */
+   off-centre one that leaves out the line of sight is ignored.  A projection may turn and move the
+   eye: the view undoes it, for example with a left-handed one, which looks along +z.  Without
+   perspective the eye is one diagonal of the box away.  The identity for NaN, infinity and low >
+   high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
@@ -880,13 +883,15 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* The world-space ray through window point x, y (pixel centres are at + 1/2), for every camera that
-   draws.  It starts at the centre of projection, where clip x, y and w are 0, and flies to where w
-   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, it starts
-   where clip z = -w (on the near plane or, where z is from 0 to w, by far - near nearer to the
-   viewer) and flies to where depth grows, so that it meets first what SHADE_COMPARE_LESS draws.
-     Its direction is a unit vector; it is zero for a degenerate camera, where both w and depth are
-   constant, and for a zero matrix, which is no identity here: for the zero matrices of a draw state
-   pass shade_mat4_identity(). */
+   draws.  Only the product of projection and view counts, not which of the two holds the camera.
+     The ray starts at the centre of projection, where clip x, y and w are 0, and points to where w
+   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, or changes
+   by less than 3e-5 of itself from near to far, it starts where clip z = -w (on the near plane or,
+   where z is from 0 to w, by far - near nearer to the viewer) and points to where depth grows, so
+   that it meets first what SHADE_COMPARE_LESS draws.
+     Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
+   camera (both w and depth are constant), and for a zero matrix, which is no identity here: for the
+   zero matrices of a draw state pass shade_mat4_identity(). */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -1659,6 +1664,11 @@ SHADE__INLINE void shade__double3(shade_vec3 v, double *to)
     to[2] = (double)v.z;
 }
 
+static SHADE__NOINLINE shade_vec3 shade__single3(const double *v)
+{
+    return shade_v3((float)v[0], (float)v[1], (float)v[2]);
+}
+
 static double shade__dot3(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -2006,6 +2016,80 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
 {
     const float side[6] = { l, r, b, t, n, f };
     return shade__box_projection(0, side);
+}
+
+/* Where a draw is seen from.  It depends on projection times view alone, not on which of the two
+   holds the camera.  Rays, fitted views and explanations take it from here. */
+typedef struct shade__camera {
+    double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
+    double eye[3];       /* the centre of projection, where x, y and w are 0; zero if rays are
+                            parallel */
+    double sight[3];     /* unit: the way in which w grows fastest, or parallel rays go; zero if
+                            the camera is degenerate */
+    int perspective;     /* 0: rays are parallel */
+    int reversed;        /* a perspective with greater depth near the eye */
+} shade__camera;
+
+/* Makes v unit, however long; zero where it is zero or not finite. */
+static void shade__direction3(double *v)
+{
+    const double sum = shade__size(v[0]) + shade__size(v[1]) + shade__size(v[2]);
+    for (int k = 0; k < 3; k++) v[k] = sum > 0 && sum <= DBL_MAX ? v[k] / sum : 0;
+    shade__unit3(v);
+}
+
+/* The ray through x/w and y/w, which is where the planes of both meet.  In a perspective it starts
+   on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
+static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
+                               double *way)
+{
+    const double *z = c->row[2], *w = c->row[3];
+    double a[4], b[4], start[4], p[3], q[3], along, w_there = 1;
+    for (int k = 0; k < 4; k++) {
+        a[k] = c->row[0][k] - x * w[k];
+        b[k] = c->row[1][k] - y * w[k];
+        start[k] = c->perspective ? w[k] : z[k] + w[k];
+    }
+    shade__cross3(a, b, way);
+    shade__cross3(b, start, p);
+    shade__cross3(start, a, q);
+    along = shade__dot3(start, way);
+    for (int k = 0; k < 3; k++) {
+        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * way[k];
+        from[k] = along != 0 ? -sum / along : 0;
+    }
+
+    if (!c->perspective) w_there = shade__dot3(w, from) + w[3];
+    for (int k = 0; k < 3; k++) {
+        if (along == 0) way[k] = 0;
+        if ((along < 0) != (w_there < 0)) way[k] = -way[k];
+    }
+    shade__direction3(way);
+}
+
+/* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
+   and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
+   such noise. */
+static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view,
+                             shade__camera *c)
+{
+    double p[16], v[16], way[3];
+    shade__doubles(shade__entries(projection), 16, p);
+    shade__doubles(shade__entries(view), 16, v);
+    for (int k = 0; k < 16; k++) {
+        const double *a = p + k % 4, *b = v + k / 4 * 4;
+        c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
+    }
+    shade__cross3(c->row[0], c->row[1], way);
+    c->perspective = shade__size(shade__dot3(c->row[3], way)) >
+                     shade__size(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    shade__ray_through(c, 0, 0, c->eye, c->sight);
+    c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
+    for (int k = 0; k < 3; k++) {
+        if (c->perspective) c->sight[k] = c->row[3][k];
+        else c->eye[k] = 0;
+    }
+    shade__direction3(c->sight);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -7106,6 +7190,24 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
+/* The camera as a matrix: columns right, up and back, and a point on the axis of sight.  It is the
+   identity, to the bit, for an eye on the z axis that looks down -z. */
+static shade_mat4 shade__frame_of(const shade__camera *c)
+{
+    const double *sight = c->sight;
+    const double up = shade__dot3(c->row[1], sight), ahead = shade__dot3(c->eye, sight);
+    double x[3], y[3], at[3];
+    for (int k = 0; k < 3; k++) {
+        y[k] = c->row[1][k] - up * sight[k];
+        at[k] = c->eye[k] - ahead * sight[k];
+    }
+    shade__direction3(y);
+    shade__cross3(sight, y, x);
+    return shade__m4(shade__xyzw(shade__single3(x), 0), shade__xyzw(shade__single3(y), 0),
+                     shade__xyzw(shade_neg(shade__single3(sight)), 0),
+                     shade__xyzw(shade__single3(at), 1));
+}
+
 /* First the eye stands in the middle of the box.  For each side of the picture it steps back along
    z until the side's plane, w +- x or w +- y, is not negative at the corner where it is least.
    6e-8 is for the rounding to float. */
@@ -7115,14 +7217,21 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
 {
     const shade_vec3 half = shade_scale(shade_sub(high, low), 0.5f);
     const float box[2][4] = { { low.x, low.y, low.z, 1 }, { high.x, high.y, high.z, 1 } };
-    const int perspective = projection.col[2].w < 0;
+    shade__camera camera;
     shade__frustum f;
     shade_mat4 view = shade_mat4_look_at(toward_eye, shade_v3(0, 0, 0), up);
-    double v[16], step = perspective ? -DBL_MAX : 2 * (double)shade_length(half);
+    double v[16], step = 2 * (double)shade_length(half);
+    shade_mat4 frame = shade_mat4_identity();
+    shade__camera_of(&projection, &frame, &camera);
+    if (camera.perspective) {
+        frame = shade__frame_of(&camera);
+        projection = shade__mat4_product(&projection, &frame);
+        step = -DBL_MAX;
+    }
     view.col[3] = shade__xyzw(
         shade_neg(shade_mat4_transform_direction(view, shade_add(low, half))), 1);
     shade__doubles(shade__entries(&view), 16, v);
-    for (int side = 0; perspective && side < 4; side++) {
+    for (int side = 0; camera.perspective && side < 4; side++) {
         const int sign = side & 1 ? -1 : 1;
         double least = 0, back;
         shade__frustum_plane(&projection, side / 2, sign, -sign, side, &f);
@@ -7136,6 +7245,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
     }
     v[14] -= step;
     view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
+    view = shade__mat4_product(&frame, &view);
     return low.x <= high.x && low.y <= high.y && low.z <= high.z && shade__finite3(toward_eye) &&
            shade__finite3(up) && shade__is_finite(&view) ? view : shade_mat4_identity();
 }
@@ -7310,38 +7420,18 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
      holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
-/* The centre of projection in eye space, which projection takes to (0, 0, z, 0); its w is 0 where
-   rays are parallel.  It does not depend on the row of z: where the matrix is singular because
-   depth is constant, that row becomes 0, 0, 0, 1. */
-static shade_vec4 shade__centre(shade_mat4 *projection)
-{
-    shade_vec4 c = shade_mat4_inverse(*projection).col[2];
-    if (shade_dot4(c, c) != 0) return c;
-    for (int k = 0; k < 4; k++) ((float *)projection)[4 * k + 2] = k == 3;
-    return shade_mat4_inverse(*projection).col[2];
-}
-
-/* m takes (nx, ny, z, 1) to homogeneous points, whose w is the 1 / w of clip space.  So the sign of
-   their difference is right: it points to where w grows from 0 at the centre or, on a parallel ray,
-   to where z grows. */
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
                                    int width, int height, float x, float y)
 {
+    shade__camera c;
     shade_ray ray;
-    const shade_vec4 centre = shade__centre(&projection);
-    const shade_mat4 m = shade_mat4_inverse(shade__mat4_product(&projection, &view));
-    const float nx = 2 * x / (float)shade__max(width, 1) - 1;
-    const float ny = 1 - 2 * y / (float)shade__max(height, 1);
-    shade_vec4 from = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
-    const shade_vec4 to = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
-    ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
-    if (centre.w != 0) {
-        const shade_vec3 eye = shade_scale(shade__xyz(centre), 1 / centre.w);
-        ray.origin = shade_mat4_transform_point(shade_mat4_inverse(view), eye);
-        from = shade__xyzw(ray.origin, 1);
-    }
-    ray.direction = shade__unit_vector(shade_sub(shade_scale(shade__xyz(to), from.w),
-                                                 shade_scale(shade__xyz(from), to.w)));
+    double from[3], way[3];
+    shade__camera_of(&projection, &view, &c);
+    shade__ray_through(&c, 2 * (double)x / shade__max(width, 1) - 1,
+                       1 - 2 * (double)y / shade__max(height, 1), from, way);
+    ray.origin = shade__single3(c.perspective ? c.eye : from);
+    ray.direction = shade__single3(way);
+    if (!shade__finite3(ray.origin) || !shade__finite3(ray.direction)) SHADE__ZERO(ray);
     return ray;
 }
 

@@ -43,6 +43,7 @@
 #include "lines.c"
 #include "shape.c"
 #include "ray.c"
+#include "camera.c"
 #include "chunks.c"
 #include "resolve.c"
 #include "independent.c"
@@ -62,7 +63,7 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
-    SECTION(beginner),
+    SECTION(beginner), SECTION(camera),
 #ifdef SHADE__TILE_TESTED
     SECTION(work),
 #endif
