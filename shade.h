@@ -50,33 +50,34 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     122  options               >>types      199  materials, lamps, targets, states
-       >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       913  vectors and matrices
+       >>config     123  options               >>types      201  materials, lamps, targets, states
+       >>plumbing   375  compilers             >>light      512  the equation and its terms
+       >>draw       637  meshes and pixels     >>math       927  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1276  processors            >>base      1503  bits, masks, rows of vectors
-       >>matrix    1727  cameras, inverses     >>power     2095  x^n
-       >>pixels    2161  formats, sRGB
+       >>machine   1290  processors            >>base      1517  bits, masks, rows of vectors
+       >>matrix    1741  cameras, inverses     >>power     2109  x^n
+       >>pixels    2175  formats, sRGB
      Inside: light
-       >>lamps     2438  attenuation, cones    >>terms     2712  one term at one point
-       >>surface   2794  material and lights   >>lit       2915  the whole sum, at many points
+       >>lamps     2452  attenuation, cones    >>terms     2726  one term at one point
+       >>surface   2808  material and lights   >>lit       2929  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3322  who owns what         >>vertices  3505  shading, projection
-       >>triangles 3722  dropped, cut, edges   >>clip      4091  near, far, behind the eye
-       >>tiles     4276  pixels, depth test    >>cover     4631  what is hidden, tile by tile
-       >>fragments 4898  interpolation, lod    >>texture   5191  texels, mipmaps
-       >>store     5636  blending, packing
+       >>state     3336  who owns what         >>vertices  3519  shading, projection
+       >>triangles 3736  dropped, cut, edges   >>clip      4105  near, far, behind the eye
+       >>tiles     4290  pixels, depth test    >>cover     4645  what is hidden, tile by tile
+       >>fragments 4912  interpolation, lod    >>texture   5205  texels, mipmaps
+       >>store     5650  blending, packing
      Inside: calls of the renderer
-       >>check     5868  refusals              >>seen      6017  what can be seen, chunks
-       >>drive     6154  shade_draw            >>mesh      6333  shade_draw_mesh
+       >>check     5882  refusals              >>seen      6042  what can be seen, chunks
+       >>drive     6179  shade_draw            >>mesh      6358  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6733  shade_draw_lines      >>shape     6891  normals, edges
-       >>chunks    7253  how boxes are made    >>rays      7417  shade_pick
-       >>survey    7593  experiments on a draw >>explain   7924  why nothing is seen
-       >>image     8845  mipmaps, PPM           >>presets   9113  classic materials
+       >>lines     6758  shade_draw_lines      >>shape     6936  normals, edges
+       >>chunks    7298  how boxes are made    >>rays      7462  shade_pick
+       >>survey    7638  experiments on a draw >>explain   7974  why nothing is seen
+       >>replay    8904  of lines, pipelines   >>image     9218  mipmaps, PPM
+       >>presets   9486  classic materials
      Sources
-       >>refs      9189                        >>history   9219
-       >>license   9231
+       >>refs      9562                        >>history   9592
+       >>license   9604
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -184,6 +185,7 @@
 #if SHADE_LANES != 128 || SHADE_MAX_VARYINGS != 16
 #define shade_draw SHADE__LINKED(shade_draw)
 #define shade_draw_mesh SHADE__LINKED(shade_draw_mesh)
+#define shade_explain_draw SHADE__LINKED(shade_explain_draw)
 #define shade_lit_lanes SHADE__LINKED(shade_lit_lanes)
 #define shade_light_at_lanes SHADE__LINKED(shade_light_at_lanes)
 #define shade_sample_lanes SHADE__LINKED(shade_sample_lanes)
@@ -806,6 +808,13 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
+/* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
+   or NULL.  It runs the draw again without a picture, up to 8 times, and counts what the shaders
+   give: positions that are NaN or out of view, discarded, black or transparent pixels, what
+   raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
+SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
+                                        const uint32_t *indices, int index_count,
+                                        int vertex_count, const shade_stats *stats);
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
@@ -842,6 +851,11 @@ typedef struct shade_line_state {
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
+/* Says in one sentence why lines are not seen, as shade_explain does for meshes; "" where nothing is
+   suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
+SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
+                                         int point_count, const shade_line_state *state,
+                                         const shade_stats *stats);
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
@@ -5987,15 +6001,26 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
     return NULL;
 }
 
+SHADE__INLINE const char *shade__pipeline_fault(const shade_pipeline *p)
+{
+    if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT))
+        return "pipeline.interpolation is no SHADE_INTERPOLATION_... value.";
+    if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS)
+        return "pipeline.varyings must be from 0 to SHADE_MAX_VARYINGS.";
+    return shade__raster_fault(&p->raster);
+}
+
+SHADE__INLINE const char *shade__lod_fault(const shade_pipeline *p)
+{
+    if (p->lod_texture && (p->lod_varying < 0 || p->lod_varying >= p->varyings - 1))
+        return "pipeline.lod_varying must be from 0 to pipeline.varyings - 2, which are u and v.";
+    return p->lod_texture ? shade__texture_fault(p->lod_texture) : NULL;
+}
+
 static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
 {
-    if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT) || p->varyings < 0 ||
-        p->varyings > SHADE_MAX_VARYINGS || shade__raster_fault(&p->raster))
-        return SHADE_ERROR_STATE;
-    if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
-                           p->lod_varying >= p->varyings - 1))
-        return SHADE_ERROR_TEXTURE;
-    return SHADE_OK;
+    if (shade__pipeline_fault(p)) return SHADE_ERROR_STATE;
+    return shade__lod_fault(p) ? SHADE_ERROR_TEXTURE : SHADE_OK;
 }
 
 /* Indices are compared in lanes, because every thread that draws a band checks all of them. */
@@ -6802,23 +6827,29 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
    2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are floats. */
 #define SHADE__WIDEST 33554432.0f
 
+/* The clip-space position of a point. */
+static void shade__stroke_end(const shade__stroke *s, size_t point, double end[4])
+{
+    const double *m = s->clip_from_points;
+    double v[3];
+    shade__double3(s->points[point], v);
+    for (int i = 0; i < 4; i++)
+        end[i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
+}
+
 /* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
    Segments that are not drawn get a point outside, and those that are rejected one that is
    rejected. */
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
                                        int corner)
 {
-    const double *m = s->clip_from_points, half = s->half_line;
+    const double half = s->half_line;
     const int k = corner & 1;
     int placed = 1;
     double end[2][4], t[2], p[4], at[2], dir[2], side, along;
     for (int j = 0; j < 2; j++) {
-        double v[3];
-        shade__double3(s->points[2 * (size_t)segment + (size_t)j], v);
-        for (int i = 0; i < 4; i++) {
-            end[j][i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
-            placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
-        }
+        shade__stroke_end(s, 2 * (size_t)segment + (size_t)j, end[j]);
+        for (int i = 0; i < 4; i++) placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
     }
     if (!placed) return shade_v4(FLT_MAX, 2, 2, 1);
     if (!shade__stroke_part(s, end, t, dir)) return shade_v4(2, 2, 2, 1);
@@ -6853,6 +6884,35 @@ static void shade__stroke_color(const void *uniforms,
     SHADE_EACH_LANE(i) { shade__put4(out->color[0], SHADE_LANES, i, c); }
 }
 
+SHADE__INLINE const char *shade__stroke_fault(const shade_line_state *state)
+{
+    shade_raster raster = state->raster;
+    if (!shade__within(state->width, FLT_MAX) || state->width < 0)
+        return "state.width must be a number of pixels; 0 means 1.";
+    if (!SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE)) return "state.cap is no SHADE_CAP_... value.";
+    raster.cull = SHADE_CULL_NONE;
+    return shade__raster_fault(&raster);
+}
+
+/* Prepares the uniforms of the line shaders, and the pipeline that has them. */
+static void shade__stroke_of(const shade_target *target, const shade_vec3 *points,
+                             const shade_line_state *state, shade__stroke *s, shade_pipeline *p)
+{
+    const shade_mat4 m = shade__or_identity(state->clip_from_points);
+    shade__doubles(shade__entries(&m), 16, s->clip_from_points);
+    s->points = points;
+    s->state = state;
+    s->half[0] = target->width / 2.0;
+    s->half[1] = target->height / 2.0;
+    s->half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
+    SHADE__ZERO(*p);
+    p->raster = state->raster;
+    p->raster.cull = SHADE_CULL_NONE;
+    p->vertex = shade__stroke_vertex;
+    p->fragment = shade__stroke_color;
+    p->uniforms = s;
+}
+
 SHADEDEF shade_result shade_draw_lines(const shade_target *target,
                                        const shade_vec3 *points,
                                        int point_count,
@@ -6862,28 +6922,13 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     shade_pipeline p;
     shade__stroke s;
     shade__supply supply;
-    shade_mat4 clip_from_points;
     shade_result result = shade__begin(target,
                                        state && (points || point_count <= 0),
                                        stats);
     if (result) return result;
     if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_MESH;
-    SHADE__ZERO(p);
-    p.raster = state->raster;
-    p.raster.cull = SHADE_CULL_NONE;
-    if (!(state->width >= 0 && state->width <= FLT_MAX) ||
-        !SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE) || shade__raster_fault(&p.raster))
-        return SHADE_ERROR_STATE;
-    s.points = points;
-    s.state = state;
-    clip_from_points = shade__or_identity(state->clip_from_points);
-    shade__doubles(shade__entries(&clip_from_points), 16, s.clip_from_points);
-    s.half[0] = target->width / 2.0;
-    s.half[1] = target->height / 2.0;
-    s.half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
-    p.vertex = shade__stroke_vertex;
-    p.fragment = shade__stroke_color;
-    p.uniforms = &s;
+    if (shade__stroke_fault(state)) return SHADE_ERROR_STATE;
+    shade__stroke_of(target, points, state, &s, &p);
     (void)shade__supply_all(NULL, 3 * point_count, 3 * point_count, &supply);
     return shade__run_draw(target, &p, 1, &supply, stats);
 }
@@ -7789,12 +7834,21 @@ static void shade__look_at_seen(shade__survey *q)
     else shade__look_at_all(q);
 }
 
+/* Channels below this are stored as 0. */
+static float shade__black_of(const shade_target *t)
+{
+    const shade__layout *l = &shade__layouts[t->format];
+    float black = t->dither && l->bytes == 2 ? 0.03f : 0.499f;
+    black /= (float)l->full[1];
+    if (shade__is_encoded(t->srgb, l)) black /= 12.92f;
+    return l->bytes == 16 ? FLT_MIN : black;
+}
+
 /* Makes a survey of the given draw: all its fragments, and depth is not written. */
 static void shade__open_survey(const shade_target *target, const shade_mesh *mesh,
                                const shade_draw_state *state, const shade_stats *stats,
                                shade__survey *s)
 {
-    const shade__layout *l = &shade__layouts[target->format];
     shade_vec4 last;
     SHADE__ZERO(*s);
     s->target = target;
@@ -7821,10 +7875,7 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
                                          : s->reversed);
 
-    s->black = target->dither && l->bytes == 2 ? 0.03f : 0.499f;
-    s->black /= (float)l->full[1];
-    if (shade__is_encoded(target->srgb, l)) s->black /= 12.92f;
-    if (l->bytes == 16) s->black = FLT_MIN;
+    s->black = shade__black_of(target);
 }
 
 /* ---- other surfaces and lamps */
@@ -7898,11 +7949,10 @@ static uint32_t shade__outside(const shade__survey *s)
 }
 
 /* Was anything drawn before?  Then the caller's depth buffer holds different values. */
-static int shade__depth_varies(const shade__survey *s)
+static int shade__depth_varies(const shade_target *t)
 {
-    const shade_target *t = s->target;
-    const int *clip = s->clip;
-    if (!t->depth) return 0;
+    int clip[4];
+    if (!t->depth || !shade__clip_rectangle(t, clip)) return 0;
     for (int y = clip[1]; y < clip[3]; y++)
         for (int x = clip[0]; x < clip[2]; x++)
             if (t->depth[shade__offset_of(t, x, y)] !=
@@ -7929,7 +7979,7 @@ static int shade__eye_inside(const shade__survey *s)
      holds   A sentence is said where the matrices or the pixels of the real picture prove it.  A
              band or a strip is never blamed for what another one may show.
      way     shade__refusal; shade__why: ladders of the given draw, of no picture, of a black one,
-             of a lit one.                                                                >>image */
+             of a lit one.                                                               >>replay */
 
 /* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
    positions overlap. */
@@ -8168,7 +8218,7 @@ static shade__outcome shade__is_scattered(shade__survey *q)
 {
     return shade__leave_if(shade__covered(q) * 4 <
                               (long long)q->target->width * q->target->height &&
-                          shade__depth_varies(q));
+                          shade__depth_varies(q->target));
 }
 
 static shade__outcome shade__all_cut(shade__survey *q)
@@ -8311,13 +8361,18 @@ static const shade__rung shade__test[] = {
 
 /* ---- the mesh covers pixels, but the draw gave none, or maybe none */
 
+/* Other bands or strips may show what this one does not. */
+static int shade__is_band(const shade_target *t)
+{
+    int clip[4];
+    shade__clip_rectangle(t, clip);
+    return t->row_count || clip[2] - clip[0] == t->width || clip[3] - clip[1] == t->height;
+}
+
 static shade__outcome shade__beside_clip(shade__survey *q)
 {
-    const shade_target *t = q->target;
-    const int band = t->row_count || q->clip[2] - q->clip[0] == t->width ||
-                     q->clip[3] - q->clip[1] == t->height;
     shade__look_in_clip(q);
-    return shade__say_if(!band && !shade__covered(q));
+    return shade__say_if(!shade__is_band(q->target) && !shade__covered(q));
 }
 
 /* How many pixels pass the depth test now: all, if there is no depth. */
@@ -8819,27 +8874,361 @@ static const char *shade__why(const shade__survey *s)
     return why ? why : shade__climb(s, shade__rest);
 }
 
+/* Says that the clip rectangle is empty; "" where it lies beside the strip. */
+static const char *shade__clip_fault(const shade_target *t)
+{
+    shade_target picture = *t;
+    int clip[4];
+    picture.row_offset = picture.row_count = 0;
+    if (!shade__clip_rectangle(&picture, clip))
+        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
+               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
+    return shade__clip_rectangle(t, clip) ? NULL : "";
+}
+
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
                                    const shade_mesh *mesh,
                                    const shade_draw_state *state,
                                    const shade_stats *stats)
 {
     const char *why = shade__refusal(target, mesh, state);
-    shade_target picture;
     shade__survey s;
-    int clip[4];
+    if (!why) why = shade__clip_fault(target);
     if (why) return why;
-
-    picture = *target;
-    picture.row_offset = picture.row_count = 0;
-    if (!shade__clip_rectangle(&picture, clip))
-        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
-               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
-    if (!shade__clip_rectangle(target, clip)) return "";    /* a strip beside the rectangle */
 
     shade__open_survey(target, mesh, state, stats, &s);
     why = shade__why(&s);
     return why ? why : "";
+}
+
+/*----------------------------------------------------------------------------------------- >>replay
+   Why lines or a pipeline give no picture, or a wrong one, in one sentence.
+     in      what shade_draw_lines or shade_draw took, its stats
+     out     a constant sentence; "" for nothing
+     method  The draw is run again without a picture.  Shaders of this section call the given ones
+             and count what they give.
+     holds   The caller's memory is only read, unless the caller's own shaders write.
+     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere or
+             shade__why_kept_out; shade__why_faint.
+                                                                                          >>image */
+
+/* What the shaders gave in one run. */
+typedef struct shade__tally {
+    shade_stats stats;                   /* fragments: neither discarded nor hidden */
+    uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
+    int         any_w;                   /* is a w not 0? */
+    long long   fragments;               /* all of them; of these: */
+    long long   discarded, clear, dark, bright;    /* alpha 0; stored as 0; a channel of 16 or more */
+} shade__tally;
+
+/* A draw that is run again. */
+typedef struct shade__replay {
+    const shade_target *target;          /* the caller's */
+    const shade_stats  *given;           /* the caller's; NULL: none */
+    const shade_line_state *lines;       /* NULL: the pipeline is the caller's */
+    const uint32_t     *indices;
+    int             corners;
+    shade_pipeline  pipe;                /* the given one, but for its raster */
+    shade_target    picture;             /* of this run; without colours */
+    shade__tally   *tally;
+} shade__replay;
+
+static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                 shade_vertices *SHADE_RESTRICT out)
+{
+    const shade__replay *r = (const shade__replay *)uniforms;
+    r->pipe.vertex(r->pipe.uniforms, in, out);
+    for (int i = 0; i < in->count; i++) {
+        const float x = out->clip[0][i], y = out->clip[1][i], w = out->clip[3][i];
+        const uint32_t bits =
+            shade__outcode(x, y, out->clip[2][i], w, r->pipe.raster.depth_zero_to_one);
+        if (!(bits & SHADE__OUT_BAD)) r->tally->outside &= bits;
+        r->tally->any_w |= w != 0;
+    }
+}
+
+/* Calls the given shader where a draw calls it. */
+static void shade__replay_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                   shade_colors *SHADE_RESTRICT out)
+{
+    const shade__replay *r = (const shade__replay *)uniforms;
+    const float black = shade__black_of(r->target);
+    shade__tally *t = r->tally;
+    t->fragments += in->count;
+    if (!r->pipe.fragment || !(r->target->color || r->pipe.may_discard)) return;
+    r->pipe.fragment(r->pipe.uniforms, in, out);
+    for (int i = 0; i < in->count; i++) {
+        float most = 0;
+        for (int k = 0; k < 3; k++) most = shade__maxf(out->color[k][i], most);
+        t->discarded += out->discard[i] != 0;
+        t->clear += !(out->color[3][i] > 0);
+        t->dark += most < black;
+        t->bright += most >= 16;
+        if (!r->pipe.may_discard) out->discard[i] = 0;
+    }
+}
+
+static shade__tally shade__run_again(const shade__replay *r)
+{
+    shade__replay run = *r;
+    shade__tally tally;
+    shade__supply supply;
+    shade_pipeline p = r->pipe;
+    SHADE__ZERO(tally);
+    tally.outside = ~0u;
+    run.tally = &tally;
+    p.vertex = shade__replay_vertex;
+    p.fragment = shade__replay_fragment;
+    p.uniforms = &run;
+    p.may_discard = p.raster.depth_read_only = 1;
+    (void)shade__supply_all(r->indices, r->corners, INT32_MAX, &supply);
+    shade__run_draw(&r->picture, &p, 1, &supply, &tally.stats);
+    return tally;
+}
+
+/* ---- the matrix of lines */
+
+/* Are the rows of z and w those of a perspective times a view: parallel, and w's of length 1? */
+static int shade__is_camera(const shade_mat4 *m)
+{
+    const shade_vec3 z = shade_v3(m->col[0].z, m->col[1].z, m->col[2].z);
+    const shade_vec3 w = shade_v3(m->col[0].w, m->col[1].w, m->col[2].w), n = shade_cross(z, w);
+    return shade__within(shade_dot(w, w) - 1, 1e-3f) &&
+           shade_dot(n, n) <= 1e-6f * shade_dot(z, z);
+}
+
+static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
+{
+    const shade_mat4 m = shade__or_identity(r->lines->clip_from_points);
+    const shade_mat4 turned = shade_mat4_transpose(m);
+    shade__replay by_rows = *r;
+    shade__stroke stroke = *(const shade__stroke *)r->pipe.uniforms;
+    if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
+        return "Every line lies outside of the cube from -1 to 1: state.clip_from_points is unset, "
+               "or no projection; it is projection times view, in this order.";
+    /* w = -z, but what is left is no perspective */
+    if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
+        (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
+        return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
+               "projection first, then view.";
+
+    if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
+                                      !shade__is_camera(&turned)))
+        return NULL;
+    shade__doubles(shade__entries(&turned), 16, stroke.clip_from_points);
+    by_rows.pipe.uniforms = &stroke;
+    return shade__run_again(&by_rows).fragments
+               ? "state.clip_from_points looks transposed (row-major): pass it through "
+                 "shade_mat4_transpose."
+               : NULL;
+}
+
+/* ---- no pixel of the whole picture is covered */
+
+/* The clip-space positions of points, each three times. */
+static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                shade_vertices *SHADE_RESTRICT out)
+{
+    double end[4];
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade__stroke_end((const shade__stroke *)uniforms, in->index[i] / 3, end);
+        for (int k = 0; k < 4; k++) out->clip[k][i] = (float)end[k];
+    }
+}
+
+static const char *shade__why_outside(const shade__replay *r)
+{
+    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
+    shade__replay points = *r;
+    shade__tally t;
+    if (r->lines) points.pipe.vertex = shade__point_vertex;
+    t = shade__run_again(&points);
+    if (!t.any_w)
+        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 where no "
+               "matrix projects; or the matrix is not projection times view, in this order.";
+    if (t.outside & (greater ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
+        return "All positions lie beyond the far plane, as if projection had near = far, degrees "
+               "for radians, or an aspect of 0; or move far out, or the eye nearer.";
+    if (t.outside & SHADE__OUT_W)
+        return "All positions lie behind the eye, where w is negative: in clip space they are "
+               "projection times view times model times (P, 1), and the eye looks down -z.";
+    if (t.outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
+        return "All positions lie nearer than the near plane, or behind the eye; move near in, or "
+               "the eye back.";
+    return "All positions lie beside the picture, before near or beyond far: in clip space they "
+           "are projection times view times model times (P, 1), with -w <= x, y, z <= w.";
+}
+
+static const char *shade__why_nowhere(const shade__replay *r, const shade_stats *n)
+{
+    shade__replay both = *r;
+    both.pipe.raster.cull = SHADE_CULL_NONE;
+    if (shade__run_again(&both).fragments)
+        return r->pipe.raster.cull == SHADE_CULL_FRONT
+                   ? "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; "
+                     "use SHADE_CULL_BACK or SHADE_CULL_NONE."
+                   : "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front "
+                     "is counter-clockwise on the screen.  Reverse the winding, or use "
+                     "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
+    if (n->clipped == n->triangles) return shade__why_outside(r);
+    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a line "
+                      "has gaps; or they lie beside the picture."
+                    : "The triangles cover no pixel centre: they have no area on the screen, since "
+                      "their corners coincide or they are seen edge-on, or lie beside the picture.";
+}
+
+/* ---- pixels are covered, but the draw gave none, or maybe none */
+
+static const char *shade__why_kept_out(const shade__replay *r, const shade__tally *t)
+{
+    const shade_target *target = r->target;
+    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
+    shade_raster *raster;
+    shade__replay part = *r;
+    long long covered;
+    raster = &part.pipe.raster;
+    part.picture = *target;
+    part.picture.color = NULL;
+    part.picture.depth = NULL;
+    covered = shade__run_again(&part).fragments;
+    if (!covered)
+        return shade__is_band(target)
+                   ? NULL
+                   : "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width "
+                     "and clip_height; all four zero mean everywhere.";
+    if (r->pipe.may_discard && t->discarded == t->fragments)
+        return "pipeline.fragment discards all pixels.";
+
+    part.picture.depth = target->depth;
+    if (shade__run_again(&part).stats.fragments) return NULL;
+    if (raster->depth_test == SHADE_COMPARE_EQUAL)
+        return "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds no depth that is "
+               "equal: draw the same positions with another test before.";
+    raster->depth_test = SHADE_COMPARE_EQUAL;
+    if (!r->given && shade__run_again(&part).stats.fragments) return NULL;    /* its own depth */
+    raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
+    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth that there is */
+    if (!shade__run_again(&part).stats.fragments)
+        return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
+               "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
+               "depth of 1, or 0 for a reversed projection.";
+    raster->depth_bias *= 1e-4f;
+    if (r->lines && shade__run_again(&part).stats.fragments * 2 > covered)
+        return "The lines lie in surfaces that target.depth holds, which hide them: use "
+               "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
+    if (!r->given || (covered * 4 < (long long)target->width * target->height &&
+                      shade__depth_varies(target)))
+        return NULL;    /* one of many things in a scene may well be hidden */
+    return "What target.depth holds hides everything: other draws, the frame before without a "
+           "shade_clear, or raster.depth_bias, which pushes it back.";
+}
+
+/* ---- pixels are drawn, but wrongly */
+
+static const char *shade__why_faint(const shade__replay *r, const shade__tally *t)
+{
+    const shade_raster *raster = &r->pipe.raster;
+    const int dark = t->dark == t->fragments, clear = t->clear == t->fragments;
+    if (!r->pipe.fragment && (!r->target->depth || raster->depth_read_only))
+        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
+               "or raster.depth_read_only is set.";
+    if (!r->pipe.fragment || !r->target->color) return NULL;
+    if (!r->pipe.may_discard && t->discarded)
+        return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
+    if (raster->blend == SHADE_BLEND_OVER)
+        return clear ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
+                       "out->color[3] of pipeline.fragment, or state.color.w of lines."
+                     : NULL;
+    if (dark && raster->blend == SHADE_BLEND_ADD)
+        return "All colours are black, or NaN, so that SHADE_BLEND_ADD adds nothing.";
+    if (dark && r->lines)
+        return clear ? "state.color is not set: the lines are drawn in black." : NULL;
+    if (dark && raster->cull != SHADE_CULL_FRONT)    /* outlines are black */
+        return "pipeline.fragment gives black, or NaN, everywhere: check out->color[0] to [2], "
+               "which it must write, pipeline.uniforms, and the varyings of pipeline.vertex.";
+    return t->bright * 10 >= t->fragments * 9 && r->target->format != SHADE_FORMAT_RGBA32F
+               ? "Almost all colours are clipped to white, or a full channel: in out->color, and in "
+                 "state.color of lines, 1 is full light, not 255."
+               : NULL;
+}
+
+/* Explains a draw whose arguments have this fault, or none. */
+static const char *shade__explain_replay(shade__replay *r, const char *fault)
+{
+    const int sure = r->given && r->given->fragments > 0;
+    const char *why = fault ? fault : shade__clip_fault(r->target);
+    shade__tally t;
+    if (why) return why;
+    r->picture.width = r->target->width;
+    r->picture.height = r->target->height;
+    t = shade__run_again(r);
+
+    if (t.stats.rejected)
+        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge numbers "
+                          "(beyond 1e30), so that lines are left out."
+                        : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
+                          "that triangles are left out: check its uniforms and what it reads.";
+    if (r->lines) why = shade__why_matrix(r, &t);
+    if (!why && !sure)
+        why = t.fragments ? shade__why_kept_out(r, &t) : shade__why_nowhere(r, &t.stats);
+    if (!why && (sure || !r->given)) why = shade__why_faint(r, &t);
+    return why ? why : "";
+}
+
+SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
+                                                    const shade_pipeline *pipeline,
+                                                    const uint32_t *indices, int index_count,
+                                                    int vertex_count, const shade_stats *stats)
+{
+    const char *fault;
+    shade__replay r;
+    if (!target || !pipeline || !pipeline->vertex)
+        return "target, pipeline or pipeline.vertex is NULL, and must not be.";
+    fault = shade__target_fault(target);
+    if (!fault && (index_count < 0 || vertex_count < 0))
+        fault = "index_count or vertex_count is negative.";
+    if (!fault) fault = shade__pipeline_fault(pipeline);
+    if (!fault) fault = shade__lod_fault(pipeline);
+    if (!fault && index_count % 3)
+        fault = "index_count is no multiple of 3; it counts indices, three a triangle.";
+    if (!fault && shade__check_indices(indices, index_count, vertex_count))
+        fault = "indices hold one at or past vertex_count, or without indices index_count exceeds "
+                "vertex_count, which counts vertices, not floats.";
+    if (!fault && !index_count)
+        fault = "There is no triangle to draw: index_count is 0; without indices it counts vertices.";
+
+    SHADE__ZERO(r);
+    r.target = target;
+    r.given = stats;
+    r.indices = indices;
+    r.corners = index_count;
+    r.pipe = *pipeline;
+    return shade__explain_replay(&r, fault);
+}
+
+SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
+                                                     const shade_vec3 *points, int point_count,
+                                                     const shade_line_state *state,
+                                                     const shade_stats *stats)
+{
+    const char *fault;
+    shade__stroke stroke;
+    shade__replay r;
+    if (!target || !state || (!points && point_count > 0))
+        return "target, state or points is NULL, and must not be.";
+    fault = shade__target_fault(target);
+    if (!fault && (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3))
+        fault = "point_count is negative, odd, or beyond 715827882; it counts points, two a line.";
+    if (!fault) fault = shade__stroke_fault(state);
+    if (!fault && !point_count) fault = "There is no line to draw: point_count is 0.";
+
+    SHADE__ZERO(r);
+    r.target = target;
+    r.given = stats;
+    r.lines = state;
+    r.corners = 3 * point_count;
+    shade__stroke_of(target, points, state, &stroke, &r.pipe);
+    return shade__explain_replay(&r, fault);
 }
 
 /*------------------------------------------------------------------------------------------ >>image
