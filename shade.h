@@ -50,33 +50,34 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     122  options               >>types      199  materials, lamps, targets, states
-       >>plumbing   373  compilers             >>light      510  the equation and its terms
-       >>draw       635  meshes and pixels     >>math       908  vectors and matrices
+       >>config     123  options               >>types      201  materials, lamps, targets, states
+       >>plumbing   375  compilers             >>light      512  the equation and its terms
+       >>draw       637  meshes and pixels     >>math       927  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1271  processors            >>base      1498  bits, masks, rows of vectors
-       >>matrix    1717  cameras, inverses     >>power     2011  x^n
-       >>pixels    2077  formats, sRGB
+       >>machine   1290  processors            >>base      1517  bits, masks, rows of vectors
+       >>matrix    1741  cameras, inverses     >>power     2109  x^n
+       >>pixels    2175  formats, sRGB
      Inside: light
-       >>lamps     2354  attenuation, cones    >>terms     2628  one term at one point
-       >>surface   2710  material and lights   >>lit       2831  the whole sum, at many points
+       >>lamps     2452  attenuation, cones    >>terms     2726  one term at one point
+       >>surface   2808  material and lights   >>lit       2929  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3238  who owns what         >>vertices  3421  shading, projection
-       >>triangles 3638  dropped, cut, edges   >>clip      4007  near, far, behind the eye
-       >>tiles     4192  pixels, depth test    >>cover     4547  what is hidden, tile by tile
-       >>fragments 4814  interpolation, lod    >>texture   5107  texels, mipmaps
-       >>store     5552  blending, packing
+       >>state     3336  who owns what         >>vertices  3519  shading, projection
+       >>triangles 3736  dropped, cut, edges   >>clip      4105  near, far, behind the eye
+       >>tiles     4290  pixels, depth test    >>cover     4645  what is hidden, tile by tile
+       >>fragments 4912  interpolation, lod    >>texture   5205  texels, mipmaps
+       >>store     5650  blending, packing
      Inside: calls of the renderer
-       >>check     5784  refusals              >>seen      5933  what can be seen, chunks
-       >>drive     6070  shade_draw            >>mesh      6249  shade_draw_mesh
+       >>check     5882  refusals              >>seen      6042  what can be seen, chunks
+       >>drive     6179  shade_draw            >>mesh      6358  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
-       >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
-       >>survey    7503  experiments on a draw >>explain   7834  why nothing is seen
-       >>image     8755  mipmaps, PPM           >>presets   9023  classic materials
+       >>lines     6758  shade_draw_lines      >>shape     6936  normals, edges
+       >>chunks    7298  how boxes are made    >>rays      7462  shade_pick
+       >>survey    7638  experiments on a draw >>explain   7974  why nothing is seen
+       >>replay    8904  of lines, pipelines   >>image     9218  mipmaps, PPM
+       >>presets   9486  classic materials
      Sources
-       >>refs      9099                        >>history   9129
-       >>license   9141
+       >>refs      9562                        >>history   9592
+       >>license   9604
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -184,6 +185,7 @@
 #if SHADE_LANES != 128 || SHADE_MAX_VARYINGS != 16
 #define shade_draw SHADE__LINKED(shade_draw)
 #define shade_draw_mesh SHADE__LINKED(shade_draw_mesh)
+#define shade_explain_draw SHADE__LINKED(shade_explain_draw)
 #define shade_lit_lanes SHADE__LINKED(shade_lit_lanes)
 #define shade_light_at_lanes SHADE__LINKED(shade_light_at_lanes)
 #define shade_sample_lanes SHADE__LINKED(shade_sample_lanes)
@@ -780,9 +782,11 @@ enum {
 };
 
 /* Draws a mesh lit by the equations of >>model in world space.  The eye is the position of the
-   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
-   the centroid, with the face's normal and the colour of the first vertex; a map still varies from
-   pixel to pixel.
+   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  Light takes it
+   from view alone: highlights are wrong where projection moves the centre of projection, and where
+   the camera looks along +z, as left-handed ones do, the backward axis points away from the viewer;
+   negate eye there in a shader of your own.  PER_FACE lights the centroid, with the face's normal
+   and the colour of the first vertex; a map still varies from pixel to pixel.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments whose alpha is below alpha_cutoff
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
@@ -805,6 +809,13 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
+/* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
+   or NULL.  It runs the draw again without a picture, up to 8 times, and counts what the shaders
+   give: positions that are NaN or out of view, discarded, black or transparent pixels, what
+   raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
+SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
+                                        const uint32_t *indices, int index_count,
+                                        int vertex_count, const shade_stats *stats);
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
@@ -841,6 +852,11 @@ typedef struct shade_line_state {
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
+/* Says in one sentence why lines are not seen, as shade_explain does for meshes; "" where nothing is
+   suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
+SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
+                                         int point_count, const shade_line_state *state,
+                                         const shade_stats *stats);
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
@@ -849,9 +865,10 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far are not looked at.  A side of an
-   off-centre one that leaves out the line of sight is ignored.  With a projection that does not
-   look down -z, such as an orthographic one, the eye is one diagonal of the box away.  The identity
-   for NaN, infinity and low > high. */
+   off-centre one that leaves out the line of sight is ignored.  A projection may turn and move the
+   eye: the view undoes it, for example with a left-handed one, which looks along +z.  Without
+   perspective the eye is one diagonal of the box away.  The identity for NaN, infinity and low >
+   high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
@@ -881,13 +898,15 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* The world-space ray through window point x, y (pixel centres are at + 1/2), for every camera that
-   draws.  It starts at the centre of projection, where clip x, y and w are 0, and flies to where w
-   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, it starts
-   where clip z = -w (on the near plane or, where z is from 0 to w, by far - near nearer to the
-   viewer) and flies to where depth grows, so that it meets first what SHADE_COMPARE_LESS draws.
-     Its direction is a unit vector; it is zero for a degenerate camera, where both w and depth are
-   constant, and for a zero matrix, which is no identity here: for the zero matrices of a draw state
-   pass shade_mat4_identity(). */
+   draws.  Only the product of projection and view counts, not which of the two holds the camera.
+     The ray starts at the centre of projection, where clip x, y and w are 0, and points to where w
+   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, or changes
+   by less than 3e-5 of itself from near to far, it starts where clip z = -w (on the near plane or,
+   where z is from 0 to w, by far - near nearer to the viewer) and points to where depth grows, so
+   that it meets first what SHADE_COMPARE_LESS draws.
+     Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
+   camera (both w and depth are constant), and for a zero matrix, which is no identity here: for the
+   zero matrices of a draw state pass shade_mat4_identity(). */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -1660,6 +1679,11 @@ SHADE__INLINE void shade__double3(shade_vec3 v, double *to)
     to[2] = (double)v.z;
 }
 
+static SHADE__NOINLINE shade_vec3 shade__single3(const double *v)
+{
+    return shade_v3((float)v[0], (float)v[1], (float)v[2]);
+}
+
 static double shade__dot3(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -2008,6 +2032,80 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
 {
     const float side[6] = { l, r, b, t, n, f };
     return shade__box_projection(0, side);
+}
+
+/* Where a draw is seen from.  It depends on projection times view alone, not on which of the two
+   holds the camera.  Rays, fitted views and explanations take it from here. */
+typedef struct shade__camera {
+    double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
+    double eye[3];       /* the centre of projection, where x, y and w are 0; zero if rays are
+                            parallel */
+    double sight[3];     /* unit: the way in which w grows fastest, or parallel rays go; zero if
+                            the camera is degenerate */
+    int perspective;     /* 0: rays are parallel */
+    int reversed;        /* a perspective with greater depth near the eye */
+} shade__camera;
+
+/* Makes v unit, however long; zero where it is zero or not finite. */
+static void shade__direction3(double *v)
+{
+    const double sum = shade__size(v[0]) + shade__size(v[1]) + shade__size(v[2]);
+    for (int k = 0; k < 3; k++) v[k] = sum > 0 && sum <= DBL_MAX ? v[k] / sum : 0;
+    shade__unit3(v);
+}
+
+/* The ray through x/w and y/w, which is where the planes of both meet.  In a perspective it starts
+   on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
+static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
+                               double *way)
+{
+    const double *z = c->row[2], *w = c->row[3];
+    double a[4], b[4], start[4], p[3], q[3], along, w_there = 1;
+    for (int k = 0; k < 4; k++) {
+        a[k] = c->row[0][k] - x * w[k];
+        b[k] = c->row[1][k] - y * w[k];
+        start[k] = c->perspective ? w[k] : z[k] + w[k];
+    }
+    shade__cross3(a, b, way);
+    shade__cross3(b, start, p);
+    shade__cross3(start, a, q);
+    along = shade__dot3(start, way);
+    for (int k = 0; k < 3; k++) {
+        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * way[k];
+        from[k] = along != 0 ? -sum / along : 0;
+    }
+
+    if (!c->perspective) w_there = shade__dot3(w, from) + w[3];
+    for (int k = 0; k < 3; k++) {
+        if (along == 0) way[k] = 0;
+        if ((along < 0) != (w_there < 0)) way[k] = -way[k];
+    }
+    shade__direction3(way);
+}
+
+/* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
+   and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
+   such noise. */
+static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view,
+                             shade__camera *c)
+{
+    double p[16], v[16], way[3];
+    shade__doubles(shade__entries(projection), 16, p);
+    shade__doubles(shade__entries(view), 16, v);
+    for (int k = 0; k < 16; k++) {
+        const double *a = p + k % 4, *b = v + k / 4 * 4;
+        c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
+    }
+    shade__cross3(c->row[0], c->row[1], way);
+    c->perspective = shade__size(shade__dot3(c->row[3], way)) >
+                     shade__size(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    shade__ray_through(c, 0, 0, c->eye, c->sight);
+    c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
+    for (int k = 0; k < 3; k++) {
+        if (c->perspective) c->sight[k] = c->row[3][k];
+        else c->eye[k] = 0;
+    }
+    shade__direction3(c->sight);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -5911,15 +6009,26 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
     return NULL;
 }
 
+SHADE__INLINE const char *shade__pipeline_fault(const shade_pipeline *p)
+{
+    if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT))
+        return "pipeline.interpolation is no SHADE_INTERPOLATION_... value.";
+    if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS)
+        return "pipeline.varyings must be from 0 to SHADE_MAX_VARYINGS.";
+    return shade__raster_fault(&p->raster);
+}
+
+SHADE__INLINE const char *shade__lod_fault(const shade_pipeline *p)
+{
+    if (p->lod_texture && (p->lod_varying < 0 || p->lod_varying >= p->varyings - 1))
+        return "pipeline.lod_varying must be from 0 to pipeline.varyings - 2, which are u and v.";
+    return p->lod_texture ? shade__texture_fault(p->lod_texture) : NULL;
+}
+
 static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
 {
-    if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT) || p->varyings < 0 ||
-        p->varyings > SHADE_MAX_VARYINGS || shade__raster_fault(&p->raster))
-        return SHADE_ERROR_STATE;
-    if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
-                           p->lod_varying >= p->varyings - 1))
-        return SHADE_ERROR_TEXTURE;
-    return SHADE_OK;
+    if (shade__pipeline_fault(p)) return SHADE_ERROR_STATE;
+    return shade__lod_fault(p) ? SHADE_ERROR_TEXTURE : SHADE_OK;
 }
 
 /* Indices are compared in lanes, because every thread that draws a band checks all of them. */
@@ -6726,23 +6835,29 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
    2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are floats. */
 #define SHADE__WIDEST 33554432.0f
 
+/* The clip-space position of a point. */
+static void shade__stroke_end(const shade__stroke *s, size_t point, double end[4])
+{
+    const double *m = s->clip_from_points;
+    double v[3];
+    shade__double3(s->points[point], v);
+    for (int i = 0; i < 4; i++)
+        end[i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
+}
+
 /* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
    Segments that are not drawn get a point outside, and those that are rejected one that is
    rejected. */
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
                                        int corner)
 {
-    const double *m = s->clip_from_points, half = s->half_line;
+    const double half = s->half_line;
     const int k = corner & 1;
     int placed = 1;
     double end[2][4], t[2], p[4], at[2], dir[2], side, along;
     for (int j = 0; j < 2; j++) {
-        double v[3];
-        shade__double3(s->points[2 * (size_t)segment + (size_t)j], v);
-        for (int i = 0; i < 4; i++) {
-            end[j][i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
-            placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
-        }
+        shade__stroke_end(s, 2 * (size_t)segment + (size_t)j, end[j]);
+        for (int i = 0; i < 4; i++) placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
     }
     if (!placed) return shade_v4(FLT_MAX, 2, 2, 1);
     if (!shade__stroke_part(s, end, t, dir)) return shade_v4(2, 2, 2, 1);
@@ -6777,6 +6892,35 @@ static void shade__stroke_color(const void *uniforms,
     SHADE_EACH_LANE(i) { shade__put4(out->color[0], SHADE_LANES, i, c); }
 }
 
+SHADE__INLINE const char *shade__stroke_fault(const shade_line_state *state)
+{
+    shade_raster raster = state->raster;
+    if (!shade__within(state->width, FLT_MAX) || state->width < 0)
+        return "state.width must be a number of pixels; 0 means 1.";
+    if (!SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE)) return "state.cap is no SHADE_CAP_... value.";
+    raster.cull = SHADE_CULL_NONE;
+    return shade__raster_fault(&raster);
+}
+
+/* Prepares the uniforms of the line shaders, and the pipeline that has them. */
+static void shade__stroke_of(const shade_target *target, const shade_vec3 *points,
+                             const shade_line_state *state, shade__stroke *s, shade_pipeline *p)
+{
+    const shade_mat4 m = shade__or_identity(state->clip_from_points);
+    shade__doubles(shade__entries(&m), 16, s->clip_from_points);
+    s->points = points;
+    s->state = state;
+    s->half[0] = target->width / 2.0;
+    s->half[1] = target->height / 2.0;
+    s->half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
+    SHADE__ZERO(*p);
+    p->raster = state->raster;
+    p->raster.cull = SHADE_CULL_NONE;
+    p->vertex = shade__stroke_vertex;
+    p->fragment = shade__stroke_color;
+    p->uniforms = s;
+}
+
 SHADEDEF shade_result shade_draw_lines(const shade_target *target,
                                        const shade_vec3 *points,
                                        int point_count,
@@ -6786,28 +6930,13 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     shade_pipeline p;
     shade__stroke s;
     shade__supply supply;
-    shade_mat4 clip_from_points;
     shade_result result = shade__begin(target,
                                        state && (points || point_count <= 0),
                                        stats);
     if (result) return result;
     if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_MESH;
-    SHADE__ZERO(p);
-    p.raster = state->raster;
-    p.raster.cull = SHADE_CULL_NONE;
-    if (!(state->width >= 0 && state->width <= FLT_MAX) ||
-        !SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE) || shade__raster_fault(&p.raster))
-        return SHADE_ERROR_STATE;
-    s.points = points;
-    s.state = state;
-    clip_from_points = shade__or_identity(state->clip_from_points);
-    shade__doubles(shade__entries(&clip_from_points), 16, s.clip_from_points);
-    s.half[0] = target->width / 2.0;
-    s.half[1] = target->height / 2.0;
-    s.half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
-    p.vertex = shade__stroke_vertex;
-    p.fragment = shade__stroke_color;
-    p.uniforms = &s;
+    if (shade__stroke_fault(state)) return SHADE_ERROR_STATE;
+    shade__stroke_of(target, points, state, &s, &p);
     (void)shade__supply_all(NULL, 3 * point_count, 3 * point_count, &supply);
     return shade__run_draw(target, &p, 1, &supply, stats);
 }
@@ -7114,6 +7243,24 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
+/* The camera as a matrix: columns right, up and back, and a point on the axis of sight.  It is the
+   identity, to the bit, for an eye on the z axis that looks down -z. */
+static shade_mat4 shade__frame_of(const shade__camera *c)
+{
+    const double *sight = c->sight;
+    const double up = shade__dot3(c->row[1], sight), ahead = shade__dot3(c->eye, sight);
+    double x[3], y[3], at[3];
+    for (int k = 0; k < 3; k++) {
+        y[k] = c->row[1][k] - up * sight[k];
+        at[k] = c->eye[k] - ahead * sight[k];
+    }
+    shade__direction3(y);
+    shade__cross3(sight, y, x);
+    return shade__m4(shade__xyzw(shade__single3(x), 0), shade__xyzw(shade__single3(y), 0),
+                     shade__xyzw(shade_neg(shade__single3(sight)), 0),
+                     shade__xyzw(shade__single3(at), 1));
+}
+
 /* First the eye stands in the middle of the box.  For each side of the picture it steps back along
    z until the side's plane, w +- x or w +- y, is not negative at the corner where it is least.
    6e-8 is for the rounding to float. */
@@ -7123,14 +7270,21 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
 {
     const shade_vec3 half = shade_scale(shade_sub(high, low), 0.5f);
     const float box[2][4] = { { low.x, low.y, low.z, 1 }, { high.x, high.y, high.z, 1 } };
-    const int perspective = projection.col[2].w < 0;
+    shade__camera camera;
     shade__frustum f;
     shade_mat4 view = shade_mat4_look_at(toward_eye, shade_v3(0, 0, 0), up);
-    double v[16], step = perspective ? -DBL_MAX : 2 * (double)shade_length(half);
+    double v[16], step = 2 * (double)shade_length(half);
+    shade_mat4 frame = shade_mat4_identity();
+    shade__camera_of(&projection, &frame, &camera);
+    if (camera.perspective) {
+        frame = shade__frame_of(&camera);
+        projection = shade__mat4_product(&projection, &frame);
+        step = -DBL_MAX;
+    }
     view.col[3] = shade__xyzw(
         shade_neg(shade_mat4_transform_direction(view, shade_add(low, half))), 1);
     shade__doubles(shade__entries(&view), 16, v);
-    for (int side = 0; perspective && side < 4; side++) {
+    for (int side = 0; camera.perspective && side < 4; side++) {
         const int sign = side & 1 ? -1 : 1;
         double least = 0, back;
         shade__frustum_plane(&projection, side / 2, sign, -sign, side, &f);
@@ -7144,6 +7298,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
     }
     v[14] -= step;
     view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
+    view = shade__mat4_product(&frame, &view);
     return low.x <= high.x && low.y <= high.y && low.z <= high.z && shade__finite3(toward_eye) &&
            shade__finite3(up) && shade__is_finite(&view) ? view : shade_mat4_identity();
 }
@@ -7318,38 +7473,18 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
      holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
-/* The centre of projection in eye space, which projection takes to (0, 0, z, 0); its w is 0 where
-   rays are parallel.  It does not depend on the row of z: where the matrix is singular because
-   depth is constant, that row becomes 0, 0, 0, 1. */
-static shade_vec4 shade__centre(shade_mat4 *projection)
-{
-    shade_vec4 c = shade_mat4_inverse(*projection).col[2];
-    if (shade_dot4(c, c) != 0) return c;
-    for (int k = 0; k < 4; k++) ((float *)projection)[4 * k + 2] = k == 3;
-    return shade_mat4_inverse(*projection).col[2];
-}
-
-/* m takes (nx, ny, z, 1) to homogeneous points, whose w is the 1 / w of clip space.  So the sign of
-   their difference is right: it points to where w grows from 0 at the centre or, on a parallel ray,
-   to where z grows. */
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
                                    int width, int height, float x, float y)
 {
+    shade__camera c;
     shade_ray ray;
-    const shade_vec4 centre = shade__centre(&projection);
-    const shade_mat4 m = shade_mat4_inverse(shade__mat4_product(&projection, &view));
-    const float nx = 2 * x / (float)shade__max(width, 1) - 1;
-    const float ny = 1 - 2 * y / (float)shade__max(height, 1);
-    shade_vec4 from = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
-    const shade_vec4 to = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
-    ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
-    if (centre.w != 0) {
-        const shade_vec3 eye = shade_scale(shade__xyz(centre), 1 / centre.w);
-        ray.origin = shade_mat4_transform_point(shade_mat4_inverse(view), eye);
-        from = shade__xyzw(ray.origin, 1);
-    }
-    ray.direction = shade__unit_vector(shade_sub(shade_scale(shade__xyz(to), from.w),
-                                                 shade_scale(shade__xyz(from), to.w)));
+    double from[3], way[3];
+    shade__camera_of(&projection, &view, &c);
+    shade__ray_through(&c, 2 * (double)x / shade__max(width, 1) - 1,
+                       1 - 2 * (double)y / shade__max(height, 1), from, way);
+    ray.origin = shade__single3(c.perspective ? c.eye : from);
+    ray.direction = shade__single3(way);
+    if (!shade__finite3(ray.origin) || !shade__finite3(ray.direction)) SHADE__ZERO(ray);
     return ray;
 }
 
@@ -7741,12 +7876,20 @@ static int shade__lights_up(const shade__survey *s)
     return shade__count(&q, s->dim) > 0;
 }
 
+/* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
+static float shade__dim_of(const shade_target *t)
+{
+    const shade__layout *l = &shade__layouts[t->format];
+    const float dim = 8.5f / 255;
+    if (l->bytes == 16) return FLT_MIN;
+    return shade__is_encoded(t->srgb, l) ? shade__decode(dim) : dim;
+}
+
 /* Makes a survey of the given draw: all its fragments, and depth is not written. */
 static void shade__open_survey(const shade_target *target, const shade_mesh *mesh,
                                const shade_draw_state *state, const shade_stats *stats,
                                shade__survey *s)
 {
-    const shade__layout *l = &shade__layouts[target->format];
     shade_vec4 last;
     SHADE__ZERO(*s);
     s->target = target;
@@ -7773,9 +7916,7 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
                                          : s->reversed);
 
-    s->dim = 8.5f / 255;
-    if (shade__is_encoded(target->srgb, l)) s->dim = shade__decode(s->dim);
-    if (l->bytes == 16) s->dim = FLT_MIN;
+    s->dim = shade__dim_of(target);
 }
 
 /* ---- other surfaces and lamps */
@@ -7850,11 +7991,10 @@ static uint32_t shade__outside(const shade__survey *s)
 }
 
 /* Was anything drawn before?  Then the caller's depth buffer holds different values. */
-static int shade__depth_varies(const shade__survey *s)
+static int shade__depth_varies(const shade_target *t)
 {
-    const shade_target *t = s->target;
-    const int *clip = s->clip;
-    if (!t->depth) return 0;
+    int clip[4];
+    if (!t->depth || !shade__clip_rectangle(t, clip)) return 0;
     for (int y = clip[1]; y < clip[3]; y++)
         for (int x = clip[0]; x < clip[2]; x++)
             if (t->depth[shade__offset_of(t, x, y)] !=
@@ -7881,7 +8021,7 @@ static int shade__eye_inside(const shade__survey *s)
      holds   A sentence is true of the pixels that are shown: of all, of nine tenths, or of none
              brighter than 8 of 255.  A band or a strip is never blamed for what another may show.
      way     shade__refusal; shade__why: shade__bad_number; the ladders of no picture, of no
-             pixels, of wrong ones, of black and of lit ones; shade__doubt.             >>image */
+             pixels, of wrong ones, of black and of lit ones; shade__doubt.            >>replay */
 
 /* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
    positions overlap. */
@@ -8101,7 +8241,7 @@ static int shade__fronts_are_culled(shade__survey *q)
 static int shade__is_scattered(shade__survey *q)
 {
     return shade__covered(q) * 4 < (long long)q->target->width * q->target->height &&
-           shade__depth_varies(q);
+           shade__depth_varies(q->target);
 }
 
 static int shade__all_cut(shade__survey *q)
@@ -8221,13 +8361,18 @@ static const shade__rung shade__test[] = {
     { NULL, NULL }
 };
 
+/* Other bands or strips may show what this one does not. */
+static int shade__is_band(const shade_target *t)
+{
+    int clip[4];
+    shade__clip_rectangle(t, clip);
+    return t->row_count || clip[2] - clip[0] == t->width || clip[3] - clip[1] == t->height;
+}
+
 static int shade__beside_clip(shade__survey *q)
 {
-    const shade_target *t = q->target;
-    const int band = t->row_count || q->clip[2] - q->clip[0] == t->width ||
-                     q->clip[3] - q->clip[1] == t->height;
     shade__look_in_clip(q);
-    return !band && !shade__covered(q);
+    return !shade__is_band(q->target) && !shade__covered(q);
 }
 
 /* How many pixels pass the depth test now: all, if there is no depth. */
@@ -8818,27 +8963,361 @@ static const char *shade__why(const shade__survey *s)
     return why ? why : shade__doubt(s);
 }
 
+/* Says that the clip rectangle is empty; "" where it lies beside the strip. */
+static const char *shade__clip_fault(const shade_target *t)
+{
+    shade_target picture = *t;
+    int clip[4];
+    picture.row_offset = picture.row_count = 0;
+    if (!shade__clip_rectangle(&picture, clip))
+        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
+               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
+    return shade__clip_rectangle(t, clip) ? NULL : "";
+}
+
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
                                    const shade_mesh *mesh,
                                    const shade_draw_state *state,
                                    const shade_stats *stats)
 {
     const char *why = shade__refusal(target, mesh, state);
-    shade_target picture;
     shade__survey s;
-    int clip[4];
+    if (!why) why = shade__clip_fault(target);
     if (why) return why;
-
-    picture = *target;
-    picture.row_offset = picture.row_count = 0;
-    if (!shade__clip_rectangle(&picture, clip))
-        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
-               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
-    if (!shade__clip_rectangle(target, clip)) return "";    /* a strip beside the rectangle */
 
     shade__open_survey(target, mesh, state, stats, &s);
     why = shade__why(&s);
     return why ? why : "";
+}
+
+/*----------------------------------------------------------------------------------------- >>replay
+   Why lines or a pipeline give no picture, or a wrong one, in one sentence.
+     in      what shade_draw_lines or shade_draw took, its stats
+     out     a constant sentence; "" for nothing
+     method  The draw is run again without a picture.  Shaders of this section call the given ones
+             and count what they give.
+     holds   The caller's memory is only read, unless the caller's own shaders write.
+     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere or
+             shade__why_kept_out; shade__why_faint.
+                                                                                          >>image */
+
+/* What the shaders gave in one run. */
+typedef struct shade__tally {
+    shade_stats stats;                   /* fragments: neither discarded nor hidden */
+    uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
+    int         any_w;                   /* is a w not 0? */
+    long long   fragments;               /* all of them; of these: */
+    long long   discarded, clear, dark, bright;    /* alpha 0; stored as 0; a channel of 16 or more */
+} shade__tally;
+
+/* A draw that is run again. */
+typedef struct shade__replay {
+    const shade_target *target;          /* the caller's */
+    const shade_stats  *given;           /* the caller's; NULL: none */
+    const shade_line_state *lines;       /* NULL: the pipeline is the caller's */
+    const uint32_t     *indices;
+    int             corners;
+    shade_pipeline  pipe;                /* the given one, but for its raster */
+    shade_target    picture;             /* of this run; without colours */
+    shade__tally   *tally;
+} shade__replay;
+
+static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                 shade_vertices *SHADE_RESTRICT out)
+{
+    const shade__replay *r = (const shade__replay *)uniforms;
+    r->pipe.vertex(r->pipe.uniforms, in, out);
+    for (int i = 0; i < in->count; i++) {
+        const float x = out->clip[0][i], y = out->clip[1][i], w = out->clip[3][i];
+        const uint32_t bits =
+            shade__outcode(x, y, out->clip[2][i], w, r->pipe.raster.depth_zero_to_one);
+        if (!(bits & SHADE__OUT_BAD)) r->tally->outside &= bits;
+        r->tally->any_w |= w != 0;
+    }
+}
+
+/* Calls the given shader where a draw calls it. */
+static void shade__replay_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                   shade_colors *SHADE_RESTRICT out)
+{
+    const shade__replay *r = (const shade__replay *)uniforms;
+    const float black = shade__dim_of(r->target);
+    shade__tally *t = r->tally;
+    t->fragments += in->count;
+    if (!r->pipe.fragment || !(r->target->color || r->pipe.may_discard)) return;
+    r->pipe.fragment(r->pipe.uniforms, in, out);
+    for (int i = 0; i < in->count; i++) {
+        float most = 0;
+        for (int k = 0; k < 3; k++) most = shade__maxf(out->color[k][i], most);
+        t->discarded += out->discard[i] != 0;
+        t->clear += !(out->color[3][i] > 0);
+        t->dark += most < black;
+        t->bright += most >= 16;
+        if (!r->pipe.may_discard) out->discard[i] = 0;
+    }
+}
+
+static shade__tally shade__run_again(const shade__replay *r)
+{
+    shade__replay run = *r;
+    shade__tally tally;
+    shade__supply supply;
+    shade_pipeline p = r->pipe;
+    SHADE__ZERO(tally);
+    tally.outside = ~0u;
+    run.tally = &tally;
+    p.vertex = shade__replay_vertex;
+    p.fragment = shade__replay_fragment;
+    p.uniforms = &run;
+    p.may_discard = p.raster.depth_read_only = 1;
+    (void)shade__supply_all(r->indices, r->corners, INT32_MAX, &supply);
+    shade__run_draw(&r->picture, &p, 1, &supply, &tally.stats);
+    return tally;
+}
+
+/* ---- the matrix of lines */
+
+/* Are the rows of z and w those of a perspective times a view: parallel, and w's of length 1? */
+static int shade__is_camera(const shade_mat4 *m)
+{
+    const shade_vec3 z = shade_v3(m->col[0].z, m->col[1].z, m->col[2].z);
+    const shade_vec3 w = shade_v3(m->col[0].w, m->col[1].w, m->col[2].w), n = shade_cross(z, w);
+    return shade__within(shade_dot(w, w) - 1, 1e-3f) &&
+           shade_dot(n, n) <= 1e-6f * shade_dot(z, z);
+}
+
+static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
+{
+    const shade_mat4 m = shade__or_identity(r->lines->clip_from_points);
+    const shade_mat4 turned = shade_mat4_transpose(m);
+    shade__replay by_rows = *r;
+    shade__stroke stroke = *(const shade__stroke *)r->pipe.uniforms;
+    if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
+        return "Every line lies outside of the cube from -1 to 1: state.clip_from_points is unset, "
+               "or no projection; it is projection times view, in this order.";
+    /* w = -z, but what is left is no perspective */
+    if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
+        (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
+        return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
+               "projection first, then view.";
+
+    if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
+                                      !shade__is_camera(&turned)))
+        return NULL;
+    shade__doubles(shade__entries(&turned), 16, stroke.clip_from_points);
+    by_rows.pipe.uniforms = &stroke;
+    return shade__run_again(&by_rows).fragments
+               ? "state.clip_from_points looks transposed (row-major): pass it through "
+                 "shade_mat4_transpose."
+               : NULL;
+}
+
+/* ---- no pixel of the whole picture is covered */
+
+/* The clip-space positions of points, each three times. */
+static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                shade_vertices *SHADE_RESTRICT out)
+{
+    double end[4];
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade__stroke_end((const shade__stroke *)uniforms, in->index[i] / 3, end);
+        for (int k = 0; k < 4; k++) out->clip[k][i] = (float)end[k];
+    }
+}
+
+static const char *shade__why_outside(const shade__replay *r)
+{
+    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
+    shade__replay points = *r;
+    shade__tally t;
+    if (r->lines) points.pipe.vertex = shade__point_vertex;
+    t = shade__run_again(&points);
+    if (!t.any_w)
+        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 where no "
+               "matrix projects; or the matrix is not projection times view, in this order.";
+    if (t.outside & (greater ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
+        return "All positions lie beyond the far plane, as if projection had near = far, degrees "
+               "for radians, or an aspect of 0; or move far out, or the eye nearer.";
+    if (t.outside & SHADE__OUT_W)
+        return "All positions lie behind the eye, where w is negative: in clip space they are "
+               "projection times view times model times (P, 1), and the eye looks down -z.";
+    if (t.outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
+        return "All positions lie nearer than the near plane, or behind the eye; move near in, or "
+               "the eye back.";
+    return "All positions lie beside the picture, before near or beyond far: in clip space they "
+           "are projection times view times model times (P, 1), with -w <= x, y, z <= w.";
+}
+
+static const char *shade__why_nowhere(const shade__replay *r, const shade_stats *n)
+{
+    shade__replay both = *r;
+    both.pipe.raster.cull = SHADE_CULL_NONE;
+    if (shade__run_again(&both).fragments)
+        return r->pipe.raster.cull == SHADE_CULL_FRONT
+                   ? "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; "
+                     "use SHADE_CULL_BACK or SHADE_CULL_NONE."
+                   : "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front "
+                     "is counter-clockwise on the screen.  Reverse the winding, or use "
+                     "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
+    if (n->clipped == n->triangles) return shade__why_outside(r);
+    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a line "
+                      "has gaps; or they lie beside the picture."
+                    : "The triangles cover no pixel centre: they have no area on the screen, since "
+                      "their corners coincide or they are seen edge-on, or lie beside the picture.";
+}
+
+/* ---- pixels are covered, but the draw gave none, or maybe none */
+
+static const char *shade__why_kept_out(const shade__replay *r, const shade__tally *t)
+{
+    const shade_target *target = r->target;
+    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
+    shade_raster *raster;
+    shade__replay part = *r;
+    long long covered;
+    raster = &part.pipe.raster;
+    part.picture = *target;
+    part.picture.color = NULL;
+    part.picture.depth = NULL;
+    covered = shade__run_again(&part).fragments;
+    if (!covered)
+        return shade__is_band(target)
+                   ? NULL
+                   : "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width "
+                     "and clip_height; all four zero mean everywhere.";
+    if (r->pipe.may_discard && t->discarded == t->fragments)
+        return "pipeline.fragment discards all pixels.";
+
+    part.picture.depth = target->depth;
+    if (shade__run_again(&part).stats.fragments) return NULL;
+    if (raster->depth_test == SHADE_COMPARE_EQUAL)
+        return "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds no depth that is "
+               "equal: draw the same positions with another test before.";
+    raster->depth_test = SHADE_COMPARE_EQUAL;
+    if (!r->given && shade__run_again(&part).stats.fragments) return NULL;    /* its own depth */
+    raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
+    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth that there is */
+    if (!shade__run_again(&part).stats.fragments)
+        return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
+               "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
+               "depth of 1, or 0 for a reversed projection.";
+    raster->depth_bias *= 1e-4f;
+    if (r->lines && shade__run_again(&part).stats.fragments * 2 > covered)
+        return "The lines lie in surfaces that target.depth holds, which hide them: use "
+               "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
+    if (!r->given || (covered * 4 < (long long)target->width * target->height &&
+                      shade__depth_varies(target)))
+        return NULL;    /* one of many things in a scene may well be hidden */
+    return "What target.depth holds hides everything: other draws, the frame before without a "
+           "shade_clear, or raster.depth_bias, which pushes it back.";
+}
+
+/* ---- pixels are drawn, but wrongly */
+
+static const char *shade__why_faint(const shade__replay *r, const shade__tally *t)
+{
+    const shade_raster *raster = &r->pipe.raster;
+    const int dark = t->dark == t->fragments, clear = t->clear == t->fragments;
+    if (!r->pipe.fragment && (!r->target->depth || raster->depth_read_only))
+        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
+               "or raster.depth_read_only is set.";
+    if (!r->pipe.fragment || !r->target->color) return NULL;
+    if (!r->pipe.may_discard && t->discarded)
+        return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
+    if (raster->blend == SHADE_BLEND_OVER)
+        return clear ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
+                       "out->color[3] of pipeline.fragment, or state.color.w of lines."
+                     : NULL;
+    if (dark && raster->blend == SHADE_BLEND_ADD)
+        return "All colours are black, or NaN, so that SHADE_BLEND_ADD adds nothing.";
+    if (dark && r->lines)
+        return clear ? "state.color is not set: the lines are drawn in black." : NULL;
+    if (dark && raster->cull != SHADE_CULL_FRONT)    /* outlines are black */
+        return "pipeline.fragment gives black, or NaN, everywhere: check out->color[0] to [2], "
+               "which it must write, pipeline.uniforms, and the varyings of pipeline.vertex.";
+    return t->bright * 10 >= t->fragments * 9 && r->target->format != SHADE_FORMAT_RGBA32F
+               ? "Almost all colours are clipped to white, or a full channel: in out->color, and in "
+                 "state.color of lines, 1 is full light, not 255."
+               : NULL;
+}
+
+/* Explains a draw whose arguments have this fault, or none. */
+static const char *shade__explain_replay(shade__replay *r, const char *fault)
+{
+    const int sure = r->given && r->given->fragments > 0;
+    const char *why = fault ? fault : shade__clip_fault(r->target);
+    shade__tally t;
+    if (why) return why;
+    r->picture.width = r->target->width;
+    r->picture.height = r->target->height;
+    t = shade__run_again(r);
+
+    if (t.stats.rejected)
+        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge numbers "
+                          "(beyond 1e30), so that lines are left out."
+                        : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
+                          "that triangles are left out: check its uniforms and what it reads.";
+    if (r->lines) why = shade__why_matrix(r, &t);
+    if (!why && !sure)
+        why = t.fragments ? shade__why_kept_out(r, &t) : shade__why_nowhere(r, &t.stats);
+    if (!why && (sure || !r->given)) why = shade__why_faint(r, &t);
+    return why ? why : "";
+}
+
+SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
+                                                    const shade_pipeline *pipeline,
+                                                    const uint32_t *indices, int index_count,
+                                                    int vertex_count, const shade_stats *stats)
+{
+    const char *fault;
+    shade__replay r;
+    if (!target || !pipeline || !pipeline->vertex)
+        return "target, pipeline or pipeline.vertex is NULL, and must not be.";
+    fault = shade__target_fault(target);
+    if (!fault && (index_count < 0 || vertex_count < 0))
+        fault = "index_count or vertex_count is negative.";
+    if (!fault) fault = shade__pipeline_fault(pipeline);
+    if (!fault) fault = shade__lod_fault(pipeline);
+    if (!fault && index_count % 3)
+        fault = "index_count is no multiple of 3; it counts indices, three a triangle.";
+    if (!fault && shade__check_indices(indices, index_count, vertex_count))
+        fault = "indices hold one at or past vertex_count, or without indices index_count exceeds "
+                "vertex_count, which counts vertices, not floats.";
+    if (!fault && !index_count)
+        fault = "There is no triangle to draw: index_count is 0; without indices it counts vertices.";
+
+    SHADE__ZERO(r);
+    r.target = target;
+    r.given = stats;
+    r.indices = indices;
+    r.corners = index_count;
+    r.pipe = *pipeline;
+    return shade__explain_replay(&r, fault);
+}
+
+SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
+                                                     const shade_vec3 *points, int point_count,
+                                                     const shade_line_state *state,
+                                                     const shade_stats *stats)
+{
+    const char *fault;
+    shade__stroke stroke;
+    shade__replay r;
+    if (!target || !state || (!points && point_count > 0))
+        return "target, state or points is NULL, and must not be.";
+    fault = shade__target_fault(target);
+    if (!fault && (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3))
+        fault = "point_count is negative, odd, or beyond 715827882; it counts points, two a line.";
+    if (!fault) fault = shade__stroke_fault(state);
+    if (!fault && !point_count) fault = "There is no line to draw: point_count is 0.";
+
+    SHADE__ZERO(r);
+    r.target = target;
+    r.given = stats;
+    r.lines = state;
+    r.corners = 3 * point_count;
+    shade__stroke_of(target, points, state, &stroke, &r.pipe);
+    return shade__explain_replay(&r, fault);
 }
 
 /*------------------------------------------------------------------------------------------ >>image
