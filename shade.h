@@ -72,11 +72,11 @@
      Inside: tools, which call the renderer; it names none of them
        >>lines     6649  shade_draw_lines      >>shape     6807  normals, edges
        >>chunks    7143  how boxes are made    >>rays      7307  shade_pick
-       >>survey    7503  experiments on a draw >>explain   7754  why nothing is seen
-       >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
+       >>survey    7503  experiments on a draw >>explain   7834  why nothing is seen
+       >>image     8755  mipmaps, PPM           >>presets   9023  classic materials
      Sources
-       >>refs      8743                        >>history   8773
-       >>license   8785
+       >>refs      9099                        >>history   9129
+       >>license   9141
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7501,11 +7501,11 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 }
 
 /*----------------------------------------------------------------------------------------- >>survey
-   Experiments for >>explain: a mesh is drawn again, with one thing changed after the other, in the
-   pixels of the real picture, so that what no pixel shows is not there.  Each counts pixels: a
-   fragment shader of this section discards those that the question is not about.
+   Experiments for >>explain: a mesh is drawn again with something changed, and pixels are counted.
      in      what shade_draw_mesh took     out  numbers of pixels, stats; depths of some pixels
-     holds   The caller's memory is read, never written, and his fragment shader is not called.
+     holds   A survey is a draw.  An experiment changes a copy of it and draws the copy.  The
+             caller's memory is only read, and the caller's fragment shader is not called.
+     way     shade__open_survey; of a copy: a change, then shade__count or shade__take_probes.
                                                                                         >>explain */
 
 enum {
@@ -7520,43 +7520,50 @@ typedef struct shade__probe {
     uint32_t front, any_front;           /* is the nearest front-facing; is one of them */
 } shade__probe;
 
+/* A draw: the given one, and what is drawn in its place.  No pointer leads into the survey itself,
+   so that a copy is a survey of its own. */
 typedef struct shade__survey {
-    shade__scene scene;                  /* of the experiment; first, as its shaders expect */
-    const shade_target     *target;      /* what the caller passed */
+    const shade_target     *target;      /* the caller's */
     const shade_mesh       *given_mesh;
     const shade_draw_state *given_state;
     const shade_stats      *given_stats; /* NULL: none were passed */
 
-    shade_target     picture;            /* what the next experiment draws, and to which pixels */
+    shade_target     picture;            /* the pixels and the depth test of the experiment */
     shade_mesh       mesh;
-    shade_draw_state state;
-    shade_material   material, surface;  /* surface: the one given, or white */
+    shade_draw_state state;              /* but for its material and lamps, which follow */
+    shade_material   material;           /* the given one, or white */
     shade_light      lamp[SHADE__SUSPECTS];
-    float            least;              /* pixels count if a channel is this; 0: all of them */
-    uint32_t         every;              /* one of so many pixels is sampled; 0: none */
-    uint32_t         nearer;             /* leave out what is within 1e-6 of farthest? */
-    shade__probe   *probes;
+    int              own_lamps;          /* lamp is in use, not state.lighting.lights */
+    uint32_t         white_map;          /* the map has its holes, but no colours */
+    int              nearer;             /* depths within 1e-6 of farthest are left out */
 
-    int        clip[4], whole;           /* the clip rectangle; is it the whole picture? */
-    uint32_t   white;                    /* are the colours of the map left out? */
-    int        exact;                    /* experiments see what the picture shows, no more */
-    float      black;                    /* channels below it are stored as 0 */
-    int        reversed;                 /* is z = w on the eye's side of a perspective? */
-    float      farthest;                 /* depth of pixels that do not show the mesh */
-    shade_stats stats;                   /* of the last experiment */
+    int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
+    int   exact;                         /* experiments draw what the picture shows, no more */
+    float black;                         /* channels below it are stored as 0 */
+    int   reversed;                      /* is z = w on the eye's side of a perspective? */
+    float farthest;                      /* depth of pixels that do not show the mesh */
 } shade__survey;
 
+/* One drawing of a survey, for its fragment shader. */
+typedef struct shade__trial {
+    shade__scene scene;                  /* first, as the shaders of meshes expect */
+    const shade__survey *survey;
+    float         least;                 /* pixels count if a channel is this; 0: all of them */
+    uint32_t      every;                 /* one of this many pixels is sampled; 0: none */
+    shade__probe *probes;
+} shade__trial;
+
 /* Notes the depth of lane i, if its pixel is among those sampled. */
-static void shade__take_probe(const shade__survey *s,
-                               const shade_fragments *in, int i)
+static void shade__take_probe(const shade__trial *trial,
+                              const shade_fragments *in, int i)
 {
     const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * 16384 + 1;
     const uint32_t hash = place * 2654435769u >> 8;
-    shade__probe *at = s->probes + hash / s->every % SHADE__PROBES;
+    shade__probe *at = trial->probes + hash / trial->every % SHADE__PROBES;
     const float z = in->z[i];
     float nearer = 1;
-    if (hash % s->every || (at->place && at->place != place)) return;
-    if (at->place) nearer = (at->nearest - z) * (2 * s->farthest - 1);
+    if (hash % trial->every || (at->place && at->place != place)) return;
+    if (at->place) nearer = (at->nearest - z) * (2 * trial->survey->farthest - 1);
     if (nearer > 1e-6f) {
         at->nearest = z;
         at->front = 0;
@@ -7567,144 +7574,232 @@ static void shade__take_probe(const shade__survey *s,
     at->any_front |= in->front[i];
 }
 
-/* The fragment shader of experiments. */
+/* The fragment shader of experiments: it discards what does not count. */
 static void shade__judge(const void *uniforms,
                          const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
-    const shade__survey *s = (const shade__survey *)uniforms;
+    const shade__trial *trial = (const shade__trial *)uniforms;
+    const shade__survey *s = trial->survey;
     const int over = s->state.raster.blend == SHADE_BLEND_OVER;
-    shade__mesh_colors(&s->scene, in, out);
-    shade__mesh_alpha(&s->scene, out);
+    shade__mesh_colors(&trial->scene, in, out);
+    shade__mesh_alpha(&trial->scene, out);
     for (int i = 0; i < in->count; i++) {
         const float a = over ? out->color[3][i] : 1;
-        int counts = !(s->least > 0);
-        for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= s->least;
+        int counts = !(trial->least > 0);
+        for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= trial->least;
         if (s->nearer) counts &= !shade__within(in->z[i] - s->farthest, 1e-6f);
         if (!counts) out->discard[i] = 1;
-        if (s->every && !out->discard[i]) shade__take_probe(s, in, i);
+        if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
     }
 }
 
-/* Draws the mesh.  Returns how many pixels show it, with a channel of least or more. */
-static long long shade__count(shade__survey *s, float least)
+/* Draws the survey.   pre: least, every and probes of the trial are set */
+static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial)
 {
     shade_target t = s->picture;
-    s->least = least;
-    if (!(least > 0)) t.color = NULL;
-    shade__scene_of(&t, &s->mesh, &s->state, &s->scene);
-    s->scene.white_map = s->white;
+    shade_draw_state state = s->state;
+    shade_stats stats;
+    state.material = &s->material;
+    if (s->own_lamps) state.lighting.lights = s->lamp;
+    if (!(trial->least > 0)) t.color = NULL;
+    shade__scene_of(&t, &s->mesh, &state, &trial->scene);
+    trial->scene.white_map = s->white_map;
+    trial->survey = s;
     t.color = NULL;
-    shade__draw_scene(&t, &s->scene, shade__judge, 1, &s->stats);
-    return s->stats.fragments;
+    shade__draw_scene(&t, &trial->scene, shade__judge, 1, &stats);
+    return stats;
 }
 
-/* Draws the mesh.  Returns how many pixels show it. */
-static long long shade__covered(shade__survey *s) { return shade__count(s, 0); }
+/* Returns what became of the triangles; fragments is the number of pixels that have a channel of
+   least or more. */
+static shade_stats shade__stats_of(const shade__survey *s, float least)
+{
+    shade__trial trial;
+    SHADE__ZERO(trial);
+    trial.least = least;
+    return shade__draw_trial(s, &trial);
+}
+
+static long long shade__count(const shade__survey *s, float least)
+{
+    return shade__stats_of(s, least).fragments;
+}
+
+/* Returns how many pixels the mesh covers. */
+static long long shade__covered(const shade__survey *s) { return shade__count(s, 0); }
 
 /* Is a pixel of the mesh not black when stored? */
-static int shade__shows(shade__survey *s)
+static int shade__shows(const shade__survey *s)
 {
     return shade__count(s, s->black) > 0;
 }
 
 /* Is there light that a surface of its square root would still show? */
-static int shade__bright(shade__survey *s)
+static int shade__bright(const shade__survey *s)
 {
     return shade__count(s, shade__sqrt(s->black)) > 0;
 }
 
-/* Makes the given draw fit for experiments: depth is not written, highlights are too wide to lie
-   between pixels, and the caller's fragment shader is not called. */
-static void shade__begin_survey(shade__survey *s)
+/* Draws the mesh with this culling, and samples pixels. */
+static void shade__take_probes(const shade__survey *s, shade_cull cull,
+                               shade__probe probes[SHADE__PROBES])
 {
-    const shade__layout *l = &shade__layouts[s->target->format];
-    shade_vec4 last;
-    s->mesh = *s->given_mesh;
-    s->state = *s->given_state;
-    s->state.projection = shade__or_identity(s->state.projection);
-    last = s->state.projection.col[3];
-    s->reversed = last.w == 0 && last.z > 0;
-    s->farthest = (float)!(s->target->depth ? (int)shade__compare_of(&s->state.raster).greater
-                                            : s->reversed);
-    s->state.raster.depth_read_only = 1;
-    s->white = s->nearer = s->every = 0;
-
-    s->black = s->target->dither && l->bytes == 2 ? 0.03f : 0.499f;
-    s->black /= (float)l->full[1];
-    if (shade__is_encoded(s->target->srgb, l)) s->black /= 12.92f;
-    if (l->bytes == 16) s->black = FLT_MIN;
-
-    SHADE__ZERO(s->surface);
-    s->surface.diffuse = s->surface.ambient = shade_v3(1, 1, 1);
-    if (s->state.material) s->surface = *s->state.material;
-    s->material = s->surface;
-    s->material.shininess = shade__minf(s->surface.shininess, 4);
-    s->state.material = &s->material;
-
-    if (s->state.fragment) s->state.alpha_cutoff = 0;
-    s->state.fragment = NULL;
-    s->state.model = shade__or_identity(s->state.model);
-    s->state.view = shade__or_identity(s->state.view);
+    shade__survey q = *s;
+    shade__trial trial;
+    q.state.raster.cull = cull;
+    q.state.raster.depth_bias = 0;    /* depths at the end of their range would be equal */
+    SHADE__ZERO(trial);
+    trial.every = 1 + (uint32_t)(shade__covered(&q) * 2 / SHADE__PROBES);
+    trial.probes = probes;
+    for (int k = 0; k < SHADE__PROBES; k++) SHADE__ZERO(probes[k]);
+    shade__draw_trial(&q, &trial);
 }
 
-/* Experiments draw all fragments, in the whole picture, without a depth test. */
-static void shade__look_at_all(shade__survey *s)
+/* ---- which pixels are drawn */
+
+/* All fragments, in the whole picture, without a depth test. */
+static void shade__look_at_all(shade__survey *q)
 {
-    SHADE__ZERO(s->picture);
-    s->picture.width = s->target->width;
-    s->picture.height = s->target->height;
-    s->picture.color = s->target->color;
-    s->exact = 0;
+    SHADE__ZERO(q->picture);
+    q->picture.width = q->target->width;
+    q->picture.height = q->target->height;
+    q->picture.color = q->target->color;
+    q->exact = 0;
 }
 
-/* Experiments draw the fragments in the clip rectangle that pass this depth test now. */
-static void shade__look_through(shade__survey *s, shade_compare test)
+/* All fragments in the clip rectangle. */
+static void shade__look_in_clip(shade__survey *q)
 {
-    s->picture = *s->target;
-    s->state.raster.depth_test = test;
+    q->picture = *q->target;
+    q->picture.depth = NULL;
 }
 
-/* Experiments draw what the picture shows: after a draw these are the fragments of stored depth.
-   A band shows too little, blending shows more, a bias makes depths equal at the end of their
-   range, and depth may have changed since: all fragments are drawn then, so that what they lack is
-   not there.  Where depth is not written, fragments that passed hide others.  Returns how many they
-   are. */
-static long long shade__look_at_seen(shade__survey *s)
+/* The fragments in the clip rectangle that pass this depth test now. */
+static void shade__look_through(shade__survey *q, shade_compare test)
 {
-    const shade_draw_state *d = s->given_state;
+    q->picture = *q->target;
+    q->state.raster.depth_test = test;
+}
+
+/* What the picture shows: after a draw these are the fragments of stored depth.  A band shows too
+   little, blending shows more, a bias makes depths equal at the end of their range, and depth may
+   have changed since: all fragments are drawn then, so that what they lack is not there.  Where
+   depth is not written, fragments that passed hide others. */
+static void shade__look_at_seen(shade__survey *q)
+{
+    const shade_draw_state *d = q->given_state;
     const shade_raster *r = &d->raster;
     const int opaque = r->blend == SHADE_BLEND_REPLACE ||
                        (r->blend == SHADE_BLEND_OVER && d->transparency == 0 && !d->diffuse_map);
-    shade__begin_survey(s);
-    shade__look_through(s, r->depth_read_only ? r->depth_test
-                                              : SHADE_COMPARE_EQUAL);
-    if (s->whole && s->target->depth &&
-        (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(s))
-        s->exact = !r->depth_read_only;
-    else shade__look_at_all(s);
-    return shade__covered(s);
+    shade__look_through(q, r->depth_read_only ? r->depth_test : SHADE_COMPARE_EQUAL);
+    if (q->whole && q->target->depth &&
+        (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(q))
+        q->exact = !r->depth_read_only;
+    else shade__look_at_all(q);
 }
 
-/* Draws the mesh with this culling, and fills probes, which must be zero. */
-static void shade__take_probes(shade__survey *s, shade_cull cull,
-                                shade__probe *probes)
+/* Makes a survey of the given draw: all its fragments, and depth is not written. */
+static void shade__open_survey(const shade_target *target, const shade_mesh *mesh,
+                               const shade_draw_state *state, const shade_stats *stats,
+                               shade__survey *s)
 {
-    s->state.raster.cull = cull;
-    s->state.raster.depth_bias = 0;    /* depths at the end of their range would be equal */
-    s->every = 1 + (uint32_t)(shade__covered(s) * 2 / SHADE__PROBES);
-    s->probes = probes;
-    shade__covered(s);
-    s->every = 0;
+    const shade__layout *l = &shade__layouts[target->format];
+    shade_vec4 last;
+    SHADE__ZERO(*s);
+    s->target = target;
+    s->given_mesh = mesh;
+    s->given_state = state;
+    s->given_stats = stats;
+    shade__look_at_all(s);
+    s->mesh = *mesh;
+    s->state = *state;
+    s->state.raster.depth_read_only = 1;
+    s->state.model = shade__or_identity(s->state.model);
+    s->state.view = shade__or_identity(s->state.view);
+    s->state.projection = shade__or_identity(s->state.projection);
+    if (s->state.fragment) s->state.alpha_cutoff = 0;
+    s->state.fragment = NULL;
+    s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
+    if (state->material) s->material = *state->material;
+
+    s->whole = shade__clip_rectangle(target, s->clip) &&
+               s->clip[2] - s->clip[0] == target->width &&
+               s->clip[3] - s->clip[1] == target->height;
+    last = s->state.projection.col[3];
+    s->reversed = last.w == 0 && last.z > 0;
+    s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
+                                         : s->reversed);
+
+    s->black = target->dither && l->bytes == 2 ? 0.03f : 0.499f;
+    s->black /= (float)l->full[1];
+    if (shade__is_encoded(target->srgb, l)) s->black /= 12.92f;
+    if (l->bytes == 16) s->black = FLT_MIN;
 }
 
-/* The SHADE__OUT_... bits that all corners share in the last experiment. */
+/* ---- other surfaces and lamps */
+
+/* Highlights become too wide to lie between pixels. */
+static void shade__widen(shade__survey *q)
+{
+    q->material.shininess = shade__minf(q->material.shininess, 4);
+}
+
+/* The surface reflects all light.  The map keeps its holes, and a material that is NULL has no
+   highlights. */
+static void shade__whiten(shade__survey *q)
+{
+    const shade_vec3 one = shade_v3(1, 1, 1);
+    q->mesh.colors = NULL;
+    q->white_map = 1;
+    q->material.diffuse = q->material.ambient = one;
+    if (q->given_state->material) q->material.specular = one;
+    shade__widen(q);
+}
+
+/* One white lamp, and no other light. */
+static void shade__light_by(shade__survey *q, shade_vec4 position, unsigned flags)
+{
+    shade_lighting *l = &q->state.lighting;
+    SHADE__ZERO(*l);
+    l->light_count = 1;
+    l->flags = flags;
+    q->own_lamps = 1;
+    q->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
+    q->lamp[0].position = position;
+}
+
+/* The first of the given lamps, without attenuation and exponent. */
+static void shade__light_everywhere(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
+    q->own_lamps = 1;
+    for (int i = 0; i < l->light_count; i++) {
+        shade_light *lamp = &q->lamp[i];
+        *lamp = l->lights[i];
+        lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
+    }
+}
+
+/* Lights every fragment, where there is room for its position and normal. */
+static void shade__light_fragments(shade__survey *q)
+{
+    if (SHADE_MAX_VARYINGS > (q->state.diffuse_map ? 7 : 5))
+        q->state.shading = SHADE_SHADING_PER_FRAGMENT;
+}
+
+/* ---- questions that need no drawing */
+
+/* The SHADE__OUT_... bits that all corners share. */
 static uint32_t shade__outside(const shade__survey *s)
 {
+    shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     uint32_t all = ~0u;
+    m = shade__mat4_product(&m, &s->state.model);
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
-        const shade_vec4 c = shade_mat4_transform(s->scene.clip_from_object, shade__xyzw(p, 1));
+        const shade_vec4 c = shade_mat4_transform(m, shade__xyzw(p, 1));
         const uint32_t out =
             shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
         if (!(out & SHADE__OUT_BAD)) all &= out;
@@ -7726,22 +7821,7 @@ static int shade__depth_varies(const shade__survey *s)
     return 0;
 }
 
-/* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
-   Such a mesh may well be hidden, or seen edge-on. */
-static int shade__is_scattered(shade__survey *s)
-{
-    return shade__covered(s) * 4 < (long long)s->target->width * s->target->height &&
-           shade__depth_varies(s);
-}
-
-/* Lights every fragment, where there is room for its position and normal. */
-static void shade__light_fragments(shade__survey *s)
-{
-    if (SHADE_MAX_VARYINGS > (s->state.diffuse_map ? 7 : 5))
-        s->state.shading = SHADE_SHADING_PER_FRAGMENT;
-}
-
-static int shade__eye_inside(shade__survey *s)
+static int shade__eye_inside(const shade__survey *s)
 {
     const shade_mat4 m = shade__mat4_product(&s->state.view, &s->state.model);
     const shade_vec3 eye = shade__xyz(shade_mat4_inverse(m).col[3]);
@@ -7754,12 +7834,12 @@ static int shade__eye_inside(shade__survey *s)
 /*---------------------------------------------------------------------------------------- >>explain
    Why a draw gives no picture, or the wrong one, in one sentence.
      in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
-     method  Arguments and matrices are checked.  Then one thing after the other is changed until
-             the mesh appears: the last change names the fault.  Changes are kept, so that two
-             faults at once are found as well.
+     method  Ladders: tables of changes and sentences, tried from top to bottom.  A rung changes the
+             survey, draws it, and says whether its sentence is true.
      holds   A sentence is said where the matrices or the pixels of the real picture prove it.  A
              band or a strip is never blamed for what another one may show.
-                                                                                          >>image */
+     way     shade__refusal; shade__why: ladders of the given draw, of no picture, of a black one,
+             of a lit one.                                                                >>image */
 
 /* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
    positions overlap. */
@@ -7791,6 +7871,47 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
     if (m->position_stride && m->position_stride < 12)
         return "mesh.position_stride is shorter than a position of 12 bytes; strides count bytes, "
                "not floats, and 0 means tightly packed.";
+    return NULL;
+}
+
+/* ---- ladders */
+
+typedef enum shade__outcome {
+    SHADE__GO_ON,                        /* to the next rung */
+    SHADE__SAY,                          /* the sentence of the rung */
+    SHADE__LEAVE                         /* the ladder: what is seen may be meant */
+} shade__outcome;
+
+typedef struct shade__rung {
+    shade__outcome (*change)(shade__survey *q);
+    const char *sentence;
+} shade__rung;
+
+static shade__outcome shade__say_if(int holds) { return holds ? SHADE__SAY : SHADE__GO_ON; }
+
+static shade__outcome shade__leave_if(int holds) { return holds ? SHADE__LEAVE : SHADE__GO_ON; }
+
+/* Returns the sentence of the first rung that says it, or NULL.  All rungs change one copy of the
+   survey, and their changes are kept: the last change names the fault, and two faults at once are
+   found as well. */
+static const char *shade__climb_on(const shade__survey *s, const shade__rung *rung)
+{
+    shade__survey q = *s;
+    for (; rung->change; rung++) {
+        const shade__outcome outcome = rung->change(&q);
+        if (outcome != SHADE__GO_ON) return outcome == SHADE__SAY ? rung->sentence : NULL;
+    }
+    return NULL;
+}
+
+/* The same, but each rung changes a copy of its own. */
+static const char *shade__climb(const shade__survey *s, const shade__rung *rung)
+{
+    for (; rung->change; rung++) {
+        shade__survey q = *s;
+        const shade__outcome outcome = rung->change(&q);
+        if (outcome != SHADE__GO_ON) return outcome == SHADE__SAY ? rung->sentence : NULL;
+    }
     return NULL;
 }
 
@@ -7830,97 +7951,86 @@ static int shade__faces_ahead(const shade_mat4 *p)
     return x.y == 0 && x.z == 0 && x.w == 0 && y.x == 0 && y.z == 0 && y.w == 0;
 }
 
-static const char *shade__suspect_matrices(const shade__survey *s)
+static shade__outcome shade__matrix_is_nan(shade__survey *q)
 {
-    static const char *const transposed[] = {
-        "state.model looks transposed (row-major): its translation belongs in col[3]; pass it "
-        "through shade_mat4_transpose.",
-        "state.view looks transposed (row-major): its translation belongs in col[3]; pass it "
-        "through shade_mat4_transpose."
-    };
-    const shade_mat4 *m[3] = { &s->state.model, &s->state.view, &s->state.projection };
-    const shade_mat4 *view = m[1], *p = m[2];
-    for (int k = 0; k < 3; k++) {
-        if (!shade__is_finite(m[k]))
-            return "state.model, state.view or state.projection holds a NaN or infinity.";
-        if (k < 2 && shade__is_transposed(m[k])) return transposed[k];
-    }
-
-    if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
-        return "state.projection is what cameras give for bad arguments: fovy must be in radians "
-               "and below pi (use shade_radians for degrees), near and far above 0 and different, "
-               "the aspect not 0, left not equal to right, bottom not to top.";
-    if (!shade__is_affine(view) || (!shade__is_rigid(view) && shade__is_rigid(p) &&
-                                    !shade__is_zero(shade__xyz(p->col[3]))))
-        return "state.view holds a projection: state.view and state.projection look swapped.";
-    if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(p) &&
-        !s->state.raster.depth_zero_to_one)
-        return "state.projection is that of shade_mat4_perspective_reversed, which needs "
-               "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
-    return NULL;
+    return shade__say_if(!shade__is_finite(&q->state.model) || !shade__is_finite(&q->state.view) ||
+                         !shade__is_finite(&q->state.projection));
 }
 
-static const char *shade__suspect_state(const shade__survey *s)
+static shade__outcome shade__model_by_rows(shade__survey *q)
 {
-    const shade_lighting *l = &s->state.lighting;
-    if (l->light_count < 0)
-        return "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
+    return shade__say_if(shade__is_transposed(&q->state.model));
+}
+
+static shade__outcome shade__view_by_rows(shade__survey *q)
+{
+    return shade__say_if(shade__is_transposed(&q->state.view));
+}
+
+static shade__outcome shade__projection_is_bad(shade__survey *q)
+{
+    const shade_vec4 x = q->state.projection.col[0];
+    return shade__say_if(shade__is_zero(shade__xyz(x)) && x.w == 0);
+}
+
+static shade__outcome shade__view_projects(shade__survey *q)
+{
+    const shade_mat4 *view = &q->state.view, *p = &q->state.projection;
+    if (!shade__is_affine(view)) return SHADE__SAY;
+    return shade__say_if(!shade__is_rigid(view) && shade__is_rigid(p) &&
+                         !shade__is_zero(shade__xyz(p->col[3])));
+}
+
+static shade__outcome shade__reversed_in_half(shade__survey *q)
+{
+    const shade_mat4 *p = &q->state.projection;
+    return shade__say_if(p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(p) &&
+                         !q->state.raster.depth_zero_to_one);
+}
+
+static shade__outcome shade__count_is_negative(shade__survey *q)
+{
+    return shade__say_if(q->state.lighting.light_count < 0);
+}
+
+static shade__outcome shade__cosine_is_none(shade__survey *q)
+{
+    const shade_lighting *l = &q->state.lighting;
     for (int i = 0; i < l->light_count; i++) {
         const shade_light *lamp = &l->lights[i];
         if (!shade__is_zero(lamp->spot_direction) && !shade__within(lamp->spot_cos_cutoff, 1.001f))
-            return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the "
-                   "angle, not the angle; make the light with shade_spot_light.";
+            return SHADE__SAY;
     }
-
-    return NULL;
+    return SHADE__GO_ON;
 }
+
+static const shade__rung shade__numbers[] = {
+    { shade__matrix_is_nan,
+      "state.model, state.view or state.projection holds a NaN or infinity." },
+    { shade__model_by_rows,
+      "state.model looks transposed (row-major): its translation belongs in col[3]; pass it "
+      "through shade_mat4_transpose." },
+    { shade__view_by_rows,
+      "state.view looks transposed (row-major): its translation belongs in col[3]; pass it "
+      "through shade_mat4_transpose." },
+    { shade__projection_is_bad,
+      "state.projection is what cameras give for bad arguments: fovy must be in radians and below "
+      "pi (use shade_radians for degrees), near and far above 0 and different, the aspect not 0, "
+      "left not equal to right, bottom not to top." },
+    { shade__view_projects,
+      "state.view holds a projection: state.view and state.projection look swapped." },
+    { shade__reversed_in_half,
+      "state.projection is that of shade_mat4_perspective_reversed, which needs "
+      "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0." },
+    { shade__count_is_negative,
+      "lighting.light_count is negative, which counts as 0; it counts lighting.lights." },
+    { shade__cosine_is_none,
+      "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the angle, not the "
+      "angle; make the light with shade_spot_light." },
+    { NULL, NULL }
+};
 
 /* ---- no pixel of the whole picture shows the mesh */
-
-static const char *shade__why_culled(shade__survey *s)
-{
-    if (shade__eye_inside(s))
-        return "raster.cull leaves out every triangle in view, and the eye lies inside of the "
-               "mesh's box: set state.view, or move the eye out.";
-
-    if (s->given_state->raster.cull == SHADE_CULL_FRONT)
-        return "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
-               "SHADE_CULL_BACK or SHADE_CULL_NONE.";
-    return "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
-           "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
-           "state.model that mirrors reverses it as well.";
-}
-
-static const char *shade__why_outside(shade__survey *s)
-{
-    const shade_stats *stats = &s->stats;
-    const int apart = stats->clipped + stats->rejected == stats->triangles;
-    const uint32_t outside = shade__outside(s);
-    if (apart && shade__is_rigid(&s->state.projection))
-        return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
-               "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
-
-    if (outside & (s->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
-        return "The whole mesh lies beyond the far plane of state.projection; move far out, or the "
-               "eye of state.view nearer.";
-
-    s->state.view = shade_mat4_inverse(s->state.view);
-    if (shade__covered(s))
-        return "The mesh is out of view, but the inverse of state.view would show it: state.view "
-               "takes the world to the eye, as shade_mat4_look_at does.";
-
-    if (outside & SHADE__OUT_W)
-        return "The whole mesh lies behind the eye: the camera of state.view looks down -z in its "
-               "own space; check state.view and state.model.";
-    if (outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
-        return "The whole mesh lies nearer than the near plane of state.projection, or behind the "
-               "eye of state.view; move near in, or the eye back.";
-    if (apart)
-        return "The whole mesh lies beside the picture, before near or beyond far; check "
-               "state.model, and where state.view looks.";
-    return "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen "
-           "edge-on, or lies beside the picture; check state.model and state.view.";
-}
 
 static int shade__chunks_leave_out(const shade_mesh *m)
 {
@@ -7933,312 +8043,506 @@ static const char *const shade__left_out =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
     "drawn: pass all the chunks that shade_mesh_chunks made, and heed its result.";
 
-static const char *shade__why_nothing(shade__survey *s)
+static shade__outcome shade__chunks_are_few(shade__survey *q)
 {
-    const shade_stats *stats = &s->stats;
-
-    s->mesh.chunks = NULL;
-    s->mesh.chunk_count = 0;
-    if (shade__covered(s))
-        return shade__chunks_leave_out(s->given_mesh)
-                   ? shade__left_out
-                   : "No box of mesh.chunks holds the triangles in view: make the chunks again "
-                     "with shade_mesh_chunks after the positions have changed.";
-
-    s->state.raster.cull = SHADE_CULL_NONE;
-    if (shade__covered(s)) return shade__why_culled(s);
-    if (stats->rejected == stats->triangles)
-        return "mesh.positions hold NaN, infinite or huge numbers, or state.model, state.view and "
-               "state.projection make them so (beyond 1e30).";
-
-    if (shade__is_scattered(s)) return "";
-    s->state.alpha_cutoff = 0;
-    if (shade__covered(s))
-        return "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) "
-               "times that of diffuse_map; lower it.";
-
-    if (!stats->drawn && stats->culled)
-        return "No triangle in view has an area on the screen: state.model scales by 0, the mesh "
-               "is smaller than a pixel or seen edge-on, or corners in mesh.indices coincide.";
-
-    if (shade__is_transposed(&s->state.projection)) {
-        const shade_mat4 given = s->state.projection;
-        s->state.projection = shade_mat4_transpose(given);
-        if (shade__covered(s))
-            return "state.projection looks transposed (row-major): its -1 belongs in col[2].w, "
-                   "its translation in col[3]; pass it through shade_mat4_transpose.";
-        s->state.projection = given;
-        shade__covered(s);
-    }
-    return shade__why_outside(s);
+    q->mesh.chunks = NULL;
+    q->mesh.chunk_count = 0;
+    return shade__say_if(shade__chunks_leave_out(q->given_mesh) && shade__covered(q));
 }
+
+static shade__outcome shade__appears(shade__survey *q)
+{
+    return shade__say_if(shade__covered(q) > 0);
+}
+
+static shade__outcome shade__culled_inside(shade__survey *q)
+{
+    q->state.raster.cull = SHADE_CULL_NONE;
+    return shade__say_if(shade__eye_inside(q) && shade__covered(q));
+}
+
+static shade__outcome shade__fronts_are_culled(shade__survey *q)
+{
+    return shade__say_if(q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q));
+}
+
+static shade__outcome shade__all_rejected(shade__survey *q)
+{
+    const shade_stats stats = shade__stats_of(q, 0);
+    return shade__say_if(stats.rejected == stats.triangles);
+}
+
+/* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
+   Such a mesh may well be hidden, or seen edge-on. */
+static shade__outcome shade__is_scattered(shade__survey *q)
+{
+    return shade__leave_if(shade__covered(q) * 4 <
+                              (long long)q->target->width * q->target->height &&
+                          shade__depth_varies(q));
+}
+
+static shade__outcome shade__all_cut(shade__survey *q)
+{
+    q->state.alpha_cutoff = 0;
+    return shade__appears(q);
+}
+
+static shade__outcome shade__has_no_area(shade__survey *q)
+{
+    const shade_stats stats = shade__stats_of(q, 0);
+    return shade__say_if(!stats.drawn && stats.culled);
+}
+
+static shade__outcome shade__projection_by_rows(shade__survey *q)
+{
+    shade__survey turned = *q;
+    turned.state.projection = shade_mat4_transpose(q->state.projection);
+    return shade__say_if(shade__is_transposed(&q->state.projection) && shade__covered(&turned));
+}
+
+/* Does each triangle lie outside of the view volume? */
+static int shade__lies_apart(const shade__survey *s)
+{
+    const shade_stats stats = shade__stats_of(s, 0);
+    return stats.clipped + stats.rejected == stats.triangles;
+}
+
+static shade__outcome shade__projection_is_none(shade__survey *q)
+{
+    return shade__say_if(shade__is_rigid(&q->state.projection) && shade__lies_apart(q));
+}
+
+static shade__outcome shade__beyond_far(shade__survey *q)
+{
+    const uint32_t beyond = q->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR;
+    return shade__say_if((shade__outside(q) & beyond) != 0);
+}
+
+static shade__outcome shade__view_is_inverse(shade__survey *q)
+{
+    shade__survey inverse = *q;
+    inverse.state.view = shade_mat4_inverse(q->state.view);
+    return shade__appears(&inverse);
+}
+
+static shade__outcome shade__behind_eye(shade__survey *q)
+{
+    return shade__say_if((shade__outside(q) & SHADE__OUT_W) != 0);
+}
+
+static shade__outcome shade__before_near(shade__survey *q)
+{
+    return shade__say_if((shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR)) != 0);
+}
+
+static shade__outcome shade__is_beside(shade__survey *q)
+{
+    return shade__say_if(shade__lies_apart(q));
+}
+
+static shade__outcome shade__always(shade__survey *q)
+{
+    (void)q;
+    return SHADE__SAY;
+}
+
+/* Climbed with changes that are kept. */
+static const shade__rung shade__nothing[] = {
+    { shade__chunks_are_few, shade__left_out },
+    { shade__appears,
+      "No box of mesh.chunks holds the triangles in view: make the chunks again with "
+      "shade_mesh_chunks after the positions have changed." },
+    { shade__culled_inside,
+      "raster.cull leaves out every triangle in view, and the eye lies inside of the mesh's box: "
+      "set state.view, or move the eye out." },
+    { shade__fronts_are_culled,
+      "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
+      "SHADE_CULL_BACK or SHADE_CULL_NONE." },
+    { shade__appears,
+      "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
+      "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
+      "state.model that mirrors reverses it as well." },
+    { shade__all_rejected,
+      "mesh.positions hold NaN, infinite or huge numbers, or state.model, state.view and "
+      "state.projection make them so (beyond 1e30)." },
+    { shade__is_scattered, NULL },
+    { shade__all_cut,
+      "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) times "
+      "that of diffuse_map; lower it." },
+    { shade__has_no_area,
+      "No triangle in view has an area on the screen: state.model scales by 0, the mesh is "
+      "smaller than a pixel or seen edge-on, or corners in mesh.indices coincide." },
+    { shade__projection_by_rows,
+      "state.projection looks transposed (row-major): its -1 belongs in col[2].w, its "
+      "translation in col[3]; pass it through shade_mat4_transpose." },
+    { shade__projection_is_none,
+      "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, or no "
+      "projection; make it with shade_mat4_perspective or shade_mat4_ortho." },
+    { shade__beyond_far,
+      "The whole mesh lies beyond the far plane of state.projection; move far out, or the eye of "
+      "state.view nearer." },
+    { shade__view_is_inverse,
+      "The mesh is out of view, but the inverse of state.view would show it: state.view takes "
+      "the world to the eye, as shade_mat4_look_at does." },
+    { shade__behind_eye,
+      "The whole mesh lies behind the eye: the camera of state.view looks down -z in its own "
+      "space; check state.view and state.model." },
+    { shade__before_near,
+      "The whole mesh lies nearer than the near plane of state.projection, or behind the eye of "
+      "state.view; move near in, or the eye back." },
+    { shade__is_beside,
+      "The whole mesh lies beside the picture, before near or beyond far; check state.model, and "
+      "where state.view looks." },
+    { shade__always,
+      "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen "
+      "edge-on, or lies beside the picture; check state.model and state.view." },
+    { NULL, NULL }
+};
+
+/* ---- the depth test */
+
+static shade__outcome shade__test_is_turned(shade__survey *q)
+{
+    const shade_raster *r = &q->given_state->raster;
+    const shade_mat4 *p = &q->state.projection;
+    /* depth is a number plus col[3].z / w */
+    return shade__say_if(q->target->depth && p->col[3].w == 0 && shade__faces_ahead(p) &&
+                         !r->depth_read_only && r->depth_test < SHADE_COMPARE_EQUAL &&
+                         (float)q->reversed == q->farthest);
+}
+
+static const shade__rung shade__test[] = {
+    { shade__test_is_turned,
+      "raster.depth_test does not fit state.projection, so that what is far hides what is near: "
+      "SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER and 0 for "
+      "shade_mat4_perspective_reversed." },
+    { NULL, NULL }
+};
 
 /* ---- the mesh covers pixels, but the draw gave none, or maybe none */
 
-static const char *shade__why_hidden(shade__survey *s)
+static shade__outcome shade__beside_clip(shade__survey *q)
 {
-    long long passed;
-    shade__look_through(s, s->given_state->raster.depth_test);
-    passed = shade__covered(s);
-    if (passed && s->given_stats && s->given_state->fragment)
-        return "state.fragment discards all pixels of the mesh.";
-    if (passed) return NULL;    /* without depth all pass */
-
-    shade__look_through(s, SHADE_COMPARE_EQUAL);
-    if (!s->given_stats && shade__covered(s)) return NULL;    /* the mesh itself is stored */
-    shade__look_through(s, s->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
-    s->state.raster.depth_bias = 1 - 2 * s->farthest;    /* not even the nearest depth passes */
-    if (!shade__covered(s))
-        return "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so "
-               "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
-               "depth of 1, or 0 for a reversed projection.";
-
-    shade__look_at_all(s);
-    s->state.raster.depth_bias = 0;
-    if (!s->given_stats || !s->whole || shade__is_scattered(s)) return NULL;
-    s->nearer = 1;
-    if (!shade__covered(s)) return NULL;    /* floats are too coarse there to tell what is nearer */
-    return "What target.depth holds hides the mesh: other meshes, the frame before without a "
-           "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
-           "raster.depth_bias pushes it behind them.";
+    const shade_target *t = q->target;
+    const int band = t->row_count || q->clip[2] - q->clip[0] == t->width ||
+                     q->clip[3] - q->clip[1] == t->height;
+    shade__look_in_clip(q);
+    return shade__say_if(!band && !shade__covered(q));
 }
 
-static const char *shade__suspect_test(const shade__survey *s)
+/* How many pixels pass the depth test now: all, if there is no depth. */
+static long long shade__passed(const shade__survey *s)
 {
-    const shade_raster *r = &s->given_state->raster;
-    const shade_mat4 *p = &s->state.projection;
-    /* depth is a number plus col[3].z / w */
-    if (s->target->depth && p->col[3].w == 0 && shade__faces_ahead(p) && !r->depth_read_only &&
-        r->depth_test < SHADE_COMPARE_EQUAL && (float)s->reversed == s->farthest)
-        return "raster.depth_test does not fit state.projection, so that what is far hides what "
-               "is near: SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER "
-               "and 0 for shade_mat4_perspective_reversed.";
-    return NULL;
+    shade__survey q = *s;
+    shade__look_through(&q, s->given_state->raster.depth_test);
+    return shade__covered(&q);
 }
 
-static const char *shade__why_unseen(shade__survey *s)
+/* Has the mesh pixels in the clip rectangle, of which none passes the depth test? */
+static int shade__is_hidden(const shade__survey *s)
 {
-    const shade_target *t = s->target;
-    s->picture = *t;
-    s->picture.depth = NULL;
-    if (shade__covered(s)) return shade__why_hidden(s);
-    if (t->row_count || s->clip[2] - s->clip[0] == t->width ||
-        s->clip[3] - s->clip[1] == t->height)
-        return NULL;    /* a band */
-    return "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
-           "clip_height; all four zero mean everywhere.";
+    shade__survey q = *s;
+    shade__look_in_clip(&q);
+    return shade__covered(&q) && !shade__passed(s);
 }
+
+static shade__outcome shade__shader_discards(shade__survey *q)
+{
+    return shade__say_if(q->given_stats && q->given_state->fragment && shade__passed(q));
+}
+
+/* Without stats the mesh itself may be stored. */
+static shade__outcome shade__depth_uncleared(shade__survey *q)
+{
+    if (!shade__is_hidden(q)) return SHADE__GO_ON;
+    shade__look_through(q, SHADE_COMPARE_EQUAL);
+    if (!q->given_stats && shade__covered(q)) return SHADE__GO_ON;
+    shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
+    q->state.raster.depth_bias = 1 - 2 * q->farthest;    /* not even the nearest depth passes */
+    return shade__say_if(!shade__covered(q));
+}
+
+static shade__outcome shade__depth_hides(shade__survey *q)
+{
+    if (!q->given_stats || !q->whole || !shade__is_hidden(q)) return SHADE__GO_ON;
+    q->state.raster.depth_bias = 0;
+    if (shade__is_scattered(q)) return SHADE__GO_ON;
+    q->nearer = 1;    /* elsewhere floats are too coarse to tell what is nearer */
+    return shade__appears(q);
+}
+
+static const shade__rung shade__unseen[] = {
+    { shade__beside_clip,
+      "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
+      "clip_height; all four zero mean everywhere." },
+    { shade__shader_discards, "state.fragment discards all pixels of the mesh." },
+    { shade__depth_uncleared,
+      "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so that "
+      "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
+      "0 for a reversed projection." },
+    { shade__depth_hides,
+      "What target.depth holds hides the mesh: other meshes, the frame before without a "
+      "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
+      "raster.depth_bias pushes it behind them." },
+    { NULL, NULL }
+};
 
 /* ---- the mesh is drawn, but wrongly */
 
-/* Are the fronts of all pixels that show one behind a back?  Or else, has a pixel a last fragment
-   that is not its nearest? */
-static int shade__found(const shade__probe *at, int inside_out)
+static shade__outcome shade__some_rejected(shade__survey *q)
 {
-    uint32_t fronts = 0, behind = 0;
-    int n = 0;
-    for (int k = 0; k < SHADE__PROBES; k++) {
-        fronts += at[k].any_front;
-        behind += at[k].any_front & !at[k].front;
-        n += !shade__within(at[k].last - at[k].nearest, 1e-6f);
-    }
-    return inside_out ? fronts > 23 && behind == fronts : n;    /* fewer prove too little */
+    return shade__say_if(shade__stats_of(q, 0).rejected > 0);
 }
 
-static const char *shade__suspect_picture(shade__survey *s)
+/* Are the fronts of all pixels that show one behind a back? */
+static shade__outcome shade__inside_out(shade__survey *q)
 {
-    const shade_raster *r = &s->given_state->raster;
     shade__probe probes[SHADE__PROBES];
-    SHADE__ZERO(probes);
-    shade__look_at_all(s);
-    shade__covered(s);
-    if (s->stats.rejected)
-        return "Some triangles are left out, since mesh.positions hold NaN, infinite or huge "
-               "numbers there.";
-
-    if (r->cull == SHADE_CULL_BACK && !shade__eye_inside(s)) {
-        shade__take_probes(s, SHADE_CULL_NONE, probes);
-        if (shade__found(probes, 1))
-            return "The mesh is drawn inside out: its triangles are wound clockwise, or "
-                   "state.model, state.view or state.projection mirrors; reverse the winding or "
-                   "raster.cull.";
-        SHADE__ZERO(probes);
+    uint32_t fronts = 0, behind = 0;
+    if (q->state.raster.cull != SHADE_CULL_BACK || shade__eye_inside(q)) return SHADE__GO_ON;
+    shade__take_probes(q, SHADE_CULL_NONE, probes);
+    for (int k = 0; k < SHADE__PROBES; k++) {
+        fronts += probes[k].any_front;
+        behind += probes[k].any_front & !probes[k].front;
     }
-
-    if (s->target->depth || r->blend != SHADE_BLEND_REPLACE) return NULL;
-    shade__take_probes(s, r->cull, probes);
-    return shade__found(probes, 0)
-               ? "target.depth is NULL, so that the triangles drawn last hide those before them, "
-                 "not the near ones the far ones; give the target a depth buffer."
-               : NULL;
+    return shade__say_if(fronts > 23 && behind == fronts);    /* fewer prove too little */
 }
 
-/* ---- the mesh is drawn, but black */
-
-/* Gives the mesh a surface that reflects all light, with the holes of its map.  A material that is
-   NULL has no highlights. */
-static void shade__whiten(shade__survey *s)
+/* Has a pixel a last fragment that is not its nearest? */
+static shade__outcome shade__lacks_depth(shade__survey *q)
 {
-    const shade_vec3 one = shade_v3(1, 1, 1);
-    s->mesh.colors = NULL;
-    s->white = 1;
-    s->material.diffuse = s->material.ambient = one;
-    if (s->given_state->material) s->material.specular = one;
+    shade__probe probes[SHADE__PROBES];
+    int n = 0;
+    if (q->target->depth || q->state.raster.blend != SHADE_BLEND_REPLACE) return SHADE__GO_ON;
+    shade__take_probes(q, q->state.raster.cull, probes);
+    for (int k = 0; k < SHADE__PROBES; k++)
+        n += !shade__within(probes[k].last - probes[k].nearest, 1e-6f);
+    return shade__say_if(n > 0);
 }
 
-/* Lights the mesh by one white lamp and nothing else. */
-static void shade__light_by(shade__survey *s, shade_vec4 position, unsigned flags)
+static const shade__rung shade__picture[] = {
+    { shade__some_rejected,
+      "Some triangles are left out, since mesh.positions hold NaN, infinite or huge numbers "
+      "there." },
+    { shade__inside_out,
+      "The mesh is drawn inside out: its triangles are wound clockwise, or state.model, "
+      "state.view or state.projection mirrors; reverse the winding or raster.cull." },
+    { shade__lacks_depth,
+      "target.depth is NULL, so that the triangles drawn last hide those before them, not the "
+      "near ones the far ones; give the target a depth buffer." },
+    { NULL, NULL }
+};
+
+/* ---- why no lamp lights a white surface, of which all shades of light are drawn */
+
+/* Do lamps show when they light both sides?  This change is kept. */
+static int shade__light_is_behind(shade__survey *q)
 {
-    shade_lighting *l = &s->state.lighting;
-    s->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
-    s->lamp[0].position = position;
-    SHADE__ZERO(*l);
-    l->lights = s->lamp;
-    l->light_count = 1;
-    l->flags = flags;
+    q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    return shade__bright(q);
+}
+
+static shade__outcome shade__seen_from_inside(shade__survey *q)
+{
+    return shade__say_if(shade__light_is_behind(q) && shade__eye_inside(q));
+}
+
+static shade__outcome shade__lamps_behind(shade__survey *q)
+{
+    return shade__say_if(shade__light_is_behind(q));
 }
 
 /* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
    there is one. */
-static int shade__lacks_normals(shade__survey *s)
+static shade__outcome shade__lacks_normals(shade__survey *q)
 {
-    const shade_lighting given = s->state.lighting;
-    const shade_material material = s->material;
-    int any;
-    shade__light_by(s, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
-    s->material.specular = shade_v3(1, 1, 1);
-    s->material.shininess = 0;
-    any = shade__bright(s);
-    s->state.lighting = given;
-    s->material = material;
-    return s->mesh.normals && s->state.shading != SHADE_SHADING_PER_FACE && !any;
+    shade__survey open = *q;
+    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
+    open.material.specular = shade_v3(1, 1, 1);
+    open.material.shininess = 0;
+    return shade__say_if(q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE &&
+                         !shade__bright(&open));
 }
 
-/* Why no lamp lights a white surface, or, with ambient set, why ambient light alone does. */
-static const char *shade__why_unlit(shade__survey *s, int ambient)
+static shade__outcome shade__lamps_fall_off(shade__survey *q)
 {
-    static const char *const behind[] = {
-        "Every lamp is behind the faces in view, on the side that their normals point away from: "
-        "turn mesh.normals (without them the winding), move light.position, or set "
-        "SHADE_FLAG_TWO_SIDED.",
-        "Only ambient light arrives: every lamp is behind the faces in view; turn mesh.normals "
-        "(without them the winding), move light.position, or set SHADE_FLAG_TWO_SIDED."
-    };
-    static const char *const zero[] = {
-        "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
-        "shade_mesh_normals, or make mesh.normals NULL.",
-        "Only ambient light arrives, because mesh.normals are zero or NaN; fill them by "
-        "shade_mesh_normals, or make mesh.normals NULL."
-    };
-    shade_lighting *l = &s->state.lighting;
-    const shade_light *lamps = l->lights;
-    const int count = l->light_count;
-    int any, met = 0;
-    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    if (shade__bright(s)) {
-        if (ambient || !shade__eye_inside(s)) return behind[ambient];
-        return "The eye lies inside of the mesh's box and sees faces whose normals point away from "
-               "every lamp; check state.view, or move the eye out.";
-    }
-    if (shade__lacks_normals(s)) return zero[ambient];
-    if (ambient) return NULL;
+    shade__light_everywhere(q);
+    return shade__say_if(shade__bright(q));
+}
 
-    l->light_count = shade__min(count, SHADE__SUSPECTS);
-    l->lights = s->lamp;
-    for (int i = 0; i < l->light_count; i++) {
-        s->lamp[i] = lamps[i];
-        s->lamp[i].constant = s->lamp[i].linear = s->lamp[i].quadratic = 0;
-        s->lamp[i].spot_exponent = 0;
-    }
-    if (shade__bright(s))
-        return "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower "
-               "its constant, linear or quadratic, or raise the light's diffuse and specular.";
-
-    /* a lamp's own ambient light shows its cone at any angle to the face */
+/* Does light arrive where the lamps have no cone, and nowhere with it?  A lamp's own ambient light
+   shows its cone at any angle to the face.  Nothing is said of a pool of light smaller than a
+   pixel, or dim at its angle. */
+static shade__outcome shade__cones_miss(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    int met = 0;
     l->flags |= SHADE_FLAG_ATTENUATED_AMBIENT;
     for (int i = 0; i < l->light_count; i++) {
+        const shade_light *lamp = &q->lamp[i];
         shade_ray axis;
-        axis.origin = shade__xyz(lamps[i].position);
-        axis.direction = lamps[i].spot_direction;
-        met |= shade_pick(&s->mesh, s->state.model, axis, NULL, NULL) >= 0;
-        s->lamp[i].ambient = shade_add(s->lamp[i].diffuse, s->lamp[i].specular);
+        axis.origin = shade__xyz(lamp->position);
+        axis.direction = lamp->spot_direction;
+        met |= shade_pick(&q->mesh, q->state.model, axis, NULL, NULL) >= 0;
+        q->lamp[i].ambient = shade_add(lamp->diffuse, lamp->specular);
     }
-    any = shade__count(s, FLT_MIN) > 0;
+    met |= shade__count(q, FLT_MIN) > 0;
     for (int i = 0; i < l->light_count; i++) {
-        s->lamp[i].spot_direction = shade_v3(0, 0, 0);
-        s->lamp[i].ambient = s->lamp[i].diffuse;
+        q->lamp[i].spot_direction = shade_v3(0, 0, 0);
+        q->lamp[i].ambient = q->lamp[i].diffuse;
     }
-    if (shade__bright(s))    /* a pool of light may be smaller than a pixel, or dim at its angle */
-        return any || met ? NULL
-                          : "No cone of the lights meets what is in view; check spot_direction and "
-                            "spot_cos_cutoff, the cosine of an angle in radians.";
-    if (count > SHADE__SUSPECTS) return NULL;
-    return "The lights have no colour, or too little: diffuse and specular of every "
-           "lighting.lights are dark, or diffuse is, and the highlights do not reach the eye.";
+    if (!shade__bright(q)) return SHADE__GO_ON;
+    return met ? SHADE__LEAVE : SHADE__SAY;
 }
 
-static const char *shade__why_dark(shade__survey *s)
+static shade__outcome shade__lamps_are_many(shade__survey *q)
 {
-    const shade_raster *r = &s->given_state->raster;
-    const shade_material wide = s->material;
-    shade_lighting *l = &s->state.lighting;
-    const int over = r->blend == SHADE_BLEND_OVER;
+    return shade__leave_if(q->given_state->lighting.light_count > SHADE__SUSPECTS);
+}
 
-    if (r->blend != SHADE_BLEND_REPLACE) {
-        s->material.emission = shade_v3(1, 1, 1);
-        l->model = SHADE_MODEL_EMISSIVE;
-        l->terms = 0;
-        if (!shade__bright(s))
-            return "Alpha is 0 or almost where the mesh is in view, so that raster.blend leaves "
-                   "nothing of it: it is 1 - state.transparency, times that of state.diffuse_map.";
-        s->material = wide;
-        *l = s->given_state->lighting;
-        s->state.raster.blend = SHADE_BLEND_REPLACE;
-        if (shade__shows(s)) return NULL;    /* dim light, dimmed more by alpha */
-    }
+/* ---- the mesh is drawn, but black */
 
-    /* outlines of back faces are meant to be black, and so are shadows, blended over a ground */
-    if (r->cull == SHADE_CULL_FRONT) return NULL;
-    if (over && shade__is_zero(shade_add(shade_add(wide.emission, wide.ambient),
-                                         shade_add(wide.diffuse, wide.specular))))
-        return NULL;
+/* Does not even a glowing surface show? */
+static shade__outcome shade__alpha_is_zero(shade__survey *q)
+{
+    shade__survey glow = *q;
+    glow.material.emission = shade_v3(1, 1, 1);
+    glow.state.lighting.model = SHADE_MODEL_EMISSIVE;
+    glow.state.lighting.terms = 0;
+    return shade__say_if(q->state.raster.blend != SHADE_BLEND_REPLACE && !shade__bright(&glow));
+}
 
-    s->material = s->surface;
-    shade__light_fragments(s);
-    if (shade__bright(s))
-        return "state.shading lights vertices or middles of faces, which no light reaches, though "
-               "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
-    if (s->given_state->shading == SHADE_SHADING_PER_FACE) {
-        s->mesh.normals = NULL;    /* the normals of faces are what lamps meet */
-        if (shade__bright(s)) return NULL;
-    }
+/* Is dim light dimmed more by alpha? */
+static shade__outcome shade__alpha_dims(shade__survey *q)
+{
+    const int blended = q->state.raster.blend != SHADE_BLEND_REPLACE;
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return shade__leave_if(blended && shade__shows(q));
+}
+
+/* Outlines of back faces are meant to be black, and so are shadows, blended over a ground. */
+static shade__outcome shade__black_is_meant(shade__survey *q)
+{
+    const shade_raster *r = &q->given_state->raster;
+    const shade_material *m = &q->material;
+    const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
+                                     shade_add(m->diffuse, m->specular));
+    return shade__leave_if(r->cull == SHADE_CULL_FRONT ||
+                          (r->blend == SHADE_BLEND_OVER && shade__is_zero(sum)));
+}
+
+static int shade__shows_wide(const shade__survey *s)
+{
+    shade__survey wide = *s;
+    shade__widen(&wide);
+    return shade__shows(&wide);
+}
+
+static int shade__white_is_bright(const shade__survey *s)
+{
+    shade__survey white = *s;
+    shade__whiten(&white);
+    return shade__bright(&white);
+}
+
+static shade__outcome shade__shading_is_coarse(shade__survey *q)
+{
+    shade__light_fragments(q);
+    return shade__say_if(shade__bright(q));
+}
+
+/* The normals of faces are what lamps meet. */
+static shade__outcome shade__normals_are_of_faces(shade__survey *q)
+{
+    if (q->given_state->shading != SHADE_SHADING_PER_FACE) return SHADE__GO_ON;
+    q->mesh.normals = NULL;
+    return shade__leave_if(shade__bright(q));
+}
+
+static shade__outcome shade__terms_are_few(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
     l->terms = 0;
     if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
-    if (shade__bright(s))
-        return "lighting.terms or lighting.model leaves out every term that would be seen; 0 "
-               "means all terms, and the model SHADE_MODEL_BLINN_PHONG.";
-
-    s->material = wide;
-    shade__whiten(s);
-    if (shade__bright(s)) {    /* light is there, and the surface takes it */
-        s->material = s->surface;
-        if (over) return NULL;
-        if (shade__bright(s))
-            return "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is "
-                   "in view; check mesh.texcoords and the picture.";
-        s->material = wide;
-        if (shade__shows(s)) return NULL;    /* a highlight between pixels, or too little of all */
-        return "state.material reflects nothing, or almost, of the light that there is: lamps need "
-               "diffuse or specular, lighting.ambient needs material.ambient; NULL is white.";
-    }
-
-    if (l->light_count <= 0)
-        return l->lights ? "lighting.light_count is 0 while lighting.lights is set, and "
-                           "lighting.ambient is dark; set light_count."
-                         : "There is no light: lighting.lights is NULL and lighting.ambient is "
-                           "dark; add a light, or ambient light.";
-    return shade__why_unlit(s, 0);
+    return shade__say_if(shade__bright(q));
 }
+
+/* There is light, and the surface takes it. */
+static shade__outcome shade__colors_are_black(shade__survey *q)
+{
+    if (!shade__white_is_bright(q)) return SHADE__GO_ON;
+    if (q->given_state->raster.blend == SHADE_BLEND_OVER) return SHADE__LEAVE;
+    q->mesh.colors = NULL;
+    q->white_map = 1;
+    return shade__say_if(shade__bright(q));
+}
+
+/* Nothing is said of a highlight between pixels, nor of too little of all. */
+static shade__outcome shade__material_is_black(shade__survey *q)
+{
+    if (!shade__white_is_bright(q)) return SHADE__GO_ON;
+    return shade__shows_wide(q) ? SHADE__LEAVE : SHADE__SAY;
+}
+
+static shade__outcome shade__count_is_zero(shade__survey *q)
+{
+    return shade__say_if(q->state.lighting.light_count <= 0 && q->state.lighting.lights);
+}
+
+static shade__outcome shade__lights_are_none(shade__survey *q)
+{
+    shade__whiten(q);
+    return shade__say_if(q->state.lighting.light_count <= 0);
+}
+
+/* Climbed with changes that are kept. */
+static const shade__rung shade__dark[] = {
+    { shade__alpha_is_zero,
+      "Alpha is 0 or almost where the mesh is in view, so that raster.blend leaves nothing of it: "
+      "it is 1 - state.transparency, times that of state.diffuse_map." },
+    { shade__alpha_dims, NULL },
+    { shade__black_is_meant, NULL },
+    { shade__shading_is_coarse,
+      "state.shading lights vertices or middles of faces, which no light reaches, though it "
+      "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT." },
+    { shade__normals_are_of_faces, NULL },
+    { shade__terms_are_few,
+      "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
+      "terms, and the model SHADE_MODEL_BLINN_PHONG." },
+    { shade__colors_are_black,
+      "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
+      "check mesh.texcoords and the picture." },
+    { shade__material_is_black,
+      "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
+      "or specular, lighting.ambient needs material.ambient; NULL is white." },
+    { shade__count_is_zero,
+      "lighting.light_count is 0 while lighting.lights is set, and lighting.ambient is dark; set "
+      "light_count." },
+    { shade__lights_are_none,
+      "There is no light: lighting.lights is NULL and lighting.ambient is dark; add a light, or "
+      "ambient light." },
+    { shade__seen_from_inside,
+      "The eye lies inside of the mesh's box and sees faces whose normals point away from every "
+      "lamp; check state.view, or move the eye out." },
+    { shade__lamps_behind,
+      "Every lamp is behind the faces in view, on the side that their normals point away from: "
+      "turn mesh.normals (without them the winding), move light.position, or set "
+      "SHADE_FLAG_TWO_SIDED." },
+    { shade__lacks_normals,
+      "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
+      "shade_mesh_normals, or make mesh.normals NULL." },
+    { shade__lamps_fall_off,
+      "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
+      "constant, linear or quadratic, or raise the light's diffuse and specular." },
+    { shade__cones_miss,
+      "No cone of the lights meets what is in view; check spot_direction and spot_cos_cutoff, the "
+      "cosine of an angle in radians." },
+    { shade__lamps_are_many, NULL },
+    { shade__always,
+      "The lights have no colour, or too little: diffuse and specular of every lighting.lights "
+      "are dark, or diffuse is, and the highlights do not reach the eye." },
+    { NULL, NULL }
+};
 
 /* ---- the mesh is lit, but wrongly */
 
@@ -8249,122 +8553,180 @@ static int shade__almost_all(const shade__survey *s, long long counted,
     return n > 0 && counted * 8 >= n * (8 - s->exact);
 }
 
-/* Is a surface whose normals are right lit by ambient light alone, or by none? */
-static const char *shade__why_flat(shade__survey *s)
+static shade__outcome shade__is_clipped(shade__survey *q)
 {
-    shade_lighting *l = &s->state.lighting;
+    const long long lit = shade__count(q, q->black);
+    q->material.emission = shade_v3(0, 0, 0);
+    return shade__say_if(q->target->format != SHADE_FORMAT_RGBA32F &&
+                         q->state.raster.blend != SHADE_BLEND_OVER &&
+                         shade__almost_all(q, shade__count(q, 2), lit));
+}
+
+static const shade__rung shade__white[] = {
+    { shade__is_clipped,
+      "Almost all that is lit is clipped to white: colours of lighting.lights, lighting.ambient, "
+      "state.material and mesh.colors are linear, with 1 for full light, not 255." },
+    { NULL, NULL }
+};
+
+/* Does light of lamps show, or is it not asked for? */
+static shade__outcome shade__lamps_show(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
     const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
     const unsigned terms = l->terms ? l->terms : ~0u;
-    if (l->model > SHADE_MODEL_LAMBERT || !(terms & lamps) ||
-        !shade__is_zero(s->material.emission) || shade__is_zero(s->material.diffuse))
-        return NULL;
     l->terms = terms & lamps;
-    s->state.raster.blend = SHADE_BLEND_REPLACE;
-    if (shade__shows(s)) return NULL;
-    if (l->light_count <= 0) {
-        const float most = l->ambient.x + l->ambient.y + l->ambient.z;
-        if (l->lights)
-            return "Only ambient light arrives: lighting.light_count is 0 while lighting.lights "
-                   "is set.";
-        if (!s->mesh.normals || most >= 1) return NULL;    /* unlit, as overlays are */
-        return "Only ambient light arrives, which shows no form: lighting.lights is NULL.";
-    }
-    shade__whiten(s);
-    return shade__why_unlit(s, 1);
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return shade__leave_if(l->model > SHADE_MODEL_LAMBERT || !l->terms ||
+                          !shade__is_zero(q->material.emission) ||
+                          shade__is_zero(q->material.diffuse) || shade__shows_wide(q));
 }
+
+/* Meshes without lamps may be meant: bright ones, and overlays without normals. */
+static shade__outcome shade__is_unlit(shade__survey *q)
+{
+    const shade_vec3 light = q->state.lighting.ambient;
+    shade__whiten(q);
+    return shade__leave_if(q->state.lighting.light_count <= 0 &&
+                          (!q->mesh.normals || light.x + light.y + light.z >= 1));
+}
+
+/* Climbed with changes that are kept. */
+static const shade__rung shade__flat[] = {
+    { shade__lamps_show, NULL },
+    { shade__count_is_zero,
+      "Only ambient light arrives: lighting.light_count is 0 while lighting.lights is set." },
+    { shade__is_unlit, NULL },
+    { shade__lights_are_none,
+      "Only ambient light arrives, which shows no form: lighting.lights is NULL." },
+    { shade__lamps_behind,
+      "Only ambient light arrives: every lamp is behind the faces in view; turn mesh.normals "
+      "(without them the winding), move light.position, or set SHADE_FLAG_TWO_SIDED." },
+    { shade__lacks_normals,
+      "Only ambient light arrives, because mesh.normals are zero or NaN; fill them by "
+      "shade_mesh_normals, or make mesh.normals NULL." },
+    { NULL, NULL }
+};
 
 /* Does a lamp at the eye leave faces dark that are wound toward it? */
-static int shade__normals_turned(shade__survey *s)
+static shade__outcome shade__normals_turned(shade__survey *q)
 {
-    shade_lighting *l = &s->state.lighting;
-    const shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
-    long long all = shade__covered(s), front, toward;
-    if (s->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
-        (l->flags & SHADE_FLAG_TWO_SIDED) || s->state.raster.cull == SHADE_CULL_FRONT)
-        return 0;
-    s->state.raster.cull = SHADE_CULL_BACK;
-    shade__light_fragments(s);
+    shade_lighting *l = &q->state.lighting;
+    const shade_mat4 m = shade__mat4_product(&q->state.projection, &q->state.view);
+    const long long all = shade__covered(q);
+    long long front, toward;
+    if (q->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
+        (l->flags & SHADE_FLAG_TWO_SIDED) || q->state.raster.cull == SHADE_CULL_FRONT)
+        return SHADE__GO_ON;
+    q->state.raster.cull = SHADE_CULL_BACK;
+    shade__light_fragments(q);
     /* at the centre of projection, which is infinitely far away where projection is parallel */
-    shade__light_by(s, shade_mat4_transform(shade_mat4_inverse(m),
-                                            shade_v4(0, 0, 1 - 2 * s->farthest, 0)), 0);
-    shade__whiten(s);
-    front = shade__covered(s);
-    toward = shade__count(s, FLT_MIN);
-    if (!shade__almost_all(s, front, all) || !shade__almost_all(s, front - toward, front)) return 0;
+    shade__light_by(q, shade_mat4_transform(shade_mat4_inverse(m),
+                                            shade_v4(0, 0, 1 - 2 * q->farthest, 0)), 0);
+    shade__whiten(q);
+    front = shade__covered(q);
+    toward = shade__count(q, FLT_MIN);
+    if (!shade__almost_all(q, front, all) || !shade__almost_all(q, front - toward, front))
+        return SHADE__GO_ON;
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* they are not 0 */
-    if (!shade__almost_all(s, shade__count(s, FLT_MIN), front)) return 0;
+    if (!shade__almost_all(q, shade__count(q, FLT_MIN), front)) return SHADE__GO_ON;
     l->flags = 0;
-    s->mesh.normals = NULL;
-    return shade__almost_all(s, shade__count(s, FLT_MIN), front);
+    q->mesh.normals = NULL;
+    return shade__say_if(shade__almost_all(q, shade__count(q, FLT_MIN), front));
 }
 
-static const char *shade__suspect_light(shade__survey *s)
-{
-    const char *why;
-    long long lit;
-    s->material = s->surface;
-    lit = shade__count(s, s->black);
-    s->material.emission = shade_v3(0, 0, 0);
-    if (s->target->format != SHADE_FORMAT_RGBA32F &&
-        s->state.raster.blend != SHADE_BLEND_OVER &&
-        shade__almost_all(s, shade__count(s, 2), lit))
-        return "Almost all that is lit is clipped to white: colours of lighting.lights, "
-               "lighting.ambient, state.material and mesh.colors are linear, with 1 for full "
-               "light, not 255.";
-    shade__look_at_seen(s);
-    why = shade__why_flat(s);
-    if (why) return why;
-    shade__look_at_seen(s);
-    return shade__normals_turned(s)
-               ? "mesh.normals point away from the eye on faces that are wound toward it: turn "
-                 "mesh.normals, or reverse the winding."
-               : NULL;
-}
+static const shade__rung shade__normals[] = {
+    { shade__normals_turned,
+      "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
+      "or reverse the winding." },
+    { NULL, NULL }
+};
 
 /* ---- what is true of the state, whatever the picture is */
 
-static const char *shade__suspect_rest(const shade__survey *s)
+static shade__outcome shade__chunks_are_too_few(shade__survey *q)
 {
-    const shade_mat4 *p = &s->state.projection;
-    const shade_texture *map = s->given_state->fragment ? NULL : s->given_state->diffuse_map;
-    const double wide = shade__size((double)p->col[0].x) * s->target->width;
-    const double high = shade__size((double)p->col[1].y) * s->target->height;
-
-    if (shade__chunks_leave_out(s->given_mesh)) return shade__left_out;
-    if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))
-        return "state.view scales or shears, but it must only turn and move, as that of "
-               "shade_mat4_look_at does; scale by state.model.";
-    if (p->col[3].w == 0 && shade__faces_ahead(p) && shade__size(wide - high) > 0.03 * wide)
-        return "The aspect of state.projection is not that of the picture: pass width / height of "
-               "the target as floats to shade_mat4_perspective.";
-
-    if (!s->target->color || !map) return NULL;
-    if (!s->mesh.texcoords)
-        return "state.diffuse_map is set while mesh.texcoords is NULL, so that it is not drawn.";
-    if (shade_mipmap_count(map->width, map->height) &&
-        (map->filter == SHADE_FILTER_TRILINEAR || map->mipmap_count) &&
-        (!map->mipmaps || map->mipmap_count <= 0))
-        return "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; "
-               "fill them by shade_build_mipmaps.";
-    return NULL;
+    return shade__say_if(shade__chunks_leave_out(q->given_mesh));
 }
 
-static const char *shade__why(shade__survey *s)
+static shade__outcome shade__view_scales(shade__survey *q)
+{
+    return shade__say_if(!shade__is_rigid(&q->state.view) &&
+                         !shade__is_rigid(&q->state.projection));
+}
+
+static shade__outcome shade__aspect_is_wrong(shade__survey *q)
+{
+    const shade_mat4 *p = &q->state.projection;
+    const double wide = shade__size((double)p->col[0].x) * q->target->width;
+    const double high = shade__size((double)p->col[1].y) * q->target->height;
+    return shade__say_if(p->col[3].w == 0 && shade__faces_ahead(p) &&
+                         shade__size(wide - high) > 0.03 * wide);
+}
+
+/* The map that the draw reads itself. */
+static const shade_texture *shade__map_of(const shade__survey *s)
+{
+    return s->target->color && !s->given_state->fragment ? s->given_state->diffuse_map : NULL;
+}
+
+static shade__outcome shade__texcoords_are_none(shade__survey *q)
+{
+    return shade__say_if(shade__map_of(q) && !q->mesh.texcoords);
+}
+
+static shade__outcome shade__mipmaps_are_none(shade__survey *q)
+{
+    const shade_texture *map = shade__map_of(q);
+    return shade__say_if(map && shade_mipmap_count(map->width, map->height) &&
+                         (map->filter == SHADE_FILTER_TRILINEAR || map->mipmap_count) &&
+                         (!map->mipmaps || map->mipmap_count <= 0));
+}
+
+static const shade__rung shade__rest[] = {
+    { shade__chunks_are_too_few, shade__left_out },
+    { shade__view_scales,
+      "state.view scales or shears, but it must only turn and move, as that of "
+      "shade_mat4_look_at does; scale by state.model." },
+    { shade__aspect_is_wrong,
+      "The aspect of state.projection is not that of the picture: pass width / height of the "
+      "target as floats to shade_mat4_perspective." },
+    { shade__texcoords_are_none,
+      "state.diffuse_map is set while mesh.texcoords is NULL, so that it is not drawn." },
+    { shade__mipmaps_are_none,
+      "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; fill them "
+      "by shade_build_mipmaps." },
+    { NULL, NULL }
+};
+
+/* ---- the way through the ladders */
+
+/* A picture in which the mesh has pixels.  Its light is judged where the library computes it. */
+static const char *shade__why_wrong(const shade__survey *s)
+{
+    shade__survey seen = *s;
+    const char *why = shade__climb(s, shade__picture);
+    shade__look_at_seen(&seen);
+    if (why || !s->target->color || s->given_state->fragment || !shade__covered(&seen)) return why;
+    if (!shade__shows_wide(&seen)) return shade__climb_on(&seen, shade__dark);
+    why = shade__climb(&seen, shade__white);
+    if (!why) why = shade__climb_on(&seen, shade__flat);
+    return why ? why : shade__climb(&seen, shade__normals);
+}
+
+static const char *shade__why(const shade__survey *s)
 {
     const int sure = s->given_stats && s->given_stats->fragments > 0;
-    const char *why = shade__suspect_matrices(s);
-    if (!why) why = shade__suspect_state(s);
-    shade__look_at_all(s);
-    if (!why && !sure && !shade__covered(s)) why = shade__why_nothing(s);
-    if (!why) why = shade__suspect_test(s);
-    if (!why && !sure) why = shade__why_unseen(s);
+    const char *why = shade__climb(s, shade__numbers);
+    if (why) return why;
+    if (!sure && !shade__covered(s)) return shade__climb_on(s, shade__nothing);
+
+    why = shade__climb(s, shade__test);
+    if (!why && !sure) why = shade__climb(s, shade__unseen);
     if (why || (s->given_stats && !sure)) return why;
 
-    shade__begin_survey(s);
-    why = shade__suspect_picture(s);
-    if (why || !s->target->color || s->given_state->fragment) return why;
-    if (!shade__look_at_seen(s)) return NULL;
-    return shade__shows(s) ? shade__suspect_light(s) : shade__why_dark(s);
+    why = shade__why_wrong(s);
+    return why ? why : shade__climb(s, shade__rest);
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
@@ -8375,24 +8737,18 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
     const char *why = shade__refusal(target, mesh, state);
     shade_target picture;
     shade__survey s;
+    int clip[4];
     if (why) return why;
 
     picture = *target;
     picture.row_offset = picture.row_count = 0;
-    if (!shade__clip_rectangle(&picture, s.clip))
+    if (!shade__clip_rectangle(&picture, clip))
         return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
                "clip_y, clip_width and clip_height; all four zero mean everywhere.";
-    if (!shade__clip_rectangle(target, s.clip)) return "";    /* a strip beside the rectangle */
+    if (!shade__clip_rectangle(target, clip)) return "";    /* a strip beside the rectangle */
 
-    s.whole = s.clip[2] - s.clip[0] == target->width &&
-              s.clip[3] - s.clip[1] == target->height;
-    s.target = target;
-    s.given_mesh = mesh;
-    s.given_state = state;
-    s.given_stats = stats;
-    shade__begin_survey(&s);
+    shade__open_survey(target, mesh, state, stats, &s);
     why = shade__why(&s);
-    if (!why && (!stats || stats->fragments)) why = shade__suspect_rest(&s);
     return why ? why : "";
 }
 
