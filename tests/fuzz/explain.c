@@ -2,7 +2,7 @@
 
    With EXPLAIN_STATES it is a program: states KIND COUNT [FIRST] judges COUNT states of a kind,
    random or ordinary, prints each sentence's count and what is false, and fails where anything
-   is.  States are numbered; a COUNT of 1 shows one again. */
+   is.  States are numbered from FIRST on; a COUNT of 1 prints what the state is made of. */
 #include "input.h"
 
 #include <math.h>
@@ -26,6 +26,63 @@ static int explained_pick(int n)
 #include "explained.h"
 
 #ifdef EXPLAIN_STATES
+static void explain_matrix(const char *name, shade_mat4 m)
+{
+    printf("%s", name);
+    for (int k = 0; k < 16; k++) printf(" %g", (double)(&m.col[k / 4].x)[k % 4]);
+    printf("\n");
+}
+static void explain_vector(const char *name, shade_vec3 v)
+{
+    printf("  %s %g %g %g", name, (double)v.x, (double)v.y, (double)v.z);
+}
+/* The fields of a state that decide most. */
+static void explain_print(const explained *e, int with_stats, const char *said)
+{
+    const stage *s = &e->s;
+    const shade_draw_state *d = &s->state;
+    const shade_raster *r = &d->raster;
+    const shade_target *t = &s->target;
+    printf("%s stats, mistakes (%s, %s): \"%s\"\n", with_stats ? "with" : "without", e->made[0],
+           e->made[1], said);
+    printf("format %d srgb %d color %d depth %d clip %d %d %d %d rows %d %d clear %g draws %d "
+           "another before %d\n",
+           t->format, t->srgb, t->color != NULL, t->depth != NULL, t->clip_x, t->clip_y,
+           t->clip_width, t->clip_height, t->row_offset, t->row_count, (double)s->clear, s->draws,
+           e->other.col[3].w != 0);
+    printf("vertices %d indices %d normals %d colors %d texcoords %d chunks %d map %d\n",
+           s->mesh.vertex_count, s->mesh.index_count, s->mesh.normals != NULL,
+           s->mesh.colors != NULL, s->mesh.texcoords != NULL, s->mesh.chunk_count,
+           d->diffuse_map != NULL);
+    printf("cull %d test %d blend %d read only %d zero to one %d bias %g transparency %g cutoff %g "
+           "shader %d shading %d\n",
+           r->cull, r->depth_test, r->blend, r->depth_read_only, r->depth_zero_to_one,
+           (double)r->depth_bias, (double)d->transparency, (double)d->alpha_cutoff,
+           d->fragment != NULL, d->shading);
+    explain_matrix("model", d->model);
+    explain_matrix("view", d->view);
+    explain_matrix("projection", d->projection);
+    printf("model %d flags %u terms %u", d->lighting.model, d->lighting.flags, d->lighting.terms);
+    explain_vector("ambient", d->lighting.ambient);
+    printf("\n");
+    for (int k = 0; k < d->lighting.light_count && d->lighting.lights; k++) {
+        const shade_light *l = &d->lighting.lights[k];
+        printf("lamp %g %g %g %g", (double)l->position.x, (double)l->position.y,
+               (double)l->position.z, (double)l->position.w);
+        explain_vector("diffuse", l->diffuse);
+        explain_vector("specular", l->specular);
+        explain_vector("spot", l->spot_direction);
+        printf(" %g %g  attenuation %g %g %g\n", (double)l->spot_cos_cutoff,
+               (double)l->spot_exponent, (double)l->constant, (double)l->linear,
+               (double)l->quadratic);
+    }
+    printf(d->material ? "material" : "no material");
+    for (int k = 0; k < 4 && d->material; k++) {
+        static const char *const name[] = { "emission", "ambient", "diffuse", "specular" };
+        explain_vector(name[k], (&d->material->emission)[k]);
+    }
+    printf("  shininess %g\n", (double)s->material.shininess);
+}
 int main(int count, char **words)
 {
     enum { SHOWN = 5 };          /* false sentences of a row that are printed */
@@ -42,6 +99,7 @@ int main(int count, char **words)
         if (ordinary) ex_ordinary(&e);
         else ex_random(&e);
         row = ex_explain(&e, k % 2 == 0, &text);
+        if (states == 1) explain_print(&e, k % 2 == 0, text);
         said += *text != 0;
         if (row == EX_NOTHING) {
             const int dark = ex_is_black(&e);

@@ -1310,11 +1310,24 @@ static int ex_explain(explained *e, int with_stats, const char **said)
     }
     return EX_CLAIMS + EX_FALSE;
 }
-/* Is the picture of the draw black, though it has one? */
+/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, and black
+   surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
 static int ex_is_black(explained *e)
 {
     static picture drawn;
+    static stage whole;
+    const shade_draw_state *d = &e->s.state;
+    const shade_material *m = d->material;
+    const int outline = d->raster.cull == SHADE_CULL_FRONT || d->raster.blend == SHADE_BLEND_OVER;
     ex_draw(e, &e->s, &drawn);
-    return !drawn.result && e->s.target.color && !drawn.bright;
+    if (drawn.result || !e->s.target.color || drawn.bright) return 0;
+    if (m && outline && ex_most(m->emission) <= 0 && ex_most(m->ambient) <= 0 &&
+        ex_most(m->diffuse) <= 0 && ex_most(m->specular) <= 0)
+        return 0;
+    ex_copy(&e->s, &whole);
+    cure_clip(&whole);
+    if (!drawn.stats.fragments && (e->s.target.clip_width || e->s.target.row_count)) return 0;
+    ex_draw(e, &whole, &drawn);
+    return !drawn.bright;
 }
 #endif
