@@ -383,9 +383,9 @@ static void ex_prepare(const explained *e, stage *s)
         s->state.model = e->other;
         shade_draw_mesh(&s->target, &s->mesh, &s->state, NULL);
         s->state.model = model;
+        memset(s->pixels, 0, sizeof(float) * 4 * EX_PIXELS);
     }
     for (int k = 1; k < s->draws; k++) shade_draw_mesh(&s->target, &s->mesh, &s->state, NULL);
-    memset(s->pixels, 0, sizeof(float) * 4 * EX_PIXELS);
 }
 /* The codes of a pixel.  Floats are scaled by whoever shows them: any light is bright. */
 static void ex_codes(const stage *s, int i, unsigned char *code)
@@ -434,105 +434,19 @@ static void ex_draw(const explained *e, stage *s, picture *p)
     }
 }
 
-/* ---- geometry in double precision ------------------------------------------------------------ */
+/* ---- what a picture shows -------------------------------------------------------------------- */
 
-/* What a pixel shows: the triangle, the point on it and its normal in world space. */
-typedef struct shown { int place, triangle, front; double point[3], normal[3]; } shown;
+/* Of a pixel: the triangle, its side, the point on it and its normal in world space. */
+typedef struct shown { int place, triangle, front; shade_vec3 point, normal; } shown;
 typedef struct geometry {
     int count;
     shown at[EX_PIXELS];         /* the first count */
 } geometry;
 
-static const float *ex_attribute(const float *first, int stride, uint32_t vertex)
-{
-    const char *p = (const char *)first;
-    return (const float *)(const void *)(p + (size_t)vertex * (size_t)(stride ? stride : 12));
-}
-static uint32_t ex_vertex(const shade_mesh *m, int corner)
-{
-    return m->indices ? m->indices[corner] : (uint32_t)corner;
-}
-static int ex_corners(const shade_mesh *m) { return m->indices ? m->index_count : m->vertex_count; }
-static shade_mat4 ex_or_identity(shade_mat4 m)
-{
-    for (int k = 0; k < 4; k++) {
-        const shade_vec4 c = m.col[k];
-        if (c.x != 0 || c.y != 0 || c.z != 0 || c.w != 0) return m;
-    }
-    return shade_mat4_identity();
-}
-static void ex_transform(shade_mat4 m, const double in[4], double out[4])
-{
-    for (int r = 0; r < 4; r++) {
-        out[r] = 0;
-        for (int k = 0; k < 4; k++) out[r] += (double)(&m.col[k].x)[r] * in[k];
-    }
-}
-static void ex_clip(const stage *s, uint32_t vertex, double world[4], double clip[4])
-{
-    const float *p = ex_attribute(s->mesh.positions, s->mesh.position_stride, vertex);
-    const double at[4] = { (double)p[0], (double)p[1], (double)p[2], 1 };
-    double eye[4];
-    ex_transform(ex_or_identity(s->state.model), at, world);
-    ex_transform(ex_or_identity(s->state.view), world, eye);
-    ex_transform(ex_or_identity(s->state.projection), eye, clip);
-}
-static void ex_cross(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-static double ex_dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-/* Scales to length 1; 0 and NaN become 0. */
-static void ex_unit(double v[3])
-{
-    const double length = sqrt(ex_dot(v, v));
-    for (int k = 0; k < 3; k++) v[k] = length > 0 && length < 1e300 ? v[k] / length : 0;
-}
-static double ex_determinant(shade_mat4 m)
-{
-    const shade_mat4 a = ex_or_identity(m);
-    double c[3][3], n[3];
-    for (int k = 0; k < 9; k++) c[k / 3][k % 3] = (double)(&a.col[k / 3].x)[k % 3];
-    ex_cross(c[1], c[2], n);
-    return ex_dot(c[0], n);
-}
-/* The normal of a vertex in world space; without normals the face's. */
-static void ex_normal(const stage *s, int triangle, int corner, double out[3])
-{
-    const shade_mesh *m = &s->mesh;
-    const shade_mat4 a = ex_or_identity(s->state.model);
-    double world[3][4], clip[4], edge[2][3];
-    if (m->normals && s->state.shading != SHADE_SHADING_PER_FACE) {
-        const float *n = ex_attribute(m->normals, m->normal_stride, ex_vertex(m, triangle * 3 + corner));
-        const double sign = ex_determinant(a) < 0 ? -1 : 1;
-        double c[3][3];
-        for (int k = 0; k < 9; k++) c[k / 3][k % 3] = (double)(&a.col[k / 3].x)[k % 3];
-        out[0] = out[1] = out[2] = 0;
-        for (int k = 0; k < 3; k++) {
-            double cofactor[3];
-            ex_cross(c[(k + 1) % 3], c[(k + 2) % 3], cofactor);
-            for (int r = 0; r < 3; r++) out[r] += sign * cofactor[r] * (double)n[k];
-        }
-    } else {
-        for (int k = 0; k < 3; k++) ex_clip(s, ex_vertex(m, triangle * 3 + k), world[k], clip);
-        for (int k = 0; k < 3; k++) {
-            edge[0][k] = world[1][k] - world[0][k];
-            edge[1][k] = world[2][k] - world[0][k];
-        }
-        ex_cross(edge[0], edge[1], out);
-        for (int k = 0; k < 3 && ex_determinant(a) < 0; k++) out[k] = -out[k];
-    }
-    ex_unit(out);
-}
-
-typedef struct ex_asked { const stage *s; int map; } ex_asked;
-/* Writes the number of the triangle, from 1 on, and whether its front is seen. */
-static void ex_number(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                      shade_colors *SHADE_RESTRICT out)
+/* Writes the point and, from 1 on, the triangle; or the normal and the side. */
+typedef struct ex_asked { const stage *s; int first, map; } ex_asked;
+static void ex_write(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                     shade_colors *SHADE_RESTRICT out)
 {
     const ex_asked *a = (const ex_asked *)uniforms;
     const shade_draw_state *d = &a->s->state;
@@ -542,82 +456,94 @@ static void ex_number(const void *uniforms, const shade_fragments *SHADE_RESTRIC
                            in->varying[SHADE_VARYING_TEXCOORD + 1], in->lod, texel);
     for (int i = 0; i < in->count; i++) {
         const float alpha = (a->map ? texel[3 * SHADE_LANES + i] : 1) * (1 - d->transparency);
-        out->color[0][i] = (float)in->primitive[i] + 1;
-        out->color[1][i] = (float)in->front[i];
+        for (int k = 0; k < 3; k++) out->color[k][i] = in->varying[a->first + k][i];
+        out->color[3][i] = (float)(a->first ? in->front[i] : in->primitive[i] + 1);
         if (!d->fragment && alpha < d->alpha_cutoff) out->discard[i] = 1;
     }
 }
-/* Where the triangle meets the ray of a pixel: the share of each corner. */
-static int ex_shares(double clip[3][4], double x, double y, double share[3])
-{
-    double sum = 0;
-    for (int k = 0; k < 3; k++) {
-        const double *a = clip[(k + 1) % 3], *b = clip[(k + 2) % 3];
-        share[k] = x * (a[1] * b[3] - a[3] * b[1]) + y * (a[3] * b[0] - a[0] * b[3]) +
-                   (a[0] * b[1] - a[1] * b[0]);
-    }
-    for (int k = 0; k < 3; k++) sum += share[k];
-    for (int k = 0; k < 3; k++) share[k] /= sum;
-    return fabs(share[0]) + fabs(share[1]) + fabs(share[2]) < 2;
-}
-
-/* What a draw shows: as the picture has it, or of the whole picture with this depth test. */
-enum ex_extent { EX_SHOWN, EX_ALL };
-static void ex_look(const explained *e, const stage *given, enum ex_extent extent, int test,
-                    geometry *g)
+/* What a draw shows: with test -1 as the picture has it, else of the whole picture with this depth
+   test. */
+static void ex_look(const explained *e, const stage *given, int test, geometry *g)
 {
     static stage s;
+    static float point[4 * EX_PIXELS];
     shade_target *t = &s.target;
-    ex_asked asked;
-    ex_copy(given, &s);
-    asked.s = given;
-    asked.map = given->state.diffuse_map && given->mesh.texcoords;
-    if (extent == EX_ALL) {
-        t->clip_x = t->clip_y = t->clip_width = t->clip_height = t->row_offset = t->row_count = 0;
-        t->depth = s.depth;
-        s.state.raster.depth_test = (shade_compare)test;
-        s.state.raster.depth_bias = 0;
-        s.state.raster.depth_read_only = 0;
-        s.clear = test >= SHADE_COMPARE_GREATER ? 0.0f : 1.0f;
+    for (int pass = 0; pass < 2; pass++) {
+        const ex_asked asked = { given, pass ? SHADE_VARYING_NORMAL : SHADE_VARYING_POSITION,
+                                 given->state.diffuse_map && given->mesh.texcoords };
+        ex_copy(given, &s);
+        t->color = s.pixels;
+        if (test >= 0) {
+            t->clip_x = t->clip_y = t->clip_width = t->clip_height = 0;
+            t->row_offset = t->row_count = 0;
+            t->depth = s.depth;
+            s.state.raster.depth_test = (shade_compare)test;
+            s.state.raster.depth_bias = 0;
+            s.state.raster.depth_read_only = 0;
+            s.clear = test >= SHADE_COMPARE_GREATER ? 0.0f : 1.0f;
+            s.draws = 0;
+        }
+        ex_prepare(e, &s);
+        t->format = SHADE_FORMAT_RGBA32F;
+        s.state.raster.blend = SHADE_BLEND_REPLACE;
+        if (s.state.shading == SHADE_SHADING_PER_FACE) s.mesh.normals = NULL;
+        s.state.shading = SHADE_SHADING_PER_FRAGMENT;
+        s.state.fragment = ex_write;
+        s.state.uniforms = &asked;
+        s.state.alpha_cutoff = s.state.transparency = 0;
+        memset(s.pixels, 0, sizeof(float) * 4 * EX_PIXELS);
+        shade_draw_mesh(t, &s.mesh, &s.state, NULL);
+        if (!pass) memcpy(point, s.pixels, sizeof point);
     }
-    t->color = s.pixels;
-    ex_prepare(e, &s);
-    if (extent == EX_ALL) for (int i = 0; i < EX_PIXELS; i++) s.depth[i] = s.clear;
-    t->format = SHADE_FORMAT_RGBA32F;
-    s.state.raster.blend = SHADE_BLEND_REPLACE;
-    s.state.shading = SHADE_SHADING_PER_FRAGMENT;
-    s.state.fragment = ex_number;
-    s.state.uniforms = &asked;
-    s.state.alpha_cutoff = s.state.transparency = 0;
-    memset(s.pixels, 0, sizeof(float) * 4 * EX_PIXELS);
-    shade_draw_mesh(t, &s.mesh, &s.state, NULL);
     g->count = 0;
-    for (int i = 0; i < t->width * t->height && i < EX_PIXELS; i++) {
+    for (int i = 0; i < EX_PIXELS; i++) {
+        const float *p = point + 4 * i, *n = s.pixels + 4 * i;
         shown *at = &g->at[g->count];
-        double world[3][4], clip[3][4], share[3], normal[3][3];
-        if (s.pixels[4 * i] == 0) continue;
+        if (p[3] == 0) continue;
         at->place = i;
-        at->triangle = (int)s.pixels[4 * i] - 1;
-        at->front = s.pixels[4 * i + 1] != 0;
-        for (int k = 0; k < 3; k++) {
-            ex_clip(given, ex_vertex(&given->mesh, at->triangle * 3 + k), world[k], clip[k]);
-            ex_normal(given, at->triangle, k, normal[k]);
-        }
-        if (!ex_shares(clip, 2 * (i % t->width + 0.5) / t->width - 1,
-                       1 - 2 * (i / t->width + t->row_offset + 0.5) / t->height, share))
-            share[0] = share[1] = share[2] = 1 / 3.0;    /* beside the edge of a sliver */
-        if (given->state.shading == SHADE_SHADING_PER_FACE)
-            share[0] = share[1] = share[2] = 1 / 3.0;
-        for (int r = 0; r < 3; r++) {
-            at->point[r] = at->normal[r] = 0;
-            for (int k = 0; k < 3; k++) {
-                at->point[r] += share[k] * world[k][r] / world[k][3];
-                at->normal[r] += share[k] * normal[k][r];
-            }
-        }
-        ex_unit(at->normal);
+        at->triangle = (int)p[3] - 1;
+        at->front = n[3] != 0;
+        at->point = shade_v3(p[0], p[1], p[2]);
+        at->normal = shade_normalize(shade_v3(n[0], n[1], n[2]));
         g->count++;
     }
+}
+
+/* ---- corners in double precision ------------------------------------------------------------- */
+
+static uint32_t ex_vertex(const shade_mesh *m, int corner)
+{
+    return m->indices ? m->indices[corner] : (uint32_t)corner;
+}
+static int ex_corners(const shade_mesh *m) { return m->indices ? m->index_count : m->vertex_count; }
+static const float *ex_position(const shade_mesh *m, int corner)
+{
+    const int stride = m->position_stride ? m->position_stride : 12;
+    const char *p = (const char *)m->positions + (size_t)ex_vertex(m, corner) * (size_t)stride;
+    return (const float *)(const void *)p;
+}
+static shade_mat4 ex_or_identity(shade_mat4 m)
+{
+    for (int k = 0; k < 16; k++)
+        if ((&m.col[k / 4].x)[k % 4] != 0) return m;
+    return shade_mat4_identity();
+}
+static void ex_transform(shade_mat4 m, const double in[4], double out[4])
+{
+    m = ex_or_identity(m);
+    for (int r = 0; r < 4; r++) {
+        out[r] = 0;
+        for (int k = 0; k < 4; k++) out[r] += (double)(&m.col[k].x)[r] * in[k];
+    }
+}
+static void ex_clip(const stage *s, int corner, double world[4], double clip[4])
+{
+    const float *p = ex_position(&s->mesh, corner);
+    const double at[4] = { (double)p[0], (double)p[1], (double)p[2], 1 };
+    double eye[4];
+    ex_transform(s->state.model, at, world);
+    ex_transform(s->state.view, world, eye);
+    ex_transform(s->state.projection, eye, clip);
 }
 
 /* ---- what must be so of the pixels shown ----------------------------------------------------- */
@@ -640,12 +566,11 @@ static int ex_is_greater(const shade_draw_state *d)
 /* Is the nearer of two points, along some ray, the one of greater depth? */
 static int ex_near_is_greater(const stage *s)
 {
-    const shade_mat4 p = ex_or_identity(s->state.projection);
     for (double z = -64; z <= 64; z += 0.25) {
         const double near[4] = { 0, 0, z, 1 }, far[4] = { 0, 0, 2 * z, 1 };
         double a[4], b[4];
-        ex_transform(p, near, a);
-        ex_transform(p, far, b);
+        ex_transform(s->state.projection, near, a);
+        ex_transform(s->state.projection, far, b);
         if (a[3] > 0 && b[3] > a[3]) return b[2] / b[3] < a[2] / a[3];
     }
     return 0;
@@ -667,26 +592,42 @@ static int ex_tenths(const judged *j, const geometry *g, int (*holds)(const judg
     return g->count ? n * 10 / g->count : 10;
 }
 
-/* The cosine between the normal and the direction to a lamp; the lamp's reach is left out. */
-static double ex_toward(const shade_light *l, const shown *at)
+/* The cosine between a direction and that to a lamp. */
+static float ex_toward(const shade_light *l, shade_vec3 point, shade_vec3 direction)
 {
-    const double w = (double)l->position.w;
-    double to[3] = { (double)l->position.x, (double)l->position.y, (double)l->position.z };
-    for (int k = 0; k < 3 && w != 0; k++) to[k] = to[k] / w - at->point[k];
-    ex_unit(to);
-    return ex_dot(to, at->normal);
+    const shade_vec3 at = shade_v3(l->position.x, l->position.y, l->position.z);
+    const float w = l->position.w;
+    const shade_vec3 to = w != 0 ? shade_sub(shade_scale(at, 1 / w), point) : at;
+    return shade_dot(shade_normalize(to), shade_normalize(direction));
+}
+static int ex_has_colour(const shade_light *l)
+{
+    return ex_most(l->diffuse) > 0 || ex_most(l->specular) > 0;
+}
+static int ex_turned(const judged *j, const shown *at)
+{
+    return at->front && shade_dot(shade_sub(j->eye, at->point), at->normal) < 0;
+}
+static int ex_no_normal(const judged *j, const shown *at)
+{
+    (void)j;
+    return !(shade_length(at->normal) > 0);
+}
+static int ex_is_back(const judged *j, const shown *at)
+{
+    (void)j;
+    return !at->front;
 }
 static int ex_unlit_side(const judged *j, const shown *at)
 {
     const shade_lighting *l = &j->e->s.state.lighting;
-    double flip = 1;
-    double to_eye[3] = { (double)j->eye.x, (double)j->eye.y, (double)j->eye.z };
-    for (int k = 0; k < 3; k++) to_eye[k] -= at->point[k];
-    if (l->flags & SHADE_FLAG_TWO_SIDED_ABS) return ex_dot(at->normal, at->normal) == 0;
-    if (l->flags & SHADE_FLAG_TWO_SIDED && ex_dot(to_eye, at->normal) < 0) flip = -1;
+    const shade_vec3 to_eye = shade_sub(j->eye, at->point);
+    const int flip = l->flags & SHADE_FLAG_TWO_SIDED && shade_dot(to_eye, at->normal) < 0;
+    if (l->flags & SHADE_FLAG_TWO_SIDED_ABS) return ex_no_normal(j, at);
     for (int k = 0; k < l->light_count; k++)
-        if ((ex_most(l->lights[k].diffuse) > 0 || ex_most(l->lights[k].specular) > 0) &&
-            flip * ex_toward(&l->lights[k], at) > 0.02) return 0;
+        if (ex_has_colour(&l->lights[k]) &&
+            (flip ? -1 : 1) * ex_toward(&l->lights[k], at->point, at->normal) > 0.02f)
+            return 0;
     return 1;
 }
 static int ex_outside_cones(const judged *j, const shown *at)
@@ -694,30 +635,12 @@ static int ex_outside_cones(const judged *j, const shown *at)
     const shade_lighting *l = &j->e->s.state.lighting;
     for (int k = 0; k < l->light_count; k++) {
         const shade_light *lamp = &l->lights[k];
-        shown facing = *at;
-        if (ex_most(lamp->diffuse) <= 0 && ex_most(lamp->specular) <= 0) continue;
-        for (int r = 0; r < 3; r++) facing.normal[r] = -(double)(&lamp->spot_direction.x)[r];
-        ex_unit(facing.normal);
-        if (ex_dot(facing.normal, facing.normal) == 0 ||
-            ex_toward(lamp, &facing) > (double)lamp->spot_cos_cutoff + 1e-4) return 0;
+        const shade_vec3 back = shade_neg(lamp->spot_direction);
+        if (ex_has_colour(lamp) && (shade_length(back) == 0 ||
+            ex_toward(lamp, at->point, back) > lamp->spot_cos_cutoff + 1e-4f))
+            return 0;
     }
     return 1;
-}
-static int ex_turned(const judged *j, const shown *at)
-{
-    double to_eye[3] = { (double)j->eye.x, (double)j->eye.y, (double)j->eye.z };
-    for (int k = 0; k < 3; k++) to_eye[k] -= at->point[k];
-    return at->front && ex_dot(to_eye, at->normal) < 0;
-}
-static int ex_no_normal(const judged *j, const shown *at)
-{
-    (void)j;
-    return ex_dot(at->normal, at->normal) == 0;
-}
-static int ex_is_back(const judged *j, const shown *at)
-{
-    (void)j;
-    return !at->front;
 }
 
 /* Do all corners of the mesh hold it?  bad: those that are no numbers do too. */
@@ -726,7 +649,7 @@ static int ex_all(const stage *s, of_corner *holds)
 {
     for (int i = 0; i < ex_corners(&s->mesh); i++) {
         double world[4], clip[4];
-        ex_clip(s, ex_vertex(&s->mesh, i), world, clip);
+        ex_clip(s, i, world, clip);
         if (!holds(clip)) return 0;
     }
     return 1;
@@ -756,21 +679,18 @@ static int ex_is_affine(shade_mat4 m)
 static int ex_eye_in_box(const judged *j)
 {
     const stage *s = &j->e->s;
-    double low[3] = { 1e300, 1e300, 1e300 }, high[3] = { -1e300, -1e300, -1e300 };
     const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.view),
                                         ex_or_identity(s->state.model));
     const shade_vec4 eye = shade_mat4_inverse(m).col[3];
-    for (int i = 0; i < ex_corners(&s->mesh); i++) {
-        const float *p = ex_attribute(s->mesh.positions, s->mesh.position_stride,
-                                      ex_vertex(&s->mesh, i));
-        for (int k = 0; k < 3; k++) {
-            if (!((double)p[k] > -1e12 && (double)p[k] < 1e12)) continue;
-            low[k] = fmin(low[k], (double)p[k]);
-            high[k] = fmax(high[k], (double)p[k]);
+    for (int k = 0; k < 3; k++) {
+        float low = 1e30f, high = -1e30f;
+        for (int i = 0; i < ex_corners(&s->mesh); i++) {
+            const float p = ex_position(&s->mesh, i)[k];
+            if (p > -1e12f && p < low) low = p;
+            if (p < 1e12f && p > high) high = p;
         }
+        if (!((&eye.x)[k] > low - 1e-3f && (&eye.x)[k] < high + 1e-3f)) return 0;
     }
-    for (int k = 0; k < 3; k++)
-        if (!((double)(&eye.x)[k] > low[k] - 1e-3 && (double)(&eye.x)[k] < high[k] + 1e-3)) return 0;
     return 1;
 }
 
@@ -802,7 +722,7 @@ static int so_bad(const judged *j)
         int bad = 0;
         for (int k = 0; k < 3; k++) {
             double world[4], clip[4];
-            ex_clip(&j->e->s, ex_vertex(m, i + k), world, clip);
+            ex_clip(&j->e->s, i + k, world, clip);
             bad |= ex_is_bad(clip);
         }
         if (!bad) return 0;
@@ -828,6 +748,12 @@ static int so_model_by_rows(const judged *j)
 {
     const shade_mat4 m = ex_or_identity(STATE->model);
     return !ex_is_affine(m) && ex_is_affine(shade_mat4_transpose(m));
+}
+/* Not that of one-point perspective, w = 1 - z/k, of which the transposed one moves by -1/k. */
+static int so_by_rows(const judged *j)
+{
+    const shade_mat4 p = STATE->projection;
+    return !(p.col[0].x == 1 && p.col[1].y == 1 && p.col[3].w == 1 && p.col[3].z == 0);
 }
 static int so_swapped(const judged *j) { return !ex_is_rigid(ex_or_identity(STATE->view)); }
 static int so_degenerate(const judged *j)
@@ -1036,7 +962,7 @@ static void cure_camera(stage *s)
     for (int i = 0; i < ex_corners(&s->mesh); i++) {
         double world[4], clip[4];
         shade_vec3 p;
-        ex_clip(s, ex_vertex(&s->mesh, i), world, clip);
+        ex_clip(s, i, world, clip);
         p = shade_v3((float)world[0], (float)world[1], (float)world[2]);
         if (!(fabsf(p.x) < 1e12f && fabsf(p.y) < 1e12f && fabsf(p.z) < 1e12f)) continue;
         low = shade_min(low, p);
@@ -1122,7 +1048,7 @@ static const claim claims[] = {
     { "beside the picture, before", NULL, cure_camera, INTO_VIEW },
     { "covers the centre of a pixel nowhere", NULL, cure_camera, INTO_VIEW },
     { "has an area", NULL, cure_nothing, STATED },
-    { "state.projection looks transposed", NULL, cure_by_rows, INTO_VIEW },
+    { "state.projection looks transposed", so_by_rows, cure_by_rows, INTO_VIEW },
     { "beside the clip rectangle", so_clip, cure_clip, SHOWS },
     { "clip rectangle is empty", so_clip, cure_clip, STATED },
     { "target.depth holds 0", so_not_equal, cure_clear, SHOWS },
@@ -1205,7 +1131,7 @@ static void ex_try(const judged *j, const claim *c, const stage *given, cure *ch
         s.state.lighting.terms = (s.state.lighting.terms ? s.state.lighting.terms : 15u) & 12u;
     ex_draw(j->e, &s, &out->p);
     if (c->effect != CHANGES) return;
-    ex_look(j->e, &s, EX_SHOWN, 0, &g);
+    ex_look(j->e, &s, -1, &g);
     memset(out->triangle, 0, sizeof out->triangle);
     for (int i = 0; i < g.count; i++) out->triangle[g.at[i].place] = g.at[i].triangle + 1;
 }
@@ -1284,8 +1210,8 @@ static void ex_judge(const explained *e, const picture *drawn, judged *j)
     j->drawn = drawn;
     j->nearer_is_greater = ex_near_is_greater(&e->s);
     j->eye = ex_eye(&e->s, e->s.target.depth ? ex_is_greater(&e->s.state) : j->nearer_is_greater);
-    ex_look(e, &e->s, EX_SHOWN, 0, &j->shown);
-    ex_look(e, &s, EX_ALL, j->nearer_is_greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS,
+    ex_look(e, &e->s, -1, &j->shown);
+    ex_look(e, &s, j->nearer_is_greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS,
             &j->all);
 }
 
