@@ -43,12 +43,14 @@
 #include "lines.c"
 #include "shape.c"
 #include "ray.c"
+#include "camera.c"
 #include "chunks.c"
 #include "resolve.c"
 #include "independent.c"
 #include "scene.c"
 #include "modes.c"
 #include "explain.c"
+#include "explain_pipelines.c"
 #ifdef SHADE__TILE_TESTED
 long tiles_tested;
 #include "work.c"
@@ -61,6 +63,7 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
+    SECTION(camera),  SECTION(explain_pipelines),
 #ifdef SHADE__TILE_TESTED
     SECTION(work),
 #endif
