@@ -630,18 +630,6 @@ static int ex_unlit_side(const judged *j, const shown *at)
             return 0;
     return 1;
 }
-static int ex_outside_cones(const judged *j, const shown *at)
-{
-    const shade_lighting *l = &j->e->s.state.lighting;
-    for (int k = 0; k < l->light_count; k++) {
-        const shade_light *lamp = &l->lights[k];
-        const shade_vec3 back = shade_neg(lamp->spot_direction);
-        if (ex_has_colour(lamp) && (shade_length(back) == 0 ||
-            ex_toward(lamp, at->point, back) > lamp->spot_cos_cutoff + 1e-4f))
-            return 0;
-    }
-    return 1;
-}
 
 /* Do all corners of the mesh hold it?  bad: those that are no numbers do too. */
 typedef int of_corner(const double clip[4]);
@@ -698,8 +686,7 @@ static int ex_eye_in_box(const judged *j)
 #define STATE (&j->e->s.state)
 #define LIGHTS (&j->e->s.state.lighting)
 static int so_behind(const judged *j) { return ex_tenths(j, &j->shown, ex_unlit_side) >= 9; }
-static int so_cone(const judged *j) { return ex_tenths(j, &j->shown, ex_outside_cones) >= 9; }
-static int so_turned(const judged *j) { return ex_tenths(j, &j->shown, ex_turned) >= 7; }
+static int so_turned(const judged *j) { return ex_tenths(j, &j->shown, ex_turned) >= 2; }
 static int so_no_normal(const judged *j)
 {
     return j->e->s.mesh.normals && ex_tenths(j, &j->shown, ex_no_normal) >= 9;
@@ -714,22 +701,87 @@ static int so_before(const judged *j)
            ex_all(&j->e->s, ex_behind_eye);
 }
 static int so_behind_eye(const judged *j) { return ex_all(&j->e->s, ex_behind_eye); }
-/* Has each triangle a corner that is no number, or too large? */
-static int so_bad(const judged *j)
+static int so_some_bad(const judged *j)
 {
     const shade_mesh *m = &j->e->s.mesh;
-    for (int i = 0; i + 2 < ex_corners(m); i += 3) {
-        int bad = 0;
-        for (int k = 0; k < 3; k++) {
-            double world[4], clip[4];
-            ex_clip(&j->e->s, i + k, world, clip);
-            bad |= ex_is_bad(clip);
-        }
-        if (!bad) return 0;
+    for (int i = 0; i < m->vertex_count; i++) {
+        const float *p = (const float *)(const void *)((const char *)m->positions +
+                         (size_t)i * (size_t)(m->position_stride ? m->position_stride : 12));
+        if (!(fabsf(p[0]) <= 1e12f && fabsf(p[1]) <= 1e12f && fabsf(p[2]) <= 1e12f)) return 1;
     }
-    return 1;
+    return !ex_all(&j->e->s, ex_is_good);
 }
-static int so_some_bad(const judged *j) { return !ex_all(&j->e->s, ex_is_good); }
+static int so_box(const judged *j)
+{
+    const shade_mesh *m = &j->e->s.mesh;
+    for (int c = 0; c < m->chunk_count; c++) {
+        const shade_chunk *box = &m->chunks[c];
+        for (int i = 3 * box->first; i < 3 * (box->first + box->count); i++)
+            for (int k = 0; k < 3; k++) {
+                const float p = ex_position(m, i)[k];
+                if (p < (&box->low.x)[k] || p > (&box->high.x)[k]) return 1;
+            }
+    }
+    return 0;
+}
+static int so_last_row(const judged *j)
+{
+    return STATE->model.col[3].w != 1 || STATE->view.col[3].w != 1;
+}
+static int so_other_stats(const judged *j) { return j->e->s.other_stats; }
+static int so_negative_attenuation(const judged *j)
+{
+    for (int k = 0; k < LIGHTS->light_count; k++) {
+        const shade_light *l = &LIGHTS->lights[k];
+        if (l->constant < 0 || l->linear < 0 || l->quadratic < 0) return 1;
+    }
+    return 0;
+}
+static int so_lamp_nan(const judged *j)
+{
+    for (int k = 0; k < LIGHTS->light_count; k++)
+        for (int i = 0; i < (int)(sizeof(shade_light) / 4); i++) {
+            const float f = (&LIGHTS->lights[k].position.x)[i];
+            if (f != f) return 1;
+        }
+    return 0;
+}
+static int so_spot(const judged *j)
+{
+    for (int k = 0; k < LIGHTS->light_count; k++)
+        if (shade_length(LIGHTS->lights[k].spot_direction) > 0) return 1;
+    return 0;
+}
+static int so_order(const judged *j)
+{
+    return !j->e->s.target.depth || STATE->raster.depth_test == SHADE_COMPARE_ALWAYS ||
+           STATE->raster.depth_read_only;
+}
+static int so_bias(const judged *j) { return fabsf(STATE->raster.depth_bias) >= 1; }
+static int so_no_view(const judged *j) { return STATE->view.col[3].w == 0 && ex_eye_in_box(j); }
+static int so_texels(const judged *j)
+{
+    const stage *s = &j->e->s;
+    for (int i = 0; i < s->mesh.vertex_count; i++)
+        if (s->texcoord[i].x > (float)s->map.width - 1.001f) return 1;
+    return 0;
+}
+static int so_linear_map(const judged *j) { return j->e->s.target.srgb && !STATE->diffuse_map->srgb; }
+static int so_stored(const judged *j)
+{
+    return STATE->transparency > 0 && STATE->raster.blend == SHADE_BLEND_REPLACE;
+}
+static int so_dull(const judged *j)
+{
+    return STATE->material->shininess < 1 && ex_most(STATE->material->specular) > 0;
+}
+static int so_no_diffuse(const judged *j) { return ex_most(STATE->material->diffuse) <= 0; }
+static int so_glows(const judged *j) { return ex_most(STATE->material->emission) >= 1; }
+static int so_beyond_picture(const judged *j)
+{
+    const shade_target *t = &j->e->s.target;
+    return t->clip_x + t->clip_width > t->width || t->clip_y + t->clip_height > t->height;
+}
 static int so_inside(const judged *j) { return ex_eye_in_box(j); }
 static int so_front(const judged *j) { return STATE->raster.cull == SHADE_CULL_FRONT; }
 static int so_back(const judged *j) { return STATE->raster.cull == SHADE_CULL_BACK; }
@@ -738,7 +790,6 @@ static int so_far_wins(const judged *j)
 {
     return j->e->s.target.depth && ex_is_greater(STATE) != j->nearer_is_greater;
 }
-static int so_no_depth(const judged *j) { return !j->e->s.target.depth; }
 static int so_view_by_rows(const judged *j)
 {
     const shade_mat4 m = ex_or_identity(STATE->view);
@@ -793,12 +844,6 @@ static int so_no_mipmaps(const judged *j)
     return STATE->diffuse_map && STATE->diffuse_map->width > 1 && !STATE->diffuse_map->mipmaps;
 }
 static int so_no_lamp(const judged *j) { return LIGHTS->light_count <= 0; }
-static int so_lamps_dark(const judged *j)
-{
-    for (int k = 0; k < LIGHTS->light_count; k++)
-        if (ex_most(LIGHTS->lights[k].diffuse) > 0.3f) return 0;
-    return 1;
-}
 static int so_white(const judged *j) { return j->drawn->white * 5 >= j->drawn->bright * 4; }
 static int so_clip(const judged *j) { return j->e->s.target.clip_width || j->e->s.target.clip_x ||
                                              j->e->s.target.clip_height || j->e->s.target.clip_y; }
@@ -873,7 +918,7 @@ static void cure_lamps(stage *s)
 {
     shade_lighting *l = ex_lights(s);
     for (int k = 0; k < l->light_count; k++)
-        if (l->lights) s->lamps[k].diffuse = s->lamps[k].specular = shade_v3(1, 1, 1);
+        if (l->lights) s->lamps[k].diffuse = s->lamps[k].specular = shade_v3(100, 100, 100);
     for (int k = 0; k < l->light_count; k++) {
         const shade_vec4 at = s->lamps[k].position;
         if (at.x == 0 && at.y == 0 && at.z == 0 && at.w == 0) cure_count(s);
@@ -907,9 +952,14 @@ static void cure_chunks(stage *s)
     s->mesh.chunk_count = 0;
 }
 static void cure_cull(stage *s) { s->state.raster.cull = SHADE_CULL_NONE; }
-static void cure_other_side(stage *s)
+static void cure_winding(stage *s)
 {
-    s->state.raster.cull = (shade_cull)(SHADE_CULL_BACK + SHADE_CULL_FRONT - s->state.raster.cull);
+    if (!s->mesh.indices) {
+        for (int i = 0; i < s->mesh.vertex_count; i++) s->index[i] = (uint32_t)i;
+        s->mesh.index_count = s->mesh.vertex_count;
+    }
+    s->mesh.indices = s->index;
+    stage_turn(s, 0);
 }
 static void cure_cutoff(stage *s) { s->state.alpha_cutoff = 0; }
 static void cure_clip(stage *s)
@@ -939,7 +989,9 @@ static void cure_flag(stage *s)
 }
 static void cure_shader(stage *s)
 {
-    if (s->state.fragment) s->state.fragment = shader_white;
+    if (!s->state.fragment) return;
+    s->state.fragment = shader_white;
+    s->state.alpha_cutoff = 0;
 }
 static void cure_view_by_rows(stage *s) { s->state.view = shade_mat4_transpose(s->state.view); }
 static void cure_model_by_rows(stage *s) { s->state.model = shade_mat4_transpose(s->state.model); }
@@ -1024,22 +1076,59 @@ static void cure_projection(stage *s)
     s->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
     s->clear = 1;
 }
+static void cure_all(stage *s)
+{
+    cure_opaque(s);
+    cure_shading(s);
+    cure_terms(s);
+    cure_colors(s);
+    cure_material(s);
+    cure_sides(s);
+    cure_distance(s);
+    cure_cone(s);
+    cure_lamps(s);
+    cure_no_lamp(s);
+}
+static void cure_over(stage *s) { s->state.raster.blend = SHADE_BLEND_OVER; }
+static void cure_shininess(stage *s) { s->material.shininess = 50; }
+static void cure_diffuse(stage *s) { s->material.diffuse = shade_v3(1, 1, 1); }
+static void cure_emission(stage *s) { s->material.emission = BLACK; }
 static void cure_nothing(stage *s) { (void)s; }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-enum effect { STATED, SHOWS, INTO_VIEW, LIGHTS_UP, SHOWS_FORM, CHANGES, DARKENS, MORE_TRIANGLES };
+/* What the advice does to the picture: light is that of all terms, of lamps (diffuse, specular), or
+   of surfaces that have colours (ambient, diffuse). */
+enum effect { STATED, SHOWS, INTO_VIEW, LIGHTS_UP, LAMPS_LIGHT, COLORS_LIGHT, CHANGES, DARKENS,
+              MORE_TRIANGLES };
 typedef struct claim { const char *words; so *so; cure *advice; enum effect effect; } claim;
 static const claim claims[] = {
+    /* numbers */
+    { "stats are not of this draw", so_other_stats, cure_nothing, STATED },
+    { "holds a NaN or infinity", NULL, cure_nothing, STATED },
+    { "state.model looks transposed", so_model_by_rows, cure_model_by_rows, CHANGES },
+    { "state.view looks transposed", so_view_by_rows, cure_view_by_rows, CHANGES },
+    { "The last row of state.model", so_last_row, cure_nothing, STATED },
+    { "what cameras give", so_degenerate, cure_camera, STATED },
+    { "state.view holds a projection", so_swapped, cure_exchange, STATED },
+    { "perspective_reversed, which", so_no_flag, cure_flag, STATED },
+    { "light_count is negative", so_negative_count, cure_nothing, STATED },
+    { "lighting.lights holds a NaN", so_lamp_nan, cure_nothing, STATED },
+    { "spot_cos_cutoff is outside", so_bad_cosine, cure_nothing, STATED },
+    { "quadratic is negative", so_negative_attenuation, cure_nothing, STATED },
+    { "make them so", so_some_bad, cure_nothing, STATED },
+    { "shorter than a position", NULL, cure_nothing, STATED },
+    { "There is no triangle to draw", NULL, cure_nothing, STATED },
+    { "clip rectangle is empty", so_clip, cure_clip, STATED },
     /* nothing is in view */
+    { "sum to fewer", so_chunks, cure_chunks, MORE_TRIANGLES },
+    { "does not hold its triangles", so_box, cure_chunks, STATED },
     { "raster.cull leaves out", so_inside, cure_cull, SHOWS },
     { "raster.cull is SHADE_CULL_FRONT", so_front, cure_cull, SHOWS },
     { "raster.cull is SHADE_CULL_BACK", so_back, cure_cull, SHOWS },
-    { "No box of mesh.chunks", so_chunks, cure_chunks, SHOWS },
-    { "sum to fewer", so_chunks, cure_chunks, MORE_TRIANGLES },
     { "above every alpha", NULL, cure_cutoff, SHOWS },
-    { "make them so", so_bad, cure_nothing, STATED },
-    { "Some triangles are left out", so_some_bad, cure_nothing, STATED },
+    { "has an area", NULL, cure_nothing, STATED },
+    { "state.projection looks transposed", so_by_rows, cure_by_rows, INTO_VIEW },
     { "outside of the cube", NULL, cure_camera, INTO_VIEW },
     { "beyond the far plane", so_beyond, cure_camera, INTO_VIEW },
     { "inverse of state.view would", NULL, cure_inverse, INTO_VIEW },
@@ -1047,53 +1136,50 @@ static const claim claims[] = {
     { "nearer than the near plane", so_before, cure_camera, INTO_VIEW },
     { "beside the picture, before", NULL, cure_camera, INTO_VIEW },
     { "covers the centre of a pixel nowhere", NULL, cure_camera, INTO_VIEW },
-    { "has an area", NULL, cure_nothing, STATED },
-    { "state.projection looks transposed", so_by_rows, cure_by_rows, INTO_VIEW },
+    /* no pixel passes */
+    { "does not fit state.proj", so_far_wins, cure_depth, CHANGES },
     { "beside the clip rectangle", so_clip, cure_clip, SHOWS },
-    { "clip rectangle is empty", so_clip, cure_clip, STATED },
-    { "target.depth holds 0", so_not_equal, cure_clear, SHOWS },
-    { "What target.depth holds", so_not_equal, cure_clear, SHOWS },
-    { "SHADE_COMPARE_EQUAL", so_equal, cure_depth, SHOWS },
     { "state.fragment discards", so_shader, cure_shader, SHOWS },
-    /* black */
+    { "is SHADE_COMPARE_EQUAL", so_equal, cure_depth, SHOWS },
+    { "target.depth holds 0", so_not_equal, cure_clear, SHOWS },
+    { "Depth is that of the far plane", NULL, cure_projection, SHOWS },
+    { "What target.depth holds", so_not_equal, cure_clear, SHOWS },
+    /* wrong pixels */
+    { "inside out", so_inside_out, cure_winding, CHANGES },
+    { "Triangles drawn later hide", so_order, cure_depth, CHANGES },
+    { "state.fragment leaves", so_shader, cure_shader, LIGHTS_UP },
+    { "lit is clipped", so_white, cure_255, DARKENS },
+    { "mesh.normals point away from the eye", so_turned, cure_turned, CHANGES },
+    /* darkness */
     { "Alpha is 0", NULL, cure_opaque, LIGHTS_UP },
     { "state.shading lights", NULL, cure_shading, LIGHTS_UP },
     { "leaves out every term", NULL, cure_terms, LIGHTS_UP },
-    { "mesh.colors, or the texels", so_map_or_colors, cure_colors, LIGHTS_UP },
+    { "mesh.colors, or the texels", so_map_or_colors, cure_colors, COLORS_LIGHT },
     { "state.material reflects", NULL, cure_material, LIGHTS_UP },
+    { "black or almost: state.material", NULL, cure_all, LIGHTS_UP },
     { "There is no light", so_no_lamp, cure_count, LIGHTS_UP },
     { "and lighting.ambient is dark", so_no_lamp, cure_count, LIGHTS_UP },
-    { "sees faces whose normals point away", so_inside, cure_sides, LIGHTS_UP },
-    { "Every lamp is behind", so_behind, cure_sides, LIGHTS_UP },
-    { "mesh.normals are zero or NaN, so that", so_no_normal, cure_normals, LIGHTS_UP },
-    { "Attenuation, or", NULL, cure_distance, LIGHTS_UP },
-    { "No cone of the lights", so_cone, cure_cone, LIGHTS_UP },
-    { "The lights have no colour", so_lamps_dark, cure_lamps, LIGHTS_UP },
-    /* lit by ambient light alone */
-    { "every lamp is behind", so_behind, cure_sides, SHOWS_FORM },
-    { "because mesh.normals are zero", so_no_normal, cure_normals, SHOWS_FORM },
-    { "arrives: lighting.light_count is 0", so_no_lamp, cure_count, SHOWS_FORM },
-    { "which shows no form", so_no_lamp, cure_count, SHOWS_FORM },
-    /* wrong */
-    { "lit is clipped", so_white, cure_255, DARKENS },
-    { "mesh.normals point away from the eye", so_turned, cure_turned, CHANGES },
-    { "does not fit state.proj", so_far_wins, cure_depth, CHANGES },
-    { "inside out", so_inside_out, cure_other_side, CHANGES },
-    { "target.depth is NULL", so_no_depth, cure_depth, CHANGES },
-    { "state.view looks transposed", so_view_by_rows, cure_view_by_rows, CHANGES },
-    { "state.model looks transposed", so_model_by_rows, cure_model_by_rows, CHANGES },
-    { "look swapped", so_swapped, cure_exchange, STATED },
-    { "what cameras give", so_degenerate, cure_camera, STATED },
-    { "perspective_reversed, which", so_no_flag, cure_flag, STATED },
-    { "light_count is negative", so_negative_count, cure_nothing, STATED },
-    { "spot_cos_cutoff is outside", so_bad_cosine, cure_nothing, STATED },
-    { "holds a NaN or infinity", NULL, cure_nothing, STATED },
+    { "arrives: lighting.light_count is 0", so_no_lamp, cure_count, LAMPS_LIGHT },
+    { "which shows no form", so_no_lamp, cure_count, LAMPS_LIGHT },
+    { "mesh.normals are zero or NaN", so_no_normal, cure_normals, LAMPS_LIGHT },
+    { "Every lamp is behind", so_behind, cure_sides, LAMPS_LIGHT },
+    { "Attenuation, or", NULL, cure_distance, LAMPS_LIGHT },
+    { "No cone of the lights", so_spot, cure_cone, LAMPS_LIGHT },
+    { "The lights have no colour", NULL, cure_lamps, LAMPS_LIGHT },
+    /* what is seldom meant */
+    { "lies beyond the picture", so_beyond_picture, cure_nothing, STATED },
+    { "raster.depth_bias makes", so_bias, cure_nothing, STATED },
     { "state.view scales", so_scales, cure_nothing, STATED },
     { "The aspect of", so_aspect, cure_aspect, CHANGES },
+    { "state.view is unset", so_no_view, cure_camera, STATED },
     { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
-    { "shorter than a position", NULL, cure_nothing, STATED },
-    { "There is no triangle to draw", NULL, cure_nothing, STATED },
     { "but no mipmaps", so_no_mipmaps, cure_nothing, STATED },
+    { "reach the width", so_texels, cure_nothing, STATED },
+    { "diffuse_map.srgb is 0", so_linear_map, cure_nothing, STATED },
+    { "stored as alpha", so_stored, cure_over, CHANGES },
+    { "shininess is below 1", so_dull, cure_shininess, CHANGES },
+    { "state.material.diffuse is 0", so_no_diffuse, cure_diffuse, CHANGES },
+    { "state.material.emission alone", so_glows, cure_emission, DARKENS },
 };
 enum { EX_CLAIMS = sizeof claims / sizeof *claims };
 
@@ -1106,7 +1192,7 @@ static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cu
 /* What is not mended where the second one is the advice, since it would do the same. */
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
-    { cure_normals, cure_turned }, { cure_cull, cure_other_side },
+    { cure_normals, cure_turned }, { cure_cull, cure_winding },
     { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
     { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
     { cure_model, cure_model_by_rows }, { cure_numbers, cure_lamps }, { cure_no_lamp, cure_count },
@@ -1127,15 +1213,22 @@ static void ex_try(const judged *j, const claim *c, const stage *given, cure *ch
     static geometry g;
     ex_copy(given, &s);
     if (change) change(&s);
-    if (c->effect == SHOWS_FORM)
-        s.state.lighting.terms = (s.state.lighting.terms ? s.state.lighting.terms : 15u) & 12u;
+    if (c->effect == LAMPS_LIGHT || c->effect == COLORS_LIGHT) {
+        unsigned *terms = &s.state.lighting.terms, all = *terms ? *terms : 15u;
+        all &= c->effect == LAMPS_LIGHT ? SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR
+                                        : SHADE_TERM_DIFFUSE | SHADE_TERM_AMBIENT;
+        if (all) *terms = all;
+    }
     ex_draw(j->e, &s, &out->p);
     if (c->effect != CHANGES) return;
     ex_look(j->e, &s, -1, &g);
     memset(out->triangle, 0, sizeof out->triangle);
     for (int i = 0; i < g.count; i++) out->triangle[g.at[i].place] = g.at[i].triangle + 1;
 }
-static int ex_is_lit(const claim *c) { return c->effect == LIGHTS_UP || c->effect == SHOWS_FORM; }
+static int ex_is_lit(const claim *c)
+{
+    return c->effect == LIGHTS_UP || c->effect == LAMPS_LIGHT || c->effect == COLORS_LIGHT;
+}
 /* Is the picture still as the sentence found it: empty, or nine tenths of it dark? */
 static int ex_is_bad_still(const judged *j, const claim *c, const trial *t)
 {
