@@ -355,7 +355,7 @@ MISTAKE(positions_nan)
 {
     for (int i = 0; i < s->mesh.vertex_count; i++) s->position[i].y = NAN;
 }
-MISTAKE(one_position_infinite) { s->position[s->index[0]].x = INFINITY; }
+MISTAKE(one_position_infinite) { s->position[s->mesh.vertex_count / 2].x = INFINITY; }
 MISTAKE(normals_never_filled) { memset(s->normal, 0, sizeof s->normal); }
 MISTAKE(normals_against_the_winding)
 {
@@ -425,9 +425,8 @@ MISTAKE(texcoords_without_map) { s->mesh.texcoords = &s->texcoord[0].x; }
 MISTAKE(texcoords_in_texels)
 {
     stage_map(s);
-    s->map.width = s->map.height = 64;
-    for (int i = 0; i < s->mesh.vertex_count; i++)
-        s->texcoord[i] = shade_scale2(s->texcoord[i], 64);
+    s->map.width = s->map.height = 8;
+    for (int i = 0; i < s->mesh.vertex_count; i++) s->texcoord[i] = shade_scale2(s->texcoord[i], 8);
 }
 MISTAKE(texcoords_never_filled)
 {
@@ -1457,6 +1456,7 @@ typedef struct mistake {
 enum scenes { ON_BALL = 1, ON_TEAPOT = 2, WITH_STATS = 4 };
 #define BOTH(name, words) { #name, words, mistake_##name, ON_BALL | ON_TEAPOT }
 #define BALL(name, words) { #name, words, mistake_##name, ON_BALL }
+#define BOTH_STATS(name, words) { #name, words, mistake_##name, ON_BALL | ON_TEAPOT | WITH_STATS }
 #define POT(name, words) { #name, words, mistake_##name, ON_TEAPOT }
 #define BALL_STATS(name, words) { #name, words, mistake_##name, ON_BALL | WITH_STATS }
 static const mistake mistakes[] = {
@@ -1477,12 +1477,12 @@ static const mistake mistakes[] = {
     BOTH(strip_without_rows, "row_count"),
     BOTH(clear_forgotten, "shade_clear"),
     BOTH(cleared_to_zero, "shade_clear"),
-    BOTH(cleared_once_for_two_frames, "shade_clear"),
+    BOTH_STATS(cleared_once_for_two_frames, "shade_clear"),
     BOTH(test_greater, "SHADE_COMPARE_LESS"),
-    BOTH(test_equal, "depth_test|target.depth"),
+    BOTH_STATS(test_equal, "depth_test|target.depth"),
     BOTH(test_always, "depth_test"),
     BOTH(depth_never_written, "depth_read_only"),
-    BOTH(bias_of_one, "depth_bias"),
+    BOTH_STATS(bias_of_one, "depth_bias"),
     BOTH(bias_of_minus_one, "depth_bias"),
     BOTH(bias_nan, "raster.depth_bias"),
     BOTH(reversed_camera_in_half, "depth_zero_to_one"),
@@ -1603,7 +1603,7 @@ static const mistake mistakes[] = {
     BOTH(cull_unknown, "raster.cull"),
     BOTH(blend_unknown, "raster.blend"),
     BOTH(depth_test_unknown, "raster.depth_test"),
-    BOTH(shader_discards_all, "state.fragment"),
+    BOTH_STATS(shader_discards_all, "state.fragment"),
     BOTH(shader_leaves_black, "state.fragment"),
     BOTH(shader_by_vertices, "state.shading"),
     BOTH(view_forgotten, "state.view|the eye"),
@@ -1663,7 +1663,7 @@ static const mistake mistakes[] = {
     BOTH(target_null, "target is NULL"),
     BOTH(mesh_null, "mesh is NULL"),
     BOTH(state_null, "state is NULL"),
-    BOTH(stats_of_another_mesh, "stats"),
+    BOTH_STATS(stats_of_another_mesh, "stats"),
     BALL(clip_negative, "clip_width"),
     BALL(vertex_count_negative, "mesh.vertex_count"),
     BALL(index_count_negative, "mesh.index_count"),
