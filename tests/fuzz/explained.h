@@ -600,9 +600,11 @@ static float ex_toward(const shade_light *l, shade_vec3 point, shade_vec3 direct
     const shade_vec3 to = w != 0 ? shade_sub(shade_scale(at, 1 / w), point) : at;
     return shade_dot(shade_normalize(to), shade_normalize(direction));
 }
-static int ex_has_colour(const shade_light *l)
+/* Has a lamp a colour that the surface reflects? */
+static int ex_has_colour(const judged *j, const shade_light *l)
 {
-    return ex_most(l->diffuse) > 0 || ex_most(l->specular) > 0;
+    const shade_material *m = j->e->s.state.material;
+    return ex_most(l->diffuse) > 0 || (m && ex_most(shade_mul(l->specular, m->specular)) > 0);
 }
 static int ex_turned(const judged *j, const shown *at)
 {
@@ -625,7 +627,7 @@ static int ex_unlit_side(const judged *j, const shown *at)
     const int flip = l->flags & SHADE_FLAG_TWO_SIDED && shade_dot(to_eye, at->normal) < 0;
     if (l->flags & SHADE_FLAG_TWO_SIDED_ABS) return ex_no_normal(j, at);
     for (int k = 0; k < l->light_count; k++)
-        if (ex_has_colour(&l->lights[k]) &&
+        if (ex_has_colour(j, &l->lights[k]) &&
             (flip ? -1 : 1) * ex_toward(&l->lights[k], at->point, at->normal) > 0.02f)
             return 0;
     return 1;
@@ -914,16 +916,18 @@ static void cure_no_lamp(stage *s)
 {
     if (s->state.lighting.light_count <= 0) cure_count(s);
 }
-static void cure_lamps(stage *s)
+static void ex_color_lamps(stage *s, float bright)
 {
     shade_lighting *l = ex_lights(s);
-    for (int k = 0; k < l->light_count; k++)
-        if (l->lights) s->lamps[k].diffuse = s->lamps[k].specular = shade_v3(100, 100, 100);
-    for (int k = 0; k < l->light_count; k++) {
-        const shade_vec4 at = s->lamps[k].position;
+    for (int k = 0; k < l->light_count && l->lights; k++) {
+        shade_light *lamp = &s->lamps[k];
+        const shade_vec4 at = lamp->position;
+        lamp->diffuse = lamp->specular = shade_v3(bright, bright, bright);
         if (at.x == 0 && at.y == 0 && at.z == 0 && at.w == 0) cure_count(s);
     }
 }
+static void cure_lamps(stage *s) { ex_color_lamps(s, 100); }    /* at flat angles too */
+static void cure_colour(stage *s) { ex_color_lamps(s, 1); }
 /* Not a cure, but what hides that there is one: ambient light of the lamps. */
 static void cure_ambient(stage *s)
 {
@@ -1188,11 +1192,13 @@ static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_cl
                                     cure_shader, cure_mesh, cure_model, cure_projection, NULL };
 static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading, cure_terms, cure_colors,
                                      cure_material, cure_sides, cure_normals, cure_distance,
-                                     cure_cone, cure_lamps, cure_numbers, NULL };
+                                     cure_cone, cure_colour, cure_numbers, NULL };
 /* What is not mended where the second one is the advice, since it would do the same. */
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
-    { cure_normals, cure_turned }, { cure_cull, cure_winding },
+    { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
+    { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
+    { cure_material, cure_shininess }, { cure_colour, cure_lamps },
     { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
     { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
     { cure_model, cure_model_by_rows }, { cure_numbers, cure_lamps }, { cure_no_lamp, cure_count },
