@@ -52,32 +52,32 @@
      Public
        >>config     123  options               >>types      201  materials, lamps, targets, states
        >>plumbing   375  compilers             >>light      512  the equation and its terms
-       >>draw       637  meshes and pixels     >>math       927  vectors and matrices
+       >>draw       638  meshes and pixels     >>math       928  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1290  processors            >>base      1517  bits, masks, rows of vectors
-       >>matrix    1741  cameras, inverses     >>power     2109  x^n
-       >>pixels    2175  formats, sRGB
+       >>machine   1291  processors            >>base      1518  bits, masks, rows of vectors
+       >>matrix    1743  cameras, inverses     >>power     2111  x^n
+       >>pixels    2177  formats, sRGB
      Inside: light
-       >>lamps     2452  attenuation, cones    >>terms     2726  one term at one point
-       >>surface   2808  material and lights   >>lit       2929  the whole sum, at many points
+       >>lamps     2454  attenuation, cones    >>terms     2730  one term at one point
+       >>surface   2812  material and lights   >>lit       2933  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3336  who owns what         >>vertices  3519  shading, projection
-       >>triangles 3736  dropped, cut, edges   >>clip      4105  near, far, behind the eye
-       >>tiles     4290  pixels, depth test    >>cover     4645  what is hidden, tile by tile
-       >>fragments 4912  interpolation, lod    >>texture   5205  texels, mipmaps
-       >>store     5650  blending, packing
+       >>state     3340  who owns what         >>vertices  3523  shading, projection
+       >>triangles 3740  dropped, cut, edges   >>clip      4109  near, far, behind the eye
+       >>tiles     4294  pixels, depth test    >>cover     4649  what is hidden, tile by tile
+       >>fragments 4916  interpolation, lod    >>texture   5209  texels, mipmaps
+       >>store     5654  blending, packing
      Inside: calls of the renderer
-       >>check     5882  refusals              >>seen      6042  what can be seen, chunks
-       >>drive     6179  shade_draw            >>mesh      6358  shade_draw_mesh
+       >>check     5886  refusals              >>seen      6050  what can be seen, chunks
+       >>drive     6187  shade_draw            >>mesh      6366  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6758  shade_draw_lines      >>shape     6936  normals, edges
-       >>chunks    7298  how boxes are made    >>rays      7462  shade_pick
-       >>survey    7638  experiments on a draw >>explain   7974  why nothing is seen
-       >>replay    8904  of lines, pipelines   >>image     9218  mipmaps, PPM
-       >>presets   9486  classic materials
+       >>lines     6766  shade_draw_lines      >>shape     6944  normals, edges
+       >>chunks    7306  how boxes are made    >>rays      7470  shade_pick
+       >>survey    7646  experiments on a draw >>explain   8016  why nothing is seen
+       >>replay    8993  of lines, pipelines   >>image     9323  mipmaps, PPM
+       >>presets   9591  classic materials
      Sources
-       >>refs      9562                        >>history   9592
-       >>license   9604
+       >>refs      9667                        >>history   9697
+       >>license   9709
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7684,7 +7684,7 @@ typedef struct shade__survey {
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
     float dim;                           /* channels below it are stored as 8 of 255 at most */
-    int   reversed;                      /* is z = w on the eye's side of a perspective? */
+    shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
 } shade__survey;
 
@@ -7890,7 +7890,6 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
                                const shade_draw_state *state, const shade_stats *stats,
                                shade__survey *s)
 {
-    shade_vec4 last;
     SHADE__ZERO(*s);
     s->target = target;
     s->given_mesh = mesh;
@@ -7911,10 +7910,9 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->whole = shade__clip_rectangle(target, s->clip) &&
                s->clip[2] - s->clip[0] == target->width &&
                s->clip[3] - s->clip[1] == target->height;
-    last = s->state.projection.col[3];
-    s->reversed = last.w == 0 && last.z > 0;
+    shade__camera_of(&s->state.projection, &s->state.view, &s->camera);
     s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
-                                         : s->reversed);
+                                         : s->camera.reversed);
 
     s->dim = shade__dim_of(target);
 }
@@ -8005,12 +8003,23 @@ static int shade__depth_varies(const shade_target *t)
 
 static int shade__eye_inside(const shade__survey *s)
 {
-    const shade_mat4 m = shade__mat4_product(&s->state.view, &s->state.model);
-    const shade_vec3 eye = shade__xyz(shade_mat4_inverse(m).col[3]);
-    shade_vec3 low, high;
+    const shade_mat4 object = shade__mat4_product(&s->state.view, &s->state.model);
+    shade__camera c;
+    shade_vec3 low, high, eye;
+    shade__camera_of(&s->state.projection, &object, &c);
     shade_mesh_bounds(&s->mesh, &low, &high);
-    return shade_mat4_determinant(m) != 0 &&
-           shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
+    eye = shade_v3((float)c.eye[0], (float)c.eye[1], (float)c.eye[2]);
+    return c.perspective && shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
+}
+
+/* Is depth the same all over a plane that the viewer faces? */
+static int shade__faces_ahead(const shade__camera *c)
+{
+    double across[3];
+    shade__cross3(c->row[2], c->row[3], across);
+    return c->perspective &&
+           shade__dot3(across, across) <= 1e-10 * shade__dot3(c->row[2], c->row[2]) *
+                                              shade__dot3(c->row[3], c->row[3]);
 }
 
 /*---------------------------------------------------------------------------------------- >>explain
@@ -8084,14 +8093,6 @@ static int shade__is_rigid(const shade_mat4 *m)
     return rigid;
 }
 
-/* Is nothing but 0 in the first two columns, save x and y of the picture?  Then depth is the same
-   all over a plane that the viewer faces. */
-static int shade__faces_ahead(const shade_mat4 *p)
-{
-    const shade_vec4 x = p->col[0], y = p->col[1];
-    return x.y == 0 && x.z == 0 && x.w == 0 && y.x == 0 && y.z == 0 && y.w == 0;
-}
-
 /* Is the last row of an affine matrix (0, 0, 0, 1)? */
 static int shade__scales_w(const shade_mat4 *m)
 {
@@ -8119,7 +8120,7 @@ static const char *shade__bad_matrix(const shade__survey *s)
                                     !shade__is_zero(shade__xyz(p->col[3]))))
         return "state.view holds a projection, which belongs in state.projection: light takes the "
                "eye from state.view.  Are the two swapped?";
-    if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(p) &&
+    if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(&s->camera) &&
         !s->state.raster.depth_zero_to_one)
         return "state.projection is that of shade_mat4_perspective_reversed, which needs "
                "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
@@ -8277,7 +8278,7 @@ static int shade__projection_is_none(shade__survey *q)
 
 static int shade__beyond_far(shade__survey *q)
 {
-    return (shade__outside(q) & (q->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR)) != 0;
+    return (shade__outside(q) & (q->camera.reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR)) != 0;
 }
 
 static int shade__view_is_inverse(shade__survey *q)
@@ -8347,10 +8348,8 @@ static const shade__rung shade__nothing[] = {
 static int shade__test_is_turned(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
-    const shade_mat4 *p = &q->state.projection;
-    /* depth is a number plus col[3].z / w */
-    return q->target->depth && p->col[3].w == 0 && shade__faces_ahead(p) && !r->depth_read_only &&
-           r->depth_test < SHADE_COMPARE_EQUAL && (float)q->reversed == q->farthest;
+    return q->target->depth && shade__faces_ahead(&q->camera) && !r->depth_read_only &&
+           r->depth_test < SHADE_COMPARE_EQUAL && (float)q->camera.reversed == q->farthest;
 }
 
 static const shade__rung shade__test[] = {
@@ -8544,6 +8543,14 @@ static int shade__shading_is_coarse(shade__survey *q)
     return shade__lights_up(q);
 }
 
+/* Are the normals of faces lit, which SHADE_SHADING_PER_FRAGMENT would not take? */
+static int shade__faces_are_lit(shade__survey *q)
+{
+    if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
+    q->mesh.normals = NULL;
+    return shade__bright(q);
+}
+
 static int shade__terms_are_few(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -8599,6 +8606,7 @@ static const shade__rung shade__black[] = {
     { shade__shading_is_coarse,
       "state.shading lights vertices or middles of faces, which no light reaches, though it "
       "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT." },
+    { shade__faces_are_lit, shade__multiply },
     { shade__terms_are_few,
       "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
       "terms, and the model SHADE_MODEL_BLINN_PHONG." },
@@ -8630,8 +8638,7 @@ static int shade__lacks_normals(shade__survey *q)
     shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
     open.material.specular = shade_v3(1, 1, 1);
     open.material.shininess = 0;
-    return q->mesh.normals && q->given_state->shading != SHADE_SHADING_PER_FACE &&
-           !shade__bright(&open);
+    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__bright(&open);
 }
 
 /* Leaves the terms of lamps in the survey.  Returns whether it has any. */
@@ -8652,6 +8659,8 @@ static int shade__lamps_behind(shade__survey *q)
     shade__survey each = *q;
     shade_lighting *l = &each.state.lighting;
     shade__whiten(&each);
+    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
+    shade__light_fragments(&each);
     if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
         q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
         return 0;
@@ -8663,8 +8672,6 @@ static int shade__lamps_behind(shade__survey *q)
     l->terms = SHADE_TERM_DIFFUSE;
     shade__light_everywhere(&each);
     shade__open_cones(&each);
-    if (q->given_state->shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
-    shade__light_fragments(&each);
     return shade__few(q, shade__count(&each, FLT_MIN), shade__covered(q));
 }
 
@@ -8732,7 +8739,9 @@ static int shade__colors_are_zero(shade__survey *q)
 static int shade__normals_turned(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
-    const shade_mat4 m = shade__mat4_product(&q->state.projection, &q->state.view);
+    const shade__camera *c = &q->camera;
+    const double *at = c->perspective ? c->eye : c->sight;
+    const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
     const long long all = shade__covered(q);
     long long toward;
     if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
@@ -8740,9 +8749,8 @@ static int shade__normals_turned(shade__survey *q)
         return 0;
     q->state.raster.cull = SHADE_CULL_BACK;
     shade__light_fragments(q);
-    /* at the centre of projection, which is infinitely far away where projection is parallel */
-    shade__light_by(q, shade_mat4_transform(shade_mat4_inverse(m),
-                                            shade_v4(0, 0, 1 - 2 * q->farthest, 0)), 0);
+    shade__light_by(q, shade_v4((float)at[0] * sign, (float)at[1] * sign, (float)at[2] * sign,
+                                (float)c->perspective), 0);
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
@@ -8852,17 +8860,30 @@ static const char *shade__doubt_of_map(const shade__survey *s)
     return NULL;
 }
 
+/* Is the camera's aspect, which is that of rows x and y at right angles to the sight, not the
+   picture's?  The cells of a terminal are twice as high as wide. */
+static int shade__aspect_is_wrong(const shade__survey *s)
+{
+    const shade__camera *c = &s->camera;
+    const double w = s->target->width, h = s->target->height;
+    double x[3], y[3], wide, high;
+    shade__cross3(c->row[0], c->sight, x);
+    shade__cross3(c->row[1], c->sight, y);
+    wide = shade__dot3(x, x) * w * w;
+    high = shade__dot3(y, y) * h * h;
+    if (!shade__faces_ahead(c) || shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
+        (h < 128 && shade__size(wide - 4 * high) < 0.24 * high))
+        return 0;
+    return shade__size(wide - high) > 0.06 * wide;
+}
+
 static const char *shade__doubt_of_view(const shade__survey *s)
 {
     const shade_mat4 *p = &s->state.projection;
-    const double wide = shade__size((double)p->col[0].x) * s->target->width;
-    const double high = shade__size((double)p->col[1].y) * s->target->height;
-    const int cells = s->target->height < 128 && shade__size(wide - 2 * high) < 0.06 * high;
     if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))
         return "state.view scales or shears, but it must only turn and move, as that of "
                "shade_mat4_look_at does; scale by state.model.";
-    if (p->col[3].w == 0 && shade__faces_ahead(p) && shade__size(wide - high) > 0.03 * wide &&
-        !cells)    /* of a terminal, twice as high as wide */
+    if (shade__aspect_is_wrong(s))
         return "The aspect of state.projection is not that of the picture: pass width / height of "
                "the target as floats to shade_mat4_perspective.";
     if (s->given_state->view.col[3].w == 0 && p->col[3].w == 0 && shade__eye_inside(s))
