@@ -827,14 +827,22 @@ static int so_bad_cosine(const judged *j)
     }
     return 0;
 }
+/* Are squares that face the eye no squares in the picture, nor in cells of a terminal, twice as high
+   as wide? */
 static int so_aspect(const judged *j)
 {
     const stage *s = &j->e->s;
-    const shade_mat4 p = ex_or_identity(s->state.projection);
-    const float wide = fabsf(p.col[0].x) * (float)s->target.width;
-    const float high = fabsf(p.col[1].y) * (float)s->target.height;
-    return p.col[3].w == 0 && fabsf(wide - high) > 0.02f * wide &&
-           fabsf(wide - 2 * high) > 0.02f * wide;    /* cells of a terminal are twice as high */
+    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.projection),
+                                        ex_or_identity(s->state.view));
+    shade_vec3 row[4];
+    float wide, high;
+    for (int r = 0; r < 4; r++)
+        row[r] = shade_v3((&m.col[0].x)[r], (&m.col[1].x)[r], (&m.col[2].x)[r]);
+    if (shade_length(row[3]) == 0) row[3] = shade_cross(row[0], row[1]);
+    row[3] = shade_normalize(row[3]);
+    wide = shade_length(shade_cross(row[0], row[3])) * (float)s->target.width;
+    high = shade_length(shade_cross(row[1], row[3])) * (float)s->target.height;
+    return fabsf(wide - high) > 0.02f * wide && fabsf(wide - 2 * high) > 0.02f * wide;
 }
 static int so_scales(const judged *j) { return !ex_is_rigid(ex_or_identity(STATE->view)); }
 static int so_no_texcoords(const judged *j)
