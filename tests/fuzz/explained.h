@@ -633,6 +633,16 @@ static int ex_unlit_side(const judged *j, const shown *at)
     return 1;
 }
 
+/* Is each lamp dark, or does it meet the surface at a flat angle? */
+static int ex_dim(const judged *j, const shown *at)
+{
+    const shade_lighting *l = &j->e->s.state.lighting;
+    for (int k = 0; k < l->light_count; k++)
+        if (ex_most(l->lights[k].diffuse) *
+            fabsf(ex_toward(&l->lights[k], at->point, at->normal)) > 0.05f) return 0;
+    return 1;
+}
+
 /* Do all corners of the mesh hold it?  bad: those that are no numbers do too. */
 typedef int of_corner(const double clip[4]);
 static int ex_all(const stage *s, of_corner *holds)
@@ -688,6 +698,7 @@ static int ex_eye_in_box(const judged *j)
 #define STATE (&j->e->s.state)
 #define LIGHTS (&j->e->s.state.lighting)
 static int so_behind(const judged *j) { return ex_tenths(j, &j->shown, ex_unlit_side) >= 9; }
+static int so_dim(const judged *j) { return ex_tenths(j, &j->shown, ex_dim) >= 9; }
 static int so_turned(const judged *j) { return ex_tenths(j, &j->shown, ex_turned) >= 2; }
 static int so_no_normal(const judged *j)
 {
@@ -924,18 +935,16 @@ static void cure_no_lamp(stage *s)
 {
     if (s->state.lighting.light_count <= 0) cure_count(s);
 }
-static void ex_color_lamps(stage *s, float bright)
+static void cure_lamps(stage *s)
 {
     shade_lighting *l = ex_lights(s);
     for (int k = 0; k < l->light_count && l->lights; k++) {
         shade_light *lamp = &s->lamps[k];
         const shade_vec4 at = lamp->position;
-        lamp->diffuse = lamp->specular = shade_v3(bright, bright, bright);
+        lamp->diffuse = lamp->specular = shade_v3(1, 1, 1);
         if (at.x == 0 && at.y == 0 && at.z == 0 && at.w == 0) cure_count(s);
     }
 }
-static void cure_lamps(stage *s) { ex_color_lamps(s, 100); }    /* at flat angles too */
-static void cure_colour(stage *s) { ex_color_lamps(s, 1); }
 /* Not a cure, but what hides that there is one: ambient light of the lamps. */
 static void cure_ambient(stage *s)
 {
@@ -1177,7 +1186,7 @@ static const claim claims[] = {
     { "Every lamp is behind", so_behind, cure_sides, LAMPS_LIGHT },
     { "Attenuation, or", NULL, cure_distance, LAMPS_LIGHT },
     { "No cone of the lights", so_spot, cure_cone, LAMPS_LIGHT },
-    { "The lights have no colour", NULL, cure_lamps, LAMPS_LIGHT },
+    { "The lights have no colour", so_dim, cure_count, LAMPS_LIGHT },
     /* what is seldom meant */
     { "lies beyond the picture", so_beyond_picture, cure_nothing, STATED },
     { "raster.depth_bias makes", so_bias, cure_nothing, STATED },
@@ -1200,16 +1209,17 @@ static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_cl
                                     cure_shader, cure_mesh, cure_model, cure_projection, NULL };
 static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading, cure_terms, cure_colors,
                                      cure_material, cure_sides, cure_normals, cure_distance,
-                                     cure_cone, cure_colour, cure_numbers, NULL };
+                                     cure_cone, cure_lamps, cure_numbers, NULL };
 /* What is not mended where the second one is the advice, since it would do the same. */
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
     { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
     { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
-    { cure_material, cure_shininess }, { cure_colour, cure_lamps },
+    { cure_material, cure_shininess },
     { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
     { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_numbers, cure_lamps }, { cure_no_lamp, cure_count },
+    { cure_model, cure_model_by_rows }, { cure_lamps, cure_count },
+    { cure_numbers, cure_count }, { cure_no_lamp, cure_count }, { cure_sides, cure_count },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {

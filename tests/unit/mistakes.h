@@ -1568,7 +1568,7 @@ static const mistake mistakes[] = {
     BOTH(lamp_without_specular, ""),
     BOTH(lamp_of_ambient_light, "Only ambient|diffuse"),
     BOTH(lamp_nan, "NaN"),
-    BOTH(lamp_negative, ""),
+    POT(lamp_negative, ""), BALL(lamp_negative, "diffuse"),
     BOTH(terms_of_nothing, "lighting.terms"),
     BOTH(terms_of_highlights, ""),
     BOTH(terms_unknown, "lighting.terms"),
