@@ -931,6 +931,7 @@ static void cure_count(stage *s)
     const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
     stage_lamp(s, shade_point_light(ex_eye(s, greater), shade_v3(1, 1, 1)));
 }
+static void cure_at_eye(stage *s) { cure_count(s); }
 static void cure_no_lamp(stage *s)
 {
     if (s->state.lighting.light_count <= 0) cure_count(s);
@@ -1186,7 +1187,7 @@ static const claim claims[] = {
     { "Every lamp is behind", so_behind, cure_sides, LAMPS_LIGHT },
     { "Attenuation, or", NULL, cure_distance, LAMPS_LIGHT },
     { "No cone of the lights", so_spot, cure_cone, LAMPS_LIGHT },
-    { "The lights have no colour", so_dim, cure_count, LAMPS_LIGHT },
+    { "The lights have no colour", so_dim, cure_at_eye, LAMPS_LIGHT },
     /* what is seldom meant */
     { "lies beyond the picture", so_beyond_picture, cure_nothing, STATED },
     { "raster.depth_bias makes", so_bias, cure_nothing, STATED },
@@ -1218,8 +1219,8 @@ static cure *const ex_alike[][2] = {
     { cure_material, cure_shininess },
     { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
     { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_lamps, cure_count },
-    { cure_numbers, cure_count }, { cure_no_lamp, cure_count }, { cure_sides, cure_count },
+    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
+    { cure_lamps, cure_at_eye }, { cure_numbers, cure_at_eye },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {
