@@ -1207,10 +1207,11 @@ enum { EX_CLAIMS = sizeof claims / sizeof *claims };
 
 /* What may keep a mesh from being seen, and from being lit. */
 static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_clip, cure_depth,
-                                    cure_shader, cure_mesh, cure_model, cure_projection, NULL };
+                                    cure_shader, cure_mesh, cure_model, cure_projection, cure_camera,
+                                    NULL };
 static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading, cure_terms, cure_colors,
                                      cure_material, cure_sides, cure_normals, cure_distance,
-                                     cure_cone, cure_lamps, cure_numbers, NULL };
+                                     cure_cone, cure_lamps, cure_numbers, cure_emission, NULL };
 /* What is not mended where the second one is the advice, since it would do the same. */
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
@@ -1218,7 +1219,7 @@ static cure *const ex_alike[][2] = {
     { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
     { cure_material, cure_shininess },
     { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
-    { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
+    { cure_camera, cure_by_rows }, { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
     { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
     { cure_lamps, cure_at_eye }, { cure_numbers, cure_at_eye },
 };
@@ -1257,6 +1258,7 @@ static int ex_is_lit(const claim *c)
 /* Is the picture still as the sentence found it: empty, or nine tenths of it dark? */
 static int ex_is_bad_still(const judged *j, const claim *c, const trial *t)
 {
+    if (c->so == so_behind) return t->p.bright * 3 <= j->shown.count;    /* light of 255 grazes */
     if (ex_is_lit(c)) return t->p.bright * 10 <= j->shown.count;
     return !t->p.stats.fragments;
 }
@@ -1270,7 +1272,8 @@ static void ex_mend(const judged *j, const claim *c, cure *const *all, int from_
     while (all[n]) n++;
     for (int k = 0; k < n; k++) {
         cure *one = all[from_last ? n - 1 - k : k];
-        const int moves = one == cure_mesh || one == cure_projection || one == cure_model;
+        const int moves = one == cure_mesh || one == cure_model || one == cure_camera ||
+                          (one == cure_projection && c->advice != cure_clear);
         const int always = c->effect == CHANGES || c->effect == DARKENS;
         if ((moves && c->effect != CHANGES) || (one == cure_cull && ex_is_lit(c)) ||
             !ex_is_apart(one, c->advice))
