@@ -8431,7 +8431,7 @@ static int shade__nothing_is_equal(shade__survey *q)
 
 static int shade__depth_is_far(shade__survey *q)
 {
-    if (!q->given_stats || !shade__all_hidden(q)) return 0;
+    if (!shade__all_hidden(q)) return 0;
     q->apart = FLT_MIN;
     return !shade__covered(q);
 }
@@ -8556,7 +8556,8 @@ static int shade__black_is_meant(shade__survey *q)
     const shade_material *m = &q->material;
     const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
                                      shade_add(m->diffuse, m->specular));
-    return r->cull == SHADE_CULL_FRONT || (r->blend == SHADE_BLEND_OVER && shade__is_zero(sum));
+    return shade__is_zero(sum) &&
+           (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
 }
 
 static int shade__shading_is_coarse(shade__survey *q)
@@ -8629,11 +8630,14 @@ static const shade__rung shade__black[] = {
     { shade__shading_is_coarse,
       "state.shading lights vertices or middles of faces, which no light reaches, though it "
       "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT." },
+    { shade__has_light, shade__multiply },
     { shade__faces_are_lit, shade__multiply },
     { shade__terms_are_few,
       "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
       "terms, and the model SHADE_MODEL_BLINN_PHONG." },
+    { shade__has_light, shade__multiply },
     { shade__colors_are_black, shade__black_colors },
+    { shade__has_light, shade__multiply },
     { shade__material_is_black,
       "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
       "or specular, lighting.ambient needs material.ambient; NULL is white." },
@@ -8679,14 +8683,17 @@ static int shade__lamps_alone(shade__survey *q)
 static int shade__lamps_behind(shade__survey *q)
 {
     const shade_vec3 glow = q->material.emission;
+    const long long all = shade__covered(q);
     shade__survey each = *q;
     shade_lighting *l = &each.state.lighting;
     shade__whiten(&each);
-    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
-    shade__light_fragments(&each);
     if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
         q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
         return 0;
+    if (!shade__few(q, shade__count(&each, q->dim), all)) return 0;
+
+    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
+    shade__light_fragments(&each);
     l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
     if (!shade__lights_up(&each)) return 0;
 
@@ -8696,7 +8703,7 @@ static int shade__lamps_behind(shade__survey *q)
     shade__light_everywhere(&each);
     shade__open_cones(&each);
     shade__paint_lamps(&each, shade_v3(1, 1, 1));
-    return shade__few(q, shade__count(&each, FLT_MIN), shade__covered(q));
+    return shade__few(q, shade__count(&each, FLT_MIN), all);
 }
 
 static int shade__lamps_fall_off(shade__survey *q)
@@ -8738,7 +8745,9 @@ static const shade__rung shade__unlit[] = {
     { shade__lacks_normals, shade__no_normals },
     { shade__lamps_behind, shade__behind },
     { shade__lamps_fall_off, shade__fall_off },
+    { shade__has_light, shade__multiply },
     { shade__cones_miss, shade__no_cone },
+    { shade__has_light, shade__multiply },
     { shade__lamps_are_many, shade__multiply },
     { shade__lamps_are_dark, shade__no_color },
     { shade__always, shade__multiply },
