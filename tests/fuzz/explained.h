@@ -1357,8 +1357,8 @@ static int ex_explain(explained *e, int with_stats, const char **said)
     }
     return EX_CLAIMS + EX_FALSE;
 }
-/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, and black
-   surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
+/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, another one
+   hide it, and black surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
 static int ex_is_black(explained *e)
 {
     static picture drawn;
@@ -1373,7 +1373,8 @@ static int ex_is_black(explained *e)
         return 0;
     ex_copy(&e->s, &whole);
     cure_clip(&whole);
-    if (!drawn.stats.fragments && (e->s.target.clip_width || e->s.target.row_count)) return 0;
+    if (!drawn.stats.fragments &&
+        (e->s.target.clip_width || e->s.target.row_count || e->other.col[3].w != 0)) return 0;
     ex_draw(e, &whole, &drawn);
     return !drawn.bright;
 }
