@@ -147,6 +147,7 @@ static const char *stage_explain(stage *s, int with_stats)
 
 #define MISTAKE(name) static void mistake_##name(stage *s)
 #define BLACK shade_v3(0, 0, 0)
+#define WHITE shade_v3(1, 1, 1)
 #define STAGE_SCALE(k) shade_mat4_scaling(shade_v3(k, k, k))
 #define SUN shade_directional_light(shade_v3(0, -1, -4), shade_v3(1, 1, 1))
 
