@@ -1,438 +1,13 @@
-/* explained.h - states of draws, and what is false of what shade_explain says about them.
+/* explained.h - what is false of what shade_explain says about a draw.
 
    claims[] has a row for each sentence: what must be so of the pixels that the picture shows, and
    the change that the sentence advises.  The change is made, the picture drawn again, and the
-   pixels must change as promised.  Nothing here is known to shade_explain: geometry is computed in
-   double precision, triangle by triangle, and pictures are drawn by the public interface.
-     States are of two kinds.  random: anything goes.  ordinary: a sensible scene, with no, one or
-   two of the mistakes in tests/unit/mistakes.h.
-     Whoever includes this defines explained_pick(n), which gives a number from 0 to n - 1. */
+   pixels must change as promised.  Nothing here is known to shade_explain: corners are transformed
+   in double precision, and pictures are drawn by the public interface. */
 #ifndef EXPLAINED_H
 #define EXPLAINED_H
 
-#include "../unit/mistakes.h"
-
-enum { EX_WIDTH = 24, EX_HEIGHT = 16, EX_PIXELS = 4 * EX_WIDTH * EX_HEIGHT };
-
-typedef struct explained {
-    stage s;                     /* as generated */
-    shade_mat4 other;            /* model of the mesh that is drawn before; zero: none is */
-    const char *made[2];         /* mistakes of an ordinary state */
-} explained;
-
-static int ex_one_in(int n) { return explained_pick(n) == n - 1; }
-static float ex_from(float low, float high)
-{
-    return low + (high - low) * (float)explained_pick(257) / 256;
-}
-static shade_vec3 ex_vec3(float low, float high)
-{
-    const float x = ex_from(low, high), y = ex_from(low, high);
-    return shade_v3(x, y, ex_from(low, high));
-}
-static float ex_most(shade_vec3 c) { return fmaxf(c.x, fmaxf(c.y, c.z)); }
-
-/* ---- meshes of both kinds of states ---------------------------------------------------------- */
-
-static void ex_quads(stage *s, const shade_vec3 *corner, int quads)
-{
-    static const uint32_t two[6] = { 0, 1, 2, 0, 2, 3 };
-    for (int i = 0; i < quads * 4; i++) {
-        const shade_vec3 *q = corner + i / 4 * 4;
-        s->position[i] = corner[i];
-        s->normal[i] = shade_face_normal(q[0], q[1], q[2]);
-        s->texcoord[i] = shade_v2((float)(i >> 1 & 1), (float)((i + 1) >> 1 & 1));
-    }
-    for (int i = 0; i < quads * 6; i++) s->index[i] = two[i % 6] + (uint32_t)(i / 6 * 4);
-    s->mesh.vertex_count = quads * 4;
-    s->mesh.index_count = quads * 6;
-}
-static void ex_floor(stage *s)
-{
-    static const shade_vec3 ground[4] = { { -3, 0, 3 }, { 3, 0, 3 }, { 3, 0, -3 }, { -3, 0, -3 } };
-    ex_quads(s, ground, 1);
-}
-static void ex_box(stage *s)
-{
-    shade_vec3 corner[24];
-    for (int f = 0; f < 6; f++)
-        for (int k = 0; k < 4; k++) {
-            const float side = f & 1 ? 1.0f : -1.0f, u = k == 1 || k == 2 ? side : -side;
-            const float v = k > 1 ? 1.0f : -1.0f, at[3] = { side, u, v };
-            const int a = f / 2;
-            corner[f * 4 + k] = shade_v3(at[(3 - a) % 3], at[(4 - a) % 3], at[(5 - a) % 3]);
-        }
-    ex_quads(s, corner, 6);
-}
-/* A surface of 4 x 4 squares, open below. */
-static void ex_hills(stage *s)
-{
-    shade_vec3 corner[64];
-    float high[5][5];
-    for (int k = 0; k < 25; k++) high[k / 5][k % 5] = ex_from(-0.4f, 0.4f);
-    for (int k = 0; k < 64; k++) {
-        const int x = k / 4 % 4 + (k % 4 == 1 || k % 4 == 2), z = k / 16 + (k % 4 > 1);
-        corner[k] = shade_v3((float)x - 2, high[z][x], 2 - (float)z);
-    }
-    ex_quads(s, corner, 16);
-}
-static void ex_triangles(stage *s)
-{
-    s->mesh.vertex_count = s->mesh.index_count = 3 * (1 + explained_pick(6));
-    for (int i = 0; i < s->mesh.vertex_count; i++) {
-        s->position[i] = ex_vec3(-1.5f, 1.5f);
-        s->normal[i] = s->position[i];
-        s->texcoord[i] = shade_v2(s->position[i].x, s->position[i].z);
-        s->index[i] = (uint32_t)i;
-    }
-}
-static void ex_teapot(stage *s)
-{
-    teapot_build(2, &s->position[0].x, &s->normal[0].x, &s->texcoord[0].x, s->index);
-    s->mesh.vertex_count = teapot_vertex_count(2);
-    s->mesh.index_count = teapot_index_count(2);
-    for (int i = 0; i < s->mesh.vertex_count; i++)
-        s->position[i] = shade_scale(shade_sub(s->position[i], shade_v3(0, 1.4f, 0)), 0.4f);
-}
-static void ex_target(stage *s)
-{
-    stage_begin(s);
-    s->target.width = EX_WIDTH;
-    s->target.height = EX_HEIGHT;
-    s->target.stride = 0;
-    stage_ball(s, 6, 8);
-}
-
-/* ---- random states --------------------------------------------------------------------------- */
-
-static void ex_random_mesh(stage *s)
-{
-    shade_mesh *m = &s->mesh;
-    const int kind = explained_pick(4);
-    if (kind == 0) ex_floor(s);
-    if (kind == 1) ex_triangles(s);
-    if (ex_one_in(16)) s->position[explained_pick(m->vertex_count)].y = NAN;
-    if (ex_one_in(24)) m->index_count = 3;
-    if (ex_one_in(6)) stage_turn(s, 0);
-    if (ex_one_in(3)) m->normals = NULL;
-    if (ex_one_in(8)) {
-        const float k = ex_one_in(3) ? NAN : -(float)explained_pick(2);
-        for (int i = 0; i < m->vertex_count; i++) s->normal[i] = shade_scale(s->normal[i], k);
-    }
-    if (ex_one_in(4)) {
-        const float most = ex_one_in(3) ? 255.0f : (float)explained_pick(2);
-        for (int i = 0; i < m->vertex_count; i++) s->color[i] = ex_vec3(0, most);
-        m->colors = &s->color[0].x;
-    }
-    if (ex_one_in(3)) m->texcoords = &s->texcoord[0].x;
-    if (ex_one_in(6)) {
-        const int left = explained_pick(3);
-        stage_chunks(s);
-        if (left == 1) s->chunks[0].count = explained_pick(2);
-        if (left == 2) s->chunks[0].high = s->chunks[0].low = ex_vec3(-4, 4);
-    }
-}
-static void ex_random_camera(stage *s)
-{
-    shade_draw_state *d = &s->state;
-    shade_mat4 *p = &d->projection;
-    s->eye = ex_vec3(-4, 4);
-    s->center = ex_vec3(-1, 1);
-    s->fovy = ex_from(0.3f, 1.2f);
-    s->aspect = ex_one_in(12) ? 1 : (float)EX_WIDTH / EX_HEIGHT;
-    s->z_near = ex_from(0.05f, 2);
-    s->z_far = ex_from(3, 30);
-    stage_look(s);
-    switch (explained_pick(12)) {
-    case 0: *p = shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 9); break;
-    case 1:
-        stage_reverse(s, 0.1f);
-        d->raster.depth_zero_to_one = !ex_one_in(6);
-        break;
-    case 2:                                /* w = 1 - z/k */
-        *p = shade_mat4_identity();
-        p->col[2] = shade_v4(0, 0, ex_from(-0.4f, 0), -1 / ex_from(1, 5));
-        if (ex_one_in(2)) memset(&d->view, 0, sizeof d->view);
-        break;
-    case 3:
-        for (int k = 0; k < 4; k++) p->col[k] = shade_scale4(p->col[k], -1 / p->col[3].z);
-        break;
-    case 4:
-        if (ex_one_in(2)) *p = shade_mat4_transpose(*p);
-        else d->view = shade_mat4_transpose(d->view);
-        break;
-    case 5:
-        if (ex_one_in(2)) d->view = shade_mat4_inverse(d->view);
-        else memset(ex_one_in(2) ? p : &d->view, 0, sizeof *p);
-        break;
-    case 6: d->view = shade_mat4_mul(shade_mat4_scaling(ex_vec3(-2, 2)), d->view); break;
-    default: break;
-    }
-    if (ex_one_in(2)) return;
-    d->model = shade_mat4_rotation(ex_from(-3, 3), ex_vec3(-1, 1));
-    if (ex_one_in(3)) d->model = shade_mat4_mul(d->model, shade_mat4_scaling(ex_vec3(-1.5f, 1.5f)));
-    if (ex_one_in(8)) d->model = shade_mat4_scaling(shade_v3(ex_from(0, 0.04f), 0.02f, 0.02f));
-    if (ex_one_in(8)) d->model = shade_mat4_scaling(shade_v3(1, 0, 1));
-    if (ex_one_in(3)) d->model.col[3] = shade_v4(ex_from(-6, 6), ex_from(-2, 2), ex_from(-9, 9), 1);
-}
-static void ex_random_lamp(shade_light *l)
-{
-    static const float power[6] = { 1, 0.2f, 0.01f, 0, 3, 255 };
-    const shade_vec3 at = ex_vec3(-4, 4), aim = ex_vec3(-1, 1);
-    const shade_vec3 color = shade_scale(ex_vec3(0.2f, 1), power[explained_pick(6)]);
-    const int kind = explained_pick(3);
-    if (kind == 0) *l = shade_directional_light(aim, color);
-    if (kind == 1) *l = shade_point_light(at, color);
-    if (kind == 2)
-        *l = shade_spot_light(at, ex_one_in(2) ? aim : shade_neg(at), ex_from(0.02f, 0.9f),
-                              ex_one_in(2) ? 0 : ex_from(0, 60), color);
-    if (ex_one_in(3)) l->quadratic = ex_from(0, ex_one_in(3) ? 300.0f : 2.0f);
-    if (ex_one_in(6)) l->linear = ex_from(0, 40);
-    if (ex_one_in(8)) l->ambient = ex_vec3(0, 0.2f);
-    if (ex_one_in(8)) l->diffuse = BLACK;
-    if (ex_one_in(6)) l->specular = BLACK;
-}
-static void ex_random_light(stage *s)
-{
-    shade_lighting *l = &s->state.lighting;
-    shade_material *m = &s->material;
-    l->light_count = explained_pick(STAGE_LAMPS + 1);
-    for (int i = 0; i < STAGE_LAMPS; i++) ex_random_lamp(&s->lamps[i]);
-    l->lights = l->light_count || ex_one_in(2) ? s->lamps : NULL;
-    if (ex_one_in(40)) l->light_count = -1;
-    if (ex_one_in(4)) l->ambient = ex_vec3(0, ex_one_in(4) ? 1.5f : 0.2f);
-    if (ex_one_in(4)) l->model = (shade_model)explained_pick(6);
-    if (ex_one_in(4)) l->flags = (unsigned)explained_pick(64);
-    if (ex_one_in(8)) l->terms = (unsigned)explained_pick(16);
-    s->state.shading = (shade_shading)(explained_pick(2) * explained_pick(3));
-    if (ex_one_in(3)) s->state.material = NULL;
-    m->diffuse = shade_scale(ex_vec3(0, 1), ex_one_in(4) ? 0.01f : 1.0f);
-    if (explained_pick(3)) m->ambient = m->diffuse;
-    if (ex_one_in(6)) m->diffuse = BLACK;
-    if (ex_one_in(3)) m->specular = ex_vec3(0, 0.5f);
-    if (ex_one_in(10)) m->emission = ex_vec3(0, 0.5f);
-    m->shininess = ex_from(0, 80);
-}
-static void ex_random_surface(stage *s)
-{
-    shade_draw_state *d = &s->state;
-    shade_texture *t = &s->map;
-    const int black = ex_one_in(5), clear = ex_one_in(5);
-    for (int k = 0; k < 16; k++)
-        s->texel[k] = (uint8_t)explained_pick((k % 4 < 3 ? black : clear) ? 2 : 256);
-    t->width = t->height = 1 + explained_pick(2);
-    t->stride = 2;
-    t->srgb = explained_pick(2);
-    if (ex_one_in(8)) t->filter = SHADE_FILTER_TRILINEAR;
-    if (ex_one_in(16)) t->mipmap_count = 1;
-    if (ex_one_in(3)) d->diffuse_map = t;
-    if (ex_one_in(5)) d->transparency = ex_one_in(4) ? 1 : ex_from(0, 1);
-    if (ex_one_in(8)) d->alpha_cutoff = ex_from(0, 1);
-    d->raster.cull = (shade_cull)(explained_pick(2) * explained_pick(3));
-    if (ex_one_in(6)) d->raster.depth_test = (shade_compare)explained_pick(6);
-    if (ex_one_in(3)) d->raster.blend = (shade_blend)explained_pick(3);
-    if (ex_one_in(6)) d->raster.depth_read_only = 1;
-    if (ex_one_in(10)) d->raster.depth_bias = ex_from(-1, 1);
-    if (explained_pick(24)) return;
-    d->fragment = ex_one_in(2) ? shader_white : ex_one_in(2) ? shader_black : shader_that_discards;
-    d->shading = SHADE_SHADING_PER_FRAGMENT;
-}
-static void ex_random_target(stage *s)
-{
-    shade_target *t = &s->target;
-    if (ex_one_in(3)) t->format = (shade_format)explained_pick(5);
-    t->srgb = explained_pick(2);
-    t->dither = ex_one_in(4);
-    if (ex_one_in(6)) t->depth = NULL;
-    else if (ex_one_in(6)) t->color = NULL;
-    if (ex_one_in(6)) {                    /* a band */
-        t->clip_y = explained_pick(EX_HEIGHT);
-        t->clip_width = EX_WIDTH;
-        t->clip_height = 1 + explained_pick(9);
-    } else if (ex_one_in(8)) {
-        t->clip_x = explained_pick(EX_WIDTH);
-        t->clip_y = explained_pick(EX_HEIGHT);
-        t->clip_width = 1 + explained_pick(14);
-        t->clip_height = 1 + explained_pick(14);
-    } else if (ex_one_in(8)) {             /* a strip */
-        t->row_offset = explained_pick(EX_HEIGHT);
-        t->row_count = 1 + explained_pick(EX_HEIGHT - t->row_offset);
-    }
-}
-static void ex_random(explained *e)
-{
-    stage *s = &e->s;
-    memset(&e->other, 0, sizeof e->other);
-    e->made[0] = e->made[1] = "";
-    ex_target(s);
-    ex_random_mesh(s);
-    ex_random_camera(s);
-    ex_random_light(s);
-    ex_random_surface(s);
-    ex_random_target(s);
-    if (s->state.raster.depth_test == SHADE_COMPARE_GREATER) s->clear = 0;
-    if (ex_one_in(16)) s->clear = (float)explained_pick(3) / 2;
-    if (ex_one_in(6)) e->other = shade_mat4_translation(ex_vec3(-2, 2));
-}
-
-/* ---- ordinary states ------------------------------------------------------------------------- */
-
-/* A scene that a newcomer may well write: a mesh in the middle of the picture, a camera outside of
-   it, a lamp or two on the camera's side. */
-static void ex_sensible(explained *e)
-{
-    stage *s = &e->s;
-    shade_draw_state *d = &s->state;
-    const int shape = explained_pick(5);
-    const float around = ex_from(-3, 3), away = ex_from(5, 8), high = ex_from(0.3f, 0.9f);
-    const float beside = around + ex_from(-0.7f, 0.7f), bright = ex_from(0.5f, 1);
-    memset(&e->other, 0, sizeof e->other);
-    e->made[0] = e->made[1] = "";
-    ex_target(s);
-    if (shape == 1) ex_box(s);
-    if (shape == 2) ex_floor(s);
-    if (shape == 3) ex_hills(s);
-    if (shape == 4) ex_teapot(s);
-    s->target.srgb = !ex_one_in(4);
-    if (ex_one_in(6)) s->target.format = (shade_format)explained_pick(4);
-    if (ex_one_in(4)) s->mesh.normals = NULL;
-    if (ex_one_in(6)) stage_chunks(s);
-    if (ex_one_in(4)) s->mesh.colors = &s->color[0].x;
-    if (ex_one_in(4)) stage_map(s);
-    s->eye = shade_scale(shade_v3(sinf(around), high, cosf(around)), away);
-    s->center = ex_vec3(-0.2f, 0.2f);
-    s->fovy = ex_from(0.6f, 0.9f);
-    s->aspect = (float)EX_WIDTH / EX_HEIGHT;
-    s->z_near = ex_from(0.05f, 0.5f);
-    s->z_far = ex_from(20, 200);
-    stage_look(s);
-    if (ex_one_in(8)) stage_reverse(s, s->z_near);
-    else if (ex_one_in(8)) d->projection = shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 20);
-    if (ex_one_in(3)) d->model = shade_mat4_rotation(ex_from(-3, 3), shade_v3(0, 1, 0));
-    s->lamps[0] = shade_point_light(shade_scale(shade_v3(sinf(beside), 1, cosf(beside)), away),
-                                    shade_v3(bright, bright, bright));
-    if (ex_one_in(3))
-        s->lamps[0] = shade_directional_light(shade_v3(-sinf(beside), -1, -cosf(beside)),
-                                              shade_v3(bright, bright, bright));
-    d->lighting.light_count = 1 + ex_one_in(4);
-    s->lamps[1] = shade_directional_light(shade_v3(0.3f, -1, 0.2f), shade_v3(0.3f, 0.3f, 0.4f));
-    if (ex_one_in(2)) d->lighting.ambient = shade_scale(shade_v3(1, 1, 1), ex_from(0.05f, 0.2f));
-    if (ex_one_in(6)) d->lighting.model = (shade_model)explained_pick(3);
-    d->shading = (shade_shading)(explained_pick(2) * explained_pick(3));
-    if (ex_one_in(4)) d->material = NULL;
-    s->material.ambient = s->material.diffuse = ex_vec3(0.3f, 0.9f);
-    if (ex_one_in(2)) s->material.specular = shade_v3(0.3f, 0.3f, 0.3f);
-    s->material.shininess = ex_from(8, 60);
-    if (shape != 2 && shape != 3 && ex_one_in(3)) d->raster.cull = SHADE_CULL_BACK;
-}
-static void ex_ordinary(explained *e)
-{
-    const int wrong = explained_pick(3);
-    int of_anybody = 0;          /* they come first in the table */
-    while (mistakes[of_anybody].scenes & ON_TEAPOT) of_anybody++;
-    ex_sensible(e);
-    for (int k = 0; k < wrong; k++) {
-        const mistake *m = &mistakes[explained_pick(of_anybody)];
-        e->made[k] = m->name;
-        m->make(&e->s);
-    }
-}
-
-/* ---- pictures -------------------------------------------------------------------------------- */
-
-typedef struct picture {
-    shade_result result;
-    shade_stats stats;
-    int width, height;
-    int bright, white, sum;      /* pixels beyond 8 of 255, and with a channel at its end */
-    unsigned char code[EX_PIXELS][3];    /* of 255 */
-} picture;
-
-/* A pointer into one stage, into the copy of that stage. */
-#define EX_MOVE(p)                                                                              \
-    do {                                                                                        \
-        const char *at = (const char *)(p), *start = (const char *)in;                          \
-        if (at >= start && at < start + sizeof *in) (p) = (void *)((char *)out + (at - start)); \
-    } while (0)
-static void ex_copy(const stage *in, stage *out)
-{
-    shade_mesh *m = &out->mesh;
-    shade_draw_state *d = &out->state;
-    memcpy(out, in, offsetof(stage, pixels));
-    EX_MOVE(out->target.color);
-    EX_MOVE(out->target.depth);
-    EX_MOVE(m->positions);
-    EX_MOVE(m->normals);
-    EX_MOVE(m->texcoords);
-    EX_MOVE(m->colors);
-    EX_MOVE(m->indices);
-    EX_MOVE(m->chunks);
-    EX_MOVE(d->material);
-    EX_MOVE(d->lighting.lights);
-    EX_MOVE(d->diffuse_map);
-    EX_MOVE(out->map.pixels);
-}
-/* The buffers as they are before the draw; draws 0: after a clear. */
-static void ex_prepare(const explained *e, stage *s)
-{
-    const float clear = s->clear == s->clear ? s->clear : 0;
-    for (int i = 0; i < EX_PIXELS; i++) s->depth[i] = clear;
-    memset(s->pixels, 0, sizeof(float) * 4 * EX_PIXELS);
-    if (e->other.col[3].w != 0 && s->draws) {
-        const shade_mat4 model = s->state.model;
-        s->state.model = e->other;
-        shade_draw_mesh(&s->target, &s->mesh, &s->state, NULL);
-        s->state.model = model;
-        memset(s->pixels, 0, sizeof(float) * 4 * EX_PIXELS);
-    }
-    for (int k = 1; k < s->draws; k++) shade_draw_mesh(&s->target, &s->mesh, &s->state, NULL);
-}
-/* The codes of a pixel.  Floats are scaled by whoever shows them: any light is bright. */
-static void ex_codes(const stage *s, int i, unsigned char *code)
-{
-    const uint8_t *b = (const uint8_t *)s->pixels + 4 * i;
-    uint16_t two;
-    memcpy(&two, (const uint8_t *)s->pixels + 2 * i, 2);
-    switch (s->target.format) {
-    case SHADE_FORMAT_RGBA32F:
-        for (int k = 0; k < 3; k++) {
-            const float v = s->pixels[4 * i + k];
-            code[k] = v > 0 ? (unsigned char)(9 + 246 * fminf(v, 1)) : 0;
-        }
-        return;
-    case SHADE_FORMAT_RGB565: case SHADE_FORMAT_RGB565_SWAPPED:
-        if (s->target.format == SHADE_FORMAT_RGB565_SWAPPED) two = (uint16_t)(two >> 8 | two << 8);
-        code[0] = (unsigned char)((two >> 11) * 255 / 31);
-        code[1] = (unsigned char)((two >> 5 & 63) * 255 / 63);
-        code[2] = (unsigned char)((two & 31) * 255 / 31);
-        return;
-    default: memcpy(code, b, 3);
-    }
-}
-static int ex_is_bright(const unsigned char *code)
-{
-    return code[0] > 8 || code[1] > 8 || code[2] > 8;
-}
-static void ex_draw(const explained *e, stage *s, picture *p)
-{
-    const int pixels = s->target.width * s->target.height;
-    ex_prepare(e, s);
-    memset(&p->stats, 0, sizeof p->stats);
-    p->result = s->no_target || s->no_mesh || s->no_state
-                    ? SHADE_ERROR_ARGUMENT
-                    : shade_draw_mesh(&s->target, &s->mesh, &s->state, &p->stats);
-    p->width = s->target.width;
-    p->height = s->target.height;
-    p->bright = p->white = p->sum = 0;
-    for (int i = 0; i < pixels && i < EX_PIXELS; i++) {
-        unsigned char *c = p->code[i];
-        ex_codes(s, i, c);
-        if (!s->target.color) c[0] = c[1] = c[2] = 0;
-        p->bright += ex_is_bright(c);
-        p->white += c[0] == 255 || c[1] == 255 || c[2] == 255;
-        p->sum += c[0] + c[1] + c[2];
-    }
-}
+#include "states.h"
 
 /* ---- what a picture shows -------------------------------------------------------------------- */
 
@@ -575,10 +150,13 @@ static int ex_near_is_greater(const stage *s)
     }
     return 0;
 }
+static shade_mat4 ex_camera(const stage *s)
+{
+    return shade_mat4_mul(ex_or_identity(s->state.projection), ex_or_identity(s->state.view));
+}
 static shade_vec3 ex_eye(const stage *s, int greater)
 {
-    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.projection),
-                                        ex_or_identity(s->state.view));
+    const shade_mat4 m = ex_camera(s);
     const float toward = greater ? 1.0f : -1.0f;
     const shade_vec4 at = shade_mat4_transform(shade_mat4_inverse(m), shade_v4(0, 0, toward, 0));
     const float scale = at.w == 0 ? 1e6f : 1 / at.w;
@@ -663,18 +241,46 @@ static int ex_beyond_w(const double c[4]) { return ex_is_bad(c) || c[2] > c[3] -
 static int ex_before_w(const double c[4]) { return ex_is_bad(c) || c[2] < 1e-4 || c[2] < -c[3] + 1e-4; }
 static int ex_behind_eye(const double c[4]) { return ex_is_bad(c) || c[3] < 1e-4; }
 
-static int ex_is_rigid(shade_mat4 m)
-{
-    for (int j = 0; j < 3; j++)
-        for (int k = 0; k < 3; k++) {
-            const shade_vec4 a = m.col[j], b = m.col[k];
-            if (fabsf(a.x * b.x + a.y * b.y + a.z * b.z - (float)(j == k)) > 0.005f) return 0;
-        }
-    return m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == 0 && m.col[3].w == 1;
-}
+static shade_vec3 ex_xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
 static int ex_is_affine(shade_mat4 m)
 {
     return m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == 0 && m.col[3].w == 1;
+}
+static int ex_is_rigid(shade_mat4 m)
+{
+    for (int k = 0; k < 9; k++) {
+        const shade_vec4 a = m.col[k / 3], b = m.col[k % 3];
+        const float cosine = a.x * b.x + a.y * b.y + a.z * b.z;
+        if (fabsf(cosine - (float)(k / 3 == k % 3)) > 0.005f) return 0;
+    }
+    return ex_is_affine(m);
+}
+static int ex_is_by_rows(shade_mat4 m)
+{
+    m = ex_or_identity(m);
+    return !ex_is_affine(m) && ex_is_affine(shade_mat4_transpose(m));
+}
+/* One-point perspective, w = 1 - z/k, of which the transposed one moves by -1/k. */
+static int ex_is_from_point(shade_mat4 p)
+{
+    return p.col[0].x == 1 && p.col[1].y == 1 && p.col[3].w == 1 && p.col[3].z == 0;
+}
+static int ex_has_nan(const float *at, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (at[k] != at[k]) return 1;
+    return 0;
+}
+/* Are all positions of the mesh in this range? */
+static int ex_within(const shade_mesh *m, float low, float high)
+{
+    shade_mesh bare = *m;
+    bare.indices = NULL;
+    for (int i = 0; i < 3 * m->vertex_count; i++) {
+        const float p = ex_position(&bare, i / 3)[i % 3];
+        if (!(p >= low && p <= high)) return 0;
+    }
+    return 1;
 }
 static int ex_eye_in_box(const judged *j)
 {
@@ -694,286 +300,222 @@ static int ex_eye_in_box(const judged *j)
     return 1;
 }
 
-/* the rows' own conditions */
-#define STATE (&j->e->s.state)
-#define LIGHTS (&j->e->s.state.lighting)
-static int so_behind(const judged *j) { return ex_tenths(j, &j->shown, ex_unlit_side) >= 9; }
-static int so_dim(const judged *j) { return ex_tenths(j, &j->shown, ex_dim) >= 9; }
-static int so_turned(const judged *j) { return ex_tenths(j, &j->shown, ex_turned) >= 2; }
-static int so_no_normal(const judged *j)
-{
-    return j->e->s.mesh.normals && ex_tenths(j, &j->shown, ex_no_normal) >= 9;
-}
-static int so_beyond(const judged *j)
-{
-    return ex_all(&j->e->s, j->nearer_is_greater ? ex_before_w : ex_beyond_w);
-}
-static int so_before(const judged *j)
-{
-    return ex_all(&j->e->s, j->nearer_is_greater ? ex_beyond_w : ex_before_w) ||
-           ex_all(&j->e->s, ex_behind_eye);
-}
-static int so_behind_eye(const judged *j) { return ex_all(&j->e->s, ex_behind_eye); }
-static int so_some_bad(const judged *j)
-{
-    const shade_mesh *m = &j->e->s.mesh;
-    for (int i = 0; i < m->vertex_count; i++) {
-        const float *p = (const float *)(const void *)((const char *)m->positions +
-                         (size_t)i * (size_t)(m->position_stride ? m->position_stride : 12));
-        if (!(fabsf(p[0]) <= 1e12f && fabsf(p[1]) <= 1e12f && fabsf(p[2]) <= 1e12f)) return 1;
+/* The rows' own conditions. */
+#define SO(name, truth) static int so_##name(const judged *j) { return truth; }
+#define SO_LAMP(name, truth)                                                                       \
+    static int so_##name(const judged *j)                                                          \
+    {                                                                                              \
+        for (int k = 0; k < LIGHTS->light_count; k++) {                                            \
+            const shade_light *l = &LIGHTS->lights[k];                                             \
+            if (truth) return 1;                                                                   \
+        }                                                                                          \
+        return 0;                                                                                  \
     }
-    return !ex_all(&j->e->s, ex_is_good);
-}
+#define STAGE (&j->e->s)
+#define TARGET (&STAGE->target)
+#define MESH (&STAGE->mesh)
+#define STATE (&STAGE->state)
+#define LIGHTS (&STATE->lighting)
+#define RASTER (&STATE->raster)
+#define MATERIAL (STATE->material)
+#define MAP (STATE->diffuse_map)
+
+SO(behind, ex_tenths(j, &j->shown, ex_unlit_side) >= 9)
+SO(dim, ex_tenths(j, &j->shown, ex_dim) >= 9)
+SO(turned, ex_tenths(j, &j->shown, ex_turned) >= 2)
+SO(no_normal, MESH->normals && ex_tenths(j, &j->shown, ex_no_normal) >= 9)
+SO(inside_out, ex_tenths(j, &j->all, ex_is_back) >= 5)
+SO(white, j->drawn->white * 5 >= j->drawn->bright * 4)
+SO(far_side, ex_all(STAGE, ex_beyond_w))
+SO(near_side, ex_all(STAGE, ex_before_w))
+SO(behind_eye, ex_all(STAGE, ex_behind_eye))
+SO(beyond, j->nearer_is_greater ? so_near_side(j) : so_far_side(j))
+SO(before, (j->nearer_is_greater ? so_far_side(j) : so_near_side(j)) || so_behind_eye(j))
+SO(some_bad, !ex_all(STAGE, ex_is_good) || !ex_within(MESH, -1e12f, 1e12f))
+SO(inside, ex_eye_in_box(j))
+SO(front, RASTER->cull == SHADE_CULL_FRONT)
+SO(back, RASTER->cull == SHADE_CULL_BACK)
+SO(equal, RASTER->depth_test == SHADE_COMPARE_EQUAL)
+SO(not_equal, !so_equal(j))
+SO(far_wins, TARGET->depth && ex_is_greater(STATE) != j->nearer_is_greater)
+SO(order, !TARGET->depth || RASTER->depth_test == SHADE_COMPARE_ALWAYS || RASTER->depth_read_only)
+SO(bias, fabsf(RASTER->depth_bias) >= 1)
+SO(no_view, STATE->view.col[3].w == 0 && ex_eye_in_box(j))
+SO(view_by_rows, ex_is_by_rows(STATE->view))
+SO(model_by_rows, ex_is_by_rows(STATE->model))
+SO(by_rows, !ex_is_from_point(STATE->projection))
+SO(last_row, STATE->model.col[3].w != 1 || STATE->view.col[3].w != 1)
+SO(not_rigid, !ex_is_rigid(ex_or_identity(STATE->view)))
+SO(degenerate, shade_length(ex_xyz(STATE->projection.col[0])) == 0)
+SO(no_flag, STATE->projection.col[2].z == 0 && !RASTER->depth_zero_to_one)
+SO(no_lamp, LIGHTS->light_count <= 0)
+SO(negative_count, LIGHTS->light_count < 0)
+SO_LAMP(spot, shade_length(l->spot_direction) > 0)
+SO_LAMP(bad_cosine, shade_length(l->spot_direction) > 0 && !(fabsf(l->spot_cos_cutoff) <= 1))
+SO_LAMP(negative_attenuation, l->constant < 0 || l->linear < 0 || l->quadratic < 0)
+SO_LAMP(lamp_nan, ex_has_nan(&l->position.x, sizeof *l / sizeof(float)))
+SO(map_or_colors, MESH->colors || (MAP && MESH->texcoords))
+SO(no_texcoords, MAP && !MESH->texcoords)
+SO(no_mipmaps, MAP && MAP->width > 1 && !MAP->mipmaps)
+SO(linear_map, TARGET->srgb && !MAP->srgb)
+SO(stored, STATE->transparency > 0 && RASTER->blend == SHADE_BLEND_REPLACE)
+SO(dull, MATERIAL->shininess < 1 && ex_most(MATERIAL->specular) > 0)
+SO(no_diffuse, ex_most(MATERIAL->diffuse) <= 0)
+SO(glows, ex_most(MATERIAL->emission) >= 1)
+SO(clip, TARGET->clip_width || TARGET->clip_x || TARGET->clip_height || TARGET->clip_y)
+SO(too_wide, TARGET->clip_x + TARGET->clip_width > TARGET->width)
+SO(beyond_picture, so_too_wide(j) || TARGET->clip_y + TARGET->clip_height > TARGET->height)
+SO(shader, STATE->fragment != NULL)
+SO(chunks, MESH->chunks != NULL)
+SO(other_stats, STAGE->other_stats)
+/* Has a chunk a box that does not hold its triangles? */
 static int so_box(const judged *j)
 {
-    const shade_mesh *m = &j->e->s.mesh;
-    for (int c = 0; c < m->chunk_count; c++) {
-        const shade_chunk *box = &m->chunks[c];
+    for (int c = 0; c < MESH->chunk_count; c++) {
+        const shade_chunk *box = &MESH->chunks[c];
         for (int i = 3 * box->first; i < 3 * (box->first + box->count); i++)
             for (int k = 0; k < 3; k++) {
-                const float p = ex_position(m, i)[k];
+                const float p = ex_position(MESH, i)[k];
                 if (p < (&box->low.x)[k] || p > (&box->high.x)[k]) return 1;
             }
     }
     return 0;
 }
-static int so_last_row(const judged *j)
-{
-    return STATE->model.col[3].w != 1 || STATE->view.col[3].w != 1;
-}
-static int so_other_stats(const judged *j) { return j->e->s.other_stats; }
-static int so_negative_attenuation(const judged *j)
-{
-    for (int k = 0; k < LIGHTS->light_count; k++) {
-        const shade_light *l = &LIGHTS->lights[k];
-        if (l->constant < 0 || l->linear < 0 || l->quadratic < 0) return 1;
-    }
-    return 0;
-}
-static int so_lamp_nan(const judged *j)
-{
-    for (int k = 0; k < LIGHTS->light_count; k++)
-        for (int i = 0; i < (int)(sizeof(shade_light) / 4); i++) {
-            const float f = (&LIGHTS->lights[k].position.x)[i];
-            if (f != f) return 1;
-        }
-    return 0;
-}
-static int so_spot(const judged *j)
-{
-    for (int k = 0; k < LIGHTS->light_count; k++)
-        if (shade_length(LIGHTS->lights[k].spot_direction) > 0) return 1;
-    return 0;
-}
-static int so_order(const judged *j)
-{
-    return !j->e->s.target.depth || STATE->raster.depth_test == SHADE_COMPARE_ALWAYS ||
-           STATE->raster.depth_read_only;
-}
-static int so_bias(const judged *j) { return fabsf(STATE->raster.depth_bias) >= 1; }
-static int so_no_view(const judged *j) { return STATE->view.col[3].w == 0 && ex_eye_in_box(j); }
 static int so_texels(const judged *j)
 {
-    const stage *s = &j->e->s;
-    for (int i = 0; i < s->mesh.vertex_count; i++)
-        if (s->texcoord[i].x > (float)s->map.width - 1.001f) return 1;
-    return 0;
-}
-static int so_linear_map(const judged *j) { return j->e->s.target.srgb && !STATE->diffuse_map->srgb; }
-static int so_stored(const judged *j)
-{
-    return STATE->transparency > 0 && STATE->raster.blend == SHADE_BLEND_REPLACE;
-}
-static int so_dull(const judged *j)
-{
-    return STATE->material->shininess < 1 && ex_most(STATE->material->specular) > 0;
-}
-static int so_no_diffuse(const judged *j) { return ex_most(STATE->material->diffuse) <= 0; }
-static int so_glows(const judged *j) { return ex_most(STATE->material->emission) >= 1; }
-static int so_beyond_picture(const judged *j)
-{
-    const shade_target *t = &j->e->s.target;
-    return t->clip_x + t->clip_width > t->width || t->clip_y + t->clip_height > t->height;
-}
-static int so_inside(const judged *j) { return ex_eye_in_box(j); }
-static int so_front(const judged *j) { return STATE->raster.cull == SHADE_CULL_FRONT; }
-static int so_back(const judged *j) { return STATE->raster.cull == SHADE_CULL_BACK; }
-static int so_inside_out(const judged *j) { return ex_tenths(j, &j->all, ex_is_back) >= 5; }
-static int so_far_wins(const judged *j)
-{
-    return j->e->s.target.depth && ex_is_greater(STATE) != j->nearer_is_greater;
-}
-static int so_view_by_rows(const judged *j)
-{
-    const shade_mat4 m = ex_or_identity(STATE->view);
-    return !ex_is_affine(m) && ex_is_affine(shade_mat4_transpose(m));
-}
-static int so_model_by_rows(const judged *j)
-{
-    const shade_mat4 m = ex_or_identity(STATE->model);
-    return !ex_is_affine(m) && ex_is_affine(shade_mat4_transpose(m));
-}
-/* Not that of one-point perspective, w = 1 - z/k, of which the transposed one moves by -1/k. */
-static int so_by_rows(const judged *j)
-{
-    const shade_mat4 p = STATE->projection;
-    return !(p.col[0].x == 1 && p.col[1].y == 1 && p.col[3].w == 1 && p.col[3].z == 0);
-}
-static int so_swapped(const judged *j) { return !ex_is_rigid(ex_or_identity(STATE->view)); }
-static int so_degenerate(const judged *j)
-{
-    const shade_mat4 p = ex_or_identity(STATE->projection);
-    return p.col[0].x == 0 && p.col[0].y == 0 && p.col[0].z == 0 && p.col[0].w == 0;
-}
-static int so_no_flag(const judged *j)
-{
-    return STATE->projection.col[2].z == 0 && !STATE->raster.depth_zero_to_one;
-}
-static int so_negative_count(const judged *j) { return LIGHTS->light_count < 0; }
-static int so_bad_cosine(const judged *j)
-{
-    for (int k = 0; k < LIGHTS->light_count; k++) {
-        const shade_light *l = &LIGHTS->lights[k];
-        if (shade_length(l->spot_direction) > 0 && !(fabsf(l->spot_cos_cutoff) <= 1)) return 1;
-    }
+    for (int i = 0; i < MESH->vertex_count; i++)
+        if (STAGE->texcoord[i].x > (float)MAP->width - 1.001f) return 1;
     return 0;
 }
 /* Are squares that face the eye no squares in the picture, nor in cells of a terminal, twice as high
    as wide? */
 static int so_aspect(const judged *j)
 {
-    const stage *s = &j->e->s;
-    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.projection),
-                                        ex_or_identity(s->state.view));
+    const shade_mat4 m = ex_camera(STAGE);
     shade_vec3 row[4];
     float wide, high;
     for (int r = 0; r < 4; r++)
         row[r] = shade_v3((&m.col[0].x)[r], (&m.col[1].x)[r], (&m.col[2].x)[r]);
     if (shade_length(row[3]) == 0) row[3] = shade_cross(row[0], row[1]);
     row[3] = shade_normalize(row[3]);
-    wide = shade_length(shade_cross(row[0], row[3])) * (float)s->target.width;
-    high = shade_length(shade_cross(row[1], row[3])) * (float)s->target.height;
+    wide = shade_length(shade_cross(row[0], row[3])) * (float)TARGET->width;
+    high = shade_length(shade_cross(row[1], row[3])) * (float)TARGET->height;
     return fabsf(wide - high) > 0.02f * wide && fabsf(wide - 2 * high) > 0.02f * wide;
-}
-static int so_scales(const judged *j) { return !ex_is_rigid(ex_or_identity(STATE->view)); }
-static int so_no_texcoords(const judged *j)
-{
-    return STATE->diffuse_map && !j->e->s.mesh.texcoords;
-}
-static int so_no_mipmaps(const judged *j)
-{
-    return STATE->diffuse_map && STATE->diffuse_map->width > 1 && !STATE->diffuse_map->mipmaps;
-}
-static int so_no_lamp(const judged *j) { return LIGHTS->light_count <= 0; }
-static int so_white(const judged *j) { return j->drawn->white * 5 >= j->drawn->bright * 4; }
-static int so_clip(const judged *j) { return j->e->s.target.clip_width || j->e->s.target.clip_x ||
-                                             j->e->s.target.clip_height || j->e->s.target.clip_y; }
-static int so_shader(const judged *j) { return STATE->fragment != NULL; }
-static int so_equal(const judged *j) { return STATE->raster.depth_test == SHADE_COMPARE_EQUAL; }
-static int so_not_equal(const judged *j) { return !so_equal(j); }
-static int so_chunks(const judged *j) { return j->e->s.mesh.chunks != NULL; }
-static int so_map_or_colors(const judged *j)
-{
-    return j->e->s.mesh.colors || (STATE->diffuse_map && j->e->s.mesh.texcoords);
 }
 
 /* ---- what sentences advise ------------------------------------------------------------------- */
 
 typedef void cure(stage *);
-static shade_lighting *ex_lights(stage *s)    /* that may be changed */
+#define CURE(name) static void cure_##name(stage *s)
+#define CURE_LAMPS(name, change)                                                                   \
+    CURE(name)                                                                                     \
+    {                                                                                              \
+        shade_lighting *lights = &s->state.lighting;                                               \
+        for (int k = 0; k < STAGE_LAMPS && k < lights->light_count; k++) {                         \
+            shade_light *l = &s->lamps[k];                                                         \
+            *l = lights->lights[k];                                                                \
+            change                                                                                 \
+        }                                                                                          \
+        if (lights->lights) lights->lights = s->lamps;                                             \
+    }
+
+/* of light */
+CURE(shading) { s->state.shading = SHADE_SHADING_PER_FRAGMENT; }
+CURE(sides) { s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS; }
+CURE(normals) { s->mesh.normals = NULL; }
+CURE(shininess) { s->material.shininess = 50; }
+CURE(diffuse) { s->material.diffuse = WHITE; }
+CURE(emission) { s->material.emission = BLACK; }
+CURE(over) { s->state.raster.blend = SHADE_BLEND_OVER; }
+CURE(count)
 {
-    shade_lighting *l = &s->state.lighting;
-    for (int k = 0; k < STAGE_LAMPS && k < l->light_count; k++) s->lamps[k] = l->lights[k];
-    if (l->lights) l->lights = s->lamps;
-    return l;
+    const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
+    stage_lamp(s, shade_point_light(ex_eye(s, greater), WHITE));
 }
-static void cure_opaque(stage *s)
+CURE(at_eye) { cure_count(s); }
+CURE(no_lamp)
 {
-    s->state.transparency = 0;
-    for (int k = 3; k < 4 * STAGE_TEXELS; k += 4) s->texel[k] = 255;
+    if (s->state.lighting.light_count <= 0) cure_count(s);
 }
-static void cure_shading(stage *s) { s->state.shading = SHADE_SHADING_PER_FRAGMENT; }
-static void cure_terms(stage *s)
+CURE_LAMPS(distance, l->constant = l->linear = l->quadratic = l->spot_exponent = 0;)
+CURE_LAMPS(cone, l->spot_cos_cutoff = -1;)
+CURE_LAMPS(colors_of_lamps, l->diffuse = l->specular = WHITE;)
+CURE_LAMPS(ambient, l->ambient = BLACK;)    /* no cure, but it hides that there is one */
+/* A lamp that is nowhere is put at the eye. */
+CURE(numbers)
+{
+    const shade_lighting *l = &s->state.lighting;
+    const int given = l->light_count > 0 && l->lights;
+    const shade_vec4 at = given ? l->lights[0].position : shade_v4(0, 0, 1, 0);
+    const float size = fabsf(at.x) + fabsf(at.y) + fabsf(at.z) + fabsf(at.w);
+    if (!(size > 0 && size < 1e30f)) cure_count(s);
+}
+CURE(lamps)
+{
+    cure_colors_of_lamps(s);
+    cure_numbers(s);
+}
+CURE(terms)
 {
     s->state.lighting.terms = 0;
     if (s->state.lighting.model > SHADE_MODEL_PHONG)
         s->state.lighting.model = SHADE_MODEL_BLINN_PHONG;
 }
-static void cure_colors(stage *s)
+CURE(opaque)
+{
+    s->state.transparency = 0;
+    for (int k = 3; k < 4 * STAGE_TEXELS; k += 4) s->texel[k] = 255;
+}
+CURE(colors)
 {
     s->mesh.colors = NULL;
     for (int k = 0; k < 4 * STAGE_TEXELS; k++)
         if (k % 4 < 3) s->texel[k] = 255;
 }
-static void cure_material(stage *s)
+CURE(material)
 {
-    s->material.ambient = s->material.diffuse = s->material.specular = shade_v3(1, 1, 1);
+    s->material.ambient = s->material.diffuse = s->material.specular = WHITE;
     s->material.shininess = 1;
     if (!s->state.material) s->material.emission = BLACK;
     s->state.material = &s->material;
 }
-static void cure_sides(stage *s) { s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS; }
-static void cure_distance(stage *s)
+CURE(turned)
 {
-    shade_lighting *l = ex_lights(s);
-    for (int k = 0; k < l->light_count; k++) {
-        shade_light *lamp = &s->lamps[k];
-        lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
-    }
+    for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i] = shade_neg(s->normal[i]);
 }
-static void cure_cone(stage *s)
+/* Colours of 1 at most, and no more light than that. */
+static void ex_dim_to(shade_vec3 *c, float most)
 {
-    shade_lighting *l = ex_lights(s);
-    for (int k = 0; k < l->light_count; k++) s->lamps[k].spot_cos_cutoff = -1;
+    *c = shade_min(*c, shade_v3(most, most, most));
 }
-static void cure_count(stage *s)
+CURE_LAMPS(bright_lamps, ex_dim_to(&l->ambient, 0.1f); ex_dim_to(&l->diffuse, 0.2f);
+           ex_dim_to(&l->specular, 0.2f);)
+CURE(255)
 {
-    const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
-    stage_lamp(s, shade_point_light(ex_eye(s, greater), shade_v3(1, 1, 1)));
+    cure_bright_lamps(s);
+    ex_dim_to(&s->state.lighting.ambient, 0.1f);
+    for (int i = 0; i < STAGE_VERTICES; i++) ex_dim_to(&s->color[i], 0.8f);
+    ex_dim_to(&s->material.emission, 0.1f);
+    ex_dim_to(&s->material.ambient, 0.8f);
+    ex_dim_to(&s->material.diffuse, 0.8f);
+    ex_dim_to(&s->material.specular, 0.2f);
 }
-static void cure_no_lamp(stage *s)
-{
-    if (s->state.lighting.light_count <= 0) cure_count(s);
-}
-static void cure_lamps(stage *s)
-{
-    shade_lighting *l = ex_lights(s);
-    for (int k = 0; k < l->light_count && l->lights; k++) {
-        shade_light *lamp = &s->lamps[k];
-        const shade_vec4 at = lamp->position;
-        lamp->diffuse = lamp->specular = shade_v3(1, 1, 1);
-        if (at.x == 0 && at.y == 0 && at.z == 0 && at.w == 0) cure_count(s);
-    }
-}
-/* Not a cure, but what hides that there is one: ambient light of the lamps. */
-static void cure_ambient(stage *s)
-{
-    shade_lighting *l = ex_lights(s);
-    for (int k = 0; k < l->light_count; k++)
-        if (l->lights) s->lamps[k].ambient = BLACK;
-}
-/* A lamp that is no number is put at the eye. */
-static void cure_numbers(stage *s)
-{
-    shade_lighting *l = ex_lights(s);
-    for (int k = 0; k < l->light_count; k++) {
-        const shade_vec4 at = s->lamps[k].position;
-        if (!(fabsf(at.x + at.y + at.z + at.w) < 1e30f)) cure_count(s);
-    }
-}
-static void cure_normals(stage *s) { s->mesh.normals = NULL; }
-static void cure_turned(stage *s)
-{
-    for (int i = 0; i < s->mesh.vertex_count && i < STAGE_VERTICES; i++)
-        s->normal[i] = shade_neg(s->normal[i]);
-}
-static void cure_chunks(stage *s)
+
+/* of view */
+CURE(nothing) { (void)s; }
+CURE(cull) { s->state.raster.cull = SHADE_CULL_NONE; }
+CURE(cutoff) { s->state.alpha_cutoff = 0; }
+CURE(model) { s->state.model = shade_mat4_identity(); }
+CURE(view_by_rows) { s->state.view = shade_mat4_transpose(s->state.view); }
+CURE(model_by_rows) { s->state.model = shade_mat4_transpose(s->state.model); }
+CURE(by_rows) { s->state.projection = shade_mat4_transpose(s->state.projection); }
+CURE(inverse) { s->state.view = shade_mat4_inverse(s->state.view); }
+CURE(chunks)
 {
     s->mesh.chunks = NULL;
     s->mesh.chunk_count = 0;
 }
-static void cure_cull(stage *s) { s->state.raster.cull = SHADE_CULL_NONE; }
-static void cure_winding(stage *s)
+CURE(winding)
 {
     if (!s->mesh.indices) {
         for (int i = 0; i < s->mesh.vertex_count; i++) s->index[i] = (uint32_t)i;
@@ -982,105 +524,74 @@ static void cure_winding(stage *s)
     s->mesh.indices = s->index;
     stage_turn(s, 0);
 }
-static void cure_cutoff(stage *s) { s->state.alpha_cutoff = 0; }
-static void cure_clip(stage *s)
+CURE(clip)
 {
     shade_target *t = &s->target;
     t->clip_x = t->clip_y = t->clip_width = t->clip_height = t->row_offset = t->row_count = 0;
 }
-static void cure_clear(stage *s)
+CURE(clear)
 {
     s->clear = ex_is_greater(&s->state) ? 0.0f : 1.0f;
     s->draws = 0;
     s->state.raster.depth_bias = 0;
     s->state.raster.depth_read_only = 0;
 }
-static void cure_depth(stage *s)
+CURE(depth)
 {
     s->target.depth = s->depth;
     s->state.raster.depth_test =
         ex_near_is_greater(s) ? SHADE_COMPARE_GREATER_EQUAL : SHADE_COMPARE_LESS_EQUAL;
     cure_clear(s);
 }
-static void cure_flag(stage *s)
+CURE(flag)
 {
     s->state.raster.depth_zero_to_one = 1;
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
-static void cure_shader(stage *s)
+CURE(shader)
 {
     if (!s->state.fragment) return;
     s->state.fragment = shader_white;
     s->state.alpha_cutoff = 0;
 }
-static void cure_view_by_rows(stage *s) { s->state.view = shade_mat4_transpose(s->state.view); }
-static void cure_model_by_rows(stage *s) { s->state.model = shade_mat4_transpose(s->state.model); }
-static void cure_by_rows(stage *s)
+CURE(aspect)
 {
-    s->state.projection = shade_mat4_transpose(s->state.projection);
+    shade_mat4 *p = &s->state.projection;
+    p->col[0].x = p->col[1].y * (float)s->target.height / (float)s->target.width;
 }
-static void cure_inverse(stage *s) { s->state.view = shade_mat4_inverse(s->state.view); }
-static void cure_exchange(stage *s)
+CURE(projection)
 {
-    const shade_mat4 view = s->state.view;
-    s->state.view = s->state.projection;
-    s->state.projection = view;
+    s->state.projection = shade_mat4_perspective(1, (float)EX_WIDTH / EX_HEIGHT, 0.01f, 1e4f);
+    s->state.raster.depth_zero_to_one = 0;
+    s->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    s->clear = 1;
 }
 /* A camera that sees all of the mesh. */
-static void cure_camera(stage *s)
+CURE(camera)
 {
-    shade_vec3 low = shade_v3(1e30f, 1e30f, 1e30f), high = shade_neg(low), middle;
+    shade_vec3 low = shade_v3(1e30f, 1e30f, 1e30f), high = shade_neg(low);
     float size;
     for (int i = 0; i < ex_corners(&s->mesh); i++) {
         double world[4], clip[4];
         shade_vec3 p;
         ex_clip(s, i, world, clip);
         p = shade_v3((float)world[0], (float)world[1], (float)world[2]);
-        if (!(fabsf(p.x) < 1e12f && fabsf(p.y) < 1e12f && fabsf(p.z) < 1e12f)) continue;
+        if (!(shade_length(p) < 1e12f)) continue;
         low = shade_min(low, p);
         high = shade_max(high, p);
     }
-    middle = shade_scale(shade_add(low, high), 0.5f);
-    size = fmaxf(shade_length(shade_sub(high, low)), 1e-3f * shade_length(middle) + 1e-7f);
-    s->eye = shade_add(middle, shade_scale(shade_v3(0.5f, 0.7f, 1), size));
-    s->center = middle;
+    s->center = shade_scale(shade_add(low, high), 0.5f);
+    size = fmaxf(shade_length(shade_sub(high, low)), 1e-3f * shade_length(s->center) + 1e-7f);
+    s->eye = shade_madd(s->center, size, shade_v3(0.5f, 0.7f, 1));
     s->fovy = s->aspect = 1;
     s->z_near = size * 0.01f;
     s->z_far = size * 10;
+    cure_projection(s);
     stage_look(s);
-    s->state.raster.depth_zero_to_one = 0;
-    s->state.raster.depth_test = SHADE_COMPARE_LESS;
-    s->clear = 1;
 }
-/* Colours of 1 at most, lamps that add up to 1. */
-static shade_vec3 ex_within_1(shade_vec3 c, float most)
-{
-    return shade_min(c, shade_v3(most, most, most));
-}
-static void cure_255(stage *s)
-{
-    shade_lighting *l = ex_lights(s);
-    const float each = 0.5f / (float)(l->light_count > 0 ? l->light_count : 1);
-    l->ambient = ex_within_1(l->ambient, 0.1f);
-    for (int i = 0; i < l->light_count; i++) {
-        s->lamps[i].diffuse = ex_within_1(s->lamps[i].diffuse, each);
-        s->lamps[i].specular = ex_within_1(s->lamps[i].specular, each);
-        s->lamps[i].ambient = ex_within_1(s->lamps[i].ambient, 0.1f);
-    }
-    for (int i = 0; i < STAGE_VERTICES; i++) s->color[i] = ex_within_1(s->color[i], 0.8f);
-    s->material.emission = ex_within_1(s->material.emission, 0.1f);
-    s->material.ambient = ex_within_1(s->material.ambient, 0.8f);
-    s->material.diffuse = ex_within_1(s->material.diffuse, 0.8f);
-    s->material.specular = ex_within_1(s->material.specular, 0.2f);
-}
-static void cure_aspect(stage *s)
-{
-    shade_mat4 *p = &s->state.projection;
-    p->col[0].x = p->col[1].y * (float)s->target.height / (float)s->target.width;
-}
-/* A ball in its place, and a projection that shows what is before the eye. */
-static void cure_mesh(stage *s)
+/* A ball in its place. */
+CURE(mesh)
 {
     stage_ball(s, 6, 8);
     s->mesh.positions = &s->position[0].x;
@@ -1089,32 +600,6 @@ static void cure_mesh(stage *s)
     s->mesh.position_stride = s->mesh.normal_stride = 0;
     cure_chunks(s);
 }
-static void cure_model(stage *s) { s->state.model = shade_mat4_identity(); }
-static void cure_projection(stage *s)
-{
-    s->state.projection = shade_mat4_perspective(1, (float)EX_WIDTH / EX_HEIGHT, 0.01f, 1e4f);
-    s->state.raster.depth_zero_to_one = 0;
-    s->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
-    s->clear = 1;
-}
-static void cure_all(stage *s)
-{
-    cure_opaque(s);
-    cure_shading(s);
-    cure_terms(s);
-    cure_colors(s);
-    cure_material(s);
-    cure_sides(s);
-    cure_distance(s);
-    cure_cone(s);
-    cure_lamps(s);
-    cure_no_lamp(s);
-}
-static void cure_over(stage *s) { s->state.raster.blend = SHADE_BLEND_OVER; }
-static void cure_shininess(stage *s) { s->material.shininess = 50; }
-static void cure_diffuse(stage *s) { s->material.diffuse = shade_v3(1, 1, 1); }
-static void cure_emission(stage *s) { s->material.emission = BLACK; }
-static void cure_nothing(stage *s) { (void)s; }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
@@ -1122,6 +607,7 @@ static void cure_nothing(stage *s) { (void)s; }
    of surfaces that have colours (ambient, diffuse). */
 enum effect { STATED, SHOWS, INTO_VIEW, LIGHTS_UP, LAMPS_LIGHT, COLORS_LIGHT, CHANGES, DARKENS,
               MORE_TRIANGLES };
+static void cure_all(stage *s);
 typedef struct claim { const char *words; so *so; cure *advice; enum effect effect; } claim;
 static const claim claims[] = {
     /* numbers */
@@ -1131,7 +617,7 @@ static const claim claims[] = {
     { "state.view looks transposed", so_view_by_rows, cure_view_by_rows, CHANGES },
     { "The last row of state.model", so_last_row, cure_nothing, STATED },
     { "what cameras give", so_degenerate, cure_camera, STATED },
-    { "state.view holds a projection", so_swapped, cure_exchange, STATED },
+    { "state.view holds a projection", so_not_rigid, cure_nothing, STATED },
     { "perspective_reversed, which", so_no_flag, cure_flag, STATED },
     { "light_count is negative", so_negative_count, cure_nothing, STATED },
     { "lighting.lights holds a NaN", so_lamp_nan, cure_nothing, STATED },
@@ -1186,11 +672,11 @@ static const claim claims[] = {
     { "Every lamp is behind", so_behind, cure_sides, LAMPS_LIGHT },
     { "Attenuation, or", NULL, cure_distance, LAMPS_LIGHT },
     { "No cone of the lights", so_spot, cure_cone, LAMPS_LIGHT },
-    { "The lights have no colour", so_dim, cure_count, LAMPS_LIGHT },
+    { "The lights have no colour", so_dim, cure_at_eye, LAMPS_LIGHT },
     /* what is seldom meant */
     { "lies beyond the picture", so_beyond_picture, cure_nothing, STATED },
     { "raster.depth_bias makes", so_bias, cure_nothing, STATED },
-    { "state.view scales", so_scales, cure_nothing, STATED },
+    { "state.view scales", so_not_rigid, cure_nothing, STATED },
     { "The aspect of", so_aspect, cure_aspect, CHANGES },
     { "state.view is unset", so_no_view, cure_camera, STATED },
     { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
@@ -1206,10 +692,16 @@ enum { EX_CLAIMS = sizeof claims / sizeof *claims };
 
 /* What may keep a mesh from being seen, and from being lit. */
 static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_clip, cure_depth,
-                                    cure_shader, cure_mesh, cure_model, cure_projection, NULL };
+                                    cure_shader, cure_mesh, cure_model, cure_projection, cure_camera,
+                                    NULL };
 static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading, cure_terms, cure_colors,
                                      cure_material, cure_sides, cure_normals, cure_distance,
-                                     cure_cone, cure_lamps, cure_numbers, NULL };
+                                     cure_cone, cure_lamps, cure_numbers, cure_emission, NULL };
+CURE(all)
+{
+    for (cure *const *one = ex_of_light; *one; one++)
+        if (*one != cure_normals) (*one)(s);
+}
 /* What is not mended where the second one is the advice, since it would do the same. */
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
@@ -1217,9 +709,9 @@ static cure *const ex_alike[][2] = {
     { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
     { cure_material, cure_shininess },
     { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
-    { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_lamps, cure_count },
-    { cure_numbers, cure_count }, { cure_no_lamp, cure_count }, { cure_sides, cure_count },
+    { cure_camera, cure_by_rows }, { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
+    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
+    { cure_lamps, cure_at_eye }, { cure_numbers, cure_at_eye },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {
@@ -1256,6 +748,7 @@ static int ex_is_lit(const claim *c)
 /* Is the picture still as the sentence found it: empty, or nine tenths of it dark? */
 static int ex_is_bad_still(const judged *j, const claim *c, const trial *t)
 {
+    if (c->so == so_behind) return t->p.bright * 3 <= j->shown.count;    /* light of 255 grazes */
     if (ex_is_lit(c)) return t->p.bright * 10 <= j->shown.count;
     return !t->p.stats.fragments;
 }
@@ -1269,7 +762,8 @@ static void ex_mend(const judged *j, const claim *c, cure *const *all, int from_
     while (all[n]) n++;
     for (int k = 0; k < n; k++) {
         cure *one = all[from_last ? n - 1 - k : k];
-        const int moves = one == cure_mesh || one == cure_projection || one == cure_model;
+        const int moves = one == cure_mesh || one == cure_model || one == cure_camera ||
+                          (one == cure_projection && c->advice != cure_clear);
         const int always = c->effect == CHANGES || c->effect == DARKENS;
         if ((moves && c->effect != CHANGES) || (one == cure_cull && ex_is_lit(c)) ||
             !ex_is_apart(one, c->advice))
@@ -1353,8 +847,8 @@ static int ex_explain(explained *e, int with_stats, const char **said)
     }
     return EX_CLAIMS + EX_FALSE;
 }
-/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, and black
-   surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
+/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, another one
+   hide it, and black surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
 static int ex_is_black(explained *e)
 {
     static picture drawn;
@@ -1369,7 +863,8 @@ static int ex_is_black(explained *e)
         return 0;
     ex_copy(&e->s, &whole);
     cure_clip(&whole);
-    if (!drawn.stats.fragments && (e->s.target.clip_width || e->s.target.row_count)) return 0;
+    if (!drawn.stats.fragments &&
+        (e->s.target.clip_width || e->s.target.row_count || e->other.col[3].w != 0)) return 0;
     ex_draw(e, &whole, &drawn);
     return !drawn.bright;
 }

@@ -147,6 +147,7 @@ static const char *stage_explain(stage *s, int with_stats)
 
 #define MISTAKE(name) static void mistake_##name(stage *s)
 #define BLACK shade_v3(0, 0, 0)
+#define WHITE shade_v3(1, 1, 1)
 #define STAGE_SCALE(k) shade_mat4_scaling(shade_v3(k, k, k))
 #define SUN shade_directional_light(shade_v3(0, -1, -4), shade_v3(1, 1, 1))
 
@@ -1516,7 +1517,6 @@ static const mistake mistakes[] = {
     BOTH(inside_out, "inside out|winding"),
     BOTH(wound_clockwise_without_normals, "wound|winding"),
     POT(half_wound_clockwise, ""),
-    BALL(half_wound_clockwise, "mesh.normals point away"),
     BOTH(fronts_left_out, ""),
     BOTH(colors_zero, "mesh.colors"),
     BOTH(colors_of_255, "255"),
@@ -1568,7 +1568,7 @@ static const mistake mistakes[] = {
     BOTH(lamp_without_specular, ""),
     BOTH(lamp_of_ambient_light, "Only ambient|diffuse"),
     BOTH(lamp_nan, "NaN"),
-    POT(lamp_negative, ""), BALL(lamp_negative, "diffuse"),
+    POT(lamp_negative, ""),
     BOTH(terms_of_nothing, "lighting.terms"),
     BOTH(terms_of_highlights, ""),
     BOTH(terms_unknown, "lighting.terms"),
@@ -1640,7 +1640,6 @@ static const mistake mistakes[] = {
     BOTH(projection_times_view_as_projection, "state.view"),
     BOTH(view_times_projection_as_projection, "state.projection|state.view"),
     POT(all_in_model, ""),
-    BALL(all_in_model, "behind|state.model"),
     BOTH(projection_left_handed, "behind the eye|inverse"),
     BOTH(projection_upside_down, "inside out|state.projection"),
     BOTH(ortho_in_pixels, "small|pixel|near plane|beyond|beside|state.projection"),
@@ -1750,5 +1749,8 @@ static const mistake mistakes[] = {
     BALL(attenuation_of_far_lamps, "Attenuation"),
     BALL(attenuation_of_far_lamps_with_a_map, "Attenuation"),
     BALL(around_a_corner_of_the_picture, "covers the centre of a pixel nowhere"),
+    BALL(lamp_negative, "diffuse"),
+    BALL(half_wound_clockwise, "mesh.normals point away"),
+    BALL(all_in_model, "behind|state.model"),
 };
 #endif
