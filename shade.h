@@ -50,33 +50,34 @@
      About
        >>about  >>contents  >>conventions  >>model
      Public
-       >>config     122  options               >>types      213  materials, lamps, targets, states
-       >>plumbing   388  compilers             >>light      547  the equation and its terms
-       >>draw       672  meshes and pixels     >>math       950  vectors and matrices
+       >>config     123  options               >>types      215  materials, lamps, targets, states
+       >>plumbing   390  compilers             >>light      549  the equation and its terms
+       >>draw       675  meshes and pixels     >>math       970  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1310  processors            >>base      1535  bits, masks, rows of vectors
-       >>matrix    1754  cameras, inverses     >>power     2048  x^n
-       >>pixels    2114  formats, sRGB
+       >>machine   1330  processors            >>base      1555  bits, masks, rows of vectors
+       >>matrix    1780  cameras, inverses     >>power     2148  x^n
+       >>pixels    2214  formats, sRGB
      Inside: light
-       >>lamps     2390  attenuation, cones    >>terms     2652  one term at one point
-       >>surface   2734  material and lights   >>lit       2855  the whole sum, at many points
+       >>lamps     2490  attenuation, cones    >>terms     2754  one term at one point
+       >>surface   2836  material and lights   >>lit       2957  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3266  who owns what         >>vertices  3472  shading, projection
-       >>triangles 3691  dropped, cut, edges   >>clip      4069  near, far, behind the eye
-       >>tiles     4265  pixels, depth test    >>cover     4634  what is hidden, tile by tile
-       >>fragments 4909  interpolation, lod    >>texture   5204  texels, mipmaps
-       >>store     5664  blending, packing
+       >>state     3368  who owns what         >>vertices  3574  shading, projection
+       >>triangles 3793  dropped, cut, edges   >>clip      4171  near, far, behind the eye
+       >>tiles     4367  pixels, depth test    >>cover     4736  what is hidden, tile by tile
+       >>fragments 5011  interpolation, lod    >>texture   5306  texels, mipmaps
+       >>store     5766  blending, packing
      Inside: calls of the renderer
-       >>check     5900  refusals              >>seen      6104  what can be seen, chunks
-       >>drive     6241  shade_draw            >>mesh      6422  shade_draw_mesh
+       >>check     6002  refusals              >>seen      6221  what can be seen, chunks
+       >>drive     6358  shade_draw            >>mesh      6539  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6828  shade_draw_lines      >>shape     6987  normals, edges
-       >>chunks    7315  how boxes are made    >>rays      7480  shade_pick
-       >>survey    7676  experiments on a draw >>explain   7927  why nothing is seen
-       >>image     8572  mipmaps, PPM           >>presets   8888  classic materials
+       >>lines     6945  shade_draw_lines      >>shape     7124  normals, edges
+       >>chunks    7478  how boxes are made    >>rays      7643  shade_pick
+       >>survey    7819  experiments on a draw >>explain   8206  why nothing is seen
+       >>replay    9269  of lines, pipelines   >>image     9599  mipmaps, PPM
+       >>presets   9915  classic materials
      Sources
-       >>refs      8964                        >>history   8994
-       >>license   9000
+       >>refs      9991                        >>history  10021
+       >>license  10027
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -198,6 +199,7 @@ typedef ::shade__before_the_namespace_include_float_h_stddef_h_stdint_h shade__g
 #if SHADE_LANES != 128 || SHADE_MAX_VARYINGS != 16
 #define shade_draw SHADE__LINKED(shade_draw)
 #define shade_draw_mesh SHADE__LINKED(shade_draw_mesh)
+#define shade_explain_draw SHADE__LINKED(shade_explain_draw)
 #define shade_lit_lanes SHADE__LINKED(shade_lit_lanes)
 #define shade_light_at_lanes SHADE__LINKED(shade_light_at_lanes)
 #define shade_sample_lanes SHADE__LINKED(shade_sample_lanes)
@@ -225,7 +227,7 @@ typedef enum shade_result {
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
     SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
-    SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model */
+    SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model, a cutoff of NaN */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count; a count that 3 does not divide */
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
@@ -562,7 +564,8 @@ SHADE__BEGIN
 
 /* Lamps of one colour: I_d = I_s = color, no ambient light, no attenuation.  direction_of_travel is
    the way the light flies, aim is where the lamp points; both may have any length.  cutoff_radians
-   goes from the axis to the edge of the cone, 0 .. pi; exponent is e >= 0. */
+   goes from the axis to the edge of the cone, 0 .. pi; any other, 45 for 45 degrees say, makes
+   spot_cos_cutoff a NaN, which draws refuse: SHADE_ERROR_LIGHTS.  exponent is e >= 0. */
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color);
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
@@ -820,9 +823,11 @@ enum {
 };
 
 /* Draws a mesh lit by the equations of >>model in world space.  The eye is the position of the
-   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
-   the centroid, with the face's normal and the colour of the first vertex; a map still varies from
-   pixel to pixel.
+   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  Light takes it
+   from view alone: highlights are wrong where projection moves the centre of projection, and where
+   the camera looks along +z, as left-handed ones do, the backward axis points away from the viewer;
+   negate eye there in a shader of your own.  PER_FACE lights the centroid, with the face's normal
+   and the colour of the first vertex; a map still varies from pixel to pixel.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments whose alpha is below alpha_cutoff
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
@@ -845,6 +850,13 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target, const shade_me
    is wrong, not in every frame. */
 SHADEDEF const char *shade_explain(const shade_target *target, const shade_mesh *mesh,
                                    const shade_draw_state *state, const shade_stats *stats);
+/* The same for shade_draw: call it after the draw, with its arguments and the stats that it wrote,
+   or NULL.  It runs the draw again without a picture, up to 8 times, and counts what the shaders
+   give: positions that are NaN or out of view, discarded, black or transparent pixels, what
+   raster.cull, the depth test and the clip rectangle leave out.  The target stays as it is. */
+SHADEDEF const char *shade_explain_draw(const shade_target *target, const shade_pipeline *pipeline,
+                                        const uint32_t *indices, int index_count,
+                                        int vertex_count, const shade_stats *stats);
 
 /* The number of chunks that shade_mesh_chunks makes of index_count indices.  0 for negative
    numbers, and where index_count is no multiple of 3. */
@@ -882,6 +894,11 @@ typedef struct shade_line_state {
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
+/* Says in one sentence why lines are not seen, as shade_explain does for meshes; "" where nothing is
+   suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
+SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
+                                         int point_count, const shade_line_state *state,
+                                         const shade_stats *stats);
 
 /* The least box around the corners of a mesh's triangles, in object space.  Corners that are NaN or
    infinite do not count; where none counts, low is 1, 1, 1 and high 0, 0, 0. */
@@ -890,9 +907,10 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
 /* The view that shows a box in world space: it looks at the middle from the side of toward_eye, a
    direction of any length, with up as in shade_mat4_look_at.  With a perspective the eye is as near
    as -w <= x, y <= w allows at all eight corners; near and far are not looked at.  A side of an
-   off-centre one that leaves out the line of sight is ignored.  With a projection that does not
-   look down -z, such as an orthographic one, the eye is one diagonal of the box away.  The identity
-   for NaN, infinity and low > high. */
+   off-centre one that leaves out the line of sight is ignored.  A projection may turn and move the
+   eye: the view undoes it, for example with a left-handed one, which looks along +z.  Without
+   perspective the eye is one diagonal of the box away.  The identity for NaN, infinity and low >
+   high. */
 SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low, shade_vec3 high,
                                    shade_vec3 toward_eye, shade_vec3 up);
 
@@ -922,13 +940,15 @@ SHADEDEF int shade_is_silhouette(shade_vec3 to_eye, shade_vec3 n0, shade_vec3 n1
 SHADEDEF int shade_is_crease(shade_vec3 n0, shade_vec3 n1, float threshold);
 
 /* The world-space ray through window point x, y (pixel centres are at + 1/2), for every camera that
-   draws.  It starts at the centre of projection, where clip x, y and w are 0, and flies to where w
-   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, it starts
-   where clip z = -w (on the near plane or, where z is from 0 to w, by far - near nearer to the
-   viewer) and flies to where depth grows, so that it meets first what SHADE_COMPARE_LESS draws.
-     Its direction is a unit vector; it is zero for a degenerate camera, where both w and depth are
-   constant, and for a zero matrix, which is no identity here: for the zero matrices of a draw state
-   pass shade_mat4_identity(). */
+   draws.  Only the product of projection and view counts, not which of the two holds the camera.
+     The ray starts at the centre of projection, where clip x, y and w are 0, and points to where w
+   grows: the eye of a perspective, left-handed ones too.  Where w is constant along it, or changes
+   by less than 3e-5 of itself from near to far, it starts where clip z = -w (on the near plane or,
+   where z is from 0 to w, by far - near nearer to the viewer) and points to where depth grows, so
+   that it meets first what SHADE_COMPARE_LESS draws.
+     Its direction is a unit vector.  The ray is zero where it would not be finite, for a degenerate
+   camera (both w and depth are constant), and for a zero matrix, which is no identity here: for the
+   zero matrices of a draw state pass shade_mat4_identity(). */
 typedef struct shade_ray { shade_vec3 origin, direction; } shade_ray;
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection, int width, int height,
                                    float x, float y);
@@ -1696,6 +1716,11 @@ SHADE__INLINE void shade__double3(shade_vec3 v, double *to)
     to[2] = (double)v.z;
 }
 
+static SHADE__NOINLINE shade_vec3 shade__single3(const double *v)
+{
+    return shade_v3((float)v[0], (float)v[1], (float)v[2]);
+}
+
 static double shade__dot3(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -1739,7 +1764,8 @@ SHADEDEF const char *shade_result_string(shade_result result)
     case SHADE_ERROR_STATE:
         return "bad state: an unknown enumerator, transparency, alpha_cutoff, depth_bias, width, "
                "varyings, cos_crease, or a fragment shader without per-fragment shading";
-    case SHADE_ERROR_LIGHTS: return "bad lighting: lights NULL with a light_count, unknown model";
+    case SHADE_ERROR_LIGHTS:
+        return "bad lighting: lights NULL with a light_count, unknown model, NaN spot_cos_cutoff";
     case SHADE_ERROR_TEXTURE:
         return "bad texture: pixels NULL, width, height, stride, format, wrap, filter, or "
                "lod_varying";
@@ -2043,6 +2069,80 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
 {
     const float side[6] = { l, r, b, t, n, f };
     return shade__box_projection(0, side);
+}
+
+/* Where a draw is seen from.  It depends on projection times view alone, not on which of the two
+   holds the camera.  Rays, fitted views and explanations take it from here. */
+typedef struct shade__camera {
+    double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
+    double eye[3];       /* the centre of projection, where x, y and w are 0; zero if rays are
+                            parallel */
+    double sight[3];     /* unit: the way in which w grows fastest, or parallel rays go; zero if
+                            the camera is degenerate */
+    int perspective;     /* 0: rays are parallel */
+    int reversed;        /* a perspective with greater depth near the eye */
+} shade__camera;
+
+/* Makes v unit, however long; zero where it is zero or not finite. */
+static void shade__direction3(double *v)
+{
+    const double sum = shade__size(v[0]) + shade__size(v[1]) + shade__size(v[2]);
+    for (int k = 0; k < 3; k++) v[k] = sum > 0 && sum <= DBL_MAX ? v[k] / sum : 0;
+    shade__unit3(v);
+}
+
+/* The ray through x/w and y/w, which is where the planes of both meet.  In a perspective it starts
+   on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
+static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
+                               double *way)
+{
+    const double *z = c->row[2], *w = c->row[3];
+    double a[4], b[4], start[4], p[3], q[3], along, w_there = 1;
+    for (int k = 0; k < 4; k++) {
+        a[k] = c->row[0][k] - x * w[k];
+        b[k] = c->row[1][k] - y * w[k];
+        start[k] = c->perspective ? w[k] : z[k] + w[k];
+    }
+    shade__cross3(a, b, way);
+    shade__cross3(b, start, p);
+    shade__cross3(start, a, q);
+    along = shade__dot3(start, way);
+    for (int k = 0; k < 3; k++) {
+        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * way[k];
+        from[k] = along != 0 ? -sum / along : 0;
+    }
+
+    if (!c->perspective) w_there = shade__dot3(w, from) + w[3];
+    for (int k = 0; k < 3; k++) {
+        if (along == 0) way[k] = 0;
+        if ((along < 0) != (w_there < 0)) way[k] = -way[k];
+    }
+    shade__direction3(way);
+}
+
+/* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
+   and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
+   such noise. */
+static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view,
+                             shade__camera *c)
+{
+    double p[16], v[16], way[3];
+    shade__doubles(shade__entries(projection), 16, p);
+    shade__doubles(shade__entries(view), 16, v);
+    for (int k = 0; k < 16; k++) {
+        const double *a = p + k % 4, *b = v + k / 4 * 4;
+        c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
+    }
+    shade__cross3(c->row[0], c->row[1], way);
+    c->perspective = shade__size(shade__dot3(c->row[3], way)) >
+                     shade__size(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    shade__ray_through(c, 0, 0, c->eye, c->sight);
+    c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
+    for (int k = 0; k < 3; k++) {
+        if (c->perspective) c->sight[k] = c->row[3][k];
+        else c->eye[k] = 0;
+    }
+    shade__direction3(c->sight);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -2427,6 +2527,8 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim,
     light.spot_direction = aim;
     light.spot_exponent = exponent;
     light.spot_cos_cutoff = (float)c;
+    if (!(cutoff_radians >= 0 && cutoff_radians <= 3.1415927410125732f))
+        light.spot_cos_cutoff = shade__bits_float(0x7FC00000u);
     return light;
 }
 
@@ -6050,18 +6152,33 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
         return "lighting.lights is NULL while lighting.light_count is not 0.";
     if (!SHADE__KNOWN(l->model, SHADE_MODEL_COOL_TO_WARM))
         return "lighting.model is no SHADE_MODEL_... value.";
+    for (int i = 0; i < l->light_count; i++)
+        if (l->lights[i].spot_cos_cutoff != l->lights[i].spot_cos_cutoff)
+            return "A light's spot_cos_cutoff is NaN: shade_spot_light takes a cutoff from 0 to pi "
+                   "in radians; use shade_radians for degrees.";
     return NULL;
+}
+
+SHADE__INLINE const char *shade__pipeline_fault(const shade_pipeline *p)
+{
+    if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT))
+        return "pipeline.interpolation is no SHADE_INTERPOLATION_... value.";
+    if (p->varyings < 0 || p->varyings > SHADE_MAX_VARYINGS)
+        return "pipeline.varyings must be from 0 to SHADE_MAX_VARYINGS.";
+    return shade__raster_fault(&p->raster);
+}
+
+SHADE__INLINE const char *shade__lod_fault(const shade_pipeline *p)
+{
+    if (p->lod_texture && (p->lod_varying < 0 || p->lod_varying >= p->varyings - 1))
+        return "pipeline.lod_varying must be from 0 to pipeline.varyings - 2, which are u and v.";
+    return p->lod_texture ? shade__texture_fault(p->lod_texture) : NULL;
 }
 
 static SHADE__COLD shade_result shade__check_pipeline(const shade_pipeline *p)
 {
-    if (!SHADE__KNOWN(p->interpolation, SHADE_INTERPOLATION_CONSTANT) || p->varyings < 0 ||
-        p->varyings > SHADE_MAX_VARYINGS || shade__raster_fault(&p->raster))
-        return SHADE_ERROR_STATE;
-    if (p->lod_texture && (!shade__texture_good(p->lod_texture) || p->lod_varying < 0 ||
-                           p->lod_varying >= p->varyings - 1))
-        return SHADE_ERROR_TEXTURE;
-    return SHADE_OK;
+    if (shade__pipeline_fault(p)) return SHADE_ERROR_STATE;
+    return shade__lod_fault(p) ? SHADE_ERROR_TEXTURE : SHADE_OK;
 }
 
 /* All ones if one of the indices first .. end - 1 is n or more.  They are compared in lanes,
@@ -6897,23 +7014,29 @@ static int shade__stroke_part(const shade__stroke *s, double end[2][4],
    2^28 pictures of the middle, so that in clip space, where |w| <= 1e30, they are floats. */
 #define SHADE__WIDEST 33554432.0f
 
+/* The clip-space position of a point. */
+static void shade__stroke_end(const shade__stroke *s, size_t point, double end[4])
+{
+    const double *m = s->clip_from_points;
+    double v[3];
+    shade__double3(s->points[point], v);
+    for (int i = 0; i < 4; i++)
+        end[i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
+}
+
 /* Corner 0 .. 3 of the rectangle around points[2 * segment] and the next, in clip space.
    Segments that are not drawn get a point outside, and those that are rejected one that is
    rejected. */
 static shade_vec4 shade__stroke_corner(const shade__stroke *s, uint32_t segment,
                                        int corner)
 {
-    const double *m = s->clip_from_points, half = s->half_line;
+    const double half = s->half_line;
     const int k = corner & 1;
     int placed = 1;
     double end[2][4], t[2], p[4], at[2], dir[2], side, along;
     for (int j = 0; j < 2; j++) {
-        double v[3];
-        shade__double3(s->points[2 * (size_t)segment + (size_t)j], v);
-        for (int i = 0; i < 4; i++) {
-            end[j][i] = m[i] * v[0] + m[i + 4] * v[1] + m[i + 8] * v[2] + m[i + 12];
-            placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
-        }
+        shade__stroke_end(s, 2 * (size_t)segment + (size_t)j, end[j]);
+        for (int i = 0; i < 4; i++) placed &= end[j][i] >= -1e30 && end[j][i] <= 1e30;
     }
     if (!placed) return shade_v4(FLT_MAX, 2, 2, 1);
     if (!shade__stroke_part(s, end, t, dir)) return shade_v4(2, 2, 2, 1);
@@ -6948,6 +7071,35 @@ static void shade__stroke_color(const void *uniforms,
     SHADE_EACH_LANE(i) { shade__put4(out->color[0], SHADE_LANES, i, c); }
 }
 
+SHADE__INLINE const char *shade__stroke_fault(const shade_line_state *state)
+{
+    shade_raster raster = state->raster;
+    if (!shade__within(state->width, FLT_MAX) || state->width < 0)
+        return "state.width must be a number of pixels; 0 means 1.";
+    if (!SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE)) return "state.cap is no SHADE_CAP_... value.";
+    raster.cull = SHADE_CULL_NONE;
+    return shade__raster_fault(&raster);
+}
+
+/* Prepares the uniforms of the line shaders, and the pipeline that has them. */
+static void shade__stroke_of(const shade_target *target, const shade_vec3 *points,
+                             const shade_line_state *state, shade__stroke *s, shade_pipeline *p)
+{
+    const shade_mat4 m = shade__or_identity(state->clip_from_points);
+    shade__doubles(shade__entries(&m), 16, s->clip_from_points);
+    s->points = points;
+    s->state = state;
+    s->half[0] = target->width / 2.0;
+    s->half[1] = target->height / 2.0;
+    s->half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
+    SHADE__ZERO(*p);
+    p->raster = state->raster;
+    p->raster.cull = SHADE_CULL_NONE;
+    p->vertex = shade__stroke_vertex;
+    p->fragment = shade__stroke_color;
+    p->uniforms = s;
+}
+
 SHADEDEF shade_result shade_draw_lines(const shade_target *target,
                                        const shade_vec3 *points,
                                        int point_count,
@@ -6958,28 +7110,13 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     shade_pipeline p;
     shade__stroke s;
     shade__supply supply;
-    shade_mat4 clip_from_points;
     shade_result result = shade__begin(target,
                                        state && (points || point_count <= 0),
                                        stats);
     if (result) return result;
     if (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3) return SHADE_ERROR_MESH;
-    SHADE__ZERO(p);
-    p.raster = state->raster;
-    p.raster.cull = SHADE_CULL_NONE;
-    if (!(state->width >= 0 && state->width <= FLT_MAX) ||
-        !SHADE__KNOWN(state->cap, SHADE_CAP_SQUARE) || shade__raster_fault(&p.raster))
-        return SHADE_ERROR_STATE;
-    s.points = points;
-    s.state = state;
-    clip_from_points = shade__or_identity(state->clip_from_points);
-    shade__doubles(shade__entries(&clip_from_points), 16, s.clip_from_points);
-    s.half[0] = target->width / 2.0;
-    s.half[1] = target->height / 2.0;
-    s.half_line = (double)shade__minf(state->width > 0 ? state->width : 1, SHADE__WIDEST) / 2;
-    p.vertex = shade__stroke_vertex;
-    p.fragment = shade__stroke_color;
-    p.uniforms = &s;
+    if (shade__stroke_fault(state)) return SHADE_ERROR_STATE;
+    shade__stroke_of(target, points, state, &s, &p);
     (void)shade__supply_all(in_order, 3 * point_count, 3 * point_count, &supply);
     return shade__run_draw(target, &p, 1, shade_v3(0, 0, 0), &supply, stats);
 }
@@ -7278,6 +7415,24 @@ SHADEDEF shade_result shade_mesh_bounds(const shade_mesh *mesh, shade_vec3 *low,
     return SHADE_OK;
 }
 
+/* The camera as a matrix: columns right, up and back, and a point on the axis of sight.  It is the
+   identity, to the bit, for an eye on the z axis that looks down -z. */
+static shade_mat4 shade__frame_of(const shade__camera *c)
+{
+    const double *sight = c->sight;
+    const double up = shade__dot3(c->row[1], sight), ahead = shade__dot3(c->eye, sight);
+    double x[3], y[3], at[3];
+    for (int k = 0; k < 3; k++) {
+        y[k] = c->row[1][k] - up * sight[k];
+        at[k] = c->eye[k] - ahead * sight[k];
+    }
+    shade__direction3(y);
+    shade__cross3(sight, y, x);
+    return shade__m4(shade__xyzw(shade__single3(x), 0), shade__xyzw(shade__single3(y), 0),
+                     shade__xyzw(shade_neg(shade__single3(sight)), 0),
+                     shade__xyzw(shade__single3(at), 1));
+}
+
 /* First the eye stands in the middle of the box.  For each side of the picture it steps back along
    z until the side's plane, w +- x or w +- y, is not negative at the corner where it is least.
    6e-8 is for the rounding to float. */
@@ -7287,14 +7442,21 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
 {
     const shade_vec3 half = shade_scale(shade_sub(high, low), 0.5f);
     const float box[2][4] = { { low.x, low.y, low.z, 1 }, { high.x, high.y, high.z, 1 } };
-    const int perspective = projection.col[2].w < 0;
+    shade__camera camera;
     shade__frustum f;
     shade_mat4 view = shade_mat4_look_at(toward_eye, shade_v3(0, 0, 0), up);
-    double v[16], step = perspective ? -DBL_MAX : 2 * (double)shade_length(half);
+    double v[16], step = 2 * (double)shade_length(half);
+    shade_mat4 frame = shade_mat4_identity();
+    shade__camera_of(&projection, &frame, &camera);
+    if (camera.perspective) {
+        frame = shade__frame_of(&camera);
+        projection = shade__mat4_product(&projection, &frame);
+        step = -DBL_MAX;
+    }
     view.col[3] = shade__xyzw(
         shade_neg(shade_mat4_transform_direction(view, shade_add(low, half))), 1);
     shade__doubles(shade__entries(&view), 16, v);
-    for (int side = 0; perspective && side < 4; side++) {
+    for (int side = 0; camera.perspective && side < 4; side++) {
         const int sign = side & 1 ? -1 : 1;
         double least = 0, back;
         shade__frustum_plane(&projection, side / 2, sign, -sign, side, &f);
@@ -7308,6 +7470,7 @@ SHADEDEF shade_mat4 shade_mat4_fit(shade_mat4 projection, shade_vec3 low,
     }
     v[14] -= step;
     view.col[3].z = (float)(v[14] - shade__size(v[14]) * 6e-8);
+    view = shade__mat4_product(&frame, &view);
     return low.x <= high.x && low.y <= high.y && low.z <= high.z && shade__finite3(toward_eye) &&
            shade__finite3(up) && shade__is_finite(&view) ? view : shade_mat4_identity();
 }
@@ -7483,38 +7646,18 @@ SHADEDEF shade_result shade_mesh_chunks(const shade_mesh *mesh, int triangles,
      method  Cramer's rule in double [Moller97]; boxes are tested by slabs
      holds   A ray that meets a triangle meets the box of each chunk that has it.        >>survey */
 
-/* The centre of projection in eye space, which projection takes to (0, 0, z, 0); its w is 0 where
-   rays are parallel.  It does not depend on the row of z: where the matrix is singular because
-   depth is constant, that row becomes 0, 0, 0, 1. */
-static shade_vec4 shade__centre(shade_mat4 *projection)
-{
-    shade_vec4 c = shade_mat4_inverse(*projection).col[2];
-    if (shade_dot4(c, c) != 0) return c;
-    for (int k = 0; k < 4; k++) ((float *)projection)[4 * k + 2] = k == 3;
-    return shade_mat4_inverse(*projection).col[2];
-}
-
-/* m takes (nx, ny, z, 1) to homogeneous points, whose w is the 1 / w of clip space.  So the sign of
-   their difference is right: it points to where w grows from 0 at the centre or, on a parallel ray,
-   to where z grows. */
 SHADEDEF shade_ray shade_pixel_ray(shade_mat4 view, shade_mat4 projection,
                                    int width, int height, float x, float y)
 {
+    shade__camera c;
     shade_ray ray;
-    const shade_vec4 centre = shade__centre(&projection);
-    const shade_mat4 m = shade_mat4_inverse(shade__mat4_product(&projection, &view));
-    const float nx = 2 * x / (float)shade__max(width, 1) - 1;
-    const float ny = 1 - 2 * y / (float)shade__max(height, 1);
-    shade_vec4 from = shade_mat4_transform(m, shade_v4(nx, ny, -1, 1));
-    const shade_vec4 to = shade_mat4_transform(m, shade_v4(nx, ny, 0.5f, 1));
-    ray.origin = shade_mat4_transform_point(m, shade_v3(nx, ny, -1));
-    if (centre.w != 0) {
-        const shade_vec3 eye = shade_scale(shade__xyz(centre), 1 / centre.w);
-        ray.origin = shade_mat4_transform_point(shade_mat4_inverse(view), eye);
-        from = shade__xyzw(ray.origin, 1);
-    }
-    ray.direction = shade__unit_vector(shade_sub(shade_scale(shade__xyz(to), from.w),
-                                                 shade_scale(shade__xyz(from), to.w)));
+    double from[3], way[3];
+    shade__camera_of(&projection, &view, &c);
+    shade__ray_through(&c, 2 * (double)x / shade__max(width, 1) - 1,
+                       1 - 2 * (double)y / shade__max(height, 1), from, way);
+    ray.origin = shade__single3(c.perspective ? c.eye : from);
+    ray.direction = shade__single3(way);
+    if (!shade__finite3(ray.origin) || !shade__finite3(ray.direction)) SHADE__ZERO(ray);
     return ray;
 }
 
@@ -7674,11 +7817,11 @@ SHADEDEF int shade_pick(const shade_mesh *mesh, shade_mat4 model, shade_ray ray,
 }
 
 /*----------------------------------------------------------------------------------------- >>survey
-   Experiments for >>explain: a mesh is drawn again, with one thing changed after the other, in the
-   pixels of the real picture, so that what no pixel shows is not there.  Each counts pixels: a
-   fragment shader of this section discards those that the question is not about.
+   Experiments for >>explain: a mesh is drawn again with something changed, and pixels are counted.
      in      what shade_draw_mesh took     out  numbers of pixels, stats; depths of some pixels
-     holds   The caller's memory is read, never written, and his fragment shader is not called.
+     holds   A survey is a draw.  An experiment changes a copy of it and draws the copy.  The
+             caller's memory is only read, and the caller's fragment shader is not called.
+     way     shade__open_survey; of a copy: a change, then shade__count or shade__take_probes.
                                                                                         >>explain */
 
 enum {
@@ -7689,47 +7832,57 @@ enum {
 /* What the fragments of one pixel were, in drawing order. */
 typedef struct shade__probe {
     uint32_t place;                      /* 0: none yet */
-    float    nearest, last;              /* depths */
+    float    nearest, farthest, last;    /* depths */
     uint32_t front, any_front;           /* is the nearest front-facing; is one of them */
 } shade__probe;
 
+/* A draw: the given one, and what is drawn in its place.  No pointer leads into the survey itself,
+   so that a copy is a survey of its own. */
 typedef struct shade__survey {
-    shade__scene scene;                  /* of the experiment; first, as its shaders expect */
-    const shade_target     *target;      /* what the caller passed */
+    const shade_target     *target;      /* the caller's */
     const shade_mesh       *given_mesh;
     const shade_draw_state *given_state;
     const shade_stats      *given_stats; /* NULL: none were passed */
 
-    shade_target     picture;            /* what the next experiment draws, and to which pixels */
+    shade_target     picture;            /* the pixels and the depth test of the experiment */
     shade_mesh       mesh;
-    shade_draw_state state;
-    shade_material   material, surface;  /* surface: the one given, or white */
+    shade_draw_state state;              /* but for its material and lamps, which follow */
+    shade_material   material;           /* the given one, or white */
     shade_light      lamp[SHADE__SUSPECTS];
-    float            least;              /* pixels count if a channel is this; 0: all of them */
-    uint32_t         every;              /* one of so many pixels is sampled; 0: none */
-    uint32_t         nearer;             /* leave out what is within 1e-6 of farthest? */
-    shade__probe   *probes;
+    int              own_lamps;          /* lamp is in use, not state.lighting.lights */
+    uint32_t         white_map;          /* the map has its holes, but no colours */
+    float            apart;              /* depths within this of farthest do not count; 0: all do */
+    int              stored;             /* pixels count if the caller's picture is not black there */
 
-    int        clip[4], whole;           /* the clip rectangle; is it the whole picture? */
-    uint32_t   white;                    /* are the colours of the map left out? */
-    int        exact;                    /* experiments see what the picture shows, no more */
-    float      black;                    /* channels below it are stored as 0 */
-    int        reversed;                 /* is z = w on the eye's side of a perspective? */
-    float      farthest;                 /* depth of pixels that do not show the mesh */
-    shade_stats stats;                   /* of the last experiment */
+    int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
+    int   exact;                         /* experiments draw what the picture shows, no more */
+    float dim;                           /* channels below it are stored as 8 of 255 at most */
+    shade__camera camera;
+    float farthest;                      /* depth of pixels that do not show the mesh */
 } shade__survey;
 
+/* One drawing of a survey, for its fragment shader. */
+typedef struct shade__trial {
+    shade__scene scene;                  /* first, as the shaders of meshes expect */
+    const shade__survey *survey;
+    float         least;                 /* pixels count if a channel is this; 0: all of them */
+    uint32_t      every;                 /* one of this many pixels is sampled; 0: none */
+    shade__probe *probes;
+} shade__trial;
+
 /* Notes the depth of lane i, if its pixel is among those sampled. */
-static void shade__take_probe(const shade__survey *s,
-                               const shade_fragments *in, int i)
+static void shade__take_probe(const shade__trial *trial,
+                              const shade_fragments *in, int i)
 {
     const uint32_t place = (uint32_t)in->x[i] + (uint32_t)in->y[i] * 16384 + 1;
     const uint32_t hash = place * 2654435769u >> 8;
-    shade__probe *at = s->probes + hash / s->every % SHADE__PROBES;
+    shade__probe *at = trial->probes + hash / trial->every % SHADE__PROBES;
     const float z = in->z[i];
+    const float sign = 2 * trial->survey->farthest - 1;
     float nearer = 1;
-    if (hash % s->every || (at->place && at->place != place)) return;
-    if (at->place) nearer = (at->nearest - z) * (2 * s->farthest - 1);
+    if (hash % trial->every || (at->place && at->place != place)) return;
+    if (at->place) nearer = (at->nearest - z) * sign;
+    if (!at->place || (z - at->farthest) * sign > 0) at->farthest = z;
     if (nearer > 1e-6f) {
         at->nearest = z;
         at->front = 0;
@@ -7740,144 +7893,275 @@ static void shade__take_probe(const shade__survey *s,
     at->any_front |= in->front[i];
 }
 
-/* The fragment shader of experiments. */
+/* Has a channel of the caller's picture a bit there?
+   pre: the pixel is in the clip rectangle, and there is a picture */
+static int shade__is_stored(const shade_target *t, int x, int y)
+{
+    const size_t bytes = (size_t)shade__layouts[t->format].bytes;
+    const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * bytes;
+    int any = 0;
+    for (size_t k = 0; k < bytes - (bytes > 2 ? bytes / 4 : 0); k++) any |= p[k];    /* no alpha */
+    return any;
+}
+
+/* The fragment shader of experiments: it discards what does not count. */
 static void shade__judge(const void *uniforms,
                          const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
-    const shade__survey *s = (const shade__survey *)uniforms;
+    const shade__trial *trial = (const shade__trial *)uniforms;
+    const shade__survey *s = trial->survey;
     const int over = s->state.raster.blend == SHADE_BLEND_OVER;
-    shade__mesh_colors(&s->scene, in, out);
-    shade__mesh_alpha(&s->scene, out);
+    shade__mesh_colors(&trial->scene, in, out);
+    shade__mesh_alpha(&trial->scene, out);
     for (int i = 0; i < in->count; i++) {
         const float a = over ? out->color[3][i] : 1;
-        int counts = !(s->least > 0);
-        for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= s->least;
-        if (s->nearer) counts &= !shade__within(in->z[i] - s->farthest, 1e-6f);
+        int counts = !(trial->least > 0);
+        for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= trial->least;
+        if (s->apart > 0) counts &= !shade__within(in->z[i] - s->farthest, s->apart);
+        if (s->stored) counts &= shade__is_stored(s->target, (int)in->x[i], (int)in->y[i]);
         if (!counts) out->discard[i] = 1;
-        if (s->every && !out->discard[i]) shade__take_probe(s, in, i);
+        if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
     }
 }
 
-/* Draws the mesh.  Returns how many pixels show it, with a channel of least or more. */
-static long long shade__count(shade__survey *s, float least)
+/* Draws the survey.   pre: least, every and probes of the trial are set */
+static shade_stats shade__draw_trial(const shade__survey *s, shade__trial *trial)
 {
     shade_target t = s->picture;
-    s->least = least;
-    if (!(least > 0)) t.color = NULL;
-    shade__scene_of(&t, &s->mesh, &s->state, &s->scene);
-    s->scene.white_map = s->white;
+    shade_draw_state state = s->state;
+    shade_stats stats;
+    state.material = &s->material;
+    if (s->own_lamps) state.lighting.lights = s->lamp;
+    if (!(trial->least > 0)) t.color = NULL;
+    shade__scene_of(&t, &s->mesh, &state, &trial->scene);
+    trial->scene.white_map = s->white_map;
+    trial->survey = s;
     t.color = NULL;
-    shade__draw_scene(&t, &s->scene, shade__judge, 1, &s->stats);
-    return s->stats.fragments;
+    shade__draw_scene(&t, &trial->scene, shade__judge, 1, &stats);
+    return stats;
 }
 
-/* Draws the mesh.  Returns how many pixels show it. */
-static long long shade__covered(shade__survey *s) { return shade__count(s, 0); }
-
-/* Is a pixel of the mesh not black when stored? */
-static int shade__shows(shade__survey *s)
+/* Returns what became of the triangles; fragments is the number of pixels that have a channel of
+   least or more. */
+static shade_stats shade__stats_of(const shade__survey *s, float least)
 {
-    return shade__count(s, s->black) > 0;
+    shade__trial trial;
+    SHADE__ZERO(trial);
+    trial.least = least;
+    return shade__draw_trial(s, &trial);
+}
+
+static long long shade__count(const shade__survey *s, float least)
+{
+    return shade__stats_of(s, least).fragments;
+}
+
+/* Returns how many pixels the mesh covers. */
+static long long shade__covered(const shade__survey *s) { return shade__count(s, 0); }
+
+/* Is a pixel of the mesh brighter than 8 of 255?  Highlights may lie between pixels. */
+static int shade__shows(const shade__survey *s)
+{
+    shade__survey wide = *s;
+    wide.material.shininess = shade__minf(wide.material.shininess, 4);
+    return shade__count(&wide, s->dim) > 0;
 }
 
 /* Is there light that a surface of its square root would still show? */
-static int shade__bright(shade__survey *s)
+static int shade__bright(const shade__survey *s)
 {
-    return shade__count(s, shade__sqrt(s->black)) > 0;
+    return shade__count(s, shade__sqrt(s->dim)) > 0;
 }
 
-/* Makes the given draw fit for experiments: depth is not written, highlights are too wide to lie
-   between pixels, and the caller's fragment shader is not called. */
-static void shade__begin_survey(shade__survey *s)
+/* Draws the mesh with this culling, and samples pixels. */
+static void shade__take_probes(const shade__survey *s, shade_cull cull,
+                               shade__probe probes[SHADE__PROBES])
 {
-    const shade__layout *l = &shade__layouts[s->target->format];
-    shade_vec4 last;
-    s->mesh = *s->given_mesh;
-    s->state = *s->given_state;
-    s->state.projection = shade__or_identity(s->state.projection);
-    last = s->state.projection.col[3];
-    s->reversed = last.w == 0 && last.z > 0;
-    s->farthest = (float)!(s->target->depth ? (int)shade__compare_of(&s->state.raster).greater
-                                            : s->reversed);
-    s->state.raster.depth_read_only = 1;
-    s->white = s->nearer = s->every = 0;
-
-    s->black = s->target->dither && l->bytes == 2 ? 0.03f : 0.499f;
-    s->black /= (float)l->full[1];
-    if (shade__is_encoded(s->target->srgb, l)) s->black /= 12.92f;
-    if (l->bytes == 16) s->black = FLT_MIN;
-
-    SHADE__ZERO(s->surface);
-    s->surface.diffuse = s->surface.ambient = shade_v3(1, 1, 1);
-    if (s->state.material) s->surface = *s->state.material;
-    s->material = s->surface;
-    s->material.shininess = shade__minf(s->surface.shininess, 4);
-    s->state.material = &s->material;
-
-    if (s->state.fragment) s->state.alpha_cutoff = 0;
-    s->state.fragment = NULL;
-    s->state.model = shade__or_identity(s->state.model);
-    s->state.view = shade__or_identity(s->state.view);
+    shade__survey q = *s;
+    shade__trial trial;
+    q.state.raster.cull = cull;
+    q.state.raster.depth_bias = 0;    /* depths at the end of their range would be equal */
+    SHADE__ZERO(trial);
+    trial.every = 1 + (uint32_t)(shade__covered(&q) * 2 / SHADE__PROBES);
+    trial.probes = probes;
+    for (int k = 0; k < SHADE__PROBES; k++) SHADE__ZERO(probes[k]);
+    shade__draw_trial(&q, &trial);
 }
 
-/* Experiments draw all fragments, in the whole picture, without a depth test. */
-static void shade__look_at_all(shade__survey *s)
+/* ---- which pixels are drawn */
+
+/* All fragments, in the whole picture, without a depth test. */
+static void shade__look_at_all(shade__survey *q)
 {
-    SHADE__ZERO(s->picture);
-    s->picture.width = s->target->width;
-    s->picture.height = s->target->height;
-    s->picture.color = s->target->color;
-    s->exact = 0;
+    SHADE__ZERO(q->picture);
+    q->picture.width = q->target->width;
+    q->picture.height = q->target->height;
+    q->picture.color = q->target->color;
+    q->exact = 0;
 }
 
-/* Experiments draw the fragments in the clip rectangle that pass this depth test now. */
-static void shade__look_through(shade__survey *s, shade_compare test)
+/* All fragments in the clip rectangle. */
+static void shade__look_in_clip(shade__survey *q)
 {
-    s->picture = *s->target;
-    s->state.raster.depth_test = test;
+    q->picture = *q->target;
+    q->picture.depth = NULL;
 }
 
-/* Experiments draw what the picture shows: after a draw these are the fragments of stored depth.
-   A band shows too little, blending shows more, a bias makes depths equal at the end of their
-   range, and depth may have changed since: all fragments are drawn then, so that what they lack is
-   not there.  Where depth is not written, fragments that passed hide others.  Returns how many they
-   are. */
-static long long shade__look_at_seen(shade__survey *s)
+/* The fragments in the clip rectangle that pass this depth test now. */
+static void shade__look_through(shade__survey *q, shade_compare test)
 {
-    const shade_draw_state *d = s->given_state;
+    q->picture = *q->target;
+    q->state.raster.depth_test = test;
+}
+
+/* What the picture shows: after a draw these are the fragments of stored depth.  A band shows too
+   little, blending shows more, a bias makes depths equal at the end of their range, and depth may
+   have changed since: all fragments are drawn then, so that what they lack is not there.  Where
+   depth is not written, fragments that passed hide others. */
+static void shade__look_at_seen(shade__survey *q)
+{
+    const shade_draw_state *d = q->given_state;
     const shade_raster *r = &d->raster;
     const int opaque = r->blend == SHADE_BLEND_REPLACE ||
                        (r->blend == SHADE_BLEND_OVER && d->transparency == 0 && !d->diffuse_map);
-    shade__begin_survey(s);
-    shade__look_through(s, r->depth_read_only ? r->depth_test
-                                              : SHADE_COMPARE_EQUAL);
-    if (s->whole && s->target->depth &&
-        (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(s))
-        s->exact = !r->depth_read_only;
-    else shade__look_at_all(s);
-    return shade__covered(s);
+    shade__look_through(q, r->depth_read_only ? r->depth_test : SHADE_COMPARE_EQUAL);
+    if (q->whole && q->target->depth &&
+        (r->depth_read_only || (opaque && r->depth_bias == 0)) && shade__covered(q))
+        q->exact = !r->depth_read_only;
+    else shade__look_at_all(q);
 }
 
-/* Draws the mesh with this culling, and fills probes, which must be zero. */
-static void shade__take_probes(shade__survey *s, shade_cull cull,
-                                shade__probe *probes)
+/* Is n a tenth of all or less?  None, where some of them may be hidden. */
+static int shade__few(const shade__survey *s, long long n, long long all)
 {
-    s->state.raster.cull = cull;
-    s->state.raster.depth_bias = 0;    /* depths at the end of their range would be equal */
-    s->every = 1 + (uint32_t)(shade__covered(s) * 2 / SHADE__PROBES);
-    s->probes = probes;
-    shade__covered(s);
-    s->every = 0;
+    return n * 10 <= (s->exact ? all : 0);
 }
 
-/* The SHADE__OUT_... bits that all corners share in the last experiment. */
+/* Is a pixel that the picture shows brighter than 8 of 255?  Where what is drawn hides other
+   fragments, and stored depth does not tell which, all of them must be. */
+static int shade__lights_up(const shade__survey *s)
+{
+    const shade_raster *r = &s->given_state->raster;
+    shade__survey q = *s;
+    if (!s->exact && s->target->depth && !r->depth_read_only && r->depth_bias == 0)
+        shade__look_through(&q, SHADE_COMPARE_EQUAL);
+    else if (!s->exact)
+        return shade__covered(s) && shade__count(s, s->dim) == shade__covered(s);
+    return shade__count(&q, s->dim) > 0;
+}
+
+/* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
+static float shade__dim_of(const shade_target *t)
+{
+    const shade__layout *l = &shade__layouts[t->format];
+    const float dim = 8.5f / 255;
+    if (l->bytes == 16) return FLT_MIN;
+    return shade__is_encoded(t->srgb, l) ? shade__decode(dim) : dim;
+}
+
+/* Makes a survey of the given draw: all its fragments, and depth is not written. */
+static void shade__open_survey(const shade_target *target, const shade_mesh *mesh,
+                               const shade_draw_state *state, const shade_stats *stats,
+                               shade__survey *s)
+{
+    SHADE__ZERO(*s);
+    s->target = target;
+    s->given_mesh = mesh;
+    s->given_state = state;
+    s->given_stats = stats;
+    shade__look_at_all(s);
+    s->mesh = *mesh;
+    s->state = *state;
+    s->state.raster.depth_read_only = 1;
+    s->state.model = shade__or_identity(s->state.model);
+    s->state.view = shade__or_identity(s->state.view);
+    s->state.projection = shade__or_identity(s->state.projection);
+    if (s->state.fragment) s->state.alpha_cutoff = 0;
+    s->state.fragment = NULL;
+    s->material.diffuse = s->material.ambient = shade_v3(1, 1, 1);
+    if (state->material) s->material = *state->material;
+
+    s->whole = shade__clip_rectangle(target, s->clip) &&
+               s->clip[2] - s->clip[0] == target->width &&
+               s->clip[3] - s->clip[1] == target->height;
+    shade__camera_of(&s->state.projection, &s->state.view, &s->camera);
+    s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
+                                         : s->camera.reversed);
+
+    s->dim = shade__dim_of(target);
+}
+
+/* ---- other surfaces and lamps */
+
+/* The surface reflects all light, with wide highlights.  The map keeps its holes, and a material
+   that is NULL has no highlights. */
+static void shade__whiten(shade__survey *q)
+{
+    const shade_vec3 one = shade_v3(1, 1, 1);
+    q->mesh.colors = NULL;
+    q->white_map = 1;
+    q->material.diffuse = q->material.ambient = one;
+    if (q->given_state->material) q->material.specular = one;
+    q->material.shininess = shade__minf(q->material.shininess, 4);
+}
+
+/* One white lamp, and no other light. */
+static void shade__light_by(shade__survey *q, shade_vec4 position, unsigned flags)
+{
+    shade_lighting *l = &q->state.lighting;
+    SHADE__ZERO(*l);
+    l->light_count = 1;
+    l->flags = flags;
+    q->own_lamps = 1;
+    q->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
+    q->lamp[0].position = position;
+}
+
+/* The first of the given lamps, without attenuation and exponent. */
+static void shade__light_everywhere(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    l->light_count = shade__min(l->light_count, SHADE__SUSPECTS);
+    q->own_lamps = 1;
+    for (int i = 0; i < l->light_count; i++) {
+        shade_light *lamp = &q->lamp[i];
+        *lamp = l->lights[i];
+        lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
+    }
+}
+
+/* The lamps lose their cones.   pre: shade__light_everywhere */
+static void shade__open_cones(shade__survey *q)
+{
+    for (int i = 0; i < q->state.lighting.light_count; i++)
+        q->lamp[i].spot_direction = shade_v3(0, 0, 0);
+}
+
+static void shade__paint_lamps(shade__survey *q, shade_vec3 color)
+{
+    for (int i = 0; i < q->state.lighting.light_count; i++)
+        q->lamp[i].diffuse = q->lamp[i].specular = color;
+}
+
+/* Lights every fragment, where there is room for its position and normal. */
+static void shade__light_fragments(shade__survey *q)
+{
+    if (SHADE_MAX_VARYINGS > (q->state.diffuse_map ? 7 : 5))
+        q->state.shading = SHADE_SHADING_PER_FRAGMENT;
+}
+
+/* ---- questions that need no drawing */
+
+/* The SHADE__OUT_... bits that all corners share. */
 static uint32_t shade__outside(const shade__survey *s)
 {
+    shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
     uint32_t all = ~0u;
+    m = shade__mat4_product(&m, &s->state.model);
     for (int i = 0; i < shade__corner_count(&s->mesh); i++) {
         const shade_vec3 p = shade__corner(&s->mesh, (uint32_t)i);
-        const shade_vec4 c = shade_mat4_transform(s->scene.clip_from_object, shade__xyzw(p, 1));
+        const shade_vec4 c = shade_mat4_transform(m, shade__xyzw(p, 1));
         const uint32_t out =
             shade__outcode(c.x, c.y, c.z, c.w, s->state.raster.depth_zero_to_one);
         if (!(out & SHADE__OUT_BAD)) all &= out;
@@ -7886,11 +8170,10 @@ static uint32_t shade__outside(const shade__survey *s)
 }
 
 /* Was anything drawn before?  Then the caller's depth buffer holds different values. */
-static int shade__depth_varies(const shade__survey *s)
+static int shade__depth_varies(const shade_target *t)
 {
-    const shade_target *t = s->target;
-    const int *clip = s->clip;
-    if (!t->depth) return 0;
+    int clip[4];
+    if (!t->depth || !shade__clip_rectangle(t, clip)) return 0;
     for (int y = clip[1]; y < clip[3]; y++)
         for (int x = clip[0]; x < clip[2]; x++)
             if (t->depth[shade__offset_of(t, x, y)] !=
@@ -7899,40 +8182,36 @@ static int shade__depth_varies(const shade__survey *s)
     return 0;
 }
 
-/* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
-   Such a mesh may well be hidden, or seen edge-on. */
-static int shade__is_scattered(shade__survey *s)
+static int shade__eye_inside(const shade__survey *s)
 {
-    return shade__covered(s) * 4 < (long long)s->target->width * s->target->height &&
-           shade__depth_varies(s);
-}
-
-/* Lights every fragment, where there is room for its position and normal. */
-static void shade__light_fragments(shade__survey *s)
-{
-    if (SHADE_MAX_VARYINGS > (s->state.diffuse_map ? 7 : 5))
-        s->state.shading = SHADE_SHADING_PER_FRAGMENT;
-}
-
-static int shade__eye_inside(shade__survey *s)
-{
-    const shade_mat4 m = shade__mat4_product(&s->state.view, &s->state.model);
-    const shade_vec3 eye = shade__xyz(shade_mat4_inverse(m).col[3]);
-    shade_vec3 low, high;
+    const shade_mat4 object = shade__mat4_product(&s->state.view, &s->state.model);
+    shade__camera c;
+    shade_vec3 low, high, eye;
+    shade__camera_of(&s->state.projection, &object, &c);
     shade_mesh_bounds(&s->mesh, &low, &high);
-    return shade_mat4_determinant(m) != 0 &&
-           shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
+    eye = shade_v3((float)c.eye[0], (float)c.eye[1], (float)c.eye[2]);
+    return c.perspective && shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
+}
+
+/* Is depth the same all over a plane that the viewer faces? */
+static int shade__faces_ahead(const shade__camera *c)
+{
+    double across[3];
+    shade__cross3(c->row[2], c->row[3], across);
+    return c->perspective &&
+           shade__dot3(across, across) <= 1e-10 * shade__dot3(c->row[2], c->row[2]) *
+                                              shade__dot3(c->row[3], c->row[3]);
 }
 
 /*---------------------------------------------------------------------------------------- >>explain
    Why a draw gives no picture, or the wrong one, in one sentence.
      in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
-     method  Arguments and matrices are checked.  Then one thing after the other is changed until
-             the mesh appears: the last change names the fault.  Changes are kept, so that two
-             faults at once are found as well.
-     holds   A sentence is said where the matrices or the pixels of the real picture prove it.  A
-             band or a strip is never blamed for what another one may show.
-                                                                                          >>image */
+     method  Numbers that cannot be meant are looked for first.  Then ladders are climbed: tables
+             of changes and sentences, tried from top to bottom.
+     holds   A sentence is true of the pixels that are shown: of all, of nine tenths, or of none
+             brighter than 8 of 255.  A band or a strip is never blamed for what another may show.
+     way     shade__refusal; shade__why: shade__bad_number; the ladders of no picture, of no
+             pixels, of wrong ones, of black and of lit ones; shade__doubt.            >>replay */
 
 /* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
    positions overlap. */
@@ -7971,16 +8250,16 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
 
 /* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), (0, 0, -1, 0) of a
    perspective, or (0, 0, 1, 0) of a left-handed one.  A matrix that flattens, as those of shadows
-   on planes do, is none of them. */
+   on planes do, is none of them, nor is a projection whose w grows with z alone, from one point. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
-    const shade_vec4 last = m->col[3];
-    const float b = m->col[2].w;
+    const shade_vec4 z = m->col[2], last = m->col[3];
+    const int from_point = m->col[0].w == 0 && m->col[1].w == 0 &&
+                           !shade__within(z.x * z.x + z.y * z.y + z.z * z.z - 1, 0.01f);
     if (shade_mat4_determinant(*m) == 0) return 0;
-    if (last.w == 0)    /* b is none of 0, 1 and -1 */
-        return (last.z == 1 || last.z == -1) && b * (1 - b * b) != 0;
-    return last.w == 1 && shade__is_zero(shade__xyz(last)) &&
-           !shade__is_affine(m);
+    if (last.w == 0)    /* z.w is none of 0, 1 and -1 */
+        return (last.z == 1 || last.z == -1) && z.w * (1 - z.w * z.w) != 0;
+    return last.w == 1 && shade__is_zero(shade__xyz(last)) && !shade__is_affine(m) && !from_point;
 }
 
 /* Does the matrix only turn, mirror and move? */
@@ -7995,523 +8274,823 @@ static int shade__is_rigid(const shade_mat4 *m)
     return rigid;
 }
 
-/* Is nothing but 0 in the first two columns, save x and y of the picture?  Then depth is the same
-   all over a plane that the viewer faces. */
-static int shade__faces_ahead(const shade_mat4 *p)
+/* Is the last row of an affine matrix (0, 0, 0, 1)? */
+static int shade__scales_w(const shade_mat4 *m)
 {
-    const shade_vec4 x = p->col[0], y = p->col[1];
-    return x.y == 0 && x.z == 0 && x.w == 0 && y.x == 0 && y.z == 0 && y.w == 0;
+    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
 }
 
-static const char *shade__suspect_matrices(const shade__survey *s)
+static const char *shade__bad_matrix(const shade__survey *s)
 {
-    static const char *const transposed[] = {
-        "state.model looks transposed (row-major): its translation belongs in col[3]; pass it "
-        "through shade_mat4_transpose.",
-        "state.view looks transposed (row-major): its translation belongs in col[3]; pass it "
-        "through shade_mat4_transpose."
-    };
-    const shade_mat4 *m[3] = { &s->state.model, &s->state.view, &s->state.projection };
-    const shade_mat4 *view = m[1], *p = m[2];
-    for (int k = 0; k < 3; k++) {
-        if (!shade__is_finite(m[k]))
-            return "state.model, state.view or state.projection holds a NaN or infinity.";
-        if (k < 2 && shade__is_transposed(m[k])) return transposed[k];
-    }
-
+    const shade_mat4 *model = &s->state.model, *view = &s->state.view, *p = &s->state.projection;
+    if (!shade__is_finite(model) || !shade__is_finite(view) || !shade__is_finite(p))
+        return "state.model, state.view or state.projection holds a NaN or infinity.";
+    if (shade__is_transposed(model))
+        return "state.model looks transposed (row-major): its translation belongs in col[3]; pass "
+               "it through shade_mat4_transpose.";
+    if (shade__is_transposed(view))
+        return "state.view looks transposed (row-major): its translation belongs in col[3]; pass "
+               "it through shade_mat4_transpose.";
+    if (shade__scales_w(model) || shade__scales_w(view))
+        return "The last row of state.model or state.view is not 0, 0, 0, 1: set col[3].w to 1.";
     if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
         return "state.projection is what cameras give for bad arguments: fovy must be in radians "
                "and below pi (use shade_radians for degrees), near and far above 0 and different, "
                "the aspect not 0, left not equal to right, bottom not to top.";
     if (!shade__is_affine(view) || (!shade__is_rigid(view) && shade__is_rigid(p) &&
                                     !shade__is_zero(shade__xyz(p->col[3]))))
-        return "state.view holds a projection: state.view and state.projection look swapped.";
-    if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(p) &&
+        return "state.view holds a projection, which belongs in state.projection: light takes the "
+               "eye from state.view.  Are the two swapped?";
+    if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(&s->camera) &&
         !s->state.raster.depth_zero_to_one)
         return "state.projection is that of shade_mat4_perspective_reversed, which needs "
                "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
     return NULL;
 }
 
-static const char *shade__suspect_state(const shade__survey *s)
+static const char *shade__bad_lamp(const shade_light *l)
 {
-    const shade_lighting *l = &s->state.lighting;
-    if (l->light_count < 0)
-        return "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
-    for (int i = 0; i < l->light_count; i++) {
-        const shade_light *lamp = &l->lights[i];
-        if (!shade__is_zero(lamp->spot_direction) && !shade__within(lamp->spot_cos_cutoff, 1.001f))
-            return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the "
-                   "angle, not the angle; make the light with shade_spot_light.";
-    }
-
+    const float *number = &l->position.x;
+    for (size_t k = 0; k < sizeof *l / sizeof *number; k++)
+        if (number[k] != number[k]) return "A light of lighting.lights holds a NaN.";
+    if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))
+        return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the angle, "
+               "not the angle; make the light with shade_spot_light.";
+    if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
+        return "A light's constant, linear or quadratic is negative: attenuation divides by "
+               "constant + linear r + quadratic r^2, at the distance r.";
     return NULL;
 }
 
-/* ---- no pixel of the whole picture shows the mesh */
-
-static const char *shade__why_culled(shade__survey *s)
+/* Are corners NaN, infinite or beyond 1e12, or does the draw leave out triangles as such? */
+static int shade__positions_are_bad(const shade__survey *s)
 {
-    if (shade__eye_inside(s))
-        return "raster.cull leaves out every triangle in view, and the eye lies inside of the "
-               "mesh's box: set state.view, or move the eye out.";
-
-    if (s->given_state->raster.cull == SHADE_CULL_FRONT)
-        return "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
-               "SHADE_CULL_BACK or SHADE_CULL_NONE.";
-    return "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
-           "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
-           "state.model that mirrors reverses it as well.";
+    shade_vec3 low, high;
+    shade_mesh_bounds(s->given_mesh, &low, &high);
+    low = shade_max(high, shade_neg(low));
+    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(s, 0).rejected > 0;
 }
 
-static const char *shade__why_outside(shade__survey *s)
+/* How many triangles a draw of the mesh counts. */
+static long long shade__triangles_of(const shade_mesh *m)
 {
-    const shade_stats *stats = &s->stats;
-    const int apart = stats->clipped + stats->rejected == stats->triangles;
-    const uint32_t outside = shade__outside(s);
-    if (apart && shade__is_rigid(&s->state.projection))
-        return "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, "
-               "or no projection; make it with shade_mat4_perspective or shade_mat4_ortho.";
-
-    if (outside & (s->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
-        return "The whole mesh lies beyond the far plane of state.projection; move far out, or the "
-               "eye of state.view nearer.";
-
-    s->state.view = shade_mat4_inverse(s->state.view);
-    if (shade__covered(s))
-        return "The mesh is out of view, but the inverse of state.view would show it: state.view "
-               "takes the world to the eye, as shade_mat4_look_at does.";
-
-    if (outside & SHADE__OUT_W)
-        return "The whole mesh lies behind the eye: the camera of state.view looks down -z in its "
-               "own space; check state.view and state.model.";
-    if (outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
-        return "The whole mesh lies nearer than the near plane of state.projection, or behind the "
-               "eye of state.view; move near in, or the eye back.";
-    if (apart)
-        return "The whole mesh lies beside the picture, before near or beyond far; check "
-               "state.model, and where state.view looks.";
-    return "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen "
-           "edge-on, or lies beside the picture; check state.model and state.view.";
+    long long count = 0;
+    if (!m->chunks) return shade__corner_count(m) / 3;
+    for (int i = 0; i < m->chunk_count; i++) count += m->chunks[i].count;
+    return count;
 }
 
 static int shade__chunks_leave_out(const shade_mesh *m)
 {
-    long long count = 0;
-    for (int i = 0; i < m->chunk_count; i++) count += m->chunks[i].count;
-    return m->chunks && count < shade__corner_count(m) / 3;
+    return shade__triangles_of(m) < shade__corner_count(m) / 3;
 }
+
+static const char *shade__bad_number(const shade__survey *s)
+{
+    const shade_lighting *l = &s->state.lighting;
+    const char *why = shade__bad_matrix(s);
+    if (s->given_stats && s->given_stats->triangles != shade__triangles_of(s->given_mesh))
+        return "stats are not of this draw: their triangles are not as many as the mesh has; pass "
+               "what shade_draw_mesh wrote.";
+    if (!why && l->light_count < 0)
+        why = "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
+    for (int i = 0; i < l->light_count && !why; i++) why = shade__bad_lamp(&l->lights[i]);
+    if (!why && shade__positions_are_bad(s))
+        why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices make "
+              "them so: positions must be floats, and mesh.position_stride counts bytes.";
+    return why;
+}
+
+/* ---- ladders */
+
+typedef struct shade__rung {
+    int (*change)(shade__survey *q);     /* returns whether the sentence is true */
+    const char *sentence;                /* NULL: what is seen may be meant, the ladder ends */
+} shade__rung;
+
+/* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault, and
+   two faults at once are found as well. */
+static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
+{
+    for (; rung->change; rung++)
+        if (rung->change(q)) return rung->sentence;
+    return NULL;
+}
+
+/* The same, but each rung changes a copy. */
+static const char *shade__climb(const shade__survey *s, const shade__rung *rung)
+{
+    for (; rung->change; rung++) {
+        shade__survey q = *s;
+        if (rung->change(&q)) return rung->sentence;
+    }
+    return NULL;
+}
+
+static int shade__always(shade__survey *q) { return q != NULL; }
+
+static int shade__appears(shade__survey *q) { return shade__covered(q) > 0; }
+
+/* ---- no pixel of the whole picture shows the mesh */
 
 static const char *const shade__left_out =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
     "drawn: pass all the chunks that shade_mesh_chunks made, and heed its result.";
+static const char *const shade__wrong_box =
+    "A box of mesh.chunks does not hold its triangles, which may vanish: make the chunks again "
+    "with shade_mesh_chunks after the positions have changed.";
 
-static const char *shade__why_nothing(shade__survey *s)
+static int shade__chunks_are_few(shade__survey *q)
 {
-    const shade_stats *stats = &s->stats;
-
-    s->mesh.chunks = NULL;
-    s->mesh.chunk_count = 0;
-    if (shade__covered(s))
-        return shade__chunks_leave_out(s->given_mesh)
-                   ? shade__left_out
-                   : "No box of mesh.chunks holds the triangles in view: make the chunks again "
-                     "with shade_mesh_chunks after the positions have changed.";
-
-    s->state.raster.cull = SHADE_CULL_NONE;
-    if (shade__covered(s)) return shade__why_culled(s);
-    if (stats->rejected == stats->triangles)
-        return "mesh.positions hold NaN, infinite or huge numbers, or state.model, state.view and "
-               "state.projection make them so (beyond 1e30).";
-
-    if (shade__is_scattered(s)) return "";
-    s->state.alpha_cutoff = 0;
-    if (shade__covered(s))
-        return "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) "
-               "times that of diffuse_map; lower it.";
-
-    if (!stats->drawn && stats->culled)
-        return "No triangle in view has an area on the screen: state.model scales by 0, the mesh "
-               "is smaller than a pixel or seen edge-on, or corners in mesh.indices coincide.";
-
-    if (shade__is_transposed(&s->state.projection)) {
-        const shade_mat4 given = s->state.projection;
-        s->state.projection = shade_mat4_transpose(given);
-        if (shade__covered(s))
-            return "state.projection looks transposed (row-major): its -1 belongs in col[2].w, "
-                   "its translation in col[3]; pass it through shade_mat4_transpose.";
-        s->state.projection = given;
-        shade__covered(s);
-    }
-    return shade__why_outside(s);
+    q->mesh.chunks = NULL;
+    q->mesh.chunk_count = 0;
+    return shade__chunks_leave_out(q->given_mesh) && shade__covered(q);
 }
+
+static int shade__culled_inside(shade__survey *q)
+{
+    q->state.raster.cull = SHADE_CULL_NONE;
+    return shade__eye_inside(q) && shade__covered(q);
+}
+
+static int shade__fronts_are_culled(shade__survey *q)
+{
+    return q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q);
+}
+
+/* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
+   Such a mesh may well be hidden, or seen edge-on. */
+static int shade__is_scattered(shade__survey *q)
+{
+    return shade__covered(q) * 4 < (long long)q->target->width * q->target->height &&
+           shade__depth_varies(q->target);
+}
+
+static int shade__all_cut(shade__survey *q)
+{
+    q->state.alpha_cutoff = 0;
+    return shade__appears(q);
+}
+
+static int shade__has_no_area(shade__survey *q)
+{
+    const shade_stats stats = shade__stats_of(q, 0);
+    return !stats.drawn && stats.culled;
+}
+
+static int shade__projection_by_rows(shade__survey *q)
+{
+    shade__survey turned = *q;
+    turned.state.projection = shade_mat4_transpose(q->state.projection);
+    return shade__is_transposed(&q->state.projection) && shade__covered(&turned);
+}
+
+/* Does each triangle lie outside of the view volume? */
+static int shade__is_beside(shade__survey *q)
+{
+    const shade_stats stats = shade__stats_of(q, 0);
+    return stats.clipped + stats.rejected == stats.triangles;
+}
+
+static int shade__projection_is_none(shade__survey *q)
+{
+    return shade__is_rigid(&q->state.projection) && shade__is_beside(q);
+}
+
+static int shade__beyond_far(shade__survey *q)
+{
+    return (shade__outside(q) & (q->camera.reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR)) != 0;
+}
+
+static int shade__view_is_inverse(shade__survey *q)
+{
+    shade__survey inverse = *q;
+    inverse.state.view = shade_mat4_inverse(q->state.view);
+    return shade__appears(&inverse);
+}
+
+static int shade__behind_eye(shade__survey *q) { return (shade__outside(q) & SHADE__OUT_W) != 0; }
+
+static int shade__before_near(shade__survey *q)
+{
+    return (shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR)) != 0;
+}
+
+/* Changes are kept. */
+static const shade__rung shade__nothing[] = {
+    { shade__chunks_are_few, shade__left_out },
+    { shade__appears, shade__wrong_box },
+    { shade__culled_inside,
+      "raster.cull leaves out every triangle in view, and the eye lies inside of the mesh's box: "
+      "set state.view, or move the eye out." },
+    { shade__fronts_are_culled,
+      "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; use "
+      "SHADE_CULL_BACK or SHADE_CULL_NONE." },
+    { shade__appears,
+      "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
+      "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
+      "state.model that mirrors reverses it as well." },
+    { shade__is_scattered, NULL },
+    { shade__all_cut,
+      "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) times "
+      "that of diffuse_map; lower it." },
+    { shade__has_no_area,
+      "No triangle in view has an area on the screen: state.model scales by 0, the mesh is "
+      "smaller than a pixel or seen edge-on, or corners in mesh.indices coincide." },
+    { shade__projection_by_rows,
+      "state.projection looks transposed (row-major): its -1 belongs in col[2].w, its "
+      "translation in col[3]; pass it through shade_mat4_transpose." },
+    { shade__projection_is_none,
+      "Every triangle lies outside of the cube from -1 to 1: state.projection is unset, or no "
+      "projection; make it with shade_mat4_perspective or shade_mat4_ortho." },
+    { shade__beyond_far,
+      "The whole mesh lies beyond the far plane of state.projection; move far out, or the eye of "
+      "state.view nearer." },
+    { shade__view_is_inverse,
+      "The mesh is out of view, but the inverse of state.view would show it: state.view takes "
+      "the world to the eye, as shade_mat4_look_at does." },
+    { shade__behind_eye,
+      "The whole mesh lies behind the eye: the camera of state.view looks down -z in its own "
+      "space; check state.view and state.model." },
+    { shade__before_near,
+      "The whole mesh lies nearer than the near plane of state.projection, or behind the eye of "
+      "state.view; move near in, or the eye back." },
+    { shade__is_beside,
+      "The whole mesh lies beside the picture, before near or beyond far; check state.model, and "
+      "where state.view looks." },
+    { shade__always,
+      "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen edge-on, "
+      "or lies beside the picture; check state.model and state.view." },
+    { NULL, NULL }
+};
 
 /* ---- the mesh covers pixels, but the draw gave none, or maybe none */
 
-static const char *shade__why_hidden(shade__survey *s)
+/* Would the other test show another depth in some pixel? */
+static int shade__test_is_turned(shade__survey *q)
 {
-    long long passed;
-    shade__look_through(s, s->given_state->raster.depth_test);
-    passed = shade__covered(s);
-    if (passed && s->given_stats && s->given_state->fragment)
-        return "state.fragment discards all pixels of the mesh.";
-    if (passed) return NULL;    /* without depth all pass */
-
-    shade__look_through(s, SHADE_COMPARE_EQUAL);
-    if (!s->given_stats && shade__covered(s)) return NULL;    /* the mesh itself is stored */
-    shade__look_through(s, s->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
-    s->state.raster.depth_bias = 1 - 2 * s->farthest;    /* not even the nearest depth passes */
-    if (!shade__covered(s))
-        return "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so "
-               "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
-               "depth of 1, or 0 for a reversed projection.";
-
-    shade__look_at_all(s);
-    s->state.raster.depth_bias = 0;
-    if (!s->given_stats || !s->whole || shade__is_scattered(s)) return NULL;
-    s->nearer = 1;
-    if (!shade__covered(s)) return NULL;    /* floats are too coarse there to tell what is nearer */
-    return "What target.depth holds hides the mesh: other meshes, the frame before without a "
-           "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
-           "raster.depth_bias pushes it behind them.";
+    const shade_raster *r = &q->given_state->raster;
+    shade__probe probes[SHADE__PROBES];
+    int n = 0;
+    if (!q->target->depth || !shade__faces_ahead(&q->camera) || r->depth_read_only ||
+        r->depth_test >= SHADE_COMPARE_EQUAL || (float)q->camera.reversed != q->farthest)
+        return 0;
+    shade__take_probes(q, r->cull, probes);
+    for (int k = 0; k < SHADE__PROBES; k++)
+        n += !shade__within(probes[k].farthest - probes[k].nearest, 1e-6f);
+    return n > 0;
 }
 
-static const char *shade__suspect_test(const shade__survey *s)
+static const shade__rung shade__test[] = {
+    { shade__test_is_turned,
+      "raster.depth_test does not fit state.projection, so that what is far hides what is near: "
+      "SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER and 0 for "
+      "shade_mat4_perspective_reversed." },
+    { NULL, NULL }
+};
+
+/* Other bands or strips may show what this one does not. */
+static int shade__is_band(const shade_target *t)
 {
-    const shade_raster *r = &s->given_state->raster;
-    const shade_mat4 *p = &s->state.projection;
-    /* depth is a number plus col[3].z / w */
-    if (s->target->depth && p->col[3].w == 0 && shade__faces_ahead(p) && !r->depth_read_only &&
-        r->depth_test < SHADE_COMPARE_EQUAL && (float)s->reversed == s->farthest)
-        return "raster.depth_test does not fit state.projection, so that what is far hides what "
-               "is near: SHADE_COMPARE_LESS and a depth cleared to 1, or SHADE_COMPARE_GREATER "
-               "and 0 for shade_mat4_perspective_reversed.";
-    return NULL;
+    int clip[4];
+    shade__clip_rectangle(t, clip);
+    return t->row_count || clip[2] - clip[0] == t->width || clip[3] - clip[1] == t->height;
 }
 
-static const char *shade__why_unseen(shade__survey *s)
+static int shade__beside_clip(shade__survey *q)
 {
-    const shade_target *t = s->target;
-    s->picture = *t;
-    s->picture.depth = NULL;
-    if (shade__covered(s)) return shade__why_hidden(s);
-    if (t->row_count || s->clip[2] - s->clip[0] == t->width ||
-        s->clip[3] - s->clip[1] == t->height)
-        return NULL;    /* a band */
-    return "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
-           "clip_height; all four zero mean everywhere.";
+    shade__look_in_clip(q);
+    return !shade__is_band(q->target) && !shade__covered(q);
 }
+
+/* How many pixels pass the depth test now: all, if there is no depth. */
+static long long shade__passed(const shade__survey *s)
+{
+    shade__survey q = *s;
+    shade__look_through(&q, s->given_state->raster.depth_test);
+    return shade__covered(&q);
+}
+
+/* Has the mesh pixels in the clip rectangle, of which none passes the depth test? */
+static int shade__is_hidden(const shade__survey *s)
+{
+    shade__survey q = *s;
+    shade__look_in_clip(&q);
+    return shade__covered(&q) && !shade__passed(s);
+}
+
+static int shade__shader_discards(shade__survey *q)
+{
+    return q->given_stats && q->given_state->fragment && shade__passed(q);
+}
+
+/* Without stats the mesh itself may be stored. */
+static int shade__depth_uncleared(shade__survey *q)
+{
+    if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL) return 0;
+    shade__look_through(q, SHADE_COMPARE_EQUAL);
+    if (!q->given_stats && shade__covered(q)) return 0;
+    shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
+    q->state.raster.depth_bias = 1 - 2 * q->farthest;    /* not even the nearest depth passes */
+    return !shade__covered(q);
+}
+
+/* Is the mesh hidden in the whole picture, and no detail of a scene? */
+static int shade__all_hidden(shade__survey *q)
+{
+    const int hidden = q->whole && shade__is_hidden(q);
+    q->state.raster.depth_bias = 0;
+    return hidden && !shade__is_scattered(q);
+}
+
+static int shade__nothing_is_equal(shade__survey *q)
+{
+    return q->given_state->raster.depth_test == SHADE_COMPARE_EQUAL && shade__all_hidden(q);
+}
+
+static int shade__depth_is_far(shade__survey *q)
+{
+    if (!shade__all_hidden(q)) return 0;
+    q->apart = FLT_MIN;
+    return !shade__covered(q);
+}
+
+static int shade__depth_hides(shade__survey *q)
+{
+    if (!q->given_stats || !shade__all_hidden(q)) return 0;
+    q->apart = 1e-6f;    /* floats are too coarse to tell what is nearer */
+    return shade__covered(q) > 0;
+}
+
+static const shade__rung shade__unseen[] = {
+    { shade__beside_clip,
+      "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
+      "clip_height; all four zero mean everywhere." },
+    { shade__shader_discards,
+      "state.fragment discards all pixels of the mesh, or leaves them an alpha below "
+      "state.alpha_cutoff." },
+    { shade__nothing_is_equal,
+      "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds the mesh's own depth "
+      "nowhere: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
+    { shade__depth_uncleared,
+      "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so that "
+      "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
+      "0 for a reversed projection." },
+    { shade__depth_is_far,
+      "Depth is that of the far plane all over the mesh, so that nothing passes raster.depth_test: "
+      "near of state.projection is too small beside far for floats; move near out." },
+    { shade__depth_hides,
+      "What target.depth holds hides the mesh: other meshes, the frame before without a "
+      "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
+      "raster.depth_bias pushes it behind them." },
+    { NULL, NULL }
+};
 
 /* ---- the mesh is drawn, but wrongly */
 
-/* Are the fronts of all pixels that show one behind a back?  Or else, has a pixel a last fragment
-   that is not its nearest? */
-static int shade__found(const shade__probe *at, int inside_out)
+/* Are nine tenths of the pixels with fronts pixels with a nearer back? */
+static int shade__is_inside_out(const shade__survey *s)
 {
-    uint32_t fronts = 0, behind = 0;
-    int n = 0;
-    for (int k = 0; k < SHADE__PROBES; k++) {
-        fronts += at[k].any_front;
-        behind += at[k].any_front & !at[k].front;
-        n += !shade__within(at[k].last - at[k].nearest, 1e-6f);
-    }
-    return inside_out ? fronts > 23 && behind == fronts : n;    /* fewer prove too little */
-}
-
-static const char *shade__suspect_picture(shade__survey *s)
-{
-    const shade_raster *r = &s->given_state->raster;
     shade__probe probes[SHADE__PROBES];
-    SHADE__ZERO(probes);
-    shade__look_at_all(s);
-    shade__covered(s);
-    if (s->stats.rejected)
-        return "Some triangles are left out, since mesh.positions hold NaN, infinite or huge "
-               "numbers there.";
-
-    if (r->cull == SHADE_CULL_BACK && !shade__eye_inside(s)) {
-        shade__take_probes(s, SHADE_CULL_NONE, probes);
-        if (shade__found(probes, 1))
-            return "The mesh is drawn inside out: its triangles are wound clockwise, or "
-                   "state.model, state.view or state.projection mirrors; reverse the winding or "
-                   "raster.cull.";
-        SHADE__ZERO(probes);
+    uint32_t fronts = 0, behind = 0;
+    shade__survey q = *s;
+    if (shade__eye_inside(s)) return 0;
+    if (q.camera.perspective) q.farthest = (float)!q.camera.reversed;    /* whatever the test is */
+    shade__take_probes(&q, SHADE_CULL_NONE, probes);
+    for (int k = 0; k < SHADE__PROBES; k++) {
+        fronts += probes[k].any_front;
+        behind += probes[k].any_front & !probes[k].front;
     }
-
-    if (s->target->depth || r->blend != SHADE_BLEND_REPLACE) return NULL;
-    shade__take_probes(s, r->cull, probes);
-    return shade__found(probes, 0)
-               ? "target.depth is NULL, so that the triangles drawn last hide those before them, "
-                 "not the near ones the far ones; give the target a depth buffer."
-               : NULL;
+    return fronts > 23 && behind * 10 >= fronts * 9;    /* fewer prove too little */
 }
 
-/* ---- the mesh is drawn, but black */
-
-/* Gives the mesh a surface that reflects all light, with the holes of its map.  A material that is
-   NULL has no highlights. */
-static void shade__whiten(shade__survey *s)
+static int shade__backs_in_view(shade__survey *q)
 {
-    const shade_vec3 one = shade_v3(1, 1, 1);
-    s->mesh.colors = NULL;
-    s->white = 1;
-    s->material.diffuse = s->material.ambient = one;
-    if (s->given_state->material) s->material.specular = one;
+    return q->state.raster.cull == SHADE_CULL_BACK && shade__is_inside_out(q);
 }
 
-/* Lights the mesh by one white lamp and nothing else. */
-static void shade__light_by(shade__survey *s, shade_vec4 position, unsigned flags)
+/* Does light depend on the side to which normals point? */
+static int shade__sides_matter(const shade__survey *s)
 {
-    shade_lighting *l = &s->state.lighting;
-    s->lamp[0] = shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1));
-    s->lamp[0].position = position;
-    SHADE__ZERO(*l);
-    l->lights = s->lamp;
-    l->light_count = 1;
-    l->flags = flags;
+    const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
+    shade__survey both = *s;
+    both.state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    return s->exact && !(s->state.lighting.flags & flags) && shade__count(&both, s->dim) != shade__count(s, s->dim);
+}
+
+static int shade__wound_inward(shade__survey *q)
+{
+    const int face_normals = !q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE;
+    if (!face_normals || !shade__sides_matter(q)) return 0;
+    shade__look_at_all(q);
+    return shade__is_inside_out(q);
+}
+
+/* Has a pixel a last fragment that is not its nearest? */
+static int shade__lacks_depth(shade__survey *q)
+{
+    const shade_raster *r = &q->given_state->raster;
+    shade__probe probes[SHADE__PROBES];
+    int n = 0;
+    if (r->blend != SHADE_BLEND_REPLACE) return 0;
+    if (q->target->depth && r->depth_test != SHADE_COMPARE_ALWAYS) {
+        if (!r->depth_read_only) return 0;
+        shade__look_through(q, r->depth_test);
+    }
+    shade__take_probes(q, q->state.raster.cull, probes);
+    for (int k = 0; k < SHADE__PROBES; k++)
+        n += !shade__within(probes[k].last - probes[k].nearest, 1e-6f);
+    return n > 0;
+}
+
+static const char *const shade__inward =
+    "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
+    "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
+    "raster.cull.";
+
+static const shade__rung shade__picture[] = {
+    { shade__backs_in_view, shade__inward },
+    { shade__lacks_depth,
+      "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test is "
+      "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; let the draw test and write depth." },
+    { NULL, NULL }
+};
+
+/* ---- the mesh is drawn, but black: the surface */
+
+/* Does the mesh show only if alpha is 1, or does not even a glowing surface show?  The blending is
+   left out from here on. */
+static int shade__alpha_is_zero(shade__survey *q)
+{
+    shade__survey glow = *q;
+    const int blended = q->state.raster.blend != SHADE_BLEND_REPLACE;
+    glow.material.emission = shade_v3(1, 1, 1);
+    glow.state.lighting.model = SHADE_MODEL_EMISSIVE;
+    glow.state.lighting.terms = 0;
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return blended && (!shade__shows(&glow) || shade__shows(q));
+}
+
+/* Outlines of back faces are meant to be black, and so are shadows, blended over a ground. */
+static int shade__black_is_meant(shade__survey *q)
+{
+    const shade_raster *r = &q->given_state->raster;
+    const shade_material *m = &q->material;
+    const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
+                                     shade_add(m->diffuse, m->specular));
+    return shade__is_zero(sum) &&
+           (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
+}
+
+static int shade__shading_is_coarse(shade__survey *q)
+{
+    shade__light_fragments(q);
+    return shade__lights_up(q);
+}
+
+/* Are the normals of faces lit, which SHADE_SHADING_PER_FRAGMENT would not take? */
+static int shade__faces_are_lit(shade__survey *q)
+{
+    if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
+    q->mesh.normals = NULL;
+    return shade__shows(q);
+}
+
+static int shade__terms_are_few(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    l->terms = 0;
+    if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
+    return shade__lights_up(q);
+}
+
+static int shade__colors_are_black(shade__survey *q)
+{
+    q->mesh.colors = NULL;
+    q->white_map = 1;
+    return shade__lights_up(q);
+}
+
+static int shade__material_is_black(shade__survey *q)
+{
+    const int shows = shade__shows(q);
+    shade__whiten(q);
+    return !shows && shade__bright(q) && shade__lights_up(q);
+}
+
+static int shade__has_light(shade__survey *q) { return shade__shows(q); }
+
+static const char *const shade__behind =
+    "Every lamp is behind nine tenths or more of what is in view, on the side that the normals "
+    "point away from: turn mesh.normals (without them the winding), move light.position, set "
+    "SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside of the mesh?";
+static const char *const shade__black_colors =
+    "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
+    "check mesh.texcoords and the picture.";
+static const char *const shade__no_normals =
+    "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
+    "shade_mesh_normals, or make mesh.normals NULL.";
+static const char *const shade__fall_off =
+    "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
+    "constant, linear or quadratic, or raise the light's diffuse and specular.";
+static const char *const shade__no_cone =
+    "No cone of the lights shows in what is in view; check spot_direction and spot_cos_cutoff, "
+    "the cosine of an angle in radians.";
+static const char *const shade__no_color =
+    "The lights have no colour, or too little for what is in view: their diffuse is dark or "
+    "meets it at a flat angle, and no highlight reaches the eye.";
+static const char *const shade__multiply =
+    "What is in view is black or almost: state.material, mesh.colors, the map, alpha, "
+    "lighting.terms and the lights multiply, and several of them may be at fault.";
+
+/* Changes are kept. */
+static const shade__rung shade__black[] = {
+    { shade__alpha_is_zero,
+      "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
+      "state.transparency, times that of state.diffuse_map." },
+    { shade__shading_is_coarse,
+      "state.shading lights vertices or middles of faces, which no light reaches, though it "
+      "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT." },
+    { shade__has_light, shade__multiply },
+    { shade__faces_are_lit, shade__multiply },
+    { shade__terms_are_few,
+      "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
+      "terms, and the model SHADE_MODEL_BLINN_PHONG." },
+    { shade__has_light, shade__multiply },
+    { shade__colors_are_black, shade__black_colors },
+    { shade__has_light, shade__multiply },
+    { shade__material_is_black,
+      "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
+      "or specular, lighting.ambient needs material.ambient; NULL is white." },
+    { NULL, NULL }
+};
+
+/* ---- the mesh is black, or lit by ambient light alone: the lamps */
+
+static int shade__lights_are_none(shade__survey *q)
+{
+    return q->state.lighting.light_count <= 0 && !shade__shows(q);
+}
+
+static int shade__count_is_zero(shade__survey *q)
+{
+    return q->state.lighting.lights && shade__lights_are_none(q);
 }
 
 /* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
    there is one. */
-static int shade__lacks_normals(shade__survey *s)
+static int shade__lacks_normals(shade__survey *q)
 {
-    const shade_lighting given = s->state.lighting;
-    const shade_material material = s->material;
-    int any;
-    shade__light_by(s, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
-    s->material.specular = shade_v3(1, 1, 1);
-    s->material.shininess = 0;
-    any = shade__bright(s);
-    s->state.lighting = given;
-    s->material = material;
-    return s->mesh.normals && s->state.shading != SHADE_SHADING_PER_FACE && !any;
+    shade__survey open = *q;
+    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
+    open.material.specular = shade_v3(1, 1, 1);
+    open.material.shininess = 0;
+    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
 }
 
-/* Why no lamp lights a white surface, or, with ambient set, why ambient light alone does. */
-static const char *shade__why_unlit(shade__survey *s, int ambient)
+/* Leaves the terms of lamps in the survey.  Returns whether it has any. */
+static int shade__lamps_alone(shade__survey *q)
 {
-    static const char *const behind[] = {
-        "Every lamp is behind the faces in view, on the side that their normals point away from: "
-        "turn mesh.normals (without them the winding), move light.position, or set "
-        "SHADE_FLAG_TWO_SIDED.",
-        "Only ambient light arrives: every lamp is behind the faces in view; turn mesh.normals "
-        "(without them the winding), move light.position, or set SHADE_FLAG_TWO_SIDED."
-    };
-    static const char *const zero[] = {
-        "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
-        "shade_mesh_normals, or make mesh.normals NULL.",
-        "Only ambient light arrives, because mesh.normals are zero or NaN; fill them by "
-        "shade_mesh_normals, or make mesh.normals NULL."
-    };
-    shade_lighting *l = &s->state.lighting;
-    const shade_light *lamps = l->lights;
-    const int count = l->light_count;
-    int any, met = 0;
+    shade_lighting *l = &q->state.lighting;
+    const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
+    l->terms = (l->terms ? l->terms : ~0u) & lamps;
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return l->model <= SHADE_MODEL_LAMBERT && l->terms;
+}
+
+/* Do nine tenths of what is in view face away from every lamp, which would light them if they had
+   two sides?  Lamps are taken without cone and attenuation. */
+static int shade__lamps_behind(shade__survey *q)
+{
+    const shade_vec3 glow = q->material.emission;
+    const long long all = shade__covered(q);
+    shade__survey each = *q;
+    shade_lighting *l = &each.state.lighting;
+    shade__whiten(&each);
+    if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
+        q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
+        return 0;
+    if (!shade__few(q, shade__count(&each, q->dim), all)) return 0;
+
+    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
+    shade__light_fragments(&each);
     l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    if (shade__bright(s)) {
-        if (ambient || !shade__eye_inside(s)) return behind[ambient];
-        return "The eye lies inside of the mesh's box and sees faces whose normals point away from "
-               "every lamp; check state.view, or move the eye out.";
-    }
-    if (shade__lacks_normals(s)) return zero[ambient];
-    if (ambient) return NULL;
+    if (!shade__lights_up(&each)) return 0;
 
-    l->light_count = shade__min(count, SHADE__SUSPECTS);
-    l->lights = s->lamp;
-    for (int i = 0; i < l->light_count; i++) {
-        s->lamp[i] = lamps[i];
-        s->lamp[i].constant = s->lamp[i].linear = s->lamp[i].quadratic = 0;
-        s->lamp[i].spot_exponent = 0;
-    }
-    if (shade__bright(s))
-        return "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower "
-               "its constant, linear or quadratic, or raise the light's diffuse and specular.";
-
-    /* a lamp's own ambient light shows its cone at any angle to the face */
-    l->flags |= SHADE_FLAG_ATTENUATED_AMBIENT;
-    for (int i = 0; i < l->light_count; i++) {
-        shade_ray axis;
-        axis.origin = shade__xyz(lamps[i].position);
-        axis.direction = lamps[i].spot_direction;
-        met |= shade_pick(&s->mesh, s->state.model, axis, NULL, NULL) >= 0;
-        s->lamp[i].ambient = shade_add(s->lamp[i].diffuse, s->lamp[i].specular);
-    }
-    any = shade__count(s, FLT_MIN) > 0;
-    for (int i = 0; i < l->light_count; i++) {
-        s->lamp[i].spot_direction = shade_v3(0, 0, 0);
-        s->lamp[i].ambient = s->lamp[i].diffuse;
-    }
-    if (shade__bright(s))    /* a pool of light may be smaller than a pixel, or dim at its angle */
-        return any || met ? NULL
-                          : "No cone of the lights meets what is in view; check spot_direction and "
-                            "spot_cos_cutoff, the cosine of an angle in radians.";
-    if (count > SHADE__SUSPECTS) return NULL;
-    return "The lights have no colour, or too little: diffuse and specular of every "
-           "lighting.lights are dark, or diffuse is, and the highlights do not reach the eye.";
+    l->flags = q->state.lighting.flags;
+    l->model = SHADE_MODEL_LAMBERT;
+    l->terms = SHADE_TERM_DIFFUSE;
+    shade__light_everywhere(&each);
+    shade__open_cones(&each);
+    shade__paint_lamps(&each, shade_v3(1, 1, 1));
+    return shade__few(q, shade__count(&each, FLT_MIN), all);
 }
 
-static const char *shade__why_dark(shade__survey *s)
+static int shade__lamps_fall_off(shade__survey *q)
 {
-    const shade_raster *r = &s->given_state->raster;
-    const shade_material wide = s->material;
-    shade_lighting *l = &s->state.lighting;
-    const int over = r->blend == SHADE_BLEND_OVER;
-
-    if (r->blend != SHADE_BLEND_REPLACE) {
-        s->material.emission = shade_v3(1, 1, 1);
-        l->model = SHADE_MODEL_EMISSIVE;
-        l->terms = 0;
-        if (!shade__bright(s))
-            return "Alpha is 0 or almost where the mesh is in view, so that raster.blend leaves "
-                   "nothing of it: it is 1 - state.transparency, times that of state.diffuse_map.";
-        s->material = wide;
-        *l = s->given_state->lighting;
-        s->state.raster.blend = SHADE_BLEND_REPLACE;
-        if (shade__shows(s)) return NULL;    /* dim light, dimmed more by alpha */
-    }
-
-    /* outlines of back faces are meant to be black, and so are shadows, blended over a ground */
-    if (r->cull == SHADE_CULL_FRONT) return NULL;
-    if (over && shade__is_zero(shade_add(shade_add(wide.emission, wide.ambient),
-                                         shade_add(wide.diffuse, wide.specular))))
-        return NULL;
-
-    s->material = s->surface;
-    shade__light_fragments(s);
-    if (shade__bright(s))
-        return "state.shading lights vertices or middles of faces, which no light reaches, though "
-               "it reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT.";
-    if (s->given_state->shading == SHADE_SHADING_PER_FACE) {
-        s->mesh.normals = NULL;    /* the normals of faces are what lamps meet */
-        if (shade__bright(s)) return NULL;
-    }
-    l->terms = 0;
-    if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
-    if (shade__bright(s))
-        return "lighting.terms or lighting.model leaves out every term that would be seen; 0 "
-               "means all terms, and the model SHADE_MODEL_BLINN_PHONG.";
-
-    s->material = wide;
-    shade__whiten(s);
-    if (shade__bright(s)) {    /* light is there, and the surface takes it */
-        s->material = s->surface;
-        if (over) return NULL;
-        if (shade__bright(s))
-            return "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is "
-                   "in view; check mesh.texcoords and the picture.";
-        s->material = wide;
-        if (shade__shows(s)) return NULL;    /* a highlight between pixels, or too little of all */
-        return "state.material reflects nothing, or almost, of the light that there is: lamps need "
-               "diffuse or specular, lighting.ambient needs material.ambient; NULL is white.";
-    }
-
-    if (l->light_count <= 0)
-        return l->lights ? "lighting.light_count is 0 while lighting.lights is set, and "
-                           "lighting.ambient is dark; set light_count."
-                         : "There is no light: lighting.lights is NULL and lighting.ambient is "
-                           "dark; add a light, or ambient light.";
-    return shade__why_unlit(s, 0);
+    shade__whiten(q);
+    shade__light_everywhere(q);
+    return shade__bright(q) && shade__lights_up(q);
 }
+
+static int shade__cones_miss(shade__survey *q)
+{
+    shade__open_cones(q);
+    return shade__bright(q) && shade__lights_up(q);
+}
+
+/* Is there light after all, which meets the surface at no flat angle? */
+static int shade__sides_show(shade__survey *q)
+{
+    q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    return shade__count(q, 0.05f) > 0;
+}
+
+static int shade__lamps_are_many(shade__survey *q)
+{
+    return q->given_state->lighting.light_count > SHADE__SUSPECTS;
+}
+
+static const shade__rung shade__no_lamps[] = {
+    { shade__count_is_zero,
+      "lighting.light_count is 0 while lighting.lights is set, and lighting.ambient is dark; set "
+      "light_count." },
+    { shade__lights_are_none,
+      "There is no light: lighting.lights is NULL and lighting.ambient is dark; add a light, or "
+      "ambient light." },
+    { NULL, NULL }
+};
+
+/* Changes are kept. */
+static const shade__rung shade__unlit[] = {
+    { shade__lacks_normals, shade__no_normals },
+    { shade__lamps_behind, shade__behind },
+    { shade__lamps_fall_off, shade__fall_off },
+    { shade__cones_miss, shade__no_cone },
+    { shade__lamps_are_many, shade__multiply },
+    { shade__sides_show, shade__multiply },
+    { shade__always, shade__no_color },
+    { NULL, NULL }
+};
 
 /* ---- the mesh is lit, but wrongly */
 
-/* Are almost all of n pixels among the counted ones?  All, where some of them may be hidden. */
-static int shade__almost_all(const shade__survey *s, long long counted,
-                             long long n)
+static int shade__is_clipped(shade__survey *q)
 {
-    return n > 0 && counted * 8 >= n * (8 - s->exact);
+    const long long lit = shade__count(q, q->dim);
+    long long clipped;
+    q->material.emission = shade_v3(0, 0, 0);
+    clipped = shade__count(q, 2);
+    return q->target->format != SHADE_FORMAT_RGBA32F && q->whole &&
+           q->state.raster.blend != SHADE_BLEND_OVER && lit > 0 &&
+           clipped * 8 >= lit * (8 - q->exact);
 }
 
-/* Is a surface whose normals are right lit by ambient light alone, or by none? */
-static const char *shade__why_flat(shade__survey *s)
+/* Does the light of lamps hit colours of 0, so that only highlights show? */
+static int shade__colors_are_zero(shade__survey *q)
 {
-    shade_lighting *l = &s->state.lighting;
-    const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
-    const unsigned terms = l->terms ? l->terms : ~0u;
-    if (l->model > SHADE_MODEL_LAMBERT || !(terms & lamps) ||
-        !shade__is_zero(s->material.emission) || shade__is_zero(s->material.diffuse))
-        return NULL;
-    l->terms = terms & lamps;
-    s->state.raster.blend = SHADE_BLEND_REPLACE;
-    if (shade__shows(s)) return NULL;
-    if (l->light_count <= 0) {
-        const float most = l->ambient.x + l->ambient.y + l->ambient.z;
-        if (l->lights)
-            return "Only ambient light arrives: lighting.light_count is 0 while lighting.lights "
-                   "is set.";
-        if (!s->mesh.normals || most >= 1) return NULL;    /* unlit, as overlays are */
-        return "Only ambient light arrives, which shows no form: lighting.lights is NULL.";
-    }
-    shade__whiten(s);
-    return shade__why_unlit(s, 1);
+    q->state.lighting.terms = SHADE_TERM_DIFFUSE;
+    return q->state.lighting.model <= SHADE_MODEL_LAMBERT && !shade__count(q, FLT_MIN) &&
+           q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
 }
 
-/* Does a lamp at the eye leave faces dark that are wound toward it? */
-static int shade__normals_turned(shade__survey *s)
+/* Does a lamp at the eye leave half of what is in view dark, on faces wound toward it? */
+static int shade__normals_turned(shade__survey *q)
 {
-    shade_lighting *l = &s->state.lighting;
-    const shade_mat4 m = shade__mat4_product(&s->state.projection, &s->state.view);
-    long long all = shade__covered(s), front, toward;
-    if (s->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
-        (l->flags & SHADE_FLAG_TWO_SIDED) || s->state.raster.cull == SHADE_CULL_FRONT)
+    shade_lighting *l = &q->state.lighting;
+    const shade__camera *c = &q->camera;
+    const double *at = c->perspective ? c->eye : c->sight;
+    const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
+    const long long all = shade__covered(q);
+    long long toward;
+    if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE ||
+        q->state.raster.cull == SHADE_CULL_FRONT || !shade__sides_matter(q))
         return 0;
-    s->state.raster.cull = SHADE_CULL_BACK;
-    shade__light_fragments(s);
-    /* at the centre of projection, which is infinitely far away where projection is parallel */
-    shade__light_by(s, shade_mat4_transform(shade_mat4_inverse(m),
-                                            shade_v4(0, 0, 1 - 2 * s->farthest, 0)), 0);
-    shade__whiten(s);
-    front = shade__covered(s);
-    toward = shade__count(s, FLT_MIN);
-    if (!shade__almost_all(s, front, all) || !shade__almost_all(s, front - toward, front)) return 0;
-    l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* they are not 0 */
-    if (!shade__almost_all(s, shade__count(s, FLT_MIN), front)) return 0;
-    l->flags = 0;
-    s->mesh.normals = NULL;
-    return shade__almost_all(s, shade__count(s, FLT_MIN), front);
+    q->state.raster.cull = SHADE_CULL_BACK;
+    shade__light_fragments(q);
+    shade__light_by(q, shade_v4((float)at[0] * sign, (float)at[1] * sign, (float)at[2] * sign,
+                                (float)c->perspective), 0);
+    shade__whiten(q);
+    toward = shade__count(q, FLT_MIN);
+    l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
+    return (shade__count(q, FLT_MIN) - toward) * 2 >= all;
 }
 
-static const char *shade__suspect_light(shade__survey *s)
+static int shade__alpha_is_stored(shade__survey *q)
 {
-    const char *why;
-    long long lit;
-    s->material = s->surface;
-    lit = shade__count(s, s->black);
-    s->material.emission = shade_v3(0, 0, 0);
-    if (s->target->format != SHADE_FORMAT_RGBA32F &&
-        s->state.raster.blend != SHADE_BLEND_OVER &&
-        shade__almost_all(s, shade__count(s, 2), lit))
-        return "Almost all that is lit is clipped to white: colours of lighting.lights, "
-               "lighting.ambient, state.material and mesh.colors are linear, with 1 for full "
-               "light, not 255.";
-    shade__look_at_seen(s);
-    why = shade__why_flat(s);
-    if (why) return why;
-    shade__look_at_seen(s);
-    return shade__normals_turned(s)
-               ? "mesh.normals point away from the eye on faces that are wound toward it: turn "
-                 "mesh.normals, or reverse the winding."
-               : NULL;
+    const shade_draw_state *d = q->given_state;
+    return d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
+           d->raster.blend == SHADE_BLEND_REPLACE && shade__count(q, 0.1f) > 0;
 }
 
-/* ---- what is true of the state, whatever the picture is */
-
-static const char *shade__suspect_rest(const shade__survey *s)
+/* Do highlights cover more than they would of a surface that is polished? */
+static int shade__highlights_are_wide(shade__survey *q)
 {
-    const shade_mat4 *p = &s->state.projection;
-    const shade_texture *map = s->given_state->fragment ? NULL : s->given_state->diffuse_map;
-    const double wide = shade__size((double)p->col[0].x) * s->target->width;
-    const double high = shade__size((double)p->col[1].y) * s->target->height;
+    long long all;
+    if (q->state.lighting.terms) return 0;
+    q->state.lighting.terms = SHADE_TERM_SPECULAR;
+    all = shade__count(q, q->dim);
+    if (q->material.shininess >= 1 || !q->exact) return 0;
+    q->material.shininess = 50;
+    return shade__count(q, q->dim) < all;
+}
 
-    if (shade__chunks_leave_out(s->given_mesh)) return shade__left_out;
-    if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))
-        return "state.view scales or shears, but it must only turn and move, as that of "
-               "shade_mat4_look_at does; scale by state.model.";
-    if (p->col[3].w == 0 && shade__faces_ahead(p) && shade__size(wide - high) > 0.03 * wide)
-        return "The aspect of state.projection is not that of the picture: pass width / height of "
-               "the target as floats to shade_mat4_perspective.";
+static const shade__rung shade__wrong_light[] = {
+    { shade__is_clipped,
+      "Almost all that is lit is clipped to white: colours of lighting.lights, lighting.ambient, "
+      "state.material and mesh.colors are linear, with 1 for full light, not 255." },
+    { shade__lamps_behind, shade__behind },
+    { shade__colors_are_zero, shade__black_colors },
+    { shade__normals_turned,
+      "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
+      "fill them by shade_mesh_normals, or reverse the winding; a model that mirrors does so too." },
+    { shade__wound_inward, shade__inward },
+    { shade__alpha_is_stored,
+      "state.transparency is stored as alpha and dims nothing, because raster.blend is "
+      "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER." },
+    { shade__highlights_are_wide,
+      "state.material.shininess is below 1, so that highlights cover all that lamps light; 5 is "
+      "dull, 100 polished (tables from 0 to 1 mean 128 times that)." },
+    { NULL, NULL }
+};
 
-    if (!s->target->color || !map) return NULL;
+/* Is light of lamps not asked for, or does some show?  Other light is left out from here on. */
+static int shade__lamps_show(shade__survey *q)
+{
+    return !shade__lamps_alone(q) || !shade__is_zero(q->material.emission) ||
+           shade__is_zero(q->material.diffuse) || shade__shows(q);
+}
+
+/* Meshes without lamps may be meant: bright ones, and overlays without normals. */
+static int shade__unlit_is_meant(shade__survey *q)
+{
+    const shade_vec3 light = q->state.lighting.ambient;
+    return q->state.lighting.light_count <= 0 &&
+           (!q->mesh.normals || light.x + light.y + light.z >= 1);
+}
+
+static int shade__white_shows(shade__survey *q)
+{
+    shade__whiten(q);
+    return shade__shows(q);
+}
+
+/* Changes are kept. */
+static const shade__rung shade__flat[] = {
+    { shade__lamps_show, NULL },
+    { shade__count_is_zero,
+      "Only ambient light arrives: lighting.light_count is 0 while lighting.lights is set." },
+    { shade__unlit_is_meant, NULL },
+    { shade__lights_are_none,
+      "Only ambient light arrives, which shows no form: lighting.lights is NULL." },
+    { shade__white_shows, NULL },
+    { shade__lacks_normals, shade__no_normals },
+    { shade__lamps_fall_off, shade__fall_off },
+    { shade__cones_miss, shade__no_cone },
+    { shade__lamps_are_many, NULL },
+    { shade__sides_show, NULL },
+    { shade__always, shade__no_color },
+    { NULL, NULL }
+};
+
+/* ---- numbers that may be meant, but seldom are */
+
+static int shade__boxes_are_small(const shade_mesh *m)
+{
+    int beyond = 0;
+    for (int k = 0; k < m->chunk_count; k++) {
+        const shade_chunk *given = &m->chunks[k];
+        shade_chunk c = *given;
+        shade__box_chunk(m, &c);
+        if (given->low.x <= given->high.x && c.low.x <= c.high.x)
+            beyond |= !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) |
+                      !shade__is_zero(shade_sub(shade_max(c.high, given->high), given->high));
+    }
+    return beyond;
+}
+
+/* The map that the draw reads itself. */
+static const shade_texture *shade__map_of(const shade__survey *s)
+{
+    return s->target->color && !s->given_state->fragment ? s->given_state->diffuse_map : NULL;
+}
+
+/* Does u end where the texels of a row do? */
+static int shade__u_reaches(const shade_mesh *m, int width)
+{
+    const size_t stride = m->texcoord_stride ? (size_t)m->texcoord_stride : 8;
+    float most = 0, u;
+    for (int i = 0; i < m->vertex_count; i++) {
+        SHADE_MEMCPY(&u, (const char *)m->texcoords + (size_t)i * stride, sizeof u);
+        if (u > most) most = u;
+    }
+    return width >= 16 && most >= (float)(width - 1) && most <= (float)width;
+}
+
+static const char *shade__doubt_of_map(const shade__survey *s)
+{
+    const shade_texture *map = shade__map_of(s);
+    if (!map) return NULL;
     if (!s->mesh.texcoords)
         return "state.diffuse_map is set while mesh.texcoords is NULL, so that it is not drawn.";
     if (shade_mipmap_count(map->width, map->height) &&
@@ -8519,25 +9098,157 @@ static const char *shade__suspect_rest(const shade__survey *s)
         (!map->mipmaps || map->mipmap_count <= 0))
         return "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; "
                "fill them by shade_build_mipmaps.";
+    if (shade__u_reaches(&s->mesh, map->width))
+        return "mesh.texcoords reach the width of state.diffuse_map: they go from 0 to "
+               "1 over the map, whatever its size.";
     return NULL;
 }
 
-static const char *shade__why(shade__survey *s)
+/* Is the aspect of the projection, which is that of its rows x and y at right angles to the sight,
+   not the picture's?  The cells of a terminal are twice as high as wide. */
+static int shade__aspect_is_wrong(const shade__survey *s)
+{
+    const shade_mat4 none = shade_mat4_identity();
+    const double w = s->target->width, h = s->target->height;
+    double x[3], y[3], wide, high;
+    shade__camera c;
+    shade__camera_of(&s->state.projection, &none, &c);
+    shade__cross3(c.row[0], c.sight, x);
+    shade__cross3(c.row[1], c.sight, y);
+    wide = shade__dot3(x, x) * w * w;
+    high = shade__dot3(y, y) * h * h;
+    if (s->state.projection.col[3].w != 0 || !shade__faces_ahead(&c) ||
+        shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
+        (h < 128 && shade__size(wide - 4 * high) < 0.24 * high))
+        return 0;
+    return shade__size(wide - high) > 0.06 * wide;
+}
+
+static const char *shade__doubt_of_view(const shade__survey *s)
+{
+    const shade_mat4 *p = &s->state.projection;
+    if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))
+        return "state.view scales or shears, but it must only turn and move, as that of "
+               "shade_mat4_look_at does; scale by state.model.";
+    if (shade__aspect_is_wrong(s))
+        return "The aspect of state.projection is not that of the picture: pass width / height of "
+               "the target as floats to shade_mat4_perspective.";
+    if (s->given_state->view.col[3].w == 0 && p->col[3].w == 0 && shade__eye_inside(s))
+        return "state.view is unset, so that the eye is at the origin, inside of the mesh's box; "
+               "make it with shade_mat4_look_at.";
+    return NULL;
+}
+
+static const char *shade__doubt_of_surface(const shade__survey *s)
+{
+    const shade_draw_state *d = s->given_state;
+    const shade_lighting *l = &d->lighting;
+    const shade_material *m = &s->material;
+    const shade_vec3 e = m->emission;
+    if (!s->target->color || d->fragment) return NULL;
+    if (l->light_count <= 0 || l->terms) return NULL;
+    if (e.x >= 1 && e.y >= 1 && e.z >= 1 && s->target->format != SHADE_FORMAT_RGBA32F &&
+        l->model < SHADE_MODEL_EMISSIVE && !shade__is_zero(m->diffuse))
+        return "state.material.emission alone makes all white, whatever light arrives: it is what "
+               "the surface sends out, and 0 for most.";
+    return NULL;
+}
+
+/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
+static int shade__normals_disagree(const shade_mesh *m)
+{
+    const int faces = shade__corner_count(m) / 3;
+    int behind = 0;
+    for (int i = 0; i < faces; i++) {
+        shade_vec3 p[3], n = shade_v3(0, 0, 0);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = shade__corner_index(m, 3 * (uint32_t)i + (uint32_t)k);
+            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
+        }
+        behind += shade_dot(n, shade__face_normal(m, (uint32_t)i, p)) < 0;
+    }
+    return 8 * behind >= faces && 8 * behind <= 7 * faces;
+}
+
+static const char *shade__doubt(const shade__survey *s)
+{
+    const shade_target *t = s->target;
+    const shade_raster *r = &s->given_state->raster;
+    const char *why = NULL;
+    if (shade__chunks_leave_out(s->given_mesh)) return shade__left_out;
+    if (shade__boxes_are_small(s->given_mesh)) return shade__wrong_box;
+    if ((t->clip_x > 0 && t->clip_width > shade__max(t->width / 2, t->width - t->clip_x)) ||
+        (t->clip_y > 0 && t->clip_height > shade__max(t->height / 2, t->height - t->clip_y)))
+        return "target.clip_x + clip_width or clip_y + clip_height lies beyond the picture: they "
+               "are sizes, not the other corner.";
+    if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
+        return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
+               "0 to 1; 1e-5 is much.";
+    if (s->mesh.normals && r->cull == SHADE_CULL_NONE && shade__normals_disagree(&s->mesh))
+        return "mesh.normals lie behind some of the faces and before others, by their winding: are "
+               "they of other vertices, or stored as colours?  shade_mesh_normals fills them.";
+    why = shade__doubt_of_view(s);
+    if (!why) why = shade__doubt_of_map(s);
+    return why ? why : shade__doubt_of_surface(s);
+}
+
+/* ---- the way through the ladders */
+
+static const char *shade__why_black(const shade__survey *seen)
+{
+    shade__survey q = *seen;
+    const char *why;
+    if (shade__black_is_meant(&q)) return NULL;
+    why = shade__climb_on(&q, shade__black);
+    if (!why) why = shade__climb_on(&q, shade__no_lamps);
+    return why ? why : shade__climb_on(&q, shade__unlit);
+}
+
+/* A picture in which the mesh has pixels.  Its light is judged where the library computes it. */
+static const char *shade__why_wrong(const shade__survey *s)
+{
+    shade__survey seen = *s;
+    const char *why = shade__climb(s, shade__picture);
+    shade__look_at_seen(&seen);
+    if (why || !s->target->color || !shade__covered(&seen)) return why;
+    if (s->given_state->fragment) {
+        seen.stored = 1;
+        return seen.exact && !shade__covered(&seen)
+                   ? "state.fragment leaves all pixels of the mesh black: does it "
+                     "write color for each lane?"
+                   : NULL;
+    }
+    if (!shade__shows(&seen)) return shade__why_black(&seen);
+    why = shade__climb(&seen, shade__wrong_light);
+    return why ? why : shade__climb_on(&seen, shade__flat);
+}
+
+static const char *shade__why(const shade__survey *s)
 {
     const int sure = s->given_stats && s->given_stats->fragments > 0;
-    const char *why = shade__suspect_matrices(s);
-    if (!why) why = shade__suspect_state(s);
-    shade__look_at_all(s);
-    if (!why && !sure && !shade__covered(s)) why = shade__why_nothing(s);
-    if (!why) why = shade__suspect_test(s);
-    if (!why && !sure) why = shade__why_unseen(s);
+    const char *why = shade__bad_number(s);
+    shade__survey q = *s;
+    if (why) return why;
+    if (!sure && !shade__covered(s)) return shade__climb_on(&q, shade__nothing);
+
+    why = shade__climb(s, shade__test);
+    if (!why && !sure) why = shade__climb(s, shade__unseen);
     if (why || (s->given_stats && !sure)) return why;
 
-    shade__begin_survey(s);
-    why = shade__suspect_picture(s);
-    if (why || !s->target->color || s->given_state->fragment) return why;
-    if (!shade__look_at_seen(s)) return NULL;
-    return shade__shows(s) ? shade__suspect_light(s) : shade__why_dark(s);
+    why = shade__why_wrong(s);
+    return why ? why : shade__doubt(s);
+}
+
+/* Says that the clip rectangle is empty; "" where it lies beside the strip. */
+static const char *shade__clip_fault(const shade_target *t)
+{
+    shade_target picture = *t;
+    int clip[4];
+    picture.row_offset = picture.row_count = 0;
+    if (!shade__clip_rectangle(&picture, clip))
+        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
+               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
+    return shade__clip_rectangle(t, clip) ? NULL : "";
 }
 
 SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
@@ -8546,27 +9257,344 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
                                    const shade_stats *stats)
 {
     const char *why = shade__refusal(target, mesh, state);
-    shade_target picture;
     shade__survey s;
+    if (!why) why = shade__clip_fault(target);
     if (why) return why;
 
-    picture = *target;
-    picture.row_offset = picture.row_count = 0;
-    if (!shade__clip_rectangle(&picture, s.clip))
-        return "The clip rectangle is empty or outside of the picture: check target.clip_x, "
-               "clip_y, clip_width and clip_height; all four zero mean everywhere.";
-    if (!shade__clip_rectangle(target, s.clip)) return "";    /* a strip beside the rectangle */
-
-    s.whole = s.clip[2] - s.clip[0] == target->width &&
-              s.clip[3] - s.clip[1] == target->height;
-    s.target = target;
-    s.given_mesh = mesh;
-    s.given_state = state;
-    s.given_stats = stats;
-    shade__begin_survey(&s);
+    shade__open_survey(target, mesh, state, stats, &s);
     why = shade__why(&s);
-    if (!why && (!stats || stats->fragments)) why = shade__suspect_rest(&s);
     return why ? why : "";
+}
+
+/*----------------------------------------------------------------------------------------- >>replay
+   Why lines or a pipeline give no picture, or a wrong one, in one sentence.
+     in      what shade_draw_lines or shade_draw took, its stats
+     out     a constant sentence; "" for nothing
+     method  The draw is run again without a picture.  Shaders of this section call the given ones
+             and count what they give.
+     holds   The caller's memory is only read, unless the caller's own shaders write.
+     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere or
+             shade__why_kept_out; shade__why_faint.
+                                                                                          >>image */
+
+/* What the shaders gave in one run. */
+typedef struct shade__tally {
+    shade_stats stats;                   /* fragments: neither discarded nor hidden */
+    uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
+    int         any_w;                   /* is a w not 0? */
+    long long   fragments;               /* all of them; of these: */
+    long long   discarded, clear, dark, bright;    /* alpha 0; stored as 0; a channel of 16 or more */
+} shade__tally;
+
+/* A draw that is run again. */
+typedef struct shade__replay {
+    const shade_target *target;          /* the caller's */
+    const shade_stats  *given;           /* the caller's; NULL: none */
+    const shade_line_state *lines;       /* NULL: the pipeline is the caller's */
+    shade__indices      indices;
+    int             corners;
+    shade_pipeline  pipe;                /* the given one, but for its raster */
+    shade_target    picture;             /* of this run; without colours */
+    shade__tally   *tally;
+} shade__replay;
+
+static void shade__replay_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                 shade_vertices *SHADE_RESTRICT out)
+{
+    const shade__replay *r = (const shade__replay *)uniforms;
+    r->pipe.vertex(r->pipe.uniforms, in, out);
+    for (int i = 0; i < in->count; i++) {
+        const float x = out->clip[0][i], y = out->clip[1][i], w = out->clip[3][i];
+        const uint32_t bits =
+            shade__outcode(x, y, out->clip[2][i], w, r->pipe.raster.depth_zero_to_one);
+        if (!(bits & SHADE__OUT_BAD)) r->tally->outside &= bits;
+        r->tally->any_w |= w != 0;
+    }
+}
+
+/* Calls the given shader where a draw calls it. */
+static void shade__replay_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                   shade_colors *SHADE_RESTRICT out)
+{
+    const shade__replay *r = (const shade__replay *)uniforms;
+    const float black = shade__dim_of(r->target);
+    shade__tally *t = r->tally;
+    t->fragments += in->count;
+    if (!r->pipe.fragment || !(r->target->color || r->pipe.may_discard)) return;
+    r->pipe.fragment(r->pipe.uniforms, in, out);
+    for (int i = 0; i < in->count; i++) {
+        float most = 0;
+        for (int k = 0; k < 3; k++) most = shade__maxf(out->color[k][i], most);
+        t->discarded += out->discard[i] != 0;
+        t->clear += !(out->color[3][i] > 0);
+        t->dark += most < black;
+        t->bright += most >= 16;
+        if (!r->pipe.may_discard) out->discard[i] = 0;
+    }
+}
+
+static shade__tally shade__run_again(const shade__replay *r)
+{
+    shade__replay run = *r;
+    shade__tally tally;
+    shade__supply supply;
+    shade_pipeline p = r->pipe;
+    SHADE__ZERO(tally);
+    tally.outside = ~0u;
+    run.tally = &tally;
+    p.vertex = shade__replay_vertex;
+    p.fragment = shade__replay_fragment;
+    p.uniforms = &run;
+    p.may_discard = p.raster.depth_read_only = 1;
+    (void)shade__supply_all(r->indices, r->corners, INT32_MAX, &supply);
+    shade__run_draw(&r->picture, &p, 1, shade_v3(0, 0, 0), &supply, &tally.stats);
+    return tally;
+}
+
+/* ---- the matrix of lines */
+
+/* Are the rows of z and w those of a perspective times a view: parallel, and w's of length 1? */
+static int shade__is_camera(const shade_mat4 *m)
+{
+    const shade_vec3 z = shade_v3(m->col[0].z, m->col[1].z, m->col[2].z);
+    const shade_vec3 w = shade_v3(m->col[0].w, m->col[1].w, m->col[2].w), n = shade_cross(z, w);
+    return shade__within(shade_dot(w, w) - 1, 1e-3f) &&
+           shade_dot(n, n) <= 1e-6f * shade_dot(z, z);
+}
+
+static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
+{
+    const shade_mat4 m = shade__or_identity(r->lines->clip_from_points);
+    const shade_mat4 turned = shade_mat4_transpose(m);
+    shade__replay by_rows = *r;
+    shade__stroke stroke = *(const shade__stroke *)r->pipe.uniforms;
+    if (shade__is_rigid(&m) && t->stats.clipped == t->stats.triangles)
+        return "Every line lies outside of the cube from -1 to 1: state.clip_from_points is unset, "
+               "or no projection; it is projection times view, in this order.";
+    /* w = -z, but what is left is no perspective */
+    if (m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == -1 && m.col[3].w == 0 &&
+        (!shade__is_camera(&m) || (m.col[2].z > -1 && m.col[3].z < 0)))
+        return "state.clip_from_points looks like view times projection: shade_mat4_mul takes "
+               "projection first, then view.";
+
+    if (!shade__is_transposed(&m) && (shade__is_affine(&m) || shade__is_camera(&m) ||
+                                      !shade__is_camera(&turned)))
+        return NULL;
+    shade__doubles(shade__entries(&turned), 16, stroke.clip_from_points);
+    by_rows.pipe.uniforms = &stroke;
+    return shade__run_again(&by_rows).fragments
+               ? "state.clip_from_points looks transposed (row-major): pass it through "
+                 "shade_mat4_transpose."
+               : NULL;
+}
+
+/* ---- no pixel of the whole picture is covered */
+
+/* The clip-space positions of points, each three times. */
+static void shade__point_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                shade_vertices *SHADE_RESTRICT out)
+{
+    double end[4];
+    for (int i = 0; i < SHADE_LANES; i++) {
+        shade__stroke_end((const shade__stroke *)uniforms, in->index[i] / 3, end);
+        for (int k = 0; k < 4; k++) out->clip[k][i] = (float)end[k];
+    }
+}
+
+static const char *shade__why_outside(const shade__replay *r)
+{
+    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
+    shade__replay points = *r;
+    shade__tally t;
+    if (r->lines) points.pipe.vertex = shade__point_vertex;
+    t = shade__run_again(&points);
+    if (!t.any_w)
+        return "w is 0 everywhere: pipeline.vertex must write out->clip[3], which is 1 where no "
+               "matrix projects; or the matrix is not projection times view, in this order.";
+    if (t.outside & (greater ? SHADE__OUT_NEAR : SHADE__OUT_FAR))
+        return "All positions lie beyond the far plane, as if projection had near = far, degrees "
+               "for radians, or an aspect of 0; or move far out, or the eye nearer.";
+    if (t.outside & SHADE__OUT_W)
+        return "All positions lie behind the eye, where w is negative: in clip space they are "
+               "projection times view times model times (P, 1), and the eye looks down -z.";
+    if (t.outside & (SHADE__OUT_NEAR | SHADE__OUT_FAR))
+        return "All positions lie nearer than the near plane, or behind the eye; move near in, or "
+               "the eye back.";
+    return "All positions lie beside the picture, before near or beyond far: in clip space they "
+           "are projection times view times model times (P, 1), with -w <= x, y, z <= w.";
+}
+
+static const char *shade__why_nowhere(const shade__replay *r, const shade_stats *n)
+{
+    shade__replay both = *r;
+    both.pipe.raster.cull = SHADE_CULL_NONE;
+    if (shade__run_again(&both).fragments)
+        return r->pipe.raster.cull == SHADE_CULL_FRONT
+                   ? "raster.cull is SHADE_CULL_FRONT, and every triangle in view is front-facing; "
+                     "use SHADE_CULL_BACK or SHADE_CULL_NONE."
+                   : "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front "
+                     "is counter-clockwise on the screen.  Reverse the winding, or use "
+                     "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
+    if (n->clipped == n->triangles) return shade__why_outside(r);
+    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a line "
+                      "has gaps; or they lie beside the picture."
+                    : "The triangles cover no pixel centre: they have no area on the screen, since "
+                      "their corners coincide or they are seen edge-on, or lie beside the picture.";
+}
+
+/* ---- pixels are covered, but the draw gave none, or maybe none */
+
+static const char *shade__why_kept_out(const shade__replay *r, const shade__tally *t)
+{
+    const shade_target *target = r->target;
+    const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
+    shade_raster *raster;
+    shade__replay part = *r;
+    long long covered;
+    raster = &part.pipe.raster;
+    part.picture = *target;
+    part.picture.color = NULL;
+    part.picture.depth = NULL;
+    covered = shade__run_again(&part).fragments;
+    if (!covered)
+        return shade__is_band(target)
+                   ? NULL
+                   : "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width "
+                     "and clip_height; all four zero mean everywhere.";
+    if (r->pipe.may_discard && t->discarded == t->fragments)
+        return "pipeline.fragment discards all pixels.";
+
+    part.picture.depth = target->depth;
+    if (shade__run_again(&part).stats.fragments) return NULL;
+    if (raster->depth_test == SHADE_COMPARE_EQUAL)
+        return "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds no depth that is "
+               "equal: draw the same positions with another test before.";
+    raster->depth_test = SHADE_COMPARE_EQUAL;
+    if (!r->given && shade__run_again(&part).stats.fragments) return NULL;    /* its own depth */
+    raster->depth_test = greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
+    raster->depth_bias = greater ? 1.0f : -1.0f;    /* the nearest depth that there is */
+    if (!shade__run_again(&part).stats.fragments)
+        return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
+               "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
+               "depth of 1, or 0 for a reversed projection.";
+    raster->depth_bias *= 1e-4f;
+    if (r->lines && shade__run_again(&part).stats.fragments * 2 > covered)
+        return "The lines lie in surfaces that target.depth holds, which hide them: use "
+               "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
+    if (!r->given || (covered * 4 < (long long)target->width * target->height &&
+                      shade__depth_varies(target)))
+        return NULL;    /* one of many things in a scene may well be hidden */
+    return "What target.depth holds hides everything: other draws, the frame before without a "
+           "shade_clear, or raster.depth_bias, which pushes it back.";
+}
+
+/* ---- pixels are drawn, but wrongly */
+
+static const char *shade__why_faint(const shade__replay *r, const shade__tally *t)
+{
+    const shade_raster *raster = &r->pipe.raster;
+    const int dark = t->dark == t->fragments, clear = t->clear == t->fragments;
+    if (!r->pipe.fragment && (!r->target->depth || raster->depth_read_only))
+        return "pipeline.fragment is NULL, so that only depth is drawn, but target.depth is NULL, "
+               "or raster.depth_read_only is set.";
+    if (!r->pipe.fragment || !r->target->color) return NULL;
+    if (!r->pipe.may_discard && t->discarded)
+        return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
+    if (raster->blend == SHADE_BLEND_OVER)
+        return clear ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
+                       "out->color[3] of pipeline.fragment, or state.color.w of lines."
+                     : NULL;
+    if (dark && raster->blend == SHADE_BLEND_ADD)
+        return "All colours are black, or NaN, so that SHADE_BLEND_ADD adds nothing.";
+    if (dark && r->lines)
+        return clear ? "state.color is not set: the lines are drawn in black." : NULL;
+    if (dark && raster->cull != SHADE_CULL_FRONT)    /* outlines are black */
+        return "pipeline.fragment gives black, or NaN, everywhere: check out->color[0] to [2], "
+               "which it must write, pipeline.uniforms, and the varyings of pipeline.vertex.";
+    return t->bright * 10 >= t->fragments * 9 && r->target->format != SHADE_FORMAT_RGBA32F
+               ? "Almost all colours are clipped to white, or a full channel: in out->color, and in "
+                 "state.color of lines, 1 is full light, not 255."
+               : NULL;
+}
+
+/* Explains a draw whose arguments have this fault, or none. */
+static const char *shade__explain_replay(shade__replay *r, const char *fault)
+{
+    const int sure = r->given && r->given->fragments > 0;
+    const char *why = fault ? fault : shade__clip_fault(r->target);
+    shade__tally t;
+    if (why) return why;
+    r->picture.width = r->target->width;
+    r->picture.height = r->target->height;
+    t = shade__run_again(r);
+
+    if (t.stats.rejected)
+        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge numbers "
+                          "(beyond 1e30), so that lines are left out."
+                        : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
+                          "that triangles are left out: check its uniforms and what it reads.";
+    if (r->lines) why = shade__why_matrix(r, &t);
+    if (!why && !sure)
+        why = t.fragments ? shade__why_kept_out(r, &t) : shade__why_nowhere(r, &t.stats);
+    if (!why && (sure || !r->given)) why = shade__why_faint(r, &t);
+    return why ? why : "";
+}
+
+SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
+                                                    const shade_pipeline *pipeline,
+                                                    const uint32_t *indices, int index_count,
+                                                    int vertex_count, const shade_stats *stats)
+{
+    const shade__indices list = { indices, NULL };
+    const char *fault;
+    shade__replay r;
+    if (!target || !pipeline || !pipeline->vertex)
+        return "target, pipeline or pipeline.vertex is NULL, and must not be.";
+    fault = shade__target_fault(target);
+    if (!fault && (index_count < 0 || vertex_count < 0))
+        fault = "index_count or vertex_count is negative.";
+    if (!fault) fault = shade__pipeline_fault(pipeline);
+    if (!fault) fault = shade__lod_fault(pipeline);
+    if (!fault && index_count % 3)
+        fault = "index_count is no multiple of 3; it counts indices, three a triangle.";
+    if (!fault && shade__check_indices(list, 0, index_count, vertex_count))
+        fault = "indices hold one at or past vertex_count, or without indices index_count exceeds "
+                "vertex_count, which counts vertices, not floats.";
+    if (!fault && !index_count)
+        fault = "There is no triangle to draw: index_count is 0; without indices it counts vertices.";
+
+    SHADE__ZERO(r);
+    r.target = target;
+    r.given = stats;
+    r.indices = list;
+    r.corners = index_count;
+    r.pipe = *pipeline;
+    return shade__explain_replay(&r, fault);
+}
+
+SHADEDEF SHADE__COLD const char *shade_explain_lines(const shade_target *target,
+                                                     const shade_vec3 *points, int point_count,
+                                                     const shade_line_state *state,
+                                                     const shade_stats *stats)
+{
+    const char *fault;
+    shade__stroke stroke;
+    shade__replay r;
+    if (!target || !state || (!points && point_count > 0))
+        return "target, state or points is NULL, and must not be.";
+    fault = shade__target_fault(target);
+    if (!fault && (point_count < 0 || point_count % 2 || point_count > INT32_MAX / 3))
+        fault = "point_count is negative, odd, or beyond 715827882; it counts points, two a line.";
+    if (!fault) fault = shade__stroke_fault(state);
+    if (!fault && !point_count) fault = "There is no line to draw: point_count is 0.";
+
+    SHADE__ZERO(r);
+    r.target = target;
+    r.given = stats;
+    r.lines = state;
+    r.corners = 3 * point_count;
+    shade__stroke_of(target, points, state, &stroke, &r.pipe);
+    return shade__explain_replay(&r, fault);
 }
 
 /*------------------------------------------------------------------------------------------ >>image

@@ -327,6 +327,15 @@ CALL(call_draw_lines)
            !w->stats->fragments;
 }
 CALL(call_explain) { return !shade_explain(w->target, w->mesh, w->state, w->stats); }
+CALL(call_explain_draw)
+{
+    return !shade_explain_draw(w->target, w->pipeline, w->indices, CALLS_CORNERS, CALLS_VERTICES,
+                               w->stats);
+}
+CALL(call_explain_lines)
+{
+    return !shade_explain_lines(w->target, w->points, CALLS_POINTS, w->line_state, w->stats);
+}
 CALL(call_box_visible)
 {
     return !shade_box_visible(w->target, shade_mat4_identity(), 0, shade_v3(0, 0, 0),
@@ -470,6 +479,10 @@ static const world_call world_calls[] = {
     { "shade_explain", "", call_explain, drawn,
       "target, mesh, positions, normals, texcoords, colors, indices, chunks, state, material, "
       "lights, map, texels, mipmaps, mipmap_texels, depth, stats", "" },
+    { "shade_explain_draw", "", call_explain_draw, none,
+      "target, pipeline, clip, indices, map, depth, stats", "" },
+    { "shade_explain_lines", "", call_explain_lines, none,
+      "target, points, line_state, depth, stats", "" },
     { "shade_box_visible", "", call_box_visible, none,
       "target", "" },
     { "shade_mesh_chunks", "", call_mesh_chunks, none,

@@ -21,8 +21,8 @@
     OF(math) OF(matrix) OF(power) OF(light) OF(lanes) OF(vertex) OF(clip) OF(cover) OF(fragment)   \
     OF(store) OF(drive) OF(mesh) OF(texture) OF(lines) OF(shape) OF(ray) OF(resolve) OF(scene)     \
     OF(exact) OF(blocks) OF(depth) OF(recipes) OF(packets) OF(refusals) OF(shaders)                \
-    OF(independent) OF(modes) OF(explain) OF(chunks) OF(beginner) OF(reads)                        \
-    OF(indices)
+    OF(independent) OF(modes) OF(explain) OF(chunks) OF(reads) OF(indices) OF(camera)              \
+    OF(explain_pipelines)
 #define DECLARED(section) extern const test_section section##_section;
 #define LISTED(section) &section##_section,
 

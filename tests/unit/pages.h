@@ -42,13 +42,13 @@ static inline void *page_take(size_t bytes)
     return p + used - bytes;
 }
 
-static void page_free(void *memory, size_t bytes)
+static inline void page_free(void *memory, size_t bytes)
 {
     munmap((char *)memory + bytes - page_bytes(bytes), page_bytes(bytes) + page_bytes(1));
 }
 
 /* access: PROT_NONE, PROT_READ, or PROT_READ | PROT_WRITE */
-static void page_allow(void *memory, size_t bytes, int access)
+static inline void page_allow(void *memory, size_t bytes, int access)
 {
     if (mprotect((char *)memory + bytes - page_bytes(bytes), page_bytes(bytes), access)) {
         printf("mprotect failed\n");
@@ -58,7 +58,7 @@ static void page_allow(void *memory, size_t bytes, int access)
 
 /* Runs a function; returns 1 if it touched a page that did not allow it, and *result otherwise is
    what the function returned. */
-static int page_faults(int (*run)(void *), void *argument, int *result)
+static inline int page_faults(int (*run)(void *), void *argument, int *result)
 {
     struct sigaction now, segv, bus;
     int faulted = 1;

@@ -1,6 +1,7 @@
 /* shape.c - normals of corners and edges of meshes, against oracles that compare every face with
    every other. */
 #include "unit.h"
+#include "picked.h"
 
 enum { SHAPE_VERTICES = 128, SHAPE_CORNERS = 480 };
 
@@ -926,23 +927,6 @@ static double inside_picture(shade_mat4 projection, shade_mat4 view, shade_vec3 
         least = fmin(least, (c[3] - fmax(fabs(c[0]), fabs(c[1]))) / fabs(c[3]));
     }
     return least;
-}
-
-/* A perspective whose eye is where the view has it, or, with w = 1 - z / k, k in front of it. */
-static shade_mat4 random_lens(void)
-{
-    const float aspect = rnd_log(0.5, 2), fovy = rnd_float(0.2, 2);
-    const float l = rnd_float(-0.9, -0.1), b = rnd_float(-0.9, -0.1);
-    shade_mat4 p = shade_mat4_perspective(fovy, aspect, 0.1f, 100);
-    switch (rnd_int(0, 3)) {
-    case 0: return p;
-    case 1: return shade_mat4_perspective_reversed(fovy, aspect, 0.1f);
-    case 2: return shade_mat4_frustum(l, l + 1, b, b + 1, 1, 100);
-    default:
-        p = shade_mat4_scaling(shade_v3(1 / aspect, 1, -0.1f));
-        p.col[2].w = -1 / rnd_log(0.5, 2);
-        return p;
-    }
 }
 
 TEST(shape, a_fitted_view_is_as_near_as_all_corners_of_the_box_stay_in_the_picture)
