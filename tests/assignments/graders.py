@@ -192,7 +192,11 @@ CHEATS_C = {
     "has a constructor": ("__attribute__((constructor)) static void early(void) {}\n%s { %s }", "uses __attribute__"),
     "has a pragma": ("#pragma weak lambert\n%s { %s }", "a line #pragma"),
     "spoofs a line": ('#line 1 "shade.h"\n%s { %s }', "a line #line"),
-    "takes another's symbol": ('#include <sys/cdefs.h>\n%s { %s }', "Include shade.h"),
+    "calls what is private": ("%s { return shade__cofactors(shade_mat3_identity()).col[0].x; %s }", "uses shade__"),
+    "calls the light by a pointer": ("%s { float (*f)(shade_vec3, shade_vec3) = shade_lambert; return f(N, L); %s }",
+                                     "shade_lambert: what it does"),
+    "mirrors by the library": ("%s { return shade_mirror(L, N).x; %s }", "uses shade_mirror: what it does"),
+    "includes a header of the system": ('#include <sys/cdefs.h>\n%s { %s }', "Include shade.h"),
 }
 CHEATS_PY = {
     "writes its own results": ("open('results.json', 'w').write('{}')", "uses open"),

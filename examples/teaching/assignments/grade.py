@@ -64,7 +64,7 @@ def arguments():
     names = sorted(CALLS)
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("task", choices=names, metavar="TASK", help=", ".join(names))
-    parser.add_argument("answer", nargs="?", metavar="FILE", help="what is handed in, .c or .py")
+    parser.add_argument("answer", nargs="?", metavar="FILE", help="a .c or a .py, or a folder with one")
     parser.add_argument("--seed", default="1", help="makes other inputs; teachers keep theirs to themselves")
     parser.add_argument("--json", metavar="RESULTS", help="writes the results as Gradescope reads them")
     parser.add_argument("--picture", metavar="PNG", help="draws answers, yours left, the right ones right")
@@ -106,9 +106,6 @@ def main():
     except Refused as refused:
         scores = [(0, str(refused))] * len(task.cases)
         output = str(refused)
-    except OSError as error:
-        output = f"{options.answer} cannot be judged: {error.strerror}."
-        scores = [(0, output)] * len(task.cases)
     for case, (score, says) in zip(task.cases, scores):
         print(f"{'FAIL' if score < case.points else 'ok  '}  {case.name}: {score:g} of {case.points}")
         if says and says != output:

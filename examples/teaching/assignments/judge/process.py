@@ -30,7 +30,7 @@ CALLS = re.compile(r"""_*(?:(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:10|2|
     |mem(?:cpy|set|move|cmp)|f?printf|f?puts|f?putc|putchar|fflush|std(?:out|err)p?|malloc|calloc|realloc|free|abort|exit|assert_fail
     |assert_rtn|stack_chk_\w+|GLOBAL_OFFSET_TABLE_|shade_mat[34]_(?!inverse_transpose)\w+)(?:_chk)?$""",
                    re.VERBOSE)
-POISON = "shade_reflect shade_mirror shade_halfway shade_mat3_inverse_transpose shade__cofactors"
+POISON = "shade_reflect shade_mirror shade_halfway shade_mat3_inverse_transpose"
 ENDS = {
     signal.SIGSEGV: "crashed: an index beyond an array, a pointer to nothing, a recursion without "
                     "end, or more than 256 MB of memory",
@@ -66,7 +66,8 @@ def check_c(source):
         if directive.startswith("include") and not re.match(allowed, directive):
             raise Refused(f"Your file has a line #{directive.strip()}. Include shade.h and headers "
                           f"like math.h alone.")
-    for word in re.findall(r"##|%:%:|\b(?:asm|__asm\w*|__attribute\w*|_Pragma|__pragma)\b|\[\[", text):
+    words = r"##|%:%:|\[\[|\b(?:asm|__asm\w*|__attribute\w*|_Pragma|__pragma|(?:shade|SHADE)_{2}\w+)\b"
+    for word in re.findall(words, text):
         raise Refused(f"Your file uses {word}, which no answer needs.")
 
 
@@ -84,7 +85,7 @@ def run_tool(*command):
 
 def build_c(task, path, folder):
     """Compiles a student's C file in a folder; returns the command that runs it."""
-    source = Path(path).read_text(encoding="utf-8", errors="replace")
+    source = path.read_text(encoding="utf-8", errors="replace")
     if len(source) > 1 << 16:
         raise Refused("Your file is longer than 64 kB.")
     check_c(source)
@@ -117,16 +118,25 @@ def build_c(task, path, folder):
     return [str(folder / "answer")]
 
 
+def one_file(path):
+    """Returns the path of the C or Python file that is handed in, alone or in a folder."""
+    found = [p for p in sorted(path.iterdir()) if p.suffix in (".c", ".py")] if path.is_dir() else [path]
+    if len(found) != 1:
+        raise Refused(f"Hand in one file, a .c or a .py: there are {len(found)}.")
+    if not found[0].is_file() or found[0].suffix not in (".c", ".py"):
+        raise Refused(f"{found[0].name} is no .c and no .py file.")
+    return found[0].resolve()
+
+
 class Student:
     """What a student handed in, ready to be given inputs."""
 
     def __init__(self, task, path, inputs, outputs, seconds):
         self.inputs, self.outputs, self.seconds, self.printed = inputs, outputs, seconds, ""
-        self.folder = tempfile.TemporaryDirectory()
-        self.bound = None
-        if str(path).endswith(".py"):
-            self.command = [sys.executable, "-I", "-S", "-B", str(HERE / "student.py"), task,
-                            str(Path(path).resolve()), str(outputs), str(inputs), str(seconds)]
+        self.folder, self.bound, path = tempfile.TemporaryDirectory(), None, one_file(Path(path))
+        if path.suffix == ".py":
+            self.command = [sys.executable, "-I", "-S", "-B", str(HERE / "student.py"), task, str(path),
+                            str(outputs), str(inputs), str(seconds)]
         else:
             self.command = build_c(task, path, Path(self.folder.name))
             self.bound = lambda: student.limit(seconds)
