@@ -1,4 +1,4 @@
-/* by_hand.c - each assignment solved as a student does, with vectors alone.  wrong.txt changes it. */
+/* by_hand.c - each assignment solved as students do, with vectors alone; wrong.txt changes it. */
 #include "shade.h"
 #include <math.h>
 

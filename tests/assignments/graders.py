@@ -71,8 +71,8 @@ class Trusted(Student):
         self.bound, program = (lambda: student.limit(3)), FOLDER / name
         path = handed_in(f"{name}.c", text)
         subprocess.run([*os.environ.get("CC", "cc").split(), "-std=gnu99", "-O1", "-w", f"-I{ROOT}",
-                        f"-DTASK={int(task.name[:2])}", str(ASSIGNMENTS / "judge/student.c"), str(path), *flags,
-                        "-lm", "-o", str(program)], check=True)
+                        f"-DTASK={int(task.name[:2])}", str(ASSIGNMENTS / "judge/student.c"),
+                        str(path), *flags, "-lm", "-o", str(program)], check=True)
         self.command = [str(program)]
 
 
@@ -80,7 +80,8 @@ class Trusted(Student):
 
 def right_answers(task):
     """The judge's right answers beside shade.h's, and solutions by hand in both languages."""
-    library = Trusted(task, f"library_{task.name}", (HERE / "solutions.c").read_text(), str(ROOT / "build/shade.o"))
+    text = (HERE / "solutions.c").read_text()
+    library = Trusted(task, f"library_{task.name}", text, str(ROOT / "build/shade.o"))
     for seed in (1, 2, 3):
         results = Judge(task, seed).judge(library.ask)
         says = "\n".join(r.says for r in results if r.says)
@@ -90,20 +91,25 @@ def right_answers(task):
         check(f"{task.name}: {name} has full points", score == full(task), says)
     for name in ("starter.c", "starter.py"):
         score, says = judged(task, ASSIGNMENTS / task.name / name)
-        check(f"{task.name}: {name} has less than half", score < full(task) / 2 and says, (score, says))
+        check(f"{task.name}: {name} has less than half", score < full(task) / 2 and says, says)
         check(f"{task.name}: {name} runs", "raises" not in says and "compile" not in says, says)
 
 
 # ---- wrong answers ------------------------------------------------------------------------------
 
+def table(name):
+    """Returns the rows of a table: parts between bars, a bar in a part is written \\|."""
+    for line in (HERE / name).read_text().splitlines():
+        if line and line[0] != "#":
+            yield [part.replace("\\|", "|").strip() for part in re.split(r"(?<!\\)\|", line)]
+
+
 def rows():
     """Returns the wrong answers of wrong.txt: task, what must be said, changes."""
-    for line in (HERE / "wrong.txt").read_text().splitlines():
-        if line and line[0] != "#":
-            first, *changes = [part.replace("\\|", "|").strip() for part in re.split(r"(?<!\\)\|", line)]
-            number, expected = first.split(" ", 1)
-            task = next(task for task in TASKS.values() if task.name.startswith(number))
-            yield task, expected, list(zip(changes[::2], changes[1::2]))
+    for first, *changes in table("wrong.txt"):
+        number, expected = first.split(" ", 1)
+        task = next(task for task in TASKS.values() if task.name.startswith(number))
+        yield task, expected, list(zip(changes[::2], changes[1::2]))
 
 
 def changed(changes):
@@ -118,13 +124,13 @@ def changed(changes):
 
 
 def wrong_answer(row):
-    """A wrong answer in C loses points, and its sentence is there; in Python it has as many points."""
+    """Returns whether a wrong answer in C loses points and gets its sentence, and no other."""
     task, expected, changes = row
     name = f"{task.name}: {expected}"
     text, missing = changed(changes)
     if missing:
         return name, False, f"by_hand.c has no {missing}"
-    score, says = judged(task, handed_in(re.sub(r"\W", "_", f"{name} {changes}")[:200] + ".c", text))
+    score, says = judged(task, handed_in(f"{abs(hash(text))}.c", text))
     if not 0 <= score < full(task):
         return name, False, f"has {score} points\n{says}"
     if expected.startswith("hint "):
@@ -138,7 +144,8 @@ def wrong_answer(row):
 
 def in_python(task, mistake):
     """Returns a student's Python file that makes a known mistake."""
-    helpers = (tools.dot, tools.add, tools.sub, tools.mul, tools.scale, tools.cross, tools.length, tools.unit)
+    helpers = (tools.dot, tools.add, tools.sub, tools.mul, tools.scale, tools.cross, tools.length,
+               tools.unit)
     text = "import math\npow = math.pow\n" + "\n".join(map(inspect.getsource, helpers))
     assert mistake[1] in task.source, mistake
     return text + task.source.replace(mistake[1], mistake[2])
@@ -149,82 +156,27 @@ def known_mistakes(task):
     for mistake in task.mistakes:
         name = f"{task.name}: the mistake {mistake[0]}"
         answer = task.answerer(mistake)
-        results = answer and Judge(task, 11).judge(lambda v, a=answer: ([a(x) for x in v], "raises"))
-        lost = [r for r in results or [] if r.score < r.case.points]
-        check(f"{name} is named", lost and all(mistake[3] in r.says for r in lost), [r.says for r in lost])
-        others = [m[0] for m in task.mistakes if any(m[3] in r.says for r in lost) and m[3] != mistake[3]]
+        results = Judge(task, 11).judge(lambda v, a=answer: ([a(x) for x in v], "raises"))
+        says = [r.says for r in results if r.score < r.case.points]
+        check(f"{name} is named", says and all(mistake[3] in text for text in says), says)
+        others = [m[0] for m in task.mistakes if m[3] in " ".join(says) and m[3] != mistake[3]]
         check(f"{name} is told from the others", not others, others)
     for mistake in (task.mistakes[0], task.mistakes[-1]):
         score, says = judged(task, handed_in("mistake.py", in_python(task, mistake)))
-        check(f"{task.name}: {mistake[0]} is named in Python", score < full(task) and mistake[3] in says, says)
+        good = score < full(task) and mistake[3] in says
+        check(f"{task.name}: {mistake[0]} is named in Python", good, says)
 
 
 # ---- cheats -------------------------------------------------------------------------------------
 
 LAMBERT = "float lambert(shade_vec3 N, shade_vec3 L)"
-GOOD = "return fmaxf(0, shade_dot(N, L));"
-# What is handed in, and what must be said; every one has no points.  The first nine were paid once.
-CHEATS_C = {
-    "writes its own results": ('#include <stdio.h>\n%s { FILE *f = fopen("results.json", "w"); fputs("{}", f); %s }',
-                               "calls fopen"),
-    "reads the judge's file": ('#include <stdio.h>\n%s { char b[99]; fread(b, 1, 99, fopen("x", "r")); %s }', "calls f"),
-    "calls what it should write": ("%s { return shade_lambert(N, L); %s }", "shade_lambert: what it does is yours"),
-    "exits with success": ("#include <stdlib.h>\n%s { exit(0); %s }", "ended the program itself"),
-    "kills the judge": ("int kill(int, int); int getppid(void);\n%s { kill(getppid(), 9); %s }", "calls "),
-    "closes the pipes": ("int close(int);\n%s { for (int k = 0; k < 99; k++) close(k); %s }", "calls close"),
-    "takes 300 MB": ("static char big[300 << 20];\n%s { for (int k = 0; k < 300; k++) big[k << 20] = 1; %s }",
-                     "more than 256 MB"),
-    "never returns": ("%s { volatile int k = 1; while (k); %s }", "loop that does not end"),
-    "crashes": ("%s { *(volatile int *)0 = 1; %s }", "crashed"),
-    "prints 300 MB": ("#include <stdio.h>\n%s { for (;;) puts(\"lambert: 10 of 10\"); %s }", "more than 64 kB"),
-    "aborts": ("#include <stdlib.h>\n%s { abort(); %s }", "called abort"),
-    "calls itself for ever": ("%s { volatile float x = lambert(N, L); %s }", "crashed"),
-    "brings the implementation": ("#define SHADE_STATIC\n#define SHADE_IMPLEMENTATION\n#include \"shade.h\"\n"
-                                  "%s { return shade_lambert(N, L); %s }", "shade_lambert"),
-    "renames what it should write": ("#define shade_lambert innocent\n#include \"shade.h\"\n"
-                                     "%s { return shade_lambert(N, L); %s }", "innocent"),
-    "includes a file of the judge": ('#include "judge/student.c"\n%s { %s }', "Include shade.h"),
-    "includes by a macro": ('#define X "/etc/passwd"\n#include X\n%s { %s }', "Include shade.h"),
-    "includes after a comment": ('/* */ #/**/include "/etc/passwd"\n%s { %s }', "Include shade.h"),
-    "splits a line": ('#inc\\\nlude "/etc/passwd"\n%s { %s }', "Include shade.h"),
-    "is assembly": ('%s { __asm__("syscall"); %s }', "uses __asm__"),
-    "pastes assembly": ("#define P(a, b) a##b\n%s { P(__as, m__)(\"nop\"); %s }", "uses ##"),
-    "has a constructor": ("__attribute__((constructor)) static void early(void) {}\n%s { %s }", "uses __attribute__"),
-    "has a pragma": ("#pragma weak lambert\n%s { %s }", "a line #pragma"),
-    "spoofs a line": ('#line 1 "shade.h"\n%s { %s }', "a line #line"),
-    "calls what is private": ("%s { return shade__cofactors(shade_mat3_identity()).col[0].x; %s }", "uses shade__"),
-    "calls the light by a pointer": ("%s { float (*f)(shade_vec3, shade_vec3) = shade_lambert; return f(N, L); %s }",
-                                     "shade_lambert: what it does"),
-    "mirrors by the library": ("%s { return shade_mirror(L, N).x; %s }", "uses shade_mirror: what it does"),
-    "includes a header of the system": ('#include <sys/cdefs.h>\n%s { %s }', "Include shade.h"),
-}
-CHEATS_PY = {
-    "writes its own results": ("open('results.json', 'w').write('{}')", "uses open"),
-    "reads the judge's answers": ("from judge.points import Task", "imports judge.points"),
-    "exits": ("import sys\n    sys.exit(0)", "imports sys"),
-    "exits hard": ("import os\n    os._exit(0)", "imports os"),
-    "raises SystemExit": ("raise SystemExit", "uses SystemExit"),
-    "takes 300 MB": ("return len([0] * (300 << 20))", "MemoryError"),
-    "never returns": ("while True: pass", "loop that does not end"),
-    "prints 300 MB": ("while True: print('lambert: 10 of 10' * 99)", "more than 64 kB"),
-    "calls itself for ever": ("return lambert(N, L)", "RecursionError"),
-    "takes the frame of the judge": ("g = (x for x in N)\n    return g.gi_frame.f_back", "reads the attribute f_back"),
-    "climbs to all classes": ("return ().__class__.__base__", "reads the attribute __base__"),
-    "climbs by a text": ("return '{0.__class__}'.format(N)", "reads the attribute format"),
-    "evaluates a text": ("return eval('1')", "uses eval"),
-    "imports by name": ("return __import__('os').getpid()", "uses __import__"),
-    "reads the loader": ("import math\n    return math.__loader__", "reads the attribute __loader__"),
-    "is no Python": ("return (", "cannot be read"),
-    "returns a text": ("return 'ten'", "raises ValueError"),
-    "returns two numbers": ("return [1, 1]", "returns 2 numbers; right are 1"),
-    "returns nothing": ("return None", "raises TypeError"),
-}
 # What a process may not do whatever its code is; each gives a 1 where it could.
 BREAKS = {
     "opens a file": 'open("/etc/passwd", O_RDONLY) >= 0',
     "opens a file in place of one it closed": '(close(0), open("/etc/passwd", O_RDONLY)) >= 0',
     "writes a file": f'open("{FOLDER}/results.json", O_WRONLY | O_CREAT, 0666) >= 0',
-    "reads the judge's memory": "({ char p[64]; sprintf(p, \"/proc/%d/mem\", getppid()); open(p, O_RDONLY) >= 0; })",
+    "reads the judge's memory": """({ char p[64]; sprintf(p, "/proc/%d/mem", getppid());
+                                     open(p, O_RDONLY) >= 0; })""",
     "starts a process": "({ int p = fork(); if (!p) _exit(0); p > 0; })",
     "opens a socket": "socket(AF_UNIX, SOCK_STREAM, 0) >= 0",
     "raises its bounds": "({ struct rlimit r = { 9, 9 }; setrlimit(RLIMIT_NOFILE, &r) == 0; })",
@@ -239,36 +191,34 @@ BREAKS_AS_ROOT = {
 
 def cheats():
     """Cheats get no points and a sentence."""
-    lambert = TASKS["01_lambert"]
-    for name, (text, says) in CHEATS_C.items():
-        if not wanted(name):
-            continue
-        text = "#include \"shade.h\"\n#include <math.h>\n" + text % (LAMBERT, GOOD)
-        score, said = judged(lambert, handed_in("cheat.c", text), seconds=2)
-        check(f"C that {name} gets a sentence", score == 0 and said and (not says or says in said), (score, said))
-    for name, (text, says) in CHEATS_PY.items():
-        if not wanted(name):
-            continue
-        score, said = judged(lambert, handed_in("cheat.py", f"def lambert(N, L):\n    {text}\n"), seconds=2)
-        check(f"Python that {name} gets a sentence", score == 0 and says in said, (score, said))
+    for language, name, says, code in table("cheats.txt"):
+        if wanted(name):
+            text = re.sub(r"\\(.)", lambda m: {"n": "\n"}.get(m.group(1), m.group(1)), code)
+            head = '#include "shade.h"\n' if language == "c" else ""
+            path = handed_in(f"cheat.{language}", head + text.replace("LAMBERT", LAMBERT) + "\n")
+            score, said = judged(TASKS["01_lambert"], path, seconds=2)
+            good = score == 0 and says in said
+            check(f"{language} that {name} gets a sentence", good, (score, said))
 
 
 def broken_out():
     """A program that no rule has looked at is held by its process."""
     lambert = TASKS["01_lambert"]
-    head = "".join(f"#include <{h}.h>\n" for h in ("errno", "fcntl", "signal", "stdio", "stdlib", "unistd",
-                                                   "sys/ptrace", "sys/resource", "sys/socket"))
+    headers = "fcntl signal stdio stdlib unistd sys/ptrace sys/resource sys/socket".split()
+    head = "".join(f"#include <{h}.h>\n" for h in headers) + '#include "shade.h"\n' + LAMBERT
     breaks = {**BREAKS, **(BREAKS_AS_ROOT if os.geteuid() == 0 else {})}
     for name, text in breaks.items():
-        one = Trusted(lambert, "breaks", head + f'#include "shade.h"\n{LAMBERT} {{ return ({text}) ? 1 : -1; }}')
+        one = Trusted(lambert, "breaks", f"{head} {{ return ({text}) ? 1 : -1; }}")
         answers, _ = one.ask(lambert.inputs(lambert.cases[0], 1)[:1])
         check(f"a process that {name} is stopped", answers == [[-1]] or not answers, answers)
-    flood = Trusted(lambert, "flood", head + f'#include "shade.h"\n{LAMBERT} {{ static char big[1 << 16]; '
-                    'for (int k = 0; k < 9999; k++) for (int f = 0; f < 9; f++) write(f, big, sizeof big); return 1; }')
+    flood = Trusted(lambert, "flood", head + """ {
+        static char big[1 << 16];
+        for (int k = 0; k < 99999; k++) write(k % 9, big, sizeof big);
+        return 1; }""")
     start = time.monotonic()
     results = Judge(lambert, 1).judge(flood.ask)
-    check("answers of its own making get no points", sum(r.score for r in results) < full(lambert) / 2,
-          [r.says for r in results])
+    score = sum(r.score for r in results)
+    check("answers of its own making get no points", score < full(lambert) / 2, score)
     check("a flood of answers ends with its time", time.monotonic() - start < 120)
     if os.geteuid():
         print("left out  what only a judge who is root can keep: signals, users, traces")

@@ -3,7 +3,7 @@
 
     python3 grade.py 01_lambert my.c --picture out.png
 
-The exit status is 0 for full points.  Python 3.8 or newer is needed, for C files a C compiler and nm.
+The exit status is 0 for full points.  It needs Python 3.8 or newer, for C a C compiler and nm.
 """
 import argparse
 import json
@@ -26,22 +26,25 @@ SIDE = 160  # of a picture
 
 def pixels(task, ask):
     """Returns the rows of a picture of answers."""
-    places = [(2 * (i + 0.5) / SIDE - 1, 1 - 2 * (j + 0.5) / SIDE) for j in range(SIDE) for i in range(SIDE)]
+    steps = [2 * (k + 0.5) / SIDE - 1 for k in range(SIDE)]
+    places = [(x, -y) for y in steps for x in steps]
     inputs = [task.module.place(x, y) for x, y in places]
     unlike = list({tuple(v): None for v in inputs if v})
     answers, _ = ask([list(v[:task.sent]) for v in unlike])
-    known, bytes_ = dict(zip(unlike, answers)), bytearray()
+    known, out = dict(zip(unlike, answers)), bytearray()
     for (x, y), v in zip(places, inputs):
         answer = v and known.get(tuple(v))
         shown = task.module.color(task.compared(v, answer), x, y) if answer else [0, 0, 0]
-        bytes_ += bytes(int(255 * min(1, max(0, c)) + 0.5) if math.isfinite(c) else 0 for c in shown)
-    return [bytes(bytes_[3 * SIDE * j:3 * SIDE * (j + 1)]) for j in range(SIDE)]
+        shown = [c if math.isfinite(c) else 0 for c in shown]
+        out += bytes(int(255 * min(1, max(0, c)) + 0.5) for c in shown)
+    return [bytes(out[3 * SIDE * j:3 * SIDE * (j + 1)]) for j in range(SIDE)]
 
 
 def write_png(path, rows):
     """Writes rows of red, green and blue."""
     def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        size, check = len(data), zlib.crc32(name + data)
+        return struct.pack(">I", size) + name + data + struct.pack(">I", check)
     head = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
     Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(
         b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows), 9)) + chunk(b"IEND", b""))
@@ -51,7 +54,8 @@ def write_json(path, task, scores, output):
     """Writes results as Gradescope reads them."""
     tests = [{"name": case.name, "score": score, "max_score": case.points, "output": says}
              for case, (score, says) in zip(task.cases, scores)]
-    Path(path).write_text(json.dumps({"output": output, "tests": tests}, indent=2) + "\n", encoding="utf-8")
+    text = json.dumps({"output": output, "tests": tests}, indent=2)
+    Path(path).write_text(text + "\n", encoding="utf-8")
 
 
 def from_judge(answer):
@@ -64,12 +68,13 @@ def arguments():
     names = sorted(CALLS)
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("task", choices=names, metavar="TASK", help=", ".join(names))
-    parser.add_argument("answer", nargs="?", metavar="FILE", help="a .c or a .py, or a folder with one")
-    parser.add_argument("--seed", default="1", help="makes other inputs; teachers keep theirs to themselves")
-    parser.add_argument("--json", metavar="RESULTS", help="writes the results as Gradescope reads them")
-    parser.add_argument("--picture", metavar="PNG", help="draws answers, yours left, the right ones right")
-    parser.add_argument("--mistake", metavar="NAME", help="judges a known mistake in place of a file")
-    parser.add_argument("--seconds", type=int, default=10, help="time for the inputs of a case")
+    add = parser.add_argument
+    add("answer", nargs="?", metavar="FILE", help="a .c or a .py, or a folder with one")
+    add("--seed", default="1", help="of the inputs; teachers keep theirs to themselves")
+    add("--json", metavar="RESULTS", help="writes results as Gradescope reads them")
+    add("--picture", metavar="PNG", help="draws your answers, and beside them the right ones")
+    add("--mistake", metavar="NAME", help="judges a known mistake in place of a file")
+    add("--seconds", type=int, default=10, help="time for the inputs of a case")
     options = parser.parse_args()
     if bool(options.answer) == bool(options.mistake):
         parser.error("give a FILE, or --mistake NAME")
@@ -107,7 +112,8 @@ def main():
         scores = [(0, str(refused))] * len(task.cases)
         output = str(refused)
     for case, (score, says) in zip(task.cases, scores):
-        print(f"{'FAIL' if score < case.points else 'ok  '}  {case.name}: {score:g} of {case.points}")
+        word = "FAIL" if score < case.points else "ok  "
+        print(f"{word}  {case.name}: {score:g} of {case.points}")
         if says and says != output:
             print(textwrap.indent(textwrap.fill(says, 94), 6 * " "))
     if output:

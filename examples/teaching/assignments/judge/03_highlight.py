@@ -58,9 +58,11 @@ def opposite(draw):
 CASES = [
     Case(3, "H", in_front, "H is L + V, made unit: divide the sum by its length.", slice(0, 3)),
     Case(1, "H where L = -V, which is zero", opposite,
-         "Where L = -V the sum is zero: return the zero vector before you divide by a length.", slice(0, 3)),
+         "Where L = -V the sum is zero: return the zero vector before you divide by a "
+         "length.", slice(0, 3)),
     Case(3, "the lobe, lamps in front", in_front,
-         "Compute R from L and N, then R.V, then its power n, and look at each by itself.", slice(3, 4)),
+         "Compute R from L and N, then R.V, then its power n, and look at each by "
+         "itself.", slice(3, 4)),
     Case(1, "the lobe, viewers far from R, where R.V is negative", far_from_R,
          "A viewer more than 90 degrees off R sees no highlight: the lobe is 0.", slice(3, 4)),
     Case(2, "the lobe, lamps behind", behind,
@@ -73,14 +75,15 @@ MISTAKES = [
      "This is L + V itself. H is of length 1: divide the sum by its length."),
     ("unchecked", "if length(H) < 1e-6:\n        return [0, 0, 0]\n    return unit(H)",
      "return scale(1 / length(H), H)",
-     "L + V is zero where L = -V, and a zero vector cannot be divided by its length: test for that first."),
+     "L + V is zero where L = -V, and a zero vector cannot be divided by its length: test for that "
+     "first."),
     ("difference", "add(L, V)", "sub(L, V)",
      "This is L - V, which lies along the surface. Both vectors point away from it: add them."),
     ("one_of_them", "return unit(H)", "return L",
      "This is L. H lies between L and V."),
     ("ungated", "B * pow", "pow",
-     "A highlight shines where the lamp is behind the surface: B is missing, which is 0 where N.L is not "
-     "above 0."),
+     "A highlight shines where the lamp is behind the surface: B is missing, which is 0 where N.L "
+     "is not above 0."),
     ("gated_by_viewer", "if dot(N, L) > 0", "if dot(N, V) > 0",
      "B asks for the lamp, not for the viewer: it is 1 where N.L is above 0."),
     ("blinn", "dot(R, V)", "dot(N, unit(add(L, V)))",
@@ -96,16 +99,18 @@ MISTAKES = [
     ("without_two", "scale(2 * dot", "scale(dot",
      "R is not L mirrored at N: the factor 2 is missing in 2 (N.L) N - L."),
     ("unclamped", "max(0, dot(R, V))", "dot(R, V)",
-     "R.V is negative where the viewer is more than 90 degrees off R. Its power is not a number, or for "
-     "an even n a second highlight: take 0 there."),
+     "R.V is negative where the viewer is more than 90 degrees off R. Its power is not a number, "
+     "or for an even n a second highlight: take 0 there."),
     ("absolute", "max(0, dot(R, V))", "abs(dot(R, V))",
-     "The absolute value of R.V gives a second highlight opposite to R. Take 0 where R.V is negative."),
+     "The absolute value of R.V gives a second highlight opposite to R. Take 0 where R.V is "
+     "negative."),
     ("lamp_for_R", "dot(R, V)", "dot(L, V)",
      "This is (L.V)^n, brightest where the viewer stands at the lamp. Mirror L first: R.V."),
     ("normal_for_R", "dot(R, V)", "dot(N, V)",
      "This is (N.V)^n, in which the place of the lamp has no part. Mirror L at N: R.V."),
     ("weighted", "B * pow(cosine, n)", "B * dot(N, L) * pow(cosine, n)",
-     "The lobe is multiplied by N.L too. Phong's highlight has no such factor, only B, which is 1 or 0."),
+     "The lobe is multiplied by N.L too. Phong's highlight has no such factor, only B, which is 1 "
+     "or 0."),
 ]
 
 

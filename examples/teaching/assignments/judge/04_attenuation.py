@@ -56,7 +56,8 @@ MISTAKES = [
      "Only the sum is inverted: 1 / (a + b r + c r^2) is not 1/a + 1/(b r) + 1/(c r^2)."),
     ("no_brackets", RIGHT, "1 / a + b * r + c * r * r",
      "Without brackets only a is below the 1: write 1 / (a + b r + c r^2)."),
-    ("coefficient_squared", "c * r * r", "(c * r) * (c * r)", "(c r)^2 squares c as well: square r alone."),
+    ("coefficient_squared", "c * r * r", "(c * r) * (c * r)", "(c r)^2 squares c as well: square r "
+                                                              "alone."),
     ("other_order", SUM, "(a * r * r + b * r + c)",
      "The coefficients are in the other order: a stands alone, and c before r^2."),
     ("doubled", "c * r * r", "c * 2 * r", "r^2 is r times r; this is 2 r."),

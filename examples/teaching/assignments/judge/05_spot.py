@@ -56,9 +56,11 @@ CASES = [
     Case(4, "inside the cone", inside,
          "Inside the cone the answer is (L.S)^e, whatever the cutoff is. S is -aim, made unit."),
     Case(2, "outside", outside,
-         "Where L.S is below cos_cutoff the answer is 0. Both are cosines: compare them as they are."),
+         "Where L.S is below cos_cutoff the answer is 0. Both are cosines: compare them as they "
+         "are."),
     Case(2, "wide cones", wide,
-         "A cone may reach behind the lamp, where L.S is negative: take 0 for the base of the power there."),
+         "A cone may reach behind the lamp, where L.S is negative: take 0 for the base of the "
+         "power there."),
     Case(2, "on the rim, which is lit", rim,
          "On the rim L.S equals cos_cutoff, to the bit for these inputs, and the rim is lit."),
 ]
@@ -78,20 +80,23 @@ MISTAKES = [
      "This is L.S itself, as for e = 1: raise it to the power e."),
     ("times_e", POWER, "e * max(0, cosine)", "e is an exponent, not a factor: (L.S)^e."),
     ("inverted", "cosine >= cos_cutoff", "cosine < cos_cutoff",
-     "The light is outside of the cone. A small angle has a large cosine, so inside is where L.S is at "
-     "least cos_cutoff."),
-    ("exchanged_power", POWER, "pow(e, max(0, cosine))", "This is e to the power L.S: exchange the two."),
+     "The light is outside of the cone. A small angle has a large cosine, so inside is where L.S "
+     "is at least cos_cutoff."),
+    ("exchanged_power", POWER, "pow(e, max(0, cosine))", "This is e to the power L.S: exchange the "
+                                                         "two."),
     ("faded_to_rim", POWER, "pow((cosine - cos_cutoff) / (1 - cos_cutoff), e)",
      "This fades to 0 at the rim. Here the cutoff only cuts; the light falls as (L.S)^e."),
     ("cut_after_power", "cosine >= cos_cutoff", "pow(max(0, cosine), e) >= cos_cutoff",
      "The power is compared with cos_cutoff. Compare L.S itself, before it is raised to e."),
-    ("angle_with_cosine", "cosine >= cos_cutoff", "math.acos(max(-1, min(1, cosine))) <= cos_cutoff",
-     "An angle is compared with a cosine. cos_cutoff is the cosine of the cutoff already: compare L.S "
-     "with it."),
+    ("angle_with_cosine", "cosine >= cos_cutoff", "math.acos(max(-1, min(1, cosine))) <= "
+                                                  "cos_cutoff",
+     "An angle is compared with a cosine. cos_cutoff is the cosine of the cutoff already: compare "
+     "L.S with it."),
     ("angle_in_power", POWER, "pow(math.acos(max(-1, min(1, cosine))), e)",
      "The angle is raised to e. The light falls with its cosine: (L.S)^e."),
     ("unclamped", POWER, "pow(cosine, e)",
-     "Behind the lamp L.S is negative, and a wide cone reaches there: take 0 for the base of the power."),
+     "Behind the lamp L.S is negative, and a wide cone reaches there: take 0 for the base of the "
+     "power."),
     ("absolute", "cosine = dot(L, S)", "cosine = abs(dot(L, S))",
      "The absolute value gives a second cone behind the lamp: use L.S with its sign."),
 ]

@@ -49,34 +49,35 @@ def no_area(draw):
 
 CASES = [
     Case(5, "triangles anywhere, of both windings", anywhere,
-         "Compute the three edge functions at the centre of the pixel: inside, they all have the sign of "
-         "the area."),
+         "Compute the three edge functions at the centre of the pixel: inside, they all have the "
+         "sign of the area."),
     Case(4, "pixel centres on edges", on_centres,
-         "Where an edge function is 0 the pixel belongs to the triangle only if the edge is a top or a left "
-         "one; at a corner both edges must be."),
+         "Where an edge function is 0 the pixel belongs to the triangle only if the edge is a top "
+         "or a left one; at a corner both edges must be."),
     Case(1, "triangles without area", no_area,
          "With the corners in a line the area is 0, and the triangle covers nothing."),
 ]
 MISTAKES = [
     ("with_edges", "edge < 0 or edge == 0 and not (top or left)", "edge < 0",
-     "Pixels on an edge that two triangles share are drawn twice: an edge owns them only where it is a top "
-     "or a left edge."),
+     "Pixels on an edge that two triangles share are drawn twice: an edge owns them only where it "
+     "is a top or a left edge."),
     ("without_edges", "edge < 0 or edge == 0 and not (top or left)", "edge <= 0",
-     "Pixels on an edge that two triangles share are drawn by neither: a top or a left edge owns them."),
+     "Pixels on an edge that two triangles share are drawn by neither: a top or a left edge owns "
+     "them."),
     ("clockwise_alone", "if area == 0", "if area <= 0",
-     "Triangles of the other winding are missing: with all three edge functions negative a pixel is inside "
-     "too."),
+     "Triangles of the other winding are missing: with all three edge functions negative a pixel "
+     "is inside too."),
     ("other_winding_alone", "if area == 0", "if area >= 0",
-     "Triangles are missing if their corners go clockwise on the screen: with all three edge functions "
-     "positive a pixel is inside too."),
+     "Triangles are missing if their corners go clockwise on the screen: with all three edge "
+     "functions positive a pixel is inside too."),
     ("bottom_right", "dx > 0, dy < 0", "dx < 0, dy > 0",
-     "These are bottom and right edges. y runs down, so a top edge has the triangle at larger y, a left "
-     "edge at larger x."),
+     "These are bottom and right edges. y runs down, so a top edge has the triangle at larger y, a "
+     "left edge at larger x."),
     ("top_right", "dx > 0, dy < 0", "dx > 0, dy > 0",
      "Right edges own their pixels here instead of left ones: look at the sign of dy."),
     ("bottom_left", "dx > 0, dy < 0", "dx < 0, dy < 0",
-     "Bottom edges own their pixels here instead of top ones. y runs down: a top edge has the triangle "
-     "below it, at larger y."),
+     "Bottom edges own their pixels here instead of top ones. y runs down: a top edge has the "
+     "triangle below it, at larger y."),
     ("left_alone", "dy == 0 and dx > 0, dy < 0", "False, dy < 0",
      "Horizontal edges own no pixel here: a top edge owns its pixels as a left edge does."),
     ("top_alone", "dx > 0, dy < 0", "dx > 0, False",
@@ -84,10 +85,11 @@ MISTAKES = [
     ("all_horizontal", "dy == 0 and dx > 0", "dy == 0",
      "Every horizontal edge owns its pixels here, the bottom one too: only the top one does."),
     ("textbook", "edge < 0 or edge == 0 and not (top or left)", "turn * edge < 0",
-     "This draws triangles of one winding alone, and pixels on a shared edge twice. Look at the sign of "
-     "the area first, and on an edge whether it is a top or a left one."),
+     "This draws triangles of one winding alone, and pixels on a shared edge twice. Look at the "
+     "sign of the area first, and on an edge whether it is a top or a left one."),
     ("corner_of_pixel", "256 * i + 128, 256 * j + 128", "256 * i, 256 * j",
-     "The pixel is tested at its corner. Its centre is half a pixel on, at (256 i + 128, 256 j + 128)."),
+     "The pixel is tested at its corner. Its centre is half a pixel on, at (256 i + 128, 256 j + "
+     "128)."),
     ("other_corner", "256 * i + 128, 256 * j + 128", "256 * i + 256, 256 * j + 256",
      "The pixel is tested at its far corner: its centre is at (256 i + 128, 256 j + 128)."),
     ("exchanged", "256 * i + 128, 256 * j + 128", "256 * j + 128, 256 * i + 128",

@@ -40,7 +40,8 @@ def on_a_plane(draw):
 
 CASES = [
     Case(6, "triangles that tilt away", tilted,
-         "Divide z by w at each corner, mix the three quotients by abc, then bring -1 .. 1 to 0 .. 1."),
+         "Divide z by w at each corner, mix the three quotients by abc, then bring -1 .. 1 to 0 .. "
+         "1."),
     Case(2, "triangles that face the eye", facing,
          "Where all w are the same, z / w is mixed by abc; then bring -1 .. 1 to 0 .. 1."),
     Case(2, "triangles on the near or the far plane", on_a_plane,
@@ -51,18 +52,19 @@ OVER_W = "(abc[0] / w[0] + abc[1] / w[1] + abc[2] / w[2])"
 HALF = "0.5 * mixed + 0.5"
 MISTAKES = [
     ("perspective", MIXED, f"({MIXED}) / {OVER_W}",
-     "z/w is linear on the screen already. Dividing by the interpolated 1/w is for texture coordinates and "
-     "colours."),
+     "z/w is linear on the screen already. Dividing by the interpolated 1/w is for texture "
+     "coordinates and colours."),
     ("not_divided", MIXED, "dot(abc, z)",
      "z is interpolated without its division: divide z by w at each corner first."),
     ("minus_to_plus", HALF, "mixed",
      "This runs from -1 to 1, as z/w does. The window has 0 near and 1 far: (z/w + 1) / 2."),
     ("divided_after", MIXED, "dot(abc, z) / dot(abc, w)",
-     "z and w are interpolated and then divided. Neither is linear on the screen; z/w is: divide at the "
-     "corners."),
+     "z and w are interpolated and then divided. Neither is linear on the screen; z/w is: divide "
+     "at the corners."),
     ("reversed", HALF, "0.5 - 0.5 * mixed",
      "This is 1 near and 0 far: the window has it the other way."),
-    ("undivided_unmapped", "mixed = " + MIXED + "\n    return 0.5 * mixed + 0.5", "return dot(abc, z)",
+    ("undivided_unmapped", "mixed = " + MIXED + "\n    return 0.5 * mixed + 0.5", "return dot(abc, "
+                                                                                  "z)",
      "This mixes z of clip space: divide by w at each corner, and bring -1 .. 1 to 0 .. 1."),
     ("centre", MIXED, "(z[0] / w[0] + z[1] / w[1] + z[2] / w[2]) / 3",
      "This is the same all over the triangle: the weights of the corners are abc."),

@@ -49,8 +49,8 @@ CASES = [
 WEIGHT, RETURN = "[a / k for a, k in zip(abc, w)]", "[u / whole, v / whole]"
 MISTAKES = [
     ("affine", WEIGHT, "abc",
-     "This is linear on the screen, so textures swim where a triangle tilts: interpolate u/w, v/w and 1/w, "
-     "then divide."),
+     "This is linear on the screen, so textures swim where a triangle tilts: interpolate u/w, v/w "
+     "and 1/w, then divide."),
     ("not_divided", RETURN, "[u, v]",
      "u/w and v/w are interpolated, but not divided by the interpolated 1/w."),
     ("times_w", WEIGHT, "[a * k for a, k in zip(abc, w)]",
@@ -67,9 +67,11 @@ MISTAKES = [
     ("exchanged", RETURN, "[v / whole, u / whole]",
      "u and v are exchanged: return u first."),
     ("wrapped", RETURN, "[u / whole % 1, v / whole % 1]",
-     "The coordinates are wrapped to 0 .. 1. That is the work of the texture: return them as they are."),
+     "The coordinates are wrapped to 0 .. 1. That is the work of the texture: return them as they "
+     "are."),
     ("clamped", RETURN, "[max(0, min(1, u / whole)), max(0, min(1, v / whole))]",
-     "The coordinates are cut to 0 .. 1. That is the work of the texture: return them as they are."),
+     "The coordinates are cut to 0 .. 1. That is the work of the texture: return them as they "
+     "are."),
     ("centre", WEIGHT, "[1 / k for k in w]",
      "This is the same all over the triangle: the weights of the corners are abc."),
     ("w_squared", WEIGHT, "[a / (k * k) for a, k in zip(abc, w)]",

@@ -70,8 +70,8 @@ class Task:
         return self.module.compared(inputs, numbers)
 
     def near(self, got, want, part=slice(None), times=1):
-        """Tells whether parts of two answers are the same within some times the tolerance.  No answer,
-        a NaN and an infinity are the same mistake."""
+        """Tells whether parts of two answers are the same within some times the tolerance.  No
+        answer, a NaN and an infinity are the same mistake."""
         if got is None or want is None:
             other = want if got is None else got
             return other is None or not all(map(math.isfinite, other[part]))
@@ -107,7 +107,7 @@ class Result:
     case: Case
     score: float = 0
     says: str = ""
-    asked: list = field(default_factory=list)  # inputs, what is compared of the answer and the right one
+    asked: list = field(default_factory=list)  # inputs, answer, right answer, the part that counts
 
 
 class Judge:

@@ -25,11 +25,13 @@ AT_ONCE = 50  # inputs in the pipe at a time: both pipes hold them, so neither s
 HEADERS = "assert float inttypes limits math stdbool stddef stdint stdio stdlib string".split()
 # What a C file may call, beside its own functions, and the inline functions that are the task
 CALLS = re.compile(r"""_*(?:(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:10|2|1p)?|pow|sqrt|cbrt
-    |hypot|fabs|f?abs|fmod|remainder|floor|ceil|l?l?r(?:ound|int)|l?l?round|trunc|nearbyint|fm(?:in|ax|a)
+    |hypot|f?abs|fmod|remainder|floor|ceil|l?l?r(?:ound|int)|trunc|nearbyint|fm(?:in|ax|a)
     |fdim|copysign|nan|ldexp|frexp|modf|scalbl?n|isnan|isinf|finite|fpclassify|signbit)[fl]?
-    |mem(?:cpy|set|move|cmp)|f?printf|f?puts|f?putc|putchar|fflush|std(?:out|err)p?|malloc|calloc|realloc|free|abort|exit|assert_fail
-    |assert_rtn|stack_chk_\w+|GLOBAL_OFFSET_TABLE_|shade_mat[34]_(?!inverse_transpose)\w+)(?:_chk)?$""",
+    |mem(?:cpy|set|move|cmp)|f?printf|f?puts|f?putc|putchar|fflush|std(?:out|err)p?
+    |malloc|calloc|realloc|free|abort|exit|assert_fail|assert_rtn|stack_chk_\w+
+    |GLOBAL_OFFSET_TABLE_|shade_mat[34]_(?!inverse_transpose)\w+)(?:_chk)?$""",
                    re.VERBOSE)
+OURS = "main read write dup dup2 setrlimit setvbuf".split()  # what student.c has or calls
 POISON = "shade_reflect shade_mirror shade_halfway shade_mat3_inverse_transpose"
 ENDS = {
     signal.SIGSEGV: "crashed: an index beyond an array, a pointer to nothing, a recursion without "
@@ -53,29 +55,31 @@ def c_tokens(source):
     """Returns a C file without comments and strings, and with its split lines joined."""
     source = re.sub(r"\\\s*\n", "", source)
     parts = r"/\*(?:.*?\*/|.*)|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'"
-    return re.sub(parts, lambda m: m.group() if m.group() == '"shade.h"' else " ", source, flags=re.S)
+    kept = '"shade.h"'
+    return re.sub(parts, lambda m: kept if m.group() == kept else " ", source, flags=re.S)
 
 
 def check_c(source):
     """Refuses a C file that could reach past the function that it is to write."""
     text = c_tokens(source)
     for directive in re.findall(r"^\s*(?:#|%:|\?\?=)\s*(.*)", text, re.M):
-        if not re.match(r"(define|undef|if|ifdef|ifndef|elif|else|endif|error)\b|include\b|$", directive):
+        if not re.match(r"(define|undef|ifn?(def)?|elif|else|endif|error|include)\b|$", directive):
             raise Refused(f"Your file has a line #{directive.strip()}, which no answer needs.")
         allowed = r'include\s*("shade\.h"|<shade\.h>|<(%s)\.h>)\s*$' % "|".join(HEADERS)
         if directive.startswith("include") and not re.match(allowed, directive):
             raise Refused(f"Your file has a line #{directive.strip()}. Include shade.h and headers "
                           f"like math.h alone.")
-    words = r"##|%:%:|\[\[|\b(?:asm|__asm\w*|__attribute\w*|_Pragma|__pragma|(?:shade|SHADE)_{2}\w+)\b"
-    for word in re.findall(words, text):
+    words = r"asm|__asm\w*|__attribute\w*|_Pragma|__pragma|(?:shade|SHADE)_{2}\w+"
+    for word in re.findall(rf"##|%:%:|\[\[|\b(?:{words})\b", text):
         raise Refused(f"Your file uses {word}, which no answer needs.")
 
 
 def run_tool(*command):
     """Runs a compiler or the like within bounds; returns its exit status and what it says."""
     try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, timeout=120,
-                              stderr=subprocess.STDOUT, check=False, env={**os.environ, "LC_ALL": "C"})
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, check=False, timeout=120,
+                              env={**os.environ, "LC_ALL": "C"})
     except FileNotFoundError as error:
         raise Refused(f"There is no {command[0]}: a C compiler and nm are needed.") from error
     except subprocess.TimeoutExpired as error:
@@ -89,26 +93,31 @@ def build_c(task, path, folder):
     if len(source) > 1 << 16:
         raise Refused("Your file is longer than 64 kB.")
     check_c(source)
-    cc, made, library = shlex.split(os.environ.get("CC", "cc")), folder / "answer.o", []
+    cc = [*shlex.split(os.environ.get("CC", "cc")), "-std=gnu99", "-O0", "-w"]
+    made, library = folder / "answer.o", []
     (folder / "answer.c").write_text(source, encoding="utf-8")
     (folder / "shade.h").write_text("/* Stands before the file already. */\n", encoding="utf-8")
     (folder / "poison.h").write_text(f"#pragma GCC poison {POISON}\n", encoding="utf-8")
-    status, said = run_tool(*cc, "-std=gnu99", "-O0", "-w", "-include", str(ROOT / "shade.h"), "-include",
-                            str(folder / "poison.h"), "-c", str(folder / "answer.c"), "-o", str(made))
+    before = ["-include", str(ROOT / "shade.h"), "-include", str(folder / "poison.h")]
+    status, said = run_tool(*cc, *before, "-c", str(folder / "answer.c"), "-o", str(made))
     said = said.replace(f"{folder}/", "")
     if poisoned := re.search(r"poisoned \W?(\w+)", said):
         raise Refused(f"Your file uses {poisoned.group(1)}: what it does is yours to write.")
     if status:
         raise Refused(f"Your file does not compile:\n{said[:2000]}")
-    symbols = [line.split()[-1] for line in run_tool("nm", "-u", str(made))[1].splitlines() if line.split()]
-    for name in symbols:
+    symbols = re.findall(r"(\w) (\S+)$", run_tool("nm", str(made))[1], re.M)
+    called = [name for kind, name in symbols if kind == "U"]
+    for kind, name in symbols:
+        if kind != "U" and name.lstrip("_") in OURS:
+            raise Refused(f"Your file has a function {name.lstrip('_')}, which the grader has too.")
+    for name in called:
         if not CALLS.match(name):
             name = name.lstrip("_")
-            why = "what it does is yours to write" if name.startswith("shade_") else "no answer needs it"
+            why = "what it does is yours to write" if "shade_" in name else "no answer needs it"
             raise Refused(f"Your file calls {name}: {why}.")
-    if any(name.lstrip("_").startswith("shade_") for name in symbols):
+    if any("shade_" in name for name in called):
         library = ["-DSHADE_IMPLEMENTATION", "-DSHADE_NO_DISPATCH"]
-    status, said = run_tool(*cc, "-std=gnu99", "-O0", "-w", f"-DTASK={int(task[:2])}", *library, f"-I{ROOT}",
+    status, said = run_tool(*cc, f"-DTASK={int(task[:2])}", *library, f"-I{ROOT}",
                             str(HERE / "student.c"), str(made), "-lm", "-o", str(folder / "answer"))
     if status:
         missing = re.search(r"(?:undefined reference to|\"_)\W?(\w+)", said)
@@ -120,7 +129,8 @@ def build_c(task, path, folder):
 
 def one_file(path):
     """Returns the path of the C or Python file that is handed in, alone or in a folder."""
-    found = [p for p in sorted(path.iterdir()) if p.suffix in (".c", ".py")] if path.is_dir() else [path]
+    found = sorted(path.iterdir()) if path.is_dir() else [path]
+    found = [p for p in found if p.suffix in (".c", ".py") or not path.is_dir()]
     if len(found) != 1:
         raise Refused(f"Hand in one file, a .c or a .py: there are {len(found)}.")
     if not found[0].is_file() or found[0].suffix not in (".c", ".py"):
@@ -135,8 +145,8 @@ class Student:
         self.inputs, self.outputs, self.seconds, self.printed = inputs, outputs, seconds, ""
         self.folder, self.bound, path = tempfile.TemporaryDirectory(), None, one_file(Path(path))
         if path.suffix == ".py":
-            self.command = [sys.executable, "-I", "-S", "-B", str(HERE / "student.py"), task, str(path),
-                            str(outputs), str(inputs), str(seconds)]
+            self.command = [sys.executable, "-I", "-S", "-B", str(HERE / "student.py"), task,
+                            str(path), str(outputs), str(inputs), str(seconds)]
         else:
             self.command = build_c(task, path, Path(self.folder.name))
             self.bound = lambda: student.limit(seconds)
@@ -178,7 +188,8 @@ class Student:
             ended = self.end(child, until if len(answers) < len(inputs) else 0)
             printed.seek(0)
             said = printed.read().decode(errors="replace")
-        raised, said = re.findall(r"\0(.*?)\0", said, re.S), re.sub(r"\0.*?\0", "", said, flags=re.S)
+        raised = re.findall(r"\0(.*?)\0", said, re.S)
+        said = re.sub(r"\0.*?\0", "", said, flags=re.S)
         if len(answers) == len(inputs):
             self.printed = self.printed or said.strip()
             return answers, raised[0] if raised else ""
@@ -187,7 +198,7 @@ class Student:
         return answers, self.why(ended)
 
     def end(self, child, until):
-        """Waits until a process ends, at most a second longer than its time, and returns its status."""
+        """Waits until a process ends, a second longer than its time at most; returns its status."""
         try:
             status = child.wait(max(1, until - time.monotonic()))
         except subprocess.TimeoutExpired:
@@ -204,7 +215,8 @@ class Student:
     def why(self, ended):
         """Returns what the end of a process says, in a sentence without its subject."""
         if ended is None:
-            return f"did not come back within {self.seconds} seconds: look for a loop that does not end"
+            return (f"did not come back within {self.seconds} seconds: look for a loop that does "
+                    f"not end")
         if ended >= 0:
             return "ended the program itself, as exit does"
         return ENDS.get(-ended, f"was ended by signal {-ended}")

@@ -43,7 +43,8 @@ def scene(f, v):
              for q in (v[at:at + 20] for at in range(26, 26 + 20 * int(v[25]), 20))]
     material = Fields(emission=v[9:12], ambient=v[12:15], diffuse=v[15:18], specular=v[18:21],
                       shininess=v[21])
-    return f.iteration_four(Fields(ambient=v[22:25], lights=lamps), material, v[0:3], v[3:6], v[6:9])
+    lighting = Fields(ambient=v[22:25], lights=lamps)
+    return f.iteration_four(lighting, material, v[0:3], v[3:6], v[6:9])
 
 
 def pixels(f, v):
@@ -73,11 +74,10 @@ def flat(answer):
     return [float(answer)]
 
 
-ALLOWED = """abs all any bool dict divmod enumerate filter float frozenset int isinstance iter len list
-    map max min next object pow print range repr reversed round set slice sorted str sum tuple zip
-    True False None Exception ArithmeticError AssertionError IndexError KeyError NotImplementedError
-    OverflowError RuntimeError StopIteration TypeError ValueError ZeroDivisionError
-    property staticmethod classmethod super __build_class__""".split()
+ALLOWED = """abs all any bool dict divmod enumerate filter float int isinstance iter len list map max min
+    next object pow print range repr reversed round set slice sorted str sum tuple zip True False None
+    Exception ArithmeticError AssertionError IndexError KeyError NotImplementedError OverflowError
+    RuntimeError StopIteration TypeError ValueError ZeroDivisionError __build_class__""".split()
 HIDDEN = ("_", "gi_", "cr_", "ag_", "f_", "tb_", "co_", "format", "mro")
 
 
@@ -87,18 +87,20 @@ def forbidden(tree):
            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
     own |= {getattr(node, "name", None) or getattr(node, "arg", None) for node in ast.walk(tree)}
     for node in ast.walk(tree):
-        names = []
+        modules, attributes = [], [getattr(node, "attr", ""), *getattr(node, "kwd_attrs", [])]
         if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
+            modules = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
-            names = [node.module]
-        for name in names:
+            modules, attributes = [node.module], [alias.name for alias in node.names]
+        for name in modules:
             if name != "math":
                 return f"Line {node.lineno} imports {name}. Import nothing but math."
-        if isinstance(node, ast.Attribute) and node.attr.startswith(HIDDEN):
-            return f"Line {node.lineno} reads the attribute {node.attr}, which no answer needs."
-        if isinstance(node, ast.Name) and hasattr(builtins, node.id) and node.id not in own:
-            if node.id not in ALLOWED:
+        for name in attributes:
+            if name.startswith(HIDDEN):
+                return f"Line {node.lineno} reads the attribute {name}, which no answer needs."
+        if isinstance(node, ast.Name) and node.id not in ALLOWED and node.id != "__name__":
+            built_in = hasattr(builtins, node.id) and node.id not in own
+            if built_in or node.id.startswith("__"):
                 return f"Line {node.lineno} uses {node.id}, which no answer needs."
     return None
 
