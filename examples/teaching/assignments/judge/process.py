@@ -120,7 +120,7 @@ def build_c(task, path, folder):
     status, said = run_tool(*cc, f"-DTASK={int(task[:2])}", *library, f"-I{ROOT}",
                             str(HERE / "student.c"), str(made), "-lm", "-o", str(folder / "answer"))
     if status:
-        missing = re.search(r"(?:undefined reference to|\"_)\W?(\w+)", said)
+        missing = re.search(r"(?:undefined reference to|\"_)\W*(\w+)", said)
         raise Refused(f"Your file has no function {missing.group(1)}." if missing else
                       f"Your file cannot be linked:\n{said[:2000]}")
     folder.chmod(0o711)

@@ -67,6 +67,16 @@ CALLS = {  # what a task's functions are called with, f by name, from the number
 }
 
 
+class Functions:
+    """What a student's file defines."""
+
+    def __init__(self, names):
+        self.__dict__.update(names)
+
+    def __getattr__(self, name):
+        raise NameError(f"the file has no function {name}")
+
+
 def flat(answer):
     """Returns the numbers of an answer, which may be lists in lists."""
     if isinstance(answer, (list, tuple)):
@@ -74,10 +84,11 @@ def flat(answer):
     return [float(answer)]
 
 
-ALLOWED = """abs all any bool dict divmod enumerate filter float int isinstance iter len list map max min
-    next object pow print range repr reversed round set slice sorted str sum tuple zip True False None
-    Exception ArithmeticError AssertionError IndexError KeyError NotImplementedError OverflowError
-    RuntimeError StopIteration TypeError ValueError ZeroDivisionError __build_class__""".split()
+ALLOWED = """abs all any bool dict divmod enumerate filter float int isinstance iter len list map
+    max min next object pow print range repr reversed round set slice sorted str sum tuple zip
+    True False None Exception ArithmeticError AssertionError IndexError KeyError
+    NotImplementedError OverflowError RuntimeError StopIteration TypeError ValueError
+    ZeroDivisionError __build_class__""".split()
 HIDDEN = ("_", "gi_", "cr_", "ag_", "f_", "tb_", "co_", "format", "mro")
 
 
@@ -124,7 +135,7 @@ def load(source):
         space = {"__builtins__": {**names, "__import__": just_math}, "__name__": "answer"}
         try:
             exec(compile(tree, "answer.py", "exec"), space)  # pylint: disable=exec-used
-            return Fields(**{k: v for k, v in space.items() if isinstance(k, str)})
+            return Functions(space)
         except BaseException as error:  # SystemExit too
             says = f"The file cannot be run: {type(error).__name__}: {error}."
     print(says, file=sys.stderr, flush=True)
