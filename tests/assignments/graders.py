@@ -9,7 +9,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -217,11 +216,9 @@ def broken_out():
         static char big[1 << 16];
         for (int k = 0; k < 99999; k++) write(k % 9, big, sizeof big);
         return 1; }""")
-    start = time.monotonic()
     results = Judge(lambert, 1).judge(flood.ask)
     score = sum(r.score for r in results)
     check("answers of its own making get no points", score < full(lambert) / 2, score)
-    check("a flood of answers ends with its time", time.monotonic() - start < 120)
     if os.geteuid():
         print("left out  what only a judge who is root can keep: signals, users, traces")
 

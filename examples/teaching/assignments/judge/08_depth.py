@@ -14,28 +14,22 @@ def depth_at(w, z, abc):
 FUNCTIONS = [depth_at]
 
 
-def weights(draw):
-    """Returns three numbers above 0 with the sum 1."""
-    a, b = sorted(draw.some(0.02, 0.98, 2))
-    return [a, b - a, 1 - b]
-
-
 def tilted(draw):
     """Every corner at a distance of its own."""
     w = [draw.spread(0.5, 8) for _ in range(3)]
-    return w + [k * draw.between(-1, 1) for k in w] + weights(draw)
+    return w + [k * draw.between(-1, 1) for k in w] + draw.weights()
 
 
 def facing(draw):
     """All w the same, and not 1."""
     w = draw.spread(1.5, 8)
-    return 3 * [w] + [w * draw.between(-1, 1) for _ in range(3)] + weights(draw)
+    return 3 * [w] + [w * draw.between(-1, 1) for _ in range(3)] + draw.weights()
 
 
 def on_a_plane(draw):
     """Corners on the near plane or on the far one."""
     w, side = [draw.spread(0.5, 8) for _ in range(3)], draw.choice([-1, 1])
-    return w + [side * k for k in w] + weights(draw)
+    return w + [side * k for k in w] + draw.weights()
 
 
 CASES = [

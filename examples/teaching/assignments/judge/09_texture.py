@@ -17,20 +17,14 @@ def texture_at(w, uv, abc):
 FUNCTIONS = [texture_at]
 
 
-def weights(draw):
-    """Returns three numbers above 0 with the sum 1."""
-    a, b = sorted(draw.some(0.02, 0.98, 2))
-    return [a, b - a, 1 - b]
-
-
 def tilted(draw):
     """Every corner at a distance of its own; u and v go beyond 0 .. 1."""
-    return [draw.spread(0.5, 8) for _ in range(3)] + draw.some(-1, 2, 6) + weights(draw)
+    return [draw.spread(0.5, 8) for _ in range(3)] + draw.some(-1, 2, 6) + draw.weights()
 
 
 def facing(draw):
     """All w the same, and not 1."""
-    return 3 * [draw.spread(1.5, 8)] + draw.some(-1, 2, 6) + weights(draw)
+    return 3 * [draw.spread(1.5, 8)] + draw.some(-1, 2, 6) + draw.weights()
 
 
 def at_a_corner(draw):

@@ -83,6 +83,11 @@ class Draw(random.Random):
         side = unit(cross(axis, self.direction()))
         return add(scale(cosine, axis), scale(math.sqrt(max(0, 1 - cosine * cosine)), side))
 
+    def weights(self):
+        """Returns three numbers above 0 with the sum 1."""
+        a, b = sorted(self.some(0.02, 0.98, 2))
+        return [a, b - a, 1 - b]
+
     def lobe(self, exponent, low=0.1):
         """Returns a cosine that has a power between low and 1."""
         return self.between(low, 1) ** (1 / max(exponent, 1))
