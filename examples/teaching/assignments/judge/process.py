@@ -53,15 +53,18 @@ class Refused(Exception):
 
 
 def c_tokens(source):
-    """Returns a C file without comments and strings, and with its split lines joined."""
-    source = re.sub(r"\\\s*\n", "", source)
-    parts = r"/\*(?:.*?\*/|.*)|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'"
+    """Returns C without comments and strings.  A quote without its second one ends with the line, as
+    compilers have it."""
+    parts = r"/\*(?:.*?\*/|.*)|//[^\n]*|\"(?:\\.|[^\"\\\n])*(?:\"|$)|'(?:\\.|[^'\\\n])*(?:'|$)"
     kept = '"shade.h"'
-    return re.sub(parts, lambda m: kept if m.group() == kept else " ", source, flags=re.S)
+    return re.sub(parts, lambda m: kept if m.group() == kept else " ", source, flags=re.S | re.M)
 
 
 def check_c(source):
     """Refuses a C file that could reach past the function that it is to write."""
+    source = re.sub(r"\\\s*\n", "", source)  # joins split lines
+    if re.search(r'\b(?:u8|[uUL])?R"', source):
+        raise Refused('Your file uses R", a string of C++, which no answer needs.')
     text = c_tokens(source)
     for directive in re.findall(r"^\s*(?:#|%:|\?\?=)\s*(.*)", text, re.M):
         if not re.match(r"(define|undef|ifn?(def)?|elif|else|endif|error|include)\b|$", directive):

@@ -29,7 +29,8 @@ def limit(seconds):
                        (resource.RLIMIT_FSIZE, PRINTED), (resource.RLIMIT_CORE, 0),
                        (resource.RLIMIT_NPROC, 0)):
         try:
-            resource.setrlimit(what, (most, most))
+            # A hard bound of time would kill without a word.
+            resource.setrlimit(what, (most, most + (what == resource.RLIMIT_CPU)))
         except (ValueError, OSError):
             pass  # macOS has no bound of memory
     signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
