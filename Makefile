@@ -1,27 +1,24 @@
-# make            builds the examples and draws the gallery into out/
-# make test       all tests (a C compiler and make are enough); make test T=clip runs one section
-# make bench      shade.h beside its rivals, as Markdown; make bench-plot draws charts of it;
-#                 make bench BASE=revision: against the shade.h of another revision
-# make matrix     the same pictures from other compilers, flags and processors; and every compiler
-#                 that is there without a warning
+# make               builds the examples and draws the gallery into out/
+# make test          all tests, with a C compiler and make alone; T=clip runs one section
+# make lint          the house rules that a script can hold
+# make format        lays C files out by .clang-format (clang-format 14); FORMAT=files
+# make bench         shade.h beside its rivals, as Markdown; BASE=revision: beside that shade.h
+# make bench-plot    charts of the bench
+# make matrix        the same pictures from other compilers, flags, processors, without a warning
 # make conformance   scenes drawn with Mesa's OSMesa as well, pixel by pixel
-# make coverage   lines and branches of shade.h that tests and examples reach (gcc, gcov, python3)
-# make mutation   small changes of shade.h, one at a time, that the tests must notice
-# make static     clang-tidy and cppcheck
-# make prove      no overflow, no access outside an array, over whole ranges of values (Frama-C)
-# make fuzz       fuzzes drawing, textures, light, mesh helpers and readers for FUZZ_SECONDS
-# make gallery    the PNGs of the README (needs netpbm and pngquant)
-# make playground   the equation as a web page, build/playground/index.html (needs clang and lld),
-#                 and beside it four courses, courses.html
-# make course     pages and slides of the courses alone, and their slides with answers as PDF (needs
-#                 pandoc, reveal.js of npm, chromium, node)
-# make course-zip   all of it in build/playground/courses.zip; PLAYGROUND=an index.html, built
+# make coverage      lines and branches of shade.h that tests and examples reach
+# make mutation      small changes of shade.h, one at a time, that the tests must notice
+# make static        clang-tidy and cppcheck
+# make prove         no overflow, no access outside an array, over whole ranges of values
+# make fuzz          fuzzes drawing, textures, light, helpers and readers for FUZZ_SECONDS
+# make gallery       the PNGs of the README
+# make playground    the equation and four courses as web pages, build/playground/index.html
+# make course        pages and slides of the courses alone, and their slides with answers as PDF
+# make course-zip    the courses in build/playground/courses.zip; PLAYGROUND=an index.html, built
 # make assignments   tries the grader of the assignments: solutions, wrong answers, cheats
-# make dist       the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
-# make install    header, shade.pc, shade-thumbnail, -view, -batch, -sheets and -compare with man
-#                 pages, and what file managers need for thumbnails, below PREFIX (/usr/local) in
-#                 DESTDIR; make uninstall removes them
-# make vector-report   loops over lanes that the compiler left scalar: none
+# make dist          the release into dist/: tarball, wheels, npm package, pages, SBOM, checksums
+# make install       header and programs below PREFIX in DESTDIR; make uninstall removes them
+# make vector-report loops over lanes that the compiler left scalar: none
 
 CC      ?= cc
 CFLAGS  ?= -O2
@@ -91,15 +88,18 @@ out/gallery.ppm: build/contact $(POSTER:%=out/%.ppm)
 	build/contact $@ $(POSTER:%=out/%.ppm)
 
 # -O1 compiles the tests' own code in a third of the time
-build/test_main: $(wildcard tests/unit/*.c tests/unit/*.h) build/shade.o
-	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED tests/unit/main.c build/shade.o -lm -o $@
-# with the implementation inside, which counts what it does
-build/test_count: $(wildcard tests/unit/*.c tests/unit/*.h) shade.h
+UNITS = $(patsubst tests/%.c,build/%.o,$(wildcard tests/unit/*.c))
+build/unit/%.o: tests/unit/%.c $(wildcard tests/*/*.h) shade.h
+	@mkdir -p build/unit
+	$(CC) $(FLAGS:-O2=-O1) -DSHADE__IMPLEMENTED -c $< -o $@
+build/test_main: $(UNITS) build/shade.o
+	$(CC) $^ $(LDFLAGS) -lm -o $@
+# with an implementation in main.c, which counts what it does
+build/test_count: $(filter-out build/unit/main.o,$(UNITS)) tests/unit/main.c
+	$(CC) $(FLAGS:-O2=-O0) -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED $^ -lm -o $@
+build/golden: tests/golden/golden.c shade.h
 	@mkdir -p build
-	$(CC) $(FLAGS:-O2=-O0) -DSHADE_NO_DISPATCH -DSHADE__AS_COMPILED tests/unit/main.c -lm -o $@
-build/golden: tests/unit/golden.c shade.h
-	@mkdir -p build
-	$(CC) $(FLAGS) tests/unit/golden.c -o $@
+	$(CC) $(FLAGS) tests/golden/golden.c -o $@
 
 ifdef T
 test: build/test_main
@@ -135,6 +135,13 @@ static:
 	@sh tests/scripts/static.sh
 vector-report:
 	@sh tests/scripts/vector_report.sh
+lint:
+	@sh tests/scripts/lint.sh
+FORMAT ?= $(wildcard $(addprefix examples/,kit/*.c kit/*/*.h programs/*/*.[ch]))
+format:
+	clang-format -i --style=file $(FORMAT)
+format-check:
+	@clang-format -n -Werror --style=file $(FORMAT)
 dist:
 	@sh .ci/dist.sh
 prove:
@@ -143,14 +150,10 @@ FUZZ_SECONDS ?= 300
 fuzz:
 	@sh tests/scripts/fuzz.sh $(FUZZ_SECONDS)
 
-# Installed programs begin with shade-, for "view" is anybody's.  The types are those that thumbnail
-# reads; those that shared-mime-info does not know have the names that f3d gives them, in
-# examples/programs/install/mime.xml.  Whether it has assimp and stb shows in the program.
+# Installed programs begin with shade-, for "view" is anybody's.
+BESIDE   = examples/programs/install
 PREFIX  ?= /usr/local
 INSTALL ?= install
-MIME        = model/obj model/stl application/vnd.ply
-MIME_ASSIMP = model/gltf+json model/gltf-binary model/3mf image/x-3ds application/vnd.fbx \
-              model/vnd.collada+xml
 SAYS_thumbnail = draws a picture of a model file
 SAYS_view      = shows a model turning, in a terminal or a window
 SAYS_batch     = renders films and posters of a model, in pieces that machines can share
@@ -161,19 +164,11 @@ FILES     = include/shade.h share/pkgconfig/shade.pc share/thumbnailers/shade.th
             share/mime/packages/shade.xml
 INSTALLED = $(FILES) $(foreach p,thumbnail view batch sheets compare,bin/shade-$p \
             share/man/man1/shade-$p.1)
-build/%.1: build/% examples/programs/install/man.sh
-	THUMBNAIL=build/thumbnail sh examples/programs/install/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
+build/%.1: build/% $(BESIDE)/man.sh
+	THUMBNAIL=build/thumbnail sh $(BESIDE)/man.sh build/$* shade-$* '$(SAYS_$*)' >$@
 install: programs
-	@v=$$(sed -n 's/^#define SHADE_VERSION \([0-9]*\).*/\1/p' shade.h); \
-	printf '%s\n' 'prefix=$(PREFIX)' 'includedir=$${prefix}/include' '' 'Name: shade' \
-	    'Description: Phong and Blinn-Phong light and an exact z-buffer rasterizer, one header' \
-	    "Version: $$((v / 10000)).$$((v / 100 % 100)).$$((v % 100))" \
-	    'Cflags: -I$${includedir}' 'Libs: -lm' >build/shade.pc
-	@png=$$(grep -q IHDR build/thumbnail && echo ' --png'); \
-	types="$(MIME) $$(grep -q aiImportFile build/thumbnail && echo '$(MIME_ASSIMP)')"; \
-	printf '%s\n' '[Thumbnailer Entry]' 'TryExec=$(PREFIX)/bin/shade-thumbnail' \
-	    "Exec=$(PREFIX)/bin/shade-thumbnail$$png --max-seconds 30 --size %sx%s %i %o" \
-	    "MimeType=$$(printf '%s;' $$types)" >build/shade.thumbnailer
+	sh $(BESIDE)/pkgconfig.sh "$(PREFIX)" >build/shade.pc
+	sh $(BESIDE)/thumbnailer.sh "$(PREFIX)" >build/shade.thumbnailer
 	for f in $(INSTALLED); do $(INSTALL) -d "$(PLACE)/$${f%/*}" || exit 1; done
 	for p in $(notdir $(PROGRAMS)); do \
 	    $(MAKE) -s build/$$p.1 && \
@@ -182,13 +177,13 @@ install: programs
 	$(INSTALL) -m 644 shade.h "$(PLACE)/include"
 	$(INSTALL) -m 644 build/shade.pc "$(PLACE)/share/pkgconfig"
 	$(INSTALL) -m 644 build/shade.thumbnailer "$(PLACE)/share/thumbnailers"
-	$(INSTALL) -m 644 examples/programs/install/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
+	$(INSTALL) -m 644 $(BESIDE)/mime.xml "$(PLACE)/share/mime/packages/shade.xml"
 uninstall:
 	for f in $(INSTALLED); do rm -f "$(PLACE)/$$f" || exit 1; done
 
 clean:
 	rm -rf build out dist
 .PHONY: all pictures programs test assignments course course-zip bench bench-plot matrix \
-        conformance coverage mutation static prove fuzz gallery playground vector-report dist \
-        install uninstall clean
+        conformance coverage mutation static lint format format-check prove fuzz gallery \
+        playground vector-report dist install uninstall clean
 .SECONDARY:

@@ -76,7 +76,7 @@
        >>image     8399  mipmaps, PPM           >>presets   8667  classic materials
      Sources
        >>refs      8743                        >>history   8773
-       >>license   8785
+       >>license   8778
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8771,15 +8771,8 @@ SHADE__END
 */
 
 /*---------------------------------------------------------------------------------------- >>history
-   1.2    2026-11-23   shade_mesh_bounds and shade_mat4_fit, the first look at a mesh of one's own;
-                       SHADE_VARYING_...; rays for every camera that draws; shade_explain says what
-                       the draw proves; a triangle takes time by its rows and the tiles it crosses.
-   1.1    2026-11-22   An error for each kind of argument; shade_explain; shade_rows, which takes
-                       the place of the last arguments of shade_lit_lanes; fragment shaders of draw
-                       states; chunks; SHADE_FORMAT_A8; shade_radians.  From here on the pixels
-                       are part of the interface: each 1.x draws those of 1.1, to the bit.
-   1.0    2026-11-21   First numbered version: the equations of >>model for points and packets,
-                       meshes, programmable shaders, textures, lines, normals, edges, rays.
+   1.2 of 2026-11-23, 1.1 of 2026-11-22, 1.0 of 2026-11-21; CHANGELOG.md tells what each brought.
+   From 1.1 on pixels are part of the interface: each 1.x draws those of 1.1, to the bit.
 */
 
 /*---------------------------------------------------------------------------------------- >>license

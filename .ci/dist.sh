@@ -137,10 +137,8 @@ if wants windows && [ -x "$zig" ] && command -v zip >/dev/null; then
 elif wants windows; then left_out "programs for Windows: no zig or no zip"; fi
 
 # ---- what the release says of itself
-awk -v v="${V%.*}" '/>>history$/ { inside = 1; next } !inside { next }
-    /^\*\// { exit } /^   [0-9]/ { mine = $1 == v; if (mine) sub(/^   [^ ]+ +[^ ]+ +/, "") }
-    mine { sub(/^ +/, ""); print }' shade.h >"$out/NOTES.txt"
-[ -s "$out/NOTES.txt" ] || { echo "dist: >>history has no version ${V%.*}" >&2; exit 1; }
+awk -v v="${V%.*}," '/^## / { mine = $2 == v; next } mine && NF' CHANGELOG.md >"$out/NOTES.txt"
+[ -s "$out/NOTES.txt" ] || { echo "dist: CHANGELOG.md has no version ${V%.*}" >&2; exit 1; }
 python3 .ci/sbom.py "$out" "$V" "$SOURCE_DATE_EPOCH" >"$WORK/sbom"
 cp "$WORK/sbom" "$out/$NAME.spdx.json"
 cd "$out"

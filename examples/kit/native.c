@@ -8,7 +8,7 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#define MODEL_CENTRED 0    /* Python centres in double, and tells the origin */
+#define MODEL_CENTRED 0 /* Python centres in double, and tells the origin */
 #include "examples/kit/read/files.h"
 #include "examples/shared/bands.h"
 #include "examples/kit/scene/look.h"
@@ -17,32 +17,32 @@
 #include "examples/kit/scene/renderer.h"
 #include "examples/shared/label.h"
 
-typedef struct python_item {      /* a mesh in its place */
+typedef struct python_item { /* a mesh in its place */
     shade_mesh mesh;
-    shade_draw_state state;       /* camera and lights are those of the view */
-    const shade_vec3 *lines;      /* pairs of points in object space */
-    int line_points, two_sided, lines_over;    /* lines_over: nothing hides the lines */
-    float line_width;             /* in pixels of the finished picture */
+    shade_draw_state state;                 /* camera and lights are those of the view */
+    const shade_vec3 *lines;                /* pairs of points in object space */
+    int line_points, two_sided, lines_over; /* lines_over: nothing hides the lines */
+    float line_width;                       /* in pixels of the finished picture */
     shade_vec4 line_color;
-    int32_t id;                   /* of its part, which is also the number of its pose */
-    int blended;                  /* drawn over what is there; notes and depth leave it out */
-    float opacity, alpha_cutoff;  /* less alpha is discarded; 0: none */
+    int32_t id;                  /* of its part, which is also the number of its pose */
+    int blended;                 /* drawn over what is there; notes and depth leave it out */
+    float opacity, alpha_cutoff; /* less alpha is discarded; 0: none */
 } python_item;
 
-typedef struct python_view {      /* a camera and where its picture goes */
-    int width, height, samples, channels;    /* channels of rgba: 4 or 3 */
+typedef struct python_view {              /* a camera and where its picture goes */
+    int width, height, samples, channels; /* channels of rgba: 4 or 3 */
     shade_mat4 view, projection;
-    shade_vec4 background;                   /* linear; alpha 0: transparent */
+    shade_vec4 background; /* linear; alpha 0: transparent */
     shade_lighting lighting;
-    const shade_mat4 *poses;                 /* one for each item, or NULL: those of the states */
+    const shade_mat4 *poses; /* one for each item, or NULL: those of the states */
     uint8_t *rgba;
-    float *depth, *normals;                  /* each may be NULL; along the axis of view */
+    float *depth, *normals; /* each may be NULL; along the axis of view */
     int32_t *ids;
-    int in_studio;                           /* else lit by lighting */
-    shade_mat4 to_studio;                    /* the scene about the origin, within distance 1 */
+    int in_studio;        /* else lit by lighting */
+    shade_mat4 to_studio; /* the scene about the origin, within distance 1 */
 } python_view;
 
-typedef struct light_studio {     /* the thumbnail's light, and all items as one model in it */
+typedef struct light_studio { /* the thumbnail's light, and all items as one model in it */
     studio light;
     ground ground;
     model scene;
@@ -50,27 +50,27 @@ typedef struct light_studio {     /* the thumbnail's light, and all items as one
 } light_studio;
 
 typedef struct python_job {
-    const light_studio *studio;   /* NULL: none */
+    const light_studio *studio; /* NULL: none */
     const python_item *items;
     const python_view *views;
-    shade_result *results;        /* of each piece */
+    shade_result *results; /* of each piece */
     int item_count, bands;
-    const volatile int *stop;     /* non-zero: the caller does not want the pictures any more */
+    const volatile int *stop; /* non-zero: the caller does not want the pictures any more */
 } python_job;
 
 /* ---- what a pixel shows ---------------------------------------------------------------------- */
 
-typedef struct painter {          /* of one mesh in one band */
+typedef struct painter { /* of one mesh in one band */
     const python_view *view;
     const python_item *item;
     shade_lighting lighting;
     shade_vec3 eye;
-    shade_mat4 clip, world;       /* from object space */
+    shade_mat4 clip, world; /* from object space */
     shade_mat3 normal;
-    int step;                     /* samples along the edge of a pixel; 0: nothing is noted */
-    const look *look;             /* of the surface in the studio; NULL: lit by lighting */
+    int step;         /* samples along the edge of a pixel; 0: nothing is noted */
+    const look *look; /* of the surface in the studio; NULL: lit by lighting */
     const shade_mat4 *to_studio;
-    int uv;                       /* the varying that u is; 0: there is no map */
+    int uv; /* the varying that u is; 0: there is no map */
 } painter;
 
 static void fetch(const float *from, int width, const shade_vertex_ids *in, float *rows)
@@ -91,7 +91,8 @@ static void place(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT i
     float P[3][SHADE_LANES], N[3][SHADE_LANES];
     fetch(mesh->positions, 3, in, P[0]);
     fetch(mesh->normals, 3, in, N[0]);
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const shade_vec4 at = shade_v4(P[0][i], P[1][i], P[2][i], 1);
         const shade_vec4 clip = shade_mat4_transform(p->clip, at);
         const shade_vec4 world = shade_mat4_transform(p->world, at);
@@ -103,7 +104,8 @@ static void place(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT i
         out->varying[1][i] = world.y;
         out->varying[2][i] = world.z;
     }
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const shade_vec3 n = shade_mat3_transform(p->normal, shade_v3(N[0][i], N[1][i], N[2][i]));
         const shade_vec3 unit = shade_normalize(n);
         out->varying[3][i] = unit.x;
@@ -155,8 +157,10 @@ static const float *albedo_of(const painter *p, const shade_fragments *in, float
     const float *tint = p->item->mesh.colors ? in->varying[6] : NULL;
     if (!map) return tint;
     shade_sample_lanes(map, in->varying[p->uv], in->varying[p->uv + 1], in->lod, texels);
-    for (int k = 0; k < 3 && tint; k++)
-        SHADE_EACH_LANE(i) { texels[k * SHADE_LANES + i] *= tint[k * SHADE_LANES + i]; }
+    for (int k = 0; k < 3 && tint; k++) SHADE_EACH_LANE(i)
+        {
+            texels[k * SHADE_LANES + i] *= tint[k * SHADE_LANES + i];
+        }
     return texels;
 }
 
@@ -169,7 +173,8 @@ static void cut_out(float cutoff, shade_colors *out)
 static void paint_in_studio(const painter *p, const shade_rows *rows, int count, float *rgb)
 {
     look_rows P, N, white;
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const shade_vec3 at = shade_v3(rows->position[i], rows->position[i + SHADE_LANES],
                                        rows->position[i + 2 * SHADE_LANES]);
         const shade_vec3 n = shade_v3(rows->normal[i], rows->normal[i + SHADE_LANES],
@@ -190,20 +195,25 @@ static void paint(const void *uniforms, const shade_fragments *SHADE_RESTRICT in
     const painter *p = (const painter *)uniforms;
     float texels[4 * SHADE_LANES], normal[3 * SHADE_LANES];
     shade_rows rows = { .position = in->varying[0], .normal = normal };
-    for (int k = 0; k < 3; k++)
-        SHADE_EACH_LANE(i) {
-            normal[k * SHADE_LANES + i] = in->front[i] ? in->varying[3 + k][i]
-                                                       : -in->varying[3 + k][i];
+    for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
+        {
+            normal[k * SHADE_LANES + i] =
+                in->front[i] ? in->varying[3 + k][i] : -in->varying[3 + k][i];
         }
     rows.albedo = albedo_of(p, in, texels);
-    if (p->look) paint_in_studio(p, &rows, in->count, out->color[0]);
-    else shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
+    if (p->look)
+        paint_in_studio(p, &rows, in->count, out->color[0]);
+    else
+        shade_lit_lanes(&p->lighting, p->item->state.material, p->eye, &rows, out->color[0]);
     if (p->item->state.diffuse_map)
         SHADE_MEMCPY(out->color[3], texels + 3 * SHADE_LANES, sizeof out->color[3]);
     if (p->item->alpha_cutoff > 0) cut_out(p->item->alpha_cutoff, out);
-    if (p->item->blended)
-        SHADE_EACH_LANE(i) { out->color[3][i] *= p->item->opacity; }
-    else if (p->step) note(p, in, out);
+    if (p->item->blended) SHADE_EACH_LANE(i)
+        {
+            out->color[3][i] *= p->item->opacity;
+        }
+    else if (p->step)
+        note(p, in, out);
 }
 
 /* Notes alone, where colours have no sample at the centre of a pixel */
@@ -402,7 +412,7 @@ static shade_result draw_rows(const python_job *job, const python_view *v, shade
     if (result) return result;
     if (v->channels == 3) pack_rgb(v->rgba + 3 * first, (const uint8_t *)out->color, pixels);
     if (!apart) return SHADE_OK;
-    out->color = large->color;    /* which nobody reads any more */
+    out->color = large->color; /* which nobody reads any more */
     out->depth = large->depth;
     p.step = 1;
     result = shade_clear(out, shade_v4(0, 0, 0, 0), 1);
@@ -458,8 +468,9 @@ static int bands_of(const python_view *v, double triangles, int views, int threa
 {
     const double samples = (double)v->width * v->height * v->samples * v->samples;
     const int least = 1 + (int)(samples / 8e6);
-    const int wanted = views >= 2 * threads ? 1
-                     : 8 * triangles > samples ? threads : bands_count(threads, v->height);
+    const int wanted = views >= 2 * threads      ? 1
+                       : 8 * triangles > samples ? threads
+                                                 : bands_count(threads, v->height);
     const int most = least > wanted ? least : wanted;
     return most < v->height ? most : v->height;
 }
@@ -593,7 +604,8 @@ void python_lit(const shade_lighting *lighting, const shade_material *material, 
         size_t n = count - i < SHADE_LANES ? count - i : SHADE_LANES;
         for (int a = 0; a < 3; a++)
             if (arrays[a]) rows_from(rows[a], arrays[a] + 3 * i, n);
-        const shade_rows in = { .position = rows[0], .normal = rows[1],
+        const shade_rows in = { .position = rows[0],
+                                .normal = rows[1],
                                 .albedo = arrays[2] ? rows[2] : NULL };
         shade_lit_lanes(lighting, material, shade_v3(eye[0], eye[1], eye[2]), &in, lit);
         rows_to(rgb + 3 * i, lit, n);
@@ -671,9 +683,8 @@ static float text_glyph(const shade_target *t, int code, float x, float y, float
     const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
     int k = 0, shape = 0;
     while (k < glyphs && font_glyphs[k].code != code) k++;
-    if (k == glyphs) k = '?' - ' ';    /* the table begins with those of ASCII */
-    for (int i = 0; i < k; i++)
-        shape += (font_glyphs[i].width * font_glyphs[i].height + 1) / 2;
+    if (k == glyphs) k = '?' - ' '; /* the table begins with those of ASCII */
+    for (int i = 0; i < k; i++) shape += (font_glyphs[i].width * font_glyphs[i].height + 1) / 2;
     if (t->color) label_glyph(t, &font_glyphs[k], shape, x, y, size / 24, shade_v3(1, 1, 1));
     return size * (float)font_glyphs[k].advance / 240;
 }
@@ -741,10 +752,10 @@ int python_upright(const model *m)
 
 /* A run of triangles of one surface */
 typedef struct python_part {
-    int first, count;    /* of the indices */
+    int first, count; /* of the indices */
     float color[3], transparency;
-    const char *map;     /* the name of its picture, or NULL */
-    int set, opaque;     /* the file says something of it; the alpha of the map is ignored */
+    const char *map; /* the name of its picture, or NULL */
+    int set, opaque; /* the file says something of it; the alpha of the map is ignored */
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */
@@ -805,11 +816,11 @@ int python_renderer_draw(renderer *r, const renderer_scene *scene, const rendere
 SHADEDEF size_t python_size(int which);
 size_t python_size(int which)
 {
-    static const size_t size[] = { sizeof(shade_mesh),     sizeof(shade_draw_state),
-                                   sizeof(python_item),    sizeof(python_view),
-                                   sizeof(shade_lighting), sizeof(shade_texture),
-                                   sizeof(shade_light),    sizeof(shade_chunk),
-                                   sizeof(python_part),    sizeof(renderer_object),
+    static const size_t size[] = { sizeof(shade_mesh),      sizeof(shade_draw_state),
+                                   sizeof(python_item),     sizeof(python_view),
+                                   sizeof(shade_lighting),  sizeof(shade_texture),
+                                   sizeof(shade_light),     sizeof(shade_chunk),
+                                   sizeof(python_part),     sizeof(renderer_object),
                                    sizeof(renderer_picture) };
     return which >= 0 && which < (int)(sizeof size / sizeof *size) ? size[which] : 0;
 }

@@ -46,7 +46,7 @@ else left_out "inline functions in C++: no C++ compiler"; fi
 # ---- old programs
 compiled() {                    # the implementation, once for all programs
     cc -std=c99 -w -O2 -DSHADE_IMPLEMENTATION -I. -x c -c shade.h -o "$T/shade.o" &&
-        cc -std=c99 -w -O2 -I. tests/unit/golden.c -o "$T/golden"
+        cc -std=c99 -w -O2 -I. tests/golden/golden.c -o "$T/golden"
 }
 check "the implementation" compiled
 openmp=

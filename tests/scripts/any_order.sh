@@ -118,7 +118,8 @@ done
 # a minute; what it writes in build/ is size.* and stack*.
 others="all view batch explain compilers playground any_order tools assignments dist github windows"
 # course.sh packs what course-zip packs, and the step fuzz runs the script that make fuzz runs
-elsewhere="assignments clean conformance course-zip dist fuzz matrix programs vector-report"
+elsewhere="assignments clean conformance course-zip dist format format-check fuzz lint matrix programs
+    vector-report"
 { there pnmenlarge && there pngquant; } || elsewhere="$elsewhere gallery"
 forgotten() {                   # scripts and targets that are neither a step nor named here
     for script in tests/scripts/*.sh; do

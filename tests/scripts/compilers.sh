@@ -203,7 +203,7 @@ program "zig cc for Windows" "$wine" C "$zig" cc -target x86_64-windows-gnu
 level=
 takes_best() {                  # runner (or ""), level (or "": the first one's), compiler and flags
     runner=$1 want=${2:-$level}; shift 2
-    "$@" -std=c99 -O1 $WARN -finstrument-functions -I. tests/unit/processor.c -lm -o "$T/processor.exe" &&
+    "$@" -std=c99 -O1 $WARN -finstrument-functions -I. tests/scripts/processor.c -lm -o "$T/processor.exe" &&
         got=$($runner "$T/processor.exe" | tr -d '\r') && same "$got" "${want:-$got}" &&
         level=${level:-$got}
 }

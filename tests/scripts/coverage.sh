@@ -16,7 +16,8 @@ FLAGS="-std=c99 -w -O0 --coverage -fprofile-filter-files=shade\.h$ -Dalways_inli
 build() {
     dir=$T/$1 options=$2; shift 2
     mkdir "$dir" && cd "$dir" || exit 1
-    gcc $FLAGS '-DSHADE_ASSERT(x)=((void)0)' $options -I"$H" "$H/tests/unit/main.c" -lm -o run || exit 1
+    printf '#include "%s"\n' "$H"/tests/unit/*.c >run.c    # one file: inline functions count once
+    gcc $FLAGS '-DSHADE_ASSERT(x)=((void)0)' $options -I"$H" run.c -lm -o run || exit 1
     for section in "$@"; do
         # option builds draw with fewer lanes: what they must do is the business of make test
         (cd "$H" && "$dir/run" $section 2>&1 | tail -n 1 | sed "s|^|${dir##*/} $section: |")

@@ -26,7 +26,8 @@ repeats $P/zig/build.zig.zon 's/^ *\.version = "\(.*\)",/\1/p'
 repeats $P/xmake/xmake.lua 's/.*add_versions("\([^"]*\)".*/\1/p'
 repeats $P/debian/changelog 's/^shade-h (\(.*\)-1).*/\1/p'
 repeats $P/README.md 's/.*tar -xzf shade-h-\(.*\)\.tar\.gz/\1/p'
-check "the version of >>history" grep -q "^   ${V%.*}  " shade.h
+check "the version of CHANGELOG.md" grep -q "^## ${V%.*}, " CHANGELOG.md
+check "the version of >>history" grep -q "^   ${V%.*} of " shade.h
 
 # ---- the tarball: twice from git, and from itself
 git rev-parse --is-inside-work-tree >/dev/null 2>&1 || [ -f .ci/files ] ||

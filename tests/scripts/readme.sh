@@ -14,7 +14,7 @@ fi
 README=${1:-README.md}
 # what continues it, in the order in which its snippets compile, and other pages with names
 CONTINUED="examples/lessons/README.md bench/README.md examples/embed/windows.md"
-PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md
+PAGES="$README $CONTINUED examples/README.md examples/embed/opengl.md tests/README.md tests/GUARANTEES.md
     examples/microcontroller/README.md examples/lessons/TEACHING.md examples/teaching/course/README.md"
 WARN="-Wall -Wextra -Werror -Wno-missing-field-initializers"
 [ -f "$README" ] || { echo "readme: no $README"; echo "0 passed, 1 failed"; exit 1; }
@@ -84,8 +84,8 @@ done
 for part in sdl stb; do    # a README without such a snippet fails
     check "a snippet for $part" test -s "$T/readme_$part.h"
 done
-check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I. -Itests/unit -I"$T" $BUILT \
-      tests/unit/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
+check "the snippets compile" $CC -std=c99 $WARN -Wno-unused -O1 -I. -I"$T" $BUILT \
+      tests/scripts/readme_run.c build/shade.o $stb $sdl -lm -o "$T/readme_run"
 if [ -x "$T/readme_run" ]; then
     (cd "$T" && SDL_VIDEODRIVER=dummy ./readme_run teapot.ppm) >"$T/run" 2>&1
     grep -vE '^[0-9]+ passed, ' "$T/run"

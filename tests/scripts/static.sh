@@ -16,25 +16,24 @@ check() {                       # name, command ...: no output but of passing is
     fi
 }
 # Tests and examples are read without the implementation, which has its own turn.
+TESTS="tests/unit/*.c tests/golden/*.c"
 EXAMPLES="examples/lessons/*.c examples/pictures/*.c examples/programs/*/*.c"
 FLAGS="-std=c99 -I. -DSHADE_NO_DISPATCH"
 printf '#define SHADE_IMPLEMENTATION\n#include "shade.h"\n' >"$T/shade.c"
 check "clang-tidy, shade.h" clang-tidy -quiet "-config-file=.clang-tidy" "$T/shade.c" -- $FLAGS
-check "clang-tidy, tests" clang-tidy -quiet tests/unit/main.c tests/unit/golden.c -- $FLAGS \
-    -DSHADE__IMPLEMENTED
 # Of several files in one process clang-tidy 14 at times takes a va_list for uninitialized (LLVM bug
 # 41311), so that each has its own.
 tidy_each() {
-    printf '%s\n' $EXAMPLES |
+    printf '%s\n' $TESTS $EXAMPLES |
         xargs -P "$(nproc 2>/dev/null || echo 1)" -I FILE clang-tidy -quiet FILE -- $FLAGS -DSHADE__IMPLEMENTED
 }
-if command -v clang-tidy >/dev/null; then check "clang-tidy, examples" tidy_each
-else echo "left out: clang-tidy, examples"
+if command -v clang-tidy >/dev/null; then check "clang-tidy, tests and examples" tidy_each
+else echo "left out: clang-tidy, tests and examples"
 fi
 CPPCHECK="--std=c99 --language=c --quiet --error-exitcode=1 --inline-suppr -I. -D__GNUC__=12
     --enable=warning,performance,portability -DSHADE_NO_DISPATCH"
 check "cppcheck, shade.h" cppcheck $CPPCHECK -DSHADE_IMPLEMENTATION shade.h
-check "cppcheck, tests" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED tests/unit/main.c tests/unit/golden.c
+check "cppcheck, tests" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED $TESTS
 check "cppcheck, examples" cppcheck $CPPCHECK -DSHADE__IMPLEMENTED $EXAMPLES
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

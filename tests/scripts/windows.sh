@@ -12,12 +12,12 @@ if [ -z "$wine" ] || ! there $cc || ! "$wine" cmd /c exit >/dev/null 2>&1; then
 fi
 
 built="-std=c99 -Wall -Wextra -Werror -O1 -ffp-contract=off -I."
-check "the runner builds" $cc $built -w -static tests/unit/main.c -lm -o "$T/runner.exe"
+check "the runner builds" $cc $built -w -static tests/unit/*.c -lm -o "$T/runner.exe"
 check "the runner" "$wine" "$T/runner.exe"
 # On any processor each build of the loops for vectors runs, by the section that calls them most.
 for level in $(awk '/^flags/ { print 0; if (/ avx2 /) print 1; if (/ avx512vl / && / avx512bw /) print 2; exit }' \
                /proc/cpuinfo); do
-    check "the runner of build $level builds" $cc $built -w -static -DSHADE__LEVEL=$level tests/unit/main.c \
+    check "the runner of build $level builds" $cc $built -w -static -DSHADE__LEVEL=$level tests/unit/*.c \
         -lm -o "$T/level.exe"
     check "the runner of build $level" "$wine" "$T/level.exe" lanes
 done

@@ -1,5 +1,6 @@
 /* beginner.c - README's first program with one field forgotten or wrong: shade_explain names it, or
    the picture is the one that was asked for. */
+#include "unit.h"
 #include "examples/shared/teapot.h"
 
 enum { POT_WIDTH = 160, POT_HEIGHT = 120, POT_FINE = 4, POT_VERTICES = 604, POT_INDICES = 2976 };
@@ -340,3 +341,5 @@ static const test_case beginner_cases[] = {
     CASE(beginner, the_first_program_has_a_picture_and_no_sentence),
     CASE(beginner, each_mistake_in_the_first_program_is_named),
 };
+
+SECTION(beginner);

@@ -1,4 +1,5 @@
 /* blocks.c - leaving out hidden blocks of a draw changes no bit of its picture. */
+#include "unit.h"
 
 enum { BLOCKS_MOST = 60 };
 
@@ -231,3 +232,5 @@ static const test_case blocks_cases[] = {
     CASE(blocks, filled_blocks_are_left_out),
     CASE(blocks, level_walls_keep_the_nearest),
 };
+
+SECTION(blocks);

@@ -15,14 +15,14 @@ typedef struct canvas {
 enum { CANVAS_FORMATS = 5, TEXTURE_FORMATS = 6 }; /* A8 is of textures alone */
 
 /* 16, the most there is, for a format that there is not. */
-static size_t canvas_pixel_bytes(shade_format format)
+static inline size_t canvas_pixel_bytes(shade_format format)
 {
     static const size_t bytes[TEXTURE_FORMATS] = { 4, 4, 2, 2, 16, 1 };
     return (unsigned)format < TEXTURE_FORMATS ? bytes[format] : 16;
 }
 
 /* The greatest code of channel k (R, G, B, A); 0: no such channel, or floats. */
-static int canvas_most(shade_format format, int k)
+static inline int canvas_most(shade_format format, int k)
 {
     static const int most565[4] = { 31, 63, 31, 0 };
     if (format == SHADE_FORMAT_RGBA32F) return 0;
@@ -31,7 +31,7 @@ static int canvas_most(shade_format format, int k)
 }
 
 /* The code of channel k in the bytes of a pixel; not RGBA32F. */
-static int canvas_code_at(shade_format format, const unsigned char *p, int k)
+static inline int canvas_code_at(shade_format format, const unsigned char *p, int k)
 {
     const int swapped = format == SHADE_FORMAT_RGB565_SWAPPED;
     unsigned char native[2];
@@ -45,24 +45,24 @@ static int canvas_code_at(shade_format format, const unsigned char *p, int k)
     return k == 0 ? v >> 11 : k == 1 ? v >> 5 & 63 : k == 2 ? v & 31 : 0;
 }
 
-static shade_format rnd_format(void) { return (shade_format)rnd_int(0, CANVAS_FORMATS - 1); }
+static inline shade_format rnd_format(void) { return (shade_format)rnd_int(0, CANVAS_FORMATS - 1); }
 
-static shade_format rnd_texture_format(void)
+static inline shade_format rnd_texture_format(void)
 {
     return (shade_format)rnd_int(0, TEXTURE_FORMATS - 1);
 }
 
-static int canvas_stride(const canvas *c)
+static inline int canvas_stride(const canvas *c)
 {
     return c->target.stride ? c->target.stride : c->target.width;
 }
 
-static int canvas_rows(const canvas *c)
+static inline int canvas_rows(const canvas *c)
 {
     return c->target.row_count ? c->target.row_count : c->target.height;
 }
 
-static unsigned char *canvas_block(size_t bytes)
+static inline unsigned char *canvas_block(size_t bytes)
 {
     unsigned char *block = test_memory(bytes + 2 * CANVAS_GUARD);
     memset(block, CANVAS_BYTE, bytes + 2 * CANVAS_GUARD);
@@ -70,7 +70,7 @@ static unsigned char *canvas_block(size_t bytes)
 }
 
 /* 1 while every byte is that of a block that nobody wrote to. */
-static int untouched(const void *at, size_t bytes)
+static inline int untouched(const void *at, size_t bytes)
 {
     const unsigned char *byte = (const unsigned char *)at;
     for (size_t i = 0; i < bytes; i++) {
@@ -81,8 +81,8 @@ static int untouched(const void *at, size_t bytes)
 
 /* A strip of rows of a picture (row_count 0: all of it).  stride 0: width.  with_depth 0: no depth
    buffer. */
-static canvas canvas_strip(int width, int height, int stride, shade_format format, int with_depth,
-                           int row_offset, int row_count)
+static inline canvas canvas_strip(int width, int height, int stride, shade_format format,
+                                  int with_depth, int row_offset, int row_count)
 {
     canvas c;
     memset(&c, 0, sizeof c);
@@ -102,14 +102,15 @@ static canvas canvas_strip(int width, int height, int stride, shade_format forma
     return c;
 }
 
-static canvas canvas_open(int width, int height, int stride, shade_format format, int with_depth)
+static inline canvas canvas_open(int width, int height, int stride, shade_format format,
+                                 int with_depth)
 {
     return canvas_strip(width, height, stride, format, with_depth, 0, 0);
 }
 
 /* 1 while no byte of the guards and of the padding between width and stride has changed. */
-static int canvas_intact_block(const canvas *c, const unsigned char *block, size_t bytes,
-                               size_t cell)
+static inline int canvas_intact_block(const canvas *c, const unsigned char *block, size_t bytes,
+                                      size_t cell)
 {
     size_t row = (size_t)canvas_stride(c) * cell, used = (size_t)c->target.width * cell;
     for (size_t i = 0; i < CANVAS_GUARD; i++) {
@@ -123,20 +124,20 @@ static int canvas_intact_block(const canvas *c, const unsigned char *block, size
     return 1;
 }
 
-static int canvas_intact(const canvas *c)
+static inline int canvas_intact(const canvas *c)
 {
     return canvas_intact_block(c, c->color, c->color_bytes, canvas_pixel_bytes(c->target.format)) &&
            canvas_intact_block(c, c->depth, c->depth_bytes, 4);
 }
 
 /* 1 while no byte of colours or depths has changed since the canvas was opened. */
-static int canvas_untouched(const canvas *c)
+static inline int canvas_untouched(const canvas *c)
 {
     return untouched(c->color, c->color_bytes + 2 * CANVAS_GUARD) &&
            untouched(c->depth, c->depth_bytes + 2 * CANVAS_GUARD);
 }
 
-static void canvas_close(canvas *c)
+static inline void canvas_close(canvas *c)
 {
     CHECK_SAY(canvas_intact(c), "bytes around a picture of %d x %d changed", c->target.width,
               c->target.height);
@@ -145,58 +146,76 @@ static void canvas_close(canvas *c)
 }
 
 /* x, y in the picture; a strip's rows start at row_offset */
-static size_t canvas_index(const canvas *c, int x, int y)
+static inline size_t canvas_index(const canvas *c, int x, int y)
 {
     return (size_t)(y - c->target.row_offset) * (size_t)canvas_stride(c) + (size_t)x;
 }
 
-static unsigned char *canvas_pixel(const canvas *c, int x, int y)
+static inline unsigned char *canvas_pixel(const canvas *c, int x, int y)
 {
     return c->color + CANVAS_GUARD + canvas_pixel_bytes(c->target.format) * canvas_index(c, x, y);
 }
 
-static const unsigned char *canvas_bytes(const canvas *c, int x, int y) /* formats of 4 bytes */
+static inline const unsigned char *canvas_bytes(const canvas *c, int x,
+                                                int y) /* formats of 4 bytes */
 {
     return canvas_pixel(c, x, y);
 }
 
-static unsigned canvas_565(const canvas *c, int x, int y) /* the uint16 of a pixel */
+static inline unsigned canvas_565(const canvas *c, int x, int y) /* the uint16 of a pixel */
 {
     uint16_t v;
     memcpy(&v, canvas_pixel(c, x, y), 2);
     return v;
 }
 
-static int canvas_code(const canvas *c, int x, int y, int channel)
+static inline int canvas_code(const canvas *c, int x, int y, int channel)
 {
     return canvas_code_at(c->target.format, canvas_pixel(c, x, y), channel);
 }
 
-static float canvas_float(const canvas *c, int x, int y, int channel)
+static inline float canvas_float(const canvas *c, int x, int y, int channel)
 {
     float v;
     memcpy(&v, canvas_pixel(c, x, y) + 4 * channel, 4);
     return v;
 }
 
-static float canvas_depth(const canvas *c, int x, int y)
+static inline float canvas_depth(const canvas *c, int x, int y)
 {
     float v;
     memcpy(&v, c->depth + CANVAS_GUARD + 4 * canvas_index(c, x, y), 4);
     return v;
 }
 
-static int canvas_same(const canvas *a,
-                       const canvas *b) /* two pictures of one shape, bit for bit */
+static inline int canvas_same(const canvas *a, const canvas *b) /* two pictures of one shape,
+                              bit for bit */
 {
     return a->color_bytes == b->color_bytes && a->depth_bytes == b->depth_bytes &&
            !memcmp(a->color + CANVAS_GUARD, b->color + CANVAS_GUARD, a->color_bytes) &&
            !memcmp(a->depth + CANVAS_GUARD, b->depth + CANVAS_GUARD, a->depth_bytes);
 }
 
-static void canvas_clear(canvas *c, float depth)
+static inline void canvas_clear(canvas *c, float depth)
 {
     CHECK_INT(shade_clear(&c->target, shade_v4(0, 0, 0, 0), depth), SHADE_OK);
+}
+
+/* Two canvases cleared alike, and their end, where the same was to be drawn on both. */
+static inline void canvas_twins(canvas c[2], int width, int height, shade_format format,
+                                float depth)
+{
+    for (int k = 0; k < 2; k++) {
+        c[k] = canvas_open(width, height, 0, format, 1);
+        canvas_clear(&c[k], depth);
+    }
+}
+
+static inline void canvas_twins_close(canvas c[2])
+{
+    CHECK(canvas_same(&c[0], &c[1]));
+    canvas_close(&c[0]);
+    canvas_close(&c[1]);
 }
 
 /* -------------------------------------------------------------------------------------- shaders */
@@ -223,7 +242,7 @@ typedef struct scene {
     recorder *record;        /* NULL: nothing is recorded */
 } scene;
 
-static recorder recorder_open(int capacity)
+static inline recorder recorder_open(int capacity)
 {
     recorder r;
     memset(&r, 0, sizeof r);
@@ -232,7 +251,7 @@ static recorder recorder_open(int capacity)
     return r;
 }
 
-static void scene_record_vertices(recorder *r, const shade_vertex_ids *in)
+static inline void scene_record_vertices(recorder *r, const shade_vertex_ids *in)
 {
     r->vertex_packets++;
     r->vertex_lanes += in->count;
@@ -246,7 +265,7 @@ static void scene_record_vertices(recorder *r, const shade_vertex_ids *in)
     }
 }
 
-static void scene_put_clip(shade_vertices *out, int i, shade_vec4 p)
+static inline void scene_put_clip(shade_vertices *out, int i, shade_vec4 p)
 {
     out->clip[0][i] = p.x;
     out->clip[1][i] = p.y;
@@ -254,8 +273,8 @@ static void scene_put_clip(shade_vertices *out, int i, shade_vec4 p)
     out->clip[3][i] = p.w;
 }
 
-static void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
-                         shade_vertices *SHADE_RESTRICT out)
+static inline void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
+                                shade_vertices *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
     if (s->record) scene_record_vertices(s->record, in);
@@ -268,7 +287,7 @@ static void scene_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
     }
 }
 
-static void scene_record_fragments(const scene *s, const shade_fragments *in)
+static inline void scene_record_fragments(const scene *s, const shade_fragments *in)
 {
     recorder *r = s->record;
     r->fragment_packets++;
@@ -300,8 +319,8 @@ static void scene_record_fragments(const scene *s, const shade_fragments *in)
 }
 
 /* the colour of the primitive */
-static void scene_flat(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                       shade_colors *SHADE_RESTRICT out)
+static inline void scene_flat(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                              shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
     if (s->record) scene_record_fragments(s, in);
@@ -315,8 +334,8 @@ static void scene_flat(const void *uniforms, const shade_fragments *SHADE_RESTRI
 }
 
 /* the first four varyings as colour */
-static void scene_colors(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                         shade_colors *SHADE_RESTRICT out)
+static inline void scene_colors(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                shade_colors *SHADE_RESTRICT out)
 {
     const scene *s = (const scene *)uniforms;
     if (s->record) scene_record_fragments(s, in);
@@ -325,7 +344,7 @@ static void scene_colors(const void *uniforms, const shade_fragments *SHADE_REST
     }
 }
 
-static shade_pipeline scene_pipeline(const scene *s)
+static inline shade_pipeline scene_pipeline(const scene *s)
 {
     shade_pipeline p;
     memset(&p, 0, sizeof p);
@@ -337,7 +356,7 @@ static shade_pipeline scene_pipeline(const scene *s)
 }
 
 /* Draws corners one after the other, by a pipeline that is good. */
-static shade_stats canvas_draw(canvas *c, const shade_pipeline *p, int corners)
+static inline shade_stats canvas_draw(canvas *c, const shade_pipeline *p, int corners)
 {
     shade_stats stats;
     memset(&stats, CANVAS_BYTE, sizeof stats);
@@ -348,7 +367,8 @@ static shade_stats canvas_draw(canvas *c, const shade_pipeline *p, int corners)
 
 /* The clip-space place of window point (X, Y) / 256 at clip w and depth z/w.  Reached to 1/2000
    pixel in pictures of up to 16384 pixels, so that snapping finds X and Y again. */
-static shade_vec4 clip_of_fx8(double X, double Y, int width, int height, double z_ndc, double w)
+static inline shade_vec4 clip_of_fx8(double X, double Y, int width, int height, double z_ndc,
+                                     double w)
 {
     double x = 2 * X / (256.0 * width) - 1, y = 1 - 2 * Y / (256.0 * height);
     return shade_v4((float)(x * w), (float)(y * w), (float)(z_ndc * w), (float)w);

@@ -1,5 +1,6 @@
 /* chunks.c - boxes around runs of triangles: nothing that they skip could have been seen, or met by
    a ray. */
+#include "unit.h"
 
 enum {
     CHUNK_VERTICES = 150,
@@ -1523,3 +1524,5 @@ static const test_case chunks_cases[] = {
     CASE(chunks, boxes_of_any_scale_are_met),
     CASE(chunks, bad_indices_are_found_where_their_box_is_met),
 };
+
+SECTION(chunks);

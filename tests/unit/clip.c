@@ -1,4 +1,5 @@
 /* clip.c - what is outside goes, what is inside stays, and the cut leaves no trace. */
+#include "unit.h"
 
 /* The allowed move of an edge: snapping moves a corner by at most 1/512 pixel in x and in y
    (0.71/256 along an edge's normal), clipping an edge by 1/256. */
@@ -105,21 +106,6 @@ TEST(clip, zero_area_counts_as_culled)
     canvas_close(&c);
 }
 
-/* A triangle of eye space through a perspective camera: some corners behind the eye, some far out.
-   */
-static void random_eye_triangle(shade_vec4 v[3], int zero_to_one, double spread)
-{
-    double near_z = 0.25, far_z = 20;
-    for (int k = 0; k < 3; k++) {
-        double ez = (double)rnd_float(-30, 8), x = (double)rnd_float(-spread, spread);
-        double y = (double)rnd_float(-spread, spread);
-        if (rnd_one_in(4)) ez = (double)rnd_float(-2, 0.5);
-        double a = zero_to_one ? -far_z / (far_z - near_z) : -(far_z + near_z) / (far_z - near_z);
-        double b = (zero_to_one ? -1 : -2) * far_z * near_z / (far_z - near_z);
-        v[k] = shade_v4((float)(1.5 * x), (float)(1.5 * y), (float)(a * ez + b), (float)-ez);
-    }
-}
-
 /* Draws one triangle on a cleared depth buffer and holds it to the exact half-planes of its visible
    part, and its depth to the plane through its corners.  Returns the number of pixels drawn. */
 static int check_clipped(canvas *c, const shade_vec4 v[3], int zero_to_one)
@@ -201,65 +187,7 @@ TEST(clip, eye_space_far_to_the_sides_keeps_its_edges)
     CHECK_SAY(drawn > 100, "%d triangles", drawn);
 }
 
-/* A grid of n x n squares with jittered inner points, in a plane given by its two axes; every
-   square split along a random diagonal, the corners of each triangle in random rotation and
-   winding. */
-static int jittered_grid(int n, shade_vec2 *points, uint32_t *indices)
-{
-    int count = 0;
-    for (int y = 0; y <= n; y++)
-        for (int x = 0; x <= n; x++) {
-            int inner = x > 0 && y > 0 && x < n && y < n;
-            points[y * (n + 1) + x] =
-                shade_v2((float)x / (float)n + (inner ? rnd_float(-0.3, 0.3) / (float)n : 0),
-                         (float)y / (float)n + (inner ? rnd_float(-0.3, 0.3) / (float)n : 0));
-        }
-    for (int y = 0; y < n; y++) {
-        for (int x = 0; x < n; x++) {
-            uint32_t q[4], a = (uint32_t)(y * (n + 1) + x);
-            q[0] = a;
-            q[1] = a + 1;
-            q[2] = a + (uint32_t)n + 2;
-            q[3] = a + (uint32_t)n + 1;
-            /* the diagonal must lie inside the quadrilateral: take the one whose two halves turn
-               the same way */
-            shade_vec2 p[4];
-            for (int k = 0; k < 4; k++) p[k] = points[q[k]];
-            int first = rnd_int(0, 1);
-            for (int attempt = 0; attempt < 2; attempt++, first ^= 1) {
-                shade_vec2 d = shade_sub2(p[first + 2], p[first]);
-                shade_vec2 e = shade_sub2(p[first + 1], p[first]),
-                           f = shade_sub2(p[(first + 3) % 4], p[first]);
-                double se = (double)d.x * (double)e.y - (double)d.y * (double)e.x;
-                double sf = (double)d.x * (double)f.y - (double)d.y * (double)f.x;
-                if (se * sf < 0) break;
-            }
-            first &= 1;
-            for (int half = 0; half < 2; half++) {
-                uint32_t t[3];
-                t[0] = q[first];
-                t[1] = q[(first + 1 + half) % 4];
-                t[2] = q[(first + 2 + half) % 4];
-                int turn = rnd_int(0, 2), swap = rnd_int(0, 1);
-                for (int k = 0; k < 3; k++) indices[count++] = t[((swap ? 3 - k : k) + turn) % 3];
-            }
-        }
-    }
-    return count;
-}
-
 enum { CLIP_GRID = 12 };
-
-/* How often each pixel is covered, counted by SHADE_BLEND_ADD of one. */
-static void count_coverage(canvas *c, const shade_vec4 *clip, const uint32_t *indices, int count,
-                           int vertices)
-{
-    scene s = { clip, NULL, 0, NULL, NULL };
-    shade_pipeline p = scene_pipeline(&s);
-    p.raster.blend = SHADE_BLEND_ADD;
-    canvas_clear(c, 1);
-    CHECK_INT(shade_draw(&c->target, &p, indices, count, vertices, NULL), SHADE_OK);
-}
 
 /* Meshes from half as large again as the picture to 3000 times: within the guard band of 3 w, at
    its border, and far beyond, where triangles are cut. */
@@ -528,25 +456,6 @@ TEST(clip, affine_is_linear_on_the_screen_in_three_examples)
     }
 }
 
-/* Corners in front of the eye, some of them outside of planes of one kind: 0 near, 1 far, 2 the
-   guard band, 3 any. */
-static void random_cut_triangle(int kind, int zero_to_one, shade_vec4 v[3])
-{
-    for (int k = 0; k < 3; k++) {
-        double w = (double)rnd_log(0.2, 5), x = (double)rnd_float(-1.5, 1.5);
-        double y = (double)rnd_float(-1.5, 1.5);
-        double z = (double)rnd_float(zero_to_one ? 0.05 : -0.9, 0.9);
-        int out = rnd_one_in(2) ? kind == 3 ? rnd_int(0, 2) : kind : -1;
-        if (out == 0) z = zero_to_one ? -(double)rnd_log(0.01, 20) : -(double)rnd_log(1.01, 20);
-        if (out == 1) z = (double)rnd_log(1.01, 20);
-        if (out == 2 && rnd_one_in(2))
-            x = (double)(rnd_sign() * rnd_log(3.1, 300));
-        else if (out == 2)
-            y = (double)(rnd_sign() * rnd_log(3.1, 300));
-        v[k] = shade_v4((float)(x * w), (float)(y * w), (float)(z * w), (float)w);
-    }
-}
-
 /* Snapping moves new corners as any others, their values with them; a slice of a cut polygon is
    steeper, in floats, than the triangle. */
 TEST(clip, affine_is_linear_on_the_screen_whatever_is_cut)
@@ -760,19 +669,6 @@ TEST(clip, only_the_volume_decides_between_the_planes_of_zero_to_one)
     canvas_close(&c);
 }
 
-/* Whether the triangles of a mesh within a square fill it without a fold. */
-static int covers_square(const int64_t *x, const int64_t *y, const uint32_t *indices, int count,
-                         int64_t side)
-{
-    int64_t all = 0;
-    for (int k = 0; k < count; k += 3) {
-        uint32_t a = indices[k], b = indices[k + 1], d = indices[k + 2];
-        int64_t area = (x[b] - x[a]) * (y[d] - y[a]) - (y[b] - y[a]) * (x[d] - x[a]);
-        all += area < 0 ? -area : area;
-    }
-    return all == 2 * side * side;
-}
-
 /* Corners just before and just behind the near plane: the cut puts new corners within 1/256 pixel
    of old ones, where snapping dents the polygon.  Its pieces do not overlap; where snapping turns a
    corner over, at the cut alone, a pixel in 100,000 may be covered twice. */
@@ -980,3 +876,5 @@ static const test_case clip_cases[] = {
     CASE(clip, any_position_at_all_is_accounted_for),
     CASE(clip, only_the_volume_decides_between_the_planes_of_zero_to_one),
 };
+
+SECTION(clip);

@@ -1,5 +1,6 @@
 /* cover.c - which pixels a triangle covers: exactly those of the top-left rule on snapped corners.
    */
+#include "unit.h"
 
 /* Draws triangles given in 24.8 window coordinates, one draw, each adding one; all at depth 1/2. */
 static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices, int random_w,
@@ -17,23 +18,6 @@ static void draw_fx8(canvas *c, const int64_t *x, const int64_t *y, int vertices
         vertices == 3 && rnd_one_in(2) ? SHADE_COMPARE_LESS : SHADE_COMPARE_ALWAYS;
     CHECK_INT(shade_draw(&c->target, &p, NULL, vertices, vertices, stats), SHADE_OK);
     free(clip);
-}
-
-/* The part of the picture the clip rectangle leaves: x0 <= x < x1, y0 <= y < y1. */
-static void clip_bounds(const shade_target *t, int *x0, int *y0, int *x1, int *y1)
-{
-    *x0 = 0;
-    *y0 = 0;
-    *x1 = t->width;
-    *y1 = t->height;
-    if (t->clip_x || t->clip_y || t->clip_width || t->clip_height) {
-        int64_t right = (int64_t)t->clip_x + t->clip_width,
-                below = (int64_t)t->clip_y + t->clip_height;
-        if (t->clip_x > *x0) *x0 = t->clip_x;
-        if (t->clip_y > *y0) *y0 = t->clip_y;
-        if (right < *x1) *x1 = (int)right;
-        if (below < *y1) *y1 = (int)below;
-    }
 }
 
 /* Holds the picture, alpha 255 and depth 1/2 where covered, to the integer oracle. */
@@ -59,80 +43,6 @@ static void check_coverage(const canvas *c, const int64_t *x, const int64_t *y)
               wrong, t->width, t->height, wi, wj, canvas_bytes(c, wi, wj)[3] != 0, (long long)x[0],
               (long long)y[0], (long long)x[1], (long long)y[1], (long long)x[2], (long long)y[2],
               t->clip_x, t->clip_y, t->clip_width, t->clip_height);
-}
-
-static void random_clip(shade_target *t)
-{
-    switch (rnd_int(0, 5)) {
-    case 0:
-        break; /* everywhere */
-    case 1:
-        t->clip_x = rnd_int(0, t->width - 1);
-        t->clip_y = rnd_int(0, t->height - 1);
-        t->clip_width = rnd_int(1, 7);
-        t->clip_height = rnd_int(1, t->height);
-        break;
-    case 2:
-        t->clip_y = rnd_int(0, t->height - 1);
-        t->clip_width = t->width;
-        t->clip_height = rnd_int(1, 9);
-        break;
-    case 3:
-        t->clip_x = -rnd_int(1, 9);
-        t->clip_y = -rnd_int(1, 9);
-        t->clip_width = rnd_int(0, t->width + 20);
-        t->clip_height = rnd_int(0, t->height + 20);
-        break;
-    default:
-        t->clip_x = rnd_int(-3, t->width + 3);
-        t->clip_y = rnd_int(-3, t->height + 3);
-        t->clip_width = rnd_int(0, t->width);
-        t->clip_height = rnd_int(0, t->height);
-    }
-}
-
-/* A corner set of a stated kind in a width x height picture, coordinates in 1/256 pixel within the
-   guard band. */
-static void random_corners(int kind, int width, int height, int64_t x[3], int64_t y[3])
-{
-    static const int widths[] = { 1, 7, 8, 9, 15, 16, 17, 18, 31, 32, 33, 64, 65 };
-    int cx = rnd_int(-256, width * 256 + 256), cy = rnd_int(-256, height * 256 + 256), size;
-    for (int k = 0; k < 3; k++) {
-        switch (kind) {
-        case 0:
-            x[k] = cx + rnd_int(-256, 256);
-            y[k] = cy + rnd_int(-256, 256);
-            break;
-        case 1:
-            x[k] = cx + rnd_int(-3000, 3000);
-            y[k] = cy + rnd_int(-3000, 3000);
-            break;
-        case 2:
-            x[k] = rnd_int(-width * 128, width * 384);
-            y[k] = rnd_int(-height * 128, height * 384);
-            break;
-        case 3:
-            x[k] = rnd_int(0, 2 * width) * 128;
-            y[k] = rnd_int(0, 2 * height) * 128;
-            break;
-        case 4: /* upright boxes of widths around 8, 16, 32, halved */
-            size = widths[(cx & 255) % 13] * 256 + (k == 1 ? rnd_int(-130, 130) : 0);
-            x[k] = cx + (k == 1 ? size : 0);
-            y[k] = cy + (k == 2 ? rnd_int(0, 9000) : rnd_int(-64, 64));
-            break;
-        case 5: /* slivers: a long line and a point beside it */
-            x[k] = k == 2 ? (x[0] + x[1]) / 2 + rnd_int(-40, 40) : rnd_int(0, width * 256);
-            y[k] = k == 2 ? (y[0] + y[1]) / 2 + rnd_int(-40, 40) : rnd_int(0, height * 256);
-            break;
-        default:
-            x[k] = rnd_int(-width * 255, width * 511);
-            y[k] = rnd_int(-height * 255, height * 511);
-        }
-    }
-    for (int k = 0; k < 3; k++) { /* within 3 w, where nothing is clipped */
-        x[k] = x[k] < -width * 255 ? -width * 255 : x[k] > width * 511 ? width * 511 : x[k];
-        y[k] = y[k] < -height * 255 ? -height * 255 : y[k] > height * 511 ? height * 511 : y[k];
-    }
 }
 
 /* G7 */
@@ -711,3 +621,5 @@ static const test_case cover_cases[] = {
     CASE(cover, level_edges_of_big_triangles_follow_the_rule),
     CASE(cover, facing_is_counter_clockwise_on_the_screen),
 };
+
+SECTION(cover);

@@ -1,5 +1,6 @@
 /* depth.c - the depth of a pixel depends on the positions of its triangle alone, to the bit: not on
    what is interpolated or shaded, so that passes over one mesh agree. */
+#include "unit.h"
 
 enum { DEPTH_TRIANGLES = 24, DEPTH_WIDTH = 100, DEPTH_HEIGHT = 60 };
 
@@ -244,3 +245,5 @@ static const test_case depth_cases[] = {
     CASE(depth, passes_of_every_pair_of_shadings_agree),
     CASE(depth, a_steep_triangle_is_drawn_whole_by_the_second_pass),
 };
+
+SECTION(depth);

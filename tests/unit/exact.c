@@ -1,5 +1,6 @@
 /* exact.c - coverage without samples: every triangle on a lattice, and shared edges whose corners
    are lattice points or lie thousands of pixels apart. */
+#include "unit.h"
 
 enum {
     EXACT_POINTS = 13 * 13,                 /* of a lattice, at most */
@@ -288,3 +289,5 @@ static const test_case exact_cases[] = {
     CASE(exact, strips_across_the_biggest_pictures_cover_every_pixel_once),
     CASE(exact, fans_of_slivers_cover_every_pixel_once),
 };
+
+SECTION(exact);

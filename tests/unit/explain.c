@@ -1,6 +1,7 @@
 /* explain.c - shade_explain: each mistake, made on a good scene, gets a sentence that names the
    field to look at; good scenes get none; what is said of random draws is so; hostile ones cost no
    memory and no crash. */
+#include "unit.h"
 static int explained_pick(int n) { return rnd_int(0, n - 1); }
 #include "../fuzz/explained.h"
 
@@ -1829,3 +1830,5 @@ static const test_case explain_cases[] = {
     CASE(explain, it_writes_nothing),
     CASE(explain, hostile_input_is_defined),
 };
+
+SECTION(explain);

@@ -35,7 +35,7 @@ typedef struct refusal {
     { offsetof(type, field), sizeof(void *), 0, 0, 0 }
 
 /* Spoils an object of the type that the row was written for. */
-static void spoil(void *object, const fault faults[FAULTS])
+static inline void spoil(void *object, const fault faults[FAULTS])
 {
     for (int k = 0; k < FAULTS && faults[k].size; k++) {
         unsigned char *field = (unsigned char *)object + faults[k].at;
@@ -49,7 +49,7 @@ static void spoil(void *object, const fault faults[FAULTS])
 }
 
 /* Checks what a call returned for a row of its table. */
-static void check_refusal(int row, shade_result got, shade_result want)
+static inline void check_refusal(int row, shade_result got, shade_result want)
 {
     CHECK_SAY(got == want, "row %d: got %d, want %d", row, (int)got, (int)want);
 }

@@ -1,5 +1,6 @@
 /* fragment.c - what reaches the fragment shader, and what becomes of its colours: interpolation,
    depth, blending, discard, and the depth test before or after shading. */
+#include "unit.h"
 
 /* One triangle on the 1/256 grid, so that the exact planes through its corners are known. */
 typedef struct grid_triangle {
@@ -561,19 +562,6 @@ TEST(fragment, alpha_of_over_builds_up)
 
 /* -------------------------------------------------------------------------------------- discard */
 
-static void fragment_sieve(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                           shade_colors *SHADE_RESTRICT out)
-{
-    const scene *s = (const scene *)uniforms;
-    if (s->record) scene_record_fragments(s, in);
-    for (int i = 0; i < SHADE_LANES; i++) {
-        int x = (int)in->x[i], y = (int)in->y[i];
-        out->color[0][i] = s->color[in->primitive[i]].x;
-        out->color[3][i] = 1;
-        out->discard[i] = (x * 7 + y * 5 + (int)in->primitive[i]) % 3 == 0 ? 0x80000000u : 0;
-    }
-}
-
 /* The last triangle, or the nearest, that fragment_sieve leaves at a pixel: 1 for the first, 0 for
    none.  *depth: its depth; -1 where rounding decides which triangle it is. */
 static int sieved(const pile *of, int i, int j, int with_depth, double *depth)
@@ -867,3 +855,5 @@ static const test_case fragment_cases[] = {
     CASE(fragment, colours_a_shader_leaves_alone_are_opaque_black),
     CASE(fragment, vertex_colours_smear_between_the_corners),
 };
+
+SECTION(fragment);

@@ -4,6 +4,7 @@
 
    The scalar calls run the build for any processor, the packets that of this one, so that both meet
    here as well. */
+#include "unit.h"
 
 static int alone_same(float a, float b)
 {
@@ -399,3 +400,5 @@ static const test_case independent_cases[] = {
     CASE(independent, the_sign_of_a_nan_decides_nothing),
     CASE(independent, a_distance_or_a_sum_that_overflows_has_one_outcome),
 };
+
+SECTION(independent);

@@ -1,32 +1,5 @@
 /* lanes.c - light on packets, against double precision. */
-
-typedef struct lane_packet {
-    float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];
-    shade_vec3 p[SHADE_LANES], n[SHADE_LANES], a[SHADE_LANES];
-} lane_packet;
-
-static void lane_set(float rows[3][SHADE_LANES], int i, shade_vec3 v)
-{
-    rows[0][i] = v.x;
-    rows[1][i] = v.y;
-    rows[2][i] = v.z;
-}
-
-/* Points around the sample's, some of them its very own. */
-static void random_packet(lane_packet *k, const light_sample *s, double size)
-{
-    for (int i = 0; i < SHADE_LANES; i++) {
-        d3 away = d3_scale(rnd_direction(), size * (double)rnd_log(1e-4, 1));
-        k->p[i] = rnd_one_in(8) ? s->P : d3_round(d3_add(d3_from(s->P), away));
-        d3 turned = d3_add(d3_unit(d3_from(s->N)), d3_scale(rnd_direction(), rnd_unit()));
-        k->n[i] = rnd_one_in(8) ? s->N : d3_round(turned);
-        if (rnd_one_in(100)) k->n[i] = shade_v3(0, 0, 0);
-        k->a[i] = random_color(1);
-        lane_set(k->P, i, k->p[i]);
-        lane_set(k->N, i, k->n[i]);
-        lane_set(k->albedo, i, k->a[i]);
-    }
-}
+#include "unit.h"
 
 /* G18 */
 TEST(lanes, a_packet_matches_the_equation_for_every_flag_and_model)
@@ -853,3 +826,5 @@ static const test_case lanes_cases[] = {
     CASE(lanes, emission_alone_reads_no_albedo),
     CASE(lanes, nan_and_infinity_never_crash_and_stay_in_their_lane),
 };
+
+SECTION(lanes);

@@ -1,4 +1,5 @@
 /* lines.c - lines as rectangles of the screen: coverage, ends, clipping, depth, arguments. */
+#include "unit.h"
 
 typedef struct line_places { /* the rectangle of one line, window pixels, y down */
     double x[4], y[4];       /* in order around it */
@@ -189,18 +190,14 @@ TEST(lines, coverage_is_the_rectangle_in_any_direction)
 /* A width of 0 is what a zeroed state has. */
 TEST(lines, no_width_is_one_pixel)
 {
-    canvas a = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 0),
-           b = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 0);
+    canvas c[2];
+    canvas_twins(c, 40, 30, SHADE_FORMAT_RGBA8, 1);
     shade_vec3 p[40];
     for (int k = 0; k < 40; k++) p[k] = shade_v3(rnd_float(-1, 1), rnd_float(-1, 1), 0);
     shade_line_state zero = line_state(0), one = line_state(1);
-    canvas_clear(&a, 1);
-    canvas_clear(&b, 1);
-    draw_lines(&a, p, 40, &zero);
-    draw_lines(&b, p, 40, &one);
-    CHECK(canvas_same(&a, &b));
-    canvas_close(&a);
-    canvas_close(&b);
+    draw_lines(&c[0], p, 40, &zero);
+    draw_lines(&c[1], p, 40, &one);
+    canvas_twins_close(c);
 }
 
 /* A width far beyond the picture covers all of it, whatever w is, also where width times w is
@@ -942,3 +939,5 @@ static const test_case lines_cases[] = {
     CASE(lines, bad_arguments_are_refused_before_a_pixel_changes),
     CASE(lines, depth_only_targets_take_lines_too),
 };
+
+SECTION(lines);

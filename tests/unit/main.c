@@ -1,12 +1,11 @@
-/* main.c - the test runner.   cc -O2 -I. tests/unit/main.c -lm -o test_main
+/* main.c - the test runner.   cc -O2 -I../.. *.c -lm -o test_main
 
    test_main [section] [seed]     runs all sections, or one; prints N passed, N failed
    test_main --stop [section ...] runs these sections, then the others, up to the first failure
    test_main --scenes [folder]    prints the hashes of the built-in scenes as the lines of
                                   scenes.h, and writes their pictures into the folder */
-#include <time.h>
 
-/* Tiles are counted where the implementation is compiled here, or was with -include count.h. */
+/* Tiles are counted where the implementation is compiled here. */
 #ifndef SHADE__IMPLEMENTED
 #include "count.h"
 #endif
@@ -14,60 +13,29 @@
 #include "shade.h"
 
 #include "test.h"
-#include "oracle.h"
 #include "canvas.h"
-#include "faults.h"
-#include "meshes.h"
-#include "rows.h"
+#include "scene.h"
+#include <time.h>
 
-#include "math.c"
-#include "matrix.c"
-#include "power.c"
-#include "light.c"
-#include "recipes.c"
-#include "lanes.c"
-#include "vertex.c"
-#include "clip.c"
-#include "cover.c"
-#include "exact.c"
-#include "fragment.c"
-#include "packets.c"
-#include "store.c"
-#include "blocks.c"
-#include "drive.c"
-#include "mesh.c"
-#include "refusals.c"
-#include "texture.c"
-#include "shaders.c"
-#include "depth.c"
-#include "lines.c"
-#include "shape.c"
-#include "ray.c"
-#include "chunks.c"
-#include "resolve.c"
-#include "independent.c"
-#include "scene.c"
-#include "modes.c"
-#include "explain.c"
-#include "beginner.c"
-#ifdef SHADE__TILE_TESTED
-long tiles_tested;
-#include "work.c"
-#endif
+#define SECTIONS(OF)                                                                               \
+    OF(math) OF(matrix) OF(power) OF(light) OF(lanes) OF(vertex) OF(clip) OF(cover) OF(fragment)   \
+    OF(store) OF(drive) OF(mesh) OF(texture) OF(lines) OF(shape) OF(ray) OF(resolve) OF(scene)     \
+    OF(exact) OF(blocks) OF(depth) OF(recipes) OF(packets) OF(refusals) OF(shaders)                \
+    OF(independent) OF(modes) OF(explain) OF(chunks) OF(beginner)
+#define DECLARED(section) extern const test_section section##_section;
+#define LISTED(section) &section##_section,
 
-static const test_section sections[] = {
-    SECTION(math),   SECTION(matrix),  SECTION(power),   SECTION(light),    SECTION(lanes),
-    SECTION(vertex), SECTION(clip),    SECTION(cover),   SECTION(fragment), SECTION(store),
-    SECTION(drive),  SECTION(mesh),    SECTION(texture), SECTION(lines),    SECTION(shape),
-    SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
-    SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
-    SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
-    SECTION(beginner),
+SECTIONS(DECLARED)
+DECLARED(work)
+static const test_section *const sections[] = {
+    SECTIONS(LISTED)
 #ifdef SHADE__TILE_TESTED
-    SECTION(work),
+    LISTED(work)
 #endif
 };
 #define SECTION_COUNT ((int)(sizeof sections / sizeof sections[0]))
+
+struct test_run test_now;
 
 static int is_among(const char *name, char **names, int count)
 {
@@ -91,11 +59,11 @@ static int run_until_failure(char **names, int count)
     test_now.stop = 1;
     for (int i = 0; i < count; i++) {
         for (int s = 0; s < SECTION_COUNT; s++) {
-            if (!strcmp(names[i], sections[s].name)) run_section(&sections[s], &passed, &failed);
+            if (!strcmp(names[i], sections[s]->name)) run_section(sections[s], &passed, &failed);
         }
     }
     for (int s = 0; s < SECTION_COUNT; s++) {
-        if (!is_among(sections[s].name, names, count)) run_section(&sections[s], &passed, &failed);
+        if (!is_among(sections[s]->name, names, count)) run_section(sections[s], &passed, &failed);
     }
     printf("%.1f seconds of processor time\n", (double)clock() / CLOCKS_PER_SEC);
     printf("%d passed, %d failed\n", passed, failed);
@@ -114,13 +82,13 @@ int main(int argc, char **argv)
     }
     printf("seed %llu\n", (unsigned long long)test_now.seed);
     for (int i = 0; i < SECTION_COUNT; i++) {
-        if (only && strcmp(only, sections[i].name)) continue;
+        if (only && strcmp(only, sections[i]->name)) continue;
         found = 1;
-        run_section(&sections[i], &passed, &failed);
+        run_section(sections[i], &passed, &failed);
     }
     if (!found) {
         printf("no section \"%s\"; there are:", only);
-        for (int i = 0; i < SECTION_COUNT; i++) printf(" %s", sections[i].name);
+        for (int i = 0; i < SECTION_COUNT; i++) printf(" %s", sections[i]->name);
         printf("\n");
         failed = 1;
     }

@@ -1,22 +1,7 @@
 /* math.c - vectors, against double precision and by their laws. */
+#include "unit.h"
 
 #define EPS 6e-8 /* half a unit in the last place of a float near 1 */
-
-static shade_vec3 random_vector(double size)
-{
-    return shade_v3(rnd_float(-size, size), rnd_float(-size, size), rnd_float(-size, size));
-}
-
-static int finite3(shade_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
-
-#define CHECK_VEC(got, want, within)                                                               \
-    do {                                                                                           \
-        shade_vec3 check_got = (got);                                                              \
-        d3 check_want = (want);                                                                    \
-        CHECK_NEAR(check_got.x, check_want.x, within);                                             \
-        CHECK_NEAR(check_got.y, check_want.y, within);                                             \
-        CHECK_NEAR(check_got.z, check_want.z, within);                                             \
-    } while (0)
 
 /* Tolerances grow with the number of roundings of an operation and with the size of its vectors. */
 TEST(math, componentwise_operations_round_once)
@@ -237,3 +222,5 @@ static const test_case math_cases[] = {
     CASE(math, the_own_square_root_equals_sqrtf),
     CASE(math, the_own_square_root_equals_sqrtf_at_every_mantissa),
 };
+
+SECTION(math);

@@ -1,122 +1,6 @@
 /* mesh.c - whole meshes: shade_draw_mesh against an oracle that evaluates the equation of light
    pixel by pixel in double precision, and vertex normals. */
-
-enum { MESH_VERTICES = 200, MESH_INDICES = 600 };
-
-typedef struct test_mesh {
-    float data[MESH_VERTICES * 16]; /* interleaved or one array after the other */
-    uint32_t indices[MESH_INDICES];
-    shade_vec3 position[MESH_VERTICES], normal[MESH_VERTICES], color[MESH_VERTICES];
-    shade_mesh mesh;
-    shade_draw_state state;
-    shade_light lights[3];
-    shade_material material;
-} test_mesh;
-
-/* Lays position, normal and colour out with a random stride, or tightly one after the other. */
-static void lay_out_mesh(test_mesh *m, int vertices, int with_normals, int with_colors)
-{
-    int interleaved = rnd_one_in(2), step = interleaved ? 9 + rnd_int(0, 3) : 3;
-    float *p = m->data, *n = interleaved ? p + 3 : p + 3 * MESH_VERTICES;
-    float *c = interleaved ? p + 6 : p + 6 * MESH_VERTICES;
-    for (int i = 0; i < vertices; i++) {
-        put3(p + i * step, m->position[i]);
-        put3(n + i * step, m->normal[i]);
-        put3(c + i * step, m->color[i]);
-    }
-    int stride = interleaved ? step * 4 : rnd_one_in(2) ? 12 : 0;
-    m->mesh.positions = p;
-    m->mesh.position_stride = stride;
-    m->mesh.normals = with_normals ? n : NULL;
-    m->mesh.normal_stride = stride;
-    m->mesh.colors = with_colors ? c : NULL;
-    m->mesh.color_stride = stride;
-    m->mesh.vertex_count = vertices;
-    m->mesh.indices = m->indices;
-}
-
-/* A bumpy ball of latitudes and longitudes, facing outward. */
-static void random_ball(test_mesh *m, int with_normals, int with_colors)
-{
-    int across = rnd_int(4, 12), up = rnd_int(3, 8), vertices = 0, count = 0;
-    for (int j = 0; j <= up; j++)
-        for (int i = 0; i <= across; i++) {
-            double a = 6.283185307179586 * i / across,
-                   b = 3.141592653589793 * ((j + 0.15) / (up + 0.3) - 0.5);
-            d3 n = d3_of(cos(a) * cos(b), sin(b), sin(a) * cos(b));
-            m->position[vertices] = d3_round(d3_scale(n, 1 + 0.1 * rnd_unit()));
-            d3 bent = d3_unit(d3_add(n, d3_scale(rnd_direction(), 0.2)));
-            m->normal[vertices] = d3_round(d3_scale(bent, (double)rnd_log(0.5, 2)));
-            m->color[vertices++] = random_color(1);
-        }
-    for (int j = 0; j < up; j++) {
-        for (int i = 0; i < across; i++) {
-            uint32_t a = (uint32_t)(j * (across + 1) + i), b = a + 1, c = a + (uint32_t)across + 1,
-                     d = c + 1;
-            m->indices[count++] = a;
-            m->indices[count++] = c;
-            m->indices[count++] = d;
-            m->indices[count++] = a;
-            m->indices[count++] = d;
-            m->indices[count++] = b;
-        }
-    }
-    m->mesh.index_count = count;
-    lay_out_mesh(m, vertices, with_normals, with_colors);
-}
-
-static void random_mesh_scene(test_mesh *m, shade_shading shading, int mirrored)
-{
-    memset(m, 0, sizeof *m);
-    random_ball(m, mirrored || rnd_int(0, 3) > 0, rnd_int(0, 1));
-    d3 eye = d3_scale(rnd_direction(), (double)rnd_float(2.6, 5));
-    d3 center = d3_scale(rnd_direction(), 0.3);
-    m->state.view = shade_mat4_look_at(d3_round(eye), d3_round(center), d3_round(rnd_direction()));
-    m->state.projection = rnd_one_in(4)
-                              ? shade_mat4_ortho(-1.8f, 1.8f, -1.4f, 1.4f, 0.1f, 20)
-                              : shade_mat4_perspective(rnd_float(0.5, 1), 4.0f / 3, 0.1f, 20);
-    if (!rnd_one_in(4)) {
-        shade_vec3 s = shade_v3(rnd_log(0.6, 1.6), rnd_log(0.6, 1.6), rnd_log(0.6, 1.6));
-        if (mirrored) s.x = -s.x;
-        m->state.model = shade_mat4_mul(
-            shade_mat4_translation(random_vector(0.2)),
-            shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())),
-                           shade_mat4_scaling(s)));
-    }
-    for (int k = 0; k < 3; k++) {
-        m->lights[k] = random_light(shade_v3(0, 0, 0), 5);
-        if (m->lights[k].position.w != 0) m->lights[k].position.w = 1;
-        d3 at = d3_of((double)m->lights[k].position.x, (double)m->lights[k].position.y,
-                      (double)m->lights[k].position.z);
-        if (d3_length(at) < 2.5) { /* outside the ball */
-            at = d3_scale(d3_unit(at), 2.5 + rnd_unit());
-            m->lights[k].position.x = (float)at.x;
-            m->lights[k].position.y = (float)at.y;
-            m->lights[k].position.z = (float)at.z;
-        }
-        if (m->lights[k].spot_exponent > 20) m->lights[k].spot_exponent = 20;
-        if (m->lights[k].spot_exponent < 1) m->lights[k].spot_exponent = 0;
-    }
-    m->material = random_material();
-    if (m->material.shininess > 60) m->material.shininess = 60;
-    if (m->material.shininess < 1) m->material.shininess = 0;
-    m->state.material = rnd_one_in(6) ? NULL : &m->material;
-    m->state.lighting.lights = m->lights;
-    m->state.lighting.light_count = rnd_int(0, 3);
-    m->state.lighting.ambient = random_color(0.3);
-    m->state.lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
-    m->state.lighting.flags = rnd_one_in(2) ? 0 : (unsigned)rnd_int(0, 63);
-    if (m->state.lighting.model == SHADE_MODEL_COOL_TO_WARM)
-        m->state.lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED_ABS;
-    m->state.lighting.terms = rnd_one_in(3) ? (unsigned)rnd_int(0, 15) : 0;
-    m->state.shading = shading;
-}
-
-static dmat matrix_or_identity(shade_mat4 m)
-{
-    dmat d = dmat_from(m);
-    return dmat_max(d) == 0 ? dmat_identity() : d;
-}
+#include "unit.h"
 
 typedef struct mesh_oracle {
     dmat model, normals, clip;
@@ -319,11 +203,6 @@ TEST(mesh, mirrored_models_keep_their_given_normals)
     check_meshes(SHADE_SHADING_PER_FRAGMENT, 1);
 }
 
-static shade_shading random_shading(void) /* that this build has varyings for */
-{
-    return (shade_shading)rnd_int(SHADE_MAX_VARYINGS < 6 ? SHADE_SHADING_PER_VERTEX : 0, 2);
-}
-
 TEST(mesh, faces_of_distant_light_and_viewer_have_one_colour) /* to the bit */
 {
     shade_material material = teapot_brass();
@@ -437,13 +316,11 @@ TEST(mesh, every_layout_of_the_same_mesh_gives_the_same_bits)
 {
     static test_mesh m;
     for (int i = 0; i < 30; i++) {
-        canvas a = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA32F, 1),
-               b = canvas_open(64, 48, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas c[2];
+        canvas_twins(c, 64, 48, SHADE_FORMAT_RGBA32F, 1);
         random_mesh_scene(&m, (shade_shading)(i % 3), 0);
         static float texcoord[MESH_VERTICES * 2];
-        canvas_clear(&a, 1);
-        canvas_clear(&b, 1);
-        canvas_draw_mesh(&a, &m.mesh, &m.state);
+        canvas_draw_mesh(&c[0], &m.mesh, &m.state);
         if (i % 2) {
             lay_out_mesh(&m, m.mesh.vertex_count, m.mesh.normals != NULL, m.mesh.colors != NULL);
             m.mesh.texcoords = texcoord;
@@ -466,10 +343,8 @@ TEST(mesh, every_layout_of_the_same_mesh_gives_the_same_bits)
             m.mesh.indices = NULL;
             m.mesh.index_count = 0;
         }
-        canvas_draw_mesh(&b, &m.mesh, &m.state);
-        CHECK(canvas_same(&a, &b));
-        canvas_close(&a);
-        canvas_close(&b);
+        canvas_draw_mesh(&c[1], &m.mesh, &m.state);
+        canvas_twins_close(c);
     }
 }
 
@@ -479,22 +354,18 @@ TEST(mesh, bands_of_a_mesh_give_the_bits_of_the_whole)
 {
     static test_mesh m;
     for (int i = 0; i < 60; i++) {
-        canvas a = canvas_open(64, 48, 0, (shade_format)(i % 3), 1),
-               b = canvas_open(64, 48, 0, (shade_format)(i % 3), 1);
+        canvas c[2];
+        canvas_twins(c, 64, 48, (shade_format)(i % 3), 1);
         random_mesh_scene(&m, (shade_shading)(i % 3), 0);
-        canvas_clear(&a, 1);
-        canvas_clear(&b, 1);
-        canvas_draw_mesh(&a, &m.mesh, &m.state);
+        canvas_draw_mesh(&c[0], &m.mesh, &m.state);
         int bands = rnd_int(2, 7);
         for (int k = 0; k < bands; k++) {
-            b.target.clip_y = 48 * k / bands;
-            b.target.clip_height = 48 * (k + 1) / bands - b.target.clip_y;
-            b.target.clip_width = 64;
-            canvas_draw_mesh(&b, &m.mesh, &m.state);
+            c[1].target.clip_y = 48 * k / bands;
+            c[1].target.clip_height = 48 * (k + 1) / bands - c[1].target.clip_y;
+            c[1].target.clip_width = 64;
+            canvas_draw_mesh(&c[1], &m.mesh, &m.state);
         }
-        CHECK(canvas_same(&a, &b));
-        canvas_close(&a);
-        canvas_close(&b);
+        canvas_twins_close(c);
     }
 }
 
@@ -547,18 +418,16 @@ static void permuted_corners(int first, float out[9])
 TEST(mesh, matrices_that_begin_with_zeros_are_used)
 {
     shade_draw_state s = plain_state(NULL);
-    canvas a = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
-    canvas b = canvas_open(20, 20, 0, SHADE_FORMAT_RGBA32F, 1);
     s.lighting.ambient = grey(0.25);
     for (int first = 0; first < 4; first++) { /* the row of the one in the first column */
+        canvas c[2];
         float moved[9];
         shade_mat4 m = permutation(first);
+        canvas_twins(c, 20, 20, SHADE_FORMAT_RGBA32F, 1);
         permuted_corners(first, moved);
         shade_mesh turned = plain_mesh(moved, 3);
         s.projection = m;
-        canvas_clear(&a, 1);
-        canvas_clear(&b, 1);
-        shade_stats stats = canvas_draw_mesh(&a, &turned, &s);
+        shade_stats stats = canvas_draw_mesh(&c[0], &turned, &s);
         CHECK(stats.fragments > 10);
         scene plain;
         shade_vec4 clip[3];
@@ -571,11 +440,9 @@ TEST(mesh, matrices_that_begin_with_zeros_are_used)
         plain.clip = clip;
         plain.color = &color;
         shade_pipeline p = scene_pipeline(&plain);
-        canvas_draw(&b, &p, 3);
-        CHECK(canvas_same(&a, &b));
+        canvas_draw(&c[1], &p, 3);
+        canvas_twins_close(c);
     }
-    canvas_close(&a);
-    canvas_close(&b);
 }
 
 TEST(mesh, a_mesh_of_nothing_needs_no_positions)
@@ -1067,24 +934,20 @@ TEST(mesh, depth_alone_has_the_holes_of_the_picture)
 {
     static alpha_scene s;
     for (int i = 0; i < 300; i++) {
-        canvas a = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA8, 1);
-        canvas b = canvas_open(ALPHA_W, ALPHA_H, 0, SHADE_FORMAT_RGBA8, 1);
+        canvas c[2];
+        canvas_twins(c, ALPHA_W, ALPHA_H, SHADE_FORMAT_RGBA8, 1);
         shade_stats once, before, after;
         random_alpha_scene(&s);
-        canvas_clear(&a, 1);
-        canvas_clear(&b, 1);
-        shade_result result = shade_draw_mesh(&a.target, &s.mesh, &s.state, &once);
-        void *color = b.target.color;
-        b.target.color = NULL;
-        CHECK_INT(shade_draw_mesh(&b.target, &s.mesh, &s.state, &before), result);
-        CHECK(!memcmp(a.depth, b.depth, a.depth_bytes));
-        b.target.color = color;
+        shade_result result = shade_draw_mesh(&c[0].target, &s.mesh, &s.state, &once);
+        void *color = c[1].target.color;
+        c[1].target.color = NULL;
+        CHECK_INT(shade_draw_mesh(&c[1].target, &s.mesh, &s.state, &before), result);
+        CHECK(!memcmp(c[0].depth, c[1].depth, c[0].depth_bytes));
+        c[1].target.color = color;
         s.state.raster.depth_test = SHADE_COMPARE_EQUAL;
-        CHECK_INT(shade_draw_mesh(&b.target, &s.mesh, &s.state, &after), result);
-        CHECK(canvas_same(&a, &b));
+        CHECK_INT(shade_draw_mesh(&c[1].target, &s.mesh, &s.state, &after), result);
         CHECK(once.fragments == before.fragments && once.fragments == after.fragments);
-        canvas_close(&a);
-        canvas_close(&b);
+        canvas_twins_close(c);
     }
 }
 
@@ -1227,3 +1090,5 @@ static const test_case mesh_cases[] = {
     CASE(mesh, corners_of_a_cube_point_along_its_diagonals),
     CASE(mesh, vertex_normals_of_bad_meshes_are_refused),
 };
+
+SECTION(mesh);

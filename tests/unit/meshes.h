@@ -5,17 +5,17 @@
 
 static const float big_triangle[] = { -0.9f, -0.9f, 0, 0.9f, -0.8f, 0, 0, 0.9f, 0 };
 
-static void put3(float *at, shade_vec3 v)
+static inline void put3(float *at, shade_vec3 v)
 {
     at[0] = v.x;
     at[1] = v.y;
     at[2] = v.z;
 }
 
-static shade_vec3 grey(double v) { return shade_v3((float)v, (float)v, (float)v); }
+static inline shade_vec3 grey(double v) { return shade_v3((float)v, (float)v, (float)v); }
 
 /* Positions one after the other, three to a triangle. */
-static shade_mesh plain_mesh(const float *positions, int vertices)
+static inline shade_mesh plain_mesh(const float *positions, int vertices)
 {
     shade_mesh m;
     memset(&m, 0, sizeof m);
@@ -25,7 +25,7 @@ static shade_mesh plain_mesh(const float *positions, int vertices)
 }
 
 /* All defaults, and one light or none. */
-static shade_draw_state plain_state(const shade_light *light)
+static inline shade_draw_state plain_state(const shade_light *light)
 {
     shade_draw_state s;
     memset(&s, 0, sizeof s);
@@ -35,7 +35,8 @@ static shade_draw_state plain_state(const shade_light *light)
 }
 
 /* Draws a mesh that is good. */
-static shade_stats canvas_draw_mesh(canvas *c, const shade_mesh *m, const shade_draw_state *s)
+static inline shade_stats canvas_draw_mesh(canvas *c, const shade_mesh *m,
+                                           const shade_draw_state *s)
 {
     shade_stats stats;
     memset(&stats, CANVAS_BYTE, sizeof stats);

@@ -2,6 +2,8 @@
    denormals; in any other mode nothing is read or written outside the caller's memory.  And what is
    finite and in range raises no invalid operation, no division by zero and no overflow, so that
    programs which trap them may draw. */
+#include "unit.h"
+#include "scene.h"
 #include <fenv.h>
 #include <signal.h>
 
@@ -204,3 +206,5 @@ static const test_case modes_cases[] = {
     CASE(modes, what_is_finite_and_in_range_raises_no_flag),
     MODES_CASE_TRAPS
 };
+
+SECTION(modes);

@@ -9,7 +9,7 @@ typedef struct d3 {
     double x, y, z;
 } d3;
 
-static d3 d3_of(double x, double y, double z)
+static inline d3 d3_of(double x, double y, double z)
 {
     d3 v;
     v.x = x;
@@ -19,11 +19,11 @@ static d3 d3_of(double x, double y, double z)
 }
 
 /* Coordinate 0, 1 or 2 of a vector, and the vector with another one there. */
-static float coordinate(shade_vec3 p, int axis)
+static inline float coordinate(shade_vec3 p, int axis)
 {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
-static shade_vec3 with_axis(shade_vec3 p, int axis, float value)
+static inline shade_vec3 with_axis(shade_vec3 p, int axis, float value)
 {
     if (axis == 0) p.x = value;
     if (axis == 1) p.y = value;
@@ -31,37 +31,37 @@ static shade_vec3 with_axis(shade_vec3 p, int axis, float value)
     return p;
 }
 
-static d3 d3_from(shade_vec3 v) { return d3_of((double)v.x, (double)v.y, (double)v.z); }
-static d3 d3_add(d3 a, d3 b) { return d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
-static d3 d3_sub(d3 a, d3 b) { return d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
-static d3 d3_mul(d3 a, d3 b) { return d3_of(a.x * b.x, a.y * b.y, a.z * b.z); }
-static d3 d3_scale(d3 a, double s) { return d3_of(a.x * s, a.y * s, a.z * s); }
-static double d3_dot(d3 a, d3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static double d3_length(d3 a) { return sqrt(d3_dot(a, a)); }
+static inline d3 d3_from(shade_vec3 v) { return d3_of((double)v.x, (double)v.y, (double)v.z); }
+static inline d3 d3_add(d3 a, d3 b) { return d3_of(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline d3 d3_sub(d3 a, d3 b) { return d3_of(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline d3 d3_mul(d3 a, d3 b) { return d3_of(a.x * b.x, a.y * b.y, a.z * b.z); }
+static inline d3 d3_scale(d3 a, double s) { return d3_of(a.x * s, a.y * s, a.z * s); }
+static inline double d3_dot(d3 a, d3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline double d3_length(d3 a) { return sqrt(d3_dot(a, a)); }
 
-static d3 d3_cross(d3 a, d3 b)
+static inline d3 d3_cross(d3 a, d3 b)
 {
     return d3_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-static d3 d3_unit(d3 a)
+static inline d3 d3_unit(d3 a)
 {
     double length = d3_length(a);
     return length < 1e-18 ? d3_of(0, 0, 0) : d3_scale(a, 1 / length);
 }
 
-static double d3_max(d3 a) /* the greatest magnitude */
+static inline double d3_max(d3 a) /* the greatest magnitude */
 {
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
 /* Inlined, gcc 12 at -O2 drops the rounding of two neighbours that become doubles again. */
 #ifdef __GNUC__
-__attribute__((noinline))
+__attribute__((noinline, unused))
 #endif
 static shade_vec3 d3_round(d3 a) { return shade_v3((float)a.x, (float)a.y, (float)a.z); }
 
-static d3 rnd_direction(void)
+static inline d3 rnd_direction(void)
 {
     d3 v;
     do v = d3_of(2 * rnd_unit() - 1, 2 * rnd_unit() - 1, 2 * rnd_unit() - 1);
@@ -76,21 +76,21 @@ typedef struct dmat {
     double m[4][4];
 } dmat;
 
-static dmat dmat_zero(void)
+static inline dmat dmat_zero(void)
 {
     dmat r;
     memset(&r, 0, sizeof r);
     return r;
 }
 
-static dmat dmat_identity(void)
+static inline dmat dmat_identity(void)
 {
     dmat r = dmat_zero();
     for (int k = 0; k < 4; k++) r.m[k][k] = 1;
     return r;
 }
 
-static dmat dmat_from(shade_mat4 s)
+static inline dmat dmat_from(shade_mat4 s)
 {
     dmat r;
     for (int c = 0; c < 4; c++) {
@@ -102,7 +102,7 @@ static dmat dmat_from(shade_mat4 s)
     return r;
 }
 
-static dmat dmat_from3(shade_mat3 s)
+static inline dmat dmat_from3(shade_mat3 s)
 {
     dmat r = dmat_identity();
     for (int c = 0; c < 3; c++) {
@@ -113,7 +113,7 @@ static dmat dmat_from3(shade_mat3 s)
     return r;
 }
 
-static dmat dmat_mul(dmat a, dmat b)
+static inline dmat dmat_mul(dmat a, dmat b)
 {
     dmat r = dmat_zero();
     for (int i = 0; i < 4; i++)
@@ -122,14 +122,14 @@ static dmat dmat_mul(dmat a, dmat b)
     return r;
 }
 
-static void dmat_apply(dmat a, const double in[4], double out[4])
+static inline void dmat_apply(dmat a, const double in[4], double out[4])
 {
     for (int i = 0; i < 4; i++) {
         out[i] = a.m[i][0] * in[0] + a.m[i][1] * in[1] + a.m[i][2] * in[2] + a.m[i][3] * in[3];
     }
 }
 
-static d3 dmat_point(dmat a, d3 p) /* w = 1, the first three rows */
+static inline d3 dmat_point(dmat a, d3 p) /* w = 1, the first three rows */
 {
     double in[4], out[4];
     in[0] = p.x;
@@ -140,12 +140,12 @@ static d3 dmat_point(dmat a, d3 p) /* w = 1, the first three rows */
     return d3_of(out[0], out[1], out[2]);
 }
 
-static d3 dmat_direction(dmat a, d3 p)
+static inline d3 dmat_direction(dmat a, d3 p)
 {
     return d3_sub(dmat_point(a, p), dmat_point(a, d3_of(0, 0, 0)));
 }
 
-static double dmat_max(dmat a)
+static inline double dmat_max(dmat a)
 {
     double most = 0;
     for (int i = 0; i < 16; i++) most = fmax(most, fabs(a.m[i / 4][i % 4]));
@@ -154,7 +154,7 @@ static double dmat_max(dmat a)
 
 /* Gauss-Jordan with full row pivoting; returns the determinant of the leading n x n block and its
    inverse. */
-static double dmat_invert(dmat a, int n, dmat *inverse)
+static inline double dmat_invert(dmat a, int n, dmat *inverse)
 {
     double determinant = 1;
     dmat r = dmat_identity();
@@ -198,7 +198,7 @@ static double dmat_invert(dmat a, int n, dmat *inverse)
 }
 
 /* sign(det) times the cofactors of the upper left 3 x 3 */
-static dmat dmat_normals(dmat a)
+static inline dmat dmat_normals(dmat a)
 {
     d3 c[3], k[3];
     for (int j = 0; j < 3; j++) c[j] = d3_of(a.m[0][j], a.m[1][j], a.m[2][j]);
@@ -228,19 +228,19 @@ typedef struct ref_lit {
     int unsure;
 } ref_lit;
 
-static double ref_power(double x, double n)
+static inline double ref_power(double x, double n)
 {
     x = x > 0 ? (x < 1 ? x : 1) : 0;
     n = n > 0 ? n : 0;
     return n == 0 ? 1 : pow(x, n);
 }
 
-static int ref_steep(double x, double n)
+static inline int ref_steep(double x, double n)
 {
     return n > 0 && n < 1 && x > -REF_MARGIN && x < REF_STEEP;
 }
 
-static double ref_attenuation(double a, double b, double c, double r)
+static inline double ref_attenuation(double a, double b, double c, double r)
 {
     if (a == 0 && b == 0 && c == 0) return 1;
     if (a == 0) r = fmax(r, 1e-4);
@@ -248,7 +248,7 @@ static double ref_attenuation(double a, double b, double c, double r)
     return q > 1e-20 ? 1 / q : 1e20;
 }
 
-static double ref_spot(d3 L, d3 aim, double cos_cutoff, double exponent, int *unsure)
+static inline double ref_spot(d3 L, d3 aim, double cos_cutoff, double exponent, int *unsure)
 {
     if (d3_length(aim) < 1e-18) return 1;
     double c = -d3_dot(L, d3_unit(aim));
@@ -257,7 +257,7 @@ static double ref_spot(d3 L, d3 aim, double cos_cutoff, double exponent, int *un
 }
 
 /* B and the weight apart: the power of the highlight */
-static double ref_highlight(shade_model model, d3 N, d3 L, d3 V, double n, int *unsure)
+static inline double ref_highlight(shade_model model, d3 N, d3 L, d3 V, double n, int *unsure)
 {
     if (model == SHADE_MODEL_PHONG) {
         d3 R = d3_sub(d3_scale(N, 2 * d3_dot(N, L)), L);
@@ -271,7 +271,7 @@ static double ref_highlight(shade_model model, d3 N, d3 L, d3 V, double n, int *
     return ref_power(d3_dot(N, d3_unit(H)), n);
 }
 
-static d3 ref_cool_to_warm(double NL, d3 cool, d3 warm)
+static inline d3 ref_cool_to_warm(double NL, d3 cool, d3 warm)
 {
     if (d3_max(cool) == 0) cool = d3_of(0.4, 0.4, 0.7);
     if (d3_max(warm) == 0) warm = d3_of(0.8, 0.6, 0.6);
@@ -281,7 +281,7 @@ static d3 ref_cool_to_warm(double NL, d3 cool, d3 warm)
 
 /* From P toward the lamp, which stands at xyz / w in floats; its distance in *r, 0 for lights at
    infinity. */
-static d3 ref_to_light(const shade_light *light, d3 P, double *r)
+static inline d3 ref_to_light(const shade_light *light, d3 P, double *r)
 {
     d3 p = d3_of((double)light->position.x, (double)light->position.y, (double)light->position.z);
     double w = (double)light->position.w;
@@ -292,8 +292,8 @@ static d3 ref_to_light(const shade_light *light, d3 P, double *r)
     return d3_unit(d);
 }
 
-static ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3 P, d3 N, d3 eye,
-                         d3 albedo)
+static inline ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3 P, d3 N,
+                                d3 eye, d3 albedo)
 {
     ref_lit out;
     memset(&out, 0, sizeof out);
@@ -379,7 +379,8 @@ static ref_lit ref_light(const shade_lighting *li, const shade_material *mat, d3
 /* Whether the centre of pixel (i, j) belongs to the triangle of 24.8 fixed-point corners.  The
    top-left rule says: where the centre lies on an edge, ask for the point an instant to the right
    of it, and where that lies on the edge too, for the point an instant below. */
-static int ref_edge_sign(int64_t ax, int64_t ay, int64_t bx, int64_t by, int64_t px, int64_t py)
+static inline int ref_edge_sign(int64_t ax, int64_t ay, int64_t bx, int64_t by, int64_t px,
+                                int64_t py)
 {
     int64_t e = (bx - ax) * (py - ay) - (by - ay) * (px - ax);
     if (e == 0) e = -(by - ay); /* its slope toward +x */
@@ -387,7 +388,7 @@ static int ref_edge_sign(int64_t ax, int64_t ay, int64_t bx, int64_t by, int64_t
     return (e > 0) - (e < 0);
 }
 
-static int ref_inside_fx8(const int64_t x[3], const int64_t y[3], int i, int j)
+static inline int ref_inside_fx8(const int64_t x[3], const int64_t y[3], int i, int j)
 {
     int64_t px = (int64_t)i * 256 + 128, py = (int64_t)j * 256 + 128;
     int64_t area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
@@ -408,8 +409,8 @@ typedef struct ref_triangle {
     int front;       /* meant where all w > 0 */
 } ref_triangle;
 
-static int ref_triangle_of(ref_triangle *t, const shade_vec4 *a, const shade_vec4 *b,
-                           const shade_vec4 *c, int width, int height)
+static inline int ref_triangle_of(ref_triangle *t, const shade_vec4 *a, const shade_vec4 *b,
+                                  const shade_vec4 *c, int width, int height)
 {
     const shade_vec4 *v[3];
     v[0] = a;
@@ -435,24 +436,25 @@ static int ref_triangle_of(ref_triangle *t, const shade_vec4 *a, const shade_vec
     return 1;
 }
 
-static double ref_at(const double e[3], double X, double Y) { return e[0] * X + e[1] * Y + e[2]; }
+static inline double ref_at(const double e[3], double X,
+                            double Y) { return e[0] * X + e[1] * Y + e[2]; }
 
-static void ref_barycentric(const ref_triangle *t, double X, double Y, double b[3])
+static inline void ref_barycentric(const ref_triangle *t, double X, double Y, double b[3])
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) sum += b[k] = ref_at(t->e[k], X, Y);
     for (int k = 0; k < 3; k++) b[k] /= sum;
 }
 
-static double ref_interpolate(const ref_triangle *t, double X, double Y, double v0, double v1,
-                              double v2)
+static inline double ref_interpolate(const ref_triangle *t, double X, double Y, double v0,
+                                     double v1, double v2)
 {
     double b[3];
     ref_barycentric(t, X, Y, b);
     return b[0] * v0 + b[1] * v1 + b[2] * v2;
 }
 
-static double ref_depth(const ref_triangle *t, double X, double Y, int zero_to_one)
+static inline double ref_depth(const ref_triangle *t, double X, double Y, int zero_to_one)
 {
     double ndc = 0;
     for (int k = 0; k < 3; k++) ndc += ref_at(t->e[k], X, Y) * t->z[k];
@@ -461,8 +463,8 @@ static double ref_depth(const ref_triangle *t, double X, double Y, int zero_to_o
 
 /* 1 inside, 0 outside, -1 within margin pixels of the border of the visible part; z_clip: near and
    far count. */
-static int ref_covers(const ref_triangle *t, double X, double Y, double margin, int z_clip,
-                      int zero_to_one)
+static inline int ref_covers(const ref_triangle *t, double X, double Y, double margin, int z_clip,
+                             int zero_to_one)
 {
     double least = 1e300;
     for (int k = 0; k < 3; k++) {
@@ -488,13 +490,13 @@ static int ref_covers(const ref_triangle *t, double X, double Y, double margin, 
 
 /* --------------------------------------------------------------------------------- colour codes */
 
-static double ref_encode_srgb(double c)
+static inline double ref_encode_srgb(double c)
 {
     c = c > 0 ? (c < 1 ? c : 1) : 0;
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
 }
 
-static double ref_decode_srgb(double v)
+static inline double ref_decode_srgb(double v)
 {
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }

@@ -1,6 +1,7 @@
 /* packets.c - triangles and fragments keep to themselves, whatever lane of a packet they are in:
    setup beside a scalar oracle in 64-bit integers and doubles, and the queue of fragments at every
    fill, for runs of every length. */
+#include "unit.h"
 
 enum {
     PACKETS_MOST = SHADE_LANES / 3, /* triangles whose vertices fill a batch */
@@ -706,3 +707,5 @@ static const test_case packets_cases[] = {
     CASE(packets, runs_of_every_length_meet_the_queue_at_every_fill),
     CASE(packets, packets_of_many_triangles_end_at_every_pixel_of_a_run),
 };
+
+SECTION(packets);

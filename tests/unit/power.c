@@ -1,4 +1,5 @@
 /* power.c - shade_power against pow. */
+#include "unit.h"
 
 #define POWER_BOUND 2e-6
 
@@ -117,3 +118,5 @@ static const test_case power_cases[] = {
     CASE(power, whole_exponents_equal_repeated_squaring),
     CASE(power, never_falls_far_as_its_base_grows),
 };
+
+SECTION(power);

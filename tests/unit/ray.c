@@ -1,4 +1,5 @@
 /* ray.c - rays through pixels, rays against triangles, and pictures drawn both ways. */
+#include "unit.h"
 
 /* ---------------------------------------------------------------------------------------- rays */
 
@@ -141,57 +142,6 @@ TEST(ray, a_degenerate_camera_has_rays_without_direction)
 }
 
 /* ------------------------------------------------------------------------------- intersections */
-
-static long double ld_dot(const long double *a, const long double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void ld_cross(const long double *a, const long double *b, long double *out)
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-    }
-}
-
-static void ld_of(d3 a, d3 minus, long double *out)
-{
-    out[0] = (long double)a.x - (long double)minus.x;
-    out[1] = (long double)a.y - (long double)minus.y;
-    out[2] = (long double)a.z - (long double)minus.z;
-}
-
-/* 1 hit, 0 miss, -1 too near an edge, the plane or the origin to tell; t and barycentrics.  The
-   plane first, then areas, in long double: where rays graze, double loses half its digits this
-   way. */
-static int ref_intersect(const shade_ray *ray, const d3 p[3], double *t, double b[3])
-{
-    long double d[3], n[3], e[3], f[3], from[3], area, slope, at[3], tt;
-    double least = 1e300;
-    d3 o = d3_from(ray->origin);
-    ld_of(d3_from(ray->direction), d3_of(0, 0, 0), d);
-    ld_of(p[1], p[0], e);
-    ld_of(p[2], p[0], f);
-    ld_of(p[0], o, from);
-    ld_cross(e, f, n);
-    area = ld_dot(n, n);
-    slope = ld_dot(n, d);
-    if (area == 0) return 0;
-    if (fabs((double)slope) < 1e-6 * sqrt((double)area)) return -1;
-    tt = ld_dot(n, from) / slope;
-    *t = (double)tt;
-    for (int k = 0; k < 3; k++) {
-        const d3 *q = &p[(k + 1) % 3];
-        ld_of(o, *q, at);
-        for (int i = 0; i < 3; i++) at[i] += tt * d[i];
-        ld_of(p[(k + 2) % 3], *q, e);
-        ld_cross(e, at, f);
-        b[k] = (double)(ld_dot(f, n) / area);
-        least = fmin(least, b[k]);
-    }
-    if (fabs(least) < 1e-9 || fabs(*t) < 1e-9) return -1;
-    return least > 0 && *t > 0;
-}
 
 TEST(ray, a_triangle_is_met_where_the_plane_and_the_barycentrics_say)
 {
@@ -354,98 +304,6 @@ TEST(ray, no_numbers_meet_nothing_or_something_finite)
 }
 
 /* -------------------------------------------------------------------------------------- picking */
-
-enum { PICK_VERTICES = 60, PICK_TRIANGLES = 90 };
-
-typedef struct pick_scene {
-    float data[PICK_VERTICES * 3 * 7];
-    shade_vec3 position[PICK_VERTICES];
-    uint32_t index[3 * PICK_TRIANGLES];
-    shade_mesh mesh;
-    shade_mat4 model;
-} pick_scene;
-
-/* Triangles anywhere in a box of 2 size, some of them twice; indexed or in threes; spread out;
-   placed by a model that turns, scales, mirrors, or is left out. */
-static void random_pick_scene(pick_scene *s, double size)
-{
-    int stride = rnd_one_in(2) ? 0 : 3 + rnd_int(0, 4), indexed = rnd_int(0, 1);
-    memset(s, 0, sizeof *s);
-    for (int k = 0; k < PICK_VERTICES; k++) {
-        s->position[k] = random_vector(size);
-        put3(s->data + k * (stride ? stride : 3), s->position[k]);
-    }
-    for (int k = 0; k < 3 * PICK_TRIANGLES; k++) s->index[k] = (uint32_t)rnd_int(0, 59);
-    for (int k = 3; k < 3 * PICK_TRIANGLES; k += 3)
-        if (rnd_one_in(5)) memcpy(s->index + k, s->index + 3 * rnd_int(0, k / 3 - 1), 12);
-    s->mesh.positions = s->data;
-    s->mesh.position_stride = 4 * stride;
-    s->mesh.vertex_count = PICK_VERTICES;
-    if (indexed) {
-        s->mesh.indices = s->index;
-        s->mesh.index_count = 3 * PICK_TRIANGLES;
-    } else {
-        s->mesh.index_count = -5; /* nobody reads it without indices */
-    }
-    if (rnd_one_in(4)) return;
-    shade_vec3 scale = shade_v3(rnd_sign() * rnd_log(0.3, 3), rnd_sign() * rnd_log(0.3, 3),
-                                rnd_sign() * rnd_log(0.3, 3));
-    if (rnd_one_in(3)) scale.y = scale.z = scale.x;
-    s->model = shade_mat4_scaling(scale);
-    if (rnd_one_in(3)) return;
-    s->model =
-        shade_mat4_mul(shade_mat4_rotation(rnd_float(-3, 3), d3_round(rnd_direction())), s->model);
-    s->model = shade_mat4_mul(shade_mat4_translation(random_vector(size)), s->model);
-}
-
-static int pick_triangles(const pick_scene *s)
-{
-    return s->mesh.indices ? PICK_TRIANGLES : PICK_VERTICES / 3;
-}
-
-static d3 pick_corner(const pick_scene *s, int triangle, int k)
-{
-    uint32_t v = s->mesh.indices ? s->index[3 * triangle + k] : (uint32_t)(3 * triangle + k);
-    return dmat_point(matrix_or_identity(s->model), d3_from(s->position[v]));
-}
-
-/* The nearest triangle in long double, -1: none; -2: within margin of an edge, the origin or the
-   next nearest. */
-static int ref_pick(const pick_scene *s, const shade_ray *ray, double margin, double *t,
-                    double barycentric[3])
-{
-    int found = -1, unsure = 0;
-    double nearest = 1e300, second = 1e300;
-    for (int n = 0; n < pick_triangles(s); n++) {
-        double at = 0, b[3] = { 0, 0, 0 };
-        d3 p[3] = { pick_corner(s, n, 0), pick_corner(s, n, 1), pick_corner(s, n, 2) };
-        d3 area = d3_cross(d3_unit(d3_sub(p[1], p[0])), d3_unit(d3_sub(p[2], p[0])));
-        if (d3_length(area) == 0) continue;
-        int hit = ref_intersect(ray, p, &at, b);
-        double least = fmin(b[0], fmin(b[1], b[2]));
-        if (hit < 0 || d3_length(area) < 100 * margin || fabs(least) < margin ||
-            (least > 0 && fabs(at) < margin)) {
-            unsure = 1; /* unless something lies surely before it */
-            continue;
-        }
-        if (!hit) continue;
-        int same = 0; /* as the nearest: the first counts */
-        for (int k = 0; k < 3 && found >= 0; k++)
-            same += d3_length(d3_sub(p[k], pick_corner(s, found, k))) == 0;
-        if (same == 3) continue;
-        if (at < nearest) {
-            second = nearest;
-            nearest = at;
-            found = n;
-            memcpy(barycentric, b, sizeof b);
-        } else {
-            second = fmin(second, at);
-        }
-    }
-    *t = nearest;
-    if (found >= 0 && second - nearest < margin * (1 + nearest)) return -2;
-    return unsure ? -2 : found;
-}
 
 /* How far rounding moves t.  The model moves corners by 2^-22 of the sums that it rounds, which
    are below 7 sizes, and no point of a triangle farther; seen at an angle a ray slides along. */
@@ -1303,3 +1161,5 @@ static const test_case ray_cases[] = {
     CASE(ray, a_flat_triangle_is_met_however_far_it_is),
     CASE(ray, in_the_plane_of_a_triangle_a_ray_meets_it_in_its_box_or_not_at_all),
 };
+
+SECTION(ray);

@@ -1,6 +1,7 @@
 /* recipes.c - the equations of four lecture notes in their own words, in double, beside the recipes
    for them in examples/README.md, "Reading your course": UW CSE 457, Massey 159.709, Shirley's
    chapter 10, Berkeley CS 184.  Then what that section says in numbers of their traps. */
+#include "unit.h"
 #include "examples/shared/recipes.h"
 
 enum { COURSE_SAMPLES = 10000, COURSE_LAMPS = 3 };
@@ -319,3 +320,5 @@ static const test_case recipes_cases[] = {
     CASE(recipes, an_orthographic_camera_has_a_viewer_at_infinity),
     CASE(recipes, headlight_and_w),
 };
+
+SECTION(recipes);

@@ -1,5 +1,6 @@
 /* refusals.c - what is wrong with a call: of several faults the first category is told, in the
    order NULLs, target, mesh, state, lights, texture, indices, room; nothing is written. */
+#include "unit.h"
 
 typedef struct whole_call { /* all that any call is given, good until it is spoilt */
     canvas c;
@@ -400,3 +401,5 @@ static const test_case refusals_cases[] = {
     CASE(refusals, alpha_alone_is_no_format_of_a_target),
     CASE(refusals, every_result_names_its_fields_in_a_text_of_its_own),
 };
+
+SECTION(refusals);

@@ -1,5 +1,6 @@
 /* resolve.c - supersampled pictures brought down, formats converted, and pictures drawn in strips.
    */
+#include "unit.h"
 
 static void resolve_fill(canvas *c)
 {
@@ -554,3 +555,5 @@ static const test_case resolve_cases[] = {
     CASE(resolve, supersampled_edges_are_shares_of_sixteenths),
     CASE(resolve, a_small_machine_s_strips_are_the_whole_picture_bit_for_bit),
 };
+
+SECTION(resolve);

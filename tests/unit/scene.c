@@ -7,30 +7,13 @@
    [folder] */
 #ifdef SCENE_MAIN
 #define SHADE_IMPLEMENTATION
+#endif
 #include "shade.h"
 #include "test.h"
 #include "canvas.h"
-#endif
+#include "scene.h"
 
-enum { SCENE_WIDTH = 160, SCENE_HEIGHT = 120, SCENE_SIDE = 9, SCENE_COUNT = 27 };
-
-typedef struct golden_scene { /* fields that are left out: 0, the default */
-    const char *name;
-    shade_model model;
-    shade_shading shading;
-    shade_format format;
-    shade_blend blend;
-    int srgb, dither, lights;
-    unsigned flags;
-    int inside; /* the camera stands among the shapes: near plane and guard band cut */
-    int reversed;
-    int map; /* kinds of scene_map */
-    int lines, affine;
-    int wild; /* lights, colours and texture coordinates that overflow, are infinite or NaN */
-    float transparency, alpha_cutoff;
-} golden_scene;
-
-static const golden_scene golden_scenes[SCENE_COUNT] = {
+const golden_scene golden_scenes[SCENE_COUNT] = {
     { .name = "blinn_phong", .lights = 3 },
     { .name = "phong", .model = SHADE_MODEL_PHONG, .lights = 3 },
     { .name = "lambert", .model = SHADE_MODEL_LAMBERT, .lights = 3 },
@@ -135,7 +118,7 @@ static float scene_position[6 * SCENE_SIDE * SCENE_SIDE * 3],
     scene_color[6 * SCENE_SIDE * SCENE_SIDE * 3];
 static uint32_t scene_index[6 * (SCENE_SIDE - 1) * (SCENE_SIDE - 1) * 6];
 
-static void scene_build(void)
+void scene_build(void)
 {
     int vertices = 0, count = 0, half = SCENE_SIDE / 2;
     for (int face = 0; face < 6; face++) {
@@ -285,7 +268,7 @@ static void scene_spoil(shade_light *lights, shade_material *gold, shade_mesh *m
     gold->emission = shade_v3(-0.0f, 0.25f, 0);
 }
 
-static void scene_draw(canvas *c, const golden_scene *g)
+void scene_draw(canvas *c, const golden_scene *g)
 {
     shade_texture levels[5], map = scene_map(g->map, levels);
     shade_light lights[3];
@@ -373,7 +356,7 @@ static uint64_t scene_hash(const canvas *c)
     return h;
 }
 
-static canvas scene_open(const golden_scene *g)
+canvas scene_open(const golden_scene *g)
 {
     canvas c = canvas_open(SCENE_WIDTH, SCENE_HEIGHT, 0, g->format, 1);
     c.target.srgb = g->srgb;
@@ -387,7 +370,7 @@ static int scene_write(void *file, const void *bytes, size_t size)
     return fwrite(bytes, 1, size, (FILE *)file) != size;
 }
 
-static int scene_print(const char *folder)
+int scene_print(const char *folder)
 {
     scene_build();
     for (int k = 0; k < SCENE_COUNT; k++) {
@@ -484,10 +467,13 @@ static const test_case scene_cases[] = {
     CASE(scene, bands_give_the_hash_of_the_whole),
 };
 
+SECTION(scene);
+
 #ifdef SCENE_MAIN
+struct test_run test_now;
+
 int main(int argc, char **argv)
 {
-    (void)scene_cases;
     return scene_print(argc > 1 ? argv[1] : NULL);
 }
 #endif

@@ -1,5 +1,6 @@
 /* shaders.c - fragment shaders of draw states: what they are handed, what becomes of colours, and
    that it may be what the library would have done. */
+#include "unit.h"
 
 enum { OWN_W = 40, OWN_H = 30, OWN_VERTICES = 24, OWN_INDICES = 45 };
 enum { /* its varyings; in builds that have too few, one that is there */
@@ -419,3 +420,5 @@ static const test_case shaders_cases[] = {
     CASE(shaders, one_that_lights_as_the_library_does_draws_its_bits),
     CASE(shaders, colours_of_vertices_cut_holes_into_depth_alone),
 };
+
+SECTION(shaders);

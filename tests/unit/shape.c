@@ -1,5 +1,6 @@
 /* shape.c - normals of corners and edges of meshes, against oracles that compare every face with
    every other. */
+#include "unit.h"
 
 enum { SHAPE_VERTICES = 128, SHAPE_CORNERS = 480 };
 
@@ -76,8 +77,6 @@ static void corner_normals(const shade_mesh *m, float cos_crease, shade_vec3 *ou
     }
     free(block);
 }
-
-static double shape_off(shade_vec3 got, d3 want) { return d3_length(d3_sub(d3_from(got), want)); }
 
 /* A cube: vertices shared, or four to a face. */
 static void shape_cube(shape_mesh *s, int split)
@@ -811,15 +810,6 @@ TEST(shape, silhouettes_part_front_from_back_and_creases_bend_enough)
     CHECK_INT(shade_is_crease(x, minus, -1), 1);
 }
 
-/* Three multiples of one vector by powers of two are floats on a line to the bit, while differences
-   of them round, even in double. */
-static void corners_in_a_line(shade_vec3 p[3])
-{
-    const shade_vec3 v = d3_round(rnd_direction());
-    for (int k = 0; k < 3; k++)
-        p[k] = shade_scale(v, rnd_sign() * (float)ldexp(1, rnd_int(-40, 3)));
-}
-
 TEST(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal)
 {
     for (int i = 0; i < 20000; i++) {
@@ -1055,3 +1045,5 @@ static const test_case shape_cases[] = {
     CASE(shape, faces_whose_corners_lie_in_a_line_to_the_bit_have_no_normal),
     CASE(shape, a_triangle_without_area_in_a_junction_turns_no_normal),
 };
+
+SECTION(shape);

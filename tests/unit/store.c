@@ -1,5 +1,6 @@
 /* store.c - colours into pixels: clamping, rounding, sRGB, NaN, dither, clearing, and the PPM file.
    */
+#include "unit.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <signal.h>
@@ -35,21 +36,6 @@ static void draw_colors(canvas *c, const shade_vec4 *colors, int count)
     }
     canvas_draw(c, &p, 3 * count);
     free(corners);
-}
-
-/* The bytes of a pixel or texel as linear RGBA.  Floats are linear whatever srgb says. */
-static void ref_pixel(shade_format format, int srgb, const unsigned char *p, double v[4])
-{
-    float f[4];
-    if (format == SHADE_FORMAT_RGBA32F) memcpy(f, p, 16);
-    for (int k = 0; k < 4; k++) {
-        int most = canvas_most(format, k);
-        if (format == SHADE_FORMAT_RGBA32F)
-            v[k] = (double)f[k];
-        else
-            v[k] = most ? canvas_code_at(format, p, k) / (double)most : 1;
-        if (format != SHADE_FORMAT_RGBA32F && srgb && k < 3) v[k] = ref_decode_srgb(v[k]);
-    }
 }
 
 #define STORE_SLACK 1e-4 /* beyond half a step: the float rounding of c times 255 */
@@ -657,3 +643,5 @@ static const test_case store_cases[] = {
     CASE(store, a_full_disk_is_an_error),
 #endif
 };
+
+SECTION(store);

@@ -32,14 +32,16 @@ typedef struct test_section {
 #define CASE(section, name)                                                    \
     { #name, section##__##name }
 
-/* An entry of the table of sections: the section's name, its cases and their number. */
+/* Ends a file: the section's name, its cases and their number, for the table of main.c. */
 #define SECTION(section)                                                       \
-    { #section, section##_cases, TEST_COUNT(section##_cases) }
+    const test_section section##_section = {                                   \
+        #section, section##_cases, TEST_COUNT(section##_cases)                 \
+    }
 
 /* The number of elements of an array. */
 #define TEST_COUNT(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
-static struct {
+extern struct test_run {
     uint64_t seed, state;  /* of the run; of the generator */
     long checks, failures; /* in the case that runs */
     int skipped, stop;     /* stop: end the run at the first failure */
@@ -51,7 +53,7 @@ static struct {
 #if defined(__GNUC__) || defined(__clang__)
 __attribute__((format(printf, 4, 5)))
 #endif
-static void
+static inline void
 test_fail(const char *file, int line, const char *what, const char *format, ...)
 {
     if (test_now.failures++ >= TEST_MAX_PRINTED) return;
@@ -64,8 +66,8 @@ test_fail(const char *file, int line, const char *what, const char *format, ...)
     if (test_now.stop) exit(1);
 }
 
-static void test_near(const char *file, int line, const char *what, double got, double want,
-                      double within)
+static inline void test_near(const char *file, int line, const char *what, double got, double want,
+                             double within)
 {
     test_now.checks++;
     if (!(fabs(got - want) <= within)) {
@@ -73,7 +75,8 @@ static void test_near(const char *file, int line, const char *what, double got, 
     }
 }
 
-static void test_int(const char *file, int line, const char *what, long long got, long long want)
+static inline void test_int(const char *file, int line, const char *what, long long got,
+                            long long want)
 {
     test_now.checks++;
     if (got != want) test_fail(file, line, what, "got %lld, want %lld", got, want);
@@ -106,14 +109,14 @@ static void test_int(const char *file, int line, const char *what, long long got
     test_int(__FILE__, __LINE__, #got, (long long)(got), (long long)(want))
 
 /* Leaves a case out where the build has no such feature. */
-static void test_skip(const char *why)
+static inline void test_skip(const char *why)
 {
     test_now.skipped = 1;
     printf("%s.%s: left out: %s\n", test_now.section, test_now.name, why);
 }
 
 /* malloc, or the end of the run. */
-static void *test_memory(size_t bytes)
+static inline void *test_memory(size_t bytes)
 {
     void *memory = malloc(bytes);
     if (!memory) {
@@ -126,7 +129,7 @@ static void *test_memory(size_t bytes)
 /* ------------------------------------------------------------------------------- random numbers */
 
 /* 64 random bits, by splitmix64. */
-static uint64_t rnd_bits(void)
+static inline uint64_t rnd_bits(void)
 {
     uint64_t z = test_now.state += 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -135,32 +138,32 @@ static uint64_t rnd_bits(void)
 }
 
 /* A double of [0, 1): 53 random bits. */
-static double rnd_unit(void) { return (double)(rnd_bits() >> 11) / 9007199254740992.0; }
-static float rnd_float(double lo, double hi) { return (float)(lo + (hi - lo) * rnd_unit()); }
+static inline double rnd_unit(void) { return (double)(rnd_bits() >> 11) / 9007199254740992.0; }
+static inline float rnd_float(double lo, double hi) { return (float)(lo + (hi - lo) * rnd_unit()); }
 
 /* A whole number of lo .. hi, both included. */
-static int rnd_int(int lo, int hi)
+static inline int rnd_int(int lo, int hi)
 {
     return lo + (int)(rnd_bits() % ((uint64_t)((int64_t)hi - lo) + 1));
 }
 
-static int rnd_one_in(int n) { return rnd_int(1, n) == 1; }
-static float rnd_sign(void) { return rnd_one_in(2) ? 1.0f : -1.0f; }
+static inline int rnd_one_in(int n) { return rnd_int(1, n) == 1; }
+static inline float rnd_sign(void) { return rnd_one_in(2) ? 1.0f : -1.0f; }
 
 /* A number of lo .. hi whose logarithm is evenly spread; lo > 0. */
-static float rnd_log(double lo, double hi)
+static inline float rnd_log(double lo, double hi)
 {
     return (float)(lo * pow(hi / lo, rnd_unit()));
 }
 
-static float bits_float(uint32_t u)
+static inline float bits_float(uint32_t u)
 {
     float f;
     memcpy(&f, &u, 4);
     return f;
 }
 
-static uint32_t float_bits(float f)
+static inline uint32_t float_bits(float f)
 {
     uint32_t u;
     memcpy(&u, &f, 4);
@@ -168,7 +171,7 @@ static uint32_t float_bits(float f)
 }
 
 /* One of the floats that break programs, or any bits, or an ordinary number. */
-static float rnd_nasty(void)
+static inline float rnd_nasty(void)
 {
     static const uint32_t pattern[] = {
         0x7FC00000u, 0xFFC00001u, 0x7F800001u, /* NaN, the last one signalling */
@@ -188,8 +191,8 @@ static float rnd_nasty(void)
 
 /* ----------------------------------------------------------------------------------- the runner */
 
-static void test_run_case(const test_section *section, const test_case *item, int *passed,
-                          int *failed)
+static inline void test_run_case(const test_section *section, const test_case *item, int *passed,
+                                 int *failed)
 {
     uint64_t hash = 14695981039346656037u;
     for (const char *c = item->name; *c; c++)

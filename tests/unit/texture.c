@@ -1,17 +1,8 @@
 /* texture.c - texels to colours: addressing, filtering, mipmaps, level of detail, and the map of a
    mesh, against an oracle that reads the same memory in double precision. */
+#include "unit.h"
 
 /* -------------------------------------------------------------------------------------- oracle */
-
-static size_t texture_stride(const shade_texture *t)
-{
-    return (size_t)(t->stride ? t->stride : t->width);
-}
-
-static size_t texture_cells(const shade_texture *t) /* no padding after the last row */
-{
-    return texture_stride(t) * (size_t)(t->height - 1) + (size_t)t->width;
-}
 
 /* Texel (i, j) in linear light. */
 static void ref_texel(const shade_texture *t, int i, int j, double c[4])
@@ -85,73 +76,6 @@ static double texture_bound(const shade_texture *t, double span, const double c[
     double n = t->width > t->height ? t->width : t->height, most = 1;
     for (int k = 0; k < 4; k++) most = fmax(most, fabs(c[k]));
     return 2 * span * n / 4194304 + 1e-6 * (most + span) + (t->srgb ? 3e-6 : 0);
-}
-
-static void fill_texels(shade_texture *t, void *pixels) /* padding too */
-{
-    size_t cells = texture_cells(t);
-    if (t->format == SHADE_FORMAT_RGBA32F) {
-        float *f = (float *)pixels;
-        for (size_t i = 0; i < 4 * cells; i++) f[i] = rnd_float(-1, 3);
-    } else {
-        unsigned char *p = (unsigned char *)pixels;
-        size_t bytes = cells * canvas_pixel_bytes(t->format);
-        for (size_t i = 0; i < bytes; i++) p[i] = (unsigned char)rnd_bits();
-    }
-    t->pixels = pixels;
-}
-
-/* A texture of its own memory, not a byte too large, so that address checkers see every stray
-   read. free(pixels) */
-static shade_texture texture_of(int width, int height, shade_format format)
-{
-    shade_texture t;
-    memset(&t, 0, sizeof t);
-    t.width = width;
-    t.height = height;
-    t.format = format;
-    t.stride = rnd_one_in(2) ? 0 : width + rnd_int(0, 5);
-    fill_texels(&t, test_memory(texture_cells(&t) * canvas_pixel_bytes(format)));
-    return t;
-}
-
-static shade_texture random_texture(int most)
-{
-    int w = rnd_one_in(5) ? 1 : rnd_int(1, most), h = rnd_one_in(5) ? 1 : rnd_int(1, most);
-    if (rnd_one_in(4)) w = h = 1 << rnd_int(0, 4);
-    shade_texture t = texture_of(w, h, rnd_texture_format());
-    t.srgb = rnd_one_in(2);
-    t.wrap_u = (shade_wrap)rnd_int(0, 2);
-    t.wrap_v = (shade_wrap)rnd_int(0, 2);
-    return t;
-}
-
-static void free_texture(shade_texture *t)
-{
-    void *p;
-    memcpy(&p, &t->pixels, sizeof p);
-    free(p);
-}
-
-/* with mipmaps in *memory and levels[15] */
-static void *add_mipmaps(shade_texture *t, shade_texture *levels)
-{
-    size_t bytes = shade_mipmap_bytes(t->width, t->height, t->format);
-    void *memory = test_memory(bytes ? bytes : 1);
-    CHECK_INT(shade_build_mipmaps(t, levels, memory, bytes), SHADE_OK);
-    return memory;
-}
-
-static float random_coordinate(void)
-{
-    switch (rnd_int(0, 9)) {
-    case 0: return rnd_nasty();
-    case 1: return (float)rnd_int(-3, 3);
-    case 2: return rnd_sign() * rnd_log(1, 1e9);
-    case 3: return rnd_sign() * rnd_log(1e-30, 1e-3);
-    case 4: return 1 - rnd_log(1e-8, 1e-3);
-    default: return rnd_float(-2.5, 3.5);
-    }
 }
 
 static void sample_to(const shade_texture *t, float u, float v, float lod, float c[4])
@@ -875,25 +799,6 @@ TEST(texture, one_pixel_takes_no_mipmaps_and_no_memory_for_them)
 
 /* ------------------------------------------------------------------------------ level of detail */
 
-static const uint32_t map_of_no_texels;
-
-typedef struct lod_scene {
-    shade_vec4 clip[3];
-    float attribute[3][5]; /* a stranger before and after u, v */
-    int first;             /* u is varying first */
-    float (*lod)[64];      /* per pixel, NAN: none */
-} lod_scene;
-
-static void lod_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RESTRICT in,
-                       shade_vertices *SHADE_RESTRICT out)
-{
-    const lod_scene *s = (const lod_scene *)uniforms;
-    for (int i = 0; i < SHADE_LANES; i++) {
-        scene_put_clip(out, i, s->clip[in->index[i]]);
-        for (int k = 0; k < 5; k++) out->varying[k][i] = s->attribute[in->index[i]][k];
-    }
-}
-
 static void lod_fragment(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
@@ -945,17 +850,6 @@ static double ref_lod(const lod_planes *p, double X, double Y, double w, double 
     }
     *slack = noise / best;
     return log2(best);
-}
-
-/* a map of which nothing but the size is read */
-static shade_texture lod_map(int width, int height)
-{
-    shade_texture map;
-    memset(&map, 0, sizeof map);
-    map.pixels = &map_of_no_texels;
-    map.width = width;
-    map.height = height;
-    return map;
 }
 
 /* clip_of_fx8 leaves corners up to 1/2000 pixel off the ones that are drawn, and planes have some
@@ -1474,20 +1368,16 @@ TEST(texture, a_map_without_texcoords_is_ignored)
 {
     static map_scene s;
     for (int i = 0; i < 30; i++) {
-        canvas a = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
-        canvas b = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas c[2];
+        canvas_twins(c, MAP_WIDTH, MAP_HEIGHT, SHADE_FORMAT_RGBA32F, 1);
         random_map_scene(&s, (shade_shading)(i % 3));
-        canvas_clear(&a, 1);
-        canvas_clear(&b, 1);
         s.mesh.texcoords = NULL;
-        canvas_draw_mesh(&a, &s.mesh, &s.state);
+        canvas_draw_mesh(&c[0], &s.mesh, &s.state);
         s.mesh.texcoords = &s.uv[0][0];
         s.state.diffuse_map = NULL;
-        canvas_draw_mesh(&b, &s.mesh, &s.state);
-        CHECK(canvas_same(&a, &b));
+        canvas_draw_mesh(&c[1], &s.mesh, &s.state);
         close_map_scene(&s);
-        canvas_close(&a);
-        canvas_close(&b);
+        canvas_twins_close(c);
     }
 }
 
@@ -1496,22 +1386,18 @@ TEST(texture, texcoords_of_any_stride_give_the_same_bits)
 {
     static map_scene s;
     for (int i = 0; i < 30; i++) {
-        canvas a = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
-        canvas b = canvas_open(MAP_WIDTH, MAP_HEIGHT, 0, SHADE_FORMAT_RGBA32F, 1);
+        canvas c[2];
+        canvas_twins(c, MAP_WIDTH, MAP_HEIGHT, SHADE_FORMAT_RGBA32F, 1);
         float apart[3 * 5];
         random_map_scene(&s, (shade_shading)(i % 3));
-        canvas_clear(&a, 1);
-        canvas_clear(&b, 1);
-        canvas_draw_mesh(&a, &s.mesh, &s.state);
+        canvas_draw_mesh(&c[0], &s.mesh, &s.state);
         for (int k = 0; k < 15; k++) apart[k] = (float)NAN;
         for (int k = 0; k < 3; k++) memcpy(apart + 5 * k, s.uv[k], 8);
         s.mesh.texcoords = apart;
         s.mesh.texcoord_stride = 20;
-        canvas_draw_mesh(&b, &s.mesh, &s.state);
-        CHECK(canvas_same(&a, &b));
+        canvas_draw_mesh(&c[1], &s.mesh, &s.state);
         close_map_scene(&s);
-        canvas_close(&a);
-        canvas_close(&b);
+        canvas_twins_close(c);
     }
 }
 
@@ -1719,3 +1605,5 @@ static const test_case texture_cases[] = {
     CASE(texture, without_lamps_a_mesh_has_the_bits_of_one_under_a_black_lamp),
     CASE(texture, bad_texture_coordinates_draw_a_defined_texel),
 };
+
+SECTION(texture);

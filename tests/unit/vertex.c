@@ -1,6 +1,5 @@
 /* vertex.c - which vertices are shaded, how often, and with what around them. */
-
-static const shade_vec4 clip_corners[3] = { { -1, -1, 0, 1 }, { 1, -1, 0, 1 }, { 0, 1, 0, 1 } };
+#include "unit.h"
 
 /* n x n squares over the whole picture, two triangles each, vertices in rows; returns the number of
    indices */
@@ -250,3 +249,5 @@ static const test_case vertex_cases[] = {
     CASE(vertex, indices_reach_up_to_the_greatest_count),
     CASE(vertex, a_position_behind_the_eye_is_survived),
 };
+
+SECTION(vertex);

@@ -1,5 +1,9 @@
 /* work.c - the time of a triangle is bounded by the rows of its box and by the tiles that it
    crosses, counted one by one (see SHADE__TILE_TESTED); not by its box, and not by a clock. */
+#include "unit.h"
+#include "count.h"
+
+long tiles_tested;
 
 enum { WORK_ROWS = 8 };    /* tiles are 32 pixels wide and at least so high */
 
@@ -151,3 +155,5 @@ static const test_case work_cases[] = {
     CASE(work, triangles_take_their_rows_and_the_tiles_that_they_cross),
     CASE(work, what_lies_behind_a_big_triangle_takes_no_tiles),
 };
+
+SECTION(work);

@@ -50,7 +50,8 @@ static void guard_end(int number)
     if (guard_part[0]) unlink(guard_part);
     guard_say(program_name);
     guard_say(number == SIGALRM ? ": gave up after --max-seconds while "
-              : crashed         ? ": crashed while " : ": interrupted while ");
+              : crashed         ? ": crashed while "
+                                : ": interrupted while ");
     guard_say(guard_doing);
     guard_say(guard_file);
     guard_say("\n");
@@ -97,8 +98,8 @@ static void guard_memory(int megabytes)
 }
 
 /* What guard_begin has changed, for guard_done: the signals of crashes, then those of others */
-static const int guard_signals[] = { SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT, SIGALRM,
-                                     SIGINT,  SIGTERM, SIGHUP,  SIGQUIT, SIGXCPU };
+static const int guard_signals[] = { SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT, SIGALRM,
+                                     SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGXCPU };
 enum { GUARD_CRASHES = 5, GUARD_SIGNALS = sizeof guard_signals / sizeof *guard_signals };
 static struct sigaction guard_before[GUARD_SIGNALS];
 static struct rlimit guard_limit;
@@ -171,7 +172,7 @@ static inline void guard_say(const char *text)
 
 static void guard_tell(const char *what)
 {
-    if (guard_part[0]) DeleteFileW(guard_part);    /* save_begin shares it, so that it may be */
+    if (guard_part[0]) DeleteFileW(guard_part); /* save_begin shares it, so that it may be */
     guard_say(program_name);
     guard_say(what);
     guard_say(guard_doing);
@@ -223,7 +224,7 @@ static inline void guard_interrupts(void) { SetConsoleCtrlHandler(guard_interrup
 /* The limit stays after guard_done: a process does not leave its job. */
 static inline void guard_begin(int max_memory)
 {
-    ULONG stack = 65536;    /* kept for guard_crash where the program's stack overflows */
+    ULONG stack = 65536; /* kept for guard_crash where the program's stack overflows */
     SetThreadStackGuarantee(&stack);
     SetUnhandledExceptionFilter(guard_crash);
     guard_memory(max_memory);

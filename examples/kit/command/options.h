@@ -1,9 +1,14 @@
 /* options.h - reads the command line of a program: its options, each of which takes one value or
    none, and its files.
 
-       static int take(void *to, const char *name, const char *value) { ... }
-       static const char *const valued[] = { "--size", NULL }, *const flags[] = { "--quiet", NULL };
-       const command c = { "thumbnail", usage, valued, flags, 2, 2, "", take };
+       static const option own[] = {
+           { "--size", take_size, 0, 0, 0 },
+           { "--rate", NULL, offsetof(settings, rate), 1, 240 },
+           { "--quiet", NULL, offsetof(settings, quiet), 1, 0 },
+           { NULL, NULL, 0, 0, 0 }
+       };
+       static const option_group groups[] = { { own, 0 }, { NULL, 0 } };
+       const command c = { "view", usage, groups, offsetof(settings, files), 2, 2, "", NULL };
        int end = options_read(&c, &settings, argc, argv);
        if (end) return end == OPTIONS_WRONG;
 
@@ -13,6 +18,7 @@
 #define MODEL_OPTIONS_H
 
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,15 +32,31 @@ enum { OPTIONS_READ, OPTIONS_WRONG, OPTIONS_ANSWERED }; /* complain returns the 
    OPTIONS_ANSWERED. */
 enum { OPTION_BAD, OPTION_TAKEN };
 
-/* Stores the value of the option called name.  A flag has the value "", a file the name NULL. */
-typedef int option_take(void *to, const char *name, const char *value);
+/* Stores the value of an option. */
+typedef int option_take(void *to, const char *value);
+
+/* What stands at .at in the settings of its group gets the value by .take.  Without take it is an
+   int: a number from .least to .most, or where .most is 0 a flag, which gets .least. */
+typedef struct option {
+    const char *name;
+    option_take *take;
+    size_t at;
+    int least, most;
+} option;
+
+/* Options up to one without a name, and where their settings lie in those of the program */
+typedef struct option_group {
+    const option *options;
+    size_t at;
+} option_group;
 
 typedef struct command {
     const char *name, *usage;
-    const char *const *valued, *const *flags; /* options with a value and without, up to a NULL */
-    int least, most;                          /* files */
-    const char *many;                         /* what a user may have wanted who names more */
-    option_take *take;
+    const option_group *groups; /* up to one without options */
+    size_t files;               /* where an array of names is in the settings */
+    int least_files, most_files;
+    const char *many;                           /* what a user may have wanted who names more */
+    void (*notice)(void *to, const char *name); /* told of each option, or NULL */
 } command;
 
 /* The program's name, which begins its lines on stderr */
@@ -82,18 +104,18 @@ static inline int option_size(const char *text, int most, int *width, int *heigh
 }
 
 /* Samples along each edge of a pixel: 1, 2 or 4 */
-static inline int option_samples(const char *text, int *out)
+static inline int option_samples(void *to, const char *value)
 {
-    return option_integer(text, 1, 4, out) && *out != 3;
+    return option_integer(value, 1, 4, (int *)to) && *(int *)to != 3;
 }
 
 /* An upright axis: 0 .. 5 */
 static const char *const option_axes[] = { "x", "y", "z", "-x", "-y", "-z" };
-static inline int option_axis(const char *text, int *out)
+static inline int option_axis(void *to, const char *value)
 {
     for (int i = 0; i < 6; i++) {
-        if (strcmp(text, option_axes[i]) != 0) continue;
-        *out = i;
+        if (strcmp(value, option_axes[i]) != 0) continue;
+        *(int *)to = i;
         return 1;
     }
     return 0;
@@ -106,6 +128,21 @@ static inline const char *option_among(const char *const *list, const char *name
 {
     while (*list && strcmp(*list, name)) list++;
     return *list;
+}
+
+static inline int option_is_flag(const option *o) { return !o->take && !o->most; }
+
+/* The option of that name, or NULL; *to moves to where its value belongs. */
+static inline const option *options_find(const command *c, const char *name, void **to)
+{
+    for (const option_group *g = c->groups; g->options; g++) {
+        for (const option *o = g->options; o->name; o++) {
+            if (strcmp(o->name, name) != 0) continue;
+            *to = (char *)*to + g->at + o->at;
+            return o;
+        }
+    }
+    return NULL;
 }
 
 /* The values that an option can have: what its usage says in one line, without the word that
@@ -121,8 +158,11 @@ static inline void option_said(const char *usage, const char *name, char *out, s
     at += n + 1;
     for (end = at + strcspn(at, " "); *at < 'A' || *at > 'Z'; at = bar + 1) {
         bar = at + strcspn(at, "| ");
-        used += (size_t)snprintf(out + used, room - used, "%s%.*s", !used ? ""
-                                 : bar == end ? " or " : ", ", (int)(bar - at), at);
+        used += (size_t)snprintf(out + used, room - used, "%s%.*s",
+                                 !used        ? ""
+                                 : bar == end ? " or "
+                                              : ", ",
+                                 (int)(bar - at), at);
         if (bar == end) return;
     }
     for (at = end; *at && used + 1 < room; at++) {
@@ -154,25 +194,25 @@ static inline int options_take(const command *c, void *to, int argc, char **argv
     const char *equals = strchr(argv[*i], '='), *value = equals ? equals + 1 : NULL;
     const size_t n = equals ? (size_t)(equals - argv[*i]) : strlen(argv[*i]);
     char word[40], said[400];
-    const char *name;
-    int taken;
+    void *at = to;
+    const option *o;
+    int taken = OPTION_TAKEN;
     snprintf(word, sizeof word, "%.*s", n < sizeof word ? (int)n : 0, argv[*i]);
-    if (!equals && (name = option_among(c->flags, word)) != NULL) {
-        c->take(to, name, "");
-        return OPTIONS_READ;
-    }
-    name = option_among(c->valued, word);
-    if (!name && option_among(c->flags, word))
-        return complain("%s: %s takes no value", argv[*i], word);
-    if (!name) return complain("unknown option %s (--help lists them)", argv[*i]);
-    if (!value && ++*i < argc) value = argv[*i];
-    if (!value) return complain("%s needs a value", name);
+    o = options_find(c, word, &at);
+    if (!o) return complain("unknown option %s (--help lists them)", argv[*i]);
+    if (option_is_flag(o) && value) return complain("%s: %s takes no value", argv[*i], word);
+    if (!option_is_flag(o) && !value && ++*i < argc) value = argv[*i];
+    if (!option_is_flag(o) && !value) return complain("%s needs a value", o->name);
 
-    taken = c->take(to, name, value);
+    if (option_is_flag(o))
+        *(int *)at = o->least;
+    else
+        taken = o->take ? o->take(at, value) : option_integer(value, o->least, o->most, (int *)at);
+    if (c->notice) c->notice(to, o->name);
     if (taken == OPTIONS_ANSWERED) return OPTIONS_ANSWERED;
     if (taken == OPTION_TAKEN) return OPTIONS_READ;
-    option_said(c->usage, name, said, sizeof said);
-    return complain("%s %s: %s", name, value, said);
+    option_said(c->usage, o->name, said, sizeof said);
+    return complain("%s %s: %s", o->name, value, said);
 }
 
 /* Answers --help and --version.  Returns 0 where the word is neither. */
@@ -198,13 +238,13 @@ static inline int options_read(const command *c, void *to, int argc, char **argv
             rest = 1;
         } else if (!rest && argv[i][0] == '-' && argv[i][1]) {
             end = options_take(c, to, argc, argv, &i);
-        } else if (files++ == c->most) {
+        } else if (files == c->most_files) {
             return complain("one file too many: %s%s", argv[i], c->many);
         } else {
-            c->take(to, NULL, argv[i]);
+            ((const char **)(void *)((char *)to + c->files))[files++] = argv[i];
         }
     }
-    if (end != OPTIONS_READ || files >= c->least) return end;
+    if (end != OPTIONS_READ || files >= c->least_files) return end;
     fprintf(stderr, "usage: %s%.*s\n%s: --help lists the options\n", program_name,
             (int)strcspn(options_words(c), "\n"), options_words(c), program_name);
     return OPTIONS_WRONG;

@@ -12,7 +12,7 @@
 
 #ifdef _WIN32
 #define WIN32_LEAN_AND_MEAN
-#define NOGDI    /* which has a macro ERROR */
+#define NOGDI /* which has a macro ERROR */
 #include <windows.h>
 #undef near
 #undef far
@@ -27,8 +27,10 @@ static inline wchar_t *path_wide(const char *path)
 {
     int n = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, NULL, 0);
     wchar_t *wide = n ? (wchar_t *)malloc((size_t)n * sizeof *wide) : NULL;
-    if (wide) MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, n);
-    else errno = EINVAL;
+    if (wide)
+        MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, n);
+    else
+        errno = EINVAL;
     return wide;
 }
 

@@ -5,41 +5,37 @@
 
 #include "options.h"
 
-#define MODEL_USAGE                                                                               \
-    "  --color COLOR         one colour for all surfaces, instead of the file's materials:\n"     \
-    "                        RRGGBB, #RGB or a name\n"                                            \
-    "  --material NAME       one material for all surfaces: clay, or a name that\n"               \
-    "                        --material list prints\n"                                            \
-    "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"      \
-    "                        (blinn-phong)\n"                                                     \
-    "  --shading NAME        fragment, vertex, face (fragment)\n"                                 \
+#define MODEL_USAGE                                                                                \
+    "  --color COLOR         one colour for all surfaces, instead of the file's materials:\n"      \
+    "                        RRGGBB, #RGB or a name\n"                                             \
+    "  --material NAME       one material for all surfaces: clay, or a name that\n"                \
+    "                        --material list prints\n"                                             \
+    "  --model NAME          phong, blinn-phong, lambert, ambient, emissive, cool-to-warm\n"       \
+    "                        (blinn-phong)\n"                                                      \
+    "  --shading NAME        fragment, vertex, face (fragment)\n"                                  \
     "  --up x|y|z|-x|-y|-z   the model's upright axis (what the format says, or a guess: y, for\n" \
-    "                        STL z, or that of the feet it stands on)\n"                          \
+    "                        STL z, or that of the feet it stands on)\n"                           \
     "  --view VIEW           from where it is seen: front, right, back, left, top, bottom, iso,\n" \
     "                        or degrees AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM; azimuth\n"    \
     "                        -36000 .. 36000, 90: right; elevation -90 .. 90; zoom 0.05 .. 20\n"   \
     "  --section AXIS[=N]    x, y or z: cuts the model open across that axis of the file, at N\n"  \
-    "                        or in its middle, on the viewer's side, and hatches the cut\n"       \
-    "  --quick               light without shadows among parts, in a part of the time\n"          \
-    "  --no-shadow           no shadow on the ground\n"                                           \
-    "  --threads N           1 .. 256 (one a core); the picture is the same\n"                    \
-    "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"     \
-    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"   \
-    "                        the machine's)\n"                                                    \
-    "  --quiet               prints errors only, no progress and no warnings\n"                   \
+    "                        or in its middle, on the viewer's side, and hatches the cut\n"        \
+    "  --quick               light without shadows among parts, in a part of the time\n"           \
+    "  --no-shadow           no shadow on the ground\n"                                            \
+    "  --threads N           1 .. 256 (one a core); the picture is the same\n"                     \
+    "  --max-triangles N     refuses larger models, 0 .. 700000000 (20000000; 0: no limit)\n"      \
+    "  --max-memory N        megabytes, 32 .. 1000000, that the program may ask for (half of\n"    \
+    "                        the machine's)\n"                                                     \
+    "  --quiet               prints errors only, no progress and no warnings\n"                    \
     "  --verbose             says which axis was guessed to be upright\n"
-#define MODEL_VALUED \
-    "--color", "--material", "--model", "--shading", "--up", "--view", "--section", \
-        "--threads", "--max-triangles", "--max-memory"
-#define MODEL_FLAGS "--quick", "--no-shadow", "--quiet", "--verbose"
 
 typedef struct model_options {
-    int up; /* 0 .. 5 for x y z -x -y -z; -1: by the file */
+    int up;                                 /* 0 .. 5 for x y z -x -y -z; -1: by the file */
     int threads, max_triangles, max_memory; /* threads 0: all cores */
     int quiet, verbose;
-    int plain, no_shadow; /* plain: one material instead of the file's */
-    int quick;            /* no maps of shadows are drawn */
-    int viewed;           /* the view is said: */
+    int plain, no_shadow;        /* plain: one material instead of the file's */
+    int quick;                   /* no maps of shadows are drawn */
+    int viewed;                  /* the view is said: */
     int section, section_placed; /* section: 0 none, 1 .. 3 across x, y, z; placed: at */
     double section_at;
     float azimuth, elevation, zoom; /* radians: 0 sees the front, a right angle the right side */
@@ -132,8 +128,9 @@ static inline model_options model_options_new(void)
     return o;
 }
 
-static inline int model_take_color(model_options *o, const char *value)
+static inline int model_take_color(void *to, const char *value)
 {
+    model_options *o = (model_options *)to;
     o->plain = 1;
     o->material = clay();
     if (!take_color(value, &o->material.diffuse)) return OPTION_BAD;
@@ -141,8 +138,9 @@ static inline int model_take_color(model_options *o, const char *value)
     return OPTION_TAKEN;
 }
 
-static inline int model_take_material(model_options *o, const char *value)
+static inline int model_take_material(void *to, const char *value)
 {
+    model_options *o = (model_options *)to;
     if (!strcmp(value, "list")) {
         list_materials();
         return OPTIONS_ANSWERED;
@@ -151,8 +149,9 @@ static inline int model_take_material(model_options *o, const char *value)
     return find_material(value, &o->material);
 }
 
-static inline int model_take_model(model_options *o, const char *value)
+static inline int model_take_model(void *to, const char *value)
 {
+    model_options *o = (model_options *)to;
     static const char *const models[] = { "blinn phong", "phong",    "lambert",
                                           "ambient",     "emissive", "cool to warm" };
     int k = find_name(value, models, 6);
@@ -160,8 +159,9 @@ static inline int model_take_model(model_options *o, const char *value)
     return k >= 0;
 }
 
-static inline int model_take_shading(model_options *o, const char *value)
+static inline int model_take_shading(void *to, const char *value)
 {
+    model_options *o = (model_options *)to;
     static const char *const shadings[] = { "fragment", "vertex", "face" };
     int k = find_name(value, shadings, 3);
     o->shading = (shade_shading)(k < 0 ? 0 : k);
@@ -179,10 +179,11 @@ static inline int view_number(const char **text, double lowest, double highest, 
     return 1;
 }
 
-static inline int model_take_view(model_options *o, const char *value)
+static inline int model_take_view(void *to, const char *value)
 {
+    model_options *o = (model_options *)to;
     static const char *const names[] = { "front", "right", "back", "left", "top", "bottom", "iso" };
-    static const double angles[][2] = { { 0, 0 },  { 90, 0 },  { 180, 0 },         { 270, 0 },
+    static const double angles[][2] = { { 0, 0 },  { 90, 0 },  { 180, 0 },          { 270, 0 },
                                         { 0, 90 }, { 0, -90 }, { 45, 35.264389683 } };
     const int name = find_name(value, names, 7);
     double azimuth = 0, elevation = 0, zoom = 1;
@@ -201,8 +202,9 @@ static inline int model_take_view(model_options *o, const char *value)
     return OPTION_TAKEN;
 }
 
-static inline int model_take_section(model_options *o, const char *value)
+static inline int model_take_section(void *to, const char *value)
 {
+    model_options *o = (model_options *)to;
     char *end = NULL;
     if (*value < 'x' || *value > 'z') return OPTION_BAD;
     o->section = *value - 'x' + 1;
@@ -212,27 +214,21 @@ static inline int model_take_section(model_options *o, const char *value)
     return o->section_placed && end > value + 2 && !*end && fabs(o->section_at) <= 1e30;
 }
 
-/* Stores an option of all programs.  Returns what an option_take does, or -1 where the option is
-   the program's own. */
-static inline int model_take(model_options *o, const char *name, const char *value)
-{
-    int *flag = !strcmp(name, "--no-shadow") ? &o->no_shadow
-              : !strcmp(name, "--quick")     ? &o->quick
-              : !strcmp(name, "--quiet")     ? &o->quiet
-              : !strcmp(name, "--verbose")   ? &o->verbose : NULL;
-    if (flag) *flag = 1;
-    if (flag) return OPTION_TAKEN;
-    if (!strcmp(name, "--color")) return model_take_color(o, value);
-    if (!strcmp(name, "--material")) return model_take_material(o, value);
-    if (!strcmp(name, "--model")) return model_take_model(o, value);
-    if (!strcmp(name, "--shading")) return model_take_shading(o, value);
-    if (!strcmp(name, "--view")) return model_take_view(o, value);
-    if (!strcmp(name, "--section")) return model_take_section(o, value);
-    if (!strcmp(name, "--up")) return option_axis(value, &o->up);
-    if (!strcmp(name, "--threads")) return option_integer(value, 1, 256, &o->threads);
-    if (!strcmp(name, "--max-triangles"))
-        return option_integer(value, 0, 700000000, &o->max_triangles);
-    if (!strcmp(name, "--max-memory")) return option_integer(value, 32, 1000000, &o->max_memory);
-    return -1;
-}
+static const option model_option[] = {
+    { "--color", model_take_color, 0, 0, 0 },
+    { "--material", model_take_material, 0, 0, 0 },
+    { "--model", model_take_model, 0, 0, 0 },
+    { "--shading", model_take_shading, 0, 0, 0 },
+    { "--view", model_take_view, 0, 0, 0 },
+    { "--section", model_take_section, 0, 0, 0 },
+    { "--up", option_axis, offsetof(model_options, up), 0, 0 },
+    { "--threads", NULL, offsetof(model_options, threads), 1, 256 },
+    { "--max-triangles", NULL, offsetof(model_options, max_triangles), 0, 700000000 },
+    { "--max-memory", NULL, offsetof(model_options, max_memory), 32, 1000000 },
+    { "--no-shadow", NULL, offsetof(model_options, no_shadow), 1, 0 },
+    { "--quick", NULL, offsetof(model_options, quick), 1, 0 },
+    { "--quiet", NULL, offsetof(model_options, quiet), 1, 0 },
+    { "--verbose", NULL, offsetof(model_options, verbose), 1, 0 },
+    { NULL, NULL, 0, 0, 0 }
+};
 #endif

@@ -139,8 +139,8 @@ static inline int save_identity(const char *path, BY_HANDLE_FILE_INFORMATION *ab
 {
     wchar_t *name = path_wide(path);
     const DWORD all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-    HANDLE file = name ? CreateFileW(name, 0, all, NULL, OPEN_EXISTING, 0, NULL)
-                       : INVALID_HANDLE_VALUE;
+    HANDLE file =
+        name ? CreateFileW(name, 0, all, NULL, OPEN_EXISTING, 0, NULL) : INVALID_HANDLE_VALUE;
     int found = file != INVALID_HANDLE_VALUE && GetFileInformationByHandle(file, about);
     if (file != INVALID_HANDLE_VALUE) CloseHandle(file);
     free(name);
@@ -163,8 +163,10 @@ static inline void save_reason(void)
     const DWORD error = GetLastError();
     errno = error == ERROR_ACCESS_DENIED || error == ERROR_SHARING_VIOLATION ? EACCES
             : error == ERROR_PATH_NOT_FOUND || error == ERROR_FILE_NOT_FOUND ||
-              error == ERROR_INVALID_NAME ? ENOENT
-            : error == ERROR_DISK_FULL    ? ENOSPC : EIO;
+                    error == ERROR_INVALID_NAME
+                ? ENOENT
+            : error == ERROR_DISK_FULL ? ENOSPC
+                                       : EIO;
 }
 
 static inline FILE *save_begin(const char *path)
@@ -182,7 +184,7 @@ static inline FILE *save_begin(const char *path)
         if (at == INVALID_HANDLE_VALUE) save_reason();
     }
     if (at != INVALID_HANDLE_VALUE) {
-        wcscpy(guard_part, name);    /* UTF-16 has no more units than UTF-8 has bytes */
+        wcscpy(guard_part, name); /* UTF-16 has no more units than UTF-8 has bytes */
         n = _open_osfhandle((intptr_t)at, 0);
         file = n < 0 ? NULL : _fdopen(n, "wb");
     }

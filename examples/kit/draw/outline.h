@@ -10,9 +10,9 @@
 
 /* The edges of a mesh whose vertices of equal position are one */
 typedef struct outline {
-    float *position;       /* by place */
-    shade_edge *edge;      /* the sharp and open ones; those that may be outlines; the others */
-    shade_vec3 *normal;    /* by triangle */
+    float *position;    /* by place */
+    shade_edge *edge;   /* the sharp and open ones; those that may be outlines; the others */
+    shade_vec3 *normal; /* by triangle */
     size_t places;
     int sharp, bent, count; /* where these end */
 } outline;

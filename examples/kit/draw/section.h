@@ -12,7 +12,7 @@
 #include "../read/read.h"
 
 enum {
-    SECTION_LINES = 24,       /* of the hatch across the model */
+    SECTION_LINES = 24,         /* of the hatch across the model */
     SECTION_CROSSINGS = 2000000 /* of outlines and rows; beyond, there are fewer rows */
 };
 #define SECTION_DARK 0.28 /* the part of a row of the hatch that is drawn dark */
@@ -33,11 +33,11 @@ typedef struct section_crossing {
 typedef struct section {
     const model *from;
     int axis, failed;
-    double sign, where; /* cut away is what has sign (coordinate - where) > 0 */
+    double sign, where;     /* cut away is what has sign (coordinate - where) > 0 */
     double low[3], high[3]; /* the box around the model */
     mesh_floats value[4];
     mesh_uints index, object, fill[2]; /* fill: the triangles of the cut, plain and dark */
-    uint32_t *place;    /* the new number of each vertex, from 1 on; 0: none yet */
+    uint32_t *place;                   /* the new number of each vertex, from 1 on; 0: none yet */
     section_edge *edge;
     size_t edges, edge_room;
     model_part *part;
@@ -199,8 +199,10 @@ static inline size_t section_find(const double *sorted, size_t n, double x)
     size_t low = 0;
     while (low < n) {
         const size_t middle = (low + n) / 2;
-        if (sorted[middle] < x) low = middle + 1;
-        else n = middle;
+        if (sorted[middle] < x)
+            low = middle + 1;
+        else
+            n = middle;
     }
     return low;
 }
@@ -281,9 +283,8 @@ static inline void section_between(section *s, const section_crossing *c, double
     const uint32_t a = section_point(s, c[0].low, low), b = section_point(s, c[1].low, low);
     const uint32_t d = section_point(s, c[1].high, high), e = section_point(s, c[0].high, high);
     mesh_uints *to = &s->fill[dark];
-    s->failed |= s->sign > 0
-                     ? mesh_push_triangle(to, a, b, d) || mesh_push_triangle(to, a, d, e)
-                     : mesh_push_triangle(to, a, d, b) || mesh_push_triangle(to, a, e, d);
+    s->failed |= s->sign > 0 ? mesh_push_triangle(to, a, b, d) || mesh_push_triangle(to, a, d, e)
+                             : mesh_push_triangle(to, a, d, b) || mesh_push_triangle(to, a, e, d);
 }
 
 /* Fills a row of count crossings, sorted along it. */

@@ -135,8 +135,10 @@ static int picture_load(model *m, const char *path, const char *name, int as_rel
         };
         char *beside = model_beside(path, attempt ? name + last : name);
         failed = !beside || model_load(&r, beside, MODEL_PICTURE_BYTES, &bytes, &size);
-        if (failed) free(beside);
-        else m->picture[number].path = beside;
+        if (failed)
+            free(beside);
+        else
+            m->picture[number].path = beside;
     }
     if (!failed) {
         const char *wrong = picture_decode(&m->picture[number], bytes, size);

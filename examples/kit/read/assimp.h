@@ -395,7 +395,7 @@ static int tree_finish(tree *t, model *m)
 /* 1: the format says which axis is up, once for all files or in each, and assimp turns it to y. */
 static int tells_up(const char *kind)
 {
-    static const char *const told[] = { "",    "gltf", "glb", "vrm", "dae", "fbx", "wrl", "vrml",
+    static const char *const told[] = { "",    "gltf", "glb", "vrm", "dae",  "fbx",  "wrl", "vrml",
                                         "x3d", "x3dv", "ifc", "usd", "usda", "usdc", "usdz" };
     for (size_t i = 0; i < sizeof told / sizeof *told; i++)
         if (!strcmp(kind, told[i])) return 1;
@@ -419,8 +419,7 @@ static int assimp_failed(mesh_reader *r)
 static int assimp_read(const char *path, const unsigned char *bytes, size_t size, model *m,
                        const model_request *q)
 {
-    const unsigned flags =
-        aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
+    const unsigned flags = aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_TransformUVCoords;
     static const model empty_model;
     static const tree empty_tree;
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, q->most };
@@ -435,7 +434,8 @@ static int assimp_read(const char *path, const unsigned char *bytes, size_t size
     errno = 0;
     aiSetImportPropertyInteger(set, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    if (!bytes) t.scene = aiImportFileExWithProperties(path, flags, NULL, set);
+    if (!bytes)
+        t.scene = aiImportFileExWithProperties(path, flags, NULL, set);
     else if (size <= UINT_MAX)
         t.scene = aiImportFileFromMemoryWithProperties((const char *)bytes, (unsigned)size, flags,
                                                        kind.text, set);

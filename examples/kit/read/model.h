@@ -34,7 +34,7 @@ typedef struct model_surface {
     int picture;         /* the map, once it is read; -1: none */
     unsigned texcoords;  /* which of several sets in the file all pictures use */
     model_relief relief;
-    char *glow_map;      /* the picture of what shines by itself, or NULL; its number, its factor */
+    char *glow_map; /* the picture of what shines by itself, or NULL; its number, its factor */
     int glow_picture;
     shade_vec3 glow;
 } model_surface;
@@ -60,7 +60,7 @@ typedef struct model {
     int normals_given; /* each vertex had a normal in the file */
     int z_up, up_told; /* up_told: by the format, not by habit */
     int up;            /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
-    double origin[3]; /* of the positions, in the coordinates of the file */
+    double origin[3];  /* of the positions, in the coordinates of the file */
     char warning[400]; /* what the picture lacks; "": nothing */
     char note[200];    /* what it shows otherwise than the file has it; "": nothing */
 } model;
@@ -145,15 +145,13 @@ static inline void model_glow(model_surface *s, int exact)
 /* Adds a surface, 60 % grey without highlight, and returns its number.  -1: out of memory */
 static inline int model_add_surface(model *m, const void *name, size_t n)
 {
-    static const model_surface fresh = {
-        .material = { .ambient = { 0.32f, 0.32f, 0.32f }, .diffuse = { 0.32f, 0.32f, 0.32f } },
-        .picture = -1,
-        .relief = { .picture = -1 },
-        .glow_picture = -1
-    };
-    model_surface *grown =
-        (model_surface *)mesh_grow(m->surface, (size_t)m->surface_count, &m->surface_room,
-                                   sizeof *grown);
+    static const model_surface fresh = { .material = { .ambient = { 0.32f, 0.32f, 0.32f },
+                                                       .diffuse = { 0.32f, 0.32f, 0.32f } },
+                                         .picture = -1,
+                                         .relief = { .picture = -1 },
+                                         .glow_picture = -1 };
+    model_surface *grown = (model_surface *)mesh_grow(m->surface, (size_t)m->surface_count,
+                                                      &m->surface_room, sizeof *grown);
     if (!grown) return -1;
     m->surface = grown;
     grown[m->surface_count] = fresh;
@@ -176,8 +174,8 @@ static inline int model_add_object(model *m, const void *name, size_t n)
 {
     char **grown;
     if (m->object_count >= MODEL_SURFACES) return m->object_count - 1;
-    grown = (char **)mesh_grow(m->object_name, (size_t)m->object_count, &m->object_room,
-                               sizeof *grown);
+    grown =
+        (char **)mesh_grow(m->object_name, (size_t)m->object_count, &m->object_room, sizeof *grown);
     if (!grown) return -1;
     m->object_name = grown;
     grown[m->object_count] = model_text(name, n);

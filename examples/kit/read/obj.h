@@ -12,12 +12,12 @@ enum { OBJ_V, OBJ_VT, OBJ_VN };
 static const char *const obj_names[3] = { "v", "vt", "vn" };
 
 typedef struct obj_data {
-    mesh_floats list[3], color;          /* color: of the first so many v; empty: none has one */
+    mesh_floats list[3], color; /* color: of the first so many v; empty: none has one */
     mesh_origin origin;
-    mesh_set corners;                    /* v, vt, vn, counted from 1; 0: absent */
+    mesh_set corners; /* v, vt, vn, counted from 1; 0: absent */
     faces faces;
-    int has_objects;                     /* an o was read: groups do not count */
-    uint32_t highest[3];                 /* index used so far, and where: it may be defined later */
+    int has_objects;     /* an o was read: groups do not count */
+    uint32_t highest[3]; /* index used so far, and where: it may be defined later */
     long long highest_line[3];
 } obj_data;
 
@@ -40,7 +40,7 @@ static inline int obj_vertex(mesh_reader *r, obj_data *o)
     int count;
     if (obj_numbers(r, v, 3, 7, &count)) return 1;
     mesh_relative(&o->origin, v, place);
-    if (count >= 6) {    /* colours are sRGB values */
+    if (count >= 6) { /* colours are sRGB values */
         shade_vec3 rgb = shade_linear_from_srgb(shade_v3((float)v[3], (float)v[4], (float)v[5]));
         while (o->color.count < o->list[OBJ_V].count)
             if (mesh_push(&o->color, white, 3)) return mesh_fail(r, "out of memory");
@@ -57,7 +57,7 @@ static inline int obj_texcoord(mesh_reader *r, obj_data *o)
     float uv[2];
     if (obj_numbers(r, v, 1, 3, &count)) return 1;
     uv[0] = (float)v[0];
-    uv[1] = 1 - (float)v[1];             /* OBJ counts v upward, shade.h downward */
+    uv[1] = 1 - (float)v[1]; /* OBJ counts v upward, shade.h downward */
     return mesh_push(&o->list[OBJ_VT], uv, 2) ? mesh_fail(r, "out of memory") : 0;
 }
 
@@ -208,8 +208,9 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
     m->normals = (float *)calloc(n, 3 * sizeof(float));
     if (o->highest[OBJ_VT]) m->texcoords = (float *)calloc(n, 2 * sizeof(float));
     if (o->color.count) m->colors = (float *)malloc(3 * sizeof(float) * n);
-    if (!m->positions || !m->normals || (o->highest[OBJ_VT] && !m->texcoords)
-        || (o->color.count && !m->colors)) return mesh_fail(r, "out of memory");
+    if (!m->positions || !m->normals || (o->highest[OBJ_VT] && !m->texcoords) ||
+        (o->color.count && !m->colors))
+        return mesh_fail(r, "out of memory");
     for (size_t i = 0; i < n; i++) {
         const uint32_t *k = o->corners.triple[i].k;
         size_t v = 3 * ((size_t)k[OBJ_V] - 1);
@@ -220,7 +221,8 @@ static inline int obj_finish(mesh_reader *r, obj_data *o, model *out)
             memcpy(m->texcoords + 2 * i, o->list[OBJ_VT].v + 2 * ((size_t)k[OBJ_VT] - 1), 8);
         if (k[OBJ_VN])
             memcpy(m->normals + 3 * i, o->list[OBJ_VN].v + 3 * ((size_t)k[OBJ_VN] - 1), 12);
-        else missing = 1;
+        else
+            missing = 1;
     }
     if (faces_finish(&o->faces, out)) return mesh_fail(r, "out of memory");
     mesh_link(m, (int)n, 3 * (int)o->faces.triangles);

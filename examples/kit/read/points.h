@@ -58,8 +58,10 @@ static inline int points_finish(mesh_reader *r, model *m, size_t n)
     mesh_link(&m->mesh, 6 * (int)kept, 24 * (int)kept);
     m->part->count = 24 * (int)kept;
     m->part_count = m->normals_given = 1;
-    snprintf(m->note, sizeof m->note, "%lu points have no faces: they are drawn as small balls of "
-             "radius %.3g", (unsigned long)n, radius);
+    snprintf(m->note, sizeof m->note,
+             "%lu points have no faces: they are drawn as small balls of "
+             "radius %.3g",
+             (unsigned long)n, radius);
     if (step > 1)
         snprintf(m->note + strlen(m->note), sizeof m->note - strlen(m->note), ", one of %lu",
                  (unsigned long)step);

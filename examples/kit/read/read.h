@@ -159,8 +159,8 @@ static int model_shows(const model *m)
         double e[2][3];
         for (int k = 0; k < 6; k++) {
             const float *p = m->mesh.positions + k % 3;
-            e[k / 3][k % 3] = (double)p[3 * (size_t)corner[1 + k / 3]] -
-                              (double)p[3 * (size_t)corner[0]];
+            e[k / 3][k % 3] =
+                (double)p[3 * (size_t)corner[1 + k / 3]] - (double)p[3 * (size_t)corner[0]];
         }
         for (int k = 0, l = 1; k < 3; k++, l = (k + 1) % 3)
             if (e[0][k] * e[1][l] - e[0][l] * e[1][k] != 0) return 1;

@@ -17,12 +17,12 @@ typedef void mesh_progress(void *user, double part);
 typedef struct mesh_reader {
     const unsigned char *at, *begin, *end;
     const char *name;
-    long long line;                      /* 0: the file is binary */
+    long long line; /* 0: the file is binary */
     char *error;
     size_t error_size;
     mesh_progress *progress;
     void *user;
-    size_t most;                         /* triangles; 0: what int can count */
+    size_t most; /* triangles; 0: what int can count */
 } mesh_reader;
 
 /* Writes the message and returns 1, which means failure in all readers. */
@@ -31,8 +31,10 @@ static inline int mesh_fail(mesh_reader *r, const char *format, ...)
     va_list list;
     int n = 0;
     if (!r->error_size) return 1;
-    if (r->line) n = snprintf(r->error, r->error_size, "%s:%lld: ", r->name, r->line);
-    else n = snprintf(r->error, r->error_size, "%s: ", r->name);
+    if (r->line)
+        n = snprintf(r->error, r->error_size, "%s:%lld: ", r->name, r->line);
+    else
+        n = snprintf(r->error, r->error_size, "%s: ", r->name);
     if (n < 0 || (size_t)n >= r->error_size) return 1;
     va_start(list, format);
     vsnprintf(r->error + n, r->error_size - (size_t)n, format, list);
@@ -61,8 +63,14 @@ static inline void *mesh_grow(void *array, size_t count, size_t *capacity, size_
 }
 
 /* Growable floats and indices */
-typedef struct mesh_floats { float *v; size_t count, capacity; } mesh_floats;
-typedef struct mesh_uints { uint32_t *v; size_t count, capacity; } mesh_uints;
+typedef struct mesh_floats {
+    float *v;
+    size_t count, capacity;
+} mesh_floats;
+typedef struct mesh_uints {
+    uint32_t *v;
+    size_t count, capacity;
+} mesh_uints;
 
 static inline int mesh_push(mesh_floats *a, const float *v, size_t n)
 {
@@ -92,13 +100,15 @@ static inline int mesh_push_triangle(mesh_uints *a, uint32_t i, uint32_t j, uint
 /* A set of triples, numbered in order of arrival: hash table with linear probing, at most half
    full.  Files name a corner again soon: asking for recent ones first spares 5 of 6 visits to the
    table, which lies outside of the processor's cache. */
-typedef struct mesh_triple { uint32_t k[3]; } mesh_triple;
+typedef struct mesh_triple {
+    uint32_t k[3];
+} mesh_triple;
 enum { MESH_RECENT = 4096 };
 typedef struct mesh_set {
     mesh_triple *triple;
-    uint32_t *slot;                      /* number + 1; 0: free */
-    size_t count, capacity, slots;       /* slots: 0 or a power of two */
-    uint32_t recent[MESH_RECENT];        /* by hash: number + 1 of what was added last; 0: none */
+    uint32_t *slot;                /* number + 1; 0: free */
+    size_t count, capacity, slots; /* slots: 0 or a power of two */
+    uint32_t recent[MESH_RECENT];  /* by hash: number + 1 of what was added last; 0: none */
 } mesh_set;
 
 static inline uint64_t mesh_hash(mesh_triple t)
@@ -205,15 +215,17 @@ static inline int mesh_fill_normals(owned_mesh *m, int apart)
     if (!welded.positions || !welded.indices || !mean) goto done;
     for (size_t i = 0; i < 3 * (size_t)vertices; i++)
         biggest = fmaxf(biggest, fabsf(m->positions[i]));
-    for (size_t i = 0; i < 3 * count; i++) {    /* to 1: squares of any size stay in range */
+    for (size_t i = 0; i < 3 * count; i++) { /* to 1: squares of any size stay in range */
         float v = m->positions[i];
         if (!apart) memcpy(&v, &places.triple[i / 3].k[i % 3], sizeof v);
         welded.positions[i] = biggest > 0 ? (float)((double)v / (double)biggest) : 0;
     }
     for (int i = 0; i < indices; i++) welded.indices[i] = place[m->indices[i]];
     mesh_link(&welded, (int)count, indices);
-    if (indices / 3 > MESH_LARGE) mesh_mean_normals(&welded.view, mean);
-    else if (shade_mesh_normals(&welded.view, mean)) goto done;
+    if (indices / 3 > MESH_LARGE)
+        mesh_mean_normals(&welded.view, mean);
+    else if (shade_mesh_normals(&welded.view, mean))
+        goto done;
     for (int i = 0; i < indices; i++) {
         shade_vec3 *n = &mean[welded.indices[i]];
         shade_vec3 p[3];
@@ -287,19 +299,16 @@ static inline void mesh_next_line(mesh_reader *r, int joined)
     }
 }
 
-static inline int mesh_is_blank(unsigned char c)
-{
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
+static inline int mesh_is_blank(unsigned char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 static inline int mesh_at_word_end(const mesh_reader *r)
 {
-    return r->at == r->end || mesh_is_blank(*r->at) || *r->at == '#'
-        || (*r->at == '\\' && mesh_line_end(r, r->at + 1));
+    return r->at == r->end || mesh_is_blank(*r->at) || *r->at == '#' ||
+           (*r->at == '\\' && mesh_line_end(r, r->at + 1));
 }
 
 #ifndef MODEL_CENTRED
-#define MODEL_CENTRED 1    /* 0: for callers that centre what they read by themselves */
+#define MODEL_CENTRED 1 /* 0: for callers that centre what they read by themselves */
 #endif
 
 /* Where positions are counted from: coordinates of surveyors are large beside their model, and
@@ -319,7 +328,9 @@ static inline void mesh_relative(mesh_origin *o, const double *v, float *out)
 }
 
 /* The next few bytes as printable text, for messages */
-typedef struct mesh_quote { char text[28]; } mesh_quote;
+typedef struct mesh_quote {
+    char text[28];
+} mesh_quote;
 static inline mesh_quote mesh_here(const mesh_reader *r)
 {
     mesh_quote q = { "the end of the line" };
@@ -372,7 +383,10 @@ static inline int mesh_take_double(mesh_reader *r, double *out)
     double value;
     if (p < r->end && (*p == '-' || *p == '+')) negative = *p++ == '-';
     for (; p < r->end && ((*p >= '0' && *p <= '9') || (*p == '.' && !point)); p++) {
-        if (*p == '.') { point = 1; continue; }
+        if (*p == '.') {
+            point = 1;
+            continue;
+        }
         digits = 1;
         if (mantissa < 100000000000000000u) {
             mantissa = mantissa * 10 + *p - '0';

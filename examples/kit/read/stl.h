@@ -40,8 +40,8 @@ static inline int stl_read_binary(mesh_reader *r, stl_data *s)
     if (size < 84) return mesh_fail(r, "neither text nor binary STL");
     count = stl_uint(r->begin + 80);
     if (count > (size - 84) / 50)
-        return mesh_fail(r, "ends after %lld of %lld triangles",
-                         (long long)((size - 84) / 50), (long long)count);
+        return mesh_fail(r, "ends after %lld of %lld triangles", (long long)((size - 84) / 50),
+                         (long long)count);
     r->at = r->begin + 84;
     for (uint64_t i = 0; i < count; i++, r->at += 50) {
         uint32_t corner[3];

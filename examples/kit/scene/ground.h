@@ -40,18 +40,24 @@ static inline float ground_lowest(const shade_mesh *mesh, float most)
 
 /* Draws the shadow over the picture, where the mesh does not hide the ground and the ground is seen
    from above; at places the mesh. */
-static inline shade_result ground_draw(const ground *g, const shade_target *target,
-                                       shade_mat4 at, shade_mat4 view, shade_mat4 projection)
+static inline shade_result ground_draw(const ground *g, const shade_target *target, shade_mat4 at,
+                                       shade_mat4 view, shade_mat4 projection)
 {
     static const uint32_t quad[6] = { 0, 1, 2, 0, 2, 3 };
     const float h = g->reach, y = g->level, low = 0.5f - 0.5f * h / g->half, high = 1 - low;
     const float positions[12] = { -h, y, -h, -h, y, h, h, y, h, h, y, -h };
     const float texcoords[8] = { low, low, low, high, high, high, high, low };
     const shade_material black = { .shininess = 0 };
-    const shade_texture map = { .pixels = g->shadow, .width = g->size, .height = g->size,
-                                .wrap_u = SHADE_WRAP_CLAMP, .wrap_v = SHADE_WRAP_CLAMP };
-    const shade_mesh mesh = { .positions = positions, .texcoords = texcoords, .vertex_count = 4,
-                              .indices = quad, .index_count = 6 };
+    const shade_texture map = { .pixels = g->shadow,
+                                .width = g->size,
+                                .height = g->size,
+                                .wrap_u = SHADE_WRAP_CLAMP,
+                                .wrap_v = SHADE_WRAP_CLAMP };
+    const shade_mesh mesh = { .positions = positions,
+                              .texcoords = texcoords,
+                              .vertex_count = 4,
+                              .indices = quad,
+                              .index_count = 6 };
     shade_draw_state state = { .model = at, .view = view, .projection = projection };
     state.material = &black;
     state.diffuse_map = &map;
@@ -72,10 +78,10 @@ static inline void ground_heights(const shade_mesh *mesh, float level, float *he
 {
     shade_target target = { .width = GROUND_SIZE, .height = GROUND_SIZE, .depth = height };
     shade_draw_state state = { .material = NULL };
-    state.view = shade_mat4_look_at(shade_v3(0, level, 0), shade_v3(0, level + 1, 0),
-                                    shade_v3(0, 0, -1));
-    state.projection = shade_mat4_ortho(-GROUND_HALF, GROUND_HALF, -GROUND_HALF, GROUND_HALF,
-                                        -0.01f, 2.01f);
+    state.view =
+        shade_mat4_look_at(shade_v3(0, level, 0), shade_v3(0, level + 1, 0), shade_v3(0, 0, -1));
+    state.projection =
+        shade_mat4_ortho(-GROUND_HALF, GROUND_HALF, -GROUND_HALF, GROUND_HALF, -0.01f, 2.01f);
     shade_clear(&target, shade_v4(0, 0, 0, 0), 1);
     shade_draw_mesh(&target, mesh, &state, NULL);
 }

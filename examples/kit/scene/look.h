@@ -14,11 +14,11 @@
 typedef struct look {
     const studio *studio;
     const shade_mesh *mesh;
-    const shade_texture *map; /* NULL: none */
+    const shade_texture *map;      /* NULL: none */
     const shade_texture *glow_map; /* what shines by itself; NULL: none */
     shade_vec3 glow;
     relief relief;
-    shade_material material;  /* its emission stands apart, because the map multiplies that too */
+    shade_material material; /* its emission stands apart, because the map multiplies that too */
     shade_vec3 emission;
     float metal, rough; /* the part of the reflection that has the surface's colour; its blur */
     shade_lighting lighting;
@@ -100,9 +100,10 @@ static void look_light(const look *k, const float *P, const float *N, const floa
         lane_put(sky[0], i, E);
         lane_put(mirror[0], i, M);
     }
-    shade_lit_lanes(&k->lighting, &k->material, k->eye,
-                    &(shade_rows){ .position = P, .normal = N, .albedo = albedo,
-                                   .visibility = visibility }, out[0]);
+    shade_lit_lanes(
+        &k->lighting, &k->material, k->eye,
+        &(shade_rows){ .position = P, .normal = N, .albedo = albedo, .visibility = visibility },
+        out[0]);
     for (int a = 0; a < 3; a++) {
         const float ambient = component(k->material.ambient, a);
         const float emission = component(k->emission, a);
@@ -211,8 +212,8 @@ static shade_result look_draw(const shade_target *target, look *k, const shade_m
         p.raster.blend = SHADE_BLEND_OVER;
         p.raster.depth_read_only = 1;
     }
-    return shade_draw(target, &p, mesh->indices + 3 * (size_t)first, 3 * count,
-                      mesh->vertex_count, NULL);
+    return shade_draw(target, &p, mesh->indices + 3 * (size_t)first, 3 * count, mesh->vertex_count,
+                      NULL);
 }
 
 /* A chunk of a part, the distance of its middle from the eye, and how far up it reaches in the
@@ -397,8 +398,7 @@ static shade_result draw_far_first(const shade_target *target, look *k, const mo
 }
 
 static shade_result draw_opaque(const shade_target *target, look *k, const model_options *o,
-                                const model *m, const char *see_through,
-                                const near_chunk *list)
+                                const model *m, const char *see_through, const near_chunk *list)
 {
     shade_result result = SHADE_OK;
     for (int i = 0; i < m->part_count && !result; i++) {
@@ -481,7 +481,8 @@ static inline int exhibit_open(exhibit *e, const model *m, const studio *light,
     for (int i = 0; i < m->part_count; i++) e->see_through[i] = (char)part_is_clear(m, o, i);
     if (o->quick && !o->no_shadow)
         ground_cast(&e->ground, &m->mesh.view);
-    else if (!o->no_shadow && studio_cast(&e->ground, light, &m->mesh, o->threads)) return 1;
+    else if (!o->no_shadow && studio_cast(&e->ground, light, &m->mesh, o->threads))
+        return 1;
     return far_list_make(&e->far_list, m, e->see_through, k->eye); /* NOLINT: the caller frees */
 }
 
@@ -496,8 +497,8 @@ static inline void exhibit_aim(exhibit *e, shade_mat4 clip_from_world)
 }
 
 /* Draws a band of the picture, over its background. */
-static inline shade_result exhibit_draw(const exhibit *e, const shade_target *rows,
-                                        shade_mat4 view, shade_mat4 projection)
+static inline shade_result exhibit_draw(const exhibit *e, const shade_target *rows, shade_mat4 view,
+                                        shade_mat4 projection)
 {
     static const shade_mat4 no_turn; /* zero: the identity */
     look k = e->look;

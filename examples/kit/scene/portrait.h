@@ -1,7 +1,7 @@
 /* portrait.h - the picture of a model that thumbnail writes and compare compares: how large it is,
    from where the model is seen, what is behind it.
 
-       portrait p = portrait_new();                     (then portrait_take for each option)
+       portrait p = portrait_new();                     (then portrait_option by options_read)
        result = portrait_light(&light, &model, &p, &how, NULL, NULL);
        c = canvas_try(p.width, p.height, p.samples);
        if (!result) result = portrait_draw(&c, &model, &light, &p, &how, NULL, NULL); */
@@ -16,19 +16,18 @@
 #include <stb/stb_image_write.h>
 #endif
 
-#define PORTRAIT_USAGE                                                                            \
-    "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"                 \
-    "  --background COLOR    RRGGBB, #RGB, black, white, grey, red, green, blue, yellow or\n"     \
-    "                        orange; none: transparent, PNG only (a grey gradient)\n"             \
-    "  --rotate DEG          turns the model about its upright axis, -36000 .. 36000 (30)\n"      \
+#define PORTRAIT_USAGE                                                                             \
+    "  --size WxH            pixels of the picture, 1x1 .. 8192x8192 (512x512)\n"                  \
+    "  --background COLOR    RRGGBB, #RGB, black, white, grey, red, green, blue, yellow or\n"      \
+    "                        orange; none: transparent, PNG only (a grey gradient)\n"              \
+    "  --rotate DEG          turns the model about its upright axis, -36000 .. 36000 (30)\n"       \
     "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
-#define PORTRAIT_VALUED "--size", "--background", "--rotate", "--samples"
 
 enum { PORTRAIT_GRADIENT, PORTRAIT_PLAIN, PORTRAIT_NONE }; /* backgrounds */
 
 typedef struct portrait {
-    int width, height, samples, background, rotated; /* rotated: by an option */
-    float rotate; /* radians */
+    int width, height, samples, background, sized, rotated; /* sized, rotated: by an option */
+    float rotate;                                           /* radians */
     shade_vec3 background_color;
 } portrait;
 
@@ -41,27 +40,37 @@ static inline portrait portrait_new(void)
     return p;
 }
 
-/* Reads degrees and stores radians. */
-static inline int portrait_angle(const char *text, float *out)
+static inline int portrait_take_size(void *to, const char *value)
 {
-    char *end;
-    double degrees = strtod(text, &end);
-    *out = (float)(degrees * 0.017453292519943295);
-    return end != text && !*end && degrees >= -36000 && degrees <= 36000;
+    portrait *p = (portrait *)to;
+    p->sized = 1;
+    return option_size(value, 8192, &p->width, &p->height);
 }
 
-/* Stores an option of portraits.  Returns what an option_take does, or -1 where the option is
-   another's. */
-static inline int portrait_take(portrait *p, const char *name, const char *value)
+/* Reads degrees and stores radians. */
+static inline int portrait_take_rotate(void *to, const char *value)
 {
-    if (!strcmp(name, "--size")) return option_size(value, 8192, &p->width, &p->height);
-    if (!strcmp(name, "--rotate")) p->rotated = 1;
-    if (!strcmp(name, "--rotate")) return portrait_angle(value, &p->rotate);
-    if (!strcmp(name, "--samples")) return option_samples(value, &p->samples);
-    if (strcmp(name, "--background") != 0) return -1;
+    portrait *p = (portrait *)to;
+    char *end;
+    double degrees = strtod(value, &end);
+    p->rotated = 1;
+    p->rotate = (float)(degrees * 0.017453292519943295);
+    return end != value && !*end && degrees >= -36000 && degrees <= 36000;
+}
+
+static inline int portrait_take_background(void *to, const char *value)
+{
+    portrait *p = (portrait *)to;
     p->background = same_name(value, "none") ? PORTRAIT_NONE : PORTRAIT_PLAIN;
     return p->background == PORTRAIT_NONE || take_color(value, &p->background_color);
 }
+
+static const option portrait_option[] = { { "--size", portrait_take_size, 0, 0, 0 },
+                                          { "--rotate", portrait_take_rotate, 0, 0, 0 },
+                                          { "--samples", option_samples,
+                                            offsetof(portrait, samples), 0, 0 },
+                                          { "--background", portrait_take_background, 0, 0, 0 },
+                                          { NULL, NULL, 0, 0, 0 } };
 
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
 static inline int portrait_check(const portrait *p, const model_options *how)
@@ -304,9 +313,11 @@ static inline int portrait_name(const char *name, int *png)
                                           "tiff", "avif", "jxl",  "svg", "hdr", "pgm", NULL };
     const int free_name = !strcmp(name, "-") || save_is_device(name);
     if (model_has_name(name))
-        return complain("%s is a model: the names of pictures end in .ppm or .png (a call draws "
-                        "one model, --views several views of it; shade-sheets calls it for a "
-                        "folder of models)", name);
+        return complain(
+            "%s is a model: the names of pictures end in .ppm or .png (a call draws "
+            "one model, --views several views of it; shade-sheets calls it for a "
+            "folder of models)",
+            name);
     if (save_is_png(name)) *png = 1;
     if (!*png && !free_name && !save_ends_in(name, ppm))
         return complain("%s: the names of pictures end in .ppm or .png", name);

@@ -234,8 +234,7 @@ static int chunk_sort(const shade_mesh *m, uint32_t *sorted)
             memcpy(&p, m->positions + 3 * (size_t)from[i].corner[k], sizeof p);
             sum = shade_add(sum, p);
         }
-        from[i].place =
-            chunk_spread(sum.x) | chunk_spread(sum.y) << 1 | chunk_spread(sum.z) << 2;
+        from[i].place = chunk_spread(sum.x) | chunk_spread(sum.y) << 1 | chunk_spread(sum.z) << 2;
     }
     for (int shift = 0; list && shift < 30; shift += 10) {
         chunk_place *other = from;
@@ -274,8 +273,8 @@ static int mesh_chunk_parts(model *m)
         if (large) failed |= chunk_sort(&mesh, own);
         if (large) mesh.indices = own;
         if (failed) break;
-        shade_mesh_chunks(&mesh, 0, m->mesh.chunks + m->part[i].first_chunk,
-                          m->part[i].chunk_count, large ? NULL : own);
+        shade_mesh_chunks(&mesh, 0, m->mesh.chunks + m->part[i].first_chunk, m->part[i].chunk_count,
+                          large ? NULL : own);
     }
     free(m->mesh.indices);
     m->mesh.view.indices = m->mesh.indices = sorted;

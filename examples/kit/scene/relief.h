@@ -183,9 +183,12 @@ static inline void relief_prepare(model *m, float scale)
         if (!p || !p->heights) continue;
         slope = relief_stretch(m, i);
         slope = slope > 0 ? sqrt(p->slope_square / slope) : 0;
-        if (!(slope > 0)) r->picture = -1;
-        else if (!(r->strength > 0)) r->strength = (float)(0.25 / slope);
-        else r->strength = (float)fmin((double)(r->strength * scale), 0.5 / slope);
+        if (!(slope > 0))
+            r->picture = -1;
+        else if (!(r->strength > 0))
+            r->strength = (float)(0.25 / slope);
+        else
+            r->strength = (float)fmin((double)(r->strength * scale), 0.5 / slope);
     }
 }
 #endif

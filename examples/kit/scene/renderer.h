@@ -21,29 +21,31 @@
 #include "../../shared/lane.h"
 
 typedef enum renderer_kind {
-    RENDERER_MESH = 0,        /* size multiplies its coordinates */
-    RENDERER_PLANE,           /* size: half the sides in x and y, faces +z; 0: endless */
-    RENDERER_SPHERE,          /* size: its radius three times */
-    RENDERER_ELLIPSOID,       /* size: its radii */
-    RENDERER_CAPSULE,         /* size: radius, radius, half the length of its cylinder along z */
-    RENDERER_CYLINDER,        /* size: radius, radius, half its length along z */
-    RENDERER_BOX,             /* size: half its sides */
+    RENDERER_MESH = 0,  /* size multiplies its coordinates */
+    RENDERER_PLANE,     /* size: half the sides in x and y, faces +z; 0: endless */
+    RENDERER_SPHERE,    /* size: its radius three times */
+    RENDERER_ELLIPSOID, /* size: its radii */
+    RENDERER_CAPSULE,   /* size: radius, radius, half the length of its cylinder along z */
+    RENDERER_CYLINDER,  /* size: radius, radius, half its length along z */
+    RENDERER_BOX,       /* size: half its sides */
     RENDERER_KINDS
 } renderer_kind;
 
-enum {                        /* renderer_object.flags */
-    RENDERER_HIDDEN = 1, RENDERER_TWO_SIDED = 2, RENDERER_CASTS_NO_SHADOW = 4
+enum { /* renderer_object.flags */
+       RENDERER_HIDDEN = 1,
+       RENDERER_TWO_SIDED = 2,
+       RENDERER_CASTS_NO_SHADOW = 4
 };
 
 /* An object in its place.  The bindings for Python and JavaScript fill it in word by word. */
 typedef struct renderer_object {
-    int32_t kind, mesh, texture, flags;    /* texture -1: none */
+    int32_t kind, mesh, texture, flags; /* texture -1: none */
     float size[3];
-    float turn[9];            /* a rotation, row by row */
+    float turn[9]; /* a rotation, row by row */
     float place[3];
-    float rgba[4];            /* linear where the picture is sRGB; alpha below 1: blended */
-    float specular, shininess, emission;    /* emission multiplies the colour */
-    float repeat[2];          /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
+    float rgba[4]; /* linear where the picture is sRGB; alpha below 1: blended */
+    float specular, shininess, emission; /* emission multiplies the colour */
+    float repeat[2]; /* u, v of a mesh are multiplied by it; else u, v a unit of x, y */
 } renderer_object;
 
 enum { RENDERER_LAMPS = 8, RENDERER_LEVELS = 11 };
@@ -52,50 +54,50 @@ enum { RENDERER_SKY_PLAIN, RENDERER_SKY_GRADIENT, RENDERER_SKY_CUBE };
 /* What is drawn and where to.  Rows of the arrays follow each other without gaps. */
 typedef struct renderer_picture {
     int32_t width, height;
-    int32_t samples;          /* of colour along the edge of a pixel, 1 .. 8 */
-    int32_t channels;         /* of color: 3 or 4 */
-    int32_t srgb;             /* non-zero: light is linear, color is stored as sRGB */
-    int32_t solid;            /* non-zero: alpha is ignored; depth and ids have all objects */
-    int32_t parallel;         /* non-zero: the projection is orthographic */
+    int32_t samples;  /* of colour along the edge of a pixel, 1 .. 8 */
+    int32_t channels; /* of color: 3 or 4 */
+    int32_t srgb;     /* non-zero: light is linear, color is stored as sRGB */
+    int32_t solid;    /* non-zero: alpha is ignored; depth and ids have all objects */
+    int32_t parallel; /* non-zero: the projection is orthographic */
     int32_t object_count, light_count;
-    int32_t shadow_light;     /* the one lamp that casts shadows, -1: none */
-    int32_t sky, sky_texture; /* RENDERER_SKY_...; what was added by renderer_add_cube */
-    float near_z, far_z;      /* far_z from 1e30 on: there is none */
-    float empty_depth;        /* the depth of pixels that show nothing */
-    float tolerance;          /* pixels that round shapes may lie inside of the true ones */
-    shade_mat4 view, projection;    /* row 2 of the projection is not read */
+    int32_t shadow_light;        /* the one lamp that casts shadows, -1: none */
+    int32_t sky, sky_texture;    /* RENDERER_SKY_...; what was added by renderer_add_cube */
+    float near_z, far_z;         /* far_z from 1e30 on: there is none */
+    float empty_depth;           /* the depth of pixels that show nothing */
+    float tolerance;             /* pixels that round shapes may lie inside of the true ones */
+    shade_mat4 view, projection; /* row 2 of the projection is not read */
     shade_vec4 background;
-    shade_vec3 sky_low, sky_high;   /* of a gradient, by the sine of the angle over the horizon */
+    shade_vec3 sky_low, sky_high; /* of a gradient, by the sine of the angle over the horizon */
     shade_vec3 ambient;
     const renderer_object *objects;
     const shade_light *lights;
-    uint8_t *color;           /* any of these may be NULL */
-    float *depth;             /* along the axis of view */
-    int32_t *ids;             /* object and triangle, (-1, -1) where there is nothing */
-    float *normals;           /* unit vectors in the world, zero where there is nothing */
+    uint8_t *color; /* any of these may be NULL */
+    float *depth;   /* along the axis of view */
+    int32_t *ids;   /* object and triangle, (-1, -1) where there is nothing */
+    float *normals; /* unit vectors in the world, zero where there is nothing */
 } renderer_picture;
 
 /* A mesh as it is drawn; of round shapes there is one for each level of detail. */
 typedef struct renderer_shape {
     float *positions, *normals, *texcoords, *colors;
     uint32_t *indices;
-    float *planes;            /* of faces: rows of a unit normal's x, y, z, and distances from 0 */
+    float *planes; /* of faces: rows of a unit normal's x, y, z, and distances from 0 */
     int vertex_count, index_count;
-    int upper;                /* of a capsule: vertices before this one are its upper end */
-    float sag;                /* how far chords lie inside of the true surface of radius 1 */
-    shade_vec3 centre;        /* of a sphere around it */
+    int upper;         /* of a capsule: vertices before this one are its upper end */
+    float sag;         /* how far chords lie inside of the true surface of radius 1 */
+    shade_vec3 centre; /* of a sphere around it */
     float radius;
 } renderer_shape;
 
 typedef struct renderer_texture {
-    shade_texture face[6];    /* a cube has six, x -x y -y z -z, else the first counts */
+    shade_texture face[6]; /* a cube has six, x -x y -y z -z, else the first counts */
     shade_texture *levels;
     uint8_t *memory;
     int cube;
 } renderer_texture;
 
 typedef struct renderer_scene {
-    renderer_shape round[3][RENDERER_LEVELS];    /* spheres, capsules, cylinders */
+    renderer_shape round[3][RENDERER_LEVELS]; /* spheres, capsules, cylinders */
     renderer_shape box, plane;
     renderer_shape *meshes;
     renderer_texture *textures;
@@ -105,35 +107,37 @@ typedef struct renderer_scene {
 /* An object that can be seen */
 typedef struct renderer_entry {
     const renderer_shape *shape;
-    shade_mat4 world;         /* from the shape's space */
-    shade_mat3 normal;        /* world, for normals */
-    float lift;               /* of a capsule: half the length of its cylinder */
-    float distance;           /* of its nearest point from the eye, at least */
-    float order;              /* opaque objects are drawn by it */
-    float sag;                /* in the unit of the scene */
+    shade_mat4 world;  /* from the shape's space */
+    shade_mat3 normal; /* world, for normals */
+    float lift;        /* of a capsule: half the length of its cylinder */
+    float distance;    /* of its nearest point from the eye, at least */
+    float order;       /* opaque objects are drawn by it */
+    float sag;         /* in the unit of the scene */
     int object, key;
-    int first;                /* vertex of the draw that it has a part in */
-    int uneven;               /* normals must be made unit, because it is scaled unevenly */
+    int first;  /* vertex of the draw that it has a part in */
+    int uneven; /* normals must be made unit, because it is scaled unevenly */
 } renderer_entry;
 
 /* What ids hold for a triangle */
-typedef struct renderer_mark { int32_t object, triangle; } renderer_mark;
+typedef struct renderer_mark {
+    int32_t object, triangle;
+} renderer_mark;
 
 typedef struct renderer {
     renderer_entry *entries;
     uint32_t *indices;
-    uint32_t *whose, *owners;      /* the entries of vertices and of triangles */
-    renderer_mark *marks;          /* of triangles */
+    uint32_t *whose, *owners; /* the entries of vertices and of triangles */
+    renderer_mark *marks;     /* of triangles */
     float *depth, *large_depth, *map;
     uint32_t *color, *large_color;
-    renderer_object *known;        /* what the shadow map holds */
+    renderer_object *known; /* what the shadow map holds */
     int known_count, map_valid;
     shade_light known_light;
     float known_tolerance;
     size_t room[11];
-    shade_mat4 from_lamp;          /* world to the shadow map's clip space */
-    float texel, texel_slope;      /* size of its texels: texel + texel_slope times the distance */
-    shade_vec4 lamp_axis;          /* distance from the lamp along its axis */
+    shade_mat4 from_lamp;     /* world to the shadow map's clip space */
+    float texel, texel_slope; /* size of its texels: texel + texel_slope times the distance */
+    shade_vec4 lamp_axis;     /* distance from the lamp along its axis */
     int map_size;
 } renderer;
 
@@ -415,9 +419,12 @@ static inline int renderer_add_mesh(renderer_scene *scene, const shade_mesh *m, 
     memcpy(s.indices, m->indices, (size_t)s.index_count * sizeof(uint32_t));
     good = renderer_copy(&s.texcoords, m->texcoords, m->vertex_count, 2) &&
            renderer_copy(&s.colors, m->colors, m->vertex_count, 3);
-    if (m->normals) memcpy(s.normals, m->normals, (size_t)s.vertex_count * 3 * sizeof(float));
-    else if (good && smooth) good = !shade_mesh_normals(m, (shade_vec3 *)(void *)s.normals);
-    else if (good) good = renderer_split(&s);
+    if (m->normals)
+        memcpy(s.normals, m->normals, (size_t)s.vertex_count * 3 * sizeof(float));
+    else if (good && smooth)
+        good = !shade_mesh_normals(m, (shade_vec3 *)(void *)s.normals);
+    else if (good)
+        good = renderer_split(&s);
     good = good && renderer_make_planes(&s);
     if (!grown || !good) {
         renderer_shape_free(&s);
@@ -439,8 +446,8 @@ static inline int renderer_add_texture(renderer_scene *scene, const uint8_t *rgb
     renderer_texture t = { .cube = faces == 6 }, *grown;
     t.memory = (uint8_t *)malloc((size_t)faces * (bytes + below) + 1);
     t.levels = (shade_texture *)calloc((size_t)(faces * levels) + 1, sizeof *t.levels);
-    grown = (renderer_texture *)realloc(scene->textures,
-                                        ((size_t)scene->texture_count + 1) * sizeof t);
+    grown =
+        (renderer_texture *)realloc(scene->textures, ((size_t)scene->texture_count + 1) * sizeof t);
     if (grown) scene->textures = grown;
     for (int i = 0; grown && t.memory && t.levels && i < faces; i++) {
         uint8_t *at = t.memory + (size_t)i * (bytes + below);
@@ -501,12 +508,12 @@ typedef struct renderer_view {
     const renderer_picture *p;
     const renderer_scene *scene;
     shade_mat4 view, projection;
-    shade_mat4 clip, place;          /* world to clip space; camera to world */
+    shade_mat4 clip, place; /* world to clip space; camera to world */
     shade_vec3 eye;
-    shade_vec4 side[4];              /* planes through the picture's sides, in camera space, unit */
+    shade_vec4 side[4]; /* planes through the picture's sides, in camera space, unit */
     float near_z, far_z;
-    float scale;                     /* pixels of a unit at distance 1, or anywhere */
-    int parallel, shadows;           /* shadows: of a lamp */
+    float scale;           /* pixels of a unit at distance 1, or anywhere */
+    int parallel, shadows; /* shadows: of a lamp */
 } renderer_view;
 
 static inline void renderer_aim(renderer_view *v)
@@ -730,14 +737,14 @@ static inline int renderer_gather(renderer *r, const renderer_view *v, int blend
 typedef struct renderer_batch {
     const renderer *r;
     const renderer_view *v;
-    const renderer_entry *entry;      /* the first */
+    const renderer_entry *entry; /* the first */
     const renderer_texture *texture;
-    const shade_lighting *lighting;   /* NULL: colours are not wanted */
-    int several;                      /* more than one object */
-    int uv, colors;                   /* the varyings that they are; 0: there are none */
+    const shade_lighting *lighting; /* NULL: colours are not wanted */
+    int several;                    /* more than one object */
+    int uv, colors;                 /* the varyings that they are; 0: there are none */
     int notes, blended, two_sided;
-    int meshes;                       /* whether any of its objects is one */
-    int glossy, glows;                /* whether any of its objects is so */
+    int meshes;        /* whether any of its objects is one */
+    int glossy, glows; /* whether any of its objects is so */
 } renderer_batch;
 
 /* How u and v follow from coordinates or texcoords */
@@ -772,7 +779,7 @@ static inline shade_vec3 renderer_place(const renderer_entry *e, const float *p,
     shade_vec3 at = shade_v3(m[0].x * p[0] + m[1].x * p[1] + m[2].x * p[2] + m[3].x,
                              m[0].y * p[0] + m[1].y * p[1] + m[2].y * p[2] + m[3].y,
                              m[0].z * p[0] + m[1].z * p[1] + m[2].z * p[2] + m[3].z);
-    if (e->lift > 0) {    /* the third axis has the length of the radius */
+    if (e->lift > 0) { /* the third axis has the length of the radius */
         const float along = shade_length(shade_v3(m[2].x, m[2].y, m[2].z));
         const float s = (upper ? e->lift : -e->lift) / along;
         at = shade_madd(at, s, shade_v3(m[2].x, m[2].y, m[2].z));
@@ -801,7 +808,8 @@ static inline void renderer_vertex_of(const renderer_batch *b, const renderer_en
     renderer_set(out + 3, e->uneven ? shade_normalize(n) : n);
     if (b->texture) {
         const shade_vec3 local = renderer_local(o, world);
-        if (b->texture->cube) renderer_set(out + 6, renderer_in_cube(o, local));
+        if (b->texture->cube)
+            renderer_set(out + 6, renderer_in_cube(o, local));
         else {
             const shade_vec2 uv = renderer_uv(s, o, (size_t)k, local);
             renderer_set(out + 6, shade_v3(uv.x, uv.y, 0));
@@ -827,7 +835,8 @@ static inline void renderer_shade_vertices(const void *uniforms,
         }
         for (int k = 0; k < count; k++) rows[k][i] = one[k];
     }
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const shade_vec4 at = shade_v4(rows[0][i], rows[1][i], rows[2][i], 1);
         lane_put4(out->clip[0], i, shade_mat4_transform(clip, at));
     }
@@ -844,7 +853,7 @@ typedef struct renderer_surface {
     float albedo[3][SHADE_LANES], alpha[SHADE_LANES];
     float specular[3][SHADE_LANES], shininess[SHADE_LANES], emission[SHADE_LANES];
     float sag[SHADE_LANES];
-    int glossy, glows, alike;    /* alike: one shininess for all lanes */
+    int glossy, glows, alike; /* alike: one shininess for all lanes */
 } renderer_surface;
 
 /* The entries that the lanes' triangles belong to.  Non-zero: all to owner[0] */
@@ -861,8 +870,12 @@ static inline int renderer_find_owners(const renderer_batch *b, const shade_frag
 
 static inline void renderer_fill(float *row, float value, int first, int last)
 {
-    if (last - first == SHADE_LANES) SHADE_EACH_LANE(i) { row[i] = value; }
-    else for (int i = first; i < last; i++) row[i] = value;
+    if (last - first == SHADE_LANES) SHADE_EACH_LANE(i)
+        {
+            row[i] = value;
+        }
+    else
+        for (int i = first; i < last; i++) row[i] = value;
 }
 
 /* Rows that nothing in this draw reads stay as they are: filling all took a tenth of the time. */
@@ -876,8 +889,10 @@ static inline void renderer_surface_of(const renderer_batch *b, const renderer_e
     if (b->blended) renderer_fill(s->alpha, o->rgba[3], first, last);
     if (b->glows) renderer_fill(s->emission, o->emission, first, last);
     if (b->v->p->shadow_light >= 0) renderer_fill(s->sag, e->sag, first, last);
-    if (first) s->alike &= o->shininess == s->shininess[0];
-    else s->shininess[0] = o->shininess;
+    if (first)
+        s->alike &= o->shininess == s->shininess[0];
+    else
+        s->shininess[0] = o->shininess;
     if (!b->glossy) return;
     renderer_fill(s->shininess, o->shininess, first, last);
     renderer_fill(s->specular[0], o->specular, first, last);
@@ -906,7 +921,8 @@ static inline void renderer_sample_cube(const renderer_texture *t, float d[3][SH
 {
     float u[SHADE_LANES], v[SHADE_LANES], texels[4][SHADE_LANES];
     int face[SHADE_LANES], seen = 0;
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const float x = d[0][i], y = d[1][i], z = d[2][i];
         const float ax = x < 0 ? -x : x, ay = y < 0 ? -y : y, az = z < 0 ? -z : z;
         const int axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
@@ -922,8 +938,10 @@ static inline void renderer_sample_cube(const renderer_texture *t, float d[3][SH
     for (int f = 0; f < 6; f++) {
         if (!(seen >> f & 1)) continue;
         shade_sample_lanes(&t->face[f], u, v, NULL, texels[0]);
-        for (int k = 0; k < 4; k++)
-            SHADE_EACH_LANE(i) { rgba[k][i] = face[i] == f ? texels[k][i] : rgba[k][i]; }
+        for (int k = 0; k < 4; k++) SHADE_EACH_LANE(i)
+            {
+                rgba[k][i] = face[i] == f ? texels[k][i] : rgba[k][i];
+            }
     }
 }
 
@@ -938,9 +956,14 @@ static inline void renderer_paint_map(const renderer_batch *b, const shade_fragm
     } else
         shade_sample_lanes(b->texture->face, in->varying[b->uv], in->varying[b->uv + 1], in->lod,
                            texels[0]);
-    for (int k = 0; k < 3; k++)
-        SHADE_EACH_LANE(i) { s->albedo[k][i] *= texels[k][i]; }
-    if (b->blended) SHADE_EACH_LANE(i) { s->alpha[i] *= texels[3][i]; }
+    for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
+        {
+            s->albedo[k][i] *= texels[k][i];
+        }
+    if (b->blended) SHADE_EACH_LANE(i)
+        {
+            s->alpha[i] *= texels[3][i];
+        }
 }
 
 /* Where points of a lamp's clip space lie on its map: the first of 3 x 3 texels, how far beyond the
@@ -952,7 +975,8 @@ static inline void renderer_on_map(int size, const float (*clip)[SHADE_LANES],
                                    float *SHADE_RESTRICT v, float *SHADE_RESTRICT z)
 {
     const float edge = (float)size;
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const float w = clip[3][i], half = 0.5f / (w > 1e-6f ? w : 1e-6f);
         const float x = edge * (0.5f + clip[0][i] * half), y = edge * (0.5f - clip[1][i] * half);
         const float right = x > 0 ? x : 0, down = y > 0 ? y : 0;
@@ -1017,7 +1041,8 @@ static inline void renderer_shadow(const renderer_batch *b, const renderer_surfa
     const shade_mat4 from_lamp = r->from_lamp;
     float L[3][SHADE_LANES], at[3][SHADE_LANES], facing[SHADE_LANES], clip[4][SHADE_LANES];
     shade_light_at_lanes(&r->known_light, P[0], L[0], NULL);
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const shade_vec3 p = lane(P[0], i), n = lane(N[0], i), l = lane(L[0], i);
         const float cosine = shade_dot(n, l), square = 1 - cosine * cosine;
         /* three tangents of the root of the square stand in for the sine, which is below them */
@@ -1029,7 +1054,8 @@ static inline void renderer_shadow(const renderer_batch *b, const renderer_surfa
         facing[i] = cosine;
         lane_put(at[0], i, shade_madd(p, 2.2f * texel * (sine + 0.1f) + 2 * s->sag[i], n));
     }
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const shade_vec3 p = lane(at[0], i);
         lane_put4(clip[0], i, shade_mat4_transform(from_lamp, shade_v4(p.x, p.y, p.z, 1)));
     }
@@ -1092,15 +1118,17 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
     const renderer_batch *b = (const renderer_batch *)uniforms;
     const int lamp = b->v->p->shadow_light;
     float turned[3][SHADE_LANES], faces[3][SHADE_LANES], visible[RENDERER_LAMPS][SHADE_LANES];
-    const float (*P)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[0];
-    const float (*N)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[3];
+    const float(*P)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[0];
+    const float(*N)[SHADE_LANES] = (const float(*)[SHADE_LANES])in->varying[3];
     renderer_surface s;
     uint32_t owner[SHADE_LANES];
     int one;
     shade_rows rows = { .position = P[0] };
     if (b->two_sided) {
-        for (int k = 0; k < 3; k++)
-            SHADE_EACH_LANE(i) { turned[k][i] = in->front[i] ? N[k][i] : -N[k][i]; }
+        for (int k = 0; k < 3; k++) SHADE_EACH_LANE(i)
+            {
+                turned[k][i] = in->front[i] ? N[k][i] : -N[k][i];
+            }
         N = (const float(*)[SHADE_LANES])turned;
     }
     rows.normal = N[0];
@@ -1108,22 +1136,28 @@ static inline void renderer_shade(const void *uniforms, const shade_fragments *S
     if (b->notes) renderer_note(b, in, N);
     if (!b->lighting) return;
     renderer_surfaces(b, owner, one, &s);
-    for (int k = 0; k < 3 && b->colors; k++)
-        SHADE_EACH_LANE(i) { s.albedo[k][i] *= in->varying[b->colors + k][i]; }
+    for (int k = 0; k < 3 && b->colors; k++) SHADE_EACH_LANE(i)
+        {
+            s.albedo[k][i] *= in->varying[b->colors + k][i];
+        }
     if (b->texture) renderer_paint_map(b, in, &s);
     rows.albedo = s.albedo[0];
     if (s.glossy) rows.specular = s.specular[0];
     if (lamp >= 0) {
         memcpy(faces, N, sizeof faces);
         if (b->meshes) renderer_face_normals(b, in, owner, one, faces);
-        for (int k = 0; k < b->lighting->light_count; k++)
-            SHADE_EACH_LANE(i) { visible[k][i] = 1; }
+        for (int k = 0; k < b->lighting->light_count; k++) SHADE_EACH_LANE(i)
+            {
+                visible[k][i] = 1;
+            }
         renderer_shadow(b, &s, P, (const float(*)[SHADE_LANES])faces, visible[lamp]);
         rows.visibility = visible[0];
     }
     renderer_light(b, &s, &rows, in->count, out->color);
-    for (int k = 0; k < 3 && s.glows; k++)
-        SHADE_EACH_LANE(i) { out->color[k][i] += s.emission[i] * s.albedo[k][i]; }
+    for (int k = 0; k < 3 && s.glows; k++) SHADE_EACH_LANE(i)
+        {
+            out->color[k][i] += s.emission[i] * s.albedo[k][i];
+        }
     if (b->blended) memcpy(out->color[3], s.alpha, sizeof s.alpha);
 }
 
@@ -1139,11 +1173,10 @@ static inline int renderer_room_for(renderer *r, const renderer_entry *e, int co
         triangles += (size_t)e[i].shape->index_count / 3;
     }
     r->whose = (uint32_t *)renderer_room(r->whose, &r->room[1], vertices * sizeof(uint32_t));
-    r->indices = (uint32_t *)renderer_room(r->indices, &r->room[2],
-                                           3 * triangles * sizeof(uint32_t));
+    r->indices =
+        (uint32_t *)renderer_room(r->indices, &r->room[2], 3 * triangles * sizeof(uint32_t));
     r->owners = (uint32_t *)renderer_room(r->owners, &r->room[3], triangles * sizeof(uint32_t));
-    r->marks = (renderer_mark *)renderer_room(r->marks, &r->room[10],
-                                              triangles * sizeof *r->marks);
+    r->marks = (renderer_mark *)renderer_room(r->marks, &r->room[10], triangles * sizeof *r->marks);
     return r->whose && r->indices && r->owners && r->marks;
 }
 
@@ -1171,7 +1204,8 @@ static inline void renderer_facing(const renderer_entry *e, shade_vec4 eye, int 
                        eye.w * (shade_length(e->shape->centre) + e->shape->radius);
     const float lift = e->lift > 0 ? e->lift / shade_length(shade_v3(m[2].x, m[2].y, m[2].z)) : 0;
     const float slack = -1e-5f * (most + lift);
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const float z = n[2 * row + (size_t)i], up = z < 0 ? -z : z;
         const float away = n[3 * row + (size_t)i] + up * lift;
         const float toward = n[i] * eye.x + n[row + (size_t)i] * eye.y + z * eye.z;
@@ -1300,7 +1334,8 @@ static inline void renderer_sky_vertices(const void *uniforms,
 {
     const renderer_view *v = (const renderer_view *)uniforms;
     const shade_vec4 *m = v->projection.col;
-    SHADE_EACH_LANE(i) {
+    SHADE_EACH_LANE(i)
+    {
         const float x = in->index[i] == 1 ? 3.0f : -1.0f, y = in->index[i] == 2 ? 3.0f : -1.0f;
         shade_vec3 eye = shade_v3(0, 0, -1);
         if (!v->parallel) {
@@ -1318,7 +1353,7 @@ static inline void renderer_sky(const void *uniforms, const shade_fragments *SHA
     const renderer_view *v = (const renderer_view *)uniforms;
     const renderer_picture *p = v->p;
     float d[3][SHADE_LANES];
-    if (p->sky == RENDERER_SKY_CUBE) {    /* +y of the cube is up, which is +z of the world */
+    if (p->sky == RENDERER_SKY_CUBE) { /* +y of the cube is up, which is +z of the world */
         for (int i = 0; i < SHADE_LANES; i++) {
             const shade_vec3 at = lane(in->varying[0], i);
             lane_put(d[0], i, shade_v3(at.x, at.z, -at.y));
@@ -1352,7 +1387,7 @@ static inline float renderer_casters(const renderer_picture *p, const renderer_s
         const renderer_object *o = &p->objects[i];
         if ((o->flags & (RENDERER_HIDDEN | RENDERER_CASTS_NO_SHADOW)) || renderer_is_endless(o))
             continue;
-        if (o->kind == RENDERER_PLANE) continue;    /* a floor hides nothing that is seen */
+        if (o->kind == RENDERER_PLANE) continue; /* a floor hides nothing that is seen */
         const float r = renderer_reach(s, o, &at);
         low = shade_min(low, shade_sub(at, shade_v3(r, r, r)));
         high = shade_max(high, shade_add(at, shade_v3(r, r, r)));
@@ -1364,11 +1399,13 @@ static inline float renderer_casters(const renderer_picture *p, const renderer_s
 /* The sine of an angle of the first quadrant by its cosine, or the cosine by the sine */
 static inline float renderer_sine(float c)
 {
-    double low = 0, high = 1;    /* halved: no C library decides the bits */
+    double low = 0, high = 1; /* halved: no C library decides the bits */
     for (int k = 0; k < 60; k++) {
         const double middle = (low + high) / 2;
-        if (middle * middle > 1 - (double)c * (double)c) high = middle;
-        else low = middle;
+        if (middle * middle > 1 - (double)c * (double)c)
+            high = middle;
+        else
+            low = middle;
     }
     return (float)low;
 }
@@ -1441,8 +1478,8 @@ static inline shade_result renderer_cast(renderer *r, const renderer_picture *p,
     renderer_batch b = { .r = r };
     shade_result result;
     if (r->map_valid && r->map_size == size && r->known_count == p->object_count &&
-        r->known_tolerance == p->tolerance &&
-        !memcmp(r->known, p->objects, bytes) && !memcmp(&r->known_light, lamp, sizeof *lamp))
+        r->known_tolerance == p->tolerance && !memcmp(r->known, p->objects, bytes) &&
+        !memcmp(&r->known_light, lamp, sizeof *lamp))
         return SHADE_OK;
     r->map_valid = 0;
     r->map_size = size;
@@ -1475,11 +1512,14 @@ static inline void renderer_distances(const renderer_picture *p, const float *z,
     for (size_t i = 0; i < pixels; i += SHADE_LANES) {
         const size_t left = pixels - i, count = left < SHADE_LANES ? left : SHADE_LANES;
         float from[SHADE_LANES] = { 0 }, to[SHADE_LANES];
-        int32_t seen[SHADE_LANES] = { 0 };    /* the bits: integers are compared by lanes */
+        int32_t seen[SHADE_LANES] = { 0 }; /* the bits: integers are compared by lanes */
         memcpy(from, z + i, count * sizeof *z);
         memcpy(seen, z + i, count * sizeof *z);
         SHADE_EACH_LANE(k) { to[k] = nf / (base + from[k] * slope); }
-        if (parallel) SHADE_EACH_LANE(k) { to[k] = far_z - from[k] * span; }
+        if (parallel) SHADE_EACH_LANE(k)
+            {
+                to[k] = far_z - from[k] * span;
+            }
         SHADE_EACH_LANE(k) { to[k] = seen[k] > 0 ? to[k] : empty; }
         memcpy(depth + i, to, count * sizeof *to);
     }

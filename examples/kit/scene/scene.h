@@ -18,8 +18,16 @@ enum { KEY_UP = 256, KEY_DOWN, KEY_LEFT, KEY_RIGHT };
 
 /* The choices that keys step through: a small letter forward, its capital back */
 enum {
-    CHOICE_MATERIAL, CHOICE_SHADING, CHOICE_LAMP, CHOICE_TERM, CHOICE_MODEL, CHOICE_FLAG,
-    CHOICE_BACKDROP, CHOICE_WIRE, CHOICE_GROUND, CHOICES
+    CHOICE_MATERIAL,
+    CHOICE_SHADING,
+    CHOICE_LAMP,
+    CHOICE_TERM,
+    CHOICE_MODEL,
+    CHOICE_FLAG,
+    CHOICE_BACKDROP,
+    CHOICE_WIRE,
+    CHOICE_GROUND,
+    CHOICES
 };
 enum { LAMP_STUDIO, LAMP_SUN, LAMP_NEAR, LAMP_SPOT, LAMP_COLORS, LAMP_EYE };
 enum { BACKDROP_DUSK, BACKDROP_DAYLIGHT, BACKDROP_BLACK };
@@ -37,10 +45,12 @@ static const scene_choice scene_choices[CHOICES] = {
     { "terms", { "all", "ambient", "diffuse", "specular" }, 4, 't' },
     { "model",
       { "Blinn-Phong", "Phong", "Lambert", "ambient", "emissive", "cool to warm" },
-      6, 'e' },
+      6,
+      'e' },
     { "flag",
       { "none", "ungated specular", "weighted specular", "two-sided abs", "infinite viewer" },
-      5, 'f' },
+      5,
+      'f' },
     { "background", { "dusk", "daylight", "black" }, 3, 'b' },
     { "wires", { "off", "over", "alone" }, 3, 'w' },
     { "ground", { "shadow", "none" }, 2, 'g' },
@@ -60,8 +70,8 @@ static const char *const scene_help[] = {
 };
 enum { SCENE_HELP = sizeof scene_help / sizeof *scene_help };
 
-#define SCENE_PITCH 0.36f   /* the camera looks down by this angle, in radians, */
-#define SCENE_LENS 0.42f    /* and sees this vertical angle */
+#define SCENE_PITCH 0.36f /* the camera looks down by this angle, in radians, */
+#define SCENE_LENS 0.42f  /* and sees this vertical angle */
 
 typedef struct scene {
     model model; /* about the origin, the farthest point at distance 1 */
@@ -73,14 +83,14 @@ typedef struct scene {
     const char *title; /* the name of the model's file */
     char said[64];     /* the effect of the last key */
     ground shadow;
-    shade_vec3 *wires;  /* pairs of points; NULL until they are shown */
+    shade_vec3 *wires; /* pairs of points; NULL until they are shown */
     int wire_points;
-    shade_chunk *runs;  /* runs of 256 wires, and the box around each */
-    outline outline;    /* found with the wires */
-    float wire_length;  /* their mean */
-    shade_vec3 *few;    /* instead of wires too dense to be parted: those of the outline */
-    int few_points;     /* 0: all wires are drawn */
-    int lit;            /* the next picture is one in the light of the studio */
+    shade_chunk *runs; /* runs of 256 wires, and the box around each */
+    outline outline;   /* found with the wires */
+    float wire_length; /* their mean */
+    shade_vec3 *few;   /* instead of wires too dense to be parted: those of the outline */
+    int few_points;    /* 0: all wires are drawn */
+    int lit;           /* the next picture is one in the light of the studio */
     studio studio;
     exhibit exhibit;
     model_options shown; /* how it is lit, by the choices */
@@ -173,14 +183,14 @@ static inline void scene_choose(scene *s, const scene_request *o)
     s->home[CHOICE_GROUND] = o->how.no_shadow;
     s->home[CHOICE_MODEL] = (int)o->how.model;
     s->home[CHOICE_SHADING] = o->how.shading == SHADE_SHADING_PER_VERTEX ? 1
-                            : o->how.shading == SHADE_SHADING_PER_FACE   ? 2 : 0;
+                              : o->how.shading == SHADE_SHADING_PER_FACE ? 2
+                                                                         : 0;
     s->flat = o->how.shading == SHADE_SHADING_PER_FACE;
     scene_go_home(s);
 }
 
 /* Loads a model into a zeroed scene.  Returns 1 with a line on stderr. */
-static inline int scene_load(scene *s, const scene_request *o, mesh_progress *progress,
-                             void *user)
+static inline int scene_load(scene *s, const scene_request *o, mesh_progress *progress, void *user)
 {
     int failed;
     s->how = o->how;
@@ -211,7 +221,7 @@ static inline void scene_close(scene *s)
     free(s->few);
 }
 
-enum { WIRE_RUN = 256 };    /* wires in a box */
+enum { WIRE_RUN = 256 }; /* wires in a box */
 static inline int scene_run_count(const scene *s)
 {
     return (s->wire_points / 2 + WIRE_RUN - 1) / WIRE_RUN;
@@ -306,32 +316,16 @@ static inline int scene_key(scene *s, int key)
     const float step = 0.12f;
     *s->said = 0;
     switch (key) {
-    case KEY_UP:
-        scene_turn(s, 0, -step);
-        return 1;
-    case KEY_DOWN:
-        scene_turn(s, 0, step);
-        return 1;
-    case KEY_LEFT:
-        scene_turn(s, -step, 0);
-        return 1;
-    case KEY_RIGHT:
-        scene_turn(s, step, 0);
-        return 1;
+    case KEY_UP: scene_turn(s, 0, -step); return 1;
+    case KEY_DOWN: scene_turn(s, 0, step); return 1;
+    case KEY_LEFT: scene_turn(s, -step, 0); return 1;
+    case KEY_RIGHT: scene_turn(s, step, 0); return 1;
     case '+':
-    case '=':
-        scene_zoom(s, 1.1f);
-        return 1;
+    case '=': scene_zoom(s, 1.1f); return 1;
     case '-':
-    case '_':
-        scene_zoom(s, 1 / 1.1f);
-        return 1;
-    case ' ':
-        s->turning = !s->turning;
-        return 1;
-    case 'r':
-        scene_go_home(s);
-        return 1;
+    case '_': scene_zoom(s, 1 / 1.1f); return 1;
+    case ' ': s->turning = !s->turning; return 1;
+    case 'r': scene_go_home(s); return 1;
     }
     for (int k = 0; k < CHOICES; k++) {
         if (key != scene_choices[k].key && key != scene_choices[k].key - 'a' + 'A') continue;
@@ -451,9 +445,7 @@ static inline int scene_lamps(const scene *s, shade_light *light, shade_vec3 *am
         light[0] = shade_directional_light(shade_v3(-1, -0.5f, -0.4f), shade_v3(1.6f, 0.6f, 0.2f));
         light[1] = shade_directional_light(shade_v3(1, -0.3f, -0.2f), shade_v3(0.1f, 0.6f, 1.3f));
         return 2;
-    case LAMP_EYE:
-        light[0] = shade_directional_light(shade_v3(0, 0, -1), white);
-        return 1;
+    case LAMP_EYE: light[0] = shade_directional_light(shade_v3(0, 0, -1), white); return 1;
     }
     light[0] = shade_directional_light(shade_v3(0.7f, -0.9f, -0.6f), shade_v3(1.35f, 1.27f, 1.15f));
     light[1] = shade_directional_light(shade_v3(-1, -0.15f, -0.35f), shade_v3(0.12f, 0.16f, 0.24f));
@@ -517,7 +509,7 @@ typedef struct scene_relief {
     const look *k;
     const shade_mesh *mesh;
     const shade_draw_state *state;
-    shade_vec3 eye;      /* in the world */
+    shade_vec3 eye; /* in the world */
 } scene_relief;
 
 /* What V comes from: the eye, or with a viewer at infinity the direction toward it. */
@@ -540,11 +532,11 @@ static void scene_relief_fragment(const void *uniforms, const shade_fragments *S
     const float *u = in->varying[SHADE_VARYING_TEXCOORD];
     float texel[4][SHADE_LANES];
     look_rows N, albedo;
-    const shade_rows rows = { .position = in->varying[SHADE_VARYING_POSITION], .normal = N[0],
+    const shade_rows rows = { .position = in->varying[SHADE_VARYING_POSITION],
+                              .normal = N[0],
                               .albedo = albedo[0] };
     for (int i = 0; i < SHADE_LANES; i++)
-        lane_put(N[0], i,
-                 shade_mat3_transform(back, lane(in->varying[SHADE_VARYING_NORMAL], i)));
+        lane_put(N[0], i, shade_mat3_transform(back, lane(in->varying[SHADE_VARYING_NORMAL], i)));
     relief_bend(&k->relief, r->mesh, in, SHADE_VARYING_TEXCOORD, N);
     for (int i = 0; i < SHADE_LANES; i++)
         lane_put(N[0], i, shade_mat3_transform(turn, lane(N[0], i)));
@@ -608,7 +600,7 @@ static inline shade_result scene_draw_parts(const scene *s, const shade_target *
             bent.eye = scene_eye(state.view, flag[s->choice[CHOICE_FLAG]]);
             state.fragment = scene_relief_fragment;
             state.uniforms = &bent;
-            if (!k.map) state.diffuse_map = k.relief.map;    /* whose lod the shader gets */
+            if (!k.map) state.diffuse_map = k.relief.map; /* whose lod the shader gets */
         }
         result = scene_draw_mesh(&mesh, target, &state, flag[s->choice[CHOICE_FLAG]]);
     }
@@ -701,8 +693,7 @@ static inline shade_result scene_draw_band(const scene *s, const shade_target *t
     if (!result && s->choice[CHOICE_GROUND] == 0)
         result = ground_draw(&s->shadow, target, c->model, c->view, c->projection);
     if (!result) result = scene_draw_parts(s, &body, &state, 1);
-    if (!result && s->choice[CHOICE_WIRE])
-        result = scene_draw_wires(s, target, &pen);
+    if (!result && s->choice[CHOICE_WIRE]) result = scene_draw_wires(s, target, &pen);
     return result;
 }
 

@@ -18,7 +18,7 @@
 
 enum { STUDIO_SKY = 64, STUDIO_KEY = 16, STUDIO_MAPS = STUDIO_SKY + STUDIO_KEY };
 enum { STUDIO_GROUND = 256 }; /* texels along an edge of the shadow on the ground, at most */
-#define STUDIO_REACH 1.02f /* half the edge of the square that a map sees */
+#define STUDIO_REACH 1.02f    /* half the edge of the square that a map sees */
 
 typedef struct studio_map {
     shade_vec3 toward, right, up; /* unit vectors; toward points to the lamp */
@@ -30,11 +30,11 @@ typedef struct studio_map {
 typedef struct studio {
     studio_map map[STUDIO_MAPS]; /* the sky, then the large lamp */
     int sky, key;                /* the number of maps of each */
-    int ground;          /* texels along an edge of the shadow on the ground */
+    int ground;                  /* texels along an edge of the shadow on the ground */
     float *memory;
     shade_light lamp[2];
-    float turn;          /* of the lamps about +y, in radians; the sky looks alike all around */
-    shade_vec3 strip;    /* toward the strip of light behind, which mirrors show */
+    float turn;       /* of the lamps about +y, in radians; the sky looks alike all around */
+    shade_vec3 strip; /* toward the strip of light behind, which mirrors show */
 } studio;
 
 /* ---- where the lamps are -------------------------------------------------------------------- */
@@ -154,8 +154,7 @@ static float studio_seen(const studio_map *m, shade_vec3 P)
 /* The light of the sky on a surface, and the light that the ground throws back; 0.4 on open
    level ground.  The sky goes from a bluish zenith to a warm horizon.  *open becomes the part of
    the lamps near the direction R that P sees, 1 where none is near. */
-static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N, shade_vec3 R,
-                             float *open)
+static shade_vec3 studio_sky(const studio *s, shade_vec3 P, shade_vec3 N, shade_vec3 R, float *open)
 {
     float sum[2] = { 0, 0 }, back = 0.06f * (1 - N.y), seen_near = 1e-3f, near_weight = 1e-3f;
     for (int i = 0; i < s->sky; i++) {
@@ -268,8 +267,7 @@ static uint32_t *studio_cells(const owned_mesh *m, float **mean, size_t *count)
     *mean = failed ? NULL : (float *)calloc(set.count + 1, 4 * sizeof **mean);
     for (size_t i = 0; i < n && *mean; i++) {
         float *to = *mean + 4 * (size_t)cell[i];
-        for (size_t k = 0; k < 3; k++)
-            to[k] += (m->positions[3 * i + k] - to[k]) / (to[3] + 1);
+        for (size_t k = 0; k < 3; k++) to[k] += (m->positions[3 * i + k] - to[k]) / (to[3] + 1);
         to[3] += 1;
     }
     free(set.triple);
@@ -409,8 +407,8 @@ static void studio_shadow_row(void *data, int row)
     float unused, open = studio_sky(w->light, shade_v3(0, 9, 0), up, up, &unused).y;
     for (int i = 0; i < size; i++) {
         float *dark = w->dark + row * size + i, sky, lamp, fade;
-        shade_vec3 P = shade_v3(((float)i + 0.5f) * step - half, w->level,
-                                ((float)row + 0.5f) * step - half);
+        shade_vec3 P =
+            shade_v3(((float)i + 0.5f) * step - half, w->level, ((float)row + 0.5f) * step - half);
         fade = 1 - (P.x * P.x + P.z * P.z) / (half * half);
         *dark = 0;
         if (fade <= 0) continue;

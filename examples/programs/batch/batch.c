@@ -18,8 +18,7 @@ static const char usage[] =
     "  --frames N            one turn in N pictures (of a film 360)\n"
     "  --strips N            or one picture in N strips\n"
     "  --size WxH            pixels of a picture, up to 262144x262144 (1280x720)\n"
-    "  --samples 1|2|4       samples along each edge of a pixel (2)\n"
-    MODEL_USAGE
+    "  --samples 1|2|4       samples along each edge of a pixel (2)\n" MODEL_USAGE
     "  --out FOLDER          for 00000.ppm, 00001.ppm ... (frames, or strips)\n"
     "  --pipe                to standard output instead, one behind the other\n"
     "  --film FILE           FILE ends in .webp or .mp4: a film, where ffmpeg is installed\n"
@@ -40,46 +39,57 @@ typedef struct batch {
 
 /* ---- options --------------------------------------------------------------------------------- */
 
-/* Stores one option: the option_take of batch. */
-static int take(void *to, const char *name, const char *value)
+static int take_film(void *to, const char *value)
+{
+    *(const char **)to = value;
+    return strlen(value) < 4096 && (film_is_webp(value) || film_is_mp4(value));
+}
+
+static int take_folder(void *to, const char *value)
+{
+    *(const char **)to = value;
+    return *value && strlen(value) < 4096;
+}
+
+static int take_size(void *to, const char *value)
 {
     batch *b = (batch *)to;
-    int taken = name ? model_take(&b->request.how, name, value) : -1;
-    if (taken >= 0) return taken;
-    if (!name)
-        b->request.model = value;
-    else if (!strcmp(name, "--pipe"))
-        b->pipe = 1;
-    else if (!strcmp(name, "--missing"))
-        b->missing = 1;
-    else if (!strcmp(name, "--size"))
-        return option_size(value, 262144, &b->width, &b->height);
-    else if (!strcmp(name, "--rate"))
-        return option_integer(value, 1, 240, &b->rate);
-    else if (!strcmp(name, "--film")) {
-        b->film = value;
-        return strlen(value) < 4096 && (film_is_webp(value) || film_is_mp4(value));
-    } else if (!strcmp(name, "--samples"))
-        return option_samples(value, &b->samples);
-    else if (!strcmp(name, "--piece"))
-        return option_integer(value, 0, 99999, &b->piece);
-    else if (!strcmp(name, "--out")) {
-        b->out = value;
-        return *value && strlen(value) < 4096;
-    } else {
-        b->strips = !strcmp(name, "--strips");
-        return option_integer(value, 1, 99999, &b->count);
-    }
-    return OPTION_TAKEN;
+    return option_size(value, 262144, &b->width, &b->height);
+}
+
+static int take_frames(void *to, const char *value)
+{
+    batch *b = (batch *)to;
+    b->strips = 0;
+    return option_integer(value, 1, 99999, &b->count);
+}
+
+static int take_strips(void *to, const char *value)
+{
+    const int taken = take_frames(to, value);
+    ((batch *)to)->strips = 1;
+    return taken;
 }
 
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(batch *b, int argc, char **argv)
 {
-    static const char *const valued[] = { MODEL_VALUED, "--size",   "--samples", "--piece", "--out",
-                                          "--frames",   "--strips", "--film",    "--rate",  NULL };
-    static const char *const flags[] = { MODEL_FLAGS, "--pipe", "--missing", NULL };
-    static const command c = { "batch", usage, valued, flags, 0, 1, "", take };
+    static const option own[] = { { "--frames", take_frames, 0, 0, 0 },
+                                  { "--strips", take_strips, 0, 0, 0 },
+                                  { "--film", take_film, offsetof(batch, film), 0, 0 },
+                                  { "--out", take_folder, offsetof(batch, out), 0, 0 },
+                                  { "--size", take_size, 0, 0, 0 },
+                                  { "--samples", option_samples, offsetof(batch, samples), 0, 0 },
+                                  { "--piece", NULL, offsetof(batch, piece), 0, 99999 },
+                                  { "--rate", NULL, offsetof(batch, rate), 1, 240 },
+                                  { "--pipe", NULL, offsetof(batch, pipe), 1, 0 },
+                                  { "--missing", NULL, offsetof(batch, missing), 1, 0 },
+                                  { NULL, NULL, 0, 0, 0 } };
+    static const option_group groups[] = { { model_option, offsetof(batch, request.how) },
+                                           { own, 0 },
+                                           { NULL, 0 } };
+    static const command c = { "batch", usage, groups, offsetof(batch, request.model),
+                               0,       1,     "",     NULL };
     int end = options_read(&c, b, argc, argv);
     if (end) return end;
 
@@ -183,9 +193,7 @@ static int write_film(batch *b, const char *path)
 
 int main(int argc, char **argv)
 {
-    static batch b = {
-        .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30
-    };
+    static batch b = { .width = 1280, .height = 720, .samples = 2, .piece = -1, .rate = 30 };
     int end;
     path_arguments(&argc, &argv);
     b.request.how = model_options_new();

@@ -32,11 +32,11 @@ static inline int film_is_mp4(const char *path)
 static inline int film_start(film *f, int rate, const char *part)
 {
     char framerate[16];
-    const char *begin[] = { "ffmpeg", "-v", "error", "-y", "-f", "image2pipe", "-c:v", "ppm",
-                            "-framerate", framerate, "-i", "-" };
+    const char *begin[] = { "ffmpeg", "-v",  "error",      "-y",      "-f", "image2pipe",
+                            "-c:v",   "ppm", "-framerate", framerate, "-i", "-" };
     const char *webp[] = { "-c:v", "libwebp_anim", "-quality", "85", "-loop", "0", "-f", "webp" };
-    const char *mp4[] = { "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags",
-                          "+faststart", "-f", "mp4" };
+    const char *mp4[] = { "-c:v",    "libx264",   "-crf",       "18", "-pix_fmt",
+                          "yuv420p", "-movflags", "+faststart", "-f", "mp4" };
     const char *words[32] = { NULL };
     const int is_webp = film_is_webp(f->path);
     memcpy(words, begin, sizeof begin);

@@ -22,9 +22,7 @@ static const char usage[] =
     "                        beyond the limit in red\n"
     "  --help, --version     prints this text; the version\n"
     "In place of a picture may stand a model. It is drawn as thumbnail draws it, as large as the\n"
-    "picture that it is compared with:\n"
-    PORTRAIT_USAGE
-    MODEL_USAGE
+    "picture that it is compared with:\n" PORTRAIT_USAGE MODEL_USAGE
     "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
     "exit status: 0 the same within limit and count, 1 different, 2 error\n";
 
@@ -33,8 +31,8 @@ typedef struct picture {
     const char *name;
     FILE *file;
     int width, height, channels, most, plain;
-    unsigned char *whole, *bytes;    /* all of it where stb has read it; one row as it is stored */
-    double *row;                     /* one row, three channels a pixel, 0 .. 255 */
+    unsigned char *whole, *bytes; /* all of it where stb has read it; one row as it is stored */
+    double *row;                  /* one row, three channels a pixel, 0 .. 255 */
 } picture;
 
 /* Prints one line on stderr and returns the exit status for it. */
@@ -54,7 +52,8 @@ static int number(FILE *f)
     while (c == ' ' || (c >= '\t' && c <= '\r') || c == '#') {
         if (c == '#')
             while (c != '\n' && c != EOF) c = getc(f);
-        else c = getc(f);
+        else
+            c = getc(f);
     }
     if (c < '0' || c > '9') return -1;
     for (; c >= '0' && c <= '9'; c = getc(f)) n = n < 100000000 ? 10 * n + c - '0' : n;
@@ -75,8 +74,7 @@ static int read_header(picture *p)
     }
 #endif
     if (kind == 'P') magic = getc(p->file);
-    if (magic < '2' || magic > '6' || magic == '4')
-        return fail(p->name, "neither PPM nor PGM");
+    if (magic < '2' || magic > '6' || magic == '4') return fail(p->name, "neither PPM nor PGM");
     p->plain = magic < '5';
     p->channels = magic == '2' || magic == '5' ? 1 : 3;
     p->width = number(p->file);
@@ -106,22 +104,28 @@ static int read_row(picture *p, int y)
 {
     int n = p->width * p->channels, wide = p->most > 255;
     const unsigned char *b = p->bytes;
-    if (p->whole) b = p->whole + (size_t)n * (size_t)y;
+    if (p->whole)
+        b = p->whole + (size_t)n * (size_t)y;
     else if (!p->plain && fread(p->bytes, (size_t)(1 + wide), (size_t)n, p->file) < (size_t)n)
         return fail(p->name, ferror(p->file) ? strerror(errno) : "ends too early");
     for (int k = 0; k < n; k++) {
         int v = p->plain ? number(p->file) : wide ? b[2 * k] << 8 | b[2 * k + 1] : b[k];
         if (v < 0) return fail(p->name, "ends too early, or holds what is no number");
         if (v > p->most) return fail(p->name, "a value above its own maximum");
-        if (p->channels == 3) p->row[k] = 255.0 * v / p->most;
-        else p->row[3 * k] = p->row[3 * k + 1] = p->row[3 * k + 2] = 255.0 * v / p->most;
+        if (p->channels == 3)
+            p->row[k] = 255.0 * v / p->most;
+        else
+            p->row[3 * k] = p->row[3 * k + 1] = p->row[3 * k + 2] = 255.0 * v / p->most;
     }
     return SAME;
 }
 
 /* ---- comparing ------------------------------------------------------------------------------ */
 
-typedef struct result { double most, sum, squares, beyond; int x, y; } result;
+typedef struct result {
+    double most, sum, squares, beyond;
+    int x, y;
+} result;
 
 /* Colours one pixel of the difference picture: dim grey where there is no difference, yellow by
    the part of the limit that is used, red by the excess over the limit. */
@@ -183,54 +187,50 @@ static int compare_into(FILE *file, const void *data)
 typedef struct options {
     const char *names[2], *difference;
     double limit, count;
-    int percent;                     /* count is a percentage */
-    int sized, max_seconds;          /* sized: the command line says how large models are drawn */
+    int percent; /* count is a percentage */
+    int max_seconds;
     portrait portrait;
     model_options how;
 } options;
 
-/* Stores one option: the option_take of compare. */
-static int take(void *to, const char *name, const char *value)
+static int take_limit(void *to, const char *value)
+{
+    char *end;
+    *(double *)to = strtod(value, &end);
+    return end > value && *(double *)to >= 0 && !*end;
+}
+
+static int take_count(void *to, const char *value)
+{
+    options *all = (options *)to;
+    char *end;
+    all->count = strtod(value, &end);
+    all->percent = *end == '%';
+    return end > value && all->count >= 0 && !end[all->percent];
+}
+
+static int take_difference(void *to, const char *value)
 {
     static const char *const ppm[] = { "ppm", NULL };
-    options *o = (options *)to;
-    char *end;
-    double number;
-    int taken;
-    if (!name) {
-        o->names[o->names[0] != NULL] = value;
-        return OPTION_TAKEN;
-    }
-    o->sized |= !strcmp(name, "--size");
-    taken = model_take(&o->how, name, value);
-    if (taken < 0) taken = portrait_take(&o->portrait, name, value);
-    if (taken >= 0) return taken;
-    if (!strcmp(name, "--max-seconds"))
-        return option_integer(value, 0, 1000000000, &o->max_seconds);
-    if (!strcmp(name, "--difference")) {
-        o->difference = value;
-        return save_is_device(value) || save_ends_in(value, ppm);
-    }
-
-    number = strtod(value, &end);
-    if (end == value || !(number >= 0)) return OPTION_BAD;
-    if (!strcmp(name, "--limit")) {
-        o->limit = number;
-        return !*end;
-    }
-    o->count = number;
-    o->percent = *end == '%';
-    return !end[o->percent];
+    *(const char **)to = value;
+    return save_is_device(value) || save_ends_in(value, ppm);
 }
 
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(options *o, int argc, char **argv)
 {
-    static const char *const valued[] = { "--limit",    "--count",       "--difference",
-                                          MODEL_VALUED, PORTRAIT_VALUED, "--max-seconds",
-                                          NULL };
-    static const char *const flags[] = { MODEL_FLAGS, NULL };
-    static const command c = { "compare", usage, valued, flags, 2, 2, "", take };
+    static const option own[] = {
+        { "--limit", take_limit, offsetof(options, limit), 0, 0 },
+        { "--count", take_count, 0, 0, 0 },
+        { "--difference", take_difference, offsetof(options, difference), 0, 0 },
+        { "--max-seconds", NULL, offsetof(options, max_seconds), 0, 1000000000 },
+        { NULL, NULL, 0, 0, 0 }
+    };
+    static const option_group groups[] = { { model_option, offsetof(options, how) },
+                                           { portrait_option, offsetof(options, portrait) },
+                                           { own, 0 },
+                                           { NULL, 0 } };
+    static const command c = { "compare", usage, groups, offsetof(options, names), 2, 2, "", NULL };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
     if (!strcmp(o->names[0], "-") && !strcmp(o->names[1], "-"))
@@ -293,8 +293,8 @@ static int open_both(picture *p, const options *o)
         p[i].name = o->names[i];
         if (model_has_name(p[i].name)) continue;
         if (open_picture(&p[i])) return ERROR;
-        if (!o->sized) as.width = p[i].width;
-        if (!o->sized) as.height = p[i].height;
+        if (!as.sized) as.width = p[i].width;
+        if (!as.sized) as.height = p[i].height;
     }
     for (int i = 0; i < 2; i++) {
         if (p[i].file) continue;
@@ -315,8 +315,10 @@ static int print(const picture *a, const result *r, const options *o)
     printf("max    %.4g", r->most);
     if (r->most > 0) printf(" at %d,%d", r->x, r->y);
     printf("\nmean   %.4g\n", r->sum / (3 * pixels));
-    if (mean_square > 0) printf("PSNR   %.2f dB\n", 10 * log10(255.0 * 255.0 / mean_square));
-    else printf("PSNR   infinite\n");
+    if (mean_square > 0)
+        printf("PSNR   %.2f dB\n", 10 * log10(255.0 * 255.0 / mean_square));
+    else
+        printf("PSNR   infinite\n");
     printf("count  %.0f of %.0f pixels beyond %g, %.0f allowed\n", r->beyond, pixels, o->limit,
            allowed);
     puts(r->beyond <= allowed ? "same" : "different");
@@ -334,8 +336,7 @@ static int run(picture *p, const options *o)
         printf("size   %d x %d and %d x %d\ndifferent\n", a->width, a->height, b->width, b->height);
         return DIFFERENT;
     }
-    if (o->difference ? save_bytes(o->difference, compare_into, &both)
-                      : compare_rows(NULL, &both))
+    if (o->difference ? save_bytes(o->difference, compare_into, &both) : compare_rows(NULL, &both))
         return ERROR;
     return print(a, &r, o);
 }

@@ -9,11 +9,11 @@
 #include "strokes.h"
 
 typedef struct pen {
-    shade_target target;   /* samples times the sheet, 8 bits a channel, without depth */
+    shade_target target; /* samples times the sheet, 8 bits a channel, without depth */
     int width, height, samples;
-    float unit, text;      /* 1 on a sheet of 1200 rows or columns; the em */
+    float unit, text; /* 1 on a sheet of 1200 rows or columns; the em */
     shade_vec3 ink, grey;
-    shade_result result;   /* the first that was none */
+    shade_result result; /* the first that was none */
 } pen;
 
 /* ---- lines and text ------------------------------------------------------------------------- */
@@ -35,8 +35,7 @@ static inline void pen_lines(pen *p, const float *points, size_t count, float wi
     shade_result result = SHADE_ERROR_CAPACITY;
     width = width < 1 ? 1 : floorf(width + 0.5f);
     state.width = width * (float)p->samples;
-    state.clip_from_points =
-        shade_mat4_ortho(0, (float)p->width, (float)p->height, 0, -1, 1);
+    state.clip_from_points = shade_mat4_ortho(0, (float)p->width, (float)p->height, 0, -1, 1);
     state.color = shade_v4(color.x, color.y, color.z, 1);
     if (snapped) {
         if (count) memcpy(snapped, points, 3 * count * sizeof *snapped);
@@ -44,8 +43,8 @@ static inline void pen_lines(pen *p, const float *points, size_t count, float wi
             pen_snap(&snapped[3 * i], &snapped[3 * i + 3], width);
             pen_snap(&snapped[3 * i + 1], &snapped[3 * i + 4], width);
         }
-        result = shade_draw_lines(&p->target, (const shade_vec3 *)(const void *)snapped,
-                                  (int)count, &state, NULL);
+        result = shade_draw_lines(&p->target, (const shade_vec3 *)(const void *)snapped, (int)count,
+                                  &state, NULL);
     }
     free(snapped);
     if (!p->result) p->result = result;
@@ -72,8 +71,8 @@ static inline float pen_set(pen *p, int draw, float x, float y, float size, shad
         if (n >= sizeof cut) n = sizeof cut - 1;
         memcpy(cut, text, n);
         cut[n] = 0;
-        width += label_set(draw ? &p->target : NULL, s * (x + width), s * y, s * size, color,
-                           cut) / s;
+        width +=
+            label_set(draw ? &p->target : NULL, s * (x + width), s * y, s * size, color, cut) / s;
         text += n;
     }
     return width;
@@ -117,9 +116,15 @@ static inline void pen_triangle(pen *p, const float *corners)
 static inline void pen_arrow(pen *p, float x, float y, float way_x, float way_y)
 {
     const float l = 13 * p->unit, w = 2.6f * p->unit;
-    const float corners[9] = { x, y, 0,
-                               x - l * way_x - w * way_y, y - l * way_y + w * way_x, 0,
-                               x - l * way_x + w * way_y, y - l * way_y - w * way_x, 0 };
+    const float corners[9] = { x,
+                               y,
+                               0,
+                               x - l * way_x - w * way_y,
+                               y - l * way_y + w * way_x,
+                               0,
+                               x - l * way_x + w * way_y,
+                               y - l * way_y - w * way_x,
+                               0 };
     pen_triangle(p, corners);
 }
 
@@ -273,9 +278,10 @@ static inline void annotate_symbol(pen *p, float x, float y, int first_angle)
 /* A colour for each piece: twelve that differ, then these lighter and darker */
 static inline shade_vec3 piece_color(int i)
 {
-    static const uint32_t color[12] = { 0x5B9BD5, 0xF0A04B, 0x7DBE6A, 0xE0736F,
-                                        0xA48AD4, 0xC9A26D, 0xE79AC0, 0x56BDB7,
-                                        0xD9CF5A, 0x9AA5B1, 0x9ED0F5, 0xB5D99C };
+    static const uint32_t color[12] = {
+        0x5B9BD5, 0xF0A04B, 0x7DBE6A, 0xE0736F, 0xA48AD4, 0xC9A26D,
+        0xE79AC0, 0x56BDB7, 0xD9CF5A, 0x9AA5B1, 0x9ED0F5, 0xB5D99C
+    };
     shade_vec3 c = shade_rgb(color[i % 12]);
     if (i / 12 % 3 == 1) return shade_scale(c, 0.6f);
     if (i / 12 % 3 == 2) return shade_lerp(c, shade_v3(1, 1, 1), 0.5f);
@@ -293,8 +299,8 @@ static inline void annotate_legend(pen *p, const pieces *parts, float x, float y
     for (int i = 0; i < shown; i++, y += line) {
         shade_vec3 c = piece_color(i);
         float s = (float)p->samples;
-        canvas_fill(&p->target, (int)(s * x), (int)(s * (y - box)), (int)(s * box),
-                    (int)(s * box), c);
+        canvas_fill(&p->target, (int)(s * x), (int)(s * (y - box)), (int)(s * box), (int)(s * box),
+                    c);
         pen_line(p, x, y - box, x + box, y - box, p->unit, p->ink);
         pen_line(p, x, y, x + box, y, p->unit, p->ink);
         pen_line(p, x, y - box, x, y, p->unit, p->ink);

@@ -7,7 +7,7 @@
 #include "maps.h"
 
 enum { DRAWING_BANDS = 24, DRAWING_SMOOTH = 200000 }; /* larger meshes are lit by their faces */
-#define DRAWING_AMBIENT 0.38f /* light from everywhere, and from the lamp */
+#define DRAWING_AMBIENT 0.38f                         /* light from everywhere, and from the lamp */
 #define DRAWING_LAMP 0.70f
 
 typedef struct drawing {
@@ -16,11 +16,11 @@ typedef struct drawing {
     pieces pieces;
     views views;
     outline outline;
-    shade_target sheet;          /* samples times as wide and high as the sheet */
+    shade_target sheet; /* samples times as wide and high as the sheet */
     seen seen;
-    uint16_t *piece_of;          /* by triangle */
-    shade_vec3 *color;           /* of each piece */
-    int *pixels;                 /* as in drawing_text */
+    uint16_t *piece_of; /* by triangle */
+    shade_vec3 *color;  /* of each piece */
+    int *pixels;        /* as in drawing_text */
     uint32_t *claim;
     signed char *claim_way;
     strokes strokes[VIEW_KINDS];
@@ -91,8 +91,8 @@ static int drawing_chunks(model *m)
     if (!m->mesh.chunks) return 1;
     for (int i = 0; i < m->part_count; i++) {
         shade_mesh mesh = model_part_mesh(m, i);
-        shade_mesh_chunks(&mesh, 0, m->mesh.chunks + m->part[i].first_chunk,
-                          m->part[i].chunk_count, NULL);
+        shade_mesh_chunks(&mesh, 0, m->mesh.chunks + m->part[i].first_chunk, m->part[i].chunk_count,
+                          NULL);
     }
     for (int i = 0; i < count; i++)
         size += (double)shade_distance(m->mesh.chunks[i].low, m->mesh.chunks[i].high);
@@ -136,7 +136,10 @@ static views_room drawing_room(const drawing *d, const pen *p)
 {
     const drawing_options *g = &d->options->drawing;
     double margin = 30 * (double)d->unit, text = (double)p->text;
-    views_room r = { margin, margin, p->width - 2 * margin, p->height - 2 * margin - 2.2 * text,
+    views_room r = { margin,
+                     margin,
+                     p->width - 2 * margin,
+                     p->height - 2 * margin - 2.2 * text,
                      { 0.6 * text, 1.9 * text, 0.6 * text, 0.6 * text } };
     if (g->ids && d->pieces.count > 1) r.width -= 0.2 * p->width;
     if (g->dimensions) {
@@ -208,8 +211,7 @@ static void faces_vertex(const void *uniforms, const shade_vertex_ids *SHADE_RES
     SHADE_EACH_LANE(i)
     {
         const float *p = k->positions + 3 * (size_t)in->index[i];
-        lane_put4(out->clip[0], i,
-                  shade_mat4_transform(k->clip, shade_v4(p[0], p[1], p[2], 1)));
+        lane_put4(out->clip[0], i, shade_mat4_transform(k->clip, shade_v4(p[0], p[1], p[2], 1)));
     }
 }
 
@@ -250,8 +252,8 @@ static void faces_fragment(const void *uniforms, const shade_fragments *SHADE_RE
 }
 
 /* Draws a part whose triangles are known by their numbers: runs of chunks that the target sees. */
-static shade_result drawing_faces(const shade_target *target, const shade_mesh *mesh,
-                                  faces_look *k, shade_fragment_shader *fragment)
+static shade_result drawing_faces(const shade_target *target, const shade_mesh *mesh, faces_look *k,
+                                  shade_fragment_shader *fragment)
 {
     shade_pipeline p = { .vertex = faces_vertex, .fragment = fragment, .uniforms = k };
     const uint32_t part = k->first;
@@ -300,8 +302,7 @@ static shade_draw_state drawing_state(const drawing *d, const view *v, shade_lig
 
 /* Draws a part, lit or as the numbers of its triangles. */
 static shade_result drawing_part(const drawing *d, const shade_target *target, int part,
-                                 faces_look *k, const shade_draw_state *camera_and_lamp,
-                                 int items)
+                                 faces_look *k, const shade_draw_state *camera_and_lamp, int items)
 {
     shade_draw_state state = *camera_and_lamp;
     shade_mesh mesh = model_part_mesh(d->model, part);
@@ -338,8 +339,7 @@ static shade_result drawing_view(const drawing *d, const shade_target *target, c
 }
 
 /* Draws what lies in the rows of a band; views stand apart, so each has a clip rectangle. */
-static shade_result drawing_rows(const drawing *d, const shade_target *rows, int samples,
-                                 int items)
+static shade_result drawing_rows(const drawing *d, const shade_target *rows, int samples, int items)
 {
     const shade_vec3 c = d->options->picture.background_color;
     shade_vec4 paper = shade_v4(1, 1, 1, 1);
@@ -367,8 +367,10 @@ static shade_result drawing_rows(const drawing *d, const shade_target *rows, int
 static void drawing_band(void *data, int band)
 {
     drawing *d = (drawing *)data;
-    const shade_target item = { .width = d->seen.width, .height = d->seen.height,
-                                .color = d->seen.item, .depth = d->seen.depth };
+    const shade_target item = { .width = d->seen.width,
+                                .height = d->seen.height,
+                                .color = d->seen.item,
+                                .depth = d->seen.depth };
     shade_target rows;
     shade_result *result = &d->result[band];
     if (!band) {
@@ -387,8 +389,8 @@ static void drawing_items(seen *s)
 {
     for (size_t i = 0; i < (size_t)s->width * (size_t)s->height; i++) {
         const unsigned char *b = (const unsigned char *)&s->item[i];
-        s->item[i] = (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
-                     (uint32_t)b[3] << 24;
+        s->item[i] =
+            (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
     }
 }
 
@@ -447,8 +449,7 @@ static void drawing_text_about(const drawing *d, pen *p)
              d->model->mesh.view.index_count / 3, parts, parts > 1 ? "s" : "");
     pen_fit(p, margin + 30 * u + 0.45f * room, base, 0.85f * p->text, 0.55f * room, text);
     for (int i = 0; i < d->views.count; i++) flat += d->views.list[i].kind != VIEW_ISO;
-    if (flat > 1)
-        annotate_symbol(p, right - 16 * u, low - 0.95f * p->text, g->first_angle);
+    if (flat > 1) annotate_symbol(p, right - 16 * u, low - 0.95f * p->text, g->first_angle);
     annotate_names(p, &d->views);
     if (g->dimensions) annotate_dimensions(p, &d->views, d->size);
     if (g->ids && d->pieces.count > 1)
@@ -469,8 +470,8 @@ static int drawing_save_map(drawing *d, const char *path, int depth)
     for (size_t i = 0; i < pixels; i++) {
         uint32_t item = d->seen.item[i];
         if (depth)
-            value[i] = item ? (uint16_t)floorf(d->seen.depth[i] * (MAP_NOTHING - 1) + 0.5f)
-                            : MAP_NOTHING;
+            value[i] =
+                item ? (uint16_t)floorf(d->seen.depth[i] * (MAP_NOTHING - 1) + 0.5f) : MAP_NOTHING;
         else
             value[i] = item ? (uint16_t)(d->piece_of[item - 1] + 1) : 0;
     }
@@ -554,8 +555,8 @@ static pen drawing_pen(const options *o)
     pen p = { .ink = shade_rgb(0x101418), .grey = shade_rgb(0x5A626B) };
     int least;
     p.samples = o->picture.samples;
-    p.width = o->drawing.sized ? o->picture.width : 1600;
-    p.height = o->drawing.sized ? o->picture.height : 1200;
+    p.width = o->picture.sized ? o->picture.width : 1600;
+    p.height = o->picture.sized ? o->picture.height : 1200;
     least = p.width < p.height ? p.width : p.height;
     p.unit = fmaxf(0.6f, (float)least / 1200);
     p.text = 22 * p.unit;
@@ -577,11 +578,12 @@ static int drawing_run(const options *o, model *m, mesh_progress *report, void *
         bands_run_told(o->how.threads, DRAWING_BANDS + 1, drawing_band, &d, report, user);
         drawing_items(&d.seen);
         for (int i = 0; i <= DRAWING_BANDS && !p.result; i++) p.result = d.result[i];
-        if (!p.result && o->drawing.edges && drawing_lines(&d, &p))
-            p.result = SHADE_ERROR_CAPACITY;
+        if (!p.result && o->drawing.edges && drawing_lines(&d, &p)) p.result = SHADE_ERROR_CAPACITY;
         if (!p.result) drawing_text_about(&d, &p);
-        if (p.result) failed = complain("%s", p.result == SHADE_ERROR_CAPACITY ? "out of memory"
-                                                  : shade_result_string(p.result));
+        if (p.result)
+            failed =
+                complain("%s", p.result == SHADE_ERROR_CAPACITY ? "out of memory"
+                                                                : shade_result_string(p.result));
     }
     if (!failed) failed = drawing_save(&d);
     drawing_free(&d);

@@ -129,8 +129,11 @@ typedef struct drawing_text {
 /* The length of the character of UTF-8 at a place; 0: it is none */
 static size_t json_character(const unsigned char *c)
 {
-    size_t n = c[0] < 0x80 ? 1 : c[0] >= 0xC2 && c[0] < 0xE0 ? 2 : c[0] >= 0xE0 && c[0] < 0xF0 ? 3
-             : c[0] >= 0xF0 && c[0] < 0xF5 ? 4 : 0;
+    size_t n = c[0] < 0x80                   ? 1
+               : c[0] >= 0xC2 && c[0] < 0xE0 ? 2
+               : c[0] >= 0xE0 && c[0] < 0xF0 ? 3
+               : c[0] >= 0xF0 && c[0] < 0xF5 ? 4
+                                             : 0;
     for (size_t k = 1; k < n; k++)
         if ((c[k] & 0xC0) != 0x80) return 0;
     if (n == 3 && ((c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xED && c[1] > 0x9F))) return 0;

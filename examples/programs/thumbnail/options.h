@@ -6,38 +6,22 @@
 #include "drawing_options.h"
 
 static const char thumbnail_usage[] =
-    "usage: thumbnail model picture.ppm|picture.png [options]   -: standard input and output\n"
-    PORTRAIT_USAGE
+    "usage: thumbnail model picture.ppm|picture.png [options]   -: standard input and "
+    "output\n" PORTRAIT_USAGE
     "  --png                 writes PNG also to standard output, and under a new name that does\n"
-    "                        not say so\n"
-    MODEL_USAGE
+    "                        not say so\n" MODEL_USAGE
     "  --max-seconds N       gives up after N seconds, 0 .. 1000000000 (0: no limit)\n"
     "  --help, --version     prints this text; the version\n" DRAWING_USAGE;
 
 typedef struct options {
-    const char *input, *output;
+    const char *files[2], *input, *output;
     int png, max_seconds;
     portrait picture;
     model_options how;
     drawing_options drawing;
 } options;
 
-/* Stores one option: the option_take of thumbnail. */
-static int take(void *to, const char *name, const char *value)
-{
-    options *o = (options *)to;
-    int taken = name ? drawing_take(&o->drawing, name, value) : -1;
-    if (taken < 0 && name) taken = model_take(&o->how, name, value);
-    if (taken < 0 && name) taken = portrait_take(&o->picture, name, value);
-    if (taken >= 0) return taken;
-    if (!name)
-        *(o->input ? &o->output : &o->input) = value;
-    else if (!strcmp(name, "--png"))
-        o->png = 1;
-    else
-        return option_integer(value, 0, 1000000000, &o->max_seconds);
-    return OPTION_TAKEN;
-}
+static void notice(void *to, const char *name) { drawing_notice(&((options *)to)->drawing, name); }
 
 /* Returns 1 where the options do not fit together; a line on stderr has said why. */
 static int check_options(options *o)
@@ -52,18 +36,28 @@ static int check_options(options *o)
 /* Reads the command line.  Returns what options_read does. */
 static int read_options(options *o, int argc, char **argv)
 {
-    static const char *const valued[] = {
-        MODEL_VALUED, PORTRAIT_VALUED, "--max-seconds", "--views", "--angle", "--depth", "--id-map",
-        "--json",     NULL
-    };
-    static const char *const flags[] = { MODEL_FLAGS, "--png", "--ortho",      "--edges",
-                                         "--hidden",  "--ids", "--dimensions", NULL };
-    static const command c = { "thumbnail", thumbnail_usage, valued, flags, 2, 2,
+    static const option own[] = { { "--png", NULL, offsetof(options, png), 1, 0 },
+                                  { "--max-seconds", NULL, offsetof(options, max_seconds), 0,
+                                    1000000000 },
+                                  { NULL, NULL, 0, 0, 0 } };
+    static const option_group groups[] = { { drawing_option, offsetof(options, drawing) },
+                                           { model_option, offsetof(options, how) },
+                                           { portrait_option, offsetof(options, picture) },
+                                           { own, 0 },
+                                           { NULL, 0 } };
+    static const command c = { "thumbnail",
+                               thumbnail_usage,
+                               groups,
+                               offsetof(options, files),
+                               2,
+                               2,
                                "; a call draws one model, --views several views of "
                                "it; shade-sheets calls it for a folder of models",
-                               take };
+                               notice };
     int end = options_read(&c, o, argc, argv);
     if (end) return end;
+    o->input = o->files[0];
+    o->output = o->files[1];
     return check_options(o) ? OPTIONS_WRONG : OPTIONS_READ;
 }
 

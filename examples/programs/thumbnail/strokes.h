@@ -32,18 +32,18 @@ typedef struct chains {
     const view *view;
     const seen *seen;
     const drawing_options *options;
-    float unit;              /* of the sheet: lengths of dashes count in it */
-    uint32_t *edge;          /* those drawn in this view */
-    char *used;              /* by place in edge */
-    uint32_t *first, *at;    /* the edges at place p begin in the list at at first[p + 1] */
+    float unit;           /* of the sheet: lengths of dashes count in it */
+    uint32_t *edge;       /* those drawn in this view */
+    char *used;           /* by place in edge */
+    uint32_t *first, *at; /* the edges at place p begin in the list at at first[p + 1] */
     size_t count;
-    uint32_t *place, *of;    /* the chain: its places, and for each step its edge */
+    uint32_t *place, *of; /* the chain: its places, and for each step its edge */
     size_t steps;
     float *x, *y, *z, *along; /* of its places; along: pixels from its begin */
-    char *state;             /* of its samples */
+    char *state;              /* of its samples */
     size_t samples, room, sample_room;
     uint32_t number;
-    uint32_t *claim;         /* by pixel of the sheet: the chain that lies there, and its way */
+    uint32_t *claim; /* by pixel of the sheet: the chain that lies there, and its way */
     signed char *claim_way;
     strokes *out;
 } chains;
@@ -290,8 +290,8 @@ static inline int chains_claimed(const chains *c, const chain_point *p)
     size_t at = chains_pixel(c, p), width = (size_t)c->seen->width;
     for (int k = 0; k < 9; k++) {
         size_t i = at + (size_t)(k / 3) * width + (size_t)(k % 3) - width - 1;
-        float cross = p->way_x * (float)c->claim_way[2 * i + 1] -
-                      p->way_y * (float)c->claim_way[2 * i];
+        float cross =
+            p->way_x * (float)c->claim_way[2 * i + 1] - p->way_y * (float)c->claim_way[2 * i];
         if (c->claim[i] && c->claim[i] != c->number && cross * cross < 33 * 33) return 1;
     }
     return 0;

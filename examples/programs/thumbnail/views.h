@@ -14,19 +14,19 @@ typedef struct matrix4 {
 } matrix4;
 
 typedef struct view {
-    int kind, lens;              /* lens: perspective, the eye stands EYE away from the origin */
+    int kind, lens; /* lens: perspective, the eye stands EYE away from the origin */
     shade_vec3 right, up, toward;
-    float low[3], high[3];       /* the model along right, up (as the lens sees it) and toward */
-    int column, row;             /* of the layout */
-    int x, y, width, height;     /* where it stands on the sheet, in pixels */
-    double scale, at_x, at_y;    /* pixels for a unit of the model; the pixel of the origin */
+    float low[3], high[3];    /* the model along right, up (as the lens sees it) and toward */
+    int column, row;          /* of the layout */
+    int x, y, width, height;  /* where it stands on the sheet, in pixels */
+    double scale, at_x, at_y; /* pixels for a unit of the model; the pixel of the origin */
     matrix4 from_model;
 } view;
 
 typedef struct views {
     view list[VIEW_KINDS];
-    int count, width, height;    /* of the sheet */
-    double scale;                /* that the flat views share; 0: there is none */
+    int count, width, height; /* of the sheet */
+    double scale;             /* that the flat views share; 0: there is none */
 } views;
 
 #define VIEWS_EYE 7.0 /* a model reaches 1.74 from the origin at most: seen within 29 degrees */
@@ -35,10 +35,11 @@ typedef struct views {
 
 static inline view view_of(int kind, int ortho)
 {
-    static const float axis[6][2][3] = { /* right and up, by kind */
-        { { 1, 0, 0 }, { 0, 1, 0 } },  { { -1, 0, 0 }, { 0, 1, 0 } },
-        { { 0, 0, -1 }, { 0, 1, 0 } }, { { 0, 0, 1 }, { 0, 1, 0 } },
-        { { 1, 0, 0 }, { 0, 0, -1 } }, { { 1, 0, 0 }, { 0, 0, 1 } } };
+    static const float axis[6][2][3] = {
+        /* right and up, by kind */
+        { { 1, 0, 0 }, { 0, 1, 0 } }, { { -1, 0, 0 }, { 0, 1, 0 } }, { { 0, 0, -1 }, { 0, 1, 0 } },
+        { { 0, 0, 1 }, { 0, 1, 0 } }, { { 1, 0, 0 }, { 0, 0, -1 } }, { { 1, 0, 0 }, { 0, 0, 1 } }
+    };
     view v = { .kind = kind };
     if (kind == VIEW_ISO) {
         v.lens = !ortho;
@@ -89,8 +90,8 @@ static inline void view_matrix(view *v)
         v->from_model.row[3][c] = v->lens ? -t : 0;
         v->from_model.row[2][c] = v->lens ? -bend * t : -t / (high - low);
         for (int k = 0; k < 2; k++)
-            v->from_model.row[k][c] = v->scale * sign[k] * (double)axis[k][c] +
-                                      place[k] * v->from_model.row[3][c];
+            v->from_model.row[k][c] =
+                v->scale * sign[k] * (double)axis[k][c] + place[k] * v->from_model.row[3][c];
     }
     v->from_model.row[3][3] = v->lens ? VIEWS_EYE : 1;
     v->from_model.row[2][3] = v->lens ? bend * (VIEWS_EYE - near_plane) : high / (high - low);
@@ -207,7 +208,7 @@ static inline void views_place_iso(views *s, view *iso)
 
 /* One direction of the layout: its columns, or its rows */
 typedef struct views_line {
-    double extent[VIEWS_COLUMNS]; /* of flat views, in the model's units */
+    double extent[VIEWS_COLUMNS];                     /* of flat views, in the model's units */
     double begin[VIEWS_COLUMNS], size[VIEWS_COLUMNS]; /* pixels, without what is left free */
     int used[VIEWS_COLUMNS], iso, cells;
     double room, least; /* pixels for views; the least for the iso view */
@@ -242,8 +243,8 @@ static inline double views_fit(const views_line *l)
 }
 
 /* Places the cells one after the other, in the middle of the room. */
-static inline void views_cells(views_line *l, double scale, double wish, double from,
-                               double before, double after)
+static inline void views_cells(views_line *l, double scale, double wish, double from, double before,
+                               double after)
 {
     double rest = l->room, at = from;
     for (int i = 0; i < VIEWS_COLUMNS; i++) {

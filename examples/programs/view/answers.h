@@ -8,9 +8,9 @@
 
 /* What the terminal has answered */
 typedef struct terminal_answers {
-    int kitty, iterm2, sixel;    /* pictures that it takes */
-    int parts;                   /* 6 or 4: it draws glyphs of so many parts; 0: nobody knows */
-    int cell_width, cell_height; /* pixels; 0: not said */
+    int kitty, iterm2, sixel;      /* pictures that it takes */
+    int parts;                     /* 6 or 4: it draws glyphs of so many parts; 0: nobody knows */
+    int cell_width, cell_height;   /* pixels; 0: not said */
     int sixel_width, sixel_height; /* pixels that sixels may have; 0: not said */
 } terminal_answers;
 
@@ -20,8 +20,7 @@ typedef struct terminal_answers {
 /* In order: the terminal's name (XTVERSION); iTerm2's list of features; the size of a cell; the
    largest sixels (XTSMGRAPHICS); the primary attributes, where 4 is sixel; and a report that every
    terminal gives, so that it ends the answers. */
-#define TERMINAL_QUESTIONS \
-    "\033[>0q\033]1337;Capabilities\033\\\033[16t\033[?2;1;0S\033[c\033[5n"
+#define TERMINAL_QUESTIONS "\033[>0q\033]1337;Capabilities\033\\\033[16t\033[?2;1;0S\033[c\033[5n"
 
 /* The parts of a cell that a terminal of this name draws itself, without a gap between cells.
    VTE has drawn sextants since 0.62.  tmux and screen answer for themselves, not for the terminal

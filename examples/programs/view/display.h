@@ -68,7 +68,7 @@ typedef struct display_level {
 } display_level;
 static const display_level display_cells[] = { { 4, 1 }, { 3, 1 }, { 2, 1 }, { 1, 1 } };
 static const display_level display_pixels[] = { { 2, 1 }, { 1, 1 }, { 1, 2 },
-                                               { 1, 3 }, { 1, 4 }, { 1, 6 } };
+                                                { 1, 3 }, { 1, 4 }, { 1, 6 } };
 
 typedef struct display {
     scene *scene;
@@ -84,10 +84,10 @@ typedef struct display {
     int width, height;         /* of small where it is not zoomed */
     int most, samples, zoom;   /* most: samples that there is room for */
     int level, steady;         /* while it moves, and frames that it could have been finer */
-    int help, changed; /* changed: draw even if nothing turns */
-    int dragged;       /* the mouse has changed it */
-    int at_rest;       /* the picture is as good as it gets */
-    int paced;         /* frames wait for reports of the terminal */
+    int help, changed;         /* changed: draw even if nothing turns */
+    int dragged;               /* the mouse has changed it */
+    int at_rest;               /* the picture is as good as it gets */
+    int paced;                 /* frames wait for reports of the terminal */
     int mouse_column, mouse_row;
     double next, said_until, sent_at, asked_at;
     frame_rate rate;
@@ -228,8 +228,7 @@ static inline void display_picture(display *d)
     display_refine(d);
     scene_dim(d->scene);
     scene_trace(d->scene, &camera, d->small.height);
-    if (d->at_rest)
-        scene_light(d->scene, &camera, d->width > d->height ? d->width : d->height);
+    if (d->at_rest) scene_light(d->scene, &camera, d->width > d->height ? d->width : d->height);
     scene_draw(d->scene, &d->large, &camera, d->samples);
     scene_resolve(d->scene, &d->small, &d->large, d->samples);
     if (d->show == SHOW_CELLS) cells_picture(&d->screen, (const uint8_t *)d->small.color);
@@ -329,8 +328,8 @@ static inline void display_encode(display *d, uint8_t *rgb, int width, int heigh
     if (d->show != SHOW_KITTY) pixels_put(out, display_begin, sizeof display_begin - 1);
     if (!d->sent_size) pixels_print(out, "\033[m\033[2J");
     if (rows < d->size.rows)
-        pixels_print(out, "\033[%dH\033[48;2;%d;%d;%dm\033[K\033[m", d->size.rows, last[0],
-                     last[1], last[2]);
+        pixels_print(out, "\033[%dH\033[48;2;%d;%d;%dm\033[K\033[m", d->size.rows, last[0], last[1],
+                     last[2]);
     if (d->show == SHOW_KITTY)
         pixels_kitty(out, rgb, width, height, d->size.columns, rows);
     else if (d->show == SHOW_ITERM2)
@@ -481,8 +480,7 @@ static inline int display_waits(const display *d, double now)
 /* 1: at rest the picture gets better than it is. */
 static inline int display_can_rest(const display *d)
 {
-    return !d->at_rest &&
-           (d->samples < d->most || d->zoom > 1 || scene_has_studio(d->scene));
+    return !d->at_rest && (d->samples < d->most || d->zoom > 1 || scene_has_studio(d->scene));
 }
 
 /* Seconds without a change after which the picture is drawn with all samples, in the light of the

@@ -39,48 +39,24 @@ static const char view_usage[] =
     "                        the terminal says it can): parts of characters, or pixels\n"
     "  --ascii               plain characters, no colors\n"
     "  --still               the model does not turn by itself\n"
-    "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n"
-    MODEL_USAGE
+    "  --rate N              frames a second at most, 1 .. 240 (30, in a window 60)\n" MODEL_USAGE
     "  --frames N            ends after N frames, each 1/rate seconds on, and prints their cost\n"
     "  --help, --version     prints this text; the version\n"
     "The key ? lists the others.\n";
 
-/* Returns OPTION_TAKEN, or 0. */
-static inline int view_take_show(view_options *o, const char *value)
+static inline int view_take_show(void *to, const char *value)
 {
-    static const char *const name[] = {
-        "halves", "quadrants", "sextants", "kitty", "iterm2", "sixel"
-    };
+    static const char *const name[] = { "halves", "quadrants", "sextants",
+                                        "kitty",  "iterm2",    "sixel" };
     const int found = find_name(value, name, 6);
-    o->show = (view_show)(SHOW_HALVES + found);
+    *(view_show *)to = (view_show)(SHOW_HALVES + found);
     return found >= 0;
 }
 
-/* Stores one option: the option_take of view. */
-static inline int view_take(void *to, const char *name, const char *value)
+static inline int view_take_colors(void *to, const char *value)
 {
-    view_options *o = (view_options *)to;
-    int taken = name ? model_take(&o->scene.how, name, value) : -1;
-    if (taken >= 0) return taken;
-    if (!name)
-        o->scene.model = value;
-    else if (!strcmp(name, "--window"))
-        o->window = 1;
-    else if (!strcmp(name, "--still"))
-        o->scene.still = 1;
-    else if (!strcmp(name, "--ascii"))
-        o->colors = VIEW_PLAIN;
-    else if (!strcmp(name, "--show"))
-        return view_take_show(o, value);
-    else if (!strcmp(name, "--rate"))
-        return option_integer(value, 1, 240, &o->rate);
-    else if (!strcmp(name, "--frames"))
-        return option_integer(value, 1, 1000000, &o->frames);
-    else {
-        o->colors = !strcmp(value, "true") ? VIEW_TRUE : VIEW_256;
-        return o->colors == VIEW_TRUE || !strcmp(value, "256");
-    }
-    return OPTION_TAKEN;
+    *(view_colors *)to = !strcmp(value, "true") ? VIEW_TRUE : VIEW_256;
+    return !strcmp(value, "true") || !strcmp(value, "256");
 }
 
 /* The request to scene_load; without colours the background is black. */
@@ -94,11 +70,21 @@ static inline scene_request view_request(const view_options *o)
 /* Reads the command line.  Returns what options_read does. */
 static inline int view_read_options(view_options *o, int argc, char **argv)
 {
-    static const char *const valued[] = {
-        MODEL_VALUED, "--rate", "--frames", "--colors", "--show", NULL
+    static const option own[] = {
+        { "--window", NULL, offsetof(view_options, window), 1, 0 },
+        { "--still", NULL, offsetof(view_options, scene.still), 1, 0 },
+        { "--ascii", NULL, offsetof(view_options, colors), VIEW_PLAIN, 0 },
+        { "--colors", view_take_colors, offsetof(view_options, colors), 0, 0 },
+        { "--show", view_take_show, offsetof(view_options, show), 0, 0 },
+        { "--rate", NULL, offsetof(view_options, rate), 1, 240 },
+        { "--frames", NULL, offsetof(view_options, frames), 1, 1000000 },
+        { NULL, NULL, 0, 0, 0 }
     };
-    static const char *const flags[] = { MODEL_FLAGS, "--window", "--still", "--ascii", NULL };
-    static const command view = { "view", view_usage, valued, flags, 0, 1, "", view_take };
+    static const option_group groups[] = { { model_option, offsetof(view_options, scene.how) },
+                                           { own, 0 },
+                                           { NULL, 0 } };
+    static const command view = { "view", view_usage, groups, offsetof(view_options, scene.model),
+                                  0,      1,          "",     NULL };
     int end = options_read(&view, o, argc, argv);
     if (!o->rate) o->rate = o->window ? 60 : 30;
     return end;

@@ -122,8 +122,8 @@ static inline void pixels_kitty(pixel_bytes *b, const uint8_t *rgb, int width, i
     pixel_bytes data = { NULL, 0, 0, 0 };
     pixels_png(&data, rgb, width, height);
     b->shown = before == 1 ? 2 : 1;
-    pixels_print(b, "\033[H\033_Ga=T,q=2,C=1,f=%d,i=%u,s=%d,v=%d,c=%d,r=%d,",
-                 PIXELS_PNG ? 100 : 24, b->shown, width, height, columns, rows);
+    pixels_print(b, "\033[H\033_Ga=T,q=2,C=1,f=%d,i=%u,s=%d,v=%d,c=%d,r=%d,", PIXELS_PNG ? 100 : 24,
+                 b->shown, width, height, columns, rows);
     for (size_t at = 0; at < data.size; at += KITTY_PART) {
         const size_t part = data.size - at < KITTY_PART ? data.size - at : KITTY_PART;
         pixels_print(b, "%sm=%d;", at ? "\033_G" : "", at + part < data.size);

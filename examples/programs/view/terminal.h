@@ -222,8 +222,7 @@ static inline void terminal_ask(void)
 {
     terminal_questioned = 1;
     terminal_asked++;
-    if (!terminal_is_inner())
-        terminal_write(TERMINAL_TRY_KITTY, sizeof TERMINAL_TRY_KITTY - 1);
+    if (!terminal_is_inner()) terminal_write(TERMINAL_TRY_KITTY, sizeof TERMINAL_TRY_KITTY - 1);
     terminal_write(TERMINAL_QUESTIONS, sizeof TERMINAL_QUESTIONS - 1);
 }
 

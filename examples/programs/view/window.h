@@ -176,8 +176,7 @@ static inline int window_frame(window *w)
     shade_target out;
     scene_dim(w->scene);
     scene_trace(w->scene, &camera, w->height);
-    if (w->at_rest)
-        scene_light(w->scene, &camera, w->width > w->height ? w->width : w->height);
+    if (w->at_rest) scene_light(w->scene, &camera, w->width > w->height ? w->width : w->height);
     w->large.width = w->width * w->samples;
     w->large.height = w->height * w->samples;
     scene_draw(w->scene, &w->large, &camera, w->samples);
@@ -223,18 +222,10 @@ static inline void window_mouse(window *w, const SDL_MouseMotionEvent *e)
 static inline void window_event(window *w, const SDL_Event *e)
 {
     switch (e->type) {
-    case SDL_QUIT:
-        w->closed = 1;
-        break;
-    case SDL_KEYDOWN:
-        window_arrow(w, e->key.keysym.sym);
-        break;
-    case SDL_TEXTINPUT:
-        window_press(w, (unsigned char)e->text.text[0]);
-        break;
-    case SDL_MOUSEMOTION:
-        window_mouse(w, &e->motion);
-        break;
+    case SDL_QUIT: w->closed = 1; break;
+    case SDL_KEYDOWN: window_arrow(w, e->key.keysym.sym); break;
+    case SDL_TEXTINPUT: window_press(w, (unsigned char)e->text.text[0]); break;
+    case SDL_MOUSEMOTION: window_mouse(w, &e->motion); break;
     case SDL_MOUSEBUTTONUP:
         w->dragging = 0;
         w->changed = 1;
@@ -247,8 +238,7 @@ static inline void window_event(window *w, const SDL_Event *e)
         if (e->window.event == SDL_WINDOWEVENT_LEAVE) w->mouse_inside = 0;
         w->changed = 1;
         break;
-    default:
-        break;
+    default: break;
     }
 }
 

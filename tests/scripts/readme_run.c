@@ -19,8 +19,10 @@
 #endif
 #include "examples/shared/teapot.h"
 
-#include "test.h"
-#include "oracle.h"
+#include "../unit/test.h"
+#include "../unit/oracle.h"
+
+struct test_run test_now;
 
 enum { MOST = 640 * 480 };
 static const char *teapot_ppm;
@@ -504,7 +506,7 @@ static const test_case readme_cases[] = {
     CASE(readme, chunks_draw_the_same_and_skip_what_is_not_seen),
     CASE(readme, mist_takes_a_tenth_of_the_light_each_unit),
 };
-static const test_section readme_section = SECTION(readme);
+SECTION(readme);
 
 int main(int argc, char **argv)
 {

@@ -1,0 +1,240 @@
+/* samples.h - random lights and materials, and points that they light. */
+#ifndef SAMPLES_H
+#define SAMPLES_H
+
+static inline shade_vec3 random_color(double most)
+{
+    return shade_v3(rnd_float(0, most), rnd_float(0, most), rnd_float(0, most));
+}
+
+static inline float random_exponent(void)
+{
+    switch (rnd_int(0, 7)) {
+    case 0:
+        return 0;
+    case 1:
+        return rnd_float(0, 1);
+    case 2:
+        return rnd_float(1, 10);
+    case 3:
+        return (float)(1 << rnd_int(0, 8));
+    case 4:
+        return rnd_log(100, 1e4);
+    case 5:
+        return 1e4f;
+    default:
+        return rnd_float(1, 128);
+    }
+}
+
+static inline shade_material random_material(void)
+{
+    shade_material m;
+    m.emission = rnd_one_in(2) ? random_color(1) : shade_v3(0, 0, 0);
+    m.ambient = random_color(1);
+    m.diffuse = random_color(1);
+    m.specular = random_color(1);
+    m.shininess = rnd_one_in(20) ? -3 : random_exponent();
+    return m;
+}
+
+/* A lamp seen from P.  Lamps with w other than 0 and 1 stay within 50 times their distance of the
+   origin, for xyz/w is rounded once and a farther one would lose its direction to that rounding. */
+static inline shade_light random_light(shade_vec3 P, double size)
+{
+    shade_light light;
+    memset(&light, 0, sizeof light);
+    double bright = rnd_one_in(3) ? (double)rnd_log(1e-3, 1e6) : 2;
+    light.diffuse = random_color(bright);
+    light.specular = rnd_one_in(2) ? light.diffuse : random_color(bright);
+    if (rnd_one_in(2)) light.ambient = random_color(bright / 4);
+    shade_vec3 p =
+        d3_round(d3_add(d3_from(P), d3_scale(rnd_direction(), (double)rnd_log(1e-2, 1) * size)));
+    int kind = rnd_int(0, 3);
+    light.position = shade_v4(p.x, p.y, p.z, 1);
+    if (kind == 0) {
+        d3 d = d3_scale(rnd_direction(), (double)rnd_log(1e-3, 1e6));
+        light.position = shade_v4((float)d.x, (float)d.y, (float)d.z, 0);
+    } else if (kind == 1) {
+        double r = d3_length(d3_sub(d3_from(p), d3_from(P)));
+        float w = r * 50 > d3_length(d3_from(p)) ? rnd_sign() * rnd_log(0.1, 10) : 1;
+        light.position = shade_v4(p.x * w, p.y * w, p.z * w, w);
+    }
+    switch (rnd_int(0, 6)) {
+    case 0:
+        break;
+    case 1:
+        light.constant = 1;
+        break;
+    case 2:
+        light.quadratic = 1;
+        break;
+    case 3:
+        light.linear = rnd_log(1e-3, 10);
+        break;
+    case 4:
+        light.constant = 1;
+        light.linear = 0.5f;
+        light.quadratic = 0.25f;
+        break;
+    case 5:
+        light.linear = rnd_log(1e-3, 10);
+        light.quadratic = rnd_log(1e-3, 10);
+        break;
+    default:
+        light.constant = rnd_log(1e-3, 10);
+        light.linear = rnd_log(1e-6, 10);
+        light.quadratic = rnd_log(1e-6, 10);
+    }
+    if (rnd_one_in(2)) return light;
+    double r;
+    d3 L = ref_to_light(&light, d3_from(P), &r); /* often lit, so aimed roughly at P */
+    d3 aim = d3_add(d3_scale(L, -1), d3_scale(rnd_direction(), (double)rnd_float(0, 1.2)));
+    if (rnd_one_in(8)) aim = rnd_direction();
+    light.spot_direction = d3_round(d3_scale(aim, (double)rnd_log(1e-3, 1e3)));
+    light.spot_exponent = random_exponent();
+    light.spot_cos_cutoff = rnd_one_in(4) ? rnd_float(-1, 1) : rnd_float(0.3, 1);
+    return light;
+}
+
+typedef struct light_sample {
+    shade_lighting lighting;
+    shade_light lights[4];
+    shade_material material;
+    shade_vec3 P, N, eye;
+} light_sample;
+
+static inline void random_sample(light_sample *s)
+{
+    memset(s, 0, sizeof *s);
+    double size = (double)rnd_log(1e-2, 1e6);
+    s->P = rnd_one_in(4) ? shade_v3(0, 0, 0) : random_vector(size);
+    s->N = d3_round(d3_scale(rnd_direction(), rnd_one_in(2) ? 1 : (double)rnd_log(1e-6, 1e6)));
+    s->material = random_material();
+    int count = rnd_one_in(10) ? 0 : rnd_int(1, 4);
+    for (int k = 0; k < count; k++) s->lights[k] = random_light(s->P, size);
+    s->lighting.lights = s->lights;
+    s->lighting.light_count = count;
+    s->lighting.ambient = rnd_one_in(2) ? random_color(1) : shade_v3(0, 0, 0);
+    s->lighting.model = (shade_model)(rnd_one_in(2) ? rnd_int(0, 1) : rnd_int(0, 5));
+    s->lighting.flags = rnd_one_in(3) ? 0 : (unsigned)rnd_int(0, 63);
+    s->lighting.terms = rnd_one_in(2) ? 0 : (unsigned)rnd_int(0, 15);
+    if (s->lighting.model == SHADE_MODEL_COOL_TO_WARM) {
+        s->lighting.flags &= ~(unsigned)SHADE_FLAG_TWO_SIDED_ABS;
+        if (rnd_one_in(2)) s->lighting.cool = random_color(1);
+        if (rnd_one_in(2)) s->lighting.warm = random_color(1);
+    }
+    /* the viewer: anywhere, or near the mirror direction of the first lamp, where highlights are */
+    d3 V = rnd_direction();
+    if (count && rnd_one_in(2)) {
+        double r;
+        d3 n = d3_unit(d3_from(s->N)), L = ref_to_light(&s->lights[0], d3_from(s->P), &r);
+        d3 R = d3_sub(d3_scale(n, 2 * d3_dot(n, L)), L);
+        V = d3_unit(d3_add(R, d3_scale(rnd_direction(), (double)rnd_log(1e-3, 1))));
+    }
+    d3 from = s->lighting.flags & SHADE_FLAG_INFINITE_VIEWER ? d3_of(0, 0, 0) : d3_from(s->P);
+    s->eye = d3_round(d3_add(from, d3_scale(V, size * (double)rnd_log(1e-2, 1))));
+}
+
+static inline void print_lights(const light_sample *s)
+{
+    if (test_now.failures > TEST_MAX_PRINTED) return;
+    printf("    model %d, flags %u, terms %u, n %g\n", (int)s->lighting.model, s->lighting.flags,
+           s->lighting.terms, (double)s->material.shininess);
+    printf("    P %a %a %a  N %a %a %a  eye %a %a %a\n", (double)s->P.x, (double)s->P.y,
+           (double)s->P.z, (double)s->N.x, (double)s->N.y, (double)s->N.z, (double)s->eye.x,
+           (double)s->eye.y, (double)s->eye.z);
+    for (int k = 0; k < s->lighting.light_count; k++) {
+        const shade_light *l = &s->lights[k];
+        printf("    light %d at %a %a %a %a  a b c %g %g %g  I_d %g %g %g\n", k,
+               (double)l->position.x, (double)l->position.y, (double)l->position.z,
+               (double)l->position.w, (double)l->constant, (double)l->linear, (double)l->quadratic,
+               (double)l->diffuse.x, (double)l->diffuse.y, (double)l->diffuse.z);
+        printf("      spot %a %a %a  e %g  cos %.9g\n", (double)l->spot_direction.x,
+               (double)l->spot_direction.y, (double)l->spot_direction.z, (double)l->spot_exponent,
+               (double)l->spot_cos_cutoff);
+    }
+}
+
+static inline int check_color(int line, const char *what, shade_vec3 got, d3 want, double within)
+{
+    d3 error = d3_sub(d3_from(got), want);
+    test_now.checks++;
+    if (d3_max(error) <= within) return 1; /* false for NaN */
+    test_fail(__FILE__, line, what, "got (%.9g %.9g %.9g), want (%.9g %.9g %.9g) within %.3g",
+              (double)got.x, (double)got.y, (double)got.z, want.x, want.y, want.z, within);
+    return 0;
+}
+
+static inline shade_material teapot_brass(void) /* [Kilgard94] */
+{
+    shade_material m;
+    m.emission = grey(0);
+    m.ambient = shade_v3(0.329412f, 0.223529f, 0.027451f);
+    m.diffuse = shade_v3(0.780392f, 0.568627f, 0.113725f);
+    m.specular = shade_v3(0.992157f, 0.941176f, 0.807843f);
+    m.shininess = 27.89743616f;
+    return m;
+}
+
+static inline void fill_nasty(void *memory, size_t bytes) /* floats, one in three nasty */
+{
+    unsigned char *at = (unsigned char *)memory;
+    for (size_t i = 0; i + 4 <= bytes; i += 4) {
+        float f = rnd_one_in(3) ? rnd_nasty() : rnd_float(-2, 2);
+        memcpy(at + i, &f, 4);
+    }
+}
+
+/* In double; the amount and its allowed error. */
+typedef struct ref_arrival {
+    double amount, distance, bound;
+    d3 L;
+    int unsure;
+} ref_arrival;
+
+static inline ref_arrival ref_arriving(const shade_light *light, d3 P)
+{
+    ref_arrival a;
+    double e = (double)light->spot_exponent;
+    memset(&a, 0, sizeof a);
+    a.L = ref_to_light(light, P, &a.distance);
+    a.amount = 1;
+    if (light->position.w != 0)
+        a.amount = ref_attenuation((double)light->constant, (double)light->linear,
+                                   (double)light->quadratic, a.distance);
+    a.amount *=
+        ref_spot(a.L, d3_from(light->spot_direction), (double)light->spot_cos_cutoff, e, &a.unsure);
+    a.bound = 5e-5 * fmax(1, a.amount) * fmax(1, e / 100);
+    return a;
+}
+
+typedef struct lane_packet {
+    float P[3][SHADE_LANES], N[3][SHADE_LANES], albedo[3][SHADE_LANES];
+    shade_vec3 p[SHADE_LANES], n[SHADE_LANES], a[SHADE_LANES];
+} lane_packet;
+
+static inline void lane_set(float rows[3][SHADE_LANES], int i, shade_vec3 v)
+{
+    rows[0][i] = v.x;
+    rows[1][i] = v.y;
+    rows[2][i] = v.z;
+}
+
+/* Points around the sample's, some of them its very own. */
+static inline void random_packet(lane_packet *k, const light_sample *s, double size)
+{
+    for (int i = 0; i < SHADE_LANES; i++) {
+        d3 away = d3_scale(rnd_direction(), size * (double)rnd_log(1e-4, 1));
+        k->p[i] = rnd_one_in(8) ? s->P : d3_round(d3_add(d3_from(s->P), away));
+        d3 turned = d3_add(d3_unit(d3_from(s->N)), d3_scale(rnd_direction(), rnd_unit()));
+        k->n[i] = rnd_one_in(8) ? s->N : d3_round(turned);
+        if (rnd_one_in(100)) k->n[i] = shade_v3(0, 0, 0);
+        k->a[i] = random_color(1);
+        lane_set(k->P, i, k->p[i]);
+        lane_set(k->N, i, k->n[i]);
+        lane_set(k->albedo, i, k->a[i]);
+    }
+}
+
+#endif
