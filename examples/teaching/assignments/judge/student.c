@@ -99,10 +99,13 @@ shade_vec3 iteration_four(const shade_lighting *lighting, const shade_material *
 static void answer(const float *in, double *out)
 {
     shade_light lamps[LAMPS] = { 0 };
-    const shade_material m = { .emission = vec(in + 9), .ambient = vec(in + 12),
-                               .diffuse = vec(in + 15), .specular = vec(in + 18),
+    const shade_material m = { .emission = vec(in + 9),
+                               .ambient = vec(in + 12),
+                               .diffuse = vec(in + 15),
+                               .specular = vec(in + 18),
                                .shininess = in[21] };
-    const shade_lighting lighting = { .lights = lamps, .light_count = (int)in[25],
+    const shade_lighting lighting = { .lights = lamps,
+                                      .light_count = (int)in[25],
                                       .ambient = vec(in + 22) };
     for (int k = 0; k < lighting.light_count; k++) {
         const float *from = in + AT_LAMPS + LAMP * k;
