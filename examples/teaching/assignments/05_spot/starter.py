@@ -2,5 +2,5 @@
 
 
 def spot(L, aim, cos_cutoff, e):
-    """L, aim: lists of three floats, unit vectors; e >= 0.  Returns a float."""
+    """L, aim: lists of three floats; e >= 0.  Returns a float."""
     return 1.0

@@ -1,0 +1,225 @@
+"""Points for answers, and sentences for wrong ones.
+
+A case has 100 random inputs, and its points are shared by them.  For wrong answers the judge looks
+for a known mistake, or for two at a time, that gives just these numbers.  A known mistake is a
+change of the text of the right answer.
+"""
+import importlib
+import inspect
+import math
+import re
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Callable, NamedTuple
+
+from . import tools
+from .student import CALLS, flat
+
+TRIES = 100
+LOOSE = 10  # tolerances: wrong answers may be large, and rounded more
+
+
+class Case(NamedTuple):
+    """Inputs of one kind, and what to look at where an answer is no known mistake."""
+    points: int
+    name: str
+    make: Callable
+    hint: str
+    part: slice = slice(None)  # of the answer, what counts
+
+
+class Task:
+    """A task by its name: cases, right answers, mistakes."""
+
+    def __init__(self, name):
+        self.name, self.module = name, importlib.import_module(f"judge.{name}")
+        self.names = parts(self.module.INPUTS)
+        self.outputs = sum(count for _, count in parts(self.module.OUTPUTS))
+        self.sent = getattr(self.module, "SENT", sum(count for _, count in self.names))
+        self.cases, self.mistakes = self.module.CASES, self.module.MISTAKES
+        self.source = "\n\n".join(inspect.getsource(f) for f in self.module.FUNCTIONS)
+
+    def inputs(self, case, seed):
+        """Returns the inputs of a case, as a C float has them."""
+        draw = tools.Draw(f"{self.name} {case.name} {seed}")
+        return [[tools.single(x) for x in case.make(draw)] for _ in range(TRIES)]
+
+    def answerer(self, *mistakes):
+        """Returns a function that gives the right answer to inputs, or that of mistakes; None where
+        a change finds no text to change."""
+        source = self.source
+        for _, old, new, _ in mistakes:
+            if old not in source:
+                return None
+            source = source.replace(old, new)
+        space = {**vars(tools), "math": math}
+        exec(compile(source, self.name, "exec"), space)  # pylint: disable=exec-used
+
+        def answer(inputs):
+            try:
+                numbers = flat(CALLS[self.name](SimpleNamespace(**space), inputs))
+                return [x if abs(x) < 1e38 else math.inf for x in numbers]  # as floats end
+            except (ArithmeticError, ValueError, TypeError):
+                return None
+        return answer
+
+    def compared(self, inputs, numbers):
+        """Returns the numbers of an answer that count; None where there is no answer."""
+        if numbers is None or not hasattr(self.module, "compared"):
+            return numbers
+        return self.module.compared(inputs, numbers)
+
+    def near(self, got, want, part=slice(None), times=1):
+        """Tells whether parts of two answers are the same within some times the tolerance.  No
+        answer, a NaN and an infinity are the same mistake."""
+        if got is None or want is None:
+            other = want if got is None else got
+            return other is None or not all(map(math.isfinite, other[part]))
+        most = times * self.module.TOLERANCE
+        return all(abs(g - w) <= most * max(1, abs(w)) if math.isfinite(g) and math.isfinite(w)
+                   else math.isfinite(g) == math.isfinite(w) for g, w in zip(got[part], want[part]))
+
+
+def parts(text):
+    """Returns names with their numbers of floats: "N3 n1" is (N, 3), (n, 1)."""
+    return [(name, int(count)) for name, count in re.findall(r"(\S*?)(\d+)(?: |$)", text)]
+
+
+def show(numbers):
+    """Returns numbers as text, several in brackets."""
+    texts = [f"{x:.6g}" for x in numbers]
+    return texts[0] if len(texts) == 1 else f"({', '.join(texts)})"
+
+
+def show_named(names, numbers):
+    """Returns named numbers as text; names that are empty are left out."""
+    said, at = [], 0
+    for name, count in names:
+        if at < len(numbers):
+            said.append((f"{name} = " if name else "") + show(numbers[at:at + count]))
+        at += count
+    return ", ".join(said)
+
+
+@dataclass
+class Result:
+    """What became of a case."""
+    case: Case
+    score: float = 0
+    says: str = ""
+    asked: list = field(default_factory=list)  # inputs, answer, right answer, the part that counts
+
+
+class Judge:
+    """Asks a student for answers to all cases and gives points for them."""
+
+    def __init__(self, task, seed):
+        self.task, self.seed, self.results = task, seed, []
+        self.right, self.wrong = task.answerer(), {}
+
+    def judge(self, ask):
+        """Returns the results of all cases; ask takes inputs and returns answers and a sentence."""
+        ends = []
+        for case in self.task.cases:
+            inputs = self.task.inputs(case, self.seed)
+            answers, end = ask([v[:self.task.sent] for v in inputs])
+            result, compared = Result(case), self.task.compared
+            for v, got in zip(inputs, answers):
+                result.asked.append((v, compared(v, got), compared(v, self.right(v)), case.part))
+            right = sum(self.good(*one) for one in result.asked)
+            result.score = math.floor(100 * case.points * right / TRIES) / 100
+            self.results.append(result)
+            ends.append(end)
+        known = self.known()
+        for result, end in zip(self.results, ends):
+            result.says = self.says(result, end, known)
+        return self.results
+
+    def good(self, _, got, want, part):
+        """Tells whether an answer is right."""
+        return got is not None and self.task.near(got, want, part)
+
+    def gives(self, asked, *mistakes):
+        """Tells whether mistakes give all of these answers, and not just right ones."""
+        key = tuple(m[0] for m in mistakes)
+        if key not in self.wrong:
+            self.wrong[key] = self.task.answerer(*mistakes)
+        wrong, differs = self.wrong[key], False
+        if not wrong or not asked:
+            return False
+        for v, got, want, part in asked:
+            numbers = self.task.compared(v, wrong(v))
+            if not self.task.near(got, numbers, part, LOOSE):
+                return False
+            differs = differs or not self.task.near(numbers, want, part)
+        return differs
+
+    def known(self):
+        """Returns the mistakes that explain all answers; where none does, two that do together."""
+        asked = [one for result in self.results for one in result.asked]
+        asked.sort(key=lambda one: self.good(*one))  # wrong ones tell soonest
+        found = [m for m in self.task.mistakes if self.gives(asked, m)]
+        if found or self.alike(asked) or all(self.good(*one) for one in asked):
+            return found
+        for k, first in enumerate(self.task.mistakes):
+            for second in self.task.mistakes[k + 1:]:
+                if self.gives(asked, first, second) or self.gives(asked, second, first):
+                    return [first, second]
+        return []
+
+    def alike(self, asked):
+        """Tells whether all answers are the same, whatever the input."""
+        return all(self.task.near(one[1], asked[0][1]) for one in asked)
+
+    def says(self, result, end, known):
+        """Returns why a case has lost points, or nothing."""
+        case, asked = result.case, result.asked
+        wrong = [one for one in asked if not self.good(*one)]
+        lost = TRIES - len(asked)
+        if not wrong and not lost:
+            return ""
+        text = ""
+        if lost:
+            v = self.task.inputs(case, self.seed)[len(asked)]
+            text = f"The program {end}, with {self.shown(v)}. "
+        if not wrong:
+            return text.strip()
+        v, got, want, _ = min(wrong, key=lambda one: self.count(one[0]))
+        text += f"Wrong for {len(wrong)} of {len(asked)} inputs. For {self.shown(v)} "
+        if got is None:
+            text += f"yours {end if not lost else 'raises'}. "
+        else:
+            text += self.differ(case, got, want)
+        return (text + self.why(case, asked, got, known)).strip()
+
+    def differ(self, case, got, want):
+        """Returns both answers as text, or of 64 pixels the first that differs."""
+        if len(got) == 64:
+            k = next(k for k in range(64) if got[k] != want[k])
+            return f"and the pixel ({k % 8}, {k // 8}) yours is {got[k]:g}, right is {want[k]:g}. "
+        return f"yours is {show(got[case.part])}, right is {show(want[case.part])}. "
+
+    def shown(self, v):
+        """Returns inputs as text, without those that mean nothing."""
+        return show_named(self.task.names, v[:self.count(v)])
+
+    def count(self, v):
+        """Returns how many of the inputs mean something."""
+        return self.task.module.shown(v) if hasattr(self.task.module, "shown") else len(v)
+
+    def why(self, case, asked, got, known):
+        """Returns the sentence of a known mistake, or what the numbers tell, or the hint."""
+        if known:
+            return " ".join(m[3] for m in known)
+        if got is None:
+            return ""
+        alike = self.alike(asked)
+        if not alike:
+            for mistake in self.task.mistakes:
+                if self.gives(asked, mistake):
+                    return f"In this case, perhaps: {mistake[3]}"
+        if any(map(math.isnan, got)):
+            return "A NaN comes from 0 / 0, or from a root or a power of a negative number."
+        if any(map(math.isinf, got)):
+            return "An infinity comes from a division by 0."
+        return ("Your answer is the same for every input. " if alike else "") + case.hint
