@@ -73,11 +73,11 @@
        >>lines     6758  shade_draw_lines      >>shape     6936  normals, edges
        >>chunks    7298  how boxes are made    >>rays      7462  shade_pick
        >>survey    7638  experiments on a draw >>explain   7974  why nothing is seen
-       >>replay    8904  of lines, pipelines   >>image     9218  mipmaps, PPM
-       >>presets   9486  classic materials
+       >>replay    8904  of lines, pipelines   >>image     9245  mipmaps, PPM
+       >>presets   9513  classic materials
      Sources
-       >>refs      9562                        >>history   9592
-       >>license   9604
+       >>refs      9589                        >>history   9619
+       >>license   9631
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8908,7 +8908,7 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
      method  The draw is run again without a picture.  Shaders of this section call the given ones
              and count what they give.
      holds   The caller's memory is only read, unless the caller's own shaders write.
-     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere or
+     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere;
              shade__why_kept_out; shade__why_faint.
                                                                                           >>image */
 
@@ -8918,7 +8918,8 @@ typedef struct shade__tally {
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
     int         any_w;                   /* is a w not 0? */
     long long   fragments;               /* all of them; of these: */
-    long long   discarded, clear, dark, bright;    /* alpha 0; stored as 0; a channel of 16 or more */
+    long long   discarded, clear;        /* alpha is 0 */
+    long long   nan, dark, bright;       /* a channel is; all are stored as 0; one is 16 or more */
 } shade__tally;
 
 /* A draw that is run again. */
@@ -8959,7 +8960,12 @@ static void shade__replay_fragment(const void *uniforms, const shade_fragments *
     r->pipe.fragment(r->pipe.uniforms, in, out);
     for (int i = 0; i < in->count; i++) {
         float most = 0;
-        for (int k = 0; k < 3; k++) most = shade__maxf(out->color[k][i], most);
+        int finite = 1;
+        for (int k = 0; k < 3; k++) {
+            finite &= shade__within(out->color[k][i], FLT_MAX);
+            most = shade__maxf(out->color[k][i], most);
+        }
+        t->nan += !finite;
         t->discarded += out->discard[i] != 0;
         t->clear += !(out->color[3][i] > 0);
         t->dark += most < black;
@@ -9083,24 +9089,14 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
 {
     const shade_target *target = r->target;
     const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
-    shade_raster *raster;
     shade__replay part = *r;
-    long long covered;
-    raster = &part.pipe.raster;
-    part.picture = *target;
-    part.picture.color = NULL;
-    part.picture.depth = NULL;
-    covered = shade__run_again(&part).fragments;
-    if (!covered)
-        return shade__is_band(target)
-                   ? NULL
-                   : "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width "
-                     "and clip_height; all four zero mean everywhere.";
+    shade_raster *raster = &part.pipe.raster;
     if (r->pipe.may_discard && t->discarded == t->fragments)
         return "pipeline.fragment discards all pixels.";
 
-    part.picture.depth = target->depth;
-    if (shade__run_again(&part).stats.fragments) return NULL;
+    part.picture = *target;
+    part.picture.color = NULL;
+    if (!target->depth || shade__run_again(&part).stats.fragments) return NULL;
     if (raster->depth_test == SHADE_COMPARE_EQUAL)
         return "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds no depth that is "
                "equal: draw the same positions with another test before.";
@@ -9112,11 +9108,11 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
         return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
                "depth of 1, or 0 for a reversed projection.";
-    raster->depth_bias *= 1e-4f;
-    if (r->lines && shade__run_again(&part).stats.fragments * 2 > covered)
+    raster->depth_bias *= 2e-6f;    /* of two planes that are one, depths differ by less */
+    if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
         return "The lines lie in surfaces that target.depth holds, which hide them: use "
                "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
-    if (!r->given || (covered * 4 < (long long)target->width * target->height &&
+    if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
                       shade__depth_varies(target)))
         return NULL;    /* one of many things in a scene may well be hidden */
     return "What target.depth holds hides everything: other draws, the frame before without a "
@@ -9135,16 +9131,20 @@ static const char *shade__why_faint(const shade__replay *r, const shade__tally *
     if (!r->pipe.fragment || !r->target->color) return NULL;
     if (!r->pipe.may_discard && t->discarded)
         return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
+    if (t->nan)
+        return r->lines ? "state.color holds NaN or infinity, and NaN is stored as black."
+                        : "pipeline.fragment gives NaN or infinity, and NaN is stored as black: check "
+                          "pipeline.uniforms, divisions and roots.";
     if (raster->blend == SHADE_BLEND_OVER)
         return clear ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
                        "out->color[3] of pipeline.fragment, or state.color.w of lines."
                      : NULL;
     if (dark && raster->blend == SHADE_BLEND_ADD)
-        return "All colours are black, or NaN, so that SHADE_BLEND_ADD adds nothing.";
+        return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
     if (dark && r->lines)
         return clear ? "state.color is not set: the lines are drawn in black." : NULL;
     if (dark && raster->cull != SHADE_CULL_FRONT)    /* outlines are black */
-        return "pipeline.fragment gives black, or NaN, everywhere: check out->color[0] to [2], "
+        return "pipeline.fragment gives black everywhere: check out->color[0] to [2], "
                "which it must write, pipeline.uniforms, and the varyings of pipeline.vertex.";
     return t->bright * 10 >= t->fragments * 9 && r->target->format != SHADE_FORMAT_RGBA32F
                ? "Almost all colours are clipped to white, or a full channel: in out->color, and in "
@@ -9157,7 +9157,7 @@ static const char *shade__explain_replay(shade__replay *r, const char *fault)
 {
     const int sure = r->given && r->given->fragments > 0;
     const char *why = fault ? fault : shade__clip_fault(r->target);
-    shade__tally t;
+    shade__tally t, in_clip;
     if (why) return why;
     r->picture.width = r->target->width;
     r->picture.height = r->target->height;
@@ -9169,8 +9169,19 @@ static const char *shade__explain_replay(shade__replay *r, const char *fault)
                         : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
                           "that triangles are left out: check its uniforms and what it reads.";
     if (r->lines) why = shade__why_matrix(r, &t);
-    if (!why && !sure)
-        why = t.fragments ? shade__why_kept_out(r, &t) : shade__why_nowhere(r, &t.stats);
+    if (why) return why;
+    if (!t.fragments) return shade__why_nowhere(r, &t.stats);
+
+    r->picture = *r->target;
+    r->picture.color = NULL;
+    r->picture.depth = NULL;
+    in_clip = shade__run_again(r);
+    if (!shade__is_band(r->target)) t = in_clip;
+    if (!t.fragments)
+        return "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width and "
+               "clip_height; all four zero mean everywhere.";
+    if (!in_clip.fragments) return "";
+    if (!sure) why = shade__why_kept_out(r, &t);
     if (!why && (sure || !r->given)) why = shade__why_faint(r, &t);
     return why ? why : "";
 }
