@@ -52,32 +52,32 @@
      Public
        >>config     123  options               >>types      201  materials, lamps, targets, states
        >>plumbing   375  compilers             >>light      512  the equation and its terms
-       >>draw       637  meshes and pixels     >>math       927  vectors and matrices
+       >>draw       638  meshes and pixels     >>math       928  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1290  processors            >>base      1517  bits, masks, rows of vectors
-       >>matrix    1741  cameras, inverses     >>power     2109  x^n
-       >>pixels    2175  formats, sRGB
+       >>machine   1291  processors            >>base      1518  bits, masks, rows of vectors
+       >>matrix    1743  cameras, inverses     >>power     2111  x^n
+       >>pixels    2177  formats, sRGB
      Inside: light
-       >>lamps     2452  attenuation, cones    >>terms     2726  one term at one point
-       >>surface   2808  material and lights   >>lit       2929  the whole sum, at many points
+       >>lamps     2454  attenuation, cones    >>terms     2730  one term at one point
+       >>surface   2812  material and lights   >>lit       2933  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3336  who owns what         >>vertices  3519  shading, projection
-       >>triangles 3736  dropped, cut, edges   >>clip      4105  near, far, behind the eye
-       >>tiles     4290  pixels, depth test    >>cover     4645  what is hidden, tile by tile
-       >>fragments 4912  interpolation, lod    >>texture   5205  texels, mipmaps
-       >>store     5650  blending, packing
+       >>state     3340  who owns what         >>vertices  3523  shading, projection
+       >>triangles 3740  dropped, cut, edges   >>clip      4109  near, far, behind the eye
+       >>tiles     4294  pixels, depth test    >>cover     4649  what is hidden, tile by tile
+       >>fragments 4916  interpolation, lod    >>texture   5209  texels, mipmaps
+       >>store     5654  blending, packing
      Inside: calls of the renderer
-       >>check     5882  refusals              >>seen      6042  what can be seen, chunks
-       >>drive     6179  shade_draw            >>mesh      6358  shade_draw_mesh
+       >>check     5886  refusals              >>seen      6050  what can be seen, chunks
+       >>drive     6187  shade_draw            >>mesh      6366  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6758  shade_draw_lines      >>shape     6936  normals, edges
-       >>chunks    7298  how boxes are made    >>rays      7462  shade_pick
-       >>survey    7638  experiments on a draw >>explain   7974  why nothing is seen
-       >>replay    8904  of lines, pipelines   >>image     9245  mipmaps, PPM
-       >>presets   9513  classic materials
+       >>lines     6766  shade_draw_lines      >>shape     6944  normals, edges
+       >>chunks    7306  how boxes are made    >>rays      7470  shade_pick
+       >>survey    7646  experiments on a draw >>explain   8025  why nothing is seen
+       >>replay    9014  of lines, pipelines   >>image     9355  mipmaps, PPM
+       >>presets   9623  classic materials
      Sources
-       >>refs      9589                        >>history   9619
-       >>license   9631
+       >>refs      9699                        >>history   9729
+       >>license   9741
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -213,7 +213,7 @@ typedef enum shade_result {
     SHADE_ERROR_TARGET,      /* size, stride, format, clip rectangle, strip; no color, no depth */
     SHADE_ERROR_MESH,        /* positions, a count, a stride, a chunk */
     SHADE_ERROR_STATE,       /* an enumerator or range of a state or pipeline, or cos_crease */
-    SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model */
+    SHADE_ERROR_LIGHTS,      /* lights NULL with a count, an unknown model, a cutoff of NaN */
     SHADE_ERROR_TEXTURE,     /* a texture, or the varyings of its level of detail */
     SHADE_ERROR_INDEX,       /* an index at or past vertex_count; a count that 3 does not divide */
     SHADE_ERROR_CAPACITY,    /* the caller's array is too small */
@@ -527,7 +527,8 @@ SHADE__BEGIN
 
 /* Lamps of one colour: I_d = I_s = color, no ambient light, no attenuation.  direction_of_travel is
    the way the light flies, aim is where the lamp points; both may have any length.  cutoff_radians
-   goes from the axis to the edge of the cone, 0 .. pi; exponent is e >= 0. */
+   goes from the axis to the edge of the cone, 0 .. pi; any other, 45 for 45 degrees say, makes
+   spot_cos_cutoff a NaN, which draws refuse: SHADE_ERROR_LIGHTS.  exponent is e >= 0. */
 SHADEDEF shade_light shade_directional_light(shade_vec3 direction_of_travel, shade_vec3 color);
 SHADEDEF shade_light shade_point_light(shade_vec3 position, shade_vec3 color);
 SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim, float cutoff_radians,
@@ -1726,7 +1727,8 @@ SHADEDEF const char *shade_result_string(shade_result result)
     case SHADE_ERROR_STATE:
         return "bad state: an unknown enumerator, transparency, alpha_cutoff, depth_bias, width, "
                "varyings, cos_crease, or a fragment shader without per-fragment shading";
-    case SHADE_ERROR_LIGHTS: return "bad lighting: lights NULL with a light_count, unknown model";
+    case SHADE_ERROR_LIGHTS:
+        return "bad lighting: lights NULL with a light_count, unknown model, NaN spot_cos_cutoff";
     case SHADE_ERROR_TEXTURE:
         return "bad texture: pixels NULL, width, height, stride, format, wrap, filter, or "
                "lod_varying";
@@ -2487,6 +2489,8 @@ SHADEDEF shade_light shade_spot_light(shade_vec3 position, shade_vec3 aim,
     light.spot_direction = aim;
     light.spot_exponent = exponent;
     light.spot_cos_cutoff = (float)c;
+    if (!(cutoff_radians >= 0 && cutoff_radians <= 3.1415927410125732f))
+        light.spot_cos_cutoff = shade__bits_float(0x7FC00000u);
     return light;
 }
 
@@ -5998,6 +6002,10 @@ SHADE__INLINE const char *shade__lights_fault(const shade_lighting *l)
         return "lighting.lights is NULL while lighting.light_count is not 0.";
     if (!SHADE__KNOWN(l->model, SHADE_MODEL_COOL_TO_WARM))
         return "lighting.model is no SHADE_MODEL_... value.";
+    for (int i = 0; i < l->light_count; i++)
+        if (l->lights[i].spot_cos_cutoff != l->lights[i].spot_cos_cutoff)
+            return "A light's spot_cos_cutoff is NaN: shade_spot_light takes a cutoff from 0 to pi "
+                   "in radians; use shade_radians for degrees.";
     return NULL;
 }
 
@@ -7670,12 +7678,13 @@ typedef struct shade__survey {
     shade_light      lamp[SHADE__SUSPECTS];
     int              own_lamps;          /* lamp is in use, not state.lighting.lights */
     uint32_t         white_map;          /* the map has its holes, but no colours */
-    int              nearer;             /* depths within 1e-6 of farthest are left out */
+    float            apart;              /* depths within this of farthest do not count; 0: all do */
+    int              stored;             /* pixels count if the caller's picture is not black there */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
-    float black;                         /* channels below it are stored as 0 */
-    int   reversed;                      /* is z = w on the eye's side of a perspective? */
+    float dim;                           /* channels below it are stored as 8 of 255 at most */
+    shade__camera camera;
     float farthest;                      /* depth of pixels that do not show the mesh */
 } shade__survey;
 
@@ -7709,6 +7718,17 @@ static void shade__take_probe(const shade__trial *trial,
     at->any_front |= in->front[i];
 }
 
+/* Has a channel of the caller's picture a bit there?
+   pre: the pixel is in the clip rectangle, and there is a picture */
+static int shade__is_stored(const shade_target *t, int x, int y)
+{
+    const size_t bytes = (size_t)shade__layouts[t->format].bytes;
+    const uint8_t *p = (const uint8_t *)t->color + shade__offset_of(t, x, y) * bytes;
+    int any = 0;
+    for (size_t k = 0; k < bytes - (bytes > 2 ? bytes / 4 : 0); k++) any |= p[k];    /* no alpha */
+    return any;
+}
+
 /* The fragment shader of experiments: it discards what does not count. */
 static void shade__judge(const void *uniforms,
                          const shade_fragments *SHADE_RESTRICT in,
@@ -7723,7 +7743,8 @@ static void shade__judge(const void *uniforms,
         const float a = over ? out->color[3][i] : 1;
         int counts = !(trial->least > 0);
         for (int k = 0; k < 3; k++) counts |= out->color[k][i] * a >= trial->least;
-        if (s->nearer) counts &= !shade__within(in->z[i] - s->farthest, 1e-6f);
+        if (s->apart > 0) counts &= !shade__within(in->z[i] - s->farthest, s->apart);
+        if (s->stored) counts &= shade__is_stored(s->target, (int)in->x[i], (int)in->y[i]);
         if (!counts) out->discard[i] = 1;
         if (trial->every && !out->discard[i]) shade__take_probe(trial, in, i);
     }
@@ -7764,16 +7785,18 @@ static long long shade__count(const shade__survey *s, float least)
 /* Returns how many pixels the mesh covers. */
 static long long shade__covered(const shade__survey *s) { return shade__count(s, 0); }
 
-/* Is a pixel of the mesh not black when stored? */
+/* Is a pixel of the mesh brighter than 8 of 255?  Highlights may lie between pixels. */
 static int shade__shows(const shade__survey *s)
 {
-    return shade__count(s, s->black) > 0;
+    shade__survey wide = *s;
+    wide.material.shininess = shade__minf(wide.material.shininess, 4);
+    return shade__count(&wide, s->dim) > 0;
 }
 
 /* Is there light that a surface of its square root would still show? */
 static int shade__bright(const shade__survey *s)
 {
-    return shade__count(s, shade__sqrt(s->black)) > 0;
+    return shade__count(s, shade__sqrt(s->dim)) > 0;
 }
 
 /* Draws the mesh with this culling, and samples pixels. */
@@ -7834,14 +7857,32 @@ static void shade__look_at_seen(shade__survey *q)
     else shade__look_at_all(q);
 }
 
-/* Channels below this are stored as 0. */
-static float shade__black_of(const shade_target *t)
+/* Is n a tenth of all or less?  None, where some of them may be hidden. */
+static int shade__few(const shade__survey *s, long long n, long long all)
+{
+    return n * 10 <= (s->exact ? all : 0);
+}
+
+/* Is a pixel that the picture shows brighter than 8 of 255?  Where what is drawn hides other
+   fragments, and stored depth does not tell which, all of them must be. */
+static int shade__lights_up(const shade__survey *s)
+{
+    const shade_raster *r = &s->given_state->raster;
+    shade__survey q = *s;
+    if (!s->exact && s->target->depth && !r->depth_read_only && r->depth_bias == 0)
+        shade__look_through(&q, SHADE_COMPARE_EQUAL);
+    else if (!s->exact)
+        return shade__covered(s) && shade__count(s, s->dim) == shade__covered(s);
+    return shade__count(&q, s->dim) > 0;
+}
+
+/* Channels below this are stored as 8 of 255 at most, or as 0 in floats. */
+static float shade__dim_of(const shade_target *t)
 {
     const shade__layout *l = &shade__layouts[t->format];
-    float black = t->dither && l->bytes == 2 ? 0.03f : 0.499f;
-    black /= (float)l->full[1];
-    if (shade__is_encoded(t->srgb, l)) black /= 12.92f;
-    return l->bytes == 16 ? FLT_MIN : black;
+    const float dim = 8.5f / 255;
+    if (l->bytes == 16) return FLT_MIN;
+    return shade__is_encoded(t->srgb, l) ? shade__decode(dim) : dim;
 }
 
 /* Makes a survey of the given draw: all its fragments, and depth is not written. */
@@ -7849,7 +7890,6 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
                                const shade_draw_state *state, const shade_stats *stats,
                                shade__survey *s)
 {
-    shade_vec4 last;
     SHADE__ZERO(*s);
     s->target = target;
     s->given_mesh = mesh;
@@ -7870,24 +7910,17 @@ static void shade__open_survey(const shade_target *target, const shade_mesh *mes
     s->whole = shade__clip_rectangle(target, s->clip) &&
                s->clip[2] - s->clip[0] == target->width &&
                s->clip[3] - s->clip[1] == target->height;
-    last = s->state.projection.col[3];
-    s->reversed = last.w == 0 && last.z > 0;
+    shade__camera_of(&s->state.projection, &s->state.view, &s->camera);
     s->farthest = (float)!(target->depth ? (int)shade__compare_of(&state->raster).greater
-                                         : s->reversed);
+                                         : s->camera.reversed);
 
-    s->black = shade__black_of(target);
+    s->dim = shade__dim_of(target);
 }
 
 /* ---- other surfaces and lamps */
 
-/* Highlights become too wide to lie between pixels. */
-static void shade__widen(shade__survey *q)
-{
-    q->material.shininess = shade__minf(q->material.shininess, 4);
-}
-
-/* The surface reflects all light.  The map keeps its holes, and a material that is NULL has no
-   highlights. */
+/* The surface reflects all light, with wide highlights.  The map keeps its holes, and a material
+   that is NULL has no highlights. */
 static void shade__whiten(shade__survey *q)
 {
     const shade_vec3 one = shade_v3(1, 1, 1);
@@ -7895,7 +7928,7 @@ static void shade__whiten(shade__survey *q)
     q->white_map = 1;
     q->material.diffuse = q->material.ambient = one;
     if (q->given_state->material) q->material.specular = one;
-    shade__widen(q);
+    q->material.shininess = shade__minf(q->material.shininess, 4);
 }
 
 /* One white lamp, and no other light. */
@@ -7921,6 +7954,13 @@ static void shade__light_everywhere(shade__survey *q)
         *lamp = l->lights[i];
         lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
     }
+}
+
+/* The lamps lose their cones.   pre: shade__light_everywhere */
+static void shade__open_cones(shade__survey *q)
+{
+    for (int i = 0; i < q->state.lighting.light_count; i++)
+        q->lamp[i].spot_direction = shade_v3(0, 0, 0);
 }
 
 /* Lights every fragment, where there is room for its position and normal. */
@@ -7963,23 +8003,34 @@ static int shade__depth_varies(const shade_target *t)
 
 static int shade__eye_inside(const shade__survey *s)
 {
-    const shade_mat4 m = shade__mat4_product(&s->state.view, &s->state.model);
-    const shade_vec3 eye = shade__xyz(shade_mat4_inverse(m).col[3]);
-    shade_vec3 low, high;
+    const shade_mat4 object = shade__mat4_product(&s->state.view, &s->state.model);
+    shade__camera c;
+    shade_vec3 low, high, eye;
+    shade__camera_of(&s->state.projection, &object, &c);
     shade_mesh_bounds(&s->mesh, &low, &high);
-    return shade_mat4_determinant(m) != 0 &&
-           shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
+    eye = shade_v3((float)c.eye[0], (float)c.eye[1], (float)c.eye[2]);
+    return c.perspective && shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
+}
+
+/* Is depth the same all over a plane that the viewer faces? */
+static int shade__faces_ahead(const shade__camera *c)
+{
+    double across[3];
+    shade__cross3(c->row[2], c->row[3], across);
+    return c->perspective &&
+           shade__dot3(across, across) <= 1e-10 * shade__dot3(c->row[2], c->row[2]) *
+                                              shade__dot3(c->row[3], c->row[3]);
 }
 
 /*---------------------------------------------------------------------------------------- >>explain
    Why a draw gives no picture, or the wrong one, in one sentence.
      in      what shade_draw_mesh took, its stats      out  a constant sentence; "" for nothing
-     method  Ladders: tables of changes and sentences, tried from top to bottom.  A rung changes the
-             survey, draws it, and says whether its sentence is true.
-     holds   A sentence is said where the matrices or the pixels of the real picture prove it.  A
-             band or a strip is never blamed for what another one may show.
-     way     shade__refusal; shade__why: ladders of the given draw, of no picture, of a black one,
-             of a lit one.                                                               >>replay */
+     method  Numbers that cannot be meant are looked for first.  Then ladders are climbed: tables
+             of changes and sentences, tried from top to bottom.
+     holds   A sentence is true of the pixels that are shown: of all, of nine tenths, or of none
+             brighter than 8 of 255.  A band or a strip is never blamed for what another may show.
+     way     shade__refusal; shade__why: shade__bad_number; the ladders of no picture, of no
+             pixels, of wrong ones, of black and of lit ones; shade__doubt.            >>replay */
 
 /* Says why shade_draw_mesh refuses the draw, in its order, or why the mesh is empty, or that its
    positions overlap. */
@@ -8014,61 +8065,20 @@ static const char *shade__refusal(const shade_target *t, const shade_mesh *m,
     return NULL;
 }
 
-/* ---- ladders */
-
-typedef enum shade__outcome {
-    SHADE__GO_ON,                        /* to the next rung */
-    SHADE__SAY,                          /* the sentence of the rung */
-    SHADE__LEAVE                         /* the ladder: what is seen may be meant */
-} shade__outcome;
-
-typedef struct shade__rung {
-    shade__outcome (*change)(shade__survey *q);
-    const char *sentence;
-} shade__rung;
-
-static shade__outcome shade__say_if(int holds) { return holds ? SHADE__SAY : SHADE__GO_ON; }
-
-static shade__outcome shade__leave_if(int holds) { return holds ? SHADE__LEAVE : SHADE__GO_ON; }
-
-/* Returns the sentence of the first rung that says it, or NULL.  All rungs change one copy of the
-   survey, and their changes are kept: the last change names the fault, and two faults at once are
-   found as well. */
-static const char *shade__climb_on(const shade__survey *s, const shade__rung *rung)
-{
-    shade__survey q = *s;
-    for (; rung->change; rung++) {
-        const shade__outcome outcome = rung->change(&q);
-        if (outcome != SHADE__GO_ON) return outcome == SHADE__SAY ? rung->sentence : NULL;
-    }
-    return NULL;
-}
-
-/* The same, but each rung changes a copy of its own. */
-static const char *shade__climb(const shade__survey *s, const shade__rung *rung)
-{
-    for (; rung->change; rung++) {
-        shade__survey q = *s;
-        const shade__outcome outcome = rung->change(&q);
-        if (outcome != SHADE__GO_ON) return outcome == SHADE__SAY ? rung->sentence : NULL;
-    }
-    return NULL;
-}
-
 /* ---- matrices and numbers of the state */
 
 /* Does the last column hold what belongs in the last row?  That is (0, 0, 0, 1), (0, 0, -1, 0) of a
    perspective, or (0, 0, 1, 0) of a left-handed one.  A matrix that flattens, as those of shadows
-   on planes do, is none of them. */
+   on planes do, is none of them, nor is a projection whose w grows with z alone, from one point. */
 static int shade__is_transposed(const shade_mat4 *m)
 {
-    const shade_vec4 last = m->col[3];
-    const float b = m->col[2].w;
+    const shade_vec4 z = m->col[2], last = m->col[3];
+    const int from_point = m->col[0].w == 0 && m->col[1].w == 0 &&
+                           !shade__within(z.x * z.x + z.y * z.y + z.z * z.z - 1, 0.01f);
     if (shade_mat4_determinant(*m) == 0) return 0;
-    if (last.w == 0)    /* b is none of 0, 1 and -1 */
-        return (last.z == 1 || last.z == -1) && b * (1 - b * b) != 0;
-    return last.w == 1 && shade__is_zero(shade__xyz(last)) &&
-           !shade__is_affine(m);
+    if (last.w == 0)    /* z.w is none of 0, 1 and -1 */
+        return (last.z == 1 || last.z == -1) && z.w * (1 - z.w * z.w) != 0;
+    return last.w == 1 && shade__is_zero(shade__xyz(last)) && !shade__is_affine(m) && !from_point;
 }
 
 /* Does the matrix only turn, mirror and move? */
@@ -8083,215 +8093,212 @@ static int shade__is_rigid(const shade_mat4 *m)
     return rigid;
 }
 
-/* Is nothing but 0 in the first two columns, save x and y of the picture?  Then depth is the same
-   all over a plane that the viewer faces. */
-static int shade__faces_ahead(const shade_mat4 *p)
+/* Is the last row of an affine matrix (0, 0, 0, 1)? */
+static int shade__scales_w(const shade_mat4 *m)
 {
-    const shade_vec4 x = p->col[0], y = p->col[1];
-    return x.y == 0 && x.z == 0 && x.w == 0 && y.x == 0 && y.z == 0 && y.w == 0;
+    return m->col[0].w == 0 && m->col[1].w == 0 && m->col[2].w == 0 && m->col[3].w != 1;
 }
 
-static shade__outcome shade__matrix_is_nan(shade__survey *q)
+static const char *shade__bad_matrix(const shade__survey *s)
 {
-    return shade__say_if(!shade__is_finite(&q->state.model) || !shade__is_finite(&q->state.view) ||
-                         !shade__is_finite(&q->state.projection));
+    const shade_mat4 *model = &s->state.model, *view = &s->state.view, *p = &s->state.projection;
+    if (!shade__is_finite(model) || !shade__is_finite(view) || !shade__is_finite(p))
+        return "state.model, state.view or state.projection holds a NaN or infinity.";
+    if (shade__is_transposed(model))
+        return "state.model looks transposed (row-major): its translation belongs in col[3]; pass "
+               "it through shade_mat4_transpose.";
+    if (shade__is_transposed(view))
+        return "state.view looks transposed (row-major): its translation belongs in col[3]; pass "
+               "it through shade_mat4_transpose.";
+    if (shade__scales_w(model) || shade__scales_w(view))
+        return "The last row of state.model or state.view is not 0, 0, 0, 1: set col[3].w to 1.";
+    if (shade__is_zero(shade__xyz(p->col[0])) && p->col[0].w == 0)
+        return "state.projection is what cameras give for bad arguments: fovy must be in radians "
+               "and below pi (use shade_radians for degrees), near and far above 0 and different, "
+               "the aspect not 0, left not equal to right, bottom not to top.";
+    if (!shade__is_affine(view) || (!shade__is_rigid(view) && shade__is_rigid(p) &&
+                                    !shade__is_zero(shade__xyz(p->col[3]))))
+        return "state.view holds a projection, which belongs in state.projection: light takes the "
+               "eye from state.view.  Are the two swapped?";
+    if (p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(&s->camera) &&
+        !s->state.raster.depth_zero_to_one)
+        return "state.projection is that of shade_mat4_perspective_reversed, which needs "
+               "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0.";
+    return NULL;
 }
 
-static shade__outcome shade__model_by_rows(shade__survey *q)
+static const char *shade__bad_lamp(const shade_light *l)
 {
-    return shade__say_if(shade__is_transposed(&q->state.model));
+    const float *number = &l->position.x;
+    for (size_t k = 0; k < sizeof *l / sizeof *number; k++)
+        if (number[k] != number[k]) return "A light of lighting.lights holds a NaN.";
+    if (!shade__is_zero(l->spot_direction) && !shade__within(l->spot_cos_cutoff, 1.001f))
+        return "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the angle, "
+               "not the angle; make the light with shade_spot_light.";
+    if (l->constant < 0 || l->linear < 0 || l->quadratic < 0)
+        return "A light's constant, linear or quadratic is negative: attenuation divides by "
+               "constant + linear r + quadratic r^2, at the distance r.";
+    return NULL;
 }
 
-static shade__outcome shade__view_by_rows(shade__survey *q)
+/* Are corners NaN, infinite or beyond 1e12, or does the draw leave out triangles as such? */
+static int shade__positions_are_bad(const shade__survey *s)
 {
-    return shade__say_if(shade__is_transposed(&q->state.view));
+    shade_vec3 low, high;
+    shade_mesh_bounds(s->given_mesh, &low, &high);
+    low = shade_max(high, shade_neg(low));
+    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(s, 0).rejected > 0;
 }
 
-static shade__outcome shade__projection_is_bad(shade__survey *q)
+/* How many triangles a draw of the mesh counts. */
+static long long shade__triangles_of(const shade_mesh *m)
 {
-    const shade_vec4 x = q->state.projection.col[0];
-    return shade__say_if(shade__is_zero(shade__xyz(x)) && x.w == 0);
+    long long count = 0;
+    if (!m->chunks) return shade__corner_count(m) / 3;
+    for (int i = 0; i < m->chunk_count; i++) count += m->chunks[i].count;
+    return count;
 }
-
-static shade__outcome shade__view_projects(shade__survey *q)
-{
-    const shade_mat4 *view = &q->state.view, *p = &q->state.projection;
-    if (!shade__is_affine(view)) return SHADE__SAY;
-    return shade__say_if(!shade__is_rigid(view) && shade__is_rigid(p) &&
-                         !shade__is_zero(shade__xyz(p->col[3])));
-}
-
-static shade__outcome shade__reversed_in_half(shade__survey *q)
-{
-    const shade_mat4 *p = &q->state.projection;
-    return shade__say_if(p->col[3].w == 0 && p->col[2].z == 0 && shade__faces_ahead(p) &&
-                         !q->state.raster.depth_zero_to_one);
-}
-
-static shade__outcome shade__count_is_negative(shade__survey *q)
-{
-    return shade__say_if(q->state.lighting.light_count < 0);
-}
-
-static shade__outcome shade__cosine_is_none(shade__survey *q)
-{
-    const shade_lighting *l = &q->state.lighting;
-    for (int i = 0; i < l->light_count; i++) {
-        const shade_light *lamp = &l->lights[i];
-        if (!shade__is_zero(lamp->spot_direction) && !shade__within(lamp->spot_cos_cutoff, 1.001f))
-            return SHADE__SAY;
-    }
-    return SHADE__GO_ON;
-}
-
-static const shade__rung shade__numbers[] = {
-    { shade__matrix_is_nan,
-      "state.model, state.view or state.projection holds a NaN or infinity." },
-    { shade__model_by_rows,
-      "state.model looks transposed (row-major): its translation belongs in col[3]; pass it "
-      "through shade_mat4_transpose." },
-    { shade__view_by_rows,
-      "state.view looks transposed (row-major): its translation belongs in col[3]; pass it "
-      "through shade_mat4_transpose." },
-    { shade__projection_is_bad,
-      "state.projection is what cameras give for bad arguments: fovy must be in radians and below "
-      "pi (use shade_radians for degrees), near and far above 0 and different, the aspect not 0, "
-      "left not equal to right, bottom not to top." },
-    { shade__view_projects,
-      "state.view holds a projection: state.view and state.projection look swapped." },
-    { shade__reversed_in_half,
-      "state.projection is that of shade_mat4_perspective_reversed, which needs "
-      "raster.depth_zero_to_one = 1, SHADE_COMPARE_GREATER and depth cleared to 0." },
-    { shade__count_is_negative,
-      "lighting.light_count is negative, which counts as 0; it counts lighting.lights." },
-    { shade__cosine_is_none,
-      "A light's spot_cos_cutoff is outside of -1 .. 1: it is the cosine of the angle, not the "
-      "angle; make the light with shade_spot_light." },
-    { NULL, NULL }
-};
-
-/* ---- no pixel of the whole picture shows the mesh */
 
 static int shade__chunks_leave_out(const shade_mesh *m)
 {
-    long long count = 0;
-    for (int i = 0; i < m->chunk_count; i++) count += m->chunks[i].count;
-    return m->chunks && count < shade__corner_count(m) / 3;
+    return shade__triangles_of(m) < shade__corner_count(m) / 3;
 }
+
+static const char *shade__bad_number(const shade__survey *s)
+{
+    const shade_lighting *l = &s->state.lighting;
+    const char *why = shade__bad_matrix(s);
+    if (s->given_stats && s->given_stats->triangles != shade__triangles_of(s->given_mesh))
+        return "stats are not of this draw: their triangles are not as many as the mesh has; pass "
+               "what shade_draw_mesh wrote.";
+    if (!why && l->light_count < 0)
+        why = "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
+    for (int i = 0; i < l->light_count && !why; i++) why = shade__bad_lamp(&l->lights[i]);
+    if (!why && shade__positions_are_bad(s))
+        why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices make "
+              "them so: positions must be floats, and mesh.position_stride counts bytes.";
+    return why;
+}
+
+/* ---- ladders */
+
+typedef struct shade__rung {
+    int (*change)(shade__survey *q);     /* returns whether the sentence is true */
+    const char *sentence;                /* NULL: what is seen may be meant, the ladder ends */
+} shade__rung;
+
+/* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault, and
+   two faults at once are found as well. */
+static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
+{
+    for (; rung->change; rung++)
+        if (rung->change(q)) return rung->sentence;
+    return NULL;
+}
+
+/* The same, but each rung changes a copy. */
+static const char *shade__climb(const shade__survey *s, const shade__rung *rung)
+{
+    for (; rung->change; rung++) {
+        shade__survey q = *s;
+        if (rung->change(&q)) return rung->sentence;
+    }
+    return NULL;
+}
+
+static int shade__always(shade__survey *q) { return q != NULL; }
+
+static int shade__appears(shade__survey *q) { return shade__covered(q) > 0; }
+
+/* ---- no pixel of the whole picture shows the mesh */
 
 static const char *const shade__left_out =
     "The counts of mesh.chunks sum to fewer triangles than the mesh has, and the others are not "
     "drawn: pass all the chunks that shade_mesh_chunks made, and heed its result.";
+static const char *const shade__wrong_box =
+    "A box of mesh.chunks does not hold its triangles, which may vanish: make the chunks again "
+    "with shade_mesh_chunks after the positions have changed.";
 
-static shade__outcome shade__chunks_are_few(shade__survey *q)
+static int shade__chunks_are_few(shade__survey *q)
 {
     q->mesh.chunks = NULL;
     q->mesh.chunk_count = 0;
-    return shade__say_if(shade__chunks_leave_out(q->given_mesh) && shade__covered(q));
+    return shade__chunks_leave_out(q->given_mesh) && shade__covered(q);
 }
 
-static shade__outcome shade__appears(shade__survey *q)
-{
-    return shade__say_if(shade__covered(q) > 0);
-}
-
-static shade__outcome shade__culled_inside(shade__survey *q)
+static int shade__culled_inside(shade__survey *q)
 {
     q->state.raster.cull = SHADE_CULL_NONE;
-    return shade__say_if(shade__eye_inside(q) && shade__covered(q));
+    return shade__eye_inside(q) && shade__covered(q);
 }
 
-static shade__outcome shade__fronts_are_culled(shade__survey *q)
+static int shade__fronts_are_culled(shade__survey *q)
 {
-    return shade__say_if(q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q));
-}
-
-static shade__outcome shade__all_rejected(shade__survey *q)
-{
-    const shade_stats stats = shade__stats_of(q, 0);
-    return shade__say_if(stats.rejected == stats.triangles);
+    return q->given_state->raster.cull == SHADE_CULL_FRONT && shade__covered(q);
 }
 
 /* Is the mesh one of many in a scene, and has it fragments for less than a quarter of the picture?
    Such a mesh may well be hidden, or seen edge-on. */
-static shade__outcome shade__is_scattered(shade__survey *q)
+static int shade__is_scattered(shade__survey *q)
 {
-    return shade__leave_if(shade__covered(q) * 4 <
-                              (long long)q->target->width * q->target->height &&
-                          shade__depth_varies(q->target));
+    return shade__covered(q) * 4 < (long long)q->target->width * q->target->height &&
+           shade__depth_varies(q->target);
 }
 
-static shade__outcome shade__all_cut(shade__survey *q)
+static int shade__all_cut(shade__survey *q)
 {
     q->state.alpha_cutoff = 0;
     return shade__appears(q);
 }
 
-static shade__outcome shade__has_no_area(shade__survey *q)
+static int shade__has_no_area(shade__survey *q)
 {
     const shade_stats stats = shade__stats_of(q, 0);
-    return shade__say_if(!stats.drawn && stats.culled);
+    return !stats.drawn && stats.culled;
 }
 
-static shade__outcome shade__projection_by_rows(shade__survey *q)
+static int shade__projection_by_rows(shade__survey *q)
 {
     shade__survey turned = *q;
     turned.state.projection = shade_mat4_transpose(q->state.projection);
-    return shade__say_if(shade__is_transposed(&q->state.projection) && shade__covered(&turned));
+    return shade__is_transposed(&q->state.projection) && shade__covered(&turned);
 }
 
 /* Does each triangle lie outside of the view volume? */
-static int shade__lies_apart(const shade__survey *s)
+static int shade__is_beside(shade__survey *q)
 {
-    const shade_stats stats = shade__stats_of(s, 0);
+    const shade_stats stats = shade__stats_of(q, 0);
     return stats.clipped + stats.rejected == stats.triangles;
 }
 
-static shade__outcome shade__projection_is_none(shade__survey *q)
+static int shade__projection_is_none(shade__survey *q)
 {
-    return shade__say_if(shade__is_rigid(&q->state.projection) && shade__lies_apart(q));
+    return shade__is_rigid(&q->state.projection) && shade__is_beside(q);
 }
 
-static shade__outcome shade__beyond_far(shade__survey *q)
+static int shade__beyond_far(shade__survey *q)
 {
-    const uint32_t beyond = q->reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR;
-    return shade__say_if((shade__outside(q) & beyond) != 0);
+    return (shade__outside(q) & (q->camera.reversed ? SHADE__OUT_NEAR : SHADE__OUT_FAR)) != 0;
 }
 
-static shade__outcome shade__view_is_inverse(shade__survey *q)
+static int shade__view_is_inverse(shade__survey *q)
 {
     shade__survey inverse = *q;
     inverse.state.view = shade_mat4_inverse(q->state.view);
     return shade__appears(&inverse);
 }
 
-static shade__outcome shade__behind_eye(shade__survey *q)
+static int shade__behind_eye(shade__survey *q) { return (shade__outside(q) & SHADE__OUT_W) != 0; }
+
+static int shade__before_near(shade__survey *q)
 {
-    return shade__say_if((shade__outside(q) & SHADE__OUT_W) != 0);
+    return (shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR)) != 0;
 }
 
-static shade__outcome shade__before_near(shade__survey *q)
-{
-    return shade__say_if((shade__outside(q) & (SHADE__OUT_NEAR | SHADE__OUT_FAR)) != 0);
-}
-
-static shade__outcome shade__is_beside(shade__survey *q)
-{
-    return shade__say_if(shade__lies_apart(q));
-}
-
-static shade__outcome shade__always(shade__survey *q)
-{
-    (void)q;
-    return SHADE__SAY;
-}
-
-/* Climbed with changes that are kept. */
+/* Changes are kept. */
 static const shade__rung shade__nothing[] = {
     { shade__chunks_are_few, shade__left_out },
-    { shade__appears,
-      "No box of mesh.chunks holds the triangles in view: make the chunks again with "
-      "shade_mesh_chunks after the positions have changed." },
+    { shade__appears, shade__wrong_box },
     { shade__culled_inside,
       "raster.cull leaves out every triangle in view, and the eye lies inside of the mesh's box: "
       "set state.view, or move the eye out." },
@@ -8302,9 +8309,6 @@ static const shade__rung shade__nothing[] = {
       "raster.cull is SHADE_CULL_BACK, and every triangle in view faces away: front is "
       "counter-clockwise on the screen.  Reverse the winding, or use SHADE_CULL_NONE; a "
       "state.model that mirrors reverses it as well." },
-    { shade__all_rejected,
-      "mesh.positions hold NaN, infinite or huge numbers, or state.model, state.view and "
-      "state.projection make them so (beyond 1e30)." },
     { shade__is_scattered, NULL },
     { shade__all_cut,
       "state.alpha_cutoff is above every alpha of the mesh, which is (1 - transparency) times "
@@ -8334,21 +8338,18 @@ static const shade__rung shade__nothing[] = {
       "The whole mesh lies beside the picture, before near or beyond far; check state.model, and "
       "where state.view looks." },
     { shade__always,
-      "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen "
-      "edge-on, or lies beside the picture; check state.model and state.view." },
+      "The mesh covers the centre of a pixel nowhere: it is too small on the screen, seen edge-on, "
+      "or lies beside the picture; check state.model and state.view." },
     { NULL, NULL }
 };
 
-/* ---- the depth test */
+/* ---- the mesh covers pixels, but the draw gave none, or maybe none */
 
-static shade__outcome shade__test_is_turned(shade__survey *q)
+static int shade__test_is_turned(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
-    const shade_mat4 *p = &q->state.projection;
-    /* depth is a number plus col[3].z / w */
-    return shade__say_if(q->target->depth && p->col[3].w == 0 && shade__faces_ahead(p) &&
-                         !r->depth_read_only && r->depth_test < SHADE_COMPARE_EQUAL &&
-                         (float)q->reversed == q->farthest);
+    return q->target->depth && shade__faces_ahead(&q->camera) && !r->depth_read_only &&
+           r->depth_test < SHADE_COMPARE_EQUAL && (float)q->camera.reversed == q->farthest;
 }
 
 static const shade__rung shade__test[] = {
@@ -8359,8 +8360,6 @@ static const shade__rung shade__test[] = {
     { NULL, NULL }
 };
 
-/* ---- the mesh covers pixels, but the draw gave none, or maybe none */
-
 /* Other bands or strips may show what this one does not. */
 static int shade__is_band(const shade_target *t)
 {
@@ -8369,10 +8368,10 @@ static int shade__is_band(const shade_target *t)
     return t->row_count || clip[2] - clip[0] == t->width || clip[3] - clip[1] == t->height;
 }
 
-static shade__outcome shade__beside_clip(shade__survey *q)
+static int shade__beside_clip(shade__survey *q)
 {
     shade__look_in_clip(q);
-    return shade__say_if(!shade__is_band(q->target) && !shade__covered(q));
+    return !shade__is_band(q->target) && !shade__covered(q);
 }
 
 /* How many pixels pass the depth test now: all, if there is no depth. */
@@ -8391,40 +8390,66 @@ static int shade__is_hidden(const shade__survey *s)
     return shade__covered(&q) && !shade__passed(s);
 }
 
-static shade__outcome shade__shader_discards(shade__survey *q)
+static int shade__shader_discards(shade__survey *q)
 {
-    return shade__say_if(q->given_stats && q->given_state->fragment && shade__passed(q));
+    return q->given_stats && q->given_state->fragment && shade__passed(q);
 }
 
 /* Without stats the mesh itself may be stored. */
-static shade__outcome shade__depth_uncleared(shade__survey *q)
+static int shade__depth_uncleared(shade__survey *q)
 {
-    if (!shade__is_hidden(q)) return SHADE__GO_ON;
+    if (!shade__is_hidden(q)) return 0;
     shade__look_through(q, SHADE_COMPARE_EQUAL);
-    if (!q->given_stats && shade__covered(q)) return SHADE__GO_ON;
+    if (!q->given_stats && shade__covered(q)) return 0;
     shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
     q->state.raster.depth_bias = 1 - 2 * q->farthest;    /* not even the nearest depth passes */
-    return shade__say_if(!shade__covered(q));
+    return !shade__covered(q);
 }
 
-static shade__outcome shade__depth_hides(shade__survey *q)
+/* Is the mesh hidden in the whole picture, and no detail of a scene? */
+static int shade__all_hidden(shade__survey *q)
 {
-    if (!q->given_stats || !q->whole || !shade__is_hidden(q)) return SHADE__GO_ON;
+    const int hidden = q->whole && shade__is_hidden(q);
     q->state.raster.depth_bias = 0;
-    if (shade__is_scattered(q)) return SHADE__GO_ON;
-    q->nearer = 1;    /* elsewhere floats are too coarse to tell what is nearer */
-    return shade__appears(q);
+    return hidden && !shade__is_scattered(q);
+}
+
+static int shade__nothing_is_equal(shade__survey *q)
+{
+    return q->given_state->raster.depth_test == SHADE_COMPARE_EQUAL && shade__all_hidden(q);
+}
+
+static int shade__depth_is_far(shade__survey *q)
+{
+    if (!q->given_stats || !shade__all_hidden(q)) return 0;
+    q->apart = FLT_MIN;
+    return !shade__covered(q);
+}
+
+static int shade__depth_hides(shade__survey *q)
+{
+    if (!q->given_stats || !shade__all_hidden(q)) return 0;
+    q->apart = 1e-6f;    /* floats are too coarse to tell what is nearer */
+    return shade__covered(q) > 0;
 }
 
 static const shade__rung shade__unseen[] = {
     { shade__beside_clip,
       "The mesh lies beside the clip rectangle of target.clip_x, clip_y, clip_width and "
       "clip_height; all four zero mean everywhere." },
-    { shade__shader_discards, "state.fragment discards all pixels of the mesh." },
+    { shade__shader_discards,
+      "state.fragment discards all pixels of the mesh, or leaves them an alpha below "
+      "state.alpha_cutoff." },
+    { shade__nothing_is_equal,
+      "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds the mesh's own depth "
+      "nowhere: draw the mesh with SHADE_COMPARE_LESS, first or instead." },
     { shade__depth_uncleared,
       "target.depth holds 0 where the mesh is, 1 with SHADE_COMPARE_GREATER, or NaN, so that "
       "nothing passes raster.depth_test: call shade_clear before drawing, with a depth of 1, or "
       "0 for a reversed projection." },
+    { shade__depth_is_far,
+      "Depth is that of the far plane all over the mesh, so that nothing passes raster.depth_test: "
+      "near of state.projection is too small beside far for floats; move near out." },
     { shade__depth_hides,
       "What target.depth holds hides the mesh: other meshes, the frame before without a "
       "shade_clear, or the mesh itself, which then needs SHADE_COMPARE_LESS_EQUAL; or "
@@ -8434,379 +8459,367 @@ static const shade__rung shade__unseen[] = {
 
 /* ---- the mesh is drawn, but wrongly */
 
-static shade__outcome shade__some_rejected(shade__survey *q)
+/* Do lamps light one side of faces alone, the one where their geometric normal is? */
+static int shade__lights_one_side(const shade__survey *s)
 {
-    return shade__say_if(shade__stats_of(q, 0).rejected > 0);
+    const shade_lighting *l = &s->state.lighting;
+    const unsigned both = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
+    return (!s->mesh.normals || s->state.shading == SHADE_SHADING_PER_FACE) &&
+           l->light_count > 0 && !(l->flags & both);
 }
 
-/* Are the fronts of all pixels that show one behind a back? */
-static shade__outcome shade__inside_out(shade__survey *q)
+/* Are nine tenths of the pixels with fronts pixels with a nearer back?  That matters where backs are culled,
+   or where faces are lit by their winding. */
+static int shade__inside_out(shade__survey *q)
 {
     shade__probe probes[SHADE__PROBES];
     uint32_t fronts = 0, behind = 0;
-    if (q->state.raster.cull != SHADE_CULL_BACK || shade__eye_inside(q)) return SHADE__GO_ON;
+    if (q->state.raster.cull != SHADE_CULL_BACK && !shade__lights_one_side(q)) return 0;
+    if (shade__eye_inside(q)) return 0;
     shade__take_probes(q, SHADE_CULL_NONE, probes);
     for (int k = 0; k < SHADE__PROBES; k++) {
         fronts += probes[k].any_front;
         behind += probes[k].any_front & !probes[k].front;
     }
-    return shade__say_if(fronts > 23 && behind == fronts);    /* fewer prove too little */
+    return fronts > 23 && behind * 10 >= fronts * 9;    /* fewer prove too little */
 }
 
 /* Has a pixel a last fragment that is not its nearest? */
-static shade__outcome shade__lacks_depth(shade__survey *q)
+static int shade__lacks_depth(shade__survey *q)
 {
+    const shade_raster *r = &q->given_state->raster;
     shade__probe probes[SHADE__PROBES];
     int n = 0;
-    if (q->target->depth || q->state.raster.blend != SHADE_BLEND_REPLACE) return SHADE__GO_ON;
+    if (r->blend != SHADE_BLEND_REPLACE) return 0;
+    if (q->target->depth && r->depth_test != SHADE_COMPARE_ALWAYS) {
+        if (!r->depth_read_only) return 0;
+        shade__look_through(q, r->depth_test);
+    }
     shade__take_probes(q, q->state.raster.cull, probes);
     for (int k = 0; k < SHADE__PROBES; k++)
         n += !shade__within(probes[k].last - probes[k].nearest, 1e-6f);
-    return shade__say_if(n > 0);
+    return n > 0;
 }
 
 static const shade__rung shade__picture[] = {
-    { shade__some_rejected,
-      "Some triangles are left out, since mesh.positions hold NaN, infinite or huge numbers "
-      "there." },
     { shade__inside_out,
-      "The mesh is drawn inside out: its triangles are wound clockwise, or state.model, "
-      "state.view or state.projection mirrors; reverse the winding or raster.cull." },
+      "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
+      "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
+      "raster.cull." },
     { shade__lacks_depth,
-      "target.depth is NULL, so that the triangles drawn last hide those before them, not the "
-      "near ones the far ones; give the target a depth buffer." },
+      "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test is "
+      "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; let the draw test and write depth." },
     { NULL, NULL }
 };
 
-/* ---- why no lamp lights a white surface, of which all shades of light are drawn */
+/* ---- the mesh is drawn, but black: the surface */
 
-/* Do lamps show when they light both sides?  This change is kept. */
-static int shade__light_is_behind(shade__survey *q)
-{
-    q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    return shade__bright(q);
-}
-
-static shade__outcome shade__seen_from_inside(shade__survey *q)
-{
-    return shade__say_if(shade__light_is_behind(q) && shade__eye_inside(q));
-}
-
-static shade__outcome shade__lamps_behind(shade__survey *q)
-{
-    return shade__say_if(shade__light_is_behind(q));
-}
-
-/* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
-   there is one. */
-static shade__outcome shade__lacks_normals(shade__survey *q)
-{
-    shade__survey open = *q;
-    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
-    open.material.specular = shade_v3(1, 1, 1);
-    open.material.shininess = 0;
-    return shade__say_if(q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE &&
-                         !shade__bright(&open));
-}
-
-static shade__outcome shade__lamps_fall_off(shade__survey *q)
-{
-    shade__light_everywhere(q);
-    return shade__say_if(shade__bright(q));
-}
-
-/* Does light arrive where the lamps have no cone, and nowhere with it?  A lamp's own ambient light
-   shows its cone at any angle to the face.  Nothing is said of a pool of light smaller than a
-   pixel, or dim at its angle. */
-static shade__outcome shade__cones_miss(shade__survey *q)
-{
-    shade_lighting *l = &q->state.lighting;
-    int met = 0;
-    l->flags |= SHADE_FLAG_ATTENUATED_AMBIENT;
-    for (int i = 0; i < l->light_count; i++) {
-        const shade_light *lamp = &q->lamp[i];
-        shade_ray axis;
-        axis.origin = shade__xyz(lamp->position);
-        axis.direction = lamp->spot_direction;
-        met |= shade_pick(&q->mesh, q->state.model, axis, NULL, NULL) >= 0;
-        q->lamp[i].ambient = shade_add(lamp->diffuse, lamp->specular);
-    }
-    met |= shade__count(q, FLT_MIN) > 0;
-    for (int i = 0; i < l->light_count; i++) {
-        q->lamp[i].spot_direction = shade_v3(0, 0, 0);
-        q->lamp[i].ambient = q->lamp[i].diffuse;
-    }
-    if (!shade__bright(q)) return SHADE__GO_ON;
-    return met ? SHADE__LEAVE : SHADE__SAY;
-}
-
-static shade__outcome shade__lamps_are_many(shade__survey *q)
-{
-    return shade__leave_if(q->given_state->lighting.light_count > SHADE__SUSPECTS);
-}
-
-/* ---- the mesh is drawn, but black */
-
-/* Does not even a glowing surface show? */
-static shade__outcome shade__alpha_is_zero(shade__survey *q)
+/* Does the mesh show only if alpha is 1, or does not even a glowing surface show?  The blending is
+   left out from here on. */
+static int shade__alpha_is_zero(shade__survey *q)
 {
     shade__survey glow = *q;
+    const int blended = q->state.raster.blend != SHADE_BLEND_REPLACE;
     glow.material.emission = shade_v3(1, 1, 1);
     glow.state.lighting.model = SHADE_MODEL_EMISSIVE;
     glow.state.lighting.terms = 0;
-    return shade__say_if(q->state.raster.blend != SHADE_BLEND_REPLACE && !shade__bright(&glow));
-}
-
-/* Is dim light dimmed more by alpha? */
-static shade__outcome shade__alpha_dims(shade__survey *q)
-{
-    const int blended = q->state.raster.blend != SHADE_BLEND_REPLACE;
     q->state.raster.blend = SHADE_BLEND_REPLACE;
-    return shade__leave_if(blended && shade__shows(q));
+    return blended && (!shade__shows(&glow) || shade__shows(q));
 }
 
 /* Outlines of back faces are meant to be black, and so are shadows, blended over a ground. */
-static shade__outcome shade__black_is_meant(shade__survey *q)
+static int shade__black_is_meant(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
     const shade_material *m = &q->material;
     const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
                                      shade_add(m->diffuse, m->specular));
-    return shade__leave_if(r->cull == SHADE_CULL_FRONT ||
-                          (r->blend == SHADE_BLEND_OVER && shade__is_zero(sum)));
+    return r->cull == SHADE_CULL_FRONT || (r->blend == SHADE_BLEND_OVER && shade__is_zero(sum));
 }
 
-static int shade__shows_wide(const shade__survey *s)
-{
-    shade__survey wide = *s;
-    shade__widen(&wide);
-    return shade__shows(&wide);
-}
-
-static int shade__white_is_bright(const shade__survey *s)
-{
-    shade__survey white = *s;
-    shade__whiten(&white);
-    return shade__bright(&white);
-}
-
-static shade__outcome shade__shading_is_coarse(shade__survey *q)
+static int shade__shading_is_coarse(shade__survey *q)
 {
     shade__light_fragments(q);
-    return shade__say_if(shade__bright(q));
+    return shade__lights_up(q);
 }
 
-/* The normals of faces are what lamps meet. */
-static shade__outcome shade__normals_are_of_faces(shade__survey *q)
+/* Are the normals of faces lit, which SHADE_SHADING_PER_FRAGMENT would not take? */
+static int shade__faces_are_lit(shade__survey *q)
 {
-    if (q->given_state->shading != SHADE_SHADING_PER_FACE) return SHADE__GO_ON;
+    if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
     q->mesh.normals = NULL;
-    return shade__leave_if(shade__bright(q));
+    return shade__bright(q);
 }
 
-static shade__outcome shade__terms_are_few(shade__survey *q)
+static int shade__terms_are_few(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
     l->terms = 0;
     if (l->model > SHADE_MODEL_PHONG) l->model = SHADE_MODEL_BLINN_PHONG;
-    return shade__say_if(shade__bright(q));
+    return shade__lights_up(q);
 }
 
-/* There is light, and the surface takes it. */
-static shade__outcome shade__colors_are_black(shade__survey *q)
+static int shade__colors_are_black(shade__survey *q)
 {
-    if (!shade__white_is_bright(q)) return SHADE__GO_ON;
-    if (q->given_state->raster.blend == SHADE_BLEND_OVER) return SHADE__LEAVE;
     q->mesh.colors = NULL;
     q->white_map = 1;
-    return shade__say_if(shade__bright(q));
+    return shade__lights_up(q);
 }
 
-/* Nothing is said of a highlight between pixels, nor of too little of all. */
-static shade__outcome shade__material_is_black(shade__survey *q)
+static int shade__material_is_black(shade__survey *q)
 {
-    if (!shade__white_is_bright(q)) return SHADE__GO_ON;
-    return shade__shows_wide(q) ? SHADE__LEAVE : SHADE__SAY;
-}
-
-static shade__outcome shade__count_is_zero(shade__survey *q)
-{
-    return shade__say_if(q->state.lighting.light_count <= 0 && q->state.lighting.lights);
-}
-
-static shade__outcome shade__lights_are_none(shade__survey *q)
-{
+    const int shows = shade__shows(q);
     shade__whiten(q);
-    return shade__say_if(q->state.lighting.light_count <= 0);
+    return !shows && shade__bright(q) && shade__lights_up(q);
 }
 
-/* Climbed with changes that are kept. */
-static const shade__rung shade__dark[] = {
+static int shade__is_bright(shade__survey *q) { return shade__bright(q); }
+
+static const char *const shade__behind =
+    "Every lamp is behind nine tenths or more of what is in view, on the side that the normals "
+    "point away from: turn mesh.normals (without them the winding), move light.position, set "
+    "SHADE_FLAG_TWO_SIDED, or check state.view: is the eye inside of the mesh?";
+static const char *const shade__black_colors =
+    "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
+    "check mesh.texcoords and the picture.";
+static const char *const shade__no_normals =
+    "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
+    "shade_mesh_normals, or make mesh.normals NULL.";
+static const char *const shade__fall_off =
+    "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
+    "constant, linear or quadratic, or raise the light's diffuse and specular.";
+static const char *const shade__no_cone =
+    "No cone of the lights shows in what is in view; check spot_direction and spot_cos_cutoff, "
+    "the cosine of an angle in radians.";
+static const char *const shade__no_color =
+    "The lights have no colour, or too little for what is in view: their diffuse is dark or "
+    "meets it at a flat angle, and no highlight reaches the eye.";
+static const char *const shade__multiply =
+    "What is in view is black or almost: state.material, mesh.colors, the map, alpha, "
+    "lighting.terms and the lights multiply, and several of them may be at fault.";
+
+/* Changes are kept. */
+static const shade__rung shade__black[] = {
     { shade__alpha_is_zero,
-      "Alpha is 0 or almost where the mesh is in view, so that raster.blend leaves nothing of it: "
-      "it is 1 - state.transparency, times that of state.diffuse_map." },
-    { shade__alpha_dims, NULL },
-    { shade__black_is_meant, NULL },
+      "Alpha is 0, or so small that blending leaves nothing of the mesh: it is 1 - "
+      "state.transparency, times that of state.diffuse_map." },
     { shade__shading_is_coarse,
       "state.shading lights vertices or middles of faces, which no light reaches, though it "
       "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT." },
-    { shade__normals_are_of_faces, NULL },
+    { shade__faces_are_lit, shade__multiply },
     { shade__terms_are_few,
       "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
       "terms, and the model SHADE_MODEL_BLINN_PHONG." },
-    { shade__colors_are_black,
-      "mesh.colors, or the texels of state.diffuse_map, are black where the mesh is in view; "
-      "check mesh.texcoords and the picture." },
+    { shade__colors_are_black, shade__black_colors },
     { shade__material_is_black,
       "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
       "or specular, lighting.ambient needs material.ambient; NULL is white." },
+    { shade__is_bright, shade__multiply },
+    { NULL, NULL }
+};
+
+/* ---- the mesh is black, or lit by ambient light alone: the lamps */
+
+static int shade__count_is_zero(shade__survey *q)
+{
+    return q->state.lighting.light_count <= 0 && q->state.lighting.lights;
+}
+
+static int shade__lights_are_none(shade__survey *q)
+{
+    return q->state.lighting.light_count <= 0;
+}
+
+/* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
+   there is one. */
+static int shade__lacks_normals(shade__survey *q)
+{
+    shade__survey open = *q;
+    shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
+    open.material.specular = shade_v3(1, 1, 1);
+    open.material.shininess = 0;
+    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__bright(&open);
+}
+
+/* Leaves the terms of lamps in the survey.  Returns whether it has any. */
+static int shade__lamps_alone(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
+    l->terms = (l->terms ? l->terms : ~0u) & lamps;
+    q->state.raster.blend = SHADE_BLEND_REPLACE;
+    return l->model <= SHADE_MODEL_LAMBERT && l->terms;
+}
+
+/* Do nine tenths of what is in view face away from every lamp, which would light them if they had
+   two sides?  Lamps are taken without cone and attenuation. */
+static int shade__lamps_behind(shade__survey *q)
+{
+    const shade_vec3 glow = q->material.emission;
+    shade__survey each = *q;
+    shade_lighting *l = &each.state.lighting;
+    shade__whiten(&each);
+    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
+    shade__light_fragments(&each);
+    if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
+        q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
+        return 0;
+    l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    if (!shade__bright(&each) || !shade__lights_up(&each)) return 0;
+
+    l->flags = q->state.lighting.flags;
+    l->model = SHADE_MODEL_LAMBERT;
+    l->terms = SHADE_TERM_DIFFUSE;
+    shade__light_everywhere(&each);
+    shade__open_cones(&each);
+    return shade__few(q, shade__count(&each, FLT_MIN), shade__covered(q));
+}
+
+static int shade__lamps_fall_off(shade__survey *q)
+{
+    shade__whiten(q);
+    shade__light_everywhere(q);
+    return shade__bright(q) && shade__lights_up(q);
+}
+
+static int shade__cones_miss(shade__survey *q)
+{
+    shade__open_cones(q);
+    return shade__bright(q) && shade__lights_up(q);
+}
+
+static int shade__lamps_are_many(shade__survey *q)
+{
+    return q->given_state->lighting.light_count > SHADE__SUSPECTS;
+}
+
+static const shade__rung shade__no_lamps[] = {
     { shade__count_is_zero,
       "lighting.light_count is 0 while lighting.lights is set, and lighting.ambient is dark; set "
       "light_count." },
     { shade__lights_are_none,
       "There is no light: lighting.lights is NULL and lighting.ambient is dark; add a light, or "
       "ambient light." },
-    { shade__seen_from_inside,
-      "The eye lies inside of the mesh's box and sees faces whose normals point away from every "
-      "lamp; check state.view, or move the eye out." },
-    { shade__lamps_behind,
-      "Every lamp is behind the faces in view, on the side that their normals point away from: "
-      "turn mesh.normals (without them the winding), move light.position, or set "
-      "SHADE_FLAG_TWO_SIDED." },
-    { shade__lacks_normals,
-      "mesh.normals are zero or NaN, so that no lamp lights them; fill them by "
-      "shade_mesh_normals, or make mesh.normals NULL." },
-    { shade__lamps_fall_off,
-      "Attenuation, or spot_exponent, leaves too little of every light to be seen; lower its "
-      "constant, linear or quadratic, or raise the light's diffuse and specular." },
-    { shade__cones_miss,
-      "No cone of the lights meets what is in view; check spot_direction and spot_cos_cutoff, the "
-      "cosine of an angle in radians." },
-    { shade__lamps_are_many, NULL },
-    { shade__always,
-      "The lights have no colour, or too little: diffuse and specular of every lighting.lights "
-      "are dark, or diffuse is, and the highlights do not reach the eye." },
+    { NULL, NULL }
+};
+
+/* Changes are kept. */
+static const shade__rung shade__unlit[] = {
+    { shade__lacks_normals, shade__no_normals },
+    { shade__lamps_behind, shade__behind },
+    { shade__lamps_fall_off, shade__fall_off },
+    { shade__cones_miss, shade__no_cone },
+    { shade__lamps_are_many, shade__multiply },
+    { shade__always, shade__no_color },
     { NULL, NULL }
 };
 
 /* ---- the mesh is lit, but wrongly */
 
-/* Are almost all of n pixels among the counted ones?  All, where some of them may be hidden. */
-static int shade__almost_all(const shade__survey *s, long long counted,
-                             long long n)
+static int shade__is_clipped(shade__survey *q)
 {
-    return n > 0 && counted * 8 >= n * (8 - s->exact);
-}
-
-static shade__outcome shade__is_clipped(shade__survey *q)
-{
-    const long long lit = shade__count(q, q->black);
+    const long long lit = shade__count(q, q->dim);
+    long long clipped;
     q->material.emission = shade_v3(0, 0, 0);
-    return shade__say_if(q->target->format != SHADE_FORMAT_RGBA32F &&
-                         q->state.raster.blend != SHADE_BLEND_OVER &&
-                         shade__almost_all(q, shade__count(q, 2), lit));
+    clipped = shade__count(q, 2);
+    return q->target->format != SHADE_FORMAT_RGBA32F &&
+           q->state.raster.blend != SHADE_BLEND_OVER && lit > 0 &&
+           clipped * 8 >= lit * (8 - q->exact);
 }
 
-static const shade__rung shade__white[] = {
+/* Does the light of lamps hit colours of 0, so that only highlights show? */
+static int shade__colors_are_zero(shade__survey *q)
+{
+    q->state.lighting.terms = SHADE_TERM_DIFFUSE;
+    return q->state.lighting.model <= SHADE_MODEL_LAMBERT && !shade__count(q, FLT_MIN) &&
+           q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
+}
+
+/* Does a lamp at the eye leave a quarter of what is in view dark, on faces wound toward it? */
+static int shade__normals_turned(shade__survey *q)
+{
+    shade_lighting *l = &q->state.lighting;
+    const shade__camera *c = &q->camera;
+    const double *at = c->perspective ? c->eye : c->sight;
+    const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
+    const long long all = shade__covered(q);
+    long long toward;
+    if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
+        (l->flags & SHADE_FLAG_TWO_SIDED) || q->state.raster.cull == SHADE_CULL_FRONT)
+        return 0;
+    q->state.raster.cull = SHADE_CULL_BACK;
+    shade__light_fragments(q);
+    shade__light_by(q, shade_v4((float)at[0] * sign, (float)at[1] * sign, (float)at[2] * sign,
+                                (float)c->perspective), 0);
+    shade__whiten(q);
+    toward = shade__count(q, FLT_MIN);
+    l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
+    return (shade__count(q, FLT_MIN) - toward) * (q->exact ? 4 : 1) >= all;
+}
+
+static const shade__rung shade__wrong_light[] = {
     { shade__is_clipped,
       "Almost all that is lit is clipped to white: colours of lighting.lights, lighting.ambient, "
       "state.material and mesh.colors are linear, with 1 for full light, not 255." },
+    { shade__lamps_behind, shade__behind },
+    { shade__colors_are_zero, shade__black_colors },
+    { shade__normals_turned,
+      "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
+      "fill them by shade_mesh_normals, or reverse the winding; a model that mirrors does so too." },
     { NULL, NULL }
 };
 
-/* Does light of lamps show, or is it not asked for? */
-static shade__outcome shade__lamps_show(shade__survey *q)
+/* Is light of lamps not asked for, or does some show?  Other light is left out from here on. */
+static int shade__lamps_show(shade__survey *q)
 {
-    shade_lighting *l = &q->state.lighting;
-    const unsigned lamps = SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR;
-    const unsigned terms = l->terms ? l->terms : ~0u;
-    l->terms = terms & lamps;
-    q->state.raster.blend = SHADE_BLEND_REPLACE;
-    return shade__leave_if(l->model > SHADE_MODEL_LAMBERT || !l->terms ||
-                          !shade__is_zero(q->material.emission) ||
-                          shade__is_zero(q->material.diffuse) || shade__shows_wide(q));
+    return !shade__lamps_alone(q) || !shade__is_zero(q->material.emission) ||
+           shade__is_zero(q->material.diffuse) || shade__shows(q);
 }
 
 /* Meshes without lamps may be meant: bright ones, and overlays without normals. */
-static shade__outcome shade__is_unlit(shade__survey *q)
+static int shade__unlit_is_meant(shade__survey *q)
 {
     const shade_vec3 light = q->state.lighting.ambient;
-    shade__whiten(q);
-    return shade__leave_if(q->state.lighting.light_count <= 0 &&
-                          (!q->mesh.normals || light.x + light.y + light.z >= 1));
+    return q->state.lighting.light_count <= 0 &&
+           (!q->mesh.normals || light.x + light.y + light.z >= 1);
 }
 
-/* Climbed with changes that are kept. */
+static int shade__white_shows(shade__survey *q)
+{
+    shade__whiten(q);
+    return shade__bright(q);
+}
+
+/* Changes are kept. */
 static const shade__rung shade__flat[] = {
     { shade__lamps_show, NULL },
     { shade__count_is_zero,
       "Only ambient light arrives: lighting.light_count is 0 while lighting.lights is set." },
-    { shade__is_unlit, NULL },
+    { shade__unlit_is_meant, NULL },
     { shade__lights_are_none,
       "Only ambient light arrives, which shows no form: lighting.lights is NULL." },
-    { shade__lamps_behind,
-      "Only ambient light arrives: every lamp is behind the faces in view; turn mesh.normals "
-      "(without them the winding), move light.position, or set SHADE_FLAG_TWO_SIDED." },
-    { shade__lacks_normals,
-      "Only ambient light arrives, because mesh.normals are zero or NaN; fill them by "
-      "shade_mesh_normals, or make mesh.normals NULL." },
+    { shade__white_shows, NULL },
+    { shade__lacks_normals, shade__no_normals },
+    { shade__lamps_fall_off, shade__fall_off },
+    { shade__cones_miss, shade__no_cone },
+    { shade__always, shade__no_color },
     { NULL, NULL }
 };
 
-/* Does a lamp at the eye leave faces dark that are wound toward it? */
-static shade__outcome shade__normals_turned(shade__survey *q)
+/* ---- numbers that may be meant, but seldom are */
+
+static int shade__boxes_are_small(const shade_mesh *m)
 {
-    shade_lighting *l = &q->state.lighting;
-    const shade_mat4 m = shade__mat4_product(&q->state.projection, &q->state.view);
-    const long long all = shade__covered(q);
-    long long front, toward;
-    if (q->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
-        (l->flags & SHADE_FLAG_TWO_SIDED) || q->state.raster.cull == SHADE_CULL_FRONT)
-        return SHADE__GO_ON;
-    q->state.raster.cull = SHADE_CULL_BACK;
-    shade__light_fragments(q);
-    /* at the centre of projection, which is infinitely far away where projection is parallel */
-    shade__light_by(q, shade_mat4_transform(shade_mat4_inverse(m),
-                                            shade_v4(0, 0, 1 - 2 * q->farthest, 0)), 0);
-    shade__whiten(q);
-    front = shade__covered(q);
-    toward = shade__count(q, FLT_MIN);
-    if (!shade__almost_all(q, front, all) || !shade__almost_all(q, front - toward, front))
-        return SHADE__GO_ON;
-    l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* they are not 0 */
-    if (!shade__almost_all(q, shade__count(q, FLT_MIN), front)) return SHADE__GO_ON;
-    l->flags = 0;
-    q->mesh.normals = NULL;
-    return shade__say_if(shade__almost_all(q, shade__count(q, FLT_MIN), front));
-}
-
-static const shade__rung shade__normals[] = {
-    { shade__normals_turned,
-      "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
-      "or reverse the winding." },
-    { NULL, NULL }
-};
-
-/* ---- what is true of the state, whatever the picture is */
-
-static shade__outcome shade__chunks_are_too_few(shade__survey *q)
-{
-    return shade__say_if(shade__chunks_leave_out(q->given_mesh));
-}
-
-static shade__outcome shade__view_scales(shade__survey *q)
-{
-    return shade__say_if(!shade__is_rigid(&q->state.view) &&
-                         !shade__is_rigid(&q->state.projection));
-}
-
-static shade__outcome shade__aspect_is_wrong(shade__survey *q)
-{
-    const shade_mat4 *p = &q->state.projection;
-    const double wide = shade__size((double)p->col[0].x) * q->target->width;
-    const double high = shade__size((double)p->col[1].y) * q->target->height;
-    return shade__say_if(p->col[3].w == 0 && shade__faces_ahead(p) &&
-                         shade__size(wide - high) > 0.03 * wide);
+    int beyond = 0;
+    for (int k = 0; k < m->chunk_count; k++) {
+        const shade_chunk *given = &m->chunks[k];
+        shade_chunk c = *given;
+        shade__box_chunk(m, &c);
+        if (given->low.x <= given->high.x && c.low.x <= c.high.x)
+            beyond |= !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) |
+                      !shade__is_zero(shade_sub(shade_max(c.high, given->high), given->high));
+    }
+    return beyond;
 }
 
 /* The map that the draw reads itself. */
@@ -8815,36 +8828,126 @@ static const shade_texture *shade__map_of(const shade__survey *s)
     return s->target->color && !s->given_state->fragment ? s->given_state->diffuse_map : NULL;
 }
 
-static shade__outcome shade__texcoords_are_none(shade__survey *q)
+/* Does u end where the texels of a row do? */
+static int shade__u_reaches(const shade_mesh *m, int width)
 {
-    return shade__say_if(shade__map_of(q) && !q->mesh.texcoords);
+    const size_t stride = m->texcoord_stride ? (size_t)m->texcoord_stride : 8;
+    float most = 0, u;
+    for (int i = 0; i < m->vertex_count; i++) {
+        SHADE_MEMCPY(&u, (const char *)m->texcoords + (size_t)i * stride, sizeof u);
+        if (u > most) most = u;
+    }
+    return width >= 16 && most >= (float)(width - 1) && most <= (float)width;
 }
 
-static shade__outcome shade__mipmaps_are_none(shade__survey *q)
+static const char *shade__doubt_of_map(const shade__survey *s)
 {
-    const shade_texture *map = shade__map_of(q);
-    return shade__say_if(map && shade_mipmap_count(map->width, map->height) &&
-                         (map->filter == SHADE_FILTER_TRILINEAR || map->mipmap_count) &&
-                         (!map->mipmaps || map->mipmap_count <= 0));
+    const shade_texture *map = shade__map_of(s);
+    if (!map) return NULL;
+    if (!s->mesh.texcoords)
+        return "state.diffuse_map is set while mesh.texcoords is NULL, so that it is not drawn.";
+    if (shade_mipmap_count(map->width, map->height) &&
+        (map->filter == SHADE_FILTER_TRILINEAR || map->mipmap_count) &&
+        (!map->mipmaps || map->mipmap_count <= 0))
+        return "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; "
+               "fill them by shade_build_mipmaps.";
+    if (shade__u_reaches(&s->mesh, map->width))
+        return "mesh.texcoords reach the width of state.diffuse_map: they go from 0 to "
+               "1 over the map, whatever its size.";
+    if (s->target->srgb && !map->srgb && map->format < SHADE_FORMAT_RGBA32F)
+        return "state.diffuse_map.srgb is 0 while target.srgb is set: pictures from files are "
+               "sRGB; set diffuse_map.srgb.";
+    return NULL;
 }
 
-static const shade__rung shade__rest[] = {
-    { shade__chunks_are_too_few, shade__left_out },
-    { shade__view_scales,
-      "state.view scales or shears, but it must only turn and move, as that of "
-      "shade_mat4_look_at does; scale by state.model." },
-    { shade__aspect_is_wrong,
-      "The aspect of state.projection is not that of the picture: pass width / height of the "
-      "target as floats to shade_mat4_perspective." },
-    { shade__texcoords_are_none,
-      "state.diffuse_map is set while mesh.texcoords is NULL, so that it is not drawn." },
-    { shade__mipmaps_are_none,
-      "state.diffuse_map has SHADE_FILTER_TRILINEAR or a mipmap_count, but no mipmaps; fill them "
-      "by shade_build_mipmaps." },
-    { NULL, NULL }
-};
+/* Is the camera's aspect, which is that of rows x and y at right angles to the sight, not the
+   picture's?  The cells of a terminal are twice as high as wide. */
+static int shade__aspect_is_wrong(const shade__survey *s)
+{
+    const shade__camera *c = &s->camera;
+    const double w = s->target->width, h = s->target->height;
+    double x[3], y[3], wide, high;
+    shade__cross3(c->row[0], c->sight, x);
+    shade__cross3(c->row[1], c->sight, y);
+    wide = shade__dot3(x, x) * w * w;
+    high = shade__dot3(y, y) * h * h;
+    if (!shade__faces_ahead(c) || shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
+        (h < 128 && shade__size(wide - 4 * high) < 0.24 * high))
+        return 0;
+    return shade__size(wide - high) > 0.06 * wide;
+}
+
+static const char *shade__doubt_of_view(const shade__survey *s)
+{
+    const shade_mat4 *p = &s->state.projection;
+    if (!shade__is_rigid(&s->state.view) && !shade__is_rigid(p))
+        return "state.view scales or shears, but it must only turn and move, as that of "
+               "shade_mat4_look_at does; scale by state.model.";
+    if (shade__aspect_is_wrong(s))
+        return "The aspect of state.projection is not that of the picture: pass width / height of "
+               "the target as floats to shade_mat4_perspective.";
+    if (s->given_state->view.col[3].w == 0 && p->col[3].w == 0 && shade__eye_inside(s))
+        return "state.view is unset, so that the eye is at the origin, inside of the mesh's box; "
+               "make it with shade_mat4_look_at.";
+    return NULL;
+}
+
+static const char *shade__doubt_of_surface(const shade__survey *s)
+{
+    const shade_draw_state *d = s->given_state;
+    const shade_lighting *l = &d->lighting;
+    const shade_material *m = &s->material;
+    const shade_vec3 e = m->emission;
+    if (!s->target->color || d->fragment) return NULL;
+    if (d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
+        d->raster.blend == SHADE_BLEND_REPLACE)
+        return "state.transparency is stored as alpha and dims nothing, because raster.blend is "
+               "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER.";
+    if (l->light_count <= 0 || l->terms) return NULL;
+    if (l->model <= SHADE_MODEL_PHONG && !shade__is_zero(m->specular)) {
+        if (d->raster.blend == SHADE_BLEND_REPLACE && shade__is_zero(shade_add(m->diffuse, e)))
+            return "state.material.diffuse is 0, so that lamps make nothing but highlights.";
+        if (m->shininess < 1)
+            return "state.material.shininess is below 1, so that highlights cover all that lamps "
+                   "light; 5 is dull, 100 polished (tables from 0 to 1 mean 128 times that).";
+    }
+    if (e.x >= 1 && e.y >= 1 && e.z >= 1 && s->target->format != SHADE_FORMAT_RGBA32F &&
+        l->model < SHADE_MODEL_EMISSIVE && !shade__is_zero(m->diffuse))
+        return "state.material.emission alone makes all white, whatever light arrives: it is what "
+               "the surface sends out, and 0 for most.";
+    return NULL;
+}
+
+static const char *shade__doubt(const shade__survey *s)
+{
+    const shade_target *t = s->target;
+    const shade_raster *r = &s->given_state->raster;
+    const char *why = NULL;
+    if (shade__chunks_leave_out(s->given_mesh)) return shade__left_out;
+    if (shade__boxes_are_small(s->given_mesh)) return shade__wrong_box;
+    if ((t->clip_x > 0 && t->clip_width > shade__max(t->width / 2, t->width - t->clip_x)) ||
+        (t->clip_y > 0 && t->clip_height > shade__max(t->height / 2, t->height - t->clip_y)))
+        return "target.clip_x + clip_width or clip_y + clip_height lies beyond the picture: they "
+               "are sizes, not the other corner.";
+    if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
+        return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
+               "0 to 1; 1e-5 is much.";
+    why = shade__doubt_of_view(s);
+    if (!why) why = shade__doubt_of_map(s);
+    return why ? why : shade__doubt_of_surface(s);
+}
 
 /* ---- the way through the ladders */
+
+static const char *shade__why_black(const shade__survey *seen)
+{
+    shade__survey q = *seen;
+    const char *why;
+    if (shade__black_is_meant(&q)) return NULL;
+    why = shade__climb_on(&q, shade__black);
+    if (!why) why = shade__climb_on(&q, shade__no_lamps);
+    return why ? why : shade__climb_on(&q, shade__unlit);
+}
 
 /* A picture in which the mesh has pixels.  Its light is judged where the library computes it. */
 static const char *shade__why_wrong(const shade__survey *s)
@@ -8852,26 +8955,33 @@ static const char *shade__why_wrong(const shade__survey *s)
     shade__survey seen = *s;
     const char *why = shade__climb(s, shade__picture);
     shade__look_at_seen(&seen);
-    if (why || !s->target->color || s->given_state->fragment || !shade__covered(&seen)) return why;
-    if (!shade__shows_wide(&seen)) return shade__climb_on(&seen, shade__dark);
-    why = shade__climb(&seen, shade__white);
-    if (!why) why = shade__climb_on(&seen, shade__flat);
-    return why ? why : shade__climb(&seen, shade__normals);
+    if (why || !s->target->color || !shade__covered(&seen)) return why;
+    if (s->given_state->fragment) {
+        seen.stored = 1;
+        return seen.exact && !shade__covered(&seen)
+                   ? "state.fragment leaves all pixels of the mesh black: does it "
+                     "write color for each lane?"
+                   : NULL;
+    }
+    if (!shade__shows(&seen)) return shade__why_black(&seen);
+    why = shade__climb(&seen, shade__wrong_light);
+    return why ? why : shade__climb_on(&seen, shade__flat);
 }
 
 static const char *shade__why(const shade__survey *s)
 {
     const int sure = s->given_stats && s->given_stats->fragments > 0;
-    const char *why = shade__climb(s, shade__numbers);
+    const char *why = shade__bad_number(s);
+    shade__survey q = *s;
     if (why) return why;
-    if (!sure && !shade__covered(s)) return shade__climb_on(s, shade__nothing);
+    if (!sure && !shade__covered(s)) return shade__climb_on(&q, shade__nothing);
 
     why = shade__climb(s, shade__test);
     if (!why && !sure) why = shade__climb(s, shade__unseen);
     if (why || (s->given_stats && !sure)) return why;
 
     why = shade__why_wrong(s);
-    return why ? why : shade__climb(s, shade__rest);
+    return why ? why : shade__doubt(s);
 }
 
 /* Says that the clip rectangle is empty; "" where it lies beside the strip. */
@@ -8953,7 +9063,7 @@ static void shade__replay_fragment(const void *uniforms, const shade_fragments *
                                    shade_colors *SHADE_RESTRICT out)
 {
     const shade__replay *r = (const shade__replay *)uniforms;
-    const float black = shade__black_of(r->target);
+    const float black = shade__dim_of(r->target);
     shade__tally *t = r->tally;
     t->fragments += in->count;
     if (!r->pipe.fragment || !(r->target->color || r->pipe.may_discard)) return;

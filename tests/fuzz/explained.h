@@ -1,34 +1,23 @@
-/* explained.h - random draws, and what is wrong with what shade_explain says about them.
+/* explained.h - states of draws, and what is false of what shade_explain says about them.
 
-   Each sentence is held against pictures that are drawn again, whole and by shaders that write what
-   it is about: where it says that there is no light, no pixel may be lit, and where it says that
-   nothing is in view, no pixel may be covered.  Whoever includes this defines explained_pick(n),
-   which gives a number from 0 to n - 1. */
+   claims[] has a row for each sentence: what must be so of the pixels that the picture shows, and
+   the change that the sentence advises.  The change is made, the picture drawn again, and the
+   pixels must change as promised.  Nothing here is known to shade_explain: geometry is computed in
+   double precision, triangle by triangle, and pictures are drawn by the public interface.
+     States are of two kinds.  random: anything goes.  ordinary: a sensible scene, with no, one or
+   two of the mistakes in tests/unit/mistakes.h.
+     Whoever includes this defines explained_pick(n), which gives a number from 0 to n - 1. */
 #ifndef EXPLAINED_H
 #define EXPLAINED_H
 
-#include "examples/shared/teapot.h"
+#include "../unit/mistakes.h"
 
-enum { EX_WIDTH = 40, EX_HEIGHT = 28, EX_PIXELS = EX_WIDTH * EX_HEIGHT, EX_VERTICES = 176,
-       EX_INDICES = 720, EX_LAMPS = 3 };
+enum { EX_WIDTH = 24, EX_HEIGHT = 16, EX_PIXELS = 4 * EX_WIDTH * EX_HEIGHT };
 
 typedef struct explained {
-    shade_target target;
-    shade_mesh mesh;
-    shade_draw_state state;
-    shade_material material;
-    shade_light lamp[EX_LAMPS];
-    shade_texture map;
-    shade_chunk chunk[2];
-    shade_vec3 position[EX_VERTICES], normal[EX_VERTICES], color[EX_VERTICES];
-    shade_vec2 texcoord[EX_VERTICES];
-    uint32_t index[EX_INDICES];
-    uint8_t texel[16];
-    float pixel[4 * EX_PIXELS], depth[EX_PIXELS];
-    float before[EX_PIXELS];               /* depth before the draw */
-    float value[4 * EX_PIXELS], order[EX_PIXELS];    /* of pictures that are drawn again */
-    shade_result result;
-    shade_stats stats;                     /* of the draw */
+    stage s;                     /* as generated */
+    shade_mat4 other;            /* model of the mesh that is drawn before; zero: none is */
+    const char *made[2];         /* mistakes of an ordinary state */
 } explained;
 
 static int ex_one_in(int n) { return explained_pick(n) == n - 1; }
@@ -41,144 +30,156 @@ static shade_vec3 ex_vec3(float low, float high)
     const float x = ex_from(low, high), y = ex_from(low, high);
     return shade_v3(x, y, ex_from(low, high));
 }
+static float ex_most(shade_vec3 c) { return fmaxf(c.x, fmaxf(c.y, c.z)); }
 
-/* ---- random draws ---------------------------------------------------------------------------- */
+/* ---- meshes of both kinds of states ---------------------------------------------------------- */
 
-static void ex_ball(explained *e)
+static void ex_quads(stage *s, const shade_vec3 *corner, int quads)
 {
-    enum { RINGS = 6, SECTORS = 8 };
-    int n = 0;
-    for (int j = 0; j <= RINGS; j++)
-        for (int i = 0; i <= SECTORS; i++) {
-            const float a = (float)(i % SECTORS) * 0.785398f, b = (float)j * 0.523599f;
-            const float r = j % RINGS ? sinf(b) : 0;
-            e->position[j * (SECTORS + 1) + i] = shade_v3(r * sinf(a), cosf(b), r * cosf(a));
-        }
-    for (uint32_t j = 0; j < RINGS; j++)
-        for (uint32_t i = 0; i < SECTORS; i++) {
-            const uint32_t a = j * (SECTORS + 1) + i, b = a + SECTORS + 1;
-            const uint32_t corner[6] = { a, b, b + 1, a, b + 1, a + 1 };
-            memcpy(e->index + n, corner, sizeof corner);
-            n += 6;
-        }
-    e->mesh.vertex_count = (RINGS + 1) * (SECTORS + 1);
-    e->mesh.index_count = n;
+    static const uint32_t two[6] = { 0, 1, 2, 0, 2, 3 };
+    for (int i = 0; i < quads * 4; i++) {
+        const shade_vec3 *q = corner + i / 4 * 4;
+        s->position[i] = corner[i];
+        s->normal[i] = shade_face_normal(q[0], q[1], q[2]);
+        s->texcoord[i] = shade_v2((float)(i >> 1 & 1), (float)((i + 1) >> 1 & 1));
+    }
+    for (int i = 0; i < quads * 6; i++) s->index[i] = two[i % 6] + (uint32_t)(i / 6 * 4);
+    s->mesh.vertex_count = quads * 4;
+    s->mesh.index_count = quads * 6;
 }
-static void ex_floor(explained *e)
+static void ex_floor(stage *s)
 {
     static const shade_vec3 ground[4] = { { -3, 0, 3 }, { 3, 0, 3 }, { 3, 0, -3 }, { -3, 0, -3 } };
-    static const uint32_t corner[6] = { 0, 1, 2, 0, 2, 3 };
-    memcpy(e->position, ground, sizeof ground);
-    memcpy(e->index, corner, sizeof corner);
-    e->mesh.vertex_count = 4;
-    e->mesh.index_count = 6;
+    ex_quads(s, ground, 1);
 }
-static void ex_triangles(explained *e)
+static void ex_box(stage *s)
 {
-    e->mesh.vertex_count = e->mesh.index_count = 3 * (1 + explained_pick(6));
-    for (int i = 0; i < e->mesh.vertex_count; i++) {
-        e->position[i] = ex_vec3(-1.5f, 1.5f);
-        e->index[i] = (uint32_t)i;
+    shade_vec3 corner[24];
+    for (int f = 0; f < 6; f++)
+        for (int k = 0; k < 4; k++) {
+            const float side = f & 1 ? 1.0f : -1.0f, u = k == 1 || k == 2 ? side : -side;
+            const float v = k > 1 ? 1.0f : -1.0f, at[3] = { side, u, v };
+            const int a = f / 2;
+            corner[f * 4 + k] = shade_v3(at[(3 - a) % 3], at[(4 - a) % 3], at[(5 - a) % 3]);
+        }
+    ex_quads(s, corner, 6);
+}
+/* A surface of 4 x 4 squares, open below. */
+static void ex_hills(stage *s)
+{
+    shade_vec3 corner[64];
+    float high[5][5];
+    for (int k = 0; k < 25; k++) high[k / 5][k % 5] = ex_from(-0.4f, 0.4f);
+    for (int k = 0; k < 64; k++) {
+        const int x = k / 4 % 4 + (k % 4 == 1 || k % 4 == 2), z = k / 16 + (k % 4 > 1);
+        corner[k] = shade_v3((float)x - 2, high[z][x], 2 - (float)z);
+    }
+    ex_quads(s, corner, 16);
+}
+static void ex_triangles(stage *s)
+{
+    s->mesh.vertex_count = s->mesh.index_count = 3 * (1 + explained_pick(6));
+    for (int i = 0; i < s->mesh.vertex_count; i++) {
+        s->position[i] = ex_vec3(-1.5f, 1.5f);
+        s->normal[i] = s->position[i];
+        s->texcoord[i] = shade_v2(s->position[i].x, s->position[i].z);
+        s->index[i] = (uint32_t)i;
     }
 }
-static void ex_shape(explained *e)
+static void ex_teapot(stage *s)
 {
-    shade_mesh *m = &e->mesh;
-    const int kind = explained_pick(4);
-    if (kind == 0) ex_floor(e);
-    else if (kind == 1) ex_triangles(e);
-    else ex_ball(e);
-    m->positions = &e->position[0].x;
-    m->indices = e->index;
-    for (int i = 0; i < m->vertex_count; i++)
-        e->normal[i] = kind ? e->position[i] : shade_v3(0, 1, 0);
+    teapot_build(2, &s->position[0].x, &s->normal[0].x, &s->texcoord[0].x, s->index);
+    s->mesh.vertex_count = teapot_vertex_count(2);
+    s->mesh.index_count = teapot_index_count(2);
+    for (int i = 0; i < s->mesh.vertex_count; i++)
+        s->position[i] = shade_scale(shade_sub(s->position[i], shade_v3(0, 1.4f, 0)), 0.4f);
 }
-/* Gives the mesh other arrays, which may be wrong. */
-static void ex_arrays(explained *e)
+static void ex_target(stage *s)
 {
-    shade_mesh *m = &e->mesh;
-    for (int i = 0; i < m->vertex_count; i++)
-        e->texcoord[i] = shade_v2(e->position[i].x, e->position[i].z);
-    if (ex_one_in(16)) e->position[explained_pick(m->vertex_count)].y = NAN;
+    stage_begin(s);
+    s->target.width = EX_WIDTH;
+    s->target.height = EX_HEIGHT;
+    s->target.stride = 0;
+    stage_ball(s, 6, 8);
+}
+
+/* ---- random states --------------------------------------------------------------------------- */
+
+static void ex_random_mesh(stage *s)
+{
+    shade_mesh *m = &s->mesh;
+    const int kind = explained_pick(4);
+    if (kind == 0) ex_floor(s);
+    if (kind == 1) ex_triangles(s);
+    if (ex_one_in(16)) s->position[explained_pick(m->vertex_count)].y = NAN;
     if (ex_one_in(24)) m->index_count = 3;
-    if (ex_one_in(6))
-        for (int i = 0; i < m->index_count; i += 3) {
-            const uint32_t k = e->index[i];
-            e->index[i] = e->index[i + 1];
-            e->index[i + 1] = k;
-        }
-    m->normals = explained_pick(3) ? &e->normal[0].x : NULL;
+    if (ex_one_in(6)) stage_turn(s, 0);
+    if (ex_one_in(3)) m->normals = NULL;
     if (ex_one_in(8)) {
         const float k = ex_one_in(3) ? NAN : -(float)explained_pick(2);
-        for (int i = 0; i < m->vertex_count; i++) e->normal[i] = shade_scale(e->normal[i], k);
+        for (int i = 0; i < m->vertex_count; i++) s->normal[i] = shade_scale(s->normal[i], k);
     }
     if (ex_one_in(4)) {
         const float most = ex_one_in(3) ? 255.0f : (float)explained_pick(2);
-        for (int i = 0; i < m->vertex_count; i++) e->color[i] = ex_vec3(0, most);
-        m->colors = &e->color[0].x;
+        for (int i = 0; i < m->vertex_count; i++) s->color[i] = ex_vec3(0, most);
+        m->colors = &s->color[0].x;
     }
-    if (ex_one_in(3)) m->texcoords = &e->texcoord[0].x;
+    if (ex_one_in(3)) m->texcoords = &s->texcoord[0].x;
     if (ex_one_in(6)) {
-        const int triangles = m->index_count / 3, left = explained_pick(3);
-        m->chunks = e->chunk;
-        m->chunk_count = 2;
-        shade_mesh_chunks(m, (triangles + 1) / 2, e->chunk, 2, NULL);
-        if (triangles < 2) m->chunk_count = 1;
-        if (left == 1) e->chunk[0].count = explained_pick(2);
-        if (left == 2) e->chunk[0].high = e->chunk[0].low = ex_vec3(-4, 4);
+        const int left = explained_pick(3);
+        stage_chunks(s);
+        if (left == 1) s->chunks[0].count = explained_pick(2);
+        if (left == 2) s->chunks[0].high = s->chunks[0].low = ex_vec3(-4, 4);
     }
 }
-
-static void ex_camera(explained *e)
+static void ex_random_camera(stage *s)
 {
-    shade_draw_state *s = &e->state;
-    const shade_vec3 eye = ex_vec3(-4, 4);
-    const float fovy = ex_from(0.3f, 1.2f), aspect = ex_one_in(12) ? 1 : 40 / 28.0f;
-    shade_mat4 *p = &s->projection;
-    s->view = shade_mat4_look_at(eye, ex_vec3(-1, 1), shade_v3(0, 1, 0));
-    *p = shade_mat4_perspective(fovy, aspect, ex_from(0.05f, 2), ex_from(3, 30));
+    shade_draw_state *d = &s->state;
+    shade_mat4 *p = &d->projection;
+    s->eye = ex_vec3(-4, 4);
+    s->center = ex_vec3(-1, 1);
+    s->fovy = ex_from(0.3f, 1.2f);
+    s->aspect = ex_one_in(12) ? 1 : (float)EX_WIDTH / EX_HEIGHT;
+    s->z_near = ex_from(0.05f, 2);
+    s->z_far = ex_from(3, 30);
+    stage_look(s);
     switch (explained_pick(12)) {
-    case 0: *p = shade_mat4_ortho(-3, 3, -2.1f, 2.1f, 0.1f, 9); break;
+    case 0: *p = shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 9); break;
     case 1:
-        *p = shade_mat4_perspective_reversed(fovy, aspect, 0.1f);
-        s->raster.depth_zero_to_one = !ex_one_in(6);
-        s->raster.depth_test = SHADE_COMPARE_GREATER;
+        stage_reverse(s, 0.1f);
+        d->raster.depth_zero_to_one = !ex_one_in(6);
         break;
     case 2:                                /* w = 1 - z/k */
         *p = shade_mat4_identity();
         p->col[2] = shade_v4(0, 0, ex_from(-0.4f, 0), -1 / ex_from(1, 5));
-        if (ex_one_in(2)) memset(&s->view, 0, sizeof s->view);
+        if (ex_one_in(2)) memset(&d->view, 0, sizeof d->view);
         break;
     case 3:
         for (int k = 0; k < 4; k++) p->col[k] = shade_scale4(p->col[k], -1 / p->col[3].z);
         break;
     case 4:
         if (ex_one_in(2)) *p = shade_mat4_transpose(*p);
-        else s->view = shade_mat4_transpose(s->view);
+        else d->view = shade_mat4_transpose(d->view);
         break;
     case 5:
-        if (ex_one_in(2)) s->view = shade_mat4_inverse(s->view);
-        else memset(ex_one_in(2) ? p : &s->view, 0, sizeof *p);
+        if (ex_one_in(2)) d->view = shade_mat4_inverse(d->view);
+        else memset(ex_one_in(2) ? p : &d->view, 0, sizeof *p);
         break;
-    case 6:
-        s->view = shade_mat4_mul(shade_mat4_scaling(ex_vec3(-2, 2)), s->view);
-        break;
+    case 6: d->view = shade_mat4_mul(shade_mat4_scaling(ex_vec3(-2, 2)), d->view); break;
     default: break;
     }
     if (ex_one_in(2)) return;
-    s->model = shade_mat4_rotation(ex_from(-3, 3), ex_vec3(-1, 1));
-    if (ex_one_in(3)) s->model = shade_mat4_mul(s->model, shade_mat4_scaling(ex_vec3(-1.5f, 1.5f)));
-    if (ex_one_in(8)) s->model = shade_mat4_scaling(shade_v3(ex_from(0, 0.04f), 0.02f, 0.02f));
-    if (ex_one_in(8)) s->model = shade_mat4_scaling(shade_v3(1, 0, 1));
-    if (ex_one_in(3)) s->model.col[3] = shade_v4(ex_from(-6, 6), ex_from(-2, 2), ex_from(-9, 9), 1);
+    d->model = shade_mat4_rotation(ex_from(-3, 3), ex_vec3(-1, 1));
+    if (ex_one_in(3)) d->model = shade_mat4_mul(d->model, shade_mat4_scaling(ex_vec3(-1.5f, 1.5f)));
+    if (ex_one_in(8)) d->model = shade_mat4_scaling(shade_v3(ex_from(0, 0.04f), 0.02f, 0.02f));
+    if (ex_one_in(8)) d->model = shade_mat4_scaling(shade_v3(1, 0, 1));
+    if (ex_one_in(3)) d->model.col[3] = shade_v4(ex_from(-6, 6), ex_from(-2, 2), ex_from(-9, 9), 1);
 }
-
-static void ex_lamp(shade_light *l)
+static void ex_random_lamp(shade_light *l)
 {
+    static const float power[6] = { 1, 0.2f, 0.01f, 0, 3, 255 };
     const shade_vec3 at = ex_vec3(-4, 4), aim = ex_vec3(-1, 1);
-    const float power[] = { 1, 0.2f, 0.01f, 0, 3, 255 };
-    const float bright = power[explained_pick(6)];
-    const shade_vec3 color = shade_scale(ex_vec3(0.2f, 1), bright);
+    const shade_vec3 color = shade_scale(ex_vec3(0.2f, 1), power[explained_pick(6)]);
     const int kind = explained_pick(3);
     if (kind == 0) *l = shade_directional_light(aim, color);
     if (kind == 1) *l = shade_point_light(at, color);
@@ -188,76 +189,58 @@ static void ex_lamp(shade_light *l)
     if (ex_one_in(3)) l->quadratic = ex_from(0, ex_one_in(3) ? 300.0f : 2.0f);
     if (ex_one_in(6)) l->linear = ex_from(0, 40);
     if (ex_one_in(8)) l->ambient = ex_vec3(0, 0.2f);
-    if (ex_one_in(8)) l->diffuse = shade_v3(0, 0, 0);
-    if (ex_one_in(6)) l->specular = shade_v3(0, 0, 0);
+    if (ex_one_in(8)) l->diffuse = BLACK;
+    if (ex_one_in(6)) l->specular = BLACK;
 }
-static void ex_light(explained *e)
+static void ex_random_light(stage *s)
 {
-    shade_lighting *l = &e->state.lighting;
-    l->light_count = explained_pick(EX_LAMPS + 1);
-    for (int i = 0; i < EX_LAMPS; i++) ex_lamp(&e->lamp[i]);
-    l->lights = l->light_count || ex_one_in(2) ? e->lamp : NULL;
+    shade_lighting *l = &s->state.lighting;
+    shade_material *m = &s->material;
+    l->light_count = explained_pick(STAGE_LAMPS + 1);
+    for (int i = 0; i < STAGE_LAMPS; i++) ex_random_lamp(&s->lamps[i]);
+    l->lights = l->light_count || ex_one_in(2) ? s->lamps : NULL;
     if (ex_one_in(40)) l->light_count = -1;
     if (ex_one_in(4)) l->ambient = ex_vec3(0, ex_one_in(4) ? 1.5f : 0.2f);
     if (ex_one_in(4)) l->model = (shade_model)explained_pick(6);
     if (ex_one_in(4)) l->flags = (unsigned)explained_pick(64);
     if (ex_one_in(8)) l->terms = (unsigned)explained_pick(16);
-    e->state.shading = (shade_shading)(explained_pick(2) * explained_pick(3));
-    if (ex_one_in(3)) return;
-    e->state.material = &e->material;
-    e->material.diffuse = shade_scale(ex_vec3(0, 1), ex_one_in(4) ? 0.01f : 1.0f);
-    if (explained_pick(3)) e->material.ambient = e->material.diffuse;
-    if (ex_one_in(6)) e->material.diffuse = shade_v3(0, 0, 0);
-    if (ex_one_in(3)) e->material.specular = ex_vec3(0, 0.5f);
-    if (ex_one_in(10)) e->material.emission = ex_vec3(0, 0.5f);
-    e->material.shininess = ex_from(0, 80);
+    s->state.shading = (shade_shading)(explained_pick(2) * explained_pick(3));
+    if (ex_one_in(3)) s->state.material = NULL;
+    m->diffuse = shade_scale(ex_vec3(0, 1), ex_one_in(4) ? 0.01f : 1.0f);
+    if (explained_pick(3)) m->ambient = m->diffuse;
+    if (ex_one_in(6)) m->diffuse = BLACK;
+    if (ex_one_in(3)) m->specular = ex_vec3(0, 0.5f);
+    if (ex_one_in(10)) m->emission = ex_vec3(0, 0.5f);
+    m->shininess = ex_from(0, 80);
 }
-
-static void ex_white(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
-                     shade_colors *SHADE_RESTRICT out)
+static void ex_random_surface(stage *s)
 {
-    const explained *e = (const explained *)uniforms;
-    (void)in;
-    SHADE_EACH_LANE(i) { out->color[0][i] = 1; }
-    SHADE_EACH_LANE(i) { out->discard[i] = e->map.width == 1; }
-}
-static void ex_surface(explained *e)
-{
-    shade_draw_state *s = &e->state;
-    shade_texture *t = &e->map;
+    shade_draw_state *d = &s->state;
+    shade_texture *t = &s->map;
     const int black = ex_one_in(5), clear = ex_one_in(5);
-    for (int k = 0; k < 16; k++) {
-        e->texel[k] = (uint8_t)explained_pick(256);
-        if (k % 4 < 3 ? black : clear) e->texel[k] = (uint8_t)explained_pick(2);
-    }
-    t->pixels = e->texel;
+    for (int k = 0; k < 16; k++)
+        s->texel[k] = (uint8_t)explained_pick((k % 4 < 3 ? black : clear) ? 2 : 256);
     t->width = t->height = 1 + explained_pick(2);
     t->stride = 2;
+    t->srgb = explained_pick(2);
     if (ex_one_in(8)) t->filter = SHADE_FILTER_TRILINEAR;
     if (ex_one_in(16)) t->mipmap_count = 1;
-    if (ex_one_in(3)) s->diffuse_map = t;
-    if (ex_one_in(5)) s->transparency = ex_one_in(4) ? 1 : ex_from(0, 1);
-    if (ex_one_in(8)) s->alpha_cutoff = ex_from(0, 1);
-    s->raster.cull = (shade_cull)(explained_pick(2) * explained_pick(3));
-    if (ex_one_in(6)) s->raster.depth_test = (shade_compare)explained_pick(6);
-    if (ex_one_in(3)) s->raster.blend = (shade_blend)explained_pick(3);
-    if (ex_one_in(6)) s->raster.depth_read_only = 1;
-    if (ex_one_in(10)) s->raster.depth_bias = ex_from(-1, 1);
-    if (ex_one_in(24)) {
-        s->fragment = ex_white;
-        s->uniforms = e;
-        s->shading = SHADE_SHADING_PER_FRAGMENT;
-    }
+    if (ex_one_in(3)) d->diffuse_map = t;
+    if (ex_one_in(5)) d->transparency = ex_one_in(4) ? 1 : ex_from(0, 1);
+    if (ex_one_in(8)) d->alpha_cutoff = ex_from(0, 1);
+    d->raster.cull = (shade_cull)(explained_pick(2) * explained_pick(3));
+    if (ex_one_in(6)) d->raster.depth_test = (shade_compare)explained_pick(6);
+    if (ex_one_in(3)) d->raster.blend = (shade_blend)explained_pick(3);
+    if (ex_one_in(6)) d->raster.depth_read_only = 1;
+    if (ex_one_in(10)) d->raster.depth_bias = ex_from(-1, 1);
+    if (explained_pick(24)) return;
+    d->fragment = ex_one_in(2) ? shader_white : ex_one_in(2) ? shader_black : shader_that_discards;
+    d->shading = SHADE_SHADING_PER_FRAGMENT;
 }
-
-static void ex_target(explained *e)
+static void ex_random_target(stage *s)
 {
-    shade_target *t = &e->target;
-    t->width = EX_WIDTH;
-    t->height = EX_HEIGHT;
-    t->color = e->pixel;
-    t->depth = e->depth;
-    t->format = ex_one_in(3) ? (shade_format)explained_pick(5) : SHADE_FORMAT_RGBA8;
+    shade_target *t = &s->target;
+    if (ex_one_in(3)) t->format = (shade_format)explained_pick(5);
     t->srgb = explained_pick(2);
     t->dither = ex_one_in(4);
     if (ex_one_in(6)) t->depth = NULL;
@@ -265,467 +248,408 @@ static void ex_target(explained *e)
     if (ex_one_in(6)) {                    /* a band */
         t->clip_y = explained_pick(EX_HEIGHT);
         t->clip_width = EX_WIDTH;
-        t->clip_height = 1 + explained_pick(12);
+        t->clip_height = 1 + explained_pick(9);
     } else if (ex_one_in(8)) {
         t->clip_x = explained_pick(EX_WIDTH);
         t->clip_y = explained_pick(EX_HEIGHT);
-        t->clip_width = 1 + explained_pick(20);
-        t->clip_height = 1 + explained_pick(20);
+        t->clip_width = 1 + explained_pick(14);
+        t->clip_height = 1 + explained_pick(14);
     } else if (ex_one_in(8)) {             /* a strip */
         t->row_offset = explained_pick(EX_HEIGHT);
         t->row_count = 1 + explained_pick(EX_HEIGHT - t->row_offset);
     }
 }
-
-/* The first program of the README, with the teapot of few triangles. */
-static void ex_first_program(explained *e)
+static void ex_random(explained *e)
 {
-    shade_draw_state *s = &e->state;
-    shade_target *t = &e->target;
-    teapot_build(2, &e->position[0].x, &e->normal[0].x, NULL, e->index);
-    e->mesh.positions = &e->position[0].x;
-    e->mesh.normals = &e->normal[0].x;
-    e->mesh.indices = e->index;
-    e->mesh.vertex_count = teapot_vertex_count(2);
-    e->mesh.index_count = teapot_index_count(2);
-    e->lamp[0] = shade_point_light(shade_v3(4, 6, 5), shade_v3(1, 1, 1));
-    e->material = shade_linear_material(shade_preset_material(SHADE_PRESET_GOLD));
-    s->view = shade_mat4_look_at(shade_v3(0, 4, 8), shade_v3(0, 1.4f, 0), shade_v3(0, 1, 0));
-    s->projection = shade_mat4_perspective(0.7f, 40 / 28.0f, 0.1f, 100);
-    s->material = &e->material;
-    s->lighting.lights = e->lamp;
-    s->lighting.light_count = 1;
-    t->width = EX_WIDTH;
-    t->height = EX_HEIGHT;
-    t->color = e->pixel;
-    t->depth = e->depth;
-    t->srgb = 1;
-}
-static void ex_state(explained *e, int first)
-{
-    memset(e, 0, sizeof *e);
-    if (first) ex_first_program(e);
-    else ex_shape(e);
-    if (!first || ex_one_in(5)) ex_arrays(e);
-    if (!first || ex_one_in(5)) ex_camera(e);
-    if (!first || ex_one_in(5)) ex_light(e);
-    if (!first || ex_one_in(5)) ex_surface(e);
-    if (!first || ex_one_in(5)) ex_target(e);
+    stage *s = &e->s;
+    memset(&e->other, 0, sizeof e->other);
+    e->made[0] = e->made[1] = "";
+    ex_target(s);
+    ex_random_mesh(s);
+    ex_random_camera(s);
+    ex_random_light(s);
+    ex_random_surface(s);
+    ex_random_target(s);
+    if (s->state.raster.depth_test == SHADE_COMPARE_GREATER) s->clear = 0;
+    if (ex_one_in(16)) s->clear = (float)explained_pick(3) / 2;
+    if (ex_one_in(6)) e->other = shade_mat4_translation(ex_vec3(-2, 2));
 }
 
-/* Draws anything, or the first program with some of its fields changed, after another mesh at
-   times. */
-static void ex_draw(explained *e, int first)
+/* ---- ordinary states ------------------------------------------------------------------------- */
+
+/* A scene that a newcomer may well write: a mesh in the middle of the picture, a camera outside of
+   it, a lamp or two on the camera's side. */
+static void ex_sensible(explained *e)
 {
-    float clear;
-    ex_state(e, first);
-    clear = e->state.raster.depth_test == SHADE_COMPARE_GREATER ? 0.0f : 1.0f;
-    if (ex_one_in(16)) clear = (float)explained_pick(3) / 2;
-    for (int i = 0; i < EX_PIXELS; i++) e->depth[i] = clear;
-    if (ex_one_in(6)) {
-        shade_draw_state other = e->state;
-        other.model = shade_mat4_translation(ex_vec3(-2, 2));
-        shade_draw_mesh(&e->target, &e->mesh, &other, NULL);
+    stage *s = &e->s;
+    shade_draw_state *d = &s->state;
+    const int shape = explained_pick(5);
+    const float around = ex_from(-3, 3), away = ex_from(5, 8), high = ex_from(0.3f, 0.9f);
+    const float beside = around + ex_from(-0.7f, 0.7f), bright = ex_from(0.5f, 1);
+    memset(&e->other, 0, sizeof e->other);
+    e->made[0] = e->made[1] = "";
+    ex_target(s);
+    if (shape == 1) ex_box(s);
+    if (shape == 2) ex_floor(s);
+    if (shape == 3) ex_hills(s);
+    if (shape == 4) ex_teapot(s);
+    s->target.srgb = !ex_one_in(4);
+    if (ex_one_in(6)) s->target.format = (shade_format)explained_pick(4);
+    if (ex_one_in(4)) s->mesh.normals = NULL;
+    if (ex_one_in(6)) stage_chunks(s);
+    if (ex_one_in(4)) s->mesh.colors = &s->color[0].x;
+    if (ex_one_in(4)) stage_map(s);
+    s->eye = shade_scale(shade_v3(sinf(around), high, cosf(around)), away);
+    s->center = ex_vec3(-0.2f, 0.2f);
+    s->fovy = ex_from(0.6f, 0.9f);
+    s->aspect = (float)EX_WIDTH / EX_HEIGHT;
+    s->z_near = ex_from(0.05f, 0.5f);
+    s->z_far = ex_from(20, 200);
+    stage_look(s);
+    if (ex_one_in(8)) stage_reverse(s, s->z_near);
+    else if (ex_one_in(8)) d->projection = shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 20);
+    if (ex_one_in(3)) d->model = shade_mat4_rotation(ex_from(-3, 3), shade_v3(0, 1, 0));
+    s->lamps[0] = shade_point_light(shade_scale(shade_v3(sinf(beside), 1, cosf(beside)), away),
+                                    shade_v3(bright, bright, bright));
+    if (ex_one_in(3))
+        s->lamps[0] = shade_directional_light(shade_v3(-sinf(beside), -1, -cosf(beside)),
+                                              shade_v3(bright, bright, bright));
+    d->lighting.light_count = 1 + ex_one_in(4);
+    s->lamps[1] = shade_directional_light(shade_v3(0.3f, -1, 0.2f), shade_v3(0.3f, 0.3f, 0.4f));
+    if (ex_one_in(2)) d->lighting.ambient = shade_scale(shade_v3(1, 1, 1), ex_from(0.05f, 0.2f));
+    if (ex_one_in(6)) d->lighting.model = (shade_model)explained_pick(3);
+    d->shading = (shade_shading)(explained_pick(2) * explained_pick(3));
+    if (ex_one_in(4)) d->material = NULL;
+    s->material.ambient = s->material.diffuse = ex_vec3(0.3f, 0.9f);
+    if (ex_one_in(2)) s->material.specular = shade_v3(0.3f, 0.3f, 0.3f);
+    s->material.shininess = ex_from(8, 60);
+    if (shape != 2 && shape != 3 && ex_one_in(3)) d->raster.cull = SHADE_CULL_BACK;
+}
+static void ex_ordinary(explained *e)
+{
+    const int wrong = explained_pick(3);
+    int of_anybody = 0;          /* they come first in the table */
+    while (mistakes[of_anybody].scenes & ON_TEAPOT) of_anybody++;
+    ex_sensible(e);
+    for (int k = 0; k < wrong; k++) {
+        const mistake *m = &mistakes[explained_pick(of_anybody)];
+        e->made[k] = m->name;
+        m->make(&e->s);
     }
-    memset(e->pixel, 0, sizeof e->pixel);
-    memcpy(e->before, e->depth, sizeof e->before);
-    e->result = shade_draw_mesh(&e->target, &e->mesh, &e->state, &e->stats);
 }
 
-/* ---- pictures that are drawn again ----------------------------------------------------------- */
+/* ---- pictures -------------------------------------------------------------------------------- */
 
-/* How many pixels of the picture are lit, and how many of them have a channel at its end. */
-static int ex_lit(const explained *e, int *clipped)
-{
-    const shade_target *t = &e->target;
-    int lit = 0;
-    *clipped = 0;
-    for (int i = 0; i < EX_PIXELS && t->color; i++) {
-        const uint8_t *b = (const uint8_t *)e->pixel + 4 * i;
-        uint16_t two;
-        memcpy(&two, (const uint8_t *)e->pixel + 2 * i, 2);
-        if (t->format == SHADE_FORMAT_RGB565_SWAPPED) two = (uint16_t)(two >> 8 | two << 8);
-        if (t->format == SHADE_FORMAT_RGBA32F)
-            lit += e->pixel[4 * i] > 0 || e->pixel[4 * i + 1] > 0 || e->pixel[4 * i + 2] > 0;
-        else if (t->format >= SHADE_FORMAT_RGB565) {
-            lit += two != 0;
-            *clipped += (two & 31) == 31 || (two >> 5 & 63) == 63 || two >> 11 == 31;
-        } else {
-            lit += b[0] || b[1] || b[2];
-            *clipped += b[0] == 255 || b[1] == 255 || b[2] == 255;
-        }
-    }
-    return lit;
-}
-
-/* Draws the mesh again onto black, with these states and the depth of before. */
-static int ex_lit_again(const explained *e, const shade_mesh *mesh, const shade_draw_state *state,
-                        int whole)
-{
-    static explained again;
-    shade_target *t = &again.target;
-    int clipped;
-    again = *e;
-    memset(again.pixel, 0, sizeof again.pixel);
-    memcpy(again.depth, e->before, sizeof again.depth);
-    t->color = again.pixel;
-    if (e->target.depth) t->depth = again.depth;
-    if (whole) {
-        t->depth = NULL;
-        t->row_offset = t->row_count = t->clip_x = t->clip_y = t->clip_width = t->clip_height = 0;
-    }
-    shade_draw_mesh(t, mesh, state, NULL);
-    return ex_lit(&again, &clipped);
-}
-
-/* What is changed, one after the other, until a black mesh is lit. */
-enum ex_cure { EX_EACH, EX_TERMS, EX_COLORS, EX_MATERIAL, EX_SIDES, EX_DISTANCE };
-
-/* With all changes up to this one, does any fragment of the whole picture have light?  Those of one
-   pixel are added, so that none hides another. */
-static int ex_helps(const explained *e, enum ex_cure cure)
-{
-    static const shade_material white = { .ambient = { 1, 1, 1 }, .diffuse = { 1, 1, 1 },
-                                          .specular = { 1, 1, 1 } };    /* the widest highlight */
-    shade_mesh mesh = e->mesh;
-    shade_draw_state s = e->state;
-    shade_texture map = e->map;
-    shade_light lamp[EX_LAMPS];
-    uint8_t texel[16];
-    memcpy(lamp, e->lamp, sizeof lamp);
-    memcpy(texel, e->texel, sizeof texel);
-    for (int k = 0; k < 16; k++) texel[k] = k % 4 == 3 || cure >= EX_COLORS ? 255 : texel[k];
-    map.pixels = texel;
-    if (s.diffuse_map) s.diffuse_map = &map;
-    s.transparency = s.alpha_cutoff = 0;
-    s.lighting.lights = lamp;
-    s.raster.blend = SHADE_BLEND_ADD;
-    s.shading = SHADE_SHADING_PER_FRAGMENT;
-    if (cure > EX_EACH && e->state.shading == SHADE_SHADING_PER_FACE) mesh.normals = NULL;
-    if (cure >= EX_TERMS) {
-        if (s.lighting.model > SHADE_MODEL_PHONG) s.lighting.model = SHADE_MODEL_BLINN_PHONG;
-        s.lighting.terms = 0;
-    }
-    if (cure >= EX_COLORS) mesh.colors = NULL;
-    if (cure >= EX_MATERIAL) s.material = s.material ? &white : NULL;
-    if (cure >= EX_SIDES) s.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    for (int k = 0; k < EX_LAMPS; k++) {
-        shade_light *l = &lamp[k];
-        if (cure >= EX_DISTANCE) l->constant = l->linear = l->quadratic = l->spot_exponent = 0;
-    }
-    return ex_lit_again(e, &mesh, &s, 1);
-}
-
-/* The stats of a draw of depth alone, where each fragment passes: of the whole picture or of the
-   clip rectangle. */
-static shade_stats ex_cover(explained *e, const shade_mesh *mesh, const shade_draw_state *state,
-                            int whole)
-{
-    shade_target t = e->target;
-    shade_draw_state s = *state;
+typedef struct picture {
+    shade_result result;
     shade_stats stats;
-    t.color = NULL;
-    t.depth = e->order;
-    if (whole) t.row_offset = t.row_count = t.clip_x = t.clip_y = t.clip_width = t.clip_height = 0;
-    s.raster.depth_test = SHADE_COMPARE_ALWAYS;
-    if (s.fragment) s.alpha_cutoff = 0;
-    s.fragment = NULL;
-    shade_draw_mesh(&t, mesh, &s, &stats);
-    return stats;
+    int width, height;
+    int bright, white, sum;      /* pixels beyond 8 of 255, and with a channel at its end */
+    unsigned char code[EX_PIXELS][3];    /* of 255 */
+} picture;
+
+/* A pointer into one stage, into the copy of that stage. */
+#define EX_MOVE(p)                                                                              \
+    do {                                                                                        \
+        const char *at = (const char *)(p), *start = (const char *)in;                          \
+        if (at >= start && at < start + sizeof *in) (p) = (void *)((char *)out + (at - start)); \
+    } while (0)
+static void ex_copy(const stage *in, stage *out)
+{
+    shade_mesh *m = &out->mesh;
+    shade_draw_state *d = &out->state;
+    memcpy(out, in, offsetof(stage, pixels));
+    EX_MOVE(out->target.color);
+    EX_MOVE(out->target.depth);
+    EX_MOVE(m->positions);
+    EX_MOVE(m->normals);
+    EX_MOVE(m->texcoords);
+    EX_MOVE(m->colors);
+    EX_MOVE(m->indices);
+    EX_MOVE(m->chunks);
+    EX_MOVE(d->material);
+    EX_MOVE(d->lighting.lights);
+    EX_MOVE(d->diffuse_map);
+    EX_MOVE(out->map.pixels);
+}
+/* The buffers as they are before the draw; draws 0: after a clear. */
+static void ex_prepare(const explained *e, stage *s)
+{
+    const float clear = s->clear == s->clear ? s->clear : 0;
+    for (int i = 0; i < EX_PIXELS; i++) s->depth[i] = clear;
+    memset(s->pixels, 0, sizeof(float) * 4 * EX_PIXELS);
+    if (e->other.col[3].w != 0 && s->draws) {
+        const shade_mat4 model = s->state.model;
+        s->state.model = e->other;
+        shade_draw_mesh(&s->target, &s->mesh, &s->state, NULL);
+        s->state.model = model;
+        memset(s->pixels, 0, sizeof(float) * 4 * EX_PIXELS);
+    }
+    for (int k = 1; k < s->draws; k++) shade_draw_mesh(&s->target, &s->mesh, &s->state, NULL);
+}
+/* The codes of a pixel.  Floats are scaled by whoever shows them: any light is bright. */
+static void ex_codes(const stage *s, int i, unsigned char *code)
+{
+    const uint8_t *b = (const uint8_t *)s->pixels + 4 * i;
+    uint16_t two;
+    memcpy(&two, (const uint8_t *)s->pixels + 2 * i, 2);
+    switch (s->target.format) {
+    case SHADE_FORMAT_RGBA32F:
+        for (int k = 0; k < 3; k++) {
+            const float v = s->pixels[4 * i + k];
+            code[k] = v > 0 ? (unsigned char)(9 + 246 * fminf(v, 1)) : 0;
+        }
+        return;
+    case SHADE_FORMAT_RGB565: case SHADE_FORMAT_RGB565_SWAPPED:
+        if (s->target.format == SHADE_FORMAT_RGB565_SWAPPED) two = (uint16_t)(two >> 8 | two << 8);
+        code[0] = (unsigned char)((two >> 11) * 255 / 31);
+        code[1] = (unsigned char)((two >> 5 & 63) * 255 / 63);
+        code[2] = (unsigned char)((two & 31) * 255 / 31);
+        return;
+    default: memcpy(code, b, 3);
+    }
+}
+static int ex_is_bright(const unsigned char *code)
+{
+    return code[0] > 8 || code[1] > 8 || code[2] > 8;
+}
+static void ex_draw(const explained *e, stage *s, picture *p)
+{
+    const int pixels = s->target.width * s->target.height;
+    ex_prepare(e, s);
+    memset(&p->stats, 0, sizeof p->stats);
+    p->result = s->no_target || s->no_mesh || s->no_state
+                    ? SHADE_ERROR_ARGUMENT
+                    : shade_draw_mesh(&s->target, &s->mesh, &s->state, &p->stats);
+    p->width = s->target.width;
+    p->height = s->target.height;
+    p->bright = p->white = p->sum = 0;
+    for (int i = 0; i < pixels && i < EX_PIXELS; i++) {
+        unsigned char *c = p->code[i];
+        ex_codes(s, i, c);
+        if (!s->target.color) c[0] = c[1] = c[2] = 0;
+        p->bright += ex_is_bright(c);
+        p->white += c[0] == 255 || c[1] == 255 || c[2] == 255;
+        p->sum += c[0] + c[1] + c[2];
+    }
 }
 
-/* What shaders write about a fragment: depth, and 2 more where the normal is no direction; facing,
-   and 2 more where the normal turns away from the eye; 1 and the alpha of the texel, negative where
-   no cone holds the point; 1, and more where light is on the side of the normal. */
-typedef struct ex_asked {
-    const explained *e;
-    shade_vec3 eye;
-    int holes;              /* are texels below the cut-off left out? */
-} ex_asked;
-static shade_mat4 ex_or_identity(shade_mat4 m)
-{
-    for (int k = 0; k < 4; k++) {
-        const shade_vec4 c = m.col[k];
-        if (c.x != 0 || c.y != 0 || c.z != 0 || c.w != 0) return m;
-    }
-    return shade_mat4_identity();
-}
-static int ex_is_greater(const shade_draw_state *s)
-{
-    return s->raster.depth_test == SHADE_COMPARE_GREATER ||
-           s->raster.depth_test == SHADE_COMPARE_GREATER_EQUAL;
-}
-/* The centre of projection.  Of parallel rays it is far away, on the side whose depths the test
-   takes for near. */
-static shade_vec3 ex_eye(const explained *e)
-{
-    const shade_draw_state *s = &e->state;
-    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->projection), ex_or_identity(s->view));
-    const float toward = e->target.depth && ex_is_greater(s) ? 1.0f : -1.0f;
-    const shade_vec4 at = shade_mat4_transform(shade_mat4_inverse(m), shade_v4(0, 0, toward, 0));
-    const float scale = at.w == 0 ? 1e6f : 1 / at.w;
-    return shade_v3(at.x * scale, at.y * scale, at.z * scale);
-}
+/* ---- what a picture shows -------------------------------------------------------------------- */
+
+/* Of a pixel: the triangle, its side, the point on it and its normal in world space. */
+typedef struct shown { int place, triangle, front; shade_vec3 point, normal; } shown;
+typedef struct geometry {
+    int count;
+    shown at[EX_PIXELS];         /* the first count */
+} geometry;
+
+/* Writes the point and, from 1 on, the triangle; or the normal and the side. */
+typedef struct ex_asked { const stage *s; int first, map; } ex_asked;
 static void ex_write(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                      shade_colors *SHADE_RESTRICT out)
 {
     const ex_asked *a = (const ex_asked *)uniforms;
-    const shade_draw_state *s = &a->e->state;
-    const shade_lighting *l = &s->lighting;
-    const int mapped = s->diffuse_map && a->e->mesh.texcoords;
+    const shade_draw_state *d = &a->s->state;
     float texel[4 * SHADE_LANES];
-    if (mapped)
-        shade_sample_lanes(s->diffuse_map, in->varying[SHADE_VARYING_TEXCOORD],
-                           in->varying[SHADE_VARYING_TEXCOORD + 1],
-                           s->diffuse_map->mipmap_count ? in->lod : NULL, texel);
+    if (a->map)
+        shade_sample_lanes(d->diffuse_map, in->varying[SHADE_VARYING_TEXCOORD],
+                           in->varying[SHADE_VARYING_TEXCOORD + 1], in->lod, texel);
     for (int i = 0; i < in->count; i++) {
-        const shade_vec3 p = shade_v3(in->varying[0][i], in->varying[1][i], in->varying[2][i]);
-        const shade_vec3 n = shade_v3(in->varying[3][i], in->varying[4][i], in->varying[5][i]);
-        const float alpha = mapped ? texel[3 * SHADE_LANES + i] : 1;
-        float cone = 0, before = 0;
-        for (int k = 0; k < l->light_count; k++) {
-            shade_light lamp = l->lights[k];
-            shade_vec3 to;
-            const float most = shade_light_at(&lamp, p, &to, NULL) *
-                               (lamp.diffuse.x + lamp.diffuse.y + lamp.diffuse.z);
-            if (most * shade_dot(shade_normalize(n), to) > before)
-                before = most * shade_dot(shade_normalize(n), to);
-            lamp.constant = lamp.linear = lamp.quadratic = lamp.spot_exponent = 0;
-            if (most > 0 && shade_light_at(&lamp, p, NULL, NULL) > 0) cone = 1;
+        const float alpha = (a->map ? texel[3 * SHADE_LANES + i] : 1) * (1 - d->transparency);
+        for (int k = 0; k < 3; k++) out->color[k][i] = in->varying[a->first + k][i];
+        out->color[3][i] = (float)(a->first ? in->front[i] : in->primitive[i] + 1);
+        if (!d->fragment && alpha < d->alpha_cutoff) out->discard[i] = 1;
+    }
+}
+/* What a draw shows: with test -1 as the picture has it, else of the whole picture with this depth
+   test. */
+static void ex_look(const explained *e, const stage *given, int test, geometry *g)
+{
+    static stage s;
+    static float point[4 * EX_PIXELS];
+    shade_target *t = &s.target;
+    for (int pass = 0; pass < 2; pass++) {
+        const ex_asked asked = { given, pass ? SHADE_VARYING_NORMAL : SHADE_VARYING_POSITION,
+                                 given->state.diffuse_map && given->mesh.texcoords };
+        ex_copy(given, &s);
+        t->color = s.pixels;
+        if (test >= 0) {
+            t->clip_x = t->clip_y = t->clip_width = t->clip_height = 0;
+            t->row_offset = t->row_count = 0;
+            t->depth = s.depth;
+            s.state.raster.depth_test = (shade_compare)test;
+            s.state.raster.depth_bias = 0;
+            s.state.raster.depth_read_only = 0;
+            s.clear = test >= SHADE_COMPARE_GREATER ? 0.0f : 1.0f;
+            s.draws = 0;
         }
-        out->color[0][i] = in->z[i] + (shade_length(n) > 0 ? 0.0f : 2.0f);
-        out->color[1][i] = (float)in->front[i] +
-                           (shade_dot(n, shade_sub(a->eye, p)) < 0 ? 2.0f : 0.0f);
-        out->color[2][i] = cone > 0 ? 1 + alpha : -1 - alpha;
-        out->color[3][i] = 1 + before;
-        if (a->holes && !(alpha * (1 - s->transparency) >= s->alpha_cutoff))
-            out->color[3][i] = 0;
+        ex_prepare(e, &s);
+        t->format = SHADE_FORMAT_RGBA32F;
+        s.state.raster.blend = SHADE_BLEND_REPLACE;
+        if (s.state.shading == SHADE_SHADING_PER_FACE) s.mesh.normals = NULL;
+        s.state.shading = SHADE_SHADING_PER_FRAGMENT;
+        s.state.fragment = ex_write;
+        s.state.uniforms = &asked;
+        s.state.alpha_cutoff = s.state.transparency = 0;
+        memset(s.pixels, 0, sizeof(float) * 4 * EX_PIXELS);
+        shade_draw_mesh(t, &s.mesh, &s.state, NULL);
+        if (!pass) memcpy(point, s.pixels, sizeof point);
     }
-}
-/* Draws that into value; alpha is 0 where nothing is drawn.  As the draw saw its depth, or with
-   tested in the whole picture, where LESS (1), GREATER (2) or no test (0) decides. */
-static void ex_values(explained *e, shade_cull cull, int tested)
-{
-    shade_target t = e->target;
-    shade_draw_state s = e->state;
-    ex_asked asked;
-    asked.e = e;
-    asked.eye = ex_eye(e);
-    memset(e->value, 0, sizeof e->value);
-    t.format = SHADE_FORMAT_RGBA32F;
-    t.color = e->value;
-    for (int i = 0; i < EX_PIXELS; i++) e->order[i] = tested == 2 ? 0.0f : 1.0f;
-    if (tested < 0) memcpy(e->order, e->before, sizeof e->order);
-    if (e->target.depth || tested > 0) t.depth = e->order;
-    if (tested >= 0) {
-        t.row_offset = t.row_count = t.clip_x = t.clip_y = t.clip_width = t.clip_height = 0;
-        s.raster.depth_test = tested == 2 ? SHADE_COMPARE_GREATER_EQUAL : SHADE_COMPARE_LESS_EQUAL;
-        s.raster.depth_read_only = 0;
-        s.raster.depth_bias = 0;
-        if (!tested) s.raster.depth_test = SHADE_COMPARE_ALWAYS;
-    }
-    s.raster.cull = cull;
-    s.raster.blend = SHADE_BLEND_REPLACE;
-    asked.holes = tested <= 0 && s.alpha_cutoff > 0 && !s.fragment;
-    s.transparency = 0;
-    s.alpha_cutoff = asked.holes ? 0.5f : 0.0f;
-    s.shading = SHADE_SHADING_PER_FRAGMENT;
-    s.fragment = ex_write;
-    s.uniforms = &asked;
-    shade_draw_mesh(&t, &e->mesh, &s, NULL);
-}
-
-/* ---- what each sentence must mean ------------------------------------------------------------ */
-
-/* A corner of the mesh in clip space that is on the other side of a plane: 0 for far, 1 for w. */
-static int ex_corner_inside(const explained *e, int plane)
-{
-    const shade_mat4 model = ex_or_identity(e->state.model);
-    const shade_mat4 m = ex_or_identity(e->state.projection);
-    const shade_mat4 view = ex_or_identity(e->state.view);
-    for (int i = 0; i < e->mesh.index_count; i++) {
-        const shade_vec3 p = e->position[e->index[i]];
-        shade_vec4 c = shade_mat4_transform(model, shade_v4(p.x, p.y, p.z, 1));
-        c = shade_mat4_transform(m, shade_mat4_transform(view, c));
-        if (plane == 0 && c.z < c.w - 1e-4f) return 1;
-        if (plane == 1 && c.w > 1e-4f) return 1;
-    }
-    return 0;
-}
-
-/* The part of the pixels of value of which a bit is right: at least so many eighths. */
-static int ex_part(const explained *e, int (*right)(const float *), int eighths)
-{
-    int all = 0, n = 0;
+    g->count = 0;
     for (int i = 0; i < EX_PIXELS; i++) {
-        if (e->value[4 * i + 3] == 0) continue;
-        all++;
-        n += right(e->value + 4 * i);
+        const float *p = point + 4 * i, *n = s.pixels + 4 * i;
+        shown *at = &g->at[g->count];
+        if (p[3] == 0) continue;
+        at->place = i;
+        at->triangle = (int)p[3] - 1;
+        at->front = n[3] != 0;
+        at->point = shade_v3(p[0], p[1], p[2]);
+        at->normal = shade_normalize(shade_v3(n[0], n[1], n[2]));
+        g->count++;
     }
-    return n && n * 8 >= all * eighths;
 }
-static int ex_is_turned(const float *v) { return v[1] == 3; }
-static int ex_has_normal(const float *v) { return v[0] < 2; }
-static int ex_in_cone(const float *v) { return v[2] > 0; }
-static int ex_before_lamp(const float *v) { return v[3] > 1.3f; }
 
+/* ---- corners in double precision ------------------------------------------------------------- */
+
+static uint32_t ex_vertex(const shade_mesh *m, int corner)
+{
+    return m->indices ? m->indices[corner] : (uint32_t)corner;
+}
+static int ex_corners(const shade_mesh *m) { return m->indices ? m->index_count : m->vertex_count; }
+static const float *ex_position(const shade_mesh *m, int corner)
+{
+    const int stride = m->position_stride ? m->position_stride : 12;
+    const char *p = (const char *)m->positions + (size_t)ex_vertex(m, corner) * (size_t)stride;
+    return (const float *)(const void *)p;
+}
+static shade_mat4 ex_or_identity(shade_mat4 m)
+{
+    for (int k = 0; k < 16; k++)
+        if ((&m.col[k / 4].x)[k % 4] != 0) return m;
+    return shade_mat4_identity();
+}
+static void ex_transform(shade_mat4 m, const double in[4], double out[4])
+{
+    m = ex_or_identity(m);
+    for (int r = 0; r < 4; r++) {
+        out[r] = 0;
+        for (int k = 0; k < 4; k++) out[r] += (double)(&m.col[k].x)[r] * in[k];
+    }
+}
+static void ex_clip(const stage *s, int corner, double world[4], double clip[4])
+{
+    const float *p = ex_position(&s->mesh, corner);
+    const double at[4] = { (double)p[0], (double)p[1], (double)p[2], 1 };
+    double eye[4];
+    ex_transform(s->state.model, at, world);
+    ex_transform(s->state.view, world, eye);
+    ex_transform(s->state.projection, eye, clip);
+}
+
+/* ---- what must be so of the pixels shown ----------------------------------------------------- */
+
+/* All that rows are judged by. */
+typedef struct judged {
+    const explained *e;
+    const picture *drawn;        /* as it was */
+    geometry shown, all;         /* what the picture shows; without culling, the nearest of all */
+    shade_vec3 eye;              /* centre of projection, or far away on its side */
+    int nearer_is_greater;       /* in depth */
+} judged;
+typedef int so(const judged *);
+
+static int ex_is_greater(const shade_draw_state *d)
+{
+    return d->raster.depth_test == SHADE_COMPARE_GREATER ||
+           d->raster.depth_test == SHADE_COMPARE_GREATER_EQUAL;
+}
 /* Is the nearer of two points, along some ray, the one of greater depth? */
-static int ex_near_is_greater(const explained *e)
+static int ex_near_is_greater(const stage *s)
 {
-    for (float z = -64; z <= 64; z += 0.25f) {
-        const shade_vec4 a = shade_mat4_transform(e->state.projection, shade_v4(0, 0, z, 1));
-        const shade_vec4 b = shade_mat4_transform(e->state.projection, shade_v4(0, 0, 2 * z, 1));
-        if (a.w > 0 && b.w > a.w) return b.z / b.w < a.z / a.w;
+    for (double z = -64; z <= 64; z += 0.25) {
+        const double near[4] = { 0, 0, z, 1 }, far[4] = { 0, 0, 2 * z, 1 };
+        double a[4], b[4];
+        ex_transform(s->state.projection, near, a);
+        ex_transform(s->state.projection, far, b);
+        if (a[3] > 0 && b[3] > a[3]) return b[2] / b[3] < a[2] / a[3];
     }
     return 0;
 }
-static int ex_far_wins(const explained *e)
+static shade_vec3 ex_eye(const stage *s, int greater)
 {
-    return ex_is_greater(&e->state) != ex_near_is_greater(e);
+    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.projection),
+                                        ex_or_identity(s->state.view));
+    const float toward = greater ? 1.0f : -1.0f;
+    const shade_vec4 at = shade_mat4_transform(shade_mat4_inverse(m), shade_v4(0, 0, toward, 0));
+    const float scale = at.w == 0 ? 1e6f : 1 / at.w;
+    return shade_v3(at.x * scale, at.y * scale, at.z * scale);
 }
-/* Is a back before the front-facing ones in most of their pixels? */
-static int ex_is_inside_out(explained *e)
+/* How many of the pixels hold the condition in tenths, rounded down; 10 where there are none. */
+static int ex_tenths(const judged *j, const geometry *g, int (*holds)(const judged *, const shown *))
 {
-    static float mask[EX_PIXELS];
-    const int greater = e->target.depth ? ex_is_greater(&e->state) : ex_near_is_greater(e);
-    const int tested = greater ? 2 : 1;
-    int all = 0, n = 0;
-    ex_values(e, SHADE_CULL_BACK, tested);
-    for (int i = 0; i < EX_PIXELS; i++) mask[i] = e->value[4 * i + 3];
-    ex_values(e, SHADE_CULL_NONE, tested);
-    for (int i = 0; i < EX_PIXELS; i++) {
-        all += mask[i] != 0;
-        n += mask[i] != 0 && (int)e->value[4 * i + 1] % 2 == 0;
-    }
-    return n && n * 2 >= all;
-}
-/* Is there a pixel whose last fragment is not the nearest? */
-static int ex_is_overdrawn(explained *e)
-{
-    static float last[EX_PIXELS];
     int n = 0;
-    ex_values(e, e->state.raster.cull, 0);
-    for (int i = 0; i < EX_PIXELS; i++) last[i] = e->value[4 * i];
-    ex_values(e, e->state.raster.cull, ex_near_is_greater(e) ? 2 : 1);
-    for (int i = 0; i < EX_PIXELS; i++) n += last[i] != e->value[4 * i];
-    return n > 0;
+    for (int i = 0; i < g->count; i++) n += holds(j, &g->at[i]);
+    return g->count ? n * 10 / g->count : 10;
 }
 
-enum ex_claim {
-    EX_ALPHA, EX_NO_TERM, EX_BLACK_COLORS, EX_BLACK_MATERIAL, EX_NO_LAMP, EX_NO_COUNT, EX_INSIDE,
-    EX_BEHIND, EX_BAD_NORMALS, EX_COARSE, EX_FAINT, EX_CONE, EX_NO_COLOR,
-    EX_ALL_BEHIND, EX_AMBIENT_NORMALS, EX_AMBIENT_COUNT, EX_AMBIENT_ALONE, EX_CLIPPED, EX_TURNED,
-    EX_NOTHING, EX_FAR, EX_EYE, EX_AREA, EX_CULLED, EX_CULLED_INSIDE, EX_BOXES, EX_FEWER, EX_CUT,
-    EX_REJECTED, EX_SOME, EX_CLIP, EX_UNCLEARED, EX_HIDDEN, EX_DISCARDED, EX_FAR_WINS,
-    EX_INSIDE_OUT, EX_OVERDRAWN, EX_ROWS, EX_VIEW_ROWS, EX_SWAPPED, EX_DEGENERATE, EX_NO_FLAG,
-    EX_COUNT, EX_EMPTY, EX_SCALES, EX_ASPECT, EX_TEXCOORDS, EX_MIPMAPS, EX_UNKNOWN
-};
-static const struct { const char *words; enum ex_claim claim; } ex_claims[] = {
-    { "Alpha is 0", EX_ALPHA }, { "leaves out every term", EX_NO_TERM },
-    { "mesh.colors, or the texels", EX_BLACK_COLORS },
-    { "state.material reflects", EX_BLACK_MATERIAL },
-    { "There is no light", EX_NO_LAMP }, { "and lighting.ambient is dark", EX_NO_COUNT },
-    { "sees faces whose normals point away", EX_INSIDE }, { "Every lamp is behind", EX_BEHIND },
-    { "mesh.normals are zero or NaN, so that", EX_BAD_NORMALS },
-    { "state.shading lights", EX_COARSE }, { "Attenuation, or", EX_FAINT },
-    { "No cone of the lights", EX_CONE }, { "The lights have no colour", EX_NO_COLOR },
-    { "every lamp is behind", EX_ALL_BEHIND },
-    { "because mesh.normals are zero", EX_AMBIENT_NORMALS },
-    { "arrives: lighting.light_count is 0", EX_AMBIENT_COUNT },
-    { "which shows no form", EX_AMBIENT_ALONE }, { "lit is clipped", EX_CLIPPED },
-    { "mesh.normals point away from the eye", EX_TURNED },
-    { "outside of the cube", EX_NOTHING }, { "beside the picture, before near", EX_NOTHING },
-    { "beyond the far plane", EX_FAR }, { "lies behind the eye", EX_EYE },
-    { "nearer than the near plane", EX_NOTHING }, { "the inverse of state.view", EX_NOTHING },
-    { "covers the centre of a pixel nowhere", EX_NOTHING }, { "has an area", EX_AREA },
-    { "raster.cull leaves out", EX_CULLED_INSIDE }, { "raster.cull is SHADE_CULL", EX_CULLED },
-    { "No box of mesh.chunks", EX_BOXES }, { "sum to fewer", EX_FEWER },
-    { "above every alpha", EX_CUT }, { "make them so", EX_REJECTED },
-    { "Some triangles are left out", EX_SOME }, { "beside the clip rectangle", EX_CLIP },
-    { "target.depth holds 0", EX_UNCLEARED }, { "What target.depth holds", EX_HIDDEN },
-    { "state.fragment discards", EX_DISCARDED }, { "does not fit state.proj", EX_FAR_WINS },
-    { "inside out", EX_INSIDE_OUT }, { "target.depth is NULL", EX_OVERDRAWN },
-    { "state.projection looks transposed", EX_ROWS },
-    { "state.view looks transposed", EX_VIEW_ROWS },
-    { "state.view holds a projection", EX_SWAPPED },
-    { "what cameras give", EX_DEGENERATE }, { "perspective_reversed, which", EX_NO_FLAG },
-    { "light_count is negative", EX_COUNT }, { "clip rectangle is empty", EX_EMPTY },
-    { "state.view scales", EX_SCALES }, { "The aspect of", EX_ASPECT },
-    { "diffuse_map is set while", EX_TEXCOORDS }, { "but no mipmaps", EX_MIPMAPS }
-};
-
-static int ex_is_dark(const explained *e)
+/* The cosine between a direction and that to a lamp. */
+static float ex_toward(const shade_light *l, shade_vec3 point, shade_vec3 direction)
 {
-    int clipped;
-    return e->target.color && !ex_lit(e, &clipped);
+    const shade_vec3 at = shade_v3(l->position.x, l->position.y, l->position.z);
+    const float w = l->position.w;
+    const shade_vec3 to = w != 0 ? shade_sub(shade_scale(at, 1 / w), point) : at;
+    return shade_dot(shade_normalize(to), shade_normalize(direction));
+}
+static int ex_has_colour(const shade_light *l)
+{
+    return ex_most(l->diffuse) > 0 || ex_most(l->specular) > 0;
+}
+static int ex_turned(const judged *j, const shown *at)
+{
+    return at->front && shade_dot(shade_sub(j->eye, at->point), at->normal) < 0;
+}
+static int ex_no_normal(const judged *j, const shown *at)
+{
+    (void)j;
+    return !(shade_length(at->normal) > 0);
+}
+static int ex_is_back(const judged *j, const shown *at)
+{
+    (void)j;
+    return !at->front;
+}
+static int ex_unlit_side(const judged *j, const shown *at)
+{
+    const shade_lighting *l = &j->e->s.state.lighting;
+    const shade_vec3 to_eye = shade_sub(j->eye, at->point);
+    const int flip = l->flags & SHADE_FLAG_TWO_SIDED && shade_dot(to_eye, at->normal) < 0;
+    if (l->flags & SHADE_FLAG_TWO_SIDED_ABS) return ex_no_normal(j, at);
+    for (int k = 0; k < l->light_count; k++)
+        if (ex_has_colour(&l->lights[k]) &&
+            (flip ? -1 : 1) * ex_toward(&l->lights[k], at->point, at->normal) > 0.02f)
+            return 0;
+    return 1;
 }
 
-static int ex_is_whole(const explained *e)
+/* Do all corners of the mesh hold it?  bad: those that are no numbers do too. */
+typedef int of_corner(const double clip[4]);
+static int ex_all(const stage *s, of_corner *holds)
 {
-    return !e->target.clip_width && !e->target.row_count && e->stats.fragments;
-}
-
-/* Has the mesh normals, and is none in view a direction? */
-static int ex_has_bad_normals(explained *e)
-{
-    int good;
-    ex_values(e, e->state.raster.cull, -1);
-    good = ex_part(e, ex_has_normal, 0);
-    if (e->state.shading) good = shade_length(e->normal[e->index[0]]) > 0;
-    return e->mesh.normals && e->state.shading != SHADE_SHADING_PER_FACE && !good;
-}
-/* Does the box around the mesh hold the eye of state.view? */
-static int ex_eye_inside(const explained *e)
-{
-    const shade_mat4 m = shade_mat4_mul(ex_or_identity(e->state.view),
-                                        ex_or_identity(e->state.model));
-    const shade_vec4 eye = shade_mat4_inverse(m).col[3];
-    shade_vec3 low = shade_v3(1e9f, 1e9f, 1e9f), high = shade_neg(low);
-    for (int i = 0; i < e->mesh.index_count; i++) {
-        const shade_vec3 p = e->position[e->index[i]];
-        if (!(p.y < 1e9f)) continue;
-        low = shade_min(low, p);
-        high = shade_max(high, p);
-    }
-    low = shade_sub(shade_v3(eye.x, eye.y, eye.z), low);
-    high = shade_sub(high, shade_v3(eye.x, eye.y, eye.z));
-    low = shade_min(low, high);
-    if (shade_mat4_determinant(m) == 0) return 0;
-    return low.x > -1e-3f && low.y > -1e-3f && low.z > -1e-3f;
-}
-/* Is the depth of before at the near end of the test, or NaN, wherever the mesh covers a pixel? */
-static int ex_is_uncleared(explained *e)
-{
-    const float near = ex_is_greater(&e->state) ? 1.0f : 0.0f;
-    shade_target *t = &e->target;
-    int n = 0;
-    t->depth = NULL;
-    ex_values(e, e->state.raster.cull, -1);
-    t->depth = e->depth;
-    for (int i = 0; i < EX_PIXELS; i++)
-        n += e->value[4 * i + 3] != 0 && e->before[i] != near && e->before[i] == e->before[i];
-    return !n;
-}
-static float ex_most(shade_vec3 color) { return fmaxf(color.x, fmaxf(color.y, color.z)); }
-/* Is no pixel lit, whatever of a colour, a map and ambient light it has? */
-static int ex_only_ambient(const explained *e)
-{
-    shade_draw_state s = e->state;
-    s.lighting.terms = (s.lighting.terms ? s.lighting.terms : 15u) &
-                       (SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR);
-    return !ex_lit_again(e, &e->mesh, &s, 0);
-}
-/* Has every pixel alpha below a hundredth, in a picture that alpha dims? */
-static int ex_is_clear(explained *e)
-{
-    if (e->state.raster.blend == SHADE_BLEND_REPLACE) return 0;
-    ex_values(e, e->state.raster.cull, -1);
-    for (int i = 0; i < EX_PIXELS; i++) {
-        const float *v = e->value + 4 * i, alpha = (fabsf(v[2]) - 1) * (1 - e->state.transparency);
-        if (v[3] != 0 && alpha > 0.2f) return 0;
+    for (int i = 0; i < ex_corners(&s->mesh); i++) {
+        double world[4], clip[4];
+        ex_clip(s, i, world, clip);
+        if (!holds(clip)) return 0;
     }
     return 1;
 }
+static int ex_is_bad(const double c[4])
+{
+    return !(fabs(c[0]) < 1e30 && fabs(c[1]) < 1e30 && fabs(c[2]) < 1e30 && fabs(c[3]) < 1e30);
+}
+static int ex_is_good(const double c[4]) { return !ex_is_bad(c); }
+static int ex_beyond_w(const double c[4]) { return ex_is_bad(c) || c[2] > c[3] - 1e-4; }
+static int ex_before_w(const double c[4]) { return ex_is_bad(c) || c[2] < 1e-4 || c[2] < -c[3] + 1e-4; }
+static int ex_behind_eye(const double c[4]) { return ex_is_bad(c) || c[3] < 1e-4; }
 
 static int ex_is_rigid(shade_mat4 m)
 {
@@ -736,130 +660,693 @@ static int ex_is_rigid(shade_mat4 m)
         }
     return m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == 0 && m.col[3].w == 1;
 }
-/* What repeats the numbers of fields. */
-static int ex_field(const explained *e, enum ex_claim claim)
+static int ex_is_affine(shade_mat4 m)
 {
-    const shade_draw_state *s = &e->state;
-    const shade_mat4 view = ex_or_identity(s->view), p = ex_or_identity(s->projection);
-    const shade_target *t = &e->target;
-    const float wide = p.col[0].x * (float)t->width, high = p.col[1].y * (float)t->height;
-    switch (claim) {
-    case EX_VIEW_ROWS: return view.col[3].x == 0 && view.col[3].y == 0 && view.col[3].z == 0;
-    case EX_SWAPPED: return !ex_is_rigid(view);
-    case EX_DEGENERATE: return p.col[0].x == 0 && p.col[0].y == 0 && p.col[0].w == 0;
-    case EX_NO_FLAG: return p.col[2].z == 0 && !s->raster.depth_zero_to_one;
-    case EX_COUNT: return s->lighting.light_count < 0;
-    case EX_EMPTY: return t->clip_x >= t->width || t->clip_y >= t->height;
-    case EX_SCALES: return !ex_is_rigid(view);
-    case EX_ASPECT:
-        return p.col[3].w == 0 && fabsf(fabsf(wide) - fabsf(high)) > 0.02f * fabsf(wide);
-    case EX_TEXCOORDS: return s->diffuse_map && !e->mesh.texcoords && t->color;
-    case EX_MIPMAPS: return s->diffuse_map && s->diffuse_map->width > 1 && !s->diffuse_map->mipmaps;
-    default: return 0;
-    }
+    return m.col[0].w == 0 && m.col[1].w == 0 && m.col[2].w == 0 && m.col[3].w == 1;
 }
-/* What is said of a picture without light: each needs the change that it names. */
-static int ex_black(explained *e, enum ex_claim claim)
+static int ex_eye_in_box(const judged *j)
 {
-    const shade_draw_state *s = &e->state;
-    const shade_lighting *l = &s->lighting;
-    const int sided = s->shading || (l->flags & SHADE_FLAG_TWO_SIDED);
-    float most = 0;
-    switch (claim) {
-    case EX_ALPHA: return ex_is_clear(e);
-    case EX_NO_TERM: return ex_helps(e, EX_TERMS) && (l->terms || l->model);
-    case EX_BLACK_COLORS:
-        return ex_helps(e, EX_COLORS) && (e->mesh.colors || (e->mesh.texcoords && s->diffuse_map));
-    case EX_BLACK_MATERIAL: return ex_helps(e, EX_MATERIAL) && s->material;
-    case EX_NO_LAMP: return !l->lights && ex_most(l->ambient) < 0.1f;
-    case EX_NO_COUNT: return l->light_count <= 0 && ex_most(l->ambient) < 0.1f;
-    case EX_INSIDE: return ex_helps(e, EX_SIDES) && ex_eye_inside(e);
-    case EX_BEHIND:
-        ex_values(e, s->raster.cull, -1);
-        return ex_helps(e, EX_SIDES) && (sided || !ex_part(e, ex_before_lamp, 0));
-    case EX_BAD_NORMALS: return ex_has_bad_normals(e);
-    case EX_COARSE: return ex_helps(e, EX_EACH) && s->shading;
-    case EX_FAINT: return ex_helps(e, EX_DISTANCE);
-    case EX_CONE:
-        ex_values(e, s->raster.cull, -1);
-        return !ex_part(e, ex_in_cone, 0);
-    default:
-        for (int k = 0; k < l->light_count; k++) most = fmaxf(most, ex_most(e->lamp[k].diffuse));
-        return most < 0.3f;
+    const stage *s = &j->e->s;
+    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.view),
+                                        ex_or_identity(s->state.model));
+    const shade_vec4 eye = shade_mat4_inverse(m).col[3];
+    for (int k = 0; k < 3; k++) {
+        float low = 1e30f, high = -1e30f;
+        for (int i = 0; i < ex_corners(&s->mesh); i++) {
+            const float p = ex_position(&s->mesh, i)[k];
+            if (p > -1e12f && p < low) low = p;
+            if (p < 1e12f && p > high) high = p;
+        }
+        if (!((&eye.x)[k] > low - 1e-3f && (&eye.x)[k] < high + 1e-3f)) return 0;
     }
-}
-/* Whether a sentence is true of the draw. */
-static int ex_true(explained *e, const char *said)
-{
-    const shade_draw_state *s = &e->state;
-    const shade_lighting *l = &s->lighting;
-    shade_mesh bare = e->mesh;
-    shade_draw_state open = *s;
-    enum ex_claim claim = EX_UNKNOWN;
-    int clipped, lit;
-    bare.chunks = NULL;
-    bare.chunk_count = 0;
-    open.raster.cull = SHADE_CULL_NONE;
-    for (size_t k = 0; k < sizeof ex_claims / sizeof *ex_claims && claim == EX_UNKNOWN; k++)
-        if (strstr(said, ex_claims[k].words)) claim = ex_claims[k].claim;
-    if (claim <= EX_NO_COLOR) return ex_is_dark(e) && ex_black(e, claim);
-    switch (claim) {
-    case EX_ALL_BEHIND: return ex_only_ambient(e) && ex_helps(e, EX_SIDES);
-    case EX_AMBIENT_NORMALS:
-        return ex_only_ambient(e) && ex_has_bad_normals(e);
-    case EX_AMBIENT_COUNT: return ex_only_ambient(e) && l->light_count <= 0 && l->lights;
-    case EX_AMBIENT_ALONE: return ex_only_ambient(e) && !l->lights;
-    case EX_CLIPPED: lit = ex_lit(e, &clipped); return clipped * 5 >= lit * 4;
-    case EX_TURNED:
-        ex_values(e, s->raster.cull, e->target.depth && ex_is_whole(e) ? -1 : 0);
-        return ex_part(e, ex_is_turned, 6);
-    case EX_FAR: return !ex_cover(e, &e->mesh, s, 1).fragments && !ex_corner_inside(e, 0);
-    case EX_EYE: return !ex_cover(e, &e->mesh, s, 1).fragments && !ex_corner_inside(e, 1);
-    case EX_NOTHING: return !ex_cover(e, &bare, &open, 1).fragments;
-    case EX_AREA:
-        return !ex_cover(e, &bare, &open, 1).drawn && ex_cover(e, &bare, &open, 1).culled > 0;
-    case EX_CULLED_INSIDE:
-        if (!ex_eye_inside(e)) return 0;
-        return !ex_cover(e, &bare, s, 1).fragments && ex_cover(e, &bare, &open, 1).fragments;
-    case EX_CULLED:
-        return !ex_cover(e, &bare, s, 1).fragments && ex_cover(e, &bare, &open, 1).fragments;
-    case EX_BOXES: return !ex_cover(e, &e->mesh, s, 1).fragments &&
-                          ex_cover(e, &bare, s, 1).fragments;
-    case EX_FEWER:
-        return ex_cover(e, &e->mesh, s, 1).triangles < ex_cover(e, &bare, s, 1).triangles;
-    case EX_CUT:
-        lit = ex_cover(e, &bare, &open, 1).fragments > 0;
-        open.alpha_cutoff = 0;
-        return !lit && ex_cover(e, &bare, &open, 1).fragments;
-    case EX_REJECTED:
-        return ex_cover(e, &bare, s, 1).rejected == ex_cover(e, &bare, s, 1).triangles;
-    case EX_SOME: return ex_cover(e, &e->mesh, s, 1).rejected > 0;
-    case EX_CLIP:
-        return !ex_cover(e, &e->mesh, s, 0).fragments && ex_cover(e, &e->mesh, s, 1).fragments;
-    case EX_UNCLEARED: return !e->stats.fragments && ex_is_uncleared(e);
-    case EX_HIDDEN: return !e->stats.fragments && ex_cover(e, &e->mesh, s, 0).fragments;
-    case EX_DISCARDED: return !e->stats.fragments && s->fragment;
-    case EX_FAR_WINS: return ex_far_wins(e);
-    case EX_INSIDE_OUT: return ex_is_inside_out(e);
-    case EX_OVERDRAWN: return !e->target.depth && ex_is_overdrawn(e);
-    case EX_ROWS:
-        open.alpha_cutoff = 0;
-        open.projection = shade_mat4_transpose(open.projection);
-        return !ex_cover(e, &e->mesh, s, 1).fragments && ex_cover(e, &bare, &open, 1).fragments;
-    default: return ex_field(e, claim);
-    }
+    return 1;
 }
 
-/* Draws something and has it explained, with stats and without.  Returns the sentence that is not
-   so, or NULL.  first: as ex_draw has it. */
-static const char *ex_false_sentence(explained *e, int first)
+/* the rows' own conditions */
+#define STATE (&j->e->s.state)
+#define LIGHTS (&j->e->s.state.lighting)
+static int so_behind(const judged *j) { return ex_tenths(j, &j->shown, ex_unlit_side) >= 9; }
+static int so_turned(const judged *j) { return ex_tenths(j, &j->shown, ex_turned) >= 2; }
+static int so_no_normal(const judged *j)
 {
-    ex_draw(e, first);
-    for (int with = 0; with < 2; with++) {
-        const char *said = shade_explain(&e->target, &e->mesh, &e->state, with ? &e->stats : NULL);
-        if (!said || (e->result && !*said)) return "(nothing)";
-        if (*said && !e->result && !ex_true(e, said)) return said;
+    return j->e->s.mesh.normals && ex_tenths(j, &j->shown, ex_no_normal) >= 9;
+}
+static int so_beyond(const judged *j)
+{
+    return ex_all(&j->e->s, j->nearer_is_greater ? ex_before_w : ex_beyond_w);
+}
+static int so_before(const judged *j)
+{
+    return ex_all(&j->e->s, j->nearer_is_greater ? ex_beyond_w : ex_before_w) ||
+           ex_all(&j->e->s, ex_behind_eye);
+}
+static int so_behind_eye(const judged *j) { return ex_all(&j->e->s, ex_behind_eye); }
+static int so_some_bad(const judged *j)
+{
+    const shade_mesh *m = &j->e->s.mesh;
+    for (int i = 0; i < m->vertex_count; i++) {
+        const float *p = (const float *)(const void *)((const char *)m->positions +
+                         (size_t)i * (size_t)(m->position_stride ? m->position_stride : 12));
+        if (!(fabsf(p[0]) <= 1e12f && fabsf(p[1]) <= 1e12f && fabsf(p[2]) <= 1e12f)) return 1;
     }
-    return NULL;
+    return !ex_all(&j->e->s, ex_is_good);
+}
+static int so_box(const judged *j)
+{
+    const shade_mesh *m = &j->e->s.mesh;
+    for (int c = 0; c < m->chunk_count; c++) {
+        const shade_chunk *box = &m->chunks[c];
+        for (int i = 3 * box->first; i < 3 * (box->first + box->count); i++)
+            for (int k = 0; k < 3; k++) {
+                const float p = ex_position(m, i)[k];
+                if (p < (&box->low.x)[k] || p > (&box->high.x)[k]) return 1;
+            }
+    }
+    return 0;
+}
+static int so_last_row(const judged *j)
+{
+    return STATE->model.col[3].w != 1 || STATE->view.col[3].w != 1;
+}
+static int so_other_stats(const judged *j) { return j->e->s.other_stats; }
+static int so_negative_attenuation(const judged *j)
+{
+    for (int k = 0; k < LIGHTS->light_count; k++) {
+        const shade_light *l = &LIGHTS->lights[k];
+        if (l->constant < 0 || l->linear < 0 || l->quadratic < 0) return 1;
+    }
+    return 0;
+}
+static int so_lamp_nan(const judged *j)
+{
+    for (int k = 0; k < LIGHTS->light_count; k++)
+        for (int i = 0; i < (int)(sizeof(shade_light) / 4); i++) {
+            const float f = (&LIGHTS->lights[k].position.x)[i];
+            if (f != f) return 1;
+        }
+    return 0;
+}
+static int so_spot(const judged *j)
+{
+    for (int k = 0; k < LIGHTS->light_count; k++)
+        if (shade_length(LIGHTS->lights[k].spot_direction) > 0) return 1;
+    return 0;
+}
+static int so_order(const judged *j)
+{
+    return !j->e->s.target.depth || STATE->raster.depth_test == SHADE_COMPARE_ALWAYS ||
+           STATE->raster.depth_read_only;
+}
+static int so_bias(const judged *j) { return fabsf(STATE->raster.depth_bias) >= 1; }
+static int so_no_view(const judged *j) { return STATE->view.col[3].w == 0 && ex_eye_in_box(j); }
+static int so_texels(const judged *j)
+{
+    const stage *s = &j->e->s;
+    for (int i = 0; i < s->mesh.vertex_count; i++)
+        if (s->texcoord[i].x > (float)s->map.width - 1.001f) return 1;
+    return 0;
+}
+static int so_linear_map(const judged *j) { return j->e->s.target.srgb && !STATE->diffuse_map->srgb; }
+static int so_stored(const judged *j)
+{
+    return STATE->transparency > 0 && STATE->raster.blend == SHADE_BLEND_REPLACE;
+}
+static int so_dull(const judged *j)
+{
+    return STATE->material->shininess < 1 && ex_most(STATE->material->specular) > 0;
+}
+static int so_no_diffuse(const judged *j) { return ex_most(STATE->material->diffuse) <= 0; }
+static int so_glows(const judged *j) { return ex_most(STATE->material->emission) >= 1; }
+static int so_beyond_picture(const judged *j)
+{
+    const shade_target *t = &j->e->s.target;
+    return t->clip_x + t->clip_width > t->width || t->clip_y + t->clip_height > t->height;
+}
+static int so_inside(const judged *j) { return ex_eye_in_box(j); }
+static int so_front(const judged *j) { return STATE->raster.cull == SHADE_CULL_FRONT; }
+static int so_back(const judged *j) { return STATE->raster.cull == SHADE_CULL_BACK; }
+static int so_inside_out(const judged *j) { return ex_tenths(j, &j->all, ex_is_back) >= 5; }
+static int so_far_wins(const judged *j)
+{
+    return j->e->s.target.depth && ex_is_greater(STATE) != j->nearer_is_greater;
+}
+static int so_view_by_rows(const judged *j)
+{
+    const shade_mat4 m = ex_or_identity(STATE->view);
+    return !ex_is_affine(m) && ex_is_affine(shade_mat4_transpose(m));
+}
+static int so_model_by_rows(const judged *j)
+{
+    const shade_mat4 m = ex_or_identity(STATE->model);
+    return !ex_is_affine(m) && ex_is_affine(shade_mat4_transpose(m));
+}
+/* Not that of one-point perspective, w = 1 - z/k, of which the transposed one moves by -1/k. */
+static int so_by_rows(const judged *j)
+{
+    const shade_mat4 p = STATE->projection;
+    return !(p.col[0].x == 1 && p.col[1].y == 1 && p.col[3].w == 1 && p.col[3].z == 0);
+}
+static int so_swapped(const judged *j) { return !ex_is_rigid(ex_or_identity(STATE->view)); }
+static int so_degenerate(const judged *j)
+{
+    const shade_mat4 p = ex_or_identity(STATE->projection);
+    return p.col[0].x == 0 && p.col[0].y == 0 && p.col[0].z == 0 && p.col[0].w == 0;
+}
+static int so_no_flag(const judged *j)
+{
+    return STATE->projection.col[2].z == 0 && !STATE->raster.depth_zero_to_one;
+}
+static int so_negative_count(const judged *j) { return LIGHTS->light_count < 0; }
+static int so_bad_cosine(const judged *j)
+{
+    for (int k = 0; k < LIGHTS->light_count; k++) {
+        const shade_light *l = &LIGHTS->lights[k];
+        if (shade_length(l->spot_direction) > 0 && !(fabsf(l->spot_cos_cutoff) <= 1)) return 1;
+    }
+    return 0;
+}
+static int so_aspect(const judged *j)
+{
+    const stage *s = &j->e->s;
+    const shade_mat4 p = ex_or_identity(s->state.projection);
+    const float wide = fabsf(p.col[0].x) * (float)s->target.width;
+    const float high = fabsf(p.col[1].y) * (float)s->target.height;
+    return p.col[3].w == 0 && fabsf(wide - high) > 0.02f * wide &&
+           fabsf(wide - 2 * high) > 0.02f * wide;    /* cells of a terminal are twice as high */
+}
+static int so_scales(const judged *j) { return !ex_is_rigid(ex_or_identity(STATE->view)); }
+static int so_no_texcoords(const judged *j)
+{
+    return STATE->diffuse_map && !j->e->s.mesh.texcoords;
+}
+static int so_no_mipmaps(const judged *j)
+{
+    return STATE->diffuse_map && STATE->diffuse_map->width > 1 && !STATE->diffuse_map->mipmaps;
+}
+static int so_no_lamp(const judged *j) { return LIGHTS->light_count <= 0; }
+static int so_white(const judged *j) { return j->drawn->white * 5 >= j->drawn->bright * 4; }
+static int so_clip(const judged *j) { return j->e->s.target.clip_width || j->e->s.target.clip_x ||
+                                             j->e->s.target.clip_height || j->e->s.target.clip_y; }
+static int so_shader(const judged *j) { return STATE->fragment != NULL; }
+static int so_equal(const judged *j) { return STATE->raster.depth_test == SHADE_COMPARE_EQUAL; }
+static int so_not_equal(const judged *j) { return !so_equal(j); }
+static int so_chunks(const judged *j) { return j->e->s.mesh.chunks != NULL; }
+static int so_map_or_colors(const judged *j)
+{
+    return j->e->s.mesh.colors || (STATE->diffuse_map && j->e->s.mesh.texcoords);
+}
+
+/* ---- what sentences advise ------------------------------------------------------------------- */
+
+typedef void cure(stage *);
+static shade_lighting *ex_lights(stage *s)    /* that may be changed */
+{
+    shade_lighting *l = &s->state.lighting;
+    for (int k = 0; k < STAGE_LAMPS && k < l->light_count; k++) s->lamps[k] = l->lights[k];
+    if (l->lights) l->lights = s->lamps;
+    return l;
+}
+static void cure_opaque(stage *s)
+{
+    s->state.transparency = 0;
+    for (int k = 3; k < 4 * STAGE_TEXELS; k += 4) s->texel[k] = 255;
+}
+static void cure_shading(stage *s) { s->state.shading = SHADE_SHADING_PER_FRAGMENT; }
+static void cure_terms(stage *s)
+{
+    s->state.lighting.terms = 0;
+    if (s->state.lighting.model > SHADE_MODEL_PHONG)
+        s->state.lighting.model = SHADE_MODEL_BLINN_PHONG;
+}
+static void cure_colors(stage *s)
+{
+    s->mesh.colors = NULL;
+    for (int k = 0; k < 4 * STAGE_TEXELS; k++)
+        if (k % 4 < 3) s->texel[k] = 255;
+}
+static void cure_material(stage *s)
+{
+    s->material.ambient = s->material.diffuse = s->material.specular = shade_v3(1, 1, 1);
+    s->material.shininess = 1;
+    if (!s->state.material) s->material.emission = BLACK;
+    s->state.material = &s->material;
+}
+static void cure_sides(stage *s) { s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS; }
+static void cure_distance(stage *s)
+{
+    shade_lighting *l = ex_lights(s);
+    for (int k = 0; k < l->light_count; k++) {
+        shade_light *lamp = &s->lamps[k];
+        lamp->constant = lamp->linear = lamp->quadratic = lamp->spot_exponent = 0;
+    }
+}
+static void cure_cone(stage *s)
+{
+    shade_lighting *l = ex_lights(s);
+    for (int k = 0; k < l->light_count; k++) s->lamps[k].spot_cos_cutoff = -1;
+}
+static void cure_count(stage *s)
+{
+    const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
+    stage_lamp(s, shade_point_light(ex_eye(s, greater), shade_v3(1, 1, 1)));
+}
+static void cure_no_lamp(stage *s)
+{
+    if (s->state.lighting.light_count <= 0) cure_count(s);
+}
+static void cure_lamps(stage *s)
+{
+    shade_lighting *l = ex_lights(s);
+    for (int k = 0; k < l->light_count; k++)
+        if (l->lights) s->lamps[k].diffuse = s->lamps[k].specular = shade_v3(100, 100, 100);
+    for (int k = 0; k < l->light_count; k++) {
+        const shade_vec4 at = s->lamps[k].position;
+        if (at.x == 0 && at.y == 0 && at.z == 0 && at.w == 0) cure_count(s);
+    }
+}
+/* Not a cure, but what hides that there is one: ambient light of the lamps. */
+static void cure_ambient(stage *s)
+{
+    shade_lighting *l = ex_lights(s);
+    for (int k = 0; k < l->light_count; k++)
+        if (l->lights) s->lamps[k].ambient = BLACK;
+}
+/* A lamp that is no number is put at the eye. */
+static void cure_numbers(stage *s)
+{
+    shade_lighting *l = ex_lights(s);
+    for (int k = 0; k < l->light_count; k++) {
+        const shade_vec4 at = s->lamps[k].position;
+        if (!(fabsf(at.x + at.y + at.z + at.w) < 1e30f)) cure_count(s);
+    }
+}
+static void cure_normals(stage *s) { s->mesh.normals = NULL; }
+static void cure_turned(stage *s)
+{
+    for (int i = 0; i < s->mesh.vertex_count && i < STAGE_VERTICES; i++)
+        s->normal[i] = shade_neg(s->normal[i]);
+}
+static void cure_chunks(stage *s)
+{
+    s->mesh.chunks = NULL;
+    s->mesh.chunk_count = 0;
+}
+static void cure_cull(stage *s) { s->state.raster.cull = SHADE_CULL_NONE; }
+static void cure_winding(stage *s)
+{
+    if (!s->mesh.indices) {
+        for (int i = 0; i < s->mesh.vertex_count; i++) s->index[i] = (uint32_t)i;
+        s->mesh.index_count = s->mesh.vertex_count;
+    }
+    s->mesh.indices = s->index;
+    stage_turn(s, 0);
+}
+static void cure_cutoff(stage *s) { s->state.alpha_cutoff = 0; }
+static void cure_clip(stage *s)
+{
+    shade_target *t = &s->target;
+    t->clip_x = t->clip_y = t->clip_width = t->clip_height = t->row_offset = t->row_count = 0;
+}
+static void cure_clear(stage *s)
+{
+    s->clear = ex_is_greater(&s->state) ? 0.0f : 1.0f;
+    s->draws = 0;
+    s->state.raster.depth_bias = 0;
+    s->state.raster.depth_read_only = 0;
+}
+static void cure_depth(stage *s)
+{
+    s->target.depth = s->depth;
+    s->state.raster.depth_test =
+        ex_near_is_greater(s) ? SHADE_COMPARE_GREATER_EQUAL : SHADE_COMPARE_LESS_EQUAL;
+    cure_clear(s);
+}
+static void cure_flag(stage *s)
+{
+    s->state.raster.depth_zero_to_one = 1;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
+static void cure_shader(stage *s)
+{
+    if (!s->state.fragment) return;
+    s->state.fragment = shader_white;
+    s->state.alpha_cutoff = 0;
+}
+static void cure_view_by_rows(stage *s) { s->state.view = shade_mat4_transpose(s->state.view); }
+static void cure_model_by_rows(stage *s) { s->state.model = shade_mat4_transpose(s->state.model); }
+static void cure_by_rows(stage *s)
+{
+    s->state.projection = shade_mat4_transpose(s->state.projection);
+}
+static void cure_inverse(stage *s) { s->state.view = shade_mat4_inverse(s->state.view); }
+static void cure_exchange(stage *s)
+{
+    const shade_mat4 view = s->state.view;
+    s->state.view = s->state.projection;
+    s->state.projection = view;
+}
+/* A camera that sees all of the mesh. */
+static void cure_camera(stage *s)
+{
+    shade_vec3 low = shade_v3(1e30f, 1e30f, 1e30f), high = shade_neg(low), middle;
+    float size;
+    for (int i = 0; i < ex_corners(&s->mesh); i++) {
+        double world[4], clip[4];
+        shade_vec3 p;
+        ex_clip(s, i, world, clip);
+        p = shade_v3((float)world[0], (float)world[1], (float)world[2]);
+        if (!(fabsf(p.x) < 1e12f && fabsf(p.y) < 1e12f && fabsf(p.z) < 1e12f)) continue;
+        low = shade_min(low, p);
+        high = shade_max(high, p);
+    }
+    middle = shade_scale(shade_add(low, high), 0.5f);
+    size = fmaxf(shade_length(shade_sub(high, low)), 1e-3f * shade_length(middle) + 1e-7f);
+    s->eye = shade_add(middle, shade_scale(shade_v3(0.5f, 0.7f, 1), size));
+    s->center = middle;
+    s->fovy = s->aspect = 1;
+    s->z_near = size * 0.01f;
+    s->z_far = size * 10;
+    stage_look(s);
+    s->state.raster.depth_zero_to_one = 0;
+    s->state.raster.depth_test = SHADE_COMPARE_LESS;
+    s->clear = 1;
+}
+/* Colours of 1 at most, lamps that add up to 1. */
+static shade_vec3 ex_within_1(shade_vec3 c, float most)
+{
+    return shade_min(c, shade_v3(most, most, most));
+}
+static void cure_255(stage *s)
+{
+    shade_lighting *l = ex_lights(s);
+    const float each = 0.5f / (float)(l->light_count > 0 ? l->light_count : 1);
+    l->ambient = ex_within_1(l->ambient, 0.1f);
+    for (int i = 0; i < l->light_count; i++) {
+        s->lamps[i].diffuse = ex_within_1(s->lamps[i].diffuse, each);
+        s->lamps[i].specular = ex_within_1(s->lamps[i].specular, each);
+        s->lamps[i].ambient = ex_within_1(s->lamps[i].ambient, 0.1f);
+    }
+    for (int i = 0; i < STAGE_VERTICES; i++) s->color[i] = ex_within_1(s->color[i], 0.8f);
+    s->material.emission = ex_within_1(s->material.emission, 0.1f);
+    s->material.ambient = ex_within_1(s->material.ambient, 0.8f);
+    s->material.diffuse = ex_within_1(s->material.diffuse, 0.8f);
+    s->material.specular = ex_within_1(s->material.specular, 0.2f);
+}
+static void cure_aspect(stage *s)
+{
+    shade_mat4 *p = &s->state.projection;
+    p->col[0].x = p->col[1].y * (float)s->target.height / (float)s->target.width;
+}
+/* A ball in its place, and a projection that shows what is before the eye. */
+static void cure_mesh(stage *s)
+{
+    stage_ball(s, 6, 8);
+    s->mesh.positions = &s->position[0].x;
+    s->mesh.normals = &s->normal[0].x;
+    s->mesh.indices = s->index;
+    s->mesh.position_stride = s->mesh.normal_stride = 0;
+    cure_chunks(s);
+}
+static void cure_model(stage *s) { s->state.model = shade_mat4_identity(); }
+static void cure_projection(stage *s)
+{
+    s->state.projection = shade_mat4_perspective(1, (float)EX_WIDTH / EX_HEIGHT, 0.01f, 1e4f);
+    s->state.raster.depth_zero_to_one = 0;
+    s->state.raster.depth_test = SHADE_COMPARE_LESS_EQUAL;
+    s->clear = 1;
+}
+static void cure_all(stage *s)
+{
+    cure_opaque(s);
+    cure_shading(s);
+    cure_terms(s);
+    cure_colors(s);
+    cure_material(s);
+    cure_sides(s);
+    cure_distance(s);
+    cure_cone(s);
+    cure_lamps(s);
+    cure_no_lamp(s);
+}
+static void cure_over(stage *s) { s->state.raster.blend = SHADE_BLEND_OVER; }
+static void cure_shininess(stage *s) { s->material.shininess = 50; }
+static void cure_diffuse(stage *s) { s->material.diffuse = shade_v3(1, 1, 1); }
+static void cure_emission(stage *s) { s->material.emission = BLACK; }
+static void cure_nothing(stage *s) { (void)s; }
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+/* What the advice does to the picture: light is that of all terms, of lamps (diffuse, specular), or
+   of surfaces that have colours (ambient, diffuse). */
+enum effect { STATED, SHOWS, INTO_VIEW, LIGHTS_UP, LAMPS_LIGHT, COLORS_LIGHT, CHANGES, DARKENS,
+              MORE_TRIANGLES };
+typedef struct claim { const char *words; so *so; cure *advice; enum effect effect; } claim;
+static const claim claims[] = {
+    /* numbers */
+    { "stats are not of this draw", so_other_stats, cure_nothing, STATED },
+    { "holds a NaN or infinity", NULL, cure_nothing, STATED },
+    { "state.model looks transposed", so_model_by_rows, cure_model_by_rows, CHANGES },
+    { "state.view looks transposed", so_view_by_rows, cure_view_by_rows, CHANGES },
+    { "The last row of state.model", so_last_row, cure_nothing, STATED },
+    { "what cameras give", so_degenerate, cure_camera, STATED },
+    { "state.view holds a projection", so_swapped, cure_exchange, STATED },
+    { "perspective_reversed, which", so_no_flag, cure_flag, STATED },
+    { "light_count is negative", so_negative_count, cure_nothing, STATED },
+    { "lighting.lights holds a NaN", so_lamp_nan, cure_nothing, STATED },
+    { "spot_cos_cutoff is outside", so_bad_cosine, cure_nothing, STATED },
+    { "quadratic is negative", so_negative_attenuation, cure_nothing, STATED },
+    { "make them so", so_some_bad, cure_nothing, STATED },
+    { "shorter than a position", NULL, cure_nothing, STATED },
+    { "There is no triangle to draw", NULL, cure_nothing, STATED },
+    { "clip rectangle is empty", so_clip, cure_clip, STATED },
+    /* nothing is in view */
+    { "sum to fewer", so_chunks, cure_chunks, MORE_TRIANGLES },
+    { "does not hold its triangles", so_box, cure_chunks, STATED },
+    { "raster.cull leaves out", so_inside, cure_cull, SHOWS },
+    { "raster.cull is SHADE_CULL_FRONT", so_front, cure_cull, SHOWS },
+    { "raster.cull is SHADE_CULL_BACK", so_back, cure_cull, SHOWS },
+    { "above every alpha", NULL, cure_cutoff, SHOWS },
+    { "has an area", NULL, cure_nothing, STATED },
+    { "state.projection looks transposed", so_by_rows, cure_by_rows, INTO_VIEW },
+    { "outside of the cube", NULL, cure_camera, INTO_VIEW },
+    { "beyond the far plane", so_beyond, cure_camera, INTO_VIEW },
+    { "inverse of state.view would", NULL, cure_inverse, INTO_VIEW },
+    { "lies behind the eye", so_behind_eye, cure_camera, INTO_VIEW },
+    { "nearer than the near plane", so_before, cure_camera, INTO_VIEW },
+    { "beside the picture, before", NULL, cure_camera, INTO_VIEW },
+    { "covers the centre of a pixel nowhere", NULL, cure_camera, INTO_VIEW },
+    /* no pixel passes */
+    { "does not fit state.proj", so_far_wins, cure_depth, CHANGES },
+    { "beside the clip rectangle", so_clip, cure_clip, SHOWS },
+    { "state.fragment discards", so_shader, cure_shader, SHOWS },
+    { "is SHADE_COMPARE_EQUAL", so_equal, cure_depth, SHOWS },
+    { "target.depth holds 0", so_not_equal, cure_clear, SHOWS },
+    { "Depth is that of the far plane", NULL, cure_projection, SHOWS },
+    { "What target.depth holds", so_not_equal, cure_clear, SHOWS },
+    /* wrong pixels */
+    { "inside out", so_inside_out, cure_winding, CHANGES },
+    { "Triangles drawn later hide", so_order, cure_depth, CHANGES },
+    { "state.fragment leaves", so_shader, cure_shader, LIGHTS_UP },
+    { "lit is clipped", so_white, cure_255, DARKENS },
+    { "mesh.normals point away from the eye", so_turned, cure_turned, CHANGES },
+    /* darkness */
+    { "Alpha is 0", NULL, cure_opaque, LIGHTS_UP },
+    { "state.shading lights", NULL, cure_shading, LIGHTS_UP },
+    { "leaves out every term", NULL, cure_terms, LIGHTS_UP },
+    { "mesh.colors, or the texels", so_map_or_colors, cure_colors, COLORS_LIGHT },
+    { "state.material reflects", NULL, cure_material, LIGHTS_UP },
+    { "black or almost: state.material", NULL, cure_all, LIGHTS_UP },
+    { "There is no light", so_no_lamp, cure_count, LIGHTS_UP },
+    { "and lighting.ambient is dark", so_no_lamp, cure_count, LIGHTS_UP },
+    { "arrives: lighting.light_count is 0", so_no_lamp, cure_count, LAMPS_LIGHT },
+    { "which shows no form", so_no_lamp, cure_count, LAMPS_LIGHT },
+    { "mesh.normals are zero or NaN", so_no_normal, cure_normals, LAMPS_LIGHT },
+    { "Every lamp is behind", so_behind, cure_sides, LAMPS_LIGHT },
+    { "Attenuation, or", NULL, cure_distance, LAMPS_LIGHT },
+    { "No cone of the lights", so_spot, cure_cone, LAMPS_LIGHT },
+    { "The lights have no colour", NULL, cure_lamps, LAMPS_LIGHT },
+    /* what is seldom meant */
+    { "lies beyond the picture", so_beyond_picture, cure_nothing, STATED },
+    { "raster.depth_bias makes", so_bias, cure_nothing, STATED },
+    { "state.view scales", so_scales, cure_nothing, STATED },
+    { "The aspect of", so_aspect, cure_aspect, CHANGES },
+    { "state.view is unset", so_no_view, cure_camera, STATED },
+    { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
+    { "but no mipmaps", so_no_mipmaps, cure_nothing, STATED },
+    { "reach the width", so_texels, cure_nothing, STATED },
+    { "diffuse_map.srgb is 0", so_linear_map, cure_nothing, STATED },
+    { "stored as alpha", so_stored, cure_over, CHANGES },
+    { "shininess is below 1", so_dull, cure_shininess, CHANGES },
+    { "state.material.diffuse is 0", so_no_diffuse, cure_diffuse, CHANGES },
+    { "state.material.emission alone", so_glows, cure_emission, DARKENS },
+};
+enum { EX_CLAIMS = sizeof claims / sizeof *claims };
+
+/* What may keep a mesh from being seen, and from being lit. */
+static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_clip, cure_depth,
+                                    cure_shader, cure_mesh, cure_model, cure_projection, NULL };
+static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading, cure_terms, cure_colors,
+                                     cure_material, cure_sides, cure_normals, cure_distance,
+                                     cure_cone, cure_lamps, cure_numbers, NULL };
+/* What is not mended where the second one is the advice, since it would do the same. */
+static cure *const ex_alike[][2] = {
+    { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
+    { cure_normals, cure_turned }, { cure_cull, cure_winding },
+    { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
+    { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
+    { cure_model, cure_model_by_rows }, { cure_numbers, cure_lamps }, { cure_no_lamp, cure_count },
+};
+static int ex_is_apart(cure *mended, cure *advice)
+{
+    for (size_t k = 0; k < sizeof ex_alike / sizeof *ex_alike; k++)
+        if (mended == ex_alike[k][0] && advice == ex_alike[k][1]) return 0;
+    return mended != advice;
+}
+/* A picture after changes, and what it shows: the triangle of each pixel, from 1 on. */
+typedef struct trial { picture p; int triangle[EX_PIXELS]; } trial;
+
+/* Draws the stage, with the advice or without it. */
+static void ex_try(const judged *j, const claim *c, const stage *given, cure *change, trial *out)
+{
+    static stage s;
+    static geometry g;
+    ex_copy(given, &s);
+    if (change) change(&s);
+    if (c->effect == LAMPS_LIGHT || c->effect == COLORS_LIGHT) {
+        unsigned *terms = &s.state.lighting.terms, all = *terms ? *terms : 15u;
+        all &= c->effect == LAMPS_LIGHT ? SHADE_TERM_DIFFUSE | SHADE_TERM_SPECULAR
+                                        : SHADE_TERM_DIFFUSE | SHADE_TERM_AMBIENT;
+        if (all) *terms = all;
+    }
+    ex_draw(j->e, &s, &out->p);
+    if (c->effect != CHANGES) return;
+    ex_look(j->e, &s, -1, &g);
+    memset(out->triangle, 0, sizeof out->triangle);
+    for (int i = 0; i < g.count; i++) out->triangle[g.at[i].place] = g.at[i].triangle + 1;
+}
+static int ex_is_lit(const claim *c)
+{
+    return c->effect == LIGHTS_UP || c->effect == LAMPS_LIGHT || c->effect == COLORS_LIGHT;
+}
+/* Is the picture still as the sentence found it: empty, or nine tenths of it dark? */
+static int ex_is_bad_still(const judged *j, const claim *c, const trial *t)
+{
+    if (ex_is_lit(c)) return t->p.bright * 10 <= j->shown.count;
+    return !t->p.stats.fragments;
+}
+/* Mends what else is wrong in the stage, as long as the picture is as the sentence found it: from
+   the first on, or from the last. */
+static void ex_mend(const judged *j, const claim *c, cure *const *all, int from_last, stage *s)
+{
+    static stage mended;
+    static trial t;
+    int n = 0;
+    while (all[n]) n++;
+    for (int k = 0; k < n; k++) {
+        cure *one = all[from_last ? n - 1 - k : k];
+        const int moves = one == cure_mesh || one == cure_projection || one == cure_model;
+        const int always = c->effect == CHANGES || c->effect == DARKENS;
+        if ((moves && c->effect != CHANGES) || (one == cure_cull && ex_is_lit(c)) ||
+            !ex_is_apart(one, c->advice))
+            continue;
+        ex_copy(s, &mended);
+        one(&mended);
+        ex_try(j, c, &mended, NULL, &t);
+        if (always || ex_is_bad_still(j, c, &t)) ex_copy(&mended, s);
+    }
+}
+/* Is the second one what the effect promises of the first? */
+static int ex_is_better(const trial *a, const trial *b, enum effect effect)
+{
+    switch (effect) {
+    case STATED: return 1;
+    case SHOWS: return !a->p.stats.fragments && b->p.stats.fragments;
+    case INTO_VIEW: return !a->p.stats.fragments && b->p.stats.culled + b->p.stats.drawn;
+    case MORE_TRIANGLES: return b->p.stats.triangles > a->p.stats.triangles;
+    case DARKENS: return b->p.sum < a->p.sum;
+    case CHANGES:
+        return memcmp(a->p.code, b->p.code, sizeof *a->p.code * EX_WIDTH * EX_HEIGHT) ||
+               memcmp(a->triangle, b->triangle, sizeof a->triangle);
+    default: return b->p.bright > a->p.bright;
+    }
+}
+/* Does the advice alone change the picture as it promises, or where it does not, that of all rows
+   and columns, or after other mistakes are mended, which alone would not do? */
+static int ex_holds(const judged *j, const claim *c)
+{
+    static trial before, after;
+    static stage s;
+    const int seen = c->effect == SHOWS || c->effect == INTO_VIEW;
+    if (c->so && !c->so(j)) return 0;
+    for (int k = 0; k < 4; k++) {
+        ex_copy(&j->e->s, &s);
+        if (k && !seen && (c->effect == CHANGES || !j->shown.count)) cure_clip(&s);
+        if (k > 1) {
+            if (!ex_is_lit(c) || !j->shown.count) ex_mend(j, c, ex_of_view, k == 3, &s);
+            if (!seen && c->effect != DARKENS) ex_mend(j, c, ex_of_light, k == 3, &s);
+        }
+        ex_try(j, c, &s, NULL, &before);
+        ex_try(j, c, &s, c->advice, &after);
+        if ((seen || ex_is_lit(c)) && !ex_is_bad_still(j, c, &before)) return 0;
+        if (ex_is_better(&before, &after, c->effect)) return 1;
+    }
+    return 0;
+}
+
+static void ex_judge(const explained *e, const picture *drawn, judged *j)
+{
+    static stage s;
+    ex_copy(&e->s, &s);
+    cure_cull(&s);
+    j->e = e;
+    j->drawn = drawn;
+    j->nearer_is_greater = ex_near_is_greater(&e->s);
+    j->eye = ex_eye(&e->s, e->s.target.depth ? ex_is_greater(&e->s.state) : j->nearer_is_greater);
+    ex_look(e, &e->s, -1, &j->shown);
+    ex_look(e, &s, j->nearer_is_greater ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS,
+            &j->all);
+}
+
+/* The row of a sentence that a draw gets, or one of these.  EX_FALSE is added where it is not so;
+   EX_CLAIMS + EX_FALSE where it has no row. */
+enum { EX_NOTHING = -1, EX_REFUSED = -2, EX_FALSE = 1000 };
+static int ex_explain(explained *e, int with_stats, const char **said)
+{
+    static picture drawn;
+    static judged j;
+    stage *s = &e->s;
+    ex_draw(e, s, &drawn);
+    if (s->other_stats) drawn.stats.triangles += 12;
+    *said = shade_explain(s->no_target ? NULL : &s->target, s->no_mesh ? NULL : &s->mesh,
+                          s->no_state ? NULL : &s->state, with_stats ? &drawn.stats : NULL);
+    if (drawn.result) return **said ? EX_REFUSED : EX_CLAIMS + EX_FALSE;
+    if (!**said) return EX_NOTHING;
+    for (int k = 0; k < EX_CLAIMS; k++) {
+        if (!strstr(*said, claims[k].words)) continue;
+        ex_judge(e, &drawn, &j);
+        return ex_holds(&j, &claims[k]) ? k : k + EX_FALSE;
+    }
+    return EX_CLAIMS + EX_FALSE;
+}
+/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, and black
+   surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
+static int ex_is_black(explained *e)
+{
+    static picture drawn;
+    static stage whole;
+    const shade_draw_state *d = &e->s.state;
+    const shade_material *m = d->material;
+    const int outline = d->raster.cull == SHADE_CULL_FRONT || d->raster.blend == SHADE_BLEND_OVER;
+    ex_draw(e, &e->s, &drawn);
+    if (drawn.result || !e->s.target.color || drawn.bright) return 0;
+    if (m && outline && ex_most(m->emission) <= 0 && ex_most(m->ambient) <= 0 &&
+        ex_most(m->diffuse) <= 0 && ex_most(m->specular) <= 0)
+        return 0;
+    ex_copy(&e->s, &whole);
+    cure_clip(&whole);
+    if (!drawn.stats.fragments && (e->s.target.clip_width || e->s.target.row_count)) return 0;
+    ex_draw(e, &whole, &drawn);
+    return !drawn.bright;
 }
 #endif

@@ -1,7 +1,9 @@
 #!/bin/sh
-# explain.sh - shade_explain is silent about the project's own scenes: every program that draws
-# meshes is built with explain_wrap.h before it, which prints what shade_explain says after each
-# draw, and is run.  Bands, strips, samples and pictures of many meshes are among them.
+# explain.sh [states] - shade_explain is silent about the project's own scenes: every program that
+# draws meshes is built with explain_wrap.h before it, which prints what shade_explain says after
+# each draw, and is run.  Bands, strips, samples and pictures of many meshes are among them.
+#   What it says of random states and of ordinary ones is true (tests/fuzz/explained.h): of 20,000
+# each, or with a number of as many, and then the programs are left out.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc} CXX=${CXX:-c++}
@@ -10,6 +12,25 @@ ${MAKE:-make} -s build/shade.o || { echo "0 passed, 1 failed"; exit 1; }
 OPENMP=$(echo 'int main(void) { return 0; }' | $CC -fopenmp -x c - -o "$T/openmp" 2>/dev/null &&
     echo -fopenmp)
 POSIX=$(echo | $CC -fsyntax-only -include termios.h -x c - 2>/dev/null && echo batch)
+
+check "the judge of states builds" "$CC" -std=c99 -D_DEFAULT_SOURCE -O2 -I. -DSHADE_LANES=16 \
+    -DEXPLAIN_STATES tests/fuzz/explain.c tests/fuzz/shade.c -lm -o "$T/states"
+for kind in random ordinary; do
+    { "$T/states" $kind "${1:-20000}" >"$T/$kind" 2>&1; echo $? >"$T/$kind.status"; } &
+done
+wait
+true_of() {                     # kind; one black picture in a thousand may have no sentence
+    black=$(sed -n 's/.* false, \([0-9]*\) black.*/\1/p' "$T/$1")
+    grep '^false\|^black' "$T/$1"
+    [ "$(cat "$T/$1.status")" -eq 0 ] && [ "$((black * 1000))" -le "${2:-20000}" ]
+}
+for kind in random ordinary; do
+    [ $# -eq 0 ] || grep '^ ' "$T/$kind"
+    tail -n 1 "$T/$kind"
+    check "what is said of $kind states is true, and of the black ones something is" \
+        true_of $kind "$@"
+done
+[ $# -eq 0 ] || finish
 
 # Runs a program that draws a mesh; fails where a draw was explained.
 silent() {

@@ -1082,6 +1082,13 @@ TEST(light, constructors_fill_in_what_they_say)
     CHECK(s.position.w == 1);
     s = shade_spot_light(grey(0), shade_v3(0, 0, -1), 3.14159265f, 0, grey(1));
     CHECK_NEAR(s.spot_cos_cutoff, -1, 1e-7);
+    s = shade_spot_light(grey(0), shade_v3(0, 0, -1), 0, 0, grey(1));
+    CHECK_NEAR(s.spot_cos_cutoff, 1, 0);
+    const float none[] = { 45, nextafterf(3.14159265f, 4), -1e-6f, NAN, INFINITY };
+    for (int k = 0; k < TEST_COUNT(none); k++) {
+        s = shade_spot_light(grey(0), shade_v3(0, 0, -1), none[k], 0, grey(1));
+        CHECK_SAY(s.spot_cos_cutoff != s.spot_cos_cutoff, "a cutoff of %g", (double)none[k]);
+    }
     shade_lighting li = one_light(&d); /* travelling down, it lights what faces up */
     check_color(__LINE__, "up", shade_lit(&li, NULL, grey(1), grey(0), shade_v3(0, 1, 0)),
                 d3_of(1, 2, 3), 1e-6);

@@ -51,7 +51,6 @@
 #include "modes.c"
 #include "explain.c"
 #include "explain_pipelines.c"
-#include "beginner.c"
 #ifdef SHADE__TILE_TESTED
 long tiles_tested;
 #include "work.c"
@@ -64,7 +63,7 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
-    SECTION(beginner), SECTION(camera),  SECTION(explain_pipelines),
+    SECTION(camera),  SECTION(explain_pipelines),
 #ifdef SHADE__TILE_TESTED
     SECTION(work),
 #endif

@@ -10,6 +10,7 @@ typedef struct whole_call { /* all that any call is given, good until it is spoi
     shade_line_state l;
     shade_texture map;
     shade_chunk chunk;
+    shade_light lamp;
     scene vertices;
     shade_vec4 clip[6];
     float positions[18], crease;
@@ -224,6 +225,11 @@ static const char *fault_lights(whole_call *w, int k)
     switch (k) {
     case 0: w->s.lighting.light_count = 1; return "M";
     case 1: w->s.lighting.model = (shade_model)6; return "M";
+    case 2:
+        w->lamp = shade_spot_light(w->lamp.diffuse, w->lamp.diffuse, 45, 0, w->lamp.diffuse);
+        w->s.lighting.lights = &w->lamp;
+        w->s.lighting.light_count = 1;
+        return "M";
     default: return NULL;
     }
 }

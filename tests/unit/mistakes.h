@@ -1,0 +1,1758 @@
+/* mistakes.h - scenes that are right, and mistakes in them.
+
+   A stage is one draw: a target, a mesh, a state, and memory for all of them.  Each mistake is a
+   function that changes a stage, and a row of mistakes[] with the words that shade_explain's
+   sentence must hold.  tests/unit/explain.c holds the words; tests/fuzz/explained.h makes the same
+   mistakes in random scenes. */
+#ifndef MISTAKES_H
+#define MISTAKES_H
+
+#include "examples/shared/teapot.h"
+
+enum { STAGE_RINGS = 12, STAGE_SECTORS = 16, STAGE_WIDTH = 96, STAGE_HEIGHT = 64 };
+enum { STAGE_VERTICES = (STAGE_RINGS + 1) * (STAGE_SECTORS + 1) };
+enum { STAGE_INDICES = STAGE_RINGS * STAGE_SECTORS * 6 };
+enum { STAGE_STRIDE = STAGE_WIDTH + 3, STAGE_PIXELS = STAGE_STRIDE * STAGE_HEIGHT };
+enum { STAGE_LAMPS = 3, STAGE_CHUNKS = 8, STAGE_TEXELS = 64 };
+
+typedef struct stage {
+    shade_target target;
+    shade_mesh mesh;
+    shade_draw_state state;
+    shade_material material;
+    shade_light lamps[STAGE_LAMPS];        /* the last is never filled */
+    shade_texture map;
+    shade_chunk chunk, chunks[STAGE_CHUNKS];
+    shade_vec3 position[STAGE_VERTICES], normal[STAGE_VERTICES], color[STAGE_VERTICES];
+    shade_vec2 texcoord[STAGE_VERTICES];
+    uint32_t index[STAGE_INDICES];
+    unsigned char texel[4 * STAGE_TEXELS];
+    shade_vec3 eye, center;                /* of the camera, for shade_mat4_look_at and ... */
+    float fovy, aspect, z_near, z_far;     /* ... shade_mat4_perspective */
+    float clear;                           /* depth before the draw; NaN: shade_clear is not called */
+    int draws;
+    int no_target, no_mesh, no_state, other_stats;
+    float pixels[4 * STAGE_PIXELS], depth[STAGE_PIXELS];    /* last: most of the bytes */
+} stage;
+
+/* ---- scenes ---------------------------------------------------------------------------------- */
+
+/* A ball of radius 1 around the origin, wound counter-clockwise as seen from outside. */
+static void stage_ball(stage *s, int rings, int sectors)
+{
+    int n = 0;
+    for (int j = 0; j <= rings; j++)
+        for (int i = 0; i <= sectors; i++) {
+            const double a = i % sectors * 6.283185307179586 / sectors;
+            const double b = j * 3.141592653589793 / rings;
+            const double r = j % rings ? sin(b) : 0;
+            const int k = j * (sectors + 1) + i;
+            s->position[k] = shade_v3((float)(r * sin(a)), (float)cos(b), (float)(r * cos(a)));
+            s->normal[k] = s->position[k];
+            s->texcoord[k] = shade_v2((float)i / (float)sectors, (float)j / (float)rings);
+        }
+    for (uint32_t j = 0; j < (uint32_t)rings; j++)
+        for (uint32_t i = 0; i < (uint32_t)sectors; i++) {
+            const uint32_t a = j * ((uint32_t)sectors + 1) + i, b = a + (uint32_t)sectors + 1;
+            const uint32_t corner[6] = { a, b, b + 1, a, b + 1, a + 1 };
+            memcpy(s->index + n, corner, sizeof corner);
+            n += 6;
+        }
+    s->mesh.vertex_count = (rings + 1) * (sectors + 1);
+    s->mesh.index_count = n;
+}
+/* The camera, after one of its numbers has changed. */
+static void stage_look(stage *s)
+{
+    s->state.view = shade_mat4_look_at(s->eye, s->center, shade_v3(0, 1, 0));
+    s->state.projection = shade_mat4_perspective(s->fovy, s->aspect, s->z_near, s->z_far);
+}
+/* What every scene has: a ball, grey colours, a white map, and no lamp yet. */
+static void stage_begin(stage *s)
+{
+    memset(s, 0, sizeof *s);
+    s->target.width = STAGE_WIDTH;
+    s->target.height = STAGE_HEIGHT;
+    s->target.stride = STAGE_STRIDE;
+    s->target.color = s->pixels;
+    s->target.depth = s->depth;
+    stage_ball(s, STAGE_RINGS, STAGE_SECTORS);
+    for (int i = 0; i < STAGE_VERTICES; i++) s->color[i] = shade_v3(0.5f, 0.5f, 0.5f);
+    s->mesh.positions = &s->position[0].x;
+    s->mesh.normals = &s->normal[0].x;
+    s->mesh.indices = s->index;
+    memset(s->texel, 255, sizeof s->texel);
+    s->map.pixels = s->texel;
+    s->map.width = s->map.height = 2;
+    s->map.srgb = 1;
+    s->state.material = &s->material;
+    s->state.lighting.lights = s->lamps;
+    s->clear = 1;
+    s->draws = 1;
+}
+/* A ball before two lamps. */
+static void stage_of_ball(stage *s)
+{
+    stage_begin(s);
+    s->chunk.count = STAGE_INDICES / 3;
+    s->material.diffuse = s->material.ambient = shade_v3(0.6f, 0.5f, 0.4f);
+    s->material.specular = shade_v3(0.3f, 0.3f, 0.3f);
+    s->material.shininess = 30;
+    s->lamps[0] = shade_point_light(shade_v3(3, 4, 6), shade_v3(1, 1, 1));
+    s->lamps[1] = shade_directional_light(shade_v3(1, -1, -1), shade_v3(0.3f, 0.3f, 0.3f));
+    s->state.lighting.light_count = 2;
+    s->eye = shade_v3(0, 1, 4);
+    s->fovy = 0.8f;
+    s->aspect = 1.5f;
+    s->z_near = 0.1f;
+    s->z_far = 100;
+    stage_look(s);
+}
+/* README's first program, with the teapot of few triangles. */
+static void stage_of_teapot(stage *s)
+{
+    stage_begin(s);
+    s->target.srgb = 1;
+    teapot_build(2, &s->position[0].x, &s->normal[0].x, &s->texcoord[0].x, s->index);
+    s->mesh.vertex_count = teapot_vertex_count(2);
+    s->mesh.index_count = teapot_index_count(2);
+    s->lamps[0] = shade_point_light(shade_v3(4, 6, 5), shade_v3(1, 1, 1));
+    s->material = shade_linear_material(shade_preset_material(SHADE_PRESET_GOLD));
+    s->state.lighting.light_count = 1;
+    s->eye = shade_v3(0, 4, 8);
+    s->center = shade_v3(0, 1.4f, 0);
+    s->fovy = 0.7f;
+    s->aspect = (float)STAGE_WIDTH / STAGE_HEIGHT;
+    s->z_near = 0.1f;
+    s->z_far = 100;
+    stage_look(s);
+}
+
+/* Draws as the stage says, and explains it; stats NULL where they are not to be known. */
+static const char *stage_explain(stage *s, int with_stats)
+{
+    const shade_target *t = s->no_target ? NULL : &s->target;
+    const shade_mesh *m = s->no_mesh ? NULL : &s->mesh;
+    const shade_draw_state *d = s->no_state ? NULL : &s->state;
+    shade_stats stats;
+    const char *said;
+    if (s->clear == s->clear) shade_clear(&s->target, shade_v4(0, 0, 0, 1), s->clear);
+    for (int k = 0; k < s->draws; k++) shade_draw_mesh(t, m, d, &stats);
+    if (s->other_stats) stats.triangles += 12;
+    said = shade_explain(t, m, d, with_stats ? &stats : NULL);
+    return said ? said : "NULL";
+}
+
+/* ---- mistakes -------------------------------------------------------------------------------- */
+
+#define MISTAKE(name) static void mistake_##name(stage *s)
+#define BLACK shade_v3(0, 0, 0)
+#define STAGE_SCALE(k) shade_mat4_scaling(shade_v3(k, k, k))
+#define SUN shade_directional_light(shade_v3(0, -1, -4), shade_v3(1, 1, 1))
+
+/* ---- of a newcomer, in any scene */
+
+static void stage_reverse(stage *s, float z_near)
+{
+    s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, z_near);
+    s->state.raster.depth_zero_to_one = 1;
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
+static void stage_lamp(stage *s, shade_light lamp)
+{
+    s->lamps[0] = lamp;
+    s->state.lighting.lights = s->lamps;
+    s->state.lighting.light_count = 1;
+}
+/* A lamp where the first one is, that points at the middle of the mesh. */
+static shade_light stage_spot(const stage *s, float cutoff, float exponent)
+{
+    const shade_vec3 from = shade_madd(s->center, 1.5f, shade_sub(s->eye, s->center));
+    return shade_spot_light(from, shade_sub(s->center, from), cutoff, exponent,
+                            shade_v3(1, 1, 1));
+}
+static void stage_map(stage *s)
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+}
+/* Winds the triangles the other way from an index on. */
+static void stage_turn(stage *s, int first)
+{
+    for (int i = first; i + 2 < s->mesh.index_count; i += 3) {
+        const uint32_t k = s->index[i];
+        s->index[i] = s->index[i + 1];
+        s->index[i + 1] = k;
+    }
+}
+static void stage_chunks(stage *s)
+{
+    shade_mesh_chunks(&s->mesh, s->mesh.index_count / 6 + 1, s->chunks, STAGE_CHUNKS, NULL);
+    s->mesh.chunks = s->chunks;
+    s->mesh.chunk_count =
+        shade_chunk_count(s->mesh.index_count, s->mesh.index_count / 6 + 1);
+}
+static void shader_black(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                         shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    (void)in;
+    SHADE_EACH_LANE(i) { out->color[3][i] = 1; }
+}
+static void shader_that_discards(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                                 shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    (void)in;
+    SHADE_EACH_LANE(i) { out->discard[i] = 1; }
+}
+static void shader_white(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+                         shade_colors *SHADE_RESTRICT out)
+{
+    (void)uniforms;
+    (void)in;
+    for (int k = 0; k < 4; k++)
+        SHADE_EACH_LANE(i) { out->color[k][i] = 1; }
+}
+
+/* the target */
+MISTAKE(width_and_height_exchanged)
+{
+    const int width = s->target.width;
+    s->target.width = s->target.height;
+    s->target.height = width;
+    s->target.stride = 0;
+}
+MISTAKE(width_forgotten) { s->target.width = 0; }
+MISTAKE(height_forgotten) { s->target.height = 0; }
+MISTAKE(no_buffers) { s->target.color = s->target.depth = NULL; }
+MISTAKE(color_forgotten) { s->target.color = NULL; }
+MISTAKE(depth_forgotten) { s->target.depth = NULL; }
+MISTAKE(srgb_forgotten) { s->target.srgb = 0; }
+MISTAKE(red_and_blue_exchanged) { s->target.format = SHADE_FORMAT_BGRA8; }
+MISTAKE(format_of_masks) { s->target.format = SHADE_FORMAT_A8; }
+MISTAKE(stride_of_a_row_too_few) { s->target.stride = s->target.width - 1; }
+MISTAKE(clip_of_a_corner_to_draw_in_all)
+{
+    s->target.clip_x = s->target.width;
+    s->target.clip_y = s->target.height;
+}
+MISTAKE(clip_by_two_corners)
+{
+    s->target.clip_x = s->target.width / 4;
+    s->target.clip_y = s->target.height / 4;
+    s->target.clip_width = s->target.width;
+    s->target.clip_height = s->target.height;
+}
+MISTAKE(clip_width_alone) { s->target.clip_width = s->target.width; }
+MISTAKE(clip_beside_the_mesh)
+{
+    s->target.clip_x = s->target.clip_y = 1;
+    s->target.clip_width = s->target.width / 12;
+    s->target.clip_height = s->target.height / 12;
+}
+MISTAKE(strip_without_rows) { s->target.row_offset = 3; }
+
+/* depth */
+MISTAKE(clear_forgotten) { s->clear = NAN; }
+MISTAKE(cleared_to_zero) { s->clear = 0; }
+MISTAKE(cleared_once_for_two_frames) { s->draws = 2; }
+MISTAKE(test_greater) { s->state.raster.depth_test = SHADE_COMPARE_GREATER; }
+MISTAKE(test_equal)
+{
+    s->state.raster.depth_test = SHADE_COMPARE_EQUAL;
+}
+MISTAKE(test_always) { s->state.raster.depth_test = SHADE_COMPARE_ALWAYS; }
+MISTAKE(depth_never_written) { s->state.raster.depth_read_only = 1; }
+MISTAKE(bias_of_one) { s->state.raster.depth_bias = 1; }
+MISTAKE(bias_of_minus_one) { s->state.raster.depth_bias = -1; }
+MISTAKE(bias_nan) { s->state.raster.depth_bias = NAN; }
+MISTAKE(reversed_camera_in_half)
+{
+    s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, s->z_near);
+}
+MISTAKE(reversed_without_its_test)
+{
+    stage_reverse(s, s->z_near);
+    s->state.raster.depth_test = SHADE_COMPARE_LESS;
+    s->clear = 1;
+}
+MISTAKE(reversed_without_its_test_cleared_to_zero)
+{
+    stage_reverse(s, s->z_near);
+    s->state.raster.depth_test = SHADE_COMPARE_LESS;
+}
+MISTAKE(reversed_without_its_clear)
+{
+    stage_reverse(s, s->z_near);
+    s->clear = 1;
+}
+MISTAKE(reversed_without_its_flag)
+{
+    stage_reverse(s, s->z_near);
+    s->state.raster.depth_zero_to_one = 0;
+}
+MISTAKE(flag_of_vulkan_alone) { s->state.raster.depth_zero_to_one = 1; }
+
+/* the mesh */
+MISTAKE(positions_forgotten) { s->mesh.positions = NULL; }
+MISTAKE(normals_forgotten) { s->mesh.normals = NULL; }
+MISTAKE(vertex_count_forgotten) { s->mesh.vertex_count = 0; }
+MISTAKE(vertex_count_of_another_mesh) { s->mesh.vertex_count /= 3; }
+MISTAKE(indices_forgotten)
+{
+    s->mesh.indices = NULL;
+    s->mesh.vertex_count -= s->mesh.vertex_count % 3;
+}
+MISTAKE(index_count_forgotten) { s->mesh.index_count = 0; }
+MISTAKE(index_count_of_triangles)
+{
+    s->mesh.index_count = s->mesh.index_count / 9 * 3;
+}
+MISTAKE(index_count_less_one) { s->mesh.index_count--; }
+MISTAKE(indices_of_16_bits)
+{
+    for (int i = 0; i < s->mesh.index_count / 2; i++)
+        s->index[i] = s->index[2 * i] | s->index[2 * i + 1] << 16;
+}
+MISTAKE(indices_from_one)
+{
+    for (int i = 0; i < s->mesh.index_count; i++) s->index[i]++;
+}
+MISTAKE(indices_never_filled) { memset(s->index, 0, sizeof s->index); }
+MISTAKE(stride_in_floats) { s->mesh.position_stride = 3; }
+MISTAKE(stride_of_eight_floats) { s->mesh.position_stride = 8; }
+MISTAKE(normal_stride_in_floats) { s->mesh.normal_stride = 3; }
+MISTAKE(positions_of_doubles)
+{
+    for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
+        const shade_vec3 p = s->position[i];
+        const double wide[3] = { (double)p.x, (double)p.y, (double)p.z };
+        memcpy(s->position + 2 * i, wide, sizeof wide);
+    }
+}
+MISTAKE(positions_of_integers)
+{
+    for (int i = 0; i < s->mesh.vertex_count; i++) {
+        const int32_t p[3] = { (int32_t)(s->position[i].x * 100), (int32_t)(s->position[i].y * 100),
+                               (int32_t)(s->position[i].z * 100) };
+        memcpy(s->position + i, p, sizeof p);
+    }
+}
+MISTAKE(positions_interleaved_without_stride)
+{
+    for (int i = s->mesh.vertex_count / 2 - 1; i >= 0; i--) {
+        s->position[2 * i] = s->position[i];
+        s->position[2 * i + 1] = s->normal[i];
+    }
+}
+MISTAKE(positions_never_filled)
+{
+    memset(s->position, 0, sizeof s->position);
+}
+MISTAKE(positions_nan)
+{
+    for (int i = 0; i < s->mesh.vertex_count; i++) s->position[i].y = NAN;
+}
+MISTAKE(one_position_infinite) { s->position[s->mesh.vertex_count / 2].x = INFINITY; }
+MISTAKE(normals_never_filled) { memset(s->normal, 0, sizeof s->normal); }
+MISTAKE(normals_against_the_winding)
+{
+    for (int i = 0; i < s->mesh.vertex_count; i++) s->normal[i] = shade_neg(s->normal[i]);
+}
+MISTAKE(normals_nan)
+{
+    for (int i = 0; i < s->mesh.vertex_count; i++) s->normal[i] = shade_v3(NAN, NAN, NAN);
+}
+MISTAKE(normals_as_colours)    /* 0 .. 1, as pictures hold them */
+{
+    for (int i = 0; i < s->mesh.vertex_count; i++)
+        s->normal[i] = shade_madd(shade_v3(0.5f, 0.5f, 0.5f), 0.5f, s->normal[i]);
+}
+MISTAKE(normals_in_reverse_order)
+{
+    for (int i = 0, k = s->mesh.vertex_count - 1; i < k; i++, k--) {
+        const shade_vec3 n = s->normal[i];
+        s->normal[i] = s->normal[k];
+        s->normal[k] = n;
+    }
+}
+MISTAKE(normals_with_z_up)
+{
+    for (int i = 0; i < s->mesh.vertex_count; i++)
+        s->normal[i] = shade_v3(s->normal[i].x, -s->normal[i].z, s->normal[i].y);
+}
+MISTAKE(positions_as_normals) { s->mesh.normals = s->mesh.positions; }
+MISTAKE(inside_out)
+{
+    stage_turn(s, 0);
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(wound_clockwise_without_normals)
+{
+    stage_turn(s, 0);
+    s->mesh.normals = NULL;
+}
+MISTAKE(half_wound_clockwise)
+{
+    stage_turn(s, s->mesh.index_count / 6 * 3);
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(fronts_left_out) { s->state.raster.cull = SHADE_CULL_FRONT; }
+MISTAKE(fronts_left_out_without_normals)
+{
+    s->state.raster.cull = SHADE_CULL_FRONT;
+    s->mesh.normals = NULL;
+}
+MISTAKE(colors_zero)
+{
+    memset(s->color, 0, sizeof s->color);
+    s->mesh.colors = &s->color[0].x;
+}
+MISTAKE(colors_of_255)
+{
+    for (int i = 0; i < s->mesh.vertex_count; i++) s->color[i] = shade_v3(200, 128, 130);
+    s->mesh.colors = &s->color[0].x;
+}
+MISTAKE(colors_of_bytes)
+{
+    memset(s->color, 0x60, sizeof s->color);    /* as floats they are 6e19 */
+    s->mesh.colors = &s->color[0].x;
+}
+MISTAKE(map_without_texcoords) { s->state.diffuse_map = &s->map; }
+MISTAKE(texcoords_without_map) { s->mesh.texcoords = &s->texcoord[0].x; }
+MISTAKE(texcoords_in_texels)
+{
+    stage_map(s);
+    s->map.width = s->map.height = 8;
+    for (int i = 0; i < s->mesh.vertex_count; i++) s->texcoord[i] = shade_scale2(s->texcoord[i], 8);
+}
+MISTAKE(texcoords_never_filled)
+{
+    stage_map(s);
+    memset(s->texcoord, 0, sizeof s->texcoord);
+}
+MISTAKE(map_without_pixels)
+{
+    stage_map(s);
+    s->map.pixels = NULL;
+}
+MISTAKE(map_black)
+{
+    stage_map(s);
+    for (int k = 0; k < STAGE_TEXELS * 4; k++) s->texel[k] = (unsigned char)(k % 4 == 3 ? 255 : 0);
+}
+MISTAKE(map_never_filled_and_cut)
+{
+    stage_map(s);
+    memset(s->texel, 0, sizeof s->texel);
+    s->state.alpha_cutoff = 0.5f;
+}
+MISTAKE(map_invisible)
+{
+    stage_map(s);
+    for (int k = 3; k < STAGE_TEXELS * 4; k += 4) s->texel[k] = 0;
+    s->state.raster.blend = SHADE_BLEND_OVER;
+}
+MISTAKE(map_not_marked_srgb)
+{
+    stage_map(s);
+    s->map.srgb = 0;
+    s->target.srgb = 1;
+}
+MISTAKE(trilinear_without_mipmaps)
+{
+    stage_map(s);
+    s->map.filter = SHADE_FILTER_TRILINEAR;
+}
+MISTAKE(map_of_no_size)
+{
+    stage_map(s);
+    s->map.width = 0;
+}
+MISTAKE(chunk_count_forgotten)
+{
+    stage_chunks(s);
+    s->mesh.chunk_count = 0;
+}
+MISTAKE(chunks_null)
+{
+    stage_chunks(s);
+    s->mesh.chunks = NULL;
+}
+MISTAKE(chunks_of_half_the_triangles)
+{
+    stage_chunks(s);
+    s->mesh.chunk_count--;
+}
+MISTAKE(chunks_never_filled)
+{
+    stage_chunks(s);
+    memset(s->chunks, 0, sizeof s->chunks);
+}
+MISTAKE(chunks_of_a_mesh_that_has_moved)
+{
+    stage_chunks(s);
+    s->chunks[0].low.x += 40;
+    s->chunks[0].high.x += 40;
+}
+
+/* lamps */
+MISTAKE(lamp_never_filled) { stage_lamp(s, s->lamps[STAGE_LAMPS - 1]); }
+MISTAKE(lamp_black)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].diffuse = s->lamps[0].specular = BLACK;
+}
+MISTAKE(light_of_255)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].diffuse = shade_v3(255, 255, 255);
+}
+MISTAKE(lamp_of_a_hundredth)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].diffuse = s->lamps[0].specular = shade_v3(1e-3f, 1e-3f, 1e-3f);
+}
+MISTAKE(lamp_behind)
+{
+    const shade_vec3 behind = shade_madd(s->center, -1, shade_sub(s->eye, s->center));
+    stage_lamp(s, shade_point_light(behind, shade_v3(1, 1, 1)));
+}
+MISTAKE(lamp_inside)
+{
+    stage_lamp(s, shade_point_light(s->center, shade_v3(1, 1, 1)));
+}
+MISTAKE(lamp_in_eye_space)    /* a lamp at the eye, as OpenGL 1 had it */
+{
+    stage_lamp(s, shade_point_light(shade_v3(0, 0, 0), shade_v3(1, 1, 1)));
+}
+MISTAKE(lamp_under_the_ground)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].position.y = -s->lamps[0].position.y;
+    s->lamps[0].position.z = -s->lamps[0].position.z;
+}
+MISTAKE(lamp_far_away_that_falls_off)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].position = shade_v4(40, 60, 50, 1);
+    s->lamps[0].quadratic = 1;
+}
+MISTAKE(lamp_that_falls_off_by_the_square)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].position = shade_v4(14, 20, 16, 1);
+    s->lamps[0].quadratic = 1;
+}
+MISTAKE(attenuation_negative)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].constant = 1;
+    s->lamps[0].linear = -0.2f;
+}
+MISTAKE(sun_toward_the_light)
+{
+    stage_lamp(s, shade_directional_light(shade_sub(s->eye, s->center), shade_v3(1, 1, 1)));
+}
+MISTAKE(sun_as_a_point)    /* a direction whose w was left at 1 */
+{
+    stage_lamp(s, shade_directional_light(shade_v3(0, -0.2f, -0.4f), shade_v3(1, 1, 1)));
+    s->lamps[0].position.w = 1;
+}
+MISTAKE(point_as_a_sun)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].position.w = 0;
+}
+MISTAKE(cutoff_in_degrees) { stage_lamp(s, stage_spot(s, 30, 1)); }
+MISTAKE(cosine_in_degrees)
+{
+    stage_lamp(s, stage_spot(s, 0.5f, 1));
+    s->lamps[0].spot_cos_cutoff = 30;
+}
+MISTAKE(angle_for_its_cosine)
+{
+    stage_lamp(s, stage_spot(s, 0.5f, 1));
+    s->lamps[0].spot_cos_cutoff = 0.5f;
+}
+MISTAKE(cone_toward_the_eye)
+{
+    stage_lamp(s, stage_spot(s, 0.5f, 1));
+    s->lamps[0].spot_direction = shade_neg(s->lamps[0].spot_direction);
+}
+MISTAKE(cone_at_a_point)    /* a target where the direction belongs */
+{
+    stage_lamp(s, shade_spot_light(shade_v3(4, 6, 5), shade_v3(0, 1.4f, 0), 0.3f, 1,
+                                   shade_v3(1, 1, 1)));
+}
+MISTAKE(cone_of_a_hair) { stage_lamp(s, stage_spot(s, 0.01f, 1)); }
+MISTAKE(exponent_of_thousands) { stage_lamp(s, stage_spot(s, 1.5f, 1e5f)); }
+MISTAKE(lights_forgotten) { s->state.lighting.lights = NULL; }
+MISTAKE(light_count_forgotten) { s->state.lighting.light_count = 0; }
+MISTAKE(light_count_negative) { s->state.lighting.light_count = -1; }
+MISTAKE(lighting_forgotten) { memset(&s->state.lighting, 0, sizeof s->state.lighting); }
+MISTAKE(lighting_of_ambient_alone)
+{
+    memset(&s->state.lighting, 0, sizeof s->state.lighting);
+    s->state.lighting.ambient = shade_v3(0.2f, 0.2f, 0.2f);
+}
+MISTAKE(ambient_of_one) { s->state.lighting.ambient = shade_v3(1, 1, 1); }
+MISTAKE(ambient_of_255) { s->state.lighting.ambient = shade_v3(128, 128, 128); }
+MISTAKE(lamp_without_specular)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].specular = BLACK;
+}
+MISTAKE(lamp_of_ambient_light)    /* filled by hand */
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].diffuse = s->lamps[0].specular = BLACK;
+    s->lamps[0].ambient = shade_v3(0.5f, 0.5f, 0.5f);
+}
+MISTAKE(lamp_nan)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].position.x = NAN;
+}
+MISTAKE(lamp_negative)
+{
+    s->state.lighting.light_count = 1;
+    s->lamps[0].diffuse = shade_v3(-1, -1, -1);
+}
+MISTAKE(terms_of_nothing) { s->state.lighting.terms = SHADE_TERM_EMISSION; }
+MISTAKE(terms_of_highlights) { s->state.lighting.terms = SHADE_TERM_SPECULAR; }
+MISTAKE(terms_unknown) { s->state.lighting.terms = 64; }
+MISTAKE(model_of_emission) { s->state.lighting.model = SHADE_MODEL_EMISSIVE; }
+MISTAKE(model_of_ambient_light) { s->state.lighting.model = SHADE_MODEL_AMBIENT; }
+MISTAKE(model_unknown) { s->state.lighting.model = (shade_model)44; }
+MISTAKE(shading_unknown) { s->state.shading = (shade_shading)7; }
+MISTAKE(a_pool_of_light_by_vertices)    /* it falls where there are some, or none */
+{
+    stage_lamp(s, stage_spot(s, 0.06f, 1));
+    s->state.shading = SHADE_SHADING_PER_VERTEX;
+}
+
+/* the material */
+MISTAKE(material_forgotten) { s->state.material = NULL; }
+MISTAKE(material_never_filled) { memset(&s->material, 0, sizeof s->material); }
+MISTAKE(material_of_255)
+{
+    s->material.diffuse = s->material.ambient = shade_v3(255, 200, 100);
+}
+MISTAKE(material_of_ambient_light)
+{
+    s->material.diffuse = s->material.specular = BLACK;
+}
+MISTAKE(ambient_without_k_a)
+{
+    memset(&s->state.lighting, 0, sizeof s->state.lighting);
+    s->state.lighting.ambient = shade_v3(0.5f, 0.5f, 0.5f);
+    s->material.ambient = BLACK;
+}
+MISTAKE(material_of_highlights) { s->material.diffuse = s->material.ambient = BLACK; }
+MISTAKE(material_dark)
+{
+    s->material.diffuse = s->material.ambient = shade_v3(1e-3f, 1e-3f, 1e-3f);
+    s->material.specular = BLACK;
+}
+MISTAKE(material_negative)
+{
+    s->material.diffuse = shade_neg(s->material.diffuse);
+    s->material.specular = BLACK;
+}
+MISTAKE(shininess_forgotten) { s->material.shininess = 0; }
+MISTAKE(shininess_of_a_table) { s->material.shininess = 0.4f; }
+MISTAKE(emission_of_the_diffuse_colour)
+{
+    s->material.emission = s->material.diffuse;
+}
+MISTAKE(emission_white) { s->material.emission = shade_v3(1, 1, 1); }
+MISTAKE(invisible)
+{
+    s->state.transparency = 1;
+    s->state.raster.blend = SHADE_BLEND_OVER;
+}
+MISTAKE(opacity_for_transparency)
+{
+    s->state.transparency = 1;
+    s->state.alpha_cutoff = 0.5f;
+}
+MISTAKE(transparency_in_percent) { s->state.transparency = 50; }
+MISTAKE(transparency_without_blend) { s->state.transparency = 0.5f; }
+MISTAKE(cutoff_of_128) { s->state.alpha_cutoff = 128; }
+MISTAKE(cutoff_above_the_alpha)
+{
+    s->state.transparency = 0.6f;
+    s->state.alpha_cutoff = 0.5f;
+}
+MISTAKE(cull_unknown) { s->state.raster.cull = (shade_cull)4; }
+MISTAKE(blend_unknown) { s->state.raster.blend = (shade_blend)77; }
+MISTAKE(depth_test_unknown)
+{
+    s->state.raster.depth_test = (shade_compare)513;
+}
+MISTAKE(shader_discards_all) { s->state.fragment = shader_that_discards; }
+MISTAKE(shader_leaves_black) { s->state.fragment = shader_black; }
+MISTAKE(shader_by_vertices)
+{
+    s->state.fragment = shader_white;
+    s->state.shading = SHADE_SHADING_PER_VERTEX;
+}
+
+/* cameras */
+MISTAKE(view_forgotten) { memset(&s->state.view, 0, sizeof s->state.view); }
+MISTAKE(eye_and_center_exchanged)
+{
+    const shade_vec3 eye = s->eye;
+    s->eye = s->center;
+    s->center = eye;
+    stage_look(s);
+}
+MISTAKE(looks_the_other_way)
+{
+    s->center = shade_madd(s->eye, 1, shade_sub(s->eye, s->center));
+    stage_look(s);
+}
+MISTAKE(looks_to_the_side)
+{
+    const shade_vec3 ahead = shade_sub(s->center, s->eye);
+    const float far = shade_length(ahead);
+    s->center = shade_madd(s->eye, 1, shade_scale(shade_normalize(shade_cross(
+                                           ahead, shade_v3(0, 1, 0))), far));
+    s->center = shade_madd(s->center, 0.2f, ahead);
+    stage_look(s);
+}
+MISTAKE(eye_at_its_center)
+{
+    s->eye = s->center;
+    stage_look(s);
+}
+MISTAKE(up_along_the_view)
+{
+    s->state.view = shade_mat4_look_at(s->eye, s->center, shade_sub(s->eye, s->center));
+}
+MISTAKE(view_inverted) { s->state.view = shade_mat4_inverse(s->state.view); }
+MISTAKE(view_by_rows)
+{
+    s->state.view = shade_mat4_transpose(s->state.view);
+}
+MISTAKE(view_nan) { s->state.view.col[3].x = NAN; }
+MISTAKE(view_moves_the_camera)    /* not the world */
+{
+    s->state.view = shade_mat4_translation(shade_sub(s->eye, s->center));
+}
+MISTAKE(view_without_translation) { s->state.view.col[3] = shade_v4(0, 0, 0, 1); }
+MISTAKE(view_without_its_last_one) { s->state.view.col[3].w = 0; }
+MISTAKE(view_that_scales)
+{
+    s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(0.5f, 0.5f, 0.5f)), s->state.view);
+}
+MISTAKE(view_twice)
+{
+    s->state.model = s->state.view;
+}
+MISTAKE(eye_a_thousand_away)
+{
+    s->eye = shade_madd(s->center, 1000, shade_sub(s->eye, s->center));
+    stage_look(s);
+}
+MISTAKE(eye_inside)
+{
+    s->eye = shade_madd(s->center, 0.02f, shade_sub(s->eye, s->center));
+    stage_look(s);
+}
+MISTAKE(projection_forgotten) { memset(&s->state.projection, 0, sizeof s->state.projection); }
+MISTAKE(both_cameras_forgotten)
+{
+    memset(&s->state.view, 0, sizeof s->state.view);
+    memset(&s->state.projection, 0, sizeof s->state.projection);
+}
+MISTAKE(fovy_in_degrees)
+{
+    s->fovy = 40;
+    stage_look(s);
+}
+MISTAKE(fovy_zero)
+{
+    s->fovy = 0;
+    stage_look(s);
+}
+MISTAKE(fovy_made_radians_twice)
+{
+    s->fovy = shade_radians(s->fovy);
+    stage_look(s);
+}
+MISTAKE(fovy_of_half_a_turn)
+{
+    s->fovy = 3;
+    stage_look(s);
+}
+MISTAKE(aspect_of_integers)
+{
+    s->aspect = (float)(s->target.width / s->target.height);
+    stage_look(s);
+}
+MISTAKE(aspect_upside_down)
+{
+    s->aspect = 1 / s->aspect;
+    stage_look(s);
+}
+MISTAKE(aspect_zero)
+{
+    s->aspect = 0;
+    stage_look(s);
+}
+MISTAKE(near_zero)
+{
+    s->z_near = 0;
+    stage_look(s);
+}
+MISTAKE(near_negative)
+{
+    s->z_near = -1;
+    stage_look(s);
+}
+MISTAKE(near_is_far)
+{
+    s->z_near = s->z_far;
+    stage_look(s);
+}
+MISTAKE(near_and_far_exchanged)
+{
+    const float z = s->z_near;
+    s->z_near = s->z_far;
+    s->z_far = z;
+    stage_look(s);
+}
+MISTAKE(near_tiny)
+{
+    s->z_near = 1e-7f;
+    stage_look(s);
+}
+MISTAKE(far_too_near)
+{
+    s->z_far = 2 * s->z_near;
+    stage_look(s);
+}
+MISTAKE(near_too_far)
+{
+    s->z_near = s->z_far / 2;
+    stage_look(s);
+}
+MISTAKE(projection_by_rows)
+{
+    s->state.projection = shade_mat4_transpose(s->state.projection);
+}
+MISTAKE(all_by_rows)
+{
+    s->state.view = shade_mat4_transpose(s->state.view);
+    s->state.projection = shade_mat4_transpose(s->state.projection);
+}
+MISTAKE(view_and_projection_exchanged)
+{
+    const shade_mat4 view = s->state.view;
+    s->state.view = s->state.projection;
+    s->state.projection = view;
+}
+MISTAKE(projection_times_view_as_view)
+{
+    s->state.view = shade_mat4_mul(s->state.projection, s->state.view);
+    memset(&s->state.projection, 0, sizeof s->state.projection);
+}
+MISTAKE(projection_times_view_as_projection)
+{
+    s->state.projection = shade_mat4_mul(s->state.projection, s->state.view);
+    memset(&s->state.view, 0, sizeof s->state.view);
+}
+MISTAKE(view_times_projection_as_projection)
+{
+    s->state.projection = shade_mat4_mul(s->state.view, s->state.projection);
+    memset(&s->state.view, 0, sizeof s->state.view);
+}
+MISTAKE(all_in_model)
+{
+    s->state.model = shade_mat4_mul(s->state.projection, s->state.view);
+    memset(&s->state.view, 0, sizeof s->state.view);
+    memset(&s->state.projection, 0, sizeof s->state.projection);
+}
+MISTAKE(projection_left_handed)
+{
+    s->state.projection.col[2].w = 1;
+    s->state.projection.col[2].z = -s->state.projection.col[2].z;
+}
+MISTAKE(projection_upside_down)    /* as Vulkan has it */
+{
+    s->state.projection.col[1].y = -s->state.projection.col[1].y;
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(ortho_in_pixels)
+{
+    s->state.projection = shade_mat4_ortho(0, (float)s->target.width, (float)s->target.height, 0,
+                                           -1, 1);
+}
+MISTAKE(ortho_too_short)
+{
+    s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, -1, 1);
+}
+MISTAKE(ortho_empty) { s->state.projection = shade_mat4_ortho(1, 1, -1, 1, 0.1f, 9); }
+
+/* the model */
+MISTAKE(model_scaled_to_nothing) { s->state.model = STAGE_SCALE(0); }
+MISTAKE(model_in_millimetres) { s->state.model = STAGE_SCALE(1e3f); }
+MISTAKE(model_far_too_small) { s->state.model = STAGE_SCALE(1e-5f); }
+MISTAKE(model_moved_away)
+{
+    s->state.model = shade_mat4_translation(shade_v3(70, 0, 0));
+}
+MISTAKE(model_by_rows)
+{
+    s->state.model = shade_mat4_transpose(shade_mat4_translation(shade_v3(1, 0, 0)));
+}
+MISTAKE(model_nan) { s->state.model = STAGE_SCALE(NAN); }
+MISTAKE(model_without_its_last_one)
+{
+    s->state.model = shade_mat4_translation(shade_v3(0.2f, 0, 0));
+    s->state.model.col[3].w = 0;
+}
+MISTAKE(mirrored)
+{
+    s->state.model = shade_mat4_scaling(shade_v3(-1, 1, 1));
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(model_turned_by_degrees)
+{
+    s->state.model = shade_mat4_rotation(90, shade_v3(0, 1, 0));
+}
+MISTAKE(moved_before_scaled)    /* scale * translation, not translation * scale */
+{
+    s->state.model = shade_mat4_mul(STAGE_SCALE(0.5f), shade_mat4_translation(shade_v3(1, 0, 0)));
+}
+
+/* the call */
+MISTAKE(target_null) { s->no_target = 1; }
+MISTAKE(mesh_null) { s->no_mesh = 1; }
+MISTAKE(state_null) { s->no_state = 1; }
+MISTAKE(stats_of_another_mesh) { s->other_stats = 1; }
+
+/* ---- of the ball */
+
+MISTAKE(clip_negative) { s->target.clip_width = -1; }
+MISTAKE(vertex_count_negative) { s->mesh.vertex_count = -3; }
+MISTAKE(index_count_negative) { s->mesh.index_count = -3; }
+MISTAKE(chunk_outside)
+{
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.first = 1;
+}
+MISTAKE(chunks_of_another_mesh)
+{
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(9, 9, 9);
+    s->chunk.high = shade_v3(10, 10, 10);
+}
+MISTAKE(index_beyond) { s->index[77] = STAGE_VERTICES; }
+MISTAKE(vertices_not_in_threes)
+{
+    s->mesh.indices = NULL;
+    s->mesh.vertex_count = 100;
+}
+MISTAKE(vertex_count_forgotten_without_indices)
+{
+    s->mesh.indices = NULL;
+    s->mesh.vertex_count = 0;
+}
+MISTAKE(swapped_ortho)
+{
+    s->state.projection = s->state.view;
+    s->state.view = shade_mat4_ortho(-2, 2, -2, 2, 0.1f, 100);
+}
+MISTAKE(ortho_by_rows)
+{
+    s->state.projection = shade_mat4_transpose(shade_mat4_ortho(-3, 1, -1, 1, 0.01f, 0.1f));
+}
+MISTAKE(beyond_far_where_the_inverse_looks)
+{
+    s->state.view = shade_mat4_translation(shade_v3(0, 0, -4));
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 0.1f, 20);
+    s->state.model = shade_mat4_translation(shade_v3(0, 0, -20));
+}
+MISTAKE(left_handed) { s->state.model = shade_mat4_translation(shade_v3(0, 0, 8)); }
+MISTAKE(view_infinite) { s->state.view.col[3].x = INFINITY; }
+MISTAKE(projection_nan) { s->state.projection.col[0].x = NAN; }
+MISTAKE(wound_clockwise_quad)
+{
+    static const uint32_t clockwise[6] = { 0, 2, 1, 0, 3, 2 };
+    static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
+    memcpy(s->position, quad, sizeof quad);
+    memcpy(s->index, clockwise, sizeof clockwise);
+    s->mesh.index_count = 6;
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(culled_by_mirror)
+{
+    mistake_wound_clockwise_quad(s);
+    s->index[1] = 1;
+    s->index[2] = 2;
+    s->index[4] = 2;
+    s->index[5] = 3;
+    s->state.model = shade_mat4_scaling(shade_v3(-1, 1, 1));
+}
+MISTAKE(culled_front)
+{
+    mistake_wound_clockwise_quad(s);
+    s->index[1] = 1;
+    s->index[2] = 2;
+    s->index[4] = 2;
+    s->index[5] = 3;
+    s->state.raster.cull = SHADE_CULL_FRONT;
+}
+MISTAKE(culled_inside)
+{
+    s->state.raster.cull = SHADE_CULL_BACK;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 0), shade_v3(0, 0, -1), shade_v3(0, 1, 0));
+}
+MISTAKE(culled_inside_with_chunks)
+{
+    mistake_culled_inside(s);
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(-1, -1, -1);
+    s->chunk.high = shade_v3(1, 1, 1);
+}
+/* Rings from the far one to the near one, and the other way: fronts are drawn first, or last. */
+MISTAKE(inside_out_from_below)
+{
+    s->state.view = shade_mat4_look_at(shade_v3(0, -4, 0.1f), shade_v3(0, 0, 0), shade_v3(0, 0, 1));
+    mistake_inside_out(s);
+}
+MISTAKE(inside_out_from_above)
+{
+    s->state.view = shade_mat4_look_at(shade_v3(0, 4, 0.1f), shade_v3(0, 0, 0), shade_v3(0, 0, 1));
+    mistake_inside_out(s);
+}
+MISTAKE(inside_out_with_a_bias)
+{
+    mistake_inside_out(s);
+    s->state.raster.depth_bias = -1;
+}
+MISTAKE(inside_out_open)
+{
+    s->mesh.index_count = STAGE_INDICES * 2 / 3;
+    mistake_inside_out(s);
+}
+MISTAKE(mirrored_open)
+{
+    s->mesh.index_count = STAGE_INDICES * 2 / 3;
+    s->state.model = shade_mat4_scaling(shade_v3(1, 1, -1));
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+MISTAKE(inside_out_without_normals)
+{
+    s->mesh.normals = NULL;
+    mistake_inside_out(s);
+}
+/* Depth as it comes from the heap: every byte of the pixels is this one. */
+static void stage_leave_depth(stage *s, int byte)
+{
+    for (int y = 0; y < STAGE_HEIGHT; y++)
+        memset(s->target.depth + (size_t)y * STAGE_STRIDE, byte, 4 * STAGE_WIDTH);
+    s->clear = NAN;
+}
+/* nobody draws outside the clip rectangle, so that depth there says nothing */
+MISTAKE(clear_forgotten_where_it_draws)
+{
+    s->target.clip_width = STAGE_WIDTH / 2;
+    s->target.clip_height = STAGE_HEIGHT / 2;
+    s->clear = NAN;
+    for (int y = 0; y < STAGE_HEIGHT; y++)
+        for (int x = 0; x < STAGE_WIDTH; x++)
+            s->target.depth[y * STAGE_STRIDE + x] =
+                x < STAGE_WIDTH / 2 && y < STAGE_HEIGHT / 2 ? 0 : 1;
+}
+MISTAKE(depth_full_of_nan) { stage_leave_depth(s, 255); }
+/* The rectangle alone is cleared to 0, and depth beside it is fit for a picture. */
+static void clear_to_zero_in(stage *s, int x, int y, int width, int height)
+{
+    shade_clear(&s->target, shade_v4(0, 0, 0, 1), 1);
+    s->target.clip_x = x;
+    s->target.clip_y = y;
+    s->target.clip_width = width;
+    s->target.clip_height = height;
+    s->clear = 0;
+}
+MISTAKE(zero_on_the_left) { clear_to_zero_in(s, 0, 0, STAGE_WIDTH / 2, STAGE_HEIGHT); }
+MISTAKE(zero_on_the_right)
+{
+    clear_to_zero_in(s, STAGE_WIDTH / 2, 0, STAGE_WIDTH / 2, STAGE_HEIGHT);
+}
+MISTAKE(zero_above) { clear_to_zero_in(s, 0, 0, STAGE_WIDTH, STAGE_HEIGHT / 2); }
+MISTAKE(zero_below)
+{
+    clear_to_zero_in(s, 0, STAGE_HEIGHT / 2, STAGE_WIDTH, STAGE_HEIGHT / 2);
+}
+MISTAKE(hidden_by_the_frame_before) { s->clear = 0.5f; }
+MISTAKE(greater_cleared_to_zero)
+{
+    s->clear = 0;
+    mistake_test_greater(s);
+}
+MISTAKE(clip_empty)
+{
+    s->target.clip_x = 10;
+    s->target.clip_height = 20;
+}
+MISTAKE(clip_beside)
+{
+    s->target.clip_x = STAGE_WIDTH;
+    s->target.clip_width = s->target.clip_height = 20;
+}
+MISTAKE(smaller_than_a_pixel)
+{
+    s->state.model = shade_mat4_scaling(shade_v3(5e-3f, 5e-3f, 5e-3f));
+}
+MISTAKE(map_cut_by_alpha)
+{
+    for (int k = 3; k < 16; k += 4) s->texel[k] = 100;
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->state.alpha_cutoff = 0.5f;
+}
+MISTAKE(no_depth_with_culling)
+{
+    s->target.depth = NULL;
+    s->state.raster.cull = SHADE_CULL_BACK;
+    for (int i = 0; i < STAGE_VERTICES; i += 3) s->position[i] = shade_scale(s->position[i], 0.5f);
+}
+
+MISTAKE(no_light)
+{
+    s->state.lighting.lights = NULL;
+    s->state.lighting.light_count = 0;
+}
+/* a triangle at the right edge of the picture, with a corner behind the eye on the left */
+MISTAKE(no_light_beside_the_eye)
+{
+    s->position[0] = shade_v3(2.28f, -0.8f, 0);
+    s->position[1] = shade_v3(2.28f, 0.8f, 0);
+    s->position[2] = shade_v3(-1, 0, 8);
+    s->mesh.indices = NULL;
+    s->mesh.vertex_count = 3;
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    s->state.lighting.light_count = 0;
+}
+MISTAKE(normals_inward_of_a_quad)
+{
+    static const shade_vec3 quad[4] = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } };
+    static const uint32_t corners[6] = { 0, 1, 2, 0, 2, 3 };
+    memcpy(s->position, quad, sizeof quad);
+    memcpy(s->index, corners, sizeof corners);
+    s->mesh.index_count = 6;
+    for (int i = 0; i < 4; i++) s->normal[i] = shade_v3(0, 0, -1);
+}
+MISTAKE(attenuated_away)
+{
+    s->lamps[0].constant = 1;
+    s->lamps[0].quadratic = 50;
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(spot_attenuated_away)
+{
+    s->lamps[0] = shade_spot_light(shade_v3(0, 1, 4), shade_v3(0, -1, -4), 0.5f, 1,
+                                   shade_v3(1, 1, 1));
+    s->lamps[0].quadratic = 5000;
+    s->state.lighting.light_count = 1;
+}
+/* The mesh lies in the cone, and far from its axis. */
+/* Seen from afar and lit at a flat angle: R.V is 0.08 at most and shows nothing, N.H would. */
+MISTAKE(mirror_turned_away)
+{
+    static const uint32_t two[6] = { 0, 1, 2, 0, 2, 3 };
+    mistake_wound_clockwise_quad(s);
+    memcpy(s->index, two, sizeof two);
+    for (int k = 0; k < 4; k++) s->normal[k] = shade_v3(0, 0, 1);
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 40), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    s->state.projection = shade_mat4_perspective(0.08f, 1.5f, 0.1f, 100);
+    s->lamps[0] = shade_directional_light(shade_v3(-1, 0, -0.05f), shade_v3(1, 1, 1));
+    s->state.lighting.light_count = 1;
+    s->state.lighting.model = SHADE_MODEL_PHONG;
+    s->material.diffuse = s->material.ambient = shade_v3(0, 0, 0);
+    s->material.specular = shade_v3(1, 1, 1);
+    s->material.shininess = 4;
+}
+/* What the questions ask for beside the mistake itself: other projections, no depth, few lamps. */
+MISTAKE(view_of_w_two) { s->state.view.col[3].w = 2; }
+MISTAKE(left_handed_projection_by_rows)
+{
+    const shade_mat4 turn = shade_mat4_scaling(shade_v3(1, 1, -1));
+    s->state.view = shade_mat4_mul(turn, s->state.view);
+    s->state.projection = shade_mat4_mul(s->state.projection, turn);
+    mistake_projection_by_rows(s);
+}
+MISTAKE(projection_onto_a_point)
+{
+    memset(&s->state.projection, 0, sizeof s->state.projection);
+    s->state.projection.col[3] = shade_v4(0, 0, 2, 3);
+}
+MISTAKE(small_one_beside_without_depth)
+{
+    s->target.depth = NULL;
+    s->state.model = shade_mat4_scaling(shade_v3(0.1f, 0.1f, 0.1f));
+    s->state.model.col[3].x = 5;
+}
+MISTAKE(tall_one_beside)
+{
+    s->state.model = shade_mat4_scaling(shade_v3(0.1f, 1.5f, 0.1f));
+    s->state.model.col[3].x = 5;
+}
+MISTAKE(doubled_looks_away)
+{
+    float *p = (float *)&s->state.projection;
+    mistake_looks_the_other_way(s);
+    for (int k = 0; k < 16; k++) p[k] *= 2;
+}
+MISTAKE(beside_in_parallel)
+{
+    s->state.projection = shade_mat4_ortho(-3, 3, -2, 2, 0.1f, 20);
+    mistake_model_moved_away(s);
+}
+MISTAKE(beside_in_a_view_that_scales)
+{
+    s->state.view = shade_mat4_mul(shade_mat4_scaling(shade_v3(2, 2, 2)), s->state.view);
+    mistake_model_moved_away(s);
+}
+/* Two triangles, a and b away from the origin, seen by a camera that stands there. */
+static void stage_two_triangles(stage *s, shade_vec3 a, shade_vec3 b)
+{
+    static const shade_vec3 corner[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    for (uint32_t i = 0; i < 6; i++) {
+        s->position[i] = shade_add(corner[i % 3], i < 3 ? a : b);
+        s->index[i] = i;
+    }
+    s->mesh.index_count = 6;
+    memset(&s->state.view, 0, sizeof s->state.view);
+}
+/* The left one faces the lamp, and its texels are holes; the right one turns away.  Stored depth
+   would tell which pixels are drawn. */
+MISTAKE(lamp_behind_what_the_map_leaves)
+{
+    stage_two_triangles(s, shade_v3(-1.2f, 0, 0), shade_v3(0.2f, 0, 0));
+    s->state.view = shade_mat4_look_at(shade_v3(0, 0, 4), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+    for (int i = 0; i < 6; i++) {
+        s->normal[i] = shade_v3(0, 0, i < 3 ? 1.0f : -1.0f);
+        s->texcoord[i] = shade_v2(i < 3 ? 0.25f : 0.75f, 0.25f);
+    }
+    s->texel[3] = s->texel[11] = 0;
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->state.alpha_cutoff = 0.5f;
+    s->state.lighting.light_count = 1;
+    s->target.depth = NULL;
+}
+MISTAKE(lamp_behind_what_the_map_leaves_in_ambient_light)
+{
+    mistake_lamp_behind_what_the_map_leaves(s);
+    s->state.lighting.ambient = shade_v3(0.1f, 0.1f, 0.1f);
+}
+MISTAKE(on_both_sides) { stage_two_triangles(s, shade_v3(-99, 0, -4), shade_v3(99, 0, -4)); }
+MISTAKE(before_and_beyond) { stage_two_triangles(s, shade_v3(0, 0, -0.01f), shade_v3(0, 0, -999)); }
+MISTAKE(all_discarded_of_depth)
+{
+    s->target.color = NULL;
+    s->state.alpha_cutoff = 0.5f;
+    mistake_shader_discards_all(s);
+}
+MISTAKE(small_depth_of_a_shader)
+{
+    s->target.color = NULL;
+    mistake_shader_discards_all(s);
+    mistake_smaller_than_a_pixel(s);
+}
+MISTAKE(no_light_on_floats)
+{
+    s->target.format = SHADE_FORMAT_RGBA32F;
+    mistake_no_light(s);
+}
+MISTAKE(no_light_on_the_default)
+{
+    s->state.material = NULL;
+    mistake_no_light(s);
+}
+MISTAKE(no_light_on_a_mirror)
+{
+    s->material.diffuse = s->material.ambient = shade_v3(0, 0, 0);
+    mistake_no_light(s);
+}
+MISTAKE(lamp_of_highlights_behind)
+{
+    mistake_lamp_behind(s);
+    s->lamps[0].diffuse = shade_v3(0, 0, 0);
+}
+MISTAKE(highlights_alone_on_a_matte_material)
+{
+    for (int i = 0; i < 2; i++) s->lamps[i].diffuse = shade_v3(0, 0, 0);
+    s->material.specular = shade_v3(0, 0, 0);
+}
+/* The light is missed first, and the map once there is light. */
+MISTAKE(map_black_and_lamp_behind)
+{
+    mistake_map_black(s);
+    mistake_lamp_behind(s);
+}
+MISTAKE(many_cones_elsewhere)
+{
+    enum { COUNT = 17 };    /* one more than shade_explain tries without their cone */
+    static shade_light many[COUNT];
+    mistake_cone_toward_the_eye(s);
+    for (int i = 0; i < COUNT; i++) many[i] = s->lamps[0];
+    s->state.lighting.lights = many;
+    s->state.lighting.light_count = COUNT;
+}
+
+/* What a mistake is under every blend. */
+MISTAKE(no_light_over)
+{
+    s->state.raster.blend = SHADE_BLEND_OVER;
+    mistake_no_light(s);
+}
+MISTAKE(no_light_added)
+{
+    s->state.raster.blend = SHADE_BLEND_ADD;
+    mistake_no_light(s);
+}
+MISTAKE(overlay_without_light)
+{
+    s->state.material = NULL;
+    s->state.transparency = 0.5f;
+    s->target.depth = NULL;
+    s->state.raster.cull = SHADE_CULL_BACK;
+    mistake_no_light_over(s);
+}
+MISTAKE(material_zero_added)
+{
+    s->state.raster.blend = SHADE_BLEND_ADD;
+    mistake_material_never_filled(s);
+}
+MISTAKE(lamp_behind_over)
+{
+    s->state.raster.blend = SHADE_BLEND_OVER;
+    mistake_lamp_behind(s);
+}
+MISTAKE(almost_invisible)
+{
+    s->state.transparency = 0.9999f;
+    s->state.raster.blend = SHADE_BLEND_OVER;
+}
+
+static void stage_ambient(stage *s)
+{
+    s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
+}
+MISTAKE(ambient_and_lamp_behind)
+{
+    stage_ambient(s);
+    mistake_lamp_behind(s);
+}
+MISTAKE(ambient_and_no_lamps)
+{
+    stage_ambient(s);
+    mistake_no_light(s);
+}
+MISTAKE(ambient_and_light_count_forgotten)
+{
+    stage_ambient(s);
+    mistake_light_count_forgotten(s);
+}
+MISTAKE(ambient_and_normals_zero)
+{
+    stage_ambient(s);
+    mistake_normals_never_filled(s);
+}
+MISTAKE(ambient_and_normals_nan)
+{
+    stage_ambient(s);
+    for (int i = 0; i < STAGE_VERTICES; i++) s->normal[i].x = NAN;
+}
+MISTAKE(bad_map_without_texcoords)
+{
+    s->map.pixels = NULL;
+    mistake_map_without_texcoords(s);
+}
+MISTAKE(mipmap_count_without_mipmaps)
+{
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    s->map.mipmap_count = 1;
+}
+MISTAKE(mipmaps_not_counted)
+{
+    mistake_trilinear_without_mipmaps(s);
+    s->map.mipmaps = &s->map;
+}
+/* Its last column, (0, 0, 1, 0), is also that of a transposed matrix. */
+MISTAKE(reversed_beside)
+{
+    mistake_model_moved_away(s);
+    stage_reverse(s, 1);
+}
+/* Everything has z = near > w: behind the eye, w < 0, or before the near plane. */
+MISTAKE(reversed_looks_away)
+{
+    mistake_looks_the_other_way(s);
+    stage_reverse(s, 1);
+}
+MISTAKE(reversed_before_near) { stage_reverse(s, 50); }
+MISTAKE(reversed_beyond_far)
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1.5f, 2, 0.1f);
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+}
+/* as they are where shade_mesh_chunks had too little room */
+MISTAKE(aspect_of_a_square) { s->state.projection = shade_mat4_perspective(0.8f, 1, 0.1f, 100); }
+MISTAKE(aspect_a_little_wide)
+{
+    s->state.projection = shade_mat4_perspective(0.8f, 1.56f, 0.1f, 100);
+}
+MISTAKE(view_that_shears) { s->state.view.col[1].x += 0.4f; }
+MISTAKE(beside_the_clip_rectangle)
+{
+    s->target.clip_x = s->target.clip_y = 2;
+    s->target.clip_width = s->target.clip_height = 9;
+}
+
+/* What sentences were false of: the words are those of the true cause. */
+MISTAKE(attenuation_of_far_lamps)
+{
+    s->lamps[0] = shade_point_light(shade_v3(0, 7, 27), shade_v3(1, 1, 1));
+    s->lamps[0].quadratic = 1;
+    s->state.lighting.light_count = 1;
+}
+MISTAKE(attenuation_of_far_lamps_with_a_map)
+{
+    mistake_attenuation_of_far_lamps(s);
+    s->mesh.texcoords = &s->texcoord[0].x;
+    s->state.diffuse_map = &s->map;
+    for (int k = 0; k < 16; k++) s->texel[k] = 140;
+}
+/* corners right of the picture, below it and far beyond: outside, but of no plane with all three */
+MISTAKE(around_a_corner_of_the_picture)
+{
+    stage_two_triangles(s, shade_v3(0, 0, 0), shade_v3(0, 0, 0));
+    s->position[0] = shade_v3(5.4f, 0, -4);
+    s->position[1] = shade_v3(0, 4.2f, -4);
+    s->position[2] = shade_v3(5.4f, 4.2f, -4);
+    s->mesh.index_count = 3;
+}
+
+typedef struct mistake {
+    const char *name, *words;    /* "": nothing is said, since it may be meant; a|b: a or b */
+    void (*make)(stage *);
+    int scenes;                  /* of enum scenes */
+} mistake;
+enum scenes { ON_BALL = 1, ON_TEAPOT = 2, WITH_STATS = 4 };
+#define BOTH(name, words) { #name, words, mistake_##name, ON_BALL | ON_TEAPOT }
+#define BALL(name, words) { #name, words, mistake_##name, ON_BALL }
+#define BOTH_STATS(name, words) { #name, words, mistake_##name, ON_BALL | ON_TEAPOT | WITH_STATS }
+#define POT(name, words) { #name, words, mistake_##name, ON_TEAPOT }
+#define BALL_STATS(name, words) { #name, words, mistake_##name, ON_BALL | WITH_STATS }
+static const mistake mistakes[] = {
+    BOTH(width_and_height_exchanged, "aspect"),
+    BOTH(width_forgotten, "target.width"),
+    BOTH(height_forgotten, "target.height"),
+    BOTH(no_buffers, "target.color"),
+    BOTH(color_forgotten, ""),
+    BOTH(depth_forgotten, "target.depth is NULL"),
+    BOTH(srgb_forgotten, ""),
+    BOTH(red_and_blue_exchanged, ""),
+    BOTH(format_of_masks, "target.format"),
+    BOTH(stride_of_a_row_too_few, "target.stride"),
+    BOTH(clip_of_a_corner_to_draw_in_all, "clip rectangle"),
+    BOTH(clip_by_two_corners, "clip"),
+    BOTH(clip_width_alone, "clip_height"),
+    BOTH(clip_beside_the_mesh, "beside the clip rectangle"),
+    BOTH(strip_without_rows, "row_count"),
+    BOTH(clear_forgotten, "shade_clear"),
+    BOTH(cleared_to_zero, "shade_clear"),
+    BOTH_STATS(cleared_once_for_two_frames, "shade_clear"),
+    BOTH(test_greater, "SHADE_COMPARE_LESS"),
+    BOTH_STATS(test_equal, "depth_test|target.depth"),
+    BOTH(test_always, "depth_test"),
+    BOTH(depth_never_written, "depth_read_only"),
+    BOTH_STATS(bias_of_one, "depth_bias"),
+    BOTH(bias_of_minus_one, "depth_bias"),
+    BOTH(bias_nan, "raster.depth_bias"),
+    BOTH(reversed_camera_in_half, "depth_zero_to_one"),
+    BOTH(reversed_without_its_test, "depth_test"),
+    BOTH(reversed_without_its_test_cleared_to_zero, "depth_test|shade_clear"),
+    BOTH(reversed_without_its_clear, "shade_clear"),
+    BOTH(reversed_without_its_flag, "depth_zero_to_one"),
+    BOTH(flag_of_vulkan_alone, ""),
+    BOTH(positions_forgotten, "mesh.positions"),
+    BOTH(normals_forgotten, ""),
+    BOTH(vertex_count_forgotten, "mesh.vertex_count"),
+    BOTH(vertex_count_of_another_mesh, "mesh.vertex_count"),
+    BOTH(indices_forgotten, "mesh.indices|use|triangle|mesh.vertex_count"),
+    BOTH(index_count_forgotten, "mesh.index_count"),
+    BOTH(index_count_of_triangles, "index_count"),
+    BOTH(index_count_less_one, "multiple of 3"),
+    BOTH(indices_of_16_bits, "32 bits"),
+    BOTH(indices_from_one, "mesh.vertex_count"),
+    BOTH(indices_never_filled, "mesh.indices"),
+    BOTH(stride_in_floats, "bytes"),
+    BOTH(stride_of_eight_floats, "position_stride"),
+    BOTH(normal_stride_in_floats, "normal_stride"),
+    BOTH(positions_of_doubles, "mesh.positions"),
+    BOTH(positions_of_integers, "mesh.positions|state.model|small"),
+    BOTH(positions_interleaved_without_stride, ""),
+    BOTH(positions_never_filled, "mesh.indices|mesh.positions|area"),
+    BOTH(positions_nan, "mesh.positions"),
+    BOTH(one_position_infinite, "mesh.positions"),
+    BOTH(normals_never_filled, "mesh.normals"),
+    BOTH(normals_against_the_winding, "mesh.normals"),
+    BOTH(normals_nan, "mesh.normals"),
+    BOTH(normals_as_colours, "mesh.normals"),
+    BOTH(normals_in_reverse_order, "mesh.normals"),
+    BOTH(normals_with_z_up, "mesh.normals"),
+    BOTH(positions_as_normals, ""),
+    BOTH(inside_out, "inside out|winding"),
+    BOTH(wound_clockwise_without_normals, "wound|winding"),
+    BOTH(half_wound_clockwise, ""),
+    BOTH(fronts_left_out, ""),
+    BOTH(fronts_left_out_without_normals, ""),
+    BOTH(colors_zero, "mesh.colors"),
+    BOTH(colors_of_255, "255"),
+    BOTH(colors_of_bytes, "mesh.colors"),
+    BOTH(map_without_texcoords, "mesh.texcoords is NULL"),
+    BOTH(texcoords_without_map, ""),
+    BOTH(texcoords_in_texels, "mesh.texcoords"),
+    BOTH(texcoords_never_filled, ""),
+    BOTH(map_without_pixels, "pixels"),
+    BOTH(map_black, "diffuse_map"),
+    BOTH(map_never_filled_and_cut, "alpha_cutoff"),
+    BOTH(map_invisible, "Alpha|alpha"),
+    BOTH(map_not_marked_srgb, "srgb"),
+    BOTH(trilinear_without_mipmaps, "mipmaps"),
+    BOTH(map_of_no_size, "texture"),
+    BOTH(chunk_count_forgotten, "chunk_count"),
+    BOTH(chunks_null, "mesh.chunks"),
+    BOTH(chunks_of_half_the_triangles, "mesh.chunks"),
+    BOTH(chunks_never_filled, "mesh.chunks"),
+    BOTH(chunks_of_a_mesh_that_has_moved, "mesh.chunks"),
+    BOTH(lamp_never_filled, "no colour|diffuse"),
+    BOTH(lamp_black, "no colour|diffuse"),
+    BOTH(light_of_255, "255"),
+    BOTH(lamp_of_a_hundredth, "diffuse|light"),
+    BOTH(lamp_behind, "behind|away"),
+    BOTH(lamp_inside, "behind|inside|away"),
+    BOTH(lamp_in_eye_space, "behind|away|inside"),
+    BOTH(lamp_under_the_ground, "behind|away"),
+    BOTH(lamp_far_away_that_falls_off, "Attenuation"),
+    BOTH(lamp_that_falls_off_by_the_square, "Attenuation"),
+    BOTH(attenuation_negative, "negative|attenuation|constant"),
+    BOTH(sun_toward_the_light, "behind|away"),
+    BOTH(sun_as_a_point, "behind|inside|away"),
+    BOTH(point_as_a_sun, ""),
+    BOTH(cutoff_in_degrees, "cosine|radians"),
+    BOTH(cosine_in_degrees, "cosine|radians"),
+    BOTH(angle_for_its_cosine, ""),
+    BOTH(cone_toward_the_eye, "spot_direction"),
+    BOTH(cone_at_a_point, "spot_direction"),
+    BOTH(cone_of_a_hair, "spot_cos_cutoff|spot"),
+    BOTH(exponent_of_thousands, "spot_exponent|spot"),
+    BOTH(lights_forgotten, "lighting.lights"),
+    BOTH(light_count_forgotten, "light_count"),
+    BOTH(light_count_negative, "light_count"),
+    BOTH(lighting_forgotten, "There is no light"),
+    BOTH(lighting_of_ambient_alone, "Only ambient light"),
+    BOTH(ambient_of_one, ""),
+    BOTH(ambient_of_255, "255"),
+    BOTH(lamp_without_specular, ""),
+    BOTH(lamp_of_ambient_light, "Only ambient|diffuse"),
+    BOTH(lamp_nan, "NaN"),
+    BOTH(lamp_negative, "negative|diffuse"),
+    BOTH(terms_of_nothing, "lighting.terms"),
+    BOTH(terms_of_highlights, ""),
+    BOTH(terms_unknown, "lighting.terms"),
+    BOTH(model_of_emission, "lighting.model"),
+    BOTH(model_of_ambient_light, "lighting.model"),
+    BOTH(model_unknown, "lighting.model"),
+    BOTH(shading_unknown, "state.shading"),
+    BOTH(a_pool_of_light_by_vertices, ""),
+    BOTH(material_forgotten, ""),
+    BOTH(material_never_filled, "state.material"),
+    BOTH(material_of_255, "255"),
+    BOTH(material_of_ambient_light, "state.material|material.diffuse"),
+    BOTH(ambient_without_k_a, "material.ambient"),
+    BOTH(material_of_highlights, "diffuse"),
+    BOTH(material_dark, "state.material|diffuse"),
+    BOTH(material_negative, "state.material|negative"),
+    BOTH(shininess_forgotten, "shininess"),
+    BOTH(shininess_of_a_table, "shininess"),
+    BOTH(emission_of_the_diffuse_colour, ""),
+    BOTH(emission_white, "emission"),
+    BOTH(invisible, "transparency"),
+    BOTH(opacity_for_transparency, "transparency|alpha_cutoff"),
+    BOTH(transparency_in_percent, "state.transparency"),
+    BOTH(transparency_without_blend, "raster.blend"),
+    BOTH(cutoff_of_128, "state.alpha_cutoff"),
+    BOTH(cutoff_above_the_alpha, "alpha_cutoff"),
+    BOTH(cull_unknown, "raster.cull"),
+    BOTH(blend_unknown, "raster.blend"),
+    BOTH(depth_test_unknown, "raster.depth_test"),
+    BOTH_STATS(shader_discards_all, "state.fragment"),
+    BOTH(shader_leaves_black, "state.fragment"),
+    BOTH(shader_by_vertices, "state.shading"),
+    BOTH(view_forgotten, "state.view|the eye"),
+    BOTH(eye_and_center_exchanged, "eye"),
+    BOTH(looks_the_other_way, "behind the eye"),
+    BOTH(looks_to_the_side, "beside|out of view"),
+    BOTH(eye_at_its_center, "eye|state.view"),
+    BOTH(up_along_the_view, ""),
+    BOTH(view_inverted, "inverse"),
+    BOTH(view_by_rows, "state.view looks transposed"),
+    BOTH(view_nan, "NaN"),
+    BOTH(view_moves_the_camera, "behind the eye|inverse"),
+    BOTH(view_without_translation, "eye|state.view|area"),
+    BOTH(view_without_its_last_one, "state.view"),
+    BOTH(view_that_scales, "state.view"),
+    BOTH(view_twice, ""),
+    BOTH(eye_a_thousand_away, "beyond the far plane"),
+    BOTH(eye_inside, "inside|the eye"),
+    BOTH(projection_forgotten, "state.projection"),
+    POT(both_cameras_forgotten, "state.view|state.projection"),
+    BOTH(fovy_in_degrees, "radians"),
+    BOTH(fovy_zero, "fovy"),
+    BOTH(fovy_made_radians_twice, ""),
+    BOTH(fovy_of_half_a_turn, "too small"),
+    BOTH(aspect_of_integers, "aspect"),
+    BOTH(aspect_upside_down, "aspect"),
+    BOTH(aspect_zero, "aspect"),
+    BOTH(near_zero, "near"),
+    BOTH(near_negative, "near and far above 0"),
+    BOTH(near_is_far, "different"),
+    BOTH(near_and_far_exchanged, "depth_test"),
+    BOTH(near_tiny, "near"),
+    BOTH(far_too_near, "beyond the far plane"),
+    BOTH(near_too_far, "nearer than the near plane"),
+    BOTH(projection_by_rows, "state.projection looks transposed"),
+    BOTH(all_by_rows, "transposed"),
+    BOTH(view_and_projection_exchanged, "swapped"),
+    BOTH(projection_times_view_as_view, "state.view"),
+    BOTH(projection_times_view_as_projection, "state.view"),
+    BOTH(view_times_projection_as_projection, "state.projection|state.view"),
+    BOTH(all_in_model, "state.model"),
+    BOTH(projection_left_handed, "behind the eye|inverse"),
+    BOTH(projection_upside_down, "inside out|state.projection"),
+    BOTH(ortho_in_pixels, "small|pixel|near plane|beyond|beside|state.projection"),
+    BOTH(ortho_too_short, "near plane|far plane|before near"),
+    BOTH(ortho_empty, "left not equal to right|left"),
+    BOTH(model_scaled_to_nothing, "state.model"),
+    BOTH(model_in_millimetres, "eye|state.model"),
+    BOTH(model_far_too_small, "small"),
+    BOTH(model_moved_away, "state.model"),
+    BOTH(model_by_rows, "state.model looks transposed"),
+    BOTH(model_nan, "state.model"),
+    BOTH(model_without_its_last_one, "state.model"),
+    BOTH(mirrored, "inside out|mirrors"),
+    BOTH(model_turned_by_degrees, ""),
+    BOTH(moved_before_scaled, ""),
+    BOTH(target_null, "target is NULL"),
+    BOTH(mesh_null, "mesh is NULL"),
+    BOTH(state_null, "state is NULL"),
+    BOTH_STATS(stats_of_another_mesh, "stats"),
+    BALL(clip_negative, "clip_width"),
+    BALL(vertex_count_negative, "mesh.vertex_count"),
+    BALL(index_count_negative, "mesh.index_count"),
+    BALL(chunk_outside, "chunk"),
+    BALL(chunks_of_another_mesh, "mesh.chunks"),
+    BALL(index_beyond, "mesh.vertex_count"),
+    BALL(vertices_not_in_threes, "mesh.vertex_count"),
+    BALL(vertex_count_forgotten_without_indices, "mesh.vertex_count"),
+    BALL(swapped_ortho, "swapped"),
+    BALL(ortho_by_rows, "state.projection"),
+    BALL(beyond_far_where_the_inverse_looks, "beyond the far plane"),
+    BALL(left_handed, "behind the eye"),
+    BALL(view_infinite, "state.view"),
+    BALL(projection_nan, "state.projection"),
+    BALL(wound_clockwise_quad, "counter-clockwise"),
+    BALL(culled_by_mirror, "state.model that mirrors"),
+    BALL(culled_front, "SHADE_CULL_FRONT"),
+    BALL(culled_inside, "the eye lies inside"),
+    BALL(culled_inside_with_chunks, "the eye lies inside"),
+    BALL(inside_out_from_below, "inside out"),
+    BALL(inside_out_from_above, "inside out"),
+    BALL(inside_out_with_a_bias, "inside out"),
+    BALL(inside_out_open, "inside out"),
+    BALL(mirrored_open, "inside out"),
+    BALL(inside_out_without_normals, "inside out"),
+    BALL(clear_forgotten_where_it_draws, "holds 0"),
+    BALL(depth_full_of_nan, "shade_clear"),
+    BALL(zero_on_the_left, "holds 0"),
+    BALL(zero_on_the_right, "holds 0"),
+    BALL(zero_above, "holds 0"),
+    BALL(zero_below, "holds 0"),
+    BALL_STATS(hidden_by_the_frame_before, "shade_clear"),
+    BALL(greater_cleared_to_zero, "SHADE_COMPARE_LESS"),
+    BALL(clip_empty, "clip_width"),
+    BALL(clip_beside, "clip_x"),
+    BALL_STATS(smaller_than_a_pixel, "centre of a pixel"),
+    BALL_STATS(map_cut_by_alpha, "alpha_cutoff"),
+    BALL(no_depth_with_culling, "target.depth is NULL"),
+    BALL(no_light, "no light"),
+    BALL(no_light_beside_the_eye, "light_count"),
+    BALL(normals_inward_of_a_quad, "mesh.normals"),
+    BALL(attenuated_away, "Attenuation"),
+    BALL(spot_attenuated_away, "Attenuation"),
+    BALL(mirror_turned_away, "state.material"),
+    BALL(view_of_w_two, "state.view"),
+    BALL(left_handed_projection_by_rows, "state.projection looks transposed"),
+    BALL(projection_onto_a_point, "fovy"),
+    BALL(small_one_beside_without_depth, "beside the picture"),
+    BALL(tall_one_beside, "beside the picture"),
+    BALL(doubled_looks_away, "behind the eye"),
+    BALL(beside_in_parallel, "beside the picture"),
+    BALL(beside_in_a_view_that_scales, "beside the picture"),
+    BALL(lamp_behind_what_the_map_leaves, "Every lamp is behind"),
+    BALL(lamp_behind_what_the_map_leaves_in_ambient_light, "every lamp is behind"),
+    BALL(on_both_sides, "beside the picture"),
+    BALL(before_and_beyond, "beyond far"),
+    BALL_STATS(all_discarded_of_depth, "state.fragment"),
+    BALL_STATS(small_depth_of_a_shader, "centre of a pixel"),
+    BALL(no_light_on_floats, "no light"),
+    BALL(no_light_on_the_default, "no light"),
+    BALL(no_light_on_a_mirror, "no light"),
+    BALL(lamp_of_highlights_behind, "no colour"),
+    BALL(highlights_alone_on_a_matte_material, "state.material"),
+    BALL(map_black_and_lamp_behind, "behind"),
+    BALL(many_cones_elsewhere, "spot_direction"),
+    BALL(no_light_over, "no light"),
+    BALL(no_light_added, "no light"),
+    BALL(overlay_without_light, "no light"),
+    BALL(material_zero_added, "state.material"),
+    BALL(lamp_behind_over, "behind"),
+    BALL(almost_invisible, "transparency"),
+    BALL(ambient_and_lamp_behind, "Only ambient light arrives: every lamp is behind"),
+    BALL(ambient_and_no_lamps, "Only ambient light"),
+    BALL(ambient_and_light_count_forgotten, "light_count"),
+    BALL(ambient_and_normals_zero, "Only ambient light arrives, because mesh.normals"),
+    BALL(ambient_and_normals_nan, "Only ambient light arrives, because mesh.normals"),
+    BALL(bad_map_without_texcoords, "pixels are NULL"),
+    BALL(mipmap_count_without_mipmaps, "no mipmaps"),
+    BALL(mipmaps_not_counted, "no mipmaps"),
+    BALL(reversed_beside, "beside"),
+    BALL(reversed_looks_away, "behind the eye"),
+    BALL(reversed_before_near, "nearer than the near"),
+    BALL(reversed_beyond_far, "beyond the far plane"),
+    BALL(aspect_of_a_square, "aspect"),
+    BALL(aspect_a_little_wide, "aspect"),
+    BALL(view_that_shears, "state.view scales or shears"),
+    BALL(beside_the_clip_rectangle, "beside the clip rectangle"),
+    BALL(attenuation_of_far_lamps, "Attenuation"),
+    BALL(attenuation_of_far_lamps_with_a_map, "Attenuation"),
+    BALL(around_a_corner_of_the_picture, "covers the centre of a pixel nowhere"),
+};
+#endif
