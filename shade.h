@@ -52,32 +52,32 @@
      Public
        >>config     123  options               >>types      201  materials, lamps, targets, states
        >>plumbing   375  compilers             >>light      512  the equation and its terms
-       >>draw       638  meshes and pixels     >>math       928  vectors and matrices
+       >>draw       638  meshes and pixels     >>math       929  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1291  processors            >>base      1518  bits, masks, rows of vectors
-       >>matrix    1743  cameras, inverses     >>power     2111  x^n
-       >>pixels    2177  formats, sRGB
+       >>machine   1292  processors            >>base      1519  bits, masks, rows of vectors
+       >>matrix    1744  cameras, inverses     >>power     2112  x^n
+       >>pixels    2178  formats, sRGB
      Inside: light
-       >>lamps     2454  attenuation, cones    >>terms     2730  one term at one point
-       >>surface   2812  material and lights   >>lit       2933  the whole sum, at many points
+       >>lamps     2455  attenuation, cones    >>terms     2731  one term at one point
+       >>surface   2813  material and lights   >>lit       2934  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3340  who owns what         >>vertices  3523  shading, projection
-       >>triangles 3740  dropped, cut, edges   >>clip      4109  near, far, behind the eye
-       >>tiles     4294  pixels, depth test    >>cover     4649  what is hidden, tile by tile
-       >>fragments 4916  interpolation, lod    >>texture   5209  texels, mipmaps
-       >>store     5654  blending, packing
+       >>state     3341  who owns what         >>vertices  3524  shading, projection
+       >>triangles 3741  dropped, cut, edges   >>clip      4110  near, far, behind the eye
+       >>tiles     4295  pixels, depth test    >>cover     4650  what is hidden, tile by tile
+       >>fragments 4917  interpolation, lod    >>texture   5210  texels, mipmaps
+       >>store     5655  blending, packing
      Inside: calls of the renderer
-       >>check     5886  refusals              >>seen      6050  what can be seen, chunks
-       >>drive     6187  shade_draw            >>mesh      6366  shade_draw_mesh
+       >>check     5887  refusals              >>seen      6051  what can be seen, chunks
+       >>drive     6188  shade_draw            >>mesh      6367  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6766  shade_draw_lines      >>shape     6944  normals, edges
-       >>chunks    7306  how boxes are made    >>rays      7470  shade_pick
-       >>survey    7646  experiments on a draw >>explain   8025  why nothing is seen
-       >>replay    9014  of lines, pipelines   >>image     9355  mipmaps, PPM
-       >>presets   9623  classic materials
+       >>lines     6767  shade_draw_lines      >>shape     6945  normals, edges
+       >>chunks    7307  how boxes are made    >>rays      7471  shade_pick
+       >>survey    7647  experiments on a draw >>explain   8026  why nothing is seen
+       >>replay    9042  of lines, pipelines   >>image     9384  mipmaps, PPM
+       >>presets   9652  classic materials
      Sources
-       >>refs      9699                        >>history   9729
-       >>license   9741
+       >>refs      9728                        >>history   9758
+       >>license   9770
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -782,11 +782,12 @@ enum {
 };
 
 /* Draws a mesh lit by the equations of >>model in world space.  The eye is the position of the
-   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  Light takes it
-   from view alone: highlights are wrong where projection moves the centre of projection, and where
-   the camera looks along +z, as left-handed ones do, the backward axis points away from the viewer;
-   negate eye there in a shader of your own.  PER_FACE lights the centroid, with the face's normal
-   and the colour of the first vertex; a map still varies from pixel to pixel.
+   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
+   the centroid, with the face's normal and the colour of the first vertex; a map still varies from
+   pixel to pixel.
+     Light takes the eye from view alone: highlights are wrong where projection moves the centre of
+   projection, and where the camera looks along +z, as left-handed ones do, the backward axis points
+   away from the viewer; negate eye there in a shader of your own.  shade_explain reports both.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments whose alpha is below alpha_cutoff
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
@@ -852,7 +853,7 @@ typedef struct shade_line_state {
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
-/* Says in one sentence why lines are not seen, as shade_explain does for meshes; "" where nothing is
+/* Says in one sentence why lines are not seen, as shade_explain_draw does; "" where nothing is
    suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
 SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
                                          int point_count, const shade_line_state *state,
@@ -8008,7 +8009,7 @@ static int shade__eye_inside(const shade__survey *s)
     shade_vec3 low, high, eye;
     shade__camera_of(&s->state.projection, &object, &c);
     shade_mesh_bounds(&s->mesh, &low, &high);
-    eye = shade_v3((float)c.eye[0], (float)c.eye[1], (float)c.eye[2]);
+    eye = shade__single3(c.eye);
     return c.perspective && shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
 }
 
@@ -8757,6 +8758,30 @@ static int shade__normals_turned(shade__survey *q)
     return (shade__count(q, FLT_MIN) - toward) * (q->exact ? 4 : 1) >= all;
 }
 
+/* Do highlights show, once the camera stands in view alone, and does light take another eye now?  A
+   one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
+static int shade__eye_is_astray(shade__survey *q)
+{
+    const shade__camera *c = &q->camera;
+    const shade_mat4 camera = shade_mat4_inverse(q->state.view);
+    const shade_vec3 eye = shade__single3(c->eye), at = shade__xyz(camera.col[3]);
+    shade_lighting *l = &q->state.lighting;
+    shade_mat4 frame = shade__frame_of(c);
+    if (c->perspective) frame.col[3] = shade__xyzw(eye, 1);
+    if (l->flags & SHADE_FLAG_INFINITE_VIEWER
+            ? shade_dot(shade__xyz(camera.col[2]), shade__xyz(frame.col[2])) >= 0
+            : !c->perspective || q->state.projection.col[3].w == 1 ||
+                  shade_distance(eye, at) <= 1e-3f * (shade_length(eye) + shade_length(at)))
+        return 0;
+    if (l->terms && !(l->terms & SHADE_TERM_SPECULAR)) return 0;
+    shade__look_at_all(q);
+    l->terms = SHADE_TERM_SPECULAR;
+    q->state.view = shade__mat4_product(&q->state.view, &frame);
+    q->state.projection = shade__mat4_product(&q->state.projection, &q->state.view);
+    q->state.view = shade_mat4_inverse(frame);
+    return shade__shows(q);
+}
+
 static const shade__rung shade__wrong_light[] = {
     { shade__is_clipped,
       "Almost all that is lit is clipped to white: colours of lighting.lights, lighting.ambient, "
@@ -8766,6 +8791,9 @@ static const shade__rung shade__wrong_light[] = {
     { shade__normals_turned,
       "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
       "fill them by shade_mesh_normals, or reverse the winding; a model that mirrors does so too." },
+    { shade__eye_is_astray,
+      "Highlights belong to another eye: light takes it from state.view, in which +z points back "
+      "to the viewer, but state.projection moves it or looks along +z; do so in state.view." },
     { NULL, NULL }
 };
 
@@ -9107,10 +9135,10 @@ static shade__tally shade__run_again(const shade__replay *r)
 /* Are the rows of z and w those of a perspective times a view: parallel, and w's of length 1? */
 static int shade__is_camera(const shade_mat4 *m)
 {
-    const shade_vec3 z = shade_v3(m->col[0].z, m->col[1].z, m->col[2].z);
-    const shade_vec3 w = shade_v3(m->col[0].w, m->col[1].w, m->col[2].w), n = shade_cross(z, w);
-    return shade__within(shade_dot(w, w) - 1, 1e-3f) &&
-           shade_dot(n, n) <= 1e-6f * shade_dot(z, z);
+    const shade_mat4 one = shade_mat4_identity();
+    shade__camera c;
+    shade__camera_of(m, &one, &c);
+    return shade__faces_ahead(&c) && shade__size(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
 }
 
 static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
@@ -9187,8 +9215,8 @@ static const char *shade__why_nowhere(const shade__replay *r, const shade_stats 
                      "is counter-clockwise on the screen.  Reverse the winding, or use "
                      "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
     if (n->clipped == n->triangles) return shade__why_outside(r);
-    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a line "
-                      "has gaps; or they lie beside the picture."
+    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a "
+                      "line has gaps; or they lie beside the picture."
                     : "The triangles cover no pixel centre: they have no area on the screen, since "
                       "their corners coincide or they are seen edge-on, or lie beside the picture.";
 }
@@ -9243,8 +9271,8 @@ static const char *shade__why_faint(const shade__replay *r, const shade__tally *
         return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
     if (t->nan)
         return r->lines ? "state.color holds NaN or infinity, and NaN is stored as black."
-                        : "pipeline.fragment gives NaN or infinity, and NaN is stored as black: check "
-                          "pipeline.uniforms, divisions and roots.";
+                        : "pipeline.fragment gives NaN or infinity, and NaN is stored as black: "
+                          "check pipeline.uniforms, divisions and roots.";
     if (raster->blend == SHADE_BLEND_OVER)
         return clear ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
                        "out->color[3] of pipeline.fragment, or state.color.w of lines."
@@ -9257,8 +9285,8 @@ static const char *shade__why_faint(const shade__replay *r, const shade__tally *
         return "pipeline.fragment gives black everywhere: check out->color[0] to [2], "
                "which it must write, pipeline.uniforms, and the varyings of pipeline.vertex.";
     return t->bright * 10 >= t->fragments * 9 && r->target->format != SHADE_FORMAT_RGBA32F
-               ? "Almost all colours are clipped to white, or a full channel: in out->color, and in "
-                 "state.color of lines, 1 is full light, not 255."
+               ? "Almost all colours are clipped to white, or a full channel: in out->color, and "
+                 "in state.color of lines, 1 is full light, not 255."
                : NULL;
 }
 
@@ -9274,8 +9302,8 @@ static const char *shade__explain_replay(shade__replay *r, const char *fault)
     t = shade__run_again(r);
 
     if (t.stats.rejected)
-        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge numbers "
-                          "(beyond 1e30), so that lines are left out."
+        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge "
+                          "numbers (beyond 1e30), so that lines are left out."
                         : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
                           "that triangles are left out: check its uniforms and what it reads.";
     if (r->lines) why = shade__why_matrix(r, &t);
@@ -9316,7 +9344,8 @@ SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
         fault = "indices hold one at or past vertex_count, or without indices index_count exceeds "
                 "vertex_count, which counts vertices, not floats.";
     if (!fault && !index_count)
-        fault = "There is no triangle to draw: index_count is 0; without indices it counts vertices.";
+        fault = "There is no triangle to draw: index_count is 0; without indices it counts "
+                "vertices.";
 
     SHADE__ZERO(r);
     r.target = target;

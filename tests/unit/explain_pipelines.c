@@ -179,7 +179,10 @@ PIPED(looks_aside)
 PIPED(view_nan) { p->view.col[1].y = (float)NAN; }
 PIPED(depth_zero) { p->clear = 0; }
 PIPED(depth_nan) { p->clear = (float)NAN; }
-PIPED(test_greater) { p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_GREATER; }
+PIPED(test_greater)
+{
+    p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_GREATER;
+}
 PIPED(test_equal) { p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_EQUAL; }
 PIPED(hidden) { p->clear = 0.01f; }
 PIPED(bad_test) { p->pipe.raster.depth_test = p->lines.raster.depth_test = (shade_compare)9; }
@@ -267,7 +270,10 @@ PIPED(matrix_forgotten)
     for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = shade_scale(p->point[k], 3);
     memset(&p->lines.clip_from_points, 0, sizeof p->lines.clip_from_points);
 }
-PIPED(matrix_by_rows) { p->lines.clip_from_points = shade_mat4_transpose(p->lines.clip_from_points); }
+PIPED(matrix_by_rows)
+{
+    p->lines.clip_from_points = shade_mat4_transpose(p->lines.clip_from_points);
+}
 PIPED(matrix_by_rows_ahead)
 {
     p->view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
@@ -282,7 +288,8 @@ PIPED(matrix_of_a_box_by_rows)
 }
 PIPED(matrices_exchanged)
 {
-    p->lines.clip_from_points = p->uniforms.clip_from_world = shade_mat4_mul(p->view, p->projection);
+    const shade_mat4 m = shade_mat4_mul(p->view, p->projection);
+    p->lines.clip_from_points = p->uniforms.clip_from_world = m;
 }
 PIPED(matrices_exchanged_ahead)
 {
@@ -484,7 +491,8 @@ static int piped_beyond(const piped *p, int lines, int plane)
         for (int i = 0; i < 3; i++) in[i] = (double)v[i];
         dmat_apply(m, in, c);
         if (!lines && p->uniforms.keeps_w) c[3] = 0;
-        const double beyond = plane == 0 ? -c[3] : plane == 1 ? (half ? 0 : -c[3]) - c[2] : c[2] - c[3];
+        const double near = (half ? 0 : -c[3]) - c[2], far = c[2] - c[3];
+        const double beyond = plane == 0 ? -c[3] : plane == 1 ? near : far;
         if (beyond < -1e-5 * (fabs(c[2]) + fabs(c[3]) + 1)) return 0;
     }
     return 1;
@@ -540,7 +548,8 @@ static int piped_is_true(piped *p, int lines, const char *said, int exchanged, i
         return got && piped_changed(p, lines, 0xFFFFFFFFu, 0, &alike) == alike && alike;
     if (strstr(said, "NaN or infinity"))
         return isnan(p->uniforms.color[0] + p->uniforms.color[1] + p->uniforms.color[2]);
-    if (strstr(said, "255")) return piped_changed(p, lines, 0xFF000000u, 1, &alike) <= alike * 10 / 9;
+    if (strstr(said, "255"))
+        return piped_changed(p, lines, 0xFF000000u, 1, &alike) <= alike * 10 / 9;
     if (strstr(said, "transposed")) return by_rows && piped_fragments(p, 1, piped_by_columns);
     if (strstr(said, "view times projection")) return exchanged;
     return strstr(said, "unset") && stats.clipped == stats.triangles;
@@ -582,8 +591,12 @@ static void piped_spoil(piped *p)
         p->view = shade_mat4_look_at(random_vector(rnd_one_in(2) ? 6 : 60), random_vector(3),
                                      random_vector(1));
         break;
-    case 12: p->projection = shade_mat4_perspective(rnd_float(0.2, 2), 1.3f, n, n * rnd_log(1.5, 99)); break;
-    case 13: p->projection = shade_mat4_ortho(-n, n, -n, n, rnd_float(0, 9), rnd_float(9, 20)); break;
+    case 12:
+        p->projection = shade_mat4_perspective(rnd_float(0.2, 2), 1.3f, n, n * rnd_log(1.5, 99));
+        break;
+    case 13:
+        p->projection = shade_mat4_ortho(-n, n, -n, n, rnd_float(0, 9), rnd_float(9, 20));
+        break;
     case 14:
         r[0]->depth_zero_to_one = r[1]->depth_zero_to_one = 1;
         if (rnd_one_in(2)) r[0]->depth_test = r[1]->depth_test = SHADE_COMPARE_GREATER;
@@ -595,7 +608,8 @@ static void piped_spoil(piped *p)
         for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = random_vector(2);
         if (rnd_one_in(4)) p->position[rnd_int(0, 17)] = p->point[5].y = (float)NAN;
         if (rnd_one_in(2)) p->lines.width = rnd_log(0.001, 20);
-        for (int k = 0; k < PIPED_CORNERS; k++) p->index[k] = (uint32_t)rnd_int(0, PIPED_CORNERS - 1);
+        for (int k = 0; k < PIPED_CORNERS; k++)
+            p->index[k] = (uint32_t)rnd_int(0, PIPED_CORNERS - 1);
         break;
     }
 }
@@ -626,8 +640,8 @@ TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
         for (int k = 0; k < 2; k++) {
             if (!*said[k]) continue;
             said_something++;
-            CHECK_SAY(piped_is_true(p, lines, said[k], exchanged, by_rows), "draw %d, %s: \"%s\"", i,
-                      lines ? "lines" : "triangles", said[k]);
+            CHECK_SAY(piped_is_true(p, lines, said[k], exchanged, by_rows),
+                      "draw %d, %s: \"%s\"", i, lines ? "lines" : "triangles", said[k]);
         }
         /* a picture without a pixel is not left without a sentence, but in a band */
         if (!piped_stats(p, lines, 0).fragments) {
