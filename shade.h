@@ -72,12 +72,12 @@
      Inside: tools, which call the renderer; it names none of them
        >>lines     6767  shade_draw_lines      >>shape     6945  normals, edges
        >>chunks    7307  how boxes are made    >>rays      7471  shade_pick
-       >>survey    7647  experiments on a draw >>explain   8026  why nothing is seen
-       >>replay    9042  of lines, pipelines   >>image     9384  mipmaps, PPM
-       >>presets   9652  classic materials
+       >>survey    7647  experiments on a draw >>explain   8028  why nothing is seen
+       >>replay    9098  of lines, pipelines   >>image     9440  mipmaps, PPM
+       >>presets   9708  classic materials
      Sources
-       >>refs      9728                        >>history   9758
-       >>license   9770
+       >>refs      9784                        >>history   9814
+       >>license   9826
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7660,7 +7660,7 @@ enum {
 /* What the fragments of one pixel were, in drawing order. */
 typedef struct shade__probe {
     uint32_t place;                      /* 0: none yet */
-    float    nearest, last;              /* depths */
+    float    nearest, farthest, last;    /* depths */
     uint32_t front, any_front;           /* is the nearest front-facing; is one of them */
 } shade__probe;
 
@@ -7706,9 +7706,11 @@ static void shade__take_probe(const shade__trial *trial,
     const uint32_t hash = place * 2654435769u >> 8;
     shade__probe *at = trial->probes + hash / trial->every % SHADE__PROBES;
     const float z = in->z[i];
+    const float sign = 2 * trial->survey->farthest - 1;
     float nearer = 1;
     if (hash % trial->every || (at->place && at->place != place)) return;
-    if (at->place) nearer = (at->nearest - z) * (2 * trial->survey->farthest - 1);
+    if (at->place) nearer = (at->nearest - z) * sign;
+    if (!at->place || (z - at->farthest) * sign > 0) at->farthest = z;
     if (nearer > 1e-6f) {
         at->nearest = z;
         at->front = 0;
@@ -7792,12 +7794,6 @@ static int shade__shows(const shade__survey *s)
     shade__survey wide = *s;
     wide.material.shininess = shade__minf(wide.material.shininess, 4);
     return shade__count(&wide, s->dim) > 0;
-}
-
-/* Is there light that a surface of its square root would still show? */
-static int shade__bright(const shade__survey *s)
-{
-    return shade__count(s, shade__sqrt(s->dim)) > 0;
 }
 
 /* Draws the mesh with this culling, and samples pixels. */
@@ -7962,6 +7958,12 @@ static void shade__open_cones(shade__survey *q)
 {
     for (int i = 0; i < q->state.lighting.light_count; i++)
         q->lamp[i].spot_direction = shade_v3(0, 0, 0);
+}
+
+static void shade__paint_lamps(shade__survey *q, shade_vec3 color)
+{
+    for (int i = 0; i < q->state.lighting.light_count; i++)
+        q->lamp[i].diffuse = q->lamp[i].specular = color;
 }
 
 /* Lights every fragment, where there is room for its position and normal. */
@@ -8346,11 +8348,19 @@ static const shade__rung shade__nothing[] = {
 
 /* ---- the mesh covers pixels, but the draw gave none, or maybe none */
 
+/* Would the other test show another depth in some pixel? */
 static int shade__test_is_turned(shade__survey *q)
 {
     const shade_raster *r = &q->given_state->raster;
-    return q->target->depth && shade__faces_ahead(&q->camera) && !r->depth_read_only &&
-           r->depth_test < SHADE_COMPARE_EQUAL && (float)q->camera.reversed == q->farthest;
+    shade__probe probes[SHADE__PROBES];
+    int n = 0;
+    if (!q->target->depth || !shade__faces_ahead(&q->camera) || r->depth_read_only ||
+        r->depth_test >= SHADE_COMPARE_EQUAL || (float)q->camera.reversed != q->farthest)
+        return 0;
+    shade__take_probes(q, r->cull, probes);
+    for (int k = 0; k < SHADE__PROBES; k++)
+        n += !shade__within(probes[k].farthest - probes[k].nearest, 1e-6f);
+    return n > 0;
 }
 
 static const shade__rung shade__test[] = {
@@ -8399,7 +8409,7 @@ static int shade__shader_discards(shade__survey *q)
 /* Without stats the mesh itself may be stored. */
 static int shade__depth_uncleared(shade__survey *q)
 {
-    if (!shade__is_hidden(q)) return 0;
+    if (!shade__is_hidden(q) || q->state.raster.depth_test == SHADE_COMPARE_EQUAL) return 0;
     shade__look_through(q, SHADE_COMPARE_EQUAL);
     if (!q->given_stats && shade__covered(q)) return 0;
     shade__look_through(q, q->farthest > 0 ? SHADE_COMPARE_LESS : SHADE_COMPARE_GREATER);
@@ -8422,7 +8432,7 @@ static int shade__nothing_is_equal(shade__survey *q)
 
 static int shade__depth_is_far(shade__survey *q)
 {
-    if (!q->given_stats || !shade__all_hidden(q)) return 0;
+    if (!shade__all_hidden(q)) return 0;
     q->apart = FLT_MIN;
     return !shade__covered(q);
 }
@@ -8460,29 +8470,39 @@ static const shade__rung shade__unseen[] = {
 
 /* ---- the mesh is drawn, but wrongly */
 
-/* Do lamps light one side of faces alone, the one where their geometric normal is? */
-static int shade__lights_one_side(const shade__survey *s)
-{
-    const shade_lighting *l = &s->state.lighting;
-    const unsigned both = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
-    return (!s->mesh.normals || s->state.shading == SHADE_SHADING_PER_FACE) &&
-           l->light_count > 0 && !(l->flags & both);
-}
-
-/* Are nine tenths of the pixels with fronts pixels with a nearer back?  That matters where backs are culled,
-   or where faces are lit by their winding. */
-static int shade__inside_out(shade__survey *q)
+/* Are nine tenths of the pixels with fronts pixels with a nearer back? */
+static int shade__is_inside_out(const shade__survey *s)
 {
     shade__probe probes[SHADE__PROBES];
     uint32_t fronts = 0, behind = 0;
-    if (q->state.raster.cull != SHADE_CULL_BACK && !shade__lights_one_side(q)) return 0;
-    if (shade__eye_inside(q)) return 0;
-    shade__take_probes(q, SHADE_CULL_NONE, probes);
+    if (shade__eye_inside(s)) return 0;
+    shade__take_probes(s, SHADE_CULL_NONE, probes);
     for (int k = 0; k < SHADE__PROBES; k++) {
         fronts += probes[k].any_front;
         behind += probes[k].any_front & !probes[k].front;
     }
     return fronts > 23 && behind * 10 >= fronts * 9;    /* fewer prove too little */
+}
+
+static int shade__backs_in_view(shade__survey *q)
+{
+    return q->state.raster.cull == SHADE_CULL_BACK && shade__is_inside_out(q);
+}
+
+/* Does light depend on the side to which normals point? */
+static int shade__sides_matter(const shade__survey *s)
+{
+    shade__survey both = *s;
+    both.state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    return s->exact && shade__count(&both, s->dim) != shade__count(s, s->dim);
+}
+
+static int shade__wound_inward(shade__survey *q)
+{
+    const int face_normals = !q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE;
+    if (!face_normals || !shade__sides_matter(q)) return 0;
+    shade__look_at_all(q);
+    return shade__is_inside_out(q);
 }
 
 /* Has a pixel a last fragment that is not its nearest? */
@@ -8502,11 +8522,13 @@ static int shade__lacks_depth(shade__survey *q)
     return n > 0;
 }
 
+static const char *const shade__inward =
+    "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
+    "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
+    "raster.cull.";
+
 static const shade__rung shade__picture[] = {
-    { shade__inside_out,
-      "The mesh is drawn inside out, or is a room seen through its wall: its triangles are wound "
-      "clockwise, or state.model, state.view or state.projection mirrors; reverse the winding or "
-      "raster.cull." },
+    { shade__backs_in_view, shade__inward },
     { shade__lacks_depth,
       "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test is "
       "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; let the draw test and write depth." },
@@ -8535,7 +8557,8 @@ static int shade__black_is_meant(shade__survey *q)
     const shade_material *m = &q->material;
     const shade_vec3 sum = shade_add(shade_add(m->emission, m->ambient),
                                      shade_add(m->diffuse, m->specular));
-    return r->cull == SHADE_CULL_FRONT || (r->blend == SHADE_BLEND_OVER && shade__is_zero(sum));
+    return shade__is_zero(sum) &&
+           (r->cull == SHADE_CULL_FRONT || r->blend == SHADE_BLEND_OVER);
 }
 
 static int shade__shading_is_coarse(shade__survey *q)
@@ -8549,7 +8572,7 @@ static int shade__faces_are_lit(shade__survey *q)
 {
     if (q->given_state->shading != SHADE_SHADING_PER_FACE) return 0;
     q->mesh.normals = NULL;
-    return shade__bright(q);
+    return shade__shows(q);
 }
 
 static int shade__terms_are_few(shade__survey *q)
@@ -8567,14 +8590,15 @@ static int shade__colors_are_black(shade__survey *q)
     return shade__lights_up(q);
 }
 
+/* Is there light that a surface of its square root would still show? */
 static int shade__material_is_black(shade__survey *q)
 {
     const int shows = shade__shows(q);
     shade__whiten(q);
-    return !shows && shade__bright(q) && shade__lights_up(q);
+    return !shows && shade__count(q, shade__sqrt(q->dim)) > 0 && shade__lights_up(q);
 }
 
-static int shade__is_bright(shade__survey *q) { return shade__bright(q); }
+static int shade__has_light(shade__survey *q) { return shade__shows(q); }
 
 static const char *const shade__behind =
     "Every lamp is behind nine tenths or more of what is in view, on the side that the normals "
@@ -8607,15 +8631,18 @@ static const shade__rung shade__black[] = {
     { shade__shading_is_coarse,
       "state.shading lights vertices or middles of faces, which no light reaches, though it "
       "reaches pixels between them; use SHADE_SHADING_PER_FRAGMENT." },
+    { shade__has_light, shade__multiply },
     { shade__faces_are_lit, shade__multiply },
     { shade__terms_are_few,
       "lighting.terms or lighting.model leaves out every term that would be seen; 0 means all "
       "terms, and the model SHADE_MODEL_BLINN_PHONG." },
+    { shade__has_light, shade__multiply },
     { shade__colors_are_black, shade__black_colors },
+    { shade__has_light, shade__multiply },
     { shade__material_is_black,
       "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
       "or specular, lighting.ambient needs material.ambient; NULL is white." },
-    { shade__is_bright, shade__multiply },
+    { shade__has_light, shade__multiply },
     { NULL, NULL }
 };
 
@@ -8639,7 +8666,7 @@ static int shade__lacks_normals(shade__survey *q)
     shade__light_by(&open, shade_v4(0, 0, 1, 0), SHADE_FLAG_UNGATED_SPECULAR);
     open.material.specular = shade_v3(1, 1, 1);
     open.material.shininess = 0;
-    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__bright(&open);
+    return q->mesh.normals && q->state.shading != SHADE_SHADING_PER_FACE && !shade__shows(&open);
 }
 
 /* Leaves the terms of lamps in the survey.  Returns whether it has any. */
@@ -8657,36 +8684,46 @@ static int shade__lamps_alone(shade__survey *q)
 static int shade__lamps_behind(shade__survey *q)
 {
     const shade_vec3 glow = q->material.emission;
+    const long long all = shade__covered(q);
     shade__survey each = *q;
     shade_lighting *l = &each.state.lighting;
     shade__whiten(&each);
-    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
-    shade__light_fragments(&each);
     if (!shade__lamps_alone(&each) || l->light_count > SHADE__SUSPECTS ||
         q->state.raster.cull == SHADE_CULL_FRONT || glow.x + glow.y + glow.z > 3 * q->dim)
         return 0;
+    if (!shade__few(q, shade__count(&each, q->dim), all)) return 0;
+
+    if (q->state.shading == SHADE_SHADING_PER_FACE) each.mesh.normals = NULL;
+    shade__light_fragments(&each);
     l->flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    if (!shade__bright(&each) || !shade__lights_up(&each)) return 0;
+    if (!shade__lights_up(&each)) return 0;
 
     l->flags = q->state.lighting.flags;
     l->model = SHADE_MODEL_LAMBERT;
     l->terms = SHADE_TERM_DIFFUSE;
     shade__light_everywhere(&each);
     shade__open_cones(&each);
-    return shade__few(q, shade__count(&each, FLT_MIN), shade__covered(q));
+    shade__paint_lamps(&each, shade_v3(1, 1, 1));
+    return shade__few(q, shade__count(&each, FLT_MIN), all);
 }
 
 static int shade__lamps_fall_off(shade__survey *q)
 {
     shade__whiten(q);
     shade__light_everywhere(q);
-    return shade__bright(q) && shade__lights_up(q);
+    return shade__lights_up(q);
 }
 
 static int shade__cones_miss(shade__survey *q)
 {
     shade__open_cones(q);
-    return shade__bright(q) && shade__lights_up(q);
+    return shade__lights_up(q);
+}
+
+static int shade__lamps_are_dark(shade__survey *q)
+{
+    shade__paint_lamps(q, shade_v3(100, 100, 100));
+    return shade__lights_up(q);
 }
 
 static int shade__lamps_are_many(shade__survey *q)
@@ -8709,9 +8746,12 @@ static const shade__rung shade__unlit[] = {
     { shade__lacks_normals, shade__no_normals },
     { shade__lamps_behind, shade__behind },
     { shade__lamps_fall_off, shade__fall_off },
+    { shade__has_light, shade__multiply },
     { shade__cones_miss, shade__no_cone },
+    { shade__has_light, shade__multiply },
     { shade__lamps_are_many, shade__multiply },
-    { shade__always, shade__no_color },
+    { shade__lamps_are_dark, shade__no_color },
+    { shade__always, shade__multiply },
     { NULL, NULL }
 };
 
@@ -8745,8 +8785,8 @@ static int shade__normals_turned(shade__survey *q)
     const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
     const long long all = shade__covered(q);
     long long toward;
-    if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE || l->light_count <= 0 ||
-        (l->flags & SHADE_FLAG_TWO_SIDED) || q->state.raster.cull == SHADE_CULL_FRONT)
+    if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE ||
+        q->state.raster.cull == SHADE_CULL_FRONT || !shade__sides_matter(q))
         return 0;
     q->state.raster.cull = SHADE_CULL_BACK;
     shade__light_fragments(q);
@@ -8755,7 +8795,26 @@ static int shade__normals_turned(shade__survey *q)
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * (q->exact ? 4 : 1) >= all;
+    return (shade__count(q, FLT_MIN) - toward) * 4 >= all;
+}
+
+static int shade__alpha_is_stored(shade__survey *q)
+{
+    const shade_draw_state *d = q->given_state;
+    return d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
+           d->raster.blend == SHADE_BLEND_REPLACE && shade__count(q, 0.1f) > 0;
+}
+
+/* Do highlights cover more than they would of a surface that is polished? */
+static int shade__highlights_are_wide(shade__survey *q)
+{
+    long long all;
+    if (q->state.lighting.terms) return 0;
+    q->state.lighting.terms = SHADE_TERM_SPECULAR;
+    all = shade__count(q, q->dim);
+    if (q->material.shininess >= 1 || !q->exact) return 0;
+    q->material.shininess = 50;
+    return shade__count(q, q->dim) < all;
 }
 
 /* Do highlights show, once the camera stands in view alone, and does light take another eye now?  A
@@ -8794,6 +8853,13 @@ static const shade__rung shade__wrong_light[] = {
     { shade__eye_is_astray,
       "Highlights belong to another eye: light takes it from state.view, in which +z points back "
       "to the viewer, but state.projection moves it or looks along +z; do so in state.view." },
+    { shade__wound_inward, shade__inward },
+    { shade__alpha_is_stored,
+      "state.transparency is stored as alpha and dims nothing, because raster.blend is "
+      "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER." },
+    { shade__highlights_are_wide,
+      "state.material.shininess is below 1, so that highlights cover all that lamps light; 5 is "
+      "dull, 100 polished (tables from 0 to 1 mean 128 times that)." },
     { NULL, NULL }
 };
 
@@ -8815,7 +8881,7 @@ static int shade__unlit_is_meant(shade__survey *q)
 static int shade__white_shows(shade__survey *q)
 {
     shade__whiten(q);
-    return shade__bright(q);
+    return shade__shows(q);
 }
 
 /* Changes are kept. */
@@ -8830,7 +8896,8 @@ static const shade__rung shade__flat[] = {
     { shade__lacks_normals, shade__no_normals },
     { shade__lamps_fall_off, shade__fall_off },
     { shade__cones_miss, shade__no_cone },
-    { shade__always, shade__no_color },
+    { shade__lamps_are_many, NULL },
+    { shade__lamps_are_dark, shade__no_color },
     { NULL, NULL }
 };
 
@@ -8882,24 +8949,24 @@ static const char *shade__doubt_of_map(const shade__survey *s)
     if (shade__u_reaches(&s->mesh, map->width))
         return "mesh.texcoords reach the width of state.diffuse_map: they go from 0 to "
                "1 over the map, whatever its size.";
-    if (s->target->srgb && !map->srgb && map->format < SHADE_FORMAT_RGBA32F)
-        return "state.diffuse_map.srgb is 0 while target.srgb is set: pictures from files are "
-               "sRGB; set diffuse_map.srgb.";
     return NULL;
 }
 
-/* Is the camera's aspect, which is that of rows x and y at right angles to the sight, not the
-   picture's?  The cells of a terminal are twice as high as wide. */
+/* Is the aspect of the projection, which is that of its rows x and y at right angles to the sight,
+   not the picture's?  The cells of a terminal are twice as high as wide. */
 static int shade__aspect_is_wrong(const shade__survey *s)
 {
-    const shade__camera *c = &s->camera;
+    const shade_mat4 none = shade_mat4_identity();
     const double w = s->target->width, h = s->target->height;
     double x[3], y[3], wide, high;
-    shade__cross3(c->row[0], c->sight, x);
-    shade__cross3(c->row[1], c->sight, y);
+    shade__camera c;
+    shade__camera_of(&s->state.projection, &none, &c);
+    shade__cross3(c.row[0], c.sight, x);
+    shade__cross3(c.row[1], c.sight, y);
     wide = shade__dot3(x, x) * w * w;
     high = shade__dot3(y, y) * h * h;
-    if (!shade__faces_ahead(c) || shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
+    if (s->state.projection.col[3].w != 0 || !shade__faces_ahead(&c) ||
+        shade__size(shade__dot3(x, y) * w * h) > 1e-3 * wide ||
         (h < 128 && shade__size(wide - 4 * high) < 0.24 * high))
         return 0;
     return shade__size(wide - high) > 0.06 * wide;
@@ -8927,18 +8994,7 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
     const shade_material *m = &s->material;
     const shade_vec3 e = m->emission;
     if (!s->target->color || d->fragment) return NULL;
-    if (d->transparency > 0 && d->transparency < 1 && d->alpha_cutoff == 0 &&
-        d->raster.blend == SHADE_BLEND_REPLACE)
-        return "state.transparency is stored as alpha and dims nothing, because raster.blend is "
-               "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER.";
     if (l->light_count <= 0 || l->terms) return NULL;
-    if (l->model <= SHADE_MODEL_PHONG && !shade__is_zero(m->specular)) {
-        if (d->raster.blend == SHADE_BLEND_REPLACE && shade__is_zero(shade_add(m->diffuse, e)))
-            return "state.material.diffuse is 0, so that lamps make nothing but highlights.";
-        if (m->shininess < 1)
-            return "state.material.shininess is below 1, so that highlights cover all that lamps "
-                   "light; 5 is dull, 100 polished (tables from 0 to 1 mean 128 times that).";
-    }
     if (e.x >= 1 && e.y >= 1 && e.z >= 1 && s->target->format != SHADE_FORMAT_RGBA32F &&
         l->model < SHADE_MODEL_EMISSIVE && !shade__is_zero(m->diffuse))
         return "state.material.emission alone makes all white, whatever light arrives: it is what "

@@ -600,9 +600,11 @@ static float ex_toward(const shade_light *l, shade_vec3 point, shade_vec3 direct
     const shade_vec3 to = w != 0 ? shade_sub(shade_scale(at, 1 / w), point) : at;
     return shade_dot(shade_normalize(to), shade_normalize(direction));
 }
-static int ex_has_colour(const shade_light *l)
+/* Has a lamp a colour that the surface reflects? */
+static int ex_has_colour(const judged *j, const shade_light *l)
 {
-    return ex_most(l->diffuse) > 0 || ex_most(l->specular) > 0;
+    const shade_material *m = j->e->s.state.material;
+    return ex_most(l->diffuse) > 0 || (m && ex_most(shade_mul(l->specular, m->specular)) > 0);
 }
 static int ex_turned(const judged *j, const shown *at)
 {
@@ -625,9 +627,19 @@ static int ex_unlit_side(const judged *j, const shown *at)
     const int flip = l->flags & SHADE_FLAG_TWO_SIDED && shade_dot(to_eye, at->normal) < 0;
     if (l->flags & SHADE_FLAG_TWO_SIDED_ABS) return ex_no_normal(j, at);
     for (int k = 0; k < l->light_count; k++)
-        if (ex_has_colour(&l->lights[k]) &&
+        if (ex_has_colour(j, &l->lights[k]) &&
             (flip ? -1 : 1) * ex_toward(&l->lights[k], at->point, at->normal) > 0.02f)
             return 0;
+    return 1;
+}
+
+/* Is each lamp dark, or does it meet the surface at a flat angle? */
+static int ex_dim(const judged *j, const shown *at)
+{
+    const shade_lighting *l = &j->e->s.state.lighting;
+    for (int k = 0; k < l->light_count; k++)
+        if (ex_most(l->lights[k].diffuse) *
+            fabsf(ex_toward(&l->lights[k], at->point, at->normal)) > 0.05f) return 0;
     return 1;
 }
 
@@ -686,6 +698,7 @@ static int ex_eye_in_box(const judged *j)
 #define STATE (&j->e->s.state)
 #define LIGHTS (&j->e->s.state.lighting)
 static int so_behind(const judged *j) { return ex_tenths(j, &j->shown, ex_unlit_side) >= 9; }
+static int so_dim(const judged *j) { return ex_tenths(j, &j->shown, ex_dim) >= 9; }
 static int so_turned(const judged *j) { return ex_tenths(j, &j->shown, ex_turned) >= 2; }
 static int so_no_normal(const judged *j)
 {
@@ -825,14 +838,22 @@ static int so_bad_cosine(const judged *j)
     }
     return 0;
 }
+/* Are squares that face the eye no squares in the picture, nor in cells of a terminal, twice as high
+   as wide? */
 static int so_aspect(const judged *j)
 {
     const stage *s = &j->e->s;
-    const shade_mat4 p = ex_or_identity(s->state.projection);
-    const float wide = fabsf(p.col[0].x) * (float)s->target.width;
-    const float high = fabsf(p.col[1].y) * (float)s->target.height;
-    return p.col[3].w == 0 && fabsf(wide - high) > 0.02f * wide &&
-           fabsf(wide - 2 * high) > 0.02f * wide;    /* cells of a terminal are twice as high */
+    const shade_mat4 m = shade_mat4_mul(ex_or_identity(s->state.projection),
+                                        ex_or_identity(s->state.view));
+    shade_vec3 row[4];
+    float wide, high;
+    for (int r = 0; r < 4; r++)
+        row[r] = shade_v3((&m.col[0].x)[r], (&m.col[1].x)[r], (&m.col[2].x)[r]);
+    if (shade_length(row[3]) == 0) row[3] = shade_cross(row[0], row[1]);
+    row[3] = shade_normalize(row[3]);
+    wide = shade_length(shade_cross(row[0], row[3])) * (float)s->target.width;
+    high = shade_length(shade_cross(row[1], row[3])) * (float)s->target.height;
+    return fabsf(wide - high) > 0.02f * wide && fabsf(wide - 2 * high) > 0.02f * wide;
 }
 static int so_scales(const judged *j) { return !ex_is_rigid(ex_or_identity(STATE->view)); }
 static int so_no_texcoords(const judged *j)
@@ -917,10 +938,10 @@ static void cure_no_lamp(stage *s)
 static void cure_lamps(stage *s)
 {
     shade_lighting *l = ex_lights(s);
-    for (int k = 0; k < l->light_count; k++)
-        if (l->lights) s->lamps[k].diffuse = s->lamps[k].specular = shade_v3(100, 100, 100);
-    for (int k = 0; k < l->light_count; k++) {
-        const shade_vec4 at = s->lamps[k].position;
+    for (int k = 0; k < l->light_count && l->lights; k++) {
+        shade_light *lamp = &s->lamps[k];
+        const shade_vec4 at = lamp->position;
+        lamp->diffuse = lamp->specular = shade_v3(1, 1, 1);
         if (at.x == 0 && at.y == 0 && at.z == 0 && at.w == 0) cure_count(s);
     }
 }
@@ -1165,7 +1186,7 @@ static const claim claims[] = {
     { "Every lamp is behind", so_behind, cure_sides, LAMPS_LIGHT },
     { "Attenuation, or", NULL, cure_distance, LAMPS_LIGHT },
     { "No cone of the lights", so_spot, cure_cone, LAMPS_LIGHT },
-    { "The lights have no colour", NULL, cure_lamps, LAMPS_LIGHT },
+    { "The lights have no colour", so_dim, cure_count, LAMPS_LIGHT },
     /* what is seldom meant */
     { "lies beyond the picture", so_beyond_picture, cure_nothing, STATED },
     { "raster.depth_bias makes", so_bias, cure_nothing, STATED },
@@ -1192,10 +1213,13 @@ static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cu
 /* What is not mended where the second one is the advice, since it would do the same. */
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
-    { cure_normals, cure_turned }, { cure_cull, cure_winding },
+    { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
+    { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
+    { cure_material, cure_shininess },
     { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
     { cure_projection, cure_exchange }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_numbers, cure_lamps }, { cure_no_lamp, cure_count },
+    { cure_model, cure_model_by_rows }, { cure_lamps, cure_count },
+    { cure_numbers, cure_count }, { cure_no_lamp, cure_count }, { cure_sides, cure_count },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {
