@@ -2,14 +2,6 @@
 #include "unit.h"
 #include "picked.h"
 
-/* ---------------------------------------------------------------------------------------- rays */
-
-typedef struct ray_camera {
-    shade_mat4 view, projection;
-    int width, height;
-    int ortho, reversed; /* infinite, z to [0, w] */
-} ray_camera;
-
 static ray_camera random_camera(int kind)
 {
     ray_camera c;
@@ -591,51 +583,6 @@ TEST(ray, pick_says_what_is_drawn_at_every_pixel)
 }
 
 /* ------------------------------------------------------------------------------ drawn both ways */
-
-enum { RAY_WIDTH = 80, RAY_HEIGHT = 60, RAY_TRIANGLES = 400 };
-
-typedef struct ray_scene {
-    shade_vec3 position[3 * RAY_TRIANGLES], normal[3 * RAY_TRIANGLES], color[3 * RAY_TRIANGLES];
-    shade_vec4 clip[3 * RAY_TRIANGLES], id[RAY_TRIANGLES];
-    ref_triangle seen[RAY_TRIANGLES];
-    int count;
-    shade_light lights[2];
-    shade_material material;
-    shade_mesh mesh;
-    shade_draw_state state;
-    ray_camera camera;
-} ray_scene;
-
-static void ray_triangle(ray_scene *s, const d3 p[3], const d3 n[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int at = 3 * s->count + k;
-        s->position[at] = d3_round(p[k]);
-        s->normal[at] = d3_round(n[k]);
-        d3 c = d3_scale(p[k], 0.06); /* smooth, so that slivers have no steep colours */
-        s->color[at] = shade_v3((float)(0.6 + c.x), (float)(0.6 + c.y), (float)(0.6 + c.z));
-    }
-    s->count++;
-}
-
-static void ray_ball(ray_scene *s, d3 centre, double radius, int across, int up)
-{
-    for (int j = 0; j < up; j++)
-        for (int i = 0; i < across; i++) {
-            d3 n[4], p[4];
-            for (int k = 0; k < 4; k++) {
-                double a = 6.283185307179586 * ((i + (k == 1 || k == 2)) % across) / across;
-                double b = 3.141592653589793 * ((j + k / 2 + 0.0) / up - 0.5);
-                if (j + k / 2 == 0 || j + k / 2 == up) a = 0;
-                n[k] = d3_of(cos(b) * cos(a), sin(b), -cos(b) * sin(a));
-                p[k] = d3_add(centre, d3_scale(n[k], radius));
-            }
-            d3 pa[3] = { p[0], p[1], p[2] }, na[3] = { n[0], n[1], n[2] };
-            d3 pb[3] = { p[0], p[2], p[3] }, nb[3] = { n[0], n[2], n[3] };
-            if (j > 0) ray_triangle(s, pa, na);
-            if (j < up - 1) ray_triangle(s, pb, nb);
-        }
-}
 
 /* Balls apart from each other, some of them cut by the near plane or the borders, and a floor */
 static void random_ray_scene(ray_scene *s, int kind)
