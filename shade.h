@@ -55,29 +55,29 @@
        >>draw       675  meshes and pixels     >>math       971  vectors and matrices
      Inside: words that the rest is written in
        >>machine   1331  processors            >>base      1556  bits, masks, rows of vectors
-       >>matrix    1781  cameras, inverses     >>power     2149  x^n
-       >>pixels    2215  formats, sRGB
+       >>matrix    1781  cameras, inverses     >>power     2075  x^n
+       >>pixels    2141  formats, sRGB
      Inside: light
-       >>lamps     2491  attenuation, cones    >>terms     2755  one term at one point
-       >>surface   2837  material and lights   >>lit       2958  the whole sum, at many points
+       >>lamps     2417  attenuation, cones    >>terms     2681  one term at one point
+       >>surface   2763  material and lights   >>lit       2884  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3369  who owns what         >>vertices  3575  shading, projection
-       >>triangles 3794  dropped, cut, edges   >>clip      4172  near, far, behind the eye
-       >>tiles     4368  pixels, depth test    >>cover     4737  what is hidden, tile by tile
-       >>fragments 5012  interpolation, lod    >>texture   5307  texels, mipmaps
-       >>store     5767  blending, packing
+       >>state     3295  who owns what         >>vertices  3501  shading, projection
+       >>triangles 3720  dropped, cut, edges   >>clip      4098  near, far, behind the eye
+       >>tiles     4294  pixels, depth test    >>cover     4663  what is hidden, tile by tile
+       >>fragments 4938  interpolation, lod    >>texture   5233  texels, mipmaps
+       >>store     5693  blending, packing
      Inside: calls of the renderer
-       >>check     6003  refusals              >>seen      6222  what can be seen, chunks
-       >>drive     6359  shade_draw            >>mesh      6540  shade_draw_mesh
+       >>check     5929  refusals              >>seen      6148  what can be seen, chunks
+       >>drive     6285  shade_draw            >>mesh      6466  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6946  shade_draw_lines      >>shape     7125  normals, edges
-       >>chunks    7479  how boxes are made    >>rays      7644  shade_pick
-       >>survey    7820  experiments on a draw >>explain   8207  why nothing is seen
-       >>replay    9297  of lines, pipelines   >>image     9640  mipmaps, PPM
-       >>presets   9956  classic materials
+       >>lines     6872  shade_draw_lines      >>camera    7051  where a draw is seen from
+       >>shape     7130  normals, edges        >>chunks    7484  how boxes are made
+       >>rays      7649  shade_pick            >>survey    7825  experiments on a draw
+       >>explain   8212  why nothing is seen   >>replay    9302  of lines, pipelines
+       >>image     9645  mipmaps, PPM           >>presets   9961  classic materials
      Sources
-       >>refs     10032                        >>history  10062
-       >>license  10068
+       >>refs     10037                        >>history  10067
+       >>license  10073
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -2070,80 +2070,6 @@ SHADEDEF shade_mat4 shade_mat4_ortho(float l, float r, float b, float t,
 {
     const float side[6] = { l, r, b, t, n, f };
     return shade__box_projection(0, side);
-}
-
-/* Where a draw is seen from.  It depends on projection times view alone, not on which of the two
-   holds the camera.  Rays, fitted views and explanations take it from here. */
-typedef struct shade__camera {
-    double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
-    double eye[3];       /* the centre of projection, where x, y and w are 0; zero if rays are
-                            parallel */
-    double sight[3];     /* unit: the way in which w grows fastest, or parallel rays go; zero if
-                            the camera is degenerate */
-    int perspective;     /* 0: rays are parallel */
-    int reversed;        /* a perspective with greater depth near the eye */
-} shade__camera;
-
-/* Makes v unit, however long; zero where it is zero or not finite. */
-static void shade__direction3(double *v)
-{
-    const double sum = shade__size(v[0]) + shade__size(v[1]) + shade__size(v[2]);
-    for (int k = 0; k < 3; k++) v[k] = sum > 0 && sum <= DBL_MAX ? v[k] / sum : 0;
-    shade__unit3(v);
-}
-
-/* The ray through x/w and y/w, which is where the planes of both meet.  In a perspective it starts
-   on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
-static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
-                               double *way)
-{
-    const double *z = c->row[2], *w = c->row[3];
-    double a[4], b[4], start[4], p[3], q[3], along, w_there = 1;
-    for (int k = 0; k < 4; k++) {
-        a[k] = c->row[0][k] - x * w[k];
-        b[k] = c->row[1][k] - y * w[k];
-        start[k] = c->perspective ? w[k] : z[k] + w[k];
-    }
-    shade__cross3(a, b, way);
-    shade__cross3(b, start, p);
-    shade__cross3(start, a, q);
-    along = shade__dot3(start, way);
-    for (int k = 0; k < 3; k++) {
-        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * way[k];
-        from[k] = along != 0 ? -sum / along : 0;
-    }
-
-    if (!c->perspective) w_there = shade__dot3(w, from) + w[3];
-    for (int k = 0; k < 3; k++) {
-        if (along == 0) way[k] = 0;
-        if ((along < 0) != (w_there < 0)) way[k] = -way[k];
-    }
-    shade__direction3(way);
-}
-
-/* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
-   and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
-   such noise. */
-static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view,
-                             shade__camera *c)
-{
-    double p[16], v[16], way[3];
-    shade__doubles(shade__entries(projection), 16, p);
-    shade__doubles(shade__entries(view), 16, v);
-    for (int k = 0; k < 16; k++) {
-        const double *a = p + k % 4, *b = v + k / 4 * 4;
-        c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
-    }
-    shade__cross3(c->row[0], c->row[1], way);
-    c->perspective = shade__size(shade__dot3(c->row[3], way)) >
-                     shade__size(shade__dot3(c->row[2], way)) * (1 / 65536.0);
-    shade__ray_through(c, 0, 0, c->eye, c->sight);
-    c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
-    for (int k = 0; k < 3; k++) {
-        if (c->perspective) c->sight[k] = c->row[3][k];
-        else c->eye[k] = 0;
-    }
-    shade__direction3(c->sight);
 }
 
 /*------------------------------------------------------------------------------------------ >>power
@@ -6949,7 +6875,7 @@ SHADEDEF shade_result shade_draw_mesh(const shade_target *target,
      out     pixels with the coverage, depth test and blending of triangles
      holds   A segment is cut at the near and far planes first, so that both ends have a place on
              the screen.  One that lies outside becomes a triangle that lies outside, and counts as
-             clipped.                                                                     >>shape */
+             clipped.                                                                    >>camera */
 
 typedef struct shade__stroke {           /* uniforms of the line shaders */
     const shade_vec3 *points;
@@ -7120,6 +7046,85 @@ SHADEDEF shade_result shade_draw_lines(const shade_target *target,
     shade__stroke_of(target, points, state, &s, &p);
     (void)shade__supply_all(in_order, 3 * point_count, 3 * point_count, &supply);
     return shade__run_draw(target, &p, 1, shade_v3(0, 0, 0), &supply, stats);
+}
+
+/*----------------------------------------------------------------------------------------- >>camera
+   Where a draw is seen from: one camera for rays, fitted views and explanations.
+     in      projection, view             out  a shade__camera, in double
+     way     camera_of: ray_through
+     holds   It depends on the product of both matrices alone, not on which of them holds the
+             camera.                                                                      >>shape */
+
+typedef struct shade__camera {
+    double row[4][4];    /* of the product, clip from world: rows x, y, z and w */
+    double eye[3];       /* the centre of projection, where x, y and w are 0; zero if rays are
+                            parallel */
+    double sight[3];     /* unit: the way in which w grows fastest, or parallel rays go; zero if
+                            the camera is degenerate */
+    int perspective;     /* 0: rays are parallel */
+    int reversed;        /* a perspective with greater depth near the eye */
+} shade__camera;
+
+/* Makes v unit, however long; zero where it is zero or not finite. */
+static void shade__direction3(double *v)
+{
+    const double sum = shade__size(v[0]) + shade__size(v[1]) + shade__size(v[2]);
+    for (int k = 0; k < 3; k++) v[k] = sum > 0 && sum <= DBL_MAX ? v[k] / sum : 0;
+    shade__unit3(v);
+}
+
+/* The ray through x/w and y/w, which is where the planes of both meet.  In a perspective it starts
+   on the plane w = 0 and points to where w grows, else on z = -w and to where z/w grows. */
+static void shade__ray_through(const shade__camera *c, double x, double y, double *from,
+                               double *way)
+{
+    const double *z = c->row[2], *w = c->row[3];
+    double a[4], b[4], start[4], p[3], q[3], along, w_there = 1;
+    for (int k = 0; k < 4; k++) {
+        a[k] = c->row[0][k] - x * w[k];
+        b[k] = c->row[1][k] - y * w[k];
+        start[k] = c->perspective ? w[k] : z[k] + w[k];
+    }
+    shade__cross3(a, b, way);
+    shade__cross3(b, start, p);
+    shade__cross3(start, a, q);
+    along = shade__dot3(start, way);
+    for (int k = 0; k < 3; k++) {
+        const double sum = a[3] * p[k] + b[3] * q[k] + start[3] * way[k];
+        from[k] = along != 0 ? -sum / along : 0;
+    }
+
+    if (!c->perspective) w_there = shade__dot3(w, from) + w[3];
+    for (int k = 0; k < 3; k++) {
+        if (along == 0) way[k] = 0;
+        if ((along < 0) != (w_there < 0)) way[k] = -way[k];
+    }
+    shade__direction3(way);
+}
+
+/* Entries that were rounded to floats make w vary a little where rays are parallel.  For near = n
+   and far = f the quotient of the two products is (f - n) / (f + n); below 2^-16 it is taken for
+   such noise. */
+static void shade__camera_of(const shade_mat4 *projection, const shade_mat4 *view,
+                             shade__camera *c)
+{
+    double p[16], v[16], way[3];
+    shade__doubles(shade__entries(projection), 16, p);
+    shade__doubles(shade__entries(view), 16, v);
+    for (int k = 0; k < 16; k++) {
+        const double *a = p + k % 4, *b = v + k / 4 * 4;
+        c->row[k % 4][k / 4] = a[0] * b[0] + a[4] * b[1] + a[8] * b[2] + a[12] * b[3];
+    }
+    shade__cross3(c->row[0], c->row[1], way);
+    c->perspective = shade__size(shade__dot3(c->row[3], way)) >
+                     shade__size(shade__dot3(c->row[2], way)) * (1 / 65536.0);
+    shade__ray_through(c, 0, 0, c->eye, c->sight);
+    c->reversed = c->perspective && shade__dot3(c->row[2], c->eye) + c->row[2][3] > 0;
+    for (int k = 0; k < 3; k++) {
+        if (c->perspective) c->sight[k] = c->row[3][k];
+        else c->eye[k] = 0;
+    }
+    shade__direction3(c->sight);
 }
 
 /*------------------------------------------------------------------------------------------ >>shape
