@@ -87,8 +87,9 @@ local function title_of(heading)
     return title, place
 end
 
--- Drawings on white paper: dark pages turn their lightness round.
-local DRAWINGS = { '12_edges', '28_lobes', '41_beam', '42_angles', '43_pinhole', '44_microfacets', 'svg$' }
+-- Drawings of lines on white paper: dark pages turn their lightness round. 41_beam is none, its lightness
+-- is an amount of light; SVG pictures have colours for dark pages of their own.
+local DRAWINGS = { '12_edges', '28_lobes', '42_angles', '43_pinhole', '44_microfacets' }
 local function class_of(image)
     for _, name in ipairs(DRAWINGS) do
         if image.src:match(name) then return ' class="drawing"' end
