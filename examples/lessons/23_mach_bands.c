@@ -1,8 +1,8 @@
 /* 23_mach_bands.c - a drum of twelve sides and, below it, its profile: the values 0 to 255 that a
-   display gets across its middle (Berkeley).  Where the profile has a step or a kink the eye sees a
-   line that is not there, a Mach band.  Flat shading has steps.  Gouraud's has kinks at the edges,
-   seen as a bright line in the middle and dark ones beside it.  Phong's is smooth, because each
-   pixel has the normal of a round drum.
+   display gets across its middle (UW, Berkeley).  Where the profile has a step or a kink the eye
+   sees a line that is not there, a Mach band.  Flat shading has steps.  Gouraud's has kinks at the
+   edges, seen as a bright line in the middle and dark ones beside it.  Phong's is smooth, because
+   each pixel has the normal of a round drum.
    Try 72 sides for 12: the kinks become too small to be seen.
 
    cc -O2 -I. examples/lessons/23_mach_bands.c -lm -o mach_bands && ./mach_bands */

@@ -1,8 +1,8 @@
-/* 44_microfacets.c - what k_s and k_d stand for.  Light is mirrored at the interface of a surface,
-   or enters and is scattered by pigment.  A smooth interface is a mirror: rays leave side by side.
-   A rough one is glossy: it is made of microfacets, each of them a mirror, and spreads the rays
-   about R, the highlight, with a smaller n the rougher it is.  Pigment absorbs some light and
-   re-emits the rest in its own colour, in all directions.  Angles: RMS of 20,000 rays.
+/* 44_microfacets.c - what k_s and k_d stand for.  A smooth interface is a mirror: rays leave side
+   by side.  A rough one is made of microfacets, each of them a mirror.  Tilted a little, they
+   spread the rays about R, the highlight, with a smaller n the rougher they are: glossy.  Tilted
+   every way they send light in all directions, UW's first picture of k_d.  So does pigment, its
+   second, which absorbs light and re-emits the rest in its own colour.  RMS of 20,000 rays.
    Try 0.02f for the roughness 0.22f: the second surface becomes the first.
 
    cc -O2 -I. examples/lessons/44_microfacets.c -lm -o microfacets && ./microfacets */

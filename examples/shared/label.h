@@ -88,6 +88,9 @@ static inline float label_set(const shade_target *t, float x, float y, float siz
     const int glyphs = (int)(sizeof font_glyphs / sizeof font_glyphs[0]);
     float start = x, small = 0.68f * size, rise = 0, em = size;
     int apart = 0; /* 1: one character set apart, 2: a group in braces */
+#ifdef LABEL_SAY /* for tests: captions as text */
+    if (t) puts(text);
+#endif
     while (*text) {
         int code = label_code(&text), k = 0, shape = 0, end = apart == 1;
         if (!apart && *text && (code == '_' || code == '^')) {

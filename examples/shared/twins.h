@@ -1,9 +1,10 @@
 /* twins.h - shaders of the lecture notes in GLSL, each above its twin in C: UW's colour shader, and
    Massey's two, which light brass in the vertex shader and in the fragment shader.
 
-   Names and spaces are those of the notes: everything is in eye space, and the light's direction is
-   its direction of travel, with w = 0.  The conformance test compiles the GLSL and compares what
-   GLSL and C draw, pixel by pixel. */
+   Equations and spaces are those of the notes; names are shorter, and a vec3 is never assigned to a
+   vec4.  Everything is in eye space, and the light's direction is its direction of travel, with
+   w = 0.  The conformance test compiles the GLSL and compares what GLSL and C draw, pixel by
+   pixel. */
 #ifndef SHARED_TWINS_H
 #define SHARED_TWINS_H
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # course.sh - the pages of the courses: each line of C compiles, its value is what the page says,
-# pictures and links are there, and each word that students search for stands on its page.
-# playground.sh opens the links in a browser.
+# pictures and links are there. rows.sh holds their words to the lecture notes, playground.sh opens
+# the links in a browser.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/scripts/tools.sh
 CC=${CC:-cc}
@@ -113,25 +113,4 @@ lessons() {                     # pictures, and lessons named in text
 }
 check "lessons that are named are there" same "$(lessons)" ""
 
-# ---- words --------------------------------------------------------------------------------------
-words() {                       # page, words separated by commas: those that are not on it
-    tr '\n' ' ' <"$T/pages/course-$1.html" | sed 's/<[^>]*>//g' | tr -s ' ' >"$T/text"
-    echo "$2" | tr ',' '\n' | while read -r word; do grep -qiF -- "$word" "$T/text" || echo "$word"; done
-}
-on() { check "words on the page of $1" same "$(words "$1" "$2")" ""; }
-on uw "shading model, lighting model, reflection model, local illumination, BRDF, emissivity,
-    directional, positional, point light, falloff, attenuation, spotlight, cutoff, depth buffer, z-buffer,
-    hidden surface, rasterization, texture coordinate, geometry shader, vertex shader, fragment shader,
-    BSSRDF, hair, fluorescence, participating media, microfacet, pigment, glossy, rough specular,
-    directional diffuse, Strasser, Catmull, lambda, beta, alpha, phi, theta, half-angle, homogeneous, gl_Position,
-    centre (center) of projection, image plane, viewing ray, first, fast, physically correct, Gouraud, Phong, Blinn"
-on massey "interface, re-emission, absorb, scatter, irradiance, brass, turquoise, black plastic, cube, createCube,
-    u_Model, u_View, u_Light_Direction, vert_Normal, frag_Colour, reflect, Phong reflection, Phong shading, Ip,
-    normal matrix, lookAt, perspective, value_ptr, ivec, mat2, transparent, refraction, Mach band, clamp, Goraud, GLM"
-on shirley "(10.1), (10.3), (10.4), (10.5), (10.6), (10.7), (10.8), (10.9), (10.10), (10.11), sigma, omega, theta,
-    reflection coefficient, clamp, headlight, silhouette, crease, Warn, table, gold, plastic, barycentric, moon, velvet, cool,
-    cw, octagon, f0(, average, half-angle"
-on berkeley "local, refraction, indirect light, photochromatic, λin, λout, four ways to obtain BRDFs,
-    light leaving from, wool, silk, in space, orthographic, perspective, falloff, directional, half-angle, sharp,
-    Mach, BSSRDF, surface and incoming light"
 finish

@@ -161,18 +161,36 @@ check "every example is listed" none "$(
         name=$(basename "$file" .c)
         grep -qE "src=\"pictures/$name\.png\".*</a> \| \`$name\`" examples/README.md || echo "$name"
     done)"
-check "the teacher's guide has the lessons of each course in the order of its slides" none "$(
+# on a course's slides, in their order; besides, those that the table of lessons says it asks for
+of_course() {                   # UW uw
+    slides=$(grep -oE 'pictures/[0-9]{2}_' "examples/teaching/course/$2.md" | grep -oE '[0-9]{2}' |
+        awk '!seen[$0]++' | tr '\n' ' ')
+    sed -n 's/.*<\/a> | `\([0-9][0-9]\)_[a-z_]*` | \([^|]*\)|.*/\1 \2/p' examples/README.md | grep "$1" |
+        cut -c1-2 | sort | grep -vxF "$(echo $slides | tr ' ' '\n')" | tr '\n' ' ' >"$T/besides"
+    echo " $slides| $(cat "$T/besides")|"
+}
+check "the teacher's guide has the lessons of each course" none "$(
     for course in UW:uw Massey:massey Shirley:shirley Berkeley:berkeley; do
-        grep -oE 'pictures/[0-9]{2}_' "examples/teaching/course/${course#*:}.md" | grep -oE '[0-9]{2}' | awk '!seen[$0]++' |
-            tr '\n' ' ' >"$T/of_slides"
-        sed -n "s/^| ${course%:*}, [^|]*| //p" examples/lessons/TEACHING.md | tr -d '|' | tr -s ' ' >"$T/of_guide"
-        [ "$(cat "$T/of_slides")" = "$(cat "$T/of_guide")" ] || { echo "$course"; cat "$T/of_slides"; }
+        want=$(of_course "${course%:*}" "${course#*:}")
+        [ "$(sed -n "s/^| ${course%:*}, [^|]*|//p" examples/lessons/TEACHING.md)" = "$want" ] || echo "$course:$want"
     done)"
 check "every lesson says the line that builds it" none "$(
     for file in examples/lessons/[0-9]*.c; do
         grep -qE "^   cc -O2 (-fopenmp |-pthread )?-I\. $file -lm( -pthread)? -o ([a-z_]+) && \./\3" "$file" ||
             echo "$file"
     done)"
+# Numbers of the table of lessons are those that the lessons print. The two of 33 are Shirley's course's.
+table() { sed -n "s/.*<\/a> | \`\($1\)\` | [^|]* | \(.*\) |\$/\1 \2/p" examples/README.md; }
+numbers() { sed 's/[0-9]n//g' "$@" | grep -oE '[0-9][0-9,]*(\.[0-9]+)?(e-[0-9]+)?' | sed 's/,//g; s/e-0/e-/'; }
+check "the numbers of the table of lessons are those that are printed" none "$(
+    table '[0-9][0-9]_[a-z_]*' | grep -E '[0-9][.,][0-9]| × ' | grep -vE '^33_' | cut -d' ' -f1 >"$T/counting"
+    [ "$(wc -l <"$T/counting")" -gt 9 ] || echo "too few lessons print numbers"
+    while read -r name; do
+        cc -O1 -w -I. -DLABEL_SAY -DSHADE__IMPLEMENTED "examples/lessons/$name.c" build/shade.o -lm -o "$T/lesson" &&
+            "$T/lesson" "$T/lesson.ppm" >"$T/printed"
+        numbers "$T/printed" | sort -u >"$T/printed_numbers"
+        table "$name" | cut -d' ' -f2- | numbers | sort -u | comm -23 - "$T/printed_numbers" | sed "s/^/$name: /"
+    done <"$T/counting")"
 if command -v tcc >/dev/null; then
     cc -O1 -I. -DSHADE__IMPLEMENTED examples/lessons/46_ambient.c build/shade.o -lm -o "$T/by_cc" &&
         "$T/by_cc" "$T/by_cc.ppm"

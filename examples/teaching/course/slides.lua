@@ -1,7 +1,8 @@
 -- slides.lua - turns a course in Markdown into articles of a page or, with `-M deck`, into slides.
 -- A heading of level 2 begins a slide; what follows " · " in it is the place in the notes. Below it stand
 -- a picture, one statement whose links set the live picture, one equation in $$ $$, C lines with their
--- values, and questions in <details>. An ordered list becomes boxes with arrows between them.
+-- values, and questions in <details>; a link in a question is the picture it begins with. An ordered list
+-- becomes boxes with arrows between them.
 local deck, live, count = false, false, 0
 
 local function html(text) return pandoc.RawBlock('html', text) end
@@ -87,8 +88,9 @@ local function title_of(heading)
     return title, place
 end
 
--- Drawings on white paper: dark pages turn their lightness round.
-local DRAWINGS = { '12_edges', '28_lobes', '41_beam', '42_angles', '43_pinhole', '44_microfacets', 'svg$' }
+-- Drawings of lines on white paper: dark pages turn their lightness round. 41_beam is none, its lightness
+-- is an amount of light; SVG pictures have colours for dark pages of their own.
+local DRAWINGS = { '12_edges', '28_lobes', '42_angles', '43_pinhole', '44_microfacets' }
 local function class_of(image)
     for _, name in ipairs(DRAWINGS) do
         if image.src:match(name) then return ' class="drawing"' end
@@ -129,7 +131,7 @@ local function article(heading, slide)
     out:extend(slide.code)
     for _, ask in ipairs(slide.questions) do
         out:insert(html('<details><summary>'))
-        for _, block in ipairs(ask.question) do out:insert(pandoc.Plain(block.content)) end
+        for _, block in ipairs(words(ask.question)) do out:insert(pandoc.Plain(block.content)) end
         out:insert(html('</summary>'))
         out:extend(words(ask.answer))
         out:insert(html('</details>'))
@@ -166,11 +168,14 @@ local function flow(blocks)
         return block.t == 'OrderedList' and pandoc.Div(block, { class = 'flow' }) or block
     end)
 end
+local function still(blocks)
+    return with_links(blocks, function(link) return is_live(link) and link.content or nil end)
+end
 local function notes(slide)
     local out = pandoc.List{ html('<aside class="notes">') }
     for _, ask in ipairs(slide.questions) do
-        out:extend(ask.question)
-        out:extend(with_links(ask.answer, function(link) return is_live(link) and link.content or nil end))
+        out:extend(still(ask.question))
+        out:extend(still(ask.answer))
     end
     out:extend(slide.code)
     out:insert(html('</aside>'))
@@ -204,14 +209,14 @@ local function sections(heading, slide)
     for i, ask in ipairs(slide.questions) do
         local own = 'ask-' .. count .. '-' .. i
         local links = live_links(ask.answer)
-        local asked = { picture = slide.picture, with = slide.with,
-            links = #links > 0 and pandoc.List{ slide.links[1] or links[1] } or slide.links }
+        local first = live_links(ask.question)[1] or slide.links[1] or links[1]
+        local asked = { picture = slide.picture, with = slide.with, links = pandoc.List{ first } }
         local answer = pandoc.List{ html('<div class="statement"><div class="fragment answer">') }
         answer:extend(moving(ask.answer, asked, own))
         answer:insert(html('</div></div>'))
         local picture = figure(asked, own)
         local class = 'ask ' .. (picture and layout(asked) or 'words')
-        local inlines = ask.question[1].content
+        local inlines = still(ask.question)[1].content
         out:extend(section(class, inlines, place,
             { answer, picture and pandoc.List{ picture } or pandoc.List(), notes(slide) }))
     end
