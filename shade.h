@@ -8152,10 +8152,14 @@ static const char *shade__bad_lamp(const shade_light *l)
 /* Are corners NaN, infinite or beyond 1e12, or does the draw leave out triangles as such? */
 static int shade__positions_are_bad(const shade__survey *s)
 {
+    shade__survey all = *s;
     shade_vec3 low, high;
-    shade_mesh_bounds(s->given_mesh, &low, &high);
+    all.mesh.chunks = NULL;
+    all.mesh.chunk_count = 0;
+    shade_mesh_bounds(&all.mesh, &low, &high);
     low = shade_max(high, shade_neg(low));
-    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(s, 0).rejected > 0;
+    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f ||
+           shade__stats_of(&all, 0).rejected > 0;
 }
 
 /* How many triangles a draw of the mesh counts. */
@@ -8437,7 +8441,7 @@ static int shade__nothing_is_equal(shade__survey *q)
 
 static int shade__depth_is_far(shade__survey *q)
 {
-    if (!shade__all_hidden(q)) return 0;
+    if (!q->camera.perspective || !shade__all_hidden(q)) return 0;
     q->apart = FLT_MIN;
     return !shade__covered(q);
 }
@@ -8803,6 +8807,34 @@ static int shade__normals_turned(shade__survey *q)
     return (shade__count(q, FLT_MIN) - toward) * 2 >= all;
 }
 
+/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
+static int shade__normals_differ(const shade_mesh *m)
+{
+    int behind = 0, before = 0;
+    for (int i = 0; i < shade__corner_count(m); i += 3) {
+        shade_vec3 p[3], n = shade_v3(0, 0, 0);
+        float side;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = shade__corner_index(m, (uint32_t)(i + k));
+            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
+        }
+        side = shade_dot(n, shade__face_normal(m, (uint32_t)i / 3, p));
+        behind += side < 0;
+        before += side > 0;
+    }
+    return behind && 7 * behind >= before && 7 * before >= behind;
+}
+
+static int shade__normals_disagree(shade__survey *q)
+{
+    const long long lit = shade__count(q, q->dim);
+    if (!q->mesh.normals || q->state.raster.cull != SHADE_CULL_NONE || !q->exact ||
+        !shade__normals_differ(&q->mesh))
+        return 0;
+    q->mesh.normals = NULL;
+    return shade__count(q, q->dim) != lit;
+}
+
 static int shade__alpha_is_stored(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
@@ -8832,6 +8864,9 @@ static const shade__rung shade__wrong_light[] = {
       "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
       "fill them by shade_mesh_normals, or reverse the winding; a model that mirrors does so too." },
     { shade__wound_inward, shade__inward },
+    { shade__normals_disagree,
+      "mesh.normals lie behind some of the faces and before others, by their winding: are they of "
+      "other vertices, or stored as colours?  shade_mesh_normals fills them." },
     { shade__alpha_is_stored,
       "state.transparency is stored as alpha and dims nothing, because raster.blend is "
       "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER." },
@@ -8981,22 +9016,6 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
     return NULL;
 }
 
-/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
-static int shade__normals_disagree(const shade_mesh *m)
-{
-    const int faces = shade__corner_count(m) / 3;
-    int behind = 0;
-    for (int i = 0; i < faces; i++) {
-        shade_vec3 p[3], n = shade_v3(0, 0, 0);
-        for (int k = 0; k < 3; k++) {
-            const uint32_t v = shade__corner_index(m, 3 * (uint32_t)i + (uint32_t)k);
-            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
-        }
-        behind += shade_dot(n, shade__face_normal(m, (uint32_t)i, p)) < 0;
-    }
-    return 8 * behind >= faces && 8 * behind <= 7 * faces;
-}
-
 static const char *shade__doubt(const shade__survey *s)
 {
     const shade_target *t = s->target;
@@ -9011,9 +9030,6 @@ static const char *shade__doubt(const shade__survey *s)
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
                "0 to 1; 1e-5 is much.";
-    if (s->mesh.normals && r->cull == SHADE_CULL_NONE && shade__normals_disagree(&s->mesh))
-        return "mesh.normals lie behind some of the faces and before others, by their winding: are "
-               "they of other vertices, or stored as colours?  shade_mesh_normals fills them.";
     why = shade__doubt_of_view(s);
     if (!why) why = shade__doubt_of_map(s);
     return why ? why : shade__doubt_of_surface(s);
