@@ -163,7 +163,8 @@ static shade_vec3 ex_eye(const stage *s, int greater)
     return shade_v3(at.x * scale, at.y * scale, at.z * scale);
 }
 /* How many of the pixels hold the condition in tenths, rounded down; 10 where there are none. */
-static int ex_tenths(const judged *j, const geometry *g, int (*holds)(const judged *, const shown *))
+typedef int of_pixel(const judged *, const shown *);
+static int ex_tenths(const judged *j, const geometry *g, of_pixel *holds)
 {
     int n = 0;
     for (int i = 0; i < g->count; i++) n += holds(j, &g->at[i]);
@@ -238,7 +239,10 @@ static int ex_is_bad(const double c[4])
 }
 static int ex_is_good(const double c[4]) { return !ex_is_bad(c); }
 static int ex_beyond_w(const double c[4]) { return ex_is_bad(c) || c[2] > c[3] - 1e-4; }
-static int ex_before_w(const double c[4]) { return ex_is_bad(c) || c[2] < 1e-4 || c[2] < -c[3] + 1e-4; }
+static int ex_before_w(const double c[4])
+{
+    return ex_is_bad(c) || c[2] < 1e-4 || c[2] < -c[3] + 1e-4;
+}
 static int ex_behind_eye(const double c[4]) { return ex_is_bad(c) || c[3] < 1e-4; }
 
 static shade_vec3 ex_xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
@@ -387,8 +391,8 @@ static int so_texels(const judged *j)
         if (STAGE->texcoord[i].x > (float)MAP->width - 1.001f) return 1;
     return 0;
 }
-/* Are squares that face the eye no squares in the picture, nor in cells of a terminal, twice as high
-   as wide? */
+/* Are squares that face the eye no squares in the picture, nor in cells of a terminal, which are
+   twice as high as wide? */
 static int so_aspect(const judged *j)
 {
     const shade_mat4 m = ex_camera(STAGE);
@@ -692,11 +696,12 @@ enum { EX_CLAIMS = sizeof claims / sizeof *claims };
 
 /* What may keep a mesh from being seen, and from being lit. */
 static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_clip, cure_depth,
-                                    cure_shader, cure_mesh, cure_model, cure_projection, cure_camera,
-                                    NULL };
-static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading, cure_terms, cure_colors,
-                                     cure_material, cure_sides, cure_normals, cure_distance,
-                                     cure_cone, cure_lamps, cure_numbers, cure_emission, NULL };
+                                    cure_shader, cure_mesh, cure_model, cure_projection,
+                                    cure_camera, NULL };
+static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading,
+                                     cure_terms, cure_colors, cure_material, cure_sides,
+                                     cure_normals, cure_distance, cure_cone, cure_lamps,
+                                     cure_numbers, cure_emission, NULL };
 CURE(all)
 {
     for (cure *const *one = ex_of_light; *one; one++)
@@ -707,11 +712,11 @@ static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
     { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
     { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
-    { cure_material, cure_shininess },
-    { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
-    { cure_camera, cure_by_rows }, { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
-    { cure_lamps, cure_at_eye }, { cure_numbers, cure_at_eye },
+    { cure_material, cure_shininess }, { cure_projection, cure_by_rows },
+    { cure_projection, cure_aspect }, { cure_camera, cure_by_rows },
+    { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
+    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count }, { cure_lamps, cure_at_eye },
+    { cure_numbers, cure_at_eye },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {
@@ -846,26 +851,5 @@ static int ex_explain(explained *e, int with_stats, const char **said)
         return ex_holds(&j, &claims[k]) ? k : k + EX_FALSE;
     }
     return EX_CLAIMS + EX_FALSE;
-}
-/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, another one
-   hide it, and black surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
-static int ex_is_black(explained *e)
-{
-    static picture drawn;
-    static stage whole;
-    const shade_draw_state *d = &e->s.state;
-    const shade_material *m = d->material;
-    const int outline = d->raster.cull == SHADE_CULL_FRONT || d->raster.blend == SHADE_BLEND_OVER;
-    ex_draw(e, &e->s, &drawn);
-    if (drawn.result || !e->s.target.color || drawn.bright) return 0;
-    if (m && outline && ex_most(m->emission) <= 0 && ex_most(m->ambient) <= 0 &&
-        ex_most(m->diffuse) <= 0 && ex_most(m->specular) <= 0)
-        return 0;
-    ex_copy(&e->s, &whole);
-    cure_clip(&whole);
-    if (!drawn.stats.fragments &&
-        (e->s.target.clip_width || e->s.target.row_count || e->other.col[3].w != 0)) return 0;
-    ex_draw(e, &whole, &drawn);
-    return !drawn.bright;
 }
 #endif
