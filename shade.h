@@ -7795,6 +7795,12 @@ static int shade__shows(const shade__survey *s)
     return shade__count(&wide, s->dim) > 0;
 }
 
+/* Is there light that a surface of its square root would still show? */
+static int shade__bright(const shade__survey *s)
+{
+    return shade__count(s, shade__sqrt(s->dim)) > 0;
+}
+
 /* Draws the mesh with this culling, and samples pixels. */
 static void shade__take_probes(const shade__survey *s, shade_cull cull,
                                shade__probe probes[SHADE__PROBES])
@@ -8474,8 +8480,10 @@ static int shade__is_inside_out(const shade__survey *s)
 {
     shade__probe probes[SHADE__PROBES];
     uint32_t fronts = 0, behind = 0;
+    shade__survey q = *s;
     if (shade__eye_inside(s)) return 0;
-    shade__take_probes(s, SHADE_CULL_NONE, probes);
+    if (q.camera.perspective) q.farthest = (float)!q.camera.reversed;    /* whatever the test is */
+    shade__take_probes(&q, SHADE_CULL_NONE, probes);
     for (int k = 0; k < SHADE__PROBES; k++) {
         fronts += probes[k].any_front;
         behind += probes[k].any_front & !probes[k].front;
@@ -8491,9 +8499,10 @@ static int shade__backs_in_view(shade__survey *q)
 /* Does light depend on the side to which normals point? */
 static int shade__sides_matter(const shade__survey *s)
 {
+    const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
     shade__survey both = *s;
     both.state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    return s->exact && shade__count(&both, s->dim) != shade__count(s, s->dim);
+    return s->exact && !(s->state.lighting.flags & flags) && shade__count(&both, s->dim) != shade__count(s, s->dim);
 }
 
 static int shade__wound_inward(shade__survey *q)
@@ -8589,12 +8598,11 @@ static int shade__colors_are_black(shade__survey *q)
     return shade__lights_up(q);
 }
 
-/* Is there light that a surface of its square root would still show? */
 static int shade__material_is_black(shade__survey *q)
 {
     const int shows = shade__shows(q);
     shade__whiten(q);
-    return !shows && shade__count(q, shade__sqrt(q->dim)) > 0 && shade__lights_up(q);
+    return !shows && shade__bright(q) && shade__lights_up(q);
 }
 
 static int shade__has_light(shade__survey *q) { return shade__shows(q); }
@@ -8641,20 +8649,19 @@ static const shade__rung shade__black[] = {
     { shade__material_is_black,
       "state.material reflects nothing, or almost, of the light that there is: lamps need diffuse "
       "or specular, lighting.ambient needs material.ambient; NULL is white." },
-    { shade__has_light, shade__multiply },
     { NULL, NULL }
 };
 
 /* ---- the mesh is black, or lit by ambient light alone: the lamps */
 
-static int shade__count_is_zero(shade__survey *q)
-{
-    return q->state.lighting.light_count <= 0 && q->state.lighting.lights;
-}
-
 static int shade__lights_are_none(shade__survey *q)
 {
-    return q->state.lighting.light_count <= 0;
+    return q->state.lighting.light_count <= 0 && !shade__shows(q);
+}
+
+static int shade__count_is_zero(shade__survey *q)
+{
+    return q->state.lighting.lights && shade__lights_are_none(q);
 }
 
 /* Is no normal of mesh.normals in view a direction?  Open highlights of exponent 0 are 1 wherever
@@ -8710,19 +8717,20 @@ static int shade__lamps_fall_off(shade__survey *q)
 {
     shade__whiten(q);
     shade__light_everywhere(q);
-    return shade__lights_up(q);
+    return shade__bright(q) && shade__lights_up(q);
 }
 
 static int shade__cones_miss(shade__survey *q)
 {
     shade__open_cones(q);
-    return shade__lights_up(q);
+    return shade__bright(q) && shade__lights_up(q);
 }
 
-static int shade__lamps_are_dark(shade__survey *q)
+/* Is there light after all, which meets the surface at no flat angle? */
+static int shade__sides_show(shade__survey *q)
 {
-    shade__paint_lamps(q, shade_v3(100, 100, 100));
-    return shade__lights_up(q);
+    q->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
+    return shade__count(q, 0.05f) > 0;
 }
 
 static int shade__lamps_are_many(shade__survey *q)
@@ -8745,12 +8753,10 @@ static const shade__rung shade__unlit[] = {
     { shade__lacks_normals, shade__no_normals },
     { shade__lamps_behind, shade__behind },
     { shade__lamps_fall_off, shade__fall_off },
-    { shade__has_light, shade__multiply },
     { shade__cones_miss, shade__no_cone },
-    { shade__has_light, shade__multiply },
     { shade__lamps_are_many, shade__multiply },
-    { shade__lamps_are_dark, shade__no_color },
-    { shade__always, shade__multiply },
+    { shade__sides_show, shade__multiply },
+    { shade__always, shade__no_color },
     { NULL, NULL }
 };
 
@@ -8762,7 +8768,7 @@ static int shade__is_clipped(shade__survey *q)
     long long clipped;
     q->material.emission = shade_v3(0, 0, 0);
     clipped = shade__count(q, 2);
-    return q->target->format != SHADE_FORMAT_RGBA32F &&
+    return q->target->format != SHADE_FORMAT_RGBA32F && q->whole &&
            q->state.raster.blend != SHADE_BLEND_OVER && lit > 0 &&
            clipped * 8 >= lit * (8 - q->exact);
 }
@@ -8775,7 +8781,7 @@ static int shade__colors_are_zero(shade__survey *q)
            q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
 }
 
-/* Does a lamp at the eye leave a quarter of what is in view dark, on faces wound toward it? */
+/* Does a lamp at the eye leave half of what is in view dark, on faces wound toward it? */
 static int shade__normals_turned(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -8794,7 +8800,7 @@ static int shade__normals_turned(shade__survey *q)
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 4 >= all;
+    return (shade__count(q, FLT_MIN) - toward) * 2 >= all;
 }
 
 static int shade__alpha_is_stored(shade__survey *q)
@@ -8869,7 +8875,8 @@ static const shade__rung shade__flat[] = {
     { shade__lamps_fall_off, shade__fall_off },
     { shade__cones_miss, shade__no_cone },
     { shade__lamps_are_many, NULL },
-    { shade__lamps_are_dark, shade__no_color },
+    { shade__sides_show, NULL },
+    { shade__always, shade__no_color },
     { NULL, NULL }
 };
 
@@ -8974,6 +8981,22 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
     return NULL;
 }
 
+/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
+static int shade__normals_disagree(const shade_mesh *m)
+{
+    const int faces = shade__corner_count(m) / 3;
+    int behind = 0;
+    for (int i = 0; i < faces; i++) {
+        shade_vec3 p[3], n = shade_v3(0, 0, 0);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = shade__corner_index(m, 3 * (uint32_t)i + (uint32_t)k);
+            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
+        }
+        behind += shade_dot(n, shade__face_normal(m, (uint32_t)i, p)) < 0;
+    }
+    return 8 * behind >= faces && 8 * behind <= 7 * faces;
+}
+
 static const char *shade__doubt(const shade__survey *s)
 {
     const shade_target *t = s->target;
@@ -8988,6 +9011,9 @@ static const char *shade__doubt(const shade__survey *s)
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
                "0 to 1; 1e-5 is much.";
+    if (s->mesh.normals && r->cull == SHADE_CULL_NONE && shade__normals_disagree(&s->mesh))
+        return "mesh.normals lie behind some of the faces and before others, by their winding: are "
+               "they of other vertices, or stored as colours?  shade_mesh_normals fills them.";
     why = shade__doubt_of_view(s);
     if (!why) why = shade__doubt_of_map(s);
     return why ? why : shade__doubt_of_surface(s);
