@@ -361,10 +361,8 @@ SO_LAMP(lamp_nan, ex_has_nan(&l->position.x, sizeof *l / sizeof(float)))
 SO(map_or_colors, MESH->colors || (MAP && MESH->texcoords))
 SO(no_texcoords, MAP && !MESH->texcoords)
 SO(no_mipmaps, MAP && MAP->width > 1 && !MAP->mipmaps)
-SO(linear_map, TARGET->srgb && !MAP->srgb)
 SO(stored, STATE->transparency > 0 && RASTER->blend == SHADE_BLEND_REPLACE)
 SO(dull, MATERIAL->shininess < 1 && ex_most(MATERIAL->specular) > 0)
-SO(no_diffuse, ex_most(MATERIAL->diffuse) <= 0)
 SO(glows, ex_most(MATERIAL->emission) >= 1)
 SO(clip, TARGET->clip_width || TARGET->clip_x || TARGET->clip_height || TARGET->clip_y)
 SO(too_wide, TARGET->clip_x + TARGET->clip_width > TARGET->width)
@@ -384,6 +382,22 @@ static int so_box(const judged *j)
             }
     }
     return 0;
+}
+/* Are some normals behind their faces, and others before them? */
+static int so_mixed(const judged *j)
+{
+    int behind = 0, before = 0;
+    for (int i = 0; i + 2 < ex_corners(MESH); i += 3) {
+        const float *a = ex_position(MESH, i), *b = ex_position(MESH, i + 1);
+        const float *c = ex_position(MESH, i + 2);
+        shade_vec3 face = shade_face_normal(shade_v3(a[0], a[1], a[2]), shade_v3(b[0], b[1], b[2]),
+                                            shade_v3(c[0], c[1], c[2])), sum = BLACK;
+        for (int k = 0; k < 3; k++)
+            sum = shade_add(sum, STAGE->normal[ex_vertex(MESH, i + k)]);
+        behind += shade_dot(sum, face) < 0;
+        before += shade_dot(sum, face) > 0;
+    }
+    return MESH->normals && behind && before;
 }
 static int so_texels(const judged *j)
 {
@@ -428,13 +442,13 @@ CURE(shading) { s->state.shading = SHADE_SHADING_PER_FRAGMENT; }
 CURE(sides) { s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS; }
 CURE(normals) { s->mesh.normals = NULL; }
 CURE(shininess) { s->material.shininess = 50; }
-CURE(diffuse) { s->material.diffuse = WHITE; }
 CURE(emission) { s->material.emission = BLACK; }
 CURE(over) { s->state.raster.blend = SHADE_BLEND_OVER; }
 CURE(count)
 {
     const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
     stage_lamp(s, shade_point_light(ex_eye(s, greater), WHITE));
+    if (s->state.raster.cull == SHADE_CULL_FRONT) cure_sides(s);    /* of inner walls */
 }
 CURE(at_eye) { cure_count(s); }
 CURE(no_lamp)
@@ -686,10 +700,9 @@ static const claim claims[] = {
     { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
     { "but no mipmaps", so_no_mipmaps, cure_nothing, STATED },
     { "reach the width", so_texels, cure_nothing, STATED },
-    { "diffuse_map.srgb is 0", so_linear_map, cure_nothing, STATED },
     { "stored as alpha", so_stored, cure_over, CHANGES },
     { "shininess is below 1", so_dull, cure_shininess, CHANGES },
-    { "state.material.diffuse is 0", so_no_diffuse, cure_diffuse, CHANGES },
+    { "before others", so_mixed, cure_normals, CHANGES },
     { "state.material.emission alone", so_glows, cure_emission, DARKENS },
 };
 enum { EX_CLAIMS = sizeof claims / sizeof *claims };
@@ -711,7 +724,7 @@ CURE(all)
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
     { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
-    { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
+    { cure_mesh, cure_winding }, { cure_opaque, cure_over },
     { cure_material, cure_shininess }, { cure_projection, cure_by_rows },
     { cure_projection, cure_aspect }, { cure_camera, cure_by_rows },
     { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
