@@ -8925,7 +8925,7 @@ static int shade__boxes_are_small(const shade_mesh *m)
         shade_chunk c = *given;
         shade__box_chunk(m, &c);
         if (given->low.x <= given->high.x && c.low.x <= c.high.x)
-            beyond |= !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) |
+            beyond += !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) +
                       !shade__is_zero(shade_sub(shade_max(c.high, given->high), given->high));
     }
     return beyond;
