@@ -13,11 +13,13 @@ static stage *stage_open(void)
     return s;
 }
 
-/* Does what is said hold one of the words between bars?  Or else nothing, where there are none. */
+/* Does what is said hold one of the words between bars?  Or else nothing, where there are none; a
+   bar at the end allows both. */
 static int is_said(const char *said, const char *words)
 {
     char word[64];
     if (!*words) return !*said;
+    if (!*said && words[strlen(words) - 1] == '|') return 1;
     for (; *words; words += *words == '|') {
         const size_t n = strcspn(words, "|");
         snprintf(word, sizeof word, "%.*s", (int)n, words);
@@ -58,8 +60,8 @@ TEST(explain, no_more_than_these_mistakes_are_silent)
         "terms_of_highlights", "a_pool_of_light_by_vertices", "material_forgotten",
         "material_of_highlights", "emission_of_the_diffuse_colour", "eye_and_center_exchanged",
         "up_along_the_view", "view_twice", "fovy_made_radians_twice", "all_in_model",
-        "model_turned_by_degrees", "moved_before_scaled", "normals_in_reverse_order", "indices_forgotten",
-        "normals_with_z_up", "positions_as_normals", "positions_interleaved_without_stride"
+        "model_turned_by_degrees", "moved_before_scaled", "normals_in_reverse_order",
+        "positions_as_normals", "positions_interleaved_without_stride"
     };
     stage *s = stage_open();
     int all = 0, n = 0;
