@@ -73,11 +73,11 @@
        >>lines     6872  shade_draw_lines      >>camera    7051  where a draw is seen from
        >>shape     7130  normals, edges        >>chunks    7484  how boxes are made
        >>rays      7649  shade_pick            >>survey    7825  experiments on a draw
-       >>explain   8212  why nothing is seen   >>replay    9302  of lines, pipelines
-       >>image     9645  mipmaps, PPM           >>presets   9961  classic materials
+       >>explain   8222  why nothing is seen   >>replay    9339  of lines, pipelines
+       >>image     9682  mipmaps, PPM           >>presets   9998  classic materials
      Sources
-       >>refs     10037                        >>history  10067
-       >>license  10073
+       >>refs     10074                        >>history  10104
+       >>license  10110
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7857,8 +7857,8 @@ typedef struct shade__survey {
     shade_light      lamp[SHADE__SUSPECTS];
     int              own_lamps;          /* lamp is in use, not state.lighting.lights */
     uint32_t         white_map;          /* the map has its holes, but no colours */
-    float            apart;              /* depths within this of farthest do not count; 0: all do */
-    int              stored;             /* pixels count if the caller's picture is not black there */
+    float            apart;              /* depths this near to farthest do not count */
+    int              stored;             /* pixels count that the caller's picture has lit */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
@@ -8137,6 +8137,16 @@ static void shade__light_everywhere(shade__survey *q)
     }
 }
 
+/* One white lamp at the eye, and no other light. */
+static void shade__light_from_eye(shade__survey *q)
+{
+    const shade__camera *c = &q->camera;
+    const double *at = c->perspective ? c->eye : c->sight;
+    const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
+    shade__light_by(q, shade_v4((float)at[0] * sign, (float)at[1] * sign, (float)at[2] * sign,
+                                (float)c->perspective), 0);
+}
+
 /* The lamps lose their cones.   pre: shade__light_everywhere */
 static void shade__open_cones(shade__survey *q)
 {
@@ -8331,10 +8341,14 @@ static const char *shade__bad_lamp(const shade_light *l)
 /* Are corners NaN, infinite or beyond 1e12, or does the draw leave out triangles as such? */
 static int shade__positions_are_bad(const shade__survey *s)
 {
+    shade__survey all = *s;
     shade_vec3 low, high;
-    shade_mesh_bounds(s->given_mesh, &low, &high);
+    all.mesh.chunks = NULL;
+    all.mesh.chunk_count = 0;
+    shade_mesh_bounds(&all.mesh, &low, &high);
     low = shade_max(high, shade_neg(low));
-    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(s, 0).rejected > 0;
+    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f ||
+           shade__stats_of(&all, 0).rejected > 0;
 }
 
 /* How many triangles a draw of the mesh counts. */
@@ -8362,8 +8376,8 @@ static const char *shade__bad_number(const shade__survey *s)
         why = "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
     for (int i = 0; i < l->light_count && !why; i++) why = shade__bad_lamp(&l->lights[i]);
     if (!why && shade__positions_are_bad(s))
-        why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices make "
-              "them so: positions must be floats, and mesh.position_stride counts bytes.";
+        why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices "
+              "make them so: positions must be floats, and mesh.position_stride counts bytes.";
     return why;
 }
 
@@ -8374,8 +8388,8 @@ typedef struct shade__rung {
     const char *sentence;                /* NULL: what is seen may be meant, the ladder ends */
 } shade__rung;
 
-/* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault, and
-   two faults at once are found as well. */
+/* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault,
+   and two faults at once are found as well. */
 static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
 {
     for (; rung->change; rung++)
@@ -8616,7 +8630,7 @@ static int shade__nothing_is_equal(shade__survey *q)
 
 static int shade__depth_is_far(shade__survey *q)
 {
-    if (!shade__all_hidden(q)) return 0;
+    if (!q->camera.perspective || !shade__all_hidden(q)) return 0;
     q->apart = FLT_MIN;
     return !shade__covered(q);
 }
@@ -8681,7 +8695,8 @@ static int shade__sides_matter(const shade__survey *s)
     const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
     shade__survey both = *s;
     both.state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    return s->exact && !(s->state.lighting.flags & flags) && shade__count(&both, s->dim) != shade__count(s, s->dim);
+    return s->exact && !(s->state.lighting.flags & flags) &&
+           shade__count(&both, s->dim) != shade__count(s, s->dim);
 }
 
 static int shade__wound_inward(shade__survey *q)
@@ -8718,7 +8733,7 @@ static const shade__rung shade__picture[] = {
     { shade__backs_in_view, shade__inward },
     { shade__lacks_depth,
       "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test is "
-      "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; let the draw test and write depth." },
+      "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; test and write depth." },
     { NULL, NULL }
 };
 
@@ -8960,13 +8975,10 @@ static int shade__colors_are_zero(shade__survey *q)
            q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
 }
 
-/* Does a lamp at the eye leave half of what is in view dark, on faces wound toward it? */
+/* Does a lamp at the eye leave a third of what is in view dark, on faces wound toward it? */
 static int shade__normals_turned(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
-    const shade__camera *c = &q->camera;
-    const double *at = c->perspective ? c->eye : c->sight;
-    const float sign = c->perspective ? 1 : 1 - 2 * q->farthest;    /* sight leads to depth 1 */
     const long long all = shade__covered(q);
     long long toward;
     if (!q->mesh.normals || q->state.shading == SHADE_SHADING_PER_FACE ||
@@ -8974,12 +8986,41 @@ static int shade__normals_turned(shade__survey *q)
         return 0;
     q->state.raster.cull = SHADE_CULL_BACK;
     shade__light_fragments(q);
-    shade__light_by(q, shade_v4((float)at[0] * sign, (float)at[1] * sign, (float)at[2] * sign,
-                                (float)c->perspective), 0);
+    shade__light_from_eye(q);
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 2 >= all;
+    return (shade__count(q, FLT_MIN) - toward) * 3 >= all;
+}
+
+/* Has no normal a negative component, though an eighth of the faces or more would need one? */
+static int shade__normals_differ(const shade_mesh *m)
+{
+    int behind = 0, before = 0;
+    for (int i = 0; i < shade__corner_count(m); i += 3) {
+        shade_vec3 p[3], n = shade_v3(0, 0, 0);
+        float side;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = shade__corner_index(m, (uint32_t)(i + k));
+            const shade_vec3 at = shade__vec3_at(m->normals, m->normal_stride, v);
+            if (at.x < 0 || at.y < 0 || at.z < 0) return 0;
+            n = shade_add(n, at);
+        }
+        side = shade_dot(n, shade__face_normal(m, (uint32_t)i / 3, p));
+        behind += side < 0;
+        before += side > 0;
+    }
+    return behind && 7 * behind >= before && 7 * before >= behind;
+}
+
+static int shade__normals_disagree(shade__survey *q)
+{
+    const long long lit = shade__count(q, q->dim);
+    if (!q->mesh.normals || q->state.raster.cull != SHADE_CULL_NONE || !q->exact ||
+        !shade__normals_differ(&q->mesh))
+        return 0;
+    q->mesh.normals = NULL;
+    return shade__count(q, q->dim) != lit;
 }
 
 static int shade__alpha_is_stored(shade__survey *q)
@@ -9033,11 +9074,14 @@ static const shade__rung shade__wrong_light[] = {
     { shade__colors_are_zero, shade__black_colors },
     { shade__normals_turned,
       "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
-      "fill them by shade_mesh_normals, or reverse the winding; a model that mirrors does so too." },
+      "fill them by shade_mesh_normals, or reverse the winding, as a mirroring model does." },
     { shade__eye_is_astray,
       "Highlights belong to another eye: light takes it from state.view, in which +z points back "
       "to the viewer, but state.projection moves it or looks along +z; do so in state.view." },
     { shade__wound_inward, shade__inward },
+    { shade__normals_disagree,
+      "mesh.normals have no negative component, and lie behind some of the faces: are they stored "
+      "as colours, n / 2 + 1 / 2?  shade_mesh_normals fills them." },
     { shade__alpha_is_stored,
       "state.transparency is stored as alpha and dims nothing, because raster.blend is "
       "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER." },
@@ -9096,7 +9140,7 @@ static int shade__boxes_are_small(const shade_mesh *m)
         shade_chunk c = *given;
         shade__box_chunk(m, &c);
         if (given->low.x <= given->high.x && c.low.x <= c.high.x)
-            beyond |= !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) |
+            beyond += !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) +
                       !shade__is_zero(shade_sub(shade_max(c.high, given->high), given->high));
     }
     return beyond;
@@ -9187,22 +9231,6 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
     return NULL;
 }
 
-/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
-static int shade__normals_disagree(const shade_mesh *m)
-{
-    const int faces = shade__corner_count(m) / 3;
-    int behind = 0;
-    for (int i = 0; i < faces; i++) {
-        shade_vec3 p[3], n = shade_v3(0, 0, 0);
-        for (int k = 0; k < 3; k++) {
-            const uint32_t v = shade__corner_index(m, 3 * (uint32_t)i + (uint32_t)k);
-            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
-        }
-        behind += shade_dot(n, shade__face_normal(m, (uint32_t)i, p)) < 0;
-    }
-    return 8 * behind >= faces && 8 * behind <= 7 * faces;
-}
-
 static const char *shade__doubt(const shade__survey *s)
 {
     const shade_target *t = s->target;
@@ -9217,15 +9245,23 @@ static const char *shade__doubt(const shade__survey *s)
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
                "0 to 1; 1e-5 is much.";
-    if (s->mesh.normals && r->cull == SHADE_CULL_NONE && shade__normals_disagree(&s->mesh))
-        return "mesh.normals lie behind some of the faces and before others, by their winding: are "
-               "they of other vertices, or stored as colours?  shade_mesh_normals fills them.";
     why = shade__doubt_of_view(s);
     if (!why) why = shade__doubt_of_map(s);
     return why ? why : shade__doubt_of_surface(s);
 }
 
 /* ---- the way through the ladders */
+
+/* Does what is said of the lamps help by itself, with the surface as it is given? */
+static int shade__helps(const shade__survey *seen, const char *why)
+{
+    shade__survey q = *seen;
+    if (why != shade__fall_off && why != shade__no_cone && why != shade__no_color) return 1;
+    shade__light_everywhere(&q);
+    if (why == shade__no_cone) shade__open_cones(&q);
+    if (why == shade__no_color) shade__light_from_eye(&q);
+    return shade__lights_up(&q);
+}
 
 static const char *shade__why_black(const shade__survey *seen)
 {
@@ -9234,7 +9270,8 @@ static const char *shade__why_black(const shade__survey *seen)
     if (shade__black_is_meant(&q)) return NULL;
     why = shade__climb_on(&q, shade__black);
     if (!why) why = shade__climb_on(&q, shade__no_lamps);
-    return why ? why : shade__climb_on(&q, shade__unlit);
+    if (!why) why = shade__climb_on(&q, shade__unlit);
+    return shade__helps(seen, why) ? why : shade__multiply;
 }
 
 /* A picture in which the mesh has pixels.  Its light is judged where the library computes it. */

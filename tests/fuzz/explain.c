@@ -26,6 +26,29 @@ static int explained_pick(int n)
 #include "explained.h"
 
 #ifdef EXPLAIN_STATES
+/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, or
+   another one hide it; black surfaces are outlines where fronts are culled, and shadows where they
+   are blended over a ground. */
+static int ex_is_black(explained *e)
+{
+    static picture drawn;
+    static stage whole;
+    const shade_draw_state *d = &e->s.state;
+    const shade_material *m = d->material;
+    const int outline = d->raster.cull == SHADE_CULL_FRONT || d->raster.blend == SHADE_BLEND_OVER;
+    ex_draw(e, &e->s, &drawn);
+    if (drawn.result || !e->s.target.color || drawn.bright) return 0;
+    if (m && outline && ex_most(m->emission) <= 0 && ex_most(m->ambient) <= 0 &&
+        ex_most(m->diffuse) <= 0 && ex_most(m->specular) <= 0)
+        return 0;
+    ex_copy(&e->s, &whole);
+    cure_clip(&whole);
+    if (!drawn.stats.fragments &&
+        (e->s.target.clip_width || e->s.target.row_count || e->other.col[3].w != 0)) return 0;
+    ex_draw(e, &whole, &drawn);
+    return !drawn.bright;
+}
+
 static void explain_matrix(const char *name, shade_mat4 m)
 {
     printf("%s", name);

@@ -163,7 +163,8 @@ static shade_vec3 ex_eye(const stage *s, int greater)
     return shade_v3(at.x * scale, at.y * scale, at.z * scale);
 }
 /* How many of the pixels hold the condition in tenths, rounded down; 10 where there are none. */
-static int ex_tenths(const judged *j, const geometry *g, int (*holds)(const judged *, const shown *))
+typedef int of_pixel(const judged *, const shown *);
+static int ex_tenths(const judged *j, const geometry *g, of_pixel *holds)
 {
     int n = 0;
     for (int i = 0; i < g->count; i++) n += holds(j, &g->at[i]);
@@ -238,7 +239,10 @@ static int ex_is_bad(const double c[4])
 }
 static int ex_is_good(const double c[4]) { return !ex_is_bad(c); }
 static int ex_beyond_w(const double c[4]) { return ex_is_bad(c) || c[2] > c[3] - 1e-4; }
-static int ex_before_w(const double c[4]) { return ex_is_bad(c) || c[2] < 1e-4 || c[2] < -c[3] + 1e-4; }
+static int ex_before_w(const double c[4])
+{
+    return ex_is_bad(c) || c[2] < 1e-4 || c[2] < -c[3] + 1e-4;
+}
 static int ex_behind_eye(const double c[4]) { return ex_is_bad(c) || c[3] < 1e-4; }
 
 static shade_vec3 ex_xyz(shade_vec4 v) { return shade_v3(v.x, v.y, v.z); }
@@ -357,10 +361,8 @@ SO_LAMP(lamp_nan, ex_has_nan(&l->position.x, sizeof *l / sizeof(float)))
 SO(map_or_colors, MESH->colors || (MAP && MESH->texcoords))
 SO(no_texcoords, MAP && !MESH->texcoords)
 SO(no_mipmaps, MAP && MAP->width > 1 && !MAP->mipmaps)
-SO(linear_map, TARGET->srgb && !MAP->srgb)
 SO(stored, STATE->transparency > 0 && RASTER->blend == SHADE_BLEND_REPLACE)
 SO(dull, MATERIAL->shininess < 1 && ex_most(MATERIAL->specular) > 0)
-SO(no_diffuse, ex_most(MATERIAL->diffuse) <= 0)
 SO(glows, ex_most(MATERIAL->emission) >= 1)
 SO(clip, TARGET->clip_width || TARGET->clip_x || TARGET->clip_height || TARGET->clip_y)
 SO(too_wide, TARGET->clip_x + TARGET->clip_width > TARGET->width)
@@ -381,14 +383,30 @@ static int so_box(const judged *j)
     }
     return 0;
 }
+/* Are some normals behind their faces, and others before them? */
+static int so_mixed(const judged *j)
+{
+    int behind = 0, before = 0;
+    for (int i = 0; i + 2 < ex_corners(MESH); i += 3) {
+        const float *a = ex_position(MESH, i), *b = ex_position(MESH, i + 1);
+        const float *c = ex_position(MESH, i + 2);
+        shade_vec3 face = shade_face_normal(shade_v3(a[0], a[1], a[2]), shade_v3(b[0], b[1], b[2]),
+                                            shade_v3(c[0], c[1], c[2])), sum = BLACK;
+        for (int k = 0; k < 3; k++)
+            sum = shade_add(sum, STAGE->normal[ex_vertex(MESH, i + k)]);
+        behind += shade_dot(sum, face) < 0;
+        before += shade_dot(sum, face) > 0;
+    }
+    return MESH->normals && behind && before;
+}
 static int so_texels(const judged *j)
 {
     for (int i = 0; i < MESH->vertex_count; i++)
         if (STAGE->texcoord[i].x > (float)MAP->width - 1.001f) return 1;
     return 0;
 }
-/* Are squares that face the eye no squares in the picture, nor in cells of a terminal, twice as high
-   as wide? */
+/* Are squares that face the eye no squares in the picture, nor in cells of a terminal, which are
+   twice as high as wide? */
 static int so_aspect(const judged *j)
 {
     const shade_mat4 m = ex_camera(STAGE);
@@ -424,13 +442,13 @@ CURE(shading) { s->state.shading = SHADE_SHADING_PER_FRAGMENT; }
 CURE(sides) { s->state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS; }
 CURE(normals) { s->mesh.normals = NULL; }
 CURE(shininess) { s->material.shininess = 50; }
-CURE(diffuse) { s->material.diffuse = WHITE; }
 CURE(emission) { s->material.emission = BLACK; }
 CURE(over) { s->state.raster.blend = SHADE_BLEND_OVER; }
 CURE(count)
 {
     const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
     stage_lamp(s, shade_point_light(ex_eye(s, greater), WHITE));
+    if (s->state.raster.cull == SHADE_CULL_FRONT) cure_sides(s);    /* of inner walls */
 }
 CURE(at_eye) { cure_count(s); }
 CURE(no_lamp)
@@ -682,21 +700,21 @@ static const claim claims[] = {
     { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
     { "but no mipmaps", so_no_mipmaps, cure_nothing, STATED },
     { "reach the width", so_texels, cure_nothing, STATED },
-    { "diffuse_map.srgb is 0", so_linear_map, cure_nothing, STATED },
     { "stored as alpha", so_stored, cure_over, CHANGES },
     { "shininess is below 1", so_dull, cure_shininess, CHANGES },
-    { "state.material.diffuse is 0", so_no_diffuse, cure_diffuse, CHANGES },
+    { "before others", so_mixed, cure_normals, CHANGES },
     { "state.material.emission alone", so_glows, cure_emission, DARKENS },
 };
 enum { EX_CLAIMS = sizeof claims / sizeof *claims };
 
 /* What may keep a mesh from being seen, and from being lit. */
 static cure *const ex_of_view[] = { cure_chunks, cure_cull, cure_cutoff, cure_clip, cure_depth,
-                                    cure_shader, cure_mesh, cure_model, cure_projection, cure_camera,
-                                    NULL };
-static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading, cure_terms, cure_colors,
-                                     cure_material, cure_sides, cure_normals, cure_distance,
-                                     cure_cone, cure_lamps, cure_numbers, cure_emission, NULL };
+                                    cure_shader, cure_mesh, cure_model, cure_projection,
+                                    cure_camera, NULL };
+static cure *const ex_of_light[] = { cure_ambient, cure_no_lamp, cure_opaque, cure_shading,
+                                     cure_terms, cure_colors, cure_material, cure_sides,
+                                     cure_normals, cure_distance, cure_cone, cure_lamps,
+                                     cure_numbers, cure_emission, NULL };
 CURE(all)
 {
     for (cure *const *one = ex_of_light; *one; one++)
@@ -706,12 +724,12 @@ CURE(all)
 static cure *const ex_alike[][2] = {
     { cure_depth, cure_clear }, { cure_normals, cure_sides }, { cure_sides, cure_turned },
     { cure_normals, cure_turned }, { cure_cull, cure_winding }, { cure_sides, cure_winding },
-    { cure_mesh, cure_winding }, { cure_opaque, cure_over }, { cure_material, cure_diffuse },
-    { cure_material, cure_shininess },
-    { cure_projection, cure_by_rows }, { cure_projection, cure_aspect },
-    { cure_camera, cure_by_rows }, { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
-    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count },
-    { cure_lamps, cure_at_eye }, { cure_numbers, cure_at_eye },
+    { cure_mesh, cure_winding }, { cure_opaque, cure_over },
+    { cure_material, cure_shininess }, { cure_projection, cure_by_rows },
+    { cure_projection, cure_aspect }, { cure_camera, cure_by_rows },
+    { cure_camera, cure_view_by_rows }, { cure_camera, cure_aspect }, { cure_mesh, cure_chunks },
+    { cure_model, cure_model_by_rows }, { cure_no_lamp, cure_count }, { cure_lamps, cure_at_eye },
+    { cure_numbers, cure_at_eye },
 };
 static int ex_is_apart(cure *mended, cure *advice)
 {
@@ -846,26 +864,5 @@ static int ex_explain(explained *e, int with_stats, const char **said)
         return ex_holds(&j, &claims[k]) ? k : k + EX_FALSE;
     }
     return EX_CLAIMS + EX_FALSE;
-}
-/* Is the picture black, in a way that cannot be meant?  A band or a strip may miss the mesh, another one
-   hide it, and black surfaces are outlines where fronts are culled, and shadows where they are blended over a ground. */
-static inline int ex_is_black(explained *e)
-{
-    static picture drawn;
-    static stage whole;
-    const shade_draw_state *d = &e->s.state;
-    const shade_material *m = d->material;
-    const int outline = d->raster.cull == SHADE_CULL_FRONT || d->raster.blend == SHADE_BLEND_OVER;
-    ex_draw(e, &e->s, &drawn);
-    if (drawn.result || !e->s.target.color || drawn.bright) return 0;
-    if (m && outline && ex_most(m->emission) <= 0 && ex_most(m->ambient) <= 0 &&
-        ex_most(m->diffuse) <= 0 && ex_most(m->specular) <= 0)
-        return 0;
-    ex_copy(&e->s, &whole);
-    cure_clip(&whole);
-    if (!drawn.stats.fragments &&
-        (e->s.target.clip_width || e->s.target.row_count || e->other.col[3].w != 0)) return 0;
-    ex_draw(e, &whole, &drawn);
-    return !drawn.bright;
 }
 #endif

