@@ -52,32 +52,32 @@
      Public
        >>config     123  options               >>types      201  materials, lamps, targets, states
        >>plumbing   375  compilers             >>light      512  the equation and its terms
-       >>draw       638  meshes and pixels     >>math       928  vectors and matrices
+       >>draw       638  meshes and pixels     >>math       929  vectors and matrices
      Inside: words that the rest is written in
-       >>machine   1291  processors            >>base      1518  bits, masks, rows of vectors
-       >>matrix    1743  cameras, inverses     >>power     2111  x^n
-       >>pixels    2177  formats, sRGB
+       >>machine   1292  processors            >>base      1519  bits, masks, rows of vectors
+       >>matrix    1744  cameras, inverses     >>power     2112  x^n
+       >>pixels    2178  formats, sRGB
      Inside: light
-       >>lamps     2454  attenuation, cones    >>terms     2730  one term at one point
-       >>surface   2812  material and lights   >>lit       2933  the whole sum, at many points
+       >>lamps     2455  attenuation, cones    >>terms     2731  one term at one point
+       >>surface   2813  material and lights   >>lit       2934  the whole sum, at many points
      Inside: the way of a triangle
-       >>state     3340  who owns what         >>vertices  3523  shading, projection
-       >>triangles 3740  dropped, cut, edges   >>clip      4109  near, far, behind the eye
-       >>tiles     4294  pixels, depth test    >>cover     4649  what is hidden, tile by tile
-       >>fragments 4916  interpolation, lod    >>texture   5209  texels, mipmaps
-       >>store     5654  blending, packing
+       >>state     3341  who owns what         >>vertices  3524  shading, projection
+       >>triangles 3741  dropped, cut, edges   >>clip      4110  near, far, behind the eye
+       >>tiles     4295  pixels, depth test    >>cover     4650  what is hidden, tile by tile
+       >>fragments 4917  interpolation, lod    >>texture   5210  texels, mipmaps
+       >>store     5655  blending, packing
      Inside: calls of the renderer
-       >>check     5886  refusals              >>seen      6050  what can be seen, chunks
-       >>drive     6187  shade_draw            >>mesh      6366  shade_draw_mesh
+       >>check     5887  refusals              >>seen      6051  what can be seen, chunks
+       >>drive     6188  shade_draw            >>mesh      6367  shade_draw_mesh
      Inside: tools, which call the renderer; it names none of them
-       >>lines     6766  shade_draw_lines      >>shape     6944  normals, edges
-       >>chunks    7306  how boxes are made    >>rays      7470  shade_pick
-       >>survey    7646  experiments on a draw >>explain   8016  why nothing is seen
-       >>replay    8993  of lines, pipelines   >>image     9323  mipmaps, PPM
-       >>presets   9591  classic materials
+       >>lines     6767  shade_draw_lines      >>shape     6945  normals, edges
+       >>chunks    7307  how boxes are made    >>rays      7471  shade_pick
+       >>survey    7647  experiments on a draw >>explain   8028  why nothing is seen
+       >>replay    9098  of lines, pipelines   >>image     9440  mipmaps, PPM
+       >>presets   9708  classic materials
      Sources
-       >>refs      9667                        >>history   9697
-       >>license   9709
+       >>refs      9784                        >>history   9814
+       >>license   9826
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -782,11 +782,12 @@ enum {
 };
 
 /* Draws a mesh lit by the equations of >>model in world space.  The eye is the position of the
-   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  Light takes it
-   from view alone: highlights are wrong where projection moves the centre of projection, and where
-   the camera looks along +z, as left-handed ones do, the backward axis points away from the viewer;
-   negate eye there in a shader of your own.  PER_FACE lights the centroid, with the face's normal
-   and the colour of the first vertex; a map still varies from pixel to pixel.
+   camera in view, or with SHADE_FLAG_INFINITE_VIEWER the camera's backward axis.  PER_FACE lights
+   the centroid, with the face's normal and the colour of the first vertex; a map still varies from
+   pixel to pixel.
+     Light takes the eye from view alone: highlights are wrong where projection moves the centre of
+   projection, and where the camera looks along +z, as left-handed ones do, the backward axis points
+   away from the viewer; negate eye there in a shader of your own.  shade_explain reports both.
      Alpha is (1 - transparency) times the map's alpha.  REPLACE stores colour and alpha, OVER
    blends by alpha, ADD adds the colour times alpha.  Fragments whose alpha is below alpha_cutoff
    are discarded, in depth-only draws too, and stats does not count them.  Draw opaque meshes first,
@@ -852,7 +853,7 @@ typedef struct shade_line_state {
 SHADEDEF shade_result shade_draw_lines(const shade_target *target, const shade_vec3 *points,
                                        int point_count, const shade_line_state *state,
                                        shade_stats *stats);
-/* Says in one sentence why lines are not seen, as shade_explain does for meshes; "" where nothing is
+/* Says in one sentence why lines are not seen, as shade_explain_draw does; "" where nothing is
    suspicious.  It also recognises a transposed clip_from_points, and view times projection. */
 SHADEDEF const char *shade_explain_lines(const shade_target *target, const shade_vec3 *points,
                                          int point_count, const shade_line_state *state,
@@ -8016,7 +8017,7 @@ static int shade__eye_inside(const shade__survey *s)
     shade_vec3 low, high, eye;
     shade__camera_of(&s->state.projection, &object, &c);
     shade_mesh_bounds(&s->mesh, &low, &high);
-    eye = shade_v3((float)c.eye[0], (float)c.eye[1], (float)c.eye[2]);
+    eye = shade__single3(c.eye);
     return c.perspective && shade__is_zero(shade_sub(shade_clamp(eye, low, high), eye));
 }
 
@@ -8152,10 +8153,14 @@ static const char *shade__bad_lamp(const shade_light *l)
 /* Are corners NaN, infinite or beyond 1e12, or does the draw leave out triangles as such? */
 static int shade__positions_are_bad(const shade__survey *s)
 {
+    shade__survey all = *s;
     shade_vec3 low, high;
-    shade_mesh_bounds(s->given_mesh, &low, &high);
+    all.mesh.chunks = NULL;
+    all.mesh.chunk_count = 0;
+    shade_mesh_bounds(&all.mesh, &low, &high);
     low = shade_max(high, shade_neg(low));
-    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f || shade__stats_of(s, 0).rejected > 0;
+    return low.x > 1e12f || low.y > 1e12f || low.z > 1e12f ||
+           shade__stats_of(&all, 0).rejected > 0;
 }
 
 /* How many triangles a draw of the mesh counts. */
@@ -8437,7 +8442,7 @@ static int shade__nothing_is_equal(shade__survey *q)
 
 static int shade__depth_is_far(shade__survey *q)
 {
-    if (!shade__all_hidden(q)) return 0;
+    if (!q->camera.perspective || !shade__all_hidden(q)) return 0;
     q->apart = FLT_MIN;
     return !shade__covered(q);
 }
@@ -8803,6 +8808,34 @@ static int shade__normals_turned(shade__survey *q)
     return (shade__count(q, FLT_MIN) - toward) * 2 >= all;
 }
 
+/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
+static int shade__normals_differ(const shade_mesh *m)
+{
+    int behind = 0, before = 0;
+    for (int i = 0; i < shade__corner_count(m); i += 3) {
+        shade_vec3 p[3], n = shade_v3(0, 0, 0);
+        float side;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = shade__corner_index(m, (uint32_t)(i + k));
+            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
+        }
+        side = shade_dot(n, shade__face_normal(m, (uint32_t)i / 3, p));
+        behind += side < 0;
+        before += side > 0;
+    }
+    return behind && 7 * behind >= before && 7 * before >= behind;
+}
+
+static int shade__normals_disagree(shade__survey *q)
+{
+    const long long lit = shade__count(q, q->dim);
+    if (!q->mesh.normals || q->state.raster.cull != SHADE_CULL_NONE || !q->exact ||
+        !shade__normals_differ(&q->mesh))
+        return 0;
+    q->mesh.normals = NULL;
+    return shade__count(q, q->dim) != lit;
+}
+
 static int shade__alpha_is_stored(shade__survey *q)
 {
     const shade_draw_state *d = q->given_state;
@@ -8822,6 +8855,30 @@ static int shade__highlights_are_wide(shade__survey *q)
     return shade__count(q, q->dim) < all;
 }
 
+/* Do highlights show, once the camera stands in view alone, and does light take another eye now?  A
+   one-point projection, with w = 1 at the origin of view, is meant to have its eye elsewhere. */
+static int shade__eye_is_astray(shade__survey *q)
+{
+    const shade__camera *c = &q->camera;
+    const shade_mat4 camera = shade_mat4_inverse(q->state.view);
+    const shade_vec3 eye = shade__single3(c->eye), at = shade__xyz(camera.col[3]);
+    shade_lighting *l = &q->state.lighting;
+    shade_mat4 frame = shade__frame_of(c);
+    if (c->perspective) frame.col[3] = shade__xyzw(eye, 1);
+    if (l->flags & SHADE_FLAG_INFINITE_VIEWER
+            ? shade_dot(shade__xyz(camera.col[2]), shade__xyz(frame.col[2])) >= 0
+            : !c->perspective || q->state.projection.col[3].w == 1 ||
+                  shade_distance(eye, at) <= 1e-3f * (shade_length(eye) + shade_length(at)))
+        return 0;
+    if (l->terms && !(l->terms & SHADE_TERM_SPECULAR)) return 0;
+    shade__look_at_all(q);
+    l->terms = SHADE_TERM_SPECULAR;
+    q->state.view = shade__mat4_product(&q->state.view, &frame);
+    q->state.projection = shade__mat4_product(&q->state.projection, &q->state.view);
+    q->state.view = shade_mat4_inverse(frame);
+    return shade__shows(q);
+}
+
 static const shade__rung shade__wrong_light[] = {
     { shade__is_clipped,
       "Almost all that is lit is clipped to white: colours of lighting.lights, lighting.ambient, "
@@ -8831,7 +8888,13 @@ static const shade__rung shade__wrong_light[] = {
     { shade__normals_turned,
       "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
       "fill them by shade_mesh_normals, or reverse the winding; a model that mirrors does so too." },
+    { shade__eye_is_astray,
+      "Highlights belong to another eye: light takes it from state.view, in which +z points back "
+      "to the viewer, but state.projection moves it or looks along +z; do so in state.view." },
     { shade__wound_inward, shade__inward },
+    { shade__normals_disagree,
+      "mesh.normals lie behind some of the faces and before others, by their winding: are they of "
+      "other vertices, or stored as colours?  shade_mesh_normals fills them." },
     { shade__alpha_is_stored,
       "state.transparency is stored as alpha and dims nothing, because raster.blend is "
       "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER." },
@@ -8890,7 +8953,7 @@ static int shade__boxes_are_small(const shade_mesh *m)
         shade_chunk c = *given;
         shade__box_chunk(m, &c);
         if (given->low.x <= given->high.x && c.low.x <= c.high.x)
-            beyond |= !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) |
+            beyond += !shade__is_zero(shade_sub(shade_min(c.low, given->low), given->low)) +
                       !shade__is_zero(shade_sub(shade_max(c.high, given->high), given->high));
     }
     return beyond;
@@ -8981,22 +9044,6 @@ static const char *shade__doubt_of_surface(const shade__survey *s)
     return NULL;
 }
 
-/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
-static int shade__normals_disagree(const shade_mesh *m)
-{
-    const int faces = shade__corner_count(m) / 3;
-    int behind = 0;
-    for (int i = 0; i < faces; i++) {
-        shade_vec3 p[3], n = shade_v3(0, 0, 0);
-        for (int k = 0; k < 3; k++) {
-            const uint32_t v = shade__corner_index(m, 3 * (uint32_t)i + (uint32_t)k);
-            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
-        }
-        behind += shade_dot(n, shade__face_normal(m, (uint32_t)i, p)) < 0;
-    }
-    return 8 * behind >= faces && 8 * behind <= 7 * faces;
-}
-
 static const char *shade__doubt(const shade__survey *s)
 {
     const shade_target *t = s->target;
@@ -9011,9 +9058,6 @@ static const char *shade__doubt(const shade__survey *s)
     if (t->depth && (r->depth_bias >= 1 || r->depth_bias <= -1))
         return "raster.depth_bias makes the depth of all pixels 0 or 1: it is added to depths from "
                "0 to 1; 1e-5 is much.";
-    if (s->mesh.normals && r->cull == SHADE_CULL_NONE && shade__normals_disagree(&s->mesh))
-        return "mesh.normals lie behind some of the faces and before others, by their winding: are "
-               "they of other vertices, or stored as colours?  shade_mesh_normals fills them.";
     why = shade__doubt_of_view(s);
     if (!why) why = shade__doubt_of_map(s);
     return why ? why : shade__doubt_of_surface(s);
@@ -9100,7 +9144,7 @@ SHADEDEF SHADE__COLD const char *shade_explain(const shade_target *target,
      method  The draw is run again without a picture.  Shaders of this section call the given ones
              and count what they give.
      holds   The caller's memory is only read, unless the caller's own shaders write.
-     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere or
+     way     shade__explain_replay: shade__why_matrix of lines; shade__why_nowhere;
              shade__why_kept_out; shade__why_faint.
                                                                                           >>image */
 
@@ -9110,7 +9154,8 @@ typedef struct shade__tally {
     uint32_t    outside;                 /* the SHADE__OUT_... bits that all vertices share */
     int         any_w;                   /* is a w not 0? */
     long long   fragments;               /* all of them; of these: */
-    long long   discarded, clear, dark, bright;    /* alpha 0; stored as 0; a channel of 16 or more */
+    long long   discarded, clear;        /* alpha is 0 */
+    long long   nan, dark, bright;       /* a channel is; all are stored as 0; one is 16 or more */
 } shade__tally;
 
 /* A draw that is run again. */
@@ -9151,7 +9196,12 @@ static void shade__replay_fragment(const void *uniforms, const shade_fragments *
     r->pipe.fragment(r->pipe.uniforms, in, out);
     for (int i = 0; i < in->count; i++) {
         float most = 0;
-        for (int k = 0; k < 3; k++) most = shade__maxf(out->color[k][i], most);
+        int finite = 1;
+        for (int k = 0; k < 3; k++) {
+            finite &= shade__within(out->color[k][i], FLT_MAX);
+            most = shade__maxf(out->color[k][i], most);
+        }
+        t->nan += !finite;
         t->discarded += out->discard[i] != 0;
         t->clear += !(out->color[3][i] > 0);
         t->dark += most < black;
@@ -9183,10 +9233,10 @@ static shade__tally shade__run_again(const shade__replay *r)
 /* Are the rows of z and w those of a perspective times a view: parallel, and w's of length 1? */
 static int shade__is_camera(const shade_mat4 *m)
 {
-    const shade_vec3 z = shade_v3(m->col[0].z, m->col[1].z, m->col[2].z);
-    const shade_vec3 w = shade_v3(m->col[0].w, m->col[1].w, m->col[2].w), n = shade_cross(z, w);
-    return shade__within(shade_dot(w, w) - 1, 1e-3f) &&
-           shade_dot(n, n) <= 1e-6f * shade_dot(z, z);
+    const shade_mat4 one = shade_mat4_identity();
+    shade__camera c;
+    shade__camera_of(m, &one, &c);
+    return shade__faces_ahead(&c) && shade__size(shade__dot3(c.row[3], c.row[3]) - 1) < 1e-3;
 }
 
 static const char *shade__why_matrix(const shade__replay *r, const shade__tally *t)
@@ -9263,8 +9313,8 @@ static const char *shade__why_nowhere(const shade__replay *r, const shade_stats 
                      "is counter-clockwise on the screen.  Reverse the winding, or use "
                      "SHADE_CULL_NONE; a matrix that mirrors reverses it as well.";
     if (n->clipped == n->triangles) return shade__why_outside(r);
-    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a line "
-                      "has gaps; or they lie beside the picture."
+    return r->lines ? "The lines cover no pixel centre: state.width is in pixels, and below 1 a "
+                      "line has gaps; or they lie beside the picture."
                     : "The triangles cover no pixel centre: they have no area on the screen, since "
                       "their corners coincide or they are seen edge-on, or lie beside the picture.";
 }
@@ -9275,24 +9325,14 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
 {
     const shade_target *target = r->target;
     const int greater = shade__compare_of(&r->pipe.raster).greater != 0;
-    shade_raster *raster;
     shade__replay part = *r;
-    long long covered;
-    raster = &part.pipe.raster;
-    part.picture = *target;
-    part.picture.color = NULL;
-    part.picture.depth = NULL;
-    covered = shade__run_again(&part).fragments;
-    if (!covered)
-        return shade__is_band(target)
-                   ? NULL
-                   : "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width "
-                     "and clip_height; all four zero mean everywhere.";
+    shade_raster *raster = &part.pipe.raster;
     if (r->pipe.may_discard && t->discarded == t->fragments)
         return "pipeline.fragment discards all pixels.";
 
-    part.picture.depth = target->depth;
-    if (shade__run_again(&part).stats.fragments) return NULL;
+    part.picture = *target;
+    part.picture.color = NULL;
+    if (!target->depth || shade__run_again(&part).stats.fragments) return NULL;
     if (raster->depth_test == SHADE_COMPARE_EQUAL)
         return "raster.depth_test is SHADE_COMPARE_EQUAL, and target.depth holds no depth that is "
                "equal: draw the same positions with another test before.";
@@ -9304,11 +9344,11 @@ static const char *shade__why_kept_out(const shade__replay *r, const shade__tall
         return "target.depth holds 0 where it is drawn, 1 with SHADE_COMPARE_GREATER, or NaN, so "
                "that nothing passes raster.depth_test: call shade_clear before drawing, with a "
                "depth of 1, or 0 for a reversed projection.";
-    raster->depth_bias *= 1e-4f;
-    if (r->lines && shade__run_again(&part).stats.fragments * 2 > covered)
+    raster->depth_bias *= 2e-6f;    /* of two planes that are one, depths differ by less */
+    if (r->lines && shade__run_again(&part).stats.fragments * 2 > t->fragments)
         return "The lines lie in surfaces that target.depth holds, which hide them: use "
                "SHADE_COMPARE_LESS_EQUAL and a small negative raster.depth_bias.";
-    if (!r->given || (covered * 4 < (long long)target->width * target->height &&
+    if (!r->given || (t->fragments * 4 < (long long)target->width * target->height &&
                       shade__depth_varies(target)))
         return NULL;    /* one of many things in a scene may well be hidden */
     return "What target.depth holds hides everything: other draws, the frame before without a "
@@ -9327,20 +9367,24 @@ static const char *shade__why_faint(const shade__replay *r, const shade__tally *
     if (!r->pipe.fragment || !r->target->color) return NULL;
     if (!r->pipe.may_discard && t->discarded)
         return "pipeline.fragment sets discard, which needs pipeline.may_discard = 1.";
+    if (t->nan)
+        return r->lines ? "state.color holds NaN or infinity, and NaN is stored as black."
+                        : "pipeline.fragment gives NaN or infinity, and NaN is stored as black: "
+                          "check pipeline.uniforms, divisions and roots.";
     if (raster->blend == SHADE_BLEND_OVER)
         return clear ? "Alpha is 0 everywhere, so that SHADE_BLEND_OVER leaves nothing: it is "
                        "out->color[3] of pipeline.fragment, or state.color.w of lines."
                      : NULL;
     if (dark && raster->blend == SHADE_BLEND_ADD)
-        return "All colours are black, or NaN, so that SHADE_BLEND_ADD adds nothing.";
+        return "All colours are black, so that SHADE_BLEND_ADD adds nothing.";
     if (dark && r->lines)
         return clear ? "state.color is not set: the lines are drawn in black." : NULL;
     if (dark && raster->cull != SHADE_CULL_FRONT)    /* outlines are black */
-        return "pipeline.fragment gives black, or NaN, everywhere: check out->color[0] to [2], "
+        return "pipeline.fragment gives black everywhere: check out->color[0] to [2], "
                "which it must write, pipeline.uniforms, and the varyings of pipeline.vertex.";
     return t->bright * 10 >= t->fragments * 9 && r->target->format != SHADE_FORMAT_RGBA32F
-               ? "Almost all colours are clipped to white, or a full channel: in out->color, and in "
-                 "state.color of lines, 1 is full light, not 255."
+               ? "Almost all colours are clipped to white, or a full channel: in out->color, and "
+                 "in state.color of lines, 1 is full light, not 255."
                : NULL;
 }
 
@@ -9349,20 +9393,31 @@ static const char *shade__explain_replay(shade__replay *r, const char *fault)
 {
     const int sure = r->given && r->given->fragments > 0;
     const char *why = fault ? fault : shade__clip_fault(r->target);
-    shade__tally t;
+    shade__tally t, in_clip;
     if (why) return why;
     r->picture.width = r->target->width;
     r->picture.height = r->target->height;
     t = shade__run_again(r);
 
     if (t.stats.rejected)
-        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge numbers "
-                          "(beyond 1e30), so that lines are left out."
+        return r->lines ? "The points, or state.clip_from_points, hold NaN, infinite or huge "
+                          "numbers (beyond 1e30), so that lines are left out."
                         : "pipeline.vertex gives NaN, infinite or huge positions (beyond 1e30), so "
                           "that triangles are left out: check its uniforms and what it reads.";
     if (r->lines) why = shade__why_matrix(r, &t);
-    if (!why && !sure)
-        why = t.fragments ? shade__why_kept_out(r, &t) : shade__why_nowhere(r, &t.stats);
+    if (why) return why;
+    if (!t.fragments) return shade__why_nowhere(r, &t.stats);
+
+    r->picture = *r->target;
+    r->picture.color = NULL;
+    r->picture.depth = NULL;
+    in_clip = shade__run_again(r);
+    if (!shade__is_band(r->target)) t = in_clip;
+    if (!t.fragments)
+        return "All pixels lie beside the clip rectangle of target.clip_x, clip_y, clip_width and "
+               "clip_height; all four zero mean everywhere.";
+    if (!in_clip.fragments) return "";
+    if (!sure) why = shade__why_kept_out(r, &t);
     if (!why && (sure || !r->given)) why = shade__why_faint(r, &t);
     return why ? why : "";
 }
@@ -9387,7 +9442,8 @@ SHADEDEF SHADE__COLD const char *shade_explain_draw(const shade_target *target,
         fault = "indices hold one at or past vertex_count, or without indices index_count exceeds "
                 "vertex_count, which counts vertices, not floats.";
     if (!fault && !index_count)
-        fault = "There is no triangle to draw: index_count is 0; without indices it counts vertices.";
+        fault = "There is no triangle to draw: index_count is 0; without indices it counts "
+                "vertices.";
 
     SHADE__ZERO(r);
     r.target = target;

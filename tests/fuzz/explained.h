@@ -370,6 +370,16 @@ SO(beyond_picture, so_too_wide(j) || TARGET->clip_y + TARGET->clip_height > TARG
 SO(shader, STATE->fragment != NULL)
 SO(chunks, MESH->chunks != NULL)
 SO(other_stats, STAGE->other_stats)
+/* Is the eye of the view not the centre of projection, or does its axis look away? */
+static int so_other_eye(const judged *j)
+{
+    const shade_mat4 frame = shade_mat4_inverse(ex_or_identity(STATE->view));
+    const shade_vec3 apart = shade_sub(ex_xyz(frame.col[3]), j->eye);
+    const shade_mat4 m = ex_camera(STAGE);
+    const shade_vec3 sight = shade_v3(m.col[0].w, m.col[1].w, m.col[2].w);
+    return shade_length(apart) > 1e-4f * shade_length(j->eye) ||
+           shade_dot(ex_xyz(frame.col[2]), sight) > 0;
+}
 /* Has a chunk a box that does not hold its triangles? */
 static int so_box(const judged *j)
 {
@@ -608,6 +618,17 @@ CURE(camera)
     cure_projection(s);
     stage_look(s);
 }
+/* The same picture of a view that stands at the centre of projection. */
+CURE(eye)
+{
+    const shade_mat4 m = ex_camera(s);
+    const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
+    const shade_vec3 eye = ex_eye(s, greater);
+    shade_vec3 sight = shade_v3(m.col[0].w, m.col[1].w, m.col[2].w);
+    if (shade_length(sight) == 0) sight = shade_neg(eye);
+    s->state.view = shade_mat4_look_at(eye, shade_add(eye, sight), shade_v3(0, 1, 0));
+    s->state.projection = shade_mat4_mul(m, shade_mat4_inverse(s->state.view));
+}
 /* A ball in its place. */
 CURE(mesh)
 {
@@ -697,6 +718,7 @@ static const claim claims[] = {
     { "state.view scales", so_not_rigid, cure_nothing, STATED },
     { "The aspect of", so_aspect, cure_aspect, CHANGES },
     { "state.view is unset", so_no_view, cure_camera, STATED },
+    { "Highlights belong to another eye", so_other_eye, cure_eye, CHANGES },
     { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
     { "but no mipmaps", so_no_mipmaps, cure_nothing, STATED },
     { "reach the width", so_texels, cure_nothing, STATED },

@@ -351,10 +351,105 @@ TEST(camera, fits_do_not_change_with_a_motion_in_the_projection)
     }
 }
 
+/* A ball in sight, and one mistake of ten: what is said does not depend on the split, unless
+   state.view itself is blamed for what it holds. */
+TEST(camera, what_is_explained_does_not_change_where_a_camera_is_split)
+{
+    static const char *const of_view[] = { "state.view holds a projection", "last row",
+                                           "transposed", "state.view scales",
+                                           "inverse of state.view" };
+    const shade_light lamp = shade_directional_light(shade_v3(-1, -1, -2), shade_v3(1, 1, 1));
+    const shade_light behind = shade_directional_light(shade_v3(0, 0, 1), shade_v3(1, 1, 1));
+    static ray_scene s;
+    int said_something = 0;
+    memset(&s, 0, sizeof s);
+    ray_ball(&s, d3_of(0, 0, 0), 1, 12, 8);
+    for (int i = 0; i < 600; i++) {
+        const int mistake = i % 10, split = 1 + i / 10 % (SPLITS - 1);
+        const float n = mistake == 1 ? 9 : 0.5f, f = mistake == 2 ? 1.5f : 40;
+        shade_mat4 view = shade_mat4_look_at(shade_v3(rnd_float(-1, 1), rnd_float(-1, 1), 5),
+                                             shade_v3(0, 0, mistake == 3 ? 9.0f : 0),
+                                             shade_v3(0, 1, 0));
+        shade_mat4 projection = i / 50 % 2 ? shade_mat4_perspective(0.8f, 4 / 3.0f, n, f)
+                                           : shade_mat4_frustum(-0.5f * n, 0.3f * n, -0.3f * n,
+                                                                0.3f * n, n, f);
+        shade_mesh mesh = plain_mesh(&s.position[0].x, 3 * s.count);
+        const char *said[2];
+        for (int k = 0; k < 2; k++) {
+            canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, mistake != 5);
+            shade_draw_state state = { 0 };
+            shade_stats stats;
+            state.lighting.lights = mistake == 6 ? &behind : &lamp;
+            state.lighting.light_count = mistake != 7;
+            state.raster.cull = mistake == 4 ? SHADE_CULL_FRONT : SHADE_CULL_BACK;
+            state.raster.depth_test = mistake == 8 ? SHADE_COMPARE_GREATER : SHADE_COMPARE_LESS;
+            if (k) split_camera(split, &view, &projection);
+            state.view = view;
+            state.projection = projection;
+            mesh.normals = mistake == 9 ? &s.position[0].x : NULL;
+            canvas_clear(&c, 1);
+            CHECK_INT(shade_draw_mesh(&c.target, &mesh, &state, &stats), SHADE_OK);
+            said[k] = shade_explain(&c.target, &mesh, &state, &stats);
+            canvas_close(&c);
+        }
+        int blamed = 0;
+        for (int k = 0; k < TEST_COUNT(of_view); k++) blamed |= strstr(said[1], of_view[k]) != NULL;
+        said_something += !blamed && *said[1];
+        CHECK_SAY(!strcmp(said[0], said[1]) || blamed, "mistake %d, split %d: \"%s\" and \"%s\"",
+                  mistake, split, said[0], said[1]);
+        CHECK(!blamed || split != SPLIT_ALL_IN_PROJECTION);
+    }
+    CHECK_SAY(said_something > 200, "%d", said_something);
+}
+
+/* A shiny ball before a camera that is split: explained where the eye of view is another one, and
+   silent with the camera in view, or without highlights. */
+TEST(camera, highlights_of_another_eye_are_explained)
+{
+    const shade_light lamp = shade_directional_light(shade_v3(-0.2f, -0.3f, -2), shade_v3(1, 1, 1));
+    static ray_scene s;
+    memset(&s, 0, sizeof s);
+    ray_ball(&s, d3_of(0, 0, 0), 1, 24, 16);
+    for (int i = 0; i < 240; i++) {
+        const int infinite = i & 1, astray = i >> 1 & 1, shiny = i % 3 != 0;
+        const shade_material gold = { { 0, 0, 0 }, { 0, 0, 0 }, { 0.5f, 0.4f, 0.1f },
+                                      { 0.5f * (float)shiny, 0, 0 }, 8 };
+        const dmat turn = dmat_from(shade_mat4_look_at(random_vector(3), random_vector(1),
+                                                       random_vector(1)));
+        canvas c = canvas_open(40, 30, 0, SHADE_FORMAT_RGBA8, 1);
+        shade_mesh mesh = plain_mesh(&s.position[0].x, 3 * s.count);
+        shade_draw_state state = { 0 };
+        shade_stats stats;
+        dmat between = turn, inverse;
+        if (infinite) /* a left-handed camera */
+            between = dmat_from(shade_mat4_scaling(shade_v3(1, 1, -1)));
+        dmat_invert(between, 4, &inverse);
+        state.view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
+        state.projection = shade_mat4_perspective(0.6f, 4 / 3.0f, 1, 20);
+        if (astray) {
+            state.projection = dmat_round(dmat_mul(dmat_from(state.projection), between));
+            state.view = dmat_round(dmat_mul(inverse, dmat_from(state.view)));
+        }
+        mesh.normals = &s.normal[0].x;
+        state.material = &gold;
+        state.lighting.lights = &lamp;
+        state.lighting.light_count = 1;
+        if (infinite) state.lighting.flags = SHADE_FLAG_INFINITE_VIEWER;
+        canvas_clear(&c, 1);
+        CHECK_INT(shade_draw_mesh(&c.target, &mesh, &state, &stats), SHADE_OK);
+        const char *said = shade_explain(&c.target, &mesh, &state, &stats);
+        CHECK_SAY(astray && shiny ? strstr(said, "another eye") != NULL : !*said, "%d: \"%s\"", i,
+                  said);
+        canvas_close(&c);
+    }
+}
+
 static const test_case camera_cases[] = {
     CASE(camera, rays_do_not_change_where_a_camera_is_split),
     CASE(camera, every_camera_that_draws_picks_what_it_draws),
     CASE(camera, finite_matrices_give_finite_rays),
     CASE(camera, boxes_are_seen_in_every_split),
     CASE(camera, fits_do_not_change_with_a_motion_in_the_projection),
+    CASE(camera, what_is_explained_does_not_change_where_a_camera_is_split),
+    CASE(camera, highlights_of_another_eye_are_explained),
 };

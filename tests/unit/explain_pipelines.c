@@ -179,7 +179,10 @@ PIPED(looks_aside)
 PIPED(view_nan) { p->view.col[1].y = (float)NAN; }
 PIPED(depth_zero) { p->clear = 0; }
 PIPED(depth_nan) { p->clear = (float)NAN; }
-PIPED(test_greater) { p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_GREATER; }
+PIPED(test_greater)
+{
+    p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_GREATER;
+}
 PIPED(test_equal) { p->pipe.raster.depth_test = p->lines.raster.depth_test = SHADE_COMPARE_EQUAL; }
 PIPED(hidden) { p->clear = 0.01f; }
 PIPED(bad_test) { p->pipe.raster.depth_test = p->lines.raster.depth_test = (shade_compare)9; }
@@ -267,7 +270,10 @@ PIPED(matrix_forgotten)
     for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = shade_scale(p->point[k], 3);
     memset(&p->lines.clip_from_points, 0, sizeof p->lines.clip_from_points);
 }
-PIPED(matrix_by_rows) { p->lines.clip_from_points = shade_mat4_transpose(p->lines.clip_from_points); }
+PIPED(matrix_by_rows)
+{
+    p->lines.clip_from_points = shade_mat4_transpose(p->lines.clip_from_points);
+}
 PIPED(matrix_by_rows_ahead)
 {
     p->view = shade_mat4_look_at(shade_v3(0, 0, 5), shade_v3(0, 0, 0), shade_v3(0, 1, 0));
@@ -282,7 +288,8 @@ PIPED(matrix_of_a_box_by_rows)
 }
 PIPED(matrices_exchanged)
 {
-    p->lines.clip_from_points = p->uniforms.clip_from_world = shade_mat4_mul(p->view, p->projection);
+    const shade_mat4 m = shade_mat4_mul(p->view, p->projection);
+    p->lines.clip_from_points = p->uniforms.clip_from_world = m;
 }
 PIPED(matrices_exchanged_ahead)
 {
@@ -392,6 +399,265 @@ TEST(explain_pipelines, each_mistake_gets_its_sentence)
         }
 }
 
+/* ---- any draws: each sentence is true, and its advice changes the picture
+
+   The oracle draws with the public functions, with what the sentence blames put right, and places
+   vertices in double.  It shares no code with what explains. */
+
+static void piped_refill(piped *p, uint32_t pixel)
+{
+    for (int k = 0; k < PIPED_W * PIPED_H; k++) {
+        p->pixels[k] = pixel;
+        p->depth[k] = p->clear;
+    }
+}
+
+/* Draws with what is in p, over pixels of this kind. */
+static shade_stats piped_stats(piped *p, int lines, uint32_t pixel)
+{
+    shade_stats stats;
+    piped_refill(p, pixel);
+    piped_draw(p, lines, &stats);
+    return stats;
+}
+
+static long long piped_fragments(const piped *given, int lines, void (*change)(piped *p))
+{
+    static piped p;
+    p = *given;
+    p.target.color = p.pixels;
+    if (given->target.depth) p.target.depth = p.depth;
+    p.uniforms.position = p.position;
+    p.pipe.uniforms = &p.uniforms;
+    p.given_target = &p.target;
+    p.given_pipe = &p.pipe;
+    p.given_lines = &p.lines;
+    p.points = p.point;
+    if (p.indices) p.indices = p.index;
+    change(&p);
+    return piped_stats(&p, lines, 0).fragments;
+}
+
+PIPED(without_depth) { p->target.depth = NULL; }
+PIPED(without_clip)
+{
+    p->pipe.may_discard = 0;
+    p->target.clip_x = p->target.clip_y = p->target.clip_width = p->target.clip_height = 0;
+    p->target.depth = NULL;
+}
+PIPED(without_cull) { piped_without_clip(p); p->pipe.raster.cull = SHADE_CULL_NONE; }
+PIPED(undiscarded) { p->target.depth = NULL; p->uniforms.discards = 0; }
+PIPED(discarding) { p->target.depth = NULL; p->pipe.may_discard = 1; }
+PIPED(cleared)
+{
+    const shade_compare test = p->pipe.raster.depth_test;
+    p->clear = test == SHADE_COMPARE_GREATER || test == SHADE_COMPARE_GREATER_EQUAL ? 0.0f : 1.0f;
+}
+PIPED(biased)
+{
+    const int greater = p->clear < 0.5f;
+    p->lines.raster.depth_test = greater ? SHADE_COMPARE_GREATER_EQUAL : SHADE_COMPARE_LESS_EQUAL;
+    p->lines.raster.depth_bias = greater ? 1e-4f : -1e-4f;
+}
+PIPED(by_columns) { piped_matrix_by_rows(p); piped_without_clip(p); }
+
+/* How many pixels differ from `pixel` after the draw; of these, in *alike, how many are black, or
+   with full set have a full channel. */
+static int piped_changed(piped *p, int lines, uint32_t pixel, int full, int *alike)
+{
+    int n = 0;
+    *alike = 0;
+    piped_stats(p, lines, pixel);
+    for (int k = 0; k < PIPED_W * PIPED_H; k++) {
+        const uint32_t c = p->pixels[k];
+        if (c == pixel) continue;
+        n++;
+        *alike += full ? (c & 255) == 255 || (c >> 8 & 255) == 255 || (c >> 16 & 255) == 255
+                       : !(c & 0xFFFFFF);
+    }
+    return n;
+}
+
+/* Do all positions lie on the outer side of a plane, within rounding?  0: w = 0; 1: z = -w or, with
+   z from 0 to w, z = 0; 2: z = w */
+static int piped_beyond(const piped *p, int lines, int plane)
+{
+    const dmat m = dmat_from(lines ? p->lines.clip_from_points : p->uniforms.clip_from_world);
+    const int half = (lines ? p->lines.raster : p->pipe.raster).depth_zero_to_one;
+    for (int k = 0; k < (lines ? p->point_count : p->index_count); k++) {
+        const float *v = &p->point[k].x;
+        double in[4] = { 0, 0, 0, 1 }, c[4];
+        if (!lines) v = p->position + 3 * (p->indices ? p->index[k] : (uint32_t)k);
+        for (int i = 0; i < 3; i++) in[i] = (double)v[i];
+        dmat_apply(m, in, c);
+        if (!lines && p->uniforms.keeps_w) c[3] = 0;
+        const double near = (half ? 0 : -c[3]) - c[2], far = c[2] - c[3];
+        const double beyond = plane == 0 ? -c[3] : plane == 1 ? near : far;
+        if (beyond < -1e-5 * (fabs(c[2]) + fabs(c[3]) + 1)) return 0;
+    }
+    return 1;
+}
+
+static int piped_is_greater(const piped *p)
+{
+    return p->pipe.raster.depth_test == SHADE_COMPARE_GREATER ||
+           p->pipe.raster.depth_test == SHADE_COMPARE_GREATER_EQUAL;
+}
+
+/* Is a sentence true of the draw?  exchanged, by_rows: how the matrix of lines was made. */
+static int piped_is_true(piped *p, int lines, const char *said, int exchanged, int by_rows)
+{
+    const shade_stats stats = piped_stats(p, lines, 0xFF302010u);
+    const long long got = stats.fragments;
+    int alike;
+    if (strstr(said, "beside the clip rectangle"))
+        return !piped_fragments(p, lines, piped_without_depth) &&
+               piped_fragments(p, lines, piped_without_clip);
+    if (strstr(said, "raster.cull is"))
+        return !got && !piped_fragments(p, lines, piped_without_clip) &&
+               piped_fragments(p, lines, piped_without_cull);
+    if (strstr(said, "NaN, infinite")) return stats.rejected > 0;
+    if (strstr(said, "beyond the far plane"))
+        return !got && piped_beyond(p, lines, piped_is_greater(p) ? 1 : 2);
+    if (strstr(said, "behind the eye, where")) return !got && piped_beyond(p, lines, 0);
+    if (strstr(said, "nearer than the near plane"))
+        return !got && (piped_beyond(p, lines, 1) || piped_beyond(p, lines, 2));
+    if (strstr(said, "beside the picture, before")) return stats.clipped == stats.triangles;
+    if (strstr(said, "pixel centre"))
+        return !piped_fragments(p, lines, piped_without_cull) && stats.clipped < stats.triangles;
+    if (strstr(said, "w is 0")) return !got && piped_beyond(p, lines, 0);
+    if (strstr(said, "discards all")) return !got && piped_fragments(p, lines, piped_undiscarded);
+    if (strstr(said, "is SHADE_COMPARE_EQUAL"))
+        return !got && piped_fragments(p, lines, piped_without_depth);
+    if (strstr(said, "shade_clear before drawing"))
+        return !got && piped_fragments(p, lines, piped_cleared);
+    if (strstr(said, "hides everything"))
+        return !got && piped_fragments(p, lines, piped_without_depth);
+    if (strstr(said, "lie in surfaces")) return !got && piped_fragments(p, lines, piped_biased);
+    if (strstr(said, "fragment is NULL")) {
+        float depth[PIPED_W * PIPED_H];
+        memcpy(depth, p->depth, sizeof depth);
+        piped_refill(p, 0);
+        return !p->pipe.fragment && !memcmp(depth, p->depth, sizeof depth);
+    }
+    if (strstr(said, "sets discard"))
+        return piped_fragments(p, 0, piped_discarding) < piped_fragments(p, 0, piped_without_depth);
+    if (strstr(said, "Alpha is 0") || strstr(said, "adds nothing"))
+        return got && !piped_changed(p, lines, 0xFF302010u, 0, &alike);
+    if (strstr(said, "gives black") || strstr(said, "color is not set"))
+        return got && piped_changed(p, lines, 0xFFFFFFFFu, 0, &alike) == alike && alike;
+    if (strstr(said, "NaN or infinity"))
+        return isnan(p->uniforms.color[0] + p->uniforms.color[1] + p->uniforms.color[2]);
+    if (strstr(said, "255"))
+        return piped_changed(p, lines, 0xFF000000u, 1, &alike) <= alike * 10 / 9;
+    if (strstr(said, "transposed")) return by_rows && piped_fragments(p, 1, piped_by_columns);
+    if (strstr(said, "view times projection")) return exchanged;
+    return strstr(said, "unset") && stats.clipped == stats.triangles;
+}
+
+static shade_compare random_compare(void)
+{
+    return rnd_one_in(2) ? SHADE_COMPARE_LESS : (shade_compare)rnd_int(0, SHADE_COMPARE_ALWAYS);
+}
+
+/* Changes one thing, as a mistake does or not. */
+static void piped_spoil(piped *p)
+{
+    shade_raster *r[2] = { &p->pipe.raster, &p->lines.raster };
+    const float colors[] = { 0, 0, 1, 0.25f, 255, (float)NAN };
+    const float n = rnd_log(0.1, 20);
+    switch (rnd_int(0, 15)) {
+    case 0: r[0]->depth_test = r[1]->depth_test = random_compare(); break;
+    case 1: r[0]->blend = r[1]->blend = (shade_blend)rnd_int(0, SHADE_BLEND_ADD); break;
+    case 2: r[0]->cull = r[1]->cull = (shade_cull)rnd_int(0, SHADE_CULL_FRONT); break;
+    case 3: p->clear = rnd_one_in(3) ? (float)NAN : rnd_one_in(2) ? 0.0f : rnd_float(0, 1); break;
+    case 4:
+        for (int k = 0; k < 3; k++) p->uniforms.color[k] = colors[rnd_int(0, 5)];
+        p->lines.color = shade_v4(p->uniforms.color[0], p->uniforms.color[1], p->uniforms.color[2],
+                                  p->lines.color.w);
+        break;
+    case 5: p->uniforms.color[3] = p->lines.color.w = rnd_one_in(2) ? 0.0f : rnd_float(0, 1); break;
+    case 6: p->uniforms.discards = rnd_int(0, 2); break;
+    case 7: p->pipe.may_discard = 1; break;
+    case 8: if (rnd_one_in(3)) p->pipe.fragment = NULL; break;
+    case 9: p->target.depth = NULL; break;
+    case 10:
+        p->target.clip_x = rnd_int(0, PIPED_W - 1);
+        p->target.clip_y = rnd_int(0, PIPED_H - 1);
+        p->target.clip_width = rnd_int(1, PIPED_W);
+        p->target.clip_height = rnd_int(1, PIPED_H);
+        break;
+    case 11:
+        p->view = shade_mat4_look_at(random_vector(rnd_one_in(2) ? 6 : 60), random_vector(3),
+                                     random_vector(1));
+        break;
+    case 12:
+        p->projection = shade_mat4_perspective(rnd_float(0.2, 2), 1.3f, n, n * rnd_log(1.5, 99));
+        break;
+    case 13:
+        p->projection = shade_mat4_ortho(-n, n, -n, n, rnd_float(0, 9), rnd_float(9, 20));
+        break;
+    case 14:
+        r[0]->depth_zero_to_one = r[1]->depth_zero_to_one = 1;
+        if (rnd_one_in(2)) r[0]->depth_test = r[1]->depth_test = SHADE_COMPARE_GREATER;
+        if (rnd_one_in(2)) p->clear = 0;
+        p->projection = shade_mat4_perspective_reversed(0.8f, 1.3f, n);
+        break;
+    default:
+        for (int k = 0; k < 3 * PIPED_CORNERS; k++) p->position[k] = rnd_float(-2, 2);
+        for (int k = 0; k < PIPED_POINTS; k++) p->point[k] = random_vector(2);
+        if (rnd_one_in(4)) p->position[rnd_int(0, 17)] = p->point[5].y = (float)NAN;
+        if (rnd_one_in(2)) p->lines.width = rnd_log(0.001, 20);
+        for (int k = 0; k < PIPED_CORNERS; k++)
+            p->index[k] = (uint32_t)rnd_int(0, PIPED_CORNERS - 1);
+        break;
+    }
+}
+
+TEST(explain_pipelines, what_is_said_of_any_draw_is_true)
+{
+    long said_something = 0, nothing_seen = 0;
+    for (int i = 0; i < 20000; i++) {
+        const int lines = rnd_one_in(2);
+        int exchanged = 0, by_rows = 0;
+        const char *said[2];
+        piped *p = piped_open();
+        for (int n = rnd_int(0, 4); n > 0; n--) piped_spoil(p);
+        piped_aim(p);
+        p->uniforms.keeps_w = rnd_one_in(30);
+        if (lines && rnd_one_in(12)) {
+            exchanged = 1;
+            p->lines.clip_from_points = shade_mat4_mul(p->view, p->projection);
+        } else if (lines && rnd_one_in(12)) {
+            by_rows = 1;
+            piped_matrix_by_rows(p);
+        }
+        if (piped_say(p, lines, said) != SHADE_OK) {
+            CHECK(*said[0] && *said[1]);
+            free(p);
+            continue;
+        }
+        for (int k = 0; k < 2; k++) {
+            if (!*said[k]) continue;
+            said_something++;
+            CHECK_SAY(piped_is_true(p, lines, said[k], exchanged, by_rows),
+                      "draw %d, %s: \"%s\"", i, lines ? "lines" : "triangles", said[k]);
+        }
+        /* a picture without a pixel is not left without a sentence, but in a band */
+        if (!piped_stats(p, lines, 0).fragments) {
+            const int band = p->target.clip_width &&
+                             (p->target.clip_x + p->target.clip_width >= PIPED_W ||
+                              p->target.clip_y + p->target.clip_height >= PIPED_H);
+            nothing_seen++;
+            CHECK_SAY(*said[0] || band, "draw %d, %s: silent", i, lines ? "lines" : "triangles");
+        }
+        free(p);
+    }
+    CHECK_SAY(said_something > 10000 && nothing_seen > 3000, "%ld, %ld", said_something,
+              nothing_seen);
+}
+
 static const test_case explain_pipelines_cases[] = {
     CASE(explain_pipelines, each_mistake_gets_its_sentence),
+    CASE(explain_pipelines, what_is_said_of_any_draw_is_true),
 };

@@ -50,6 +50,7 @@
 #include "scene.c"
 #include "modes.c"
 #include "explain.c"
+#include "explain_more.c"
 #include "explain_pipelines.c"
 #ifdef SHADE__TILE_TESTED
 long tiles_tested;
@@ -63,7 +64,7 @@ static const test_section sections[] = {
     SECTION(ray),    SECTION(resolve), SECTION(scene),   SECTION(exact),    SECTION(blocks),
     SECTION(depth),  SECTION(recipes),  SECTION(packets), SECTION(refusals),    SECTION(shaders),
     SECTION(independent),  SECTION(modes),   SECTION(explain), SECTION(chunks),
-    SECTION(camera),  SECTION(explain_pipelines),
+    SECTION(camera),  SECTION(explain_pipelines), SECTION(explain_more),
 #ifdef SHADE__TILE_TESTED
     SECTION(work),
 #endif

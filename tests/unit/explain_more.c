@@ -1,0 +1,271 @@
+/* explain_more.c - where sentences of shade_explain begin: each is said on one side of its limit, and
+   not on the other, a step away.  The ball of mistakes.h is the scene. */
+
+#define NEAR(name) static void near_##name(stage *s, int miss)
+
+NEAR(positions) { s->position[40].x = miss ? 9e11f : 1.1e12f; }
+NEAR(lamp_nan) { s->lamps[1].diffuse.y = miss ? 0.5f : NAN; }
+NEAR(attenuation) { s->lamps[0].linear = miss ? 1e-6f : -1e-6f; }
+NEAR(last_row)
+{
+    s->state.model = shade_mat4_identity();
+    s->state.model.col[3].w = miss ? 1.0f : 1.5f;
+}
+NEAR(cutoff)
+{
+    s->lamps[1] = shade_spot_light(s->eye, shade_neg(s->eye), miss ? 3.1415927f : 45, 0, WHITE);
+}
+NEAR(stats) { s->other_stats = !miss; }
+/* w = 1 - z/3: the matrix of a one-point perspective, and translation(1/3, 0, -1/3) by rows */
+NEAR(by_rows)
+{
+    memset(&s->state.view, 0, sizeof s->state.view);
+    s->state.projection = shade_mat4_identity();
+    s->state.projection.col[2] = shade_v4(0, 0, -0.2f, -1 / 3.0f);
+    s->state.model = shade_mat4_translation(shade_v3(0, 0, miss ? 4.0f : 1.7f));
+    if (!miss) {
+        s->state.projection =
+            shade_mat4_transpose(shade_mat4_translation(shade_v3(0.3f, 0, -1.8f)));
+        s->state.model = shade_mat4_translation(shade_v3(0, 0, 1.5f));
+    }
+}
+NEAR(equal)
+{
+    s->state.raster.depth_test = SHADE_COMPARE_EQUAL;
+    if (miss) {
+        shade_draw_state first = s->state;
+        first.raster.depth_test = SHADE_COMPARE_LESS;
+        shade_clear(&s->target, shade_v4(0, 0, 0, 1), 1);
+        shade_draw_mesh(&s->target, &s->mesh, &first, NULL);
+        s->clear = NAN;
+    }
+}
+NEAR(far_plane)
+{
+    s->z_near = miss ? 1e-5f : 1e-8f;
+    stage_look(s);
+}
+/* A lamp above the eye leaves the ball's lower part in the dark; how much, decides its height. */
+NEAR(behind)
+{
+    stage_lamp(s, shade_directional_light(shade_v3(0, miss ? -1.5f : -0.3f, 1), WHITE));
+    s->eye = shade_v3(0, 0, 4);
+    stage_look(s);
+}
+/* A narrow cone on the ball: its light is before faces in view, though it meets few of them. */
+NEAR(behind_of_a_cone)
+{
+    s->eye = shade_v3(0, 0, 4);
+    stage_look(s);
+    stage_lamp(s, stage_spot(s, miss ? 0.02f : 0.2f, 0));
+    if (!miss) {
+        s->lamps[0].position.z = -6;
+        s->lamps[0].spot_direction.z = 1;
+    }
+}
+NEAR(attenuated)
+{
+    s->material.specular = BLACK;
+    s->state.lighting.light_count = 1;
+    s->lamps[0].quadratic = miss ? 0.2f : 0.4f;    /* 12 and 7 of 255 are left */
+}
+NEAR(cone)
+{
+    stage_lamp(s, shade_spot_light(s->eye, shade_v3(0, miss ? -1.0f : 1.0f, -4), 0.2f, 0, WHITE));
+}
+NEAR(no_colour)
+{
+    const float light = miss ? 0.08f : 0.02f;
+    s->material.specular = BLACK;
+    stage_lamp(s, shade_point_light(s->eye, shade_v3(light, light, light)));
+}
+NEAR(no_light)
+{
+    const float light = miss ? 0.06f : 0.03f;
+    s->state.lighting.lights = NULL;
+    s->state.lighting.light_count = 0;
+    s->mesh.normals = NULL;
+    s->state.lighting.ambient = shade_v3(light, light, light);
+}
+NEAR(material)
+{
+    const float albedo = miss ? 0.04f : 0.02f;
+    s->material.diffuse = shade_v3(albedo, albedo, albedo);
+    s->material.specular = BLACK;
+}
+NEAR(alpha)
+{
+    s->state.raster.blend = SHADE_BLEND_OVER;
+    s->state.transparency = miss ? 0.9f : 0.99f;
+}
+/* Terms that show nothing, and would not show more if none were left out: there is no lamp. */
+NEAR(terms)
+{
+    s->state.lighting.terms = SHADE_TERM_EMISSION;
+    if (miss) s->state.lighting.light_count = 0;
+}
+NEAR(colors)    /* hidden by highlights, which white colours would not be */
+{
+    for (int i = 0; i < STAGE_VERTICES; i++) s->color[i] = miss ? shade_v3(1e-3f, 0, 0) : BLACK;
+    s->mesh.colors = &s->color[0].x;
+}
+NEAR(shader) { s->state.fragment = miss ? shader_white : shader_black; }
+NEAR(discards) { s->state.fragment = miss ? shader_white : shader_that_discards; }
+NEAR(inside_out)
+{
+    s->mesh.normals = NULL;
+    if (!miss) stage_turn(s, 0);
+    s->lamps[0].position = shade_v4(0, 1, 9, 1);
+    s->lamps[1] = shade_directional_light(shade_v3(0, 1, 0.4f), WHITE);
+}
+NEAR(later)
+{
+    s->state.raster.depth_read_only = 1;
+    s->state.raster.cull = miss ? SHADE_CULL_BACK : SHADE_CULL_NONE;
+}
+NEAR(always)
+{
+    s->state.raster.depth_test = SHADE_COMPARE_ALWAYS;
+    s->state.raster.cull = miss ? SHADE_CULL_BACK : SHADE_CULL_NONE;
+}
+NEAR(test_is_turned)
+{
+    s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+    s->clear = 0;
+    s->state.raster.cull = miss ? SHADE_CULL_BACK : SHADE_CULL_NONE;    /* one face a pixel */
+}
+NEAR(turned)
+{
+    for (int i = 0; i < STAGE_VERTICES; i++)
+        if (s->position[i].x < (miss ? -0.3f : 0.3f)) s->normal[i] = shade_neg(s->normal[i]);
+    s->state.raster.cull = SHADE_CULL_BACK;
+}
+NEAR(some_normals)    /* one side of the ball has the normals of the other */
+{
+    for (int i = 0; i < STAGE_VERTICES; i++)
+        if (s->position[i].z < (miss ? -0.9f : -0.5f)) s->normal[i] = shade_neg(s->normal[i]);
+}
+NEAR(stored_alpha)
+{
+    s->state.transparency = 0.5f;
+    s->state.raster.blend = miss ? SHADE_BLEND_OVER : SHADE_BLEND_REPLACE;
+}
+NEAR(shininess) { s->material.shininess = miss ? 1.0f : 0.9f; }
+NEAR(emission) { s->material.emission = shade_v3(1, 1, miss ? 0.99f : 1.0f); }
+NEAR(bias) { s->state.raster.depth_bias = miss ? -0.9f : -1.0f; }
+NEAR(clip)
+{
+    s->target.clip_x = 40;
+    s->target.clip_width = miss ? STAGE_WIDTH - 40 : STAGE_WIDTH - 39;
+    s->target.clip_height = STAGE_HEIGHT - 1;
+}
+NEAR(box)
+{
+    s->mesh.chunks = &s->chunk;
+    s->mesh.chunk_count = 1;
+    s->chunk.low = shade_v3(-1, -1, -1);
+    s->chunk.high = shade_v3(1, miss ? 1 : 0.999f, 1);
+}
+NEAR(unset_view)
+{
+    memset(&s->state.view, 0, sizeof s->state.view);
+    s->state.model = shade_mat4_translation(shade_v3(0, 0, miss ? -3.0f : -0.5f));
+    s->state.lighting.flags = SHADE_FLAG_TWO_SIDED;
+    s->material.specular = BLACK;
+}
+NEAR(texels)
+{
+    stage_map(s);
+    s->map.width = 16;
+    s->map.height = STAGE_TEXELS / 16;
+    for (int i = 0; i < STAGE_VERTICES; i++)
+        s->texcoord[i] = shade_scale2(s->texcoord[i], miss ? 14.0f : 15.5f);
+}
+NEAR(aspect)    /* 4 % and 2 % wide */
+{
+    s->aspect = miss ? 1.53f : 1.56f;
+    stage_look(s);
+}
+/* 80 x 24 cells, twice as high as wide: the picture's aspect is 160 / 24 of the screen */
+NEAR(aspect_of_cells)
+{
+    s->target.width = 80;
+    s->target.height = 24;
+    s->aspect = miss ? 80 / 48.0f : 80 / 30.0f;
+    stage_look(s);
+}
+
+#define ROW(name, words) { #name, words, near_##name }
+static const struct { const char *name, *words; void (*make)(stage *, int); } nears[] = {
+    ROW(positions, "mesh.positions hold NaN"), ROW(lamp_nan, "holds a NaN"),
+    ROW(attenuation, "quadratic is negative"), ROW(last_row, "The last row"),
+    ROW(cutoff, "radians; use shade_radians"), ROW(stats, "stats are not"),
+    ROW(by_rows, "transposed"), ROW(equal, "is SHADE_COMPARE_EQUAL"),
+    ROW(far_plane, "Depth is that of the far plane"), ROW(behind, "Every lamp is behind"),
+    ROW(behind_of_a_cone, "Every lamp is behind"), ROW(attenuated, "Attenuation"),
+    ROW(cone, "No cone"), ROW(no_colour, "no colour"), ROW(no_light, "There is no light"),
+    ROW(material, "state.material reflects"), ROW(alpha, "Alpha is 0"),
+    ROW(terms, "leaves out every term"), ROW(colors, "mesh.colors, or the texels"),
+    ROW(shader, "leaves all pixels"), ROW(discards, "discards all"),
+    ROW(inside_out, "inside out"), ROW(later, "Triangles drawn later"),
+    ROW(always, "Triangles drawn later"), ROW(test_is_turned, "does not fit"),
+    ROW(turned, "point away from the eye"), ROW(some_normals, "lie behind some"),
+    ROW(stored_alpha, "stored as alpha"), ROW(shininess, "shininess is below 1"),
+    ROW(emission, "emission alone"), ROW(bias, "depth of all pixels"),
+    ROW(clip, "lies beyond the picture"), ROW(box, "does not hold its triangles"),
+    ROW(unset_view, "state.view is unset"), ROW(texels, "reach the width"),
+    ROW(aspect, "The aspect of"), ROW(aspect_of_cells, "The aspect of"),
+};
+
+TEST(explain_more, each_sentence_has_its_limit)
+{
+    stage *s = stage_open();
+    for (int k = 0; k < TEST_COUNT(nears); k++)
+        for (int miss = 0; miss < 2; miss++) {
+            stage_of_ball(s);
+            nears[k].make(s, miss);
+            const char *said = stage_explain(s, 1);
+            CHECK_SAY((strstr(said, nears[k].words) == NULL) == miss, "%s, %s: \"%s\"",
+                      nears[k].name, miss ? "a miss" : "a hit", said);
+        }
+    free(s);
+}
+
+/* A lamp beyond the sixteenth may be the one that lights. */
+TEST(explain_more, of_more_than_sixteen_lamps_none_is_said_to_be_behind)
+{
+    shade_light behind[17];
+    stage *s = stage_open();
+    for (int i = 0; i < 17; i++)
+        behind[i] = shade_directional_light(shade_v3(0, 0.25f, 1), WHITE);
+    s->state.lighting.lights = behind;
+    for (int count = 16; count < 18; count++) {
+        s->state.lighting.light_count = count;
+        CHECK((strstr(stage_explain(s, 1), "Every lamp is behind") == NULL) == (count == 17));
+    }
+    free(s);
+}
+
+/* The same picture by any split of the camera between view and projection. */
+TEST(explain_more, aspect_and_depth_are_those_of_the_camera)
+{
+    stage *s = stage_open();
+    const shade_mat4 turn = shade_mat4_rotation(0.4f, shade_v3(1, 2, 3));
+    for (int k = 0; k < 2; k++) {
+        stage_of_ball(s);
+        s->aspect = 1.2f;
+        stage_look(s);
+        if (k) s->state.raster.depth_test = SHADE_COMPARE_GREATER;
+        if (k) s->clear = 0;
+        s->state.view = shade_mat4_mul(shade_mat4_inverse(turn), s->state.view);
+        s->state.projection = shade_mat4_mul(s->state.projection, turn);
+        CHECK(strstr(stage_explain(s, 1), k ? "does not fit" : "The aspect of"));
+    }
+    free(s);
+}
+
+static const test_case explain_more_cases[] = {
+    CASE(explain_more, each_sentence_has_its_limit),
+    CASE(explain_more, of_more_than_sixteen_lamps_none_is_said_to_be_behind),
+    CASE(explain_more, aspect_and_depth_are_those_of_the_camera),
+};
