@@ -826,7 +826,9 @@ static int ex_is_better(const trial *a, const trial *b, enum effect effect)
     case CHANGES:
         return memcmp(a->p.code, b->p.code, sizeof *a->p.code * EX_WIDTH * EX_HEIGHT) ||
                memcmp(a->triangle, b->triangle, sizeof a->triangle);
-    default: return b->p.bright > a->p.bright;
+    default:    /* more bright pixels, or twice the light and a code more in each pixel */
+        return b->p.bright > a->p.bright ||
+               b->p.sum >= 2 * a->p.sum + (int)a->p.stats.fragments;
     }
 }
 /* Does the advice alone change the picture as it promises, or where it does not, that of all rows
