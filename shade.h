@@ -72,12 +72,12 @@
      Inside: tools, which call the renderer; it names none of them
        >>lines     6767  shade_draw_lines      >>shape     6945  normals, edges
        >>chunks    7307  how boxes are made    >>rays      7471  shade_pick
-       >>survey    7647  experiments on a draw >>explain   8028  why nothing is seen
-       >>replay    9098  of lines, pipelines   >>image     9440  mipmaps, PPM
-       >>presets   9708  classic materials
+       >>survey    7647  experiments on a draw >>explain   8034  why nothing is seen
+       >>replay    9143  of lines, pipelines   >>image     9485  mipmaps, PPM
+       >>presets   9753  classic materials
      Sources
-       >>refs      9784                        >>history   9814
-       >>license   9826
+       >>refs      9829                        >>history   9859
+       >>license   9871
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -7679,8 +7679,8 @@ typedef struct shade__survey {
     shade_light      lamp[SHADE__SUSPECTS];
     int              own_lamps;          /* lamp is in use, not state.lighting.lights */
     uint32_t         white_map;          /* the map has its holes, but no colours */
-    float            apart;              /* depths within this of farthest do not count; 0: all do */
-    int              stored;             /* pixels count if the caller's picture is not black there */
+    float            apart;              /* depths this near to farthest do not count */
+    int              stored;             /* pixels count that the caller's picture has lit */
 
     int   clip[4], whole;                /* the clip rectangle; is it the whole picture? */
     int   exact;                         /* experiments draw what the picture shows, no more */
@@ -8188,8 +8188,8 @@ static const char *shade__bad_number(const shade__survey *s)
         why = "lighting.light_count is negative, which counts as 0; it counts lighting.lights.";
     for (int i = 0; i < l->light_count && !why; i++) why = shade__bad_lamp(&l->lights[i]);
     if (!why && shade__positions_are_bad(s))
-        why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices make "
-              "them so: positions must be floats, and mesh.position_stride counts bytes.";
+        why = "mesh.positions hold NaN, infinite or huge numbers (beyond 1e12), or the matrices "
+              "make them so: positions must be floats, and mesh.position_stride counts bytes.";
     return why;
 }
 
@@ -8200,8 +8200,8 @@ typedef struct shade__rung {
     const char *sentence;                /* NULL: what is seen may be meant, the ladder ends */
 } shade__rung;
 
-/* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault, and
-   two faults at once are found as well. */
+/* Returns the first true sentence, or NULL.  Changes are kept in q: the last one names the fault,
+   and two faults at once are found as well. */
 static const char *shade__climb_on(shade__survey *q, const shade__rung *rung)
 {
     for (; rung->change; rung++)
@@ -8507,7 +8507,8 @@ static int shade__sides_matter(const shade__survey *s)
     const unsigned flags = SHADE_FLAG_TWO_SIDED | SHADE_FLAG_TWO_SIDED_ABS;
     shade__survey both = *s;
     both.state.lighting.flags |= SHADE_FLAG_TWO_SIDED_ABS;
-    return s->exact && !(s->state.lighting.flags & flags) && shade__count(&both, s->dim) != shade__count(s, s->dim);
+    return s->exact && !(s->state.lighting.flags & flags) &&
+           shade__count(&both, s->dim) != shade__count(s, s->dim);
 }
 
 static int shade__wound_inward(shade__survey *q)
@@ -8544,7 +8545,7 @@ static const shade__rung shade__picture[] = {
     { shade__backs_in_view, shade__inward },
     { shade__lacks_depth,
       "Triangles drawn later hide nearer ones, because target.depth is NULL, raster.depth_test is "
-      "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; let the draw test and write depth." },
+      "SHADE_COMPARE_ALWAYS, or raster.depth_read_only is set; test and write depth." },
     { NULL, NULL }
 };
 
@@ -8786,7 +8787,7 @@ static int shade__colors_are_zero(shade__survey *q)
            q->state.raster.blend == SHADE_BLEND_REPLACE && shade__colors_are_black(q);
 }
 
-/* Does a lamp at the eye leave half of what is in view dark, on faces wound toward it? */
+/* Does a lamp at the eye leave a third of what is in view dark, on faces wound toward it? */
 static int shade__normals_turned(shade__survey *q)
 {
     shade_lighting *l = &q->state.lighting;
@@ -8805,10 +8806,10 @@ static int shade__normals_turned(shade__survey *q)
     shade__whiten(q);
     toward = shade__count(q, FLT_MIN);
     l->flags = SHADE_FLAG_TWO_SIDED_ABS;    /* normals of 0 are dark from both sides */
-    return (shade__count(q, FLT_MIN) - toward) * 2 >= all;
+    return (shade__count(q, FLT_MIN) - toward) * 3 >= all;
 }
 
-/* Are the normals of an eighth of the faces or more behind them, and those of as many before? */
+/* Has no normal a negative component, though an eighth of the faces or more would need one? */
 static int shade__normals_differ(const shade_mesh *m)
 {
     int behind = 0, before = 0;
@@ -8817,7 +8818,9 @@ static int shade__normals_differ(const shade_mesh *m)
         float side;
         for (int k = 0; k < 3; k++) {
             const uint32_t v = shade__corner_index(m, (uint32_t)(i + k));
-            n = shade_add(n, shade__vec3_at(m->normals, m->normal_stride, v));
+            const shade_vec3 at = shade__vec3_at(m->normals, m->normal_stride, v);
+            if (at.x < 0 || at.y < 0 || at.z < 0) return 0;
+            n = shade_add(n, at);
         }
         side = shade_dot(n, shade__face_normal(m, (uint32_t)i / 3, p));
         behind += side < 0;
@@ -8887,14 +8890,14 @@ static const shade__rung shade__wrong_light[] = {
     { shade__colors_are_zero, shade__black_colors },
     { shade__normals_turned,
       "mesh.normals point away from the eye on faces that are wound toward it: turn mesh.normals, "
-      "fill them by shade_mesh_normals, or reverse the winding; a model that mirrors does so too." },
+      "fill them by shade_mesh_normals, or reverse the winding, as a mirroring model does." },
     { shade__eye_is_astray,
       "Highlights belong to another eye: light takes it from state.view, in which +z points back "
       "to the viewer, but state.projection moves it or looks along +z; do so in state.view." },
     { shade__wound_inward, shade__inward },
     { shade__normals_disagree,
-      "mesh.normals lie behind some of the faces and before others, by their winding: are they of "
-      "other vertices, or stored as colours?  shade_mesh_normals fills them." },
+      "mesh.normals have no negative component, and lie behind some of the faces: are they stored "
+      "as colours, n / 2 + 1 / 2?  shade_mesh_normals fills them." },
     { shade__alpha_is_stored,
       "state.transparency is stored as alpha and dims nothing, because raster.blend is "
       "SHADE_BLEND_REPLACE; use SHADE_BLEND_OVER." },

@@ -7,7 +7,7 @@ line of the renderer's implementation that names a function, type or constant of
 import re
 import sys
 
-BUDGET = {"renderer": 48500, "tools": 99999}
+BUDGET = {"renderer": 48500, "tools": 20800}
 TOKEN = re.compile(
     r"""
     "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*'                  # strings, characters

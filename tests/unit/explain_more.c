@@ -1,5 +1,5 @@
-/* explain_more.c - where sentences of shade_explain begin: each is said on one side of its limit, and
-   not on the other, a step away.  The ball of mistakes.h is the scene. */
+/* explain_more.c - where sentences of shade_explain begin: each is said on one side of its limit,
+   and not on the other, a step away.  The ball of mistakes.h is the scene. */
 
 #define NEAR(name) static void near_##name(stage *s, int miss)
 
@@ -140,10 +140,12 @@ NEAR(turned)
         if (s->position[i].x < (miss ? -0.3f : 0.3f)) s->normal[i] = shade_neg(s->normal[i]);
     s->state.raster.cull = SHADE_CULL_BACK;
 }
-NEAR(some_normals)    /* one side of the ball has the normals of the other */
+NEAR(normals_as_colours)    /* all of them, or all but one */
 {
-    for (int i = 0; i < STAGE_VERTICES; i++)
-        if (s->position[i].z < (miss ? -0.9f : -0.5f)) s->normal[i] = shade_neg(s->normal[i]);
+    for (int i = 0; i < STAGE_VERTICES; i++) {
+        s->normal[i] = shade_scale(shade_add(s->normal[i], WHITE), 0.5f);
+    }
+    if (miss) s->normal[60].z = -0.1f;
 }
 NEAR(stored_alpha)
 {
@@ -209,7 +211,7 @@ static const struct { const char *name, *words; void (*make)(stage *, int); } ne
     ROW(shader, "leaves all pixels"), ROW(discards, "discards all"),
     ROW(inside_out, "inside out"), ROW(later, "Triangles drawn later"),
     ROW(always, "Triangles drawn later"), ROW(test_is_turned, "does not fit"),
-    ROW(turned, "point away from the eye"), ROW(some_normals, "lie behind some"),
+    ROW(turned, "point away from the eye"), ROW(normals_as_colours, "no negative component"),
     ROW(stored_alpha, "stored as alpha"), ROW(shininess, "shininess is below 1"),
     ROW(emission, "emission alone"), ROW(bias, "depth of all pixels"),
     ROW(clip, "lies beyond the picture"), ROW(box, "does not hold its triangles"),
