@@ -393,10 +393,10 @@ static int so_box(const judged *j)
     }
     return 0;
 }
-/* Are some normals behind their faces, and others before them? */
+/* Are some normals behind their faces? */
 static int so_mixed(const judged *j)
 {
-    int behind = 0, before = 0;
+    int behind = 0;
     for (int i = 0; i + 2 < ex_corners(MESH); i += 3) {
         const float *a = ex_position(MESH, i), *b = ex_position(MESH, i + 1);
         const float *c = ex_position(MESH, i + 2);
@@ -405,9 +405,8 @@ static int so_mixed(const judged *j)
         for (int k = 0; k < 3; k++)
             sum = shade_add(sum, STAGE->normal[ex_vertex(MESH, i + k)]);
         behind += shade_dot(sum, face) < 0;
-        before += shade_dot(sum, face) > 0;
     }
-    return MESH->normals && behind && before;
+    return MESH->normals && behind;
 }
 static int so_texels(const judged *j)
 {
@@ -724,7 +723,7 @@ static const claim claims[] = {
     { "reach the width", so_texels, cure_nothing, STATED },
     { "stored as alpha", so_stored, cure_over, CHANGES },
     { "shininess is below 1", so_dull, cure_shininess, CHANGES },
-    { "before others", so_mixed, cure_normals, CHANGES },
+    { "no negative component", so_mixed, cure_normals, CHANGES },
     { "state.material.emission alone", so_glows, cure_emission, DARKENS },
 };
 enum { EX_CLAIMS = sizeof claims / sizeof *claims };
