@@ -370,6 +370,16 @@ SO(beyond_picture, so_too_wide(j) || TARGET->clip_y + TARGET->clip_height > TARG
 SO(shader, STATE->fragment != NULL)
 SO(chunks, MESH->chunks != NULL)
 SO(other_stats, STAGE->other_stats)
+/* Is the eye of the view not the centre of projection, or does its axis look away? */
+static int so_other_eye(const judged *j)
+{
+    const shade_mat4 frame = shade_mat4_inverse(ex_or_identity(STATE->view));
+    const shade_vec3 apart = shade_sub(ex_xyz(frame.col[3]), j->eye);
+    const shade_mat4 m = ex_camera(STAGE);
+    const shade_vec3 sight = shade_v3(m.col[0].w, m.col[1].w, m.col[2].w);
+    return shade_length(apart) > 1e-4f * shade_length(j->eye) ||
+           shade_dot(ex_xyz(frame.col[2]), sight) > 0;
+}
 /* Has a chunk a box that does not hold its triangles? */
 static int so_box(const judged *j)
 {
@@ -383,10 +393,10 @@ static int so_box(const judged *j)
     }
     return 0;
 }
-/* Are some normals behind their faces, and others before them? */
+/* Are some normals behind their faces? */
 static int so_mixed(const judged *j)
 {
-    int behind = 0, before = 0;
+    int behind = 0;
     for (int i = 0; i + 2 < ex_corners(MESH); i += 3) {
         const float *a = ex_position(MESH, i), *b = ex_position(MESH, i + 1);
         const float *c = ex_position(MESH, i + 2);
@@ -395,9 +405,8 @@ static int so_mixed(const judged *j)
         for (int k = 0; k < 3; k++)
             sum = shade_add(sum, STAGE->normal[ex_vertex(MESH, i + k)]);
         behind += shade_dot(sum, face) < 0;
-        before += shade_dot(sum, face) > 0;
     }
-    return MESH->normals && behind && before;
+    return MESH->normals && behind;
 }
 static int so_texels(const judged *j)
 {
@@ -608,6 +617,17 @@ CURE(camera)
     cure_projection(s);
     stage_look(s);
 }
+/* The same picture of a view that stands at the centre of projection. */
+CURE(eye)
+{
+    const shade_mat4 m = ex_camera(s);
+    const int greater = s->target.depth ? ex_is_greater(&s->state) : ex_near_is_greater(s);
+    const shade_vec3 eye = ex_eye(s, greater);
+    shade_vec3 sight = shade_v3(m.col[0].w, m.col[1].w, m.col[2].w);
+    if (shade_length(sight) == 0) sight = shade_neg(eye);
+    s->state.view = shade_mat4_look_at(eye, shade_add(eye, sight), shade_v3(0, 1, 0));
+    s->state.projection = shade_mat4_mul(m, shade_mat4_inverse(s->state.view));
+}
 /* A ball in its place. */
 CURE(mesh)
 {
@@ -697,12 +717,13 @@ static const claim claims[] = {
     { "state.view scales", so_not_rigid, cure_nothing, STATED },
     { "The aspect of", so_aspect, cure_aspect, CHANGES },
     { "state.view is unset", so_no_view, cure_camera, STATED },
+    { "Highlights belong to another eye", so_other_eye, cure_eye, CHANGES },
     { "mesh.texcoords is NULL", so_no_texcoords, cure_nothing, STATED },
     { "but no mipmaps", so_no_mipmaps, cure_nothing, STATED },
     { "reach the width", so_texels, cure_nothing, STATED },
     { "stored as alpha", so_stored, cure_over, CHANGES },
     { "shininess is below 1", so_dull, cure_shininess, CHANGES },
-    { "before others", so_mixed, cure_normals, CHANGES },
+    { "no negative component", so_mixed, cure_normals, CHANGES },
     { "state.material.emission alone", so_glows, cure_emission, DARKENS },
 };
 enum { EX_CLAIMS = sizeof claims / sizeof *claims };
@@ -804,7 +825,9 @@ static int ex_is_better(const trial *a, const trial *b, enum effect effect)
     case CHANGES:
         return memcmp(a->p.code, b->p.code, sizeof *a->p.code * EX_WIDTH * EX_HEIGHT) ||
                memcmp(a->triangle, b->triangle, sizeof a->triangle);
-    default: return b->p.bright > a->p.bright;
+    default:    /* more bright pixels, or twice the light and a code more in each pixel */
+        return b->p.bright > a->p.bright ||
+               b->p.sum >= 2 * a->p.sum + (int)a->p.stats.fragments;
     }
 }
 /* Does the advice alone change the picture as it promises, or where it does not, that of all rows

@@ -788,7 +788,7 @@ MISTAKE(fovy_of_half_a_turn)
 }
 MISTAKE(aspect_of_integers)
 {
-    s->aspect = (float)(s->target.width / s->target.height);
+    if (s->target.height) s->aspect = (float)(s->target.width / s->target.height);
     stage_look(s);
 }
 MISTAKE(aspect_upside_down)
