@@ -73,11 +73,11 @@
        >>lines     6872  shade_draw_lines      >>camera    7051  where a draw is seen from
        >>shape     7130  normals, edges        >>chunks    7484  how boxes are made
        >>rays      7649  shade_pick            >>survey    7825  experiments on a draw
-       >>explain   8222  why nothing is seen   >>replay    9339  of lines, pipelines
-       >>image     9682  mipmaps, PPM           >>presets   9998  classic materials
+       >>explain   8222  why nothing is seen   >>replay    9347  of lines, pipelines
+       >>image     9690  mipmaps, PPM           >>presets  10006  classic materials
      Sources
-       >>refs     10074                        >>history  10104
-       >>license  10110
+       >>refs     10082                        >>history  10112
+       >>license  10118
 
    >>conventions
      World        right-handed; the camera looks down -z, +y is up.  Angles in radians.
@@ -8785,8 +8785,15 @@ static int shade__terms_are_few(shade__survey *q)
     return shade__lights_up(q);
 }
 
+/* Are the colours dark even under white ambient light, and does the mesh show without them? */
 static int shade__colors_are_black(shade__survey *q)
 {
+    shade__survey evenly = *q;
+    evenly.material.ambient = evenly.state.lighting.ambient = shade_v3(1, 1, 1);
+    evenly.state.lighting.model = SHADE_MODEL_AMBIENT;
+    evenly.state.lighting.terms = SHADE_TERM_AMBIENT;
+    if (shade__bright(&evenly)) return 0;
+
     q->mesh.colors = NULL;
     q->white_map = 1;
     return shade__lights_up(q);
@@ -8916,8 +8923,9 @@ static int shade__lamps_fall_off(shade__survey *q)
 
 static int shade__cones_miss(shade__survey *q)
 {
+    const int shows = shade__bright(q);
     shade__open_cones(q);
-    return shade__bright(q) && shade__lights_up(q);
+    return !shows && shade__bright(q) && shade__lights_up(q);
 }
 
 /* Is there light after all, which meets the surface at no flat angle? */
