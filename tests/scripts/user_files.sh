@@ -34,7 +34,12 @@ readme | head) set -- "$@" "$T/$name.c" ;;
 saddle) set -- "$@" "$E/cmake/main.c" "$E/cmake/saddle.c" ;;
 ball) set -- "$@" "$E/meson/ball.c" ;;
 glm) set -- "$@" "$E/glm.cpp" ;;
-*)  case $name in *threads) set -- "$@" -pthread ;; *openmp) set -- "$@" -fopenmp ;; esac
+*)  case $name in
+    *threads) set -- "$@" -pthread ;;
+    *openmp)    # some compilers have no library for it: pragmas are then comments
+        echo 'int main(void) { return 0; }' | "$@" -fopenmp -x c - -o "$folder/openmp" 2>/dev/null &&
+            set -- "$@" -fopenmp ;;
+    esac
     case " $ALONE " in *" $name "*) ;; *) set -- "$@" -include "$T/one_sample.h" ;; esac
     set -- "$@" "$TOP/examples/lessons/$name.c" ;;
 esac

@@ -306,7 +306,8 @@ TEST(explain, small_pools_of_light_are_light)
     }
 }
 /* What is brighter than 8 of 255 is light: that is 0.0312 in a linear byte and 0.0024 as sRGB, at
-   the middle between two codes 0.0333 and 0.0026.  Floats may be dimmer, since they may be exposed. */
+   the middle between two codes 0.0333 and 0.0026.  Floats may be dimmer, since they may be exposed.
+   */
 TEST(explain, light_begins_above_8_of_255)
 {
     static const struct { shade_format format; int srgb; float light; int shown; } row[] = {

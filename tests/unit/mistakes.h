@@ -201,7 +201,8 @@ static inline void shader_black(const void *uniforms, const shade_fragments *SHA
     (void)in;
     SHADE_EACH_LANE(i) { out->color[3][i] = 1; }
 }
-static inline void shader_that_discards(const void *uniforms, const shade_fragments *SHADE_RESTRICT in,
+static inline void shader_that_discards(const void *uniforms,
+                                        const shade_fragments *SHADE_RESTRICT in,
                                  shade_colors *SHADE_RESTRICT out)
 {
     (void)uniforms;
@@ -1493,7 +1494,8 @@ static const mistake mistakes[] = {
     BOTH(normals_nan, "mesh.normals"), BOTH(normals_as_colours, "mesh.normals"),
     BOTH(normals_in_reverse_order, ""), BOTH(normals_with_z_up, "mesh.normals|"),
     POT(positions_as_normals, "mesh.normals|"), BOTH(inside_out, "inside out|winding"),
-    BOTH(wound_clockwise_without_normals, "wound|winding"), BOTH(half_wound_clockwise, "mesh.normals|"),
+    BOTH(wound_clockwise_without_normals, "wound|winding"),
+    BOTH(half_wound_clockwise, "mesh.normals|"),
     BOTH(fronts_left_out, ""), BOTH(colors_zero, "mesh.colors"), BOTH(colors_of_255, "255"),
     BOTH(colors_of_bytes, "mesh.colors"), BOTH(map_without_texcoords, "mesh.texcoords is NULL"),
     BOTH(texcoords_without_map, ""), BOTH(texcoords_in_texels, "mesh.texcoords"),

@@ -20,7 +20,8 @@ typedef struct picked_screen {
     int usable[PICK_TRIANGLES], triangles;
 } picked_screen;
 
-static inline void picked_screen_of(picked_screen *p, const pick_scene *s, shade_mat4 clip_from_mesh)
+static inline void picked_screen_of(picked_screen *p, const pick_scene *s,
+                                    shade_mat4 clip_from_mesh)
 {
     p->triangles = pick_triangles(s);
     for (int k = 0; k < PICK_VERTICES; k++) {
