@@ -8,7 +8,6 @@
 #endif
 #define SHADE_IMPLEMENTATION
 #include "shade.h"
-#define MODEL_CENTRED 0    /* Python centres in double, and tells the origin */
 #include "examples/kit/read/files.h"
 #include "examples/shared/bands.h"
 #include "examples/kit/scene/look.h"
@@ -703,8 +702,8 @@ float python_text(const char *text, float size, float x, float y, unsigned char 
 typedef char python_mesh_first[offsetof(model, mesh) == 0 ? 1 : -1];
 
 /* Reads an OBJ, STL or PLY file from memory; what stands beside path, which may be NULL, describes
-   its surfaces.  name stands in messages, and its end tells the format where there is one.  Returns
-   NULL with a sentence in error. */
+   its surfaces.  name stands in messages, and its end tells the format where there is one.  Points
+   without faces are vertices without indices.  Returns NULL with a sentence in error. */
 SHADEDEF model *python_read(const void *bytes, size_t size, const char *name, const char *path,
                             char *error, size_t room);
 model *python_read(const void *bytes, size_t size, const char *name, const char *path, char *error,
@@ -712,7 +711,7 @@ model *python_read(const void *bytes, size_t size, const char *name, const char 
 {
     const model_request q = { error, room, NULL, NULL, 0 };
     model *m = (model *)calloc(1, sizeof *m);
-    if (m && !model_read_memory(bytes, size, name, m, &q)) {
+    if (m && !model_read_points(bytes, size, name, m, &q, 1)) {
         if (path) model_read_libraries(path, m);
         return m;
     }
@@ -726,6 +725,10 @@ void python_unload(model *m)
     if (m) model_free(m);
     free(m);
 }
+
+/* Three numbers that belong to each position, so that they are where the file has them */
+SHADEDEF const double *python_origin(const model *m);
+const double *python_origin(const model *m) { return m->origin; }
 
 /* What the file lacks, or "" */
 SHADEDEF const char *python_warning(const model *m);

@@ -57,7 +57,7 @@ static int tree_vertex(tree *t, const struct aiMesh *mesh, unsigned i, shade_mat
     shade_vec3 P = shade_mat4_transform_point(at, shade_v3(p.x, p.y, p.z));
     shade_vec3 N = shade_v3(0, 0, 0), C = shade_v3(1, 1, 1);
     float uv[2] = { 0, 0 };
-    if (!tree_finite(P)) return mesh_fail(t->reader, "a position is not finite");
+    if (!tree_finite(P)) P.x = NAN; /* its faces are dropped */
     if (mesh->mNormals) {
         const struct aiVector3D n = mesh->mNormals[i];
         N = shade_normalize(shade_mat3_transform(turn, shade_v3(n.x, n.y, n.z)));
@@ -384,7 +384,7 @@ static int tree_finish(tree *t, model *m)
         mesh->colors = t->colors.v;
         t->colors.v = NULL;
     }
-    if (faces_finish(&t->faces, m)) return mesh_fail(t->reader, "out of memory");
+    if (faces_finish(t->reader, &t->faces, m, (size_t)vertices)) return 1;
     mesh_link(mesh, vertices, 3 * (int)t->faces.triangles);
     m->normals_given = !t->lacks_normals;
     if (t->lacks_normals && mesh_fill_normals(mesh, 0))

@@ -89,18 +89,22 @@ typedef struct model_request {
     size_t most;
 } model_request;
 
-/* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
-   with model_free; else m is empty and error, if error_size > 0, holds one line. */
-static inline int model_read_memory(const void *bytes, size_t size, const char *name, model *m,
-                                    const model_request *q)
+/* The bytes behind a byte order mark of UTF-8, which editors of Windows put before text */
+static inline const unsigned char *model_text_of(const unsigned char *bytes, size_t *size)
 {
-    static const model empty;
+    const size_t mark = *size >= 3 && !memcmp(bytes, "\xEF\xBB\xBF", 3) ? 3 : 0;
+    *size -= mark;
+    return bytes + mark;
+}
+
+static inline int model_read_once(const void *bytes, size_t size, const char *name, model *m,
+                                  const model_request *q)
+{
     static const unsigned char nothing[1];
-    const unsigned char *begin = size ? (const unsigned char *)bytes : nothing;
+    const unsigned char *begin = model_text_of(size ? (const unsigned char *)bytes : nothing, &size);
     mesh_reader r = { begin,    begin,         begin + size, name,    1,
                       q->error, q->error_size, q->progress,  q->user, q->most };
     int failed;
-    *m = empty;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
     else if (mesh_is_ply(name, begin, size))
@@ -111,6 +115,47 @@ static inline int model_read_memory(const void *bytes, size_t size, const char *
         failed = obj_read(&r, m);
     if (failed) model_free(m);
     return failed;
+}
+
+/* The middle of the triangles or points, where that is so far from the origin of the positions that
+   floats do not keep their digits.  0: it is near. */
+static inline int model_middle(const model *m, double middle[3])
+{
+    double low[3], high[3], extent = 0, away = 0;
+    mesh_box(&m->mesh, low, high);
+    for (int k = 0; k < 3; k++) {
+        middle[k] = floor(m->origin[k] + (low[k] + high[k]) / 2);
+        extent = fmax(extent, high[k] - low[k]);
+        away = fmax(away, fabs(low[k] + high[k]) / 2);
+    }
+    return away > 64 * extent && away > 64;
+}
+
+/* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
+   with model_free; else m is empty and error, if error_size > 0, holds one line.
+
+   Text and doubles have more digits than floats.  Where the first position is far from all that the
+   faces have, the file is read again about their middle. */
+static inline int model_read_points(const void *bytes, size_t size, const char *name, model *m,
+                                    const model_request *q, int points_wanted)
+{
+    static const model empty;
+    model again = empty;
+    int failed;
+    *m = empty;
+    m->points_wanted = again.points_wanted = points_wanted;
+    failed = model_read_once(bytes, size, name, m, q);
+    if (failed || !m->movable || !model_middle(m, again.origin)) return failed;
+    again.placed = 1;
+    model_free(m);
+    *m = again;
+    return model_read_once(bytes, size, name, m, q);
+}
+
+static inline int model_read_memory(const void *bytes, size_t size, const char *name, model *m,
+                                    const model_request *q)
+{
+    return model_read_points(bytes, size, name, m, q, 0);
 }
 
 /* Opens a file; NULL with the error in r */
@@ -178,8 +223,8 @@ static inline void model_read_libraries(const char *path, model *m)
         size_t size = 0;
         mesh_reader r = { NULL, NULL, NULL, m->library[i], 0, error, sizeof error, NULL, NULL, 0 };
         if (beside && !model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size)) {
-            r.at = r.begin = bytes;
             r.end = bytes + size;
+            r.at = r.begin = model_text_of(bytes, &size);
             r.line = 1;
             if (mtl_read(&r, m)) model_warn(m, path, error);
         } else if (beside)

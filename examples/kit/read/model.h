@@ -61,6 +61,9 @@ typedef struct model {
     int z_up, up_told; /* up_told: by the format, not by habit */
     int up;            /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
     double origin[3]; /* of the positions, in the coordinates of the file */
+    int placed, points_wanted; /* said to the reader: the origin; points stay points */
+    int movable;               /* the file has more digits than floats: read again, about another
+                                  origin, the positions are more exact */
     char warning[400]; /* what the picture lacks; "": nothing */
     char note[200];    /* what it shows otherwise than the file has it; "": nothing */
 } model;
@@ -114,6 +117,36 @@ static inline int model_is_section(const model *m, int part)
 static inline void model_warn(model *m, const char *about, const char *what)
 {
     if (!m->warning[0]) snprintf(m->warning, sizeof m->warning, "%s: %s", about, what);
+}
+
+/* Warns of what is left out because it has a position that is not finite. */
+static inline void model_warn_dropped(model *m, const char *about, size_t n, const char *what)
+{
+    char text[80];
+    if (!n) return;
+    snprintf(text, sizeof text, "%lu %s that are no finite numbers", (unsigned long)n, what);
+    model_warn(m, about, text);
+}
+
+/* The origin that a reader begins with */
+static inline void model_place(const model *m, mesh_origin *o)
+{
+    memcpy(o->at, m->origin, sizeof o->at);
+    o->known = m->placed;
+}
+
+/* The origin that it has used; known: it has used one at all */
+static inline void model_placed(model *m, const mesh_origin *o)
+{
+    memcpy(m->origin, o->at, sizeof o->at);
+    m->movable = o->known;
+}
+
+/* Positions that are not finite, which no face has, become 0. */
+static inline void mesh_tame(owned_mesh *m, size_t vertices)
+{
+    for (size_t i = 0; i < vertices; i++)
+        if (!mesh_finite(m->positions + 3 * i)) memset(m->positions + 3 * i, 0, 12);
 }
 
 /* A copy of n bytes as text; NULL: out of memory */

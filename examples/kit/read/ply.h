@@ -193,7 +193,7 @@ static inline int ply_number(mesh_reader *r, int format, ply_type type, double *
     float single;
     if (format == PLY_TEXT) {
         mesh_skip_lines(r);
-        return mesh_take_double(r, out);
+        return type < PLY_FLOAT ? mesh_take_double(r, out) : mesh_take_coordinate(r, out);
     }
     if (r->end - r->at < size) return mesh_fail(r, "ends too early");
     for (int k = 0; k < size; k++)
@@ -278,11 +278,7 @@ static inline int ply_instance(mesh_reader *r, ply_data *p, const ply_element *e
         if (at->meaning < PLY_VALUES) v[at->meaning] = ply_value(at, value);
     }
     if (e->kind != PLY_VERTEX) return 0;
-    for (int k = 0; k < PLY_VALUES; k++) {
-        int finite = v[k] >= -(double)FLT_MAX && v[k] <= (double)FLT_MAX;
-        if (k < PLY_NX && !finite) return mesh_fail(r, "a position is not finite");
-        single[k] = finite ? (float)v[k] : 0;
-    }
+    for (int k = PLY_NX; k < PLY_VALUES; k++) single[k] = mesh_or_zero(v[k]);
     mesh_relative(&p->origin, v, single);
     if (p->vertex.count / PLY_VALUES >= INT_MAX) return mesh_fail(r, "more than 2^31 - 1 vertices");
     return mesh_push(&p->vertex, single, PLY_VALUES) ? mesh_fail(r, "out of memory") : 0;
@@ -332,9 +328,9 @@ static inline int ply_finish(mesh_reader *r, ply_data *p, model *out)
         m->texcoords[2 * i] = v[PLY_U];
         m->texcoords[2 * i + 1] = 1 - v[PLY_U + 1];
     }
-    memcpy(out->origin, p->origin.at, sizeof out->origin);
+    model_placed(out, &p->origin);
     if (!has_faces) return points_finish(r, out, n);
-    if (faces_finish(&p->faces, out)) return mesh_fail(r, "out of memory");
+    if (faces_finish(r, &p->faces, out, n)) return 1;
     mesh_link(m, (int)n, 3 * (int)p->faces.triangles);
     out->normals_given = !missing;
     return missing && mesh_fill_normals(m, 0) ? mesh_fail(r, "out of memory") : 0;
@@ -345,6 +341,7 @@ static inline int ply_read(mesh_reader *r, model *m)
     ply_data *p = (ply_data *)calloc(1, sizeof *p);
     int failed;
     if (!p) return mesh_fail(r, "out of memory");
+    model_place(m, &p->origin);
     failed = ply_read_header(r, p, m) || ply_read_body(r, p) || ply_finish(r, p, m);
     free(p->vertex.v);
     faces_free(&p->faces);

@@ -129,18 +129,44 @@ static int read_path(const char *path, model *m, const model_request *q)
     return failed;
 }
 
+/* Drops vertices that no triangle has: pictures and drawings show what has faces.  1: out of
+   memory. */
+static int model_drop_unused(model *m)
+{
+    const shade_mesh *v = &m->mesh.view;
+    uint32_t last = 0;
+    char *used = (char *)calloc((size_t)v->vertex_count + 1, 1);
+    int count = 0, failed = !used;
+    for (int i = 0; i < v->index_count && !failed; i++) used[m->mesh.indices[i]] = 1;
+    for (int i = 0; i < v->vertex_count && !failed; i++) count += used[i];
+    free(used);
+    if (failed || count == v->vertex_count) return failed;
+    failed = mesh_renumber(&m->mesh);
+    for (int i = 0; i < v->index_count && !failed; i++)
+        if (m->mesh.indices[i] > last) last = m->mesh.indices[i];
+    mesh_link(&m->mesh, (int)last + 1, v->index_count);
+    return failed;
+}
+
 static int model_read(const char *path, model *m, const model_request *q)
 {
     static const model empty;
     int failed;
     *m = empty;
     failed = path == model_input ? read_input(m, q) : read_path(path, m, q);
+    if (!failed && model_drop_unused(m)) {
+        const mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
+        mesh_reader says = r;
+        model_free(m);
+        failed = mesh_fail(&says, "out of memory");
+    }
     if (!failed) {
         show_invisible(m);
         read_pictures(m, path);
     }
     return failed;
 }
+
 /* ---- for the programs ------------------------------------------------------------------------ */
 
 /* 1: the message says that memory was out. */
@@ -185,9 +211,9 @@ static int model_open(const char *path, const model_options *o, model *m, mesh_p
     if (failed) return complain("%s%s", error, ran_out(error) ? "; see --max-memory" : "");
     if (m->warning[0] && !o->quiet) complain("%s (left out)", m->warning);
     if (m->note[0] && !o->quiet) complain("%s: %s", path, m->note);
-    if (!o->quiet && !model_shows(m))
-        complain("%s: no triangle of it has an area, so nothing of it can be seen", path);
-    return 0;
+    if (model_shows(m)) return 0;
+    model_free(m);
+    return complain("%s: no triangle of it has an area, so nothing of it can be seen", path);
 }
 
 /* The upright axis, 0 .. 5: that of the options or of the format; of a picture where neither says,

@@ -9,19 +9,25 @@ typedef struct stl_data {
     mesh_set places;
     mesh_uints indices;
     mesh_origin origin; /* of text; binary files hold floats */
+    size_t dropped;     /* triangles with a corner that is not finite */
 } stl_data;
+
+enum { STL_NOWHERE = INT_MAX }; /* the number of a position that is not finite */
 
 static inline int stl_place(mesh_reader *r, stl_data *s, const float *p, uint32_t *number)
 {
-    for (int k = 0; k < 3; k++)
-        if (!(p[k] >= -FLT_MAX && p[k] <= FLT_MAX)) return mesh_fail(r, "a position is not finite");
-    if (mesh_set_add(&s->places, mesh_position_key(p), number))
+    *number = STL_NOWHERE;
+    if (mesh_finite(p) && mesh_set_add(&s->places, mesh_position_key(p), number))
         return mesh_fail(r, "out of memory");
     return 0;
 }
 
 static inline int stl_triangle(mesh_reader *r, stl_data *s, uint32_t a, uint32_t b, uint32_t c)
 {
+    if (a == STL_NOWHERE || b == STL_NOWHERE || c == STL_NOWHERE) {
+        s->dropped++;
+        return 0;
+    }
     if (mesh_check_triangles(r, s->indices.count / 3 + 1)) return 1;
     return mesh_push_triangle(&s->indices, a, b, c) ? mesh_fail(r, "out of memory") : 0;
 }
@@ -65,7 +71,7 @@ static inline int stl_vertex(mesh_reader *r, stl_data *s, uint32_t *number)
     float p[3];
     for (int k = 0; k < 3; k++) {
         mesh_skip_lines(r);
-        if (mesh_take_double(r, &v[k])) return 1;
+        if (mesh_take_coordinate(r, &v[k])) return 1;
     }
     mesh_relative(&s->origin, v, p);
     return stl_place(r, s, p, number);
@@ -136,8 +142,13 @@ static inline int stl_read(mesh_reader *r, model *out)
     owned_mesh *m = &out->mesh;
     static const stl_data empty;
     stl_data s = empty;
-    int failed = stl_is_text(r) ? stl_read_text(r, &s) : stl_read_binary(r, &s);
-    if (!failed && !s.indices.count) failed = mesh_fail(r, "no triangles in it");
+    const int is_text = stl_is_text(r);
+    int failed;
+    if (is_text) model_place(out, &s.origin);
+    failed = is_text ? stl_read_text(r, &s) : stl_read_binary(r, &s);
+    if (!failed && !s.indices.count)
+        failed = mesh_fail(r, s.dropped ? "no triangle of it has corners that are all finite"
+                                        : "no triangles in it");
     if (!failed) {
         size_t n = s.places.count;
         m->positions = (float *)malloc(3 * sizeof(float) * n);
@@ -147,7 +158,8 @@ static inline int stl_read(mesh_reader *r, model *out)
         for (size_t i = 0; m->positions && i < n; i++)
             memcpy(m->positions + 3 * i, &s.places.triple[i], 3 * sizeof(float));
         mesh_link(m, (int)n, (int)s.indices.count);
-        memcpy(out->origin, s.origin.at, sizeof out->origin);
+        model_placed(out, &s.origin);
+        model_warn_dropped(out, r->name, s.dropped, "triangles have corners");
         failed = !m->positions || !m->normals || mesh_fill_normals(m, 1);
         if (failed) mesh_fail(r, "out of memory");
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import struct
 import sys
-from ctypes import (POINTER, Structure, c_char_p, c_float, c_int, c_size_t, c_uint,
+from ctypes import (POINTER, Structure, c_char_p, c_double, c_float, c_int, c_size_t, c_uint,
                     c_void_p)
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -149,6 +149,7 @@ def _open() -> Any:
             ("python_read", POINTER(OwnedMesh),
              [c_char_p, c_size_t, c_char_p, c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
+            ("python_origin", POINTER(c_double), [POINTER(OwnedMesh)]),
             ("python_warning", c_char_p, [POINTER(OwnedMesh)]),
             ("python_upright", c_int, [POINTER(OwnedMesh)]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),

@@ -41,61 +41,6 @@ def balls(points: object, options: dict[str, Any]) -> tuple[Doubles, Array, dict
     return vertices, faces, out
 
 
-KINDS = {b"double": "f8", b"float64": "f8", b"float": "f4", b"float32": "f4", b"int": "i4",
-         b"uint": "u4", b"int32": "i4", b"uint32": "u4", b"short": "i2", b"ushort": "u2",
-         b"int16": "i2", b"uint16": "u2", b"char": "i1", b"uchar": "u1", b"int8": "i1",
-         b"uint8": "u1"}
-
-
-def ply_points(data: bytes) -> tuple[Doubles, dict[str, Any]] | None:
-    """The vertices of a PLY file without faces, with their colours.  None where it has faces, or
-    its first element is another."""
-    end = re.search(rb"(?m)^end_header[^\n]*\n", data[:65536])
-    if end is None:
-        return None
-    head = [line.split() for line in data[:end.start()].splitlines()]
-    form = next((w[1] for w in head if w[:1] == [b"format"] and len(w) > 1), b"")
-    elements = [w for w in head if w[:1] == [b"element"] and len(w) == 3]
-    if not elements or elements[0][1] != b"vertex" or not elements[0][2].isdigit() or \
-            len(elements[0][2]) > 10 or any(w[1] == b"face" and w[2] != b"0" for w in elements):
-        return None
-    first = head.index(elements[0])
-    rest = next((i for i in range(first + 1, len(head)) if head[i][:1] == [b"element"]), len(head))
-    rows = [w for w in head[first + 1:rest] if w[:1] == [b"property"]]
-    names = [w[-1] for w in rows]
-    if not {b"x", b"y", b"z"} <= set(names) or any(len(w) != 3 or w[1] not in KINDS for w in rows):
-        return None
-    count, start = int(elements[0][2]), end.end()
-    table = _ascii(data[start:], count, len(rows)) if form == b"ascii" else _binary(
-        data, start, count, [KINDS[w[1]] for w in rows], ">" if b"big" in form else "<")
-    points = np.stack([table[names.index(k)] for k in (b"x", b"y", b"z")], 1).astype(np.float64)
-    found: dict[str, Any] = {"up": None}
-    if {b"red", b"green", b"blue"} <= set(names):
-        colors = np.stack([table[names.index(k)] for k in (b"red", b"green", b"blue")], 1)
-        whole = rows[names.index(b"red")][1] in (b"uchar", b"uint8")
-        found["color"] = np.clip(np.nan_to_num(colors / (255 if whole else 1)), 0, 1)
-    return points, found
-
-
-def _ascii(text: bytes, count: int, columns: int) -> list[Array]:
-    words = text.split(None, count * columns)[:count * columns]
-    if len(words) < count * columns:
-        raise Error("ends too early")
-    try:
-        values = np.array(words, dtype="S32").astype(np.float64).reshape(count, columns)
-    except ValueError:
-        raise Error("a vertex has something that is no number") from None
-    return list(values.T)
-
-
-def _binary(data: bytes, start: int, count: int, kinds: list[str], order: str) -> list[Array]:
-    kind = np.dtype([(f"p{i}", order + k) for i, k in enumerate(kinds)])
-    if start + count * kind.itemsize > len(data):
-        raise Error("ends too early")
-    rows = np.frombuffer(data, kind, count, start)
-    return [rows[name].astype(np.float64) for name in kind.names or ()]
-
-
 # ---- OFF -----------------------------------------------------------------------------------------
 
 def is_off(data: bytes) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 import ctypes
 import io
 import os
-import re
 import warnings
 from importlib import import_module
 from typing import Any
@@ -14,7 +13,7 @@ import numpy as np
 from . import cloud
 from ._native import Array, Bytes, Error, Run, library, pointer
 from .annotate import display as _display
-from .mesh import Mesh, Surface, origin_of
+from .mesh import Mesh, Surface
 from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
 MODEL_BYTES = 4_000_000_000
@@ -125,102 +124,26 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
         view, own = owned.contents.view, owned.contents
         vertices = _copied(own.positions, view.vertex_count, 3, ctypes.c_float)
         faces = _copied(own.indices, view.index_count // 3, 3, ctypes.c_uint)
-        if vertices is None or faces is None:
-            raise Error(f"{name} has no triangles")
+        origin = np.array(library.python_origin(owned)[:3])
+        if origin.any():
+            vertices = vertices + origin
         colors = _copied(own.colors, view.vertex_count, 3, ctypes.c_float)
         uv = _copied(own.texcoords, view.vertex_count, 2, ctypes.c_float)
-        found = _surfaces(owned, name, len(faces), uv)
-        found["up"] = AXES[library.python_upright(owned)]
+        found = {"up": None} if faces is None else _surfaces(owned, name, len(faces), uv)
+        if faces is not None:
+            found["up"] = AXES[library.python_upright(owned)]
         if library.python_warning(owned):
             _warn(library.python_warning(owned).decode("utf-8", "replace"))
     finally:
         library.python_unload(owned)
     if colors is not None:
         found["color"] = _display(colors)
-    elif "color" in found and len(faces) == len(vertices):
+    elif faces is not None and "color" in found and len(faces) == len(vertices):
         # a vertex that no face has, so that the colours cannot be taken for those of vertices
         vertices = np.concatenate([vertices, vertices[:1]])
         if "uv" in found:
             found["uv"] = np.concatenate([found["uv"], found["uv"][:1]])
     return (vertices, faces), found
-
-
-def _number(text: bytes) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return float("nan")
-
-
-def _moved_text(data: bytes, origin: Array, word: bytes) -> bytes:
-    """The text with positions, which stand behind a word, that count from an origin in double."""
-    def line(found: re.Match[bytes]) -> bytes:
-        moved = [_number(found[k + 2]) - origin[k] for k in range(3)]
-        return found[1] + b" ".join(repr(float(v)).encode() for v in moved) \
-            if np.isfinite(moved).all() else found[0]
-
-    return re.sub(rb"(?mi)^([ \t]*" + word + rb"[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)", line, data)
-
-
-def _moved_ply(data: bytes, origin: Array) -> bytes | None:
-    """A PLY file whose first element is vertices with x, y and z in double, moved to an origin."""
-    end = re.search(rb"end_header[^\n]*\n", data)
-    head = re.findall(rb"(?m)^(format|element|property)\s+(\S+)\s+([^\r\n]*)", data[:end.end()]) \
-        if end else []
-    if end is None or len(head) < 2 or head[1][:2] != (b"element", b"vertex"):
-        return None
-    mark = {b"binary_little_endian": "<", b"binary_big_endian": ">", b"ascii": ""}.get(head[0][1])
-    kinds = {b"double": "f8", b"float64": "f8", b"float": "f4", b"float32": "f4", b"int": "i4",
-             b"uint": "u4", b"int32": "i4", b"uint32": "u4", b"short": "i2", b"ushort": "u2",
-             b"int16": "i2", b"uint16": "u2", b"char": "i1", b"uchar": "u1", b"int8": "i1",
-             b"uint8": "u1"}
-    rows = [(kind, name.strip()) for what, kind, name in
-            head[2:next((i for i, h in enumerate(head) if i > 1 and h[0] == b"element"),
-                        len(head))]]
-    names = [name for _, name in rows]
-    count = _number(head[1][2])
-    if mark is None or not {b"x", b"y", b"z"} <= set(names) or count != count or \
-            any(kind not in kinds for kind, _ in rows):
-        return None
-    start, count = end.end(), int(count)
-    places = [names.index(axis) for axis in (b"x", b"y", b"z")]
-    if not mark:
-        lines = data[start:].split(b"\n", count)
-        for i in range(min(count, len(lines))):
-            words = lines[i].split()
-            for k, place in enumerate(places):
-                if place < len(words):
-                    words[place] = repr(_number(words[place]) - float(origin[k])).encode()
-            lines[i] = b" ".join(words)
-        return data[:start] + b"\n".join(lines)
-    kind = np.dtype([(f"p{i}", mark + kinds[k]) for i, (k, _) in enumerate(rows)])
-    if start + count * kind.itemsize > len(data):
-        return None
-    values = np.frombuffer(data, kind, count, start).copy()
-    for k, place in enumerate(places):
-        values[f"p{place}"] -= origin[k]
-    return data[:start] + values.tobytes() + data[start + count * kind.itemsize:]
-
-
-def _far(data: bytes, name: str, path: bytes | None, first: Any) -> Any:
-    """Reads a file again whose positions lie so far from the origin that floats lose what they
-    tell: they are centred in double first.  None where the file itself has floats."""
-    vertices = first[0][0].astype(np.float64)
-    origin = origin_of(vertices.min(0), vertices.max(0))
-    if not np.isfinite(origin).all() or not origin.any():
-        return None
-    binary = data[84:] and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
-    if data[:3] == b"ply":
-        moved = _moved_ply(data, origin)
-    else:
-        moved = None if binary else _moved_text(
-            data, origin, b"vertex" if first[1]["up"] == "z" and b"facet" in data[:2000] else b"v")
-    if moved is None:
-        return None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")    # each was told once
-        (near, faces), found = _read(moved, name, path)
-    return (near + origin, faces), found
 
 
 def _gltf(data: bytes, name: str, path: bytes | None) -> Any:
@@ -249,13 +172,9 @@ def _any(data: bytes, name: str, path: bytes | None) -> Any:
             return threemf.read(data)
         if name.lower().endswith(".off") or cloud.is_off(data):
             return cloud.read_off(data)
-        points = cloud.ply_points(data) if data[:3] == b"ply" else None
-        if points is not None:
-            return (points[0], None), points[1]
     except Error as why:
         raise Error(f"{name}: {why}") from None
-    made = _read(data, name, path)
-    return _far(data, name, path, made) or made
+    return _read(data, name, path)
 
 
 # ---- all -----------------------------------------------------------------------------------------

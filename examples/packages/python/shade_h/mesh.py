@@ -112,14 +112,14 @@ class Mesh:
         """Refuses arrays of a wrong shape, type or size by their names."""
         exact = arguments.array("vertices", points(vertices), (None, 3))
         self.origin = np.zeros(3)
-        if exact.dtype.itemsize > 4 and len(exact):
-            exact = exact.astype(np.float64)
-            self.origin = origin_of(*_box(exact))
-            exact = exact - self.origin if self.origin.any() else exact
-        self.local = arguments.floats("vertices", exact, (None, 3))
-        self.faces = arguments.faces("faces", _listed(faces), len(self.local))
+        self.faces = arguments.faces("faces", _listed(faces), len(exact))
         if not len(self.faces):
             self.faces = self.faces.reshape(0, 3)
+        if exact.dtype.itemsize > 4 and len(exact):
+            exact = exact.astype(np.float64)
+            self.origin = origin_of(*_box(self._used(exact) if len(self.faces) else exact))
+            exact = exact - self.origin if self.origin.any() else exact
+        self.local = arguments.floats("vertices", exact, (None, 3))
         self.up = None if up is None else arguments.choice("up", up, list(UPRIGHT))
         self.bar: Bar | None = None
         if scalars is not None:
@@ -319,10 +319,13 @@ class Mesh:
 
     def drawn_vertices(self) -> Floats:
         """The vertices that faces have, which count from the mesh's origin."""
-        used = np.zeros(len(self.local), bool)
-        used[self.faces.reshape(-1)] = True
-        out: Floats = self.local if used.all() else self.local[used]
+        out: Floats = self._used(self.local)
         return out
+
+    def _used(self, rows: Array) -> Array:
+        used = np.zeros(len(rows), bool)
+        used[self.faces.reshape(-1)] = True
+        return rows if used.all() else rows[used]
 
     def native(self, piece: Piece | None = None) -> Any:
         """The struct of the library, which points into this mesh: all of it, or a piece."""
