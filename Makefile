@@ -45,8 +45,8 @@ SIXEL    = $(shell echo 'int main(void) { return !sixel_output_new; }' | \
                    rm -f $@.sixel && echo -DVIEW_SIXEL -lsixel || \
                    echo 'no libsixel: sixels of view are left out' >&2)
 
-# pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL and PLY assimp's
-# (libassimp-dev)
+# pictures on surfaces and PNG are stb's (libstb-dev), formats beyond OBJ, STL, PLY and glTF
+# assimp's (libassimp-dev)
 STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include \
                    stb/stb_image_write.h -x c - 2>/dev/null && \
                    echo -DMODEL_STB || \
@@ -54,7 +54,7 @@ STB      = $(shell echo | $(CC) -fsyntax-only -include stb/stb_image.h -include 
 ASSIMP   = $(shell echo 'int main(void) { aiDetachAllLogStreams(); return 0; }' | \
                    $(CC) -include assimp/cimport.h -x c - -lassimp -o $@.assimp 2>/dev/null && \
                    rm -f $@.assimp && echo -DMODEL_ASSIMP -lassimp || \
-                   echo 'no assimp: programs read OBJ, STL and PLY alone' >&2)
+                   echo 'no assimp: programs read OBJ, STL, PLY and glTF alone' >&2)
 
 NUMBERED = $(patsubst examples/lessons/%.c,%,$(sort $(wildcard examples/lessons/[0-9]*.c)))
 # those of README, which read well when they are small
@@ -160,9 +160,8 @@ fuzz:
 # examples/programs/install/mime.xml.  Whether it has assimp and stb shows in the program.
 PREFIX  ?= /usr/local
 INSTALL ?= install
-MIME        = model/obj model/stl application/vnd.ply
-MIME_ASSIMP = model/gltf+json model/gltf-binary model/3mf image/x-3ds application/vnd.fbx \
-              model/vnd.collada+xml
+MIME        = model/obj model/stl application/vnd.ply model/gltf+json model/gltf-binary
+MIME_ASSIMP = model/3mf image/x-3ds application/vnd.fbx model/vnd.collada+xml
 SAYS_thumbnail = draws a picture of a model file
 SAYS_view      = shows a model turning, in a terminal or a window
 SAYS_batch     = renders films and posters of a model, in pieces that machines can share

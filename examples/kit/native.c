@@ -481,7 +481,7 @@ static void append(owned_mesh *m, const shade_mesh *from, shade_mat4 place)
 }
 
 /* All items as one mesh in the studio.  Non-zero: out of memory, or too large for one mesh */
-static int gather(light_studio *s, const python_item *items, int count)
+static int one_mesh(light_studio *s, const python_item *items, int count)
 {
     double vertices = 0, indices = 0;
     owned_mesh *m = &s->scene.mesh;
@@ -520,7 +520,7 @@ static light_studio *open_studio(const python_item *items, int count, const pyth
     if (!s) return NULL;
     s->from_world = v->to_studio;
     s->to_world = shade_mat4_inverse(v->to_studio);
-    if (!gather(s, items, count) && s->scene.part->count &&
+    if (!one_mesh(s, items, count) && s->scene.part->count &&
         !studio_open(&s->light, &s->scene, pixels, 0, threads, NULL, NULL) &&
         !studio_cast(&s->ground, &s->light, &s->scene.mesh, threads))
         return s;
@@ -709,9 +709,13 @@ SHADEDEF model *python_read(const void *bytes, size_t size, const char *name, co
 model *python_read(const void *bytes, size_t size, const char *name, const char *path, char *error,
                    size_t room)
 {
+    static const model empty;
     const model_request q = { error, room, NULL, NULL, 0 };
-    model *m = (model *)calloc(1, sizeof *m);
-    if (m && !model_read_points(bytes, size, name, m, &q, 1)) {
+    model *m = (model *)calloc(1, sizeof *m), said = empty;
+    said.points_wanted = 1;
+    said.path = path;
+    said.beside = path ? model_load_file : NULL;
+    if (m && !model_read_with(bytes, size, name, m, &q, &said)) {
         if (path) model_read_libraries(path, m);
         return m;
     }

@@ -582,15 +582,15 @@ both() {
     formats
     bad_input
     reports
+    gltf_reports
     bad_output
     bad_options
 }
 
 build=plain THUMBNAIL=$T/plain
 both
-cp "$T/torus.gltf" "$T/torus.fbx"
-bad_model "glTF is named with what it needs" torus.gltf "\.gltf files need .*libassimp-dev"
-bad_model "FBX likewise" torus.fbx "\.fbx files need .*libassimp-dev"
+cp "$T/torus.gltf" "$T/torus.dxf"
+bad_model "DXF is named with what it needs" torus.dxf "\.dxf files need .*libassimp-dev"
 check "PNG likewise" refused "libstb-dev" "$T/plain" "$T/torus.obj" "$T/none.png"
 check "a texture likewise" sh -c "'$T/plain' '$T/map.obj' '$T/a.ppm' 2>&1 | grep libstb-dev"
 

@@ -63,3 +63,40 @@ f 1 3 4\nf 2 3 4\n" >"$T/hole.obj"
     same "faces that name a vt where there is none" wedge.obj bare.obj 0 "--up y"
     check "which is told" said "faces name a vt, and the file has none"
 }
+
+# glTF as text; the fourth corner is moved by what a file adds
+gltf_head='{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}]'
+gltf_reports() {
+    for k in KHR_draco_mesh_compression EXT_meshopt_compression KHR_texture_basisu \
+        EXT_texture_webp EXT_made_up; do
+        printf '%s,"extensionsRequired":["%s"]}' "$gltf_head" $k >"$T/needs.gltf"
+        bad_model "$k is needed" needs.gltf "needs.gltf: it needs $k, which is not read"
+    done
+    sed "1s/^/$(printf "$mark")/; s/{/ {\n/" "$T/torus.gltf" >"$T/mark.gltf"
+    same "a byte order mark and line ends" torus.obj mark.gltf 0 "--up y"
+    cp "$T/mark.gltf" "$T/mark"
+    same "no name" torus.obj mark 0 "--up y"
+    sed 's/"asset"/"extensionsUsed":["EXT_made_up"],&/' "$T/torus.gltf" >"$T/used.gltf"
+    same "an extension that is used" torus.obj used.gltf 0 "--up y"
+    check "and not read is told" said "used.gltf: it has EXT_made_up, which is not read"
+    for k in '{' '{"asset":{"version":"2.0"},}' '{"asset":{"version":"2.0"}} 1' "{'asset':1}" \
+        '{"asset":{"version":02}}' '{"asset":"\x"}' '{"asset":nul}'; do
+        printf '%s' "$k" >"$T/wrong.gltf"
+        bad_model "$k" wrong.gltf "wrong.gltf:1: its JSON is wrong: expected"
+    done
+    awk 'BEGIN { for (i = 0; i < 200; i++) printf "["; for (i = 0; i < 200; i++) printf "]" }' \
+        >"$T/deep.gltf"
+    bad_model "200 deep" deep.gltf "its JSON is more than 100 deep"
+    printf '{"asset":{"version":"1.0"}}' >"$T/one.gltf"
+    bad_model "glTF 1" one.gltf "glTF 1.0 is not read, 2 is"
+    printf '%s,"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"count":3,
+        "type":"VEC3","componentType":5126,"bufferView":0}],"bufferViews":[{"buffer":0,
+        "byteLength":36}],"buffers":[{"uri":"../torus.gltf"}]}' "$gltf_head" >"$T/out.gltf"
+    bad_model "a buffer outside of its folder" out.gltf "torus.gltf does not lie beside the model"
+    printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[' >"$T/bomb.gltf"
+    for k in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30; do
+        printf '{"children":[%d,%d]},' $k $k >>"$T/bomb.gltf"
+    done
+    printf '{"mesh":0}],"meshes":[]}' >>"$T/bomb.gltf"
+    bad_model "nodes that double 30 times" bomb.gltf "more than 100000 nodes\|no such number"
+}

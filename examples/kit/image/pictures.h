@@ -5,28 +5,6 @@
 
 #include "../read/files.h"
 
-/* The number of the picture of that name, read as colours or as a relief; -1: there is none */
-static int picture_find(const model *m, const char *name, int as_relief)
-{
-    for (int i = 0; i < m->picture_count; i++)
-        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
-    return -1;
-}
-
-/* The number of a new picture without pixels, or -1: out of memory */
-static int picture_add(model *m, const char *name, int as_relief)
-{
-    static const model_picture empty;
-    model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
-                                                      &m->picture_room, sizeof *grown);
-    if (!grown) return -1;
-    m->picture = grown;
-    grown[m->picture_count] = empty;
-    grown[m->picture_count].relief = as_relief;
-    grown[m->picture_count].name = model_text(name, strlen(name));
-    return grown[m->picture_count].name ? m->picture_count++ : -1;
-}
-
 /* Gives a picture its pixels (RGBA8, from malloc) and its mipmaps. */
 static inline void picture_fill(model_picture *p, void *pixels, int width, int height)
 {
@@ -155,9 +133,22 @@ static int picture_of(model *m, const char *path, const char *name, int as_relie
     return known < 0 ? picture_load(m, path, name, as_relief) : known;
 }
 
+/* Decodes the pictures that the model's file holds. */
+static void decode_pictures(model *m)
+{
+    for (int i = 0; i < m->picture_count; i++) {
+        model_picture *p = &m->picture[i];
+        const char *wrong = p->bytes ? picture_decode(p, p->bytes, p->size) : NULL;
+        if (wrong) model_warn(m, p->name, wrong);
+        free(p->bytes);
+        p->bytes = NULL;
+    }
+}
+
 /* Reads each picture that surfaces name once, and finds the kind of its alpha. */
 static void read_pictures(model *m, const char *path)
 {
+    decode_pictures(m);
     for (int i = 0; i < m->surface_count; i++) {
         model_surface *s = &m->surface[i];
         model_relief *r = &s->relief;

@@ -1,4 +1,4 @@
-/* files.h - reads model files: OBJ with MTL, STL as text or binary, PLY as text or binary.
+/* files.h - reads model files: OBJ with MTL, STL and PLY as text or binary, glTF and GLB.
 
        owned_mesh m;  char error[300];
        if (mesh_read_file("bunny.obj", &m, error, sizeof error)) fprintf(stderr, "%s\n", error);
@@ -13,28 +13,12 @@
 #ifndef MODEL_FILES_H
 #define MODEL_FILES_H
 
-#include "../command/paths.h"
+#include "gltf.h"
+#include "load.h"
 #include "mtl.h"
 #include "obj.h"
 #include "ply.h"
 #include "stl.h"
-
-/* Larger files are refused. */
-#define MODEL_BYTES 4e9
-#define MODEL_PICTURE_BYTES 5e8
-#define MODEL_LIBRARY_BYTES 1e8
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/stat.h>
-/* 1: there is something that is no file: a pipe would let us wait, a device would not end. */
-static inline int model_is_device(const char *path)
-{
-    struct stat there;
-    return !stat(path, &there) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
-}
-#else
-static inline int model_is_device(const char *path) { return (void)path, 0; }
-#endif
 
 /* The extension of a file name in small letters; "" where it has none, or a long one */
 typedef struct model_kind {
@@ -66,6 +50,19 @@ static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size
     if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "stl")) return 0;
     if (!strcmp(kind.text, "ply")) return 1;
     return size >= 4 && (!memcmp(bytes, "ply\n", 4) || !memcmp(bytes, "ply\r", 4));
+}
+
+/* 1: the file is glTF, by its first bytes, by its extension, or as JSON of a name that is none of
+   ours. */
+static inline int mesh_is_gltf(const char *name, const unsigned char *bytes, size_t size)
+{
+    const model_kind kind = model_kind_of(name);
+    size_t at = 0;
+    if (size >= 4 && !memcmp(bytes, "glTF", 4)) return 1;
+    if (!strcmp(kind.text, "gltf") || !strcmp(kind.text, "glb")) return 1;
+    if (kind.text[0]) return 0;
+    while (at < size && mesh_is_blank(bytes[at])) at++;
+    return at < size && bytes[at] == '{';
 }
 
 static inline int model_read_stl(mesh_reader *r, model *m)
@@ -107,6 +104,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
     int failed;
     if (!size)
         failed = mesh_fail(&r, "the file is empty");
+    else if (mesh_is_gltf(name, begin, size))
+        failed = gltf_read(&r, m);
     else if (mesh_is_ply(name, begin, size))
         failed = ply_read(&r, m);
     else if (mesh_is_stl(name, begin, size))
@@ -134,16 +133,16 @@ static inline int model_middle(const model *m, double middle[3])
 /* From memory; name stands in messages and tells the format by its end.  0: m is filled, free it
    with model_free; else m is empty and error, if error_size > 0, holds one line.
 
+   said has what the reader is told, and nothing else: path, beside, points_wanted.
+
    Text and doubles have more digits than floats.  Where the first position is far from all that the
    faces have, the file is read again about their middle. */
-static inline int model_read_points(const void *bytes, size_t size, const char *name, model *m,
-                                    const model_request *q, int points_wanted)
+static inline int model_read_with(const void *bytes, size_t size, const char *name, model *m,
+                                  const model_request *q, const model *said)
 {
-    static const model empty;
-    model again = empty;
+    model again = *said;
     int failed;
-    *m = empty;
-    m->points_wanted = again.points_wanted = points_wanted;
+    *m = *said;
     failed = model_read_once(bytes, size, name, m, q);
     if (failed || !m->movable || !model_middle(m, again.origin)) return failed;
     again.placed = 1;
@@ -155,63 +154,17 @@ static inline int model_read_points(const void *bytes, size_t size, const char *
 static inline int model_read_memory(const void *bytes, size_t size, const char *name, model *m,
                                     const model_request *q)
 {
-    return model_read_points(bytes, size, name, m, q, 0);
+    static const model empty;
+    return model_read_with(bytes, size, name, m, q, &empty);
 }
 
-/* Opens a file; NULL with the error in r */
-static inline FILE *model_open_file(mesh_reader *r, const char *path)
+static inline int model_load_file(const char *path, const char *name, unsigned char **bytes,
+                                  size_t *size, char **where, char *error, size_t room)
 {
-    FILE *file = NULL;
-    errno = 0;
-    if (model_is_device(path))
-        mesh_fail(r, "is no regular file");
-    else if ((file = path_open(path, "rb")) == NULL)
-        mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be opened");
-    return file;
-}
-
-/* Loads a whole file of at most so many bytes; the caller frees *bytes.  Returns non-zero with the
-   error in r. */
-static inline int model_load_from(mesh_reader *r, FILE *file, double most, unsigned char **bytes,
-                                  size_t *size)
-{
-    size_t capacity = 0, got = 1;
-    int failed = 0;
-    *bytes = NULL;
-    *size = 0;
-    while (got && !failed) {
-        unsigned char *grown = *bytes;
-        if (*size == capacity) {
-            capacity = capacity ? capacity <= SIZE_MAX / 2 ? capacity * 2 : 0 : 65536;
-            grown = capacity ? (unsigned char *)realloc(*bytes, capacity) : NULL;
-        }
-        if (!grown) {
-            failed = mesh_fail(r, "out of memory");
-            break;
-        }
-        *bytes = grown;
-        got = fread(*bytes + *size, 1, capacity - *size, file);
-        *size += got;
-        if ((double)*size > most) failed = mesh_fail(r, "larger than %.0f MB", most / 1e6);
-    }
-    if (!failed && ferror(file))
-        failed = mesh_fail(r, "%s", errno ? strerror(errno) : "cannot be read");
-    if (failed) {
-        free(*bytes);
-        *bytes = NULL;
-    }
-    return failed;
-}
-
-static inline int model_load(mesh_reader *r, const char *path, double most, unsigned char **bytes,
-                             size_t *size)
-{
-    FILE *file = model_open_file(r, path);
-    int failed = 1;
-    *bytes = NULL;
-    if (file) failed = model_load_from(r, file, most, bytes, size);
-    if (file) fclose(file);
-    return failed;
+    mesh_reader r = { NULL, NULL, NULL, name, 0, error, room, NULL, NULL, 0 };
+    *where = model_beside(path, name);
+    return *where ? model_load(&r, *where, MODEL_BYTES, bytes, size)
+                  : mesh_fail(&r, "out of memory");
 }
 
 /* Reads the files that describe the surfaces.  What is missing there is a warning, not an error. */
@@ -240,9 +193,12 @@ static inline int model_read_file(const char *path, model *m, const model_reques
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
     unsigned char *bytes = NULL;
     size_t size = 0;
+    model said = empty;
     int failed = model_load(&r, path, MODEL_BYTES, &bytes, &size);
     *m = empty;
-    if (!failed) failed = model_read_memory(bytes, size, path, m, q);
+    said.path = path;
+    said.beside = model_load_file;
+    if (!failed) failed = model_read_with(bytes, size, path, m, q, &said);
     free(bytes);
     if (!failed) model_read_libraries(path, m);
     return failed;

@@ -8,6 +8,8 @@
 typedef struct model_picture { /* a texture that owns its pixels and mipmaps */
     shade_texture map;         /* pixels NULL: it could not be read */
     char *name, *path;         /* in the file; where it was found, or NULL */
+    unsigned char *bytes;      /* PNG or another format, until it is decoded; NULL: none */
+    size_t size;
     int relief;                /* it is no picture of colours, but a bump or normal map: */
     int heights;               /* a bump map, and the mean square of the slopes of its heights, */
     double slope_square;       /* which go from 0 to 1, in pictures whose edges are 1 long */
@@ -44,6 +46,11 @@ typedef struct model_part {
     int first_chunk, chunk_count; /* of the chunks, whose triangles count from first on */
 } model_part;
 
+/* Loads a file that the model of a path names: its bytes and where it was, both to be freed.  Returns
+   non-zero with a line in error. */
+typedef int model_load_beside(const char *path, const char *name, unsigned char **bytes,
+                              size_t *size, char **where, char *error, size_t room);
+
 /* Zeroed: empty. */
 typedef struct model {
     owned_mesh mesh; /* its chunks are those of the parts, one after the other, not of its view */
@@ -62,6 +69,8 @@ typedef struct model {
     int up;            /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
     double origin[3]; /* of the positions, in the coordinates of the file */
     int placed, points_wanted; /* said to the reader: the origin; points stay points */
+    const char *path;          /* of its file, and what loads a file beside it; NULL: nothing */
+    model_load_beside *beside;
     int movable;               /* the file has more digits than floats: read again, about another
                                   origin, the positions are more exact */
     char warning[400]; /* what the picture lacks; "": nothing */
@@ -85,6 +94,7 @@ static inline void model_free(model *m)
     for (int i = 0; i < m->picture_count; i++) {
         free(m->picture[i].name);
         free(m->picture[i].path);
+        free(m->picture[i].bytes);
         free(m->picture[i].pixels);
         free(m->picture[i].mipmaps);
     }
@@ -165,6 +175,26 @@ static inline float model_roughness(float shininess)
     return sqrtf(sqrtf(2 / (2 + fmaxf(0, shininess))));
 }
 
+/* A material of metal and roughness, with its base colour in diffuse.  Metal has its colour in the
+   highlight and the reflection; the studio is too plain to mirror alone, so that part of it stays
+   diffuse.  Roughness r becomes the exponent of a lobe as wide, 2 / r^4 - 2, and rough highlights
+   dim. */
+static inline void model_rough(model_surface *s, float metal, float rough)
+{
+    shade_material *k = &s->material;
+    const shade_vec3 base = k->diffuse, plain = shade_v3(0.25f, 0.25f, 0.25f);
+    float square, gloss;
+    metal = fminf(1, fmaxf(0, metal));
+    rough = fminf(1, fmaxf(0.2f, rough));
+    square = rough * rough;
+    gloss = (1 - rough) * (1 - 0.5f * rough);
+    k->specular = shade_scale(shade_lerp(plain, base, metal), gloss);
+    k->diffuse = k->ambient = shade_scale(base, 1 - 0.55f * metal);
+    s->metal = metal;
+    s->rough = rough;
+    k->shininess = fmaxf(1, 2 / (square * square) - 2);
+}
+
 /* Where there is a picture of what shines, the colour of emission is its factor.  Files that are
    not exact leave that colour black. */
 static inline void model_glow(model_surface *s, int exact)
@@ -201,6 +231,28 @@ static inline int model_find_surface(model *m, const void *name, size_t n, int a
     for (int i = m->surface_count - 1; i >= 0; i--)
         if (strlen(m->surface[i].name) == n && !memcmp(m->surface[i].name, name, n)) return i;
     return add && m->surface_count < MODEL_SURFACES ? model_add_surface(m, name, n) : -1;
+}
+
+/* The number of the picture of that name, read as colours or as a relief; -1: there is none */
+static inline int picture_find(const model *m, const char *name, int as_relief)
+{
+    for (int i = 0; i < m->picture_count; i++)
+        if (m->picture[i].relief == as_relief && !strcmp(m->picture[i].name, name)) return i;
+    return -1;
+}
+
+/* The number of a new picture without pixels, or -1: out of memory */
+static inline int picture_add(model *m, const char *name, int as_relief)
+{
+    static const model_picture empty;
+    model_picture *grown = (model_picture *)mesh_grow(m->picture, (size_t)m->picture_count,
+                                                      &m->picture_room, sizeof *grown);
+    if (!grown) return -1;
+    m->picture = grown;
+    grown[m->picture_count] = empty;
+    grown[m->picture_count].relief = as_relief;
+    grown[m->picture_count].name = model_text(name, strlen(name));
+    return grown[m->picture_count].name ? m->picture_count++ : -1;
 }
 
 /* Adds an object and returns its number; beyond MODEL_SURFACES of them all are the last.  -1: out

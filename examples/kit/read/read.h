@@ -1,5 +1,5 @@
-/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL and PLY by own
-   readers, other formats by assimp, the pictures on surfaces by stb_image.  A message names a
+/* read.h - reads a model for all programs and makes it ready to be drawn: OBJ, STL, PLY and glTF by
+   own readers, other formats by assimp, the pictures on surfaces by stb_image.  A message names a
    library that is missing. */
 #ifndef MODEL_READ_H
 #define MODEL_READ_H
@@ -55,10 +55,9 @@ static int check_file(const char *path, const model_request *q, unsigned char *h
 /* 1: the file is for our own readers, by its extension or, where it has none, by its contents. */
 static int is_ours(model_kind kind, const unsigned char *head, size_t size)
 {
-    const char *const none = kind.text;
-    if (!strcmp(none, "obj") || !strcmp(none, "stl") || !strcmp(none, "ply")) return 1;
-    if (!strcmp(none, "")) return size < 4 || memcmp(head, "glTF", 4) != 0;
-    return mesh_is_ply("", head, size);
+    static const char *const ours[] = { "", "obj", "stl", "ply", "gltf", "glb", NULL };
+    return option_among(ours, kind.text) || mesh_is_ply("", head, size) ||
+           mesh_is_gltf("a.a", head, size);
 }
 
 static int read_other(const char *path, model_kind kind, model *m, const model_request *q)
@@ -66,15 +65,15 @@ static int read_other(const char *path, model_kind kind, model *m, const model_r
     mesh_reader r = { NULL, NULL, NULL, path, 0, q->error, q->error_size, NULL, NULL, 0 };
 #ifdef MODEL_ASSIMP
     char dotted[sizeof kind.text + 2];
-    snprintf(dotted, sizeof dotted, ".%s", kind.text[0] ? kind.text : "glb");
-    if (!kind.text[0] || aiIsExtensionSupported(dotted)) return assimp_read(path, NULL, 0, m, q);
+    snprintf(dotted, sizeof dotted, ".%s", kind.text);
+    if (aiIsExtensionSupported(dotted)) return assimp_read(path, NULL, 0, m, q);
     return mesh_fail(&r, "neither %s nor assimp reads %s files", program_name, dotted);
 #else
     (void)m;
     return mesh_fail(&r,
-                     "%s%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
-                     "STL and PLY",
-                     kind.text[0] ? "." : "glTF", kind.text, program_name);
+                     ".%s files need a %s built with assimp (libassimp-dev); this one reads OBJ, "
+                     "STL, PLY and glTF",
+                     kind.text, program_name);
 #endif
 }
 

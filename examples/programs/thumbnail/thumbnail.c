@@ -4,7 +4,7 @@
    ./thumbnail bunny.obj bunny.ppm
 
    With libstb-dev it also reads textures and writes PNG, with libassimp-dev it reads more formats
-   than OBJ, STL and PLY:
+   than OBJ, STL, PLY and glTF:
    cc -O2 -pthread -I. -DMODEL_STB -DMODEL_ASSIMP examples/programs/thumbnail/thumbnail.c \
       -lassimp -lm -o thumbnail
 

@@ -69,7 +69,7 @@ def _warn(words: str) -> None:
     warnings.warn(words, stacklevel=4)
 
 
-# ---- OBJ, STL and PLY, by the reader of the programs ---------------------------------------------
+# ---- by the reader of the programs ---------------------------------------------------------------
 
 def _runs(owned: Any) -> list[Any]:
     """The runs of triangles of one surface."""
