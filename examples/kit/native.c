@@ -734,6 +734,10 @@ void python_unload(model *m)
 SHADEDEF const double *python_origin(const model *m);
 const double *python_origin(const model *m) { return m->origin; }
 
+/* 1: the mesh has a normal at each vertex, all of the file. */
+SHADEDEF int python_normals(const model *m);
+int python_normals(const model *m) { return m->normals_given && m->physical; }
+
 /* What the file lacks, or "" */
 SHADEDEF const char *python_warning(const model *m);
 const char *python_warning(const model *m) { return m->warning[0] ? m->warning : m->note; }
@@ -752,6 +756,14 @@ typedef struct python_part {
     float color[3], transparency;
     const char *map;     /* the name of its picture, or NULL */
     int set, opaque;     /* the file says something of it; the alpha of the map is ignored */
+    int surface;
+    int physical;        /* by metal and roughness: material is all that it is */
+    shade_material material;
+    float alpha_cutoff;
+    int blended;
+    const void *bytes;   /* a picture inside the file, not decoded; NULL: it is beside the file */
+    size_t size;
+    int wrap[2];
 } python_part;
 
 /* Writes run i and returns how many there are; with part NULL it only counts. */
@@ -760,6 +772,7 @@ int python_part_of(const model *m, int i, python_part *part)
 {
     const model_part *from = m->part + i;
     const model_surface *s = m->surface_count ? &m->surface[from->surface] : NULL;
+    const model_picture *picture;
     if (!part || i < 0 || i >= m->part_count) return m->part_count;
     memset(part, 0, sizeof *part);
     part->first = from->first;
@@ -770,6 +783,17 @@ int python_part_of(const model *m, int i, python_part *part)
     part->map = m->mesh.texcoords ? s->map : NULL;
     part->set = s->set;
     part->opaque = s->opaque;
+    part->surface = from->surface;
+    part->physical = m->physical;
+    part->material = s->material;
+    part->alpha_cutoff = s->alpha_cutoff;
+    part->blended = s->blended;
+    if (s->picture < 0) return m->part_count;
+    picture = &m->picture[s->picture];
+    part->bytes = picture->bytes;
+    part->size = picture->size;
+    part->wrap[0] = (int)picture->map.wrap_u;
+    part->wrap[1] = (int)picture->map.wrap_v;
     return m->part_count;
 }
 

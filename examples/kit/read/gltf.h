@@ -617,8 +617,8 @@ static inline int gltf_alpha(gltf *g, model_surface *s, uint32_t material, doubl
     s->opaque = !s->blended && !(mode && json_is(&g->j, mode, "MASK"));
     if (s->blended) s->transparency = (float)(1 - fmin(1, fmax(0, alpha)));
     if (!s->blended && !s->opaque)
-        s->alpha_cutoff =
-            (float)fmax(1e-6, fmin(1, json_number_of(&g->j, material, "alphaCutoff", 0.5)));
+        s->alpha_cutoff = (float)fmax(
+            1e-6, json_number_of(&g->j, material, "alphaCutoff", 0.5) / fmax(alpha, 1e-3));
     return 0;
 }
 
@@ -1106,7 +1106,7 @@ static inline int gltf_read(mesh_reader *r, model *m)
     if (!failed) failed = json_read(r, &g.j);
     r->line = 0;
     if (!failed) failed = gltf_build(&g);
-    m->up_told = 1;
+    m->up_told = m->physical = 1;
     for (int k = 0; k < GLTF_LISTS; k++) free(g.item[k]);
     for (uint32_t i = 0; g.buffer && i < g.count[GLTF_BUFFERS]; i++) free(g.buffer[i].owned);
     free(g.buffer);

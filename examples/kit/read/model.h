@@ -65,6 +65,7 @@ typedef struct model {
     int object_count;
     size_t object_room;
     int normals_given; /* each vertex had a normal in the file */
+    int physical;      /* its surfaces are those of glTF: metal and roughness */
     int z_up, up_told; /* up_told: by the format, not by habit */
     int up;            /* 1 + the upright axis, 0 .. 5, once it is settled; 0: not yet */
     double origin[3]; /* of the positions, in the coordinates of the file */

@@ -117,7 +117,10 @@ class Chunk(Structure):
 class Run(Structure):
     """python_part"""
     _fields_ = [("first", c_int), ("count", c_int), ("color", c_float * 3),
-                ("transparency", c_float), ("map", c_char_p), ("set", c_int), ("opaque", c_int)]
+                ("transparency", c_float), ("map", c_char_p), ("set", c_int), ("opaque", c_int),
+                ("surface", c_int), ("physical", c_int), ("material", Material),
+                ("alpha_cutoff", c_float), ("blended", c_int), ("bytes", c_void_p),
+                ("size", c_size_t), ("wrap", c_int * 2)]
 
 
 class Edge(Structure):
@@ -150,6 +153,7 @@ def _open() -> Any:
              [c_char_p, c_size_t, c_char_p, c_char_p, c_char_p, c_size_t]),
             ("python_unload", None, [POINTER(OwnedMesh)]),
             ("python_origin", POINTER(c_double), [POINTER(OwnedMesh)]),
+            ("python_normals", c_int, [POINTER(OwnedMesh)]),
             ("python_warning", c_char_p, [POINTER(OwnedMesh)]),
             ("python_upright", c_int, [POINTER(OwnedMesh)]),
             ("python_part_of", c_int, [POINTER(OwnedMesh), c_int, c_void_p]),

@@ -13,7 +13,8 @@ import numpy as np
 from . import cloud
 from ._native import Array, Bytes, Error, Run, library, pointer
 from .annotate import display as _display
-from .mesh import Mesh, Surface
+from .light import Material
+from .mesh import WRAPS, Mesh, Surface
 from .picture import PICTURE_BYTES, PIXELS, SIGNATURE, Picture, read_file
 
 MODEL_BYTES = 4_000_000_000
@@ -79,32 +80,53 @@ def _runs(owned: Any) -> list[Any]:
     return runs
 
 
+def _texture(run: Any, model: str, images: dict[Any, Any]) -> Any:
+    """The pixels of a run's picture, inside the file or beside it; None where there is none."""
+    if run.map is not None and run.map not in images and len(images) < 256:
+        if run.bytes:
+            try:
+                images[run.map] = decoded(ctypes.string_at(run.bytes, run.size), "a picture")
+            except Error as why:
+                _warn(f"{model}: {why}; its faces are drawn without it")
+        elif not run.physical:
+            images[run.map] = _image(model, os.fsdecode(run.map))
+    return images.get(run.map)
+
+
+def _look(run: Any, image: Any) -> Surface:
+    """A surface as Mesh takes it."""
+    opacity, holes = 1 - run.transparency, image is not None and not run.opaque
+    if not run.physical:
+        return Surface(None, image, run.transparency > 0, opacity,
+                       0.5 if holes and not run.transparency else 0.0)
+    k = run.material
+    vectors = (tuple(getattr(k, name)[:]) for name in ("emission", "ambient", "diffuse",
+                                                       "specular"))
+    return Surface(Material(*vectors, k.shininess), image, bool(run.blended), opacity,
+                   run.alpha_cutoff if holes else 0.0, (WRAPS[run.wrap[0]], WRAPS[run.wrap[1]]))
+
+
 def _surfaces(owned: Any, model: str, faces: int, uv: Any) -> dict[str, Any]:
     """What the file says of its surfaces, as options of Mesh."""
     runs = _runs(owned)
     tints = np.zeros((faces, 3), np.float32)
     number, looks = np.zeros(faces, int), [Surface()]
-    known: dict[tuple[Any, ...], int] = {(None, 0.0, True): 0}
+    known: dict[Any, int] = {(None, 0.0, True): 0}
     images: dict[Any, Any] = {}
     for run in runs:
         where = slice(run.first // 3, (run.first + run.count) // 3)
         tints[where] = run.color[:]
-        name = run.map if uv is not None else None
-        if name is not None and name not in images and len(images) < 256:
-            images[name] = _image(model, os.fsdecode(name))
-        image = images.get(name)
-        key = (name if image is not None else None, run.transparency, bool(run.opaque))
-        if image is None and not run.transparency:
+        image = _texture(run, model, images) if uv is not None else None
+        key = run.surface if run.physical else \
+            (run.map if image is not None else None, run.transparency, bool(run.opaque))
+        if not run.physical and image is None and not run.transparency:
             continue
         if key not in known:
             known[key] = len(looks)
-            holes = image is not None and not run.opaque
-            looks.append(Surface(None, image, blend=run.transparency > 0,
-                                 opacity=1 - run.transparency,
-                                 cutoff=0.5 if holes and not run.transparency else 0.0))
+            looks.append(_look(run, image))
         number[where] = known[key]
     out: dict[str, Any] = {}
-    if any(run.set for run in runs):
+    if any(run.set and not run.physical for run in runs):
         out["color"] = _display(tints)
     if len(looks) > 1:
         if any(look.texture is not None for look in looks):
@@ -130,6 +152,8 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
         colors = _copied(own.colors, view.vertex_count, 3, ctypes.c_float)
         uv = _copied(own.texcoords, view.vertex_count, 2, ctypes.c_float)
         found = {"up": None} if faces is None else _surfaces(owned, name, len(faces), uv)
+        if library.python_normals(owned):
+            found["normals"] = _copied(own.normals, view.vertex_count, 3, ctypes.c_float)
         if faces is not None:
             found["up"] = AXES[library.python_upright(owned)]
         if library.python_warning(owned):
@@ -146,27 +170,9 @@ def _read(data: bytes, name: str, path: bytes | None) -> tuple[Any, dict[str, An
     return (vertices, faces), found
 
 
-def _gltf(data: bytes, name: str, path: bytes | None) -> Any:
-    """Reads glTF; files that it names lie in its folder or below."""
-    from . import gltf    # json and base64 are imported when they are needed
-
-    def file(uri: str) -> bytes:
-        if path is None:
-            raise Error(f"{uri[:60]!r} is beside a model that was read from memory")
-        return read_file(gltf.beside(os.path.dirname(name), uri), PICTURE_BYTES)
-
-    def picture(bytes_of: bytes | None, what: str) -> Bytes | None:
-        return decoded(bytes_of or b"", what)
-
-    return gltf.read(data, file, picture, lambda words: _warn(f"{name}: {words}"), _display)
-
-
 def _any(data: bytes, name: str, path: bytes | None) -> Any:
     """Vertices, faces and options of Mesh of a file of any kind, which its first bytes tell."""
     try:
-        if data[:4] == b"glTF" or name.lower().endswith((".gltf", ".glb")) or \
-                data.lstrip()[:1] == b"{":
-            return _gltf(data, name, path)
         if data[:4] == b"PK\x03\x04" or name.lower().endswith(".3mf"):
             from . import threemf
             return threemf.read(data)

@@ -18,6 +18,7 @@ from .camera import UPRIGHT
 from .cloud import balls
 from .light import Material
 
+WRAPS = ["repeat", "clamp", "mirror"]
 CREASE_TRIANGLES = 200_000
 COS_CREASE = 0.766    # faces that meet at less than 40 degrees are rounded
 
@@ -44,13 +45,15 @@ def _box(points: Doubles) -> tuple[Doubles, Doubles]:
 class Surface:
     """What faces look like: a material, or None for that of the part, and a texture, (h, w, 3 or
     4), or None.  With blend the alpha of the texture times opacity shows what is behind; with a
-    cutoff texels of less alpha are holes; else alpha is ignored."""
+    cutoff texels of less alpha are holes; else alpha is ignored.  wrap, "repeat", "clamp" or
+    "mirror" for u and v, says how the texture goes on beyond its edges."""
 
     material: Material | None = None
     texture: object = None
     blend: bool = False
     opacity: float = 1.0
     cutoff: float = 0.0
+    wrap: tuple[str, str] = ("repeat", "repeat")
 
 
 class Piece:
@@ -79,6 +82,8 @@ class Piece:
             return None
         h, w = self.texture.shape[:2]
         out = Texture(pixels=pointer(self.texture), width=w, height=h, srgb=1, filter=2)
+        out.wrap_u, out.wrap_v = (WRAPS.index(arguments.choice("wrap", how, WRAPS))
+                                  for how in self.surface.wrap)
         self._mipmaps = np.empty(library.shade_mipmap_bytes(w, h, 0), np.uint8)
         self._levels = (Texture * max(1, library.shade_mipmap_count(w, h)))()
         check(library.shade_build_mipmaps(ctypes.byref(out), self._levels, pointer(self._mipmaps),
