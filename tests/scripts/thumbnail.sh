@@ -583,6 +583,7 @@ both() {
     bad_input
     reports
     gltf_reports
+    color_reports
     bad_output
     bad_options
 }
@@ -597,6 +598,7 @@ check "a texture likewise" sh -c "'$T/plain' '$T/map.obj' '$T/a.ppm' 2>&1 | grep
 build=full THUMBNAIL=$T/full
 [ -x "$THUMBNAIL" ] || finish
 both
+[ "$STB" ] && map_reports
 [ "$STB" ] && . tests/thumbnail/pictures.sh
 [ "$STB" ] && . tests/thumbnail/reliefs.sh
 [ "$ASSIMP" ] && . tests/thumbnail/formats.sh

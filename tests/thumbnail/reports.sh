@@ -100,3 +100,76 @@ gltf_reports() {
     printf '{"mesh":0}],"meshes":[]}' >>"$T/bomb.gltf"
     bad_model "nodes that double 30 times" bomb.gltf "more than 100000 nodes\|no such number"
 }
+
+# What a model of four triangles shows by other formats: its colours, in an OBJ with four materials
+painted() {                     # name, four colours of MTL
+    printf 'newmtl a\nKd %s\nnewmtl b\nKd %s\nnewmtl c\nKd %s\nnewmtl d\nKd %s\n' "$2" "$3" "$4" \
+        "$5" >"$T/$1.mtl"
+    { printf "mtllib $1.mtl\n$wedge"
+        printf 'usemtl a\nf 1 3 2\nusemtl b\nf 1 2 4\nusemtl c\nf 2 3 4\nusemtl d\nf 1 4 3\n'; } \
+        >"$T/$1.obj"
+}
+# file, header, and for each triangle its last two bytes: the wedge as binary STL
+stl_colors() {
+    zero='\000\000\000\000' two='\000\000\000\100' half='\000\000\300\077' one='\000\000\200\077'
+    a=$zero$zero$zero b=$two$zero$zero c=$zero$half$zero d=$zero$zero$one none=$zero$zero$zero
+    printf "%-80.80s" "$2" >"$T/$1"
+    printf "\004\000\000\000$none$a$c$b$3$none$a$b$d$4$none$b$c$d$5$none$a$d$c$6" >>"$T/$1"
+}
+color_reports() {
+    plain="--up y --model lambert --no-shadow"
+    painted four "1 0 0" "0 1 0" "0 0 1" "1 1 0"
+    stl_colors magics.stl "COLOR=@@@@" '\037\000' '\340\003' '\000\174' '\377\003'
+    same "colours of Magics" four.obj magics.stl 2 "$plain"
+    stl_colors viscam.stl "made by hand" '\000\374' '\340\203' '\037\200' '\340\377'
+    same "of VisCAM" four.obj viscam.stl 2 "$plain"
+    stl_colors junk.stl "made by hand" '\000\000' '\022\000' '\377\177' '\000\000'
+    same "words that are no colours" wedge.obj junk.stl 0 "$plain"
+    stl_colors bare.stl "COLOR=@@@@" '\000\000' '\000\000' '\000\000' '\000\000'
+    same "and no words" wedge.obj bare.stl 0 "$plain"
+
+    printf "v 0 0 0 1 0 0\nv 2 0 0 0 1 0\nv 0 1.5 0 0 0 1\nv 0 0 1 1 1 1\n$faces" >"$T/tint.obj"
+    ply_colored() {             # file, names of three properties, the greatest value
+        { printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n'
+            printf 'property float z\n'; printf 'property float %s\n' $2
+            printf 'element face 4\nproperty list uchar int vertex_indices\nend_header\n'
+            printf '0 0 0 %s 0 0\n2 0 0 0 %s 0\n0 1.5 0 0 0 %s\n0 0 1 %s %s %s\n' $3 $3 $3 $3 $3 $3
+            printf "$ply_faces"; } >"$T/$1"
+    }
+    ply_colored rgb.ply "r g b" 1
+    same "colours r g b" tint.obj rgb.ply 0 "$plain"
+    ply_colored bytes.ply "red green blue" 255
+    same "floats to 255" tint.obj bytes.ply 0 "$plain"
+    ply_colored diffuse.ply "diffuse_red diffuse_green diffuse_blue" 1
+    same "diffuse_red" tint.obj diffuse.ply 0 "$plain"
+
+    cp "$T/red.mtl" "$T/one.mtl"
+    printf 'newmtl g\nKd 0 1 0\n' >"$T/two.mtl"
+    printf "mtllib one.mtl two.mtl\nusemtl r\n${wedge}f 1 3 2\nf 1 2 4\nusemtl g\nf 2 3 4\nf 1 4 3\n" \
+        >"$T/names.obj"
+    painted half "1 0 0" "1 0 0" "0 1 0" "0 1 0"
+    same "two names in mtllib" half.obj names.obj 0 "$plain"
+    check "which is no fault" test ! -s "$T/err"
+}
+# a picture of four colours: red, green; blue, yellow
+map_reports() {
+    printf 'P3\n2 2\n255\n255 0 0 0 255 0\n0 0 255 255 255 0\n' >"$T/quarters.ppm"
+    printf 'newmtl q\nmap_Kd -s 1 1 1 -o .5 0 0 quarters.ppm\n' >"$T/moved.mtl"
+    printf 'newmtl q\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
+    printf "mtllib moved.mtl\n${wedge}vt .25 .25\nusemtl q\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 2/1 3/1 4/1
+f 1/1 4/1 3/1\n" >"$T/moved.obj"
+    sed 's/moved.mtl/still.mtl/; s/vt .25/vt .75/' "$T/moved.obj" >"$T/still.obj"
+    same "-o moves the picture" still.obj moved.obj 0 "--up y"
+    printf 'newmtl q\nmap_Kd -s 3 1 -o 0 .5 quarters.ppm\n' >"$T/moved.mtl"
+    sed -i 's/vt .75 .25/vt .75 .75/' "$T/still.obj"
+    same "-s stretches it" still.obj moved.obj 0 "--up y"
+    printf 'ply\nformat ascii 1.0\ncomment TextureFile quarters.ppm\nelement vertex 4
+property float x\nproperty float y\nproperty float z\nelement face 4
+property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header
+0 0 0\n2 0 0\n0 1.5 0\n0 0 1\n' >"$T/corner.ply"
+    for k in "3 0 2 1" "3 0 1 3" "3 1 2 3" "3 0 3 2"; do
+        printf '%s 6 .75 .75 .75 .75 .75 .75\n' "$k" >>"$T/corner.ply"
+    done
+    printf 'newmtl q\nKd 1 1 1\nmap_Kd quarters.ppm\n' >"$T/still.mtl"
+    same "PLY with texture coordinates by corner" still.obj corner.ply 0 "--up y"
+}

@@ -167,23 +167,92 @@ static inline int model_load_file(const char *path, const char *name, unsigned c
                   : mesh_fail(&r, "out of memory");
 }
 
-/* Reads the files that describe the surfaces.  What is missing there is a warning, not an error. */
+/* Appends copies of some vertices to an array of a mesh.  Returns non-zero where memory is out. */
+static inline int model_copy(float **v, size_t width, size_t n, const uint32_t *from, size_t count)
+{
+    float *grown = *v ? (float *)realloc(*v, (n + count + 1) * width * sizeof **v) : NULL;
+    if (!*v) return 0;
+    if (!grown) return 1;
+    for (size_t i = 0; i < count; i++)
+        memcpy(grown + (n + i) * width, grown + from[i] * width, width * sizeof **v);
+    *v = grown;
+    return 0;
+}
+
+/* Gives a part vertices of its own, with the texture coordinates that its surface wants. */
+static inline int model_move_part(model *m, const model_part *part, const float *move)
+{
+    owned_mesh *mesh = &m->mesh;
+    const size_t n = (size_t)mesh->view.vertex_count;
+    uint32_t *place = (uint32_t *)calloc(n + 1, sizeof *place);
+    uint32_t *from = (uint32_t *)malloc(((size_t)part->count + 1) * sizeof *from);
+    size_t count = 0;
+    int failed = !place || !from || n + (size_t)part->count > INT_MAX;
+    for (int i = part->first; i < part->first + part->count && !failed; i++) {
+        uint32_t *index = &mesh->indices[i];
+        if (!place[*index]) {
+            from[count] = *index;
+            place[*index] = (uint32_t)++count;
+        }
+        *index = (uint32_t)n + place[*index] - 1;
+    }
+    failed = failed || model_copy(&mesh->positions, 3, n, from, count) ||
+             model_copy(&mesh->normals, 3, n, from, count) ||
+             model_copy(&mesh->colors, 3, n, from, count) ||
+             model_copy(&mesh->texcoords, 2, n, from, count);
+    for (size_t i = n; i < n + count && !failed; i++) {
+        float *uv = mesh->texcoords + 2 * i;
+        uv[0] = mesh_or_zero((double)(move[2] * uv[0] + move[0]));
+        uv[1] = mesh_or_zero((double)(1 - (move[3] * (1 - uv[1]) + move[1])));
+    }
+    if (!failed) mesh_link(mesh, (int)(n + count), mesh->view.index_count);
+    free(place);
+    free(from);
+    return failed;
+}
+
+static inline int model_read_library(const char *path, const char *name, model *m, char *error,
+                                     size_t room)
+{
+    char *beside = model_beside(path, name);
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    mesh_reader r = { NULL, NULL, NULL, name, 0, error, room, NULL, NULL, 0 };
+    int failed = !beside || model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size);
+    if (!failed) {
+        r.end = bytes + size;
+        r.at = r.begin = model_text_of(bytes, &size);
+        r.line = 1;
+        if (mtl_read(&r, m)) model_warn(m, path, error);
+    }
+    free(bytes);
+    free(beside);
+    return failed;
+}
+
+/* Reads the files that describe the surfaces.  What is missing there is a warning, not an error.  A
+   line of names is the name of one file, or else of several. */
 static inline void model_read_libraries(const char *path, model *m)
 {
     for (int i = 0; i < m->library_count; i++) {
-        char error[300], *beside = model_beside(path, m->library[i]);
-        unsigned char *bytes = NULL;
-        size_t size = 0;
-        mesh_reader r = { NULL, NULL, NULL, m->library[i], 0, error, sizeof error, NULL, NULL, 0 };
-        if (beside && !model_load(&r, beside, MODEL_LIBRARY_BYTES, &bytes, &size)) {
-            r.end = bytes + size;
-            r.at = r.begin = model_text_of(bytes, &size);
-            r.line = 1;
-            if (mtl_read(&r, m)) model_warn(m, path, error);
-        } else if (beside)
-            model_warn(m, path, error);
-        free(bytes);
-        free(beside);
+        char error[300] = "out of memory", *name = m->library[i], *blank = strchr(name, ' ');
+        if (!model_read_library(path, name, m, error, sizeof error)) continue;
+        if (!blank) model_warn(m, path, error);
+        while (blank) {
+            char *last = blank;
+            *last = 0;
+            if (*name && model_read_library(path, name, m, error, sizeof error))
+                model_warn(m, path, error);
+            name = last + 1;
+            blank = strchr(name, ' ');
+            if (!blank && *name && model_read_library(path, name, m, error, sizeof error))
+                model_warn(m, path, error);
+        }
+    }
+    for (int i = 0; i < m->part_count && m->mesh.texcoords; i++) {
+        const float *move = m->surface_count ? m->surface[m->part[i].surface].move : NULL;
+        if (!move || (move[0] == 0 && move[1] == 0 && move[2] == 1 && move[3] == 1)) continue;
+        if (model_move_part(m, &m->part[i], move)) model_warn(m, path, "out of memory");
     }
 }
 

@@ -36,6 +36,7 @@ typedef struct model_surface {
     int picture;         /* the map, once it is read; -1: none */
     unsigned texcoords;  /* which of several sets in the file all pictures use */
     model_relief relief;
+    float move[4]; /* of texture coordinates with v upward: added, and the factors before that */
     char *glow_map;      /* the picture of what shines by itself, or NULL; its number, its factor */
     int glow_picture;
     shade_vec3 glow;
@@ -212,6 +213,7 @@ static inline int model_add_surface(model *m, const void *name, size_t n)
     static const model_surface fresh = {
         .material = { .ambient = { 0.32f, 0.32f, 0.32f }, .diffuse = { 0.32f, 0.32f, 0.32f } },
         .picture = -1,
+        .move = { 0, 0, 1, 1 },
         .relief = { .picture = -1 },
         .glow_picture = -1
     };
