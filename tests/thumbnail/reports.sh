@@ -143,6 +143,12 @@ color_reports() {
     ply_colored diffuse.ply "diffuse_red diffuse_green diffuse_blue" 1
     same "diffuse_red" tint.obj diffuse.ply 0 "$plain"
 
+    printf "COFF\n4 4 0\n0 0 0 255 0 0 1\n2 0 0 0 255 0 1\n0 1.5 0 0 0 255 1\n0 0 1 255 255 255 1
+$ply_faces" >"$T/tint.off"
+    same "COFF" tint.obj tint.off 0 "$plain"
+    printf "# wedge\nOFF 4 4 6\n\n$wedge$ply_faces" | sed 's/^v //' >"$T/wedge.off"
+    same "OFF" wedge.obj wedge.off 0 "$plain"
+
     cp "$T/red.mtl" "$T/one.mtl"
     printf 'newmtl g\nKd 0 1 0\n' >"$T/two.mtl"
     printf "mtllib one.mtl two.mtl\nusemtl r\n${wedge}f 1 3 2\nf 1 2 4\nusemtl g\nf 2 3 4\nf 1 4 3\n" \

@@ -1,4 +1,5 @@
-/* files.h - reads model files: OBJ with MTL, STL and PLY as text or binary, glTF and GLB.
+/* files.h - reads model files: OBJ with MTL, STL and PLY as text or binary, OFF, glTF
+   and GLB.
 
        owned_mesh m;  char error[300];
        if (mesh_read_file("bunny.obj", &m, error, sizeof error)) fprintf(stderr, "%s\n", error);
@@ -17,6 +18,7 @@
 #include "load.h"
 #include "mtl.h"
 #include "obj.h"
+#include "off.h"
 #include "ply.h"
 #include "stl.h"
 
@@ -50,6 +52,14 @@ static inline int mesh_is_ply(const char *name, const unsigned char *bytes, size
     if (!strcmp(kind.text, "obj") || !strcmp(kind.text, "stl")) return 0;
     if (!strcmp(kind.text, "ply")) return 1;
     return size >= 4 && (!memcmp(bytes, "ply\n", 4) || !memcmp(bytes, "ply\r", 4));
+}
+
+/* 1: the file is OFF, by its extension or, where that is none of ours, by its contents. */
+static inline int mesh_is_off(const char *name, const unsigned char *bytes, size_t size)
+{
+    const model_kind kind = model_kind_of(name);
+    if (!strcmp(kind.text, "off")) return 1;
+    return !kind.text[0] && off_begins(bytes, size < 4096 ? size : 4096);
 }
 
 /* 1: the file is glTF, by its first bytes, by its extension, or as JSON of a name that is none of
@@ -106,6 +116,8 @@ static inline int model_read_once(const void *bytes, size_t size, const char *na
         failed = mesh_fail(&r, "the file is empty");
     else if (mesh_is_gltf(name, begin, size))
         failed = gltf_read(&r, m);
+    else if (mesh_is_off(name, begin, size))
+        failed = off_read(&r, m);
     else if (mesh_is_ply(name, begin, size))
         failed = ply_read(&r, m);
     else if (mesh_is_stl(name, begin, size))

@@ -224,6 +224,7 @@ static inline int gltf_buffer(gltf *g, uint32_t number, gltf_bytes *out)
         if (!uri) b->size = g->binary_size;
     }
     *out = *b;
+    out->owned = NULL;
     return 0;
 }
 
@@ -242,7 +243,6 @@ static inline int gltf_view(gltf *g, uint32_t at, gltf_bytes *out, double *strid
     if (start + size > (double)out->size) return mesh_fail(g->r, "a view ends behind its buffer");
     out->at += (size_t)start;
     out->size = (size_t)size;
-    out->owned = NULL;
     return 0;
 }
 

@@ -176,8 +176,6 @@ def _any(data: bytes, name: str, path: bytes | None) -> Any:
         if data[:4] == b"PK\x03\x04" or name.lower().endswith(".3mf"):
             from . import threemf
             return threemf.read(data)
-        if name.lower().endswith(".off") or cloud.is_off(data):
-            return cloud.read_off(data)
     except Error as why:
         raise Error(f"{name}: {why}") from None
     return _read(data, name, path)
